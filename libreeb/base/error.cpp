@@ -1,0 +1,26 @@
+#include "libreeb/base/error.h"
+
+#include <utility>
+
+namespace reeb {
+
+Error::Error(ErrorKind kind, std::string what, std::string hint)
+    : kind_(kind), message_(std::move(what)), hint_(std::move(hint)) {
+  compose();
+}
+
+Error& Error::at(const std::string& file, const std::string& position) {
+  if (file_.empty()) file_ = file;
+  if (position_.empty()) position_ = position;
+  compose();
+  return *this;
+}
+
+void Error::compose() {
+  text_ = file_;
+  if (!position_.empty()) text_ += (text_.empty() ? "" : ":") + position_;
+  if (!text_.empty()) text_ += ": ";
+  text_ += message_;
+}
+
+}  // namespace reeb

@@ -1,0 +1,45 @@
+// The one exception of the project: what went wrong, where, and what the user can do about it.
+//
+// The program prints `reeb: error: FILE:POSITION: WHAT` and `hint: HINT`, and exits with the
+// number of the kind. Broken preconditions inside the code are not Errors.
+#pragma once
+
+#include <cstdint>
+#include <exception>
+#include <string>
+
+namespace reeb {
+
+// The values are exit codes; they are never reused.
+enum class ErrorKind : int {
+  kBadInput = 1,     // the input, or a file that the user names, is bad
+  kUsage = 2,        // the command line is wrong
+  kResource = 3,     // memory or disk ran out, or an output place cannot be written
+  kInterrupted = 130 // by a signal
+};
+
+class Error : public std::exception {
+ public:
+  Error(ErrorKind kind, std::string what, std::string hint);
+
+  // Says where: the file, and a byte offset ("12") or "line:column" in it. Either may be empty.
+  // The layer that knows more calls it on its way out; a place already set stays.
+  Error& at(const std::string& file, const std::string& position = {});
+
+  ErrorKind kind() const { return kind_; }
+  const std::string& file() const { return file_; }
+  const std::string& position() const { return position_; }
+  const std::string& message() const { return message_; }
+  const std::string& hint() const { return hint_; }
+
+  // "FILE:POSITION: WHAT", without what is unknown.
+  const char* what() const noexcept override { return text_.c_str(); }
+
+ private:
+  void compose();
+
+  ErrorKind kind_;
+  std::string file_, position_, message_, hint_, text_;
+};
+
+}  // namespace reeb

@@ -1,0 +1,109 @@
+#include "libreeb/base/memory_budget.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <utility>
+
+#include "libreeb/base/error.h"
+
+namespace reeb {
+
+Reservation::Reservation(Reservation&& other) noexcept
+    : budget_(std::exchange(other.budget_, nullptr)),
+      owner_(other.owner_),
+      bytes_(std::exchange(other.bytes_, 0)) {}
+
+Reservation& Reservation::operator=(Reservation&& other) noexcept {
+  if (this != &other) {
+    release();
+    budget_ = std::exchange(other.budget_, nullptr);
+    owner_ = other.owner_;
+    bytes_ = std::exchange(other.bytes_, 0);
+  }
+  return *this;
+}
+
+bool Reservation::try_resize(std::uint64_t bytes) noexcept {
+  if (budget_ == nullptr) return true;
+  if (!budget_->change(owner_, bytes_, bytes)) return false;
+  bytes_ = bytes;
+  return true;
+}
+
+void Reservation::resize(std::uint64_t bytes) {
+  if (!try_resize(bytes)) budget_->refuse(owner_, bytes_, bytes);
+}
+
+void Reservation::release() noexcept {
+  if (budget_ != nullptr) budget_->change(owner_, bytes_, 0);
+  bytes_ = 0;
+}
+
+Reservation MemoryBudget::try_reserve(const char* owner, std::uint64_t bytes) noexcept {
+  Reservation reservation;
+  reservation.budget_ = this;
+  reservation.owner_ = owner;
+  reservation.try_resize(bytes);
+  return reservation;
+}
+
+Reservation MemoryBudget::reserve(const char* owner, std::uint64_t bytes) {
+  Reservation reservation = try_reserve(owner, bytes);
+  if (reservation.bytes() != bytes) refuse(owner, 0, bytes);
+  return reservation;
+}
+
+std::uint64_t MemoryBudget::used_bytes() const {
+  const std::lock_guard lock(mutex_);
+  return used_;
+}
+
+std::uint64_t MemoryBudget::peak_bytes() const {
+  const std::lock_guard lock(mutex_);
+  return peak_;
+}
+
+std::uint64_t MemoryBudget::free_bytes() const {
+  const std::lock_guard lock(mutex_);
+  return limit_ - std::min(used_, limit_);
+}
+
+bool MemoryBudget::change(const char* owner, std::uint64_t from, std::uint64_t to) noexcept {
+  const std::lock_guard lock(mutex_);
+  if (to > from && to - from > limit_ - std::min(used_, limit_)) return false;
+  auto it = owners_.find(owner);
+  if (it == owners_.end()) it = owners_.emplace(owner, 0).first;
+  it->second += to - from;
+  used_ += to - from;
+  peak_ = std::max(peak_, used_);
+  return true;
+}
+
+void MemoryBudget::refuse(const char* owner, std::uint64_t from, std::uint64_t to) const {
+  std::string in_use;
+  const std::lock_guard lock(mutex_);
+  for (const auto& [name, bytes] : owners_)
+    if (bytes != 0) in_use += (in_use.empty() ? "" : ", ") + name + " " + format_bytes(bytes);
+  throw Error(ErrorKind::kResource,
+              std::string(owner) + " needs " + format_bytes(to - from) + " more memory, but " +
+                  format_bytes(limit_ - std::min(used_, limit_)) + " of " + format_bytes(limit_) +
+                  " is free (in use: " + (in_use.empty() ? "nothing" : in_use) + ")",
+              "allow more, for instance --memory " +
+                  std::to_string(((limit_ + (to - from)) >> 20) + 1) + "M");
+}
+
+std::string format_bytes(std::uint64_t bytes) {
+  static constexpr std::array<const char*, 5> kUnits = {"bytes", "KiB", "MiB", "GiB", "TiB"};
+  double size = static_cast<double>(bytes);
+  std::size_t unit = 0;
+  while (size >= 1024 && unit + 1 < kUnits.size()) {
+    size /= 1024;
+    ++unit;
+  }
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), unit == 0 ? "%.0f %s" : "%.1f %s", size, kUnits[unit]);
+  return text.data();
+}
+
+}  // namespace reeb

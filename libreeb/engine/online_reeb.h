@@ -1,0 +1,58 @@
+// The on-line Reeb graph: vertices, simplices and finalizations in, an exact graph out at any
+// moment (the paper's section 2; DESIGN.md 2).
+//
+// Simplices are collected into small batches and glued with the same code as the parallel
+// pipeline: a batch is swept alone into a fragment, and the fragment is glued to the live graph.
+// What is finalized and can no longer change is handed to the sink and forgotten.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "libreeb/base/ids.h"
+#include "libreeb/graph/reeb_graph.h"
+#include "libreeb/port/graph_sink.h"
+
+namespace reeb {
+
+class OnlineReeb {
+ public:
+  struct Options {
+    std::size_t batch_triangles = 4096;  // 1: glue every triangle at once
+  };
+
+  // Settled nodes and arcs go to `sink`; without one they are kept here.
+  OnlineReeb();
+  explicit OnlineReeb(Options options, GraphSink* sink = nullptr);
+  ~OnlineReeb();
+  OnlineReeb(OnlineReeb&&) noexcept;
+  OnlineReeb& operator=(OnlineReeb&&) noexcept;
+
+  // Adds the next vertex and returns its index: 0, 1, 2, ...
+  // THROWS: Error{kBadInput} if the value is not finite.
+  VertexId add_vertex(double value, const Point& position = {});
+
+  // Adds the simplex with this set of corners (repeats are ignored), of any dimension; it counts
+  // through its 2-skeleton.
+  // THROWS: Error{kBadInput} if a corner was not added or was finalized.
+  void add_simplex(std::span<const VertexId> corners);
+
+  // Promises that no later simplex names `v`.
+  // THROWS: Error{kBadInput} if `v` was not added or was finalized before.
+  void finalize(VertexId v);
+
+  // The exact Reeb graph of everything added so far, whether finalized or not. O(live graph) plus
+  // what is kept here; with a sink, only what was not yet handed over.
+  ReebGraph snapshot();
+
+  // Finalizes all that is left and hands it over. Nothing can be added afterwards.
+  void finish();
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace reeb

@@ -1,0 +1,59 @@
+// A Reeb graph in memory, in the one order in which every result is compared (DESIGN.md 1.3).
+//
+// Nodes are numbered by rank in the total order of their vertices; arcs are sorted by (lo, hi),
+// and parallel arcs repeat. Two graphs are equal exactly if their arrays are.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "libreeb/base/ids.h"
+#include "libreeb/base/sweep_key.h"
+
+namespace reeb {
+
+struct ReebGraph {
+  // One entry a node.
+  std::vector<SweepKey> nodes;
+  std::vector<std::array<double, 3>> positions;  // empty when unknown
+  // One entry an arc: its ends, lo below hi.
+  std::vector<NodeId> lo, hi;
+
+  std::size_t node_count() const { return nodes.size(); }
+  std::size_t arc_count() const { return lo.size(); }
+
+  friend bool operator==(const ReebGraph&, const ReebGraph&) = default;
+
+  // THROWS: std::logic_error that names the first node or arc that breaks a promise above.
+  void validate() const;
+};
+
+// An arc by its two vertices, lo below hi: the form in which arcs leave the engine.
+struct ArcKeys {
+  SweepKey lo, hi;
+  friend bool operator==(const ArcKeys&, const ArcKeys&) = default;
+};
+inline bool operator<(const ArcKeys& a, const ArcKeys& b) noexcept {
+  return a.lo < b.lo || (a.lo == b.lo && a.hi < b.hi);
+}
+
+// The graph of these arcs and of isolated nodes, in any order, in O(n log n).
+// REQUIRES: lo below hi for each arc; a vertex has the same value everywhere.
+ReebGraph make_graph(std::vector<ArcKeys> arcs, std::vector<SweepKey> isolated);
+
+// Arcs below and above each node.
+struct Degrees {
+  std::vector<std::uint32_t> down, up;
+};
+Degrees degrees(const ReebGraph& graph);
+
+struct BettiNumbers {
+  std::uint64_t components = 0;  // b0
+  std::uint64_t loops = 0;       // b1 = arcs - nodes + components
+};
+BettiNumbers betti_numbers(const ReebGraph& graph);
+
+}  // namespace reeb

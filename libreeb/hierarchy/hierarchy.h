@@ -1,0 +1,55 @@
+// The result of the second stage: persistence pairs, and all levels of detail at once
+// (DESIGN.md 1.4, 1.5, 6; the paper's "Simplification and Hierarchy").
+//
+// The sequence of simplified graphs is partially persistent: an arc is a record with the steps
+// between which it lives. Cancellation number s (from 1) turns version s-1 into version s; version
+// 0 is the full graph. The graph of version e has the arcs with born <= e < died.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "libreeb/base/ids.h"
+#include "libreeb/graph/reeb_graph.h"
+
+namespace reeb {
+
+// In the order in which equal persistences are listed in files.
+enum class PairType : std::uint8_t { kExt0, kExt1, kOrd0, kRel1 };
+
+struct PersistencePair {
+  NodeId lo, hi;  // nodes of the full graph; equal for an isolated vertex (Ext0)
+  PairType type = PairType::kExt0;
+  bool kept = false;  // an Ext1 that no rule could cancel
+  friend bool operator==(const PersistencePair&, const PersistencePair&) = default;
+};
+
+// One bucket of an arc's embedding: the vertices whose value lies in [index, index + 1) * 2^h.
+struct Bucket {
+  std::int64_t index = 0;
+  std::uint64_t count = 0;
+  std::array<double, 3> mean{};
+};
+
+inline constexpr std::uint32_t kNeverDies = ~std::uint32_t{0};
+
+struct ArcVersion {
+  NodeId lo, hi;
+  std::uint32_t born = 0;           // present from this version on
+  std::uint32_t died = kNeverDies;  // up to, not including, this version
+  friend bool operator==(const ArcVersion&, const ArcVersion&) = default;
+};
+
+struct Hierarchy {
+  // All pairs, in the order of cancelling (DESIGN.md 1.5); Ext0 last.
+  std::vector<PersistencePair> pairs;
+  // persistence[s - 1] is that of the pair cancelled by step s; not decreasing.
+  std::vector<double> persistence;
+  std::vector<ArcVersion> arcs;
+  // A node without arcs in a version is present in it only as an isolated point:
+  // isolated[i] is the node; present in every version (DESIGN.md: Ext0 is never cancelled).
+  std::vector<NodeId> isolated;
+};
+
+}  // namespace reeb

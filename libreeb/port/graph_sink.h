@@ -1,0 +1,33 @@
+// Port: where finished pieces of the Reeb graph go (DESIGN.md 4, Spilling).
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "libreeb/base/sweep_key.h"
+#include "libreeb/graph/reeb_graph.h"
+
+namespace reeb {
+
+using Point = std::array<double, 3>;
+
+// A node of the final graph with its place in space (zeros when positions are not tracked).
+struct SettledNode {
+  SweepKey key;
+  Point position{};
+};
+
+// Receives every node and every arc of the final graph exactly once, in no particular order.
+// The spans are valid during the call only.
+class GraphSink {
+ public:
+  GraphSink() = default;
+  GraphSink(const GraphSink&) = delete;
+  GraphSink& operator=(const GraphSink&) = delete;
+  virtual ~GraphSink() = default;
+
+  virtual void add_nodes(std::span<const SettledNode> nodes) = 0;
+  virtual void add_arcs(std::span<const ArcKeys> arcs) = 0;
+};
+
+}  // namespace reeb

@@ -1,0 +1,83 @@
+// Port: how a mesh of any format reaches the engine, batch by batch (DESIGN.md 1.1).
+//
+// A reader delivers the events of one mesh in stream order, grouped into batches: structures of
+// arrays of vertices, simplices and finalizations. Within a batch all vertices come first, then
+// all simplices, then all finalizations; readers cut batches so that this is legal. With
+// `ReadOptions::batch_events == 1` every batch holds exactly one event, in the order of the file.
+//
+// MEMORY: a reader holds one batch and windows of its input, never the file.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "libreeb/base/ids.h"
+
+namespace reeb {
+
+// Cleared and refilled by each read, so that its memory is reused.
+struct MeshBatch {
+  VertexId first_vertex;         // index of the first vertex of this batch
+  std::size_t vertex_count = 0;  // vertices are numbered first_vertex, first_vertex + 1, ...
+  // coordinates[k][i] is the k-th coordinate of the i-th vertex; MeshInfo::dimension columns.
+  std::vector<std::vector<double>> coordinates;
+  // properties[k][i] is ReadOptions::properties[k] of the i-th vertex.
+  std::vector<std::vector<double>> properties;
+
+  // Three corners each. Repeated corners are legal: (a, b, b) is an edge, (a, a, a) a vertex.
+  // Polygons arrive as fans from their first corner.
+  std::vector<VertexId> triangles;
+  // Four corners each.
+  std::vector<VertexId> tetrahedra;
+  // No later event names these vertices.
+  std::vector<VertexId> finalized;
+
+  std::size_t triangle_count() const { return triangles.size() / 3; }
+  std::size_t tetrahedron_count() const { return tetrahedra.size() / 4; }
+  bool empty() const {
+    return vertex_count == 0 && triangles.empty() && tetrahedra.empty() && finalized.empty();
+  }
+  void clear();  // keeps the columns and their capacity
+};
+
+struct MeshInfo {
+  std::string format;                          // "PLY binary little endian", "OBJ", "SMC version 3"
+  unsigned dimension = 3;                      // coordinates a vertex
+  std::vector<std::string> property_names;     // scalar vertex properties a function can use
+  std::optional<std::uint64_t> vertex_count;   // as far as the header says so, or it is known
+  std::optional<std::uint64_t> simplex_count;  // faces or cells, before polygons become fans
+  bool finalizes = false;                      // the stream brings finalization with it
+  std::uint64_t file_bytes = 0;                // 0: unknown (a pipe)
+};
+
+struct ReadOptions {
+  std::vector<std::string> properties;  // vertex properties to deliver, by name
+  std::size_t batch_events = 65536;     // about so many vertices or simplices a batch
+};
+
+class MeshReader {
+ public:
+  MeshReader() = default;
+  MeshReader(const MeshReader&) = delete;
+  MeshReader& operator=(const MeshReader&) = delete;
+  virtual ~MeshReader() = default;
+
+  // Complete as soon as the reader exists.
+  virtual const MeshInfo& info() const = 0;
+
+  // Replaces `batch` by the next events. False, and an empty batch, at the end of the mesh.
+  // THROWS: Error{kBadInput} with file and position. All events delivered before were good.
+  virtual bool read(MeshBatch& batch) = 0;
+
+  // How much of the input was consumed so far, in bytes of the file as it lies on disk.
+  virtual std::uint64_t bytes_read() const = 0;
+
+  // What was odd but harmless, one line each ("3 unknown lines were skipped"). Final at the end.
+  virtual std::vector<std::string> warnings() const { return {}; }
+};
+
+}  // namespace reeb

@@ -1,0 +1,25 @@
+#include "ooc/zstd_codec.h"
+
+#include <zstd.h>
+
+#include "libreeb/base/error.h"
+
+namespace reeb::ooc {
+
+void zstd_compress(std::span<const std::byte> bytes, int level, std::vector<std::byte>& out) {
+  const std::size_t before = out.size();
+  out.resize(before + ZSTD_compressBound(bytes.size()));
+  const std::size_t size =
+      ZSTD_compress(out.data() + before, out.size() - before, bytes.data(), bytes.size(), level);
+  if (ZSTD_isError(size) != 0)
+    throw Error(ErrorKind::kResource, std::string("zstd: ") + ZSTD_getErrorName(size),
+                "allow more with --memory");
+  out.resize(before + size);
+}
+
+bool zstd_decompress(std::span<const std::byte> bytes, std::span<std::byte> out) {
+  const std::size_t size = ZSTD_decompress(out.data(), out.size(), bytes.data(), bytes.size());
+  return ZSTD_isError(size) == 0 && size == out.size();
+}
+
+}  // namespace reeb::ooc
