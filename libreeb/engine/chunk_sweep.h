@@ -1,0 +1,37 @@
+// The Reeb graph of one chunk by one sweep over its vertices (DESIGN.md 3).
+//
+// Just above a vertex the level set is a graph: its points are the mesh edges that cross the
+// level, its segments the triangles that do. Each crossing triangle carries a label; a union-find
+// maps labels to arcs. A vertex whose upward edges hang together through its own triangles needs
+// no search: exactly one arc leaves it. Only where they fall into several groups is the level set
+// walked, from all groups in lockstep, and only the smaller sides are relabelled.
+//
+// TIME: O(sort) plus the stars of all vertices plus the smaller sides walked; a vertex of any
+// degree and an edge with any number of triangles cost their size once.
+// MEMORY: about 70 bytes a triangle of scratch, kept for the next chunk.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "libreeb/engine/chunk.h"
+#include "libreeb/engine/fragment.h"
+
+namespace reeb {
+
+class ChunkSweep {
+ public:
+  ChunkSweep();
+  ~ChunkSweep();
+  ChunkSweep(ChunkSweep&&) noexcept;
+  ChunkSweep& operator=(ChunkSweep&&) noexcept;
+
+  // Replaces `fragment` by that of `chunk`.
+  void run(const Chunk& chunk, Fragment& fragment);
+
+ private:
+  struct Scratch;
+  std::unique_ptr<Scratch> scratch_;
+};
+
+}  // namespace reeb

@@ -1,0 +1,71 @@
+// The Reeb graph of one chunk, reduced to what the rest of the mesh can still change
+// (DESIGN.md 3). It replaces its chunk exactly.
+//
+// Open nodes are the chunk's vertices that occur in other chunks, whatever their degree, and the
+// nodes that such vertices or shared edges can still touch. A shared edge is a mesh edge that
+// another chunk may have too; its path is the monotone chain of arcs that it maps to.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "libreeb/graph/reeb_graph.h"
+#include "libreeb/port/graph_sink.h"
+
+namespace reeb {
+
+struct Fragment {
+  // Open nodes. A node that is used here only is complete from the start; a settled one cannot
+  // change any more and stays only until its last arc has left (some of its arcs may have left).
+  struct Node {
+    SweepKey key;
+    std::uint8_t uses = 0;  // VertexUse
+    bool settled = false;
+  };
+  std::vector<Node> nodes;
+  std::vector<Point> positions;  // one a node, or empty
+  // Open arcs, by open nodes.
+  struct Arc {
+    std::uint32_t lo, hi;
+  };
+  std::vector<Arc> arcs;
+
+  // Shared edges; path of edge i: path_arcs[path_begin[i] .. path_begin[i + 1]), from above.
+  struct SharedEdge {
+    std::uint32_t lo, hi;  // open nodes
+  };
+  std::vector<SharedEdge> edges;
+  std::vector<std::uint32_t> path_begin;
+  std::vector<std::uint32_t> path_arcs;
+
+  // In which order to glue: after all of an edge's triangles, zip it; after all of a vertex's
+  // simplices, complete it. Sorted by place in the stream.
+  struct Step {
+    std::uint32_t place;      // in the chunk's stream of triangles
+    std::uint32_t index;      // of an edge or a node
+    bool completes = false;   // complete node `index`; otherwise zip edge `index`
+  };
+  std::vector<Step> steps;
+
+  // What nothing can change any more.
+  std::vector<SettledNode> settled_nodes;
+  std::vector<ArcKeys> settled_arcs;
+
+  std::size_t triangle_count = 0;  // of the chunk
+
+  void clear() {
+    nodes.clear();
+    positions.clear();
+    arcs.clear();
+    edges.clear();
+    path_begin.clear();
+    path_arcs.clear();
+    steps.clear();
+    settled_nodes.clear();
+    settled_arcs.clear();
+    triangle_count = 0;
+  }
+};
+
+}  // namespace reeb

@@ -1,0 +1,137 @@
+#include "libreeb/engine/fragment_builder.h"
+
+#include <algorithm>
+#include <tuple>
+
+namespace reeb {
+namespace {
+
+constexpr std::uint32_t kNone = ~std::uint32_t{0};
+
+}  // namespace
+
+void FragmentBuilder::start(std::size_t vertices) {
+  nodes_.clear();
+  arcs_.clear();
+  shared_.clear();
+  notes_.clear();
+  shared_begin_.resize(vertices + 1);
+  node_of_.resize(vertices);
+}
+
+std::uint32_t FragmentBuilder::add_node(std::uint32_t v) {
+  node_of_[v] = static_cast<std::uint32_t>(nodes_.size());
+  nodes_.push_back({v, kNone, false, kNone});
+  return node_of_[v];
+}
+
+std::uint32_t FragmentBuilder::add_arc(std::uint32_t lower_node) {
+  arcs_.push_back({lower_node, kNone, false});
+  return static_cast<std::uint32_t>(arcs_.size() - 1);
+}
+
+void FragmentBuilder::add_shared_edge(std::uint32_t lower_node, std::uint32_t hi, std::uint32_t arc,
+                                      std::uint32_t place) {
+  shared_.push_back({lower_node, hi, arc, place, kNone, kNone});
+}
+
+void FragmentBuilder::finish_shared_edges_of(std::uint32_t v) {
+  std::sort(shared_.begin() + shared_begin_[v], shared_.end(),
+            [](const Shared& a, const Shared& b) { return a.hi < b.hi; });
+}
+
+void FragmentBuilder::note_branch(std::uint32_t lo, std::uint32_t hi, std::uint32_t node, std::uint32_t arc) {
+  const auto last = shared_.begin() + shared_begin_[lo + 1];
+  const auto edge = std::lower_bound(shared_.begin() + shared_begin_[lo], last, hi,
+                                     [](const Shared& e, std::uint32_t h) { return e.hi < h; });
+  if (edge == last || edge->hi != hi) return;
+  if (edge->last_note != kNone && notes_[edge->last_note].node == node) return;
+  const auto note = static_cast<std::uint32_t>(notes_.size());
+  notes_.push_back({node, arc, kNone});
+  (edge->first_note == kNone ? edge->first_note : notes_[edge->last_note].next) = note;
+  edge->last_note = note;
+}
+
+void FragmentBuilder::finish(const Chunk& chunk, std::span<const std::uint32_t> order,
+                             const ChunkStars& stars, Fragment& fragment) {
+  fragment.clear();
+  fragment.triangle_count = chunk.triangle_count();
+  trace_paths(fragment);
+  divide(chunk, order, fragment);
+  add_steps(chunk, order, stars, fragment);
+}
+
+void FragmentBuilder::trace_paths(Fragment& fragment) {
+  fragment.path_begin.push_back(0);
+  for (const Shared& edge : shared_) {
+    std::uint32_t note = edge.first_note;
+    for (std::uint32_t arc = edge.first_arc;;) {
+      fragment.path_arcs.push_back(arc);
+      arcs_[arc].referenced = true;
+      const std::uint32_t node = arcs_[arc].hi;
+      if (nodes_[node].vertex == edge.hi) break;
+      const bool noted = note != kNone && notes_[note].node == node;
+      arc = noted ? notes_[note].arc : nodes_[node].main_branch;
+      if (noted) note = notes_[note].next;
+    }
+    std::reverse(fragment.path_arcs.begin() + fragment.path_begin.back(), fragment.path_arcs.end());
+    fragment.path_begin.push_back(static_cast<std::uint32_t>(fragment.path_arcs.size()));
+  }
+}
+
+// Divides nodes and arcs into open and settled ones (DESIGN.md 2): an arc is settled if no path
+// runs on it and none of its ends can change; a node leaves when all its arcs do.
+void FragmentBuilder::divide(const Chunk& chunk, std::span<const std::uint32_t> order, Fragment& fragment) {
+  const auto uses = [&](const Node& node) { return chunk.uses[order[node.vertex]]; };
+  const auto key = [&](const Node& node) {
+    const std::uint32_t local = order[node.vertex];
+    return SweepKey{chunk.values[local], chunk.ids[local]};
+  };
+  for (Node& node : nodes_) node.can_change = uses(node) != kUsedHereOnly;
+  for (const Arc& arc : arcs_)
+    if (arc.referenced) nodes_[arc.lo].can_change = nodes_[arc.hi].can_change = true;
+  for (Node& node : nodes_) node.open = node.can_change ? 0 : kNone;
+
+  open_arc_.assign(arcs_.size(), kNone);
+  std::uint32_t open_arcs = 0;
+  for (std::size_t a = 0; a < arcs_.size(); ++a) {
+    Node &lo = nodes_[arcs_[a].lo], &hi = nodes_[arcs_[a].hi];
+    if (!lo.can_change && !hi.can_change) {
+      fragment.settled_arcs.push_back({key(lo), key(hi)});
+    } else {
+      open_arc_[a] = open_arcs++;
+      lo.open = hi.open = 0;
+    }
+  }
+
+  for (Node& node : nodes_) {
+    const Point position = chunk.positions.empty() ? Point{} : chunk.positions[order[node.vertex]];
+    if (node.open == kNone) {
+      fragment.settled_nodes.push_back({key(node), position});
+      continue;
+    }
+    node.open = static_cast<std::uint32_t>(fragment.nodes.size());
+    fragment.nodes.push_back({key(node), uses(node), !node.can_change});
+    if (!chunk.positions.empty()) fragment.positions.push_back(position);
+  }
+  for (std::size_t a = 0; a < arcs_.size(); ++a)
+    if (open_arc_[a] != kNone) fragment.arcs.push_back({nodes_[arcs_[a].lo].open, nodes_[arcs_[a].hi].open});
+  for (const Shared& edge : shared_)
+    fragment.edges.push_back({nodes_[edge.lo].open, nodes_[node_of_[edge.hi]].open});
+  for (std::uint32_t& arc : fragment.path_arcs) arc = open_arc_[arc];
+}
+
+void FragmentBuilder::add_steps(const Chunk& chunk, std::span<const std::uint32_t> order,
+                                const ChunkStars& stars, Fragment& fragment) {
+  for (std::uint32_t e = 0; e < shared_.size(); ++e)
+    fragment.steps.push_back({shared_[e].place, e, false});
+  for (const Node& node : nodes_)
+    if (chunk.uses[order[node.vertex]] == kUsedEarlier)
+      fragment.steps.push_back({stars.last_place(node.vertex), node.open, true});
+  std::sort(fragment.steps.begin(), fragment.steps.end(),
+            [](const Fragment::Step& a, const Fragment::Step& b) {
+              return std::tie(a.place, a.completes, a.index) < std::tie(b.place, b.completes, b.index);
+            });
+}
+
+}  // namespace reeb

@@ -1,0 +1,75 @@
+// Takes down the arcs of a sweep and reduces them to a fragment.
+//
+// The path of a shared edge is not traced along the way: above a node with one arc up it is
+// implied, and at a split only the edges on relabelled sides are noted; all others follow the
+// main branch.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "libreeb/engine/chunk.h"
+#include "libreeb/engine/chunk_stars.h"
+#include "libreeb/engine/fragment.h"
+
+namespace reeb {
+
+// Vertices are ranks; nodes and arcs are numbered in order of creation.
+class FragmentBuilder {
+ public:
+  void start(std::size_t vertices);
+  // The sweep arrives at v; to be called for 0, 1, 2, ...
+  void reach(std::uint32_t v) { shared_begin_[v] = static_cast<std::uint32_t>(shared_.size()); }
+
+  std::uint32_t add_node(std::uint32_t v);
+  std::uint32_t add_arc(std::uint32_t lower_node);
+  void end_arc(std::uint32_t arc, std::uint32_t upper_node) { arcs_[arc].hi = upper_node; }
+  // The arc up from `node` that every path takes for which no other branch is noted.
+  void set_main_branch(std::uint32_t node, std::uint32_t arc) { nodes_[node].main_branch = arc; }
+
+  // An edge from the vertex at hand up to `hi`, whose path starts with `arc`.
+  void add_shared_edge(std::uint32_t lower_node, std::uint32_t hi, std::uint32_t arc, std::uint32_t place);
+  // No more of them for v.
+  void finish_shared_edges_of(std::uint32_t v);
+  // If lo-hi is a shared edge, its path goes up from `node` by `arc`.
+  void note_branch(std::uint32_t lo, std::uint32_t hi, std::uint32_t node, std::uint32_t arc);
+
+  void finish(const Chunk& chunk, std::span<const std::uint32_t> order, const ChunkStars& stars,
+              Fragment& fragment);
+
+ private:
+  struct Node {
+    std::uint32_t vertex;
+    std::uint32_t main_branch;
+    bool can_change;     // used elsewhere, or an end of an arc with paths
+    std::uint32_t open;  // the number of the node in the fragment, or kNone
+  };
+  struct Arc {
+    std::uint32_t lo, hi;
+    bool referenced;
+  };
+  struct Shared {
+    std::uint32_t lo, hi;  // node below, vertex above
+    std::uint32_t first_arc, place;
+    std::uint32_t first_note, last_note;
+  };
+  struct Note {
+    std::uint32_t node, arc, next;
+  };
+
+  void trace_paths(Fragment& fragment);
+  void divide(const Chunk& chunk, std::span<const std::uint32_t> order, Fragment& fragment);
+  void add_steps(const Chunk& chunk, std::span<const std::uint32_t> order, const ChunkStars& stars,
+                 Fragment& fragment);
+
+  std::vector<Node> nodes_;
+  std::vector<Arc> arcs_;
+  std::vector<Shared> shared_;
+  std::vector<std::uint32_t> shared_begin_;  // by vertex; within a vertex sorted by hi
+  std::vector<Note> notes_;
+  std::vector<std::uint32_t> node_of_;   // by vertex, for those that are nodes
+  std::vector<std::uint32_t> open_arc_;  // by arc
+};
+
+}  // namespace reeb

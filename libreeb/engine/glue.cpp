@@ -1,0 +1,139 @@
+#include "libreeb/engine/glue.h"
+
+#include <utility>
+
+namespace reeb {
+
+void Glue::add(const Fragment& fragment) {
+  if (!fragment.settled_nodes.empty()) sink_->add_nodes(fragment.settled_nodes);
+  if (!fragment.settled_arcs.empty()) sink_->add_arcs(fragment.settled_arcs);
+  add_nodes(fragment);
+  arcs_.clear();
+  for (const Fragment::Arc& arc : fragment.arcs)
+    arcs_.push_back(graph_.add_arc(nodes_[arc.lo], nodes_[arc.hi]));
+  add_paths(fragment);
+  run_steps(fragment);
+  graph_.tidy();
+  graph_.flush();
+}
+
+void Glue::add_nodes(const Fragment& fragment) {
+  nodes_.clear();
+  for (std::size_t i = 0; i < fragment.nodes.size(); ++i) {
+    const Fragment::Node& node = fragment.nodes[i];
+    const std::uint64_t vertex = node.key.vertex.value();
+    Index n = (node.uses & kUsedEarlier) != 0 ? node_of_.find(vertex) : kNone;
+    if (n == kNone) {
+      const auto state = node.settled                ? LiveGraph::State::kSettled
+                         : node.uses == kUsedHereOnly ? LiveGraph::State::kComplete
+                                                      : LiveGraph::State::kIncomplete;
+      n = graph_.add_node(node.key, fragment.positions.empty() ? Point{} : fragment.positions[i], state);
+      if (n >= first_link_.size()) first_link_.resize(n + 1);
+      first_link_[n] = kNone;
+      if ((node.uses & kUsedLater) != 0) node_of_.find_or_insert(vertex, n);
+    }
+    nodes_.push_back(n);
+  }
+}
+
+// All paths first: zips change the arcs that later paths of the same fragment run on.
+void Glue::add_paths(const Fragment& fragment) {
+  pending_.assign(fragment.edges.size(), {});
+  for (std::size_t i = 0; i < fragment.edges.size(); ++i) {
+    const auto [lo, hi] = fragment.edges[i];
+    const Index known = edge_of_.find(edge_key(nodes_[lo], nodes_[hi]));
+    const bool needed_later = (fragment.nodes[lo].uses & fragment.nodes[hi].uses & kUsedLater) != 0;
+    if (known != kNone)
+      pending_[i] = {known, add_path(fragment, i)};
+    else if (needed_later)
+      add_edge(nodes_[lo], nodes_[hi], add_path(fragment, i));
+  }
+}
+
+LiveGraph::Index Glue::add_path(const Fragment& fragment, std::size_t edge) {
+  Index top = kNone;
+  for (std::size_t i = fragment.path_begin[edge + 1]; i-- > fragment.path_begin[edge];)
+    top = graph_.add_reference(arcs_[fragment.path_arcs[i]], top);
+  return top;
+}
+
+// Completing between zips, in stream order, keeps the paths short that are still to be zipped.
+void Glue::run_steps(const Fragment& fragment) {
+  for (const Fragment::Step& step : fragment.steps) {
+    if (step.completes) {
+      complete_node(nodes_[step.index]);
+    } else if (const auto [edge, top] = pending_[step.index]; edge != kNone) {
+      graph_.zip(edges_[edge].top, top);
+      const auto [lo, hi] = fragment.edges[step.index];
+      if ((fragment.nodes[lo].uses & fragment.nodes[hi].uses & kUsedLater) == 0) drop_edge(edge);
+      graph_.tidy();
+    }
+  }
+}
+
+void Glue::complete(VertexId vertex) {
+  const Index n = node_of_.find(vertex.value());
+  if (n == kNone) return;
+  complete_node(n);
+  graph_.flush();
+}
+
+void Glue::complete_all() {
+  for (Index n = 0; n < first_link_.size(); ++n)
+    if (graph_.is_incomplete(n)) complete_node(n);
+  graph_.flush();
+}
+
+void Glue::complete_node(Index n) {
+  while (first_link_[n] != kNone) drop_edge(first_link_[n] / 2);
+  node_of_.erase(graph_.key(n).vertex.value());
+  graph_.complete(n);
+  graph_.tidy();
+}
+
+// ---- kept edges
+
+void Glue::add_edge(Index lo, Index hi, Index top) {
+  Index e = first_free_edge_;
+  if (e != kNone) {
+    first_free_edge_ = edges_[e].top;
+  } else {
+    e = static_cast<Index>(edges_.size());
+    edges_.emplace_back();
+    links_.resize(links_.size() + 2);
+  }
+  edges_[e] = {lo, hi, top};
+  link(2 * e, lo);
+  link(2 * e + 1, hi);
+  edge_of_.find_or_insert(edge_key(lo, hi), e);
+}
+
+void Glue::drop_edge(Index e) {
+  const Edge edge = edges_[e];
+  unlink(2 * e, edge.lo);
+  unlink(2 * e + 1, edge.hi);
+  edge_of_.erase(edge_key(edge.lo, edge.hi));
+  edges_[e].top = std::exchange(first_free_edge_, e);
+  graph_.drop_path(edge.top);
+}
+
+void Glue::link(Index l, Index n) {
+  links_[l] = {first_link_[n], kNone};
+  if (first_link_[n] != kNone) links_[first_link_[n]].prev = l;
+  first_link_[n] = l;
+}
+
+void Glue::unlink(Index l, Index n) {
+  const auto [next, prev] = links_[l];
+  (prev == kNone ? first_link_[n] : links_[prev].next) = next;
+  if (next != kNone) links_[next].prev = prev;
+}
+
+std::size_t Glue::memory_bytes() const {
+  return graph_.memory_bytes() + node_of_.memory_bytes() + edge_of_.memory_bytes() +
+         edges_.capacity() * sizeof(Edge) + links_.capacity() * sizeof(Link) +
+         (first_link_.capacity() + nodes_.capacity() + arcs_.capacity()) * sizeof(Index) +
+         pending_.capacity() * sizeof(Pending);
+}
+
+}  // namespace reeb

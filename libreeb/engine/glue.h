@@ -1,0 +1,84 @@
+// Glues fragments, in stream order, into the live graph: the one engine behind the parallel
+// pipeline and the on-line class (DESIGN.md 2 and 3).
+//
+// Why it is right: the Reeb graph of a union is that of its parts once equal vertices are one
+// node and, for every edge that two parts share, the two paths are zipped. A fragment brings a
+// path for every edge that another chunk can have, so nothing is missed; a path is dropped when
+// one of its ends is complete, since then no later chunk can have the edge.
+//
+// TIME: O(fragment) plus the steps of the zips. MEMORY: proportional to the live front.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "libreeb/base/flat_map.h"
+#include "libreeb/engine/chunk.h"
+#include "libreeb/engine/fragment.h"
+#include "libreeb/engine/live_graph.h"
+
+namespace reeb {
+
+class Glue {
+ public:
+  Glue(GraphSink& sink, bool track_positions) : sink_(&sink), graph_(sink, track_positions) {}
+
+  // Adds the next fragment of the stream.
+  // REQUIRES: vertices that its nodes call used earlier were in an earlier fragment, and were
+  // called used later there.
+  void add(const Fragment& fragment);
+
+  // No later fragment has this vertex, though the last one that had it said otherwise.
+  void complete(VertexId vertex);
+  // No later fragment has anything.
+  void complete_all();
+
+  const LiveGraph& graph() const { return graph_; }
+  std::size_t live_vertices() const { return node_of_.size(); }
+  std::size_t live_edges() const { return edge_of_.size(); }
+  std::size_t memory_bytes() const;
+
+ private:
+  using Index = LiveGraph::Index;
+  static constexpr Index kNone = LiveGraph::kNone;
+
+  // A mesh edge whose path is kept. Edge e is in the list of its lower end by link 2e and in that
+  // of its upper end by link 2e + 1.
+  struct Edge {
+    Index lo, hi;
+    Index top;  // of its path; while free, the next free edge
+  };
+  struct Link {
+    Index next, prev;
+  };
+
+  void add_nodes(const Fragment& fragment);
+  void add_paths(const Fragment& fragment);
+  Index add_path(const Fragment& fragment, std::size_t edge);
+  void run_steps(const Fragment& fragment);
+  void add_edge(Index lo, Index hi, Index top);
+  void drop_edge(Index edge);
+  void link(Index link, Index node);
+  void unlink(Index link, Index node);
+  void complete_node(Index node);
+  static std::uint64_t edge_key(Index lo, Index hi) { return std::uint64_t{hi} << 32 | lo; }
+
+  GraphSink* sink_;
+  LiveGraph graph_;
+  FlatMap node_of_;  // incomplete vertices
+  FlatMap edge_of_;  // by edge_key
+  std::vector<Edge> edges_;
+  std::vector<Link> links_;
+  Index first_free_edge_ = kNone;
+  std::vector<Index> first_link_;  // by node: its list of kept edges
+
+  std::vector<Index> nodes_, arcs_;        // of the fragment at hand
+  struct Pending {
+    Index edge = kNone;  // the live edge with which to zip
+    Index top = kNone;   // of the fragment's path
+  };
+  std::vector<Pending> pending_;  // by shared edge of the fragment
+};
+
+}  // namespace reeb

@@ -1,0 +1,368 @@
+#include "libreeb/engine/live_graph.h"
+
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace reeb {
+
+// ---- nodes and arcs
+
+LiveGraph::Index LiveGraph::add_node(const SweepKey& key, const Point& position, State state) {
+  Index n = first_free_node_;
+  if (n != kNone) {
+    first_free_node_ = nodes_[n].up_first;
+    --free_nodes_;
+  } else {
+    n = static_cast<Index>(nodes_.size());
+    nodes_.emplace_back();
+    if (track_positions_) positions_.emplace_back();
+  }
+  nodes_[n] = {key, kNone, kNone, 0, 0, 0, state, false, true};
+  if (track_positions_) positions_[n] = position;
+  // A complete node is looked at once everything that comes with it is in place.
+  if (state != State::kIncomplete) queue(n);
+  return n;
+}
+
+void LiveGraph::free_node(Index n) {
+  nodes_[n].used = false;
+  nodes_[n].up_first = std::exchange(first_free_node_, n);
+  ++free_nodes_;
+}
+
+LiveGraph::Index LiveGraph::add_arc(Index lo, Index hi) {
+  Index a = first_free_arc_;
+  if (a != kNone) {
+    first_free_arc_ = arcs_[a].lo_next;
+    --free_arcs_;
+  } else {
+    a = static_cast<Index>(arcs_.size());
+    arcs_.emplace_back();
+  }
+  arcs_[a].first_reference = kNone;
+  arcs_[a].references = 0;
+  attach_lo(a, lo);
+  attach_hi(a, hi);
+  return a;
+}
+
+void LiveGraph::free_arc(Index a) {
+  arcs_[a].lo = kNone;
+  arcs_[a].lo_next = std::exchange(first_free_arc_, a);
+  ++free_arcs_;
+}
+
+void LiveGraph::attach_lo(Index a, Index n) {
+  Arc& arc = arcs_[a];
+  Node& node = nodes_[n];
+  arc.lo = n;
+  arc.lo_prev = kNone;
+  arc.lo_next = std::exchange(node.up_first, a);
+  if (arc.lo_next != kNone) arcs_[arc.lo_next].lo_prev = a;
+  ++node.up_degree;
+  if (arc.references != 0) ++node.referenced_arcs;
+}
+
+void LiveGraph::attach_hi(Index a, Index n) {
+  Arc& arc = arcs_[a];
+  Node& node = nodes_[n];
+  arc.hi = n;
+  arc.hi_prev = kNone;
+  arc.hi_next = std::exchange(node.down_first, a);
+  if (arc.hi_next != kNone) arcs_[arc.hi_next].hi_prev = a;
+  ++node.down_degree;
+  if (arc.references != 0) ++node.referenced_arcs;
+}
+
+void LiveGraph::detach_lo(Index a) {
+  const Arc& arc = arcs_[a];
+  Node& node = nodes_[arc.lo];
+  (arc.lo_prev == kNone ? node.up_first : arcs_[arc.lo_prev].lo_next) = arc.lo_next;
+  if (arc.lo_next != kNone) arcs_[arc.lo_next].lo_prev = arc.lo_prev;
+  --node.up_degree;
+  if (arc.references != 0) --node.referenced_arcs;
+}
+
+void LiveGraph::detach_hi(Index a) {
+  const Arc& arc = arcs_[a];
+  Node& node = nodes_[arc.hi];
+  (arc.hi_prev == kNone ? node.down_first : arcs_[arc.hi_prev].hi_next) = arc.hi_next;
+  if (arc.hi_next != kNone) arcs_[arc.hi_next].hi_prev = arc.hi_prev;
+  --node.down_degree;
+  if (arc.references != 0) --node.referenced_arcs;
+}
+
+// ---- references
+
+LiveGraph::Index LiveGraph::new_reference() {
+  Index r = first_free_reference_;
+  if (r != kNone) {
+    first_free_reference_ = references_[r].next;
+    --free_references_;
+  } else {
+    r = static_cast<Index>(references_.size());
+    references_.emplace_back();
+  }
+  return r;
+}
+
+void LiveGraph::free_reference(Index r) {
+  references_[r].next = std::exchange(first_free_reference_, r);
+  ++free_references_;
+}
+
+void LiveGraph::link(Index r, Index a) {
+  Arc& arc = arcs_[a];
+  Reference& reference = references_[r];
+  reference.arc = a;
+  reference.prev = kNone;
+  reference.next = std::exchange(arc.first_reference, r);
+  if (reference.next != kNone) references_[reference.next].prev = r;
+  ++arc.references;
+}
+
+void LiveGraph::unlink(Index r) {
+  const Reference& reference = references_[r];
+  Arc& arc = arcs_[reference.arc];
+  (reference.prev == kNone ? arc.first_reference : references_[reference.prev].next) = reference.next;
+  if (reference.next != kNone) references_[reference.next].prev = reference.prev;
+  --arc.references;
+}
+
+void LiveGraph::gained_reference(Index a) {
+  ++nodes_[arcs_[a].lo].referenced_arcs;
+  ++nodes_[arcs_[a].hi].referenced_arcs;
+}
+
+void LiveGraph::lost_references(Index a) {
+  for (const Index n : {arcs_[a].lo, arcs_[a].hi})
+    if (--nodes_[n].referenced_arcs == 0) queue(n);
+}
+
+LiveGraph::Index LiveGraph::add_reference(Index arc, Index below) {
+  const Index r = new_reference();
+  link(r, arc);
+  references_[r].down = below;
+  if (arcs_[arc].references == 1) gained_reference(arc);
+  return r;
+}
+
+void LiveGraph::drop_path(Index top) {
+  while (top != kNone) {
+    const Index a = references_[top].arc;
+    unlink(top);
+    if (arcs_[a].references == 0) lost_references(a);
+    const Index below = references_[top].down;
+    free_reference(top);
+    top = below;
+  }
+}
+
+// ---- zipping
+
+void LiveGraph::zip(Index a, Index b) {
+  while (b != kNone) {
+    const Index arc_a = references_[a].arc, arc_b = references_[b].arc;
+    if (arc_a != arc_b) {
+      const Index lo_a = arcs_[arc_a].lo, lo_b = arcs_[arc_b].lo;
+      if (lo_a == lo_b) {
+        if (arcs_[arc_a].references >= arcs_[arc_b].references)
+          merge_parallel(arc_a, arc_b);
+        else
+          merge_parallel(arc_b, arc_a);
+      } else if (nodes_[lo_a].key < nodes_[lo_b].key) {
+        cut(arc_a, arc_b);
+      } else {
+        cut(arc_b, arc_a);
+      }
+    }
+    // Both references are on the same arc now, and one is enough.
+    unlink(b);
+    const Index below = references_[b].down;
+    free_reference(b);
+    b = below;
+    a = references_[a].down;
+  }
+}
+
+// Two arcs with the same ends become one.
+void LiveGraph::merge_parallel(Index keep, Index gone) {
+  Index last = kNone;
+  for (Index r = arcs_[gone].first_reference; r != kNone; r = references_[r].next) {
+    references_[r].arc = keep;
+    last = r;
+  }
+  Arc& kept = arcs_[keep];
+  references_[last].next = kept.first_reference;
+  if (kept.first_reference != kNone) references_[kept.first_reference].prev = last;
+  kept.first_reference = arcs_[gone].first_reference;
+  kept.references += arcs_[gone].references;
+  queue(arcs_[gone].lo);
+  queue(arcs_[gone].hi);
+  detach_lo(gone);
+  detach_hi(gone);
+  free_arc(gone);
+}
+
+// `longer` and `shorter` have the same upper end: the upper part of `longer` becomes one with
+// `shorter`, what is left of it ends at the lower node of `shorter`.
+void LiveGraph::cut(Index longer, Index shorter) {
+  queue(arcs_[longer].hi);
+  detach_hi(longer);
+  Index r = std::exchange(arcs_[longer].first_reference, kNone);
+  arcs_[longer].references = 0;
+  while (r != kNone) {
+    const Index next = references_[r].next;
+    const Index rest = new_reference();
+    references_[rest].down = std::exchange(references_[r].down, rest);
+    link(rest, longer);
+    link(r, shorter);
+    r = next;
+  }
+  attach_hi(longer, arcs_[shorter].lo);
+}
+
+// ---- completing, contracting, settling
+
+void LiveGraph::queue(Index n) {
+  Node& node = nodes_[n];
+  if (node.queued || node.state == State::kIncomplete) return;
+  node.queued = true;
+  changed_.push_back(n);
+}
+
+void LiveGraph::complete(Index n) {
+  nodes_[n].state = State::kComplete;
+  queue(n);
+}
+
+void LiveGraph::tidy() {
+  while (!changed_.empty()) {
+    const Index n = changed_.back();
+    changed_.pop_back();
+    Node& node = nodes_[n];
+    node.queued = false;
+    if (!node.used) continue;
+    if (node.state == State::kComplete && is_pass_through(node))
+      contract(n);
+    else if (node.referenced_arcs == 0)
+      settle(n);
+  }
+}
+
+// The two arcs of a (1, 1) node become one: every path on the upper arc goes on along the lower
+// one, since no path ends at a complete vertex.
+void LiveGraph::contract(Index n) {
+  const Index upper = nodes_[n].up_first, lower = nodes_[n].down_first;
+  for (Index r = arcs_[upper].first_reference; r != kNone; r = references_[r].next) {
+    const Index skipped = references_[r].down;
+    references_[r].down = references_[skipped].down;
+    free_reference(skipped);
+  }
+  const Index lo = arcs_[lower].lo;
+  detach_lo(lower);
+  detach_hi(lower);
+  free_arc(lower);
+  detach_lo(upper);
+  attach_lo(upper, lo);
+  free_node(n);
+  if (nodes_[lo].state == State::kSettled && nodes_[arcs_[upper].hi].state == State::kSettled)
+    hand_over(upper);
+}
+
+void LiveGraph::settle(Index n) {
+  nodes_[n].state = State::kSettled;
+  for (Index a = nodes_[n].up_first; a != kNone;) {
+    const Index next = arcs_[a].lo_next;
+    if (nodes_[arcs_[a].hi].state == State::kSettled) hand_over(a);
+    a = next;
+  }
+  for (Index a = nodes_[n].down_first; a != kNone;) {
+    const Index next = arcs_[a].hi_next;
+    if (nodes_[arcs_[a].lo].state == State::kSettled) hand_over(a);
+    a = next;
+  }
+  // A settled node leaves with its last arc; one without arcs leaves now.
+  if (nodes_[n].up_degree + nodes_[n].down_degree == 0) {
+    settled_nodes_.push_back({nodes_[n].key, track_positions_ ? positions_[n] : Point{}});
+    free_node(n);
+  }
+}
+
+void LiveGraph::hand_over(Index a) {
+  const Index lo = arcs_[a].lo, hi = arcs_[a].hi;
+  settled_arcs_.push_back({nodes_[lo].key, nodes_[hi].key});
+  detach_lo(a);
+  detach_hi(a);
+  free_arc(a);
+  for (const Index n : {lo, hi})
+    if (nodes_[n].up_degree + nodes_[n].down_degree == 0) queue(n);
+}
+
+void LiveGraph::flush() {
+  if (!settled_nodes_.empty()) sink_->add_nodes(settled_nodes_);
+  if (!settled_arcs_.empty()) sink_->add_arcs(settled_arcs_);
+  settled_nodes_.clear();
+  settled_arcs_.clear();
+}
+
+// ---- looking
+
+void LiveGraph::snapshot(std::vector<ArcKeys>& arcs, std::vector<SweepKey>& isolated) const {
+  // A settled node may have handed over arcs already, so its degree here says nothing.
+  const auto stays = [&](const Node& n) { return n.state == State::kSettled || !is_pass_through(n); };
+  for (const Node& node : nodes_) {
+    if (!node.used || !stays(node)) continue;
+    if (node.up_degree + node.down_degree == 0 && node.state != State::kSettled) isolated.push_back(node.key);
+    for (Index a = node.up_first; a != kNone; a = arcs_[a].lo_next) {
+      Index end = arcs_[a].hi;
+      while (!stays(nodes_[end])) end = arcs_[nodes_[end].up_first].hi;
+      arcs.push_back({node.key, nodes_[end].key});
+    }
+  }
+}
+
+std::size_t LiveGraph::memory_bytes() const {
+  return nodes_.capacity() * sizeof(Node) + positions_.capacity() * sizeof(Point) +
+         arcs_.capacity() * sizeof(Arc) + references_.capacity() * sizeof(Reference) +
+         changed_.capacity() * sizeof(Index) + settled_nodes_.capacity() * sizeof(SettledNode) +
+         settled_arcs_.capacity() * sizeof(ArcKeys);
+}
+
+void LiveGraph::validate() const {
+  const auto fail = [](const std::string& what, std::size_t id) {
+    throw std::logic_error("LiveGraph: " + what + " " + std::to_string(id));
+  };
+  std::vector<std::uint32_t> up(nodes_.size()), down(nodes_.size()), referenced(nodes_.size());
+  std::size_t on_arcs = 0;
+  for (Index a = 0; a < arcs_.size(); ++a) {
+    const Arc& arc = arcs_[a];
+    if (arc.lo == kNone) continue;
+    if (!nodes_[arc.lo].used || !nodes_[arc.hi].used) fail("a free node ends arc", a);
+    if (!(nodes_[arc.lo].key < nodes_[arc.hi].key)) fail("not upward: arc", a);
+    ++up[arc.lo];
+    ++down[arc.hi];
+    std::uint32_t references = 0;
+    for (Index r = arc.first_reference; r != kNone; r = references_[r].next, ++references) {
+      if (references_[r].arc != a) fail("on the wrong arc: reference", r);
+      const Index below = references_[r].down;
+      if (below != kNone && arcs_[references_[below].arc].hi != arc.lo) fail("path broken below reference", r);
+    }
+    if (references != arc.references) fail("wrong number of references on arc", a);
+    on_arcs += references;
+    if (references != 0) {
+      ++referenced[arc.lo];
+      ++referenced[arc.hi];
+    }
+  }
+  if (on_arcs != reference_count()) fail("references astray:", reference_count() - on_arcs);
+  for (Index n = 0; n < nodes_.size(); ++n) {
+    const Node& node = nodes_[n];
+    if (!node.used) continue;
+    if (node.up_degree != up[n] || node.down_degree != down[n]) fail("wrong degree of node", n);
+    if (node.referenced_arcs != referenced[n]) fail("wrong count of referenced arcs at node", n);
+  }
+}
+
+}  // namespace reeb

@@ -1,0 +1,122 @@
+// The part of the Reeb graph that can still change: nodes, arcs, and the paths of mesh edges
+// (the paper's section 2; DESIGN.md 2).
+//
+// A path is a chain of references, one on each arc of a monotone chain, from above; each arc
+// lists the references on it. Two paths with the same ends are zipped: their arcs are merged from
+// above, the shorter arc cutting the longer one. A node whose vertex is complete (all its
+// simplices are in) disappears when it has one arc up and one down. A node is settled when it is
+// complete and none of its arcs is referenced; an arc whose ends are settled leaves for the sink.
+//
+// Everything is a 32-bit index into flat arrays with free lists; a reference is 16 bytes.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "libreeb/base/sweep_key.h"
+#include "libreeb/graph/reeb_graph.h"
+#include "libreeb/port/graph_sink.h"
+
+namespace reeb {
+
+class LiveGraph {
+ public:
+  using Index = std::uint32_t;
+  static constexpr Index kNone = ~Index{0};
+
+  // Whether a node's vertex can get further simplices, or not, or the node cannot change at all.
+  enum class State : std::uint8_t { kIncomplete, kComplete, kSettled };
+
+  // Settled nodes and arcs go to `sink` when flush() is called.
+  LiveGraph(GraphSink& sink, bool track_positions) : sink_(&sink), track_positions_(track_positions) {}
+
+  Index add_node(const SweepKey& key, const Point& position, State state);
+  Index add_arc(Index lo, Index hi);
+  const SweepKey& key(Index node) const { return nodes_[node].key; }
+  bool is_incomplete(Index node) const {
+    return nodes_[node].used && nodes_[node].state == State::kIncomplete;
+  }
+
+  // Puts a reference on `arc` above the path that starts with `below` (kNone: nothing), and
+  // returns it: the top of a path is a name for it.
+  Index add_reference(Index arc, Index below);
+  // Merges two paths with the same ends into one. `a` stays a valid top, `b` is gone.
+  void zip(Index a, Index b);
+  // Forgets the path from `top` down.
+  void drop_path(Index top);
+  // The node's vertex gets no further simplices. REQUIRES: no path starts or ends at it.
+  void complete(Index node);
+  // Contracts and settles what zips have made ready. Not during a walk along a path.
+  void tidy();
+  // Hands what has settled to the sink.
+  void flush();
+
+  // The present graph without its (1, 1) nodes: appends its arcs and isolated nodes.
+  void snapshot(std::vector<ArcKeys>& arcs, std::vector<SweepKey>& isolated) const;
+
+  std::size_t node_count() const { return nodes_.size() - free_nodes_; }
+  std::size_t arc_count() const { return arcs_.size() - free_arcs_; }
+  std::size_t reference_count() const { return references_.size() - free_references_; }
+  std::size_t memory_bytes() const;
+
+  // THROWS: std::logic_error naming the first broken promise. O(live).
+  void validate() const;
+
+ private:
+  struct Node {
+    SweepKey key;
+    Index up_first, down_first;    // lists of arcs; up_first also links free nodes
+    std::uint32_t up_degree, down_degree;
+    std::uint32_t referenced_arcs;  // arcs at this node that have references
+    State state;
+    bool queued;  // in changed_
+    bool used;
+  };
+  struct Arc {
+    Index lo, hi;
+    Index lo_next, lo_prev;  // among the arcs up from lo; lo_next also links free arcs
+    Index hi_next, hi_prev;  // among the arcs down from hi
+    Index first_reference;
+    std::uint32_t references;
+  };
+  struct Reference {
+    Index arc;
+    Index next, prev;  // on the arc; next also links free references
+    Index down;        // the next one of the path
+  };
+
+  void attach_lo(Index arc, Index node);
+  void attach_hi(Index arc, Index node);
+  void detach_lo(Index arc);
+  void detach_hi(Index arc);
+  void free_arc(Index arc);
+  void free_node(Index node);
+  Index new_reference();
+  void free_reference(Index r);
+  void link(Index r, Index arc);
+  void unlink(Index r);
+  void merge_parallel(Index keep, Index gone);
+  void cut(Index longer, Index shorter);
+  void gained_reference(Index arc);
+  void lost_references(Index arc);
+  void queue(Index node);
+  bool is_pass_through(const Node& n) const { return n.up_degree == 1 && n.down_degree == 1; }
+  void contract(Index node);
+  void settle(Index node);
+  void hand_over(Index arc);
+
+  GraphSink* sink_;
+  bool track_positions_;
+  std::vector<Node> nodes_;
+  std::vector<Point> positions_;  // one a node, if tracked
+  std::vector<Arc> arcs_;
+  std::vector<Reference> references_;
+  Index first_free_node_ = kNone, first_free_arc_ = kNone, first_free_reference_ = kNone;
+  std::size_t free_nodes_ = 0, free_arcs_ = 0, free_references_ = 0;
+  std::vector<Index> changed_;  // complete nodes to look at in tidy()
+  std::vector<SettledNode> settled_nodes_;
+  std::vector<ArcKeys> settled_arcs_;
+};
+
+}  // namespace reeb
