@@ -18,19 +18,18 @@ enum VertexUse : std::uint8_t {
   kUsedLater = 2,
 };
 
-// Local vertex i is values[i], ids[i], uses[i]; each mesh vertex occurs once. Vertices without a
-// simplex are isolated points of the chunk.
+// Local vertex i is ids[i], uses[i]; each mesh vertex occurs once. Vertices without a simplex are
+// isolated points of the chunk. Function values lie beside a chunk, one array a function: finite,
+// no -0.0.
 struct Chunk {
-  std::vector<double> values;  // finite, no -0.0
   std::vector<VertexId> ids;
   std::vector<std::uint8_t> uses;
   std::vector<Point> positions;         // one a vertex, or empty when not tracked
   std::vector<std::uint32_t> corners;  // three local vertices a triangle, repeats legal
 
-  std::size_t vertex_count() const { return values.size(); }
+  std::size_t vertex_count() const { return ids.size(); }
   std::size_t triangle_count() const { return corners.size() / 3; }
   void clear() {
-    values.clear();
     ids.clear();
     uses.clear();
     positions.clear();

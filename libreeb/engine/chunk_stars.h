@@ -35,6 +35,11 @@ struct ChunkStars {
   // The last place in the stream at which rank v is used; 0 if nowhere.
   std::uint32_t last_place(std::uint32_t v) const;
 
+  std::size_t memory_bytes() const {
+    return sorted_corners_.capacity() * sizeof(Corners) +
+           4 * (rank.capacity() + lo.capacity() * 6 + low_begin.capacity() * 3);
+  }
+
  private:
   struct Corners {
     std::uint32_t lo, mid, hi, place;

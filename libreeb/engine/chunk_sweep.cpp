@@ -57,6 +57,7 @@ class UpwardEdges {
     --groups_;
   }
 
+  std::size_t memory_bytes() const { return 4 * edge_of_.capacity(); }
   std::uint32_t count() const { return static_cast<std::uint32_t>(hi_.size()); }
   std::uint32_t groups() const { return groups_; }
   std::uint32_t hi(std::uint32_t e) const { return hi_[e]; }
@@ -96,6 +97,7 @@ class Labels {
   void merge_into(std::uint32_t root, std::uint32_t other) { parent_[other] = root; }
   std::uint32_t& arc(std::uint32_t root) { return arc_[root]; }
   std::uint32_t& mark(std::uint32_t root) { return mark_[root]; }
+  std::size_t memory_bytes() const { return 12 * parent_.capacity(); }
 
  private:
   std::vector<std::uint32_t> parent_, arc_, mark_;
@@ -125,7 +127,8 @@ struct TriangleList {
 }  // namespace
 
 struct ChunkSweep::Scratch {
-  void run(const Chunk& chunk_in, Fragment& fragment);
+  void run(const Chunk& chunk_in, std::span<const double> values, Fragment& fragment);
+  std::size_t memory_bytes() const;
 
  private:
   // One group of upward edges during a walk.
@@ -189,16 +192,20 @@ ChunkSweep::~ChunkSweep() = default;
 ChunkSweep::ChunkSweep(ChunkSweep&&) noexcept = default;
 ChunkSweep& ChunkSweep::operator=(ChunkSweep&&) noexcept = default;
 
-void ChunkSweep::run(const Chunk& chunk, Fragment& fragment) { scratch_->run(chunk, fragment); }
+void ChunkSweep::run(const Chunk& chunk, std::span<const double> values, Fragment& fragment) {
+  scratch_->run(chunk, values, fragment);
+}
 
-void ChunkSweep::Scratch::run(const Chunk& chunk_in, Fragment& fragment) {
+std::size_t ChunkSweep::memory_bytes() const { return scratch_->memory_bytes(); }
+
+void ChunkSweep::Scratch::run(const Chunk& chunk_in, std::span<const double> values, Fragment& fragment) {
   chunk = &chunk_in;
-  ranks.sort(chunk->values, chunk->ids);
+  ranks.sort(values, chunk->ids);
   stars.build(*chunk, ranks.order());
   reset();
   const auto n = static_cast<std::uint32_t>(chunk->vertex_count());
   for (std::uint32_t v = 0; v < n; ++v) visit(v);
-  builder.finish(*chunk, ranks.order(), stars, fragment);
+  builder.finish({*chunk, values, ranks.order(), stars}, fragment);
 }
 
 void ChunkSweep::Scratch::reset() {
@@ -211,6 +218,12 @@ void ChunkSweep::Scratch::reset() {
   labels.clear();
   up.reset(chunk->vertex_count());
   builder.start(chunk->vertex_count());
+}
+
+std::size_t ChunkSweep::Scratch::memory_bytes() const {
+  return ranks.memory_bytes() + stars.memory_bytes() + builder.memory_bytes() +
+         4 * (ring.capacity() + label.capacity() + next.capacity() + owner.capacity()) +
+         labels.memory_bytes() + up.memory_bytes();
 }
 
 void ChunkSweep::Scratch::visit(std::uint32_t v) {

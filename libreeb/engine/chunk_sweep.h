@@ -11,8 +11,10 @@
 // MEMORY: about 70 bytes a triangle of scratch, kept for the next chunk.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
 
 #include "libreeb/engine/chunk.h"
 #include "libreeb/engine/fragment.h"
@@ -26,8 +28,9 @@ class ChunkSweep {
   ChunkSweep(ChunkSweep&&) noexcept;
   ChunkSweep& operator=(ChunkSweep&&) noexcept;
 
-  // Replaces `fragment` by that of `chunk`.
-  void run(const Chunk& chunk, Fragment& fragment);
+  // Replaces `fragment` by that of `chunk` with values[i] at local vertex i.
+  void run(const Chunk& chunk, std::span<const double> values, Fragment& fragment);
+  std::size_t memory_bytes() const;
 
  private:
   struct Scratch;

@@ -54,6 +54,7 @@ struct Fragment {
 
   std::size_t triangle_count = 0;  // of the chunk
 
+  std::size_t memory_bytes() const;
   void clear() {
     nodes.clear();
     positions.clear();

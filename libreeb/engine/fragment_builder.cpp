@@ -52,13 +52,12 @@ void FragmentBuilder::note_branch(std::uint32_t lo, std::uint32_t hi, std::uint3
   edge->last_note = note;
 }
 
-void FragmentBuilder::finish(const Chunk& chunk, std::span<const std::uint32_t> order,
-                             const ChunkStars& stars, Fragment& fragment) {
+void FragmentBuilder::finish(const Sweep& sweep, Fragment& fragment) {
   fragment.clear();
-  fragment.triangle_count = chunk.triangle_count();
+  fragment.triangle_count = sweep.chunk.triangle_count();
   trace_paths(fragment);
-  divide(chunk, order, fragment);
-  add_steps(chunk, order, stars, fragment);
+  divide(sweep, fragment);
+  add_steps(sweep, fragment);
 }
 
 void FragmentBuilder::trace_paths(Fragment& fragment) {
@@ -81,13 +80,8 @@ void FragmentBuilder::trace_paths(Fragment& fragment) {
 
 // Divides nodes and arcs into open and settled ones (DESIGN.md 2): an arc is settled if no path
 // runs on it and none of its ends can change; a node leaves when all its arcs do.
-void FragmentBuilder::divide(const Chunk& chunk, std::span<const std::uint32_t> order, Fragment& fragment) {
-  const auto uses = [&](const Node& node) { return chunk.uses[order[node.vertex]]; };
-  const auto key = [&](const Node& node) {
-    const std::uint32_t local = order[node.vertex];
-    return SweepKey{chunk.values[local], chunk.ids[local]};
-  };
-  for (Node& node : nodes_) node.can_change = uses(node) != kUsedHereOnly;
+void FragmentBuilder::divide(const Sweep& sweep, Fragment& fragment) {
+  for (Node& node : nodes_) node.can_change = sweep.uses(node.vertex) != kUsedHereOnly;
   for (const Arc& arc : arcs_)
     if (arc.referenced) nodes_[arc.lo].can_change = nodes_[arc.hi].can_change = true;
   for (Node& node : nodes_) node.open = node.can_change ? 0 : kNone;
@@ -97,7 +91,7 @@ void FragmentBuilder::divide(const Chunk& chunk, std::span<const std::uint32_t> 
   for (std::size_t a = 0; a < arcs_.size(); ++a) {
     Node &lo = nodes_[arcs_[a].lo], &hi = nodes_[arcs_[a].hi];
     if (!lo.can_change && !hi.can_change) {
-      fragment.settled_arcs.push_back({key(lo), key(hi)});
+      fragment.settled_arcs.push_back({sweep.key(lo.vertex), sweep.key(hi.vertex)});
     } else {
       open_arc_[a] = open_arcs++;
       lo.open = hi.open = 0;
@@ -105,14 +99,15 @@ void FragmentBuilder::divide(const Chunk& chunk, std::span<const std::uint32_t> 
   }
 
   for (Node& node : nodes_) {
-    const Point position = chunk.positions.empty() ? Point{} : chunk.positions[order[node.vertex]];
+    const SweepKey key = sweep.key(node.vertex);
+    const Point position = sweep.position(node.vertex);
     if (node.open == kNone) {
-      fragment.settled_nodes.push_back({key(node), position});
+      fragment.settled_nodes.push_back({key, position});
       continue;
     }
     node.open = static_cast<std::uint32_t>(fragment.nodes.size());
-    fragment.nodes.push_back({key(node), uses(node), !node.can_change});
-    if (!chunk.positions.empty()) fragment.positions.push_back(position);
+    fragment.nodes.push_back({key, sweep.uses(node.vertex), !node.can_change});
+    if (!sweep.chunk.positions.empty()) fragment.positions.push_back(position);
   }
   for (std::size_t a = 0; a < arcs_.size(); ++a)
     if (open_arc_[a] != kNone) fragment.arcs.push_back({nodes_[arcs_[a].lo].open, nodes_[arcs_[a].hi].open});
@@ -121,17 +116,22 @@ void FragmentBuilder::divide(const Chunk& chunk, std::span<const std::uint32_t> 
   for (std::uint32_t& arc : fragment.path_arcs) arc = open_arc_[arc];
 }
 
-void FragmentBuilder::add_steps(const Chunk& chunk, std::span<const std::uint32_t> order,
-                                const ChunkStars& stars, Fragment& fragment) {
+void FragmentBuilder::add_steps(const Sweep& sweep, Fragment& fragment) {
   for (std::uint32_t e = 0; e < shared_.size(); ++e)
     fragment.steps.push_back({shared_[e].place, e, false});
   for (const Node& node : nodes_)
-    if (chunk.uses[order[node.vertex]] == kUsedEarlier)
-      fragment.steps.push_back({stars.last_place(node.vertex), node.open, true});
+    if (sweep.uses(node.vertex) == kUsedEarlier)
+      fragment.steps.push_back({sweep.stars.last_place(node.vertex), node.open, true});
   std::sort(fragment.steps.begin(), fragment.steps.end(),
             [](const Fragment::Step& a, const Fragment::Step& b) {
               return std::tie(a.place, a.completes, a.index) < std::tie(b.place, b.completes, b.index);
             });
+}
+
+std::size_t FragmentBuilder::memory_bytes() const {
+  return nodes_.capacity() * sizeof(Node) + arcs_.capacity() * sizeof(Arc) +
+         shared_.capacity() * sizeof(Shared) + notes_.capacity() * sizeof(Note) +
+         4 * (shared_begin_.capacity() + node_of_.capacity() + open_arc_.capacity());
 }
 
 }  // namespace reeb

@@ -35,8 +35,21 @@ class FragmentBuilder {
   // If lo-hi is a shared edge, its path goes up from `node` by `arc`.
   void note_branch(std::uint32_t lo, std::uint32_t hi, std::uint32_t node, std::uint32_t arc);
 
-  void finish(const Chunk& chunk, std::span<const std::uint32_t> order, const ChunkStars& stars,
-              Fragment& fragment);
+  // What the sweep ran over; order[r] is the local vertex of rank r.
+  struct Sweep {
+    const Chunk& chunk;
+    std::span<const double> values;
+    std::span<const std::uint32_t> order;
+    const ChunkStars& stars;
+
+    std::uint8_t uses(std::uint32_t v) const { return chunk.uses[order[v]]; }
+    SweepKey key(std::uint32_t v) const { return {values[order[v]], chunk.ids[order[v]]}; }
+    Point position(std::uint32_t v) const {
+      return chunk.positions.empty() ? Point{} : chunk.positions[order[v]];
+    }
+  };
+  void finish(const Sweep& sweep, Fragment& fragment);
+  std::size_t memory_bytes() const;
 
  private:
   struct Node {
@@ -59,9 +72,8 @@ class FragmentBuilder {
   };
 
   void trace_paths(Fragment& fragment);
-  void divide(const Chunk& chunk, std::span<const std::uint32_t> order, Fragment& fragment);
-  void add_steps(const Chunk& chunk, std::span<const std::uint32_t> order, const ChunkStars& stars,
-                 Fragment& fragment);
+  void divide(const Sweep& sweep, Fragment& fragment);
+  void add_steps(const Sweep& sweep, Fragment& fragment);
 
   std::vector<Node> nodes_;
   std::vector<Arc> arcs_;

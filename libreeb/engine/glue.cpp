@@ -71,13 +71,6 @@ void Glue::run_steps(const Fragment& fragment) {
   }
 }
 
-void Glue::complete(VertexId vertex) {
-  const Index n = node_of_.find(vertex.value());
-  if (n == kNone) return;
-  complete_node(n);
-  graph_.flush();
-}
-
 void Glue::complete_all() {
   for (Index n = 0; n < first_link_.size(); ++n)
     if (graph_.is_incomplete(n)) complete_node(n);

@@ -29,8 +29,6 @@ class Glue {
   // called used later there.
   void add(const Fragment& fragment);
 
-  // No later fragment has this vertex, though the last one that had it said otherwise.
-  void complete(VertexId vertex);
   // No later fragment has anything.
   void complete_all();
 

@@ -19,6 +19,9 @@ class VertexRanks {
   void sort(std::span<const double> values, std::span<const VertexId> ids);
 
   std::span<const std::uint32_t> order() const { return order_; }
+  std::size_t memory_bytes() const {
+    return (entries_.capacity() + other_.capacity()) * sizeof(Entry) + order_.capacity() * 4;
+  }
 
  private:
   struct Entry {

@@ -1,0 +1,12 @@
+#include "libreeb/engine/fragment.h"
+
+namespace reeb {
+
+std::size_t Fragment::memory_bytes() const {
+  return nodes.capacity() * sizeof(Node) + positions.capacity() * sizeof(Point) +
+         arcs.capacity() * sizeof(Arc) + edges.capacity() * sizeof(SharedEdge) +
+         4 * (path_begin.capacity() + path_arcs.capacity()) + steps.capacity() * sizeof(Step) +
+         settled_nodes.capacity() * sizeof(SettledNode) + settled_arcs.capacity() * sizeof(ArcKeys);
+}
+
+}  // namespace reeb

@@ -1,0 +1,111 @@
+#include "libreeb/engine/stream_chunker.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "libreeb/base/error.h"
+
+namespace reeb {
+
+VertexId StreamChunker::add_vertex(std::span<const double> values, const Point& position) {
+  const VertexId v(next_vertex_);
+  for (const double value : values)
+    if (!std::isfinite(value))
+      throw Error(ErrorKind::kBadInput, "the value of vertex " + std::to_string(v.value()) + " is not finite",
+                  "give every vertex a finite function value");
+  ++next_vertex_;
+  std::uint32_t slot;
+  if (free_slots_.empty()) {
+    slot = static_cast<std::uint32_t>(local_.size());
+    local_.push_back(kNone);
+    slot_values_.resize(slot_values_.size() + functions_);
+    if (track_positions_) slot_positions_.emplace_back();
+  } else {
+    slot = free_slots_.back();
+    free_slots_.pop_back();
+  }
+  local_[slot] = kNone;
+  for (std::size_t k = 0; k < functions_; ++k)
+    slot_values_[slot * functions_ + k] = values[k] + 0.0;  // -0.0 becomes 0.0
+  if (track_positions_) slot_positions_[slot] = position;
+  slot_of_.find_or_insert(v.value(), slot);
+  bring_in(v, slot, kUsedLater);
+  return v;
+}
+
+std::uint32_t StreamChunker::slot_of(VertexId v, const char* use) const {
+  const std::uint32_t slot = slot_of_.find(v.value());
+  if (slot != FlatMap::kNone) return slot;
+  const bool known = v.value() < next_vertex_;
+  throw Error(ErrorKind::kBadInput,
+              std::string(use) + " vertex " + std::to_string(v.value()) +
+                  (known ? ", which was finalized before"
+                         : ", but only " + std::to_string(next_vertex_) + " vertices were added"),
+              known ? "finalize a vertex once, after the last simplex that uses it"
+                    : "add every vertex before the first simplex that uses it");
+}
+
+// Gives a vertex a place in the chunk.
+std::uint32_t StreamChunker::bring_in(VertexId v, std::uint32_t slot, std::uint8_t uses) {
+  if (local_[slot] != kNone) return local_[slot];
+  local_[slot] = static_cast<std::uint32_t>(chunk_.vertex_count());
+  chunk_.ids.push_back(v);
+  chunk_.uses.push_back(uses);
+  if (track_positions_) chunk_.positions.push_back(slot_positions_[slot]);
+  for (std::size_t k = 0; k < functions_; ++k) values_[k].push_back(slot_values_[slot * functions_ + k]);
+  slot_of_local_.push_back(slot);
+  return local_[slot];
+}
+
+void StreamChunker::add_simplex(std::span<const VertexId> corners) {
+  corners_.assign(corners.begin(), corners.end());
+  std::sort(corners_.begin(), corners_.end());
+  corners_.erase(std::unique(corners_.begin(), corners_.end()), corners_.end());
+  for (const VertexId v : corners_) slot_of(v, "a simplex names");
+  const std::size_t n = corners_.size();
+  if (n == 2) add_triangle(corners_[0], corners_[1], corners_[1]);
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = i + 1; j < n; ++j)
+      for (std::size_t k = j + 1; k < n; ++k) add_triangle(corners_[i], corners_[j], corners_[k]);
+}
+
+void StreamChunker::add_triangle(VertexId a, VertexId b, VertexId c) {
+  for (const VertexId v : {a, b, c})
+    chunk_.corners.push_back(bring_in(v, slot_of_.find(v.value()), kUsedEarlier | kUsedLater));
+}
+
+void StreamChunker::finalize(VertexId v) { finalize(v, slot_of(v, "finalized is")); }
+
+void StreamChunker::finalize_all() {
+  for (std::uint64_t v = 0; v < next_vertex_ && slot_of_.size() != 0; ++v)
+    if (const std::uint32_t slot = slot_of_.find(v); slot != FlatMap::kNone) finalize(VertexId(v), slot);
+}
+
+// A vertex that is not in the chunk comes in as a loose vertex, to be completed with it.
+void StreamChunker::finalize(VertexId v, std::uint32_t slot) {
+  const std::uint32_t local = bring_in(v, slot, kUsedEarlier);
+  chunk_.uses[local] &= static_cast<std::uint8_t>(~kUsedLater);
+  slot_of_local_[local] = kNone;
+  slot_of_.erase(v.value());
+  free_slots_.push_back(slot);
+}
+
+void StreamChunker::take(Chunk& chunk, std::vector<std::vector<double>>& values) {
+  for (const std::uint32_t slot : slot_of_local_)
+    if (slot != kNone) local_[slot] = kNone;
+  slot_of_local_.clear();
+  std::swap(chunk, chunk_);
+  std::swap(values, values_);
+  chunk_.clear();
+  values_.resize(functions_);
+  for (auto& column : values_) column.clear();
+}
+
+std::size_t StreamChunker::memory_bytes() const {
+  return slot_of_.memory_bytes() + 4 * (local_.capacity() + free_slots_.capacity()) +
+         8 * slot_values_.capacity() + slot_positions_.capacity() * sizeof(Point);
+}
+
+}  // namespace reeb

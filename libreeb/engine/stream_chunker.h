@@ -1,0 +1,71 @@
+// Cuts a stream of vertices, simplices and finalizations into chunks (DESIGN.md 1.1, 2).
+//
+// Holds the vertices that are not final yet and the chunk that is being filled, nothing else.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "libreeb/base/flat_map.h"
+#include "libreeb/base/ids.h"
+#include "libreeb/engine/chunk.h"
+
+namespace reeb {
+
+class StreamChunker {
+ public:
+  // `functions`: how many values a vertex has.
+  StreamChunker(std::size_t functions, bool track_positions)
+      : functions_(functions), track_positions_(track_positions), values_(functions) {}
+
+  // Adds the next vertex and returns its index: 0, 1, 2, ...
+  // THROWS: Error{kBadInput} if a value is not finite.
+  VertexId add_vertex(std::span<const double> values, const Point& position);
+
+  // Adds the simplex with this set of corners (repeats are ignored), of any dimension, through
+  // its 2-skeleton.
+  // THROWS: Error{kBadInput} if a corner was not added or was finalized.
+  void add_simplex(std::span<const VertexId> corners);
+
+  // THROWS: Error{kBadInput} if `v` was not added or was finalized before.
+  void finalize(VertexId v);
+  void finalize_all();
+
+  // Triangles, or vertices where they are more, of the chunk so far.
+  std::size_t chunk_size() const { return std::max(chunk_.triangle_count(), chunk_.vertex_count()); }
+  // Moves the chunk so far out, with one array of values a function, and starts the next.
+  void take(Chunk& chunk, std::vector<std::vector<double>>& values);
+
+  std::uint64_t vertex_count() const { return next_vertex_; }
+  std::size_t active_vertices() const { return slot_of_.size(); }
+  std::size_t memory_bytes() const;
+
+ private:
+  static constexpr std::uint32_t kNone = ~std::uint32_t{0};
+
+  std::uint32_t slot_of(VertexId v, const char* use) const;
+  std::uint32_t bring_in(VertexId v, std::uint32_t slot, std::uint8_t uses);
+  void add_triangle(VertexId a, VertexId b, VertexId c);
+  void finalize(VertexId v, std::uint32_t slot);
+
+  std::size_t functions_;
+  bool track_positions_;
+  std::uint64_t next_vertex_ = 0;
+
+  // Vertices that are not final, by slot.
+  FlatMap slot_of_;
+  std::vector<std::uint32_t> local_;  // in the chunk, or kNone
+  std::vector<double> slot_values_;   // functions_ a slot
+  std::vector<Point> slot_positions_;
+  std::vector<std::uint32_t> free_slots_;
+
+  Chunk chunk_;
+  std::vector<std::vector<double>> values_;
+  std::vector<std::uint32_t> slot_of_local_;  // kNone once the vertex is final
+  std::vector<VertexId> corners_;
+};
+
+}  // namespace reeb
