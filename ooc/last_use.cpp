@@ -28,6 +28,7 @@ class Scan {
       : mesh_(mesh),
         options_(options),
         table_("last uses", temp, budget, options.allowance_bytes, UseEntry::kUnused),
+        most_blocks_(std::max<std::size_t>(2, options.most_blocks & ~1u)),
         block_triangles_(std::max<std::uint64_t>(1, options.block_triangles)),
         change_charge_(budget.reserve("last uses", 0)) {
     summary_.vertex_count = mesh.vertex_count();
@@ -36,19 +37,18 @@ class Scan {
   // False if it gave up.
   bool read_triangles() {
     std::vector<VertexId> corners;
-    open_block();
+    std::uint64_t in_block = 0;
     mesh_.rewind();
-    while (mesh_.read(corners, static_cast<std::size_t>(block_triangles_ - in_block_))) {
+    while (mesh_.read(corners, static_cast<std::size_t>(block_triangles_ - in_block))) {
+      if (in_block == 0) open_block();
       use(corners);
-      in_block_ += corners.size() / 3;
+      in_block += corners.size() / 3;
       summary_.triangle_count += corners.size() / 3;
-      if (in_block_ == block_triangles_) {
-        open_block();
-        if (options_.give_up_when_incoherent && is_thrashing()) return false;
-        if (options_.progress) options_.progress(mesh_);
-      }
+      if (in_block < block_triangles_) continue;
+      in_block = 0;
+      if (options_.give_up_when_incoherent && is_thrashing()) return false;
+      if (options_.progress) options_.progress(mesh_);
     }
-    if (in_block_ == 0) live_change_.pop_back();
     return true;
   }
 
@@ -71,15 +71,13 @@ class Scan {
 
  private:
   void open_block() {
-    if (live_change_.size() >= options_.most_blocks) double_blocks();
-    if (in_block_ != block_triangles_ && !live_change_.empty()) return;  // the last grew open
+    if (live_change_.size() == most_blocks_) double_blocks();
     if (live_change_.size() == live_change_.capacity()) {
       const std::size_t capacity = std::max<std::size_t>(1024, 2 * live_change_.size());
       change_charge_.resize(capacity * sizeof(std::int32_t));
       live_change_.reserve(capacity);
     }
     live_change_.push_back(0);
-    in_block_ = 0;
   }
 
   void use(std::span<const VertexId> corners) {
@@ -111,12 +109,9 @@ class Scan {
                        for (std::uint32_t& packed : entries) packed = halved(UseEntry(packed));
                        table_.write(first, entries);
                      });
-    const std::size_t count = live_change_.size();
-    for (std::size_t b = 0; b < count; b += 2)
-      live_change_[b / 2] = live_change_[b] + (b + 1 < count ? live_change_[b + 1] : 0);
-    live_change_.resize((count + 1) / 2);
-    // An odd last block becomes the first half of one that goes on.
-    in_block_ = count % 2 != 0 ? block_triangles_ : 2 * block_triangles_;
+    for (std::size_t b = 0; b < live_change_.size() / 2; ++b)
+      live_change_[b] = live_change_[2 * b] + live_change_[2 * b + 1];
+    live_change_.resize(live_change_.size() / 2);
     block_triangles_ *= 2;
   }
 
@@ -148,8 +143,8 @@ class Scan {
   IndexedMesh& mesh_;
   const LastUseOptions& options_;
   PagedTable<std::uint32_t> table_;
+  std::size_t most_blocks_;  // even, so that blocks can be joined in pairs
   std::uint64_t block_triangles_;
-  std::uint64_t in_block_ = 0;  // triangles in the open block
   Reservation change_charge_;
   // By block: vertices used first in it, less those used last.
   std::vector<std::int32_t> live_change_;

@@ -46,7 +46,7 @@ struct LastUseOptions {
   // Give up early on a mesh so incoherent that the table would be paged in and out all the time.
   bool give_up_when_incoherent = false;
   std::uint32_t most_blocks = UseEntry::kMostBlocks;
-  std::function<void(const IndexedMesh&)> progress;  // called about once a block
+  std::function<void(const IndexedMesh&)> progress = {};  // called about once a block
 };
 
 // What the pass learned besides the table.
