@@ -1,0 +1,30 @@
+// Extended persistence by reducing the boundary matrix of the ascending and descending cone
+// filtration, modulo 2 (Agarwal, Edelsbrunner, Harer, Wang 2004; DESIGN.md 1.4). Cubic, and apart
+// from anything that the second stage does.
+#pragma once
+
+#include <vector>
+
+#include "libreeb/graph/reeb_graph.h"
+#include "libreeb/hierarchy/hierarchy.h"
+#include "tests/support/complex.h"
+
+namespace reeb::test {
+
+// All pairs, sorted by type, lo, hi; a node of higher degree occurs several times.
+std::vector<PersistencePair> reference_pairs(const ReebGraph& graph);
+
+// Type and the two vertices, where nodes are not numbered.
+struct VertexPair {
+  PairType type;
+  VertexId lo, hi;
+  friend auto operator<=>(const VertexPair&, const VertexPair&) = default;
+};
+std::vector<VertexPair> vertex_pairs(const ReebGraph& graph,
+                                     const std::vector<PersistencePair>& pairs);  // sorted
+
+// The same pairs from the complex itself, without its Reeb graph: those of its 2-skeleton in
+// dimension 0, and of dimension 1 the relative ones and the extended ones with lo below hi.
+std::vector<VertexPair> reference_pairs(const Complex& complex);  // sorted
+
+}  // namespace reeb::test

@@ -1,0 +1,188 @@
+#include "tests/model/reference_reeb.h"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <sstream>
+#include <stdexcept>
+
+#include "tests/support/partition.h"
+
+namespace reeb::test {
+namespace {
+
+// The 2-skeleton over ranks: the vertices in the total order are 0, 1, 2, ..., and the function is
+// the rank. Corners ascend.
+struct RankedComplex {
+  std::size_t vertex_count = 0;
+  std::vector<std::array<std::size_t, 2>> edges;
+  std::vector<std::array<std::size_t, 3>> triangles;  // as numbers of vertices
+};
+
+RankedComplex rank_vertices(const Complex& complex, const std::vector<std::uint64_t>& order) {
+  std::vector<std::size_t> rank(order.size());
+  for (std::size_t r = 0; r < order.size(); ++r) rank[order[r]] = r;
+  RankedComplex ranked;
+  ranked.vertex_count = order.size();
+  const Skeleton skeleton = two_skeleton(complex);
+  for (const auto& [a, b] : skeleton.edges)
+    ranked.edges.push_back({std::min(rank[a], rank[b]), std::max(rank[a], rank[b])});
+  for (const auto& [a, b, c] : skeleton.triangles) {
+    std::array<std::size_t, 3> corners{rank[a], rank[b], rank[c]};
+    std::sort(corners.begin(), corners.end());
+    ranked.triangles.push_back(corners);
+  }
+  std::sort(ranked.edges.begin(), ranked.edges.end());
+  return ranked;
+}
+
+// One level set, at height h / 2: even h is the level of vertex h / 2, odd h lies between two.
+// Its points are the edges that cross the level and the vertex on it; a triangle that crosses the
+// level joins the two points in which its boundary does.
+class LevelSet {
+ public:
+  LevelSet(const RankedComplex& complex, std::size_t height)
+      : complex_(&complex), height_(height), sets_(complex.edges.size() + 1) {
+    for (const auto& [a, b, c] : complex.triangles) {
+      if (!crosses(a, c)) continue;
+      const std::size_t opposite = point_of_edge(a, c);
+      if (2 * b == height) sets_.unite(opposite, vertex_point());
+      if (crosses(a, b)) sets_.unite(opposite, point_of_edge(a, b));
+      if (crosses(b, c)) sets_.unite(opposite, point_of_edge(b, c));
+    }
+  }
+
+  bool crosses(std::size_t a, std::size_t b) const { return 2 * a < height_ && height_ < 2 * b; }
+  bool crosses(std::size_t edge) const {
+    return crosses(complex_->edges[edge][0], complex_->edges[edge][1]);
+  }
+  std::size_t component_of_edge(std::size_t edge) { return sets_.find(edge); }
+  // REQUIRES: the level of a vertex.
+  std::size_t component_of_vertex() { return sets_.find(vertex_point()); }
+
+ private:
+  std::size_t vertex_point() const { return complex_->edges.size(); }
+  std::size_t point_of_edge(std::size_t a, std::size_t b) const {
+    const std::array<std::size_t, 2> edge{a, b};
+    return static_cast<std::size_t>(
+        std::lower_bound(complex_->edges.begin(), complex_->edges.end(), edge) -
+        complex_->edges.begin());
+  }
+
+  const RankedComplex* complex_;
+  std::size_t height_;
+  Partition sets_;
+};
+
+// A contour at the level of a vertex: a point of the quotient.
+struct Contour {
+  std::optional<std::size_t> vertex;    // that lies on it, by rank
+  std::vector<std::size_t> down, up;    // contours that it is joined with, next level below, above
+  bool regular() const { return down.size() == 1 && up.size() == 1; }
+};
+
+// The quotient before (1, 1) points are left out: contours at the levels of vertices are its
+// points, contours between two such levels its segments.
+class Quotient {
+ public:
+  explicit Quotient(const RankedComplex& complex) : complex_(complex) {
+    if (complex.vertex_count == 0) return;
+    LevelSet below(complex, 0);
+    number_contours(below, 0);
+    for (std::size_t r = 0; r + 1 < complex.vertex_count; ++r) {
+      LevelSet between(complex, 2 * r + 1), above(complex, 2 * r + 2);
+      number_contours(above, r + 1);
+      join(below, between, above, r);
+      below = std::move(above);
+    }
+  }
+
+  const std::vector<Contour>& contours() const { return contours_; }
+
+ private:
+  using Numbers = std::map<std::size_t, std::size_t>;  // component of the level set -> contour
+
+  void number_contours(LevelSet& level, std::size_t rank) {
+    lower_ = std::move(upper_);
+    upper_.clear();
+    upper_[level.component_of_vertex()] = contours_.size();
+    contours_.push_back({rank, {}, {}});
+    for (std::size_t e = 0; e < complex_.edges.size(); ++e) {
+      if (!level.crosses(e)) continue;
+      if (upper_.try_emplace(level.component_of_edge(e), contours_.size()).second)
+        contours_.push_back({});
+    }
+  }
+
+  // Each contour between the levels r and r + 1 shrinks or grows into one contour of either.
+  void join(LevelSet& below, LevelSet& between, LevelSet& above, std::size_t r) {
+    std::map<std::size_t, std::pair<std::size_t, std::size_t>> ends;
+    for (std::size_t e = 0; e < complex_.edges.size(); ++e) {
+      if (!between.crosses(e)) continue;
+      const auto [a, b] = complex_.edges[e];
+      const std::size_t low = a == r ? below.component_of_vertex() : below.component_of_edge(e);
+      const std::size_t high = b == r + 1 ? above.component_of_vertex() : above.component_of_edge(e);
+      const std::pair<std::size_t, std::size_t> end{lower_.at(low), upper_.at(high)};
+      const auto [it, is_new] = ends.try_emplace(between.component_of_edge(e), end);
+      if (it->second != end) throw std::logic_error("a contour continues in two");
+      if (!is_new) continue;
+      contours_[end.first].up.push_back(end.second);
+      contours_[end.second].down.push_back(end.first);
+    }
+  }
+
+  const RankedComplex& complex_;
+  std::vector<Contour> contours_;
+  Numbers lower_, upper_;
+};
+
+}  // namespace
+
+ReebGraph reference_reeb(const Complex& complex) {
+  const std::vector<std::uint64_t> order = sweep_order(complex);
+  const RankedComplex ranked = rank_vertices(complex, order);
+  const Quotient quotient(ranked);
+  const std::vector<Contour>& contours = quotient.contours();
+
+  ReebGraph graph;
+  std::map<std::size_t, NodeId> node_of;
+  for (std::size_t c = 0; c < contours.size(); ++c) {
+    if (contours[c].regular()) continue;
+    if (!contours[c].vertex) throw std::logic_error("a contour without a vertex is not regular");
+    const std::uint64_t vertex = order[*contours[c].vertex];
+    node_of[c] = NodeId(static_cast<std::uint32_t>(graph.nodes.size()));
+    const double value = complex.values[vertex];
+    graph.nodes.push_back({value == 0 ? 0.0 : value, VertexId(vertex)});
+    graph.positions.push_back(complex.positions[vertex]);
+  }
+  std::vector<std::pair<NodeId, NodeId>> arcs;
+  for (const auto& [contour, node] : node_of)
+    for (std::size_t next : contours[contour].up) {
+      while (contours[next].regular()) next = contours[next].up.front();
+      arcs.emplace_back(node, node_of.at(next));
+    }
+  std::sort(arcs.begin(), arcs.end());
+  for (const auto& [lo, hi] : arcs) {
+    graph.lo.push_back(lo);
+    graph.hi.push_back(hi);
+  }
+  return graph;
+}
+
+ReebGraph without_positions(ReebGraph graph) {
+  graph.positions.clear();
+  return graph;
+}
+
+std::string describe(const ReebGraph& graph) {
+  std::ostringstream out;
+  out.precision(17);
+  for (const SweepKey& node : graph.nodes)
+    out << "n " << node.vertex.value() << ' ' << node.value << '\n';
+  for (std::size_t i = 0; i < graph.arc_count(); ++i)
+    out << "a " << graph.nodes[graph.lo[i].value()].vertex.value() << ' '
+        << graph.nodes[graph.hi[i].value()].vertex.value() << '\n';
+  return out.str();
+}
+
+}  // namespace reeb::test

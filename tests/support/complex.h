@@ -1,0 +1,43 @@
+// A small mesh in memory, as tests build it: what an input stream says, in order (DESIGN.md 1.1).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace reeb::test {
+
+struct Complex {
+  std::vector<double> values;  // one a vertex; -0.0 may occur
+  // Corners in any order, of any number from 1 on, possibly repeated.
+  std::vector<std::vector<std::uint64_t>> simplices;
+  std::vector<std::array<double, 3>> positions;  // one a vertex
+  std::string kind;                              // how it was made, for messages
+
+  std::size_t vertex_count() const { return positions.size(); }
+};
+
+// A complex written down by hand, all positions zero.
+Complex make_complex(std::vector<double> values, std::vector<std::vector<std::uint64_t>> simplices);
+
+// The distinct edges and triangles of all simplices, corners ascending by index, sorted.
+struct Skeleton {
+  std::vector<std::array<std::uint64_t, 2>> edges;
+  std::vector<std::array<std::uint64_t, 3>> triangles;
+};
+Skeleton two_skeleton(const Complex& complex);
+
+// The vertices in the total order: by value, ties by index.
+std::vector<std::uint64_t> sweep_order(const Complex& complex);
+
+// The same complex with its simplices, and the corners of each, in another order.
+Complex shuffled(Complex complex, std::uint64_t seed);
+
+// Connected components, isolated vertices included.
+std::uint64_t component_count(const Complex& complex);
+
+// The whole complex as text, for the message of a failed comparison.
+std::string describe(const Complex& complex);
+
+}  // namespace reeb::test
