@@ -1,0 +1,69 @@
+#include "libreeb/hierarchy/working_graph.h"
+
+namespace reeb {
+
+WorkingGraph::WorkingGraph(const ReebGraph& graph)
+    : arcs_(graph.arc_count()), top_(graph.node_count(), {kNone, kNone}) {
+  for (std::uint32_t arc = 0; arc < arc_count(); ++arc) {
+    arcs_[arc].end = {graph.lo[arc].value(), graph.hi[arc].value()};
+    insert(arc, kUp);
+    insert(arc, kDown);
+  }
+}
+
+void WorkingGraph::move_end(std::uint32_t arc, Direction d, std::uint32_t node) {
+  // The end is the arc's key in the heap at its other end, and names the heap at this one.
+  erase(arc, d);
+  erase(arc, opposite(d));
+  arcs_[arc].end[d] = node;
+  insert(arc, d);
+  insert(arc, opposite(d));
+}
+
+void WorkingGraph::remove(std::uint32_t arc) {
+  erase(arc, kUp);
+  erase(arc, kDown);
+  arcs_[arc].end = {kNone, kNone};
+}
+
+// Melds two heaps of arcs of direction d, walking down their right spines: what is passed swaps its
+// children. O(log n) amortized.
+std::uint32_t WorkingGraph::meld(std::uint32_t a, std::uint32_t b, Direction d) {
+  if (a == kNone) return b;
+  if (b == kNone) return a;
+  std::uint32_t root = kNone, parent = kNone;
+  while (a != kNone && b != kNone) {
+    if (key(b, d) < key(a, d)) std::swap(a, b);
+    if (parent == kNone) root = a;
+    else arcs_[parent].heap[d].child[0] = a;
+    HeapLinks& links = arcs_[a].heap[d];
+    links.parent = parent;
+    parent = a;
+    a = std::exchange(links.child[1], links.child[0]);
+  }
+  const std::uint32_t rest = a != kNone ? a : b;
+  arcs_[parent].heap[d].child[0] = rest;
+  arcs_[rest].heap[d].parent = parent;
+  return root;
+}
+
+void WorkingGraph::insert(std::uint32_t arc, Direction d) {
+  arcs_[arc].heap[d] = {};
+  std::uint32_t& top = top_[arcs_[arc].end[opposite(d)]][d];
+  top = meld(top, arc, d);
+  arcs_[top].heap[d].parent = kNone;
+}
+
+void WorkingGraph::erase(std::uint32_t arc, Direction d) {
+  const HeapLinks links = arcs_[arc].heap[d];
+  const std::uint32_t rest = meld(links.child[0], links.child[1], d);
+  if (rest != kNone) arcs_[rest].heap[d].parent = links.parent;
+  if (links.parent == kNone) {
+    top_[arcs_[arc].end[opposite(d)]][d] = rest;
+  } else {
+    auto& siblings = arcs_[links.parent].heap[d].child;
+    siblings[siblings[0] == arc ? 0 : 1] = rest;
+  }
+}
+
+}  // namespace reeb
