@@ -1,0 +1,31 @@
+// Port: the function whose Reeb graph is computed, vertex by vertex.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "libreeb/base/ids.h"
+
+namespace reeb {
+
+class VertexFunction {
+ public:
+  VertexFunction() = default;
+  VertexFunction(const VertexFunction&) = delete;
+  VertexFunction& operator=(const VertexFunction&) = delete;
+  virtual ~VertexFunction() = default;
+
+  // As the user names it: "z", "random:1".
+  virtual std::string name() const = 0;
+
+  // The columns of the mesh that evaluate() needs, by number: coordinates first, then the
+  // properties that were asked for (as IndexedMesh::gather counts them).
+  virtual std::span<const unsigned> columns() const = 0;
+
+  // values[i] = f(ids[i]); columns[k][i] is column columns()[k] of that vertex. No -0.0 comes out.
+  // THROWS: Error{kBadInput} that names the vertex if its value is not finite.
+  virtual void evaluate(std::span<const VertexId> ids, std::span<const std::span<const double>> columns,
+                        std::span<double> values) = 0;
+};
+
+}  // namespace reeb

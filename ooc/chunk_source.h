@@ -1,0 +1,59 @@
+// Where the pipeline's chunks come from: an indexed mesh with known last uses, or a stream that
+// brings its finalization with it (DESIGN.md 3, 4).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "libreeb/engine/chunk.h"
+#include "libreeb/engine/fragment.h"
+#include "libreeb/engine/stream_chunker.h"
+#include "libreeb/port/indexed_mesh.h"
+#include "libreeb/port/mesh_reader.h"
+#include "ooc/last_use.h"
+#include "ooc/vertex_columns.h"
+
+namespace reeb::ooc {
+
+// A chunk on its way through the pipeline; its memory is reused by later ones.
+struct WorkItem {
+  Chunk chunk;
+  std::vector<std::vector<double>> values;  // one array a function
+  std::vector<Fragment> fragments;          // one a function
+  std::size_t memory_bytes() const;
+};
+
+// How many triangles a chunk has.
+struct ChunkSize {
+  std::size_t first = 32768;  // to start with
+  std::size_t most = 262144;  // as far as it may grow; equal to `first`: fixed
+};
+
+class ChunkSource {
+ public:
+  ChunkSource() = default;
+  ChunkSource(const ChunkSource&) = delete;
+  ChunkSource& operator=(const ChunkSource&) = delete;
+  virtual ~ChunkSource() = default;
+
+  // Fills chunk and values with the next chunk of the stream. False at the end.
+  virtual bool next(WorkItem& item) = 0;
+  // Bytes of input consumed so far, and in all (0: unknown).
+  virtual std::uint64_t bytes_read() const = 0;
+  virtual std::uint64_t bytes_total() const = 0;
+  virtual std::uint64_t triangles_read() const = 0;
+};
+
+// Chunks of an indexed mesh: whole blocks of its last-use table. Vertices that no triangle uses
+// come last, as chunks of loose vertices. A chunk grows while too many of its vertices are shared
+// with others, since gluing is what such a chunk costs.
+std::unique_ptr<ChunkSource> chunks_of(IndexedMesh& mesh, LastUse& last_use, VertexColumns& columns,
+                                       ChunkSize size);
+
+// Chunks of a stream, read once. What is not finalized by the stream is finalized at its end.
+std::unique_ptr<ChunkSource> chunks_of(MeshReader& reader, VertexColumns& columns, ChunkSize size);
+
+}  // namespace reeb::ooc

@@ -1,0 +1,148 @@
+#include <algorithm>
+
+#include "libreeb/base/flat_map.h"
+#include "ooc/chunk_source.h"
+
+namespace reeb::ooc {
+namespace {
+
+// Grow above this share of shared vertices, shrink below a quarter of it.
+constexpr double kManyShared = 0.10;
+
+class IndexedChunks : public ChunkSource {
+ public:
+  IndexedChunks(IndexedMesh& mesh, LastUse& last_use, VertexColumns& columns, ChunkSize size)
+      : mesh_(mesh),
+        last_use_(last_use),
+        columns_(columns),
+        size_(size),
+        block_triangles_(static_cast<std::size_t>(last_use.summary().block_triangles)),
+        blocks_(std::max<std::size_t>(1, size.first / std::max<std::size_t>(1, block_triangles_))) {
+    mesh_.rewind();
+  }
+
+  bool next(WorkItem& item) override;
+  std::uint64_t bytes_read() const override { return mesh_.bytes_read(); }
+  std::uint64_t bytes_total() const override { return mesh_.bytes_total(); }
+  std::uint64_t triangles_read() const override { return triangles_read_; }
+
+ private:
+  bool read_triangles(Chunk& chunk);
+  bool read_loose_vertices(Chunk& chunk);
+  void number_vertices(Chunk& chunk);
+  void set_uses(Chunk& chunk);
+  void look_up(WorkItem& item);
+  void adapt(const Chunk& chunk);
+
+  IndexedMesh& mesh_;
+  LastUse& last_use_;
+  VertexColumns& columns_;
+  ChunkSize size_;
+  std::size_t block_triangles_;
+  std::size_t blocks_;             // of the next chunk
+  std::uint64_t first_block_ = 0;  // of the next chunk
+  std::uint64_t triangles_read_ = 0;
+  std::uint64_t next_vertex_ = 0;  // from which on unused vertices are looked for
+
+  std::vector<VertexId> corners_;
+  FlatMap local_;
+  std::vector<std::uint32_t> entries_;
+  std::vector<double> gathered_;
+  std::vector<std::span<const double>> data_;
+};
+
+bool IndexedChunks::next(WorkItem& item) {
+  item.chunk.clear();
+  if (!read_triangles(item.chunk) && !read_loose_vertices(item.chunk)) return false;
+  look_up(item);
+  return true;
+}
+
+bool IndexedChunks::read_triangles(Chunk& chunk) {
+  if (!mesh_.read(corners_, blocks_ * block_triangles_)) return false;
+  triangles_read_ += corners_.size() / 3;
+  number_vertices(chunk);
+  set_uses(chunk);
+  first_block_ += blocks_;
+  adapt(chunk);
+  return true;
+}
+
+void IndexedChunks::number_vertices(Chunk& chunk) {
+  local_.clear();
+  chunk.corners.resize(corners_.size());
+  for (std::size_t i = 0; i < corners_.size(); ++i) {
+    const auto fresh = static_cast<std::uint32_t>(chunk.ids.size());
+    const std::uint32_t local = local_.find_or_insert(corners_[i].value(), fresh);
+    if (local == fresh) chunk.ids.push_back(corners_[i]);
+    chunk.corners[i] = local;
+  }
+}
+
+void IndexedChunks::set_uses(Chunk& chunk) {
+  entries_.resize(chunk.vertex_count());
+  last_use_.lookup(chunk.ids, entries_);
+  const std::uint64_t last_block = first_block_ + blocks_ - 1;
+  chunk.uses.resize(chunk.vertex_count());
+  for (std::size_t i = 0; i < chunk.vertex_count(); ++i) {
+    const UseEntry entry(entries_[i]);
+    // A saturated span says earlier than it may be, which is allowed.
+    const bool earlier = entry.last_block() < first_block_ + entry.span() || entry.span() == UseEntry::kManyBlocks;
+    const bool later = entry.last_block() > last_block;
+    chunk.uses[i] = static_cast<std::uint8_t>((earlier ? kUsedEarlier : 0) | (later ? kUsedLater : 0));
+  }
+}
+
+void IndexedChunks::adapt(const Chunk& chunk) {
+  const auto shared = static_cast<double>(
+      std::count_if(chunk.uses.begin(), chunk.uses.end(), [](std::uint8_t u) { return u != kUsedHereOnly; }));
+  const auto all = static_cast<double>(chunk.vertex_count());
+  const std::size_t least = std::max<std::size_t>(1, size_.first / block_triangles_);
+  const std::size_t most = std::max<std::size_t>(1, size_.most / block_triangles_);
+  if (shared > kManyShared * all && blocks_ < most)
+    blocks_ = std::min(2 * blocks_, most);
+  else if (shared < kManyShared / 4 * all && blocks_ > least)
+    blocks_ = std::max(blocks_ / 2, least);
+}
+
+bool IndexedChunks::read_loose_vertices(Chunk& chunk) {
+  constexpr std::size_t kBatch = 16384;
+  const std::uint64_t count = mesh_.vertex_count();
+  if (last_use_.summary().unused_vertices == 0) return false;
+  while (next_vertex_ < count && chunk.vertex_count() < kBatch) {
+    entries_.resize(static_cast<std::size_t>(std::min<std::uint64_t>(kBatch, count - next_vertex_)));
+    last_use_.read(VertexId(next_vertex_), entries_);
+    for (const std::uint32_t entry : entries_) {
+      if (UseEntry(entry).unused()) chunk.ids.push_back(VertexId(next_vertex_));
+      ++next_vertex_;
+    }
+  }
+  chunk.uses.assign(chunk.vertex_count(), kUsedHereOnly);
+  return chunk.vertex_count() != 0;
+}
+
+void IndexedChunks::look_up(WorkItem& item) {
+  const std::size_t n = item.chunk.vertex_count();
+  gathered_.resize(n * columns_.columns().size());
+  mesh_.gather(item.chunk.ids, columns_.columns(), gathered_);
+  data_.clear();
+  for (std::size_t k = 0; k < columns_.columns().size(); ++k) data_.emplace_back(gathered_.data() + k * n, n);
+  columns_.evaluate(item.chunk.ids, data_, item.chunk.positions, item.values);
+}
+
+}  // namespace
+
+std::unique_ptr<ChunkSource> chunks_of(IndexedMesh& mesh, LastUse& last_use, VertexColumns& columns,
+                                       ChunkSize size) {
+  return std::make_unique<IndexedChunks>(mesh, last_use, columns, size);
+}
+
+std::size_t WorkItem::memory_bytes() const {
+  std::size_t bytes = chunk.ids.capacity() * sizeof(VertexId) + chunk.uses.capacity() +
+                      chunk.positions.capacity() * sizeof(Point) + chunk.corners.capacity() * 4;
+  for (const auto& column : values) bytes += column.capacity() * 8;
+  for (const Fragment& fragment : fragments) bytes += fragment.memory_bytes();
+  return bytes;
+}
+
+}  // namespace reeb::ooc

@@ -1,0 +1,139 @@
+#include "ooc/pipeline.h"
+
+#include <tbb/concurrent_queue.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/global_control.h>
+#include <tbb/parallel_pipeline.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <memory>
+#include <vector>
+
+#include "libreeb/engine/chunk_sweep.h"
+#include "libreeb/engine/glue.h"
+
+namespace reeb::ooc {
+namespace {
+
+// One thread's scratch memory for sweeping.
+struct Sweeper {
+  explicit Sweeper(MemoryBudget& budget) : reservation(budget.reserve("chunk sweep", 0)) {}
+  ChunkSweep sweep;
+  Reservation reservation;
+};
+
+struct Slot {
+  explicit Slot(MemoryBudget& budget) : reservation(budget.reserve("chunks in flight", 0)) {}
+  WorkItem item;
+  Reservation reservation;
+};
+
+class Pipeline {
+ public:
+  Pipeline(ChunkSource& source, std::span<GraphSink* const> sinks, MemoryBudget& budget,
+           const PipelineOptions& options)
+      : source_(source), budget_(budget), options_(options), live_(budget.reserve("live graph", 0)) {
+    for (GraphSink* sink : sinks) glues_.emplace_back(std::make_unique<Glue>(*sink, true));
+  }
+
+  LiveMaximum run() {
+    if (options_.threads <= 1)
+      run_alone();
+    else
+      run_in_parallel();
+    return maximum_;
+  }
+
+ private:
+  bool read(Slot& slot) {
+    if (!source_.next(slot.item)) return false;
+    slot.reservation.resize(slot.item.memory_bytes());
+    return true;
+  }
+
+  void sweep(Slot& slot, Sweeper& sweeper) {
+    slot.item.fragments.resize(glues_.size());
+    for (std::size_t f = 0; f < glues_.size(); ++f)
+      sweeper.sweep.run(slot.item.chunk, slot.item.values[f], slot.item.fragments[f]);
+    sweeper.reservation.resize(sweeper.sweep.memory_bytes());
+    slot.reservation.resize(slot.item.memory_bytes());
+  }
+
+  void glue(Slot& slot) {
+    LiveMaximum now;
+    std::size_t bytes = 0;
+    for (std::size_t f = 0; f < glues_.size(); ++f) {
+      glues_[f]->add(slot.item.fragments[f]);
+      now.vertices += glues_[f]->live_vertices();
+      now.edges += glues_[f]->live_edges();
+      now.arcs += glues_[f]->graph().arc_count();
+      bytes += glues_[f]->memory_bytes();
+    }
+    live_.resize(bytes);
+    maximum_.vertices = std::max(maximum_.vertices, now.vertices);
+    maximum_.edges = std::max(maximum_.edges, now.edges);
+    maximum_.arcs = std::max(maximum_.arcs, now.arcs);
+    if (options_.progress) options_.progress(source_);
+  }
+
+  void run_alone() {
+    Sweeper sweeper(budget_);
+    Slot slot(budget_);
+    while (read(slot)) {
+      sweep(slot, sweeper);
+      glue(slot);
+    }
+  }
+
+  void run_in_parallel() {
+    const std::size_t in_flight = options_.threads + 1;
+    std::vector<std::unique_ptr<Slot>> slots;
+    tbb::concurrent_queue<Slot*> free_slots;
+    for (std::size_t i = 0; i < in_flight; ++i) {
+      slots.push_back(std::make_unique<Slot>(budget_));
+      free_slots.push(slots.back().get());
+    }
+    tbb::enumerable_thread_specific<Sweeper> sweepers([this] { return Sweeper(budget_); });
+
+    const tbb::global_control control(tbb::global_control::max_allowed_parallelism, options_.threads);
+    tbb::task_arena arena(static_cast<int>(options_.threads));
+    arena.execute([&] {
+      tbb::parallel_pipeline(
+          in_flight,
+          tbb::make_filter<void, Slot*>(tbb::filter_mode::serial_in_order,
+                                        [&](tbb::flow_control& control_flow) -> Slot* {
+                                          Slot* slot = nullptr;
+                                          free_slots.try_pop(slot);  // as many as tokens
+                                          if (read(*slot)) return slot;
+                                          control_flow.stop();
+                                          return nullptr;
+                                        }) &
+              tbb::make_filter<Slot*, Slot*>(tbb::filter_mode::parallel,
+                                             [&](Slot* slot) {
+                                               sweep(*slot, sweepers.local());
+                                               return slot;
+                                             }) &
+              tbb::make_filter<Slot*, void>(tbb::filter_mode::serial_in_order, [&](Slot* slot) {
+                glue(*slot);
+                free_slots.push(slot);
+              }));
+    });
+  }
+
+  ChunkSource& source_;
+  MemoryBudget& budget_;
+  const PipelineOptions& options_;
+  std::vector<std::unique_ptr<Glue>> glues_;
+  Reservation live_;
+  LiveMaximum maximum_;
+};
+
+}  // namespace
+
+LiveMaximum run_pipeline(ChunkSource& source, std::span<GraphSink* const> sinks, MemoryBudget& budget,
+                         const PipelineOptions& options) {
+  return Pipeline(source, sinks, budget, options).run();
+}
+
+}  // namespace reeb::ooc

@@ -1,0 +1,36 @@
+// The first stage in parallel: read -> sweep -> glue in order -> hand over (DESIGN.md 3).
+//
+// Chunks are swept by several threads and glued in stream order by one at a time. A fixed number
+// of chunks is in flight, so the queue cannot become the memory use.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+
+#include "libreeb/base/memory_budget.h"
+#include "libreeb/port/graph_sink.h"
+#include "ooc/chunk_source.h"
+
+namespace reeb::ooc {
+
+struct PipelineOptions {
+  unsigned threads = 1;
+  // Called in order after each chunk was glued; may throw to stop the run.
+  std::function<void(const ChunkSource&)> progress = {};
+};
+
+// The largest sizes of what was live at a chunk's end, over all functions.
+struct LiveMaximum {
+  std::uint64_t vertices = 0, edges = 0, arcs = 0;
+};
+
+// Runs all chunks of `source`; the graph of function i goes to sinks[i], called in stream order
+// by one thread at a time. The result does not depend on threads or chunks.
+// THROWS: what the source and the sinks throw; Error{kResource} when the budget is too small.
+LiveMaximum run_pipeline(ChunkSource& source, std::span<GraphSink* const> sinks, MemoryBudget& budget,
+                         const PipelineOptions& options);
+
+}  // namespace reeb::ooc

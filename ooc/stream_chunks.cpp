@@ -1,0 +1,81 @@
+#include "ooc/chunk_source.h"
+
+namespace reeb::ooc {
+namespace {
+
+class StreamChunks : public ChunkSource {
+ public:
+  StreamChunks(MeshReader& reader, VertexColumns& columns, ChunkSize size)
+      : reader_(reader), columns_(columns), size_(size), chunker_(columns.function_count(), true) {}
+
+  bool next(WorkItem& item) override;
+  std::uint64_t bytes_read() const override { return reader_.bytes_read(); }
+  std::uint64_t bytes_total() const override { return reader_.info().file_bytes; }
+  std::uint64_t triangles_read() const override { return triangles_read_; }
+
+ private:
+  void add_vertices();
+  void add_simplices(const std::vector<VertexId>& corners, std::size_t size);
+
+  MeshReader& reader_;
+  VertexColumns& columns_;
+  ChunkSize size_;
+  StreamChunker chunker_;
+  std::uint64_t triangles_read_ = 0;
+  bool ended_ = false;
+
+  MeshBatch batch_;
+  std::vector<VertexId> ids_;
+  std::vector<std::span<const double>> data_;
+  std::vector<Point> positions_;
+  std::vector<std::vector<double>> values_;
+  std::vector<double> row_;
+};
+
+bool StreamChunks::next(WorkItem& item) {
+  while (!ended_ && chunker_.chunk_size() < size_.first) {
+    if (!reader_.read(batch_)) {
+      chunker_.finalize_all();
+      ended_ = true;
+      break;
+    }
+    add_vertices();
+    add_simplices(batch_.triangles, 3);
+    add_simplices(batch_.tetrahedra, 4);
+    triangles_read_ += batch_.triangle_count() + 4 * batch_.tetrahedron_count();
+    for (const VertexId v : batch_.finalized) chunker_.finalize(v);
+  }
+  if (chunker_.chunk_size() == 0) return false;
+  chunker_.take(item.chunk, item.values);
+  return true;
+}
+
+void StreamChunks::add_vertices() {
+  const std::size_t n = batch_.vertex_count;
+  if (n == 0) return;
+  ids_.resize(n);
+  for (std::size_t i = 0; i < n; ++i) ids_[i] = VertexId(batch_.first_vertex.value() + i);
+  data_.clear();
+  for (const unsigned column : columns_.columns())
+    data_.emplace_back(column < batch_.coordinates.size()
+                           ? batch_.coordinates[column]
+                           : batch_.properties[column - batch_.coordinates.size()]);
+  columns_.evaluate(ids_, data_, positions_, values_);
+  row_.resize(values_.size());
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t f = 0; f < values_.size(); ++f) row_[f] = values_[f][i];
+    chunker_.add_vertex(row_, positions_[i]);
+  }
+}
+
+void StreamChunks::add_simplices(const std::vector<VertexId>& corners, std::size_t size) {
+  for (std::size_t i = 0; i < corners.size(); i += size) chunker_.add_simplex({corners.data() + i, size});
+}
+
+}  // namespace
+
+std::unique_ptr<ChunkSource> chunks_of(MeshReader& reader, VertexColumns& columns, ChunkSize size) {
+  return std::make_unique<StreamChunks>(reader, columns, size);
+}
+
+}  // namespace reeb::ooc
