@@ -1,0 +1,53 @@
+// The bytes of an input in order, wherever they come from: a mapped file, a compressed one, a pipe.
+//
+// Compression is told by content (gzip 1F 8B, zstd 28 B5 2F FD), never by name, and undone on the
+// way; everything behind this interface sees the content only.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace reeb::io {
+
+class ByteSource {
+ public:
+  // Every view holds at least this many bytes, or all that is left.
+  static constexpr std::size_t kLookahead = 65536;
+
+  ByteSource() = default;
+  ByteSource(const ByteSource&) = delete;
+  ByteSource& operator=(const ByteSource&) = delete;
+  virtual ~ByteSource() = default;
+
+  // The content from `offset` on, at least kLookahead bytes unless it ends before; empty at the
+  // end. Ends the validity of the view before. Offsets never fall, except where can_seek().
+  // THROWS: Error{kBadInput} where a compressed stream is damaged or cut.
+  virtual std::string_view view(std::uint64_t offset) = 0;
+
+  virtual bool can_seek() const = 0;
+  // Bytes of content, where known without reading it.
+  virtual std::optional<std::uint64_t> size() const = 0;
+  // Bytes of the file as it lies on disk: consumed so far for the views given out, and in all
+  // (0: unknown).
+  virtual std::uint64_t file_bytes_read() const = 0;
+  virtual std::uint64_t file_bytes() const = 0;
+
+  // What error messages call it.
+  const std::string& name() const { return name_; }
+
+ protected:
+  explicit ByteSource(std::string name) : name_(std::move(name)) {}
+
+ private:
+  std::string name_;
+};
+
+// "-" is standard input. A source that is not a regular file is read as a pipe.
+// THROWS: Error{kBadInput}: absent, a directory, unreadable, empty.
+std::unique_ptr<ByteSource> open_byte_source(const std::string& path);
+
+}  // namespace reeb::io

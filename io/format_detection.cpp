@@ -1,0 +1,114 @@
+#include "io/format_detection.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+#include "io/obj_reader.h"
+#include "io/off_reader.h"
+#include "io/scalar_bytes.h"
+#include "io/stl_reader.h"
+
+namespace reeb::io {
+namespace {
+
+bool is_line_blank(char c) { return c == '\n' || is_blank(c); }
+
+std::string_view first_word(std::string_view text) {
+  const auto begin = std::ranges::find_if_not(text, is_line_blank);
+  return {begin, std::find_if(begin, text.end(), is_line_blank)};
+}
+
+std::string_view take_line(std::string_view& text) {
+  const std::size_t end = std::min(text.find('\n'), text.size());
+  const std::string_view line = text.substr(0, end);
+  text.remove_prefix(std::min(end + 1, text.size()));
+  return line;
+}
+
+// The text from its first line that is neither blank nor a comment.
+std::string_view skip_comments(std::string_view text) {
+  while (!text.empty()) {
+    std::string_view rest = text;
+    const std::string_view word = first_word(take_line(rest));
+    if (!word.empty() && !word.starts_with('#')) return text;
+    text = rest;
+  }
+  return text;
+}
+
+// A byte that no text has: UTF-8 and the Latin alphabets have no control characters but white space.
+bool is_control(char c) { return static_cast<unsigned char>(c) < 32 && !is_line_blank(c); }
+
+bool is_text(std::string_view head) { return std::ranges::none_of(head.substr(0, 4096), is_control); }
+
+std::uint64_t stl_facets(std::string_view head) { return load_scalar<std::uint32_t>(head.data() + 80, false); }
+
+bool has_binary_stl_size(std::string_view head, std::optional<std::uint64_t> size) {
+  return head.size() >= BinaryStlReader::kHeaderBytes && size &&
+         *size == BinaryStlReader::kHeaderBytes + stl_facets(head) * BinaryStlReader::kFacetBytes;
+}
+
+// For streams of unknown size, and files that are cut: does the first facet look like one?
+bool looks_like_binary_stl(std::string_view head) {
+  constexpr std::size_t kFirstFacet = BinaryStlReader::kHeaderBytes;
+  if (head.size() < kFirstFacet || stl_facets(head) == 0) return false;
+  for (std::size_t place = kFirstFacet; place < kFirstFacet + 48 && place + 4 <= head.size(); place += 4) {
+    const float value = std::abs(load_scalar<float>(head.data() + place, false));
+    if (value != 0 && !(value > 1e-30F && value < 1e30F) && !std::isnan(value)) return false;
+  }
+  return true;
+}
+
+bool starts_with_solid(std::string_view head) {
+  static constexpr std::string_view kSolid = "solid";
+  const std::string_view word = first_word(head);
+  return std::ranges::equal(word, kSolid, [](char a, char b) { return (a | 0x20) == b; });
+}
+
+// Streaming meshes announce themselves in comments before their first line.
+bool has_streaming_comment(std::string_view text) {
+  while (!text.empty()) {
+    const std::string_view line = take_line(text);
+    const std::string_view word = first_word(line);
+    if (word.empty()) continue;
+    if (!word.starts_with('#')) return false;
+    for (const std::string_view key : {"nverts", "nfaces", "bb_min", "bb_max"})
+      if (first_word(line.substr(line.find('#') + 1)) == key) return true;
+  }
+  return false;
+}
+
+bool is_streaming_name(std::string_view path) {
+  for (const std::string_view ending : {".gz", ".zst"})
+    if (path.ends_with(ending)) path.remove_suffix(ending.size());
+  return path.ends_with(".sma") || path.ends_with(".sva");
+}
+
+bool is_streaming_binary(std::string_view head) {
+  return head.front() == 0 || head.front() == 1 || head.front() == 3 || head.front() == 4;
+}
+
+MeshFormat detect_text(std::string_view text, const std::string& path) {
+  if (has_streaming_comment(text) || is_streaming_name(path)) return MeshFormat::kStreaming;
+  const std::string_view word = first_word(skip_comments(text));
+  if (is_obj_keyword(word)) return MeshFormat::kObj;
+  return word == "x" ? MeshFormat::kStreaming : MeshFormat::kUnknown;
+}
+
+}  // namespace
+
+MeshFormat detect_format(ByteSource& source, const std::string& path) {
+  std::string_view head = source.view(0);
+  if (head.starts_with("\xEF\xBB\xBF")) head.remove_prefix(3);
+  if (head.starts_with("ply") && (head.size() == 3 || is_line_blank(head[3]))) return MeshFormat::kPly;
+  if (parse_off_keyword(first_word(skip_comments(head)))) return MeshFormat::kOff;
+  if (has_binary_stl_size(head, source.size())) return MeshFormat::kBinaryStl;
+  const bool text = is_text(head);
+  if (starts_with_solid(head)) return text ? MeshFormat::kAsciiStl : MeshFormat::kBinaryStl;
+  if (text) return detect_text(head, path);
+  if (looks_like_binary_stl(head)) return MeshFormat::kBinaryStl;
+  return is_streaming_binary(head) ? MeshFormat::kStreaming : MeshFormat::kUnknown;
+}
+
+}  // namespace reeb::io

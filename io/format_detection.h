@@ -1,0 +1,16 @@
+// Which format an input is in, told by its first bytes.
+#pragma once
+
+#include <string>
+
+#include "io/byte_source.h"
+
+namespace reeb::io {
+
+enum class MeshFormat { kUnknown, kPly, kOff, kAsciiStl, kBinaryStl, kObj, kStreaming };
+
+// `path` decides only where content cannot: between OBJ and the text form of streaming meshes,
+// which share their lines v and f.
+MeshFormat detect_format(ByteSource& source, const std::string& path);
+
+}  // namespace reeb::io

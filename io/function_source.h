@@ -1,0 +1,80 @@
+// Functions on the vertices of a mesh, as a user names them (INTERFACE.md, FUNC).
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "libreeb/port/mesh_reader.h"
+
+namespace reeb::io {
+
+struct FunctionSpec {
+  enum class Kind { kCoordinate, kIndex, kRandom, kProperty, kFile };
+
+  Kind kind = Kind::kCoordinate;
+  std::uint64_t number = 2;  // the coordinate, or the seed
+  std::string argument;      // the property, or the path
+  std::string text = "z";    // as the user wrote it
+};
+
+// THROWS: Error{kUsage} that lists what there is.
+FunctionSpec parse_function(std::string_view text);
+
+// The text of a function as a part of a file name: ':' and '/' become '-'.
+std::string file_name_part(const FunctionSpec& spec);
+
+// What ReadOptions::properties must hold for these functions; each name once.
+std::vector<std::string> needed_properties(std::span<const FunctionSpec> specs);
+
+// `random:SEED` of a vertex: in [0, 1).
+double random_value(std::uint64_t seed, std::uint64_t vertex) noexcept;
+
+// One number a vertex from a file: lines of text, or raw little-endian float64 (".f64").
+class ValueFile;
+
+// Evaluates one function, for the vertices of a stream or for any vertices by index. Values are
+// finite, and -0.0 is 0.0.
+class FunctionSource {
+ public:
+  // `properties` is the ReadOptions::properties with which the mesh was opened.
+  // THROWS: Error{kBadInput}: the mesh (`mesh_name`) lacks the coordinate or property; the file
+  //         cannot be read, or does not have one value a vertex, as far as that is known.
+  FunctionSource(const FunctionSpec& spec, const MeshInfo& info, std::span<const std::string> properties,
+                 std::string mesh_name);
+  ~FunctionSource();
+  FunctionSource(FunctionSource&&) noexcept;
+  FunctionSource& operator=(FunctionSource&&) noexcept;
+
+  // The column of the mesh that the function is, as in IndexedMesh: coordinates, then properties.
+  std::optional<unsigned> column() const { return column_; }
+
+  // The values of the batch's vertices, one after the other. REQUIRES: values.size() ==
+  // batch.vertex_count, and batches come in order.
+  // THROWS: Error{kBadInput} with the vertex where a value is not finite or missing.
+  void evaluate(const MeshBatch& batch, std::span<double> values);
+
+  // The values of any vertices; `gathered` is column() of them, and empty if there is none. A text
+  // file is read into memory for this, 8 bytes a vertex.
+  void evaluate(std::span<const VertexId> ids, std::span<const double> gathered, std::span<double> values);
+
+  // To be called once all `vertex_count` vertices of a stream are known.
+  // THROWS: Error{kBadInput} if the value file has more or fewer values.
+  void check_count(std::uint64_t vertex_count);
+
+ private:
+  double value_of(std::uint64_t vertex);
+  void copy_finite(std::span<const double> from, std::span<double> to, std::span<const VertexId> ids,
+                   std::uint64_t first) const;
+
+  FunctionSpec spec_;
+  std::string mesh_name_;
+  std::optional<unsigned> column_;
+  std::unique_ptr<ValueFile> file_;
+};
+
+}  // namespace reeb::io

@@ -1,0 +1,73 @@
+// A file seen through a few mapped windows, so that resident memory never grows with the file
+// (DESIGN.md 4, Reading).
+//
+// The file is divided into windows of equal size. Each is mapped when first touched, together with
+// `overlap` bytes of its successor, so that a record that crosses a border is still contiguous; the
+// window that was longest without use is unmapped for it. A hit costs a shift and a table lookup.
+//
+// The table takes 16 bytes a window of the file: 16 MB a terabyte at the default size.
+// The size is checked when the file is opened; a file cut by someone else while it is being read
+// ends the process with SIGBUS, so inputs must not change meanwhile.
+// THREADS: one at a time.
+#pragma once
+
+#include <boost/iostreams/device/mapped_file.hpp>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace reeb::io {
+
+struct WindowOptions {
+  unsigned window_bits = 20;          // windows of 2^bits bytes, at least the page size
+  std::size_t window_count = 4;       // mapped at once, at least 2
+  std::size_t overlap_bytes = 65536;  // longest record that at() can be asked for
+};
+
+class MappedWindows {
+ public:
+  // THROWS: Error{kBadInput}: absent, a directory or another special file, unreadable, empty.
+  explicit MappedWindows(const std::string& path, WindowOptions options = {});
+
+  std::uint64_t size() const { return size_; }
+  std::size_t overlap_bytes() const { return options_.overlap_bytes; }
+
+  // The bytes from `offset` on: at least overlap_bytes(), or all up to the end of the file. Valid
+  // until `window_count - 1` other windows were touched.
+  // REQUIRES: offset < size(). THROWS: Error{kResource} if the system refuses the mapping.
+  const char* at(std::uint64_t offset) {
+    Entry& entry = table_[offset >> options_.window_bits];
+    if (entry.base == nullptr) map(offset >> options_.window_bits);
+    entry.recent = true;
+    return entry.base + (offset & window_mask_);
+  }
+
+  // The same with its length: all that is mapped behind `offset`.
+  std::string_view view(std::uint64_t offset);
+
+ private:
+  struct Entry {
+    const char* base = nullptr;
+    bool recent = false;
+  };
+  struct Slot {
+    boost::iostreams::mapped_file_source map;
+    std::uint64_t window = 0;
+  };
+
+  void map(std::uint64_t window);
+  Slot& victim();
+  std::size_t mapped_bytes(std::uint64_t window) const;
+
+  std::string path_;
+  WindowOptions options_;
+  std::uint64_t size_ = 0;
+  std::uint64_t window_mask_ = 0;
+  std::vector<Entry> table_;
+  std::vector<Slot> slots_;
+  std::size_t hand_ = 0;
+};
+
+}  // namespace reeb::io

@@ -1,0 +1,35 @@
+#include "io/mesh_io.h"
+
+#include "io/byte_source.h"
+#include "io/format_detection.h"
+#include "io/obj_reader.h"
+#include "io/off_reader.h"
+#include "io/ply_indexed.h"
+#include "io/ply_reader.h"
+#include "io/stl_reader.h"
+#include "libreeb/base/error.h"
+
+namespace reeb::io {
+
+std::unique_ptr<MeshReader> open_mesh(const std::string& path, const ReadOptions& options) {
+  auto source = open_byte_source(path);
+  const std::string name = source->name();
+  switch (detect_format(*source, path)) {
+    case MeshFormat::kPly: return open_ply(std::move(source), options);
+    case MeshFormat::kOff: return open_off(std::move(source), options);
+    case MeshFormat::kObj: return std::make_unique<ObjReader>(std::move(source), options);
+    case MeshFormat::kAsciiStl: return std::make_unique<AsciiStlReader>(std::move(source), options);
+    case MeshFormat::kBinaryStl: return std::make_unique<BinaryStlReader>(std::move(source), options);
+    case MeshFormat::kStreaming:
+    case MeshFormat::kUnknown: break;
+  }
+  throw Error(ErrorKind::kBadInput, "is in no known mesh format",
+              "PLY, OBJ, OFF and STL are read, plain or packed with gzip or zstd")
+      .at(name, "0");
+}
+
+std::unique_ptr<IndexedMesh> open_indexed_mesh(const std::string& path, const ReadOptions& options) {
+  return open_indexed_ply(path, options);
+}
+
+}  // namespace reeb::io
