@@ -94,7 +94,9 @@ Complex beginning(const Complex& complex, std::size_t vertices, std::size_t simp
 testing::AssertionResult same_graph(const ReebGraph& graph, const ReebGraph& expected) {
   graph.validate();
   if (without_positions(graph) != without_positions(expected))
-    return testing::AssertionFailure() << "got\n" << describe(graph) << "instead of\n" << describe(expected);
+    return testing::AssertionFailure() << "got\n"
+                                       << describe(graph) << "instead of\n"
+                                       << describe(expected);
   if (!graph.positions.empty() && graph.positions != expected.positions)
     return testing::AssertionFailure() << "wrong positions";
   return testing::AssertionSuccess();
@@ -145,7 +147,8 @@ TEST(OnlineReeb, EqualsTheDefinitionOnRandomComplexes) {
       if (random.chance(75)) continue;
       engine.finish();
       ASSERT_TRUE(same_graph(engine.snapshot(), expected))
-          << "finished, batches of " << batch << '\n' << describe(complex);
+          << "finished, batches of " << batch << '\n'
+          << describe(complex);
     }
   }
 }
@@ -163,7 +166,8 @@ TEST(OnlineReeb, IsExactAfterEverySingleInsertion) {
             const ReebGraph expected = reference_reeb(beginning(complex, vertices, simplices));
             ASSERT_TRUE(same_graph(engine.snapshot(), expected))
                 << "batches of " << batch << ", after simplex " << simplices << " and " << vertices
-                << " vertices\n" << describe(complex);
+                << " vertices\n"
+                << describe(complex);
           });
     }
   }
@@ -181,8 +185,8 @@ TEST(OnlineReeb, DoesNotDependOnTheOrderOfSimplices) {
       const Complex other = shuffled(complex, random.next());
       OnlineReeb engine({.batch_triangles = batch});
       Player(other, any_finalization(random), random.next()).play(engine);
-      ASSERT_TRUE(same_graph(engine.snapshot(), expected))
-          << "batches of " << batch << '\n' << describe(other);
+      ASSERT_TRUE(same_graph(engine.snapshot(), expected)) << "batches of " << batch << '\n'
+                                                           << describe(other);
     }
   }
 }
@@ -232,7 +236,8 @@ class LargeShapes : public testing::TestWithParam<std::size_t> {
     return without_positions(engine.snapshot());
   }
   static ReebGraph arc(std::uint64_t lo, std::uint64_t hi, const Complex& complex) {
-    return make_graph({{{complex.values[lo], VertexId(lo)}, {complex.values[hi], VertexId(hi)}}}, {});
+    return make_graph({{{complex.values[lo], VertexId(lo)}, {complex.values[hi], VertexId(hi)}}},
+                      {});
   }
 };
 
@@ -311,7 +316,9 @@ TEST(OnlineReebMisuse, IsRefusedAndLeavesTheGraphAlone) {
       expect_bad_input([&] { engine.add_vertex(value); });
     expect_bad_input([&] { engine.add_simplex(std::vector{VertexId(2), VertexId(4)}); });
     expect_bad_input([&] { engine.add_simplex(std::vector{VertexId(~std::uint64_t{0})}); });
-    expect_bad_input([&] { engine.add_simplex(std::vector{VertexId(2), VertexId(3), VertexId(1)}); });
+    expect_bad_input([&] {
+      engine.add_simplex(std::vector{VertexId(2), VertexId(3), VertexId(1)});
+    });
     expect_bad_input([&] { engine.finalize(VertexId(1)); });
     expect_bad_input([&] { engine.finalize(VertexId(4)); });
 

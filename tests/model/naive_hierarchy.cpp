@@ -69,7 +69,8 @@ std::vector<Path> interlevel_paths(const PlainGraph& graph, Node v, Node y) {
 
 // Ext1 (v, y). False: the loop is kept.
 bool cancel_loop(PlainGraph& graph, Node v, Node y) {
-  if (graph.has_arc(v, y)) {  // zipped onto another path or dropped: the arc has no nodes, so the same
+  // Zipped onto another path or dropped is the same here, since the arc has no nodes.
+  if (graph.has_arc(v, y)) {
     graph.remove_arc(v, y);
     return true;
   }

@@ -1,4 +1,5 @@
-// The hierarchy by copying and cancelling, as DESIGN.md 1.5 words it: the judge of the second stage.
+// The hierarchy by copying and cancelling, as DESIGN.md 1.5 words it: the judge of the second
+// stage.
 #pragma once
 
 #include <vector>

@@ -49,7 +49,8 @@ std::vector<Step> filtration(const std::vector<Cell>& cells) {
 }
 
 // Boundary columns; row 0 is the apex, row i + 1 is step i.
-std::vector<Column> boundary_matrix(const std::vector<Cell>& cells, const std::vector<Step>& steps) {
+std::vector<Column> boundary_matrix(const std::vector<Cell>& cells,
+                                    const std::vector<Step>& steps) {
   std::vector<std::size_t> row(cells.size()), coned_row(cells.size());
   for (std::size_t i = 0; i < steps.size(); ++i)
     (steps[i].coned ? coned_row : row)[steps[i].cell] = i + 1;
@@ -130,8 +131,8 @@ std::vector<VertexPair> vertex_pairs(const ReebGraph& graph,
                                      const std::vector<PersistencePair>& pairs) {
   std::vector<VertexPair> result;
   for (const PersistencePair& pair : pairs)
-    result.push_back({pair.type, graph.nodes[pair.lo.value()].vertex,
-                      graph.nodes[pair.hi.value()].vertex});
+    result.push_back(
+        {pair.type, graph.nodes[pair.lo.value()].vertex, graph.nodes[pair.hi.value()].vertex});
   std::sort(result.begin(), result.end());
   return result;
 }
@@ -151,7 +152,9 @@ std::vector<VertexPair> reference_pairs(const Complex& complex) {
     cells.push_back({1, std::min(rank[a], rank[b]), std::max(rank[a], rank[b]), {a, b}});
   }
   for (const auto& [a, b, c] : skeleton.triangles)
-    cells.push_back({2, std::min({rank[a], rank[b], rank[c]}), std::max({rank[a], rank[b], rank[c]}),
+    cells.push_back({2,
+                     std::min({rank[a], rank[b], rank[c]}),
+                     std::max({rank[a], rank[b], rank[c]}),
                      {cell_of_edge[{a, b}], cell_of_edge[{a, c}], cell_of_edge[{b, c}]}});
 
   std::vector<VertexPair> pairs;

@@ -76,8 +76,8 @@ class LevelSet {
 
 // A contour at the level of a vertex: a point of the quotient.
 struct Contour {
-  std::optional<std::size_t> vertex;    // that lies on it, by rank
-  std::vector<std::size_t> down, up;    // contours that it is joined with, next level below, above
+  std::optional<std::size_t> vertex;  // that lies on it, by rank
+  std::vector<std::size_t> down, up;  // contours that it is joined with, next level below, above
   bool regular() const { return down.size() == 1 && up.size() == 1; }
 };
 
@@ -121,7 +121,8 @@ class Quotient {
       if (!between.crosses(e)) continue;
       const auto [a, b] = complex_.edges[e];
       const std::size_t low = a == r ? below.component_of_vertex() : below.component_of_edge(e);
-      const std::size_t high = b == r + 1 ? above.component_of_vertex() : above.component_of_edge(e);
+      const std::size_t high =
+          b == r + 1 ? above.component_of_vertex() : above.component_of_edge(e);
       const std::pair<std::size_t, std::size_t> end{lower_.at(low), upper_.at(high)};
       const auto [it, is_new] = ends.try_emplace(between.component_of_edge(e), end);
       if (it->second != end) throw std::logic_error("a contour continues in two");

@@ -75,18 +75,29 @@ Complex random_fans(Random& random) {
 
 Complex random_shape(Random& random) {
   switch (random.below(14)) {
-    case 0: return random_soup(random, 3, 3);
-    case 1: return random_soup(random, 2, 2);
-    case 2: return random_soup(random, 1, 4);
-    case 3: return random_soup(random, 4, 6);
-    case 4: return random_stack(random);
-    case 5: return random_fans(random);
-    case 6: return book(random.between(1, 12));
+    case 0:
+      return random_soup(random, 3, 3);
+    case 1:
+      return random_soup(random, 2, 2);
+    case 2:
+      return random_soup(random, 1, 4);
+    case 3:
+      return random_soup(random, 4, 6);
+    case 4:
+      return random_stack(random);
+    case 5:
+      return random_fans(random);
+    case 6:
+      return book(random.between(1, 12));
     case 7:
-      return closed_surface(static_cast<unsigned>(random.below(4)), random.between(3, 5), random.between(3, 4));
-    case 8: return tied_strip(random.between(1, 12), random.between(1, 4));
-    case 9: return random_soup(random, 2, 3);
-    default: return random_grid(random);
+      return closed_surface(static_cast<unsigned>(random.below(4)), random.between(3, 5),
+                            random.between(3, 4));
+    case 8:
+      return tied_strip(random.between(1, 12), random.between(1, 4));
+    case 9:
+      return random_soup(random, 2, 3);
+    default:
+      return random_grid(random);
   }
 }
 
@@ -106,10 +117,18 @@ void add_loose_parts(Complex& complex, Random& random) {
   for (std::uint64_t n = random.below(4); n > 0; --n) {
     const std::uint64_t a = any();
     switch (random.below(4)) {
-      case 0: complex.simplices.push_back({a}); break;
-      case 1: complex.simplices.push_back({a, any()}); break;
-      case 2: complex.simplices.push_back({a, any(), a}); break;
-      default: complex.simplices.push_back({a, a, a}); break;
+      case 0:
+        complex.simplices.push_back({a});
+        break;
+      case 1:
+        complex.simplices.push_back({a, any()});
+        break;
+      case 2:
+        complex.simplices.push_back({a, any(), a});
+        break;
+      default:
+        complex.simplices.push_back({a, a, a});
+        break;
     }
   }
   complex.kind += ", loose parts";
@@ -145,18 +164,30 @@ double pick(Random& random, const std::vector<double>& choices) {
 double random_value(Random& random, std::uint64_t kind, std::size_t vertex, std::size_t period) {
   const auto index = static_cast<double>(vertex);
   switch (kind) {
-    case 0: return pick(random, {0.0, 1.0});
-    case 1: return 7.25;
-    case 2: return index;
-    case 3: return -index;
-    case 4: return static_cast<double>(vertex / period);
-    case 5: return static_cast<double>(vertex % period);
-    case 6: return pick(random, {-0.0, 0.0});
-    case 7: return pick(random, {-1.0, -0.0, 0.0, 1.0});
-    case 8: return static_cast<double>(random.below(5)) * Limits::denorm_min();
-    case 9: return pick(random, {Limits::lowest(), -1e308, 1e308, Limits::max(), 0.0});
-    case 10: return static_cast<double>(random.below(4));
-    default: return random.unit() - 0.5;
+    case 0:
+      return pick(random, {0.0, 1.0});
+    case 1:
+      return 7.25;
+    case 2:
+      return index;
+    case 3:
+      return -index;
+    case 4:
+      return static_cast<double>(vertex / period);
+    case 5:
+      return static_cast<double>(vertex % period);
+    case 6:
+      return pick(random, {-0.0, 0.0});
+    case 7:
+      return pick(random, {-1.0, -0.0, 0.0, 1.0});
+    case 8:
+      return static_cast<double>(random.below(5)) * Limits::denorm_min();
+    case 9:
+      return pick(random, {Limits::lowest(), -1e308, 1e308, Limits::max(), 0.0});
+    case 10:
+      return static_cast<double>(random.below(4));
+    default:
+      return random.unit() - 0.5;
   }
 }
 

@@ -1,7 +1,8 @@
-// Random small complexes of every kind that the input may have (DESIGN.md 1.1): surfaces, orientable
-// or not, with and without holes; non-manifold edges and vertices; simplices up to dimension 5; loose
-// edges and vertices; degenerate and repeated simplices; several parts; and functions on them
-// with distinct values, ties of all sorts, signed zeros, denormals and values near the largest.
+// Random small complexes of every kind that the input may have (DESIGN.md 1.1): surfaces,
+// orientable or not, with and without holes; non-manifold edges and vertices; simplices up to
+// dimension 5; loose edges and vertices; degenerate and repeated simplices; several parts; and
+// functions on them with distinct values, ties of all sorts, signed zeros, denormals and values
+// near the largest.
 #pragma once
 
 #include <cstdint>

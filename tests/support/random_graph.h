@@ -10,7 +10,7 @@ namespace reeb::test {
 // Without (1, 1) nodes, with parallel arcs, several parts and tied values; up to about 16 nodes.
 ReebGraph random_graph(std::uint64_t seed);
 
-// The same with about this many arcs, and distances of arcs as in meshes: mostly short.
+// The same made of this many arcs, less what contracting (1, 1) nodes takes.
 ReebGraph random_graph(std::uint64_t seed, std::size_t arcs);
 
 }  // namespace reeb::test
