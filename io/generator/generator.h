@@ -35,7 +35,7 @@ struct GeneratorOptions {
   std::uint64_t triangles = 1'000'000;  // the mesh has the nearest count that its kind and width allow
   MeshOrder order = MeshOrder::kPatches;
   std::uint64_t seed = 1;               // of noise, places of handles, and random order
-  std::optional<std::uint64_t> width;   // cells in a row of the grid; default: about as many as rows
+  std::optional<std::uint64_t> width{}; // cells in a row of the grid; default: about as many as rows
   unsigned dimension = 3;               // of the Sierpinski simplex
 };
 
