@@ -1,0 +1,11 @@
+// The subcommands of `reeb`, one file each. Each function adds its subcommand, options and help to
+// the program; the work happens in its callback. Errors leave as reeb::Error.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace reeb::tools {
+
+void add_generate(CLI::App& program);
+
+}  // namespace reeb::tools
