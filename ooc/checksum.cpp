@@ -5,8 +5,21 @@
 
 namespace reeb::ooc {
 
-std::uint64_t xxh64(std::span<const std::byte> bytes, std::uint64_t seed) noexcept {
-  return XXH64(bytes.data(), bytes.size(), seed);
+struct RunningChecksum::State {
+  XXH64_state_t hash;
+};
+
+std::uint64_t checksum(std::span<const std::byte> bytes) { return XXH64(bytes.data(), bytes.size(), 0); }
+
+RunningChecksum::RunningChecksum() : state_(std::make_unique<State>()) { XXH64_reset(&state_->hash, 0); }
+RunningChecksum::~RunningChecksum() = default;
+RunningChecksum::RunningChecksum(RunningChecksum&&) noexcept = default;
+RunningChecksum& RunningChecksum::operator=(RunningChecksum&&) noexcept = default;
+
+void RunningChecksum::add(std::span<const std::byte> bytes) {
+  if (!bytes.empty()) XXH64_update(&state_->hash, bytes.data(), bytes.size());
 }
+
+std::uint64_t RunningChecksum::value() const { return XXH64_digest(&state_->hash); }
 
 }  // namespace reeb::ooc

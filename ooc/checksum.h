@@ -1,12 +1,30 @@
-// XXH64: guards blocks of files against damage, not against intent.
+// XXH64 with seed 0: the checksum and digest of every file that this project writes.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 
 namespace reeb::ooc {
 
-std::uint64_t xxh64(std::span<const std::byte> bytes, std::uint64_t seed = 0) noexcept;
+std::uint64_t checksum(std::span<const std::byte> bytes);
+inline std::uint64_t xxh64(std::span<const std::byte> bytes) { return checksum(bytes); }
+
+// The checksum of bytes that come in pieces; does not depend on where they were cut.
+class RunningChecksum {
+ public:
+  RunningChecksum();
+  ~RunningChecksum();
+  RunningChecksum(RunningChecksum&&) noexcept;
+  RunningChecksum& operator=(RunningChecksum&&) noexcept;
+
+  void add(std::span<const std::byte> bytes);
+  std::uint64_t value() const;  // of all bytes so far
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
 
 }  // namespace reeb::ooc

@@ -1,0 +1,230 @@
+#include "libreeb/format/frame_codec.h"
+
+#include <bit>
+#include <cmath>
+
+#include "libreeb/format/byte_coding.h"
+
+namespace reeb {
+namespace {
+
+// An eight-byte column, gathered from or scattered into structures.
+using Column = std::vector<std::uint64_t>;
+
+std::uint64_t bits_of(double value) { return std::bit_cast<std::uint64_t>(value); }
+double double_of(std::uint64_t bits) { return std::bit_cast<double>(bits); }
+
+void encode_nodes(std::span<const SettledNode> nodes, bool positions, ByteWriter& out) {
+  Column column(nodes.size());
+  std::uint64_t before = 0;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const std::uint64_t bits = ordered_bits(nodes[i].key.value + 0.0);
+    column[i] = bits - before;
+    before = bits;
+  }
+  out.planes(column);
+  before = 0;
+  for (const SettledNode& node : nodes) {
+    out.delta(node.key.vertex.value(), before);
+    before = node.key.vertex.value();
+  }
+  if (!positions) return;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (std::size_t i = 0; i < nodes.size(); ++i) column[i] = bits_of(nodes[i].position[axis]);
+    out.planes(column);
+  }
+}
+
+const char* decode_nodes(ByteReader& in, std::size_t count, bool positions, std::vector<SettledNode>& nodes) {
+  if (!in.may_hold(count, positions ? 33 : 9)) return "a frame is too short for its nodes";
+  Column column(count);
+  nodes.resize(count);
+  in.planes(column);
+  std::uint64_t bits = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    bits += column[i];
+    nodes[i] = {};
+    nodes[i].key.value = from_ordered_bits(bits) + 0.0;
+    if (!std::isfinite(nodes[i].key.value)) return "a node's value is not finite";
+  }
+  std::uint64_t vertex = 0;
+  for (SettledNode& node : nodes) {
+    vertex = in.delta(vertex);
+    node.key.vertex = VertexId(vertex);
+  }
+  for (std::size_t i = 1; i < count; ++i)
+    if (!(nodes[i - 1].key < nodes[i].key)) return "the nodes of a frame are not ascending";
+  if (!positions) return nullptr;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    in.planes(column);
+    for (std::size_t i = 0; i < count; ++i) nodes[i].position[axis] = double_of(column[i]);
+  }
+  return nullptr;
+}
+
+// `died` is stored as its distance from kNeverDies, so that arcs that never die cost nothing.
+void encode_arcs(std::span<const FileArc> arcs, ByteWriter& out) {
+  std::uint32_t distance = 0;
+  for (const FileArc& arc : arcs) {
+    out.varint((kNeverDies - arc.died) - distance);
+    distance = kNeverDies - arc.died;
+  }
+  for (const FileArc& arc : arcs) out.varint(arc.born);
+  std::uint64_t before = 0;
+  for (const FileArc& arc : arcs) {
+    out.delta(arc.lo, before);
+    before = arc.lo;
+  }
+  for (const FileArc& arc : arcs) out.delta(arc.hi, arc.lo);
+}
+
+const char* decode_arcs(ByteReader& in, std::size_t count, std::vector<FileArc>& arcs) {
+  if (!in.may_hold(count, 4)) return "a frame is too short for its arcs";
+  arcs.resize(count);
+  std::uint64_t distance = 0;
+  for (FileArc& arc : arcs) {
+    distance += in.varint32();
+    if (distance >= kNeverDies) return "an arc dies before it can be born";
+    arc.died = kNeverDies - static_cast<std::uint32_t>(distance);
+  }
+  for (FileArc& arc : arcs) {
+    arc.born = in.varint32();
+    if (arc.born >= arc.died) return "an arc dies before it is born";
+  }
+  std::uint64_t lo = 0;
+  for (FileArc& arc : arcs) arc.lo = lo = in.delta(lo);
+  for (FileArc& arc : arcs) arc.hi = in.delta(arc.lo);
+  return nullptr;
+}
+
+void encode_versions(std::span<const VersionCounts> versions, bool embedding, ByteWriter& out) {
+  Column column;
+  for (const VersionCounts& version : versions) column.push_back(bits_of(version.persistence));
+  out.planes(column);
+  VersionCounts before;
+  for (const VersionCounts& version : versions) {
+    out.delta(version.nodes, before.nodes);
+    out.delta(version.arcs, before.arcs);
+    if (embedding) out.delta(version.buckets, before.buckets);
+    before = version;
+  }
+}
+
+const char* decode_versions(ByteReader& in, std::size_t count, bool embedding,
+                            std::vector<VersionCounts>& versions) {
+  if (!in.may_hold(count, 10)) return "a frame is too short for its versions";
+  Column column(count);
+  versions.resize(count);
+  in.planes(column);
+  VersionCounts before{.persistence = HUGE_VAL};
+  for (std::size_t i = 0; i < count; ++i) {
+    VersionCounts& version = versions[i];
+    version.persistence = double_of(column[i]);
+    if (!(version.persistence >= 0 && version.persistence <= before.persistence))
+      return "the persistences of a frame are not descending";
+    version.nodes = in.delta(before.nodes);
+    version.arcs = in.delta(before.arcs);
+    version.buckets = embedding ? in.delta(before.buckets) : 0;
+    before = version;
+  }
+  return nullptr;
+}
+
+void encode_buckets(const GraphFrame& frame, ByteWriter& out) {
+  for (const std::uint32_t count : frame.bucket_counts) out.varint(count);
+  std::uint64_t before = 0;
+  for (const Bucket& bucket : frame.buckets) {
+    const auto index = static_cast<std::uint64_t>(bucket.index);
+    out.delta(index, before);
+    before = index;
+  }
+  for (const Bucket& bucket : frame.buckets) out.varint(bucket.count);
+  Column column(frame.buckets.size());
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (std::size_t i = 0; i < column.size(); ++i) column[i] = bits_of(frame.buckets[i].mean[axis]);
+    out.planes(column);
+  }
+}
+
+const char* decode_buckets(ByteReader& in, GraphFrame& frame) {
+  frame.bucket_counts.resize(frame.arcs.size());
+  std::uint64_t total = 0;
+  for (std::uint32_t& count : frame.bucket_counts) total += count = in.varint32();
+  if (!in.may_hold(total, 26)) return "a frame is too short for its buckets";
+  frame.buckets.resize(total);
+  std::uint64_t index = 0;
+  for (Bucket& bucket : frame.buckets) {
+    index = in.delta(index);
+    bucket.index = static_cast<std::int64_t>(index);
+  }
+  for (Bucket& bucket : frame.buckets) bucket.count = in.varint();
+  Column column(total);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    in.planes(column);
+    for (std::size_t i = 0; i < column.size(); ++i) frame.buckets[i].mean[axis] = double_of(column[i]);
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+void GraphFrame::clear() {
+  nodes.clear();
+  arcs.clear();
+  versions.clear();
+  bucket_counts.clear();
+  buckets.clear();
+}
+
+void encode_graph_frame(const GraphFrame& frame, const FileFlags& flags, std::vector<std::byte>& bytes) {
+  ByteWriter out(bytes);
+  encode_versions(frame.versions, flags.has_embedding, out);
+  encode_nodes(frame.nodes, flags.has_positions, out);
+  encode_arcs(frame.arcs, out);
+  if (flags.has_embedding) encode_buckets(frame, out);
+}
+
+const char* decode_graph_frame(std::span<const std::byte> payload, const FrameHeader& header,
+                               const FileFlags& flags, GraphFrame& frame) {
+  ByteReader in(payload);
+  frame.clear();
+  if (const char* why = decode_versions(in, header.versions, flags.has_embedding, frame.versions)) return why;
+  if (const char* why = decode_nodes(in, header.nodes, flags.has_positions, frame.nodes)) return why;
+  if (const char* why = decode_arcs(in, header.records, frame.arcs)) return why;
+  if (flags.has_embedding)
+    if (const char* why = decode_buckets(in, frame)) return why;
+  return in.done() ? nullptr : "a frame's payload does not end where its counts say";
+}
+
+void encode_pairs_frame(std::span<const FilePair> pairs, std::vector<std::byte>& bytes) {
+  ByteWriter out(bytes);
+  for (const FilePair& pair : pairs)
+    out.u8(static_cast<std::uint8_t>(static_cast<unsigned>(pair.type) | (pair.kept ? 4u : 0u)));
+  std::uint64_t before = 0;
+  for (const FilePair& pair : pairs) {
+    out.delta(pair.lo, before);
+    before = pair.lo;
+  }
+  for (const FilePair& pair : pairs) out.delta(pair.hi, pair.lo);
+}
+
+const char* decode_pairs_frame(std::span<const std::byte> payload, const FrameHeader& header,
+                               std::vector<FilePair>& pairs) {
+  ByteReader in(payload);
+  pairs.clear();
+  if (!in.may_hold(header.nodes, 3)) return "a frame is too short for its pairs";
+  pairs.resize(header.nodes);
+  for (FilePair& pair : pairs) {
+    const std::uint8_t bits = in.u8();
+    if (bits > 7) return "a pair has an unknown type";
+    pair.type = static_cast<PairType>(bits & 3);
+    pair.kept = (bits & 4) != 0;
+    if (pair.kept && pair.type != PairType::kExt1) return "a pair that is no loop is marked as kept";
+  }
+  std::uint64_t lo = 0;
+  for (FilePair& pair : pairs) pair.lo = lo = in.delta(lo);
+  for (FilePair& pair : pairs) pair.hi = in.delta(pair.lo);
+  return in.done() ? nullptr : "a frame's payload does not end where its counts say";
+}
+
+}  // namespace reeb

@@ -1,0 +1,61 @@
+// The payloads of frames: columns of nodes, arc records, versions, buckets and pairs, delta-coded
+// (docs/FORMAT.md, Graph frame and Pairs frame). Compression and checksums are not done here.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "libreeb/format/reeb_format.h"
+#include "libreeb/hierarchy/hierarchy.h"
+#include "libreeb/port/graph_sink.h"
+
+namespace reeb {
+
+// An arc record by the file indices of its nodes: their order of introduction, from 0.
+struct FileArc {
+  std::uint64_t lo = 0, hi = 0;
+  std::uint32_t born = 0, died = kNeverDies;
+  friend bool operator==(const FileArc&, const FileArc&) = default;
+};
+
+// A version that the frame completes.
+struct VersionCounts {
+  double persistence = 0;  // of the cancellation that made it; 0 for version 0
+  std::uint64_t nodes = 0, arcs = 0, buckets = 0;
+  friend bool operator==(const VersionCounts&, const VersionCounts&) = default;
+};
+
+// Reused from frame to frame, so that its memory is.
+struct GraphFrame {
+  std::vector<SettledNode> nodes;       // introduced here, ascending
+  std::vector<FileArc> arcs;            // by died, descending
+  std::vector<VersionCounts> versions;  // completed here, from coarse to fine
+  std::vector<std::uint32_t> bucket_counts;  // one entry an arc, with an embedding
+  std::vector<Bucket> buckets;               // of all arcs, one arc after the other
+  void clear();
+};
+
+// Appends the payload. Buckets are written with has_embedding, positions with has_positions.
+void encode_graph_frame(const GraphFrame& frame, const FileFlags& flags, std::vector<std::byte>& out);
+
+// Fills `frame` from a payload with the counts of `header`. Null, or what is wrong. Nothing is
+// sized beyond what the payload can hold. Checked: order of nodes and of `died`, born < died,
+// finite values, no byte left over. What spans frames is the reader's to check.
+const char* decode_graph_frame(std::span<const std::byte> payload, const FrameHeader& header,
+                               const FileFlags& flags, GraphFrame& frame);
+
+// A persistence pair by the file indices of its nodes.
+struct FilePair {
+  std::uint64_t lo = 0, hi = 0;
+  PairType type = PairType::kExt0;
+  bool kept = false;
+  friend bool operator==(const FilePair&, const FilePair&) = default;
+};
+
+void encode_pairs_frame(std::span<const FilePair> pairs, std::vector<std::byte>& out);
+const char* decode_pairs_frame(std::span<const std::byte> payload, const FrameHeader& header,
+                               std::vector<FilePair>& pairs);
+
+}  // namespace reeb

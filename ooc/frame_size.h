@@ -1,0 +1,14 @@
+// When a frame under construction is full: estimates of its uncompressed columns.
+#pragma once
+
+#include <cstddef>
+
+#include "libreeb/format/frame_codec.h"
+
+namespace reeb::ooc {
+
+inline constexpr std::size_t kFrameTargetBytes = 128 << 10;
+inline constexpr std::size_t kNodeCost = 36, kArcCost = 6, kVersionCost = 11, kBucketCost = 27;
+inline constexpr std::size_t kPairsPerFrame = 32768;
+
+}  // namespace reeb::ooc

@@ -1,0 +1,142 @@
+// GraphFileWriter: the streaming writer of graphs without hierarchy.
+#include <stdexcept>
+#include <utility>
+
+#include "ooc/file_header.h"
+#include "ooc/frame_size.h"
+#include "ooc/reeb_file_writer.h"
+
+namespace reeb::ooc {
+namespace {
+
+constexpr std::size_t kPiece = 4096;
+
+FileHeader first_header(FileMeta meta, bool has_positions, bool has_embedding) {
+  FileHeader header = header_of(std::move(meta));
+  header.flags = {true, has_positions, has_embedding};
+  header.levels.resize(1);
+  return header;
+}
+
+std::string folder_of(const std::string& path) {
+  const auto slash = path.find_last_of('/');
+  return slash == std::string::npos ? "." : path.substr(0, slash + 1);
+}
+
+bool in_order(const FileArc& a, const FileArc& b) {
+  return a.lo < b.lo || (a.lo == b.lo && a.hi <= b.hi);
+}
+
+}  // namespace
+
+GraphFileWriter::GraphFileWriter(const std::string& path, FileMeta meta, bool has_positions,
+                                 bool has_embedding, ArcEnds ends)
+    : header_(first_header(std::move(meta), has_positions, has_embedding)),
+      writer_(path, header_.region_bytes()) {
+  if (ends == ArcEnds::kKeys) keys_.emplace(folder_of(path));
+}
+
+GraphFileWriter::~GraphFileWriter() = default;
+
+void GraphFileWriter::add_nodes(std::span<const SettledNode> nodes) {
+  for (const SettledNode& node : nodes) {
+    if (last_node_ && !(*last_node_ < node.key)) throw std::logic_error("GraphFileWriter: nodes are not ascending");
+    last_node_ = node.key;
+    if (keys_) keys_->append(node.key);
+    frame_.nodes.push_back(node);
+    ++header_.nodes;
+    flush_if_full();
+  }
+}
+
+void GraphFileWriter::add_arcs(std::span<const ArcKeys> arcs, const ArcBucketsView& buckets) {
+  if (!std::exchange(sealed_, true)) keys_->seal();
+  ranked_.clear();
+  ranked_.reserve(arcs.size());
+  for (const ArcKeys& arc : arcs) {
+    lo_rank_ = keys_->rank(arc.lo, lo_rank_);
+    ranked_.push_back({lo_rank_, keys_->rank(arc.hi, lo_rank_), 0, kNeverDies});
+  }
+  keys_->release_pages();
+  add_arcs(std::span<const FileArc>(ranked_), buckets);
+}
+
+void GraphFileWriter::add_arcs(std::span<const FileArc> arcs, const ArcBucketsView& buckets) {
+  for (std::size_t i = 0; i < arcs.size(); ++i) {
+    const FileArc arc{arcs[i].lo, arcs[i].hi, 0, kNeverDies};
+    if (arc.lo >= arc.hi || arc.hi >= header_.nodes || (last_arc_ && !in_order(*last_arc_, arc)))
+      throw std::logic_error("GraphFileWriter: arc " + std::to_string(header_.arcs) + " is out of order");
+    last_arc_ = arc;
+    frame_.arcs.push_back(arc);
+    ++header_.arcs;
+    if (header_.flags.has_embedding) {
+      const auto own = buckets.of(i);
+      frame_.bucket_counts.push_back(static_cast<std::uint32_t>(own.size()));
+      frame_.buckets.insert(frame_.buckets.end(), own.begin(), own.end());
+      buckets_ += own.size();
+    }
+    flush_if_full();
+  }
+}
+
+void GraphFileWriter::finish(std::uint64_t components) {
+  frame_.versions.push_back({0.0, header_.nodes, header_.arcs, buckets_});
+  flush();
+  header_.components = components;
+  header_.loops = header_.arcs + components - header_.nodes;
+  header_.records = header_.arcs;
+  header_.levels[0] = {.version = 0,
+                       .frames = header_.graph_frames,
+                       .threshold = 0,
+                       .nodes = header_.nodes,
+                       .arcs = header_.arcs,
+                       .buckets = buckets_,
+                       .file_bytes = writer_.size(),
+                       .memory_bytes = level_memory(header_.nodes, header_.arcs, buckets_)};
+  writer_.finish(header_);
+}
+
+void GraphFileWriter::flush_if_full() {
+  if (frame_.nodes.size() * kNodeCost + frame_.arcs.size() * kArcCost +
+          frame_.buckets.size() * kBucketCost >=
+      kFrameTargetBytes)
+    flush();
+}
+
+void GraphFileWriter::flush() {
+  payload_.clear();
+  encode_graph_frame(frame_, header_.flags, payload_);
+  writer_.add({.kind = FrameKind::kGraph,
+               .nodes = static_cast<std::uint32_t>(frame_.nodes.size()),
+               .records = static_cast<std::uint32_t>(frame_.arcs.size()),
+               .versions = static_cast<std::uint32_t>(frame_.versions.size()),
+               .finest = frame_.versions.empty() ? 1u : 0u},
+              payload_);
+  ++header_.graph_frames;
+  frame_.clear();
+}
+
+void write_graph_file(const std::string& path, const FileMeta& meta, const ReebGraph& graph,
+                      const ArcBucketsView& buckets) {
+  GraphFileWriter writer(path, meta, !graph.positions.empty(), !buckets.empty(),
+                         GraphFileWriter::ArcEnds::kRanks);
+  std::vector<SettledNode> nodes;
+  for (std::size_t i = 0; i < graph.node_count(); ++i) {
+    nodes.push_back({graph.nodes[i], graph.positions.empty() ? Point{} : graph.positions[i]});
+    if (nodes.size() < kPiece && i + 1 < graph.node_count()) continue;
+    writer.add_nodes(nodes);
+    nodes.clear();
+  }
+  std::vector<FileArc> arcs;
+  for (std::size_t first = 0; first < graph.arc_count(); first += arcs.size()) {
+    arcs.clear();
+    const std::size_t last = std::min(first + kPiece, graph.arc_count());
+    for (std::size_t i = first; i < last; ++i) arcs.push_back({graph.lo[i].value(), graph.hi[i].value(), 0, kNeverDies});
+    ArcBucketsView piece = buckets;
+    if (!buckets.empty()) piece.offsets = buckets.offsets.subspan(first, last - first + 1);
+    writer.add_arcs(std::span<const FileArc>(arcs), piece);
+  }
+  writer.finish(betti_numbers(graph).components);
+}
+
+}  // namespace reeb::ooc

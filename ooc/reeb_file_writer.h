@@ -1,0 +1,84 @@
+// Writes `.reeb` files (docs/FORMAT.md). Bytes depend on the arguments only: no times, no paths.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "libreeb/format/frame_codec.h"
+#include "libreeb/format/reeb_format.h"
+#include "libreeb/graph/reeb_graph.h"
+#include "libreeb/hierarchy/arc_buckets.h"
+#include "libreeb/hierarchy/hierarchy.h"
+#include "libreeb/port/graph_sink.h"
+#include "ooc/frame_writer.h"
+#include "ooc/key_table.h"
+
+namespace reeb::ooc {
+
+// What a file says about the run that made it.
+struct FileMeta {
+  std::string function = "z";
+  double function_min = 0, function_max = 0;
+  std::uint64_t mesh_vertices = 0, mesh_triangles = 0;
+  double denoise_threshold = 0;
+  std::uint64_t denoised_pairs = 0;
+  std::int32_t bucket_exponent = 0;
+};
+
+// A graph with all its levels. `buckets`, if not empty, has those of hierarchy.arcs.
+// Nodes without any arc record are isolated points.
+// MEMORY: 12 bytes an arc record, 60 a version, 12 a node, and two frames.
+// THROWS: Error{kResource}; then nothing is left behind. std::logic_error if graph and hierarchy
+//         contradict each other.
+void write_hierarchy_file(const std::string& path, const FileMeta& meta, const ReebGraph& graph,
+                          const Hierarchy& hierarchy, const ArcBucketsView& buckets = {});
+
+// A graph without hierarchy, from memory. The same bytes as GraphFileWriter gives.
+void write_graph_file(const std::string& path, const FileMeta& meta, const ReebGraph& graph,
+                      const ArcBucketsView& buckets = {});
+
+// A graph without hierarchy that need not fit in memory: nodes in pieces, arcs in pieces, done.
+// The file appears at finish(); cuts between pieces do not show in it.
+// MEMORY: one frame, and with ArcEnds::kKeys a scratch file of 16 bytes a node beside the output.
+// THROWS: Error{kResource}; std::logic_error for items out of order.
+class GraphFileWriter {
+ public:
+  enum class ArcEnds { kRanks, kKeys };
+
+  GraphFileWriter(const std::string& path, FileMeta meta, bool has_positions, bool has_embedding,
+                  ArcEnds ends);
+  ~GraphFileWriter();
+
+  // REQUIRES: ascending, over all calls.
+  void add_nodes(std::span<const SettledNode> nodes);
+
+  // REQUIRES: after all nodes; ascending by (lo, hi), over all calls; lo below hi. With an
+  //           embedding, `buckets` has those of this piece.
+  void add_arcs(std::span<const ArcKeys> arcs, const ArcBucketsView& buckets = {});
+  // The same, ends by the ranks of nodes.
+  void add_arcs(std::span<const FileArc> arcs, const ArcBucketsView& buckets = {});
+
+  // `components` is b0 of the graph.
+  void finish(std::uint64_t components);
+
+ private:
+  void flush_if_full();
+  void flush();
+
+  FileHeader header_;
+  FrameWriter writer_;
+  std::optional<KeyTable> keys_;
+  GraphFrame frame_;
+  std::vector<std::byte> payload_;
+  std::vector<FileArc> ranked_;
+  std::optional<SweepKey> last_node_;
+  std::optional<FileArc> last_arc_;
+  std::uint64_t lo_rank_ = 0, buckets_ = 0;
+  bool sealed_ = false;
+};
+
+}  // namespace reeb::ooc
