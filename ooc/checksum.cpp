@@ -9,7 +9,7 @@ struct RunningChecksum::State {
   XXH64_state_t hash;
 };
 
-std::uint64_t checksum(std::span<const std::byte> bytes) { return XXH64(bytes.data(), bytes.size(), 0); }
+std::uint64_t checksum(std::span<const std::byte> bytes, std::uint64_t seed) { return XXH64(bytes.data(), bytes.size(), seed); }
 
 RunningChecksum::RunningChecksum() : state_(std::make_unique<State>()) { XXH64_reset(&state_->hash, 0); }
 RunningChecksum::~RunningChecksum() = default;
