@@ -143,7 +143,7 @@ class AsciiOffReader final : public OffReader {
   void read_vertex(MeshBatch& batch) override {
     require_more("the file ends before its last vertex");
     for (auto& column : batch.coordinates) column.push_back(text_.finite_number<double>("coordinate"));
-    while (text_.more_on_line()) odd_values_ += spells_non_finite(text_.token()) ? 1 : 0;
+    while (text_.more_on_line()) odd_values_ += spells_non_finite(text_.token()) ? 1u : 0u;
     text_.skip_line();
   }
   std::int64_t begin_face() override {
