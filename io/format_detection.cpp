@@ -89,11 +89,24 @@ bool is_streaming_binary(std::string_view head) {
   return head.front() == 0 || head.front() == 1 || head.front() == 3 || head.front() == 4;
 }
 
+// Files in the wild have stray lines before the first one that OBJ knows.
+bool has_obj_vertex(std::string_view text) {
+  while (!text.empty()) {
+    const std::string_view line = take_line(text);
+    const std::string_view word = first_word(line);
+    if (word != "v") continue;
+    const std::string_view rest = line.substr(static_cast<std::size_t>(word.end() - line.begin()));
+    if (parse_number<double>(first_word(rest)).ok) return true;
+  }
+  return false;
+}
+
 MeshFormat detect_text(std::string_view text, const std::string& path) {
   if (has_streaming_comment(text) || is_streaming_name(path)) return MeshFormat::kStreaming;
   const std::string_view word = first_word(skip_comments(text));
   if (is_obj_keyword(word)) return MeshFormat::kObj;
-  return word == "x" ? MeshFormat::kStreaming : MeshFormat::kUnknown;
+  if (word == "x") return MeshFormat::kStreaming;
+  return has_obj_vertex(text) ? MeshFormat::kObj : MeshFormat::kUnknown;
 }
 
 }  // namespace

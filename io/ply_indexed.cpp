@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <system_error>
 #include <utility>
 
 #include "io/mapped_windows.h"
@@ -150,7 +151,9 @@ bool has_place_for_index(const PlyHeader& header) {
 
 std::unique_ptr<IndexedMesh> open_indexed_ply(const std::string& path, const ReadOptions& options) {
   // A pipe gives its bytes only once: it is left for open_mesh.
-  if (path == "-" || std::filesystem::is_fifo(path) || std::filesystem::is_character_file(path)) return nullptr;
+  std::error_code failure;
+  const auto status = std::filesystem::status(path, failure);
+  if (path == "-" || std::filesystem::is_fifo(status) || std::filesystem::is_character_file(status)) return nullptr;
   auto source = open_byte_source(path);
   if (!source->can_seek() || !source->view(0).starts_with("ply")) return nullptr;
   TextCursor text(std::move(source));

@@ -189,7 +189,7 @@ class PlyReader final : public BatchReader {
       else if (property.list_count)
         pass_property(property);
       else
-        odd_values_ += decoder_.skip(property.type, "value") ? 1 : 0;
+        odd_values_ += decoder_.skip(property.type, "value") ? 1u : 0u;
     }
     decoder_.end_record(element);
     for (const auto& [to, from] : copies_) columns_[to]->push_back(columns_[from]->back());

@@ -15,7 +15,10 @@ bool ends_token(char c) { return c == '\n' || is_blank(c); }
 
 std::string quoted(std::string_view token) {
   static constexpr std::size_t kShown = 40;
-  return "\"" + std::string(token.substr(0, kShown)) + (token.size() > kShown ? "...\"" : "\"");
+  std::string text = "\"";
+  text.append(token.substr(0, kShown));
+  text.append(token.size() > kShown ? "...\"" : "\"");
+  return text;
 }
 
 }  // namespace
