@@ -11,9 +11,8 @@ namespace reeb::io {
 
 std::unique_ptr<MeshWriter> create_mesh(const std::string& path, const MeshWriterOptions& options) {
   std::string suffix = std::filesystem::path(path).extension().string();
-  std::transform(suffix.begin(), suffix.end(), suffix.begin(), [](unsigned char c) {
-    return static_cast<char>(std::tolower(c));
-  });
+  std::transform(suffix.begin(), suffix.end(), suffix.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   if (suffix == ".ply") return create_ply(path, options);
   if (suffix == ".obj") return create_obj(path, options);
   if (suffix == ".off") return create_off(path, options);

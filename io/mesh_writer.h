@@ -18,10 +18,11 @@
 namespace reeb::io {
 
 struct MeshWriterOptions {
-  unsigned dimension = 3;                      // coordinates a vertex
-  std::vector<std::string> property_names{};   // columns of MeshBatch::properties; only PLY keeps them
-  bool float64 = false;                        // PLY numbers: double instead of float
-  std::optional<std::uint64_t> vertex_count{}; // a promise; saves the temporary copy of the faces
+  unsigned dimension = 3;  // coordinates a vertex
+  std::vector<std::string>
+      property_names{};  // columns of MeshBatch::properties; only PLY keeps them
+  bool float64 = false;  // PLY numbers: double instead of float
+  std::optional<std::uint64_t> vertex_count{};  // a promise; saves the temporary copy of the faces
   Existing existing = Existing::kRefuse;
 };
 

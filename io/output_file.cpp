@@ -56,9 +56,7 @@ void OutputFile::append_file(OutputFile& other) {
   }
 }
 
-void OutputFile::flush() {
-  write_out(buffer_.get(), std::exchange(filled_, 0));
-}
+void OutputFile::flush() { write_out(buffer_.get(), std::exchange(filled_, 0)); }
 
 void OutputFile::write_out(const char* data, std::size_t bytes) {
   while (bytes > 0) {

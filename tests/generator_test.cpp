@@ -206,8 +206,8 @@ TEST_P(Generated, DoesNotDependOnTheBatchSize) {
 
 std::vector<GeneratorOptions> all_kinds() {
   std::vector<GeneratorOptions> all;
-  for (const auto kind : {MeshKind::kTorus, MeshKind::kTerrain, MeshKind::kGrid, MeshKind::kPlate,
-                          MeshKind::kScan}) {
+  for (const auto kind :
+       {MeshKind::kTorus, MeshKind::kTerrain, MeshKind::kGrid, MeshKind::kPlate, MeshKind::kScan}) {
     for (const std::uint64_t triangles : {1u, 50u, 3000u, 30'000u})
       all.push_back({.kind = kind, .triangles = triangles, .seed = triangles});
     // Several patches each way, and a last patch that is one cell or one line of vertices wide.
@@ -216,7 +216,8 @@ std::vector<GeneratorOptions> all_kinds() {
   }
   for (unsigned dimension = 2; dimension <= 5; ++dimension)
     for (const std::uint64_t triangles : {1u, 3000u, 20'000u})
-      all.push_back({.kind = MeshKind::kSierpinski, .triangles = triangles, .dimension = dimension});
+      all.push_back(
+          {.kind = MeshKind::kSierpinski, .triangles = triangles, .dimension = dimension});
   return all;
 }
 INSTANTIATE_TEST_SUITE_P(Kinds, Generated, testing::ValuesIn(all_kinds()));
@@ -226,7 +227,8 @@ INSTANTIATE_TEST_SUITE_P(Kinds, Generated, testing::ValuesIn(all_kinds()));
 TEST(Generator, TheSierpinskiTriangleHasItsKnownNumberOfHoles) {
   std::uint64_t cells = 1, holes = 0;
   for (int level = 0; level < 8; ++level) {
-    const auto mesh = generate_mesh({.kind = MeshKind::kSierpinski, .triangles = cells, .dimension = 2});
+    const auto mesh =
+        generate_mesh({.kind = MeshKind::kSierpinski, .triangles = cells, .dimension = 2});
     EXPECT_EQ(mesh->topology().triangles, cells);
     EXPECT_EQ(mesh->topology().first_betti, holes);
     holes += cells;
@@ -235,8 +237,10 @@ TEST(Generator, TheSierpinskiTriangleHasItsKnownNumberOfHoles) {
 }
 
 TEST(Generator, HandlesArePresentInNumbers) {
-  EXPECT_GT(generate_mesh({.kind = MeshKind::kPlate, .triangles = 100'000})->topology().genus, 1000u);
-  EXPECT_GT(generate_mesh({.kind = MeshKind::kScan, .triangles = 12'000'000})->topology().genus, 500u);
+  EXPECT_GT(generate_mesh({.kind = MeshKind::kPlate, .triangles = 100'000})->topology().genus,
+            1000u);
+  EXPECT_GT(generate_mesh({.kind = MeshKind::kScan, .triangles = 12'000'000})->topology().genus,
+            500u);
 }
 
 TEST(Generator, TheCountIsTheNearestThatTheWidthAllows) {

@@ -96,7 +96,8 @@ Mesh parse_ply(const std::string& path, std::string* header = nullptr) {
   for (std::size_t i = 0; i < vertices; ++i) {
     mesh.vertices.emplace_back();
     for (const bool narrow : is_float)
-      mesh.vertices.back().push_back(narrow ? static_cast<double>(take<float>(in)) : take<double>(in));
+      mesh.vertices.back().push_back(narrow ? static_cast<double>(take<float>(in))
+                                            : take<double>(in));
   }
   for (std::size_t i = 0; i < faces; ++i) {
     mesh.faces.emplace_back(take<std::uint8_t>(in));
@@ -112,8 +113,12 @@ Mesh parse_obj(const std::string& path) {
   Mesh mesh;
   for (std::string line; std::getline(in, line);) {
     std::istringstream words(line.substr(1));
-    if (line[0] == 'v') mesh.vertices.emplace_back(std::istream_iterator<double>(words), std::istream_iterator<double>());
-    else mesh.faces.emplace_back(std::istream_iterator<std::uint64_t>(words), std::istream_iterator<std::uint64_t>());
+    if (line[0] == 'v')
+      mesh.vertices.emplace_back(std::istream_iterator<double>(words),
+                                 std::istream_iterator<double>());
+    else
+      mesh.faces.emplace_back(std::istream_iterator<std::uint64_t>(words),
+                              std::istream_iterator<std::uint64_t>());
   }
   for (auto& face : mesh.faces)
     for (auto& corner : face) --corner;
@@ -162,7 +167,8 @@ TEST_F(Writers, PlyKeepsInterleavedMeshesAndProperties) {
     write_interleaved(file, {.property_names = {"heat"}, .float64 = float64});
     std::string header;
     EXPECT_EQ(parse_ply(file, &header), expected_mesh(true, !float64));
-    EXPECT_NE(header.find("property " + std::string(float64 ? "double" : "float") + " heat\n"), header.npos);
+    EXPECT_NE(header.find("property " + std::string(float64 ? "double" : "float") + " heat\n"),
+              header.npos);
     EXPECT_NE(header.find("property list uchar int vertex_indices\n"), header.npos);
   }
   EXPECT_EQ(files(), 2u) << "a temporary file was left";
@@ -240,9 +246,10 @@ TEST_F(Writers, AFullDiskAndAMissingFolderAreResourceErrors) {
   for (const char* name : {"full.ply", "full.obj", "full.off"}) {
     fs::create_symlink("/dev/full", path(name));
     EXPECT_EQ(kind_of([&] {
-      const auto mesh = generate_mesh({.kind = MeshKind::kGrid, .triangles = 1000});
-      copy_mesh(*mesh, *create_mesh(path(name)));
-    }), ErrorKind::kResource);
+                const auto mesh = generate_mesh({.kind = MeshKind::kGrid, .triangles = 1000});
+                copy_mesh(*mesh, *create_mesh(path(name)));
+              }),
+              ErrorKind::kResource);
     EXPECT_TRUE(fs::is_symlink(path(name)));
   }
   EXPECT_TRUE(fs::is_character_file("/dev/full"));
@@ -258,8 +265,9 @@ TEST_F(Writers, WhatTheFormatCannotHoldIsRefused) {
   far.properties.clear();
   far.coordinates[0][2] = 1e300;
   EXPECT_EQ(kind_of([&] { create_mesh(path("a.ply"))->write(far); }), ErrorKind::kBadInput);
-  EXPECT_EQ(kind_of([&] { create_mesh(path("a.ply"), {.vertex_count = 3})->write(interleaved()[0]); }),
-            ErrorKind::kBadInput);
+  EXPECT_EQ(
+      kind_of([&] { create_mesh(path("a.ply"), {.vertex_count = 3})->write(interleaved()[0]); }),
+      ErrorKind::kBadInput);
 }
 
 }  // namespace

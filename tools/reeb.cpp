@@ -24,7 +24,8 @@ int run(int argc, char** argv) {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return program.exit(error);  // --help
-    return report(reeb::ErrorKind::kUsage, error.what(), "see reeb --help, or --help of the command");
+    return report(reeb::ErrorKind::kUsage, error.what(),
+                  "see reeb --help, or --help of the command");
   }
   return 0;
 }
@@ -37,7 +38,8 @@ int main(int argc, char** argv) {
   } catch (const reeb::Error& error) {
     return report(error.kind(), error.what(), error.hint());
   } catch (const std::bad_alloc&) {
-    return report(reeb::ErrorKind::kResource, "out of memory", "close other programs, or use a smaller mesh");
+    return report(reeb::ErrorKind::kResource, "out of memory",
+                  "close other programs, or use a smaller mesh");
   } catch (const std::exception& error) {
     return report(reeb::ErrorKind::kResource, error.what(), "please report this as a defect");
   }

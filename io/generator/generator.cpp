@@ -24,9 +24,8 @@ constexpr std::array<Names<MeshKind>, 6> kKinds = {{{"torus", MeshKind::kTorus},
                                                     {"plate", MeshKind::kPlate},
                                                     {"scan", MeshKind::kScan},
                                                     {"sierpinski", MeshKind::kSierpinski}}};
-constexpr std::array<Names<MeshOrder>, 3> kOrders = {{{"rows", MeshOrder::kRows},
-                                                      {"patches", MeshOrder::kPatches},
-                                                      {"random", MeshOrder::kRandom}}};
+constexpr std::array<Names<MeshOrder>, 3> kOrders = {
+    {{"rows", MeshOrder::kRows}, {"patches", MeshOrder::kPatches}, {"random", MeshOrder::kRandom}}};
 
 template <class Table>
 auto find_by_name(const Table& table, std::string_view what, std::string_view name) {
@@ -35,8 +34,8 @@ auto find_by_name(const Table& table, std::string_view what, std::string_view na
     if (entry == name) return value;
     known += (known.empty() ? "" : ", ") + std::string(entry);
   }
-  throw Error(ErrorKind::kUsage,
-              "unknown " + std::string(what) + " '" + std::string(name) + "'", "choose one of " + known);
+  throw Error(ErrorKind::kUsage, "unknown " + std::string(what) + " '" + std::string(name) + "'",
+              "choose one of " + known);
 }
 
 template <class Table, class Value>
@@ -49,7 +48,8 @@ std::string name_of(const Table& table, Value value) {
 // Delivers all vertices, then all triangles.
 class ShapeReader : public GeneratedMesh {
  public:
-  ShapeReader(std::unique_ptr<Shape> shape, const GeneratorOptions& options, std::size_t batch_events)
+  ShapeReader(std::unique_ptr<Shape> shape, const GeneratorOptions& options,
+              std::size_t batch_events)
       : shape_(std::move(shape)),
         topology_(shape_->topology()),
         random_(options.order == MeshOrder::kRandom),
@@ -68,9 +68,12 @@ class ShapeReader : public GeneratedMesh {
   bool read(MeshBatch& batch) override {
     batch.clear();
     batch.first_vertex = VertexId(next_vertex_);
-    if (next_vertex_ < topology_.vertices) read_vertices(batch);
-    else if (random_) read_random_triangles(batch);
-    else read_cells(batch);
+    if (next_vertex_ < topology_.vertices)
+      read_vertices(batch);
+    else if (random_)
+      read_random_triangles(batch);
+    else
+      read_cells(batch);
     return !batch.empty();
   }
 

@@ -32,20 +32,22 @@ enum class MeshOrder {
 
 struct GeneratorOptions {
   MeshKind kind = MeshKind::kScan;
-  std::uint64_t triangles = 1'000'000;  // the mesh has the nearest count that its kind and width allow
+  std::uint64_t triangles =
+      1'000'000;  // the mesh has the nearest count that its kind and width allow
   MeshOrder order = MeshOrder::kPatches;
-  std::uint64_t seed = 1;               // of noise, places of handles, and random order
-  std::optional<std::uint64_t> width{}; // cells in a row of the grid; default: about as many as rows
-  unsigned dimension = 3;               // of the Sierpinski simplex
+  std::uint64_t seed = 1;  // of noise, places of handles, and random order
+  std::optional<std::uint64_t>
+      width{};             // cells in a row of the grid; default: about as many as rows
+  unsigned dimension = 3;  // of the Sierpinski simplex
 };
 
 struct ExpectedTopology {
   std::uint64_t vertices = 0, triangles = 0;
   std::uint64_t components = 1;
-  std::int64_t euler_characteristic = 0;       // of the 2-skeleton
-  std::uint64_t first_betti = 0;               // of the 2-skeleton
-  std::optional<std::uint64_t> genus;          // orientable surfaces
-  std::optional<std::uint64_t> boundary_loops; // manifolds
+  std::int64_t euler_characteristic = 0;        // of the 2-skeleton
+  std::uint64_t first_betti = 0;                // of the 2-skeleton
+  std::optional<std::uint64_t> genus;           // orientable surfaces
+  std::optional<std::uint64_t> boundary_loops;  // manifolds
   // No Reeb graph of the mesh has more loops. A closed orientable surface has exactly so many
   // under every function all of whose saddles are simple.
   std::uint64_t max_reeb_loops = 0;

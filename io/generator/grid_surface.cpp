@@ -70,7 +70,8 @@ void GridSurface::append_vertices(std::uint64_t first, std::size_t count, Column
   for (std::uint64_t v = first; v < first + count;) {
     const auto places = place(vertices_.at(v / sheets_));
     for (std::uint64_t sheet = v % sheets_; sheet < sheets_ && v < first + count; ++sheet, ++v)
-      for (std::size_t k = 0; k < 3; ++k) columns[k].push_back(static_cast<double>(places[sheet][k]));
+      for (std::size_t k = 0; k < 3; ++k)
+        columns[k].push_back(static_cast<double>(places[sheet][k]));
   }
 }
 
@@ -96,7 +97,8 @@ void GridSurface::append_triangle(std::uint64_t triangle, std::vector<VertexId>&
   triangle -= of_cells;
   const std::uint64_t half = kTubeTriangles - of_cell;
   if (triangle < hole_count(layout_) * half) {
-    const std::uint64_t block = triangle / half, blocks = layout_.width >> layout_.holes.block_shift;
+    const std::uint64_t block = triangle / half,
+                        blocks = layout_.width >> layout_.holes.block_shift;
     return append_tube_triangle(hole_in_block({block % blocks, block / blocks}),
                                 static_cast<unsigned>(of_cell + triangle % half), corners);
   }

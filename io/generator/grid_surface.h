@@ -64,7 +64,8 @@ class GridSurface : public Shape {
   // Triangle k of the two on edge `edge` of the rim, counted around the grid.
   void append_rim_triangle(std::uint64_t edge, unsigned k, std::vector<VertexId>& corners) const;
   // Triangle k of the two of an upright wall along the upper edge from p to q.
-  void append_wall_triangle(GridPoint p, GridPoint q, unsigned k, std::vector<VertexId>& corners) const;
+  void append_wall_triangle(GridPoint p, GridPoint q, unsigned k,
+                            std::vector<VertexId>& corners) const;
   void append_rim_of_cell(GridPoint cell, std::vector<VertexId>& corners) const;
 
   GridLayout layout_;

@@ -30,7 +30,8 @@ inline double value_noise(std::uint64_t seed, double x, double y) {
   const double tx = x - static_cast<double>(ix), ty = y - static_cast<double>(iy);
   const double sx = tx * tx * (3 - 2 * tx), sy = ty * ty * (3 - 2 * ty);
   const double low = std::lerp(white_noise(seed, ix, iy), white_noise(seed, ix + 1, iy), sx);
-  const double high = std::lerp(white_noise(seed, ix, iy + 1), white_noise(seed, ix + 1, iy + 1), sx);
+  const double high =
+      std::lerp(white_noise(seed, ix, iy + 1), white_noise(seed, ix + 1, iy + 1), sx);
   return std::lerp(low, high, sy);
 }
 

@@ -20,7 +20,9 @@ class CutAxis {
       : size_(size), shift_(shift), lead_(lead) {}
   std::uint64_t size() const { return size_; }
   std::uint64_t patch_of(std::uint64_t x) const { return x < lead_ ? 0 : (x - lead_) >> shift_; }
-  std::uint64_t begin(std::uint64_t patch) const { return patch == 0 ? 0 : (patch << shift_) + lead_; }
+  std::uint64_t begin(std::uint64_t patch) const {
+    return patch == 0 ? 0 : (patch << shift_) + lead_;
+  }
   std::uint64_t end(std::uint64_t patch) const {
     return std::min(size_, ((patch + 1) << shift_) + lead_);
   }

@@ -62,7 +62,8 @@ void SierpinskiSimplex::append_cell(std::uint64_t cell, std::vector<VertexId>& c
   const auto at = corners_of(cell);
   for (unsigned a = 0; a < corners_; ++a)
     for (unsigned b = a + 1; b < corners_; ++b)
-      for (unsigned c = b + 1; c < corners_; ++c) corners.insert(corners.end(), {at[a], at[b], at[c]});
+      for (unsigned c = b + 1; c < corners_; ++c)
+        corners.insert(corners.end(), {at[a], at[b], at[c]});
 }
 
 void SierpinskiSimplex::append_triangle(std::uint64_t triangle,

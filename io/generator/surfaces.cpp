@@ -36,7 +36,8 @@ class Torus : public GridSurface {
     const double around_ring = angle(p.i, layout().width), ring = angle(p.j, layout().height);
     const double radius = 1.0 + 0.5 * std::cos(around_ring);
     return {{{coordinate(radius * std::cos(ring)), coordinate(0.5 * std::sin(around_ring)),
-              coordinate(radius * std::sin(ring))}, {}}};
+              coordinate(radius * std::sin(ring))},
+             {}}};
   }
 };
 
@@ -48,9 +49,10 @@ class Terrain : public GridSurface {
   static constexpr double kSlope = 0.3, kShortestWave = 6, kRoughness = 0.1;
 
   std::array<Point, 2> place(GridPoint p) const override {
-    const double z = fractal_noise(layout().seed, static_cast<double>(p.i), static_cast<double>(p.j),
-                                   longest_wave(layout()), kShortestWave, kSlope) +
-                     kRoughness * white_noise(layout().seed, p.i, p.j);
+    const double z =
+        fractal_noise(layout().seed, static_cast<double>(p.i), static_cast<double>(p.j),
+                      longest_wave(layout()), kShortestWave, kSlope) +
+        kRoughness * white_noise(layout().seed, p.i, p.j);
     return {{{coordinate(p.i), coordinate(p.j), coordinate(z)}, {}}};
   }
 };
@@ -84,8 +86,9 @@ class Scan : public GridSurface {
   static constexpr double kSlope = 0.35, kShortestWave = 8, kHalfThickness = 1.5, kNoise = 0.15;
 
   std::array<Point, 2> place(GridPoint p) const override {
-    const double z = fractal_noise(layout().seed, static_cast<double>(p.i), static_cast<double>(p.j),
-                                   longest_wave(layout()), kShortestWave, kSlope);
+    const double z =
+        fractal_noise(layout().seed, static_cast<double>(p.i), static_cast<double>(p.j),
+                      longest_wave(layout()), kShortestWave, kSlope);
     return {noisy(p, z + kHalfThickness, mix(layout().seed)),
             noisy(p, z - kHalfThickness, ~mix(layout().seed))};
   }
@@ -116,8 +119,10 @@ std::uint64_t nearest_height(GridLayout layout, std::uint64_t least, std::uint64
   std::uint64_t low = least, high = std::max(least, triangles / layout.width + 1);
   while (low < high) {
     const std::uint64_t middle = low + (high - low) / 2;
-    if (count(middle) < triangles) low = middle + 1;
-    else high = middle;
+    if (count(middle) < triangles)
+      low = middle + 1;
+    else
+      high = middle;
   }
   const bool below_is_nearer =
       low > least && triangles - count(low - 1) < count(low) - std::min(triangles, count(low));
@@ -134,7 +139,8 @@ GridLayout layout_of(const GeneratorOptions& options) {
   const auto side = static_cast<std::uint64_t>(std::lround(std::sqrt(static_cast<double>(cells))));
   layout.width = options.width.value_or(std::max(side, least));
   if (layout.width < least || layout.width > options.triangles + least)
-    throw Error(ErrorKind::kUsage, "a row of " + std::to_string(layout.width) + " cells does not fit the mesh",
+    throw Error(ErrorKind::kUsage,
+                "a row of " + std::to_string(layout.width) + " cells does not fit the mesh",
                 "choose --width between " + std::to_string(least) + " and the number of triangles");
   if (options.kind == MeshKind::kScan)
     layout.holes = scattered_holes(layout.width, cells / layout.width);
@@ -147,12 +153,17 @@ GridLayout layout_of(const GeneratorOptions& options) {
 std::unique_ptr<Shape> make_grid_surface(const GeneratorOptions& options) {
   const GridLayout layout = layout_of(options);
   switch (options.kind) {
-    case MeshKind::kTorus: return std::make_unique<Torus>(layout);
-    case MeshKind::kTerrain: return std::make_unique<Terrain>(layout);
-    case MeshKind::kPlate: return std::make_unique<Plate>(layout);
-    case MeshKind::kScan: return std::make_unique<Scan>(layout);
+    case MeshKind::kTorus:
+      return std::make_unique<Torus>(layout);
+    case MeshKind::kTerrain:
+      return std::make_unique<Terrain>(layout);
+    case MeshKind::kPlate:
+      return std::make_unique<Plate>(layout);
+    case MeshKind::kScan:
+      return std::make_unique<Scan>(layout);
     case MeshKind::kGrid:
-    case MeshKind::kSierpinski: break;
+    case MeshKind::kSierpinski:
+      break;
   }
   return std::make_unique<FlatGrid>(layout);
 }

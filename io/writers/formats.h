@@ -34,13 +34,16 @@ class TextRecord {
  public:
   static constexpr std::size_t kMaxBytes = 4096;
 
-  explicit TextRecord(OutputFile& out) : out_(out), begin_(out.reserve_record(kMaxBytes)), end_(begin_) {}
+  explicit TextRecord(OutputFile& out)
+      : out_(out), begin_(out.reserve_record(kMaxBytes)), end_(begin_) {}
   TextRecord(const TextRecord&) = delete;
   TextRecord& operator=(const TextRecord&) = delete;
   ~TextRecord() { out_.commit_record(static_cast<std::size_t>(end_ - begin_)); }
 
   void put(char c) { *end_++ = c; }
-  void put(std::integral auto number) { end_ = std::to_chars(end_, begin_ + kMaxBytes, number).ptr; }
+  void put(std::integral auto number) {
+    end_ = std::to_chars(end_, begin_ + kMaxBytes, number).ptr;
+  }
   // The shortest text that restores the number exactly; -0 as 0.
   void put(double number) { end_ = std::to_chars(end_, begin_ + kMaxBytes, number + 0.0).ptr; }
 

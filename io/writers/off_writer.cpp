@@ -37,7 +37,8 @@ class OffWriter : public MeshWriter {
 
  private:
   std::string header(std::uint64_t vertices, std::uint64_t faces) const {
-    const std::string magic = dimension_ == 3 ? "OFF\n" : "nOFF\n" + std::to_string(dimension_) + "\n";
+    const std::string magic =
+        dimension_ == 3 ? "OFF\n" : "nOFF\n" + std::to_string(dimension_) + "\n";
     return magic + std::to_string(vertices) + " " + std::to_string(faces) + " 0\n";
   }
 
@@ -63,9 +64,10 @@ class OffWriter : public MeshWriter {
 
 std::unique_ptr<MeshWriter> create_off(const std::string& path, const MeshWriterOptions& options) {
   if (options.dimension == 0 || options.dimension > kMaxDimension)
-    throw Error(ErrorKind::kBadInput,
-                "OFF is not written with " + std::to_string(options.dimension) + " coordinates a vertex",
-                "write .ply")
+    throw Error(
+        ErrorKind::kBadInput,
+        "OFF is not written with " + std::to_string(options.dimension) + " coordinates a vertex",
+        "write .ply")
         .at(path);
   return std::make_unique<OffWriter>(path, options);
 }

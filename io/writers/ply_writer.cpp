@@ -12,7 +12,8 @@
 namespace reeb::io {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "records are copied as they lie in memory");
+static_assert(std::endian::native == std::endian::little,
+              "records are copied as they lie in memory");
 
 constexpr std::uint64_t kMaxVertices = std::uint64_t{1} << 32;
 constexpr std::size_t kFaceBytes = 1 + 3 * sizeof(std::uint32_t);
@@ -45,7 +46,8 @@ class PlyWriter : public MeshWriter {
   // A flat mesh gets a third coordinate; coordinates beyond the third are further columns.
   static std::vector<std::string> column_names(const MeshWriterOptions& options) {
     std::vector<std::string> names = {"x", "y", "z"};
-    for (unsigned k = 3; k < options.dimension; ++k) names.push_back(std::string("c").append(std::to_string(k)));
+    for (unsigned k = 3; k < options.dimension; ++k)
+      names.push_back(std::string("c").append(std::to_string(k)));
     names.insert(names.end(), options.property_names.begin(), options.property_names.end());
     return names;
   }
@@ -57,7 +59,8 @@ class PlyWriter : public MeshWriter {
       text += std::string("property ") + (sizeof(Number) == 4 ? "float " : "double ") + name + "\n";
     text += "element face " + std::to_string(faces) + "\n";
     const bool is_signed = vertices <= kMaxVertices / 2;  // the bytes are the same
-    text += std::string("property list uchar ") + (is_signed ? "int" : "uint") + " vertex_indices\n";
+    text +=
+        std::string("property list uchar ") + (is_signed ? "int" : "uint") + " vertex_indices\n";
     return text + "end_header\n";
   }
 
@@ -90,7 +93,8 @@ class PlyWriter : public MeshWriter {
   [[noreturn]] static void throw_out_of_range(double value) {
     std::string text = "the number ";
     append_double(text, value);
-    throw Error(ErrorKind::kBadInput, text + " does not fit a float", "write double numbers, or OBJ");
+    throw Error(ErrorKind::kBadInput, text + " does not fit a float",
+                "write double numbers, or OBJ");
   }
 
   void write_faces(const MeshBatch& batch) {

@@ -13,9 +13,10 @@ SectionedFile::SectionedFile(const std::string& path, Existing existing, std::si
 OutputFile& SectionedFile::vertices(std::uint64_t count) {
   vertices_ += count;
   if (promised_ && vertices_ > *promised_)
-    throw Error(ErrorKind::kBadInput,
-                "the mesh has more than the " + std::to_string(*promised_) + " vertices it promised",
-                "check the input's header");
+    throw Error(
+        ErrorKind::kBadInput,
+        "the mesh has more than the " + std::to_string(*promised_) + " vertices it promised",
+        "check the input's header");
   return file_.out();
 }
 
