@@ -25,6 +25,9 @@ constexpr std::uint32_t along(Direction d, std::uint32_t node) {
   return d == kUp ? node : ~node;
 }
 
+// A limit that no node is beyond.
+constexpr std::uint32_t farthest(Direction d) { return d == kUp ? ~std::uint32_t{0} : 0; }
+
 // MEMORY: 36 bytes an arc, 8 bytes a node. No operation but the constructor allocates.
 class WorkingGraph {
  public:

@@ -1,0 +1,263 @@
+// The rules by which pairs are cancelled (DESIGN.md 1.5), one step at a time.
+//
+// WHY THE SEARCHES ARE SHORT. When the turn of a pair comes, every pair inside its interval is gone,
+// but for kept loops. So
+//  (1) the component of a maximum u above its up-fork v has no other maximum: any way up from v into
+//      it ends in u, and any way up from v outside it passes u;
+//  (2) no two arcs of v lead into one component of that set, nor of the interlevel set (v, y) of a
+//      loop, or else there would be a cycle above v that ends sooner: a loop with lo = v, kept.
+// Only at a fork with a kept loop is a component searched through.
+#pragma once
+
+#include <cstdint>
+#include <stdexcept>
+#include <vector>
+
+#include "libreeb/hierarchy/bounded_search.h"
+#include "libreeb/hierarchy/hierarchy.h"
+#include "libreeb/hierarchy/version_log.h"
+#include "libreeb/hierarchy/working_graph.h"
+
+namespace reeb {
+
+// What happens to the content of arcs (an embedding, a count) while the rules move them. Arcs are
+// named by their numbers in the full graph; a number stays with one of two arcs that become one.
+struct IgnoreContent {
+  // Whether the content of an arc that is taken away is laid on another path where there is one.
+  static constexpr bool kFollows = false;
+  // `from` is cut at `node`; its part on the side of their common start goes to `into`, whose end
+  // `node` is. The rest stays.
+  void cut(std::uint32_t /*from*/, std::uint32_t /*into*/, std::uint32_t /*node*/) {}
+  // Both have the same ends; `from` goes to `into` whole.
+  void merge(std::uint32_t /*from*/, std::uint32_t /*into*/) {}
+  // `lower` ends where `upper` starts, at a node that disappears; `lower` becomes both.
+  void join(std::uint32_t /*upper*/, std::uint32_t /*lower*/) {}
+  // The arc is taken away, and no other lies beside it.
+  void drop(std::uint32_t /*arc*/) {}
+};
+
+// MEMORY: 36 bytes an arc and 17 bytes a node; 4 bytes an arc and 16 a record in the log.
+template <class Content = IgnoreContent>
+class Canceller {
+ public:
+  explicit Canceller(const ReebGraph& graph, Content content = {})
+      : graph_(graph), log_(graph_), ahead_(graph_), back_(graph_),
+        kept_(graph.node_count()), content_(std::move(content)) {}
+  Canceller(const Canceller&) = delete;
+  Canceller& operator=(const Canceller&) = delete;
+
+  // Cancels the pair and makes a version of it. False, with nothing changed, for a loop that no rule
+  // can cancel. REQUIRES: called in the order of cancelling, for all pairs but Ext0.
+  bool cancel(const PersistencePair& pair) {
+    const std::uint32_t lo = pair.lo.value(), hi = pair.hi.value();
+    if (pair.type == PairType::kRel1) cancel_extremum(kUp, lo, hi);
+    if (pair.type == PairType::kOrd0) cancel_extremum(kDown, hi, lo);
+    if (pair.type == PairType::kExt1 && !cancel_loop(lo, hi)) {
+      kept_[lo] |= 1u << kUp;
+      kept_[hi] |= 1u << kDown;
+      return false;
+    }
+    contract(lo);
+    contract(hi);
+    log_.commit();
+    return true;
+  }
+
+  std::vector<ArcVersion> take_records() { return log_.take(); }
+  const Content& content() const { return content_; }
+
+ private:
+  static constexpr std::uint32_t kNone = WorkingGraph::kNone;
+
+  // A pair of `fork` with the extremum that is its partner in direction d.
+  void cancel_extremum(Direction d, std::uint32_t fork, std::uint32_t extremum);
+  std::uint32_t arc_to_extremum(Direction d, std::uint32_t fork, std::uint32_t extremum);
+  bool cancel_loop(std::uint32_t v, std::uint32_t y);
+  bool take_away(std::uint32_t arc);
+  void search_paths(std::uint32_t v, std::uint32_t y);
+  std::uint32_t second_path(std::uint32_t v, std::uint32_t y, std::uint32_t first);
+  void trace(std::vector<std::uint32_t>& path, std::uint32_t y);
+
+  bool leads(std::uint32_t arc) const { return back_.reached(graph_.end(arc, kUp)); }
+
+  // Zips two paths that start in one node and go in direction d, as far as the first one reaches.
+  void zip(Direction d);
+  void move_start(Direction d, std::uint32_t arc, std::uint32_t node) {
+    log_.touch(arc);
+    graph_.move_end(arc, opposite(d), node);
+  }
+  void remove(std::uint32_t arc) {
+    log_.touch(arc);
+    graph_.remove(arc);
+  }
+  void contract(std::uint32_t node);
+
+  [[noreturn]] static void not_a_pair() { throw std::logic_error("Canceller: not a pair of this graph"); }
+
+  WorkingGraph graph_;
+  VersionLog log_;
+  BoundedSearch ahead_;                     // from the fork of the pair
+  BoundedSearch back_;                      // from its partner
+  std::vector<std::uint8_t> kept_;          // bit d: loops in direction d of the node were kept
+  std::vector<std::uint32_t> first_, second_;  // arcs of the two paths to be zipped
+  Content content_;
+};
+
+// ---- extrema --------------------------------------------------------------------------------------
+
+template <class Content>
+void Canceller<Content>::cancel_extremum(Direction d, std::uint32_t fork, std::uint32_t extremum) {
+  const std::uint32_t in = arc_to_extremum(d, fork, extremum);
+  const bool searched = (kept_[fork] >> d & 1u) != 0;
+  const std::uint32_t out = graph_.nearest_if(fork, d, farthest(d), [&](std::uint32_t arc) {
+    return searched ? !back_.reached(graph_.end(arc, d)) : arc != in;
+  });
+  if (in == kNone || out == kNone) not_a_pair();
+
+  first_.assign(1, in);
+  while (graph_.end(first_.back(), d) != extremum)
+    first_.push_back(graph_.nearest(graph_.end(first_.back(), d), d));
+  second_.assign(1, out);
+  while (along(d, graph_.end(second_.back(), d)) < along(d, extremum))
+    second_.push_back(graph_.nearest(graph_.end(second_.back(), d), d));
+  zip(d);
+}
+
+// The nearest arc of `fork` that leads into the extremum's component. With a kept loop at the fork
+// there can be several; then back_ is left with that component. Otherwise there is one, and it is
+// looked for from both ends: back from the extremum, and along from each arc of the fork.
+template <class Content>
+std::uint32_t Canceller<Content>::arc_to_extremum(Direction d, std::uint32_t fork, std::uint32_t extremum) {
+  const bool searched = (kept_[fork] >> d & 1u) != 0;
+  back_.start(extremum, opposite(d), fork);
+  if (searched) {
+    back_.finish();
+    return graph_.nearest_if(fork, d, extremum,
+                             [&](std::uint32_t arc) { return back_.reached(graph_.end(arc, d)); });
+  }
+  // The second search visits the fork's own arcs only; each is walked to its end in turn.
+  ahead_.start(fork, d, extremum);
+  std::uint32_t walker = kNone, walked = kNone;
+  while (true) {
+    const std::uint32_t back = back_.step();
+    if (back != kNone && graph_.end(back, opposite(d)) == fork) return back;
+    if (walked == kNone) {
+      walker = walked = ahead_.step([](std::uint32_t) { return false; });
+      if (walker == kNone && back == kNone) not_a_pair();
+      continue;
+    }
+    const std::uint32_t node = graph_.end(walked, d);
+    if (node == extremum) return walker;
+    walked = along(d, node) < along(d, extremum) ? graph_.nearest(node, d) : kNone;
+  }
+}
+
+// ---- loops ----------------------------------------------------------------------------------------
+
+template <class Content>
+bool Canceller<Content>::cancel_loop(std::uint32_t v, std::uint32_t y) {
+  const std::uint32_t direct = graph_.nearest_if(v, kUp, y, [&](std::uint32_t arc) { return graph_.end(arc, kUp) == y; });
+  if (direct != kNone) return take_away(direct);
+
+  search_paths(v, y);
+  const std::uint32_t first = graph_.nearest_if(v, kUp, y, [&](std::uint32_t arc) { return leads(arc); });
+  if (first == kNone) return false;
+  const std::uint32_t second = second_path(v, y, first);
+  if (second == kNone) return false;
+  first_.assign(1, first);
+  second_.assign(1, second);
+  trace(first_, y);
+  trace(second_, y);
+  zip(kUp);
+  return true;
+}
+
+template <class Content>
+bool Canceller<Content>::take_away(std::uint32_t arc) {
+  if constexpr (Content::kFollows) {
+    const std::uint32_t v = graph_.end(arc, kDown), y = graph_.end(arc, kUp);
+    search_paths(v, y);
+    const std::uint32_t beside =
+        graph_.nearest_if(v, kUp, y, [&](std::uint32_t other) { return other != arc && leads(other); });
+    if (beside != kNone) {
+      first_.assign(1, beside);
+      second_.assign(1, arc);
+      trace(first_, y);
+      zip(kUp);
+      return true;
+    }
+    content_.drop(arc);
+  }
+  remove(arc);
+  return true;
+}
+
+// Makes leads() true for the arcs above v from which a monotone path reaches y, as far as they can
+// be reached from v: searches down from y and up from v in turn, until either has seen all.
+template <class Content>
+void Canceller<Content>::search_paths(std::uint32_t v, std::uint32_t y) {
+  back_.start(y, kDown, v);
+  ahead_.start(v, kUp, y);
+  while (back_.step() != kNone)
+    if (ahead_.step() == kNone) {
+      back_.start(y, kDown, v);
+      while (back_.step([&](std::uint32_t node) { return ahead_.reached(node); }) != kNone) {}
+      return;
+    }
+}
+
+// The nearest arc of v that leads to y in another component of the open interlevel set (v, y) than
+// that of the arc `first`; kNone if there is none.
+template <class Content>
+std::uint32_t Canceller<Content>::second_path(std::uint32_t v, std::uint32_t y, std::uint32_t first) {
+  if ((kept_[v] >> kUp & 1u) == 0)
+    return graph_.nearest_if(v, kUp, y, [&](std::uint32_t arc) { return arc != first && leads(arc); });
+  ahead_.start_both(graph_.end(first, kUp), v + 1, y - 1);
+  ahead_.finish();
+  return graph_.nearest_if(
+      v, kUp, y, [&](std::uint32_t arc) { return leads(arc) && !ahead_.reached(graph_.end(arc, kUp)); });
+}
+
+// Prolongs the path to y, taking at each choice the arc with the lowest upper node that leads there.
+template <class Content>
+void Canceller<Content>::trace(std::vector<std::uint32_t>& path, std::uint32_t y) {
+  for (std::uint32_t node = graph_.end(path.back(), kUp); node != y; node = graph_.end(path.back(), kUp)) {
+    path.push_back(graph_.nearest_if(node, kUp, y, [&](std::uint32_t arc) { return leads(arc); }));
+    if (path.back() == kNone) not_a_pair();
+  }
+}
+
+// ---- moving arcs ----------------------------------------------------------------------------------
+
+template <class Content>
+void Canceller<Content>::zip(Direction d) {
+  for (std::size_t i = 0, j = 0; i < first_.size() && j < second_.size();) {
+    const std::uint32_t a = first_[i], b = second_[j];
+    const std::uint32_t end_a = graph_.end(a, d), end_b = graph_.end(b, d);
+    if (end_a == end_b) {
+      content_.merge(b, a);
+      remove(b);
+      ++i, ++j;
+    } else if (along(d, end_a) < along(d, end_b)) {
+      content_.cut(b, a, end_a);
+      move_start(d, b, end_a);
+      ++i;
+    } else {
+      content_.cut(a, b, end_b);
+      move_start(d, a, end_b);
+      ++j;
+    }
+  }
+}
+
+template <class Content>
+void Canceller<Content>::contract(std::uint32_t node) {
+  if (!graph_.is_regular(node)) return;
+  const std::uint32_t lower = graph_.nearest(node, kDown), upper = graph_.nearest(node, kUp);
+  const std::uint32_t end = graph_.end(upper, kUp);
+  content_.join(upper, lower);
+  remove(upper);
+  move_start(kDown, lower, end);
+}
+
+}  // namespace reeb

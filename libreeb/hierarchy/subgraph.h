@@ -1,0 +1,21 @@
+// A graph made of arcs between some of the nodes of another.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "libreeb/graph/reeb_graph.h"
+
+namespace reeb {
+
+// Ends of an arc, as nodes of the full graph.
+struct NodeArc {
+  NodeId lo, hi;
+  friend auto operator<=>(const NodeArc&, const NodeArc&) = default;
+};
+
+// The graph with these arcs, in any order, the nodes that they join, and isolated nodes (ascending).
+// Keys and positions are taken over. O(k log k) in the size of the result, whatever that of `full`.
+ReebGraph subgraph(const ReebGraph& full, std::vector<NodeArc> arcs, std::span<const NodeId> isolated);
+
+}  // namespace reeb
