@@ -84,9 +84,10 @@ class Scan {
     const auto block = static_cast<std::uint32_t>(live_change_.size() - 1);
     std::int32_t introduced = 0;
     for (const VertexId v : corners) {
-      const UseEntry before(table_.get(v.value()));
+      std::uint32_t& entry = table_.change(v.value());
+      const UseEntry before(entry);
       if (before.last_block() == block) continue;
-      table_.set(v.value(), next_use(before, block).packed());
+      entry = next_use(before, block).packed();
       introduced += before.unused() ? 1 : 0;
     }
     live_change_.back() += introduced;

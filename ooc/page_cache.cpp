@@ -16,29 +16,27 @@ PageCache::PageCache(const char* owner, const TempDir& temp, MemoryBudget& budge
       directory_charge_(budget.reserve(owner, 0)) {}
 
 std::byte* PageCache::fault(std::size_t page, bool writing) {
-  if (page >= frames_.size()) grow_directory(page + 1);
+  if (page >= pages_.size()) grow_directory(page + 1);
   Frame frame = take_frame(page);
-  if ((marks_[page] & kOnDisk) != 0) {
+  std::uint32_t& marks = pages_[page].marks;
+  if ((marks & kOnDisk) != 0) {
     file_.read_at(page * kPageBytes, {frame.get(), kPageBytes});
     ++refetches_;
   } else {
     fill_fresh(frame.get());
   }
-  marks_[page] = static_cast<std::uint8_t>((marks_[page] & kOnDisk) | kTouched |
-                                           (writing ? kDirty : 0));
-  frames_[page] = std::move(frame);
-  return frames_[page].get();
+  marks = (marks & kOnDisk) | kTouched | (writing ? kDirty : 0);
+  pages_[page].frame = std::move(frame);
+  return pages_[page].frame.get();
 }
 
 void PageCache::grow_directory(std::size_t pages) {
-  if (pages > frames_.capacity()) {
-    const std::size_t capacity = std::max({pages, frames_.capacity() * 2, std::size_t{64}});
-    directory_charge_.resize(capacity * (sizeof(Frame) + 1));
-    frames_.reserve(capacity);
-    marks_.reserve(capacity);
+  if (pages > pages_.capacity()) {
+    const std::size_t capacity = std::max({pages, pages_.capacity() * 2, std::size_t{64}});
+    directory_charge_.resize(capacity * sizeof(Page));
+    pages_.reserve(capacity);
   }
-  frames_.resize(pages);
-  marks_.resize(pages);
+  pages_.resize(pages);
 }
 
 // A frame for `page`, which takes its place on the clock: new memory if it may grow, else another
@@ -55,20 +53,21 @@ PageCache::Frame PageCache::take_frame(std::size_t page) {
 }
 
 PageCache::Frame PageCache::evict_one(std::size_t successor) {
-  while ((marks_[resident_[hand_]] & kTouched) != 0) {
-    marks_[resident_[hand_]] &= static_cast<std::uint8_t>(~kTouched);
+  while ((pages_[resident_[hand_]].marks & kTouched) != 0) {
+    pages_[resident_[hand_]].marks &= ~kTouched;
     hand_ = (hand_ + 1) % resident_.size();
   }
   const std::size_t victim = resident_[hand_];
-  if ((marks_[victim] & kDirty) != 0) {
+  Page& old = pages_[victim];
+  if ((old.marks & kDirty) != 0) {
     if (!file_.is_open()) file_ = temp_->create_unnamed(owner_);
-    file_.write_at(victim * kPageBytes, {frames_[victim].get(), kPageBytes});
+    file_.write_at(victim * kPageBytes, {old.frame.get(), kPageBytes});
     spilled_ += kPageBytes;
-    marks_[victim] = kOnDisk;
+    old.marks = kOnDisk;
   }
   resident_[hand_] = successor;
   hand_ = (hand_ + 1) % resident_.size();
-  return std::move(frames_[victim]);
+  return std::move(old.frame);
 }
 
 void PageCache::fill_fresh(std::byte* bytes) const {

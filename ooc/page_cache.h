@@ -36,9 +36,9 @@ class PageCache {
   // The bytes of page `page`, in memory until the next call that names another page; the page is
   // marked as changed if `writing`.
   std::byte* page(std::size_t page, bool writing) {
-    if (page < frames_.size() && frames_[page] != nullptr) [[likely]] {
-      marks_[page] |= writing ? kTouched | kDirty : kTouched;
-      return frames_[page].get();
+    if (page < pages_.size() && pages_[page].frame != nullptr) [[likely]] {
+      pages_[page].marks |= writing ? kTouched | kDirty : kTouched;
+      return pages_[page].frame.get();
     }
     return fault(page, writing);
   }
@@ -49,11 +49,15 @@ class PageCache {
   // Pages read back so far, and pages ever named: where the first far exceeds the second, the
   // access is too scattered for the memory at hand.
   std::uint64_t refetches() const { return refetches_; }
-  std::uint64_t page_count() const { return frames_.size(); }
+  std::uint64_t page_count() const { return pages_.size(); }
 
  private:
   using Frame = std::unique_ptr<std::byte[]>;
-  static constexpr std::uint8_t kTouched = 1, kDirty = 2, kOnDisk = 4;
+  static constexpr std::uint32_t kTouched = 1, kDirty = 2, kOnDisk = 4;
+  struct Page {
+    Frame frame;  // null when not in memory
+    std::uint32_t marks = 0;
+  };
 
   std::byte* fault(std::size_t page, bool writing);
   void grow_directory(std::size_t pages);
@@ -66,10 +70,9 @@ class PageCache {
   std::uint64_t allowance_;
   std::vector<std::byte> fill_;
   Reservation pages_charge_, directory_charge_;
-  std::vector<Frame> frames_;            // by page; null when not in memory
-  std::vector<std::uint8_t> marks_;      // by page
-  std::vector<std::size_t> resident_;    // the clock's face: pages in memory
-  std::size_t hand_ = 0;                 // into resident_
+  std::vector<Page> pages_;
+  std::vector<std::size_t> resident_;  // the clock's face: pages in memory
+  std::size_t hand_ = 0;               // into resident_
   File file_;
   std::uint64_t spilled_ = 0, refetches_ = 0;
 };
