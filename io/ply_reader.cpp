@@ -37,7 +37,7 @@ std::vector<Step> plan_steps(const PlyHeader& header) {
   return steps;
 }
 
-MeshInfo describe(const PlyHeader& header, const ByteSource& source) {
+MeshInfo describe(const PlyHeader& header, const ContentSource& source) {
   MeshInfo info;
   info.format = header.format();
   info.dimension = header.dimension;
@@ -153,7 +153,7 @@ class PlyReader final : public BatchReader {
 
   void pass_fixed_records(const PlyElement& element) {
     const std::size_t stride = element.fixed_bytes();
-    if (stride > ByteSource::kLookahead) decoder_.fail("a record is too long", "is the header right?");
+    if (stride > ContentSource::kLookahead) decoder_.fail("a record is too long", "is the header right?");
     for (; record_ != element.count; ++record_) decoder_.take(stride);
   }
 
@@ -172,7 +172,7 @@ class PlyReader final : public BatchReader {
 
   void read_vertices(const PlyElement& element, MeshBatch& batch) {
     if constexpr (Decoder::kBinary) {
-      if (!element.has_lists() && element.fixed_bytes() <= ByteSource::kLookahead) {
+      if (!element.has_lists() && element.fixed_bytes() <= ContentSource::kLookahead) {
         while (room(batch) != 0 && record_ != element.count) read_vertex_run(element, batch);
         return;
       }
@@ -372,7 +372,7 @@ class PlyReader final : public BatchReader {
 
 }  // namespace
 
-std::unique_ptr<MeshReader> open_ply(std::unique_ptr<ByteSource> source, const ReadOptions& options) {
+std::unique_ptr<MeshReader> open_ply(std::unique_ptr<ContentSource> source, const ReadOptions& options) {
   TextCursor text(std::move(source));
   PlyHeader header = read_ply_header(text);
   if (header.encoding == PlyEncoding::kAscii)
@@ -380,7 +380,7 @@ std::unique_ptr<MeshReader> open_ply(std::unique_ptr<ByteSource> source, const R
   return std::make_unique<PlyReader<BinaryPlyDecoder>>(std::move(text), std::move(header), options);
 }
 
-std::unique_ptr<BatchReader> open_ply_faces(std::unique_ptr<ByteSource> source, const PlyHeader& header) {
+std::unique_ptr<BatchReader> open_ply_faces(std::unique_ptr<ContentSource> source, const PlyHeader& header) {
   auto reader =
       std::make_unique<PlyReader<BinaryPlyDecoder>>(TextCursor(std::move(source)), header, ReadOptions{});
   reader->pass_vertices();

@@ -8,7 +8,7 @@ namespace {
 
 MeshFormat detect(const std::string& bytes, const std::string& name = "mesh") {
   const std::string path = write_file(name, bytes);
-  return detect_format(*open_byte_source(path), path);
+  return detect_format(*open_content(path), path);
 }
 
 TEST(FormatDetection, ByContent) {
