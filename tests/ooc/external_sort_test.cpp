@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cerrno>
 #include <random>
 
 #include "libreeb/base/error.h"
@@ -86,30 +85,14 @@ TEST(ExternalSort, SaysWhenNotEvenTheLeastFits) {
 }
 
 TEST(ExternalSort, EachFailingWriteIsReported) {
-  const Scratch scratch;
   const auto pairs = random_pairs(60'000, 1);
-  for (const bool background : {false, true}) {
-    const auto run = [&](const TempDir& temp) {
-      MemoryBudget budget;
-      bool failed = false;
-      try {
-        ExternalSort<Pair> sort("pairs", temp, budget,
-                                {.allowance_bytes = 256 << 10, .background = background});
-        add_in_pieces(sort, pairs);
-        sort.finish();
-      } catch (const Error& e) {
-        EXPECT_EQ(e.kind(), ErrorKind::kResource);
-        failed = true;
-      }
-      EXPECT_EQ(budget.used_bytes(), 0u);
-      return failed;
-    };
-    CountWrites writes;
-    EXPECT_FALSE(run(TempDir(scratch.path(), writes)));
-    ASSERT_GT(writes.count(), 10u);
-    for (std::uint64_t n = 1; n <= writes.count(); ++n)
-      EXPECT_TRUE(run(TempDir(scratch.path(), FailNthWrite(n, ENOSPC)))) << n;
-  }
+  for (const bool background : {false, true})
+    expect_failing_writes_are_reported([&](const TempDir& temp, MemoryBudget& budget) {
+      ExternalSort<Pair> sort("pairs", temp, budget,
+                              {.allowance_bytes = 256 << 10, .background = background});
+      add_in_pieces(sort, pairs);
+      sort.finish();
+    });
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cstdlib>
 #include <set>
 
@@ -95,25 +94,11 @@ TEST(Reorder, MakesTheFrontSmall) {
 }
 
 TEST(Reorder, EachFailingWriteIsReported) {
-  const Scratch scratch;
   const ModelMesh model = shuffled(grid_mesh(120, 120), 5);
-  const auto run = [&](const TempDir& temp) {
-    MemoryBudget budget;
+  expect_failing_writes_are_reported([&](const TempDir& temp, MemoryBudget& budget) {
     ModelIndexedMesh indexed(model);
-    try {
-      reorder(indexed, temp, budget, {.allowance_bytes = 64 << 10});
-    } catch (const Error& e) {
-      EXPECT_EQ(e.kind(), ErrorKind::kResource);
-      EXPECT_EQ(budget.used_bytes(), 0u);
-      return true;
-    }
-    return false;
-  };
-  CountWrites writes;
-  EXPECT_FALSE(run(TempDir(scratch.path(), writes)));
-  ASSERT_GT(writes.count(), 20u);
-  for (std::uint64_t n = 1; n <= writes.count(); n += 1 + n / 8)
-    EXPECT_TRUE(run(TempDir(scratch.path(), FailNthWrite(n, ENOSPC)))) << n;
+    reorder(indexed, temp, budget, {.allowance_bytes = 64 << 10});
+  });
 }
 
 // Cells of the coarsest levels: the curve's start on the fine grid visits neighbours in turn.

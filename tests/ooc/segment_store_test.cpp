@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <random>
 #include <stdexcept>
 
@@ -85,28 +84,12 @@ TEST_P(Segments, GiveBackAllInCanonicalOrder) {
 }
 
 TEST_P(Segments, EachFailingWriteIsReported) {
-  const Scratch scratch;
   const Pieces pieces = random_pieces(12'000, 4);
-  const auto run = [&](const TempDir& temp) {
-    MemoryBudget budget;
-    bool failed = false;
-    try {
-      SegmentStore store(temp, budget, {.allowance_bytes = 0, .background = GetParam()});
-      add(store, pieces);
-      store.finish();
-    } catch (const Error& e) {
-      EXPECT_EQ(e.kind(), ErrorKind::kResource);
-      EXPECT_NE(e.file(), "");
-      failed = true;
-    }
-    EXPECT_EQ(budget.used_bytes(), 0u);
-    return failed;
-  };
-  CountWrites writes;
-  EXPECT_FALSE(run(TempDir(scratch.path(), writes)));
-  ASSERT_GT(writes.count(), 20u);
-  for (std::uint64_t n = 1; n <= writes.count(); n += 1 + n / 8)
-    EXPECT_TRUE(run(TempDir(scratch.path(), FailNthWrite(n, ENOSPC)))) << n;
+  expect_failing_writes_are_reported([&](const TempDir& temp, MemoryBudget& budget) {
+    SegmentStore store(temp, budget, {.allowance_bytes = 0, .background = GetParam()});
+    add(store, pieces);
+    store.finish();
+  });
 }
 
 INSTANTIATE_TEST_SUITE_P(Background, Segments, testing::Bool());
