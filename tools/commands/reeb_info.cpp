@@ -43,6 +43,7 @@ nlohmann::ordered_json to_json(const ooc::ReebFile& file) {
   return json;
 }
 
+// Thresholds are printed in full: typed back, they yield exactly their level.
 void print_text(const ooc::ReebFile& file) {
   const FileHeader& header = file.header();
   fmt::print("{}: Reeb graph, {}\n", file.path(), format_bytes(file.file_bytes()));
@@ -55,9 +56,9 @@ void print_text(const ooc::ReebFile& file) {
   if (header.flags.graph_only) fmt::print("  hierarchy  none (the graph only)\n");
   else
     fmt::print("  hierarchy  {} pairs, {} cancellations, {} loops kept\n", header.pairs, header.steps, header.kept_loops);
-  fmt::print("\n  {:>12} {:>12} {:>12} {:>12} {:>12}\n", "threshold", "nodes", "arcs", "of the file", "in memory");
+  fmt::print("\n  {:>22} {:>12} {:>12} {:>12} {:>12}\n", "threshold", "nodes", "arcs", "of the file", "in memory");
   for (const LevelLine& line : file.levels())
-    fmt::print("  {:>12.6g} {:>12} {:>12} {:>12} {:>12}\n", line.threshold, line.nodes, line.arcs,
+    fmt::print("  {:>22} {:>12} {:>12} {:>12} {:>12}\n", line.threshold, line.nodes, line.arcs,
                format_bytes(line.file_bytes), format_bytes(line.memory_bytes));
 }
 
