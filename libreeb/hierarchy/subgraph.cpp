@@ -35,4 +35,14 @@ ReebGraph subgraph(const ReebGraph& full, std::vector<NodeArc> arcs, std::span<c
   return graph;
 }
 
+std::vector<NodeId> isolated_nodes(const ReebGraph& graph) {
+  std::vector<bool> joined(graph.node_count());
+  for (const NodeId node : graph.lo) joined[node.value()] = true;
+  for (const NodeId node : graph.hi) joined[node.value()] = true;
+  std::vector<NodeId> isolated;
+  for (std::uint32_t node = 0; node < graph.node_count(); ++node)
+    if (!joined[node]) isolated.emplace_back(node);
+  return isolated;
+}
+
 }  // namespace reeb
