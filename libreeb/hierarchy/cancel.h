@@ -14,7 +14,7 @@ namespace reeb {
 // TIME:   O(m log m) for the pairs; a cancellation costs its two paths and a search that goes no
 //         further than the lesser of what lies above the lower and below the upper node within
 //         the pair's interval.
-// MEMORY: while cancelling, 40 bytes an arc, 33 a node, 12 a pair and 16 a record; together with
+// MEMORY: while cancelling, 40 bytes an arc, 32 a node, 12 a pair and 16 a record; together with
 //         growth at most 160 bytes an arc where nodes have three arcs or one.
 // REQUIRES: no node is of degree (1, 1).
 Hierarchy build_hierarchy(ReebGraph graph);

@@ -9,8 +9,10 @@
 // Only at a fork with a kept loop is a component searched through.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "libreeb/hierarchy/bounded_search.h"
@@ -36,13 +38,15 @@ struct IgnoreContent {
   void drop(std::uint32_t /*arc*/) {}
 };
 
-// MEMORY: 36 bytes an arc and 17 bytes a node; 4 bytes an arc and 16 a record in the log.
+// MEMORY: 36 bytes an arc and 16 bytes a node; 4 bytes an arc and 16 a record in the log.
 template <class Content = IgnoreContent>
 class Canceller {
  public:
   explicit Canceller(const ReebGraph& graph, Content content = {})
       : graph_(graph), log_(graph_), ahead_(graph_), back_(graph_),
-        kept_(graph.node_count()), content_(std::move(content)) {}
+        content_(std::move(content)) {
+    for (std::vector<bool>& nodes : kept_) nodes.resize(graph.node_count());
+  }
   Canceller(const Canceller&) = delete;
   Canceller& operator=(const Canceller&) = delete;
 
@@ -53,8 +57,8 @@ class Canceller {
     if (pair.type == PairType::kRel1) cancel_extremum(kUp, lo, hi);
     if (pair.type == PairType::kOrd0) cancel_extremum(kDown, hi, lo);
     if (pair.type == PairType::kExt1 && !cancel_loop(lo, hi)) {
-      kept_[lo] |= 1u << kUp;
-      kept_[hi] |= 1u << kDown;
+      kept_[kUp][lo] = true;
+      kept_[kDown][hi] = true;
       return false;
     }
     contract(lo);
@@ -98,7 +102,7 @@ class Canceller {
   VersionLog log_;
   BoundedSearch ahead_;                     // from the fork of the pair
   BoundedSearch back_;                      // from its partner
-  std::vector<std::uint8_t> kept_;          // bit d: loops in direction d of the node were kept
+  std::array<std::vector<bool>, 2> kept_;      // whether a loop in direction d of the node was kept
   std::vector<std::uint32_t> first_, second_;  // arcs of the two paths to be zipped
   Content content_;
 };
@@ -108,7 +112,7 @@ class Canceller {
 template <class Content>
 void Canceller<Content>::cancel_extremum(Direction d, std::uint32_t fork, std::uint32_t extremum) {
   const std::uint32_t in = arc_to_extremum(d, fork, extremum);
-  const bool searched = (kept_[fork] >> d & 1u) != 0;
+  const bool searched = kept_[d][fork];
   const std::uint32_t out = graph_.nearest_if(fork, d, farthest(d), [&](std::uint32_t arc) {
     return searched ? !back_.reached(graph_.end(arc, d)) : arc != in;
   });
@@ -128,7 +132,7 @@ void Canceller<Content>::cancel_extremum(Direction d, std::uint32_t fork, std::u
 // looked for from both ends: back from the extremum, and along from each arc of the fork.
 template <class Content>
 std::uint32_t Canceller<Content>::arc_to_extremum(Direction d, std::uint32_t fork, std::uint32_t extremum) {
-  const bool searched = (kept_[fork] >> d & 1u) != 0;
+  const bool searched = kept_[d][fork];
   back_.start(extremum, opposite(d), fork);
   if (searched) {
     back_.finish();
@@ -210,7 +214,7 @@ void Canceller<Content>::search_paths(std::uint32_t v, std::uint32_t y) {
 // that of the arc `first`; kNone if there is none.
 template <class Content>
 std::uint32_t Canceller<Content>::second_path(std::uint32_t v, std::uint32_t y, std::uint32_t first) {
-  if ((kept_[v] >> kUp & 1u) == 0)
+  if (!kept_[kUp][v])
     return graph_.nearest_if(v, kUp, y, [&](std::uint32_t arc) { return arc != first && leads(arc); });
   ahead_.start_both(graph_.end(first, kUp), v + 1, y - 1);
   ahead_.finish();
