@@ -104,6 +104,26 @@ TEST(Hierarchy, ALoopWithoutTwoMonotonePathsIsKept) {
   EXPECT_EQ(betti_numbers(graph_at(h, full, last_version(h))).loops, 1u);
 }
 
+// The same loop (110, 114), kept; the maximum 130 is then laid on the way to 114, so that two
+// monotone paths 110-111-114 and 110-113-114 are left, in one component above 110.
+ArcList around_a_kept_loop(const ArcList& more) {
+  ArcList arcs{{0, 110},   {110, 111}, {1, 111},   {111, 114}, {110, 113},
+               {112, 113}, {2, 112},   {112, 114}, {113, 130}};
+  arcs.insert(arcs.end(), more.begin(), more.end());
+  return arcs;
+}
+
+TEST(Hierarchy, AMaximumAboveAKeptLoopIsLaidOutsideItsComponent) {
+  EXPECT_EQ(level(around_a_kept_loop({{114, 131}, {110, 150}}), 22),
+            (ArcList{{0, 110}, {1, 111}, {2, 113}, {110, 111}, {110, 113}, {111, 114}, {113, 114}, {114, 150}}));
+}
+
+TEST(Hierarchy, ALoopAroundAKeptLoopIsZippedWithAnotherComponent) {
+  EXPECT_EQ(level(around_a_kept_loop({{114, 140}, {110, 116}, {3, 116}, {116, 140}, {140, 160}}), 31),
+            (ArcList{{0, 110}, {1, 111}, {2, 113}, {3, 116}, {110, 111}, {110, 113}, {111, 114}, {113, 114},
+                     {114, 116}, {116, 160}}));
+}
+
 TEST(Hierarchy, AnArcThatAStepLeavesAsItWasKeepsItsRecord) {
   // Cancelling (4, 5) cuts the arc (4, 9) at 5 and joins it again.
   const ReebGraph full = graph_of({{0, 4}, {1, 4}, {4, 5}, {4, 9}});
