@@ -2,8 +2,8 @@
 //
 // The graphs are made by a sweep over a row of contours in which neighbours merge and contours
 // split, start and end. Arguments: kind (0 perforated plate: one row of strips, every hole a loop;
-// 1 noise: starts and ends, most of them soon; 2 expander: any two contours of the row merge), arcs.
-// Ten million arcs are left out unless REEB_BENCH_LARGE is set in the environment.
+// 1 noise: starts and ends, most of them soon; 2 expander: any two contours of the row merge),
+// arcs. Ten million arcs are left out unless REEB_BENCH_LARGE is set in the environment.
 #include <benchmark/benchmark.h>
 #include <malloc.h>
 
@@ -87,14 +87,19 @@ class GraphMaker {
     const bool grow = random_() % (2 * kWidth) >= row_.size();
     const std::size_t i = any();
     if (kind_ == kNoise && random_() % 2 == 0) {
-      if (grow) start(i);
-      else if (row_.size() > 1) end(i);
+      if (grow)
+        start(i);
+      else if (row_.size() > 1)
+        end(i);
     } else if (grow || row_.size() == 1) {
       split(i);
-      // A split that is followed at once by an end or a merge: small features are the most frequent.
+      // A split that is followed at once by an end or a merge: small features are the most
+      // frequent.
       if (kind_ == kNoise && random_() % 4 != 0) {
-        if (random_() % 2 == 0) end(i);
-        else merge(i, i + 1);
+        if (random_() % 2 == 0)
+          end(i);
+        else
+          merge(i, i + 1);
       }
     } else {
       const std::size_t j = kind_ == kExpander ? any() : (i + 1) % row_.size();
@@ -112,7 +117,8 @@ class GraphMaker {
 };
 
 ReebGraph make(const benchmark::State& state) {
-  return GraphMaker(static_cast<Kind>(state.range(0)), static_cast<std::size_t>(state.range(1))).make();
+  return GraphMaker(static_cast<Kind>(state.range(0)), static_cast<std::size_t>(state.range(1)))
+      .make();
 }
 
 void report(benchmark::State& state, const ReebGraph& graph, std::size_t bytes) {
@@ -146,7 +152,8 @@ void BM_Pairing(benchmark::State& state) {
     components += pair.type == PairType::kExt0;
     loops += pair.type == PairType::kExt1;
   }
-  if (components != betti.components || loops != betti.loops) return state.SkipWithError("wrong pairs");
+  if (components != betti.components || loops != betti.loops)
+    return state.SkipWithError("wrong pairs");
   for (auto _ : state) benchmark::DoNotOptimize(persistence_pairs(graph));
   report(state, graph, bytes_of(graph) + peak);
 }
@@ -159,14 +166,16 @@ void BM_Hierarchy(benchmark::State& state) {
   if (graph_at(hierarchy, graph, 0) != graph) return state.SkipWithError("wrong finest level");
   const auto sizes = level_sizes(hierarchy);
   const ReebGraph coarsest = graph_at(hierarchy, graph, last_version(hierarchy));
-  if (sizes.back().nodes != coarsest.node_count()) return state.SkipWithError("wrong coarsest level");
+  if (sizes.back().nodes != coarsest.node_count())
+    return state.SkipWithError("wrong coarsest level");
   for (auto _ : state) benchmark::DoNotOptimize(build_hierarchy(graph));
   report(state, graph, peak);
   std::uint64_t kept = 0;
   for (const auto& pair : hierarchy.pairs) kept += pair.kept;
   state.counters["kept"] = static_cast<double>(kept);
   state.counters["records_per_step"] =
-      static_cast<double>(hierarchy.arcs.size() - graph.arc_count()) / static_cast<double>(last_version(hierarchy));
+      static_cast<double>(hierarchy.arcs.size() - graph.arc_count()) /
+      static_cast<double>(last_version(hierarchy));
 }
 
 void BM_Denoise(benchmark::State& state) {
@@ -174,7 +183,8 @@ void BM_Denoise(benchmark::State& state) {
   const double threshold = 20;
   Denoised result;
   const std::size_t peak = peak_of([&] { result = denoise(graph, threshold); });
-  if (persistence_pairs(result.graph).size() + result.removed.size() != persistence_pairs(graph).size())
+  if (persistence_pairs(result.graph).size() + result.removed.size() !=
+      persistence_pairs(graph).size())
     return state.SkipWithError("wrong count of pairs");
   for (auto _ : state) benchmark::DoNotOptimize(denoise(graph, threshold));
   report(state, graph, bytes_of(graph) + peak);

@@ -14,7 +14,10 @@ namespace {
 class LeafRemoval {
  public:
   LeafRemoval(const ReebGraph& graph, double threshold)
-      : graph_(graph), threshold_(threshold), ends_(graph.arc_count()), nodes_(graph.node_count()),
+      : graph_(graph),
+        threshold_(threshold),
+        ends_(graph.arc_count()),
+        nodes_(graph.node_count()),
         leaves_(graph.node_count()) {
     for (std::uint32_t arc = 0; arc < ends_.size(); ++arc) {
       ends_[arc] = {graph.lo[arc].value(), graph.hi[arc].value()};
@@ -75,8 +78,9 @@ class LeafRemoval {
     const std::uint32_t arc = nodes_[leaf].arcs_xor[opposite(d)];
     const std::uint32_t saddle = ends_[arc][opposite(d)];
     if (along(d, nodes_[saddle].reach[d]) <= along(d, leaf)) return;
-    const PersistencePair pair = d == kUp ? PersistencePair{NodeId(saddle), NodeId(leaf), PairType::kRel1}
-                                          : PersistencePair{NodeId(leaf), NodeId(saddle), PairType::kOrd0};
+    const PersistencePair pair =
+        d == kUp ? PersistencePair{NodeId(saddle), NodeId(leaf), PairType::kRel1}
+                 : PersistencePair{NodeId(leaf), NodeId(saddle), PairType::kOrd0};
     if (!(persistence_of(graph_, pair) < threshold_)) return;
     removed_.push_back(pair);
     detach(leaf, opposite(d), arc);

@@ -16,9 +16,10 @@ struct Denoised {
   std::vector<PersistencePair> removed;
 };
 
-// Repeats, until nothing changes: remove a leaf (an extremum with one arc) of persistence < threshold
-// whose saddle has another monotone path, in the leaf's direction, that reaches beyond the leaf in
-// the total order; then (1, 1) nodes disappear. The result does not depend on any order of steps.
+// Repeats, until nothing changes: remove a leaf (an extremum with one arc) of persistence <
+// threshold whose saddle has another monotone path, in the leaf's direction, that reaches beyond
+// the leaf in the total order; then (1, 1) nodes disappear. The result does not depend on any order
+// of steps.
 //
 // TIME:   O(m log m), for sorting the result only.
 // MEMORY: 8 bytes an arc and 28 a node; 36 a removed pair (12 of them the result).

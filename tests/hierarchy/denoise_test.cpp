@@ -11,7 +11,8 @@ namespace reeb {
 namespace {
 
 // Whether a monotone path from `from` in the direction of `leaf` reaches beyond the leaf.
-bool reaches_beyond(const std::vector<ArcKeys>& arcs, const SweepKey& from, const SweepKey& leaf, bool up) {
+bool reaches_beyond(const std::vector<ArcKeys>& arcs, const SweepKey& from, const SweepKey& leaf,
+                    bool up) {
   if (up ? leaf < from : from < leaf) return true;
   return std::any_of(arcs.begin(), arcs.end(), [&](const ArcKeys& a) {
     return (up ? a.lo : a.hi) == from && reaches_beyond(arcs, up ? a.hi : a.lo, leaf, up);
@@ -24,8 +25,8 @@ std::vector<std::size_t> removable(const std::vector<ArcKeys>& arcs, double thre
   for (std::size_t i = 0; i < arcs.size(); ++i)
     for (const bool up : {false, true}) {
       const SweepKey leaf = up ? arcs[i].hi : arcs[i].lo, saddle = up ? arcs[i].lo : arcs[i].hi;
-      const auto uses = std::count_if(arcs.begin(), arcs.end(),
-                                      [&](const ArcKeys& a) { return a.lo == leaf || a.hi == leaf; });
+      const auto uses = std::count_if(
+          arcs.begin(), arcs.end(), [&](const ArcKeys& a) { return a.lo == leaf || a.hi == leaf; });
       if (uses == 1 && arcs[i].hi.value - arcs[i].lo.value < threshold &&
           reaches_beyond(arcs, saddle, leaf, up))
         found.push_back(i);
@@ -83,12 +84,15 @@ TEST(Denoise, AtThresholdZeroChangesNothing) {
 }
 
 TEST(Denoise, PositionsStayWithTheirNodes) {
-  ReebGraph full = make_graph({{{0, VertexId(0)}, {4, VertexId(1)}}, {{4, VertexId(1)}, {5, VertexId(2)}},
-                               {{4, VertexId(1)}, {9, VertexId(3)}}}, {});
+  ReebGraph full = make_graph({{{0, VertexId(0)}, {4, VertexId(1)}},
+                               {{4, VertexId(1)}, {5, VertexId(2)}},
+                               {{4, VertexId(1)}, {9, VertexId(3)}}},
+                              {});
   full.positions = {{0, 0, 0}, {1, 1, 1}, {2, 2, 2}, {3, 3, 3}};
   const Denoised result = denoise(full, 2);
   EXPECT_EQ(result.graph.positions, (std::vector<std::array<double, 3>>{{0, 0, 0}, {3, 3, 3}}));
-  EXPECT_EQ(result.removed, (std::vector<PersistencePair>{{NodeId(1), NodeId(2), PairType::kRel1}}));
+  EXPECT_EQ(result.removed,
+            (std::vector<PersistencePair>{{NodeId(1), NodeId(2), PairType::kRel1}}));
 }
 
 }  // namespace
