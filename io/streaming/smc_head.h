@@ -1,6 +1,7 @@
 // The head of an SMC stream, all of it inside the range coder.
 #pragma once
 
+#include <bit>
 #include <cmath>
 #include <cstdint>
 

@@ -263,6 +263,16 @@ std::int32_t PositionCoder::code_place(Coder& coder, std::size_t axis, const Pre
   return grid_axis.code(coder, from.kind, predicted, value);
 }
 
+template <class Coder>
+CodedPosition PositionCoder::code(Coder& coder, const PredictionInput& from,
+                                  const CodedPosition& value) {
+  CodedPosition result{};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    result[axis] = grid_.empty() ? code_float(coder, axis, from, value[axis])
+                                 : code_place(coder, axis, from, value[axis]);
+  return result;
+}
+
 template CodedPosition PositionCoder::code(RangeDecoder&, const PredictionInput&,
                                            const CodedPosition&);
 template CodedPosition PositionCoder::code(RangeEncoder&, const PredictionInput&,

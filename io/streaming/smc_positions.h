@@ -133,13 +133,7 @@ class PositionCoder {
 
   // Codes `value` (the decoder ignores it) and returns what a decoder sees.
   template <class Coder>
-  CodedPosition code(Coder& coder, const PredictionInput& from, const CodedPosition& value) {
-    CodedPosition result{};
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      result[axis] = grid_.empty() ? code_float(coder, axis, from, value[axis])
-                                   : code_place(coder, axis, from, value[axis]);
-    return result;
-  }
+  CodedPosition code(Coder& coder, const PredictionInput& from, const CodedPosition& value);
 
  private:
   template <class Coder>
