@@ -128,6 +128,7 @@ void IndexedChunks::look_up(WorkItem& item) {
   mesh_.gather(item.chunk.ids, columns_.columns(), gathered_);
   data_.clear();
   for (std::size_t k = 0; k < columns_.columns().size(); ++k) data_.emplace_back(gathered_.data() + k * n, n);
+  mesh_.to_original(item.chunk.ids);
   columns_.evaluate(item.chunk.ids, data_, item.chunk.positions, item.values);
 }
 

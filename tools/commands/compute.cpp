@@ -24,7 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct ComputeArguments {
-  std::string mesh, output, memory, report;
+  std::string mesh, output, memory, report, denoise;
   std::vector<std::string> functions;
   ooc::ComputeOptions options;
   bool force = false, quiet = false;
@@ -67,10 +67,10 @@ const char* title(ooc::ComputeProgress::Phase phase) {
     case Phase::kSpool: return "reading";
     case Phase::kFinalization: return "finalization";
     case Phase::kReeb: return "Reeb graph";
-    case Phase::kHierarchy: return "hierarchy";
-    case Phase::kWrite: break;
+    case Phase::kReorder: return "reordering";
+    case Phase::kHierarchy: break;
   }
-  return "writing";
+  return "hierarchy";
 }
 
 void run_compute(ComputeArguments arguments) {
@@ -85,6 +85,11 @@ void run_compute(ComputeArguments arguments) {
   if (!arguments.memory.empty()) {
     facts.memory_budget_bytes = parse_size(arguments.memory);
     arguments.options.memory_bytes = facts.memory_budget_bytes;
+  }
+
+  if (!arguments.denoise.empty()) {
+    arguments.options.denoise_is_share = arguments.denoise.ends_with('%');
+    arguments.options.denoise = parse_threshold(arguments.denoise, 1.0);
   }
 
   ReadOptions read_options;
@@ -137,6 +142,8 @@ void add_compute(CLI::App& program) {
   command->add_option("--threads", arguments->options.threads, "Threads (default: all)")->check(CLI::Range(1u, 1024u));
   command->add_option("--temp-dir", arguments->options.temp_dir,
                       "Folder for temporary files (default: $TMPDIR, or the output's folder)");
+  command->add_option("--denoise", arguments->denoise, "Remove minima and maxima of less persistence: 0.01, or 0.1%");
+  command->add_flag("!--no-reorder", arguments->options.may_reorder, "Never sort an incoherent mesh on disk first");
   command->add_flag("--sidecar", arguments->options.keep_sidecar, "Keep the finalization as MESH.final for later runs");
   command->add_option("--report", arguments->report, "Write a JSON report (-: to standard output)");
   command->add_flag("--quiet", arguments->quiet, "No progress and no summary");
