@@ -1,4 +1,4 @@
-// A place in a ByteSource that moves forward: the ground of the text and binary decoders.
+// A place in a ContentSource that moves forward: the ground of the text and binary decoders.
 #pragma once
 
 #include <cstddef>
@@ -7,21 +7,21 @@
 #include <string>
 #include <string_view>
 
-#include "io/byte_source.h"
+#include "io/content_source.h"
 #include "libreeb/base/error.h"
 
 namespace reeb::io {
 
 class Cursor {
  public:
-  explicit Cursor(std::unique_ptr<ByteSource> source) : source_(std::move(source)) { move_to(0); }
+  explicit Cursor(std::unique_ptr<ContentSource> source) : source_(std::move(source)) { move_to(0); }
 
   // Offset in the content of the next byte.
   std::uint64_t offset() const { return view_offset_ + static_cast<std::uint64_t>(next_ - view_.data()); }
-  const ByteSource& source() const { return *source_; }
+  const ContentSource& source() const { return *source_; }
 
   // Makes at least `count` bytes, or all that are left, contiguous at data(); false if fewer are.
-  // REQUIRES: count <= ByteSource::kLookahead.
+  // REQUIRES: count <= ContentSource::kLookahead.
   bool ensure(std::size_t count) {
     if (available() >= count) [[likely]] return true;
     move_to(offset());
@@ -42,7 +42,7 @@ class Cursor {
   bool at_end() { return !ensure(1); }
 
  private:
-  std::unique_ptr<ByteSource> source_;
+  std::unique_ptr<ContentSource> source_;
   std::string_view view_;
   std::uint64_t view_offset_ = 0;
   const char* next_ = nullptr;

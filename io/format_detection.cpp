@@ -111,7 +111,7 @@ MeshFormat detect_text(std::string_view text, const std::string& path) {
 
 }  // namespace
 
-MeshFormat detect_format(ByteSource& source, const std::string& path) {
+MeshFormat detect_format(ContentSource& source, const std::string& path) {
   std::string_view head = source.view(0);
   if (head.starts_with("\xEF\xBB\xBF")) head.remove_prefix(3);
   if (head.starts_with("ply") && (head.size() == 3 || is_line_blank(head[3]))) return MeshFormat::kPly;

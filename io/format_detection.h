@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "io/byte_source.h"
+#include "io/content_source.h"
 
 namespace reeb::io {
 
@@ -11,6 +11,6 @@ enum class MeshFormat { kUnknown, kPly, kOff, kAsciiStl, kBinaryStl, kObj, kStre
 
 // `path` decides only where content cannot: between OBJ and the text form of streaming meshes,
 // which share their lines v and f.
-MeshFormat detect_format(ByteSource& source, const std::string& path);
+MeshFormat detect_format(ContentSource& source, const std::string& path);
 
 }  // namespace reeb::io

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "io/byte_source.h"
+#include "io/content_source.h"
 #include "io/mapped_windows.h"
 #include "io/scalar_bytes.h"
 #include "io/text_cursor.h"
@@ -109,7 +109,7 @@ class RawValueFile final : public ValueFile {
 class TextValueFile final : public ValueFile {
  public:
   explicit TextValueFile(const std::string& path)
-      : path_(path), text_(open_byte_source(path), {.comments = true}) {}
+      : path_(path), text_(open_content(path), {.comments = true}) {}
 
   double next() override {
     if (!text_.more()) {

@@ -1,6 +1,6 @@
 #include "io/mesh_io.h"
 
-#include "io/byte_source.h"
+#include "io/content_source.h"
 #include "io/format_detection.h"
 #include "io/obj_reader.h"
 #include "io/off_reader.h"
@@ -12,7 +12,7 @@
 namespace reeb::io {
 
 std::unique_ptr<MeshReader> open_mesh(const std::string& path, const ReadOptions& options) {
-  auto source = open_byte_source(path);
+  auto source = open_content(path);
   const std::string name = source->name();
   switch (detect_format(*source, path)) {
     case MeshFormat::kPly: return open_ply(std::move(source), options);

@@ -26,7 +26,7 @@ bool is_obj_keyword(std::string_view word) {
   return word == "v" || word == "f" || word == "fo" || word == "l" || is_skipped(word);
 }
 
-ObjReader::ObjReader(std::unique_ptr<ByteSource> source, ReadOptions options)
+ObjReader::ObjReader(std::unique_ptr<ContentSource> source, ReadOptions options)
     : BatchReader(std::move(options)), text_(std::move(source), {.comments = true, .continuation = true}) {
   refuse_properties(this->options(), "OBJ", text_.source().name());
   info_.format = "OBJ";

@@ -17,7 +17,7 @@ bool is_obj_keyword(std::string_view word);
 
 class ObjReader final : public BatchReader {
  public:
-  ObjReader(std::unique_ptr<ByteSource> source, ReadOptions options);
+  ObjReader(std::unique_ptr<ContentSource> source, ReadOptions options);
 
   std::uint64_t bytes_read() const override { return text_.source().file_bytes_read(); }
   std::vector<std::string> warnings() const override;

@@ -27,7 +27,7 @@ unsigned dimension_of(const OffKind& kind, std::int64_t declared) {
 }
 
 // Refuses counts that the rest of the input cannot hold, where its size is known.
-void check_counts(const OffHeader& header, const ByteSource& source, std::uint64_t offset,
+void check_counts(const OffHeader& header, const ContentSource& source, std::uint64_t offset,
                   std::uint64_t vertex_bytes, std::uint64_t face_bytes, const std::string& position) {
   const auto size = source.size();
   if (!size) return;
@@ -45,7 +45,7 @@ class OffReader : public BatchReader {
  protected:
   explicit OffReader(ReadOptions options) : BatchReader(std::move(options)) {}
 
-  void describe(const OffHeader& header, const ByteSource& source) {
+  void describe(const OffHeader& header, const ContentSource& source) {
     header_ = header;
     refuse_properties(options(), "OFF", source.name());
     info_.format = header.keyword + (header.kind.binary ? " binary" : "");
@@ -250,7 +250,7 @@ std::optional<OffKind> parse_off_keyword(std::string_view word) {
   return kind;
 }
 
-std::unique_ptr<MeshReader> open_off(std::unique_ptr<ByteSource> source, const ReadOptions& options) {
+std::unique_ptr<MeshReader> open_off(std::unique_ptr<ContentSource> source, const ReadOptions& options) {
   TextCursor text(std::move(source), {.comments = true});
   OffHeader header;
   text.more();

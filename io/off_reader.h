@@ -30,6 +30,6 @@ struct OffKind {
 std::optional<OffKind> parse_off_keyword(std::string_view word);
 
 // THROWS: Error{kBadInput} as open_mesh.
-std::unique_ptr<MeshReader> open_off(std::unique_ptr<ByteSource> source, const ReadOptions& options);
+std::unique_ptr<MeshReader> open_off(std::unique_ptr<ContentSource> source, const ReadOptions& options);
 
 }  // namespace reeb::io

@@ -61,7 +61,7 @@ class AsciiPlyDecoder {
   }
   [[noreturn]] void fail(const std::string& what, const std::string& hint) const { text_.fail(what, hint); }
 
-  const ByteSource& source() const { return text_.source(); }
+  const ContentSource& source() const { return text_.source(); }
   Cursor& bytes() { return text_.bytes(); }
 
  private:
@@ -112,7 +112,7 @@ class BinaryPlyDecoder {
     throw Error(ErrorKind::kBadInput, what, hint).at(source().name(), std::to_string(offset));
   }
 
-  const ByteSource& source() const { return cursor_.source(); }
+  const ContentSource& source() const { return cursor_.source(); }
   Cursor& bytes() { return cursor_; }
   bool swaps() const { return swap_; }
 

@@ -73,7 +73,7 @@ class IndexedPly final : public IndexedMesh {
   }
 
   void rewind() override {
-    faces_ = open_ply_faces(open_byte_source(path_), header_);
+    faces_ = open_ply_faces(open_content(path_), header_);
   }
 
   bool read(std::vector<VertexId>& corners, std::size_t limit) override {
@@ -154,7 +154,7 @@ std::unique_ptr<IndexedMesh> open_indexed_ply(const std::string& path, const Rea
   std::error_code failure;
   const auto status = std::filesystem::status(path, failure);
   if (path == "-" || std::filesystem::is_fifo(status) || std::filesystem::is_character_file(status)) return nullptr;
-  auto source = open_byte_source(path);
+  auto source = open_content(path);
   if (!source->can_seek() || !source->view(0).starts_with("ply")) return nullptr;
   TextCursor text(std::move(source));
   PlyHeader header = read_ply_header(text);

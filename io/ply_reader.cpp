@@ -37,7 +37,7 @@ std::vector<Step> plan_steps(const PlyHeader& header) {
   return steps;
 }
 
-MeshInfo describe(const PlyHeader& header, const ByteSource& source) {
+MeshInfo describe(const PlyHeader& header, const ContentSource& source) {
   MeshInfo info;
   info.format = header.format();
   info.dimension = header.dimension;
@@ -153,7 +153,7 @@ class PlyReader final : public BatchReader {
 
   void pass_fixed_records(const PlyElement& element) {
     const std::size_t stride = element.fixed_bytes();
-    if (stride > ByteSource::kLookahead) decoder_.fail("a record is too long", "is the header right?");
+    if (stride > ContentSource::kLookahead) decoder_.fail("a record is too long", "is the header right?");
     for (; record_ != element.count; ++record_) decoder_.take(stride);
   }
 
@@ -172,7 +172,7 @@ class PlyReader final : public BatchReader {
 
   void read_vertices(const PlyElement& element, MeshBatch& batch) {
     if constexpr (Decoder::kBinary) {
-      if (!element.has_lists() && element.fixed_bytes() <= ByteSource::kLookahead) {
+      if (!element.has_lists() && element.fixed_bytes() <= ContentSource::kLookahead) {
         while (room(batch) != 0 && record_ != element.count) read_vertex_run(element, batch);
         return;
       }
@@ -319,27 +319,29 @@ class PlyReader final : public BatchReader {
     if (!bytes.ensure(kRecordBytes)) return false;
     const auto left = static_cast<std::size_t>(std::min<std::uint64_t>(element.count - record_, room(batch)));
     const std::size_t most = std::min({left, bytes.available() / kRecordBytes, kRunRecords});
+    std::size_t run = 0;  // counted first: room for more would be cleared for nothing at each quad
+    while (run < most && bytes.data()[run * kRecordBytes] == 3) ++run;
     const std::size_t before = batch.triangles.size();
-    batch.triangles.resize(before + 3 * most);
+    batch.triangles.resize(before + 3 * run);
     VertexId* const out = batch.triangles.data() + before;
     const bool is_signed = element.properties.front().type == PlyType::kInt32;
     const std::uint64_t limit = std::min(vertex_limit_, std::uint64_t{1} << (is_signed ? 31 : 32));
-    const std::size_t count = decoder_.swaps() ? copy_triangles<true>(bytes.data(), most, limit, out)
-                                               : copy_triangles<false>(bytes.data(), most, limit, out);
+    const std::size_t count = decoder_.swaps() ? copy_triangles<true>(bytes.data(), run, limit, out)
+                                               : copy_triangles<false>(bytes.data(), run, limit, out);
     batch.triangles.resize(before + 3 * count);
     bytes.advance(count * kRecordBytes);
     record_ += count;
     return count != 0;
   }
 
-  // Copies until a record is not a triangle with corners below `limit`; says how many it copied.
+  // Copies triangles until a corner is not below `limit`; says how many it copied.
   template <bool kSwap>
   static std::size_t copy_triangles(const char* record, std::size_t most, std::uint64_t limit, VertexId* out) {
     for (std::size_t i = 0; i < most; ++i, record += 13, out += 3) {
       const std::uint64_t a = load_scalar<std::uint32_t>(record + 1, kSwap);
       const std::uint64_t b = load_scalar<std::uint32_t>(record + 5, kSwap);
       const std::uint64_t c = load_scalar<std::uint32_t>(record + 9, kSwap);
-      if (record[0] != 3 || std::max({a, b, c}) >= limit) [[unlikely]] return i;
+      if (std::max({a, b, c}) >= limit) [[unlikely]] return i;
       out[0] = VertexId(a);
       out[1] = VertexId(b);
       out[2] = VertexId(c);
@@ -372,7 +374,7 @@ class PlyReader final : public BatchReader {
 
 }  // namespace
 
-std::unique_ptr<MeshReader> open_ply(std::unique_ptr<ByteSource> source, const ReadOptions& options) {
+std::unique_ptr<MeshReader> open_ply(std::unique_ptr<ContentSource> source, const ReadOptions& options) {
   TextCursor text(std::move(source));
   PlyHeader header = read_ply_header(text);
   if (header.encoding == PlyEncoding::kAscii)
@@ -380,7 +382,7 @@ std::unique_ptr<MeshReader> open_ply(std::unique_ptr<ByteSource> source, const R
   return std::make_unique<PlyReader<BinaryPlyDecoder>>(std::move(text), std::move(header), options);
 }
 
-std::unique_ptr<BatchReader> open_ply_faces(std::unique_ptr<ByteSource> source, const PlyHeader& header) {
+std::unique_ptr<BatchReader> open_ply_faces(std::unique_ptr<ContentSource> source, const PlyHeader& header) {
   auto reader =
       std::make_unique<PlyReader<BinaryPlyDecoder>>(TextCursor(std::move(source)), header, ReadOptions{});
   reader->pass_vertices();

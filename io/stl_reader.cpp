@@ -20,7 +20,7 @@ constexpr const char* kDamagedHint = "the file may be cut or damaged here";
 
 }  // namespace
 
-StlReader::StlReader(const ByteSource& source, ReadOptions options, std::string format)
+StlReader::StlReader(const ContentSource& source, ReadOptions options, std::string format)
     : BatchReader(std::move(options)) {
   refuse_properties(this->options(), "STL", source.name());
   info_.format = std::move(format);
@@ -47,7 +47,7 @@ void StlReader::fill(MeshBatch& batch) {
   }
 }
 
-AsciiStlReader::AsciiStlReader(std::unique_ptr<ByteSource> source, ReadOptions options)
+AsciiStlReader::AsciiStlReader(std::unique_ptr<ContentSource> source, ReadOptions options)
     : StlReader(*source, std::move(options), "STL ASCII"), text_(std::move(source)) {}
 
 bool AsciiStlReader::advance(MeshBatch& batch) {
@@ -87,7 +87,7 @@ void AsciiStlReader::end_facet(MeshBatch& batch) {
   facet_.end(batch.triangles);
 }
 
-BinaryStlReader::BinaryStlReader(std::unique_ptr<ByteSource> source, ReadOptions options)
+BinaryStlReader::BinaryStlReader(std::unique_ptr<ContentSource> source, ReadOptions options)
     : StlReader(*source, std::move(options), "STL binary"), cursor_(std::move(source)) {
   require(kHeaderBytes);
   facets_left_ = load_scalar<std::uint32_t>(cursor_.data() + 80, false);

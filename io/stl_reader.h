@@ -19,7 +19,7 @@ namespace reeb::io {
 // MEMORY: grows with the number of distinct vertices, see VertexWeld.
 class StlReader : public BatchReader {
  protected:
-  StlReader(const ByteSource& source, ReadOptions options, std::string format);
+  StlReader(const ContentSource& source, ReadOptions options, std::string format);
 
   // Takes a step that calls add_corner() at most once and adds no other event. False at the end.
   virtual bool advance(MeshBatch& batch) = 0;
@@ -37,7 +37,7 @@ class StlReader : public BatchReader {
 
 class AsciiStlReader final : public StlReader {
  public:
-  AsciiStlReader(std::unique_ptr<ByteSource> source, ReadOptions options);
+  AsciiStlReader(std::unique_ptr<ContentSource> source, ReadOptions options);
   std::uint64_t bytes_read() const override { return text_.source().file_bytes_read(); }
 
  private:
@@ -53,7 +53,7 @@ class BinaryStlReader final : public StlReader {
  public:
   static constexpr std::size_t kHeaderBytes = 84, kFacetBytes = 50;
 
-  BinaryStlReader(std::unique_ptr<ByteSource> source, ReadOptions options);
+  BinaryStlReader(std::unique_ptr<ContentSource> source, ReadOptions options);
   std::uint64_t bytes_read() const override { return cursor_.source().file_bytes_read(); }
   std::vector<std::string> warnings() const override;
 

@@ -42,7 +42,7 @@ class TextCursor {
  public:
   static constexpr std::size_t kTokenBytes = 4096;
 
-  explicit TextCursor(std::unique_ptr<ByteSource> source, TextStyle style = {})
+  explicit TextCursor(std::unique_ptr<ContentSource> source, TextStyle style = {})
       : cursor_(std::move(source)), style_(style) {
     skip_byte_order_mark();
   }
@@ -95,7 +95,7 @@ class TextCursor {
     line_ = line;
     line_begin_ = offset;
   }
-  const ByteSource& source() const { return cursor_.source(); }
+  const ContentSource& source() const { return cursor_.source(); }
   Cursor& bytes() { return cursor_; }
 
  private:

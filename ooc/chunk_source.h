@@ -14,7 +14,7 @@
 #include "libreeb/port/indexed_mesh.h"
 #include "libreeb/port/mesh_reader.h"
 #include "ooc/last_use.h"
-#include "ooc/vertex_columns.h"
+#include "ooc/function_values.h"
 
 namespace reeb::ooc {
 
@@ -45,15 +45,17 @@ class ChunkSource {
   virtual std::uint64_t bytes_read() const = 0;
   virtual std::uint64_t bytes_total() const = 0;
   virtual std::uint64_t triangles_read() const = 0;
+  // Of the whole mesh; for a stream, so far.
+  virtual std::uint64_t vertex_count() const = 0;
 };
 
 // Chunks of an indexed mesh: whole blocks of its last-use table. Vertices that no triangle uses
 // come last, as chunks of loose vertices. A chunk grows while too many of its vertices are shared
 // with others, since gluing is what such a chunk costs.
-std::unique_ptr<ChunkSource> chunks_of(IndexedMesh& mesh, LastUse& last_use, VertexColumns& columns,
+std::unique_ptr<ChunkSource> chunks_of(IndexedMesh& mesh, LastUse& last_use, FunctionValues& columns,
                                        ChunkSize size);
 
 // Chunks of a stream, read once. What is not finalized by the stream is finalized at its end.
-std::unique_ptr<ChunkSource> chunks_of(MeshReader& reader, VertexColumns& columns, ChunkSize size);
+std::unique_ptr<ChunkSource> chunks_of(MeshReader& reader, FunctionValues& columns, ChunkSize size);
 
 }  // namespace reeb::ooc

@@ -11,7 +11,7 @@ constexpr double kManyShared = 0.10;
 
 class IndexedChunks : public ChunkSource {
  public:
-  IndexedChunks(IndexedMesh& mesh, LastUse& last_use, VertexColumns& columns, ChunkSize size)
+  IndexedChunks(IndexedMesh& mesh, LastUse& last_use, FunctionValues& columns, ChunkSize size)
       : mesh_(mesh),
         last_use_(last_use),
         columns_(columns),
@@ -25,6 +25,7 @@ class IndexedChunks : public ChunkSource {
   std::uint64_t bytes_read() const override { return mesh_.bytes_read(); }
   std::uint64_t bytes_total() const override { return mesh_.bytes_total(); }
   std::uint64_t triangles_read() const override { return triangles_read_; }
+  std::uint64_t vertex_count() const override { return mesh_.vertex_count(); }
 
  private:
   bool read_triangles(Chunk& chunk);
@@ -36,7 +37,7 @@ class IndexedChunks : public ChunkSource {
 
   IndexedMesh& mesh_;
   LastUse& last_use_;
-  VertexColumns& columns_;
+  FunctionValues& columns_;
   ChunkSize size_;
   std::size_t block_triangles_;
   std::size_t blocks_;             // of the next chunk
@@ -132,7 +133,7 @@ void IndexedChunks::look_up(WorkItem& item) {
 
 }  // namespace
 
-std::unique_ptr<ChunkSource> chunks_of(IndexedMesh& mesh, LastUse& last_use, VertexColumns& columns,
+std::unique_ptr<ChunkSource> chunks_of(IndexedMesh& mesh, LastUse& last_use, FunctionValues& columns,
                                        ChunkSize size) {
   return std::make_unique<IndexedChunks>(mesh, last_use, columns, size);
 }

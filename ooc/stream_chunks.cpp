@@ -5,20 +5,21 @@ namespace {
 
 class StreamChunks : public ChunkSource {
  public:
-  StreamChunks(MeshReader& reader, VertexColumns& columns, ChunkSize size)
+  StreamChunks(MeshReader& reader, FunctionValues& columns, ChunkSize size)
       : reader_(reader), columns_(columns), size_(size), chunker_(columns.function_count(), true) {}
 
   bool next(WorkItem& item) override;
   std::uint64_t bytes_read() const override { return reader_.bytes_read(); }
   std::uint64_t bytes_total() const override { return reader_.info().file_bytes; }
   std::uint64_t triangles_read() const override { return triangles_read_; }
+  std::uint64_t vertex_count() const override { return chunker_.vertex_count(); }
 
  private:
   void add_vertices();
   void add_simplices(const std::vector<VertexId>& corners, std::size_t size);
 
   MeshReader& reader_;
-  VertexColumns& columns_;
+  FunctionValues& columns_;
   ChunkSize size_;
   StreamChunker chunker_;
   std::uint64_t triangles_read_ = 0;
@@ -74,7 +75,7 @@ void StreamChunks::add_simplices(const std::vector<VertexId>& corners, std::size
 
 }  // namespace
 
-std::unique_ptr<ChunkSource> chunks_of(MeshReader& reader, VertexColumns& columns, ChunkSize size) {
+std::unique_ptr<ChunkSource> chunks_of(MeshReader& reader, FunctionValues& columns, ChunkSize size) {
   return std::make_unique<StreamChunks>(reader, columns, size);
 }
 

@@ -2,9 +2,11 @@
 // code (INTERFACE.md, Errors).
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <exception>
 #include <new>
 #include <string>
+#include <vector>
 
 #include "libreeb/base/error.h"
 #include "tools/commands/commands.h"
@@ -16,12 +18,39 @@ int report(reeb::ErrorKind kind, const std::string& what, const std::string& hin
   return static_cast<int>(kind);
 }
 
+constexpr const char* kExamples = R"(Examples:
+  reeb scan.ply                          the Reeb graph of the height, as scan.reeb
+  reeb scan.ply -f x --memory 64M        another function, in 64 MB
+  reeb extract scan.reeb --nodes 100 -o coarse.dot
+                                         the finest level with at most 100 nodes
+
+Every command has --help.)";
+
+// `reeb scan.ply` means `reeb compute scan.ply`: a first word that is no command names a mesh.
+std::vector<std::string> with_default_command(const CLI::App& program, int argc, char** argv) {
+  std::vector<std::string> words(argv + 1, argv + argc);
+  const bool is_command = !words.empty() && !program.get_subcommands([&](const CLI::App* command) {
+                                                     return command->get_name() == words[0];
+                                                   }).empty();
+  const bool is_help = words.empty() || words[0] == "-h" || words[0] == "--help" || words[0] == "--version";
+  if (!is_command && !is_help) words.insert(words.begin(), "compute");
+  std::reverse(words.begin(), words.end());  // as CLI11 takes them
+  return words;
+}
+
 int run(int argc, char** argv) {
   CLI::App program("Exact Reeb graphs of meshes of any size", "reeb");
-  program.require_subcommand(1);
+  program.require_subcommand(0, 1);
+  program.set_version_flag("--version", "reeb " REEB_VERSION);
+  program.footer(kExamples);
+  reeb::tools::add_compute(program);
   reeb::tools::add_generate(program);
+  if (argc == 1) {
+    fmt::print("{}", program.help());
+    return 0;
+  }
   try {
-    program.parse(argc, argv);
+    program.parse(with_default_command(program, argc, argv));
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return program.exit(error);  // --help
     return report(reeb::ErrorKind::kUsage, error.what(),

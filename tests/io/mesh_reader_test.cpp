@@ -281,6 +281,72 @@ TEST(Errors, HavePositionAndHint) {
   expect_bad(write_file("q.ply", binary), "", "no vertex property \"q\"", {{"q"}, 65536});
 }
 
+// Larger than several windows, so that records, lines and tokens cross their borders.
+TEST(Readers, ManyWindowsInTextAndBinary) {
+  constexpr std::uint32_t kCount = 150'000;
+  std::string text, binary =
+      "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(kCount) +
+      "\nproperty float x\nproperty float y\nproperty float z\nproperty uchar c\nelement face " +
+      std::to_string(kCount - 2) + "\nproperty list uchar uint vertex_indices\nend_header\n";
+  std::string faces;
+  for (std::uint32_t i = 0; i < kCount; ++i) {
+    const float x = static_cast<float>(i) * 0.25F;
+    text += "v " + std::to_string(x) + " " + std::to_string(-x) + " 1\n";
+    binary += scalar_bytes(x) + scalar_bytes(-x) + scalar_bytes(1.0F) + "c";
+    if (i < 2) continue;
+    text += "f " + std::to_string(i - 1) + " " + std::to_string(i) + " " + std::to_string(i + 1) + "\n";
+    faces += '\3' + scalar_bytes(i - 2) + scalar_bytes(i - 1) + scalar_bytes(i);
+  }
+  ASSERT_GT(text.size(), std::size_t{4} << 20);
+  const std::string path = write_file("large.obj", text), ply = write_file("large.ply", binary + faces);
+  const Mesh mesh = read_all(*open_mesh(path));
+  ASSERT_EQ(mesh.vertices.size(), kCount);
+  EXPECT_EQ(mesh.vertices[kCount - 1], (std::vector<double>{0.25 * (kCount - 1), -0.25 * (kCount - 1), 1}));
+  EXPECT_EQ(mesh.triangles[kCount - 3], (std::array<std::uint64_t, 3>{kCount - 3, kCount - 2, kCount - 1}));
+  EXPECT_TRUE(read_all(*open_mesh(ply)) == mesh);
+  EXPECT_TRUE(read_indexed(*open_indexed_mesh(ply)) == mesh);
+  EXPECT_TRUE(read_all(*open_mesh(run_on("gzip", path, ".gz"))) == mesh);
+  EXPECT_TRUE(read_all(*open_mesh(run_on("zstd -q", path, ".zst"))) == mesh);
+}
+
+TEST(Readers, StandardInput) {
+  for (const auto& [name, bytes] : examples()) {
+    SCOPED_TRACE(name);
+    ASSERT_NE(std::freopen(write_file(name, bytes).c_str(), "rb", stdin), nullptr);
+    EXPECT_EQ(read_all(*open_mesh("-")), kTetrahedron);
+  }
+  ASSERT_NE(std::freopen(write_file("nothing", "").c_str(), "rb", stdin), nullptr);
+  EXPECT_THROW(open_mesh("-"), Error);
+}
+
+TEST(Ply, EveryScalarTypeInBothSpellings) {
+  struct Type {
+    std::string names[2], little, big;
+  };
+  const std::vector<Type> types = {
+      {{"char", "int8"}, scalar_bytes(std::int8_t{-2}), scalar_bytes(std::int8_t{-2}, true)},
+      {{"uchar", "uint8"}, scalar_bytes(std::uint8_t{254}), scalar_bytes(std::uint8_t{254}, true)},
+      {{"short", "int16"}, scalar_bytes(std::int16_t{-300}), scalar_bytes(std::int16_t{-300}, true)},
+      {{"ushort", "uint16"}, scalar_bytes(std::uint16_t{65000}), scalar_bytes(std::uint16_t{65000}, true)},
+      {{"int", "int32"}, scalar_bytes(std::int32_t{-70000}), scalar_bytes(std::int32_t{-70000}, true)},
+      {{"uint", "uint32"}, scalar_bytes(std::uint32_t{4000000000}), scalar_bytes(std::uint32_t{4000000000}, true)},
+      {{"float", "float32"}, scalar_bytes(0.1F), scalar_bytes(0.1F, true)},
+      {{"double", "float64"}, scalar_bytes(0.1), scalar_bytes(0.1, true)}};
+  const std::vector<double> expected = {-2, 254, -300, 65000, -70000, 4000000000, static_cast<double>(0.1F), 0.1};
+  const std::vector<std::string> text = {"-2", "254", "-300", "65000", "-70000", "4000000000", "0.1", "0.1"};
+  for (std::size_t i = 0; i < types.size(); ++i) {
+    for (const std::string& name : types[i].names) {
+      const std::string head = " 1.0\nelement vertex 1\nproperty " + name + " x\nend_header\n";
+      const Mesh mesh = {{{expected[i]}}, {}};
+      EXPECT_EQ(read_mesh(write_file("t.ply", "ply\nformat ascii" + head + text[i])), mesh) << name;
+      EXPECT_EQ(read_mesh(write_file("t.ply", "ply\nformat binary_little_endian" + head + types[i].little)), mesh);
+      const auto indexed =
+          open_indexed_mesh(write_file("t.ply", "ply\nformat binary_big_endian" + head + types[i].big));
+      EXPECT_EQ(read_indexed(*indexed), mesh) << name;
+    }
+  }
+}
+
 struct Expected {
   std::string file;
   std::uint64_t vertices = 0, triangles = 0;

@@ -6,6 +6,7 @@
 
 namespace reeb::tools {
 
+void add_compute(CLI::App& program);
 void add_generate(CLI::App& program);
 
 }  // namespace reeb::tools

@@ -1,8 +1,10 @@
-// Which columns of a mesh a run needs, and how the functions find theirs among them.
+// The functions of a run on batches of vertices: which columns of the mesh they need, how each finds
+// its own among those gathered, and the range of values seen.
 #pragma once
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -12,11 +14,19 @@
 
 namespace reeb::ooc {
 
-class VertexColumns {
+// The least and greatest value of a function; min > max before the first.
+struct FunctionRange {
+  double min = std::numeric_limits<double>::infinity();
+  double max = -std::numeric_limits<double>::infinity();
+};
+
+class FunctionValues {
  public:
   // Positions are the first three coordinates, as far as the mesh has them.
-  VertexColumns(std::span<VertexFunction* const> functions, unsigned dimension)
-      : functions_(functions.begin(), functions.end()), position_columns_(std::min(dimension, 3u)) {
+  FunctionValues(std::span<VertexFunction* const> functions, unsigned dimension)
+      : functions_(functions.begin(), functions.end()),
+        ranges_(functions.size()),
+        position_columns_(std::min(dimension, 3u)) {
     for (unsigned k = 0; k < position_columns_; ++k) columns_.push_back(k);
     for (const VertexFunction* f : functions_)
       for (const unsigned column : f->columns())
@@ -26,6 +36,7 @@ class VertexColumns {
   // To be gathered, in this order.
   std::span<const unsigned> columns() const { return columns_; }
   std::size_t function_count() const { return functions_.size(); }
+  const FunctionRange& range(std::size_t function) const { return ranges_[function]; }
 
   // From gathered columns (data[k] is columns()[k]) to positions and one array of values a function.
   void evaluate(std::span<const VertexId> ids, std::span<const std::span<const double>> data,
@@ -41,11 +52,16 @@ class VertexColumns {
             std::find(columns_.begin(), columns_.end(), column) - columns_.begin())]);
       values[f].resize(ids.size());
       functions_[f]->evaluate(ids, own_, values[f]);
+      for (const double value : values[f]) {
+        ranges_[f].min = std::min(ranges_[f].min, value);
+        ranges_[f].max = std::max(ranges_[f].max, value);
+      }
     }
   }
 
  private:
   std::vector<VertexFunction*> functions_;
+  std::vector<FunctionRange> ranges_;
   unsigned position_columns_;
   std::vector<unsigned> columns_;
   std::vector<std::span<const double>> own_;

@@ -13,15 +13,15 @@
 
 namespace reeb::io {
 
-class ByteSource {
+class ContentSource {
  public:
   // Every view holds at least this many bytes, or all that is left.
   static constexpr std::size_t kLookahead = 65536;
 
-  ByteSource() = default;
-  ByteSource(const ByteSource&) = delete;
-  ByteSource& operator=(const ByteSource&) = delete;
-  virtual ~ByteSource() = default;
+  ContentSource() = default;
+  ContentSource(const ContentSource&) = delete;
+  ContentSource& operator=(const ContentSource&) = delete;
+  virtual ~ContentSource() = default;
 
   // The content from `offset` on, at least kLookahead bytes unless it ends before; empty at the
   // end. Ends the validity of the view before. Offsets never fall, except where can_seek().
@@ -40,7 +40,7 @@ class ByteSource {
   const std::string& name() const { return name_; }
 
  protected:
-  explicit ByteSource(std::string name) : name_(std::move(name)) {}
+  explicit ContentSource(std::string name) : name_(std::move(name)) {}
 
  private:
   std::string name_;
@@ -48,6 +48,6 @@ class ByteSource {
 
 // "-" is standard input. A source that is not a regular file is read as a pipe.
 // THROWS: Error{kBadInput}: absent, a directory, unreadable, empty.
-std::unique_ptr<ByteSource> open_byte_source(const std::string& path);
+std::unique_ptr<ContentSource> open_content(const std::string& path);
 
 }  // namespace reeb::io

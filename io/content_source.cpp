@@ -1,4 +1,4 @@
-#include "io/byte_source.h"
+#include "io/content_source.h"
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -19,10 +19,10 @@
 namespace reeb::io {
 namespace {
 
-class MappedSource final : public ByteSource {
+class MappedSource final : public ContentSource {
  public:
   explicit MappedSource(const std::string& path)
-      : ByteSource(path), windows_(path, {.overlap_bytes = kLookahead}) {}
+      : ContentSource(path), windows_(path, {.overlap_bytes = kLookahead}) {}
 
   std::string_view view(std::uint64_t offset) override {
     read_ = std::min(offset, windows_.size());
@@ -87,10 +87,10 @@ class PipeInput final : public RawInput {
 };
 
 // A stream without random access, through a sliding buffer.
-class StreamSource final : public ByteSource {
+class StreamSource final : public ContentSource {
  public:
   StreamSource(const std::string& name, std::unique_ptr<RawInput> input, std::uint64_t file_bytes)
-      : ByteSource(name), input_(std::move(input)), file_bytes_(file_bytes), buffer_(kBufferBytes) {}
+      : ContentSource(name), input_(std::move(input)), file_bytes_(file_bytes), buffer_(kBufferBytes) {}
 
   std::string_view view(std::uint64_t offset) override {
     // Only a reader's own arithmetic decides the offset, and it has seen every byte before it.
@@ -158,7 +158,7 @@ class PeekedInput final : public RawInput {
   std::size_t filled_ = 0, given_ = 0;
 };
 
-std::unique_ptr<ByteSource> stream_source(const std::string& name, std::unique_ptr<RawInput> raw,
+std::unique_ptr<ContentSource> stream_source(const std::string& name, std::unique_ptr<RawInput> raw,
                                           std::uint64_t file_bytes) {
   auto peeked = std::make_unique<PeekedInput>(std::move(raw));
   const auto compression = detect_compression(peeked->head());
@@ -178,7 +178,7 @@ std::unique_ptr<RawInput> open_pipe(const std::string& path) {
   return std::make_unique<PipeInput>(path, descriptor, true);
 }
 
-std::unique_ptr<ByteSource> open_file(const std::string& path) {
+std::unique_ptr<ContentSource> open_file(const std::string& path) {
   auto mapped = std::make_unique<MappedSource>(path);
   if (detect_compression(mapped->view(0)) == Compression::kNone) return mapped;
   return stream_source(path, std::make_unique<MappedInput>(path), mapped->file_bytes());
@@ -186,7 +186,7 @@ std::unique_ptr<ByteSource> open_file(const std::string& path) {
 
 }  // namespace
 
-std::unique_ptr<ByteSource> open_byte_source(const std::string& path) {
+std::unique_ptr<ContentSource> open_content(const std::string& path) {
   if (path != "-") {
     check_input_file(path);
     if (std::filesystem::is_regular_file(path)) return open_file(path);

@@ -1,0 +1,82 @@
+// The central function: from a mesh to the files of its Reeb graphs, within a memory budget
+// (DESIGN.md 3, 4, 6).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "libreeb/base/memory_budget.h"
+#include "libreeb/graph/reeb_graph.h"
+#include "libreeb/hierarchy/hierarchy.h"
+#include "libreeb/port/indexed_mesh.h"
+#include "libreeb/port/mesh_reader.h"
+#include "libreeb/port/vertex_function.h"
+#include "ooc/function_values.h"
+#include "ooc/pipeline.h"
+
+namespace reeb::ooc {
+
+// A mesh in one of two forms. An indexed mesh is read twice. A reader is read once: as a stream if
+// it finalizes its vertices, else it is spooled to disk first.
+struct MeshInput {
+  std::unique_ptr<IndexedMesh> indexed;
+  std::unique_ptr<MeshReader> reader;
+  unsigned dimension = 3;
+  std::string path;  // for the sidecar and messages; "-": none
+};
+
+struct ComputeProgress {
+  enum class Phase { kSpool, kFinalization, kReeb, kHierarchy, kWrite };
+  Phase phase;
+  std::uint64_t done = 0, total = 0;  // bytes; total 0: unknown
+  std::uint64_t triangles = 0;        // so far
+};
+
+struct ComputeOptions {
+  std::uint64_t memory_bytes = MemoryBudget::kUnlimited;
+  unsigned threads = 1;
+  std::size_t chunk_triangles = 0;  // 0: adaptive
+  std::string temp_dir;             // empty: $TMPDIR, or the folder of the first output
+  bool graph_only = false;
+  bool keep_sidecar = false;
+  std::function<void(const ComputeProgress&)> progress = {};
+};
+
+struct PhaseSeconds {
+  double wall = 0, finalization = 0, reorder = 0, reeb = 0, hierarchy = 0;
+};
+
+// A pair as a person wants to see it.
+struct Feature {
+  PairType type;
+  SweepKey lo, hi;
+};
+
+// What a run learned of one function.
+struct ComputeResult {
+  std::string function, output;
+  FunctionRange range;
+  std::uint64_t vertices = 0, unused_vertices = 0;
+  std::uint64_t triangles = 0, degenerate_triangles = 0;
+  std::uint64_t nodes = 0, arcs = 0;
+  BettiNumbers betti;
+  std::array<std::uint64_t, 4> pairs{};  // by PairType
+  std::uint64_t kept_loops = 0;
+  std::vector<Feature> largest;  // the few of largest persistence, Ext0 left out, largest first
+  std::uint64_t spilled_bytes = 0;
+  LiveMaximum live;
+  PhaseSeconds seconds;
+  std::vector<std::string> notes;  // one line each: what was odd but harmless
+};
+
+// Computes the graph of functions[i] and writes it to outputs[i], all in one reading of the mesh.
+// THROWS: Error; then no output appeared.
+std::vector<ComputeResult> compute(MeshInput input, std::span<VertexFunction* const> functions,
+                                   std::span<const std::string> outputs, const ComputeOptions& options);
+
+}  // namespace reeb::ooc

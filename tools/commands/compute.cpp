@@ -1,0 +1,148 @@
+// `reeb compute MESH`, the default command: from a mesh to its `.reeb` file.
+#include <fmt/core.h>
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "io/function_source.h"
+#include "io/mesh_io.h"
+#include "libreeb/base/error.h"
+#include "ooc/compute.h"
+#include "tools/commands/commands.h"
+#include "tools/compute_report.h"
+#include "tools/mesh_function.h"
+#include "tools/output.h"
+#include "tools/progress.h"
+#include "tools/quantity.h"
+
+namespace reeb::tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ComputeArguments {
+  std::string mesh, output, memory, report;
+  std::vector<std::string> functions;
+  ooc::ComputeOptions options;
+  bool force = false, quiet = false;
+};
+
+// scan.ply.gz -> scan, - -> mesh
+std::string stem_of(const std::string& mesh) {
+  if (mesh == "-") return "mesh";
+  fs::path name = fs::path(mesh).filename();
+  if (name.extension() == ".gz" || name.extension() == ".zst") name = name.stem();
+  return name.stem().string();
+}
+
+std::vector<std::string> output_names(const ComputeArguments& arguments, const std::vector<io::FunctionSpec>& specs) {
+  fs::path output = arguments.output.empty() ? stem_of(arguments.mesh) + ".reeb" : arguments.output;
+  if (specs.size() == 1) return {output.string()};
+  if (output.extension() == ".reeb") output.replace_extension();
+  std::vector<std::string> names;
+  for (const io::FunctionSpec& spec : specs) names.push_back(output.string() + "-" + io::file_name_part(spec) + ".reeb");
+  return names;
+}
+
+std::vector<io::FunctionSpec> parse_functions(const std::vector<std::string>& texts) {
+  std::vector<io::FunctionSpec> specs;
+  for (const std::string& text : texts) specs.push_back(io::parse_function(text));
+  if (specs.empty()) specs.push_back(io::parse_function("z"));
+  return specs;
+}
+
+std::string describe(const MeshInfo& info) {
+  std::string text = info.format;
+  if (info.vertex_count) text += fmt::format(", {} vertices", *info.vertex_count);
+  if (info.simplex_count) text += fmt::format(", {} faces", *info.simplex_count);
+  return text;
+}
+
+const char* title(ooc::ComputeProgress::Phase phase) {
+  using Phase = ooc::ComputeProgress::Phase;
+  switch (phase) {
+    case Phase::kSpool: return "reading";
+    case Phase::kFinalization: return "finalization";
+    case Phase::kReeb: return "Reeb graph";
+    case Phase::kHierarchy: return "hierarchy";
+    case Phase::kWrite: break;
+  }
+  return "writing";
+}
+
+void run_compute(ComputeArguments arguments) {
+  const std::vector<io::FunctionSpec> specs = parse_functions(arguments.functions);
+  const std::vector<std::string> outputs = output_names(arguments, specs);
+  for (const std::string& output : outputs) refuse_existing(output, arguments.force);
+  refuse_existing(arguments.report, arguments.force);
+
+  RunFacts facts;
+  facts.path = arguments.mesh;
+  facts.threads = arguments.options.threads;
+  if (!arguments.memory.empty()) {
+    facts.memory_budget_bytes = parse_size(arguments.memory);
+    arguments.options.memory_bytes = facts.memory_budget_bytes;
+  }
+
+  ReadOptions read_options;
+  read_options.properties = io::needed_properties(specs);
+  ooc::MeshInput input;
+  input.path = arguments.mesh;
+  input.reader = io::open_mesh(arguments.mesh, read_options);
+  const MeshInfo info = input.reader->info();
+  input.dimension = info.dimension;
+  facts.format = info.format;
+  facts.input_bytes = info.file_bytes;
+
+  std::vector<std::unique_ptr<MeshFunction>> functions;
+  std::vector<VertexFunction*> pointers;
+  for (const io::FunctionSpec& spec : specs) {
+    functions.push_back(std::make_unique<MeshFunction>(spec, info, read_options.properties, arguments.mesh));
+    pointers.push_back(functions.back().get());
+  }
+  if (!arguments.quiet) fmt::print(stderr, "{}: {}\n", arguments.mesh, describe(info));
+  if (arguments.mesh != "-") input.indexed = io::open_indexed_mesh(arguments.mesh, read_options);
+  if (input.indexed) input.reader.reset();
+
+  ProgressBar bar(arguments.quiet);
+  arguments.options.progress = [&](const ooc::ComputeProgress& p) {
+    bar.update(title(p.phase), p.done, p.total, p.triangles);
+  };
+  const auto results = ooc::compute(std::move(input), pointers, outputs, arguments.options);
+  bar.clear();
+  if (!arguments.quiet) print_summary(facts, results);
+  if (!arguments.report.empty())
+    write_output(arguments.report, [&](std::ostream& out) { out << report_json(facts, results); });
+}
+
+}  // namespace
+
+void add_compute(CLI::App& program) {
+  auto arguments = std::make_shared<ComputeArguments>();
+  arguments->options.threads = std::max(1u, std::thread::hardware_concurrency());
+  CLI::App* command = program.add_subcommand("compute", "Compute the Reeb graph of a mesh (the default command)");
+  command->add_option("MESH", arguments->mesh, "PLY, OBJ, OFF or STL, also .gz and .zst; - reads standard input")
+      ->required();
+  command->add_option("-o,--output", arguments->output, "File to write (default: the mesh's name with .reeb)");
+  command->add_option("-f,--function", arguments->functions,
+                      "x y z cK index random:SEED property:NAME file:PATH (default z; may be repeated)")
+      ->allow_extra_args(false);
+  command->add_flag("--graph-only", arguments->options.graph_only, "Stop after the graph: no pairs, no levels");
+  command->add_option("--chunk", arguments->options.chunk_triangles, "Triangles a chunk (default: adaptive)")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--memory", arguments->memory, "Memory that the run may use, as 64M or 1.5GiB");
+  command->add_option("--threads", arguments->options.threads, "Threads (default: all)")->check(CLI::Range(1u, 1024u));
+  command->add_option("--temp-dir", arguments->options.temp_dir,
+                      "Folder for temporary files (default: $TMPDIR, or the output's folder)");
+  command->add_flag("--sidecar", arguments->options.keep_sidecar, "Keep the finalization as MESH.final for later runs");
+  command->add_option("--report", arguments->report, "Write a JSON report (-: to standard output)");
+  command->add_flag("--quiet", arguments->quiet, "No progress and no summary");
+  command->add_flag("--force", arguments->force, "Replace existing outputs");
+  command->footer("Example:\n  reeb compute scan.ply -f z --memory 64M --report report.json");
+  command->callback([arguments] { run_compute(*arguments); });
+}
+
+}  // namespace reeb::tools

@@ -1,0 +1,35 @@
+// The functions that a user names, as the engine wants them.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "io/function_source.h"
+#include "libreeb/port/vertex_function.h"
+
+namespace reeb::tools {
+
+class MeshFunction : public VertexFunction {
+ public:
+  MeshFunction(const io::FunctionSpec& spec, const MeshInfo& info, std::span<const std::string> properties,
+               const std::string& mesh_name)
+      : name_(spec.text), source_(spec, info, properties, mesh_name) {
+    if (source_.column()) columns_.push_back(*source_.column());
+  }
+
+  std::string name() const override { return name_; }
+  std::span<const unsigned> columns() const override { return columns_; }
+  void evaluate(std::span<const VertexId> ids, std::span<const std::span<const double>> columns,
+                std::span<double> values) override {
+    source_.evaluate(ids, columns.empty() ? std::span<const double>() : columns[0], values);
+  }
+
+ private:
+  std::string name_;
+  io::FunctionSource source_;
+  std::vector<unsigned> columns_;
+};
+
+}  // namespace reeb::tools
