@@ -3,11 +3,15 @@
 
 #include <algorithm>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include "libreeb/base/memory_budget.h"
 #include "ooc/last_use.h"
+#include "ooc/column_codec.h"
 #include "ooc/paged_table.h"
+#include "ooc/reorder.h"
+#include "ooc/segment_store.h"
 #include "ooc/temp_dir.h"
 
 namespace {
@@ -109,6 +113,113 @@ BENCHMARK(BM_LastUse)
     ->Args({16, 1})
     ->ArgNames({"allowance_MiB", "scan"})
     ->Unit(benchmark::kMillisecond);
+
+// Arcs as a noisy surface leaves them: short, in the order of a sweep that wanders.
+std::vector<ArcKeys> noisy_arcs(std::size_t count) {
+  std::mt19937_64 random(1);
+  std::vector<ArcKeys> arcs(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const double lo = static_cast<float>(static_cast<double>(random() % 1'000'000) * 1e-3);
+    const double hi = static_cast<float>(lo + 1e-3 * static_cast<double>(1 + random() % 50));
+    arcs[i] = {{lo, VertexId(i * 20)}, {hi, VertexId(i * 20 + 1 + random() % 4000)}};
+  }
+  return arcs;
+}
+
+void BM_SegmentLevel(benchmark::State& state) {
+  auto arcs = noisy_arcs(1 << 16);
+  std::sort(arcs.begin(), arcs.end());
+  arcs.resize(2048);
+  ColumnEncoder columns;
+  columns.add(arcs.size(), [&](std::size_t i) {
+    return ordered_bits(arcs[i].lo.value) - (i == 0 ? 0 : ordered_bits(arcs[i - 1].lo.value));
+  });
+  columns.add(arcs.size(), [&](std::size_t i) {
+    return zigzag(arcs[i].lo.vertex.value() - (i == 0 ? 0 : arcs[i - 1].lo.vertex.value()));
+  });
+  columns.add(arcs.size(), [&](std::size_t i) {
+    return ordered_bits(arcs[i].hi.value) - ordered_bits(arcs[i].lo.value);
+  });
+  columns.add(arcs.size(), [&](std::size_t i) {
+    return zigzag(arcs[i].hi.vertex.value() - arcs[i].lo.vertex.value());
+  });
+  std::vector<std::byte> packed;
+  for (auto _ : state) {
+    packed.clear();
+    columns.pack(packed, static_cast<int>(state.range(0)));
+  }
+  if (!ColumnDecoder(packed, 4, arcs.size()).ok()) return state.SkipWithError("wrong bytes");
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(arcs.size()));
+  state.counters["bytes_an_arc"] = static_cast<double>(packed.size()) / static_cast<double>(arcs.size());
+}
+BENCHMARK(BM_SegmentLevel)->Arg(-3)->Arg(-1)->Arg(1)->Arg(3)->Arg(6)->ArgName("level");
+
+void BM_Segments(benchmark::State& state) {
+  const auto arcs = noisy_arcs(2'000'000);
+  const bool merging = state.range(0) != 0;
+  for (auto _ : state) {
+    MemoryBudget budget;
+    SegmentStore store(temp(), budget, {.allowance_bytes = 8 << 20, .background = true});
+    if (merging) state.PauseTiming();
+    store.add_arcs(arcs);
+    store.finish();
+    if (merging) {
+      state.ResumeTiming();
+      std::uint64_t count = 0;
+      for (std::vector<ArcKeys> some; store.arcs().read(some, 4096);) count += some.size();
+      if (count != arcs.size()) return state.SkipWithError("arcs were lost");
+    }
+    state.counters["bytes_an_arc"] =
+        static_cast<double>(store.spilled_bytes()) / static_cast<double>(arcs.size());
+  }
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(arcs.size()));
+}
+BENCHMARK(BM_Segments)->Arg(0)->Arg(1)->ArgName("merging")->Unit(benchmark::kMillisecond)->UseRealTime();
+
+// A grid whose vertices are renumbered by a multiplicative permutation: every lookup is far away.
+class ScatteredGrid : public GridMesh {
+ public:
+  ScatteredGrid(std::uint64_t width, std::uint64_t height) : GridMesh(width, height), prime_(1'000'000'007) {}
+  void gather(std::span<const VertexId> ids, std::span<const unsigned> columns,
+              std::span<double> values) override {
+    grid_ids_.clear();
+    for (const VertexId v : ids) grid_ids_.emplace_back(v.value() * prime_ % vertex_count());
+    GridMesh::gather(grid_ids_, columns, values);
+  }
+  bool read(std::vector<VertexId>& corners, std::size_t limit) override {
+    if (!GridMesh::read(corners, limit)) return false;
+    for (VertexId& v : corners) v = VertexId(v.value() * inverse() % vertex_count());
+    return true;
+  }
+
+ private:
+  std::uint64_t inverse() {
+    if (inverse_ != 0) return inverse_;
+    std::int64_t a = static_cast<std::int64_t>(prime_ % vertex_count()), b = static_cast<std::int64_t>(vertex_count());
+    std::int64_t x = 1, y = 0;
+    while (b != 0) {
+      const std::int64_t q = a / b;
+      a = std::exchange(b, a - q * b);
+      x = std::exchange(y, x - q * y);
+    }
+    const auto n = static_cast<std::int64_t>(vertex_count());
+    return inverse_ = static_cast<std::uint64_t>((x % n + n) % n);
+  }
+  std::uint64_t prime_, inverse_ = 0;
+  std::vector<VertexId> grid_ids_;
+};
+
+void BM_Reorder(benchmark::State& state) {
+  ScatteredGrid mesh(static_cast<std::uint64_t>(state.range(0)), static_cast<std::uint64_t>(state.range(0)));
+  for (auto _ : state) {
+    MemoryBudget budget(64 << 20);
+    const auto reordered = reorder(mesh, temp(), budget, {.allowance_bytes = 48 << 20});
+    if (reordered->triangle_count() != mesh.triangle_count()) return state.SkipWithError("wrong count");
+    state.counters["peak_MiB"] = static_cast<double>(budget.peak_bytes() >> 20);
+  }
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(mesh.triangle_count()));
+}
+BENCHMARK(BM_Reorder)->Arg(700)->Arg(2450)->ArgName("side")->Unit(benchmark::kMillisecond)->UseRealTime()->Iterations(1);
 
 }  // namespace
 

@@ -41,12 +41,12 @@ class Run {
  public:
   Run(MeshInput input, std::span<VertexFunction* const> functions, std::span<const std::string> outputs,
       const ComputeOptions& options)
-      : input_(std::move(input)),
-        functions_(functions),
+      : functions_(functions),
         outputs_(outputs),
         options_(options),
         budget_(options.memory_bytes),
         temp_(options.temp_dir.empty() ? TempDir::default_folder(outputs[0]) : options.temp_dir),
+        input_(std::move(input)),
         values_(functions, input_.dimension),
         collectors_(functions.size()) {}
 
@@ -54,6 +54,7 @@ class Run {
     {
       const Stopwatch wall(common_.seconds.wall);
       first_stage();
+      input_ = {};
     }
     std::vector<ComputeResult> results;
     for (std::size_t f = 0; f < functions_.size(); ++f) results.push_back(second_stage(f));
@@ -73,12 +74,12 @@ class Run {
     if (options_.progress) options_.progress({phase, done, total, triangles});
   }
 
-  MeshInput input_;
   std::span<VertexFunction* const> functions_;
   std::span<const std::string> outputs_;
   const ComputeOptions& options_;
   MemoryBudget budget_;
   TempDir temp_;
+  MeshInput input_;  // a spooled mesh holds reservations and files of the two above
   FunctionValues values_;
   std::vector<GraphCollector> collectors_;
   ComputeResult common_;  // what all functions share

@@ -33,6 +33,10 @@ class SpooledMesh : public IndexedMesh {
   void append(const MeshBatch& batch);
   // Appends vertices: values[k] is column k, all of one length.
   void append_vertices(std::span<const std::span<const double>> values);
+  // The same for one column; in the end all must be of one length.
+  void append_column(unsigned column, std::span<const double> values) {
+    columns_[column].append(values);
+  }
   void append_triangles(std::span<const VertexId> corners) { triangles_.append(corners); }
 
   std::uint64_t vertex_count() const override;

@@ -6,6 +6,8 @@
 #include <cstring>
 #include <utility>
 
+#include "ooc/column_codec.h"
+
 namespace reeb::ooc {
 
 namespace {
@@ -20,11 +22,6 @@ constexpr std::size_t kSlackBytes = 8;
 
 constexpr std::array<std::size_t, 4> kLength = {1, 2, 4, 8};
 constexpr std::array<std::uint64_t, 4> kMask = {0xff, 0xffff, 0xffff'ffff, ~std::uint64_t{0}};
-
-std::uint64_t zigzag(std::uint64_t difference) {
-  return difference << 1 ^ (0 - (difference >> 63));
-}
-std::uint64_t unzigzag(std::uint64_t code) { return code >> 1 ^ (0 - (code & 1)); }
 
 unsigned length_code(std::uint64_t value) {
   return value <= kMask[0] ? 0u : value <= kMask[1] ? 1u : value <= kMask[2] ? 2u : 3u;

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <cerrno>
 #include <map>
 #include <random>
 
@@ -128,28 +127,10 @@ TEST(PagedTable, SaysWhenNotEvenTheLeastFits) {
 }
 
 TEST(PagedTable, EachFailingWriteIsReported) {
-  const auto run = [](const TempDir& temp, MemoryBudget& budget) {
+  expect_failing_writes_are_reported([](const TempDir& temp, MemoryBudget& budget) {
     PagedTable<std::uint64_t> table("table", temp, budget, 0, 0u);
     for (std::uint64_t i = 0; i < 100'000; ++i) table.set(i * 17 % 100'000, i);
-  };
-  const Scratch scratch;
-  CountWrites writes;
-  {
-    MemoryBudget budget;
-    run(TempDir(scratch.path(), writes), budget);
-  }
-  ASSERT_GT(writes.count(), 3u);
-  for (std::uint64_t n = 1; n <= writes.count(); n += 1 + writes.count() / 50) {
-    MemoryBudget budget;
-    try {
-      run(TempDir(scratch.path(), FailNthWrite(n, ENOSPC)), budget);
-      ADD_FAILURE() << "write " << n << ": the error was swallowed";
-    } catch (const Error& e) {
-      EXPECT_EQ(e.kind(), ErrorKind::kResource);
-    }
-    EXPECT_EQ(budget.used_bytes(), 0u);
-    EXPECT_TRUE(scratch.empty());
-  }
+  });
 }
 
 }  // namespace

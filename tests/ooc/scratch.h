@@ -1,15 +1,20 @@
 // What the tests of ooc share: a folder that must be empty in the end, and writes that fail.
 #pragma once
 
+#include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <atomic>
+#include <cerrno>
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <string>
 
+#include "libreeb/base/error.h"
+#include "libreeb/base/memory_budget.h"
 #include "ooc/file.h"
+#include "ooc/temp_dir.h"
 
 namespace reeb::ooc {
 
@@ -53,5 +58,31 @@ class CountWrites {
   std::shared_ptr<std::atomic<std::uint64_t>> count_ =
       std::make_shared<std::atomic<std::uint64_t>>(0);
 };
+
+// Runs `run(temp, budget)` once with a good disk, then with one that is full from the n-th write
+// on, for n spread over all writes: each failure must arrive as an Error that names a file, and
+// leave nothing reserved and nothing in the folder.
+template <class Run>
+void expect_failing_writes_are_reported(const Run& run) {
+  const Scratch scratch;
+  const CountWrites writes;
+  {
+    MemoryBudget budget;
+    run(TempDir(scratch.path(), writes), budget);
+  }
+  ASSERT_GT(writes.count(), 3u) << "nothing spills any more";
+  for (std::uint64_t n = 1; n <= writes.count(); n += 1 + n / 8) {
+    MemoryBudget budget;
+    try {
+      run(TempDir(scratch.path(), FailNthWrite(n, ENOSPC)), budget);
+      ADD_FAILURE() << "write " << n << ": the error was swallowed";
+    } catch (const Error& e) {
+      EXPECT_EQ(e.kind(), ErrorKind::kResource);
+      EXPECT_NE(e.file(), "");
+    }
+    EXPECT_EQ(budget.used_bytes(), 0u);
+    EXPECT_TRUE(scratch.empty());
+  }
+}
 
 }  // namespace reeb::ooc

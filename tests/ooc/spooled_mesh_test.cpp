@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cerrno>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -171,25 +170,11 @@ TEST(SpooledMesh, IdsBeyond32Bits) {
 }
 
 TEST(SpooledMesh, EachFailingWriteIsReported) {
-  const Scratch scratch;
   const ModelMesh model = with_property(grid_mesh(400, 400));
-  const auto run = [&](const TempDir& temp) {
-    MemoryBudget budget;
+  expect_failing_writes_are_reported([&](const TempDir& temp, MemoryBudget& budget) {
     ModelReader reader(model);
-    try {
-      spool(reader, temp, budget, {.allowance_bytes = 0});
-    } catch (const Error& e) {
-      EXPECT_EQ(e.kind(), ErrorKind::kResource);
-      EXPECT_EQ(budget.used_bytes(), 0u);
-      return true;
-    }
-    return false;
-  };
-  CountWrites writes;
-  EXPECT_FALSE(run(TempDir(scratch.path(), writes)));
-  ASSERT_GT(writes.count(), 3u);
-  for (std::uint64_t n = 1; n <= writes.count(); n += 1 + n / 3)
-    EXPECT_TRUE(run(TempDir(scratch.path(), FailNthWrite(n, ENOSPC)))) << n;
+    spool(reader, temp, budget, {.allowance_bytes = 0});
+  });
 }
 
 }  // namespace
