@@ -59,10 +59,16 @@ fetch_motorbike() {
   rm -rf "$folder"
 }
 
+# Nodes show vertex and value; four digits of the value are enough to look at.
 draw() {
-  "$reeb" extract "$out/$name.reeb" --nodes 60 --force -o "$out/$name.dot"
-  dot -Tsvg -o "$out/$name.svg" "$out/$name.dot"
-  rm "$out/$name.dot"
+  "$reeb" extract "$out/$name.reeb" --nodes 60 --format dot |
+    awk '/^graph/ { print; print "  node [shape=box style=rounded fontsize=11 height=0.3]"; next }
+         match($0, /\\n[^"]*"/) {
+           value = substr($0, RSTART + 2, RLENGTH - 3)
+           $0 = substr($0, 1, RSTART + 1) sprintf("%.4g", value) substr($0, RSTART + RLENGTH - 1)
+         }
+         { print }' |
+    dot -Tsvg -o "$out/$name.svg"
 }
 
 mkdir -p "$out"
