@@ -14,6 +14,9 @@
 
 namespace reeb::ooc {
 
+// The folder that holds `path`.
+std::string folder_of(const std::string& path);
+
 // THROWS, from every call: Error{kResource} with the path: the folder cannot be written, the disk is
 // full.
 class AtomicFile {

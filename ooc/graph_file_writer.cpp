@@ -1,7 +1,9 @@
 // GraphFileWriter: the streaming writer of graphs without hierarchy.
+#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
+#include "ooc/atomic_file.h"
 #include "ooc/file_header.h"
 #include "ooc/frame_size.h"
 #include "ooc/reeb_file_writer.h"
@@ -16,11 +18,6 @@ FileHeader first_header(FileMeta meta, bool has_positions, bool has_embedding) {
   header.flags = {true, has_positions, has_embedding};
   header.levels.resize(1);
   return header;
-}
-
-std::string folder_of(const std::string& path) {
-  const auto slash = path.find_last_of('/');
-  return slash == std::string::npos ? "." : path.substr(0, slash + 1);
 }
 
 bool in_order(const FileArc& a, const FileArc& b) {
@@ -70,10 +67,8 @@ void GraphFileWriter::add_arcs(std::span<const FileArc> arcs, const ArcBucketsVi
     frame_.arcs.push_back(arc);
     ++header_.arcs;
     if (header_.flags.has_embedding) {
-      const auto own = buckets.of(i);
-      frame_.bucket_counts.push_back(static_cast<std::uint32_t>(own.size()));
-      frame_.buckets.insert(frame_.buckets.end(), own.begin(), own.end());
-      buckets_ += own.size();
+      frame_.add_buckets(buckets.of(i));
+      buckets_ += buckets.count(i);
     }
     flush_if_full();
   }

@@ -65,10 +65,7 @@ class HierarchyFileWriter {
       const std::uint32_t record = layout_.order[i];
       const ArcVersion& arc = hierarchy_.arcs[record];
       frame_.arcs.push_back({file_index_[arc.lo.value()], file_index_[arc.hi.value()], arc.born, arc.died});
-      if (buckets_.empty()) continue;
-      const auto own = buckets_.of(record);
-      frame_.bucket_counts.push_back(static_cast<std::uint32_t>(own.size()));
-      frame_.buckets.insert(frame_.buckets.end(), own.begin(), own.end());
+      if (!buckets_.empty()) frame_.add_buckets(buckets_.of(record));
     }
     for (std::uint32_t version = before.finest; version > cut.finest; --version)
       frame_.versions.push_back(layout_.versions[version - 1]);

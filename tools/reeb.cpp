@@ -44,6 +44,10 @@ int run(int argc, char** argv) {
   program.set_version_flag("--version", "reeb " REEB_VERSION);
   program.footer(kExamples);
   reeb::tools::add_compute(program);
+  reeb::tools::add_info(program);
+  reeb::tools::add_extract(program);
+  reeb::tools::add_pairs(program);
+  reeb::tools::add_verify(program);
   reeb::tools::add_generate(program);
   if (argc == 1) {
     fmt::print("{}", program.help());

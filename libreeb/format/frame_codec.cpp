@@ -176,6 +176,11 @@ void GraphFrame::clear() {
   buckets.clear();
 }
 
+void GraphFrame::add_buckets(std::span<const Bucket> own) {
+  bucket_counts.push_back(static_cast<std::uint32_t>(own.size()));
+  buckets.insert(buckets.end(), own.begin(), own.end());
+}
+
 void encode_graph_frame(const GraphFrame& frame, const FileFlags& flags, std::vector<std::byte>& bytes) {
   ByteWriter out(bytes);
   encode_versions(frame.versions, flags.has_embedding, out);

@@ -35,6 +35,8 @@ struct GraphFrame {
   std::vector<std::uint32_t> bucket_counts;  // one entry an arc, with an embedding
   std::vector<Bucket> buckets;               // of all arcs, one arc after the other
   void clear();
+  // Those of the arc added last.
+  void add_buckets(std::span<const Bucket> own);
 };
 
 // Appends the payload. Buckets are written with has_embedding, positions with has_positions.

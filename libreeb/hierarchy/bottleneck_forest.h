@@ -2,10 +2,10 @@
 //
 // Every point but a root hangs under another of higher priority by a link with a weight; climbing
 // from x over links of weight >= w ends at the point that stands for x's component in the forest's
-// edges of weight >= w. Inserting an edge climbs both ways, hangs the lesser point under the greater,
-// and goes on with the link that was displaced, until that finds a root or closes a cycle. Only the
-// components at each weight are kept, not the forest's own edges: a pairing needs no more, and a
-// step costs two array reads where a link-cut tree rotates.
+// edges of weight >= w. Inserting an edge climbs both ways, hangs the lesser point under the
+// greater, and goes on with the link that was displaced, until that finds a root or closes a cycle.
+// Only the components at each weight are kept, not the forest's own edges: a pairing needs no more,
+// and a step costs two array reads where a link-cut tree rotates.
 #pragma once
 
 #include <cstdint>
@@ -22,8 +22,8 @@ class BottleneckForest {
 
   explicit BottleneckForest(std::uint32_t points) : links_(points) {}
 
-  // Adds the edge (x, y). Returns kNone if it joins two trees, else the least weight on the cycle it
-  // closes; that edge leaves the forest.
+  // Adds the edge (x, y). Returns kNone if it joins two trees, else the least weight on the cycle
+  // it closes; that edge leaves the forest.
   std::uint32_t insert(std::uint32_t x, std::uint32_t y, std::uint32_t weight) {
     while (true) {
       x = climb(x, weight);
@@ -55,8 +55,10 @@ class BottleneckForest {
       Link& link = links_[x];
       const Link above = links_[link.parent];
       // What joins x to its parent joins it to the grandparent too: shorten the way.
-      if (above.parent != kNone && above.weight >= link.weight) link.parent = above.parent;
-      else x = link.parent;
+      if (above.parent != kNone && above.weight >= link.weight)
+        link.parent = above.parent;
+      else
+        x = link.parent;
     }
     return x;
   }

@@ -48,7 +48,8 @@ class BoundedSearch {
     return step([](std::uint32_t) { return true; });
   }
   void finish() {
-    while (step() != WorkingGraph::kNone) {}
+    while (step() != WorkingGraph::kNone) {
+    }
   }
 
   bool reached(std::uint32_t node) const { return reached_[node] == search_; }

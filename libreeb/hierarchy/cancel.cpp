@@ -2,30 +2,19 @@
 
 #include "libreeb/hierarchy/canceller.h"
 #include "libreeb/hierarchy/pairing.h"
+#include "libreeb/hierarchy/subgraph.h"
 
 namespace reeb {
-namespace {
-
-std::vector<NodeId> isolated_nodes(const ReebGraph& graph) {
-  std::vector<bool> joined(graph.node_count());
-  for (const NodeId node : graph.lo) joined[node.value()] = true;
-  for (const NodeId node : graph.hi) joined[node.value()] = true;
-  std::vector<NodeId> isolated;
-  for (std::uint32_t node = 0; node < graph.node_count(); ++node)
-    if (!joined[node]) isolated.emplace_back(node);
-  return isolated;
-}
-
-}  // namespace
 
 Hierarchy build_hierarchy(ReebGraph graph) {
   Hierarchy hierarchy;
   hierarchy.pairs = persistence_pairs(graph);
   hierarchy.isolated = isolated_nodes(graph);
   Canceller<> canceller(graph);
-  graph.lo = {};  // the canceller has the arcs now
-  graph.hi = {};
-  graph.positions = {};
+  // The canceller has the arcs now; only the values of nodes are still needed.
+  graph.lo = std::vector<NodeId>();
+  graph.hi = std::vector<NodeId>();
+  graph.positions = std::vector<std::array<double, 3>>();
   for (PersistencePair& pair : hierarchy.pairs) {
     if (pair.type == PairType::kExt0) break;
     pair.kept = !canceller.cancel(pair);

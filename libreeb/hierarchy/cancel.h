@@ -6,15 +6,15 @@
 
 namespace reeb {
 
-// Pairs the nodes, cancels all pairs but Ext0 in the order of persistence, and records when each arc
-// lives. Hierarchy::arcs is sorted by died, so that all records alive at some version or later are
-// a suffix; a record's arc has the same ends throughout, and arcs that a step leaves as they were
-// keep their record.
+// Pairs the nodes, cancels all pairs but Ext0 in the order of persistence, and records when each
+// arc lives. Hierarchy::arcs is sorted by died, so that all records alive at some version or later
+// are a suffix; a record's arc has the same ends throughout, and arcs that a step leaves as they
+// were keep their record.
 //
 // TIME:   O(m log m) for the pairs; a cancellation costs its two paths and a search that goes no
 //         further than the lesser of what lies above the lower and below the upper node within
 //         the pair's interval.
-// MEMORY: while cancelling, 40 bytes an arc, 33 a node, 12 a pair and 16 a record; together with
+// MEMORY: while cancelling, 40 bytes an arc, 32 a node, 12 a pair and 16 a record; together with
 //         growth at most 160 bytes an arc where nodes have three arcs or one.
 // REQUIRES: no node is of degree (1, 1).
 Hierarchy build_hierarchy(ReebGraph graph);

@@ -1,16 +1,19 @@
 // The rules by which pairs are cancelled (DESIGN.md 1.5), one step at a time.
 //
-// WHY THE SEARCHES ARE SHORT. When the turn of a pair comes, every pair inside its interval is gone,
-// but for kept loops. So
-//  (1) the component of a maximum u above its up-fork v has no other maximum: any way up from v into
+// WHY THE SEARCHES ARE SHORT. When the turn of a pair comes, every pair inside its interval is
+// gone, but for kept loops. So
+//  (1) the component of a maximum u above its up-fork v has no other maximum: any way up from v
+//  into
 //      it ends in u, and any way up from v outside it passes u;
 //  (2) no two arcs of v lead into one component of that set, nor of the interlevel set (v, y) of a
 //      loop, or else there would be a cycle above v that ends sooner: a loop with lo = v, kept.
 // Only at a fork with a kept loop is a component searched through.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "libreeb/hierarchy/bounded_search.h"
@@ -36,25 +39,26 @@ struct IgnoreContent {
   void drop(std::uint32_t /*arc*/) {}
 };
 
-// MEMORY: 36 bytes an arc and 17 bytes a node; 4 bytes an arc and 16 a record in the log.
+// MEMORY: 36 bytes an arc and 16 bytes a node; 4 bytes an arc and 16 a record in the log.
 template <class Content = IgnoreContent>
 class Canceller {
  public:
   explicit Canceller(const ReebGraph& graph, Content content = {})
-      : graph_(graph), log_(graph_), ahead_(graph_), back_(graph_),
-        kept_(graph.node_count()), content_(std::move(content)) {}
+      : graph_(graph), log_(graph_), ahead_(graph_), back_(graph_), content_(std::move(content)) {
+    for (std::vector<bool>& nodes : kept_) nodes.resize(graph.node_count());
+  }
   Canceller(const Canceller&) = delete;
   Canceller& operator=(const Canceller&) = delete;
 
-  // Cancels the pair and makes a version of it. False, with nothing changed, for a loop that no rule
-  // can cancel. REQUIRES: called in the order of cancelling, for all pairs but Ext0.
+  // Cancels the pair and makes a version of it. False, with nothing changed, for a loop that no
+  // rule can cancel. REQUIRES: called in the order of cancelling, for all pairs but Ext0.
   bool cancel(const PersistencePair& pair) {
     const std::uint32_t lo = pair.lo.value(), hi = pair.hi.value();
     if (pair.type == PairType::kRel1) cancel_extremum(kUp, lo, hi);
     if (pair.type == PairType::kOrd0) cancel_extremum(kDown, hi, lo);
     if (pair.type == PairType::kExt1 && !cancel_loop(lo, hi)) {
-      kept_[lo] |= 1u << kUp;
-      kept_[hi] |= 1u << kDown;
+      kept_[kUp][lo] = true;
+      kept_[kDown][hi] = true;
       return false;
     }
     contract(lo);
@@ -92,23 +96,26 @@ class Canceller {
   }
   void contract(std::uint32_t node);
 
-  [[noreturn]] static void not_a_pair() { throw std::logic_error("Canceller: not a pair of this graph"); }
+  [[noreturn]] static void not_a_pair() {
+    throw std::logic_error("Canceller: not a pair of this graph");
+  }
 
   WorkingGraph graph_;
   VersionLog log_;
-  BoundedSearch ahead_;                     // from the fork of the pair
-  BoundedSearch back_;                      // from its partner
-  std::vector<std::uint8_t> kept_;          // bit d: loops in direction d of the node were kept
+  BoundedSearch ahead_;                        // from the fork of the pair
+  BoundedSearch back_;                         // from its partner
+  std::array<std::vector<bool>, 2> kept_;      // whether a loop in direction d of the node was kept
   std::vector<std::uint32_t> first_, second_;  // arcs of the two paths to be zipped
   Content content_;
 };
 
-// ---- extrema --------------------------------------------------------------------------------------
+// ---- extrema
+// --------------------------------------------------------------------------------------
 
 template <class Content>
 void Canceller<Content>::cancel_extremum(Direction d, std::uint32_t fork, std::uint32_t extremum) {
   const std::uint32_t in = arc_to_extremum(d, fork, extremum);
-  const bool searched = (kept_[fork] >> d & 1u) != 0;
+  const bool searched = kept_[d][fork];
   const std::uint32_t out = graph_.nearest_if(fork, d, farthest(d), [&](std::uint32_t arc) {
     return searched ? !back_.reached(graph_.end(arc, d)) : arc != in;
   });
@@ -127,8 +134,9 @@ void Canceller<Content>::cancel_extremum(Direction d, std::uint32_t fork, std::u
 // there can be several; then back_ is left with that component. Otherwise there is one, and it is
 // looked for from both ends: back from the extremum, and along from each arc of the fork.
 template <class Content>
-std::uint32_t Canceller<Content>::arc_to_extremum(Direction d, std::uint32_t fork, std::uint32_t extremum) {
-  const bool searched = (kept_[fork] >> d & 1u) != 0;
+std::uint32_t Canceller<Content>::arc_to_extremum(Direction d, std::uint32_t fork,
+                                                  std::uint32_t extremum) {
+  const bool searched = kept_[d][fork];
   back_.start(extremum, opposite(d), fork);
   if (searched) {
     back_.finish();
@@ -152,15 +160,18 @@ std::uint32_t Canceller<Content>::arc_to_extremum(Direction d, std::uint32_t for
   }
 }
 
-// ---- loops ----------------------------------------------------------------------------------------
+// ---- loops
+// ----------------------------------------------------------------------------------------
 
 template <class Content>
 bool Canceller<Content>::cancel_loop(std::uint32_t v, std::uint32_t y) {
-  const std::uint32_t direct = graph_.nearest_if(v, kUp, y, [&](std::uint32_t arc) { return graph_.end(arc, kUp) == y; });
+  const std::uint32_t direct =
+      graph_.nearest_if(v, kUp, y, [&](std::uint32_t arc) { return graph_.end(arc, kUp) == y; });
   if (direct != kNone) return take_away(direct);
 
   search_paths(v, y);
-  const std::uint32_t first = graph_.nearest_if(v, kUp, y, [&](std::uint32_t arc) { return leads(arc); });
+  const std::uint32_t first =
+      graph_.nearest_if(v, kUp, y, [&](std::uint32_t arc) { return leads(arc); });
   if (first == kNone) return false;
   const std::uint32_t second = second_path(v, y, first);
   if (second == kNone) return false;
@@ -177,8 +188,8 @@ bool Canceller<Content>::take_away(std::uint32_t arc) {
   if constexpr (Content::kFollows) {
     const std::uint32_t v = graph_.end(arc, kDown), y = graph_.end(arc, kUp);
     search_paths(v, y);
-    const std::uint32_t beside =
-        graph_.nearest_if(v, kUp, y, [&](std::uint32_t other) { return other != arc && leads(other); });
+    const std::uint32_t beside = graph_.nearest_if(
+        v, kUp, y, [&](std::uint32_t other) { return other != arc && leads(other); });
     if (beside != kNone) {
       first_.assign(1, beside);
       second_.assign(1, arc);
@@ -201,7 +212,8 @@ void Canceller<Content>::search_paths(std::uint32_t v, std::uint32_t y) {
   while (back_.step() != kNone)
     if (ahead_.step() == kNone) {
       back_.start(y, kDown, v);
-      while (back_.step([&](std::uint32_t node) { return ahead_.reached(node); }) != kNone) {}
+      while (back_.step([&](std::uint32_t node) { return ahead_.reached(node); }) != kNone) {
+      }
       return;
     }
 }
@@ -209,25 +221,31 @@ void Canceller<Content>::search_paths(std::uint32_t v, std::uint32_t y) {
 // The nearest arc of v that leads to y in another component of the open interlevel set (v, y) than
 // that of the arc `first`; kNone if there is none.
 template <class Content>
-std::uint32_t Canceller<Content>::second_path(std::uint32_t v, std::uint32_t y, std::uint32_t first) {
-  if ((kept_[v] >> kUp & 1u) == 0)
-    return graph_.nearest_if(v, kUp, y, [&](std::uint32_t arc) { return arc != first && leads(arc); });
+std::uint32_t Canceller<Content>::second_path(std::uint32_t v, std::uint32_t y,
+                                              std::uint32_t first) {
+  if (!kept_[kUp][v])
+    return graph_.nearest_if(v, kUp, y,
+                             [&](std::uint32_t arc) { return arc != first && leads(arc); });
   ahead_.start_both(graph_.end(first, kUp), v + 1, y - 1);
   ahead_.finish();
-  return graph_.nearest_if(
-      v, kUp, y, [&](std::uint32_t arc) { return leads(arc) && !ahead_.reached(graph_.end(arc, kUp)); });
+  return graph_.nearest_if(v, kUp, y, [&](std::uint32_t arc) {
+    return leads(arc) && !ahead_.reached(graph_.end(arc, kUp));
+  });
 }
 
-// Prolongs the path to y, taking at each choice the arc with the lowest upper node that leads there.
+// Prolongs the path to y, taking at each choice the arc with the lowest upper node that leads
+// there.
 template <class Content>
 void Canceller<Content>::trace(std::vector<std::uint32_t>& path, std::uint32_t y) {
-  for (std::uint32_t node = graph_.end(path.back(), kUp); node != y; node = graph_.end(path.back(), kUp)) {
+  for (std::uint32_t node = graph_.end(path.back(), kUp); node != y;
+       node = graph_.end(path.back(), kUp)) {
     path.push_back(graph_.nearest_if(node, kUp, y, [&](std::uint32_t arc) { return leads(arc); }));
     if (path.back() == kNone) not_a_pair();
   }
 }
 
-// ---- moving arcs ----------------------------------------------------------------------------------
+// ---- moving arcs
+// ----------------------------------------------------------------------------------
 
 template <class Content>
 void Canceller<Content>::zip(Direction d) {

@@ -8,7 +8,8 @@ namespace reeb {
 
 std::uint32_t version_below(const Hierarchy& hierarchy, double threshold) {
   const auto& steps = hierarchy.persistence;
-  return static_cast<std::uint32_t>(std::lower_bound(steps.begin(), steps.end(), threshold) - steps.begin());
+  return static_cast<std::uint32_t>(std::lower_bound(steps.begin(), steps.end(), threshold) -
+                                    steps.begin());
 }
 
 std::vector<LevelSize> level_sizes(const Hierarchy& hierarchy) {
@@ -43,14 +44,15 @@ std::vector<LevelSize> level_sizes(const Hierarchy& hierarchy) {
 }
 
 std::uint32_t finest_with_nodes(const std::vector<LevelSize>& sizes, std::uint64_t nodes) {
-  const auto it = std::partition_point(sizes.begin(), sizes.end(),
-                                       [nodes](const LevelSize& size) { return size.nodes > nodes; });
+  const auto it = std::partition_point(
+      sizes.begin(), sizes.end(), [nodes](const LevelSize& size) { return size.nodes > nodes; });
   return static_cast<std::uint32_t>(it - sizes.begin());
 }
 
 ReebGraph graph_at(const Hierarchy& hierarchy, const ReebGraph& full, std::uint32_t version) {
-  const auto first = std::partition_point(hierarchy.arcs.begin(), hierarchy.arcs.end(),
-                                          [version](const ArcVersion& arc) { return arc.died <= version; });
+  const auto first =
+      std::partition_point(hierarchy.arcs.begin(), hierarchy.arcs.end(),
+                           [version](const ArcVersion& arc) { return arc.died <= version; });
   std::vector<NodeArc> arcs;
   for (auto arc = first; arc != hierarchy.arcs.end(); ++arc)
     if (arc->born <= version) arcs.push_back({arc->lo, arc->hi});

@@ -29,9 +29,9 @@ ArcsBelow arcs_below(const ReebGraph& graph) {
 
 // Upward sweep: a down-arc of y joins two components of the sublevel set, and the one whose minimum
 // is higher ends (elder rule), or it closes a cycle. The cycles within an interlevel set [a, b]
-// number the Ext1 pairs within it, and the arcs with hi <= b that a maximum spanning forest by lower
-// end keeps are, from any a on, a spanning forest of [a, b]: so y pairs with the lower end that the
-// forest loses. Returns the sublevel components at the end, named by their minima.
+// number the Ext1 pairs within it, and the arcs with hi <= b that a maximum spanning forest by
+// lower end keeps are, from any a on, a spanning forest of [a, b]: so y pairs with the lower end
+// that the forest loses. Returns the sublevel components at the end, named by their minima.
 UnionFind sweep_up(const ReebGraph& graph, std::vector<PersistencePair>& pairs) {
   const ArcsBelow below = arcs_below(graph);
   const auto nodes = static_cast<std::uint32_t>(graph.node_count());
@@ -72,10 +72,14 @@ UnionFind sweep_down(const ReebGraph& graph, std::vector<PersistencePair>& pairs
 
 int rank_of(PairType type) {
   switch (type) {
-    case PairType::kExt1: return 0;
-    case PairType::kOrd0: return 1;
-    case PairType::kRel1: return 2;
-    case PairType::kExt0: return 3;
+    case PairType::kExt1:
+      return 0;
+    case PairType::kOrd0:
+      return 1;
+    case PairType::kRel1:
+      return 2;
+    case PairType::kExt0:
+      return 3;
   }
   return 3;
 }
@@ -109,7 +113,8 @@ std::vector<PersistencePair> persistence_pairs(const ReebGraph& graph) {
   const auto nodes = static_cast<std::uint32_t>(graph.node_count());
   for (std::uint32_t x = 0; x < nodes; ++x)
     if (sublevel.find(x) == x)
-      pairs.push_back({NodeId(x), NodeId(nodes - 1 - superlevel.find(nodes - 1 - x)), PairType::kExt0});
+      pairs.push_back(
+          {NodeId(x), NodeId(nodes - 1 - superlevel.find(nodes - 1 - x)), PairType::kExt0});
   sort_for_cancelling(graph, pairs);
   return pairs;
 }

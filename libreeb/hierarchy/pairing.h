@@ -1,4 +1,5 @@
-// Extended persistence pairs of a Reeb graph (DESIGN.md 1.4; Agarwal, Edelsbrunner, Harer, Wang 2004).
+// Extended persistence pairs of a Reeb graph (DESIGN.md 1.4; Agarwal, Edelsbrunner, Harer, Wang
+// 2004).
 #pragma once
 
 #include <vector>
@@ -13,17 +14,17 @@ inline double persistence_of(const ReebGraph& graph, const PersistencePair& pair
   return graph.nodes[pair.hi.value()].value - graph.nodes[pair.lo.value()].value;
 }
 
-// All pairs, in the order of cancelling (DESIGN.md 1.5), Ext0 last. Exact: every decision is made in
-// the total order; persistences only sort the result. As a multiset the result does not depend on
-// the order of arcs.
+// All pairs, in the order of cancelling (DESIGN.md 1.5), Ext0 last. Exact: every decision is made
+// in the total order; persistences only sort the result. As a multiset the result does not depend
+// on the order of arcs.
 //
 // TIME:   O(m log m), in expectation for the loops (see BottleneckForest).
 // MEMORY: 4 bytes an arc and 20 bytes a node besides 36 bytes a pair (12 of them the result).
 std::vector<PersistencePair> persistence_pairs(const ReebGraph& graph);
 
 // Sorts pairs into the order of cancelling: Ext0 after all others; then persistence ascending, hi
-// ascending, lo descending, Ext1 before Ord0 before Rel1. A pair inside another's interval so always
-// comes before it.
+// ascending, lo descending, Ext1 before Ord0 before Rel1. A pair inside another's interval so
+// always comes before it.
 void sort_for_cancelling(const ReebGraph& graph, std::vector<PersistencePair>& pairs);
 
 }  // namespace reeb

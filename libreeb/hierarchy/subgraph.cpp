@@ -4,7 +4,8 @@
 
 namespace reeb {
 
-ReebGraph subgraph(const ReebGraph& full, std::vector<NodeArc> arcs, std::span<const NodeId> isolated) {
+ReebGraph subgraph(const ReebGraph& full, std::vector<NodeArc> arcs,
+                   std::span<const NodeId> isolated) {
   std::vector<NodeId> nodes(isolated.begin(), isolated.end());
   nodes.reserve(nodes.size() + 2 * arcs.size());
   for (const NodeArc& arc : arcs) {
@@ -33,6 +34,16 @@ ReebGraph subgraph(const ReebGraph& full, std::vector<NodeArc> arcs, std::span<c
     graph.hi.push_back(rank(arc.hi));
   }
   return graph;
+}
+
+std::vector<NodeId> isolated_nodes(const ReebGraph& graph) {
+  std::vector<bool> joined(graph.node_count());
+  for (const NodeId node : graph.lo) joined[node.value()] = true;
+  for (const NodeId node : graph.hi) joined[node.value()] = true;
+  std::vector<NodeId> isolated;
+  for (std::uint32_t node = 0; node < graph.node_count(); ++node)
+    if (!joined[node]) isolated.emplace_back(node);
+  return isolated;
 }
 
 }  // namespace reeb

@@ -66,9 +66,9 @@ class VersionLog {
 
   const WorkingGraph& graph_;
   std::uint32_t step_ = 1;
-  std::vector<std::uint32_t> born_;    // of each arc's present version
-  std::vector<ArcVersion> ended_;      // versions that this step touched, as they were before it
-  std::vector<std::uint32_t> changed_; // the arcs they belong to
+  std::vector<std::uint32_t> born_;     // of each arc's present version
+  std::vector<ArcVersion> ended_;       // versions that this step touched, as they were before it
+  std::vector<std::uint32_t> changed_;  // the arcs they belong to
   std::vector<ArcVersion> records_;
 };
 

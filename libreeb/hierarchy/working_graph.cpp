@@ -34,8 +34,10 @@ std::uint32_t WorkingGraph::meld(std::uint32_t a, std::uint32_t b, Direction d) 
   std::uint32_t root = kNone, parent = kNone;
   while (a != kNone && b != kNone) {
     if (key(b, d) < key(a, d)) std::swap(a, b);
-    if (parent == kNone) root = a;
-    else arcs_[parent].heap[d].child[0] = a;
+    if (parent == kNone)
+      root = a;
+    else
+      arcs_[parent].heap[d].child[0] = a;
     HeapLinks& links = arcs_[a].heap[d];
     links.parent = parent;
     parent = a;

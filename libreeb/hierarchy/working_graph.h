@@ -21,9 +21,7 @@ enum Direction : std::uint32_t { kDown = 0, kUp = 1 };
 constexpr Direction opposite(Direction d) { return d == kUp ? kDown : kUp; }
 
 // Grows with each step in direction d: the key under which nodes are compared.
-constexpr std::uint32_t along(Direction d, std::uint32_t node) {
-  return d == kUp ? node : ~node;
-}
+constexpr std::uint32_t along(Direction d, std::uint32_t node) { return d == kUp ? node : ~node; }
 
 // A limit that no node is beyond.
 constexpr std::uint32_t farthest(Direction d) { return d == kUp ? ~std::uint32_t{0} : 0; }
@@ -84,7 +82,8 @@ class WorkingGraph {
 };
 
 template <class Accept>
-std::uint32_t WorkingGraph::nearest_if(std::uint32_t node, Direction d, std::uint32_t limit, Accept accept) {
+std::uint32_t WorkingGraph::nearest_if(std::uint32_t node, Direction d, std::uint32_t limit,
+                                       Accept accept) {
   std::uint32_t best = kNone;
   stack_.assign(1, top_[node][d]);
   while (!stack_.empty()) {

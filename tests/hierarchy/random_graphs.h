@@ -19,13 +19,16 @@ inline std::uint32_t below(Random& random, std::uint32_t bound) {
 inline ReebGraph contracted(std::vector<ArcKeys> arcs, std::vector<SweepKey> isolated) {
   for (std::size_t i = 0; i < arcs.size();) {
     const SweepKey middle = arcs[i].hi;
-    const auto down = std::count_if(arcs.begin(), arcs.end(), [&](const ArcKeys& a) { return a.hi == middle; });
-    const auto up = std::count_if(arcs.begin(), arcs.end(), [&](const ArcKeys& a) { return a.lo == middle; });
+    const auto down =
+        std::count_if(arcs.begin(), arcs.end(), [&](const ArcKeys& a) { return a.hi == middle; });
+    const auto up =
+        std::count_if(arcs.begin(), arcs.end(), [&](const ArcKeys& a) { return a.lo == middle; });
     if (down != 1 || up != 1) {
       ++i;
       continue;
     }
-    const auto next = std::find_if(arcs.begin(), arcs.end(), [&](const ArcKeys& a) { return a.lo == middle; });
+    const auto next =
+        std::find_if(arcs.begin(), arcs.end(), [&](const ArcKeys& a) { return a.lo == middle; });
     arcs[i].hi = next->hi;
     arcs.erase(next);
     i = 0;
@@ -62,7 +65,8 @@ inline ReebGraph random_graph(Random& random, std::uint32_t max_nodes) {
       for (std::uint32_t k = below(random, 4); k > 0; --k) join(a, b);
     }
   if (kind >= 3)  // multigraph
-    for (std::uint32_t i = below(random, 3 * nodes); i > 0; --i) join(below(random, nodes), below(random, nodes));
+    for (std::uint32_t i = below(random, 3 * nodes); i > 0; --i)
+      join(below(random, nodes), below(random, nodes));
 
   std::vector<SweepKey> isolated;
   for (std::uint32_t i = below(random, 3); i > 0; --i)

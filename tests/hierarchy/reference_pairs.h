@@ -16,10 +16,12 @@ namespace reeb::test {
 using PairKey = std::tuple<PairType, std::uint64_t, std::uint64_t>;  // type, vertices lo and hi
 
 // The pairs by the vertices of their nodes, sorted.
-inline std::vector<PairKey> keys_of(const ReebGraph& graph, const std::vector<PersistencePair>& pairs) {
+inline std::vector<PairKey> keys_of(const ReebGraph& graph,
+                                    const std::vector<PersistencePair>& pairs) {
   std::vector<PairKey> keys;
   for (const PersistencePair& p : pairs)
-    keys.emplace_back(p.type, graph.nodes[p.lo.value()].vertex.value(), graph.nodes[p.hi.value()].vertex.value());
+    keys.emplace_back(p.type, graph.nodes[p.lo.value()].vertex.value(),
+                      graph.nodes[p.hi.value()].vertex.value());
   std::sort(keys.begin(), keys.end());
   return keys;
 }
@@ -41,12 +43,14 @@ inline std::vector<PairKey> reference_pairs(const ReebGraph& graph) {
   for (std::uint32_t y = 0; y < nodes; ++y) {
     node_row[y] = add(y, false, {});
     for (std::size_t a = 0; a < graph.arc_count(); ++a)
-      if (graph.hi[a].value() == y) arc_row[a] = add(y, false, {node_row[graph.lo[a].value()], node_row[y]});
+      if (graph.hi[a].value() == y)
+        arc_row[a] = add(y, false, {node_row[graph.lo[a].value()], node_row[y]});
   }
   for (std::uint32_t v = nodes; v-- > 0;) {
     cone_row[v] = add(v, true, {0, node_row[v]});
     for (std::size_t a = 0; a < graph.arc_count(); ++a)
-      if (graph.lo[a].value() == v) add(v, true, {arc_row[a], cone_row[v], cone_row[graph.hi[a].value()]});
+      if (graph.lo[a].value() == v)
+        add(v, true, {arc_row[a], cone_row[v], cone_row[graph.hi[a].value()]});
   }
 
   std::vector<PersistencePair> pairs;
@@ -65,7 +69,8 @@ inline std::vector<PairKey> reference_pairs(const ReebGraph& graph) {
     const Cell& birth = cells[boundary.back()];
     const Cell& death = cells[column];
     const NodeId b(birth.node), d(death.node);
-    const bool creates_component = birth.boundary.empty() && boundary.back() == node_row[birth.node];
+    const bool creates_component =
+        birth.boundary.empty() && boundary.back() == node_row[birth.node];
     if (!death.cone && b != d) pairs.push_back({b, d, PairType::kOrd0});
     if (birth.cone && b != d) pairs.push_back({d, b, PairType::kRel1});
     if (death.cone && !birth.cone && creates_component) pairs.push_back({b, d, PairType::kExt0});

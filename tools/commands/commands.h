@@ -7,6 +7,10 @@
 namespace reeb::tools {
 
 void add_compute(CLI::App& program);
+void add_info(CLI::App& program);
+void add_extract(CLI::App& program);
+void add_pairs(CLI::App& program);
+void add_verify(CLI::App& program);
 void add_generate(CLI::App& program);
 
 }  // namespace reeb::tools

@@ -1,0 +1,115 @@
+#include "io/streaming/block_reader.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "io/streaming/stream_fault.h"
+
+namespace reeb::io {
+
+template <std::size_t kWords>
+BlockEventReader<kWords>::BlockEventReader(std::unique_ptr<ByteSource> source)
+    : source_(std::move(source)), window_(*source_) {
+  BlockHead head = read_block_head(window_, kWords == 4);
+  header_ = std::move(head.header);
+  order_ = head.order;
+  rules_.set_post_order(header_.post_order);
+  if (head.overruled)
+    warn("ORDER: the byte order mark contradicts the data; they are read as " + header_.format);
+}
+
+template <std::size_t kWords>
+void BlockEventReader<kWords>::fill() {
+  if (done_) return;
+  if (!window_.ensure(4 + kBlockElements * kElementBytes)) {
+    if (window_.available() == 0) return finish();
+    if (window_.available() < 4)
+      fail(Fault::kTruncated, "ends inside a block descriptor", std::to_string(window_.position()));
+  }
+  const std::uint32_t descriptor = order_.word(window_.data());
+  const std::size_t rest = window_.available() - 4;
+  const std::size_t count = std::min(kBlockElements, rest / kElementBytes);
+  const std::byte* elements = window_.data() + 4;
+  const std::uint64_t position = window_.position() + 4;
+  for (std::size_t j = 0; j < count; ++j) {
+    const std::size_t at = j * kElementBytes;
+    ((descriptor >> j) & 1) != 0 ? read_vertex(elements + at, position + at)
+                                 : read_cell(elements + at, position + at);
+  }
+  window_.skip(4 + count * kElementBytes);
+  if (count == kBlockElements) return;
+  if (rest % kElementBytes != 0)
+    fail(Fault::kTruncated, "ends inside element " + std::to_string(count) + " of a block",
+         std::to_string(window_.position()));
+  finish();
+}
+
+template <std::size_t kWords>
+void BlockEventReader<kWords>::read_vertex(const std::byte* element, std::uint64_t position) {
+  const std::array<float, 3> xyz = {order_.real(element), order_.real(element + 4),
+                                    order_.real(element + 8)};
+  // SVB only: a fourth float, or an integer, or nothing.
+  const std::byte* more = element + kElementBytes - 4;
+  const float fourth = header_.vertex_floats == 4 ? order_.real(more) : 0;
+  if (!std::isfinite(xyz[0]) || !std::isfinite(xyz[1]) || !std::isfinite(xyz[2]) ||
+      !std::isfinite(fourth))
+    fail(Fault::kBadNumber,
+         "a value of vertex " + std::to_string(rules_.vertex_count()) + " is not finite",
+         std::to_string(position));
+  if (rules_.vertex_count() == kMaxVertices)
+    fail(Fault::kBadIndex, "more than 2147483647 vertices", std::to_string(position));
+
+  const std::uint32_t vertex = rules_.vertex_count();
+  StreamEvent& event = push(EventKind::kVertex);
+  event.vertex = vertex;
+  std::copy(xyz.begin(), xyz.end(), event.floats.begin());
+  if constexpr (kWords == 4) {
+    event.floats[3] = fourth;
+    event.ints[0] = order_.integer(more);
+  }
+  rules_.add_vertex();
+  if (rules_.post_order()) push_finalized(vertex);
+}
+
+template <std::size_t kWords>
+void BlockEventReader<kWords>::read_cell(const std::byte* element, std::uint64_t position) {
+  std::array<std::int32_t, kWords> numbers;
+  std::array<std::uint32_t, kWords> vertices{};
+  for (std::size_t k = 0; k < kWords; ++k) {
+    numbers[k] = order_.integer(element + 4 * k);
+    IndexVerdict verdict = rules_.corner(numbers[k], vertices[k]);
+    for (std::size_t i = 0; i < k; ++i)
+      if (numbers[k] < 0 && numbers[i] == numbers[k]) verdict = IndexVerdict::kFinal;
+    if (verdict != IndexVerdict::kGood) [[unlikely]]
+      rules_.fail_index(verdict, numbers[k], "corner " + std::to_string(k + 1),
+                        std::to_string(position));
+  }
+  ++cells_;
+  StreamEvent& event = push(kWords == 4 ? EventKind::kTetrahedron : EventKind::kTriangle);
+  for (std::size_t k = 0; k < kWords; ++k) event.corners[k] = vertices[k];
+  for (std::size_t k = 0; k < kWords; ++k) {
+    if (numbers[k] >= 0) continue;
+    rules_.finalize(vertices[k]);
+    push_finalized(vertices[k]);
+  }
+}
+
+template <std::size_t kWords>
+void BlockEventReader<kWords>::finish() {
+  done_ = true;
+  const char* cell_name = kWords == 4 ? "tetrahedra" : "triangles";
+  const std::string end = std::to_string(window_.position());
+  rules_.require_all_arrived(cell_name, end);
+  const Tally vertices{header_.vertex_count, rules_.vertex_count()};
+  const Tally cells{header_.cell_count, cells_};
+  require_promised(vertices, "vertices", end);
+  require_promised(cells, cell_name, end);
+  for (auto text :
+       {count_warning(vertices, "vertices", false), count_warning(cells, cell_name, false)})
+    if (!text.empty()) warn(std::move(text));
+}
+
+template class BlockEventReader<3>;
+template class BlockEventReader<4>;
+
+}  // namespace reeb::io

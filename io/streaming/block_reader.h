@@ -1,0 +1,43 @@
+// Reads SMB (triangles) and SVB (tetrahedra): binary blocks of 32 elements.
+//
+// A block is a 32-bit descriptor, lowest bit first, 1 for a vertex and 0 for a cell, then up to 32
+// elements of 12 (SMB) or 16 (SVB) bytes. Positions of faults are byte offsets.
+#pragma once
+
+#include <memory>
+
+#include "io/streaming/block_head.h"
+#include "io/streaming/byte_source.h"
+#include "io/streaming/index_rules.h"
+#include "io/streaming/stream_event.h"
+
+namespace reeb::io {
+
+// kWords: 32-bit words of an element, which is also the number of corners of a cell.
+template <std::size_t kWords>
+class BlockEventReader : public EventReader {
+ public:
+  explicit BlockEventReader(std::unique_ptr<ByteSource> source);
+
+  std::uint64_t bytes_read() const override { return source_->consumed(); }
+
+ private:
+  static constexpr std::size_t kElementBytes = 4 * kWords;
+
+  void fill() override;
+  void read_vertex(const std::byte* element, std::uint64_t position);
+  void read_cell(const std::byte* element, std::uint64_t position);
+  void finish();
+
+  std::unique_ptr<ByteSource> source_;
+  ByteWindow window_;
+  WordOrder order_;
+  IndexRules rules_;
+  std::uint64_t cells_ = 0;
+  bool done_ = false;
+};
+
+using SmbEventReader = BlockEventReader<3>;
+using SvbEventReader = BlockEventReader<4>;
+
+}  // namespace reeb::io

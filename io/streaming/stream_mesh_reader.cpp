@@ -1,0 +1,134 @@
+#include "io/streaming/stream_mesh_reader.h"
+
+#include <algorithm>
+
+#include "io/streaming/pre_order.h"
+#include "libreeb/base/error.h"
+
+namespace reeb::io {
+namespace {
+
+std::string joined(const std::vector<std::string>& names) {
+  std::string text;
+  for (const auto& name : names) text.append(text.empty() ? "" : ", ").append(name);
+  return text;
+}
+
+class StreamMeshReader : public MeshReader {
+ public:
+  StreamMeshReader(std::unique_ptr<EventReader> reader, const ReadOptions& options,
+                   std::uint64_t file_bytes)
+      : reader_(in_pre_order(std::move(reader))),
+        batch_events_(std::max<std::size_t>(1, options.batch_events)) {
+    const StreamHeader& header = reader_->header();
+    info_.format = header.format;
+    info_.property_names = stream_property_names(header);
+    info_.vertex_count = header.vertex_count;
+    info_.simplex_count = header.cell_count;
+    info_.finalizes = true;
+    info_.file_bytes = file_bytes;
+    for (const auto& name : options.properties) columns_.push_back(column_of(name));
+  }
+
+  const MeshInfo& info() const override { return info_; }
+  std::uint64_t bytes_read() const override { return reader_->bytes_read(); }
+
+  bool read(MeshBatch& batch) override {
+    batch.clear();
+    batch.coordinates.resize(info_.dimension);
+    batch.properties.resize(columns_.size());
+    batch.first_vertex = VertexId(vertices_);
+    std::size_t count = 0;
+    // A finalization comes with what it follows, where a batch is more than one event.
+    while (count < batch_events_) {
+      const StreamEvent* event = next();
+      if (event == nullptr) break;
+      append(*event, batch);
+      count += batch_events_ == 1 || event->kind != EventKind::kFinalized;
+    }
+    return !batch.empty();
+  }
+
+  std::vector<std::string> warnings() const override {
+    auto all = reader_->warnings();
+    if (ended_ && finalized_ < vertices_)
+      all.push_back(std::to_string(vertices_ - finalized_) + " of " + std::to_string(vertices_) +
+                    " vertices were never finalized");
+    return all;
+  }
+
+ private:
+  // Which value of a vertex a requested property is.
+  struct Column {
+    bool integer;
+    std::size_t place;
+  };
+
+  Column column_of(const std::string& name) const {
+    const auto& names = info_.property_names;
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end())
+      throw Error(ErrorKind::kBadInput, "the mesh has no vertex property '" + name + "'",
+                  names.empty() ? "it has none at all" : "it has: " + joined(names));
+    const auto at = static_cast<std::size_t>(found - names.begin());
+    const std::size_t floats = reader_->header().vertex_floats - 3;
+    return at < floats ? Column{false, 3 + at} : Column{true, at - floats};
+  }
+
+  const StreamEvent* next() {
+    const StreamEvent* event = ended_ ? nullptr : reader_->next();
+    ended_ = event == nullptr;
+    return event;
+  }
+
+  void append(const StreamEvent& event, MeshBatch& batch) {
+    switch (event.kind) {
+      case EventKind::kVertex:
+        for (std::size_t k = 0; k < 3; ++k)
+          batch.coordinates[k].push_back(static_cast<double>(event.floats[k]));
+        for (std::size_t k = 0; k < columns_.size(); ++k)
+          batch.properties[k].push_back(columns_[k].integer
+                                            ? static_cast<double>(event.ints[columns_[k].place])
+                                            : static_cast<double>(event.floats[columns_[k].place]));
+        ++batch.vertex_count;
+        ++vertices_;
+        return;
+      case EventKind::kTriangle:
+        for (std::size_t k = 0; k < 3; ++k) batch.triangles.emplace_back(event.corners[k]);
+        return;
+      case EventKind::kTetrahedron:
+        for (std::size_t k = 0; k < 4; ++k) batch.tetrahedra.emplace_back(event.corners[k]);
+        return;
+      case EventKind::kFinalized:
+        batch.finalized.emplace_back(event.vertex);
+        ++finalized_;
+        return;
+    }
+  }
+
+  std::unique_ptr<EventReader> reader_;
+  std::size_t batch_events_;
+  MeshInfo info_;
+  std::vector<Column> columns_;
+  std::uint64_t vertices_ = 0, finalized_ = 0;
+  bool ended_ = false;
+};
+
+}  // namespace
+
+std::vector<std::string> stream_property_names(const StreamHeader& header) {
+  std::vector<std::string> names;
+  for (unsigned i = 3; i < header.vertex_floats; ++i)
+    names.push_back(std::string("s").append(std::to_string(i - 3)));
+  for (unsigned i = 0; i < header.vertex_ints; ++i)
+    names.push_back(std::string("i").append(std::to_string(i)));
+  return names;
+}
+
+std::unique_ptr<MeshReader> make_stream_mesh_reader(std::unique_ptr<EventReader> reader,
+                                                    const ReadOptions& options,
+                                                    std::uint64_t file_bytes) {
+  return std::make_unique<StreamMeshReader>(std::move(reader), options, file_bytes);
+}
+
+}  // namespace reeb::io

@@ -1,0 +1,100 @@
+#include "io/streaming/text_head.h"
+
+#include "io/streaming/stream_fault.h"
+#include "io/streaming/text_lines.h"
+
+namespace reeb::io {
+namespace {
+
+std::string_view trimmed(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(" \t");
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
+}  // namespace
+
+void TextHead::fail_here(const std::string& what, std::size_t column) const {
+  fail(Fault::kBadHeader, what, std::to_string(number_) + ":" + std::to_string(column));
+}
+
+void TextHead::read_line(std::string_view line, std::uint64_t number) {
+  line_ = line;
+  number_ = number;
+  LineCursor cursor(line, 1);
+  const std::string_view word = cursor.word();
+  if (read_keyword(line, word, cursor.column() - 1 + word.size())) return;
+  header_.comments.emplace_back(trimmed(line.substr(1)));
+  comment_bytes_ += header_.comments.back().size() + 1;
+  if (comment_bytes_ > kMaxCommentBytes) fail_here("more than 16 MiB of comments", 1);
+}
+
+bool TextHead::read_keyword(std::string_view line, std::string_view word, std::size_t after) {
+  const bool volume_word = word == "svtype" || word.starts_with("v_p") || word.starts_with("c_p");
+  if (volume_word) header_.volume = true;
+  if (word == "nverts")
+    read_count(after, header_.vertex_count);
+  else if (word == "nfaces" && !header_.volume)
+    read_count(after, header_.cell_count);
+  else if (word == "ncells")
+    read_count(after, header_.cell_count);
+  else if (word == "v_pnum_f")
+    read_width(after, header_.vertex_floats, 3);
+  else if (word == "v_pnum_i")
+    read_width(after, header_.vertex_ints, 0);
+  else if (word == "c_pnum_f")
+    read_width(after, header_.cell_floats, 0);
+  else if (word == "c_pnum_i")
+    read_width(after, header_.cell_ints, 0);
+  else if (word == "bb_min" || word == "v_pmin_f")
+    read_corner(after, box_.min, has_min_);
+  else if (word == "bb_max" || word == "v_pmax_f")
+    read_corner(after, box_.max, has_max_);
+  else if (word == "svtype") {
+    LineCursor cursor(line, after);
+    if (const auto type = cursor.word(); type != "tet")
+      fail(Fault::kUnsupported,
+           "cells of type '" + std::string(type) + "'; only tetrahedra are read",
+           std::to_string(number_) + ":" + std::to_string(cursor.column()));
+  } else {
+    return volume_word;  // bounds of further values, which nobody needs
+  }
+  return true;
+}
+
+void TextHead::read_count(std::size_t after, std::optional<std::uint32_t>& count) {
+  LineCursor cursor(line_, after);
+  std::int32_t value = 0;
+  if (cursor.number(value) != NumberVerdict::kGood)
+    fail_here("the count is not a number: '" + std::string(cursor.last_word()) + "'",
+              cursor.column());
+  count = value < 0 ? std::nullopt : std::optional(static_cast<std::uint32_t>(value));
+}
+
+void TextHead::read_width(std::size_t after, unsigned& width, std::int32_t least) {
+  LineCursor cursor(line_, after);
+  std::int32_t value = 0;
+  const bool good = cursor.number(value) == NumberVerdict::kGood;
+  const auto most = static_cast<std::int32_t>(kMaxFloats);
+  if (!good || value < least || value > most)
+    fail_here(std::string(cursor.last_word()) + " values each; " + std::to_string(least) + " to " +
+                  std::to_string(most) + " are possible",
+              cursor.column());
+  width = static_cast<unsigned>(value);
+}
+
+void TextHead::read_corner(std::size_t after, std::array<float, 3>& corner, bool& seen) {
+  LineCursor cursor(line_, after);
+  for (float& value : corner)
+    if (cursor.number(value) != NumberVerdict::kGood)
+      fail_here("not a number in the bounding box: '" + std::string(cursor.last_word()) + "'",
+                cursor.column());
+  seen = true;
+}
+
+void TextHead::finish() {
+  if (has_min_ && has_max_) header_.box = box_;
+  header_.format = header_.volume ? "SVA" : "SMA";
+}
+
+}  // namespace reeb::io

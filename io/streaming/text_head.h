@@ -1,0 +1,39 @@
+// The "#" lines before the body of an SMA or SVA file.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "io/streaming/stream_event.h"
+
+namespace reeb::io {
+
+// Gathers the head line by line. A file is a volume mesh (SVA) as soon as a keyword says so.
+class TextHead {
+ public:
+  explicit TextHead(StreamHeader& header) : header_(header) {}
+
+  // `line` starts with '#'. THROWS: BAD_HEADER, UNSUPPORTED (another type of cells).
+  void read_line(std::string_view line, std::uint64_t number);
+  // After the last line. THROWS: BAD_HEADER.
+  void finish();
+
+ private:
+  static constexpr std::size_t kMaxCommentBytes = 16u << 20;
+
+  bool read_keyword(std::string_view line, std::string_view word, std::size_t after);
+  void read_count(std::size_t after, std::optional<std::uint32_t>& count);
+  void read_width(std::size_t after, unsigned& width, std::int32_t least);
+  void read_corner(std::size_t after, std::array<float, 3>& corner, bool& seen);
+  [[noreturn]] void fail_here(const std::string& what, std::size_t column) const;
+
+  StreamHeader& header_;
+  std::string_view line_;
+  std::uint64_t number_ = 0;
+  StreamBox box_{};
+  bool has_min_ = false, has_max_ = false;
+  std::size_t comment_bytes_ = 0;
+};
+
+}  // namespace reeb::io

@@ -1,0 +1,153 @@
+// SMA and SVA.
+#include <array>
+#include <charconv>
+
+#include "io/streaming/cell_hold.h"
+#include "io/streaming/stream_output.h"
+#include "io/streaming/stream_writer.h"
+
+namespace reeb::io {
+namespace {
+
+constexpr std::size_t kMaxComment = 240;  // old readers split longer lines
+
+void append_number(std::string& out, std::int64_t value) {
+  std::array<char, 24> text;
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
+  out.push_back(' ');
+  out.append(text.data(), end);
+}
+
+// Nine digits restore every float32.
+void append_number(std::string& out, float value) {
+  std::array<char, 32> text;
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), static_cast<double>(value),
+                                 std::chars_format::general, 9)
+                       .ptr;
+  out.push_back(' ');
+  out.append(text.data(), end);
+}
+
+class TextWriter : public StreamWriter {
+ public:
+  TextWriter(std::ostream& out, const StreamHeader& header) : out_(out), header_(header) {
+    write_head();
+  }
+
+  void write(const StreamEvent& event) override {
+    switch (event.kind) {
+      case EventKind::kVertex:
+        return write_vertex(event);
+      case EventKind::kTriangle:
+      case EventKind::kTetrahedron:
+        return write_cell(event);
+      case EventKind::kFinalized:
+        return write_finalized(event.vertex);
+    }
+  }
+
+  void close() override {
+    write_held();
+    out_.finish();
+  }
+
+ private:
+  void write_head() {
+    std::string& text = out_.text();
+    if (header_.volume) text += "# svtype tet\n";
+    write_count("nverts", header_.vertex_count);
+    write_count(header_.volume ? "ncells" : "nfaces", header_.cell_count);
+    if (header_.volume) {
+      write_width("v_pnum_f", header_.vertex_floats, 0);
+      write_width("v_pnum_i", header_.vertex_ints, 0);
+      write_width("c_pnum_f", header_.cell_floats, 0);
+      write_width("c_pnum_i", header_.cell_ints, 0);
+    }
+    if (header_.box) {
+      write_corner("bb_min", header_.box->min);
+      write_corner("bb_max", header_.box->max);
+    }
+    for (const std::string& comment : header_.comments) {
+      std::string line = comment.substr(0, kMaxComment);
+      for (char& c : line)
+        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = ' ';
+      text.append("# ").append(line).append("\n");
+    }
+  }
+  void write_count(const char* keyword, const std::optional<std::uint32_t>& count) {
+    if (!count) return;
+    out_.text().append("# ").append(keyword);
+    append_number(out_.text(), std::int64_t{*count});
+    out_.text() += '\n';
+  }
+  void write_width(const char* keyword, unsigned width, unsigned usual) {
+    if (width != usual) write_count(keyword, width);
+  }
+  void write_corner(const char* keyword, const std::array<float, 3>& corner) {
+    out_.text().append("# ").append(keyword);
+    for (const float x : corner) append_number(out_.text(), x);
+    out_.text() += '\n';
+  }
+
+  void write_vertex(const StreamEvent& event) {
+    write_held();
+    started_ = true;
+    std::string& text = out_.text();
+    text += 'v';
+    append_values(event, header_.vertex_floats, header_.vertex_ints);
+    text += '\n';
+    ++vertices_;
+    out_.flush_if_full();
+  }
+
+  void write_cell(const StreamEvent& event) {
+    require_cell_kind(event.kind, header_.volume);
+    write_held();
+    if (!started_) post_order_ = true;
+    started_ = true;
+    held_.put(event);
+  }
+
+  void write_finalized(std::uint32_t vertex) {
+    if (post_order_ || held_.finalize(vertex, true)) return;
+    write_held();
+    out_.text() += 'x';
+    append_number(out_.text(), std::int64_t{vertex} + 1);
+    out_.text() += '\n';
+    out_.flush_if_full();
+  }
+
+  void write_held() {
+    if (!held_.full()) return;
+    std::string& text = out_.text();
+    const StreamEvent& cell = held_.cell();
+    text += header_.volume ? 'c' : 'f';
+    for (std::size_t k = 0; k < (header_.volume ? 4 : 3); ++k)
+      append_number(text, held_.is_final(k)
+                              ? std::int64_t{cell.corners[k]} - std::int64_t{vertices_}
+                              : std::int64_t{cell.corners[k]} + 1);
+    append_values(cell, header_.cell_floats, header_.cell_ints);
+    text += '\n';
+    held_.clear();
+    out_.flush_if_full();
+  }
+
+  void append_values(const StreamEvent& event, unsigned floats, unsigned ints) {
+    for (unsigned i = 0; i < floats; ++i) append_number(out_.text(), event.floats[i]);
+    for (unsigned i = 0; i < ints; ++i) append_number(out_.text(), std::int64_t{event.ints[i]});
+  }
+
+  StreamOutput out_;
+  StreamHeader header_;
+  CellHold held_;
+  std::uint32_t vertices_ = 0;
+  bool started_ = false, post_order_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<StreamWriter> make_text_writer(std::ostream& out, const StreamHeader& header) {
+  return std::make_unique<TextWriter>(out, header);
+}
+
+}  // namespace reeb::io

@@ -1,0 +1,75 @@
+#include "tools/commands/reeb_info.h"
+
+#include <fmt/core.h>
+
+#include <nlohmann/json.hpp>
+
+#include "libreeb/base/error.h"
+#include "libreeb/base/memory_budget.h"
+#include "ooc/reeb_file.h"
+
+namespace reeb::tools {
+namespace {
+
+nlohmann::ordered_json to_json(const ooc::ReebFile& file) {
+  const FileHeader& header = file.header();
+  nlohmann::ordered_json levels = nlohmann::ordered_json::array();
+  for (const LevelLine& line : file.levels())
+    levels.push_back({{"version", line.version},
+                      {"threshold", line.threshold},
+                      {"nodes", line.nodes},
+                      {"arcs", line.arcs},
+                      {"file_bytes", line.file_bytes},
+                      {"memory_bytes", line.memory_bytes}});
+  nlohmann::ordered_json json = {
+      {"schema", "reeb.info.v1"},
+      {"path", file.path()},
+      {"format", "reeb"},
+      {"bytes", file.file_bytes()},
+      {"whole", file.damage() == nullptr},
+      {"function", {{"name", header.function}, {"min", header.function_min}, {"max", header.function_max}}},
+      {"input", {{"vertices", header.mesh_vertices}, {"triangles", header.mesh_triangles}}},
+      {"graph", {{"nodes", header.nodes}, {"arcs", header.arcs}, {"components", header.components}, {"loops", header.loops}}},
+      {"graph_only", header.flags.graph_only},
+      {"positions", header.flags.has_positions},
+      {"embedding", header.flags.has_embedding},
+      {"cancellations", header.steps},
+      {"pairs", header.pairs},
+      {"kept_loops", header.kept_loops},
+      {"denoise_threshold", header.denoise_threshold},
+      {"denoised_pairs", header.denoised_pairs},
+      {"content_digest", fmt::format("{:016x}", header.content_digest)}};
+  json["levels"] = std::move(levels);
+  return json;
+}
+
+// Thresholds are printed in full: typed back, they yield exactly their level.
+void print_text(const ooc::ReebFile& file) {
+  const FileHeader& header = file.header();
+  fmt::print("{}: Reeb graph, {}\n", file.path(), format_bytes(file.file_bytes()));
+  fmt::print("  function   {} from {:.9g} to {:.9g}\n", header.function, header.function_min, header.function_max);
+  fmt::print("  mesh       {} vertices, {} triangles\n", header.mesh_vertices, header.mesh_triangles);
+  fmt::print("  graph      {} nodes, {} arcs, {} components, {} loops\n", header.nodes, header.arcs, header.components,
+             header.loops);
+  if (header.denoised_pairs != 0)
+    fmt::print("  denoised   {} pairs below {:.9g}\n", header.denoised_pairs, header.denoise_threshold);
+  if (header.flags.graph_only) fmt::print("  hierarchy  none (the graph only)\n");
+  else
+    fmt::print("  hierarchy  {} pairs, {} cancellations, {} loops kept\n", header.pairs, header.steps, header.kept_loops);
+  fmt::print("\n  {:>22} {:>12} {:>12} {:>12} {:>12}\n", "threshold", "nodes", "arcs", "of the file", "in memory");
+  for (const LevelLine& line : file.levels())
+    fmt::print("  {:>22} {:>12} {:>12} {:>12} {:>12}\n", line.threshold, line.nodes, line.arcs,
+               format_bytes(line.file_bytes), format_bytes(line.memory_bytes));
+}
+
+}  // namespace
+
+void print_reeb_info(const std::string& path, bool json) {
+  const ooc::ReebFile file(path);
+  if (const Error* damage = file.damage()) fmt::print(stderr, "reeb: warning: {}\n", damage->what());
+  if (!json) return print_text(file);
+  // Names may hold any bytes; what is not UTF-8 is shown as a replacement character.
+  fmt::print("{}\n", to_json(file).dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+}
+
+}  // namespace reeb::tools

@@ -1,0 +1,12 @@
+// What `reeb info` says about a .reeb file.
+#pragma once
+
+#include <string>
+
+namespace reeb::tools {
+
+// Prints counts, function and level table to standard output, as text or JSON.
+// THROWS: Error{kBadInput} with the place.
+void print_reeb_info(const std::string& path, bool json);
+
+}  // namespace reeb::tools
