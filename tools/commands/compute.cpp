@@ -8,12 +8,12 @@
 #include <vector>
 
 #include "io/function_source.h"
+#include "io/mesh_function.h"
 #include "io/mesh_io.h"
 #include "libreeb/base/error.h"
 #include "ooc/compute.h"
 #include "tools/commands/commands.h"
 #include "tools/compute_report.h"
-#include "tools/mesh_function.h"
 #include "tools/output.h"
 #include "tools/progress.h"
 #include "tools/quantity.h"
@@ -102,10 +102,10 @@ void run_compute(ComputeArguments arguments) {
   facts.format = info.format;
   facts.input_bytes = info.file_bytes;
 
-  std::vector<std::unique_ptr<MeshFunction>> functions;
+  std::vector<std::unique_ptr<io::MeshFunction>> functions;
   std::vector<VertexFunction*> pointers;
   for (const io::FunctionSpec& spec : specs) {
-    functions.push_back(std::make_unique<MeshFunction>(spec, info, read_options.properties, arguments.mesh));
+    functions.push_back(std::make_unique<io::MeshFunction>(spec, info, read_options.properties, arguments.mesh));
     pointers.push_back(functions.back().get());
   }
   if (!arguments.quiet) fmt::print(stderr, "{}: {}\n", arguments.mesh, describe(info));
