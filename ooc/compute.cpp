@@ -48,7 +48,7 @@ class Run {
         outputs_(outputs),
         options_(options),
         plan_(plan_memory(options.memory_bytes, options.threads, functions.size(), options.chunk_triangles)),
-        budget_(plan_.account_bytes),
+        budget_(plan_.account_bytes, plan_.set_aside_bytes),
         temp_(options.temp_dir.empty() ? TempDir::default_folder(outputs[0]) : options.temp_dir),
         input_(std::move(input)),
         values_(functions, input_.dimension) {
@@ -177,7 +177,7 @@ LastUse Run::reorder_mesh() {
   common_.reordered = true;
   tell(Phase::kReorder, 0, 0);
   ReorderOptions options;
-  options.allowance_bytes = std::min<std::uint64_t>(budget_.free_bytes() / 4 * 3, 256u << 20);
+  options.allowance_bytes = std::min<std::uint64_t>(budget_.free_bytes() / 2, 256u << 20);
   options.coordinates = std::min(input_.dimension, 3u);
   auto mesh = reorder(*input_.indexed, temp_, budget_, options);
   common_.spilled_bytes += mesh->spilled_bytes();

@@ -37,15 +37,17 @@ MemoryPlan plan_memory(std::uint64_t limit_bytes, unsigned threads, std::size_t 
                 "allow more, for instance --memory 32M");
   const std::uint64_t limit = limit_bytes == MemoryBudget::kUnlimited ? machine_bytes() / 2 : limit_bytes;
   MemoryPlan plan;
+  plan.set_aside_bytes = kProcess;
   plan.account_bytes = limit - kProcess;
-  // Beyond these sizes more memory makes nothing faster.
-  plan.table_bytes = std::min(plan.account_bytes / 6, 8 * kMiB);
-  plan.segment_bytes = std::min(plan.account_bytes / 6, 8 * kMiB) / functions;
-  plan.live_bytes = std::min(plan.account_bytes / 3, 96 * kMiB);
+  // Beyond these sizes more memory makes nothing faster. An eighth is left to what is small.
+  const std::uint64_t eighth = plan.account_bytes / 8;
+  plan.table_bytes = std::min(eighth, 4 * kMiB);
+  plan.segment_bytes = std::min(eighth, 4 * kMiB) / functions;
+  plan.live_bytes = std::min(2 * eighth, 96 * kMiB) / functions;
 
   const std::uint64_t a_triangle = threads * kSweepBytes + (threads + 1) * kFlightBytes * functions;
-  const std::uint64_t share = std::min(plan.account_bytes / 3, 64 * kMiB);
-  const auto most = static_cast<std::size_t>(std::max<std::uint64_t>(1024, share / a_triangle));
+  const std::uint64_t share = std::min(2 * eighth, 64 * kMiB);
+  const auto most = static_cast<std::size_t>(std::max<std::uint64_t>(512, share / a_triangle));
   plan.chunk.first = std::min(plan.chunk.first, most);
   plan.chunk.most = std::min(plan.chunk.most, most);
   if (chunk_triangles != 0) plan.chunk = {chunk_triangles, chunk_triangles};
