@@ -54,7 +54,7 @@ class Run {
         values_(functions, input_.dimension) {
     for (std::size_t f = 0; f < functions_.size(); ++f)
       stores_.push_back(std::make_unique<SegmentStore>(
-          temp_, budget_, SegmentOptions{plan_.segment_bytes, options.threads > 1}));
+          temp_, budget_, SegmentOptions{plan_.segment_bytes, plan_.threads > 1}));
   }
 
   std::vector<ComputeResult> run() {
@@ -190,7 +190,7 @@ void Run::run_chunks(ChunkSource& source) {
   std::vector<GraphSink*> sinks;
   for (const auto& store : stores_) sinks.push_back(store.get());
   PipelineOptions options;
-  options.threads = options_.threads;
+  options.threads = plan_.threads;
   options.progress = [this](const ChunkSource& s) {
     tell(Phase::kReeb, s.bytes_read(), s.bytes_total(), s.triangles_read());
   };

@@ -14,6 +14,7 @@ struct MemoryPlan {
   std::uint64_t table_bytes = 0;         // last uses; as much again for a spooled mesh
   std::uint64_t segment_bytes = 0;       // settled arcs and nodes, a function
   std::uint64_t live_bytes = 0;          // live graph; a larger front is reordered
+  unsigned threads = 1;
   ChunkSize chunk;
 
   // The largest live front that is glued as it comes.
