@@ -236,12 +236,12 @@ FileMeta Run::file_meta(const ComputeResult& result) const {
 
 // The raw graph, in memory that does not grow with it but for 4 bytes a node.
 void Run::write_graph(ComputeResult& result, SegmentStore& store) const {
-  constexpr std::size_t kPiece = 4096;
+  constexpr std::size_t kNodes = 4096, kArcs = 65536;
   GraphFileWriter writer(result.output, file_meta(result), true, false, GraphFileWriter::ArcEnds::kKeys);
   store.nodes().rewind();
-  for (std::vector<SettledNode> nodes; store.nodes().read(nodes, kPiece);) writer.add_nodes(nodes);
+  for (std::vector<SettledNode> nodes; store.nodes().read(nodes, kNodes);) writer.add_nodes(nodes);
   store.arcs().rewind();
-  for (std::vector<ArcKeys> arcs; store.arcs().read(arcs, kPiece);) writer.add_arcs(arcs);
+  for (std::vector<ArcKeys> arcs; store.arcs().read(arcs, kArcs);) writer.add_arcs(arcs);
   writer.finish();
   result.betti = {writer.header().components, writer.header().loops};
 }
