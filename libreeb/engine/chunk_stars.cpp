@@ -9,10 +9,10 @@ namespace reeb {
 ChunkStars::Triangle ChunkStars::sorted(const Chunk& chunk, std::uint32_t place) const {
   const std::uint32_t* corners = &chunk.corners[3 * std::size_t{place}];
   const std::uint32_t a = rank_[corners[0]], b = rank_[corners[1]], c = rank_[corners[2]];
-  const std::uint32_t less = std::min(a, b), greater = std::max(a, b);
-  Triangle t{std::min(less, c), std::max(less, std::min(greater, c)), std::max(greater, c), place};
-  if (t.lo == t.mid) t.mid = t.hi;  // an edge
-  return t;
+  // Without branches, since none could be foretold.
+  const std::uint32_t lo = std::min(std::min(a, b), c), hi = std::max(std::max(a, b), c);
+  const std::uint32_t mid = a ^ b ^ c ^ lo ^ hi;
+  return {lo, mid == lo ? hi : mid, hi, place};
 }
 
 // Leaves begins_[v + 1] where the lists of v begin, so that filling them advances it to their end.
