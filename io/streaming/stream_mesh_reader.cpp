@@ -69,7 +69,8 @@ class StreamMeshReader : public MeshReader {
     const auto found = std::find(names.begin(), names.end(), name);
     if (found == names.end())
       throw Error(ErrorKind::kBadInput, "the mesh has no vertex property '" + name + "'",
-                  names.empty() ? "it has none at all" : "it has: " + joined(names));
+                  names.empty() ? "it has none at all" : "it has: " + joined(names))
+          .at(reader_->name());
     const auto at = static_cast<std::size_t>(found - names.begin());
     const std::size_t floats = reader_->header().vertex_floats - 3;
     return at < floats ? Column{false, 3 + at} : Column{true, at - floats};
