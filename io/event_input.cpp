@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstring>
 
-#include "io/format_detection.h"
 #include "io/streaming/byte_source.h"
 #include "io/streaming/open_stream.h"
 #include "libreeb/base/error.h"
@@ -45,12 +44,6 @@ std::unique_ptr<EventReader> open_events(std::unique_ptr<ContentSource> source, 
     error.at(name);
     throw;
   }
-}
-
-std::unique_ptr<EventReader> open_event_file(const std::string& path) {
-  auto source = open_content(path);
-  if (detect_format(*source, path) != MeshFormat::kStreaming) return nullptr;
-  return open_events(std::move(source), path);
 }
 
 }  // namespace reeb::io

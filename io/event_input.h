@@ -14,7 +14,4 @@ namespace reeb::io {
 // THROWS: as open_stream(), with the name of the source; so do the reader's errors.
 std::unique_ptr<EventReader> open_events(std::unique_ptr<ContentSource> source, const std::string& path);
 
-// The same for a path ("-": standard input); null if its content is a mesh of another format.
-std::unique_ptr<EventReader> open_event_file(const std::string& path);
-
 }  // namespace reeb::io

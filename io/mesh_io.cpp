@@ -1,6 +1,5 @@
 #include "io/mesh_io.h"
 
-#include "io/content_source.h"
 #include "io/event_input.h"
 #include "io/format_detection.h"
 #include "io/obj_reader.h"
@@ -14,7 +13,11 @@
 namespace reeb::io {
 
 std::unique_ptr<MeshReader> open_mesh(const std::string& path, const ReadOptions& options) {
-  auto source = open_content(path);
+  return open_mesh(open_content(path), path, options);
+}
+
+std::unique_ptr<MeshReader> open_mesh(std::unique_ptr<ContentSource> source, const std::string& path,
+                                      const ReadOptions& options) {
   const std::string name = source->name();
   switch (detect_format(*source, path)) {
     case MeshFormat::kPly: return open_ply(std::move(source), options);

@@ -26,6 +26,7 @@ class StreamMeshReader : public MeshReader {
     info_.vertex_count = header.vertex_count;
     info_.simplex_count = header.cell_count;
     info_.finalizes = true;
+    info_.float32 = header.vertex_ints == 0;
     info_.file_bytes = file_bytes;
     for (const auto& name : options.properties) columns_.push_back(column_of(name));
   }
