@@ -50,6 +50,7 @@ int run(int argc, char** argv) {
   reeb::tools::add_pairs(program);
   reeb::tools::add_verify(program);
   reeb::tools::add_generate(program);
+  reeb::tools::add_convert(program);
   if (argc == 1) {
     fmt::print("{}", program.help());
     return 0;
