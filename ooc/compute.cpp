@@ -7,10 +7,13 @@
 
 #include "libreeb/base/error.h"
 #include "libreeb/hierarchy/cancel.h"
-#include "ooc/graph_collector.h"
+#include "libreeb/hierarchy/denoise.h"
 #include "ooc/last_use.h"
 #include "ooc/last_use_sidecar.h"
+#include "ooc/memory_plan.h"
 #include "ooc/reeb_file_writer.h"
+#include "ooc/reorder.h"
+#include "ooc/segment_store.h"
 #include "ooc/spooled_mesh.h"
 #include "ooc/temp_dir.h"
 
@@ -44,11 +47,15 @@ class Run {
       : functions_(functions),
         outputs_(outputs),
         options_(options),
-        budget_(options.memory_bytes),
+        plan_(plan_memory(options.memory_bytes, options.threads, functions.size(), options.chunk_triangles)),
+        budget_(plan_.account_bytes),
         temp_(options.temp_dir.empty() ? TempDir::default_folder(outputs[0]) : options.temp_dir),
         input_(std::move(input)),
-        values_(functions, input_.dimension),
-        collectors_(functions.size()) {}
+        values_(functions, input_.dimension) {
+    for (std::size_t f = 0; f < functions_.size(); ++f)
+      stores_.push_back(std::make_unique<SegmentStore>(
+          temp_, budget_, SegmentOptions{plan_.segment_bytes, options.threads > 1}));
+  }
 
   std::vector<ComputeResult> run() {
     {
@@ -57,19 +64,27 @@ class Run {
       input_ = {};
     }
     std::vector<ComputeResult> results;
-    for (std::size_t f = 0; f < functions_.size(); ++f) results.push_back(second_stage(f));
+    for (std::size_t f = 0; f < functions_.size(); ++f) {
+      results.push_back(second_stage(f));
+      stores_[f].reset();
+    }
     return results;
   }
 
  private:
   void first_stage();
+  void run_indexed();
   void spool();
-  LastUse find_last_uses();
-  LastUse scan();
-  ComputeResult second_stage(std::size_t f);
+  std::optional<LastUse> find_last_uses();
+  std::optional<LastUse> scan(bool may_give_up);
+  LastUse reorder_mesh();
   void run_chunks(ChunkSource& source);
-  ChunkSize chunk_size() const;
-  std::uint64_t table_allowance() const;
+
+  ComputeResult second_stage(std::size_t f);
+  FileMeta file_meta(const ComputeResult& result) const;
+  void write_graph(ComputeResult& result, SegmentStore& store) const;
+  void write_hierarchy(ComputeResult& result, SegmentStore& store);
+  Reservation reserve_hierarchy(ComputeResult& result, SegmentStore& store);
   void tell(Phase phase, std::uint64_t done, std::uint64_t total, std::uint64_t triangles = 0) const {
     if (options_.progress) options_.progress({phase, done, total, triangles});
   }
@@ -77,36 +92,46 @@ class Run {
   std::span<VertexFunction* const> functions_;
   std::span<const std::string> outputs_;
   const ComputeOptions& options_;
+  MemoryPlan plan_;
   MemoryBudget budget_;
   TempDir temp_;
   MeshInput input_;  // a spooled mesh holds reservations and files of the two above
   FunctionValues values_;
-  std::vector<GraphCollector> collectors_;
+  std::vector<std::unique_ptr<SegmentStore>> stores_;
   ComputeResult common_;  // what all functions share
 };
 
+// ---- the first stage: from the mesh to sorted segments
+
 void Run::first_stage() {
   if (!input_.indexed && !input_.reader->info().finalizes) spool();
-  if (!input_.indexed) {
-    const auto source = chunks_of(*input_.reader, values_, chunk_size());
-    run_chunks(*source);
+  if (input_.indexed) {
+    run_indexed();
+  } else {
+    run_chunks(*chunks_of(*input_.reader, values_, plan_.chunk));
     for (std::string& warning : input_.reader->warnings()) common_.notes.push_back(std::move(warning));
-    return;
   }
-  LastUse last_use = find_last_uses();
-  const UseSummary& summary = last_use.summary();
-  common_.vertices = summary.vertex_count;
+  for (const auto& store : stores_) store->finish();
+}
+
+void Run::run_indexed() {
+  std::optional<LastUse> last_use = find_last_uses();
+  const bool fits = last_use && last_use->summary().max_live_vertices <= plan_.most_live_vertices();
+  if (!fits && options_.may_reorder) {
+    last_use.reset();
+    last_use = reorder_mesh();
+  }
+  const UseSummary& summary = last_use->summary();
   common_.unused_vertices = summary.unused_vertices;
   common_.degenerate_triangles = summary.degenerate_triangles;
-  common_.spilled_bytes += last_use.spilled_bytes();
-  const auto source = chunks_of(*input_.indexed, last_use, values_, chunk_size());
-  run_chunks(*source);
+  common_.spilled_bytes += last_use->spilled_bytes();
+  run_chunks(*chunks_of(*input_.indexed, *last_use, values_, plan_.chunk));
 }
 
 void Run::spool() {
   const Stopwatch watch(common_.seconds.finalization);
   SpoolOptions options;
-  options.allowance_bytes = table_allowance();
+  options.allowance_bytes = plan_.table_bytes;
   options.progress = [this](const MeshReader& reader) {
     tell(Phase::kSpool, reader.bytes_read(), reader.info().file_bytes);
   };
@@ -117,37 +142,53 @@ void Run::spool() {
   input_.reader.reset();
 }
 
-LastUse Run::find_last_uses() {
+// From the sidecar if there is one that fits, else by reading the mesh once. Nothing if the mesh
+// turns out to be so incoherent that it will be reordered anyway.
+std::optional<LastUse> Run::find_last_uses() {
   const Stopwatch watch(common_.seconds.finalization);
   const bool has_file = !input_.path.empty() && input_.path != "-" && options_.chunk_triangles == 0;
-  if (!has_file) return scan();
+  if (!has_file) return scan(options_.may_reorder);
   const std::string sidecar = input_.path + ".final";
   const MeshIdentity identity = identify_mesh(input_.path);
-  SidecarLoad known = load_sidecar(sidecar, identity, input_.indexed->vertex_count(), temp_, budget_,
-                                   table_allowance());
-  if (known.uses) return std::move(*known.uses);
+  SidecarLoad known =
+      load_sidecar(sidecar, identity, input_.indexed->vertex_count(), temp_, budget_, plan_.table_bytes);
+  if (known.uses) return std::move(known.uses);
   if (!known.note.empty()) common_.notes.push_back(known.note);
-  LastUse uses = scan();
-  if (options_.keep_sidecar) save_sidecar(sidecar, identity, uses);
+  std::optional<LastUse> uses = scan(options_.may_reorder && !options_.keep_sidecar);
+  if (uses && options_.keep_sidecar) save_sidecar(sidecar, identity, *uses);
   return uses;
 }
 
-LastUse Run::scan() {
+std::optional<LastUse> Run::scan(bool may_give_up) {
   LastUseOptions options;
-  options.allowance_bytes = table_allowance();
+  options.allowance_bytes = plan_.table_bytes;
+  options.give_up_when_incoherent = may_give_up;
   // A chunk is whole blocks, so small chunks need small blocks.
-  if (options_.chunk_triangles != 0)
-    options.block_triangles = std::min<std::uint64_t>(options.block_triangles, options_.chunk_triangles);
+  options.block_triangles = std::min<std::uint64_t>(options.block_triangles, plan_.chunk.first);
   options.progress = [this](const IndexedMesh& mesh) {
     tell(Phase::kFinalization, mesh.bytes_read(), mesh.bytes_total());
   };
-  return std::move(*scan_last_use(*input_.indexed, temp_, budget_, options));
+  return scan_last_use(*input_.indexed, temp_, budget_, options);
+}
+
+LastUse Run::reorder_mesh() {
+  const Stopwatch watch(common_.seconds.reorder);
+  common_.notes.push_back("the triangles are in no coherent order, so they were sorted on disk first");
+  common_.reordered = true;
+  tell(Phase::kReorder, 0, 0);
+  ReorderOptions options;
+  options.allowance_bytes = std::min<std::uint64_t>(budget_.free_bytes() / 4 * 3, 256u << 20);
+  options.coordinates = std::min(input_.dimension, 3u);
+  auto mesh = reorder(*input_.indexed, temp_, budget_, options);
+  common_.spilled_bytes += mesh->spilled_bytes();
+  input_.indexed = std::move(mesh);
+  return std::move(*scan(false));
 }
 
 void Run::run_chunks(ChunkSource& source) {
   const Stopwatch watch(common_.seconds.reeb);
   std::vector<GraphSink*> sinks;
-  for (GraphCollector& collector : collectors_) sinks.push_back(&collector);
+  for (const auto& store : stores_) sinks.push_back(store.get());
   PipelineOptions options;
   options.threads = options_.threads;
   options.progress = [this](const ChunkSource& s) {
@@ -158,56 +199,96 @@ void Run::run_chunks(ChunkSource& source) {
   common_.vertices = source.vertex_count();
 }
 
-// Tables of the finalization pass and of spooled meshes: they page beyond this.
-std::uint64_t Run::table_allowance() const {
-  constexpr std::uint64_t kDefault = 8u << 20;
-  return std::min<std::uint64_t>(kDefault, options_.memory_bytes / 8);
-}
-
-ChunkSize Run::chunk_size() const {
-  if (options_.chunk_triangles != 0) return {options_.chunk_triangles, options_.chunk_triangles};
-  return {};
-}
+// ---- the second stage: from segments to the file
 
 ComputeResult Run::second_stage(std::size_t f) {
   ComputeResult result = common_;
+  SegmentStore& store = *stores_[f];
   result.function = functions_[f]->name();
   result.output = outputs_[f];
   result.range = values_.range(f);
+  if (result.vertices == 0) result.range = {0, 0};
+  result.nodes = store.node_count();
+  result.arcs = store.arc_count();
+  result.spilled_bytes += store.spilled_bytes();
+  tell(Phase::kHierarchy, 0, 0);
   const auto start = Clock::now();
   {
     const Stopwatch watch(result.seconds.hierarchy);
-    const ReebGraph graph = collectors_[f].take();
-    result.nodes = graph.node_count();
-    result.arcs = graph.arc_count();
-    result.betti = betti_numbers(graph);
-    tell(Phase::kHierarchy, 0, 1);
-
-    FileMeta meta;
-    meta.function = result.function;
-    if (result.vertices != 0) {
-      meta.function_min = result.range.min;
-      meta.function_max = result.range.max;
-    }
-    meta.mesh_vertices = result.vertices;
-    meta.mesh_triangles = result.triangles;
-    if (options_.graph_only) {
-      write_graph_file(result.output, meta, graph);
-    } else {
-      const Hierarchy hierarchy = build_hierarchy(graph);
-      for (const PersistencePair& pair : hierarchy.pairs) {
-        ++result.pairs[static_cast<std::size_t>(pair.type)];
-        result.kept_loops += pair.kept ? 1u : 0u;
-      }
-      constexpr std::size_t kLargest = 5;
-      for (auto it = hierarchy.pairs.rbegin(); it != hierarchy.pairs.rend() && result.largest.size() < kLargest; ++it)
-        if (it->type != PairType::kExt0)
-          result.largest.push_back({it->type, graph.nodes[it->lo.value()], graph.nodes[it->hi.value()]});
-      write_hierarchy_file(result.output, meta, graph, hierarchy);
-    }
+    if (options_.graph_only)
+      write_graph(result, store);
+    else
+      write_hierarchy(result, store);
   }
   result.seconds.wall += seconds_since(start);
   return result;
+}
+
+FileMeta Run::file_meta(const ComputeResult& result) const {
+  FileMeta meta;
+  meta.function = result.function;
+  meta.function_min = result.range.min;
+  meta.function_max = result.range.max;
+  meta.mesh_vertices = result.vertices;
+  meta.mesh_triangles = result.triangles;
+  return meta;
+}
+
+// The raw graph, in memory that does not grow with it but for 4 bytes a node.
+void Run::write_graph(ComputeResult& result, SegmentStore& store) const {
+  constexpr std::size_t kPiece = 4096;
+  GraphFileWriter writer(result.output, file_meta(result), true, false, GraphFileWriter::ArcEnds::kKeys);
+  store.nodes().rewind();
+  for (std::vector<SettledNode> nodes; store.nodes().read(nodes, kPiece);) writer.add_nodes(nodes);
+  store.arcs().rewind();
+  for (std::vector<ArcKeys> arcs; store.arcs().read(arcs, kPiece);) writer.add_arcs(arcs);
+  writer.finish();
+  result.betti = {writer.header().components, writer.header().loops};
+}
+
+// Pairing and cancelling hold the graph in memory. Where that does not fit, the raw graph is kept
+// and the user is told, before the work starts.
+Reservation Run::reserve_hierarchy(ComputeResult& result, SegmentStore& store) {
+  constexpr std::uint64_t kBytesAnArc = 160;
+  const std::uint64_t needed = kBytesAnArc * std::max(store.arc_count(), store.node_count());
+  Reservation memory = budget_.try_reserve("hierarchy", needed);
+  if (memory.bytes() == needed) return memory;
+  write_graph(result, store);
+  throw Error(ErrorKind::kResource,
+              "the hierarchy of " + std::to_string(store.arc_count()) + " arcs needs " + format_bytes(needed) +
+                  " of memory, but only " + format_bytes(budget_.free_bytes()) +
+                  " are left; the graph itself was written",
+              "allow --memory " + std::to_string((options_.memory_bytes + needed) / (1 << 20) + 1) +
+                  "M, remove noise with --denoise, or keep to the graph with --graph-only")
+      .at(result.output);
+}
+
+void Run::write_hierarchy(ComputeResult& result, SegmentStore& store) {
+  Reservation memory = reserve_hierarchy(result, store);
+  memory.resize(memory.bytes() / 2);  // the graph itself is reserved by what reads it
+  LoadedGraph loaded = read_graph(store);
+  ReebGraph& graph = loaded.graph;
+  FileMeta meta = file_meta(result);
+  if (options_.denoise > 0) {
+    const double range = options_.denoise_is_share ? result.range.max - result.range.min : 1;
+    meta.denoise_threshold = options_.denoise * range;
+    Denoised denoised = denoise(graph, meta.denoise_threshold);
+    meta.denoised_pairs = result.denoised_pairs = denoised.removed.size();
+    graph = std::move(denoised.graph);
+    result.nodes = graph.node_count();
+    result.arcs = graph.arc_count();
+  }
+  result.betti = betti_numbers(graph);
+  const Hierarchy hierarchy = build_hierarchy(graph);
+  for (const PersistencePair& pair : hierarchy.pairs) {
+    ++result.pairs[static_cast<std::size_t>(pair.type)];
+    result.kept_loops += pair.kept ? 1u : 0u;
+  }
+  constexpr std::size_t kLargest = 5;
+  for (auto it = hierarchy.pairs.rbegin(); it != hierarchy.pairs.rend() && result.largest.size() < kLargest; ++it)
+    if (it->type != PairType::kExt0)
+      result.largest.push_back({it->type, graph.nodes[it->lo.value()], graph.nodes[it->hi.value()]});
+  write_hierarchy_file(result.output, meta, graph, hierarchy);
 }
 
 }  // namespace

@@ -31,7 +31,7 @@ struct MeshInput {
 };
 
 struct ComputeProgress {
-  enum class Phase { kSpool, kFinalization, kReeb, kHierarchy, kWrite };
+  enum class Phase { kSpool, kFinalization, kReorder, kReeb, kHierarchy };
   Phase phase;
   std::uint64_t done = 0, total = 0;  // bytes; total 0: unknown
   std::uint64_t triangles = 0;        // so far
@@ -44,6 +44,9 @@ struct ComputeOptions {
   std::string temp_dir;             // empty: $TMPDIR, or the folder of the first output
   bool graph_only = false;
   bool keep_sidecar = false;
+  bool may_reorder = true;          // an incoherent mesh, on disk
+  double denoise = 0;               // remove noise below this persistence; 0: keep all
+  bool denoise_is_share = false;    // `denoise` is a share of the function's range
   std::function<void(const ComputeProgress&)> progress = {};
 };
 
@@ -66,7 +69,8 @@ struct ComputeResult {
   std::uint64_t nodes = 0, arcs = 0;
   BettiNumbers betti;
   std::array<std::uint64_t, 4> pairs{};  // by PairType
-  std::uint64_t kept_loops = 0;
+  std::uint64_t kept_loops = 0, denoised_pairs = 0;
+  bool reordered = false;
   std::vector<Feature> largest;  // the few of largest persistence, Ext0 left out, largest first
   std::uint64_t spilled_bytes = 0;
   LiveMaximum live;

@@ -64,6 +64,8 @@ void GraphFileWriter::add_arcs(std::span<const FileArc> arcs, const ArcBucketsVi
     if (arc.lo >= arc.hi || arc.hi >= header_.nodes || (last_arc_ && !in_order(*last_arc_, arc)))
       throw std::logic_error("GraphFileWriter: arc " + std::to_string(header_.arcs) + " is out of order");
     last_arc_ = arc;
+    if (components_.size() == 0) components_ = UnionFind(static_cast<std::uint32_t>(header_.nodes));
+    unions_ += components_.unite(static_cast<std::uint32_t>(arc.lo), static_cast<std::uint32_t>(arc.hi)) ? 1u : 0u;
     frame_.arcs.push_back(arc);
     ++header_.arcs;
     if (header_.flags.has_embedding) {
@@ -74,11 +76,11 @@ void GraphFileWriter::add_arcs(std::span<const FileArc> arcs, const ArcBucketsVi
   }
 }
 
-void GraphFileWriter::finish(std::uint64_t components) {
+void GraphFileWriter::finish() {
   frame_.versions.push_back({0.0, header_.nodes, header_.arcs, buckets_});
   flush();
-  header_.components = components;
-  header_.loops = header_.arcs + components - header_.nodes;
+  header_.components = header_.nodes - unions_;
+  header_.loops = header_.arcs - unions_;
   header_.records = header_.arcs;
   header_.levels[0] = {.version = 0,
                        .frames = header_.graph_frames,
@@ -131,7 +133,7 @@ void write_graph_file(const std::string& path, const FileMeta& meta, const ReebG
     if (!buckets.empty()) piece.offsets = buckets.offsets.subspan(first, last - first + 1);
     writer.add_arcs(std::span<const FileArc>(arcs), piece);
   }
-  writer.finish(betti_numbers(graph).components);
+  writer.finish();
 }
 
 }  // namespace reeb::ooc

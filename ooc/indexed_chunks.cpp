@@ -6,8 +6,9 @@
 namespace reeb::ooc {
 namespace {
 
-// Grow above this share of shared vertices, shrink below a quarter of it.
-constexpr double kManyShared = 0.10;
+// Grow above this share of shared vertices, shrink below a quarter of it. A shared vertex brings
+// about one shared edge, of three in all, so this is a tenth of the edges.
+constexpr double kManyShared = 0.30;
 
 class IndexedChunks : public ChunkSource {
  public:
@@ -128,6 +129,7 @@ void IndexedChunks::look_up(WorkItem& item) {
   mesh_.gather(item.chunk.ids, columns_.columns(), gathered_);
   data_.clear();
   for (std::size_t k = 0; k < columns_.columns().size(); ++k) data_.emplace_back(gathered_.data() + k * n, n);
+  mesh_.to_original(item.chunk.ids);
   columns_.evaluate(item.chunk.ids, data_, item.chunk.positions, item.values);
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "libreeb/base/union_find.h"
 #include "libreeb/format/frame_codec.h"
 #include "libreeb/format/reeb_format.h"
 #include "libreeb/graph/reeb_graph.h"
@@ -43,7 +44,7 @@ void write_graph_file(const std::string& path, const FileMeta& meta, const ReebG
 
 // A graph without hierarchy that need not fit in memory: nodes in pieces, arcs in pieces, done.
 // The file appears at finish(); cuts between pieces do not show in it.
-// MEMORY: one frame, and with ArcEnds::kKeys a scratch file of 16 bytes a node beside the output.
+// MEMORY: one frame, 4 bytes a node, and with ArcEnds::kKeys a scratch file of 16 bytes a node beside the output.
 // THROWS: Error{kResource}; std::logic_error for items out of order.
 class GraphFileWriter {
  public:
@@ -62,8 +63,9 @@ class GraphFileWriter {
   // The same, ends by the ranks of nodes.
   void add_arcs(std::span<const FileArc> arcs, const ArcBucketsView& buckets = {});
 
-  // `components` is b0 of the graph.
-  void finish(std::uint64_t components);
+  void finish();
+  // What was written, complete after finish().
+  const FileHeader& header() const { return header_; }
 
  private:
   void flush_if_full();
@@ -77,6 +79,8 @@ class GraphFileWriter {
   std::vector<FileArc> ranked_;
   std::optional<SweepKey> last_node_;
   std::optional<FileArc> last_arc_;
+  UnionFind components_;
+  std::uint64_t unions_ = 0;  // arcs that joined two components
   std::uint64_t lo_rank_ = 0, buckets_ = 0;
   bool sealed_ = false;
 };

@@ -13,7 +13,7 @@
 namespace reeb::ooc {
 
 // The same mesh with its vertices numbered along a Hilbert curve through the bounding box, and its
-// triangles sorted by their lowest vertex. original() gives the ids that the total order needs
+// triangles sorted by their lowest vertex. to_original() gives the ids that the total order needs
 // (DESIGN.md 1.2), so that results are those of the mesh as it was.
 class ReorderedMesh : public SpooledMesh {
  public:
@@ -22,9 +22,8 @@ class ReorderedMesh : public SpooledMesh {
       : SpooledMesh(columns, temp, budget, allowance_bytes / 4 * 3),
         originals_("original ids", temp, budget, allowance_bytes / 4, 0) {}
 
-  // out[i] = index in the mesh as it was of vertex ids[i]. REQUIRES: as many as ids.
-  void original(std::span<const VertexId> ids, std::span<VertexId> out) {
-    for (std::size_t i = 0; i < ids.size(); ++i) out[i] = VertexId(originals_.get(ids[i].value()));
+  void to_original(std::span<VertexId> ids) override {
+    for (VertexId& id : ids) id = VertexId(originals_.get(id.value()));
   }
   void set_original(VertexId id, VertexId original) { originals_.set(id.value(), original.value()); }
 

@@ -52,7 +52,7 @@ nlohmann::ordered_json to_json(const RunFacts& facts, const ooc::ComputeResult& 
       {"graph",
        {{"nodes", r.nodes}, {"arcs", r.arcs}, {"components", r.betti.components}, {"loops", r.betti.loops}}},
       {"pairs", pairs},
-      {"denoised_pairs", 0},
+      {"denoised_pairs", r.denoised_pairs},
       {"kept_loops", r.kept_loops},
       {"seconds",
        {{"wall", r.seconds.wall},
@@ -65,7 +65,7 @@ nlohmann::ordered_json to_json(const RunFacts& facts, const ooc::ComputeResult& 
       {"spilled_bytes", r.spilled_bytes},
       {"live_max", {{"vertices", r.live.vertices}, {"edges", r.live.edges}, {"arcs", r.live.arcs}}},
       {"threads", facts.threads},
-      {"reordered", false},
+      {"reordered", r.reordered},
       {"output", r.output},
   };
 }
@@ -84,6 +84,7 @@ void print_summary(const RunFacts& facts, const std::vector<ooc::ComputeResult>&
                r.vertices == 0 ? 0 : r.range.min, r.vertices == 0 ? 0 : r.range.max);
     fmt::print(stderr, "  {} nodes, {} arcs, {} components, {} loops\n", r.nodes, r.arcs, r.betti.components,
                r.betti.loops);
+    if (r.denoised_pairs != 0) fmt::print(stderr, "  {} pairs of noise were removed\n", r.denoised_pairs);
     print_features(r);
     if (r.kept_loops != 0)
       fmt::print(stderr, "  {} loops stay in every level, since no exact cancellation is known\n", r.kept_loops);

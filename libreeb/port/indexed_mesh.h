@@ -31,6 +31,9 @@ class IndexedMesh {
   virtual void gather(std::span<const VertexId> ids, std::span<const unsigned> columns,
                       std::span<double> values) = 0;
 
+  // Replaces vertices by their indices in the input, for a mesh that was renumbered since.
+  virtual void to_original([[maybe_unused]] std::span<VertexId> ids) {}
+
   // Starts the simplices again from the first.
   virtual void rewind() = 0;
   // Replaces `corners` by the next triangles, three corners each, as in MeshBatch::triangles; a

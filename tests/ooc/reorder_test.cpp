@@ -35,7 +35,8 @@ void expect_same(const ModelMesh& model, ReorderedMesh& mesh) {
   ASSERT_EQ(mesh.vertex_count(), model.vertex_count());
   std::vector<VertexId> ids, originals(model.vertex_count());
   for (std::uint64_t v = 0; v < model.vertex_count(); ++v) ids.emplace_back(v);
-  mesh.original(ids, originals);
+  originals = ids;
+  mesh.to_original(originals);
   EXPECT_EQ(std::set<VertexId>(originals.begin(), originals.end()).size(), ids.size());
   std::vector<double> values(ids.size());
   for (unsigned k = 0; k < model.columns.size(); ++k) {

@@ -8,12 +8,12 @@
 #include <vector>
 
 #include "io/function_source.h"
+#include "io/mesh_function.h"
 #include "io/mesh_io.h"
 #include "libreeb/base/error.h"
 #include "ooc/compute.h"
 #include "tools/commands/commands.h"
 #include "tools/compute_report.h"
-#include "tools/mesh_function.h"
 #include "tools/output.h"
 #include "tools/progress.h"
 #include "tools/quantity.h"
@@ -24,7 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct ComputeArguments {
-  std::string mesh, output, memory, report;
+  std::string mesh, output, memory, report, denoise;
   std::vector<std::string> functions;
   ooc::ComputeOptions options;
   bool force = false, quiet = false;
@@ -67,10 +67,10 @@ const char* title(ooc::ComputeProgress::Phase phase) {
     case Phase::kSpool: return "reading";
     case Phase::kFinalization: return "finalization";
     case Phase::kReeb: return "Reeb graph";
-    case Phase::kHierarchy: return "hierarchy";
-    case Phase::kWrite: break;
+    case Phase::kReorder: return "reordering";
+    case Phase::kHierarchy: break;
   }
-  return "writing";
+  return "hierarchy";
 }
 
 void run_compute(ComputeArguments arguments) {
@@ -87,6 +87,11 @@ void run_compute(ComputeArguments arguments) {
     arguments.options.memory_bytes = facts.memory_budget_bytes;
   }
 
+  if (!arguments.denoise.empty()) {
+    arguments.options.denoise_is_share = arguments.denoise.ends_with('%');
+    arguments.options.denoise = parse_threshold(arguments.denoise, 1.0);
+  }
+
   ReadOptions read_options;
   read_options.properties = io::needed_properties(specs);
   ooc::MeshInput input;
@@ -97,10 +102,10 @@ void run_compute(ComputeArguments arguments) {
   facts.format = info.format;
   facts.input_bytes = info.file_bytes;
 
-  std::vector<std::unique_ptr<MeshFunction>> functions;
+  std::vector<std::unique_ptr<io::MeshFunction>> functions;
   std::vector<VertexFunction*> pointers;
   for (const io::FunctionSpec& spec : specs) {
-    functions.push_back(std::make_unique<MeshFunction>(spec, info, read_options.properties, arguments.mesh));
+    functions.push_back(std::make_unique<io::MeshFunction>(spec, info, read_options.properties, arguments.mesh));
     pointers.push_back(functions.back().get());
   }
   if (!arguments.quiet) fmt::print(stderr, "{}: {}\n", arguments.mesh, describe(info));
@@ -137,6 +142,8 @@ void add_compute(CLI::App& program) {
   command->add_option("--threads", arguments->options.threads, "Threads (default: all)")->check(CLI::Range(1u, 1024u));
   command->add_option("--temp-dir", arguments->options.temp_dir,
                       "Folder for temporary files (default: $TMPDIR, or the output's folder)");
+  command->add_option("--denoise", arguments->denoise, "Remove minima and maxima of less persistence: 0.01, or 0.1%");
+  command->add_flag("!--no-reorder", arguments->options.may_reorder, "Never sort an incoherent mesh on disk first");
   command->add_flag("--sidecar", arguments->options.keep_sidecar, "Keep the finalization as MESH.final for later runs");
   command->add_option("--report", arguments->report, "Write a JSON report (-: to standard output)");
   command->add_flag("--quiet", arguments->quiet, "No progress and no summary");

@@ -1,4 +1,4 @@
-// The functions that a user names, as the engine wants them.
+// The functions that a user names, as the engine wants them: a VertexFunction for any FunctionSpec.
 #pragma once
 
 #include <memory>
@@ -9,12 +9,13 @@
 #include "io/function_source.h"
 #include "libreeb/port/vertex_function.h"
 
-namespace reeb::tools {
+namespace reeb::io {
 
 class MeshFunction : public VertexFunction {
  public:
-  MeshFunction(const io::FunctionSpec& spec, const MeshInfo& info, std::span<const std::string> properties,
-               const std::string& mesh_name)
+  // As FunctionSource; `mesh_name` is for messages.
+  MeshFunction(const FunctionSpec& spec, const MeshInfo& info, std::span<const std::string> properties = {},
+               const std::string& mesh_name = {})
       : name_(spec.text), source_(spec, info, properties, mesh_name) {
     if (source_.column()) columns_.push_back(*source_.column());
   }
@@ -28,8 +29,8 @@ class MeshFunction : public VertexFunction {
 
  private:
   std::string name_;
-  io::FunctionSource source_;
+  FunctionSource source_;
   std::vector<unsigned> columns_;
 };
 
-}  // namespace reeb::tools
+}  // namespace reeb::io

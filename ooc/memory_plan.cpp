@@ -1,0 +1,55 @@
+#include "ooc/memory_plan.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <string>
+
+#include "libreeb/base/error.h"
+#include "libreeb/base/memory_budget.h"
+
+namespace reeb::ooc {
+namespace {
+
+constexpr std::uint64_t kMiB = 1 << 20;
+constexpr std::uint64_t kProcess = 10 * kMiB;  // code, allocator, thread stacks, windows of input
+constexpr std::uint64_t kLeast = 16 * kMiB;
+
+// Measured: a live vertex with its edges, arcs and references, vectors with room to grow.
+constexpr std::uint64_t kBytesALiveVertex = 900;
+// Measured a triangle: scratch of a sweep, and a chunk in flight with its fragment.
+constexpr std::uint64_t kSweepBytes = 140, kFlightBytes = 60;
+
+std::uint64_t machine_bytes() {
+  const long pages = sysconf(_SC_PHYS_PAGES), page = sysconf(_SC_PAGE_SIZE);
+  return pages > 0 && page > 0 ? static_cast<std::uint64_t>(pages) * static_cast<std::uint64_t>(page) : 1024 * kMiB;
+}
+
+}  // namespace
+
+std::uint64_t MemoryPlan::most_live_vertices() const { return live_bytes / kBytesALiveVertex; }
+
+MemoryPlan plan_memory(std::uint64_t limit_bytes, unsigned threads, std::size_t functions,
+                       std::size_t chunk_triangles) {
+  if (limit_bytes < kLeast)
+    throw Error(ErrorKind::kResource, "a run needs at least " + format_bytes(kLeast) + " of memory, but only " +
+                                          format_bytes(limit_bytes) + " are allowed",
+                "allow more, for instance --memory 32M");
+  const std::uint64_t limit = limit_bytes == MemoryBudget::kUnlimited ? machine_bytes() / 2 : limit_bytes;
+  MemoryPlan plan;
+  plan.account_bytes = limit - kProcess;
+  // Beyond these sizes more memory makes nothing faster.
+  plan.table_bytes = std::min(plan.account_bytes / 6, 8 * kMiB);
+  plan.segment_bytes = std::min(plan.account_bytes / 6, 8 * kMiB) / functions;
+  plan.live_bytes = std::min(plan.account_bytes / 3, 96 * kMiB);
+
+  const std::uint64_t a_triangle = threads * kSweepBytes + (threads + 1) * kFlightBytes * functions;
+  const std::uint64_t share = std::min(plan.account_bytes / 3, 64 * kMiB);
+  const auto most = static_cast<std::size_t>(std::max<std::uint64_t>(1024, share / a_triangle));
+  plan.chunk.first = std::min(plan.chunk.first, most);
+  plan.chunk.most = std::min(plan.chunk.most, most);
+  if (chunk_triangles != 0) plan.chunk = {chunk_triangles, chunk_triangles};
+  return plan;
+}
+
+}  // namespace reeb::ooc

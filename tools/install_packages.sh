@@ -1,0 +1,59 @@
+#!/usr/bin/env bash
+# Installs the Debian packages that are missing, and says which. Does nothing when all are there.
+#
+#   tools/install_packages.sh              what building the program needs
+#   tools/install_packages.sh tests        also what the tests and benchmarks need
+#   tools/install_packages.sh PACKAGE...   also these
+#
+# Needs apt-get, and root or sudo only if something is missing. Asks nothing.
+set -euo pipefail
+
+packages=(cmake ninja-build g++ pkg-config libtbb-dev libzstd-dev zlib1g-dev libboost-iostreams-dev
+          libcli11-dev libfmt-dev nlohmann-json3-dev libfast-float-dev libxxhash-dev)
+test_packages=(libgtest-dev libbenchmark-dev)
+
+for word in "$@"; do
+  case $word in
+    tests) packages+=("${test_packages[@]}") ;;
+    -*) echo "usage: $0 [tests] [PACKAGE...]" >&2; exit 2 ;;
+    *) packages+=("$word") ;;
+  esac
+done
+
+is_installed() {
+  [[ $(dpkg-query -W -f='${db:Status-Status}' "$1" 2>/dev/null) == installed ]]
+}
+
+missing=()
+for package in "${packages[@]}"; do
+  is_installed "$package" || missing+=("$package")
+done
+[[ ${#missing[@]} -gt 0 ]] || exit 0
+
+if ! command -v apt-get >/dev/null; then
+  echo "error: these Debian packages are missing, and there is no apt-get: ${missing[*]}" >&2
+  exit 1
+fi
+as_root=()
+if [[ $(id -u) -ne 0 ]]; then
+  if ! command -v sudo >/dev/null; then
+    echo "error: become root, or install sudo, to install: ${missing[*]}" >&2
+    exit 1
+  fi
+  as_root=(sudo)
+fi
+
+apt() {
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -qq -o Dpkg::Use-Pty=0 "$@" </dev/null
+}
+
+echo "installing Debian packages: ${missing[*]}"
+log=$(mktemp)
+trap 'rm -f "$log"' EXIT
+install() { apt install --yes --no-install-recommends "${missing[@]}" >"$log" 2>&1; }
+# Package lists may be absent or old: fetch them only if the first attempt fails.
+if ! install; then
+  echo "fetching the package lists"
+  apt update >"$log" 2>&1 || { cat "$log" >&2; exit 1; }
+  install || { cat "$log" >&2; exit 1; }
+fi

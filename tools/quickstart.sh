@@ -1,0 +1,92 @@
+#!/usr/bin/env bash
+# From nothing to a Reeb graph: installs what is missing, builds the program, and computes the Reeb
+# graph of a mesh.
+#
+#   tools/quickstart.sh [MESH [OPTION...]]
+#
+# OPTIONs go to `reeb compute`, for instance `-f x`. Without MESH it takes a real one, the surface
+# of a motorcycle with its rider (331,653 triangles), from the Debian package openfoam-examples
+# (GPL-3+); the package is unpacked below build/, not installed. Results, in build/quickstart/:
+#
+#   NAME.reeb  the graph with all its levels of detail
+#   NAME.rg    the full graph as text, one node or arc a line
+#   NAME.svg   a picture of the coarsest levels, at most 60 nodes, drawn bottom to top
+set -euo pipefail
+
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+out=$here/build/quickstart
+reeb=$out/cmake/tools/reeb
+
+case ${1:-} in
+  -h | --help) sed -n '2,15s/^# \{0,1\}//p' "$0"; exit 0 ;;
+  -*) echo "error: name the mesh first, then options; see $0 --help" >&2; exit 2 ;;
+esac
+mesh=${1:-}
+shift || true
+if [[ -n $mesh && ! -r $mesh ]]; then
+  echo "error: $mesh: there is no such file, or it cannot be read" >&2
+  exit 1
+fi
+
+timed() {  # timed WHAT COMMAND...: runs it and says how long it took
+  local what=$1 start end
+  shift
+  echo "== $what"
+  start=$(date +%s%N)
+  "$@"
+  end=$(date +%s%N)
+  printf '== %s: %d.%02d s\n\n' "$what" $(((end - start) / 1000000000)) \
+    $(((end - start) / 10000000 % 100))
+}
+
+build_program() {
+  cmake -S "$here" -B "$out/cmake" -G Ninja -DCMAKE_BUILD_TYPE=Release -DREEB_TESTS=OFF \
+    -DREEB_BENCH=OFF >"$out/configure-log.txt" 2>&1 || { cat "$out/configure-log.txt"; return 1; }
+  cmake --build "$out/cmake" --target reeb_program
+}
+
+# The package is 36 MB and would install hundreds: take only the file that is needed.
+fetch_motorbike() {
+  local package=openfoam-examples folder
+  folder=$(mktemp -d "$out/package.XXXXXX")
+  chmod 755 "$folder"
+  (cd "$folder" && apt-get -qq download "$package" 2>/dev/null) ||
+    { echo "error: cannot download the Debian package $package; name a mesh of your own: $0 MESH" >&2
+      rm -rf "$folder"; return 1; }
+  dpkg-deb --fsys-tarfile "$folder"/"$package"_*.deb |
+    tar -x -C "$folder" --wildcards --transform='s,.*/,,' '*/resources/geometry/motorBike.obj.gz'
+  mv "$folder/motorBike.obj.gz" "$out/"
+  rm -rf "$folder"
+}
+
+# Nodes show vertex and value; four digits of the value are enough to look at.
+draw() {
+  "$reeb" extract "$out/$name.reeb" --nodes 60 --format dot |
+    awk '/^graph/ { print; print "  node [shape=box style=rounded fontsize=11 height=0.3]"; next }
+         match($0, /\\n[^"]*"/) {
+           value = substr($0, RSTART + 2, RLENGTH - 3)
+           $0 = substr($0, 1, RSTART + 1) sprintf("%.4g", value) substr($0, RSTART + RLENGTH - 1)
+         }
+         { print }' |
+    dot -Tsvg -o "$out/$name.svg"
+}
+
+mkdir -p "$out"
+timed "install packages" "$here/tools/install_packages.sh" graphviz
+timed "build" build_program
+if [[ -z $mesh ]]; then
+  mesh=$out/motorBike.obj.gz
+  [[ -s $mesh ]] || timed "fetch the mesh" fetch_motorbike
+fi
+name=$(basename "$mesh")
+name=${name%.gz}
+name=${name%.zst}
+name=${name%.*}
+timed "compute" "$reeb" compute "$mesh" -o "$out/$name.reeb" --force "$@"
+timed "export" "$reeb" extract "$out/$name.reeb" --force -o "$out/$name.rg"
+timed "draw" draw
+
+echo "The graph:    $out/$name.reeb"
+echo "  as text:    $out/$name.rg"
+echo "  a picture:  $out/$name.svg"
+echo "Try next:     $reeb extract $out/$name.reeb --threshold 5% -o $name.json"
