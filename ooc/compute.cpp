@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -77,6 +78,7 @@ class Run {
   void spool();
   std::optional<LastUse> find_last_uses();
   std::optional<LastUse> scan(bool may_give_up);
+  bool is_coherent(const UseSummary& summary) const;
   LastUse reorder_mesh();
   void run_chunks(ChunkSource& source);
 
@@ -116,8 +118,7 @@ void Run::first_stage() {
 
 void Run::run_indexed() {
   std::optional<LastUse> last_use = find_last_uses();
-  const bool fits = last_use && last_use->summary().max_live_vertices <= plan_.most_live_vertices();
-  if (!fits && options_.may_reorder) {
+  if (options_.may_reorder && !(last_use && is_coherent(last_use->summary()))) {
     last_use.reset();
     last_use = reorder_mesh();
   }
@@ -126,6 +127,15 @@ void Run::run_indexed() {
   common_.degenerate_triangles = summary.degenerate_triangles;
   common_.spilled_bytes += last_use->spilled_bytes();
   run_chunks(*chunks_of(*input_.indexed, *last_use, values_, plan_.chunk));
+}
+
+// Whether to glue the mesh as it comes. A front of many times the square root of the mesh is what
+// an incoherent order gives, not a shape; its long paths cost more than sorting the triangles.
+bool Run::is_coherent(const UseSummary& summary) const {
+  constexpr double kMuch = 16, kLittle = 4096;
+  const double usual = std::max(kLittle, kMuch * std::sqrt(static_cast<double>(summary.vertex_count)));
+  return summary.max_live_vertices <= plan_.most_live_vertices() &&
+         static_cast<double>(summary.max_live_vertices) <= usual;
 }
 
 void Run::spool() {
