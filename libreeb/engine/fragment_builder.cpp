@@ -1,7 +1,6 @@
 #include "libreeb/engine/fragment_builder.h"
 
 #include <algorithm>
-#include <tuple>
 
 namespace reeb {
 namespace {
@@ -26,7 +25,7 @@ std::uint32_t FragmentBuilder::add_node(std::uint32_t v) {
 }
 
 std::uint32_t FragmentBuilder::add_arc(std::uint32_t lower_node) {
-  arcs_.push_back({lower_node, kNone, false});
+  arcs_.push_back({lower_node, kNone, kNone, false});
   return static_cast<std::uint32_t>(arcs_.size() - 1);
 }
 
@@ -55,14 +54,27 @@ void FragmentBuilder::note_branch(std::uint32_t lo, std::uint32_t hi, std::uint3
 void FragmentBuilder::finish(const Sweep& sweep, Fragment& fragment) {
   fragment.clear();
   fragment.triangle_count = sweep.chunk.triangle_count();
+  sort_steps(sweep);
   trace_paths(fragment);
   divide(sweep, fragment);
-  add_steps(sweep, fragment);
+  add_steps(fragment);
+}
+
+void FragmentBuilder::sort_steps(const Sweep& sweep) {
+  steps_.clear();
+  for (std::uint32_t e = 0; e < shared_.size(); ++e)
+    steps_.push_back(step(shared_[e].place, e, false));
+  for (std::uint32_t n = 0; n < nodes_.size(); ++n)
+    if (sweep.uses(nodes_[n].vertex) == kUsedEarlier)
+      steps_.push_back(step(sweep.stars.last_place(nodes_[n].vertex), n, true));
+  std::sort(steps_.begin(), steps_.end());
 }
 
 void FragmentBuilder::trace_paths(Fragment& fragment) {
   fragment.path_begin.push_back(0);
-  for (const Shared& edge : shared_) {
+  for (const std::uint64_t s : steps_) {
+    if (completes(s)) continue;
+    const Shared& edge = shared_[index(s)];
     std::uint32_t note = edge.first_note;
     for (std::uint32_t arc = edge.first_arc;;) {
       fragment.path_arcs.push_back(arc);
@@ -86,52 +98,71 @@ void FragmentBuilder::divide(const Sweep& sweep, Fragment& fragment) {
     if (arc.referenced) nodes_[arc.lo].can_change = nodes_[arc.hi].can_change = true;
   for (Node& node : nodes_) node.open = node.can_change ? 0 : kNone;
 
-  open_arc_.assign(arcs_.size(), kNone);
-  std::uint32_t open_arcs = 0;
-  for (std::size_t a = 0; a < arcs_.size(); ++a) {
+  open_arcs_.clear();
+  for (std::uint32_t a = 0; a < arcs_.size(); ++a) {
     Node &lo = nodes_[arcs_[a].lo], &hi = nodes_[arcs_[a].hi];
     if (!lo.can_change && !hi.can_change) {
       fragment.settled_arcs.push_back({sweep.key(lo.vertex), sweep.key(hi.vertex)});
     } else {
-      open_arc_[a] = open_arcs++;
+      open_arcs_.push_back(a);
       lo.open = hi.open = 0;
     }
   }
-
-  for (Node& node : nodes_) {
-    const SweepKey key = sweep.key(node.vertex);
-    const Point position = sweep.position(node.vertex);
-    if (node.open == kNone) {
-      fragment.settled_nodes.push_back({key, position});
-      continue;
-    }
-    node.open = static_cast<std::uint32_t>(fragment.nodes.size());
-    fragment.nodes.push_back({key, sweep.uses(node.vertex), !node.can_change});
-    if (!sweep.chunk.positions.empty()) fragment.positions.push_back(position);
-  }
-  for (std::size_t a = 0; a < arcs_.size(); ++a)
-    if (open_arc_[a] != kNone) fragment.arcs.push_back({nodes_[arcs_[a].lo].open, nodes_[arcs_[a].hi].open});
-  for (const Shared& edge : shared_)
-    fragment.edges.push_back({nodes_[edge.lo].open, nodes_[node_of_[edge.hi]].open});
-  for (std::uint32_t& arc : fragment.path_arcs) arc = open_arc_[arc];
+  add_nodes(sweep, fragment);
+  add_arcs(fragment);
 }
 
-void FragmentBuilder::add_steps(const Sweep& sweep, Fragment& fragment) {
-  for (std::uint32_t e = 0; e < shared_.size(); ++e)
-    fragment.steps.push_back({shared_[e].place, e, false});
-  for (const Node& node : nodes_)
-    if (sweep.uses(node.vertex) == kUsedEarlier)
-      fragment.steps.push_back({sweep.stars.last_place(node.vertex), node.open, true});
-  std::sort(fragment.steps.begin(), fragment.steps.end(),
-            [](const Fragment::Step& a, const Fragment::Step& b) {
-              return std::tie(a.place, a.completes, a.index) < std::tie(b.place, b.completes, b.index);
-            });
+// Open nodes, and arcs and edges too, are numbered in the order of the stream, not of the sweep:
+// what is glued together then lies together in memory.
+void FragmentBuilder::add_nodes(const Sweep& sweep, Fragment& fragment) {
+  node_at_.assign(sweep.order.size(), kNone);
+  for (std::uint32_t n = 0; n < nodes_.size(); ++n) {
+    const std::uint32_t v = nodes_[n].vertex;
+    if (nodes_[n].open == kNone)
+      fragment.settled_nodes.push_back({sweep.key(v), sweep.position(v)});
+    else
+      node_at_[sweep.order[v]] = n;
+  }
+  for (const std::uint32_t n : node_at_) {
+    if (n == kNone) continue;
+    Node& node = nodes_[n];
+    node.open = static_cast<std::uint32_t>(fragment.nodes.size());
+    fragment.nodes.push_back({sweep.key(node.vertex), sweep.uses(node.vertex), !node.can_change});
+    if (!sweep.chunk.positions.empty()) fragment.positions.push_back(sweep.position(node.vertex));
+  }
+}
+
+void FragmentBuilder::add_arcs(Fragment& fragment) {
+  arcs_from_.assign(fragment.nodes.size() + 1, 0);
+  for (const std::uint32_t a : open_arcs_) ++arcs_from_[nodes_[arcs_[a].lo].open + 1];
+  for (std::size_t n = 1; n < arcs_from_.size(); ++n) arcs_from_[n] += arcs_from_[n - 1];
+  fragment.arcs.resize(open_arcs_.size());
+  for (const std::uint32_t a : open_arcs_) {
+    const std::uint32_t lo = nodes_[arcs_[a].lo].open;
+    arcs_[a].open = arcs_from_[lo]++;
+    fragment.arcs[arcs_[a].open] = {lo, nodes_[arcs_[a].hi].open};
+  }
+  for (std::uint32_t& arc : fragment.path_arcs) arc = arcs_[arc].open;
+}
+
+void FragmentBuilder::add_steps(Fragment& fragment) {
+  for (const std::uint64_t s : steps_) {
+    if (completes(s)) {
+      fragment.steps.push_back({place(s), nodes_[index(s)].open, true});
+    } else {
+      const Shared& edge = shared_[index(s)];
+      fragment.steps.push_back({place(s), static_cast<std::uint32_t>(fragment.edges.size()), false});
+      fragment.edges.push_back({nodes_[edge.lo].open, nodes_[node_of_[edge.hi]].open});
+    }
+  }
 }
 
 std::size_t FragmentBuilder::memory_bytes() const {
   return nodes_.capacity() * sizeof(Node) + arcs_.capacity() * sizeof(Arc) +
          shared_.capacity() * sizeof(Shared) + notes_.capacity() * sizeof(Note) +
-         4 * (shared_begin_.capacity() + node_of_.capacity() + open_arc_.capacity());
+         8 * steps_.capacity() +
+         4 * (shared_begin_.capacity() + node_of_.capacity() + node_at_.capacity() +
+              open_arcs_.capacity() + arcs_from_.capacity());
 }
 
 }  // namespace reeb

@@ -60,6 +60,7 @@ class FragmentBuilder {
   };
   struct Arc {
     std::uint32_t lo, hi;
+    std::uint32_t open;  // the number of an open arc in the fragment
     bool referenced;
   };
   struct Shared {
@@ -71,9 +72,24 @@ class FragmentBuilder {
     std::uint32_t node, arc, next;
   };
 
+  // A step as one number in the order of steps: zipping the shared edge, or completing the node,
+  // with this index.
+  static std::uint64_t step(std::uint32_t place, std::uint32_t index, bool completes) {
+    return std::uint64_t{place} << 32 | (completes ? kCompletes : 0) | index;
+  }
+  static bool completes(std::uint64_t step) { return (step & kCompletes) != 0; }
+  static std::uint32_t index(std::uint64_t step) {
+    return static_cast<std::uint32_t>(step & (kCompletes - 1));
+  }
+  static std::uint32_t place(std::uint64_t step) { return static_cast<std::uint32_t>(step >> 32); }
+  static constexpr std::uint64_t kCompletes = std::uint64_t{1} << 31;
+
+  void sort_steps(const Sweep& sweep);
   void trace_paths(Fragment& fragment);
   void divide(const Sweep& sweep, Fragment& fragment);
-  void add_steps(const Sweep& sweep, Fragment& fragment);
+  void add_nodes(const Sweep& sweep, Fragment& fragment);
+  void add_arcs(Fragment& fragment);
+  void add_steps(Fragment& fragment);
 
   std::vector<Node> nodes_;
   std::vector<Arc> arcs_;
@@ -81,7 +97,11 @@ class FragmentBuilder {
   std::vector<std::uint32_t> shared_begin_;  // by vertex; within a vertex sorted by hi
   std::vector<Note> notes_;
   std::vector<std::uint32_t> node_of_;   // by vertex, for those that are nodes
-  std::vector<std::uint32_t> open_arc_;  // by arc
+
+  std::vector<std::uint64_t> steps_;      // sorted
+  std::vector<std::uint32_t> node_at_;    // by local vertex: its node, if it is an open one
+  std::vector<std::uint32_t> open_arcs_;
+  std::vector<std::uint32_t> arcs_from_;  // by open node: where its arcs up are numbered from
 };
 
 }  // namespace reeb
