@@ -48,7 +48,8 @@ class Run {
       : functions_(functions),
         outputs_(outputs),
         options_(options),
-        plan_(plan_memory(options.memory_bytes, options.threads, functions.size(), options.chunk_triangles)),
+        plan_(plan_memory(options.memory_bytes, options.threads, functions.size(), options.chunk_triangles,
+                          input.indexed != nullptr)),
         budget_(plan_.account_bytes, plan_.set_aside_bytes),
         temp_(options.temp_dir.empty() ? TempDir::default_folder(outputs[0]) : options.temp_dir),
         input_(std::move(input)),
@@ -246,12 +247,13 @@ FileMeta Run::file_meta(const ComputeResult& result) const {
 
 // The raw graph, in memory that does not grow with it but for 4 bytes a node.
 void Run::write_graph(ComputeResult& result, SegmentStore& store) const {
-  constexpr std::size_t kNodes = 4096, kArcs = 65536;
+  constexpr std::size_t kNodes = 4096, kBytesAnArc = 1000;
+  const std::size_t pieces = std::clamp<std::size_t>(budget_.free_bytes() / kBytesAnArc, 4096, 65536);
   GraphFileWriter writer(result.output, file_meta(result), true, false, GraphFileWriter::ArcEnds::kKeys);
   store.nodes().rewind();
   for (std::vector<SettledNode> nodes; store.nodes().read(nodes, kNodes);) writer.add_nodes(nodes);
   store.arcs().rewind();
-  for (std::vector<ArcKeys> arcs; store.arcs().read(arcs, kArcs);) writer.add_arcs(arcs);
+  for (std::vector<ArcKeys> arcs; store.arcs().read(arcs, pieces);) writer.add_arcs(arcs);
   writer.finish();
   result.betti = {writer.header().components, writer.header().loops};
 }

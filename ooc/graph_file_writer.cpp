@@ -61,7 +61,11 @@ void GraphFileWriter::add_arcs(std::span<const ArcKeys> arcs, const ArcBucketsVi
     ranked_[i] = {lo_rank_, 0, 0, kNeverDies};
   }
   std::uint64_t hi_rank = 0;
-  for (const std::uint32_t i : by_hi_) ranked_[i].hi = hi_rank = keys_->rank(arcs[i].hi, hi_rank);
+  for (std::size_t k = 0; k < by_hi_.size(); ++k) {
+    constexpr std::size_t kLookups = 512;  // each may touch a page that none before did
+    if (k % kLookups == 0) keys_->release_pages();
+    ranked_[by_hi_[k]].hi = hi_rank = keys_->rank(arcs[by_hi_[k]].hi, hi_rank);
+  }
   keys_->release_pages();
   add_arcs(std::span<const FileArc>(ranked_), buckets);
 }

@@ -12,7 +12,8 @@ namespace reeb::ooc {
 namespace {
 
 constexpr std::uint64_t kMiB = 1 << 20;
-constexpr std::uint64_t kProcess = 10 * kMiB;  // code, allocator, thread stacks, windows of input
+// Measured, at most: code, allocator and stacks; and windows of a mesh that is looked up in place.
+constexpr std::uint64_t kProcess = 8 * kMiB, kWindows = kMiB;
 constexpr std::uint64_t kLeast = 16 * kMiB;
 
 // Measured: a live vertex with its edges, arcs and references, vectors with room to grow.
@@ -32,25 +33,26 @@ std::uint64_t machine_bytes() {
 std::uint64_t MemoryPlan::most_live_vertices() const { return live_bytes / kBytesALiveVertex; }
 
 MemoryPlan plan_memory(std::uint64_t limit_bytes, unsigned threads, std::size_t functions,
-                       std::size_t chunk_triangles) {
+                       std::size_t chunk_triangles, bool in_place) {
   if (limit_bytes < kLeast)
     throw Error(ErrorKind::kResource, "a run needs at least " + format_bytes(kLeast) + " of memory, but only " +
                                           format_bytes(limit_bytes) + " are allowed",
                 "allow more, for instance --memory 32M");
   const std::uint64_t limit = limit_bytes == MemoryBudget::kUnlimited ? machine_bytes() / 2 : limit_bytes;
   MemoryPlan plan;
-  plan.set_aside_bytes = kProcess;
-  plan.account_bytes = limit - kProcess;
-  // Beyond these sizes more memory makes nothing faster. An eighth is left to what is small.
+  plan.set_aside_bytes = kProcess + (in_place ? kWindows : 0);
+  plan.account_bytes = limit - plan.set_aside_bytes;
+  // Beyond these sizes more memory makes nothing faster. The live graph gets what nobody else
+  // takes; the front that is planned for leaves it room.
   const std::uint64_t eighth = plan.account_bytes / 8;
-  plan.table_bytes = std::min(eighth, 4 * kMiB);
-  plan.segment_bytes = std::min(eighth, 4 * kMiB) / functions;
-  plan.live_bytes = std::min(2 * eighth, 96 * kMiB) / functions;
+  plan.table_bytes = std::min(eighth / 2, 4 * kMiB);
+  plan.segment_bytes = std::min(eighth / 2, 4 * kMiB) / functions;
+  plan.live_bytes = std::min(4 * eighth, 96 * kMiB) / functions;
 
   plan.threads = plan.account_bytes < kEnoughForThreads ? 1 : threads;
   const std::uint64_t in_flight = plan.threads == 1 ? 1 : plan.threads + 1;
   const std::uint64_t a_triangle = plan.threads * kSweepBytes + in_flight * kFlightBytes * functions;
-  const std::uint64_t share = std::min(2 * eighth, 64 * kMiB);
+  const std::uint64_t share = std::min(eighth, 64 * kMiB);
   const auto most = static_cast<std::size_t>(std::max<std::uint64_t>(512, share / a_triangle));
   plan.chunk.first = std::min(plan.chunk.first, most);
   plan.chunk.most = std::min(plan.chunk.most, most);

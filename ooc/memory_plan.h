@@ -23,8 +23,9 @@ struct MemoryPlan {
 
 // `limit_bytes` is for the whole process; kUnlimited means half of this machine's memory. What the
 // process needs for itself (code, stacks, windows of mapped input) is set aside first.
+// `in_place`: the mesh is looked up in its own file, not spooled.
 // THROWS: Error{kResource} if too little is left to do anything.
 MemoryPlan plan_memory(std::uint64_t limit_bytes, unsigned threads, std::size_t functions,
-                       std::size_t chunk_triangles);
+                       std::size_t chunk_triangles, bool in_place);
 
 }  // namespace reeb::ooc

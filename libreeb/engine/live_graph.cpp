@@ -1,5 +1,7 @@
 #include "libreeb/engine/live_graph.h"
 
+#include "libreeb/base/grow.h"
+
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -15,8 +17,12 @@ LiveGraph::Index LiveGraph::add_node(const SweepKey& key, const Point& position,
     --free_nodes_;
   } else {
     n = static_cast<Index>(nodes_.size());
+    grow_by_quarter(nodes_);
     nodes_.emplace_back();
-    if (track_positions_) positions_.emplace_back();
+    if (track_positions_) {
+      grow_by_quarter(positions_);
+      positions_.emplace_back();
+    }
   }
   nodes_[n] = {key, kNone, kNone, 0, 0, 0, state, false, true};
   if (track_positions_) positions_[n] = position;
@@ -38,6 +44,7 @@ LiveGraph::Index LiveGraph::add_arc(Index lo, Index hi) {
     --free_arcs_;
   } else {
     a = static_cast<Index>(arcs_.size());
+    grow_by_quarter(arcs_);
     arcs_.emplace_back();
   }
   arcs_[a].first_reference = kNone;
@@ -102,6 +109,7 @@ LiveGraph::Index LiveGraph::new_reference() {
     --free_references_;
   } else {
     r = static_cast<Index>(references_.size());
+    grow_by_quarter(references_);
     references_.emplace_back();
   }
   return r;
