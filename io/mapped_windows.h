@@ -5,7 +5,7 @@
 // `overlap` bytes of its successor, so that a record that crosses a border is still contiguous; the
 // window that was longest without use is unmapped for it. A hit costs a shift and a table lookup.
 //
-// The table takes 16 bytes a window of the file: 16 MB a terabyte at the default size.
+// The table takes 16 bytes a window of the file: 64 MB a terabyte at the default size.
 // The size is checked when the file is opened; a file cut by someone else while it is being read
 // ends the process with SIGBUS, so inputs must not change meanwhile.
 // THREADS: one at a time.
@@ -21,7 +21,7 @@
 namespace reeb::io {
 
 struct WindowOptions {
-  unsigned window_bits = 20;          // windows of 2^bits bytes, at least the page size
+  unsigned window_bits = 18;          // windows of 2^bits bytes, at least the page size
   std::size_t window_count = 4;       // mapped at once, at least 2
   std::size_t overlap_bytes = 65536;  // longest record that at() can be asked for
 };

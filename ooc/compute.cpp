@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -48,13 +49,13 @@ class Run {
         outputs_(outputs),
         options_(options),
         plan_(plan_memory(options.memory_bytes, options.threads, functions.size(), options.chunk_triangles)),
-        budget_(plan_.account_bytes),
+        budget_(plan_.account_bytes, plan_.set_aside_bytes),
         temp_(options.temp_dir.empty() ? TempDir::default_folder(outputs[0]) : options.temp_dir),
         input_(std::move(input)),
         values_(functions, input_.dimension) {
     for (std::size_t f = 0; f < functions_.size(); ++f)
       stores_.push_back(std::make_unique<SegmentStore>(
-          temp_, budget_, SegmentOptions{plan_.segment_bytes, options.threads > 1}));
+          temp_, budget_, SegmentOptions{plan_.segment_bytes, plan_.threads > 1}));
   }
 
   std::vector<ComputeResult> run() {
@@ -77,6 +78,7 @@ class Run {
   void spool();
   std::optional<LastUse> find_last_uses();
   std::optional<LastUse> scan(bool may_give_up);
+  bool is_coherent(const UseSummary& summary) const;
   LastUse reorder_mesh();
   void run_chunks(ChunkSource& source);
 
@@ -116,8 +118,7 @@ void Run::first_stage() {
 
 void Run::run_indexed() {
   std::optional<LastUse> last_use = find_last_uses();
-  const bool fits = last_use && last_use->summary().max_live_vertices <= plan_.most_live_vertices();
-  if (!fits && options_.may_reorder) {
+  if (options_.may_reorder && !(last_use && is_coherent(last_use->summary()))) {
     last_use.reset();
     last_use = reorder_mesh();
   }
@@ -126,6 +127,15 @@ void Run::run_indexed() {
   common_.degenerate_triangles = summary.degenerate_triangles;
   common_.spilled_bytes += last_use->spilled_bytes();
   run_chunks(*chunks_of(*input_.indexed, *last_use, values_, plan_.chunk));
+}
+
+// Whether to glue the mesh as it comes. A front of many times the square root of the mesh is what
+// an incoherent order gives, not a shape; its long paths cost more than sorting the triangles.
+bool Run::is_coherent(const UseSummary& summary) const {
+  constexpr double kMuch = 16, kLittle = 4096;
+  const double usual = std::max(kLittle, kMuch * std::sqrt(static_cast<double>(summary.vertex_count)));
+  return summary.max_live_vertices <= plan_.most_live_vertices() &&
+         static_cast<double>(summary.max_live_vertices) <= usual;
 }
 
 void Run::spool() {
@@ -177,7 +187,7 @@ LastUse Run::reorder_mesh() {
   common_.reordered = true;
   tell(Phase::kReorder, 0, 0);
   ReorderOptions options;
-  options.allowance_bytes = std::min<std::uint64_t>(budget_.free_bytes() / 4 * 3, 256u << 20);
+  options.allowance_bytes = std::min<std::uint64_t>(budget_.free_bytes() / 2, 256u << 20);
   options.coordinates = std::min(input_.dimension, 3u);
   auto mesh = reorder(*input_.indexed, temp_, budget_, options);
   common_.spilled_bytes += mesh->spilled_bytes();
@@ -190,7 +200,7 @@ void Run::run_chunks(ChunkSource& source) {
   std::vector<GraphSink*> sinks;
   for (const auto& store : stores_) sinks.push_back(store.get());
   PipelineOptions options;
-  options.threads = options_.threads;
+  options.threads = plan_.threads;
   options.progress = [this](const ChunkSource& s) {
     tell(Phase::kReeb, s.bytes_read(), s.bytes_total(), s.triangles_read());
   };
@@ -236,12 +246,12 @@ FileMeta Run::file_meta(const ComputeResult& result) const {
 
 // The raw graph, in memory that does not grow with it but for 4 bytes a node.
 void Run::write_graph(ComputeResult& result, SegmentStore& store) const {
-  constexpr std::size_t kPiece = 4096;
+  constexpr std::size_t kNodes = 4096, kArcs = 65536;
   GraphFileWriter writer(result.output, file_meta(result), true, false, GraphFileWriter::ArcEnds::kKeys);
   store.nodes().rewind();
-  for (std::vector<SettledNode> nodes; store.nodes().read(nodes, kPiece);) writer.add_nodes(nodes);
+  for (std::vector<SettledNode> nodes; store.nodes().read(nodes, kNodes);) writer.add_nodes(nodes);
   store.arcs().rewind();
-  for (std::vector<ArcKeys> arcs; store.arcs().read(arcs, kPiece);) writer.add_arcs(arcs);
+  for (std::vector<ArcKeys> arcs; store.arcs().read(arcs, kArcs);) writer.add_arcs(arcs);
   writer.finish();
   result.betti = {writer.header().components, writer.header().loops};
 }

@@ -6,8 +6,9 @@
 namespace reeb::ooc {
 namespace {
 
-// Grow above this share of shared vertices, shrink below a quarter of it.
-constexpr double kManyShared = 0.10;
+// Grow above this share of shared vertices, shrink below a quarter of it. A shared vertex brings
+// about one shared edge, of three in all, so this is a tenth of the edges.
+constexpr double kManyShared = 0.30;
 
 class IndexedChunks : public ChunkSource {
  public:

@@ -1,0 +1,260 @@
+// Whole runs, from a mesh to a `.reeb` file, against the definition of the Reeb graph, for chunks of
+// any size, any number of threads and both forms of input (REEB_SEED and REEB_CASES choose which
+// complexes and how many; REEB_TEST_MEMORY and REEB_TEST_CHUNK confine the runs).
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+
+#include "ooc/compute.h"
+#include "ooc/reeb_file.h"
+#include "tests/model/reference_reeb.h"
+#include "tests/ooc/scratch.h"
+#include "tests/support/complex_mesh.h"
+#include "tests/support/files.h"
+#include "tests/support/random.h"
+#include "tests/support/random_complex.h"
+#include "tests/support/run_limits.h"
+#include "tests/support/seed.h"
+#include "tests/support/shapes.h"
+
+namespace reeb::test {
+namespace {
+
+enum class Form { kIndexed, kStream };
+
+struct RunShape {
+  std::size_t chunk_triangles;  // 0: adaptive
+  unsigned threads;
+  Form form;
+};
+
+std::ostream& operator<<(std::ostream& out, const RunShape& shape) {
+  return out << "chunk " << shape.chunk_triangles << ", threads " << shape.threads
+             << (shape.form == Form::kStream ? ", stream" : ", indexed");
+}
+
+std::vector<RunShape> all_shapes() {
+  std::vector<std::size_t> chunks = {1, 7, 1000, 65536, 0};
+  if (const auto limit = chunk_limit()) chunks = {static_cast<std::size_t>(*limit)};
+  std::vector<RunShape> shapes;
+  for (const std::size_t chunk : chunks)
+    for (const unsigned threads : {1u, 2u, 4u})
+      for (const Form form : {Form::kIndexed, Form::kStream}) shapes.push_back({chunk, threads, form});
+  return shapes;
+}
+
+// A run syncs its output to disk, which would be nearly all that these many small runs wait for:
+// where the system has a folder in memory, scratch folders are there.
+const bool scratch_is_in_memory =
+    ::access("/dev/shm", W_OK) == 0 && ::setenv("TMPDIR", "/dev/shm", /*overwrite=*/0) == 0;
+
+// Runs of `compute` on one mesh; each works in a folder that is empty before and after.
+class Runner {
+ public:
+  explicit Runner(bool graph_only = false) : graph_only_(graph_only) {}
+
+  // The outputs of the functions that are these columns of the mesh, in one run.
+  std::vector<std::string> run(const ComplexMesh& mesh, const RunShape& shape, std::vector<unsigned> columns = {3},
+                               std::uint64_t seed = 1) {
+    std::vector<ColumnFunction> functions(columns.begin(), columns.end());
+    std::vector<VertexFunction*> pointers;
+    std::vector<std::string> outputs;
+    for (ColumnFunction& function : functions) {
+      pointers.push_back(&function);
+      outputs.push_back(outputs_.path() + "/" + function.name() + ".reeb");
+    }
+    ooc::MeshInput input;
+    if (shape.form == Form::kStream)
+      input.reader = std::make_unique<ComplexStream>(mesh, seed);
+    else
+      input.indexed = std::make_unique<IndexedComplex>(mesh);
+    ooc::ComputeOptions options;
+    options.chunk_triangles = shape.chunk_triangles;
+    options.threads = shape.threads;
+    options.temp_dir = temp_.path();
+    options.graph_only = graph_only_;
+    options.memory_bytes = memory_limit().value_or(MemoryBudget::kUnlimited);
+    results_ = ooc::compute(std::move(input), pointers, outputs, options);
+    EXPECT_TRUE(temp_.empty()) << "temporary files were left";
+    return outputs;
+  }
+
+  const std::vector<ooc::ComputeResult>& results() const { return results_; }
+
+ private:
+  bool graph_only_;
+  ooc::Scratch outputs_, temp_;
+  std::vector<ooc::ComputeResult> results_;
+};
+
+// Reads and removes it.
+std::string take_bytes(const std::string& path) {
+  std::string bytes = read_file(path);
+  std::filesystem::remove(path);
+  return bytes;
+}
+
+ReebGraph take_graph(const std::string& path) {
+  ReebGraph graph = ooc::ReebFile(path).load().graph;
+  std::filesystem::remove(path);
+  return graph;
+}
+
+TEST(Pipeline, EqualsTheDefinitionOnRandomComplexes) {
+  const std::uint64_t seed = base_seed(), cases = case_count(10'000);
+  const std::vector<RunShape> shapes = all_shapes();
+  Runner runner;
+  for (std::uint64_t i = 0; i < cases; ++i) {
+    const Complex complex = random_complex(seed + i);
+    const ComplexMesh mesh(complex);
+    const ReebGraph expected = reference_reeb(complex);
+    Random random(seed + i);
+    // One after another, so that each has its turn, and another at random.
+    for (const RunShape& shape : {shapes[i % shapes.size()], shapes[random.below(shapes.size())]}) {
+      const ReebGraph graph = take_graph(runner.run(mesh, shape, {3}, random.next())[0]);
+      ASSERT_TRUE(without_positions(graph) == without_positions(expected))
+          << shape << ", case " << i << "\ngot\n" << describe(graph) << "instead of\n" << describe(expected)
+          << describe(complex);
+      if (graph.node_count() != 0) {
+        ASSERT_EQ(graph.positions, expected.positions) << shape << '\n' << describe(complex);
+      }
+    }
+    const ooc::ComputeResult& result = runner.results()[0];
+    ASSERT_EQ(result.vertices, complex.vertex_count());
+    ASSERT_EQ(result.triangles, mesh.triangles.size() / 3);
+    ASSERT_EQ(result.nodes, expected.node_count());
+    ASSERT_EQ(result.arcs, expected.arc_count());
+    ASSERT_EQ(result.betti.components, component_count(complex));
+    ASSERT_EQ(result.betti.loops, expected.arc_count() - expected.node_count() + component_count(complex));
+  }
+}
+
+TEST(Pipeline, WritesTheSameBytesHoweverItRuns) {
+  const std::uint64_t seed = base_seed(), cases = case_count(300);
+  const std::vector<RunShape> shapes = all_shapes();
+  for (const bool graph_only : {false, true}) {
+    Runner runner(graph_only);
+    for (std::uint64_t i = 0; i < (graph_only ? cases / 4 : cases); ++i) {
+      const Complex complex = random_complex(seed + i);
+      const ComplexMesh mesh(complex);
+      const std::string expected = take_bytes(runner.run(mesh, shapes[0])[0]);
+      for (const RunShape& shape : shapes)
+        ASSERT_TRUE(take_bytes(runner.run(mesh, shape, {3}, seed + i)[0]) == expected)
+            << shape << ", case " << i << '\n' << describe(complex);
+    }
+  }
+}
+
+TEST(Pipeline, SeveralFunctionsInOneRunEqualSingleRuns) {
+  const std::uint64_t seed = base_seed(), cases = case_count(500);
+  const std::vector<RunShape> shapes = all_shapes();
+  Runner runner;
+  for (std::uint64_t i = 0; i < cases; ++i) {
+    Complex complex = random_complex(seed + i);
+    ComplexMesh mesh(complex);
+    for (const unsigned f : {1u, 2u}) {
+      set_random_values(complex, seed + i + f * cases);
+      mesh.add_function(complex.values);
+    }
+    Random random(seed + i);
+    const RunShape& shape = shapes[random.below(shapes.size())];
+    std::vector<std::string> together;
+    for (const std::string& output : runner.run(mesh, shape, {3, 4, 5}, random.next()))
+      together.push_back(take_bytes(output));
+    for (const unsigned f : {0u, 1u, 2u})
+      ASSERT_TRUE(take_bytes(runner.run(mesh, shape, {3 + f}, random.next())[0]) == together[f])
+          << shape << ", function " << f << ", case " << i << '\n' << describe(complex);
+  }
+}
+
+// ---- shapes on which a careless engine is quadratic; their graphs are known
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr std::size_t kScale = 20;  // smaller shapes, since everything is slower
+#else
+constexpr std::size_t kScale = 1;
+#endif
+// A quadratic run of this many triangles takes hours; a linear one a fraction of it.
+constexpr double kMostSeconds = 5;
+
+struct Shape {
+  std::string name;
+  Complex complex;
+  std::vector<ArcKeys> arcs;  // of its graph
+};
+
+SweepKey key_of(const Complex& complex, std::uint64_t vertex) { return {complex.values[vertex], VertexId(vertex)}; }
+
+ArcKeys arc_of(const Complex& complex, std::uint64_t lo, std::uint64_t hi) {
+  return {key_of(complex, lo), key_of(complex, hi)};
+}
+
+// All of it is one monotone patch: an arc from the first vertex to the last.
+Shape one_arc(std::string name, Complex complex) {
+  Shape shape{std::move(name), std::move(complex), {}};
+  shape.arcs = {arc_of(shape.complex, 0, shape.complex.vertex_count() - 1)};
+  return shape;
+}
+
+// The rim goes up and down past the hub, which is in the middle: every rim vertex is an extremum.
+Shape crown(std::size_t blades) {
+  Shape shape{"crown", fan(blades, true), {}};
+  for (std::uint64_t v = 1; v <= blades; ++v) {
+    shape.complex.values[v] = v % 2 == 0 ? 1 : -1;
+    shape.arcs.push_back(v % 2 == 0 ? arc_of(shape.complex, 0, v) : arc_of(shape.complex, v, 0));
+  }
+  return shape;
+}
+
+Shape spine(std::size_t pages) {
+  Shape shape{"book", book(pages), {}};
+  shape.arcs = {arc_of(shape.complex, 0, 1)};
+  for (std::uint64_t page = 2; page < shape.complex.vertex_count(); ++page)
+    shape.arcs.push_back(arc_of(shape.complex, 1, page));
+  return shape;
+}
+
+class LargeShape : public testing::TestWithParam<Form> {
+ protected:
+  static void check(const Shape& shape) {
+    SCOPED_TRACE(shape.name);
+    check_mesh(shape, shape.complex);
+    check_mesh(shape, shuffled(shape.complex, 1));
+  }
+
+ private:
+  static void check_mesh(const Shape& shape, const Complex& complex) {
+    const ComplexMesh mesh(complex);
+    const ReebGraph expected = make_graph(shape.arcs, {});
+    Runner runner(/*graph_only=*/true);
+    for (const unsigned threads : {1u, 2u}) {
+      const RunShape run{static_cast<std::size_t>(chunk_limit().value_or(0)), threads, GetParam()};
+      const auto start = std::chrono::steady_clock::now();
+      const std::string output = runner.run(mesh, run)[0];
+      const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+      std::cout << complex.kind << ", " << run << ": " << seconds << " s\n";
+      if (!memory_limit()) {
+        EXPECT_LT(seconds, kMostSeconds) << complex.kind << ", " << run;
+      }
+      EXPECT_TRUE(without_positions(take_graph(output)) == expected) << complex.kind << ", " << run;
+    }
+  }
+};
+
+TEST_P(LargeShape, FanWithALowHub) { check(one_arc("closed fan", fan(1'000'000 / kScale, true))); }
+TEST_P(LargeShape, OpenFan) { check(one_arc("open fan", fan(1'000'000 / kScale, false))); }
+TEST_P(LargeShape, FanWithItsHubInTheMiddle) { check(crown(1'000'000 / kScale)); }
+TEST_P(LargeShape, BookWithManyPages) { check(spine(300'000 / kScale)); }
+TEST_P(LargeShape, Plateau) { check(one_arc("plateau", plateau(1000, 500 / kScale))); }
+TEST_P(LargeShape, TiesAlongTheStream) { check(one_arc("strip", tied_strip(1000, 500 / kScale))); }
+
+INSTANTIATE_TEST_SUITE_P(Forms, LargeShape, testing::Values(Form::kIndexed, Form::kStream),
+                         [](const auto& form) { return std::string(form.param == Form::kStream ? "Stream" : "Indexed"); });
+
+}  // namespace
+}  // namespace reeb::test

@@ -1,0 +1,122 @@
+#include "tests/support/complex_mesh.h"
+
+#include <algorithm>
+
+namespace reeb::test {
+namespace {
+
+// Every simplex as triangles: all that its corners span, a smaller one with its last corner repeated.
+void append_triangles(const std::vector<std::uint64_t>& simplex, std::vector<VertexId>& triangles) {
+  const std::size_t n = simplex.size();
+  const auto append = [&](std::size_t a, std::size_t b, std::size_t c) {
+    for (const std::size_t corner : {a, b, c}) triangles.push_back(VertexId(simplex[std::min(corner, n - 1)]));
+  };
+  if (n < 3) return append(0, 1, 2);
+  for (std::size_t a = 0; a < n; ++a)
+    for (std::size_t b = a + 1; b < n; ++b)
+      for (std::size_t c = b + 1; c < n; ++c) append(a, b, c);
+}
+
+// As the ports want it: no -0.0.
+double plain(double value) { return value + 0.0; }
+
+}  // namespace
+
+ComplexMesh::ComplexMesh(const Complex& complex) : columns(3) {
+  for (std::size_t k = 0; k < 3; ++k)
+    for (const auto& position : complex.positions) columns[k].push_back(plain(position[k]));
+  add_function(complex.values);
+  triangle_begin.push_back(0);
+  for (const auto& simplex : complex.simplices) {
+    append_triangles(simplex, triangles);
+    triangle_begin.push_back(triangles.size());
+    is_tetrahedron.push_back(simplex.size() == 4);
+    if (simplex.size() == 4)
+      tetrahedra.push_back({VertexId(simplex[0]), VertexId(simplex[1]), VertexId(simplex[2]), VertexId(simplex[3])});
+  }
+}
+
+void ComplexMesh::add_function(const std::vector<double>& values) {
+  columns.emplace_back(values.size());
+  std::transform(values.begin(), values.end(), columns.back().begin(), plain);
+}
+
+void ColumnFunction::evaluate(std::span<const VertexId>, std::span<const std::span<const double>> columns,
+                              std::span<double> values) {
+  std::copy(columns[0].begin(), columns[0].end(), values.begin());
+}
+
+void IndexedComplex::gather(std::span<const VertexId> ids, std::span<const unsigned> columns,
+                            std::span<double> values) {
+  for (std::size_t k = 0; k < columns.size(); ++k)
+    for (std::size_t i = 0; i < ids.size(); ++i)
+      values[k * ids.size() + i] = mesh_.columns[columns[k]][ids[i].value()];
+}
+
+bool IndexedComplex::read(std::vector<VertexId>& corners, std::size_t limit) {
+  const std::size_t end = at_ + std::min(3 * limit, mesh_.triangles.size() - at_);
+  corners.assign(mesh_.triangles.begin() + static_cast<std::ptrdiff_t>(at_),
+                 mesh_.triangles.begin() + static_cast<std::ptrdiff_t>(end));
+  at_ = end;
+  return !corners.empty();
+}
+
+ComplexStream::ComplexStream(const ComplexMesh& mesh, std::uint64_t seed)
+    : mesh_(mesh), random_(seed), last_use_(mesh.vertex_count(), 0) {
+  constexpr std::size_t kBatches[] = {1, 3, 4096};
+  most_simplices_ = kBatches[random_.below(std::size(kBatches))];
+  if (simplex_count() > 10'000) most_simplices_ = 65536;
+  eager_percent_ = random_.chance(50) ? 100 : 40;
+  info_.format = "complex";
+  info_.finalizes = true;
+  for (std::size_t i = 0; i < simplex_count(); ++i)
+    for (std::size_t c = mesh.triangle_begin[i]; c < mesh.triangle_begin[i + 1]; ++c)
+      last_use_[mesh.triangles[c].value()] = i;
+}
+
+bool ComplexStream::read(MeshBatch& batch) {
+  batch.clear();
+  batch.coordinates.resize(3);
+  batch.properties.resize(mesh_.columns.size() - 3);
+  batch.first_vertex = VertexId(next_vertex_);
+  take_simplices(batch);
+  if (next_simplex_ == simplex_count() || random_.chance(10)) take_vertices(batch, mesh_.vertex_count());
+  finalize_some(batch);
+  return !batch.empty();
+}
+
+void ComplexStream::take_simplices(MeshBatch& batch) {
+  const std::size_t end = std::min(next_simplex_ + most_simplices_, simplex_count());
+  for (; next_simplex_ < end; ++next_simplex_) {
+    const auto first = mesh_.triangles.begin() + static_cast<std::ptrdiff_t>(mesh_.triangle_begin[next_simplex_]);
+    const auto last = mesh_.triangles.begin() + static_cast<std::ptrdiff_t>(mesh_.triangle_begin[next_simplex_ + 1]);
+    take_vertices(batch, static_cast<std::size_t>(std::max_element(first, last)->value()) + 1);
+    if (mesh_.is_tetrahedron[next_simplex_]) {
+      const auto& corners = mesh_.tetrahedra[next_tetrahedron_++];
+      batch.tetrahedra.insert(batch.tetrahedra.end(), corners.begin(), corners.end());
+    } else {
+      batch.triangles.insert(batch.triangles.end(), first, last);
+    }
+  }
+}
+
+void ComplexStream::take_vertices(MeshBatch& batch, std::size_t count) {
+  for (; next_vertex_ < count; ++next_vertex_) {
+    for (std::size_t k = 0; k < 3; ++k) batch.coordinates[k].push_back(mesh_.columns[k][next_vertex_]);
+    for (std::size_t k = 3; k < mesh_.columns.size(); ++k)
+      batch.properties[k - 3].push_back(mesh_.columns[k][next_vertex_]);
+    ++batch.vertex_count;
+    waiting_.push_back(next_vertex_);
+  }
+}
+
+void ComplexStream::finalize_some(MeshBatch& batch) {
+  std::erase_if(waiting_, [&](std::size_t v) {
+    if (last_use_[v] >= next_simplex_ && next_simplex_ < simplex_count()) return false;
+    if (!random_.chance(eager_percent_)) return false;
+    batch.finalized.push_back(VertexId(v));
+    return true;
+  });
+}
+
+}  // namespace reeb::test
