@@ -1,7 +1,6 @@
 // `reeb compute MESH`, the default command: from a mesh to its `.reeb` file.
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -97,8 +96,7 @@ void run_compute(ComputeArguments arguments) {
 
   ReadOptions read_options;
   read_options.properties = io::needed_properties(specs);
-  if (arguments.snapshot_every != 0)  // so that a slow stream is seen as it comes
-    read_options.batch_events = std::min<std::uint64_t>(read_options.batch_events, arguments.snapshot_every);
+  if (arguments.snapshot_every != 0) read_options.batch_events = 1;  // exactly as far as the stream came
   ooc::MeshInput input;
   input.path = arguments.mesh;
   input.reader = io::open_mesh(arguments.mesh, read_options);

@@ -1,5 +1,6 @@
 #include "tools/convert/compact_stream.h"
 
+#include <algorithm>
 #include <numeric>
 #include <vector>
 
@@ -65,9 +66,19 @@ class CompactStream {
     gather_new();
   }
 
+  // Looked up in ascending order, since scattered places of a file cost a mapping each.
   void gather_new() {
-    values_.resize(columns_.size() * new_ids_.size());
-    mesh_.gather(new_ids_, columns_, values_);
+    const std::size_t count = new_ids_.size();
+    by_id_.resize(count);
+    std::iota(by_id_.begin(), by_id_.end(), std::size_t{0});
+    std::sort(by_id_.begin(), by_id_.end(), [this](std::size_t a, std::size_t b) { return new_ids_[a] < new_ids_[b]; });
+    sorted_ids_.clear();
+    for (const std::size_t i : by_id_) sorted_ids_.push_back(new_ids_[i]);
+    gathered_.resize(columns_.size() * count);
+    mesh_.gather(sorted_ids_, columns_, gathered_);
+    values_.resize(gathered_.size());
+    for (std::size_t k = 0; k < columns_.size(); ++k)
+      for (std::size_t i = 0; i < count; ++i) values_[k * count + by_id_[i]] = gathered_[k * count + i];
   }
 
   void write_triangle(std::size_t t, std::uint64_t triangle) {
@@ -128,8 +139,9 @@ class CompactStream {
   std::vector<unsigned> columns_;
   unsigned dimension_;
   std::uint64_t numbered_ = 0, sent_ = 0;  // vertices with a number, and those that were written
-  std::vector<VertexId> corners_, new_ids_;
-  std::vector<double> values_;  // of new_ids_, by column
+  std::vector<VertexId> corners_, new_ids_, sorted_ids_;
+  std::vector<std::size_t> by_id_;
+  std::vector<double> values_, gathered_;  // of new_ids_ and of sorted_ids_, by column
   std::size_t new_used_ = 0;
   MeshBatch batch_;
 };
