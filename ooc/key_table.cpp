@@ -55,6 +55,7 @@ void KeyTable::seal() {
   if (count_ == 0) return;
   void* mapping = ::mmap(nullptr, count_ * sizeof(SweepKey), PROT_READ, MAP_SHARED, fd_, 0);
   if (mapping == MAP_FAILED) fail("a scratch file cannot be mapped");
+  ::madvise(mapping, count_ * sizeof(SweepKey), MADV_RANDOM);  // no pages around the one needed
   keys_ = static_cast<const SweepKey*>(mapping);
 }
 
