@@ -10,6 +10,7 @@
 
 #include "libreeb/base/error.h"
 #include "tools/commands/commands.h"
+#include "tools/signals.h"
 
 namespace {
 
@@ -66,6 +67,7 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  reeb::tools::turn_signals_into_errors();
   try {
     return run(argc, argv);
   } catch (const reeb::Error& error) {
