@@ -37,7 +37,11 @@ const Checkpoint* ResumableRun::start(const std::function<void(StateReader&)>& r
   if (options_.resume) {
     load_ = load_checkpoint(folder_->checkpoint(), identity_);
     if (!load_.checkpoint && load_.note.empty()) load_.note = "there is nothing to resume, so the run starts anew";
-    if (load_.checkpoint && restores(restore)) return &*load_.checkpoint;
+    if (load_.checkpoint && restores(restore)) {
+      notes.push_back("an earlier run had read " + std::to_string(load_.checkpoint->place.triangles) +
+                      " triangles; this one goes on from there");
+      return &*load_.checkpoint;
+    }
     notes.push_back(load_.note);
   }
   folder_->clear();
