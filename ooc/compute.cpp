@@ -9,6 +9,7 @@
 #include "libreeb/base/error.h"
 #include "libreeb/hierarchy/cancel.h"
 #include "libreeb/hierarchy/denoise.h"
+#include "ooc/atomic_file.h"
 #include "ooc/last_use.h"
 #include "ooc/last_use_sidecar.h"
 #include "ooc/memory_plan.h"
@@ -145,6 +146,7 @@ void Run::restore_stores(StateReader& in) {
 }
 
 void Run::first_stage() {
+  for (const std::string& output : outputs_) remove_abandoned(output);
   start_ = resumable_.start([this](StateReader& in) { restore_stores(in); }, common_.notes);
   if (!input_.indexed && !input_.reader->info().finalizes) spool();
   if (input_.indexed) {
