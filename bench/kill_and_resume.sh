@@ -55,13 +55,14 @@ for ((i = 1; i <= moments; ++i)); do
   done
   left=$(find . -mindepth 1 -maxdepth 1 ! -name mesh.ply ! -name whole.reeb ! -name messages ! -name "$output" \
     ! -name "$output.partial" ! -name "$output.partial-*" | wc -l)
-  kept=no
-  [[ -e $output.partial/checkpoint ]] && kept=yes
+  kept="no checkpoint"
+  [[ -e $output.partial/checkpoint ]] && kept="a checkpoint"
+  [[ -e $output ]] && kept="the whole output"
   [[ -e $output ]] || "${compute[@]}" -o "$output" --resume
   if cmp -s whole.reeb "$output" && [[ $left == 0 && -z $(find . -name '*.partial*') ]]; then
-    echo ", checkpoint $kept: same bytes"
+    echo "; it left $kept: same bytes"
   else
-    echo ", checkpoint $kept: FAILED"
+    echo "; it left $kept: FAILED"
     failed=$((failed + 1))
     find . | sort
   fi
