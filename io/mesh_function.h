@@ -16,11 +16,14 @@ class MeshFunction : public VertexFunction {
   // As FunctionSource; `mesh_name` is for messages.
   MeshFunction(const FunctionSpec& spec, const MeshInfo& info, std::span<const std::string> properties = {},
                const std::string& mesh_name = {})
-      : name_(spec.text), source_(spec, info, properties, mesh_name) {
+      : name_(spec.text),
+        source_file_(spec.kind == FunctionSpec::Kind::kFile ? spec.argument : ""),
+        source_(spec, info, properties, mesh_name) {
     if (source_.column()) columns_.push_back(*source_.column());
   }
 
   std::string name() const override { return name_; }
+  std::string source_file() const override { return source_file_; }
   std::span<const unsigned> columns() const override { return columns_; }
   void evaluate(std::span<const VertexId> ids, std::span<const std::span<const double>> columns,
                 std::span<double> values) override {
@@ -28,7 +31,7 @@ class MeshFunction : public VertexFunction {
   }
 
  private:
-  std::string name_;
+  std::string name_, source_file_;
   FunctionSource source_;
   std::vector<unsigned> columns_;
 };

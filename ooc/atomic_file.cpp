@@ -1,11 +1,15 @@
 #include "ooc/atomic_file.h"
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
+#include <string_view>
+#include <system_error>
 #include <utility>
 
 #include "libreeb/base/error.h"
@@ -13,6 +17,7 @@
 namespace reeb::ooc {
 namespace {
 
+namespace fs = std::filesystem;
 using Traits = std::char_traits<char>;
 
 constexpr std::size_t kTextBufferBytes = 1 << 16;
@@ -20,6 +25,17 @@ constexpr std::size_t kTextBufferBytes = 1 << 16;
 bool is_folder(const std::string& path) {
   struct stat status {};
   return ::stat(path.c_str(), &status) == 0 && S_ISDIR(status.st_mode);
+}
+
+// PATH.partial-PID-N
+constexpr const char* kSuffix = ".partial-";
+
+bool is_number_pair(std::string_view text) {
+  const auto dash = text.find('-');
+  const auto is_number = [](std::string_view t) {
+    return !t.empty() && t.find_first_not_of("0123456789") == std::string_view::npos;
+  };
+  return dash != std::string_view::npos && is_number(text.substr(0, dash)) && is_number(text.substr(dash + 1));
 }
 
 }  // namespace
@@ -30,16 +46,31 @@ std::string folder_of(const std::string& path) {
   return slash == 0 ? "/" : path.substr(0, slash);
 }
 
+void remove_abandoned(const std::string& path) noexcept {
+  const std::string prefix = fs::path(path).filename().string() + kSuffix;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder_of(path), error), end; !error && entry != end; entry.increment(error)) {
+    const std::string name = entry->path().filename().string();
+    if (!name.starts_with(prefix) || !is_number_pair(std::string_view(name).substr(prefix.size()))) continue;
+    const int file = ::open(entry->path().c_str(), O_RDONLY | O_CLOEXEC);
+    if (file < 0) continue;
+    if (::flock(file, LOCK_EX | LOCK_NB) == 0) ::unlink(entry->path().c_str());
+    ::close(file);
+  }
+}
+
 AtomicFile::AtomicFile(std::string path) : path_(std::move(path)) {
   if (is_folder(path_)) {
     errno = EISDIR;
     fail("cannot be written");
   }
+  remove_abandoned(path_);
   for (unsigned attempt = 0; fd_ < 0; ++attempt) {
-    temporary_ = path_ + ".partial-" + std::to_string(::getpid()) + "-" + std::to_string(attempt);
+    temporary_ = path_ + kSuffix + std::to_string(::getpid()) + "-" + std::to_string(attempt);
     fd_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (fd_ < 0 && errno != EEXIST) fail("cannot be written");
   }
+  ::flock(fd_, LOCK_EX | LOCK_NB);  // for remove_abandoned()
 }
 
 AtomicFile::~AtomicFile() { discard(); }

@@ -17,6 +17,10 @@ namespace reeb::ooc {
 // The folder that holds `path`.
 std::string folder_of(const std::string& path);
 
+// Removes the temporary files that killed writers of `path` left; a living writer holds a lock on its
+// own. AtomicFile does so itself.
+void remove_abandoned(const std::string& path) noexcept;
+
 // THROWS, from every call: Error{kResource} with the path: the folder cannot be written, the disk is
 // full.
 class AtomicFile {

@@ -18,11 +18,19 @@
 
 namespace reeb::ooc {
 
+// How far a source has come, for another process to go on from there.
+struct ChunkPlace {
+  std::uint64_t triangles = 0;        // read so far
+  std::uint64_t next_vertex = 0;      // from which on loose vertices are looked for
+  std::vector<FunctionRange> ranges;  // of the values so far
+};
+
 // A chunk on its way through the pipeline; its memory is reused by later ones.
 struct WorkItem {
   Chunk chunk;
   std::vector<std::vector<double>> values;  // one array a function
   std::vector<Fragment> fragments;          // one a function
+  ChunkPlace end;                           // behind this chunk, of an indexed mesh
   std::size_t memory_bytes() const;
 };
 
@@ -51,9 +59,10 @@ class ChunkSource {
 
 // Chunks of an indexed mesh: whole blocks of its last-use table. Vertices that no triangle uses
 // come last, as chunks of loose vertices. A chunk grows while too many of its vertices are shared
-// with others, since gluing is what such a chunk costs.
+// with others, since gluing is what such a chunk costs. The chunks before `start` are passed over.
+// REQUIRES: start.triangles is at a block's end.
 std::unique_ptr<ChunkSource> chunks_of(IndexedMesh& mesh, LastUse& last_use, FunctionValues& columns,
-                                       ChunkSize size);
+                                       ChunkSize size, const ChunkPlace& start = {});
 
 // Chunks of a stream, read once. What is not finalized by the stream is finalized at its end.
 std::unique_ptr<ChunkSource> chunks_of(MeshReader& reader, FunctionValues& columns, ChunkSize size);

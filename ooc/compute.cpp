@@ -3,17 +3,20 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <new>
 #include <optional>
 #include <utility>
 
 #include "libreeb/base/error.h"
 #include "libreeb/hierarchy/cancel.h"
 #include "libreeb/hierarchy/denoise.h"
+#include "ooc/atomic_file.h"
 #include "ooc/last_use.h"
 #include "ooc/last_use_sidecar.h"
 #include "ooc/memory_plan.h"
 #include "ooc/reeb_file_writer.h"
 #include "ooc/reorder.h"
+#include "ooc/resumable_run.h"
 #include "ooc/segment_store.h"
 #include "ooc/spooled_mesh.h"
 #include "ooc/temp_dir.h"
@@ -41,6 +44,11 @@ class Stopwatch {
   Clock::time_point start_ = Clock::now();
 };
 
+// The path of a mesh that a later process can read in the same way.
+std::string readable_again(const MeshInput& input) {
+  return input.indexed || !input.reader->info().finalizes ? input.path : "";
+}
+
 class Run {
  public:
   Run(MeshInput input, std::span<VertexFunction* const> functions, std::span<const std::string> outputs,
@@ -53,13 +61,23 @@ class Run {
         budget_(plan_.account_bytes, plan_.set_aside_bytes),
         temp_(options.temp_dir.empty() ? TempDir::default_folder(outputs[0]) : options.temp_dir),
         input_(std::move(input)),
-        values_(functions, input_.dimension) {
-    for (std::size_t f = 0; f < functions_.size(); ++f)
-      stores_.push_back(std::make_unique<SegmentStore>(
-          temp_, budget_, SegmentOptions{plan_.segment_bytes, plan_.threads > 1}));
+        values_(functions, input_.dimension),
+        resumable_(outputs[0], readable_again(input_), functions,
+                   {options.resume, options.checkpoint_seconds, options.interrupted}) {
+    make_stores();
   }
 
-  std::vector<ComputeResult> run() {
+  std::vector<ComputeResult> run() try {
+    return run_stages();
+  } catch (const Error& error) {
+    throw resumable_.explain(error);
+  } catch (const std::bad_alloc&) {
+    throw resumable_.explain(
+        Error(ErrorKind::kResource, "out of memory", "close other programs, or allow less with --memory SIZE"));
+  }
+
+ private:
+  std::vector<ComputeResult> run_stages() {
     {
       const Stopwatch wall(common_.seconds.wall);
       first_stage();
@@ -70,16 +88,19 @@ class Run {
       results.push_back(second_stage(f));
       stores_[f].reset();
     }
+    resumable_.done();
     return results;
   }
 
- private:
+  void make_stores();
+  void restore_stores(StateReader& in);
   void first_stage();
   void run_indexed();
   void spool();
   std::optional<LastUse> find_last_uses();
   std::optional<LastUse> scan(bool may_give_up);
   bool is_coherent(const UseSummary& summary) const;
+  bool can_start(const UseSummary& summary) const;
   LastUse reorder_mesh();
   void run_chunks(ChunkSource& source);
 
@@ -90,6 +111,7 @@ class Run {
   Reservation reserve_hierarchy(ComputeResult& result, SegmentStore& store);
   void tell(Phase phase, std::uint64_t done, std::uint64_t total, std::uint64_t triangles = 0) const {
     if (options_.progress) options_.progress({phase, done, total, triangles});
+    if (phase != Phase::kReeb) resumable_.check_interruption();
   }
 
   std::span<VertexFunction* const> functions_;
@@ -100,13 +122,35 @@ class Run {
   TempDir temp_;
   MeshInput input_;  // a spooled mesh holds reservations and files of the two above
   FunctionValues values_;
+  ResumableRun resumable_;
+  const Checkpoint* start_ = nullptr;  // to go on from
+  std::uint64_t block_triangles_ = 0;  // of the last-use table
   std::vector<std::unique_ptr<SegmentStore>> stores_;
   ComputeResult common_;  // what all functions share
 };
 
 // ---- the first stage: from the mesh to sorted segments
 
+void Run::make_stores() {
+  stores_.clear();
+  for (std::size_t f = 0; f < functions_.size(); ++f)
+    stores_.push_back(std::make_unique<SegmentStore>(
+        temp_, budget_,
+        SegmentOptions{plan_.segment_bytes, plan_.threads > 1, resumable_.segments_of(f)}));
+}
+
+void Run::restore_stores(StateReader& in) {
+  try {
+    for (const auto& store : stores_) store->restore(in);
+  } catch (...) {
+    make_stores();
+    throw;
+  }
+}
+
 void Run::first_stage() {
+  for (const std::string& output : outputs_) remove_abandoned(output);
+  start_ = resumable_.start([this](StateReader& in) { restore_stores(in); }, common_.notes);
   if (!input_.indexed && !input_.reader->info().finalizes) spool();
   if (input_.indexed) {
     run_indexed();
@@ -118,8 +162,13 @@ void Run::first_stage() {
 }
 
 void Run::run_indexed() {
-  std::optional<LastUse> last_use = find_last_uses();
-  if (options_.may_reorder && !(last_use && is_coherent(last_use->summary()))) {
+  std::optional<LastUse> last_use;
+  if (start_ == nullptr || !start_->reordered) last_use = find_last_uses();
+  // A run that goes on keeps to the order in which it began.
+  const bool sort_first = start_ != nullptr
+                              ? start_->reordered
+                              : options_.may_reorder && !(last_use && is_coherent(last_use->summary()));
+  if (sort_first) {
     last_use.reset();
     last_use = reorder_mesh();
   }
@@ -127,7 +176,9 @@ void Run::run_indexed() {
   common_.unused_vertices = summary.unused_vertices;
   common_.degenerate_triangles = summary.degenerate_triangles;
   common_.spilled_bytes += last_use->spilled_bytes();
-  run_chunks(*chunks_of(*input_.indexed, *last_use, values_, plan_.chunk));
+  block_triangles_ = summary.block_triangles;
+  run_chunks(*chunks_of(*input_.indexed, *last_use, values_, plan_.chunk,
+                        start_ != nullptr ? start_->place : ChunkPlace{}));
 }
 
 // Whether to glue the mesh as it comes. A front of many times the square root of the mesh is what
@@ -158,16 +209,24 @@ void Run::spool() {
 std::optional<LastUse> Run::find_last_uses() {
   const Stopwatch watch(common_.seconds.finalization);
   const bool has_file = !input_.path.empty() && input_.path != "-" && options_.chunk_triangles == 0;
-  if (!has_file) return scan(options_.may_reorder);
+  const bool may_give_up = options_.may_reorder && start_ == nullptr;
+  if (!has_file) return scan(may_give_up);
   const std::string sidecar = input_.path + ".final";
   const MeshIdentity identity = identify_mesh(input_.path);
   SidecarLoad known =
       load_sidecar(sidecar, identity, input_.indexed->vertex_count(), temp_, budget_, plan_.table_bytes);
-  if (known.uses) return std::move(known.uses);
+  if (known.uses && can_start(known.uses->summary())) return std::move(known.uses);
   if (!known.note.empty()) common_.notes.push_back(known.note);
-  std::optional<LastUse> uses = scan(options_.may_reorder && !options_.keep_sidecar);
+  std::optional<LastUse> uses = scan(may_give_up && !options_.keep_sidecar);
   if (uses && options_.keep_sidecar) save_sidecar(sidecar, identity, *uses);
   return uses;
+}
+
+// Whether the place to go on from is at the end of a block.
+bool Run::can_start(const UseSummary& summary) const {
+  if (start_ == nullptr) return true;
+  const std::uint64_t triangles = start_->place.triangles;
+  return triangles == summary.triangle_count || triangles % summary.block_triangles == 0;
 }
 
 std::optional<LastUse> Run::scan(bool may_give_up) {
@@ -176,6 +235,7 @@ std::optional<LastUse> Run::scan(bool may_give_up) {
   options.give_up_when_incoherent = may_give_up;
   // A chunk is whole blocks, so small chunks need small blocks.
   options.block_triangles = std::min<std::uint64_t>(options.block_triangles, plan_.chunk.first);
+  if (start_ != nullptr) options.block_triangles = start_->block_triangles;
   options.progress = [this](const IndexedMesh& mesh) {
     tell(Phase::kFinalization, mesh.bytes_read(), mesh.bytes_total());
   };
@@ -205,6 +265,13 @@ void Run::run_chunks(ChunkSource& source) {
   options.progress = [this](const ChunkSource& s) {
     tell(Phase::kReeb, s.bytes_read(), s.bytes_total(), s.triangles_read());
   };
+  options.between_chunks = [this](const ChunkPlace& place, const SaveEngine& save_engine) {
+    resumable_.between_chunks({place, block_triangles_, common_.reordered}, [&](StateWriter& out) {
+      for (const auto& store : stores_) store->save(out);
+      save_engine(out);
+    });
+  };
+  options.saved_engine = resumable_.saved_engine();
   common_.live = run_pipeline(source, sinks, budget_, options);
   common_.triangles = source.triangles_read();
   common_.vertices = source.vertex_count();

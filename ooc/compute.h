@@ -48,6 +48,11 @@ struct ComputeOptions {
   double denoise = 0;               // remove noise below this persistence; 0: keep all
   bool denoise_is_share = false;    // `denoise` is a share of the function's range
   std::function<void(const ComputeProgress&)> progress = {};
+  // A run on a mesh that is a file keeps checkpoints in the folder OUT.partial, from which a later
+  // run with the same mesh, functions and first output can go on; the result is the same.
+  bool resume = false;
+  double checkpoint_seconds = 2;           // between two of them, at least; 0: after every chunk
+  std::function<bool()> interrupted = {};  // asked often: is the run to end?
 };
 
 struct PhaseSeconds {
@@ -79,7 +84,8 @@ struct ComputeResult {
 };
 
 // Computes the graph of functions[i] and writes it to outputs[i], all in one reading of the mesh.
-// THROWS: Error; then no output appeared.
+// THROWS: Error; then no output appeared. Of kResource and kInterrupted the hint says whether a later
+//         run can go on.
 std::vector<ComputeResult> compute(MeshInput input, std::span<VertexFunction* const> functions,
                                    std::span<const std::string> outputs, const ComputeOptions& options);
 

@@ -12,11 +12,13 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "libreeb/base/memory_budget.h"
+#include "libreeb/base/state_stream.h"
 #include "ooc/run_file.h"
 #include "ooc/temp_dir.h"
 
@@ -41,6 +43,7 @@ struct SortOptions {
   std::uint64_t allowance_bytes = 16 << 20;  // of the budget
   bool parallel = false;    // sort each run with all threads
   bool background = false;  // sort and write runs in a thread of its own, with half the buffer
+  std::string file = {};    // for the runs, if another process may have to go on; else unnamed
 };
 
 // Merges sorted runs of a file. Holds one block of each run.
@@ -141,6 +144,27 @@ class ExternalSort {
   }
   void add(const Record& record) { add(std::span(&record, 1)); }
 
+  // All that was added so far, for another process: the runs once they are on the device, and what
+  // is still in memory. REQUIRES: a named file, and that finish() was not called.
+  void save(StateWriter& out) {
+    wait_for_writer();
+    if (file_) file_->sync();
+    out.put_array(runs_);
+    out.put(file_ ? file_->manifest() : RunManifest{});
+    out.put_array(filling_.records);
+  }
+  // REQUIRES: a named file, and that nothing was added yet.
+  // THROWS: DamagedState or Error if the file of the runs is missing or not what it was.
+  void restore(StateReader& in) {
+    in.get_array(runs_);
+    const auto manifest = in.get<RunManifest>();
+    if (!runs_.empty()) file_.emplace(File::open_for_update(options_.file), manifest);
+    size_ = manifest.records;
+    std::vector<Record> records;
+    in.get_array(records);
+    add(records);
+  }
+
   void finish() {
     wait_for_writer();
     if (runs_.empty()) {
@@ -212,7 +236,7 @@ class ExternalSort {
   void flush() {
     wait_for_writer();
     if (filling_.records.empty()) return;
-    if (!file_) file_.emplace(temp_->create_unnamed(owner_));
+    if (!file_) file_.emplace(options_.file.empty() ? temp_->create_unnamed(owner_) : File::create(options_.file));
     std::swap(filling_, writing_);
     if (options_.background) {
       written_ = std::async(std::launch::async, [this] { write_run(writing_.records); });

@@ -32,14 +32,22 @@ File::~File() {
   if (descriptor_ >= 0) ::close(descriptor_);
 }
 
-File File::open_for_reading(const std::string& path) {
-  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+namespace {
+
+File open_existing(const std::string& path, int access) {
+  const int descriptor = ::open(path.c_str(), access | O_CLOEXEC);
   if (descriptor < 0)
     throw Error(ErrorKind::kBadInput, std::string("cannot be opened: ") + std::strerror(errno),
                 "check the name and the permissions")
         .at(path);
   return {descriptor, path};
 }
+
+}  // namespace
+
+File File::open_for_reading(const std::string& path) { return open_existing(path, O_RDONLY); }
+
+File File::open_for_update(const std::string& path) { return open_existing(path, O_RDWR); }
 
 File File::create(const std::string& path) {
   const int descriptor = ::open(path.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);

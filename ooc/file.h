@@ -31,6 +31,7 @@ class File {
 
   // THROWS: Error{kBadInput} if it cannot be opened.
   static File open_for_reading(const std::string& path);
+  static File open_for_update(const std::string& path);
   // Creates `path`, or empties it.
   static File create(const std::string& path);
 

@@ -37,6 +37,9 @@ class FunctionValues {
   std::span<const unsigned> columns() const { return columns_; }
   std::size_t function_count() const { return functions_.size(); }
   const FunctionRange& range(std::size_t function) const { return ranges_[function]; }
+  std::span<const FunctionRange> ranges() const { return ranges_; }
+  // As if the values of these ranges had been seen. REQUIRES: one a function.
+  void set_ranges(std::span<const FunctionRange> ranges) { ranges_.assign(ranges.begin(), ranges.end()); }
 
   // From gathered columns (data[k] is columns()[k]) to positions and one array of values a function.
   void evaluate(std::span<const VertexId> ids, std::span<const std::span<const double>> data,

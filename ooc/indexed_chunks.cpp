@@ -12,7 +12,8 @@ constexpr double kManyShared = 0.30;
 
 class IndexedChunks : public ChunkSource {
  public:
-  IndexedChunks(IndexedMesh& mesh, LastUse& last_use, FunctionValues& columns, ChunkSize size)
+  IndexedChunks(IndexedMesh& mesh, LastUse& last_use, FunctionValues& columns, ChunkSize size,
+                const ChunkPlace& start)
       : mesh_(mesh),
         last_use_(last_use),
         columns_(columns),
@@ -20,6 +21,7 @@ class IndexedChunks : public ChunkSource {
         block_triangles_(static_cast<std::size_t>(last_use.summary().block_triangles)),
         blocks_(std::max<std::size_t>(1, size.first / std::max<std::size_t>(1, block_triangles_))) {
     mesh_.rewind();
+    pass_over(start);
   }
 
   bool next(WorkItem& item) override;
@@ -29,6 +31,7 @@ class IndexedChunks : public ChunkSource {
   std::uint64_t vertex_count() const override { return mesh_.vertex_count(); }
 
  private:
+  void pass_over(const ChunkPlace& start);
   bool read_triangles(Chunk& chunk);
   bool read_loose_vertices(Chunk& chunk);
   void number_vertices(Chunk& chunk);
@@ -57,7 +60,20 @@ bool IndexedChunks::next(WorkItem& item) {
   item.chunk.clear();
   if (!read_triangles(item.chunk) && !read_loose_vertices(item.chunk)) return false;
   look_up(item);
+  item.end.triangles = triangles_read_;
+  item.end.next_vertex = next_vertex_;
+  item.end.ranges.assign(columns_.ranges().begin(), columns_.ranges().end());
   return true;
+}
+
+void IndexedChunks::pass_over(const ChunkPlace& start) {
+  constexpr std::uint64_t kPiece = 65536;
+  while (triangles_read_ < start.triangles &&
+         mesh_.read(corners_, static_cast<std::size_t>(std::min(kPiece, start.triangles - triangles_read_))))
+    triangles_read_ += corners_.size() / 3;
+  first_block_ = triangles_read_ / block_triangles_;
+  next_vertex_ = start.next_vertex;
+  if (!start.ranges.empty()) columns_.set_ranges(start.ranges);
 }
 
 bool IndexedChunks::read_triangles(Chunk& chunk) {
@@ -136,8 +152,8 @@ void IndexedChunks::look_up(WorkItem& item) {
 }  // namespace
 
 std::unique_ptr<ChunkSource> chunks_of(IndexedMesh& mesh, LastUse& last_use, FunctionValues& columns,
-                                       ChunkSize size) {
-  return std::make_unique<IndexedChunks>(mesh, last_use, columns, size);
+                                       ChunkSize size, const ChunkPlace& start) {
+  return std::make_unique<IndexedChunks>(mesh, last_use, columns, size, start);
 }
 
 std::size_t WorkItem::memory_bytes() const {

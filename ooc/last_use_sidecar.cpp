@@ -8,12 +8,12 @@
 #include <array>
 #include <bit>
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
 #include <stdexcept>
 #include <vector>
 
 #include "libreeb/base/error.h"
+#include "ooc/atomic_file.h"
 #include "ooc/checksum.h"
 #include "ooc/zstd_codec.h"
 
@@ -83,21 +83,7 @@ void from_planes(std::span<const std::byte> planes, std::span<std::uint32_t> ent
   }
 }
 
-class Writer {
- public:
-  explicit Writer(const std::string& path) : file_(File::create(path)) {}
-  void append(std::span<const std::byte> bytes) {
-    file_.write_at(size_, bytes);
-    size_ += bytes.size();
-  }
-  void sync() const { file_.sync(); }
-
- private:
-  File file_;
-  std::uint64_t size_ = 0;
-};
-
-void write_sidecar(Writer& out, const MeshIdentity& mesh, LastUse& uses) {
+void write_sidecar(AtomicFile& out, const MeshIdentity& mesh, LastUse& uses) {
   const UseSummary& s = uses.summary();
   const Header header{kMagic, kVersion, mesh.bytes, mesh.changed_ns, mesh.digest, s.vertex_count,
                       s.unused_vertices, s.triangle_count, s.degenerate_triangles,
@@ -119,7 +105,7 @@ void write_sidecar(Writer& out, const MeshIdentity& mesh, LastUse& uses) {
     out.append(object_bytes(BlockHeader{packed.size(), xxh64(packed)}));
     out.append(packed);
   }
-  out.sync();
+  out.commit();
 }
 
 struct Damaged {};
@@ -206,15 +192,10 @@ MeshIdentity identify_mesh(const std::string& path) {
 }
 
 void save_sidecar(const std::string& path, const MeshIdentity& mesh, LastUse& uses) {
-  const std::string part = path + ".part";
   try {
-    Writer out(part);
+    AtomicFile out(path);
     write_sidecar(out, mesh, uses);
-    if (std::rename(part.c_str(), path.c_str()) != 0)
-      throw Error(ErrorKind::kResource, std::string("cannot be renamed: ") + std::strerror(errno), "")
-          .at(part);
   } catch (const Error& e) {
-    ::unlink(part.c_str());
     throw Error(e.kind(), e.message(),
                 "make room in the folder of the mesh, or leave out --sidecar")
         .at(e.file(), e.position());

@@ -35,6 +35,7 @@ class Pipeline {
            const PipelineOptions& options)
       : source_(source), budget_(budget), options_(options), live_(budget.reserve("live graph", 0)) {
     for (GraphSink* sink : sinks) glues_.emplace_back(std::make_unique<Glue>(*sink, true));
+    if (options.saved_engine != nullptr) restore(*options.saved_engine);
   }
 
   LiveMaximum run() {
@@ -46,6 +47,16 @@ class Pipeline {
   }
 
  private:
+  void save(StateWriter& out) const {
+    out.put(maximum_);
+    for (const auto& glue : glues_) glue->save(out);
+  }
+
+  void restore(StateReader& in) {
+    in.get(maximum_);
+    for (const auto& glue : glues_) glue->restore(in);
+  }
+
   bool read(Slot& slot) {
     if (!source_.next(slot.item)) return false;
     slot.reservation.resize(slot.item.memory_bytes());
@@ -75,6 +86,8 @@ class Pipeline {
     maximum_.edges = std::max(maximum_.edges, now.edges);
     maximum_.arcs = std::max(maximum_.arcs, now.arcs);
     if (options_.progress) options_.progress(source_);
+    if (options_.between_chunks)
+      options_.between_chunks(slot.item.end, [this](StateWriter& out) { save(out); });
   }
 
   void run_alone() {

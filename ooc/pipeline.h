@@ -11,15 +11,23 @@
 #include <span>
 
 #include "libreeb/base/memory_budget.h"
+#include "libreeb/base/state_stream.h"
 #include "libreeb/port/graph_sink.h"
 #include "ooc/chunk_source.h"
 
 namespace reeb::ooc {
 
+// Writes what the pipeline needs to go on from between two chunks.
+using SaveEngine = std::function<void(StateWriter&)>;
+
 struct PipelineOptions {
   unsigned threads = 1;
   // Called in order after each chunk was glued; may throw to stop the run.
   std::function<void(const ChunkSource&)> progress = {};
+  // Called after that: the place behind the chunk, and how to save what was glued up to there.
+  std::function<void(const ChunkPlace&, const SaveEngine&)> between_chunks = {};
+  // What an earlier process saved; the source starts at that place.
+  StateReader* saved_engine = nullptr;
 };
 
 // The largest sizes of what was live at a chunk's end, over all functions.
@@ -29,7 +37,7 @@ struct LiveMaximum {
 
 // Runs all chunks of `source`; the graph of function i goes to sinks[i], called in stream order
 // by one thread at a time. The result does not depend on threads or chunks.
-// THROWS: what the source and the sinks throw; Error{kResource} when the budget is too small.
+// THROWS: what the source and the sinks throw; DamagedState of saved_engine; Error{kResource} when the budget is too small.
 LiveMaximum run_pipeline(ChunkSource& source, std::span<GraphSink* const> sinks, MemoryBudget& budget,
                          const PipelineOptions& options);
 

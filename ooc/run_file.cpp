@@ -1,6 +1,7 @@
 #include "ooc/run_file.h"
 
 #include "libreeb/base/error.h"
+#include "libreeb/base/state_stream.h"
 #include "ooc/checksum.h"
 
 namespace reeb::ooc {
@@ -13,20 +14,42 @@ struct BlockHeader {
   std::uint64_t checksum;  // XXH64 of the packed bytes, seeded with the number of records
 };
 
+void add_block(RunManifest& manifest, const BlockHeader& header) {
+  manifest.bytes += sizeof(header) + header.packed_bytes;
+  manifest.records += header.records;
+  manifest.digest = xxh64(std::as_bytes(std::span(&header, 1)), manifest.digest);
+}
+
 }  // namespace
+
+RunFile::RunFile(File file, const RunManifest& manifest) : file_(std::move(file)) {
+  if (file_.size() < manifest.bytes) throw DamagedState();
+  std::vector<std::byte> packed;
+  while (manifest_.bytes + sizeof(BlockHeader) <= manifest.bytes) {
+    BlockHeader header;
+    file_.read_at(manifest_.bytes, std::as_writable_bytes(std::span(&header, 1)));
+    const std::uint64_t offset = manifest_.bytes + sizeof(header);
+    if (header.packed_bytes > manifest.bytes - offset) throw DamagedState();
+    packed.resize(header.packed_bytes);
+    file_.read_at(offset, packed);
+    if (xxh64(packed, header.records) != header.checksum) throw DamagedState();
+    add_block(manifest_, header);
+  }
+  if (manifest_ != manifest) throw DamagedState();
+}
 
 void RunFile::append(std::span<const std::byte> packed, std::size_t records) {
   const BlockHeader header{static_cast<std::uint32_t>(packed.size()),
                            static_cast<std::uint32_t>(records), xxh64(packed, records)};
-  file_.write_at(size_, std::as_bytes(std::span(&header, 1)));
-  file_.write_at(size_ + sizeof(header), packed);
-  size_ += sizeof(header) + packed.size();
+  file_.write_at(size(), std::as_bytes(std::span(&header, 1)));
+  file_.write_at(size() + sizeof(header), packed);
+  add_block(manifest_, header);
 }
 
 std::size_t RunFile::read(RunPlace& run, std::vector<std::byte>& packed) const {
   BlockHeader header;
   file_.read_at(run.offset, std::as_writable_bytes(std::span(&header, 1)));
-  if (header.packed_bytes > size_ - run.offset) refuse(run.offset);
+  if (header.packed_bytes > size() - run.offset) refuse(run.offset);
   packed.resize(header.packed_bytes);
   file_.read_at(run.offset + sizeof(header), packed);
   if (xxh64(packed, header.records) != header.checksum) refuse(run.offset);

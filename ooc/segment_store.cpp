@@ -67,12 +67,20 @@ bool ArcCodec::decode(std::span<const std::byte> packed, std::span<ArcKeys> arcs
   return true;
 }
 
+namespace {
+
+SortOptions half_of(const SegmentOptions& options, const char* suffix) {
+  return {.allowance_bytes = options.allowance_bytes / 2,
+          .background = options.background,
+          .file = options.files.empty() ? "" : options.files + suffix};
+}
+
+}  // namespace
+
 SegmentStore::SegmentStore(const TempDir& temp, MemoryBudget& budget, const SegmentOptions& options)
     : budget_(&budget),
-      nodes_("settled nodes", temp, budget,
-             {.allowance_bytes = options.allowance_bytes / 2, .background = options.background}),
-      arcs_("settled arcs", temp, budget,
-            {.allowance_bytes = options.allowance_bytes / 2, .background = options.background}) {}
+      nodes_("settled nodes", temp, budget, half_of(options, ".nodes")),
+      arcs_("settled arcs", temp, budget, half_of(options, ".arcs")) {}
 
 void SegmentStore::finish() {
   nodes_.finish();

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "libreeb/base/memory_budget.h"
@@ -35,6 +36,9 @@ using SortedArcs = ExternalSort<ArcKeys, ArcCodec>;
 struct SegmentOptions {
   std::uint64_t allowance_bytes = 8 << 20;  // of the budget, half for nodes and half for arcs
   bool background = true;                   // sort and write segments in threads of their own
+  // For segments that another process may have to go on with: FILES.nodes and FILES.arcs. Else the
+  // segments are in unnamed files.
+  std::string files = {};
 };
 
 // Takes nodes and arcs in any order; after finish() it gives them back in canonical order (nodes
@@ -50,6 +54,16 @@ class SegmentStore : public GraphSink {
   void add_nodes(std::span<const SettledNode> nodes) override { nodes_.add(nodes); }
   void add_arcs(std::span<const ArcKeys> arcs) override { arcs_.add(arcs); }
   void finish();
+
+  // As of ExternalSort; before finish().
+  void save(StateWriter& out) {
+    nodes_.save(out);
+    arcs_.save(out);
+  }
+  void restore(StateReader& in) {
+    nodes_.restore(in);
+    arcs_.restore(in);
+  }
 
   // REQUIRES: finish() was called.
   SortedNodes& nodes() { return nodes_; }

@@ -8,7 +8,6 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
-#include <system_error>
 #include <utility>
 
 #include "libreeb/base/error.h"
@@ -35,11 +34,6 @@ TempDir::TempDir(std::string folder, WriteFault fault)
   if (::access(folder_.c_str(), W_OK | X_OK) != 0) refuse_folder(folder_, errno);
 }
 
-TempDir::~TempDir() {
-  std::error_code ignored;  // a destructor cannot do better than leave what cannot be removed
-  if (!path_.empty() && !keep_) std::filesystem::remove_all(path_, ignored);
-}
-
 std::string TempDir::default_folder(const std::string& output_path) {
   if (const char* chosen = std::getenv("TMPDIR"); chosen != nullptr && *chosen != '\0') return chosen;
   const std::string parent = std::filesystem::path(output_path).parent_path().string();
@@ -56,23 +50,6 @@ File TempDir::create_unnamed(const std::string& role) const {
     ::unlink(name.c_str());
   }
   return {descriptor, shown, fault_};
-}
-
-File TempDir::create_named(const std::string& name) {
-  const std::string file = path() + "/" + name;
-  const int descriptor = ::open(file.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
-  if (descriptor < 0) refuse_folder(file, errno);
-  return {descriptor, file, fault_};
-}
-
-const std::string& TempDir::path() {
-  const std::lock_guard lock(mutex_);
-  if (path_.empty()) {
-    std::string name = folder_ + "/reeb-XXXXXX";
-    if (::mkdtemp(name.data()) == nullptr) refuse_folder(folder_, errno);
-    path_ = std::move(name);
-  }
-  return path_;
 }
 
 }  // namespace reeb::ooc

@@ -11,6 +11,7 @@
 
 #include "libreeb/base/error.h"
 #include "tools/commands/commands.h"
+#include "tools/signals.h"
 
 namespace {
 
@@ -73,6 +74,7 @@ int main(int argc, char** argv) {
   mallopt(M_MMAP_THRESHOLD, 128 * 1024);
   mallopt(M_TRIM_THRESHOLD, 256 * 1024);
   mallopt(M_ARENA_MAX, 2);
+  reeb::tools::turn_signals_into_errors();
   try {
     return run(argc, argv);
   } catch (const reeb::Error& error) {

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "libreeb/base/flat_map.h"
+#include "libreeb/base/state_stream.h"
 #include "libreeb/engine/chunk.h"
 #include "libreeb/engine/fragment.h"
 #include "libreeb/engine/live_graph.h"
@@ -31,6 +32,11 @@ class Glue {
 
   // No later fragment has anything.
   void complete_all();
+
+  // What was glued so far, for another process to go on with; settled parts are the sink's.
+  void save(StateWriter& out) const;
+  // THROWS: DamagedState; then this is of no use any more.
+  void restore(StateReader& in);
 
   const LiveGraph& graph() const { return graph_; }
   std::size_t live_vertices() const { return node_of_.size(); }

@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "libreeb/base/state_stream.h"
 #include "libreeb/base/sweep_key.h"
 #include "libreeb/graph/reeb_graph.h"
 #include "libreeb/port/graph_sink.h"
@@ -51,6 +52,10 @@ class LiveGraph {
   void tidy();
   // Hands what has settled to the sink.
   void flush();
+
+  // All of it, for another process to go on with. REQUIRES: tidy() and flush() came last.
+  void save(StateWriter& out) const;
+  void restore(StateReader& in);
 
   // The present graph without its (1, 1) nodes: appends its arcs and isolated nodes.
   void snapshot(std::vector<ArcKeys>& arcs, std::vector<SweepKey>& isolated) const;

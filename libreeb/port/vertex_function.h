@@ -18,6 +18,9 @@ class VertexFunction {
   // As the user names it: "z", "random:1".
   virtual std::string name() const = 0;
 
+  // The file that it reads its values from, besides the mesh; empty: none.
+  virtual std::string source_file() const { return {}; }
+
   // The columns of the mesh that evaluate() needs, by number: coordinates first, then the
   // properties that were asked for (as IndexedMesh::gather counts them).
   virtual std::span<const unsigned> columns() const = 0;

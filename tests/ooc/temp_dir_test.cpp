@@ -20,45 +20,17 @@ std::span<const std::byte> text_bytes(const std::string& text) {
   return std::as_bytes(std::span(text.data(), text.size()));
 }
 
-TEST(TempDir, HasNoNameUntilANamedFileIsMadeAndGoesWithItsFiles) {
+TEST(TempDir, FilesHaveNoName) {
   const Scratch scratch;
-  {
-    TempDir temp(scratch.path());
-    const File unnamed = temp.create_unnamed("pages");
-    unnamed.write_at(0, text_bytes("abc"));
-    EXPECT_TRUE(scratch.empty()) << "a file without a name is not seen";
-    const File named = temp.create_named("segment-0");
-    named.write_at(3, text_bytes("def"));
-    EXPECT_TRUE(std::filesystem::exists(temp.path() + "/segment-0"));
-    EXPECT_EQ(std::filesystem::path(temp.path()).filename().string().rfind("reeb-", 0), 0u);
-    std::array<char, 3> text{};
-    unnamed.read_at(0, std::as_writable_bytes(std::span(text)));
-    EXPECT_EQ(std::string(text.data(), 3), "abc");
-    EXPECT_EQ(named.size(), 6u);
-    named.sync();
-  }
+  const TempDir temp(scratch.path());
+  const File unnamed = temp.create_unnamed("pages");
+  unnamed.write_at(0, text_bytes("abc"));
+  unnamed.sync();
   EXPECT_TRUE(scratch.empty());
-}
-
-TEST(TempDir, IsRemovedWhenAnExceptionPasses) {
-  const Scratch scratch;
-  try {
-    TempDir temp(scratch.path());
-    temp.create_named("a");
-    throw Error(ErrorKind::kInterrupted, "interrupted", "");
-  } catch (const Error&) {
-  }
-  EXPECT_TRUE(scratch.empty());
-}
-
-TEST(TempDir, IsKeptOnRequest) {
-  const Scratch scratch;
-  {
-    TempDir temp(scratch.path());
-    temp.create_named("a");
-    temp.keep();
-  }
-  EXPECT_FALSE(scratch.empty());
+  std::array<char, 3> text{};
+  unnamed.read_at(0, std::as_writable_bytes(std::span(text)));
+  EXPECT_EQ(std::string(text.data(), 3), "abc");
+  EXPECT_EQ(unnamed.size(), 3u);
 }
 
 TEST(TempDir, RefusesAFolderThatCannotBeWritten) {

@@ -1,6 +1,7 @@
 // `reeb compute MESH`, the default command: from a mesh to its `.reeb` file.
 #include <fmt/core.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -12,11 +13,13 @@
 #include "io/mesh_io.h"
 #include "libreeb/base/error.h"
 #include "ooc/compute.h"
+#include "ooc/partial_folder.h"
 #include "tools/commands/commands.h"
 #include "tools/compute_report.h"
 #include "tools/output.h"
 #include "tools/progress.h"
 #include "tools/quantity.h"
+#include "tools/signals.h"
 #include "tools/snapshots.h"
 
 namespace reeb::tools {
@@ -78,7 +81,9 @@ const char* title(ooc::ComputeProgress::Phase phase) {
 void run_compute(ComputeArguments arguments) {
   const std::vector<io::FunctionSpec> specs = parse_functions(arguments.functions);
   const std::vector<std::string> outputs = output_names(arguments, specs);
-  for (const std::string& output : outputs) refuse_existing(output, arguments.force);
+  // A run that goes on may have written some of its outputs before.
+  const bool goes_on = arguments.options.resume && ooc::PartialFolder::has_checkpoint(outputs[0]);
+  for (const std::string& output : outputs) refuse_existing(output, arguments.force || goes_on);
   refuse_existing(arguments.report, arguments.force);
 
   RunFacts facts;
@@ -121,6 +126,7 @@ void run_compute(ComputeArguments arguments) {
   arguments.options.progress = [&](const ooc::ComputeProgress& p) {
     bar.update(title(p.phase), p.done, p.total, p.triangles);
   };
+  arguments.options.interrupted = watch_signals();
   const auto results = ooc::compute(std::move(input), pointers, outputs, arguments.options);
   bar.clear();
   if (!arguments.quiet) print_summary(facts, results);
@@ -133,6 +139,9 @@ void run_compute(ComputeArguments arguments) {
 void add_compute(CLI::App& program) {
   auto arguments = std::make_shared<ComputeArguments>();
   arguments->options.threads = std::max(1u, std::thread::hardware_concurrency());
+  // For tests: a short run has checkpoints only if asked for them.
+  if (const char* seconds = std::getenv("REEB_CHECKPOINT_SECONDS"))
+    arguments->options.checkpoint_seconds = std::atof(seconds);
   CLI::App* command = program.add_subcommand("compute", "Compute the Reeb graph of a mesh (the default command)");
   command->add_option("MESH", arguments->mesh, "PLY, OBJ, OFF, STL, SMA, SMB, SMC, SVA or SVB, also .gz and .zst; - reads standard input")
       ->required();
@@ -149,6 +158,8 @@ void add_compute(CLI::App& program) {
                       "Folder for temporary files (default: $TMPDIR, or the output's folder)");
   command->add_option("--denoise", arguments->denoise, "Remove minima and maxima of less persistence: 0.01, or 0.1%");
   command->add_flag("!--no-reorder", arguments->options.may_reorder, "Never sort an incoherent mesh on disk first");
+  command->add_flag("--resume", arguments->options.resume,
+                    "Go on from where an interrupted run was, if its OUT.partial is there and fits");
   command->add_flag("--sidecar", arguments->options.keep_sidecar, "Keep the finalization as MESH.final for later runs");
   command->add_option("--report", arguments->report, "Write a JSON report (-: to standard output)");
   command->add_option("--snapshot-every", arguments->snapshot_every,

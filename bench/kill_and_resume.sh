@@ -1,0 +1,72 @@
+#!/usr/bin/env bash
+# Kills runs at random moments, goes on with --resume, and compares the bytes of the results with
+# those of a run that was left alone.
+#
+#   bench/kill_and_resume.sh REEB [MOMENTS [TRIANGLES [FOLDER]]]
+#
+# REEB is the program; 50 moments, 4M triangles and a folder under $TMPDIR unless said otherwise.
+# A run makes a checkpoint after every chunk, and is killed once or several times before it may end.
+# SEED=N repeats a run of this script. Prints one line a moment; the exit code is 0 only if all
+# results were the same and nothing else was left behind.
+set -euo pipefail
+
+case ${1:-} in
+  '' | -h | --help) sed -n '2,11s/^# \{0,1\}//p' "$0"; exit 0 ;;
+esac
+reeb=$(realpath "$1")
+moments=${2:-50}
+triangles=${3:-4M}
+folder=$(mktemp -d "${4:-${TMPDIR:-/tmp}}/kill-and-resume-XXXXXX")
+trap 'rm -rf "$folder"' EXIT
+cd "$folder"
+
+RANDOM=${SEED:=$(date +%N | sed 's/^0*//')}
+echo "seed $SEED"
+# Small chunks and little memory: many checkpoints, and segments on disk.
+compute=("$reeb" compute mesh.ply -f random:1 --graph-only --quiet --memory 64M --chunk 20000)
+export REEB_CHECKPOINT_SECONDS=0
+
+"$reeb" generate scan --triangles "$triangles" --seed 7 -o mesh.ply
+begin=$(date +%s%N)
+"${compute[@]}" -o whole.reeb
+span=$((($(date +%s%N) - begin) / 1000000))
+echo "left alone: $span ms"
+
+# Starts a run to the output $1 with the options that follow, and kills it after a random time.
+run_and_kill() {
+  local output=$1 moment=$((RANDOM * span / 32768))
+  shift
+  "${compute[@]}" -o "$output" "$@" 2>messages &
+  local process=$!
+  sleep "$(printf '%d.%03d' $((moment / 1000)) $((moment % 1000)))"
+  # One that has ended already was too fast.
+  kill -KILL "$process" 2>/dev/null || true
+  wait "$process" 2>/dev/null || true
+  printf ' %d ms' "$moment"
+}
+
+failed=0
+for ((i = 1; i <= moments; ++i)); do
+  output=killed.reeb
+  printf 'moment %d: killed after' "$i"
+  run_and_kill "$output"
+  for ((again = RANDOM % 3; again > 0; --again)); do
+    [[ -e $output ]] || run_and_kill "$output" --resume
+  done
+  left=$(find . -mindepth 1 -maxdepth 1 ! -name mesh.ply ! -name whole.reeb ! -name messages ! -name "$output" \
+    ! -name "$output.partial" ! -name "$output.partial-*" | wc -l)
+  kept="no checkpoint"
+  [[ -e $output.partial/checkpoint ]] && kept="a checkpoint"
+  [[ -e $output ]] && kept="the whole output"
+  [[ -e $output ]] || "${compute[@]}" -o "$output" --resume
+  if cmp -s whole.reeb "$output" && [[ $left == 0 && -z $(find . -name '*.partial*') ]]; then
+    echo "; it left $kept: same bytes"
+  else
+    echo "; it left $kept: FAILED"
+    failed=$((failed + 1))
+    find . | sort
+  fi
+  rm -rf "$output" "$output".partial*
+done
+echo "$((moments - failed)) of $moments the same"
+[[ $failed == 0 ]]

@@ -1,0 +1,78 @@
+// Saving and restoring flat state: values and arrays as they lie in memory.
+//
+// For a later process of the same program on the same kind of machine; whoever stores the bytes
+// sees to their checksum. Arrays carry their length and element size, and a length is believed only
+// as far as there are bytes.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <exception>
+#include <span>
+#include <type_traits>
+#include <vector>
+
+namespace reeb {
+
+// The bytes are not the state that was asked for.
+class DamagedState : public std::exception {
+ public:
+  const char* what() const noexcept override { return "the saved state is damaged"; }
+};
+
+class StateWriter {
+ public:
+  StateWriter() = default;
+  StateWriter(const StateWriter&) = delete;
+  StateWriter& operator=(const StateWriter&) = delete;
+  virtual ~StateWriter() = default;
+
+  virtual void write(std::span<const std::byte> bytes) = 0;
+
+  template <class T>
+  void put(const T& value) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    write(std::as_bytes(std::span(&value, 1)));
+  }
+  template <class T>
+  void put_array(const std::vector<T>& array) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    put(std::uint64_t{array.size()});
+    put(std::uint64_t{sizeof(T)});
+    write(std::as_bytes(std::span(array)));
+  }
+};
+
+// THROWS: DamagedState, from every call.
+class StateReader {
+ public:
+  StateReader() = default;
+  StateReader(const StateReader&) = delete;
+  StateReader& operator=(const StateReader&) = delete;
+  virtual ~StateReader() = default;
+
+  virtual void read(std::span<std::byte> bytes) = 0;
+  virtual std::uint64_t left() const = 0;  // bytes
+
+  template <class T>
+  void get(T& value) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    read(std::as_writable_bytes(std::span(&value, 1)));
+  }
+  template <class T>
+  T get() {
+    T value{};
+    get(value);
+    return value;
+  }
+  template <class T>
+  void get_array(std::vector<T>& array) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    const auto count = get<std::uint64_t>();
+    if (get<std::uint64_t>() != sizeof(T) || count > left() / sizeof(T)) throw DamagedState();
+    array.resize(static_cast<std::size_t>(count));
+    read(std::as_writable_bytes(std::span(array)));
+  }
+};
+
+}  // namespace reeb

@@ -1,0 +1,47 @@
+// The state of the first stage between two chunks, in one file (docs/FORMAT.md, The partial folder).
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "libreeb/base/state_stream.h"
+#include "ooc/chunk_source.h"
+
+namespace reeb::ooc {
+
+// What a run works on. A checkpoint of another run is of no use to it.
+struct RunIdentity {
+  std::uint64_t mesh = 0;       // digest of what tells this state of the mesh from others
+  std::uint64_t functions = 0;  // of names, and of the files that values come from
+};
+
+// THROWS: Error{kBadInput} if the mesh, or a file of values, cannot be opened.
+RunIdentity identify_run(const std::string& mesh, std::span<VertexFunction* const> functions);
+
+// Where the run was.
+struct Checkpoint {
+  ChunkPlace place;
+  std::uint64_t block_triangles = 0;  // of the last-use table
+  bool reordered = false;
+};
+
+// Writes the file; it appears only when whole, and an older one stays until then. `save` adds what
+// the stores and the engine hold; whatever they name must be on the device when it returns.
+// THROWS: Error{kResource}.
+void write_checkpoint(const std::string& path, const RunIdentity& run, const Checkpoint& checkpoint,
+                      const std::function<void(StateWriter&)>& save);
+
+struct CheckpointLoad {
+  std::optional<Checkpoint> checkpoint;
+  std::unique_ptr<StateReader> state;  // stands at what `save` wrote
+  std::string note;                    // why a file that is there is of no use; empty if there is none
+};
+
+// Reads a checkpoint, once its checksum was found right. One that is missing, of another run or
+// damaged is not an error.
+CheckpointLoad load_checkpoint(const std::string& path, const RunIdentity& run);
+
+}  // namespace reeb::ooc

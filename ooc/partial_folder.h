@@ -1,0 +1,42 @@
+// OUT.partial/: what a run on its way to OUT keeps for a later process to go on with
+// (docs/FORMAT.md, The partial folder).
+#pragma once
+
+#include <string>
+
+namespace reeb::ooc {
+
+// The folder beside `output`. It holds the checkpoint and the files that the checkpoint names, and
+// belongs to one process at a time.
+//
+// THROWS: Error{kResource} if the folder cannot be written, or another process is at work in it.
+class PartialFolder {
+ public:
+  // Makes the folder if there is none.
+  explicit PartialFolder(const std::string& output);
+  PartialFolder(const PartialFolder&) = delete;
+  PartialFolder& operator=(const PartialFolder&) = delete;
+  // The folder stays if there is a checkpoint in it.
+  ~PartialFolder();
+
+  static std::string path_for(const std::string& output) { return output + ".partial"; }
+  // Whether a run to `output` left a checkpoint.
+  static bool has_checkpoint(const std::string& output);
+
+  const std::string& path() const { return path_; }
+  std::string file(const std::string& name) const { return path_ + "/" + name; }
+  std::string checkpoint() const { return file("checkpoint"); }
+  bool has_checkpoint() const;
+
+  // Removes the checkpoint and then, once that is durable, the files that it names. Files of other
+  // origin stay.
+  void clear() noexcept;
+
+ private:
+  void open();
+
+  std::string path_;
+  int folder_ = -1;  // open and locked
+};
+
+}  // namespace reeb::ooc

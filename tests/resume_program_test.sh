@@ -1,0 +1,132 @@
+#!/usr/bin/env bash
+# The program when a run ends early: killed, interrupted, out of disk. What it says, what it leaves,
+# and that --resume ends with the bytes of a run that was left alone.
+#
+#   resume_program_test.sh SOURCE_FOLDER REEB
+set -euo pipefail
+
+source=$(realpath "$1")
+reeb=$(realpath "$2")
+folder=$(mktemp -d "${TMPDIR:-/tmp}/resume-test-XXXXXX")
+mounted=
+cleanup() {
+  [[ -z $mounted ]] || umount "$mounted"
+  rm -rf "$folder"
+}
+trap cleanup EXIT
+cd "$folder"
+unset TMPDIR
+
+failed=0
+check() { # what, then a command that must succeed
+  local what=$1
+  shift
+  if "$@"; then echo "ok: $what"; else echo "FAILED: $what: $*"; cat messages; failed=1; fi
+}
+says() { grep -q -- "$1" messages; }
+says_not() { ! grep -q -- "$1" messages; }
+only() { # these and nothing else are in the folder $1
+  local where=$1
+  shift
+  diff <(printf '%s\n' "$@" | sort) <(ls -A "$where" | sort)
+}
+
+"$reeb" generate scan --triangles 600k --seed 7 -o mesh.ply 2>messages
+compute=("$reeb" compute "$folder/mesh.ply" -f random:1 --graph-only --memory 64M --chunk 10000)
+"${compute[@]}" -o whole.reeb --quiet
+export REEB_CHECKPOINT_SECONDS=0
+
+# Starts a run and waits until it has made a checkpoint.
+start() {
+  "${compute[@]}" "$@" >messages 2>&1 &
+  process=$!
+  until [[ -e out.reeb.partial/checkpoint ]] || ! kill -0 "$process" 2>/dev/null; do sleep 0.01; done
+}
+# Runs to the end; its exit code is then in $code.
+run() { code=0; "${compute[@]}" "$@" >messages 2>&1 || code=$?; }
+
+for signal in INT TERM; do
+  start -o out.reeb
+  kill -"$signal" "$process"
+  code=0
+  wait "$process" || code=$?
+  check "SIG$signal ends a run with 130" test "$code" = 130
+  check "it says how to go on" says "--resume goes on"
+  check "it leaves a folder" only . mesh.ply whole.reeb messages out.reeb.partial
+  run -o out.reeb --resume
+  check "it goes on" says "goes on from there"
+  check "with the same bytes" cmp whole.reeb out.reeb
+  check "and leaves nothing else" only . mesh.ply whole.reeb messages out.reeb
+  rm out.reeb
+done
+
+start -o out.reeb
+run -o out.reeb
+check "two runs to one output are refused" test "$code" = 3
+check "by name" says "another run"
+kill -KILL "$process"
+wait "$process" 2>/dev/null || true
+: >out.reeb.partial-999999-0
+: >out.reeb.partial-notes
+run -o out.reeb
+check "a run without --resume starts anew" says_not "goes on"
+check "and clears up" only . mesh.ply whole.reeb messages out.reeb out.reeb.partial-notes
+check "with the same bytes" cmp whole.reeb out.reeb
+rm out.reeb out.reeb.partial-notes
+
+run -o out.reeb --resume
+check "without a checkpoint --resume starts anew" says "nothing to resume"
+rm out.reeb
+code=0
+"$reeb" compute - -o out.reeb --resume <mesh.ply >messages 2>&1 || code=$?
+check "a stream is computed despite --resume" test "$code" = 0
+check "with a note" says "cannot be resumed"
+rm out.reeb
+
+# Files may not grow beyond so many KiB. The first is too little for any checkpoint.
+for limit in 16 1200; do
+  code=0
+  (ulimit -f "$limit" && exec "${compute[@]}" -o out.reeb) >messages 2>&1 || code=$?
+  check "files of at most $limit KiB are too small: 3" test "$code" = 3
+  check "in clear text" says "File too large"
+  if [[ $limit == 16 ]]; then
+    check "nothing to resume is promised" says_not "--resume"
+    check "nothing is left" only . mesh.ply whole.reeb messages
+  else
+    check "the way on is said" says "--resume goes on"
+    check "the folder is left" only . mesh.ply whole.reeb messages out.reeb.partial
+  fi
+  run -o out.reeb --resume
+  check "gone on with larger files: same bytes" cmp whole.reeb out.reeb
+  rm out.reeb
+done
+
+mkdir small
+if [[ $EUID == 0 ]] && mount -t tmpfs -o size=1500k none small 2>messages; then
+  mounted=$folder/small
+  run -o small/out.reeb
+  check "a full disk: 3" test "$code" = 3
+  check "in clear text" says "No space left"
+  check "the way on is said" says "--resume goes on"
+  check "the folder is left" only small out.reeb.partial
+  mount -o remount,size=64m "$folder/small"
+  run -o small/out.reeb --resume
+  check "it goes on after space is made" says "goes on from there"
+  check "with the same bytes" cmp whole.reeb small/out.reeb
+  check "and leaves nothing else" only small out.reeb
+else
+  echo "skipped: a full disk needs root and mount"
+fi
+
+touch plain
+for place in missing plain; do
+  run -o out.reeb --temp-dir "$place"
+  check "--temp-dir $place: 3" test "$code" = 3
+  check "in clear text" says "temp-dir"
+  run -o "$place/out.reeb"
+  check "an output in $place: 3" test "$code" = 3
+done
+check "nothing is left" only . mesh.ply whole.reeb messages plain small
+
+check "killed at random moments" "$source/bench/kill_and_resume.sh" "$reeb" 8 600k "$folder"
+exit "$failed"
