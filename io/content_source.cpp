@@ -23,8 +23,9 @@ class MappedSource final : public ContentSource {
  public:
   explicit MappedSource(const std::string& path)
       : ContentSource(path), windows_(path, {.overlap_bytes = kLookahead}) {}
+  using ContentSource::view;
 
-  std::string_view view(std::uint64_t offset) override {
+  std::string_view view(std::uint64_t offset, std::size_t /*least*/) override {
     read_ = std::min(offset, windows_.size());
     return offset < windows_.size() ? windows_.view(offset) : std::string_view{};
   }
@@ -92,17 +93,17 @@ class StreamSource final : public ContentSource {
   StreamSource(const std::string& name, std::unique_ptr<RawInput> input, std::uint64_t file_bytes)
       : ContentSource(name), input_(std::move(input)), file_bytes_(file_bytes), buffer_(kBufferBytes) {}
 
-  std::string_view view(std::uint64_t offset) override {
+  std::string_view view(std::uint64_t offset, std::size_t least) override {
     // Only a reader's own arithmetic decides the offset, and it has seen every byte before it.
     const std::size_t skip = std::min(static_cast<std::size_t>(offset - begin_), filled_);
     filled_ -= skip;
     begin_ += skip;
-    if (ended_ || filled_ >= kLookahead) {
+    if (ended_ || filled_ >= least) {
       start_ += skip;
     } else {
       std::memmove(buffer_.data(), buffer_.data() + start_ + skip, filled_);
       start_ = 0;
-      fill();
+      fill(least);
     }
     return {buffer_.data() + start_, filled_};
   }
@@ -114,8 +115,8 @@ class StreamSource final : public ContentSource {
  private:
   static constexpr std::size_t kBufferBytes = std::size_t{1} << 18;
 
-  void fill() {
-    while (filled_ < kLookahead && !ended_) {
+  void fill(std::size_t least) {
+    while (filled_ < least && !ended_) {
       const std::size_t got = input_->read(buffer_.data() + filled_, buffer_.size() - filled_);
       ended_ = got == 0;
       filled_ += got;
@@ -164,7 +165,7 @@ std::unique_ptr<ContentSource> stream_source(const std::string& name, std::uniqu
   const auto compression = detect_compression(peeked->head());
   auto source = std::make_unique<StreamSource>(
       name, decompress(name, std::move(peeked), compression), file_bytes);
-  if (source->view(0).empty()) throw_empty(name);
+  if (source->view(0, 1).empty()) throw_empty(name);
   return source;
 }
 

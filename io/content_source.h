@@ -15,7 +15,7 @@ namespace reeb::io {
 
 class ContentSource {
  public:
-  // Every view holds at least this many bytes, or all that is left.
+  // What a view holds at least where nothing else is said, or all that is left.
   static constexpr std::size_t kLookahead = 65536;
 
   ContentSource() = default;
@@ -23,10 +23,13 @@ class ContentSource {
   ContentSource& operator=(const ContentSource&) = delete;
   virtual ~ContentSource() = default;
 
-  // The content from `offset` on, at least kLookahead bytes unless it ends before; empty at the
-  // end. Ends the validity of the view before. Offsets never fall, except where can_seek().
+  // The content from `offset` on, at least `least` bytes unless it ends before; empty at the end.
+  // Ends the validity of the view before. Offsets never fall, except where can_seek(). A pipe is
+  // waited for until `least` bytes have come, and no longer.
+  // REQUIRES: 1 <= least <= kLookahead.
   // THROWS: Error{kBadInput} where a compressed stream is damaged or cut.
-  virtual std::string_view view(std::uint64_t offset) = 0;
+  virtual std::string_view view(std::uint64_t offset, std::size_t least) = 0;
+  std::string_view view(std::uint64_t offset) { return view(offset, kLookahead); }
 
   virtual bool can_seek() const = 0;
   // Bytes of content, where known without reading it.

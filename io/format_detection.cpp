@@ -1,6 +1,7 @@
 #include "io/format_detection.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string_view>
 
@@ -8,6 +9,7 @@
 #include "io/off_reader.h"
 #include "io/scalar_bytes.h"
 #include "io/stl_reader.h"
+#include "io/streaming/open_stream.h"
 
 namespace reeb::io {
 namespace {
@@ -79,14 +81,12 @@ bool has_streaming_comment(std::string_view text) {
   return false;
 }
 
-bool is_streaming_name(std::string_view path) {
-  for (const std::string_view ending : {".gz", ".zst"})
-    if (path.ends_with(ending)) path.remove_suffix(ending.size());
-  return path.ends_with(".sma") || path.ends_with(".sva");
-}
-
+// The heads of binary STL that begin with a zero have nothing but zeros; those of streaming meshes
+// do not.
 bool is_streaming_binary(std::string_view head) {
-  return head.front() == 0 || head.front() == 1 || head.front() == 3 || head.front() == 4;
+  const std::string_view stl_title = head.substr(0, 80);
+  return looks_like_binary_stream(static_cast<std::byte>(head.front())) &&
+         std::ranges::any_of(stl_title, [](char c) { return c != 0; });
 }
 
 // Files in the wild have stray lines before the first one that OBJ knows.
@@ -102,26 +102,48 @@ bool has_obj_vertex(std::string_view text) {
 }
 
 MeshFormat detect_text(std::string_view text, const std::string& path) {
-  if (has_streaming_comment(text) || is_streaming_name(path)) return MeshFormat::kStreaming;
+  if (is_streaming_name(path)) return MeshFormat::kStreaming;
   const std::string_view word = first_word(skip_comments(text));
   if (is_obj_keyword(word)) return MeshFormat::kObj;
   if (word == "x") return MeshFormat::kStreaming;
   return has_obj_vertex(text) ? MeshFormat::kObj : MeshFormat::kUnknown;
 }
 
+// The whole lines of a text whose end has not come yet.
+std::string_view whole_lines(std::string_view text) { return text.substr(0, text.rfind('\n') + 1); }
+
+// Whether the beginning of a pipe is enough to know a streaming mesh.
+bool starts_streaming(std::string_view head) {
+  return is_streaming_binary(head) || has_streaming_comment(whole_lines(head));
+}
+
 }  // namespace
 
+bool is_streaming_name(std::string_view path) {
+  for (const std::string_view ending : {".gz", ".zst"})
+    if (path.ends_with(ending)) path.remove_suffix(ending.size());
+  return std::ranges::any_of(
+      std::array<std::string_view, 7>{".sma", ".smb", ".smc", ".smd", ".sva", ".svb", ".svc"},
+      [path](std::string_view ending) { return path.ends_with(ending); });
+}
+
 MeshFormat detect_format(ContentSource& source, const std::string& path) {
+  if (!source.size())
+    for (const std::size_t least : {1u, 80u})
+      if (starts_streaming(source.view(0, least))) return MeshFormat::kStreaming;
   std::string_view head = source.view(0);
   if (head.starts_with("\xEF\xBB\xBF")) head.remove_prefix(3);
   if (head.starts_with("ply") && (head.size() == 3 || is_line_blank(head[3]))) return MeshFormat::kPly;
   if (parse_off_keyword(first_word(skip_comments(head)))) return MeshFormat::kOff;
   if (has_binary_stl_size(head, source.size())) return MeshFormat::kBinaryStl;
+  if (is_streaming_binary(head) || has_streaming_comment(head)) return MeshFormat::kStreaming;
   const bool text = is_text(head);
   if (starts_with_solid(head)) return text ? MeshFormat::kAsciiStl : MeshFormat::kBinaryStl;
   if (text) return detect_text(head, path);
   if (looks_like_binary_stl(head)) return MeshFormat::kBinaryStl;
-  return is_streaming_binary(head) ? MeshFormat::kStreaming : MeshFormat::kUnknown;
+  const bool too_short_for_stl = head.size() < BinaryStlReader::kHeaderBytes;
+  if (too_short_for_stl && looks_like_binary_stream(static_cast<std::byte>(head.front()))) return MeshFormat::kStreaming;
+  return is_streaming_name(path) ? MeshFormat::kStreaming : MeshFormat::kUnknown;
 }
 
 }  // namespace reeb::io

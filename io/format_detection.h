@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "io/content_source.h"
 
@@ -10,7 +11,12 @@ namespace reeb::io {
 enum class MeshFormat { kUnknown, kPly, kOff, kAsciiStl, kBinaryStl, kObj, kStreaming };
 
 // `path` decides only where content cannot: between OBJ and the text form of streaming meshes,
-// which share their lines v and f.
+// which share their lines v and f, and for damaged streaming meshes. Of a pipe no more is waited
+// for than it takes: a streaming mesh shows in its first 80 bytes.
 MeshFormat detect_format(ContentSource& source, const std::string& path);
+
+// Whether a name ends as those of streaming meshes do (.sma .smb .smc .smd .sva .svb .svc), perhaps
+// with .gz or .zst behind.
+bool is_streaming_name(std::string_view path);
 
 }  // namespace reeb::io

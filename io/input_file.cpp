@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <system_error>
 
+#include "io/format_detection.h"
 #include "libreeb/base/error.h"
 
 namespace reeb::io {
@@ -25,7 +26,8 @@ void check_input_file(const std::string& path) {
 }
 
 void throw_empty(const std::string& path) {
-  throw Error(ErrorKind::kBadInput, "is empty", "check how the file was written").at(path, "0");
+  const std::string fault = is_streaming_name(path) ? "TRUNCATED: " : "";
+  throw Error(ErrorKind::kBadInput, fault + "is empty", "check how the file was written").at(path, "0");
 }
 
 }  // namespace reeb::io

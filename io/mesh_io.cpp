@@ -1,18 +1,23 @@
 #include "io/mesh_io.h"
 
-#include "io/content_source.h"
+#include "io/event_input.h"
 #include "io/format_detection.h"
 #include "io/obj_reader.h"
 #include "io/off_reader.h"
 #include "io/ply_indexed.h"
 #include "io/ply_reader.h"
 #include "io/stl_reader.h"
+#include "io/streaming/stream_mesh_reader.h"
 #include "libreeb/base/error.h"
 
 namespace reeb::io {
 
 std::unique_ptr<MeshReader> open_mesh(const std::string& path, const ReadOptions& options) {
-  auto source = open_content(path);
+  return open_mesh(open_content(path), path, options);
+}
+
+std::unique_ptr<MeshReader> open_mesh(std::unique_ptr<ContentSource> source, const std::string& path,
+                                      const ReadOptions& options) {
   const std::string name = source->name();
   switch (detect_format(*source, path)) {
     case MeshFormat::kPly: return open_ply(std::move(source), options);
@@ -20,11 +25,14 @@ std::unique_ptr<MeshReader> open_mesh(const std::string& path, const ReadOptions
     case MeshFormat::kObj: return std::make_unique<ObjReader>(std::move(source), options);
     case MeshFormat::kAsciiStl: return std::make_unique<AsciiStlReader>(std::move(source), options);
     case MeshFormat::kBinaryStl: return std::make_unique<BinaryStlReader>(std::move(source), options);
-    case MeshFormat::kStreaming:
+    case MeshFormat::kStreaming: {
+      const std::uint64_t bytes = source->file_bytes();
+      return make_stream_mesh_reader(open_events(std::move(source), path), options, bytes);
+    }
     case MeshFormat::kUnknown: break;
   }
   throw Error(ErrorKind::kBadInput, "is in no known mesh format",
-              "PLY, OBJ, OFF and STL are read, plain or packed with gzip or zstd")
+              "PLY, OBJ, OFF, STL and streaming meshes (SMA, SMB, SMC, SVA, SVB) are read, plain or packed with gzip or zstd")
       .at(name, "0");
 }
 

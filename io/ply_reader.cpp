@@ -48,6 +48,9 @@ MeshInfo describe(const PlyHeader& header, const ContentSource& source) {
     if (element.role == PlyRole::kFaces && info.simplex_count) *info.simplex_count += element.count;
     if (element.role == PlyRole::kStrips) info.simplex_count.reset();  // a strip has any number
   }
+  info.float32 = std::ranges::all_of(header.vertices().properties, [](const PlyProperty& property) {
+    return property.type == PlyType::kFloat32 || byte_size(property.type) < 4;
+  });
   info.file_bytes = source.file_bytes();
   return info;
 }

@@ -92,6 +92,7 @@ BinaryStlReader::BinaryStlReader(std::unique_ptr<ContentSource> source, ReadOpti
   require(kHeaderBytes);
   facets_left_ = load_scalar<std::uint32_t>(cursor_.data() + 80, false);
   info_.simplex_count = facets_left_;
+  info_.float32 = true;
   const auto size = cursor_.source().size();
   if (size && facets_left_ > (*size - kHeaderBytes) / kFacetBytes)
     throw Error(ErrorKind::kBadInput,

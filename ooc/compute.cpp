@@ -48,13 +48,13 @@ class Run {
         outputs_(outputs),
         options_(options),
         plan_(plan_memory(options.memory_bytes, options.threads, functions.size(), options.chunk_triangles)),
-        budget_(plan_.account_bytes),
+        budget_(plan_.account_bytes, plan_.set_aside_bytes),
         temp_(options.temp_dir.empty() ? TempDir::default_folder(outputs[0]) : options.temp_dir),
         input_(std::move(input)),
         values_(functions, input_.dimension) {
     for (std::size_t f = 0; f < functions_.size(); ++f)
       stores_.push_back(std::make_unique<SegmentStore>(
-          temp_, budget_, SegmentOptions{plan_.segment_bytes, options.threads > 1}));
+          temp_, budget_, SegmentOptions{plan_.segment_bytes, plan_.threads > 1}));
   }
 
   std::vector<ComputeResult> run() {
@@ -177,7 +177,7 @@ LastUse Run::reorder_mesh() {
   common_.reordered = true;
   tell(Phase::kReorder, 0, 0);
   ReorderOptions options;
-  options.allowance_bytes = std::min<std::uint64_t>(budget_.free_bytes() / 4 * 3, 256u << 20);
+  options.allowance_bytes = std::min<std::uint64_t>(budget_.free_bytes() / 2, 256u << 20);
   options.coordinates = std::min(input_.dimension, 3u);
   auto mesh = reorder(*input_.indexed, temp_, budget_, options);
   common_.spilled_bytes += mesh->spilled_bytes();
@@ -190,7 +190,7 @@ void Run::run_chunks(ChunkSource& source) {
   std::vector<GraphSink*> sinks;
   for (const auto& store : stores_) sinks.push_back(store.get());
   PipelineOptions options;
-  options.threads = options_.threads;
+  options.threads = plan_.threads;
   options.progress = [this](const ChunkSource& s) {
     tell(Phase::kReeb, s.bytes_read(), s.bytes_total(), s.triangles_read());
   };
@@ -236,12 +236,12 @@ FileMeta Run::file_meta(const ComputeResult& result) const {
 
 // The raw graph, in memory that does not grow with it but for 4 bytes a node.
 void Run::write_graph(ComputeResult& result, SegmentStore& store) const {
-  constexpr std::size_t kPiece = 4096;
+  constexpr std::size_t kNodes = 4096, kArcs = 65536;
   GraphFileWriter writer(result.output, file_meta(result), true, false, GraphFileWriter::ArcEnds::kKeys);
   store.nodes().rewind();
-  for (std::vector<SettledNode> nodes; store.nodes().read(nodes, kPiece);) writer.add_nodes(nodes);
+  for (std::vector<SettledNode> nodes; store.nodes().read(nodes, kNodes);) writer.add_nodes(nodes);
   store.arcs().rewind();
-  for (std::vector<ArcKeys> arcs; store.arcs().read(arcs, kPiece);) writer.add_arcs(arcs);
+  for (std::vector<ArcKeys> arcs; store.arcs().read(arcs, kArcs);) writer.add_arcs(arcs);
   writer.finish();
   result.betti = {writer.header().components, writer.header().loops};
 }

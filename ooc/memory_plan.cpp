@@ -18,7 +18,9 @@ constexpr std::uint64_t kLeast = 16 * kMiB;
 // Measured: a live vertex with its edges, arcs and references, vectors with room to grow.
 constexpr std::uint64_t kBytesALiveVertex = 900;
 // Measured a triangle: scratch of a sweep, and a chunk in flight with its fragment.
-constexpr std::uint64_t kSweepBytes = 140, kFlightBytes = 60;
+constexpr std::uint64_t kSweepBytes = 80, kFlightBytes = 130;
+// Below this account one thread: chunks of a useful size come before parallel ones.
+constexpr std::uint64_t kEnoughForThreads = 12 * kMiB;
 
 std::uint64_t machine_bytes() {
   const long pages = sysconf(_SC_PHYS_PAGES), page = sysconf(_SC_PAGE_SIZE);
@@ -37,15 +39,19 @@ MemoryPlan plan_memory(std::uint64_t limit_bytes, unsigned threads, std::size_t 
                 "allow more, for instance --memory 32M");
   const std::uint64_t limit = limit_bytes == MemoryBudget::kUnlimited ? machine_bytes() / 2 : limit_bytes;
   MemoryPlan plan;
+  plan.set_aside_bytes = kProcess;
   plan.account_bytes = limit - kProcess;
-  // Beyond these sizes more memory makes nothing faster.
-  plan.table_bytes = std::min(plan.account_bytes / 6, 8 * kMiB);
-  plan.segment_bytes = std::min(plan.account_bytes / 6, 8 * kMiB) / functions;
-  plan.live_bytes = std::min(plan.account_bytes / 3, 96 * kMiB);
+  // Beyond these sizes more memory makes nothing faster. An eighth is left to what is small.
+  const std::uint64_t eighth = plan.account_bytes / 8;
+  plan.table_bytes = std::min(eighth, 4 * kMiB);
+  plan.segment_bytes = std::min(eighth, 4 * kMiB) / functions;
+  plan.live_bytes = std::min(2 * eighth, 96 * kMiB) / functions;
 
-  const std::uint64_t a_triangle = threads * kSweepBytes + (threads + 1) * kFlightBytes * functions;
-  const std::uint64_t share = std::min(plan.account_bytes / 3, 64 * kMiB);
-  const auto most = static_cast<std::size_t>(std::max<std::uint64_t>(1024, share / a_triangle));
+  plan.threads = plan.account_bytes < kEnoughForThreads ? 1 : threads;
+  const std::uint64_t in_flight = plan.threads == 1 ? 1 : plan.threads + 1;
+  const std::uint64_t a_triangle = plan.threads * kSweepBytes + in_flight * kFlightBytes * functions;
+  const std::uint64_t share = std::min(2 * eighth, 64 * kMiB);
+  const auto most = static_cast<std::size_t>(std::max<std::uint64_t>(512, share / a_triangle));
   plan.chunk.first = std::min(plan.chunk.first, most);
   plan.chunk.most = std::min(plan.chunk.most, most);
   if (chunk_triangles != 0) plan.chunk = {chunk_triangles, chunk_triangles};

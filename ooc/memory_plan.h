@@ -10,9 +10,11 @@ namespace reeb::ooc {
 
 struct MemoryPlan {
   std::uint64_t account_bytes = 0;       // what reservations may add up to
-  std::uint64_t table_bytes = 0;         // last uses, and a spooled mesh
+  std::uint64_t set_aside_bytes = 0;     // what the process needs besides
+  std::uint64_t table_bytes = 0;         // last uses; as much again for a spooled mesh
   std::uint64_t segment_bytes = 0;       // settled arcs and nodes, a function
   std::uint64_t live_bytes = 0;          // live graph; a larger front is reordered
+  unsigned threads = 1;
   ChunkSize chunk;
 
   // The largest live front that is glued as it comes.

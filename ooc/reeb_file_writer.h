@@ -57,6 +57,7 @@ class GraphFileWriter {
   // REQUIRES: ascending, over all calls.
   void add_nodes(std::span<const SettledNode> nodes);
 
+  // Faster in large pieces (40 bytes an arc of the piece).
   // REQUIRES: after all nodes; ascending by (lo, hi), over all calls; lo below hi. With an
   //           embedding, `buckets` has those of this piece.
   void add_arcs(std::span<const ArcKeys> arcs, const ArcBucketsView& buckets = {});
@@ -77,6 +78,7 @@ class GraphFileWriter {
   GraphFrame frame_;
   std::vector<std::byte> payload_;
   std::vector<FileArc> ranked_;
+  std::vector<std::uint32_t> by_hi_;
   std::optional<SweepKey> last_node_;
   std::optional<FileArc> last_arc_;
   UnionFind components_;

@@ -55,7 +55,7 @@ while block cpp $((programs + 1)) >source.cpp && [[ -s source.cpp ]]; do
   block text "$programs" >"$name.expected"
 done
 [[ $programs -eq 2 ]] || { echo "the README has $programs programs, not 2"; exit 1; }
-cmake -S project -B project/build -DCMAKE_PREFIX_PATH="$work/prefix" -DCMAKE_CXX_FLAGS="$flags" \
+cmake -S project -B project/build -G Ninja -DCMAKE_PREFIX_PATH="$work/prefix" -DCMAKE_CXX_FLAGS="$flags" \
   -DCMAKE_CXX_COMPILER_LAUNCHER= >configure.log 2>&1 || { cat configure.log; exit 1; }
 cmake --build project/build >build.log 2>&1 || { cat build.log; exit 1; }
 for expected in *.expected; do

@@ -10,7 +10,7 @@ set -euo pipefail
 
 packages=(cmake ninja-build g++ pkg-config libtbb-dev libzstd-dev zlib1g-dev libboost-iostreams-dev
           libcli11-dev libfmt-dev nlohmann-json3-dev libfast-float-dev libxxhash-dev)
-test_packages=(libgtest-dev libbenchmark-dev)
+test_packages=(libgtest-dev libbenchmark-dev zstd)
 
 for word in "$@"; do
   case $word in

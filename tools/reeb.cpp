@@ -1,6 +1,7 @@
 // The program `reeb`: finds the subcommand, and turns every error into one line, a hint and an exit
 // code (INTERFACE.md, Errors).
 #include <fmt/core.h>
+#include <malloc.h>
 
 #include <algorithm>
 #include <exception>
@@ -49,6 +50,7 @@ int run(int argc, char** argv) {
   reeb::tools::add_pairs(program);
   reeb::tools::add_verify(program);
   reeb::tools::add_generate(program);
+  reeb::tools::add_convert(program);
   if (argc == 1) {
     fmt::print("{}", program.help());
     return 0;
@@ -66,6 +68,11 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  // Large blocks go back to the system as soon as they are freed: resident memory is what the
+  // budget accounts for, not what was needed once.
+  mallopt(M_MMAP_THRESHOLD, 128 * 1024);
+  mallopt(M_TRIM_THRESHOLD, 256 * 1024);
+  mallopt(M_ARENA_MAX, 2);
   try {
     return run(argc, argv);
   } catch (const reeb::Error& error) {

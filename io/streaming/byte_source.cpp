@@ -5,16 +5,6 @@
 
 namespace reeb::io {
 
-IstreamSource::IstreamSource(std::istream& in, std::optional<std::uint64_t> size)
-    : in_(in), size_(size) {}
-
-std::size_t IstreamSource::read(std::span<std::byte> out) {
-  in_.read(reinterpret_cast<char*>(out.data()), static_cast<std::streamsize>(out.size()));
-  const auto count = static_cast<std::size_t>(in_.gcount());
-  consumed_ += count;
-  return count;
-}
-
 std::size_t SpanSource::read(std::span<std::byte> out) {
   const std::size_t count = std::min(out.size(), bytes_.size() - at_);
   if (count != 0) std::memcpy(out.data(), bytes_.data() + at_, count);

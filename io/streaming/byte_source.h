@@ -7,7 +7,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <istream>
 #include <optional>
 #include <span>
 #include <vector>
@@ -27,20 +26,6 @@ class ByteSource {
   virtual std::uint64_t consumed() const = 0;
   // Number of bytes that read() will deliver in all, where that is known beforehand.
   virtual std::optional<std::uint64_t> size() const { return {}; }
-};
-
-// Any std::istream. The stream must outlive the source.
-class IstreamSource : public ByteSource {
- public:
-  explicit IstreamSource(std::istream& in, std::optional<std::uint64_t> size = {});
-  std::size_t read(std::span<std::byte> out) override;
-  std::uint64_t consumed() const override { return consumed_; }
-  std::optional<std::uint64_t> size() const override { return size_; }
-
- private:
-  std::istream& in_;
-  std::optional<std::uint64_t> size_;
-  std::uint64_t consumed_ = 0;
 };
 
 // Bytes in memory, which must outlive the source.

@@ -15,6 +15,7 @@ class PreOrderReader : public EventReader {
       : reader_(std::move(reader)), corners_(reader_->header().volume ? 4 : 3) {
     header_ = reader_->header();
     header_.post_order = false;
+    set_name(reader_->name());
   }
 
   std::vector<std::string> warnings() const override { return reader_->warnings(); }

@@ -9,7 +9,8 @@ bool EventReader::refill() {
   at_ = count_ = 0;
   try {
     fill();
-  } catch (const Error&) {
+  } catch (Error& error) {
+    error.at(name_);
     fault_ = std::current_exception();
     if (count_ == 0) throw;
   }

@@ -11,6 +11,7 @@
 #include <exception>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace reeb::io {
@@ -61,6 +62,10 @@ class EventReader {
   //         all events before the fault are delivered first.
   const StreamEvent* next() { return at_ < count_ || refill() ? &queue_[at_++] : nullptr; }
 
+  const std::string& name() const { return name_; }
+  // What error messages call the input from now on.
+  void set_name(std::string name) { name_ = std::move(name); }
+
   // "COUNT: ...", one line each. Final once next() has returned null.
   virtual std::vector<std::string> warnings() const { return warnings_; }
   // How much of the input was consumed, in bytes as it lies on disk.
@@ -84,6 +89,7 @@ class EventReader {
  private:
   bool refill();
 
+  std::string name_;
   std::vector<StreamEvent> queue_;  // reused; only the first count_ entries are events
   std::size_t at_ = 0, count_ = 0;
   std::exception_ptr fault_;  // met after the queued events

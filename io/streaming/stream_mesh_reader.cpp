@@ -26,6 +26,7 @@ class StreamMeshReader : public MeshReader {
     info_.vertex_count = header.vertex_count;
     info_.simplex_count = header.cell_count;
     info_.finalizes = true;
+    info_.float32 = header.vertex_ints == 0;
     info_.file_bytes = file_bytes;
     for (const auto& name : options.properties) columns_.push_back(column_of(name));
   }
@@ -69,7 +70,8 @@ class StreamMeshReader : public MeshReader {
     const auto found = std::find(names.begin(), names.end(), name);
     if (found == names.end())
       throw Error(ErrorKind::kBadInput, "the mesh has no vertex property '" + name + "'",
-                  names.empty() ? "it has none at all" : "it has: " + joined(names));
+                  names.empty() ? "it has none at all" : "it has: " + joined(names))
+          .at(reader_->name());
     const auto at = static_cast<std::size_t>(found - names.begin());
     const std::size_t floats = reader_->header().vertex_floats - 3;
     return at < floats ? Column{false, 3 + at} : Column{true, at - floats};

@@ -90,7 +90,7 @@ void MemoryBudget::refuse(const char* owner, std::uint64_t from, std::uint64_t t
                   format_bytes(limit_ - std::min(used_, limit_)) + " of " + format_bytes(limit_) +
                   " is free (in use: " + (in_use.empty() ? "nothing" : in_use) + ")",
               "allow more, for instance --memory " +
-                  std::to_string(((limit_ + (to - from)) >> 20) + 1) + "M");
+                  std::to_string(((set_aside_ + limit_ + 2 * (to - from)) >> 20) + 2) + "M");
 }
 
 std::string format_bytes(std::uint64_t bytes) {

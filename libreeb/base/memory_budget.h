@@ -41,7 +41,9 @@ class MemoryBudget {
  public:
   static constexpr std::uint64_t kUnlimited = ~std::uint64_t{0};
 
-  explicit MemoryBudget(std::uint64_t limit_bytes = kUnlimited) : limit_(limit_bytes) {}
+  // `set_aside_bytes` were taken off a user's limit beforehand; hints add them again.
+  explicit MemoryBudget(std::uint64_t limit_bytes = kUnlimited, std::uint64_t set_aside_bytes = 0)
+      : limit_(limit_bytes), set_aside_(set_aside_bytes) {}
   MemoryBudget(const MemoryBudget&) = delete;
   MemoryBudget& operator=(const MemoryBudget&) = delete;
 
@@ -61,7 +63,7 @@ class MemoryBudget {
   bool change(const char* owner, std::uint64_t from, std::uint64_t to) noexcept;
   [[noreturn]] void refuse(const char* owner, std::uint64_t from, std::uint64_t to) const;
 
-  const std::uint64_t limit_;
+  const std::uint64_t limit_, set_aside_;
   mutable std::mutex mutex_;
   std::uint64_t used_ = 0, peak_ = 0;
   std::map<std::string, std::uint64_t, std::less<>> owners_;

@@ -13,38 +13,47 @@
 
 namespace reeb {
 
-struct ChunkStars {
-  std::vector<std::uint32_t> rank;           // of each local vertex
-  std::vector<std::uint32_t> lo, mid, hi;    // ranks, one a triangle
-  std::vector<std::uint32_t> place;          // of each triangle in the chunk's stream
-  std::vector<std::uint32_t> low_begin, mid_begin, high_begin;  // one a rank, plus the end
-  std::vector<std::uint32_t> mid_list, high_list;
+class ChunkStars {
+ public:
+  struct Triangle {
+    std::uint32_t lo, mid, hi;  // ranks
+    std::uint32_t place;        // in the chunk's stream
+  };
 
   // O(vertices + triangles). `order[r]` is the local vertex of rank r.
   void build(const Chunk& chunk, std::span<const std::uint32_t> order);
 
-  std::size_t triangle_count() const { return lo.size(); }
-  std::uint32_t low_first(std::uint32_t v) const { return low_begin[v]; }
-  std::uint32_t low_last(std::uint32_t v) const { return low_begin[v + 1]; }
+  std::size_t triangle_count() const { return triangles_.size(); }
+  const Triangle& operator[](std::uint32_t t) const { return triangles_[t]; }
+  // The triangles in which rank v is lowest: low_first(v), ... low_last(v) - 1.
+  std::uint32_t low_first(std::uint32_t v) const { return begins_[v].low; }
+  std::uint32_t low_last(std::uint32_t v) const { return begins_[v + 1].low; }
   std::span<const std::uint32_t> middles(std::uint32_t v) const {
-    return {mid_list.data() + mid_begin[v], mid_begin[v + 1] - mid_begin[v]};
+    return {mid_list_.data() + begins_[v].mid, begins_[v + 1].mid - begins_[v].mid};
   }
   std::span<const std::uint32_t> highs(std::uint32_t v) const {
-    return {high_list.data() + high_begin[v], high_begin[v + 1] - high_begin[v]};
+    return {high_list_.data() + begins_[v].high, begins_[v + 1].high - begins_[v].high};
   }
   // The last place in the stream at which rank v is used; 0 if nowhere.
   std::uint32_t last_place(std::uint32_t v) const;
 
   std::size_t memory_bytes() const {
-    return sorted_corners_.capacity() * sizeof(Corners) +
-           4 * (rank.capacity() + lo.capacity() * 6 + low_begin.capacity() * 3);
+    return triangles_.capacity() * sizeof(Triangle) + begins_.capacity() * sizeof(Begins) +
+           4 * (rank_.capacity() + mid_list_.capacity() + high_list_.capacity());
   }
 
  private:
-  struct Corners {
-    std::uint32_t lo, mid, hi, place;
+  struct Begins {
+    std::uint32_t low, mid, high;
   };
-  std::vector<Corners> sorted_corners_;
+
+  Triangle sorted(const Chunk& chunk, std::uint32_t place) const;
+  void count(const Chunk& chunk);
+
+  std::vector<std::uint32_t> rank_;  // of each local vertex
+  std::vector<Triangle> triangles_;
+  std::vector<Begins> begins_;  // one a rank, plus the end
+  std::vector<std::uint32_t> mid_list_, high_list_;
 };
 
 }  // namespace reeb

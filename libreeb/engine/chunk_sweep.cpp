@@ -1,6 +1,7 @@
 #include "libreeb/engine/chunk_sweep.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 #include <vector>
 
@@ -13,8 +14,25 @@ namespace {
 
 constexpr std::uint32_t kNone = ~std::uint32_t{0};
 
-// A half-edge is an edge of a triangle: 3 * t + which.
-constexpr std::uint32_t kLoMid = 0, kLoHi = 1, kMidHi = 2;
+// A triangle while it crosses the level, by two of its edges: lo-hi, and lo-mid up to its middle
+// vertex, mid-hi from there on. Each is a half-edge 2 * t + (0 or 1), in a ring with those of the
+// other triangles at the same mesh edge.
+struct Crossing {
+  std::array<std::uint32_t, 2> next;  // half-edge
+  std::uint32_t label;
+};
+
+class Crossings {
+ public:
+  void reset(std::size_t triangles) { crossings_.resize(triangles); }
+  std::uint32_t& next(std::uint32_t half) { return crossings_[half / 2].next[half % 2]; }
+  std::uint32_t& label(std::uint32_t t) { return crossings_[t].label; }
+  const Crossing& operator[](std::uint32_t t) const { return crossings_[t]; }
+  std::size_t memory_bytes() const { return crossings_.capacity() * sizeof(Crossing); }
+
+ private:
+  std::vector<Crossing> crossings_;
+};
 
 // The edges up from the vertex at hand, numbered in order of discovery, and their groups: edges
 // that triangles with the vertex as lowest corner hold together.
@@ -23,29 +41,27 @@ class UpwardEdges {
   void reset(std::size_t vertices) {
     edge_of_.assign(vertices, 0);
     first_ = 1;
-    clear();
+    count_ = 0;
   }
-  void clear() {
-    first_ += static_cast<std::uint32_t>(hi_.size());
-    hi_.clear();
-    head_.clear();
-    parent_.clear();
-    groups_ = 0;
+  // The next vertex has at most so many half-edges up.
+  void start(std::size_t half_edges) {
+    first_ += count_;
+    count_ = groups_ = 0;
+    if (edges_.size() < half_edges) edges_.resize(half_edges);
   }
 
   // Enters a half-edge up to `hi` and links it into the ring of its edge; returns the edge.
-  std::uint32_t touch(std::uint32_t hi, std::uint32_t half, std::vector<std::uint32_t>& ring) {
-    if (edge_of_[hi] >= first_) {
-      const std::uint32_t e = edge_of_[hi] - first_;
-      ring[half] = std::exchange(ring[head_[e]], half);
-      return e;
+  std::uint32_t touch(std::uint32_t hi, std::uint32_t half, Crossings& crossings) {
+    std::uint32_t& number = edge_of_[hi];
+    if (number >= first_) {
+      Edge& edge = edges_[number - first_];
+      crossings.next(half) = std::exchange(crossings.next(edge.head), half);
+      return number - first_;
     }
-    const auto e = static_cast<std::uint32_t>(hi_.size());
-    edge_of_[hi] = first_ + e;
-    hi_.push_back(hi);
-    head_.push_back(half);
-    parent_.push_back(e);
-    ring[half] = half;
+    const std::uint32_t e = count_++;
+    number = first_ + e;
+    edges_[e] = {hi, half, e};
+    crossings.next(half) = half;
     ++groups_;
     return e;
   }
@@ -53,74 +69,80 @@ class UpwardEdges {
     a = group(a);
     b = group(b);
     if (a == b) return;
-    parent_[std::max(a, b)] = std::min(a, b);
+    edges_[std::max(a, b)].parent = std::min(a, b);
     --groups_;
   }
 
-  std::size_t memory_bytes() const { return 4 * edge_of_.capacity(); }
-  std::uint32_t count() const { return static_cast<std::uint32_t>(hi_.size()); }
+  std::uint32_t count() const { return count_; }
   std::uint32_t groups() const { return groups_; }
-  std::uint32_t hi(std::uint32_t e) const { return hi_[e]; }
-  std::uint32_t head(std::uint32_t e) const { return head_[e]; }
+  std::uint32_t hi(std::uint32_t e) const { return edges_[e].hi; }
+  std::uint32_t head(std::uint32_t e) const { return edges_[e].head; }
   // The edge that stands for the group of e.
   std::uint32_t group(std::uint32_t e) {
-    while (parent_[e] != e) e = parent_[e] = parent_[parent_[e]];
+    while (edges_[e].parent != e) e = edges_[e].parent = edges_[edges_[e].parent].parent;
     return e;
   }
   std::uint32_t group_of_neighbour(std::uint32_t hi) { return group(edge_of_[hi] - first_); }
+  std::size_t memory_bytes() const {
+    return 4 * edge_of_.capacity() + edges_.capacity() * sizeof(Edge);
+  }
 
  private:
-  std::vector<std::uint32_t> edge_of_;  // by rank; valid if >= first_
+  struct Edge {
+    std::uint32_t hi, head, parent;
+  };
+  std::vector<std::uint32_t> edge_of_;  // by rank: first_ + edge; of earlier vertices if less
   std::uint32_t first_ = 1;
-  std::vector<std::uint32_t> hi_, head_, parent_;
-  std::uint32_t groups_ = 0;
+  std::vector<Edge> edges_;  // count_ of them
+  std::uint32_t count_ = 0, groups_ = 0;
 };
 
 // Labels of crossing triangles, and which arc each set of labels stands for.
 class Labels {
  public:
-  void clear() {
-    parent_.clear();
-    arc_.clear();
-    mark_.clear();
-  }
+  void clear() { labels_.clear(); }
+  std::uint32_t count() const { return static_cast<std::uint32_t>(labels_.size()); }
   std::uint32_t add(std::uint32_t arc) {
-    parent_.push_back(static_cast<std::uint32_t>(parent_.size()));
-    arc_.push_back(arc);
-    mark_.push_back(0);
-    return parent_.back();
+    labels_.push_back({count(), arc, 0});
+    return count() - 1;
   }
   std::uint32_t find(std::uint32_t x) {
-    while (parent_[x] != x) x = parent_[x] = parent_[parent_[x]];
+    while (labels_[x].parent != x) x = labels_[x].parent = labels_[labels_[x].parent].parent;
     return x;
   }
-  void merge_into(std::uint32_t root, std::uint32_t other) { parent_[other] = root; }
-  std::uint32_t& arc(std::uint32_t root) { return arc_[root]; }
-  std::uint32_t& mark(std::uint32_t root) { return mark_[root]; }
-  std::size_t memory_bytes() const { return 12 * parent_.capacity(); }
+  bool is_root(std::uint32_t x) const { return labels_[x].parent == x; }
+  void merge_into(std::uint32_t root, std::uint32_t other) { labels_[other].parent = root; }
+  std::uint32_t& arc(std::uint32_t root) { return labels_[root].arc; }
+  // True the first time that it is asked about this root at v.
+  bool mark(std::uint32_t root, std::uint32_t v) {
+    return std::exchange(labels_[root].marked, v + 1) != v + 1;
+  }
+  std::size_t memory_bytes() const { return labels_.capacity() * sizeof(Label); }
 
  private:
-  std::vector<std::uint32_t> parent_, arc_, mark_;
+  struct Label {
+    std::uint32_t parent, arc;
+    std::uint32_t marked;  // 1 + the last vertex at which it was
+  };
+  std::vector<Label> labels_;
 };
 
-// A list of triangles threaded through one shared array.
-struct TriangleList {
-  std::uint32_t head = kNone, tail = kNone;
+// One group of upward edges during a walk: a queue whose triangles before `visited` were visited.
+struct Side {
+  std::vector<std::uint32_t> queue;
+  std::size_t visited = 0;
+  bool exhausted = false;
 
-  bool empty() const { return head == kNone; }
-  void append(std::uint32_t t, std::vector<std::uint32_t>& next) {
-    next[t] = kNone;
-    (empty() ? head : next[tail]) = t;
-    tail = t;
+  void start() {
+    queue.clear();
+    visited = 0;
+    exhausted = false;
   }
-  std::uint32_t pop(const std::vector<std::uint32_t>& next) {
-    return std::exchange(head, next[head]);
-  }
-  void splice(TriangleList& other, std::vector<std::uint32_t>& next) {
-    if (other.empty()) return;
-    (empty() ? head : next[tail]) = other.head;
-    tail = other.tail;
-    other = {};
+  bool has_pending() const { return visited < queue.size(); }
+  void take_pending(Side& other) {
+    const auto first = other.queue.begin() + static_cast<std::ptrdiff_t>(other.visited);
+    queue.insert(queue.end(), first, other.queue.end());
+    other.queue.erase(first, other.queue.end());
   }
 };
 
@@ -131,41 +153,29 @@ struct ChunkSweep::Scratch {
   std::size_t memory_bytes() const;
 
  private:
-  // One group of upward edges during a walk.
-  struct Side {
-    std::uint32_t parent;  // a side that it met, or itself
-    bool exhausted = false;
-    TriangleList pending, visited;
-    std::uint32_t arc = kNone;  // that leaves through it; kNone: the side that was not exhausted
-  };
-
   void reset();
   void visit(std::uint32_t v);
   void collect_below(std::uint32_t v);
   void group_above(std::uint32_t v);
   void end_arcs_below(std::uint32_t node);
-  void label_lows(std::uint32_t v, std::uint32_t new_label);
+  void label_lows(std::uint32_t v, std::uint32_t label);
   void start_arcs(std::uint32_t v, std::uint32_t node);
+  std::uint32_t join_below(std::uint32_t node);
   void continue_as_one(std::uint32_t v, std::uint32_t node);
   void separate(std::uint32_t v, std::uint32_t node);
+  void note_branches(std::uint32_t v, const Side& side, std::uint32_t node, std::uint32_t arc);
   void add_shared_edges(std::uint32_t v, std::uint32_t node);
 
   std::size_t walk(std::uint32_t v);
   void seed_sides(std::uint32_t v);
-  void step(std::uint32_t v, std::uint32_t side);
-  void enter(std::uint32_t t, std::uint32_t side);
-  std::uint32_t find_side(std::uint32_t s) {
-    while (sides[s].parent != s) s = sides[s].parent = sides[sides[s].parent].parent;
-    return s;
-  }
-  // The second edge of t that crosses the level just above v; the first is always kLoHi.
-  std::uint32_t second_crossing(std::uint32_t t, std::uint32_t v) const {
-    return stars.mid[t] <= v ? kMidHi : kLoMid;
+  void step(std::uint32_t side);
+  void enter(std::uint32_t t, std::uint32_t side) {
+    crossings.label(t) = first_side + side;
+    sides[side].queue.push_back(t);
   }
 
-  std::uint8_t uses(std::uint32_t v) const { return chunk->uses[ranks.order()[v]]; }
   void note_if_shared(std::uint32_t lo, std::uint32_t hi, std::uint32_t node, std::uint32_t arc) {
-    if ((uses(lo) & uses(hi)) != 0) builder.note_branch(lo, hi, node, arc);
+    if ((uses[lo] & uses[hi]) != 0) builder.note_branch(lo, hi, node, arc);
   }
 
   const Chunk* chunk = nullptr;
@@ -173,18 +183,18 @@ struct ChunkSweep::Scratch {
   ChunkStars stars;
   FragmentBuilder builder;
 
-  std::vector<std::uint32_t> ring;   // by half-edge: the next half-edge of the same mesh edge
-  std::vector<std::uint32_t> label;  // by triangle, while it crosses the level
-  std::vector<std::uint32_t> next;   // by triangle: TriangleList
-  std::vector<std::uint32_t> owner;  // by triangle: owner_base + side, if visited in this walk
-  std::uint32_t owner_base = 1;
+  std::vector<std::uint8_t> uses;  // by rank
+  Crossings crossings;             // by triangle
   Labels labels;
   UpwardEdges up;
   std::vector<std::uint32_t> below;      // label roots of the arcs that reach v
   std::vector<std::uint32_t> group_arc;  // by upward edge that stands for its group
-  std::vector<Side> sides;
   std::vector<std::uint32_t> side_of;    // by upward edge that stands for its group
-  std::vector<std::uint32_t> active;     // sides that may be neither exhausted nor met
+
+  // The walk at hand. Side s has the label first_side + s; sides that met have one root.
+  std::vector<Side> sides;
+  std::uint32_t first_side = 0;
+  std::vector<std::uint32_t> active;  // sides that may be neither exhausted nor met
 };
 
 ChunkSweep::ChunkSweep() : scratch_(std::make_unique<Scratch>()) {}
@@ -198,7 +208,8 @@ void ChunkSweep::run(const Chunk& chunk, std::span<const double> values, Fragmen
 
 std::size_t ChunkSweep::memory_bytes() const { return scratch_->memory_bytes(); }
 
-void ChunkSweep::Scratch::run(const Chunk& chunk_in, std::span<const double> values, Fragment& fragment) {
+void ChunkSweep::Scratch::run(const Chunk& chunk_in, std::span<const double> values,
+                              Fragment& fragment) {
   chunk = &chunk_in;
   ranks.sort(values, chunk->ids);
   stars.build(*chunk, ranks.order());
@@ -209,29 +220,29 @@ void ChunkSweep::Scratch::run(const Chunk& chunk_in, std::span<const double> val
 }
 
 void ChunkSweep::Scratch::reset() {
-  const std::size_t m = stars.triangle_count();
-  ring.resize(3 * m);
-  label.resize(m);
-  next.resize(m);
-  owner.assign(m, 0);
-  owner_base = 1;
+  const std::size_t n = chunk->vertex_count();
+  uses.resize(n);
+  for (std::size_t r = 0; r < n; ++r) uses[r] = chunk->uses[ranks.order()[r]];
+  crossings.reset(stars.triangle_count());
   labels.clear();
-  up.reset(chunk->vertex_count());
-  builder.start(chunk->vertex_count());
+  up.reset(n);
+  builder.start(n);
 }
 
 std::size_t ChunkSweep::Scratch::memory_bytes() const {
-  return ranks.memory_bytes() + stars.memory_bytes() + builder.memory_bytes() +
-         4 * (ring.capacity() + label.capacity() + next.capacity() + owner.capacity()) +
-         labels.memory_bytes() + up.memory_bytes();
+  std::size_t walked = sides.capacity() * sizeof(Side);
+  for (const Side& side : sides) walked += 4 * side.queue.capacity();
+  return ranks.memory_bytes() + stars.memory_bytes() + builder.memory_bytes() + uses.capacity() +
+         crossings.memory_bytes() + labels.memory_bytes() + up.memory_bytes() + walked;
 }
 
 void ChunkSweep::Scratch::visit(std::uint32_t v) {
   builder.reach(v);
   collect_below(v);
   group_above(v);
-  const bool joined = up.groups() == 1 || (up.groups() > 1 && !below.empty() && walk(v) == 1);
-  const bool shared = uses(v) != kUsedHereOnly;
+  const bool walks = up.groups() > 1 && !below.empty();
+  const bool joined = up.groups() == 1 || (walks && walk(v) == 1);
+  const bool shared = uses[v] != kUsedHereOnly;
   if (joined && below.size() == 1 && !shared) {  // a regular vertex
     label_lows(v, below[0]);
     return;
@@ -242,7 +253,7 @@ void ChunkSweep::Scratch::visit(std::uint32_t v) {
     continue_as_one(v, node);
   else if (below.empty())
     start_arcs(v, node);
-  else if (up.groups() > 1)
+  else if (walks)
     separate(v, node);
   if (shared) add_shared_edges(v, node);
 }
@@ -250,12 +261,13 @@ void ChunkSweep::Scratch::visit(std::uint32_t v) {
 // The distinct arcs of the triangles in which v is middle or highest all end or meet in v.
 void ChunkSweep::Scratch::collect_below(std::uint32_t v) {
   below.clear();
+  std::uint32_t last = kNone;
   const auto collect = [&](std::span<const std::uint32_t> triangles) {
     for (const std::uint32_t t : triangles) {
-      const std::uint32_t root = labels.find(label[t]);
-      if (labels.mark(root) == v + 1) continue;
-      labels.mark(root) = v + 1;
-      below.push_back(root);
+      const std::uint32_t root = labels.find(crossings.label(t));
+      if (root == last) continue;
+      last = root;
+      if (labels.mark(root, v)) below.push_back(root);
     }
   };
   collect(stars.middles(v));
@@ -263,14 +275,16 @@ void ChunkSweep::Scratch::collect_below(std::uint32_t v) {
 }
 
 void ChunkSweep::Scratch::group_above(std::uint32_t v) {
-  up.clear();
-  for (const std::uint32_t t : stars.middles(v)) up.touch(stars.hi[t], 3 * t + kMidHi, ring);
-  for (std::uint32_t t = stars.low_first(v); t < stars.low_last(v); ++t) {
-    const std::uint32_t to_hi = up.touch(stars.hi[t], 3 * t + kLoHi, ring);
-    if (stars.mid[t] == stars.hi[t])
-      ring[3 * t + kLoMid] = 3 * t + kLoMid;
+  const std::uint32_t first = stars.low_first(v), last = stars.low_last(v);
+  const auto middles = stars.middles(v);
+  up.start(middles.size() + 2 * std::size_t{last - first});
+  for (const std::uint32_t t : middles) up.touch(stars[t].hi, 2 * t + 1, crossings);
+  for (std::uint32_t t = first; t < last; ++t) {
+    const std::uint32_t to_hi = up.touch(stars[t].hi, 2 * t, crossings);
+    if (stars[t].mid == stars[t].hi)
+      crossings.next(2 * t + 1) = 2 * t + 1;
     else
-      up.unite(to_hi, up.touch(stars.mid[t], 3 * t + kLoMid, ring));
+      up.unite(to_hi, up.touch(stars[t].mid, 2 * t + 1, crossings));
   }
 }
 
@@ -278,8 +292,8 @@ void ChunkSweep::Scratch::end_arcs_below(std::uint32_t node) {
   for (const std::uint32_t root : below) builder.end_arc(labels.arc(root), node);
 }
 
-void ChunkSweep::Scratch::label_lows(std::uint32_t v, std::uint32_t new_label) {
-  for (std::uint32_t t = stars.low_first(v); t < stars.low_last(v); ++t) label[t] = new_label;
+void ChunkSweep::Scratch::label_lows(std::uint32_t v, std::uint32_t label) {
+  for (std::uint32_t t = stars.low_first(v); t < stars.low_last(v); ++t) crossings.label(t) = label;
 }
 
 // Nothing hangs below v: each group is a contour of its own.
@@ -292,51 +306,59 @@ void ChunkSweep::Scratch::start_arcs(std::uint32_t v, std::uint32_t node) {
     side_of[e] = labels.add(group_arc[e]);
   }
   for (std::uint32_t t = stars.low_first(v); t < stars.low_last(v); ++t)
-    label[t] = side_of[up.group_of_neighbour(stars.hi[t])];
+    crossings.label(t) = side_of[up.group_of_neighbour(stars[t].hi)];
+}
+
+// All arcs from below go on as one new arc, which is returned.
+std::uint32_t ChunkSweep::Scratch::join_below(std::uint32_t node) {
+  const std::uint32_t arc = builder.add_arc(node);
+  if (below.empty()) below.push_back(labels.add(arc));
+  for (std::size_t i = 1; i < below.size(); ++i) labels.merge_into(below[0], below[i]);
+  labels.arc(below[0]) = arc;
+  builder.set_main_branch(node, arc);
+  return arc;
 }
 
 void ChunkSweep::Scratch::continue_as_one(std::uint32_t v, std::uint32_t node) {
-  const std::uint32_t arc = builder.add_arc(node);
-  if (below.empty()) below.push_back(labels.add(arc));
-  const std::uint32_t root = below[0];
-  for (std::size_t i = 1; i < below.size(); ++i) labels.merge_into(root, below[i]);
-  labels.arc(root) = arc;
-  label_lows(v, root);
-  group_arc.assign(up.count(), arc);
-  builder.set_main_branch(node, arc);
+  group_arc.assign(up.count(), join_below(node));
+  label_lows(v, below[0]);
 }
 
-// v splits: the side that was not exhausted keeps its labels, all others are relabelled.
+// v splits: the side that was not exhausted goes on under the labels from below, each of the
+// others under its own.
 void ChunkSweep::Scratch::separate(std::uint32_t v, std::uint32_t node) {
-  continue_as_one(v, node);
-  for (Side& side : sides) {
-    if (!side.exhausted) continue;
-    side.arc = builder.add_arc(node);
-    const std::uint32_t fresh = labels.add(side.arc);
-    for (std::uint32_t t = side.visited.head; t != kNone; t = next[t]) {
-      label[t] = fresh;
-      if (stars.lo[t] == v) continue;
-      note_if_shared(stars.lo[t], stars.hi[t], node, side.arc);
-      if (stars.mid[t] < v)
-        note_if_shared(stars.mid[t], stars.hi[t], node, side.arc);
-      else if (stars.mid[t] > v)
-        note_if_shared(stars.lo[t], stars.mid[t], node, side.arc);
-    }
-  }
-  for (std::uint32_t e = 0; e < up.count(); ++e) {
-    if (up.group(e) != e) continue;
-    const Side& side = sides[find_side(side_of[e])];
-    if (side.exhausted) group_arc[e] = side.arc;
+  const std::uint32_t main_arc = join_below(node);
+  for (std::uint32_t s = 0; s < up.groups(); ++s)
+    if (sides[s].exhausted) labels.arc(first_side + s) = builder.add_arc(node);
+  for (std::uint32_t s = 0; s < up.groups(); ++s)
+    if (const std::uint32_t arc = labels.arc(labels.find(first_side + s)); arc != main_arc)
+      note_branches(v, sides[s], node, arc);
+  group_arc.resize(up.count());
+  for (std::uint32_t e = 0; e < up.count(); ++e)
+    if (up.group(e) == e) group_arc[e] = labels.arc(labels.find(first_side + side_of[e]));
+}
+
+// The shared edges that cross the level on this side do not take the main branch.
+void ChunkSweep::Scratch::note_branches(std::uint32_t v, const Side& side, std::uint32_t node,
+                                        std::uint32_t arc) {
+  for (const std::uint32_t t : side.queue) {
+    const auto& [lo, mid, hi, place] = stars[t];
+    if (lo == v) continue;
+    note_if_shared(lo, hi, node, arc);
+    if (mid < v)
+      note_if_shared(mid, hi, node, arc);
+    else if (mid > v)
+      note_if_shared(lo, mid, node, arc);
   }
 }
 
 void ChunkSweep::Scratch::add_shared_edges(std::uint32_t v, std::uint32_t node) {
   for (std::uint32_t e = 0; e < up.count(); ++e) {
-    if ((uses(v) & uses(up.hi(e))) == 0) continue;
+    if ((uses[v] & uses[up.hi(e)]) == 0) continue;
     std::uint32_t place = 0, half = up.head(e);
     do {
-      place = std::max(place, stars.place[half / 3]);
-      half = ring[half];
+      place = std::max(place, stars[half / 2].place);
+      half = crossings.next(half);
     } while (half != up.head(e));
     builder.add_shared_edge(node, up.hi(e), group_arc[up.group(e)], place);
   }
@@ -352,9 +374,9 @@ std::size_t ChunkSweep::Scratch::walk(std::uint32_t v) {
   while (active.size() > 1) {
     for (std::size_t i = 0; i < active.size() && active.size() > 1;) {
       const std::uint32_t s = active[i];
-      const bool met = sides[s].parent != s;
-      if (!met && !sides[s].pending.empty()) {
-        step(v, s);
+      const bool met = !labels.is_root(first_side + s);
+      if (!met && sides[s].has_pending()) {
+        step(s);
         ++i;
         continue;
       }
@@ -366,54 +388,45 @@ std::size_t ChunkSweep::Scratch::walk(std::uint32_t v) {
       active.pop_back();
     }
   }
-  owner_base += static_cast<std::uint32_t>(sides.size());
+  labels.merge_into(below[0], first_side + active[0]);
   return exhausted + 1;
 }
 
 void ChunkSweep::Scratch::seed_sides(std::uint32_t v) {
-  sides.clear();
   active.clear();
   side_of.resize(up.count());
+  if (sides.size() < up.groups()) sides.resize(up.groups());
+  first_side = labels.count();
   for (std::uint32_t e = 0; e < up.count(); ++e) {
     if (up.group(e) != e) continue;
-    side_of[e] = static_cast<std::uint32_t>(sides.size());
+    side_of[e] = labels.add(kNone) - first_side;
     active.push_back(side_of[e]);
-    sides.push_back({.parent = side_of[e], .pending = {}, .visited = {}});
-  }
-  if (owner_base > kNone - sides.size() - 1) {
-    std::fill(owner.begin(), owner.end(), 0);
-    owner_base = 1;
+    sides[side_of[e]].start();
   }
   for (const std::uint32_t t : stars.middles(v))
-    enter(t, side_of[up.group_of_neighbour(stars.hi[t])]);
+    enter(t, side_of[up.group_of_neighbour(stars[t].hi)]);
   for (std::uint32_t t = stars.low_first(v); t < stars.low_last(v); ++t)
-    enter(t, side_of[up.group_of_neighbour(stars.hi[t])]);
-}
-
-void ChunkSweep::Scratch::enter(std::uint32_t t, std::uint32_t side) {
-  owner[t] = owner_base + side;
-  sides[side].pending.append(t, next);
+    enter(t, side_of[up.group_of_neighbour(stars[t].hi)]);
 }
 
 // Visits one triangle. Of the triangles round a crossing edge only the next in the ring is
 // looked at: following the rings from every visited triangle reaches all of them, at a constant
 // cost a triangle however many share an edge.
-void ChunkSweep::Scratch::step(std::uint32_t v, std::uint32_t s) {
-  const std::uint32_t t = sides[s].pending.pop(next);
-  sides[s].visited.append(t, next);
-  for (const std::uint32_t half : {3 * t + kLoHi, 3 * t + second_crossing(t, v)}) {
-    const std::uint32_t beyond = ring[half] / 3;
-    const std::uint32_t here = find_side(s);
-    if (owner[beyond] < owner_base) {
-      enter(beyond, here);
+void ChunkSweep::Scratch::step(std::uint32_t s) {
+  Side& side = sides[s];
+  const std::uint32_t t = side.queue[side.visited++];
+  for (const std::uint32_t half : crossings[t].next) {
+    const std::uint32_t beyond = half / 2;
+    const std::uint32_t label = crossings.label(beyond);
+    if (label < first_side) {
+      enter(beyond, s);
       continue;
     }
-    const std::uint32_t there = find_side(owner[beyond] - owner_base);
-    if (here == there) continue;
+    const std::uint32_t there = labels.find(label) - first_side;
+    if (there == s) continue;
     // Both are active: an exhausted side has no way out to another. The side at hand stays.
-    sides[there].parent = here;
-    sides[here].pending.splice(sides[there].pending, next);
-    sides[here].visited.splice(sides[there].visited, next);
+    labels.merge_into(first_side + s, first_side + there);
+    side.take_pending(sides[there]);
   }
 }
 

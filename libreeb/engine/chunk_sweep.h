@@ -8,7 +8,7 @@
 //
 // TIME: O(sort) plus the stars of all vertices plus the smaller sides walked; a vertex of any
 // degree and an edge with any number of triangles cost their size once.
-// MEMORY: about 70 bytes a triangle of scratch, kept for the next chunk.
+// MEMORY: about 67 bytes a triangle of scratch (two triangles a vertex), kept for the next chunk.
 #pragma once
 
 #include <cstddef>

@@ -162,7 +162,8 @@ void LiveGraph::drop_path(Index top) {
 // ---- zipping
 
 void LiveGraph::zip(Index a, Index b) {
-  while (b != kNone) {
+  ++zips_;
+  for (; b != kNone; ++zip_steps_) {
     const Index arc_a = references_[a].arc, arc_b = references_[b].arc;
     if (arc_a != arc_b) {
       const Index lo_a = arcs_[arc_a].lo, lo_b = arcs_[arc_b].lo;

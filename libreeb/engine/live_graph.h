@@ -58,6 +58,8 @@ class LiveGraph {
   std::size_t node_count() const { return nodes_.size() - free_nodes_; }
   std::size_t arc_count() const { return arcs_.size() - free_arcs_; }
   std::size_t reference_count() const { return references_.size() - free_references_; }
+  std::uint64_t zips() const { return zips_; }  // so far
+  std::uint64_t zip_steps() const { return zip_steps_; }  // arcs that they went over
   std::size_t memory_bytes() const;
 
   // THROWS: std::logic_error naming the first broken promise. O(live).
@@ -114,6 +116,7 @@ class LiveGraph {
   std::vector<Reference> references_;
   Index first_free_node_ = kNone, first_free_arc_ = kNone, first_free_reference_ = kNone;
   std::size_t free_nodes_ = 0, free_arcs_ = 0, free_references_ = 0;
+  std::uint64_t zips_ = 0, zip_steps_ = 0;
   std::vector<Index> changed_;  // complete nodes to look at in tidy()
   std::vector<SettledNode> settled_nodes_;
   std::vector<ArcKeys> settled_arcs_;

@@ -1,60 +1,53 @@
 #include "libreeb/engine/vertex_ranks.h"
 
 #include <algorithm>
-#include <array>
-
-#include "libreeb/base/sweep_key.h"
+#include <cmath>
+#include <utility>
 
 namespace reeb {
 namespace {
 
-constexpr unsigned kDigitBits = 11;
-constexpr unsigned kDigits = 6;  // 66 bits cover 64
-constexpr std::size_t kBuckets = std::size_t{1} << kDigitBits;
-constexpr std::size_t kRadixMinimum = 512;  // below, comparing is faster
+// Numbers buckets of equal width from the least value to the greatest. Every step rounds
+// monotonically, so a greater value is never in a lesser bucket, whatever the rounding.
+class Buckets {
+ public:
+  Buckets(std::span<const double> values, std::size_t count) : last_(static_cast<double>(count - 1)) {
+    const auto [least, greatest] = std::minmax_element(values.begin(), values.end());
+    least_ = *least / 2;  // halved, so that no difference overflows
+    const double scale = last_ / (*greatest / 2 - least_);
+    scale_ = std::isfinite(scale) ? scale : 0;
+  }
+  std::size_t operator()(double value) const {
+    return static_cast<std::size_t>(std::min((value / 2 - least_) * scale_, last_));
+  }
 
-std::size_t digit_of(std::uint64_t bits, unsigned digit) {
-  return static_cast<std::size_t>(bits >> (digit * kDigitBits)) & (kBuckets - 1);
-}
+ private:
+  double last_, least_, scale_;
+};
 
 }  // namespace
 
 void VertexRanks::sort(std::span<const double> values, std::span<const VertexId> ids) {
   const std::size_t n = values.size();
-  entries_.resize(n);
-  for (std::size_t i = 0; i < n; ++i)
-    entries_[i] = {ordered_bits(values[i]), static_cast<std::uint32_t>(i)};
-
-  if (n < kRadixMinimum) {
-    std::sort(entries_.begin(), entries_.end(), [&](const Entry& a, const Entry& b) {
-      return a.bits != b.bits ? a.bits < b.bits : ids[a.local] < ids[b.local];
-    });
-  } else {
-    std::array<std::array<std::uint32_t, kBuckets>, kDigits> counts{};
-    for (const Entry& e : entries_)
-      for (unsigned d = 0; d < kDigits; ++d) ++counts[d][digit_of(e.bits, d)];
-    other_.resize(n);
-    for (unsigned d = 0; d < kDigits; ++d) {
-      auto& count = counts[d];
-      if (count[digit_of(entries_[0].bits, d)] == n) continue;
-      std::uint32_t sum = 0;
-      for (std::uint32_t& c : count) sum += std::exchange(c, sum);
-      for (const Entry& e : entries_) other_[count[digit_of(e.bits, d)]++] = e;
-      entries_.swap(other_);
-    }
-    for (std::size_t first = 0; first < n;) {
-      std::size_t last = first + 1;
-      while (last < n && entries_[last].bits == entries_[first].bits) ++last;
-      if (last - first > 1)
-        std::sort(entries_.begin() + static_cast<std::ptrdiff_t>(first),
-                  entries_.begin() + static_cast<std::ptrdiff_t>(last),
-                  [&](const Entry& a, const Entry& b) { return ids[a.local] < ids[b.local]; });
-      first = last;
-    }
-  }
-
   order_.resize(n);
-  for (std::size_t r = 0; r < n; ++r) order_[r] = entries_[r].local;
+  if (n == 0) return;
+  const Buckets bucket(values, n);
+  bucket_end_.assign(n, 0);
+  for (const double value : values) ++bucket_end_[bucket(value)];
+  std::uint32_t sum = 0;
+  for (std::uint32_t& end : bucket_end_) sum += std::exchange(end, sum);
+  for (std::uint32_t i = 0; i < n; ++i) order_[bucket_end_[bucket(values[i])]++] = i;
+
+  const auto before = [&](std::uint32_t a, std::uint32_t b) {
+    return values[a] != values[b] ? values[a] < values[b] : ids[a] < ids[b];
+  };
+  auto first = order_.begin();
+  for (const std::uint32_t end : bucket_end_) {
+    const auto last = order_.begin() + end;
+    // Often in order already: a tie, and then no sort is as fast as looking.
+    if (last - first > 1 && !std::is_sorted(first, last, before)) std::sort(first, last, before);
+    first = last;
+  }
 }
 
 }  // namespace reeb

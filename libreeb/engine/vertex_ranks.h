@@ -3,33 +3,27 @@
 
 #include <cstdint>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "libreeb/base/ids.h"
 
 namespace reeb {
 
-// O(n) for distinct values: a radix sort on the bits of the values that skips the digits in which
-// all values agree (values that were floats once leave half of them); ties are sorted by id.
+// One counting pass spreads the vertices over as many buckets of equal width as there are
+// vertices; what shares a bucket is sorted by comparison. O(n) for values that are spread about
+// evenly, and for ties that come in order of id; O(n log n) at worst.
 class VertexRanks {
  public:
   // After it, order()[r] is the local vertex of rank r.
-  // REQUIRES: no value is NaN or -0.0; ids are distinct; fewer than 2^32 vertices.
+  // REQUIRES: no value is NaN or infinite; ids are distinct; fewer than 2^31 vertices.
   void sort(std::span<const double> values, std::span<const VertexId> ids);
 
   std::span<const std::uint32_t> order() const { return order_; }
-  std::size_t memory_bytes() const {
-    return (entries_.capacity() + other_.capacity()) * sizeof(Entry) + order_.capacity() * 4;
-  }
+  std::size_t memory_bytes() const { return (order_.capacity() + bucket_end_.capacity()) * 4; }
 
  private:
-  struct Entry {
-    std::uint64_t bits;
-    std::uint32_t local;
-  };
-  std::vector<Entry> entries_, other_;
   std::vector<std::uint32_t> order_;
+  std::vector<std::uint32_t> bucket_end_;
 };
 
 }  // namespace reeb

@@ -51,6 +51,7 @@ struct MeshInfo {
   std::optional<std::uint64_t> vertex_count;   // as far as the header says so, or it is known
   std::optional<std::uint64_t> simplex_count;  // faces or cells, before polygons become fans
   bool finalizes = false;                      // the stream brings finalization with it
+  bool float32 = false;                        // every number is exactly a float32
   std::uint64_t file_bytes = 0;                // 0: unknown (a pipe)
 };
 

@@ -12,5 +12,6 @@ void add_extract(CLI::App& program);
 void add_pairs(CLI::App& program);
 void add_verify(CLI::App& program);
 void add_generate(CLI::App& program);
+void add_convert(CLI::App& program);
 
 }  // namespace reeb::tools

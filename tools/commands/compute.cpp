@@ -1,6 +1,7 @@
 // `reeb compute MESH`, the default command: from a mesh to its `.reeb` file.
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -17,6 +18,7 @@
 #include "tools/output.h"
 #include "tools/progress.h"
 #include "tools/quantity.h"
+#include "tools/snapshots.h"
 
 namespace reeb::tools {
 namespace {
@@ -27,6 +29,7 @@ struct ComputeArguments {
   std::string mesh, output, memory, report, denoise;
   std::vector<std::string> functions;
   ooc::ComputeOptions options;
+  std::uint64_t snapshot_every = 0;  // triangles; 0: no snapshots
   bool force = false, quiet = false;
 };
 
@@ -94,6 +97,8 @@ void run_compute(ComputeArguments arguments) {
 
   ReadOptions read_options;
   read_options.properties = io::needed_properties(specs);
+  if (arguments.snapshot_every != 0)  // so that a slow stream is seen as it comes
+    read_options.batch_events = std::min<std::uint64_t>(read_options.batch_events, arguments.snapshot_every);
   ooc::MeshInput input;
   input.path = arguments.mesh;
   input.reader = io::open_mesh(arguments.mesh, read_options);
@@ -109,7 +114,9 @@ void run_compute(ComputeArguments arguments) {
     pointers.push_back(functions.back().get());
   }
   if (!arguments.quiet) fmt::print(stderr, "{}: {}\n", arguments.mesh, describe(info));
-  if (arguments.mesh != "-") input.indexed = io::open_indexed_mesh(arguments.mesh, read_options);
+  if (arguments.snapshot_every != 0)
+    input.reader = with_snapshots(std::move(input.reader), arguments.snapshot_every, pointers, outputs);
+  else if (arguments.mesh != "-") input.indexed = io::open_indexed_mesh(arguments.mesh, read_options);
   if (input.indexed) input.reader.reset();
 
   ProgressBar bar(arguments.quiet);
@@ -129,7 +136,7 @@ void add_compute(CLI::App& program) {
   auto arguments = std::make_shared<ComputeArguments>();
   arguments->options.threads = std::max(1u, std::thread::hardware_concurrency());
   CLI::App* command = program.add_subcommand("compute", "Compute the Reeb graph of a mesh (the default command)");
-  command->add_option("MESH", arguments->mesh, "PLY, OBJ, OFF or STL, also .gz and .zst; - reads standard input")
+  command->add_option("MESH", arguments->mesh, "PLY, OBJ, OFF, STL, SMA, SMB, SMC, SVA or SVB, also .gz and .zst; - reads standard input")
       ->required();
   command->add_option("-o,--output", arguments->output, "File to write (default: the mesh's name with .reeb)");
   command->add_option("-f,--function", arguments->functions,
@@ -146,6 +153,9 @@ void add_compute(CLI::App& program) {
   command->add_flag("!--no-reorder", arguments->options.may_reorder, "Never sort an incoherent mesh on disk first");
   command->add_flag("--sidecar", arguments->options.keep_sidecar, "Keep the finalization as MESH.final for later runs");
   command->add_option("--report", arguments->report, "Write a JSON report (-: to standard output)");
+  command->add_option("--snapshot-every", arguments->snapshot_every,
+                      "Triangles after which the graph so far is written, as OUT-000001.reeb, OUT-000002.reeb, ...")
+      ->check(CLI::PositiveNumber);
   command->add_flag("--quiet", arguments->quiet, "No progress and no summary");
   command->add_flag("--force", arguments->force, "Replace existing outputs");
   command->footer("Example:\n  reeb compute scan.ply -f z --memory 64M --report report.json");

@@ -1,23 +1,33 @@
-// `reeb info`: what a file holds.
+// `reeb info`: what a file holds, a graph or a mesh.
 #include <memory>
 #include <string>
 
+#include "libreeb/base/memory_budget.h"
+#include "ooc/reeb_file.h"
 #include "tools/commands/commands.h"
 #include "tools/commands/reeb_info.h"
+#include "tools/mesh_info.h"
+#include "tools/quantity.h"
 
 namespace reeb::tools {
 
 void add_info(CLI::App& app) {
   struct Options {
-    std::string file;
+    std::string file, memory, temp_folder;
     bool json = false;
   };
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("info", "Say what a file holds");
-  command->add_option("FILE", options->file, "a .reeb file")->required();
+  command->add_option("FILE", options->file, "a .reeb file, or a mesh of any format; - reads a mesh")->required();
   command->add_flag("--json", options->json, "for programs");
+  command->add_option("--memory", options->memory, "memory for the tables of a mesh, like 64M");
+  command->add_option("--temp-dir", options->temp_folder, "folder for temporary files (default: $TMPDIR, or here)");
   command->footer("Example:\n  reeb info scan.reeb");
-  command->callback([options] { print_reeb_info(options->file, options->json); });
+  command->callback([options] {
+    const std::uint64_t memory = options->memory.empty() ? MemoryBudget::kUnlimited : parse_size(options->memory);
+    if (options->file != "-" && ooc::is_reeb_file(options->file)) print_reeb_info(options->file, options->json);
+    else print_mesh_info(options->file, memory, options->temp_folder, options->json);
+  });
 }
 
 }  // namespace reeb::tools

@@ -1,0 +1,180 @@
+#include "io/streaming/create_stream.h"
+
+#include <cmath>
+#include <filesystem>
+#include <utility>
+
+#include "io/output_stream.h"
+#include "io/streaming/event_text.h"
+#include "io/streaming/stream_output.h"
+#include "io/writers/formats.h"
+#include "libreeb/base/error.h"
+
+namespace reeb::io {
+namespace {
+
+constexpr std::uint64_t kMaxStreamVertices = (std::uint64_t{1} << 31) - 1;
+
+class EventListWriter : public StreamWriter {
+ public:
+  EventListWriter(std::ostream& out, StreamHeader header) : out_(out), header_(std::move(header)) {}
+
+  void write(const StreamEvent& event) override {
+    append_event(out_.text(), event, header_);
+    out_.flush_if_full();
+  }
+  void close() override { out_.finish(); }
+
+ private:
+  StreamOutput out_;
+  StreamHeader header_;
+};
+
+std::unique_ptr<StreamWriter> make_writer(StreamFormat format, std::ostream& out, const StreamHeader& header) {
+  switch (format) {
+    case StreamFormat::kText: return make_text_writer(out, header);
+    case StreamFormat::kBlocks: return make_block_writer(out, header);
+    case StreamFormat::kCompressed: return make_smc_writer(out, header);
+    case StreamFormat::kEvents:
+    case StreamFormat::kNone: break;
+  }
+  return std::make_unique<EventListWriter>(out, header);
+}
+
+// A stream writer with the file that it writes to.
+class StreamFile : public StreamWriter {
+ public:
+  StreamFile(const std::string& path, const StreamHeader& header, Existing existing)
+      : file_(path, existing), out_(file_.out()), writer_(make_writer(stream_format(path), out_, header)) {}
+
+  void write(const StreamEvent& event) override { writer_->write(event); }
+  void close() override {
+    writer_->close();
+    file_.commit();
+  }
+  std::vector<std::string> warnings() const override { return writer_->warnings(); }
+
+ private:
+  AtomicFile file_;
+  OutputStream out_;
+  std::unique_ptr<StreamWriter> writer_;
+};
+
+class StreamMeshWriter : public MeshWriter {
+ public:
+  StreamMeshWriter(const std::string& path, const MeshWriterOptions& options)
+      : header_(header_of(path, options)),
+        tetrahedra_(header_.volume || stream_format(path) == StreamFormat::kEvents),
+        writer_(create_stream(path, header_, options.existing)) {}
+
+  void write(const MeshBatch& batch) override {
+    for (std::size_t i = 0; i < batch.vertex_count; ++i) write_vertex(batch, i);
+    if (tetrahedra_) write_cells(batch);
+    else
+      for_each_face(batch, [this](VertexId a, VertexId b, VertexId c) {
+        const VertexId corners[] = {a, b, c};
+        write_cell(EventKind::kTriangle, corners);
+      });
+    event_.kind = EventKind::kFinalized;
+    for (const VertexId v : batch.finalized) {
+      event_.vertex = static_cast<std::uint32_t>(v.value());
+      writer_->write(event_);
+    }
+  }
+  void close() override { writer_->close(); }
+
+  std::vector<std::string> warnings() const override {
+    auto all = writer_->warnings();
+    if (rounded_ != 0)
+      all.push_back(std::to_string(rounded_) + " vertices were rounded to float32, which is what streaming meshes hold");
+    return all;
+  }
+
+ private:
+  static StreamHeader header_of(const std::string& path, const MeshWriterOptions& options) {
+    if (options.dimension > 3)
+      throw Error(ErrorKind::kBadInput, "streaming meshes have three coordinates, this mesh has more",
+                  "write PLY, OBJ or OFF instead")
+          .at(path);
+    StreamHeader header;
+    header.volume = is_volume_name(path);
+    if (options.vertex_count && *options.vertex_count <= kMaxStreamVertices)
+      header.vertex_count = static_cast<std::uint32_t>(*options.vertex_count);
+    if (options.simplex_count && *options.simplex_count <= kMaxStreamVertices)
+      header.cell_count = static_cast<std::uint32_t>(*options.simplex_count);
+    const bool values = header.volume || stream_format(path) == StreamFormat::kEvents;
+    if (values) header.vertex_floats = 3 + static_cast<unsigned>(options.property_names.size());
+    if (header.vertex_floats > kMaxFloats)
+      throw Error(ErrorKind::kBadInput, "streaming meshes hold at most 5 values a vertex besides its place",
+                  "write PLY instead")
+          .at(path);
+    return header;
+  }
+
+  void write_vertex(const MeshBatch& batch, std::size_t i) {
+    event_.kind = EventKind::kVertex;
+    const std::uint64_t index = batch.first_vertex.value() + i;
+    if (index >= kMaxStreamVertices) fail_format("streaming meshes hold at most 2147483647 vertices", "write PLY or OBJ");
+    event_.vertex = static_cast<std::uint32_t>(index);
+    bool exact = true;
+    for (std::size_t k = 0; k < header_.vertex_floats; ++k) {
+      const double value = value_of(batch, i, k);
+      event_.floats[k] = static_cast<float>(value);
+      exact &= static_cast<double>(event_.floats[k]) == value;
+      if (!std::isfinite(event_.floats[k]))
+        fail_format("a value of vertex " + std::to_string(index) + " is beyond float32", "write PLY or OBJ");
+    }
+    rounded_ += exact ? 0 : 1;
+    writer_->write(event_);
+  }
+
+  static double value_of(const MeshBatch& batch, std::size_t i, std::size_t k) {
+    if (k >= 3) return batch.properties[k - 3][i];
+    return k < batch.coordinates.size() ? batch.coordinates[k][i] : 0.0;
+  }
+
+  void write_cells(const MeshBatch& batch) {
+    const std::span<const VertexId> triangles(batch.triangles), tetrahedra(batch.tetrahedra);
+    for (std::size_t t = 0; t < triangles.size(); t += 3) write_cell(EventKind::kTriangle, triangles.subspan(t, 3));
+    for (std::size_t t = 0; t < tetrahedra.size(); t += 4)
+      write_cell(EventKind::kTetrahedron, tetrahedra.subspan(t, 4));
+  }
+
+  void write_cell(EventKind kind, std::span<const VertexId> corners) {
+    event_.kind = kind;
+    for (std::size_t k = 0; k < corners.size(); ++k) event_.corners[k] = static_cast<std::uint32_t>(corners[k].value());
+    writer_->write(event_);
+  }
+
+  StreamHeader header_;
+  bool tetrahedra_;
+  std::unique_ptr<StreamWriter> writer_;
+  StreamEvent event_{};
+  std::uint64_t rounded_ = 0;
+};
+
+}  // namespace
+
+StreamFormat stream_format(const std::string& path) {
+  if (path.ends_with(".events.txt")) return StreamFormat::kEvents;
+  const std::string suffix = name_suffix(path);
+  if (suffix == ".sma" || suffix == ".sva") return StreamFormat::kText;
+  if (suffix == ".smb" || suffix == ".svb") return StreamFormat::kBlocks;
+  return suffix == ".smc" ? StreamFormat::kCompressed : StreamFormat::kNone;
+}
+
+bool is_volume_name(const std::string& path) {
+  const std::string suffix = name_suffix(path);
+  return suffix == ".sva" || suffix == ".svb";
+}
+
+std::unique_ptr<StreamWriter> create_stream(const std::string& path, const StreamHeader& header,
+                                            Existing existing) {
+  return std::make_unique<StreamFile>(path, header, existing);
+}
+
+std::unique_ptr<MeshWriter> create_stream_mesh(const std::string& path, const MeshWriterOptions& options) {
+  return std::make_unique<StreamMeshWriter>(path, options);
+}
+
+}  // namespace reeb::io

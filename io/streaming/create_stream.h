@@ -1,0 +1,28 @@
+// Streaming meshes and lists of events as files, by the suffix of their name.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "io/mesh_writer.h"
+#include "io/streaming/stream_writer.h"
+
+namespace reeb::io {
+
+enum class StreamFormat { kNone, kText, kBlocks, kCompressed, kEvents };
+
+// .sma .sva: text; .smb .svb: blocks; .smc: compressed; .events.txt: events; else none.
+StreamFormat stream_format(const std::string& path);
+bool is_volume_name(const std::string& path);  // .sva .svb
+
+// A writer of events into the file `path`, which appears under its name with close().
+// REQUIRES: stream_format(path) is not kNone.
+// THROWS: as AtomicFile, and as the writers of stream_writer.h.
+std::unique_ptr<StreamWriter> create_stream(const std::string& path, const StreamHeader& header,
+                                            Existing existing);
+
+// The same for batches. A triangle format gets the faces of tetrahedra; properties go to volume
+// formats and lists of events, and numbers become float32 in all.
+std::unique_ptr<MeshWriter> create_stream_mesh(const std::string& path, const MeshWriterOptions& options);
+
+}  // namespace reeb::io

@@ -1,0 +1,151 @@
+#include "tools/convert/triangle_order.h"
+
+#include <array>
+#include <compare>
+#include <utility>
+
+#include "libreeb/base/error.h"
+#include "libreeb/base/sweep_key.h"
+#include "ooc/external_sort.h"
+#include "ooc/reorder.h"
+#include "ooc/triangle_log.h"
+#include "tools/convert/fiedler.h"
+
+namespace reeb::tools {
+namespace {
+
+constexpr std::size_t kStretch = 4096;  // triangles taken at once
+
+struct KeyedTriangle {
+  double value;
+  std::uint64_t highest, place;
+  std::array<std::uint64_t, 3> corners;
+  friend bool operator<(const KeyedTriangle& a, const KeyedTriangle& b) {
+    return std::tie(a.value, a.highest, a.place) < std::tie(b.value, b.highest, b.place);
+  }
+};
+
+// The vertices of a mesh with its triangles in another order.
+class OrderedMesh : public IndexedMesh {
+ public:
+  OrderedMesh(std::unique_ptr<IndexedMesh> mesh, Workspace& space)
+      : mesh_(std::move(mesh)), triangles_(space.temp, space.budget, space.share()) {}
+
+  IndexedMesh& vertices() { return *mesh_; }
+  void append(std::span<const VertexId> corners) { triangles_.append(corners); }
+
+  std::uint64_t vertex_count() const override { return mesh_->vertex_count(); }
+  unsigned column_count() const override { return mesh_->column_count(); }
+  void gather(std::span<const VertexId> ids, std::span<const unsigned> columns, std::span<double> values) override {
+    mesh_->gather(ids, columns, values);
+  }
+  void rewind() override { triangles_.rewind(); }
+  bool read(std::vector<VertexId>& corners, std::size_t limit) override { return triangles_.read(corners, limit); }
+  std::uint64_t bytes_read() const override { return triangles_.bytes_read(); }
+  std::uint64_t bytes_total() const override { return triangles_.bytes_total(); }
+
+ private:
+  std::unique_ptr<IndexedMesh> mesh_;
+  ooc::TriangleLog triangles_;
+};
+
+// The values of a function at the corners of many triangles.
+class CornerValues {
+ public:
+  CornerValues(IndexedMesh& mesh, VertexFunction& function) : mesh_(mesh), function_(function) {}
+
+  std::span<const double> operator()(std::span<const VertexId> corners) {
+    const auto columns = function_.columns();
+    gathered_.resize(columns.size() * corners.size());
+    mesh_.gather(corners, columns, gathered_);
+    std::vector<std::span<const double>> by_column;
+    for (std::size_t k = 0; k < columns.size(); ++k)
+      by_column.push_back(std::span(gathered_).subspan(k * corners.size(), corners.size()));
+    values_.resize(corners.size());
+    function_.evaluate(corners, by_column, values_);
+    return values_;
+  }
+
+ private:
+  IndexedMesh& mesh_;
+  VertexFunction& function_;
+  std::vector<double> gathered_, values_;
+};
+
+KeyedTriangle keyed(std::span<const VertexId> corners, std::span<const double> values, std::uint64_t place) {
+  SweepKey highest{values[0], corners[0]};
+  for (std::size_t c = 1; c < 3; ++c) {
+    const SweepKey key{values[c], corners[c]};
+    if (highest < key) highest = key;
+  }
+  return {highest.value, highest.vertex.value(), place, {corners[0].value(), corners[1].value(), corners[2].value()}};
+}
+
+// Values that lie in a table, as a function.
+class TableFunction : public VertexFunction {
+ public:
+  explicit TableFunction(VertexNumbers& values) : values_(values) {}
+  std::string name() const override { return "spectral"; }
+  std::span<const unsigned> columns() const override { return {}; }
+  void evaluate(std::span<const VertexId> ids, std::span<const std::span<const double>> /*columns*/,
+                std::span<double> values) override {
+    for (std::size_t i = 0; i < ids.size(); ++i) values[i] = values_.get(ids[i].value());
+  }
+
+ private:
+  VertexNumbers& values_;
+};
+
+}  // namespace
+
+TriangleOrder parse_order(const std::string& text) {
+  using Kind = TriangleOrder::Kind;
+  if (text == "keep") return {};
+  if (text == "hilbert") return {Kind::kHilbert, {}};
+  if (text == "spectral") return {Kind::kSpectral, {}};
+  if (text.starts_with("sweep:")) return {Kind::kSweep, io::parse_function(text.substr(6))};
+  throw Error(ErrorKind::kUsage, "'" + text + "' is not an order of triangles",
+              "use keep, hilbert, spectral or sweep:FUNC");
+}
+
+std::unique_ptr<IndexedMesh> sorted_by_function(std::unique_ptr<IndexedMesh> mesh, VertexFunction& function,
+                                                Workspace& space) {
+  auto ordered = std::make_unique<OrderedMesh>(std::move(mesh), space);
+  ooc::SortOptions sorting;
+  sorting.allowance_bytes = space.share();
+  ooc::ExternalSort<KeyedTriangle> sort("triangle order", space.temp, space.budget, sorting);
+  CornerValues values_of(ordered->vertices(), function);
+  std::vector<VertexId> corners;
+  ordered->vertices().rewind();
+  while (ordered->vertices().read(corners, kStretch)) {
+    const auto values = values_of(corners);
+    for (std::size_t t = 0; t < corners.size(); t += 3)
+      sort.add(keyed(std::span(corners).subspan(t, 3), values.subspan(t, 3), sort.size()));
+  }
+  sort.finish();
+  for (std::vector<KeyedTriangle> some; sort.read(some, kStretch);) {
+    corners.clear();
+    for (const KeyedTriangle& triangle : some)
+      for (const std::uint64_t corner : triangle.corners) corners.emplace_back(corner);
+    ordered->append(corners);
+  }
+  return ordered;
+}
+
+std::unique_ptr<IndexedMesh> sorted_along_hilbert(std::unique_ptr<IndexedMesh> mesh, unsigned dimension,
+                                                  Workspace& space) {
+  ooc::ReorderOptions options;
+  options.allowance_bytes = 2 * space.share();
+  options.coordinates = dimension;
+  return ooc::reorder(*mesh, space.temp, space.budget, options);
+}
+
+std::unique_ptr<IndexedMesh> sorted_by_spectrum(std::unique_ptr<IndexedMesh> mesh, unsigned dimension,
+                                                Workspace& space) {
+  auto coherent = sorted_along_hilbert(std::move(mesh), dimension, space);
+  VertexNumbers values = fiedler_vector(*coherent, space);
+  TableFunction function(values);
+  return sorted_by_function(std::move(coherent), function, space);
+}
+
+}  // namespace reeb::tools

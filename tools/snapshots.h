@@ -1,0 +1,25 @@
+// Exact graphs of a stream while it goes on (`--snapshot-every N`).
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "libreeb/port/mesh_reader.h"
+#include "libreeb/port/vertex_function.h"
+
+namespace reeb::tools {
+
+// Passes on what `reader` delivers, and keeps an on-line graph (libreeb/engine/online_reeb.h) of
+// every function beside it. Each time `every` further triangles have been delivered, the exact
+// graph of all events so far is written as OUT-000001.reeb, OUT-000002.reeb, ... where OUT is the
+// function's output without ".reeb": whole files without levels, each appearing in one step. Files
+// of such names are replaced. `functions` must outlive the reader and is not evaluated elsewhere at
+// the same time.
+// COST: the on-line graph comes on top of the run; memory follows the front and the graph.
+std::unique_ptr<MeshReader> with_snapshots(std::unique_ptr<MeshReader> reader, std::uint64_t every,
+                                           std::span<VertexFunction* const> functions,
+                                           std::span<const std::string> outputs);
+
+}  // namespace reeb::tools
