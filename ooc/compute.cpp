@@ -75,6 +75,9 @@ class Run {
   void first_stage();
   void run_indexed();
   void spool();
+  void note(const std::vector<std::string>& lines) {
+    common_.notes.insert(common_.notes.end(), lines.begin(), lines.end());
+  }
   std::optional<LastUse> find_last_uses();
   std::optional<LastUse> scan(bool may_give_up);
   LastUse reorder_mesh();
@@ -109,7 +112,7 @@ void Run::first_stage() {
     run_indexed();
   } else {
     run_chunks(*chunks_of(*input_.reader, values_, plan_.chunk));
-    for (std::string& warning : input_.reader->warnings()) common_.notes.push_back(std::move(warning));
+    note(input_.reader->warnings());
   }
   for (const auto& store : stores_) store->finish();
 }
@@ -126,6 +129,7 @@ void Run::run_indexed() {
   common_.degenerate_triangles = summary.degenerate_triangles;
   common_.spilled_bytes += last_use->spilled_bytes();
   run_chunks(*chunks_of(*input_.indexed, *last_use, values_, plan_.chunk));
+  note(input_.indexed->warnings());
 }
 
 void Run::spool() {
@@ -136,7 +140,7 @@ void Run::spool() {
     tell(Phase::kSpool, reader.bytes_read(), reader.info().file_bytes);
   };
   auto mesh = ooc::spool(*input_.reader, temp_, budget_, options);
-  for (std::string& warning : input_.reader->warnings()) common_.notes.push_back(std::move(warning));
+  note(input_.reader->warnings());
   common_.spilled_bytes += mesh->spilled_bytes();
   input_.indexed = std::move(mesh);
   input_.reader.reset();
@@ -181,6 +185,7 @@ LastUse Run::reorder_mesh() {
   options.coordinates = std::min(input_.dimension, 3u);
   auto mesh = reorder(*input_.indexed, temp_, budget_, options);
   common_.spilled_bytes += mesh->spilled_bytes();
+  note(input_.indexed->warnings());
   input_.indexed = std::move(mesh);
   return std::move(*scan(false));
 }
