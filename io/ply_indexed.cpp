@@ -87,6 +87,7 @@ class IndexedPly final : public IndexedMesh {
 
   std::uint64_t bytes_read() const override { return faces_->bytes_read(); }
   std::uint64_t bytes_total() const override { return windows_.size(); }
+  std::vector<std::string> warnings() const override { return faces_->warnings(); }
 
  private:
   const char* record(VertexId id) { return windows_.at(vertices_begin_ + id.value() * stride_); }

@@ -97,6 +97,9 @@ class Run {
   void first_stage();
   void run_indexed();
   void spool();
+  void note(const std::vector<std::string>& lines) {
+    common_.notes.insert(common_.notes.end(), lines.begin(), lines.end());
+  }
   std::optional<LastUse> find_last_uses();
   std::optional<LastUse> scan(bool may_give_up);
   bool is_coherent(const UseSummary& summary) const;
@@ -156,7 +159,7 @@ void Run::first_stage() {
     run_indexed();
   } else {
     run_chunks(*chunks_of(*input_.reader, values_, plan_.chunk));
-    for (std::string& warning : input_.reader->warnings()) common_.notes.push_back(std::move(warning));
+    note(input_.reader->warnings());
   }
   for (const auto& store : stores_) store->finish();
 }
@@ -179,6 +182,7 @@ void Run::run_indexed() {
   block_triangles_ = summary.block_triangles;
   run_chunks(*chunks_of(*input_.indexed, *last_use, values_, plan_.chunk,
                         start_ != nullptr ? start_->place : ChunkPlace{}));
+  note(input_.indexed->warnings());
 }
 
 // Whether to glue the mesh as it comes. A front of many times the square root of the mesh is what
@@ -198,7 +202,7 @@ void Run::spool() {
     tell(Phase::kSpool, reader.bytes_read(), reader.info().file_bytes);
   };
   auto mesh = ooc::spool(*input_.reader, temp_, budget_, options);
-  for (std::string& warning : input_.reader->warnings()) common_.notes.push_back(std::move(warning));
+  note(input_.reader->warnings());
   common_.spilled_bytes += mesh->spilled_bytes();
   input_.indexed = std::move(mesh);
   input_.reader.reset();
@@ -252,6 +256,7 @@ LastUse Run::reorder_mesh() {
   options.coordinates = std::min(input_.dimension, 3u);
   auto mesh = reorder(*input_.indexed, temp_, budget_, options);
   common_.spilled_bytes += mesh->spilled_bytes();
+  note(input_.indexed->warnings());
   input_.indexed = std::move(mesh);
   return std::move(*scan(false));
 }

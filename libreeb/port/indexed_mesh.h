@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "libreeb/base/ids.h"
@@ -44,6 +45,9 @@ class IndexedMesh {
   // Bytes of input consumed since rewind, and in all, for progress.
   virtual std::uint64_t bytes_read() const = 0;
   virtual std::uint64_t bytes_total() const = 0;
+
+  // As MeshReader::warnings; final once read() has returned false.
+  virtual std::vector<std::string> warnings() const { return {}; }
 };
 
 }  // namespace reeb

@@ -65,8 +65,12 @@ ComplexStream::ComplexStream(const ComplexMesh& mesh, std::uint64_t seed)
     : mesh_(mesh), random_(seed), last_use_(mesh.vertex_count(), 0) {
   constexpr std::size_t kBatches[] = {1, 3, 4096};
   most_simplices_ = kBatches[random_.below(std::size(kBatches))];
-  if (simplex_count() > 10'000) most_simplices_ = 65536;
   eager_percent_ = random_.chance(50) ? 100 : 40;
+  // Paths of edges whose ends stay open for long are long: a large mesh is finalized at once.
+  if (simplex_count() > 10'000) {
+    most_simplices_ = 65536;
+    eager_percent_ = 100;
+  }
   info_.format = "complex";
   info_.finalizes = true;
   for (std::size_t i = 0; i < simplex_count(); ++i)

@@ -67,6 +67,7 @@ class IndexedComplex : public IndexedMesh {
 
 // A vertex comes when a simplex first needs it or some time before, and is finalized when no later
 // simplex names it, or some time after, or never: the seed decides, and the size of the batches.
+// Of a large complex all vertices are finalized as soon as no later simplex names them.
 class ComplexStream : public MeshReader {
  public:
   ComplexStream(const ComplexMesh& mesh, std::uint64_t seed);
