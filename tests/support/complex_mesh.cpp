@@ -66,10 +66,12 @@ ComplexStream::ComplexStream(const ComplexMesh& mesh, std::uint64_t seed)
   constexpr std::size_t kBatches[] = {1, 3, 4096};
   most_simplices_ = kBatches[random_.below(std::size(kBatches))];
   eager_percent_ = random_.chance(50) ? 100 : 40;
-  // Paths of edges whose ends stay open for long are long: a large mesh is finalized at once.
+  // Paths of edges whose ends stay open for long are long: a vertex of a large mesh comes when it is
+  // needed and is finalized at once.
   if (simplex_count() > 10'000) {
-    most_simplices_ = 65536;
+    most_simplices_ = 4096;
     eager_percent_ = 100;
+    early_percent_ = 0;
   }
   info_.format = "complex";
   info_.finalizes = true;
@@ -84,7 +86,7 @@ bool ComplexStream::read(MeshBatch& batch) {
   batch.properties.resize(mesh_.columns.size() - 3);
   batch.first_vertex = VertexId(next_vertex_);
   take_simplices(batch);
-  if (next_simplex_ == simplex_count() || random_.chance(10)) take_vertices(batch, mesh_.vertex_count());
+  if (next_simplex_ == simplex_count() || random_.chance(early_percent_)) take_vertices(batch, mesh_.vertex_count());
   finalize_some(batch);
   return !batch.empty();
 }

@@ -67,7 +67,7 @@ class IndexedComplex : public IndexedMesh {
 
 // A vertex comes when a simplex first needs it or some time before, and is finalized when no later
 // simplex names it, or some time after, or never: the seed decides, and the size of the batches.
-// Of a large complex all vertices are finalized as soon as no later simplex names them.
+// A vertex of a large complex comes just when it is needed and is finalized at once.
 class ComplexStream : public MeshReader {
  public:
   ComplexStream(const ComplexMesh& mesh, std::uint64_t seed);
@@ -87,6 +87,7 @@ class ComplexStream : public MeshReader {
   MeshInfo info_;
   std::size_t most_simplices_;  // a batch
   unsigned eager_percent_;      // of the vertices that could be finalized, how many are
+  unsigned early_percent_ = 10;  // of the batches, how many bring all vertices
   std::vector<std::size_t> last_use_;
   std::vector<std::size_t> waiting_;  // introduced and not finalized
   std::size_t next_simplex_ = 0, next_tetrahedron_ = 0, next_vertex_ = 0;
