@@ -51,6 +51,7 @@ class OnlineReeb::Impl {
     std::vector<ArcKeys> arcs = kept_.arcs();
     std::vector<SweepKey> nodes = kept_.nodes();
     glue_.graph().snapshot(arcs, nodes);
+    chunker_.for_each_unused([&](std::span<const double> value, VertexId v) { nodes.push_back({value[0], v}); });
     return make_graph(std::move(arcs), std::move(nodes));
   }
   void finish() {

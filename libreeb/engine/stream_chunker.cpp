@@ -20,6 +20,8 @@ VertexId StreamChunker::add_vertex(std::span<const double> values, const Point& 
   if (free_slots_.empty()) {
     slot = static_cast<std::uint32_t>(local_.size());
     local_.push_back(kNone);
+    state_.push_back(State::kFree);
+    slot_vertices_.emplace_back();
     slot_values_.resize(slot_values_.size() + functions_);
     if (track_positions_) slot_positions_.emplace_back();
   } else {
@@ -27,11 +29,12 @@ VertexId StreamChunker::add_vertex(std::span<const double> values, const Point& 
     free_slots_.pop_back();
   }
   local_[slot] = kNone;
+  state_[slot] = State::kUnused;
+  slot_vertices_[slot] = v;
   for (std::size_t k = 0; k < functions_; ++k)
     slot_values_[slot * functions_ + k] = values[k] + 0.0;  // -0.0 becomes 0.0
   if (track_positions_) slot_positions_[slot] = position;
   slot_of_.find_or_insert(v.value(), slot);
-  bring_in(v, slot, kUsedLater);
   return v;
 }
 
@@ -48,11 +51,12 @@ std::uint32_t StreamChunker::slot_of(VertexId v, const char* use) const {
 }
 
 // Gives a vertex a place in the chunk.
-std::uint32_t StreamChunker::bring_in(VertexId v, std::uint32_t slot, std::uint8_t uses) {
+std::uint32_t StreamChunker::bring_in(VertexId v, std::uint32_t slot) {
   if (local_[slot] != kNone) return local_[slot];
+  const bool used_earlier = std::exchange(state_[slot], State::kUsed) == State::kUsed;
   local_[slot] = static_cast<std::uint32_t>(chunk_.vertex_count());
   chunk_.ids.push_back(v);
-  chunk_.uses.push_back(uses);
+  chunk_.uses.push_back(static_cast<std::uint8_t>(kUsedLater | (used_earlier ? kUsedEarlier : 0)));
   if (track_positions_) chunk_.positions.push_back(slot_positions_[slot]);
   for (std::size_t k = 0; k < functions_; ++k) values_[k].push_back(slot_values_[slot * functions_ + k]);
   slot_of_local_.push_back(slot);
@@ -73,7 +77,7 @@ void StreamChunker::add_simplex(std::span<const VertexId> corners) {
 
 void StreamChunker::add_triangle(VertexId a, VertexId b, VertexId c) {
   for (const VertexId v : {a, b, c})
-    chunk_.corners.push_back(bring_in(v, slot_of_.find(v.value()), kUsedEarlier | kUsedLater));
+    chunk_.corners.push_back(bring_in(v, slot_of_.find(v.value())));
 }
 
 void StreamChunker::finalize(VertexId v) { finalize(v, slot_of(v, "finalized is")); }
@@ -85,9 +89,10 @@ void StreamChunker::finalize_all() {
 
 // A vertex that is not in the chunk comes in as a loose vertex, to be completed with it.
 void StreamChunker::finalize(VertexId v, std::uint32_t slot) {
-  const std::uint32_t local = bring_in(v, slot, kUsedEarlier);
+  const std::uint32_t local = bring_in(v, slot);
   chunk_.uses[local] &= static_cast<std::uint8_t>(~kUsedLater);
   slot_of_local_[local] = kNone;
+  state_[slot] = State::kFree;
   slot_of_.erase(v.value());
   free_slots_.push_back(slot);
 }
@@ -104,7 +109,7 @@ void StreamChunker::take(Chunk& chunk, std::vector<std::vector<double>>& values)
 }
 
 std::size_t StreamChunker::memory_bytes() const {
-  return slot_of_.memory_bytes() + 4 * (local_.capacity() + free_slots_.capacity()) +
+  return slot_of_.memory_bytes() + state_.capacity() + 8 * slot_vertices_.capacity() + 4 * (local_.capacity() + free_slots_.capacity()) +
          8 * slot_values_.capacity() + slot_positions_.capacity() * sizeof(Point);
 }
 

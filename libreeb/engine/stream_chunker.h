@@ -39,15 +39,27 @@ class StreamChunker {
   // Moves the chunk so far out, with one array of values a function, and starts the next.
   void take(Chunk& chunk, std::vector<std::vector<double>>& values);
 
+  // Calls visit(values, vertex) for the vertices so far that no simplex has used and that are not
+  // final: no chunk has had them.
+  template <class Visit>
+  void for_each_unused(const Visit& visit) const {
+    for (std::size_t slot = 0; slot < state_.size(); ++slot)
+      if (state_[slot] == State::kUnused)
+        visit(std::span(slot_values_).subspan(slot * functions_, functions_), slot_vertices_[slot]);
+  }
+
   std::uint64_t vertex_count() const { return next_vertex_; }
   std::size_t active_vertices() const { return slot_of_.size(); }
   std::size_t memory_bytes() const;
 
  private:
   static constexpr std::uint32_t kNone = ~std::uint32_t{0};
+  // Of a slot. A vertex counts as used from the first chunk that has it, not from its arrival: else
+  // all edges of a mesh whose vertices come first would look shared.
+  enum class State : std::uint8_t { kFree, kUnused, kUsed };
 
   std::uint32_t slot_of(VertexId v, const char* use) const;
-  std::uint32_t bring_in(VertexId v, std::uint32_t slot, std::uint8_t uses);
+  std::uint32_t bring_in(VertexId v, std::uint32_t slot);
   void add_triangle(VertexId a, VertexId b, VertexId c);
   void finalize(VertexId v, std::uint32_t slot);
 
@@ -57,6 +69,8 @@ class StreamChunker {
 
   // Vertices that are not final, by slot.
   FlatMap slot_of_;
+  std::vector<State> state_;
+  std::vector<VertexId> slot_vertices_;
   std::vector<std::uint32_t> local_;  // in the chunk, or kNone
   std::vector<double> slot_values_;   // functions_ a slot
   std::vector<Point> slot_positions_;
