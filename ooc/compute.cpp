@@ -252,7 +252,7 @@ LastUse Run::reorder_mesh() {
   common_.reordered = true;
   tell(Phase::kReorder, 0, 0);
   ReorderOptions options;
-  options.allowance_bytes = std::min<std::uint64_t>(budget_.free_bytes() / 2, 256u << 20);
+  options.allowance_bytes = std::min<std::uint64_t>(budget_.free_bytes() / 2, 64u << 20);
   options.coordinates = std::min(input_.dimension, 3u);
   auto mesh = reorder(*input_.indexed, temp_, budget_, options);
   common_.spilled_bytes += mesh->spilled_bytes();

@@ -45,8 +45,8 @@ MemoryPlan plan_memory(std::uint64_t limit_bytes, unsigned threads, std::size_t 
   // Beyond these sizes more memory makes nothing faster. The live graph gets what nobody else
   // takes; the front that is planned for leaves it room.
   const std::uint64_t eighth = plan.account_bytes / 8;
-  plan.table_bytes = std::min(eighth / 2, 4 * kMiB);
-  plan.segment_bytes = std::min(eighth / 2, 4 * kMiB) / functions;
+  plan.table_bytes = std::min(eighth / 2, 3 * kMiB);
+  plan.segment_bytes = std::min(eighth / 2, 2 * kMiB) / functions;
   plan.live_bytes = std::min(4 * eighth, 96 * kMiB) / functions;
 
   plan.threads = plan.account_bytes < kEnoughForThreads ? 1 : threads;
