@@ -31,7 +31,7 @@ static_assert(sizeof(Header) == 8 * 8);
 
 template <class T>
 std::uint64_t digest_of(const T& object, std::uint64_t seed) {
-  return xxh64(std::as_bytes(std::span(&object, 1)), seed);
+  return checksum(std::as_bytes(std::span(&object, 1)), seed);
 }
 
 std::uint64_t digest_of_file(const std::string& path, std::uint64_t seed) {
@@ -95,7 +95,7 @@ RunIdentity identify_run(const std::string& mesh, std::span<VertexFunction* cons
   for (const VertexFunction* function : functions) {
     const std::string name = function->name();
     run.functions = digest_of(std::uint64_t{name.size()}, run.functions);
-    run.functions = xxh64(std::as_bytes(std::span(name)), run.functions);
+    run.functions = checksum(std::as_bytes(std::span(name)), run.functions);
     if (const std::string file = function->source_file(); !file.empty())
       run.functions = digest_of_file(file, run.functions);
   }

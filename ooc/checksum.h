@@ -9,9 +9,6 @@
 namespace reeb::ooc {
 
 std::uint64_t checksum(std::span<const std::byte> bytes, std::uint64_t seed = 0);
-inline std::uint64_t xxh64(std::span<const std::byte> bytes, std::uint64_t seed = 0) {
-  return checksum(bytes, seed);
-}
 
 // The checksum of bytes that come in pieces; does not depend on where they were cut.
 class RunningChecksum {

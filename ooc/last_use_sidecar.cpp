@@ -92,7 +92,7 @@ void write_sidecar(AtomicFile& out, const MeshIdentity& mesh, LastUse& uses) {
   const auto profile = std::as_bytes(std::span(s.live_profile));
   out.append(object_bytes(header));
   out.append(profile);
-  out.append(object_bytes(xxh64(profile, xxh64(object_bytes(header)))));
+  out.append(object_bytes(checksum(profile, checksum(object_bytes(header)))));
   std::vector<std::uint32_t> entries(kBlockEntries);
   std::vector<std::byte> planes, packed;
   for (std::uint64_t first = 0; first < s.vertex_count; first += kBlockEntries) {
@@ -102,7 +102,7 @@ void write_sidecar(AtomicFile& out, const MeshIdentity& mesh, LastUse& uses) {
     to_planes(entries, planes);
     packed.clear();
     zstd_compress(planes, kLevel, packed);
-    out.append(object_bytes(BlockHeader{packed.size(), xxh64(packed)}));
+    out.append(object_bytes(BlockHeader{packed.size(), checksum(packed)}));
     out.append(packed);
   }
   out.commit();
@@ -138,7 +138,7 @@ UseSummary read_summary(Reader& in, const Header& header) {
   s.live_profile.resize(static_cast<std::size_t>(header.samples));
   const auto profile = std::as_writable_bytes(std::span(s.live_profile));
   in.take(profile);
-  if (in.take<std::uint64_t>() != xxh64(profile, xxh64(object_bytes(header)))) throw Damaged();
+  if (in.take<std::uint64_t>() != checksum(profile, checksum(object_bytes(header)))) throw Damaged();
   s.vertex_count = header.vertex_count;
   s.unused_vertices = header.unused_vertices;
   s.triangle_count = header.triangle_count;
@@ -160,7 +160,7 @@ void read_table(Reader& in, const UseSummary& summary, PagedTable<std::uint32_t>
     packed.resize(static_cast<std::size_t>(header.packed_bytes));
     in.take(packed);
     planes.resize(4 * entries.size());
-    if (xxh64(packed) != header.checksum || !zstd_decompress(packed, planes)) throw Damaged();
+    if (checksum(packed) != header.checksum || !zstd_decompress(packed, planes)) throw Damaged();
     from_planes(planes, entries);
     for (const std::uint32_t entry : entries)
       if (!UseEntry(entry).unused() && UseEntry(entry).last_block() >= summary.block_count)
@@ -185,7 +185,7 @@ MeshIdentity identify_mesh(const std::string& path) {
   for (std::uint64_t k = 0; k < kProbes; ++k) {
     const std::uint64_t room = identity.bytes - probe.size();
     file.read_at(room / (kProbes - 1) * k + room % (kProbes - 1) * k / (kProbes - 1), probe);
-    identity.digest = xxh64(probe, identity.digest);
+    identity.digest = checksum(probe, identity.digest);
     if (room == 0) break;
   }
   return identity;
