@@ -13,6 +13,7 @@
 #include "io/mesh_io.h"
 #include "libreeb/base/error.h"
 #include "ooc/compute.h"
+#include "ooc/reeb_file.h"
 #include "ooc/partial_folder.h"
 #include "tools/commands/commands.h"
 #include "tools/compute_report.h"
@@ -104,6 +105,10 @@ void run_compute(ComputeArguments arguments) {
   if (arguments.snapshot_every != 0) read_options.batch_events = 1;  // exactly as far as the stream came
   ooc::MeshInput input;
   input.path = arguments.mesh;
+  if (arguments.mesh != "-" && ooc::is_reeb_file(arguments.mesh))
+    throw Error(ErrorKind::kBadInput, "is a Reeb graph already, not a mesh",
+                "look at it with reeb info, or take a level out with reeb extract")
+        .at(arguments.mesh);
   input.reader = io::open_mesh(arguments.mesh, read_options);
   const MeshInfo info = input.reader->info();
   input.dimension = info.dimension;
