@@ -342,7 +342,7 @@ Reservation Run::reserve_hierarchy(ComputeResult& result, SegmentStore& store) {
               "the hierarchy of " + std::to_string(store.arc_count()) + " arcs needs " + format_bytes(needed) +
                   " of memory, but only " + format_bytes(budget_.free_bytes()) +
                   " are left; the graph itself was written",
-              "allow --memory " + std::to_string((options_.memory_bytes + needed) / (1 << 20) + 1) +
+              "allow --memory " + std::to_string((plan_.set_aside_bytes + budget_.limit_bytes() + needed) / (1 << 20) + 1) +
                   "M, remove noise with --denoise, or keep to the graph with --graph-only")
       .at(result.output);
 }

@@ -9,7 +9,8 @@
 set -euo pipefail
 
 packages=(cmake ninja-build g++ pkg-config libtbb-dev libzstd-dev zlib1g-dev libboost-iostreams-dev
-          libcli11-dev libfmt-dev nlohmann-json3-dev libfast-float-dev libxxhash-dev)
+          libcli11-dev libfmt-dev nlohmann-json3-dev libfast-float-dev libxxhash-dev
+          libeigen3-dev libspectra-dev)
 test_packages=(libgtest-dev libbenchmark-dev zstd)
 
 for word in "$@"; do

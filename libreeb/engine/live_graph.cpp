@@ -1,10 +1,10 @@
 #include "libreeb/engine/live_graph.h"
 
-#include "libreeb/base/grow.h"
-
 #include <stdexcept>
 #include <string>
 #include <utility>
+
+#include "libreeb/base/grow.h"
 
 namespace reeb {
 
