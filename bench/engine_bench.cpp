@@ -103,9 +103,9 @@ std::vector<Input> cut(const Mesh& mesh, std::int64_t function, std::size_t size
 
 struct CountingSink : GraphSink {
   void add_nodes(std::span<const SettledNode> more) override { nodes += more.size(); }
-  void add_arcs(std::span<const ArcKeys> more) override {
-    arcs += more.size();
-    for (const ArcKeys& arc : more) check ^= io::mix(arc.lo.vertex.value() ^ io::mix(arc.hi.vertex.value()));
+  void add_arcs(const SettledArcs& more) override {
+    arcs += more.arcs.size();
+    for (const ArcKeys& arc : more.arcs) check ^= io::mix(arc.lo.vertex.value() ^ io::mix(arc.hi.vertex.value()));
   }
   std::uint64_t nodes = 0, arcs = 0, check = 0;
 };

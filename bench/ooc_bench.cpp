@@ -161,7 +161,7 @@ void BM_Segments(benchmark::State& state) {
     MemoryBudget budget;
     SegmentStore store(temp(), budget, {.allowance_bytes = 8 << 20, .background = true});
     if (merging) state.PauseTiming();
-    store.add_arcs(arcs);
+    store.add_arcs({arcs});
     store.finish();
     if (merging) {
       state.ResumeTiming();

@@ -52,7 +52,7 @@ class SegmentStore : public GraphSink {
   SegmentStore(const TempDir& temp, MemoryBudget& budget, const SegmentOptions& options = {});
 
   void add_nodes(std::span<const SettledNode> nodes) override { nodes_.add(nodes); }
-  void add_arcs(std::span<const ArcKeys> arcs) override { arcs_.add(arcs); }
+  void add_arcs(const SettledArcs& settled) override { arcs_.add(settled.arcs); }
   void finish();
 
   // As of ExternalSort; before finish().

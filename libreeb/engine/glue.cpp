@@ -6,7 +6,7 @@ namespace reeb {
 
 void Glue::add(const Fragment& fragment) {
   if (!fragment.settled_nodes.empty()) sink_->add_nodes(fragment.settled_nodes);
-  if (!fragment.settled_arcs.empty()) sink_->add_arcs(fragment.settled_arcs);
+  if (!fragment.settled_arcs.empty()) sink_->add_arcs({fragment.settled_arcs});
   add_nodes(fragment);
   arcs_.clear();
   for (const Fragment::Arc& arc : fragment.arcs)

@@ -311,7 +311,7 @@ void LiveGraph::hand_over(Index a) {
 
 void LiveGraph::flush() {
   if (!settled_nodes_.empty()) sink_->add_nodes(settled_nodes_);
-  if (!settled_arcs_.empty()) sink_->add_arcs(settled_arcs_);
+  if (!settled_arcs_.empty()) sink_->add_arcs({settled_arcs_});
   settled_nodes_.clear();
   settled_arcs_.clear();
 }

@@ -16,7 +16,9 @@ class KeepingSink : public GraphSink {
   void add_nodes(std::span<const SettledNode> nodes) override {
     for (const SettledNode& node : nodes) nodes_.push_back(node.key);
   }
-  void add_arcs(std::span<const ArcKeys> arcs) override { arcs_.insert(arcs_.end(), arcs.begin(), arcs.end()); }
+  void add_arcs(const SettledArcs& settled) override {
+    arcs_.insert(arcs_.end(), settled.arcs.begin(), settled.arcs.end());
+  }
 
   const std::vector<SweepKey>& nodes() const { return nodes_; }
   const std::vector<ArcKeys>& arcs() const { return arcs_; }

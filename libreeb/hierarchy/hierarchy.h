@@ -6,11 +6,11 @@
 // 0 is the full graph. The graph of version e has the arcs with born <= e < died.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
 #include "libreeb/base/ids.h"
+#include "libreeb/graph/bucket.h"
 #include "libreeb/graph/reeb_graph.h"
 
 namespace reeb {
@@ -23,13 +23,6 @@ struct PersistencePair {
   PairType type = PairType::kExt0;
   bool kept = false;  // an Ext1 that no rule could cancel
   friend bool operator==(const PersistencePair&, const PersistencePair&) = default;
-};
-
-// One bucket of an arc's embedding: the vertices whose value lies in [index, index + 1) * 2^h.
-struct Bucket {
-  std::int64_t index = 0;
-  std::uint64_t count = 0;
-  std::array<double, 3> mean{};
 };
 
 inline constexpr std::uint32_t kNeverDies = ~std::uint32_t{0};

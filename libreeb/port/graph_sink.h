@@ -2,9 +2,11 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <span>
 
 #include "libreeb/base/sweep_key.h"
+#include "libreeb/graph/bucket.h"
 #include "libreeb/graph/reeb_graph.h"
 
 namespace reeb {
@@ -17,6 +19,15 @@ struct SettledNode {
   Point position{};
 };
 
+// Arcs of the final graph, with their embedding if there is one: arc i owns the next
+// bucket_counts[i] of `buckets`, ascending.
+struct SettledArcs {
+  std::span<const ArcKeys> arcs;
+  std::span<const std::uint32_t> bucket_counts = {};  // one an arc; empty: no embedding
+  std::span<const Bucket> buckets = {};
+  int bucket_exponent = 0;  // of all of them; a later call may have a larger one
+};
+
 // Receives every node and every arc of the final graph exactly once, in no particular order.
 // The spans are valid during the call only.
 class GraphSink {
@@ -27,7 +38,7 @@ class GraphSink {
   virtual ~GraphSink() = default;
 
   virtual void add_nodes(std::span<const SettledNode> nodes) = 0;
-  virtual void add_arcs(std::span<const ArcKeys> arcs) = 0;
+  virtual void add_arcs(const SettledArcs& settled) = 0;
 };
 
 }  // namespace reeb

@@ -47,8 +47,8 @@ struct KeepingSink : GraphSink {
   void add_nodes(std::span<const SettledNode> more) override {
     for (const SettledNode& node : more) nodes.push_back(node.key);
   }
-  void add_arcs(std::span<const ArcKeys> more) override {
-    arcs.insert(arcs.end(), more.begin(), more.end());
+  void add_arcs(const SettledArcs& more) override {
+    arcs.insert(arcs.end(), more.arcs.begin(), more.arcs.end());
   }
   std::vector<SweepKey> nodes;
   std::vector<ArcKeys> arcs;

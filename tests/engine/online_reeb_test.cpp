@@ -109,8 +109,8 @@ struct CollectingSink : GraphSink {
       positions.push_back(node.position);
     }
   }
-  void add_arcs(std::span<const ArcKeys> more) override {
-    arcs.insert(arcs.end(), more.begin(), more.end());
+  void add_arcs(const SettledArcs& more) override {
+    arcs.insert(arcs.end(), more.arcs.begin(), more.arcs.end());
   }
 
   std::vector<SweepKey> nodes;

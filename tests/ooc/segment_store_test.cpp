@@ -39,7 +39,7 @@ void add(SegmentStore& store, const Pieces& pieces) {
   for (std::size_t i = 0; i < pieces.nodes.size(); i += step)
     store.add_nodes(std::span(pieces.nodes).subspan(i, std::min(step, pieces.nodes.size() - i)));
   for (std::size_t i = 0; i < pieces.arcs.size(); i += step)
-    store.add_arcs(std::span(pieces.arcs).subspan(i, std::min(step, pieces.arcs.size() - i)));
+    store.add_arcs({std::span(pieces.arcs).subspan(i, std::min(step, pieces.arcs.size() - i))});
 }
 
 class Segments : public testing::TestWithParam<bool> {};
@@ -110,7 +110,7 @@ TEST(SegmentStore, AnArcThatEndsNowhereIsSeen) {
   MemoryBudget budget;
   SegmentStore store(temp, budget);
   store.add_nodes(std::vector<SettledNode>{{{1.0, VertexId(0)}, {}}});
-  store.add_arcs(std::vector<ArcKeys>{{{1.0, VertexId(0)}, {2.0, VertexId(1)}}});
+  store.add_arcs({std::vector<ArcKeys>{{{1.0, VertexId(0)}, {2.0, VertexId(1)}}}});
   store.finish();
   EXPECT_THROW(read_graph(store), std::logic_error);
 }

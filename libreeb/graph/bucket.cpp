@@ -1,0 +1,37 @@
+#include "libreeb/graph/bucket.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace reeb {
+namespace {
+
+// 2^-exponent may be no number, while the quotient is one.
+double scaled(double value, int exponent) noexcept { return std::floor(std::ldexp(value, -exponent)); }
+
+bool fits(double min, double max, std::uint32_t buckets, int exponent) noexcept {
+  constexpr double kExact = 9007199254740992.0;  // 2^53
+  const double first = scaled(min, exponent), last = scaled(max, exponent);
+  return first >= -kExact && last <= kExact && last - first < 2.0 * buckets;
+}
+
+}  // namespace
+
+std::int64_t bucket_index(double value, int exponent) noexcept {
+  return static_cast<std::int64_t>(scaled(value, exponent));
+}
+
+int bucket_exponent(double min, double max, std::uint32_t buckets) noexcept {
+  // Twice the least exponent of a double, so that halves of halves of the least range are there.
+  int least = -1100, most = 1100;
+  while (least < most) {
+    const int middle = least + (most - least) / 2;
+    if (fits(min, max, buckets, middle))
+      most = middle;
+    else
+      least = middle + 1;
+  }
+  return least;
+}
+
+}  // namespace reeb

@@ -1,0 +1,30 @@
+// The embedding of an arc: where the vertices lie that it passes, by buckets of function value
+// (DESIGN.md 5; the paper's "Embedding").
+//
+// Bucket i of exponent h covers the values [i * 2^h, (i + 1) * 2^h). Two buckets of exponent h, of
+// which the lower has an even index, are one bucket of exponent h + 1.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace reeb {
+
+struct Bucket {
+  std::int64_t index = 0;
+  std::uint64_t count = 0;       // vertices
+  std::array<double, 3> mean{};  // of their positions
+  friend bool operator==(const Bucket&, const Bucket&) = default;
+};
+
+// The bucket of this value: floor(value / 2^exponent).
+// REQUIRES: the exponent is at least bucket_exponent() of a range with the value.
+std::int64_t bucket_index(double value, int exponent) noexcept;
+
+// The least exponent for which the values from min to max lie in at most 2 * buckets consecutive
+// buckets, with indices that are exact; so they lie in more than `buckets` of them, or nearly,
+// unless there are too few numbers between min and max. It never falls when the range grows.
+// REQUIRES: min <= max, finite; 1 <= buckets <= 2^20.
+int bucket_exponent(double min, double max, std::uint32_t buckets) noexcept;
+
+}  // namespace reeb
