@@ -5,7 +5,8 @@
 // lists the references on it. Two paths with the same ends are zipped: their arcs are merged from
 // above, the shorter arc cutting the longer one. A node whose vertex is complete (all its
 // simplices are in) disappears when it has one arc up and one down. A node is settled when it is
-// complete and none of its arcs is referenced; an arc whose ends are settled leaves for the sink.
+// complete and can never come to that; an arc without references whose ends are settled leaves for
+// the sink. So of a bump on a long path only the fork stays, not the arc to its top.
 //
 // Everything is a 32-bit index into flat arrays with free lists; a reference is 16 bytes.
 #pragma once
@@ -26,7 +27,8 @@ class LiveGraph {
   using Index = std::uint32_t;
   static constexpr Index kNone = ~Index{0};
 
-  // Whether a node's vertex can get further simplices, or not, or the node cannot change at all.
+  // Whether a node's vertex can get further simplices, or not, or the node is one of the final
+  // graph for certain.
   enum class State : std::uint8_t { kIncomplete, kComplete, kSettled };
 
   // Settled nodes and arcs go to `sink` when flush() is called.
@@ -109,6 +111,8 @@ class LiveGraph {
   void lost_references(Index arc);
   void queue(Index node);
   bool is_pass_through(const Node& n) const { return n.up_degree == 1 && n.down_degree == 1; }
+  bool stays_for_good(const Node& node) const;
+  bool can_leave(Index arc) const;
   void contract(Index node);
   void settle(Index node);
   void hand_over(Index arc);
