@@ -20,7 +20,7 @@ void FragmentBuilder::start(std::size_t vertices) {
 
 std::uint32_t FragmentBuilder::add_node(std::uint32_t v) {
   node_of_[v] = static_cast<std::uint32_t>(nodes_.size());
-  nodes_.push_back({v, kNone, false, kNone});
+  nodes_.push_back({v, kNone, {}, {}, false, kNone});
   return node_of_[v];
 }
 
@@ -90,18 +90,35 @@ void FragmentBuilder::trace_paths(Fragment& fragment) {
   }
 }
 
+// Which nodes can still become (1, 1) nodes, or get further arcs. As in LiveGraph, a node that no
+// other chunk uses stays one for good if on one of its sides there is no arc, or two and one of them
+// without paths.
+void FragmentBuilder::find_changing_nodes(const Sweep& sweep) {
+  for (Node& node : nodes_) node.up = node.down = {};
+  const auto add = [](Side& side, bool referenced) {
+    side.several = side.any;
+    side.any = true;
+    side.loose |= !referenced;
+  };
+  for (const Arc& arc : arcs_) {
+    add(nodes_[arc.lo].up, arc.referenced);
+    add(nodes_[arc.hi].down, arc.referenced);
+  }
+  const auto lasts = [](const Side& side) { return !side.any || (side.several && side.loose); };
+  for (Node& node : nodes_)
+    node.can_change = sweep.uses(node.vertex) != kUsedHereOnly || !(lasts(node.up) || lasts(node.down));
+}
+
 // Divides nodes and arcs into open and settled ones (DESIGN.md 2): an arc is settled if no path
 // runs on it and none of its ends can change; a node leaves when all its arcs do.
 void FragmentBuilder::divide(const Sweep& sweep, Fragment& fragment) {
-  for (Node& node : nodes_) node.can_change = sweep.uses(node.vertex) != kUsedHereOnly;
-  for (const Arc& arc : arcs_)
-    if (arc.referenced) nodes_[arc.lo].can_change = nodes_[arc.hi].can_change = true;
+  find_changing_nodes(sweep);
   for (Node& node : nodes_) node.open = node.can_change ? 0 : kNone;
 
   open_arcs_.clear();
   for (std::uint32_t a = 0; a < arcs_.size(); ++a) {
     Node &lo = nodes_[arcs_[a].lo], &hi = nodes_[arcs_[a].hi];
-    if (!lo.can_change && !hi.can_change) {
+    if (!arcs_[a].referenced && !lo.can_change && !hi.can_change) {
       fragment.settled_arcs.push_back({sweep.key(lo.vertex), sweep.key(hi.vertex)});
     } else {
       open_arcs_.push_back(a);

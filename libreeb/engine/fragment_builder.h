@@ -52,10 +52,15 @@ class FragmentBuilder {
   std::size_t memory_bytes() const;
 
  private:
+  // The arcs on one side of a node: whether there are any, or several, or any without paths.
+  struct Side {
+    bool any = false, several = false, loose = false;
+  };
   struct Node {
     std::uint32_t vertex;
     std::uint32_t main_branch;
-    bool can_change;     // used elsewhere, or an end of an arc with paths
+    Side up, down;
+    bool can_change;     // not a node of the final graph for certain
     std::uint32_t open;  // the number of the node in the fragment, or kNone
   };
   struct Arc {
@@ -86,6 +91,7 @@ class FragmentBuilder {
 
   void sort_steps(const Sweep& sweep);
   void trace_paths(Fragment& fragment);
+  void find_changing_nodes(const Sweep& sweep);
   void divide(const Sweep& sweep, Fragment& fragment);
   void add_nodes(const Sweep& sweep, Fragment& fragment);
   void add_arcs(Fragment& fragment);

@@ -54,6 +54,10 @@ LiveGraph::Index LiveGraph::add_arc(Index lo, Index hi) {
   return a;
 }
 
+void LiveGraph::release(Index a) {
+  if (can_leave(a)) hand_over(a);
+}
+
 void LiveGraph::free_arc(Index a) {
   arcs_[a].lo = kNone;
   arcs_[a].lo_next = std::exchange(first_free_arc_, a);

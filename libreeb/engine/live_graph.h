@@ -36,6 +36,8 @@ class LiveGraph {
 
   Index add_node(const SweepKey& key, const Point& position, State state);
   Index add_arc(Index lo, Index hi);
+  // Says that a new arc has got all the references that it gets.
+  void release(Index arc);
   const SweepKey& key(Index node) const { return nodes_[node].key; }
   bool is_incomplete(Index node) const {
     return nodes_[node].used && nodes_[node].state == State::kIncomplete;
