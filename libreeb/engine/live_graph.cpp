@@ -4,8 +4,6 @@
 #include <string>
 #include <utility>
 
-#include "libreeb/base/grow.h"
-
 namespace reeb {
 
 // ---- nodes and arcs
@@ -17,12 +15,8 @@ LiveGraph::Index LiveGraph::add_node(const SweepKey& key, const Point& position,
     --free_nodes_;
   } else {
     n = static_cast<Index>(nodes_.size());
-    grow_by_quarter(nodes_);
-    nodes_.emplace_back();
-    if (track_positions_) {
-      grow_by_quarter(positions_);
-      positions_.emplace_back();
-    }
+    nodes_.grow_by(1);
+    if (track_positions_) positions_.grow_by(1);
   }
   nodes_[n] = {key, kNone, kNone, 0, 0, 0, state, false, true};
   if (track_positions_) positions_[n] = position;
@@ -44,8 +38,7 @@ LiveGraph::Index LiveGraph::add_arc(Index lo, Index hi) {
     --free_arcs_;
   } else {
     a = static_cast<Index>(arcs_.size());
-    grow_by_quarter(arcs_);
-    arcs_.emplace_back();
+    arcs_.grow_by(1);
   }
   arcs_[a].first_reference = kNone;
   arcs_[a].references = 0;
@@ -113,8 +106,7 @@ LiveGraph::Index LiveGraph::new_reference() {
     --free_references_;
   } else {
     r = static_cast<Index>(references_.size());
-    grow_by_quarter(references_);
-    references_.emplace_back();
+    references_.grow_by(1);
   }
   return r;
 }
@@ -348,7 +340,8 @@ void LiveGraph::flush() {
 void LiveGraph::snapshot(std::vector<ArcKeys>& arcs, std::vector<SweepKey>& isolated) const {
   // A settled node may have handed over arcs already, so its degree here says nothing.
   const auto stays = [&](const Node& n) { return n.state == State::kSettled || !is_pass_through(n); };
-  for (const Node& node : nodes_) {
+  for (Index n = 0; n < nodes_.size(); ++n) {
+    const Node& node = nodes_[n];
     if (!node.used || !stays(node)) continue;
     if (node.up_degree + node.down_degree == 0 && node.state != State::kSettled) isolated.push_back(node.key);
     for (Index a = node.up_first; a != kNone; a = arcs_[a].lo_next) {
@@ -360,8 +353,7 @@ void LiveGraph::snapshot(std::vector<ArcKeys>& arcs, std::vector<SweepKey>& isol
 }
 
 std::size_t LiveGraph::memory_bytes() const {
-  return nodes_.capacity() * sizeof(Node) + positions_.capacity() * sizeof(Point) +
-         arcs_.capacity() * sizeof(Arc) + references_.capacity() * sizeof(Reference) +
+  return nodes_.memory_bytes() + positions_.memory_bytes() + arcs_.memory_bytes() + references_.memory_bytes() +
          changed_.capacity() * sizeof(Index) + settled_nodes_.capacity() * sizeof(SettledNode) +
          settled_arcs_.capacity() * sizeof(ArcKeys);
 }

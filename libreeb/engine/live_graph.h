@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "libreeb/base/growing_array.h"
 #include "libreeb/base/state_stream.h"
 #include "libreeb/base/sweep_key.h"
 #include "libreeb/graph/reeb_graph.h"
@@ -121,10 +122,10 @@ class LiveGraph {
 
   GraphSink* sink_;
   bool track_positions_;
-  std::vector<Node> nodes_;
-  std::vector<Point> positions_;  // one a node, if tracked
-  std::vector<Arc> arcs_;
-  std::vector<Reference> references_;
+  GrowingArray<Node> nodes_;
+  GrowingArray<Point> positions_;  // one a node, if tracked
+  GrowingArray<Arc> arcs_;
+  GrowingArray<Reference> references_;
   Index first_free_node_ = kNone, first_free_arc_ = kNone, first_free_reference_ = kNone;
   std::size_t free_nodes_ = 0, free_arcs_ = 0, free_references_ = 0;
   std::uint64_t zips_ = 0, zip_steps_ = 0;

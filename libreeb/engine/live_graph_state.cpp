@@ -5,20 +5,20 @@ namespace reeb {
 
 void LiveGraph::save(StateWriter& out) const {
   out.put(track_positions_);
-  out.put_array(nodes_);
-  out.put_array(positions_);
-  out.put_array(arcs_);
-  out.put_array(references_);
+  nodes_.save(out);
+  positions_.save(out);
+  arcs_.save(out);
+  references_.save(out);
   for (const Index first : {first_free_node_, first_free_arc_, first_free_reference_}) out.put(first);
   for (const std::size_t count : {free_nodes_, free_arcs_, free_references_}) out.put(std::uint64_t{count});
 }
 
 void LiveGraph::restore(StateReader& in) {
   if (in.get<bool>() != track_positions_) throw DamagedState();
-  in.get_array(nodes_);
-  in.get_array(positions_);
-  in.get_array(arcs_);
-  in.get_array(references_);
+  nodes_.restore(in);
+  positions_.restore(in);
+  arcs_.restore(in);
+  references_.restore(in);
   for (Index* first : {&first_free_node_, &first_free_arc_, &first_free_reference_}) in.get(*first);
   for (std::size_t* count : {&free_nodes_, &free_arcs_, &free_references_})
     *count = static_cast<std::size_t>(in.get<std::uint64_t>());
