@@ -5,6 +5,7 @@ namespace reeb {
 
 void Glue::save(StateWriter& out) const {
   graph_.save(out);
+  out.put(removed_in_fragments_);
   first_link_.save(out);
   edges_.save(out);
   links_.save(out);
@@ -13,6 +14,7 @@ void Glue::save(StateWriter& out) const {
 
 void Glue::restore(StateReader& in) {
   graph_.restore(in);
+  in.get(removed_in_fragments_);
   first_link_.restore(in);
   edges_.restore(in);
   links_.restore(in);

@@ -18,7 +18,7 @@ LiveGraph::Index LiveGraph::add_node(const SweepKey& key, const Point& position,
     nodes_.grow_by(1);
     if (track_positions_) positions_.grow_by(1);
   }
-  nodes_[n] = {key, kNone, kNone, 0, 0, 0, state, false, true};
+  nodes_[n] = {key, kNone, kNone, 0, 0, 0, state, state != State::kSettled, false, true};
   if (track_positions_) positions_[n] = position;
   // A complete node is looked at once everything that comes with it is in place.
   if (state != State::kIncomplete) queue(n);
@@ -253,12 +253,12 @@ void LiveGraph::tidy() {
     Node& node = nodes_[n];
     node.queued = false;
     if (!node.used) continue;
-    if (node.state == State::kComplete) {
-      if (is_pass_through(node))
-        contract(n);
-      else if (stays_for_good(node))
-        settle(n);
-    }
+    if (noise_below_ > 0) remove_noise_at(n);
+    if (!node.used) continue;
+    if (is_pass_through(node))
+      contract(n);
+    else if (node.state == State::kComplete && stays_for_good(node))
+      settle(n);
     // A settled node leaves with its last arc; one without arcs leaves at once.
     if (node.used && node.state == State::kSettled && node.up_degree + node.down_degree == 0) {
       settled_nodes_.push_back({node.key, track_positions_ ? positions_[n] : Point{}});
@@ -271,8 +271,10 @@ void LiveGraph::tidy() {
 
 // Whether a complete node, not a (1, 1) one, will never become one. Zips merge referenced arcs with
 // each other only, and leave at least one on each side that has any. So a side keeps two arcs for
-// good if it has two and one of them is not referenced; and an empty side stays empty.
+// good if it has two and one of them is not referenced; and an empty side stays empty. But noise can
+// go as long as the arcs of its saddle are here, so then they wait until no path is left.
 bool LiveGraph::stays_for_good(const Node& node) const {
+  if (noise_below_ > 0) return node.referenced_arcs == 0;
   if (node.up_degree == 0 || node.down_degree == 0) return true;
   std::uint32_t lasting = node.up_degree + node.down_degree - node.referenced_arcs;
   if (node.up_degree == 1 && arcs_[node.up_first].references == 0) --lasting;
@@ -294,13 +296,18 @@ void LiveGraph::contract(Index n) {
     references_[r].down = references_[skipped].down;
     free_reference(skipped);
   }
-  const Index lo = arcs_[lower].lo;
+  const Index lo = arcs_[lower].lo, hi = arcs_[upper].hi;
   detach_lo(lower);
   detach_hi(lower);
   free_arc(lower);
   detach_lo(upper);
   attach_lo(upper, lo);
   free_node(n);
+  if (noise_below_ > 0) {  // a leaf has another saddle now
+    for (const Index end : {lo, hi})
+      if (is_leaf(nodes_[end])) try_leaf(end);
+    if (!nodes_[lo].used || !nodes_[hi].used) return;
+  }
   if (can_leave(upper)) hand_over(upper);
 }
 
@@ -324,8 +331,10 @@ void LiveGraph::hand_over(Index a) {
   detach_lo(a);
   detach_hi(a);
   free_arc(a);
-  for (const Index n : {lo, hi})
+  for (const Index n : {lo, hi}) {
+    nodes_[n].intact = false;
     if (nodes_[n].up_degree + nodes_[n].down_degree == 0) queue(n);
+  }
 }
 
 void LiveGraph::flush() {
@@ -338,12 +347,12 @@ void LiveGraph::flush() {
 // ---- looking
 
 void LiveGraph::snapshot(std::vector<ArcKeys>& arcs, std::vector<SweepKey>& isolated) const {
-  // A settled node may have handed over arcs already, so its degree here says nothing.
-  const auto stays = [&](const Node& n) { return n.state == State::kSettled || !is_pass_through(n); };
+  // Where arcs were handed over already, the degree here says nothing.
+  const auto stays = [&](const Node& n) { return !is_pass_through(n); };
   for (Index n = 0; n < nodes_.size(); ++n) {
     const Node& node = nodes_[n];
     if (!node.used || !stays(node)) continue;
-    if (node.up_degree + node.down_degree == 0 && node.state != State::kSettled) isolated.push_back(node.key);
+    if (node.up_degree + node.down_degree == 0 && node.intact) isolated.push_back(node.key);
     for (Index a = node.up_first; a != kNone; a = arcs_[a].lo_next) {
       Index end = arcs_[a].hi;
       while (!stays(nodes_[end])) end = arcs_[nodes_[end].up_first].hi;

@@ -5,6 +5,8 @@ namespace reeb {
 
 void LiveGraph::save(StateWriter& out) const {
   out.put(track_positions_);
+  out.put(noise_below_);
+  out.put(removed_pairs_);
   nodes_.save(out);
   positions_.save(out);
   arcs_.save(out);
@@ -15,6 +17,8 @@ void LiveGraph::save(StateWriter& out) const {
 
 void LiveGraph::restore(StateReader& in) {
   if (in.get<bool>() != track_positions_) throw DamagedState();
+  in.get(noise_below_);
+  in.get(removed_pairs_);
   nodes_.restore(in);
   positions_.restore(in);
   arcs_.restore(in);
