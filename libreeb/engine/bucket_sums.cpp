@@ -4,8 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "libreeb/base/grow.h"
-
 namespace reeb {
 
 BucketSum BucketSum::take(std::uint64_t taken) {
@@ -41,10 +39,10 @@ BucketLists::Index BucketLists::new_bucket(const BucketSum& bucket) {
     return b;
   }
   b = static_cast<Index>(sums_.size());
-  grow_by_quarter(sums_);
-  grow_by_quarter(next_);
-  sums_.push_back(bucket);
-  next_.push_back(b);
+  sums_.grow_by(1);
+  next_.grow_by(1);
+  sums_[b] = bucket;
+  next_[b] = b;
   return b;
 }
 
@@ -187,15 +185,15 @@ void lay_on_path(BucketLists& lists, BucketLists::List& from, Direction d, doubl
 }
 
 void BucketLists::save(StateWriter& out) const {
-  out.put_array(sums_);
-  out.put_array(next_);
+  sums_.save(out);
+  next_.save(out);
   out.put(first_free_);
   out.put(exponent_);
 }
 
 void BucketLists::restore(StateReader& in) {
-  in.get_array(sums_);
-  in.get_array(next_);
+  sums_.restore(in);
+  next_.restore(in);
   in.get(first_free_);
   in.get(exponent_);
 }

@@ -8,9 +8,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "libreeb/base/direction.h"
+#include "libreeb/base/growing_array.h"
 #include "libreeb/base/state_stream.h"
 #include "libreeb/graph/bucket.h"
 #include "libreeb/port/graph_sink.h"
@@ -100,7 +100,7 @@ class BucketLists {
   }
 
   std::size_t memory_bytes() const {
-    return sums_.capacity() * sizeof(BucketSum) + next_.capacity() * sizeof(Index);
+    return sums_.memory_bytes() + next_.memory_bytes();
   }
   void save(StateWriter& out) const;
   void restore(StateReader& in);
@@ -118,8 +118,8 @@ class BucketLists {
   void coarsen(List& list);
   std::uint64_t count_above(const BucketSum& bucket, double lo, double at, double hi) const;
 
-  std::vector<BucketSum> sums_;
-  std::vector<Index> next_;  // in its list, or of free buckets
+  GrowingArray<BucketSum> sums_;
+  GrowingArray<Index> next_;  // in its list, or of free buckets
   Index first_free_ = kNone;
   int exponent_ = 0;
 };

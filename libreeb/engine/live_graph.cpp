@@ -4,16 +4,21 @@
 #include <string>
 #include <utility>
 
-#include "libreeb/base/grow.h"
-
 namespace reeb {
 
 void LiveGraph::set_options(const SweepOptions& options) {
   noise_below_ = options.noise_below;
   if (!options.bucket_exponent) return;
   embeds_ = true;
-  arc_buckets_.resize(arcs_.size());
+  grow_arc_buckets();
   buckets_.raise_exponent(*options.bucket_exponent);
+}
+
+void LiveGraph::grow_arc_buckets() {
+  while (arc_buckets_.size() < arcs_.size()) {
+    arc_buckets_.grow_by(1);
+    arc_buckets_[arc_buckets_.size() - 1] = {};
+  }
 }
 
 // ---- nodes and arcs
@@ -25,12 +30,8 @@ LiveGraph::Index LiveGraph::add_node(const SweepKey& key, const Point& position,
     --free_nodes_;
   } else {
     n = static_cast<Index>(nodes_.size());
-    grow_by_quarter(nodes_);
-    nodes_.emplace_back();
-    if (track_positions_) {
-      grow_by_quarter(positions_);
-      positions_.emplace_back();
-    }
+    nodes_.grow_by(1);
+    if (track_positions_) positions_.grow_by(1);
   }
   nodes_[n] = {key, kNone, kNone, 0, 0, 0, state, state != State::kSettled, false, true};
   if (track_positions_) positions_[n] = position;
@@ -52,12 +53,8 @@ LiveGraph::Index LiveGraph::add_arc(Index lo, Index hi) {
     --free_arcs_;
   } else {
     a = static_cast<Index>(arcs_.size());
-    grow_by_quarter(arcs_);
-    arcs_.emplace_back();
-    if (embeds_) {
-      grow_by_quarter(arc_buckets_);
-      arc_buckets_.emplace_back();
-    }
+    arcs_.grow_by(1);
+    if (embeds_) grow_arc_buckets();
   }
   arcs_[a].first_reference = kNone;
   arcs_[a].references = 0;
@@ -129,8 +126,7 @@ LiveGraph::Index LiveGraph::new_reference() {
     --free_references_;
   } else {
     r = static_cast<Index>(references_.size());
-    grow_by_quarter(references_);
-    references_.emplace_back();
+    references_.grow_by(1);
   }
   return r;
 }
@@ -396,7 +392,8 @@ void LiveGraph::flush() {
 void LiveGraph::snapshot(std::vector<ArcKeys>& arcs, std::vector<SweepKey>& isolated) const {
   // Where arcs were handed over already, the degree here says nothing.
   const auto stays = [&](const Node& n) { return !is_pass_through(n); };
-  for (const Node& node : nodes_) {
+  for (Index n = 0; n < nodes_.size(); ++n) {
+    const Node& node = nodes_[n];
     if (!node.used || !stays(node)) continue;
     if (node.up_degree + node.down_degree == 0 && node.intact) isolated.push_back(node.key);
     for (Index a = node.up_first; a != kNone; a = arcs_[a].lo_next) {
@@ -408,11 +405,10 @@ void LiveGraph::snapshot(std::vector<ArcKeys>& arcs, std::vector<SweepKey>& isol
 }
 
 std::size_t LiveGraph::memory_bytes() const {
-  return nodes_.capacity() * sizeof(Node) + positions_.capacity() * sizeof(Point) +
-         arcs_.capacity() * sizeof(Arc) + references_.capacity() * sizeof(Reference) +
+  return nodes_.memory_bytes() + positions_.memory_bytes() + arcs_.memory_bytes() + references_.memory_bytes() +
          changed_.capacity() * sizeof(Index) + settled_nodes_.capacity() * sizeof(SettledNode) +
          settled_arcs_.capacity() * sizeof(ArcKeys) + buckets_.memory_bytes() +
-         arc_buckets_.capacity() * sizeof(BucketLists::List) +
+         arc_buckets_.memory_bytes() +
          4 * settled_bucket_counts_.capacity() + settled_buckets_.capacity() * sizeof(Bucket);
 }
 

@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "libreeb/base/direction.h"
+#include "libreeb/base/growing_array.h"
 #include "libreeb/base/state_stream.h"
 #include "libreeb/base/sweep_key.h"
 #include "libreeb/engine/bucket_sums.h"
@@ -120,6 +121,7 @@ class LiveGraph {
   void detach_hi(Index arc);
   void free_arc(Index arc);
   void free_node(Index node);
+  void grow_arc_buckets();
   Index new_reference();
   void free_reference(Index r);
   void link(Index r, Index arc);
@@ -147,16 +149,16 @@ class LiveGraph {
 
   GraphSink* sink_;
   bool track_positions_;
-  std::vector<Node> nodes_;
-  std::vector<Point> positions_;  // one a node, if tracked
-  std::vector<Arc> arcs_;
-  std::vector<Reference> references_;
+  GrowingArray<Node> nodes_;
+  GrowingArray<Point> positions_;  // one a node, if tracked
+  GrowingArray<Arc> arcs_;
+  GrowingArray<Reference> references_;
   Index first_free_node_ = kNone, first_free_arc_ = kNone, first_free_reference_ = kNone;
   std::size_t free_nodes_ = 0, free_arcs_ = 0, free_references_ = 0;
   double noise_below_ = 0;
   bool embeds_ = false;
   BucketLists buckets_;
-  std::vector<BucketLists::List> arc_buckets_;  // one an arc, if there is an embedding
+  GrowingArray<BucketLists::List> arc_buckets_;  // one an arc, if there is an embedding
   std::vector<Index> path_;                     // arcs, from the saddle of a leaf
   std::vector<PathBuckets> path_buckets_;
   std::uint64_t removed_pairs_ = 0, zips_ = 0, zip_steps_ = 0;
