@@ -8,9 +8,9 @@ namespace reeb {
 
 BucketSum BucketSum::take(std::uint64_t taken) {
   BucketSum part{index, taken, {}};
+  const double share = static_cast<double>(taken) / static_cast<double>(count);
   for (std::size_t k = 0; k < 3; ++k) {
-    const auto all = static_cast<Int128>(count), share = static_cast<Int128>(taken);
-    part.sum[k] = sum[k] / all * share + sum[k] % all * share / all;
+    part.sum[k] = static_cast<Int128>(static_cast<double>(sum[k]) * share);
     sum[k] -= part.sum[k];
   }
   count -= taken;
@@ -66,8 +66,11 @@ void BucketLists::append(List& list, const BucketSum& bucket) {
 }
 
 void BucketLists::add_vertex(List& list, double value, const Point& position) {
+  bring_up(list);
+  const std::int64_t index = index_of(value);
+  if (list.empty() || sums_[list.last].index <= index) return add_last(list, index, position);
   List vertex;
-  add_last(vertex, index_of(value), position);
+  add_last(vertex, index, position);
   merge(list, vertex);
 }
 

@@ -14,6 +14,8 @@ namespace reeb {
 namespace {
 
 constexpr std::uint32_t kNone = ~std::uint32_t{0};
+// Positions lie in the order of the stream: so many vertices ahead of the sweep they are asked for.
+constexpr std::uint32_t kPrefetched = 16;
 
 // The triangles that cross the level, each by two of its edges: lo-hi, and lo-mid up to its middle
 // vertex, mid-hi from there on. These are its half-edges 2 * t and 2 * t + 1, each in a ring with
@@ -271,7 +273,10 @@ void ChunkSweep::Scratch::run(const Chunk& chunk_in, std::span<const double> val
   swept = &swept_chunk;
   bucket = RisingBucket(swept_chunk, options);
   const auto n = static_cast<std::uint32_t>(chunk->vertex_count());
-  for (std::uint32_t v = 0; v < n; ++v) visit(v);
+  for (std::uint32_t v = 0; v < n; ++v) {
+    if (bucket.is_wanted()) swept_chunk.prefetch_position(v + kPrefetched);
+    visit(v);
+  }
   builder.finish(swept_chunk, fragment);
 }
 
