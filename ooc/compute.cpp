@@ -109,7 +109,7 @@ class Run {
 
   ComputeResult second_stage(std::size_t f);
   FileMeta file_meta(const ComputeResult& result) const;
-  void write_graph(ComputeResult& result, SegmentStore& store) const;
+  void write_graph(ComputeResult& result, SegmentStore& store);
   void write_hierarchy(ComputeResult& result, SegmentStore& store);
   Reservation reserve_hierarchy(ComputeResult& result, SegmentStore& store);
   void tell(Phase phase, std::uint64_t done, std::uint64_t total, std::uint64_t triangles = 0) const {
@@ -161,7 +161,6 @@ void Run::first_stage() {
     run_chunks(*chunks_of(*input_.reader, values_, plan_.chunk));
     note(input_.reader->warnings());
   }
-  for (const auto& store : stores_) store->finish();
 }
 
 void Run::run_indexed() {
@@ -293,11 +292,12 @@ ComputeResult Run::second_stage(std::size_t f) {
   if (result.vertices == 0) result.range = {0, 0};
   result.nodes = store.node_count();
   result.arcs = store.arc_count();
-  result.spilled_bytes += store.spilled_bytes();
   tell(Phase::kHierarchy, 0, 0);
   const auto start = Clock::now();
   {
     const Stopwatch watch(result.seconds.hierarchy);
+    store.finish();
+    result.spilled_bytes += store.spilled_bytes();
     if (options_.graph_only)
       write_graph(result, store);
     else
@@ -317,15 +317,23 @@ FileMeta Run::file_meta(const ComputeResult& result) const {
   return meta;
 }
 
-// The raw graph, in memory that does not grow with it but for 4 bytes a node.
-void Run::write_graph(ComputeResult& result, SegmentStore& store) const {
-  constexpr std::size_t kNodes = 4096, kBytesAnArc = 1000;
+// The raw graph, in memory that does not grow with it but for 4 bytes a node; and, where there is much
+// to look up and memory is free, 4 bytes a vertex.
+void Run::write_graph(ComputeResult& result, SegmentStore& store) {
+  constexpr std::size_t kNodes = 4096, kBytesAnArc = 1000, kManyVerticesANode = 16;
   const std::size_t pieces = std::clamp<std::size_t>(budget_.free_bytes() / kBytesAnArc, 4096, 65536);
-  GraphFileWriter writer(result.output, file_meta(result), true, false, GraphFileWriter::ArcEnds::kKeys);
+  GraphFileWriter::Options writing{.ends = GraphFileWriter::ArcEnds::kKeys, .background = plan_.threads > 1};
+  const std::uint64_t table_bytes = result.vertices * sizeof(std::uint32_t);
+  Reservation table;
+  if (result.vertices / kManyVerticesANode <= result.nodes && table_bytes <= budget_.free_bytes() / 4) {
+    table = budget_.reserve("ranks of nodes", table_bytes);
+    writing.ends = GraphFileWriter::ArcEnds::kKeysInMemory;
+  }
+  GraphFileWriter writer(result.output, file_meta(result), writing);
   store.nodes().rewind();
   for (std::vector<SettledNode> nodes; store.nodes().read(nodes, kNodes);) writer.add_nodes(nodes);
-  store.arcs().rewind();
-  for (std::vector<ArcKeys> arcs; store.arcs().read(arcs, pieces);) writer.add_arcs(arcs);
+  store.rewind_arcs();
+  for (ArcPiece piece; store.read_arcs(piece, pieces);) writer.add_arcs(piece.arcs);
   writer.finish();
   result.betti = {writer.header().components, writer.header().loops};
 }
