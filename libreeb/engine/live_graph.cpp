@@ -24,7 +24,7 @@ LiveGraph::Index LiveGraph::add_node(const SweepKey& key, const Point& position,
       positions_.emplace_back();
     }
   }
-  nodes_[n] = {key, kNone, kNone, 0, 0, 0, state, false, true};
+  nodes_[n] = {key, kNone, kNone, 0, 0, 0, state, state != State::kSettled, false, true};
   if (track_positions_) positions_[n] = position;
   // A complete node is looked at once everything that comes with it is in place.
   if (state != State::kIncomplete) queue(n);
@@ -252,8 +252,9 @@ void LiveGraph::tidy() {
     changed_.pop_back();
     Node& node = nodes_[n];
     node.queued = false;
+    if (noise_below_ > 0 && node.used && node.referenced_arcs == 0) remove_noise_at(n);
     if (!node.used) continue;
-    if (node.state == State::kComplete && is_pass_through(node))
+    if (is_pass_through(node))
       contract(n);
     else if (node.referenced_arcs == 0)
       settle(n);
@@ -269,15 +270,19 @@ void LiveGraph::contract(Index n) {
     references_[r].down = references_[skipped].down;
     free_reference(skipped);
   }
-  const Index lo = arcs_[lower].lo;
+  const Index lo = arcs_[lower].lo, hi = arcs_[upper].hi;
   detach_lo(lower);
   detach_hi(lower);
   free_arc(lower);
   detach_lo(upper);
   attach_lo(upper, lo);
   free_node(n);
-  if (nodes_[lo].state == State::kSettled && nodes_[arcs_[upper].hi].state == State::kSettled)
-    hand_over(upper);
+  if (noise_below_ > 0) {  // a leaf has another saddle now
+    for (const Index end : {lo, hi})
+      if (is_leaf(nodes_[end])) try_leaf(end);
+    if (!nodes_[lo].used || !nodes_[hi].used) return;
+  }
+  if (nodes_[lo].state == State::kSettled && nodes_[hi].state == State::kSettled) hand_over(upper);
 }
 
 void LiveGraph::settle(Index n) {
@@ -305,8 +310,10 @@ void LiveGraph::hand_over(Index a) {
   detach_lo(a);
   detach_hi(a);
   free_arc(a);
-  for (const Index n : {lo, hi})
+  for (const Index n : {lo, hi}) {
+    nodes_[n].intact = false;
     if (nodes_[n].up_degree + nodes_[n].down_degree == 0) queue(n);
+  }
 }
 
 void LiveGraph::flush() {
@@ -319,11 +326,11 @@ void LiveGraph::flush() {
 // ---- looking
 
 void LiveGraph::snapshot(std::vector<ArcKeys>& arcs, std::vector<SweepKey>& isolated) const {
-  // A settled node may have handed over arcs already, so its degree here says nothing.
-  const auto stays = [&](const Node& n) { return n.state == State::kSettled || !is_pass_through(n); };
+  // Where arcs were handed over already, the degree here says nothing.
+  const auto stays = [&](const Node& n) { return !is_pass_through(n); };
   for (const Node& node : nodes_) {
     if (!node.used || !stays(node)) continue;
-    if (node.up_degree + node.down_degree == 0 && node.state != State::kSettled) isolated.push_back(node.key);
+    if (node.up_degree + node.down_degree == 0 && node.intact) isolated.push_back(node.key);
     for (Index a = node.up_first; a != kNone; a = arcs_[a].lo_next) {
       Index end = arcs_[a].hi;
       while (!stays(nodes_[end])) end = arcs_[nodes_[end].up_first].hi;
