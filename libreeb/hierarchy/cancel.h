@@ -2,6 +2,7 @@
 #pragma once
 
 #include "libreeb/graph/reeb_graph.h"
+#include "libreeb/hierarchy/arc_buckets.h"
 #include "libreeb/hierarchy/hierarchy.h"
 
 namespace reeb {
@@ -18,5 +19,18 @@ namespace reeb {
 //         growth at most 160 bytes an arc where nodes have three arcs or one.
 // REQUIRES: no node is of degree (1, 1).
 Hierarchy build_hierarchy(ReebGraph graph);
+
+// The same with an embedding: `buckets`, of the graph's arcs, becomes that of Hierarchy::arcs. Pairs
+// and the graph of every version are the same. An arc to which a step adds vertices gets a record
+// of its own; so in every version
+//
+//   vertices in buckets + nodes + vertices dropped in this version or before
+//
+// is what it was in version 0. With empty `buckets` there is no embedding.
+//
+// MEMORY: besides, 48 bytes a bucket of the largest version, 40 a bucket of all records, 8 an arc and
+//         8 a record.
+// REQUIRES: all buckets are of this exponent.
+Hierarchy build_hierarchy(ReebGraph graph, ArcBuckets& buckets, int exponent);
 
 }  // namespace reeb

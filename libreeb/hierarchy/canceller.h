@@ -23,20 +23,32 @@
 
 namespace reeb {
 
+// An arc that two paths cut: `from` goes from `start` in `direction` to `end`, past `node`.
+struct ArcCut {
+  Direction direction;
+  std::uint32_t from, into;
+  std::uint32_t start, node, end;
+};
+
 // What happens to the content of arcs (an embedding, a count) while the rules move them. Arcs are
 // named by their numbers in the full graph; a number stays with one of two arcs that become one.
+// cut and merge return whether they changed what is in `into`.
 struct IgnoreContent {
-  // Whether the content of an arc that is taken away is laid on another path where there is one.
+  // Whether the content of an arc that is taken away is laid on another path where there is one,
+  // and an arc whose content changes gets a new record.
   static constexpr bool kFollows = false;
-  // `from` is cut at `node`; its part on the side of their common start goes to `into`, whose end
-  // `node` is. The rest stays.
-  void cut(std::uint32_t /*from*/, std::uint32_t /*into*/, std::uint32_t /*node*/) {}
+  // The part of `from` between `start` and `node` goes to `into`, which has these ends. The rest
+  // stays.
+  bool cut(const ArcCut& /*cut*/) { return false; }
   // Both have the same ends; `from` goes to `into` whole.
-  void merge(std::uint32_t /*from*/, std::uint32_t /*into*/) {}
+  bool merge(std::uint32_t /*from*/, std::uint32_t /*into*/) { return false; }
   // `lower` ends where `upper` starts, at a node that disappears; `lower` becomes both.
-  void join(std::uint32_t /*upper*/, std::uint32_t /*lower*/) {}
+  void join(std::uint32_t /*upper*/, std::uint32_t /*lower*/, std::uint32_t /*node*/) {}
   // The arc is taken away, and no other lies beside it.
   void drop(std::uint32_t /*arc*/) {}
+  // A record of the arc is written down, with what it had before this step; the step is done.
+  void end_record(std::uint32_t /*arc*/) {}
+  void commit() {}
 };
 
 // MEMORY: 36 bytes an arc and 16 bytes a node; 4 bytes an arc and 16 a record in the log.
@@ -63,12 +75,13 @@ class Canceller {
     }
     contract(lo);
     contract(hi);
-    log_.commit();
+    log_.commit(content_);
     return true;
   }
 
-  std::vector<ArcVersion> take_records() { return log_.take(); }
-  const Content& content() const { return content_; }
+  // All records, as VersionLog orders them; the content has been told of each in that order.
+  std::vector<ArcVersion> take_records() { return log_.take(content_); }
+  Content& content() { return content_; }
 
  private:
   static constexpr std::uint32_t kNone = WorkingGraph::kNone;
@@ -93,6 +106,15 @@ class Canceller {
   void remove(std::uint32_t arc) {
     log_.touch(arc);
     graph_.remove(arc);
+  }
+  void cut(Direction d, std::uint32_t from, std::uint32_t into, std::uint32_t node) {
+    if (content_.cut({d, from, into, graph_.end(from, opposite(d)), node, graph_.end(from, d)}))
+      log_.touch(into);
+    move_start(d, from, node);
+  }
+  void merge(std::uint32_t from, std::uint32_t into) {
+    if (content_.merge(from, into)) log_.touch(into);
+    remove(from);
   }
   void contract(std::uint32_t node);
 
@@ -253,16 +275,13 @@ void Canceller<Content>::zip(Direction d) {
     const std::uint32_t a = first_[i], b = second_[j];
     const std::uint32_t end_a = graph_.end(a, d), end_b = graph_.end(b, d);
     if (end_a == end_b) {
-      content_.merge(b, a);
-      remove(b);
+      merge(b, a);
       ++i, ++j;
     } else if (along(d, end_a) < along(d, end_b)) {
-      content_.cut(b, a, end_a);
-      move_start(d, b, end_a);
+      cut(d, b, a, end_a);
       ++i;
     } else {
-      content_.cut(a, b, end_b);
-      move_start(d, a, end_b);
+      cut(d, a, b, end_b);
       ++j;
     }
   }
@@ -273,7 +292,7 @@ void Canceller<Content>::contract(std::uint32_t node) {
   if (!graph_.is_regular(node)) return;
   const std::uint32_t lower = graph_.nearest(node, kDown), upper = graph_.nearest(node, kUp);
   const std::uint32_t end = graph_.end(upper, kUp);
-  content_.join(upper, lower);
+  content_.join(upper, lower, node);
   remove(upper);
   move_start(kDown, lower, end);
 }

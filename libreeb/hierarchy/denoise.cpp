@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <numeric>
+#include <tuple>
+#include <utility>
 
+#include "libreeb/hierarchy/bucket_lists.h"
 #include "libreeb/hierarchy/pairing.h"
 #include "libreeb/hierarchy/subgraph.h"
 #include "libreeb/hierarchy/working_graph.h"
@@ -13,21 +16,18 @@ namespace {
 
 class LeafRemoval {
  public:
-  LeafRemoval(const ReebGraph& graph, double threshold)
-      : graph_(graph),
+  // `lists`, of the graph's arcs, may be null; it must outlive this.
+  LeafRemoval(const ReebGraph& full, double threshold, BucketLists* lists)
+      : full_(full),
         threshold_(threshold),
-        ends_(graph.arc_count()),
-        nodes_(graph.node_count()),
-        leaves_(graph.node_count()) {
-    for (std::uint32_t arc = 0; arc < ends_.size(); ++arc) {
-      ends_[arc] = {graph.lo[arc].value(), graph.hi[arc].value()};
-      attach(ends_[arc][kDown], kUp, arc);
-      attach(ends_[arc][kUp], kDown, arc);
-    }
+        graph_(full),
+        lists_(lists),
+        reach_(full.node_count()),
+        leaves_(full.node_count()) {
     find_reaches();
   }
 
-  Denoised run() {
+  void run() {
     std::iota(leaves_.begin(), leaves_.end(), 0u);
     while (!leaves_.empty()) {
       const std::uint32_t node = leaves_.back();
@@ -35,102 +35,145 @@ class LeafRemoval {
       for (const Direction d : {kDown, kUp})
         if (is_leaf(node, d)) try_leaf(node, d);
     }
-    return {remaining(), take_removed()};
+  }
+
+  std::vector<PersistencePair> take_removed() {
+    sort_for_cancelling(full_, removed_);
+    return std::move(removed_);
+  }
+
+  // The arcs that are left, by (lo, hi).
+  std::vector<std::uint32_t> remaining() const {
+    std::vector<std::uint32_t> arcs;
+    for (std::uint32_t arc = 0; arc < graph_.arc_count(); ++arc)
+      if (graph_.alive(arc)) arcs.push_back(arc);
+    const auto key = [this](std::uint32_t arc) {
+      return std::tuple(graph_.end(arc, kDown), graph_.end(arc, kUp), arc);
+    };
+    std::sort(arcs.begin(), arcs.end(),
+              [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
+    return arcs;
+  }
+
+  ReebGraph graph_of(const std::vector<std::uint32_t>& arcs) const {
+    std::vector<NodeArc> ends;
+    ends.reserve(arcs.size());
+    for (const std::uint32_t arc : arcs)
+      ends.push_back({NodeId(graph_.end(arc, kDown)), NodeId(graph_.end(arc, kUp))});
+    return subgraph(full_, std::move(ends), isolated_nodes(full_));
   }
 
  private:
-  // The arcs of a node on each side, by their number and the exclusive or of their ids: enough to
-  // find the arc of a side that has only one.
-  struct Node {
-    std::array<std::uint32_t, 2> degree{0, 0};
-    std::array<std::uint32_t, 2> arcs_xor{0, 0};
-    std::array<std::uint32_t, 2> reach{0, 0};  // the farthest node on monotone paths
-  };
-
-  void attach(std::uint32_t node, Direction d, std::uint32_t arc) {
-    ++nodes_[node].degree[d];
-    nodes_[node].arcs_xor[d] ^= arc;
-  }
-  void detach(std::uint32_t node, Direction d, std::uint32_t arc) {
-    --nodes_[node].degree[d];
-    nodes_[node].arcs_xor[d] ^= arc;
-  }
-
   // A leaf is only removed where its saddle reaches beyond it, and joining arcs moves no path: no
   // step ever changes what is found here.
   void find_reaches() {
-    for (std::uint32_t node = 0; node < nodes_.size(); ++node) nodes_[node].reach = {node, node};
+    for (std::uint32_t node = 0; node < reach_.size(); ++node) reach_[node] = {node, node};
     // Arcs are sorted by lower end, so all that lies below an arc comes before it, all above after.
-    for (const auto& [lo, hi] : ends_)
-      nodes_[hi].reach[kDown] = std::min(nodes_[hi].reach[kDown], nodes_[lo].reach[kDown]);
-    for (auto arc = ends_.rbegin(); arc != ends_.rend(); ++arc) {
-      std::uint32_t& reach = nodes_[(*arc)[kDown]].reach[kUp];
-      reach = std::max(reach, nodes_[(*arc)[kUp]].reach[kUp]);
+    for (std::size_t arc = 0; arc < full_.arc_count(); ++arc) {
+      std::uint32_t& reach = reach_[full_.hi[arc].value()][kDown];
+      reach = std::min(reach, reach_[full_.lo[arc].value()][kDown]);
     }
+    for (std::size_t arc = full_.arc_count(); arc-- > 0;) {
+      std::uint32_t& reach = reach_[full_.lo[arc].value()][kUp];
+      reach = std::max(reach, reach_[full_.hi[arc].value()][kUp]);
+    }
+  }
+  bool reaches_beyond(std::uint32_t node, Direction d, std::uint32_t leaf) const {
+    return along(d, reach_[node][d]) > along(d, leaf);
   }
 
   // True for a maximum (d = kUp) or minimum (d = kDown) with one arc.
   bool is_leaf(std::uint32_t node, Direction d) const {
-    return nodes_[node].degree[d] == 0 && nodes_[node].degree[opposite(d)] == 1;
+    return graph_.nearest(node, d) == WorkingGraph::kNone && graph_.has_one(node, opposite(d));
   }
 
   void try_leaf(std::uint32_t leaf, Direction d) {
-    const std::uint32_t arc = nodes_[leaf].arcs_xor[opposite(d)];
-    const std::uint32_t saddle = ends_[arc][opposite(d)];
-    if (along(d, nodes_[saddle].reach[d]) <= along(d, leaf)) return;
+    const std::uint32_t arc = graph_.nearest(leaf, opposite(d));
+    const std::uint32_t saddle = graph_.end(arc, opposite(d));
+    if (!reaches_beyond(saddle, d, leaf)) return;
     const PersistencePair pair =
         d == kUp ? PersistencePair{NodeId(saddle), NodeId(leaf), PairType::kRel1}
                  : PersistencePair{NodeId(leaf), NodeId(saddle), PairType::kOrd0};
-    if (!(persistence_of(graph_, pair) < threshold_)) return;
+    if (!(persistence_of(full_, pair) < threshold_)) return;
     removed_.push_back(pair);
-    detach(leaf, opposite(d), arc);
-    detach(saddle, d, arc);
-    ends_[arc] = {0, 0};
+    graph_.remove(arc);
+    if (lists_ != nullptr) lay_aside(arc, saddle, leaf, d);
     settle(saddle);
   }
+
+  // The buckets of an arc that was removed, and its leaf, go to the nearest path beyond it.
+  void lay_aside(std::uint32_t arc, std::uint32_t saddle, std::uint32_t leaf, Direction d) {
+    const auto next = [&](std::uint32_t node) {
+      return graph_.nearest_if(node, d, farthest(d), [&](std::uint32_t other) {
+        return reaches_beyond(graph_.end(other, d), d, leaf);
+      });
+    };
+    std::uint32_t start = saddle, beside = next(saddle);
+    for (std::uint32_t end = graph_.end(beside, d); along(d, end) < along(d, leaf);
+         end = graph_.end(beside, d)) {
+      const auto [lo, hi] = std::minmax(start, leaf);
+      lists_->cut(opposite(d), arc, beside, {value(lo), value(end), value(hi)});
+      start = end;
+      beside = next(end);
+    }
+    lists_->merge(arc, beside);
+    add_vertex(beside, leaf);
+  }
+
+  void add_vertex(std::uint32_t arc, std::uint32_t node) {
+    lists_->add(arc, value(node),
+                full_.positions.empty() ? std::array<double, 3>{} : full_.positions[node]);
+  }
+  double value(std::uint32_t node) const { return full_.nodes[node].value; }
 
   // A saddle that lost an arc may disappear, which gives leaves beyond it another saddle, or become
   // a leaf itself.
   void settle(std::uint32_t node) {
-    if (nodes_[node].degree != std::array{1u, 1u}) {
+    if (!graph_.is_regular(node)) {
       leaves_.push_back(node);
       return;
     }
-    const std::uint32_t lower = nodes_[node].arcs_xor[kDown], upper = nodes_[node].arcs_xor[kUp];
-    const std::uint32_t bottom = ends_[lower][kDown], top = ends_[upper][kUp];
-    nodes_[node].degree = {0, 0};
-    detach(top, kDown, upper);
-    attach(top, kDown, lower);
-    ends_[lower][kUp] = top;
-    ends_[upper] = {0, 0};
+    const std::uint32_t lower = graph_.nearest(node, kDown), upper = graph_.nearest(node, kUp);
+    const std::uint32_t bottom = graph_.end(lower, kDown), top = graph_.end(upper, kUp);
+    graph_.remove(upper);
+    graph_.move_end(lower, kUp, top);
+    if (lists_ != nullptr) {
+      lists_->merge(upper, lower);
+      add_vertex(lower, node);
+    }
     leaves_.push_back(bottom);
     leaves_.push_back(top);
   }
 
-  ReebGraph remaining() const {
-    std::vector<NodeArc> arcs;
-    for (const auto& [lo, hi] : ends_)
-      if (lo != hi) arcs.push_back({NodeId(lo), NodeId(hi)});
-    return subgraph(graph_, std::move(arcs), isolated_nodes(graph_));
-  }
-
-  std::vector<PersistencePair> take_removed() {
-    sort_for_cancelling(graph_, removed_);
-    return std::move(removed_);
-  }
-
-  const ReebGraph& graph_;
+  const ReebGraph& full_;
   const double threshold_;
-  std::vector<std::array<std::uint32_t, 2>> ends_;  // equal: the arc is gone
-  std::vector<Node> nodes_;
-  std::vector<std::uint32_t> leaves_;  // nodes that may be leaves to be looked at
+  WorkingGraph graph_;
+  BucketLists* lists_;
+  std::vector<std::array<std::uint32_t, 2>> reach_;  // the farthest nodes on monotone paths
+  std::vector<std::uint32_t> leaves_;                // nodes that may be leaves to be looked at
   std::vector<PersistencePair> removed_;
 };
 
 }  // namespace
 
 Denoised denoise(const ReebGraph& graph, double threshold) {
-  return LeafRemoval(graph, threshold).run();
+  LeafRemoval removal(graph, threshold, nullptr);
+  removal.run();
+  return {removal.graph_of(removal.remaining()), removal.take_removed()};
+}
+
+Denoised denoise(const ReebGraph& graph, double threshold, ArcBuckets& buckets, int exponent) {
+  if (buckets.offsets.empty()) return denoise(graph, threshold);
+  BucketLists lists(buckets.view(), graph.arc_count(), exponent);
+  buckets = {.offsets = {0}, .buckets = {}};
+  LeafRemoval removal(graph, threshold, &lists);
+  removal.run();
+  const std::vector<std::uint32_t> arcs = removal.remaining();
+  for (const std::uint32_t arc : arcs) {
+    lists.append_to(buckets.buckets, arc);
+    buckets.offsets.push_back(buckets.buckets.size());
+  }
+  return {removal.graph_of(arcs), removal.take_removed()};
 }
 
 }  // namespace reeb

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "libreeb/graph/reeb_graph.h"
+#include "libreeb/hierarchy/arc_buckets.h"
 #include "libreeb/hierarchy/hierarchy.h"
 
 namespace reeb {
@@ -21,9 +22,20 @@ struct Denoised {
 // the leaf in the total order; then (1, 1) nodes disappear. The result does not depend on any order
 // of steps.
 //
-// TIME:   O(m log m), for sorting the result only.
-// MEMORY: 8 bytes an arc and 28 a node; 36 a removed pair (12 of them the result).
+// TIME:   O(m log m).
+// MEMORY: 40 bytes an arc and 20 a node; 36 a removed pair (12 of them the result).
 // REQUIRES: no node is of degree (1, 1).
 Denoised denoise(const ReebGraph& graph, double threshold);
+
+// The same with an embedding: `buckets`, of the graph's arcs, becomes that of the result's. What a
+// removed leaf held, and the leaf itself, are laid on a path that proves that it may go, taking at
+// each choice the arc with the nearest end of those from which the path reaches beyond the leaf. A
+// node that disappears enters a bucket. So vertices in buckets + nodes stay the same. With empty
+// `buckets` there is no embedding.
+//
+// TIME:   besides, the buckets of the arcs that a removal changes.
+// MEMORY: besides, 48 bytes a bucket and 4 an arc.
+// REQUIRES: all buckets are of this exponent.
+Denoised denoise(const ReebGraph& graph, double threshold, ArcBuckets& buckets, int exponent);
 
 }  // namespace reeb

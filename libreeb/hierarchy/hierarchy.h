@@ -34,6 +34,13 @@ struct ArcVersion {
   friend bool operator==(const ArcVersion&, const ArcVersion&) = default;
 };
 
+// Vertices of an arc that was taken away in making this version, with no arc beside it to hold them.
+struct DroppedVertices {
+  std::uint32_t version = 0;
+  std::uint64_t count = 0;
+  friend bool operator==(const DroppedVertices&, const DroppedVertices&) = default;
+};
+
 struct Hierarchy {
   // All pairs, in the order of cancelling (DESIGN.md 1.5); Ext0 last.
   std::vector<PersistencePair> pairs;
@@ -43,6 +50,8 @@ struct Hierarchy {
   // A node without arcs in a version is present in it only as an isolated point:
   // isolated[i] is the node; present in every version (DESIGN.md: Ext0 is never cancelled).
   std::vector<NodeId> isolated;
+  // By version, ascending; empty without an embedding.
+  std::vector<DroppedVertices> dropped;
 };
 
 }  // namespace reeb

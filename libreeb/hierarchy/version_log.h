@@ -12,7 +12,8 @@
 namespace reeb {
 
 // Collects the arcs that a step changes. An arc with the same ends before and after a step, even if
-// it was cut and joined again on the way, keeps its record.
+// it was cut and joined again on the way, keeps its record, unless its content follows (canceller.h):
+// then a touched arc always starts a new one. The content is told of each record as it is written.
 //
 // MEMORY: 4 bytes an arc and 16 bytes a record.
 class VersionLog {
@@ -22,43 +23,63 @@ class VersionLog {
   // To be called before an arc is moved or removed.
   void touch(std::uint32_t arc) {
     if (born_[arc] == step_) return;
-    ended_.push_back(record(arc));
+    ended_.push_back({record(arc), arc});
     born_[arc] = step_;
-    changed_.push_back(arc);
   }
 
   // Ends the step and starts the next.
-  void commit() {
-    std::erase_if(changed_, [this](std::uint32_t arc) { return !graph_.alive(arc); });
-    std::sort(changed_.begin(), changed_.end(), [this](std::uint32_t a, std::uint32_t b) {
-      return ends(record(a)) < ends(record(b));
+  template <class Content>
+  void commit(Content& content) {
+    std::sort(ended_.begin(), ended_.end(), [](const Ended& a, const Ended& b) {
+      return std::tuple(ends(a.version), a.version.born, a.arc) <
+             std::tuple(ends(b.version), b.version.born, b.arc);
     });
-    std::sort(ended_.begin(), ended_.end(), [](const ArcVersion& a, const ArcVersion& b) {
-      return std::tuple(a.lo, a.hi, a.born) < std::tuple(b.lo, b.hi, b.born);
-    });
-    auto arc = changed_.begin();
-    for (ArcVersion& old : ended_) {
-      while (arc != changed_.end() && ends(record(*arc)) < ends(old)) ++arc;
-      if (arc != changed_.end() && ends(record(*arc)) == ends(old)) {
-        born_[*arc++] = old.born;
-      } else {
-        old.died = step_;
-        records_.push_back(old);
-      }
+    if constexpr (!Content::kFollows) go_on_with_unchanged();
+    for (Ended& ended : ended_) {
+      ended.version.died = step_;
+      records_.push_back(ended.version);
+      content.end_record(ended.arc);
     }
     ended_.clear();
-    changed_.clear();
+    content.commit();
     ++step_;
   }
 
   // All records: those that died, by step, then (lo, hi, born); then the arcs of the last version.
-  std::vector<ArcVersion> take() {
-    for (std::uint32_t arc = 0; arc < graph_.arc_count(); ++arc)
-      if (graph_.alive(arc)) records_.push_back(record(arc));
+  template <class Content>
+  std::vector<ArcVersion> take(Content& content) {
+    for (std::uint32_t arc = 0; arc < graph_.arc_count(); ++arc) {
+      if (!graph_.alive(arc)) continue;
+      records_.push_back(record(arc));
+      content.end_record(arc);
+    }
     return std::move(records_);
   }
 
  private:
+  // A version that this step touched, as it was before, and the arc it belongs to.
+  struct Ended {
+    ArcVersion version;
+    std::uint32_t arc;
+  };
+
+  // Records that have ended go on where an arc has their ends after the step, too.
+  void go_on_with_unchanged() {
+    changed_.clear();
+    for (const Ended& ended : ended_)
+      if (graph_.alive(ended.arc)) changed_.push_back(ended.arc);
+    std::sort(changed_.begin(), changed_.end(), [this](std::uint32_t a, std::uint32_t b) {
+      return ends(record(a)) < ends(record(b));
+    });
+    auto arc = changed_.begin();
+    std::erase_if(ended_, [&](const Ended& ended) {
+      while (arc != changed_.end() && ends(record(*arc)) < ends(ended.version)) ++arc;
+      if (arc == changed_.end() || ends(record(*arc)) != ends(ended.version)) return false;
+      born_[*arc++] = ended.version.born;
+      return true;
+    });
+  }
+
   ArcVersion record(std::uint32_t arc) const {
     return {NodeId(graph_.end(arc, kDown)), NodeId(graph_.end(arc, kUp)), born_[arc]};
   }
@@ -66,9 +87,9 @@ class VersionLog {
 
   const WorkingGraph& graph_;
   std::uint32_t step_ = 1;
-  std::vector<std::uint32_t> born_;     // of each arc's present version
-  std::vector<ArcVersion> ended_;       // versions that this step touched, as they were before it
-  std::vector<std::uint32_t> changed_;  // the arcs they belong to
+  std::vector<std::uint32_t> born_;  // of each arc's present version
+  std::vector<Ended> ended_;
+  std::vector<std::uint32_t> changed_;  // arcs of ended_ that are still there
   std::vector<ArcVersion> records_;
 };
 

@@ -2,10 +2,7 @@
 // that leave one choice are checked on graphs drawn by hand.
 #include <gtest/gtest.h>
 
-#include <set>
-
 #include "libreeb/hierarchy/cancel.h"
-#include "libreeb/hierarchy/canceller.h"
 #include "libreeb/hierarchy/levels.h"
 #include "libreeb/hierarchy/pairing.h"
 #include "tests/hierarchy/random_graphs.h"
@@ -217,43 +214,6 @@ TEST(Hierarchy, SomeRandomLoopsAreZippedAndSomeKept) {
   }
   EXPECT_GT(kept, 0u) << "rule (c) is not exercised";
   EXPECT_LT(kept * 4, loops);
-}
-
-// Follows what happens to the content of arcs: 2^20 grains each, halved by every cut.
-struct Grains {
-  static constexpr bool kFollows = true;
-  std::vector<double> of_arc;
-  double dropped = 0;
-  void move(std::uint32_t from, std::uint32_t into, double share) {
-    const double grains = of_arc[from] * share;
-    of_arc[from] -= grains;
-    of_arc[into] += grains;
-  }
-  void cut(std::uint32_t from, std::uint32_t into, std::uint32_t) { move(from, into, 0.5); }
-  void merge(std::uint32_t from, std::uint32_t into) { move(from, into, 1); }
-  void join(std::uint32_t upper, std::uint32_t lower) { move(upper, lower, 1); }
-  void drop(std::uint32_t arc) { dropped += std::exchange(of_arc[arc], 0); }
-};
-
-TEST(Hierarchy, ContentIsConservedAndDoesNotChangeTheRules) {
-  for (std::uint64_t seed = 0; seed < 2000; ++seed) {
-    SCOPED_TRACE(testing::Message() << "seed " << seed);
-    test::Random random(seed);
-    const ReebGraph full = test::random_graph(random, 16);
-    const Hierarchy h = build_hierarchy(full);
-    Canceller canceller(full, Grains{std::vector<double>(full.arc_count(), 1 << 20)});
-    for (const PersistencePair& pair : h.pairs) {
-      if (pair.type == PairType::kExt0) break;
-      ASSERT_EQ(canceller.cancel(pair), !pair.kept);
-    }
-    double left = canceller.content().dropped;
-    for (const double grains : canceller.content().of_arc) left += grains;
-    ASSERT_DOUBLE_EQ(left, static_cast<double>(full.arc_count() << 20));
-    Hierarchy same = h;
-    same.arcs = canceller.take_records();
-    for (std::uint32_t version = 0; version <= last_version(h); ++version)
-      ASSERT_EQ(graph_at(same, full, version), graph_at(h, full, version));
-  }
 }
 
 }  // namespace
