@@ -65,6 +65,7 @@ class FragmentBuilder {
 
   void sort_steps(const SweptChunk& swept);
   void trace_paths(Fragment& fragment);
+  void find_changing_nodes(const SweptChunk& swept, bool noise_goes);
   void divide(const SweptChunk& swept, Fragment& fragment);
   void add_nodes(const SweptChunk& swept, Fragment& fragment);
   void add_arcs(Fragment& fragment);

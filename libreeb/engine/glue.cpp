@@ -14,6 +14,7 @@ void Glue::add(const Fragment& fragment) {
   for (const Fragment::Arc& arc : fragment.arcs)
     arcs_.push_back(graph_.add_arc(nodes_[arc.lo], nodes_[arc.hi]));
   add_paths(fragment);
+  for (const Index a : arcs_) graph_.release(a);
   run_steps(fragment);
   graph_.tidy();
   graph_.flush();

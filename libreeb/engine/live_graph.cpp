@@ -54,6 +54,10 @@ LiveGraph::Index LiveGraph::add_arc(Index lo, Index hi) {
   return a;
 }
 
+void LiveGraph::release(Index a) {
+  if (can_leave(a)) hand_over(a);
+}
+
 void LiveGraph::free_arc(Index a) {
   arcs_[a].lo = kNone;
   arcs_[a].lo_next = std::exchange(first_free_arc_, a);
@@ -144,8 +148,12 @@ void LiveGraph::gained_reference(Index a) {
 }
 
 void LiveGraph::lost_references(Index a) {
-  for (const Index n : {arcs_[a].lo, arcs_[a].hi})
-    if (--nodes_[n].referenced_arcs == 0) queue(n);
+  const Index lo = arcs_[a].lo, hi = arcs_[a].hi;
+  for (const Index n : {lo, hi}) {
+    --nodes_[n].referenced_arcs;
+    queue(n);
+  }
+  if (can_leave(a)) hand_over(a);
 }
 
 LiveGraph::Index LiveGraph::add_reference(Index arc, Index below) {
@@ -252,13 +260,39 @@ void LiveGraph::tidy() {
     changed_.pop_back();
     Node& node = nodes_[n];
     node.queued = false;
-    if (noise_below_ > 0 && node.used && node.referenced_arcs == 0) remove_noise_at(n);
+    if (!node.used) continue;
+    if (noise_below_ > 0) remove_noise_at(n);
     if (!node.used) continue;
     if (is_pass_through(node))
       contract(n);
-    else if (node.referenced_arcs == 0)
+    else if (node.state == State::kComplete && stays_for_good(node))
       settle(n);
+    // A settled node leaves with its last arc; one without arcs leaves at once.
+    if (node.used && node.state == State::kSettled && node.up_degree + node.down_degree == 0) {
+      settled_nodes_.push_back({node.key, track_positions_ ? positions_[n] : Point{}});
+      free_node(n);
+    }
   }
+  constexpr std::size_t kMany = 4096;
+  if (settled_arcs_.size() + settled_nodes_.size() >= kMany) flush();
+}
+
+// Whether a complete node, not a (1, 1) one, will never become one. Zips merge referenced arcs with
+// each other only, and leave at least one on each side that has any. So a side keeps two arcs for
+// good if it has two and one of them is not referenced; and an empty side stays empty. But noise can
+// go as long as the arcs of its saddle are here, so then they wait until no path is left.
+bool LiveGraph::stays_for_good(const Node& node) const {
+  if (noise_below_ > 0) return node.referenced_arcs == 0;
+  if (node.up_degree == 0 || node.down_degree == 0) return true;
+  std::uint32_t lasting = node.up_degree + node.down_degree - node.referenced_arcs;
+  if (node.up_degree == 1 && arcs_[node.up_first].references == 0) --lasting;
+  if (node.down_degree == 1 && arcs_[node.down_first].references == 0) --lasting;
+  return lasting != 0;
+}
+
+bool LiveGraph::can_leave(Index a) const {
+  return arcs_[a].references == 0 && nodes_[arcs_[a].lo].state == State::kSettled &&
+         nodes_[arcs_[a].hi].state == State::kSettled;
 }
 
 // The two arcs of a (1, 1) node become one: every path on the upper arc goes on along the lower
@@ -282,25 +316,20 @@ void LiveGraph::contract(Index n) {
       if (is_leaf(nodes_[end])) try_leaf(end);
     if (!nodes_[lo].used || !nodes_[hi].used) return;
   }
-  if (nodes_[lo].state == State::kSettled && nodes_[hi].state == State::kSettled) hand_over(upper);
+  if (can_leave(upper)) hand_over(upper);
 }
 
 void LiveGraph::settle(Index n) {
   nodes_[n].state = State::kSettled;
   for (Index a = nodes_[n].up_first; a != kNone;) {
     const Index next = arcs_[a].lo_next;
-    if (nodes_[arcs_[a].hi].state == State::kSettled) hand_over(a);
+    if (can_leave(a)) hand_over(a);
     a = next;
   }
   for (Index a = nodes_[n].down_first; a != kNone;) {
     const Index next = arcs_[a].hi_next;
-    if (nodes_[arcs_[a].lo].state == State::kSettled) hand_over(a);
+    if (can_leave(a)) hand_over(a);
     a = next;
-  }
-  // A settled node leaves with its last arc; one without arcs leaves now.
-  if (nodes_[n].up_degree + nodes_[n].down_degree == 0) {
-    settled_nodes_.push_back({nodes_[n].key, track_positions_ ? positions_[n] : Point{}});
-    free_node(n);
   }
 }
 
@@ -366,6 +395,7 @@ void LiveGraph::validate() const {
       if (below != kNone && arcs_[references_[below].arc].hi != arc.lo) fail("path broken below reference", r);
     }
     if (references != arc.references) fail("wrong number of references on arc", a);
+    if (can_leave(a)) fail("not handed over: arc", a);
     on_arcs += references;
     if (references != 0) {
       ++referenced[arc.lo];
@@ -378,6 +408,8 @@ void LiveGraph::validate() const {
     if (!node.used) continue;
     if (node.up_degree != up[n] || node.down_degree != down[n]) fail("wrong degree of node", n);
     if (node.referenced_arcs != referenced[n]) fail("wrong count of referenced arcs at node", n);
+    if (node.state == State::kComplete && (is_pass_through(node) || stays_for_good(node)))
+      fail("not tidied: node", n);
   }
 }
 

@@ -5,7 +5,8 @@
 // lists the references on it. Two paths with the same ends are zipped: their arcs are merged from
 // above, the shorter arc cutting the longer one. A node whose vertex is complete (all its
 // simplices are in) disappears when it has one arc up and one down. A node is settled when it is
-// complete and none of its arcs is referenced; an arc whose ends are settled leaves for the sink.
+// complete and can never come to that; an arc without references whose ends are settled leaves for
+// the sink. So of a bump on a long path only the fork stays, not the arc to its top.
 //
 // Noise (DESIGN.md 1.6): a leaf whose arc cannot change is removed as soon as its saddle is seen to
 // have another path that reaches beyond it. Looks are few; a leaf for which they do not suffice
@@ -31,8 +32,8 @@ class LiveGraph {
   using Index = std::uint32_t;
   static constexpr Index kNone = ~Index{0};
 
-  // Whether a node's vertex can get further simplices, or not, or the node cannot change at all
-  // (but for the removal of noise). A node that is added as settled has lost arcs to the sink.
+  // Whether a node's vertex can get further simplices, or not, or the node is one of the final
+  // graph for certain (but for the removal of noise).
   enum class State : std::uint8_t { kIncomplete, kComplete, kSettled };
 
   // Settled nodes and arcs go to `sink` when flush() is called.
@@ -43,6 +44,8 @@ class LiveGraph {
 
   Index add_node(const SweepKey& key, const Point& position, State state);
   Index add_arc(Index lo, Index hi);
+  // Says that a new arc has got all the references that it gets.
+  void release(Index arc);
   const SweepKey& key(Index node) const { return nodes_[node].key; }
   bool is_incomplete(Index node) const {
     return nodes_[node].used && nodes_[node].state == State::kIncomplete;
@@ -125,6 +128,8 @@ class LiveGraph {
   bool is_pass_through(const Node& n) const {
     return n.intact && n.up_degree == 1 && n.down_degree == 1;
   }
+  bool stays_for_good(const Node& node) const;
+  bool can_leave(Index arc) const;
   bool is_leaf(const Node& n) const;
   Index first_arc(Index node, Direction d) const;
   Index next_arc(Index arc, Direction d) const;

@@ -65,10 +65,11 @@ struct KeepingSink : GraphSink {
 };
 
 // Streams the mesh in chunks of this many triangles; options_of(min, max) says what to do with a
-// chunk after which the values so far have this range. Returns how many pairs were removed.
+// chunk after which the values so far have this range. `overstated`: every third vertex is said to
+// be used earlier, whether it is or not. Returns how many pairs were removed.
 template <class OptionsOf>
-std::uint64_t stream(const Mesh& mesh, std::size_t size, GraphSink& sink,
-                     const OptionsOf& options_of) {
+std::uint64_t stream(const Mesh& mesh, std::size_t size, GraphSink& sink, const OptionsOf& options_of,
+                     bool overstated = false) {
   StreamChunker chunker(1, true);
   ChunkSweep sweep;
   Glue glue(sink, true);
@@ -78,6 +79,7 @@ std::uint64_t stream(const Mesh& mesh, std::size_t size, GraphSink& sink,
   double min = std::numeric_limits<double>::max(), max = -min;
   const auto flush = [&] {
     chunker.take(chunk, values);
+    for (std::size_t v = 0; overstated && v < chunk.vertex_count(); v += 3) chunk.uses[v] |= kUsedEarlier;
     for (const double value : values[0]) {
       min = std::min(min, value);
       max = std::max(max, value);
