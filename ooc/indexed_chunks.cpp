@@ -62,6 +62,7 @@ bool IndexedChunks::next(WorkItem& item) {
   look_up(item);
   item.end.triangles = triangles_read_;
   item.end.next_vertex = next_vertex_;
+  item.end.chunk_blocks = blocks_;
   item.end.ranges.assign(columns_.ranges().begin(), columns_.ranges().end());
   return true;
 }
@@ -73,6 +74,7 @@ void IndexedChunks::pass_over(const ChunkPlace& start) {
     triangles_read_ += corners_.size() / 3;
   first_block_ = triangles_read_ / block_triangles_;
   next_vertex_ = start.next_vertex;
+  if (start.chunk_blocks != 0) blocks_ = static_cast<std::size_t>(start.chunk_blocks);
   if (!start.ranges.empty()) columns_.set_ranges(start.ranges);
 }
 

@@ -149,7 +149,8 @@ struct Side {
 }  // namespace
 
 struct ChunkSweep::Scratch {
-  void run(const Chunk& chunk_in, std::span<const double> values, Fragment& fragment);
+  void run(const Chunk& chunk_in, std::span<const double> values, const SweepOptions& options,
+           Fragment& fragment);
   std::size_t memory_bytes() const;
 
  private:
@@ -202,21 +203,22 @@ ChunkSweep::~ChunkSweep() = default;
 ChunkSweep::ChunkSweep(ChunkSweep&&) noexcept = default;
 ChunkSweep& ChunkSweep::operator=(ChunkSweep&&) noexcept = default;
 
-void ChunkSweep::run(const Chunk& chunk, std::span<const double> values, Fragment& fragment) {
-  scratch_->run(chunk, values, fragment);
+void ChunkSweep::run(const Chunk& chunk, std::span<const double> values, Fragment& fragment,
+                     const SweepOptions& options) {
+  scratch_->run(chunk, values, options, fragment);
 }
 
 std::size_t ChunkSweep::memory_bytes() const { return scratch_->memory_bytes(); }
 
 void ChunkSweep::Scratch::run(const Chunk& chunk_in, std::span<const double> values,
-                              Fragment& fragment) {
+                              const SweepOptions& options, Fragment& fragment) {
   chunk = &chunk_in;
   ranks.sort(values, chunk->ids);
   stars.build(*chunk, ranks.order());
   reset();
   const auto n = static_cast<std::uint32_t>(chunk->vertex_count());
   for (std::uint32_t v = 0; v < n; ++v) visit(v);
-  builder.finish({*chunk, values, ranks.order(), stars}, fragment);
+  builder.finish({*chunk, values, ranks.order(), stars}, options, fragment);
 }
 
 void ChunkSweep::Scratch::reset() {
@@ -255,6 +257,8 @@ void ChunkSweep::Scratch::visit(std::uint32_t v) {
     start_arcs(v, node);
   else if (walks)
     separate(v, node);
+  else if (below.size() == 1)
+    builder.note_leaf(node, labels.arc(below[0]));
   if (shared) add_shared_edges(v, node);
 }
 
@@ -320,7 +324,10 @@ std::uint32_t ChunkSweep::Scratch::join_below(std::uint32_t node) {
 }
 
 void ChunkSweep::Scratch::continue_as_one(std::uint32_t v, std::uint32_t node) {
-  group_arc.assign(up.count(), join_below(node));
+  const bool is_leaf = below.empty();
+  const std::uint32_t arc = join_below(node);
+  if (is_leaf) builder.note_leaf(node, arc);
+  group_arc.assign(up.count(), arc);
   label_lows(v, below[0]);
 }
 

@@ -10,14 +10,18 @@
 #include <cstdint>
 #include <vector>
 
+#include "libreeb/engine/sweep_options.h"
 #include "libreeb/graph/reeb_graph.h"
 #include "libreeb/port/graph_sink.h"
 
 namespace reeb {
 
 struct Fragment {
-  // Open nodes. A node that is used here only is complete from the start; a settled one cannot
-  // change any more and stays only until its last arc has left (some of its arcs may have left).
+  SweepOptions options;
+  std::size_t removed_pairs = 0;  // leaves that were removed as noise
+
+  // Open nodes. A node that is used here only is complete from the start. Of a settled one some
+  // arcs are among the settled arcs: it cannot change, and stays until its last arc has left.
   struct Node {
     SweepKey key;
     std::uint8_t uses = 0;  // VertexUse
@@ -56,6 +60,8 @@ struct Fragment {
 
   std::size_t memory_bytes() const;
   void clear() {
+    options = {};
+    removed_pairs = 0;
     nodes.clear();
     positions.clear();
     arcs.clear();

@@ -10,8 +10,7 @@ constexpr std::uint32_t kNone = ~std::uint32_t{0};
 }  // namespace
 
 void FragmentBuilder::start(std::size_t vertices) {
-  nodes_.clear();
-  arcs_.clear();
+  graph_.clear();
   shared_.clear();
   notes_.clear();
   shared_begin_.resize(vertices + 1);
@@ -19,14 +18,14 @@ void FragmentBuilder::start(std::size_t vertices) {
 }
 
 std::uint32_t FragmentBuilder::add_node(std::uint32_t v) {
-  node_of_[v] = static_cast<std::uint32_t>(nodes_.size());
-  nodes_.push_back({v, kNone, false, kNone});
+  node_of_[v] = static_cast<std::uint32_t>(graph_.nodes.size());
+  graph_.nodes.push_back({v, kNone, false, {}, {}, false, false, kNone});
   return node_of_[v];
 }
 
 std::uint32_t FragmentBuilder::add_arc(std::uint32_t lower_node) {
-  arcs_.push_back({lower_node, kNone, kNone, false});
-  return static_cast<std::uint32_t>(arcs_.size() - 1);
+  graph_.arcs.push_back({lower_node, kNone, kNone, false});
+  return static_cast<std::uint32_t>(graph_.arcs.size() - 1);
 }
 
 void FragmentBuilder::add_shared_edge(std::uint32_t lower_node, std::uint32_t hi, std::uint32_t arc,
@@ -51,22 +50,26 @@ void FragmentBuilder::note_branch(std::uint32_t lo, std::uint32_t hi, std::uint3
   edge->last_note = note;
 }
 
-void FragmentBuilder::finish(const Sweep& sweep, Fragment& fragment) {
+void FragmentBuilder::finish(const SweptChunk& swept, const SweepOptions& options,
+                             Fragment& fragment) {
   fragment.clear();
-  fragment.triangle_count = sweep.chunk.triangle_count();
-  sort_steps(sweep);
+  fragment.options = options;
+  fragment.triangle_count = swept.chunk.triangle_count();
+  if (options.noise_below > 0)
+    fragment.removed_pairs = leaf_removal_.run(graph_, swept, options.noise_below);
+  sort_steps(swept);
   trace_paths(fragment);
-  divide(sweep, fragment);
+  divide(swept, fragment);
   add_steps(fragment);
 }
 
-void FragmentBuilder::sort_steps(const Sweep& sweep) {
+void FragmentBuilder::sort_steps(const SweptChunk& swept) {
   steps_.clear();
   for (std::uint32_t e = 0; e < shared_.size(); ++e)
     steps_.push_back(step(shared_[e].place, e, false));
-  for (std::uint32_t n = 0; n < nodes_.size(); ++n)
-    if (sweep.uses(nodes_[n].vertex) == kUsedEarlier)
-      steps_.push_back(step(sweep.stars.last_place(nodes_[n].vertex), n, true));
+  for (std::uint32_t n = 0; n < graph_.nodes.size(); ++n)
+    if (swept.uses(graph_.nodes[n].vertex) == kUsedEarlier)
+      steps_.push_back(step(swept.stars.last_place(graph_.nodes[n].vertex), n, true));
   std::sort(steps_.begin(), steps_.end());
 }
 
@@ -78,11 +81,12 @@ void FragmentBuilder::trace_paths(Fragment& fragment) {
     std::uint32_t note = edge.first_note;
     for (std::uint32_t arc = edge.first_arc;;) {
       fragment.path_arcs.push_back(arc);
-      arcs_[arc].referenced = true;
-      const std::uint32_t node = arcs_[arc].hi;
-      if (nodes_[node].vertex == edge.hi) break;
+      graph_.arcs[arc].referenced = true;
+      const std::uint32_t node = graph_.arcs[arc].hi;
+      if (graph_.nodes[node].vertex == edge.hi) break;
+      while (note != kNone && graph_.nodes[notes_[note].node].gone) note = notes_[note].next;
       const bool noted = note != kNone && notes_[note].node == node;
-      arc = noted ? notes_[note].arc : nodes_[node].main_branch;
+      arc = noted ? notes_[note].arc : graph_.nodes[node].main_branch;
       if (noted) note = notes_[note].next;
     }
     std::reverse(fragment.path_arcs.begin() + fragment.path_begin.back(), fragment.path_arcs.end());
@@ -90,75 +94,101 @@ void FragmentBuilder::trace_paths(Fragment& fragment) {
   }
 }
 
+// Which nodes can still become (1, 1) nodes, or get further arcs. As in LiveGraph, a node that no
+// other chunk uses stays one for good if on one of its sides there is no arc, or two and one of them
+// without paths; where noise goes, it can change as long as there is any path.
+void FragmentBuilder::find_changing_nodes(const SweptChunk& swept, bool noise_goes) {
+  using Side = SweepGraph::Side;
+  auto& [nodes, arcs, leaves] = graph_;
+  for (SweepGraph::Node& node : nodes) node.up = node.down = {};
+  const auto add = [](Side& side, bool referenced) {
+    side.several = side.any;
+    side.any = true;
+    (referenced ? side.tied : side.loose) = true;
+  };
+  for (const SweepGraph::Arc& arc : arcs) {
+    if (arc.lo == kNone) continue;
+    add(nodes[arc.lo].up, arc.referenced);
+    add(nodes[arc.hi].down, arc.referenced);
+  }
+  const auto lasts = [](const Side& side) { return !side.any || (side.several && side.loose); };
+  for (SweepGraph::Node& node : nodes) {
+    const bool stays = noise_goes ? !node.up.tied && !node.down.tied : lasts(node.up) || lasts(node.down);
+    node.can_change = swept.uses(node.vertex) != kUsedHereOnly || !stays;
+  }
+}
+
 // Divides nodes and arcs into open and settled ones (DESIGN.md 2): an arc is settled if no path
 // runs on it and none of its ends can change; a node leaves when all its arcs do.
-void FragmentBuilder::divide(const Sweep& sweep, Fragment& fragment) {
-  for (Node& node : nodes_) node.can_change = sweep.uses(node.vertex) != kUsedHereOnly;
-  for (const Arc& arc : arcs_)
-    if (arc.referenced) nodes_[arc.lo].can_change = nodes_[arc.hi].can_change = true;
-  for (Node& node : nodes_) node.open = node.can_change ? 0 : kNone;
+void FragmentBuilder::divide(const SweptChunk& swept, Fragment& fragment) {
+  find_changing_nodes(swept, fragment.options.noise_below > 0);
+  auto& [nodes, arcs, leaves] = graph_;
+  for (SweepGraph::Node& node : nodes) node.open = node.can_change ? 0 : kNone;
 
   open_arcs_.clear();
-  for (std::uint32_t a = 0; a < arcs_.size(); ++a) {
-    Node &lo = nodes_[arcs_[a].lo], &hi = nodes_[arcs_[a].hi];
-    if (!lo.can_change && !hi.can_change) {
-      fragment.settled_arcs.push_back({sweep.key(lo.vertex), sweep.key(hi.vertex)});
+  for (std::uint32_t a = 0; a < arcs.size(); ++a) {
+    if (arcs[a].lo == kNone) continue;
+    SweepGraph::Node &lo = nodes[arcs[a].lo], &hi = nodes[arcs[a].hi];
+    if (!arcs[a].referenced && !lo.can_change && !hi.can_change) {
+      fragment.settled_arcs.push_back({swept.key(lo.vertex), swept.key(hi.vertex)});
+      lo.lost_arcs = hi.lost_arcs = true;
     } else {
       open_arcs_.push_back(a);
       lo.open = hi.open = 0;
     }
   }
-  add_nodes(sweep, fragment);
+  add_nodes(swept, fragment);
   add_arcs(fragment);
 }
 
 // Open nodes, and arcs and edges too, are numbered in the order of the stream, not of the sweep:
 // what is glued together then lies together in memory.
-void FragmentBuilder::add_nodes(const Sweep& sweep, Fragment& fragment) {
-  node_at_.assign(sweep.order.size(), kNone);
-  for (std::uint32_t n = 0; n < nodes_.size(); ++n) {
-    const std::uint32_t v = nodes_[n].vertex;
-    if (nodes_[n].open == kNone)
-      fragment.settled_nodes.push_back({sweep.key(v), sweep.position(v)});
+void FragmentBuilder::add_nodes(const SweptChunk& swept, Fragment& fragment) {
+  node_at_.assign(swept.order.size(), kNone);
+  for (std::uint32_t n = 0; n < graph_.nodes.size(); ++n) {
+    const std::uint32_t v = graph_.nodes[n].vertex;
+    if (graph_.nodes[n].gone) continue;
+    if (graph_.nodes[n].open == kNone)
+      fragment.settled_nodes.push_back({swept.key(v), swept.position(v)});
     else
-      node_at_[sweep.order[v]] = n;
+      node_at_[swept.order[v]] = n;
   }
   for (const std::uint32_t n : node_at_) {
     if (n == kNone) continue;
-    Node& node = nodes_[n];
+    SweepGraph::Node& node = graph_.nodes[n];
     node.open = static_cast<std::uint32_t>(fragment.nodes.size());
-    fragment.nodes.push_back({sweep.key(node.vertex), sweep.uses(node.vertex), !node.can_change});
-    if (!sweep.chunk.positions.empty()) fragment.positions.push_back(sweep.position(node.vertex));
+    fragment.nodes.push_back({swept.key(node.vertex), swept.uses(node.vertex), node.lost_arcs});
+    if (!swept.chunk.positions.empty()) fragment.positions.push_back(swept.position(node.vertex));
   }
 }
 
 void FragmentBuilder::add_arcs(Fragment& fragment) {
   arcs_from_.assign(fragment.nodes.size() + 1, 0);
-  for (const std::uint32_t a : open_arcs_) ++arcs_from_[nodes_[arcs_[a].lo].open + 1];
+  for (const std::uint32_t a : open_arcs_) ++arcs_from_[graph_.nodes[graph_.arcs[a].lo].open + 1];
   for (std::size_t n = 1; n < arcs_from_.size(); ++n) arcs_from_[n] += arcs_from_[n - 1];
   fragment.arcs.resize(open_arcs_.size());
   for (const std::uint32_t a : open_arcs_) {
-    const std::uint32_t lo = nodes_[arcs_[a].lo].open;
-    arcs_[a].open = arcs_from_[lo]++;
-    fragment.arcs[arcs_[a].open] = {lo, nodes_[arcs_[a].hi].open};
+    const std::uint32_t lo = graph_.nodes[graph_.arcs[a].lo].open;
+    graph_.arcs[a].open = arcs_from_[lo]++;
+    fragment.arcs[graph_.arcs[a].open] = {lo, graph_.nodes[graph_.arcs[a].hi].open};
   }
-  for (std::uint32_t& arc : fragment.path_arcs) arc = arcs_[arc].open;
+  for (std::uint32_t& arc : fragment.path_arcs) arc = graph_.arcs[arc].open;
 }
 
 void FragmentBuilder::add_steps(Fragment& fragment) {
   for (const std::uint64_t s : steps_) {
     if (completes(s)) {
-      fragment.steps.push_back({place(s), nodes_[index(s)].open, true});
+      fragment.steps.push_back({place(s), graph_.nodes[index(s)].open, true});
     } else {
       const Shared& edge = shared_[index(s)];
       fragment.steps.push_back({place(s), static_cast<std::uint32_t>(fragment.edges.size()), false});
-      fragment.edges.push_back({nodes_[edge.lo].open, nodes_[node_of_[edge.hi]].open});
+      fragment.edges.push_back({graph_.nodes[edge.lo].open, graph_.nodes[node_of_[edge.hi]].open});
     }
   }
 }
 
 std::size_t FragmentBuilder::memory_bytes() const {
-  return nodes_.capacity() * sizeof(Node) + arcs_.capacity() * sizeof(Arc) +
+  return graph_.memory_bytes() + leaf_removal_.memory_bytes() +
          shared_.capacity() * sizeof(Shared) + notes_.capacity() * sizeof(Note) +
          8 * steps_.capacity() +
          4 * (shared_begin_.capacity() + node_of_.capacity() + node_at_.capacity() +

@@ -9,9 +9,10 @@
 #include <span>
 #include <vector>
 
-#include "libreeb/engine/chunk.h"
-#include "libreeb/engine/chunk_stars.h"
 #include "libreeb/engine/fragment.h"
+#include "libreeb/engine/leaf_removal.h"
+#include "libreeb/engine/sweep_graph.h"
+#include "libreeb/engine/sweep_options.h"
 
 namespace reeb {
 
@@ -24,9 +25,11 @@ class FragmentBuilder {
 
   std::uint32_t add_node(std::uint32_t v);
   std::uint32_t add_arc(std::uint32_t lower_node);
-  void end_arc(std::uint32_t arc, std::uint32_t upper_node) { arcs_[arc].hi = upper_node; }
+  void end_arc(std::uint32_t arc, std::uint32_t upper_node) { graph_.arcs[arc].hi = upper_node; }
+  // The node has this arc and no other.
+  void note_leaf(std::uint32_t node, std::uint32_t arc) { graph_.leaves.push_back({node, arc}); }
   // The arc up from `node` that every path takes for which no other branch is noted.
-  void set_main_branch(std::uint32_t node, std::uint32_t arc) { nodes_[node].main_branch = arc; }
+  void set_main_branch(std::uint32_t node, std::uint32_t arc) { graph_.nodes[node].main_branch = arc; }
 
   // An edge from the vertex at hand up to `hi`, whose path starts with `arc`.
   void add_shared_edge(std::uint32_t lower_node, std::uint32_t hi, std::uint32_t arc, std::uint32_t place);
@@ -35,34 +38,10 @@ class FragmentBuilder {
   // If lo-hi is a shared edge, its path goes up from `node` by `arc`.
   void note_branch(std::uint32_t lo, std::uint32_t hi, std::uint32_t node, std::uint32_t arc);
 
-  // What the sweep ran over; order[r] is the local vertex of rank r.
-  struct Sweep {
-    const Chunk& chunk;
-    std::span<const double> values;
-    std::span<const std::uint32_t> order;
-    const ChunkStars& stars;
-
-    std::uint8_t uses(std::uint32_t v) const { return chunk.uses[order[v]]; }
-    SweepKey key(std::uint32_t v) const { return {values[order[v]], chunk.ids[order[v]]}; }
-    Point position(std::uint32_t v) const {
-      return chunk.positions.empty() ? Point{} : chunk.positions[order[v]];
-    }
-  };
-  void finish(const Sweep& sweep, Fragment& fragment);
+  void finish(const SweptChunk& swept, const SweepOptions& options, Fragment& fragment);
   std::size_t memory_bytes() const;
 
  private:
-  struct Node {
-    std::uint32_t vertex;
-    std::uint32_t main_branch;
-    bool can_change;     // used elsewhere, or an end of an arc with paths
-    std::uint32_t open;  // the number of the node in the fragment, or kNone
-  };
-  struct Arc {
-    std::uint32_t lo, hi;
-    std::uint32_t open;  // the number of an open arc in the fragment
-    bool referenced;
-  };
   struct Shared {
     std::uint32_t lo, hi;  // node below, vertex above
     std::uint32_t first_arc, place;
@@ -84,15 +63,16 @@ class FragmentBuilder {
   static std::uint32_t place(std::uint64_t step) { return static_cast<std::uint32_t>(step >> 32); }
   static constexpr std::uint64_t kCompletes = std::uint64_t{1} << 31;
 
-  void sort_steps(const Sweep& sweep);
+  void sort_steps(const SweptChunk& swept);
   void trace_paths(Fragment& fragment);
-  void divide(const Sweep& sweep, Fragment& fragment);
-  void add_nodes(const Sweep& sweep, Fragment& fragment);
+  void find_changing_nodes(const SweptChunk& swept, bool noise_goes);
+  void divide(const SweptChunk& swept, Fragment& fragment);
+  void add_nodes(const SweptChunk& swept, Fragment& fragment);
   void add_arcs(Fragment& fragment);
   void add_steps(Fragment& fragment);
 
-  std::vector<Node> nodes_;
-  std::vector<Arc> arcs_;
+  SweepGraph graph_;
+  LeafRemoval leaf_removal_;
   std::vector<Shared> shared_;
   std::vector<std::uint32_t> shared_begin_;  // by vertex; within a vertex sorted by hi
   std::vector<Note> notes_;

@@ -5,6 +5,8 @@
 namespace reeb {
 
 void Glue::add(const Fragment& fragment) {
+  graph_.set_noise_below(fragment.options.noise_below);
+  removed_in_fragments_ += fragment.removed_pairs;
   if (!fragment.settled_nodes.empty()) sink_->add_nodes(fragment.settled_nodes);
   if (!fragment.settled_arcs.empty()) sink_->add_arcs({fragment.settled_arcs});
   add_nodes(fragment);
@@ -12,6 +14,7 @@ void Glue::add(const Fragment& fragment) {
   for (const Fragment::Arc& arc : fragment.arcs)
     arcs_.push_back(graph_.add_arc(nodes_[arc.lo], nodes_[arc.hi]));
   add_paths(fragment);
+  for (const Index a : arcs_) graph_.release(a);
   run_steps(fragment);
   graph_.tidy();
   graph_.flush();

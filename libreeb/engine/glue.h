@@ -27,7 +27,7 @@ class Glue {
 
   // Adds the next fragment of the stream.
   // REQUIRES: vertices that its nodes call used earlier were in an earlier fragment, and were
-  // called used later there.
+  // called used later there; its options do not fall behind those of earlier fragments.
   void add(const Fragment& fragment);
 
   // No later fragment has anything.
@@ -38,6 +38,8 @@ class Glue {
   // THROWS: DamagedState; then this is of no use any more.
   void restore(StateReader& in);
 
+  // Pairs that were removed as noise so far, here and in fragments.
+  std::uint64_t removed_pairs() const { return removed_in_fragments_ + graph_.removed_pairs(); }
   const LiveGraph& graph() const { return graph_; }
   std::size_t live_vertices() const { return node_of_.size(); }
   std::size_t live_edges() const { return edge_of_.size(); }
@@ -70,6 +72,7 @@ class Glue {
 
   GraphSink* sink_;
   LiveGraph graph_;
+  std::uint64_t removed_in_fragments_ = 0;
   FlatMap node_of_;  // incomplete vertices
   FlatMap edge_of_;  // by edge_key
   std::vector<Edge> edges_;

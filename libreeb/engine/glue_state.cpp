@@ -5,6 +5,7 @@ namespace reeb {
 
 void Glue::save(StateWriter& out) const {
   graph_.save(out);
+  out.put(removed_in_fragments_);
   out.put_array(first_link_);
   out.put_array(edges_);
   out.put_array(links_);
@@ -13,6 +14,7 @@ void Glue::save(StateWriter& out) const {
 
 void Glue::restore(StateReader& in) {
   graph_.restore(in);
+  in.get(removed_in_fragments_);
   in.get_array(first_link_);
   in.get_array(edges_);
   in.get_array(links_);

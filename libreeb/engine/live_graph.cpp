@@ -24,7 +24,7 @@ LiveGraph::Index LiveGraph::add_node(const SweepKey& key, const Point& position,
       positions_.emplace_back();
     }
   }
-  nodes_[n] = {key, kNone, kNone, 0, 0, 0, state, false, true};
+  nodes_[n] = {key, kNone, kNone, 0, 0, 0, state, state != State::kSettled, false, true};
   if (track_positions_) positions_[n] = position;
   // A complete node is looked at once everything that comes with it is in place.
   if (state != State::kIncomplete) queue(n);
@@ -52,6 +52,10 @@ LiveGraph::Index LiveGraph::add_arc(Index lo, Index hi) {
   attach_lo(a, lo);
   attach_hi(a, hi);
   return a;
+}
+
+void LiveGraph::release(Index a) {
+  if (can_leave(a)) hand_over(a);
 }
 
 void LiveGraph::free_arc(Index a) {
@@ -144,8 +148,12 @@ void LiveGraph::gained_reference(Index a) {
 }
 
 void LiveGraph::lost_references(Index a) {
-  for (const Index n : {arcs_[a].lo, arcs_[a].hi})
-    if (--nodes_[n].referenced_arcs == 0) queue(n);
+  const Index lo = arcs_[a].lo, hi = arcs_[a].hi;
+  for (const Index n : {lo, hi}) {
+    --nodes_[n].referenced_arcs;
+    queue(n);
+  }
+  if (can_leave(a)) hand_over(a);
 }
 
 LiveGraph::Index LiveGraph::add_reference(Index arc, Index below) {
@@ -253,11 +261,38 @@ void LiveGraph::tidy() {
     Node& node = nodes_[n];
     node.queued = false;
     if (!node.used) continue;
-    if (node.state == State::kComplete && is_pass_through(node))
+    if (noise_below_ > 0) remove_noise_at(n);
+    if (!node.used) continue;
+    if (is_pass_through(node))
       contract(n);
-    else if (node.referenced_arcs == 0)
+    else if (node.state == State::kComplete && stays_for_good(node))
       settle(n);
+    // A settled node leaves with its last arc; one without arcs leaves at once.
+    if (node.used && node.state == State::kSettled && node.up_degree + node.down_degree == 0) {
+      settled_nodes_.push_back({node.key, track_positions_ ? positions_[n] : Point{}});
+      free_node(n);
+    }
   }
+  constexpr std::size_t kMany = 4096;
+  if (settled_arcs_.size() + settled_nodes_.size() >= kMany) flush();
+}
+
+// Whether a complete node, not a (1, 1) one, will never become one. Zips merge referenced arcs with
+// each other only, and leave at least one on each side that has any. So a side keeps two arcs for
+// good if it has two and one of them is not referenced; and an empty side stays empty. But noise can
+// go as long as the arcs of its saddle are here, so then they wait until no path is left.
+bool LiveGraph::stays_for_good(const Node& node) const {
+  if (noise_below_ > 0) return node.referenced_arcs == 0;
+  if (node.up_degree == 0 || node.down_degree == 0) return true;
+  std::uint32_t lasting = node.up_degree + node.down_degree - node.referenced_arcs;
+  if (node.up_degree == 1 && arcs_[node.up_first].references == 0) --lasting;
+  if (node.down_degree == 1 && arcs_[node.down_first].references == 0) --lasting;
+  return lasting != 0;
+}
+
+bool LiveGraph::can_leave(Index a) const {
+  return arcs_[a].references == 0 && nodes_[arcs_[a].lo].state == State::kSettled &&
+         nodes_[arcs_[a].hi].state == State::kSettled;
 }
 
 // The two arcs of a (1, 1) node become one: every path on the upper arc goes on along the lower
@@ -269,33 +304,32 @@ void LiveGraph::contract(Index n) {
     references_[r].down = references_[skipped].down;
     free_reference(skipped);
   }
-  const Index lo = arcs_[lower].lo;
+  const Index lo = arcs_[lower].lo, hi = arcs_[upper].hi;
   detach_lo(lower);
   detach_hi(lower);
   free_arc(lower);
   detach_lo(upper);
   attach_lo(upper, lo);
   free_node(n);
-  if (nodes_[lo].state == State::kSettled && nodes_[arcs_[upper].hi].state == State::kSettled)
-    hand_over(upper);
+  if (noise_below_ > 0) {  // a leaf has another saddle now
+    for (const Index end : {lo, hi})
+      if (is_leaf(nodes_[end])) try_leaf(end);
+    if (!nodes_[lo].used || !nodes_[hi].used) return;
+  }
+  if (can_leave(upper)) hand_over(upper);
 }
 
 void LiveGraph::settle(Index n) {
   nodes_[n].state = State::kSettled;
   for (Index a = nodes_[n].up_first; a != kNone;) {
     const Index next = arcs_[a].lo_next;
-    if (nodes_[arcs_[a].hi].state == State::kSettled) hand_over(a);
+    if (can_leave(a)) hand_over(a);
     a = next;
   }
   for (Index a = nodes_[n].down_first; a != kNone;) {
     const Index next = arcs_[a].hi_next;
-    if (nodes_[arcs_[a].lo].state == State::kSettled) hand_over(a);
+    if (can_leave(a)) hand_over(a);
     a = next;
-  }
-  // A settled node leaves with its last arc; one without arcs leaves now.
-  if (nodes_[n].up_degree + nodes_[n].down_degree == 0) {
-    settled_nodes_.push_back({nodes_[n].key, track_positions_ ? positions_[n] : Point{}});
-    free_node(n);
   }
 }
 
@@ -305,8 +339,10 @@ void LiveGraph::hand_over(Index a) {
   detach_lo(a);
   detach_hi(a);
   free_arc(a);
-  for (const Index n : {lo, hi})
+  for (const Index n : {lo, hi}) {
+    nodes_[n].intact = false;
     if (nodes_[n].up_degree + nodes_[n].down_degree == 0) queue(n);
+  }
 }
 
 void LiveGraph::flush() {
@@ -319,11 +355,11 @@ void LiveGraph::flush() {
 // ---- looking
 
 void LiveGraph::snapshot(std::vector<ArcKeys>& arcs, std::vector<SweepKey>& isolated) const {
-  // A settled node may have handed over arcs already, so its degree here says nothing.
-  const auto stays = [&](const Node& n) { return n.state == State::kSettled || !is_pass_through(n); };
+  // Where arcs were handed over already, the degree here says nothing.
+  const auto stays = [&](const Node& n) { return !is_pass_through(n); };
   for (const Node& node : nodes_) {
     if (!node.used || !stays(node)) continue;
-    if (node.up_degree + node.down_degree == 0 && node.state != State::kSettled) isolated.push_back(node.key);
+    if (node.up_degree + node.down_degree == 0 && node.intact) isolated.push_back(node.key);
     for (Index a = node.up_first; a != kNone; a = arcs_[a].lo_next) {
       Index end = arcs_[a].hi;
       while (!stays(nodes_[end])) end = arcs_[nodes_[end].up_first].hi;
@@ -359,6 +395,7 @@ void LiveGraph::validate() const {
       if (below != kNone && arcs_[references_[below].arc].hi != arc.lo) fail("path broken below reference", r);
     }
     if (references != arc.references) fail("wrong number of references on arc", a);
+    if (can_leave(a)) fail("not handed over: arc", a);
     on_arcs += references;
     if (references != 0) {
       ++referenced[arc.lo];
@@ -371,6 +408,8 @@ void LiveGraph::validate() const {
     if (!node.used) continue;
     if (node.up_degree != up[n] || node.down_degree != down[n]) fail("wrong degree of node", n);
     if (node.referenced_arcs != referenced[n]) fail("wrong count of referenced arcs at node", n);
+    if (node.state == State::kComplete && (is_pass_through(node) || stays_for_good(node)))
+      fail("not tidied: node", n);
   }
 }
 

@@ -5,7 +5,12 @@
 // lists the references on it. Two paths with the same ends are zipped: their arcs are merged from
 // above, the shorter arc cutting the longer one. A node whose vertex is complete (all its
 // simplices are in) disappears when it has one arc up and one down. A node is settled when it is
-// complete and none of its arcs is referenced; an arc whose ends are settled leaves for the sink.
+// complete and can never come to that; an arc without references whose ends are settled leaves for
+// the sink. So of a bump on a long path only the fork stays, not the arc to its top.
+//
+// Noise (DESIGN.md 1.6): a leaf whose arc cannot change is removed as soon as its saddle is seen to
+// have another path that reaches beyond it. Looks are few; a leaf for which they do not suffice
+// stays for a last pass over the whole graph.
 //
 // Everything is a 32-bit index into flat arrays with free lists; a reference is 16 bytes.
 #pragma once
@@ -14,6 +19,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "libreeb/base/direction.h"
 #include "libreeb/base/state_stream.h"
 #include "libreeb/base/sweep_key.h"
 #include "libreeb/graph/reeb_graph.h"
@@ -26,14 +32,20 @@ class LiveGraph {
   using Index = std::uint32_t;
   static constexpr Index kNone = ~Index{0};
 
-  // Whether a node's vertex can get further simplices, or not, or the node cannot change at all.
+  // Whether a node's vertex can get further simplices, or not, or the node is one of the final
+  // graph for certain (but for the removal of noise).
   enum class State : std::uint8_t { kIncomplete, kComplete, kSettled };
 
   // Settled nodes and arcs go to `sink` when flush() is called.
   LiveGraph(GraphSink& sink, bool track_positions) : sink_(&sink), track_positions_(track_positions) {}
 
+  // From now on leaves of less persistence are noise. It never decreases.
+  void set_noise_below(double persistence) { noise_below_ = persistence; }
+
   Index add_node(const SweepKey& key, const Point& position, State state);
   Index add_arc(Index lo, Index hi);
+  // Says that a new arc has got all the references that it gets.
+  void release(Index arc);
   const SweepKey& key(Index node) const { return nodes_[node].key; }
   bool is_incomplete(Index node) const {
     return nodes_[node].used && nodes_[node].state == State::kIncomplete;
@@ -57,12 +69,14 @@ class LiveGraph {
   void save(StateWriter& out) const;
   void restore(StateReader& in);
 
-  // The present graph without its (1, 1) nodes: appends its arcs and isolated nodes.
+  // The present graph without its (1, 1) nodes and what was removed as noise: appends its arcs and
+  // isolated nodes.
   void snapshot(std::vector<ArcKeys>& arcs, std::vector<SweepKey>& isolated) const;
 
   std::size_t node_count() const { return nodes_.size() - free_nodes_; }
   std::size_t arc_count() const { return arcs_.size() - free_arcs_; }
   std::size_t reference_count() const { return references_.size() - free_references_; }
+  std::uint64_t removed_pairs() const { return removed_pairs_; }  // leaves, so far
   std::uint64_t zips() const { return zips_; }  // so far
   std::uint64_t zip_steps() const { return zip_steps_; }  // arcs that they went over
   std::size_t memory_bytes() const;
@@ -77,6 +91,7 @@ class LiveGraph {
     std::uint32_t up_degree, down_degree;
     std::uint32_t referenced_arcs;  // arcs at this node that have references
     State state;
+    bool intact;  // no arc of it was handed over
     bool queued;  // in changed_
     bool used;
   };
@@ -86,6 +101,8 @@ class LiveGraph {
     Index hi_next, hi_prev;  // among the arcs down from hi
     Index first_reference;
     std::uint32_t references;
+
+    Index end(Direction d) const { return d == kUp ? hi : lo; }
   };
   struct Reference {
     Index arc;
@@ -108,7 +125,17 @@ class LiveGraph {
   void gained_reference(Index arc);
   void lost_references(Index arc);
   void queue(Index node);
-  bool is_pass_through(const Node& n) const { return n.up_degree == 1 && n.down_degree == 1; }
+  bool is_pass_through(const Node& n) const {
+    return n.intact && n.up_degree == 1 && n.down_degree == 1;
+  }
+  bool stays_for_good(const Node& node) const;
+  bool can_leave(Index arc) const;
+  bool is_leaf(const Node& n) const;
+  Index first_arc(Index node, Direction d) const;
+  Index next_arc(Index arc, Direction d) const;
+  void remove_noise_at(Index node);
+  void try_leaf(Index leaf);
+  bool reaches_beyond(Index from, Index leaf, Direction d) const;
   void contract(Index node);
   void settle(Index node);
   void hand_over(Index arc);
@@ -121,7 +148,8 @@ class LiveGraph {
   std::vector<Reference> references_;
   Index first_free_node_ = kNone, first_free_arc_ = kNone, first_free_reference_ = kNone;
   std::size_t free_nodes_ = 0, free_arcs_ = 0, free_references_ = 0;
-  std::uint64_t zips_ = 0, zip_steps_ = 0;
+  double noise_below_ = 0;
+  std::uint64_t removed_pairs_ = 0, zips_ = 0, zip_steps_ = 0;
   std::vector<Index> changed_;  // complete nodes to look at in tidy()
   std::vector<SettledNode> settled_nodes_;
   std::vector<ArcKeys> settled_arcs_;

@@ -5,6 +5,8 @@ namespace reeb {
 
 void LiveGraph::save(StateWriter& out) const {
   out.put(track_positions_);
+  out.put(noise_below_);
+  out.put(removed_pairs_);
   out.put_array(nodes_);
   out.put_array(positions_);
   out.put_array(arcs_);
@@ -15,6 +17,8 @@ void LiveGraph::save(StateWriter& out) const {
 
 void LiveGraph::restore(StateReader& in) {
   if (in.get<bool>() != track_positions_) throw DamagedState();
+  in.get(noise_below_);
+  in.get(removed_pairs_);
   in.get_array(nodes_);
   in.get_array(positions_);
   in.get_array(arcs_);

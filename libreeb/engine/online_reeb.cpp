@@ -45,7 +45,7 @@ class OnlineReeb::Impl {
   void flush() {
     if (chunker_.chunk_size() == 0) return;
     chunker_.take(batch_, values_);
-    sweep_.run(batch_, values_[0], fragment_);
+    sweep_.run(batch_, values_[0], fragment_, {.noise_below = options_.noise_below});
     glue_.add(fragment_);
   }
   ReebGraph snapshot() {
@@ -56,6 +56,7 @@ class OnlineReeb::Impl {
     chunker_.for_each_unused([&](std::span<const double> value, VertexId v) { nodes.push_back({value[0], v}); });
     return make_graph(std::move(arcs), std::move(nodes));
   }
+  std::uint64_t removed_pairs() const { return glue_.removed_pairs(); }
   void finish() {
     chunker_.finalize_all();
     flush();
@@ -92,6 +93,7 @@ void OnlineReeb::finalize(VertexId v) {
   impl_->flush_full_batch();
 }
 ReebGraph OnlineReeb::snapshot() { return impl_->snapshot(); }
+std::uint64_t OnlineReeb::removed_pairs() const { return impl_->removed_pairs(); }
 void OnlineReeb::finish() { impl_->finish(); }
 
 }  // namespace reeb

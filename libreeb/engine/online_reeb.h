@@ -21,6 +21,9 @@ class OnlineReeb {
  public:
   struct Options {
     std::size_t batch_triangles = 4096;  // 1: glue every triangle at once
+    // Leaves of less persistence are removed where it is already sure that they are noise
+    // (DESIGN.md 1.6); denoise() finishes what comes out.
+    double noise_below = 0;
   };
 
   // Settled nodes and arcs go to `sink`; without one they are kept here.
@@ -43,9 +46,13 @@ class OnlineReeb {
   // THROWS: Error{kBadInput} if `v` was not added or was finalized before.
   void finalize(VertexId v);
 
-  // The exact Reeb graph of everything added so far, whether finalized or not. O(live graph) plus
-  // what is kept here; with a sink, only what was not yet handed over.
+  // The exact Reeb graph of everything added so far, whether finalized or not, less what was
+  // removed as noise. O(live graph) plus what is kept here; with a sink, only what was not yet
+  // handed over.
   ReebGraph snapshot();
+
+  // Pairs that were removed as noise so far.
+  std::uint64_t removed_pairs() const;
 
   // Finalizes all that is left and hands it over. Nothing can be added afterwards.
   void finish();

@@ -11,17 +11,10 @@
 #include <utility>
 #include <vector>
 
+#include "libreeb/base/direction.h"
 #include "libreeb/graph/reeb_graph.h"
 
 namespace reeb {
-
-// Which way along f. Also the index of an arc's end on that side.
-enum Direction : std::uint32_t { kDown = 0, kUp = 1 };
-
-constexpr Direction opposite(Direction d) { return d == kUp ? kDown : kUp; }
-
-// Grows with each step in direction d: the key under which nodes are compared.
-constexpr std::uint32_t along(Direction d, std::uint32_t node) { return d == kUp ? node : ~node; }
 
 // A limit that no node is beyond.
 constexpr std::uint32_t farthest(Direction d) { return d == kUp ? ~std::uint32_t{0} : 0; }
