@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -127,6 +128,38 @@ class Labels {
   std::vector<Label> labels_;
 };
 
+// The bucket in which the sweep is. It only rises, so where the next one begins is searched for
+// once a bucket.
+class RisingBucket {
+ public:
+  RisingBucket() = default;
+  RisingBucket(const SweptChunk& swept, const SweepOptions& options)
+      : swept_(&swept), is_wanted_(options.bucket_exponent), exponent_(options.bucket_exponent.value_or(0)) {}
+
+  bool is_wanted() const { return is_wanted_; }
+  // The bucket of the vertex of this rank, which is not less than before.
+  std::int64_t at(std::uint32_t v) {
+    if (v >= end_) advance(v);
+    return index_;
+  }
+
+ private:
+  void advance(std::uint32_t v) {
+    index_ = bucket_index(swept_->value(v), exponent_);
+    const double end = std::ldexp(static_cast<double>(index_ + 1), exponent_);
+    const auto rest = swept_->order.subspan(v + 1);
+    const auto next = std::partition_point(
+        rest.begin(), rest.end(), [&](std::uint32_t i) { return swept_->values[i] < end; });
+    end_ = v + 1 + static_cast<std::uint32_t>(next - rest.begin());
+  }
+
+  const SweptChunk* swept_ = nullptr;
+  bool is_wanted_ = false;
+  int exponent_ = 0;
+  std::int64_t index_ = 0;
+  std::uint32_t end_ = 0;  // rank of the first vertex of a later bucket
+};
+
 // One group of upward edges during a walk: a queue whose triangles before `visited` were visited.
 struct Side {
   std::vector<std::uint32_t> queue;
@@ -154,7 +187,7 @@ struct ChunkSweep::Scratch {
   std::size_t memory_bytes() const;
 
  private:
-  void reset();
+  void reset(const SweepOptions& options);
   void visit(std::uint32_t v);
   void collect_below(std::uint32_t v);
   void group_above(std::uint32_t v);
@@ -180,7 +213,9 @@ struct ChunkSweep::Scratch {
   }
 
   const Chunk* chunk = nullptr;
+  const SweptChunk* swept = nullptr;
   VertexRanks ranks;
+  RisingBucket bucket;
   ChunkStars stars;
   FragmentBuilder builder;
 
@@ -215,20 +250,23 @@ void ChunkSweep::Scratch::run(const Chunk& chunk_in, std::span<const double> val
   chunk = &chunk_in;
   ranks.sort(values, chunk->ids);
   stars.build(*chunk, ranks.order());
-  reset();
+  reset(options);
+  const SweptChunk swept_chunk{*chunk, values, ranks.order(), stars};
+  swept = &swept_chunk;
+  bucket = RisingBucket(swept_chunk, options);
   const auto n = static_cast<std::uint32_t>(chunk->vertex_count());
   for (std::uint32_t v = 0; v < n; ++v) visit(v);
-  builder.finish({*chunk, values, ranks.order(), stars}, options, fragment);
+  builder.finish(swept_chunk, fragment);
 }
 
-void ChunkSweep::Scratch::reset() {
+void ChunkSweep::Scratch::reset(const SweepOptions& options) {
   const std::size_t n = chunk->vertex_count();
   uses.resize(n);
   for (std::size_t r = 0; r < n; ++r) uses[r] = chunk->uses[ranks.order()[r]];
   crossings.reset(stars.triangle_count());
   labels.clear();
   up.reset(n);
-  builder.start(n);
+  builder.start(n, options);
 }
 
 std::size_t ChunkSweep::Scratch::memory_bytes() const {
@@ -247,6 +285,7 @@ void ChunkSweep::Scratch::visit(std::uint32_t v) {
   const bool shared = uses[v] != kUsedHereOnly;
   if (joined && below.size() == 1 && !shared) {  // a regular vertex
     label_lows(v, below[0]);
+    if (bucket.is_wanted()) builder.add_regular(labels.arc(below[0]), bucket.at(v), swept->position(v));
     return;
   }
   const std::uint32_t node = builder.add_node(v);

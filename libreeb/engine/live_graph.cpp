@@ -8,6 +8,14 @@
 
 namespace reeb {
 
+void LiveGraph::set_options(const SweepOptions& options) {
+  noise_below_ = options.noise_below;
+  if (!options.bucket_exponent) return;
+  embeds_ = true;
+  arc_buckets_.resize(arcs_.size());
+  buckets_.raise_exponent(*options.bucket_exponent);
+}
+
 // ---- nodes and arcs
 
 LiveGraph::Index LiveGraph::add_node(const SweepKey& key, const Point& position, State state) {
@@ -46,12 +54,20 @@ LiveGraph::Index LiveGraph::add_arc(Index lo, Index hi) {
     a = static_cast<Index>(arcs_.size());
     grow_by_quarter(arcs_);
     arcs_.emplace_back();
+    if (embeds_) {
+      grow_by_quarter(arc_buckets_);
+      arc_buckets_.emplace_back();
+    }
   }
   arcs_[a].first_reference = kNone;
   arcs_[a].references = 0;
   attach_lo(a, lo);
   attach_hi(a, hi);
   return a;
+}
+
+void LiveGraph::add_buckets(Index arc, std::span<const BucketSum> buckets) {
+  for (const BucketSum& bucket : buckets) buckets_.append(arc_buckets_[arc], bucket);
 }
 
 void LiveGraph::free_arc(Index a) {
@@ -207,6 +223,7 @@ void LiveGraph::merge_parallel(Index keep, Index gone) {
   if (kept.first_reference != kNone) references_[kept.first_reference].prev = last;
   kept.first_reference = arcs_[gone].first_reference;
   kept.references += arcs_[gone].references;
+  if (embeds_) buckets_.merge(arc_buckets_[keep], arc_buckets_[gone]);
   queue(arcs_[gone].lo);
   queue(arcs_[gone].hi);
   detach_lo(gone);
@@ -217,6 +234,12 @@ void LiveGraph::merge_parallel(Index keep, Index gone) {
 // `longer` and `shorter` have the same upper end: the upper part of `longer` becomes one with
 // `shorter`, what is left of it ends at the lower node of `shorter`.
 void LiveGraph::cut(Index longer, Index shorter) {
+  if (embeds_ && !arc_buckets_[longer].empty()) {
+    const auto value = [&](Index n) { return nodes_[n].key.value; };
+    auto upper = buckets_.take_above(arc_buckets_[longer], value(arcs_[longer].lo),
+                                     value(arcs_[shorter].lo), value(arcs_[longer].hi));
+    buckets_.merge(arc_buckets_[shorter], upper);
+  }
   queue(arcs_[longer].hi);
   detach_hi(longer);
   Index r = std::exchange(arcs_[longer].first_reference, kNone);
@@ -270,6 +293,12 @@ void LiveGraph::contract(Index n) {
     references_[r].down = references_[skipped].down;
     free_reference(skipped);
   }
+  if (embeds_) {
+    auto& below = arc_buckets_[lower];
+    buckets_.add_vertex(below, nodes_[n].key.value, track_positions_ ? positions_[n] : Point{});
+    buckets_.concatenate(below, arc_buckets_[upper]);
+    std::swap(below, arc_buckets_[upper]);
+  }
   const Index lo = arcs_[lower].lo, hi = arcs_[upper].hi;
   detach_lo(lower);
   detach_hi(lower);
@@ -307,6 +336,13 @@ void LiveGraph::settle(Index n) {
 void LiveGraph::hand_over(Index a) {
   const Index lo = arcs_[a].lo, hi = arcs_[a].hi;
   settled_arcs_.push_back({nodes_[lo].key, nodes_[hi].key});
+  if (embeds_) {
+    const std::size_t before = settled_buckets_.size();
+    buckets_.drain(arc_buckets_[a], [&](const BucketSum& bucket) {
+      settled_buckets_.push_back(bucket.mean());
+    });
+    settled_bucket_counts_.push_back(static_cast<std::uint32_t>(settled_buckets_.size() - before));
+  }
   detach_lo(a);
   detach_hi(a);
   free_arc(a);
@@ -318,8 +354,11 @@ void LiveGraph::hand_over(Index a) {
 
 void LiveGraph::flush() {
   if (!settled_nodes_.empty()) sink_->add_nodes(settled_nodes_);
-  if (!settled_arcs_.empty()) sink_->add_arcs({settled_arcs_});
+  if (!settled_arcs_.empty())
+    sink_->add_arcs({settled_arcs_, settled_bucket_counts_, settled_buckets_, buckets_.exponent()});
   settled_nodes_.clear();
+  settled_bucket_counts_.clear();
+  settled_buckets_.clear();
   settled_arcs_.clear();
 }
 
@@ -343,7 +382,9 @@ std::size_t LiveGraph::memory_bytes() const {
   return nodes_.capacity() * sizeof(Node) + positions_.capacity() * sizeof(Point) +
          arcs_.capacity() * sizeof(Arc) + references_.capacity() * sizeof(Reference) +
          changed_.capacity() * sizeof(Index) + settled_nodes_.capacity() * sizeof(SettledNode) +
-         settled_arcs_.capacity() * sizeof(ArcKeys);
+         settled_arcs_.capacity() * sizeof(ArcKeys) + buckets_.memory_bytes() +
+         arc_buckets_.capacity() * sizeof(BucketLists::List) +
+         4 * settled_bucket_counts_.capacity() + settled_buckets_.capacity() * sizeof(Bucket);
 }
 
 void LiveGraph::validate() const {

@@ -7,6 +7,9 @@ void LiveGraph::save(StateWriter& out) const {
   out.put(track_positions_);
   out.put(noise_below_);
   out.put(removed_pairs_);
+  out.put(embeds_);
+  buckets_.save(out);
+  out.put_array(arc_buckets_);
   out.put_array(nodes_);
   out.put_array(positions_);
   out.put_array(arcs_);
@@ -19,6 +22,9 @@ void LiveGraph::restore(StateReader& in) {
   if (in.get<bool>() != track_positions_) throw DamagedState();
   in.get(noise_below_);
   in.get(removed_pairs_);
+  in.get(embeds_);
+  buckets_.restore(in);
+  in.get_array(arc_buckets_);
   in.get_array(nodes_);
   in.get_array(positions_);
   in.get_array(arcs_);

@@ -10,6 +10,7 @@
 
 #include "libreeb/base/direction.h"
 #include "libreeb/base/sweep_key.h"
+#include "libreeb/engine/bucket_sums.h"
 #include "libreeb/engine/chunk.h"
 #include "libreeb/engine/chunk_stars.h"
 
@@ -40,15 +41,20 @@ struct SweepGraph {
   std::vector<Node> nodes;
   std::vector<Arc> arcs;
   std::vector<Leaf> leaves;
+  // The embedding, if there is one.
+  std::vector<BucketLists::List> arc_buckets;
+  BucketLists buckets;
 
   void clear() {
     nodes.clear();
     arcs.clear();
     leaves.clear();
+    arc_buckets.clear();
   }
   std::size_t memory_bytes() const {
     return nodes.capacity() * sizeof(Node) + arcs.capacity() * sizeof(Arc) +
-           leaves.capacity() * sizeof(Leaf);
+           leaves.capacity() * sizeof(Leaf) +
+           arc_buckets.capacity() * sizeof(BucketLists::List) + buckets.memory_bytes();
   }
 };
 

@@ -65,10 +65,11 @@ struct KeepingSink : GraphSink {
 };
 
 // Streams the mesh in chunks of this many triangles; options_of(min, max) says what to do with a
-// chunk after which the values so far have this range. Returns how many pairs were removed.
-template <class OptionsOf>
+// chunk after which the values so far have this range, between_chunks(glue) is called after each.
+// Returns how many pairs were removed.
+template <class OptionsOf, class BetweenChunks>
 std::uint64_t stream(const Mesh& mesh, std::size_t size, GraphSink& sink,
-                     const OptionsOf& options_of) {
+                     const OptionsOf& options_of, const BetweenChunks& between_chunks) {
   StreamChunker chunker(1, true);
   ChunkSweep sweep;
   Glue glue(sink, true);
@@ -85,6 +86,7 @@ std::uint64_t stream(const Mesh& mesh, std::size_t size, GraphSink& sink,
     sweep.run(chunk, values[0], fragment, options_of(min, max));
     glue.add(fragment);
     glue.graph().validate();
+    between_chunks(glue);
   };
   for (std::size_t v = 0; v < mesh.values.size(); ++v)
     chunker.add_vertex({&mesh.values[v], 1}, mesh.positions[v]);
@@ -98,6 +100,12 @@ std::uint64_t stream(const Mesh& mesh, std::size_t size, GraphSink& sink,
   flush();
   EXPECT_EQ(glue.graph().node_count(), 0u) << "all is settled";
   return glue.removed_pairs();
+}
+
+template <class OptionsOf>
+std::uint64_t stream(const Mesh& mesh, std::size_t size, GraphSink& sink,
+                     const OptionsOf& options_of) {
+  return stream(mesh, size, sink, options_of, [](Glue&) {});
 }
 
 }  // namespace reeb::test
