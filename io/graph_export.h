@@ -18,6 +18,7 @@ struct GraphView {
   std::string_view function;
   double threshold = 0;
   ArcBucketsView buckets;  // of graph's arcs, or empty
+  int bucket_exponent = 0;
 };
 
 enum class GraphFormat { kRg, kJson, kCsv, kDot, kGraphml, kVtp, kVtu, kPly, kObj };

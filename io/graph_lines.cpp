@@ -1,6 +1,8 @@
 #include "io/graph_lines.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
@@ -61,19 +63,24 @@ void begin_array(const char* type, const char* name, TextSink& out) {
   out << "<DataArray type=\"" << type << "\" Name=\"" << name << "\" format=\"ascii\">\n";
 }
 
-// Points with the nodes' values and vertices; along arcs the value is that of the middle of the
-// line between the ends, and the vertex is -1.
+// The middle of the values that an arc has in its bucket.
+double value_of(const GraphView& view, std::size_t arc, const Bucket& bucket) {
+  const double lo = view.graph.nodes[view.graph.lo[arc].value()].value;
+  const double hi = view.graph.nodes[view.graph.hi[arc].value()].value;
+  const auto index = static_cast<double>(bucket.index);
+  const double bottom = std::max(lo, std::ldexp(index, view.bucket_exponent));
+  const double top = std::min(hi, std::ldexp(index + 1, view.bucket_exponent));
+  return bottom + (top - bottom) / 2;
+}
+
+// Points with the nodes' values and vertices; along arcs the vertex is -1.
 void write_vtk_point_data(const GraphView& view, TextSink& out) {
   const ReebGraph& graph = view.graph;
   out << "<PointData Scalars=\"value\">\n";
   begin_array("Float64", "value", out);
   for (const SweepKey& node : graph.nodes) out << node.value << '\n';
-  for (std::size_t arc = 0; arc < graph.arc_count(); ++arc) {
-    const double lo = graph.nodes[graph.lo[arc].value()].value, hi = graph.nodes[graph.hi[arc].value()].value;
-    const auto inner = static_cast<double>(inner_points(view, arc));
-    double i = 0;
-    for_each_inner_point(view, arc, [&](const Bucket&) { out << lo + (hi - lo) * (++i / (inner + 1)) << '\n'; });
-  }
+  for (std::size_t arc = 0; arc < graph.arc_count(); ++arc)
+    for_each_inner_point(view, arc, [&](const Bucket& bucket) { out << value_of(view, arc, bucket) << '\n'; });
   out << "</DataArray>\n";
   begin_array("Int64", "vertex", out);
   for (const SweepKey& node : graph.nodes) out << node.vertex.value() << '\n';

@@ -1,6 +1,7 @@
 // ReebFile::verify: everything about a file that can be checked without the mesh.
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "libreeb/base/error.h"
 #include "libreeb/format/version_counts.h"
@@ -15,9 +16,33 @@ struct Content {
   std::vector<SweepKey> nodes;
   std::vector<ArcVersion> arcs;
   std::vector<std::uint32_t> bucket_counts;
+  std::vector<std::uint64_t> vertices;  // in the buckets of each arc
   std::vector<VersionCounts> versions;  // from coarse to fine
   std::vector<std::uint32_t> frame_finest;
 };
+
+// Buckets ascend, are of values between the ends of their arc, and hold what has a place. Appends
+// the vertices of each arc.
+void gather_buckets(const ReebFile& file, const GraphFrame& frame, Content& content) {
+  const auto bucket_of = [&](std::uint64_t node) {
+    return std::floor(std::ldexp(content.nodes[node].value, -file.header().bucket_exponent));
+  };
+  auto bucket = frame.buckets.begin();
+  for (std::size_t i = 0; i < frame.bucket_counts.size(); ++i) {
+    const double first = bucket_of(frame.arcs[i].lo), last = bucket_of(frame.arcs[i].hi);
+    std::uint64_t vertices = 0;
+    const auto end = bucket + frame.bucket_counts[i];
+    for (auto before = end; bucket != end; before = bucket++) {
+      const auto index = static_cast<double>(bucket->index);
+      if (before != end && bucket->index <= before->index) file.fail(0, "the buckets of an arc do not ascend");
+      if (!(first <= index && index <= last)) file.fail(0, "an arc has a bucket beyond its ends");
+      if (!std::ranges::all_of(bucket->mean, [](double x) { return std::isfinite(x); }))
+        file.fail(0, "a bucket has no place");
+      vertices += bucket->count;
+    }
+    content.vertices.push_back(vertices);
+  }
+}
 
 Content gather(const ReebFile& file) {
   Content content;
@@ -30,6 +55,7 @@ Content gather(const ReebFile& file) {
       content.arcs.push_back({NodeId(static_cast<std::uint32_t>(arc.lo)), NodeId(static_cast<std::uint32_t>(arc.hi)),
                               arc.born, arc.died});
     content.bucket_counts.insert(content.bucket_counts.end(), frame.bucket_counts.begin(), frame.bucket_counts.end());
+    gather_buckets(file, frame, content);
     content.versions.insert(content.versions.end(), frame.versions.begin(), frame.versions.end());
     content.frame_finest.push_back(cursor.finest_complete());
   }
@@ -58,6 +84,25 @@ std::vector<VersionCounts> verify_versions(const ReebFile& file, const Content& 
     if (!(counts[version] == content.versions[content.versions.size() - 1 - version]))
       file.fail(0, "version " + std::to_string(version) + " has other counts than the file says");
   return counts;
+}
+
+// A vertex of the mesh is a node or in one bucket of the full graph; coarser versions may have
+// dropped some.
+void verify_vertices(const ReebFile& file, const Content& content, const std::vector<VersionCounts>& versions) {
+  if (!file.header().flags.has_embedding) return;
+  std::vector<std::uint64_t> change(versions.size());  // differences wrap and cancel out
+  for (std::size_t i = 0; i < content.arcs.size(); ++i) {
+    change[content.arcs[i].born] += content.vertices[i];
+    if (content.arcs[i].died != kNeverDies) change[content.arcs[i].died] -= content.vertices[i];
+  }
+  std::uint64_t in_buckets = 0;
+  for (std::size_t version = 0; version < versions.size(); ++version) {
+    in_buckets += change[version];
+    const std::uint64_t vertices = in_buckets + versions[version].nodes, mesh = file.header().mesh_vertices;
+    if (version == 0 ? vertices != mesh : vertices > mesh)
+      file.fail(0, "version " + std::to_string(version) + " has " + std::to_string(vertices) +
+                       " vertices in nodes and buckets; the mesh has " + std::to_string(mesh));
+  }
 }
 
 void verify_levels(const ReebFile& file, const Content& content, const std::vector<VersionCounts>& versions) {
@@ -104,7 +149,9 @@ void verify_pairs(const ReebFile& file) {
 void ReebFile::verify() const {
   if (damage_) throw Error(*damage_);
   const Content content = gather(*this);
-  verify_levels(*this, content, verify_versions(*this, content));
+  const std::vector<VersionCounts> versions = verify_versions(*this, content);
+  verify_levels(*this, content, versions);
+  verify_vertices(*this, content, versions);
   for (const LevelLine& line : header_.levels)
     if (line.file_bytes != offsets_[line.frames]) fail(0, "the level table does not fit the seek table");
   verify_full_graph(*this, content);

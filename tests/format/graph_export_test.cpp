@@ -22,7 +22,7 @@ struct Circle {
   }
   std::string text(const char* format) const {
     std::ostringstream out;
-    write_graph(*graph_format(format), {graph, "a \"b\"", 0.25, buckets.view()}, out);
+    write_graph(*graph_format(format), {graph, "a \"b\"", 0.25, buckets.view(), -2}, out);
     return out.str();
   }
 };
@@ -78,12 +78,14 @@ TEST(GraphExport, XmlFormatsHaveTheirLines) {
     EXPECT_NE(Circle().text(format).find("NumberOfPoints=\"4\""), std::string::npos);
     EXPECT_NE(Circle().text(format).find("0 3 2 \n0 2 \n"), std::string::npos);
     EXPECT_NE(Circle().text(format).find("\n3\n5\n</DataArray>"), std::string::npos) << "offsets";
+    EXPECT_NE(Circle().text(format).find("\n0\n0.10000000000000001\n1.5\n0.125\n</DataArray>"), std::string::npos)
+        << "values: the nodes', and the middle of the bucket";
   }
 }
 
 TEST(GraphExport, EmptyGraphAndUnknownFormat) {
   std::ostringstream out;
-  write_graph(GraphFormat::kJson, {ReebGraph{}, "z", 0, {}}, out);
+  write_graph(GraphFormat::kJson, {ReebGraph{}, "z", 0, {}, 0}, out);
   EXPECT_EQ(out.str(), "{\"schema\": \"reeb.graph.v1\", \"function\": \"z\", \"threshold\": 0,\n\"nodes\": [],\n\"arcs\": []}\n");
   EXPECT_FALSE(graph_format("docx").has_value());
 }

@@ -15,9 +15,20 @@
 namespace reeb {
 
 struct MadeUp {
+  static constexpr int kBucketExponent = -3;
+
   ReebGraph graph;
   Hierarchy hierarchy;
   ArcBuckets buckets;  // of hierarchy.arcs
+
+  // What the full graph holds: its nodes, and what its arcs have in buckets.
+  std::uint64_t vertices() const {
+    std::uint64_t sum = graph.node_count();
+    for (std::size_t i = 0; i < hierarchy.arcs.size(); ++i)
+      if (hierarchy.arcs[i].born == 0)
+        for (const Bucket& bucket : buckets.view().of(i)) sum += bucket.count;
+    return sum;
+  }
 };
 
 class MadeUpMaker {
@@ -33,7 +44,8 @@ class MadeUpMaker {
     }
     for (std::uint32_t step = 1; step <= steps && live_.size() > 4; ++step) cancel(step, result.hierarchy);
     make_pairs(result);
-    for (std::size_t i = 0; i < result.hierarchy.arcs.size(); ++i) add_buckets(result.buckets);
+    result.buckets.offsets.push_back(0);
+    for (const ArcVersion& arc : result.hierarchy.arcs) add_buckets(result, arc);
     return result;
   }
 
@@ -93,10 +105,16 @@ class MadeUpMaker {
     for (std::uint64_t i = 0; i < betti.components; ++i) random_pair(PairType::kExt0);
   }
 
-  void add_buckets(ArcBuckets& buckets) {
-    if (buckets.offsets.empty()) buckets.offsets.push_back(0);
-    for (std::uint32_t i = below(4); i > 0; --i)
-      buckets.buckets.push_back({static_cast<std::int64_t>(below(100)) - 50, 1 + random_() % 1000, {real(), real(), real()}});
+  // Some of the buckets between the arc's ends; arcs that are born later have less than they took
+  // the place of.
+  void add_buckets(MadeUp& result, const ArcVersion& arc) {
+    const auto index = [&](NodeId node) {
+      return bucket_index(result.graph.nodes[node.value()].value, MadeUp::kBucketExponent);
+    };
+    ArcBuckets& buckets = result.buckets;
+    for (std::int64_t i = index(arc.lo); i <= index(arc.hi) && (arc.born == 0 || i == index(arc.lo)); ++i)
+      if (below(3) != 0)
+        buckets.buckets.push_back({i, arc.born != 0 ? 1 : 1 + random_() % 1000, {real(), real(), real()}});
     buckets.offsets.push_back(buckets.buckets.size());
   }
 

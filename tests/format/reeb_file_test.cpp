@@ -8,6 +8,8 @@
 #include <fstream>
 #include <functional>
 #include <iterator>
+#include <random>
+#include <tuple>
 
 #include "libreeb/base/error.h"
 #include "ooc/reeb_file_writer.h"
@@ -38,12 +40,20 @@ std::string read_bytes(const std::string& path) {
   return bytes;
 }
 
+// A new file each time: some file systems flush one that is overwritten.
 void write_bytes(const std::string& path, const std::string& bytes) {
+  fs::remove(path);
   std::ofstream(path, std::ios::binary) << bytes;
 }
 
 const FileMeta kMeta{.function = "laplacian:1", .function_min = -0.25, .function_max = 0.75, .mesh_vertices = 1234,
-                     .mesh_triangles = 2468, .denoise_threshold = 0.125, .denoised_pairs = 7, .bucket_exponent = -3};
+                     .mesh_triangles = 2468, .denoise_threshold = 0.125, .denoised_pairs = 7, .bucket_exponent = MadeUp::kBucketExponent};
+
+FileMeta meta_of(const MadeUp& made) {
+  FileMeta meta = kMeta;
+  meta.mesh_vertices = made.vertices();
+  return meta;
+}
 
 void expect_same_buckets(const ArcBuckets& a, const ArcBuckets& b) {
   ASSERT_EQ(a.offsets, b.offsets);
@@ -61,7 +71,7 @@ TEST(ReebFile, EveryVersionOfRandomHierarchiesIsTheDefinition) {
     const auto size = static_cast<std::uint32_t>(seed % 40);
     const MadeUp made = MadeUpMaker(seed).make(size, size * 2, size);
     const std::string path = folder / "a.reeb";
-    write_hierarchy_file(path, kMeta, made.graph, made.hierarchy, seed % 2 == 0 ? ArcBucketsView{} : made.buckets.view());
+    write_hierarchy_file(path, meta_of(made), made.graph, made.hierarchy, seed % 2 == 0 ? ArcBucketsView{} : made.buckets.view());
     const ReebFile file(path);
     ASSERT_EQ(file.damage(), nullptr);
     ASSERT_NO_THROW(file.verify());
@@ -74,7 +84,7 @@ TEST(ReebFile, ManyFramesGiveTheSameLevelsAndChoices) {
   const TemporaryFolder folder;
   const MadeUp made = MadeUpMaker(5).make(20'000, 120'000, 200'000);
   const std::string path = folder / "a.reeb";
-  write_hierarchy_file(path, kMeta, made.graph, made.hierarchy, made.buckets.view());
+  write_hierarchy_file(path, meta_of(made), made.graph, made.hierarchy, made.buckets.view());
   const ReebFile file(path);
   ASSERT_GT(file.header().graph_frames, 20u);
   ASSERT_NO_THROW(file.verify());
@@ -109,7 +119,7 @@ TEST(ReebFile, PairsHeaderAndBucketsComeBack) {
   const TemporaryFolder folder;
   const MadeUp made = MadeUpMaker(11).make(50, 90, 15);
   const std::string path = folder / "a.reeb";
-  write_hierarchy_file(path, kMeta, made.graph, made.hierarchy, made.buckets.view());
+  write_hierarchy_file(path, meta_of(made), made.graph, made.hierarchy, made.buckets.view());
   const ReebFile file(path);
   const FileHeader& header = file.header();
   EXPECT_EQ(header.function, "laplacian:1");
@@ -132,8 +142,7 @@ TEST(ReebFile, PairsHeaderAndBucketsComeBack) {
 TEST(GraphFile, PiecesDoNotShowAndBucketsFollowTheirArcs) {
   const TemporaryFolder folder;
   const MadeUp made = MadeUpMaker(3).make(9'000, 15'000, 0);
-  FileMeta meta = kMeta;
-  for (const SweepKey& node : made.graph.nodes) meta.mesh_vertices = std::max(meta.mesh_vertices, node.vertex.value() + 1);
+  const FileMeta meta = meta_of(made);
   write_graph_file(folder / "whole.reeb", meta, made.graph, made.buckets.view());
   const std::string expected = read_bytes(folder / "whole.reeb");
   using Ends = GraphFileWriter::ArcEnds;
@@ -183,12 +192,26 @@ TEST(GraphFile, EmptyGraph) {
 TEST(ReebFile, BytesDependOnTheContentOnly) {
   const TemporaryFolder folder;
   const MadeUp made = MadeUpMaker(8).make(500, 800, 200);
-  write_hierarchy_file(folder / "a.reeb", kMeta, made.graph, made.hierarchy);
+  write_hierarchy_file(folder / "a.reeb", meta_of(made), made.graph, made.hierarchy);
   MadeUp shuffled = made;
   std::shuffle(shuffled.hierarchy.arcs.begin(), shuffled.hierarchy.arcs.end(), std::mt19937_64(1));
   fs::create_directory(folder / "other");
-  write_hierarchy_file(folder / "other/b.reeb", kMeta, shuffled.graph, shuffled.hierarchy);
+  write_hierarchy_file(folder / "other/b.reeb", meta_of(made), shuffled.graph, shuffled.hierarchy);
   EXPECT_EQ(read_bytes(folder / "a.reeb"), read_bytes(folder / "other/b.reeb"));
+}
+
+// The buckets of a level are those of the records that live, if it has any.
+void expect_buckets_of(const MadeUp& made, std::uint32_t version, const Level& level) {
+  if (level.buckets.offsets.empty()) return;
+  std::vector<Bucket> expected;
+  for (std::size_t i = 0; i < made.hierarchy.arcs.size(); ++i)
+    if (made.hierarchy.arcs[i].born <= version && version < made.hierarchy.arcs[i].died)
+      for (const Bucket& bucket : made.buckets.view().of(i)) expected.push_back(bucket);
+  std::vector<Bucket> given = level.buckets.buckets;
+  const auto key = [](const Bucket& b) { return std::tuple(b.index, b.count, b.mean); };
+  for (auto* list : {&expected, &given})
+    std::ranges::sort(*list, [&](const Bucket& a, const Bucket& b) { return key(a) < key(b); });
+  EXPECT_EQ(given, expected);
 }
 
 // Reads all that `bytes` gives; every level that is given is the right one.
@@ -203,6 +226,7 @@ int levels_given(const std::string& path, const std::string& bytes, const MadeUp
       try {
         const Level level = file.load(version);
         EXPECT_EQ(level.graph, expected[version]);
+        expect_buckets_of(made, version, level);
         ++given;
       } catch (const Error& error) {
         EXPECT_EQ(error.kind(), ErrorKind::kBadInput);
@@ -223,20 +247,24 @@ int levels_given(const std::string& path, const std::string& bytes, const MadeUp
 }
 
 struct SmallFile {
-  MadeUp made = MadeUpMaker(21).make(9, 18, 4);
+  MadeUp made = MadeUpMaker(21).make(7, 12, 2);
   std::vector<ReebGraph> expected;
   TemporaryFolder folder;
   std::string bytes;
 
-  SmallFile() {
-    write_hierarchy_file(folder / "a.reeb", kMeta, made.graph, made.hierarchy);
+  explicit SmallFile(bool embedding) {
+    write_hierarchy_file(folder / "a.reeb", meta_of(made), made.graph, made.hierarchy,
+                         embedding ? made.buckets.view() : ArcBucketsView{});
     bytes = read_bytes(folder / "a.reeb");
     for (std::uint32_t v = 0; v <= made.hierarchy.persistence.size(); ++v) expected.push_back(naive_level(made, v));
   }
 };
 
-TEST(ReebFile, EveryPrefixOfASmallFileIsRefusedOrRight) {
-  const SmallFile small;
+class DamagedFile : public testing::TestWithParam<bool> {};
+INSTANTIATE_TEST_SUITE_P(Embedding, DamagedFile, testing::Bool());
+
+TEST_P(DamagedFile, EveryPrefixOfASmallOneIsRefusedOrRight) {
+  const SmallFile small(GetParam());
   int refused = 0, whole = 0;
   for (std::size_t size = 0; size < small.bytes.size(); ++size) {
     SCOPED_TRACE(testing::Message() << size << " bytes");
@@ -248,8 +276,8 @@ TEST(ReebFile, EveryPrefixOfASmallFileIsRefusedOrRight) {
   EXPECT_GT(whole, 0) << "a file that lacks only its tail still has its graph";
 }
 
-TEST(ReebFile, EveryFlippedBitOfASmallFileIsNoticed) {
-  const SmallFile small;
+TEST_P(DamagedFile, EveryFlippedBitOfASmallOneIsNoticed) {
+  const SmallFile small(GetParam());
   for (std::size_t bit = 0; bit < small.bytes.size() * 8; ++bit) {
     SCOPED_TRACE(testing::Message() << "byte " << bit / 8 << " bit " << bit % 8);
     std::string bytes = small.bytes;
@@ -259,10 +287,89 @@ TEST(ReebFile, EveryFlippedBitOfASmallFileIsNoticed) {
   }
 }
 
+// A file of many frames, and what three of its levels are.
+struct LargeFile {
+  MadeUp made = MadeUpMaker(6).make(20'000, 40'000, 8'000);
+  TemporaryFolder folder;
+  std::string bytes;
+  std::vector<Level> levels;  // the coarsest, one between, the full graph
+
+  explicit LargeFile(bool embedding) {
+    write_hierarchy_file(folder / "a.reeb", meta_of(made), made.graph, made.hierarchy,
+                         embedding ? made.buckets.view() : ArcBucketsView{});
+    bytes = read_bytes(folder / "a.reeb");
+    const ReebFile file(folder / "a.reeb");
+    for (const LevelLine& line : {file.levels().front(), file.levels()[file.levels().size() / 2], file.levels().back()})
+      levels.push_back(file.load(line.version));
+  }
+
+  // Returns how many of the levels `damaged` gives; a level that is given is the right one.
+  std::size_t given_by(const std::string& damaged) const {
+    write_bytes(folder / "bad.reeb", damaged);
+    std::size_t given = 0;
+    try {
+      const ReebFile file(folder / "bad.reeb");
+      EXPECT_THROW(file.verify(), Error);
+      for (const Level& expected : levels) {
+        const Level level = file.load(expected.version);
+        EXPECT_EQ(level.graph, expected.graph);
+        expect_same_buckets(level.buckets, expected.buckets);
+        ++given;
+      }
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::kBadInput);
+      EXPECT_FALSE(error.hint().empty());
+    }
+    return given;
+  }
+};
+
+TEST_P(DamagedFile, SomePrefixesAndFlippedBitsOfALargeOne) {
+  const LargeFile large(GetParam());
+  std::mt19937_64 random(4);
+  std::array<int, 4> cut{}, flipped{};
+  for (int i = 0; i < 100; ++i) {
+    const std::size_t place = random() % large.bytes.size();
+    SCOPED_TRACE(testing::Message() << "byte " << place);
+    ++cut[large.given_by(large.bytes.substr(0, place))];
+    std::string bytes = large.bytes;
+    bytes[place] = static_cast<char>(bytes[place] ^ (1 << (random() % 8)));
+    ++flipped[large.given_by(bytes)];
+  }
+  // Many places lie behind the coarsest level and before the end of the finest.
+  EXPECT_GT(cut[1] + cut[2], 10);
+  EXPECT_GT(flipped[1] + flipped[2], 10);
+}
+
+TEST(ReebFile, AnEmbeddingThatLosesOrMakesVerticesIsNoticed) {
+  const TemporaryFolder folder;
+  const MadeUp made = MadeUpMaker(11).make(50, 90, 15);
+  const auto verify = [&](const FileMeta& meta, const ArcBuckets& buckets) {
+    write_hierarchy_file(folder / "a.reeb", meta, made.graph, made.hierarchy, buckets.view());
+    ReebFile(folder / "a.reeb").verify();
+  };
+  ASSERT_NO_THROW(verify(meta_of(made), made.buckets));
+  FileMeta meta = meta_of(made);
+  ++meta.mesh_vertices;
+  EXPECT_THROW(verify(meta, made.buckets), Error) << "one is missing";
+  meta.mesh_vertices -= 2;
+  EXPECT_THROW(verify(meta, made.buckets), Error) << "one is too many";
+
+  ArcBuckets wrong = made.buckets;
+  wrong.buckets[0].index += 100;
+  EXPECT_THROW(verify(meta_of(made), wrong), Error) << "beyond its arc";
+  wrong = made.buckets;
+  std::swap(wrong.buckets[0], wrong.buckets[1]);
+  EXPECT_THROW(verify(meta_of(made), wrong), Error) << "not ascending";
+  wrong = made.buckets;
+  wrong.buckets.back().count += 1'000'000;
+  EXPECT_THROW(verify(meta_of(made), wrong), Error) << "a later version has more than the mesh";
+}
+
 TEST(ReebFile, ACutFileYieldsTheLevelsOfItsWholeFrames) {
   const TemporaryFolder folder;
   const MadeUp made = MadeUpMaker(6).make(20'000, 40'000, 8'000);
-  write_hierarchy_file(folder / "a.reeb", kMeta, made.graph, made.hierarchy);
+  write_hierarchy_file(folder / "a.reeb", meta_of(made), made.graph, made.hierarchy);
   const std::string bytes = read_bytes(folder / "a.reeb");
   const ReebFile whole(folder / "a.reeb");
   for (const LevelLine& line : whole.levels()) {
@@ -293,7 +400,7 @@ TEST(ReebFile, AnUnwritablePlaceIsAResourceErrorAndNothingIsLeft) {
 TEST(ReebFile, TheFirstThousandNodesOfALargeFileLoadFast) {
   const TemporaryFolder folder;
   const MadeUp made = MadeUpMaker(9).make(200'000, 600'000, 1'000'000);
-  write_hierarchy_file(folder / "a.reeb", kMeta, made.graph, made.hierarchy);
+  write_hierarchy_file(folder / "a.reeb", meta_of(made), made.graph, made.hierarchy);
   const auto start = std::chrono::steady_clock::now();
   const ReebFile file(folder / "a.reeb");
   const std::uint64_t limit = std::max<std::uint64_t>(1000, file.levels().front().nodes);

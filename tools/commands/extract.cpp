@@ -53,7 +53,10 @@ void extract(const ExtractOptions& options) {
   if (const Error* damage = file.damage()) fmt::print(stderr, "reeb: warning: {}\n", damage->what());
   const ooc::Level level = file.load(choose_version(file, options));
   write_output(options.output, [&](std::ostream& out) {
-    io::write_graph(format, {level.graph, file.header().function, level.threshold, level.buckets.view()}, out);
+    io::write_graph(format,
+                    {level.graph, file.header().function, level.threshold, level.buckets.view(),
+                     file.header().bucket_exponent},
+                    out);
   });
 }
 

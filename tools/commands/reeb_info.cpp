@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "libreeb/base/error.h"
@@ -11,6 +12,11 @@
 namespace reeb::tools {
 namespace {
 
+// Of the full graph, which is the last line of the table.
+std::uint64_t buckets_of_graph(const ooc::ReebFile& file) {
+  return file.levels().empty() ? 0 : file.levels().back().buckets;
+}
+
 nlohmann::ordered_json to_json(const ooc::ReebFile& file) {
   const FileHeader& header = file.header();
   nlohmann::ordered_json levels = nlohmann::ordered_json::array();
@@ -19,6 +25,7 @@ nlohmann::ordered_json to_json(const ooc::ReebFile& file) {
                       {"threshold", line.threshold},
                       {"nodes", line.nodes},
                       {"arcs", line.arcs},
+                      {"buckets", line.buckets},
                       {"file_bytes", line.file_bytes},
                       {"memory_bytes", line.memory_bytes}});
   nlohmann::ordered_json json = {
@@ -32,7 +39,9 @@ nlohmann::ordered_json to_json(const ooc::ReebFile& file) {
       {"graph", {{"nodes", header.nodes}, {"arcs", header.arcs}, {"components", header.components}, {"loops", header.loops}}},
       {"graph_only", header.flags.graph_only},
       {"positions", header.flags.has_positions},
-      {"embedding", header.flags.has_embedding},
+      {"embedding", header.flags.has_embedding ? nlohmann::ordered_json{{"bucket_exponent", header.bucket_exponent},
+                                                                        {"buckets", buckets_of_graph(file)}}
+                                               : nlohmann::ordered_json(nullptr)},
       {"cancellations", header.steps},
       {"pairs", header.pairs},
       {"kept_loops", header.kept_loops},
@@ -51,6 +60,9 @@ void print_text(const ooc::ReebFile& file) {
   fmt::print("  mesh       {} vertices, {} triangles\n", header.mesh_vertices, header.mesh_triangles);
   fmt::print("  graph      {} nodes, {} arcs, {} components, {} loops\n", header.nodes, header.arcs, header.components,
              header.loops);
+  if (header.flags.has_embedding)
+    fmt::print("  embedding  {} buckets, each {:.9g} of the function wide\n", buckets_of_graph(file),
+               std::ldexp(1.0, header.bucket_exponent));
   if (header.denoised_pairs != 0)
     fmt::print("  denoised   {} pairs below {:.9g}\n", header.denoised_pairs, header.denoise_threshold);
   if (header.flags.graph_only) fmt::print("  hierarchy  none (the graph only)\n");
