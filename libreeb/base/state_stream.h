@@ -36,10 +36,14 @@ class StateWriter {
   }
   template <class T>
   void put_array(const std::vector<T>& array) {
+    put_array(std::span<const T>(array));
+  }
+  template <class T>
+  void put_array(std::span<const T> array) {
     static_assert(std::is_trivially_copyable_v<T>);
     put(std::uint64_t{array.size()});
     put(std::uint64_t{sizeof(T)});
-    write(std::as_bytes(std::span(array)));
+    write(std::as_bytes(array));
   }
 };
 
@@ -67,11 +71,16 @@ class StateReader {
   }
   template <class T>
   void get_array(std::vector<T>& array) {
+    array.resize(get_array_size<T>());
+    read(std::as_writable_bytes(std::span(array)));
+  }
+  // How many elements of an array follow; never more than there can be.
+  template <class T>
+  std::size_t get_array_size() {
     static_assert(std::is_trivially_copyable_v<T>);
     const auto count = get<std::uint64_t>();
     if (get<std::uint64_t>() != sizeof(T) || count > left() / sizeof(T)) throw DamagedState();
-    array.resize(static_cast<std::size_t>(count));
-    read(std::as_writable_bytes(std::span(array)));
+    return static_cast<std::size_t>(count);
   }
 };
 

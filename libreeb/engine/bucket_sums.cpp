@@ -4,15 +4,13 @@
 #include <cmath>
 #include <utility>
 
-#include "libreeb/base/grow.h"
-
 namespace reeb {
 
 BucketSum BucketSum::take(std::uint64_t taken) {
   BucketSum part{index, taken, {}};
+  const double share = static_cast<double>(taken) / static_cast<double>(count);
   for (std::size_t k = 0; k < 3; ++k) {
-    const auto all = static_cast<Int128>(count), share = static_cast<Int128>(taken);
-    part.sum[k] = sum[k] / all * share + sum[k] % all * share / all;
+    part.sum[k] = static_cast<Int128>(static_cast<double>(sum[k]) * share);
     sum[k] -= part.sum[k];
   }
   count -= taken;
@@ -41,10 +39,10 @@ BucketLists::Index BucketLists::new_bucket(const BucketSum& bucket) {
     return b;
   }
   b = static_cast<Index>(sums_.size());
-  grow_by_quarter(sums_);
-  grow_by_quarter(next_);
-  sums_.push_back(bucket);
-  next_.push_back(b);
+  sums_.grow_by(1);
+  next_.grow_by(1);
+  sums_[b] = bucket;
+  next_[b] = b;
   return b;
 }
 
@@ -68,8 +66,11 @@ void BucketLists::append(List& list, const BucketSum& bucket) {
 }
 
 void BucketLists::add_vertex(List& list, double value, const Point& position) {
+  bring_up(list);
+  const std::int64_t index = index_of(value);
+  if (list.empty() || sums_[list.last].index <= index) return add_last(list, index, position);
   List vertex;
-  add_last(vertex, index_of(value), position);
+  add_last(vertex, index, position);
   merge(list, vertex);
 }
 
@@ -187,15 +188,15 @@ void lay_on_path(BucketLists& lists, BucketLists::List& from, Direction d, doubl
 }
 
 void BucketLists::save(StateWriter& out) const {
-  out.put_array(sums_);
-  out.put_array(next_);
+  sums_.save(out);
+  next_.save(out);
   out.put(first_free_);
   out.put(exponent_);
 }
 
 void BucketLists::restore(StateReader& in) {
-  in.get_array(sums_);
-  in.get_array(next_);
+  sums_.restore(in);
+  next_.restore(in);
   in.get(first_free_);
   in.get(exponent_);
 }

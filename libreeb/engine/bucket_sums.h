@@ -8,9 +8,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "libreeb/base/direction.h"
+#include "libreeb/base/growing_array.h"
 #include "libreeb/base/state_stream.h"
 #include "libreeb/graph/bucket.h"
 #include "libreeb/port/graph_sink.h"
@@ -19,14 +19,16 @@ namespace reeb {
 
 __extension__ typedef __int128 Int128;
 
-// A coordinate in units of 2^-44; what is no number is the least.
+// A coordinate in units of 2^-44, cut off towards zero; what is no number is the least.
 inline Int128 fixed_point(double x) {
-  constexpr double kMost = 0x1p50, kRounds = 0x1.8p52;
+  constexpr double kFits = 0x1p18, kMost = 0x1p50;
+  if (x > -kFits && x < kFits) [[likely]]
+    return static_cast<std::int64_t>(x * 0x1p44);
   x = x > -kMost ? x : -kMost;
   x = x < kMost ? x : kMost;
-  const double whole = (x + kRounds) - kRounds;  // the nearest whole number
-  const auto fraction = static_cast<std::int64_t>((x - whole) * 0x1p44);
-  return (static_cast<Int128>(static_cast<std::int64_t>(whole)) << 44) + fraction;
+  const auto whole = static_cast<std::int64_t>(x);
+  const double rest = x - static_cast<double>(whole);
+  return (static_cast<Int128>(whole) << 44) + static_cast<std::int64_t>(rest * 0x1p44);
 }
 
 struct BucketSum {
@@ -42,7 +44,7 @@ struct BucketSum {
     count += other.count;
     for (std::size_t k = 0; k < 3; ++k) sum[k] += other.sum[k];
   }
-  // Takes so many of the vertices out, with their share of the sum.
+  // Takes so many of the vertices out, with their share of the sum, or nearly; nothing is lost.
   BucketSum take(std::uint64_t taken);
   Bucket mean() const;
 };
@@ -73,6 +75,7 @@ class BucketLists {
     if (list.empty() || sums_[list.last].index != index) append_bucket(list, {index, 0, {}});
     sums_[list.last].add(position);
   }
+  // The same for any list and value. O(1) at the list's ends.
   void add_vertex(List& list, double value, const Point& position);
   // REQUIRES: of the pool's exponent; the list is of that, or empty; its last index <= this one.
   void append(List& list, const BucketSum& bucket);
@@ -100,7 +103,7 @@ class BucketLists {
   }
 
   std::size_t memory_bytes() const {
-    return sums_.capacity() * sizeof(BucketSum) + next_.capacity() * sizeof(Index);
+    return sums_.memory_bytes() + next_.memory_bytes();
   }
   void save(StateWriter& out) const;
   void restore(StateReader& in);
@@ -118,8 +121,8 @@ class BucketLists {
   void coarsen(List& list);
   std::uint64_t count_above(const BucketSum& bucket, double lo, double at, double hi) const;
 
-  std::vector<BucketSum> sums_;
-  std::vector<Index> next_;  // in its list, or of free buckets
+  GrowingArray<BucketSum> sums_;
+  GrowingArray<Index> next_;  // in its list, or of free buckets
   Index first_free_ = kNone;
   int exponent_ = 0;
 };

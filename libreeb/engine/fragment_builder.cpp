@@ -21,7 +21,7 @@ void FragmentBuilder::start(std::size_t vertices, const SweepOptions& options) {
 
 std::uint32_t FragmentBuilder::add_node(std::uint32_t v) {
   node_of_[v] = static_cast<std::uint32_t>(graph_.nodes.size());
-  graph_.nodes.push_back({v, kNone, false, false, false, kNone});
+  graph_.nodes.push_back({v, kNone, false, {}, {}, false, false, kNone});
   return node_of_[v];
 }
 
@@ -96,21 +96,44 @@ void FragmentBuilder::trace_paths(Fragment& fragment) {
   }
 }
 
+// Which nodes can still become (1, 1) nodes, or get further arcs. As in LiveGraph, a node that no
+// other chunk uses stays one for good if on one of its sides there is no arc, or two and one of them
+// without paths; where noise goes, it can change as long as there is any path.
+void FragmentBuilder::find_changing_nodes(const SweptChunk& swept, bool noise_goes) {
+  using Side = SweepGraph::Side;
+  auto& nodes = graph_.nodes;
+  auto& arcs = graph_.arcs;
+  for (SweepGraph::Node& node : nodes) node.up = node.down = {};
+  const auto add = [](Side& side, bool referenced) {
+    side.several = side.any;
+    side.any = true;
+    (referenced ? side.tied : side.loose) = true;
+  };
+  for (const SweepGraph::Arc& arc : arcs) {
+    if (arc.lo == kNone) continue;
+    add(nodes[arc.lo].up, arc.referenced);
+    add(nodes[arc.hi].down, arc.referenced);
+  }
+  const auto lasts = [](const Side& side) { return !side.any || (side.several && side.loose); };
+  for (SweepGraph::Node& node : nodes) {
+    const bool stays = noise_goes ? !node.up.tied && !node.down.tied : lasts(node.up) || lasts(node.down);
+    node.can_change = swept.uses(node.vertex) != kUsedHereOnly || !stays;
+  }
+}
+
 // Divides nodes and arcs into open and settled ones (DESIGN.md 2): an arc is settled if no path
 // runs on it and none of its ends can change; a node leaves when all its arcs do.
 void FragmentBuilder::divide(const SweptChunk& swept, Fragment& fragment) {
+  find_changing_nodes(swept, fragment.options.noise_below > 0);
   auto& nodes = graph_.nodes;
   auto& arcs = graph_.arcs;
-  for (SweepGraph::Node& node : nodes) node.can_change = swept.uses(node.vertex) != kUsedHereOnly;
-  for (const SweepGraph::Arc& arc : arcs)
-    if (arc.referenced) nodes[arc.lo].can_change = nodes[arc.hi].can_change = true;
   for (SweepGraph::Node& node : nodes) node.open = node.can_change ? 0 : kNone;
 
   open_arcs_.clear();
   for (std::uint32_t a = 0; a < arcs.size(); ++a) {
     if (arcs[a].lo == kNone) continue;
     SweepGraph::Node &lo = nodes[arcs[a].lo], &hi = nodes[arcs[a].hi];
-    if (!lo.can_change && !hi.can_change) {
+    if (!arcs[a].referenced && !lo.can_change && !hi.can_change) {
       add_settled_arc(swept, a, fragment);
       lo.lost_arcs = hi.lost_arcs = true;
     } else {

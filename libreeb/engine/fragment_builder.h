@@ -70,6 +70,7 @@ class FragmentBuilder {
 
   void sort_steps(const SweptChunk& swept);
   void trace_paths(Fragment& fragment);
+  void find_changing_nodes(const SweptChunk& swept, bool noise_goes);
   void divide(const SweptChunk& swept, Fragment& fragment);
   void add_nodes(const SweptChunk& swept, Fragment& fragment);
   void add_settled_arc(const SweptChunk& swept, std::uint32_t arc, Fragment& fragment);

@@ -14,6 +14,7 @@ void Glue::add(const Fragment& fragment) {
   add_nodes(fragment);
   add_arcs(fragment);
   add_paths(fragment);
+  for (const Index a : arcs_) graph_.release(a);
   run_steps(fragment);
   graph_.tidy();
   graph_.flush();
@@ -30,7 +31,7 @@ void Glue::add_nodes(const Fragment& fragment) {
                          : node.uses == kUsedHereOnly ? LiveGraph::State::kComplete
                                                       : LiveGraph::State::kIncomplete;
       n = graph_.add_node(node.key, fragment.positions.empty() ? Point{} : fragment.positions[i], state);
-      if (n >= first_link_.size()) first_link_.resize(n + 1);
+      if (n >= first_link_.size()) first_link_.grow_by(n + 1 - first_link_.size());
       first_link_[n] = kNone;
       if ((node.uses & kUsedLater) != 0) node_of_.find_or_insert(vertex, n);
     }
@@ -104,8 +105,8 @@ void Glue::add_edge(Index lo, Index hi, Index top) {
     first_free_edge_ = edges_[e].top;
   } else {
     e = static_cast<Index>(edges_.size());
-    edges_.emplace_back();
-    links_.resize(links_.size() + 2);
+    edges_.grow_by(1);
+    links_.grow_by(2);
   }
   edges_[e] = {lo, hi, top};
   link(2 * e, lo);
@@ -136,8 +137,8 @@ void Glue::unlink(Index l, Index n) {
 
 std::size_t Glue::memory_bytes() const {
   return graph_.memory_bytes() + node_of_.memory_bytes() + edge_of_.memory_bytes() +
-         edges_.capacity() * sizeof(Edge) + links_.capacity() * sizeof(Link) +
-         (first_link_.capacity() + nodes_.capacity() + arcs_.capacity()) * sizeof(Index) +
+         edges_.memory_bytes() + links_.memory_bytes() + first_link_.memory_bytes() +
+         (nodes_.capacity() + arcs_.capacity()) * sizeof(Index) +
          pending_.capacity() * sizeof(Pending);
 }
 

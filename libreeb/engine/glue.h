@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "libreeb/base/flat_map.h"
+#include "libreeb/base/growing_array.h"
 #include "libreeb/base/state_stream.h"
 #include "libreeb/engine/chunk.h"
 #include "libreeb/engine/fragment.h"
@@ -76,10 +77,10 @@ class Glue {
   std::uint64_t removed_in_fragments_ = 0;
   FlatMap node_of_;  // incomplete vertices
   FlatMap edge_of_;  // by edge_key
-  std::vector<Edge> edges_;
-  std::vector<Link> links_;
+  GrowingArray<Edge> edges_;
+  GrowingArray<Link> links_;
   Index first_free_edge_ = kNone;
-  std::vector<Index> first_link_;  // by node: its list of kept edges
+  GrowingArray<Index> first_link_;  // by node: its list of kept edges
 
   std::vector<Index> nodes_, arcs_;        // of the fragment at hand
   struct Pending {

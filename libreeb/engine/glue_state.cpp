@@ -6,18 +6,18 @@ namespace reeb {
 void Glue::save(StateWriter& out) const {
   graph_.save(out);
   out.put(removed_in_fragments_);
-  out.put_array(first_link_);
-  out.put_array(edges_);
-  out.put_array(links_);
+  first_link_.save(out);
+  edges_.save(out);
+  links_.save(out);
   out.put(first_free_edge_);
 }
 
 void Glue::restore(StateReader& in) {
   graph_.restore(in);
   in.get(removed_in_fragments_);
-  in.get_array(first_link_);
-  in.get_array(edges_);
-  in.get_array(links_);
+  first_link_.restore(in);
+  edges_.restore(in);
+  links_.restore(in);
   in.get(first_free_edge_);
 
   node_of_.clear();

@@ -4,16 +4,21 @@
 #include <string>
 #include <utility>
 
-#include "libreeb/base/grow.h"
-
 namespace reeb {
 
 void LiveGraph::set_options(const SweepOptions& options) {
   noise_below_ = options.noise_below;
   if (!options.bucket_exponent) return;
   embeds_ = true;
-  arc_buckets_.resize(arcs_.size());
+  grow_arc_buckets();
   buckets_.raise_exponent(*options.bucket_exponent);
+}
+
+void LiveGraph::grow_arc_buckets() {
+  while (arc_buckets_.size() < arcs_.size()) {
+    arc_buckets_.grow_by(1);
+    arc_buckets_[arc_buckets_.size() - 1] = {};
+  }
 }
 
 // ---- nodes and arcs
@@ -25,12 +30,8 @@ LiveGraph::Index LiveGraph::add_node(const SweepKey& key, const Point& position,
     --free_nodes_;
   } else {
     n = static_cast<Index>(nodes_.size());
-    grow_by_quarter(nodes_);
-    nodes_.emplace_back();
-    if (track_positions_) {
-      grow_by_quarter(positions_);
-      positions_.emplace_back();
-    }
+    nodes_.grow_by(1);
+    if (track_positions_) positions_.grow_by(1);
   }
   nodes_[n] = {key, kNone, kNone, 0, 0, 0, state, state != State::kSettled, false, true};
   if (track_positions_) positions_[n] = position;
@@ -52,18 +53,18 @@ LiveGraph::Index LiveGraph::add_arc(Index lo, Index hi) {
     --free_arcs_;
   } else {
     a = static_cast<Index>(arcs_.size());
-    grow_by_quarter(arcs_);
-    arcs_.emplace_back();
-    if (embeds_) {
-      grow_by_quarter(arc_buckets_);
-      arc_buckets_.emplace_back();
-    }
+    arcs_.grow_by(1);
+    if (embeds_) grow_arc_buckets();
   }
   arcs_[a].first_reference = kNone;
   arcs_[a].references = 0;
   attach_lo(a, lo);
   attach_hi(a, hi);
   return a;
+}
+
+void LiveGraph::release(Index a) {
+  if (can_leave(a)) hand_over(a);
 }
 
 void LiveGraph::add_buckets(Index arc, std::span<const BucketSum> buckets) {
@@ -125,8 +126,7 @@ LiveGraph::Index LiveGraph::new_reference() {
     --free_references_;
   } else {
     r = static_cast<Index>(references_.size());
-    grow_by_quarter(references_);
-    references_.emplace_back();
+    references_.grow_by(1);
   }
   return r;
 }
@@ -160,8 +160,12 @@ void LiveGraph::gained_reference(Index a) {
 }
 
 void LiveGraph::lost_references(Index a) {
-  for (const Index n : {arcs_[a].lo, arcs_[a].hi})
-    if (--nodes_[n].referenced_arcs == 0) queue(n);
+  const Index lo = arcs_[a].lo, hi = arcs_[a].hi;
+  for (const Index n : {lo, hi}) {
+    --nodes_[n].referenced_arcs;
+    queue(n);
+  }
+  if (can_leave(a)) hand_over(a);
 }
 
 LiveGraph::Index LiveGraph::add_reference(Index arc, Index below) {
@@ -275,13 +279,39 @@ void LiveGraph::tidy() {
     changed_.pop_back();
     Node& node = nodes_[n];
     node.queued = false;
-    if (noise_below_ > 0 && node.used && node.referenced_arcs == 0) remove_noise_at(n);
+    if (!node.used) continue;
+    if (noise_below_ > 0) remove_noise_at(n);
     if (!node.used) continue;
     if (is_pass_through(node))
       contract(n);
-    else if (node.referenced_arcs == 0)
+    else if (node.state == State::kComplete && stays_for_good(node))
       settle(n);
+    // A settled node leaves with its last arc; one without arcs leaves at once.
+    if (node.used && node.state == State::kSettled && node.up_degree + node.down_degree == 0) {
+      settled_nodes_.push_back({node.key, track_positions_ ? positions_[n] : Point{}});
+      free_node(n);
+    }
   }
+  constexpr std::size_t kMany = 4096;
+  if (settled_arcs_.size() + settled_nodes_.size() >= kMany) flush();
+}
+
+// Whether a complete node, not a (1, 1) one, will never become one. Zips merge referenced arcs with
+// each other only, and leave at least one on each side that has any. So a side keeps two arcs for
+// good if it has two and one of them is not referenced; and an empty side stays empty. But noise can
+// go as long as the arcs of its saddle are here, so then they wait until no path is left.
+bool LiveGraph::stays_for_good(const Node& node) const {
+  if (noise_below_ > 0) return node.referenced_arcs == 0;
+  if (node.up_degree == 0 || node.down_degree == 0) return true;
+  std::uint32_t lasting = node.up_degree + node.down_degree - node.referenced_arcs;
+  if (node.up_degree == 1 && arcs_[node.up_first].references == 0) --lasting;
+  if (node.down_degree == 1 && arcs_[node.down_first].references == 0) --lasting;
+  return lasting != 0;
+}
+
+bool LiveGraph::can_leave(Index a) const {
+  return arcs_[a].references == 0 && nodes_[arcs_[a].lo].state == State::kSettled &&
+         nodes_[arcs_[a].hi].state == State::kSettled;
 }
 
 // The two arcs of a (1, 1) node become one: every path on the upper arc goes on along the lower
@@ -311,25 +341,20 @@ void LiveGraph::contract(Index n) {
       if (is_leaf(nodes_[end])) try_leaf(end);
     if (!nodes_[lo].used || !nodes_[hi].used) return;
   }
-  if (nodes_[lo].state == State::kSettled && nodes_[hi].state == State::kSettled) hand_over(upper);
+  if (can_leave(upper)) hand_over(upper);
 }
 
 void LiveGraph::settle(Index n) {
   nodes_[n].state = State::kSettled;
   for (Index a = nodes_[n].up_first; a != kNone;) {
     const Index next = arcs_[a].lo_next;
-    if (nodes_[arcs_[a].hi].state == State::kSettled) hand_over(a);
+    if (can_leave(a)) hand_over(a);
     a = next;
   }
   for (Index a = nodes_[n].down_first; a != kNone;) {
     const Index next = arcs_[a].hi_next;
-    if (nodes_[arcs_[a].lo].state == State::kSettled) hand_over(a);
+    if (can_leave(a)) hand_over(a);
     a = next;
-  }
-  // A settled node leaves with its last arc; one without arcs leaves now.
-  if (nodes_[n].up_degree + nodes_[n].down_degree == 0) {
-    settled_nodes_.push_back({nodes_[n].key, track_positions_ ? positions_[n] : Point{}});
-    free_node(n);
   }
 }
 
@@ -367,7 +392,8 @@ void LiveGraph::flush() {
 void LiveGraph::snapshot(std::vector<ArcKeys>& arcs, std::vector<SweepKey>& isolated) const {
   // Where arcs were handed over already, the degree here says nothing.
   const auto stays = [&](const Node& n) { return !is_pass_through(n); };
-  for (const Node& node : nodes_) {
+  for (Index n = 0; n < nodes_.size(); ++n) {
+    const Node& node = nodes_[n];
     if (!node.used || !stays(node)) continue;
     if (node.up_degree + node.down_degree == 0 && node.intact) isolated.push_back(node.key);
     for (Index a = node.up_first; a != kNone; a = arcs_[a].lo_next) {
@@ -379,11 +405,10 @@ void LiveGraph::snapshot(std::vector<ArcKeys>& arcs, std::vector<SweepKey>& isol
 }
 
 std::size_t LiveGraph::memory_bytes() const {
-  return nodes_.capacity() * sizeof(Node) + positions_.capacity() * sizeof(Point) +
-         arcs_.capacity() * sizeof(Arc) + references_.capacity() * sizeof(Reference) +
+  return nodes_.memory_bytes() + positions_.memory_bytes() + arcs_.memory_bytes() + references_.memory_bytes() +
          changed_.capacity() * sizeof(Index) + settled_nodes_.capacity() * sizeof(SettledNode) +
          settled_arcs_.capacity() * sizeof(ArcKeys) + buckets_.memory_bytes() +
-         arc_buckets_.capacity() * sizeof(BucketLists::List) +
+         arc_buckets_.memory_bytes() +
          4 * settled_bucket_counts_.capacity() + settled_buckets_.capacity() * sizeof(Bucket);
 }
 
@@ -407,6 +432,7 @@ void LiveGraph::validate() const {
       if (below != kNone && arcs_[references_[below].arc].hi != arc.lo) fail("path broken below reference", r);
     }
     if (references != arc.references) fail("wrong number of references on arc", a);
+    if (can_leave(a)) fail("not handed over: arc", a);
     on_arcs += references;
     if (references != 0) {
       ++referenced[arc.lo];
@@ -419,6 +445,8 @@ void LiveGraph::validate() const {
     if (!node.used) continue;
     if (node.up_degree != up[n] || node.down_degree != down[n]) fail("wrong degree of node", n);
     if (node.referenced_arcs != referenced[n]) fail("wrong count of referenced arcs at node", n);
+    if (node.state == State::kComplete && (is_pass_through(node) || stays_for_good(node)))
+      fail("not tidied: node", n);
   }
 }
 

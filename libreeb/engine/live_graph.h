@@ -5,7 +5,8 @@
 // lists the references on it. Two paths with the same ends are zipped: their arcs are merged from
 // above, the shorter arc cutting the longer one. A node whose vertex is complete (all its
 // simplices are in) disappears when it has one arc up and one down. A node is settled when it is
-// complete and none of its arcs is referenced; an arc whose ends are settled leaves for the sink.
+// complete and can never come to that; an arc without references whose ends are settled leaves for
+// the sink. So of a bump on a long path only the fork stays, not the arc to its top.
 //
 // Noise (DESIGN.md 1.6): a leaf whose arc cannot change is removed as soon as its saddle is seen to
 // have another path that reaches beyond it. Looks are few; a leaf for which they do not suffice
@@ -19,6 +20,7 @@
 #include <vector>
 
 #include "libreeb/base/direction.h"
+#include "libreeb/base/growing_array.h"
 #include "libreeb/base/state_stream.h"
 #include "libreeb/base/sweep_key.h"
 #include "libreeb/engine/bucket_sums.h"
@@ -33,8 +35,8 @@ class LiveGraph {
   using Index = std::uint32_t;
   static constexpr Index kNone = ~Index{0};
 
-  // Whether a node's vertex can get further simplices, or not, or the node cannot change at all
-  // (but for the removal of noise). A node that is added as settled has lost arcs to the sink.
+  // Whether a node's vertex can get further simplices, or not, or the node is one of the final
+  // graph for certain (but for the removal of noise).
   enum class State : std::uint8_t { kIncomplete, kComplete, kSettled };
 
   // Settled nodes and arcs go to `sink` when flush() is called.
@@ -45,6 +47,8 @@ class LiveGraph {
 
   Index add_node(const SweepKey& key, const Point& position, State state);
   Index add_arc(Index lo, Index hi);
+  // Says that a new arc has got all the references that it gets.
+  void release(Index arc);
   // The embedding of an arc that was just added. REQUIRES: of the exponent of the options.
   void add_buckets(Index arc, std::span<const BucketSum> buckets);
   const SweepKey& key(Index node) const { return nodes_[node].key; }
@@ -117,6 +121,7 @@ class LiveGraph {
   void detach_hi(Index arc);
   void free_arc(Index arc);
   void free_node(Index node);
+  void grow_arc_buckets();
   Index new_reference();
   void free_reference(Index r);
   void link(Index r, Index arc);
@@ -129,6 +134,8 @@ class LiveGraph {
   bool is_pass_through(const Node& n) const {
     return n.intact && n.up_degree == 1 && n.down_degree == 1;
   }
+  bool stays_for_good(const Node& node) const;
+  bool can_leave(Index arc) const;
   bool is_leaf(const Node& n) const;
   Index first_arc(Index node, Direction d) const;
   Index next_arc(Index arc, Direction d) const;
@@ -142,16 +149,16 @@ class LiveGraph {
 
   GraphSink* sink_;
   bool track_positions_;
-  std::vector<Node> nodes_;
-  std::vector<Point> positions_;  // one a node, if tracked
-  std::vector<Arc> arcs_;
-  std::vector<Reference> references_;
+  GrowingArray<Node> nodes_;
+  GrowingArray<Point> positions_;  // one a node, if tracked
+  GrowingArray<Arc> arcs_;
+  GrowingArray<Reference> references_;
   Index first_free_node_ = kNone, first_free_arc_ = kNone, first_free_reference_ = kNone;
   std::size_t free_nodes_ = 0, free_arcs_ = 0, free_references_ = 0;
   double noise_below_ = 0;
   bool embeds_ = false;
   BucketLists buckets_;
-  std::vector<BucketLists::List> arc_buckets_;  // one an arc, if there is an embedding
+  GrowingArray<BucketLists::List> arc_buckets_;  // one an arc, if there is an embedding
   std::vector<Index> path_;                     // arcs, from the saddle of a leaf
   std::vector<PathBuckets> path_buckets_;
   std::uint64_t removed_pairs_ = 0, zips_ = 0, zip_steps_ = 0;

@@ -21,8 +21,8 @@ LiveGraph::Index LiveGraph::next_arc(Index a, Direction d) const {
   return d == kUp ? arcs_[a].lo_next : arcs_[a].hi_next;
 }
 
-// None of the node's arcs is referenced, so it is about to be settled: the last moment at which it
-// is there as a leaf, or as the saddle of others, with all its arcs.
+// The node may have become a leaf, or the saddle of one; before it is settled this is the last moment
+// at which all its arcs are there.
 void LiveGraph::remove_noise_at(Index n) {
   if (is_leaf(nodes_[n])) return try_leaf(n);
   for (const Direction d : {kDown, kUp})

@@ -9,11 +9,11 @@ void LiveGraph::save(StateWriter& out) const {
   out.put(removed_pairs_);
   out.put(embeds_);
   buckets_.save(out);
-  out.put_array(arc_buckets_);
-  out.put_array(nodes_);
-  out.put_array(positions_);
-  out.put_array(arcs_);
-  out.put_array(references_);
+  arc_buckets_.save(out);
+  nodes_.save(out);
+  positions_.save(out);
+  arcs_.save(out);
+  references_.save(out);
   for (const Index first : {first_free_node_, first_free_arc_, first_free_reference_}) out.put(first);
   for (const std::size_t count : {free_nodes_, free_arcs_, free_references_}) out.put(std::uint64_t{count});
 }
@@ -24,11 +24,11 @@ void LiveGraph::restore(StateReader& in) {
   in.get(removed_pairs_);
   in.get(embeds_);
   buckets_.restore(in);
-  in.get_array(arc_buckets_);
-  in.get_array(nodes_);
-  in.get_array(positions_);
-  in.get_array(arcs_);
-  in.get_array(references_);
+  arc_buckets_.restore(in);
+  nodes_.restore(in);
+  positions_.restore(in);
+  arcs_.restore(in);
+  references_.restore(in);
   for (Index* first : {&first_free_node_, &first_free_arc_, &first_free_reference_}) in.get(*first);
   for (std::size_t* count : {&free_nodes_, &free_arcs_, &free_references_})
     *count = static_cast<std::size_t>(in.get<std::uint64_t>());

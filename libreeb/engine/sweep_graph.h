@@ -19,11 +19,16 @@ namespace reeb {
 struct SweepGraph {
   static constexpr std::uint32_t kNone = ~std::uint32_t{0};
 
+  // The arcs on one side of a node: whether there are any, or several, any on no path, any on some.
+  struct Side {
+    bool any = false, several = false, loose = false, tied = false;
+  };
   struct Node {
     std::uint32_t vertex;       // its rank
     std::uint32_t main_branch;  // the arc up that every path takes for which no other is noted
     bool gone;                  // removed as noise, or contracted since
-    bool can_change;            // used elsewhere, or an end of an arc with paths
+    Side up, down;
+    bool can_change;            // not a node of the final graph for certain
     bool lost_arcs;             // some of its arcs are settled
     std::uint32_t open;         // the number of the node in the fragment, or kNone
   };
@@ -70,6 +75,13 @@ struct SweptChunk {
   SweepKey key(std::uint32_t v) const { return {values[order[v]], chunk.ids[order[v]]}; }
   Point position(std::uint32_t v) const {
     return chunk.positions.empty() ? Point{} : chunk.positions[order[v]];
+  }
+  // Nothing happens if there is no such rank.
+  void prefetch_position(std::size_t v) const {
+    if (v >= order.size() || chunk.positions.empty()) return;
+    const Point& position = chunk.positions[order[v]];
+    __builtin_prefetch(position.data());
+    __builtin_prefetch(position.data() + 2);
   }
 };
 

@@ -7,9 +7,9 @@
 namespace reeb::test {
 namespace {
 
-ReebGraph graph_in_chunks(const Mesh& mesh, std::size_t size) {
+ReebGraph graph_in_chunks(const Mesh& mesh, std::size_t size, bool overstated = false) {
   KeepingSink sink;
-  stream(mesh, size, sink, [](double, double) { return SweepOptions{}; });
+  stream(mesh, size, sink, [](double, double) { return SweepOptions{}; }, [](Glue&) {}, overstated);
   return sink.graph();
 }
 
@@ -25,7 +25,9 @@ TEST(GlueStress, TheLiveGraphStaysSoundAndTheCutsDoNotShow) {
         EXPECT_EQ(betti_numbers(whole).components, 1u);
         EXPECT_LE(betti_numbers(whole).loops, mesh.max_loops);
         for (const std::size_t size : {300u, 4096u})
-          EXPECT_TRUE(graph_in_chunks(mesh, size) == whole) << "chunks of " << size;
+          for (const bool overstated : {false, true})
+            EXPECT_TRUE(graph_in_chunks(mesh, size, overstated) == whole)
+                << "chunks of " << size << (overstated ? ", earlier uses overstated" : "");
       }
 }
 

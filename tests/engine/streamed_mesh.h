@@ -66,10 +66,11 @@ struct KeepingSink : GraphSink {
 
 // Streams the mesh in chunks of this many triangles; options_of(min, max) says what to do with a
 // chunk after which the values so far have this range, between_chunks(glue) is called after each.
-// Returns how many pairs were removed.
+// `overstated`: every third vertex is said to be used earlier, whether it is or not. Returns how
+// many pairs were removed.
 template <class OptionsOf, class BetweenChunks>
-std::uint64_t stream(const Mesh& mesh, std::size_t size, GraphSink& sink,
-                     const OptionsOf& options_of, const BetweenChunks& between_chunks) {
+std::uint64_t stream(const Mesh& mesh, std::size_t size, GraphSink& sink, const OptionsOf& options_of,
+                     const BetweenChunks& between_chunks, bool overstated = false) {
   StreamChunker chunker(1, true);
   ChunkSweep sweep;
   Glue glue(sink, true);
@@ -79,6 +80,7 @@ std::uint64_t stream(const Mesh& mesh, std::size_t size, GraphSink& sink,
   double min = std::numeric_limits<double>::max(), max = -min;
   const auto flush = [&] {
     chunker.take(chunk, values);
+    for (std::size_t v = 0; overstated && v < chunk.vertex_count(); v += 3) chunk.uses[v] |= kUsedEarlier;
     for (const double value : values[0]) {
       min = std::min(min, value);
       max = std::max(max, value);
