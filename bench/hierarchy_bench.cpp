@@ -1,18 +1,13 @@
 // Pairing, hierarchy and noise removal: time and peak bytes an arc, by kind and size of graph.
 //
-// The graphs are made by a sweep over a row of contours in which neighbours merge and contours
-// split, start and end. Arguments: kind (0 perforated plate: one row of strips, every hole a loop;
-// 1 noise: starts and ends, most of them soon; 2 expander: any two contours of the row merge),
-// arcs. Ten million arcs are left out unless REEB_BENCH_LARGE is set in the environment.
+// Arguments: kind (see made_graph.h), arcs. Ten million arcs are left out unless REEB_BENCH_LARGE is
+// set in the environment.
 #include <benchmark/benchmark.h>
-#include <malloc.h>
 
-#include <algorithm>
-#include <atomic>
 #include <cstdlib>
-#include <new>
-#include <random>
 
+#include "bench/held_memory.h"
+#include "bench/made_graph.h"
 #include "libreeb/hierarchy/cancel.h"
 #include "libreeb/hierarchy/denoise.h"
 #include "libreeb/hierarchy/levels.h"
@@ -20,104 +15,12 @@
 
 namespace {
 
-// What the process holds through operator new, as the allocator rounds it.
-std::atomic<std::size_t> held_bytes{0}, peak_bytes{0};
-
-}  // namespace
-
-void* operator new(std::size_t size) {
-  void* memory = std::malloc(size);
-  if (memory == nullptr) throw std::bad_alloc();
-  const std::size_t held = held_bytes += malloc_usable_size(memory);
-  if (held > peak_bytes) peak_bytes = held;
-  return memory;
-}
-void operator delete(void* memory) noexcept {
-  if (memory != nullptr) held_bytes -= malloc_usable_size(memory);
-  std::free(memory);
-}
-void operator delete(void* memory, std::size_t) noexcept { operator delete(memory); }
-
-namespace {
-
 using namespace reeb;
-
-enum Kind { kPlate, kNoise, kExpander };
-
-class GraphMaker {
- public:
-  GraphMaker(Kind kind, std::size_t arcs) : kind_(kind), arcs_wanted_(arcs) {}
-
-  ReebGraph make() {
-    start(0);
-    while (arcs_.size() + row_.size() < arcs_wanted_) event();
-    while (!row_.empty()) end(row_.size() - 1);
-    return make_graph(std::move(arcs_), {});
-  }
-
- private:
-  static constexpr std::size_t kWidth = 1000;
-
-  SweepKey next_key() {
-    value_ += static_cast<double>(random_() % 1000) / 1000;
-    return {value_, VertexId(vertex_++)};
-  }
-  std::size_t any() { return random_() % row_.size(); }
-  auto place(std::size_t i) { return row_.begin() + static_cast<std::ptrdiff_t>(i); }
-
-  void start(std::size_t i) { row_.insert(place(i), next_key()); }
-  void end(std::size_t i) {
-    arcs_.push_back({row_[i], next_key()});
-    row_.erase(place(i));
-  }
-  void split(std::size_t i) {
-    arcs_.push_back({row_[i], next_key()});
-    row_[i] = arcs_.back().hi;
-    row_.insert(place(i), row_[i]);
-  }
-  void merge(std::size_t i, std::size_t j) {
-    const SweepKey key = next_key();
-    arcs_.push_back({row_[i], key});
-    arcs_.push_back({row_[j], key});
-    row_[i] = key;
-    row_.erase(place(j));
-  }
-
-  void event() {
-    const bool grow = random_() % (2 * kWidth) >= row_.size();
-    const std::size_t i = any();
-    if (kind_ == kNoise && random_() % 2 == 0) {
-      if (grow)
-        start(i);
-      else if (row_.size() > 1)
-        end(i);
-    } else if (grow || row_.size() == 1) {
-      split(i);
-      // A split that is followed at once by an end or a merge: small features are the most
-      // frequent.
-      if (kind_ == kNoise && random_() % 4 != 0) {
-        if (random_() % 2 == 0)
-          end(i);
-        else
-          merge(i, i + 1);
-      }
-    } else {
-      const std::size_t j = kind_ == kExpander ? any() : (i + 1) % row_.size();
-      if (i != j) merge(i, j);
-    }
-  }
-
-  const Kind kind_;
-  const std::size_t arcs_wanted_;
-  std::mt19937_64 random_{1};
-  double value_ = 0;
-  std::uint64_t vertex_ = 0;
-  std::vector<SweepKey> row_;  // the node below each contour
-  std::vector<ArcKeys> arcs_;
-};
+using namespace reeb::bench;
 
 ReebGraph make(const benchmark::State& state) {
-  return GraphMaker(static_cast<Kind>(state.range(0)), static_cast<std::size_t>(state.range(1)))
+  return GraphMaker(static_cast<GraphKind>(state.range(0)),
+                    static_cast<std::size_t>(state.range(1)))
       .make();
 }
 
@@ -127,15 +30,6 @@ void report(benchmark::State& state, const ReebGraph& graph, std::size_t bytes) 
   state.counters["time_per_arc"] = benchmark::Counter(
       arcs, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
   state.counters["peak_bytes_per_arc"] = static_cast<double>(bytes) / arcs;
-}
-
-// Runs `work` once, untimed. The most that was held while it ran, beyond what was held before.
-template <class Work>
-std::size_t peak_of(Work work) {
-  const std::size_t before = held_bytes;
-  peak_bytes = before;
-  work();
-  return peak_bytes - before;
 }
 
 std::size_t bytes_of(const ReebGraph& graph) {
@@ -178,6 +72,34 @@ void BM_Hierarchy(benchmark::State& state) {
       static_cast<double>(last_version(hierarchy));
 }
 
+// The same with an embedding of 64 to 128 buckets over the range.
+void BM_EmbeddedHierarchy(benchmark::State& state) {
+  const ReebGraph graph = make(state);
+  const int exponent = bucket_exponent(graph.nodes.front().value, graph.nodes.back().value, 64);
+  const ArcBuckets full = make_buckets(graph, exponent);
+  Hierarchy hierarchy;
+  ArcBuckets buckets = full;
+  const std::size_t peak = peak_of([&] { hierarchy = build_hierarchy(graph, buckets, exponent); });
+  std::uint64_t vertices = graph_at(hierarchy, graph, last_version(hierarchy)).node_count();
+  for (const DroppedVertices& dropped : hierarchy.dropped) vertices += dropped.count;
+  for (std::size_t i = 0; i < hierarchy.arcs.size(); ++i)
+    if (hierarchy.arcs[i].died == kNeverDies)
+      for (const Bucket& bucket : buckets.view().of(i)) vertices += bucket.count;
+  if (vertices != graph.node_count() + full.buckets.size())
+    return state.SkipWithError("vertices were lost");
+  report(state, graph, peak);
+  state.counters["buckets_per_arc"] =
+      static_cast<double>(full.buckets.size()) / static_cast<double>(graph.arc_count());
+  state.counters["buckets_per_record"] =
+      static_cast<double>(buckets.buckets.size()) / static_cast<double>(hierarchy.arcs.size());
+  for (auto _ : state) {
+    state.PauseTiming();
+    buckets = full;
+    state.ResumeTiming();
+    benchmark::DoNotOptimize(build_hierarchy(graph, buckets, exponent));
+  }
+}
+
 void BM_Denoise(benchmark::State& state) {
   const ReebGraph graph = make(state);
   const double threshold = 20;
@@ -200,6 +122,7 @@ void sizes_and_kinds(benchmark::internal::Benchmark* bench) {
 }
 BENCHMARK(BM_Pairing)->Apply(sizes_and_kinds);
 BENCHMARK(BM_Hierarchy)->Apply(sizes_and_kinds);
+BENCHMARK(BM_EmbeddedHierarchy)->Apply(sizes_and_kinds);
 BENCHMARK(BM_Denoise)->Apply(sizes_and_kinds);
 
 }  // namespace

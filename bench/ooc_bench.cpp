@@ -166,7 +166,7 @@ void BM_Segments(benchmark::State& state) {
     if (merging) {
       state.ResumeTiming();
       std::uint64_t count = 0;
-      for (std::vector<ArcKeys> some; store.arcs().read(some, 4096);) count += some.size();
+      for (ArcPiece some; store.read_arcs(some, 4096);) count += some.arcs.size();
       if (count != arcs.size()) return state.SkipWithError("arcs were lost");
     }
     state.counters["bytes_an_arc"] =

@@ -68,6 +68,8 @@ bool starts_with_solid(std::string_view head) {
   return std::ranges::equal(word, kSolid, [](char a, char b) { return (a | 0x20) == b; });
 }
 
+constexpr std::array<std::string_view, 6> kStreamingKeys = {"nverts", "nfaces", "ncells", "bb_min", "bb_max", "svtype"};
+
 // Streaming meshes announce themselves in comments before their first line.
 bool has_streaming_comment(std::string_view text) {
   while (!text.empty()) {
@@ -75,8 +77,37 @@ bool has_streaming_comment(std::string_view text) {
     const std::string_view word = first_word(line);
     if (word.empty()) continue;
     if (!word.starts_with('#')) return false;
-    for (const std::string_view key : {"nverts", "nfaces", "bb_min", "bb_max"})
-      if (first_word(line.substr(line.find('#') + 1)) == key) return true;
+    const std::string_view key = first_word(line.substr(line.find('#') + 1));
+    if (std::ranges::find(kStreamingKeys, key) != kStreamingKeys.end() || key.starts_with("v_p") || key.starts_with("c_p"))
+      return true;
+  }
+  return false;
+}
+
+bool is_vertex_number(std::string_view word) {
+  return !word.empty() && word.front() != '0' && std::ranges::all_of(word, [](char c) { return c >= '0' && c <= '9'; });
+}
+
+// The words of a line are its keyword and so many numbers of vertices, counted from 1.
+bool is_line_of_vertices(std::string_view line, std::size_t count) {
+  std::size_t words = 0;
+  for (std::string_view word = first_word(line); !word.empty(); word = first_word(line), ++words) {
+    if (words > 0 && !is_vertex_number(word)) return false;
+    line.remove_prefix(static_cast<std::size_t>(word.end() - line.begin()));
+  }
+  return words == count + 1;
+}
+
+// Streaming meshes may do without comments, too. What no OBJ file has: a triangle before all vertices,
+// as in post-order (faces of OBJ stand behind their vertices), and a line that finalizes a vertex.
+bool has_streaming_line(std::string_view text) {
+  bool vertices = false;
+  while (!text.empty()) {
+    const std::string_view line = take_line(text);
+    const std::string_view word = first_word(line);
+    if (word == "x" && is_line_of_vertices(line, 1)) return true;
+    if (word == "f" && !vertices) return is_line_of_vertices(line, 3);
+    vertices |= word == "v";
   }
   return false;
 }
@@ -103,9 +134,9 @@ bool has_obj_vertex(std::string_view text) {
 
 MeshFormat detect_text(std::string_view text, const std::string& path) {
   if (is_streaming_name(path)) return MeshFormat::kStreaming;
+  if (has_streaming_line(text)) return MeshFormat::kStreaming;
   const std::string_view word = first_word(skip_comments(text));
   if (is_obj_keyword(word)) return MeshFormat::kObj;
-  if (word == "x") return MeshFormat::kStreaming;
   return has_obj_vertex(text) ? MeshFormat::kObj : MeshFormat::kUnknown;
 }
 
@@ -114,7 +145,7 @@ std::string_view whole_lines(std::string_view text) { return text.substr(0, text
 
 // Whether the beginning of a pipe is enough to know a streaming mesh.
 bool starts_streaming(std::string_view head) {
-  return is_streaming_binary(head) || has_streaming_comment(whole_lines(head));
+  return is_streaming_binary(head) || has_streaming_comment(whole_lines(head)) || has_streaming_line(whole_lines(head));
 }
 
 }  // namespace

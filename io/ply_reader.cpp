@@ -1,6 +1,7 @@
 #include "io/ply_reader.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -322,29 +323,24 @@ class PlyReader final : public BatchReader {
     if (!bytes.ensure(kRecordBytes)) return false;
     const auto left = static_cast<std::size_t>(std::min<std::uint64_t>(element.count - record_, room(batch)));
     const std::size_t most = std::min({left, bytes.available() / kRecordBytes, kRunRecords});
-    std::size_t run = 0;  // counted first: room for more would be cleared for nothing at each quad
-    while (run < most && bytes.data()[run * kRecordBytes] == 3) ++run;
-    const std::size_t before = batch.triangles.size();
-    batch.triangles.resize(before + 3 * run);
-    VertexId* const out = batch.triangles.data() + before;
     const bool is_signed = element.properties.front().type == PlyType::kInt32;
     const std::uint64_t limit = std::min(vertex_limit_, std::uint64_t{1} << (is_signed ? 31 : 32));
-    const std::size_t count = decoder_.swaps() ? copy_triangles<true>(bytes.data(), run, limit, out)
-                                               : copy_triangles<false>(bytes.data(), run, limit, out);
-    batch.triangles.resize(before + 3 * count);
+    const std::size_t count = decoder_.swaps() ? copy_triangles<true>(bytes.data(), most, limit, run_.data())
+                                               : copy_triangles<false>(bytes.data(), most, limit, run_.data());
+    batch.triangles.insert(batch.triangles.end(), run_.begin(), run_.begin() + static_cast<std::ptrdiff_t>(3 * count));
     bytes.advance(count * kRecordBytes);
     record_ += count;
     return count != 0;
   }
 
-  // Copies triangles until a corner is not below `limit`; says how many it copied.
+  // Copies triangles until one is no triangle or has a corner not below `limit`; says how many it copied.
   template <bool kSwap>
   static std::size_t copy_triangles(const char* record, std::size_t most, std::uint64_t limit, VertexId* out) {
     for (std::size_t i = 0; i < most; ++i, record += 13, out += 3) {
       const std::uint64_t a = load_scalar<std::uint32_t>(record + 1, kSwap);
       const std::uint64_t b = load_scalar<std::uint32_t>(record + 5, kSwap);
       const std::uint64_t c = load_scalar<std::uint32_t>(record + 9, kSwap);
-      if (std::max({a, b, c}) >= limit) [[unlikely]] return i;
+      if (record[0] != 3 || std::max({a, b, c}) >= limit) [[unlikely]] return i;
       out[0] = VertexId(a);
       out[1] = VertexId(b);
       out[2] = VertexId(c);
@@ -364,6 +360,8 @@ class PlyReader final : public BatchReader {
   std::vector<std::vector<double>*> columns_;                  // coordinates, then properties, of the batch
   std::vector<std::pair<std::size_t, std::size_t>> copies_;    // columns asked for twice: to, from
   std::vector<double> scratch_;
+  // Triangles on their way into a batch, which would clear the room for them first.
+  std::array<VertexId, 3 * kRunRecords> run_;
 
   std::size_t step_ = 0;
   std::uint64_t record_ = 0;  // of the element of the step

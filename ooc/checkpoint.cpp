@@ -16,18 +16,19 @@ namespace reeb::ooc {
 namespace {
 
 constexpr std::array<char, 8> kMagic = {'R', 'E', 'E', 'B', 'C', 'K', 'P', '\n'};
-constexpr std::uint64_t kVersion = 1;
+constexpr std::uint64_t kVersion = 2;
 
 struct Header {
   std::array<char, 8> magic;
   std::uint64_t version;
-  std::uint64_t mesh, functions;  // RunIdentity
+  std::uint64_t mesh, functions, settings;  // RunIdentity
   std::uint64_t block_triangles;
   std::uint64_t reordered;
   std::uint64_t triangles;
   std::uint64_t next_vertex;
+  std::uint64_t chunk_blocks;
 };
-static_assert(sizeof(Header) == 8 * 8);
+static_assert(sizeof(Header) == 10 * 8);
 
 template <class T>
 std::uint64_t digest_of(const T& object, std::uint64_t seed) {
@@ -89,8 +90,10 @@ class Reader : public StateReader {
 
 }  // namespace
 
-RunIdentity identify_run(const std::string& mesh, std::span<VertexFunction* const> functions) {
+RunIdentity identify_run(const std::string& mesh, std::span<VertexFunction* const> functions,
+                         const RunSettings& settings) {
   RunIdentity run;
+  run.settings = digest_of(settings, 0);
   run.mesh = digest_of_file(mesh, 0);
   for (const VertexFunction* function : functions) {
     const std::string name = function->name();
@@ -106,8 +109,8 @@ void write_checkpoint(const std::string& path, const RunIdentity& run, const Che
                       const std::function<void(StateWriter&)>& save) {
   const ChunkPlace& place = checkpoint.place;
   Writer out(path);
-  out.put(Header{kMagic, kVersion, run.mesh, run.functions, checkpoint.block_triangles,
-                 checkpoint.reordered ? 1u : 0u, place.triangles, place.next_vertex});
+  out.put(Header{kMagic, kVersion, run.mesh, run.functions, run.settings, checkpoint.block_triangles,
+                 checkpoint.reordered ? 1u : 0u, place.triangles, place.next_vertex, place.chunk_blocks});
   out.put_array(place.ranges);
   save(out);
   out.commit();
@@ -127,7 +130,8 @@ CheckpointLoad load_checkpoint(const std::string& path, const RunIdentity& run) 
     if (header.magic != kMagic || header.version != kVersion) return useless("is of another version");
     if (header.mesh != run.mesh) return useless("is of another mesh, or of this one before it was changed");
     if (header.functions != run.functions) return useless("is of other functions");
-    Checkpoint checkpoint{{header.triangles, header.next_vertex, {}}, header.block_triangles, header.reordered != 0};
+    if (header.settings != run.settings) return useless("is of other options");
+    Checkpoint checkpoint{{header.triangles, header.next_vertex, header.chunk_blocks, {}}, header.block_triangles, header.reordered != 0};
     in->get_array(checkpoint.place.ranges);
     return {std::move(checkpoint), std::move(in), {}};
   } catch (const DamagedState&) {

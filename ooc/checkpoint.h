@@ -12,14 +12,23 @@
 
 namespace reeb::ooc {
 
+// What of a run's options its graph depends on, or its embedding.
+struct RunSettings {
+  double denoise = 0;
+  std::uint64_t denoise_is_share = 0;
+  std::uint64_t buckets = 0;
+};
+
 // What a run works on. A checkpoint of another run is of no use to it.
 struct RunIdentity {
   std::uint64_t mesh = 0;       // digest of what tells this state of the mesh from others
   std::uint64_t functions = 0;  // of names, and of the files that values come from
+  std::uint64_t settings = 0;   // of what else decides about the graph
 };
 
 // THROWS: Error{kBadInput} if the mesh, or a file of values, cannot be opened.
-RunIdentity identify_run(const std::string& mesh, std::span<VertexFunction* const> functions);
+RunIdentity identify_run(const std::string& mesh, std::span<VertexFunction* const> functions,
+                         const RunSettings& settings);
 
 // Where the run was.
 struct Checkpoint {

@@ -22,6 +22,7 @@ namespace reeb::ooc {
 struct ChunkPlace {
   std::uint64_t triangles = 0;        // read so far
   std::uint64_t next_vertex = 0;      // from which on loose vertices are looked for
+  std::uint64_t chunk_blocks = 0;     // of the next chunk, where its size adapts; 0: to start with
   std::vector<FunctionRange> ranges;  // of the values so far
 };
 
@@ -30,7 +31,7 @@ struct WorkItem {
   Chunk chunk;
   std::vector<std::vector<double>> values;  // one array a function
   std::vector<Fragment> fragments;          // one a function
-  ChunkPlace end;                           // behind this chunk, of an indexed mesh
+  ChunkPlace end;                           // behind this chunk; of a stream only the ranges
   std::size_t memory_bytes() const;
 };
 

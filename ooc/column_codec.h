@@ -17,24 +17,25 @@ inline std::uint64_t zigzag(std::uint64_t difference) {
 }
 inline std::uint64_t unzigzag(std::uint64_t code) { return code >> 1 ^ (0 - (code & 1)); }
 
-// Gathers the columns of one block, all of one length, and packs them together.
+// Gathers the columns of one block, all of one length, and packs them together; after them there may
+// be bytes of any kind.
 class ColumnEncoder {
  public:
   // The column holds code(0), code(1), ..., code(count - 1).
   template <class Code>
   void add(std::size_t count, const Code& code) {
-    const std::size_t before = planes_.size();
-    planes_.resize(before + 8 * count);
-    for (std::size_t i = 0; i < count; ++i) {
-      const std::uint64_t value = code(i);
-      for (std::size_t b = 0; b < 8; ++b)
-        planes_[before + b * count + i] = static_cast<std::byte>(value >> (8 * b));
-    }
+    column_.resize(count);
+    for (std::size_t i = 0; i < count; ++i) column_[i] = code(i);
+    add_planes();
   }
+  void add_tail(std::span<const std::byte> bytes) { bytes_.insert(bytes_.end(), bytes.begin(), bytes.end()); }
   void pack(std::vector<std::byte>& packed, int level = kSegmentLevel) const;
 
  private:
-  std::vector<std::byte> planes_;
+  void add_planes();
+
+  std::vector<std::uint64_t> column_;
+  std::vector<std::byte> bytes_;  // all lowest bytes of a column, then all second ones, and so on
 };
 
 class ColumnDecoder {
@@ -42,18 +43,16 @@ class ColumnDecoder {
   // ok() is false if `packed` is not `columns` columns of `count` numbers.
   ColumnDecoder(std::span<const std::byte> packed, std::size_t columns, std::size_t count);
   bool ok() const { return ok_; }
-  // The i-th number of a column. REQUIRES: ok().
-  std::uint64_t at(std::size_t column, std::size_t i) const {
-    std::uint64_t value = 0;
-    for (std::size_t b = 0; b < 8; ++b)
-      value |= std::to_integer<std::uint64_t>(planes_[(8 * column + b) * count_ + i]) << (8 * b);
-    return value;
-  }
+  // The numbers of a column, until the next call. REQUIRES: ok().
+  std::span<const std::uint64_t> column(std::size_t column);
+  // What comes after the columns. REQUIRES: ok().
+  std::span<const std::byte> tail() const { return std::span(bytes_).subspan(tail_begin_); }
 
  private:
-  std::vector<std::byte> planes_;
-  std::size_t count_;
-  bool ok_;
+  std::vector<std::uint64_t> column_;
+  std::vector<std::byte> bytes_;
+  std::size_t tail_begin_;
+  bool ok_ = false;
 };
 
 }  // namespace reeb::ooc

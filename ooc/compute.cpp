@@ -8,6 +8,8 @@
 #include <utility>
 
 #include "libreeb/base/error.h"
+#include "libreeb/engine/sweep_options.h"
+#include "libreeb/graph/bucket.h"
 #include "libreeb/hierarchy/cancel.h"
 #include "libreeb/hierarchy/denoise.h"
 #include "ooc/atomic_file.h"
@@ -63,6 +65,7 @@ class Run {
         input_(std::move(input)),
         values_(functions, input_.dimension),
         resumable_(outputs[0], readable_again(input_), functions,
+                   {options.denoise, options.denoise_is_share, options.buckets},
                    {options.resume, options.checkpoint_seconds, options.interrupted}) {
     make_stores();
   }
@@ -108,11 +111,16 @@ class Run {
   LastUse reorder_mesh();
   void run_chunks(ChunkSource& source);
 
+  SweepOptions sweep_options(const FunctionRange& range) const;
+
   ComputeResult second_stage(std::size_t f);
   FileMeta file_meta(const ComputeResult& result) const;
-  void write_graph(ComputeResult& result, SegmentStore& store) const;
+  bool embeds() const { return options_.buckets != 0; }
+  void write_stored_graph(ComputeResult& result, SegmentStore& store);
+  LoadedGraph load_graph(ComputeResult& result, SegmentStore& store);
+  void write_loaded_graph(ComputeResult& result, const LoadedGraph& loaded);
   void write_hierarchy(ComputeResult& result, SegmentStore& store);
-  Reservation reserve_hierarchy(ComputeResult& result, SegmentStore& store);
+  Error no_memory_for_hierarchy(const ComputeResult& result, std::uint64_t needed) const;
   void tell(Phase phase, std::uint64_t done, std::uint64_t total, std::uint64_t triangles = 0) const {
     if (options_.progress) options_.progress({phase, done, total, triangles});
     if (phase != Phase::kReeb) resumable_.check_interruption();
@@ -130,6 +138,7 @@ class Run {
   const Checkpoint* start_ = nullptr;  // to go on from
   std::uint64_t block_triangles_ = 0;  // of the last-use table
   std::vector<std::unique_ptr<SegmentStore>> stores_;
+  std::vector<std::uint64_t> removed_pairs_;  // in the first stage, by function
   ComputeResult common_;  // what all functions share
 };
 
@@ -163,7 +172,6 @@ void Run::first_stage() {
     for (VertexFunction* function : functions_) function->check_count(common_.vertices);
     note(input_.reader->warnings());
   }
-  for (const auto& store : stores_) store->finish();
 }
 
 void Run::run_indexed() {
@@ -279,6 +287,7 @@ void Run::run_chunks(ChunkSource& source) {
   for (const auto& store : stores_) sinks.push_back(store.get());
   PipelineOptions options;
   options.threads = plan_.threads;
+  options.choose_sweep = [this](std::size_t, const FunctionRange& range) { return sweep_options(range); };
   options.progress = [this](const ChunkSource& s) {
     tell(Phase::kReeb, s.bytes_read(), s.bytes_total(), s.triangles_read());
   };
@@ -289,9 +298,19 @@ void Run::run_chunks(ChunkSource& source) {
     });
   };
   options.saved_engine = resumable_.saved_engine();
-  common_.live = run_pipeline(source, sinks, budget_, options);
+  PipelineResult done = run_pipeline(source, sinks, budget_, options);
+  common_.live = done.live;
+  removed_pairs_ = std::move(done.removed_pairs);
   common_.triangles = source.triangles_read();
   common_.vertices = source.vertex_count();
+}
+
+// From the range of values so far, which only grows: what is noise below a share of it, is noise.
+SweepOptions Run::sweep_options(const FunctionRange& range) const {
+  SweepOptions sweep;
+  sweep.noise_below = options_.denoise * (options_.denoise_is_share ? range.max - range.min : 1);
+  if (embeds()) sweep.bucket_exponent = bucket_exponent(range.min, range.max, options_.buckets);
+  return sweep;
 }
 
 // ---- the second stage: from segments to the file
@@ -305,15 +324,19 @@ ComputeResult Run::second_stage(std::size_t f) {
   if (result.vertices == 0) result.range = {0, 0};
   result.nodes = store.node_count();
   result.arcs = store.arc_count();
-  result.spilled_bytes += store.spilled_bytes();
+  result.denoised_pairs = removed_pairs_[f];
   tell(Phase::kHierarchy, 0, 0);
   const auto start = Clock::now();
   {
     const Stopwatch watch(result.seconds.hierarchy);
-    if (options_.graph_only)
-      write_graph(result, store);
-    else
+    store.finish();
+    result.spilled_bytes += store.spilled_bytes();
+    if (!options_.graph_only)
       write_hierarchy(result, store);
+    else if (options_.denoise > 0)
+      write_loaded_graph(result, load_graph(result, store));
+    else
+      write_stored_graph(result, store);
   }
   result.seconds.wall += seconds_since(start);
   return result;
@@ -326,56 +349,93 @@ FileMeta Run::file_meta(const ComputeResult& result) const {
   meta.function_max = result.range.max;
   meta.mesh_vertices = result.vertices;
   meta.mesh_triangles = result.triangles;
+  const SweepOptions sweep = sweep_options(result.range);
+  meta.denoise_threshold = sweep.noise_below;
+  meta.denoised_pairs = result.denoised_pairs;
+  meta.bucket_exponent = sweep.bucket_exponent.value_or(0);
   return meta;
 }
 
-// The raw graph, in memory that does not grow with it but for 4 bytes a node.
-void Run::write_graph(ComputeResult& result, SegmentStore& store) const {
-  constexpr std::size_t kNodes = 4096, kBytesAnArc = 1000;
+// The graph as it was stored, in memory that does not grow with it but for 4 bytes a node; and, where
+// there is much to look up and memory is free, 4 bytes a vertex.
+void Run::write_stored_graph(ComputeResult& result, SegmentStore& store) {
+  constexpr std::size_t kNodes = 4096, kBytesAnArc = 1000, kManyVerticesANode = 16;
   const std::size_t pieces = std::clamp<std::size_t>(budget_.free_bytes() / kBytesAnArc, 4096, 65536);
-  GraphFileWriter writer(result.output, file_meta(result), true, false, GraphFileWriter::ArcEnds::kKeys);
+  GraphFileWriter::Options writing{.has_embedding = embeds(),
+                                   .ends = GraphFileWriter::ArcEnds::kKeys,
+                                   .background = plan_.threads > 1};
+  const std::uint64_t table_bytes = result.vertices * sizeof(std::uint32_t);
+  Reservation table;
+  if (result.vertices / kManyVerticesANode <= result.nodes && table_bytes <= budget_.free_bytes() / 4) {
+    table = budget_.reserve("ranks of nodes", table_bytes);
+    writing.ends = GraphFileWriter::ArcEnds::kKeysInMemory;
+  }
+  GraphFileWriter writer(result.output, file_meta(result), writing);
   store.nodes().rewind();
   for (std::vector<SettledNode> nodes; store.nodes().read(nodes, kNodes);) writer.add_nodes(nodes);
-  store.arcs().rewind();
-  for (std::vector<ArcKeys> arcs; store.arcs().read(arcs, pieces);) writer.add_arcs(arcs);
+  store.rewind_arcs();
+  const std::optional<int> exponent = sweep_options(result.range).bucket_exponent;
+  for (ArcPiece piece; store.read_arcs(piece, pieces, exponent);) writer.add_arcs(piece.arcs, piece.buckets.view());
   writer.finish();
   result.betti = {writer.header().components, writer.header().loops};
 }
 
-// Pairing and cancelling hold the graph in memory. Where that does not fit, the raw graph is kept
-// and the user is told, before the work starts.
-Reservation Run::reserve_hierarchy(ComputeResult& result, SegmentStore& store) {
-  constexpr std::uint64_t kBytesAnArc = 160;
-  const std::uint64_t needed = kBytesAnArc * std::max(store.arc_count(), store.node_count());
-  Reservation memory = budget_.try_reserve("hierarchy", needed);
-  if (memory.bytes() == needed) return memory;
-  write_graph(result, store);
-  throw Error(ErrorKind::kResource,
-              "the hierarchy of " + std::to_string(store.arc_count()) + " arcs needs " + format_bytes(needed) +
+// The graph in memory, less all noise: what was left of it on the way goes here.
+LoadedGraph Run::load_graph(ComputeResult& result, SegmentStore& store) {
+  const SweepOptions sweep = sweep_options(result.range);
+  LoadedGraph loaded = read_graph(store, {.bucket_exponent = sweep.bucket_exponent});
+  if (options_.denoise <= 0) return loaded;
+  constexpr std::uint64_t kBytesAnArc = 60, kBytesANode = 60, kBytesABucket = 90;  // with the result
+  const Reservation scratch = budget_.reserve(
+      "last pass of noise removal", kBytesAnArc * loaded.graph.arc_count() + kBytesANode * loaded.graph.node_count() +
+                                        kBytesABucket * loaded.buckets.buckets.size());
+  Denoised denoised = denoise(loaded.graph, sweep.noise_below, loaded.buckets, sweep.bucket_exponent.value_or(0));
+  loaded.graph = std::move(denoised.graph);
+  result.denoised_pairs += denoised.removed.size();
+  result.nodes = loaded.graph.node_count();
+  result.arcs = loaded.graph.arc_count();
+  return loaded;
+}
+
+void Run::write_loaded_graph(ComputeResult& result, const LoadedGraph& loaded) {
+  result.betti = betti_numbers(loaded.graph);
+  write_graph_file(result.output, file_meta(result), loaded.graph, loaded.buckets.view());
+}
+
+Error Run::no_memory_for_hierarchy(const ComputeResult& result, std::uint64_t needed) const {
+  Error error(ErrorKind::kResource,
+              "the hierarchy of " + std::to_string(result.arcs) + " arcs needs " + format_bytes(needed) +
                   " of memory, but only " + format_bytes(budget_.free_bytes()) +
                   " are left; the graph itself was written",
               "allow --memory " + std::to_string((plan_.set_aside_bytes + budget_.limit_bytes() + needed) / (1 << 20) + 1) +
-                  "M, remove noise with --denoise, or keep to the graph with --graph-only")
-      .at(result.output);
+                  "M, remove noise with --denoise, or keep to the graph with --graph-only");
+  error.at(result.output);
+  return error;
 }
 
+// Pairing and cancelling hold the graph in memory. Where that does not fit, the graph is kept and the
+// user is told, before the work starts.
 void Run::write_hierarchy(ComputeResult& result, SegmentStore& store) {
-  Reservation memory = reserve_hierarchy(result, store);
-  memory.resize(memory.bytes() / 2);  // the graph itself is reserved by what reads it
-  LoadedGraph loaded = read_graph(store);
-  ReebGraph& graph = loaded.graph;
-  FileMeta meta = file_meta(result);
-  if (options_.denoise > 0) {
-    const double range = options_.denoise_is_share ? result.range.max - result.range.min : 1;
-    meta.denoise_threshold = options_.denoise * range;
-    Denoised denoised = denoise(graph, meta.denoise_threshold);
-    meta.denoised_pairs = result.denoised_pairs = denoised.removed.size();
-    graph = std::move(denoised.graph);
-    result.nodes = graph.node_count();
-    result.arcs = graph.arc_count();
+  constexpr std::uint64_t kBytesAnArc = 160, kBytesABucket = 200, kGraphShare = 2;
+  const auto bytes = [&](std::uint64_t buckets) {
+    return kBytesAnArc * std::max(result.arcs, result.nodes) + kBytesABucket * buckets;
+  };
+  std::uint64_t needed = bytes(store.bucket_count());
+  if (options_.denoise <= 0 && needed > budget_.free_bytes()) {
+    write_stored_graph(result, store);
+    throw no_memory_for_hierarchy(result, needed);
   }
+  LoadedGraph loaded = load_graph(result, store);
+  needed = bytes(loaded.buckets.buckets.size());
+  const Reservation memory = budget_.try_reserve("hierarchy", needed / kGraphShare);
+  if (memory.bytes() == 0 && needed != 0) {
+    write_loaded_graph(result, loaded);
+    throw no_memory_for_hierarchy(result, needed);
+  }
+  const FileMeta meta = file_meta(result);
+  const ReebGraph& graph = loaded.graph;
   result.betti = betti_numbers(graph);
-  const Hierarchy hierarchy = build_hierarchy(graph);
+  const Hierarchy hierarchy = build_hierarchy(graph, loaded.buckets, meta.bucket_exponent);
   for (const PersistencePair& pair : hierarchy.pairs) {
     ++result.pairs[static_cast<std::size_t>(pair.type)];
     result.kept_loops += pair.kept ? 1u : 0u;
@@ -384,7 +444,7 @@ void Run::write_hierarchy(ComputeResult& result, SegmentStore& store) {
   for (auto it = hierarchy.pairs.rbegin(); it != hierarchy.pairs.rend() && result.largest.size() < kLargest; ++it)
     if (it->type != PairType::kExt0)
       result.largest.push_back({it->type, graph.nodes[it->lo.value()], graph.nodes[it->hi.value()]});
-  write_hierarchy_file(result.output, meta, graph, hierarchy);
+  write_hierarchy_file(result.output, meta, graph, hierarchy, loaded.buckets.view());
 }
 
 }  // namespace

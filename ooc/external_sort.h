@@ -6,38 +6,23 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <functional>
 #include <future>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "libreeb/base/memory_budget.h"
 #include "libreeb/base/state_stream.h"
+#include "ooc/record_batch.h"
 #include "ooc/run_file.h"
+#include "ooc/run_merger.h"
 #include "ooc/temp_dir.h"
 
 namespace reeb::ooc {
-
-// How a block of sorted records becomes bytes: as it lies in memory. Another codec has the same
-// two functions; decode is false if the bytes are not a block of so many records.
-template <class Record>
-struct PlainCodec {
-  static void encode(std::span<const Record> records, std::vector<std::byte>& packed) {
-    const auto bytes = std::as_bytes(records);
-    packed.assign(bytes.begin(), bytes.end());
-  }
-  static bool decode(std::span<const std::byte> packed, std::span<Record> records) {
-    if (packed.size() != records.size_bytes()) return false;
-    std::memcpy(records.data(), packed.data(), packed.size());
-    return true;
-  }
-};
 
 struct SortOptions {
   std::uint64_t allowance_bytes = 16 << 20;  // of the budget
@@ -46,73 +31,20 @@ struct SortOptions {
   std::string file = {};    // for the runs, if another process may have to go on; else unnamed
 };
 
-// Merges sorted runs of a file. Holds one block of each run.
-template <class Record, class Codec, class Less>
-class RunMerger {
- public:
-  RunMerger(const RunFile& file, std::span<const RunPlace> runs, Less less)
-      : file_(&file), less_(less) {
-    for (const RunPlace& run : runs)
-      if (Cursor cursor{run, {}, 0}; refill(cursor)) heap_.push_back(std::move(cursor));
-    for (std::size_t i = heap_.size() / 2; i-- > 0;) sift_down(i);
-  }
-
-  // Null at the end.
-  const Record* front() const { return heap_.empty() ? nullptr : &heap_.front().current(); }
-  void pop() {
-    Cursor& top = heap_.front();
-    if (++top.at == top.records.size() && !refill(top)) {
-      if (heap_.size() > 1) top = std::move(heap_.back());
-      heap_.pop_back();
-    }
-    sift_down(0);
-  }
-
- private:
-  struct Cursor {
-    RunPlace rest;
-    std::vector<Record> records;  // the block at hand
-    std::size_t at = 0;
-    const Record& current() const { return records[at]; }
-  };
-
-  bool refill(Cursor& cursor) {
-    if (cursor.rest.blocks == 0) return false;
-    const std::uint64_t offset = cursor.rest.offset;
-    cursor.records.resize(file_->read(cursor.rest, packed_));
-    if (!Codec::decode(packed_, cursor.records)) file_->refuse(offset);
-    cursor.at = 0;
-    return true;
-  }
-
-  void sift_down(std::size_t i) {
-    for (std::size_t child; (child = 2 * i + 1) < heap_.size(); i = child) {
-      if (child + 1 < heap_.size() && less_(heap_[child + 1].current(), heap_[child].current()))
-        ++child;
-      if (!less_(heap_[child].current(), heap_[i].current())) return;
-      std::swap(heap_[i], heap_[child]);
-    }
-  }
-
-  const RunFile* file_;
-  Less less_;
-  std::vector<std::byte> packed_;
-  std::vector<Cursor> heap_;  // smallest current record first
-};
-
 // add() any number of records, finish(), then read() them in order, as often as rewind() says.
-// While all fit in the allowance no file is made.
+// While all fit in the allowance no file is made. Records that carry payloads come out in the order
+// in which they went in where Less finds them equal.
 //
 // THROWS: Error{kResource} of the budget or the disk; what fails in the background is thrown by
 //         the next call.
-// MEMORY: the allowance, all of it reserved as it is needed, and a few blocks of 64 KiB.
+// MEMORY: the allowance, all of it reserved as it is needed, and a few blocks of 64 KiB. A payload
+//         that is larger than the allowance gets what it needs.
 // THREADS: one at a time.
 template <class Record, class Codec = PlainCodec<Record>, class Less = std::less<Record>>
 class ExternalSort {
-  static_assert(std::is_trivially_copyable_v<Record>);
-
  public:
-  static constexpr std::size_t kBlockRecords = (64 << 10) / sizeof(Record);
+  using Batch = RecordBatch<Record>;
+  static constexpr std::size_t kBlockRecords = kRunBlockBytes / sizeof(Record);
 
   // `owner` is a string literal for the budget's texts; `temp` and `budget` must outlive this.
   ExternalSort(const char* owner, const TempDir& temp, MemoryBudget& budget,
@@ -120,9 +52,8 @@ class ExternalSort {
       : owner_(owner),
         temp_(&temp),
         options_(options),
-        most_records_(std::max<std::size_t>(
-            kBlockRecords, static_cast<std::size_t>(options.allowance_bytes /
-                                                    (options.background ? 2 : 1) / sizeof(Record)))),
+        most_bytes_(std::max<std::uint64_t>(kBlockRecords * sizeof(Record),
+                                            options.allowance_bytes / (options.background ? 2 : 1))),
         filling_{{}, budget.reserve(owner, 0)},
         writing_{{}, budget.reserve(owner, 0)},
         merge_charge_(budget.reserve(owner, 0)) {}
@@ -135,14 +66,27 @@ class ExternalSort {
   void add(std::span<const Record> records) {
     size_ += records.size();
     while (!records.empty()) {
-      auto& buffer = filling_.records;
-      if (buffer.size() == buffer.capacity() && !grow()) flush();
+      auto& buffer = filling_.batch.records;
+      if (buffer.size() == buffer.capacity() && !grow_records()) flush();
       const std::size_t count = std::min(records.size(), buffer.capacity() - buffer.size());
       buffer.insert(buffer.end(), records.begin(), records.begin() + static_cast<std::ptrdiff_t>(count));
       records = records.subspan(count);
     }
   }
   void add(const Record& record) { add(std::span(&record, 1)); }
+
+  void add(const Record& record, std::span<const std::byte> payload)
+    requires CarriesPayload<Record>
+  {
+    largest_payload_ = std::max<std::uint64_t>(largest_payload_, payload.size());
+    ++size_;
+    auto& buffer = filling_.batch.records;
+    if ((buffer.size() == buffer.capacity() && !grow_records()) || !make_room(payload.size())) {
+      flush();
+      if (!make_room(payload.size())) grow_pool_anyway(payload.size());
+    }
+    filling_.batch.add(record, payload);
+  }
 
   // All that was added so far, for another process: the runs once they are on the device, and what
   // is still in memory. REQUIRES: a named file, and that finish() was not called.
@@ -151,7 +95,9 @@ class ExternalSort {
     if (file_) file_->sync();
     out.put_array(runs_);
     out.put(file_ ? file_->manifest() : RunManifest{});
-    out.put_array(filling_.records);
+    out.put(largest_payload_);
+    out.put_array(filling_.batch.records);
+    out.put_array(filling_.batch.pool);
   }
   // REQUIRES: a named file, and that nothing was added yet.
   // THROWS: DamagedState or Error if the file of the runs is missing or not what it was.
@@ -160,21 +106,33 @@ class ExternalSort {
     const auto manifest = in.get<RunManifest>();
     if (!runs_.empty()) file_.emplace(File::open_for_update(options_.file), manifest);
     size_ = manifest.records;
-    std::vector<Record> records;
-    in.get_array(records);
-    add(records);
+    in.get(largest_payload_);
+    Batch rest;
+    in.get_array(rest.records);
+    in.get_array(rest.pool);
+    if constexpr (CarriesPayload<Record>) {
+      for (const Record& record : rest.records) {
+        if (record.payload.first > rest.pool.size() || record.payload.size > rest.pool.size() - record.payload.first)
+          throw DamagedState();
+        add(record, rest.payload(record));
+      }
+    } else {
+      add(rest.records);
+    }
   }
 
-  void finish() {
+  // Ends adding. Runs are merged until those left can be merged while they are read, within
+  // `merge_bytes` of the budget (0: the allowance), or less if it has not so much.
+  void finish(std::uint64_t merge_bytes = 0) {
     wait_for_writer();
     if (runs_.empty()) {
-      sort(filling_.records);
+      sort(filling_.batch.records);
     } else {
       flush();
       wait_for_writer();
       filling_.free();
       writing_.free();
-      reduce_runs();
+      reduce_runs(merge_bytes == 0 ? options_.allowance_bytes : merge_bytes);
     }
     rewind();
   }
@@ -182,24 +140,33 @@ class ExternalSort {
   // Starts again from the first record. REQUIRES: finish() was called.
   void rewind() {
     at_ = 0;
-    if (!runs_.empty()) merger_.emplace(*file_, runs_, Less());
+    merger_.reset();
   }
 
-  // Replaces `out` by at most `limit` next records in order; false at the end.
-  bool read(std::vector<Record>& out, std::size_t limit) {
+  // Replaces `out` by at most `limit` next records in order, fewer if their payloads come to more
+  // than `payload_limit` bytes; false at the end.
+  bool read(Batch& out, std::size_t limit, std::size_t payload_limit = kRunBlockBytes) {
     out.clear();
-    if (!merger_) {
-      const auto first = filling_.records.begin() + static_cast<std::ptrdiff_t>(at_);
-      const std::size_t count = std::min(limit, filling_.records.size() - at_);
-      out.assign(first, first + static_cast<std::ptrdiff_t>(count));
-      at_ += count;
-      return count != 0;
-    }
-    for (const Record* next; out.size() < limit && (next = merger_->front()) != nullptr;) {
-      out.push_back(*next);
-      merger_->pop();
+    const auto is_full = [&] { return out.records.size() == limit || out.pool.size() > payload_limit; };
+    if (runs_.empty()) {
+      const Batch& all = filling_.batch;
+      for (; !is_full() && at_ < size_; ++at_) out.add(all.records[at_], all.payload(all.records[at_]));
+    } else if (at_ < size_) {
+      // Blocks are held from the first record to the last only.
+      if (!merger_) merger_ = std::make_unique<Merger>(*file_, runs_);
+      for (; !is_full() && !merger_->empty(); ++at_) merger_->take(out);
+      if (merger_->empty()) merger_.reset();
     }
     return !out.empty();
+  }
+  bool read(std::vector<Record>& out, std::size_t limit)
+    requires(!CarriesPayload<Record>)
+  {
+    Batch batch;
+    batch.records.swap(out);
+    const bool some = read(batch, limit);
+    batch.records.swap(out);
+    return some;
   }
 
   std::uint64_t size() const { return size_; }
@@ -209,43 +176,68 @@ class ExternalSort {
  private:
   using Merger = RunMerger<Record, Codec, Less>;
   struct Buffer {
-    std::vector<Record> records;
+    Batch batch;
     Reservation charge;
+    std::uint64_t bytes(std::size_t records, std::size_t pool) const { return records * sizeof(Record) + pool; }
     void free() {
-      std::vector<Record>().swap(records);
+      batch = {};
       charge.resize(0);
     }
   };
-  static constexpr std::uint64_t kCursorBytes = 2 * (64 << 10);  // a block, and what it grew from
 
-  bool grow() {
-    auto& buffer = filling_.records;
-    const std::size_t before = buffer.capacity();
-    const std::size_t after = std::min(most_records_, std::max(kBlockRecords, 2 * before));
-    if (after <= before) return false;
-    // Both the old and the new memory exist while records move over.
-    if (!filling_.charge.try_resize((before + after) * sizeof(Record))) {
-      if (before == 0) filling_.charge.resize(kBlockRecords * sizeof(Record));
-      return before == 0 ? (buffer.reserve(kBlockRecords), true) : false;
+  // Room for as many records again, if the share allows; both the old and the new memory exist while
+  // they move over.
+  bool grow_records() {
+    auto& [records, pool] = filling_.batch;
+    const std::size_t before = records.capacity();
+    const std::uint64_t left = most_bytes_ - std::min<std::uint64_t>(most_bytes_, pool.capacity());
+    const std::size_t after = std::min(static_cast<std::size_t>(left / sizeof(Record)), std::max(kBlockRecords, 2 * before));
+    if (before == 0) {
+      filling_.charge.resize(filling_.bytes(kBlockRecords, pool.capacity()));
+      records.reserve(kBlockRecords);
+      return true;
     }
-    buffer.reserve(after);
-    filling_.charge.resize(buffer.capacity() * sizeof(Record));
+    if (after <= before || !filling_.charge.try_resize(filling_.bytes(before + after, pool.capacity()))) return false;
+    records.reserve(after);
+    filling_.charge.resize(filling_.bytes(records.capacity(), pool.capacity()));
     return true;
+  }
+
+  // The same for the pool, if it has to grow for `bytes` more.
+  bool make_room(std::size_t bytes) {
+    auto& [records, pool] = filling_.batch;
+    const std::size_t needed = pool.size() + bytes, before = pool.capacity();
+    if (needed <= before) return true;
+    const std::uint64_t held = filling_.bytes(records.capacity(), 0);
+    const std::uint64_t left = most_bytes_ - std::min(most_bytes_, held);
+    const auto after = static_cast<std::size_t>(std::min<std::uint64_t>(left, std::max<std::uint64_t>(needed, 2 * before)));
+    if (after < needed || !filling_.charge.try_resize(held + before + after)) return false;
+    pool.reserve(after);
+    filling_.charge.resize(held + pool.capacity());
+    return true;
+  }
+
+  // For the first payload of a run, which has to go somewhere.
+  void grow_pool_anyway(std::size_t bytes) {
+    auto& [records, pool] = filling_.batch;
+    std::vector<std::byte>().swap(pool);
+    filling_.charge.resize(filling_.bytes(records.capacity(), bytes));
+    pool.reserve(bytes);
   }
 
   void flush() {
     wait_for_writer();
-    if (filling_.records.empty()) return;
+    if (filling_.batch.empty()) return;
     if (!file_) file_.emplace(options_.file.empty() ? temp_->create_unnamed(owner_) : File::create(options_.file));
     std::swap(filling_, writing_);
     if (options_.background) {
-      written_ = std::async(std::launch::async, [this] { write_run(writing_.records); });
+      written_ = std::async(std::launch::async, [this] { write_run(writing_.batch); });
     } else {
-      write_run(writing_.records);
+      write_run(writing_.batch);
       std::swap(filling_, writing_);
     }
     // A budget too small for a second buffer is met by waiting for the first.
-    if (filling_.records.capacity() == 0 && !grow_second()) {
+    if (filling_.batch.records.capacity() == 0 && !grow_second()) {
       wait_for_writer();
       std::swap(filling_, writing_);
     }
@@ -253,7 +245,7 @@ class ExternalSort {
 
   bool grow_second() {
     if (!filling_.charge.try_resize(kBlockRecords * sizeof(Record))) return false;
-    filling_.records.reserve(kBlockRecords);
+    filling_.batch.records.reserve(kBlockRecords);
     return true;
   }
 
@@ -261,35 +253,37 @@ class ExternalSort {
     if (written_.valid()) written_.get();
   }
 
-  void sort(std::vector<Record>& records) const {
-    if (options_.parallel)
-      tbb::parallel_sort(records.begin(), records.end(), Less());
-    else
-      std::sort(records.begin(), records.end(), Less());
+  // Places in the pool ascend in the order of adding.
+  static bool in_order(const Record& a, const Record& b) {
+    if constexpr (CarriesPayload<Record>) {
+      if (Less()(a, b)) return true;
+      if (Less()(b, a)) return false;
+      return a.payload.first < b.payload.first ||
+             (a.payload.first == b.payload.first && a.payload.size < b.payload.size);
+    } else {
+      return Less()(a, b);
+    }
   }
 
-  void write_run(std::vector<Record>& records) {
-    sort(records);
+  void sort(std::vector<Record>& records) const {
+    const auto less = [](const Record& a, const Record& b) { return in_order(a, b); };
+    if (options_.parallel)
+      tbb::parallel_sort(records.begin(), records.end(), less);
+    else
+      std::sort(records.begin(), records.end(), less);
+  }
+
+  void write_run(Batch& batch) {
+    sort(batch.records);
     RunPlace run{file_->size(), 0};
-    std::vector<std::byte> packed;
-    for (std::size_t first = 0; first < records.size(); first += kBlockRecords, ++run.blocks)
-      write_block(std::span<const Record>(records).subspan(
-                      first, std::min(kBlockRecords, records.size() - first)),
-                  *file_, packed);
-    records.clear();
+    run.blocks = append_blocks<Record, Codec>(batch.records, batch.pool, *file_);
+    batch.clear();
     runs_.push_back(run);
   }
 
-  static void write_block(std::span<const Record> records, RunFile& file,
-                          std::vector<std::byte>& packed) {
-    packed.clear();
-    Codec::encode(records, packed);
-    file.append(packed, records.size());
-  }
-
   // Merges in passes until the runs left can be merged at once.
-  void reduce_runs() {
-    const std::size_t fan_in = reserve_fan_in();
+  void reduce_runs(std::uint64_t merge_bytes) {
+    const std::size_t fan_in = reserve_fan_in(merge_bytes);
     while (runs_.size() > fan_in) {
       RunFile merged(temp_->create_unnamed(owner_));
       std::vector<RunPlace> longer;
@@ -303,25 +297,23 @@ class ExternalSort {
     }
   }
 
-  std::size_t reserve_fan_in() {
-    std::uint64_t fan_in =
-        std::clamp<std::uint64_t>(options_.allowance_bytes / kCursorBytes, 2, runs_.size() + 1);
-    while (fan_in > 2 && !merge_charge_.try_resize((fan_in + 1) * kCursorBytes)) fan_in /= 2;
-    fan_in = std::max<std::uint64_t>(fan_in, 2);
-    merge_charge_.resize((fan_in + 1) * kCursorBytes);
+  // A run at hand is a block; as much again serves packing and unpacking.
+  std::size_t reserve_fan_in(std::uint64_t merge_bytes) {
+    const std::uint64_t cursor = kRunBlockBytes + largest_payload_, rest = 4 * cursor;
+    std::uint64_t fan_in = std::clamp<std::uint64_t>((merge_bytes - std::min(merge_bytes, rest)) / cursor, 2,
+                                                     std::max<std::uint64_t>(runs_.size(), 2));
+    while (fan_in > 2 && !merge_charge_.try_resize(fan_in * cursor + rest)) fan_in = std::max<std::uint64_t>(2, fan_in / 2);
+    merge_charge_.resize(fan_in * cursor + rest);
     return static_cast<std::size_t>(fan_in);
   }
 
   RunPlace merge(std::span<const RunPlace> runs, RunFile& out) const {
-    Merger merger(*file_, runs, Less());
+    Merger merger(*file_, runs);
     RunPlace place{out.size(), 0};
-    std::vector<Record> block;
-    std::vector<std::byte> packed;
-    while (merger.front() != nullptr) {
-      for (block.clear(); block.size() < kBlockRecords && merger.front() != nullptr; merger.pop())
-        block.push_back(*merger.front());
-      write_block(block, out, packed);
-      ++place.blocks;
+    for (Batch block; !merger.empty();) {
+      block.clear();
+      while (!merger.empty() && block.bytes() + sizeof(Record) <= kRunBlockBytes) merger.take(block);
+      place.blocks += append_blocks<Record, Codec>(block.records, block.pool, out);
     }
     return place;
   }
@@ -329,15 +321,16 @@ class ExternalSort {
   const char* owner_;
   const TempDir* temp_;
   SortOptions options_;
-  std::size_t most_records_;
+  std::uint64_t most_bytes_;  // of a buffer
   Buffer filling_, writing_;
   Reservation merge_charge_;
   std::future<void> written_;
   std::optional<RunFile> file_;
   std::vector<RunPlace> runs_;
-  std::optional<Merger> merger_;
-  std::size_t at_ = 0;  // in filling_, when nothing was spilled
+  std::unique_ptr<Merger> merger_;
+  std::uint64_t at_ = 0;  // records read so far
   std::uint64_t size_ = 0, spilled_ = 0;
+  std::uint64_t largest_payload_ = 0;
 };
 
 }  // namespace reeb::ooc

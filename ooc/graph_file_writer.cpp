@@ -14,9 +14,11 @@ namespace {
 
 constexpr std::size_t kPiece = 4096;
 
-FileHeader first_header(FileMeta meta, bool has_positions, bool has_embedding) {
+constexpr std::uint32_t kNoNode = ~std::uint32_t{0};
+
+FileHeader first_header(FileMeta meta, const GraphFileWriter::Options& options) {
   FileHeader header = header_of(std::move(meta));
-  header.flags = {true, has_positions, has_embedding};
+  header.flags = {true, options.has_positions, options.has_embedding};
   header.levels.resize(1);
   return header;
 }
@@ -27,31 +29,54 @@ bool in_order(const FileArc& a, const FileArc& b) {
 
 }  // namespace
 
-GraphFileWriter::GraphFileWriter(const std::string& path, FileMeta meta, bool has_positions,
-                                 bool has_embedding, ArcEnds ends)
-    : header_(first_header(std::move(meta), has_positions, has_embedding)),
-      writer_(path, header_.region_bytes()) {
-  if (ends == ArcEnds::kKeys) keys_.emplace(folder_of(path));
+GraphFileWriter::GraphFileWriter(const std::string& path, FileMeta meta, const Options& options)
+    : header_(first_header(std::move(meta), options)),
+      writer_(path, header_.region_bytes()),
+      background_(options.background) {
+  if (options.ends == ArcEnds::kKeys) keys_.emplace(folder_of(path));
+  if (options.ends == ArcEnds::kKeysInMemory)
+    rank_of_.assign(static_cast<std::size_t>(header_.mesh_vertices), kNoNode);
 }
 
-GraphFileWriter::~GraphFileWriter() = default;
+GraphFileWriter::~GraphFileWriter() {
+  if (written_.valid()) written_.wait();
+}
 
 void GraphFileWriter::add_nodes(std::span<const SettledNode> nodes) {
   for (const SettledNode& node : nodes) {
     if (last_node_ && !(*last_node_ < node.key)) throw std::logic_error("GraphFileWriter: nodes are not ascending");
     last_node_ = node.key;
     if (keys_) keys_->append(node.key);
+    if (!rank_of_.empty()) rank_of_.at(node.key.vertex.value()) = static_cast<std::uint32_t>(header_.nodes);
     frame_.nodes.push_back(node);
     ++header_.nodes;
     flush_if_full();
   }
 }
 
+void GraphFileWriter::add_arcs(std::span<const ArcKeys> arcs, const ArcBucketsView& buckets) {
+  ranked_.resize(arcs.size());
+  if (keys_)
+    rank_by_search(arcs);
+  else
+    rank_by_vertex(arcs);
+  add_arcs(std::span<const FileArc>(ranked_), buckets);
+}
+
+void GraphFileWriter::rank_by_vertex(std::span<const ArcKeys> arcs) {
+  const auto rank = [&](const SweepKey& key) {
+    const std::uint64_t vertex = key.vertex.value();
+    if (vertex >= rank_of_.size() || rank_of_[vertex] == kNoNode)
+      throw std::logic_error("GraphFileWriter: no node is vertex " + std::to_string(vertex));
+    return rank_of_[vertex];
+  };
+  for (std::size_t i = 0; i < arcs.size(); ++i) ranked_[i] = {rank(arcs[i].lo), rank(arcs[i].hi), 0, kNeverDies};
+}
+
 // Upper ends are looked up in their own order: a large piece then touches each page of the table
 // once, and each search starts next to the last.
-void GraphFileWriter::add_arcs(std::span<const ArcKeys> arcs, const ArcBucketsView& buckets) {
+void GraphFileWriter::rank_by_search(std::span<const ArcKeys> arcs) {
   if (!std::exchange(sealed_, true)) keys_->seal();
-  ranked_.resize(arcs.size());
   by_hi_.resize(arcs.size());
   std::iota(by_hi_.begin(), by_hi_.end(), 0u);
   std::sort(by_hi_.begin(), by_hi_.end(),
@@ -67,7 +92,6 @@ void GraphFileWriter::add_arcs(std::span<const ArcKeys> arcs, const ArcBucketsVi
     ranked_[by_hi_[k]].hi = hi_rank = keys_->rank(arcs[by_hi_[k]].hi, hi_rank);
   }
   keys_->release_pages();
-  add_arcs(std::span<const FileArc>(ranked_), buckets);
 }
 
 void GraphFileWriter::add_arcs(std::span<const FileArc> arcs, const ArcBucketsView& buckets) {
@@ -76,8 +100,6 @@ void GraphFileWriter::add_arcs(std::span<const FileArc> arcs, const ArcBucketsVi
     if (arc.lo >= arc.hi || arc.hi >= header_.nodes || (last_arc_ && !in_order(*last_arc_, arc)))
       throw std::logic_error("GraphFileWriter: arc " + std::to_string(header_.arcs) + " is out of order");
     last_arc_ = arc;
-    if (components_.size() == 0) components_ = UnionFind(static_cast<std::uint32_t>(header_.nodes));
-    unions_ += components_.unite(static_cast<std::uint32_t>(arc.lo), static_cast<std::uint32_t>(arc.hi)) ? 1u : 0u;
     frame_.arcs.push_back(arc);
     ++header_.arcs;
     if (header_.flags.has_embedding) {
@@ -91,6 +113,7 @@ void GraphFileWriter::add_arcs(std::span<const FileArc> arcs, const ArcBucketsVi
 void GraphFileWriter::finish() {
   frame_.versions.push_back({0.0, header_.nodes, header_.arcs, buckets_});
   flush();
+  if (written_.valid()) written_.get();
   header_.components = header_.nodes - unions_;
   header_.loops = header_.arcs - unions_;
   header_.records = header_.arcs;
@@ -113,22 +136,34 @@ void GraphFileWriter::flush_if_full() {
 }
 
 void GraphFileWriter::flush() {
-  payload_.clear();
-  encode_graph_frame(frame_, header_.flags, payload_);
-  writer_.add({.kind = FrameKind::kGraph,
-               .nodes = static_cast<std::uint32_t>(frame_.nodes.size()),
-               .records = static_cast<std::uint32_t>(frame_.arcs.size()),
-               .versions = static_cast<std::uint32_t>(frame_.versions.size()),
-               .finest = frame_.versions.empty() ? 1u : 0u},
-              payload_);
-  ++header_.graph_frames;
+  if (written_.valid()) written_.get();
+  std::swap(frame_, writing_);
   frame_.clear();
+  ++header_.graph_frames;
+  if (!writing_.arcs.empty() && components_.size() == 0)
+    components_ = UnionFind(static_cast<std::uint32_t>(header_.nodes));
+  if (background_)
+    written_ = std::async(std::launch::async, [this] { write(writing_); });
+  else
+    write(writing_);
+}
+
+void GraphFileWriter::write(const GraphFrame& frame) {
+  for (const FileArc& arc : frame.arcs)
+    unions_ += components_.unite(static_cast<std::uint32_t>(arc.lo), static_cast<std::uint32_t>(arc.hi)) ? 1u : 0u;
+  payload_.clear();
+  encode_graph_frame(frame, header_.flags, payload_);
+  writer_.add({.kind = FrameKind::kGraph,
+               .nodes = static_cast<std::uint32_t>(frame.nodes.size()),
+               .records = static_cast<std::uint32_t>(frame.arcs.size()),
+               .versions = static_cast<std::uint32_t>(frame.versions.size()),
+               .finest = frame.versions.empty() ? 1u : 0u},
+              payload_);
 }
 
 void write_graph_file(const std::string& path, const FileMeta& meta, const ReebGraph& graph,
                       const ArcBucketsView& buckets) {
-  GraphFileWriter writer(path, meta, !graph.positions.empty(), !buckets.empty(),
-                         GraphFileWriter::ArcEnds::kRanks);
+  GraphFileWriter writer(path, meta, {.has_positions = !graph.positions.empty(), .has_embedding = !buckets.empty()});
   std::vector<SettledNode> nodes;
   for (std::size_t i = 0; i < graph.node_count(); ++i) {
     nodes.push_back({graph.nodes[i], graph.positions.empty() ? Point{} : graph.positions[i]});

@@ -1,7 +1,7 @@
 #include <algorithm>
 
-#include "libreeb/base/flat_map.h"
 #include "ooc/chunk_source.h"
+#include "ooc/local_numbers.h"
 
 namespace reeb::ooc {
 namespace {
@@ -34,7 +34,6 @@ class IndexedChunks : public ChunkSource {
   void pass_over(const ChunkPlace& start);
   bool read_triangles(Chunk& chunk);
   bool read_loose_vertices(Chunk& chunk);
-  void number_vertices(Chunk& chunk);
   void set_uses(Chunk& chunk);
   void look_up(WorkItem& item);
   void adapt(const Chunk& chunk);
@@ -50,7 +49,7 @@ class IndexedChunks : public ChunkSource {
   std::uint64_t next_vertex_ = 0;  // from which on unused vertices are looked for
 
   std::vector<VertexId> corners_;
-  FlatMap local_;
+  LocalNumbers numbers_;
   std::vector<std::uint32_t> entries_;
   std::vector<double> gathered_;
   std::vector<std::span<const double>> data_;
@@ -62,6 +61,7 @@ bool IndexedChunks::next(WorkItem& item) {
   look_up(item);
   item.end.triangles = triangles_read_;
   item.end.next_vertex = next_vertex_;
+  item.end.chunk_blocks = blocks_;
   item.end.ranges.assign(columns_.ranges().begin(), columns_.ranges().end());
   return true;
 }
@@ -73,28 +73,28 @@ void IndexedChunks::pass_over(const ChunkPlace& start) {
     triangles_read_ += corners_.size() / 3;
   first_block_ = triangles_read_ / block_triangles_;
   next_vertex_ = start.next_vertex;
+  if (start.chunk_blocks != 0) blocks_ = static_cast<std::size_t>(start.chunk_blocks);
   if (!start.ranges.empty()) columns_.set_ranges(start.ranges);
 }
 
+// In pieces, so that corners are numbered while they are in the first cache.
 bool IndexedChunks::read_triangles(Chunk& chunk) {
-  if (!mesh_.read(corners_, blocks_ * block_triangles_)) return false;
-  triangles_read_ += corners_.size() / 3;
-  number_vertices(chunk);
+  constexpr std::size_t kPiece = 1024;
+  const std::size_t most = blocks_ * block_triangles_;
+  numbers_.start(chunk.ids, most);
+  chunk.corners.resize(3 * most);
+  std::size_t count = 0;
+  while (count < most && mesh_.read(corners_, std::min(kPiece, most - count))) {
+    numbers_.number(corners_, std::span(chunk.corners).subspan(3 * count, corners_.size()));
+    count += corners_.size() / 3;
+  }
+  if (count == 0) return false;
+  chunk.corners.resize(3 * count);
+  triangles_read_ += count;
   set_uses(chunk);
   first_block_ += blocks_;
   adapt(chunk);
   return true;
-}
-
-void IndexedChunks::number_vertices(Chunk& chunk) {
-  local_.clear();
-  chunk.corners.resize(corners_.size());
-  for (std::size_t i = 0; i < corners_.size(); ++i) {
-    const auto fresh = static_cast<std::uint32_t>(chunk.ids.size());
-    const std::uint32_t local = local_.find_or_insert(corners_[i].value(), fresh);
-    if (local == fresh) chunk.ids.push_back(corners_[i]);
-    chunk.corners[i] = local;
-  }
 }
 
 void IndexedChunks::set_uses(Chunk& chunk) {

@@ -38,12 +38,14 @@ class Pipeline {
     if (options.saved_engine != nullptr) restore(*options.saved_engine);
   }
 
-  LiveMaximum run() {
+  PipelineResult run() {
     if (options_.threads <= 1)
       run_alone();
     else
       run_in_parallel();
-    return maximum_;
+    PipelineResult result{maximum_, {}};
+    for (const auto& glue : glues_) result.removed_pairs.push_back(glue->removed_pairs());
+    return result;
   }
 
  private:
@@ -66,9 +68,13 @@ class Pipeline {
   void sweep(Slot& slot, Sweeper& sweeper) {
     slot.item.fragments.resize(glues_.size());
     for (std::size_t f = 0; f < glues_.size(); ++f)
-      sweeper.sweep.run(slot.item.chunk, slot.item.values[f], slot.item.fragments[f]);
+      sweeper.sweep.run(slot.item.chunk, slot.item.values[f], slot.item.fragments[f], sweep_options(slot.item, f));
     sweeper.reservation.resize(sweeper.sweep.memory_bytes());
     slot.reservation.resize(slot.item.memory_bytes());
+  }
+
+  SweepOptions sweep_options(const WorkItem& item, std::size_t function) const {
+    return options_.choose_sweep ? options_.choose_sweep(function, item.end.ranges[function]) : SweepOptions{};
   }
 
   void glue(Slot& slot) {
@@ -144,8 +150,8 @@ class Pipeline {
 
 }  // namespace
 
-LiveMaximum run_pipeline(ChunkSource& source, std::span<GraphSink* const> sinks, MemoryBudget& budget,
-                         const PipelineOptions& options) {
+PipelineResult run_pipeline(ChunkSource& source, std::span<GraphSink* const> sinks, MemoryBudget& budget,
+                            const PipelineOptions& options) {
   return Pipeline(source, sinks, budget, options).run();
 }
 

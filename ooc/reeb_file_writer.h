@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <future>
 #include <memory>
 #include <optional>
 #include <span>
@@ -44,14 +45,24 @@ void write_graph_file(const std::string& path, const FileMeta& meta, const ReebG
 
 // A graph without hierarchy that need not fit in memory: nodes in pieces, arcs in pieces, done.
 // The file appears at finish(); cuts between pieces do not show in it.
-// MEMORY: one frame, 4 bytes a node, and with ArcEnds::kKeys a scratch file of 16 bytes a node beside the output.
-// THROWS: Error{kResource}; std::logic_error for items out of order.
+// MEMORY: two frames, 4 bytes a node, and what ArcEnds says.
+// THROWS: Error{kResource}, of an earlier frame, too; std::logic_error for items out of order.
 class GraphFileWriter {
  public:
-  enum class ArcEnds { kRanks, kKeys };
+  // How arcs name their nodes.
+  enum class ArcEnds {
+    kRanks,
+    kKeys,          // looked up in a scratch file of 16 bytes a node beside the output
+    kKeysInMemory,  // looked up in 4 bytes a vertex of the mesh
+  };
+  struct Options {
+    bool has_positions = true;
+    bool has_embedding = false;
+    ArcEnds ends = ArcEnds::kRanks;
+    bool background = false;  // pack and write frames in a thread of their own
+  };
 
-  GraphFileWriter(const std::string& path, FileMeta meta, bool has_positions, bool has_embedding,
-                  ArcEnds ends);
+  GraphFileWriter(const std::string& path, FileMeta meta, const Options& options);
   ~GraphFileWriter();
 
   // REQUIRES: ascending, over all calls.
@@ -69,13 +80,18 @@ class GraphFileWriter {
   const FileHeader& header() const { return header_; }
 
  private:
+  void rank_by_vertex(std::span<const ArcKeys> arcs);
+  void rank_by_search(std::span<const ArcKeys> arcs);
   void flush_if_full();
   void flush();
+  void write(const GraphFrame& frame);
 
   FileHeader header_;
   FrameWriter writer_;
+  bool background_;
   std::optional<KeyTable> keys_;
-  GraphFrame frame_;
+  std::vector<std::uint32_t> rank_of_;  // by vertex
+  GraphFrame frame_, writing_;
   std::vector<std::byte> payload_;
   std::vector<FileArc> ranked_;
   std::vector<std::uint32_t> by_hi_;
@@ -85,6 +101,7 @@ class GraphFileWriter {
   std::uint64_t unions_ = 0;  // arcs that joined two components
   std::uint64_t lo_rank_ = 0, buckets_ = 0;
   bool sealed_ = false;
+  std::future<void> written_;  // the frame in writing_
 };
 
 }  // namespace reeb::ooc

@@ -18,10 +18,11 @@ bool is_file(const std::string& path) {
 }  // namespace
 
 ResumableRun::ResumableRun(const std::string& output, const std::string& mesh,
-                           std::span<VertexFunction* const> functions, const ResumeOptions& options)
+                           std::span<VertexFunction* const> functions, const RunSettings& settings,
+                           const ResumeOptions& options)
     : options_(options) {
   if (!is_file(mesh)) return;
-  identity_ = identify_run(mesh, functions);
+  identity_ = identify_run(mesh, functions, settings);
   folder_.emplace(output);
 }
 

@@ -31,7 +31,8 @@ class ResumableRun {
   // A mesh of which only part is kept in files, or none, is `mesh` = "".
   // THROWS: Error{kResource} of the folder; Error{kBadInput} if a file cannot be opened.
   ResumableRun(const std::string& output, const std::string& mesh,
-               std::span<VertexFunction* const> functions, const ResumeOptions& options);
+               std::span<VertexFunction* const> functions, const RunSettings& settings,
+               const ResumeOptions& options);
 
   // Path without suffix for the segments of a function; empty if nobody can go on with them.
   std::string segments_of(std::size_t function) const;

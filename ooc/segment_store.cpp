@@ -1,9 +1,11 @@
 #include "ooc/segment_store.h"
 
 #include <algorithm>
+#include <future>
 #include <stdexcept>
 #include <string>
 
+#include "ooc/arc_payload.h"
 #include "ooc/column_codec.h"
 
 namespace reeb::ooc {
@@ -21,6 +23,13 @@ void add_differences(ColumnEncoder& columns, std::span<const Record> records, co
   });
 }
 
+// Calls sum(i, s) with the sum s of the first i + 1 differences.
+template <class Sum>
+void for_sums(std::span<const std::uint64_t> differences, const Sum& sum) {
+  std::uint64_t total = 0;
+  for (std::size_t i = 0; i < differences.size(); ++i) sum(i, total += unzigzag(differences[i]));
+}
+
 }  // namespace
 
 void NodeCodec::encode(std::span<const SettledNode> nodes, std::vector<std::byte>& packed) {
@@ -33,38 +42,45 @@ void NodeCodec::encode(std::span<const SettledNode> nodes, std::vector<std::byte
 }
 
 bool NodeCodec::decode(std::span<const std::byte> packed, std::span<SettledNode> nodes) {
-  const ColumnDecoder columns(packed, 5, nodes.size());
-  if (!columns.ok()) return false;
-  std::array<std::uint64_t, 5> sum{};
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    for (std::size_t c = 0; c < sum.size(); ++c) sum[c] += unzigzag(columns.at(c, i));
-    nodes[i].key = {from_ordered_bits(sum[0]), VertexId(sum[1])};
-    for (std::size_t k = 0; k < 3; ++k) nodes[i].position[k] = from_ordered_bits(sum[2 + k]);
-  }
+  ColumnDecoder columns(packed, 5, nodes.size());
+  if (!columns.ok() || !columns.tail().empty()) return false;
+  for_sums(columns.column(0), [&](std::size_t i, std::uint64_t sum) { nodes[i].key.value = from_ordered_bits(sum); });
+  for_sums(columns.column(1), [&](std::size_t i, std::uint64_t sum) { nodes[i].key.vertex = VertexId(sum); });
+  for (std::size_t k = 0; k < 3; ++k)
+    for_sums(columns.column(2 + k), [&](std::size_t i, std::uint64_t sum) { nodes[i].position[k] = from_ordered_bits(sum); });
   return true;
 }
 
-void ArcCodec::encode(std::span<const ArcKeys> arcs, std::vector<std::byte>& packed) {
+void ArcCodec::encode(std::span<const StoredArc> arcs, std::span<const std::byte> pool,
+                      std::vector<std::byte>& packed) {
   ColumnEncoder columns;
-  add_differences(columns, arcs, [](const ArcKeys& a) { return bits(a.lo); });
-  add_differences(columns, arcs, [](const ArcKeys& a) { return id(a.lo); });
-  columns.add(arcs.size(), [&](std::size_t i) { return bits(arcs[i].hi) - bits(arcs[i].lo); });
-  columns.add(arcs.size(), [&](std::size_t i) { return zigzag(id(arcs[i].hi) - id(arcs[i].lo)); });
+  add_differences(columns, arcs, [](const StoredArc& a) { return bits(a.keys.lo); });
+  add_differences(columns, arcs, [](const StoredArc& a) { return id(a.keys.lo); });
+  columns.add(arcs.size(), [&](std::size_t i) { return bits(arcs[i].keys.hi) - bits(arcs[i].keys.lo); });
+  columns.add(arcs.size(), [&](std::size_t i) { return zigzag(id(arcs[i].keys.hi) - id(arcs[i].keys.lo)); });
+  columns.add(arcs.size(), [&](std::size_t i) { return arcs[i].payload.size; });
+  for (const StoredArc& arc : arcs) columns.add_tail(pool.subspan(arc.payload.first, arc.payload.size));
   columns.pack(packed);
 }
 
-bool ArcCodec::decode(std::span<const std::byte> packed, std::span<ArcKeys> arcs) {
-  const ColumnDecoder columns(packed, 4, arcs.size());
+bool ArcCodec::decode(std::span<const std::byte> packed, std::span<StoredArc> arcs,
+                      std::vector<std::byte>& pool) {
+  ColumnDecoder columns(packed, 5, arcs.size());
   if (!columns.ok()) return false;
-  std::uint64_t lo_bits = 0, lo_id = 0;
-  for (std::size_t i = 0; i < arcs.size(); ++i) {
-    lo_bits += unzigzag(columns.at(0, i));
-    lo_id += unzigzag(columns.at(1, i));
-    arcs[i].lo = {from_ordered_bits(lo_bits), VertexId(lo_id)};
-    arcs[i].hi = {from_ordered_bits(lo_bits + columns.at(2, i)),
-                  VertexId(lo_id + unzigzag(columns.at(3, i)))};
-  }
-  return true;
+  for_sums(columns.column(0), [&](std::size_t i, std::uint64_t sum) { arcs[i].keys.lo.value = from_ordered_bits(sum); });
+  for_sums(columns.column(1), [&](std::size_t i, std::uint64_t sum) { arcs[i].keys.lo.vertex = VertexId(sum); });
+  auto column = columns.column(2);
+  for (std::size_t i = 0; i < arcs.size(); ++i)
+    arcs[i].keys.hi.value = from_ordered_bits(bits(arcs[i].keys.lo) + column[i]);
+  column = columns.column(3);
+  for (std::size_t i = 0; i < arcs.size(); ++i)
+    arcs[i].keys.hi.vertex = VertexId(id(arcs[i].keys.lo) + unzigzag(column[i]));
+  column = columns.column(4);
+  std::uint64_t first = 0;
+  for (std::size_t i = 0; i < arcs.size(); first += column[i++])
+    arcs[i].payload = {static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(column[i])};
+  pool.assign(columns.tail().begin(), columns.tail().end());
+  return first == pool.size();
 }
 
 namespace {
@@ -79,12 +95,65 @@ SortOptions half_of(const SegmentOptions& options, const char* suffix) {
 
 SegmentStore::SegmentStore(const TempDir& temp, MemoryBudget& budget, const SegmentOptions& options)
     : budget_(&budget),
+      background_(options.background),
       nodes_("settled nodes", temp, budget, half_of(options, ".nodes")),
       arcs_("settled arcs", temp, budget, half_of(options, ".arcs")) {}
 
+void SegmentStore::add_arcs(const SettledArcs& settled) {
+  if (settled.bucket_counts.empty()) {
+    plain_.clear();
+    for (const ArcKeys& arc : settled.arcs) plain_.push_back({arc});
+    arcs_.add(plain_);
+    return;
+  }
+  std::size_t first = 0;
+  for (std::size_t i = 0; i < settled.arcs.size(); first += settled.bucket_counts[i++]) {
+    payload_.clear();
+    encode_buckets(settled.buckets.subspan(first, settled.bucket_counts[i]), settled.bucket_exponent, payload_);
+    arcs_.add({settled.arcs[i]}, payload_);
+  }
+  bucket_count_ += first;
+}
+
+void SegmentStore::save(StateWriter& out) {
+  out.put(bucket_count_);
+  nodes_.save(out);
+  arcs_.save(out);
+}
+
+void SegmentStore::restore(StateReader& in) {
+  in.get(bucket_count_);
+  nodes_.restore(in);
+  arcs_.restore(in);
+}
+
 void SegmentStore::finish() {
-  nodes_.finish();
-  arcs_.finish();
+  constexpr std::uint64_t kMost = 64 << 20;  // a thousand runs
+  const std::uint64_t merge_bytes = std::min(budget_->free_bytes() / 8, kMost);
+  std::future<void> nodes;
+  if (background_) nodes = std::async(std::launch::async, [&] { nodes_.finish(merge_bytes); });
+  arcs_.finish(merge_bytes);
+  if (background_)
+    nodes.get();
+  else
+    nodes_.finish(merge_bytes);
+}
+
+bool SegmentStore::read_arcs(ArcPiece& piece, std::size_t limit, std::optional<int> bucket_exponent) {
+  constexpr std::size_t kPayloads = 256 << 10;
+  arcs_.read(batch_, limit, kPayloads);
+  piece.arcs.clear();
+  for (const StoredArc& arc : batch_.records) piece.arcs.push_back(arc.keys);
+  if (!bucket_exponent) return !batch_.empty();
+  piece.buckets.buckets.clear();
+  piece.buckets.offsets.assign(1, 0);
+  for (const StoredArc& arc : batch_.records) {
+    if (!decode_buckets(batch_.payload(arc), *bucket_exponent, piece.buckets.buckets))
+      throw std::logic_error("the buckets of an arc from vertex " + std::to_string(arc.keys.lo.vertex.value()) +
+                             " are no buckets of exponent " + std::to_string(*bucket_exponent));
+    piece.buckets.offsets.push_back(piece.buckets.buckets.size());
+  }
+  return !batch_.empty();
 }
 
 namespace {
@@ -105,34 +174,50 @@ NodeId find_node(const std::vector<SweepKey>& nodes, std::size_t from, const Swe
   return NodeId(static_cast<std::uint32_t>(found - nodes.begin()));
 }
 
+// The buckets of the next arcs.
+void append(const ArcBuckets& piece, ArcBuckets& all) {
+  const std::uint64_t before = all.buckets.size();
+  for (std::size_t i = 1; i < piece.offsets.size(); ++i) all.offsets.push_back(before + piece.offsets[i]);
+  all.buckets.insert(all.buckets.end(), piece.buckets.begin(), piece.buckets.end());
+}
+
 }  // namespace
 
-LoadedGraph read_graph(SegmentStore& store, bool with_positions) {
+LoadedGraph read_graph(SegmentStore& store, const LoadOptions& options) {
   const auto node_count = static_cast<std::size_t>(store.node_count());
   const auto arc_count = static_cast<std::size_t>(store.arc_count());
+  const auto bucket_count = static_cast<std::size_t>(options.bucket_exponent ? store.bucket_count() : 0);
   LoadedGraph loaded;
   ReebGraph& graph = loaded.graph;
   loaded.memory = store.budget().reserve(
-      "graph", node_count * (sizeof(SweepKey) + (with_positions ? sizeof(Point) : 0)) +
-                   arc_count * 2 * sizeof(NodeId));
+      "graph", node_count * (sizeof(SweepKey) + (options.positions ? sizeof(Point) : 0)) +
+                   arc_count * 2 * sizeof(NodeId) +
+                   (options.bucket_exponent ? (arc_count + 1) * sizeof(std::uint64_t) : 0) + bucket_count * sizeof(Bucket));
   graph.nodes.reserve(node_count);
-  if (with_positions) graph.positions.reserve(node_count);
+  if (options.positions) graph.positions.reserve(node_count);
   store.nodes().rewind();
   for (std::vector<SettledNode> some; store.nodes().read(some, kStretch);)
     for (const SettledNode& node : some) {
       graph.nodes.push_back(node.key);
-      if (with_positions) graph.positions.push_back(node.position);
+      if (options.positions) graph.positions.push_back(node.position);
     }
   graph.lo.reserve(arc_count);
   graph.hi.reserve(arc_count);
-  store.arcs().rewind();
+  if (options.bucket_exponent) {
+    loaded.buckets.offsets.reserve(arc_count + 1);
+    loaded.buckets.offsets.push_back(0);
+    loaded.buckets.buckets.reserve(bucket_count);
+  }
+  store.rewind_arcs();
   std::size_t lo = 0;
-  for (std::vector<ArcKeys> some; store.arcs().read(some, kStretch);)
-    for (const ArcKeys& arc : some) {
+  for (ArcPiece piece; store.read_arcs(piece, kStretch, options.bucket_exponent);) {
+    for (const ArcKeys& arc : piece.arcs) {
       lo = find_node(graph.nodes, lo, arc.lo).value();
       graph.lo.emplace_back(static_cast<std::uint32_t>(lo));
       graph.hi.push_back(find_node(graph.nodes, lo, arc.hi));
     }
+    append(piece.buckets, loaded.buckets);
+  }
   return loaded;
 }
 

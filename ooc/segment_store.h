@@ -3,35 +3,55 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "libreeb/base/memory_budget.h"
 #include "libreeb/graph/reeb_graph.h"
+#include "libreeb/hierarchy/arc_buckets.h"
 #include "libreeb/port/graph_sink.h"
 #include "ooc/external_sort.h"
+#include "ooc/record_batch.h"
 #include "ooc/temp_dir.h"
 
 namespace reeb::ooc {
 
+// An arc with its embedding (arc_payload.h), if it has one.
+struct StoredArc {
+  ArcKeys keys;
+  PayloadPlace payload{};
+};
+
 // Columns of a block: value bits as differences (they rise), vertex ids as differences of either
-// sign, the rest told from these; byte planes; zstd.
+// sign, the rest told from these; byte planes; then the payloads; zstd.
 struct NodeCodec {
   static void encode(std::span<const SettledNode> nodes, std::vector<std::byte>& packed);
   static bool decode(std::span<const std::byte> packed, std::span<SettledNode> nodes);
 };
 struct ArcCodec {
-  static void encode(std::span<const ArcKeys> arcs, std::vector<std::byte>& packed);
-  static bool decode(std::span<const std::byte> packed, std::span<ArcKeys> arcs);
+  static void encode(std::span<const StoredArc> arcs, std::span<const std::byte> pool,
+                     std::vector<std::byte>& packed);
+  static bool decode(std::span<const std::byte> packed, std::span<StoredArc> arcs,
+                     std::vector<std::byte>& pool);
 };
 struct NodeLess {
   bool operator()(const SettledNode& a, const SettledNode& b) const { return a.key < b.key; }
 };
+struct ArcLess {
+  bool operator()(const StoredArc& a, const StoredArc& b) const { return a.keys < b.keys; }
+};
 
 // Pull interfaces: read(out, limit) delivers the next in order, rewind() starts again.
 using SortedNodes = ExternalSort<SettledNode, NodeCodec, NodeLess>;
-using SortedArcs = ExternalSort<ArcKeys, ArcCodec>;
+using SortedArcs = ExternalSort<StoredArc, ArcCodec, ArcLess>;
+
+// Consecutive arcs with their buckets, all of one exponent.
+struct ArcPiece {
+  std::vector<ArcKeys> arcs;
+  ArcBuckets buckets;  // without offsets where none are wanted
+};
 
 struct SegmentOptions {
   std::uint64_t allowance_bytes = 8 << 20;  // of the budget, half for nodes and half for arcs
@@ -42,54 +62,67 @@ struct SegmentOptions {
 };
 
 // Takes nodes and arcs in any order; after finish() it gives them back in canonical order (nodes
-// by key, arcs by lo, then hi) as often as needed. While they fit the allowance no file is made.
+// by key, arcs by lo, then hi, parallel ones as they came) as often as needed. While they fit the
+// allowance no file is made.
 //
 // THROWS: Error{kResource} of the budget or the disk; what fails in the background is thrown by
 //         the next call.
-// MEMORY: the allowance.   THREADS: one at a time.
+// MEMORY: the allowance; once finished, up to a quarter of what was free.   THREADS: one at a time.
 class SegmentStore : public GraphSink {
  public:
   SegmentStore(const TempDir& temp, MemoryBudget& budget, const SegmentOptions& options = {});
 
   void add_nodes(std::span<const SettledNode> nodes) override { nodes_.add(nodes); }
-  void add_arcs(const SettledArcs& settled) override { arcs_.add(settled.arcs); }
+  void add_arcs(const SettledArcs& settled) override;
+  // Ends adding, and merges as far as memory makes it necessary: O(n) for each pass that takes.
   void finish();
 
   // As of ExternalSort; before finish().
-  void save(StateWriter& out) {
-    nodes_.save(out);
-    arcs_.save(out);
-  }
-  void restore(StateReader& in) {
-    nodes_.restore(in);
-    arcs_.restore(in);
-  }
+  void save(StateWriter& out);
+  void restore(StateReader& in);
 
-  // REQUIRES: finish() was called.
+  // REQUIRES, for all that follows: finish() was called.
   SortedNodes& nodes() { return nodes_; }
-  SortedArcs& arcs() { return arcs_; }
+  void rewind_arcs() { arcs_.rewind(); }
+  // Replaces `piece` by at most `limit` next arcs in order, fewer if they have many buckets; false at
+  // the end. Buckets are delivered if an exponent is given, which is not below any that
+  // was added.
+  bool read_arcs(ArcPiece& piece, std::size_t limit, std::optional<int> bucket_exponent = {});
 
   std::uint64_t node_count() const { return nodes_.size(); }
   std::uint64_t arc_count() const { return arcs_.size(); }
+  // As they were added; coarsening makes fewer of them.
+  std::uint64_t bucket_count() const { return bucket_count_; }
   std::uint64_t spilled_bytes() const { return nodes_.spilled_bytes() + arcs_.spilled_bytes(); }
   MemoryBudget& budget() { return *budget_; }
 
  private:
   MemoryBudget* budget_;
+  bool background_;
   SortedNodes nodes_;
   SortedArcs arcs_;
+  std::uint64_t bucket_count_ = 0;
+  RecordBatch<StoredArc> batch_;  // read last
+  std::vector<StoredArc> plain_;
+  std::vector<std::byte> payload_;
 };
 
 // A graph in memory with what it has reserved.
 struct LoadedGraph {
   Reservation memory;
   ReebGraph graph;
+  ArcBuckets buckets;  // empty unless wanted
 };
 
-// All of a finished store, for a second stage in memory. Positions are left empty unless wanted.
+struct LoadOptions {
+  bool positions = true;
+  std::optional<int> bucket_exponent = {};  // buckets are wanted, coarsened to this
+};
+
+// All of a finished store, for a second stage in memory.
 //
 // THROWS: Error{kResource} if the graph does not fit the budget, before anything is read;
 //         std::logic_error if an arc ends in no node.
-LoadedGraph read_graph(SegmentStore& store, bool with_positions = true);
+LoadedGraph read_graph(SegmentStore& store, const LoadOptions& options = {});
 
 }  // namespace reeb::ooc

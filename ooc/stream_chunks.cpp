@@ -48,6 +48,7 @@ bool StreamChunks::next(WorkItem& item) {
   }
   if (chunker_.chunk_size() == 0) return false;
   chunker_.take(item.chunk, item.values);
+  item.end.ranges.assign(columns_.ranges().begin(), columns_.ranges().end());
   return true;
 }
 

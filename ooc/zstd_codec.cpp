@@ -17,6 +17,11 @@ void zstd_compress(std::span<const std::byte> bytes, int level, std::vector<std:
   out.resize(before + size);
 }
 
+std::size_t zstd_content_size(std::span<const std::byte> bytes) {
+  const unsigned long long size = ZSTD_getFrameContentSize(bytes.data(), bytes.size());
+  return size == ZSTD_CONTENTSIZE_UNKNOWN || size == ZSTD_CONTENTSIZE_ERROR ? 0 : static_cast<std::size_t>(size);
+}
+
 bool zstd_decompress(std::span<const std::byte> bytes, std::span<std::byte> out) {
   const std::size_t size = ZSTD_decompress(out.data(), out.size(), bytes.data(), bytes.size());
   return ZSTD_isError(size) == 0 && size == out.size();

@@ -50,5 +50,23 @@ TEST(Bucket, TheExponentNeverFallsWhenTheRangeGrows) {
   }
 }
 
+TEST(Bucket, CoarseningJoinsNeighboursAndKeepsCountsAndCentres) {
+  const std::vector<Bucket> fine = {{9, 7, {1, 1, 1}}, {-3, 2, {0, 0, 0}}, {-2, 6, {4, 8, -4}},
+                                    {-1, 2, {5, 0, 0}}, {0, 3, {1, 2, 3}},  {3, 5, {2, 2, 2}}};
+  std::vector<Bucket> buckets = fine;
+  coarsen(buckets, 1, 1);  // the first is another arc's
+  EXPECT_EQ(buckets, (std::vector<Bucket>{{9, 7, {1, 1, 1}}, {-2, 2, {0, 0, 0}}, {-1, 8, {4.25, 6, -3}},
+                                          {0, 3, {1, 2, 3}}, {1, 5, {2, 2, 2}}}));
+  buckets = fine;
+  coarsen(buckets, 1, 2000);
+  EXPECT_EQ(buckets.size(), 3u);
+  EXPECT_EQ(buckets[1].index, -1);
+  EXPECT_EQ(buckets[1].count, 10u);
+  EXPECT_EQ(buckets[2].count, 8u);
+  buckets = fine;
+  coarsen(buckets, 0, 0);
+  EXPECT_EQ(buckets, fine);
+}
+
 }  // namespace
 }  // namespace reeb

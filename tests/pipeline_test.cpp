@@ -10,6 +10,8 @@
 #include <filesystem>
 #include <string>
 
+#include "libreeb/base/error.h"
+#include "libreeb/hierarchy/denoise.h"
 #include "ooc/compute.h"
 #include "ooc/reeb_file.h"
 #include "tests/model/reference_reeb.h"
@@ -56,7 +58,10 @@ const bool scratch_is_in_memory =
 // Runs of `compute` on one mesh; each works in a folder that is empty before and after.
 class Runner {
  public:
-  explicit Runner(bool graph_only = false) : graph_only_(graph_only) {}
+  explicit Runner(bool graph_only = false) { options_.graph_only = graph_only; }
+
+  // For the runs that follow.
+  ooc::ComputeOptions& options() { return options_; }
 
   // The outputs of the functions that are these columns of the mesh, in one run.
   std::vector<std::string> run(const ComplexMesh& mesh, const RunShape& shape, std::vector<unsigned> columns = {3},
@@ -73,12 +78,11 @@ class Runner {
       input.reader = std::make_unique<ComplexStream>(mesh, seed);
     else
       input.indexed = std::make_unique<IndexedComplex>(mesh);
-    ooc::ComputeOptions options;
+    ooc::ComputeOptions options = options_;
     options.chunk_triangles = shape.chunk_triangles;
     options.threads = shape.threads;
     options.temp_dir = temp_.path();
-    options.graph_only = graph_only_;
-    options.memory_bytes = memory_limit().value_or(MemoryBudget::kUnlimited);
+    options.memory_bytes = memory_limit().value_or(options_.memory_bytes);
     results_ = ooc::compute(std::move(input), pointers, outputs, options);
     EXPECT_TRUE(temp_.empty()) << "temporary files were left";
     return outputs;
@@ -87,7 +91,7 @@ class Runner {
   const std::vector<ooc::ComputeResult>& results() const { return results_; }
 
  private:
-  bool graph_only_;
+  ooc::ComputeOptions options_;
   ooc::Scratch outputs_, temp_;
   std::vector<ooc::ComputeResult> results_;
 };
@@ -169,6 +173,65 @@ TEST(Pipeline, SeveralFunctionsInOneRunEqualSingleRuns) {
     for (const unsigned f : {0u, 1u, 2u})
       ASSERT_TRUE(take_bytes(runner.run(mesh, shape, {3 + f}, random.next())[0]) == together[f])
           << shape << ", function " << f << ", case " << i << '\n' << describe(complex);
+  }
+}
+
+// What is removed on the way depends on chunks; with the last pass it is what the definition says.
+TEST(Pipeline, RemovesTheNoiseOfTheExactGraphHoweverItRuns) {
+  const std::uint64_t seed = base_seed(), cases = case_count(600);
+  const std::vector<RunShape> shapes = all_shapes();
+  std::uint64_t removed = 0;
+  for (const bool graph_only : {false, true}) {
+    Runner runner(graph_only);
+    for (std::uint64_t i = 0; i < cases; ++i) {
+      const Complex complex = random_complex(seed + i);
+      const ComplexMesh mesh(complex);
+      const ReebGraph exact = reference_reeb(complex);
+      Random random(seed + i);
+      ooc::ComputeOptions& options = runner.options();
+      options.denoise = random.unit();
+      options.denoise_is_share = random.below(2) == 0;
+      double threshold = options.denoise;
+      if (options.denoise_is_share && !complex.values.empty()) {
+        const auto [min, max] = std::minmax_element(complex.values.begin(), complex.values.end());
+        threshold *= *max - *min;
+      }
+      const Denoised expected = denoise(exact, threshold);
+      std::string bytes;
+      for (std::uint64_t k = 0; k < 4; ++k) {
+        const RunShape& shape = shapes[(i + k * 7) % shapes.size()];
+        SCOPED_TRACE(testing::Message() << shape << ", case " << i << ", threshold " << threshold);
+        const std::string output = runner.run(mesh, shape, {3}, random.next())[0];
+        const ReebGraph graph = ooc::ReebFile(output).load().graph;
+        ASSERT_TRUE(without_positions(graph) == without_positions(expected.graph))
+            << "got\n" << describe(graph) << "instead of\n" << describe(expected.graph) << describe(complex);
+        ASSERT_EQ(runner.results()[0].denoised_pairs, expected.removed.size());
+        ASSERT_EQ(runner.results()[0].nodes, expected.graph.node_count());
+        ASSERT_EQ(runner.results()[0].arcs, expected.graph.arc_count());
+        if (k == 0) bytes = read_file(output);
+        ASSERT_TRUE(take_bytes(output) == bytes) << describe(complex);
+      }
+      removed += expected.removed.size();
+    }
+  }
+  EXPECT_GT(removed, cases / 10);
+}
+
+TEST(Pipeline, SaysWhatTheLastPassOfNoiseRemovalNeeds) {
+  Complex complex = plateau(700, 700);
+  Random random(1);
+  for (double& value : complex.values) value = random.unit();
+  Runner runner(/*graph_only=*/true);
+  // Forks of noise keep each other: nearly all stay until the last pass, which has no room.
+  runner.options().denoise = 1e-9;
+  runner.options().memory_bytes = 16 << 20;
+  if (memory_limit()) GTEST_SKIP() << "REEB_TEST_MEMORY is set";
+  try {
+    runner.run(ComplexMesh(complex), {0, 2, Form::kIndexed});
+    FAIL() << "a graph of this size fits?";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::kResource);
+    EXPECT_NE(error.hint().find("--memory"), std::string::npos);
   }
 }
 

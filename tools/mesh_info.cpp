@@ -15,6 +15,7 @@
 #include "io/format_detection.h"
 #include "io/mesh_io.h"
 #include "ooc/last_use.h"
+#include "ooc/paged_union_find.h"
 #include "ooc/spooled_mesh.h"
 #include "tools/workspace.h"
 
@@ -26,47 +27,27 @@ struct Bounds {
   double max = -std::numeric_limits<double>::infinity();
 };
 
-// Components and use of vertices, by union-find over a table that may be paged.
+// Components and use of vertices.
 class Connection {
  public:
   explicit Connection(Workspace& space)
-      : links_("components", space.temp, space.budget, 2 * space.share(), 0) {}
+      : sets_("components", space.temp, space.budget, space.share()),
+        used_flags_("components", space.temp, space.budget, space.share(), 0) {}
 
-  void add_vertices(std::uint64_t count) { components_ += count; }
-  void join(VertexId a, VertexId b) {
-    const std::uint64_t x = root(a.value()), y = root(b.value());
-    if (x == y) return;
-    set_parent(std::max(x, y), std::min(x, y));
-    --components_;
-  }
-  // Says whether `v` was used for the first time.
+  void add_vertices(std::uint64_t count) { vertices_ += count; }
+  void join(VertexId a, VertexId b) { sets_.unite(a.value(), b.value()); }
   void use(VertexId v) {
-    std::uint64_t& link = links_.change(v.value());
-    used_ += (link & 1) == 0;
-    link |= 1;
+    std::uint8_t& flag = used_flags_.change(v.value());
+    used_ += flag == 0;
+    flag = 1;
   }
-  std::uint64_t components() const { return components_; }
+  std::uint64_t components() const { return vertices_ - sets_.unions(); }
   std::uint64_t used() const { return used_; }
 
  private:
-  // A link is the parent, told from the vertex itself so that a fresh entry is its own root, over
-  // one bit for "used".
-  std::uint64_t parent(std::uint64_t v) { return links_.get(v) >> 1 ^ v; }
-  void set_parent(std::uint64_t v, std::uint64_t parent) {
-    std::uint64_t& link = links_.change(v);
-    link = (parent ^ v) << 1 | (link & 1);
-  }
-  std::uint64_t root(std::uint64_t v) {
-    for (std::uint64_t above; (above = parent(v)) != v;) {
-      const std::uint64_t next = parent(above);
-      if (next != above) set_parent(v, next);
-      v = next;
-    }
-    return v;
-  }
-
-  ooc::PagedTable<std::uint64_t> links_;
-  std::uint64_t components_ = 0, used_ = 0;
+  ooc::PagedUnionFind sets_;
+  ooc::PagedTable<std::uint8_t> used_flags_;
+  std::uint64_t vertices_ = 0, used_ = 0;
 };
 
 // Streams event by event, so that their front is measured exactly.

@@ -1,33 +1,19 @@
 // SMB and SVB.
 #include "io/streaming/block_head.h"
-#include "io/streaming/cell_hold.h"
-#include "io/streaming/stream_output.h"
-#include "io/streaming/stream_writer.h"
+#include "io/streaming/held_cell_writer.h"
 
 namespace reeb::io {
 namespace {
 
-class BlockWriter : public StreamWriter {
+class BlockWriter : public HeldCellWriter {
  public:
+  // The readers' order of finalizations in a cell is not the file's to say.
   BlockWriter(std::ostream& out, const StreamHeader& header)
-      : out_(out), header_(header), words_(header.volume ? 4 : 3) {
+      : HeldCellWriter(out, header, false), words_(header.volume ? 4 : 3) {
     if (header.volume && (header.vertex_floats + header.vertex_ints > 4 || header.cell_floats > 0 ||
                           header.cell_ints > 0))
       fail_format("SVB holds one value a vertex and none a cell", "write SVA instead");
     write_head();
-  }
-
-  void write(const StreamEvent& event) override {
-    switch (event.kind) {
-      case EventKind::kVertex:
-        return write_vertex(event);
-      case EventKind::kTriangle:
-      case EventKind::kTetrahedron:
-        return write_cell(event);
-      case EventKind::kFinalized:
-        if (!post_order_ && !held_.finalize(event.vertex, false)) ++dropped_;
-        return;
-    }
   }
 
   // A last block without elements is written too: old readers expect it.
@@ -76,43 +62,29 @@ class BlockWriter : public StreamWriter {
     std::ostream& stream = out_.stream();
     const std::streampos end = stream.tellp();
     stream.seekp(counts_at_);
-    out_.append_word(header_.vertex_count.value_or(vertices_));
-    out_.append_word(header_.cell_count.value_or(cells_));
+    out_.append_word(header_.vertex_count.value_or(vertices()));
+    out_.append_word(header_.cell_count.value_or(cells()));
     out_.flush();
     stream.seekp(end);
   }
 
-  void write_vertex(const StreamEvent& event) {
-    write_held();
-    started_ = true;
+  void write_vertex(const StreamEvent& vertex) override {
     std::array<std::uint32_t, 4> words{};
     std::size_t used = 0;
     for (unsigned i = 0; i < header_.vertex_floats; ++i)
-      words[used++] = std::bit_cast<std::uint32_t>(event.floats[i]);
+      words[used++] = std::bit_cast<std::uint32_t>(vertex.floats[i]);
     for (unsigned i = 0; i < header_.vertex_ints; ++i)
-      words[used++] = static_cast<std::uint32_t>(event.ints[i]);
+      words[used++] = static_cast<std::uint32_t>(vertex.ints[i]);
     write_element(words, true);
-    ++vertices_;
   }
 
-  void write_cell(const StreamEvent& event) {
-    require_cell_kind(event.kind, header_.volume);
-    write_held();
-    if (!started_) post_order_ = true;
-    started_ = true;
-    held_.put(event);
-  }
-
-  void write_held() {
-    if (!held_.full()) return;
+  void write_cell(const StreamEvent& /*cell*/, std::span<const std::int32_t> corners) override {
     std::array<std::uint32_t, 4> words{};
-    for (std::size_t k = 0; k < words_; ++k)
-      words[k] =
-          held_.is_final(k) ? held_.cell().corners[k] - vertices_ : held_.cell().corners[k] + 1;
+    for (std::size_t k = 0; k < corners.size(); ++k) words[k] = static_cast<std::uint32_t>(corners[k]);
     write_element(words, false);
-    ++cells_;
-    held_.clear();
   }
+
+  void write_finalized(std::uint32_t /*vertex*/) override { ++dropped_; }
 
   void write_element(const std::array<std::uint32_t, 4>& words, bool vertex) {
     for (std::size_t k = 0; k < words_; ++k) block_[elements_ * words_ + k] = words[k];
@@ -128,17 +100,12 @@ class BlockWriter : public StreamWriter {
     out_.flush_if_full();
   }
 
-  StreamOutput out_;
-  StreamHeader header_;
   std::size_t words_;  // 32-bit words of an element, and corners of a cell
-  CellHold held_;
   std::streampos counts_at_;
   std::array<std::uint32_t, 4 * kBlockElements> block_{};
   std::uint32_t descriptor_ = 0;
   std::size_t elements_ = 0;
-  std::uint32_t vertices_ = 0, cells_ = 0;
   std::uint64_t dropped_ = 0;
-  bool started_ = false, post_order_ = false;
 };
 
 }  // namespace

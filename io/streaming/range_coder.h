@@ -59,6 +59,19 @@ class RangeDecoder {
     return symbol;
   }
 
+  // As code(), for a small model of two symbols: a comparison takes the place of division and search.
+  bool bit(AdaptiveModel& model, bool = false) {
+    normalize();
+    const std::uint32_t first = (range_ >> kSmallModel.bits) * model.below(1);
+    const bool symbol = low_ >= first;
+    low_ -= symbol ? first : 0;
+    range_ = symbol ? range_ - first : first;
+    if (low_ >= range_) [[unlikely]]
+      fail_damaged();
+    model.update(symbol ? 1 : 0);
+    return symbol;
+  }
+
   // After the last symbol. THROWS: TRUNCATED; CORRUPT if the stored length is not the true one.
   void finish();
 
@@ -101,6 +114,7 @@ class RangeEncoder {
   std::uint32_t uniform(std::uint32_t size, std::uint32_t symbol);
   std::uint32_t word(std::uint32_t value);
   std::uint32_t code(AdaptiveModel& model, std::uint32_t symbol);
+  bool bit(AdaptiveModel& model, bool symbol) { return code(model, symbol ? 1 : 0) != 0; }
   // Writes what is held back, and the length of the stream.
   void finish();
 

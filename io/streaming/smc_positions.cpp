@@ -41,10 +41,9 @@ float FloatAxis::code(Coder& coder, Prediction kind, float predicted, float valu
   exponent = coder.code(ready(models.exponent[predicted_exponent], 256), exponent);
   if (keep_[exponent] < 0) return 0.0f;
 
-  const std::uint32_t predicted_sign = blind ? 0 : bits_of(predicted) >> 31;
-  AdaptiveModel& sign_model = ready(models.sign[blind ? 0 : exponent], 2);
-  const std::uint32_t sign =
-      coder.code(sign_model, (bits_of(value) >> 31) ^ predicted_sign) ^ predicted_sign;
+  const bool predicted_sign = !blind && std::signbit(predicted);
+  const bool sign = coder.bit(ready(models.sign[blind ? 0 : exponent], 2),
+                              std::signbit(value) != predicted_sign) != predicted_sign;
   std::int32_t predicted_mantissa = 0;
   if (!blind && sign == predicted_sign) {
     if (exponent == predicted_exponent) predicted_mantissa = mantissa_of(predicted);
@@ -53,7 +52,7 @@ float FloatAxis::code(Coder& coder, Prediction kind, float predicted, float valu
   const std::uint32_t mantissa =
       code_mantissa(coder, models, exponent, predicted_mantissa, mantissa_of(value));
   if (exponent == 255) fail(Fault::kBadNumber, "a coordinate is not finite", {});
-  const float result = std::bit_cast<float>((sign << 31) | (exponent << 23) | mantissa);
+  const float result = std::bit_cast<float>((sign ? 1u << 31 : 0u) | (exponent << 23) | mantissa);
   if (precision_ > 0) widen(result);
   return result;
 }
@@ -86,12 +85,11 @@ std::uint32_t FloatAxis::code_mantissa(Coder& coder, Models& models, std::uint32
     magnitude = 0;
   }
   if (magnitude > 0) {
-    const bool negative = coder.code(ready(negative_[exponent], 2), correction < 0 ? 1u : 0u) != 0;
+    const bool negative = coder.bit(ready(negative_[exponent], 2), correction < 0);
     correction = static_cast<std::int32_t>(magnitude << drop);
     if (negative) correction = -correction;
   } else {
-    const bool extreme =
-        coder.code(ready(zero_or_extreme_[exponent], 2), correction == kExtreme ? 1u : 0u) != 0;
+    const bool extreme = coder.bit(ready(zero_or_extreme_[exponent], 2), correction == kExtreme);
     correction = extreme ? kExtreme : 0;
   }
   return static_cast<std::uint32_t>(((predicted & mask) + correction) & (kMantissaSize - 1));

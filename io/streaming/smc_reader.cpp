@@ -69,7 +69,7 @@ bool SmcEventReader::read_triangle() {
   std::uint32_t operation = 0;
   if (state_.open_edges() > 0)
     operation = decoder_->code(models_.operation[state_.context()]);
-  else if (decoder_->code(models_.done) == 1)
+  else if (decoder_->bit(models_.done))
     return false;
 
   SmcState::Triangle triangle;
@@ -203,7 +203,7 @@ void SmcEventReader::deliver(const SmcState::Triangle& triangle, SmcOperation op
   state_.apply(triangle, operation);
   for (const std::uint32_t slot : corners) {
     const SmcVertex& vertex = state_.vertex(slot);
-    if (decoder_->code(models_.final_at(vertex.edges.size, vertex.uses)) == 0) continue;
+    if (!decoder_->bit(models_.final_at(vertex.edges.size, vertex.uses))) continue;
     push_finalized(vertex.index);
     state_.finalize(slot);
   }

@@ -2,9 +2,7 @@
 #include <array>
 #include <charconv>
 
-#include "io/streaming/cell_hold.h"
-#include "io/streaming/stream_output.h"
-#include "io/streaming/stream_writer.h"
+#include "io/streaming/held_cell_writer.h"
 
 namespace reeb::io {
 namespace {
@@ -28,22 +26,10 @@ void append_number(std::string& out, float value) {
   out.append(text.data(), end);
 }
 
-class TextWriter : public StreamWriter {
+class TextWriter : public HeldCellWriter {
  public:
-  TextWriter(std::ostream& out, const StreamHeader& header) : out_(out), header_(header) {
+  TextWriter(std::ostream& out, const StreamHeader& header) : HeldCellWriter(out, header, true) {
     write_head();
-  }
-
-  void write(const StreamEvent& event) override {
-    switch (event.kind) {
-      case EventKind::kVertex:
-        return write_vertex(event);
-      case EventKind::kTriangle:
-      case EventKind::kTetrahedron:
-        return write_cell(event);
-      case EventKind::kFinalized:
-        return write_finalized(event.vertex);
-    }
   }
 
   void close() override {
@@ -89,46 +75,28 @@ class TextWriter : public StreamWriter {
     out_.text() += '\n';
   }
 
-  void write_vertex(const StreamEvent& event) {
-    write_held();
-    started_ = true;
-    std::string& text = out_.text();
-    text += 'v';
-    append_values(event, header_.vertex_floats, header_.vertex_ints);
-    text += '\n';
-    ++vertices_;
-    out_.flush_if_full();
+  void write_vertex(const StreamEvent& vertex) override {
+    out_.text() += 'v';
+    append_values(vertex, header_.vertex_floats, header_.vertex_ints);
+    end_line();
   }
 
-  void write_cell(const StreamEvent& event) {
-    require_cell_kind(event.kind, header_.volume);
-    write_held();
-    if (!started_) post_order_ = true;
-    started_ = true;
-    held_.put(event);
+  void write_cell(const StreamEvent& cell, std::span<const std::int32_t> corners) override {
+    out_.text() += header_.volume ? 'c' : 'f';
+    for (const std::int32_t corner : corners) append_number(out_.text(), std::int64_t{corner});
+    append_values(cell, header_.cell_floats, header_.cell_ints);
+    end_line();
   }
 
-  void write_finalized(std::uint32_t vertex) {
-    if (post_order_ || held_.finalize(vertex, true)) return;
+  void write_finalized(std::uint32_t vertex) override {
     write_held();
     out_.text() += 'x';
     append_number(out_.text(), std::int64_t{vertex} + 1);
-    out_.text() += '\n';
-    out_.flush_if_full();
+    end_line();
   }
 
-  void write_held() {
-    if (!held_.full()) return;
-    std::string& text = out_.text();
-    const StreamEvent& cell = held_.cell();
-    text += header_.volume ? 'c' : 'f';
-    for (std::size_t k = 0; k < (header_.volume ? 4 : 3); ++k)
-      append_number(text, held_.is_final(k)
-                              ? std::int64_t{cell.corners[k]} - std::int64_t{vertices_}
-                              : std::int64_t{cell.corners[k]} + 1);
-    append_values(cell, header_.cell_floats, header_.cell_ints);
-    text += '\n';
-    held_.clear();
+  void end_line() {
+    out_.text() += '\n';
     out_.flush_if_full();
   }
 
@@ -136,12 +104,6 @@ class TextWriter : public StreamWriter {
     for (unsigned i = 0; i < floats; ++i) append_number(out_.text(), event.floats[i]);
     for (unsigned i = 0; i < ints; ++i) append_number(out_.text(), std::int64_t{event.ints[i]});
   }
-
-  StreamOutput out_;
-  StreamHeader header_;
-  CellHold held_;
-  std::uint32_t vertices_ = 0;
-  bool started_ = false, post_order_ = false;
 };
 
 }  // namespace

@@ -35,6 +35,9 @@ class GrowingArray {
     most_ = std::max(most_, size_);
   }
 
+  // Keeps the memory.
+  void clear() { size_ = 0; }
+
   void save(StateWriter& out) const { out.put_array(std::span<const T>(data_.get(), size_)); }
   void restore(StateReader& in) {
     size_ = 0;

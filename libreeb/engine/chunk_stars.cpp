@@ -4,59 +4,75 @@
 #include <utility>
 
 namespace reeb {
+namespace {
 
-// The triangle at `place` by ranks; lo == hi for a loose vertex.
-ChunkStars::Triangle ChunkStars::sorted(const Chunk& chunk, std::uint32_t place) const {
-  const std::uint32_t* corners = &chunk.corners[3 * std::size_t{place}];
-  const std::uint32_t a = rank_[corners[0]], b = rank_[corners[1]], c = rank_[corners[2]];
-  // Without branches, since none could be foretold.
-  const std::uint32_t lo = std::min(std::min(a, b), c), hi = std::max(std::max(a, b), c);
-  const std::uint32_t mid = a ^ b ^ c ^ lo ^ hi;
-  return {lo, mid == lo ? hi : mid, hi, place};
-}
+// Ranks of a triangle's corners; lo == hi for a loose vertex, mid == hi for an edge.
+struct SortedCorners {
+  SortedCorners(const std::uint32_t* rank, const std::uint32_t* corners) {
+    const std::uint32_t a = rank[corners[0]], b = rank[corners[1]], c = rank[corners[2]];
+    // Without branches, since none could be foretold.
+    lo = std::min(std::min(a, b), c);
+    hi = std::max(std::max(a, b), c);
+    const std::uint32_t rest = a ^ b ^ c ^ lo ^ hi;
+    mid = rest == lo ? hi : rest;
+  }
+  std::uint32_t lo, mid, hi;
+};
 
-// Leaves begins_[v + 1] where the lists of v begin, so that filling them advances it to their end.
-void ChunkStars::count(const Chunk& chunk) {
-  begins_.assign(chunk.vertex_count() + 1, {0, 0, 0});
-  const auto places = static_cast<std::uint32_t>(chunk.triangle_count());
-  for (std::uint32_t place = 0; place < places; ++place) {
-    const Triangle t = sorted(chunk, place);
-    if (t.lo == t.hi) continue;
-    ++begins_[t.lo + 1].low;
-    begins_[t.mid + 1].mid += t.mid != t.hi;
-    ++begins_[t.hi + 1].high;
-  }
-  Begins sum{0, 0, 0};
-  for (Begins& begin : begins_) {
-    sum.low += std::exchange(begin.low, sum.low);
-    sum.mid += std::exchange(begin.mid, sum.mid);
-    sum.high += std::exchange(begin.high, sum.high);
-  }
-  triangles_.resize(sum.low);
-  mid_list_.resize(sum.mid);
-  high_list_.resize(sum.high);
-}
+}  // namespace
 
 void ChunkStars::build(const Chunk& chunk, std::span<const std::uint32_t> order) {
   rank_.resize(chunk.vertex_count());
   for (std::uint32_t r = 0; r < order.size(); ++r) rank_[order[r]] = r;
   count(chunk);
+  fill(chunk);
+}
+
+// Leaves ends_[v + 1] where the triangles and lists of v begin, so that filling them advances it to
+// their end.
+void ChunkStars::count(const Chunk& chunk) {
+  ends_.assign(chunk.vertex_count() + 1, {0, 0, 0});
+  Ends* const counts = ends_.data() + 1;
+  const std::uint32_t* const rank = rank_.data();
+  const std::uint32_t* corners = chunk.corners.data();
+  for (std::size_t left = chunk.triangle_count(); left > 0; --left, corners += 3) {
+    const SortedCorners t(rank, corners);
+    if (t.lo == t.hi) continue;
+    ++counts[t.lo].low;
+    counts[t.mid].mid += t.mid != t.hi;
+    ++counts[t.hi].high;
+  }
+  std::uint32_t triangles = 0, listed = 0;
+  for (Ends& begin : ends_) {
+    triangles += std::exchange(begin.low, triangles);
+    listed += std::exchange(begin.mid, listed);
+    listed += std::exchange(begin.high, listed);
+  }
+  triangles_.resize(triangles);
+  lists_.resize(listed);
+}
+
+void ChunkStars::fill(const Chunk& chunk) {
+  Ends* const next = ends_.data() + 1;
+  Triangle* const triangles = triangles_.data();
+  std::uint32_t* const lists = lists_.data();
+  const std::uint32_t* const rank = rank_.data();
+  const std::uint32_t* corners = chunk.corners.data();
   const auto places = static_cast<std::uint32_t>(chunk.triangle_count());
-  for (std::uint32_t place = 0; place < places; ++place) {
-    const Triangle triangle = sorted(chunk, place);
-    if (triangle.lo == triangle.hi) continue;
-    const std::uint32_t t = begins_[triangle.lo + 1].low++;
-    triangles_[t] = triangle;
-    if (triangle.mid != triangle.hi) mid_list_[begins_[triangle.mid + 1].mid++] = t;
-    high_list_[begins_[triangle.hi + 1].high++] = t;
+  for (std::uint32_t place = 0; place < places; ++place, corners += 3) {
+    const SortedCorners sorted(rank, corners);
+    if (sorted.lo == sorted.hi) continue;
+    const std::uint32_t t = next[sorted.lo].low++;
+    triangles[t] = {sorted.lo, sorted.mid, sorted.hi, place};
+    if (sorted.mid != sorted.hi) lists[next[sorted.mid].mid++] = t;
+    lists[next[sorted.hi].high++] = t;
   }
 }
 
 std::uint32_t ChunkStars::last_place(std::uint32_t v) const {
   std::uint32_t last = 0;
   for (std::uint32_t t = low_first(v); t < low_last(v); ++t) last = std::max(last, triangles_[t].place);
-  for (const std::uint32_t t : middles(v)) last = std::max(last, triangles_[t].place);
-  for (const std::uint32_t t : highs(v)) last = std::max(last, triangles_[t].place);
+  for (const std::uint32_t t : middles_and_highs(v)) last = std::max(last, triangles_[t].place);
   return last;
 }
 

@@ -26,34 +26,37 @@ class ChunkStars {
   std::size_t triangle_count() const { return triangles_.size(); }
   const Triangle& operator[](std::uint32_t t) const { return triangles_[t]; }
   // The triangles in which rank v is lowest: low_first(v), ... low_last(v) - 1.
-  std::uint32_t low_first(std::uint32_t v) const { return begins_[v].low; }
-  std::uint32_t low_last(std::uint32_t v) const { return begins_[v + 1].low; }
+  std::uint32_t low_first(std::uint32_t v) const { return ends_[v].low; }
+  std::uint32_t low_last(std::uint32_t v) const { return ends_[v + 1].low; }
   std::span<const std::uint32_t> middles(std::uint32_t v) const {
-    return {mid_list_.data() + begins_[v].mid, begins_[v + 1].mid - begins_[v].mid};
+    return {lists_.data() + ends_[v].high, ends_[v + 1].mid - ends_[v].high};
   }
-  std::span<const std::uint32_t> highs(std::uint32_t v) const {
-    return {high_list_.data() + begins_[v].high, begins_[v + 1].high - begins_[v].high};
+  // Those in which rank v is not lowest: the middles first.
+  std::span<const std::uint32_t> middles_and_highs(std::uint32_t v) const {
+    return {lists_.data() + ends_[v].high, ends_[v + 1].high - ends_[v].high};
   }
   // The last place in the stream at which rank v is used; 0 if nowhere.
   std::uint32_t last_place(std::uint32_t v) const;
 
   std::size_t memory_bytes() const {
-    return triangles_.capacity() * sizeof(Triangle) + begins_.capacity() * sizeof(Begins) +
-           4 * (rank_.capacity() + mid_list_.capacity() + high_list_.capacity());
+    return triangles_.capacity() * sizeof(Triangle) + ends_.capacity() * sizeof(Ends) +
+           4 * (rank_.capacity() + lists_.capacity());
   }
 
  private:
-  struct Begins {
+  // Where those end in which a vertex is lowest (among the triangles), and in which it is middle and
+  // then highest (in the lists).
+  struct Ends {
     std::uint32_t low, mid, high;
   };
 
-  Triangle sorted(const Chunk& chunk, std::uint32_t place) const;
   void count(const Chunk& chunk);
+  void fill(const Chunk& chunk);
 
   std::vector<std::uint32_t> rank_;  // of each local vertex
   std::vector<Triangle> triangles_;
-  std::vector<Begins> begins_;  // one a rank, plus the end
-  std::vector<std::uint32_t> mid_list_, high_list_;
+  std::vector<Ends> ends_;  // of rank v at v + 1, before it zeros
+  std::vector<std::uint32_t> lists_;
 };
 
 }  // namespace reeb

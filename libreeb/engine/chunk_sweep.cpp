@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -13,25 +14,28 @@ namespace reeb {
 namespace {
 
 constexpr std::uint32_t kNone = ~std::uint32_t{0};
+// Positions lie in the order of the stream: so many vertices ahead of the sweep they are asked for.
+constexpr std::uint32_t kPrefetched = 16;
 
-// A triangle while it crosses the level, by two of its edges: lo-hi, and lo-mid up to its middle
-// vertex, mid-hi from there on. Each is a half-edge 2 * t + (0 or 1), in a ring with those of the
-// other triangles at the same mesh edge.
-struct Crossing {
-  std::array<std::uint32_t, 2> next;  // half-edge
-  std::uint32_t label;
-};
-
+// The triangles that cross the level, each by two of its edges: lo-hi, and lo-mid up to its middle
+// vertex, mid-hi from there on. These are its half-edges 2 * t and 2 * t + 1, each in a ring with
+// those of the other triangles at the same mesh edge.
 class Crossings {
  public:
-  void reset(std::size_t triangles) { crossings_.resize(triangles); }
-  std::uint32_t& next(std::uint32_t half) { return crossings_[half / 2].next[half % 2]; }
-  std::uint32_t& label(std::uint32_t t) { return crossings_[t].label; }
-  const Crossing& operator[](std::uint32_t t) const { return crossings_[t]; }
-  std::size_t memory_bytes() const { return crossings_.capacity() * sizeof(Crossing); }
+  void reset(std::size_t triangles) { halves_.resize(2 * triangles); }
+  std::uint32_t& next(std::uint32_t half) { return halves_[half].next; }
+  std::uint32_t next(std::uint32_t half) const { return halves_[half].next; }
+  std::uint32_t& label(std::uint32_t t) { return halves_[2 * std::size_t{t}].label; }
+  std::uint32_t label(std::uint32_t t) const { return halves_[2 * std::size_t{t}].label; }
+  std::size_t memory_bytes() const { return halves_.capacity() * sizeof(Half); }
 
  private:
-  std::vector<Crossing> crossings_;
+  // Label and rings of a triangle lie side by side, since a walk asks for all of them.
+  struct Half {
+    std::uint32_t next;
+    std::uint32_t label;  // of the triangle, in its first half-edge
+  };
+  std::vector<Half> halves_;
 };
 
 // The edges up from the vertex at hand, numbered in order of discovery, and their groups: edges
@@ -43,34 +47,41 @@ class UpwardEdges {
     first_ = 1;
     count_ = 0;
   }
-  // The next vertex has at most so many half-edges up.
-  void start(std::size_t half_edges) {
-    first_ += count_;
-    count_ = groups_ = 0;
-    if (edges_.size() < half_edges) edges_.resize(half_edges);
-  }
+  // Takes the edges up from v, makes the rings of their half-edges, and unites edges of one triangle.
+  void collect(std::uint32_t v, const ChunkStars& stars, Crossings& crossings) {
+    const std::uint32_t low_first = stars.low_first(v), low_last = stars.low_last(v);
+    const auto middles = stars.middles(v);
+    const std::size_t most = middles.size() + 2 * std::size_t{low_last - low_first};
+    if (edges_.size() < most) edges_.resize(most);
+    const std::uint32_t first = first_ + count_;
+    std::uint32_t count = 0, groups = 0;  // kept out of reach of what is written through pointers
 
-  // Enters a half-edge up to `hi` and links it into the ring of its edge; returns the edge.
-  std::uint32_t touch(std::uint32_t hi, std::uint32_t half, Crossings& crossings) {
-    std::uint32_t& number = edge_of_[hi];
-    if (number >= first_) {
-      Edge& edge = edges_[number - first_];
-      crossings.next(half) = std::exchange(crossings.next(edge.head), half);
-      return number - first_;
+    // Enters a half-edge up to `hi` and links it into the ring of its edge; returns the edge.
+    const auto touch = [&](std::uint32_t hi, std::uint32_t half) {
+      std::uint32_t& number = edge_of_[hi];
+      if (number >= first) {
+        const std::uint32_t e = number - first;
+        crossings.next(half) = std::exchange(crossings.next(edges_[e].head), half);
+        return e;
+      }
+      const std::uint32_t e = count++;
+      number = first + e;
+      edges_[e] = {hi, half, e};
+      crossings.next(half) = half;
+      ++groups;
+      return e;
+    };
+    for (const std::uint32_t t : middles) touch(stars[t].hi, 2 * t + 1);
+    for (std::uint32_t t = low_first; t < low_last; ++t) {
+      const std::uint32_t to_hi = touch(stars[t].hi, 2 * t);
+      if (stars[t].mid == stars[t].hi)
+        crossings.next(2 * t + 1) = 2 * t + 1;
+      else if (unite(to_hi, touch(stars[t].mid, 2 * t + 1)))
+        --groups;
     }
-    const std::uint32_t e = count_++;
-    number = first_ + e;
-    edges_[e] = {hi, half, e};
-    crossings.next(half) = half;
-    ++groups_;
-    return e;
-  }
-  void unite(std::uint32_t a, std::uint32_t b) {
-    a = group(a);
-    b = group(b);
-    if (a == b) return;
-    edges_[std::max(a, b)].parent = std::min(a, b);
-    --groups_;
+    first_ = first;
+    count_ = count;
+    groups_ = groups;
   }
 
   std::uint32_t count() const { return count_; }
@@ -91,6 +102,15 @@ class UpwardEdges {
   struct Edge {
     std::uint32_t hi, head, parent;
   };
+
+  // True if they were in different groups.
+  bool unite(std::uint32_t a, std::uint32_t b) {
+    a = group(a);
+    b = group(b);
+    edges_[std::max(a, b)].parent = std::min(a, b);
+    return a != b;
+  }
+
   std::vector<std::uint32_t> edge_of_;  // by rank: first_ + edge; of earlier vertices if less
   std::uint32_t first_ = 1;
   std::vector<Edge> edges_;  // count_ of them
@@ -127,6 +147,38 @@ class Labels {
   std::vector<Label> labels_;
 };
 
+// The bucket in which the sweep is. It only rises, so where the next one begins is searched for
+// once a bucket.
+class RisingBucket {
+ public:
+  RisingBucket() = default;
+  RisingBucket(const SweptChunk& swept, const SweepOptions& options)
+      : swept_(&swept), is_wanted_(options.bucket_exponent), exponent_(options.bucket_exponent.value_or(0)) {}
+
+  bool is_wanted() const { return is_wanted_; }
+  // The bucket of the vertex of this rank, which is not less than before.
+  std::int64_t at(std::uint32_t v) {
+    if (v >= end_) advance(v);
+    return index_;
+  }
+
+ private:
+  void advance(std::uint32_t v) {
+    index_ = bucket_index(swept_->value(v), exponent_);
+    const double end = std::ldexp(static_cast<double>(index_ + 1), exponent_);
+    const auto rest = swept_->order.subspan(v + 1);
+    const auto next = std::partition_point(
+        rest.begin(), rest.end(), [&](std::uint32_t i) { return swept_->values[i] < end; });
+    end_ = v + 1 + static_cast<std::uint32_t>(next - rest.begin());
+  }
+
+  const SweptChunk* swept_ = nullptr;
+  bool is_wanted_ = false;
+  int exponent_ = 0;
+  std::int64_t index_ = 0;
+  std::uint32_t end_ = 0;  // rank of the first vertex of a later bucket
+};
+
 // One group of upward edges during a walk: a queue whose triangles before `visited` were visited.
 struct Side {
   std::vector<std::uint32_t> queue;
@@ -154,10 +206,9 @@ struct ChunkSweep::Scratch {
   std::size_t memory_bytes() const;
 
  private:
-  void reset();
+  void reset(const SweepOptions& options);
   void visit(std::uint32_t v);
   void collect_below(std::uint32_t v);
-  void group_above(std::uint32_t v);
   void end_arcs_below(std::uint32_t node);
   void label_lows(std::uint32_t v, std::uint32_t label);
   void start_arcs(std::uint32_t v, std::uint32_t node);
@@ -180,7 +231,9 @@ struct ChunkSweep::Scratch {
   }
 
   const Chunk* chunk = nullptr;
+  const SweptChunk* swept = nullptr;
   VertexRanks ranks;
+  RisingBucket bucket;
   ChunkStars stars;
   FragmentBuilder builder;
 
@@ -215,20 +268,26 @@ void ChunkSweep::Scratch::run(const Chunk& chunk_in, std::span<const double> val
   chunk = &chunk_in;
   ranks.sort(values, chunk->ids);
   stars.build(*chunk, ranks.order());
-  reset();
+  reset(options);
+  const SweptChunk swept_chunk{*chunk, values, ranks.order(), stars};
+  swept = &swept_chunk;
+  bucket = RisingBucket(swept_chunk, options);
   const auto n = static_cast<std::uint32_t>(chunk->vertex_count());
-  for (std::uint32_t v = 0; v < n; ++v) visit(v);
-  builder.finish({*chunk, values, ranks.order(), stars}, options, fragment);
+  for (std::uint32_t v = 0; v < n; ++v) {
+    if (bucket.is_wanted()) swept_chunk.prefetch_position(v + kPrefetched);
+    visit(v);
+  }
+  builder.finish(swept_chunk, fragment);
 }
 
-void ChunkSweep::Scratch::reset() {
+void ChunkSweep::Scratch::reset(const SweepOptions& options) {
   const std::size_t n = chunk->vertex_count();
   uses.resize(n);
   for (std::size_t r = 0; r < n; ++r) uses[r] = chunk->uses[ranks.order()[r]];
   crossings.reset(stars.triangle_count());
   labels.clear();
   up.reset(n);
-  builder.start(n);
+  builder.start(n, options);
 }
 
 std::size_t ChunkSweep::Scratch::memory_bytes() const {
@@ -241,12 +300,13 @@ std::size_t ChunkSweep::Scratch::memory_bytes() const {
 void ChunkSweep::Scratch::visit(std::uint32_t v) {
   builder.reach(v);
   collect_below(v);
-  group_above(v);
+  up.collect(v, stars, crossings);
   const bool walks = up.groups() > 1 && !below.empty();
   const bool joined = up.groups() == 1 || (walks && walk(v) == 1);
   const bool shared = uses[v] != kUsedHereOnly;
   if (joined && below.size() == 1 && !shared) {  // a regular vertex
     label_lows(v, below[0]);
+    if (bucket.is_wanted()) builder.add_regular(labels.arc(below[0]), bucket.at(v), swept->position(v));
     return;
   }
   const std::uint32_t node = builder.add_node(v);
@@ -266,29 +326,12 @@ void ChunkSweep::Scratch::visit(std::uint32_t v) {
 void ChunkSweep::Scratch::collect_below(std::uint32_t v) {
   below.clear();
   std::uint32_t last = kNone;
-  const auto collect = [&](std::span<const std::uint32_t> triangles) {
-    for (const std::uint32_t t : triangles) {
-      const std::uint32_t root = labels.find(crossings.label(t));
-      if (root == last) continue;
-      last = root;
-      if (labels.mark(root, v)) below.push_back(root);
-    }
-  };
-  collect(stars.middles(v));
-  collect(stars.highs(v));
-}
-
-void ChunkSweep::Scratch::group_above(std::uint32_t v) {
-  const std::uint32_t first = stars.low_first(v), last = stars.low_last(v);
-  const auto middles = stars.middles(v);
-  up.start(middles.size() + 2 * std::size_t{last - first});
-  for (const std::uint32_t t : middles) up.touch(stars[t].hi, 2 * t + 1, crossings);
-  for (std::uint32_t t = first; t < last; ++t) {
-    const std::uint32_t to_hi = up.touch(stars[t].hi, 2 * t, crossings);
-    if (stars[t].mid == stars[t].hi)
-      crossings.next(2 * t + 1) = 2 * t + 1;
-    else
-      up.unite(to_hi, up.touch(stars[t].mid, 2 * t + 1, crossings));
+  for (const std::uint32_t t : stars.middles_and_highs(v)) {
+    const std::uint32_t label = crossings.label(t);
+    if (label == last) continue;
+    last = label;
+    const std::uint32_t root = labels.find(label);
+    if (labels.mark(root, v)) below.push_back(root);
   }
 }
 
@@ -422,8 +465,8 @@ void ChunkSweep::Scratch::seed_sides(std::uint32_t v) {
 void ChunkSweep::Scratch::step(std::uint32_t s) {
   Side& side = sides[s];
   const std::uint32_t t = side.queue[side.visited++];
-  for (const std::uint32_t half : crossings[t].next) {
-    const std::uint32_t beyond = half / 2;
+  for (const std::uint32_t half : {2 * t, 2 * t + 1}) {
+    const std::uint32_t beyond = crossings.next(half) / 2;
     const std::uint32_t label = crossings.label(beyond);
     if (label < first_side) {
       enter(beyond, s);

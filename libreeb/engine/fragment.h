@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "libreeb/engine/bucket_sums.h"
 #include "libreeb/engine/sweep_options.h"
 #include "libreeb/graph/reeb_graph.h"
 #include "libreeb/port/graph_sink.h"
@@ -34,6 +35,9 @@ struct Fragment {
     std::uint32_t lo, hi;
   };
   std::vector<Arc> arcs;
+  // Their embedding, or empty; buckets of arc i: buckets[bucket_begin[i] .. bucket_begin[i + 1]).
+  std::vector<std::uint32_t> bucket_begin;
+  std::vector<BucketSum> buckets;
 
   // Shared edges; path of edge i: path_arcs[path_begin[i] .. path_begin[i + 1]), from above.
   struct SharedEdge {
@@ -55,6 +59,8 @@ struct Fragment {
   // What nothing can change any more.
   std::vector<SettledNode> settled_nodes;
   std::vector<ArcKeys> settled_arcs;
+  std::vector<std::uint32_t> settled_bucket_counts;  // one an arc, or empty
+  std::vector<Bucket> settled_buckets;
 
   std::size_t triangle_count = 0;  // of the chunk
 
@@ -65,12 +71,16 @@ struct Fragment {
     nodes.clear();
     positions.clear();
     arcs.clear();
+    bucket_begin.clear();
+    buckets.clear();
     edges.clear();
     path_begin.clear();
     path_arcs.clear();
     steps.clear();
     settled_nodes.clear();
     settled_arcs.clear();
+    settled_bucket_counts.clear();
+    settled_buckets.clear();
     triangle_count = 0;
   }
 };

@@ -9,8 +9,10 @@ constexpr std::uint32_t kNone = ~std::uint32_t{0};
 
 }  // namespace
 
-void FragmentBuilder::start(std::size_t vertices) {
+void FragmentBuilder::start(std::size_t vertices, const SweepOptions& options) {
+  options_ = options;
   graph_.clear();
+  if (options.bucket_exponent) graph_.buckets.start(*options.bucket_exponent);
   shared_.clear();
   notes_.clear();
   shared_begin_.resize(vertices + 1);
@@ -25,6 +27,7 @@ std::uint32_t FragmentBuilder::add_node(std::uint32_t v) {
 
 std::uint32_t FragmentBuilder::add_arc(std::uint32_t lower_node) {
   graph_.arcs.push_back({lower_node, kNone, kNone, false});
+  if (options_.bucket_exponent) graph_.arc_buckets.emplace_back();
   return static_cast<std::uint32_t>(graph_.arcs.size() - 1);
 }
 
@@ -50,13 +53,12 @@ void FragmentBuilder::note_branch(std::uint32_t lo, std::uint32_t hi, std::uint3
   edge->last_note = note;
 }
 
-void FragmentBuilder::finish(const SweptChunk& swept, const SweepOptions& options,
-                             Fragment& fragment) {
+void FragmentBuilder::finish(const SweptChunk& swept, Fragment& fragment) {
   fragment.clear();
-  fragment.options = options;
+  fragment.options = options_;
   fragment.triangle_count = swept.chunk.triangle_count();
-  if (options.noise_below > 0)
-    fragment.removed_pairs = leaf_removal_.run(graph_, swept, options.noise_below);
+  if (options_.noise_below > 0)
+    fragment.removed_pairs = leaf_removal_.run(graph_, swept, options_.noise_below);
   sort_steps(swept);
   trace_paths(fragment);
   divide(swept, fragment);
@@ -99,7 +101,8 @@ void FragmentBuilder::trace_paths(Fragment& fragment) {
 // without paths; where noise goes, it can change as long as there is any path.
 void FragmentBuilder::find_changing_nodes(const SweptChunk& swept, bool noise_goes) {
   using Side = SweepGraph::Side;
-  auto& [nodes, arcs, leaves] = graph_;
+  auto& nodes = graph_.nodes;
+  auto& arcs = graph_.arcs;
   for (SweepGraph::Node& node : nodes) node.up = node.down = {};
   const auto add = [](Side& side, bool referenced) {
     side.several = side.any;
@@ -122,7 +125,8 @@ void FragmentBuilder::find_changing_nodes(const SweptChunk& swept, bool noise_go
 // runs on it and none of its ends can change; a node leaves when all its arcs do.
 void FragmentBuilder::divide(const SweptChunk& swept, Fragment& fragment) {
   find_changing_nodes(swept, fragment.options.noise_below > 0);
-  auto& [nodes, arcs, leaves] = graph_;
+  auto& nodes = graph_.nodes;
+  auto& arcs = graph_.arcs;
   for (SweepGraph::Node& node : nodes) node.open = node.can_change ? 0 : kNone;
 
   open_arcs_.clear();
@@ -130,7 +134,7 @@ void FragmentBuilder::divide(const SweptChunk& swept, Fragment& fragment) {
     if (arcs[a].lo == kNone) continue;
     SweepGraph::Node &lo = nodes[arcs[a].lo], &hi = nodes[arcs[a].hi];
     if (!arcs[a].referenced && !lo.can_change && !hi.can_change) {
-      fragment.settled_arcs.push_back({swept.key(lo.vertex), swept.key(hi.vertex)});
+      add_settled_arc(swept, a, fragment);
       lo.lost_arcs = hi.lost_arcs = true;
     } else {
       open_arcs_.push_back(a);
@@ -139,6 +143,19 @@ void FragmentBuilder::divide(const SweptChunk& swept, Fragment& fragment) {
   }
   add_nodes(swept, fragment);
   add_arcs(fragment);
+}
+
+void FragmentBuilder::add_settled_arc(const SweptChunk& swept, std::uint32_t arc,
+                                      Fragment& fragment) {
+  const auto key = [&](std::uint32_t node) { return swept.key(graph_.nodes[node].vertex); };
+  fragment.settled_arcs.push_back({key(graph_.arcs[arc].lo), key(graph_.arcs[arc].hi)});
+  if (!options_.bucket_exponent) return;
+  const std::size_t before = fragment.settled_buckets.size();
+  graph_.buckets.drain(graph_.arc_buckets[arc], [&](const BucketSum& bucket) {
+    fragment.settled_buckets.push_back(bucket.mean());
+  });
+  fragment.settled_bucket_counts.push_back(
+      static_cast<std::uint32_t>(fragment.settled_buckets.size() - before));
 }
 
 // Open nodes, and arcs and edges too, are numbered in the order of the stream, not of the sweep:
@@ -173,6 +190,19 @@ void FragmentBuilder::add_arcs(Fragment& fragment) {
     fragment.arcs[graph_.arcs[a].open] = {lo, graph_.nodes[graph_.arcs[a].hi].open};
   }
   for (std::uint32_t& arc : fragment.path_arcs) arc = graph_.arcs[arc].open;
+  if (options_.bucket_exponent) add_buckets(fragment);
+}
+
+void FragmentBuilder::add_buckets(Fragment& fragment) {
+  arc_at_.resize(open_arcs_.size());
+  for (const std::uint32_t a : open_arcs_) arc_at_[graph_.arcs[a].open] = a;
+  fragment.bucket_begin.push_back(0);
+  for (const std::uint32_t a : arc_at_) {
+    graph_.buckets.drain(graph_.arc_buckets[a], [&](const BucketSum& bucket) {
+      fragment.buckets.push_back(bucket);
+    });
+    fragment.bucket_begin.push_back(static_cast<std::uint32_t>(fragment.buckets.size()));
+  }
 }
 
 void FragmentBuilder::add_steps(Fragment& fragment) {
@@ -192,7 +222,7 @@ std::size_t FragmentBuilder::memory_bytes() const {
          shared_.capacity() * sizeof(Shared) + notes_.capacity() * sizeof(Note) +
          8 * steps_.capacity() +
          4 * (shared_begin_.capacity() + node_of_.capacity() + node_at_.capacity() +
-              open_arcs_.capacity() + arcs_from_.capacity());
+              open_arcs_.capacity() + arcs_from_.capacity() + arc_at_.capacity());
 }
 
 }  // namespace reeb

@@ -19,7 +19,7 @@ namespace reeb {
 // Vertices are ranks; nodes and arcs are numbered in order of creation.
 class FragmentBuilder {
  public:
-  void start(std::size_t vertices);
+  void start(std::size_t vertices, const SweepOptions& options);
   // The sweep arrives at v; to be called for 0, 1, 2, ...
   void reach(std::uint32_t v) { shared_begin_[v] = static_cast<std::uint32_t>(shared_.size()); }
 
@@ -28,6 +28,11 @@ class FragmentBuilder {
   void end_arc(std::uint32_t arc, std::uint32_t upper_node) { graph_.arcs[arc].hi = upper_node; }
   // The node has this arc and no other.
   void note_leaf(std::uint32_t node, std::uint32_t arc) { graph_.leaves.push_back({node, arc}); }
+  // A vertex of this chunk only is no node; it lies on the arc, in the bucket of this index, which
+  // never falls from call to call.
+  void add_regular(std::uint32_t arc, std::int64_t index, const Point& position) {
+    graph_.buckets.add_last(graph_.arc_buckets[arc], index, position);
+  }
   // The arc up from `node` that every path takes for which no other branch is noted.
   void set_main_branch(std::uint32_t node, std::uint32_t arc) { graph_.nodes[node].main_branch = arc; }
 
@@ -38,7 +43,7 @@ class FragmentBuilder {
   // If lo-hi is a shared edge, its path goes up from `node` by `arc`.
   void note_branch(std::uint32_t lo, std::uint32_t hi, std::uint32_t node, std::uint32_t arc);
 
-  void finish(const SweptChunk& swept, const SweepOptions& options, Fragment& fragment);
+  void finish(const SweptChunk& swept, Fragment& fragment);
   std::size_t memory_bytes() const;
 
  private:
@@ -68,9 +73,12 @@ class FragmentBuilder {
   void find_changing_nodes(const SweptChunk& swept, bool noise_goes);
   void divide(const SweptChunk& swept, Fragment& fragment);
   void add_nodes(const SweptChunk& swept, Fragment& fragment);
+  void add_settled_arc(const SweptChunk& swept, std::uint32_t arc, Fragment& fragment);
   void add_arcs(Fragment& fragment);
+  void add_buckets(Fragment& fragment);
   void add_steps(Fragment& fragment);
 
+  SweepOptions options_;
   SweepGraph graph_;
   LeafRemoval leaf_removal_;
   std::vector<Shared> shared_;
@@ -81,6 +89,7 @@ class FragmentBuilder {
   std::vector<std::uint64_t> steps_;      // sorted
   std::vector<std::uint32_t> node_at_;    // by local vertex: its node, if it is an open one
   std::vector<std::uint32_t> open_arcs_;
+  std::vector<std::uint32_t> arc_at_;     // by number in the fragment
   std::vector<std::uint32_t> arcs_from_;  // by open node: where its arcs up are numbered from
 };
 

@@ -5,14 +5,14 @@
 namespace reeb {
 
 void Glue::add(const Fragment& fragment) {
-  graph_.set_noise_below(fragment.options.noise_below);
+  graph_.set_options(fragment.options);
   removed_in_fragments_ += fragment.removed_pairs;
   if (!fragment.settled_nodes.empty()) sink_->add_nodes(fragment.settled_nodes);
-  if (!fragment.settled_arcs.empty()) sink_->add_arcs({fragment.settled_arcs});
+  if (!fragment.settled_arcs.empty())
+    sink_->add_arcs({fragment.settled_arcs, fragment.settled_bucket_counts,
+                     fragment.settled_buckets, fragment.options.bucket_exponent.value_or(0)});
   add_nodes(fragment);
-  arcs_.clear();
-  for (const Fragment::Arc& arc : fragment.arcs)
-    arcs_.push_back(graph_.add_arc(nodes_[arc.lo], nodes_[arc.hi]));
+  add_arcs(fragment);
   add_paths(fragment);
   for (const Index a : arcs_) graph_.release(a);
   run_steps(fragment);
@@ -37,6 +37,16 @@ void Glue::add_nodes(const Fragment& fragment) {
     }
     nodes_.push_back(n);
   }
+}
+
+void Glue::add_arcs(const Fragment& fragment) {
+  arcs_.clear();
+  for (const Fragment::Arc& arc : fragment.arcs)
+    arcs_.push_back(graph_.add_arc(nodes_[arc.lo], nodes_[arc.hi]));
+  for (std::size_t i = 0; i + 1 < fragment.bucket_begin.size(); ++i)
+    graph_.add_buckets(arcs_[i], std::span(fragment.buckets)
+                                     .subspan(fragment.bucket_begin[i],
+                                              fragment.bucket_begin[i + 1] - fragment.bucket_begin[i]));
 }
 
 // All paths first: zips change the arcs that later paths of the same fragment run on.

@@ -61,6 +61,7 @@ class Glue {
   };
 
   void add_nodes(const Fragment& fragment);
+  void add_arcs(const Fragment& fragment);
   void add_paths(const Fragment& fragment);
   Index add_path(const Fragment& fragment, std::size_t edge);
   void run_steps(const Fragment& fragment);

@@ -23,7 +23,8 @@ std::size_t LeafRemoval::run(SweepGraph& graph, const SweptChunk& swept, double 
 }
 
 std::size_t LeafRemoval::memory_bytes() const {
-  return nodes_.capacity() * sizeof(Node) + 4 * candidates_.capacity();
+  return nodes_.capacity() * sizeof(Node) + path_.capacity() * sizeof(PathBuckets) +
+         4 * candidates_.capacity();
 }
 
 // Every removal begins with a leaf that is one from the start.
@@ -38,16 +39,21 @@ void LeafRemoval::find_candidates() {
 void LeafRemoval::prepare() {
   const std::vector<SweepGraph::Arc>& arcs = graph_->arcs;
   nodes_.resize(graph_->nodes.size());
-  for (std::uint32_t n = 0; n < nodes_.size(); ++n) nodes_[n] = {{0, 0}, {0, 0}, {n, n}};
+  for (std::uint32_t n = 0; n < nodes_.size(); ++n) nodes_[n] = {{0, 0}, {0, 0}, {n, n}, {}};
   for (std::uint32_t a = 0; a < arcs.size(); ++a) {
     attach(arcs[a].lo, kUp, a);
     attach(arcs[a].hi, kDown, a);
   }
   // All that lies below an arc comes before it, all above after.
-  for (const auto& arc : arcs)
-    nodes_[arc.hi].reach[kDown] = std::min(nodes_[arc.hi].reach[kDown], nodes_[arc.lo].reach[kDown]);
-  for (auto arc = arcs.rbegin(); arc != arcs.rend(); ++arc)
-    nodes_[arc->lo].reach[kUp] = std::max(nodes_[arc->lo].reach[kUp], nodes_[arc->hi].reach[kUp]);
+  for (std::uint32_t a = 0; a < arcs.size(); ++a) extend_reach(arcs[a].hi, kDown, a);
+  for (auto a = static_cast<std::uint32_t>(arcs.size()); a-- > 0;) extend_reach(arcs[a].lo, kUp, a);
+}
+
+void LeafRemoval::extend_reach(std::uint32_t node, Direction d, std::uint32_t arc) {
+  const std::uint32_t reach = nodes_[graph_->arcs[arc].end(d)].reach[d];
+  if (along(d, reach) <= along(d, nodes_[node].reach[d])) return;
+  nodes_[node].reach[d] = reach;
+  nodes_[node].via[d] = arc;
 }
 
 void LeafRemoval::try_leaf(std::uint32_t leaf, Direction d) {
@@ -55,6 +61,7 @@ void LeafRemoval::try_leaf(std::uint32_t leaf, Direction d) {
   const std::uint32_t saddle = graph_->arcs[arc].end(opposite(d));
   if (along(d, nodes_[saddle].reach[d]) <= along(d, leaf) || !is_noise(arc)) return;
   ++removed_;
+  if (embeds()) move_buckets(leaf, arc, d);
   detach(leaf, opposite(d), arc);
   detach(saddle, d, arc);
   graph_->arcs[arc].lo = SweepGraph::kNone;
@@ -62,23 +69,46 @@ void LeafRemoval::try_leaf(std::uint32_t leaf, Direction d) {
   settle(saddle);
 }
 
+// The path is that to where the saddle reaches farthest.
+void LeafRemoval::move_buckets(std::uint32_t leaf, std::uint32_t arc, Direction d) {
+  path_.clear();
+  std::uint32_t node = graph_->arcs[arc].end(opposite(d));
+  const double saddle_value = value(node);
+  while (along(d, node) < along(d, leaf)) {
+    const std::uint32_t step = nodes_[node].via[d];
+    node = graph_->arcs[step].end(d);
+    path_.push_back({&graph_->arc_buckets[step], value(node)});
+  }
+  BucketLists::List& moved = graph_->arc_buckets[arc];
+  graph_->buckets.add_vertex(moved, value(leaf), position(leaf));
+  lay_on_path(graph_->buckets, moved, d, saddle_value, value(leaf), path_);
+}
+
 // A saddle that lost an arc may disappear, which gives leaves beyond it another saddle, or become
-// a leaf itself. Where it disappears, the lower arc is what both become: paths come to it from
-// below, by a branch of the node there.
+// a leaf itself.
 void LeafRemoval::settle(std::uint32_t saddle) {
   if (nodes_[saddle].degree != std::array{1u, 1u}) {
     candidates_.push_back(saddle);
     return;
   }
-  if (!is_used_here_only(saddle)) return;
-  const std::uint32_t lower = nodes_[saddle].arcs_xor[kDown], upper = nodes_[saddle].arcs_xor[kUp];
+  if (is_used_here_only(saddle)) contract(saddle);
+}
+
+// The lower arc is what both become: paths come to it from below, by a branch of the node there.
+void LeafRemoval::contract(std::uint32_t node) {
+  const std::uint32_t lower = nodes_[node].arcs_xor[kDown], upper = nodes_[node].arcs_xor[kUp];
   const std::uint32_t top = graph_->arcs[upper].hi;
-  nodes_[saddle].degree = {0, 0};
+  if (embeds()) {
+    graph_->buckets.add_vertex(graph_->arc_buckets[lower], value(node), position(node));
+    graph_->buckets.concatenate(graph_->arc_buckets[lower], graph_->arc_buckets[upper]);
+  }
+  nodes_[node].degree = {0, 0};
+  if (nodes_[top].via[kDown] == upper) nodes_[top].via[kDown] = lower;
   detach(top, kDown, upper);
   attach(top, kDown, lower);
   graph_->arcs[lower].hi = top;
   graph_->arcs[upper].lo = SweepGraph::kNone;
-  graph_->nodes[saddle].gone = true;
+  graph_->nodes[node].gone = true;
   candidates_.push_back(graph_->arcs[lower].lo);
   candidates_.push_back(top);
 }
@@ -98,7 +128,6 @@ bool LeafRemoval::is_used_here_only(std::uint32_t node) const {
 }
 
 bool LeafRemoval::is_noise(std::uint32_t arc) const {
-  const auto value = [&](std::uint32_t node) { return swept_->value(graph_->nodes[node].vertex); };
   return value(graph_->arcs[arc].hi) - value(graph_->arcs[arc].lo) < noise_below_;
 }
 

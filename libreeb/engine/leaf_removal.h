@@ -18,7 +18,8 @@ class LeafRemoval {
  public:
   // Removes, until nothing changes, extrema with one arc of persistence < noise_below whose saddle
   // has another path in their direction that reaches beyond them; saddles used here only
-  // disappear when they become (1, 1). Returns how many leaves are gone.
+  // disappear when they become (1, 1). What lay on a leaf's arc comes to lie on that other path,
+  // the leaf with it. Returns how many leaves are gone.
   // O(leaves) if none is of so little persistence, else O(nodes + arcs).
   std::size_t run(SweepGraph& graph, const SweptChunk& swept, double noise_below);
   std::size_t memory_bytes() const;
@@ -30,16 +31,25 @@ class LeafRemoval {
     std::array<std::uint32_t, 2> degree;
     std::array<std::uint32_t, 2> arcs_xor;
     std::array<std::uint32_t, 2> reach;  // the farthest node on monotone paths
+    std::array<std::uint32_t, 2> via;    // the first arc on the way there
   };
 
   void find_candidates();
   void prepare();
+  void extend_reach(std::uint32_t node, Direction d, std::uint32_t arc);
   void try_leaf(std::uint32_t leaf, Direction d);
   void settle(std::uint32_t saddle);
+  void contract(std::uint32_t node);
+  void move_buckets(std::uint32_t leaf, std::uint32_t arc, Direction d);
   void attach(std::uint32_t node, Direction d, std::uint32_t arc);
   void detach(std::uint32_t node, Direction d, std::uint32_t arc);
   bool is_used_here_only(std::uint32_t node) const;
   bool is_noise(std::uint32_t arc) const;
+  bool embeds() const { return !graph_->arc_buckets.empty(); }
+  double value(std::uint32_t node) const { return swept_->value(graph_->nodes[node].vertex); }
+  Point position(std::uint32_t node) const {
+    return swept_->position(graph_->nodes[node].vertex);
+  }
   bool is_leaf(std::uint32_t node, Direction d) const {
     return nodes_[node].degree[d] == 0 && nodes_[node].degree[opposite(d)] == 1;
   }
@@ -49,6 +59,7 @@ class LeafRemoval {
   double noise_below_ = 0;
   std::size_t removed_ = 0;
   std::vector<Node> nodes_;
+  std::vector<PathBuckets> path_;
   std::vector<std::uint32_t> candidates_;  // nodes that may be leaves to be looked at
 };
 

@@ -6,6 +6,21 @@
 
 namespace reeb {
 
+void LiveGraph::set_options(const SweepOptions& options) {
+  noise_below_ = options.noise_below;
+  if (!options.bucket_exponent) return;
+  embeds_ = true;
+  grow_arc_buckets();
+  buckets_.raise_exponent(*options.bucket_exponent);
+}
+
+void LiveGraph::grow_arc_buckets() {
+  while (arc_buckets_.size() < arcs_.size()) {
+    arc_buckets_.grow_by(1);
+    arc_buckets_[arc_buckets_.size() - 1] = {};
+  }
+}
+
 // ---- nodes and arcs
 
 LiveGraph::Index LiveGraph::add_node(const SweepKey& key, const Point& position, State state) {
@@ -39,6 +54,7 @@ LiveGraph::Index LiveGraph::add_arc(Index lo, Index hi) {
   } else {
     a = static_cast<Index>(arcs_.size());
     arcs_.grow_by(1);
+    if (embeds_) grow_arc_buckets();
   }
   arcs_[a].first_reference = kNone;
   arcs_[a].references = 0;
@@ -49,6 +65,10 @@ LiveGraph::Index LiveGraph::add_arc(Index lo, Index hi) {
 
 void LiveGraph::release(Index a) {
   if (can_leave(a)) hand_over(a);
+}
+
+void LiveGraph::add_buckets(Index arc, std::span<const BucketSum> buckets) {
+  for (const BucketSum& bucket : buckets) buckets_.append(arc_buckets_[arc], bucket);
 }
 
 void LiveGraph::free_arc(Index a) {
@@ -207,6 +227,7 @@ void LiveGraph::merge_parallel(Index keep, Index gone) {
   if (kept.first_reference != kNone) references_[kept.first_reference].prev = last;
   kept.first_reference = arcs_[gone].first_reference;
   kept.references += arcs_[gone].references;
+  if (embeds_) buckets_.merge(arc_buckets_[keep], arc_buckets_[gone]);
   queue(arcs_[gone].lo);
   queue(arcs_[gone].hi);
   detach_lo(gone);
@@ -217,6 +238,12 @@ void LiveGraph::merge_parallel(Index keep, Index gone) {
 // `longer` and `shorter` have the same upper end: the upper part of `longer` becomes one with
 // `shorter`, what is left of it ends at the lower node of `shorter`.
 void LiveGraph::cut(Index longer, Index shorter) {
+  if (embeds_ && !arc_buckets_[longer].empty()) {
+    const auto value = [&](Index n) { return nodes_[n].key.value; };
+    auto upper = buckets_.take_above(arc_buckets_[longer], value(arcs_[longer].lo),
+                                     value(arcs_[shorter].lo), value(arcs_[longer].hi));
+    buckets_.merge(arc_buckets_[shorter], upper);
+  }
   queue(arcs_[longer].hi);
   detach_hi(longer);
   Index r = std::exchange(arcs_[longer].first_reference, kNone);
@@ -296,6 +323,12 @@ void LiveGraph::contract(Index n) {
     references_[r].down = references_[skipped].down;
     free_reference(skipped);
   }
+  if (embeds_) {
+    auto& below = arc_buckets_[lower];
+    buckets_.add_vertex(below, nodes_[n].key.value, track_positions_ ? positions_[n] : Point{});
+    buckets_.concatenate(below, arc_buckets_[upper]);
+    std::swap(below, arc_buckets_[upper]);
+  }
   const Index lo = arcs_[lower].lo, hi = arcs_[upper].hi;
   detach_lo(lower);
   detach_hi(lower);
@@ -328,6 +361,13 @@ void LiveGraph::settle(Index n) {
 void LiveGraph::hand_over(Index a) {
   const Index lo = arcs_[a].lo, hi = arcs_[a].hi;
   settled_arcs_.push_back({nodes_[lo].key, nodes_[hi].key});
+  if (embeds_) {
+    const std::size_t before = settled_buckets_.size();
+    buckets_.drain(arc_buckets_[a], [&](const BucketSum& bucket) {
+      settled_buckets_.push_back(bucket.mean());
+    });
+    settled_bucket_counts_.push_back(static_cast<std::uint32_t>(settled_buckets_.size() - before));
+  }
   detach_lo(a);
   detach_hi(a);
   free_arc(a);
@@ -339,8 +379,11 @@ void LiveGraph::hand_over(Index a) {
 
 void LiveGraph::flush() {
   if (!settled_nodes_.empty()) sink_->add_nodes(settled_nodes_);
-  if (!settled_arcs_.empty()) sink_->add_arcs({settled_arcs_});
+  if (!settled_arcs_.empty())
+    sink_->add_arcs({settled_arcs_, settled_bucket_counts_, settled_buckets_, buckets_.exponent()});
   settled_nodes_.clear();
+  settled_bucket_counts_.clear();
+  settled_buckets_.clear();
   settled_arcs_.clear();
 }
 
@@ -364,7 +407,9 @@ void LiveGraph::snapshot(std::vector<ArcKeys>& arcs, std::vector<SweepKey>& isol
 std::size_t LiveGraph::memory_bytes() const {
   return nodes_.memory_bytes() + positions_.memory_bytes() + arcs_.memory_bytes() + references_.memory_bytes() +
          changed_.capacity() * sizeof(Index) + settled_nodes_.capacity() * sizeof(SettledNode) +
-         settled_arcs_.capacity() * sizeof(ArcKeys);
+         settled_arcs_.capacity() * sizeof(ArcKeys) + buckets_.memory_bytes() +
+         arc_buckets_.memory_bytes() +
+         4 * settled_bucket_counts_.capacity() + settled_buckets_.capacity() * sizeof(Bucket);
 }
 
 void LiveGraph::validate() const {

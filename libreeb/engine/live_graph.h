@@ -23,6 +23,8 @@
 #include "libreeb/base/growing_array.h"
 #include "libreeb/base/state_stream.h"
 #include "libreeb/base/sweep_key.h"
+#include "libreeb/engine/bucket_sums.h"
+#include "libreeb/engine/sweep_options.h"
 #include "libreeb/graph/reeb_graph.h"
 #include "libreeb/port/graph_sink.h"
 
@@ -40,13 +42,15 @@ class LiveGraph {
   // Settled nodes and arcs go to `sink` when flush() is called.
   LiveGraph(GraphSink& sink, bool track_positions) : sink_(&sink), track_positions_(track_positions) {}
 
-  // From now on leaves of less persistence are noise. It never decreases.
-  void set_noise_below(double persistence) { noise_below_ = persistence; }
+  // What is noise, and whether there is an embedding and how fine, from now on.
+  void set_options(const SweepOptions& options);
 
   Index add_node(const SweepKey& key, const Point& position, State state);
   Index add_arc(Index lo, Index hi);
   // Says that a new arc has got all the references that it gets.
   void release(Index arc);
+  // The embedding of an arc that was just added. REQUIRES: of the exponent of the options.
+  void add_buckets(Index arc, std::span<const BucketSum> buckets);
   const SweepKey& key(Index node) const { return nodes_[node].key; }
   bool is_incomplete(Index node) const {
     return nodes_[node].used && nodes_[node].state == State::kIncomplete;
@@ -117,6 +121,7 @@ class LiveGraph {
   void detach_hi(Index arc);
   void free_arc(Index arc);
   void free_node(Index node);
+  void grow_arc_buckets();
   Index new_reference();
   void free_reference(Index r);
   void link(Index r, Index arc);
@@ -136,7 +141,8 @@ class LiveGraph {
   Index next_arc(Index arc, Direction d) const;
   void remove_noise_at(Index node);
   void try_leaf(Index leaf);
-  bool reaches_beyond(Index from, Index leaf, Direction d) const;
+  bool find_path_beyond(Index from, Index leaf, Direction d);
+  void move_buckets(Index arc, Index leaf, Direction d);
   void contract(Index node);
   void settle(Index node);
   void hand_over(Index arc);
@@ -150,10 +156,17 @@ class LiveGraph {
   Index first_free_node_ = kNone, first_free_arc_ = kNone, first_free_reference_ = kNone;
   std::size_t free_nodes_ = 0, free_arcs_ = 0, free_references_ = 0;
   double noise_below_ = 0;
+  bool embeds_ = false;
+  BucketLists buckets_;
+  GrowingArray<BucketLists::List> arc_buckets_;  // one an arc, if there is an embedding
+  std::vector<Index> path_;                     // arcs, from the saddle of a leaf
+  std::vector<PathBuckets> path_buckets_;
   std::uint64_t removed_pairs_ = 0, zips_ = 0, zip_steps_ = 0;
   std::vector<Index> changed_;  // complete nodes to look at in tidy()
   std::vector<SettledNode> settled_nodes_;
   std::vector<ArcKeys> settled_arcs_;
+  std::vector<std::uint32_t> settled_bucket_counts_;  // one an arc, if there is an embedding
+  std::vector<Bucket> settled_buckets_;
 };
 
 }  // namespace reeb

@@ -1,4 +1,5 @@
 // Noise removal in the live graph.
+#include <algorithm>
 #include <array>
 
 #include "libreeb/engine/live_graph.h"
@@ -38,7 +39,8 @@ void LiveGraph::try_leaf(Index leaf) {
   const Index saddle = arcs_[arc].end(opposite(d));
   if (!nodes_[saddle].intact) return;
   if (!(nodes_[arcs_[arc].hi].key.value - nodes_[arcs_[arc].lo].key.value < noise_below_)) return;
-  if (!reaches_beyond(saddle, leaf, d)) return;
+  if (!find_path_beyond(saddle, leaf, d)) return;
+  if (embeds_) move_buckets(arc, leaf, d);
   detach_lo(arc);
   detach_hi(arc);
   free_arc(arc);
@@ -47,23 +49,42 @@ void LiveGraph::try_leaf(Index leaf) {
   queue(saddle);
 }
 
-// Whether another path than that to the leaf is seen to reach beyond it. The nearest nodes are
+// Looks for another path than that to the leaf which reaches beyond it. The nearest nodes are
 // looked at, and no more than a few: what they do not show is left to the last pass.
-bool LiveGraph::reaches_beyond(Index from, Index leaf, Direction d) const {
+bool LiveGraph::find_path_beyond(Index from, Index leaf, Direction d) {
+  struct Seen {
+    Index node, by_arc;
+    std::size_t before;
+  };
   constexpr std::size_t kLooks = 16;
-  std::array<Index, kLooks> seen;
+  std::array<Seen, kLooks> seen;
   std::size_t count = 0;
-  seen[count++] = from;
+  seen[count++] = {from, kNone, 0};
   for (std::size_t i = 0; i < count; ++i)
-    for (Index a = first_arc(seen[i], d); a != kNone; a = next_arc(a, d)) {
+    for (Index a = first_arc(seen[i].node, d); a != kNone; a = next_arc(a, d)) {
       const Index end = arcs_[a].end(d);
       if (end == leaf) continue;
       const SweepKey &key = nodes_[end].key, &limit = nodes_[leaf].key;
-      if (d == kUp ? limit < key : key < limit) return true;
+      if (d == kUp ? limit < key : key < limit) {
+        path_.assign(1, a);
+        for (std::size_t at = i; at != 0; at = seen[at].before) path_.push_back(seen[at].by_arc);
+        std::reverse(path_.begin(), path_.end());
+        return true;
+      }
       if (count == kLooks) return false;
-      seen[count++] = end;
+      seen[count++] = {end, a, i};
     }
   return false;
+}
+
+// What lay on the arc comes to lie on the path, the leaf with it.
+void LiveGraph::move_buckets(Index arc, Index leaf, Direction d) {
+  const auto value = [&](Index n) { return nodes_[n].key.value; };
+  path_buckets_.clear();
+  for (const Index a : path_) path_buckets_.push_back({&arc_buckets_[a], value(arcs_[a].end(d))});
+  buckets_.add_vertex(arc_buckets_[arc], value(leaf), track_positions_ ? positions_[leaf] : Point{});
+  lay_on_path(buckets_, arc_buckets_[arc], d, value(arcs_[arc].end(opposite(d))), value(leaf),
+              path_buckets_);
 }
 
 }  // namespace reeb

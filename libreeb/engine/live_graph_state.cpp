@@ -7,6 +7,9 @@ void LiveGraph::save(StateWriter& out) const {
   out.put(track_positions_);
   out.put(noise_below_);
   out.put(removed_pairs_);
+  out.put(embeds_);
+  buckets_.save(out);
+  arc_buckets_.save(out);
   nodes_.save(out);
   positions_.save(out);
   arcs_.save(out);
@@ -19,6 +22,9 @@ void LiveGraph::restore(StateReader& in) {
   if (in.get<bool>() != track_positions_) throw DamagedState();
   in.get(noise_below_);
   in.get(removed_pairs_);
+  in.get(embeds_);
+  buckets_.restore(in);
+  arc_buckets_.restore(in);
   nodes_.restore(in);
   positions_.restore(in);
   arcs_.restore(in);

@@ -1,11 +1,14 @@
 #include "libreeb/engine/online_reeb.h"
 
+#include <algorithm>
+#include <limits>
 #include <utility>
 #include <vector>
 
 #include "libreeb/engine/chunk_sweep.h"
 #include "libreeb/engine/glue.h"
 #include "libreeb/engine/stream_chunker.h"
+#include "libreeb/graph/bucket.h"
 
 namespace reeb {
 namespace {
@@ -45,7 +48,7 @@ class OnlineReeb::Impl {
   void flush() {
     if (chunker_.chunk_size() == 0) return;
     chunker_.take(batch_, values_);
-    sweep_.run(batch_, values_[0], fragment_, {.noise_below = options_.noise_below});
+    sweep_.run(batch_, values_[0], fragment_, sweep_options());
     glue_.add(fragment_);
   }
   ReebGraph snapshot() {
@@ -63,7 +66,19 @@ class OnlineReeb::Impl {
   }
 
  private:
+  SweepOptions sweep_options() {
+    SweepOptions sweep{.noise_below = options_.noise_below};
+    if (options_.buckets != 0 && !values_[0].empty()) {
+      const auto [least, most] = std::minmax_element(values_[0].begin(), values_[0].end());
+      min_ = std::min(min_, *least);
+      max_ = std::max(max_, *most);
+      sweep.bucket_exponent = bucket_exponent(min_, max_, options_.buckets);
+    }
+    return sweep;
+  }
+
   Options options_;
+  double min_ = std::numeric_limits<double>::max(), max_ = -min_;  // of the values so far
   StreamChunker chunker_;
   KeepingSink kept_;
   ChunkSweep sweep_;

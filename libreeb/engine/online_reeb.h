@@ -24,6 +24,9 @@ class OnlineReeb {
     // Leaves of less persistence are removed where it is already sure that they are noise
     // (DESIGN.md 1.6); denoise() finishes what comes out.
     double noise_below = 0;
+    // The values so far span this many buckets of the embedding, or up to twice as many; at most
+    // 2^20. 0: no embedding. Buckets reach a sink only.
+    std::uint32_t buckets = 0;
   };
 
   // Settled nodes and arcs go to `sink`; without one they are kept here.

@@ -10,6 +10,7 @@
 
 #include "libreeb/base/direction.h"
 #include "libreeb/base/sweep_key.h"
+#include "libreeb/engine/bucket_sums.h"
 #include "libreeb/engine/chunk.h"
 #include "libreeb/engine/chunk_stars.h"
 
@@ -45,15 +46,20 @@ struct SweepGraph {
   std::vector<Node> nodes;
   std::vector<Arc> arcs;
   std::vector<Leaf> leaves;
+  // The embedding, if there is one.
+  std::vector<BucketLists::List> arc_buckets;
+  BucketLists buckets;
 
   void clear() {
     nodes.clear();
     arcs.clear();
     leaves.clear();
+    arc_buckets.clear();
   }
   std::size_t memory_bytes() const {
     return nodes.capacity() * sizeof(Node) + arcs.capacity() * sizeof(Arc) +
-           leaves.capacity() * sizeof(Leaf);
+           leaves.capacity() * sizeof(Leaf) +
+           arc_buckets.capacity() * sizeof(BucketLists::List) + buckets.memory_bytes();
   }
 };
 
@@ -69,6 +75,13 @@ struct SweptChunk {
   SweepKey key(std::uint32_t v) const { return {values[order[v]], chunk.ids[order[v]]}; }
   Point position(std::uint32_t v) const {
     return chunk.positions.empty() ? Point{} : chunk.positions[order[v]];
+  }
+  // Nothing happens if there is no such rank.
+  void prefetch_position(std::size_t v) const {
+    if (v >= order.size() || chunk.positions.empty()) return;
+    const Point& position = chunk.positions[order[v]];
+    __builtin_prefetch(position.data());
+    __builtin_prefetch(position.data() + 2);
   }
 };
 

@@ -25,6 +25,22 @@ class Buckets {
   double last_, least_, scale_;
 };
 
+// Most buckets hold a few; and of a large one, a tie, the vertices are often in order already.
+template <class Iterator, class Before>
+void sort_bucket(Iterator first, Iterator last, const Before& before) {
+  constexpr std::ptrdiff_t kFew = 8;
+  if (last - first > kFew) {
+    if (!std::is_sorted(first, last, before)) std::sort(first, last, before);
+    return;
+  }
+  for (auto end = first + 1; end != last; ++end) {
+    const auto vertex = *end;
+    auto to = end;
+    for (; to != first && before(vertex, *(to - 1)); --to) *to = *(to - 1);
+    *to = vertex;
+  }
+}
+
 }  // namespace
 
 void VertexRanks::sort(std::span<const double> values, std::span<const VertexId> ids) {
@@ -44,8 +60,7 @@ void VertexRanks::sort(std::span<const double> values, std::span<const VertexId>
   auto first = order_.begin();
   for (const std::uint32_t end : bucket_end_) {
     const auto last = order_.begin() + end;
-    // Often in order already: a tie, and then no sort is as fast as looking.
-    if (last - first > 1 && !std::is_sorted(first, last, before)) std::sort(first, last, before);
+    if (last - first > 1) sort_bucket(first, last, before);
     first = last;
   }
 }

@@ -47,8 +47,11 @@ class ByteWriter {
 
   // All lowest bytes, then all second bytes, and so on: equal bytes come to lie side by side.
   void planes(std::span<const std::uint64_t> values) {
-    for (unsigned shift = 0; shift < 64; shift += 8)
-      for (const std::uint64_t value : values) u8(static_cast<std::uint8_t>(value >> shift));
+    const std::size_t count = values.size(), before = out_.size();
+    out_.resize(before + 8 * count);
+    std::byte* plane = out_.data() + before;
+    for (unsigned shift = 0; shift < 64; shift += 8, plane += count)
+      for (std::size_t i = 0; i < count; ++i) plane[i] = static_cast<std::byte>(values[i] >> shift);
   }
 
  private:

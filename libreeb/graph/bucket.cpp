@@ -34,4 +34,26 @@ int bucket_exponent(double min, double max, std::uint32_t buckets) noexcept {
   return least;
 }
 
+void merge_into(Bucket& bucket, const Bucket& other) noexcept {
+  if (other.count == 0) return;
+  const double all = static_cast<double>(bucket.count + other.count), share = static_cast<double>(other.count) / all;
+  // The first of two equal means stays as it is.
+  for (std::size_t k = 0; k < bucket.mean.size(); ++k) bucket.mean[k] += (other.mean[k] - bucket.mean[k]) * share;
+  bucket.count += other.count;
+}
+
+void coarsen(std::vector<Bucket>& buckets, std::size_t first, unsigned levels) {
+  if (levels == 0) return;
+  std::size_t kept = first;
+  for (std::size_t i = first; i < buckets.size(); ++i) {
+    Bucket bucket = buckets[i];
+    bucket.index = levels < 63 ? bucket.index >> levels : (bucket.index < 0 ? -1 : 0);
+    if (kept > first && buckets[kept - 1].index == bucket.index)
+      merge_into(buckets[kept - 1], bucket);
+    else
+      buckets[kept++] = bucket;
+  }
+  buckets.resize(kept);
+}
+
 }  // namespace reeb

@@ -6,7 +6,9 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <vector>
 
 namespace reeb {
 
@@ -26,5 +28,12 @@ std::int64_t bucket_index(double value, int exponent) noexcept;
 // unless there are too few numbers between min and max. It never falls when the range grows.
 // REQUIRES: min <= max, finite; 1 <= buckets <= 2^20.
 int bucket_exponent(double min, double max, std::uint32_t buckets) noexcept;
+
+// Adds `other` to `bucket`: counts add up, the mean is weighted by them. REQUIRES: equal indices.
+void merge_into(Bucket& bucket, const Bucket& other) noexcept;
+
+// Makes those from buckets[first] on, which ascend by index, buckets of an exponent that is larger by
+// `levels`. O(buckets).
+void coarsen(std::vector<Bucket>& buckets, std::size_t first, unsigned levels);
 
 }  // namespace reeb

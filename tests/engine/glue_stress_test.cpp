@@ -9,7 +9,7 @@ namespace {
 
 ReebGraph graph_in_chunks(const Mesh& mesh, std::size_t size, bool overstated = false) {
   KeepingSink sink;
-  stream(mesh, size, sink, [](double, double) { return SweepOptions{}; }, overstated);
+  stream(mesh, size, sink, [](double, double) { return SweepOptions{}; }, [](Glue&) {}, overstated);
   return sink.graph();
 }
 

@@ -65,11 +65,12 @@ struct KeepingSink : GraphSink {
 };
 
 // Streams the mesh in chunks of this many triangles; options_of(min, max) says what to do with a
-// chunk after which the values so far have this range. `overstated`: every third vertex is said to
-// be used earlier, whether it is or not. Returns how many pairs were removed.
-template <class OptionsOf>
+// chunk after which the values so far have this range, between_chunks(glue) is called after each.
+// `overstated`: every third vertex is said to be used earlier, whether it is or not. Returns how
+// many pairs were removed.
+template <class OptionsOf, class BetweenChunks>
 std::uint64_t stream(const Mesh& mesh, std::size_t size, GraphSink& sink, const OptionsOf& options_of,
-                     bool overstated = false) {
+                     const BetweenChunks& between_chunks, bool overstated = false) {
   StreamChunker chunker(1, true);
   ChunkSweep sweep;
   Glue glue(sink, true);
@@ -87,6 +88,7 @@ std::uint64_t stream(const Mesh& mesh, std::size_t size, GraphSink& sink, const 
     sweep.run(chunk, values[0], fragment, options_of(min, max));
     glue.add(fragment);
     glue.graph().validate();
+    between_chunks(glue);
   };
   for (std::size_t v = 0; v < mesh.values.size(); ++v)
     chunker.add_vertex({&mesh.values[v], 1}, mesh.positions[v]);
@@ -100,6 +102,12 @@ std::uint64_t stream(const Mesh& mesh, std::size_t size, GraphSink& sink, const 
   flush();
   EXPECT_EQ(glue.graph().node_count(), 0u) << "all is settled";
   return glue.removed_pairs();
+}
+
+template <class OptionsOf>
+std::uint64_t stream(const Mesh& mesh, std::size_t size, GraphSink& sink,
+                     const OptionsOf& options_of) {
+  return stream(mesh, size, sink, options_of, [](Glue&) {});
 }
 
 }  // namespace reeb::test

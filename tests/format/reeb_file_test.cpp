@@ -142,10 +142,19 @@ TEST(ReebFile, PairsHeaderAndBucketsComeBack) {
 TEST(GraphFile, PiecesDoNotShowAndBucketsFollowTheirArcs) {
   const TemporaryFolder folder;
   const MadeUp made = MadeUpMaker(3).make(9'000, 15'000, 0);
-  write_graph_file(folder / "whole.reeb", meta_of(made), made.graph, made.buckets.view());
+  const FileMeta meta = meta_of(made);
+  write_graph_file(folder / "whole.reeb", meta, made.graph, made.buckets.view());
   const std::string expected = read_bytes(folder / "whole.reeb");
-  for (const std::size_t piece : {std::size_t{1}, std::size_t{7}, std::size_t{100'000}}) {
-    GraphFileWriter writer(folder / "pieces.reeb", meta_of(made), true, true, GraphFileWriter::ArcEnds::kKeys);
+  using Ends = GraphFileWriter::ArcEnds;
+  struct Case {
+    std::size_t piece;
+    Ends ends;
+    bool background;
+  };
+  for (const auto& [piece, ends, background] :
+       {Case{1, Ends::kKeys, false}, Case{7, Ends::kKeys, true}, Case{100'000, Ends::kKeysInMemory, true}}) {
+    GraphFileWriter writer(folder / "pieces.reeb", meta,
+                           {.has_embedding = true, .ends = ends, .background = background});
     for (std::size_t i = 0; i < made.graph.node_count(); ++i) {
       const SettledNode node{made.graph.nodes[i], made.graph.positions[i]};
       writer.add_nodes({&node, 1});

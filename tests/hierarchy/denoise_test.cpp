@@ -5,7 +5,7 @@
 
 #include "libreeb/hierarchy/pairing.h"
 #include "tests/hierarchy/random_graphs.h"
-#include "tests/hierarchy/reference_pairs.h"
+#include "tests/model/reference_pairs.h"
 
 namespace reeb {
 namespace {
@@ -64,10 +64,10 @@ TEST(Denoise, EqualsTheDefinitionInAnyOrder) {
     removed += result.removed.size();
 
     // The pairs that are left and those that are gone are the pairs of the full graph.
-    auto pairs = test::reference_pairs(result.graph);
-    for (const auto& key : test::keys_of(full, result.removed)) pairs.push_back(key);
+    auto pairs = test::vertex_pairs(result.graph, test::reference_pairs(result.graph));
+    for (const auto& key : test::vertex_pairs(full, result.removed)) pairs.push_back(key);
     std::sort(pairs.begin(), pairs.end());
-    ASSERT_EQ(pairs, test::reference_pairs(full));
+    ASSERT_EQ(pairs, test::vertex_pairs(full, test::reference_pairs(full)));
     for (const PersistencePair& pair : result.removed) {
       ASSERT_LT(persistence_of(full, pair), threshold);
       ASSERT_TRUE(pair.type == PairType::kOrd0 || pair.type == PairType::kRel1);

@@ -4,7 +4,10 @@
 #include <gtest/gtest.h>
 
 #include "tests/hierarchy/random_graphs.h"
-#include "tests/hierarchy/reference_pairs.h"
+#include "tests/model/reference_pairs.h"
+#include "tests/model/reference_reeb.h"
+#include "tests/support/random_complex.h"
+#include "tests/support/seed.h"
 
 namespace reeb {
 namespace {
@@ -64,11 +67,24 @@ TEST(Pairing, EqualsTheBoundaryMatrixReduction) {
     test::Random random(seed);
     const ReebGraph graph = test::random_graph(random, seed % 50 == 0 ? 40 : 11);
     const auto pairs = persistence_pairs(graph);
-    ASSERT_EQ(test::keys_of(graph, pairs), test::reference_pairs(graph));
+    ASSERT_EQ(test::vertex_pairs(graph, pairs),
+              test::vertex_pairs(graph, test::reference_pairs(graph)));
 
     const BettiNumbers betti = betti_numbers(graph);
     ASSERT_EQ(count(pairs, PairType::kExt0), betti.components);
     ASSERT_EQ(count(pairs, PairType::kExt1), betti.loops);
+  }
+}
+
+// The reduction of the complex itself, which knows of no Reeb graph.
+TEST(Pairing, EqualsTheBoundaryMatrixReductionOfComplexes) {
+  const std::uint64_t base = test::base_seed();
+  for (std::uint64_t i = 0; i < test::case_count(10000); ++i) {
+    SCOPED_TRACE(testing::Message() << "seed " << base + i);
+    const test::Complex complex = test::random_complex(base + i);
+    if (complex.vertex_count() > 60) continue;  // the reduction is cubic
+    const ReebGraph graph = test::reference_reeb(complex);
+    ASSERT_EQ(test::vertex_pairs(graph, persistence_pairs(graph)), test::reference_pairs(complex));
   }
 }
 

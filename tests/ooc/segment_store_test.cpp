@@ -69,7 +69,7 @@ void compare(std::size_t count, SegmentOptions options, bool must_spill) {
       ASSERT_EQ(loaded.graph.nodes[loaded.graph.lo[i].value()], pieces.arcs[i].lo);
       ASSERT_EQ(loaded.graph.nodes[loaded.graph.hi[i].value()], pieces.arcs[i].hi);
     }
-    EXPECT_TRUE(read_graph(store, false).graph.positions.empty());
+    EXPECT_TRUE(read_graph(store, {.positions = false}).graph.positions.empty());
   }
   EXPECT_EQ(budget.used_bytes(), 0u);
   EXPECT_TRUE(scratch.empty());
@@ -115,19 +115,209 @@ TEST(SegmentStore, AnArcThatEndsNowhereIsSeen) {
   EXPECT_THROW(read_graph(store), std::logic_error);
 }
 
+// Arcs as they come: calls with embedding, some of a larger exponent than those before.
+struct EmbeddedArcs {
+  static constexpr int kExponents = 6, kLast = 2;  // -3 .. 2
+  struct Call {
+    std::vector<ArcKeys> arcs;
+    std::vector<std::uint32_t> counts;
+    std::vector<Bucket> buckets;
+    int exponent = 0;
+  };
+  std::vector<Call> calls;
+};
+
+// Values are small integers, so that means are exact and equal keys have to keep their order.
+EmbeddedArcs random_embedded_arcs(const Pieces& pieces, std::uint64_t seed, std::size_t most_buckets) {
+  std::mt19937_64 random(seed);
+  EmbeddedArcs all;
+  for (std::size_t first = 0; first < pieces.arcs.size();) {
+    EmbeddedArcs::Call call;
+    call.exponent = EmbeddedArcs::kLast - EmbeddedArcs::kExponents + 1 +
+                    static_cast<int>(first * EmbeddedArcs::kExponents / pieces.arcs.size());
+    const std::size_t last = std::min(pieces.arcs.size(), first + 1 + random() % 500);
+    for (; first < last; ++first) {
+      call.arcs.push_back(pieces.arcs[first]);
+      call.counts.push_back(static_cast<std::uint32_t>(random() % 3 == 0 ? random() % (most_buckets + 1) : random() % 3));
+      std::int64_t index = -static_cast<std::int64_t>(random() % 50);
+      for (std::uint32_t i = 0; i < call.counts.back(); ++i) {
+        index += 1 + static_cast<std::int64_t>(random() % 3);
+        const auto coordinate = [&] { return static_cast<double>(random() % 1000); };
+        call.buckets.push_back({index, 1 + random() % 9, {coordinate(), coordinate(), coordinate()}});
+      }
+    }
+    all.calls.push_back(std::move(call));
+  }
+  return all;
+}
+
+struct EmbeddedArc {
+  ArcKeys keys;
+  std::vector<Bucket> buckets;
+};
+
+// What is to come back: by a stable sort in memory, coarsened one arc at a time.
+std::vector<EmbeddedArc> expected_arcs(const EmbeddedArcs& all) {
+  std::vector<EmbeddedArc> arcs;
+  for (const auto& call : all.calls) {
+    auto next = call.buckets.begin();
+    for (std::size_t i = 0; i < call.arcs.size(); next += call.counts[i++]) {
+      EmbeddedArc arc{call.arcs[i], {next, next + call.counts[i]}};
+      coarsen(arc.buckets, 0, static_cast<unsigned>(EmbeddedArcs::kLast - call.exponent));
+      arcs.push_back(std::move(arc));
+    }
+  }
+  std::stable_sort(arcs.begin(), arcs.end(), [](const auto& a, const auto& b) { return a.keys < b.keys; });
+  return arcs;
+}
+
+void add(SegmentStore& store, const EmbeddedArcs& all, std::size_t first, std::size_t last) {
+  for (std::size_t i = first; i < last; ++i) {
+    const auto& call = all.calls[i];
+    store.add_arcs({call.arcs, call.counts, call.buckets, call.exponent});
+  }
+}
+
+void expect_arcs(SegmentStore& store, const std::vector<EmbeddedArc>& expected, std::size_t limit) {
+  store.rewind_arcs();
+  std::size_t next = 0;
+  for (ArcPiece piece; store.read_arcs(piece, limit, EmbeddedArcs::kLast);) {
+    ASSERT_LE(piece.arcs.size(), limit);
+    for (std::size_t i = 0; i < piece.arcs.size(); ++i, ++next) {
+      ASSERT_LT(next, expected.size());
+      ASSERT_EQ(piece.arcs[i], expected[next].keys) << "arc " << next;
+      const auto own = piece.buckets.view().of(i);
+      ASSERT_TRUE(std::equal(own.begin(), own.end(), expected[next].buckets.begin(), expected[next].buckets.end()))
+          << "buckets of arc " << next;
+    }
+  }
+  EXPECT_EQ(next, expected.size());
+}
+
+TEST_P(Segments, BucketsTravelWithTheirArcs) {
+  const Pieces pieces = random_pieces(20'000, 17);
+  struct Case {
+    std::uint64_t allowance, budget;
+    std::size_t most_buckets;
+    bool must_spill;
+  };
+  // The last but one merges in many passes; the last has payloads larger than the allowance.
+  for (const Case& c : {Case{48 << 20, 96 << 20, 20, false}, Case{1 << 20, 64 << 20, 20, true},
+                        Case{0, 2 << 20, 20, true}, Case{0, 64 << 20, 4000, true}}) {
+    SCOPED_TRACE(testing::Message() << "allowance " << c.allowance << ", up to " << c.most_buckets << " buckets");
+    const Scratch scratch;
+    const TempDir temp(scratch.path());
+    MemoryBudget budget(c.budget);
+    Pieces some = pieces;
+    if (c.most_buckets > 100) some.arcs.resize(900);
+    const EmbeddedArcs all = random_embedded_arcs(some, 5, c.most_buckets);
+    const auto expected = expected_arcs(all);
+    {
+      SegmentStore store(temp, budget, {.allowance_bytes = c.allowance, .background = GetParam()});
+      add(store, all, 0, all.calls.size());
+      store.finish();
+      EXPECT_EQ(store.spilled_bytes() > 0, c.must_spill);
+      expect_arcs(store, expected, 1000);
+      expect_arcs(store, expected, 3);
+    }
+    EXPECT_EQ(budget.used_bytes(), 0u);
+  }
+}
+
+TEST_P(Segments, AGraphHasTheBucketsOfItsArcs) {
+  const Scratch scratch;
+  const TempDir temp(scratch.path());
+  MemoryBudget budget(64 << 20);
+  const Pieces pieces = random_pieces(9'000, 23);
+  const EmbeddedArcs all = random_embedded_arcs(pieces, 6, 10);
+  const auto expected = expected_arcs(all);
+  SegmentStore store(temp, budget, {.allowance_bytes = 0, .background = GetParam()});
+  store.add_nodes(pieces.nodes);
+  add(store, all, 0, all.calls.size());
+  store.finish();
+  const std::uint64_t before = budget.used_bytes();
+  const LoadedGraph loaded = read_graph(store, {.bucket_exponent = EmbeddedArcs::kLast});
+  ASSERT_EQ(loaded.graph.arc_count(), expected.size());
+  ASSERT_EQ(loaded.buckets.offsets.size(), expected.size() + 1);
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    const auto own = loaded.buckets.view().of(i);
+    ASSERT_TRUE(std::equal(own.begin(), own.end(), expected[i].buckets.begin(), expected[i].buckets.end()));
+  }
+  EXPECT_GE(budget.used_bytes() - before, loaded.buckets.buckets.size() * sizeof(Bucket));
+  EXPECT_TRUE(read_graph(store).buckets.view().empty());
+}
+
+class StateBytes : public StateWriter, public StateReader {
+ public:
+  void write(std::span<const std::byte> bytes) override { bytes_.insert(bytes_.end(), bytes.begin(), bytes.end()); }
+  void read(std::span<std::byte> bytes) override {
+    if (bytes.size() > left()) throw DamagedState();
+    std::copy_n(bytes_.begin() + static_cast<std::ptrdiff_t>(at_), bytes.size(), bytes.begin());
+    at_ += bytes.size();
+  }
+  std::uint64_t left() const override { return bytes_.size() - at_; }
+
+ private:
+  std::vector<std::byte> bytes_;
+  std::size_t at_ = 0;
+};
+
+TEST_P(Segments, AnotherProcessGoesOnWithTheBuckets) {
+  const Pieces pieces = random_pieces(20'000, 29);
+  const EmbeddedArcs all = random_embedded_arcs(pieces, 7, 12);
+  const auto expected = expected_arcs(all);
+  for (const std::uint64_t allowance : {std::uint64_t{0}, std::uint64_t{8} << 20}) {
+    const Scratch scratch;
+    const TempDir temp(scratch.path());
+    MemoryBudget budget;
+    const SegmentOptions options{allowance, GetParam(), scratch.path() + "/segments"};
+    StateBytes state;
+    const std::size_t half = all.calls.size() / 2;
+    {
+      SegmentStore store(temp, budget, options);
+      add(store, all, 0, half);
+      store.save(state);
+      add(store, all, half, half + 20);  // is lost
+    }
+    SegmentStore store(temp, budget, options);
+    store.restore(state);
+    add(store, all, half, all.calls.size());
+    store.finish();
+    expect_arcs(store, expected, 777);
+  }
+}
+
+TEST(SegmentStore, BucketsOfALargerExponentThanTheLastAreSeen) {
+  const Scratch scratch;
+  const TempDir temp(scratch.path());
+  MemoryBudget budget;
+  SegmentStore store(temp, budget);
+  store.add_arcs({std::vector<ArcKeys>{{{1.0, VertexId(0)}, {2.0, VertexId(1)}}}, std::vector<std::uint32_t>{1},
+                  std::vector<Bucket>{{0, 1, {}}}, 3});
+  store.finish();
+  ArcPiece piece;
+  EXPECT_THROW(store.read_arcs(piece, 1, 2), std::logic_error);
+}
+
 // Whatever the bytes, a decoder answers or refuses; it never leaves its arrays.
 TEST(SegmentCodecs, RefuseDamagedBlocks) {
   Pieces pieces = random_pieces(300, 8);
   std::sort(pieces.arcs.begin(), pieces.arcs.end());
   std::vector<std::byte> packed;
-  ArcCodec::encode(pieces.arcs, packed);
-  std::vector<ArcKeys> back(pieces.arcs.size());
-  ASSERT_TRUE(ArcCodec::decode(packed, back));
-  EXPECT_EQ(back, pieces.arcs);
+  std::vector<StoredArc> arcs;
+  const std::vector<std::byte> pool(7, std::byte{3});
+  for (std::size_t i = 0; i < pieces.arcs.size(); ++i)
+    arcs.push_back({pieces.arcs[i], {static_cast<std::uint32_t>(i % 5), static_cast<std::uint32_t>(i % 3)}});
+  ArcCodec::encode(arcs, pool, packed);
+  std::vector<StoredArc> back(arcs.size());
+  std::vector<std::byte> own;
+  ASSERT_TRUE(ArcCodec::decode(packed, back, own));
+  EXPECT_EQ(own.size(), arcs.size());  // 0, 1, 2 bytes in turn
+  for (std::size_t i = 0; i < arcs.size(); ++i) EXPECT_EQ(back[i].keys, arcs[i].keys);
   for (std::size_t size = 0; size < packed.size(); size += 37)
-    EXPECT_FALSE(ArcCodec::decode(std::vector(packed.begin(), packed.begin() + static_cast<std::ptrdiff_t>(size)), back));
+    EXPECT_FALSE(ArcCodec::decode(std::span(packed).first(size), back, own));
   back.pop_back();
-  EXPECT_FALSE(ArcCodec::decode(packed, back));
+  EXPECT_FALSE(ArcCodec::decode(packed, back, own));
 }
 
 }  // namespace

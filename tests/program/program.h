@@ -31,8 +31,8 @@ class ProgramTest : public testing::Test {
       if (const auto bytes = memory_limit()) words.insert(words.end(), {"--memory", std::to_string(*bytes)});
       if (const auto triangles = chunk_limit()) words.insert(words.end(), {"--chunk", std::to_string(*triangles)});
     }
-    words.insert(words.begin(), REEB_PROGRAM);
-    command.arguments = std::move(words);
+    command.arguments.assign(1, REEB_PROGRAM);
+    command.arguments.insert(command.arguments.end(), words.begin(), words.end());
     command.folder = folder_.path();
     command.environment.emplace_back("TMPDIR", temp_.path());
     last_command_ = describe(command);

@@ -1,26 +1,80 @@
-// `reeb verify`: whether a .reeb file is whole and says nothing that contradicts itself.
+// `reeb verify`: whether a .reeb file is whole and says nothing that contradicts itself or its mesh.
 #include <fmt/core.h>
 
 #include <memory>
 #include <string>
 
+#include "libreeb/base/error.h"
+#include "libreeb/base/memory_budget.h"
 #include "ooc/reeb_file.h"
 #include "tools/commands/commands.h"
+#include "tools/mesh_recount.h"
+#include "tools/quantity.h"
+#include "tools/workspace.h"
 
 namespace reeb::tools {
+namespace {
+
+struct VerifyOptions {
+  std::string file, mesh, memory, temp_folder;
+};
+
+template <class Count>
+void compare(const std::string& path, const char* what, Count in_file, Count in_mesh) {
+  if (in_file == in_mesh) return;
+  throw Error(ErrorKind::kBadInput, fmt::format("the file says {} {}, the mesh has {}", in_file, what, in_mesh),
+              "name the mesh that the file was computed from")
+      .at(path);
+}
+
+std::string describe_surface(const MeshRecount& mesh) {
+  if (!mesh.most_loops) return "not a surface, so its loops are not bounded";
+  if (!mesh.closed) return fmt::format("a surface with boundary: at most {} loops", *mesh.most_loops);
+  return fmt::format("a closed surface of genus {}", *mesh.most_loops);
+}
+
+void compare_with_mesh(const ooc::ReebFile& file, const VerifyOptions& options) {
+  const std::uint64_t memory = options.memory.empty() ? MemoryBudget::kUnlimited : parse_size(options.memory);
+  Workspace space(options.temp_folder, memory);
+  const FileHeader& header = file.header();
+  const MeshRecount mesh = recount_mesh(options.mesh, header.function, file.load(0).graph, space);
+  compare(options.file, "vertices", header.mesh_vertices, mesh.vertices);
+  compare(options.file, "triangles", header.mesh_triangles, mesh.triangles);
+  compare(options.file, "components", header.components, mesh.components);
+  if (mesh.range) {
+    compare(options.file, "as the least value", header.function_min, mesh.range->min);
+    compare(options.file, "as the greatest value", header.function_max, mesh.range->max);
+  }
+  if (mesh.most_loops && header.loops > *mesh.most_loops)
+    throw Error(ErrorKind::kBadInput,
+                fmt::format("there are {} loops, but the mesh is {}", header.loops, describe_surface(mesh)),
+                "name the mesh that the file was computed from")
+        .at(options.file);
+  fmt::print("{}: good: {} components, Euler characteristic {}, {}\n", options.mesh, mesh.components, mesh.euler,
+             describe_surface(mesh));
+}
+
+void verify(const VerifyOptions& options) {
+  const ooc::ReebFile file(options.file);
+  file.verify();
+  const FileHeader& header = file.header();
+  fmt::print("{}: good: {} nodes, {} arcs, {} components, {} loops, {} pairs, {} versions\n", options.file,
+             header.nodes, header.arcs, header.components, header.loops, header.pairs,
+             std::uint64_t{header.steps} + 1);
+  if (!options.mesh.empty()) compare_with_mesh(file, options);
+}
+
+}  // namespace
 
 void add_verify(CLI::App& app) {
-  auto path = std::make_shared<std::string>();
+  auto options = std::make_shared<VerifyOptions>();
   CLI::App* command = app.add_subcommand("verify", "Check a .reeb file: checksums, structure, counts");
-  command->add_option("FILE", *path, "the .reeb file")->required();
-  command->footer("Example:\n  reeb verify scan.reeb");
-  command->callback([path] {
-    const ooc::ReebFile file(*path);
-    file.verify();
-    const FileHeader& header = file.header();
-    fmt::print("{}: good: {} nodes, {} arcs, {} components, {} loops, {} pairs, {} versions\n", *path, header.nodes,
-               header.arcs, header.components, header.loops, header.pairs, std::uint64_t{header.steps} + 1);
-  });
+  command->add_option("FILE", options->file, "the .reeb file")->required();
+  command->add_option("--mesh", options->mesh, "the mesh that it was computed from, to count again");
+  command->add_option("--memory", options->memory, "memory for the tables of the mesh, like 64M");
+  command->add_option("--temp-dir", options->temp_folder, "folder for temporary files (default: $TMPDIR, or here)");
+  command->footer("Example:\n  reeb verify scan.reeb --mesh scan.ply");
+  command->callback([options] { verify(*options); });
 }
 
 }  // namespace reeb::tools

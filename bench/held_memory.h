@@ -1,0 +1,38 @@
+// What a program holds through operator new, as the allocator rounds it. To be included by one source
+// file of a program: it replaces the operators.
+#pragma once
+
+#include <malloc.h>
+
+#include <atomic>
+#include <cstddef>
+#include <cstdlib>
+#include <new>
+
+namespace reeb::bench {
+
+inline std::atomic<std::size_t> held_bytes{0}, peak_bytes{0};
+
+// Runs `work` once, untimed. The most that was held while it ran, beyond what was held before.
+template <class Work>
+std::size_t peak_of(Work work) {
+  const std::size_t before = held_bytes;
+  peak_bytes = before;
+  work();
+  return peak_bytes - before;
+}
+
+}  // namespace reeb::bench
+
+void* operator new(std::size_t size) {
+  void* memory = std::malloc(size);
+  if (memory == nullptr) throw std::bad_alloc();
+  const std::size_t held = reeb::bench::held_bytes += malloc_usable_size(memory);
+  if (held > reeb::bench::peak_bytes) reeb::bench::peak_bytes = held;
+  return memory;
+}
+void operator delete(void* memory) noexcept {
+  if (memory != nullptr) reeb::bench::held_bytes -= malloc_usable_size(memory);
+  std::free(memory);
+}
+void operator delete(void* memory, std::size_t) noexcept { operator delete(memory); }

@@ -1,0 +1,21 @@
+// The buckets of an arc as the payload with which it is sorted.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "libreeb/graph/bucket.h"
+
+namespace reeb::ooc {
+
+// Appends the payload: exponent, number, differences of indices and counts as varints, means as they
+// are. An arc without buckets has none.
+void encode_buckets(std::span<const Bucket> buckets, int exponent, std::vector<std::byte>& payload);
+
+// Appends the buckets of a payload, coarsened to `exponent`. False if the bytes are no payload, or
+// are coarser.
+bool decode_buckets(std::span<const std::byte> payload, int exponent, std::vector<Bucket>& buckets);
+
+}  // namespace reeb::ooc

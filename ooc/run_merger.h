@@ -1,0 +1,151 @@
+// Blocks of sorted records, and merging the runs that they make up.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "ooc/record_batch.h"
+#include "ooc/run_file.h"
+
+namespace reeb::ooc {
+
+// How a block of sorted records becomes bytes: as it lies in memory. Another codec has the same
+// two functions; decode is false if the bytes are not a block of so many records. For records with
+// payloads encode takes the pool, too, and decode fills one.
+template <class Record>
+struct PlainCodec {
+  static_assert(!CarriesPayload<Record>);
+  static void encode(std::span<const Record> records, std::vector<std::byte>& packed) {
+    const auto bytes = std::as_bytes(records);
+    packed.assign(bytes.begin(), bytes.end());
+  }
+  static bool decode(std::span<const std::byte> packed, std::span<Record> records) {
+    if (packed.size() != records.size_bytes()) return false;
+    std::memcpy(records.data(), packed.data(), packed.size());
+    return true;
+  }
+};
+
+// A block has about so many bytes of records and payloads, and at least one record.
+inline constexpr std::size_t kRunBlockBytes = 64 << 10;
+
+// How many of the first records make a block.
+template <class Record>
+std::size_t block_records(std::span<const Record> records) {
+  constexpr std::size_t kMost = kRunBlockBytes / sizeof(Record);
+  const std::size_t most = std::min(kMost, records.size());
+  if constexpr (CarriesPayload<Record>) {
+    std::size_t bytes = 0;
+    for (std::size_t i = 0; i < most; ++i) {
+      bytes += sizeof(Record) + records[i].payload.size;
+      if (bytes > kRunBlockBytes) return std::max<std::size_t>(i, 1);
+    }
+  }
+  return most;
+}
+
+// Appends all records to `file`, block after block. Returns the number of blocks.
+template <class Record, class Codec>
+std::uint64_t append_blocks(std::span<const Record> records, [[maybe_unused]] std::span<const std::byte> pool,
+                            RunFile& file) {
+  std::uint64_t blocks = 0;
+  for (std::vector<std::byte> packed; !records.empty(); ++blocks) {
+    const auto block = records.first(block_records(records));
+    packed.clear();
+    if constexpr (CarriesPayload<Record>)
+      Codec::encode(block, pool, packed);
+    else
+      Codec::encode(block, packed);
+    file.append(packed, block.size());
+    records = records.subspan(block.size());
+  }
+  return blocks;
+}
+
+// Merges sorted runs of a file by a tree of losers: a comparison for each doubling of the number of
+// runs. Of equal records those of earlier runs come first. Holds one block of each run.
+// REQUIRES: at least one run.
+template <class Record, class Codec, class Less>
+class RunMerger {
+ public:
+  RunMerger(const RunFile& file, std::span<const RunPlace> runs)
+      : file_(&file), cursors_(runs.size()), heads_(runs.size()), losers_(runs.size()) {
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+      cursors_[i].rest = runs[i];
+      refill(i);
+    }
+    play_all();
+  }
+
+  bool empty() const { return heads_[winner_] == nullptr; }
+
+  // Moves the first record to the end of `out`. REQUIRES: !empty().
+  void take(RecordBatch<Record>& out) {
+    const Cursor& top = cursors_[winner_];
+    out.add(*heads_[winner_], top.block.payload(*heads_[winner_]));
+    if (++heads_[winner_] == top.block.records.data() + top.block.records.size()) refill(winner_);
+    replay();
+  }
+
+ private:
+  struct Cursor {
+    RunPlace rest;
+    RecordBatch<Record> block;  // at hand
+  };
+
+  void refill(std::size_t i) {
+    Cursor& cursor = cursors_[i];
+    heads_[i] = nullptr;
+    if (cursor.rest.blocks == 0) return;
+    const std::uint64_t offset = cursor.rest.offset;
+    cursor.block.records.resize(file_->read(cursor.rest, packed_));
+    if (!decode(cursor.block) || cursor.block.empty()) file_->refuse(offset);
+    heads_[i] = cursor.block.records.data();
+  }
+
+  bool decode(RecordBatch<Record>& block) const {
+    if constexpr (CarriesPayload<Record>)
+      return Codec::decode(packed_, block.records, block.pool);
+    else
+      return Codec::decode(packed_, block.records);
+  }
+
+  // A total order of the runs that have records left; the others come after them.
+  bool beats(std::size_t a, std::size_t b) const {
+    if (heads_[a] == nullptr || heads_[b] == nullptr) return heads_[a] != nullptr;
+    return a < b ? !Less()(*heads_[b], *heads_[a]) : Less()(*heads_[a], *heads_[b]);
+  }
+
+  // Run i is leaf n + i of a tree with the inner nodes 1 .. n - 1; node i has the children 2i, 2i + 1.
+  void play_all() {
+    const std::size_t n = heads_.size();
+    std::vector<std::size_t> winners(2 * n);
+    for (std::size_t i = 0; i < n; ++i) winners[n + i] = i;
+    for (std::size_t node = n; node-- > 1;) {
+      std::size_t winner = winners[2 * node], loser = winners[2 * node + 1];
+      if (beats(loser, winner)) std::swap(winner, loser);
+      winners[node] = winner;
+      losers_[node] = loser;
+    }
+    winner_ = winners[1];
+  }
+
+  void replay() {
+    for (std::size_t node = (winner_ + heads_.size()) / 2; node != 0; node /= 2)
+      if (beats(losers_[node], winner_)) std::swap(losers_[node], winner_);
+  }
+
+  const RunFile* file_;
+  std::vector<std::byte> packed_;
+  std::vector<Cursor> cursors_;
+  std::vector<const Record*> heads_;  // the first record left of each run; null at its end
+  std::vector<std::size_t> losers_;   // by inner node: who lost there
+  std::size_t winner_ = 0;
+};
+
+}  // namespace reeb::ooc

@@ -1,0 +1,66 @@
+// Every reader against changed files: a second each in an ordinary run, REEB_FUZZ_SECONDS otherwise.
+// REEB_FUZZ_INPUT runs one file that was kept instead (see README.md). Best under sanitizers.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+
+#include "tests/fuzz/crash_report.h"
+#include "tests/fuzz/mutator.h"
+#include "tests/support/files.h"
+#include "tests/support/run_limits.h"
+#include "tests/support/seed.h"
+
+// A reader that reserves what a header promises is found out, not the machine's limits.
+extern "C" const char* __asan_default_options();
+extern "C" const char* __asan_default_options() { return "max_allocation_size_mb=256:hard_rss_limit_mb=2048"; }
+
+namespace reeb::test {
+namespace {
+
+class Fuzz : public testing::TestWithParam<const FuzzTarget*> {
+ protected:
+  bool run(const std::string& bytes) {
+    watch_input(&bytes, std::string(GetParam()->name));
+    const bool good = GetParam()->run(bytes);
+    watch_input(nullptr, std::string(GetParam()->name));
+    return good;
+  }
+};
+
+TEST_P(Fuzz, ChangedFilesAreReadOrRefused) {
+  if (const char* kept = std::getenv("REEB_FUZZ_INPUT")) {
+    run(read_file(kept));
+    return;
+  }
+  const auto time = std::chrono::seconds(number_in_environment("REEB_FUZZ_SECONDS").value_or(1));
+  const auto end = std::chrono::steady_clock::now() + time;
+  std::size_t sound = 0, good = 0, cases = 0;
+  const auto samples = GetParam()->corpus();
+  ASSERT_FALSE(samples.empty());
+  for (const std::string& bytes : samples) sound += run(bytes) ? 1u : 0u;
+  EXPECT_GT(sound, 0u) << "no sample is a good file";
+  Mutator mutator(*GetParam(), base_seed());
+  while (std::chrono::steady_clock::now() < end) {
+    good += run(mutator.next()) ? 1u : 0u;
+    ++cases;
+  }
+  std::printf("%zu samples, %zu of them good; %zu changed files, %zu of them good\n", samples.size(), sound, cases, good);
+}
+
+std::vector<const FuzzTarget*> pointers() {
+  std::vector<const FuzzTarget*> all;
+  for (const FuzzTarget& target : fuzz_targets()) all.push_back(&target);
+  return all;
+}
+
+INSTANTIATE_TEST_SUITE_P(Readers, Fuzz, testing::ValuesIn(pointers()), [](const auto& instance) {
+  std::string name(instance.param->name);
+  std::ranges::replace(name, '-', '_');
+  return name;
+});
+
+}  // namespace
+}  // namespace reeb::test

@@ -1,0 +1,59 @@
+// What every reader promises of the events that it delivers, whatever its input is.
+//
+// A broken promise prints what it is and aborts, as a sanitizer would, so that whoever drives the
+// fuzzing treats both alike.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "io/streaming/stream_event.h"
+#include "libreeb/base/error.h"
+#include "libreeb/port/mesh_reader.h"
+
+namespace reeb::io {
+
+[[noreturn]] void violation(const std::string& what);
+void expect(bool holds, const char* promise);
+
+// An error has a message and a hint, and is the user's to mend.
+void expect_helpful(const Error& error);
+
+// What was delivered, apart from the order between vertices, simplices and finalizations, which
+// depends on the size of batches.
+struct Delivered {
+  std::uint64_t vertices = 0, simplices = 0, finalized = 0;
+  std::uint64_t vertex_digest = 0, simplex_digest = 0, final_digest = 0;
+  bool whole = false;  // up to the regular end of the mesh
+  friend bool operator==(const Delivered&, const Delivered&) = default;
+};
+
+// The rules of libreeb/port/mesh_reader.h.
+class BatchLegality {
+ public:
+  void add(const MeshBatch& batch, const MeshInfo& info, std::size_t properties);
+  Delivered& delivered() { return delivered_; }
+
+ private:
+  void add_vertices(const MeshBatch& batch);
+  void add_simplices(const std::vector<VertexId>& corners, std::size_t corners_each);
+
+  Delivered delivered_;
+  std::vector<bool> final_;
+};
+
+// The rules of a legal stream, in pre-order and in post-order (io/streaming/stream_event.h).
+class EventLegality {
+ public:
+  void add(const StreamEvent& event, const StreamHeader& header);
+  void end() const;
+  std::uint64_t vertices() const { return final_.size(); }
+  std::uint64_t cells() const { return cells_; }
+
+ private:
+  std::vector<bool> final_;
+  std::uint64_t cells_ = 0, named_end_ = 0;
+};
+
+}  // namespace reeb::io
