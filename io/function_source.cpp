@@ -62,6 +62,8 @@ class ValueFile {
   virtual double next() = 0;
   virtual double at(std::uint64_t vertex) = 0;
   virtual void check_count(std::uint64_t vertex_count) = 0;
+  // What at() will keep in memory, for so many vertices.
+  virtual std::uint64_t lookup_bytes(std::uint64_t) const { return 0; }
 };
 
 namespace {
@@ -108,39 +110,51 @@ class RawValueFile final : public ValueFile {
 
 class TextValueFile final : public ValueFile {
  public:
-  explicit TextValueFile(const std::string& path)
-      : path_(path), text_(open_content(path), {.comments = true}) {}
+  explicit TextValueFile(const std::string& path) : path_(path) { open(); }
 
   double next() override {
-    if (!text_.more()) {
-      text_.mark();
-      throw_wrong_count(path_, text_.position(), read_, false, read_ + 1);
+    if (!text_->more()) {
+      text_->mark();
+      throw_wrong_count(path_, text_->position(), read_, false, read_ + 1);
     }
-    const auto value = text_.finite_number<double>("value");
-    if (text_.more_on_line()) {
-      text_.token();
-      text_.fail("a line has more than one number", "write one number a line, in the order of vertices");
+    const auto value = text_->finite_number<double>("value");
+    if (text_->more_on_line()) {
+      text_->token();
+      text_->fail("a line has more than one number", "write one number a line, in the order of vertices");
     }
     ++read_;
     return value;
   }
   double at(std::uint64_t vertex) override {
+    if (values_.empty()) {
+      if (vertex == read_) return next();
+      open();
+    }
     while (values_.size() <= vertex) values_.push_back(next());
     return values_[vertex];
   }
   void check_count(std::uint64_t vertex_count) override {
-    if (!values_.empty() || read_ == 0)
+    if (!values_.empty() || read_ == 0) {
+      values_.reserve(vertex_count);
       while (values_.size() < vertex_count) values_.push_back(next());
-    const bool more = text_.more();
-    text_.mark();
-    if (more || read_ != vertex_count) throw_wrong_count(path_, text_.position(), read_ + (more ? 1 : 0), more, vertex_count);
+    }
+    const bool more = text_->more();
+    text_->mark();
+    if (more || read_ != vertex_count)
+      throw_wrong_count(path_, text_->position(), read_ + (more ? 1 : 0), more, vertex_count);
   }
+  std::uint64_t lookup_bytes(std::uint64_t vertex_count) const override { return vertex_count * sizeof(double); }
 
  private:
+  void open() {
+    text_.emplace(open_content(path_), TextStyle{.comments = true});
+    read_ = 0;
+  }
+
   std::string path_;
-  TextCursor text_;
+  std::optional<TextCursor> text_;
   std::uint64_t read_ = 0;
-  std::vector<double> values_;  // only where vertices are looked up
+  std::vector<double> values_;  // only where vertices are looked up, not in order
 };
 
 }  // namespace
@@ -226,6 +240,10 @@ void FunctionSource::evaluate(std::span<const VertexId> ids, std::span<const dou
 
 void FunctionSource::check_count(std::uint64_t vertex_count) {
   if (file_) file_->check_count(vertex_count);
+}
+
+std::uint64_t FunctionSource::lookup_bytes(std::uint64_t vertex_count) const {
+  return file_ ? file_->lookup_bytes(vertex_count) : 0;
 }
 
 double FunctionSource::value_of(std::uint64_t vertex) {

@@ -59,12 +59,16 @@ class FunctionSource {
   void evaluate(const MeshBatch& batch, std::span<double> values);
 
   // The values of any vertices; `gathered` is column() of them, and empty if there is none. A text
-  // file is read into memory for this, 8 bytes a vertex.
+  // file is read into memory for this, unless they are asked for in order, once.
   void evaluate(std::span<const VertexId> ids, std::span<const double> gathered, std::span<double> values);
 
-  // To be called once all `vertex_count` vertices of a stream are known.
+  // To be called when the number of vertices is known: before the first look-up, or behind the last
+  // vertex of a stream.
   // THROWS: Error{kBadInput} if the value file has more or fewer values.
   void check_count(std::uint64_t vertex_count);
+
+  // Memory that looking up so many vertices takes.
+  std::uint64_t lookup_bytes(std::uint64_t vertex_count) const;
 
  private:
   double value_of(std::uint64_t vertex);

@@ -25,6 +25,10 @@ class MeshFunction : public VertexFunction {
   std::string name() const override { return name_; }
   std::string source_file() const override { return source_file_; }
   std::span<const unsigned> columns() const override { return columns_; }
+  void check_count(std::uint64_t vertex_count) override { source_.check_count(vertex_count); }
+  std::uint64_t lookup_bytes(std::uint64_t vertex_count) const override {
+    return source_.lookup_bytes(vertex_count);
+  }
   void evaluate(std::span<const VertexId> ids, std::span<const std::span<const double>> columns,
                 std::span<double> values) override {
     source_.evaluate(ids, columns.empty() ? std::span<const double>() : columns[0], values);

@@ -18,6 +18,9 @@ namespace reeb::io {
 // Delivers each corner that is new as a vertex just before the facet that it belongs to.
 // MEMORY: grows with the number of distinct vertices, see VertexWeld.
 class StlReader : public BatchReader {
+ public:
+  std::uint64_t memory_bytes() const override { return weld_.memory_bytes(); }
+
  protected:
   StlReader(const ContentSource& source, ReadOptions options, std::string format);
 

@@ -29,6 +29,10 @@ class VertexWeld {
     return {points_.size() - 1, true};
   }
 
+  std::uint64_t memory_bytes() const {
+    return points_.capacity() * sizeof(Coordinates) + table_.capacity() * sizeof(std::uint64_t);
+  }
+
  private:
   static std::size_t hash(const Coordinates& point) {
     std::uint64_t state = 0;

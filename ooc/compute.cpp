@@ -107,6 +107,7 @@ class Run {
   std::optional<LastUse> scan(bool may_give_up);
   bool is_coherent(const UseSummary& summary) const;
   bool can_start(const UseSummary& summary) const;
+  Reservation prepare_values(std::uint64_t vertices);
   LastUse reorder_mesh();
   void run_chunks(ChunkSource& source);
 
@@ -168,11 +169,13 @@ void Run::first_stage() {
     run_indexed();
   } else {
     run_chunks(*chunks_of(*input_.reader, values_, plan_.chunk));
+    for (VertexFunction* function : functions_) function->check_count(common_.vertices);
     note(input_.reader->warnings());
   }
 }
 
 void Run::run_indexed() {
+  const Reservation values = prepare_values(input_.indexed->vertex_count());
   std::optional<LastUse> last_use;
   if (start_ == nullptr || !start_->reordered) last_use = find_last_uses();
   // A run that goes on keeps to the order in which it began.
@@ -191,6 +194,15 @@ void Run::run_indexed() {
   run_chunks(*chunks_of(*input_.indexed, *last_use, values_, plan_.chunk,
                         start_ != nullptr ? start_->place : ChunkPlace{}));
   note(input_.indexed->warnings());
+}
+
+// Vertices of an indexed mesh are looked up, for which some functions keep all their values.
+Reservation Run::prepare_values(std::uint64_t vertices) {
+  std::uint64_t bytes = 0;
+  for (const VertexFunction* function : functions_) bytes += function->lookup_bytes(vertices);
+  Reservation reservation = budget_.reserve("function values", bytes);
+  for (VertexFunction* function : functions_) function->check_count(vertices);
+  return reservation;
 }
 
 // Whether to glue the mesh as it comes. A front of many times the square root of the mesh is what

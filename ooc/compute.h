@@ -45,7 +45,7 @@ struct ComputeOptions {
   bool graph_only = false;
   bool keep_sidecar = false;
   bool may_reorder = true;          // an incoherent mesh, on disk
-  std::uint32_t buckets = 0;        // of a function's range, in which arcs are embedded; 0: not at all
+  std::uint32_t buckets = 64;       // the range of a function has so many, to twice as many; 0: no embedding
   double denoise = 0;               // remove noise below this persistence; 0: keep all
   bool denoise_is_share = false;    // `denoise` is a share of the function's range
   std::function<void(const ComputeProgress&)> progress = {};

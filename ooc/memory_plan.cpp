@@ -22,6 +22,13 @@ constexpr std::uint64_t kBytesALiveVertex = 900;
 constexpr std::uint64_t kSweepBytes = 80, kFlightBytes = 130;
 // Below this account one thread: chunks of a useful size come before parallel ones.
 constexpr std::uint64_t kEnoughForThreads = 12 * kMiB;
+// Chunks are for so many threads, however many there are: an embedding shows where they were cut.
+constexpr std::uint64_t kPlannedThreads = 2;
+
+std::uint64_t bytes_a_triangle(std::uint64_t threads, std::size_t functions) {
+  const std::uint64_t in_flight = threads == 1 ? 1 : threads + 1;
+  return threads * kSweepBytes + in_flight * kFlightBytes * functions;
+}
 
 std::uint64_t machine_bytes() {
   const long pages = sysconf(_SC_PHYS_PAGES), page = sysconf(_SC_PAGE_SIZE);
@@ -49,13 +56,14 @@ MemoryPlan plan_memory(std::uint64_t limit_bytes, unsigned threads, std::size_t 
   plan.segment_bytes = std::min(eighth / 2, 2 * kMiB) / functions;
   plan.live_bytes = std::min(4 * eighth, 96 * kMiB) / functions;
 
-  plan.threads = plan.account_bytes < kEnoughForThreads ? 1 : threads;
-  const std::uint64_t in_flight = plan.threads == 1 ? 1 : plan.threads + 1;
-  const std::uint64_t a_triangle = plan.threads * kSweepBytes + in_flight * kFlightBytes * functions;
+  const bool alone = plan.account_bytes < kEnoughForThreads;
   const std::uint64_t share = std::min(eighth, 64 * kMiB);
-  const auto most = static_cast<std::size_t>(std::max<std::uint64_t>(512, share / a_triangle));
+  const auto most = static_cast<std::size_t>(
+      std::max<std::uint64_t>(512, share / bytes_a_triangle(alone ? 1 : kPlannedThreads, functions)));
   plan.chunk.first = std::min(plan.chunk.first, most);
   plan.chunk.most = std::min(plan.chunk.most, most);
+  plan.threads = alone ? 1 : threads;
+  while (plan.threads > kPlannedThreads && bytes_a_triangle(plan.threads, functions) * most > 2 * eighth) --plan.threads;
   if (chunk_triangles != 0) plan.chunk = {chunk_triangles, chunk_triangles};
   return plan;
 }

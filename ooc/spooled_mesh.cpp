@@ -66,7 +66,9 @@ std::unique_ptr<SpooledMesh> spool(MeshReader& reader, const TempDir& temp, Memo
                                    const SpoolOptions& options) {
   std::unique_ptr<SpooledMesh> mesh;
   MeshBatch batch;
+  Reservation kept = budget.reserve("mesh reader", 0);
   while (reader.read(batch)) {
+    kept.resize(reader.memory_bytes());
     if (mesh == nullptr)
       mesh = std::make_unique<SpooledMesh>(
           static_cast<unsigned>(batch.coordinates.size() + batch.properties.size()), temp, budget,

@@ -146,6 +146,7 @@ TEST(Pipeline, WritesTheSameBytesHoweverItRuns) {
     for (std::uint64_t i = 0; i < (graph_only ? cases / 4 : cases); ++i) {
       const Complex complex = random_complex(seed + i);
       const ComplexMesh mesh(complex);
+      runner.options().buckets = 0;
       const std::string expected = take_bytes(runner.run(mesh, shapes[0])[0]);
       for (const RunShape& shape : shapes)
         ASSERT_TRUE(take_bytes(runner.run(mesh, shape, {3}, seed + i)[0]) == expected)
@@ -158,6 +159,7 @@ TEST(Pipeline, SeveralFunctionsInOneRunEqualSingleRuns) {
   const std::uint64_t seed = base_seed(), cases = case_count(500);
   const std::vector<RunShape> shapes = all_shapes();
   Runner runner;
+  runner.options().buckets = 0;  // streams finalize in any order, which an embedding shows
   for (std::uint64_t i = 0; i < cases; ++i) {
     Complex complex = random_complex(seed + i);
     ComplexMesh mesh(complex);
@@ -176,6 +178,64 @@ TEST(Pipeline, SeveralFunctionsInOneRunEqualSingleRuns) {
   }
 }
 
+// Graph, pairs and numbers of levels: all that an embedding does not add.
+void expect_same_but_for_buckets(const std::string& path, const std::string& other) {
+  const ooc::ReebFile a(path), b(other);
+  ASSERT_EQ(a.load().graph, b.load().graph);
+  ASSERT_EQ(a.header().steps, b.header().steps);
+  if (a.header().flags.graph_only) return;
+  ASSERT_EQ(a.header().pairs, b.header().pairs);
+  const auto x = a.pairs(), y = b.pairs();
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    ASSERT_EQ(x[i].lo.key, y[i].lo.key);
+    ASSERT_EQ(x[i].hi.key, y[i].hi.key);
+    ASSERT_EQ(x[i].type, y[i].type);
+    ASSERT_EQ(x[i].kept, y[i].kept);
+  }
+  for (std::uint32_t version = 0; version <= a.header().steps; version += 1 + a.header().steps / 4)
+    ASSERT_EQ(a.load(version).graph, b.load(version).graph);
+}
+
+std::uint64_t vertices_in_buckets(const ArcBuckets& buckets) {
+  std::uint64_t vertices = 0;
+  for (const Bucket& bucket : buckets.buckets) vertices += bucket.count;
+  return vertices;
+}
+
+TEST(Pipeline, EmbedsEveryVertexOnceWhateverTheRun) {
+  const std::uint64_t seed = base_seed(), cases = case_count(400);
+  for (const bool graph_only : {false, true}) {
+    Runner runner(graph_only), plain(graph_only);
+    plain.options().buckets = 0;
+    for (std::uint64_t i = 0; i < cases; ++i) {
+      const Complex complex = random_complex(seed + i);
+      const ComplexMesh mesh(complex);
+      Random random(seed + i);
+      runner.options().buckets = static_cast<std::uint32_t>(1 + random.below(i % 3 == 0 ? 200 : 4));
+      runner.options().denoise = plain.options().denoise = random.below(2) == 0 ? random.unit() : 0;
+      const std::string without = plain.run(mesh, {0, 1, Form::kIndexed})[0];
+      for (const std::size_t chunk : {std::size_t{7}, std::size_t{0}})
+        for (const Form form : {Form::kIndexed, Form::kStream}) {
+          std::string expected;
+          for (const unsigned threads : {1u, 2u, 4u}) {
+            const RunShape shape{chunk_limit() ? static_cast<std::size_t>(*chunk_limit()) : chunk, threads, form};
+            SCOPED_TRACE(testing::Message() << shape << ", case " << i << ", buckets " << runner.options().buckets
+                                            << ", denoise " << runner.options().denoise);
+            const std::string output = runner.run(mesh, shape, {3}, seed + i)[0];
+            if (threads == 1) {
+              ASSERT_NO_FATAL_FAILURE(expect_same_but_for_buckets(output, without)) << describe(complex);
+              const ooc::Level all = ooc::ReebFile(output).load();
+              ASSERT_EQ(vertices_in_buckets(all.buckets) + all.graph.node_count(), complex.vertex_count())
+                  << describe(complex);
+              expected = read_file(output);
+            }
+            ASSERT_TRUE(take_bytes(output) == expected) << describe(complex);
+          }
+        }
+    }
+  }
+}
+
 // What is removed on the way depends on chunks; with the last pass it is what the definition says.
 TEST(Pipeline, RemovesTheNoiseOfTheExactGraphHoweverItRuns) {
   const std::uint64_t seed = base_seed(), cases = case_count(600);
@@ -189,6 +249,7 @@ TEST(Pipeline, RemovesTheNoiseOfTheExactGraphHoweverItRuns) {
       const ReebGraph exact = reference_reeb(complex);
       Random random(seed + i);
       ooc::ComputeOptions& options = runner.options();
+      options.buckets = 0;
       options.denoise = random.unit();
       options.denoise_is_share = random.below(2) == 0;
       double threshold = options.denoise;

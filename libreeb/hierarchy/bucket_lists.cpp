@@ -28,7 +28,7 @@ std::uint64_t count_below(const Bucket& bucket, const CutValues& values, int exp
 
 }  // namespace
 
-BucketLists::BucketLists(const ArcBucketsView& buckets, std::size_t arcs, int exponent)
+ArcBucketLists::ArcBucketLists(const ArcBucketsView& buckets, std::size_t arcs, int exponent)
     : exponent_(exponent), first_(arcs, kNone) {
   if (buckets.empty()) return;
   items_.reserve(buckets.buckets.size());
@@ -39,7 +39,7 @@ BucketLists::BucketLists(const ArcBucketsView& buckets, std::size_t arcs, int ex
   }
 }
 
-std::uint32_t BucketLists::make(const Bucket& bucket, std::uint32_t next) {
+std::uint32_t ArcBucketLists::make(const Bucket& bucket, std::uint32_t next) {
   if (free_ == kNone) {
     items_.push_back({bucket, next});
     return static_cast<std::uint32_t>(items_.size() - 1);
@@ -49,10 +49,10 @@ std::uint32_t BucketLists::make(const Bucket& bucket, std::uint32_t next) {
   return item;
 }
 
-void BucketLists::free(std::uint32_t item) { items_[item].next = std::exchange(free_, item); }
+void ArcBucketLists::free(std::uint32_t item) { items_[item].next = std::exchange(free_, item); }
 
 // Puts a chain of items where they belong in a list.
-void BucketLists::insert(std::uint32_t chain, std::uint32_t into) {
+void ArcBucketLists::insert(std::uint32_t chain, std::uint32_t into) {
   std::uint32_t before = kNone;
   while (chain != kNone) {
     const Bucket& bucket = items_[chain].bucket;
@@ -73,12 +73,12 @@ void BucketLists::insert(std::uint32_t chain, std::uint32_t into) {
   }
 }
 
-void BucketLists::add(std::uint32_t arc, double value, const std::array<double, 3>& position) {
+void ArcBucketLists::add(std::uint32_t arc, double value, const std::array<double, 3>& position) {
   insert(make({bucket_index(value, exponent_), 1, position}, kNone), arc);
 }
 
 // Divides the arc's bucket that the cut lies in, and returns the last item below the cut.
-std::uint32_t BucketLists::last_below(std::uint32_t arc, const CutValues& values) {
+std::uint32_t ArcBucketLists::last_below(std::uint32_t arc, const CutValues& values) {
   const std::int64_t middle = bucket_index(values.at, exponent_);
   std::uint32_t before = kNone, item = first_[arc];
   while (item != kNone && items_[item].bucket.index < middle) {
@@ -98,7 +98,7 @@ std::uint32_t BucketLists::last_below(std::uint32_t arc, const CutValues& values
   return item;
 }
 
-bool BucketLists::cut(Direction d, std::uint32_t from, std::uint32_t into, const CutValues& values) {
+bool ArcBucketLists::cut(Direction d, std::uint32_t from, std::uint32_t into, const CutValues& values) {
   if (empty(from)) return false;
   const std::uint32_t last = last_below(from, values);
   const std::uint32_t above = std::exchange(after(last, from), kNone);
@@ -109,13 +109,13 @@ bool BucketLists::cut(Direction d, std::uint32_t from, std::uint32_t into, const
   return chain != kNone;
 }
 
-bool BucketLists::merge(std::uint32_t from, std::uint32_t into) {
+bool ArcBucketLists::merge(std::uint32_t from, std::uint32_t into) {
   const std::uint32_t chain = std::exchange(first_[from], kNone);
   insert(chain, into);
   return chain != kNone;
 }
 
-std::uint64_t BucketLists::drop(std::uint32_t arc) {
+std::uint64_t ArcBucketLists::drop(std::uint32_t arc) {
   std::uint64_t count = 0;
   for (std::uint32_t item = std::exchange(first_[arc], kNone); item != kNone;) {
     count += items_[item].bucket.count;
@@ -126,7 +126,7 @@ std::uint64_t BucketLists::drop(std::uint32_t arc) {
   return count;
 }
 
-void BucketLists::append_to(std::vector<Bucket>& out, std::uint32_t arc) const {
+void ArcBucketLists::append_to(std::vector<Bucket>& out, std::uint32_t arc) const {
   for (std::uint32_t item = first_[arc]; item != kNone; item = items_[item].next)
     out.push_back(items_[item].bucket);
 }

@@ -22,10 +22,10 @@ struct CutValues {
 //
 // TIME:   an operation walks the lists that it names, once.
 // MEMORY: 4 bytes an arc and 48 a bucket; what is freed is used again.
-class BucketLists {
+class ArcBucketLists {
  public:
   // REQUIRES: all buckets are of this exponent.
-  BucketLists(const ArcBucketsView& buckets, std::size_t arcs, int exponent);
+  ArcBucketLists(const ArcBucketsView& buckets, std::size_t arcs, int exponent);
 
   bool empty(std::uint32_t arc) const { return first_[arc] == kNone; }
 

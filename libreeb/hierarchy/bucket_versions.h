@@ -48,7 +48,7 @@ class BucketVersions {
   double value(std::uint32_t node) const { return graph_.nodes[node].value; }
 
   const ReebGraph& graph_;
-  BucketLists lists_;
+  ArcBucketLists lists_;
   std::vector<std::uint32_t> saved_;  // of each arc, its entry in saves_
   std::vector<Saved> saves_;
   std::vector<Bucket> saved_buckets_;

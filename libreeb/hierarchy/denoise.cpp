@@ -17,7 +17,7 @@ namespace {
 class LeafRemoval {
  public:
   // `lists`, of the graph's arcs, may be null; it must outlive this.
-  LeafRemoval(const ReebGraph& full, double threshold, BucketLists* lists)
+  LeafRemoval(const ReebGraph& full, double threshold, ArcBucketLists* lists)
       : full_(full),
         threshold_(threshold),
         graph_(full),
@@ -148,7 +148,7 @@ class LeafRemoval {
   const ReebGraph& full_;
   const double threshold_;
   WorkingGraph graph_;
-  BucketLists* lists_;
+  ArcBucketLists* lists_;
   std::vector<std::array<std::uint32_t, 2>> reach_;  // the farthest nodes on monotone paths
   std::vector<std::uint32_t> leaves_;                // nodes that may be leaves to be looked at
   std::vector<PersistencePair> removed_;
@@ -164,7 +164,7 @@ Denoised denoise(const ReebGraph& graph, double threshold) {
 
 Denoised denoise(const ReebGraph& graph, double threshold, ArcBuckets& buckets, int exponent) {
   if (buckets.offsets.empty()) return denoise(graph, threshold);
-  BucketLists lists(buckets.view(), graph.arc_count(), exponent);
+  ArcBucketLists lists(buckets.view(), graph.arc_count(), exponent);
   buckets = {.offsets = {0}, .buckets = {}};
   LeafRemoval removal(graph, threshold, &lists);
   removal.run();

@@ -5,7 +5,8 @@
 // all simplices, then all finalizations; readers cut batches so that this is legal. With
 // `ReadOptions::batch_events == 1` every batch holds exactly one event, in the order of the file.
 //
-// MEMORY: a reader holds one batch and windows of its input, never the file.
+// MEMORY: a reader holds one batch and windows of its input, never the file; whatever else it has
+// to keep, it tells in memory_bytes().
 #pragma once
 
 #include <cstddef>
@@ -76,6 +77,9 @@ class MeshReader {
 
   // How much of the input was consumed so far, in bytes of the file as it lies on disk.
   virtual std::uint64_t bytes_read() const = 0;
+
+  // What it keeps so far that grows with the mesh.
+  virtual std::uint64_t memory_bytes() const { return 0; }
 
   // What was odd but harmless, one line each ("3 unknown lines were skipped"). Final at the end.
   virtual std::vector<std::string> warnings() const { return {}; }

@@ -25,6 +25,13 @@ class VertexFunction {
   // properties that were asked for (as IndexedMesh::gather counts them).
   virtual std::span<const unsigned> columns() const = 0;
 
+  // To be called when the number of vertices is known: before the first of evaluate() where vertices
+  // are looked up, behind the last where they come in order.
+  // THROWS: Error{kBadInput} if there are values for more or fewer vertices.
+  virtual void check_count(std::uint64_t /*vertices*/) {}
+  // What looking up the values of so many vertices keeps in memory.
+  virtual std::uint64_t lookup_bytes(std::uint64_t /*vertices*/) const { return 0; }
+
   // values[i] = f(ids[i]); columns[k][i] is column columns()[k] of that vertex. No -0.0 comes out.
   // THROWS: Error{kBadInput} that names the vertex if its value is not finite.
   virtual void evaluate(std::span<const VertexId> ids, std::span<const std::span<const double>> columns,

@@ -80,6 +80,14 @@ TEST(FunctionValues, ByIndexAreTheSame) {
     EXPECT_THROW(function.check_count(1), Error);
     EXPECT_THROW(function.check_count(3), Error);
   }
+  // In order, then again from the beginning.
+  auto lines = source("file:" + write_file("v.txt", "10\n20\n"));
+  for (int i = 0; i < 2; ++i) {
+    lines.evaluate(std::vector<VertexId>{VertexId(0), VertexId(1)}, {}, std::span(values).first(2));
+    EXPECT_EQ(values, (std::vector<double>{10, 20, 20}));
+    lines.check_count(2);
+  }
+  EXPECT_EQ(lines.lookup_bytes(1000), 8000u);
   auto property = source("property:q");
   EXPECT_EQ(property.column(), 3u);
   property.evaluate(ids, std::vector<double>{5, 6, 5}, values);

@@ -176,6 +176,7 @@ TEST(Resume, GoesOnAsOftenAsItIsInterrupted) {
 TEST(Resume, TakesOverSegmentsWhateverTheThreadsChunksAndMemory) {
   Runs runs(grid_mesh(250, 250), true, "random:1");
   runs.options.graph_only = true;  // the least budget has no room for the second stage
+  runs.options.buckets = 0;        // an embedding shows where chunks were cut
   runs.options.memory_bytes = 16 << 20;
   runs.options.chunk_triangles = 4096;
   const std::string expected = runs.finish(false);
@@ -194,9 +195,48 @@ TEST(Resume, TakesOverSegmentsWhateverTheThreadsChunksAndMemory) {
   EXPECT_GT(with_segments, 2u) << "nothing spills any more";
 }
 
+// Chunks that adapt are cut in the same places, and buckets come out of segments as they went in.
+TEST(Resume, GivesTheSameEmbeddingWhateverTheThreads) {
+  Runs runs(grid_mesh(250, 250), true, "random:1");
+  runs.options.graph_only = true;
+  runs.options.memory_bytes = 24 << 20;
+  runs.options.threads = 2;
+  for (const double denoise : {0.0, 0.3}) {
+    runs.options.denoise = denoise;
+    const std::string expected = runs.finish(false);
+    std::uint64_t with_segments = 0;
+    for (const std::uint64_t n : {1u, 9u, 16u, 23u}) {
+      runs.options.threads = static_cast<unsigned>(1 + n % 3);
+      ASSERT_TRUE(runs.stop_after(n, false));
+      with_segments += fs::exists(runs.partial() + "/function-0.arcs");
+      runs.options.threads = static_cast<unsigned>(1 + n % 2);
+      Notes notes;
+      ASSERT_EQ(runs.finish(true, notes), expected) << "after chunk " << n;
+      EXPECT_NE(notes.at(0).find("goes on"), std::string::npos) << notes[0];
+    }
+    if (denoise == 0) {
+      EXPECT_GT(with_segments, 0u) << "nothing spills any more";
+    }
+  }
+}
+
+TEST(Resume, StartsAnewWithOtherSettings) {
+  Runs runs(grid_mesh(60, 60), true, "random:1");
+  runs.options.chunk_triangles = 500;
+  runs.options.buckets = 16;
+  const std::string expected = runs.finish(false);
+  runs.options.buckets = 8;
+  ASSERT_TRUE(runs.stop_after(3, false));
+  runs.options.buckets = 16;
+  Notes notes;
+  EXPECT_EQ(runs.finish(true, notes), expected);
+  EXPECT_NE(notes.at(0).find("other options"), std::string::npos) << notes[0];
+}
+
 // With more memory a run would not reorder the mesh; one that goes on has to.
 TEST(Resume, KeepsToTheOrderInWhichTheRunBegan) {
   Runs runs(shuffled(grid_mesh(150, 150), 5));
+  runs.options.buckets = 0;
   const std::string expected = runs.finish(false);
   runs.options.chunk_triangles = 2048;
   for (const std::uint64_t n : {1u, 9u, 20u}) {

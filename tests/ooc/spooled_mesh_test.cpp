@@ -41,6 +41,9 @@ class ModelReader : public MeshReader {
     return !batch.empty();
   }
   std::uint64_t bytes_read() const override { return corner_; }
+  std::uint64_t memory_bytes() const override { return kept_bytes; }
+
+  std::uint64_t kept_bytes = 0;
 
  private:
   const ModelMesh& mesh_;
@@ -103,6 +106,20 @@ TEST(SpooledMesh, GivesBackWhatWasReadWhenItSpills) {
   ModelMesh rows = with_property(grid_mesh(400, 400));
   compare(rows, 0, true);
   compare(shuffled(rows, 4), 1 << 20, true);
+}
+
+TEST(SpooledMesh, ChargesWhatTheReaderKeeps) {
+  const Scratch scratch;
+  const TempDir temp(scratch.path());
+  MemoryBudget budget(8 << 20);
+  const ModelMesh model = with_property(grid_mesh(20, 20));
+  ModelReader modest(model), greedy(model);
+  modest.kept_bytes = 1 << 20;
+  greedy.kept_bytes = 9 << 20;
+  const auto mesh = spool(modest, temp, budget, {.allowance_bytes = 1 << 20});
+  EXPECT_GE(budget.peak_bytes(), modest.kept_bytes);
+  EXPECT_LT(budget.used_bytes(), modest.kept_bytes + (1 << 20)) << "given back at the end";
+  EXPECT_THROW(spool(greedy, temp, budget, {.allowance_bytes = 1 << 20}), Error);
 }
 
 TEST(SpooledMesh, AnEmptyMesh) {

@@ -279,6 +279,19 @@ TEST_F(BadInput, FileOfValues) {
   }
 }
 
+TEST_F(BadInput, AValueFileHasOneValueAVertexInEveryFormOfAMesh) {
+  write("mesh.off", "OFF\n3 1 0\n0 0 0\n1 0 1\n0 1 2\n3 0 1 2\n");
+  write("mesh.sma", "v 0 0 0\nv 1 0 1\nv 0 1 2\nf 1 2 3\nx 1\nx 2\nx 3\n");
+  write("right.txt", "1\n2\n3\n");
+  write("long.txt", "1\n2\n3\n4\n");
+  for (const std::string mesh : {"mesh.off", "mesh.sma"}) {
+    expect_success(reeb({"compute", mesh, "-f", "file:right.txt", "-o", mesh + ".reeb"}));
+    const std::vector<std::string> before = files();
+    expect_error(reeb({"compute", mesh, "-f", "file:long.txt"}), 1);
+    EXPECT_EQ(files(), before);
+  }
+}
+
 TEST_F(BadInput, MissingPropertyOrCoordinate) {
   write("mesh.off", kSmallOff);
   write("mesh.ply", ply_text({}));

@@ -162,6 +162,9 @@ void add_compute(CLI::App& program) {
   command->add_option("--temp-dir", arguments->options.temp_dir,
                       "Folder for temporary files (default: $TMPDIR, or the output's folder)");
   command->add_option("--denoise", arguments->denoise, "Remove minima and maxima of less persistence: 0.01, or 0.1%");
+  command->add_option("--buckets", arguments->options.buckets,
+                      "Buckets of value, at least, in which arcs are embedded (0: no embedding; default 64)")
+      ->check(CLI::Range(0u, 1u << 20));
   command->add_flag("!--no-reorder", arguments->options.may_reorder, "Never sort an incoherent mesh on disk first");
   command->add_flag("--resume", arguments->options.resume,
                     "Go on from where an interrupted run was, if its OUT.partial is there and fits");
