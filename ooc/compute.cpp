@@ -260,8 +260,9 @@ std::optional<LastUse> Run::scan(bool may_give_up) {
   // A chunk is whole blocks, so small chunks need small blocks.
   options.block_triangles = std::min<std::uint64_t>(options.block_triangles, plan_.chunk.first);
   if (start_ != nullptr) options.block_triangles = start_->block_triangles;
-  options.progress = [this](const IndexedMesh& mesh) {
-    tell(Phase::kFinalization, mesh.bytes_read(), mesh.bytes_total());
+  options.threads = plan_.threads;
+  options.progress = [this, total = input_.indexed->bytes_total()](std::uint64_t bytes_read) {
+    tell(Phase::kFinalization, bytes_read, total);
   };
   return scan_last_use(*input_.indexed, temp_, budget_, options);
 }

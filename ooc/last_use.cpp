@@ -1,7 +1,12 @@
 #include "ooc/last_use.h"
 
+#include <tbb/global_control.h>
+#include <tbb/parallel_pipeline.h>
+#include <tbb/task_arena.h>
+
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <utility>
 
 namespace reeb::ooc {
@@ -36,20 +41,13 @@ class Scan {
 
   // False if it gave up.
   bool read_triangles() {
-    std::vector<VertexId> corners;
-    std::uint64_t in_block = 0;
     mesh_.rewind();
-    while (mesh_.read(corners, static_cast<std::size_t>(block_triangles_ - in_block))) {
-      if (in_block == 0) open_block();
-      use(corners);
-      in_block += corners.size() / 3;
-      summary_.triangle_count += corners.size() / 3;
-      if (in_block < block_triangles_) continue;
-      in_block = 0;
-      if (options_.give_up_when_incoherent && is_thrashing()) return false;
-      if (options_.progress) options_.progress(mesh_);
+    if (options_.threads > 1) {
+      read_ahead();
+    } else {
+      for (Piece piece; !gave_up_ && read(piece);) use(piece);
     }
-    return true;
+    return !gave_up_;
   }
 
   LastUse finish() {
@@ -70,6 +68,64 @@ class Scan {
   }
 
  private:
+  // Some triangles on their way from the mesh to the table.
+  struct Piece {
+    std::vector<VertexId> corners;
+    std::uint64_t degenerate = 0;
+    std::uint64_t bytes_read = 0;  // of the mesh, up to here
+  };
+
+  // One thread reads while another fills the table.
+  void read_ahead() {
+    std::array<Piece, 3> pieces;
+    std::size_t next = 0;
+    const tbb::global_control control(tbb::global_control::max_allowed_parallelism, 2);
+    tbb::task_arena arena(2);
+    arena.execute([&] {
+      tbb::parallel_pipeline(pieces.size(),
+                             tbb::make_filter<void, Piece*>(tbb::filter_mode::serial_in_order,
+                                                            [&](tbb::flow_control& control_flow) -> Piece* {
+                                                              Piece& piece = pieces[next++ % pieces.size()];
+                                                              if (!gave_up_ && read(piece)) return &piece;
+                                                              control_flow.stop();
+                                                              return nullptr;
+                                                            }) &
+                                 tbb::make_filter<Piece*, void>(tbb::filter_mode::serial_in_order,
+                                                                [&](Piece* piece) { use(*piece); }));
+    });
+  }
+
+  bool read(Piece& piece) {
+    constexpr std::size_t kTriangles = 2048;
+    if (!mesh_.read(piece.corners, kTriangles)) return false;
+    piece.bytes_read = mesh_.bytes_read();
+    piece.degenerate = 0;
+    for (std::size_t t = 0; t < piece.corners.size(); t += 3)
+      piece.degenerate += piece.corners[t] == piece.corners[t + 1] ||
+                          piece.corners[t + 1] == piece.corners[t + 2] || piece.corners[t] == piece.corners[t + 2];
+    return true;
+  }
+
+  void use(const Piece& piece) {
+    summary_.degenerate_triangles += piece.degenerate;
+    summary_.triangle_count += piece.corners.size() / 3;
+    for (std::span<const VertexId> corners = piece.corners; !corners.empty() && !gave_up_;) {
+      if (in_block_ == 0) open_block();
+      const auto count =
+          static_cast<std::size_t>(std::min<std::uint64_t>(corners.size() / 3, block_triangles_ - in_block_));
+      use(corners.first(3 * count));
+      corners = corners.subspan(3 * count);
+      in_block_ += count;
+      if (in_block_ == block_triangles_) close_block(piece);
+    }
+  }
+
+  void close_block(const Piece& piece) {
+    in_block_ = 0;
+    gave_up_ = options_.give_up_when_incoherent && is_thrashing();
+    if (!gave_up_ && options_.progress) options_.progress(piece.bytes_read);
+  }
+
   void open_block() {
     if (live_change_.size() == most_blocks_) double_blocks();
     if (live_change_.size() == live_change_.capacity()) {
@@ -91,10 +147,6 @@ class Scan {
       introduced += before.unused() ? 1 : 0;
     }
     live_change_.back() += introduced;
-    for (std::size_t t = 0; t < corners.size(); t += 3)
-      summary_.degenerate_triangles += corners[t] == corners[t + 1] ||
-                                       corners[t + 1] == corners[t + 2] ||
-                                       corners[t] == corners[t + 2];
   }
 
   static UseEntry next_use(UseEntry before, std::uint32_t block) {
@@ -146,6 +198,8 @@ class Scan {
   PagedTable<std::uint32_t> table_;
   std::size_t most_blocks_;  // even, so that blocks can be joined in pairs
   std::uint64_t block_triangles_;
+  std::uint64_t in_block_ = 0;         // triangles of the last block so far
+  std::atomic<bool> gave_up_ = false;  // told by the thread of the table to the one that reads
   Reservation change_charge_;
   // By block: vertices used first in it, less those used last.
   std::vector<std::int32_t> live_change_;

@@ -46,7 +46,9 @@ struct LastUseOptions {
   // Give up early on a mesh so incoherent that the table would be paged in and out all the time.
   bool give_up_when_incoherent = false;
   std::uint32_t most_blocks = UseEntry::kMostBlocks;
-  std::function<void(const IndexedMesh&)> progress = {};  // called about once a block
+  unsigned threads = 1;  // with more, one reads the mesh while another fills the table
+  // Called about once a block with the bytes of the mesh that were read.
+  std::function<void(std::uint64_t)> progress = {};
 };
 
 // What the pass learned besides the table.

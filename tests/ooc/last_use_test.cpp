@@ -50,7 +50,7 @@ ModelMesh random_mesh(std::uint64_t vertices, std::uint64_t triangles, std::uint
   return mesh;
 }
 
-void compare(const ModelMesh& mesh, LastUseOptions options, const TempDir& temp) {
+void compare_once(const ModelMesh& mesh, const LastUseOptions& options, const TempDir& temp) {
   ModelIndexedMesh indexed(mesh);
   MemoryBudget budget(4 << 20);
   {
@@ -95,6 +95,13 @@ void compare(const ModelMesh& mesh, LastUseOptions options, const TempDir& temp)
     for (const VertexId v : unused) EXPECT_EQ(model.first[v.value()], -1);
   }
   EXPECT_EQ(budget.used_bytes(), 0u);
+}
+
+void compare(const ModelMesh& mesh, LastUseOptions options, const TempDir& temp) {
+  for (options.threads = 1; options.threads <= 2; ++options.threads) {
+    SCOPED_TRACE(testing::Message() << "threads " << options.threads);
+    compare_once(mesh, options, temp);
+  }
 }
 
 TEST(LastUse, AgreesWithTheDefinition) {

@@ -23,7 +23,7 @@ class CompactStream {
       : mesh_(mesh),
         exact_(exact),
         writer_(writer),
-        places_("finalization", space.temp, space.budget, space.share(), Place{}),
+        places_("finalization", space.temp, space.budget, 3 * space.share(), Place{}),
         columns_(mesh.column_count()),
         dimension_(dimension) {
     std::iota(columns_.begin(), columns_.end(), 0u);

@@ -13,7 +13,8 @@ namespace reeb::tools {
 // come last. The first `dimension` columns are coordinates, the others properties.
 //
 // `exact`: a batch a triangle, for formats that hold finalization; else large batches without it.
-// The writer is not closed. Two readings of the triangles; 16 bytes a vertex, paged in one share.
+// The writer is not closed. Two readings of the triangles; 16 bytes a vertex, paged in
+// three shares, since an order across that of the vertices touches many pages at a time.
 void write_compact(IndexedMesh& mesh, unsigned dimension, bool exact, io::MeshWriter& writer, Workspace& space);
 
 }  // namespace reeb::tools
