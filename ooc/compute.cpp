@@ -309,7 +309,7 @@ void Run::run_chunks(ChunkSource& source) {
 // From the range of values so far, which only grows: what is noise below a share of it, is noise.
 SweepOptions Run::sweep_options(const FunctionRange& range) const {
   SweepOptions sweep;
-  sweep.noise_below = options_.denoise * (options_.denoise_is_share ? range.max - range.min : 1);
+  sweep.noise_below = options_.denoise_is_share ? range.part(options_.denoise) : options_.denoise;
   if (embeds()) sweep.bucket_exponent = bucket_exponent(range.min, range.max, options_.buckets);
   return sweep;
 }

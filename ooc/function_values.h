@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <span>
@@ -18,6 +19,13 @@ namespace reeb::ooc {
 struct FunctionRange {
   double min = std::numeric_limits<double>::infinity();
   double max = -std::numeric_limits<double>::infinity();
+
+  // So much of the way from the least to the greatest value, which itself may be more than a double
+  // holds. Never falls when the range grows. REQUIRES: share >= 0; there was a value.
+  double part(double share) const {
+    const double width = max - min;
+    return std::isfinite(width) ? share * width : 2 * (share * (max / 2 - min / 2));
+  }
 };
 
 class FunctionValues {

@@ -1,0 +1,70 @@
+// No vertex is lost and none counted twice (DESIGN.md 1.8).
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <set>
+#include <vector>
+
+#include "libreeb/hierarchy/cancel.h"
+#include "libreeb/hierarchy/levels.h"
+#include "ooc/reeb_file.h"
+
+namespace reeb::test {
+
+inline std::uint64_t vertices_in_buckets(const ArcBuckets& buckets) {
+  std::uint64_t vertices = 0;
+  for (const Bucket& bucket : buckets.buckets) vertices += bucket.count;
+  return vertices;
+}
+
+// So many vertices are in nodes and buckets, and each bucket lies on its arc.
+inline std::uint64_t expect_vertices_placed(const ooc::Level& level, int exponent) {
+  if (level.graph.arc_count() == 0) return level.graph.node_count();
+  EXPECT_EQ(level.buckets.offsets.size(), level.graph.arc_count() + 1);
+  for (std::size_t a = 0; a < level.graph.arc_count(); ++a) {
+    const double lo = level.graph.nodes[level.graph.lo[a].value()].value;
+    const double hi = level.graph.nodes[level.graph.hi[a].value()].value;
+    const auto buckets = level.buckets.view().of(a);
+    for (std::size_t i = 0; i < buckets.size(); ++i) {
+      EXPECT_GT(buckets[i].count, 0u);
+      EXPECT_GE(buckets[i].index, bucket_index(lo, exponent));
+      EXPECT_LE(buckets[i].index, bucket_index(hi, exponent));
+      if (i > 0) {
+        EXPECT_LT(buckets[i - 1].index, buckets[i].index);
+      }
+    }
+  }
+  return vertices_in_buckets(level.buckets) + level.graph.node_count();
+}
+
+// Vertices in buckets + nodes + vertices that were dropped with a loop = vertices read: in version 0,
+// where nothing was dropped, and in every version, or some of many. Nothing if there is no embedding.
+inline void expect_vertices_conserved(const ooc::ReebFile& file) {
+  const FileHeader& header = file.header();
+  if (!header.flags.has_embedding) return;
+  ooc::Level level = file.load();
+  ASSERT_EQ(expect_vertices_placed(level, header.bucket_exponent), header.mesh_vertices);
+  if (header.flags.graph_only) return;
+
+  // A file has no record of what was dropped: the cancellations are done again.
+  const Hierarchy again = build_hierarchy(level.graph, level.buckets, header.bucket_exponent);
+  std::set<std::uint32_t> loops;  // versions that a loop's cancellation made
+  std::uint32_t steps = 0;
+  for (const PersistencePair& pair : again.pairs)
+    if (pair.type != PairType::kExt0 && !pair.kept && ++steps != 0 && pair.type == PairType::kExt1) loops.insert(steps);
+  ASSERT_EQ(steps, header.steps);
+  for (const DroppedVertices& dropped : again.dropped) ASSERT_TRUE(loops.contains(dropped.version));
+
+  constexpr std::uint32_t kVersions = 12;
+  for (std::uint32_t version = 1; version <= header.steps; version += 1 + header.steps / kVersions) {
+    std::uint64_t dropped = 0;
+    for (const DroppedVertices& more : again.dropped) dropped += more.version <= version ? more.count : 0;
+    ASSERT_EQ(expect_vertices_placed(file.load(version), header.bucket_exponent) + dropped, header.mesh_vertices)
+        << "version " << version << " of " << header.steps;
+  }
+}
+
+}  // namespace reeb::test

@@ -1,0 +1,115 @@
+// Whole runs, from a mesh in memory to `.reeb` files, for chunks of any size, any number of threads
+// and both forms of input. REEB_TEST_MEMORY and REEB_TEST_CHUNK confine them.
+#pragma once
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "ooc/compute.h"
+#include "ooc/reeb_file.h"
+#include "tests/ooc/scratch.h"
+#include "tests/support/complex_mesh.h"
+#include "tests/support/conservation.h"
+#include "tests/support/files.h"
+#include "tests/support/run_limits.h"
+
+namespace reeb::test {
+
+enum class Form { kIndexed, kStream };
+
+struct RunShape {
+  std::size_t chunk_triangles;  // 0: adaptive
+  unsigned threads;
+  Form form;
+};
+
+inline std::ostream& operator<<(std::ostream& out, const RunShape& shape) {
+  return out << "chunk " << shape.chunk_triangles << ", threads " << shape.threads
+             << (shape.form == Form::kStream ? ", stream" : ", indexed");
+}
+
+inline std::vector<std::size_t> all_chunk_sizes() {
+  if (const auto limit = chunk_limit()) return {static_cast<std::size_t>(*limit)};
+  return {1, 7, 1000, 65536, 0};
+}
+
+inline std::vector<RunShape> all_shapes() {
+  std::vector<RunShape> shapes;
+  for (const std::size_t chunk : all_chunk_sizes())
+    for (const unsigned threads : {1u, 2u, 4u})
+      for (const Form form : {Form::kIndexed, Form::kStream}) shapes.push_back({chunk, threads, form});
+  return shapes;
+}
+
+// A run syncs its output to disk, which would be nearly all that many small runs wait for: where the
+// system has a folder in memory, scratch folders are there.
+inline const bool scratch_is_in_memory =
+    ::access("/dev/shm", W_OK) == 0 && ::setenv("TMPDIR", "/dev/shm", /*overwrite=*/0) == 0;
+
+// Runs of `compute` on one mesh; each works in a folder that is empty before and after, and loses no
+// vertex.
+class Runner {
+ public:
+  explicit Runner(bool graph_only = false) { options_.graph_only = graph_only; }
+
+  // For the runs that follow.
+  ooc::ComputeOptions& options() { return options_; }
+
+  // The outputs of the functions that are these columns of the mesh, in one run.
+  std::vector<std::string> run(const ComplexMesh& mesh, const RunShape& shape, std::vector<unsigned> columns = {3},
+                               std::uint64_t seed = 1) {
+    std::vector<ColumnFunction> functions(columns.begin(), columns.end());
+    std::vector<VertexFunction*> pointers;
+    std::vector<std::string> outputs;
+    for (ColumnFunction& function : functions) {
+      pointers.push_back(&function);
+      outputs.push_back(outputs_.path() + "/" + function.name() + ".reeb");
+    }
+    ooc::MeshInput input;
+    if (shape.form == Form::kStream)
+      input.reader = std::make_unique<ComplexStream>(mesh, seed);
+    else
+      input.indexed = std::make_unique<IndexedComplex>(mesh);
+    ooc::ComputeOptions options = options_;
+    options.chunk_triangles = shape.chunk_triangles;
+    options.threads = shape.threads;
+    options.temp_dir = temp_.path();
+    options.memory_bytes = memory_limit().value_or(options_.memory_bytes);
+    results_ = ooc::compute(std::move(input), pointers, outputs, options);
+    EXPECT_TRUE(temp_.empty()) << "temporary files were left";
+    for (const std::string& output : outputs) {
+      SCOPED_TRACE(testing::Message() << "conservation: " << shape);
+      expect_vertices_conserved(ooc::ReebFile(output));
+    }
+    return outputs;
+  }
+
+  const std::vector<ooc::ComputeResult>& results() const { return results_; }
+
+ private:
+  ooc::ComputeOptions options_;
+  ooc::Scratch outputs_, temp_;
+  std::vector<ooc::ComputeResult> results_;
+};
+
+// Reads and removes it.
+inline std::string take_bytes(const std::string& path) {
+  std::string bytes = read_file(path);
+  std::filesystem::remove(path);
+  return bytes;
+}
+
+inline ReebGraph take_graph(const std::string& path) {
+  ReebGraph graph = ooc::ReebFile(path).load().graph;
+  std::filesystem::remove(path);
+  return graph;
+}
+
+}  // namespace reeb::test
