@@ -80,7 +80,8 @@ void IndexedChunks::pass_over(const ChunkPlace& start) {
 // In pieces, so that corners are numbered while they are in the first cache.
 bool IndexedChunks::read_triangles(Chunk& chunk) {
   constexpr std::size_t kPiece = 1024;
-  const std::size_t most = blocks_ * block_triangles_;
+  const std::uint64_t left = last_use_.summary().triangle_count - triangles_read_;
+  const auto most = static_cast<std::size_t>(std::min<std::uint64_t>(blocks_ * block_triangles_, left));
   numbers_.start(chunk.ids, most);
   chunk.corners.resize(3 * most);
   std::size_t count = 0;

@@ -2,12 +2,13 @@
 
 #include <tbb/global_control.h>
 #include <tbb/parallel_pipeline.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <array>
 #include <atomic>
 #include <utility>
+
+#include "ooc/kept_arena.h"
 
 namespace reeb::ooc {
 
@@ -80,8 +81,7 @@ class Scan {
     std::array<Piece, 3> pieces;
     std::size_t next = 0;
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism, 2);
-    tbb::task_arena arena(2);
-    arena.execute([&] {
+    kept_arena(2).execute([&] {
       tbb::parallel_pipeline(pieces.size(),
                              tbb::make_filter<void, Piece*>(tbb::filter_mode::serial_in_order,
                                                             [&](tbb::flow_control& control_flow) -> Piece* {

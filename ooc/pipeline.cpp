@@ -4,7 +4,6 @@
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_pipeline.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <memory>
@@ -12,6 +11,7 @@
 
 #include "libreeb/engine/chunk_sweep.h"
 #include "libreeb/engine/glue.h"
+#include "ooc/kept_arena.h"
 
 namespace reeb::ooc {
 namespace {
@@ -116,8 +116,7 @@ class Pipeline {
     tbb::enumerable_thread_specific<Sweeper> sweepers([this] { return Sweeper(budget_); });
 
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism, options_.threads);
-    tbb::task_arena arena(static_cast<int>(options_.threads));
-    arena.execute([&] {
+    kept_arena(options_.threads).execute([&] {
       tbb::parallel_pipeline(
           in_flight,
           tbb::make_filter<void, Slot*>(tbb::filter_mode::serial_in_order,
