@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -19,11 +20,12 @@ namespace reeb {
 
 __extension__ typedef __int128 Int128;
 
+// In units of 2^-44 a coordinate below this is a 64-bit number.
+inline constexpr double kSmallCoordinate = 0x1p18;
+
 // A coordinate in units of 2^-44, cut off towards zero; what is no number is the least.
 inline Int128 fixed_point(double x) {
-  constexpr double kFits = 0x1p18, kMost = 0x1p50;
-  if (x > -kFits && x < kFits) [[likely]]
-    return static_cast<std::int64_t>(x * 0x1p44);
+  constexpr double kMost = 0x1p50;
   x = x > -kMost ? x : -kMost;
   x = x < kMost ? x : kMost;
   const auto whole = static_cast<std::int64_t>(x);
@@ -38,7 +40,11 @@ struct BucketSum {
 
   void add(const Point& position) {
     ++count;
-    for (std::size_t k = 0; k < 3; ++k) sum[k] += fixed_point(position[k]);
+    const auto& [x, y, z] = position;
+    if (std::abs(x) + std::abs(y) + std::abs(z) < kSmallCoordinate) [[likely]]
+      for (std::size_t k = 0; k < 3; ++k) sum[k] += static_cast<std::int64_t>(position[k] * 0x1p44);
+    else
+      for (std::size_t k = 0; k < 3; ++k) sum[k] += fixed_point(position[k]);
   }
   void add(const BucketSum& other) {
     count += other.count;
@@ -68,6 +74,20 @@ class BucketLists {
   void raise_exponent(int exponent) { exponent_ = exponent; }
   int exponent() const { return exponent_; }
   std::int64_t index_of(double value) const { return bucket_index(value, exponent_); }
+
+  // For a sweep: all vertices up to the next call are in the bucket of this index, which is not less
+  // than before. REQUIRES, for as long as vertices are added by bucket_at_hand: no other change.
+  void start_bucket(std::int64_t index) {
+    index_at_hand_ = index;
+    first_at_hand_ = static_cast<Index>(sums_.size());
+  }
+  // That bucket of the list, to which vertices can be added at any later time.
+  Index bucket_at_hand(List& list) {
+    const Index made = static_cast<Index>(sums_.size()) - first_at_hand_;
+    if (list.last - first_at_hand_ >= made) append_bucket(list, {index_at_hand_, 0, {}});
+    return list.last;
+  }
+  void add_to_bucket(Index bucket, const Point& position) { sums_[bucket].add(position); }
 
   // Adds a vertex to the last bucket. REQUIRES: the list is of the pool's exponent, or empty; its
   // last index <= index.
@@ -125,6 +145,8 @@ class BucketLists {
   GrowingArray<Index> next_;  // in its list, or of free buckets
   Index first_free_ = kNone;
   int exponent_ = 0;
+  std::int64_t index_at_hand_ = 0;
+  Index first_at_hand_ = 0;  // buckets from here on are of that index
 };
 
 // An arc of a path, from its beginning, and the value at its far end.
