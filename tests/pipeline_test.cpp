@@ -73,11 +73,12 @@ TEST(Pipeline, WritesTheSameBytesHoweverItRuns) {
   }
 }
 
+// With embedding and noise of each, by its own range.
 TEST(Pipeline, SeveralFunctionsInOneRunEqualSingleRuns) {
   const std::uint64_t seed = base_seed(), cases = case_count(500);
   const std::vector<RunShape> shapes = all_shapes();
   Runner runner;
-  runner.options().buckets = 0;  // streams finalize in any order, which an embedding shows
+  std::uint64_t removed = 0;
   for (std::uint64_t i = 0; i < cases; ++i) {
     Complex complex = random_complex(seed + i);
     ComplexMesh mesh(complex);
@@ -87,13 +88,60 @@ TEST(Pipeline, SeveralFunctionsInOneRunEqualSingleRuns) {
     }
     Random random(seed + i);
     const RunShape& shape = shapes[random.below(shapes.size())];
+    const std::uint64_t stream = random.next();  // one, since an embedding shows how it finalizes
+    runner.options().buckets = random.chance(70) ? 1 + static_cast<std::uint32_t>(random.below(100)) : 0;
+    runner.options().denoise = random.chance(70) ? random.unit() : 0;
+    runner.options().denoise_is_share = random.chance(70);
     std::vector<std::string> together;
-    for (const std::string& output : runner.run(mesh, shape, {3, 4, 5}, random.next()))
-      together.push_back(take_bytes(output));
+    for (const std::string& output : runner.run(mesh, shape, {3, 4, 5}, stream)) together.push_back(take_bytes(output));
+    for (const ooc::ComputeResult& result : runner.results()) removed += result.denoised_pairs;
     for (const unsigned f : {0u, 1u, 2u})
-      ASSERT_TRUE(take_bytes(runner.run(mesh, shape, {3 + f}, random.next())[0]) == together[f])
+      ASSERT_TRUE(take_bytes(runner.run(mesh, shape, {3 + f}, stream)[0]) == together[f])
           << shape << ", function " << f << ", case " << i << '\n' << describe(complex);
   }
+  EXPECT_GT(removed, cases / 10);
+}
+
+class CountingMesh : public IndexedComplex {
+ public:
+  CountingMesh(const ComplexMesh& mesh, std::uint64_t& triangles, std::uint64_t& vertices)
+      : IndexedComplex(mesh), triangles_(triangles), vertices_(vertices) {}
+  bool read(std::vector<VertexId>& corners, std::size_t limit) override {
+    const bool more = IndexedComplex::read(corners, limit);
+    triangles_ += corners.size() / 3;
+    return more;
+  }
+  void gather(std::span<const VertexId> ids, std::span<const unsigned> columns, std::span<double> values) override {
+    vertices_ += ids.size();
+    IndexedComplex::gather(ids, columns, values);
+  }
+
+ private:
+  std::uint64_t &triangles_, &vertices_;
+};
+
+TEST(Pipeline, ReadsTheMeshForAllFunctionsTogether) {
+  const Complex complex = closed_surface(2, 30, 20);
+  ComplexMesh mesh(complex);
+  mesh.add_function(complex.values);
+  const auto read = [&](std::span<VertexFunction* const> functions) {
+    const ooc::Scratch scratch;
+    const std::string outputs[] = {scratch.path() + "/a.reeb", scratch.path() + "/b.reeb"};
+    std::uint64_t triangles = 0, vertices = 0;
+    ooc::MeshInput input;
+    input.indexed = std::make_unique<CountingMesh>(mesh, triangles, vertices);
+    ooc::ComputeOptions options;
+    options.chunk_triangles = 100;
+    options.temp_dir = scratch.path();
+    ooc::compute(std::move(input), functions, std::span(outputs).first(functions.size()), options);
+    EXPECT_EQ(triangles, 2 * mesh.triangles.size() / 3) << "for the last uses, and for the chunks";
+    return vertices;
+  };
+  ColumnFunction height(2), value(3);
+  VertexFunction* const both[] = {&height, &value};
+  const std::uint64_t vertices = read(std::span(both).first(1));
+  EXPECT_GE(vertices, mesh.vertex_count());
+  EXPECT_EQ(read(both), vertices);
 }
 
 // Without it, nobody would notice that the least budget no longer reaches the disk.

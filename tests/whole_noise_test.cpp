@@ -128,7 +128,7 @@ TEST(WholeNoise, GoesAsFromTheExactGraphHoweverItRuns) {
         ASSERT_EQ(runner.results()[0].nodes, expected.graph.node_count());
         ASSERT_EQ(runner.results()[0].arcs, expected.graph.arc_count());
         ASSERT_EQ(file.header().denoised_pairs, expected.removed_pairs);
-        ASSERT_EQ(file.header().denoise_threshold, threshold.absolute);
+        ASSERT_DOUBLE_EQ(file.header().denoise_threshold, threshold.absolute);
         if (!graph_only && graph.node_count() < 25) {
           ASSERT_NO_FATAL_FAILURE(expect_levels(file, expected.graph)) << describe(complex);
         }
