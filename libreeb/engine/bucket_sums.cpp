@@ -18,6 +18,7 @@ void BucketLists::start(int exponent) {
   links_.clear();
   first_free_ = kNone;
   indexer_ = BucketIndexer(exponent);
+  first_at_hand_ = 0;
 }
 
 BucketLists::Index BucketLists::new_bucket(const BucketSum& bucket) {

@@ -79,8 +79,10 @@ class BucketLists {
   }
 
   // For a sweep: all vertices up to the next call are in the bucket of this index, which is not less
-  // than before. REQUIRES, for as long as vertices are added by bucket_at_hand: no other change.
+  // than before, and may be the same. REQUIRES, for as long as vertices are added by bucket_at_hand: no
+  // other change.
   void start_bucket(std::int64_t index) {
+    if (index == index_at_hand_) return;
     index_at_hand_ = index;
     first_at_hand_ = static_cast<Index>(sums_.size());
   }

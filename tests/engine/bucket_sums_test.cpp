@@ -4,9 +4,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
+#include <utility>
 #include <vector>
 
 #include "tests/support/random.h"
@@ -74,25 +77,8 @@ TEST(BucketSum, HoldsAsManyOfTheGreatestAsThereAreVertices) {
   EXPECT_EQ(sum.mean().mean, (std::array<double, 3>{0x1p50, -0x1p50, 0}));
 }
 
-TEST(BucketSum, LosesNothingWhenItIsDivided) {
-  const std::uint64_t seed = base_seed(), cases = case_count(1000);
-  for (std::uint64_t i = 0; i < cases; ++i) {
-    Random random(seed + i);
-    BucketSum whole{3, 0, {}};
-    for (std::uint64_t n = 1 + random.below(50); n > 0; --n) whole.add(random_point(random));
-    BucketSum rest = whole;
-    const std::uint64_t taken = random.below(whole.count + 1);
-    BucketSum part = rest.take(taken);
-    ASSERT_EQ(part.count, taken);
-    ASSERT_EQ(part.index, whole.index);
-    part.add(rest);
-    ASSERT_TRUE(same(part, whole)) << "case " << i;
-  }
-}
-
-// A list and what it should hold: buckets of the pool's exponent by index.
+// What a list should hold: buckets of the pool's exponent by index.
 struct Model {
-  BucketLists::List list;
   std::map<std::int64_t, BucketSum> buckets;
 
   void add(const BucketSum& bucket) {
@@ -113,86 +99,121 @@ struct Model {
   }
 };
 
-// Any sequence of what the engine does to lists, against maps that know nothing of exponents that lag.
-TEST(BucketLists, HoldWhatMapsHold) {
-  const std::uint64_t seed = base_seed(), cases = case_count(1000);
-  for (std::uint64_t i = 0; i < cases && !HasFailure(); ++i) {
-    SCOPED_TRACE(testing::Message() << "case " << i);
-    Random random(seed + i);
-    BucketLists lists;
-    int exponent = -static_cast<int>(random.below(6));
-    lists.start(exponent);
-    std::vector<Model> models(4);
-    const auto value = [&] { return 20 * random.unit() - 10; };
-    for (std::uint64_t step = random.below(60); step > 0; --step) {
-      Model &model = models[random.below(models.size())], &other = models[random.below(models.size())];
-      switch (random.below(6)) {
-        case 0: {  // a cut at any value
-          if (&model == &other || !other.buckets.empty()) break;
-          const double at = value();
-          const std::int64_t divided = bucket_index(at, exponent);
-          other.list = lists.take_above(model.list, -10, at, 10);
-          std::uint64_t above = 0;
-          lists.drain(other.list, [&](const BucketSum& bucket) {
-            ASSERT_GE(bucket.index, divided);
-            if (bucket.index == divided) above = bucket.count;
-            other.add(bucket);
-          });
-          for (const auto& [index, bucket] : other.buckets) {
-            lists.append(other.list, bucket);
-            BucketSum& whole = model.buckets.at(index);
-            ASSERT_TRUE(index == divided || same(bucket, whole));
-            whole.count -= bucket.count;
-            for (std::size_t k = 0; k < 3; ++k) whole.sum[k] -= bucket.sum[k];
-          }
-          // In proportion to the value, to the nearest vertex.
-          if (const auto at_cut = model.buckets.find(divided); at_cut != model.buckets.end()) {
-            const double least = std::max(-10.0, std::ldexp(static_cast<double>(divided), exponent));
-            const double most = std::min(10.0, std::ldexp(static_cast<double>(divided + 1), exponent));
-            const double all = static_cast<double>(at_cut->second.count + above);
-            ASSERT_NEAR(static_cast<double>(above), all * (most - at) / (most - least), 0.5 + 1e-6 * all);
-          }
-          std::erase_if(model.buckets, [](const auto& entry) { return entry.second.count == 0; });
-          break;
-        }
-        case 1:
-          if (&model == &other) break;
-          lists.merge(model.list, other.list);
-          model.add_all(other);
-          break;
-        case 2:
-          if (random.chance(80)) break;
-          ++exponent;
-          lists.raise_exponent(exponent);
-          for (Model& each : models) each.coarsen(1);
-          break;
-        case 3:
-          if (&model == &other || model.buckets.empty() || other.buckets.empty() ||
-              model.buckets.rbegin()->first > other.buckets.begin()->first)
-            break;
-          lists.concatenate(model.list, other.list);
-          model.add_all(other);
-          break;
-        default: {
-          const double at = value();
-          const Point position = random_point(random);
-          lists.add_vertex(model.list, at, position);
-          BucketSum vertex{bucket_index(at, exponent), 0, {}};
-          vertex.add(position);
-          model.add(vertex);
-        }
-      }
-    }
-    for (Model& model : models) {
-      auto expected = model.buckets.begin();
-      lists.drain(model.list, [&](const BucketSum& bucket) {
-        ASSERT_NE(expected, model.buckets.end());
+// Any sequence of what the engine does to lists, against maps.
+class ManyLists {
+ public:
+  explicit ManyLists(std::uint64_t seed) : random_(seed), exponent_(-static_cast<int>(random_.below(6))) {
+    pool_.start(exponent_);
+    for (std::int64_t index = -20; index < 20; index += static_cast<std::int64_t>(random_.below(3))) sweep(index);
+    for (std::uint64_t steps = random_.below(60); steps > 0; --steps) step();
+  }
+
+  void check() {
+    for (std::size_t i = 0; i < kLists; ++i) {
+      auto expected = models_[i].buckets.begin();
+      const auto end = models_[i].buckets.end();
+      pool_.drain(lists_[i], [&](const BucketSum& bucket) {
+        ASSERT_NE(expected, end);
         ASSERT_TRUE(same(bucket, expected->second)) << "bucket " << bucket.index;
         ++expected;
       });
-      ASSERT_EQ(expected, model.buckets.end());
-      ASSERT_TRUE(model.list.empty());
+      ASSERT_EQ(expected, end);
+      ASSERT_TRUE(lists_[i].empty());
     }
+  }
+
+ private:
+  static constexpr std::size_t kLists = 4;
+  static constexpr double kMost = 10;  // values are from -kMost to kMost
+
+  double value() { return kMost * (2 * random_.unit() - 1); }
+
+  void sweep(std::int64_t index) {
+    pool_.start_bucket(index);
+    for (std::uint64_t n = random_.below(6); n > 0; --n) {
+      const std::size_t i = random_.below(kLists);
+      BucketSum vertex{index, 0, {}};
+      const Point position = random_point(random_);
+      vertex.add(position);
+      pool_.add_to_bucket(pool_.bucket_at_hand(lists_[i]), position);
+      models_[i].add(vertex);
+    }
+  }
+
+  void step() {
+    const std::size_t i = random_.below(kLists), j = random_.below(kLists);
+    switch (random_.below(6)) {
+      case 0:
+        return i != j && models_[j].buckets.empty() ? cut(i, j) : void();
+      case 1:
+        if (i == j) return;
+        pool_.merge(lists_[i], lists_[j]);
+        return models_[i].add_all(models_[j]);
+      case 2:
+        if (random_.chance(80)) return;
+        pool_.raise_exponent(++exponent_, lists_);
+        for (Model& model : models_) model.coarsen(1);
+        return;
+      case 3:
+        return i != j ? concatenate(i, j) : void();
+      default:
+        return add_vertex(i);
+    }
+  }
+
+  BucketSum vertex(double at, const Point& position) const {
+    BucketSum sum{bucket_index(at, exponent_), 0, {}};
+    sum.add(position);
+    return sum;
+  }
+
+  void add_vertex(std::size_t i) {
+    const double at = value();
+    const Point position = random_point(random_);
+    pool_.add_vertex(lists_[i], at, position);
+    models_[i].add(vertex(at, position));
+  }
+
+  void concatenate(std::size_t i, std::size_t j) {
+    auto &lower = models_[i].buckets, &upper = models_[j].buckets;
+    if (!lower.empty() && !upper.empty() && lower.rbegin()->first > upper.begin()->first) return;
+    const double at = value();
+    const std::int64_t index = bucket_index(at, exponent_);
+    if ((!lower.empty() && lower.rbegin()->first > index) || (!upper.empty() && upper.begin()->first < index)) {
+      pool_.concatenate(lists_[i], lists_[j]);
+    } else {
+      const Point position = random_point(random_);
+      pool_.concatenate(lists_[i], at, position, lists_[j]);
+      models_[i].add(vertex(at, position));
+    }
+    models_[i].add_all(models_[j]);
+  }
+
+  // What is above goes from list i to list j; the bucket that is cut, to where its greater part is.
+  void cut(std::size_t i, std::size_t j) {
+    const double at = value();
+    const std::int64_t divided = bucket_index(at, exponent_);
+    const double begin = std::max(-kMost, std::ldexp(static_cast<double>(divided), exponent_));
+    const double end = std::min(kMost, std::ldexp(static_cast<double>(divided + 1), exponent_));
+    lists_[j] = pool_.take_above(lists_[i], -kMost, at, kMost);
+    auto& from = models_[i].buckets;
+    const auto first = from.lower_bound(end - at > at - begin ? divided : divided + 1);
+    models_[j].buckets.insert(first, from.end());
+    from.erase(first, from.end());
+  }
+
+  Random random_;
+  int exponent_;
+  BucketLists pool_;
+  std::array<BucketLists::List, kLists> lists_{};
+  std::array<Model, kLists> models_;
+};
+
+TEST(BucketLists, HoldWhatMapsHold) {
+  const std::uint64_t seed = base_seed(), cases = case_count(2000);
+  for (std::uint64_t i = 0; i < cases && !HasFailure(); ++i) {
+    SCOPED_TRACE(testing::Message() << "case " << i);
+    ManyLists(seed + i).check();
   }
 }
 

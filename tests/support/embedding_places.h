@@ -1,9 +1,8 @@
 // Where the vertices of an embedding lie, as far as it does not depend on how the mesh was cut into
 // chunks (DESIGN.md 1.7).
 //
-// A node that a later chunk brings divides the bucket in which its value lies, and that can only be
-// done in proportion: a vertex of that bucket may then be taken for one of another arc of the same
-// node. So what lies in a bucket of all arcs together that hang together through nodes of that very
+// A node that a later chunk brings cuts the bucket in which its value lies, whose vertices are no longer
+// known one by one: a vertex of that bucket may then be taken for one of another arc of the same node. So what lies in a bucket of all arcs together that hang together through nodes of that very
 // bucket does not depend on the chunks; a vertex never strays from there.
 #pragma once
 
