@@ -8,8 +8,11 @@ namespace reeb {
 
 Bucket BucketSum::mean() const {
   Bucket bucket{index, count, {}};
-  for (std::size_t k = 0; k < 3; ++k)
-    bucket.mean[k] = static_cast<double>(sum[k]) * 0x1p-44 / static_cast<double>(count);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto low = static_cast<std::int64_t>(sum[k]);  // mostly all of it, and converted faster
+    const double total = low == sum[k] ? static_cast<double>(low) : static_cast<double>(sum[k]);
+    bucket.mean[k] = total * 0x1p-44 / static_cast<double>(count);
+  }
   return bucket;
 }
 
