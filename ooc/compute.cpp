@@ -395,7 +395,7 @@ LoadedGraph Run::load_graph(ComputeResult& result, SegmentStore& store) {
   const Reservation scratch = budget_.reserve(
       "last pass of noise removal", kBytesAnArc * loaded.graph.arc_count() + kBytesANode * loaded.graph.node_count() +
                                         kBytesABucket * loaded.buckets.buckets.size());
-  Denoised denoised = denoise(loaded.graph, sweep.noise_below, loaded.buckets, sweep.bucket_exponent.value_or(0));
+  Denoised denoised = denoise(std::move(loaded.graph), sweep.noise_below, loaded.buckets, sweep.bucket_exponent.value_or(0));
   loaded.graph = std::move(denoised.graph);
   result.denoised_pairs += denoised.removed.size();
   result.nodes = loaded.graph.node_count();
