@@ -9,7 +9,7 @@
 namespace reeb::ooc {
 
 // zstd level of temporary segments; bench/ooc_bench.cpp compares levels.
-inline constexpr int kSegmentLevel = 1;
+inline constexpr int kSegmentLevel = -1;
 
 // Small numbers of either sign as small numbers without sign.
 inline std::uint64_t zigzag(std::uint64_t difference) {

@@ -5,7 +5,7 @@
 namespace reeb::ooc {
 namespace {
 
-constexpr int kZstdLevel = 3;
+constexpr int kZstdLevel = 1;
 // Below it a frame is stored as it is: nothing is gained, and small files can be read by eye.
 constexpr std::size_t kCompressFromBytes = 512;
 

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <span>
 #include <utility>
 #include <vector>
@@ -67,6 +68,16 @@ std::uint64_t append_blocks(std::span<const Record> records, [[maybe_unused]] st
   return blocks;
 }
 
+// A number that rises with the record; unequal numbers settle the order of most records without a
+// branch that could not be foretold.
+template <class Less, class Record>
+std::uint64_t rank_of(const Record& record) {
+  if constexpr (requires { Less::rank(record); })
+    return Less::rank(record);
+  else
+    return 0;
+}
+
 // Merges sorted runs of a file by a tree of losers: a comparison for each doubling of the number of
 // runs. Of equal records those of earlier runs come first. Holds one block of each run.
 // REQUIRES: at least one run.
@@ -74,7 +85,7 @@ template <class Record, class Codec, class Less>
 class RunMerger {
  public:
   RunMerger(const RunFile& file, std::span<const RunPlace> runs)
-      : file_(&file), cursors_(runs.size()), heads_(runs.size()), losers_(runs.size()) {
+      : file_(&file), cursors_(runs.size()), heads_(runs.size()), ranks_(runs.size()), losers_(runs.size()) {
     for (std::size_t i = 0; i < runs.size(); ++i) {
       cursors_[i].rest = runs[i];
       refill(i);
@@ -89,10 +100,12 @@ class RunMerger {
     const Cursor& top = cursors_[winner_];
     Head& head = heads_[winner_];
     out.add(head.record, top.block.payload(head.record));
-    if (++head.place == top.end)
+    if (++head.place == top.end) {
       refill(winner_);
-    else
+    } else {
       head.record = *head.place;
+      ranks_[winner_] = rank_of<Less>(head.record);
+    }
     replay();
   }
 
@@ -112,6 +125,7 @@ class RunMerger {
   void refill(std::size_t i) {
     Cursor& cursor = cursors_[i];
     heads_[i].place = nullptr;
+    ranks_[i] = std::numeric_limits<std::uint64_t>::max();
     if (cursor.rest.blocks == 0) return;
     const std::uint64_t offset = cursor.rest.offset;
     cursor.block.records.resize(file_->read(cursor.rest, packed_));
@@ -119,6 +133,7 @@ class RunMerger {
     const std::vector<Record>& records = cursor.block.records;
     cursor.end = records.data() + records.size();
     heads_[i] = {records[0], records.data()};
+    ranks_[i] = rank_of<Less>(records[0]);
   }
 
   bool decode(RecordBatch<Record>& block) const {
@@ -130,6 +145,9 @@ class RunMerger {
 
   // A total order of the runs that have records left; the others come after them.
   bool beats(std::size_t a, std::size_t b) const {
+    return ranks_[a] != ranks_[b] ? ranks_[a] < ranks_[b] : beats_of_equal_rank(a, b);
+  }
+  bool beats_of_equal_rank(std::size_t a, std::size_t b) const {
     const Head &x = heads_[a], &y = heads_[b];
     if (x.place == nullptr || y.place == nullptr) return x.place != nullptr;
     return a < b ? !Less()(y.record, x.record) : Less()(x.record, y.record);
@@ -150,14 +168,21 @@ class RunMerger {
   }
 
   void replay() {
-    for (std::size_t node = (winner_ + heads_.size()) / 2; node != 0; node /= 2)
-      if (beats(losers_[node], winner_)) std::swap(losers_[node], winner_);
+    std::size_t winner = winner_;
+    for (std::size_t node = (winner + heads_.size()) / 2; node != 0; node /= 2) {
+      const std::size_t other = losers_[node];
+      const bool loses = beats(other, winner);
+      losers_[node] = loses ? winner : other;
+      winner = loses ? other : winner;
+    }
+    winner_ = winner;
   }
 
   const RunFile* file_;
   std::vector<std::byte> packed_;
   std::vector<Cursor> cursors_;
   std::vector<Head> heads_;           // by run
+  std::vector<std::uint64_t> ranks_;  // of their records; the greatest at a run's end
   std::vector<std::size_t> losers_;   // by inner node: who lost there
   std::size_t winner_ = 0;
 };

@@ -37,9 +37,11 @@ struct ArcCodec {
                      std::vector<std::byte>& pool);
 };
 struct NodeLess {
+  static std::uint64_t rank(const SettledNode& node) { return ordered_bits(node.key.value); }
   bool operator()(const SettledNode& a, const SettledNode& b) const { return a.key < b.key; }
 };
 struct ArcLess {
+  static std::uint64_t rank(const StoredArc& arc) { return ordered_bits(arc.keys.lo.value); }
   bool operator()(const StoredArc& a, const StoredArc& b) const { return a.keys < b.keys; }
 };
 

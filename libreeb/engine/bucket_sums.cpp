@@ -6,10 +6,24 @@
 
 namespace reeb {
 
+BucketSum BucketSum::take(std::uint64_t taken) {
+  BucketSum part{index, taken, {}};
+  const double share = static_cast<double>(taken) / static_cast<double>(count);
+  for (std::size_t k = 0; k < 3; ++k) {
+    part.sum[k] = static_cast<Int128>(static_cast<double>(sum[k]) * share);
+    sum[k] -= part.sum[k];
+  }
+  count -= taken;
+  return part;
+}
+
 Bucket BucketSum::mean() const {
   Bucket bucket{index, count, {}};
-  for (std::size_t k = 0; k < 3; ++k)
-    bucket.mean[k] = static_cast<double>(sum[k]) * 0x1p-44 / static_cast<double>(count);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto low = static_cast<std::int64_t>(sum[k]);  // mostly all of it, and converted faster
+    const double total = low == sum[k] ? static_cast<double>(low) : static_cast<double>(sum[k]);
+    bucket.mean[k] = total * 0x1p-44 / static_cast<double>(count);
+  }
   return bucket;
 }
 
@@ -119,24 +133,44 @@ void BucketLists::merge(List& into, List& from) {
 
 BucketLists::List BucketLists::take_above(List& list, double lo, double at, double hi) {
   if (list.empty()) return {};
-  const std::int64_t above = first_above(lo, at, hi);
-  if (links_[list.last].index < above) return {};
-  const Index first = links_[list.last].next;
-  if (links_[first].index >= above) return std::exchange(list, {});
-  Index below = first, b = links_[first].next;
-  while (links_[b].index < above) b = links_[below = b].next;
+  const std::int64_t divided = indexer_(at);
+  if (links_[list.last].index < divided) return {};
+  Index below = kNone, b = links_[list.last].next;  // the last one below `at`, and the one after it
+  while (links_[b].index < divided) b = links_[below = b].next;
+  if (links_[b].index == divided) {
+    const std::uint64_t count = sums_[b].count, above = count_above(b, lo, at, hi);
+    if (above == 0) {
+      below = b;
+    } else if (above < count) {
+      const Index part = new_bucket(sums_[b].take(count - above));
+      links_[below == kNone ? list.last : below].next = part;
+      links_[part].next = b;
+      below = part;
+    }
+  }
+  return split_behind(list, below);
+}
+
+// Takes what comes behind `last_below`, or all if that is none.
+BucketLists::List BucketLists::split_behind(List& list, Index last_below) {
+  if (last_below == kNone) return std::exchange(list, {});
+  if (last_below == list.last) return {};
   const List taken = list;
-  links_[below].next = std::exchange(links_[list.last].next, b);
-  list.last = below;
+  links_[last_below].next = std::exchange(links_[list.last].next, links_[last_below].next);
+  list.last = last_below;
   return taken;
 }
 
-// In halves, so that no difference overflows.
-std::int64_t BucketLists::first_above(double lo, double at, double hi) const {
-  const std::int64_t divided = indexer_(at);
-  const double begin = indexer_(lo) == divided ? lo / 2 : std::ldexp(static_cast<double>(divided), exponent() - 1);
-  const double end = indexer_(hi) == divided ? hi / 2 : std::ldexp(static_cast<double>(divided + 1), exponent() - 1);
-  return end - at / 2 > at / 2 - begin ? divided : divided + 1;
+// Of the bucket in which `at` lies. In halves, so that no difference overflows.
+std::uint64_t BucketLists::count_above(Index bucket, double lo, double at, double hi) const {
+  constexpr std::uint64_t kMany = 4;
+  const std::int64_t index = links_[bucket].index;
+  const double least = indexer_(lo) == index ? lo / 2 : std::ldexp(static_cast<double>(index), exponent() - 1);
+  const double most = indexer_(hi) == index ? hi / 2 : std::ldexp(static_cast<double>(index + 1), exponent() - 1);
+  const std::uint64_t count = sums_[bucket].count;
+  if (count < kMany) return most - at / 2 > at / 2 - least ? count : 0;
+  const double share = most > least ? std::clamp((most - at / 2) / (most - least), 0.0, 1.0) : 0.5;
+  return std::min(static_cast<std::uint64_t>(std::nearbyint(share * static_cast<double>(count))), count);
 }
 
 void BucketLists::coarsen(List& list, int levels) {

@@ -50,6 +50,8 @@ struct BucketSum {
     count += other.count;
     for (std::size_t k = 0; k < 3; ++k) sum[k] += other.sum[k];
   }
+  // Takes so many of the vertices out, with their share of the sum, or nearly; nothing is lost.
+  BucketSum take(std::uint64_t taken);
   Bucket mean() const;
 };
 
@@ -106,7 +108,8 @@ class BucketLists {
   // Moves the buckets of `from`, whichever they are, to `into`.
   void merge(List& into, List& from);
   // Of buckets that lie between the values lo and hi, takes those above `at`. The one in which `at` lies
-  // goes whole to where the greater part of it is.
+  // is divided in proportion to the value, if it has many vertices; else it goes whole to where the
+  // greater part of it is.
   List take_above(List& list, double lo, double at, double hi);
   // Calls visit(bucket) for all buckets, ascending, and forgets them.
   template <class Visit>
@@ -120,6 +123,13 @@ class BucketLists {
     links_[list.last].next = first_free_;
     first_free_ = first;
     list.last = kNone;
+  }
+
+  // Asks for what drain() will look at first.
+  void prefetch(const List& list) const {
+    if (list.empty()) return;
+    __builtin_prefetch(&sums_[list.last]);
+    __builtin_prefetch(&sums_[list.last].sum[2]);
   }
 
   std::size_t memory_bytes() const { return sums_.memory_bytes() + links_.memory_bytes(); }
@@ -138,8 +148,8 @@ class BucketLists {
   void link_or_add(List& list, Index b);
   void remove_first(List& list);
   void coarsen(List& list, int levels);
-  // Buckets of this index and more lie above `at`.
-  std::int64_t first_above(double lo, double at, double hi) const;
+  List split_behind(List& list, Index last_below);
+  std::uint64_t count_above(Index bucket, double lo, double at, double hi) const;
 
   GrowingArray<BucketSum> sums_;
   GrowingArray<Link> links_;

@@ -25,6 +25,10 @@ class Crossings {
   std::uint32_t next(std::uint32_t half) const { return halves_[half].next; }
   std::uint32_t& label(std::uint32_t t) { return halves_[2 * std::size_t{t}].label; }
   std::uint32_t label(std::uint32_t t) const { return halves_[2 * std::size_t{t}].label; }
+  // Asks for what a step from triangle t looks at.
+  void prefetch_beyond(std::uint32_t t) const {
+    for (const std::uint32_t half : {2 * t, 2 * t + 1}) __builtin_prefetch(&halves_[halves_[half].next & ~1u]);
+  }
   std::size_t memory_bytes() const { return halves_.capacity() * sizeof(Half); }
 
  private:
@@ -198,6 +202,7 @@ struct ChunkSweep::Scratch {
   void step(std::uint32_t side);
   void enter(std::uint32_t t, std::uint32_t side) {
     crossings.label(t) = first_side + side;
+    crossings.prefetch_beyond(t);
     sides[side].queue.push_back(t);
   }
 

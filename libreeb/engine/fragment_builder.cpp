@@ -162,6 +162,8 @@ void FragmentBuilder::add_settled_arc(const SweptChunk& swept, std::uint32_t arc
   const auto key = [&](std::uint32_t node) { return swept.key(graph_.nodes[node].vertex); };
   fragment.settled_arcs.push_back({key(graph_.arcs[arc].lo), key(graph_.arcs[arc].hi)});
   if (!options_.bucket_exponent) return;
+  constexpr std::size_t kAhead = 8;
+  if (arc + kAhead < graph_.arc_buckets.size()) graph_.buckets.prefetch(graph_.arc_buckets[arc + kAhead]);
   const std::size_t before = fragment.settled_buckets.size();
   graph_.buckets.drain(graph_.arc_buckets[arc], [&](const BucketSum& bucket) {
     fragment.settled_buckets.push_back(bucket.mean());
