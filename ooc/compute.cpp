@@ -117,10 +117,12 @@ class Run {
   ComputeResult second_stage(std::size_t f);
   FileMeta file_meta(const ComputeResult& result) const;
   bool embeds() const { return options_.buckets != 0; }
-  void write_stored_graph(ComputeResult& result, SegmentStore& store);
+  void write_stored_graph(ComputeResult& result, SegmentStore& store, const FileMeta& meta);
   LoadedGraph load_graph(ComputeResult& result, SegmentStore& store);
   void write_loaded_graph(ComputeResult& result, const LoadedGraph& loaded);
   void write_hierarchy(ComputeResult& result, SegmentStore& store);
+  Error no_memory_for(const std::string& what, const ComputeResult& result, std::uint64_t needed,
+                      const std::string& otherwise) const;
   Error no_memory_for_hierarchy(const ComputeResult& result, std::uint64_t needed) const;
   void tell(Phase phase, std::uint64_t done, std::uint64_t total, std::uint64_t triangles = 0) const {
     if (options_.progress) options_.progress({phase, done, total, triangles});
@@ -338,7 +340,7 @@ ComputeResult Run::second_stage(std::size_t f) {
     else if (options_.denoise > 0)
       write_loaded_graph(result, load_graph(result, store));
     else
-      write_stored_graph(result, store);
+      write_stored_graph(result, store, file_meta(result));
   }
   result.seconds.wall += seconds_since(start);
   return result;
@@ -360,7 +362,7 @@ FileMeta Run::file_meta(const ComputeResult& result) const {
 
 // The graph as it was stored, in memory that does not grow with it but for 4 bytes a node; and, where
 // there is much to look up and memory is free, 4 bytes a vertex.
-void Run::write_stored_graph(ComputeResult& result, SegmentStore& store) {
+void Run::write_stored_graph(ComputeResult& result, SegmentStore& store, const FileMeta& meta) {
   constexpr std::size_t kNodes = 16384, kBytesAnArc = 1000, kManyVerticesANode = 16;
   const std::size_t pieces = std::clamp<std::size_t>(budget_.free_bytes() / kBytesAnArc, 4096, 65536);
   GraphFileWriter::Options writing{.has_embedding = embeds(),
@@ -372,7 +374,7 @@ void Run::write_stored_graph(ComputeResult& result, SegmentStore& store) {
     table = budget_.reserve("ranks of nodes", table_bytes);
     writing.ends = GraphFileWriter::ArcEnds::kKeysInMemory;
   }
-  GraphFileWriter writer(result.output, file_meta(result), writing);
+  GraphFileWriter writer(result.output, meta, writing);
   store.nodes().rewind();
   read_ahead<std::vector<SettledNode>>(
       writing.background, [&](auto& nodes) { return store.nodes().read(nodes, kNodes); },
@@ -386,16 +388,26 @@ void Run::write_stored_graph(ComputeResult& result, SegmentStore& store) {
   result.betti = {writer.header().components, writer.header().loops};
 }
 
-// The graph in memory, less all noise: what was left of it on the way goes here.
+// The graph in memory, less all noise: what was left of it on the way goes here. Where that does not
+// fit, the graph is kept as it is and the user is told, before the work starts.
 LoadedGraph Run::load_graph(ComputeResult& result, SegmentStore& store) {
   const SweepOptions sweep = sweep_options(result.range);
-  LoadedGraph loaded = read_graph(store, {.bucket_exponent = sweep.bucket_exponent});
-  if (options_.denoise <= 0) return loaded;
-  constexpr std::uint64_t kBytesAnArc = 60, kBytesANode = 60, kBytesABucket = 90;  // with the result
-  const Reservation scratch = budget_.reserve(
-      "last pass of noise removal", kBytesAnArc * loaded.graph.arc_count() + kBytesANode * loaded.graph.node_count() +
-                                        kBytesABucket * loaded.buckets.buckets.size());
-  Denoised denoised = denoise(std::move(loaded.graph), sweep.noise_below, loaded.buckets, sweep.bucket_exponent.value_or(0));
+  const LoadOptions loading{.bucket_exponent = sweep.bucket_exponent};
+  if (options_.denoise <= 0) return read_graph(store, loading);
+  constexpr std::uint64_t kBytesAnArc = 40, kBytesANode = 24, kBytesABucket = 48;  // beside the graph
+  const std::uint64_t scratch_bytes = kBytesAnArc * store.arc_count() + kBytesANode * store.node_count() +
+                                      (embeds() ? kBytesABucket * store.bucket_count() : 0);
+  const std::uint64_t needed = loading_bytes(store, loading) + scratch_bytes;
+  if (needed > budget_.free_bytes()) {
+    FileMeta meta = file_meta(result);
+    meta.denoise_threshold = 0;
+    write_stored_graph(result, store, meta);
+    throw no_memory_for("the last pass of noise removal", result, needed, "do without --denoise");
+  }
+  LoadedGraph loaded = read_graph(store, loading);
+  const Reservation scratch = budget_.reserve("last pass of noise removal", scratch_bytes);
+  Denoised denoised =
+      denoise(std::move(loaded.graph), sweep.noise_below, loaded.buckets, sweep.bucket_exponent.value_or(0));
   loaded.graph = std::move(denoised.graph);
   result.denoised_pairs += denoised.removed.size();
   result.nodes = loaded.graph.node_count();
@@ -408,15 +420,21 @@ void Run::write_loaded_graph(ComputeResult& result, const LoadedGraph& loaded) {
   write_graph_file(result.output, file_meta(result), loaded.graph, loaded.buckets.view());
 }
 
-Error Run::no_memory_for_hierarchy(const ComputeResult& result, std::uint64_t needed) const {
+Error Run::no_memory_for(const std::string& what, const ComputeResult& result, std::uint64_t needed,
+                         const std::string& otherwise) const {
+  const std::uint64_t enough = plan_.set_aside_bytes + budget_.limit_bytes() + needed;
   Error error(ErrorKind::kResource,
-              "the hierarchy of " + std::to_string(result.arcs) + " arcs needs " + format_bytes(needed) +
+              what + " of " + std::to_string(result.arcs) + " arcs needs " + format_bytes(needed) +
                   " of memory, but only " + format_bytes(budget_.free_bytes()) +
                   " are left; the graph itself was written",
-              "allow --memory " + std::to_string((plan_.set_aside_bytes + budget_.limit_bytes() + needed) / (1 << 20) + 1) +
-                  "M, remove noise with --denoise, or keep to the graph with --graph-only");
+              "allow --memory " + std::to_string(enough / (1 << 20) + 1) + "M, or " + otherwise);
   error.at(result.output);
   return error;
+}
+
+Error Run::no_memory_for_hierarchy(const ComputeResult& result, std::uint64_t needed) const {
+  return no_memory_for("the hierarchy", result, needed,
+                       "remove noise with --denoise, or keep to the graph with --graph-only");
 }
 
 // Pairing and cancelling hold the graph in memory. Where that does not fit, the graph is kept and the
@@ -428,7 +446,7 @@ void Run::write_hierarchy(ComputeResult& result, SegmentStore& store) {
   };
   std::uint64_t needed = bytes(store.bucket_count());
   if (options_.denoise <= 0 && needed > budget_.free_bytes()) {
-    write_stored_graph(result, store);
+    write_stored_graph(result, store, file_meta(result));
     throw no_memory_for_hierarchy(result, needed);
   }
   LoadedGraph loaded = load_graph(result, store);

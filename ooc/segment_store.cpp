@@ -203,7 +203,19 @@ void append(const ArcBuckets& piece, ArcBuckets& all) {
   all.buckets.insert(all.buckets.end(), piece.buckets.begin(), piece.buckets.end());
 }
 
+std::uint64_t graph_bytes(const SegmentStore& store, const LoadOptions& options) {
+  const std::uint64_t nodes = store.node_count(), arcs = store.arc_count();
+  std::uint64_t bytes = nodes * sizeof(SweepKey) + arcs * 2 * sizeof(NodeId);
+  if (options.positions) bytes += nodes * sizeof(Point);
+  if (options.bucket_exponent) bytes += (arcs + 1) * sizeof(std::uint64_t) + store.bucket_count() * sizeof(Bucket);
+  return bytes;
+}
+
 }  // namespace
+
+std::uint64_t loading_bytes(const SegmentStore& store, const LoadOptions& options) {
+  return graph_bytes(store, options) + NodeTable::bytes(store.node_count());
+}
 
 LoadedGraph read_graph(SegmentStore& store, const LoadOptions& options) {
   const auto node_count = static_cast<std::size_t>(store.node_count());
@@ -211,10 +223,7 @@ LoadedGraph read_graph(SegmentStore& store, const LoadOptions& options) {
   const auto bucket_count = static_cast<std::size_t>(options.bucket_exponent ? store.bucket_count() : 0);
   LoadedGraph loaded;
   ReebGraph& graph = loaded.graph;
-  loaded.memory = store.budget().reserve(
-      "graph", node_count * (sizeof(SweepKey) + (options.positions ? sizeof(Point) : 0)) +
-                   arc_count * 2 * sizeof(NodeId) +
-                   (options.bucket_exponent ? (arc_count + 1) * sizeof(std::uint64_t) : 0) + bucket_count * sizeof(Bucket));
+  loaded.memory = store.budget().reserve("graph", graph_bytes(store, options));
   graph.nodes.reserve(node_count);
   if (options.positions) graph.positions.reserve(node_count);
   store.nodes().rewind();

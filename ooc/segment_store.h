@@ -121,6 +121,9 @@ struct LoadOptions {
   std::optional<int> bucket_exponent = {};  // buckets are wanted, coarsened to this
 };
 
+// What read_graph reserves, at most.
+std::uint64_t loading_bytes(const SegmentStore& store, const LoadOptions& options);
+
 // All of a finished store, for a second stage in memory.
 //
 // THROWS: Error{kResource} if the graph does not fit the budget, before anything is read;

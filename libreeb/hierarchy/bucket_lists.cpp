@@ -99,6 +99,23 @@ std::uint32_t ArcBucketLists::last_below(std::uint32_t arc, const CutValues& val
   return item;
 }
 
+bool ArcBucketLists::has_beyond(Direction d, std::uint32_t arc, const CutValues& values) const {
+  const std::int64_t middle = bucket_index(values.at, exponent_);
+  const auto is_beyond = [&](const Bucket& bucket) {
+    if (bucket.index != middle) return (bucket.index < middle) == (d == kDown);
+    const std::uint64_t below = count_below(bucket, values, exponent_);
+    return d == kDown ? below != 0 : below != bucket.count;
+  };
+  if (first_[arc] == kAsAtFirst) {
+    const auto own = at_first_.view().of(arc);
+    return !own.empty() && is_beyond(d == kDown ? own.front() : own.back());
+  }
+  std::uint32_t item = first_[arc];
+  if (item == kNone) return false;
+  while (d == kUp && items_[item].next != kNone) item = items_[item].next;
+  return is_beyond(items_[item].bucket);
+}
+
 bool ArcBucketLists::cut(Direction d, std::uint32_t from, std::uint32_t into, const CutValues& values) {
   make_list(from);
   make_list(into);

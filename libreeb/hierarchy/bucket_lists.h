@@ -29,12 +29,17 @@ class ArcBucketLists {
   // REQUIRES: all buckets are of this exponent, and none is empty.
   ArcBucketLists(ArcBuckets buckets, std::size_t arcs, int exponent);
 
-  bool empty(std::uint32_t arc) const { return count(arc) == 0; }
+  bool empty(std::uint32_t arc) const {
+    return first_[arc] == kNone || (first_[arc] == kAsAtFirst && at_first_.view().count(arc) == 0);
+  }
   // How many buckets the arc has.
   std::size_t count(std::uint32_t arc) const;
 
   // A vertex enters its bucket.
   void add(std::uint32_t arc, double value, const std::array<double, 3>& position);
+
+  // Whether the arc has anything that cut() would move. Changes nothing, and makes no list.
+  bool has_beyond(Direction d, std::uint32_t arc, const CutValues& values) const;
 
   // What `from` has on side d of values.at goes to `into`. The bucket that the value lies in is
   // divided in proportion to the values of the arc within it, to whole vertices; both parts keep

@@ -14,10 +14,14 @@ void BucketVersions::save(std::uint32_t arc) {
 
 bool BucketVersions::cut(const ArcCut& arc) {
   if (lists_.empty(arc.from)) return false;
+  const auto [lo, hi] = std::minmax(arc.start, arc.end);
+  const CutValues values{value(lo), value(arc.node), value(hi)};
+  const Direction d = opposite(arc.direction);
+  // Most nodes that a long arc is laid beside take nothing of it.
+  if (!lists_.has_beyond(d, arc.from, values)) return false;
   save(arc.from);
   save(arc.into);
-  const auto [lo, hi] = std::minmax(arc.start, arc.end);
-  return lists_.cut(opposite(arc.direction), arc.from, arc.into, {value(lo), value(arc.node), value(hi)});
+  return lists_.cut(d, arc.from, arc.into, values);
 }
 
 bool BucketVersions::merge(std::uint32_t from, std::uint32_t into) {

@@ -88,6 +88,9 @@ class Canceller {
 
   // A pair of `fork` with the extremum that is its partner in direction d.
   void cancel_extremum(Direction d, std::uint32_t fork, std::uint32_t extremum);
+  void lay_beside(Direction d, std::uint32_t arc, std::uint32_t beside, std::uint32_t extremum);
+  void go_beside(Direction d, std::uint32_t arc, std::uint32_t& beside, std::uint32_t& start,
+                 std::uint32_t end);
   std::uint32_t arc_to_extremum(Direction d, std::uint32_t fork, std::uint32_t extremum);
   bool cancel_loop(std::uint32_t v, std::uint32_t y);
   bool take_away(std::uint32_t arc);
@@ -97,7 +100,7 @@ class Canceller {
 
   bool leads(std::uint32_t arc) const { return back_.reached(graph_.end(arc, kUp)); }
 
-  // Zips two paths that start in one node and go in direction d, as far as the first one reaches.
+  // Zips two paths that start in one node, go in direction d, and end in one node.
   void zip(Direction d);
   void move_start(Direction d, std::uint32_t arc, std::uint32_t node) {
     log_.touch(arc);
@@ -143,13 +146,46 @@ void Canceller<Content>::cancel_extremum(Direction d, std::uint32_t fork, std::u
   });
   if (in == kNone || out == kNone) not_a_pair();
 
-  first_.assign(1, in);
-  while (graph_.end(first_.back(), d) != extremum)
-    first_.push_back(graph_.nearest(graph_.end(first_.back(), d), d));
-  second_.assign(1, out);
-  while (along(d, graph_.end(second_.back(), d)) < along(d, extremum))
-    second_.push_back(graph_.nearest(graph_.end(second_.back(), d), d));
-  zip(d);
+  lay_beside(d, in, out, extremum);
+}
+
+// Zips the path that starts with `arc` and ends in the extremum onto the one that starts with
+// `beside`, in another component, and reaches beyond. What lies beside a long arc stays as it is, so
+// arcs move only where a node of the first path comes between two of the second; an extremum of one
+// arc is none.
+template <class Content>
+void Canceller<Content>::lay_beside(Direction d, std::uint32_t arc, std::uint32_t beside,
+                                    std::uint32_t extremum) {
+  std::uint32_t start = graph_.end(arc, opposite(d));  // all before it is one path
+  while (true) {
+    const std::uint32_t end = graph_.end(arc, d), next = graph_.nearest(end, d);
+    if (end == extremum && graph_.has_one(extremum, opposite(d))) break;
+    go_beside(d, arc, beside, start, end);
+    if (graph_.end(arc, opposite(d)) != start) move_start(d, arc, start);
+    cut(d, beside, arc, end);
+    if (end == extremum) return;
+    start = end;
+    arc = next;
+  }
+  if constexpr (Content::kFollows) {
+    go_beside(d, arc, beside, start, extremum);
+    log_.touch(beside);
+    content_.join(arc, beside, extremum);
+  }
+  remove(arc);
+}
+
+// Follows the second path from `start` until its arc `beside` reaches to `end` or beyond, and lays the
+// content of `arc` on the arcs that are passed.
+template <class Content>
+void Canceller<Content>::go_beside(Direction d, std::uint32_t arc, std::uint32_t& beside,
+                                   std::uint32_t& start, std::uint32_t end) {
+  for (std::uint32_t node = graph_.end(beside, d); along(d, node) < along(d, end);
+       node = graph_.end(beside, d)) {
+    if (content_.cut({d, arc, beside, start, node, end})) log_.touch(beside);
+    start = node;
+    beside = graph_.nearest(node, d);
+  }
 }
 
 // The nearest arc of `fork` that leads into the extremum's component. With a kept loop at the fork

@@ -61,6 +61,8 @@ class Runner {
 
   // For the runs that follow.
   ooc::ComputeOptions& options() { return options_; }
+  // Where the output of a function goes that is this column of the mesh.
+  std::string output(unsigned column) const { return outputs_.path() + "/" + ColumnFunction(column).name() + ".reeb"; }
 
   // The outputs of the functions that are these columns of the mesh, in one run.
   std::vector<std::string> run(const ComplexMesh& mesh, const RunShape& shape, std::vector<unsigned> columns = {3},

@@ -63,8 +63,10 @@ void print_text(const ooc::ReebFile& file) {
   if (header.flags.has_embedding)
     fmt::print("  embedding  {} buckets, each {:.9g} of the function wide\n", buckets_of_graph(file),
                std::ldexp(1.0, header.bucket_exponent));
-  if (header.denoised_pairs != 0)
+  if (header.denoise_threshold > 0 && header.denoised_pairs != 0)
     fmt::print("  denoised   {} pairs below {:.9g}\n", header.denoised_pairs, header.denoise_threshold);
+  else if (header.denoised_pairs != 0)
+    fmt::print("  denoised   {} pairs; others may be left\n", header.denoised_pairs);
   if (header.flags.graph_only) fmt::print("  hierarchy  none (the graph only)\n");
   else
     fmt::print("  hierarchy  {} pairs, {} cancellations, {} loops kept\n", header.pairs, header.steps, header.kept_loops);
