@@ -274,6 +274,11 @@ TEST_F(Convert, RefusesWhatItCannotDo) {
   EXPECT_EQ(reeb("convert a.obj b.xyz").exit_code, 2);
   EXPECT_EQ(reeb("convert a.obj b.smb --order up").exit_code, 2);
   EXPECT_EQ(reeb("convert a.obj b.svb").exit_code, 1) << "triangles in a volume mesh";
+  for (const std::string number : {"0", "-3", "many"}) {
+    const Outcome refused = reeb("compute a.obj --snapshot-every " + number);
+    EXPECT_EQ(refused.exit_code, 2) << number;
+    EXPECT_NE(refused.error.find("--snapshot-every: must be 1 at least"), std::string::npos) << refused.error;
+  }
   EXPECT_EQ(reeb("convert a.obj nowhere/b.smb").exit_code, 3);
 }
 
