@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # What the README shows is true: installs the project into a temporary prefix, runs the commands of
-# its ```console block, builds its programs against the installed package with its own
+# its ```console blocks, builds its programs against the installed package with its own
 # CMakeLists.txt, and compares all output with what stands there.
 #
 #   readme_test.sh README.md BUILD_FOLDER [CXX_FLAGS]
@@ -33,13 +33,13 @@ cmake --install "$build" --prefix "$work/prefix" >install.log
 PATH=$work/prefix/bin:$PATH
 
 # Commands, each with its output.
-block console 1 >console.txt
+{ block console 1; block console 2; } >console.txt
 grep -q '^\$ ' console.txt || { echo "the README has no console block"; exit 1; }
 while IFS= read -r line; do
   echo "$line"
   if [[ $line == '$ '* ]]; then eval "${line#\$ }" 2>&1 </dev/null; fi
 done < <(grep '^\$ ' console.txt) >console.out
-same "console block" console.txt console.out
+same "console blocks" console.txt console.out
 
 # Programs, each followed by its output.
 mkdir project

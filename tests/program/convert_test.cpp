@@ -130,6 +130,84 @@ TEST_F(Convert, EachFormatReadBackHoldsTheSameMesh) {
   }
 }
 
+std::string as_stl(const EventList& mesh) {
+  std::ostringstream out;
+  out.precision(9);
+  out << "solid terrain\n";
+  for (const EventList::Event& event : mesh.events) {
+    if (event.kind != 't') continue;
+    out << "facet normal 0 0 0\nouter loop\n";
+    for (const std::size_t v : event.vertices) {
+      const auto& [x, y, z] = mesh.places[v];
+      out << "vertex " << x << ' ' << y << ' ' << z << '\n';
+    }
+    out << "endloop\nendfacet\n";
+  }
+  out << "endsolid terrain\n";
+  return out.str();
+}
+
+// Every format into every other. The mesh as the source has it is known from the list of its events; triangles
+// are compared by the places of their corners, since some formats number vertices anew.
+TEST_F(Convert, EveryFormatIntoEveryOther) {
+  REEB_REQUIRE_SAMPLES();
+  const std::vector<std::string> writable = {"ply", "obj", "off", "sma", "smb", "smc"};
+  const std::string origin = sample("terrain.pre.sma");
+  const EventList expected = parse_events(golden_events("terrain.pre.sma"));
+  std::vector<std::string> sources = {origin, sample("terrain.post.sma"), sample("terrain.post.be.smb"),
+                                      sample("terrain.be-mislabelled.smb"), sample("terrain.v1.smc")};
+  for (const std::string& suffix : writable) {
+    expect_success("convert " + origin + " source." + suffix);
+    sources.push_back("source." + suffix);
+  }
+  write("source.stl", as_stl(expected));
+  sources.push_back("source.stl");
+  for (const std::string& source : sources)
+    for (const std::string& suffix : writable)
+      for (const std::string finalize : {"", " --finalize"}) {
+        const std::string words = source + " there." + suffix + finalize;
+        expect_success("convert " + words + " --force --memory 16M");
+        const EventList mesh = events_of("there." + suffix);
+        EXPECT_TRUE(mesh.triangles() == expected.triangles()) << words;
+        EXPECT_TRUE(mesh.sorted_places() == expected.sorted_places()) << words;
+        if (finalize.empty() || !suffix.starts_with("sm")) continue;
+        EXPECT_EQ(check_compact(mesh).fault, "") << words;
+        EXPECT_EQ(info_of("there." + suffix)["finalized_vertices"], expected.places.size()) << words;
+      }
+}
+
+// Into a surface a tetrahedron goes as its four faces, in any order; its values only where they have a place.
+TEST_F(Convert, VolumesKeepTheirGraphsAndTheValuesOfTheirVertices) {
+  REEB_REQUIRE_SAMPLES();
+  const std::string volume = sample("tetcube.s4.pre.sva");
+  const std::string height = graph_of(volume + " -f z"), value = graph_of(volume + " -f property:s0");
+  EXPECT_NE(height, value) << "a test that could not fail";
+  for (const std::string variant : {"tetcube.s4.post.sva", "tetcube.s4.pre.be.svb", "tetcube.s4.post.le.svb"}) {
+    EXPECT_EQ(graph_of(sample(variant) + " -f property:s0"), value) << variant;
+    EXPECT_EQ(graph_of("- -f property:s0 < " + sample(variant)), value) << "standard input, " << variant;
+  }
+  for (const std::string target : {"a.svb", "a.sva", "a.ply"}) {
+    expect_success("convert " + volume + " " + target);
+    EXPECT_EQ(graph_of(target + " -f property:s0"), value) << target;
+  }
+  for (const std::string order : {"keep", "hilbert", "spectral", "sweep:z", "sweep:property:s0"})
+    for (const std::string target : {"b.ply", "b.smb", "b.smc"}) {
+      expect_success("convert " + volume + " " + target + " --force --order " + order);
+      EXPECT_EQ(info_of(target)["triangles"], info_of(volume)["triangles"]) << order << ' ' << target;
+      if (target == "b.ply") {
+        EXPECT_EQ(graph_of("b.ply -f property:s0"), value) << order;
+      }
+    }
+  const Outcome absent = reeb("compute " + volume + " -f property:s1");
+  EXPECT_EQ(absent.exit_code, 1);
+  EXPECT_NE(absent.error.find("hint: it has: s0"), std::string::npos) << absent.error;
+  for (const std::string option : {"--finalize", "--order hilbert"}) {
+    const Outcome refused = reeb("convert " + volume + " c.svb " + option);
+    EXPECT_EQ(refused.exit_code, 2) << option;
+    EXPECT_NE(refused.error.find("volume meshes are converted in their own order only"), std::string::npos) << refused.error;
+  }
+}
+
 TEST_F(Convert, EveryOrderIsACompactStreamOfTheSameTriangles) {
   expect_success("generate scan --triangles 20000 --order random --seed 5 -o scan.ply");
   const EventList input = events_of("scan.ply");
@@ -196,6 +274,11 @@ TEST_F(Convert, RefusesWhatItCannotDo) {
   EXPECT_EQ(reeb("convert a.obj b.xyz").exit_code, 2);
   EXPECT_EQ(reeb("convert a.obj b.smb --order up").exit_code, 2);
   EXPECT_EQ(reeb("convert a.obj b.svb").exit_code, 1) << "triangles in a volume mesh";
+  for (const std::string number : {"0", "-3", "many"}) {
+    const Outcome refused = reeb("compute a.obj --snapshot-every " + number);
+    EXPECT_EQ(refused.exit_code, 2) << number;
+    EXPECT_NE(refused.error.find("--snapshot-every: must be 1 at least"), std::string::npos) << refused.error;
+  }
   EXPECT_EQ(reeb("convert a.obj nowhere/b.smb").exit_code, 3);
 }
 

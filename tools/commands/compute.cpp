@@ -79,6 +79,16 @@ const char* title(ooc::ComputeProgress::Phase phase) {
   return "hierarchy";
 }
 
+// CLI::PositiveNumber tells a wrong number the largest double there is.
+CLI::Validator at_least_one() {
+  return CLI::Validator(
+      [](const std::string& text) {
+        const bool positive = !text.starts_with('-') && text.find_first_of("123456789") != std::string::npos;
+        return positive ? std::string() : std::string("must be 1 at least");
+      },
+      "");
+}
+
 void run_compute(ComputeArguments arguments) {
   const std::vector<io::FunctionSpec> specs = parse_functions(arguments.functions);
   const std::vector<std::string> outputs = output_names(arguments, specs);
@@ -156,7 +166,7 @@ void add_compute(CLI::App& program) {
       ->allow_extra_args(false);
   command->add_flag("--graph-only", arguments->options.graph_only, "Stop after the graph: no pairs, no levels");
   command->add_option("--chunk", arguments->options.chunk_triangles, "Triangles a chunk (default: adaptive)")
-      ->check(CLI::PositiveNumber);
+      ->check(at_least_one());
   command->add_option("--memory", arguments->memory, "Memory that the run may use, as 64M or 1.5GiB");
   command->add_option("--threads", arguments->options.threads, "Threads (default: all)")->check(CLI::Range(1u, 1024u));
   command->add_option("--temp-dir", arguments->options.temp_dir,
@@ -172,7 +182,7 @@ void add_compute(CLI::App& program) {
   command->add_option("--report", arguments->report, "Write a JSON report (-: to standard output)");
   command->add_option("--snapshot-every", arguments->snapshot_every,
                       "Triangles after which the graph so far is written, as OUT-000001.reeb, OUT-000002.reeb, ...")
-      ->check(CLI::PositiveNumber);
+      ->check(at_least_one());
   command->add_flag("--quiet", arguments->quiet, "No progress and no summary");
   command->add_flag("--force", arguments->force, "Replace existing outputs");
   command->footer("Example:\n  reeb compute scan.ply -f z --memory 64M --report report.json");
