@@ -13,6 +13,11 @@
 
 namespace reeb::ooc {
 
+bool is_regular_file(const std::string& path) {
+  struct stat status {};
+  return ::stat(path.c_str(), &status) == 0 && S_ISREG(status.st_mode);
+}
+
 File::File(int descriptor, std::string path, std::shared_ptr<const WriteFault> fault)
     : descriptor_(descriptor), path_(std::move(path)), fault_(std::move(fault)) {}
 

@@ -10,6 +10,9 @@
 
 namespace reeb::ooc {
 
+// Whether `path` names a file whose bytes lie on a disk: not a pipe, a folder or nothing.
+bool is_regular_file(const std::string& path);
+
 // Asked before each write for an errno to fail it with (0: none), so that tests can let the n-th
 // write of a run fail as a full disk would.
 using WriteFault = std::function<int(std::uint64_t offset, std::size_t bytes)>;

@@ -1,5 +1,5 @@
 // Whole runs, from a mesh to a `.reeb` file, against the definition of the Reeb graph, for chunks of
-// any size, any number of threads and both forms of input (REEB_SEED and REEB_CASES choose which
+// any size, any number of threads and all forms of input (REEB_SEED and REEB_CASES choose which
 // complexes and how many; REEB_TEST_MEMORY and REEB_TEST_CHUNK confine the runs).
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -27,7 +27,12 @@
 namespace reeb::test {
 namespace {
 
-enum class Form { kIndexed, kStream };
+enum class Form { kIndexed, kStream, kUnfinalized };
+constexpr Form kForms[] = {Form::kIndexed, Form::kStream, Form::kUnfinalized};
+
+const char* name_of(Form form) {
+  return form == Form::kIndexed ? "Indexed" : form == Form::kStream ? "Stream" : "Unfinalized";
+}
 
 struct RunShape {
   std::size_t chunk_triangles;  // 0: adaptive
@@ -37,7 +42,7 @@ struct RunShape {
 
 std::ostream& operator<<(std::ostream& out, const RunShape& shape) {
   return out << "chunk " << shape.chunk_triangles << ", threads " << shape.threads
-             << (shape.form == Form::kStream ? ", stream" : ", indexed");
+             << ", " << name_of(shape.form);
 }
 
 std::vector<RunShape> all_shapes() {
@@ -46,7 +51,7 @@ std::vector<RunShape> all_shapes() {
   std::vector<RunShape> shapes;
   for (const std::size_t chunk : chunks)
     for (const unsigned threads : {1u, 2u, 4u})
-      for (const Form form : {Form::kIndexed, Form::kStream}) shapes.push_back({chunk, threads, form});
+      for (const Form form : kForms) shapes.push_back({chunk, threads, form});
   return shapes;
 }
 
@@ -76,6 +81,8 @@ class Runner {
     ooc::MeshInput input;
     if (shape.form == Form::kStream)
       input.reader = std::make_unique<ComplexStream>(mesh, seed);
+    else if (shape.form == Form::kUnfinalized)
+      input.reader = std::make_unique<UnfinalizedComplex>(mesh, seed);
     else
       input.indexed = std::make_unique<IndexedComplex>(mesh);
     ooc::ComputeOptions options = options_;
@@ -136,6 +143,26 @@ TEST(Pipeline, EqualsTheDefinitionOnRandomComplexes) {
     ASSERT_EQ(result.betti.components, component_count(complex));
     ASSERT_EQ(result.betti.loops, expected.arc_count() - expected.node_count() + component_count(complex));
   }
+}
+
+// Guesses about what is complete hold and fail, and the graph is the same.
+TEST(Pipeline, RevokesGuessesThatWereWrong) {
+  const std::uint64_t seed = base_seed(), cases = case_count(3'000);
+  Runner runner(/*graph_only=*/true);
+  std::uint64_t guessed = 0, wrong = 0, in_one_pass = 0;
+  for (std::uint64_t i = 0; i < cases; ++i) {
+    const Complex complex = random_complex(seed + i);
+    const ComplexMesh mesh(complex);
+    const ReebGraph graph = take_graph(runner.run(mesh, {1 + i % 4, 1, Form::kUnfinalized}, {3}, seed + i)[0]);
+    ASSERT_TRUE(without_positions(graph) == without_positions(reference_reeb(complex))) << describe(complex);
+    const ooc::ComputeResult& result = runner.results()[0];
+    guessed += result.guessed_vertices;
+    wrong += result.revoked_guesses != 0;
+    in_one_pass += result.guessed_vertices != 0 && result.revoked_guesses == 0;
+  }
+  EXPECT_GT(guessed, cases);
+  EXPECT_GT(wrong, cases / 50);
+  EXPECT_GT(in_one_pass, cases / 50);
 }
 
 TEST(Pipeline, WritesTheSameBytesHoweverItRuns) {
@@ -215,7 +242,7 @@ TEST(Pipeline, EmbedsEveryVertexOnceWhateverTheRun) {
       runner.options().denoise = plain.options().denoise = random.below(2) == 0 ? random.unit() : 0;
       const std::string without = plain.run(mesh, {0, 1, Form::kIndexed})[0];
       for (const std::size_t chunk : {std::size_t{7}, std::size_t{0}})
-        for (const Form form : {Form::kIndexed, Form::kStream}) {
+        for (const Form form : kForms) {
           std::string expected;
           for (const unsigned threads : {1u, 2u, 4u}) {
             const RunShape shape{chunk_limit() ? static_cast<std::size_t>(*chunk_limit()) : chunk, threads, form};
@@ -392,8 +419,8 @@ TEST_P(LargeShape, BookWithManyPages) { check(spine(300'000 / kScale)); }
 TEST_P(LargeShape, Plateau) { check(one_arc("plateau", plateau(1000, 500 / kScale))); }
 TEST_P(LargeShape, TiesAlongTheStream) { check(one_arc("strip", tied_strip(1000, 500 / kScale))); }
 
-INSTANTIATE_TEST_SUITE_P(Forms, LargeShape, testing::Values(Form::kIndexed, Form::kStream),
-                         [](const auto& form) { return std::string(form.param == Form::kStream ? "Stream" : "Indexed"); });
+INSTANTIATE_TEST_SUITE_P(Forms, LargeShape, testing::ValuesIn(kForms),
+                         [](const auto& form) { return std::string(name_of(form.param)); });
 
 }  // namespace
 }  // namespace reeb::test
