@@ -101,6 +101,7 @@ void run_compute(ComputeArguments arguments) {
   }
 
   ReadOptions read_options;
+  read_options.batch_events = 8192;  // a few hundred KiB, beside chunks on their way
   read_options.properties = io::needed_properties(specs);
   if (arguments.snapshot_every != 0) read_options.batch_events = 1;  // exactly as far as the stream came
   ooc::MeshInput input;
