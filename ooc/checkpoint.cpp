@@ -116,6 +116,7 @@ void write_checkpoint(const std::string& path, const RunIdentity& run, const Che
                  place.triangles, place.next_vertex, place.batches, place.chunk_blocks});
   out.put_array(place.ranges);
   save(out);
+  sync_folder(folder_of(path));  // the names of the files that `save` has made
   out.commit();
 }
 

@@ -47,7 +47,8 @@ struct Checkpoint {
 };
 
 // Writes the file; it appears only when whole, and an older one stays until then. `save` adds what
-// the stores and the engine hold; whatever they name must be on the device when it returns.
+// the stores and the engine hold; the content of the files that they name must be on the device when it
+// returns, and their names in the same folder then get there before the checkpoint has its own.
 // THROWS: Error{kResource}.
 void write_checkpoint(const std::string& path, const RunIdentity& run, const Checkpoint& checkpoint,
                       const std::function<void(StateWriter&)>& save);

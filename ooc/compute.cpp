@@ -535,6 +535,7 @@ void Run::write_hierarchy(ComputeResult& result, SegmentStore& store) {
 
 std::vector<ComputeResult> compute(MeshInput input, std::span<VertexFunction* const> functions,
                                    std::span<const std::string> outputs, const ComputeOptions& options) {
+  for (const std::string& output : outputs) require_output_folder(output);
   return Run(std::move(input), functions, outputs, options).run();
 }
 

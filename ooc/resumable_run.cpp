@@ -72,6 +72,7 @@ void ResumableRun::between_chunks(const Checkpoint& here, const Save& save) {
   if (folder_ && (to_end || is_due())) {
     const Clock::time_point begin = Clock::now();
     try {
+      folder_->sync_name();
       write_checkpoint(folder_->checkpoint(), identity_, here, save);
     } catch (const Error&) {
       if (to_end) throw;
