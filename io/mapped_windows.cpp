@@ -23,8 +23,8 @@ MappedWindows::MappedWindows(const std::string& path, WindowOptions options)
     throw Error(ErrorKind::kBadInput, "cannot be read: " + failure.message(), "check the file").at(path);
   if (size_ == 0) throw_empty(path);
   window_mask_ = (std::uint64_t{1} << options_.window_bits) - 1;
-  table_.resize((size_ >> options_.window_bits) + 1);
-  slots_.resize(std::max<std::size_t>(options_.window_count, 2));
+  slot_of_.resize((size_ >> options_.window_bits) + 1, kNone);
+  slots_.resize(std::clamp<std::size_t>(options_.window_count, 2, kNone));
 }
 
 std::string_view MappedWindows::view(std::uint64_t offset) {
@@ -39,23 +39,24 @@ std::size_t MappedWindows::mapped_bytes(std::uint64_t window) const {
 }
 
 // The clock rule: the hand passes over windows used since it came by last.
-MappedWindows::Slot& MappedWindows::victim() {
+std::uint8_t MappedWindows::victim() {
   while (true) {
-    Slot& slot = slots_[hand_];
+    const auto number = static_cast<std::uint8_t>(hand_);
+    Slot& slot = slots_[number];
     hand_ = (hand_ + 1) % slots_.size();
-    if (!slot.map.is_open()) return slot;
-    Entry& entry = table_[slot.window];
-    if (!entry.recent) {
-      entry.base = nullptr;
+    if (!slot.map.is_open()) return number;
+    if (!slot.recent) {
+      slot_of_[slot.window] = kNone;
       slot.map.close();
-      return slot;
+      return number;
     }
-    entry.recent = false;
+    slot.recent = false;
   }
 }
 
-void MappedWindows::map(std::uint64_t window) {
-  Slot& slot = victim();
+std::uint8_t MappedWindows::map(std::uint64_t window) {
+  const std::uint8_t number = victim();
+  Slot& slot = slots_[number];
   try {
     slot.map.open(path_, mapped_bytes(window),
                   static_cast<boost::iostreams::stream_offset>(window << options_.window_bits));
@@ -64,8 +65,10 @@ void MappedWindows::map(std::uint64_t window) {
                 "check that the file is still there and that memory is left")
         .at(path_, std::to_string(window << options_.window_bits));
   }
+  slot.base = slot.map.data();
   slot.window = window;
-  table_[window].base = slot.map.data();
+  slot_of_[window] = number;
+  return number;
 }
 
 }  // namespace reeb::io

@@ -3,9 +3,9 @@
 //
 // The file is divided into windows of equal size. Each is mapped when first touched, together with
 // `overlap` bytes of its successor, so that a record that crosses a border is still contiguous; the
-// window that was longest without use is unmapped for it. A hit costs a shift and a table lookup.
+// window that was longest without use is unmapped for it. A hit costs a shift and two table lookups.
 //
-// The table takes 16 bytes a window of the file: 64 MB a terabyte at the default size.
+// The table takes a byte a window of the file: 4 MB a terabyte at the default size.
 // The size is checked when the file is opened; a file cut by someone else while it is being read
 // ends the process with SIGBUS, so inputs must not change meanwhile.
 // THREADS: one at a time.
@@ -22,7 +22,7 @@ namespace reeb::io {
 
 struct WindowOptions {
   unsigned window_bits = 18;          // windows of 2^bits bytes, at least the page size
-  std::size_t window_count = 4;       // mapped at once, at least 2
+  std::size_t window_count = 4;       // mapped at once, 2 to 255
   std::size_t overlap_bytes = 65536;  // longest record that at() can be asked for
 };
 
@@ -38,34 +38,35 @@ class MappedWindows {
   // until `window_count - 1` other windows were touched.
   // REQUIRES: offset < size(). THROWS: Error{kResource} if the system refuses the mapping.
   const char* at(std::uint64_t offset) {
-    Entry& entry = table_[offset >> options_.window_bits];
-    if (entry.base == nullptr) map(offset >> options_.window_bits);
-    entry.recent = true;
-    return entry.base + (offset & window_mask_);
+    const std::uint64_t window = offset >> options_.window_bits;
+    std::uint8_t number = slot_of_[window];
+    if (number == kNone) number = map(window);
+    Slot& slot = slots_[number];
+    slot.recent = true;
+    return slot.base + (offset & window_mask_);
   }
 
   // The same with its length: all that is mapped behind `offset`.
   std::string_view view(std::uint64_t offset);
 
  private:
-  struct Entry {
-    const char* base = nullptr;
-    bool recent = false;
-  };
   struct Slot {
-    boost::iostreams::mapped_file_source map;
+    const char* base = nullptr;  // of the window
+    bool recent = false;
     std::uint64_t window = 0;
+    boost::iostreams::mapped_file_source map;
   };
+  static constexpr std::uint8_t kNone = 255;
 
-  void map(std::uint64_t window);
-  Slot& victim();
+  std::uint8_t map(std::uint64_t window);
+  std::uint8_t victim();
   std::size_t mapped_bytes(std::uint64_t window) const;
 
   std::string path_;
   WindowOptions options_;
   std::uint64_t size_ = 0;
   std::uint64_t window_mask_ = 0;
-  std::vector<Entry> table_;
+  std::vector<std::uint8_t> slot_of_;  // by window
   std::vector<Slot> slots_;
   std::size_t hand_ = 0;
 };

@@ -13,7 +13,7 @@ namespace reeb::ooc {
 
 namespace {
 
-constexpr std::size_t kStretch = 16 << 10;  // table entries read at once, one page
+constexpr std::size_t kStretch = 16 << 10;  // table entries read at once
 constexpr std::size_t kMostSamples = 256;
 
 // Calls visit(first, entries) for stretches of the table that cover 0..count-1.

@@ -16,58 +16,70 @@ PageCache::PageCache(const char* owner, const TempDir& temp, MemoryBudget& budge
       directory_charge_(budget.reserve(owner, 0)) {}
 
 std::byte* PageCache::fault(std::size_t page, bool writing) {
-  if (page >= pages_.size()) grow_directory(page + 1);
-  Frame frame = take_frame(page);
-  std::uint32_t& marks = pages_[page].marks;
-  if ((marks & kOnDisk) != 0) {
-    file_.read_at(page * kPageBytes, {frame.get(), kPageBytes});
+  if (page >= places_.size()) grow_directory(page + 1);
+  const std::uint32_t number = take_frame();
+  Frame& frame = frames_[number];
+  const bool stored = places_[page] == kOnDisk;
+  if (stored) {
+    file_.read_at(page * kPageBytes, {frame.bytes, kPageBytes});
     ++refetches_;
   } else {
-    fill_fresh(frame.get());
+    fill_fresh(frame.bytes);
   }
-  marks = (marks & kOnDisk) | kTouched | (writing ? kDirty : 0);
-  pages_[page].frame = std::move(frame);
-  return pages_[page].frame.get();
+  frame.page = page;
+  frame.marks = kTouched | (stored ? kStored : 0) | (writing ? kDirty : 0);
+  places_[page] = number;
+  return frame.bytes;
 }
 
 void PageCache::grow_directory(std::size_t pages) {
-  if (pages > pages_.capacity()) {
-    const std::size_t capacity = std::max({pages, pages_.capacity() * 2, std::size_t{64}});
-    directory_charge_.resize(capacity * sizeof(Page));
-    pages_.reserve(capacity);
+  if (pages > places_.capacity()) {
+    const std::size_t capacity = std::max({pages, places_.capacity() + places_.capacity() / 4, std::size_t{1024}});
+    directory_charge_.resize(capacity * sizeof(std::uint32_t));
+    places_.reserve(capacity);
   }
-  pages_.resize(pages);
+  places_.resize(pages, kFresh);
 }
 
-// A frame for `page`, which takes its place on the clock: new memory if it may grow, else another
-// page's.
-PageCache::Frame PageCache::take_frame(std::size_t page) {
-  const std::uint64_t grown = resident_bytes() + kPageBytes;
-  const bool must_grow = resident_.size() < kLeastFrames;
-  if (must_grow) pages_charge_.resize(grown);
-  if (must_grow || (grown <= allowance_ && pages_charge_.try_resize(grown))) {
-    resident_.push_back(page);
-    return std::make_unique_for_overwrite<std::byte[]>(kPageBytes);
+// A frame that no page has: of new memory if it may grow, else another page's.
+std::uint32_t PageCache::take_frame() {
+  const auto next = static_cast<std::uint32_t>(frames_.size());
+  if (frames_.size() == blocks_.size() * kBlockFrames) {
+    if (!may_grow()) return evict_one();
+    blocks_.push_back(std::make_unique_for_overwrite<std::byte[]>(kBlockFrames * kPageBytes));
   }
-  return evict_one(page);
+  frames_.push_back({blocks_.back().get() + next % kBlockFrames * kPageBytes, kNoPage, 0});
+  return next;
 }
 
-PageCache::Frame PageCache::evict_one(std::size_t successor) {
-  while ((pages_[resident_[hand_]].marks & kTouched) != 0) {
-    pages_[resident_[hand_]].marks &= ~kTouched;
-    hand_ = (hand_ + 1) % resident_.size();
+// By a block of frames. THROWS: Error{kResource} if the budget does not grant the least.
+bool PageCache::may_grow() {
+  const std::uint64_t grown = (blocks_.size() + 1) * kBlockFrames * kPageBytes;
+  if (grown <= kLeastFrames * kPageBytes) {
+    pages_charge_.resize(grown);
+    return true;
   }
-  const std::size_t victim = resident_[hand_];
-  Page& old = pages_[victim];
-  if ((old.marks & kDirty) != 0) {
+  return grown <= allowance_ && pages_charge_.try_resize(grown);
+}
+
+std::uint32_t PageCache::evict_one() {
+  while ((frames_[hand_].marks & kTouched) != 0) {
+    frames_[hand_].marks &= ~kTouched;
+    hand_ = (hand_ + 1) % frames_.size();
+  }
+  const auto victim = static_cast<std::uint32_t>(hand_);
+  hand_ = (hand_ + 1) % frames_.size();
+  Frame& frame = frames_[victim];
+  if (frame.page == kNoPage) return victim;  // left so by a read that failed
+  if ((frame.marks & kDirty) != 0) {
     if (!file_.is_open()) file_ = temp_->create_unnamed(owner_);
-    file_.write_at(victim * kPageBytes, {old.frame.get(), kPageBytes});
+    file_.write_at(frame.page * kPageBytes, {frame.bytes, kPageBytes});
     spilled_ += kPageBytes;
-    old.marks = kOnDisk;
+    frame.marks |= kStored;
   }
-  resident_[hand_] = successor;
-  hand_ = (hand_ + 1) % resident_.size();
-  return std::move(old.frame);
+  places_[frame.page] = (frame.marks & kStored) != 0 ? kOnDisk : kFresh;
+  frame.page = kNoPage;
+  return victim;
 }
 
 void PageCache::fill_fresh(std::byte* bytes) const {

@@ -13,15 +13,15 @@
 namespace reeb::ooc {
 
 // A table of T indexed from 0 without an end: an entry never set has the fill value and costs
-// nothing. A hit is a shift, two loads and a mark, about 2 ns; a miss reads, and perhaps writes,
-// 64 KiB. Made for access whose places are mostly near each other.
+// nothing. A hit is a shift, three loads and a mark, about 2 ns; a miss reads, and perhaps writes,
+// a page. Made for access whose places are mostly near each other.
 //
 // THROWS: Error{kResource} if the disk is full, or the budget lacks the least working set.
 // MEMORY: as PageCache.   THREADS: one at a time.
 template <class T>
 class PagedTable {
   static_assert(std::is_trivially_copyable_v<T>);
-  static_assert(alignof(T) <= 16 && sizeof(T) <= 4096);
+  static_assert(alignof(T) <= 16 && sizeof(T) <= PageCache::kPageBytes);
 
  public:
   static constexpr unsigned kShift = std::bit_width(PageCache::kPageBytes / sizeof(T)) - 1;
