@@ -5,13 +5,15 @@
 #   bench/kill_and_resume.sh REEB [MOMENTS [TRIANGLES [FOLDER]]]
 #
 # REEB is the program; 50 moments, 4M triangles and a folder under $TMPDIR unless said otherwise.
+# In turn the mesh is looked up in place (binary PLY), read once on guesses (OBJ), and a stream with
+# finalization (SMC), without and with noise removal; all with an embedding.
 # A run makes a checkpoint after every chunk, and is killed once or several times before it may end.
 # SEED=N repeats a run of this script. Prints one line a moment; the exit code is 0 only if all
 # results were the same and nothing else was left behind.
 set -euo pipefail
 
 case ${1:-} in
-  '' | -h | --help) sed -n '2,11s/^# \{0,1\}//p' "$0"; exit 0 ;;
+  '' | -h | --help) sed -n '2,13s/^# \{0,1\}//p' "$0"; exit 0 ;;
 esac
 reeb=$(realpath "$1")
 moments=${2:-50}
@@ -22,21 +24,32 @@ cd "$folder"
 
 RANDOM=${SEED:=$(date +%N | sed 's/^0*//')}
 echo "seed $SEED"
-# Small chunks and little memory: many checkpoints, and segments on disk.
-compute=("$reeb" compute mesh.ply -f random:1 --graph-only --quiet --memory 64M --chunk 20000)
 export REEB_CHECKPOINT_SECONDS=0
-
 "$reeb" generate scan --triangles "$triangles" --seed 7 -o mesh.ply
-begin=$(date +%s%N)
-"${compute[@]}" -o whole.reeb
-span=$((($(date +%s%N) - begin) / 1000000))
-echo "left alone: $span ms"
+"$reeb" convert mesh.ply mesh.obj
+"$reeb" convert mesh.ply mesh.smc --finalize
+runs=("mesh.ply" "mesh.obj" "mesh.smc" "mesh.ply --denoise 20%" "mesh.obj --denoise 20%" "mesh.smc --denoise 20%")
+
+# Small chunks and little memory: many checkpoints, and segments on disk.
+compute() {
+  # shellcheck disable=SC2086  # the run's words
+  exec "$reeb" compute ${runs[run]} -f random:1 --graph-only --quiet --memory 64M --chunk 20000 "$@"
+}
+
+declare -a spans
+for run in "${!runs[@]}"; do
+  begin=$(date +%s%N)
+  (compute -o "whole-$run.reeb")
+  spans[run]=$((($(date +%s%N) - begin) / 1000000))
+  echo "${runs[run]}, left alone: ${spans[run]} ms"
+done
+ls >there
 
 # Starts a run to the output $1 with the options that follow, and kills it after a random time.
 run_and_kill() {
-  local output=$1 moment=$((RANDOM * span / 32768))
+  local output=$1 moment=$((RANDOM * spans[run] / 32768))
   shift
-  "${compute[@]}" -o "$output" "$@" 2>messages &
+  (compute -o "$output" "$@" 2>messages) &
   local process=$!
   sleep "$(printf '%d.%03d' $((moment / 1000)) $((moment % 1000)))"
   # One that has ended already was too fast.
@@ -48,18 +61,19 @@ run_and_kill() {
 failed=0
 for ((i = 1; i <= moments; ++i)); do
   output=killed.reeb
-  printf 'moment %d: killed after' "$i"
+  run=$((i % ${#runs[@]}))
+  printf 'moment %d, %s: killed after' "$i" "${runs[run]}"
   run_and_kill "$output"
   for ((again = RANDOM % 3; again > 0; --again)); do
     [[ -e $output ]] || run_and_kill "$output" --resume
   done
-  left=$(find . -mindepth 1 -maxdepth 1 ! -name mesh.ply ! -name whole.reeb ! -name messages ! -name "$output" \
-    ! -name "$output.partial" ! -name "$output.partial-*" | wc -l)
+  left=$(find . -mindepth 1 -maxdepth 1 ! -name messages ! -name there ! -name "$output" ! -name "$output.partial" \
+    ! -name "$output.partial-*" -printf '%f\n' | grep -cvxFf there || true)
   kept="no checkpoint"
   [[ -e $output.partial/checkpoint ]] && kept="a checkpoint"
   [[ -e $output ]] && kept="the whole output"
-  [[ -e $output ]] || "${compute[@]}" -o "$output" --resume
-  if cmp -s whole.reeb "$output" && [[ $left == 0 && -z $(find . -name '*.partial*') ]]; then
+  [[ -e $output ]] || (compute -o "$output" --resume)
+  if cmp -s "whole-$run.reeb" "$output" && [[ $left == 0 && -z $(find . -name '*.partial*') ]]; then
     echo "; it left $kept: same bytes"
   else
     echo "; it left $kept: FAILED"

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "libreeb/base/error.h"
+#include "ooc/file.h"
 
 namespace reeb::ooc {
 namespace {
@@ -44,6 +45,16 @@ std::string folder_of(const std::string& path) {
   const auto slash = path.find_last_of('/');
   if (slash == std::string::npos) return ".";
   return slash == 0 ? "/" : path.substr(0, slash);
+}
+
+void require_output_folder(const std::string& path) {
+  const std::string folder = folder_of(path);
+  const int probe = open_unnamed(folder);
+  if (probe < 0)
+    throw Error(ErrorKind::kResource, std::string("the output cannot be written to this folder: ") + std::strerror(errno),
+                "write to a folder that exists and that you may write to with -o FILE")
+        .at(folder);
+  ::close(probe);
 }
 
 void remove_abandoned(const std::string& path) noexcept {
@@ -85,15 +96,12 @@ void AtomicFile::write_at(std::uint64_t offset, std::span<const std::byte> bytes
 }
 
 void AtomicFile::commit() {
-  if (::fsync(fd_) != 0) fail("cannot be written to disk");
-  if (::close(std::exchange(fd_, -1)) != 0) fail("cannot be written to disk");
+  while (::fsync(fd_) != 0)
+    if (errno != EINTR) fail("cannot be written to disk");
+  ::close(std::exchange(fd_, -1));  // all of it is on the device by now
   if (::rename(temporary_.c_str(), path_.c_str()) != 0) fail("cannot be renamed into place");
   temporary_.clear();
-  // Not every file system lets a folder be synchronized; the file itself is whole either way.
-  const int folder = ::open(folder_of(path_).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (folder < 0) return;
-  ::fsync(folder);
-  ::close(folder);
+  sync_folder(folder_of(path_));
 }
 
 void AtomicFile::write_fully(std::uint64_t offset, std::span<const std::byte> bytes) {

@@ -17,6 +17,9 @@ namespace reeb::ooc {
 // The folder that holds `path`.
 std::string folder_of(const std::string& path);
 
+// THROWS: Error{kResource} that names the folder of `path` if no file can be made there.
+void require_output_folder(const std::string& path);
+
 // Removes the temporary files that killed writers of `path` left; a living writer holds a lock on its
 // own. AtomicFile does so itself.
 void remove_abandoned(const std::string& path) noexcept;

@@ -16,19 +16,21 @@ namespace reeb::ooc {
 namespace {
 
 constexpr std::array<char, 8> kMagic = {'R', 'E', 'E', 'B', 'C', 'K', 'P', '\n'};
-constexpr std::uint64_t kVersion = 2;
+constexpr std::uint64_t kVersion = 3;
 
 struct Header {
   std::array<char, 8> magic;
   std::uint64_t version;
   std::uint64_t mesh, functions, settings;  // RunIdentity
   std::uint64_t block_triangles;
-  std::uint64_t reordered;
+  std::uint64_t origin;
+  std::uint64_t chunk_first, chunk_most;
   std::uint64_t triangles;
   std::uint64_t next_vertex;
+  std::uint64_t batches;
   std::uint64_t chunk_blocks;
 };
-static_assert(sizeof(Header) == 10 * 8);
+static_assert(sizeof(Header) == 13 * 8);
 
 template <class T>
 std::uint64_t digest_of(const T& object, std::uint64_t seed) {
@@ -110,9 +112,11 @@ void write_checkpoint(const std::string& path, const RunIdentity& run, const Che
   const ChunkPlace& place = checkpoint.place;
   Writer out(path);
   out.put(Header{kMagic, kVersion, run.mesh, run.functions, run.settings, checkpoint.block_triangles,
-                 checkpoint.reordered ? 1u : 0u, place.triangles, place.next_vertex, place.chunk_blocks});
+                 static_cast<std::uint64_t>(checkpoint.origin), checkpoint.chunk.first, checkpoint.chunk.most,
+                 place.triangles, place.next_vertex, place.batches, place.chunk_blocks});
   out.put_array(place.ranges);
   save(out);
+  sync_folder(folder_of(path));  // the names of the files that `save` has made
   out.commit();
 }
 
@@ -131,7 +135,14 @@ CheckpointLoad load_checkpoint(const std::string& path, const RunIdentity& run) 
     if (header.mesh != run.mesh) return useless("is of another mesh, or of this one before it was changed");
     if (header.functions != run.functions) return useless("is of other functions");
     if (header.settings != run.settings) return useless("is of other options");
-    Checkpoint checkpoint{{header.triangles, header.next_vertex, header.chunk_blocks, {}}, header.block_triangles, header.reordered != 0};
+    Checkpoint checkpoint{.place = {.triangles = header.triangles,
+                                    .next_vertex = header.next_vertex,
+                                    .batches = header.batches,
+                                    .chunk_blocks = header.chunk_blocks,
+                                    .ranges = {}},
+                          .block_triangles = header.block_triangles,
+                          .origin = static_cast<ChunkOrigin>(header.origin),
+                          .chunk = {header.chunk_first, header.chunk_most}};
     in->get_array(checkpoint.place.ranges);
     return {std::move(checkpoint), std::move(in), {}};
   } catch (const DamagedState&) {

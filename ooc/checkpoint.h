@@ -30,15 +30,25 @@ struct RunIdentity {
 RunIdentity identify_run(const std::string& mesh, std::span<VertexFunction* const> functions,
                          const RunSettings& settings);
 
+// How a run gets its chunks. One that goes on gets them in the same way.
+enum class ChunkOrigin : std::uint64_t {
+  kLookedUp = 0,  // with known last uses
+  kSorted = 1,    // the same, once the mesh was sorted on disk
+  kStream = 2,    // from a stream with finalization
+  kGuessed = 3,   // while the mesh is read for the first time, with guesses
+};
+
 // Where the run was.
 struct Checkpoint {
   ChunkPlace place;
-  std::uint64_t block_triangles = 0;  // of the last-use table
-  bool reordered = false;
+  std::uint64_t block_triangles = 0;  // of the last-use table, if there is one
+  ChunkOrigin origin = ChunkOrigin::kLookedUp;
+  ChunkSize chunk = {};  // with guesses: they are made at the ends of chunks
 };
 
 // Writes the file; it appears only when whole, and an older one stays until then. `save` adds what
-// the stores and the engine hold; whatever they name must be on the device when it returns.
+// the stores and the engine hold; the content of the files that they name must be on the device when it
+// returns, and their names in the same folder then get there before the checkpoint has its own.
 // THROWS: Error{kResource}.
 void write_checkpoint(const std::string& path, const RunIdentity& run, const Checkpoint& checkpoint,
                       const std::function<void(StateWriter&)>& save);

@@ -21,7 +21,8 @@ namespace reeb::ooc {
 // How far a source has come, for another process to go on from there.
 struct ChunkPlace {
   std::uint64_t triangles = 0;        // read so far
-  std::uint64_t next_vertex = 0;      // from which on loose vertices are looked for
+  std::uint64_t next_vertex = 0;      // from which on loose vertices are looked for; of a stream: read so far
+  std::uint64_t batches = 0;          // of a stream, read so far, its end counted as one
   std::uint64_t chunk_blocks = 0;     // of the next chunk, where its size adapts; 0: to start with
   std::vector<FunctionRange> ranges;  // of the values so far
 };
@@ -31,7 +32,7 @@ struct WorkItem {
   Chunk chunk;
   std::vector<std::vector<double>> values;  // one array a function
   std::vector<Fragment> fragments;          // one a function
-  ChunkPlace end;                           // behind this chunk; of a stream only the ranges
+  ChunkPlace end;                           // behind this chunk
   std::size_t memory_bytes() const;
 };
 
@@ -65,7 +66,10 @@ class ChunkSource {
 std::unique_ptr<ChunkSource> chunks_of(IndexedMesh& mesh, LastUse& last_use, FunctionValues& columns,
                                        ChunkSize size, const ChunkPlace& start = {});
 
-// Chunks of a stream, read once. What is not finalized by the stream is finalized at its end.
-std::unique_ptr<ChunkSource> chunks_of(MeshReader& reader, FunctionValues& columns, ChunkSize size);
+// Chunks of a stream, read once. What is not finalized by the stream is finalized at its end. What
+// comes before `start` is read and passed over.
+// THROWS, at once: Error{kBadInput} if the stream has not such a place.
+std::unique_ptr<ChunkSource> chunks_of(MeshReader& reader, FunctionValues& columns, ChunkSize size,
+                                       const ChunkPlace& start = {});
 
 }  // namespace reeb::ooc

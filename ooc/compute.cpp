@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <new>
 #include <optional>
 #include <utility>
@@ -13,6 +12,8 @@
 #include "libreeb/hierarchy/cancel.h"
 #include "libreeb/hierarchy/denoise.h"
 #include "ooc/atomic_file.h"
+#include "ooc/coherence.h"
+#include "ooc/guessed_chunks.h"
 #include "ooc/last_use.h"
 #include "ooc/last_use_sidecar.h"
 #include "ooc/memory_plan.h"
@@ -49,7 +50,7 @@ class Stopwatch {
 
 // The path of a mesh that a later process can read in the same way.
 std::string readable_again(const MeshInput& input) {
-  return input.indexed || !input.reader->info().finalizes ? input.path : "";
+  return input.may_resume && input.path != "-" ? input.path : "";
 }
 
 class Run {
@@ -99,11 +100,19 @@ class Run {
   void make_stores();
   void restore_stores(StateReader& in);
   void first_stage();
+  void run_stream();
+  void run_spooled();
+  bool may_guess() const;
+  std::unique_ptr<GuessedChunks> guessed_chunks(Spooler& spooler);
+  bool run_guessing(GuessedChunks& source);
+  void start_anew();
   void run_indexed();
-  void spool();
   void note(const std::vector<std::string>& lines) {
     common_.notes.insert(common_.notes.end(), lines.begin(), lines.end());
   }
+  ChunkPlace start_place() const;
+  std::string sidecar_path() const;
+  bool has_sidecar() const;
   std::optional<LastUse> find_last_uses();
   std::optional<LastUse> scan(bool may_give_up);
   bool is_coherent(const UseSummary& summary) const;
@@ -139,7 +148,7 @@ class Run {
   FunctionValues values_;
   ResumableRun resumable_;
   const Checkpoint* start_ = nullptr;  // to go on from
-  std::uint64_t block_triangles_ = 0;  // of the last-use table
+  Checkpoint here_;                    // but for the place
   std::vector<std::unique_ptr<SegmentStore>> stores_;
   std::vector<std::uint64_t> removed_pairs_;  // in the first stage, by function
   ComputeResult common_;  // what all functions share
@@ -167,23 +176,104 @@ void Run::restore_stores(StateReader& in) {
 void Run::first_stage() {
   for (const std::string& output : outputs_) remove_abandoned(output);
   start_ = resumable_.start([this](StateReader& in) { restore_stores(in); }, common_.notes);
-  if (!input_.indexed && !input_.reader->info().finalizes) spool();
-  if (input_.indexed) {
+  if (input_.indexed)
     run_indexed();
-  } else {
-    run_chunks(*chunks_of(*input_.reader, values_, plan_.chunk));
-    for (VertexFunction* function : functions_) function->check_count(common_.vertices);
-    note(input_.reader->warnings());
+  else if (input_.reader->info().finalizes)
+    run_stream();
+  else
+    run_spooled();
+}
+
+ChunkPlace Run::start_place() const { return start_ != nullptr ? start_->place : ChunkPlace{}; }
+
+void Run::run_stream() {
+  here_.origin = ChunkOrigin::kStream;
+  run_chunks(*chunks_of(*input_.reader, values_, plan_.chunk, start_place()));
+  for (VertexFunction* function : functions_) function->check_count(common_.vertices);
+  note(input_.reader->warnings());
+}
+
+// A mesh that is read once, and kept on disk for what cannot be done while it is read: in one pass if
+// guesses hold, else to be run from there.
+void Run::run_spooled() {
+  bool guessing = false;  // then progress is told by chunk
+  SpoolOptions options;
+  options.allowance_bytes = plan_.table_bytes;
+  options.progress = [&](const MeshReader& reader) {
+    if (!guessing) tell(Phase::kSpool, reader.bytes_read(), reader.info().file_bytes);
+  };
+  std::optional<Spooler> spooler(std::in_place, *input_.reader, temp_, budget_, options);
+  bool done = false;
+  if (may_guess()) {
+    const auto source = guessed_chunks(*spooler);
+    guessing = true;
+    done = run_guessing(*source);
+    guessing = false;
   }
+  {
+    const Stopwatch watch(common_.seconds.finalization);
+    auto mesh = spooler->finish();
+    common_.spilled_bytes += mesh->spilled_bytes();
+    input_.indexed = std::move(mesh);
+  }
+  note(input_.reader->warnings());
+  spooler.reset();
+  input_.reader.reset();
+  if (!done) run_indexed();
+}
+
+// Not where the last uses are known, or are to be kept, or where values are looked up in a file, whose
+// number is compared with that of the vertices first. A run that goes on keeps to what it began.
+bool Run::may_guess() const {
+  if (start_ != nullptr) return start_->origin == ChunkOrigin::kGuessed;
+  if (!options_.may_guess || options_.keep_sidecar || has_sidecar()) return false;
+  return std::all_of(functions_.begin(), functions_.end(),
+                     [](const VertexFunction* function) { return function->source_file().empty(); });
+}
+
+std::unique_ptr<GuessedChunks> Run::guessed_chunks(Spooler& spooler) {
+  here_.origin = ChunkOrigin::kGuessed;
+  here_.chunk = start_ != nullptr ? start_->chunk : plan_.chunk;
+  return std::make_unique<GuessedChunks>(spooler, values_, temp_, budget_,
+                                         GuessOptions{.chunk = here_.chunk,
+                                                      .allowance_bytes = plan_.table_bytes,
+                                                      .most_open_vertices = plan_.most_live_vertices()},
+                                         start_place());
+}
+
+// False if it came to nothing.
+bool Run::run_guessing(GuessedChunks& source) {
+  run_chunks(source);
+  const UseGuesses& guesses = source.guesses();
+  common_.guessed_vertices = guesses.guessed_vertices();
+  common_.revoked_guesses = guesses.revoked_guesses();
+  common_.spilled_bytes += guesses.spilled_bytes();
+  if (source.given_up()) {
+    start_anew();
+    return false;
+  }
+  common_.unused_vertices = guesses.unused_vertices();
+  common_.degenerate_triangles = guesses.degenerate_triangles();
+  return true;
+}
+
+// As if nothing had been run so far.
+void Run::start_anew() {
+  start_ = nullptr;
+  here_ = {};
+  make_stores();
+  resumable_.start_anew();
+  values_.set_ranges(std::vector<FunctionRange>(functions_.size()));
 }
 
 void Run::run_indexed() {
   const Reservation values = prepare_values(input_.indexed->vertex_count());
   std::optional<LastUse> last_use;
-  if (start_ == nullptr || !start_->reordered) last_use = find_last_uses();
+  const bool was_sorted = start_ != nullptr && start_->origin == ChunkOrigin::kSorted;
+  if (!was_sorted) last_use = find_last_uses();
   // A run that goes on keeps to the order in which it began.
   const bool sort_first = start_ != nullptr
-                              ? start_->reordered
+                              ? was_sorted
                               : options_.may_reorder && !(last_use && is_coherent(last_use->summary()));
   if (sort_first) {
     last_use.reset();
@@ -193,9 +283,9 @@ void Run::run_indexed() {
   common_.unused_vertices = summary.unused_vertices;
   common_.degenerate_triangles = summary.degenerate_triangles;
   common_.spilled_bytes += last_use->spilled_bytes();
-  block_triangles_ = summary.block_triangles;
-  run_chunks(*chunks_of(*input_.indexed, *last_use, values_, plan_.chunk,
-                        start_ != nullptr ? start_->place : ChunkPlace{}));
+  here_.block_triangles = summary.block_triangles;
+  here_.origin = sort_first ? ChunkOrigin::kSorted : ChunkOrigin::kLookedUp;
+  run_chunks(*chunks_of(*input_.indexed, *last_use, values_, plan_.chunk, start_place()));
   note(input_.indexed->warnings());
 }
 
@@ -208,37 +298,29 @@ Reservation Run::prepare_values(std::uint64_t vertices) {
   return reservation;
 }
 
-// Whether to glue the mesh as it comes. A front of many times the square root of the mesh is what
-// an incoherent order gives, not a shape; its long paths cost more than sorting the triangles.
+// Whether to glue the mesh as it comes.
 bool Run::is_coherent(const UseSummary& summary) const {
-  constexpr double kMuch = 16, kLittle = 4096;
-  const double usual = std::max(kLittle, kMuch * std::sqrt(static_cast<double>(summary.vertex_count)));
-  return summary.max_live_vertices <= plan_.most_live_vertices() &&
-         static_cast<double>(summary.max_live_vertices) <= usual;
+  return summary.max_live_vertices <= std::min(plan_.most_live_vertices(), usual_front(summary.vertex_count));
 }
 
-void Run::spool() {
-  const Stopwatch watch(common_.seconds.finalization);
-  SpoolOptions options;
-  options.allowance_bytes = plan_.table_bytes;
-  options.progress = [this](const MeshReader& reader) {
-    tell(Phase::kSpool, reader.bytes_read(), reader.info().file_bytes);
-  };
-  auto mesh = ooc::spool(*input_.reader, temp_, budget_, options);
-  note(input_.reader->warnings());
-  common_.spilled_bytes += mesh->spilled_bytes();
-  input_.indexed = std::move(mesh);
-  input_.reader.reset();
+// Empty if none is used: its blocks are too large for small chunks.
+std::string Run::sidecar_path() const {
+  const bool has_file = !input_.path.empty() && input_.path != "-" && options_.chunk_triangles == 0;
+  return has_file ? input_.path + ".final" : "";
+}
+
+bool Run::has_sidecar() const {
+  const std::string path = sidecar_path();
+  return !path.empty() && is_regular_file(path);
 }
 
 // From the sidecar if there is one that fits, else by reading the mesh once. Nothing if the mesh
 // turns out to be so incoherent that it will be reordered anyway.
 std::optional<LastUse> Run::find_last_uses() {
   const Stopwatch watch(common_.seconds.finalization);
-  const bool has_file = !input_.path.empty() && input_.path != "-" && options_.chunk_triangles == 0;
   const bool may_give_up = options_.may_reorder && start_ == nullptr;
-  if (!has_file) return scan(may_give_up);
-  const std::string sidecar = input_.path + ".final";
+  const std::string sidecar = sidecar_path();
+  if (sidecar.empty()) return scan(may_give_up);
   const MeshIdentity identity = identify_mesh(input_.path);
   SidecarLoad known =
       load_sidecar(sidecar, identity, input_.indexed->vertex_count(), temp_, budget_, plan_.table_bytes);
@@ -296,7 +378,8 @@ void Run::run_chunks(ChunkSource& source) {
     tell(Phase::kReeb, s.bytes_read(), s.bytes_total(), s.triangles_read());
   };
   options.between_chunks = [this](const ChunkPlace& place, const SaveEngine& save_engine) {
-    resumable_.between_chunks({place, block_triangles_, common_.reordered}, [&](StateWriter& out) {
+    here_.place = place;
+    resumable_.between_chunks(here_, [&](StateWriter& out) {
       for (const auto& store : stores_) store->save(out);
       save_engine(out);
     });
@@ -475,6 +558,7 @@ void Run::write_hierarchy(ComputeResult& result, SegmentStore& store) {
 
 std::vector<ComputeResult> compute(MeshInput input, std::span<VertexFunction* const> functions,
                                    std::span<const std::string> outputs, const ComputeOptions& options) {
+  for (const std::string& output : outputs) require_output_folder(output);
   return Run(std::move(input), functions, outputs, options).run();
 }
 

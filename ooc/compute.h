@@ -22,12 +22,14 @@
 namespace reeb::ooc {
 
 // A mesh in one of two forms. An indexed mesh is read twice. A reader is read once: as a stream if
-// it finalizes its vertices, else it is spooled to disk first.
+// it finalizes its vertices, else finalization is guessed, and the mesh is kept on disk meanwhile to be
+// run again if a guess was wrong.
 struct MeshInput {
   std::unique_ptr<IndexedMesh> indexed;
   std::unique_ptr<MeshReader> reader;
   unsigned dimension = 3;
-  std::string path;  // for the sidecar and messages; "-": none
+  std::string path;        // for the sidecar, checkpoints and messages; "-": none
+  bool may_resume = true;  // a later process reads the file at `path` in the same batches
 };
 
 struct ComputeProgress {
@@ -45,6 +47,7 @@ struct ComputeOptions {
   bool graph_only = false;
   bool keep_sidecar = false;
   bool may_reorder = true;          // an incoherent mesh, on disk
+  bool may_guess = true;            // what is complete, in a reader without finalization
   std::uint32_t buckets = 64;       // the range of a function has so many, to twice as many; 0: no embedding
   double denoise = 0;               // remove noise below this persistence; 0: keep all
   bool denoise_is_share = false;    // `denoise` is a share of the function's range
@@ -77,6 +80,8 @@ struct ComputeResult {
   std::array<std::uint64_t, 4> pairs{};  // by PairType
   std::uint64_t kept_loops = 0, denoised_pairs = 0;
   bool reordered = false;
+  std::uint64_t guessed_vertices = 0;  // taken for complete while the mesh was read for the first time,
+  std::uint64_t revoked_guesses = 0;   // and of these used again: then the mesh was run from disk
   std::vector<Feature> largest;  // the few of largest persistence, Ext0 left out, largest first
   std::uint64_t spilled_bytes = 0;
   LiveMaximum live;

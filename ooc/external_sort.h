@@ -36,7 +36,7 @@ struct SortOptions {
 // in which they went in where Less finds them equal.
 //
 // THROWS: Error{kResource} of the budget or the disk; what fails in the background is thrown by
-//         the next call.
+//         the next call and by all after it, since records are lost.
 // MEMORY: the allowance, all of it reserved as it is needed, and a few blocks of 64 KiB. A payload
 //         that is larger than the allowance gets what it needs.
 // THREADS: one at a time.
@@ -324,7 +324,7 @@ class ExternalSort {
   std::uint64_t most_bytes_;  // of a buffer
   Buffer filling_, writing_;
   Reservation merge_charge_;
-  std::future<void> written_;
+  std::shared_future<void> written_;  // shared, since a failure is for every later call, not for the first alone
   std::optional<RunFile> file_;
   std::vector<RunPlace> runs_;
   std::unique_ptr<Merger> merger_;

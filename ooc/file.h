@@ -10,6 +10,17 @@
 
 namespace reeb::ooc {
 
+// Whether `path` names a file whose bytes lie on a disk: not a pipe, a folder or nothing.
+bool is_regular_file(const std::string& path);
+
+// A new file without a name in `folder`, open for reading and writing: gone when it is closed, however
+// that comes about. -1 and errno if there can be none.
+int open_unnamed(const std::string& folder) noexcept;
+
+// Returns once the names in `folder` have reached the device. Not every file system can do that, which
+// is no error.
+void sync_folder(const std::string& folder) noexcept;
+
 // Asked before each write for an errno to fail it with (0: none), so that tests can let the n-th
 // write of a run fail as a full disk would.
 using WriteFault = std::function<int(std::uint64_t offset, std::size_t bytes)>;

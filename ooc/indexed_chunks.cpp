@@ -1,14 +1,12 @@
 #include <algorithm>
 
+#include "ooc/chunk_growth.h"
 #include "ooc/chunk_source.h"
 #include "ooc/local_numbers.h"
+#include "ooc/vertex_lookup.h"
 
 namespace reeb::ooc {
 namespace {
-
-// Grow above this share of shared vertices, shrink below a quarter of it. A shared vertex brings
-// about one shared edge, of three in all, so this is a tenth of the edges.
-constexpr double kManyShared = 0.30;
 
 class IndexedChunks : public ChunkSource {
  public:
@@ -17,9 +15,9 @@ class IndexedChunks : public ChunkSource {
       : mesh_(mesh),
         last_use_(last_use),
         columns_(columns),
-        size_(size),
-        block_triangles_(static_cast<std::size_t>(last_use.summary().block_triangles)),
-        blocks_(std::max<std::size_t>(1, size.first / std::max<std::size_t>(1, block_triangles_))) {
+        lookup_(columns),
+        block_triangles_(static_cast<std::size_t>(std::max<std::uint64_t>(1, last_use.summary().block_triangles))),
+        blocks_(size.first / block_triangles_, size.most / block_triangles_) {
     mesh_.rewind();
     pass_over(start);
   }
@@ -35,15 +33,13 @@ class IndexedChunks : public ChunkSource {
   bool read_triangles(Chunk& chunk);
   bool read_loose_vertices(Chunk& chunk);
   void set_uses(Chunk& chunk);
-  void look_up(WorkItem& item);
-  void adapt(const Chunk& chunk);
 
   IndexedMesh& mesh_;
   LastUse& last_use_;
   FunctionValues& columns_;
-  ChunkSize size_;
+  VertexLookup lookup_;
   std::size_t block_triangles_;
-  std::size_t blocks_;             // of the next chunk
+  ChunkGrowth blocks_;
   std::uint64_t first_block_ = 0;  // of the next chunk
   std::uint64_t triangles_read_ = 0;
   std::uint64_t next_vertex_ = 0;  // from which on unused vertices are looked for
@@ -51,17 +47,15 @@ class IndexedChunks : public ChunkSource {
   std::vector<VertexId> corners_;
   LocalNumbers numbers_;
   std::vector<std::uint32_t> entries_;
-  std::vector<double> gathered_;
-  std::vector<std::span<const double>> data_;
 };
 
 bool IndexedChunks::next(WorkItem& item) {
   item.chunk.clear();
   if (!read_triangles(item.chunk) && !read_loose_vertices(item.chunk)) return false;
-  look_up(item);
+  lookup_.look_up(mesh_, item);
   item.end.triangles = triangles_read_;
   item.end.next_vertex = next_vertex_;
-  item.end.chunk_blocks = blocks_;
+  item.end.chunk_blocks = blocks_.size();
   item.end.ranges.assign(columns_.ranges().begin(), columns_.ranges().end());
   return true;
 }
@@ -73,7 +67,7 @@ void IndexedChunks::pass_over(const ChunkPlace& start) {
     triangles_read_ += corners_.size() / 3;
   first_block_ = triangles_read_ / block_triangles_;
   next_vertex_ = start.next_vertex;
-  if (start.chunk_blocks != 0) blocks_ = static_cast<std::size_t>(start.chunk_blocks);
+  if (start.chunk_blocks != 0) blocks_.set_size(static_cast<std::size_t>(start.chunk_blocks));
   if (!start.ranges.empty()) columns_.set_ranges(start.ranges);
 }
 
@@ -81,7 +75,7 @@ void IndexedChunks::pass_over(const ChunkPlace& start) {
 bool IndexedChunks::read_triangles(Chunk& chunk) {
   constexpr std::size_t kPiece = 1024;
   const std::uint64_t left = last_use_.summary().triangle_count - triangles_read_;
-  const auto most = static_cast<std::size_t>(std::min<std::uint64_t>(blocks_ * block_triangles_, left));
+  const auto most = static_cast<std::size_t>(std::min<std::uint64_t>(blocks_.size() * block_triangles_, left));
   numbers_.start(chunk.ids, most);
   chunk.corners.resize(3 * most);
   std::size_t count = 0;
@@ -93,15 +87,15 @@ bool IndexedChunks::read_triangles(Chunk& chunk) {
   chunk.corners.resize(3 * count);
   triangles_read_ += count;
   set_uses(chunk);
-  first_block_ += blocks_;
-  adapt(chunk);
+  first_block_ += blocks_.size();
+  blocks_.adapt(chunk);
   return true;
 }
 
 void IndexedChunks::set_uses(Chunk& chunk) {
   entries_.resize(chunk.vertex_count());
   last_use_.lookup(chunk.ids, entries_);
-  const std::uint64_t last_block = first_block_ + blocks_ - 1;
+  const std::uint64_t last_block = first_block_ + blocks_.size() - 1;
   chunk.uses.resize(chunk.vertex_count());
   for (std::size_t i = 0; i < chunk.vertex_count(); ++i) {
     const UseEntry entry(entries_[i]);
@@ -110,18 +104,6 @@ void IndexedChunks::set_uses(Chunk& chunk) {
     const bool later = entry.last_block() > last_block;
     chunk.uses[i] = static_cast<std::uint8_t>((earlier ? kUsedEarlier : 0) | (later ? kUsedLater : 0));
   }
-}
-
-void IndexedChunks::adapt(const Chunk& chunk) {
-  const auto shared = static_cast<double>(
-      std::count_if(chunk.uses.begin(), chunk.uses.end(), [](std::uint8_t u) { return u != kUsedHereOnly; }));
-  const auto all = static_cast<double>(chunk.vertex_count());
-  const std::size_t least = std::max<std::size_t>(1, size_.first / block_triangles_);
-  const std::size_t most = std::max<std::size_t>(1, size_.most / block_triangles_);
-  if (shared > kManyShared * all && blocks_ < most)
-    blocks_ = std::min(2 * blocks_, most);
-  else if (shared < kManyShared / 4 * all && blocks_ > least)
-    blocks_ = std::max(blocks_ / 2, least);
 }
 
 bool IndexedChunks::read_loose_vertices(Chunk& chunk) {
@@ -138,16 +120,6 @@ bool IndexedChunks::read_loose_vertices(Chunk& chunk) {
   }
   chunk.uses.assign(chunk.vertex_count(), kUsedHereOnly);
   return chunk.vertex_count() != 0;
-}
-
-void IndexedChunks::look_up(WorkItem& item) {
-  const std::size_t n = item.chunk.vertex_count();
-  gathered_.resize(n * columns_.columns().size());
-  mesh_.gather(item.chunk.ids, columns_.columns(), gathered_);
-  data_.clear();
-  for (std::size_t k = 0; k < columns_.columns().size(); ++k) data_.emplace_back(gathered_.data() + k * n, n);
-  mesh_.to_original(item.chunk.ids);
-  columns_.evaluate(item.chunk.ids, data_, item.chunk.positions, item.values);
 }
 
 }  // namespace

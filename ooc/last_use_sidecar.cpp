@@ -133,7 +133,9 @@ class Reader {
 };
 
 UseSummary read_summary(Reader& in, const Header& header) {
-  if (header.samples > kMostSamples || header.block_count > UseEntry::kMostBlocks) throw Damaged();
+  if (header.samples > kMostSamples || header.block_count > UseEntry::kMostBlocks || header.block_triangles == 0 ||
+      header.block_count != (header.triangle_count + header.block_triangles - 1) / header.block_triangles)
+    throw Damaged();
   UseSummary s;
   s.live_profile.resize(static_cast<std::size_t>(header.samples));
   const auto profile = std::as_writable_bytes(std::span(s.live_profile));

@@ -11,6 +11,8 @@
 #include <system_error>
 
 #include "libreeb/base/error.h"
+#include "ooc/atomic_file.h"
+#include "ooc/file.h"
 
 namespace reeb::ooc {
 namespace {
@@ -70,6 +72,11 @@ PartialFolder::~PartialFolder() {
 bool PartialFolder::has_checkpoint(const std::string& output) { return exists(path_for(output) + "/checkpoint"); }
 
 bool PartialFolder::has_checkpoint() const { return exists(checkpoint()); }
+
+void PartialFolder::sync_name() {
+  if (!name_is_synced_) sync_folder(folder_of(path_));
+  name_is_synced_ = true;
+}
 
 void PartialFolder::clear() noexcept {
   if (::unlink(checkpoint().c_str()) == 0) ::fsync(folder_);

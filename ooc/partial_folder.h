@@ -28,6 +28,9 @@ class PartialFolder {
   std::string checkpoint() const { return file("checkpoint"); }
   bool has_checkpoint() const;
 
+  // To be called before the first checkpoint: the folder's own name reaches the device.
+  void sync_name();
+
   // Removes the checkpoint and then, once that is durable, the files that it names. Files of other
   // origin stay.
   void clear() noexcept;
@@ -37,6 +40,7 @@ class PartialFolder {
 
   std::string path_;
   int folder_ = -1;  // open and locked
+  bool name_is_synced_ = false;
 };
 
 }  // namespace reeb::ooc

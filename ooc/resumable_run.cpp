@@ -1,8 +1,8 @@
 #include "ooc/resumable_run.h"
 
 #include <algorithm>
-#include <filesystem>
-#include <system_error>
+
+#include "ooc/file.h"
 
 namespace reeb::ooc {
 namespace {
@@ -10,18 +10,13 @@ namespace {
 // A checkpoint may take this share of the time since the last one.
 constexpr double kMostShare = 0.01;
 
-bool is_file(const std::string& path) {
-  std::error_code ignored;
-  return std::filesystem::is_regular_file(path, ignored);
-}
-
 }  // namespace
 
 ResumableRun::ResumableRun(const std::string& output, const std::string& mesh,
                            std::span<VertexFunction* const> functions, const RunSettings& settings,
                            const ResumeOptions& options)
     : options_(options) {
-  if (!is_file(mesh)) return;
+  if (!is_regular_file(mesh)) return;
   identity_ = identify_run(mesh, functions, settings);
   folder_.emplace(output);
 }
@@ -33,7 +28,7 @@ std::string ResumableRun::segments_of(std::size_t function) const {
 const Checkpoint* ResumableRun::start(const std::function<void(StateReader&)>& restore,
                                       std::vector<std::string>& notes) {
   last_ = Clock::now();
-  if (options_.resume && !folder_) notes.push_back("a stream cannot be resumed, so the run starts anew");
+  if (options_.resume && !folder_) notes.push_back("a mesh that is no file of its own cannot be resumed, so the run starts anew");
   if (!folder_) return nullptr;
   if (options_.resume) {
     load_ = load_checkpoint(folder_->checkpoint(), identity_);
@@ -62,6 +57,11 @@ bool ResumableRun::restores(const std::function<void(StateReader&)>& restore) {
   return false;
 }
 
+void ResumableRun::start_anew() {
+  load_ = {};
+  if (folder_) folder_->clear();
+}
+
 void ResumableRun::check_interruption() const {
   if (options_.interrupted && options_.interrupted())
     throw Error(ErrorKind::kInterrupted, "interrupted", "run it again");
@@ -72,6 +72,7 @@ void ResumableRun::between_chunks(const Checkpoint& here, const Save& save) {
   if (folder_ && (to_end || is_due())) {
     const Clock::time_point begin = Clock::now();
     try {
+      folder_->sync_name();
       write_checkpoint(folder_->checkpoint(), identity_, here, save);
     } catch (const Error&) {
       if (to_end) throw;

@@ -44,6 +44,9 @@ class ResumableRun {
   // What start() left unread: the engine. Null if there is no checkpoint to go on from.
   StateReader* saved_engine() const { return load_.state.get(); }
 
+  // What was run so far came to nothing: all that was kept of it is removed.
+  void start_anew();
+
   // At a place where nothing can be saved.
   // THROWS: Error{kInterrupted} if the run is to end.
   void check_interruption() const;

@@ -1,12 +1,23 @@
 #include "ooc/spooled_mesh.h"
 
-#include <array>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "libreeb/base/error.h"
 
 namespace reeb::ooc {
+
+namespace {
+
+void append_faces(const std::vector<VertexId>& tetrahedra, std::vector<VertexId>& triangles) {
+  for (std::size_t t = 0; t + 4 <= tetrahedra.size(); t += 4)
+    for (std::size_t left_out = 0; left_out < 4; ++left_out)
+      for (std::size_t c = 0; c < 4; ++c)
+        if (c != left_out) triangles.push_back(tetrahedra[t + c]);
+}
+
+}  // namespace
 
 SpooledMesh::SpooledMesh(unsigned columns, const TempDir& temp, MemoryBudget& budget,
                          std::uint64_t allowance_bytes)
@@ -22,13 +33,10 @@ void SpooledMesh::append(const MeshBatch& batch) {
   for (const auto& column : batch.properties) values.emplace_back(column);
   append_vertices(values);
   append_triangles(batch.triangles);
-  const auto& tetrahedra = batch.tetrahedra;
-  for (std::size_t t = 0; t + 4 <= tetrahedra.size(); t += 4)
-    for (std::size_t left_out = 0; left_out < 4; ++left_out) {
-      std::array<VertexId, 3> face;
-      for (std::size_t c = 0; c < 3; ++c) face[c] = tetrahedra[t + c + (c >= left_out ? 1 : 0)];
-      append_triangles(face);
-    }
+  if (batch.tetrahedra.empty()) return;
+  std::vector<VertexId> faces;
+  append_faces(batch.tetrahedra, faces);
+  append_triangles(faces);
 }
 
 void SpooledMesh::append_vertices(std::span<const std::span<const double>> values) {
@@ -62,24 +70,39 @@ std::uint64_t SpooledMesh::spilled_bytes() const {
   return bytes;
 }
 
+Spooler::Spooler(MeshReader& reader, const TempDir& temp, MemoryBudget& budget, SpoolOptions options)
+    : reader_(reader),
+      temp_(temp),
+      budget_(budget),
+      options_(std::move(options)),
+      reader_memory_(budget.reserve("mesh reader", 0)) {}
+
+bool Spooler::read() {
+  if (ended_) return false;
+  const bool some = reader_.read(batch_);
+  ended_ = !some;
+  if (mesh_ == nullptr) {
+    const std::size_t columns =
+        some ? batch_.coordinates.size() + batch_.properties.size() : reader_.info().dimension;
+    mesh_ = std::make_unique<SpooledMesh>(static_cast<unsigned>(columns), temp_, budget_, options_.allowance_bytes);
+  }
+  if (!some) return false;
+  reader_memory_.resize(reader_.memory_bytes());
+  append_faces(batch_.tetrahedra, batch_.triangles);
+  batch_.tetrahedra.clear();
+  mesh_->append(batch_);
+  if (options_.progress) options_.progress(reader_);
+  return true;
+}
+
+std::unique_ptr<SpooledMesh> Spooler::finish() {
+  while (read()) continue;
+  return std::move(mesh_);
+}
+
 std::unique_ptr<SpooledMesh> spool(MeshReader& reader, const TempDir& temp, MemoryBudget& budget,
                                    const SpoolOptions& options) {
-  std::unique_ptr<SpooledMesh> mesh;
-  MeshBatch batch;
-  Reservation kept = budget.reserve("mesh reader", 0);
-  while (reader.read(batch)) {
-    kept.resize(reader.memory_bytes());
-    if (mesh == nullptr)
-      mesh = std::make_unique<SpooledMesh>(
-          static_cast<unsigned>(batch.coordinates.size() + batch.properties.size()), temp, budget,
-          options.allowance_bytes);
-    mesh->append(batch);
-    if (options.progress) options.progress(reader);
-  }
-  if (mesh == nullptr)
-    mesh = std::make_unique<SpooledMesh>(reader.info().dimension, temp, budget,
-                                         options.allowance_bytes);
-  return mesh;
+  return Spooler(reader, temp, budget, options).finish();
 }
 
 }  // namespace reeb::ooc

@@ -29,7 +29,7 @@ class SpooledMesh : public IndexedMesh {
   SpooledMesh(unsigned columns, const TempDir& temp, MemoryBudget& budget,
               std::uint64_t allowance_bytes);
 
-  // Takes over the vertices and simplices of a batch. REQUIRES: no read came before.
+  // Takes over the vertices and simplices of a batch. REQUIRES: no triangle was read yet.
   void append(const MeshBatch& batch);
   // Appends vertices: values[k] is column k, all of one length.
   void append_vertices(std::span<const std::span<const double>> values);
@@ -37,6 +37,7 @@ class SpooledMesh : public IndexedMesh {
   void append_column(unsigned column, std::span<const double> values) {
     columns_[column].append(values);
   }
+  // REQUIRES: no triangle was read yet.
   void append_triangles(std::span<const VertexId> corners) { triangles_.append(corners); }
 
   std::uint64_t vertex_count() const override;
@@ -58,9 +59,39 @@ class SpooledMesh : public IndexedMesh {
   TriangleLog triangles_;
 };
 
-// Reads `reader` to its end. Tetrahedra become their four faces; finalizations are passed over.
+// A mesh on its way from a reader into that form. Tetrahedra become their four faces; finalizations
+// are passed over.
 //
 // THROWS: what the reader throws; Error{kResource} of the budget or the disk.
+// THREADS: one at a time.
+class Spooler {
+ public:
+  // `reader`, `temp` and `budget` must outlive this.
+  Spooler(MeshReader& reader, const TempDir& temp, MemoryBudget& budget, SpoolOptions options = {});
+
+  // Takes over the next batch; false at the end, again and again.
+  bool read();
+  // Three corners each, of the batch that was read last.
+  const std::vector<VertexId>& triangles() const { return batch_.triangles; }
+  const MeshReader& reader() const { return reader_; }
+  // As far as it was read. REQUIRES: something was.
+  SpooledMesh& mesh() { return *mesh_; }
+
+  // Reads what is left; the whole mesh.
+  std::unique_ptr<SpooledMesh> finish();
+
+ private:
+  MeshReader& reader_;
+  const TempDir& temp_;
+  MemoryBudget& budget_;
+  SpoolOptions options_;
+  Reservation reader_memory_;
+  MeshBatch batch_;
+  std::unique_ptr<SpooledMesh> mesh_;
+  bool ended_ = false;
+};
+
+// Reads `reader` to its end.
 std::unique_ptr<SpooledMesh> spool(MeshReader& reader, const TempDir& temp, MemoryBudget& budget,
                                    const SpoolOptions& options = {});
 

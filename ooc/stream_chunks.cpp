@@ -1,3 +1,4 @@
+#include "libreeb/base/error.h"
 #include "ooc/chunk_source.h"
 
 namespace reeb::ooc {
@@ -5,8 +6,10 @@ namespace {
 
 class StreamChunks : public ChunkSource {
  public:
-  StreamChunks(MeshReader& reader, FunctionValues& columns, ChunkSize size)
-      : reader_(reader), columns_(columns), size_(size), chunker_(columns.function_count(), true) {}
+  StreamChunks(MeshReader& reader, FunctionValues& columns, ChunkSize size, const ChunkPlace& start)
+      : reader_(reader), columns_(columns), size_(size), chunker_(columns.function_count(), true) {
+    pass_over(start);
+  }
 
   bool next(WorkItem& item) override;
   std::uint64_t bytes_read() const override { return reader_.bytes_read(); }
@@ -15,6 +18,8 @@ class StreamChunks : public ChunkSource {
   std::uint64_t vertex_count() const override { return chunker_.vertex_count(); }
 
  private:
+  void pass_over(const ChunkPlace& start);
+  void read_batch();
   void add_vertices();
   void add_simplices(const std::vector<VertexId>& corners, std::size_t size);
 
@@ -23,6 +28,7 @@ class StreamChunks : public ChunkSource {
   ChunkSize size_;
   StreamChunker chunker_;
   std::uint64_t triangles_read_ = 0;
+  std::uint64_t batches_ = 0;
   bool ended_ = false;
 
   MeshBatch batch_;
@@ -34,22 +40,43 @@ class StreamChunks : public ChunkSource {
 };
 
 bool StreamChunks::next(WorkItem& item) {
-  while (!ended_ && chunker_.chunk_size() < size_.first) {
-    if (!reader_.read(batch_)) {
-      chunker_.finalize_all();
-      ended_ = true;
-      break;
-    }
-    add_vertices();
-    add_simplices(batch_.triangles, 3);
-    add_simplices(batch_.tetrahedra, 4);
-    triangles_read_ += batch_.triangle_count() + 4 * batch_.tetrahedron_count();
-    for (const VertexId v : batch_.finalized) chunker_.finalize(v);
-  }
+  while (!ended_ && chunker_.chunk_size() < size_.first) read_batch();
   if (chunker_.chunk_size() == 0) return false;
   chunker_.take(item.chunk, item.values);
+  item.end.triangles = triangles_read_;
+  item.end.next_vertex = chunker_.vertex_count();
+  item.end.batches = batches_;
   item.end.ranges.assign(columns_.ranges().begin(), columns_.ranges().end());
   return true;
+}
+
+// Which vertices are live at a chunk's end, and which of them were used, does not depend on where the
+// chunks before were cut.
+void StreamChunks::pass_over(const ChunkPlace& start) {
+  Chunk chunk;
+  std::vector<std::vector<double>> values;
+  while (!ended_ && batches_ < start.batches) {
+    read_batch();
+    if (chunker_.chunk_size() >= size_.first || batches_ == start.batches) chunker_.take(chunk, values);
+  }
+  if (batches_ != start.batches || triangles_read_ != start.triangles || chunker_.vertex_count() != start.next_vertex)
+    throw Error(ErrorKind::kBadInput, "the stream is not the one that the checkpoint was made of",
+                "run it again without --resume");
+  if (!start.ranges.empty()) columns_.set_ranges(start.ranges);
+}
+
+void StreamChunks::read_batch() {
+  ++batches_;
+  if (!reader_.read(batch_)) {
+    chunker_.finalize_all();
+    ended_ = true;
+    return;
+  }
+  add_vertices();
+  add_simplices(batch_.triangles, 3);
+  add_simplices(batch_.tetrahedra, 4);
+  triangles_read_ += batch_.triangle_count() + 4 * batch_.tetrahedron_count();
+  for (const VertexId v : batch_.finalized) chunker_.finalize(v);
 }
 
 void StreamChunks::add_vertices() {
@@ -76,8 +103,9 @@ void StreamChunks::add_simplices(const std::vector<VertexId>& corners, std::size
 
 }  // namespace
 
-std::unique_ptr<ChunkSource> chunks_of(MeshReader& reader, FunctionValues& columns, ChunkSize size) {
-  return std::make_unique<StreamChunks>(reader, columns, size);
+std::unique_ptr<ChunkSource> chunks_of(MeshReader& reader, FunctionValues& columns, ChunkSize size,
+                                       const ChunkPlace& start) {
+  return std::make_unique<StreamChunks>(reader, columns, size, start);
 }
 
 }  // namespace reeb::ooc

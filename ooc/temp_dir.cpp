@@ -1,7 +1,5 @@
 #include "ooc/temp_dir.h"
 
-#include <fcntl.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -19,7 +17,7 @@ namespace {
 [[noreturn]] void refuse_folder(const std::string& folder, int error) {
   throw Error(ErrorKind::kResource,
               std::string("temporary files cannot be written there: ") + std::strerror(error),
-              "choose a folder that can be written with --temp-dir DIR")
+              "choose a folder that exists and that you may write to with --temp-dir DIR")
       .at(folder);
 }
 
@@ -28,10 +26,9 @@ namespace {
 TempDir::TempDir(std::string folder, WriteFault fault)
     : folder_(folder.empty() ? default_folder("") : std::move(folder)),
       fault_(fault ? std::make_shared<const WriteFault>(std::move(fault)) : nullptr) {
-  struct stat status {};
-  if (::stat(folder_.c_str(), &status) != 0) refuse_folder(folder_, errno);
-  if (!S_ISDIR(status.st_mode)) refuse_folder(folder_, ENOTDIR);
-  if (::access(folder_.c_str(), W_OK | X_OK) != 0) refuse_folder(folder_, errno);
+  const int probe = open_unnamed(folder_);
+  if (probe < 0) refuse_folder(folder_, errno);
+  ::close(probe);
 }
 
 std::string TempDir::default_folder(const std::string& output_path) {
@@ -42,13 +39,8 @@ std::string TempDir::default_folder(const std::string& output_path) {
 
 File TempDir::create_unnamed(const std::string& role) const {
   const std::string shown = folder_ + "/(temporary " + role + ")";
-  int descriptor = ::open(folder_.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
-  if (descriptor < 0) {  // not every file system has files without a name
-    std::string name = folder_ + "/reeb-XXXXXX";
-    descriptor = ::mkostemp(name.data(), O_CLOEXEC);
-    if (descriptor < 0) refuse_folder(folder_, errno);
-    ::unlink(name.c_str());
-  }
+  const int descriptor = open_unnamed(folder_);
+  if (descriptor < 0) refuse_folder(folder_, errno);
   return {descriptor, shown, fault_};
 }
 

@@ -56,6 +56,26 @@ TEST(Pipeline, EqualsTheDefinitionOnRandomComplexes) {
   }
 }
 
+// Guesses about what is complete hold and fail, and the graph is the same.
+TEST(Pipeline, RevokesGuessesThatWereWrong) {
+  const std::uint64_t seed = base_seed(), cases = case_count(3'000);
+  Runner runner(/*graph_only=*/true);
+  std::uint64_t guessed = 0, wrong = 0, in_one_pass = 0;
+  for (std::uint64_t i = 0; i < cases; ++i) {
+    const Complex complex = random_complex(seed + i);
+    const ComplexMesh mesh(complex);
+    const ReebGraph graph = take_graph(runner.run(mesh, {1 + i % 4, 1, Form::kUnfinalized}, {3}, seed + i)[0]);
+    ASSERT_TRUE(without_positions(graph) == without_positions(reference_reeb(complex))) << describe(complex);
+    const ooc::ComputeResult& result = runner.results()[0];
+    guessed += result.guessed_vertices;
+    wrong += result.revoked_guesses != 0;
+    in_one_pass += result.guessed_vertices != 0 && result.revoked_guesses == 0;
+  }
+  EXPECT_GT(guessed, cases);
+  EXPECT_GT(wrong, cases / 50);
+  EXPECT_GT(in_one_pass, cases / 50);
+}
+
 TEST(Pipeline, WritesTheSameBytesHoweverItRuns) {
   const std::uint64_t seed = base_seed(), cases = case_count(300);
   const std::vector<RunShape> shapes = all_shapes();
@@ -240,8 +260,8 @@ TEST_P(LargeShape, BookWithManyPages) { check(spine(300'000 / kScale)); }
 TEST_P(LargeShape, Plateau) { check(one_arc("plateau", plateau(1000, 500 / kScale))); }
 TEST_P(LargeShape, TiesAlongTheStream) { check(one_arc("strip", tied_strip(1000, 500 / kScale))); }
 
-INSTANTIATE_TEST_SUITE_P(Forms, LargeShape, testing::Values(Form::kIndexed, Form::kStream),
-                         [](const auto& form) { return std::string(form.param == Form::kStream ? "Stream" : "Indexed"); });
+INSTANTIATE_TEST_SUITE_P(Forms, LargeShape, testing::ValuesIn(kForms),
+                         [](const auto& form) { return std::string(name_of(form.param)); });
 
 }  // namespace
 }  // namespace reeb::test

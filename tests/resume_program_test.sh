@@ -118,6 +118,26 @@ else
   echo "skipped: a full disk needs root and mount"
 fi
 
+# A mesh that is read once, and a place for temporary files that is too small for it.
+"$reeb" convert mesh.ply mesh.obj 2>messages
+rm -rf full && mkdir full
+if [[ -n $mounted ]]; then
+  umount "$mounted"
+  mounted=
+  mount -t tmpfs -o size=1500k none full
+  mounted=$folder/full
+  code=0
+  "$reeb" compute mesh.obj -f random:1 --memory 16M --denoise 1% --temp-dir full -o out.reeb >messages 2>&1 || code=$?
+  check "a full temporary folder: 3" test "$code" = 3
+  check "in clear text" says "No space left"
+  check "another folder is proposed" says "temp-dir"
+  check "nothing is left in it" test -z "$(ls -A full)"
+  check "nor elsewhere" only . mesh.ply mesh.obj whole.reeb messages small full
+  umount "$mounted"
+  mounted=
+fi
+rm -rf mesh.obj full
+
 touch plain
 for place in missing plain; do
   run -o out.reeb --temp-dir "$place"
@@ -125,6 +145,8 @@ for place in missing plain; do
   check "in clear text" says "temp-dir"
   run -o "$place/out.reeb"
   check "an output in $place: 3" test "$code" = 3
+  check "the output's folder is named" says "$place: the output cannot be written to this folder"
+  check "not that of temporary files" says_not "temp-dir"
 done
 check "nothing is left" only . mesh.ply whole.reeb messages plain small
 

@@ -45,7 +45,7 @@ TEST(WholeEmbedding, ChangesNothingElseAndIsTheSameForAnyThreads) {
       runner.options().denoise = plain.options().denoise = random.below(2) == 0 ? random.unit() : 0;
       const std::string without = plain.run(mesh, {0, 1, Form::kIndexed})[0];
       for (const std::size_t chunk : {std::size_t{7}, std::size_t{0}})
-        for (const Form form : {Form::kIndexed, Form::kStream}) {
+        for (const Form form : kForms) {
           std::string expected;
           for (const unsigned threads : {1u, 2u, 4u}) {
             const RunShape shape{chunk_limit() ? static_cast<std::size_t>(*chunk_limit()) : chunk, threads, form};

@@ -66,6 +66,8 @@ nlohmann::ordered_json to_json(const RunFacts& facts, const ooc::ComputeResult& 
       {"live_max", {{"vertices", r.live.vertices}, {"edges", r.live.edges}, {"arcs", r.live.arcs}}},
       {"threads", facts.threads},
       {"reordered", r.reordered},
+      {"guessed_vertices", r.guessed_vertices},
+      {"revoked_guesses", r.revoked_guesses},
       {"output", r.output},
   };
 }

@@ -95,5 +95,32 @@ TEST(ExternalSort, EachFailingWriteIsReported) {
     });
 }
 
+// The first to hear of it may live without, as a checkpoint that cannot be made does.
+TEST(ExternalSort, DoesNotForgetThatRecordsWereLost) {
+  struct Nowhere : StateWriter {
+    void write(std::span<const std::byte>) override {}
+  };
+  const Scratch scratch;
+  const TempDir temp(scratch.path());
+  MemoryBudget budget;
+  const std::vector<Pair> pairs = random_pairs(20'000, 1);
+  ExternalSort<Pair> sort("pairs", temp, budget,
+                          {.allowance_bytes = 256 << 10, .background = true, .file = "/dev/full"});
+  bool failed = false;
+  for (std::size_t i = 0; !failed && i < pairs.size(); i += 100) {
+    sort.add(std::span(pairs).subspan(i, 100));
+    try {
+      Nowhere out;
+      sort.save(out);
+    } catch (const Error&) {
+      failed = true;
+    }
+  }
+  ASSERT_TRUE(failed);
+  Nowhere out;
+  EXPECT_THROW(sort.save(out), Error);
+  EXPECT_THROW(sort.finish(), Error);
+}
+
 }  // namespace
 }  // namespace reeb::ooc

@@ -1,6 +1,7 @@
 // A run that is interrupted and gone on with writes the bytes of one that is not.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -13,6 +14,7 @@
 
 #include "io/mesh_function.h"
 #include "io/mesh_io.h"
+#include "io/mesh_writer.h"
 #include "libreeb/base/error.h"
 #include "ooc/compute.h"
 #include "ooc/partial_folder.h"
@@ -62,6 +64,32 @@ void write_ply(const std::string& path, const ModelMesh& mesh, bool binary) {
   write_file(path, out.str());
 }
 
+// A streaming mesh: a vertex comes when a triangle needs it, and is final with the last that does.
+void write_stream(const std::string& path, const ModelMesh& mesh) {
+  std::vector<std::size_t> last_use(mesh.vertex_count(), 0);
+  for (std::size_t i = 0; i < mesh.corners.size(); ++i) last_use[mesh.corners[i].value()] = i / 3;
+  const auto writer = io::create_mesh(path, {.existing = io::Existing::kReplace});
+  std::uint64_t next = 0;
+  for (std::size_t t = 0; t <= mesh.corners.size() / 3; ++t) {
+    const bool at_end = t == mesh.corners.size() / 3;  // with the vertices that nothing uses
+    MeshBatch batch;
+    batch.first_vertex = VertexId(next);
+    if (!at_end) batch.triangles.assign(mesh.corners.begin() + 3 * static_cast<std::ptrdiff_t>(t), mesh.corners.begin() + 3 * static_cast<std::ptrdiff_t>(t + 1));
+    std::uint64_t end = at_end ? mesh.vertex_count() : next;
+    for (const VertexId v : batch.triangles) {
+      end = std::max(end, v.value() + 1);
+      if (last_use[v.value()] == t && std::find(batch.finalized.begin(), batch.finalized.end(), v) == batch.finalized.end())
+        batch.finalized.push_back(v);
+    }
+    batch.vertex_count = end - next;
+    for (const auto& column : mesh.columns)
+      batch.coordinates.emplace_back(column.begin() + static_cast<std::ptrdiff_t>(next), column.begin() + static_cast<std::ptrdiff_t>(end));
+    next = end;
+    writer->write(batch);
+  }
+  writer->close();
+}
+
 // Values as z; edges and vertices as degenerate triangles.
 ModelMesh mesh_of(const test::Complex& complex) {
   ModelMesh mesh{std::vector<std::vector<double>>(3), {}};
@@ -77,20 +105,31 @@ ModelMesh mesh_of(const test::Complex& complex) {
   return mesh;
 }
 
+// In place; spooled, on guesses; with finalization of its own.
+enum class Form { kBinary, kText, kStream };
+constexpr Form kForms[] = {Form::kBinary, Form::kText, Form::kStream};
+
 // One mesh file and runs on it; the output is OUT.reeb in the same folder.
 class Runs {
  public:
-  explicit Runs(const ModelMesh& mesh, bool binary = true, std::string function = "z")
-      : function_(std::move(function)) {
-    write_ply(mesh_path(), mesh, binary);
+  explicit Runs(const ModelMesh& mesh, Form form = Form::kBinary, std::string function = "z")
+      : form_(form), function_(std::move(function)) {
+    write(mesh);
   }
 
-  std::string mesh_path() const { return scratch_.path() + "/mesh.ply"; }
+  void write(const ModelMesh& mesh) const {
+    if (form_ == Form::kStream)
+      write_stream(mesh_path(), mesh);
+    else
+      write_ply(mesh_path(), mesh, form_ == Form::kBinary);
+  }
+  std::string mesh_path() const { return scratch_.path() + (form_ == Form::kStream ? "/mesh.sma" : "/mesh.ply"); }
   std::string output() const { return scratch_.path() + "/OUT.reeb"; }
   std::string partial() const { return PartialFolder::path_for(output()); }
   void set_function(const std::string& function) { function_ = function; }
 
   ComputeOptions options;
+  ReadOptions reading;
   std::function<void()> watch = {};  // called after each chunk
 
   // Runs to the end; the bytes of the output, which is then removed.
@@ -125,9 +164,9 @@ class Runs {
   void run(bool resume, std::uint64_t chunks, Notes* notes) {
     MeshInput input;
     input.path = mesh_path();
-    input.reader = io::open_mesh(input.path, {});
+    input.reader = io::open_mesh(input.path, reading);
     io::MeshFunction function(io::parse_function(function_), input.reader->info(), {}, input.path);
-    input.indexed = io::open_indexed_mesh(input.path, {});
+    input.indexed = io::open_indexed_mesh(input.path, reading);
     if (input.indexed) input.reader.reset();
     VertexFunction* functions[] = {&function};
     const std::string outputs[] = {output()};
@@ -145,13 +184,15 @@ class Runs {
   }
 
   Scratch scratch_;
+  Form form_;
   std::string function_;
 };
 
 TEST(Resume, GoesOnFromEveryChunkOfRandomComplexes) {
-  for (std::uint64_t seed = 0; seed < 30; ++seed) {
+  for (std::uint64_t seed = 0; seed < 45; ++seed) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
-    Runs runs(mesh_of(test::random_complex(seed)), seed % 2 == 0);
+    Runs runs(mesh_of(test::random_complex(seed)), kForms[seed % 3]);
+    runs.reading.batch_events = 1 + seed % 4;  // of a stream no chunk is cut within a batch
     runs.options.chunk_triangles = 1 + seed % 5;
     runs.options.threads = static_cast<unsigned>(1 + seed % 3);
     const std::string expected = runs.finish(false);
@@ -162,9 +203,10 @@ TEST(Resume, GoesOnFromEveryChunkOfRandomComplexes) {
 }
 
 TEST(Resume, GoesOnAsOftenAsItIsInterrupted) {
-  for (std::uint64_t seed = 100; seed < 110; ++seed) {
+  for (std::uint64_t seed = 100; seed < 115; ++seed) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
-    Runs runs(mesh_of(test::random_complex(seed)));
+    Runs runs(mesh_of(test::random_complex(seed)), kForms[seed % 3]);
+    runs.reading.batch_events = 3;
     runs.options.chunk_triangles = 7;
     const std::string expected = runs.finish(false);
     for (bool resume = false; runs.stop_after(1, resume); resume = true) continue;
@@ -173,8 +215,14 @@ TEST(Resume, GoesOnAsOftenAsItIsInterrupted) {
 }
 
 // Enough nodes for segments on disk, and gone on with in another way than begun.
-TEST(Resume, TakesOverSegmentsWhateverTheThreadsChunksAndMemory) {
-  Runs runs(grid_mesh(250, 250), true, "random:1");
+class ResumeForm : public testing::TestWithParam<Form> {};
+INSTANTIATE_TEST_SUITE_P(Forms, ResumeForm, testing::ValuesIn(kForms), [](const auto& form) {
+  return std::string(form.param == Form::kBinary ? "InPlace" : form.param == Form::kText ? "Guessed" : "Stream");
+});
+
+TEST_P(ResumeForm, TakesOverSegmentsWhateverTheThreadsChunksAndMemory) {
+  Runs runs(grid_mesh(250, 250), GetParam(), "random:1");
+  runs.reading.batch_events = 100;
   runs.options.graph_only = true;  // the least budget has no room for the second stage
   runs.options.buckets = 0;        // an embedding shows where chunks were cut
   runs.options.memory_bytes = 16 << 20;
@@ -196,8 +244,9 @@ TEST(Resume, TakesOverSegmentsWhateverTheThreadsChunksAndMemory) {
 }
 
 // Chunks that adapt are cut in the same places, and buckets come out of segments as they went in.
-TEST(Resume, GivesTheSameEmbeddingWhateverTheThreads) {
-  Runs runs(grid_mesh(250, 250), true, "random:1");
+TEST_P(ResumeForm, GivesTheSameEmbeddingWhateverTheThreads) {
+  Runs runs(grid_mesh(250, 250), GetParam(), "random:1");
+  runs.reading.batch_events = 100;
   runs.options.graph_only = true;
   runs.options.memory_bytes = 24 << 20;
   runs.options.threads = 2;
@@ -220,8 +269,27 @@ TEST(Resume, GivesTheSameEmbeddingWhateverTheThreads) {
   }
 }
 
+// The checkpoint is of what came before the mesh was run from disk, or after.
+TEST(Resume, GoesOnBeforeAndAfterAGuessWasRevoked) {
+  ModelMesh mesh = grid_mesh(60, 60);
+  const std::vector<VertexId> first(mesh.corners.begin(), mesh.corners.begin() + 1000 * 3);
+  mesh.corners.insert(mesh.corners.end(), first.begin(), first.end());
+  Runs runs(mesh, Form::kText, "random:1");
+  runs.options.chunk_triangles = 500;
+  const std::string expected = runs.finish(false);
+  const std::uint64_t before = (59 * 59 * 2 + 499) / 500;
+  for (const std::uint64_t n : {std::uint64_t{1}, before - 1, before, before + 1, 2 * before})
+    for (const unsigned threads : {1u, 2u}) {
+      runs.options.threads = threads;
+      ASSERT_TRUE(runs.stop_after(n, false));
+      Notes notes;
+      ASSERT_EQ(runs.finish(true, notes), expected) << "after chunk " << n;
+      EXPECT_NE(notes.at(0).find("goes on"), std::string::npos) << notes[0];
+    }
+}
+
 TEST(Resume, StartsAnewWithOtherSettings) {
-  Runs runs(grid_mesh(60, 60), true, "random:1");
+  Runs runs(grid_mesh(60, 60), Form::kBinary, "random:1");
   runs.options.chunk_triangles = 500;
   runs.options.buckets = 16;
   const std::string expected = runs.finish(false);
@@ -250,7 +318,7 @@ TEST(Resume, KeepsToTheOrderInWhichTheRunBegan) {
 }
 
 TEST(Resume, StartsAnewFromWhatIsDamaged) {
-  Runs runs(grid_mesh(250, 250), true, "random:1");
+  Runs runs(grid_mesh(250, 250), Form::kBinary, "random:1");
   runs.options.graph_only = true;  // the least budget has no room for the second stage
   runs.options.memory_bytes = 16 << 20;
   runs.options.chunk_triangles = 4096;
@@ -320,7 +388,7 @@ TEST(Resume, IgnoresACheckpointOfAnotherMeshOrFunction) {
   EXPECT_EQ(runs.finish(false), of_x);
 
   ASSERT_TRUE(runs.stop_after(2, false));
-  write_ply(runs.mesh_path(), grid_mesh(25, 16), true);
+  runs.write(grid_mesh(25, 16));
   const std::string of_other = runs.finish(true, notes);
   EXPECT_NE(notes.at(0).find("another mesh"), std::string::npos) << notes[0];
   EXPECT_EQ(runs.finish(false), of_other);

@@ -93,4 +93,24 @@ class ComplexStream : public MeshReader {
   std::size_t next_simplex_ = 0, next_tetrahedron_ = 0, next_vertex_ = 0;
 };
 
+// The same without a word about finalization.
+class UnfinalizedComplex : public MeshReader {
+ public:
+  UnfinalizedComplex(const ComplexMesh& mesh, std::uint64_t seed) : stream_(mesh, seed), info_(stream_.info()) {
+    info_.finalizes = false;
+  }
+
+  const MeshInfo& info() const override { return info_; }
+  bool read(MeshBatch& batch) override {
+    const bool some = stream_.read(batch);
+    batch.finalized.clear();
+    return some;
+  }
+  std::uint64_t bytes_read() const override { return stream_.bytes_read(); }
+
+ private:
+  ComplexStream stream_;
+  MeshInfo info_;
+};
+
 }  // namespace reeb::test

@@ -1,5 +1,5 @@
 // Whole runs, from a mesh in memory to `.reeb` files, for chunks of any size, any number of threads
-// and both forms of input. REEB_TEST_MEMORY and REEB_TEST_CHUNK confine them.
+// and all forms of input. REEB_TEST_MEMORY and REEB_TEST_CHUNK confine them.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -22,7 +22,12 @@
 
 namespace reeb::test {
 
-enum class Form { kIndexed, kStream };
+enum class Form { kIndexed, kStream, kUnfinalized };
+constexpr Form kForms[] = {Form::kIndexed, Form::kStream, Form::kUnfinalized};
+
+inline const char* name_of(Form form) {
+  return form == Form::kIndexed ? "Indexed" : form == Form::kStream ? "Stream" : "Unfinalized";
+}
 
 struct RunShape {
   std::size_t chunk_triangles;  // 0: adaptive
@@ -31,8 +36,7 @@ struct RunShape {
 };
 
 inline std::ostream& operator<<(std::ostream& out, const RunShape& shape) {
-  return out << "chunk " << shape.chunk_triangles << ", threads " << shape.threads
-             << (shape.form == Form::kStream ? ", stream" : ", indexed");
+  return out << "chunk " << shape.chunk_triangles << ", threads " << shape.threads << ", " << name_of(shape.form);
 }
 
 inline std::vector<std::size_t> all_chunk_sizes() {
@@ -44,7 +48,7 @@ inline std::vector<RunShape> all_shapes() {
   std::vector<RunShape> shapes;
   for (const std::size_t chunk : all_chunk_sizes())
     for (const unsigned threads : {1u, 2u, 4u})
-      for (const Form form : {Form::kIndexed, Form::kStream}) shapes.push_back({chunk, threads, form});
+      for (const Form form : kForms) shapes.push_back({chunk, threads, form});
   return shapes;
 }
 
@@ -77,6 +81,8 @@ class Runner {
     ooc::MeshInput input;
     if (shape.form == Form::kStream)
       input.reader = std::make_unique<ComplexStream>(mesh, seed);
+    else if (shape.form == Form::kUnfinalized)
+      input.reader = std::make_unique<UnfinalizedComplex>(mesh, seed);
     else
       input.indexed = std::make_unique<IndexedComplex>(mesh);
     ooc::ComputeOptions options = options_;

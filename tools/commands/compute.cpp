@@ -111,10 +111,12 @@ void run_compute(ComputeArguments arguments) {
   }
 
   ReadOptions read_options;
+  read_options.batch_events = 8192;  // a few hundred KiB, beside chunks on their way
   read_options.properties = io::needed_properties(specs);
   if (arguments.snapshot_every != 0) read_options.batch_events = 1;  // exactly as far as the stream came
   ooc::MeshInput input;
   input.path = arguments.mesh;
+  input.may_resume = arguments.snapshot_every == 0;
   if (arguments.mesh != "-" && ooc::is_reeb_file(arguments.mesh))
     throw Error(ErrorKind::kBadInput, "is a Reeb graph already, not a mesh",
                 "look at it with reeb info, or take a level out with reeb extract")
