@@ -39,9 +39,9 @@ void BucketVersions::join(std::uint32_t upper, std::uint32_t lower, std::uint32_
              graph_.positions.empty() ? std::array<double, 3>{} : graph_.positions[node]);
 }
 
-void BucketVersions::drop(std::uint32_t arc) {
+void BucketVersions::drop(std::uint32_t arc, std::uint32_t nodes) {
   save(arc);
-  if (const std::uint64_t count = lists_.drop(arc); count != 0) dropped_.push_back({step_, count});
+  if (const std::uint64_t count = lists_.drop(arc) + nodes; count != 0) dropped_.push_back({step_, count});
 }
 
 void BucketVersions::end_record(std::uint32_t arc) {

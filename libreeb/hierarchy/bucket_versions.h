@@ -27,7 +27,7 @@ class BucketVersions {
   bool cut(const ArcCut& arc);
   bool merge(std::uint32_t from, std::uint32_t into);
   void join(std::uint32_t upper, std::uint32_t lower, std::uint32_t node);
-  void drop(std::uint32_t arc);
+  void drop(std::uint32_t arc, std::uint32_t nodes);
 
   // The arc's next record ends with this step, or the arc lives on after the last.
   void end_record(std::uint32_t arc);

@@ -44,8 +44,8 @@ struct IgnoreContent {
   bool merge(std::uint32_t /*from*/, std::uint32_t /*into*/) { return false; }
   // `lower` ends where `upper` starts, at a node that disappears; `lower` becomes both.
   void join(std::uint32_t /*upper*/, std::uint32_t /*lower*/, std::uint32_t /*node*/) {}
-  // The arc is taken away, and no other lies beside it.
-  void drop(std::uint32_t /*arc*/) {}
+  // The arc is taken away with so many nodes, and its content is laid nowhere.
+  void drop(std::uint32_t /*arc*/, std::uint32_t /*nodes*/) {}
   // A record of the arc is written down, with what it had before this step; the step is done.
   void end_record(std::uint32_t /*arc*/) {}
   void commit() {}
@@ -85,12 +85,16 @@ class Canceller {
 
  private:
   static constexpr std::uint32_t kNone = WorkingGraph::kNone;
+  // The content of an arc that ends in an extremum is laid on so many arcs at most, and the rest is
+  // dropped: the way is all that is walked for its sake, and on paths with as many nodes as those of
+  // a random function it would be nearly all of the time.
+  static constexpr std::uint32_t kMostBeside = 64;
 
   // A pair of `fork` with the extremum that is its partner in direction d.
   void cancel_extremum(Direction d, std::uint32_t fork, std::uint32_t extremum);
   void lay_beside(Direction d, std::uint32_t arc, std::uint32_t beside, std::uint32_t extremum);
-  void go_beside(Direction d, std::uint32_t arc, std::uint32_t& beside, std::uint32_t& start,
-                 std::uint32_t end);
+  bool go_beside(Direction d, std::uint32_t arc, std::uint32_t& beside, std::uint32_t& start,
+                 std::uint32_t end, std::uint32_t most = kNone);
   std::uint32_t arc_to_extremum(Direction d, std::uint32_t fork, std::uint32_t extremum);
   bool cancel_loop(std::uint32_t v, std::uint32_t y);
   bool take_away(std::uint32_t arc);
@@ -168,24 +172,29 @@ void Canceller<Content>::lay_beside(Direction d, std::uint32_t arc, std::uint32_
     arc = next;
   }
   if constexpr (Content::kFollows) {
-    go_beside(d, arc, beside, start, extremum);
-    log_.touch(beside);
-    content_.join(arc, beside, extremum);
+    if (go_beside(d, arc, beside, start, extremum, kMostBeside)) {
+      log_.touch(beside);
+      content_.join(arc, beside, extremum);
+    } else {
+      content_.drop(arc, 1);
+    }
   }
   remove(arc);
 }
 
 // Follows the second path from `start` until its arc `beside` reaches to `end` or beyond, and lays the
-// content of `arc` on the arcs that are passed.
+// content of `arc` on the arcs that are passed. False after `most` of them.
 template <class Content>
-void Canceller<Content>::go_beside(Direction d, std::uint32_t arc, std::uint32_t& beside,
-                                   std::uint32_t& start, std::uint32_t end) {
+bool Canceller<Content>::go_beside(Direction d, std::uint32_t arc, std::uint32_t& beside,
+                                   std::uint32_t& start, std::uint32_t end, std::uint32_t most) {
   for (std::uint32_t node = graph_.end(beside, d); along(d, node) < along(d, end);
        node = graph_.end(beside, d)) {
+    if (most-- == 0) return false;
     if (content_.cut({d, arc, beside, start, node, end})) log_.touch(beside);
     start = node;
     beside = graph_.nearest(node, d);
   }
+  return true;
 }
 
 // The nearest arc of `fork` that leads into the extremum's component. With a kept loop at the fork
@@ -255,7 +264,7 @@ bool Canceller<Content>::take_away(std::uint32_t arc) {
       zip(kUp);
       return true;
     }
-    content_.drop(arc);
+    content_.drop(arc, 0);
   }
   remove(arc);
   return true;

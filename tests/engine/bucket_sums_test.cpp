@@ -189,7 +189,8 @@ class ManyLists {
     models_[i].add_all(models_[j]);
   }
 
-  // What is above goes from list i to list j; the bucket that is cut, to where its greater part is.
+  // What is above goes from list i to list j. The bucket that is cut is divided in proportion if it has
+  // four vertices or more, and goes to where its greater part is otherwise.
   void cut(std::size_t i, std::size_t j) {
     const double at = value();
     const std::int64_t divided = bucket_index(at, exponent_);
@@ -197,7 +198,20 @@ class ManyLists {
     const double end = std::min(kMost, std::ldexp(static_cast<double>(divided + 1), exponent_));
     lists_[j] = pool_.take_above(lists_[i], -kMost, at, kMost);
     auto& from = models_[i].buckets;
-    const auto first = from.lower_bound(end - at > at - begin ? divided : divided + 1);
+    if (const auto bucket = from.find(divided); bucket != from.end()) {
+      const std::uint64_t count = bucket->second.count;
+      std::uint64_t above = end - at > at - begin ? count : 0;
+      if (count >= 4)
+        above = static_cast<std::uint64_t>(std::nearbyint((end - at) / (end - begin) * static_cast<double>(count)));
+      BucketSum& rest = models_[j].buckets.emplace(divided, bucket->second).first->second;
+      if (above == 0)
+        models_[j].buckets.clear();
+      else if (above == count)
+        from.erase(bucket);
+      else
+        bucket->second = rest.take(count - above);
+    }
+    const auto first = from.upper_bound(divided);
     models_[j].buckets.insert(first, from.end());
     from.erase(first, from.end());
   }
