@@ -226,6 +226,30 @@ Shape spine(std::size_t pages) {
   return shape;
 }
 
+// No triangle at all.
+Shape star(std::size_t edges) {
+  Complex complex;
+  complex.positions.resize(edges + 1);
+  complex.values.resize(edges + 1);
+  for (std::uint64_t v = 1; v <= edges; ++v) complex.simplices.push_back({0, v});
+  complex.kind = "star of loose edges";
+  Shape shape{"star", std::move(complex), {}};
+  for (std::uint64_t v = 1; v <= edges; ++v) {
+    shape.complex.values[v] = v % 2 == 0 ? 1 : -1;
+    shape.arcs.push_back(v % 2 == 0 ? arc_of(shape.complex, 0, v) : arc_of(shape.complex, v, 0));
+  }
+  return shape;
+}
+
+// One triangle many times, its corners in every order, and its edges as degenerate triangles.
+Shape repeats(std::size_t times) {
+  Complex complex = make_complex({0, 1, 2}, {});
+  const std::vector<std::uint64_t> simplices[] = {{0, 1, 2}, {2, 0, 1}, {1, 0, 2}, {0, 2, 0}, {1, 1, 2}, {1, 0}, {2}};
+  for (std::size_t i = 0; i < times; ++i) complex.simplices.push_back(simplices[i % std::size(simplices)]);
+  complex.kind = "repeats of a triangle";
+  return one_arc("repeats", std::move(complex));
+}
+
 class LargeShape : public testing::TestWithParam<Form> {
  protected:
   static void check(const Shape& shape) {
@@ -257,6 +281,8 @@ TEST_P(LargeShape, FanWithALowHub) { check(one_arc("closed fan", fan(1'000'000 /
 TEST_P(LargeShape, OpenFan) { check(one_arc("open fan", fan(1'000'000 / kScale, false))); }
 TEST_P(LargeShape, FanWithItsHubInTheMiddle) { check(crown(1'000'000 / kScale)); }
 TEST_P(LargeShape, BookWithManyPages) { check(spine(300'000 / kScale)); }
+TEST_P(LargeShape, StarOfLooseEdges) { check(star(1'000'000 / kScale)); }
+TEST_P(LargeShape, RepeatsOfATriangle) { check(repeats(1'000'000 / kScale)); }
 TEST_P(LargeShape, Plateau) { check(one_arc("plateau", plateau(1000, 500 / kScale))); }
 TEST_P(LargeShape, TiesAlongTheStream) { check(one_arc("strip", tied_strip(1000, 500 / kScale))); }
 
