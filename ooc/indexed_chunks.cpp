@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "ooc/chunk_source.h"
 #include "ooc/local_numbers.h"
@@ -32,11 +33,11 @@ class IndexedChunks : public ChunkSource {
 
  private:
   void pass_over(const ChunkPlace& start);
-  bool read_triangles(Chunk& chunk);
+  bool read_triangles(WorkItem& item);
   bool read_loose_vertices(Chunk& chunk);
   void set_uses(Chunk& chunk);
   void look_up(WorkItem& item);
-  void adapt(const Chunk& chunk);
+  void adapt(WorkItem& item);
 
   IndexedMesh& mesh_;
   LastUse& last_use_;
@@ -57,7 +58,8 @@ class IndexedChunks : public ChunkSource {
 
 bool IndexedChunks::next(WorkItem& item) {
   item.chunk.clear();
-  if (!read_triangles(item.chunk) && !read_loose_vertices(item.chunk)) return false;
+  item.sweep_alone = false;
+  if (!read_triangles(item) && !read_loose_vertices(item.chunk)) return false;
   look_up(item);
   item.end.triangles = triangles_read_;
   item.end.next_vertex = next_vertex_;
@@ -78,7 +80,8 @@ void IndexedChunks::pass_over(const ChunkPlace& start) {
 }
 
 // In pieces, so that corners are numbered while they are in the first cache.
-bool IndexedChunks::read_triangles(Chunk& chunk) {
+bool IndexedChunks::read_triangles(WorkItem& item) {
+  Chunk& chunk = item.chunk;
   constexpr std::size_t kPiece = 1024;
   const std::size_t most = blocks_ * block_triangles_;
   numbers_.start(chunk.ids, most);
@@ -93,7 +96,7 @@ bool IndexedChunks::read_triangles(Chunk& chunk) {
   triangles_read_ += count;
   set_uses(chunk);
   first_block_ += blocks_;
-  adapt(chunk);
+  adapt(item);
   return true;
 }
 
@@ -111,16 +114,28 @@ void IndexedChunks::set_uses(Chunk& chunk) {
   }
 }
 
-void IndexedChunks::adapt(const Chunk& chunk) {
+void IndexedChunks::adapt(WorkItem& item) {
+  const auto& uses = item.chunk.uses;
   const auto shared = static_cast<double>(
-      std::count_if(chunk.uses.begin(), chunk.uses.end(), [](std::uint8_t u) { return u != kUsedHereOnly; }));
-  const auto all = static_cast<double>(chunk.vertex_count());
+      std::count_if(uses.begin(), uses.end(), [](std::uint8_t u) { return u != kUsedHereOnly; }));
+  const auto all = static_cast<double>(item.chunk.vertex_count());
+  const auto triangles = static_cast<double>(item.chunk.triangle_count());
+  const auto allowance = static_cast<double>(size_.allowance_bytes);
+  item.sweep_alone = size_.parallel.bytes(triangles, shared) > allowance;
   const std::size_t least = std::max<std::size_t>(1, size_.first / block_triangles_);
   const std::size_t most = std::max<std::size_t>(1, size_.most / block_triangles_);
+  if (least == most) return;
+  const auto before = static_cast<double>(blocks_);
   if (shared > kManyShared * all && blocks_ < most)
     blocks_ = std::min(2 * blocks_, most);
   else if (shared < kManyShared / 4 * all && blocks_ > least)
     blocks_ = std::max(blocks_ / 2, least);
+  // The border of a chunk grows as the root of its area.
+  const auto fits = [&](std::size_t blocks) {
+    const double area = static_cast<double>(blocks) / before;
+    return size_.alone.bytes(triangles * area, shared * std::sqrt(area)) <= allowance;
+  };
+  while (blocks_ > 1 && !fits(blocks_)) --blocks_;
 }
 
 bool IndexedChunks::read_loose_vertices(Chunk& chunk) {

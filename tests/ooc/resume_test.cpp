@@ -197,9 +197,9 @@ TEST(Resume, TakesOverSegmentsWhateverTheThreadsChunksAndMemory) {
 
 // Chunks that adapt are cut in the same places, and buckets come out of segments as they went in.
 TEST(Resume, GivesTheSameEmbeddingWhateverTheThreads) {
-  Runs runs(grid_mesh(250, 250), true, "random:1");
+  Runs runs(grid_mesh(400, 400), true, "random:1");
   runs.options.graph_only = true;
-  runs.options.memory_bytes = 24 << 20;
+  runs.options.memory_bytes = 22 << 20;
   runs.options.threads = 2;
   for (const double denoise : {0.0, 0.3}) {
     runs.options.denoise = denoise;
