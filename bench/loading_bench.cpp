@@ -26,6 +26,8 @@ using namespace reeb::bench;
 class Sample {
  public:
   explicit Sample(bool embedding) : graph_(GraphMaker(kNoise, 2'500'000).make()) {
+    for (const SweepKey& node : graph_.nodes)
+      graph_.positions.push_back({static_cast<double>(node.vertex.value() % 1000), 0, node.value});
     const int exponent = bucket_exponent(graph_.nodes.front().value, graph_.nodes.back().value, 64);
     ArcBuckets buckets;
     if (embedding) buckets = make_buckets(graph_, exponent);

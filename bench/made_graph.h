@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "libreeb/base/union_find.h"
 #include "libreeb/graph/bucket.h"
 #include "libreeb/graph/reeb_graph.h"
 #include "libreeb/hierarchy/arc_buckets.h"
@@ -17,7 +18,7 @@
 namespace reeb::bench {
 
 // Perforated plate: one row of strips, every hole a loop. Noise: starts and ends, most of them soon.
-// Expander: any two contours of the row merge.
+// Expander: any two contours of the row merge. All are connected.
 enum GraphKind { kPlate, kNoise, kExpander };
 
 class GraphMaker {
@@ -27,12 +28,17 @@ class GraphMaker {
   ReebGraph make() {
     start(0);
     while (arcs_.size() + row_.size() < arcs_wanted_) event();
-    while (!row_.empty()) end(row_.size() - 1);
+    while (row_.size() > 1) merge(0, 1);
+    end(0);
     return make_graph(std::move(arcs_), {});
   }
 
  private:
   static constexpr std::size_t kWidth = 1000;
+  struct Contour {
+    SweepKey below;  // the node that it comes from
+    std::uint32_t component;
+  };
 
   SweepKey next_key() {
     value_ += static_cast<double>(random_() % 1000) / 1000;
@@ -41,21 +47,31 @@ class GraphMaker {
   std::size_t any() { return random_() % row_.size(); }
   auto place(std::size_t i) { return row_.begin() + static_cast<std::ptrdiff_t>(i); }
 
-  void start(std::size_t i) { row_.insert(place(i), 1, next_key()); }
+  void start(std::size_t i) {
+    row_.insert(place(i), {next_key(), components_.add()});
+    open_.push_back(1);
+  }
   void end(std::size_t i) {
-    arcs_.push_back({row_[i], next_key()});
+    arcs_.push_back({row_[i].below, next_key()});
+    --open_[components_.find(row_[i].component)];
     row_.erase(place(i));
   }
+  bool may_end(std::size_t i) { return open_[components_.find(row_[i].component)] > 1; }
   void split(std::size_t i) {
-    arcs_.push_back({row_[i], next_key()});
-    row_[i] = arcs_.back().hi;
-    row_.insert(place(i), row_[i]);
+    arcs_.push_back({row_[i].below, next_key()});
+    row_[i].below = arcs_.back().hi;
+    row_.insert(place(i), Contour(row_[i]));
+    ++open_[components_.find(row_[i].component)];
   }
   void merge(std::size_t i, std::size_t j) {
     const SweepKey key = next_key();
-    arcs_.push_back({row_[i], key});
-    arcs_.push_back({row_[j], key});
-    row_[i] = key;
+    arcs_.push_back({row_[i].below, key});
+    arcs_.push_back({row_[j].below, key});
+    const std::uint32_t a = components_.find(row_[i].component), b = components_.find(row_[j].component);
+    const std::uint32_t both = a == b ? open_[a] : open_[a] + open_[b];
+    components_.unite(a, b);
+    open_[components_.find(a)] = both - 1;
+    row_[i].below = key;
     row_.erase(place(j));
   }
 
@@ -65,7 +81,7 @@ class GraphMaker {
     if (kind_ == kNoise && random_() % 2 == 0) {
       if (grow)
         start(i);
-      else if (row_.size() > 1)
+      else if (may_end(i))
         end(i);
     } else if (grow || row_.size() == 1) {
       split(i);
@@ -88,7 +104,9 @@ class GraphMaker {
   std::mt19937_64 random_{1};
   double value_ = 0;
   std::uint64_t vertex_ = 0;
-  std::vector<SweepKey> row_;  // the node below each contour
+  std::vector<Contour> row_;
+  UnionFind components_{0};
+  std::vector<std::uint32_t> open_;  // contours of each component, by its representative
   std::vector<ArcKeys> arcs_;
 };
 

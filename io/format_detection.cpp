@@ -98,14 +98,31 @@ bool is_line_of_vertices(std::string_view line, std::size_t count) {
   return words == count + 1;
 }
 
+bool is_corner_number(std::string_view word) {
+  if (word.starts_with('-')) word.remove_prefix(1);
+  return is_vertex_number(word);
+}
+
+// A tetrahedron, perhaps with values behind its corners.
+bool is_cell_line(std::string_view line) {
+  std::size_t words = 0;
+  for (std::string_view word = first_word(line); !word.empty() && words < 5; word = first_word(line), ++words) {
+    if (words == 0 ? word != "c" : !is_corner_number(word)) return false;
+    line.remove_prefix(static_cast<std::size_t>(word.end() - line.begin()));
+  }
+  return words == 5;
+}
+
 // Streaming meshes may do without comments, too. What no OBJ file has: a triangle before all vertices,
-// as in post-order (faces of OBJ stand behind their vertices), and a line that finalizes a vertex.
+// as in post-order (faces of OBJ stand behind their vertices), a tetrahedron, and a line that finalizes
+// a vertex.
 bool has_streaming_line(std::string_view text) {
   bool vertices = false;
   while (!text.empty()) {
     const std::string_view line = take_line(text);
     const std::string_view word = first_word(line);
     if (word == "x" && is_line_of_vertices(line, 1)) return true;
+    if (word == "c" && is_cell_line(line)) return true;
     if (word == "f" && !vertices) return is_line_of_vertices(line, 3);
     vertices |= word == "v";
   }

@@ -5,6 +5,9 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <vector>
+
+#include "io/arc_line.h"
 
 namespace reeb::io {
 namespace {
@@ -37,8 +40,13 @@ std::uint64_t all_points(const GraphView& view) {
 template <class Visit>
 void for_each_point(const GraphView& view, const Visit& visit) {
   for (std::size_t i = 0; i < view.graph.node_count(); ++i) visit(node_position(view.graph, i));
-  for (std::size_t arc = 0; arc < view.graph.arc_count(); ++arc)
-    for_each_inner_point(view, arc, [&](const Bucket& bucket) { visit(bucket.mean); });
+  if (view.buckets.empty()) return;
+  std::vector<std::array<double, 3>> line;
+  for (std::size_t arc = 0; arc < view.graph.arc_count(); ++arc) {
+    draw_arc(node_position(view.graph, view.graph.lo[arc].value()), view.buckets.of(arc),
+             node_position(view.graph, view.graph.hi[arc].value()), line);
+    for (const auto& point : line) visit(point);
+  }
 }
 
 // Calls begin(points), point(index) for each, end(), for each arc.

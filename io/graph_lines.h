@@ -1,7 +1,7 @@
 // Reeb graphs as polylines in space: VTK XML, PLY, OBJ.
 //
-// Points are the nodes, in their order, then the non-empty buckets of each arc from below; an arc
-// is the line from its lower node through its buckets to its upper node.
+// Points are the nodes, in their order, then for each arc one a non-empty bucket, from below, as
+// arc_line.h makes them; an arc is the line from its lower node through these to its upper node.
 #pragma once
 
 #include "io/graph_export.h"

@@ -1,37 +1,61 @@
 #include "ooc/column_codec.h"
 
+#include <bit>
+
 #include "ooc/zstd_codec.h"
 
 namespace reeb::ooc {
 
 void ColumnEncoder::add_planes() {
   const std::size_t count = column_.size(), before = bytes_.size();
-  bytes_.resize(before + 8 * count);
-  std::byte* plane = bytes_.data() + before;
-  for (unsigned shift = 0; shift < 64; shift += 8, plane += count)
-    for (std::size_t i = 0; i < count; ++i) plane[i] = static_cast<std::byte>(column_[i] >> shift);
+  std::uint64_t all = 0;
+  for (const std::uint64_t code : column_) all |= code;
+  unsigned planes = 0;
+  for (unsigned p = 0; p < 8; ++p) planes |= (all >> 8 * p & 0xff) != 0 ? 1u << p : 0;
+  bytes_.resize(before + 1 + static_cast<std::size_t>(std::popcount(planes)) * count);
+  bytes_[before] = static_cast<std::byte>(planes);
+  std::byte* plane = bytes_.data() + before + 1;
+  for (unsigned p = 0; p < 8; ++p) {
+    if ((planes >> p & 1) == 0) continue;
+    for (std::size_t i = 0; i < count; ++i) plane[i] = static_cast<std::byte>(column_[i] >> 8 * p);
+    plane += count;
+  }
 }
 
 void ColumnEncoder::pack(std::vector<std::byte>& packed, int level) const {
-  zstd_compress(bytes_, level, packed);
+  thread_local ZstdCompressor compressor;
+  compressor.compress(bytes_, level, packed);
 }
 
 ColumnDecoder::ColumnDecoder(std::span<const std::byte> packed, std::size_t columns, std::size_t count)
-    : column_(count), tail_begin_(8 * columns * count) {
+    : column_(count), begin_(columns + 1) {
   constexpr std::size_t kMostTail = 1 << 28;  // far more than any block has
-  const std::size_t size = zstd_content_size(packed);
-  if (size < tail_begin_ || size - tail_begin_ > kMostTail) return;
+  const std::size_t size = zstd_content_size(packed), most = columns * (1 + 8 * count);
+  if (size > most && size - most > kMostTail) return;
   bytes_.resize(size);
-  ok_ = zstd_decompress(packed, bytes_);
+  ok_ = zstd_decompress(packed, bytes_) && find_columns();
+}
+
+bool ColumnDecoder::find_columns() {
+  std::size_t begin = 0;
+  for (std::size_t c = 0; c + 1 < begin_.size(); ++c) {
+    if (begin >= bytes_.size()) return false;
+    begin_[c] = begin;
+    begin += 1 + static_cast<std::size_t>(std::popcount(std::to_integer<unsigned>(bytes_[begin]))) * column_.size();
+  }
+  begin_.back() = begin;
+  return begin <= bytes_.size();
 }
 
 std::span<const std::uint64_t> ColumnDecoder::column(std::size_t column) {
   const std::size_t count = column_.size();
-  const std::byte* plane = bytes_.data() + 8 * column * count;
-  for (std::size_t i = 0; i < count; ++i) column_[i] = std::to_integer<std::uint64_t>(plane[i]);
-  for (unsigned shift = 8; shift < 64; shift += 8) {
+  const auto planes = std::to_integer<unsigned>(bytes_[begin_[column]]);
+  const std::byte* plane = bytes_.data() + begin_[column] + 1;
+  column_.assign(count, 0);
+  for (unsigned p = 0; p < 8; ++p) {
+    if ((planes >> p & 1) == 0) continue;
+    for (std::size_t i = 0; i < count; ++i) column_[i] |= std::to_integer<std::uint64_t>(plane[i]) << 8 * p;
     plane += count;
-    for (std::size_t i = 0; i < count; ++i) column_[i] |= std::to_integer<std::uint64_t>(plane[i]) << shift;
   }
   return column_;
 }

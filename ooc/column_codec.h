@@ -35,7 +35,9 @@ class ColumnEncoder {
   void add_planes();
 
   std::vector<std::uint64_t> column_;
-  std::vector<std::byte> bytes_;  // all lowest bytes of a column, then all second ones, and so on
+  // Of each column a byte whose bit i says that there is a plane i; then the planes: all lowest bytes,
+  // all second ones, and so on. Planes of nothing but zeros are left out.
+  std::vector<std::byte> bytes_;
 };
 
 class ColumnDecoder {
@@ -46,12 +48,14 @@ class ColumnDecoder {
   // The numbers of a column, until the next call. REQUIRES: ok().
   std::span<const std::uint64_t> column(std::size_t column);
   // What comes after the columns. REQUIRES: ok().
-  std::span<const std::byte> tail() const { return std::span(bytes_).subspan(tail_begin_); }
+  std::span<const std::byte> tail() const { return std::span(bytes_).subspan(begin_.back()); }
 
  private:
+  bool find_columns();
+
   std::vector<std::uint64_t> column_;
   std::vector<std::byte> bytes_;
-  std::size_t tail_begin_;
+  std::vector<std::size_t> begin_;  // of each column, and of the tail
   bool ok_ = false;
 };
 

@@ -16,6 +16,7 @@
 #include "ooc/last_use.h"
 #include "ooc/last_use_sidecar.h"
 #include "ooc/memory_plan.h"
+#include "ooc/read_ahead.h"
 #include "ooc/reeb_file_writer.h"
 #include "ooc/reorder.h"
 #include "ooc/resumable_run.h"
@@ -393,7 +394,7 @@ FileMeta Run::file_meta(const ComputeResult& result) const {
 // The graph as it was stored, in memory that does not grow with it but for 4 bytes a node; and, where
 // there is much to look up and memory is free, 4 bytes a vertex.
 void Run::write_stored_graph(ComputeResult& result, SegmentStore& store) {
-  constexpr std::size_t kNodes = 4096, kBytesAnArc = 1000, kManyVerticesANode = 16;
+  constexpr std::size_t kNodes = 16384, kBytesAnArc = 1000, kManyVerticesANode = 16;
   const std::size_t pieces = std::clamp<std::size_t>(budget_.free_bytes() / kBytesAnArc, 4096, 65536);
   GraphFileWriter::Options writing{.has_embedding = embeds(),
                                    .ends = GraphFileWriter::ArcEnds::kKeys,
@@ -406,10 +407,14 @@ void Run::write_stored_graph(ComputeResult& result, SegmentStore& store) {
   }
   GraphFileWriter writer(result.output, file_meta(result), writing);
   store.nodes().rewind();
-  for (std::vector<SettledNode> nodes; store.nodes().read(nodes, kNodes);) writer.add_nodes(nodes);
+  read_ahead<std::vector<SettledNode>>(
+      writing.background, [&](auto& nodes) { return store.nodes().read(nodes, kNodes); },
+      [&](const auto& nodes) { writer.add_nodes(nodes); });
   store.rewind_arcs();
   const std::optional<int> exponent = sweep_options(result.range).bucket_exponent;
-  for (ArcPiece piece; store.read_arcs(piece, pieces, exponent);) writer.add_arcs(piece.arcs, piece.buckets.view());
+  read_ahead<ArcPiece>(
+      writing.background, [&](ArcPiece& piece) { return store.read_arcs(piece, pieces, exponent); },
+      [&](const ArcPiece& piece) { writer.add_arcs(piece.arcs, piece.buckets.view()); });
   writer.finish();
   result.betti = {writer.header().components, writer.header().loops};
 }
@@ -423,7 +428,7 @@ LoadedGraph Run::load_graph(ComputeResult& result, SegmentStore& store) {
   const Reservation scratch = budget_.reserve(
       "last pass of noise removal", kBytesAnArc * loaded.graph.arc_count() + kBytesANode * loaded.graph.node_count() +
                                         kBytesABucket * loaded.buckets.buckets.size());
-  Denoised denoised = denoise(loaded.graph, sweep.noise_below, loaded.buckets, sweep.bucket_exponent.value_or(0));
+  Denoised denoised = denoise(std::move(loaded.graph), sweep.noise_below, loaded.buckets, sweep.bucket_exponent.value_or(0));
   loaded.graph = std::move(denoised.graph);
   result.denoised_pairs += denoised.removed.size();
   result.nodes = loaded.graph.node_count();

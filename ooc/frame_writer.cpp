@@ -1,7 +1,6 @@
 #include "ooc/frame_writer.h"
 
 #include "libreeb/format/byte_coding.h"
-#include "ooc/zstd_codec.h"
 
 namespace reeb::ooc {
 namespace {
@@ -19,7 +18,7 @@ FrameWriter::FrameWriter(const std::string& path, std::uint64_t region_bytes) : 
 void FrameWriter::add(FrameHeader header, std::span<const std::byte> payload) {
   digest_.add(payload);
   packed_.clear();
-  if (payload.size() >= kCompressFromBytes) zstd_compress(payload, kZstdLevel, packed_);
+  if (payload.size() >= kCompressFromBytes) compressor_.compress(payload, kZstdLevel, packed_);
   const bool pays = !packed_.empty() && packed_.size() < payload.size();
   const std::span<const std::byte> stored = pays ? packed_ : payload;
   header.raw_bytes = static_cast<std::uint32_t>(payload.size());

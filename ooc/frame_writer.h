@@ -10,6 +10,7 @@
 #include "libreeb/format/reeb_format.h"
 #include "ooc/atomic_file.h"
 #include "ooc/checksum.h"
+#include "ooc/zstd_codec.h"
 
 namespace reeb::ooc {
 
@@ -31,6 +32,7 @@ class FrameWriter {
  private:
   AtomicFile file_;
   RunningChecksum digest_;
+  ZstdCompressor compressor_;
   std::vector<std::uint64_t> offsets_;  // of the frames
   std::vector<std::byte> frame_, packed_;
 };

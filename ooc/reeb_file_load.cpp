@@ -67,11 +67,13 @@ std::vector<std::uint32_t> sorted_arcs(const std::vector<FileArc>& arcs) {
   return order;
 }
 
+// Uses up the nodes.
 ReebGraph nodes_by_rank(LiveRecords& live, bool positions) {
   ReebGraph graph;
   const auto order = sorted_nodes(live);
   std::vector<std::uint32_t> rank(live.nodes.size());
   graph.nodes.reserve(order.size());
+  if (positions) graph.positions.reserve(order.size());
   for (const std::uint32_t node : order) {
     rank[node] = static_cast<std::uint32_t>(graph.nodes.size());
     graph.nodes.push_back(live.nodes[node].key);
@@ -81,6 +83,8 @@ ReebGraph nodes_by_rank(LiveRecords& live, bool positions) {
     arc.lo = rank[arc.lo];
     arc.hi = rank[arc.hi];
   }
+  live.nodes = {};
+  live.used = {};
   return graph;
 }
 
@@ -95,7 +99,9 @@ void arcs_by_rank(const LiveRecords& live, ReebGraph& graph, ArcBuckets& buckets
   if (live.bucket_counts.empty()) return;
   std::vector<std::uint64_t> first(order.size());
   std::exclusive_scan(live.bucket_counts.begin(), live.bucket_counts.end(), first.begin(), std::uint64_t{0});
-  buckets.offsets.assign(1, 0);
+  buckets.offsets.reserve(order.size() + 1);
+  buckets.offsets.push_back(0);
+  buckets.buckets.reserve(live.buckets.size());
   for (const std::uint32_t i : order) {
     const auto begin = live.buckets.begin() + static_cast<std::ptrdiff_t>(first[i]);
     buckets.buckets.insert(buckets.buckets.end(), begin, begin + live.bucket_counts[i]);

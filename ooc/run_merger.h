@@ -82,13 +82,17 @@ class RunMerger {
     play_all();
   }
 
-  bool empty() const { return heads_[winner_] == nullptr; }
+  bool empty() const { return heads_[winner_].place == nullptr; }
 
   // Moves the first record to the end of `out`. REQUIRES: !empty().
   void take(RecordBatch<Record>& out) {
     const Cursor& top = cursors_[winner_];
-    out.add(*heads_[winner_], top.block.payload(*heads_[winner_]));
-    if (++heads_[winner_] == top.block.records.data() + top.block.records.size()) refill(winner_);
+    Head& head = heads_[winner_];
+    out.add(head.record, top.block.payload(head.record));
+    if (++head.place == top.end)
+      refill(winner_);
+    else
+      head.record = *head.place;
     replay();
   }
 
@@ -96,16 +100,25 @@ class RunMerger {
   struct Cursor {
     RunPlace rest;
     RecordBatch<Record> block;  // at hand
+    const Record* end = nullptr;
+  };
+  // The first record left of a run, copied from its place, so that comparing does not touch a block of
+  // each run. At the run's end the place is null.
+  struct Head {
+    Record record{};
+    const Record* place = nullptr;
   };
 
   void refill(std::size_t i) {
     Cursor& cursor = cursors_[i];
-    heads_[i] = nullptr;
+    heads_[i].place = nullptr;
     if (cursor.rest.blocks == 0) return;
     const std::uint64_t offset = cursor.rest.offset;
     cursor.block.records.resize(file_->read(cursor.rest, packed_));
     if (!decode(cursor.block) || cursor.block.empty()) file_->refuse(offset);
-    heads_[i] = cursor.block.records.data();
+    const std::vector<Record>& records = cursor.block.records;
+    cursor.end = records.data() + records.size();
+    heads_[i] = {records[0], records.data()};
   }
 
   bool decode(RecordBatch<Record>& block) const {
@@ -117,8 +130,9 @@ class RunMerger {
 
   // A total order of the runs that have records left; the others come after them.
   bool beats(std::size_t a, std::size_t b) const {
-    if (heads_[a] == nullptr || heads_[b] == nullptr) return heads_[a] != nullptr;
-    return a < b ? !Less()(*heads_[b], *heads_[a]) : Less()(*heads_[a], *heads_[b]);
+    const Head &x = heads_[a], &y = heads_[b];
+    if (x.place == nullptr || y.place == nullptr) return x.place != nullptr;
+    return a < b ? !Less()(y.record, x.record) : Less()(x.record, y.record);
   }
 
   // Run i is leaf n + i of a tree with the inner nodes 1 .. n - 1; node i has the children 2i, 2i + 1.
@@ -143,7 +157,7 @@ class RunMerger {
   const RunFile* file_;
   std::vector<std::byte> packed_;
   std::vector<Cursor> cursors_;
-  std::vector<const Record*> heads_;  // the first record left of each run; null at its end
+  std::vector<Head> heads_;           // by run
   std::vector<std::size_t> losers_;   // by inner node: who lost there
   std::size_t winner_ = 0;
 };

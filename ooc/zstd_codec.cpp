@@ -1,20 +1,29 @@
 #include "ooc/zstd_codec.h"
 
-#include <zstd.h>
+#include <new>
+#include <string>
 
 #include "libreeb/base/error.h"
 
 namespace reeb::ooc {
 
-void zstd_compress(std::span<const std::byte> bytes, int level, std::vector<std::byte>& out) {
+ZstdCompressor::ZstdCompressor() : context_(ZSTD_createCCtx()) {
+  if (context_ == nullptr) throw std::bad_alloc();
+}
+
+void ZstdCompressor::compress(std::span<const std::byte> bytes, int level, std::vector<std::byte>& out) {
   const std::size_t before = out.size();
   out.resize(before + ZSTD_compressBound(bytes.size()));
-  const std::size_t size =
-      ZSTD_compress(out.data() + before, out.size() - before, bytes.data(), bytes.size(), level);
+  const std::size_t size = ZSTD_compressCCtx(context_.get(), out.data() + before, out.size() - before,
+                                             bytes.data(), bytes.size(), level);
   if (ZSTD_isError(size) != 0)
     throw Error(ErrorKind::kResource, std::string("zstd: ") + ZSTD_getErrorName(size),
                 "allow more with --memory");
   out.resize(before + size);
+}
+
+void zstd_compress(std::span<const std::byte> bytes, int level, std::vector<std::byte>& out) {
+  ZstdCompressor().compress(bytes, level, out);
 }
 
 std::size_t zstd_content_size(std::span<const std::byte> bytes) {

@@ -1,13 +1,31 @@
 // zstd around byte spans. Checksums are the callers': a frame's meaning decides what is covered.
 #pragma once
 
+#include <zstd.h>
+
 #include <cstddef>
+#include <memory>
 #include <span>
 #include <vector>
 
 namespace reeb::ooc {
 
-// Appends the compressed form of `bytes` to `out`. Level 1 is the fast default of temporary files.
+// Keeps its tables, about 1 MB, from one call to the next: for many small pieces.
+// THREADS: one at a time.
+class ZstdCompressor {
+ public:
+  ZstdCompressor();
+  // Appends the compressed form of `bytes` to `out`. Level 1 is the fast default of temporary files.
+  void compress(std::span<const std::byte> bytes, int level, std::vector<std::byte>& out);
+
+ private:
+  struct Free {
+    void operator()(ZSTD_CCtx* context) const { ZSTD_freeCCtx(context); }
+  };
+  std::unique_ptr<ZSTD_CCtx, Free> context_;
+};
+
+// The same for a single piece.
 void zstd_compress(std::span<const std::byte> bytes, int level, std::vector<std::byte>& out);
 
 // How many bytes these say that they were; 0 if they are nothing that zstd_compress wrote.

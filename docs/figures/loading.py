@@ -30,7 +30,7 @@ def panel(out, x0, title, unit, y_range, series, promise=None):
     for decade in range(math.ceil(y_lo), math.floor(y_hi) + 1):
         y = at(100, 10**decade).split(",")[1]
         out.append(f'<line x1="{x0}" y1="{y}" x2="{x0 + SIZE}" y2="{y}" stroke="{GREY}"/>')
-        label = f"{10**decade:g}" if decade < 4 else f"10^{decade}"
+        label = f"{10**decade:g}" if decade < 0 else f"{10**decade:,}"
         out.append(f'<text x="{x0 - 6}" y="{float(y) + 4}" text-anchor="end">{label}</text>')
     out.append(f'<text x="{x0 + SIZE / 2}" y="{TOP + SIZE + 34}" text-anchor="middle">nodes of the level</text>')
     out.append(f'<text x="{x0 - 46}" y="{TOP + SIZE / 2}" text-anchor="middle" transform="rotate(-90 {x0 - 46} {TOP + SIZE / 2})">{unit}</text>')

@@ -212,6 +212,14 @@ std::int32_t Grid::place(std::size_t axis, float x) const {
   return static_cast<std::int32_t>(std::clamp(place, 0.0, static_cast<double>(top[axis])));
 }
 
+float Grid::position(std::size_t axis, std::int32_t place) const {
+  const double offset = units_a_place * place;
+  const double x = offset + min[axis];
+  if (std::abs(x) > static_cast<double>(std::numeric_limits<float>::max()))
+    fail(Fault::kBadNumber, "a coordinate is not finite", {});
+  return static_cast<float>(x);
+}
+
 PositionCoder::PositionCoder(std::uint32_t precision, const std::optional<StreamBox>& box) {
   const bool quantized = precision > 0 && box;
   if (quantized) grid_.emplace_back(*box, precision);

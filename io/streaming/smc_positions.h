@@ -116,10 +116,8 @@ struct Grid {
   // REQUIRES: a finite box with some extent; 1 <= precision <= 24.
   Grid(const StreamBox& box, std::uint32_t precision);
   std::int32_t place(std::size_t axis, float x) const;
-  float position(std::size_t axis, std::int32_t place) const {
-    const double offset = units_a_place * place;
-    return static_cast<float>(offset + min[axis]);
-  }
+  // THROWS: BAD_NUMBER: the last place may lie half a step outside the box, and so beyond float32.
+  float position(std::size_t axis, std::int32_t place) const;
 };
 
 class PositionCoder {

@@ -192,9 +192,9 @@ void SmcEventReader::deliver(const SmcState::Triangle& triangle, SmcOperation op
   // New vertices are the last corners, in the order in which they were decoded.
   for (std::size_t i = 3 - new_vertices_; i < 3; ++i) {
     const SmcVertex& vertex = state_.vertex(corners[i]);
+    const auto position = positions_->to_position(vertex.position);
     StreamEvent& event = push(EventKind::kVertex);
     event.vertex = vertex.index;
-    const auto position = positions_->to_position(vertex.position);
     std::copy(position.begin(), position.end(), event.floats.begin());
   }
   vertices_ += new_vertices_;

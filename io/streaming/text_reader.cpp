@@ -51,7 +51,8 @@ void TextEventReader::skip_unknown(std::string_view line) {
   if (++skipped_ > kSkippedInFull) return;
   std::string text = "SKIPPED: line " + std::to_string(lines_.number()) + ": '" +
                      std::string(line.substr(0, 60)) + "'";
-  if (!header_.volume && starts_with_letter(line, 'c')) text += " (looks like a volume mesh)";
+  if (!header_.volume && starts_with_letter(line, 'c'))
+    text += " (looks like a volume mesh, but no line '# svtype tet' says so)";
   if (header_.volume && starts_with_letter(line, 'f')) text += " (looks like a surface mesh)";
   if (header_.volume && starts_with_letter(line, 'p')) text += " (looks like a point cloud)";
   warn(std::move(text));

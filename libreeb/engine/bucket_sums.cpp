@@ -6,17 +6,6 @@
 
 namespace reeb {
 
-BucketSum BucketSum::take(std::uint64_t taken) {
-  BucketSum part{index, taken, {}};
-  const double share = static_cast<double>(taken) / static_cast<double>(count);
-  for (std::size_t k = 0; k < 3; ++k) {
-    part.sum[k] = static_cast<Int128>(static_cast<double>(sum[k]) * share);
-    sum[k] -= part.sum[k];
-  }
-  count -= taken;
-  return part;
-}
-
 Bucket BucketSum::mean() const {
   Bucket bucket{index, count, {}};
   for (std::size_t k = 0; k < 3; ++k)
@@ -26,152 +15,139 @@ Bucket BucketSum::mean() const {
 
 void BucketLists::start(int exponent) {
   sums_.clear();
-  next_.clear();
+  links_.clear();
   first_free_ = kNone;
-  exponent_ = exponent;
+  indexer_ = BucketIndexer(exponent);
 }
 
 BucketLists::Index BucketLists::new_bucket(const BucketSum& bucket) {
   Index b = first_free_;
   if (b != kNone) {
-    first_free_ = next_[b];
-    sums_[b] = bucket;
-    return b;
+    first_free_ = links_[b].next;
+  } else {
+    b = static_cast<Index>(sums_.size());
+    sums_.grow_by(1);
+    links_.grow_by(1);
   }
-  b = static_cast<Index>(sums_.size());
-  sums_.grow_by(1);
-  next_.grow_by(1);
   sums_[b] = bucket;
-  next_[b] = b;
+  links_[b] = {bucket.index, b};
   return b;
 }
 
-void BucketLists::free_bucket(Index b) { next_[b] = std::exchange(first_free_, b); }
+void BucketLists::free_bucket(Index b) { links_[b].next = std::exchange(first_free_, b); }
 
 void BucketLists::link_last(List& list, Index b) {
-  next_[b] = list.empty() ? b : std::exchange(next_[list.last], b);
+  links_[b].next = list.empty() ? b : std::exchange(links_[list.last].next, b);
   list.last = b;
 }
 
-void BucketLists::append_bucket(List& list, const BucketSum& bucket) {
-  list.exponent = exponent_;
-  link_last(list, new_bucket(bucket));
+// The bucket comes last, or becomes one with the last.
+void BucketLists::link_or_add(List& list, Index b) {
+  if (list.empty() || links_[list.last].index != links_[b].index) return link_last(list, b);
+  sums_[list.last].add(sums_[b]);
+  free_bucket(b);
 }
 
 void BucketLists::append(List& list, const BucketSum& bucket) {
-  if (list.empty() || sums_[list.last].index != bucket.index)
-    append_bucket(list, bucket);
+  if (list.empty() || links_[list.last].index != bucket.index)
+    link_last(list, new_bucket(bucket));
   else
     sums_[list.last].add(bucket);
 }
 
 void BucketLists::add_vertex(List& list, double value, const Point& position) {
-  bring_up(list);
-  const std::int64_t index = index_of(value);
-  if (list.empty() || sums_[list.last].index <= index) return add_last(list, index, position);
+  const std::int64_t index = indexer_(value);
+  if (!list.empty() && links_[list.last].index == index) return sums_[list.last].add(position);
   List vertex;
-  add_last(vertex, index, position);
+  link_last(vertex, new_bucket({index, 0, {}}));
+  sums_[vertex.last].add(position);
   merge(list, vertex);
 }
 
 void BucketLists::remove_first(List& list) {
-  const Index first = next_[list.last];
+  const Index first = links_[list.last].next;
   if (first == list.last)
     list.last = kNone;
   else
-    next_[list.last] = next_[first];
+    links_[list.last].next = links_[first].next;
   free_bucket(first);
 }
 
 void BucketLists::concatenate(List& lower, List& upper) {
-  bring_up(lower);
-  bring_up(upper);
-  if (!lower.empty() && !upper.empty() &&
-      sums_[lower.last].index == sums_[next_[upper.last]].index) {
-    sums_[lower.last].add(sums_[next_[upper.last]]);
-    remove_first(upper);
-  }
   if (upper.empty()) return;
-  if (!lower.empty()) std::swap(next_[lower.last], next_[upper.last]);
+  if (!lower.empty()) {
+    const Index first = links_[upper.last].next;
+    if (links_[lower.last].index == links_[first].index) {
+      sums_[lower.last].add(sums_[first]);
+      remove_first(upper);
+      if (upper.empty()) return;
+    }
+    std::swap(links_[lower.last].next, links_[upper.last].next);
+  }
   lower.last = std::exchange(upper.last, kNone);
 }
 
+void BucketLists::concatenate(List& lower, double value, const Point& position, List& upper) {
+  const std::int64_t index = indexer_(value);
+  if (Index first; lower.empty() && !upper.empty() && links_[first = links_[upper.last].next].index == index)
+    sums_[first].add(position);
+  else
+    add_vertex(lower, value, position);
+  concatenate(lower, upper);
+}
+
 void BucketLists::merge(List& into, List& from) {
-  bring_up(into);
-  bring_up(from);
   if (from.empty()) return;
-  if (into.empty() || sums_[into.last].index <= sums_[next_[from.last]].index)
+  if (into.empty() || links_[into.last].index <= links_[links_[from.last].next].index)
     return concatenate(into, from);
-  if (sums_[from.last].index <= sums_[next_[into.last]].index) {
+  Index a = links_[into.last].next, b = links_[from.last].next;
+  if (links_[from.last].index <= links_[a].index) {
     concatenate(from, into);
     std::swap(from, into);
     return;
   }
-  Index a = next_[into.last], b = next_[from.last];
-  next_[into.last] = next_[from.last] = kNone;
-  List merged{kNone, exponent_};
+  links_[into.last].next = links_[from.last].next = kNone;
+  List merged;
   while (a != kNone || b != kNone) {
-    Index& least = b == kNone || (a != kNone && sums_[a].index <= sums_[b].index) ? a : b;
-    link_or_add(merged, std::exchange(least, next_[least]));
+    Index& least = b == kNone || (a != kNone && links_[a].index <= links_[b].index) ? a : b;
+    link_or_add(merged, std::exchange(least, links_[least].next));
   }
   into = merged;
   from.last = kNone;
 }
 
 BucketLists::List BucketLists::take_above(List& list, double lo, double at, double hi) {
-  bring_up(list);
   if (list.empty()) return {};
-  const std::int64_t divided = index_of(at);
-  Index below = kNone, b = next_[list.last];  // the last one below `at`, and the one after it
-  const auto step = [&] { b = next_[below = b]; };
-  while (sums_[b].index < divided && below != list.last) step();
-  if (below != list.last && sums_[b].index == divided) {
-    const std::uint64_t count = sums_[b].count, above = count_above(sums_[b], lo, at, hi);
-    if (above == 0) {
-      step();
-    } else if (above < count) {
-      const Index part = new_bucket(sums_[b].take(count - above));
-      next_[below == kNone ? list.last : below] = part;
-      next_[part] = b;
-      below = part;
-    }
-  }
-  if (below == list.last) return {};
-  if (below == kNone) return std::exchange(list, {});
+  const std::int64_t above = first_above(lo, at, hi);
+  if (links_[list.last].index < above) return {};
+  const Index first = links_[list.last].next;
+  if (links_[first].index >= above) return std::exchange(list, {});
+  Index below = first, b = links_[first].next;
+  while (links_[b].index < above) b = links_[below = b].next;
   const List taken = list;
-  next_[below] = std::exchange(next_[list.last], b);
+  links_[below].next = std::exchange(links_[list.last].next, b);
   list.last = below;
   return taken;
 }
 
 // In halves, so that no difference overflows.
-std::uint64_t BucketLists::count_above(const BucketSum& bucket, double lo, double at,
-                                       double hi) const {
-  const auto index = static_cast<double>(bucket.index);
-  const double least = std::max(lo / 2, std::ldexp(index, exponent_ - 1));
-  const double most = std::min(hi / 2, std::ldexp(index + 1, exponent_ - 1));
-  const double share = most > least ? std::clamp((most - at / 2) / (most - least), 0.0, 1.0) : 0.5;
-  const double above = std::nearbyint(share * static_cast<double>(bucket.count));
-  return std::min(static_cast<std::uint64_t>(above), bucket.count);
+std::int64_t BucketLists::first_above(double lo, double at, double hi) const {
+  const std::int64_t divided = indexer_(at);
+  const double begin = indexer_(lo) == divided ? lo / 2 : std::ldexp(static_cast<double>(divided), exponent() - 1);
+  const double end = indexer_(hi) == divided ? hi / 2 : std::ldexp(static_cast<double>(divided + 1), exponent() - 1);
+  return end - at / 2 > at / 2 - begin ? divided : divided + 1;
 }
 
-void BucketLists::coarsen(List& list) {
-  const int shift = std::min(exponent_ - list.exponent, 63);
-  list.exponent = exponent_;
+void BucketLists::coarsen(List& list, int levels) {
   if (list.empty()) return;
-  Index b = next_[list.last];
-  next_[std::exchange(list.last, kNone)] = kNone;
+  Index b = links_[list.last].next;
+  links_[std::exchange(list.last, kNone)].next = kNone;
   while (b != kNone) {
-    sums_[b].index >>= shift;
-    link_or_add(list, std::exchange(b, next_[b]));
+    const Index next = links_[b].next;
+    links_[b].index = sums_[b].index >>= std::min(levels, 63);
+    link_or_add(list, b);
+    b = next;
   }
-}
-
-// The bucket comes last, or becomes one with the last.
-void BucketLists::link_or_add(List& list, Index b) {
-  if (list.empty() || sums_[list.last].index != sums_[b].index) return link_last(list, b);
-  sums_[list.last].add(sums_[b]);
-  free_bucket(b);
 }
 
 void lay_on_path(BucketLists& lists, BucketLists::List& from, Direction d, double saddle,
@@ -189,16 +165,16 @@ void lay_on_path(BucketLists& lists, BucketLists::List& from, Direction d, doubl
 
 void BucketLists::save(StateWriter& out) const {
   sums_.save(out);
-  next_.save(out);
+  links_.save(out);
   out.put(first_free_);
-  out.put(exponent_);
+  out.put(exponent());
 }
 
 void BucketLists::restore(StateReader& in) {
   sums_.restore(in);
-  next_.restore(in);
+  links_.restore(in);
   in.get(first_free_);
-  in.get(exponent_);
+  indexer_ = BucketIndexer(in.get<int>());
 }
 
 }  // namespace reeb

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -19,11 +20,12 @@ namespace reeb {
 
 __extension__ typedef __int128 Int128;
 
+// In units of 2^-44 a coordinate below this is a 64-bit number.
+inline constexpr double kSmallCoordinate = 0x1p18;
+
 // A coordinate in units of 2^-44, cut off towards zero; what is no number is the least.
 inline Int128 fixed_point(double x) {
-  constexpr double kFits = 0x1p18, kMost = 0x1p50;
-  if (x > -kFits && x < kFits) [[likely]]
-    return static_cast<std::int64_t>(x * 0x1p44);
+  constexpr double kMost = 0x1p50;
   x = x > -kMost ? x : -kMost;
   x = x < kMost ? x : kMost;
   const auto whole = static_cast<std::int64_t>(x);
@@ -38,19 +40,21 @@ struct BucketSum {
 
   void add(const Point& position) {
     ++count;
-    for (std::size_t k = 0; k < 3; ++k) sum[k] += fixed_point(position[k]);
+    const auto& [x, y, z] = position;
+    if (std::abs(x) + std::abs(y) + std::abs(z) < kSmallCoordinate) [[likely]]
+      for (std::size_t k = 0; k < 3; ++k) sum[k] += static_cast<std::int64_t>(position[k] * 0x1p44);
+    else
+      for (std::size_t k = 0; k < 3; ++k) sum[k] += fixed_point(position[k]);
   }
   void add(const BucketSum& other) {
     count += other.count;
     for (std::size_t k = 0; k < 3; ++k) sum[k] += other.sum[k];
   }
-  // Takes so many of the vertices out, with their share of the sum, or nearly; nothing is lost.
-  BucketSum take(std::uint64_t taken);
   Bucket mean() const;
 };
 
-// Lists of buckets, ascending by index, in one pool. Each list has the exponent of its last change
-// and is brought up to that of the pool before the next.
+// Lists of buckets, ascending by index, in one pool, all of one exponent. What the lists are asked for
+// mostly lies apart from the sums, and close together.
 class BucketLists {
  public:
   using Index = std::uint32_t;
@@ -58,73 +62,89 @@ class BucketLists {
 
   struct List {
     Index last = kNone;  // whose next one is the first
-    std::int32_t exponent = 0;
     bool empty() const { return last == kNone; }
   };
 
   // Forgets all lists; keeps the memory.
   void start(int exponent);
-  // REQUIRES: not less than before.
-  void raise_exponent(int exponent) { exponent_ = exponent; }
-  int exponent() const { return exponent_; }
-  std::int64_t index_of(double value) const { return bucket_index(value, exponent_); }
-
-  // Adds a vertex to the last bucket. REQUIRES: the list is of the pool's exponent, or empty; its
-  // last index <= index.
-  void add_last(List& list, std::int64_t index, const Point& position) {
-    if (list.empty() || sums_[list.last].index != index) append_bucket(list, {index, 0, {}});
-    sums_[list.last].add(position);
+  int exponent() const { return indexer_.exponent(); }
+  // Sets the exponent, for which `lists`, all that there are, are coarsened: O(buckets) if it changes.
+  // REQUIRES: not less than before, unless all lists are empty.
+  template <class Lists>
+  void raise_exponent(int exponent, Lists& lists) {
+    const int levels = exponent - indexer_.exponent();
+    if (levels == 0) return;
+    indexer_ = BucketIndexer(exponent);
+    for (std::size_t i = 0; i < lists.size(); ++i) coarsen(lists[i], levels);
   }
-  // The same for any list and value. O(1) at the list's ends.
+
+  // For a sweep: all vertices up to the next call are in the bucket of this index, which is not less
+  // than before. REQUIRES, for as long as vertices are added by bucket_at_hand: no other change.
+  void start_bucket(std::int64_t index) {
+    index_at_hand_ = index;
+    first_at_hand_ = static_cast<Index>(sums_.size());
+  }
+  // That bucket of the list, to which vertices can be added at any later time.
+  Index bucket_at_hand(List& list) {
+    const Index made = static_cast<Index>(sums_.size()) - first_at_hand_;
+    if (list.last - first_at_hand_ >= made) link_last(list, new_bucket({index_at_hand_, 0, {}}));
+    return list.last;
+  }
+  void add_to_bucket(Index bucket, const Point& position) { sums_[bucket].add(position); }
+
+  // Adds a vertex. O(1) at the list's ends.
   void add_vertex(List& list, double value, const Point& position);
-  // REQUIRES: of the pool's exponent; the list is of that, or empty; its last index <= this one.
+  // REQUIRES: the list's last index <= this one.
   void append(List& list, const BucketSum& bucket);
-  // Moves the buckets of `upper` behind those of `lower`. O(1) where both are up to date.
+  // Moves the buckets of `upper` behind those of `lower`. O(1).
   // REQUIRES: last index of `lower` <= first index of `upper`.
   void concatenate(List& lower, List& upper);
+  // The same with a vertex between them.
+  void concatenate(List& lower, double value, const Point& position, List& upper);
   // Moves the buckets of `from`, whichever they are, to `into`.
   void merge(List& into, List& from);
-  // Of buckets that lie between the values lo and hi, takes those above `at`. The one that `at`
-  // divides is divided in proportion to the value.
+  // Of buckets that lie between the values lo and hi, takes those above `at`. The one in which `at` lies
+  // goes whole to where the greater part of it is.
   List take_above(List& list, double lo, double at, double hi);
   // Calls visit(bucket) for all buckets, ascending, and forgets them.
   template <class Visit>
   void drain(List& list, const Visit& visit) {
     if (list.empty()) return;
-    bring_up(list);
-    const Index first = next_[list.last];
-    for (Index b = first;; b = next_[b]) {
+    const Index first = links_[list.last].next;
+    for (Index b = first;; b = links_[b].next) {
       visit(sums_[b]);
       if (b == list.last) break;
     }
-    next_[list.last] = first_free_;
+    links_[list.last].next = first_free_;
     first_free_ = first;
     list.last = kNone;
   }
 
-  std::size_t memory_bytes() const {
-    return sums_.memory_bytes() + next_.memory_bytes();
-  }
+  std::size_t memory_bytes() const { return sums_.memory_bytes() + links_.memory_bytes(); }
   void save(StateWriter& out) const;
   void restore(StateReader& in);
 
  private:
+  struct Link {
+    std::int64_t index;  // as in the sum
+    Index next;          // in its list, or of free buckets
+  };
+
   Index new_bucket(const BucketSum& bucket);
   void free_bucket(Index b);
   void link_last(List& list, Index b);
   void link_or_add(List& list, Index b);
-  void append_bucket(List& list, const BucketSum& bucket);
   void remove_first(List& list);
-  void bring_up(List& list) {
-    if (list.exponent != exponent_) coarsen(list);
-  }
-  void coarsen(List& list);
-  std::uint64_t count_above(const BucketSum& bucket, double lo, double at, double hi) const;
+  void coarsen(List& list, int levels);
+  // Buckets of this index and more lie above `at`.
+  std::int64_t first_above(double lo, double at, double hi) const;
 
   GrowingArray<BucketSum> sums_;
-  GrowingArray<Index> next_;  // in its list, or of free buckets
+  GrowingArray<Link> links_;
   Index first_free_ = kNone;
-  int exponent_ = 0;
+  BucketIndexer indexer_;
+  std::int64_t index_at_hand_ = 0;
+  Index first_at_hand_ = 0;  // buckets from here on are of that index
 };
 
 // An arc of a path, from its beginning, and the value at its far end.

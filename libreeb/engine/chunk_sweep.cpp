@@ -14,8 +14,6 @@ namespace reeb {
 namespace {
 
 constexpr std::uint32_t kNone = ~std::uint32_t{0};
-// Positions lie in the order of the stream: so many vertices ahead of the sweep they are asked for.
-constexpr std::uint32_t kPrefetched = 16;
 
 // The triangles that cross the level, each by two of its edges: lo-hi, and lo-mid up to its middle
 // vertex, mid-hi from there on. These are its half-edges 2 * t and 2 * t + 1, each in a ring with
@@ -147,37 +145,14 @@ class Labels {
   std::vector<Label> labels_;
 };
 
-// The bucket in which the sweep is. It only rises, so where the next one begins is searched for
-// once a bucket.
-class RisingBucket {
- public:
-  RisingBucket() = default;
-  RisingBucket(const SweptChunk& swept, const SweepOptions& options)
-      : swept_(&swept), is_wanted_(options.bucket_exponent), exponent_(options.bucket_exponent.value_or(0)) {}
-
-  bool is_wanted() const { return is_wanted_; }
-  // The bucket of the vertex of this rank, which is not less than before.
-  std::int64_t at(std::uint32_t v) {
-    if (v >= end_) advance(v);
-    return index_;
-  }
-
- private:
-  void advance(std::uint32_t v) {
-    index_ = bucket_index(swept_->value(v), exponent_);
-    const double end = std::ldexp(static_cast<double>(index_ + 1), exponent_);
-    const auto rest = swept_->order.subspan(v + 1);
-    const auto next = std::partition_point(
-        rest.begin(), rest.end(), [&](std::uint32_t i) { return swept_->values[i] < end; });
-    end_ = v + 1 + static_cast<std::uint32_t>(next - rest.begin());
-  }
-
-  const SweptChunk* swept_ = nullptr;
-  bool is_wanted_ = false;
-  int exponent_ = 0;
-  std::int64_t index_ = 0;
-  std::uint32_t end_ = 0;  // rank of the first vertex of a later bucket
-};
+// The rank of the first vertex above v that is not in the bucket of this index.
+std::uint32_t end_of_bucket(const SweptChunk& swept, std::uint32_t v, std::int64_t index, int exponent) {
+  const double end = std::ldexp(static_cast<double>(index + 1), exponent);
+  const auto rest = swept.order.subspan(v + 1);
+  const auto next = std::partition_point(rest.begin(), rest.end(),
+                                         [&](std::uint32_t i) { return swept.values[i] < end; });
+  return v + 1 + static_cast<std::uint32_t>(next - rest.begin());
+}
 
 // One group of upward edges during a walk: a queue whose triangles before `visited` were visited.
 struct Side {
@@ -232,8 +207,8 @@ struct ChunkSweep::Scratch {
 
   const Chunk* chunk = nullptr;
   const SweptChunk* swept = nullptr;
+  bool embeds = false;
   VertexRanks ranks;
-  RisingBucket bucket;
   ChunkStars stars;
   FragmentBuilder builder;
 
@@ -271,11 +246,15 @@ void ChunkSweep::Scratch::run(const Chunk& chunk_in, std::span<const double> val
   reset(options);
   const SweptChunk swept_chunk{*chunk, values, ranks.order(), stars};
   swept = &swept_chunk;
-  bucket = RisingBucket(swept_chunk, options);
   const auto n = static_cast<std::uint32_t>(chunk->vertex_count());
-  for (std::uint32_t v = 0; v < n; ++v) {
-    if (bucket.is_wanted()) swept_chunk.prefetch_position(v + kPrefetched);
-    visit(v);
+  // Bucket after bucket where they are wanted, else all at once.
+  for (std::uint32_t v = 0, end = n; v < n; end = n) {
+    if (options.bucket_exponent) {
+      const std::int64_t index = bucket_index(swept->value(v), *options.bucket_exponent);
+      end = end_of_bucket(*swept, v, index, *options.bucket_exponent);
+      builder.start_bucket(index);
+    }
+    while (v < end) visit(v++);
   }
   builder.finish(swept_chunk, fragment);
 }
@@ -285,6 +264,7 @@ void ChunkSweep::Scratch::reset(const SweepOptions& options) {
   uses.resize(n);
   for (std::size_t r = 0; r < n; ++r) uses[r] = chunk->uses[ranks.order()[r]];
   crossings.reset(stars.triangle_count());
+  embeds = options.bucket_exponent.has_value();
   labels.clear();
   up.reset(n);
   builder.start(n, options);
@@ -306,7 +286,7 @@ void ChunkSweep::Scratch::visit(std::uint32_t v) {
   const bool shared = uses[v] != kUsedHereOnly;
   if (joined && below.size() == 1 && !shared) {  // a regular vertex
     label_lows(v, below[0]);
-    if (bucket.is_wanted()) builder.add_regular(labels.arc(below[0]), bucket.at(v), swept->position(v));
+    if (embeds) builder.add_regular(labels.arc(below[0]), swept->order[v]);
     return;
   }
   const std::uint32_t node = builder.add_node(v);

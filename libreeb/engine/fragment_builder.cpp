@@ -12,7 +12,10 @@ constexpr std::uint32_t kNone = ~std::uint32_t{0};
 void FragmentBuilder::start(std::size_t vertices, const SweepOptions& options) {
   options_ = options;
   graph_.clear();
-  if (options.bucket_exponent) graph_.buckets.start(*options.bucket_exponent);
+  if (options.bucket_exponent) {
+    graph_.buckets.start(*options.bucket_exponent);
+    bucket_of_.assign(vertices, BucketLists::kNone);
+  }
   shared_.clear();
   notes_.clear();
   shared_begin_.resize(vertices + 1);
@@ -57,12 +60,21 @@ void FragmentBuilder::finish(const SweptChunk& swept, Fragment& fragment) {
   fragment.clear();
   fragment.options = options_;
   fragment.triangle_count = swept.chunk.triangle_count();
+  if (options_.bucket_exponent) add_positions(swept.chunk);
   if (options_.noise_below > 0)
     fragment.removed_pairs = leaf_removal_.run(graph_, swept, options_.noise_below);
   sort_steps(swept);
   trace_paths(fragment);
   divide(swept, fragment);
   add_steps(fragment);
+}
+
+// In the order in which they lie in memory, not in that of the sweep.
+void FragmentBuilder::add_positions(const Chunk& chunk) {
+  const bool has_positions = !chunk.positions.empty();
+  for (std::size_t i = 0; i < bucket_of_.size(); ++i)
+    if (bucket_of_[i] != BucketLists::kNone)
+      graph_.buckets.add_to_bucket(bucket_of_[i], has_positions ? chunk.positions[i] : Point{});
 }
 
 void FragmentBuilder::sort_steps(const SweptChunk& swept) {
@@ -222,7 +234,8 @@ std::size_t FragmentBuilder::memory_bytes() const {
          shared_.capacity() * sizeof(Shared) + notes_.capacity() * sizeof(Note) +
          8 * steps_.capacity() +
          4 * (shared_begin_.capacity() + node_of_.capacity() + node_at_.capacity() +
-              open_arcs_.capacity() + arcs_from_.capacity() + arc_at_.capacity());
+              open_arcs_.capacity() + arcs_from_.capacity() + arc_at_.capacity() +
+              bucket_of_.capacity());
 }
 
 }  // namespace reeb

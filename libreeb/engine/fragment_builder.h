@@ -28,10 +28,11 @@ class FragmentBuilder {
   void end_arc(std::uint32_t arc, std::uint32_t upper_node) { graph_.arcs[arc].hi = upper_node; }
   // The node has this arc and no other.
   void note_leaf(std::uint32_t node, std::uint32_t arc) { graph_.leaves.push_back({node, arc}); }
-  // A vertex of this chunk only is no node; it lies on the arc, in the bucket of this index, which
-  // never falls from call to call.
-  void add_regular(std::uint32_t arc, std::int64_t index, const Point& position) {
-    graph_.buckets.add_last(graph_.arc_buckets[arc], index, position);
+  // From here on vertices are in the bucket of this index, which rises from call to call.
+  void start_bucket(std::int64_t index) { graph_.buckets.start_bucket(index); }
+  // This vertex of the chunk, which no other chunk uses, is no node; it lies on the arc.
+  void add_regular(std::uint32_t arc, std::uint32_t local_vertex) {
+    bucket_of_[local_vertex] = graph_.buckets.bucket_at_hand(graph_.arc_buckets[arc]);
   }
   // The arc up from `node` that every path takes for which no other branch is noted.
   void set_main_branch(std::uint32_t node, std::uint32_t arc) { graph_.nodes[node].main_branch = arc; }
@@ -68,6 +69,7 @@ class FragmentBuilder {
   static std::uint32_t place(std::uint64_t step) { return static_cast<std::uint32_t>(step >> 32); }
   static constexpr std::uint64_t kCompletes = std::uint64_t{1} << 31;
 
+  void add_positions(const Chunk& chunk);
   void sort_steps(const SweptChunk& swept);
   void trace_paths(Fragment& fragment);
   void find_changing_nodes(const SweptChunk& swept, bool noise_goes);
@@ -85,6 +87,7 @@ class FragmentBuilder {
   std::vector<std::uint32_t> shared_begin_;  // by vertex; within a vertex sorted by hi
   std::vector<Note> notes_;
   std::vector<std::uint32_t> node_of_;   // by vertex, for those that are nodes
+  std::vector<BucketLists::Index> bucket_of_;  // by local vertex, for those that are no nodes
 
   std::vector<std::uint64_t> steps_;      // sorted
   std::vector<std::uint32_t> node_at_;    // by local vertex: its node, if it is an open one

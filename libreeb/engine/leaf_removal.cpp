@@ -99,8 +99,8 @@ void LeafRemoval::contract(std::uint32_t node) {
   const std::uint32_t lower = nodes_[node].arcs_xor[kDown], upper = nodes_[node].arcs_xor[kUp];
   const std::uint32_t top = graph_->arcs[upper].hi;
   if (embeds()) {
-    graph_->buckets.add_vertex(graph_->arc_buckets[lower], value(node), position(node));
-    graph_->buckets.concatenate(graph_->arc_buckets[lower], graph_->arc_buckets[upper]);
+    graph_->buckets.concatenate(graph_->arc_buckets[lower], value(node), position(node),
+                                graph_->arc_buckets[upper]);
   }
   nodes_[node].degree = {0, 0};
   if (nodes_[top].via[kDown] == upper) nodes_[top].via[kDown] = lower;

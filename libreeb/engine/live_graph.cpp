@@ -11,7 +11,7 @@ void LiveGraph::set_options(const SweepOptions& options) {
   if (!options.bucket_exponent) return;
   embeds_ = true;
   grow_arc_buckets();
-  buckets_.raise_exponent(*options.bucket_exponent);
+  buckets_.raise_exponent(*options.bucket_exponent, arc_buckets_);
 }
 
 void LiveGraph::grow_arc_buckets() {
@@ -325,8 +325,8 @@ void LiveGraph::contract(Index n) {
   }
   if (embeds_) {
     auto& below = arc_buckets_[lower];
-    buckets_.add_vertex(below, nodes_[n].key.value, track_positions_ ? positions_[n] : Point{});
-    buckets_.concatenate(below, arc_buckets_[upper]);
+    buckets_.concatenate(below, nodes_[n].key.value, track_positions_ ? positions_[n] : Point{},
+                         arc_buckets_[upper]);
     std::swap(below, arc_buckets_[upper]);
   }
   const Index lo = arcs_[lower].lo, hi = arcs_[upper].hi;

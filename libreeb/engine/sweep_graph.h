@@ -76,13 +76,6 @@ struct SweptChunk {
   Point position(std::uint32_t v) const {
     return chunk.positions.empty() ? Point{} : chunk.positions[order[v]];
   }
-  // Nothing happens if there is no such rank.
-  void prefetch_position(std::size_t v) const {
-    if (v >= order.size() || chunk.positions.empty()) return;
-    const Point& position = chunk.positions[order[v]];
-    __builtin_prefetch(position.data());
-    __builtin_prefetch(position.data() + 2);
-  }
 };
 
 }  // namespace reeb

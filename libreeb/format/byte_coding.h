@@ -83,11 +83,14 @@ class ByteReader {
 
   std::uint64_t varint() {
     std::uint64_t value = 0;
-    for (unsigned shift = 0; shift < 64; shift += 7) {
-      const std::uint64_t byte = u8();
+    unsigned shift = 0;
+    for (std::size_t i = 0; i < rest_.size() && shift < 64; shift += 7) {
+      const auto byte = std::to_integer<std::uint64_t>(rest_[i++]);
       if (shift == 63 && byte > 1) break;
       value |= (byte & 0x7f) << shift;
-      if ((byte & 0x80) == 0) return value;
+      if ((byte & 0x80) != 0) continue;
+      rest_ = rest_.subspan(i);
+      return value;
     }
     fail();
     return 0;
@@ -107,6 +110,9 @@ class ByteReader {
     const auto part = take(size);
     return {reinterpret_cast<const char*>(part.data()), part.size()};
   }
+
+  // The next bytes as they are; none if there are not so many.
+  std::span<const std::byte> bytes(std::size_t size) { return take(size); }
 
   // Fills `values`, which the caller has sized; see may_hold().
   void planes(std::span<std::uint64_t> values) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 namespace reeb {
 namespace {
@@ -20,6 +21,9 @@ bool fits(double min, double max, std::uint32_t buckets, int exponent) noexcept 
 std::int64_t bucket_index(double value, int exponent) noexcept {
   return static_cast<std::int64_t>(scaled(value, exponent));
 }
+
+BucketIndexer::BucketIndexer(int exponent) noexcept
+    : exponent_(exponent), scale_(std::abs(exponent) < 1000 ? std::ldexp(1.0, -exponent) : 0) {}
 
 int bucket_exponent(double min, double max, std::uint32_t buckets) noexcept {
   // Twice the least exponent of a double, so that halves of halves of the least range are there.

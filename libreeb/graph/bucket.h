@@ -23,6 +23,23 @@ struct Bucket {
 // REQUIRES: the exponent is at least bucket_exponent() of a range with the value.
 std::int64_t bucket_index(double value, int exponent) noexcept;
 
+// The same for many values of one exponent.
+class BucketIndexer {
+ public:
+  explicit BucketIndexer(int exponent = 0) noexcept;
+  std::int64_t operator()(double value) const noexcept {
+    if (scale_ == 0) return bucket_index(value, exponent_);
+    const double scaled = value * scale_;
+    const auto cut_off = static_cast<std::int64_t>(scaled);
+    return cut_off - (scaled < static_cast<double>(cut_off) ? 1 : 0);
+  }
+  int exponent() const noexcept { return exponent_; }
+
+ private:
+  int exponent_;
+  double scale_;  // 2^-exponent, or 0 if that is no normal number
+};
+
 // The least exponent for which the values from min to max lie in at most 2 * buckets consecutive
 // buckets, with indices that are exact; so they lie in more than `buckets` of them, or nearly,
 // unless there are too few numbers between min and max. It never falls when the range grows.

@@ -7,14 +7,6 @@
 namespace reeb {
 namespace {
 
-void absorb(Bucket& bucket, const Bucket& other) {
-  const auto count = static_cast<double>(bucket.count + other.count);
-  const double share = static_cast<double>(other.count) / count;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    bucket.mean[axis] += (other.mean[axis] - bucket.mean[axis]) * share;
-  bucket.count += other.count;
-}
-
 // How many of the bucket's vertices are taken to lie below the cut.
 std::uint64_t count_below(const Bucket& bucket, const CutValues& values, int exponent) {
   const auto index = static_cast<double>(bucket.index);
@@ -28,15 +20,23 @@ std::uint64_t count_below(const Bucket& bucket, const CutValues& values, int exp
 
 }  // namespace
 
-ArcBucketLists::ArcBucketLists(const ArcBucketsView& buckets, std::size_t arcs, int exponent)
-    : exponent_(exponent), first_(arcs, kNone) {
-  if (buckets.empty()) return;
-  items_.reserve(buckets.buckets.size());
-  for (std::uint32_t arc = 0; arc < arcs; ++arc) {
-    const auto own = buckets.of(arc);
-    for (auto bucket = own.rbegin(); bucket != own.rend(); ++bucket)
-      if (bucket->count != 0) first_[arc] = make(*bucket, first_[arc]);
-  }
+ArcBucketLists::ArcBucketLists(ArcBuckets buckets, std::size_t arcs, int exponent)
+    : exponent_(exponent),
+      at_first_(std::move(buckets)),
+      first_(arcs, at_first_.view().empty() ? kNone : kAsAtFirst) {}
+
+std::size_t ArcBucketLists::count(std::uint32_t arc) const {
+  if (first_[arc] == kAsAtFirst) return at_first_.view().count(arc);
+  std::size_t count = 0;
+  for (std::uint32_t item = first_[arc]; item != kNone; item = items_[item].next) ++count;
+  return count;
+}
+
+void ArcBucketLists::make_list(std::uint32_t arc) {
+  if (first_[arc] != kAsAtFirst) return;
+  first_[arc] = kNone;
+  const auto own = at_first_.view().of(arc);
+  for (auto bucket = own.rbegin(); bucket != own.rend(); ++bucket) first_[arc] = make(*bucket, first_[arc]);
 }
 
 std::uint32_t ArcBucketLists::make(const Bucket& bucket, std::uint32_t next) {
@@ -63,7 +63,7 @@ void ArcBucketLists::insert(std::uint32_t chain, std::uint32_t into) {
     }
     const std::uint32_t rest = items_[chain].next;
     if (next != kNone && items_[next].bucket.index == bucket.index) {
-      absorb(items_[next].bucket, bucket);
+      merge_into(items_[next].bucket, bucket);
       free(chain);
     } else {
       after(before, into) = chain;
@@ -74,6 +74,7 @@ void ArcBucketLists::insert(std::uint32_t chain, std::uint32_t into) {
 }
 
 void ArcBucketLists::add(std::uint32_t arc, double value, const std::array<double, 3>& position) {
+  make_list(arc);
   insert(make({bucket_index(value, exponent_), 1, position}, kNone), arc);
 }
 
@@ -99,7 +100,9 @@ std::uint32_t ArcBucketLists::last_below(std::uint32_t arc, const CutValues& val
 }
 
 bool ArcBucketLists::cut(Direction d, std::uint32_t from, std::uint32_t into, const CutValues& values) {
-  if (empty(from)) return false;
+  make_list(from);
+  make_list(into);
+  if (first_[from] == kNone) return false;
   const std::uint32_t last = last_below(from, values);
   const std::uint32_t above = std::exchange(after(last, from), kNone);
   const std::uint32_t below = first_[from];
@@ -110,12 +113,15 @@ bool ArcBucketLists::cut(Direction d, std::uint32_t from, std::uint32_t into, co
 }
 
 bool ArcBucketLists::merge(std::uint32_t from, std::uint32_t into) {
+  make_list(from);
+  make_list(into);
   const std::uint32_t chain = std::exchange(first_[from], kNone);
   insert(chain, into);
   return chain != kNone;
 }
 
 std::uint64_t ArcBucketLists::drop(std::uint32_t arc) {
+  make_list(arc);
   std::uint64_t count = 0;
   for (std::uint32_t item = std::exchange(first_[arc], kNone); item != kNone;) {
     count += items_[item].bucket.count;
@@ -127,6 +133,11 @@ std::uint64_t ArcBucketLists::drop(std::uint32_t arc) {
 }
 
 void ArcBucketLists::append_to(std::vector<Bucket>& out, std::uint32_t arc) const {
+  if (first_[arc] == kAsAtFirst) {
+    const auto own = at_first_.view().of(arc);
+    out.insert(out.end(), own.begin(), own.end());
+    return;
+  }
   for (std::uint32_t item = first_[arc]; item != kNone; item = items_[item].next)
     out.push_back(items_[item].bucket);
 }

@@ -20,14 +20,18 @@ struct CutValues {
 // A list of buckets an arc, ascending, one for each index. What leaves a list enters another, unless
 // it is dropped, so the counts add up to the same at all times.
 //
+// An arc has what it had at first until an operation names it; only then a list is made of it.
+//
 // TIME:   an operation walks the lists that it names, once.
-// MEMORY: 4 bytes an arc and 48 a bucket; what is freed is used again.
+// MEMORY: `buckets`; 4 bytes an arc, and 48 a bucket in a list; what is freed is used again.
 class ArcBucketLists {
  public:
-  // REQUIRES: all buckets are of this exponent.
-  ArcBucketLists(const ArcBucketsView& buckets, std::size_t arcs, int exponent);
+  // REQUIRES: all buckets are of this exponent, and none is empty.
+  ArcBucketLists(ArcBuckets buckets, std::size_t arcs, int exponent);
 
-  bool empty(std::uint32_t arc) const { return first_[arc] == kNone; }
+  bool empty(std::uint32_t arc) const { return count(arc) == 0; }
+  // How many buckets the arc has.
+  std::size_t count(std::uint32_t arc) const;
 
   // A vertex enters its bucket.
   void add(std::uint32_t arc, double value, const std::array<double, 3>& position);
@@ -46,7 +50,7 @@ class ArcBucketLists {
   void append_to(std::vector<Bucket>& out, std::uint32_t arc) const;
 
  private:
-  static constexpr std::uint32_t kNone = ~std::uint32_t{0};
+  static constexpr std::uint32_t kNone = ~std::uint32_t{0}, kAsAtFirst = kNone - 1;
   struct Item {
     Bucket bucket;
     std::uint32_t next = kNone;
@@ -56,12 +60,14 @@ class ArcBucketLists {
   std::uint32_t& after(std::uint32_t item, std::uint32_t arc) {
     return item == kNone ? first_[arc] : items_[item].next;
   }
+  void make_list(std::uint32_t arc);
   std::uint32_t make(const Bucket& bucket, std::uint32_t next);
   void free(std::uint32_t item);
   void insert(std::uint32_t chain, std::uint32_t into);
   std::uint32_t last_below(std::uint32_t arc, const CutValues& values);
 
   int exponent_;
+  ArcBuckets at_first_;
   std::vector<std::uint32_t> first_;  // one entry an arc
   std::vector<Item> items_;
   std::uint32_t free_ = kNone;  // a list of unused items

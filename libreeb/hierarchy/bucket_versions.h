@@ -20,8 +20,8 @@ class BucketVersions {
   static constexpr bool kFollows = true;
 
   // `graph` must outlive this. REQUIRES: `buckets` has those of its arcs.
-  BucketVersions(const ReebGraph& graph, const ArcBucketsView& buckets, int exponent)
-      : graph_(graph), lists_(buckets, graph.arc_count(), exponent), saved_(graph.arc_count(), kNone) {}
+  BucketVersions(const ReebGraph& graph, ArcBuckets buckets, int exponent)
+      : graph_(graph), lists_(std::move(buckets), graph.arc_count(), exponent), saved_(graph.arc_count(), kNone) {}
 
   // The content of the Canceller.
   bool cut(const ArcCut& arc);

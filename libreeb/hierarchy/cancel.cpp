@@ -48,9 +48,8 @@ Hierarchy build_hierarchy(ReebGraph graph) {
 Hierarchy build_hierarchy(ReebGraph graph, ArcBuckets& buckets, int exponent) {
   if (buckets.offsets.empty()) return build_hierarchy(std::move(graph));
   Hierarchy hierarchy = paired(graph);
-  Canceller canceller(graph, BucketVersions(graph, buckets.view(), exponent));
+  Canceller canceller(graph, BucketVersions(graph, std::move(buckets), exponent));
   release_arcs(graph);
-  buckets = {};
   cancel_all(graph, canceller, hierarchy);
   buckets = canceller.content().take_buckets();
   hierarchy.dropped = canceller.content().take_dropped();

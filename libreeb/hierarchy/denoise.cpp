@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <numeric>
 #include <tuple>
 #include <utility>
 
@@ -14,26 +13,21 @@
 namespace reeb {
 namespace {
 
+// Removes leaves of a graph whose arcs it takes; the nodes stay for the caller.
 class LeafRemoval {
  public:
-  // `lists`, of the graph's arcs, may be null; it must outlive this.
-  LeafRemoval(const ReebGraph& full, double threshold, ArcBucketLists* lists)
-      : full_(full),
-        threshold_(threshold),
-        graph_(full),
-        lists_(lists),
-        reach_(full.node_count()),
-        leaves_(full.node_count()) {
+  // `lists`, of the graph's arcs, may be null; both must outlive this.
+  LeafRemoval(ReebGraph& full, double threshold, ArcBucketLists* lists)
+      : full_(full), threshold_(threshold), graph_(full), lists_(lists), reach_(full.node_count()) {
     find_reaches();
+    full.lo = std::vector<NodeId>();
+    full.hi = std::vector<NodeId>();
   }
 
   void run() {
-    std::iota(leaves_.begin(), leaves_.end(), 0u);
-    while (!leaves_.empty()) {
-      const std::uint32_t node = leaves_.back();
-      leaves_.pop_back();
-      for (const Direction d : {kDown, kUp})
-        if (is_leaf(node, d)) try_leaf(node, d);
+    for (std::uint32_t node = 0; node < graph_.node_count(); ++node) {
+      leaves_.push_back(node);
+      look_at_leaves();
     }
   }
 
@@ -45,6 +39,7 @@ class LeafRemoval {
   // The arcs that are left, by (lo, hi).
   std::vector<std::uint32_t> remaining() const {
     std::vector<std::uint32_t> arcs;
+    arcs.reserve(graph_.arc_count());
     for (std::uint32_t arc = 0; arc < graph_.arc_count(); ++arc)
       if (graph_.alive(arc)) arcs.push_back(arc);
     const auto key = [this](std::uint32_t arc) {
@@ -55,12 +50,14 @@ class LeafRemoval {
     return arcs;
   }
 
-  ReebGraph graph_of(const std::vector<std::uint32_t>& arcs) const {
-    std::vector<NodeArc> ends;
-    ends.reserve(arcs.size());
-    for (const std::uint32_t arc : arcs)
-      ends.push_back({NodeId(graph_.end(arc, kDown)), NodeId(graph_.end(arc, kUp))});
-    return subgraph(full_, std::move(ends), isolated_nodes(full_));
+  // Puts these arcs into the graph, which still has all nodes.
+  void give_back(const std::vector<std::uint32_t>& arcs) const {
+    full_.lo.reserve(arcs.size());
+    full_.hi.reserve(arcs.size());
+    for (const std::uint32_t arc : arcs) {
+      full_.lo.emplace_back(graph_.end(arc, kDown));
+      full_.hi.emplace_back(graph_.end(arc, kUp));
+    }
   }
 
  private:
@@ -80,6 +77,15 @@ class LeafRemoval {
   }
   bool reaches_beyond(std::uint32_t node, Direction d, std::uint32_t leaf) const {
     return along(d, reach_[node][d]) > along(d, leaf);
+  }
+
+  void look_at_leaves() {
+    while (!leaves_.empty()) {
+      const std::uint32_t node = leaves_.back();
+      leaves_.pop_back();
+      for (const Direction d : {kDown, kUp})
+        if (is_leaf(node, d)) try_leaf(node, d);
+    }
   }
 
   // True for a maximum (d = kUp) or minimum (d = kDown) with one arc.
@@ -145,7 +151,7 @@ class LeafRemoval {
     leaves_.push_back(top);
   }
 
-  const ReebGraph& full_;
+  ReebGraph& full_;
   const double threshold_;
   WorkingGraph graph_;
   ArcBucketLists* lists_;
@@ -154,26 +160,66 @@ class LeafRemoval {
   std::vector<PersistencePair> removed_;
 };
 
-}  // namespace
-
-Denoised denoise(const ReebGraph& graph, double threshold) {
-  LeafRemoval removal(graph, threshold, nullptr);
-  removal.run();
-  return {removal.graph_of(removal.remaining()), removal.take_removed()};
+// Takes out the nodes that have no arc any more; those that had none before stay.
+void drop_lone_nodes(ReebGraph& graph, const std::vector<NodeId>& isolated) {
+  constexpr std::uint32_t kGone = ~std::uint32_t{0};
+  std::vector<std::uint32_t> rank(graph.node_count(), kGone);
+  for (const NodeId node : isolated) rank[node.value()] = 0;
+  for (const auto* ends : {&graph.lo, &graph.hi})
+    for (const NodeId node : *ends) rank[node.value()] = 0;
+  std::uint32_t kept = 0;
+  for (std::uint32_t node = 0; node < rank.size(); ++node) {
+    if (rank[node] == kGone) continue;
+    graph.nodes[kept] = graph.nodes[node];
+    if (!graph.positions.empty()) graph.positions[kept] = graph.positions[node];
+    rank[node] = kept++;
+  }
+  graph.nodes.resize(kept);
+  if (!graph.positions.empty()) graph.positions.resize(kept);
+  for (auto* ends : {&graph.lo, &graph.hi})
+    for (NodeId& node : *ends) node = NodeId(rank[node.value()]);
 }
 
-Denoised denoise(const ReebGraph& graph, double threshold, ArcBuckets& buckets, int exponent) {
-  if (buckets.offsets.empty()) return denoise(graph, threshold);
-  ArcBucketLists lists(buckets.view(), graph.arc_count(), exponent);
-  buckets = {.offsets = {0}, .buckets = {}};
-  LeafRemoval removal(graph, threshold, &lists);
-  removal.run();
-  const std::vector<std::uint32_t> arcs = removal.remaining();
-  for (const std::uint32_t arc : arcs) {
-    lists.append_to(buckets.buckets, arc);
-    buckets.offsets.push_back(buckets.buckets.size());
+// Removes all leaves. Returns the arcs that are left, by their former numbers, in the new order.
+std::vector<std::uint32_t> remove_leaves(Denoised& result, double threshold, ArcBucketLists* lists) {
+  const std::vector<NodeId> isolated = isolated_nodes(result.graph);
+  std::vector<std::uint32_t> arcs;
+  {
+    LeafRemoval removal(result.graph, threshold, lists);
+    removal.run();
+    result.removed = removal.take_removed();
+    arcs = removal.remaining();
+    removal.give_back(arcs);
   }
-  return {removal.graph_of(arcs), removal.take_removed()};
+  drop_lone_nodes(result.graph, isolated);
+  return arcs;
+}
+
+ArcBuckets buckets_of(const ArcBucketLists& lists, const std::vector<std::uint32_t>& arcs) {
+  ArcBuckets buckets;
+  buckets.offsets.reserve(arcs.size() + 1);
+  std::uint64_t end = 0;
+  buckets.offsets.push_back(0);
+  for (const std::uint32_t arc : arcs) buckets.offsets.push_back(end += lists.count(arc));
+  buckets.buckets.reserve(end);
+  for (const std::uint32_t arc : arcs) lists.append_to(buckets.buckets, arc);
+  return buckets;
+}
+
+}  // namespace
+
+Denoised denoise(ReebGraph graph, double threshold) {
+  Denoised result{std::move(graph), {}};
+  remove_leaves(result, threshold, nullptr);
+  return result;
+}
+
+Denoised denoise(ReebGraph graph, double threshold, ArcBuckets& buckets, int exponent) {
+  if (buckets.offsets.empty()) return denoise(std::move(graph), threshold);
+  Denoised result{std::move(graph), {}};
+  ArcBucketLists lists(std::move(buckets), result.graph.arc_count(), exponent);
+  buckets = buckets_of(lists, remove_leaves(result, threshold, &lists));
+  return result;
 }
 
 }  // namespace reeb

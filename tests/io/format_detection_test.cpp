@@ -40,12 +40,15 @@ TEST(FormatDetection, StreamingTextWithoutHeadShowsInItsLines) {
   EXPECT_EQ(detect("# by hand\r\n\r\nf 1\t2 3\r\nv 0 0 0\r\n"), MeshFormat::kStreaming);
   EXPECT_EQ(detect("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nx 1\n"), MeshFormat::kStreaming);
   EXPECT_EQ(detect("x 1\nv 0 0 0\n"), MeshFormat::kStreaming);
+  EXPECT_EQ(detect("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nc -1 2 3 -4 0.5\n"), MeshFormat::kStreaming);
+  EXPECT_EQ(detect("c 1 2 3 4\nv 0 0 0\n"), MeshFormat::kStreaming);
   // What only OBJ has.
   EXPECT_EQ(detect("f 1/1 2/2 3/3\nv 0 0 0\n"), MeshFormat::kObj);
   EXPECT_EQ(detect("f 1 2 3 4\nv 0 0 0\n"), MeshFormat::kObj);
   EXPECT_EQ(detect("f -1 -2 -3\nv 0 0 0\n"), MeshFormat::kObj);
   EXPECT_EQ(detect("g part\nv 0 0 0\nf 1 1 1\n"), MeshFormat::kObj);
   EXPECT_EQ(detect("v 0 0 0\nx y z\n"), MeshFormat::kObj);
+  EXPECT_EQ(detect("v 0 0 0\nc 1 2 3\nc 1 2 3 a\n"), MeshFormat::kObj);
 }
 
 TEST(FormatDetection, APostOrderStreamIsKnownBeforeThePipeEnds) {

@@ -2,6 +2,9 @@
 // tests/fuzz.
 #include <gtest/gtest.h>
 
+#include <limits>
+
+#include "io/streaming/stream_writer.h"
 #include "tests/streaming/samples.h"
 
 namespace reeb::io {
@@ -49,6 +52,31 @@ TEST(StreamRobustness, NumbersAreTheNearestFloats) {
   EXPECT_EQ(hex.events, "v 0 3 -1.40129846e-45 0\nv 1 0 -0 1.40129846e-45\n");
   EXPECT_TRUE(read_all("v 0x1p128 0 0\n").error.starts_with("BAD_NUMBER: "));
   EXPECT_TRUE(read_all("v 0 0 --1\n").error.starts_with("BAD_NUMBER: "));
+}
+
+// A grid of two places an axis, as far apart as the longest side of the box: on the second axis the
+// upper one lies a quarter of that above the largest float32.
+TEST(StreamRobustness, APlaceOfTheGridBeyondFloat32IsNoCoordinate) {
+  constexpr float kLargest = std::numeric_limits<float>::max();
+  StreamHeader header;
+  header.box = StreamBox{{0, kLargest / 4, 0}, {kLargest, kLargest, 1}};
+  std::ostringstream out;
+  const auto writer = make_smc_writer(out, header, {.version = 3, .precision = 1});
+  for (std::uint32_t v = 0; v < 3; ++v) {
+    StreamEvent vertex{};
+    vertex.kind = EventKind::kVertex;
+    vertex.vertex = v;
+    vertex.floats = {0, kLargest, 0};
+    writer->write(vertex);
+  }
+  StreamEvent triangle{};
+  triangle.kind = EventKind::kTriangle;
+  triangle.corners = {0, 1, 2, 0};
+  writer->write(triangle);
+  writer->close();
+  const Outcome outcome = read_all(out.str());
+  EXPECT_TRUE(outcome.error.starts_with("BAD_NUMBER: ")) << outcome.error;
+  EXPECT_EQ(outcome.events, "");
 }
 
 }  // namespace

@@ -2,15 +2,17 @@
 
 #include <algorithm>
 #include <numeric>
+#include <ranges>
 #include <vector>
 
 #include "ooc/paged_table.h"
+#include "tools/convert/triangle_stretches.h"
 
 namespace reeb::tools {
 namespace {
 
-constexpr std::size_t kStretch = 4096;  // triangles taken at once
 constexpr std::uint64_t kNone = ~std::uint64_t{0};
+constexpr std::size_t kUnusedAtOnce = 4096;
 
 struct Place {
   std::uint64_t last = kNone;    // the last triangle that names the vertex
@@ -23,6 +25,7 @@ class CompactStream {
       : mesh_(mesh),
         exact_(exact),
         writer_(writer),
+        space_(space),
         places_("finalization", space.temp, space.budget, 3 * space.share(), Place{}),
         columns_(mesh.column_count()),
         dimension_(dimension) {
@@ -33,11 +36,10 @@ class CompactStream {
 
   void run() {
     find_last_triangles();
-    std::uint64_t triangle = 0;
-    mesh_.rewind();
-    while (mesh_.read(corners_, kStretch)) {
-      number_new_vertices();
-      for (std::size_t t = 0; t < corners_.size(); t += 3) write_triangle(t, triangle++);
+    for (TriangleStretches stretch("compact stream", mesh_, space_); stretch.next();) {
+      number_new_vertices(stretch);
+      for (std::size_t t = 0; t < stretch.corners().size(); t += 3)
+        write_triangle(stretch.numbers().subspan(t).first<3>(), stretch.first_triangle() + t / 3);
       if (!exact_) send();
     }
     write_unused();
@@ -45,54 +47,57 @@ class CompactStream {
 
  private:
   void find_last_triangles() {
-    std::uint64_t first = 0;
-    mesh_.rewind();
-    while (mesh_.read(corners_, kStretch)) {
-      for (std::size_t c = 0; c < corners_.size(); ++c) places_.change(corners_[c].value()).last = first + c / 3;
-      first += corners_.size() / 3;
+    std::vector<std::uint64_t> last;
+    for (TriangleStretches stretch("compact stream", mesh_, space_); stretch.next();) {
+      last.resize(stretch.vertices().size());
+      for (std::size_t c = 0; c < stretch.corners().size(); ++c)
+        last[stretch.numbers()[c]] = stretch.first_triangle() + c / 3;
+      for (const std::uint32_t n : stretch.lookup_order())
+        places_.change(stretch.vertices()[n].value()).last = last[n];
     }
   }
 
-  // Of the stretch at hand; their columns are looked up together.
-  void number_new_vertices() {
+  // By first appearance. Their columns are looked up together.
+  void number_new_vertices(const TriangleStretches& stretch) {
+    const auto vertices = stretch.vertices();
+    here_.resize(vertices.size());
+    for (const std::uint32_t n : stretch.lookup_order()) here_[n] = places_.get(vertices[n].value());
+    const std::uint64_t first_new = numbered_;
+    for (Place& place : here_)
+      if (place.number == kNone) place.number = numbered_++;
     new_ids_.clear();
-    new_used_ = 0;
-    for (const VertexId v : corners_) {
-      Place& place = places_.change(v.value());
-      if (place.number != kNone) continue;
-      place.number = numbered_++;
-      new_ids_.push_back(v);
+    new_places_.clear();
+    // Backwards, since the pages read last are still there.
+    for (const std::uint32_t n : std::views::reverse(stretch.lookup_order())) {
+      if (here_[n].number < first_new) continue;
+      places_.change(vertices[n].value()).number = here_[n].number;
+      new_ids_.push_back(vertices[n]);
+      new_places_.push_back(static_cast<std::size_t>(here_[n].number - first_new));
     }
     gather_new();
   }
 
-  // Looked up in ascending order, since scattered places of a file cost a mapping each.
+  // The columns of the new ids, brought to their places.
   void gather_new() {
     const std::size_t count = new_ids_.size();
-    by_id_.resize(count);
-    std::iota(by_id_.begin(), by_id_.end(), std::size_t{0});
-    std::sort(by_id_.begin(), by_id_.end(), [this](std::size_t a, std::size_t b) { return new_ids_[a] < new_ids_[b]; });
-    sorted_ids_.clear();
-    for (const std::size_t i : by_id_) sorted_ids_.push_back(new_ids_[i]);
+    new_used_ = 0;
     gathered_.resize(columns_.size() * count);
-    mesh_.gather(sorted_ids_, columns_, gathered_);
+    mesh_.gather(new_ids_, columns_, gathered_);
     values_.resize(gathered_.size());
     for (std::size_t k = 0; k < columns_.size(); ++k)
-      for (std::size_t i = 0; i < count; ++i) values_[k * count + by_id_[i]] = gathered_[k * count + i];
+      for (std::size_t i = 0; i < count; ++i) values_[k * count + new_places_[i]] = gathered_[k * count + i];
   }
 
-  void write_triangle(std::size_t t, std::uint64_t triangle) {
-    for (std::size_t c = 0; c < 3; ++c) {
-      const Place place = places_.get(corners_[t + c].value());
-      if (place.number == sent_) add_vertex();
-      batch_.triangles.emplace_back(place.number);
+  void write_triangle(std::span<const std::uint32_t, 3> corners, std::uint64_t triangle) {
+    for (const std::uint32_t n : corners) {
+      if (here_[n].number == sent_) add_vertex();
+      batch_.triangles.emplace_back(here_[n].number);
     }
     if (!exact_) return;
     for (std::size_t c = 0; c < 3; ++c) {
-      const VertexId v = corners_[t + c];
-      const bool repeated = (c > 0 && v == corners_[t]) || (c > 1 && v == corners_[t + 1]);
-      if (const Place place = places_.get(v.value()); place.last == triangle && !repeated)
-        batch_.finalized.emplace_back(place.number);
+      const bool repeated = (c > 0 && corners[c] == corners[0]) || (c > 1 && corners[c] == corners[1]);
+      const Place& place = here_[corners[c]];
+      if (place.last == triangle && !repeated) batch_.finalized.emplace_back(place.number);
     }
     send();
   }
@@ -112,9 +117,10 @@ class CompactStream {
     const std::uint64_t count = mesh_.vertex_count();
     for (std::uint64_t v = 0; v < count;) {
       new_ids_.clear();
-      new_used_ = 0;
-      for (; v < count && new_ids_.size() < kStretch; ++v)
+      for (; v < count && new_ids_.size() < kUnusedAtOnce; ++v)
         if (places_.get(v).last == kNone) new_ids_.emplace_back(v);
+      new_places_.resize(new_ids_.size());
+      std::iota(new_places_.begin(), new_places_.end(), std::size_t{0});
       gather_new();
       for (std::size_t i = 0; i < new_ids_.size(); ++i) {
         if (exact_) batch_.finalized.emplace_back(sent_);
@@ -135,13 +141,15 @@ class CompactStream {
   IndexedMesh& mesh_;
   bool exact_;
   io::MeshWriter& writer_;
+  Workspace& space_;
   ooc::PagedTable<Place> places_;
   std::vector<unsigned> columns_;
   unsigned dimension_;
   std::uint64_t numbered_ = 0, sent_ = 0;  // vertices with a number, and those that were written
-  std::vector<VertexId> corners_, new_ids_, sorted_ids_;
-  std::vector<std::size_t> by_id_;
-  std::vector<double> values_, gathered_;  // of new_ids_ and of sorted_ids_, by column
+  std::vector<Place> here_;  // of the vertices of the stretch at hand
+  std::vector<VertexId> new_ids_;
+  std::vector<std::size_t> new_places_;    // of the new ids, among them by first appearance
+  std::vector<double> gathered_, values_;  // by column, then by new id, or by place
   std::size_t new_used_ = 0;
   MeshBatch batch_;
 };

@@ -10,6 +10,7 @@
 #include "ooc/reorder.h"
 #include "ooc/triangle_log.h"
 #include "tools/convert/fiedler.h"
+#include "tools/convert/triangle_stretches.h"
 
 namespace reeb::tools {
 namespace {
@@ -49,36 +50,47 @@ class OrderedMesh : public IndexedMesh {
   ooc::TriangleLog triangles_;
 };
 
-// The values of a function at the corners of many triangles.
-class CornerValues {
+// The values of a function at the vertices of a stretch.
+class StretchValues {
  public:
-  CornerValues(IndexedMesh& mesh, VertexFunction& function) : mesh_(mesh), function_(function) {}
+  StretchValues(IndexedMesh& mesh, VertexFunction& function) : mesh_(mesh), function_(function) {}
 
-  std::span<const double> operator()(std::span<const VertexId> corners) {
+  // By number.
+  std::span<const double> operator()(const TriangleStretches& stretch) {
+    const auto order = stretch.lookup_order();
+    ids_.clear();
+    for (const std::uint32_t n : order) ids_.push_back(stretch.vertices()[n]);
     const auto columns = function_.columns();
-    gathered_.resize(columns.size() * corners.size());
-    mesh_.gather(corners, columns, gathered_);
+    gathered_.resize(columns.size() * ids_.size());
+    mesh_.gather(ids_, columns, gathered_);
     std::vector<std::span<const double>> by_column;
     for (std::size_t k = 0; k < columns.size(); ++k)
-      by_column.push_back(std::span(gathered_).subspan(k * corners.size(), corners.size()));
-    values_.resize(corners.size());
-    function_.evaluate(corners, by_column, values_);
+      by_column.push_back(std::span(gathered_).subspan(k * ids_.size(), ids_.size()));
+    ordered_.resize(ids_.size());
+    function_.evaluate(ids_, by_column, ordered_);
+    values_.resize(ids_.size());
+    for (std::size_t i = 0; i < order.size(); ++i) values_[order[i]] = ordered_[i];
     return values_;
   }
 
  private:
   IndexedMesh& mesh_;
   VertexFunction& function_;
-  std::vector<double> gathered_, values_;
+  std::vector<VertexId> ids_;
+  std::vector<double> gathered_, ordered_, values_;
 };
 
-KeyedTriangle keyed(std::span<const VertexId> corners, std::span<const double> values, std::uint64_t place) {
-  SweepKey highest{values[0], corners[0]};
+// Triangle t of a stretch.
+KeyedTriangle keyed(const TriangleStretches& stretch, std::size_t t, std::span<const double> values) {
+  const auto corners = stretch.corners().subspan(3 * t, 3);
+  const auto numbers = stretch.numbers().subspan(3 * t, 3);
+  SweepKey highest{values[numbers[0]], corners[0]};
   for (std::size_t c = 1; c < 3; ++c) {
-    const SweepKey key{values[c], corners[c]};
+    const SweepKey key{values[numbers[c]], corners[c]};
     if (highest < key) highest = key;
   }
-  return {highest.value, highest.vertex.value(), place, {corners[0].value(), corners[1].value(), corners[2].value()}};
+  return {highest.value, highest.vertex.value(), stretch.first_triangle() + t,
+          {corners[0].value(), corners[1].value(), corners[2].value()}};
 }
 
 // Values that lie in a table, as a function.
@@ -114,15 +126,13 @@ std::unique_ptr<IndexedMesh> sorted_by_function(std::unique_ptr<IndexedMesh> mes
   ooc::SortOptions sorting;
   sorting.allowance_bytes = space.share();
   ooc::ExternalSort<KeyedTriangle> sort("triangle order", space.temp, space.budget, sorting);
-  CornerValues values_of(ordered->vertices(), function);
-  std::vector<VertexId> corners;
-  ordered->vertices().rewind();
-  while (ordered->vertices().read(corners, kStretch)) {
-    const auto values = values_of(corners);
-    for (std::size_t t = 0; t < corners.size(); t += 3)
-      sort.add(keyed(std::span(corners).subspan(t, 3), values.subspan(t, 3), sort.size()));
+  StretchValues values_of(ordered->vertices(), function);
+  for (TriangleStretches stretch("triangle order", ordered->vertices(), space); stretch.next();) {
+    const auto values = values_of(stretch);
+    for (std::size_t t = 0; t < stretch.corners().size() / 3; ++t) sort.add(keyed(stretch, t, values));
   }
   sort.finish();
+  std::vector<VertexId> corners;
   for (std::vector<KeyedTriangle> some; sort.read(some, kStretch);) {
     corners.clear();
     for (const KeyedTriangle& triangle : some)
