@@ -33,13 +33,26 @@ struct WorkItem {
   std::vector<std::vector<double>> values;  // one array a function
   std::vector<Fragment> fragments;          // one a function
   ChunkPlace end;                           // behind this chunk
+  bool sweep_alone = false;                 // memory does not suffice for another sweep meanwhile
   std::size_t memory_bytes() const;
 };
 
-// How many triangles a chunk has.
+// What chunks in flight and the scratch of their sweeps take.
+struct ChunkCost {
+  std::uint64_t triangle_bytes = 0, shared_bytes = 0;  // a triangle; a vertex that other chunks share
+  double bytes(double triangles, double shared) const {
+    return triangles * static_cast<double>(triangle_bytes) + shared * static_cast<double>(shared_bytes);
+  }
+};
+
+// How many triangles a chunk has, and what may be spent on chunks.
 struct ChunkSize {
   std::size_t first = 32768;  // to start with
-  std::size_t most = 262144;  // as far as it may grow; equal to `first`: fixed
+  std::size_t most = 524288;  // as far as it may grow; equal to `first`: fixed
+  // A chunk grows as far as that fits with one sweep at a time; it is swept alone if it does not fit
+  // with several.
+  std::uint64_t allowance_bytes = ~std::uint64_t{0};
+  ChunkCost parallel = {}, alone = {};
 };
 
 class ChunkSource {

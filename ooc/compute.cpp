@@ -60,8 +60,13 @@ class Run {
       : functions_(functions),
         outputs_(outputs),
         options_(options),
-        plan_(plan_memory(options.memory_bytes, options.threads, functions.size(), options.chunk_triangles,
-                          input.indexed != nullptr)),
+        plan_(plan_memory({.limit_bytes = options.memory_bytes,
+                           .threads = options.threads,
+                           .functions = functions.size(),
+                           .chunk_triangles = options.chunk_triangles,
+                           .in_place = input.indexed != nullptr,
+                           .embeds = options.buckets != 0,
+                           .denoises = options.denoise > 0})),
         budget_(plan_.account_bytes, plan_.set_aside_bytes),
         temp_(options.temp_dir.empty() ? TempDir::default_folder(outputs[0]) : options.temp_dir),
         input_(std::move(input)),
@@ -115,9 +120,12 @@ class Run {
   bool has_sidecar() const;
   std::optional<LastUse> find_last_uses();
   std::optional<LastUse> scan(bool may_give_up);
+  FrontNeeds needs(const UseSummary& summary) const;
   bool is_coherent(const UseSummary& summary) const;
   bool can_start(const UseSummary& summary) const;
+  std::uint64_t value_bytes(std::uint64_t vertices) const;
   Reservation prepare_values(std::uint64_t vertices);
+  void divide_memory(const UseSummary& summary);
   LastUse reorder_mesh();
   void run_chunks(ChunkSource& source);
 
@@ -233,7 +241,13 @@ bool Run::may_guess() const {
 
 std::unique_ptr<GuessedChunks> Run::guessed_chunks(Spooler& spooler) {
   here_.origin = ChunkOrigin::kGuessed;
-  here_.chunk = start_ != nullptr ? start_->chunk : plan_.chunk;
+  if (start_ != nullptr) {
+    here_.chunk = start_->chunk;
+  } else {  // as far as chunks can be swept side by side
+    const std::uint64_t side_by_side = plan_.chunk.allowance_bytes / plan_.chunk.parallel.triangle_bytes;
+    here_.chunk.first = plan_.chunk.first;
+    here_.chunk.most = std::max(plan_.chunk.first, std::min<std::size_t>(plan_.chunk.most, side_by_side));
+  }
   return std::make_unique<GuessedChunks>(spooler, values_, temp_, budget_,
                                          GuessOptions{.chunk = here_.chunk,
                                                       .allowance_bytes = plan_.table_bytes,
@@ -285,22 +299,49 @@ void Run::run_indexed() {
   common_.spilled_bytes += last_use->spilled_bytes();
   here_.block_triangles = summary.block_triangles;
   here_.origin = sort_first ? ChunkOrigin::kSorted : ChunkOrigin::kLookedUp;
+  divide_memory(summary);
   run_chunks(*chunks_of(*input_.indexed, *last_use, values_, plan_.chunk, start_place()));
   note(input_.indexed->warnings());
 }
 
 // Vertices of an indexed mesh are looked up, for which some functions keep all their values.
 Reservation Run::prepare_values(std::uint64_t vertices) {
-  std::uint64_t bytes = 0;
-  for (const VertexFunction* function : functions_) bytes += function->lookup_bytes(vertices);
-  Reservation reservation = budget_.reserve("function values", bytes);
+  Reservation reservation = budget_.reserve("function values", value_bytes(vertices));
   for (VertexFunction* function : functions_) function->check_count(vertices);
   return reservation;
 }
 
-// Whether to glue the mesh as it comes.
+std::uint64_t Run::value_bytes(std::uint64_t vertices) const {
+  std::uint64_t bytes = 0;
+  for (const VertexFunction* function : functions_) bytes += function->lookup_bytes(vertices);
+  return bytes;
+}
+
+FrontNeeds Run::needs(const UseSummary& summary) const {
+  return {summary.vertex_count, summary.max_live_vertices, value_bytes(summary.vertex_count)};
+}
+
+// Whether to glue the mesh as it comes. A front that does not fit is sorted if it can be expected to
+// come out smaller.
 bool Run::is_coherent(const UseSummary& summary) const {
-  return summary.max_live_vertices <= std::min(plan_.most_live_vertices(), usual_front(summary.vertex_count));
+  constexpr double kSorted = 2;
+  const auto sorted = static_cast<std::uint64_t>(kSorted * std::sqrt(static_cast<double>(summary.vertex_count)));
+  return summary.max_live_vertices <= (plan_.fits(needs(summary)) ? usual_front(summary.vertex_count) : sorted);
+}
+
+// Now that the front is known: to the chunks what the live graphs leave. Says at once if they cannot
+// fit.
+void Run::divide_memory(const UseSummary& summary) {
+  const FrontNeeds front = needs(summary);
+  if (plan_.exceeds(front)) {
+    const std::string megabytes = std::to_string((plan_.needed_bytes(front) >> 20) + 1) + "M";
+    throw Error(ErrorKind::kResource,
+                std::to_string(front.live_vertices) + " vertices are live at once, and their graph will not fit " +
+                    format_bytes(plan_.set_aside_bytes + plan_.account_bytes) + " of memory",
+                "allow --memory " + megabytes +
+                    (options_.may_reorder ? "" : ", or let the triangles be sorted (without --no-reorder)"));
+  }
+  plan_.share_out(front);
 }
 
 // Empty if none is used: its blocks are too large for small chunks.

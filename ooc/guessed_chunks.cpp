@@ -13,7 +13,7 @@ GuessedChunks::GuessedChunks(Spooler& spooler, FunctionValues& columns, const Te
       columns_(columns),
       lookup_(columns),
       options_(options),
-      size_(options.chunk.first, options.chunk.most),
+      size_(options.chunk),
       guesses_(temp, budget, options.allowance_bytes) {
   pass_over(start);
 }

@@ -17,7 +17,7 @@ class IndexedChunks : public ChunkSource {
         columns_(columns),
         lookup_(columns),
         block_triangles_(static_cast<std::size_t>(std::max<std::uint64_t>(1, last_use.summary().block_triangles))),
-        blocks_(size.first / block_triangles_, size.most / block_triangles_) {
+        blocks_(size, block_triangles_) {
     mesh_.rewind();
     pass_over(start);
   }
@@ -52,6 +52,7 @@ class IndexedChunks : public ChunkSource {
 bool IndexedChunks::next(WorkItem& item) {
   item.chunk.clear();
   if (!read_triangles(item.chunk) && !read_loose_vertices(item.chunk)) return false;
+  item.sweep_alone = blocks_.must_be_swept_alone(item.chunk);
   lookup_.look_up(mesh_, item);
   item.end.triangles = triangles_read_;
   item.end.next_vertex = next_vertex_;

@@ -16,18 +16,37 @@ constexpr std::uint64_t kMiB = 1 << 20;
 constexpr std::uint64_t kProcess = 8 * kMiB, kWindows = kMiB;
 constexpr std::uint64_t kLeast = 16 * kMiB;
 
-// Measured: a live vertex with its edges, arcs and references, vectors with room to grow.
-constexpr std::uint64_t kBytesALiveVertex = 900;
-// Measured a triangle: scratch of a sweep, and a chunk in flight with its fragment.
-constexpr std::uint64_t kSweepBytes = 80, kFlightBytes = 130;
+// A live vertex with its share of edges, arcs and references, room to grow included. Scans of 4 to 372
+// million triangles, f = z, took 290 to 640 bytes with noise removed and 470 to 690 with it kept, the
+// more the wider the front; buckets made 70 to 300 more of it. A random function takes up to 1,350:
+// a run on one that does not fit ends with what --resume needs.
+constexpr std::uint64_t kSmooth = 290, kNoiseRemoved = 640, kNoiseKept = 700;
+constexpr std::uint64_t kBucketsSmooth = 70, kBucketsRemoved = 160, kBucketsKept = 300;
+
+// What live graphs and chunks take together where memory is free: chunks of a wide front begin smaller,
+// which costs a few per cent of the time, down to kUsefulTriangles.
+constexpr std::uint64_t kUsual = 16 * kMiB;
+constexpr std::size_t kUsefulTriangles = 16384;
+
+// Measured a triangle: scratch of a sweep, a chunk in flight with its fragment, a chunk without, and
+// what the source looks up; and a vertex that a chunk shares with others: scratch, and its part of the
+// fragment.
+constexpr std::uint64_t kSweepBytes = 90, kFlightBytes = 55, kChunkBytes = 33, kSourceBytes = 20;
+constexpr std::uint64_t kSharedSweepBytes = 160, kSharedFlightBytes = 120;
+// Room for rough functions, where there is much.
+constexpr std::uint64_t kSpare = 8 * kMiB;
+// Beyond this more memory for chunks makes little faster.
+constexpr std::uint64_t kMostForChunks = 64 * kMiB;
+constexpr std::size_t kLeastTriangles = 512;
 // Below this account one thread: chunks of a useful size come before parallel ones.
 constexpr std::uint64_t kEnoughForThreads = 12 * kMiB;
 // Chunks are for so many threads, however many there are: an embedding shows where they were cut.
 constexpr std::uint64_t kPlannedThreads = 2;
 
-std::uint64_t bytes_a_triangle(std::uint64_t threads, std::size_t functions) {
-  const std::uint64_t in_flight = threads == 1 ? 1 : threads + 1;
-  return threads * kSweepBytes + in_flight * kFlightBytes * functions;
+// So many sweeps at a time, and so many chunks in flight with their fragments.
+ChunkCost chunk_cost(std::uint64_t sweeps, std::uint64_t in_flight, std::size_t functions) {
+  return {sweeps * kSweepBytes + in_flight * functions * kFlightBytes + kSourceBytes,
+          sweeps * kSharedSweepBytes + in_flight * functions * kSharedFlightBytes};
 }
 
 std::uint64_t machine_bytes() {
@@ -35,37 +54,90 @@ std::uint64_t machine_bytes() {
   return pages > 0 && page > 0 ? static_cast<std::uint64_t>(pages) * static_cast<std::uint64_t>(page) : 1024 * kMiB;
 }
 
+std::uint64_t less(std::uint64_t a, std::uint64_t b) { return a - std::min(a, b); }
+
 }  // namespace
 
-std::uint64_t MemoryPlan::most_live_vertices() const { return live_bytes / kBytesALiveVertex; }
-
-MemoryPlan plan_memory(std::uint64_t limit_bytes, unsigned threads, std::size_t functions,
-                       std::size_t chunk_triangles, bool in_place) {
-  if (limit_bytes < kLeast)
+MemoryPlan plan_memory(const MemoryRequest& request) {
+  if (request.limit_bytes < kLeast)
     throw Error(ErrorKind::kResource, "a run needs at least " + format_bytes(kLeast) + " of memory, but only " +
-                                          format_bytes(limit_bytes) + " are allowed",
+                                          format_bytes(request.limit_bytes) + " are allowed",
                 "allow more, for instance --memory 32M");
-  const std::uint64_t limit = limit_bytes == MemoryBudget::kUnlimited ? machine_bytes() / 2 : limit_bytes;
+  const std::uint64_t limit =
+      request.limit_bytes == MemoryBudget::kUnlimited ? machine_bytes() / 2 : request.limit_bytes;
   MemoryPlan plan;
-  plan.set_aside_bytes = kProcess + (in_place ? kWindows : 0);
+  plan.request_ = request;
+  plan.set_aside_bytes = kProcess + (request.in_place ? kWindows : 0);
   plan.account_bytes = limit - plan.set_aside_bytes;
-  // Beyond these sizes more memory makes nothing faster. The live graph gets what nobody else
-  // takes; the front that is planned for leaves it room.
-  const std::uint64_t eighth = plan.account_bytes / 8;
-  plan.table_bytes = std::min(eighth / 2, 3 * kMiB);
-  plan.segment_bytes = std::min(eighth / 2, 2 * kMiB) / functions;
-  plan.live_bytes = std::min(4 * eighth, 96 * kMiB) / functions;
-
-  const bool alone = plan.account_bytes < kEnoughForThreads;
-  const std::uint64_t share = std::min(eighth, 64 * kMiB);
-  const auto most = static_cast<std::size_t>(
-      std::max<std::uint64_t>(512, share / bytes_a_triangle(alone ? 1 : kPlannedThreads, functions)));
-  plan.chunk.first = std::min(plan.chunk.first, most);
-  plan.chunk.most = std::min(plan.chunk.most, most);
-  plan.threads = alone ? 1 : threads;
-  while (plan.threads > kPlannedThreads && bytes_a_triangle(plan.threads, functions) * most > 2 * eighth) --plan.threads;
-  if (chunk_triangles != 0) plan.chunk = {chunk_triangles, chunk_triangles};
+  // Beyond these sizes more memory makes nothing faster.
+  plan.table_bytes = std::min(plan.account_bytes / 16, kMiB);
+  plan.segment_bytes = std::min(plan.account_bytes / 16, kMiB) / request.functions;
+  const std::uint64_t graph = request.denoises ? kNoiseRemoved : kNoiseKept;
+  const std::uint64_t buckets = request.denoises ? kBucketsRemoved : kBucketsKept;
+  plan.vertex_bytes_ = request.functions * (graph + (request.embeds ? buckets : 0));
+  plan.least_vertex_bytes_ = request.functions * (kSmooth + (request.embeds ? kBucketsSmooth : 0));
+  plan.size_chunks(plan.account_bytes / 4);  // until the front is known
   return plan;
+}
+
+std::uint64_t MemoryPlan::taken_bytes(const FrontNeeds& needs) const {
+  const std::uint64_t directory = 4 * needs.vertices / 1024;  // of the table of last uses
+  return (request_.in_place ? 1 : 2) * table_bytes + directory + request_.functions * segment_bytes + needs.function_bytes;
+}
+
+// What the least chunks leave for the live graphs.
+std::uint64_t MemoryPlan::live_room(const FrontNeeds& needs) const {
+  return less(account_bytes, taken_bytes(needs) + kLeastTriangles * chunk.alone.triangle_bytes);
+}
+
+bool MemoryPlan::fits(const FrontNeeds& needs) const {
+  return needs.live_vertices * vertex_bytes_ <= less(live_room(needs), account_bytes / 16);
+}
+
+bool MemoryPlan::exceeds(const FrontNeeds& needs) const {
+  return needs.live_vertices * least_vertex_bytes_ > live_room(needs);
+}
+
+std::uint64_t MemoryPlan::most_live_vertices() const {
+  return less(live_room({}), account_bytes / 16) / vertex_bytes_;
+}
+
+std::uint64_t MemoryPlan::needed_bytes(const FrontNeeds& needs) const {
+  const std::uint64_t fixed = taken_bytes(needs) + kLeastTriangles * chunk.alone.triangle_bytes;
+  return set_aside_bytes + (fixed + needs.live_vertices * vertex_bytes_) / 15 * 16;
+}
+
+// A rough function takes up to twice as much for the live graph, and half as much again for chunks.
+void MemoryPlan::share_out(const FrontNeeds& needs) {
+  const std::uint64_t live = needs.live_vertices * vertex_bytes_;
+  const std::uint64_t room = less(account_bytes, taken_bytes(needs) + live);
+  size_chunks(std::max({account_bytes / 8, room / 2, less(room, kSpare)}));
+  const std::uint64_t usual = less(kUsual, live) / chunk.parallel.triangle_bytes;
+  if (chunk.first != chunk.most) chunk.first = std::min(chunk.first, std::max<std::size_t>(usual, kUsefulTriangles));
+}
+
+void MemoryPlan::size_chunks(std::uint64_t bytes) {
+  const std::size_t functions = request_.functions;
+  const bool one_thread = account_bytes < kEnoughForThreads;
+  chunk = {};
+  chunk.allowance_bytes = one_thread ? account_bytes / 10 : std::min(bytes, kMostForChunks);
+  chunk.alone = one_thread ? chunk_cost(1, 1, functions) : chunk_cost(1, 2, functions);  // swept, glued
+  if (!one_thread) chunk.alone.triangle_bytes += kChunkBytes;                             // read
+  chunk.parallel = one_thread ? chunk.alone : chunk_cost(kPlannedThreads, kPlannedThreads + 1, functions);
+  const auto fitting = [&](const ChunkCost& cost) {
+    return std::max(kLeastTriangles, static_cast<std::size_t>(chunk.allowance_bytes / cost.triangle_bytes));
+  };
+  chunk.first = std::min(chunk.first, fitting(chunk.parallel));
+  chunk.most = std::min(chunk.most, fitting(chunk.alone));
+  threads = one_thread ? 1 : request_.threads;
+  const std::uint64_t parallel = std::max(chunk.allowance_bytes, account_bytes / 4);
+  while (threads > kPlannedThreads &&
+         chunk_cost(threads, threads + 1, functions).triangle_bytes * chunk.first > parallel)
+    --threads;
+  if (request_.chunk_triangles != 0) {
+    chunk.first = chunk.most = request_.chunk_triangles;
+    chunk.allowance_bytes = MemoryBudget::kUnlimited;
+  }
 }
 
 }  // namespace reeb::ooc

@@ -1,12 +1,12 @@
 #include "ooc/pipeline.h"
 
 #include <tbb/concurrent_queue.h>
-#include <tbb/enumerable_thread_specific.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_pipeline.h>
 
 #include <algorithm>
 #include <memory>
+#include <mutex>
 #include <vector>
 
 #include "libreeb/engine/chunk_sweep.h"
@@ -16,15 +16,49 @@
 namespace reeb::ooc {
 namespace {
 
-// One thread's scratch memory for sweeping.
+// Scratch memory for sweeping.
 struct Sweeper {
   explicit Sweeper(MemoryBudget& budget) : reservation(budget.reserve("chunk sweep", 0)) {}
   ChunkSweep sweep;
   Reservation reservation;
 };
 
+// As many as sweep at a time.
+class Sweepers {
+ public:
+  explicit Sweepers(MemoryBudget& budget) : budget_(budget) {}
+
+  std::unique_ptr<Sweeper> take() {
+    const std::lock_guard lock(mutex_);
+    if (free_.empty()) return std::make_unique<Sweeper>(budget_);
+    auto sweeper = std::move(free_.back());
+    free_.pop_back();
+    return sweeper;
+  }
+  // One of them, and the memory of the others is given back.
+  std::unique_ptr<Sweeper> take_only() {
+    auto sweeper = take();
+    const std::lock_guard lock(mutex_);
+    free_.clear();
+    return sweeper;
+  }
+  void give_back(std::unique_ptr<Sweeper> sweeper) {
+    const std::lock_guard lock(mutex_);
+    free_.push_back(std::move(sweeper));
+  }
+
+ private:
+  MemoryBudget& budget_;
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<Sweeper>> free_;
+};
+
 struct Slot {
   explicit Slot(MemoryBudget& budget) : reservation(budget.reserve("chunks in flight", 0)) {}
+  void free() {
+    item = {};
+    reservation.resize(0);
+  }
   WorkItem item;
   Reservation reservation;
 };
@@ -73,6 +107,15 @@ class Pipeline {
     slot.reservation.resize(slot.item.memory_bytes());
   }
 
+  // Chunks that leave no memory for another sweep take turns.
+  void sweep_in_parallel(Slot& slot, Sweepers& sweepers) {
+    std::unique_lock turn(alone_, std::defer_lock);
+    if (slot.item.sweep_alone) turn.lock();
+    auto sweeper = slot.item.sweep_alone ? sweepers.take_only() : sweepers.take();
+    sweep(slot, *sweeper);
+    sweepers.give_back(std::move(sweeper));
+  }
+
   SweepOptions sweep_options(const WorkItem& item, std::size_t function) const {
     return options_.choose_sweep ? options_.choose_sweep(function, item.end.ranges[function]) : SweepOptions{};
   }
@@ -113,7 +156,7 @@ class Pipeline {
       slots.push_back(std::make_unique<Slot>(budget_));
       free_slots.push(slots.back().get());
     }
-    tbb::enumerable_thread_specific<Sweeper> sweepers([this] { return Sweeper(budget_); });
+    Sweepers sweepers(budget_);
 
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism, options_.threads);
     kept_arena(options_.threads).execute([&] {
@@ -129,11 +172,12 @@ class Pipeline {
                                         }) &
               tbb::make_filter<Slot*, Slot*>(tbb::filter_mode::parallel,
                                              [&](Slot* slot) {
-                                               sweep(*slot, sweepers.local());
+                                               sweep_in_parallel(*slot, sweepers);
                                                return slot;
                                              }) &
               tbb::make_filter<Slot*, void>(tbb::filter_mode::serial_in_order, [&](Slot* slot) {
                 glue(*slot);
+                if (slot->item.sweep_alone) slot->free();
                 free_slots.push(slot);
               }));
     });
@@ -145,6 +189,7 @@ class Pipeline {
   std::vector<std::unique_ptr<Glue>> glues_;
   Reservation live_;
   LiveMaximum maximum_;
+  std::mutex alone_;  // held by a sweep that allows no other
 };
 
 }  // namespace
