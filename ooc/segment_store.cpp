@@ -8,6 +8,7 @@
 
 #include "ooc/arc_payload.h"
 #include "ooc/column_codec.h"
+#include "ooc/read_ahead.h"
 
 namespace reeb::ooc {
 
@@ -159,7 +160,7 @@ bool SegmentStore::read_arcs(ArcPiece& piece, std::size_t limit, std::optional<i
 
 namespace {
 
-constexpr std::size_t kStretch = 4096;  // records taken over at once
+constexpr std::size_t kStretch = 16384;  // records taken over at once
 
 // From vertices to nodes: a table with linear probing, at most half full.
 //
@@ -242,13 +243,16 @@ LoadedGraph read_graph(SegmentStore& store, const LoadOptions& options) {
   const Reservation table_memory = store.budget().reserve("ends of arcs", NodeTable::bytes(node_count));
   const NodeTable table(graph.nodes);
   store.rewind_arcs();
-  for (ArcPiece piece; store.read_arcs(piece, kStretch, options.bucket_exponent);) {
-    for (const ArcKeys& arc : piece.arcs) {
-      graph.lo.push_back(table.find(arc.lo));
-      graph.hi.push_back(table.find(arc.hi));
-    }
-    append(piece.buckets, loaded.buckets);
-  }
+  read_ahead<ArcPiece>(
+      store.background(),
+      [&](ArcPiece& piece) { return store.read_arcs(piece, kStretch, options.bucket_exponent); },
+      [&](const ArcPiece& piece) {
+        for (const ArcKeys& arc : piece.arcs) {
+          graph.lo.push_back(table.find(arc.lo));
+          graph.hi.push_back(table.find(arc.hi));
+        }
+        append(piece.buckets, loaded.buckets);
+      });
   return loaded;
 }
 

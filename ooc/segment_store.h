@@ -97,6 +97,7 @@ class SegmentStore : public GraphSink {
   std::uint64_t bucket_count() const { return bucket_count_; }
   std::uint64_t spilled_bytes() const { return nodes_.spilled_bytes() + arcs_.spilled_bytes(); }
   MemoryBudget& budget() { return *budget_; }
+  bool background() const { return background_; }
 
  private:
   MemoryBudget* budget_;

@@ -24,13 +24,18 @@ LiveGraph::Index LiveGraph::next_arc(Index a, Direction d) const {
 // The node may have become a leaf, or the saddle of one; before it is settled this is the last moment
 // at which all its arcs are there.
 void LiveGraph::remove_noise_at(Index n) {
-  if (is_leaf(nodes_[n])) return try_leaf(n);
-  for (const Direction d : {kDown, kUp})
+  const Node& node = nodes_[n];
+  if (is_leaf(node)) return try_leaf(n);
+  if (!node.intact) return;
+  for (const Direction d : {kDown, kUp}) {
+    // A leaf goes only where another arc leads on, and has an arc without references.
+    if ((d == kUp ? node.up_degree : node.down_degree) < 2) continue;
     for (Index a = first_arc(n, d); a != kNone;) {
-      const Index end = arcs_[a].end(d);
+      const Arc& arc = arcs_[a];
       a = next_arc(a, d);
-      if (is_leaf(nodes_[end])) try_leaf(end);
+      if (arc.references == 0 && is_leaf(nodes_[arc.end(d)])) try_leaf(arc.end(d));
     }
+  }
 }
 
 void LiveGraph::try_leaf(Index leaf) {
