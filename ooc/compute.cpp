@@ -362,7 +362,7 @@ FileMeta Run::file_meta(const ComputeResult& result) const {
 // there is much to look up and memory is free, 4 bytes a vertex.
 void Run::write_stored_graph(ComputeResult& result, SegmentStore& store) {
   constexpr std::size_t kNodes = 16384, kBytesAnArc = 1000, kManyVerticesANode = 16;
-  const std::size_t pieces = std::clamp<std::size_t>(budget_.free_bytes() / kBytesAnArc, 4096, 65536);
+  std::size_t pieces = std::clamp<std::size_t>(budget_.free_bytes() / kBytesAnArc, 4096, 65536);
   GraphFileWriter::Options writing{.has_embedding = embeds(),
                                    .ends = GraphFileWriter::ArcEnds::kKeys,
                                    .background = plan_.threads > 1};
@@ -371,6 +371,7 @@ void Run::write_stored_graph(ComputeResult& result, SegmentStore& store) {
   if (result.vertices / kManyVerticesANode <= result.nodes && table_bytes <= budget_.free_bytes() / 4) {
     table = budget_.reserve("ranks of nodes", table_bytes);
     writing.ends = GraphFileWriter::ArcEnds::kKeysInMemory;
+    pieces = 8192;  // large ones are for the scratch file
   }
   GraphFileWriter writer(result.output, file_meta(result), writing);
   store.nodes().rewind();
