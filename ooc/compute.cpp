@@ -488,7 +488,7 @@ FileMeta Run::file_meta(const ComputeResult& result) const {
 // there is much to look up and memory is free, 4 bytes a vertex.
 void Run::write_stored_graph(ComputeResult& result, SegmentStore& store, const FileMeta& meta) {
   constexpr std::size_t kNodes = 16384, kBytesAnArc = 1000, kManyVerticesANode = 16;
-  const std::size_t pieces = std::clamp<std::size_t>(budget_.free_bytes() / kBytesAnArc, 4096, 65536);
+  std::size_t pieces = std::clamp<std::size_t>(budget_.free_bytes() / kBytesAnArc, 4096, 65536);
   GraphFileWriter::Options writing{.has_embedding = embeds(),
                                    .ends = GraphFileWriter::ArcEnds::kKeys,
                                    .background = plan_.threads > 1};
@@ -497,6 +497,7 @@ void Run::write_stored_graph(ComputeResult& result, SegmentStore& store, const F
   if (result.vertices / kManyVerticesANode <= result.nodes && table_bytes <= budget_.free_bytes() / 4) {
     table = budget_.reserve("ranks of nodes", table_bytes);
     writing.ends = GraphFileWriter::ArcEnds::kKeysInMemory;
+    pieces = 8192;  // large ones are for the scratch file
   }
   GraphFileWriter writer(result.output, meta, writing);
   store.nodes().rewind();
