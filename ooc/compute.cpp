@@ -584,7 +584,8 @@ void Run::write_hierarchy(ComputeResult& result, SegmentStore& store) {
   const FileMeta meta = file_meta(result);
   const ReebGraph& graph = loaded.graph;
   result.betti = betti_numbers(graph);
-  const Hierarchy hierarchy = build_hierarchy(graph, loaded.buckets, meta.bucket_exponent);
+  const Hierarchy hierarchy = build_hierarchy(graph, loaded.buckets, meta.bucket_exponent,
+                                              [this] { resumable_.check_interruption(); });
   for (const PersistencePair& pair : hierarchy.pairs) {
     ++result.pairs[static_cast<std::size_t>(pair.type)];
     result.kept_loops += pair.kept ? 1u : 0u;

@@ -7,6 +7,7 @@
 #include <exception>
 #include <new>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "libreeb/base/error.h"
@@ -82,6 +83,9 @@ int main(int argc, char** argv) {
   } catch (const std::bad_alloc&) {
     return report(reeb::ErrorKind::kResource, "out of memory",
                   "close other programs, or use a smaller mesh");
+  } catch (const std::system_error& error) {  // of fmt, which has standard output alone
+    return report(reeb::ErrorKind::kResource, std::string("standard output ") + error.what(),
+                  "keep what reads it open, or see to the disk");
   } catch (const std::exception& error) {
     return report(reeb::ErrorKind::kResource, error.what(), "please report this as a defect");
   }
