@@ -33,8 +33,6 @@ constexpr std::size_t kUsefulTriangles = 16384;
 // fragment.
 constexpr std::uint64_t kSweepBytes = 90, kFlightBytes = 55, kChunkBytes = 33, kSourceBytes = 20;
 constexpr std::uint64_t kSharedSweepBytes = 160, kSharedFlightBytes = 120;
-// Room for rough functions, where there is much.
-constexpr std::uint64_t kSpare = 8 * kMiB;
 // Beyond this more memory for chunks makes little faster.
 constexpr std::uint64_t kMostForChunks = 64 * kMiB;
 constexpr std::size_t kLeastTriangles = 512;
@@ -107,11 +105,12 @@ std::uint64_t MemoryPlan::needed_bytes(const FrontNeeds& needs) const {
   return set_aside_bytes + (fixed + needs.live_vertices * vertex_bytes_) / 15 * 16;
 }
 
-// A rough function takes up to twice as much for the live graph, and half as much again for chunks.
+// A rough function takes up to twice as much for the live graph, and half as much again for chunks; so
+// half of the room is left.
 void MemoryPlan::share_out(const FrontNeeds& needs) {
   const std::uint64_t live = needs.live_vertices * vertex_bytes_;
   const std::uint64_t room = less(account_bytes, taken_bytes(needs) + live);
-  size_chunks(std::max({account_bytes / 8, room / 2, less(room, kSpare)}));
+  size_chunks(std::max(account_bytes / 8, room / 2));
   const std::uint64_t usual = less(kUsual, live) / chunk.parallel.triangle_bytes;
   if (chunk.first != chunk.most) chunk.first = std::min(chunk.first, std::max<std::size_t>(usual, kUsefulTriangles));
 }
