@@ -415,8 +415,8 @@ void Run::run_chunks(ChunkSource& source) {
   PipelineOptions options;
   options.threads = plan_.threads;
   options.choose_sweep = [this](std::size_t, const FunctionRange& range) { return sweep_options(range); };
-  options.progress = [this](const ChunkSource& s) {
-    tell(Phase::kReeb, s.bytes_read(), s.bytes_total(), s.triangles_read());
+  options.progress = [this](const SourceProgress& at) {
+    tell(Phase::kReeb, at.bytes_read, at.bytes_total, at.triangles_read);
   };
   options.between_chunks = [this](const ChunkPlace& place, const SaveEngine& save_engine) {
     here_.place = place;

@@ -60,6 +60,7 @@ struct Slot {
     reservation.resize(0);
   }
   WorkItem item;
+  SourceProgress progress;  // taken by the reader, which may be further on when the chunk is glued
   Reservation reservation;
 };
 
@@ -95,6 +96,7 @@ class Pipeline {
 
   bool read(Slot& slot) {
     if (!source_.next(slot.item)) return false;
+    slot.progress = {source_.bytes_read(), source_.bytes_total(), source_.triangles_read()};
     slot.reservation.resize(slot.item.memory_bytes());
     return true;
   }
@@ -134,7 +136,7 @@ class Pipeline {
     maximum_.vertices = std::max(maximum_.vertices, now.vertices);
     maximum_.edges = std::max(maximum_.edges, now.edges);
     maximum_.arcs = std::max(maximum_.arcs, now.arcs);
-    if (options_.progress) options_.progress(source_);
+    if (options_.progress) options_.progress(slot.progress);
     if (options_.between_chunks)
       options_.between_chunks(slot.item.end, [this](StateWriter& out) { save(out); });
   }

@@ -26,11 +26,16 @@ using SaveEngine = std::function<void(StateWriter&)>;
 // chunk. Called by several threads.
 using ChooseSweep = std::function<SweepOptions(std::size_t function, const FunctionRange& range)>;
 
+// How far the source was when it had read a chunk.
+struct SourceProgress {
+  std::uint64_t bytes_read = 0, bytes_total = 0, triangles_read = 0;
+};
+
 struct PipelineOptions {
   unsigned threads = 1;
   ChooseSweep choose_sweep = {};  // empty: nothing but the graph
   // Called in order after each chunk was glued; may throw to stop the run.
-  std::function<void(const ChunkSource&)> progress = {};
+  std::function<void(const SourceProgress&)> progress = {};
   // Called after that: the place behind the chunk, and how to save what was glued up to there.
   std::function<void(const ChunkPlace&, const SaveEngine&)> between_chunks = {};
   // What an earlier process saved; the source starts at that place.
