@@ -188,5 +188,27 @@ TEST(Embedding, AnArcThatNothingIsLaidOnKeepsItsRecord) {
   EXPECT_EQ(of(buckets, 4), (std::vector<Bucket>{{5, 1, {5, 0, 0}}, {7, 1, {7.5, 0, 0}}}));
 }
 
+TEST(Embedding, AnExtremumIsLaidOn64ArcsAtMost) {
+  // The maximum 150 beside a way up with a fork at each of 2, 3, ..., 101, all of larger persistence.
+  std::vector<std::pair<std::uint64_t, std::uint64_t>> arcs{{0, 1}, {1, 2}, {1, 150}};
+  std::vector<std::vector<Bucket>> of_arcs(3);
+  for (int i = 2; i < 150; ++i) of_arcs[2].push_back({i, 1, {i + 0.5, 0, 0}});
+  for (std::uint64_t fork = 2; fork <= 101; ++fork) {
+    arcs.emplace_back(fork, fork == 101 ? 2000 : fork + 1);
+    arcs.emplace_back(fork, 1000 + fork);
+    if (fork == 101) std::swap(arcs.back(), arcs[arcs.size() - 2]);
+  }
+  of_arcs.resize(arcs.size());
+  test::EmbeddedGraph made{graph_of(arcs), embedding(of_arcs), kUnit};
+
+  ArcBuckets buckets = made.buckets;
+  const Hierarchy h = build_hierarchy(made.graph, buckets, kUnit);
+  ASSERT_EQ(h.pairs[0].type, PairType::kRel1);
+  // Of 2 to 149 those up to 64 are laid on the arcs that end in 3, ..., 65.
+  ASSERT_FALSE(h.dropped.empty());
+  EXPECT_EQ(h.dropped.front(), (DroppedVertices{1, 149 - 64 + 1}));
+  check_every_version(made, h, buckets.view());
+}
+
 }  // namespace
 }  // namespace reeb
