@@ -72,6 +72,8 @@ for ((i = 1; i <= moments; ++i)); do
   kept="no checkpoint"
   [[ -e $output.partial/checkpoint ]] && kept="a checkpoint"
   [[ -e $output ]] && kept="the whole output"
+  # A run killed when its output is whole may not have removed its folder yet: a run of the same name does.
+  [[ -e $output && -e $output.partial ]] && (compute -o "$output" --force)
   [[ -e $output ]] || (compute -o "$output" --resume)
   if cmp -s "whole-$run.reeb" "$output" && [[ $left == 0 && -z $(find . -name '*.partial*') ]]; then
     echo "; it left $kept: same bytes"
