@@ -10,10 +10,10 @@
 #include "libreeb/engine/sweep_options.h"
 #include "libreeb/graph/bucket.h"
 #include "libreeb/hierarchy/cancel.h"
-#include "libreeb/hierarchy/denoise.h"
 #include "ooc/atomic_file.h"
 #include "ooc/coherence.h"
 #include "ooc/guessed_chunks.h"
+#include "ooc/last_noise_pass.h"
 #include "ooc/last_use.h"
 #include "ooc/last_use_sidecar.h"
 #include "ooc/memory_plan.h"
@@ -135,8 +135,7 @@ class Run {
   FileMeta file_meta(const ComputeResult& result) const;
   bool embeds() const { return options_.buckets != 0; }
   void write_stored_graph(ComputeResult& result, SegmentStore& store, const FileMeta& meta);
-  LoadedGraph load_graph(ComputeResult& result, SegmentStore& store);
-  void write_loaded_graph(ComputeResult& result, const LoadedGraph& loaded);
+  void remove_last_noise(ComputeResult& result, SegmentStore& store);
   void write_hierarchy(ComputeResult& result, SegmentStore& store);
   Error no_memory_for(const std::string& what, const ComputeResult& result, std::uint64_t needed,
                       const std::string& otherwise) const;
@@ -459,12 +458,11 @@ ComputeResult Run::second_stage(std::size_t f) {
     const Stopwatch watch(result.seconds.hierarchy);
     store.finish();
     result.spilled_bytes += store.spilled_bytes();
-    if (!options_.graph_only)
-      write_hierarchy(result, store);
-    else if (options_.denoise > 0)
-      write_loaded_graph(result, load_graph(result, store));
-    else
+    if (options_.denoise > 0) remove_last_noise(result, store);
+    if (options_.graph_only)
       write_stored_graph(result, store, file_meta(result));
+    else
+      write_hierarchy(result, store);
   }
   result.seconds.wall += seconds_since(start);
   return result;
@@ -500,9 +498,9 @@ void Run::write_stored_graph(ComputeResult& result, SegmentStore& store, const F
     pieces = 8192;  // large ones are for the scratch file
   }
   GraphFileWriter writer(result.output, meta, writing);
-  store.nodes().rewind();
+  store.rewind_nodes();
   read_ahead<std::vector<SettledNode>>(
-      writing.background, [&](auto& nodes) { return store.nodes().read(nodes, kNodes); },
+      writing.background, [&](auto& nodes) { return store.read_nodes(nodes, kNodes); },
       [&](const auto& nodes) { writer.add_nodes(nodes); });
   store.rewind_arcs();
   const std::optional<int> exponent = sweep_options(result.range).bucket_exponent;
@@ -513,36 +511,21 @@ void Run::write_stored_graph(ComputeResult& result, SegmentStore& store, const F
   result.betti = {writer.header().components, writer.header().loops};
 }
 
-// The graph in memory, less all noise: what was left of it on the way goes here. Where that does not
-// fit, the graph is kept as it is and the user is told, before the work starts.
-LoadedGraph Run::load_graph(ComputeResult& result, SegmentStore& store) {
+// What was left of the noise on the way goes here. Where memory does not suffice, the graph is kept as
+// it is and the user is told.
+void Run::remove_last_noise(ComputeResult& result, SegmentStore& store) {
   const SweepOptions sweep = sweep_options(result.range);
-  const LoadOptions loading{.bucket_exponent = sweep.bucket_exponent};
-  if (options_.denoise <= 0) return read_graph(store, loading);
-  constexpr std::uint64_t kBytesAnArc = 40, kBytesANode = 24, kBytesABucket = 48;  // beside the graph
-  const std::uint64_t scratch_bytes = kBytesAnArc * store.arc_count() + kBytesANode * store.node_count() +
-                                      (embeds() ? kBytesABucket * store.bucket_count() : 0);
-  const std::uint64_t needed = loading_bytes(store, loading) + scratch_bytes;
-  if (needed > budget_.free_bytes()) {
+  LastNoisePass pass = run_last_noise_pass(store, sweep.noise_below, sweep.bucket_exponent);
+  if (!pass.fits) {
     FileMeta meta = file_meta(result);
     meta.denoise_threshold = 0;
     write_stored_graph(result, store, meta);
-    throw no_memory_for("the last pass of noise removal", result, needed, "do without --denoise");
+    throw no_memory_for("the last pass of noise removal", result, pass.needed_bytes, "do without --denoise");
   }
-  LoadedGraph loaded = read_graph(store, loading);
-  const Reservation scratch = budget_.reserve("last pass of noise removal", scratch_bytes);
-  Denoised denoised =
-      denoise(std::move(loaded.graph), sweep.noise_below, loaded.buckets, sweep.bucket_exponent.value_or(0));
-  loaded.graph = std::move(denoised.graph);
-  result.denoised_pairs += denoised.removed.size();
-  result.nodes = loaded.graph.node_count();
-  result.arcs = loaded.graph.arc_count();
-  return loaded;
-}
-
-void Run::write_loaded_graph(ComputeResult& result, const LoadedGraph& loaded) {
-  result.betti = betti_numbers(loaded.graph);
-  write_graph_file(result.output, file_meta(result), loaded.graph, loaded.buckets.view());
+  if (pass.patch) store.apply(std::move(*pass.patch));
+  result.denoised_pairs += pass.removed_pairs;
+  result.nodes = store.node_count();
+  result.arcs = store.arc_count();
 }
 
 Error Run::no_memory_for(const std::string& what, const ComputeResult& result, std::uint64_t needed,
@@ -570,15 +553,16 @@ void Run::write_hierarchy(ComputeResult& result, SegmentStore& store) {
     return kBytesAnArc * std::max(result.arcs, result.nodes) + kBytesABucket * buckets;
   };
   std::uint64_t needed = bytes(store.bucket_count());
-  if (options_.denoise <= 0 && needed > budget_.free_bytes()) {
+  if (needed > budget_.free_bytes()) {
     write_stored_graph(result, store, file_meta(result));
     throw no_memory_for_hierarchy(result, needed);
   }
-  LoadedGraph loaded = load_graph(result, store);
+  LoadedGraph loaded = read_graph(store, {.bucket_exponent = sweep_options(result.range).bucket_exponent});
   needed = bytes(loaded.buckets.buckets.size());
   const Reservation memory = budget_.try_reserve("hierarchy", needed / kGraphShare);
   if (memory.bytes() == 0 && needed != 0) {
-    write_loaded_graph(result, loaded);
+    loaded = {};
+    write_stored_graph(result, store, file_meta(result));
     throw no_memory_for_hierarchy(result, needed);
   }
   const FileMeta meta = file_meta(result);
