@@ -120,6 +120,18 @@ TEST(LastNoisePass, LeavesWhatNoiseRemovalInMemoryDoes) {
   EXPECT_GT(removed, cases / 2);
 }
 
+// A bucket for each arc.
+EmbeddedGraph embedded(std::vector<ArcKeys> arcs) {
+  EmbeddedGraph made{test::contracted(std::move(arcs), {}), {.offsets = {0}, .buckets = {}}, 1};
+  for (const SweepKey& key : made.graph.nodes) made.graph.positions.push_back({key.value, 1, 2});
+  for (std::size_t arc = 0; arc < made.graph.arc_count(); ++arc) {
+    const double value = made.graph.nodes[made.graph.lo[arc].value()].value;
+    made.buckets.buckets.push_back({bucket_index(value, 1), 1 + arc % 5, {value, 3, static_cast<double>(arc)}});
+    made.buckets.offsets.push_back(arc + 1);
+  }
+  return made;
+}
+
 // A trunk of small loops with twigs that have twigs: a few of many short arcs can be removed.
 EmbeddedGraph trunk(std::uint32_t segments, Random& random) {
   std::vector<ArcKeys> arcs;
@@ -140,14 +152,7 @@ EmbeddedGraph trunk(std::uint32_t segments, Random& random) {
     }
   }
   arcs.push_back({from, node(10.0 * segments + 100)});
-  EmbeddedGraph made{test::contracted(std::move(arcs), {}), {.offsets = {0}, .buckets = {}}, 1};
-  for (const SweepKey& key : made.graph.nodes) made.graph.positions.push_back({key.value, 1, 2});
-  for (std::size_t arc = 0; arc < made.graph.arc_count(); ++arc) {
-    const double value = made.graph.nodes[made.graph.lo[arc].value()].value;
-    made.buckets.buckets.push_back({bucket_index(value, 1), 1 + arc % 5, {value, 3, static_cast<double>(arc)}});
-    made.buckets.offsets.push_back(arc + 1);
-  }
-  return made;
+  return embedded(std::move(arcs));
 }
 
 TEST(LastNoisePass, FindsTheTwigsOfATrunk) {
@@ -158,6 +163,22 @@ TEST(LastNoisePass, FindsTheTwigsOfATrunk) {
     const EmbeddedGraph made = trunk(30, random);
     check(made, static_cast<double>(test::below(random, 45)), i % 2 == 0, random);
   }
+}
+
+// Four ways from 0 to 1000 become arcs when their twigs are gone, beside two that are; of each pair of
+// ways the lower one has its twigs above those of the other, or below, so that no order of parts is the
+// order of the arcs.
+TEST(LastNoisePass, ParallelArcsKeepTheOrderOfTheirLowestParts) {
+  const auto arc = [](double lo, double hi) {
+    const auto key = [](double value) { return SweepKey{value, VertexId(static_cast<std::uint64_t>(value))}; };
+    return ArcKeys{key(lo), key(hi)};
+  };
+  std::vector<ArcKeys> arcs{arc(0, 1000), arc(0, 1000)};
+  for (const double fork : {380, 385, 400, 410}) arcs.insert(arcs.end(), {arc(0, fork), arc(fork, 1000)});
+  arcs.insert(arcs.end(), {arc(380, 391), arc(385, 386), arc(400, 401), arc(410, 411), arc(399, 410)});
+  const EmbeddedGraph made = embedded(std::move(arcs));
+  Random random(5);
+  for (int i = 0; i < 10; ++i) EXPECT_EQ(check(made, 12, true, random), 5u);
 }
 
 TEST(LastNoisePass, OfAGraphOnDiskInManyRuns) {
