@@ -20,14 +20,16 @@ namespace {
 // is counted at both ends, with what is at the other end; and for each byte of their payloads.
 constexpr std::uint64_t kNodeBytes = 96, kArcBytes = 160, kPayloadFactor = 12;
 
-// To make a graph of short arcs that lie in a vector of this capacity.
-std::uint64_t short_graph_bytes(std::uint64_t arcs, std::uint64_t capacity) {
-  return sizeof(ArcKeys) * capacity + (4 * sizeof(SweepKey) + 2 * sizeof(NodeId)) * arcs;
+// To find the scope in a graph of short arcs: the graph, the degrees and payloads of its nodes, and either
+// the table in which these are looked up, or what noise_scope() takes.
+std::uint64_t search_bytes(std::uint64_t arcs, std::uint64_t nodes) {
+  constexpr std::uint64_t kNode = sizeof(SweepKey) + 16, kArc = 2 * sizeof(NodeId), kScopeNode = 25, kScopeArc = 12;
+  return kNode * nodes + kArc * arcs + std::max(SparseNodeTable::bytes(nodes), kScopeNode * nodes + kScopeArc * arcs);
 }
 
-// To find the scope in that graph, with the weights of its nodes.
-std::uint64_t search_bytes(std::uint64_t arcs, std::uint64_t nodes) {
-  return (2 * sizeof(NodeId) + 16) * arcs + (sizeof(SweepKey) + 41) * nodes + SparseNodeTable::bytes(nodes);
+// To make that graph of arcs in a vector of this capacity.
+std::uint64_t short_graph_bytes(std::uint64_t arcs, std::uint64_t capacity) {
+  return sizeof(ArcKeys) * capacity + (4 * sizeof(SweepKey) + 2 * sizeof(NodeId)) * arcs;
 }
 
 // Copying a quarter more each time costs little, and leaves little unused.
@@ -108,7 +110,7 @@ class Pass {
     });
     make_room(memory_, short_graph_bytes(count, found.capacity()), 0);
     if (result_.fits) return found;
-    result_.needed_bytes = std::max(short_graph_bytes(count, 2 * count + next_capacity(0)), search_bytes(count, 2 * count)) + most_bytes();
+    result_.needed_bytes = short_graph_bytes(count, 2 * count + next_capacity(0)) + search_bytes(count, 2 * count) + most_bytes();
     return {};
   }
 
@@ -267,22 +269,24 @@ class Pass {
       result_.needed_bytes = enough_;
       return;
     }
-    if (records.size() == records.capacity() && grow_patch(next_capacity(records.capacity()), pool.capacity()))
-      records.reserve(next_capacity(records.capacity()));
-    if (pool.size() + payload_.size() > pool.capacity() && grow_patch(records.capacity(), next_capacity(pool.capacity() + payload_.size())))
-      pool.reserve(next_capacity(pool.capacity() + payload_.size()));
+    if (records.size() == records.capacity()) {
+      const std::size_t more = next_capacity(records.capacity());
+      if (grow_patch(more * sizeof(PatchArc))) records.reserve(more);
+    }
+    if (pool.size() + payload_.size() > pool.capacity()) {
+      const std::size_t more = next_capacity(pool.capacity() + payload_.size());
+      if (grow_patch(more)) pool.reserve(more);
+    }
     if (!result_.fits) return;
     patch_.arcs.add(arc, payload_);
     patch_.buckets += buckets.size();
   }
 
-  // Room for these capacities beside those that there are.
-  bool grow_patch(std::size_t records, std::size_t pool) {
-    const auto& arcs = patch_.arcs;
-    const std::uint64_t before = arcs.records.capacity() * sizeof(PatchArc) + arcs.pool.capacity();
-    const std::uint64_t keys = (2 * sizeof(SweepKey) + 20) * scope_.nodes.size();  // redone, gone, found
-    return make_room(patch_.memory, keys + before + records * sizeof(PatchArc) + pool, enough_);
+  std::uint64_t patch_bytes() const {
+    return patch_.arcs.records.capacity() * sizeof(PatchArc) + patch_.arcs.pool.capacity() +
+           patch_.gone.capacity() * sizeof(SweepKey);
   }
+  bool grow_patch(std::uint64_t bytes) { return make_room(patch_.memory, patch_bytes() + bytes, enough_); }
 
   // Both ascend.
   void add_gone(const std::vector<SweepKey>& before, const std::vector<SweepKey>& after) {
@@ -292,6 +296,9 @@ class Pass {
   void finish_patch() {
     scope_.weights = {};
     patch_.redone = std::move(scope_.nodes);
+    memory_.release();
+    const std::size_t redone = patch_.redone.capacity();
+    if (!grow_patch(redone * sizeof(SweepKey) + NodeTable::bytes(redone))) return;
     std::sort(patch_.gone.begin(), patch_.gone.end());
     // Of parallel arcs the one whose lowest part was stored first; the payloads of a part are in its order.
     std::sort(patch_.arcs.records.begin(), patch_.arcs.records.end(), [](const PatchArc& a, const PatchArc& b) {
@@ -300,7 +307,6 @@ class Pass {
       };
       return key(a) < key(b);
     });
-    memory_.release();
     result_.patch = std::move(patch_);
   }
 
