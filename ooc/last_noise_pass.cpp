@@ -90,9 +90,7 @@ class Pass {
 
   // What removing noise takes if all of the graph is looked at, the patch included.
   std::uint64_t most_bytes() const {
-    constexpr std::uint64_t kBucket = 48;  // at most, as payload
-    const std::uint64_t buckets = exponent_ ? kBucket * store_.bucket_count() : 0;
-    return 2 * (kNodeBytes * store_.node_count() + 2 * (kArcBytes * store_.arc_count() + kPayloadFactor * buckets));
+    return 2 * (kNodeBytes * store_.node_count() + kArcBytes * store_.arc_count() + kPayloadFactor * payload_bytes_);
   }
 
   // ---- where noise can be
@@ -119,6 +117,7 @@ class Pass {
     std::vector<ArcKeys> found;
     std::uint64_t count = 0;
     store_.scan_arcs([&](const StoredArc& arc, const auto&) {
+      payload_bytes_ += exponent_ ? arc.payload.size : 0;
       if (!is_short(arc.keys.lo.value, arc.keys.hi.value, options_.threshold)) return;
       ++count;
       if (result_.fits && found.size() == found.capacity()) grow(found);
@@ -341,6 +340,7 @@ class Pass {
   const LastNoiseOptions options_;
   const std::optional<int> exponent_;
   Reservation memory_;
+  std::uint64_t payload_bytes_ = 0;  // of all stored arcs
   Scope scope_;
   std::uint64_t held_ = 0;    // of memory, for the scope
   std::uint64_t enough_ = 0;  // to remove its noise
