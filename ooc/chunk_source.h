@@ -32,27 +32,17 @@ struct WorkItem {
   Chunk chunk;
   std::vector<std::vector<double>> values;  // one array a function
   std::vector<Fragment> fragments;          // one a function
-  ChunkPlace end;                           // behind this chunk
-  bool sweep_alone = false;                 // memory does not suffice for another sweep meanwhile
+  ChunkPlace end;                           // behind this chunk, or the stretch that it was cut from
+  bool ends_stretch = true;                 // a run can go on from behind this chunk
+  void shrink_to_fit();
   std::size_t memory_bytes() const;
 };
 
-// What chunks in flight and the scratch of their sweeps take.
-struct ChunkCost {
-  std::uint64_t triangle_bytes = 0, shared_bytes = 0;  // a triangle; a vertex that other chunks share
-  double bytes(double triangles, double shared) const {
-    return triangles * static_cast<double>(triangle_bytes) + shared * static_cast<double>(shared_bytes);
-  }
-};
-
-// How many triangles a chunk has, and what may be spent on chunks.
+// How many triangles a chunk has. One of more than `first` is a stretch, to be cut into such of at most
+// `first` (divided_chunks.h).
 struct ChunkSize {
   std::size_t first = 32768;  // to start with
   std::size_t most = 524288;  // as far as it may grow; equal to `first`: fixed
-  // A chunk grows as far as that fits with one sweep at a time; it is swept alone if it does not fit
-  // with several.
-  std::uint64_t allowance_bytes = ~std::uint64_t{0};
-  ChunkCost parallel = {}, alone = {};
 };
 
 class ChunkSource {

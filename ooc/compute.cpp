@@ -13,6 +13,7 @@
 #include "libreeb/hierarchy/denoise.h"
 #include "ooc/atomic_file.h"
 #include "ooc/coherence.h"
+#include "ooc/divided_chunks.h"
 #include "ooc/guessed_chunks.h"
 #include "ooc/last_use.h"
 #include "ooc/last_use_sidecar.h"
@@ -64,6 +65,7 @@ class Run {
                            .threads = options.threads,
                            .functions = functions.size(),
                            .chunk_triangles = options.chunk_triangles,
+                           .stretch_triangles = options.stretch_triangles,
                            .in_place = input.indexed != nullptr,
                            .embeds = options.buckets != 0,
                            .denoises = options.denoise > 0})),
@@ -127,7 +129,7 @@ class Run {
   Reservation prepare_values(std::uint64_t vertices);
   void divide_memory(const UseSummary& summary);
   LastUse reorder_mesh();
-  void run_chunks(ChunkSource& source);
+  void run_chunks(ChunkSource& stretches);
 
   SweepOptions sweep_options(const FunctionRange& range) const;
 
@@ -243,10 +245,8 @@ std::unique_ptr<GuessedChunks> Run::guessed_chunks(Spooler& spooler) {
   here_.origin = ChunkOrigin::kGuessed;
   if (start_ != nullptr) {
     here_.chunk = start_->chunk;
-  } else {  // as far as chunks can be swept side by side
-    const std::uint64_t side_by_side = plan_.chunk.allowance_bytes / plan_.chunk.parallel.triangle_bytes;
-    here_.chunk.first = plan_.chunk.first;
-    here_.chunk.most = std::max(plan_.chunk.first, std::min<std::size_t>(plan_.chunk.most, side_by_side));
+  } else {
+    here_.chunk = plan_.chunk;
   }
   return std::make_unique<GuessedChunks>(spooler, values_, temp_, budget_,
                                          GuessOptions{.chunk = here_.chunk,
@@ -408,8 +408,9 @@ LastUse Run::reorder_mesh() {
   return std::move(*scan(false));
 }
 
-void Run::run_chunks(ChunkSource& source) {
+void Run::run_chunks(ChunkSource& stretches) {
   const Stopwatch watch(common_.seconds.reeb);
+  DividedChunks source(stretches, plan_.chunk.first, budget_);
   std::vector<GraphSink*> sinks;
   for (const auto& store : stores_) sinks.push_back(store.get());
   PipelineOptions options;

@@ -43,6 +43,8 @@ struct ComputeOptions {
   std::uint64_t memory_bytes = MemoryBudget::kUnlimited;
   unsigned threads = 1;
   std::size_t chunk_triangles = 0;  // 0: adaptive
+  // With a chosen size of chunks: they are cut from stretches that grow up to so many triangles.
+  std::size_t stretch_triangles = 0;
   std::string temp_dir;             // empty: $TMPDIR, or the folder of the first output
   bool graph_only = false;
   bool keep_sidecar = false;

@@ -1,4 +1,5 @@
 #include "libreeb/base/error.h"
+#include "ooc/chunk_growth.h"
 #include "ooc/chunk_source.h"
 
 namespace reeb::ooc {
@@ -25,7 +26,7 @@ class StreamChunks : public ChunkSource {
 
   MeshReader& reader_;
   FunctionValues& columns_;
-  ChunkSize size_;
+  ChunkGrowth size_;  // in triangles
   StreamChunker chunker_;
   std::uint64_t triangles_read_ = 0;
   std::uint64_t batches_ = 0;
@@ -40,12 +41,15 @@ class StreamChunks : public ChunkSource {
 };
 
 bool StreamChunks::next(WorkItem& item) {
-  while (!ended_ && chunker_.chunk_size() < size_.first) read_batch();
+  while (!ended_ && chunker_.chunk_size() < size_.size()) read_batch();
   if (chunker_.chunk_size() == 0) return false;
   chunker_.take(item.chunk, item.values);
+  size_.adapt(item.chunk);
+  item.ends_stretch = true;
   item.end.triangles = triangles_read_;
   item.end.next_vertex = chunker_.vertex_count();
   item.end.batches = batches_;
+  item.end.chunk_blocks = size_.size();
   item.end.ranges.assign(columns_.ranges().begin(), columns_.ranges().end());
   return true;
 }
@@ -57,11 +61,12 @@ void StreamChunks::pass_over(const ChunkPlace& start) {
   std::vector<std::vector<double>> values;
   while (!ended_ && batches_ < start.batches) {
     read_batch();
-    if (chunker_.chunk_size() >= size_.first || batches_ == start.batches) chunker_.take(chunk, values);
+    if (chunker_.chunk_size() >= size_.size() || batches_ == start.batches) chunker_.take(chunk, values);
   }
   if (batches_ != start.batches || triangles_read_ != start.triangles || chunker_.vertex_count() != start.next_vertex)
     throw Error(ErrorKind::kBadInput, "the stream is not the one that the checkpoint was made of",
                 "run it again without --resume");
+  if (start.chunk_blocks != 0) size_.set_size(static_cast<std::size_t>(start.chunk_blocks));
   if (!start.ranges.empty()) columns_.set_ranges(start.ranges);
 }
 
@@ -89,6 +94,8 @@ void StreamChunks::add_vertices() {
     data_.emplace_back(column < batch_.coordinates.size()
                            ? batch_.coordinates[column]
                            : batch_.properties[column - batch_.coordinates.size()]);
+  positions_.clear();
+  for (auto& values : values_) values.clear();
   columns_.evaluate(ids_, data_, positions_, values_);
   row_.resize(values_.size());
   for (std::size_t i = 0; i < n; ++i) {
