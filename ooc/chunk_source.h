@@ -38,11 +38,13 @@ struct WorkItem {
   std::size_t memory_bytes() const;
 };
 
-// How many triangles a chunk has. One of more than `first` is a stretch, to be cut into such of at most
-// `first` (divided_chunks.h).
+// How many triangles a chunk has.
 struct ChunkSize {
   std::size_t first = 32768;  // to start with
   std::size_t most = 524288;  // as far as it may grow; equal to `first`: fixed
+  // One of more than `first` is a stretch, to be cut into patches of at most so many
+  // (divided_chunks.h).
+  std::size_t patch = 32768;
 };
 
 class ChunkSource {

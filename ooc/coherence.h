@@ -14,4 +14,7 @@ inline std::uint64_t usual_front(std::uint64_t vertices) {
   return static_cast<std::uint64_t>(std::max(kLittle, kMuch * std::sqrt(static_cast<double>(vertices))));
 }
 
+// Nor is a front incoherent of which stretches of so many triangles have three times as many vertices.
+inline std::uint64_t front_for(std::uint64_t stretch_triangles) { return stretch_triangles / 6; }
+
 }  // namespace reeb::ooc

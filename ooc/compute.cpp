@@ -326,7 +326,10 @@ FrontNeeds Run::needs(const UseSummary& summary) const {
 bool Run::is_coherent(const UseSummary& summary) const {
   constexpr double kSorted = 2;
   const auto sorted = static_cast<std::uint64_t>(kSorted * std::sqrt(static_cast<double>(summary.vertex_count)));
-  return summary.max_live_vertices <= (plan_.fits(needs(summary)) ? usual_front(summary.vertex_count) : sorted);
+  if (!plan_.fits(needs(summary))) return summary.max_live_vertices <= sorted;
+  MemoryPlan plan = plan_;
+  plan.share_out(needs(summary));
+  return summary.max_live_vertices <= std::max(usual_front(summary.vertex_count), front_for(plan.chunk.most));
 }
 
 // Now that the front is known: to the chunks what the live graphs leave. Says at once if they cannot
@@ -410,7 +413,7 @@ LastUse Run::reorder_mesh() {
 
 void Run::run_chunks(ChunkSource& stretches) {
   const Stopwatch watch(common_.seconds.reeb);
-  DividedChunks source(stretches, plan_.chunk.first, budget_);
+  DividedChunks source(stretches, plan_.chunk.first, plan_.chunk.patch, budget_);
   std::vector<GraphSink*> sinks;
   for (const auto& store : stores_) sinks.push_back(store.get());
   PipelineOptions options;

@@ -13,7 +13,7 @@ constexpr std::uint16_t kNoPatch = std::numeric_limits<std::uint16_t>::max();
 bool DividedChunks::next(WorkItem& item) {
   if (next_patch_ == patch_count_) {
     if (!stretches_.next(stretch_)) return false;
-    if (stretch_.chunk.triangle_count() <= most_) {
+    if (stretch_.chunk.triangle_count() <= whole_) {
       take_whole(item);
       return true;
     }
@@ -36,7 +36,7 @@ void DividedChunks::take_whole(WorkItem& item) {
 }
 
 void DividedChunks::divide() {
-  patches_.divide(stretch_.chunk, most_);
+  patches_.divide(stretch_.chunk, patch_);
   next_patch_ = 0;
   patch_count_ = patches_.patch_count();
   find_last_patches();

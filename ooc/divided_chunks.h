@@ -20,10 +20,11 @@ namespace reeb::ooc {
 // MEMORY: the stretch and 9 bytes a triangle of it, reserved; nothing where chunks are small enough.
 class DividedChunks : public ChunkSource {
  public:
-  // `stretches` must outlive this; chunks of at most `most` triangles come through as they are.
+  // `stretches` must outlive this. Chunks of at most `whole` triangles come through as they are, others
+  // in patches of about `patch` at most.
   // THROWS, in next(): Error{kResource} of the budget.
-  DividedChunks(ChunkSource& stretches, std::size_t most, MemoryBudget& budget)
-      : stretches_(stretches), most_(most), reservation_(budget.reserve("stretch of chunks", 0)) {}
+  DividedChunks(ChunkSource& stretches, std::size_t whole, std::size_t patch, MemoryBudget& budget)
+      : stretches_(stretches), whole_(whole), patch_(patch), reservation_(budget.reserve("stretch of chunks", 0)) {}
 
   bool next(WorkItem& item) override;
   std::uint64_t bytes_read() const override { return stretches_.bytes_read(); }
@@ -41,7 +42,7 @@ class DividedChunks : public ChunkSource {
   void take_vertices(WorkItem& item);
 
   ChunkSource& stretches_;
-  std::size_t most_;
+  std::size_t whole_, patch_;
   Reservation reservation_;
   WorkItem stretch_;
   PatchPartition patches_;

@@ -115,21 +115,24 @@ void MemoryPlan::share_out(const FrontNeeds& needs) {
   size_chunks(std::max(account_bytes / 8, room / 2), std::max<std::size_t>(usual, kUsefulTriangles));
 }
 
-// Chunks come before stretches: most meshes need none.
+// Patches of a stretch take a quarter, so that it can be long.
 void MemoryPlan::size_chunks(std::uint64_t bytes, std::size_t most_triangles) {
-  constexpr std::uint64_t kShareOfChunks = 3;  // quarters
   const bool one_thread = account_bytes < kEnoughForThreads;
   bytes = std::min(bytes, one_thread ? account_bytes / 10 : kMostForChunks);
   chunk = {};
-  const auto fitting = static_cast<std::size_t>(kShareOfChunks * bytes / 4 / triangle_bytes());
-  chunk.first = std::clamp(fitting, kLeastTriangles, std::min(chunk.first, most_triangles));
-  const std::uint64_t left = less(bytes, chunk.first * triangle_bytes());
-  chunk.most = std::clamp(static_cast<std::size_t>(left / kStretchBytes), chunk.first, chunk.most);
+  const auto fitting = [&](std::uint64_t part) {
+    return std::clamp(static_cast<std::size_t>(part / triangle_bytes()), kLeastTriangles,
+                      std::min(ChunkSize{}.first, most_triangles));
+  };
+  chunk.first = fitting(bytes);
+  chunk.patch = fitting(bytes / 4);
+  const auto stretch = static_cast<std::size_t>(less(bytes, chunk.patch * triangle_bytes()) / kStretchBytes);
+  chunk.most = std::clamp(stretch, chunk.first, chunk.most);
   threads = one_thread ? 1 : request_.threads;
   const std::uint64_t parallel = std::max(bytes, account_bytes / 4);
   while (threads > kPlannedThreads && chunk_bytes(threads, request_.functions) * chunk.first > parallel) --threads;
   if (request_.chunk_triangles != 0) {
-    chunk.first = request_.chunk_triangles;
+    chunk.first = chunk.patch = request_.chunk_triangles;
     chunk.most = std::max(request_.chunk_triangles, request_.stretch_triangles);
   }
 }
