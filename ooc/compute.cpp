@@ -329,7 +329,7 @@ bool Run::is_coherent(const UseSummary& summary) const {
   if (!plan_.fits(needs(summary))) return summary.max_live_vertices <= sorted;
   MemoryPlan plan = plan_;
   plan.share_out(needs(summary));
-  return summary.max_live_vertices <= std::max(usual_front(summary.vertex_count), front_for(plan.chunk.most));
+  return summary.max_live_vertices <= usual_front(summary.vertex_count, plan.chunk.most);
 }
 
 // Now that the front is known: to the chunks what the live graphs leave. Says at once if they cannot
@@ -413,7 +413,8 @@ LastUse Run::reorder_mesh() {
 
 void Run::run_chunks(ChunkSource& stretches) {
   const Stopwatch watch(common_.seconds.reeb);
-  DividedChunks source(stretches, plan_.chunk.first, plan_.chunk.patch, budget_);
+  const std::size_t whole = plan_.chunk.first + plan_.chunk.first / 4;  // the last batch of a stream goes beyond
+  DividedChunks source(stretches, whole, plan_.chunk.patch, budget_);
   std::vector<GraphSink*> sinks;
   for (const auto& store : stores_) sinks.push_back(store.get());
   PipelineOptions options;

@@ -83,9 +83,7 @@ bool GuessedChunks::read_rest(Chunk& chunk) {
 // What an earlier run has guessed was worth it then.
 std::uint64_t GuessedChunks::most_open() const {
   if (passing_over_) return std::numeric_limits<std::uint64_t>::max();
-  const std::uint64_t coherent =
-      std::max(usual_front(spooler_.mesh().vertex_count()), front_for(options_.chunk.most));
-  return std::min(options_.most_open_vertices, coherent);
+  return std::min(options_.most_open_vertices, usual_front(spooler_.mesh().vertex_count()));
 }
 
 }  // namespace reeb::ooc
