@@ -56,6 +56,9 @@ class ChunkSource {
 
   // Fills chunk and values with the next chunk of the stream. False at the end.
   virtual bool next(WorkItem& item) = 0;
+  // Whether the chunks ended before the mesh did, since it is not worth going on in its order: what
+  // came of them is then to be thrown away.
+  virtual bool given_up() const { return false; }
   // Bytes of input consumed so far, and in all (0: unknown).
   virtual std::uint64_t bytes_read() const = 0;
   virtual std::uint64_t bytes_total() const = 0;
@@ -71,10 +74,17 @@ class ChunkSource {
 std::unique_ptr<ChunkSource> chunks_of(IndexedMesh& mesh, LastUse& last_use, FunctionValues& columns,
                                        ChunkSize size, const ChunkPlace& start = {});
 
+// When not to go on with a stream: more of its vertices are waiting to be finalized than that, or nearly
+// all of many.
+struct StreamLimits {
+  std::uint64_t most_active_vertices = ~std::uint64_t{0};
+  bool may_give_up = false;
+};
+
 // Chunks of a stream, read once. What is not finalized by the stream is finalized at its end. What
 // comes before `start` is read and passed over.
 // THROWS, at once: Error{kBadInput} if the stream has not such a place.
 std::unique_ptr<ChunkSource> chunks_of(MeshReader& reader, FunctionValues& columns, ChunkSize size,
-                                       const ChunkPlace& start = {});
+                                       const ChunkPlace& start = {}, const StreamLimits& limits = {});
 
 }  // namespace reeb::ooc

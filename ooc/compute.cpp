@@ -188,7 +188,7 @@ void Run::first_stage() {
   start_ = resumable_.start([this](StateReader& in) { restore_stores(in); }, common_.notes);
   if (input_.indexed)
     run_indexed();
-  else if (input_.reader->info().finalizes)
+  else if (input_.reader->info().finalizes && (start_ == nullptr || start_->origin == ChunkOrigin::kStream))
     run_stream();
   else
     run_spooled();
@@ -198,7 +198,17 @@ ChunkPlace Run::start_place() const { return start_ != nullptr ? start_->place :
 
 void Run::run_stream() {
   here_.origin = ChunkOrigin::kStream;
-  run_chunks(*chunks_of(*input_.reader, values_, plan_.chunk, start_place()));
+  const bool may_give_up = options_.may_reorder && input_.read_again && start_ == nullptr;
+  auto source = chunks_of(*input_.reader, values_, plan_.chunk, start_place(),
+                          {plan_.most_live_vertices(), may_give_up});
+  run_chunks(*source);
+  if (source->given_up()) {
+    common_.notes.push_back("too many vertices of the stream are live at once, so it was read again from the start");
+    start_anew();
+    source.reset();
+    input_.reader = input_.read_again();
+    return run_spooled();
+  }
   for (VertexFunction* function : functions_) function->check_count(common_.vertices);
   note(input_.reader->warnings());
 }
@@ -236,7 +246,7 @@ void Run::run_spooled() {
 // number is compared with that of the vertices first. A run that goes on keeps to what it began.
 bool Run::may_guess() const {
   if (start_ != nullptr) return start_->origin == ChunkOrigin::kGuessed;
-  if (!options_.may_guess || options_.keep_sidecar || has_sidecar()) return false;
+  if (!options_.may_guess || options_.keep_sidecar || has_sidecar() || input_.reader->info().finalizes) return false;
   return std::all_of(functions_.begin(), functions_.end(),
                      [](const VertexFunction* function) { return function->source_file().empty(); });
 }

@@ -7,12 +7,14 @@ namespace {
 
 class StreamChunks : public ChunkSource {
  public:
-  StreamChunks(MeshReader& reader, FunctionValues& columns, ChunkSize size, const ChunkPlace& start)
-      : reader_(reader), columns_(columns), size_(size), chunker_(columns.function_count(), true) {
+  StreamChunks(MeshReader& reader, FunctionValues& columns, ChunkSize size, const ChunkPlace& start,
+               const StreamLimits& limits)
+      : reader_(reader), columns_(columns), size_(size), limits_(limits), chunker_(columns.function_count(), true) {
     pass_over(start);
   }
 
   bool next(WorkItem& item) override;
+  bool given_up() const override { return given_up_; }
   std::uint64_t bytes_read() const override { return reader_.bytes_read(); }
   std::uint64_t bytes_total() const override { return reader_.info().file_bytes; }
   std::uint64_t triangles_read() const override { return triangles_read_; }
@@ -20,6 +22,7 @@ class StreamChunks : public ChunkSource {
 
  private:
   void pass_over(const ChunkPlace& start);
+  bool is_hopeless() const;
   void read_batch();
   void add_vertices();
   void add_simplices(const std::vector<VertexId>& corners, std::size_t size);
@@ -27,10 +30,11 @@ class StreamChunks : public ChunkSource {
   MeshReader& reader_;
   FunctionValues& columns_;
   ChunkGrowth size_;  // in triangles
+  StreamLimits limits_;
   StreamChunker chunker_;
   std::uint64_t triangles_read_ = 0;
   std::uint64_t batches_ = 0;
-  bool ended_ = false;
+  bool ended_ = false, given_up_ = false;
 
   MeshBatch batch_;
   std::vector<VertexId> ids_;
@@ -42,7 +46,8 @@ class StreamChunks : public ChunkSource {
 
 bool StreamChunks::next(WorkItem& item) {
   while (!ended_ && chunker_.chunk_size() < size_.size()) read_batch();
-  if (chunker_.chunk_size() == 0) return false;
+  given_up_ = limits_.may_give_up && is_hopeless();
+  if (given_up_ || chunker_.chunk_size() == 0) return false;
   chunker_.take(item.chunk, item.values);
   size_.adapt(item.chunk);
   item.ends_stretch = true;
@@ -52,6 +57,12 @@ bool StreamChunks::next(WorkItem& item) {
   item.end.chunk_blocks = size_.size();
   item.end.ranges.assign(columns_.ranges().begin(), columns_.ranges().end());
   return true;
+}
+
+bool StreamChunks::is_hopeless() const {
+  constexpr std::uint64_t kMany = 1'000'000, kLargePart = 8;
+  const std::uint64_t active = chunker_.active_vertices(), all = chunker_.vertex_count();
+  return active > limits_.most_active_vertices || (all > kMany && active > all / kLargePart);
 }
 
 // Which vertices are live at a chunk's end, and which of them were used, does not depend on where the
@@ -111,8 +122,8 @@ void StreamChunks::add_simplices(const std::vector<VertexId>& corners, std::size
 }  // namespace
 
 std::unique_ptr<ChunkSource> chunks_of(MeshReader& reader, FunctionValues& columns, ChunkSize size,
-                                       const ChunkPlace& start) {
-  return std::make_unique<StreamChunks>(reader, columns, size, start);
+                                       const ChunkPlace& start, const StreamLimits& limits) {
+  return std::make_unique<StreamChunks>(reader, columns, size, start, limits);
 }
 
 }  // namespace reeb::ooc

@@ -84,12 +84,14 @@ class Runner {
       outputs.push_back(outputs_.path() + "/" + function.name() + ".reeb");
     }
     ooc::MeshInput input;
-    if (shape.form == Form::kStream)
-      input.reader = std::make_unique<ComplexStream>(mesh, seed);
-    else if (shape.form == Form::kUnfinalized)
+    if (shape.form == Form::kStream) {
+      input.read_again = [&mesh, seed] { return std::make_unique<ComplexStream>(mesh, seed); };
+      input.reader = input.read_again();
+    } else if (shape.form == Form::kUnfinalized) {
       input.reader = std::make_unique<UnfinalizedComplex>(mesh, seed);
-    else
+    } else {
       input.indexed = std::make_unique<IndexedComplex>(mesh);
+    }
     ooc::ComputeOptions options = options_;
     options.chunk_triangles = shape.chunk_triangles;
     options.stretch_triangles = shape.stretch_triangles;
