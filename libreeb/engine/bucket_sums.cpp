@@ -10,7 +10,7 @@ BucketSum BucketSum::take(std::uint64_t taken) {
   BucketSum part{index, taken, {}};
   const double share = static_cast<double>(taken) / static_cast<double>(count);
   for (std::size_t k = 0; k < 3; ++k) {
-    part.sum[k] = static_cast<Int128>(static_cast<double>(sum[k]) * share);
+    part.sum[k] = cut_off(to_double(sum[k]) * share);
     sum[k] -= part.sum[k];
   }
   count -= taken;
@@ -19,11 +19,8 @@ BucketSum BucketSum::take(std::uint64_t taken) {
 
 Bucket BucketSum::mean() const {
   Bucket bucket{index, count, {}};
-  for (std::size_t k = 0; k < 3; ++k) {
-    const auto low = static_cast<std::int64_t>(sum[k]);  // mostly all of it, and converted faster
-    const double total = low == sum[k] ? static_cast<double>(low) : static_cast<double>(sum[k]);
-    bucket.mean[k] = total * 0x1p-44 / static_cast<double>(count);
-  }
+  for (std::size_t k = 0; k < 3; ++k)
+    bucket.mean[k] = to_double(sum[k]) * 0x1p-44 / static_cast<double>(count);
   return bucket;
 }
 
@@ -149,6 +146,28 @@ BucketLists::List BucketLists::take_above(List& list, double lo, double at, doub
     }
   }
   return split_behind(list, below);
+}
+
+void BucketLists::move_above(List& from, double lo, double at, double hi, List& into) {
+  if (from.empty()) return;
+  const std::int64_t divided = indexer_(at);
+  const Index last = from.last;
+  if (links_[last].index < divided) return;
+  const Index to = into.empty() ? kNone : links_[into.last].next;
+  if (to == kNone || links_[last].next != last || links_[last].index != divided || links_[to].index != divided) {
+    List upper = take_above(from, lo, at, hi);
+    return merge(into, upper);
+  }
+  const std::uint64_t count = sums_[last].count, above = count_above(last, lo, at, hi);
+  if (above == 0) return;
+  if (above < count) {
+    const BucketSum below = sums_[last].take(count - above);
+    sums_[to].add(std::exchange(sums_[last], below));
+  } else {
+    sums_[to].add(sums_[last]);
+    from.last = kNone;
+    free_bucket(last);
+  }
 }
 
 // Takes what comes behind `last_below`, or all if that is none.

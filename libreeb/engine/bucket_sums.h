@@ -33,6 +33,15 @@ inline Int128 fixed_point(double x) {
   return (static_cast<Int128>(whole) << 44) + static_cast<std::int64_t>(rest * 0x1p44);
 }
 
+// Between whole numbers and doubles; most have 64 bits, which are converted faster.
+inline double to_double(Int128 whole) {
+  const auto low = static_cast<std::int64_t>(whole);
+  return low == whole ? static_cast<double>(low) : static_cast<double>(whole);
+}
+inline Int128 cut_off(double x) {
+  return std::abs(x) < 0x1p63 ? static_cast<std::int64_t>(x) : static_cast<Int128>(x);
+}
+
 struct BucketSum {
   std::int64_t index = 0;
   std::uint64_t count = 0;
@@ -111,6 +120,9 @@ class BucketLists {
   // is divided in proportion to the value, if it has many vertices; else it goes whole to where the
   // greater part of it is.
   List take_above(List& list, double lo, double at, double hi);
+  // Moves to `into`, whose buckets lie above `at`, what take_above takes. O(1) if all of `from` lies in
+  // one bucket.
+  void move_above(List& from, double lo, double at, double hi, List& into);
   // Calls visit(bucket) for all buckets, ascending, and forgets them.
   template <class Visit>
   void drain(List& list, const Visit& visit) {

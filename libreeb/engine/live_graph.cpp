@@ -240,9 +240,8 @@ void LiveGraph::merge_parallel(Index keep, Index gone) {
 void LiveGraph::cut(Index longer, Index shorter) {
   if (embeds_ && !arc_buckets_[longer].empty()) {
     const auto value = [&](Index n) { return nodes_[n].key.value; };
-    auto upper = buckets_.take_above(arc_buckets_[longer], value(arcs_[longer].lo),
-                                     value(arcs_[shorter].lo), value(arcs_[longer].hi));
-    buckets_.merge(arc_buckets_[shorter], upper);
+    buckets_.move_above(arc_buckets_[longer], value(arcs_[longer].lo), value(arcs_[shorter].lo),
+                        value(arcs_[longer].hi), arc_buckets_[shorter]);
   }
   queue(arcs_[longer].hi);
   detach_hi(longer);
