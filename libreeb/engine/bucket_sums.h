@@ -59,8 +59,9 @@ struct BucketSum {
     count += other.count;
     for (std::size_t k = 0; k < 3; ++k) sum[k] += other.sum[k];
   }
-  // Takes so many of the vertices out, with their share of the sum, or nearly; nothing is lost.
-  BucketSum take(std::uint64_t taken);
+  // Keeps so many of the vertices, with their share of the sum, or nearly, and adds the rest to `other`:
+  // nothing is lost.
+  void keep(std::uint64_t kept, BucketSum& other);
   Bucket mean() const;
 };
 
@@ -99,8 +100,7 @@ class BucketLists {
   }
   // That bucket of the list, to which vertices can be added at any later time.
   Index bucket_at_hand(List& list) {
-    const Index made = static_cast<Index>(sums_.size()) - first_at_hand_;
-    if (list.last - first_at_hand_ >= made) link_last(list, new_bucket({index_at_hand_, 0, {}}));
+    if (list.last + 1 <= first_at_hand_) link_last(list, new_bucket({index_at_hand_, 0, {}}));  // none + 1 == 0
     return list.last;
   }
   void add_to_bucket(Index bucket, const Point& position) { sums_[bucket].add(position); }
@@ -130,32 +130,32 @@ class BucketLists {
     const Index first = links_[list.last].next;
     for (Index b = first;; b = links_[b].next) {
       visit(sums_[b]);
+      free_bucket(b);
       if (b == list.last) break;
     }
-    links_[list.last].next = first_free_;
-    first_free_ = first;
     list.last = kNone;
   }
 
-  // Asks for what drain() will look at first.
+  // Asks for the list's last bucket, mostly its only one.
   void prefetch(const List& list) const {
     if (list.empty()) return;
+    __builtin_prefetch(&links_[list.last]);
     __builtin_prefetch(&sums_[list.last]);
     __builtin_prefetch(&sums_[list.last].sum[2]);
   }
 
-  std::size_t memory_bytes() const { return sums_.memory_bytes() + links_.memory_bytes(); }
+  std::size_t memory_bytes() const { return sums_.memory_bytes() + links_.memory_bytes() + free_.memory_bytes(); }
   void save(StateWriter& out) const;
   void restore(StateReader& in);
 
  private:
   struct Link {
     std::int64_t index;  // as in the sum
-    Index next;          // in its list, or of free buckets
+    Index next;          // in its list
   };
 
   Index new_bucket(const BucketSum& bucket);
-  void free_bucket(Index b);
+  void free_bucket(Index b) { free_[free_count_++] = b; }
   void link_last(List& list, Index b);
   void link_or_add(List& list, Index b);
   void remove_first(List& list);
@@ -165,7 +165,10 @@ class BucketLists {
 
   GrowingArray<BucketSum> sums_;
   GrowingArray<Link> links_;
-  Index first_free_ = kNone;
+  // Free buckets, the first free_count_ of as many as there are buckets: which is next is known without
+  // a look at one of them.
+  GrowingArray<Index> free_;
+  std::size_t free_count_ = 0;
   BucketIndexer indexer_;
   std::int64_t index_at_hand_ = 0;
   Index first_at_hand_ = 0;  // buckets from here on are of that index
