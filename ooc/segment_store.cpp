@@ -61,8 +61,11 @@ void ArcCodec::encode(std::span<const StoredArc> arcs, std::span<const std::byte
   columns.add(arcs.size(), [&](std::size_t i) { return bits(arcs[i].keys.hi) - bits(arcs[i].keys.lo); });
   columns.add(arcs.size(), [&](std::size_t i) { return zigzag(id(arcs[i].keys.hi) - id(arcs[i].keys.lo)); });
   columns.add(arcs.size(), [&](std::size_t i) { return arcs[i].payload.size; });
-  for (const StoredArc& arc : arcs) columns.add_tail(pool.subspan(arc.payload.first, arc.payload.size));
   columns.pack(packed);
+  for (const StoredArc& arc : arcs) {
+    const auto payload = pool.subspan(arc.payload.first, arc.payload.size);
+    packed.insert(packed.end(), payload.begin(), payload.end());
+  }
 }
 
 bool ArcCodec::decode(std::span<const std::byte> packed, std::span<StoredArc> arcs,
