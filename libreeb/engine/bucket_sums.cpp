@@ -19,8 +19,9 @@ void BucketSum::keep(std::uint64_t kept, BucketSum& other) {
 
 Bucket BucketSum::mean() const {
   Bucket bucket{index, count, {}};
-  for (std::size_t k = 0; k < 3; ++k)
-    bucket.mean[k] = to_double(sum[k]) * 0x1p-44 / static_cast<double>(count);
+  for (std::size_t k = 0; k < 3; ++k) bucket.mean[k] = to_double(sum[k]) * 0x1p-44;
+  if (count == 1) return bucket;  // as most are where values are random
+  for (double& x : bucket.mean) x /= static_cast<double>(count);
   return bucket;
 }
 
@@ -31,6 +32,7 @@ void BucketLists::start(int exponent) {
   free_count_ = 0;
   indexer_ = BucketIndexer(exponent);
   first_at_hand_ = 0;
+  new_bucket({});  // kNowhere
 }
 
 BucketLists::Index BucketLists::new_bucket(const BucketSum& bucket) {

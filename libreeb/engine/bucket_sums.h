@@ -62,7 +62,7 @@ struct BucketSum {
   // Keeps so many of the vertices, with their share of the sum, or nearly, and adds the rest to `other`:
   // nothing is lost.
   void keep(std::uint64_t kept, BucketSum& other);
-  Bucket mean() const;
+  Bucket mean() const;  // REQUIRES: count != 0
 };
 
 // Lists of buckets, ascending by index, in one pool, all of one exponent. What the lists are asked for
@@ -71,6 +71,7 @@ class BucketLists {
  public:
   using Index = std::uint32_t;
   static constexpr Index kNone = ~Index{0};
+  static constexpr Index kNowhere = 0;  // after start(): a bucket in no list, for what is not to be kept
 
   struct List {
     Index last = kNone;  // whose next one is the first
@@ -136,12 +137,15 @@ class BucketLists {
     list.last = kNone;
   }
 
-  // Asks for the list's last bucket, mostly its only one.
+  // Asks for a bucket, or for the last of a list, which mostly is its only one.
+  void prefetch_sum(Index bucket) const {
+    __builtin_prefetch(&sums_[bucket]);
+    __builtin_prefetch(&sums_[bucket].sum[2]);
+  }
   void prefetch(const List& list) const {
     if (list.empty()) return;
     __builtin_prefetch(&links_[list.last]);
-    __builtin_prefetch(&sums_[list.last]);
-    __builtin_prefetch(&sums_[list.last].sum[2]);
+    prefetch_sum(list.last);
   }
 
   std::size_t memory_bytes() const { return sums_.memory_bytes() + links_.memory_bytes() + free_.memory_bytes(); }

@@ -328,6 +328,7 @@ bool LiveGraph::can_leave(Index a) const {
 void LiveGraph::contract(Index n) {
   const Index upper = nodes_[n].up_first, lower = nodes_[n].down_first;
   prefetch_buckets(lower, upper);
+  if (embeds_ && track_positions_) __builtin_prefetch(&positions_[n]);
   for (Index r = arcs_[upper].first_reference; r != kNone; r = references_[r].next) {
     const Index skipped = references_[r].down;
     references_[r].down = references_[skipped].down;
