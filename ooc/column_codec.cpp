@@ -28,23 +28,22 @@ void ColumnEncoder::pack(std::vector<std::byte>& packed, int level) const {
 }
 
 ColumnDecoder::ColumnDecoder(std::span<const std::byte> packed, std::size_t columns, std::size_t count)
-    : column_(count), begin_(columns + 1) {
-  constexpr std::size_t kMostTail = 1 << 28;  // far more than any block has
-  const std::size_t size = zstd_content_size(packed), most = columns * (1 + 8 * count);
-  if (size > most && size - most > kMostTail) return;
+    : column_(count), begin_(columns) {
+  const std::size_t frame = zstd_frame_size(packed), size = zstd_content_size(packed);
+  if (frame == 0 || size > columns * (1 + 8 * count)) return;
   bytes_.resize(size);
-  ok_ = zstd_decompress(packed, bytes_) && find_columns();
+  tail_ = packed.subspan(frame);
+  ok_ = zstd_decompress(packed.first(frame), bytes_) && find_columns();
 }
 
 bool ColumnDecoder::find_columns() {
   std::size_t begin = 0;
-  for (std::size_t c = 0; c + 1 < begin_.size(); ++c) {
+  for (std::size_t& column_begin : begin_) {
     if (begin >= bytes_.size()) return false;
-    begin_[c] = begin;
+    column_begin = begin;
     begin += 1 + static_cast<std::size_t>(std::popcount(std::to_integer<unsigned>(bytes_[begin]))) * column_.size();
   }
-  begin_.back() = begin;
-  return begin <= bytes_.size();
+  return begin == bytes_.size();
 }
 
 std::span<const std::uint64_t> ColumnDecoder::column(std::size_t column) {

@@ -17,8 +17,7 @@ inline std::uint64_t zigzag(std::uint64_t difference) {
 }
 inline std::uint64_t unzigzag(std::uint64_t code) { return code >> 1 ^ (0 - (code & 1)); }
 
-// Gathers the columns of one block, all of one length, and packs them together; after them there may
-// be bytes of any kind.
+// Gathers the columns of one block, all of one length, and packs them together.
 class ColumnEncoder {
  public:
   // The column holds code(0), code(1), ..., code(count - 1).
@@ -28,7 +27,7 @@ class ColumnEncoder {
     for (std::size_t i = 0; i < count; ++i) column_[i] = code(i);
     add_planes();
   }
-  void add_tail(std::span<const std::byte> bytes) { bytes_.insert(bytes_.end(), bytes.begin(), bytes.end()); }
+  // Appends them to `packed`, which may go on with bytes of any kind.
   void pack(std::vector<std::byte>& packed, int level = kSegmentLevel) const;
 
  private:
@@ -42,20 +41,21 @@ class ColumnEncoder {
 
 class ColumnDecoder {
  public:
-  // ok() is false if `packed` is not `columns` columns of `count` numbers.
+  // ok() is false if `packed` does not begin with `columns` columns of `count` numbers.
   ColumnDecoder(std::span<const std::byte> packed, std::size_t columns, std::size_t count);
   bool ok() const { return ok_; }
   // The numbers of a column, until the next call. REQUIRES: ok().
   std::span<const std::uint64_t> column(std::size_t column);
-  // What comes after the columns. REQUIRES: ok().
-  std::span<const std::byte> tail() const { return std::span(bytes_).subspan(begin_.back()); }
+  // What comes after the columns in `packed`. REQUIRES: ok().
+  std::span<const std::byte> tail() const { return tail_; }
 
  private:
   bool find_columns();
 
   std::vector<std::uint64_t> column_;
   std::vector<std::byte> bytes_;
-  std::vector<std::size_t> begin_;  // of each column, and of the tail
+  std::vector<std::size_t> begin_;  // of each column
+  std::span<const std::byte> tail_;
   bool ok_ = false;
 };
 

@@ -118,6 +118,7 @@ class RunMerger {
       refill(winner_);
     } else {
       head.record = *head.place;
+      prefetch_payload(top.block, head.record);
       ranks_[winner_] = rank_of<Less>(head.record);
     }
     replay();
@@ -146,6 +147,11 @@ class RunMerger {
     cursor.end = records.data() + records.size();
     heads_[i] = {records[0], records.data()};
     ranks_[i] = rank_of<Less>(records[0]);
+  }
+
+  // It is taken when the record wins, and was not looked at since its block was unpacked.
+  static void prefetch_payload([[maybe_unused]] const RecordBatch<Record>& block, [[maybe_unused]] const Record& record) {
+    if constexpr (CarriesPayload<Record>) __builtin_prefetch(block.pool.data() + record.payload.first);
   }
 
   // A total order of the runs that have records left; the others come after them.

@@ -53,6 +53,20 @@ bool NodeCodec::decode(std::span<const std::byte> packed, std::span<SettledNode>
   return true;
 }
 
+namespace {
+
+// Sorting has left the payloads anywhere in the pool.
+void add_payloads(std::span<const StoredArc> arcs, std::span<const std::byte> pool, std::vector<std::byte>& packed) {
+  constexpr std::size_t kAhead = 16;
+  for (std::size_t i = 0; i < arcs.size(); ++i) {
+    if (i + kAhead < arcs.size()) __builtin_prefetch(pool.data() + arcs[i + kAhead].payload.first);
+    const auto payload = pool.subspan(arcs[i].payload.first, arcs[i].payload.size);
+    if (!payload.empty()) packed.insert(packed.end(), payload.begin(), payload.end());
+  }
+}
+
+}  // namespace
+
 void ArcCodec::encode(std::span<const StoredArc> arcs, std::span<const std::byte> pool,
                       std::vector<std::byte>& packed) {
   ColumnEncoder columns;
@@ -61,8 +75,8 @@ void ArcCodec::encode(std::span<const StoredArc> arcs, std::span<const std::byte
   columns.add(arcs.size(), [&](std::size_t i) { return bits(arcs[i].keys.hi) - bits(arcs[i].keys.lo); });
   columns.add(arcs.size(), [&](std::size_t i) { return zigzag(id(arcs[i].keys.hi) - id(arcs[i].keys.lo)); });
   columns.add(arcs.size(), [&](std::size_t i) { return arcs[i].payload.size; });
-  for (const StoredArc& arc : arcs) columns.add_tail(pool.subspan(arc.payload.first, arc.payload.size));
   columns.pack(packed);
+  add_payloads(arcs, pool, packed);
 }
 
 bool ArcCodec::decode(std::span<const std::byte> packed, std::span<StoredArc> arcs,

@@ -26,7 +26,8 @@ struct StoredArc {
 };
 
 // Columns of a block: value bits as differences (they rise), vertex ids as differences of either
-// sign, the rest told from these; byte planes; then the payloads; zstd.
+// sign, the rest told from these; byte planes; zstd. Then the payloads as they are: means of
+// positions hardly become smaller.
 struct NodeCodec {
   static void encode(std::span<const SettledNode> nodes, std::vector<std::byte>& packed);
   static bool decode(std::span<const std::byte> packed, std::span<SettledNode> nodes);

@@ -27,6 +27,11 @@ void zstd_compress(std::span<const std::byte> bytes, int level, std::vector<std:
   ZstdCompressor().compress(bytes, level, out);
 }
 
+std::size_t zstd_frame_size(std::span<const std::byte> bytes) {
+  const std::size_t size = ZSTD_findFrameCompressedSize(bytes.data(), bytes.size());
+  return ZSTD_isError(size) != 0 ? 0 : size;
+}
+
 std::size_t zstd_content_size(std::span<const std::byte> bytes) {
   const unsigned long long size = ZSTD_getFrameContentSize(bytes.data(), bytes.size());
   return size == ZSTD_CONTENTSIZE_UNKNOWN || size == ZSTD_CONTENTSIZE_ERROR ? 0 : static_cast<std::size_t>(size);

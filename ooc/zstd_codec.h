@@ -28,6 +28,9 @@ class ZstdCompressor {
 // The same for a single piece.
 void zstd_compress(std::span<const std::byte> bytes, int level, std::vector<std::byte>& out);
 
+// How many of these bytes are their first frame; 0 if they do not begin with one.
+std::size_t zstd_frame_size(std::span<const std::byte> bytes);
+
 // How many bytes these say that they were; 0 if they are nothing that zstd_compress wrote.
 std::size_t zstd_content_size(std::span<const std::byte> bytes);
 

@@ -6,50 +6,51 @@
 
 namespace reeb {
 
-BucketSum BucketSum::take(std::uint64_t taken) {
-  BucketSum part{index, taken, {}};
-  const double share = static_cast<double>(taken) / static_cast<double>(count);
+void BucketSum::keep(std::uint64_t kept, BucketSum& other) {
+  const double share = static_cast<double>(kept) / static_cast<double>(count);
   for (std::size_t k = 0; k < 3; ++k) {
-    part.sum[k] = static_cast<Int128>(static_cast<double>(sum[k]) * share);
-    sum[k] -= part.sum[k];
+    const Int128 part = cut_off(to_double(sum[k]) * share);
+    other.sum[k] += sum[k] - part;
+    sum[k] = part;
   }
-  count -= taken;
-  return part;
+  other.count += count - kept;
+  count = kept;
 }
 
 Bucket BucketSum::mean() const {
   Bucket bucket{index, count, {}};
-  for (std::size_t k = 0; k < 3; ++k) {
-    const auto low = static_cast<std::int64_t>(sum[k]);  // mostly all of it, and converted faster
-    const double total = low == sum[k] ? static_cast<double>(low) : static_cast<double>(sum[k]);
-    bucket.mean[k] = total * 0x1p-44 / static_cast<double>(count);
-  }
+  for (std::size_t k = 0; k < 3; ++k) bucket.mean[k] = to_double(sum[k]) * 0x1p-44;
+  if (count == 1) return bucket;  // as most are where values are random
+  for (double& x : bucket.mean) x /= static_cast<double>(count);
   return bucket;
 }
 
 void BucketLists::start(int exponent) {
   sums_.clear();
   links_.clear();
-  first_free_ = kNone;
+  free_.clear();
+  free_count_ = 0;
   indexer_ = BucketIndexer(exponent);
   first_at_hand_ = 0;
+  new_bucket({});  // kNowhere
 }
 
 BucketLists::Index BucketLists::new_bucket(const BucketSum& bucket) {
-  Index b = first_free_;
-  if (b != kNone) {
-    first_free_ = links_[b].next;
+  Index b = 0;
+  if (free_count_ != 0) {
+    b = free_[--free_count_];
+    // The one after it is wanted soon.
+    if (free_count_ != 0) prefetch(List{free_[free_count_ - 1]});
   } else {
     b = static_cast<Index>(sums_.size());
     sums_.grow_by(1);
     links_.grow_by(1);
+    free_.grow_by(1);
   }
   sums_[b] = bucket;
   links_[b] = {bucket.index, b};
   return b;
 }
-
-void BucketLists::free_bucket(Index b) { links_[b].next = std::exchange(first_free_, b); }
 
 void BucketLists::link_last(List& list, Index b) {
   links_[b].next = list.empty() ? b : std::exchange(links_[list.last].next, b);
@@ -142,13 +143,32 @@ BucketLists::List BucketLists::take_above(List& list, double lo, double at, doub
     if (above == 0) {
       below = b;
     } else if (above < count) {
-      const Index part = new_bucket(sums_[b].take(count - above));
+      const Index part = new_bucket(std::exchange(sums_[b], {divided, 0, {}}));
+      sums_[part].keep(count - above, sums_[b]);
       links_[below == kNone ? list.last : below].next = part;
       links_[part].next = b;
       below = part;
     }
   }
   return split_behind(list, below);
+}
+
+void BucketLists::move_above(List& from, double lo, double at, double hi, List& into) {
+  if (from.empty()) return;
+  const std::int64_t divided = indexer_(at);
+  const Index last = from.last;
+  if (links_[last].index < divided) return;
+  const Index to = into.empty() ? kNone : links_[into.last].next;
+  if (to == kNone || links_[last].next != last || links_[last].index != divided || links_[to].index != divided) {
+    List upper = take_above(from, lo, at, hi);
+    return merge(into, upper);
+  }
+  const std::uint64_t count = sums_[last].count, above = count_above(last, lo, at, hi);
+  if (above == 0) return;
+  if (above < count) return sums_[last].keep(count - above, sums_[to]);
+  sums_[to].add(sums_[last]);
+  from.last = kNone;
+  free_bucket(last);
 }
 
 // Takes what comes behind `last_below`, or all if that is none.
@@ -201,14 +221,16 @@ void lay_on_path(BucketLists& lists, BucketLists::List& from, Direction d, doubl
 void BucketLists::save(StateWriter& out) const {
   sums_.save(out);
   links_.save(out);
-  out.put(first_free_);
+  free_.save(out);
+  out.put(free_count_);
   out.put(exponent());
 }
 
 void BucketLists::restore(StateReader& in) {
   sums_.restore(in);
   links_.restore(in);
-  in.get(first_free_);
+  free_.restore(in);
+  in.get(free_count_);
   indexer_ = BucketIndexer(in.get<int>());
 }
 

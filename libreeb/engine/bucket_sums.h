@@ -33,6 +33,15 @@ inline Int128 fixed_point(double x) {
   return (static_cast<Int128>(whole) << 44) + static_cast<std::int64_t>(rest * 0x1p44);
 }
 
+// Between whole numbers and doubles; most have 64 bits, which are converted faster.
+inline double to_double(Int128 whole) {
+  const auto low = static_cast<std::int64_t>(whole);
+  return low == whole ? static_cast<double>(low) : static_cast<double>(whole);
+}
+inline Int128 cut_off(double x) {
+  return std::abs(x) < 0x1p63 ? static_cast<std::int64_t>(x) : static_cast<Int128>(x);
+}
+
 struct BucketSum {
   std::int64_t index = 0;
   std::uint64_t count = 0;
@@ -50,9 +59,10 @@ struct BucketSum {
     count += other.count;
     for (std::size_t k = 0; k < 3; ++k) sum[k] += other.sum[k];
   }
-  // Takes so many of the vertices out, with their share of the sum, or nearly; nothing is lost.
-  BucketSum take(std::uint64_t taken);
-  Bucket mean() const;
+  // Keeps so many of the vertices, with their share of the sum, or nearly, and adds the rest to `other`:
+  // nothing is lost.
+  void keep(std::uint64_t kept, BucketSum& other);
+  Bucket mean() const;  // REQUIRES: count != 0
 };
 
 // Lists of buckets, ascending by index, in one pool, all of one exponent. What the lists are asked for
@@ -61,6 +71,7 @@ class BucketLists {
  public:
   using Index = std::uint32_t;
   static constexpr Index kNone = ~Index{0};
+  static constexpr Index kNowhere = 0;  // after start(): a bucket in no list, for what is not to be kept
 
   struct List {
     Index last = kNone;  // whose next one is the first
@@ -90,8 +101,7 @@ class BucketLists {
   }
   // That bucket of the list, to which vertices can be added at any later time.
   Index bucket_at_hand(List& list) {
-    const Index made = static_cast<Index>(sums_.size()) - first_at_hand_;
-    if (list.last - first_at_hand_ >= made) link_last(list, new_bucket({index_at_hand_, 0, {}}));
+    if (list.last + 1 <= first_at_hand_) link_last(list, new_bucket({index_at_hand_, 0, {}}));  // none + 1 == 0
     return list.last;
   }
   void add_to_bucket(Index bucket, const Point& position) { sums_[bucket].add(position); }
@@ -111,6 +121,9 @@ class BucketLists {
   // is divided in proportion to the value, if it has many vertices; else it goes whole to where the
   // greater part of it is.
   List take_above(List& list, double lo, double at, double hi);
+  // Moves to `into`, whose buckets lie above `at`, what take_above takes. O(1) if all of `from` lies in
+  // one bucket.
+  void move_above(List& from, double lo, double at, double hi, List& into);
   // Calls visit(bucket) for all buckets, ascending, and forgets them.
   template <class Visit>
   void drain(List& list, const Visit& visit) {
@@ -118,32 +131,35 @@ class BucketLists {
     const Index first = links_[list.last].next;
     for (Index b = first;; b = links_[b].next) {
       visit(sums_[b]);
+      free_bucket(b);
       if (b == list.last) break;
     }
-    links_[list.last].next = first_free_;
-    first_free_ = first;
     list.last = kNone;
   }
 
-  // Asks for what drain() will look at first.
+  // Asks for a bucket, or for the last of a list, which mostly is its only one.
+  void prefetch_sum(Index bucket) const {
+    __builtin_prefetch(&sums_[bucket]);
+    __builtin_prefetch(&sums_[bucket].sum[2]);
+  }
   void prefetch(const List& list) const {
     if (list.empty()) return;
-    __builtin_prefetch(&sums_[list.last]);
-    __builtin_prefetch(&sums_[list.last].sum[2]);
+    __builtin_prefetch(&links_[list.last]);
+    prefetch_sum(list.last);
   }
 
-  std::size_t memory_bytes() const { return sums_.memory_bytes() + links_.memory_bytes(); }
+  std::size_t memory_bytes() const { return sums_.memory_bytes() + links_.memory_bytes() + free_.memory_bytes(); }
   void save(StateWriter& out) const;
   void restore(StateReader& in);
 
  private:
   struct Link {
     std::int64_t index;  // as in the sum
-    Index next;          // in its list, or of free buckets
+    Index next;          // in its list
   };
 
   Index new_bucket(const BucketSum& bucket);
-  void free_bucket(Index b);
+  void free_bucket(Index b) { free_[free_count_++] = b; }
   void link_last(List& list, Index b);
   void link_or_add(List& list, Index b);
   void remove_first(List& list);
@@ -153,7 +169,10 @@ class BucketLists {
 
   GrowingArray<BucketSum> sums_;
   GrowingArray<Link> links_;
-  Index first_free_ = kNone;
+  // Free buckets, the first free_count_ of as many as there are buckets: which is next is known without
+  // a look at one of them.
+  GrowingArray<Index> free_;
+  std::size_t free_count_ = 0;
   BucketIndexer indexer_;
   std::int64_t index_at_hand_ = 0;
   Index first_at_hand_ = 0;  // buckets from here on are of that index

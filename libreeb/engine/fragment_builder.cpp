@@ -14,7 +14,7 @@ void FragmentBuilder::start(std::size_t vertices, const SweepOptions& options) {
   graph_.clear();
   if (options.bucket_exponent) {
     graph_.buckets.start(*options.bucket_exponent);
-    bucket_of_.assign(vertices, BucketLists::kNone);
+    bucket_of_.assign(vertices, BucketLists::kNowhere);
   }
   shared_.clear();
   notes_.clear();
@@ -71,10 +71,12 @@ void FragmentBuilder::finish(const SweptChunk& swept, Fragment& fragment) {
 
 // In the order in which they lie in memory, not in that of the sweep.
 void FragmentBuilder::add_positions(const Chunk& chunk) {
+  constexpr std::size_t kAhead = 16;
   const bool has_positions = !chunk.positions.empty();
-  for (std::size_t i = 0; i < bucket_of_.size(); ++i)
-    if (bucket_of_[i] != BucketLists::kNone)
-      graph_.buckets.add_to_bucket(bucket_of_[i], has_positions ? chunk.positions[i] : Point{});
+  for (std::size_t i = 0; i < bucket_of_.size(); ++i) {
+    if (i + kAhead < bucket_of_.size()) graph_.buckets.prefetch_sum(bucket_of_[i + kAhead]);
+    graph_.buckets.add_to_bucket(bucket_of_[i], has_positions ? chunk.positions[i] : Point{});
+  }
 }
 
 void FragmentBuilder::sort_steps(const SweptChunk& swept) {

@@ -87,7 +87,7 @@ class FragmentBuilder {
   std::vector<std::uint32_t> shared_begin_;  // by vertex; within a vertex sorted by hi
   std::vector<Note> notes_;
   std::vector<std::uint32_t> node_of_;   // by vertex, for those that are nodes
-  std::vector<BucketLists::Index> bucket_of_;  // by local vertex, for those that are no nodes
+  std::vector<BucketLists::Index> bucket_of_;  // by local vertex; nowhere for nodes
 
   std::vector<std::uint64_t> steps_;      // sorted
   std::vector<std::uint32_t> node_at_;    // by local vertex: its node, if it is an open one

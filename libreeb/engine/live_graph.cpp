@@ -71,6 +71,13 @@ void LiveGraph::add_buckets(Index arc, std::span<const BucketSum> buckets) {
   for (const BucketSum& bucket : buckets) buckets_.append(arc_buckets_[arc], bucket);
 }
 
+// Buckets are moved after the arcs, and asked for before: they come meanwhile.
+void LiveGraph::prefetch_buckets(Index a, Index b) const {
+  if (!embeds_) return;
+  buckets_.prefetch(arc_buckets_[a]);
+  buckets_.prefetch(arc_buckets_[b]);
+}
+
 void LiveGraph::free_arc(Index a) {
   arcs_[a].lo = kNone;
   arcs_[a].lo_next = std::exchange(first_free_arc_, a);
@@ -217,6 +224,7 @@ void LiveGraph::zip(Index a, Index b) {
 
 // Two arcs with the same ends become one.
 void LiveGraph::merge_parallel(Index keep, Index gone) {
+  prefetch_buckets(keep, gone);
   Index last = kNone;
   for (Index r = arcs_[gone].first_reference; r != kNone; r = references_[r].next) {
     references_[r].arc = keep;
@@ -227,24 +235,20 @@ void LiveGraph::merge_parallel(Index keep, Index gone) {
   if (kept.first_reference != kNone) references_[kept.first_reference].prev = last;
   kept.first_reference = arcs_[gone].first_reference;
   kept.references += arcs_[gone].references;
-  if (embeds_) buckets_.merge(arc_buckets_[keep], arc_buckets_[gone]);
   queue(arcs_[gone].lo);
   queue(arcs_[gone].hi);
   detach_lo(gone);
   detach_hi(gone);
   free_arc(gone);
+  if (embeds_) buckets_.merge(arc_buckets_[keep], arc_buckets_[gone]);
 }
 
 // `longer` and `shorter` have the same upper end: the upper part of `longer` becomes one with
 // `shorter`, what is left of it ends at the lower node of `shorter`.
 void LiveGraph::cut(Index longer, Index shorter) {
-  if (embeds_ && !arc_buckets_[longer].empty()) {
-    const auto value = [&](Index n) { return nodes_[n].key.value; };
-    auto upper = buckets_.take_above(arc_buckets_[longer], value(arcs_[longer].lo),
-                                     value(arcs_[shorter].lo), value(arcs_[longer].hi));
-    buckets_.merge(arc_buckets_[shorter], upper);
-  }
-  queue(arcs_[longer].hi);
+  const Index top = arcs_[longer].hi, bottom = arcs_[shorter].lo;
+  prefetch_buckets(longer, shorter);
+  queue(top);
   detach_hi(longer);
   Index r = std::exchange(arcs_[longer].first_reference, kNone);
   arcs_[longer].references = 0;
@@ -256,7 +260,12 @@ void LiveGraph::cut(Index longer, Index shorter) {
     link(r, shorter);
     r = next;
   }
-  attach_hi(longer, arcs_[shorter].lo);
+  attach_hi(longer, bottom);
+  if (embeds_) {
+    const auto value = [&](Index n) { return nodes_[n].key.value; };
+    buckets_.move_above(arc_buckets_[longer], value(arcs_[longer].lo), value(bottom), value(top),
+                        arc_buckets_[shorter]);
+  }
 }
 
 // ---- completing, contracting, settling
@@ -318,16 +327,12 @@ bool LiveGraph::can_leave(Index a) const {
 // one, since no path ends at a complete vertex.
 void LiveGraph::contract(Index n) {
   const Index upper = nodes_[n].up_first, lower = nodes_[n].down_first;
+  prefetch_buckets(lower, upper);
+  if (embeds_ && track_positions_) __builtin_prefetch(&positions_[n]);
   for (Index r = arcs_[upper].first_reference; r != kNone; r = references_[r].next) {
     const Index skipped = references_[r].down;
     references_[r].down = references_[skipped].down;
     free_reference(skipped);
-  }
-  if (embeds_) {
-    auto& below = arc_buckets_[lower];
-    buckets_.concatenate(below, nodes_[n].key.value, track_positions_ ? positions_[n] : Point{},
-                         arc_buckets_[upper]);
-    std::swap(below, arc_buckets_[upper]);
   }
   const Index lo = arcs_[lower].lo, hi = arcs_[upper].hi;
   detach_lo(lower);
@@ -335,6 +340,12 @@ void LiveGraph::contract(Index n) {
   free_arc(lower);
   detach_lo(upper);
   attach_lo(upper, lo);
+  if (embeds_) {
+    auto& below = arc_buckets_[lower];
+    buckets_.concatenate(below, nodes_[n].key.value, track_positions_ ? positions_[n] : Point{},
+                         arc_buckets_[upper]);
+    std::swap(below, arc_buckets_[upper]);
+  }
   free_node(n);
   if (noise_below_ > 0) {  // a leaf has another saddle now
     for (const Index end : {lo, hi})

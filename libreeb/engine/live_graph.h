@@ -122,6 +122,7 @@ class LiveGraph {
   void free_arc(Index arc);
   void free_node(Index node);
   void grow_arc_buckets();
+  void prefetch_buckets(Index a, Index b) const;
   Index new_reference();
   void free_reference(Index r);
   void link(Index r, Index arc);

@@ -102,9 +102,11 @@ struct Model {
 // Any sequence of what the engine does to lists, against maps.
 class ManyLists {
  public:
-  explicit ManyLists(std::uint64_t seed) : random_(seed), exponent_(-static_cast<int>(random_.below(6))) {
+  // Half of them of so few buckets that most lists have no more than one.
+  explicit ManyLists(std::uint64_t seed)
+      : random_(seed), few_(random_.chance(50)), exponent_((few_ ? 4 : 0) - static_cast<int>(random_.below(few_ ? 3 : 6))) {
     pool_.start(exponent_);
-    for (std::int64_t index = -20; index < 20; index += static_cast<std::int64_t>(random_.below(3))) sweep(index);
+    for (std::int64_t index = -20; index < 20 && !few_; index += static_cast<std::int64_t>(random_.below(3))) sweep(index);
     for (std::uint64_t steps = random_.below(60); steps > 0; --steps) step();
   }
 
@@ -144,7 +146,7 @@ class ManyLists {
     const std::size_t i = random_.below(kLists), j = random_.below(kLists);
     switch (random_.below(6)) {
       case 0:
-        return i != j && models_[j].buckets.empty() ? cut(i, j) : void();
+        return i != j ? cut(i, j) : void();
       case 1:
         if (i == j) return;
         pool_.merge(lists_[i], lists_[j]);
@@ -189,34 +191,52 @@ class ManyLists {
     models_[i].add_all(models_[j]);
   }
 
-  // What is above goes from list i to list j. The bucket that is cut is divided in proportion if it has
-  // four vertices or more, and goes to where its greater part is otherwise.
+  // What is above goes from list i to list j, which has nothing below it. The bucket that is cut is divided
+  // in proportion if it has four vertices or more, and goes to where its greater part is otherwise.
   void cut(std::size_t i, std::size_t j) {
     const double at = value();
     const std::int64_t divided = bucket_index(at, exponent_);
+    auto &from = models_[i].buckets, &into = models_[j].buckets;
+    if (!into.empty() && into.begin()->first < divided) return;
+    if (into.empty() && random_.chance(50))
+      lists_[j] = pool_.take_above(lists_[i], -kMost, at, kMost);
+    else
+      pool_.move_above(lists_[i], -kMost, at, kMost, lists_[j]);
+    if (const auto bucket = from.find(divided); bucket != from.end()) {
+      const std::uint64_t count = bucket->second.count, above = count_above(at, divided, count);
+      if (above == count) {
+        models_[j].add(bucket->second);
+        from.erase(bucket);
+      } else if (above != 0) {
+        models_[j].add(divide(bucket->second, count - above));
+      }
+    }
+    for (auto bucket = from.upper_bound(divided); bucket != from.end(); bucket = from.erase(bucket))
+      models_[j].add(bucket->second);
+  }
+
+  std::uint64_t count_above(double at, std::int64_t divided, std::uint64_t count) const {
     const double begin = std::max(-kMost, std::ldexp(static_cast<double>(divided), exponent_));
     const double end = std::min(kMost, std::ldexp(static_cast<double>(divided + 1), exponent_));
-    lists_[j] = pool_.take_above(lists_[i], -kMost, at, kMost);
-    auto& from = models_[i].buckets;
-    if (const auto bucket = from.find(divided); bucket != from.end()) {
-      const std::uint64_t count = bucket->second.count;
-      std::uint64_t above = end - at > at - begin ? count : 0;
-      if (count >= 4)
-        above = static_cast<std::uint64_t>(std::nearbyint((end - at) / (end - begin) * static_cast<double>(count)));
-      BucketSum& rest = models_[j].buckets.emplace(divided, bucket->second).first->second;
-      if (above == 0)
-        models_[j].buckets.clear();
-      else if (above == count)
-        from.erase(bucket);
-      else
-        bucket->second = rest.take(count - above);
+    if (count < 4) return end - at > at - begin ? count : 0;
+    return static_cast<std::uint64_t>(std::nearbyint((end - at) / (end - begin) * static_cast<double>(count)));
+  }
+
+  // Leaves so many of the vertices in the bucket, with their share of the sum. Returns the others.
+  static BucketSum divide(BucketSum& bucket, std::uint64_t left) {
+    BucketSum rest = bucket;
+    const double share = static_cast<double>(left) / static_cast<double>(bucket.count);
+    for (std::size_t k = 0; k < 3; ++k) {
+      bucket.sum[k] = static_cast<Int128>(static_cast<double>(bucket.sum[k]) * share);
+      rest.sum[k] -= bucket.sum[k];
     }
-    const auto first = from.upper_bound(divided);
-    models_[j].buckets.insert(first, from.end());
-    from.erase(first, from.end());
+    bucket.count = left;
+    rest.count -= left;
+    return rest;
   }
 
   Random random_;
+  bool few_;
   int exponent_;
   BucketLists pool_;
   std::array<BucketLists::List, kLists> lists_{};

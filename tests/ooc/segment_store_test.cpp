@@ -305,7 +305,8 @@ TEST(SegmentCodecs, RefuseDamagedBlocks) {
   std::sort(pieces.arcs.begin(), pieces.arcs.end());
   std::vector<std::byte> packed;
   std::vector<StoredArc> arcs;
-  const std::vector<std::byte> pool(7, std::byte{3});
+  std::vector<std::byte> pool;
+  for (unsigned i = 0; i < 7; ++i) pool.push_back(static_cast<std::byte>(i));
   for (std::size_t i = 0; i < pieces.arcs.size(); ++i)
     arcs.push_back({pieces.arcs[i], {static_cast<std::uint32_t>(i % 5), static_cast<std::uint32_t>(i % 3)}});
   ArcCodec::encode(arcs, pool, packed);
@@ -313,9 +314,19 @@ TEST(SegmentCodecs, RefuseDamagedBlocks) {
   std::vector<std::byte> own;
   ASSERT_TRUE(ArcCodec::decode(packed, back, own));
   EXPECT_EQ(own.size(), arcs.size());  // 0, 1, 2 bytes in turn
-  for (std::size_t i = 0; i < arcs.size(); ++i) EXPECT_EQ(back[i].keys, arcs[i].keys);
+  const auto bytes = [](std::span<const std::byte> all, const StoredArc& arc) {
+    const auto payload = all.subspan(arc.payload.first, arc.payload.size);
+    return std::vector(payload.begin(), payload.end());
+  };
+  for (std::size_t i = 0; i < arcs.size(); ++i) {
+    EXPECT_EQ(back[i].keys, arcs[i].keys);
+    EXPECT_EQ(bytes(own, back[i]), bytes(pool, arcs[i]));
+  }
   for (std::size_t size = 0; size < packed.size(); size += 37)
     EXPECT_FALSE(ArcCodec::decode(std::span(packed).first(size), back, own));
+  packed.push_back({});
+  EXPECT_FALSE(ArcCodec::decode(packed, back, own)) << "more bytes than payloads";
+  packed.pop_back();
   back.pop_back();
   EXPECT_FALSE(ArcCodec::decode(packed, back, own));
 }
