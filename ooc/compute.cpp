@@ -18,6 +18,7 @@
 #include "ooc/last_use_sidecar.h"
 #include "ooc/memory_plan.h"
 #include "ooc/read_ahead.h"
+#include "ooc/record_log.h"
 #include "ooc/reeb_file_writer.h"
 #include "ooc/reorder.h"
 #include "ooc/resumable_run.h"
@@ -582,10 +583,14 @@ void Run::write_hierarchy(ComputeResult& result, SegmentStore& store) {
     throw no_memory_for_hierarchy(result, needed);
   }
   const FileMeta meta = file_meta(result);
-  const ReebGraph& graph = loaded.graph;
+  ReebGraph& graph = loaded.graph;
   result.betti = betti_numbers(graph);
-  const Hierarchy hierarchy = build_hierarchy(graph, loaded.buckets, meta.bucket_exponent,
-                                              [this] { resumable_.check_interruption(); });
+  const Poll poll = [this] { resumable_.check_interruption(); };
+  RecordLog records(temp_, budget_);
+  const bool has_embedding = !loaded.buckets.offsets.empty();
+  PackedLists lists = pack_lists(loaded.buckets.view());
+  loaded.buckets = {};
+  const Hierarchy hierarchy = build_hierarchy(graph, std::move(lists), meta.bucket_exponent, records, poll);
   for (const PersistencePair& pair : hierarchy.pairs) {
     ++result.pairs[static_cast<std::size_t>(pair.type)];
     result.kept_loops += pair.kept ? 1u : 0u;
@@ -594,7 +599,8 @@ void Run::write_hierarchy(ComputeResult& result, SegmentStore& store) {
   for (auto it = hierarchy.pairs.rbegin(); it != hierarchy.pairs.rend() && result.largest.size() < kLargest; ++it)
     if (it->type != PairType::kExt0)
       result.largest.push_back({it->type, graph.nodes[it->lo.value()], graph.nodes[it->hi.value()]});
-  write_hierarchy_file(result.output, meta, graph, hierarchy, loaded.buckets.view());
+  write_hierarchy_file(result.output, meta, {graph, hierarchy, records, has_embedding}, poll);
+  result.spilled_bytes += records.spilled_bytes();
 }
 
 }  // namespace
