@@ -11,6 +11,7 @@
 #include "bench/held_memory.h"
 #include "bench/made_graph.h"
 #include "bench/random_function_graph.h"
+#include "libreeb/graph/packed_buckets.h"
 #include "libreeb/hierarchy/cancel.h"
 #include "ooc/record_log.h"
 #include "ooc/reeb_file.h"
@@ -53,7 +54,12 @@ Given make(const benchmark::State& state) {
     MemoryBudget budget;
     ooc::LoadedGraph loaded = make_random_function_graph(arcs, std::max(buckets, 1u), given.exponent, temp(), budget);
     given.graph = std::move(loaded.graph);
-    if (buckets != 0) given.buckets = std::move(loaded.buckets);
+    if (buckets == 0) return given;
+    given.buckets.offsets.push_back(0);
+    for (std::size_t arc = 0; arc < loaded.buckets.size(); ++arc) {
+      unpack_buckets(loaded.buckets.of(arc), given.buckets.buckets);
+      given.buckets.offsets.push_back(given.buckets.buckets.size());
+    }
     return given;
   }
   given.graph = GraphMaker(static_cast<GraphKind>(state.range(0)), arcs).make();

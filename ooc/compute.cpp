@@ -10,10 +10,10 @@
 #include "libreeb/engine/sweep_options.h"
 #include "libreeb/graph/bucket.h"
 #include "libreeb/hierarchy/cancel.h"
-#include "libreeb/hierarchy/denoise.h"
 #include "ooc/atomic_file.h"
 #include "ooc/coherence.h"
 #include "ooc/guessed_chunks.h"
+#include "ooc/last_noise_pass.h"
 #include "ooc/last_use.h"
 #include "ooc/last_use_sidecar.h"
 #include "ooc/memory_plan.h"
@@ -136,8 +136,7 @@ class Run {
   FileMeta file_meta(const ComputeResult& result) const;
   bool embeds() const { return options_.buckets != 0; }
   void write_stored_graph(ComputeResult& result, SegmentStore& store, const FileMeta& meta);
-  LoadedGraph load_graph(ComputeResult& result, SegmentStore& store);
-  void write_loaded_graph(ComputeResult& result, const LoadedGraph& loaded);
+  void remove_last_noise(ComputeResult& result, SegmentStore& store);
   void write_hierarchy(ComputeResult& result, SegmentStore& store);
   Error no_memory_for(const std::string& what, const ComputeResult& result, std::uint64_t needed,
                       const std::string& otherwise) const;
@@ -460,12 +459,11 @@ ComputeResult Run::second_stage(std::size_t f) {
     const Stopwatch watch(result.seconds.hierarchy);
     store.finish();
     result.spilled_bytes += store.spilled_bytes();
-    if (!options_.graph_only)
-      write_hierarchy(result, store);
-    else if (options_.denoise > 0)
-      write_loaded_graph(result, load_graph(result, store));
-    else
+    if (options_.denoise > 0) remove_last_noise(result, store);
+    if (options_.graph_only)
       write_stored_graph(result, store, file_meta(result));
+    else
+      write_hierarchy(result, store);
   }
   result.seconds.wall += seconds_since(start);
   return result;
@@ -501,9 +499,9 @@ void Run::write_stored_graph(ComputeResult& result, SegmentStore& store, const F
     pieces = 8192;  // large ones are for the scratch file
   }
   GraphFileWriter writer(result.output, meta, writing);
-  store.nodes().rewind();
+  store.rewind_nodes();
   read_ahead<std::vector<SettledNode>>(
-      writing.background, [&](auto& nodes) { return store.nodes().read(nodes, kNodes); },
+      writing.background, [&](auto& nodes) { return store.read_nodes(nodes, kNodes); },
       [&](const auto& nodes) { writer.add_nodes(nodes); });
   store.rewind_arcs();
   const std::optional<int> exponent = sweep_options(result.range).bucket_exponent;
@@ -514,36 +512,21 @@ void Run::write_stored_graph(ComputeResult& result, SegmentStore& store, const F
   result.betti = {writer.header().components, writer.header().loops};
 }
 
-// The graph in memory, less all noise: what was left of it on the way goes here. Where that does not
-// fit, the graph is kept as it is and the user is told, before the work starts.
-LoadedGraph Run::load_graph(ComputeResult& result, SegmentStore& store) {
+// What was left of the noise on the way goes here. Where memory does not suffice, the graph is kept as
+// it is and the user is told.
+void Run::remove_last_noise(ComputeResult& result, SegmentStore& store) {
   const SweepOptions sweep = sweep_options(result.range);
-  const LoadOptions loading{.bucket_exponent = sweep.bucket_exponent};
-  if (options_.denoise <= 0) return read_graph(store, loading);
-  constexpr std::uint64_t kBytesAnArc = 40, kBytesANode = 24, kBytesABucket = 48;  // beside the graph
-  const std::uint64_t scratch_bytes = kBytesAnArc * store.arc_count() + kBytesANode * store.node_count() +
-                                      (embeds() ? kBytesABucket * store.bucket_count() : 0);
-  const std::uint64_t needed = loading_bytes(store, loading) + scratch_bytes;
-  if (needed > budget_.free_bytes()) {
+  LastNoisePass pass = run_last_noise_pass(store, sweep.noise_below, sweep.bucket_exponent);
+  if (!pass.fits) {
     FileMeta meta = file_meta(result);
     meta.denoise_threshold = 0;
     write_stored_graph(result, store, meta);
-    throw no_memory_for("the last pass of noise removal", result, needed, "do without --denoise");
+    throw no_memory_for("the last pass of noise removal", result, pass.needed_bytes, "do without --denoise");
   }
-  LoadedGraph loaded = read_graph(store, loading);
-  const Reservation scratch = budget_.reserve("last pass of noise removal", scratch_bytes);
-  Denoised denoised =
-      denoise(std::move(loaded.graph), sweep.noise_below, loaded.buckets, sweep.bucket_exponent.value_or(0));
-  loaded.graph = std::move(denoised.graph);
-  result.denoised_pairs += denoised.removed.size();
-  result.nodes = loaded.graph.node_count();
-  result.arcs = loaded.graph.arc_count();
-  return loaded;
-}
-
-void Run::write_loaded_graph(ComputeResult& result, const LoadedGraph& loaded) {
-  result.betti = betti_numbers(loaded.graph);
-  write_graph_file(result.output, file_meta(result), loaded.graph, loaded.buckets.view());
+  if (pass.patch) store.apply(std::move(*pass.patch));
+  result.denoised_pairs += pass.removed_pairs;
+  result.nodes = store.node_count();
+  result.arcs = store.arc_count();
 }
 
 Error Run::no_memory_for(const std::string& what, const ComputeResult& result, std::uint64_t needed,
@@ -563,34 +546,33 @@ Error Run::no_memory_for_hierarchy(const ComputeResult& result, std::uint64_t ne
                        "remove noise with --denoise, or keep to the graph with --graph-only");
 }
 
-// Pairing and cancelling hold the graph in memory. Where that does not fit, the graph is kept and the
-// user is told, before the work starts.
+// Pairing and cancelling hold the graph in memory, though not what they make of it. Where that does not
+// fit, the graph is kept and the user is told, before the work starts.
 void Run::write_hierarchy(ComputeResult& result, SegmentStore& store) {
-  constexpr std::uint64_t kBytesAnArc = 160, kBytesABucket = 200, kGraphShare = 2;
-  const auto bytes = [&](std::uint64_t buckets) {
-    return kBytesAnArc * std::max(result.arcs, result.nodes) + kBytesABucket * buckets;
-  };
-  std::uint64_t needed = bytes(store.bucket_count());
-  if (options_.denoise <= 0 && needed > budget_.free_bytes()) {
-    write_stored_graph(result, store, file_meta(result));
-    throw no_memory_for_hierarchy(result, needed);
-  }
-  LoadedGraph loaded = load_graph(result, store);
-  needed = bytes(loaded.buckets.buckets.size());
-  const Reservation memory = budget_.try_reserve("hierarchy", needed / kGraphShare);
-  if (memory.bytes() == 0 && needed != 0) {
-    write_loaded_graph(result, loaded);
-    throw no_memory_for_hierarchy(result, needed);
-  }
   const FileMeta meta = file_meta(result);
+  const auto refuse = [&](std::uint64_t needed) {
+    write_stored_graph(result, store, meta);
+    throw no_memory_for_hierarchy(result, needed);
+  };
+  const LoadOptions loading{.bucket_exponent = sweep_options(result.range).bucket_exponent};
+  if (loading_bytes(store, loading) > budget_.free_bytes())
+    refuse(hierarchy_bytes(result.nodes, result.arcs, PackedLists::most_bytes(result.arcs, store.bucket_count())));
+  LoadedGraph loaded = read_graph(store, loading);
+  std::optional<std::uint64_t> lists;
+  if (embeds()) lists = loaded.buckets.memory_bytes();
+  const std::uint64_t needed = hierarchy_bytes(result.nodes, result.arcs, lists) + RecordLog::memory_bytes();
+  const std::uint64_t more = needed - loaded.memory.bytes();
+  if (more > budget_.free_bytes()) {
+    loaded = {};
+    refuse(needed);
+  }
+  RecordLog records(temp_, budget_);
+  const Reservation memory = budget_.reserve("hierarchy", more - RecordLog::memory_bytes());
+
   ReebGraph& graph = loaded.graph;
   result.betti = betti_numbers(graph);
   const Poll poll = [this] { resumable_.check_interruption(); };
-  RecordLog records(temp_, budget_);
-  const bool has_embedding = !loaded.buckets.offsets.empty();
-  PackedLists lists = pack_lists(loaded.buckets.view());
-  loaded.buckets = {};
-  const Hierarchy hierarchy = build_hierarchy(graph, std::move(lists), meta.bucket_exponent, records, poll);
+  const Hierarchy hierarchy = build_hierarchy(graph, std::move(loaded.buckets), meta.bucket_exponent, records, poll);
   for (const PersistencePair& pair : hierarchy.pairs) {
     ++result.pairs[static_cast<std::size_t>(pair.type)];
     result.kept_loops += pair.kept ? 1u : 0u;
@@ -599,7 +581,7 @@ void Run::write_hierarchy(ComputeResult& result, SegmentStore& store) {
   for (auto it = hierarchy.pairs.rbegin(); it != hierarchy.pairs.rend() && result.largest.size() < kLargest; ++it)
     if (it->type != PairType::kExt0)
       result.largest.push_back({it->type, graph.nodes[it->lo.value()], graph.nodes[it->hi.value()]});
-  write_hierarchy_file(result.output, meta, {graph, hierarchy, records, has_embedding}, poll);
+  write_hierarchy_file(result.output, meta, {graph, hierarchy, records, embeds()}, poll);
   result.spilled_bytes += records.spilled_bytes();
 }
 

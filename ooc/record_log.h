@@ -24,7 +24,10 @@ namespace reeb::ooc {
 //         lacks two blocks.   THREADS: one at a time.
 class RecordLog : public RecordSink, public RecordSource {
  public:
-  static constexpr std::size_t kBlockBytes = 128 << 10;
+  static constexpr std::size_t kBlockBytes = 64 << 10;
+
+  // What one of them holds.
+  static constexpr std::uint64_t memory_bytes() { return 2 * kBlockBytes; }
 
   // `temp` must outlive this. A block holds at least one record, however large.
   RecordLog(const TempDir& temp, MemoryBudget& budget, std::size_t block_bytes = kBlockBytes);

@@ -68,6 +68,20 @@ std::uint64_t append_blocks(std::span<const Record> records, [[maybe_unused]] st
   return blocks;
 }
 
+// Reads the next block of `run`, which has one, and moves on. THROWS: as RunFile, also for a block that
+// cannot be decoded.
+template <class Record, class Codec>
+void read_block(const RunFile& file, RunPlace& run, std::vector<std::byte>& packed, RecordBatch<Record>& block) {
+  const std::uint64_t offset = run.offset;
+  block.records.resize(file.read(run, packed));
+  bool is_block = !block.empty();
+  if constexpr (CarriesPayload<Record>)
+    is_block = is_block && Codec::decode(packed, block.records, block.pool);
+  else
+    is_block = is_block && Codec::decode(packed, block.records);
+  if (!is_block) file.refuse(offset);
+}
+
 // A number that rises with the record; unequal numbers settle the order of most records without a
 // branch that could not be foretold.
 template <class Less, class Record>
@@ -127,20 +141,11 @@ class RunMerger {
     heads_[i].place = nullptr;
     ranks_[i] = std::numeric_limits<std::uint64_t>::max();
     if (cursor.rest.blocks == 0) return;
-    const std::uint64_t offset = cursor.rest.offset;
-    cursor.block.records.resize(file_->read(cursor.rest, packed_));
-    if (!decode(cursor.block) || cursor.block.empty()) file_->refuse(offset);
+    read_block<Record, Codec>(*file_, cursor.rest, packed_, cursor.block);
     const std::vector<Record>& records = cursor.block.records;
     cursor.end = records.data() + records.size();
     heads_[i] = {records[0], records.data()};
     ranks_[i] = rank_of<Less>(records[0]);
-  }
-
-  bool decode(RecordBatch<Record>& block) const {
-    if constexpr (CarriesPayload<Record>)
-      return Codec::decode(packed_, block.records, block.pool);
-    else
-      return Codec::decode(packed_, block.records);
   }
 
   // A total order of the runs that have records left; the others come after them.

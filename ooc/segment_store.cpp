@@ -1,13 +1,13 @@
 #include "ooc/segment_store.h"
 
 #include <algorithm>
-#include <bit>
 #include <future>
 #include <stdexcept>
 #include <string>
 
 #include "ooc/arc_payload.h"
 #include "ooc/column_codec.h"
+#include "ooc/node_table.h"
 #include "ooc/read_ahead.h"
 
 namespace reeb::ooc {
@@ -141,74 +141,105 @@ void SegmentStore::finish() {
     nodes_.finish(merge_bytes);
 }
 
-bool SegmentStore::read_arcs(ArcPiece& piece, std::size_t limit, std::optional<int> bucket_exponent) {
-  constexpr std::size_t kPayloads = 256 << 10;
-  arcs_.read(batch_, limit, kPayloads);
-  piece.arcs.clear();
-  for (const StoredArc& arc : batch_.records) piece.arcs.push_back(arc.keys);
-  if (!bucket_exponent) return !batch_.empty();
-  piece.buckets.buckets.clear();
-  piece.buckets.offsets.assign(1, 0);
-  for (const StoredArc& arc : batch_.records) {
-    if (!decode_buckets(batch_.payload(arc), *bucket_exponent, piece.buckets.buckets))
-      throw std::logic_error("the buckets of an arc from vertex " + std::to_string(arc.keys.lo.vertex.value()) +
-                             " are no buckets of exponent " + std::to_string(*bucket_exponent));
-    piece.buckets.offsets.push_back(piece.buckets.buckets.size());
+void decode_buckets_of(const StoredArc& arc, std::span<const std::byte> payload, int bucket_exponent,
+                       std::vector<Bucket>& buckets) {
+  if (!decode_buckets(payload, bucket_exponent, buckets))
+    throw std::logic_error("the buckets of an arc from vertex " + std::to_string(arc.keys.lo.vertex.value()) +
+                           " are no buckets of exponent " + std::to_string(bucket_exponent));
+}
+
+void SegmentStore::rewind_nodes() {
+  nodes_.rewind();
+  if (patch_) patch_->rewind_nodes();
+}
+
+void SegmentStore::rewind_arcs() {
+  arcs_.rewind();
+  batch_.clear();
+  next_ = 0;
+  at_end_ = false;
+  if (patch_) patch_->rewind_arcs();
+}
+
+bool SegmentStore::read_nodes(std::vector<SettledNode>& nodes, std::size_t limit) {
+  while (nodes_.read(nodes, limit)) {
+    if (patch_) std::erase_if(nodes, [&](const SettledNode& node) { return patch_->drops(node.key); });
+    if (!nodes.empty()) return true;
   }
-  return !batch_.empty();
+  return false;
+}
+
+bool SegmentStore::read_arcs(ArcPiece& piece, std::size_t limit, std::optional<int> bucket_exponent) {
+  piece.arcs.clear();
+  piece.buckets.buckets.clear();
+  piece.buckets.offsets.assign(bucket_exponent ? 1 : 0, 0);
+  while (piece.arcs.size() < limit) {
+    if (next_ == batch_.records.size() && !at_end_) {
+      if (!piece.arcs.empty()) break;  // a piece comes of one batch
+      refill_arcs(limit);
+      continue;
+    }
+    const StoredArc* stored = at_end_ ? nullptr : &batch_.records[next_];
+    if (patch_ && patch_->comes_before(stored == nullptr ? nullptr : &stored->keys)) {
+      patch_->take(piece);
+      continue;
+    }
+    if (stored == nullptr) break;
+    ++next_;
+    if (!patch_ || !patch_->drops(stored->keys)) add_stored(*stored, bucket_exponent, piece);
+  }
+  return !piece.arcs.empty();
+}
+
+void SegmentStore::refill_arcs(std::size_t limit) {
+  constexpr std::size_t kPayloads = 256 << 10;
+  at_end_ = !arcs_.read(batch_, limit, kPayloads);
+  next_ = 0;
+}
+
+void SegmentStore::add_stored(const StoredArc& arc, std::optional<int> bucket_exponent, ArcPiece& piece) const {
+  piece.arcs.push_back(arc.keys);
+  if (!bucket_exponent) return;
+  decode_buckets_of(arc, batch_.payload(arc), *bucket_exponent, piece.buckets.buckets);
+  piece.buckets.offsets.push_back(piece.buckets.buckets.size());
+}
+
+void SegmentStore::apply(GraphPatch patch) {
+  patch_.emplace(std::move(patch));
+  rewind_nodes();
+  rewind_arcs();
+}
+
+std::uint64_t SegmentStore::node_count() const {
+  return nodes_.size() - (patch_ ? patch_->patch().gone.size() : 0);
+}
+
+std::uint64_t SegmentStore::arc_count() const {
+  if (!patch_) return arcs_.size();
+  return arcs_.size() - patch_->patch().replaced_arcs + patch_->patch().graph.arc_count();
+}
+
+std::uint64_t SegmentStore::bucket_count() const {
+  if (!patch_) return bucket_count_;
+  return bucket_count_ - patch_->patch().replaced_buckets + patch_->patch().buckets.buckets.size();
 }
 
 namespace {
 
-constexpr std::size_t kStretch = 16384;  // records taken over at once
+constexpr std::size_t kStretch = 4096;  // records taken over at once
 
-// From vertices to nodes: a table with linear probing, at most half full.
-//
-// An arc's upper end may be anywhere, and where values are random it mostly is: a look-up costs two
-// places in memory, and those of successive arcs are fetched side by side, which a binary search
-// would not allow. MEMORY: 8 to 16 bytes a node.
-class NodeTable {
- public:
-  explicit NodeTable(const std::vector<SweepKey>& nodes)
-      : nodes_(nodes), slots_(std::bit_ceil(2 * nodes.size() + 1), kFree) {
-    for (std::uint32_t node = 0; node < nodes.size(); ++node) {
-      std::size_t slot = home(nodes[node]);
-      while (slots_[slot] != kFree) slot = (slot + 1) & (slots_.size() - 1);
-      slots_[slot] = node;
-    }
-  }
-
-  static std::uint64_t bytes(std::uint64_t nodes) { return std::bit_ceil(2 * nodes + 1) * sizeof(std::uint32_t); }
-
-  NodeId find(const SweepKey& key) const {
-    for (std::size_t slot = home(key); slots_[slot] != kFree; slot = (slot + 1) & (slots_.size() - 1))
-      if (nodes_[slots_[slot]] == key) return NodeId(slots_[slot]);
+NodeId node_of(const SweepKey& key, const NodeTable& table) {
+  const std::uint32_t node = table.find(key);
+  if (node == NodeTable::kNone)
     throw std::logic_error("an arc ends in vertex " + std::to_string(key.vertex.value()) + ", which is no node");
-  }
-
- private:
-  static constexpr std::uint32_t kFree = ~std::uint32_t{0};
-
-  std::size_t home(const SweepKey& key) const {
-    return static_cast<std::size_t>(key.vertex.value() * 0x9e3779b97f4a7c15u >> 20) & (slots_.size() - 1);
-  }
-
-  const std::vector<SweepKey>& nodes_;
-  std::vector<std::uint32_t> slots_;
-};
-
-// The buckets of the next arcs.
-void append(const ArcBuckets& piece, ArcBuckets& all) {
-  const std::uint64_t before = all.buckets.size();
-  for (std::size_t i = 1; i < piece.offsets.size(); ++i) all.offsets.push_back(before + piece.offsets[i]);
-  all.buckets.insert(all.buckets.end(), piece.buckets.begin(), piece.buckets.end());
+  return NodeId(node);
 }
 
 std::uint64_t graph_bytes(const SegmentStore& store, const LoadOptions& options) {
   const std::uint64_t nodes = store.node_count(), arcs = store.arc_count();
   std::uint64_t bytes = nodes * sizeof(SweepKey) + arcs * 2 * sizeof(NodeId);
   if (options.positions) bytes += nodes * sizeof(Point);
-  if (options.bucket_exponent) bytes += (arcs + 1) * sizeof(std::uint64_t) + store.bucket_count() * sizeof(Bucket);
+  if (options.bucket_exponent) bytes += PackedLists::most_bytes(arcs, store.bucket_count());
   return bytes;
 }
 
@@ -221,25 +252,20 @@ std::uint64_t loading_bytes(const SegmentStore& store, const LoadOptions& option
 LoadedGraph read_graph(SegmentStore& store, const LoadOptions& options) {
   const auto node_count = static_cast<std::size_t>(store.node_count());
   const auto arc_count = static_cast<std::size_t>(store.arc_count());
-  const auto bucket_count = static_cast<std::size_t>(options.bucket_exponent ? store.bucket_count() : 0);
   LoadedGraph loaded;
   ReebGraph& graph = loaded.graph;
   loaded.memory = store.budget().reserve("graph", graph_bytes(store, options));
   graph.nodes.reserve(node_count);
   if (options.positions) graph.positions.reserve(node_count);
-  store.nodes().rewind();
-  for (std::vector<SettledNode> some; store.nodes().read(some, kStretch);)
+  store.rewind_nodes();
+  for (std::vector<SettledNode> some; store.read_nodes(some, kStretch);)
     for (const SettledNode& node : some) {
       graph.nodes.push_back(node.key);
       if (options.positions) graph.positions.push_back(node.position);
     }
   graph.lo.reserve(arc_count);
   graph.hi.reserve(arc_count);
-  if (options.bucket_exponent) {
-    loaded.buckets.offsets.reserve(arc_count + 1);
-    loaded.buckets.offsets.push_back(0);
-    loaded.buckets.buckets.reserve(bucket_count);
-  }
+  if (options.bucket_exponent) loaded.buckets.reserve(arc_count);
   const Reservation table_memory = store.budget().reserve("ends of arcs", NodeTable::bytes(node_count));
   const NodeTable table(graph.nodes);
   store.rewind_arcs();
@@ -248,11 +274,15 @@ LoadedGraph read_graph(SegmentStore& store, const LoadOptions& options) {
       [&](ArcPiece& piece) { return store.read_arcs(piece, kStretch, options.bucket_exponent); },
       [&](const ArcPiece& piece) {
         for (const ArcKeys& arc : piece.arcs) {
-          graph.lo.push_back(table.find(arc.lo));
-          graph.hi.push_back(table.find(arc.hi));
+          graph.lo.push_back(node_of(arc.lo, table));
+          graph.hi.push_back(node_of(arc.hi, table));
         }
-        append(piece.buckets, loaded.buckets);
+        for (std::size_t arc = 0; arc + 1 < piece.buckets.offsets.size(); ++arc)
+          loaded.buckets.add(piece.buckets.view().of(arc));
       });
+  if (options.bucket_exponent)
+    loaded.memory.resize(loaded.memory.bytes() - PackedLists::most_bytes(arc_count, store.bucket_count()) +
+                         loaded.buckets.memory_bytes());
   return loaded;
 }
 

@@ -11,8 +11,10 @@
 #include "libreeb/base/memory_budget.h"
 #include "libreeb/graph/reeb_graph.h"
 #include "libreeb/hierarchy/arc_buckets.h"
+#include "libreeb/hierarchy/packed_lists.h"
 #include "libreeb/port/graph_sink.h"
 #include "ooc/external_sort.h"
+#include "ooc/graph_patch.h"
 #include "ooc/record_batch.h"
 #include "ooc/temp_dir.h"
 
@@ -49,11 +51,9 @@ struct ArcLess {
 using SortedNodes = ExternalSort<SettledNode, NodeCodec, NodeLess>;
 using SortedArcs = ExternalSort<StoredArc, ArcCodec, ArcLess>;
 
-// Consecutive arcs with their buckets, all of one exponent.
-struct ArcPiece {
-  std::vector<ArcKeys> arcs;
-  ArcBuckets buckets;  // without offsets where none are wanted
-};
+// Appends the buckets of an arc, coarsened. THROWS: std::logic_error if they are coarser, or none.
+void decode_buckets_of(const StoredArc& arc, std::span<const std::byte> payload, int bucket_exponent,
+                       std::vector<Bucket>& buckets);
 
 struct SegmentOptions {
   std::uint64_t allowance_bytes = 8 << 20;  // of the budget, half for nodes and half for arcs
@@ -84,37 +84,69 @@ class SegmentStore : public GraphSink {
   void restore(StateReader& in);
 
   // REQUIRES, for all that follows: finish() was called.
-  SortedNodes& nodes() { return nodes_; }
-  void rewind_arcs() { arcs_.rewind(); }
+  void rewind_nodes();
+  void rewind_arcs();
+  // Replaces `nodes` by at most `limit` next ones in order; false at the end.
+  bool read_nodes(std::vector<SettledNode>& nodes, std::size_t limit);
   // Replaces `piece` by at most `limit` next arcs in order, fewer if they have many buckets; false at
   // the end. Buckets are delivered if an exponent is given, which is not below any that
   // was added.
   bool read_arcs(ArcPiece& piece, std::size_t limit, std::optional<int> bucket_exponent = {});
 
-  std::uint64_t node_count() const { return nodes_.size(); }
-  std::uint64_t arc_count() const { return arcs_.size(); }
+  // Calls visit(node), or visit(arc, batch) with the batch that holds the arc's payload, for all that was
+  // added, in no order but that parallel arcs come as they are read.
+  template <class Visit>
+  void scan_nodes(const Visit& visit) const;
+  template <class Visit>
+  void scan_arcs(const Visit& visit) const;
+
+  // From now on the graph is read, and counted, with this change; scans go on without it. Rewinds.
+  void apply(GraphPatch patch);
+
+  std::uint64_t node_count() const;
+  std::uint64_t arc_count() const;
   // As they were added; coarsening makes fewer of them.
-  std::uint64_t bucket_count() const { return bucket_count_; }
+  std::uint64_t bucket_count() const;
   std::uint64_t spilled_bytes() const { return nodes_.spilled_bytes() + arcs_.spilled_bytes(); }
   MemoryBudget& budget() { return *budget_; }
   bool background() const { return background_; }
 
  private:
+  void refill_arcs(std::size_t limit);
+  void add_stored(const StoredArc& arc, std::optional<int> bucket_exponent, ArcPiece& piece) const;
+
   MemoryBudget* budget_;
   bool background_;
   SortedNodes nodes_;
   SortedArcs arcs_;
   std::uint64_t bucket_count_ = 0;
-  RecordBatch<StoredArc> batch_;  // read last
+  RecordBatch<StoredArc> batch_;  // read last,
+  std::size_t next_ = 0;          // delivered so far
+  bool at_end_ = false;           // of the stored arcs
+  std::optional<PatchReader> patch_;
   std::vector<StoredArc> plain_;
   std::vector<std::byte> payload_;
 };
+
+template <class Visit>
+void SegmentStore::scan_nodes(const Visit& visit) const {
+  nodes_.scan([&](const RecordBatch<SettledNode>& batch) {
+    for (const SettledNode& node : batch.records) visit(node);
+  });
+}
+
+template <class Visit>
+void SegmentStore::scan_arcs(const Visit& visit) const {
+  arcs_.scan([&](const RecordBatch<StoredArc>& batch) {
+    for (const StoredArc& arc : batch.records) visit(arc, batch);
+  });
+}
 
 // A graph in memory with what it has reserved.
 struct LoadedGraph {
   Reservation memory;
   ReebGraph graph;
-  ArcBuckets buckets;  // empty unless wanted
+  PackedLists buckets;  // empty unless wanted
 };
 
 struct LoadOptions {

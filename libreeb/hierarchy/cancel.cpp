@@ -66,6 +66,16 @@ class RecordsInMemory : public RecordSink {
 
 }  // namespace
 
+std::uint64_t hierarchy_bytes(std::uint64_t nodes, std::uint64_t arcs, std::optional<std::uint64_t> lists) {
+  // Keys, positions, heaps and searches; ends, heaps and the log; and as many pairs as there can be.
+  constexpr std::uint64_t kNode = 16 + 24 + 8 + 9, kArc = 8 + 36 + 4, kPair = sizeof(PersistencePair) + sizeof(double);
+  const std::uint64_t bytes = kNode * nodes + kArc * arcs + kPair * std::max(nodes, arcs);
+  if (!lists) return bytes;
+  // Lists that change leave holes; and a node that disappears may get a bucket of its own.
+  constexpr std::uint64_t kOpen = 4, kNewBucket = 32;
+  return bytes + kOpen * arcs + *lists + *lists / 2 + kNewBucket * nodes;
+}
+
 Hierarchy build_hierarchy(ReebGraph& graph, PackedLists buckets, int exponent, RecordSink& sink, const Poll& poll) {
   Hierarchy hierarchy;
   hierarchy.pairs = persistence_pairs(graph);

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 
 #include "libreeb/graph/reeb_graph.h"
 #include "libreeb/hierarchy/arc_buckets.h"
@@ -11,6 +12,10 @@
 #include "libreeb/port/record_sink.h"
 
 namespace reeb {
+
+// What build_hierarchy() holds at most, the graph and its buckets included: of an embedding, `lists` is what
+// PackedLists::memory_bytes() says of it. Only buckets that are cut again and again could make it more.
+std::uint64_t hierarchy_bytes(std::uint64_t nodes, std::uint64_t arcs, std::optional<std::uint64_t> lists);
 
 // Called now and then while a hierarchy is built; it may throw to end that.
 using Poll = std::function<void()>;
@@ -31,7 +36,7 @@ using Poll = std::function<void()>;
 // TIME:   O(m log m) for the pairs; a cancellation costs its two paths and a search that goes no
 //         further than the lesser of what lies above the lower and below the upper node within
 //         the pair's interval.
-// MEMORY: hierarchy_bytes(), with what the graph's nodes and the buckets take.
+// MEMORY: hierarchy_bytes().
 // REQUIRES: no node is of degree (1, 1).
 Hierarchy build_hierarchy(ReebGraph& graph, PackedLists buckets, int exponent, RecordSink& sink,
                           const Poll& poll = {});

@@ -17,9 +17,10 @@ namespace {
 // Removes leaves of a graph whose arcs it takes; the nodes stay for the caller.
 class LeafRemoval {
  public:
-  // `lists`, of the graph's arcs, may be null; both must outlive this.
-  LeafRemoval(ReebGraph& full, double threshold, ArcBucketLists* lists)
-      : full_(full), threshold_(threshold), graph_(full), lists_(lists), reach_(full.node_count()) {
+  // `whole` says which nodes have all their arcs, all do if it is null; `lists`, of the graph's arcs,
+  // may be null. All must outlive this.
+  LeafRemoval(ReebGraph& full, const std::vector<bool>* whole, double threshold, ArcBucketLists* lists)
+      : full_(full), whole_(whole), threshold_(threshold), graph_(full), lists_(lists), reach_(full.node_count()) {
     find_reaches();
     full.lo = std::vector<NodeId>();
     full.hi = std::vector<NodeId>();
@@ -91,7 +92,8 @@ class LeafRemoval {
 
   // True for a maximum (d = kUp) or minimum (d = kDown) with one arc.
   bool is_leaf(std::uint32_t node, Direction d) const {
-    return graph_.nearest(node, d) == WorkingGraph::kNone && graph_.has_one(node, opposite(d));
+    return graph_.nearest(node, d) == WorkingGraph::kNone && graph_.has_one(node, opposite(d)) &&
+           (whole_ == nullptr || (*whole_)[node]);
   }
 
   void try_leaf(std::uint32_t leaf, Direction d) {
@@ -154,6 +156,7 @@ class LeafRemoval {
   }
 
   ReebGraph& full_;
+  const std::vector<bool>* whole_;
   const double threshold_;
   WorkingGraph graph_;
   ArcBucketLists* lists_;
@@ -183,11 +186,12 @@ void drop_lone_nodes(ReebGraph& graph, const std::vector<NodeId>& isolated) {
 }
 
 // Removes all leaves. Returns the arcs that are left, by their former numbers, in the new order.
-std::vector<std::uint32_t> remove_leaves(Denoised& result, double threshold, ArcBucketLists* lists) {
+std::vector<std::uint32_t> remove_leaves(Denoised& result, const std::vector<bool>* whole, double threshold,
+                                         ArcBucketLists* lists) {
   const std::vector<NodeId> isolated = isolated_nodes(result.graph);
   std::vector<std::uint32_t> arcs;
   {
-    LeafRemoval removal(result.graph, threshold, lists);
+    LeafRemoval removal(result.graph, whole, threshold, lists);
     removal.run();
     result.removed = removal.take_removed();
     arcs = removal.remaining();
@@ -208,21 +212,33 @@ ArcBuckets buckets_of(const ArcBucketLists& lists, const std::vector<std::uint32
   return buckets;
 }
 
-}  // namespace
-
-Denoised denoise(ReebGraph graph, double threshold) {
+Denoised denoise(ReebGraph graph, const std::vector<bool>* whole, double threshold, ArcBuckets& buckets,
+                 int exponent) {
   Denoised result{std::move(graph), {}};
-  remove_leaves(result, threshold, nullptr);
+  if (buckets.offsets.empty()) {
+    remove_leaves(result, whole, threshold, nullptr);
+    return result;
+  }
+  ArcBucketLists lists(pack_lists(buckets.view()), exponent);
+  buckets = {};
+  buckets = buckets_of(lists, remove_leaves(result, whole, threshold, &lists));
   return result;
 }
 
+}  // namespace
+
+Denoised denoise(ReebGraph graph, double threshold) {
+  ArcBuckets none;
+  return denoise(std::move(graph), nullptr, threshold, none, 0);
+}
+
 Denoised denoise(ReebGraph graph, double threshold, ArcBuckets& buckets, int exponent) {
-  if (buckets.offsets.empty()) return denoise(std::move(graph), threshold);
-  Denoised result{std::move(graph), {}};
-  ArcBucketLists lists(pack_lists(buckets.view()), exponent);
-  buckets = {};
-  buckets = buckets_of(lists, remove_leaves(result, threshold, &lists));
-  return result;
+  return denoise(std::move(graph), nullptr, threshold, buckets, exponent);
+}
+
+Denoised denoise_part(ReebGraph part, const std::vector<bool>& whole, double threshold, ArcBuckets& buckets,
+                      int exponent) {
+  return denoise(std::move(part), &whole, threshold, buckets, exponent);
 }
 
 }  // namespace reeb

@@ -1,4 +1,4 @@
-// Noise removal on a graph in memory: the exact final pass (DESIGN.md 1.6).
+// Noise removal on a graph in memory, or on a part of one: the exact last pass (DESIGN.md 1.6).
 #pragma once
 
 #include <cstdint>
@@ -39,5 +39,11 @@ Denoised denoise(ReebGraph graph, double threshold);
 //         memory above is free again, 8 an arc and 40 a bucket for the result.
 // REQUIRES: all buckets are of this exponent, and none is empty.
 Denoised denoise(ReebGraph graph, double threshold, ArcBuckets& buckets, int exponent);
+
+// The same in a part of a graph: all arcs of the nodes that are `whole`, in the order of the graph.
+// Other nodes only say where those arcs end, and stay. With the nodes of noise_scope() whole, the
+// arcs and buckets of the result, in the place of the part's, make of the graph what denoise() does.
+Denoised denoise_part(ReebGraph part, const std::vector<bool>& whole, double threshold, ArcBuckets& buckets,
+                      int exponent);
 
 }  // namespace reeb

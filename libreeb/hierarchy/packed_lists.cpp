@@ -22,6 +22,17 @@ void PackedLists::add(std::span<const Bucket> buckets) {
   replace(places_.size() - 1, packed_);
 }
 
+std::uint64_t PackedLists::memory_bytes() const {
+  return places_.capacity() * sizeof(std::uint64_t) + chunks_.capacity() * sizeof(Chunk) + chunk_bytes_ +
+         (spare_ != nullptr ? kChunkBytes : 0);
+}
+
+std::uint64_t PackedLists::most_bytes(std::uint64_t arcs, std::uint64_t buckets) {
+  constexpr std::uint64_t kBucket = 28, kList = kArcBytes + 2 + 3;  // with its size and its length
+  const std::uint64_t bytes = kBucket * buckets + kList * std::min(arcs, buckets);
+  return sizeof(std::uint64_t) * arcs + bytes + bytes / (kListsAChunk - 1) + 2 * kChunkBytes;
+}
+
 std::span<const std::byte> PackedLists::of(std::size_t arc) const {
   const std::uint64_t place = places_[arc];
   if (place == kNowhere) return {};
@@ -49,8 +60,8 @@ PackedLists::Block PackedLists::block_at(const Chunk& chunk, std::uint32_t offse
 std::uint64_t PackedLists::store(std::uint32_t arc, std::span<const std::byte> list) {
   const std::size_t most = kArcBytes + kMostSizeBytes + list.size();
   if (most > ~std::uint32_t{0}) throw std::length_error("PackedLists: a list of 4 GiB");
-  if (open_ == kNoChunk || chunks_[open_].room - chunks_[open_].used < most) open_chunk(most);
-  Chunk& chunk = chunks_[open_];
+  const std::uint32_t index = chunk_with_room(most);
+  Chunk& chunk = chunks_[index];
   const std::uint32_t offset = chunk.used;
   std::byte* to = chunk.bytes.get() + offset;
   std::memcpy(to, &arc, kArcBytes);
@@ -61,36 +72,41 @@ std::uint64_t PackedLists::store(std::uint32_t arc, std::span<const std::byte> l
   std::memcpy(to, list.data(), list.size());
   chunk.used = static_cast<std::uint32_t>(to + list.size() - chunk.bytes.get());
   chunk.live += chunk.used - offset;
-  return place(open_, offset);
+  return place(index, offset);
 }
 
-// A list that is larger than a chunk gets one of its own.
-void PackedLists::open_chunk(std::size_t least) {
-  const std::uint32_t before = open_;
+// Large lists have chunks of their own, so that little is lost at the end of the others.
+std::uint32_t PackedLists::chunk_with_room(std::size_t bytes) {
+  if (bytes > kChunkBytes / kListsAChunk) return new_chunk(bytes);
+  if (open_ != kNoChunk && chunks_[open_].room - chunks_[open_].used >= bytes) return open_;
+  const std::uint32_t full = std::exchange(open_, new_chunk(kChunkBytes));
+  if (full != kNoChunk) note_if_due(full);  // which was spared while it was being filled
+  return open_;
+}
+
+std::uint32_t PackedLists::new_chunk(std::size_t room) {
   if (free_.empty()) {
-    open_ = static_cast<std::uint32_t>(chunks_.size());
+    free_.push_back(static_cast<std::uint32_t>(chunks_.size()));
     chunks_.emplace_back();
-  } else {
-    open_ = free_.back();
-    free_.pop_back();
   }
-  Chunk& chunk = chunks_[open_];
-  const std::size_t room = std::max(least, kChunkBytes);
+  const std::uint32_t index = free_.back();
+  free_.pop_back();
   const bool has_spare = spare_ != nullptr && room == kChunkBytes;
-  chunk = {has_spare ? std::move(spare_) : std::make_unique_for_overwrite<std::byte[]>(room),
-           static_cast<std::uint32_t>(room)};
-  // What was spared while it was being filled may be little now.
-  if (before != kNoChunk && chunks_[before].live < kLeastLive * chunks_[before].used) {
-    chunks_[before].is_due = true;
-    due_.push_back(before);
-  }
+  chunks_[index] = {has_spare ? std::move(spare_) : std::make_unique_for_overwrite<std::byte[]>(room),
+                    static_cast<std::uint32_t>(room)};
+  chunk_bytes_ += room;
+  return index;
 }
 
 void PackedLists::forget(std::uint64_t place) {
   const auto index = static_cast<std::uint32_t>(place >> 32), offset = static_cast<std::uint32_t>(place);
+  chunks_[index].live -= block_at(chunks_[index], offset).end - offset;
+  if (index != open_) note_if_due(index);
+}
+
+void PackedLists::note_if_due(std::uint32_t index) {
   Chunk& chunk = chunks_[index];
-  chunk.live -= block_at(chunk, offset).end - offset;
-  if (index == open_ || chunk.is_due || chunk.live >= kLeastLive * chunk.used) return;
+  if (chunk.is_due || chunk.live >= kLeastLive * chunk.used) return;
   chunk.is_due = true;
   due_.push_back(index);
 }
@@ -114,6 +130,7 @@ void PackedLists::give_up(std::uint32_t index) {
     offset = block.end;
   }
   Chunk& chunk = chunks_[index];
+  chunk_bytes_ -= chunk.room;
   if (chunk.room == kChunkBytes && spare_ == nullptr) spare_ = std::move(chunk.bytes);
   chunk = {};
   free_.push_back(index);

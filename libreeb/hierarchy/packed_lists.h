@@ -21,10 +21,15 @@ namespace reeb {
 //         in use; two chunks.
 class PackedLists {
  public:
+  void reserve(std::size_t arcs) { places_.reserve(arcs); }
   // Appends an arc with its buckets.
   void add(std::span<const Bucket> buckets);
 
   std::size_t size() const { return places_.size(); }
+  // What it holds at present.
+  std::uint64_t memory_bytes() const;
+  // What it holds at most once so many arcs were added with so many buckets, of counts up to 2^13.
+  static std::uint64_t most_bytes(std::uint64_t arcs, std::uint64_t buckets);
   // Empty for an arc without buckets. Valid until the next collect().
   std::span<const std::byte> of(std::size_t arc) const;
 
@@ -33,6 +38,7 @@ class PackedLists {
 
  private:
   static constexpr std::size_t kChunkBytes = 64 << 10;
+  static constexpr std::size_t kListsAChunk = 8;  // at least
   static constexpr double kLeastLive = 2.0 / 3;
   static constexpr std::uint64_t kNowhere = ~std::uint64_t{0};
   static constexpr std::uint32_t kNoChunk = ~std::uint32_t{0};
@@ -53,8 +59,10 @@ class PackedLists {
   }
   static Block block_at(const Chunk& chunk, std::uint32_t offset);
   std::uint64_t store(std::uint32_t arc, std::span<const std::byte> list);
-  void open_chunk(std::size_t least);
+  std::uint32_t chunk_with_room(std::size_t bytes);
+  std::uint32_t new_chunk(std::size_t room);
   void forget(std::uint64_t place);
+  void note_if_due(std::uint32_t chunk);
   void give_up(std::uint32_t chunk);
 
   std::vector<std::uint64_t> places_;  // of arcs: chunk and offset
@@ -63,6 +71,7 @@ class PackedLists {
   std::vector<std::uint32_t> due_;
   std::unique_ptr<std::byte[]> spare_;  // memory of a chunk given up
   std::uint32_t open_ = kNoChunk;       // which is being filled
+  std::uint64_t chunk_bytes_ = 0;       // of all chunks
   std::vector<std::byte> packed_;       // of add()
 };
 

@@ -1,0 +1,50 @@
+// From vertices to nodes: a table with linear probing, at most half full.
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "libreeb/base/sweep_key.h"
+
+namespace reeb::ooc {
+
+// An arc's upper end may be anywhere, and where values are random it mostly is: a look-up costs two
+// places in memory, and those of successive arcs are fetched side by side, which a binary search
+// would not allow.
+//
+// MEMORY: bytes(), 8 to 16 a node.
+class NodeTable {
+ public:
+  static constexpr std::uint32_t kNone = ~std::uint32_t{0};
+
+  // REQUIRES: `nodes` outlives this, unchanged.
+  explicit NodeTable(const std::vector<SweepKey>& nodes)
+      : nodes_(nodes), slots_(std::bit_ceil(2 * nodes.size() + 1), kNone) {
+    for (std::uint32_t node = 0; node < nodes.size(); ++node) {
+      std::size_t slot = home(nodes[node]);
+      while (slots_[slot] != kNone) slot = (slot + 1) & (slots_.size() - 1);
+      slots_[slot] = node;
+    }
+  }
+
+  static std::uint64_t bytes(std::uint64_t nodes) { return std::bit_ceil(2 * nodes + 1) * sizeof(std::uint32_t); }
+
+  // The place of the key among the nodes, or kNone.
+  std::uint32_t find(const SweepKey& key) const {
+    for (std::size_t slot = home(key); slots_[slot] != kNone; slot = (slot + 1) & (slots_.size() - 1))
+      if (nodes_[slots_[slot]] == key) return slots_[slot];
+    return kNone;
+  }
+
+ private:
+  std::size_t home(const SweepKey& key) const {
+    return static_cast<std::size_t>(key.vertex.value() * 0x9e3779b97f4a7c15u >> 20) & (slots_.size() - 1);
+  }
+
+  const std::vector<SweepKey>& nodes_;
+  std::vector<std::uint32_t> slots_;
+};
+
+}  // namespace reeb::ooc
