@@ -23,7 +23,7 @@ struct ScopeSize {
 std::uint64_t scope_bytes(const ScopeSize& size) {
   constexpr std::uint64_t kArc = 160, kNode = 76, kPayloadByte = 3, kBucket = 128;
   const std::uint64_t nodes = size.nodes + size.arcs;  // with those at the other ends
-  return kArc * size.arcs + kNode * nodes + NodeTable::bytes(nodes) + kPayloadByte * size.payload_bytes +
+  return kArc * size.arcs + kNode * nodes + SparseNodeTable::bytes(nodes) + kPayloadByte * size.payload_bytes +
          kBucket * size.buckets;
 }
 
@@ -35,7 +35,7 @@ std::uint64_t short_graph_bytes(std::uint64_t arcs, std::uint64_t capacity) {
 // To find the scope in that graph.
 std::uint64_t search_bytes(const ReebGraph& graph) {
   constexpr std::uint64_t kArc = 2 * sizeof(NodeId) + 24, kNode = sizeof(SweepKey) + 8 + 25;
-  return kArc * graph.arc_count() + kNode * graph.node_count() + NodeTable::bytes(graph.node_count());
+  return kArc * graph.arc_count() + kNode * graph.node_count() + SparseNodeTable::bytes(graph.node_count());
 }
 
 class Pass {
@@ -110,7 +110,7 @@ class Pass {
   }
 
   Degrees count_degrees(const ReebGraph& graph) const {
-    const NodeTable table(graph.nodes);
+    const SparseNodeTable table(graph.nodes);
     Degrees degrees{std::vector<std::uint32_t>(graph.node_count()), std::vector<std::uint32_t>(graph.node_count())};
     store_.scan_arcs([&](const StoredArc& arc, const auto&) {
       if (const std::uint32_t node = table.find(arc.keys.lo); node != NodeTable::kNone) ++degrees.up[node];
@@ -122,7 +122,7 @@ class Pass {
   // All arcs of the scope with their payloads, in the order of the graph.
   void gather_scope() {
     if (make_room(scope_bytes(size_))) arcs_.records.reserve(static_cast<std::size_t>(size_.arcs));
-    const NodeTable table(scope_);
+    const SparseNodeTable table(scope_);
     std::vector<Bucket> buckets;
     size_.arcs = 0;
     store_.scan_arcs([&](const StoredArc& arc, const auto& batch) {
@@ -197,7 +197,7 @@ class Pass {
     ReebGraph graph = make_graph(std::move(keys), {});
     if (!exponent_) return graph;
     graph.positions.resize(graph.node_count());
-    const NodeTable table(graph.nodes);
+    const SparseNodeTable table(graph.nodes);
     store_.scan_nodes([&](const SettledNode& stored) {
       const std::uint32_t node = table.find(stored.key);
       if (node != NodeTable::kNone) graph.positions[node] = stored.position;

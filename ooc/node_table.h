@@ -47,4 +47,37 @@ class NodeTable {
   std::vector<std::uint32_t> slots_;
 };
 
+// The same where most keys that are asked for are no nodes: one bit tells so of 15 in 16 of them.
+//
+// MEMORY: bytes(), 2 to 4 a node more.
+class SparseNodeTable {
+ public:
+  // REQUIRES: as NodeTable.
+  explicit SparseNodeTable(const std::vector<SweepKey>& nodes)
+      : table_(nodes), words_(word_count(nodes.size())), shift_(64 - std::countr_zero(words_.size() * kWordBits)) {
+    for (const SweepKey& node : nodes) words_[bit(node) / kWordBits] |= std::uint64_t{1} << bit(node) % kWordBits;
+  }
+
+  static std::uint64_t bytes(std::uint64_t nodes) {
+    return NodeTable::bytes(nodes) + word_count(nodes) * sizeof(std::uint64_t);
+  }
+
+  std::uint32_t find(const SweepKey& key) const {
+    const bool may_be = (words_[bit(key) / kWordBits] >> bit(key) % kWordBits & 1) != 0;
+    return may_be ? table_.find(key) : NodeTable::kNone;
+  }
+
+ private:
+  static constexpr std::size_t kWordBits = 64, kNodesAWord = 4;
+
+  static std::size_t word_count(std::uint64_t nodes) { return std::bit_ceil(nodes / kNodesAWord + 1); }
+  std::size_t bit(const SweepKey& key) const {
+    return static_cast<std::size_t>(key.vertex.value() * 0xd6e8feb86659fd93u >> shift_);
+  }
+
+  NodeTable table_;
+  std::vector<std::uint64_t> words_;
+  int shift_;
+};
+
 }  // namespace reeb::ooc

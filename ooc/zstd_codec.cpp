@@ -1,5 +1,6 @@
 #include "ooc/zstd_codec.h"
 
+#include <memory>
 #include <new>
 #include <string>
 
@@ -31,8 +32,14 @@ std::size_t zstd_content_size(std::span<const std::byte> bytes) {
   return size == ZSTD_CONTENTSIZE_UNKNOWN || size == ZSTD_CONTENTSIZE_ERROR ? 0 : static_cast<std::size_t>(size);
 }
 
+// A thread keeps its context: to make one costs as much as a small block.
 bool zstd_decompress(std::span<const std::byte> bytes, std::span<std::byte> out) {
-  const std::size_t size = ZSTD_decompress(out.data(), out.size(), bytes.data(), bytes.size());
+  struct Free {
+    void operator()(ZSTD_DCtx* context) const { ZSTD_freeDCtx(context); }
+  };
+  thread_local const std::unique_ptr<ZSTD_DCtx, Free> context(ZSTD_createDCtx());
+  if (context == nullptr) throw std::bad_alloc();
+  const std::size_t size = ZSTD_decompressDCtx(context.get(), out.data(), out.size(), bytes.data(), bytes.size());
   return ZSTD_isError(size) == 0 && size == out.size();
 }
 
