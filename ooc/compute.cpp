@@ -137,7 +137,7 @@ class Run {
   bool embeds() const { return options_.buckets != 0; }
   void write_stored_graph(ComputeResult& result, SegmentStore& store, const FileMeta& meta);
   void remove_last_noise(ComputeResult& result, SegmentStore& store);
-  void write_hierarchy(ComputeResult& result, SegmentStore& store);
+  void write_hierarchy(ComputeResult& result, std::unique_ptr<SegmentStore> store);
   Error no_memory_for(const std::string& what, const ComputeResult& result, std::uint64_t needed,
                       const std::string& otherwise) const;
   Error no_memory_for_hierarchy(const ComputeResult& result, std::uint64_t needed) const;
@@ -463,7 +463,7 @@ ComputeResult Run::second_stage(std::size_t f) {
     if (options_.graph_only)
       write_stored_graph(result, store, file_meta(result));
     else
-      write_hierarchy(result, store);
+      write_hierarchy(result, std::move(stores_[f]));
   }
   result.seconds.wall += seconds_since(start);
   return result;
@@ -531,7 +531,8 @@ void Run::remove_last_noise(ComputeResult& result, SegmentStore& store) {
 
 Error Run::no_memory_for(const std::string& what, const ComputeResult& result, std::uint64_t needed,
                          const std::string& otherwise) const {
-  const std::uint64_t enough = plan_.set_aside_bytes + budget_.limit_bytes() + needed;
+  // Reading what is stored takes up to a quarter of the account.
+  const std::uint64_t enough = plan_.set_aside_bytes + (budget_.used_bytes() + needed) / 3 * 4;
   Error error(ErrorKind::kResource,
               what + " of " + std::to_string(result.arcs) + " arcs needs " + format_bytes(needed) +
                   " of memory, but only " + format_bytes(budget_.free_bytes()) +
@@ -548,24 +549,25 @@ Error Run::no_memory_for_hierarchy(const ComputeResult& result, std::uint64_t ne
 
 // Pairing and cancelling hold the graph in memory, though not what they make of it. Where that does not
 // fit, the graph is kept and the user is told, before the work starts.
-void Run::write_hierarchy(ComputeResult& result, SegmentStore& store) {
+void Run::write_hierarchy(ComputeResult& result, std::unique_ptr<SegmentStore> store) {
   const FileMeta meta = file_meta(result);
   const auto refuse = [&](std::uint64_t needed) {
-    write_stored_graph(result, store, meta);
+    write_stored_graph(result, *store, meta);
     throw no_memory_for_hierarchy(result, needed);
   };
   const LoadOptions loading{.bucket_exponent = sweep_options(result.range).bucket_exponent};
-  if (loading_bytes(store, loading) > budget_.free_bytes())
-    refuse(hierarchy_bytes(result.nodes, result.arcs, PackedLists::most_bytes(result.arcs, store.bucket_count())));
-  LoadedGraph loaded = read_graph(store, loading);
+  if (loading_bytes(*store, loading) > budget_.free_bytes())
+    refuse(hierarchy_bytes(result.nodes, result.arcs, PackedLists::most_bytes(result.arcs, store->bucket_count())));
+  LoadedGraph loaded = read_graph(*store, loading);
   std::optional<std::uint64_t> lists;
   if (embeds()) lists = loaded.buckets.memory_bytes();
   const std::uint64_t needed = hierarchy_bytes(result.nodes, result.arcs, lists) + RecordLog::memory_bytes();
   const std::uint64_t more = needed - loaded.memory.bytes();
-  if (more > budget_.free_bytes()) {
+  if (more > budget_.free_bytes() + store->reserved_bytes()) {
     loaded = {};
     refuse(needed);
   }
+  store.reset();
   RecordLog records(temp_, budget_);
   const Reservation memory = budget_.reserve("hierarchy", more - RecordLog::memory_bytes());
 

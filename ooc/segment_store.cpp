@@ -148,6 +148,10 @@ void decode_buckets_of(const StoredArc& arc, std::span<const std::byte> payload,
                            " are no buckets of exponent " + std::to_string(bucket_exponent));
 }
 
+std::uint64_t SegmentStore::reserved_bytes() const {
+  return nodes_.reserved_bytes() + arcs_.reserved_bytes() + (patch_ ? patch_->patch().memory.bytes() : 0);
+}
+
 void SegmentStore::rewind_nodes() {
   nodes_.rewind();
   if (patch_) patch_->rewind_nodes();

@@ -108,6 +108,8 @@ class SegmentStore : public GraphSink {
   // As they were added; coarsening makes fewer of them.
   std::uint64_t bucket_count() const;
   std::uint64_t spilled_bytes() const { return nodes_.spilled_bytes() + arcs_.spilled_bytes(); }
+  // What the budget gets back when the store goes.
+  std::uint64_t reserved_bytes() const;
   MemoryBudget& budget() { return *budget_; }
   bool background() const { return background_; }
 
