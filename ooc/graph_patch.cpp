@@ -22,17 +22,8 @@ bool PatchReader::drops(const ArcKeys& arc) {
 }
 
 bool PatchReader::comes_before(const ArcKeys* stored) const {
-  return arc_ < patch_.graph.arc_count() && (stored == nullptr || !(*stored < keys(arc_)));
-}
-
-void PatchReader::take(ArcPiece& piece) {
-  piece.arcs.push_back(keys(arc_));
-  if (!piece.buckets.offsets.empty()) {
-    const auto own = patch_.buckets.view().of(arc_);
-    piece.buckets.buckets.insert(piece.buckets.buckets.end(), own.begin(), own.end());
-    piece.buckets.offsets.push_back(piece.buckets.buckets.size());
-  }
-  ++arc_;
+  const auto& arcs = patch_.arcs.records;
+  return arc_ < arcs.size() && (stored == nullptr || !(*stored < arcs[arc_].keys));
 }
 
 }  // namespace reeb::ooc

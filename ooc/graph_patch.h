@@ -3,19 +3,21 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "libreeb/base/memory_budget.h"
 #include "libreeb/graph/reeb_graph.h"
-#include "libreeb/hierarchy/arc_buckets.h"
 #include "ooc/node_table.h"
+#include "ooc/record_batch.h"
 
 namespace reeb::ooc {
 
-// Consecutive arcs with their buckets, all of one exponent.
-struct ArcPiece {
-  std::vector<ArcKeys> arcs;
-  ArcBuckets buckets;  // without offsets where none are wanted
+// An arc of a patch, its buckets as payload (arc_payload.h).
+struct PatchArc {
+  ArcKeys keys;
+  SweepKey former_hi;  // of its lowest part, as it was stored
+  PayloadPlace payload{};
 };
 
 struct GraphPatch {
@@ -23,8 +25,8 @@ struct GraphPatch {
   std::vector<SweepKey> redone;  // ascending: nodes of which no stored arc stays
   std::vector<SweepKey> gone;    // ascending: those of them that do not stay either
   std::uint64_t replaced_arcs = 0, replaced_buckets = 0;
-  ReebGraph graph;     // whose arcs come instead,
-  ArcBuckets buckets;  // with these
+  RecordBatch<PatchArc> arcs;  // that come instead, in order; arcs that were joined have the place of
+  std::uint64_t buckets = 0;   // their lowest part among parallel ones
 };
 
 // A place in a patch, while nodes and arcs go by in their order.
@@ -42,17 +44,14 @@ class PatchReader {
   bool drops(const SweepKey& node);
   bool drops(const ArcKeys& arc);
 
-  // Whether an arc of the patch comes before this stored one, or, if null, is left. What was joined
-  // has the place of its lower part, so it comes before a stored arc between the same nodes.
+  // Whether an arc of the patch comes before this stored one, or, if null, is left. Of a stored arc
+  // between the same nodes it does: it was joined, of parts the lowest of which ended below.
   bool comes_before(const ArcKeys* stored) const;
-  // Moves that arc to the end of `piece`, with its buckets if they are wanted.
-  void take(ArcPiece& piece);
+  // The first arc left, and on to the next.
+  const PatchArc& take() { return patch_.arcs.records[arc_++]; }
+  std::span<const std::byte> payload(const PatchArc& arc) const { return patch_.arcs.payload(arc); }
 
  private:
-  ArcKeys keys(std::size_t arc) const {
-    return {patch_.graph.nodes[patch_.graph.lo[arc].value()], patch_.graph.nodes[patch_.graph.hi[arc].value()]};
-  }
-
   GraphPatch patch_;
   NodeTable table_;  // of redone nodes
   std::size_t gone_ = 0, redone_ = 0, arc_ = 0;

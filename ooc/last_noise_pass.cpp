@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <iterator>
 #include <limits>
-#include <stdexcept>
+#include <span>
+#include <tuple>
 #include <utility>
 
+#include "libreeb/base/union_find.h"
 #include "libreeb/hierarchy/denoise.h"
 #include "libreeb/hierarchy/noise_scope.h"
 #include "ooc/arc_payload.h"
@@ -14,186 +16,236 @@
 namespace reeb::ooc {
 namespace {
 
-// How much there is of what noise removal can look at.
-struct ScopeSize {
-  std::uint64_t arcs = 0, nodes = 0, payload_bytes = 0, buckets = 0;
-};
+// To remove leaves in a part of the graph, for each of its nodes: its own, and for each of its arcs, which
+// is counted at both ends, with what is at the other end; and for each byte of their payloads.
+constexpr std::uint64_t kNodeBytes = 96, kArcBytes = 160, kPayloadFactor = 12;
 
-// To gather arcs with their payloads, to make a graph of them and its buckets, and to remove leaves.
-std::uint64_t scope_bytes(const ScopeSize& size) {
-  constexpr std::uint64_t kArc = 160, kNode = 76, kPayloadByte = 3, kBucket = 128;
-  const std::uint64_t nodes = size.nodes + size.arcs;  // with those at the other ends
-  return kArc * size.arcs + kNode * nodes + SparseNodeTable::bytes(nodes) + kPayloadByte * size.payload_bytes +
-         kBucket * size.buckets;
+// To find the scope in a graph of short arcs: the graph, the degrees and payloads of its nodes, and either
+// the table in which these are looked up, or what noise_scope() takes.
+std::uint64_t search_bytes(std::uint64_t arcs, std::uint64_t nodes) {
+  constexpr std::uint64_t kNode = sizeof(SweepKey) + 16, kArc = 2 * sizeof(NodeId), kScopeNode = 25, kScopeArc = 12;
+  return kNode * nodes + kArc * arcs + std::max(SparseNodeTable::bytes(nodes), kScopeNode * nodes + kScopeArc * arcs);
 }
 
-// To make a graph of short arcs that lie in a vector of this capacity.
+// To make that graph of arcs in a vector of this capacity.
 std::uint64_t short_graph_bytes(std::uint64_t arcs, std::uint64_t capacity) {
   return sizeof(ArcKeys) * capacity + (4 * sizeof(SweepKey) + 2 * sizeof(NodeId)) * arcs;
 }
 
-// To find the scope in that graph.
-std::uint64_t search_bytes(const ReebGraph& graph) {
-  constexpr std::uint64_t kArc = 2 * sizeof(NodeId) + 24, kNode = sizeof(SweepKey) + 8 + 25;
-  return kArc * graph.arc_count() + kNode * graph.node_count() + SparseNodeTable::bytes(graph.node_count());
-}
+// Copying a quarter more each time costs little, and leaves little unused.
+std::size_t next_capacity(std::size_t capacity) { return std::max<std::size_t>(1024, capacity + capacity / 4); }
+
+// Nodes that noise removal can look at, ascending; and what removing it there takes of each.
+struct Scope {
+  std::vector<SweepKey> nodes;
+  std::vector<std::uint64_t> weights;
+  std::uint64_t bytes() const { return nodes.capacity() * (sizeof(SweepKey) + sizeof(std::uint64_t)); }
+};
 
 class Pass {
  public:
-  Pass(SegmentStore& store, double threshold, std::optional<int> exponent)
+  Pass(SegmentStore& store, const LastNoiseOptions& options)
       : store_(store),
-        threshold_(threshold),
-        exponent_(exponent),
-        memory_(store.budget().reserve("last pass of noise removal", 0)) {}
+        options_(options),
+        exponent_(options.bucket_exponent),
+        memory_(store.budget().reserve("last pass of noise removal", 0)) {
+    patch_.memory = store.budget().reserve("noise that is gone", 0);
+  }
 
   LastNoisePass run() {
     find_scope();
-    if (result_.fits && !scope_.empty()) gather_scope();
-    if (result_.fits && !scope_.empty()) remove_noise();
+    if (result_.fits && !scope_.nodes.empty()) remove_noise();
+    if (result_.fits && result_.removed_pairs != 0) finish_patch();
     return std::move(result_);
   }
 
  private:
-  // Whether there is room; if not, all else only finds out how much would be enough.
-  bool make_room(std::uint64_t bytes) {
-    result_.fits = result_.fits && memory_.try_resize(bytes);
+  // Whether there is room; if not, this much would have been enough.
+  bool make_room(Reservation& memory, std::uint64_t bytes, std::uint64_t enough) {
+    if (!result_.fits) return false;
+    result_.fits = memory.try_resize(bytes);
+    if (!result_.fits) result_.needed_bytes = enough;
     return result_.fits;
   }
 
-  void find_scope() {
-    const ReebGraph short_arcs = find_short_arcs();
-    if (!result_.fits || short_arcs.arc_count() == 0) return;
-    if (!make_room(search_bytes(short_arcs))) {
-      result_.needed_bytes = search_bytes(short_arcs) + most_scope_bytes();
-      return;
-    }
-    const Degrees degrees = count_degrees(short_arcs);
-    const std::vector<bool> in_scope = noise_scope(short_arcs, degrees);
-    for (std::size_t node = 0; node < in_scope.size(); ++node) {
-      if (!in_scope[node]) continue;
-      scope_.push_back(short_arcs.nodes[node]);
-      size_.arcs += degrees.down[node] + degrees.up[node];
-    }
-    size_.nodes = scope_.size();
+  // What removing noise takes if all of the graph is looked at, the patch included.
+  std::uint64_t most_bytes() const {
+    constexpr std::uint64_t kBucket = 48;  // at most, as payload
+    const std::uint64_t buckets = exponent_ ? kBucket * store_.bucket_count() : 0;
+    return 2 * (kNodeBytes * store_.node_count() + 2 * (kArcBytes * store_.arc_count() + kPayloadFactor * buckets));
   }
 
-  ReebGraph find_short_arcs() {
+  // ---- where noise can be
+
+  void find_scope() {
+    std::vector<ArcKeys> found = find_short_arcs();
+    if (!result_.fits || found.empty()) return;
+    const ReebGraph short_arcs = make_graph(std::move(found), {});
+    const std::uint64_t bytes = search_bytes(short_arcs.arc_count(), short_arcs.node_count());
+    if (!make_room(memory_, bytes, bytes + most_bytes())) return;
+    Degrees degrees{std::vector<std::uint32_t>(short_arcs.node_count()), std::vector<std::uint32_t>(short_arcs.node_count())};
+    std::vector<std::uint64_t> payloads(short_arcs.node_count());
+    look_at_ends(short_arcs, degrees, payloads);
+    const std::vector<bool> in_scope = noise_scope(short_arcs, degrees);
+    const auto size = static_cast<std::size_t>(std::count(in_scope.begin(), in_scope.end(), true));
+    scope_.nodes.reserve(size);
+    scope_.weights.reserve(size);
+    if (!make_room(memory_, bytes + scope_.bytes(), bytes + most_bytes())) return;
+    for (std::size_t node = 0; node < in_scope.size(); ++node) {
+      if (!in_scope[node]) continue;
+      scope_.nodes.push_back(short_arcs.nodes[node]);
+      scope_.weights.push_back(kNodeBytes + kArcBytes * (degrees.down[node] + degrees.up[node]) +
+                               kPayloadFactor * payloads[node]);
+    }
+  }
+
+  std::vector<ArcKeys> find_short_arcs() {
     std::vector<ArcKeys> found;
     std::uint64_t count = 0;
     store_.scan_arcs([&](const StoredArc& arc, const auto&) {
-      if (!is_short(arc.keys.lo.value, arc.keys.hi.value, threshold_)) return;
+      if (!is_short(arc.keys.lo.value, arc.keys.hi.value, options_.threshold)) return;
       ++count;
-      if (grow(found)) found.push_back(arc.keys);
+      if (result_.fits && found.size() == found.capacity()) grow(found);
+      if (result_.fits) found.push_back(arc.keys);
     });
-    if (make_room(short_graph_bytes(count, found.capacity()))) return make_graph(std::move(found), {});
-    result_.needed_bytes = short_graph_bytes(count, 2 * count) + most_scope_bytes();
+    make_room(memory_, short_graph_bytes(count, found.capacity()), 0);
+    if (result_.fits) return found;
+    result_.needed_bytes = short_graph_bytes(count, 2 * count + next_capacity(0)) + search_bytes(count, 2 * count) + most_bytes();
     return {};
   }
 
-  // Whether there is room for one more.
-  bool grow(std::vector<ArcKeys>& arcs) {
-    constexpr std::size_t kFirst = 1024;
-    if (arcs.size() < arcs.capacity()) return true;
-    const std::size_t before = arcs.capacity(), after = std::max(kFirst, 2 * before);
-    if (make_room((before + after) * sizeof(ArcKeys)))
+  void grow(std::vector<ArcKeys>& arcs) {
+    const std::size_t before = arcs.capacity(), after = next_capacity(before);
+    if (make_room(memory_, (before + after) * sizeof(ArcKeys), 0))
       arcs.reserve(after);
     else
       std::vector<ArcKeys>().swap(arcs);
-    return result_.fits;
   }
 
-  // If all arcs are in the scope.
-  std::uint64_t most_scope_bytes() const {
-    constexpr std::uint64_t kBucket = 48;  // at most, as payload
-    const std::uint64_t buckets = exponent_ ? store_.bucket_count() : 0;
-    return scope_bytes({store_.arc_count(), store_.node_count(), kBucket * buckets, buckets});
-  }
-
-  Degrees count_degrees(const ReebGraph& graph) const {
+  // Degrees of these nodes in the whole graph, and the sizes of the payloads of all their arcs.
+  void look_at_ends(const ReebGraph& graph, Degrees& degrees, std::vector<std::uint64_t>& payloads) const {
     const SparseNodeTable table(graph.nodes);
-    Degrees degrees{std::vector<std::uint32_t>(graph.node_count()), std::vector<std::uint32_t>(graph.node_count())};
+    const auto look = [&](const SweepKey& key, std::vector<std::uint32_t>& degree, const StoredArc& arc) {
+      const std::uint32_t node = table.find(key);
+      if (node == NodeTable::kNone) return;
+      ++degree[node];
+      payloads[node] += exponent_ ? arc.payload.size : 0;
+    };
     store_.scan_arcs([&](const StoredArc& arc, const auto&) {
-      if (const std::uint32_t node = table.find(arc.keys.lo); node != NodeTable::kNone) ++degrees.up[node];
-      if (const std::uint32_t node = table.find(arc.keys.hi); node != NodeTable::kNone) ++degrees.down[node];
+      look(arc.keys.lo, degrees.up, arc);
+      look(arc.keys.hi, degrees.down, arc);
     });
-    return degrees;
   }
 
-  // All arcs of the scope with their payloads, in the order of the graph.
-  void gather_scope() {
-    if (make_room(scope_bytes(size_))) arcs_.records.reserve(static_cast<std::size_t>(size_.arcs));
-    const SparseNodeTable table(scope_);
-    std::vector<Bucket> buckets;
-    size_.arcs = 0;
-    store_.scan_arcs([&](const StoredArc& arc, const auto& batch) {
-      if (table.find(arc.keys.lo) == NodeTable::kNone && table.find(arc.keys.hi) == NodeTable::kNone) return;
-      const auto payload = exponent_ ? batch.payload(arc) : std::span<const std::byte>();
-      ++size_.arcs;
-      if (exponent_) {
-        buckets.clear();
-        decode_buckets_of(arc, payload, *exponent_, buckets);
-        size_.payload_bytes += payload.size();
-        size_.buckets += buckets.size();
-      }
-      gather(arc, payload);
-    });
-    if (!result_.fits) result_.needed_bytes = scope_bytes(size_);
-    std::sort(arcs_.records.begin(), arcs_.records.end(), SortedArcs::in_order);
-  }
-
-  void gather(const StoredArc& arc, std::span<const std::byte> payload) {
-    constexpr std::uint64_t kPool = std::numeric_limits<std::uint32_t>::max();
-    if (!result_.fits) return;
-    const std::uint64_t needed = scope_bytes(size_);
-    if (size_.payload_bytes > kPool || (needed > memory_.bytes() && !make_room(needed + needed / 8))) {
-      result_.fits = false;
-      arcs_ = {};
-      return;
-    }
-    arcs_.add(arc, payload);
-  }
+  // ---- removing it, in parts that have nothing to do with each other
 
   void remove_noise() {
-    GraphPatch patch;
-    patch.replaced_arcs = size_.arcs;
-    patch.replaced_buckets = size_.buckets;
-    patch.buckets = scope_buckets();
-    ReebGraph part = scope_graph();
-    std::vector<bool> whole(part.node_count());
-    for (std::size_t node = 0, next = 0; node < whole.size() && next < scope_.size(); ++node)
-      if (part.nodes[node] == scope_[next]) whole[node] = true, ++next;
-    Denoised denoised = denoise_part(std::move(part), whole, threshold_, patch.buckets, exponent_.value_or(0));
-    result_.removed_pairs = denoised.removed.size();
-    if (result_.removed_pairs == 0) return;
-    patch.graph = std::move(denoised.graph);
-    patch.graph.positions = {};
-    patch.redone = std::move(scope_);
-    const std::vector<SweepKey>& stay = patch.graph.nodes;
-    std::set_difference(patch.redone.begin(), patch.redone.end(), stay.begin(), stay.end(),
-                        std::back_inserter(patch.gone));
-    patch.memory = std::move(memory_);
-    result_.patch = std::move(patch);
+    constexpr std::uint64_t kParts = 8;
+    std::uint64_t all = 0;
+    for (const std::uint64_t weight : scope_.weights) all += weight;
+    enough_ = scope_.bytes() + 2 * all;
+    const std::uint64_t held = scope_.bytes() + sizeof(std::uint32_t) * scope_.nodes.size();
+    if (!make_room(memory_, held, enough_)) return;
+    const std::uint64_t part_bytes = std::min(std::max(options_.part_bytes, all / kParts), store_.budget().free_bytes() / 2);
+    if (all <= part_bytes) return remove_noise_at(scope_.nodes, held + all);
+    const std::vector<std::uint32_t> part_of = divide(part_bytes);
+    if (!result_.fits) return;
+    const std::uint32_t parts = 1 + *std::max_element(part_of.begin(), part_of.end());
+    for (std::uint32_t part = 0; part < parts && result_.fits; ++part) {
+      std::vector<SweepKey> nodes;
+      std::uint64_t weight = 0;
+      for (std::size_t node = 0; node < part_of.size(); ++node) {
+        if (part_of[node] != part) continue;
+        nodes.push_back(scope_.nodes[node]);
+        weight += scope_.weights[node];
+      }
+      remove_noise_at(nodes, held + weight);
+    }
   }
 
-  ArcBuckets scope_buckets() const {
+  // Nodes that an arc joins are in one part; parts are of about this size if such nodes are few.
+  std::vector<std::uint32_t> divide(std::uint64_t part_bytes) {
+    const auto count = static_cast<std::uint32_t>(scope_.nodes.size());
+    if (!make_room(memory_, scope_.bytes() + SparseNodeTable::bytes(count) + 16ull * count, enough_)) return {};
+    UnionFind joined(count);
+    {
+      const SparseNodeTable table(scope_.nodes);
+      store_.scan_arcs([&](const StoredArc& arc, const auto&) {
+        const std::uint32_t lo = table.find(arc.keys.lo);
+        if (lo == NodeTable::kNone) return;
+        const std::uint32_t hi = table.find(arc.keys.hi);
+        if (hi != NodeTable::kNone) joined.unite(lo, hi);
+      });
+    }
+    std::vector<std::uint64_t> weights(count);
+    for (std::uint32_t node = 0; node < count; ++node) weights[joined.find(node)] += scope_.weights[node];
+    std::vector<std::uint32_t> part_of(count);
+    std::uint32_t part = 0;
+    std::uint64_t filled = 0;
+    for (std::uint32_t node = 0; node < count; ++node) {
+      if (joined.find(node) != node) continue;
+      if (filled != 0 && filled + weights[node] > part_bytes) ++part, filled = 0;
+      filled += weights[node];
+      part_of[node] = part;
+    }
+    for (std::uint32_t node = 0; node < count; ++node) part_of[node] = part_of[joined.find(node)];
+    return part_of;
+  }
+
+  void remove_noise_at(const std::vector<SweepKey>& nodes, std::uint64_t bytes) {
+    if (!make_room(memory_, bytes, enough_)) return;
+    RecordBatch<StoredArc> arcs = gather(nodes);
+    ArcBuckets buckets = buckets_of(arcs);
+    patch_.replaced_arcs += arcs.records.size();
+    patch_.replaced_buckets += buckets.buckets.size();
+    ReebGraph part = graph_of(std::move(arcs));
+    std::vector<bool> whole(part.node_count());
+    for (std::size_t node = 0, next = 0; next < nodes.size(); ++node)
+      if (part.nodes[node] == nodes[next]) whole[node] = true, ++next;
+    const std::vector<SweepKey> former_nodes = part.nodes;
+    const std::vector<NodeId> former_hi = part.hi;
+    const Denoised denoised = denoise_part(std::move(part), whole, options_.threshold, buckets, exponent_.value_or(0));
+    result_.removed_pairs += denoised.removed.size();
+    for (std::size_t arc = 0; arc < denoised.graph.arc_count() && result_.fits; ++arc)
+      add_to_patch({keys_of(denoised.graph, arc), former_nodes[former_hi[denoised.former[arc]].value()]},
+                   buckets.view().of(arc));
+    add_gone(nodes, denoised.graph.nodes);
+  }
+
+  static ArcKeys keys_of(const ReebGraph& graph, std::size_t arc) {
+    return {graph.nodes[graph.lo[arc].value()], graph.nodes[graph.hi[arc].value()]};
+  }
+
+  // All arcs of these nodes with their payloads, in the order of the graph.
+  RecordBatch<StoredArc> gather(const std::vector<SweepKey>& nodes) const {
+    RecordBatch<StoredArc> arcs;
+    const SparseNodeTable table(nodes);
+    store_.scan_arcs([&](const StoredArc& arc, const auto& batch) {
+      if (table.find(arc.keys.lo) == NodeTable::kNone && table.find(arc.keys.hi) == NodeTable::kNone) return;
+      arcs.add(arc, exponent_ ? batch.payload(arc) : std::span<const std::byte>());
+    });
+    std::sort(arcs.records.begin(), arcs.records.end(), SortedArcs::in_order);
+    return arcs;
+  }
+
+  ArcBuckets buckets_of(const RecordBatch<StoredArc>& arcs) const {
     ArcBuckets all;
     if (!exponent_) return all;
-    all.offsets.reserve(arcs_.records.size() + 1);
-    all.buckets.reserve(static_cast<std::size_t>(size_.buckets));
+    all.offsets.reserve(arcs.records.size() + 1);
     all.offsets.push_back(0);
-    for (const StoredArc& arc : arcs_.records) {
-      decode_buckets_of(arc, arcs_.payload(arc), *exponent_, all.buckets);
+    for (const StoredArc& arc : arcs.records) {
+      decode_buckets_of(arc.keys, arcs.payload(arc), *exponent_, all.buckets);
       all.offsets.push_back(all.buckets.size());
     }
     return all;
   }
 
-  // Frees the stored arcs. With an embedding nodes have positions, for those that enter a bucket.
-  ReebGraph scope_graph() {
+  // With an embedding nodes have positions, for those that enter a bucket.
+  ReebGraph graph_of(RecordBatch<StoredArc> arcs) const {
     std::vector<ArcKeys> keys;
-    keys.reserve(arcs_.records.size());
-    for (const StoredArc& arc : arcs_.records) keys.push_back(arc.keys);
-    arcs_ = {};
+    keys.reserve(arcs.records.size());
+    for (const StoredArc& arc : arcs.records) keys.push_back(arc.keys);
+    arcs = {};
     ReebGraph graph = make_graph(std::move(keys), {});
     if (!exponent_) return graph;
     graph.positions.resize(graph.node_count());
@@ -205,20 +257,74 @@ class Pass {
     return graph;
   }
 
+  // ---- the patch
+
+  void add_to_patch(const PatchArc& arc, std::span<const Bucket> buckets) {
+    payload_.clear();
+    if (!buckets.empty()) encode_buckets(buckets, *exponent_, payload_);
+    auto& [records, pool] = patch_.arcs;
+    constexpr std::size_t kMostPool = std::numeric_limits<std::uint32_t>::max();
+    if (pool.size() + payload_.size() > kMostPool) {
+      result_.fits = false;
+      result_.needed_bytes = enough_;
+      return;
+    }
+    if (records.size() == records.capacity()) {
+      const std::size_t more = next_capacity(records.capacity());
+      if (grow_patch(more * sizeof(PatchArc))) records.reserve(more);
+    }
+    if (pool.size() + payload_.size() > pool.capacity()) {
+      const std::size_t more = next_capacity(pool.capacity() + payload_.size());
+      if (grow_patch(more)) pool.reserve(more);
+    }
+    if (!result_.fits) return;
+    patch_.arcs.add(arc, payload_);
+    patch_.buckets += buckets.size();
+  }
+
+  std::uint64_t patch_bytes() const {
+    return patch_.arcs.records.capacity() * sizeof(PatchArc) + patch_.arcs.pool.capacity() +
+           patch_.gone.capacity() * sizeof(SweepKey);
+  }
+  bool grow_patch(std::uint64_t bytes) { return make_room(patch_.memory, patch_bytes() + bytes, enough_); }
+
+  // Both ascend.
+  void add_gone(const std::vector<SweepKey>& before, const std::vector<SweepKey>& after) {
+    std::set_difference(before.begin(), before.end(), after.begin(), after.end(), std::back_inserter(patch_.gone));
+  }
+
+  void finish_patch() {
+    scope_.weights = {};
+    patch_.redone = std::move(scope_.nodes);
+    memory_.release();
+    const std::size_t redone = patch_.redone.capacity();
+    if (!grow_patch(redone * sizeof(SweepKey) + NodeTable::bytes(redone))) return;
+    std::sort(patch_.gone.begin(), patch_.gone.end());
+    // Of parallel arcs the one whose lowest part was stored first; the payloads of a part are in its order.
+    std::sort(patch_.arcs.records.begin(), patch_.arcs.records.end(), [](const PatchArc& a, const PatchArc& b) {
+      const auto key = [](const PatchArc& arc) {
+        return std::tuple(arc.keys.lo, arc.keys.hi, arc.former_hi, arc.payload.first, arc.payload.size);
+      };
+      return key(a) < key(b);
+    });
+    result_.patch = std::move(patch_);
+  }
+
   SegmentStore& store_;
-  const double threshold_;
+  const LastNoiseOptions options_;
   const std::optional<int> exponent_;
   Reservation memory_;
-  std::vector<SweepKey> scope_;  // nodes, ascending
-  ScopeSize size_;
-  RecordBatch<StoredArc> arcs_;
+  Scope scope_;
+  std::uint64_t enough_ = 0;  // of memory, to remove the noise of the scope
+  std::vector<std::byte> payload_;
+  GraphPatch patch_;
   LastNoisePass result_;
 };
 
 }  // namespace
 
-LastNoisePass run_last_noise_pass(SegmentStore& store, double threshold, std::optional<int> bucket_exponent) {
-  return Pass(store, threshold, bucket_exponent).run();
+LastNoisePass run_last_noise_pass(SegmentStore& store, const LastNoiseOptions& options) {
+  return Pass(store, options).run();
 }
 
 }  // namespace reeb::ooc

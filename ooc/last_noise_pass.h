@@ -9,24 +9,32 @@
 
 namespace reeb::ooc {
 
+struct LastNoiseOptions {
+  double threshold = 0;
+  std::optional<int> bucket_exponent = {};  // without one there is no embedding
+  std::uint64_t part_bytes = 4 << 20;       // what is done at once at least, if there is so much
+};
+
 struct LastNoisePass {
   bool fits = true;
-  std::uint64_t needed_bytes = 0;  // if it does not, with what there is in the store: enough
+  std::uint64_t needed_bytes = 0;  // if it does not: enough, beside what is in use
   std::uint64_t removed_pairs = 0;
-  std::optional<GraphPatch> patch;  // nothing to be done without one
+  std::optional<GraphPatch> patch;  // if there is anything to change
 };
 
 // What denoise() would do to the graph of a finished store, as a patch of it: only what noise removal
-// can look at (noise_scope.h) is ever in memory. The store with the patch has, to the bit, the arcs
-// and buckets that denoise() leaves. Without an exponent there is no embedding.
+// can look at (noise_scope.h) is ever in memory, and of that, where it is much, one part at a time. The
+// store with the patch has, to the bit, the arcs and buckets that denoise() leaves.
 //
-// Reads the stored arcs up to three times in the order in which they lie, without merging: first for
-// short ones, then for the degrees of their ends, then for all arcs of the nodes in question.
+// Reads the stored arcs in the order in which they lie, without merging: first for short ones, then for
+// the degrees of their ends, then for all arcs of the nodes in question; where these are much, once
+// more for what belongs together, and then once a part, at most about ten times.
 //
 // TIME:   O(n), and O(k log k) for the k short arcs.
-// MEMORY: reserved: up to 136 bytes a short arc; then 160 an arc and 92 a node in the scope, and its
-//         buckets.
+// MEMORY: reserved: up to 112 bytes a short arc and 75 an end of one; then part_bytes, or an eighth of
+//         what all parts take, or the largest set of nodes in the scope that arcs hold together; and
+//         the patch: 70 bytes an arc and 52 a node, and payloads.
 // THROWS: Error{kResource} of the disk. That the budget does not suffice is in the result.
-LastNoisePass run_last_noise_pass(SegmentStore& store, double threshold, std::optional<int> bucket_exponent);
+LastNoisePass run_last_noise_pass(SegmentStore& store, const LastNoiseOptions& options);
 
 }  // namespace reeb::ooc

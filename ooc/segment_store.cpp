@@ -141,16 +141,28 @@ void SegmentStore::finish() {
     nodes_.finish(merge_bytes);
 }
 
-void decode_buckets_of(const StoredArc& arc, std::span<const std::byte> payload, int bucket_exponent,
+void decode_buckets_of(const ArcKeys& arc, std::span<const std::byte> payload, int bucket_exponent,
                        std::vector<Bucket>& buckets) {
   if (!decode_buckets(payload, bucket_exponent, buckets))
-    throw std::logic_error("the buckets of an arc from vertex " + std::to_string(arc.keys.lo.vertex.value()) +
+    throw std::logic_error("the buckets of an arc from vertex " + std::to_string(arc.lo.vertex.value()) +
                            " are no buckets of exponent " + std::to_string(bucket_exponent));
 }
 
 std::uint64_t SegmentStore::reserved_bytes() const {
   return nodes_.reserved_bytes() + arcs_.reserved_bytes() + (patch_ ? patch_->patch().memory.bytes() : 0);
 }
+
+namespace {
+
+void add_arc(const ArcKeys& arc, std::span<const std::byte> payload, std::optional<int> bucket_exponent,
+             ArcPiece& piece) {
+  piece.arcs.push_back(arc);
+  if (!bucket_exponent) return;
+  decode_buckets_of(arc, payload, *bucket_exponent, piece.buckets.buckets);
+  piece.buckets.offsets.push_back(piece.buckets.buckets.size());
+}
+
+}  // namespace
 
 void SegmentStore::rewind_nodes() {
   nodes_.rewind();
@@ -185,12 +197,13 @@ bool SegmentStore::read_arcs(ArcPiece& piece, std::size_t limit, std::optional<i
     }
     const StoredArc* stored = at_end_ ? nullptr : &batch_.records[next_];
     if (patch_ && patch_->comes_before(stored == nullptr ? nullptr : &stored->keys)) {
-      patch_->take(piece);
+      const PatchArc& arc = patch_->take();
+      add_arc(arc.keys, patch_->payload(arc), bucket_exponent, piece);
       continue;
     }
     if (stored == nullptr) break;
     ++next_;
-    if (!patch_ || !patch_->drops(stored->keys)) add_stored(*stored, bucket_exponent, piece);
+    if (!patch_ || !patch_->drops(stored->keys)) add_arc(stored->keys, batch_.payload(*stored), bucket_exponent, piece);
   }
   return !piece.arcs.empty();
 }
@@ -199,13 +212,6 @@ void SegmentStore::refill_arcs(std::size_t limit) {
   constexpr std::size_t kPayloads = 256 << 10;
   at_end_ = !arcs_.read(batch_, limit, kPayloads);
   next_ = 0;
-}
-
-void SegmentStore::add_stored(const StoredArc& arc, std::optional<int> bucket_exponent, ArcPiece& piece) const {
-  piece.arcs.push_back(arc.keys);
-  if (!bucket_exponent) return;
-  decode_buckets_of(arc, batch_.payload(arc), *bucket_exponent, piece.buckets.buckets);
-  piece.buckets.offsets.push_back(piece.buckets.buckets.size());
 }
 
 void SegmentStore::apply(GraphPatch patch) {
@@ -220,12 +226,12 @@ std::uint64_t SegmentStore::node_count() const {
 
 std::uint64_t SegmentStore::arc_count() const {
   if (!patch_) return arcs_.size();
-  return arcs_.size() - patch_->patch().replaced_arcs + patch_->patch().graph.arc_count();
+  return arcs_.size() - patch_->patch().replaced_arcs + patch_->patch().arcs.records.size();
 }
 
 std::uint64_t SegmentStore::bucket_count() const {
   if (!patch_) return bucket_count_;
-  return bucket_count_ - patch_->patch().replaced_buckets + patch_->patch().buckets.buckets.size();
+  return bucket_count_ - patch_->patch().replaced_buckets + patch_->patch().buckets;
 }
 
 namespace {

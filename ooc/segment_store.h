@@ -52,8 +52,14 @@ using SortedNodes = ExternalSort<SettledNode, NodeCodec, NodeLess>;
 using SortedArcs = ExternalSort<StoredArc, ArcCodec, ArcLess>;
 
 // Appends the buckets of an arc, coarsened. THROWS: std::logic_error if they are coarser, or none.
-void decode_buckets_of(const StoredArc& arc, std::span<const std::byte> payload, int bucket_exponent,
+void decode_buckets_of(const ArcKeys& arc, std::span<const std::byte> payload, int bucket_exponent,
                        std::vector<Bucket>& buckets);
+
+// Consecutive arcs with their buckets, all of one exponent.
+struct ArcPiece {
+  std::vector<ArcKeys> arcs;
+  ArcBuckets buckets;  // without offsets where none are wanted
+};
 
 struct SegmentOptions {
   std::uint64_t allowance_bytes = 8 << 20;  // of the budget, half for nodes and half for arcs
@@ -115,7 +121,6 @@ class SegmentStore : public GraphSink {
 
  private:
   void refill_arcs(std::size_t limit);
-  void add_stored(const StoredArc& arc, std::optional<int> bucket_exponent, ArcPiece& piece) const;
 
   MemoryBudget* budget_;
   bool background_;

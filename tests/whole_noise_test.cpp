@@ -146,8 +146,8 @@ TEST(WholeNoise, SaysWhatTheLastPassOfNoiseRemovalNeeds) {
   Random random(1);
   for (double& value : complex.values) value = random.unit();
   Runner runner(/*graph_only=*/true);
-  // Forks of noise keep each other: nearly all stay until the last pass, which has no room.
-  runner.options().denoise = 1e-9;
+  // Of a rough function very many arcs are short, though few can be removed.
+  runner.options().denoise = 0.1;
   runner.options().memory_bytes = 16 << 20;
   if (memory_limit()) GTEST_SKIP() << "REEB_TEST_MEMORY is set";
   try {

@@ -185,20 +185,16 @@ void drop_lone_nodes(ReebGraph& graph, const std::vector<NodeId>& isolated) {
     for (NodeId& node : *ends) node = NodeId(rank[node.value()]);
 }
 
-// Removes all leaves. Returns the arcs that are left, by their former numbers, in the new order.
-std::vector<std::uint32_t> remove_leaves(Denoised& result, const std::vector<bool>* whole, double threshold,
-                                         ArcBucketLists* lists) {
+void remove_leaves(Denoised& result, const std::vector<bool>* whole, double threshold, ArcBucketLists* lists) {
   const std::vector<NodeId> isolated = isolated_nodes(result.graph);
-  std::vector<std::uint32_t> arcs;
   {
     LeafRemoval removal(result.graph, whole, threshold, lists);
     removal.run();
     result.removed = removal.take_removed();
-    arcs = removal.remaining();
-    removal.give_back(arcs);
+    result.former = removal.remaining();
+    removal.give_back(result.former);
   }
   drop_lone_nodes(result.graph, isolated);
-  return arcs;
 }
 
 ArcBuckets buckets_of(const ArcBucketLists& lists, const std::vector<std::uint32_t>& arcs) {
@@ -214,14 +210,15 @@ ArcBuckets buckets_of(const ArcBucketLists& lists, const std::vector<std::uint32
 
 Denoised denoise(ReebGraph graph, const std::vector<bool>* whole, double threshold, ArcBuckets& buckets,
                  int exponent) {
-  Denoised result{std::move(graph), {}};
+  Denoised result{std::move(graph), {}, {}};
   if (buckets.offsets.empty()) {
     remove_leaves(result, whole, threshold, nullptr);
     return result;
   }
   ArcBucketLists lists(pack_lists(buckets.view()), exponent);
   buckets = {};
-  buckets = buckets_of(lists, remove_leaves(result, whole, threshold, &lists));
+  remove_leaves(result, whole, threshold, &lists);
+  buckets = buckets_of(lists, result.former);
   return result;
 }
 

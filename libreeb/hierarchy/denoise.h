@@ -15,6 +15,8 @@ struct Denoised {
   // The pairs that are gone, Ord0 and Rel1 only, by the nodes of the graph that was given, in the
   // order of cancelling. All others are as before.
   std::vector<PersistencePair> removed;
+  // Of each arc, the number in the graph that was given of its lowest part.
+  std::vector<std::uint32_t> former;
 };
 
 // Repeats, until nothing changes: remove a leaf (an extremum with one arc) of persistence <
