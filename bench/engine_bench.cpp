@@ -226,6 +226,7 @@ BENCHMARK(BM_Engine)
     ->ArgsProduct({{2, kRandom}, {kPatches}, {32'768}, {0}})
     ->ArgsProduct({{2, kRandom}, {kPatches}, {65'536}, {0, 1, 2, 3}})
     ->ArgsProduct({{1, 2, kRandom}, {kWideRows}, {65'536, 262'144}, {0}})
+    ->ArgsProduct({{2}, {kWideRows}, {65'536, 262'144}, {kNoiseRemoval, kEmbedding, 3}})
     ->Unit(benchmark::kMillisecond);
 
 }  // namespace

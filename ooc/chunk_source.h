@@ -32,27 +32,19 @@ struct WorkItem {
   Chunk chunk;
   std::vector<std::vector<double>> values;  // one array a function
   std::vector<Fragment> fragments;          // one a function
-  ChunkPlace end;                           // behind this chunk
-  bool sweep_alone = false;                 // memory does not suffice for another sweep meanwhile
+  ChunkPlace end;                           // behind this chunk, or the stretch that it was cut from
+  bool ends_stretch = true;                 // a run can go on from behind this chunk
+  void shrink_to_fit();
   std::size_t memory_bytes() const;
 };
 
-// What chunks in flight and the scratch of their sweeps take.
-struct ChunkCost {
-  std::uint64_t triangle_bytes = 0, shared_bytes = 0;  // a triangle; a vertex that other chunks share
-  double bytes(double triangles, double shared) const {
-    return triangles * static_cast<double>(triangle_bytes) + shared * static_cast<double>(shared_bytes);
-  }
-};
-
-// How many triangles a chunk has, and what may be spent on chunks.
+// How many triangles a chunk has.
 struct ChunkSize {
   std::size_t first = 32768;  // to start with
   std::size_t most = 524288;  // as far as it may grow; equal to `first`: fixed
-  // A chunk grows as far as that fits with one sweep at a time; it is swept alone if it does not fit
-  // with several.
-  std::uint64_t allowance_bytes = ~std::uint64_t{0};
-  ChunkCost parallel = {}, alone = {};
+  // One of more than `first` is a stretch, to be cut into patches of at most so many
+  // (divided_chunks.h).
+  std::size_t patch = 32768;
 };
 
 class ChunkSource {
@@ -64,6 +56,9 @@ class ChunkSource {
 
   // Fills chunk and values with the next chunk of the stream. False at the end.
   virtual bool next(WorkItem& item) = 0;
+  // Whether the chunks ended before the mesh did, since it is not worth going on in its order: what
+  // came of them is then to be thrown away.
+  virtual bool given_up() const { return false; }
   // Bytes of input consumed so far, and in all (0: unknown).
   virtual std::uint64_t bytes_read() const = 0;
   virtual std::uint64_t bytes_total() const = 0;
@@ -79,10 +74,17 @@ class ChunkSource {
 std::unique_ptr<ChunkSource> chunks_of(IndexedMesh& mesh, LastUse& last_use, FunctionValues& columns,
                                        ChunkSize size, const ChunkPlace& start = {});
 
+// When not to go on with a stream: more of its vertices are waiting to be finalized than that, or nearly
+// all of many.
+struct StreamLimits {
+  std::uint64_t most_active_vertices = ~std::uint64_t{0};
+  bool may_give_up = false;
+};
+
 // Chunks of a stream, read once. What is not finalized by the stream is finalized at its end. What
 // comes before `start` is read and passed over.
 // THROWS, at once: Error{kBadInput} if the stream has not such a place.
 std::unique_ptr<ChunkSource> chunks_of(MeshReader& reader, FunctionValues& columns, ChunkSize size,
-                                       const ChunkPlace& start = {});
+                                       const ChunkPlace& start = {}, const StreamLimits& limits = {});
 
 }  // namespace reeb::ooc

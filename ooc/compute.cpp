@@ -12,6 +12,7 @@
 #include "libreeb/hierarchy/cancel.h"
 #include "ooc/atomic_file.h"
 #include "ooc/coherence.h"
+#include "ooc/divided_chunks.h"
 #include "ooc/guessed_chunks.h"
 #include "ooc/last_noise_pass.h"
 #include "ooc/last_use.h"
@@ -65,6 +66,7 @@ class Run {
                            .threads = options.threads,
                            .functions = functions.size(),
                            .chunk_triangles = options.chunk_triangles,
+                           .stretch_triangles = options.stretch_triangles,
                            .in_place = input.indexed != nullptr,
                            .embeds = options.buckets != 0,
                            .denoises = options.denoise > 0})),
@@ -128,7 +130,7 @@ class Run {
   Reservation prepare_values(std::uint64_t vertices);
   void divide_memory(const UseSummary& summary);
   LastUse reorder_mesh();
-  void run_chunks(ChunkSource& source);
+  void run_chunks(ChunkSource& stretches);
 
   SweepOptions sweep_options(const FunctionRange& range) const;
 
@@ -186,7 +188,7 @@ void Run::first_stage() {
   start_ = resumable_.start([this](StateReader& in) { restore_stores(in); }, common_.notes);
   if (input_.indexed)
     run_indexed();
-  else if (input_.reader->info().finalizes)
+  else if (input_.reader->info().finalizes && (start_ == nullptr || start_->origin == ChunkOrigin::kStream))
     run_stream();
   else
     run_spooled();
@@ -196,7 +198,17 @@ ChunkPlace Run::start_place() const { return start_ != nullptr ? start_->place :
 
 void Run::run_stream() {
   here_.origin = ChunkOrigin::kStream;
-  run_chunks(*chunks_of(*input_.reader, values_, plan_.chunk, start_place()));
+  const bool may_give_up = options_.may_reorder && input_.read_again && start_ == nullptr;
+  auto source = chunks_of(*input_.reader, values_, plan_.chunk, start_place(),
+                          {plan_.most_live_vertices(), may_give_up});
+  run_chunks(*source);
+  if (source->given_up()) {
+    common_.notes.push_back("too many vertices of the stream are live at once, so it was read again from the start");
+    start_anew();
+    source.reset();
+    input_.reader = input_.read_again();
+    return run_spooled();
+  }
   for (VertexFunction* function : functions_) function->check_count(common_.vertices);
   note(input_.reader->warnings());
 }
@@ -234,7 +246,7 @@ void Run::run_spooled() {
 // number is compared with that of the vertices first. A run that goes on keeps to what it began.
 bool Run::may_guess() const {
   if (start_ != nullptr) return start_->origin == ChunkOrigin::kGuessed;
-  if (!options_.may_guess || options_.keep_sidecar || has_sidecar()) return false;
+  if (!options_.may_guess || options_.keep_sidecar || has_sidecar() || input_.reader->info().finalizes) return false;
   return std::all_of(functions_.begin(), functions_.end(),
                      [](const VertexFunction* function) { return function->source_file().empty(); });
 }
@@ -243,10 +255,8 @@ std::unique_ptr<GuessedChunks> Run::guessed_chunks(Spooler& spooler) {
   here_.origin = ChunkOrigin::kGuessed;
   if (start_ != nullptr) {
     here_.chunk = start_->chunk;
-  } else {  // as far as chunks can be swept side by side
-    const std::uint64_t side_by_side = plan_.chunk.allowance_bytes / plan_.chunk.parallel.triangle_bytes;
-    here_.chunk.first = plan_.chunk.first;
-    here_.chunk.most = std::max(plan_.chunk.first, std::min<std::size_t>(plan_.chunk.most, side_by_side));
+  } else {
+    here_.chunk = plan_.chunk;
   }
   return std::make_unique<GuessedChunks>(spooler, values_, temp_, budget_,
                                          GuessOptions{.chunk = here_.chunk,
@@ -326,7 +336,10 @@ FrontNeeds Run::needs(const UseSummary& summary) const {
 bool Run::is_coherent(const UseSummary& summary) const {
   constexpr double kSorted = 2;
   const auto sorted = static_cast<std::uint64_t>(kSorted * std::sqrt(static_cast<double>(summary.vertex_count)));
-  return summary.max_live_vertices <= (plan_.fits(needs(summary)) ? usual_front(summary.vertex_count) : sorted);
+  if (!plan_.fits(needs(summary))) return summary.max_live_vertices <= sorted;
+  MemoryPlan plan = plan_;
+  plan.share_out(needs(summary));
+  return summary.max_live_vertices <= usual_front(summary.vertex_count, plan.chunk.most);
 }
 
 // Now that the front is known: to the chunks what the live graphs leave. Says at once if they cannot
@@ -408,8 +421,10 @@ LastUse Run::reorder_mesh() {
   return std::move(*scan(false));
 }
 
-void Run::run_chunks(ChunkSource& source) {
+void Run::run_chunks(ChunkSource& stretches) {
   const Stopwatch watch(common_.seconds.reeb);
+  const std::size_t whole = plan_.chunk.first + plan_.chunk.first / 4;  // the last batch of a stream goes beyond
+  DividedChunks source(stretches, whole, plan_.chunk.patch, budget_);
   std::vector<GraphSink*> sinks;
   for (const auto& store : stores_) sinks.push_back(store.get());
   PipelineOptions options;

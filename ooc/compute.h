@@ -23,10 +23,12 @@ namespace reeb::ooc {
 
 // A mesh in one of two forms. An indexed mesh is read twice. A reader is read once: as a stream if
 // it finalizes its vertices, else finalization is guessed, and the mesh is kept on disk meanwhile to be
-// run again if a guess was wrong.
+// run again if a guess was wrong. A stream of which too many vertices are live at once is read again, if
+// that is possible, and sorted on disk.
 struct MeshInput {
   std::unique_ptr<IndexedMesh> indexed;
   std::unique_ptr<MeshReader> reader;
+  std::function<std::unique_ptr<MeshReader>()> read_again;  // from the first batch; or empty
   unsigned dimension = 3;
   std::string path;        // for the sidecar, checkpoints and messages; "-": none
   bool may_resume = true;  // a later process reads the file at `path` in the same batches
@@ -43,6 +45,8 @@ struct ComputeOptions {
   std::uint64_t memory_bytes = MemoryBudget::kUnlimited;
   unsigned threads = 1;
   std::size_t chunk_triangles = 0;  // 0: adaptive
+  // With a chosen size of chunks: they are cut from stretches that grow up to so many triangles.
+  std::size_t stretch_triangles = 0;
   std::string temp_dir;             // empty: $TMPDIR, or the folder of the first output
   bool graph_only = false;
   bool keep_sidecar = false;

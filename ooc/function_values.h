@@ -49,21 +49,24 @@ class FunctionValues {
   // As if the values of these ranges had been seen. REQUIRES: one a function.
   void set_ranges(std::span<const FunctionRange> ranges) { ranges_.assign(ranges.begin(), ranges.end()); }
 
-  // From gathered columns (data[k] is columns()[k]) to positions and one array of values a function.
+  // From gathered columns (data[k] is columns()[k]) to positions and one array of values a function,
+  // which are appended.
   void evaluate(std::span<const VertexId> ids, std::span<const std::span<const double>> data,
                 std::vector<Point>& positions, std::vector<std::vector<double>>& values) {
-    positions.assign(ids.size(), Point{});
+    const std::size_t before = positions.size();
+    positions.resize(before + ids.size());
     for (unsigned k = 0; k < position_columns_; ++k)
-      for (std::size_t i = 0; i < ids.size(); ++i) positions[i][k] = data[k][i];
+      for (std::size_t i = 0; i < ids.size(); ++i) positions[before + i][k] = data[k][i];
     values.resize(functions_.size());
     for (std::size_t f = 0; f < functions_.size(); ++f) {
       own_.clear();
       for (const unsigned column : functions_[f]->columns())
         own_.push_back(data[static_cast<std::size_t>(
             std::find(columns_.begin(), columns_.end(), column) - columns_.begin())]);
-      values[f].resize(ids.size());
-      functions_[f]->evaluate(ids, own_, values[f]);
-      for (const double value : values[f]) {
+      values[f].resize(before + ids.size());
+      const auto here = std::span(values[f]).subspan(before);
+      functions_[f]->evaluate(ids, own_, here);
+      for (const double value : here) {
         ranges_[f].min = std::min(ranges_[f].min, value);
         ranges_[f].max = std::max(ranges_[f].max, value);
       }

@@ -41,7 +41,7 @@ class GuessedChunks : public ChunkSource {
   std::uint64_t triangles_read() const override { return triangles_read_; }
   std::uint64_t vertex_count() const override { return spooler_.mesh().vertex_count(); }
 
-  bool given_up() const { return given_up_; }
+  bool given_up() const override { return given_up_; }
   const UseGuesses& guesses() const { return guesses_; }
 
  private:

@@ -52,8 +52,8 @@ class IndexedChunks : public ChunkSource {
 bool IndexedChunks::next(WorkItem& item) {
   item.chunk.clear();
   if (!read_triangles(item.chunk) && !read_loose_vertices(item.chunk)) return false;
-  item.sweep_alone = blocks_.must_be_swept_alone(item.chunk);
   lookup_.look_up(mesh_, item);
+  item.ends_stretch = true;
   item.end.triangles = triangles_read_;
   item.end.next_vertex = next_vertex_;
   item.end.chunk_blocks = blocks_.size();
@@ -128,6 +128,14 @@ bool IndexedChunks::read_loose_vertices(Chunk& chunk) {
 std::unique_ptr<ChunkSource> chunks_of(IndexedMesh& mesh, LastUse& last_use, FunctionValues& columns,
                                        ChunkSize size, const ChunkPlace& start) {
   return std::make_unique<IndexedChunks>(mesh, last_use, columns, size, start);
+}
+
+void WorkItem::shrink_to_fit() {
+  chunk.ids.shrink_to_fit();
+  chunk.uses.shrink_to_fit();
+  chunk.positions.shrink_to_fit();
+  chunk.corners.shrink_to_fit();
+  for (auto& column : values) column.shrink_to_fit();
 }
 
 std::size_t WorkItem::memory_bytes() const {

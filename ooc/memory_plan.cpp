@@ -23,16 +23,14 @@ constexpr std::uint64_t kLeast = 16 * kMiB;
 constexpr std::uint64_t kSmooth = 290, kNoiseRemoved = 640, kNoiseKept = 700;
 constexpr std::uint64_t kBucketsSmooth = 70, kBucketsRemoved = 160, kBucketsKept = 300;
 
-// What live graphs and chunks take together where memory is free: chunks of a wide front begin smaller,
+// What live graphs and chunks take together where memory is free: chunks of a wide front are smaller,
 // which costs a few per cent of the time, down to kUsefulTriangles.
 constexpr std::uint64_t kUsual = 16 * kMiB;
 constexpr std::size_t kUsefulTriangles = 16384;
 
-// Measured a triangle: scratch of a sweep, a chunk in flight with its fragment, a chunk without, and
-// what the source looks up; and a vertex that a chunk shares with others: scratch, and its part of the
-// fragment.
-constexpr std::uint64_t kSweepBytes = 90, kFlightBytes = 55, kChunkBytes = 33, kSourceBytes = 20;
-constexpr std::uint64_t kSharedSweepBytes = 160, kSharedFlightBytes = 120;
+// Measured a triangle: scratch of a sweep, a chunk in flight with its fragment, and what the source
+// keeps; and of a stretch that is cut into chunks, as it lies there and while it is read and cut.
+constexpr std::uint64_t kSweepBytes = 90, kFlightBytes = 55, kSourceBytes = 20, kStretchBytes = 50;
 // Beyond this more memory for chunks makes little faster.
 constexpr std::uint64_t kMostForChunks = 64 * kMiB;
 constexpr std::size_t kLeastTriangles = 512;
@@ -41,10 +39,9 @@ constexpr std::uint64_t kEnoughForThreads = 12 * kMiB;
 // Chunks are for so many threads, however many there are: an embedding shows where they were cut.
 constexpr std::uint64_t kPlannedThreads = 2;
 
-// So many sweeps at a time, and so many chunks in flight with their fragments.
-ChunkCost chunk_cost(std::uint64_t sweeps, std::uint64_t in_flight, std::size_t functions) {
-  return {sweeps * kSweepBytes + in_flight * functions * kFlightBytes + kSourceBytes,
-          sweeps * kSharedSweepBytes + in_flight * functions * kSharedFlightBytes};
+// A triangle of a chunk, with so many swept at a time, and one more in flight where there are several.
+std::uint64_t chunk_bytes(std::uint64_t threads, std::size_t functions) {
+  return threads * kSweepBytes + (threads == 1 ? 1 : threads + 1) * functions * kFlightBytes + kSourceBytes;
 }
 
 std::uint64_t machine_bytes() {
@@ -74,7 +71,7 @@ MemoryPlan plan_memory(const MemoryRequest& request) {
   const std::uint64_t buckets = request.denoises ? kBucketsRemoved : kBucketsKept;
   plan.vertex_bytes_ = request.functions * (graph + (request.embeds ? buckets : 0));
   plan.least_vertex_bytes_ = request.functions * (kSmooth + (request.embeds ? kBucketsSmooth : 0));
-  plan.size_chunks(plan.account_bytes / 4);  // until the front is known
+  plan.size_chunks(plan.account_bytes / 4, ChunkSize{}.first);  // until the front is known
   return plan;
 }
 
@@ -85,7 +82,7 @@ std::uint64_t MemoryPlan::taken_bytes(const FrontNeeds& needs) const {
 
 // What the least chunks leave for the live graphs.
 std::uint64_t MemoryPlan::live_room(const FrontNeeds& needs) const {
-  return less(account_bytes, taken_bytes(needs) + kLeastTriangles * chunk.alone.triangle_bytes);
+  return less(account_bytes, taken_bytes(needs) + kLeastTriangles * triangle_bytes());
 }
 
 bool MemoryPlan::fits(const FrontNeeds& needs) const {
@@ -101,41 +98,42 @@ std::uint64_t MemoryPlan::most_live_vertices() const {
 }
 
 std::uint64_t MemoryPlan::needed_bytes(const FrontNeeds& needs) const {
-  const std::uint64_t fixed = taken_bytes(needs) + kLeastTriangles * chunk.alone.triangle_bytes;
+  const std::uint64_t fixed = taken_bytes(needs) + kLeastTriangles * triangle_bytes();
   return set_aside_bytes + (fixed + needs.live_vertices * vertex_bytes_) / 15 * 16;
 }
 
-// A rough function takes up to twice as much for the live graph, and half as much again for chunks; so
-// half of the room is left.
+std::uint64_t MemoryPlan::triangle_bytes() const {
+  const bool one_thread = account_bytes < kEnoughForThreads;
+  return chunk_bytes(one_thread ? 1 : kPlannedThreads, request_.functions);
+}
+
+// A rough function takes up to twice as much for the live graph; so half of the room is left.
 void MemoryPlan::share_out(const FrontNeeds& needs) {
   const std::uint64_t live = needs.live_vertices * vertex_bytes_;
   const std::uint64_t room = less(account_bytes, taken_bytes(needs) + live);
-  size_chunks(std::max(account_bytes / 8, room / 2));
-  const std::uint64_t usual = less(kUsual, live) / chunk.parallel.triangle_bytes;
-  if (chunk.first != chunk.most) chunk.first = std::min(chunk.first, std::max<std::size_t>(usual, kUsefulTriangles));
+  const std::uint64_t usual = less(kUsual, live) / triangle_bytes();
+  size_chunks(std::max(account_bytes / 8, room / 2), std::max<std::size_t>(usual, kUsefulTriangles));
 }
 
-void MemoryPlan::size_chunks(std::uint64_t bytes) {
-  const std::size_t functions = request_.functions;
+// Patches of a stretch take a quarter, so that it can be long.
+void MemoryPlan::size_chunks(std::uint64_t bytes, std::size_t most_triangles) {
   const bool one_thread = account_bytes < kEnoughForThreads;
+  bytes = std::min(bytes, one_thread ? account_bytes / 10 : kMostForChunks);
   chunk = {};
-  chunk.allowance_bytes = one_thread ? account_bytes / 10 : std::min(bytes, kMostForChunks);
-  chunk.alone = one_thread ? chunk_cost(1, 1, functions) : chunk_cost(1, 2, functions);  // swept, glued
-  if (!one_thread) chunk.alone.triangle_bytes += kChunkBytes;                             // read
-  chunk.parallel = one_thread ? chunk.alone : chunk_cost(kPlannedThreads, kPlannedThreads + 1, functions);
-  const auto fitting = [&](const ChunkCost& cost) {
-    return std::max(kLeastTriangles, static_cast<std::size_t>(chunk.allowance_bytes / cost.triangle_bytes));
+  const auto fitting = [&](std::uint64_t part) {
+    return std::clamp(static_cast<std::size_t>(part / triangle_bytes()), kLeastTriangles,
+                      std::min(ChunkSize{}.first, most_triangles));
   };
-  chunk.first = std::min(chunk.first, fitting(chunk.parallel));
-  chunk.most = std::min(chunk.most, fitting(chunk.alone));
+  chunk.first = fitting(bytes);
+  chunk.patch = fitting(bytes / 4);
+  const auto stretch = static_cast<std::size_t>(less(bytes, chunk.patch * triangle_bytes()) / kStretchBytes);
+  chunk.most = std::clamp(stretch, chunk.first, chunk.most);
   threads = one_thread ? 1 : request_.threads;
-  const std::uint64_t parallel = std::max(chunk.allowance_bytes, account_bytes / 4);
-  while (threads > kPlannedThreads &&
-         chunk_cost(threads, threads + 1, functions).triangle_bytes * chunk.first > parallel)
-    --threads;
+  const std::uint64_t parallel = std::max(bytes, account_bytes / 4);
+  while (threads > kPlannedThreads && chunk_bytes(threads, request_.functions) * chunk.first > parallel) --threads;
   if (request_.chunk_triangles != 0) {
-    chunk.first = chunk.most = request_.chunk_triangles;
-    chunk.allowance_bytes = MemoryBudget::kUnlimited;
+    chunk.first = chunk.patch = request_.chunk_triangles;
+    chunk.most = std::max(request_.chunk_triangles, request_.stretch_triangles);
   }
 }
 

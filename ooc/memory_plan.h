@@ -13,7 +13,7 @@ struct MemoryRequest {
   std::uint64_t limit_bytes = 0;    // for the whole process; kUnlimited: half of this machine's memory
   unsigned threads = 1;
   std::size_t functions = 1;
-  std::size_t chunk_triangles = 0;  // a user's choice; 0: none
+  std::size_t chunk_triangles = 0, stretch_triangles = 0;  // a user's choice; 0: none
   bool in_place = false;            // the mesh is looked up in its own file, not spooled
   bool embeds = true;
   bool denoises = false;
@@ -51,7 +51,8 @@ class MemoryPlan {
   friend MemoryPlan plan_memory(const MemoryRequest& request);
   std::uint64_t taken_bytes(const FrontNeeds& needs) const;
   std::uint64_t live_room(const FrontNeeds& needs) const;
-  void size_chunks(std::uint64_t bytes);
+  std::uint64_t triangle_bytes() const;
+  void size_chunks(std::uint64_t bytes, std::size_t most_triangles);
 
   MemoryRequest request_;
   std::uint64_t vertex_bytes_ = 0;        // of the live graphs, likely, a live vertex

@@ -35,13 +35,6 @@ class Sweepers {
     free_.pop_back();
     return sweeper;
   }
-  // One of them, and the memory of the others is given back.
-  std::unique_ptr<Sweeper> take_only() {
-    auto sweeper = take();
-    const std::lock_guard lock(mutex_);
-    free_.clear();
-    return sweeper;
-  }
   void give_back(std::unique_ptr<Sweeper> sweeper) {
     const std::lock_guard lock(mutex_);
     free_.push_back(std::move(sweeper));
@@ -55,10 +48,6 @@ class Sweepers {
 
 struct Slot {
   explicit Slot(MemoryBudget& budget) : reservation(budget.reserve("chunks in flight", 0)) {}
-  void free() {
-    item = {};
-    reservation.resize(0);
-  }
   WorkItem item;
   SourceProgress progress;  // taken by the reader, which may be further on when the chunk is glued
   Reservation reservation;
@@ -109,11 +98,8 @@ class Pipeline {
     slot.reservation.resize(slot.item.memory_bytes());
   }
 
-  // Chunks that leave no memory for another sweep take turns.
   void sweep_in_parallel(Slot& slot, Sweepers& sweepers) {
-    std::unique_lock turn(alone_, std::defer_lock);
-    if (slot.item.sweep_alone) turn.lock();
-    auto sweeper = slot.item.sweep_alone ? sweepers.take_only() : sweepers.take();
+    auto sweeper = sweepers.take();
     sweep(slot, *sweeper);
     sweepers.give_back(std::move(sweeper));
   }
@@ -137,7 +123,7 @@ class Pipeline {
     maximum_.edges = std::max(maximum_.edges, now.edges);
     maximum_.arcs = std::max(maximum_.arcs, now.arcs);
     if (options_.progress) options_.progress(slot.progress);
-    if (options_.between_chunks)
+    if (options_.between_chunks && slot.item.ends_stretch)
       options_.between_chunks(slot.item.end, [this](StateWriter& out) { save(out); });
   }
 
@@ -179,7 +165,6 @@ class Pipeline {
                                              }) &
               tbb::make_filter<Slot*, void>(tbb::filter_mode::serial_in_order, [&](Slot* slot) {
                 glue(*slot);
-                if (slot->item.sweep_alone) slot->free();
                 free_slots.push(slot);
               }));
     });
@@ -191,7 +176,6 @@ class Pipeline {
   std::vector<std::unique_ptr<Glue>> glues_;
   Reservation live_;
   LiveMaximum maximum_;
-  std::mutex alone_;  // held by a sweep that allows no other
 };
 
 }  // namespace

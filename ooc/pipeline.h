@@ -36,7 +36,8 @@ struct PipelineOptions {
   ChooseSweep choose_sweep = {};  // empty: nothing but the graph
   // Called in order after each chunk was glued; may throw to stop the run.
   std::function<void(const SourceProgress&)> progress = {};
-  // Called after that: the place behind the chunk, and how to save what was glued up to there.
+  // Called after that where the run can go on: the place behind the chunk, and how to save what was
+  // glued up to there.
   std::function<void(const ChunkPlace&, const SaveEngine&)> between_chunks = {};
   // What an earlier process saved; the source starts at that place.
   StateReader* saved_engine = nullptr;

@@ -1,4 +1,5 @@
 #include "libreeb/base/error.h"
+#include "ooc/chunk_growth.h"
 #include "ooc/chunk_source.h"
 
 namespace reeb::ooc {
@@ -6,12 +7,14 @@ namespace {
 
 class StreamChunks : public ChunkSource {
  public:
-  StreamChunks(MeshReader& reader, FunctionValues& columns, ChunkSize size, const ChunkPlace& start)
-      : reader_(reader), columns_(columns), size_(size), chunker_(columns.function_count(), true) {
+  StreamChunks(MeshReader& reader, FunctionValues& columns, ChunkSize size, const ChunkPlace& start,
+               const StreamLimits& limits)
+      : reader_(reader), columns_(columns), size_(size), limits_(limits), chunker_(columns.function_count(), true) {
     pass_over(start);
   }
 
   bool next(WorkItem& item) override;
+  bool given_up() const override { return given_up_; }
   std::uint64_t bytes_read() const override { return reader_.bytes_read(); }
   std::uint64_t bytes_total() const override { return reader_.info().file_bytes; }
   std::uint64_t triangles_read() const override { return triangles_read_; }
@@ -19,17 +22,19 @@ class StreamChunks : public ChunkSource {
 
  private:
   void pass_over(const ChunkPlace& start);
+  bool is_hopeless() const;
   void read_batch();
   void add_vertices();
   void add_simplices(const std::vector<VertexId>& corners, std::size_t size);
 
   MeshReader& reader_;
   FunctionValues& columns_;
-  ChunkSize size_;
+  ChunkGrowth size_;  // in triangles
+  StreamLimits limits_;
   StreamChunker chunker_;
   std::uint64_t triangles_read_ = 0;
   std::uint64_t batches_ = 0;
-  bool ended_ = false;
+  bool ended_ = false, given_up_ = false;
 
   MeshBatch batch_;
   std::vector<VertexId> ids_;
@@ -40,14 +45,24 @@ class StreamChunks : public ChunkSource {
 };
 
 bool StreamChunks::next(WorkItem& item) {
-  while (!ended_ && chunker_.chunk_size() < size_.first) read_batch();
-  if (chunker_.chunk_size() == 0) return false;
+  while (!ended_ && chunker_.chunk_size() < size_.size()) read_batch();
+  given_up_ = limits_.may_give_up && is_hopeless();
+  if (given_up_ || chunker_.chunk_size() == 0) return false;
   chunker_.take(item.chunk, item.values);
+  size_.adapt(item.chunk);
+  item.ends_stretch = true;
   item.end.triangles = triangles_read_;
   item.end.next_vertex = chunker_.vertex_count();
   item.end.batches = batches_;
+  item.end.chunk_blocks = size_.size();
   item.end.ranges.assign(columns_.ranges().begin(), columns_.ranges().end());
   return true;
+}
+
+bool StreamChunks::is_hopeless() const {
+  constexpr std::uint64_t kMany = 1'000'000, kLargePart = 8;
+  const std::uint64_t active = chunker_.active_vertices(), all = chunker_.vertex_count();
+  return active > limits_.most_active_vertices || (all > kMany && active > all / kLargePart);
 }
 
 // Which vertices are live at a chunk's end, and which of them were used, does not depend on where the
@@ -57,11 +72,12 @@ void StreamChunks::pass_over(const ChunkPlace& start) {
   std::vector<std::vector<double>> values;
   while (!ended_ && batches_ < start.batches) {
     read_batch();
-    if (chunker_.chunk_size() >= size_.first || batches_ == start.batches) chunker_.take(chunk, values);
+    if (chunker_.chunk_size() >= size_.size() || batches_ == start.batches) chunker_.take(chunk, values);
   }
   if (batches_ != start.batches || triangles_read_ != start.triangles || chunker_.vertex_count() != start.next_vertex)
     throw Error(ErrorKind::kBadInput, "the stream is not the one that the checkpoint was made of",
                 "run it again without --resume");
+  if (start.chunk_blocks != 0) size_.set_size(static_cast<std::size_t>(start.chunk_blocks));
   if (!start.ranges.empty()) columns_.set_ranges(start.ranges);
 }
 
@@ -89,6 +105,8 @@ void StreamChunks::add_vertices() {
     data_.emplace_back(column < batch_.coordinates.size()
                            ? batch_.coordinates[column]
                            : batch_.properties[column - batch_.coordinates.size()]);
+  positions_.clear();
+  for (auto& values : values_) values.clear();
   columns_.evaluate(ids_, data_, positions_, values_);
   row_.resize(values_.size());
   for (std::size_t i = 0; i < n; ++i) {
@@ -104,8 +122,8 @@ void StreamChunks::add_simplices(const std::vector<VertexId>& corners, std::size
 }  // namespace
 
 std::unique_ptr<ChunkSource> chunks_of(MeshReader& reader, FunctionValues& columns, ChunkSize size,
-                                       const ChunkPlace& start) {
-  return std::make_unique<StreamChunks>(reader, columns, size, start);
+                                       const ChunkPlace& start, const StreamLimits& limits) {
+  return std::make_unique<StreamChunks>(reader, columns, size, start, limits);
 }
 
 }  // namespace reeb::ooc

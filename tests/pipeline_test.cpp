@@ -286,6 +286,26 @@ TEST_P(LargeShape, RepeatsOfATriangle) { check(repeats(1'000'000 / kScale)); }
 TEST_P(LargeShape, Plateau) { check(one_arc("plateau", plateau(1000, 500 / kScale))); }
 TEST_P(LargeShape, TiesAlongTheStream) { check(one_arc("strip", tied_strip(1000, 500 / kScale))); }
 
+// In whatever order a stream comes, it is run within the budget, and is read again where it has to be.
+TEST(Pipeline, SortsAStreamOfWhichTooMuchIsLive) {
+  const Shape shape = one_arc("plateau", plateau(400, 100));
+  const ComplexMesh mesh(shuffled(shape.complex, 1));
+  Runner runner(/*graph_only=*/true);
+  runner.options().memory_bytes = 16 << 20;
+  for (const unsigned threads : {1u, 2u}) {
+    const ReebGraph graph = take_graph(runner.run(mesh, {0, threads, Form::kStream})[0]);
+    EXPECT_TRUE(without_positions(graph) == make_graph(shape.arcs, {}));
+    const ooc::ComputeResult& result = runner.results()[0];
+    EXPECT_TRUE(result.reordered);
+    ASSERT_FALSE(result.notes.empty());
+    EXPECT_NE(result.notes[0].find("read again"), std::string::npos) << result.notes[0];
+    EXPECT_EQ(result.triangles, mesh.triangles.size() / 3);
+  }
+  // What is not to be sorted ends with what is needed.
+  runner.options().may_reorder = false;
+  EXPECT_THROW(runner.run(mesh, {0, 2, Form::kStream}), Error);
+}
+
 INSTANTIATE_TEST_SUITE_P(Forms, LargeShape, testing::ValuesIn(kForms),
                          [](const auto& form) { return std::string(name_of(form.param)); });
 

@@ -101,7 +101,8 @@ class RealRun : public testing::TestWithParam<std::tuple<std::string, std::strin
 };
 
 constexpr RunShape kWhole{100'000'000, 1, Form::kIndexed};
-constexpr RunShape kFewShapes[] = {{1000, 2, Form::kIndexed}, {65536, 4, Form::kStream}, {0, 2, Form::kIndexed}};
+constexpr RunShape kFewShapes[] = {{1000, 2, Form::kIndexed}, {65536, 4, Form::kStream}, {0, 2, Form::kIndexed},
+                                   {500, 2, Form::kIndexed, 20000}};
 
 std::vector<RunShape> shapes_to_run() {
   if (runs_all()) return all_shapes();

@@ -33,10 +33,11 @@ struct RunShape {
   std::size_t chunk_triangles;  // 0: adaptive
   unsigned threads;
   Form form;
+  std::size_t stretch_triangles = 0;
 };
 
 inline std::ostream& operator<<(std::ostream& out, const RunShape& shape) {
-  return out << "chunk " << shape.chunk_triangles << ", threads " << shape.threads << ", " << name_of(shape.form);
+  return out << "chunk " << shape.chunk_triangles << " of " << shape.stretch_triangles << ", threads " << shape.threads << ", " << name_of(shape.form);
 }
 
 inline std::vector<std::size_t> all_chunk_sizes() {
@@ -48,7 +49,11 @@ inline std::vector<RunShape> all_shapes() {
   std::vector<RunShape> shapes;
   for (const std::size_t chunk : all_chunk_sizes())
     for (const unsigned threads : {1u, 2u, 4u})
-      for (const Form form : kForms) shapes.push_back({chunk, threads, form});
+      for (const Form form : kForms) {
+        shapes.push_back({chunk, threads, form});
+        // Cut from stretches, as where fronts are wide.
+        if (chunk != 0 && chunk <= 7) shapes.push_back({chunk, threads, form, 20 * chunk});
+      }
   return shapes;
 }
 
@@ -79,14 +84,17 @@ class Runner {
       outputs.push_back(outputs_.path() + "/" + function.name() + ".reeb");
     }
     ooc::MeshInput input;
-    if (shape.form == Form::kStream)
-      input.reader = std::make_unique<ComplexStream>(mesh, seed);
-    else if (shape.form == Form::kUnfinalized)
+    if (shape.form == Form::kStream) {
+      input.read_again = [&mesh, seed] { return std::make_unique<ComplexStream>(mesh, seed); };
+      input.reader = input.read_again();
+    } else if (shape.form == Form::kUnfinalized) {
       input.reader = std::make_unique<UnfinalizedComplex>(mesh, seed);
-    else
+    } else {
       input.indexed = std::make_unique<IndexedComplex>(mesh);
+    }
     ooc::ComputeOptions options = options_;
     options.chunk_triangles = shape.chunk_triangles;
+    options.stretch_triangles = shape.stretch_triangles;
     options.threads = shape.threads;
     options.temp_dir = temp_.path();
     options.memory_bytes = memory_limit().value_or(options_.memory_bytes);

@@ -138,6 +138,8 @@ void run_compute(ComputeArguments arguments) {
     input.reader = with_snapshots(std::move(input.reader), arguments.snapshot_every, pointers, outputs);
   else if (arguments.mesh != "-") input.indexed = io::open_indexed_mesh(arguments.mesh, read_options);
   if (input.indexed) input.reader.reset();
+  if (arguments.mesh != "-" && arguments.snapshot_every == 0)
+    input.read_again = [&] { return io::open_mesh(arguments.mesh, read_options); };
 
   ProgressBar bar(arguments.quiet);
   arguments.options.progress = [&](const ooc::ComputeProgress& p) {

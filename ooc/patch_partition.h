@@ -1,0 +1,55 @@
+// Divides the triangles of a chunk into patches that lie together in space (DESIGN.md 3).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "libreeb/engine/chunk.h"
+
+namespace reeb::ooc {
+
+// A k-d tree on a sample of the triangles: their box is cut across its longest side at the median, and
+// the halves again. What lies in one place, or nearly all of it, or has no place at all, is cut in the
+// middle of the stream. A triangle lies where its first corner does.
+//
+// TIME: O(n log(n / most)), about 10 ns a triangle.   MEMORY: 6 bytes a triangle.
+class PatchPartition {
+ public:
+  // Patches of about `most` triangles at most, none of them empty; exactly at most where that is less
+  // than 1,024. REQUIRES: most >= 1; the chunk has triangles, 65,536 times `most` at most.
+  void divide(const Chunk& chunk, std::size_t most);
+
+  std::size_t patch_count() const { return begin_.size() - 1; }
+  // Triangles of a patch, in stream order. Successive patches are mostly neighbours.
+  std::span<const std::uint32_t> patch(std::size_t index) const {
+    return std::span(triangles_).subspan(begin_[index], begin_[index + 1] - begin_[index]);
+  }
+  std::size_t memory_bytes() const;
+
+ private:
+  static constexpr std::size_t kStream = 3;  // an axis besides those of space
+  struct Cut {
+    std::size_t axis = 0;
+    double at = 0;
+    std::uint32_t below = 0, above = 0;  // cuts, or patches with kIsPatch
+  };
+  static constexpr std::uint32_t kIsPatch = 1u << 31;
+
+  static double place(const Chunk& chunk, std::uint32_t triangle, std::size_t axis) {
+    return axis == kStream ? triangle : chunk.positions[chunk.corners[3 * std::size_t{triangle}]][axis];
+  }
+  std::uint32_t cut(const Chunk& chunk, std::span<std::uint32_t> sample, std::size_t most);
+  std::size_t divide_sample(const Chunk& chunk, std::span<std::uint32_t> sample, Cut& cut) const;
+  std::uint16_t patch_of(const Chunk& chunk, std::uint32_t triangle, std::uint32_t root) const;
+  void collect();
+
+  std::vector<Cut> cuts_;
+  std::uint32_t patches_ = 0;
+  std::vector<std::uint16_t> patch_of_;  // by triangle
+  std::vector<std::uint32_t> begin_;
+  std::vector<std::uint32_t> triangles_;  // first the sample
+};
+
+}  // namespace reeb::ooc
