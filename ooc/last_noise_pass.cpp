@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 #include <limits>
+#include <numeric>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -16,9 +17,10 @@
 namespace reeb::ooc {
 namespace {
 
-// To remove leaves in a part of the graph, for each of its nodes: its own, and for each of its arcs, which
-// is counted at both ends, with what is at the other end; and for each byte of their payloads.
-constexpr std::uint64_t kNodeBytes = 96, kArcBytes = 160, kPayloadFactor = 12;
+// To remove leaves in a part of the graph: for each of its nodes, and for each of its arcs with one end in
+// it, or two; and for each byte of their payloads, of which a bucket has kBucketPayload at least.
+constexpr std::uint64_t kNodeBytes = 72, kInnerArcBytes = 80, kArcBytes = kInnerArcBytes + kNodeBytes;
+constexpr std::uint64_t kPayloadFactor = 12, kBucketPayload = 14;
 
 // To find the scope in a graph of short arcs: the graph, the degrees and payloads of its nodes, and either
 // the table in which these are looked up, or what noise_scope() takes.
@@ -35,11 +37,29 @@ std::uint64_t short_graph_bytes(std::uint64_t arcs, std::uint64_t capacity) {
 // Copying a quarter more each time costs little, and leaves little unused.
 std::size_t next_capacity(std::size_t capacity) { return std::max<std::size_t>(1024, capacity + capacity / 4); }
 
-// Nodes that noise removal can look at, ascending; and what removing it there takes of each.
+// Nodes that noise removal can look at, ascending, and of each how many arcs it has, with how many bytes
+// of payload.
 struct Scope {
   std::vector<SweepKey> nodes;
-  std::vector<std::uint64_t> weights;
-  std::uint64_t bytes() const { return nodes.capacity() * (sizeof(SweepKey) + sizeof(std::uint64_t)); }
+  std::vector<std::uint32_t> arcs;
+  std::vector<std::uint64_t> payloads;
+
+  std::size_t size() const { return nodes.size(); }
+  static std::uint64_t bytes(std::uint64_t nodes) { return 28 * nodes; }
+  void reserve(std::size_t count) {
+    nodes.reserve(count);
+    arcs.reserve(count);
+    payloads.reserve(count);
+  }
+  void add(const SweepKey& node, std::uint32_t arc_count, std::uint64_t payload) {
+    nodes.push_back(node);
+    arcs.push_back(arc_count);
+    payloads.push_back(payload);
+  }
+  // What removing noise at a node takes if no arc joins it to another one of the scope.
+  std::uint64_t weight(std::size_t node) const {
+    return kNodeBytes + kArcBytes * arcs[node] + kPayloadFactor * payloads[node];
+  }
 };
 
 class Pass {
@@ -54,7 +74,7 @@ class Pass {
 
   LastNoisePass run() {
     find_scope();
-    if (result_.fits && !scope_.nodes.empty()) remove_noise();
+    if (result_.fits && scope_.size() != 0) remove_noise();
     if (result_.fits && result_.removed_pairs != 0) finish_patch();
     return std::move(result_);
   }
@@ -88,15 +108,11 @@ class Pass {
     look_at_ends(short_arcs, degrees, payloads);
     const std::vector<bool> in_scope = noise_scope(short_arcs, degrees);
     const auto size = static_cast<std::size_t>(std::count(in_scope.begin(), in_scope.end(), true));
-    scope_.nodes.reserve(size);
-    scope_.weights.reserve(size);
-    if (!make_room(memory_, bytes + scope_.bytes(), bytes + most_bytes())) return;
-    for (std::size_t node = 0; node < in_scope.size(); ++node) {
-      if (!in_scope[node]) continue;
-      scope_.nodes.push_back(short_arcs.nodes[node]);
-      scope_.weights.push_back(kNodeBytes + kArcBytes * (degrees.down[node] + degrees.up[node]) +
-                               kPayloadFactor * payloads[node]);
-    }
+    if (!make_room(memory_, bytes + Scope::bytes(size), bytes + most_bytes())) return;
+    scope_.reserve(size);
+    for (std::size_t node = 0; node < in_scope.size(); ++node)
+      if (in_scope[node])
+        scope_.add(short_arcs.nodes[node], degrees.down[node] + degrees.up[node], payloads[node]);
   }
 
   std::vector<ArcKeys> find_short_arcs() {
@@ -142,74 +158,82 @@ class Pass {
   void remove_noise() {
     constexpr std::uint64_t kParts = 8;
     std::uint64_t all = 0;
-    for (const std::uint64_t weight : scope_.weights) all += weight;
-    enough_ = scope_.bytes() + 2 * all;
-    const std::uint64_t held = scope_.bytes() + sizeof(std::uint32_t) * scope_.nodes.size();
-    if (!make_room(memory_, held, enough_)) return;
+    for (std::size_t node = 0; node < scope_.size(); ++node) all += scope_.weight(node);
+    held_ = Scope::bytes(scope_.size()) + sizeof(std::uint32_t) * scope_.size();
+    enough_ = held_ + 2 * all;
+    if (!make_room(memory_, held_, enough_)) return;
     const std::uint64_t part_bytes = std::min(std::max(options_.part_bytes, all / kParts), store_.budget().free_bytes() / 2);
-    if (all <= part_bytes) return remove_noise_at(scope_.nodes, held + all);
-    const std::vector<std::uint32_t> part_of = divide(part_bytes);
-    if (!result_.fits) return;
-    const std::uint32_t parts = 1 + *std::max_element(part_of.begin(), part_of.end());
-    for (std::uint32_t part = 0; part < parts && result_.fits; ++part) {
-      std::vector<SweepKey> nodes;
-      std::uint64_t weight = 0;
-      for (std::size_t node = 0; node < part_of.size(); ++node) {
-        if (part_of[node] != part) continue;
-        nodes.push_back(scope_.nodes[node]);
-        weight += scope_.weights[node];
-      }
-      remove_noise_at(nodes, held + weight);
+    if (all <= part_bytes) return remove_noise_in(scope_, all);
+    const Division division = divide(part_bytes);
+    for (std::uint32_t part = 0; part < division.weights.size() && result_.fits; ++part) {
+      Scope nodes;
+      for (std::size_t node = 0; node < scope_.size(); ++node)
+        if (division.part_of[node] == part) nodes.add(scope_.nodes[node], scope_.arcs[node], scope_.payloads[node]);
+      remove_noise_in(nodes, division.weights[part] + Scope::bytes(2 * nodes.size()));
     }
   }
+
+  struct Division {
+    std::vector<std::uint32_t> part_of;  // by node of the scope
+    std::vector<std::uint64_t> weights;  // by part
+  };
 
   // Nodes that an arc joins are in one part; parts are of about this size if such nodes are few.
-  std::vector<std::uint32_t> divide(std::uint64_t part_bytes) {
-    const auto count = static_cast<std::uint32_t>(scope_.nodes.size());
-    if (!make_room(memory_, scope_.bytes() + SparseNodeTable::bytes(count) + 16ull * count, enough_)) return {};
+  Division divide(std::uint64_t part_bytes) {
+    const auto count = static_cast<std::uint32_t>(scope_.size());
+    if (!make_room(memory_, held_ + SparseNodeTable::bytes(count) + 20ull * count, enough_)) return {};
     UnionFind joined(count);
-    {
-      const SparseNodeTable table(scope_.nodes);
-      store_.scan_arcs([&](const StoredArc& arc, const auto&) {
-        const std::uint32_t lo = table.find(arc.keys.lo);
-        if (lo == NodeTable::kNone) return;
-        const std::uint32_t hi = table.find(arc.keys.hi);
-        if (hi != NodeTable::kNone) joined.unite(lo, hi);
-      });
-    }
     std::vector<std::uint64_t> weights(count);
-    for (std::uint32_t node = 0; node < count; ++node) weights[joined.find(node)] += scope_.weights[node];
-    std::vector<std::uint32_t> part_of(count);
-    std::uint32_t part = 0;
-    std::uint64_t filled = 0;
+    for (std::uint32_t node = 0; node < count; ++node) weights[node] = scope_.weight(node);
+    join_neighbours(joined, weights);
+    for (std::uint32_t node = 0; node < count; ++node)
+      if (joined.find(node) != node) weights[joined.find(node)] += weights[node];
+    Division division{std::vector<std::uint32_t>(count), {}};
     for (std::uint32_t node = 0; node < count; ++node) {
       if (joined.find(node) != node) continue;
-      if (filled != 0 && filled + weights[node] > part_bytes) ++part, filled = 0;
-      filled += weights[node];
-      part_of[node] = part;
+      if (division.weights.empty() || division.weights.back() + weights[node] > part_bytes) division.weights.push_back(0);
+      division.weights.back() += weights[node];
+      division.part_of[node] = static_cast<std::uint32_t>(division.weights.size() - 1);
     }
-    for (std::uint32_t node = 0; node < count; ++node) part_of[node] = part_of[joined.find(node)];
-    return part_of;
+    for (std::uint32_t node = 0; node < count; ++node) division.part_of[node] = division.part_of[joined.find(node)];
+    enough_ = memory_.bytes() + 2 * std::accumulate(division.weights.begin(), division.weights.end(), std::uint64_t{0}) +
+              Scope::bytes(2 * count);
+    return division;
   }
 
-  void remove_noise_at(const std::vector<SweepKey>& nodes, std::uint64_t bytes) {
-    if (!make_room(memory_, bytes, enough_)) return;
-    RecordBatch<StoredArc> arcs = gather(nodes);
+  // An arc between two nodes of the scope was counted at both.
+  void join_neighbours(UnionFind& joined, std::vector<std::uint64_t>& weights) const {
+    const SparseNodeTable table(scope_.nodes);
+    store_.scan_arcs([&](const StoredArc& arc, const auto&) {
+      const std::uint32_t lo = table.find(arc.keys.lo);
+      if (lo == NodeTable::kNone) return;
+      const std::uint32_t hi = table.find(arc.keys.hi);
+      if (hi == NodeTable::kNone) return;
+      joined.unite(lo, hi);
+      weights[lo] -= kArcBytes + (exponent_ ? kPayloadFactor * arc.payload.size : 0);
+      weights[hi] -= kArcBytes - kInnerArcBytes;
+    });
+  }
+
+  void remove_noise_in(const Scope& scope, std::uint64_t bytes) {
+    if (!make_room(memory_, held_ + bytes, enough_)) return;
+    RecordBatch<StoredArc> arcs = gather(scope);
     ArcBuckets buckets = buckets_of(arcs);
     patch_.replaced_arcs += arcs.records.size();
     patch_.replaced_buckets += buckets.buckets.size();
     ReebGraph part = graph_of(std::move(arcs));
     std::vector<bool> whole(part.node_count());
-    for (std::size_t node = 0, next = 0; next < nodes.size(); ++node)
-      if (part.nodes[node] == nodes[next]) whole[node] = true, ++next;
+    for (std::size_t node = 0, next = 0; next < scope.size(); ++node)
+      if (part.nodes[node] == scope.nodes[next]) whole[node] = true, ++next;
     const std::vector<SweepKey> former_nodes = part.nodes;
     const std::vector<NodeId> former_hi = part.hi;
     const Denoised denoised = denoise_part(std::move(part), whole, options_.threshold, buckets, exponent_.value_or(0));
     result_.removed_pairs += denoised.removed.size();
+    memory_.try_resize(held_ + bytes / 2);  // most is free again
     for (std::size_t arc = 0; arc < denoised.graph.arc_count() && result_.fits; ++arc)
       add_to_patch({keys_of(denoised.graph, arc), former_nodes[former_hi[denoised.former[arc]].value()]},
                    buckets.view().of(arc));
-    add_gone(nodes, denoised.graph.nodes);
+    add_gone(scope.nodes, denoised.graph.nodes);
   }
 
   static ArcKeys keys_of(const ReebGraph& graph, std::size_t arc) {
@@ -217,9 +241,11 @@ class Pass {
   }
 
   // All arcs of these nodes with their payloads, in the order of the graph.
-  RecordBatch<StoredArc> gather(const std::vector<SweepKey>& nodes) const {
+  RecordBatch<StoredArc> gather(const Scope& scope) const {
     RecordBatch<StoredArc> arcs;
-    const SparseNodeTable table(nodes);
+    arcs.records.reserve(std::accumulate(scope.arcs.begin(), scope.arcs.end(), std::size_t{0}));
+    arcs.pool.reserve(std::accumulate(scope.payloads.begin(), scope.payloads.end(), std::size_t{0}));
+    const SparseNodeTable table(scope.nodes);
     store_.scan_arcs([&](const StoredArc& arc, const auto& batch) {
       if (table.find(arc.keys.lo) == NodeTable::kNone && table.find(arc.keys.hi) == NodeTable::kNone) return;
       arcs.add(arc, exponent_ ? batch.payload(arc) : std::span<const std::byte>());
@@ -233,6 +259,7 @@ class Pass {
     if (!exponent_) return all;
     all.offsets.reserve(arcs.records.size() + 1);
     all.offsets.push_back(0);
+    all.buckets.reserve(arcs.pool.size() / kBucketPayload);
     for (const StoredArc& arc : arcs.records) {
       decode_buckets_of(arc.keys, arcs.payload(arc), *exponent_, all.buckets);
       all.offsets.push_back(all.buckets.size());
@@ -294,8 +321,8 @@ class Pass {
   }
 
   void finish_patch() {
-    scope_.weights = {};
     patch_.redone = std::move(scope_.nodes);
+    scope_ = {};
     memory_.release();
     const std::size_t redone = patch_.redone.capacity();
     if (!grow_patch(redone * sizeof(SweepKey) + NodeTable::bytes(redone))) return;
@@ -315,7 +342,8 @@ class Pass {
   const std::optional<int> exponent_;
   Reservation memory_;
   Scope scope_;
-  std::uint64_t enough_ = 0;  // of memory, to remove the noise of the scope
+  std::uint64_t held_ = 0;    // of memory, for the scope
+  std::uint64_t enough_ = 0;  // to remove its noise
   std::vector<std::byte> payload_;
   GraphPatch patch_;
   LastNoisePass result_;
