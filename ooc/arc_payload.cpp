@@ -11,6 +11,13 @@ void encode_buckets(std::span<const Bucket> buckets, int exponent, std::vector<s
   pack_buckets(buckets, payload);
 }
 
+std::uint64_t bucket_count(std::span<const std::byte> payload) {
+  if (payload.empty()) return 0;
+  ByteReader in(payload);
+  in.delta(0);
+  return in.varint();
+}
+
 bool decode_buckets(std::span<const std::byte> payload, int exponent, std::vector<Bucket>& buckets) {
   if (payload.empty()) return true;
   ByteReader in(payload);

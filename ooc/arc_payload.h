@@ -18,4 +18,7 @@ void encode_buckets(std::span<const Bucket> buckets, int exponent, std::vector<s
 // are coarser.
 bool decode_buckets(std::span<const std::byte> payload, int exponent, std::vector<Bucket>& buckets);
 
+// How many buckets a payload has, before any is coarsened.
+std::uint64_t bucket_count(std::span<const std::byte> payload);
+
 }  // namespace reeb::ooc

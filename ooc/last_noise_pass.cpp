@@ -18,11 +18,11 @@ namespace reeb::ooc {
 namespace {
 
 // To remove leaves in a part of the graph: for each of its nodes, and for each of its arcs with one end in
-// it, or two; and for each byte of their payloads, of which a bucket has kBucketPayload at least.
-constexpr std::uint64_t kNodeBytes = 72, kInnerArcBytes = 80, kArcBytes = kInnerArcBytes + kNodeBytes;
-constexpr std::uint64_t kPayloadFactor = 12, kBucketPayload = 14;
+// it, or two; and for its buckets, packed and not.
+constexpr std::uint64_t kNodeBytes = 72, kInnerArcBytes = 64, kArcBytes = kInnerArcBytes + kNodeBytes;
+constexpr std::uint64_t kPackedByte = 1, kBucketBytes = 100;
 
-// To find the scope in a graph of short arcs: the graph, the degrees and payloads of its nodes, and either
+// To find the scope in a graph of short arcs: the graph, the degrees of its nodes and what their buckets take, and either
 // the table in which these are looked up, or what noise_scope() takes.
 std::uint64_t search_bytes(std::uint64_t arcs, std::uint64_t nodes) {
   constexpr std::uint64_t kNode = sizeof(SweepKey) + 16, kArc = 2 * sizeof(NodeId), kScopeNode = 25, kScopeArc = 12;
@@ -37,28 +37,28 @@ std::uint64_t short_graph_bytes(std::uint64_t arcs, std::uint64_t capacity) {
 // Copying a quarter more each time costs little, and leaves little unused.
 std::size_t next_capacity(std::size_t capacity) { return std::max<std::size_t>(1024, capacity + capacity / 4); }
 
-// Nodes that noise removal can look at, ascending, and of each how many arcs it has, with how many bytes
-// of payload.
+// Nodes that noise removal can look at, ascending, and of each how many arcs it has, and what the buckets
+// of these take.
 struct Scope {
   std::vector<SweepKey> nodes;
   std::vector<std::uint32_t> arcs;
-  std::vector<std::uint64_t> payloads;
+  std::vector<std::uint64_t> bucket_bytes;
 
   std::size_t size() const { return nodes.size(); }
   static std::uint64_t bytes(std::uint64_t nodes) { return 28 * nodes; }
   void reserve(std::size_t count) {
     nodes.reserve(count);
     arcs.reserve(count);
-    payloads.reserve(count);
+    bucket_bytes.reserve(count);
   }
-  void add(const SweepKey& node, std::uint32_t arc_count, std::uint64_t payload) {
+  void add(const SweepKey& node, std::uint32_t arc_count, std::uint64_t of_buckets) {
     nodes.push_back(node);
     arcs.push_back(arc_count);
-    payloads.push_back(payload);
+    bucket_bytes.push_back(of_buckets);
   }
   // What removing noise at a node takes if no arc joins it to another one of the scope.
   std::uint64_t weight(std::size_t node) const {
-    return kNodeBytes + kArcBytes * arcs[node] + kPayloadFactor * payloads[node];
+    return kNodeBytes + kArcBytes * arcs[node] + bucket_bytes[node];
   }
 };
 
@@ -90,9 +90,8 @@ class Pass {
 
   // What removing noise takes if all of the graph is looked at, the patch included.
   std::uint64_t most_bytes() const {
-    constexpr std::uint64_t kBucket = 48;  // at most, as payload
-    const std::uint64_t buckets = exponent_ ? kBucket * store_.bucket_count() : 0;
-    return 2 * (kNodeBytes * store_.node_count() + 2 * (kArcBytes * store_.arc_count() + kPayloadFactor * buckets));
+    const std::uint64_t of_buckets = exponent_ ? kPackedByte * payload_bytes_ + kBucketBytes * store_.bucket_count() : 0;
+    return 2 * (kNodeBytes * store_.node_count() + kArcBytes * store_.arc_count() + of_buckets);
   }
 
   // ---- where noise can be
@@ -104,21 +103,22 @@ class Pass {
     const std::uint64_t bytes = search_bytes(short_arcs.arc_count(), short_arcs.node_count());
     if (!make_room(memory_, bytes, bytes + most_bytes())) return;
     Degrees degrees{std::vector<std::uint32_t>(short_arcs.node_count()), std::vector<std::uint32_t>(short_arcs.node_count())};
-    std::vector<std::uint64_t> payloads(short_arcs.node_count());
-    look_at_ends(short_arcs, degrees, payloads);
+    std::vector<std::uint64_t> of_buckets(short_arcs.node_count());
+    look_at_ends(short_arcs, degrees, of_buckets);
     const std::vector<bool> in_scope = noise_scope(short_arcs, degrees);
     const auto size = static_cast<std::size_t>(std::count(in_scope.begin(), in_scope.end(), true));
     if (!make_room(memory_, bytes + Scope::bytes(size), bytes + most_bytes())) return;
     scope_.reserve(size);
     for (std::size_t node = 0; node < in_scope.size(); ++node)
       if (in_scope[node])
-        scope_.add(short_arcs.nodes[node], degrees.down[node] + degrees.up[node], payloads[node]);
+        scope_.add(short_arcs.nodes[node], degrees.down[node] + degrees.up[node], of_buckets[node]);
   }
 
   std::vector<ArcKeys> find_short_arcs() {
     std::vector<ArcKeys> found;
     std::uint64_t count = 0;
     store_.scan_arcs([&](const StoredArc& arc, const auto&) {
+      payload_bytes_ += arc.payload.size;
       if (!is_short(arc.keys.lo.value, arc.keys.hi.value, options_.threshold)) return;
       ++count;
       if (result_.fits && found.size() == found.capacity()) grow(found);
@@ -138,19 +138,23 @@ class Pass {
       std::vector<ArcKeys>().swap(arcs);
   }
 
-  // Degrees of these nodes in the whole graph, and the sizes of the payloads of all their arcs.
-  void look_at_ends(const ReebGraph& graph, Degrees& degrees, std::vector<std::uint64_t>& payloads) const {
+  // Degrees of these nodes in the whole graph, and what the buckets of all their arcs take.
+  void look_at_ends(const ReebGraph& graph, Degrees& degrees, std::vector<std::uint64_t>& of_buckets) const {
     const SparseNodeTable table(graph.nodes);
-    const auto look = [&](const SweepKey& key, std::vector<std::uint32_t>& degree, const StoredArc& arc) {
-      const std::uint32_t node = table.find(key);
-      if (node == NodeTable::kNone) return;
-      ++degree[node];
-      payloads[node] += exponent_ ? arc.payload.size : 0;
-    };
-    store_.scan_arcs([&](const StoredArc& arc, const auto&) {
-      look(arc.keys.lo, degrees.up, arc);
-      look(arc.keys.hi, degrees.down, arc);
+    store_.scan_arcs([&](const StoredArc& arc, const auto& batch) {
+      const auto look = [&](const SweepKey& key, std::vector<std::uint32_t>& degree) {
+        const std::uint32_t node = table.find(key);
+        if (node == NodeTable::kNone) return;
+        ++degree[node];
+        of_buckets[node] += bucket_bytes(batch.payload(arc));
+      };
+      look(arc.keys.lo, degrees.up);
+      look(arc.keys.hi, degrees.down);
     });
+  }
+
+  std::uint64_t bucket_bytes(std::span<const std::byte> payload) const {
+    return exponent_ ? kPackedByte * payload.size() + kBucketBytes * bucket_count(payload) : 0;
   }
 
   // ---- removing it, in parts that have nothing to do with each other
@@ -168,7 +172,7 @@ class Pass {
     for (std::uint32_t part = 0; part < division.weights.size() && result_.fits; ++part) {
       Scope nodes;
       for (std::size_t node = 0; node < scope_.size(); ++node)
-        if (division.part_of[node] == part) nodes.add(scope_.nodes[node], scope_.arcs[node], scope_.payloads[node]);
+        if (division.part_of[node] == part) nodes.add(scope_.nodes[node], scope_.arcs[node], scope_.bucket_bytes[node]);
       remove_noise_in(nodes, division.weights[part] + Scope::bytes(2 * nodes.size()));
     }
   }
@@ -204,13 +208,13 @@ class Pass {
   // An arc between two nodes of the scope was counted at both.
   void join_neighbours(UnionFind& joined, std::vector<std::uint64_t>& weights) const {
     const SparseNodeTable table(scope_.nodes);
-    store_.scan_arcs([&](const StoredArc& arc, const auto&) {
+    store_.scan_arcs([&](const StoredArc& arc, const auto& batch) {
       const std::uint32_t lo = table.find(arc.keys.lo);
       if (lo == NodeTable::kNone) return;
       const std::uint32_t hi = table.find(arc.keys.hi);
       if (hi == NodeTable::kNone) return;
       joined.unite(lo, hi);
-      weights[lo] -= kArcBytes + (exponent_ ? kPayloadFactor * arc.payload.size : 0);
+      weights[lo] -= kArcBytes + bucket_bytes(batch.payload(arc));
       weights[hi] -= kArcBytes - kInnerArcBytes;
     });
   }
@@ -244,7 +248,6 @@ class Pass {
   RecordBatch<StoredArc> gather(const Scope& scope) const {
     RecordBatch<StoredArc> arcs;
     arcs.records.reserve(std::accumulate(scope.arcs.begin(), scope.arcs.end(), std::size_t{0}));
-    arcs.pool.reserve(std::accumulate(scope.payloads.begin(), scope.payloads.end(), std::size_t{0}));
     const SparseNodeTable table(scope.nodes);
     store_.scan_arcs([&](const StoredArc& arc, const auto& batch) {
       if (table.find(arc.keys.lo) == NodeTable::kNone && table.find(arc.keys.hi) == NodeTable::kNone) return;
@@ -259,7 +262,6 @@ class Pass {
     if (!exponent_) return all;
     all.offsets.reserve(arcs.records.size() + 1);
     all.offsets.push_back(0);
-    all.buckets.reserve(arcs.pool.size() / kBucketPayload);
     for (const StoredArc& arc : arcs.records) {
       decode_buckets_of(arc.keys, arcs.payload(arc), *exponent_, all.buckets);
       all.offsets.push_back(all.buckets.size());
@@ -341,6 +343,7 @@ class Pass {
   const LastNoiseOptions options_;
   const std::optional<int> exponent_;
   Reservation memory_;
+  std::uint64_t payload_bytes_ = 0;  // of all stored arcs
   Scope scope_;
   std::uint64_t held_ = 0;    // of memory, for the scope
   std::uint64_t enough_ = 0;  // to remove its noise
