@@ -1,4 +1,5 @@
-// Pairing, hierarchy and noise removal: time and peak bytes an arc, by kind and size of graph.
+// Pairing, hierarchy and noise removal in memory: time and peak bytes an arc, by kind and size of graph.
+// With an embedding and records on disk: second_stage_bench.cpp.
 //
 // Arguments: kind (see made_graph.h), arcs. Ten million arcs are left out unless REEB_BENCH_LARGE is
 // set in the environment.
@@ -52,7 +53,7 @@ void BM_Pairing(benchmark::State& state) {
   report(state, graph, bytes_of(graph) + peak);
 }
 
-// The whole second stage, pairing included; the peak counts the graph it starts from.
+// Pairing included; the peak counts the graph it starts from, and the records.
 void BM_Hierarchy(benchmark::State& state) {
   const ReebGraph graph = make(state);
   Hierarchy hierarchy;
@@ -70,34 +71,6 @@ void BM_Hierarchy(benchmark::State& state) {
   state.counters["records_per_step"] =
       static_cast<double>(hierarchy.arcs.size() - graph.arc_count()) /
       static_cast<double>(last_version(hierarchy));
-}
-
-// The same with an embedding of 64 to 128 buckets over the range.
-void BM_EmbeddedHierarchy(benchmark::State& state) {
-  const ReebGraph graph = make(state);
-  const int exponent = bucket_exponent(graph.nodes.front().value, graph.nodes.back().value, 64);
-  const ArcBuckets full = make_buckets(graph, exponent);
-  Hierarchy hierarchy;
-  ArcBuckets buckets = full;
-  const std::size_t peak = peak_of([&] { hierarchy = build_hierarchy(graph, buckets, exponent); });
-  std::uint64_t vertices = graph_at(hierarchy, graph, last_version(hierarchy)).node_count();
-  for (const DroppedVertices& dropped : hierarchy.dropped) vertices += dropped.count;
-  for (std::size_t i = 0; i < hierarchy.arcs.size(); ++i)
-    if (hierarchy.arcs[i].died == kNeverDies)
-      for (const Bucket& bucket : buckets.view().of(i)) vertices += bucket.count;
-  if (vertices != graph.node_count() + full.buckets.size())
-    return state.SkipWithError("vertices were lost");
-  report(state, graph, peak);
-  state.counters["buckets_per_arc"] =
-      static_cast<double>(full.buckets.size()) / static_cast<double>(graph.arc_count());
-  state.counters["buckets_per_record"] =
-      static_cast<double>(buckets.buckets.size()) / static_cast<double>(hierarchy.arcs.size());
-  for (auto _ : state) {
-    state.PauseTiming();
-    buckets = full;
-    state.ResumeTiming();
-    benchmark::DoNotOptimize(build_hierarchy(graph, buckets, exponent));
-  }
 }
 
 void BM_Denoise(benchmark::State& state) {
@@ -122,7 +95,6 @@ void sizes_and_kinds(benchmark::internal::Benchmark* bench) {
 }
 BENCHMARK(BM_Pairing)->Apply(sizes_and_kinds);
 BENCHMARK(BM_Hierarchy)->Apply(sizes_and_kinds);
-BENCHMARK(BM_EmbeddedHierarchy)->Apply(sizes_and_kinds);
 BENCHMARK(BM_Denoise)->Apply(sizes_and_kinds);
 
 }  // namespace

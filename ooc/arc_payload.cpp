@@ -1,62 +1,14 @@
 #include "ooc/arc_payload.h"
 
-#include <algorithm>
-#include <array>
-#include <cstring>
-
 #include "libreeb/format/byte_coding.h"
+#include "libreeb/graph/packed_buckets.h"
 
 namespace reeb::ooc {
-namespace {
-
-using Single = std::array<float, 3>;
-
-// Means of one vertex of a mesh in single precision, most of all, are stored as such.
-bool is_single(const std::array<double, 3>& mean) {
-  return std::ranges::all_of(mean, [](double x) { return static_cast<double>(static_cast<float>(x)) == x; });
-}
-
-std::byte* put_varint(std::byte* to, std::uint64_t value) {
-  for (; value >= 0x80; value >>= 7) *to++ = static_cast<std::byte>(value | 0x80);
-  *to++ = static_cast<std::byte>(value);
-  return to;
-}
-
-template <class T>
-std::byte* put_raw(std::byte* to, const T& value) {
-  std::memcpy(to, &value, sizeof(T));
-  return to + sizeof(T);
-}
-
-template <class T>
-T get_raw(ByteReader& in) {
-  T value{};
-  const auto bytes = in.bytes(sizeof(T));
-  if (!bytes.empty()) std::memcpy(&value, bytes.data(), sizeof(T));
-  return value;
-}
-
-}  // namespace
 
 void encode_buckets(std::span<const Bucket> buckets, int exponent, std::vector<std::byte>& payload) {
   if (buckets.empty()) return;
-  constexpr std::size_t kMostVarint = 10, kMostBucket = 2 * kMostVarint + sizeof(Bucket::mean);
-  const std::size_t before = payload.size();
-  payload.resize(before + 2 * kMostVarint + buckets.size() * kMostBucket);
-  std::byte* to = payload.data() + before;
-  to = put_varint(to, zigzag(exponent));
-  to = put_varint(to, buckets.size());
-  std::int64_t last = 0;
-  for (const Bucket& bucket : buckets) {
-    const bool single = is_single(bucket.mean);
-    to = put_varint(to, zigzag(bucket.index - last));
-    to = put_varint(to, bucket.count << 1 | (single ? 1 : 0));
-    const auto& [x, y, z] = bucket.mean;
-    to = single ? put_raw(to, Single{static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)})
-                : put_raw(to, bucket.mean);
-    last = bucket.index;
-  }
-  payload.resize(static_cast<std::size_t>(to - payload.data()));
+  ByteWriter(payload).varint(zigzag(exponent));
+  pack_buckets(buckets, payload);
 }
 
 std::uint64_t bucket_count(std::span<const std::byte> payload) {
@@ -70,24 +22,10 @@ bool decode_buckets(std::span<const std::byte> payload, int exponent, std::vecto
   if (payload.empty()) return true;
   ByteReader in(payload);
   const auto own = static_cast<std::int64_t>(in.delta(0));
-  const std::uint64_t count = in.varint();
-  if (own > exponent || !in.may_hold(count, 2 + sizeof(Single))) return false;
   const std::size_t first = buckets.size();
-  std::uint64_t index = 0;
-  for (std::uint64_t i = 0; i < count; ++i) {
-    Bucket bucket;
-    index = in.delta(index);
-    bucket.index = static_cast<std::int64_t>(index);
-    const std::uint64_t count_and_form = in.varint();
-    bucket.count = count_and_form >> 1;
-    if ((count_and_form & 1) == 0)
-      bucket.mean = get_raw<std::array<double, 3>>(in);
-    else
-      std::ranges::copy(get_raw<Single>(in), bucket.mean.begin());
-    buckets.push_back(bucket);
-  }
+  if (!in.ok() || own > exponent || !unpack_buckets(in.bytes(in.remaining()), buckets)) return false;
   coarsen(buckets, first, static_cast<unsigned>(exponent - own));
-  return in.done();
+  return true;
 }
 
 }  // namespace reeb::ooc

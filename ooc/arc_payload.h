@@ -10,8 +10,8 @@
 
 namespace reeb::ooc {
 
-// Appends the payload: exponent, number, differences of indices and counts as varints, means as they
-// are, in single precision where that loses nothing. An arc without buckets has none.
+// Appends the payload: the exponent as a varint, then the packed list (packed_buckets.h). An arc without
+// buckets has none.
 void encode_buckets(std::span<const Bucket> buckets, int exponent, std::vector<std::byte>& payload);
 
 // Appends the buckets of a payload, coarsened to `exponent`. False if the bytes are no payload, or

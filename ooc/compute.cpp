@@ -19,6 +19,7 @@
 #include "ooc/last_use_sidecar.h"
 #include "ooc/memory_plan.h"
 #include "ooc/read_ahead.h"
+#include "ooc/record_log.h"
 #include "ooc/reeb_file_writer.h"
 #include "ooc/reorder.h"
 #include "ooc/resumable_run.h"
@@ -138,7 +139,7 @@ class Run {
   bool embeds() const { return options_.buckets != 0; }
   void write_stored_graph(ComputeResult& result, SegmentStore& store, const FileMeta& meta);
   void remove_last_noise(ComputeResult& result, SegmentStore& store);
-  void write_hierarchy(ComputeResult& result, SegmentStore& store);
+  void write_hierarchy(ComputeResult& result, std::unique_ptr<SegmentStore> store);
   Error no_memory_for(const std::string& what, const ComputeResult& result, std::uint64_t needed,
                       const std::string& otherwise) const;
   Error no_memory_for_hierarchy(const ComputeResult& result, std::uint64_t needed) const;
@@ -477,7 +478,7 @@ ComputeResult Run::second_stage(std::size_t f) {
     if (options_.graph_only)
       write_stored_graph(result, store, file_meta(result));
     else
-      write_hierarchy(result, store);
+      write_hierarchy(result, std::move(stores_[f]));
   }
   result.seconds.wall += seconds_since(start);
   return result;
@@ -546,7 +547,8 @@ void Run::remove_last_noise(ComputeResult& result, SegmentStore& store) {
 
 Error Run::no_memory_for(const std::string& what, const ComputeResult& result, std::uint64_t needed,
                          const std::string& otherwise) const {
-  const std::uint64_t enough = plan_.set_aside_bytes + budget_.limit_bytes() + needed;
+  // Reading what is stored takes up to a quarter of the account.
+  const std::uint64_t enough = plan_.set_aside_bytes + (budget_.used_bytes() + needed) / 3 * 4;
   Error error(ErrorKind::kResource,
               what + " of " + std::to_string(result.arcs) + " arcs needs " + format_bytes(needed) +
                   " of memory, but only " + format_bytes(budget_.free_bytes()) +
@@ -561,31 +563,34 @@ Error Run::no_memory_for_hierarchy(const ComputeResult& result, std::uint64_t ne
                        "remove noise with --denoise, or keep to the graph with --graph-only");
 }
 
-// Pairing and cancelling hold the graph in memory. Where that does not fit, the graph is kept and the
-// user is told, before the work starts.
-void Run::write_hierarchy(ComputeResult& result, SegmentStore& store) {
-  constexpr std::uint64_t kBytesAnArc = 160, kBytesABucket = 200, kGraphShare = 2;
-  const auto bytes = [&](std::uint64_t buckets) {
-    return kBytesAnArc * std::max(result.arcs, result.nodes) + kBytesABucket * buckets;
-  };
-  std::uint64_t needed = bytes(store.bucket_count());
-  if (needed > budget_.free_bytes()) {
-    write_stored_graph(result, store, file_meta(result));
-    throw no_memory_for_hierarchy(result, needed);
-  }
-  LoadedGraph loaded = read_graph(store, {.bucket_exponent = sweep_options(result.range).bucket_exponent});
-  needed = bytes(loaded.buckets.buckets.size());
-  const Reservation memory = budget_.try_reserve("hierarchy", needed / kGraphShare);
-  if (memory.bytes() == 0 && needed != 0) {
-    loaded = {};
-    write_stored_graph(result, store, file_meta(result));
-    throw no_memory_for_hierarchy(result, needed);
-  }
+// Pairing and cancelling hold the graph in memory, though not what they make of it. Where that does not
+// fit, the graph is kept and the user is told, before the work starts.
+void Run::write_hierarchy(ComputeResult& result, std::unique_ptr<SegmentStore> store) {
   const FileMeta meta = file_meta(result);
-  const ReebGraph& graph = loaded.graph;
+  const auto refuse = [&](std::uint64_t needed) {
+    write_stored_graph(result, *store, meta);
+    throw no_memory_for_hierarchy(result, needed);
+  };
+  const LoadOptions loading{.bucket_exponent = sweep_options(result.range).bucket_exponent};
+  if (loading_bytes(*store, loading) > budget_.free_bytes())
+    refuse(hierarchy_bytes(result.nodes, result.arcs, PackedLists::most_bytes(result.arcs, store->bucket_count())));
+  LoadedGraph loaded = read_graph(*store, loading);
+  std::optional<std::uint64_t> lists;
+  if (embeds()) lists = loaded.buckets.memory_bytes();
+  const std::uint64_t needed = hierarchy_bytes(result.nodes, result.arcs, lists) + RecordLog::memory_bytes();
+  const std::uint64_t more = needed - loaded.memory.bytes();
+  if (more > budget_.free_bytes() + store->reserved_bytes()) {
+    loaded = {};
+    refuse(needed);
+  }
+  store.reset();
+  RecordLog records(temp_, budget_);
+  const Reservation memory = budget_.reserve("hierarchy", more - RecordLog::memory_bytes());
+
+  ReebGraph& graph = loaded.graph;
   result.betti = betti_numbers(graph);
-  const Hierarchy hierarchy = build_hierarchy(graph, loaded.buckets, meta.bucket_exponent,
-                                              [this] { resumable_.check_interruption(); });
+  const Poll poll = [this] { resumable_.check_interruption(); };
+  const Hierarchy hierarchy = build_hierarchy(graph, std::move(loaded.buckets), meta.bucket_exponent, records, poll);
   for (const PersistencePair& pair : hierarchy.pairs) {
     ++result.pairs[static_cast<std::size_t>(pair.type)];
     result.kept_loops += pair.kept ? 1u : 0u;
@@ -594,7 +599,8 @@ void Run::write_hierarchy(ComputeResult& result, SegmentStore& store) {
   for (auto it = hierarchy.pairs.rbegin(); it != hierarchy.pairs.rend() && result.largest.size() < kLargest; ++it)
     if (it->type != PairType::kExt0)
       result.largest.push_back({it->type, graph.nodes[it->lo.value()], graph.nodes[it->hi.value()]});
-  write_hierarchy_file(result.output, meta, graph, hierarchy, loaded.buckets.view());
+  write_hierarchy_file(result.output, meta, {graph, hierarchy, records, embeds()}, poll);
+  result.spilled_bytes += records.spilled_bytes();
 }
 
 }  // namespace

@@ -137,6 +137,10 @@ class ExternalSort {
     rewind();
   }
 
+  std::uint64_t reserved_bytes() const {
+    return filling_.charge.bytes() + writing_.charge.bytes() + merge_charge_.bytes();
+  }
+
   // Starts again from the first record. REQUIRES: finish() was called.
   void rewind() {
     at_ = 0;

@@ -1,7 +1,7 @@
 // write_hierarchy_file: frames as HierarchyLayout planned them.
 #include <algorithm>
-#include <limits>
 
+#include "libreeb/graph/packed_buckets.h"
 #include "ooc/file_header.h"
 #include "ooc/frame_size.h"
 #include "ooc/hierarchy_layout.h"
@@ -10,24 +10,25 @@
 namespace reeb::ooc {
 namespace {
 
-constexpr std::uint64_t kNotIntroduced = std::numeric_limits<std::uint64_t>::max();
+constexpr std::uint32_t kNotIntroduced = ~std::uint32_t{0};
 
 class HierarchyFileWriter {
  public:
-  HierarchyFileWriter(const std::string& path, const FileMeta& meta, const ReebGraph& graph,
-                      const Hierarchy& hierarchy, const ArcBucketsView& buckets)
-      : graph_(graph),
-        hierarchy_(hierarchy),
-        buckets_(buckets),
-        layout_(lay_out(graph, hierarchy, buckets)),
-        header_(make_header(meta)),
+  HierarchyFileWriter(const std::string& path, const FileMeta& meta, const HierarchyContent& content)
+      : graph_(content.nodes),
+        hierarchy_(content.hierarchy),
+        records_(content.records),
+        layout_(lay_out(graph_.node_count(), hierarchy_, records_)),
+        header_(make_header(meta, content)),
         writer_(path, header_.region_bytes()),
-        file_index_(graph.node_count(), kNotIntroduced) {}
+        file_index_(graph_.node_count(), kNotIntroduced) {}
 
-  void run() {
+  void run(const Poll& poll) {
     std::vector<std::uint64_t> frame_ends;
     FrameCut before{0, 0, header_.steps + 1};
+    records_.rewind();
     for (const FrameCut& cut : layout_.cuts) {
+      if (poll) poll();
       write_graph_frame(before, cut);
       frame_ends.push_back(writer_.size());
       before = cut;
@@ -38,15 +39,18 @@ class HierarchyFileWriter {
   }
 
  private:
-  FileHeader make_header(const FileMeta& meta) const {
+  FileHeader make_header(const FileMeta& meta, const HierarchyContent& content) const {
+    const auto pairs_of = [&](PairType type) {
+      return static_cast<std::uint64_t>(
+          std::ranges::count(hierarchy_.pairs, type, [](const PersistencePair& pair) { return pair.type; }));
+    };
     FileHeader header = header_of(meta);
-    header.flags = {false, !graph_.positions.empty(), !buckets_.empty()};
+    header.flags = {false, !graph_.positions.empty(), content.has_embedding};
     header.nodes = graph_.node_count();
-    header.arcs = graph_.arc_count();
-    const BettiNumbers betti = betti_numbers(graph_);
-    header.components = betti.components;
-    header.loops = betti.loops;
-    header.records = hierarchy_.arcs.size();
+    header.arcs = layout_.versions[0].arcs;
+    header.components = pairs_of(PairType::kExt0);
+    header.loops = pairs_of(PairType::kExt1);
+    header.records = layout_.records;
     header.pairs = hierarchy_.pairs.size();
     header.kept_loops = static_cast<std::uint64_t>(
         std::ranges::count_if(hierarchy_.pairs, [](const PersistencePair& pair) { return pair.kept; }));
@@ -60,13 +64,10 @@ class HierarchyFileWriter {
 
   void write_graph_frame(const FrameCut& before, const FrameCut& cut) {
     frame_.clear();
+    read_records(cut.record_end - before.record_end);
     introduce_nodes(before, cut);
-    for (std::size_t i = before.record_end; i < cut.record_end; ++i) {
-      const std::uint32_t record = layout_.order[i];
-      const ArcVersion& arc = hierarchy_.arcs[record];
+    for (const ArcVersion& arc : arcs_)
       frame_.arcs.push_back({file_index_[arc.lo.value()], file_index_[arc.hi.value()], arc.born, arc.died});
-      if (!buckets_.empty()) frame_.add_buckets(buckets_.of(record));
-    }
     for (std::uint32_t version = before.finest; version > cut.finest; --version)
       frame_.versions.push_back(layout_.versions[version - 1]);
 
@@ -80,15 +81,25 @@ class HierarchyFileWriter {
                 payload_);
   }
 
+  // The next records with their buckets.
+  void read_records(std::uint64_t count) {
+    arcs_.clear();
+    ArcVersion arc;
+    std::span<const std::byte> packed;
+    while (arcs_.size() < count && records_.next(arc, packed)) {
+      arcs_.push_back(arc);
+      if (header_.flags.has_embedding) frame_.add_buckets(packed);
+    }
+  }
+
   // The nodes that this frame is the first to need, ascending.
   void introduce_nodes(const FrameCut& before, const FrameCut& cut) {
-    new_nodes_.assign(layout_.isolated.begin() + static_cast<std::ptrdiff_t>(before.isolated_end),
-                      layout_.isolated.begin() + static_cast<std::ptrdiff_t>(cut.isolated_end));
-    for (std::size_t i = before.record_end; i < cut.record_end; ++i) {
-      const ArcVersion& arc = hierarchy_.arcs[layout_.order[i]];
+    new_nodes_.clear();
+    for (std::size_t i = before.isolated_end; i < cut.isolated_end; ++i)
+      new_nodes_.push_back(hierarchy_.isolated[i].value());
+    for (const ArcVersion& arc : arcs_)
       for (const NodeId end : {arc.lo, arc.hi})
         if (file_index_[end.value()] == kNotIntroduced) new_nodes_.push_back(end.value());
-    }
     std::sort(new_nodes_.begin(), new_nodes_.end());
     new_nodes_.erase(std::unique(new_nodes_.begin(), new_nodes_.end()), new_nodes_.end());
     for (const std::uint32_t node : new_nodes_) {
@@ -113,12 +124,13 @@ class HierarchyFileWriter {
 
   const ReebGraph& graph_;
   const Hierarchy& hierarchy_;
-  const ArcBucketsView buckets_;
+  RecordSource& records_;
   const HierarchyLayout layout_;
   FileHeader header_;
   FrameWriter writer_;
-  std::vector<std::uint64_t> file_index_;  // of nodes: their order of introduction
-  std::uint64_t introduced_ = 0;
+  std::vector<std::uint32_t> file_index_;  // of nodes: their order of introduction
+  std::uint32_t introduced_ = 0;
+  std::vector<ArcVersion> arcs_;  // of the frame
   std::vector<std::uint32_t> new_nodes_;
   GraphFrame frame_;
   std::vector<std::byte> payload_;
@@ -126,10 +138,15 @@ class HierarchyFileWriter {
 
 }  // namespace
 
+void write_hierarchy_file(const std::string& path, const FileMeta& meta, const HierarchyContent& content,
+                          const Poll& poll) {
+  HierarchyFileWriter(path, meta, content).run(poll);
+}
+
 void write_hierarchy_file(const std::string& path, const FileMeta& meta, const ReebGraph& graph,
                           const Hierarchy& hierarchy, const ArcBucketsView& buckets) {
-  check_hierarchy(graph, hierarchy, buckets);
-  HierarchyFileWriter(path, meta, graph, hierarchy, buckets).run();
+  SortedRecords records(hierarchy.arcs, buckets);
+  write_hierarchy_file(path, meta, {graph, hierarchy, records, !buckets.empty()});
 }
 
 }  // namespace reeb::ooc

@@ -2,78 +2,114 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <numeric>
 #include <stdexcept>
 #include <string>
-#include <tuple>
+#include <utility>
 
-#include "libreeb/format/version_counts.h"
+#include "libreeb/graph/packed_buckets.h"
 #include "ooc/frame_size.h"
 
 namespace reeb::ooc {
 namespace {
 
-// Arcs that never die first. The order is total up to records that are equal in every field, whose
-// buckets keep the order of the input.
-std::vector<std::uint32_t> storage_order(const std::vector<ArcVersion>& arcs) {
-  std::vector<std::uint32_t> order(arcs.size());
-  std::iota(order.begin(), order.end(), 0u);
-  const auto key = [&](std::uint32_t i) {
-    const ArcVersion& arc = arcs[i];
-    return std::tuple(kNeverDies - arc.died, arc.lo, arc.hi, arc.born, i);
-  };
-  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
-  return order;
+[[noreturn]] void fail(const char* what, std::uint64_t i, const char* why) {
+  throw std::logic_error(std::string("Hierarchy: ") + what + " " + std::to_string(i) + " " + why);
 }
+
+// Counts nodes, arcs and buckets of every version from records that come by `died` descending.
+class VersionCounter {
+ public:
+  VersionCounter(std::size_t node_count, std::size_t versions) : present_from_(node_count, kNever), change_(versions) {}
+
+  bool was_named(NodeId node) const { return present_from_[node.value()] != kNever; }
+
+  void add(const ArcVersion& arc, std::uint64_t buckets) {
+    arrives(arc.born, arc.died, {.arcs = 1, .buckets = buckets});
+    for (const NodeId end : {arc.lo, arc.hi}) add_node(end, arc.born, arc.died);
+  }
+  void add_isolated(NodeId node) { add_node(node, 0, kNeverDies); }
+
+  std::vector<VersionCounts> take(std::span<const double> persistence) {
+    for (std::size_t version = 1; version < change_.size(); ++version) {
+      const VersionCounts& before = change_[version - 1];
+      change_[version].persistence = persistence[version - 1];
+      change_[version].nodes += before.nodes;
+      change_[version].arcs += before.arcs;
+      change_[version].buckets += before.buckets;
+    }
+    return std::move(change_);
+  }
+
+ private:
+  static constexpr std::uint32_t kNever = ~std::uint32_t{0};
+
+  // Unsigned numbers wrap, and what leaves cancels what came.
+  void arrives(std::uint32_t born, std::uint32_t died, const VersionCounts& what) {
+    change_[born].nodes += what.nodes;
+    change_[born].arcs += what.arcs;
+    change_[born].buckets += what.buckets;
+    if (died >= change_.size()) return;
+    change_[died].nodes -= what.nodes;
+    change_[died].arcs -= what.arcs;
+    change_[died].buckets -= what.buckets;
+  }
+
+  // A node is there while any of its arcs is. Of the versions before `died` it is known to be there from
+  // present_from_ on, if that is not later.
+  void add_node(NodeId node, std::uint32_t born, std::uint32_t died) {
+    std::uint32_t& from = present_from_[node.value()];
+    if (born >= from) return;
+    arrives(born, std::min(died, from), {.nodes = 1});
+    from = born;
+  }
+
+  std::vector<std::uint32_t> present_from_;  // of each node
+  std::vector<VersionCounts> change_;        // from the version before
+};
 
 // Cuts the sequence "isolated nodes, then records" where a frame is full.
 class FrameCutter {
  public:
-  FrameCutter(const std::vector<ArcVersion>& arcs, const ArcBucketsView& buckets, std::uint32_t steps,
-              std::size_t node_count, HierarchyLayout& layout)
-      : arcs_(arcs), buckets_(buckets), complete_(steps + 1), seen_(node_count), layout_(layout) {}
+  FrameCutter(std::uint32_t steps, std::vector<FrameCut>& cuts) : complete_(steps + 1), cuts_(cuts) {}
 
-  void run() {
-    std::size_t isolated = 0, record = 0;
-    for (; isolated < layout_.isolated.size(); ++isolated)
-      if ((cost_ += kNodeCost) >= kFrameTargetBytes) cut(isolated + 1, 0);
-    for (; record < layout_.order.size(); ++record)
-      if ((cost_ += record_cost(layout_.order[record])) >= kFrameTargetBytes) cut(isolated, record + 1);
-    const bool ends_here = !layout_.cuts.empty() && layout_.cuts.back().finest == 0;
-    if (!ends_here) cut(isolated, record);
+  void add_isolated() {
+    settle(complete_);
+    ++isolated_;
+    add(kNodeCost);
+  }
+  void add_record(std::uint32_t died, std::uint64_t new_nodes, std::uint64_t buckets) {
+    // The records that follow die with some version or before: all coarser ones are complete.
+    settle(std::min(complete_, died));
+    ++records_;
+    std::uint64_t cost = kArcCost + kNodeCost * new_nodes + kBucketCost * buckets;
+    if (died < last_died_ && last_died_ != kNeverDies) cost += kVersionCost * (last_died_ - died);
+    last_died_ = died;
+    add(cost);
+  }
+  void finish() {
+    if (!is_cut_) cuts_.push_back({isolated_, records_, 0});
+    settle(0);
   }
 
  private:
-  std::size_t record_cost(std::uint32_t record) {
-    const ArcVersion& arc = arcs_[record];
-    std::size_t cost = kArcCost + kBucketCost * buckets_.count(record);
-    for (const NodeId end : {arc.lo, arc.hi}) {
-      if (!seen_[end.value()]) cost += kNodeCost;
-      seen_[end.value()] = true;
-    }
-    if (arc.died < last_died_ && last_died_ != kNeverDies) cost += kVersionCost * (last_died_ - arc.died);
-    last_died_ = arc.died;
-    return cost;
-  }
-
-  // The records that follow die with some version or before: all coarser ones are complete.
-  void cut(std::size_t isolated_end, std::size_t record_end) {
-    const bool all = isolated_end == layout_.isolated.size() && record_end == layout_.order.size();
-    if (all) complete_ = 0;
-    else if (isolated_end == layout_.isolated.size())
-      complete_ = std::min(complete_, arcs_[layout_.order[record_end]].died);
-    layout_.cuts.push_back({isolated_end, record_end, complete_});
+  void add(std::uint64_t cost) {
+    if ((cost_ += cost) < kFrameTargetBytes) return;
+    cuts_.push_back({isolated_, records_, 0});
+    is_cut_ = true;
     cost_ = 0;
   }
+  // What follows a cut says which versions it completes.
+  void settle(std::uint32_t complete) {
+    if (!std::exchange(is_cut_, false)) return;
+    cuts_.back().finest = complete_ = complete;
+  }
 
-  const std::vector<ArcVersion>& arcs_;
-  const ArcBucketsView& buckets_;
   std::uint32_t complete_;
   std::uint32_t last_died_ = kNeverDies;
-  std::vector<bool> seen_;
-  std::size_t cost_ = 0;
-  HierarchyLayout& layout_;
+  std::uint64_t cost_ = 0, records_ = 0;
+  std::size_t isolated_ = 0;
+  bool is_cut_ = false;  // the last cut is where everything ends so far
+  std::vector<FrameCut>& cuts_;
 };
 
 // Whether a threshold yields exactly this version: the next cancellation has another persistence.
@@ -120,49 +156,58 @@ std::vector<LevelLine> level_table(const HierarchyLayout& layout, std::uint32_t 
   return levels;
 }
 
-}  // namespace
-
-HierarchyLayout lay_out(const ReebGraph& graph, const Hierarchy& hierarchy, const ArcBucketsView& buckets) {
-  HierarchyLayout layout;
-  const auto steps = static_cast<std::uint32_t>(hierarchy.persistence.size());
-  const auto node_count = static_cast<std::uint32_t>(graph.node_count());
-  layout.order = storage_order(hierarchy.arcs);
-
-  std::vector<bool> touched(node_count);
-  for (const ArcVersion& arc : hierarchy.arcs) touched[arc.lo.value()] = touched[arc.hi.value()] = true;
-  for (std::uint32_t node = 0; node < node_count; ++node)
-    if (!touched[node]) layout.isolated.push_back(node);
-
-  std::vector<std::uint32_t> bucket_counts;
-  if (!buckets.empty())
-    for (std::size_t i = 0; i < hierarchy.arcs.size(); ++i)
-      bucket_counts.push_back(static_cast<std::uint32_t>(buckets.count(i)));
-  layout.versions = count_versions(node_count, hierarchy.arcs, bucket_counts, hierarchy.persistence);
-  FrameCutter(hierarchy.arcs, buckets, steps, node_count, layout).run();
-  layout.levels = level_table(layout, steps);
-  return layout;
+void check_steps(const std::vector<double>& persistence) {
+  if (persistence.size() >= kNeverDies - 1) fail("step", persistence.size(), "is one too many");
+  for (std::size_t i = 0; i < persistence.size(); ++i)
+    if (!(persistence[i] >= (i == 0 ? 0.0 : persistence[i - 1])))
+      fail("step", i + 1, "has a smaller persistence than the one before");
 }
 
-void check_hierarchy(const ReebGraph& graph, const Hierarchy& hierarchy, const ArcBucketsView& buckets) {
-  const auto fail = [](const char* what, std::size_t i, const char* why) {
-    throw std::logic_error(std::string("Hierarchy: ") + what + " " + std::to_string(i) + " " + why);
-  };
-  const std::size_t nodes = graph.node_count(), steps = hierarchy.persistence.size();
-  if (steps >= kNeverDies - 1) fail("step", steps, "is one too many");
-  for (std::size_t i = 0; i < steps; ++i)
-    if (!(hierarchy.persistence[i] >= (i == 0 ? 0.0 : hierarchy.persistence[i - 1])))
-      fail("step", i + 1, "has a smaller persistence than the one before");
-  for (std::size_t i = 0; i < hierarchy.arcs.size(); ++i) {
-    const ArcVersion& arc = hierarchy.arcs[i];
-    if (!(arc.lo < arc.hi) || arc.hi.value() >= nodes) fail("arc", i, "does not go up to a node");
-    if (arc.born >= arc.died || (arc.died > steps && arc.died != kNeverDies))
-      fail("arc", i, "does not live between two versions");
+void check_record(const ArcVersion& arc, std::uint64_t i, std::size_t nodes, std::size_t steps) {
+  if (!(arc.lo < arc.hi) || arc.hi.value() >= nodes) fail("arc", i, "does not go up to a node");
+  if (arc.born >= arc.died || (arc.died > steps && arc.died != kNeverDies))
+    fail("arc", i, "does not live between two versions");
+}
+
+void check_pairs(const std::vector<PersistencePair>& pairs, std::size_t nodes) {
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+    if (pairs[i].hi < pairs[i].lo || pairs[i].hi.value() >= nodes) fail("pair", i, "does not go up to a node");
+}
+
+}  // namespace
+
+HierarchyLayout lay_out(std::size_t node_count, const Hierarchy& hierarchy, RecordSource& records) {
+  const std::size_t steps = hierarchy.persistence.size();
+  check_steps(hierarchy.persistence);
+  check_pairs(hierarchy.pairs, node_count);
+  HierarchyLayout layout;
+  {
+    VersionCounter counter(node_count, steps + 1);
+    FrameCutter cutter(static_cast<std::uint32_t>(steps), layout.cuts);
+    const auto& isolated = hierarchy.isolated;
+    for (std::size_t i = 0; i < isolated.size(); ++i) {
+      if (isolated[i].value() >= node_count || (i > 0 && !(isolated[i - 1] < isolated[i])))
+        fail("isolated node", i, "is not above the one before it");
+      counter.add_isolated(isolated[i]);
+      cutter.add_isolated();
+    }
+    ArcVersion arc, before;
+    std::span<const std::byte> packed;
+    for (records.rewind(); records.next(arc, packed); ++layout.records) {
+      check_record(arc, layout.records, node_count, steps);
+      if (arc.died > std::exchange(before, arc).died) fail("arc", layout.records, "lives longer than the one before");
+      const std::uint64_t buckets = packed_count(packed);
+      const std::uint64_t new_nodes = (counter.was_named(arc.lo) ? 0u : 1u) + (counter.was_named(arc.hi) ? 0u : 1u);
+      counter.add(arc, buckets);
+      cutter.add_record(arc.died, new_nodes, buckets);
+    }
+    for (std::uint32_t node = 0; node < node_count; ++node)
+      if (!counter.was_named(NodeId(node))) fail("node", node, "is neither isolated nor named by an arc");
+    cutter.finish();
+    layout.versions = counter.take(hierarchy.persistence);
   }
-  for (std::size_t i = 0; i < hierarchy.pairs.size(); ++i)
-    if (hierarchy.pairs[i].hi < hierarchy.pairs[i].lo || hierarchy.pairs[i].hi.value() >= nodes)
-      fail("pair", i, "does not go up to a node");
-  if (!buckets.empty() && buckets.offsets.size() != hierarchy.arcs.size() + 1)
-    fail("arc", hierarchy.arcs.size(), "has no buckets");
+  layout.levels = level_table(layout, static_cast<std::uint32_t>(steps));
+  return layout;
 }
 
 }  // namespace reeb::ooc

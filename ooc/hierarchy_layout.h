@@ -1,5 +1,5 @@
-// Where everything of a hierarchy goes in its file: the order of arc records, the cuts between
-// frames, and the level table (DESIGN.md 6).
+// Where everything of a hierarchy goes in its file: the cuts between frames, and the level table
+// (DESIGN.md 6).
 #pragma once
 
 #include <cstdint>
@@ -7,30 +7,27 @@
 
 #include "libreeb/format/frame_codec.h"
 #include "libreeb/format/reeb_format.h"
-#include "libreeb/graph/reeb_graph.h"
-#include "libreeb/hierarchy/arc_buckets.h"
 #include "libreeb/hierarchy/hierarchy.h"
+#include "ooc/record_source.h"
 
 namespace reeb::ooc {
 
 struct FrameCut {
-  std::size_t isolated_end = 0;  // isolated nodes up to here
-  std::size_t record_end = 0;    // records up to here, as places in HierarchyLayout::order
-  std::uint32_t finest = 0;      // finest complete version with this frame; steps + 1: none
+  std::size_t isolated_end = 0;   // isolated nodes up to here
+  std::uint64_t record_end = 0;   // records up to here, in the order of their source
+  std::uint32_t finest = 0;       // finest complete version with this frame; steps + 1: none
 };
 
 struct HierarchyLayout {
-  std::vector<std::uint32_t> order;       // of arc records: by died descending, then canonical
-  std::vector<std::uint32_t> isolated;    // nodes without any record, ascending
-  std::vector<VersionCounts> versions;    // entry e is version e
-  std::vector<FrameCut> cuts;             // one a frame, at least one
-  std::vector<LevelLine> levels;          // without file_bytes
+  std::uint64_t records = 0;
+  std::vector<VersionCounts> versions;  // entry e is version e
+  std::vector<FrameCut> cuts;           // one a frame, at least one
+  std::vector<LevelLine> levels;        // without file_bytes
 };
 
-// O(records log(records)). REQUIRES: check_hierarchy() passed.
-HierarchyLayout lay_out(const ReebGraph& graph, const Hierarchy& hierarchy, const ArcBucketsView& buckets);
-
+// Reads all records, once. Hierarchy::arcs is not looked at.
+// MEMORY: 32 bytes a version; until it returns, 4 a node.
 // THROWS: std::logic_error that names the first record, pair or step that cannot be.
-void check_hierarchy(const ReebGraph& graph, const Hierarchy& hierarchy, const ArcBucketsView& buckets);
+HierarchyLayout lay_out(std::size_t node_count, const Hierarchy& hierarchy, RecordSource& records);
 
 }  // namespace reeb::ooc

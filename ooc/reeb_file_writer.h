@@ -14,10 +14,12 @@
 #include "libreeb/format/reeb_format.h"
 #include "libreeb/graph/reeb_graph.h"
 #include "libreeb/hierarchy/arc_buckets.h"
+#include "libreeb/hierarchy/cancel.h"
 #include "libreeb/hierarchy/hierarchy.h"
 #include "libreeb/port/graph_sink.h"
 #include "ooc/frame_writer.h"
 #include "ooc/key_table.h"
+#include "ooc/record_source.h"
 
 namespace reeb::ooc {
 
@@ -31,11 +33,22 @@ struct FileMeta {
   std::int32_t bucket_exponent = 0;
 };
 
-// A graph with all its levels. `buckets`, if not empty, has those of hierarchy.arcs.
-// Nodes without any arc record are isolated points.
-// MEMORY: 12 bytes an arc record, 60 a version, 12 a node, and two frames.
-// THROWS: Error{kResource}; then nothing is left behind. std::logic_error if graph and hierarchy
+// A graph with all its levels.
+struct HierarchyContent {
+  const ReebGraph& nodes;      // its arcs are not looked at
+  const Hierarchy& hierarchy;  // nor are the records in here
+  RecordSource& records;
+  bool has_embedding = false;  // records come with buckets
+};
+
+// Reads the records twice. `poll` is called before every frame; it may throw to end that.
+// MEMORY: 32 bytes a version, 4 a node, and two frames.
+// THROWS: Error{kResource}; then nothing is left behind. std::logic_error if graph, hierarchy and records
 //         contradict each other.
+void write_hierarchy_file(const std::string& path, const FileMeta& meta, const HierarchyContent& content,
+                          const Poll& poll = {});
+
+// The same from memory: hierarchy.arcs in any order, with their buckets or none; 4 bytes a record more.
 void write_hierarchy_file(const std::string& path, const FileMeta& meta, const ReebGraph& graph,
                           const Hierarchy& hierarchy, const ArcBucketsView& buckets = {});
 

@@ -162,6 +162,10 @@ void decode_buckets_of(const ArcKeys& arc, std::span<const std::byte> payload, i
                            " are no buckets of exponent " + std::to_string(bucket_exponent));
 }
 
+std::uint64_t SegmentStore::reserved_bytes() const {
+  return nodes_.reserved_bytes() + arcs_.reserved_bytes() + (patch_ ? patch_->patch().memory.bytes() : 0);
+}
+
 namespace {
 
 void add_arc(const ArcKeys& arc, std::span<const std::byte> payload, std::optional<int> bucket_exponent,
@@ -246,7 +250,7 @@ std::uint64_t SegmentStore::bucket_count() const {
 
 namespace {
 
-constexpr std::size_t kStretch = 16384;  // records taken over at once
+constexpr std::size_t kStretch = 4096;  // records taken over at once
 
 NodeId node_of(const SweepKey& key, const NodeTable& table) {
   const std::uint32_t node = table.find(key);
@@ -255,18 +259,11 @@ NodeId node_of(const SweepKey& key, const NodeTable& table) {
   return NodeId(node);
 }
 
-// The buckets of the next arcs.
-void append(const ArcBuckets& piece, ArcBuckets& all) {
-  const std::uint64_t before = all.buckets.size();
-  for (std::size_t i = 1; i < piece.offsets.size(); ++i) all.offsets.push_back(before + piece.offsets[i]);
-  all.buckets.insert(all.buckets.end(), piece.buckets.begin(), piece.buckets.end());
-}
-
 std::uint64_t graph_bytes(const SegmentStore& store, const LoadOptions& options) {
   const std::uint64_t nodes = store.node_count(), arcs = store.arc_count();
   std::uint64_t bytes = nodes * sizeof(SweepKey) + arcs * 2 * sizeof(NodeId);
   if (options.positions) bytes += nodes * sizeof(Point);
-  if (options.bucket_exponent) bytes += (arcs + 1) * sizeof(std::uint64_t) + store.bucket_count() * sizeof(Bucket);
+  if (options.bucket_exponent) bytes += PackedLists::most_bytes(arcs, store.bucket_count());
   return bytes;
 }
 
@@ -279,7 +276,6 @@ std::uint64_t loading_bytes(const SegmentStore& store, const LoadOptions& option
 LoadedGraph read_graph(SegmentStore& store, const LoadOptions& options) {
   const auto node_count = static_cast<std::size_t>(store.node_count());
   const auto arc_count = static_cast<std::size_t>(store.arc_count());
-  const auto bucket_count = static_cast<std::size_t>(options.bucket_exponent ? store.bucket_count() : 0);
   LoadedGraph loaded;
   ReebGraph& graph = loaded.graph;
   loaded.memory = store.budget().reserve("graph", graph_bytes(store, options));
@@ -293,11 +289,7 @@ LoadedGraph read_graph(SegmentStore& store, const LoadOptions& options) {
     }
   graph.lo.reserve(arc_count);
   graph.hi.reserve(arc_count);
-  if (options.bucket_exponent) {
-    loaded.buckets.offsets.reserve(arc_count + 1);
-    loaded.buckets.offsets.push_back(0);
-    loaded.buckets.buckets.reserve(bucket_count);
-  }
+  if (options.bucket_exponent) loaded.buckets.reserve(arc_count);
   const Reservation table_memory = store.budget().reserve("ends of arcs", NodeTable::bytes(node_count));
   const NodeTable table(graph.nodes);
   store.rewind_arcs();
@@ -309,8 +301,12 @@ LoadedGraph read_graph(SegmentStore& store, const LoadOptions& options) {
           graph.lo.push_back(node_of(arc.lo, table));
           graph.hi.push_back(node_of(arc.hi, table));
         }
-        append(piece.buckets, loaded.buckets);
+        for (std::size_t arc = 0; arc + 1 < piece.buckets.offsets.size(); ++arc)
+          loaded.buckets.add(piece.buckets.view().of(arc));
       });
+  if (options.bucket_exponent)
+    loaded.memory.resize(loaded.memory.bytes() - PackedLists::most_bytes(arc_count, store.bucket_count()) +
+                         loaded.buckets.memory_bytes());
   return loaded;
 }
 

@@ -11,6 +11,7 @@
 #include "libreeb/base/memory_budget.h"
 #include "libreeb/graph/reeb_graph.h"
 #include "libreeb/hierarchy/arc_buckets.h"
+#include "libreeb/hierarchy/packed_lists.h"
 #include "libreeb/port/graph_sink.h"
 #include "ooc/external_sort.h"
 #include "ooc/graph_patch.h"
@@ -114,6 +115,8 @@ class SegmentStore : public GraphSink {
   // As they were added; coarsening makes fewer of them.
   std::uint64_t bucket_count() const;
   std::uint64_t spilled_bytes() const { return nodes_.spilled_bytes() + arcs_.spilled_bytes(); }
+  // What the budget gets back when the store goes.
+  std::uint64_t reserved_bytes() const;
   MemoryBudget& budget() { return *budget_; }
   bool background() const { return background_; }
 
@@ -151,7 +154,7 @@ void SegmentStore::scan_arcs(const Visit& visit) const {
 struct LoadedGraph {
   Reservation memory;
   ReebGraph graph;
-  ArcBuckets buckets;  // empty unless wanted
+  PackedLists buckets;  // empty unless wanted
 };
 
 struct LoadOptions {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "libreeb/format/byte_coding.h"
+#include "libreeb/graph/packed_buckets.h"
 
 namespace reeb {
 namespace {
@@ -179,6 +180,11 @@ void GraphFrame::clear() {
 void GraphFrame::add_buckets(std::span<const Bucket> own) {
   bucket_counts.push_back(static_cast<std::uint32_t>(own.size()));
   buckets.insert(buckets.end(), own.begin(), own.end());
+}
+
+void GraphFrame::add_buckets(std::span<const std::byte> packed) {
+  bucket_counts.push_back(static_cast<std::uint32_t>(packed_count(packed)));
+  unpack_buckets(packed, buckets);
 }
 
 void encode_graph_frame(const GraphFrame& frame, const FileFlags& flags, std::vector<std::byte>& bytes) {

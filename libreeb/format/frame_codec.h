@@ -35,8 +35,9 @@ struct GraphFrame {
   std::vector<std::uint32_t> bucket_counts;  // one entry an arc, with an embedding
   std::vector<Bucket> buckets;               // of all arcs, one arc after the other
   void clear();
-  // Those of the arc added last.
+  // Those of the next arc; packed as in packed_buckets.h.
   void add_buckets(std::span<const Bucket> own);
+  void add_buckets(std::span<const std::byte> packed);
 };
 
 // Appends the payload. Buckets are written with has_embedding, positions with has_positions.

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
+
+#include "libreeb/graph/packed_buckets.h"
 
 namespace reeb {
 namespace {
@@ -20,23 +23,38 @@ std::uint64_t count_below(const Bucket& bucket, const CutValues& values, int exp
 
 }  // namespace
 
-ArcBucketLists::ArcBucketLists(ArcBuckets buckets, std::size_t arcs, int exponent)
-    : exponent_(exponent),
-      at_first_(std::move(buckets)),
-      first_(arcs, at_first_.view().empty() ? kNone : kAsAtFirst) {}
+ArcBucketLists::ArcBucketLists(PackedLists lists, int exponent)
+    : exponent_(exponent), packed_(std::move(lists)), open_(packed_.size(), kNone) {}
 
-std::size_t ArcBucketLists::count(std::uint32_t arc) const {
-  if (first_[arc] == kAsAtFirst) return at_first_.view().count(arc);
-  std::size_t count = 0;
-  for (std::uint32_t item = first_[arc]; item != kNone; item = items_[item].next) ++count;
-  return count;
+void ArcBucketLists::open(std::uint32_t arc) {
+  if (is_open(arc)) return;
+  open_[arc] = static_cast<std::uint32_t>(opened_.size());
+  opened_.push_back({arc, kNone});
+  const auto own = unpacked(arc);
+  for (auto bucket = own.rbegin(); bucket != own.rend(); ++bucket) first(arc) = make(*bucket, first(arc));
 }
 
-void ArcBucketLists::make_list(std::uint32_t arc) {
-  if (first_[arc] != kAsAtFirst) return;
-  first_[arc] = kNone;
-  const auto own = at_first_.view().of(arc);
-  for (auto bucket = own.rbegin(); bucket != own.rend(); ++bucket) first_[arc] = make(*bucket, first_[arc]);
+// Valid until the next call.
+std::span<const Bucket> ArcBucketLists::unpacked(std::uint32_t arc) {
+  buckets_.clear();
+  if (!unpack_buckets(packed_.of(arc), buckets_)) throw std::logic_error("ArcBucketLists: a list cannot be read");
+  return buckets_;
+}
+
+void ArcBucketLists::close() {
+  for (const Opened& opened : opened_) {
+    buckets_.clear();
+    for (std::uint32_t item = opened.first; item != kNone; item = items_[item].next)
+      buckets_.push_back(items_[item].bucket);
+    bytes_.clear();
+    pack_buckets(buckets_, bytes_);
+    packed_.replace(opened.arc, bytes_);
+    open_[opened.arc] = kNone;
+  }
+  opened_.clear();
+  items_.clear();
+  free_ = kNone;
+  packed_.collect();
 }
 
 std::uint32_t ArcBucketLists::make(const Bucket& bucket, std::uint32_t next) {
@@ -74,14 +92,14 @@ void ArcBucketLists::insert(std::uint32_t chain, std::uint32_t into) {
 }
 
 void ArcBucketLists::add(std::uint32_t arc, double value, const std::array<double, 3>& position) {
-  make_list(arc);
+  open(arc);
   insert(make({bucket_index(value, exponent_), 1, position}, kNone), arc);
 }
 
 // Divides the arc's bucket that the cut lies in, and returns the last item below the cut.
 std::uint32_t ArcBucketLists::last_below(std::uint32_t arc, const CutValues& values) {
   const std::int64_t middle = bucket_index(values.at, exponent_);
-  std::uint32_t before = kNone, item = first_[arc];
+  std::uint32_t before = kNone, item = first(arc);
   while (item != kNone && items_[item].bucket.index < middle) {
     before = item;
     item = items_[item].next;
@@ -99,64 +117,54 @@ std::uint32_t ArcBucketLists::last_below(std::uint32_t arc, const CutValues& val
   return item;
 }
 
-bool ArcBucketLists::has_beyond(Direction d, std::uint32_t arc, const CutValues& values) const {
+bool ArcBucketLists::has_beyond(Direction d, std::uint32_t arc, const CutValues& values) {
   const std::int64_t middle = bucket_index(values.at, exponent_);
   const auto is_beyond = [&](const Bucket& bucket) {
     if (bucket.index != middle) return (bucket.index < middle) == (d == kDown);
     const std::uint64_t below = count_below(bucket, values, exponent_);
     return d == kDown ? below != 0 : below != bucket.count;
   };
-  if (first_[arc] == kAsAtFirst) {
-    const auto own = at_first_.view().of(arc);
+  if (!is_open(arc)) {
+    const auto own = unpacked(arc);
     return !own.empty() && is_beyond(d == kDown ? own.front() : own.back());
   }
-  std::uint32_t item = first_[arc];
+  std::uint32_t item = first(arc);
   if (item == kNone) return false;
   while (d == kUp && items_[item].next != kNone) item = items_[item].next;
   return is_beyond(items_[item].bucket);
 }
 
 bool ArcBucketLists::cut(Direction d, std::uint32_t from, std::uint32_t into, const CutValues& values) {
-  make_list(from);
-  make_list(into);
-  if (first_[from] == kNone) return false;
+  open(from);
+  open(into);
+  if (first(from) == kNone) return false;
   const std::uint32_t last = last_below(from, values);
   const std::uint32_t above = std::exchange(after(last, from), kNone);
-  const std::uint32_t below = first_[from];
-  first_[from] = d == kUp ? below : above;
+  const std::uint32_t below = first(from);
+  first(from) = d == kUp ? below : above;
   const std::uint32_t chain = d == kUp ? above : below;
   insert(chain, into);
   return chain != kNone;
 }
 
 bool ArcBucketLists::merge(std::uint32_t from, std::uint32_t into) {
-  make_list(from);
-  make_list(into);
-  const std::uint32_t chain = std::exchange(first_[from], kNone);
+  open(from);
+  open(into);
+  const std::uint32_t chain = std::exchange(first(from), kNone);
   insert(chain, into);
   return chain != kNone;
 }
 
 std::uint64_t ArcBucketLists::drop(std::uint32_t arc) {
-  make_list(arc);
+  open(arc);
   std::uint64_t count = 0;
-  for (std::uint32_t item = std::exchange(first_[arc], kNone); item != kNone;) {
+  for (std::uint32_t item = std::exchange(first(arc), kNone); item != kNone;) {
     count += items_[item].bucket.count;
     const std::uint32_t next = items_[item].next;
     free(item);
     item = next;
   }
   return count;
-}
-
-void ArcBucketLists::append_to(std::vector<Bucket>& out, std::uint32_t arc) const {
-  if (first_[arc] == kAsAtFirst) {
-    const auto own = at_first_.view().of(arc);
-    out.insert(out.end(), own.begin(), own.end());
-    return;
-  }
-  for (std::uint32_t item = first_[arc]; item != kNone; item = items_[item].next)
-    out.push_back(items_[item].bucket);
 }
 
 }  // namespace reeb

@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "libreeb/base/direction.h"
 #include "libreeb/graph/bucket.h"
-#include "libreeb/hierarchy/arc_buckets.h"
-#include "libreeb/hierarchy/working_graph.h"
+#include "libreeb/hierarchy/packed_lists.h"
 
 namespace reeb {
 
@@ -20,26 +20,26 @@ struct CutValues {
 // A list of buckets an arc, ascending, one for each index. What leaves a list enters another, unless
 // it is dropped, so the counts add up to the same at all times.
 //
-// An arc has what it had at first until an operation names it; only then a list is made of it.
+// Lists are kept packed. An operation opens those that it changes: they become linked lists, until
+// close() packs them again. What an arc had when that was done last stays at hand meanwhile.
 //
-// TIME:   an operation walks the lists that it names, once.
-// MEMORY: `buckets`; 4 bytes an arc, and 48 a bucket in a list; what is freed is used again.
+// TIME:   an operation walks the lists that it names, once; so does close().
+// MEMORY: PackedLists; 4 bytes an arc, and 48 a bucket that is open.
 class ArcBucketLists {
  public:
   // REQUIRES: all buckets are of this exponent, and none is empty.
-  ArcBucketLists(ArcBuckets buckets, std::size_t arcs, int exponent);
+  ArcBucketLists(PackedLists lists, int exponent);
 
+  std::size_t arc_count() const { return packed_.size(); }
   bool empty(std::uint32_t arc) const {
-    return first_[arc] == kNone || (first_[arc] == kAsAtFirst && at_first_.view().count(arc) == 0);
+    return is_open(arc) ? opened_[open_[arc]].first == kNone : packed_.of(arc).empty();
   }
-  // How many buckets the arc has.
-  std::size_t count(std::uint32_t arc) const;
 
   // A vertex enters its bucket.
   void add(std::uint32_t arc, double value, const std::array<double, 3>& position);
 
-  // Whether the arc has anything that cut() would move. Changes nothing, and makes no list.
-  bool has_beyond(Direction d, std::uint32_t arc, const CutValues& values) const;
+  // Whether the arc has anything that cut() would move. Changes nothing.
+  bool has_beyond(Direction d, std::uint32_t arc, const CutValues& values);
 
   // What `from` has on side d of values.at goes to `into`. The bucket that the value lies in is
   // divided in proportion to the values of the arc within it, to whole vertices; both parts keep
@@ -52,30 +52,42 @@ class ArcBucketLists {
   // Forgets what the arc has, and returns how many vertices that was.
   std::uint64_t drop(std::uint32_t arc);
 
-  void append_to(std::vector<Bucket>& out, std::uint32_t arc) const;
+  // Packs what was opened. Spans of closed() end here.
+  void close();
+  // What the arc had at the last close(), packed.
+  std::span<const std::byte> closed(std::uint32_t arc) const { return packed_.of(arc); }
 
  private:
-  static constexpr std::uint32_t kNone = ~std::uint32_t{0}, kAsAtFirst = kNone - 1;
+  static constexpr std::uint32_t kNone = ~std::uint32_t{0};
   struct Item {
     Bucket bucket;
     std::uint32_t next = kNone;
   };
+  struct Opened {
+    std::uint32_t arc, first;
+  };
 
+  bool is_open(std::uint32_t arc) const { return open_[arc] != kNone; }
+  std::uint32_t& first(std::uint32_t arc) { return opened_[open_[arc]].first; }
   // The link that leads on from the item, or to the first one of the arc.
   std::uint32_t& after(std::uint32_t item, std::uint32_t arc) {
-    return item == kNone ? first_[arc] : items_[item].next;
+    return item == kNone ? first(arc) : items_[item].next;
   }
-  void make_list(std::uint32_t arc);
+  void open(std::uint32_t arc);
+  std::span<const Bucket> unpacked(std::uint32_t arc);
   std::uint32_t make(const Bucket& bucket, std::uint32_t next);
   void free(std::uint32_t item);
   void insert(std::uint32_t chain, std::uint32_t into);
   std::uint32_t last_below(std::uint32_t arc, const CutValues& values);
 
   int exponent_;
-  ArcBuckets at_first_;
-  std::vector<std::uint32_t> first_;  // one entry an arc
-  std::vector<Item> items_;
+  PackedLists packed_;
+  std::vector<std::uint32_t> open_;  // of each arc, its entry in opened_
+  std::vector<Opened> opened_;
+  std::vector<Item> items_;    // of opened lists
   std::uint32_t free_ = kNone;  // a list of unused items
+  std::vector<Bucket> buckets_;
+  std::vector<std::byte> bytes_;
 };
 
 }  // namespace reeb

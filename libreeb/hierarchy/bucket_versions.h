@@ -1,8 +1,10 @@
 // The embedding of every arc record of a hierarchy: the content that the Canceller carries along.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
-#include <vector>
+#include <span>
+#include <utility>
 
 #include "libreeb/graph/reeb_graph.h"
 #include "libreeb/hierarchy/bucket_lists.h"
@@ -10,51 +12,33 @@
 
 namespace reeb {
 
-// Keeps what each arc had when its record ended. A node that disappears enters a bucket of the arc
-// that it becomes part of.
+// A node that disappears enters a bucket of the arc that it becomes part of.
 //
-// MEMORY: 8 bytes an arc and 48 a bucket of the present version; 8 bytes a record and 40 a bucket
-//         of the records that ended.
+// MEMORY: ArcBucketLists, in which what a step changes is open until it ends.
 class BucketVersions {
  public:
   static constexpr bool kFollows = true;
 
-  // `graph` must outlive this. REQUIRES: `buckets` has those of its arcs.
-  BucketVersions(const ReebGraph& graph, ArcBuckets buckets, int exponent)
-      : graph_(graph), lists_(std::move(buckets), graph.arc_count(), exponent), saved_(graph.arc_count(), kNone) {}
+  // `graph` and `sink` must outlive this. REQUIRES: `lists` has those of the graph's arcs, of this
+  // exponent.
+  BucketVersions(const ReebGraph& graph, PackedLists lists, int exponent, RecordSink& sink)
+      : graph_(graph), sink_(sink), lists_(std::move(lists), exponent) {}
 
   // The content of the Canceller.
   bool cut(const ArcCut& arc);
-  bool merge(std::uint32_t from, std::uint32_t into);
+  bool merge(std::uint32_t from, std::uint32_t into) { return !lists_.empty(from) && lists_.merge(from, into); }
   void join(std::uint32_t upper, std::uint32_t lower, std::uint32_t node);
   void drop(std::uint32_t arc, std::uint32_t nodes);
-
-  // The arc's next record ends with this step, or the arc lives on after the last.
-  void end_record(std::uint32_t arc);
+  std::span<const std::byte> before_step(std::uint32_t arc) const { return lists_.closed(arc); }
   void commit();
 
-  // Of all records that ended, in that order.
-  ArcBuckets take_buckets() { return std::move(ended_); }
-  std::vector<DroppedVertices> take_dropped() { return std::move(dropped_); }
-
  private:
-  static constexpr std::uint32_t kNone = ~std::uint32_t{0};
-  // What an arc had before this step.
-  struct Saved {
-    std::uint32_t arc;
-    std::size_t begin, end;  // in saved_buckets_
-  };
-  void save(std::uint32_t arc);
   double value(std::uint32_t node) const { return graph_.nodes[node].value; }
 
   const ReebGraph& graph_;
+  RecordSink& sink_;
   ArcBucketLists lists_;
-  std::vector<std::uint32_t> saved_;  // of each arc, its entry in saves_
-  std::vector<Saved> saves_;
-  std::vector<Bucket> saved_buckets_;
   std::uint32_t step_ = 1;
-  ArcBuckets ended_{.offsets = {0}, .buckets = {}};
-  std::vector<DroppedVertices> dropped_;
 };
 
 }  // namespace reeb

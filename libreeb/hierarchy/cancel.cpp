@@ -1,7 +1,9 @@
 #include "libreeb/hierarchy/cancel.h"
 
+#include <algorithm>
 #include <utility>
 
+#include "libreeb/graph/packed_buckets.h"
 #include "libreeb/hierarchy/bucket_versions.h"
 #include "libreeb/hierarchy/canceller.h"
 #include "libreeb/hierarchy/pairing.h"
@@ -9,14 +11,6 @@
 
 namespace reeb {
 namespace {
-
-// All but the arc records, before anything is cancelled.
-Hierarchy paired(const ReebGraph& graph) {
-  Hierarchy hierarchy;
-  hierarchy.pairs = persistence_pairs(graph);
-  hierarchy.isolated = isolated_nodes(graph);
-  return hierarchy;
-}
 
 // The canceller has the arcs; only the nodes are needed besides.
 void release_arcs(ReebGraph& graph) {
@@ -28,34 +22,88 @@ template <class Content>
 void cancel_all(const ReebGraph& graph, Canceller<Content>& canceller, Hierarchy& hierarchy, const Poll& poll) {
   constexpr std::size_t kPairsBetweenPolls = 1024;
   std::size_t done = 0;
+  hierarchy.persistence.reserve(hierarchy.pairs.size());
   for (PersistencePair& pair : hierarchy.pairs) {
     if (pair.type == PairType::kExt0) break;
     if (poll && done++ % kPairsBetweenPolls == 0) poll();
     pair.kept = !canceller.cancel(pair);
     if (!pair.kept) hierarchy.persistence.push_back(persistence_of(graph, pair));
   }
-  hierarchy.arcs = canceller.take_records();
+  canceller.finish();
 }
+
+// Keeps all records, in the order of a file once reverse() is called.
+class RecordsInMemory : public RecordSink {
+ public:
+  void add(const ArcVersion& record, std::span<const std::byte> buckets) override {
+    arcs_.push_back(record);
+    packed_.insert(packed_.end(), buckets.begin(), buckets.end());
+    ends_.push_back(packed_.size());
+  }
+  void drop(const DroppedVertices& dropped) override { dropped_.push_back(dropped); }
+
+  void move_to(Hierarchy& hierarchy) {
+    std::reverse(arcs_.begin(), arcs_.end());
+    hierarchy.arcs = std::move(arcs_);
+    hierarchy.dropped = std::move(dropped_);
+  }
+  ArcBuckets buckets() const {
+    ArcBuckets result{.offsets = {0}, .buckets = {}};
+    for (std::size_t i = ends_.size(); i-- > 0;) {
+      const std::size_t begin = i == 0 ? 0 : ends_[i - 1];
+      unpack_buckets(std::span(packed_).subspan(begin, ends_[i] - begin), result.buckets);
+      result.offsets.push_back(result.buckets.size());
+    }
+    return result;
+  }
+
+ private:
+  std::vector<ArcVersion> arcs_;
+  std::vector<std::byte> packed_;
+  std::vector<std::size_t> ends_;  // in packed_
+  std::vector<DroppedVertices> dropped_;
+};
 
 }  // namespace
 
+std::uint64_t hierarchy_bytes(std::uint64_t nodes, std::uint64_t arcs, std::optional<std::uint64_t> lists) {
+  // Keys, positions, heaps and searches; ends, heaps and the log; and as many pairs as there can be.
+  constexpr std::uint64_t kNode = 16 + 24 + 8 + 9, kArc = 8 + 36 + 4, kPair = sizeof(PersistencePair) + sizeof(double);
+  const std::uint64_t bytes = kNode * nodes + kArc * arcs + kPair * std::max(nodes, arcs);
+  if (!lists) return bytes;
+  // Lists that change leave holes; and a node that disappears may get a bucket of its own.
+  constexpr std::uint64_t kOpen = 4, kNewBucket = 32;
+  return bytes + kOpen * arcs + *lists + *lists / 2 + kNewBucket * nodes;
+}
+
+Hierarchy build_hierarchy(ReebGraph& graph, PackedLists buckets, int exponent, RecordSink& sink, const Poll& poll) {
+  Hierarchy hierarchy;
+  hierarchy.pairs = persistence_pairs(graph);
+  hierarchy.isolated = isolated_nodes(graph);
+  if (buckets.size() == 0) {
+    Canceller<> canceller(graph, sink);
+    release_arcs(graph);
+    cancel_all(graph, canceller, hierarchy, poll);
+  } else {
+    Canceller canceller(graph, sink, BucketVersions(graph, std::move(buckets), exponent, sink));
+    release_arcs(graph);
+    cancel_all(graph, canceller, hierarchy, poll);
+  }
+  return hierarchy;
+}
+
 Hierarchy build_hierarchy(ReebGraph graph, const Poll& poll) {
-  Hierarchy hierarchy = paired(graph);
-  Canceller<> canceller(graph);
-  release_arcs(graph);
-  graph.positions = std::vector<std::array<double, 3>>();
-  cancel_all(graph, canceller, hierarchy, poll);
+  RecordsInMemory records;
+  Hierarchy hierarchy = build_hierarchy(graph, {}, 0, records, poll);
+  records.move_to(hierarchy);
   return hierarchy;
 }
 
 Hierarchy build_hierarchy(ReebGraph graph, ArcBuckets& buckets, int exponent, const Poll& poll) {
-  if (buckets.offsets.empty()) return build_hierarchy(std::move(graph), poll);
-  Hierarchy hierarchy = paired(graph);
-  Canceller canceller(graph, BucketVersions(graph, std::move(buckets), exponent));
-  release_arcs(graph);
-  cancel_all(graph, canceller, hierarchy, poll);
-  buckets = canceller.content().take_buckets();
-  hierarchy.dropped = canceller.content().take_dropped();
+  RecordsInMemory records;
+  Hierarchy hierarchy = build_hierarchy(graph, pack_lists(buckets.view()), exponent, records, poll);
+  records.move_to(hierarchy);
+  if (!buckets.offsets.empty()) buckets = records.buckets();
   return hierarchy;
 }
 

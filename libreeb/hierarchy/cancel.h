@@ -1,41 +1,51 @@
 // All levels of detail of a Reeb graph at once (DESIGN.md 1.5, 6).
 #pragma once
 
+#include <cstdint>
 #include <functional>
+#include <optional>
 
 #include "libreeb/graph/reeb_graph.h"
 #include "libreeb/hierarchy/arc_buckets.h"
 #include "libreeb/hierarchy/hierarchy.h"
+#include "libreeb/hierarchy/packed_lists.h"
+#include "libreeb/port/record_sink.h"
 
 namespace reeb {
+
+// What build_hierarchy() holds at most, the graph and its buckets included: of an embedding, `lists` is what
+// PackedLists::memory_bytes() says of it. Only buckets that are cut again and again could make it more.
+std::uint64_t hierarchy_bytes(std::uint64_t nodes, std::uint64_t arcs, std::optional<std::uint64_t> lists);
 
 // Called now and then while a hierarchy is built; it may throw to end that.
 using Poll = std::function<void()>;
 
-// Pairs the nodes, cancels all pairs but Ext0 in the order of persistence, and records when each
-// arc lives. Hierarchy::arcs is sorted by died, so that all records alive at some version or later
-// are a suffix; a record's arc has the same ends throughout, and arcs that a step leaves as they
-// were keep their record.
+// Pairs the nodes, cancels all pairs but Ext0 in the order of persistence, and tells when each arc
+// lives: its records go to `sink`, and Hierarchy::arcs and dropped stay empty. A record's arc has the
+// same ends throughout, and arcs that a step leaves as they were keep their record. Of the graph only
+// nodes and positions are left.
+//
+// `buckets` are an embedding of the graph's arcs, of this exponent; or there are none. Pairs and the
+// graph of every version are the same with it and without. An arc to which a step adds vertices gets a
+// record of its own; so in every version
+//
+//   vertices in buckets + nodes + vertices dropped in this version or before
+//
+// is what it was in version 0.
 //
 // TIME:   O(m log m) for the pairs; a cancellation costs its two paths and a search that goes no
 //         further than the lesser of what lies above the lower and below the upper node within
 //         the pair's interval.
-// MEMORY: while cancelling, 40 bytes an arc, 32 a node, 12 a pair and 16 a record; together with
-//         growth at most 160 bytes an arc where nodes have three arcs or one.
+// MEMORY: hierarchy_bytes().
 // REQUIRES: no node is of degree (1, 1).
+Hierarchy build_hierarchy(ReebGraph& graph, PackedLists buckets, int exponent, RecordSink& sink,
+                          const Poll& poll = {});
+
+// The same with the records in memory, 16 bytes each.
 Hierarchy build_hierarchy(ReebGraph graph, const Poll& poll = {});
 
-// The same with an embedding: `buckets`, of the graph's arcs, becomes that of Hierarchy::arcs. Pairs
-// and the graph of every version are the same. An arc to which a step adds vertices gets a record
-// of its own; so in every version
-//
-//   vertices in buckets + nodes + vertices dropped in this version or before
-//
-// is what it was in version 0. With empty `buckets` there is no embedding.
-//
-// MEMORY: besides, 48 bytes a bucket of the largest version, 40 a bucket of all records, 8 an arc and
-//         8 a record.
-// REQUIRES: all buckets are of this exponent.
+// The same with an embedding: `buckets` becomes that of Hierarchy::arcs, 40 bytes a bucket of all
+// records. With empty `buckets` there is no embedding.
 Hierarchy build_hierarchy(ReebGraph graph, ArcBuckets& buckets, int exponent, const Poll& poll = {});
 
 }  // namespace reeb

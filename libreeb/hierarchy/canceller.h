@@ -11,7 +11,9 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -46,17 +48,19 @@ struct IgnoreContent {
   void join(std::uint32_t /*upper*/, std::uint32_t /*lower*/, std::uint32_t /*node*/) {}
   // The arc is taken away with so many nodes, and its content is laid nowhere.
   void drop(std::uint32_t /*arc*/, std::uint32_t /*nodes*/) {}
-  // A record of the arc is written down, with what it had before this step; the step is done.
-  void end_record(std::uint32_t /*arc*/) {}
+  // What the arc had before this step, as it goes into a record.
+  std::span<const std::byte> before_step(std::uint32_t /*arc*/) const { return {}; }
+  // The step is done.
   void commit() {}
 };
 
-// MEMORY: 36 bytes an arc and 16 bytes a node; 4 bytes an arc and 16 a record in the log.
+// MEMORY: 40 bytes an arc and 16 bytes a node.
 template <class Content = IgnoreContent>
 class Canceller {
  public:
-  explicit Canceller(const ReebGraph& graph, Content content = {})
-      : graph_(graph), log_(graph_), ahead_(graph_), back_(graph_), content_(std::move(content)) {
+  // Looks at the graph's arcs no more. REQUIRES: `sink` outlives this.
+  Canceller(const ReebGraph& graph, RecordSink& sink, Content content = {})
+      : graph_(graph), log_(graph_, sink), ahead_(graph_), back_(graph_), content_(std::move(content)) {
     for (std::vector<bool>& nodes : kept_) nodes.resize(graph.node_count());
   }
   Canceller(const Canceller&) = delete;
@@ -79,9 +83,8 @@ class Canceller {
     return true;
   }
 
-  // All records, as VersionLog orders them; the content has been told of each in that order.
-  std::vector<ArcVersion> take_records() { return log_.take(content_); }
-  Content& content() { return content_; }
+  // Hands over the records of the last version. REQUIRES: nothing is cancelled any more.
+  void finish() { log_.finish(content_); }
 
  private:
   static constexpr std::uint32_t kNone = WorkingGraph::kNone;

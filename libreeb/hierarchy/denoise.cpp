@@ -5,6 +5,7 @@
 #include <tuple>
 #include <utility>
 
+#include "libreeb/graph/packed_buckets.h"
 #include "libreeb/hierarchy/bucket_lists.h"
 #include "libreeb/hierarchy/pairing.h"
 #include "libreeb/hierarchy/subgraph.h"
@@ -107,6 +108,7 @@ class LeafRemoval {
     graph_.remove(arc);
     if (lists_ != nullptr) lay_aside(arc, saddle, leaf, d);
     settle(saddle);
+    if (lists_ != nullptr) lists_->close();
   }
 
   // The buckets of an arc that was removed, and its leaf, go to the nearest path beyond it.
@@ -200,9 +202,9 @@ ArcBuckets buckets_of(const ArcBucketLists& lists, const std::vector<std::uint32
   buckets.offsets.reserve(arcs.size() + 1);
   std::uint64_t end = 0;
   buckets.offsets.push_back(0);
-  for (const std::uint32_t arc : arcs) buckets.offsets.push_back(end += lists.count(arc));
+  for (const std::uint32_t arc : arcs) buckets.offsets.push_back(end += packed_count(lists.closed(arc)));
   buckets.buckets.reserve(end);
-  for (const std::uint32_t arc : arcs) lists.append_to(buckets.buckets, arc);
+  for (const std::uint32_t arc : arcs) unpack_buckets(lists.closed(arc), buckets.buckets);
   return buckets;
 }
 
@@ -213,7 +215,8 @@ Denoised denoise(ReebGraph graph, const std::vector<bool>* whole, double thresho
     remove_leaves(result, whole, threshold, nullptr);
     return result;
   }
-  ArcBucketLists lists(std::move(buckets), result.graph.arc_count(), exponent);
+  ArcBucketLists lists(pack_lists(buckets.view()), exponent);
+  buckets = {};
   remove_leaves(result, whole, threshold, &lists);
   buckets = buckets_of(lists, result.former);
   return result;

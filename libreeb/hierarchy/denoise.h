@@ -37,8 +37,8 @@ Denoised denoise(ReebGraph graph, double threshold);
 // `buckets` there is no embedding.
 //
 // TIME:   besides, the buckets of the arcs that a removal changes, and one copy of all.
-// MEMORY: besides, 4 bytes an arc, 48 a bucket of an arc that a removal changes; at the end, when the
-//         memory above is free again, 8 an arc and 40 a bucket for the result.
+// MEMORY: besides, ArcBucketLists: 12 bytes an arc, 6 a list and its packed buckets, with holes half as much
+//         again; at the end, when the rest is free again, 8 an arc and 40 a bucket for the result.
 // REQUIRES: all buckets are of this exponent, and none is empty.
 Denoised denoise(ReebGraph graph, double threshold, ArcBuckets& buckets, int exponent);
 

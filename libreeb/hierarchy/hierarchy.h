@@ -46,6 +46,7 @@ struct Hierarchy {
   std::vector<PersistencePair> pairs;
   // persistence[s - 1] is that of the pair cancelled by step s; not decreasing.
   std::vector<double> persistence;
+  // By died, descending: every prefix up to some `died` is all that lives then. Then by (lo, hi, born).
   std::vector<ArcVersion> arcs;
   // A node without arcs in a version is present in it only as an isolated point:
   // isolated[i] is the node; present in every version (DESIGN.md: Ext0 is never cancelled).

@@ -50,12 +50,11 @@ std::uint32_t finest_with_nodes(const std::vector<LevelSize>& sizes, std::uint64
 }
 
 ReebGraph graph_at(const Hierarchy& hierarchy, const ReebGraph& full, std::uint32_t version) {
-  const auto first =
-      std::partition_point(hierarchy.arcs.begin(), hierarchy.arcs.end(),
-                           [version](const ArcVersion& arc) { return arc.died <= version; });
   std::vector<NodeArc> arcs;
-  for (auto arc = first; arc != hierarchy.arcs.end(); ++arc)
-    if (arc->born <= version) arcs.push_back({arc->lo, arc->hi});
+  for (const ArcVersion& arc : hierarchy.arcs) {
+    if (arc.died <= version) break;
+    if (arc.born <= version) arcs.push_back({arc.lo, arc.hi});
+  }
   return subgraph(full, std::move(arcs), hierarchy.isolated);
 }
 

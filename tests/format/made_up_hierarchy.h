@@ -11,6 +11,7 @@
 #include "libreeb/graph/reeb_graph.h"
 #include "libreeb/hierarchy/arc_buckets.h"
 #include "libreeb/hierarchy/hierarchy.h"
+#include "libreeb/hierarchy/subgraph.h"
 
 namespace reeb {
 
@@ -44,6 +45,7 @@ class MadeUpMaker {
     }
     for (std::uint32_t step = 1; step <= steps && live_.size() > 4; ++step) cancel(step, result.hierarchy);
     make_pairs(result);
+    result.hierarchy.isolated = isolated_nodes(result.graph);
     result.buckets.offsets.push_back(0);
     for (const ArcVersion& arc : result.hierarchy.arcs) add_buckets(result, arc);
     return result;

@@ -135,8 +135,8 @@ TEST(Embedding, ALeafIsLaidBesideItselfAndEndsInsideItsBucket) {
 
   ArcBuckets cancelled = embedding(of_arcs);
   const Hierarchy h = build_hierarchy(graph, cancelled, kUnit);
-  ASSERT_EQ(h.arcs.back(), (ArcVersion{NodeId(0), NodeId(3), 1, kNeverDies}));
-  EXPECT_EQ(of(cancelled, h.arcs.size() - 1), expected);
+  ASSERT_EQ(h.arcs.front(), (ArcVersion{NodeId(0), NodeId(3), 1, kNeverDies}));
+  EXPECT_EQ(of(cancelled, 0), expected);
 }
 
 TEST(Embedding, ABucketThatANodeCutsIsDividedInProportion) {
@@ -156,9 +156,8 @@ TEST(Embedding, AnArcOfALoopIsLaidOnTheOtherWay) {
   ArcBuckets buckets = embedding({{}, {{2, 1, {2.5, 0, 0}}}, {{2, 3, {2.5, 4, 0}}}, {}});
   const Hierarchy h = build_hierarchy(graph, buckets, kUnit);
   EXPECT_TRUE(h.dropped.empty());
-  EXPECT_EQ(of(buckets, h.arcs.size() - 1), (std::vector<Bucket>{{1, 1, {1, 0, 0}},
-                                                                 {2, 4, {2.5, 3, 0}},
-                                                                 {4, 1, {4, 0, 0}}}));
+  EXPECT_EQ(of(buckets, 0),
+            (std::vector<Bucket>{{1, 1, {1, 0, 0}}, {2, 4, {2.5, 3, 0}}, {4, 1, {4, 0, 0}}}));
 }
 
 TEST(Embedding, AnArcOfALoopWithoutAnotherWayIsDropped) {
@@ -177,15 +176,15 @@ TEST(Embedding, AnArcThatNothingIsLaidOnKeepsItsRecord) {
   const ReebGraph graph = graph_of({{0, 4}, {1, 4}, {4, 5}, {4, 9}});
   ArcBuckets buckets = embedding({{{2, 1, {2.5, 0, 0}}}, {}, {}, {{7, 1, {7.5, 0, 0}}}});
   const Hierarchy h = build_hierarchy(graph, buckets, kUnit);
-  const std::vector<ArcVersion> expected{{NodeId(2), NodeId(3), 0, 1},
-                                         {NodeId(2), NodeId(4), 0, 1},
+  const std::vector<ArcVersion> expected{{NodeId(0), NodeId(4), 2, kNeverDies},
                                          {NodeId(0), NodeId(2), 0, 2},
                                          {NodeId(1), NodeId(2), 0, 2},
                                          {NodeId(2), NodeId(4), 1, 2},
-                                         {NodeId(0), NodeId(4), 2, kNeverDies}};
+                                         {NodeId(2), NodeId(3), 0, 1},
+                                         {NodeId(2), NodeId(4), 0, 1}};
   EXPECT_EQ(h.arcs, expected);
-  EXPECT_EQ(of(buckets, 1), (std::vector<Bucket>{{7, 1, {7.5, 0, 0}}}));
-  EXPECT_EQ(of(buckets, 4), (std::vector<Bucket>{{5, 1, {5, 0, 0}}, {7, 1, {7.5, 0, 0}}}));
+  EXPECT_EQ(of(buckets, 5), (std::vector<Bucket>{{7, 1, {7.5, 0, 0}}}));
+  EXPECT_EQ(of(buckets, 3), (std::vector<Bucket>{{5, 1, {5, 0, 0}}, {7, 1, {7.5, 0, 0}}}));
 }
 
 TEST(Embedding, AnExtremumIsLaidOn64ArcsAtMost) {

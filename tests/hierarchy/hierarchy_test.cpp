@@ -154,11 +154,11 @@ TEST(Hierarchy, AnArcThatAStepLeavesAsItWasKeepsItsRecord) {
   // Cancelling (4, 5) cuts the arc (4, 9) at 5 and joins it again.
   const ReebGraph full = graph_of({{0, 4}, {1, 4}, {4, 5}, {4, 9}});
   const Hierarchy h = build_hierarchy(full);
-  const std::vector<ArcVersion> expected{{NodeId(2), NodeId(3), 0, 1},
+  const std::vector<ArcVersion> expected{{NodeId(0), NodeId(4), 2, kNeverDies},
                                          {NodeId(0), NodeId(2), 0, 2},
                                          {NodeId(1), NodeId(2), 0, 2},
                                          {NodeId(2), NodeId(4), 0, 2},
-                                         {NodeId(0), NodeId(4), 2, kNeverDies}};
+                                         {NodeId(2), NodeId(3), 0, 1}};
   EXPECT_EQ(h.arcs, expected);
 }
 
