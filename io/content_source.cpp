@@ -22,7 +22,7 @@ namespace {
 class MappedSource final : public ContentSource {
  public:
   explicit MappedSource(const std::string& path)
-      : ContentSource(path), windows_(path, {.overlap_bytes = kLookahead}) {}
+      : ContentSource(path), windows_(path, {.window_count = 2, .overlap_bytes = kLookahead}) {}
   using ContentSource::view;
 
   std::string_view view(std::uint64_t offset, std::size_t /*least*/) override {
@@ -42,7 +42,7 @@ class MappedSource final : public ContentSource {
 // A mapped file as the sequential input of a decompressor.
 class MappedInput final : public RawInput {
  public:
-  explicit MappedInput(const std::string& path) : windows_(path) {}
+  explicit MappedInput(const std::string& path) : windows_(path, {.window_count = 2}) {}
 
   std::size_t read(char* out, std::size_t limit) override {
     if (offset_ == windows_.size()) return 0;

@@ -18,7 +18,7 @@ namespace {
 constexpr std::size_t kMostRecordBytes = 4096;
 // Small windows, many at once: the vertices of a chunk lie in several places of the file.
 constexpr WindowOptions kVertexWindows = {
-    .window_bits = 16, .window_count = 24, .overlap_bytes = kMostRecordBytes};
+    .window_bits = 16, .window_count = 16, .overlap_bytes = kMostRecordBytes};
 
 struct Column {
   PlyType type = PlyType::kFloat32;

@@ -26,7 +26,7 @@ constexpr std::uint64_t kBucketsSmooth = 70, kBucketsRemoved = 160, kBucketsKept
 // What live graphs and chunks take together where memory is free: chunks of a wide front are smaller,
 // which costs a few per cent of the time, down to kUsefulTriangles.
 constexpr std::uint64_t kUsual = 16 * kMiB;
-constexpr std::size_t kUsefulTriangles = 16384;
+constexpr std::size_t kUsefulTriangles = 12288;
 
 // Measured a triangle: scratch of a sweep, a chunk in flight with its fragment, and what the source
 // keeps; and of a stretch that is cut into chunks, as it lies there and while it is read and cut.
