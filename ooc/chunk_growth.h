@@ -26,7 +26,7 @@ class ChunkGrowth {
   void adapt(const Chunk& chunk) {
     // Grow above this share of shared vertices, shrink below a quarter of it. A shared vertex brings
     // about one shared edge, of three in all, so this is a twentieth of the edges.
-    constexpr double kManyShared = 0.15;
+    constexpr double kManyShared = 0.30;
     const auto shared = static_cast<double>(
         std::count_if(chunk.uses.begin(), chunk.uses.end(), [](std::uint8_t u) { return u != kUsedHereOnly; }));
     const double many = kManyShared * static_cast<double>(chunk.vertex_count());

@@ -1,5 +1,9 @@
 #include "ooc/compute.h"
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 #include <algorithm>
 #include <chrono>
 #include <new>
@@ -50,6 +54,14 @@ class Stopwatch {
   Clock::time_point start_ = Clock::now();
 };
 
+// What a stage has freed lies in small pieces, which the next one, with pieces of other sizes, would be
+// piled upon.
+void give_back_freed_memory() {
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
+}
+
 // The path of a mesh that a later process can read in the same way.
 std::string readable_again(const MeshInput& input) {
   return input.may_resume && input.path != "-" ? input.path : "";
@@ -96,6 +108,7 @@ class Run {
       first_stage();
       input_ = {};
     }
+    give_back_freed_memory();
     std::vector<ComputeResult> results;
     for (std::size_t f = 0; f < functions_.size(); ++f) {
       results.push_back(second_stage(f));
@@ -138,7 +151,7 @@ class Run {
   FileMeta file_meta(const ComputeResult& result) const;
   bool embeds() const { return options_.buckets != 0; }
   void write_stored_graph(ComputeResult& result, SegmentStore& store, const FileMeta& meta);
-  void remove_last_noise(ComputeResult& result, SegmentStore& store);
+  void remove_last_noise(ComputeResult& result, std::unique_ptr<SegmentStore>& store);
   void write_hierarchy(ComputeResult& result, std::unique_ptr<SegmentStore> store);
   Error no_memory_for(const std::string& what, const ComputeResult& result, std::uint64_t needed,
                       const std::string& otherwise) const;
@@ -460,25 +473,28 @@ SweepOptions Run::sweep_options(const FunctionRange& range) const {
 
 ComputeResult Run::second_stage(std::size_t f) {
   ComputeResult result = common_;
-  SegmentStore& store = *stores_[f];
+  std::unique_ptr<SegmentStore>& store = stores_[f];
   result.function = functions_[f]->name();
   result.output = outputs_[f];
   result.range = values_.range(f);
   if (result.vertices == 0) result.range = {0, 0};
-  result.nodes = store.node_count();
-  result.arcs = store.arc_count();
+  result.nodes = store->node_count();
+  result.arcs = store->arc_count();
   result.denoised_pairs = removed_pairs_[f];
   tell(Phase::kHierarchy, 0, 0);
   const auto start = Clock::now();
   {
     const Stopwatch watch(result.seconds.hierarchy);
-    store.finish();
-    result.spilled_bytes += store.spilled_bytes();
-    if (options_.denoise > 0) remove_last_noise(result, store);
+    store->finish();
+    result.spilled_bytes += store->spilled_bytes();
+    if (options_.denoise > 0) {
+      remove_last_noise(result, store);
+      give_back_freed_memory();
+    }
     if (options_.graph_only)
-      write_stored_graph(result, store, file_meta(result));
+      write_stored_graph(result, *store, file_meta(result));
     else
-      write_hierarchy(result, std::move(stores_[f]));
+      write_hierarchy(result, std::move(store));
   }
   result.seconds.wall += seconds_since(start);
   return result;
@@ -529,20 +545,30 @@ void Run::write_stored_graph(ComputeResult& result, SegmentStore& store, const F
 
 // What was left of the noise on the way goes here. Where memory does not suffice, the graph is kept as
 // it is and the user is told.
-void Run::remove_last_noise(ComputeResult& result, SegmentStore& store) {
+void Run::remove_last_noise(ComputeResult& result, std::unique_ptr<SegmentStore>& store) {
   const SweepOptions sweep = sweep_options(result.range);
   LastNoisePass pass =
-      run_last_noise_pass(store, {.threshold = sweep.noise_below, .bucket_exponent = sweep.bucket_exponent});
+      run_last_noise_pass(*store, {.threshold = sweep.noise_below, .bucket_exponent = sweep.bucket_exponent});
   if (!pass.fits) {
     FileMeta meta = file_meta(result);
     meta.denoise_threshold = 0;
-    write_stored_graph(result, store, meta);
+    write_stored_graph(result, *store, meta);
     throw no_memory_for("the last pass of noise removal", result, pass.needed_bytes, "do without --denoise");
   }
-  if (pass.patch) store.apply(std::move(*pass.patch));
   result.denoised_pairs += pass.removed_pairs;
-  result.nodes = store.node_count();
-  result.arcs = store.arc_count();
+  if (!pass.patch) return;
+  const std::uint64_t patch_bytes = pass.patch->memory.bytes();
+  store->apply(std::move(*pass.patch));
+  result.nodes = store->node_count();
+  result.arcs = store->arc_count();
+  // A change of most of the graph takes more memory than reading the graph that it leaves.
+  if (patch_bytes <= plan_.segment_bytes) return;
+  auto changed = std::make_unique<SegmentStore>(
+      temp_, budget_, SegmentOptions{.allowance_bytes = plan_.segment_bytes, .background = plan_.threads > 1});
+  copy_graph(*store, *changed, sweep.bucket_exponent);
+  changed->finish();
+  result.spilled_bytes += changed->spilled_bytes();
+  store = std::move(changed);
 }
 
 Error Run::no_memory_for(const std::string& what, const ComputeResult& result, std::uint64_t needed,

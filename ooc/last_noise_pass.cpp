@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "libreeb/base/union_find.h"
+#include "libreeb/graph/packed_buckets.h"
 #include "libreeb/hierarchy/denoise.h"
 #include "libreeb/hierarchy/noise_scope.h"
 #include "ooc/arc_payload.h"
@@ -20,7 +21,7 @@ namespace {
 // To remove leaves in a part of the graph: for each of its nodes, and for each of its arcs with one end in
 // it, or two; and for its buckets, packed and not.
 constexpr std::uint64_t kNodeBytes = 72, kInnerArcBytes = 64, kArcBytes = kInnerArcBytes + kNodeBytes;
-constexpr std::uint64_t kPackedByte = 1, kBucketBytes = 100;
+constexpr std::uint64_t kPackedByte = 1, kBucketBytes = 60;
 
 // To find the scope in a graph of short arcs: the graph, the degrees of its nodes and what their buckets take, and either
 // the table in which these are looked up, or what noise_scope() takes.
@@ -160,7 +161,7 @@ class Pass {
   // ---- removing it, in parts that have nothing to do with each other
 
   void remove_noise() {
-    constexpr std::uint64_t kParts = 8;
+    constexpr std::uint64_t kParts = 16;
     std::uint64_t all = 0;
     for (std::size_t node = 0; node < scope_.size(); ++node) all += scope_.weight(node);
     held_ = Scope::bytes(scope_.size()) + sizeof(std::uint32_t) * scope_.size();
@@ -222,9 +223,9 @@ class Pass {
   void remove_noise_in(const Scope& scope, std::uint64_t bytes) {
     if (!make_room(memory_, held_ + bytes, enough_)) return;
     RecordBatch<StoredArc> arcs = gather(scope);
-    ArcBuckets buckets = buckets_of(arcs);
+    PackedLists buckets = buckets_of(arcs);
     patch_.replaced_arcs += arcs.records.size();
-    patch_.replaced_buckets += buckets.buckets.size();
+    for (std::size_t arc = 0; arc < buckets.size(); ++arc) patch_.replaced_buckets += packed_count(buckets.of(arc));
     ReebGraph part = graph_of(std::move(arcs));
     std::vector<bool> whole(part.node_count());
     for (std::size_t node = 0, next = 0; next < scope.size(); ++node)
@@ -234,9 +235,12 @@ class Pass {
     const Denoised denoised = denoise_part(std::move(part), whole, options_.threshold, buckets, exponent_.value_or(0));
     result_.removed_pairs += denoised.removed.size();
     memory_.try_resize(held_ + bytes / 2);  // most is free again
-    for (std::size_t arc = 0; arc < denoised.graph.arc_count() && result_.fits; ++arc)
-      add_to_patch({keys_of(denoised.graph, arc), former_nodes[former_hi[denoised.former[arc]].value()]},
-                   buckets.view().of(arc));
+    std::vector<Bucket> own;
+    for (std::size_t arc = 0; arc < denoised.graph.arc_count() && result_.fits; ++arc) {
+      own.clear();
+      if (exponent_) unpack_buckets(buckets.of(arc), own);
+      add_to_patch({keys_of(denoised.graph, arc), former_nodes[former_hi[denoised.former[arc]].value()]}, own);
+    }
     add_gone(scope.nodes, denoised.graph.nodes);
   }
 
@@ -244,27 +248,38 @@ class Pass {
     return {graph.nodes[graph.lo[arc].value()], graph.nodes[graph.hi[arc].value()]};
   }
 
-  // All arcs of these nodes with their payloads, in the order of the graph.
+  // All arcs of these nodes with their payloads, in the order of the graph. They are counted first, for
+  // room that grows would be twice as much.
   RecordBatch<StoredArc> gather(const Scope& scope) const {
-    RecordBatch<StoredArc> arcs;
-    arcs.records.reserve(std::accumulate(scope.arcs.begin(), scope.arcs.end(), std::size_t{0}));
     const SparseNodeTable table(scope.nodes);
-    store_.scan_arcs([&](const StoredArc& arc, const auto& batch) {
-      if (table.find(arc.keys.lo) == NodeTable::kNone && table.find(arc.keys.hi) == NodeTable::kNone) return;
-      arcs.add(arc, exponent_ ? batch.payload(arc) : std::span<const std::byte>());
+    const auto for_each = [&](const auto& visit) {
+      store_.scan_arcs([&](const StoredArc& arc, const auto& batch) {
+        if (table.find(arc.keys.lo) == NodeTable::kNone && table.find(arc.keys.hi) == NodeTable::kNone) return;
+        visit(arc, exponent_ ? batch.payload(arc) : std::span<const std::byte>());
+      });
+    };
+    std::size_t count = 0, payload_bytes = 0;
+    for_each([&](const StoredArc&, std::span<const std::byte> payload) {
+      ++count;
+      payload_bytes += payload.size();
     });
+    RecordBatch<StoredArc> arcs;
+    arcs.records.reserve(count);
+    arcs.pool.reserve(payload_bytes);
+    for_each([&](const StoredArc& arc, std::span<const std::byte> payload) { arcs.add(arc, payload); });
     std::sort(arcs.records.begin(), arcs.records.end(), SortedArcs::in_order);
     return arcs;
   }
 
-  ArcBuckets buckets_of(const RecordBatch<StoredArc>& arcs) const {
-    ArcBuckets all;
+  PackedLists buckets_of(const RecordBatch<StoredArc>& arcs) const {
+    PackedLists all;
     if (!exponent_) return all;
-    all.offsets.reserve(arcs.records.size() + 1);
-    all.offsets.push_back(0);
+    all.reserve(arcs.records.size());
+    std::vector<Bucket> own;
     for (const StoredArc& arc : arcs.records) {
-      decode_buckets_of(arc.keys, arcs.payload(arc), *exponent_, all.buckets);
-      all.offsets.push_back(all.buckets.size());
+      own.clear();
+      decode_buckets_of(arc.keys, arcs.payload(arc), *exponent_, own);
+      all.add(own);
     }
     return all;
   }

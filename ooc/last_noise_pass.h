@@ -12,7 +12,7 @@ namespace reeb::ooc {
 struct LastNoiseOptions {
   double threshold = 0;
   std::optional<int> bucket_exponent = {};  // without one there is no embedding
-  std::uint64_t part_bytes = 4 << 20;       // what is done at once at least, if there is so much
+  std::uint64_t part_bytes = 2 << 20;       // what is done at once at least, if there is so much
 };
 
 struct LastNoisePass {
@@ -28,10 +28,10 @@ struct LastNoisePass {
 //
 // Reads the stored arcs in the order in which they lie, without merging: first for short ones, then for
 // the degrees of their ends, then for all arcs of the nodes in question; where these are much, once
-// more for what belongs together, and then once a part, at most about ten times.
+// more for what belongs together, and then once a part, at most about twenty times.
 //
 // TIME:   O(n), and O(k log k) for the k short arcs.
-// MEMORY: reserved: up to 112 bytes a short arc and 75 an end of one; then part_bytes, or an eighth of
+// MEMORY: reserved: up to 112 bytes a short arc and 75 an end of one; then part_bytes, or a sixteenth of
 //         what all parts take, or the largest set of nodes in the scope that arcs hold together; and
 //         the patch: 70 bytes an arc and 52 a node, and payloads.
 // THROWS: Error{kResource} of the disk. That the budget does not suffice is in the result.

@@ -269,6 +269,19 @@ std::uint64_t graph_bytes(const SegmentStore& store, const LoadOptions& options)
 
 }  // namespace
 
+void copy_graph(SegmentStore& from, SegmentStore& to, std::optional<int> bucket_exponent) {
+  from.rewind_nodes();
+  for (std::vector<SettledNode> nodes; from.read_nodes(nodes, kStretch);) to.add_nodes(nodes);
+  from.rewind_arcs();
+  std::vector<std::uint32_t> counts;
+  for (ArcPiece piece; from.read_arcs(piece, kStretch, bucket_exponent);) {
+    counts.clear();
+    for (std::size_t i = 0; bucket_exponent && i < piece.arcs.size(); ++i)
+      counts.push_back(static_cast<std::uint32_t>(piece.buckets.view().count(i)));
+    to.add_arcs({piece.arcs, counts, piece.buckets.buckets, bucket_exponent.value_or(0)});
+  }
+}
+
 std::uint64_t loading_bytes(const SegmentStore& store, const LoadOptions& options) {
   return graph_bytes(store, options) + NodeTable::bytes(store.node_count());
 }

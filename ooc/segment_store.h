@@ -150,6 +150,9 @@ void SegmentStore::scan_arcs(const Visit& visit) const {
   });
 }
 
+// Adds all of a finished store to another; buckets, if an exponent is given, coarsened to it.
+void copy_graph(SegmentStore& from, SegmentStore& to, std::optional<int> bucket_exponent);
+
 // A graph in memory with what it has reserved.
 struct LoadedGraph {
   Reservation memory;

@@ -208,34 +208,48 @@ ArcBuckets buckets_of(const ArcBucketLists& lists, const std::vector<std::uint32
   return buckets;
 }
 
-Denoised denoise(ReebGraph graph, const std::vector<bool>* whole, double threshold, ArcBuckets& buckets,
-                 int exponent) {
-  Denoised result{std::move(graph), {}, {}};
-  if (buckets.offsets.empty()) {
-    remove_leaves(result, whole, threshold, nullptr);
-    return result;
+PackedLists lists_of(const ArcBucketLists& lists, const std::vector<std::uint32_t>& arcs) {
+  PackedLists packed;
+  packed.reserve(arcs.size());
+  std::vector<Bucket> buckets;
+  for (const std::uint32_t arc : arcs) {
+    buckets.clear();
+    unpack_buckets(lists.closed(arc), buckets);
+    packed.add(buckets);
   }
-  ArcBucketLists lists(pack_lists(buckets.view()), exponent);
-  buckets = {};
-  remove_leaves(result, whole, threshold, &lists);
-  buckets = buckets_of(lists, result.former);
+  return packed;
+}
+
+Denoised denoise_without_embedding(ReebGraph graph, const std::vector<bool>* whole, double threshold) {
+  Denoised result{std::move(graph), {}, {}};
+  remove_leaves(result, whole, threshold, nullptr);
   return result;
 }
 
 }  // namespace
 
 Denoised denoise(ReebGraph graph, double threshold) {
-  ArcBuckets none;
-  return denoise(std::move(graph), nullptr, threshold, none, 0);
+  return denoise_without_embedding(std::move(graph), nullptr, threshold);
 }
 
 Denoised denoise(ReebGraph graph, double threshold, ArcBuckets& buckets, int exponent) {
-  return denoise(std::move(graph), nullptr, threshold, buckets, exponent);
+  if (buckets.offsets.empty()) return denoise(std::move(graph), threshold);
+  Denoised result{std::move(graph), {}, {}};
+  ArcBucketLists lists(pack_lists(buckets.view()), exponent);
+  buckets = {};
+  remove_leaves(result, nullptr, threshold, &lists);
+  buckets = buckets_of(lists, result.former);
+  return result;
 }
 
-Denoised denoise_part(ReebGraph part, const std::vector<bool>& whole, double threshold, ArcBuckets& buckets,
+Denoised denoise_part(ReebGraph part, const std::vector<bool>& whole, double threshold, PackedLists& buckets,
                       int exponent) {
-  return denoise(std::move(part), &whole, threshold, buckets, exponent);
+  if (buckets.size() == 0) return denoise_without_embedding(std::move(part), &whole, threshold);
+  Denoised result{std::move(part), {}, {}};
+  ArcBucketLists lists(std::move(buckets), exponent);
+  remove_leaves(result, &whole, threshold, &lists);
+  buckets = lists_of(lists, result.former);
+  return result;
 }
 
 }  // namespace reeb

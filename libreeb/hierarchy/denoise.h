@@ -7,6 +7,7 @@
 #include "libreeb/graph/reeb_graph.h"
 #include "libreeb/hierarchy/arc_buckets.h"
 #include "libreeb/hierarchy/hierarchy.h"
+#include "libreeb/hierarchy/packed_lists.h"
 
 namespace reeb {
 
@@ -45,7 +46,7 @@ Denoised denoise(ReebGraph graph, double threshold, ArcBuckets& buckets, int exp
 // The same in a part of a graph: all arcs of the nodes that are `whole`, in the order of the graph.
 // Other nodes only say where those arcs end, and stay. With the nodes of noise_scope() whole, the
 // arcs and buckets of the result, in the place of the part's, make of the graph what denoise() does.
-Denoised denoise_part(ReebGraph part, const std::vector<bool>& whole, double threshold, ArcBuckets& buckets,
+Denoised denoise_part(ReebGraph part, const std::vector<bool>& whole, double threshold, PackedLists& buckets,
                       int exponent);
 
 }  // namespace reeb
