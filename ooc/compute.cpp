@@ -576,7 +576,7 @@ Error Run::no_memory_for(const std::string& what, const ComputeResult& result, s
   // Reading what is stored takes up to a quarter of the account.
   const std::uint64_t enough = plan_.set_aside_bytes + (budget_.used_bytes() + needed) / 3 * 4;
   Error error(ErrorKind::kResource,
-              what + " of " + std::to_string(result.arcs) + " arcs needs " + format_bytes(needed) +
+              what + " of " + std::to_string(result.arcs) + " arcs needs up to " + format_bytes(needed) +
                   " of memory, but only " + format_bytes(budget_.free_bytes()) +
                   " are left; the graph itself was written",
               "allow --memory " + std::to_string(enough / (1 << 20) + 1) + "M, or " + otherwise);

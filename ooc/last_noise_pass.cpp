@@ -21,7 +21,7 @@ namespace {
 // To remove leaves in a part of the graph: for each of its nodes, and for each of its arcs with one end in
 // it, or two; and for its buckets, packed and not.
 constexpr std::uint64_t kNodeBytes = 72, kInnerArcBytes = 64, kArcBytes = kInnerArcBytes + kNodeBytes;
-constexpr std::uint64_t kPackedByte = 1, kBucketBytes = 60;
+constexpr std::uint64_t kPackedByte = 1, kBucketBytes = 42;
 
 // To find the scope in a graph of short arcs: the graph, the degrees of its nodes and what their buckets take, and either
 // the table in which these are looked up, or what noise_scope() takes.
@@ -56,6 +56,11 @@ struct Scope {
     nodes.push_back(node);
     arcs.push_back(arc_count);
     bucket_bytes.push_back(of_buckets);
+  }
+  // The rest only says how to divide them.
+  void keep_nodes() {
+    arcs = {};
+    bucket_bytes = {};
   }
   // What removing noise at a node takes if no arc joins it to another one of the scope.
   std::uint64_t weight(std::size_t node) const {
@@ -92,7 +97,10 @@ class Pass {
   // What removing noise takes if all of the graph is looked at, the patch included.
   std::uint64_t most_bytes() const {
     const std::uint64_t of_buckets = exponent_ ? kPackedByte * payload_bytes_ + kBucketBytes * store_.bucket_count() : 0;
-    return 2 * (kNodeBytes * store_.node_count() + kArcBytes * store_.arc_count() + of_buckets);
+    constexpr std::uint64_t kGoneNode = 2 * sizeof(SweepKey) + 16;
+    const std::uint64_t of_patch =
+        sizeof(PatchArc) * store_.arc_count() + (exponent_ ? payload_bytes_ : 0) + kGoneNode * store_.node_count();
+    return kNodeBytes * store_.node_count() + kInnerArcBytes * store_.arc_count() + of_buckets + of_patch;
   }
 
   // ---- where noise can be
@@ -168,13 +176,18 @@ class Pass {
     enough_ = held_ + 2 * all;
     if (!make_room(memory_, held_, enough_)) return;
     const std::uint64_t part_bytes = std::min(std::max(options_.part_bytes, all / kParts), store_.budget().free_bytes() / 2);
-    if (all <= part_bytes) return remove_noise_in(scope_, all);
+    if (all <= part_bytes) {
+      scope_.keep_nodes();
+      return remove_noise_in(scope_.nodes, all);
+    }
     const Division division = divide(part_bytes);
+    scope_.keep_nodes();
     for (std::uint32_t part = 0; part < division.weights.size() && result_.fits; ++part) {
-      Scope nodes;
+      std::vector<SweepKey> nodes;
+      nodes.reserve(static_cast<std::size_t>(std::count(division.part_of.begin(), division.part_of.end(), part)));
       for (std::size_t node = 0; node < scope_.size(); ++node)
-        if (division.part_of[node] == part) nodes.add(scope_.nodes[node], scope_.arcs[node], scope_.bucket_bytes[node]);
-      remove_noise_in(nodes, division.weights[part] + Scope::bytes(2 * nodes.size()));
+        if (division.part_of[node] == part) nodes.push_back(scope_.nodes[node]);
+      remove_noise_in(nodes, division.weights[part] + sizeof(SweepKey) * nodes.size());
     }
   }
 
@@ -220,7 +233,7 @@ class Pass {
     });
   }
 
-  void remove_noise_in(const Scope& scope, std::uint64_t bytes) {
+  void remove_noise_in(const std::vector<SweepKey>& scope, std::uint64_t bytes) {
     if (!make_room(memory_, held_ + bytes, enough_)) return;
     RecordBatch<StoredArc> arcs = gather(scope);
     PackedLists buckets = buckets_of(arcs);
@@ -229,19 +242,20 @@ class Pass {
     ReebGraph part = graph_of(std::move(arcs));
     std::vector<bool> whole(part.node_count());
     for (std::size_t node = 0, next = 0; next < scope.size(); ++node)
-      if (part.nodes[node] == scope.nodes[next]) whole[node] = true, ++next;
+      if (part.nodes[node] == scope[next]) whole[node] = true, ++next;
     const std::vector<SweepKey> former_nodes = part.nodes;
     const std::vector<NodeId> former_hi = part.hi;
     const Denoised denoised = denoise_part(std::move(part), whole, options_.threshold, buckets, exponent_.value_or(0));
     result_.removed_pairs += denoised.removed.size();
     memory_.try_resize(held_ + bytes / 2);  // most is free again
+    make_room_in_patch(denoised.graph.arc_count(), buckets);
     std::vector<Bucket> own;
     for (std::size_t arc = 0; arc < denoised.graph.arc_count() && result_.fits; ++arc) {
       own.clear();
       if (exponent_) unpack_buckets(buckets.of(arc), own);
       add_to_patch({keys_of(denoised.graph, arc), former_nodes[former_hi[denoised.former[arc]].value()]}, own);
     }
-    add_gone(scope.nodes, denoised.graph.nodes);
+    add_gone(scope, denoised.graph.nodes);
   }
 
   static ArcKeys keys_of(const ReebGraph& graph, std::size_t arc) {
@@ -250,8 +264,8 @@ class Pass {
 
   // All arcs of these nodes with their payloads, in the order of the graph. They are counted first, for
   // room that grows would be twice as much.
-  RecordBatch<StoredArc> gather(const Scope& scope) const {
-    const SparseNodeTable table(scope.nodes);
+  RecordBatch<StoredArc> gather(const std::vector<SweepKey>& scope) const {
+    const SparseNodeTable table(scope);
     const auto for_each = [&](const auto& visit) {
       store_.scan_arcs([&](const StoredArc& arc, const auto& batch) {
         if (table.find(arc.keys.lo) == NodeTable::kNone && table.find(arc.keys.hi) == NodeTable::kNone) return;
@@ -303,25 +317,26 @@ class Pass {
 
   // ---- the patch
 
+  // For so many arcs with these buckets; parts are few.
+  void make_room_in_patch(std::size_t arc_count, const PackedLists& buckets) {
+    constexpr std::size_t kExponent = 10;  // in a payload, at most
+    std::size_t payloads = 0;
+    for (std::size_t arc = 0; arc < buckets.size(); ++arc)
+      if (const std::size_t size = buckets.of(arc).size(); size != 0) payloads += size + kExponent;
+    auto& [records, pool] = patch_.arcs;
+    if (grow_patch((records.size() + arc_count) * sizeof(PatchArc))) records.reserve(records.size() + arc_count);
+    if (result_.fits && grow_patch(pool.size() + payloads)) pool.reserve(pool.size() + payloads);
+  }
+
   void add_to_patch(const PatchArc& arc, std::span<const Bucket> buckets) {
     payload_.clear();
     if (!buckets.empty()) encode_buckets(buckets, *exponent_, payload_);
-    auto& [records, pool] = patch_.arcs;
     constexpr std::size_t kMostPool = std::numeric_limits<std::uint32_t>::max();
-    if (pool.size() + payload_.size() > kMostPool) {
+    if (patch_.arcs.pool.size() + payload_.size() > kMostPool) {
       result_.fits = false;
       result_.needed_bytes = enough_;
       return;
     }
-    if (records.size() == records.capacity()) {
-      const std::size_t more = next_capacity(records.capacity());
-      if (grow_patch(more * sizeof(PatchArc))) records.reserve(more);
-    }
-    if (pool.size() + payload_.size() > pool.capacity()) {
-      const std::size_t more = next_capacity(pool.capacity() + payload_.size());
-      if (grow_patch(more)) pool.reserve(more);
-    }
-    if (!result_.fits) return;
     patch_.arcs.add(arc, payload_);
     patch_.buckets += buckets.size();
   }
