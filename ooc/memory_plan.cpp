@@ -15,6 +15,8 @@ constexpr std::uint64_t kMiB = 1 << 20;
 // Measured, at most: code, allocator and stacks; and windows of a mesh that is looked up in place.
 constexpr std::uint64_t kProcess = 8 * kMiB, kWindows = kMiB;
 constexpr std::uint64_t kLeast = 16 * kMiB;
+// Besides, what the allocator cannot use again: of the least budget nothing can be spared for it.
+constexpr std::uint64_t kUnused = 2 * kMiB;
 
 // A live vertex with its share of edges, arcs and references, room to grow included. Scans of 4 to 372
 // million triangles, f = z, took 290 to 640 bytes with noise removed and 470 to 690 with it kept, the
@@ -62,7 +64,7 @@ MemoryPlan plan_memory(const MemoryRequest& request) {
       request.limit_bytes == MemoryBudget::kUnlimited ? machine_bytes() / 2 : request.limit_bytes;
   MemoryPlan plan;
   plan.request_ = request;
-  plan.set_aside_bytes = kProcess + (request.in_place ? kWindows : 0);
+  plan.set_aside_bytes = kProcess + (request.in_place ? kWindows : 0) + std::min(kUnused, (limit - kLeast) / 4);
   plan.account_bytes = limit - plan.set_aside_bytes;
   // Beyond these sizes more memory makes nothing faster.
   plan.table_bytes = std::min(plan.account_bytes / 16, kMiB);
@@ -71,7 +73,7 @@ MemoryPlan plan_memory(const MemoryRequest& request) {
   const std::uint64_t buckets = request.denoises ? kBucketsRemoved : kBucketsKept;
   plan.vertex_bytes_ = request.functions * (graph + (request.embeds ? buckets : 0));
   plan.least_vertex_bytes_ = request.functions * (kSmooth + (request.embeds ? kBucketsSmooth : 0));
-  plan.size_chunks(plan.account_bytes / 4, ChunkSize{}.first);  // until the front is known
+  plan.size_chunks(plan.account_bytes / 6, ChunkSize{}.first);  // until the front is known
   return plan;
 }
 
