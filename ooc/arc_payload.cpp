@@ -11,6 +11,12 @@ void encode_buckets(std::span<const Bucket> buckets, int exponent, std::vector<s
   pack_buckets(buckets, payload);
 }
 
+void encode_packed_buckets(std::span<const std::byte> packed, int exponent, std::vector<std::byte>& payload) {
+  if (packed.empty()) return;
+  ByteWriter(payload).varint(zigzag(exponent));
+  payload.insert(payload.end(), packed.begin(), packed.end());
+}
+
 std::uint64_t bucket_count(std::span<const std::byte> payload) {
   if (payload.empty()) return 0;
   ByteReader in(payload);

@@ -13,6 +13,8 @@ namespace reeb::ooc {
 // Appends the payload: the exponent as a varint, then the packed list (packed_buckets.h). An arc without
 // buckets has none.
 void encode_buckets(std::span<const Bucket> buckets, int exponent, std::vector<std::byte>& payload);
+// The same for a list that is packed already.
+void encode_packed_buckets(std::span<const std::byte> packed, int exponent, std::vector<std::byte>& payload);
 
 // Appends the buckets of a payload, coarsened to `exponent`. False if the bytes are no payload, or
 // are coarser.

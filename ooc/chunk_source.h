@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -74,17 +75,12 @@ class ChunkSource {
 std::unique_ptr<ChunkSource> chunks_of(IndexedMesh& mesh, LastUse& last_use, FunctionValues& columns,
                                        ChunkSize size, const ChunkPlace& start = {});
 
-// When not to go on with a stream: more of its vertices are waiting to be finalized than that, or nearly
-// all of many.
-struct StreamLimits {
-  std::uint64_t most_active_vertices = ~std::uint64_t{0};
-  bool may_give_up = false;
-};
-
 // Chunks of a stream, read once. What is not finalized by the stream is finalized at its end. What
-// comes before `start` is read and passed over.
+// comes before `start` is read and passed over. It gives up, if it may at all, once more vertices than
+// that are active (not finalized yet), or a large part of many.
 // THROWS, at once: Error{kBadInput} if the stream has not such a place.
 std::unique_ptr<ChunkSource> chunks_of(MeshReader& reader, FunctionValues& columns, ChunkSize size,
-                                       const ChunkPlace& start = {}, const StreamLimits& limits = {});
+                                       const ChunkPlace& start = {},
+                                       std::optional<std::uint64_t> most_active_vertices = {});
 
 }  // namespace reeb::ooc

@@ -211,9 +211,9 @@ ChunkPlace Run::start_place() const { return start_ != nullptr ? start_->place :
 
 void Run::run_stream() {
   here_.origin = ChunkOrigin::kStream;
-  const bool may_give_up = options_.may_reorder && input_.read_again && start_ == nullptr;
-  auto source = chunks_of(*input_.reader, values_, plan_.chunk, start_place(),
-                          {plan_.most_live_vertices(), may_give_up});
+  std::optional<std::uint64_t> most_active_vertices;
+  if (options_.may_reorder && input_.read_again && start_ == nullptr) most_active_vertices = plan_.most_live_vertices();
+  auto source = chunks_of(*input_.reader, values_, plan_.chunk, start_place(), most_active_vertices);
   run_chunks(*source);
   if (source->given_up()) {
     common_.notes.push_back("too many vertices of the stream are live at once, so it was read again from the start");

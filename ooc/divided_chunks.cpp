@@ -11,7 +11,7 @@ constexpr std::uint16_t kNoPatch = std::numeric_limits<std::uint16_t>::max();
 }  // namespace
 
 bool DividedChunks::next(WorkItem& item) {
-  if (next_patch_ == patch_count_) {
+  if (next_patch_ == patches_.patch_count()) {
     if (!stretches_.next(stretch_)) return false;
     if (stretch_.chunk.triangle_count() <= whole_) {
       take_whole(item);
@@ -38,7 +38,6 @@ void DividedChunks::take_whole(WorkItem& item) {
 void DividedChunks::divide() {
   patches_.divide(stretch_.chunk, patch_);
   next_patch_ = 0;
-  patch_count_ = patches_.patch_count();
   find_last_patches();
   local_.resize(stretch_.chunk.vertex_count());
   reservation_.resize(stretch_.memory_bytes() + patches_.memory_bytes() + 2 * last_patch_.capacity() +
@@ -47,7 +46,7 @@ void DividedChunks::divide() {
 
 void DividedChunks::find_last_patches() {
   last_patch_.assign(stretch_.chunk.vertex_count(), kNoPatch);
-  for (std::size_t p = 0; p < patch_count_; ++p)
+  for (std::size_t p = 0; p < patches_.patch_count(); ++p)
     for (const std::uint32_t triangle : patches_.patch(p))
       for (std::size_t k = 0; k < 3; ++k)
         last_patch_[stretch_.chunk.corners[3 * std::size_t{triangle} + k]] = static_cast<std::uint16_t>(p);
@@ -59,7 +58,7 @@ void DividedChunks::take_patch(WorkItem& item) {
   take_vertices(item);
   item.end = stretch_.end;
   ++next_patch_;
-  item.ends_stretch = next_patch_ == patch_count_;
+  item.ends_stretch = next_patch_ == patches_.patch_count();
 }
 
 // Numbers the vertices of a patch in order of first appearance, in taken_.

@@ -46,7 +46,7 @@ class DividedChunks : public ChunkSource {
   Reservation reservation_;
   WorkItem stretch_;
   PatchPartition patches_;
-  std::size_t next_patch_ = 0, patch_count_ = 0;
+  std::size_t next_patch_ = 0;
   // By vertex of the stretch.
   std::vector<std::uint16_t> last_patch_;
   std::vector<std::uint32_t> local_;  // its number in the patch at hand, if taken_ says so, too

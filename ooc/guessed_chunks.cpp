@@ -21,7 +21,6 @@ GuessedChunks::GuessedChunks(Spooler& spooler, FunctionValues& columns, const Te
 bool GuessedChunks::next(WorkItem& item) {
   if (!read_chunk(item.chunk)) return false;
   lookup_.look_up(spooler_.mesh(), item);
-  item.ends_stretch = true;
   item.end.triangles = triangles_read_;
   item.end.next_vertex = next_vertex_;
   item.end.chunk_blocks = 0;

@@ -53,7 +53,6 @@ bool IndexedChunks::next(WorkItem& item) {
   item.chunk.clear();
   if (!read_triangles(item.chunk) && !read_loose_vertices(item.chunk)) return false;
   lookup_.look_up(mesh_, item);
-  item.ends_stretch = true;
   item.end.triangles = triangles_read_;
   item.end.next_vertex = next_vertex_;
   item.end.chunk_blocks = blocks_.size();

@@ -249,12 +249,9 @@ class Pass {
     result_.removed_pairs += denoised.removed.size();
     memory_.try_resize(held_ + bytes / 2);  // most is free again
     make_room_in_patch(denoised.graph.arc_count(), buckets);
-    std::vector<Bucket> own;
-    for (std::size_t arc = 0; arc < denoised.graph.arc_count() && result_.fits; ++arc) {
-      own.clear();
-      if (exponent_) unpack_buckets(buckets.of(arc), own);
-      add_to_patch({keys_of(denoised.graph, arc), former_nodes[former_hi[denoised.former[arc]].value()]}, own);
-    }
+    for (std::size_t arc = 0; arc < denoised.graph.arc_count() && result_.fits; ++arc)
+      add_to_patch({keys_of(denoised.graph, arc), former_nodes[former_hi[denoised.former[arc]].value()]},
+                   exponent_ ? buckets.of(arc) : std::span<const std::byte>());
     add_gone(scope, denoised.graph.nodes);
   }
 
@@ -328,9 +325,9 @@ class Pass {
     if (result_.fits && grow_patch(pool.size() + payloads)) pool.reserve(pool.size() + payloads);
   }
 
-  void add_to_patch(const PatchArc& arc, std::span<const Bucket> buckets) {
+  void add_to_patch(const PatchArc& arc, std::span<const std::byte> packed_buckets) {
     payload_.clear();
-    if (!buckets.empty()) encode_buckets(buckets, *exponent_, payload_);
+    if (exponent_) encode_packed_buckets(packed_buckets, *exponent_, payload_);
     constexpr std::size_t kMostPool = std::numeric_limits<std::uint32_t>::max();
     if (patch_.arcs.pool.size() + payload_.size() > kMostPool) {
       result_.fits = false;
@@ -338,7 +335,7 @@ class Pass {
       return;
     }
     patch_.arcs.add(arc, payload_);
-    patch_.buckets += buckets.size();
+    patch_.buckets += packed_count(packed_buckets);
   }
 
   std::uint64_t patch_bytes() const {

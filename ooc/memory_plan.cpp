@@ -104,9 +104,10 @@ std::uint64_t MemoryPlan::needed_bytes(const FrontNeeds& needs) const {
   return set_aside_bytes + (fixed + needs.live_vertices * vertex_bytes_) / 15 * 16;
 }
 
+bool MemoryPlan::allows_threads() const { return account_bytes >= kEnoughForThreads; }
+
 std::uint64_t MemoryPlan::triangle_bytes() const {
-  const bool one_thread = account_bytes < kEnoughForThreads;
-  return chunk_bytes(one_thread ? 1 : kPlannedThreads, request_.functions);
+  return chunk_bytes(allows_threads() ? kPlannedThreads : 1, request_.functions);
 }
 
 // A rough function takes up to twice as much for the live graph; so half of the room is left.
@@ -119,8 +120,7 @@ void MemoryPlan::share_out(const FrontNeeds& needs) {
 
 // Patches of a stretch take a quarter, so that it can be long.
 void MemoryPlan::size_chunks(std::uint64_t bytes, std::size_t most_triangles) {
-  const bool one_thread = account_bytes < kEnoughForThreads;
-  bytes = std::min(bytes, one_thread ? account_bytes / 10 : kMostForChunks);
+  bytes = std::min(bytes, allows_threads() ? kMostForChunks : account_bytes / 10);
   chunk = {};
   const auto fitting = [&](std::uint64_t part) {
     return std::clamp(static_cast<std::size_t>(part / triangle_bytes()), kLeastTriangles,
@@ -130,7 +130,7 @@ void MemoryPlan::size_chunks(std::uint64_t bytes, std::size_t most_triangles) {
   chunk.patch = fitting(bytes / 4);
   const auto stretch = static_cast<std::size_t>(less(bytes, chunk.patch * triangle_bytes()) / kStretchBytes);
   chunk.most = std::clamp(stretch, chunk.first, chunk.most);
-  threads = one_thread ? 1 : request_.threads;
+  threads = allows_threads() ? request_.threads : 1;
   const std::uint64_t parallel = std::max(bytes, account_bytes / 4);
   while (threads > kPlannedThreads && chunk_bytes(threads, request_.functions) * chunk.first > parallel) --threads;
   if (request_.chunk_triangles != 0) {

@@ -51,6 +51,7 @@ class MemoryPlan {
   friend MemoryPlan plan_memory(const MemoryRequest& request);
   std::uint64_t taken_bytes(const FrontNeeds& needs) const;
   std::uint64_t live_room(const FrontNeeds& needs) const;
+  bool allows_threads() const;
   std::uint64_t triangle_bytes() const;
   void size_chunks(std::uint64_t bytes, std::size_t most_triangles);
 

@@ -21,6 +21,7 @@ class PatchPartition {
   // than 1,024. REQUIRES: most >= 1; the chunk has triangles, 65,536 times `most` at most.
   void divide(const Chunk& chunk, std::size_t most);
 
+  // None before anything was divided.
   std::size_t patch_count() const { return begin_.size() - 1; }
   // Triangles of a patch, in stream order. Successive patches are mostly neighbours.
   std::span<const std::uint32_t> patch(std::size_t index) const {
@@ -48,7 +49,7 @@ class PatchPartition {
   std::vector<Cut> cuts_;
   std::uint32_t patches_ = 0;
   std::vector<std::uint16_t> patch_of_;  // by triangle
-  std::vector<std::uint32_t> begin_;
+  std::vector<std::uint32_t> begin_{0};
   std::vector<std::uint32_t> triangles_;  // first the sample
 };
 

@@ -26,7 +26,7 @@ bool SortedRecords::next(ArcVersion& record, std::span<const std::byte>& buckets
   const std::uint32_t i = order_[next_++];
   record = records_[i];
   packed_.clear();
-  pack_buckets(buckets_.of(i).first(buckets_.count(i)), packed_);
+  pack_buckets(buckets_.of(i), packed_);
   buckets = packed_;
   return true;
 }

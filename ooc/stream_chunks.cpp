@@ -8,8 +8,12 @@ namespace {
 class StreamChunks : public ChunkSource {
  public:
   StreamChunks(MeshReader& reader, FunctionValues& columns, ChunkSize size, const ChunkPlace& start,
-               const StreamLimits& limits)
-      : reader_(reader), columns_(columns), size_(size), limits_(limits), chunker_(columns.function_count(), true) {
+               std::optional<std::uint64_t> most_active_vertices)
+      : reader_(reader),
+        columns_(columns),
+        size_(size),
+        most_active_vertices_(most_active_vertices),
+        chunker_(columns.function_count(), true) {
     pass_over(start);
   }
 
@@ -30,7 +34,7 @@ class StreamChunks : public ChunkSource {
   MeshReader& reader_;
   FunctionValues& columns_;
   ChunkGrowth size_;  // in triangles
-  StreamLimits limits_;
+  std::optional<std::uint64_t> most_active_vertices_;  // if it may give up
   StreamChunker chunker_;
   std::uint64_t triangles_read_ = 0;
   std::uint64_t batches_ = 0;
@@ -46,11 +50,10 @@ class StreamChunks : public ChunkSource {
 
 bool StreamChunks::next(WorkItem& item) {
   while (!ended_ && chunker_.chunk_size() < size_.size()) read_batch();
-  given_up_ = limits_.may_give_up && is_hopeless();
+  given_up_ = is_hopeless();
   if (given_up_ || chunker_.chunk_size() == 0) return false;
   chunker_.take(item.chunk, item.values);
   size_.adapt(item.chunk);
-  item.ends_stretch = true;
   item.end.triangles = triangles_read_;
   item.end.next_vertex = chunker_.vertex_count();
   item.end.batches = batches_;
@@ -61,8 +64,9 @@ bool StreamChunks::next(WorkItem& item) {
 
 bool StreamChunks::is_hopeless() const {
   constexpr std::uint64_t kMany = 1'000'000, kLargePart = 8;
+  if (!most_active_vertices_) return false;
   const std::uint64_t active = chunker_.active_vertices(), all = chunker_.vertex_count();
-  return active > limits_.most_active_vertices || (all > kMany && active > all / kLargePart);
+  return active > *most_active_vertices_ || (all > kMany && active > all / kLargePart);
 }
 
 // Which vertices are live at a chunk's end, and which of them were used, does not depend on where the
@@ -122,8 +126,8 @@ void StreamChunks::add_simplices(const std::vector<VertexId>& corners, std::size
 }  // namespace
 
 std::unique_ptr<ChunkSource> chunks_of(MeshReader& reader, FunctionValues& columns, ChunkSize size,
-                                       const ChunkPlace& start, const StreamLimits& limits) {
-  return std::make_unique<StreamChunks>(reader, columns, size, start, limits);
+                                       const ChunkPlace& start, std::optional<std::uint64_t> most_active_vertices) {
+  return std::make_unique<StreamChunks>(reader, columns, size, start, most_active_vertices);
 }
 
 }  // namespace reeb::ooc

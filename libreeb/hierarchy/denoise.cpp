@@ -211,12 +211,7 @@ ArcBuckets buckets_of(const ArcBucketLists& lists, const std::vector<std::uint32
 PackedLists lists_of(const ArcBucketLists& lists, const std::vector<std::uint32_t>& arcs) {
   PackedLists packed;
   packed.reserve(arcs.size());
-  std::vector<Bucket> buckets;
-  for (const std::uint32_t arc : arcs) {
-    buckets.clear();
-    unpack_buckets(lists.closed(arc), buckets);
-    packed.add(buckets);
-  }
+  for (const std::uint32_t arc : arcs) packed.add_packed(lists.closed(arc));
   return packed;
 }
 

@@ -18,8 +18,12 @@ constexpr std::size_t kArcBytes = 4, kMostSizeBytes = 5;
 void PackedLists::add(std::span<const Bucket> buckets) {
   packed_.clear();
   pack_buckets(buckets, packed_);
+  add_packed(packed_);
+}
+
+void PackedLists::add_packed(std::span<const std::byte> packed) {
   places_.push_back(kNowhere);
-  replace(places_.size() - 1, packed_);
+  replace(places_.size() - 1, packed);
 }
 
 std::uint64_t PackedLists::memory_bytes() const {

@@ -24,6 +24,7 @@ class PackedLists {
   void reserve(std::size_t arcs) { places_.reserve(arcs); }
   // Appends an arc with its buckets.
   void add(std::span<const Bucket> buckets);
+  void add_packed(std::span<const std::byte> packed);
 
   std::size_t size() const { return places_.size(); }
   // What it holds at present.
