@@ -35,11 +35,19 @@ class ArcBucketLists {
     return is_open(arc) ? opened_[open_[arc]].first == kNone : packed_.of(arc).empty();
   }
 
+  // Fetches into the caches, without waiting: where the arc's list is; and, when that was fetched, the list.
+  void prefetch_place(std::uint32_t arc) const {
+    __builtin_prefetch(&open_[arc]);
+    packed_.prefetch_place(arc);
+  }
+  void prefetch(std::uint32_t arc) const { packed_.prefetch(arc); }
+
   // A vertex enters its bucket.
   void add(std::uint32_t arc, double value, const std::array<double, 3>& position);
 
-  // Whether the arc has anything that cut() would move. Changes nothing.
-  bool has_beyond(Direction d, std::uint32_t arc, const CutValues& values);
+  // Up to which value, going along an arc that spans the values from `lo` to `hi`, a cut moves nothing of
+  // what lies before it. REQUIRES: !empty(arc).
+  double first_value(Direction d, std::uint32_t arc, double lo, double hi);
 
   // What `from` has on side d of values.at goes to `into`. The bucket that the value lies in is
   // divided in proportion to the values of the arc within it, to whole vertices; both parts keep
@@ -75,6 +83,7 @@ class ArcBucketLists {
   }
   void open(std::uint32_t arc);
   std::span<const Bucket> unpacked(std::uint32_t arc);
+  const Bucket& first_bucket(Direction d, std::uint32_t arc);
   std::uint32_t make(const Bucket& bucket, std::uint32_t next);
   void free(std::uint32_t item);
   void insert(std::uint32_t chain, std::uint32_t into);
