@@ -32,11 +32,11 @@ std::uint64_t count_below(const Bucket& bucket, const CutValues& values, int exp
 }  // namespace
 
 ArcBucketLists::ArcBucketLists(PackedLists lists, int exponent)
-    : exponent_(exponent), packed_(std::move(lists)), open_(packed_.size(), kNone) {}
+    : exponent_(exponent), packed_(std::move(lists)) {}
 
 void ArcBucketLists::open(std::uint32_t arc) {
   if (is_open(arc)) return;
-  open_[arc] = static_cast<std::uint32_t>(opened_.size());
+  open_.find_or_insert(arc, static_cast<std::uint32_t>(opened_.size()));
   opened_.push_back({arc, kNone});
   const auto own = unpacked(arc);
   for (auto bucket = own.rbegin(); bucket != own.rend(); ++bucket) first(arc) = make(*bucket, first(arc));
@@ -57,7 +57,7 @@ void ArcBucketLists::close() {
     bytes_.clear();
     pack_buckets(buckets_, bytes_);
     packed_.replace(opened.arc, bytes_);
-    open_[opened.arc] = kNone;
+    open_.erase(opened.arc);
   }
   opened_.clear();
   items_.clear();

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "libreeb/base/direction.h"
+#include "libreeb/base/flat_map.h"
 #include "libreeb/graph/bucket.h"
 #include "libreeb/hierarchy/packed_lists.h"
 
@@ -24,7 +25,7 @@ struct CutValues {
 // close() packs them again. What an arc had when that was done last stays at hand meanwhile.
 //
 // TIME:   an operation walks the lists that it names, once; so does close().
-// MEMORY: PackedLists; 4 bytes an arc, and 48 a bucket that is open.
+// MEMORY: PackedLists; 48 bytes a bucket that is open.
 class ArcBucketLists {
  public:
   // REQUIRES: all buckets are of this exponent, and none is empty.
@@ -32,14 +33,12 @@ class ArcBucketLists {
 
   std::size_t arc_count() const { return packed_.size(); }
   bool empty(std::uint32_t arc) const {
-    return is_open(arc) ? opened_[open_[arc]].first == kNone : packed_.of(arc).empty();
+    const std::uint32_t opened = open_.find(arc);
+    return opened != kNone ? opened_[opened].first == kNone : packed_.of(arc).empty();
   }
 
   // Fetches into the caches, without waiting: where the arc's list is; and, when that was fetched, the list.
-  void prefetch_place(std::uint32_t arc) const {
-    __builtin_prefetch(&open_[arc]);
-    packed_.prefetch_place(arc);
-  }
+  void prefetch_place(std::uint32_t arc) const { packed_.prefetch_place(arc); }
   void prefetch(std::uint32_t arc) const { packed_.prefetch(arc); }
 
   // A vertex enters its bucket.
@@ -75,8 +74,8 @@ class ArcBucketLists {
     std::uint32_t arc, first;
   };
 
-  bool is_open(std::uint32_t arc) const { return open_[arc] != kNone; }
-  std::uint32_t& first(std::uint32_t arc) { return opened_[open_[arc]].first; }
+  bool is_open(std::uint32_t arc) const { return open_.find(arc) != kNone; }
+  std::uint32_t& first(std::uint32_t arc) { return opened_[open_.find(arc)].first; }
   // The link that leads on from the item, or to the first one of the arc.
   std::uint32_t& after(std::uint32_t item, std::uint32_t arc) {
     return item == kNone ? first(arc) : items_[item].next;
@@ -91,7 +90,7 @@ class ArcBucketLists {
 
   int exponent_;
   PackedLists packed_;
-  std::vector<std::uint32_t> open_;  // of each arc, its entry in opened_
+  FlatMap open_;  // of arcs, their entries in opened_
   std::vector<Opened> opened_;
   std::vector<Item> items_;    // of opened lists
   std::uint32_t free_ = kNone;  // a list of unused items

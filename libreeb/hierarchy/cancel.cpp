@@ -83,8 +83,8 @@ std::uint64_t hierarchy_bytes(std::uint64_t nodes, std::uint64_t arcs, std::opti
   const std::uint64_t bytes = kNode * nodes + kArc * arcs + kPair * std::max(nodes, arcs);
   if (!lists) return bytes;
   // Lists that change leave holes; and a node that disappears may get a bucket of its own.
-  constexpr std::uint64_t kOpen = 4, kNewBucket = 32;
-  return bytes + kOpen * arcs + *lists + *lists / 2 + kNewBucket * nodes;
+  constexpr std::uint64_t kNewBucket = 32;
+  return bytes + *lists + *lists / 2 + kNewBucket * nodes;
 }
 
 Hierarchy build_hierarchy(ReebGraph& graph, PackedLists buckets, int exponent, RecordSink& sink, const Poll& poll) {
