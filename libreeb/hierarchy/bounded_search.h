@@ -11,7 +11,10 @@
 
 namespace reeb {
 
-// MEMORY: 4 bytes a node of the graph, kept between searches, and 8 bytes an arc on the stack.
+// Arcs are taken in the order in which they are found: time enough to fetch what is known of one that
+// lies anywhere in memory.
+//
+// MEMORY: 4 bytes a node of the graph, kept between searches, and up to 16 bytes an arc in the queue.
 class BoundedSearch {
  public:
   explicit BoundedSearch(const WorkingGraph& graph) : graph_(graph), reached_(graph.node_count()) {}
@@ -36,13 +39,16 @@ class BoundedSearch {
   // Follows one arc to its far end if `enter(far end)`. Returns the arc, kNone when none is left.
   template <class Enter>
   std::uint32_t step(Enter enter) {
-    if (stack_.empty()) return WorkingGraph::kNone;
-    const auto [arc, d] = stack_.back();
-    stack_.pop_back();
-    for (const std::uint32_t child : graph_.below_in_heap(arc, d)) push(child, d);
-    const std::uint32_t node = graph_.end(arc, d);
-    if (!reached(node) && enter(node)) reach(node);
-    return arc;
+    while (first_ < queue_.size()) {
+      prefetch_ahead();
+      const auto [arc, d] = queue_[first_++];
+      if (along(d, graph_.end(arc, d)) > along(d, limit_[d])) continue;  // and so do those below it in the heap
+      for (const std::uint32_t child : graph_.below_in_heap(arc, d)) push(child, d);
+      const std::uint32_t node = graph_.end(arc, d);
+      if (!reached(node) && enter(node)) reach(node);
+      return arc;
+    }
+    return WorkingGraph::kNone;
   }
   std::uint32_t step() {
     return step([](std::uint32_t) { return true; });
@@ -66,7 +72,8 @@ class BoundedSearch {
       reached_.assign(reached_.size(), 0);
       search_ = 1;
     }
-    stack_.clear();
+    queue_.clear();
+    first_ = 0;
     reach(node);
   }
   void reach(std::uint32_t node) {
@@ -75,8 +82,21 @@ class BoundedSearch {
       if (follows_[d]) push(graph_.nearest(node, d), d);
   }
   void push(std::uint32_t arc, Direction d) {
-    if (arc != WorkingGraph::kNone && along(d, graph_.end(arc, d)) <= along(d, limit_[d]))
-      stack_.push_back({arc, d});
+    if (arc == WorkingGraph::kNone) return;
+    graph_.prefetch_arc(arc);
+    if (queue_.size() == queue_.capacity() && 2 * first_ > queue_.size()) {
+      queue_.erase(queue_.begin(), queue_.begin() + static_cast<std::ptrdiff_t>(first_));
+      first_ = 0;
+    }
+    queue_.push_back({arc, d});
+  }
+  void prefetch_ahead() const {
+    constexpr std::size_t kAhead = 4;
+    if (first_ + kAhead >= queue_.size()) return;
+    const auto [arc, d] = queue_[first_ + kAhead];
+    const std::uint32_t node = graph_.end(arc, d);
+    prefetch(node);
+    graph_.prefetch_node(node);
   }
 
   const WorkingGraph& graph_;
@@ -84,7 +104,8 @@ class BoundedSearch {
   std::uint32_t search_ = 0;
   std::array<std::uint32_t, 2> limit_{};
   std::array<bool, 2> follows_{};
-  std::vector<Visit> stack_;
+  std::vector<Visit> queue_;
+  std::size_t first_ = 0;  // in the queue
 };
 
 }  // namespace reeb

@@ -17,7 +17,7 @@ void WorkingGraph::prefetch_neighbours(std::uint32_t node) const {
     const Arc& arc = arcs_[top_[node][d]];
     prefetch_node(arc.end[d]);
     for (const std::uint32_t child : arc.heap[d].child)
-      if (child != kNone) __builtin_prefetch(&arcs_[child]);
+      if (child != kNone) prefetch_arc(child);
   }
 }
 

@@ -53,9 +53,10 @@ class WorkingGraph {
   // Fetches into the caches, without waiting: what is known of a node; its nearest arcs; and what these lie
   // next to. Each but the first reads what the one before has fetched.
   void prefetch_node(std::uint32_t node) const { __builtin_prefetch(&top_[node]); }
+  void prefetch_arc(std::uint32_t arc) const { __builtin_prefetch(&arcs_[arc]); }
   void prefetch_arcs(std::uint32_t node) const {
     for (const std::uint32_t arc : top_[node])
-      if (arc != kNone) __builtin_prefetch(&arcs_[arc]);
+      if (arc != kNone) prefetch_arc(arc);
   }
   void prefetch_neighbours(std::uint32_t node) const;
 
