@@ -7,7 +7,7 @@
 namespace reeb {
 
 void LiveGraph::set_options(const SweepOptions& options) {
-  noise_below_ = options.noise_below;
+  set_noise(options.noise_below);
   if (!options.bucket_exponent) return;
   embeds_ = true;
   grow_arc_buckets();
@@ -33,7 +33,7 @@ LiveGraph::Index LiveGraph::add_node(const SweepKey& key, const Point& position,
     nodes_.grow_by(1);
     if (track_positions_) positions_.grow_by(1);
   }
-  nodes_[n] = {key, kNone, kNone, 0, 0, 0, state, state != State::kSettled, false, true};
+  nodes_[n] = {key, kNone, kNone, 0, 0, 0, state, state != State::kSettled, false, true, false};
   if (track_positions_) positions_[n] = position;
   // A complete node is looked at once everything that comes with it is in place.
   if (state != State::kIncomplete) queue(n);
@@ -60,6 +60,7 @@ LiveGraph::Index LiveGraph::add_arc(Index lo, Index hi) {
   arcs_[a].references = 0;
   attach_lo(a, lo);
   attach_hi(a, hi);
+  notice_short(a);
   return a;
 }
 
@@ -261,6 +262,7 @@ void LiveGraph::cut(Index longer, Index shorter) {
     r = next;
   }
   attach_hi(longer, bottom);
+  notice_short(longer);
   if (embeds_) {
     const auto value = [&](Index n) { return nodes_[n].key.value; };
     buckets_.move_above(arc_buckets_[longer], value(arcs_[longer].lo), value(bottom), value(top),
@@ -289,7 +291,7 @@ void LiveGraph::tidy() {
     Node& node = nodes_[n];
     node.queued = false;
     if (!node.used) continue;
-    if (noise_below_ > 0) remove_noise_at(n);
+    if (node.near_noise) remove_noise_at(n);
     if (!node.used) continue;
     if (is_pass_through(node))
       contract(n);
@@ -347,7 +349,7 @@ void LiveGraph::contract(Index n) {
     std::swap(below, arc_buckets_[upper]);
   }
   free_node(n);
-  if (noise_below_ > 0) {  // a leaf has another saddle now
+  if (is_noise(upper)) {  // a leaf has another saddle now
     for (const Index end : {lo, hi})
       if (is_leaf(nodes_[end])) try_leaf(end);
     if (!nodes_[lo].used || !nodes_[hi].used) return;
@@ -444,6 +446,7 @@ void LiveGraph::validate() const {
     }
     if (references != arc.references) fail("wrong number of references on arc", a);
     if (can_leave(a)) fail("not handed over: arc", a);
+    if (is_noise(a) && !(nodes_[arc.lo].near_noise && nodes_[arc.hi].near_noise)) fail("noise may go unnoticed at arc", a);
     on_arcs += references;
     if (references != 0) {
       ++referenced[arc.lo];

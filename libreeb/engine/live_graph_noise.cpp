@@ -6,6 +6,21 @@
 
 namespace reeb {
 
+// Where values are random, next to no arc is noise: so nodes know if they are worth a look. What is noise
+// mostly rises with the range of the function, step by step, and what is noticed is ahead of it.
+void LiveGraph::set_noise(double below) {
+  noise_below_ = below;
+  if (noise_below_ <= noticed_below_) return;
+  noticed_below_ = 2 * noise_below_;
+  for (Index a = 0; a < arcs_.size(); ++a)
+    if (arcs_[a].lo != kNone) notice_short(a);
+}
+
+// To be called for each arc when it comes, or has become shorter; joined ones are longer than their parts.
+void LiveGraph::notice_short(Index a) {
+  if (length(a) < noticed_below_) nodes_[arcs_[a].lo].near_noise = nodes_[arcs_[a].hi].near_noise = true;
+}
+
 // An extremum with one arc, which nothing can change any more but a contraction of its other end.
 bool LiveGraph::is_leaf(const Node& n) const {
   return n.intact && n.up_degree + n.down_degree == 1 && n.referenced_arcs == 0 &&
@@ -43,7 +58,7 @@ void LiveGraph::try_leaf(Index leaf) {
   const Index arc = first_arc(leaf, opposite(d));
   const Index saddle = arcs_[arc].end(opposite(d));
   if (!nodes_[saddle].intact) return;
-  if (!(nodes_[arcs_[arc].hi].key.value - nodes_[arcs_[arc].lo].key.value < noise_below_)) return;
+  if (!is_noise(arc)) return;
   if (!find_path_beyond(saddle, leaf, d)) return;
   if (embeds_) move_buckets(arc, leaf, d);
   detach_lo(arc);
