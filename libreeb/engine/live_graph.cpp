@@ -60,11 +60,11 @@ LiveGraph::Index LiveGraph::add_arc(Index lo, Index hi) {
   arcs_[a].references = 0;
   attach_lo(a, lo);
   attach_hi(a, hi);
-  notice_short(a);
   return a;
 }
 
 void LiveGraph::release(Index a) {
+  notice_noise(a);
   if (can_leave(a)) hand_over(a);
 }
 
@@ -240,6 +240,7 @@ void LiveGraph::merge_parallel(Index keep, Index gone) {
   queue(arcs_[gone].hi);
   detach_lo(gone);
   detach_hi(gone);
+  notice_noise(keep);
   free_arc(gone);
   if (embeds_) buckets_.merge(arc_buckets_[keep], arc_buckets_[gone]);
 }
@@ -262,7 +263,8 @@ void LiveGraph::cut(Index longer, Index shorter) {
     r = next;
   }
   attach_hi(longer, bottom);
-  notice_short(longer);
+  notice_noise(longer);
+  notice_noise_at(top);
   if (embeds_) {
     const auto value = [&](Index n) { return nodes_[n].key.value; };
     buckets_.move_above(arc_buckets_[longer], value(arcs_[longer].lo), value(bottom), value(top),
@@ -349,6 +351,7 @@ void LiveGraph::contract(Index n) {
     std::swap(below, arc_buckets_[upper]);
   }
   free_node(n);
+  notice_noise(upper);
   if (is_noise(upper)) {  // a leaf has another saddle now
     for (const Index end : {lo, hi})
       if (is_leaf(nodes_[end])) try_leaf(end);
@@ -446,7 +449,8 @@ void LiveGraph::validate() const {
     }
     if (references != arc.references) fail("wrong number of references on arc", a);
     if (can_leave(a)) fail("not handed over: arc", a);
-    if (is_noise(a) && !(nodes_[arc.lo].near_noise && nodes_[arc.hi].near_noise)) fail("noise may go unnoticed at arc", a);
+    const Node &lo = nodes_[arc.lo], &hi = nodes_[arc.hi];
+    if (is_noise(a) && (is_leaf(lo) || is_leaf(hi)) && !(lo.near_noise && hi.near_noise)) fail("no node notices leaf", a);
     on_arcs += references;
     if (references != 0) {
       ++referenced[arc.lo];
