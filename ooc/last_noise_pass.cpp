@@ -110,7 +110,7 @@ class Pass {
   // What removing noise takes if all of the graph is looked at, the patch included.
   std::uint64_t most_bytes() const {
     const std::uint64_t of_buckets = exponent_ ? kPackedByte * payload_bytes_ + kBucketBytes * store_.bucket_count() : 0;
-    constexpr std::uint64_t kGoneNode = 2 * sizeof(SweepKey) + 16;
+    constexpr std::uint64_t kGoneNode = 2 * sizeof(SweepKey) + 20;
     const std::uint64_t of_patch =
         sizeof(PatchArc) * store_.arc_count() + (exponent_ ? payload_bytes_ : 0) + kGoneNode * store_.node_count();
     return kNodeBytes * store_.node_count() + kInnerArcBytes * store_.arc_count() + of_buckets + of_patch;
@@ -394,7 +394,7 @@ class Pass {
     scope_ = {};
     memory_.release();
     const std::size_t redone = patch_.redone.capacity();
-    if (!grow_patch(redone * sizeof(SweepKey) + NodeTable::bytes(redone))) return;
+    if (!grow_patch(redone * sizeof(SweepKey) + SparseNodeTable::bytes(redone))) return;
     std::sort(patch_.gone.begin(), patch_.gone.end());
     // Of parallel arcs the one whose lowest part was stored first; the payloads of a part are in its order.
     std::sort(patch_.arcs.records.begin(), patch_.arcs.records.end(), [](const PatchArc& a, const PatchArc& b) {
