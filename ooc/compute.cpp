@@ -626,7 +626,7 @@ void Run::write_hierarchy(ComputeResult& result, std::unique_ptr<SegmentStore> s
   for (auto it = hierarchy.pairs.rbegin(); it != hierarchy.pairs.rend() && result.largest.size() < kLargest; ++it)
     if (it->type != PairType::kExt0)
       result.largest.push_back({it->type, graph.nodes[it->lo.value()], graph.nodes[it->hi.value()]});
-  write_hierarchy_file(result.output, meta, {graph, hierarchy, records, embeds()}, poll);
+  write_hierarchy_file(result.output, meta, {graph, hierarchy, records, embeds(), plan_.threads > 1}, poll);
   result.spilled_bytes += records.spilled_bytes();
 }
 

@@ -5,6 +5,7 @@
 #include "ooc/file_header.h"
 #include "ooc/frame_size.h"
 #include "ooc/hierarchy_layout.h"
+#include "ooc/read_ahead.h"
 #include "ooc/reeb_file_writer.h"
 
 namespace reeb::ooc {
@@ -21,24 +22,31 @@ class HierarchyFileWriter {
         layout_(lay_out(graph_.node_count(), hierarchy_, records_)),
         header_(make_header(meta, content)),
         writer_(path, header_.region_bytes()),
+        background_(content.background),
         file_index_(graph_.node_count(), kNotIntroduced) {}
 
   void run(const Poll& poll) {
     std::vector<std::uint64_t> frame_ends;
-    FrameCut before{0, 0, header_.steps + 1};
     records_.rewind();
-    for (const FrameCut& cut : layout_.cuts) {
-      if (poll) poll();
-      write_graph_frame(before, cut);
-      frame_ends.push_back(writer_.size());
-      before = cut;
-    }
+    std::size_t next = 0;
+    read_ahead<PlannedFrame>(
+        background_, [&](PlannedFrame& frame) { return next < layout_.cuts.size() && (make(next++, frame), true); },
+        [&](const PlannedFrame& frame) {
+          if (poll) poll();
+          write(frame);
+          frame_ends.push_back(writer_.size());
+        });
     for (LevelLine& level : header_.levels) level.file_bytes = frame_ends[level.frames - 1];
     write_pairs();
     writer_.finish(header_);
   }
 
  private:
+  struct PlannedFrame {
+    GraphFrame frame;
+    std::uint32_t finest = 0;  // version
+  };
+
   FileHeader make_header(const FileMeta& meta, const HierarchyContent& content) const {
     const auto pairs_of = [&](PairType type) {
       return static_cast<std::uint64_t>(
@@ -62,38 +70,45 @@ class HierarchyFileWriter {
     return header;
   }
 
-  void write_graph_frame(const FrameCut& before, const FrameCut& cut) {
-    frame_.clear();
-    read_records(cut.record_end - before.record_end);
-    introduce_nodes(before, cut);
+  void make(std::size_t number, PlannedFrame& planned) {
+    const FrameCut before = number == 0 ? FrameCut{0, 0, header_.steps + 1} : layout_.cuts[number - 1];
+    const FrameCut& cut = layout_.cuts[number];
+    GraphFrame& frame = planned.frame;
+    frame.clear();
+    read_records(cut.record_end - before.record_end, frame);
+    introduce_nodes(before, cut, frame);
     for (const ArcVersion& arc : arcs_)
-      frame_.arcs.push_back({file_index_[arc.lo.value()], file_index_[arc.hi.value()], arc.born, arc.died});
+      frame.arcs.push_back({file_index_[arc.lo.value()], file_index_[arc.hi.value()], arc.born, arc.died});
     for (std::uint32_t version = before.finest; version > cut.finest; --version)
-      frame_.versions.push_back(layout_.versions[version - 1]);
+      frame.versions.push_back(layout_.versions[version - 1]);
+    planned.finest = cut.finest;
+  }
 
+  void write(const PlannedFrame& planned) {
+    const GraphFrame& frame = planned.frame;
     payload_.clear();
-    encode_graph_frame(frame_, header_.flags, payload_);
+    encode_graph_frame(frame, header_.flags, payload_);
     writer_.add({.kind = FrameKind::kGraph,
-                 .nodes = static_cast<std::uint32_t>(frame_.nodes.size()),
-                 .records = static_cast<std::uint32_t>(frame_.arcs.size()),
-                 .versions = static_cast<std::uint32_t>(frame_.versions.size()),
-                 .finest = cut.finest},
+                 .nodes = static_cast<std::uint32_t>(frame.nodes.size()),
+                 .records = static_cast<std::uint32_t>(frame.arcs.size()),
+                 .versions = static_cast<std::uint32_t>(frame.versions.size()),
+                 .finest = planned.finest},
                 payload_);
   }
 
   // The next records with their buckets.
-  void read_records(std::uint64_t count) {
+  void read_records(std::uint64_t count, GraphFrame& frame) {
     arcs_.clear();
     ArcVersion arc;
     std::span<const std::byte> packed;
     while (arcs_.size() < count && records_.next(arc, packed)) {
       arcs_.push_back(arc);
-      if (header_.flags.has_embedding) frame_.add_buckets(packed);
+      if (header_.flags.has_embedding) frame.add_buckets(packed);
     }
   }
 
   // The nodes that this frame is the first to need, ascending.
-  void introduce_nodes(const FrameCut& before, const FrameCut& cut) {
+  void introduce_nodes(const FrameCut& before, const FrameCut& cut, GraphFrame& frame) {
     new_nodes_.clear();
     for (std::size_t i = before.isolated_end; i < cut.isolated_end; ++i)
       new_nodes_.push_back(hierarchy_.isolated[i].value());
@@ -104,7 +119,7 @@ class HierarchyFileWriter {
     new_nodes_.erase(std::unique(new_nodes_.begin(), new_nodes_.end()), new_nodes_.end());
     for (const std::uint32_t node : new_nodes_) {
       file_index_[node] = introduced_++;
-      frame_.nodes.push_back(
+      frame.nodes.push_back(
           {graph_.nodes[node], graph_.positions.empty() ? Point{} : graph_.positions[node]});
     }
   }
@@ -128,11 +143,11 @@ class HierarchyFileWriter {
   const HierarchyLayout layout_;
   FileHeader header_;
   FrameWriter writer_;
+  const bool background_;
   std::vector<std::uint32_t> file_index_;  // of nodes: their order of introduction
   std::uint32_t introduced_ = 0;
   std::vector<ArcVersion> arcs_;  // of the frame
   std::vector<std::uint32_t> new_nodes_;
-  GraphFrame frame_;
   std::vector<std::byte> payload_;
 };
 

@@ -39,10 +39,11 @@ struct HierarchyContent {
   const Hierarchy& hierarchy;  // nor are the records in here
   RecordSource& records;
   bool has_embedding = false;  // records come with buckets
+  bool background = false;     // make frames in a thread of its own
 };
 
 // Reads the records twice. `poll` is called before every frame; it may throw to end that.
-// MEMORY: 32 bytes a version, 4 a node, and two frames.
+// MEMORY: 32 bytes a version, 4 a node, and three frames.
 // THROWS: Error{kResource}; then nothing is left behind. std::logic_error if graph, hierarchy and records
 //         contradict each other.
 void write_hierarchy_file(const std::string& path, const FileMeta& meta, const HierarchyContent& content,

@@ -41,9 +41,8 @@ T get_raw(ByteReader& in) {
 
 void pack_buckets(std::span<const Bucket> buckets, std::vector<std::byte>& packed) {
   if (buckets.empty()) return;
-  const std::size_t before = packed.size();
-  packed.resize(before + kMostVarint + buckets.size() * kMostBucket);
-  std::byte* to = put_varint(packed.data() + before, buckets.size());
+  std::array<std::byte, kMostVarint + kMostBucket> piece;
+  std::byte* to = put_varint(piece.data(), buckets.size());
   std::int64_t last = 0;
   for (const Bucket& bucket : buckets) {
     const bool single = is_single(bucket.mean);
@@ -52,9 +51,10 @@ void pack_buckets(std::span<const Bucket> buckets, std::vector<std::byte>& packe
     const auto& [x, y, z] = bucket.mean;
     to = single ? put_raw(to, Single{static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)})
                 : put_raw(to, bucket.mean);
+    packed.insert(packed.end(), piece.data(), to);
+    to = piece.data();
     last = bucket.index;
   }
-  packed.resize(static_cast<std::size_t>(to - packed.data()));
 }
 
 bool unpack_buckets(std::span<const std::byte> packed, std::vector<Bucket>& buckets) {

@@ -52,6 +52,7 @@ class BoundedSearch {
     }
   }
 
+  void prefetch(std::uint32_t node) const { __builtin_prefetch(&reached_[node]); }
   bool reached(std::uint32_t node) const { return reached_[node] == search_; }
 
  private:

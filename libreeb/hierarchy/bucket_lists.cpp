@@ -10,11 +10,19 @@
 namespace reeb {
 namespace {
 
+struct Values {
+  double bottom, top;
+};
+
+// Those of the bucket that the arc spans.
+Values own_values(const Bucket& bucket, double lo, double hi, int exponent) {
+  const auto index = static_cast<double>(bucket.index);
+  return {std::max(lo, std::ldexp(index, exponent)), std::min(hi, std::ldexp(index + 1, exponent))};
+}
+
 // How many of the bucket's vertices are taken to lie below the cut.
 std::uint64_t count_below(const Bucket& bucket, const CutValues& values, int exponent) {
-  const auto index = static_cast<double>(bucket.index);
-  const double bottom = std::max(values.lo, std::ldexp(index, exponent));
-  const double top = std::min(values.hi, std::ldexp(index + 1, exponent));
+  const auto [bottom, top] = own_values(bucket, values.lo, values.hi, exponent);
   if (!(bottom < top)) return bucket.count;
   const double share = std::clamp((values.at - bottom) / (top - bottom), 0.0, 1.0);
   return std::min(bucket.count,
@@ -24,11 +32,11 @@ std::uint64_t count_below(const Bucket& bucket, const CutValues& values, int exp
 }  // namespace
 
 ArcBucketLists::ArcBucketLists(PackedLists lists, int exponent)
-    : exponent_(exponent), packed_(std::move(lists)), open_(packed_.size(), kNone) {}
+    : exponent_(exponent), packed_(std::move(lists)) {}
 
 void ArcBucketLists::open(std::uint32_t arc) {
   if (is_open(arc)) return;
-  open_[arc] = static_cast<std::uint32_t>(opened_.size());
+  open_.find_or_insert(arc, static_cast<std::uint32_t>(opened_.size()));
   opened_.push_back({arc, kNone});
   const auto own = unpacked(arc);
   for (auto bucket = own.rbegin(); bucket != own.rend(); ++bucket) first(arc) = make(*bucket, first(arc));
@@ -49,7 +57,7 @@ void ArcBucketLists::close() {
     bytes_.clear();
     pack_buckets(buckets_, bytes_);
     packed_.replace(opened.arc, bytes_);
-    open_[opened.arc] = kNone;
+    open_.erase(opened.arc);
   }
   opened_.clear();
   items_.clear();
@@ -117,21 +125,23 @@ std::uint32_t ArcBucketLists::last_below(std::uint32_t arc, const CutValues& val
   return item;
 }
 
-bool ArcBucketLists::has_beyond(Direction d, std::uint32_t arc, const CutValues& values) {
-  const std::int64_t middle = bucket_index(values.at, exponent_);
-  const auto is_beyond = [&](const Bucket& bucket) {
-    if (bucket.index != middle) return (bucket.index < middle) == (d == kDown);
-    const std::uint64_t below = count_below(bucket, values, exponent_);
-    return d == kDown ? below != 0 : below != bucket.count;
-  };
+double ArcBucketLists::first_value(Direction d, std::uint32_t arc, double lo, double hi) {
+  const Bucket& bucket = first_bucket(d, arc);
+  const auto [bottom, top] = own_values(bucket, lo, hi, exponent_);
+  if (!(bottom < top)) return bottom;
+  const double half_a_vertex = 0.5 / static_cast<double>(bucket.count) * (top - bottom);
+  return d == kUp ? bottom + half_a_vertex : top - half_a_vertex;
+}
+
+// The first along direction d. Valid until the next call.
+const Bucket& ArcBucketLists::first_bucket(Direction d, std::uint32_t arc) {
   if (!is_open(arc)) {
     const auto own = unpacked(arc);
-    return !own.empty() && is_beyond(d == kDown ? own.front() : own.back());
+    return d == kUp ? own.front() : own.back();
   }
   std::uint32_t item = first(arc);
-  if (item == kNone) return false;
-  while (d == kUp && items_[item].next != kNone) item = items_[item].next;
-  return is_beyond(items_[item].bucket);
+  while (d == kDown && items_[item].next != kNone) item = items_[item].next;
+  return items_[item].bucket;
 }
 
 bool ArcBucketLists::cut(Direction d, std::uint32_t from, std::uint32_t into, const CutValues& values) {

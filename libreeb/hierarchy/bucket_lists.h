@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "libreeb/base/direction.h"
+#include "libreeb/base/flat_map.h"
 #include "libreeb/graph/bucket.h"
 #include "libreeb/hierarchy/packed_lists.h"
 
@@ -24,7 +25,7 @@ struct CutValues {
 // close() packs them again. What an arc had when that was done last stays at hand meanwhile.
 //
 // TIME:   an operation walks the lists that it names, once; so does close().
-// MEMORY: PackedLists; 4 bytes an arc, and 48 a bucket that is open.
+// MEMORY: PackedLists; 48 bytes a bucket that is open.
 class ArcBucketLists {
  public:
   // REQUIRES: all buckets are of this exponent, and none is empty.
@@ -32,14 +33,20 @@ class ArcBucketLists {
 
   std::size_t arc_count() const { return packed_.size(); }
   bool empty(std::uint32_t arc) const {
-    return is_open(arc) ? opened_[open_[arc]].first == kNone : packed_.of(arc).empty();
+    const std::uint32_t opened = open_.find(arc);
+    return opened != kNone ? opened_[opened].first == kNone : packed_.of(arc).empty();
   }
+
+  // Fetches into the caches, without waiting: where the arc's list is; and, when that was fetched, the list.
+  void prefetch_place(std::uint32_t arc) const { packed_.prefetch_place(arc); }
+  void prefetch(std::uint32_t arc) const { packed_.prefetch(arc); }
 
   // A vertex enters its bucket.
   void add(std::uint32_t arc, double value, const std::array<double, 3>& position);
 
-  // Whether the arc has anything that cut() would move. Changes nothing.
-  bool has_beyond(Direction d, std::uint32_t arc, const CutValues& values);
+  // Up to which value, going along an arc that spans the values from `lo` to `hi`, a cut moves nothing of
+  // what lies before it. REQUIRES: !empty(arc).
+  double first_value(Direction d, std::uint32_t arc, double lo, double hi);
 
   // What `from` has on side d of values.at goes to `into`. The bucket that the value lies in is
   // divided in proportion to the values of the arc within it, to whole vertices; both parts keep
@@ -67,14 +74,15 @@ class ArcBucketLists {
     std::uint32_t arc, first;
   };
 
-  bool is_open(std::uint32_t arc) const { return open_[arc] != kNone; }
-  std::uint32_t& first(std::uint32_t arc) { return opened_[open_[arc]].first; }
+  bool is_open(std::uint32_t arc) const { return open_.find(arc) != kNone; }
+  std::uint32_t& first(std::uint32_t arc) { return opened_[open_.find(arc)].first; }
   // The link that leads on from the item, or to the first one of the arc.
   std::uint32_t& after(std::uint32_t item, std::uint32_t arc) {
     return item == kNone ? first(arc) : items_[item].next;
   }
   void open(std::uint32_t arc);
   std::span<const Bucket> unpacked(std::uint32_t arc);
+  const Bucket& first_bucket(Direction d, std::uint32_t arc);
   std::uint32_t make(const Bucket& bucket, std::uint32_t next);
   void free(std::uint32_t item);
   void insert(std::uint32_t chain, std::uint32_t into);
@@ -82,7 +90,7 @@ class ArcBucketLists {
 
   int exponent_;
   PackedLists packed_;
-  std::vector<std::uint32_t> open_;  // of each arc, its entry in opened_
+  FlatMap open_;  // of arcs, their entries in opened_
   std::vector<Opened> opened_;
   std::vector<Item> items_;    // of opened lists
   std::uint32_t free_ = kNone;  // a list of unused items

@@ -1,16 +1,25 @@
 #include "libreeb/hierarchy/bucket_versions.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace reeb {
+namespace {
+
+constexpr double kNever = std::numeric_limits<double>::infinity();
+
+}  // namespace
 
 bool BucketVersions::cut(const ArcCut& arc) {
   if (lists_.empty(arc.from)) return false;
   const auto [lo, hi] = std::minmax(arc.start, arc.end);
-  const CutValues values{value(lo), value(arc.node), value(hi)};
-  const Direction d = opposite(arc.direction);
-  // Most nodes that a long arc is laid beside take nothing of it.
-  return lists_.has_beyond(d, arc.from, values) && lists_.cut(d, arc.from, arc.into, values);
+  return lists_.cut(opposite(arc.direction), arc.from, arc.into, {value(lo), value(arc.node), value(hi)});
+}
+
+double BucketVersions::first_value(const ArcPart& part) {
+  if (lists_.empty(part.arc)) return part.direction == kUp ? kNever : -kNever;
+  const auto [lo, hi] = std::minmax(part.start, part.end);
+  return lists_.first_value(part.direction, part.arc, value(lo), value(hi));
 }
 
 void BucketVersions::join(std::uint32_t upper, std::uint32_t lower, std::uint32_t node) {

@@ -18,14 +18,25 @@ void release_arcs(ReebGraph& graph) {
   graph.hi = std::vector<NodeId>();
 }
 
+// Pairs near in persistence lie anywhere, so that each would wait for memory many times.
+template <class Content>
+void prefetch(const Canceller<Content>& canceller, const std::vector<PersistencePair>& pairs, std::size_t at) {
+  constexpr std::size_t kNodes = 12, kArcs = 8, kNeighbours = 4;  // so many pairs ahead
+  if (at + kNodes >= pairs.size()) return;
+  canceller.prefetch_nodes(pairs[at + kNodes]);
+  canceller.prefetch_arcs(pairs[at + kArcs]);
+  canceller.prefetch_neighbours(pairs[at + kNeighbours]);
+}
+
 template <class Content>
 void cancel_all(const ReebGraph& graph, Canceller<Content>& canceller, Hierarchy& hierarchy, const Poll& poll) {
   constexpr std::size_t kPairsBetweenPolls = 1024;
-  std::size_t done = 0;
   hierarchy.persistence.reserve(hierarchy.pairs.size());
-  for (PersistencePair& pair : hierarchy.pairs) {
+  for (std::size_t i = 0; i < hierarchy.pairs.size(); ++i) {
+    PersistencePair& pair = hierarchy.pairs[i];
     if (pair.type == PairType::kExt0) break;
-    if (poll && done++ % kPairsBetweenPolls == 0) poll();
+    if (poll && i % kPairsBetweenPolls == 0) poll();
+    prefetch(canceller, hierarchy.pairs, i);
     pair.kept = !canceller.cancel(pair);
     if (!pair.kept) hierarchy.persistence.push_back(persistence_of(graph, pair));
   }
@@ -67,13 +78,13 @@ class RecordsInMemory : public RecordSink {
 }  // namespace
 
 std::uint64_t hierarchy_bytes(std::uint64_t nodes, std::uint64_t arcs, std::optional<std::uint64_t> lists) {
-  // Keys, positions, heaps and searches; ends, heaps and the log; and as many pairs as there can be.
-  constexpr std::uint64_t kNode = 16 + 24 + 8 + 9, kArc = 8 + 36 + 4, kPair = sizeof(PersistencePair) + sizeof(double);
+  // Keys, positions, heaps, searches and stretches; ends, heaps and the log; and as many pairs as there can be.
+  constexpr std::uint64_t kNode = 16 + 24 + 8 + 9 + 9, kArc = 8 + 36 + 4, kPair = sizeof(PersistencePair) + sizeof(double);
   const std::uint64_t bytes = kNode * nodes + kArc * arcs + kPair * std::max(nodes, arcs);
   if (!lists) return bytes;
   // Lists that change leave holes; and a node that disappears may get a bucket of its own.
-  constexpr std::uint64_t kOpen = 4, kNewBucket = 32;
-  return bytes + kOpen * arcs + *lists + *lists / 2 + kNewBucket * nodes;
+  constexpr std::uint64_t kNewBucket = 32;
+  return bytes + *lists + *lists / 2 + kNewBucket * nodes;
 }
 
 Hierarchy build_hierarchy(ReebGraph& graph, PackedLists buckets, int exponent, RecordSink& sink, const Poll& poll) {

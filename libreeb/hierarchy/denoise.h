@@ -38,7 +38,7 @@ Denoised denoise(ReebGraph graph, double threshold);
 // `buckets` there is no embedding.
 //
 // TIME:   besides, the buckets of the arcs that a removal changes, and one copy of all.
-// MEMORY: besides, ArcBucketLists: 12 bytes an arc, 6 a list and its packed buckets, with holes half as much
+// MEMORY: besides, ArcBucketLists: 8 bytes an arc, 6 a list and its packed buckets, with holes half as much
 //         again; at the end, when the rest is free again, 8 an arc and 40 a bucket for the result.
 // REQUIRES: all buckets are of this exponent, and none is empty.
 Denoised denoise(ReebGraph graph, double threshold, ArcBuckets& buckets, int exponent);

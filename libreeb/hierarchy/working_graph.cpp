@@ -11,6 +11,16 @@ WorkingGraph::WorkingGraph(const ReebGraph& graph)
   }
 }
 
+void WorkingGraph::prefetch_neighbours(std::uint32_t node) const {
+  for (const Direction d : {kDown, kUp}) {
+    if (top_[node][d] == kNone) continue;
+    const Arc& arc = arcs_[top_[node][d]];
+    prefetch_node(arc.end[d]);
+    for (const std::uint32_t child : arc.heap[d].child)
+      if (child != kNone) __builtin_prefetch(&arcs_[child]);
+  }
+}
+
 void WorkingGraph::move_end(std::uint32_t arc, Direction d, std::uint32_t node) {
   // The end is the arc's key in the heap at its other end, and names the heap at this one.
   erase(arc, d);

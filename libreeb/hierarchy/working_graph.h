@@ -50,6 +50,15 @@ class WorkingGraph {
   template <class Accept>
   std::uint32_t nearest_if(std::uint32_t node, Direction d, std::uint32_t limit, Accept accept);
 
+  // Fetches into the caches, without waiting: what is known of a node; its nearest arcs; and what these lie
+  // next to. Each but the first reads what the one before has fetched.
+  void prefetch_node(std::uint32_t node) const { __builtin_prefetch(&top_[node]); }
+  void prefetch_arcs(std::uint32_t node) const {
+    for (const std::uint32_t arc : top_[node])
+      if (arc != kNone) __builtin_prefetch(&arcs_[arc]);
+  }
+  void prefetch_neighbours(std::uint32_t node) const;
+
   // Moves the end of `arc` on side d to `node`; its two ends stay in order.
   void move_end(std::uint32_t arc, Direction d, std::uint32_t node);
   void remove(std::uint32_t arc);

@@ -187,7 +187,7 @@ TEST(Embedding, AnArcThatNothingIsLaidOnKeepsItsRecord) {
   EXPECT_EQ(of(buckets, 3), (std::vector<Bucket>{{5, 1, {5, 0, 0}}, {7, 1, {7.5, 0, 0}}}));
 }
 
-TEST(Embedding, AnExtremumIsLaidOn64ArcsAtMost) {
+TEST(Embedding, AnExtremumIsLaidOn8ArcsAtMost) {
   // The maximum 150 beside a way up with a fork at each of 2, 3, ..., 101, all of larger persistence.
   std::vector<std::pair<std::uint64_t, std::uint64_t>> arcs{{0, 1}, {1, 2}, {1, 150}};
   std::vector<std::vector<Bucket>> of_arcs(3);
@@ -203,9 +203,9 @@ TEST(Embedding, AnExtremumIsLaidOn64ArcsAtMost) {
   ArcBuckets buckets = made.buckets;
   const Hierarchy h = build_hierarchy(made.graph, buckets, kUnit);
   ASSERT_EQ(h.pairs[0].type, PairType::kRel1);
-  // Of 2 to 149 those up to 64 are laid on the arcs that end in 3, ..., 65.
+  // Of 2 to 149 those up to 8 are laid on the arcs that end in 3, ..., 9.
   ASSERT_FALSE(h.dropped.empty());
-  EXPECT_EQ(h.dropped.front(), (DroppedVertices{1, 149 - 64 + 1}));
+  EXPECT_EQ(h.dropped.front(), (DroppedVertices{1, 149 - 8 + 1}));
   check_every_version(made, h, buckets.view());
 }
 
