@@ -1,7 +1,10 @@
 #include "ooc/column_codec.h"
 
+#include <array>
 #include <bit>
+#include <cstring>
 
+#include "libreeb/base/byte_planes.h"
 #include "ooc/zstd_codec.h"
 
 namespace reeb::ooc {
@@ -10,16 +13,18 @@ void ColumnEncoder::add_planes() {
   const std::size_t count = column_.size(), before = bytes_.size();
   std::uint64_t all = 0;
   for (const std::uint64_t code : column_) all |= code;
+  bytes_.resize(before + 1 + kBytePlanes * count);
+  std::byte *first = bytes_.data() + before + 1, *end = first;
+  split_planes(column_, first);
   unsigned planes = 0;
-  for (unsigned p = 0; p < 8; ++p) planes |= (all >> 8 * p & 0xff) != 0 ? 1u << p : 0;
-  bytes_.resize(before + 1 + static_cast<std::size_t>(std::popcount(planes)) * count);
-  bytes_[before] = static_cast<std::byte>(planes);
-  std::byte* plane = bytes_.data() + before + 1;
-  for (unsigned p = 0; p < 8; ++p) {
-    if ((planes >> p & 1) == 0) continue;
-    for (std::size_t i = 0; i < count; ++i) plane[i] = static_cast<std::byte>(column_[i] >> 8 * p);
-    plane += count;
+  for (unsigned p = 0; p < kBytePlanes; ++p) {
+    if ((all >> 8 * p & 0xff) == 0) continue;
+    planes |= 1u << p;
+    std::memmove(end, first + p * count, count);
+    end += count;
   }
+  bytes_[before] = static_cast<std::byte>(planes);
+  bytes_.resize(static_cast<std::size_t>(end - bytes_.data()));
 }
 
 void ColumnEncoder::pack(std::vector<std::byte>& packed, int level) const {
@@ -28,10 +33,11 @@ void ColumnEncoder::pack(std::vector<std::byte>& packed, int level) const {
 }
 
 ColumnDecoder::ColumnDecoder(std::span<const std::byte> packed, std::size_t columns, std::size_t count)
-    : column_(count), begin_(columns) {
+    : column_(count), zeros_(count), begin_(columns) {
   const std::size_t frame = zstd_frame_size(packed), size = zstd_content_size(packed);
-  if (frame == 0 || size > columns * (1 + 8 * count)) return;
-  bytes_.resize(size);
+  if (frame == 0 || size > columns * (1 + kBytePlanes * count)) return;
+  memory_ = std::make_unique_for_overwrite<std::byte[]>(size);
+  bytes_ = {memory_.get(), size};
   tail_ = packed.subspan(frame);
   ok_ = zstd_decompress(packed.first(frame), bytes_) && find_columns();
 }
@@ -48,14 +54,15 @@ bool ColumnDecoder::find_columns() {
 
 std::span<const std::uint64_t> ColumnDecoder::column(std::size_t column) {
   const std::size_t count = column_.size();
-  const auto planes = std::to_integer<unsigned>(bytes_[begin_[column]]);
+  const auto present = std::to_integer<unsigned>(bytes_[begin_[column]]);
   const std::byte* plane = bytes_.data() + begin_[column] + 1;
-  column_.assign(count, 0);
-  for (unsigned p = 0; p < 8; ++p) {
-    if ((planes >> p & 1) == 0) continue;
-    for (std::size_t i = 0; i < count; ++i) column_[i] |= std::to_integer<std::uint64_t>(plane[i]) << 8 * p;
-    plane += count;
+  std::array<const std::byte*, kBytePlanes> planes;
+  for (unsigned p = 0; p < kBytePlanes; ++p) {
+    const bool is_present = (present >> p & 1) != 0;
+    planes[p] = is_present ? plane : zeros_.data();
+    if (is_present) plane += count;
   }
+  join_planes(planes, column_);
   return column_;
 }
 

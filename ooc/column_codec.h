@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -53,7 +54,9 @@ class ColumnDecoder {
   bool find_columns();
 
   std::vector<std::uint64_t> column_;
-  std::vector<std::byte> bytes_;
+  std::vector<std::byte> zeros_;  // a plane that was left out
+  std::unique_ptr<std::byte[]> memory_;
+  std::span<std::byte> bytes_;
   std::vector<std::size_t> begin_;  // of each column
   std::span<const std::byte> tail_;
   bool ok_ = false;

@@ -547,8 +547,9 @@ void Run::write_stored_graph(ComputeResult& result, SegmentStore& store, const F
 // it is and the user is told.
 void Run::remove_last_noise(ComputeResult& result, std::unique_ptr<SegmentStore>& store) {
   const SweepOptions sweep = sweep_options(result.range);
-  LastNoisePass pass =
-      run_last_noise_pass(*store, {.threshold = sweep.noise_below, .bucket_exponent = sweep.bucket_exponent});
+  LastNoisePass pass = run_last_noise_pass(
+      *store,
+      {.threshold = sweep.noise_below, .bucket_exponent = sweep.bucket_exponent, .vertices = result.vertices});
   if (!pass.fits) {
     FileMeta meta = file_meta(result);
     meta.denoise_threshold = 0;

@@ -53,7 +53,7 @@ class PatchReader {
 
  private:
   GraphPatch patch_;
-  NodeTable table_;  // of redone nodes
+  SparseNodeTable table_;  // of redone nodes
   std::size_t gone_ = 0, redone_ = 0, arc_ = 0;
 };
 

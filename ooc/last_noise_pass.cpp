@@ -12,6 +12,7 @@
 #include "libreeb/graph/packed_buckets.h"
 #include "libreeb/hierarchy/denoise.h"
 #include "libreeb/hierarchy/noise_scope.h"
+#include "ooc/arc_ends.h"
 #include "ooc/arc_payload.h"
 #include "ooc/node_table.h"
 
@@ -74,7 +75,8 @@ class Pass {
       : store_(store),
         options_(options),
         exponent_(options.bucket_exponent),
-        memory_(store.budget().reserve("last pass of noise removal", 0)) {
+        memory_(store.budget().reserve("last pass of noise removal", 0)),
+        spare_memory_(store.budget().reserve("last pass of noise removal", 0)) {
     patch_.memory = store.budget().reserve("noise that is gone", 0);
   }
 
@@ -90,14 +92,25 @@ class Pass {
   bool make_room(Reservation& memory, std::uint64_t bytes, std::uint64_t enough) {
     if (!result_.fits) return false;
     result_.fits = memory.try_resize(bytes);
+    if (!result_.fits && spare_memory_.bytes() != 0) {
+      give_up_spare_memory();
+      result_.fits = memory.try_resize(bytes);
+    }
     if (!result_.fits) result_.needed_bytes = enough;
     return result_.fits;
+  }
+
+  // What only saves time.
+  void give_up_spare_memory() {
+    ends_.reset();
+    near_.reset();
+    spare_memory_.release();
   }
 
   // What removing noise takes if all of the graph is looked at, the patch included.
   std::uint64_t most_bytes() const {
     const std::uint64_t of_buckets = exponent_ ? kPackedByte * payload_bytes_ + kBucketBytes * store_.bucket_count() : 0;
-    constexpr std::uint64_t kGoneNode = 2 * sizeof(SweepKey) + 16;
+    constexpr std::uint64_t kGoneNode = 2 * sizeof(SweepKey) + 20;
     const std::uint64_t of_patch =
         sizeof(PatchArc) * store_.arc_count() + (exponent_ ? payload_bytes_ : 0) + kGoneNode * store_.node_count();
     return kNodeBytes * store_.node_count() + kInnerArcBytes * store_.arc_count() + of_buckets + of_patch;
@@ -107,6 +120,7 @@ class Pass {
 
   void find_scope() {
     std::vector<ArcKeys> found = find_short_arcs();
+    give_up_spare_memory();
     if (!result_.fits || found.empty()) return;
     const ReebGraph short_arcs = make_graph(std::move(found), {});
     const std::uint64_t bytes = search_bytes(short_arcs.arc_count(), short_arcs.node_count());
@@ -123,20 +137,30 @@ class Pass {
         scope_.add(short_arcs.nodes[node], degrees.down[node] + degrees.up[node], of_buckets[node]);
   }
 
+  // Those from which noise removal can begin, and what hangs together with them; or all.
   std::vector<ArcKeys> find_short_arcs() {
     std::vector<ArcKeys> found;
     std::uint64_t count = 0;
+    note_ends();
     store_.scan_arcs([&](const StoredArc& arc, const auto&) {
       payload_bytes_ += arc.payload.size;
+      if (ends_) ends_->add(arc.keys);
       if (!is_short(arc.keys.lo.value, arc.keys.hi.value, options_.threshold)) return;
       ++count;
       if (result_.fits && found.size() == found.capacity()) grow(found);
       if (result_.fits) found.push_back(arc.keys);
     });
-    make_room(memory_, short_graph_bytes(count, found.capacity()), 0);
+    if (ends_) ends_->keep_near_extrema(found);
+    make_room(memory_, short_graph_bytes(found.size(), found.capacity()), 0);
     if (result_.fits) return found;
     result_.needed_bytes = short_graph_bytes(count, 2 * count + next_capacity(0)) + search_bytes(count, 2 * count) + most_bytes();
     return {};
+  }
+
+  // Worth while where the graph is not small beside the mesh.
+  void note_ends() {
+    const std::uint64_t bytes = ArcEnds::bytes(options_.vertices), few = sizeof(ArcKeys) / 8 * store_.arc_count();
+    if (options_.vertices != 0 && bytes <= few && spare_memory_.try_resize(bytes)) ends_.emplace(options_.vertices);
   }
 
   void grow(std::vector<ArcKeys>& arcs) {
@@ -147,19 +171,35 @@ class Pass {
       std::vector<ArcKeys>().swap(arcs);
   }
 
-  // Degrees of these nodes in the whole graph, and what the buckets of all their arcs take.
-  void look_at_ends(const ReebGraph& graph, Degrees& degrees, std::vector<std::uint64_t>& of_buckets) const {
+  // Degrees of these nodes in the whole graph, and what the buckets of all their arcs take. If these arcs
+  // are few, they are kept.
+  void look_at_ends(const ReebGraph& graph, Degrees& degrees, std::vector<std::uint64_t>& of_buckets) {
     const SparseNodeTable table(graph.nodes);
+    if (spare_memory_.try_resize(options_.part_bytes)) near_.emplace();
     store_.scan_arcs([&](const StoredArc& arc, const auto& batch) {
-      const auto look = [&](const SweepKey& key, std::vector<std::uint32_t>& degree) {
-        const std::uint32_t node = table.find(key);
-        if (node == NodeTable::kNone) return;
-        ++degree[node];
-        of_buckets[node] += bucket_bytes(batch.payload(arc));
-      };
-      look(arc.keys.lo, degrees.up);
-      look(arc.keys.hi, degrees.down);
+      const std::uint32_t lo = table.find(arc.keys.lo), hi = table.find(arc.keys.hi);
+      if (lo == NodeTable::kNone && hi == NodeTable::kNone) return;
+      const std::span<const std::byte> payload = batch.payload(arc);
+      const std::uint64_t bytes = bucket_bytes(payload);
+      if (lo != NodeTable::kNone) ++degrees.up[lo], of_buckets[lo] += bytes;
+      if (hi != NodeTable::kNone) ++degrees.down[hi], of_buckets[hi] += bytes;
+      if (near_) keep_near(arc, payload);
     });
+  }
+
+  // Room that grows is up to three times what is in it.
+  void keep_near(const StoredArc& arc, std::span<const std::byte> payload) {
+    if (near_->bytes() + sizeof(arc) + payload.size() <= options_.part_bytes / 3)
+      near_->add(arc, payload);
+    else
+      give_up_spare_memory();
+  }
+
+  // Calls visit(arc, batch) for all arcs of the scope's nodes, and others, as scan_arcs does.
+  template <class Visit>
+  void scan_near(const Visit& visit) const {
+    if (!near_) return store_.scan_arcs(visit);
+    for (const StoredArc& arc : near_->records) visit(arc, *near_);
   }
 
   std::uint64_t bucket_bytes(std::span<const std::byte> payload) const {
@@ -222,7 +262,7 @@ class Pass {
   // An arc between two nodes of the scope was counted at both.
   void join_neighbours(UnionFind& joined, std::vector<std::uint64_t>& weights) const {
     const SparseNodeTable table(scope_.nodes);
-    store_.scan_arcs([&](const StoredArc& arc, const auto& batch) {
+    scan_near([&](const StoredArc& arc, const auto& batch) {
       const std::uint32_t lo = table.find(arc.keys.lo);
       if (lo == NodeTable::kNone) return;
       const std::uint32_t hi = table.find(arc.keys.hi);
@@ -264,7 +304,7 @@ class Pass {
   RecordBatch<StoredArc> gather(const std::vector<SweepKey>& scope) const {
     const SparseNodeTable table(scope);
     const auto for_each = [&](const auto& visit) {
-      store_.scan_arcs([&](const StoredArc& arc, const auto& batch) {
+      scan_near([&](const StoredArc& arc, const auto& batch) {
         if (table.find(arc.keys.lo) == NodeTable::kNone && table.find(arc.keys.hi) == NodeTable::kNone) return;
         visit(arc, exponent_ ? batch.payload(arc) : std::span<const std::byte>());
       });
@@ -354,7 +394,7 @@ class Pass {
     scope_ = {};
     memory_.release();
     const std::size_t redone = patch_.redone.capacity();
-    if (!grow_patch(redone * sizeof(SweepKey) + NodeTable::bytes(redone))) return;
+    if (!grow_patch(redone * sizeof(SweepKey) + SparseNodeTable::bytes(redone))) return;
     std::sort(patch_.gone.begin(), patch_.gone.end());
     // Of parallel arcs the one whose lowest part was stored first; the payloads of a part are in its order.
     std::sort(patch_.arcs.records.begin(), patch_.arcs.records.end(), [](const PatchArc& a, const PatchArc& b) {
@@ -370,6 +410,9 @@ class Pass {
   const LastNoiseOptions options_;
   const std::optional<int> exponent_;
   Reservation memory_;
+  Reservation spare_memory_;                    // of one of these two, which come one after the other:
+  std::optional<ArcEnds> ends_;                 // while short arcs are looked for
+  std::optional<RecordBatch<StoredArc>> near_;  // all arcs of the scope's nodes, and others, if they are few
   std::uint64_t payload_bytes_ = 0;  // of all stored arcs
   Scope scope_;
   std::uint64_t held_ = 0;    // of memory, for the scope

@@ -31,7 +31,7 @@ std::size_t LeafRemoval::memory_bytes() const {
 void LeafRemoval::find_candidates() {
   candidates_.clear();
   for (const auto& [node, arc] : graph_->leaves)
-    if (is_used_here_only(node) && is_noise(arc)) candidates_.push_back(node);
+    if (is_noise(arc) && is_used_here_only(node)) candidates_.push_back(node);
 }
 
 // A leaf is only removed where its saddle reaches beyond it, and joining arcs moves no path: no

@@ -7,7 +7,7 @@
 namespace reeb {
 
 void LiveGraph::set_options(const SweepOptions& options) {
-  noise_below_ = options.noise_below;
+  set_noise(options.noise_below);
   if (!options.bucket_exponent) return;
   embeds_ = true;
   grow_arc_buckets();
@@ -33,7 +33,7 @@ LiveGraph::Index LiveGraph::add_node(const SweepKey& key, const Point& position,
     nodes_.grow_by(1);
     if (track_positions_) positions_.grow_by(1);
   }
-  nodes_[n] = {key, kNone, kNone, 0, 0, 0, state, state != State::kSettled, false, true};
+  nodes_[n] = {key, kNone, kNone, 0, 0, 0, state, state != State::kSettled, false, true, false};
   if (track_positions_) positions_[n] = position;
   // A complete node is looked at once everything that comes with it is in place.
   if (state != State::kIncomplete) queue(n);
@@ -64,6 +64,7 @@ LiveGraph::Index LiveGraph::add_arc(Index lo, Index hi) {
 }
 
 void LiveGraph::release(Index a) {
+  notice_noise(a);
   if (can_leave(a)) hand_over(a);
 }
 
@@ -239,6 +240,7 @@ void LiveGraph::merge_parallel(Index keep, Index gone) {
   queue(arcs_[gone].hi);
   detach_lo(gone);
   detach_hi(gone);
+  notice_noise(keep);
   free_arc(gone);
   if (embeds_) buckets_.merge(arc_buckets_[keep], arc_buckets_[gone]);
 }
@@ -261,6 +263,8 @@ void LiveGraph::cut(Index longer, Index shorter) {
     r = next;
   }
   attach_hi(longer, bottom);
+  notice_noise(longer);
+  notice_noise_at(top);
   if (embeds_) {
     const auto value = [&](Index n) { return nodes_[n].key.value; };
     buckets_.move_above(arc_buckets_[longer], value(arcs_[longer].lo), value(bottom), value(top),
@@ -289,7 +293,7 @@ void LiveGraph::tidy() {
     Node& node = nodes_[n];
     node.queued = false;
     if (!node.used) continue;
-    if (noise_below_ > 0) remove_noise_at(n);
+    if (node.near_noise) remove_noise_at(n);
     if (!node.used) continue;
     if (is_pass_through(node))
       contract(n);
@@ -347,7 +351,8 @@ void LiveGraph::contract(Index n) {
     std::swap(below, arc_buckets_[upper]);
   }
   free_node(n);
-  if (noise_below_ > 0) {  // a leaf has another saddle now
+  notice_noise(upper);
+  if (is_noise(upper)) {  // a leaf has another saddle now
     for (const Index end : {lo, hi})
       if (is_leaf(nodes_[end])) try_leaf(end);
     if (!nodes_[lo].used || !nodes_[hi].used) return;
@@ -444,6 +449,8 @@ void LiveGraph::validate() const {
     }
     if (references != arc.references) fail("wrong number of references on arc", a);
     if (can_leave(a)) fail("not handed over: arc", a);
+    const Node &lo = nodes_[arc.lo], &hi = nodes_[arc.hi];
+    if (is_noise(a) && (is_leaf(lo) || is_leaf(hi)) && !(lo.near_noise && hi.near_noise)) fail("no node notices leaf", a);
     on_arcs += references;
     if (references != 0) {
       ++referenced[arc.lo];

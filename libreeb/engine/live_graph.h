@@ -96,9 +96,10 @@ class LiveGraph {
     std::uint32_t up_degree, down_degree;
     std::uint32_t referenced_arcs;  // arcs at this node that have references
     State state;
-    bool intact;  // no arc of it was handed over
-    bool queued;  // in changed_
-    bool used;
+    bool intact : 1;      // no arc of it was handed over
+    bool queued : 1;      // in changed_
+    bool used : 1;
+    bool near_noise : 1;  // it had an arc that can be noise, or come to be
   };
   struct Arc {
     Index lo, hi;
@@ -137,6 +138,12 @@ class LiveGraph {
   }
   bool stays_for_good(const Node& node) const;
   bool can_leave(Index arc) const;
+  void set_noise(double below);
+  double length(Index arc) const { return nodes_[arcs_[arc].hi].key.value - nodes_[arcs_[arc].lo].key.value; }
+  bool is_noise(Index arc) const { return length(arc) < noise_below_; }
+  static bool has_one_arc(const Node& n) { return n.up_degree + n.down_degree == 1; }
+  void notice_noise(Index arc);
+  void notice_noise_at(Index node);
   bool is_leaf(const Node& n) const;
   Index first_arc(Index node, Direction d) const;
   Index next_arc(Index arc, Direction d) const;
@@ -157,6 +164,7 @@ class LiveGraph {
   Index first_free_node_ = kNone, first_free_arc_ = kNone, first_free_reference_ = kNone;
   std::size_t free_nodes_ = 0, free_arcs_ = 0, free_references_ = 0;
   double noise_below_ = 0;
+  double noticed_below_ = 0;  // the ends of shorter arcs to leaves know that they are near noise
   bool embeds_ = false;
   BucketLists buckets_;
   GrowingArray<BucketLists::List> arc_buckets_;  // one an arc, if there is an embedding

@@ -6,9 +6,32 @@
 
 namespace reeb {
 
+// Where values are random, next to no leaf is noise: so nodes know if they are worth a look. What is noise
+// mostly rises with the range of the function, step by step, and what is noticed is ahead of it.
+void LiveGraph::set_noise(double below) {
+  noise_below_ = below;
+  if (noise_below_ <= noticed_below_) return;
+  noticed_below_ = 2 * noise_below_;
+  for (Index a = 0; a < arcs_.size(); ++a)
+    if (arcs_[a].lo != kNone) notice_noise(a);
+}
+
+// For an arc that has come, has got another end, or is the only one that is left at one of its ends.
+void LiveGraph::notice_noise(Index a) {
+  if (noticed_below_ == 0) return;
+  Node &lo = nodes_[arcs_[a].lo], &hi = nodes_[arcs_[a].hi];
+  if ((has_one_arc(lo) || has_one_arc(hi)) && length(a) < noticed_below_) lo.near_noise = hi.near_noise = true;
+}
+
+// For a node that has lost an arc.
+void LiveGraph::notice_noise_at(Index n) {
+  const Node& node = nodes_[n];
+  if (has_one_arc(node)) notice_noise(node.up_degree == 1 ? node.up_first : node.down_first);
+}
+
 // An extremum with one arc, which nothing can change any more but a contraction of its other end.
 bool LiveGraph::is_leaf(const Node& n) const {
-  return n.intact && n.up_degree + n.down_degree == 1 && n.referenced_arcs == 0 &&
+  return n.intact && has_one_arc(n) && n.referenced_arcs == 0 &&
          n.state != State::kIncomplete;
 }
 
@@ -43,13 +66,14 @@ void LiveGraph::try_leaf(Index leaf) {
   const Index arc = first_arc(leaf, opposite(d));
   const Index saddle = arcs_[arc].end(opposite(d));
   if (!nodes_[saddle].intact) return;
-  if (!(nodes_[arcs_[arc].hi].key.value - nodes_[arcs_[arc].lo].key.value < noise_below_)) return;
+  if (!is_noise(arc)) return;
   if (!find_path_beyond(saddle, leaf, d)) return;
   if (embeds_) move_buckets(arc, leaf, d);
   detach_lo(arc);
   detach_hi(arc);
   free_arc(arc);
   free_node(leaf);
+  notice_noise_at(saddle);
   ++removed_pairs_;
   queue(saddle);
 }

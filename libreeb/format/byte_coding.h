@@ -2,6 +2,7 @@
 // file that this project writes (docs/FORMAT.md, Numbers).
 #pragma once
 
+#include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -9,6 +10,8 @@
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "libreeb/base/byte_planes.h"
 
 namespace reeb {
 
@@ -47,11 +50,9 @@ class ByteWriter {
 
   // All lowest bytes, then all second bytes, and so on: equal bytes come to lie side by side.
   void planes(std::span<const std::uint64_t> values) {
-    const std::size_t count = values.size(), before = out_.size();
-    out_.resize(before + 8 * count);
-    std::byte* plane = out_.data() + before;
-    for (unsigned shift = 0; shift < 64; shift += 8, plane += count)
-      for (std::size_t i = 0; i < count; ++i) plane[i] = static_cast<std::byte>(values[i] >> shift);
+    const std::size_t before = out_.size();
+    out_.resize(before + values.size_bytes());
+    split_planes(values, out_.data() + before);
   }
 
  private:
@@ -116,14 +117,11 @@ class ByteReader {
 
   // Fills `values`, which the caller has sized; see may_hold().
   void planes(std::span<std::uint64_t> values) {
-    const auto part = take(values.size() * 8);
+    const auto part = take(values.size_bytes());
     if (part.empty()) return;
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      std::uint64_t value = 0;
-      for (unsigned plane = 0; plane < 8; ++plane)
-        value |= std::to_integer<std::uint64_t>(part[plane * values.size() + i]) << (8 * plane);
-      values[i] = value;
-    }
+    std::array<const std::byte*, kBytePlanes> planes;
+    for (std::size_t p = 0; p < kBytePlanes; ++p) planes[p] = part.data() + p * values.size();
+    join_planes(planes, values);
   }
 
   // Whether `count` items of at least `item_bytes` each can still follow. Asked before anything is

@@ -50,6 +50,13 @@ void add(SegmentStore& store, const EmbeddedGraph& made, bool embeds, Random& ra
   }
 }
 
+// One more than the greatest.
+std::uint64_t vertices_of(const ReebGraph& graph) {
+  std::uint64_t count = 0;
+  for (const SweepKey& node : graph.nodes) count = std::max(count, node.vertex.value() + 1);
+  return count;
+}
+
 // Reads all arcs in pieces of at most `limit`, and compares.
 void expect_arcs(SegmentStore& store, std::size_t limit, std::optional<int> exponent, const ReebGraph& graph,
                  const ArcBuckets& buckets) {
@@ -96,11 +103,12 @@ std::uint64_t check(const EmbeddedGraph& made, double threshold, bool embeds, Ra
   Stored stored(made, embeds, random);
   SegmentStore& store = stored.store;
   const std::uint64_t part_bytes = test::below(random, 2) == 0 ? 0 : 4 << 20;
+  const std::uint64_t vertices = test::below(random, 2) == 0 ? 0 : vertices_of(made.graph);
   const std::optional<int> exponent = embeds ? std::optional(made.exponent) : std::nullopt;
   ArcBuckets buckets = embeds ? made.buckets : ArcBuckets();
   const Denoised expected = denoise(made.graph, threshold, buckets, made.exponent);
 
-  LastNoisePass pass = run_last_noise_pass(store, {threshold, exponent, part_bytes});
+  LastNoisePass pass = run_last_noise_pass(store, {threshold, exponent, vertices, part_bytes});
   EXPECT_TRUE(pass.fits);
   EXPECT_EQ(pass.removed_pairs, expected.removed.size());
   EXPECT_EQ(pass.patch.has_value(), pass.removed_pairs != 0);
@@ -224,7 +232,7 @@ TEST(LastNoisePass, WhatItSaysThatItNeedsIsEnough) {
   const std::uint64_t used = budget.used_bytes();
   const auto pass_with = [&](std::uint64_t room) {
     const Reservation others = budget.reserve("others", budget.free_bytes() - room);
-    return run_last_noise_pass(stored.store, {30, made.exponent});
+    return run_last_noise_pass(stored.store, {30, made.exponent, vertices_of(made.graph)});
   };
   std::size_t refusals = 0;
   for (std::uint64_t room = 1024; room < kBudget / 2; room += room / 4) {
