@@ -94,6 +94,7 @@ class Canceller {
     }
     contract(lo);
     contract(hi);
+    ways_.heed_changes();
     log_.commit(content_);
     return true;
   }

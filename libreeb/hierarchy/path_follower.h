@@ -23,10 +23,13 @@ class PathFollower {
   explicit PathFollower(const WorkingGraph& graph);
 
   // To be called when the nearest arc of a node in direction d is another one, or ends elsewhere.
-  // May be called while more changes are to come, up to the next follow().
+  // May be called while more changes are to come, up to the next follow() or heed_changes().
   void note(std::uint32_t node, Direction d) {
-    if (stretch_of_[node][d] != kNoStretch) changed_.push_back({node, d});
+    if (exit_of(node, d) != kNone) changed_.push_back({node, d});
   }
+  // Forgets what was noted, once it is clear what that means. To be called now and then, for what is noted
+  // is held until then.
+  void heed_changes();
 
   void prefetch(std::uint32_t node) const { __builtin_prefetch(&stretch_of_[node]); }
 
@@ -52,7 +55,6 @@ class PathFollower {
     return arc == kNone ? kNone : graph_.end(arc, d);
   }
   void keep_followed(std::uint32_t exit, Direction d);
-  void heed_changes();
   bool still_leads_on(std::uint32_t node, Direction d);
 
   const WorkingGraph& graph_;
