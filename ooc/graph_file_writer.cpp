@@ -38,10 +38,6 @@ GraphFileWriter::GraphFileWriter(const std::string& path, FileMeta meta, const O
     rank_of_.assign(static_cast<std::size_t>(header_.mesh_vertices), kNoNode);
 }
 
-GraphFileWriter::~GraphFileWriter() {
-  if (written_.valid()) written_.wait();
-}
-
 void GraphFileWriter::add_nodes(std::span<const SettledNode> nodes) {
   for (const SettledNode& node : nodes) {
     if (last_node_ && !(*last_node_ < node.key)) throw std::logic_error("GraphFileWriter: nodes are not ascending");
@@ -113,7 +109,7 @@ void GraphFileWriter::add_arcs(std::span<const FileArc> arcs, const ArcBucketsVi
 void GraphFileWriter::finish() {
   frame_.versions.push_back({0.0, header_.nodes, header_.arcs, buckets_});
   flush();
-  if (written_.valid()) written_.get();
+  worker_.wait();
   header_.components = header_.nodes - unions_;
   header_.loops = header_.arcs - unions_;
   header_.records = header_.arcs;
@@ -136,14 +132,14 @@ void GraphFileWriter::flush_if_full() {
 }
 
 void GraphFileWriter::flush() {
-  if (written_.valid()) written_.get();
+  worker_.wait();
   std::swap(frame_, writing_);
   frame_.clear();
   ++header_.graph_frames;
   if (!writing_.arcs.empty() && components_.size() == 0)
     components_ = UnionFind(static_cast<std::uint32_t>(header_.nodes));
   if (background_)
-    written_ = std::async(std::launch::async, [this] { write(writing_); });
+    worker_.start([this] { write(writing_); });
   else
     write(writing_);
 }

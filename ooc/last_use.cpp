@@ -1,14 +1,10 @@
 #include "ooc/last_use.h"
 
-#include <tbb/global_control.h>
-#include <tbb/parallel_pipeline.h>
-
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <utility>
 
-#include "ooc/kept_arena.h"
+#include "ooc/read_ahead.h"
 
 namespace reeb::ooc {
 
@@ -43,11 +39,9 @@ class Scan {
   // False if it gave up.
   bool read_triangles() {
     mesh_.rewind();
-    if (options_.threads > 1) {
-      read_ahead();
-    } else {
-      for (Piece piece; !gave_up_ && read(piece);) use(piece);
-    }
+    read_ahead<Piece>(
+        options_.threads > 1, [this](Piece& piece) { return !gave_up_ && read(piece); },
+        [this](const Piece& piece) { use(piece); });
     return !gave_up_;
   }
 
@@ -75,25 +69,6 @@ class Scan {
     std::uint64_t degenerate = 0;
     std::uint64_t bytes_read = 0;  // of the mesh, up to here
   };
-
-  // One thread reads while another fills the table.
-  void read_ahead() {
-    std::array<Piece, 3> pieces;
-    std::size_t next = 0;
-    const tbb::global_control control(tbb::global_control::max_allowed_parallelism, 2);
-    kept_arena(2).execute([&] {
-      tbb::parallel_pipeline(pieces.size(),
-                             tbb::make_filter<void, Piece*>(tbb::filter_mode::serial_in_order,
-                                                            [&](tbb::flow_control& control_flow) -> Piece* {
-                                                              Piece& piece = pieces[next++ % pieces.size()];
-                                                              if (!gave_up_ && read(piece)) return &piece;
-                                                              control_flow.stop();
-                                                              return nullptr;
-                                                            }) &
-                                 tbb::make_filter<Piece*, void>(tbb::filter_mode::serial_in_order,
-                                                                [&](Piece* piece) { use(*piece); }));
-    });
-  }
 
   bool read(Piece& piece) {
     constexpr std::size_t kTriangles = 2048;

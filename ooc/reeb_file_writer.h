@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <future>
 #include <memory>
 #include <optional>
 #include <span>
@@ -20,6 +19,7 @@
 #include "ooc/frame_writer.h"
 #include "ooc/key_table.h"
 #include "ooc/record_source.h"
+#include "ooc/worker.h"
 
 namespace reeb::ooc {
 
@@ -77,7 +77,6 @@ class GraphFileWriter {
   };
 
   GraphFileWriter(const std::string& path, FileMeta meta, const Options& options);
-  ~GraphFileWriter();
 
   // REQUIRES: ascending, over all calls.
   void add_nodes(std::span<const SettledNode> nodes);
@@ -115,7 +114,7 @@ class GraphFileWriter {
   std::uint64_t unions_ = 0;  // arcs that joined two components
   std::uint64_t lo_rank_ = 0, buckets_ = 0;
   bool sealed_ = false;
-  std::future<void> written_;  // the frame in writing_
+  Worker worker_;  // writes writing_; the last member, so that it ends first
 };
 
 }  // namespace reeb::ooc

@@ -1,0 +1,81 @@
+// A thread that does one thing after the other, beside its owner.
+#pragma once
+
+#include <condition_variable>
+#include <exception>
+#include <functional>
+#include <mutex>
+#include <thread>
+#include <utility>
+
+namespace reeb::ooc {
+
+// The thread starts with the first task and is kept. Threads that are started for a few milliseconds each
+// tend to run on the core of who started them, one after the other, while another core is idle.
+//
+// THREADS: one owner.
+class Worker {
+ public:
+  Worker() = default;
+  Worker(const Worker&) = delete;
+  Worker& operator=(const Worker&) = delete;
+  // Waits for the task at hand; what it throws is lost.
+  ~Worker() {
+    if (!thread_.joinable()) return;
+    {
+      const std::lock_guard lock(mutex_);
+      ends_ = true;
+    }
+    changed_.notify_all();
+    thread_.join();
+  }
+
+  // Waits for the task before, and starts this one. THROWS: as wait(); then this one is not started.
+  void start(std::function<void()> task) {
+    wait();
+    {
+      const std::lock_guard lock(mutex_);
+      task_ = std::move(task);
+      busy_ = true;
+    }
+    if (thread_.joinable())
+      changed_.notify_all();
+    else
+      thread_ = std::thread([this] { run(); });
+  }
+
+  // Returns once there is no task. THROWS: what the last one threw, once.
+  void wait() {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [&] { return !busy_; });
+    if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
+  }
+
+ private:
+  void run() {
+    for (std::unique_lock lock(mutex_);;) {
+      changed_.wait(lock, [&] { return busy_ || ends_; });
+      if (!busy_) return;
+      lock.unlock();
+      std::exception_ptr failure;
+      try {
+        task_();
+      } catch (...) {
+        failure = std::current_exception();
+      }
+      lock.lock();
+      failure_ = failure;
+      busy_ = false;
+      changed_.notify_all();
+    }
+  }
+
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::function<void()> task_;
+  std::exception_ptr failure_;
+  bool busy_ = false, ends_ = false;
+  std::thread thread_;
+};
+
+}  // namespace reeb::ooc
