@@ -24,7 +24,7 @@ void FragmentBuilder::start(std::size_t vertices, const SweepOptions& options) {
 
 std::uint32_t FragmentBuilder::add_node(std::uint32_t v) {
   node_of_[v] = static_cast<std::uint32_t>(graph_.nodes.size());
-  graph_.nodes.push_back({v, kNone, false, {}, {}, false, false, kNone});
+  graph_.nodes.push_back({{}, v, kNone, false, {}, {}, false, false, false, kNone});
   return node_of_[v];
 }
 
@@ -60,6 +60,7 @@ void FragmentBuilder::finish(const SweptChunk& swept, Fragment& fragment) {
   fragment.clear();
   fragment.options = options_;
   fragment.triangle_count = swept.chunk.triangle_count();
+  for (SweepGraph::Node& node : graph_.nodes) node.key = swept.key(node.vertex);
   if (options_.bucket_exponent) add_positions(swept.chunk);
   if (options_.noise_below > 0)
     fragment.removed_pairs = leaf_removal_.run(graph_, swept, options_.noise_below);
@@ -112,12 +113,16 @@ void FragmentBuilder::trace_paths(Fragment& fragment) {
 
 // Which nodes can still become (1, 1) nodes, or get further arcs. As in LiveGraph, a node that no
 // other chunk uses stays one for good if on one of its sides there is no arc, or two and one of them
-// without paths; where noise goes, it can change as long as there is any path.
-void FragmentBuilder::find_changing_nodes(const SweptChunk& swept, bool noise_goes) {
+// without paths; a node that is near noise can change as long as there is any path.
+void FragmentBuilder::find_changing_nodes(const SweptChunk& swept) {
   using Side = SweepGraph::Side;
   auto& nodes = graph_.nodes;
   auto& arcs = graph_.arcs;
-  for (SweepGraph::Node& node : nodes) node.up = node.down = {};
+  const bool noise_goes = options_.noise_below > 0;
+  for (SweepGraph::Node& node : nodes) {
+    node.up = node.down = {};
+    node.near_noise = false;
+  }
   const auto add = [](Side& side, bool referenced) {
     side.several = side.any;
     side.any = true;
@@ -127,10 +132,11 @@ void FragmentBuilder::find_changing_nodes(const SweptChunk& swept, bool noise_go
     if (arc.lo == kNone) continue;
     add(nodes[arc.lo].up, arc.referenced);
     add(nodes[arc.hi].down, arc.referenced);
+    if (noise_goes && graph_.length(arc) < options_.noise_below) nodes[arc.lo].near_noise = nodes[arc.hi].near_noise = true;
   }
   const auto lasts = [](const Side& side) { return !side.any || (side.several && side.loose); };
   for (SweepGraph::Node& node : nodes) {
-    const bool stays = noise_goes ? !node.up.tied && !node.down.tied : lasts(node.up) || lasts(node.down);
+    const bool stays = node.near_noise ? !node.up.tied && !node.down.tied : lasts(node.up) || lasts(node.down);
     node.can_change = swept.uses(node.vertex) != kUsedHereOnly || !stays;
   }
 }
@@ -138,7 +144,7 @@ void FragmentBuilder::find_changing_nodes(const SweptChunk& swept, bool noise_go
 // Divides nodes and arcs into open and settled ones (DESIGN.md 2): an arc is settled if no path
 // runs on it and none of its ends can change; a node leaves when all its arcs do.
 void FragmentBuilder::divide(const SweptChunk& swept, Fragment& fragment) {
-  find_changing_nodes(swept, fragment.options.noise_below > 0);
+  find_changing_nodes(swept);
   auto& nodes = graph_.nodes;
   auto& arcs = graph_.arcs;
   for (SweepGraph::Node& node : nodes) node.open = node.can_change ? 0 : kNone;
@@ -148,7 +154,7 @@ void FragmentBuilder::divide(const SweptChunk& swept, Fragment& fragment) {
     if (arcs[a].lo == kNone) continue;
     SweepGraph::Node &lo = nodes[arcs[a].lo], &hi = nodes[arcs[a].hi];
     if (!arcs[a].referenced && !lo.can_change && !hi.can_change) {
-      add_settled_arc(swept, a, fragment);
+      add_settled_arc(a, fragment);
       lo.lost_arcs = hi.lost_arcs = true;
     } else {
       open_arcs_.push_back(a);
@@ -159,10 +165,8 @@ void FragmentBuilder::divide(const SweptChunk& swept, Fragment& fragment) {
   add_arcs(fragment);
 }
 
-void FragmentBuilder::add_settled_arc(const SweptChunk& swept, std::uint32_t arc,
-                                      Fragment& fragment) {
-  const auto key = [&](std::uint32_t node) { return swept.key(graph_.nodes[node].vertex); };
-  fragment.settled_arcs.push_back({key(graph_.arcs[arc].lo), key(graph_.arcs[arc].hi)});
+void FragmentBuilder::add_settled_arc(std::uint32_t arc, Fragment& fragment) {
+  fragment.settled_arcs.push_back({graph_.nodes[graph_.arcs[arc].lo].key, graph_.nodes[graph_.arcs[arc].hi].key});
   if (!options_.bucket_exponent) return;
   constexpr std::size_t kAhead = 8;
   if (arc + kAhead < graph_.arc_buckets.size()) graph_.buckets.prefetch(graph_.arc_buckets[arc + kAhead]);
@@ -182,7 +186,7 @@ void FragmentBuilder::add_nodes(const SweptChunk& swept, Fragment& fragment) {
     const std::uint32_t v = graph_.nodes[n].vertex;
     if (graph_.nodes[n].gone) continue;
     if (graph_.nodes[n].open == kNone)
-      fragment.settled_nodes.push_back({swept.key(v), swept.position(v)});
+      fragment.settled_nodes.push_back({graph_.nodes[n].key, swept.position(v)});
     else
       node_at_[swept.order[v]] = n;
   }
@@ -190,7 +194,7 @@ void FragmentBuilder::add_nodes(const SweptChunk& swept, Fragment& fragment) {
     if (n == kNone) continue;
     SweepGraph::Node& node = graph_.nodes[n];
     node.open = static_cast<std::uint32_t>(fragment.nodes.size());
-    fragment.nodes.push_back({swept.key(node.vertex), swept.uses(node.vertex), node.lost_arcs});
+    fragment.nodes.push_back({node.key, swept.uses(node.vertex), node.lost_arcs});
     if (!swept.chunk.positions.empty()) fragment.positions.push_back(swept.position(node.vertex));
   }
 }

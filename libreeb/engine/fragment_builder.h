@@ -72,10 +72,10 @@ class FragmentBuilder {
   void add_positions(const Chunk& chunk);
   void sort_steps(const SweptChunk& swept);
   void trace_paths(Fragment& fragment);
-  void find_changing_nodes(const SweptChunk& swept, bool noise_goes);
+  void find_changing_nodes(const SweptChunk& swept);
   void divide(const SweptChunk& swept, Fragment& fragment);
   void add_nodes(const SweptChunk& swept, Fragment& fragment);
-  void add_settled_arc(const SweptChunk& swept, std::uint32_t arc, Fragment& fragment);
+  void add_settled_arc(std::uint32_t arc, Fragment& fragment);
   void add_arcs(Fragment& fragment);
   void add_buckets(Fragment& fragment);
   void add_steps(Fragment& fragment);

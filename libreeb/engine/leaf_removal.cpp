@@ -11,11 +11,12 @@ std::size_t LeafRemoval::run(SweepGraph& graph, const SweptChunk& swept, double 
   removed_ = 0;
   find_candidates();
   if (candidates_.empty()) return 0;
+  choose_whole_nodes();
   prepare();
   while (!candidates_.empty()) {
     const std::uint32_t node = candidates_.back();
     candidates_.pop_back();
-    if (!is_used_here_only(node)) continue;
+    if (whole_[node] == 0 || !is_used_here_only(node)) continue;
     for (const Direction d : {kDown, kUp})
       if (is_leaf(node, d)) try_leaf(node, d);
   }
@@ -24,14 +25,27 @@ std::size_t LeafRemoval::run(SweepGraph& graph, const SweptChunk& swept, double 
 
 std::size_t LeafRemoval::memory_bytes() const {
   return nodes_.capacity() * sizeof(Node) + path_.capacity() * sizeof(PathBuckets) +
-         4 * candidates_.capacity();
+         whole_.capacity() + 4 * (arcs_.capacity() + candidates_.capacity());
 }
 
 // Every removal begins with a leaf that is one from the start.
 void LeafRemoval::find_candidates() {
   candidates_.clear();
-  for (const auto& [node, arc] : graph_->leaves)
-    if (is_noise(arc) && is_used_here_only(node)) candidates_.push_back(node);
+  arcs_.clear();
+  for (const auto& [node, arc] : graph_->leaves) {
+    if (!is_noise(arc) || !is_used_here_only(node)) continue;
+    candidates_.push_back(node);
+    arcs_.push_back(arc);
+  }
+}
+
+// All of them, or leaves and their saddles.
+void LeafRemoval::choose_whole_nodes() {
+  constexpr std::size_t kMany = 32;
+  const bool all = candidates_.size() * kMany >= graph_->nodes.size();
+  whole_.assign(graph_->nodes.size(), all ? 1 : 0);
+  if (all) return;
+  for (const std::uint32_t a : arcs_) whole_[graph_->arcs[a].lo] = whole_[graph_->arcs[a].hi] = 1;
 }
 
 // A leaf is only removed where its saddle reaches beyond it, and joining arcs moves no path: no
@@ -39,14 +53,19 @@ void LeafRemoval::find_candidates() {
 void LeafRemoval::prepare() {
   const std::vector<SweepGraph::Arc>& arcs = graph_->arcs;
   nodes_.resize(graph_->nodes.size());
-  for (std::uint32_t n = 0; n < nodes_.size(); ++n) nodes_[n] = {{0, 0}, {0, 0}, {n, n}, {}};
+  arcs_.clear();
   for (std::uint32_t a = 0; a < arcs.size(); ++a) {
+    if ((whole_[arcs[a].lo] | whole_[arcs[a].hi]) == 0) continue;
+    arcs_.push_back(a);
+    for (const std::uint32_t n : {arcs[a].lo, arcs[a].hi}) nodes_[n] = {{0, 0}, {0, 0}, {n, n}, {}};
+  }
+  for (const std::uint32_t a : arcs_) {
     attach(arcs[a].lo, kUp, a);
     attach(arcs[a].hi, kDown, a);
   }
   // All that lies below an arc comes before it, all above after.
-  for (std::uint32_t a = 0; a < arcs.size(); ++a) extend_reach(arcs[a].hi, kDown, a);
-  for (auto a = static_cast<std::uint32_t>(arcs.size()); a-- > 0;) extend_reach(arcs[a].lo, kUp, a);
+  for (const std::uint32_t a : arcs_) extend_reach(arcs[a].hi, kDown, a);
+  for (auto a = arcs_.rbegin(); a != arcs_.rend(); ++a) extend_reach(arcs[*a].lo, kUp, *a);
 }
 
 void LeafRemoval::extend_reach(std::uint32_t node, Direction d, std::uint32_t arc) {
@@ -59,7 +78,7 @@ void LeafRemoval::extend_reach(std::uint32_t node, Direction d, std::uint32_t ar
 void LeafRemoval::try_leaf(std::uint32_t leaf, Direction d) {
   const std::uint32_t arc = nodes_[leaf].arcs_xor[opposite(d)];
   const std::uint32_t saddle = graph_->arcs[arc].end(opposite(d));
-  if (along(d, nodes_[saddle].reach[d]) <= along(d, leaf) || !is_noise(arc)) return;
+  if (whole_[saddle] == 0 || along(d, nodes_[saddle].reach[d]) <= along(d, leaf) || !is_noise(arc)) return;
   ++removed_;
   if (embeds()) move_buckets(leaf, arc, d);
   detach(leaf, opposite(d), arc);
@@ -125,10 +144,6 @@ void LeafRemoval::detach(std::uint32_t node, Direction d, std::uint32_t arc) {
 
 bool LeafRemoval::is_used_here_only(std::uint32_t node) const {
   return swept_->uses(graph_->nodes[node].vertex) == kUsedHereOnly;
-}
-
-bool LeafRemoval::is_noise(std::uint32_t arc) const {
-  return value(graph_->arcs[arc].hi) - value(graph_->arcs[arc].lo) < noise_below_;
 }
 
 }  // namespace reeb

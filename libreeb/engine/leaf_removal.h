@@ -19,8 +19,9 @@ class LeafRemoval {
   // Removes, until nothing changes, extrema with one arc of persistence < noise_below whose saddle
   // has another path in their direction that reaches beyond them; saddles used here only
   // disappear when they become (1, 1). What lay on a leaf's arc comes to lie on that other path,
-  // the leaf with it. Returns how many leaves are gone.
-  // O(leaves) if none is of so little persistence, else O(nodes + arcs).
+  // the leaf with it. Returns how many leaves are gone. If such leaves are few, only the arcs at their
+  // saddles are looked at: what takes longer ways to be seen is left, for whoever sees all of the graph.
+  // O(leaves) if none is of so little persistence, else O(nodes + arcs), most of it for the looks.
   std::size_t run(SweepGraph& graph, const SweptChunk& swept, double noise_below);
   std::size_t memory_bytes() const;
 
@@ -35,6 +36,7 @@ class LeafRemoval {
   };
 
   void find_candidates();
+  void choose_whole_nodes();
   void prepare();
   void extend_reach(std::uint32_t node, Direction d, std::uint32_t arc);
   void try_leaf(std::uint32_t leaf, Direction d);
@@ -44,9 +46,9 @@ class LeafRemoval {
   void attach(std::uint32_t node, Direction d, std::uint32_t arc);
   void detach(std::uint32_t node, Direction d, std::uint32_t arc);
   bool is_used_here_only(std::uint32_t node) const;
-  bool is_noise(std::uint32_t arc) const;
+  bool is_noise(std::uint32_t arc) const { return graph_->length(graph_->arcs[arc]) < noise_below_; }
   bool embeds() const { return !graph_->arc_buckets.empty(); }
-  double value(std::uint32_t node) const { return swept_->value(graph_->nodes[node].vertex); }
+  double value(std::uint32_t node) const { return graph_->nodes[node].key.value; }
   Point position(std::uint32_t node) const {
     return swept_->position(graph_->nodes[node].vertex);
   }
@@ -59,6 +61,8 @@ class LeafRemoval {
   double noise_below_ = 0;
   std::size_t removed_ = 0;
   std::vector<Node> nodes_;
+  std::vector<std::uint8_t> whole_;  // by node: whether it knows all its arcs; nothing is done at others
+  std::vector<std::uint32_t> arcs_;  // of candidates; then all that whole nodes have, ascending
   std::vector<PathBuckets> path_;
   std::vector<std::uint32_t> candidates_;  // nodes that may be leaves to be looked at
 };

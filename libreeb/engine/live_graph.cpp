@@ -312,9 +312,9 @@ void LiveGraph::tidy() {
 // Whether a complete node, not a (1, 1) one, will never become one. Zips merge referenced arcs with
 // each other only, and leave at least one on each side that has any. So a side keeps two arcs for
 // good if it has two and one of them is not referenced; and an empty side stays empty. But noise can
-// go as long as the arcs of its saddle are here, so then they wait until no path is left.
+// go as long as the arcs of its saddle are here, so near noise they wait until no path is left.
 bool LiveGraph::stays_for_good(const Node& node) const {
-  if (noise_below_ > 0) return node.referenced_arcs == 0;
+  if (node.near_noise) return node.referenced_arcs == 0;
   if (node.up_degree == 0 || node.down_degree == 0) return true;
   std::uint32_t lasting = node.up_degree + node.down_degree - node.referenced_arcs;
   if (node.up_degree == 1 && arcs_[node.up_first].references == 0) --lasting;

@@ -75,6 +75,7 @@ void LiveGraph::try_leaf(Index leaf) {
   free_node(leaf);
   notice_noise_at(saddle);
   ++removed_pairs_;
+  if (nodes_[saddle].state == State::kSettled) nodes_[saddle].state = State::kComplete;  // it may disappear
   queue(saddle);
 }
 

@@ -6,6 +6,7 @@ namespace reeb {
 void LiveGraph::save(StateWriter& out) const {
   out.put(track_positions_);
   out.put(noise_below_);
+  out.put(noticed_below_);
   out.put(removed_pairs_);
   out.put(embeds_);
   buckets_.save(out);
@@ -21,6 +22,7 @@ void LiveGraph::save(StateWriter& out) const {
 void LiveGraph::restore(StateReader& in) {
   if (in.get<bool>() != track_positions_) throw DamagedState();
   in.get(noise_below_);
+  in.get(noticed_below_);
   in.get(removed_pairs_);
   in.get(embeds_);
   buckets_.restore(in);

@@ -24,10 +24,12 @@ struct SweepGraph {
     bool any = false, several = false, loose = false, tied = false;
   };
   struct Node {
+    SweepKey key;               // once the sweep is over
     std::uint32_t vertex;       // its rank
     std::uint32_t main_branch;  // the arc up that every path takes for which no other is noted
     bool gone;                  // removed as noise, or contracted since
     Side up, down;
+    bool near_noise;            // it has an arc that is short enough to be noise
     bool can_change;            // not a node of the final graph for certain
     bool lost_arcs;             // some of its arcs are settled
     std::uint32_t open;         // the number of the node in the fragment, or kNone
@@ -49,6 +51,8 @@ struct SweepGraph {
   // The embedding, if there is one.
   std::vector<BucketLists::List> arc_buckets;
   BucketLists buckets;
+
+  double length(const Arc& arc) const { return nodes[arc.hi].key.value - nodes[arc.lo].key.value; }
 
   void clear() {
     nodes.clear();
