@@ -27,9 +27,10 @@ void ColumnEncoder::add_planes() {
   bytes_.resize(static_cast<std::size_t>(end - bytes_.data()));
 }
 
-void ColumnEncoder::pack(std::vector<std::byte>& packed, int level) const {
+void ColumnEncoder::pack(std::vector<std::byte>& packed, int level) {
   thread_local ZstdCompressor compressor;
   compressor.compress(bytes_, level, packed);
+  bytes_.clear();
 }
 
 ColumnDecoder::ColumnDecoder(std::span<const std::byte> packed, std::size_t columns, std::size_t count)

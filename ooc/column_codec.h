@@ -28,8 +28,8 @@ class ColumnEncoder {
     for (std::size_t i = 0; i < count; ++i) column_[i] = code(i);
     add_planes();
   }
-  // Appends them to `packed`, which may go on with bytes of any kind.
-  void pack(std::vector<std::byte>& packed, int level = kSegmentLevel) const;
+  // Appends them to `packed`, which may go on with bytes of any kind, and begins anew.
+  void pack(std::vector<std::byte>& packed, int level = kSegmentLevel);
 
  private:
   void add_planes();

@@ -184,7 +184,7 @@ void Run::make_stores() {
   for (std::size_t f = 0; f < functions_.size(); ++f)
     stores_.push_back(std::make_unique<SegmentStore>(
         temp_, budget_,
-        SegmentOptions{plan_.segment_bytes, plan_.threads > 1, resumable_.segments_of(f)}));
+        SegmentOptions{plan_.segment_bytes, plan_.most_segment_bytes, plan_.threads > 1, resumable_.segments_of(f)}));
 }
 
 void Run::restore_stores(StateReader& in) {
@@ -565,7 +565,9 @@ void Run::remove_last_noise(ComputeResult& result, std::unique_ptr<SegmentStore>
   // A change of most of the graph takes more memory than reading the graph that it leaves.
   if (patch_bytes <= plan_.segment_bytes) return;
   auto changed = std::make_unique<SegmentStore>(
-      temp_, budget_, SegmentOptions{.allowance_bytes = plan_.segment_bytes, .background = plan_.threads > 1});
+      temp_, budget_,
+      SegmentOptions{
+          .allowance_bytes = plan_.segment_bytes, .most_bytes = plan_.most_segment_bytes, .background = plan_.threads > 1});
   copy_graph(*store, *changed, sweep.bucket_exponent);
   changed->finish();
   result.spilled_bytes += changed->spilled_bytes();

@@ -17,6 +17,7 @@
 
 #include "libreeb/base/memory_budget.h"
 #include "libreeb/base/state_stream.h"
+#include "ooc/read_ahead.h"
 #include "ooc/record_batch.h"
 #include "ooc/run_file.h"
 #include "ooc/run_merger.h"
@@ -26,10 +27,14 @@ namespace reeb::ooc {
 
 struct SortOptions {
   std::uint64_t allowance_bytes = 16 << 20;  // of the budget
+  std::uint64_t most_bytes = 0;  // if more: the allowance grows up to this as the file does
   bool parallel = false;    // sort each run with all threads
   bool background = false;  // sort and write runs in a thread of its own, with half the buffer
   std::string file = {};    // for the runs, if another process may have to go on; else unnamed
 };
+
+// How much of the records of a block a scan is to unpack.
+enum class Wanted { kNothing, kKeys, kAll };
 
 // add() any number of records, finish(), then read() them in order, as often as rewind() says.
 // While all fit in the allowance no file is made. Records that carry payloads come out in the order
@@ -38,7 +43,8 @@ struct SortOptions {
 // THROWS: Error{kResource} of the budget or the disk; what fails in the background is thrown by
 //         the next call and by all after it, since records are lost.
 // MEMORY: the allowance, all of it reserved as it is needed, and a few blocks of 64 KiB. A payload
-//         that is larger than the allowance gets what it needs.
+//         that is larger than the allowance gets what it needs. An allowance that grows is a sixteenth of
+//         the bytes on disk, so that of a large file the runs are not so many: merging holds a block of each.
 // THREADS: one at a time.
 template <class Record, class Codec = PlainCodec<Record>, class Less = std::less<Record>>
 class ExternalSort {
@@ -173,19 +179,42 @@ class ExternalSort {
     return some;
   }
 
-  // Calls visit(batch) for all records, block by block, in no order but that of adding where Less finds
-  // them equal: for what needs no order, at a fraction of the cost of merging. Between any reads.
-  // REQUIRES: finish() was called.   MEMORY: one block.
-  template <class Visit>
-  void scan(const Visit& visit) const {
-    if (runs_.empty()) visit(filling_.batch);
-    Batch block;
-    std::vector<std::byte> packed;
-    for (RunPlace run : runs_)
-      while (run.blocks != 0) {
-        read_block<Record, Codec>(*file_, run, packed, block);
-        visit(std::as_const(block));
-      }
+  // For what needs no order, at a fraction of the cost of merging: calls look(records) for all records, block by
+  // block, with no more of them unpacked than what they are sorted by; then visit(batch) for each block of which
+  // `look` wants so much, or all. In no order but that of adding where Less finds them equal. `look` is called by
+  // several threads, `visit` by one at a time. Between any reads.
+  // REQUIRES: finish() was called.   MEMORY: three blocks.
+  template <class Look, class Visit>
+  void scan(const Look& look, const Visit& visit) const {
+    if (runs_.empty()) {
+      if (look(std::span(filling_.batch.records)) != Wanted::kNothing) visit(filling_.batch);
+      return;
+    }
+    struct Block {
+      std::uint64_t offset = 0;
+      std::vector<std::byte> packed;
+      Batch batch;
+      Wanted wanted = Wanted::kNothing;
+    };
+    auto run = runs_.begin();
+    RunPlace place = *run;
+    const auto read_block = [&](Block& block) {
+      if (place.blocks == 0 && ++run == runs_.end()) return false;
+      if (place.blocks == 0) place = *run;
+      block.offset = place.offset;
+      block.batch.records.resize(file_->read(place, block.packed));
+      return true;
+    };
+    const auto unpack = [&](Block& block) {
+      auto& [records, pool] = block.batch;
+      pool.clear();
+      if (!Codec::decode_keys(block.packed, records)) file_->refuse(block.offset);
+      block.wanted = look(std::span(std::as_const(records)));
+      if (block.wanted == Wanted::kAll && !decode_block<Record, Codec>(block.packed, block.batch)) file_->refuse(block.offset);
+    };
+    read_ahead<Block>(options_.background, read_block, unpack, [&](const Block& block) {
+      if (block.wanted != Wanted::kNothing) visit(block.batch);
+    });
   }
 
   // The order in which records of a batch come out: places in its pool ascend in the order of adding.
@@ -267,11 +296,18 @@ class ExternalSort {
       write_run(writing_.batch);
       std::swap(filling_, writing_);
     }
+    grow_allowance();
     // A budget too small for a second buffer is met by waiting for the first.
     if (filling_.batch.records.capacity() == 0 && !grow_second()) {
       wait_for_writer();
       std::swap(filling_, writing_);
     }
+  }
+
+  void grow_allowance() {
+    constexpr std::uint64_t kShare = 16;
+    const std::uint64_t bytes = std::min(spilled_bytes() / kShare, options_.most_bytes);
+    most_bytes_ = std::max(most_bytes_, bytes / (options_.background ? 2 : 1));
   }
 
   bool grow_second() {

@@ -69,6 +69,13 @@ struct Scope {
   }
 };
 
+// Whether an arc ends in one of these nodes.
+auto meets(const SparseNodeTable& nodes) {
+  return [&nodes](const ArcKeys& arc) {
+    return nodes.find(arc.lo) != NodeTable::kNone || nodes.find(arc.hi) != NodeTable::kNone;
+  };
+}
+
 class Pass {
  public:
   Pass(SegmentStore& store, const LastNoiseOptions& options)
@@ -109,10 +116,10 @@ class Pass {
 
   // What removing noise takes if all of the graph is looked at, the patch included.
   std::uint64_t most_bytes() const {
-    const std::uint64_t of_buckets = exponent_ ? kPackedByte * payload_bytes_ + kBucketBytes * store_.bucket_count() : 0;
+    const std::uint64_t of_buckets = exponent_ ? kPackedByte * store_.payload_bytes() + kBucketBytes * store_.bucket_count() : 0;
     constexpr std::uint64_t kGoneNode = 2 * sizeof(SweepKey) + 20;
     const std::uint64_t of_patch =
-        sizeof(PatchArc) * store_.arc_count() + (exponent_ ? payload_bytes_ : 0) + kGoneNode * store_.node_count();
+        sizeof(PatchArc) * store_.arc_count() + (exponent_ ? store_.payload_bytes() : 0) + kGoneNode * store_.node_count();
     return kNodeBytes * store_.node_count() + kInnerArcBytes * store_.arc_count() + of_buckets + of_patch;
   }
 
@@ -142,13 +149,12 @@ class Pass {
     std::vector<ArcKeys> found;
     std::uint64_t count = 0;
     note_ends();
-    store_.scan_arcs([&](const StoredArc& arc, const auto&) {
-      payload_bytes_ += arc.payload.size;
-      if (ends_) ends_->add(arc.keys);
-      if (!is_short(arc.keys.lo.value, arc.keys.hi.value, options_.threshold)) return;
+    store_.scan_arc_keys([&](const ArcKeys& arc) {
+      if (ends_) ends_->add(arc);
+      if (!is_short(arc.lo.value, arc.hi.value, options_.threshold)) return;
       ++count;
       if (result_.fits && found.size() == found.capacity()) grow(found);
-      if (result_.fits) found.push_back(arc.keys);
+      if (result_.fits) found.push_back(arc);
     });
     if (ends_) ends_->keep_near_extrema(found);
     make_room(memory_, short_graph_bytes(found.size(), found.capacity()), 0);
@@ -176,9 +182,8 @@ class Pass {
   void look_at_ends(const ReebGraph& graph, Degrees& degrees, std::vector<std::uint64_t>& of_buckets) {
     const SparseNodeTable table(graph.nodes);
     if (spare_memory_.try_resize(options_.part_bytes)) near_.emplace();
-    store_.scan_arcs([&](const StoredArc& arc, const auto& batch) {
+    store_.scan_arcs(meets(table), [&](const StoredArc& arc, const auto& batch) {
       const std::uint32_t lo = table.find(arc.keys.lo), hi = table.find(arc.keys.hi);
-      if (lo == NodeTable::kNone && hi == NodeTable::kNone) return;
       const std::span<const std::byte> payload = batch.payload(arc);
       const std::uint64_t bytes = bucket_bytes(payload);
       if (lo != NodeTable::kNone) ++degrees.up[lo], of_buckets[lo] += bytes;
@@ -195,11 +200,12 @@ class Pass {
       give_up_spare_memory();
   }
 
-  // Calls visit(arc, batch) for all arcs of the scope's nodes, and others, as scan_arcs does.
+  // Calls visit(arc, batch) for all arcs that meet these nodes of the scope, as scan_arcs does.
   template <class Visit>
-  void scan_near(const Visit& visit) const {
-    if (!near_) return store_.scan_arcs(visit);
-    for (const StoredArc& arc : near_->records) visit(arc, *near_);
+  void scan_near(const SparseNodeTable& nodes, const Visit& visit) const {
+    if (!near_) return store_.scan_arcs(meets(nodes), visit);
+    for (const StoredArc& arc : near_->records)
+      if (meets(nodes)(arc.keys)) visit(arc, *near_);
   }
 
   std::uint64_t bucket_bytes(std::span<const std::byte> payload) const {
@@ -262,11 +268,9 @@ class Pass {
   // An arc between two nodes of the scope was counted at both.
   void join_neighbours(UnionFind& joined, std::vector<std::uint64_t>& weights) const {
     const SparseNodeTable table(scope_.nodes);
-    scan_near([&](const StoredArc& arc, const auto& batch) {
-      const std::uint32_t lo = table.find(arc.keys.lo);
-      if (lo == NodeTable::kNone) return;
-      const std::uint32_t hi = table.find(arc.keys.hi);
-      if (hi == NodeTable::kNone) return;
+    scan_near(table, [&](const StoredArc& arc, const auto& batch) {
+      const std::uint32_t lo = table.find(arc.keys.lo), hi = table.find(arc.keys.hi);
+      if (lo == NodeTable::kNone || hi == NodeTable::kNone) return;
       joined.unite(lo, hi);
       weights[lo] -= kArcBytes + bucket_bytes(batch.payload(arc));
       weights[hi] -= kArcBytes - kInnerArcBytes;
@@ -283,6 +287,7 @@ class Pass {
     std::vector<bool> whole(part.node_count());
     for (std::size_t node = 0, next = 0; next < scope.size(); ++node)
       if (part.nodes[node] == scope[next]) whole[node] = true, ++next;
+    if (exponent_) find_positions(part, whole);
     const std::vector<SweepKey> former_nodes = part.nodes;
     const std::vector<NodeId> former_hi = part.hi;
     const Denoised denoised = denoise_part(std::move(part), whole, options_.threshold, buckets, exponent_.value_or(0));
@@ -304,8 +309,7 @@ class Pass {
   RecordBatch<StoredArc> gather(const std::vector<SweepKey>& scope) const {
     const SparseNodeTable table(scope);
     const auto for_each = [&](const auto& visit) {
-      scan_near([&](const StoredArc& arc, const auto& batch) {
-        if (table.find(arc.keys.lo) == NodeTable::kNone && table.find(arc.keys.hi) == NodeTable::kNone) return;
+      scan_near(table, [&](const StoredArc& arc, const auto& batch) {
         visit(arc, exponent_ ? batch.payload(arc) : std::span<const std::byte>());
       });
     };
@@ -335,21 +339,23 @@ class Pass {
     return all;
   }
 
-  // With an embedding nodes have positions, for those that enter a bucket.
-  ReebGraph graph_of(RecordBatch<StoredArc> arcs) const {
+  static ReebGraph graph_of(RecordBatch<StoredArc> arcs) {
     std::vector<ArcKeys> keys;
     keys.reserve(arcs.records.size());
     for (const StoredArc& arc : arcs.records) keys.push_back(arc.keys);
     arcs = {};
-    ReebGraph graph = make_graph(std::move(keys), {});
-    if (!exponent_) return graph;
-    graph.positions.resize(graph.node_count());
-    const SparseNodeTable table(graph.nodes);
-    store_.scan_nodes([&](const SettledNode& stored) {
-      const std::uint32_t node = table.find(stored.key);
-      if (node != NodeTable::kNone) graph.positions[node] = stored.position;
-    });
-    return graph;
+    return make_graph(std::move(keys), {});
+  }
+
+  // Of these nodes, which may enter a bucket.
+  void find_positions(ReebGraph& part, const std::vector<bool>& wanted) const {
+    part.positions.resize(part.node_count());
+    const SparseNodeTable table(part.nodes);
+    const auto is_wanted = [&](const SweepKey& key) {
+      const std::uint32_t node = table.find(key);
+      return node != NodeTable::kNone && wanted[node];
+    };
+    store_.scan_nodes(is_wanted, [&](const SettledNode& stored) { part.positions[table.find(stored.key)] = stored.position; });
   }
 
   // ---- the patch
@@ -413,7 +419,6 @@ class Pass {
   Reservation spare_memory_;                    // of one of these two, which come one after the other:
   std::optional<ArcEnds> ends_;                 // while short arcs are looked for
   std::optional<RecordBatch<StoredArc>> near_;  // all arcs of the scope's nodes, and others, if they are few
-  std::uint64_t payload_bytes_ = 0;  // of all stored arcs
   Scope scope_;
   std::uint64_t held_ = 0;    // of memory, for the scope
   std::uint64_t enough_ = 0;  // to remove its noise

@@ -69,6 +69,7 @@ MemoryPlan plan_memory(const MemoryRequest& request) {
   // Beyond these sizes more memory makes nothing faster.
   plan.table_bytes = std::min(plan.account_bytes / 16, kMiB);
   plan.segment_bytes = std::min(plan.account_bytes / 16, kMiB) / request.functions;
+  plan.most_segment_bytes = std::min(plan.account_bytes / 32, 16 * kMiB) / request.functions;
   const std::uint64_t graph = request.denoises ? kNoiseRemoved : kNoiseKept;
   const std::uint64_t buckets = request.denoises ? kBucketsRemoved : kBucketsKept;
   plan.vertex_bytes_ = request.functions * (graph + (request.embeds ? buckets : 0));

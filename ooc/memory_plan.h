@@ -32,6 +32,7 @@ class MemoryPlan {
   std::uint64_t set_aside_bytes = 0;  // what the process needs besides
   std::uint64_t table_bytes = 0;      // last uses; as much again for a spooled mesh
   std::uint64_t segment_bytes = 0;    // settled arcs and nodes, a function
+  std::uint64_t most_segment_bytes = 0;  // the same where they are many
   unsigned threads = 1;
   ChunkSize chunk;
 

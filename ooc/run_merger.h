@@ -68,18 +68,23 @@ std::uint64_t append_blocks(std::span<const Record> records, [[maybe_unused]] st
   return blocks;
 }
 
+// Unpacks a block of as many records as `block` has. False if the bytes are no such block.
+template <class Record, class Codec>
+bool decode_block(std::span<const std::byte> packed, RecordBatch<Record>& block) {
+  if (block.empty()) return false;
+  if constexpr (CarriesPayload<Record>)
+    return Codec::decode(packed, block.records, block.pool);
+  else
+    return Codec::decode(packed, block.records);
+}
+
 // Reads the next block of `run`, which has one, and moves on. THROWS: as RunFile, also for a block that
 // cannot be decoded.
 template <class Record, class Codec>
 void read_block(const RunFile& file, RunPlace& run, std::vector<std::byte>& packed, RecordBatch<Record>& block) {
   const std::uint64_t offset = run.offset;
   block.records.resize(file.read(run, packed));
-  bool is_block = !block.empty();
-  if constexpr (CarriesPayload<Record>)
-    is_block = is_block && Codec::decode(packed, block.records, block.pool);
-  else
-    is_block = is_block && Codec::decode(packed, block.records);
-  if (!is_block) file.refuse(offset);
+  if (!decode_block<Record, Codec>(packed, block)) file.refuse(offset);
 }
 
 // A number that rises with the record; unequal numbers settle the order of most records without a

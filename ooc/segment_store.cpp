@@ -38,18 +38,36 @@ void NodeCodec::encode(std::span<const SettledNode> nodes, std::vector<std::byte
   ColumnEncoder columns;
   add_differences(columns, nodes, [](const SettledNode& n) { return bits(n.key); });
   add_differences(columns, nodes, [](const SettledNode& n) { return id(n.key); });
+  columns.pack(packed);
   for (std::size_t k = 0; k < 3; ++k)
     add_differences(columns, nodes, [k](const SettledNode& n) { return ordered_bits(n.position[k]); });
   columns.pack(packed);
 }
 
-bool NodeCodec::decode(std::span<const std::byte> packed, std::span<SettledNode> nodes) {
-  ColumnDecoder columns(packed, 5, nodes.size());
-  if (!columns.ok() || !columns.tail().empty()) return false;
+namespace {
+
+// Keys, and what follows them.
+ColumnDecoder decode_node_keys(std::span<const std::byte> packed, std::span<SettledNode> nodes) {
+  ColumnDecoder columns(packed, 2, nodes.size());
+  if (!columns.ok()) return columns;
   for_sums(columns.column(0), [&](std::size_t i, std::uint64_t sum) { nodes[i].key.value = from_ordered_bits(sum); });
   for_sums(columns.column(1), [&](std::size_t i, std::uint64_t sum) { nodes[i].key.vertex = VertexId(sum); });
+  return columns;
+}
+
+}  // namespace
+
+bool NodeCodec::decode_keys(std::span<const std::byte> packed, std::span<SettledNode> nodes) {
+  return decode_node_keys(packed, nodes).ok();
+}
+
+bool NodeCodec::decode(std::span<const std::byte> packed, std::span<SettledNode> nodes) {
+  const ColumnDecoder keys = decode_node_keys(packed, nodes);
+  if (!keys.ok()) return false;
+  ColumnDecoder columns(keys.tail(), 3, nodes.size());
+  if (!columns.ok() || !columns.tail().empty()) return false;
   for (std::size_t k = 0; k < 3; ++k)
-    for_sums(columns.column(2 + k), [&](std::size_t i, std::uint64_t sum) { nodes[i].position[k] = from_ordered_bits(sum); });
+    for_sums(columns.column(k), [&](std::size_t i, std::uint64_t sum) { nodes[i].position[k] = from_ordered_bits(sum); });
   return true;
 }
 
@@ -79,10 +97,12 @@ void ArcCodec::encode(std::span<const StoredArc> arcs, std::span<const std::byte
   add_payloads(arcs, pool, packed);
 }
 
-bool ArcCodec::decode(std::span<const std::byte> packed, std::span<StoredArc> arcs,
-                      std::vector<std::byte>& pool) {
+namespace {
+
+// Keys; the last column is left, and what follows.
+ColumnDecoder decode_arc_keys(std::span<const std::byte> packed, std::span<StoredArc> arcs) {
   ColumnDecoder columns(packed, 5, arcs.size());
-  if (!columns.ok()) return false;
+  if (!columns.ok()) return columns;
   for_sums(columns.column(0), [&](std::size_t i, std::uint64_t sum) { arcs[i].keys.lo.value = from_ordered_bits(sum); });
   for_sums(columns.column(1), [&](std::size_t i, std::uint64_t sum) { arcs[i].keys.lo.vertex = VertexId(sum); });
   auto column = columns.column(2);
@@ -91,7 +111,20 @@ bool ArcCodec::decode(std::span<const std::byte> packed, std::span<StoredArc> ar
   column = columns.column(3);
   for (std::size_t i = 0; i < arcs.size(); ++i)
     arcs[i].keys.hi.vertex = VertexId(id(arcs[i].keys.lo) + unzigzag(column[i]));
-  column = columns.column(4);
+  return columns;
+}
+
+}  // namespace
+
+bool ArcCodec::decode_keys(std::span<const std::byte> packed, std::span<StoredArc> arcs) {
+  return decode_arc_keys(packed, arcs).ok();
+}
+
+bool ArcCodec::decode(std::span<const std::byte> packed, std::span<StoredArc> arcs,
+                      std::vector<std::byte>& pool) {
+  ColumnDecoder columns = decode_arc_keys(packed, arcs);
+  if (!columns.ok()) return false;
+  const auto column = columns.column(4);
   std::uint64_t first = 0;
   for (std::size_t i = 0; i < arcs.size(); first += column[i++])
     arcs[i].payload = {static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(column[i])};
@@ -103,6 +136,7 @@ namespace {
 
 SortOptions half_of(const SegmentOptions& options, const char* suffix) {
   return {.allowance_bytes = options.allowance_bytes / 2,
+          .most_bytes = options.most_bytes / 2,
           .background = options.background,
           .file = options.files.empty() ? "" : options.files + suffix};
 }
@@ -127,18 +161,21 @@ void SegmentStore::add_arcs(const SettledArcs& settled) {
     payload_.clear();
     encode_buckets(settled.buckets.subspan(first, settled.bucket_counts[i]), settled.bucket_exponent, payload_);
     arcs_.add({settled.arcs[i]}, payload_);
+    payload_bytes_ += payload_.size();
   }
   bucket_count_ += first;
 }
 
 void SegmentStore::save(StateWriter& out) {
   out.put(bucket_count_);
+  out.put(payload_bytes_);
   nodes_.save(out);
   arcs_.save(out);
 }
 
 void SegmentStore::restore(StateReader& in) {
   in.get(bucket_count_);
+  in.get(payload_bytes_);
   nodes_.restore(in);
   arcs_.restore(in);
 }

@@ -2,6 +2,7 @@
 // (DESIGN.md 4, Spilling).
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -27,15 +28,17 @@ struct StoredArc {
 };
 
 // Columns of a block: value bits as differences (they rise), vertex ids as differences of either
-// sign, the rest told from these; byte planes; zstd. Then the payloads as they are: means of
-// positions hardly become smaller.
+// sign, the rest told from these; byte planes; zstd. Positions are packed apart from keys, which are
+// had without them. Then the payloads as they are: means of positions hardly become smaller.
 struct NodeCodec {
   static void encode(std::span<const SettledNode> nodes, std::vector<std::byte>& packed);
+  static bool decode_keys(std::span<const std::byte> packed, std::span<SettledNode> nodes);
   static bool decode(std::span<const std::byte> packed, std::span<SettledNode> nodes);
 };
 struct ArcCodec {
   static void encode(std::span<const StoredArc> arcs, std::span<const std::byte> pool,
                      std::vector<std::byte>& packed);
+  static bool decode_keys(std::span<const std::byte> packed, std::span<StoredArc> arcs);
   static bool decode(std::span<const std::byte> packed, std::span<StoredArc> arcs,
                      std::vector<std::byte>& pool);
 };
@@ -64,6 +67,7 @@ struct ArcPiece {
 
 struct SegmentOptions {
   std::uint64_t allowance_bytes = 8 << 20;  // of the budget, half for nodes and half for arcs
+  std::uint64_t most_bytes = 0;             // to which it grows where much is stored; 0: not at all
   bool background = true;                   // sort and write segments in threads of their own
   // For segments that another process may have to go on with: FILES.nodes and FILES.arcs. Else the
   // segments are in unnamed files.
@@ -100,12 +104,17 @@ class SegmentStore : public GraphSink {
   // was added.
   bool read_arcs(ArcPiece& piece, std::size_t limit, std::optional<int> bucket_exponent = {});
 
-  // Calls visit(node), or visit(arc, batch) with the batch that holds the arc's payload, for all that was
-  // added, in no order but that parallel arcs come as they are read.
+  // All that was added, in no order but that parallel arcs come as they are read. Blocks without a node or arc
+  // for whose keys `wanted` is true, which several threads ask, are hardly unpacked.
+  // Calls visit(keys) for all arcs.
   template <class Visit>
-  void scan_nodes(const Visit& visit) const;
-  template <class Visit>
-  void scan_arcs(const Visit& visit) const;
+  void scan_arc_keys(const Visit& visit) const;
+  // Calls visit(arc, batch), with the batch that holds the arc's payload, where wanted(keys) is true.
+  template <class Is, class Visit>
+  void scan_arcs(const Is& wanted, const Visit& visit) const;
+  // Calls visit(node) where wanted(key) is true.
+  template <class Is, class Visit>
+  void scan_nodes(const Is& wanted, const Visit& visit) const;
 
   // From now on the graph is read, and counted, with this change; scans go on without it. Rewinds.
   void apply(GraphPatch patch);
@@ -114,6 +123,8 @@ class SegmentStore : public GraphSink {
   std::uint64_t arc_count() const;
   // As they were added; coarsening makes fewer of them.
   std::uint64_t bucket_count() const;
+  // Of the payloads of all arcs that were added.
+  std::uint64_t payload_bytes() const { return payload_bytes_; }
   std::uint64_t spilled_bytes() const { return nodes_.spilled_bytes() + arcs_.spilled_bytes(); }
   // What the budget gets back when the store goes.
   std::uint64_t reserved_bytes() const;
@@ -127,7 +138,7 @@ class SegmentStore : public GraphSink {
   bool background_;
   SortedNodes nodes_;
   SortedArcs arcs_;
-  std::uint64_t bucket_count_ = 0;
+  std::uint64_t bucket_count_ = 0, payload_bytes_ = 0;
   RecordBatch<StoredArc> batch_;  // read last,
   std::size_t next_ = 0;          // delivered so far
   bool at_end_ = false;           // of the stored arcs
@@ -137,17 +148,33 @@ class SegmentStore : public GraphSink {
 };
 
 template <class Visit>
-void SegmentStore::scan_nodes(const Visit& visit) const {
-  nodes_.scan([&](const RecordBatch<SettledNode>& batch) {
-    for (const SettledNode& node : batch.records) visit(node);
-  });
+void SegmentStore::scan_arc_keys(const Visit& visit) const {
+  arcs_.scan([](std::span<const StoredArc>) { return Wanted::kKeys; },
+             [&](const RecordBatch<StoredArc>& batch) {
+               for (const StoredArc& arc : batch.records) visit(arc.keys);
+             });
 }
 
-template <class Visit>
-void SegmentStore::scan_arcs(const Visit& visit) const {
-  arcs_.scan([&](const RecordBatch<StoredArc>& batch) {
-    for (const StoredArc& arc : batch.records) visit(arc, batch);
-  });
+template <class Is, class Visit>
+void SegmentStore::scan_arcs(const Is& wanted, const Visit& visit) const {
+  const auto is_wanted = [&](const StoredArc& arc) { return wanted(arc.keys); };
+  arcs_.scan(
+      [&](std::span<const StoredArc> arcs) { return std::ranges::any_of(arcs, is_wanted) ? Wanted::kAll : Wanted::kNothing; },
+      [&](const RecordBatch<StoredArc>& batch) {
+        for (const StoredArc& arc : batch.records)
+          if (is_wanted(arc)) visit(arc, batch);
+      });
+}
+
+template <class Is, class Visit>
+void SegmentStore::scan_nodes(const Is& wanted, const Visit& visit) const {
+  const auto is_wanted = [&](const SettledNode& node) { return wanted(node.key); };
+  nodes_.scan(
+      [&](std::span<const SettledNode> nodes) { return std::ranges::any_of(nodes, is_wanted) ? Wanted::kAll : Wanted::kNothing; },
+      [&](const RecordBatch<SettledNode>& batch) {
+        for (const SettledNode& node : batch.records)
+          if (is_wanted(node)) visit(node);
+      });
 }
 
 // Adds all of a finished store to another; buckets, if an exponent is given, coarsened to it.

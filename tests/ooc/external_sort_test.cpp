@@ -76,6 +76,26 @@ TEST(ExternalSort, AgreesWithASortInMemory) {
     }
 }
 
+// Merging holds a block of each run: of a large file there are fewer if they are longer.
+TEST(ExternalSort, AnAllowanceThatGrowsLeavesLessToMerge) {
+  constexpr std::size_t kCount = 1'000'000;
+  std::vector<Pair> expected = random_pairs(kCount, 5);
+  const auto peak_bytes = [&](std::uint64_t most_bytes) {
+    const Scratch scratch;
+    const TempDir temp(scratch.path());
+    MemoryBudget budget;
+    ExternalSort<Pair> sort("pairs", temp, budget, {.allowance_bytes = 64 << 10, .most_bytes = most_bytes});
+    add_in_pieces(sort, random_pairs(kCount, 5));
+    sort.finish(64 << 20);
+    EXPECT_TRUE(read_all(sort, 1000) == expected);
+    return budget.peak_bytes();
+  };
+  std::sort(expected.begin(), expected.end());
+  const std::uint64_t fixed = peak_bytes(0), growing = peak_bytes(4 << 20);
+  EXPECT_GT(fixed, kCount * sizeof(Pair));  // 244 runs
+  EXPECT_LT(growing, fixed / 3);
+}
+
 TEST(ExternalSort, SaysWhenNotEvenTheLeastFits) {
   const Scratch scratch;
   const TempDir temp(scratch.path());

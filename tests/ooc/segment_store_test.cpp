@@ -274,7 +274,8 @@ TEST_P(Segments, AnotherProcessGoesOnWithTheBuckets) {
     const Scratch scratch;
     const TempDir temp(scratch.path());
     MemoryBudget budget;
-    const SegmentOptions options{allowance, GetParam(), scratch.path() + "/segments"};
+    const SegmentOptions options{
+        .allowance_bytes = allowance, .background = GetParam(), .files = scratch.path() + "/segments"};
     StateBytes state;
     const std::size_t half = all.calls.size() / 2;
     {
