@@ -12,15 +12,15 @@ ZstdCompressor::ZstdCompressor() : context_(ZSTD_createCCtx()) {
   if (context_ == nullptr) throw std::bad_alloc();
 }
 
+// By way of memory of its own: `out` grows by no more than it has to, and nothing is filled first.
 void ZstdCompressor::compress(std::span<const std::byte> bytes, int level, std::vector<std::byte>& out) {
-  const std::size_t before = out.size();
-  out.resize(before + ZSTD_compressBound(bytes.size()));
-  const std::size_t size = ZSTD_compressCCtx(context_.get(), out.data() + before, out.size() - before,
-                                             bytes.data(), bytes.size(), level);
+  const std::size_t bound = ZSTD_compressBound(bytes.size());
+  if (capacity_ < bound) frame_ = std::make_unique_for_overwrite<std::byte[]>(capacity_ = bound);
+  const std::size_t size = ZSTD_compressCCtx(context_.get(), frame_.get(), capacity_, bytes.data(), bytes.size(), level);
   if (ZSTD_isError(size) != 0)
     throw Error(ErrorKind::kResource, std::string("zstd: ") + ZSTD_getErrorName(size),
                 "allow more with --memory");
-  out.resize(before + size);
+  out.insert(out.end(), frame_.get(), frame_.get() + size);
 }
 
 void zstd_compress(std::span<const std::byte> bytes, int level, std::vector<std::byte>& out) {

@@ -23,6 +23,8 @@ class ZstdCompressor {
     void operator()(ZSTD_CCtx* context) const { ZSTD_freeCCtx(context); }
   };
   std::unique_ptr<ZSTD_CCtx, Free> context_;
+  std::unique_ptr<std::byte[]> frame_;
+  std::size_t capacity_ = 0;
 };
 
 // The same for a single piece.

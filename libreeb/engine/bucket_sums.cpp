@@ -17,14 +17,6 @@ void BucketSum::keep(std::uint64_t kept, BucketSum& other) {
   count = kept;
 }
 
-Bucket BucketSum::mean() const {
-  Bucket bucket{index, count, {}};
-  for (std::size_t k = 0; k < 3; ++k) bucket.mean[k] = to_double(sum[k]) * 0x1p-44;
-  if (count == 1) return bucket;  // as most are where values are random
-  for (double& x : bucket.mean) x /= static_cast<double>(count);
-  return bucket;
-}
-
 void BucketLists::start(int exponent) {
   sums_.clear();
   links_.clear();

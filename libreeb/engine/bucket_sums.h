@@ -62,7 +62,13 @@ struct BucketSum {
   // Keeps so many of the vertices, with their share of the sum, or nearly, and adds the rest to `other`:
   // nothing is lost.
   void keep(std::uint64_t kept, BucketSum& other);
-  Bucket mean() const;  // REQUIRES: count != 0
+  Bucket mean() const {  // REQUIRES: count != 0
+    Bucket bucket{index, count, {}};
+    for (std::size_t k = 0; k < 3; ++k) bucket.mean[k] = to_double(sum[k]) * 0x1p-44;
+    if (count == 1) return bucket;  // as most are where values are random
+    for (double& x : bucket.mean) x /= static_cast<double>(count);
+    return bucket;
+  }
 };
 
 // Lists of buckets, ascending by index, in one pool, all of one exponent. What the lists are asked for
