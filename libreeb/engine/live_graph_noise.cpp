@@ -16,11 +16,13 @@ void LiveGraph::set_noise(double below) {
     if (arcs_[a].lo != kNone) notice_noise(a);
 }
 
-// For an arc that has come, has got another end, or is the only one that is left at one of its ends.
+// For an arc that has come, has got another end, or is the only one that is left at one of its ends. One that
+// leads to no leaf yet may when what is beyond it has gone.
 void LiveGraph::notice_noise(Index a) {
   if (noticed_below_ == 0) return;
   Node &lo = nodes_[arcs_[a].lo], &hi = nodes_[arcs_[a].hi];
-  if ((has_one_arc(lo) || has_one_arc(hi)) && length(a) < noticed_below_) lo.near_noise = hi.near_noise = true;
+  const double below = has_one_arc(lo) || has_one_arc(hi) ? noticed_below_ : noise_below_;
+  if (length(a) < below) lo.near_noise = hi.near_noise = true;
 }
 
 // For a node that has lost an arc.
