@@ -558,12 +558,14 @@ void Run::remove_last_noise(ComputeResult& result, std::unique_ptr<SegmentStore>
   }
   result.denoised_pairs += pass.removed_pairs;
   if (!pass.patch) return;
-  const std::uint64_t patch_bytes = pass.patch->memory.bytes();
+  const std::uint64_t patch_bytes = pass.patch->memory.bytes(), changed_arcs = pass.patch->arcs.records.size();
   store->apply(std::move(*pass.patch));
   result.nodes = store->node_count();
   result.arcs = store->arc_count();
-  // A change of most of the graph takes more memory than reading the graph that it leaves.
-  if (patch_bytes <= plan_.segment_bytes) return;
+  // A change of much of the graph takes more memory than reading the graph that it leaves.
+  constexpr std::uint64_t kMuch = 8;
+  const bool is_little = kMuch * changed_arcs <= result.arcs && kMuch * patch_bytes <= budget_.free_bytes();
+  if (patch_bytes <= plan_.segment_bytes || is_little) return;
   auto changed = std::make_unique<SegmentStore>(
       temp_, budget_,
       SegmentOptions{
