@@ -83,7 +83,7 @@ void GraphFileWriter::rank_by_search(std::span<const ArcKeys> arcs) {
   }
   std::uint64_t hi_rank = 0;
   for (std::size_t k = 0; k < by_hi_.size(); ++k) {
-    constexpr std::size_t kLookups = 512;  // each may touch a page that none before did
+    constexpr std::size_t kLookups = 64;  // each may map sixteen pages that none before did
     if (k % kLookups == 0) keys_->release_pages();
     ranked_[by_hi_[k]].hi = hi_rank = keys_->rank(arcs[by_hi_[k]].hi, hi_rank);
   }
