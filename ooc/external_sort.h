@@ -33,9 +33,6 @@ struct SortOptions {
   std::string file = {};    // for the runs, if another process may have to go on; else unnamed
 };
 
-// How much of the records of a block a scan is to unpack.
-enum class Wanted { kNothing, kKeys, kAll };
-
 // add() any number of records, finish(), then read() them in order, as often as rewind() says.
 // While all fit in the allowance no file is made. Records that carry payloads come out in the order
 // in which they went in where Less finds them equal.
@@ -179,42 +176,26 @@ class ExternalSort {
     return some;
   }
 
-  // For what needs no order, at a fraction of the cost of merging: calls look(records) for all records, block by
-  // block, with no more of them unpacked than what they are sorted by; then visit(batch) for each block of which
-  // `look` wants so much, or all. In no order but that of adding where Less finds them equal. `look` is called by
-  // several threads, `visit` by one at a time. Between any reads.
+  // For what needs no order, at a fraction of the cost of merging. In no order but that of adding where Less finds
+  // records equal; between any reads.
   // REQUIRES: finish() was called.   MEMORY: three blocks.
-  template <class Look, class Visit>
-  void scan(const Look& look, const Visit& visit) const {
-    if (runs_.empty()) {
-      if (look(std::span(filling_.batch.records)) != Wanted::kNothing) visit(filling_.batch);
-      return;
-    }
-    struct Block {
-      std::uint64_t offset = 0;
-      std::vector<std::byte> packed;
-      Batch batch;
-      Wanted wanted = Wanted::kNothing;
-    };
-    auto run = runs_.begin();
-    RunPlace place = *run;
-    const auto read_block = [&](Block& block) {
-      if (place.blocks == 0 && ++run == runs_.end()) return false;
-      if (place.blocks == 0) place = *run;
-      block.offset = place.offset;
-      block.batch.records.resize(file_->read(place, block.packed));
-      return true;
-    };
-    const auto unpack = [&](Block& block) {
-      auto& [records, pool] = block.batch;
-      pool.clear();
-      if (!Codec::decode_keys(block.packed, records)) file_->refuse(block.offset);
-      block.wanted = look(std::span(std::as_const(records)));
-      if (block.wanted == Wanted::kAll && !decode_block<Record, Codec>(block.packed, block.batch)) file_->refuse(block.offset);
-    };
-    read_ahead<Block>(options_.background, read_block, unpack, [&](const Block& block) {
-      if (block.wanted != Wanted::kNothing) visit(block.batch);
-    });
+
+  // Calls visit(record) for all records, of which only what they are sorted by is there.
+  template <class Visit>
+  void scan_keys(const Visit& visit) const {
+    scan_blocks([](std::span<const Record>) { return Wanted::kKeys; },
+                [&](const Batch& block) { std::ranges::for_each(block.records, visit); });
+  }
+  // Calls visit(record, batch), with the batch that holds its payload, where wanted(record) is true. That is asked
+  // of what records are sorted by, by several threads: of most blocks no more is unpacked where few are wanted.
+  template <class Is, class Visit>
+  void scan(const Is& wanted, const Visit& visit) const {
+    scan_blocks(
+        [&](std::span<const Record> records) { return std::ranges::any_of(records, wanted) ? Wanted::kAll : Wanted::kNothing; },
+        [&](const Batch& block) {
+          for (const Record& record : block.records)
+            if (wanted(record)) visit(record, block);
+        });
   }
 
   // The order in which records of a batch come out: places in its pool ascend in the order of adding.
@@ -244,6 +225,45 @@ class ExternalSort {
       charge.resize(0);
     }
   };
+
+  // How much of the records of a block a scan unpacks.
+  enum class Wanted { kNothing, kKeys, kAll };
+
+  // Calls look(records) for all blocks, in several threads; and visit(batch), one at a time, for those of which that
+  // wants more than nothing.
+  template <class Look, class Visit>
+  void scan_blocks(const Look& look, const Visit& visit) const {
+    if (runs_.empty()) {
+      if (look(std::span(filling_.batch.records)) != Wanted::kNothing) visit(filling_.batch);
+      return;
+    }
+    struct Block {
+      std::uint64_t offset = 0;
+      std::vector<std::byte> packed;
+      Batch batch;
+      Wanted wanted = Wanted::kNothing;
+    };
+    auto run = runs_.begin();
+    RunPlace place = *run;
+    const auto read_next = [&](Block& block) {
+      if (place.blocks == 0 && ++run == runs_.end()) return false;
+      if (place.blocks == 0) place = *run;
+      block.offset = place.offset;
+      block.batch.records.resize(file_->read(place, block.packed));
+      return true;
+    };
+    const auto unpack = [&](Block& block) {
+      auto& [records, pool] = block.batch;
+      pool.clear();
+      bool is_block = Codec::decode_keys(block.packed, records);
+      block.wanted = is_block ? look(std::span(std::as_const(records))) : Wanted::kNothing;
+      if (block.wanted == Wanted::kAll) is_block = decode_block<Record, Codec>(block.packed, block.batch);
+      if (!is_block) file_->refuse(block.offset);
+    };
+    read_ahead<Block>(options_.background, read_next, unpack, [&](const Block& block) {
+      if (block.wanted != Wanted::kNothing) visit(block.batch);
+    });
+  }
 
   // Room for as many records again, if the share allows; both the old and the new memory exist while
   // they move over.

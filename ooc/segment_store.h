@@ -2,7 +2,6 @@
 // (DESIGN.md 4, Spilling).
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -149,32 +148,18 @@ class SegmentStore : public GraphSink {
 
 template <class Visit>
 void SegmentStore::scan_arc_keys(const Visit& visit) const {
-  arcs_.scan([](std::span<const StoredArc>) { return Wanted::kKeys; },
-             [&](const RecordBatch<StoredArc>& batch) {
-               for (const StoredArc& arc : batch.records) visit(arc.keys);
-             });
+  arcs_.scan_keys([&](const StoredArc& arc) { visit(arc.keys); });
 }
 
 template <class Is, class Visit>
 void SegmentStore::scan_arcs(const Is& wanted, const Visit& visit) const {
-  const auto is_wanted = [&](const StoredArc& arc) { return wanted(arc.keys); };
-  arcs_.scan(
-      [&](std::span<const StoredArc> arcs) { return std::ranges::any_of(arcs, is_wanted) ? Wanted::kAll : Wanted::kNothing; },
-      [&](const RecordBatch<StoredArc>& batch) {
-        for (const StoredArc& arc : batch.records)
-          if (is_wanted(arc)) visit(arc, batch);
-      });
+  arcs_.scan([&](const StoredArc& arc) { return wanted(arc.keys); }, visit);
 }
 
 template <class Is, class Visit>
 void SegmentStore::scan_nodes(const Is& wanted, const Visit& visit) const {
-  const auto is_wanted = [&](const SettledNode& node) { return wanted(node.key); };
-  nodes_.scan(
-      [&](std::span<const SettledNode> nodes) { return std::ranges::any_of(nodes, is_wanted) ? Wanted::kAll : Wanted::kNothing; },
-      [&](const RecordBatch<SettledNode>& batch) {
-        for (const SettledNode& node : batch.records)
-          if (is_wanted(node)) visit(node);
-      });
+  nodes_.scan([&](const SettledNode& node) { return wanted(node.key); },
+              [&](const SettledNode& node, const auto&) { visit(node); });
 }
 
 // Adds all of a finished store to another; buckets, if an exponent is given, coarsened to it.
