@@ -4,7 +4,7 @@
 #include <cstring>
 #include <random>
 
-#include "ooc/zstd_codec.h"
+#include "io/file/zstd_codec.h"
 
 namespace {
 
@@ -14,8 +14,7 @@ std::vector<std::byte> byte_planes(std::size_t count) {
   std::vector<std::byte> planes(count * 8);
   for (std::size_t i = 0; i < count; ++i) {
     const std::uint64_t delta = random() % 5000;
-    for (std::size_t b = 0; b < 8; ++b)
-      planes[b * count + i] = static_cast<std::byte>(delta >> (8 * b));
+    for (std::size_t b = 0; b < 8; ++b) planes[b * count + i] = static_cast<std::byte>(delta >> (8 * b));
   }
   return planes;
 }
@@ -24,8 +23,7 @@ void BM_Zstd(benchmark::State& state) {
   const auto planes = byte_planes(65536);
   std::vector<std::byte> packed, back(planes.size());
   reeb::ooc::zstd_compress(planes, static_cast<int>(state.range(0)), packed);
-  if (!reeb::ooc::zstd_decompress(packed, back) || back != planes)
-    return state.SkipWithError("wrong bytes");
+  if (!reeb::ooc::zstd_decompress(packed, back) || back != planes) return state.SkipWithError("wrong bytes");
   for (auto _ : state) {
     packed.clear();
     reeb::ooc::zstd_compress(planes, static_cast<int>(state.range(0)), packed);

@@ -17,8 +17,8 @@
 #include <utility>
 #include <vector>
 
-#include "io/generator/generator.h"
-#include "io/generator/noise.h"
+#include "io/generate/generator.h"
+#include "io/generate/noise.h"
 #include "libreeb/engine/chunk_sweep.h"
 #include "libreeb/engine/glue.h"
 
@@ -48,8 +48,7 @@ Mesh read_mesh(Layout layout) {
   Mesh mesh{reader->topology(), std::vector<std::vector<double>>(3), {}, {}, {}};
   for (MeshBatch batch; reader->read(batch);) {
     for (std::size_t k = 0; k < 3; ++k)
-      mesh.coordinates[k].insert(mesh.coordinates[k].end(), batch.coordinates[k].begin(),
-                                 batch.coordinates[k].end());
+      mesh.coordinates[k].insert(mesh.coordinates[k].end(), batch.coordinates[k].begin(), batch.coordinates[k].end());
     for (const VertexId v : batch.triangles) mesh.corners.push_back(v.value());
   }
   const std::size_t vertices = mesh.coordinates[0].size();
@@ -103,12 +102,10 @@ std::vector<Input> cut(const Mesh& mesh, std::int64_t function, std::size_t size
       if (local[v] == kNotYet) {
         local[v] = static_cast<std::uint32_t>(chunk.vertex_count());
         chunk.ids.emplace_back(v);
-        chunk.uses.push_back(
-            static_cast<std::uint8_t>((mesh.first_use[v] < begin ? kUsedEarlier : 0) |
-                                      (mesh.last_use[v] >= end ? kUsedLater : 0)));
+        chunk.uses.push_back(static_cast<std::uint8_t>((mesh.first_use[v] < begin ? kUsedEarlier : 0) |
+                                                       (mesh.last_use[v] >= end ? kUsedLater : 0)));
         values.push_back(value(mesh, function, v));
-        chunk.positions.push_back(
-            {mesh.coordinates[0][v], mesh.coordinates[1][v], mesh.coordinates[2][v]});
+        chunk.positions.push_back({mesh.coordinates[0][v], mesh.coordinates[1][v], mesh.coordinates[2][v]});
       }
       chunk.corners.push_back(local[v]);
     }
@@ -139,8 +136,7 @@ struct Result {
 SweepOptions options_of(const Input& input, std::int64_t extras) {
   SweepOptions options;
   if ((extras & kNoiseRemoval) != 0) options.noise_below = 0.001 * (input.most - input.least);
-  if ((extras & kEmbedding) != 0)
-    options.bucket_exponent = bucket_exponent(input.least, input.most, 64);
+  if ((extras & kEmbedding) != 0) options.bucket_exponent = bucket_exponent(input.least, input.most, 64);
   return options;
 }
 
@@ -184,11 +180,9 @@ std::string fault(const Mesh& mesh, std::int64_t function, const Result& result)
 }
 
 // Empty if the extras lose neither a loop nor a vertex.
-std::string fault_of_extras(const Mesh& mesh, const Result& plain, const Result& extra,
-                            std::int64_t extras) {
+std::string fault_of_extras(const Mesh& mesh, const Result& plain, const Result& extra, std::int64_t extras) {
   if (extra.arcs - extra.nodes != plain.arcs - plain.nodes) return "loops astray";
-  if ((extras & kEmbedding) != 0 && extra.nodes + extra.vertices != mesh.first_use.size())
-    return "vertices astray";
+  if ((extras & kEmbedding) != 0 && extra.nodes + extra.vertices != mesh.first_use.size()) return "vertices astray";
   return "";
 }
 

@@ -7,12 +7,12 @@
 
 #include <cstdlib>
 
-#include "bench/held_memory.h"
-#include "bench/made_graph.h"
 #include "libreeb/hierarchy/cancel.h"
 #include "libreeb/hierarchy/denoise.h"
 #include "libreeb/hierarchy/levels.h"
 #include "libreeb/hierarchy/pairing.h"
+#include "tests/support/held_memory.h"
+#include "tests/support/made_graph.h"
 
 namespace {
 
@@ -20,16 +20,14 @@ using namespace reeb;
 using namespace reeb::bench;
 
 ReebGraph make(const benchmark::State& state) {
-  return GraphMaker(static_cast<GraphKind>(state.range(0)),
-                    static_cast<std::size_t>(state.range(1)))
-      .make();
+  return GraphMaker(static_cast<GraphKind>(state.range(0)), static_cast<std::size_t>(state.range(1))).make();
 }
 
 void report(benchmark::State& state, const ReebGraph& graph, std::size_t bytes) {
   const auto arcs = static_cast<double>(graph.arc_count());
   state.counters["arcs"] = arcs;
-  state.counters["time_per_arc"] = benchmark::Counter(
-      arcs, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+  state.counters["time_per_arc"] =
+      benchmark::Counter(arcs, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
   state.counters["peak_bytes_per_arc"] = static_cast<double>(bytes) / arcs;
 }
 
@@ -47,8 +45,7 @@ void BM_Pairing(benchmark::State& state) {
     components += pair.type == PairType::kExt0;
     loops += pair.type == PairType::kExt1;
   }
-  if (components != betti.components || loops != betti.loops)
-    return state.SkipWithError("wrong pairs");
+  if (components != betti.components || loops != betti.loops) return state.SkipWithError("wrong pairs");
   for (auto _ : state) benchmark::DoNotOptimize(persistence_pairs(graph));
   report(state, graph, bytes_of(graph) + peak);
 }
@@ -61,16 +58,14 @@ void BM_Hierarchy(benchmark::State& state) {
   if (graph_at(hierarchy, graph, 0) != graph) return state.SkipWithError("wrong finest level");
   const auto sizes = level_sizes(hierarchy);
   const ReebGraph coarsest = graph_at(hierarchy, graph, last_version(hierarchy));
-  if (sizes.back().nodes != coarsest.node_count())
-    return state.SkipWithError("wrong coarsest level");
+  if (sizes.back().nodes != coarsest.node_count()) return state.SkipWithError("wrong coarsest level");
   for (auto _ : state) benchmark::DoNotOptimize(build_hierarchy(graph));
   report(state, graph, peak);
   std::uint64_t kept = 0;
   for (const auto& pair : hierarchy.pairs) kept += pair.kept;
   state.counters["kept"] = static_cast<double>(kept);
   state.counters["records_per_step"] =
-      static_cast<double>(hierarchy.arcs.size() - graph.arc_count()) /
-      static_cast<double>(last_version(hierarchy));
+      static_cast<double>(hierarchy.arcs.size() - graph.arc_count()) / static_cast<double>(last_version(hierarchy));
 }
 
 void BM_Denoise(benchmark::State& state) {
@@ -78,8 +73,7 @@ void BM_Denoise(benchmark::State& state) {
   const double threshold = 20;
   Denoised result;
   const std::size_t peak = peak_of([&] { result = denoise(graph, threshold); });
-  if (persistence_pairs(result.graph).size() + result.removed.size() !=
-      persistence_pairs(graph).size())
+  if (persistence_pairs(result.graph).size() + result.removed.size() != persistence_pairs(graph).size())
     return state.SkipWithError("wrong count of pairs");
   for (auto _ : state) benchmark::DoNotOptimize(denoise(graph, threshold));
   report(state, graph, bytes_of(graph) + peak);

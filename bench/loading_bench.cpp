@@ -10,12 +10,12 @@
 #include <map>
 #include <string>
 
-#include "bench/held_memory.h"
-#include "bench/made_graph.h"
 #include "libreeb/hierarchy/cancel.h"
 #include "libreeb/hierarchy/levels.h"
-#include "ooc/reeb_file.h"
-#include "ooc/reeb_file_writer.h"
+#include "ooc/reeb_file/reeb_file.h"
+#include "ooc/reeb_file/reeb_file_writer.h"
+#include "tests/support/held_memory.h"
+#include "tests/support/made_graph.h"
 
 namespace {
 
@@ -44,9 +44,7 @@ class Sample {
   Sample(const Sample&) = delete;
 
   const std::string& path() const { return path_; }
-  bool is_right(const ooc::Level& level) const {
-    return level.graph == graph_at(hierarchy_, graph_, level.version);
-  }
+  bool is_right(const ooc::Level& level) const { return level.graph == graph_at(hierarchy_, graph_, level.version); }
 
  private:
   ReebGraph graph_;
@@ -74,8 +72,8 @@ void BM_Load(benchmark::State& state) {
   if (!made.is_right(level)) return state.SkipWithError("a wrong level");
   for (auto _ : state) benchmark::DoNotOptimize(load(made.path(), nodes));
   state.counters["nodes"] = static_cast<double>(level.graph.node_count());
-  state.counters["promised_bytes"] = static_cast<double>(level_memory(
-      level.graph.node_count(), level.graph.arc_count(), level.buckets.buckets.size()));
+  state.counters["promised_bytes"] = static_cast<double>(
+      level_memory(level.graph.node_count(), level.graph.arc_count(), level.buckets.buckets.size()));
   state.counters["held_bytes"] = static_cast<double>(held);
   state.counters["peak_bytes"] = static_cast<double>(peak);
 }

@@ -6,13 +6,13 @@
 #include <utility>
 #include <vector>
 
+#include "io/file/temp_dir.h"
 #include "libreeb/base/memory_budget.h"
-#include "ooc/last_use.h"
-#include "ooc/column_codec.h"
-#include "ooc/paged_table.h"
-#include "ooc/reorder.h"
-#include "ooc/segment_store.h"
-#include "ooc/temp_dir.h"
+#include "ooc/chunks/last_use.h"
+#include "ooc/sorting/column_codec.h"
+#include "ooc/stored_graph/segment_store.h"
+#include "ooc/tables/paged_table.h"
+#include "ooc/whole_mesh/reorder.h"
 
 namespace {
 
@@ -30,13 +30,11 @@ class GridMesh : public IndexedMesh {
   GridMesh(std::uint64_t width, std::uint64_t height) : width_(width), height_(height) {}
   std::uint64_t vertex_count() const override { return width_ * height_; }
   unsigned column_count() const override { return 3; }
-  void gather(std::span<const VertexId> ids, std::span<const unsigned> columns,
-              std::span<double> values) override {
+  void gather(std::span<const VertexId> ids, std::span<const unsigned> columns, std::span<double> values) override {
     for (std::size_t k = 0; k < columns.size(); ++k)
       for (std::size_t i = 0; i < ids.size(); ++i) {
         const std::uint64_t x = ids[i].value() % width_, y = ids[i].value() / width_;
-        values[k * ids.size() + i] =
-            static_cast<double>(columns[k] == 0 ? x : columns[k] == 1 ? y : (x * y) % 17);
+        values[k * ids.size() + i] = static_cast<double>(columns[k] == 0 ? x : columns[k] == 1 ? y : (x * y) % 17);
       }
   }
   void rewind() override { x_ = y_ = 0; }
@@ -44,8 +42,7 @@ class GridMesh : public IndexedMesh {
     corners.clear();
     while (corners.size() + 6 <= std::max<std::size_t>(6, 3 * limit) && y_ + 1 < height_) {
       const std::uint64_t v = y_ * width_ + x_;
-      for (const std::uint64_t c : {v, v + 1, v + width_, v + 1, v + width_ + 1, v + width_})
-        corners.emplace_back(c);
+      for (const std::uint64_t c : {v, v + 1, v + width_, v + 1, v + width_ + 1, v + width_}) corners.emplace_back(c);
       if (++x_ + 1 == width_) x_ = 0, ++y_;
     }
     return !corners.empty();
@@ -137,12 +134,10 @@ void BM_SegmentLevel(benchmark::State& state) {
   columns.add(arcs.size(), [&](std::size_t i) {
     return zigzag(arcs[i].lo.vertex.value() - (i == 0 ? 0 : arcs[i - 1].lo.vertex.value()));
   });
-  columns.add(arcs.size(), [&](std::size_t i) {
-    return ordered_bits(arcs[i].hi.value) - ordered_bits(arcs[i].lo.value);
-  });
-  columns.add(arcs.size(), [&](std::size_t i) {
-    return zigzag(arcs[i].hi.vertex.value() - arcs[i].lo.vertex.value());
-  });
+  columns.add(arcs.size(),
+              [&](std::size_t i) { return ordered_bits(arcs[i].hi.value) - ordered_bits(arcs[i].lo.value); });
+  columns.add(arcs.size(),
+              [&](std::size_t i) { return zigzag(arcs[i].hi.vertex.value() - arcs[i].lo.vertex.value()); });
   std::vector<std::byte> packed;
   for (auto _ : state) {
     packed.clear();
@@ -169,8 +164,7 @@ void BM_Segments(benchmark::State& state) {
       for (ArcPiece some; store.read_arcs(some, 4096);) count += some.arcs.size();
       if (count != arcs.size()) return state.SkipWithError("arcs were lost");
     }
-    state.counters["bytes_an_arc"] =
-        static_cast<double>(store.spilled_bytes()) / static_cast<double>(arcs.size());
+    state.counters["bytes_an_arc"] = static_cast<double>(store.spilled_bytes()) / static_cast<double>(arcs.size());
   }
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(arcs.size()));
 }
@@ -180,8 +174,7 @@ BENCHMARK(BM_Segments)->Arg(0)->Arg(1)->ArgName("merging")->Unit(benchmark::kMil
 class ScatteredGrid : public GridMesh {
  public:
   ScatteredGrid(std::uint64_t width, std::uint64_t height) : GridMesh(width, height), prime_(1'000'000'007) {}
-  void gather(std::span<const VertexId> ids, std::span<const unsigned> columns,
-              std::span<double> values) override {
+  void gather(std::span<const VertexId> ids, std::span<const unsigned> columns, std::span<double> values) override {
     grid_ids_.clear();
     for (const VertexId v : ids) grid_ids_.emplace_back(v.value() * prime_ % vertex_count());
     GridMesh::gather(grid_ids_, columns, values);
@@ -219,7 +212,13 @@ void BM_Reorder(benchmark::State& state) {
   }
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(mesh.triangle_count()));
 }
-BENCHMARK(BM_Reorder)->Arg(700)->Arg(2450)->ArgName("side")->Unit(benchmark::kMillisecond)->UseRealTime()->Iterations(1);
+BENCHMARK(BM_Reorder)
+    ->Arg(700)
+    ->Arg(2450)
+    ->ArgName("side")
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime()
+    ->Iterations(1);
 
 }  // namespace
 

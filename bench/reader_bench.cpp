@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "io/mesh_io.h"
+#include "io/formats/mesh_io.h"
 
 namespace {
 
@@ -38,19 +38,26 @@ std::string grid(Kind kind) {
   for (std::uint64_t i = 0; i < kVertices; ++i) {
     const double x = 0.00173 * static_cast<double>(i % kSide), y = 0.00173 * static_cast<double>(i / kSide);
     char line[128];
-    const int size = std::snprintf(line, sizeof line, "%s%.7f %.7f %.7f\n", kind == Kind::kObj ? "v " : "", x, y, x * y);
-    if (kind != Kind::kBinaryPly) out.append(line, static_cast<std::size_t>(size));
-    else for (const double value : {x, y, x * y}) append(out, static_cast<float>(value));
+    const int size =
+        std::snprintf(line, sizeof line, "%s%.7f %.7f %.7f\n", kind == Kind::kObj ? "v " : "", x, y, x * y);
+    if (kind != Kind::kBinaryPly)
+      out.append(line, static_cast<std::size_t>(size));
+    else
+      for (const double value : {x, y, x * y}) append(out, static_cast<float>(value));
   }
   for (std::uint64_t row = 0; row + 1 < kSide; ++row)
     for (std::uint64_t column = 0; column + 1 < kSide; ++column) {
       const std::uint64_t a = row * kSide + column, b = a + 1, c = a + kSide, d = c + 1;
       for (const auto& corners : {std::vector{a, b, c}, std::vector{b, d, c}}) {
-        if (kind == Kind::kBinaryPly) out += '\3';
-        else out += kind == Kind::kObj ? "f" : "3";
+        if (kind == Kind::kBinaryPly)
+          out += '\3';
+        else
+          out += kind == Kind::kObj ? "f" : "3";
         for (const std::uint64_t corner : corners) {
-          if (kind == Kind::kBinaryPly) append(out, static_cast<std::int32_t>(corner));
-          else out.append(" ").append(std::to_string(corner + (kind == Kind::kObj ? 1 : 0)));
+          if (kind == Kind::kBinaryPly)
+            append(out, static_cast<std::int32_t>(corner));
+          else
+            out.append(" ").append(std::to_string(corner + (kind == Kind::kObj ? 1 : 0)));
         }
         if (kind != Kind::kBinaryPly) out += "\n";
       }

@@ -8,14 +8,14 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "bench/held_memory.h"
-#include "bench/made_graph.h"
-#include "bench/random_function_graph.h"
 #include "libreeb/graph/packed_buckets.h"
 #include "libreeb/hierarchy/cancel.h"
-#include "ooc/record_log.h"
-#include "ooc/reeb_file.h"
-#include "ooc/reeb_file_writer.h"
+#include "ooc/reeb_file/record_log.h"
+#include "ooc/reeb_file/reeb_file.h"
+#include "ooc/reeb_file/reeb_file_writer.h"
+#include "tests/support/held_memory.h"
+#include "tests/support/made_graph.h"
+#include "tests/support/random_function_graph.h"
 
 namespace {
 
@@ -97,8 +97,8 @@ void BM_SecondStage(benchmark::State& state) {
 
   const auto arcs = static_cast<double>(given.graph.arc_count());
   state.counters["arcs"] = arcs;
-  state.counters["time_per_arc"] = benchmark::Counter(
-      arcs, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+  state.counters["time_per_arc"] =
+      benchmark::Counter(arcs, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
   state.counters["peak_bytes_per_arc"] = static_cast<double>(peak) / arcs;
   state.counters["buckets_per_arc"] = static_cast<double>(given.buckets.buckets.size()) / arcs;
   state.counters["updates_per_step"] = (static_cast<double>(done.records) - arcs) / static_cast<double>(done.steps);

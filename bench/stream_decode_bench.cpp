@@ -6,17 +6,16 @@
 #include <functional>
 #include <sstream>
 
+#include "io/events/stream_writer.h"
 #include "io/streaming/open_stream.h"
 #include "io/streaming/stream_mesh_reader.h"
-#include "io/streaming/stream_writer.h"
 
 namespace {
 
 using namespace reeb::io;
 
 // A rough height field of side x side vertices in rows, each vertex final with its last triangle.
-std::string encode(std::uint32_t side,
-                   const std::function<std::unique_ptr<StreamWriter>(std::ostream&)>& make) {
+std::string encode(std::uint32_t side, const std::function<std::unique_ptr<StreamWriter>(std::ostream&)>& make) {
   std::ostringstream out;
   const auto writer = make(out);
   StreamEvent event{};
@@ -37,8 +36,7 @@ std::string encode(std::uint32_t side,
       event.vertex = row * side + column;
       event.floats[0] = 0.1f * x;
       event.floats[1] = 0.1f * y;
-      event.floats[2] =
-          std::sin(0.07f * x) * std::cos(0.05f * y) + 0.001f * std::sin(13.7f * x * y);
+      event.floats[2] = std::sin(0.07f * x) * std::cos(0.05f * y) + 0.001f * std::sin(13.7f * x * y);
       writer->write(event);
       if (row == 0 || column == 0) continue;
       const std::uint32_t v = row * side + column, below = v - side;
@@ -56,8 +54,7 @@ std::string encode(std::uint32_t side,
 }
 
 std::unique_ptr<reeb::MeshReader> open_bytes(const std::string& bytes) {
-  return make_stream_mesh_reader(
-      open_stream(std::make_unique<SpanSource>(std::as_bytes(std::span(bytes)))));
+  return make_stream_mesh_reader(open_stream(std::make_unique<SpanSource>(std::as_bytes(std::span(bytes)))));
 }
 
 struct Counts {
@@ -76,8 +73,7 @@ Counts decode(const std::string& bytes) {
   return counts;
 }
 
-void run(benchmark::State& state,
-         const std::function<std::unique_ptr<StreamWriter>(std::ostream&)>& make) {
+void run(benchmark::State& state, const std::function<std::unique_ptr<StreamWriter>(std::ostream&)>& make) {
   const auto side = static_cast<std::uint32_t>(state.range(0));
   const std::string bytes = encode(side, make);
   const std::uint64_t vertices = std::uint64_t{side} * side;
@@ -88,8 +84,7 @@ void run(benchmark::State& state,
   for (auto _ : state) benchmark::DoNotOptimize(decode(bytes));
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(triangles));
   state.SetBytesProcessed(state.iterations() * static_cast<std::int64_t>(bytes.size()));
-  state.counters["bits_per_vertex"] =
-      8 * static_cast<double>(bytes.size()) / static_cast<double>(vertices);
+  state.counters["bits_per_vertex"] = 8 * static_cast<double>(bytes.size()) / static_cast<double>(vertices);
 }
 
 void BM_Sma(benchmark::State& state) {

@@ -1,7 +1,7 @@
 # find_package(reeb) after `cmake --install`: targets reeb::reeb, reeb::io, reeb::ooc.
 include(CMakePackageConfigHelpers)
 
-install(TARGETS reeb reeb_io reeb_ooc EXPORT reebTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(TARGETS reeb reeb_file reeb_io reeb_ooc EXPORT reebTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(TARGETS reeb_program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 foreach(folder libreeb io ooc)
   install(DIRECTORY ${folder} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/reeb FILES_MATCHING PATTERN "*.h")

@@ -12,7 +12,7 @@
 
 #include "libreeb/base/error.h"
 #include "tools/commands/commands.h"
-#include "tools/signals.h"
+#include "tools/program/signals.h"
 
 namespace {
 
@@ -32,9 +32,9 @@ Every command has --help.)";
 // `reeb scan.ply` means `reeb compute scan.ply`: a first word that is no command names a mesh.
 std::vector<std::string> with_default_command(const CLI::App& program, int argc, char** argv) {
   std::vector<std::string> words(argv + 1, argv + argc);
-  const bool is_command = !words.empty() && !program.get_subcommands([&](const CLI::App* command) {
-                                                     return command->get_name() == words[0];
-                                                   }).empty();
+  const bool is_command =
+      !words.empty() &&
+      !program.get_subcommands([&](const CLI::App* command) { return command->get_name() == words[0]; }).empty();
   const bool is_help = words.empty() || words[0] == "-h" || words[0] == "--help" || words[0] == "--version";
   if (!is_command && !is_help) words.insert(words.begin(), "compute");
   std::reverse(words.begin(), words.end());  // as CLI11 takes them
@@ -61,8 +61,7 @@ int run(int argc, char** argv) {
     program.parse(with_default_command(program, argc, argv));
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return program.exit(error);  // --help
-    return report(reeb::ErrorKind::kUsage, error.what(),
-                  "see reeb --help, or --help of the command");
+    return report(reeb::ErrorKind::kUsage, error.what(), "see reeb --help, or --help of the command");
   }
   return 0;
 }
@@ -81,8 +80,7 @@ int main(int argc, char** argv) {
   } catch (const reeb::Error& error) {
     return report(error.kind(), error.what(), error.hint());
   } catch (const std::bad_alloc&) {
-    return report(reeb::ErrorKind::kResource, "out of memory",
-                  "close other programs, or use a smaller mesh");
+    return report(reeb::ErrorKind::kResource, "out of memory", "close other programs, or use a smaller mesh");
   } catch (const std::system_error& error) {  // of fmt, which has standard output alone
     return report(reeb::ErrorKind::kResource, std::string("standard output ") + error.what(),
                   "keep what reads it open, or see to the disk");

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "io/streaming/stream_fault.h"
+#include "io/events/stream_fault.h"
 
 namespace reeb::io {
 namespace {
@@ -66,8 +66,7 @@ class HeadParser {
       const auto size = static_cast<std::size_t>(length);
       if (at_ + size > kMaxHeadBytes) return refuse("more than 64 MiB of comments");
       if (!have(size)) return false;
-      reading_.header.comments.emplace_back(reinterpret_cast<const char*>(window_.data() + at_),
-                                            size);
+      reading_.header.comments.emplace_back(reinterpret_cast<const char*>(window_.data() + at_), size);
       at_ += size;
     }
     return true;
@@ -76,15 +75,12 @@ class HeadParser {
   bool read_count(std::optional<std::uint32_t>& count, const char* what) {
     std::int32_t value = 0;
     if (!read_integer(value)) return false;
-    if (value < -1)
-      return refuse("number of " + std::string(what) + " " + std::to_string(value) +
-                    " is not plausible");
+    if (value < -1) return refuse("number of " + std::string(what) + " " + std::to_string(value) + " is not plausible");
     if (value >= 0) count = static_cast<std::uint32_t>(value);
     return true;
   }
   bool read_counts() {
-    return read_count(reading_.header.vertex_count, "vertices") &&
-           read_count(reading_.header.cell_count, "cells");
+    return read_count(reading_.header.vertex_count, "vertices") && read_count(reading_.header.cell_count, "cells");
   }
 
   bool read_flag(bool& set) {
@@ -169,16 +165,14 @@ class Judge {
   bool odd_vertex(const std::byte* element) {
     ++vertices_;
     bool odd = false;
-    for (std::size_t k = 0; k < 3; ++k)
-      odd = odd || odd_coordinate(reading_.order.real(element + 4 * k));
+    for (std::size_t k = 0; k < 3; ++k) odd = odd || odd_coordinate(reading_.order.real(element + 4 * k));
     return odd;
   }
   bool odd_cell(const std::byte* element) const {
-    const std::int64_t limit = !post_order_ ? vertices_
-                               : reading_.header.vertex_count
-                                   ? std::int64_t{*reading_.header.vertex_count}
-                               : most_elements_ ? static_cast<std::int64_t>(*most_elements_)
-                                                : std::int64_t{1} << 28;
+    const std::int64_t limit = !post_order_                   ? vertices_
+                               : reading_.header.vertex_count ? std::int64_t{*reading_.header.vertex_count}
+                               : most_elements_               ? static_cast<std::int64_t>(*most_elements_)
+                                                              : std::int64_t{1} << 28;
     const std::int64_t least = post_order_ ? 0 : -vertices_;
     bool odd = false;
     for (std::size_t k = 0; k < words_; ++k) {
@@ -198,8 +192,7 @@ class Judge {
 
 bool judge_post_order(ByteWindow& window, const HeadReading& reading) {
   const std::size_t element = reading.header.volume ? 16 : 12;
-  return window.ensure(reading.bytes + 4 + element) &&
-         (reading.order.word(window.data() + reading.bytes) & 1) == 0;
+  return window.ensure(reading.bytes + 4 + element) && (reading.order.word(window.data() + reading.bytes) & 1) == 0;
 }
 
 }  // namespace
@@ -207,13 +200,10 @@ bool judge_post_order(ByteWindow& window, const HeadReading& reading) {
 BlockHead read_block_head(ByteWindow& window, bool volume) {
   if (!window.ensure(4)) fail(Fault::kTruncated, "file ends inside the header", "0");
   const auto byte = [&](std::size_t i) { return std::to_integer<unsigned>(window.data()[i]); };
-  if (byte(1) > 1)
-    fail(Fault::kBadHeader, "byte order mark " + std::to_string(byte(1)) + " is neither 0 nor 1",
-         "1");
+  if (byte(1) > 1) fail(Fault::kBadHeader, "byte order mark " + std::to_string(byte(1)) + " is neither 0 nor 1", "1");
   for (std::size_t i = 2; i < 4; ++i)
     if (byte(i) != 0)
-      fail(Fault::kUnsupported, "compression " + std::to_string(byte(i)) + " is not known",
-           std::to_string(i));
+      fail(Fault::kUnsupported, "compression " + std::to_string(byte(i)) + " is not known", std::to_string(i));
 
   const WordOrder declared = WordOrder::big_endian(byte(1) == 1), other{!declared.swapped};
   HeadReading first = HeadParser(window, declared, volume).parse();
@@ -221,15 +211,13 @@ BlockHead read_block_head(ByteWindow& window, bool volume) {
   const std::uint64_t first_bad = Judge(window, first).badness();
   const std::uint64_t second_bad = Judge(window, second).badness();
   if (first_bad == kImplausible && second_bad == kImplausible)
-    fail(first.truncated ? Fault::kTruncated : Fault::kBadHeader, first.fault,
-         std::to_string(first.bytes));
+    fail(first.truncated ? Fault::kTruncated : Fault::kBadHeader, first.fault, std::to_string(first.bytes));
 
   const bool overruled = first_bad > second_bad;
   HeadReading& chosen = overruled ? second : first;
   chosen.header.post_order = judge_post_order(window, chosen);
-  chosen.header.format += WordOrder::big_endian(true).swapped == chosen.order.swapped
-                              ? " big endian"
-                              : " little endian";
+  chosen.header.format +=
+      WordOrder::big_endian(true).swapped == chosen.order.swapped ? " big endian" : " little endian";
   window.skip(chosen.bytes);
   return {std::move(chosen.header), chosen.order, overruled};
 }

@@ -9,8 +9,8 @@
 #include <cstdint>
 #include <cstring>
 
-#include "io/streaming/byte_source.h"
-#include "io/streaming/stream_event.h"
+#include "io/events/byte_source.h"
+#include "io/events/stream_event.h"
 
 namespace reeb::io {
 
@@ -20,9 +20,7 @@ inline constexpr std::size_t kBlockElements = 32;
 struct WordOrder {
   bool swapped = false;  // against this machine
 
-  static WordOrder big_endian(bool big) {
-    return {big == (std::endian::native == std::endian::little)};
-  }
+  static WordOrder big_endian(bool big) { return {big == (std::endian::native == std::endian::little)}; }
   std::uint32_t word(const std::byte* at) const {
     std::uint32_t value;
     std::memcpy(&value, at, sizeof value);

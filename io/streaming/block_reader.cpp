@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "io/streaming/stream_fault.h"
+#include "io/events/stream_fault.h"
 
 namespace reeb::io {
 
@@ -14,8 +14,7 @@ BlockEventReader<kWords>::BlockEventReader(std::unique_ptr<ByteSource> source)
   header_ = std::move(head.header);
   order_ = head.order;
   rules_.set_post_order(header_.post_order);
-  if (head.overruled)
-    warn("ORDER: the byte order mark contradicts the data; they are read as " + header_.format);
+  if (head.overruled) warn("ORDER: the byte order mark contradicts the data; they are read as " + header_.format);
 }
 
 template <std::size_t kWords>
@@ -33,8 +32,7 @@ void BlockEventReader<kWords>::fill() {
   const std::uint64_t position = window_.position() + 4;
   for (std::size_t j = 0; j < count; ++j) {
     const std::size_t at = j * kElementBytes;
-    ((descriptor >> j) & 1) != 0 ? read_vertex(elements + at, position + at)
-                                 : read_cell(elements + at, position + at);
+    ((descriptor >> j) & 1) != 0 ? read_vertex(elements + at, position + at) : read_cell(elements + at, position + at);
   }
   window_.skip(4 + count * kElementBytes);
   if (count == kBlockElements) return;
@@ -46,15 +44,12 @@ void BlockEventReader<kWords>::fill() {
 
 template <std::size_t kWords>
 void BlockEventReader<kWords>::read_vertex(const std::byte* element, std::uint64_t position) {
-  const std::array<float, 3> xyz = {order_.real(element), order_.real(element + 4),
-                                    order_.real(element + 8)};
+  const std::array<float, 3> xyz = {order_.real(element), order_.real(element + 4), order_.real(element + 8)};
   // SVB only: a fourth float, or an integer, or nothing.
   const std::byte* more = element + kElementBytes - 4;
   const float fourth = header_.vertex_floats == 4 ? order_.real(more) : 0;
-  if (!std::isfinite(xyz[0]) || !std::isfinite(xyz[1]) || !std::isfinite(xyz[2]) ||
-      !std::isfinite(fourth))
-    fail(Fault::kBadNumber,
-         "a value of vertex " + std::to_string(rules_.vertex_count()) + " is not finite",
+  if (!std::isfinite(xyz[0]) || !std::isfinite(xyz[1]) || !std::isfinite(xyz[2]) || !std::isfinite(fourth))
+    fail(Fault::kBadNumber, "a value of vertex " + std::to_string(rules_.vertex_count()) + " is not finite",
          std::to_string(position));
   if (rules_.vertex_count() == kMaxVertices)
     fail(Fault::kBadIndex, "more than 2147483647 vertices", std::to_string(position));
@@ -81,8 +76,7 @@ void BlockEventReader<kWords>::read_cell(const std::byte* element, std::uint64_t
     for (std::size_t i = 0; i < k; ++i)
       if (numbers[k] < 0 && numbers[i] == numbers[k]) verdict = IndexVerdict::kFinal;
     if (verdict != IndexVerdict::kGood) [[unlikely]]
-      rules_.fail_index(verdict, numbers[k], "corner " + std::to_string(k + 1),
-                        std::to_string(position));
+      rules_.fail_index(verdict, numbers[k], "corner " + std::to_string(k + 1), std::to_string(position));
   }
   ++cells_;
   StreamEvent& event = push(kWords == 4 ? EventKind::kTetrahedron : EventKind::kTriangle);
@@ -104,8 +98,7 @@ void BlockEventReader<kWords>::finish() {
   const Tally cells{header_.cell_count, cells_};
   require_promised(vertices, "vertices", end);
   require_promised(cells, cell_name, end);
-  for (auto text :
-       {count_warning(vertices, "vertices", false), count_warning(cells, cell_name, false)})
+  for (auto text : {count_warning(vertices, "vertices", false), count_warning(cells, cell_name, false)})
     if (!text.empty()) warn(std::move(text));
 }
 

@@ -6,10 +6,10 @@
 
 #include <memory>
 
+#include "io/events/byte_source.h"
+#include "io/events/index_rules.h"
+#include "io/events/stream_event.h"
 #include "io/streaming/block_head.h"
-#include "io/streaming/byte_source.h"
-#include "io/streaming/index_rules.h"
-#include "io/streaming/stream_event.h"
 
 namespace reeb::io {
 

@@ -1,6 +1,6 @@
 // SMB and SVB.
+#include "io/events/held_cell_writer.h"
 #include "io/streaming/block_head.h"
-#include "io/streaming/held_cell_writer.h"
 
 namespace reeb::io {
 namespace {
@@ -10,8 +10,8 @@ class BlockWriter : public HeldCellWriter {
   // The readers' order of finalizations in a cell is not the file's to say.
   BlockWriter(std::ostream& out, const StreamHeader& header)
       : HeldCellWriter(out, header, false), words_(header.volume ? 4 : 3) {
-    if (header.volume && (header.vertex_floats + header.vertex_ints > 4 || header.cell_floats > 0 ||
-                          header.cell_ints > 0))
+    if (header.volume &&
+        (header.vertex_floats + header.vertex_ints > 4 || header.cell_floats > 0 || header.cell_ints > 0))
       fail_format("SVB holds one value a vertex and none a cell", "write SVA instead");
     write_head();
   }
@@ -27,8 +27,7 @@ class BlockWriter : public HeldCellWriter {
 
   std::vector<std::string> warnings() const override {
     if (dropped_ == 0) return {};
-    return {std::to_string(dropped_) +
-            " finalizations apart from the last cell of their vertex were left out"};
+    return {std::to_string(dropped_) + " finalizations apart from the last cell of their vertex were left out"};
   }
 
  private:
@@ -71,10 +70,8 @@ class BlockWriter : public HeldCellWriter {
   void write_vertex(const StreamEvent& vertex) override {
     std::array<std::uint32_t, 4> words{};
     std::size_t used = 0;
-    for (unsigned i = 0; i < header_.vertex_floats; ++i)
-      words[used++] = std::bit_cast<std::uint32_t>(vertex.floats[i]);
-    for (unsigned i = 0; i < header_.vertex_ints; ++i)
-      words[used++] = static_cast<std::uint32_t>(vertex.ints[i]);
+    for (unsigned i = 0; i < header_.vertex_floats; ++i) words[used++] = std::bit_cast<std::uint32_t>(vertex.floats[i]);
+    for (unsigned i = 0; i < header_.vertex_ints; ++i) words[used++] = static_cast<std::uint32_t>(vertex.ints[i]);
     write_element(words, true);
   }
 

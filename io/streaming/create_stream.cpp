@@ -4,10 +4,11 @@
 #include <filesystem>
 #include <utility>
 
-#include "io/output_stream.h"
-#include "io/streaming/event_text.h"
-#include "io/streaming/stream_output.h"
-#include "io/writers/formats.h"
+#include "io/events/event_text.h"
+#include "io/events/stream_output.h"
+#include "io/file/file_name.h"
+#include "io/file/output_stream.h"
+#include "io/mesh/written_records.h"
 #include "libreeb/base/error.h"
 
 namespace reeb::io {
@@ -32,11 +33,15 @@ class EventListWriter : public StreamWriter {
 
 std::unique_ptr<StreamWriter> make_writer(StreamFormat format, std::ostream& out, const StreamHeader& header) {
   switch (format) {
-    case StreamFormat::kText: return make_text_writer(out, header);
-    case StreamFormat::kBlocks: return make_block_writer(out, header);
-    case StreamFormat::kCompressed: return make_smc_writer(out, header);
+    case StreamFormat::kText:
+      return make_text_writer(out, header);
+    case StreamFormat::kBlocks:
+      return make_block_writer(out, header);
+    case StreamFormat::kCompressed:
+      return make_smc_writer(out, header);
     case StreamFormat::kEvents:
-    case StreamFormat::kNone: break;
+    case StreamFormat::kNone:
+      break;
   }
   return std::make_unique<EventListWriter>(out, header);
 }
@@ -69,7 +74,8 @@ class StreamMeshWriter : public MeshWriter {
 
   void write(const MeshBatch& batch) override {
     for (std::size_t i = 0; i < batch.vertex_count; ++i) write_vertex(batch, i);
-    if (tetrahedra_) write_cells(batch);
+    if (tetrahedra_)
+      write_cells(batch);
     else
       for_each_face(batch, [this](VertexId a, VertexId b, VertexId c) {
         const VertexId corners[] = {a, b, c};
@@ -86,7 +92,8 @@ class StreamMeshWriter : public MeshWriter {
   std::vector<std::string> warnings() const override {
     auto all = writer_->warnings();
     if (rounded_ != 0)
-      all.push_back(std::to_string(rounded_) + " vertices were rounded to float32, which is what streaming meshes hold");
+      all.push_back(std::to_string(rounded_) +
+                    " vertices were rounded to float32, which is what streaming meshes hold");
     return all;
   }
 
@@ -114,7 +121,8 @@ class StreamMeshWriter : public MeshWriter {
   void write_vertex(const MeshBatch& batch, std::size_t i) {
     event_.kind = EventKind::kVertex;
     const std::uint64_t index = batch.first_vertex.value() + i;
-    if (index >= kMaxStreamVertices) fail_format("streaming meshes hold at most 2147483647 vertices", "write PLY or OBJ");
+    if (index >= kMaxStreamVertices)
+      fail_format("streaming meshes hold at most 2147483647 vertices", "write PLY or OBJ");
     event_.vertex = static_cast<std::uint32_t>(index);
     bool exact = true;
     for (std::size_t k = 0; k < header_.vertex_floats; ++k) {
@@ -168,8 +176,7 @@ bool is_volume_name(const std::string& path) {
   return suffix == ".sva" || suffix == ".svb";
 }
 
-std::unique_ptr<StreamWriter> create_stream(const std::string& path, const StreamHeader& header,
-                                            Existing existing) {
+std::unique_ptr<StreamWriter> create_stream(const std::string& path, const StreamHeader& header, Existing existing) {
   return std::make_unique<StreamFile>(path, header, existing);
 }
 

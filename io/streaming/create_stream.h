@@ -4,8 +4,9 @@
 #include <memory>
 #include <string>
 
-#include "io/mesh_writer.h"
-#include "io/streaming/stream_writer.h"
+#include "io/events/stream_writer.h"
+#include "io/mesh/mesh_writer_options.h"
+#include "libreeb/port/mesh_writer.h"
 
 namespace reeb::io {
 
@@ -18,8 +19,7 @@ bool is_volume_name(const std::string& path);  // .sva .svb
 // A writer of events into the file `path`, which appears under its name with close().
 // REQUIRES: stream_format(path) is not kNone.
 // THROWS: as AtomicFile, and as the writers of stream_writer.h.
-std::unique_ptr<StreamWriter> create_stream(const std::string& path, const StreamHeader& header,
-                                            Existing existing);
+std::unique_ptr<StreamWriter> create_stream(const std::string& path, const StreamHeader& header, Existing existing);
 
 // The same for batches. A triangle format gets the faces of tetrahedra; properties go to volume
 // formats and lists of events, and numbers become float32 in all.

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cstring>
 
+#include "io/events/stream_fault.h"
+#include "io/smc/smc_reader.h"
 #include "io/streaming/block_reader.h"
-#include "io/streaming/smc_reader.h"
-#include "io/streaming/stream_fault.h"
 #include "io/streaming/text_reader.h"
 
 namespace reeb::io {
@@ -46,9 +46,7 @@ bool has_suffix(std::string name, const std::string& suffix) {
   return name.ends_with(suffix);
 }
 
-bool is_text(unsigned byte) {
-  return byte == '\t' || byte == '\n' || byte == '\r' || (byte >= 0x20 && byte < 0x7F);
-}
+bool is_text(unsigned byte) { return byte == '\t' || byte == '\n' || byte == '\r' || (byte >= 0x20 && byte < 0x7F); }
 
 std::string hexadecimal(unsigned byte) {
   static constexpr char kDigits[] = "0123456789ABCDEF";
@@ -56,16 +54,14 @@ std::string hexadecimal(unsigned byte) {
 }
 
 [[noreturn]] void refuse(const std::string& what) {
-  fail(Fault::kUnsupported,
-       "this is " + what + "; only SMA, SMB, SMC (versions 1 and 3), SVA and SVB are read", "0");
+  fail(Fault::kUnsupported, "this is " + what + "; only SMA, SMB, SMC (versions 1 and 3), SVA and SVB are read", "0");
 }
 
 }  // namespace
 
 bool looks_like_binary_stream(std::byte first) { return std::to_integer<unsigned>(first) <= 4; }
 
-std::unique_ptr<EventReader> open_stream(std::unique_ptr<ByteSource> source,
-                                         const std::string& name) {
+std::unique_ptr<EventReader> open_stream(std::unique_ptr<ByteSource> source, const std::string& name) {
   auto input = std::make_unique<PeekedSource>(std::move(source));
   const auto peeked = input->peeked();
   if (peeked.empty()) fail(Fault::kTruncated, "the file is empty", "0");
@@ -75,8 +71,7 @@ std::unique_ptr<EventReader> open_stream(std::unique_ptr<ByteSource> source,
 
   if (has_suffix(name, ".svc")) refuse("a compressed volume mesh (SVC)");
   if (first == 0x1F && second == 0x8B) refuse("gzip-compressed");
-  if (is_text(first))
-    return std::make_unique<TextEventReader>(std::move(input), has_suffix(name, ".sva"));
+  if (is_text(first)) return std::make_unique<TextEventReader>(std::move(input), has_suffix(name, ".sva"));
   switch (first) {
     case 0:
       return std::make_unique<SmbEventReader>(std::move(input));

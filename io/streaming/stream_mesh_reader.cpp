@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "io/streaming/pre_order.h"
+#include "io/events/pre_order.h"
 #include "libreeb/base/error.h"
 
 namespace reeb::io {
@@ -16,10 +16,8 @@ std::string joined(const std::vector<std::string>& names) {
 
 class StreamMeshReader : public MeshReader {
  public:
-  StreamMeshReader(std::unique_ptr<EventReader> reader, const ReadOptions& options,
-                   std::uint64_t file_bytes)
-      : reader_(in_pre_order(std::move(reader))),
-        batch_events_(std::max<std::size_t>(1, options.batch_events)) {
+  StreamMeshReader(std::unique_ptr<EventReader> reader, const ReadOptions& options, std::uint64_t file_bytes)
+      : reader_(in_pre_order(std::move(reader))), batch_events_(std::max<std::size_t>(1, options.batch_events)) {
     const StreamHeader& header = reader_->header();
     info_.format = header.format;
     info_.property_names = stream_property_names(header);
@@ -86,12 +84,10 @@ class StreamMeshReader : public MeshReader {
   void append(const StreamEvent& event, MeshBatch& batch) {
     switch (event.kind) {
       case EventKind::kVertex:
-        for (std::size_t k = 0; k < 3; ++k)
-          batch.coordinates[k].push_back(static_cast<double>(event.floats[k]));
+        for (std::size_t k = 0; k < 3; ++k) batch.coordinates[k].push_back(static_cast<double>(event.floats[k]));
         for (std::size_t k = 0; k < columns_.size(); ++k)
-          batch.properties[k].push_back(columns_[k].integer
-                                            ? static_cast<double>(event.ints[columns_[k].place])
-                                            : static_cast<double>(event.floats[columns_[k].place]));
+          batch.properties[k].push_back(columns_[k].integer ? static_cast<double>(event.ints[columns_[k].place])
+                                                            : static_cast<double>(event.floats[columns_[k].place]));
         ++batch.vertex_count;
         ++vertices_;
         return;
@@ -120,15 +116,12 @@ class StreamMeshReader : public MeshReader {
 
 std::vector<std::string> stream_property_names(const StreamHeader& header) {
   std::vector<std::string> names;
-  for (unsigned i = 3; i < header.vertex_floats; ++i)
-    names.push_back(std::string("s").append(std::to_string(i - 3)));
-  for (unsigned i = 0; i < header.vertex_ints; ++i)
-    names.push_back(std::string("i").append(std::to_string(i)));
+  for (unsigned i = 3; i < header.vertex_floats; ++i) names.push_back(std::string("s").append(std::to_string(i - 3)));
+  for (unsigned i = 0; i < header.vertex_ints; ++i) names.push_back(std::string("i").append(std::to_string(i)));
   return names;
 }
 
-std::unique_ptr<MeshReader> make_stream_mesh_reader(std::unique_ptr<EventReader> reader,
-                                                    const ReadOptions& options,
+std::unique_ptr<MeshReader> make_stream_mesh_reader(std::unique_ptr<EventReader> reader, const ReadOptions& options,
                                                     std::uint64_t file_bytes) {
   return std::make_unique<StreamMeshReader>(std::move(reader), options, file_bytes);
 }

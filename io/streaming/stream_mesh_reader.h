@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "io/streaming/stream_event.h"
+#include "io/events/stream_event.h"
 #include "libreeb/port/mesh_reader.h"
 
 namespace reeb::io {
@@ -18,7 +18,6 @@ std::vector<std::string> stream_property_names(const StreamHeader& header);
 // Vertices that were never finalized are counted in the warnings.
 // THROWS: Error{kBadInput} if the mesh lacks a property that is asked for.
 std::unique_ptr<MeshReader> make_stream_mesh_reader(std::unique_ptr<EventReader> reader,
-                                                    const ReadOptions& options = {},
-                                                    std::uint64_t file_bytes = 0);
+                                                    const ReadOptions& options = {}, std::uint64_t file_bytes = 0);
 
 }  // namespace reeb::io

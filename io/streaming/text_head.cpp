@@ -1,6 +1,6 @@
 #include "io/streaming/text_head.h"
 
-#include "io/streaming/stream_fault.h"
+#include "io/events/stream_fault.h"
 #include "io/streaming/text_lines.h"
 
 namespace reeb::io {
@@ -53,8 +53,7 @@ bool TextHead::read_keyword(std::string_view line, std::string_view word, std::s
   else if (word == "svtype") {
     LineCursor cursor(line, after);
     if (const auto type = cursor.word(); type != "tet")
-      fail(Fault::kUnsupported,
-           "cells of type '" + std::string(type) + "'; only tetrahedra are read",
+      fail(Fault::kUnsupported, "cells of type '" + std::string(type) + "'; only tetrahedra are read",
            std::to_string(number_) + ":" + std::to_string(cursor.column()));
   } else {
     return volume_word;  // bounds of further values, which nobody needs
@@ -66,8 +65,7 @@ void TextHead::read_count(std::size_t after, std::optional<std::uint32_t>& count
   LineCursor cursor(line_, after);
   std::int32_t value = 0;
   if (cursor.number(value) != NumberVerdict::kGood)
-    fail_here("the count is not a number: '" + std::string(cursor.last_word()) + "'",
-              cursor.column());
+    fail_here("the count is not a number: '" + std::string(cursor.last_word()) + "'", cursor.column());
   count = value < 0 ? std::nullopt : std::optional(static_cast<std::uint32_t>(value));
 }
 
@@ -87,8 +85,7 @@ void TextHead::read_corner(std::size_t after, std::array<float, 3>& corner, bool
   LineCursor cursor(line_, after);
   for (float& value : corner)
     if (cursor.number(value) != NumberVerdict::kGood)
-      fail_here("not a number in the bounding box: '" + std::string(cursor.last_word()) + "'",
-                cursor.column());
+      fail_here("not a number in the bounding box: '" + std::string(cursor.last_word()) + "'", cursor.column());
   seen = true;
 }
 

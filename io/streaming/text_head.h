@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "io/streaming/stream_event.h"
+#include "io/events/stream_event.h"
 
 namespace reeb::io {
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "io/streaming/stream_fault.h"
+#include "io/events/stream_fault.h"
 
 namespace reeb::io {
 namespace {
@@ -34,8 +34,7 @@ bool parse_hexadecimal(std::string_view text, float& value) {
   if (narrow.ec != std::errc::result_out_of_range) return narrow.ec == std::errc();
   double wide = 0;
   const auto again = std::from_chars(text.data(), end, wide, std::chars_format::hex);
-  const bool tiny =
-      again.ec == std::errc() ? std::abs(wide) < 1 : text.find_first_of("pP") + 1 == text.find('-');
+  const bool tiny = again.ec == std::errc() ? std::abs(wide) < 1 : text.find_first_of("pP") + 1 == text.find('-');
   value = tiny ? 0.0f : HUGE_VALF;
   return true;
 }
@@ -79,14 +78,12 @@ std::optional<std::string_view> LineScanner::next() {
   ++number_;
   unfinished_ = end == nullptr;
   const char* begin = reinterpret_cast<const char*>(window_.data());
-  std::size_t size =
-      unfinished_ ? searched : static_cast<std::size_t>(static_cast<const char*>(end) - begin);
+  std::size_t size = unfinished_ ? searched : static_cast<std::size_t>(static_cast<const char*>(end) - begin);
   length_ = size + (unfinished_ ? 0 : 1);
   if (size > 0 && begin[size - 1] == '\r') --size;
   line_ = std::string_view(begin, std::min(size, kMaxLine));
   if (has_control_byte(line_))
-    fail(Fault::kUnsupported, "binary data in line " + std::to_string(number_),
-         std::to_string(number_) + ":1");
+    fail(Fault::kUnsupported, "binary data in line " + std::to_string(number_), std::to_string(number_) + ":1");
   if (size > kMaxLine)
     fail(Fault::kBadNumber, "line is longer than " + std::to_string(kMaxLine) + " characters",
          std::to_string(number_) + ":1");
@@ -114,8 +111,7 @@ NumberVerdict LineCursor::number(std::int32_t& value) {
   if (text[0] == '+' && text.size() > 1 && text[1] != '-') text.remove_prefix(1);
   const char* end = text.data() + text.size();
   const auto result = std::from_chars(text.data(), end, value);
-  if (result.ec == std::errc::invalid_argument || result.ptr != end)
-    return NumberVerdict::kNotANumber;
+  if (result.ec == std::errc::invalid_argument || result.ptr != end) return NumberVerdict::kNotANumber;
   return result.ec == std::errc() ? NumberVerdict::kGood : NumberVerdict::kOutOfRange;
 }
 

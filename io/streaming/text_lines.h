@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "io/streaming/byte_source.h"
+#include "io/events/byte_source.h"
 
 namespace reeb::io {
 

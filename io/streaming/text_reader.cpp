@@ -1,6 +1,6 @@
 #include "io/streaming/text_reader.h"
 
-#include "io/streaming/stream_fault.h"
+#include "io/events/stream_fault.h"
 #include "io/streaming/text_head.h"
 
 namespace reeb::io {
@@ -49,8 +49,7 @@ void TextEventReader::read_head() {
 
 void TextEventReader::skip_unknown(std::string_view line) {
   if (++skipped_ > kSkippedInFull) return;
-  std::string text = "SKIPPED: line " + std::to_string(lines_.number()) + ": '" +
-                     std::string(line.substr(0, 60)) + "'";
+  std::string text = "SKIPPED: line " + std::to_string(lines_.number()) + ": '" + std::string(line.substr(0, 60)) + "'";
   if (!header_.volume && starts_with_letter(line, 'c'))
     text += " (looks like a volume mesh, but no line '# svtype tet' says so)";
   if (header_.volume && starts_with_letter(line, 'f')) text += " (looks like a surface mesh)";
@@ -60,8 +59,7 @@ void TextEventReader::skip_unknown(std::string_view line) {
 
 std::vector<std::string> TextEventReader::warnings() const {
   auto all = EventReader::warnings();
-  if (skipped_ > kSkippedInFull)
-    all.push_back("SKIPPED: " + std::to_string(skipped_) + " unknown lines in all");
+  if (skipped_ > kSkippedInFull) all.push_back("SKIPPED: " + std::to_string(skipped_) + " unknown lines in all");
   return all;
 }
 
@@ -93,16 +91,14 @@ std::string TextEventReader::place(const LineCursor& cursor) const {
   return std::to_string(lines_.number()) + ":" + std::to_string(cursor.column());
 }
 
-void TextEventReader::require(NumberVerdict verdict, const char* what,
-                              const LineCursor& cursor) const {
+void TextEventReader::require(NumberVerdict verdict, const char* what, const LineCursor& cursor) const {
   const std::string word(cursor.last_word().substr(0, 60));
   switch (verdict) {
     case NumberVerdict::kGood:
       return;
     case NumberVerdict::kMissing:
       fail(Fault::kBadNumber,
-           std::string(what) + " is missing" +
-               (lines_.unfinished() ? " (the file may be cut off)" : ""),
+           std::string(what) + " is missing" + (lines_.unfinished() ? " (the file may be cut off)" : ""),
            place(cursor));
     case NumberVerdict::kNotANumber:
       fail(Fault::kBadNumber,
@@ -110,14 +106,12 @@ void TextEventReader::require(NumberVerdict verdict, const char* what,
                (lines_.unfinished() ? " (the file may be cut off)" : ""),
            place(cursor));
     case NumberVerdict::kOutOfRange:
-      fail(Fault::kBadNumber, std::string(what) + " is out of range: '" + word + "'",
-           place(cursor));
+      fail(Fault::kBadNumber, std::string(what) + " is out of range: '" + word + "'", place(cursor));
   }
 }
 
 void TextEventReader::read_vertex(std::string_view line) {
-  static constexpr std::array kCoordinates = {"first coordinate", "second coordinate",
-                                              "third coordinate"};
+  static constexpr std::array kCoordinates = {"first coordinate", "second coordinate", "third coordinate"};
   LineCursor cursor(line, 1);
   std::array<float, kMaxFloats> floats{};
   std::array<std::int32_t, kMaxInts> ints{};
@@ -126,8 +120,7 @@ void TextEventReader::read_vertex(std::string_view line) {
   for (std::size_t i = 0; i < header_.vertex_ints; ++i)
     require(cursor.number(ints[i]), "integer value of the vertex", cursor);
   surplus_ |= !cursor.at_end();
-  if (rules_.vertex_count() == kMaxVertices)
-    fail(Fault::kBadIndex, "more than 2147483647 vertices", place(cursor));
+  if (rules_.vertex_count() == kMaxVertices) fail(Fault::kBadIndex, "more than 2147483647 vertices", place(cursor));
 
   StreamEvent& event = push(EventKind::kVertex);
   event.vertex = rules_.vertex_count();
@@ -146,8 +139,7 @@ TextEventReader::Corner TextEventReader::read_corner(LineCursor& cursor, std::si
       cursor.last_word().find('/') != std::string_view::npos)
     fail(Fault::kNotTriangle, "corners with '/' as in OBJ files are not read", place(cursor));
   if (verdict == NumberVerdict::kOutOfRange)
-    fail(Fault::kBadIndex, who + " is out of range: '" + std::string(cursor.last_word()) + "'",
-         place(cursor));
+    fail(Fault::kBadIndex, who + " is out of range: '" + std::string(cursor.last_word()) + "'", place(cursor));
   require(verdict, who.c_str(), cursor);
   Corner result{0, number < 0};
   const IndexVerdict index = rules_.corner(number, result.vertex);
@@ -165,14 +157,12 @@ void TextEventReader::read_cell(std::string_view line) {
   for (std::size_t i = 0; i < size; ++i) corners[i] = read_corner(cursor, i, corners);
   std::array<float, kMaxFloats> floats{};
   std::array<std::int32_t, kMaxInts> ints{};
-  for (std::size_t i = 0; i < header_.cell_floats; ++i)
-    require(cursor.number(floats[i]), "value of the cell", cursor);
+  for (std::size_t i = 0; i < header_.cell_floats; ++i) require(cursor.number(floats[i]), "value of the cell", cursor);
   for (std::size_t i = 0; i < header_.cell_ints; ++i)
     require(cursor.number(ints[i]), "integer value of the cell", cursor);
   if (!cursor.at_end()) {
     if (!header_.volume)
-      fail(Fault::kNotTriangle, "polygon with more than 3 corners; only triangles are supported",
-           place(cursor));
+      fail(Fault::kNotTriangle, "polygon with more than 3 corners; only triangles are supported", place(cursor));
     surplus_ = true;
   }
 
@@ -210,8 +200,7 @@ void TextEventReader::finish() {
   const Tally cells{header_.cell_count, cells_};
   require_promised(vertices, "vertices", end);
   require_promised(cells, cell_name(), end);
-  for (auto text :
-       {count_warning(vertices, "vertices", false), count_warning(cells, cell_name(), false)})
+  for (auto text : {count_warning(vertices, "vertices", false), count_warning(cells, cell_name(), false)})
     if (!text.empty()) warn(std::move(text));
   if (surplus_) warn("EXTRA: surplus numbers on lines were ignored");
 }

@@ -9,9 +9,9 @@
 
 #include <memory>
 
-#include "io/streaming/byte_source.h"
-#include "io/streaming/index_rules.h"
-#include "io/streaming/stream_event.h"
+#include "io/events/byte_source.h"
+#include "io/events/index_rules.h"
+#include "io/events/stream_event.h"
 #include "io/streaming/text_lines.h"
 
 namespace reeb::io {

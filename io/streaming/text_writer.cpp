@@ -2,7 +2,7 @@
 #include <array>
 #include <charconv>
 
-#include "io/streaming/held_cell_writer.h"
+#include "io/events/held_cell_writer.h"
 
 namespace reeb::io {
 namespace {
@@ -19,18 +19,16 @@ void append_number(std::string& out, std::int64_t value) {
 // Nine digits restore every float32.
 void append_number(std::string& out, float value) {
   std::array<char, 32> text;
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), static_cast<double>(value),
-                                 std::chars_format::general, 9)
-                       .ptr;
+  const auto end =
+      std::to_chars(text.data(), text.data() + text.size(), static_cast<double>(value), std::chars_format::general, 9)
+          .ptr;
   out.push_back(' ');
   out.append(text.data(), end);
 }
 
 class TextWriter : public HeldCellWriter {
  public:
-  TextWriter(std::ostream& out, const StreamHeader& header) : HeldCellWriter(out, header, true) {
-    write_head();
-  }
+  TextWriter(std::ostream& out, const StreamHeader& header) : HeldCellWriter(out, header, true) { write_head(); }
 
   void close() override {
     write_held();

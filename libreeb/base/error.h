@@ -12,10 +12,10 @@ namespace reeb {
 
 // The values are exit codes; they are never reused.
 enum class ErrorKind : int {
-  kBadInput = 1,     // the input, or a file that the user names, is bad
-  kUsage = 2,        // the command line is wrong
-  kResource = 3,     // memory or disk ran out, or an output place cannot be written
-  kInterrupted = 130 // by a signal
+  kBadInput = 1,      // the input, or a file that the user names, is bad
+  kUsage = 2,         // the command line is wrong
+  kResource = 3,      // memory or disk ran out, or an output place cannot be written
+  kInterrupted = 130  // by a signal
 };
 
 class Error : public std::exception {

@@ -66,9 +66,7 @@ class FlatMap {
   }
 
  private:
-  std::size_t home(std::uint64_t key) const {
-    return static_cast<std::size_t>((key * 0x9e3779b97f4a7c15u) >> shift_);
-  }
+  std::size_t home(std::uint64_t key) const { return static_cast<std::size_t>((key * 0x9e3779b97f4a7c15u) >> shift_); }
 
   void grow() {
     std::vector<std::uint64_t> keys(values_.empty() ? 16 : 2 * values_.size());

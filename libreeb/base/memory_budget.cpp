@@ -10,9 +10,7 @@
 namespace reeb {
 
 Reservation::Reservation(Reservation&& other) noexcept
-    : budget_(std::exchange(other.budget_, nullptr)),
-      owner_(other.owner_),
-      bytes_(std::exchange(other.bytes_, 0)) {}
+    : budget_(std::exchange(other.budget_, nullptr)), owner_(other.owner_), bytes_(std::exchange(other.bytes_, 0)) {}
 
 Reservation& Reservation::operator=(Reservation&& other) noexcept {
   if (this != &other) {
@@ -85,12 +83,12 @@ void MemoryBudget::refuse(const char* owner, std::uint64_t from, std::uint64_t t
   const std::lock_guard lock(mutex_);
   for (const auto& [name, bytes] : owners_)
     if (bytes != 0) in_use += (in_use.empty() ? "" : ", ") + name + " " + format_bytes(bytes);
-  throw Error(ErrorKind::kResource,
-              std::string(owner) + " needs " + format_bytes(to - from) + " more memory, but " +
-                  format_bytes(limit_ - std::min(used_, limit_)) + " of " + format_bytes(limit_) +
-                  " is free (in use: " + (in_use.empty() ? "nothing" : in_use) + ")",
-              "allow more, for instance --memory " +
-                  std::to_string(((set_aside_ + limit_ + 2 * (to - from)) >> 20) + 2) + "M");
+  throw Error(
+      ErrorKind::kResource,
+      std::string(owner) + " needs " + format_bytes(to - from) + " more memory, but " +
+          format_bytes(limit_ - std::min(used_, limit_)) + " of " + format_bytes(limit_) +
+          " is free (in use: " + (in_use.empty() ? "nothing" : in_use) + ")",
+      "allow more, for instance --memory " + std::to_string(((set_aside_ + limit_ + 2 * (to - from)) >> 20) + 2) + "M");
 }
 
 std::string format_bytes(std::uint64_t bytes) {

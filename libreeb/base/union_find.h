@@ -13,9 +13,7 @@ namespace reeb {
 // outcome does not depend on the order of unions. Amortized O(log n) a call.
 class UnionFind {
  public:
-  explicit UnionFind(std::uint32_t size = 0) : parent_(size) {
-    std::iota(parent_.begin(), parent_.end(), 0u);
-  }
+  explicit UnionFind(std::uint32_t size = 0) : parent_(size) { std::iota(parent_.begin(), parent_.end(), 0u); }
 
   std::uint32_t find(std::uint32_t x) {
     while (parent_[x] != x) x = parent_[x] = parent_[parent_[x]];

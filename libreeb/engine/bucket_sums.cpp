@@ -106,8 +106,7 @@ void BucketLists::concatenate(List& lower, double value, const Point& position, 
 
 void BucketLists::merge(List& into, List& from) {
   if (from.empty()) return;
-  if (into.empty() || links_[into.last].index <= links_[links_[from.last].next].index)
-    return concatenate(into, from);
+  if (into.empty() || links_[into.last].index <= links_[links_[from.last].next].index) return concatenate(into, from);
   Index a = links_[into.last].next, b = links_[from.last].next;
   if (links_[from.last].index <= links_[a].index) {
     concatenate(from, into);
@@ -197,8 +196,8 @@ void BucketLists::coarsen(List& list, int levels) {
   }
 }
 
-void lay_on_path(BucketLists& lists, BucketLists::List& from, Direction d, double saddle,
-                 double leaf, std::span<const PathBuckets> path) {
+void lay_on_path(BucketLists& lists, BucketLists::List& from, Direction d, double saddle, double leaf,
+                 std::span<const PathBuckets> path) {
   double begin = saddle;
   for (std::size_t i = 0; i + 1 < path.size(); ++i) {
     const double end = path[i].end;

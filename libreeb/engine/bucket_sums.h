@@ -38,9 +38,7 @@ inline double to_double(Int128 whole) {
   const auto low = static_cast<std::int64_t>(whole);
   return low == whole ? static_cast<double>(low) : static_cast<double>(whole);
 }
-inline Int128 cut_off(double x) {
-  return std::abs(x) < 0x1p63 ? static_cast<std::int64_t>(x) : static_cast<Int128>(x);
-}
+inline Int128 cut_off(double x) { return std::abs(x) < 0x1p63 ? static_cast<std::int64_t>(x) : static_cast<Int128>(x); }
 
 struct BucketSum {
   std::int64_t index = 0;
@@ -192,7 +190,7 @@ struct PathBuckets {
 
 // Moves the buckets of the arc from `saddle` in direction d to `leaf` onto another path from the
 // same saddle, each to the arc that covers its values, all that is left to the last arc.
-void lay_on_path(BucketLists& lists, BucketLists::List& from, Direction d, double saddle,
-                 double leaf, std::span<const PathBuckets> path);
+void lay_on_path(BucketLists& lists, BucketLists::List& from, Direction d, double saddle, double leaf,
+                 std::span<const PathBuckets> path);
 
 }  // namespace reeb

@@ -24,7 +24,7 @@ enum VertexUse : std::uint8_t {
 struct Chunk {
   std::vector<VertexId> ids;
   std::vector<std::uint8_t> uses;
-  std::vector<Point> positions;         // one a vertex, or empty when not tracked
+  std::vector<Point> positions;        // one a vertex, or empty when not tracked
   std::vector<std::uint32_t> corners;  // three local vertices a triangle, repeats legal
 
   std::size_t vertex_count() const { return ids.size(); }

@@ -96,9 +96,7 @@ class UpwardEdges {
     return e;
   }
   std::uint32_t group_of_neighbour(std::uint32_t hi) { return group(edge_of_[hi] - first_); }
-  std::size_t memory_bytes() const {
-    return 4 * edge_of_.capacity() + edges_.capacity() * sizeof(Edge);
-  }
+  std::size_t memory_bytes() const { return 4 * edge_of_.capacity() + edges_.capacity() * sizeof(Edge); }
 
  private:
   struct Edge {
@@ -136,9 +134,7 @@ class Labels {
   void merge_into(std::uint32_t root, std::uint32_t other) { labels_[other].parent = root; }
   std::uint32_t& arc(std::uint32_t root) { return labels_[root].arc; }
   // True the first time that it is asked about this root at v.
-  bool mark(std::uint32_t root, std::uint32_t v) {
-    return std::exchange(labels_[root].marked, v + 1) != v + 1;
-  }
+  bool mark(std::uint32_t root, std::uint32_t v) { return std::exchange(labels_[root].marked, v + 1) != v + 1; }
   std::size_t memory_bytes() const { return labels_.capacity() * sizeof(Label); }
 
  private:
@@ -153,8 +149,8 @@ class Labels {
 std::uint32_t end_of_bucket(const SweptChunk& swept, std::uint32_t v, std::int64_t index, int exponent) {
   const double end = std::ldexp(static_cast<double>(index + 1), exponent);
   const auto rest = swept.order.subspan(v + 1);
-  const auto next = std::partition_point(rest.begin(), rest.end(),
-                                         [&](std::uint32_t i) { return swept.values[i] < end; });
+  const auto next =
+      std::partition_point(rest.begin(), rest.end(), [&](std::uint32_t i) { return swept.values[i] < end; });
   return v + 1 + static_cast<std::uint32_t>(next - rest.begin());
 }
 
@@ -180,8 +176,7 @@ struct Side {
 }  // namespace
 
 struct ChunkSweep::Scratch {
-  void run(const Chunk& chunk_in, std::span<const double> values, const SweepOptions& options,
-           Fragment& fragment);
+  void run(const Chunk& chunk_in, std::span<const double> values, const SweepOptions& options, Fragment& fragment);
   std::size_t memory_bytes() const;
 
  private:
@@ -243,8 +238,8 @@ void ChunkSweep::run(const Chunk& chunk, std::span<const double> values, Fragmen
 
 std::size_t ChunkSweep::memory_bytes() const { return scratch_->memory_bytes(); }
 
-void ChunkSweep::Scratch::run(const Chunk& chunk_in, std::span<const double> values,
-                              const SweepOptions& options, Fragment& fragment) {
+void ChunkSweep::Scratch::run(const Chunk& chunk_in, std::span<const double> values, const SweepOptions& options,
+                              Fragment& fragment) {
   chunk = &chunk_in;
   ranks.sort(values, chunk->ids);
   stars.build(*chunk, ranks.order());
@@ -374,8 +369,7 @@ void ChunkSweep::Scratch::separate(std::uint32_t v, std::uint32_t node) {
 }
 
 // The shared edges that cross the level on this side do not take the main branch.
-void ChunkSweep::Scratch::note_branches(std::uint32_t v, const Side& side, std::uint32_t node,
-                                        std::uint32_t arc) {
+void ChunkSweep::Scratch::note_branches(std::uint32_t v, const Side& side, std::uint32_t node, std::uint32_t arc) {
   for (const std::uint32_t t : side.queue) {
     const auto& [lo, mid, hi, place] = stars[t];
     if (lo == v) continue;
@@ -438,8 +432,7 @@ void ChunkSweep::Scratch::seed_sides(std::uint32_t v) {
     active.push_back(side_of[e]);
     sides[side_of[e]].start();
   }
-  for (const std::uint32_t t : stars.middles(v))
-    enter(t, side_of[up.group_of_neighbour(stars[t].hi)]);
+  for (const std::uint32_t t : stars.middles(v)) enter(t, side_of[up.group_of_neighbour(stars[t].hi)]);
   for (std::uint32_t t = stars.low_first(v); t < stars.low_last(v); ++t)
     enter(t, side_of[up.group_of_neighbour(stars[t].hi)]);
 }

@@ -30,8 +30,7 @@ class ChunkSweep {
   ChunkSweep& operator=(ChunkSweep&&) noexcept;
 
   // Replaces `fragment` by that of `chunk` with values[i] at local vertex i.
-  void run(const Chunk& chunk, std::span<const double> values, Fragment& fragment,
-           const SweepOptions& options = {});
+  void run(const Chunk& chunk, std::span<const double> values, Fragment& fragment, const SweepOptions& options = {});
   std::size_t memory_bytes() const;
 
  private:

@@ -50,9 +50,9 @@ struct Fragment {
   // In which order to glue: after all of an edge's triangles, zip it; after all of a vertex's
   // simplices, complete it. Sorted by place in the stream.
   struct Step {
-    std::uint32_t place;      // in the chunk's stream of triangles
-    std::uint32_t index;      // of an edge or a node
-    bool completes = false;   // complete node `index`; otherwise zip edge `index`
+    std::uint32_t place;     // in the chunk's stream of triangles
+    std::uint32_t index;     // of an edge or a node
+    bool completes = false;  // complete node `index`; otherwise zip edge `index`
   };
   std::vector<Step> steps;
 

@@ -62,8 +62,7 @@ void FragmentBuilder::finish(const SweptChunk& swept, Fragment& fragment) {
   fragment.triangle_count = swept.chunk.triangle_count();
   for (SweepGraph::Node& node : graph_.nodes) node.key = swept.key(node.vertex);
   if (options_.bucket_exponent) add_positions(swept.chunk);
-  if (options_.noise_below > 0)
-    fragment.removed_pairs = leaf_removal_.run(graph_, swept, options_.noise_below);
+  if (options_.noise_below > 0) fragment.removed_pairs = leaf_removal_.run(graph_, swept, options_.noise_below);
   sort_steps(swept);
   trace_paths(fragment);
   divide(swept, fragment);
@@ -82,8 +81,7 @@ void FragmentBuilder::add_positions(const Chunk& chunk) {
 
 void FragmentBuilder::sort_steps(const SweptChunk& swept) {
   steps_.clear();
-  for (std::uint32_t e = 0; e < shared_.size(); ++e)
-    steps_.push_back(step(shared_[e].place, e, false));
+  for (std::uint32_t e = 0; e < shared_.size(); ++e) steps_.push_back(step(shared_[e].place, e, false));
   for (std::uint32_t n = 0; n < graph_.nodes.size(); ++n)
     if (swept.uses(graph_.nodes[n].vertex) == kUsedEarlier)
       steps_.push_back(step(swept.stars.last_place(graph_.nodes[n].vertex), n, true));
@@ -132,7 +130,8 @@ void FragmentBuilder::find_changing_nodes(const SweptChunk& swept) {
     if (arc.lo == kNone) continue;
     add(nodes[arc.lo].up, arc.referenced);
     add(nodes[arc.hi].down, arc.referenced);
-    if (noise_goes && graph_.length(arc) < options_.noise_below) nodes[arc.lo].near_noise = nodes[arc.hi].near_noise = true;
+    if (noise_goes && graph_.length(arc) < options_.noise_below)
+      nodes[arc.lo].near_noise = nodes[arc.hi].near_noise = true;
   }
   const auto lasts = [](const Side& side) { return !side.any || (side.several && side.loose); };
   for (SweepGraph::Node& node : nodes) {
@@ -171,11 +170,9 @@ void FragmentBuilder::add_settled_arc(std::uint32_t arc, Fragment& fragment) {
   constexpr std::size_t kAhead = 8;
   if (arc + kAhead < graph_.arc_buckets.size()) graph_.buckets.prefetch(graph_.arc_buckets[arc + kAhead]);
   const std::size_t before = fragment.settled_buckets.size();
-  graph_.buckets.drain(graph_.arc_buckets[arc], [&](const BucketSum& bucket) {
-    fragment.settled_buckets.push_back(bucket.mean());
-  });
-  fragment.settled_bucket_counts.push_back(
-      static_cast<std::uint32_t>(fragment.settled_buckets.size() - before));
+  graph_.buckets.drain(graph_.arc_buckets[arc],
+                       [&](const BucketSum& bucket) { fragment.settled_buckets.push_back(bucket.mean()); });
+  fragment.settled_bucket_counts.push_back(static_cast<std::uint32_t>(fragment.settled_buckets.size() - before));
 }
 
 // Open nodes, and arcs and edges too, are numbered in the order of the stream, not of the sweep:
@@ -218,9 +215,7 @@ void FragmentBuilder::add_buckets(Fragment& fragment) {
   for (const std::uint32_t a : open_arcs_) arc_at_[graph_.arcs[a].open] = a;
   fragment.bucket_begin.push_back(0);
   for (const std::uint32_t a : arc_at_) {
-    graph_.buckets.drain(graph_.arc_buckets[a], [&](const BucketSum& bucket) {
-      fragment.buckets.push_back(bucket);
-    });
+    graph_.buckets.drain(graph_.arc_buckets[a], [&](const BucketSum& bucket) { fragment.buckets.push_back(bucket); });
     fragment.bucket_begin.push_back(static_cast<std::uint32_t>(fragment.buckets.size()));
   }
 }
@@ -238,12 +233,10 @@ void FragmentBuilder::add_steps(Fragment& fragment) {
 }
 
 std::size_t FragmentBuilder::memory_bytes() const {
-  return graph_.memory_bytes() + leaf_removal_.memory_bytes() +
-         shared_.capacity() * sizeof(Shared) + notes_.capacity() * sizeof(Note) +
-         8 * steps_.capacity() +
-         4 * (shared_begin_.capacity() + node_of_.capacity() + node_at_.capacity() +
-              open_arcs_.capacity() + arcs_from_.capacity() + arc_at_.capacity() +
-              bucket_of_.capacity());
+  return graph_.memory_bytes() + leaf_removal_.memory_bytes() + shared_.capacity() * sizeof(Shared) +
+         notes_.capacity() * sizeof(Note) + 8 * steps_.capacity() +
+         4 * (shared_begin_.capacity() + node_of_.capacity() + node_at_.capacity() + open_arcs_.capacity() +
+              arcs_from_.capacity() + arc_at_.capacity() + bucket_of_.capacity());
 }
 
 }  // namespace reeb

@@ -63,9 +63,7 @@ class FragmentBuilder {
     return std::uint64_t{place} << 32 | (completes ? kCompletes : 0) | index;
   }
   static bool completes(std::uint64_t step) { return (step & kCompletes) != 0; }
-  static std::uint32_t index(std::uint64_t step) {
-    return static_cast<std::uint32_t>(step & (kCompletes - 1));
-  }
+  static std::uint32_t index(std::uint64_t step) { return static_cast<std::uint32_t>(step & (kCompletes - 1)); }
   static std::uint32_t place(std::uint64_t step) { return static_cast<std::uint32_t>(step >> 32); }
   static constexpr std::uint64_t kCompletes = std::uint64_t{1} << 31;
 
@@ -86,11 +84,11 @@ class FragmentBuilder {
   std::vector<Shared> shared_;
   std::vector<std::uint32_t> shared_begin_;  // by vertex; within a vertex sorted by hi
   std::vector<Note> notes_;
-  std::vector<std::uint32_t> node_of_;   // by vertex, for those that are nodes
+  std::vector<std::uint32_t> node_of_;         // by vertex, for those that are nodes
   std::vector<BucketLists::Index> bucket_of_;  // by local vertex; nowhere for nodes
 
-  std::vector<std::uint64_t> steps_;      // sorted
-  std::vector<std::uint32_t> node_at_;    // by local vertex: its node, if it is an open one
+  std::vector<std::uint64_t> steps_;    // sorted
+  std::vector<std::uint32_t> node_at_;  // by local vertex: its node, if it is an open one
   std::vector<std::uint32_t> open_arcs_;
   std::vector<std::uint32_t> arc_at_;     // by number in the fragment
   std::vector<std::uint32_t> arcs_from_;  // by open node: where its arcs up are numbered from

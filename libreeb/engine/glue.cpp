@@ -9,8 +9,8 @@ void Glue::add(const Fragment& fragment) {
   removed_in_fragments_ += fragment.removed_pairs;
   if (!fragment.settled_nodes.empty()) sink_->add_nodes(fragment.settled_nodes);
   if (!fragment.settled_arcs.empty())
-    sink_->add_arcs({fragment.settled_arcs, fragment.settled_bucket_counts,
-                     fragment.settled_buckets, fragment.options.bucket_exponent.value_or(0)});
+    sink_->add_arcs({fragment.settled_arcs, fragment.settled_bucket_counts, fragment.settled_buckets,
+                     fragment.options.bucket_exponent.value_or(0)});
   add_nodes(fragment);
   add_arcs(fragment);
   add_paths(fragment);
@@ -27,7 +27,7 @@ void Glue::add_nodes(const Fragment& fragment) {
     const std::uint64_t vertex = node.key.vertex.value();
     Index n = (node.uses & kUsedEarlier) != 0 ? node_of_.find(vertex) : kNone;
     if (n == kNone) {
-      const auto state = node.settled                ? LiveGraph::State::kSettled
+      const auto state = node.settled                 ? LiveGraph::State::kSettled
                          : node.uses == kUsedHereOnly ? LiveGraph::State::kComplete
                                                       : LiveGraph::State::kIncomplete;
       n = graph_.add_node(node.key, fragment.positions.empty() ? Point{} : fragment.positions[i], state);
@@ -41,12 +41,11 @@ void Glue::add_nodes(const Fragment& fragment) {
 
 void Glue::add_arcs(const Fragment& fragment) {
   arcs_.clear();
-  for (const Fragment::Arc& arc : fragment.arcs)
-    arcs_.push_back(graph_.add_arc(nodes_[arc.lo], nodes_[arc.hi]));
+  for (const Fragment::Arc& arc : fragment.arcs) arcs_.push_back(graph_.add_arc(nodes_[arc.lo], nodes_[arc.hi]));
   for (std::size_t i = 0; i + 1 < fragment.bucket_begin.size(); ++i)
-    graph_.add_buckets(arcs_[i], std::span(fragment.buckets)
-                                     .subspan(fragment.bucket_begin[i],
-                                              fragment.bucket_begin[i + 1] - fragment.bucket_begin[i]));
+    graph_.add_buckets(arcs_[i],
+                       std::span(fragment.buckets)
+                           .subspan(fragment.bucket_begin[i], fragment.bucket_begin[i + 1] - fragment.bucket_begin[i]));
 }
 
 // All paths first: zips change the arcs that later paths of the same fragment run on.
@@ -136,9 +135,8 @@ void Glue::unlink(Index l, Index n) {
 }
 
 std::size_t Glue::memory_bytes() const {
-  return graph_.memory_bytes() + node_of_.memory_bytes() + edge_of_.memory_bytes() +
-         edges_.memory_bytes() + links_.memory_bytes() + first_link_.memory_bytes() +
-         (nodes_.capacity() + arcs_.capacity()) * sizeof(Index) +
+  return graph_.memory_bytes() + node_of_.memory_bytes() + edge_of_.memory_bytes() + edges_.memory_bytes() +
+         links_.memory_bytes() + first_link_.memory_bytes() + (nodes_.capacity() + arcs_.capacity()) * sizeof(Index) +
          pending_.capacity() * sizeof(Pending);
 }
 

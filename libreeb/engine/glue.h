@@ -82,7 +82,7 @@ class Glue {
   Index first_free_edge_ = kNone;
   GrowingArray<Index> first_link_;  // by node: its list of kept edges
 
-  std::vector<Index> nodes_, arcs_;        // of the fragment at hand
+  std::vector<Index> nodes_, arcs_;  // of the fragment at hand
   struct Pending {
     Index edge = kNone;  // the live edge with which to zip
     Index top = kNone;   // of the fragment's path

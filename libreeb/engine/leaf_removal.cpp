@@ -24,8 +24,8 @@ std::size_t LeafRemoval::run(SweepGraph& graph, const SweptChunk& swept, double 
 }
 
 std::size_t LeafRemoval::memory_bytes() const {
-  return nodes_.capacity() * sizeof(Node) + path_.capacity() * sizeof(PathBuckets) +
-         whole_.capacity() + 4 * (arcs_.capacity() + candidates_.capacity());
+  return nodes_.capacity() * sizeof(Node) + path_.capacity() * sizeof(PathBuckets) + whole_.capacity() +
+         4 * (arcs_.capacity() + candidates_.capacity());
 }
 
 // Every removal begins with a leaf that is one from the start.
@@ -118,8 +118,7 @@ void LeafRemoval::contract(std::uint32_t node) {
   const std::uint32_t lower = nodes_[node].arcs_xor[kDown], upper = nodes_[node].arcs_xor[kUp];
   const std::uint32_t top = graph_->arcs[upper].hi;
   if (embeds()) {
-    graph_->buckets.concatenate(graph_->arc_buckets[lower], value(node), position(node),
-                                graph_->arc_buckets[upper]);
+    graph_->buckets.concatenate(graph_->arc_buckets[lower], value(node), position(node), graph_->arc_buckets[upper]);
   }
   nodes_[node].degree = {0, 0};
   if (nodes_[top].via[kDown] == upper) nodes_[top].via[kDown] = lower;

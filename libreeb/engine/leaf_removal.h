@@ -49,9 +49,7 @@ class LeafRemoval {
   bool is_noise(std::uint32_t arc) const { return graph_->length(graph_->arcs[arc]) < noise_below_; }
   bool embeds() const { return !graph_->arc_buckets.empty(); }
   double value(std::uint32_t node) const { return graph_->nodes[node].key.value; }
-  Point position(std::uint32_t node) const {
-    return swept_->position(graph_->nodes[node].vertex);
-  }
+  Point position(std::uint32_t node) const { return swept_->position(graph_->nodes[node].vertex); }
   bool is_leaf(std::uint32_t node, Direction d) const {
     return nodes_[node].degree[d] == 0 && nodes_[node].degree[opposite(d)] == 1;
   }

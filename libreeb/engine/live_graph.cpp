@@ -346,8 +346,7 @@ void LiveGraph::contract(Index n) {
   attach_lo(upper, lo);
   if (embeds_) {
     auto& below = arc_buckets_[lower];
-    buckets_.concatenate(below, nodes_[n].key.value, track_positions_ ? positions_[n] : Point{},
-                         arc_buckets_[upper]);
+    buckets_.concatenate(below, nodes_[n].key.value, track_positions_ ? positions_[n] : Point{}, arc_buckets_[upper]);
     std::swap(below, arc_buckets_[upper]);
   }
   free_node(n);
@@ -379,9 +378,7 @@ void LiveGraph::hand_over(Index a) {
   settled_arcs_.push_back({nodes_[lo].key, nodes_[hi].key});
   if (embeds_) {
     const std::size_t before = settled_buckets_.size();
-    buckets_.drain(arc_buckets_[a], [&](const BucketSum& bucket) {
-      settled_buckets_.push_back(bucket.mean());
-    });
+    buckets_.drain(arc_buckets_[a], [&](const BucketSum& bucket) { settled_buckets_.push_back(bucket.mean()); });
     settled_bucket_counts_.push_back(static_cast<std::uint32_t>(settled_buckets_.size() - before));
   }
   detach_lo(a);
@@ -423,8 +420,7 @@ void LiveGraph::snapshot(std::vector<ArcKeys>& arcs, std::vector<SweepKey>& isol
 std::size_t LiveGraph::memory_bytes() const {
   return nodes_.memory_bytes() + positions_.memory_bytes() + arcs_.memory_bytes() + references_.memory_bytes() +
          changed_.capacity() * sizeof(Index) + settled_nodes_.capacity() * sizeof(SettledNode) +
-         settled_arcs_.capacity() * sizeof(ArcKeys) + buckets_.memory_bytes() +
-         arc_buckets_.memory_bytes() +
+         settled_arcs_.capacity() * sizeof(ArcKeys) + buckets_.memory_bytes() + arc_buckets_.memory_bytes() +
          4 * settled_bucket_counts_.capacity() + settled_buckets_.capacity() * sizeof(Bucket);
 }
 
@@ -450,7 +446,8 @@ void LiveGraph::validate() const {
     if (references != arc.references) fail("wrong number of references on arc", a);
     if (can_leave(a)) fail("not handed over: arc", a);
     const Node &lo = nodes_[arc.lo], &hi = nodes_[arc.hi];
-    if (is_noise(a) && (is_leaf(lo) || is_leaf(hi)) && !(lo.near_noise && hi.near_noise)) fail("no node notices leaf", a);
+    if (is_noise(a) && (is_leaf(lo) || is_leaf(hi)) && !(lo.near_noise && hi.near_noise))
+      fail("no node notices leaf", a);
     on_arcs += references;
     if (references != 0) {
       ++referenced[arc.lo];
@@ -463,8 +460,7 @@ void LiveGraph::validate() const {
     if (!node.used) continue;
     if (node.up_degree != up[n] || node.down_degree != down[n]) fail("wrong degree of node", n);
     if (node.referenced_arcs != referenced[n]) fail("wrong count of referenced arcs at node", n);
-    if (node.state == State::kComplete && (is_pass_through(node) || stays_for_good(node)))
-      fail("not tidied: node", n);
+    if (node.state == State::kComplete && (is_pass_through(node) || stays_for_good(node))) fail("not tidied: node", n);
   }
 }
 

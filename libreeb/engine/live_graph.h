@@ -52,9 +52,7 @@ class LiveGraph {
   // The embedding of an arc that was just added. REQUIRES: of the exponent of the options.
   void add_buckets(Index arc, std::span<const BucketSum> buckets);
   const SweepKey& key(Index node) const { return nodes_[node].key; }
-  bool is_incomplete(Index node) const {
-    return nodes_[node].used && nodes_[node].state == State::kIncomplete;
-  }
+  bool is_incomplete(Index node) const { return nodes_[node].used && nodes_[node].state == State::kIncomplete; }
 
   // Puts a reference on `arc` above the path that starts with `below` (kNone: nothing), and
   // returns it: the top of a path is a name for it.
@@ -82,8 +80,8 @@ class LiveGraph {
   std::size_t arc_count() const { return arcs_.size() - free_arcs_; }
   std::size_t reference_count() const { return references_.size() - free_references_; }
   std::uint64_t removed_pairs() const { return removed_pairs_; }  // leaves, so far
-  std::uint64_t zips() const { return zips_; }  // so far
-  std::uint64_t zip_steps() const { return zip_steps_; }  // arcs that they went over
+  std::uint64_t zips() const { return zips_; }                    // so far
+  std::uint64_t zip_steps() const { return zip_steps_; }          // arcs that they went over
   std::size_t memory_bytes() const;
 
   // THROWS: std::logic_error naming the first broken promise. O(live).
@@ -92,12 +90,12 @@ class LiveGraph {
  private:
   struct Node {
     SweepKey key;
-    Index up_first, down_first;    // lists of arcs; up_first also links free nodes
+    Index up_first, down_first;  // lists of arcs; up_first also links free nodes
     std::uint32_t up_degree, down_degree;
     std::uint32_t referenced_arcs;  // arcs at this node that have references
     State state;
-    bool intact : 1;      // no arc of it was handed over
-    bool queued : 1;      // in changed_
+    bool intact : 1;  // no arc of it was handed over
+    bool queued : 1;  // in changed_
     bool used : 1;
     bool near_noise : 1;  // it had an arc that can be noise, or come to be
   };
@@ -133,9 +131,7 @@ class LiveGraph {
   void gained_reference(Index arc);
   void lost_references(Index arc);
   void queue(Index node);
-  bool is_pass_through(const Node& n) const {
-    return n.intact && n.up_degree == 1 && n.down_degree == 1;
-  }
+  bool is_pass_through(const Node& n) const { return n.intact && n.up_degree == 1 && n.down_degree == 1; }
   bool stays_for_good(const Node& node) const;
   bool can_leave(Index arc) const;
   void set_noise(double below);
@@ -168,7 +164,7 @@ class LiveGraph {
   bool embeds_ = false;
   BucketLists buckets_;
   GrowingArray<BucketLists::List> arc_buckets_;  // one an arc, if there is an embedding
-  std::vector<Index> path_;                     // arcs, from the saddle of a leaf
+  std::vector<Index> path_;                      // arcs, from the saddle of a leaf
   std::vector<PathBuckets> path_buckets_;
   std::uint64_t removed_pairs_ = 0, zips_ = 0, zip_steps_ = 0;
   std::vector<Index> changed_;  // complete nodes to look at in tidy()

@@ -33,8 +33,7 @@ void LiveGraph::notice_noise_at(Index n) {
 
 // An extremum with one arc, which nothing can change any more but a contraction of its other end.
 bool LiveGraph::is_leaf(const Node& n) const {
-  return n.intact && has_one_arc(n) && n.referenced_arcs == 0 &&
-         n.state != State::kIncomplete;
+  return n.intact && has_one_arc(n) && n.referenced_arcs == 0 && n.state != State::kIncomplete;
 }
 
 LiveGraph::Index LiveGraph::first_arc(Index n, Direction d) const {
@@ -115,8 +114,7 @@ void LiveGraph::move_buckets(Index arc, Index leaf, Direction d) {
   path_buckets_.clear();
   for (const Index a : path_) path_buckets_.push_back({&arc_buckets_[a], value(arcs_[a].end(d))});
   buckets_.add_vertex(arc_buckets_[arc], value(leaf), track_positions_ ? positions_[leaf] : Point{});
-  lay_on_path(buckets_, arc_buckets_[arc], d, value(arcs_[arc].end(opposite(d))), value(leaf),
-              path_buckets_);
+  lay_on_path(buckets_, arc_buckets_[arc], d, value(arcs_[arc].end(opposite(d))), value(leaf), path_buckets_);
 }
 
 }  // namespace reeb

@@ -36,9 +36,7 @@ class KeepingSink : public GraphSink {
 class OnlineReeb::Impl {
  public:
   Impl(Options options, GraphSink* sink)
-      : options_(options),
-        chunker_(1, sink != nullptr),
-        glue_(sink != nullptr ? *sink : kept_, sink != nullptr) {}
+      : options_(options), chunker_(1, sink != nullptr), glue_(sink != nullptr ? *sink : kept_, sink != nullptr) {}
 
   StreamChunker& chunker() { return chunker_; }
 

@@ -76,8 +76,7 @@ void StreamChunker::add_simplex(std::span<const VertexId> corners) {
 }
 
 void StreamChunker::add_triangle(VertexId a, VertexId b, VertexId c) {
-  for (const VertexId v : {a, b, c})
-    chunk_.corners.push_back(bring_in(v, slot_of_.find(v.value())));
+  for (const VertexId v : {a, b, c}) chunk_.corners.push_back(bring_in(v, slot_of_.find(v.value())));
 }
 
 void StreamChunker::finalize(VertexId v) { finalize(v, slot_of(v, "finalized is")); }
@@ -109,8 +108,9 @@ void StreamChunker::take(Chunk& chunk, std::vector<std::vector<double>>& values)
 }
 
 std::size_t StreamChunker::memory_bytes() const {
-  return slot_of_.memory_bytes() + state_.capacity() + 8 * slot_vertices_.capacity() + 4 * (local_.capacity() + free_slots_.capacity()) +
-         8 * slot_values_.capacity() + slot_positions_.capacity() * sizeof(Point);
+  return slot_of_.memory_bytes() + state_.capacity() + 8 * slot_vertices_.capacity() +
+         4 * (local_.capacity() + free_slots_.capacity()) + 8 * slot_values_.capacity() +
+         slot_positions_.capacity() * sizeof(Point);
 }
 
 }  // namespace reeb

@@ -29,10 +29,10 @@ struct SweepGraph {
     std::uint32_t main_branch;  // the arc up that every path takes for which no other is noted
     bool gone;                  // removed as noise, or contracted since
     Side up, down;
-    bool near_noise;            // it has an arc that is short enough to be noise
-    bool can_change;            // not a node of the final graph for certain
-    bool lost_arcs;             // some of its arcs are settled
-    std::uint32_t open;         // the number of the node in the fragment, or kNone
+    bool near_noise;     // it has an arc that is short enough to be noise
+    bool can_change;     // not a node of the final graph for certain
+    bool lost_arcs;      // some of its arcs are settled
+    std::uint32_t open;  // the number of the node in the fragment, or kNone
   };
   struct Arc {
     std::uint32_t lo, hi;  // nodes; lo == kNone: gone
@@ -61,8 +61,7 @@ struct SweepGraph {
     arc_buckets.clear();
   }
   std::size_t memory_bytes() const {
-    return nodes.capacity() * sizeof(Node) + arcs.capacity() * sizeof(Arc) +
-           leaves.capacity() * sizeof(Leaf) +
+    return nodes.capacity() * sizeof(Node) + arcs.capacity() * sizeof(Arc) + leaves.capacity() * sizeof(Leaf) +
            arc_buckets.capacity() * sizeof(BucketLists::List) + buckets.memory_bytes();
   }
 };
@@ -77,9 +76,7 @@ struct SweptChunk {
   std::uint8_t uses(std::uint32_t v) const { return chunk.uses[order[v]]; }
   double value(std::uint32_t v) const { return values[order[v]]; }
   SweepKey key(std::uint32_t v) const { return {values[order[v]], chunk.ids[order[v]]}; }
-  Point position(std::uint32_t v) const {
-    return chunk.positions.empty() ? Point{} : chunk.positions[order[v]];
-  }
+  Point position(std::uint32_t v) const { return chunk.positions.empty() ? Point{} : chunk.positions[order[v]]; }
 };
 
 }  // namespace reeb

@@ -3,7 +3,7 @@
 #include <bit>
 #include <cmath>
 
-#include "libreeb/format/byte_coding.h"
+#include "libreeb/base/byte_coding.h"
 #include "libreeb/graph/packed_buckets.h"
 
 namespace reeb {
@@ -111,8 +111,7 @@ void encode_versions(std::span<const VersionCounts> versions, bool embedding, By
   }
 }
 
-const char* decode_versions(ByteReader& in, std::size_t count, bool embedding,
-                            std::vector<VersionCounts>& versions) {
+const char* decode_versions(ByteReader& in, std::size_t count, bool embedding, std::vector<VersionCounts>& versions) {
   if (!in.may_hold(count, 10)) return "a frame is too short for its versions";
   Column column(count);
   versions.resize(count);
@@ -195,8 +194,8 @@ void encode_graph_frame(const GraphFrame& frame, const FileFlags& flags, std::ve
   if (flags.has_embedding) encode_buckets(frame, out);
 }
 
-const char* decode_graph_frame(std::span<const std::byte> payload, const FrameHeader& header,
-                               const FileFlags& flags, GraphFrame& frame) {
+const char* decode_graph_frame(std::span<const std::byte> payload, const FrameHeader& header, const FileFlags& flags,
+                               GraphFrame& frame) {
   ByteReader in(payload);
   frame.clear();
   if (const char* why = decode_versions(in, header.versions, flags.has_embedding, frame.versions)) return why;

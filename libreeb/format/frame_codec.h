@@ -29,9 +29,9 @@ struct VersionCounts {
 
 // Reused from frame to frame, so that its memory is.
 struct GraphFrame {
-  std::vector<SettledNode> nodes;       // introduced here, ascending
-  std::vector<FileArc> arcs;            // by died, descending
-  std::vector<VersionCounts> versions;  // completed here, from coarse to fine
+  std::vector<SettledNode> nodes;            // introduced here, ascending
+  std::vector<FileArc> arcs;                 // by died, descending
+  std::vector<VersionCounts> versions;       // completed here, from coarse to fine
   std::vector<std::uint32_t> bucket_counts;  // one entry an arc, with an embedding
   std::vector<Bucket> buckets;               // of all arcs, one arc after the other
   void clear();
@@ -46,8 +46,8 @@ void encode_graph_frame(const GraphFrame& frame, const FileFlags& flags, std::ve
 // Fills `frame` from a payload with the counts of `header`. Null, or what is wrong. Nothing is
 // sized beyond what the payload can hold. Checked: order of nodes and of `died`, born < died,
 // finite values, no byte left over. What spans frames is the reader's to check.
-const char* decode_graph_frame(std::span<const std::byte> payload, const FrameHeader& header,
-                               const FileFlags& flags, GraphFrame& frame);
+const char* decode_graph_frame(std::span<const std::byte> payload, const FrameHeader& header, const FileFlags& flags,
+                               GraphFrame& frame);
 
 // A persistence pair by the file indices of its nodes.
 struct FilePair {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "libreeb/format/byte_coding.h"
+#include "libreeb/base/byte_coding.h"
 
 namespace reeb {
 namespace {
@@ -56,8 +56,8 @@ const char* check_levels(const FileHeader& header) {
     if (level.version > header.steps || level.frames == 0 || level.frames > header.graph_frames ||
         !(level.threshold >= 0))
       return "a line of the level table is out of range";
-    if (coarser != nullptr && (level.version >= coarser->version || level.frames < coarser->frames ||
-                               level.threshold > coarser->threshold))
+    if (coarser != nullptr &&
+        (level.version >= coarser->version || level.frames < coarser->frames || level.threshold > coarser->threshold))
       return "the level table is not sorted from coarse to fine";
     coarser = &level;
   }

@@ -41,9 +41,9 @@ struct FileFlags {
 
 // A version that can be loaded, and what it costs. Lines go from coarse to fine.
 struct LevelLine {
-  std::uint32_t version = 0;       // cancellations that were done
-  std::uint32_t frames = 0;        // it needs the first so many graph frames
-  double threshold = 0;            // the least threshold that yields it; see level_threshold
+  std::uint32_t version = 0;  // cancellations that were done
+  std::uint32_t frames = 0;   // it needs the first so many graph frames
+  double threshold = 0;       // the least threshold that yields it; see level_threshold
   std::uint64_t nodes = 0, arcs = 0;
   std::uint64_t buckets = 0;       // of its arcs
   std::uint64_t file_bytes = 0;    // from the start of the file to the end of those frames
@@ -53,11 +53,11 @@ struct LevelLine {
 
 struct FileHeader {
   FileFlags flags;
-  std::string function;  // as the user named it
+  std::string function;                       // as the user named it
   double function_min = 0, function_max = 0;  // over all vertices; both 0 without vertices
   std::uint64_t mesh_vertices = 0, mesh_triangles = 0;
   std::uint64_t nodes = 0, arcs = 0, components = 0, loops = 0;  // of version 0
-  std::uint64_t records = 0;     // arc records in all frames
+  std::uint64_t records = 0;                                     // arc records in all frames
   std::uint64_t pairs = 0, kept_loops = 0;
   double denoise_threshold = 0;  // noise below it was removed before
   std::uint64_t denoised_pairs = 0;

@@ -34,8 +34,7 @@ Incidence incidence(std::uint32_t node_count, std::span<const ArcVersion> arcs) 
   for (std::uint64_t& offset : result.offsets) offset = sum += offset;
   // Filling from the back turns each end into the beginning.
   for (std::uint32_t i = 0; i < arcs.size(); ++i)
-    for (const NodeId end : {arcs[i].lo, arcs[i].hi})
-      result.records[--result.offsets[end.value()]] = i;
+    for (const NodeId end : {arcs[i].lo, arcs[i].hi}) result.records[--result.offsets[end.value()]] = i;
   return result;
 }
 
@@ -68,8 +67,10 @@ std::vector<VersionCounts> count_versions(std::uint32_t node_count, std::span<co
   Incidence at = incidence(node_count, arcs);
   for (std::uint32_t node = 0; node < node_count; ++node) {
     const auto first = at.offsets[node], last = at.offsets[node + 1];
-    if (first == last) node_changes.add(0, kNeverDies, 1);
-    else add_union(std::span(at.records).subspan(first, last - first), arcs, node_changes);
+    if (first == last)
+      node_changes.add(0, kNeverDies, 1);
+    else
+      add_union(std::span(at.records).subspan(first, last - first), arcs, node_changes);
   }
   std::vector<VersionCounts> counts(versions);
   VersionCounts sum;

@@ -4,7 +4,7 @@
 #include <array>
 #include <cstring>
 
-#include "libreeb/format/byte_coding.h"
+#include "libreeb/base/byte_coding.h"
 
 namespace reeb {
 namespace {
@@ -78,6 +78,8 @@ bool unpack_buckets(std::span<const std::byte> packed, std::vector<Bucket>& buck
   return in.done();
 }
 
-std::uint64_t packed_count(std::span<const std::byte> packed) { return packed.empty() ? 0 : ByteReader(packed).varint(); }
+std::uint64_t packed_count(std::span<const std::byte> packed) {
+  return packed.empty() ? 0 : ByteReader(packed).varint();
+}
 
 }  // namespace reeb

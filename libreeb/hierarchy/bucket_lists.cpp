@@ -25,14 +25,12 @@ std::uint64_t count_below(const Bucket& bucket, const CutValues& values, int exp
   const auto [bottom, top] = own_values(bucket, values.lo, values.hi, exponent);
   if (!(bottom < top)) return bucket.count;
   const double share = std::clamp((values.at - bottom) / (top - bottom), 0.0, 1.0);
-  return std::min(bucket.count,
-                  static_cast<std::uint64_t>(std::round(static_cast<double>(bucket.count) * share)));
+  return std::min(bucket.count, static_cast<std::uint64_t>(std::round(static_cast<double>(bucket.count) * share)));
 }
 
 }  // namespace
 
-ArcBucketLists::ArcBucketLists(PackedLists lists, int exponent)
-    : exponent_(exponent), packed_(std::move(lists)) {}
+ArcBucketLists::ArcBucketLists(PackedLists lists, int exponent) : exponent_(exponent), packed_(std::move(lists)) {}
 
 void ArcBucketLists::open(std::uint32_t arc) {
   if (is_open(arc)) return;

@@ -77,9 +77,7 @@ class ArcBucketLists {
   bool is_open(std::uint32_t arc) const { return open_.find(arc) != kNone; }
   std::uint32_t& first(std::uint32_t arc) { return opened_[open_.find(arc)].first; }
   // The link that leads on from the item, or to the first one of the arc.
-  std::uint32_t& after(std::uint32_t item, std::uint32_t arc) {
-    return item == kNone ? first(arc) : items_[item].next;
-  }
+  std::uint32_t& after(std::uint32_t item, std::uint32_t arc) { return item == kNone ? first(arc) : items_[item].next; }
   void open(std::uint32_t arc);
   std::span<const Bucket> unpacked(std::uint32_t arc);
   const Bucket& first_bucket(Direction d, std::uint32_t arc);
@@ -92,7 +90,7 @@ class ArcBucketLists {
   PackedLists packed_;
   FlatMap open_;  // of arcs, their entries in opened_
   std::vector<Opened> opened_;
-  std::vector<Item> items_;    // of opened lists
+  std::vector<Item> items_;     // of opened lists
   std::uint32_t free_ = kNone;  // a list of unused items
   std::vector<Bucket> buckets_;
   std::vector<std::byte> bytes_;

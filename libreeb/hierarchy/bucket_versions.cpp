@@ -24,8 +24,7 @@ double BucketVersions::first_value(const ArcPart& part) {
 
 void BucketVersions::join(std::uint32_t upper, std::uint32_t lower, std::uint32_t node) {
   lists_.merge(upper, lower);
-  lists_.add(lower, value(node),
-             graph_.positions.empty() ? std::array<double, 3>{} : graph_.positions[node]);
+  lists_.add(lower, value(node), graph_.positions.empty() ? std::array<double, 3>{} : graph_.positions[node]);
 }
 
 void BucketVersions::drop(std::uint32_t arc, std::uint32_t nodes) {

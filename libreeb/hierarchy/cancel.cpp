@@ -79,7 +79,8 @@ class RecordsInMemory : public RecordSink {
 
 std::uint64_t hierarchy_bytes(std::uint64_t nodes, std::uint64_t arcs, std::optional<std::uint64_t> lists) {
   // Keys, positions, heaps, searches and stretches; ends, heaps and the log; and as many pairs as there can be.
-  constexpr std::uint64_t kNode = 16 + 24 + 8 + 9 + 9, kArc = 8 + 36 + 4, kPair = sizeof(PersistencePair) + sizeof(double);
+  constexpr std::uint64_t kNode = 16 + 24 + 8 + 9 + 9, kArc = 8 + 36 + 4,
+                          kPair = sizeof(PersistencePair) + sizeof(double);
   const std::uint64_t bytes = kNode * nodes + kArc * arcs + kPair * std::max(nodes, arcs);
   if (!lists) return bytes;
   // Lists that change leave holes; and a node that disappears may get a bucket of its own.

@@ -5,8 +5,8 @@
 #include <functional>
 #include <optional>
 
+#include "libreeb/graph/arc_buckets.h"
 #include "libreeb/graph/reeb_graph.h"
-#include "libreeb/hierarchy/arc_buckets.h"
 #include "libreeb/hierarchy/hierarchy.h"
 #include "libreeb/hierarchy/packed_lists.h"
 #include "libreeb/port/record_sink.h"
@@ -38,8 +38,7 @@ using Poll = std::function<void()>;
 //         the pair's interval.
 // MEMORY: hierarchy_bytes().
 // REQUIRES: no node is of degree (1, 1).
-Hierarchy build_hierarchy(ReebGraph& graph, PackedLists buckets, int exponent, RecordSink& sink,
-                          const Poll& poll = {});
+Hierarchy build_hierarchy(ReebGraph& graph, PackedLists buckets, int exponent, RecordSink& sink, const Poll& poll = {});
 
 // The same with the records in memory, 16 bytes each.
 Hierarchy build_hierarchy(ReebGraph graph, const Poll& poll = {});

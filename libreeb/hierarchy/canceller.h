@@ -139,8 +139,8 @@ class Canceller {
   // A pair of `fork` with the extremum that is its partner in direction d.
   void cancel_extremum(Direction d, std::uint32_t fork, std::uint32_t extremum);
   void lay_beside(Direction d, std::uint32_t arc, std::uint32_t beside, std::uint32_t extremum);
-  bool go_beside(Direction d, std::uint32_t arc, std::uint32_t& beside, std::uint32_t& start,
-                 std::uint32_t end, std::uint32_t most = kAny);
+  bool go_beside(Direction d, std::uint32_t arc, std::uint32_t& beside, std::uint32_t& start, std::uint32_t end,
+                 std::uint32_t most = kAny);
   std::uint32_t arc_to_extremum(Direction d, std::uint32_t fork, std::uint32_t extremum);
   bool cancel_loop(std::uint32_t v, std::uint32_t y);
   bool take_away(std::uint32_t arc);
@@ -173,8 +173,7 @@ class Canceller {
     ways_.note(graph_.end(arc, kUp), kDown);
   }
   void cut(Direction d, std::uint32_t from, std::uint32_t into, std::uint32_t node) {
-    if (content_.cut({d, from, into, graph_.end(from, opposite(d)), node, graph_.end(from, d)}))
-      log_.touch(into);
+    if (content_.cut({d, from, into, graph_.end(from, opposite(d)), node, graph_.end(from, d)})) log_.touch(into);
     move_start(d, from, node);
   }
   void merge(std::uint32_t from, std::uint32_t into) {
@@ -183,14 +182,12 @@ class Canceller {
   }
   void contract(std::uint32_t node);
 
-  [[noreturn]] static void not_a_pair() {
-    throw std::logic_error("Canceller: not a pair of this graph");
-  }
+  [[noreturn]] static void not_a_pair() { throw std::logic_error("Canceller: not a pair of this graph"); }
 
   WorkingGraph graph_;
   VersionLog log_;
-  BoundedSearch ahead_;                        // from the fork of the pair
-  BoundedSearch back_;                         // from its partner
+  BoundedSearch ahead_;  // from the fork of the pair
+  BoundedSearch back_;   // from its partner
   PathFollower ways_;
   std::array<std::vector<bool>, 2> kept_;      // whether a loop in direction d of the node was kept
   std::vector<std::uint32_t> first_, second_;  // arcs of the two paths to be zipped
@@ -217,8 +214,7 @@ void Canceller<Content>::cancel_extremum(Direction d, std::uint32_t fork, std::u
 // arcs move only where a node of the first path comes between two of the second; an extremum of one
 // arc is none.
 template <class Content>
-void Canceller<Content>::lay_beside(Direction d, std::uint32_t arc, std::uint32_t beside,
-                                    std::uint32_t extremum) {
+void Canceller<Content>::lay_beside(Direction d, std::uint32_t arc, std::uint32_t beside, std::uint32_t extremum) {
   std::uint32_t start = graph_.end(arc, opposite(d));  // all before it is one path
   while (true) {
     const std::uint32_t end = graph_.end(arc, d), next = graph_.nearest(end, d);
@@ -244,8 +240,8 @@ void Canceller<Content>::lay_beside(Direction d, std::uint32_t arc, std::uint32_
 // Follows the second path from `start` until its arc `beside` reaches to `end` or beyond, and lays the
 // content of `arc` on the arcs that are passed. False if there are more than `most` of them.
 template <class Content>
-bool Canceller<Content>::go_beside(Direction d, std::uint32_t arc, std::uint32_t& beside,
-                                   std::uint32_t& start, std::uint32_t end, std::uint32_t most) {
+bool Canceller<Content>::go_beside(Direction d, std::uint32_t arc, std::uint32_t& beside, std::uint32_t& start,
+                                   std::uint32_t end, std::uint32_t most) {
   ArcPart left{d, arc, start, end};  // with the content that is not laid yet
   double first = content_.first_value(left);
   for (std::uint32_t node = graph_.end(beside, d); along(d, node) < along(d, end); node = graph_.end(beside, d)) {
@@ -267,14 +263,12 @@ bool Canceller<Content>::go_beside(Direction d, std::uint32_t arc, std::uint32_t
 // there can be several; then back_ is left with that component. Otherwise there is one, and it is
 // looked for from both ends: back from the extremum, and along from each arc of the fork.
 template <class Content>
-std::uint32_t Canceller<Content>::arc_to_extremum(Direction d, std::uint32_t fork,
-                                                  std::uint32_t extremum) {
+std::uint32_t Canceller<Content>::arc_to_extremum(Direction d, std::uint32_t fork, std::uint32_t extremum) {
   const bool searched = kept_[d][fork];
   back_.start(extremum, opposite(d), fork);
   if (searched) {
     back_.finish();
-    return graph_.nearest_if(fork, d, extremum,
-                             [&](std::uint32_t arc) { return back_.reached(graph_.end(arc, d)); });
+    return graph_.nearest_if(fork, d, extremum, [&](std::uint32_t arc) { return back_.reached(graph_.end(arc, d)); });
   }
   // The second search visits the fork's own arcs only; each is walked to its end in turn.
   ahead_.start(fork, d, extremum);
@@ -303,8 +297,7 @@ bool Canceller<Content>::cancel_loop(std::uint32_t v, std::uint32_t y) {
   if (direct != kNone) return take_away(direct);
 
   search_paths(v, y);
-  const std::uint32_t first =
-      graph_.nearest_if(v, kUp, y, [&](std::uint32_t arc) { return leads(arc); });
+  const std::uint32_t first = graph_.nearest_if(v, kUp, y, [&](std::uint32_t arc) { return leads(arc); });
   if (first == kNone) return false;
   const std::uint32_t second = second_path(v, y, first);
   if (second == kNone) return false;
@@ -321,8 +314,8 @@ bool Canceller<Content>::take_away(std::uint32_t arc) {
   if constexpr (Content::kFollows) {
     const std::uint32_t v = graph_.end(arc, kDown), y = graph_.end(arc, kUp);
     search_paths(v, y);
-    const std::uint32_t beside = graph_.nearest_if(
-        v, kUp, y, [&](std::uint32_t other) { return other != arc && leads(other); });
+    const std::uint32_t beside =
+        graph_.nearest_if(v, kUp, y, [&](std::uint32_t other) { return other != arc && leads(other); });
     if (beside != kNone) {
       first_.assign(1, beside);
       second_.assign(1, arc);
@@ -354,24 +347,20 @@ void Canceller<Content>::search_paths(std::uint32_t v, std::uint32_t y) {
 // The nearest arc of v that leads to y in another component of the open interlevel set (v, y) than
 // that of the arc `first`; kNone if there is none.
 template <class Content>
-std::uint32_t Canceller<Content>::second_path(std::uint32_t v, std::uint32_t y,
-                                              std::uint32_t first) {
+std::uint32_t Canceller<Content>::second_path(std::uint32_t v, std::uint32_t y, std::uint32_t first) {
   if (!kept_[kUp][v])
-    return graph_.nearest_if(v, kUp, y,
-                             [&](std::uint32_t arc) { return arc != first && leads(arc); });
+    return graph_.nearest_if(v, kUp, y, [&](std::uint32_t arc) { return arc != first && leads(arc); });
   ahead_.start_both(graph_.end(first, kUp), v + 1, y - 1);
   ahead_.finish();
-  return graph_.nearest_if(v, kUp, y, [&](std::uint32_t arc) {
-    return leads(arc) && !ahead_.reached(graph_.end(arc, kUp));
-  });
+  return graph_.nearest_if(v, kUp, y,
+                           [&](std::uint32_t arc) { return leads(arc) && !ahead_.reached(graph_.end(arc, kUp)); });
 }
 
 // Prolongs the path to y, taking at each choice the arc with the lowest upper node that leads
 // there.
 template <class Content>
 void Canceller<Content>::trace(std::vector<std::uint32_t>& path, std::uint32_t y) {
-  for (std::uint32_t node = graph_.end(path.back(), kUp); node != y;
-       node = graph_.end(path.back(), kUp)) {
+  for (std::uint32_t node = graph_.end(path.back(), kUp); node != y; node = graph_.end(path.back(), kUp)) {
     path.push_back(graph_.nearest_if(node, kUp, y, [&](std::uint32_t arc) { return leads(arc); }));
     if (path.back() == kNone) not_a_pair();
   }

@@ -47,8 +47,7 @@ class LeafRemoval {
     const auto key = [this](std::uint32_t arc) {
       return std::tuple(graph_.end(arc, kDown), graph_.end(arc, kUp), arc);
     };
-    std::sort(arcs.begin(), arcs.end(),
-              [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
+    std::sort(arcs.begin(), arcs.end(), [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
     return arcs;
   }
 
@@ -100,9 +99,8 @@ class LeafRemoval {
     const std::uint32_t arc = graph_.nearest(leaf, opposite(d));
     const std::uint32_t saddle = graph_.end(arc, opposite(d));
     if (!reaches_beyond(saddle, d, leaf)) return;
-    const PersistencePair pair =
-        d == kUp ? PersistencePair{NodeId(saddle), NodeId(leaf), PairType::kRel1}
-                 : PersistencePair{NodeId(leaf), NodeId(saddle), PairType::kOrd0};
+    const PersistencePair pair = d == kUp ? PersistencePair{NodeId(saddle), NodeId(leaf), PairType::kRel1}
+                                          : PersistencePair{NodeId(leaf), NodeId(saddle), PairType::kOrd0};
     if (!(persistence_of(full_, pair) < threshold_)) return;
     removed_.push_back(pair);
     graph_.remove(arc);
@@ -114,13 +112,11 @@ class LeafRemoval {
   // The buckets of an arc that was removed, and its leaf, go to the nearest path beyond it.
   void lay_aside(std::uint32_t arc, std::uint32_t saddle, std::uint32_t leaf, Direction d) {
     const auto next = [&](std::uint32_t node) {
-      return graph_.nearest_if(node, d, farthest(d), [&](std::uint32_t other) {
-        return reaches_beyond(graph_.end(other, d), d, leaf);
-      });
+      return graph_.nearest_if(node, d, farthest(d),
+                               [&](std::uint32_t other) { return reaches_beyond(graph_.end(other, d), d, leaf); });
     };
     std::uint32_t start = saddle, beside = next(saddle);
-    for (std::uint32_t end = graph_.end(beside, d); along(d, end) < along(d, leaf);
-         end = graph_.end(beside, d)) {
+    for (std::uint32_t end = graph_.end(beside, d); along(d, end) < along(d, leaf); end = graph_.end(beside, d)) {
       const auto [lo, hi] = std::minmax(start, leaf);
       lists_->cut(opposite(d), arc, beside, {value(lo), value(end), value(hi)});
       start = end;
@@ -131,8 +127,7 @@ class LeafRemoval {
   }
 
   void add_vertex(std::uint32_t arc, std::uint32_t node) {
-    lists_->add(arc, value(node),
-                full_.positions.empty() ? std::array<double, 3>{} : full_.positions[node]);
+    lists_->add(arc, value(node), full_.positions.empty() ? std::array<double, 3>{} : full_.positions[node]);
   }
   double value(std::uint32_t node) const { return full_.nodes[node].value; }
 

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "libreeb/graph/arc_buckets.h"
 #include "libreeb/graph/reeb_graph.h"
-#include "libreeb/hierarchy/arc_buckets.h"
 #include "libreeb/hierarchy/hierarchy.h"
 #include "libreeb/hierarchy/packed_lists.h"
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "libreeb/base/ids.h"
+#include "libreeb/graph/arc_version.h"
 #include "libreeb/graph/bucket.h"
 #include "libreeb/graph/reeb_graph.h"
 
@@ -23,22 +24,6 @@ struct PersistencePair {
   PairType type = PairType::kExt0;
   bool kept = false;  // an Ext1 that no rule could cancel
   friend bool operator==(const PersistencePair&, const PersistencePair&) = default;
-};
-
-inline constexpr std::uint32_t kNeverDies = ~std::uint32_t{0};
-
-struct ArcVersion {
-  NodeId lo, hi;
-  std::uint32_t born = 0;           // present from this version on
-  std::uint32_t died = kNeverDies;  // up to, not including, this version
-  friend bool operator==(const ArcVersion&, const ArcVersion&) = default;
-};
-
-// Vertices of an arc that was taken away in making this version, with no arc beside it to hold them.
-struct DroppedVertices {
-  std::uint32_t version = 0;
-  std::uint64_t count = 0;
-  friend bool operator==(const DroppedVertices&, const DroppedVertices&) = default;
 };
 
 struct Hierarchy {

@@ -8,8 +8,7 @@ namespace reeb {
 
 std::uint32_t version_below(const Hierarchy& hierarchy, double threshold) {
   const auto& steps = hierarchy.persistence;
-  return static_cast<std::uint32_t>(std::lower_bound(steps.begin(), steps.end(), threshold) -
-                                    steps.begin());
+  return static_cast<std::uint32_t>(std::lower_bound(steps.begin(), steps.end(), threshold) - steps.begin());
 }
 
 std::vector<LevelSize> level_sizes(const Hierarchy& hierarchy) {
@@ -30,9 +29,7 @@ std::vector<LevelSize> level_sizes(const Hierarchy& hierarchy) {
   sizes.reserve(last + 1);
   std::uint64_t arcs = arc_change[0];
   // Every cancelled loop lowers b1 by one, and nothing else changes a Betti number.
-  const auto add = [&](double threshold) {
-    sizes.push_back({threshold, arcs + components - loops, arcs});
-  };
+  const auto add = [&](double threshold) { sizes.push_back({threshold, arcs + components - loops, arcs}); };
   add(0);
   for (const PersistencePair& pair : hierarchy.pairs) {
     if (pair.type == PairType::kExt0 || pair.kept) continue;
@@ -44,8 +41,8 @@ std::vector<LevelSize> level_sizes(const Hierarchy& hierarchy) {
 }
 
 std::uint32_t finest_with_nodes(const std::vector<LevelSize>& sizes, std::uint64_t nodes) {
-  const auto it = std::partition_point(
-      sizes.begin(), sizes.end(), [nodes](const LevelSize& size) { return size.nodes > nodes; });
+  const auto it =
+      std::partition_point(sizes.begin(), sizes.end(), [nodes](const LevelSize& size) { return size.nodes > nodes; });
   return static_cast<std::uint32_t>(it - sizes.begin());
 }
 

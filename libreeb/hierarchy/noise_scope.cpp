@@ -32,9 +32,7 @@ class NoiseScope {
   }
 
  private:
-  std::uint32_t degree(std::uint32_t node, Direction d) const {
-    return (d == kUp ? degrees_.up : degrees_.down)[node];
-  }
+  std::uint32_t degree(std::uint32_t node, Direction d) const { return (d == kUp ? degrees_.up : degrees_.down)[node]; }
   std::uint32_t end(std::uint32_t arc, Direction d) const { return (d == kUp ? graph_.hi : graph_.lo)[arc].value(); }
   bool is_extremum(std::uint32_t node, Direction d) const { return degree(node, d) == 0; }
   bool may_disappear(std::uint32_t node) const { return firm_[node][kDown] <= 1 && firm_[node][kUp] <= 1; }

@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
+#include "libreeb/graph/arc_buckets.h"
 #include "libreeb/graph/bucket.h"
-#include "libreeb/hierarchy/arc_buckets.h"
 
 namespace reeb {
 
@@ -62,9 +62,7 @@ class PackedLists {
     std::uint32_t end;  // its place in the chunk is over here
   };
 
-  static std::uint64_t place(std::uint32_t chunk, std::uint32_t offset) {
-    return std::uint64_t{chunk} << 32 | offset;
-  }
+  static std::uint64_t place(std::uint32_t chunk, std::uint32_t offset) { return std::uint64_t{chunk} << 32 | offset; }
   static Block block_at(const Chunk& chunk, std::uint32_t offset);
   std::uint64_t store(std::uint32_t arc, std::span<const std::byte> list);
   std::uint32_t chunk_with_room(std::size_t bytes);

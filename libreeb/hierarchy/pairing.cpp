@@ -15,13 +15,11 @@ struct ArcsBelow {
 };
 
 ArcsBelow arcs_below(const ReebGraph& graph) {
-  ArcsBelow below{std::vector<std::uint32_t>(graph.node_count() + 1),
-                  std::vector<std::uint32_t>(graph.arc_count())};
+  ArcsBelow below{std::vector<std::uint32_t>(graph.node_count() + 1), std::vector<std::uint32_t>(graph.arc_count())};
   for (const NodeId hi : graph.hi) ++below.first[hi.value()];
   std::uint32_t sum = 0;
   for (std::uint32_t& entry : below.first) sum += std::exchange(entry, sum);
-  for (std::uint32_t arc = 0; arc < graph.arc_count(); ++arc)
-    below.order[below.first[graph.hi[arc].value()]++] = arc;
+  for (std::uint32_t arc = 0; arc < graph.arc_count(); ++arc) below.order[below.first[graph.hi[arc].value()]++] = arc;
   std::rotate(below.first.begin(), below.first.end() - 1, below.first.end());
   below.first[0] = 0;
   return below;
@@ -113,8 +111,7 @@ std::vector<PersistencePair> persistence_pairs(const ReebGraph& graph) {
   const auto nodes = static_cast<std::uint32_t>(graph.node_count());
   for (std::uint32_t x = 0; x < nodes; ++x)
     if (sublevel.find(x) == x)
-      pairs.push_back(
-          {NodeId(x), NodeId(nodes - 1 - superlevel.find(nodes - 1 - x)), PairType::kExt0});
+      pairs.push_back({NodeId(x), NodeId(nodes - 1 - superlevel.find(nodes - 1 - x)), PairType::kExt0});
   sort_for_cancelling(graph, pairs);
   return pairs;
 }

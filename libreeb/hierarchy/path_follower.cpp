@@ -4,8 +4,7 @@
 
 namespace reeb {
 
-PathFollower::PathFollower(const WorkingGraph& graph)
-    : graph_(graph), stretch_of_(graph.node_count()), exits_{kNone} {}
+PathFollower::PathFollower(const WorkingGraph& graph) : graph_(graph), stretch_of_(graph.node_count()), exits_{kNone} {}
 
 // Makes a stretch of the nodes that were followed before `exit`, if they are enough.
 void PathFollower::keep_followed(std::uint32_t exit, Direction d) {

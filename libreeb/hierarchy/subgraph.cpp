@@ -4,8 +4,7 @@
 
 namespace reeb {
 
-ReebGraph subgraph(const ReebGraph& full, std::vector<NodeArc> arcs,
-                   std::span<const NodeId> isolated) {
+ReebGraph subgraph(const ReebGraph& full, std::vector<NodeArc> arcs, std::span<const NodeId> isolated) {
   std::vector<NodeId> nodes(isolated.begin(), isolated.end());
   nodes.reserve(nodes.size() + 2 * arcs.size());
   for (const NodeArc& arc : arcs) {

@@ -17,8 +17,7 @@ struct NodeArc {
 // The graph with these arcs, in any order, the nodes that they join, and isolated nodes
 // (ascending). Keys and positions are taken over. O(k log k) in the size of the result, whatever
 // that of `full`.
-ReebGraph subgraph(const ReebGraph& full, std::vector<NodeArc> arcs,
-                   std::span<const NodeId> isolated);
+ReebGraph subgraph(const ReebGraph& full, std::vector<NodeArc> arcs, std::span<const NodeId> isolated);
 
 // The nodes without arcs, ascending.
 std::vector<NodeId> isolated_nodes(const ReebGraph& graph);

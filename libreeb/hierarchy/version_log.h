@@ -21,8 +21,7 @@ namespace reeb {
 class VersionLog {
  public:
   // Both must outlive this.
-  VersionLog(const WorkingGraph& graph, RecordSink& sink)
-      : graph_(graph), sink_(sink), born_(graph.arc_count()) {}
+  VersionLog(const WorkingGraph& graph, RecordSink& sink) : graph_(graph), sink_(sink), born_(graph.arc_count()) {}
 
   void prefetch(std::uint32_t arc) const { __builtin_prefetch(&born_[arc]); }
 
@@ -71,9 +70,8 @@ class VersionLog {
     changed_.clear();
     for (const Ended& ended : ended_)
       if (graph_.alive(ended.arc)) changed_.push_back(ended.arc);
-    std::sort(changed_.begin(), changed_.end(), [this](std::uint32_t a, std::uint32_t b) {
-      return ends(record(a)) < ends(record(b));
-    });
+    std::sort(changed_.begin(), changed_.end(),
+              [this](std::uint32_t a, std::uint32_t b) { return ends(record(a)) < ends(record(b)); });
     auto arc = changed_.begin();
     std::erase_if(ended_, [&](const Ended& ended) {
       while (arc != changed_.end() && ends(record(*arc)) < ends(ended.version)) ++arc;

@@ -85,8 +85,7 @@ class WorkingGraph {
 };
 
 template <class Accept>
-std::uint32_t WorkingGraph::nearest_if(std::uint32_t node, Direction d, std::uint32_t limit,
-                                       Accept accept) {
+std::uint32_t WorkingGraph::nearest_if(std::uint32_t node, Direction d, std::uint32_t limit, Accept accept) {
   std::uint32_t best = kNone;
   stack_.assign(1, top_[node][d]);
   while (!stack_.empty()) {

@@ -1,23 +1,14 @@
 // Port: where finished pieces of the Reeb graph go (DESIGN.md 4, Spilling).
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <span>
 
-#include "libreeb/base/sweep_key.h"
 #include "libreeb/graph/bucket.h"
 #include "libreeb/graph/reeb_graph.h"
+#include "libreeb/graph/settled_node.h"
 
 namespace reeb {
-
-using Point = std::array<double, 3>;
-
-// A node of the final graph with its place in space (zeros when positions are not tracked).
-struct SettledNode {
-  SweepKey key;
-  Point position{};
-};
 
 // Arcs of the final graph, with their embedding if there is one: arc i owns the next
 // bucket_counts[i] of `buckets`, ascending.

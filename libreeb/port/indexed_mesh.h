@@ -29,8 +29,7 @@ class IndexedMesh {
   // Fast where ids are near each other; any order is legal.
   // REQUIRES: ids are below vertex_count(), columns below column_count().
   // THROWS: Error{kBadInput} with the place of a value that is not finite.
-  virtual void gather(std::span<const VertexId> ids, std::span<const unsigned> columns,
-                      std::span<double> values) = 0;
+  virtual void gather(std::span<const VertexId> ids, std::span<const unsigned> columns, std::span<double> values) = 0;
 
   // Replaces vertices by their indices in the input, for a mesh that was renumbered since.
   virtual void to_original([[maybe_unused]] std::span<VertexId> ids) {}

@@ -39,9 +39,7 @@ struct MeshBatch {
 
   std::size_t triangle_count() const { return triangles.size() / 3; }
   std::size_t tetrahedron_count() const { return tetrahedra.size() / 4; }
-  bool empty() const {
-    return vertex_count == 0 && triangles.empty() && tetrahedra.empty() && finalized.empty();
-  }
+  bool empty() const { return vertex_count == 0 && triangles.empty() && tetrahedra.empty() && finalized.empty(); }
   void clear();  // keeps the columns and their capacity
 };
 

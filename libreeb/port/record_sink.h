@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <span>
 
-#include "libreeb/hierarchy/hierarchy.h"
+#include "libreeb/graph/arc_version.h"
 
 namespace reeb {
 

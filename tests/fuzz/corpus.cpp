@@ -11,13 +11,13 @@
 #include <iterator>
 #include <sstream>
 
-#include "io/mesh_writer.h"
+#include "io/file/checksum.h"
+#include "io/formats/create_mesh.h"
 #include "io/streaming/create_stream.h"
 #include "libreeb/format/reeb_format.h"
-#include "ooc/checksum.h"
-#include "ooc/reeb_file_writer.h"
-#include "tests/format/made_up_hierarchy.h"
-#include "tests/streaming/samples.h"
+#include "ooc/reeb_file/reeb_file_writer.h"
+#include "tests/io/streaming/samples.h"
+#include "tests/ooc/reeb_file/made_up_hierarchy.h"
 #include "tests/support/complex_mesh.h"
 #include "tests/support/files.h"
 #include "tests/support/shapes.h"
@@ -50,7 +50,8 @@ std::string written(const Complex& complex, const std::string& ending, bool fina
   batch.coordinates.assign(mesh.columns.begin(), mesh.columns.begin() + 3);
   batch.properties = {mesh.columns[3]};
   if (io::is_volume_name(path))
-    for (const auto& corners : mesh.tetrahedra) batch.tetrahedra.insert(batch.tetrahedra.end(), corners.begin(), corners.end());
+    for (const auto& corners : mesh.tetrahedra)
+      batch.tetrahedra.insert(batch.tetrahedra.end(), corners.begin(), corners.end());
   else
     batch.triangles = mesh.triangles;
   for (std::uint64_t v = 0; finalize && v < mesh.vertex_count(); ++v) batch.finalized.emplace_back(v);
@@ -100,17 +101,19 @@ std::vector<std::string> written_meshes(const std::string& ending) {
 
 std::vector<std::string> ascii_ply_files() {
   const std::string head = "ply\nformat ascii 1.0\ncomment by hand\n";
-  return {head + "element vertex 4\nproperty float x\nproperty float y\nproperty float z\n" + kPlyFaces +
-              "0 0 0\n1 0 0.5\n0 1 -1e-3\n1 1 2\n3 0 1 2\n4 0 1 3 2\n",
-          head + "element vertex 3\nproperty double x\nproperty double y\nproperty uchar quality\n" + kPlyFaces +
-              "0 0 7\n1 nan 8\n0 1 9\n3 0 1 2\n1 2\n",
-          head + "element camera 2\nproperty list uchar float view\nproperty int id\nelement vertex 3\nproperty float x\n"
-                 "property float y\nproperty float z\nproperty list uint8 int8 marks\nelement tristrips 1\n"
-                 "property list int int vertex_indices\nend_header\n2 0.5 1 3\n0 4\n0 0 0 1 5\n1 0 0 0\n0 1 1 2 1 2\n"
-                 "7 0 1 2 -1 2 1 0\n",
-          "ply\r\nformat ascii 1.0\r\nelement face 1\r\nproperty list uchar uint vertex_index\r\nproperty uchar red\r\n"
-          "element vertex 3\r\nproperty float z\r\nproperty float y\r\nproperty float x\r\nend_header\r\n3 0 1 2 255\r\n"
-          "0 0 0\r\n1 1 1\r\n2 2 0\r\n"};
+  return {
+      head + "element vertex 4\nproperty float x\nproperty float y\nproperty float z\n" + kPlyFaces +
+          "0 0 0\n1 0 0.5\n0 1 -1e-3\n1 1 2\n3 0 1 2\n4 0 1 3 2\n",
+      head + "element vertex 3\nproperty double x\nproperty double y\nproperty uchar quality\n" + kPlyFaces +
+          "0 0 7\n1 nan 8\n0 1 9\n3 0 1 2\n1 2\n",
+      head +
+          "element camera 2\nproperty list uchar float view\nproperty int id\nelement vertex 3\nproperty float x\n"
+          "property float y\nproperty float z\nproperty list uint8 int8 marks\nelement tristrips 1\n"
+          "property list int int vertex_indices\nend_header\n2 0.5 1 3\n0 4\n0 0 0 1 5\n1 0 0 0\n0 1 1 2 1 2\n"
+          "7 0 1 2 -1 2 1 0\n",
+      "ply\r\nformat ascii 1.0\r\nelement face 1\r\nproperty list uchar uint vertex_index\r\nproperty uchar red\r\n"
+      "element vertex 3\r\nproperty float z\r\nproperty float y\r\nproperty float x\r\nend_header\r\n3 0 1 2 255\r\n"
+      "0 0 0\r\n1 1 1\r\n2 2 0\r\n"};
 }
 
 std::vector<std::string> binary_ply_files(bool big_endian) {
@@ -170,12 +173,15 @@ std::vector<std::string> off_files() {
 }
 
 std::vector<std::string> ascii_stl_files() {
-  return {"solid one\nfacet normal 0 0 nan\n outer loop\n  vertex 0 0 0\n  vertex 1 -0 0\n  vertex 0 1 0\n endloop\nendfacet\n"
-          "facet normal 0 0 1\n outer loop\n  vertex 0 0 0\n  vertex 1 0 0\n  vertex 0 0 1e-3\n endloop\nendfacet\n"
-          "endsolid one\nsolid two\nendsolid two\n",
-          "SOLID\r\nFACET NORMAL 0 0 1\r\nOUTER LOOP\r\nVERTEX 0 0 0\r\nVERTEX 1 0 0\r\nVERTEX 1 0 0\r\nENDLOOP\r\nENDFACET\r\n"
-          "ENDSOLID\r\n",
-          "solid\nendsolid\n"};
+  return {
+      "solid one\nfacet normal 0 0 nan\n outer loop\n  vertex 0 0 0\n  vertex 1 -0 0\n  vertex 0 1 0\n "
+      "endloop\nendfacet\n"
+      "facet normal 0 0 1\n outer loop\n  vertex 0 0 0\n  vertex 1 0 0\n  vertex 0 0 1e-3\n endloop\nendfacet\n"
+      "endsolid one\nsolid two\nendsolid two\n",
+      "SOLID\r\nFACET NORMAL 0 0 1\r\nOUTER LOOP\r\nVERTEX 0 0 0\r\nVERTEX 1 0 0\r\nVERTEX 1 0 "
+      "0\r\nENDLOOP\r\nENDFACET\r\n"
+      "ENDSOLID\r\n",
+      "solid\nendsolid\n"};
 }
 
 std::vector<std::string> binary_stl_files() {
@@ -279,8 +285,7 @@ void mend_reeb_file(std::string& bytes) {
   store_checksum(bytes, 128, digest.value());
   store_checksum(bytes, region - kChecksumBytes, checksum_of(bytes, 0, region - kChecksumBytes));
   const std::size_t table = at + 8 * frames + 8;
-  if (table <= bytes.size() - kChecksumBytes && table > at)
-    store_checksum(bytes, table, checksum_of(bytes, at, table));
+  if (table <= bytes.size() - kChecksumBytes && table > at) store_checksum(bytes, table, checksum_of(bytes, at, table));
 }
 
 }  // namespace reeb::test

@@ -61,7 +61,8 @@ void watch_input(const std::string* bytes, const std::string& target) {
   static const bool installed = (install(), true);
   (void)installed;
   if (file_name.find(target) == std::string::npos)
-    file_name = std::filesystem::temp_directory_path() / ("reeb-fuzz-" + target + "-" + std::to_string(::getpid()) + ".input");
+    file_name =
+        std::filesystem::temp_directory_path() / ("reeb-fuzz-" + target + "-" + std::to_string(::getpid()) + ".input");
   current = bytes;
   ::alarm(bytes == nullptr ? 0 : kMostSeconds);
 }

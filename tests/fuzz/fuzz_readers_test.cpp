@@ -47,7 +47,8 @@ TEST_P(Fuzz, ChangedFilesAreReadOrRefused) {
     good += run(mutator.next()) ? 1u : 0u;
     ++cases;
   }
-  std::printf("%zu samples, %zu of them good; %zu changed files, %zu of them good\n", samples.size(), sound, cases, good);
+  std::printf("%zu samples, %zu of them good; %zu changed files, %zu of them good\n", samples.size(), sound, cases,
+              good);
 }
 
 std::vector<const FuzzTarget*> pointers() {

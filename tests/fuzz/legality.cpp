@@ -49,7 +49,8 @@ void BatchLegality::add(const MeshBatch& batch, const MeshInfo& info, std::size_
 
 void BatchLegality::add_vertices(const MeshBatch& batch) {
   for (const auto* columns : {&batch.coordinates, &batch.properties})
-    for (const auto& column : *columns) expect(column.size() == batch.vertex_count, "columns are as long as vertices are many");
+    for (const auto& column : *columns)
+      expect(column.size() == batch.vertex_count, "columns are as long as vertices are many");
   for (std::size_t i = 0; i < batch.vertex_count; ++i)
     for (const auto& column : batch.coordinates) {
       expect(std::isfinite(column[i]), "coordinates are finite");

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "io/streaming/stream_event.h"
+#include "io/events/stream_event.h"
 #include "libreeb/base/error.h"
 #include "libreeb/port/mesh_reader.h"
 
@@ -43,7 +43,7 @@ class BatchLegality {
   std::vector<bool> final_;
 };
 
-// The rules of a legal stream, in pre-order and in post-order (io/streaming/stream_event.h).
+// The rules of a legal stream, in pre-order and in post-order (io/events/stream_event.h).
 class EventLegality {
  public:
   void add(const StreamEvent& event, const StreamHeader& header);

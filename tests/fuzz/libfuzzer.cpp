@@ -27,7 +27,8 @@ extern "C" int LLVMFuzzerInitialize(int* count, char*** arguments) {
   }
   if (target == nullptr) {
     std::fprintf(stderr, "name a target:");
-    for (const FuzzTarget& known : fuzz_targets()) std::fprintf(stderr, " --target=%s", std::string(known.name).c_str());
+    for (const FuzzTarget& known : fuzz_targets())
+      std::fprintf(stderr, " --target=%s", std::string(known.name).c_str());
     std::fprintf(stderr, "\n");
     std::exit(2);
   }

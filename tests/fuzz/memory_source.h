@@ -7,7 +7,7 @@
 #include <memory>
 #include <string>
 
-#include "io/content_source.h"
+#include "io/file/content_source.h"
 
 namespace reeb::io {
 
@@ -17,8 +17,7 @@ class MemorySource final : public ContentSource {
   // is asked for.
   enum class Kind { kFile, kPipe };
 
-  MemorySource(std::string bytes, Kind kind)
-      : ContentSource("input"), bytes_(std::move(bytes)), kind_(kind) {}
+  MemorySource(std::string bytes, Kind kind) : ContentSource("input"), bytes_(std::move(bytes)), kind_(kind) {}
   using ContentSource::view;
 
   std::string_view view(std::uint64_t offset, std::size_t least) override {

@@ -9,17 +9,54 @@
 namespace reeb::test {
 namespace {
 
-constexpr std::array<std::string_view, 31> kNumbers = {
-    "0", "1", "-1", "2", "3", "4", "-2", "-3", "255", "256", "65536", "2147483647", "2147483648",
-    "-2147483648", "4294967295", "4294967296", "9223372036854775807", "18446744073709551615",
-    "99999999999999999999", "1e400", "-1e-400", "3.5e38", "nan", "-inf", "0x1p-149", "1.5", ".", "-", "+7", "",
-    "1e"};
+constexpr std::array<std::string_view, 31> kNumbers = {"0",
+                                                       "1",
+                                                       "-1",
+                                                       "2",
+                                                       "3",
+                                                       "4",
+                                                       "-2",
+                                                       "-3",
+                                                       "255",
+                                                       "256",
+                                                       "65536",
+                                                       "2147483647",
+                                                       "2147483648",
+                                                       "-2147483648",
+                                                       "4294967295",
+                                                       "4294967296",
+                                                       "9223372036854775807",
+                                                       "18446744073709551615",
+                                                       "99999999999999999999",
+                                                       "1e400",
+                                                       "-1e-400",
+                                                       "3.5e38",
+                                                       "nan",
+                                                       "-inf",
+                                                       "0x1p-149",
+                                                       "1.5",
+                                                       ".",
+                                                       "-",
+                                                       "+7",
+                                                       "",
+                                                       "1e"};
 
-const std::array<std::uint64_t, 16> kFields = {
-    0, 1, 2, 3, ~0ULL, ~0ULL - 1, 0x7f, 0x80, 0xffff, 0x7fffffff, 0x80000000, 1ULL << 32, 1ULL << 62,
-    std::bit_cast<std::uint32_t>(std::numeric_limits<float>::quiet_NaN()),
-    std::bit_cast<std::uint32_t>(std::numeric_limits<float>::infinity()),
-    std::bit_cast<std::uint64_t>(std::numeric_limits<double>::infinity())};
+const std::array<std::uint64_t, 16> kFields = {0,
+                                               1,
+                                               2,
+                                               3,
+                                               ~0ULL,
+                                               ~0ULL - 1,
+                                               0x7f,
+                                               0x80,
+                                               0xffff,
+                                               0x7fffffff,
+                                               0x80000000,
+                                               1ULL << 32,
+                                               1ULL << 62,
+                                               std::bit_cast<std::uint32_t>(std::numeric_limits<float>::quiet_NaN()),
+                                               std::bit_cast<std::uint32_t>(std::numeric_limits<float>::infinity()),
+                                               std::bit_cast<std::uint64_t>(std::numeric_limits<double>::infinity())};
 
 bool is_number(char c) { return (c >= '0' && c <= '9') || c == '-' || c == '.' || c == 'e'; }
 

@@ -7,17 +7,17 @@
 #include <memory>
 #include <sstream>
 
-#include "io/content_source.h"
-#include "io/event_input.h"
-#include "io/mesh_io.h"
-#include "io/obj_reader.h"
-#include "io/off_reader.h"
-#include "io/ply_indexed.h"
-#include "io/ply_reader.h"
-#include "io/stl_reader.h"
-#include "io/streaming/event_text.h"
+#include "io/events/event_text.h"
+#include "io/file/content_source.h"
+#include "io/formats/mesh_io.h"
+#include "io/formats/obj_reader.h"
+#include "io/formats/off_reader.h"
+#include "io/formats/ply_indexed.h"
+#include "io/formats/ply_reader.h"
+#include "io/formats/stl_reader.h"
+#include "io/streaming/event_input.h"
 #include "io/streaming/stream_mesh_reader.h"
-#include "ooc/reeb_file.h"
+#include "ooc/reeb_file/reeb_file.h"
 #include "tests/fuzz/corpus.h"
 #include "tests/fuzz/legality.h"
 #include "tests/fuzz/memory_file.h"
@@ -143,7 +143,8 @@ Delivered read_indexed(IndexedMesh& mesh) {
   std::vector<unsigned> columns;
   for (unsigned k = 0; k < mesh.column_count(); ++k) columns.push_back(k);
   while (delivered.simplices < kMostEvents && mesh.read(corners, 100)) {
-    expect(!corners.empty() && corners.size() % 3 == 0 && corners.size() <= 300, "triangles come whole, as many as asked for");
+    expect(!corners.empty() && corners.size() % 3 == 0 && corners.size() <= 300,
+           "triangles come whole, as many as asked for");
     for (const VertexId v : corners) expect(v.value() < mesh.vertex_count(), "a corner exists");
     values.assign(corners.size() * columns.size(), std::numeric_limits<double>::quiet_NaN());
     mesh.gather(corners, columns, values);
@@ -211,15 +212,33 @@ std::vector<std::string> streams(Endings... endings) {
   return files;
 }
 
-constexpr std::string_view kStreamWords[] = {"# nverts", "# nfaces", "# ncells", "# bb_min", "# bb_max", "# svtype tet",
-                                             "# v_pnum_f", "# v_pnum_i", "# c_pnum_f", "v", "f", "c", "x"};
-constexpr std::string_view kPlyWords[] = {
-    "element vertex", "element face", "element tristrips", "element other", "property list uchar int vertex_indices",
-    "property list int uint vertex_index", "property list double char odd", "property double", "property ushort", "x", "y", "z",
-    "comment", "obj_info", "format ascii 1.0", "format binary_big_endian 1.0", "end_header", "uint8", "float64"};
-constexpr std::string_view kObjWords[] = {"v", "f", "l", "p", "vn", "vt", "g", "o", "usemtl", "\\\n", "/", "//", "#", "curv", "end"};
+constexpr std::string_view kStreamWords[] = {
+    "# nverts",   "# nfaces", "# ncells", "# bb_min", "# bb_max", "# svtype tet", "# v_pnum_f", "# v_pnum_i",
+    "# c_pnum_f", "v",        "f",        "c",        "x"};
+constexpr std::string_view kPlyWords[] = {"element vertex",
+                                          "element face",
+                                          "element tristrips",
+                                          "element other",
+                                          "property list uchar int vertex_indices",
+                                          "property list int uint vertex_index",
+                                          "property list double char odd",
+                                          "property double",
+                                          "property ushort",
+                                          "x",
+                                          "y",
+                                          "z",
+                                          "comment",
+                                          "obj_info",
+                                          "format ascii 1.0",
+                                          "format binary_big_endian 1.0",
+                                          "end_header",
+                                          "uint8",
+                                          "float64"};
+constexpr std::string_view kObjWords[] = {"v",      "f",    "l", "p",  "vn", "vt",   "g",  "o",
+                                          "usemtl", "\\\n", "/", "//", "#",  "curv", "end"};
 constexpr std::string_view kOffWords[] = {"OFF", "STCN4nOFF", "nOFF", "COFF", "BINARY", "#"};
-constexpr std::string_view kStlWords[] = {"solid", "endsolid", "facet normal 0 0 1", "outer loop", "vertex", "endloop", "endfacet"};
+constexpr std::string_view kStlWords[] = {"solid",   "endsolid", "facet normal 0 0 1", "outer loop", "vertex",
+                                          "endloop", "endfacet"};
 
 std::vector<std::string> everything() {
   auto all = streams(".sma", ".smb", ".smc", ".sva", ".svb");

@@ -36,8 +36,7 @@ bool is_noise_below(const PlainGraph& graph, Node u, const ReebGraph& full, doub
 std::vector<Node> noise(const PlainGraph& graph, const ReebGraph& full, double threshold) {
   std::vector<Node> leaves;
   for (const Node node : graph.nodes())
-    if (is_noise_above(graph, node, full, threshold) ||
-        is_noise_below(graph, node, full, threshold))
+    if (is_noise_above(graph, node, full, threshold) || is_noise_below(graph, node, full, threshold))
       leaves.push_back(node);
   return leaves;
 }
@@ -115,8 +114,7 @@ Denoised naive_denoise(const ReebGraph& graph, double threshold, std::uint64_t s
   Random random(seed);
   PlainGraph current(graph);
   Denoised result;
-  for (auto leaves = noise(current, graph, threshold); !leaves.empty();
-       leaves = noise(current, graph, threshold)) {
+  for (auto leaves = noise(current, graph, threshold); !leaves.empty(); leaves = noise(current, graph, threshold)) {
     current.remove_node(leaves[random.below(leaves.size())]);
     current.contract_regular_nodes();
     ++result.removed_pairs;

@@ -26,8 +26,7 @@ Path lowest_path(const PlainGraph& graph, Node from, Node to) {
   Path path{from};
   while (path.back() != to) {
     const std::vector<Node> choices = graph.up(path.back());
-    const auto next = std::find_if(choices.begin(), choices.end(),
-                                   [&](Node node) { return graph.leads_up(node, to); });
+    const auto next = std::find_if(choices.begin(), choices.end(), [&](Node node) { return graph.leads_up(node, to); });
     if (next == choices.end()) throw std::logic_error("no monotone path to the upper node");
     path.push_back(*next);
   }
@@ -40,8 +39,7 @@ void cancel_maximum(PlainGraph& graph, Node v, Node u) {
   const Path first = lowest_path(graph, v, u);
   Path second{v};
   const std::vector<Node> starts = graph.up(v);
-  const auto outside =
-      std::find_if(starts.begin(), starts.end(), [&](Node node) { return !own.contains(node); });
+  const auto outside = std::find_if(starts.begin(), starts.end(), [&](Node node) { return !own.contains(node); });
   if (outside == starts.end()) throw std::logic_error("the up-fork has no other component");
   second.push_back(*outside);
   while (second.back() < u) {
@@ -119,9 +117,8 @@ NaiveHierarchy naive_hierarchy(const ReebGraph& graph, std::vector<PersistencePa
 }
 
 std::size_t NaiveHierarchy::version_below(double t, const ReebGraph& full) const {
-  const auto above = std::find_if(steps.begin(), steps.end(), [&](std::size_t pair) {
-    return !(persistence(full, pairs[pair]) < t);
-  });
+  const auto above =
+      std::find_if(steps.begin(), steps.end(), [&](std::size_t pair) { return !(persistence(full, pairs[pair]) < t); });
   return static_cast<std::size_t>(above - steps.begin());
 }
 

@@ -8,8 +8,7 @@ namespace reeb::test {
 
 PlainGraph::PlainGraph(const ReebGraph& graph) : full_(&graph) {
   for (Node v = 0; v < graph.node_count(); ++v) nodes_.insert(v);
-  for (std::size_t i = 0; i < graph.arc_count(); ++i)
-    arcs_.emplace(graph.lo[i].value(), graph.hi[i].value());
+  for (std::size_t i = 0; i < graph.arc_count(); ++i) arcs_.emplace(graph.lo[i].value(), graph.hi[i].value());
 }
 
 std::vector<PlainGraph::Node> PlainGraph::up(Node node) const {
@@ -33,8 +32,7 @@ bool PlainGraph::leads_up(Node from, Node to) const {
   return reached.contains(to);
 }
 
-std::set<PlainGraph::Node> PlainGraph::component(Node start,
-                                                 const std::function<bool(Node)>& allowed) const {
+std::set<PlainGraph::Node> PlainGraph::component(Node start, const std::function<bool(Node)>& allowed) const {
   std::set<Node> reached{start};
   for (std::size_t before = 0; before != reached.size();) {
     before = reached.size();
@@ -49,8 +47,7 @@ std::set<PlainGraph::Node> PlainGraph::component(Node start,
 
 void PlainGraph::remove_arc(Node lo, Node hi) {
   const auto it = arcs_.find({lo, hi});
-  if (it == arcs_.end())
-    throw std::logic_error("no arc from " + std::to_string(lo) + " to " + std::to_string(hi));
+  if (it == arcs_.end()) throw std::logic_error("no arc from " + std::to_string(lo) + " to " + std::to_string(hi));
   arcs_.erase(it);
 }
 
@@ -60,8 +57,7 @@ void PlainGraph::zip(const Path& first, const Path& second) {
     merged.insert(path->begin(), path->end());
     for (std::size_t i = 1; i < path->size(); ++i) remove_arc((*path)[i - 1], (*path)[i]);
   }
-  for (auto it = merged.begin(); std::next(it) != merged.end(); ++it)
-    arcs_.emplace(*it, *std::next(it));
+  for (auto it = merged.begin(); std::next(it) != merged.end(); ++it) arcs_.emplace(*it, *std::next(it));
 }
 
 void PlainGraph::remove_node(Node node) {
@@ -79,9 +75,7 @@ void PlainGraph::contract_regular_nodes() {
   }
 }
 
-PlainGraph::Node PlainGraph::flip(Node node) const {
-  return static_cast<Node>(full_->node_count()) - 1 - node;
-}
+PlainGraph::Node PlainGraph::flip(Node node) const { return static_cast<Node>(full_->node_count()) - 1 - node; }
 
 PlainGraph PlainGraph::flipped() const {
   PlainGraph result = *this;

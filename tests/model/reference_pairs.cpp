@@ -49,17 +49,14 @@ std::vector<Step> filtration(const std::vector<Cell>& cells) {
 }
 
 // Boundary columns; row 0 is the apex, row i + 1 is step i.
-std::vector<Column> boundary_matrix(const std::vector<Cell>& cells,
-                                    const std::vector<Step>& steps) {
+std::vector<Column> boundary_matrix(const std::vector<Cell>& cells, const std::vector<Step>& steps) {
   std::vector<std::size_t> row(cells.size()), coned_row(cells.size());
-  for (std::size_t i = 0; i < steps.size(); ++i)
-    (steps[i].coned ? coned_row : row)[steps[i].cell] = i + 1;
+  for (std::size_t i = 0; i < steps.size(); ++i) (steps[i].coned ? coned_row : row)[steps[i].cell] = i + 1;
   std::vector<Column> columns;
   for (const Step& step : steps) {
     Column column;
     const Cell& cell = cells[step.cell];
-    for (const std::size_t face : cell.boundary)
-      column.push_back(step.coned ? coned_row[face] : row[face]);
+    for (const std::size_t face : cell.boundary) column.push_back(step.coned ? coned_row[face] : row[face]);
     if (step.coned) column.push_back(row[step.cell]);
     if (step.coned && cell.dimension == 0) column.push_back(0);
     std::sort(column.begin(), column.end());
@@ -98,8 +95,7 @@ std::vector<RankPair> extended_pairs(const std::vector<Cell>& cells) {
     const unsigned dimension = born.dimension + (from.coned ? 1 : 0);
     if (!to.coned && dimension == 0 && born.highest != dying.highest)
       result.push_back({PairType::kOrd0, born.highest, dying.highest});
-    if (!from.coned && to.coned && dimension == 0)
-      result.push_back({PairType::kExt0, born.highest, dying.lowest});
+    if (!from.coned && to.coned && dimension == 0) result.push_back({PairType::kExt0, born.highest, dying.lowest});
     if (!from.coned && to.coned && dimension == 1 && dying.lowest < born.highest)
       result.push_back({PairType::kExt1, dying.lowest, born.highest});
     if (from.coned && dimension == 1 && born.lowest != dying.lowest)
@@ -119,20 +115,18 @@ std::vector<PersistencePair> reference_pairs(const ReebGraph& graph) {
   }
   std::vector<PersistencePair> pairs;
   for (const RankPair& pair : extended_pairs(cells))
-    pairs.push_back({NodeId(static_cast<std::uint32_t>(pair.lo)),
-                     NodeId(static_cast<std::uint32_t>(pair.hi)), pair.type, false});
+    pairs.push_back(
+        {NodeId(static_cast<std::uint32_t>(pair.lo)), NodeId(static_cast<std::uint32_t>(pair.hi)), pair.type, false});
   std::sort(pairs.begin(), pairs.end(), [](const PersistencePair& a, const PersistencePair& b) {
     return std::tuple(a.type, a.lo, a.hi) < std::tuple(b.type, b.lo, b.hi);
   });
   return pairs;
 }
 
-std::vector<VertexPair> vertex_pairs(const ReebGraph& graph,
-                                     const std::vector<PersistencePair>& pairs) {
+std::vector<VertexPair> vertex_pairs(const ReebGraph& graph, const std::vector<PersistencePair>& pairs) {
   std::vector<VertexPair> result;
   for (const PersistencePair& pair : pairs)
-    result.push_back(
-        {pair.type, graph.nodes[pair.lo.value()].vertex, graph.nodes[pair.hi.value()].vertex});
+    result.push_back({pair.type, graph.nodes[pair.lo.value()].vertex, graph.nodes[pair.hi.value()].vertex});
   std::sort(result.begin(), result.end());
   return result;
 }

@@ -53,9 +53,7 @@ class LevelSet {
   }
 
   bool crosses(std::size_t a, std::size_t b) const { return 2 * a < height_ && height_ < 2 * b; }
-  bool crosses(std::size_t edge) const {
-    return crosses(complex_->edges[edge][0], complex_->edges[edge][1]);
-  }
+  bool crosses(std::size_t edge) const { return crosses(complex_->edges[edge][0], complex_->edges[edge][1]); }
   std::size_t component_of_edge(std::size_t edge) { return sets_.find(edge); }
   // REQUIRES: the level of a vertex.
   std::size_t component_of_vertex() { return sets_.find(vertex_point()); }
@@ -64,9 +62,8 @@ class LevelSet {
   std::size_t vertex_point() const { return complex_->edges.size(); }
   std::size_t point_of_edge(std::size_t a, std::size_t b) const {
     const std::array<std::size_t, 2> edge{a, b};
-    return static_cast<std::size_t>(
-        std::lower_bound(complex_->edges.begin(), complex_->edges.end(), edge) -
-        complex_->edges.begin());
+    return static_cast<std::size_t>(std::lower_bound(complex_->edges.begin(), complex_->edges.end(), edge) -
+                                    complex_->edges.begin());
   }
 
   const RankedComplex* complex_;
@@ -109,8 +106,7 @@ class Quotient {
     contours_.push_back({rank, {}, {}});
     for (std::size_t e = 0; e < complex_.edges.size(); ++e) {
       if (!level.crosses(e)) continue;
-      if (upper_.try_emplace(level.component_of_edge(e), contours_.size()).second)
-        contours_.push_back({});
+      if (upper_.try_emplace(level.component_of_edge(e), contours_.size()).second) contours_.push_back({});
     }
   }
 
@@ -121,8 +117,7 @@ class Quotient {
       if (!between.crosses(e)) continue;
       const auto [a, b] = complex_.edges[e];
       const std::size_t low = a == r ? below.component_of_vertex() : below.component_of_edge(e);
-      const std::size_t high =
-          b == r + 1 ? above.component_of_vertex() : above.component_of_edge(e);
+      const std::size_t high = b == r + 1 ? above.component_of_vertex() : above.component_of_edge(e);
       const std::pair<std::size_t, std::size_t> end{lower_.at(low), upper_.at(high)};
       const auto [it, is_new] = ends.try_emplace(between.component_of_edge(e), end);
       if (it->second != end) throw std::logic_error("a contour continues in two");
@@ -178,8 +173,7 @@ ReebGraph without_positions(ReebGraph graph) {
 std::string describe(const ReebGraph& graph) {
   std::ostringstream out;
   out.precision(17);
-  for (const SweepKey& node : graph.nodes)
-    out << "n " << node.vertex.value() << ' ' << node.value << '\n';
+  for (const SweepKey& node : graph.nodes) out << "n " << node.vertex.value() << ' ' << node.value << '\n';
   for (std::size_t i = 0; i < graph.arc_count(); ++i)
     out << "a " << graph.nodes[graph.lo[i].value()].vertex.value() << ' '
         << graph.nodes[graph.hi[i].value()].vertex.value() << '\n';

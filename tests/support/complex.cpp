@@ -10,8 +10,7 @@
 
 namespace reeb::test {
 
-Complex make_complex(std::vector<double> values,
-                     std::vector<std::vector<std::uint64_t>> simplices) {
+Complex make_complex(std::vector<double> values, std::vector<std::vector<std::uint64_t>> simplices) {
   Complex complex;
   complex.positions.assign(values.size(), {});
   complex.values = std::move(values);
@@ -39,9 +38,8 @@ Skeleton two_skeleton(const Complex& complex) {
 std::vector<std::uint64_t> sweep_order(const Complex& complex) {
   std::vector<std::uint64_t> order(complex.vertex_count());
   std::iota(order.begin(), order.end(), std::uint64_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::uint64_t a, std::uint64_t b) {
-    return complex.values[a] < complex.values[b];
-  });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::uint64_t a, std::uint64_t b) { return complex.values[a] < complex.values[b]; });
   return order;
 }
 

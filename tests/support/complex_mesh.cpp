@@ -49,8 +49,7 @@ void ColumnFunction::evaluate(std::span<const VertexId>, std::span<const std::sp
 void IndexedComplex::gather(std::span<const VertexId> ids, std::span<const unsigned> columns,
                             std::span<double> values) {
   for (std::size_t k = 0; k < columns.size(); ++k)
-    for (std::size_t i = 0; i < ids.size(); ++i)
-      values[k * ids.size() + i] = mesh_.columns[columns[k]][ids[i].value()];
+    for (std::size_t i = 0; i < ids.size(); ++i) values[k * ids.size() + i] = mesh_.columns[columns[k]][ids[i].value()];
 }
 
 bool IndexedComplex::read(std::vector<VertexId>& corners, std::size_t limit) {

@@ -85,8 +85,8 @@ class ComplexStream : public MeshReader {
   const ComplexMesh& mesh_;
   Random random_;
   MeshInfo info_;
-  std::size_t most_simplices_;  // a batch
-  unsigned eager_percent_;      // of the vertices that could be finalized, how many are
+  std::size_t most_simplices_;   // a batch
+  unsigned eager_percent_;       // of the vertices that could be finalized, how many are
   unsigned early_percent_ = 10;  // of the batches, how many bring all vertices
   std::vector<std::size_t> last_use_;
   std::vector<std::size_t> waiting_;  // introduced and not finalized

@@ -9,7 +9,7 @@
 
 #include "libreeb/hierarchy/cancel.h"
 #include "libreeb/hierarchy/levels.h"
-#include "ooc/reeb_file.h"
+#include "ooc/reeb_file/reeb_file.h"
 
 namespace reeb::test {
 

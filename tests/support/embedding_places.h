@@ -2,8 +2,9 @@
 // chunks (DESIGN.md 1.7).
 //
 // A node that a later chunk brings cuts the bucket in which its value lies, whose vertices are no longer
-// known one by one: a vertex of that bucket may then be taken for one of another arc of the same node. So what lies in a bucket of all arcs together that hang together through nodes of that very
-// bucket does not depend on the chunks; a vertex never strays from there.
+// known one by one: a vertex of that bucket may then be taken for one of another arc of the same node. So what lies in
+// a bucket of all arcs together that hang together through nodes of that very bucket does not depend on the chunks; a
+// vertex never strays from there.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -15,7 +16,7 @@
 #include <vector>
 
 #include "libreeb/base/union_find.h"
-#include "ooc/reeb_file.h"
+#include "ooc/reeb_file/reeb_file.h"
 
 namespace reeb::test {
 

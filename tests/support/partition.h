@@ -9,9 +9,7 @@ namespace reeb::test {
 
 class Partition {
  public:
-  explicit Partition(std::size_t size) : parent_(size) {
-    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
-  }
+  explicit Partition(std::size_t size) : parent_(size) { std::iota(parent_.begin(), parent_.end(), std::size_t{0}); }
 
   std::size_t find(std::size_t item) {
     while (parent_[item] != item) item = parent_[item] = parent_[parent_[item]];

@@ -9,12 +9,12 @@
 namespace reeb::test {
 
 struct Command {
-  std::vector<std::string> arguments;  // the first is the program, looked up in PATH
-  std::string folder = {};             // to run in; empty: this one
-  std::string input = "/dev/null";     // file that is its standard input
+  std::vector<std::string> arguments;                                 // the first is the program, looked up in PATH
+  std::string folder = {};                                            // to run in; empty: this one
+  std::string input = "/dev/null";                                    // file that is its standard input
   std::vector<std::pair<std::string, std::string>> environment = {};  // on top of this process's
-  std::uint64_t address_space_bytes = 0;  // 0: as much as it likes
-  unsigned most_seconds = 600;            // killed by SIGALRM after these
+  std::uint64_t address_space_bytes = 0;                              // 0: as much as it likes
+  unsigned most_seconds = 600;                                        // killed by SIGALRM after these
 };
 
 struct Outcome {

@@ -17,9 +17,7 @@ class Random {
   // In [0, bound). REQUIRES: bound > 0.
   std::uint64_t below(std::uint64_t bound) { return engine_() % bound; }
   // In [first, last].
-  std::uint64_t between(std::uint64_t first, std::uint64_t last) {
-    return first + below(last - first + 1);
-  }
+  std::uint64_t between(std::uint64_t first, std::uint64_t last) { return first + below(last - first + 1); }
   bool chance(unsigned percent) { return below(100) < percent; }
   // In [0, 1).
   double unit() { return static_cast<double>(engine_() >> 11) * 0x1p-53; }

@@ -17,9 +17,7 @@ std::size_t random_side(Random& random) {
   return random.between(1, 4);
 }
 
-std::size_t random_count(Random& random) {
-  return random_side(random) * random_side(random) + random.below(3);
-}
+std::size_t random_count(Random& random) { return random_side(random) * random_side(random) + random.below(3); }
 
 // Simplices with corners at random, the number of corners within the bounds; corners may repeat.
 Complex random_soup(Random& random, std::size_t least_corners, std::size_t most_corners) {
@@ -30,8 +28,7 @@ Complex random_soup(Random& random, std::size_t least_corners, std::size_t most_
     simplex.resize(random.between(least_corners, most_corners));
     for (std::uint64_t& corner : simplex) corner = random.below(complex.vertex_count());
   }
-  complex.kind = "soup of " + std::to_string(least_corners) + " to " +
-                 std::to_string(most_corners) + " corners";
+  complex.kind = "soup of " + std::to_string(least_corners) + " to " + std::to_string(most_corners) + " corners";
   return complex;
 }
 
@@ -67,8 +64,7 @@ Complex random_fans(Random& random) {
   for (std::uint64_t n = random.below(3); n > 0; --n) {
     const std::uint64_t center = complex.vertex_count();
     complex = disjoint_union(complex, fan(random.between(1, 8), random.chance(50)));
-    for (auto& simplex : complex.simplices)
-      std::replace(simplex.begin(), simplex.end(), center, std::uint64_t{0});
+    for (auto& simplex : complex.simplices) std::replace(simplex.begin(), simplex.end(), center, std::uint64_t{0});
   }
   return complex;
 }
@@ -90,8 +86,7 @@ Complex random_shape(Random& random) {
     case 6:
       return book(random.between(1, 12));
     case 7:
-      return closed_surface(static_cast<unsigned>(random.below(4)), random.between(3, 5),
-                            random.between(3, 4));
+      return closed_surface(static_cast<unsigned>(random.below(4)), random.between(3, 5), random.between(3, 4));
     case 8:
       return tied_strip(random.between(1, 12), random.between(1, 4));
     case 9:
@@ -157,9 +152,7 @@ void renumber_vertices(Complex& complex, Random& random) {
 
 using Limits = std::numeric_limits<double>;
 
-double pick(Random& random, const std::vector<double>& choices) {
-  return choices[random.below(choices.size())];
-}
+double pick(Random& random, const std::vector<double>& choices) { return choices[random.below(choices.size())]; }
 
 double random_value(Random& random, std::uint64_t kind, std::size_t vertex, std::size_t period) {
   const auto index = static_cast<double>(vertex);
@@ -198,8 +191,7 @@ void set_random_values(Complex& complex, std::uint64_t seed) {
   const std::uint64_t kind = random.below(20);
   const std::size_t period = random.between(1, 6);
   complex.values.resize(complex.vertex_count());
-  for (std::size_t v = 0; v < complex.vertex_count(); ++v)
-    complex.values[v] = random_value(random, kind, v, period);
+  for (std::size_t v = 0; v < complex.vertex_count(); ++v) complex.values[v] = random_value(random, kind, v, period);
   complex.kind += ", values " + std::to_string(kind);
 }
 

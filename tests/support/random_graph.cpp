@@ -22,8 +22,7 @@ ReebGraph random_graph(Random& random, std::size_t nodes, std::size_t arcs) {
   for (std::size_t i = 0; i < arcs && nodes > 1; ++i) {
     const std::size_t lo = random.below(nodes - 1);
     const std::size_t hi = lo + 1 + random.below(std::min(reach, nodes - 1 - lo));
-    ends.emplace_back(NodeId(static_cast<std::uint32_t>(lo)),
-                      NodeId(static_cast<std::uint32_t>(hi)));
+    ends.emplace_back(NodeId(static_cast<std::uint32_t>(lo)), NodeId(static_cast<std::uint32_t>(hi)));
   }
   std::sort(ends.begin(), ends.end());
   for (const auto& [lo, hi] : ends) {

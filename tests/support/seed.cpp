@@ -19,8 +19,6 @@ std::uint64_t base_seed() {
   return seed;
 }
 
-std::uint64_t case_count(std::uint64_t ordinary) {
-  return from_environment("REEB_CASES", ordinary);
-}
+std::uint64_t case_count(std::uint64_t ordinary) { return from_environment("REEB_CASES", ordinary); }
 
 }  // namespace reeb::test

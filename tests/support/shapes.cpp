@@ -32,13 +32,11 @@ void glue_left_to_right(Partition& sets, std::size_t columns, std::size_t rows, 
 }
 
 void glue_bottom_to_top(Partition& sets, std::size_t columns, std::size_t rows, bool twisted) {
-  for (std::size_t i = 0; i <= columns; ++i)
-    sets.unite(rows * (columns + 1) + i, twisted ? columns - i : i);
+  for (std::size_t i = 0; i <= columns; ++i) sets.unite(rows * (columns + 1) + i, twisted ? columns - i : i);
 }
 
 void glue_to_a_point(Partition& sets, std::size_t columns, std::size_t row) {
-  for (std::size_t i = 1; i <= columns; ++i)
-    sets.unite(row * (columns + 1), row * (columns + 1) + i);
+  for (std::size_t i = 1; i <= columns; ++i) sets.unite(row * (columns + 1), row * (columns + 1) + i);
 }
 
 Complex disc(std::size_t columns, std::size_t rows) {
@@ -141,8 +139,7 @@ Complex fan(std::size_t blades, bool closed) {
     complex.positions.push_back({std::cos(angle), std::sin(angle), 0});
   }
   complex.values.assign(complex.positions.size(), 0.0);
-  for (std::size_t i = 0; i < blades; ++i)
-    complex.simplices.push_back({0, 1 + i, 1 + (i + 1) % rim});
+  for (std::size_t i = 0; i < blades; ++i) complex.simplices.push_back({0, 1 + i, 1 + (i + 1) % rim});
   complex.kind = "fan of " + std::to_string(blades);
   return complex;
 }
@@ -168,8 +165,7 @@ Complex plateau(std::size_t columns, std::size_t rows) {
 
 Complex tied_strip(std::size_t columns, std::size_t rows) {
   Complex complex = disc(columns, rows);
-  for (std::size_t v = 0; v < complex.vertex_count(); ++v)
-    complex.values[v] = complex.positions[v][1];
+  for (std::size_t v = 0; v < complex.vertex_count(); ++v) complex.values[v] = complex.positions[v][1];
   complex.kind = "tied strip " + complex.kind;
   return complex;
 }

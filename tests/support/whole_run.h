@@ -12,13 +12,13 @@
 #include <string>
 #include <vector>
 
-#include "ooc/compute.h"
-#include "ooc/reeb_file.h"
-#include "tests/ooc/scratch.h"
+#include "ooc/reeb_file/reeb_file.h"
+#include "ooc/run/compute.h"
 #include "tests/support/complex_mesh.h"
 #include "tests/support/conservation.h"
 #include "tests/support/files.h"
 #include "tests/support/run_limits.h"
+#include "tests/support/scratch.h"
 
 namespace reeb::test {
 
@@ -37,7 +37,8 @@ struct RunShape {
 };
 
 inline std::ostream& operator<<(std::ostream& out, const RunShape& shape) {
-  return out << "chunk " << shape.chunk_triangles << " of " << shape.stretch_triangles << ", threads " << shape.threads << ", " << name_of(shape.form);
+  return out << "chunk " << shape.chunk_triangles << " of " << shape.stretch_triangles << ", threads " << shape.threads
+             << ", " << name_of(shape.form);
 }
 
 inline std::vector<std::size_t> all_chunk_sizes() {

@@ -8,20 +8,20 @@
 #include <thread>
 #include <vector>
 
-#include "io/function_source.h"
-#include "io/mesh_function.h"
-#include "io/mesh_io.h"
+#include "io/formats/mesh_io.h"
+#include "io/functions/function_source.h"
+#include "io/functions/mesh_function.h"
 #include "libreeb/base/error.h"
-#include "ooc/compute.h"
-#include "ooc/reeb_file.h"
-#include "ooc/partial_folder.h"
+#include "ooc/reeb_file/reeb_file.h"
+#include "ooc/run/compute.h"
+#include "ooc/run/partial_folder.h"
 #include "tools/commands/commands.h"
-#include "tools/compute_report.h"
-#include "tools/output.h"
-#include "tools/progress.h"
-#include "tools/quantity.h"
-#include "tools/signals.h"
-#include "tools/snapshots.h"
+#include "tools/program/compute_report.h"
+#include "tools/program/output.h"
+#include "tools/program/progress.h"
+#include "tools/program/quantity.h"
+#include "tools/program/signals.h"
+#include "tools/program/snapshots.h"
 
 namespace reeb::tools {
 namespace {
@@ -49,7 +49,8 @@ std::vector<std::string> output_names(const ComputeArguments& arguments, const s
   if (specs.size() == 1) return {output.string()};
   if (output.extension() == ".reeb") output.replace_extension();
   std::vector<std::string> names;
-  for (const io::FunctionSpec& spec : specs) names.push_back(output.string() + "-" + io::file_name_part(spec) + ".reeb");
+  for (const io::FunctionSpec& spec : specs)
+    names.push_back(output.string() + "-" + io::file_name_part(spec) + ".reeb");
   return names;
 }
 
@@ -70,11 +71,16 @@ std::string describe(const MeshInfo& info) {
 const char* title(ooc::ComputeProgress::Phase phase) {
   using Phase = ooc::ComputeProgress::Phase;
   switch (phase) {
-    case Phase::kSpool: return "reading";
-    case Phase::kFinalization: return "finalization";
-    case Phase::kReeb: return "Reeb graph";
-    case Phase::kReorder: return "reordering";
-    case Phase::kHierarchy: break;
+    case Phase::kSpool:
+      return "reading";
+    case Phase::kFinalization:
+      return "finalization";
+    case Phase::kReeb:
+      return "Reeb graph";
+    case Phase::kReorder:
+      return "reordering";
+    case Phase::kHierarchy:
+      break;
   }
   return "hierarchy";
 }
@@ -136,7 +142,8 @@ void run_compute(ComputeArguments arguments) {
   if (!arguments.quiet) fmt::print(stderr, "{}: {}\n", arguments.mesh, describe(info));
   if (arguments.snapshot_every != 0)
     input.reader = with_snapshots(std::move(input.reader), arguments.snapshot_every, pointers, outputs);
-  else if (arguments.mesh != "-") input.indexed = io::open_indexed_mesh(arguments.mesh, read_options);
+  else if (arguments.mesh != "-")
+    input.indexed = io::open_indexed_mesh(arguments.mesh, read_options);
   if (input.indexed) input.reader.reset();
   if (arguments.mesh != "-" && arguments.snapshot_every == 0)
     input.read_again = [&] { return io::open_mesh(arguments.mesh, read_options); };
@@ -162,11 +169,14 @@ void add_compute(CLI::App& program) {
   if (const char* seconds = std::getenv("REEB_CHECKPOINT_SECONDS"))
     arguments->options.checkpoint_seconds = std::atof(seconds);
   CLI::App* command = program.add_subcommand("compute", "Compute the Reeb graph of a mesh (the default command)");
-  command->add_option("MESH", arguments->mesh, "PLY, OBJ, OFF, STL, SMA, SMB, SMC, SVA or SVB, also .gz and .zst; - reads standard input")
+  command
+      ->add_option("MESH", arguments->mesh,
+                   "PLY, OBJ, OFF, STL, SMA, SMB, SMC, SVA or SVB, also .gz and .zst; - reads standard input")
       ->required();
   command->add_option("-o,--output", arguments->output, "File to write (default: the mesh's name with .reeb)");
-  command->add_option("-f,--function", arguments->functions,
-                      "x y z cK index random:SEED property:NAME file:PATH (default z; may be repeated)")
+  command
+      ->add_option("-f,--function", arguments->functions,
+                   "x y z cK index random:SEED property:NAME file:PATH (default z; may be repeated)")
       ->allow_extra_args(false);
   command->add_flag("--graph-only", arguments->options.graph_only, "Stop after the graph: no pairs, no levels");
   command->add_option("--chunk", arguments->options.chunk_triangles, "Triangles a chunk (default: adaptive)")
@@ -176,16 +186,18 @@ void add_compute(CLI::App& program) {
   command->add_option("--temp-dir", arguments->options.temp_dir,
                       "Folder for temporary files (default: $TMPDIR, or the output's folder)");
   command->add_option("--denoise", arguments->denoise, "Remove minima and maxima of less persistence: 0.01, or 0.1%");
-  command->add_option("--buckets", arguments->options.buckets,
-                      "Buckets of value, at least, in which arcs are embedded (0: no embedding; default 64)")
+  command
+      ->add_option("--buckets", arguments->options.buckets,
+                   "Buckets of value, at least, in which arcs are embedded (0: no embedding; default 64)")
       ->check(CLI::Range(0u, 1u << 20));
   command->add_flag("!--no-reorder", arguments->options.may_reorder, "Never sort an incoherent mesh on disk first");
   command->add_flag("--resume", arguments->options.resume,
                     "Go on from where an interrupted run was, if its OUT.partial is there and fits");
   command->add_flag("--sidecar", arguments->options.keep_sidecar, "Keep the finalization as MESH.final for later runs");
   command->add_option("--report", arguments->report, "Write a JSON report (-: to standard output)");
-  command->add_option("--snapshot-every", arguments->snapshot_every,
-                      "Triangles after which the graph so far is written, as OUT-000001.reeb, OUT-000002.reeb, ...")
+  command
+      ->add_option("--snapshot-every", arguments->snapshot_every,
+                   "Triangles after which the graph so far is written, as OUT-000001.reeb, OUT-000002.reeb, ...")
       ->check(at_least_one());
   command->add_flag("--quiet", arguments->quiet, "No progress and no summary");
   command->add_flag("--force", arguments->force, "Replace existing outputs");

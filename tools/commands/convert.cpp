@@ -4,11 +4,12 @@
 #include <memory>
 #include <string>
 
-#include "io/mesh_writer.h"
+#include "io/file/temp_dir.h"
+#include "io/formats/create_mesh.h"
 #include "libreeb/base/error.h"
 #include "tools/commands/commands.h"
-#include "tools/convert/convert_mesh.h"
-#include "tools/quantity.h"
+#include "tools/program/convert_mesh.h"
+#include "tools/program/quantity.h"
 
 namespace reeb::tools {
 namespace {
@@ -39,8 +40,9 @@ void add_convert(CLI::App& program) {
   CLI::App* command = program.add_subcommand("convert", "Convert a mesh into another format or order");
   command->add_option("IN", arguments->options.input, "Mesh of any format, also .gz and .zst; - reads standard input")
       ->required();
-  command->add_option("OUT", arguments->options.output,
-                      "Mesh to write: .ply .obj .off .sma .smb .smc .sva .svb; .events.txt lists the events")
+  command
+      ->add_option("OUT", arguments->options.output,
+                   "Mesh to write: .ply .obj .off .sma .smb .smc .sva .svb; .events.txt lists the events")
       ->required();
   command->add_flag("--finalize", arguments->options.finalize,
                     "Put each vertex before its first triangle and finalize it behind its last");

@@ -4,12 +4,12 @@
 #include <memory>
 #include <string>
 
-#include "io/graph_export.h"
+#include "io/export/graph_export.h"
 #include "libreeb/base/error.h"
-#include "ooc/reeb_file.h"
+#include "ooc/reeb_file/reeb_file.h"
 #include "tools/commands/commands.h"
-#include "tools/output.h"
-#include "tools/quantity.h"
+#include "tools/program/output.h"
+#include "tools/program/quantity.h"
 
 namespace reeb::tools {
 namespace {
@@ -53,10 +53,10 @@ void extract(const ExtractOptions& options) {
   if (const Error* damage = file.damage()) fmt::print(stderr, "reeb: warning: {}\n", damage->what());
   const ooc::Level level = file.load(choose_version(file, options));
   write_output(options.output, [&](std::ostream& out) {
-    io::write_graph(format,
-                    {level.graph, file.header().function, level.threshold, level.buckets.view(),
-                     file.header().bucket_exponent},
-                    out);
+    io::write_graph(
+        format,
+        {level.graph, file.header().function, level.threshold, level.buckets.view(), file.header().bucket_exponent},
+        out);
   });
 }
 

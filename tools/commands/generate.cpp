@@ -5,8 +5,8 @@
 #include <memory>
 #include <string>
 
-#include "io/generator/generator.h"
-#include "io/mesh_writer.h"
+#include "io/formats/create_mesh.h"
+#include "io/generate/generator.h"
 #include "tools/commands/commands.h"
 
 namespace reeb::tools {
@@ -19,8 +19,8 @@ struct GenerateArguments {
 };
 
 void print_summary(const std::string& output, const io::ExpectedTopology& t) {
-  fmt::print(stderr, "wrote {}: {} vertices, {} triangles, Euler characteristic {}", output,
-             t.vertices, t.triangles, t.euler_characteristic);
+  fmt::print(stderr, "wrote {}: {} vertices, {} triangles, Euler characteristic {}", output, t.vertices, t.triangles,
+             t.euler_characteristic);
   if (t.genus) fmt::print(stderr, ", genus {}", *t.genus);
   if (t.boundary_loops) fmt::print(stderr, ", {} boundary loops", *t.boundary_loops);
   if (!t.genus) fmt::print(stderr, ", first Betti number {}", t.first_betti);
@@ -36,7 +36,7 @@ void run_generate(GenerateArguments arguments) {
   options.vertex_count = mesh->info().vertex_count;
   options.existing = arguments.force ? io::Existing::kReplace : io::Existing::kRefuse;
   const auto writer = io::create_mesh(arguments.output, options);
-  io::copy_mesh(*mesh, *writer);
+  copy_mesh(*mesh, *writer);
   print_summary(arguments.output, mesh->topology());
 }
 
@@ -45,24 +45,19 @@ void run_generate(GenerateArguments arguments) {
 void add_generate(CLI::App& program) {
   auto arguments = std::make_shared<GenerateArguments>();
   CLI::App* command = program.add_subcommand("generate", "Write a test mesh of any size");
-  command->add_option("KIND", arguments->kind, "torus terrain grid plate scan sierpinski")
-      ->required();
-  command->add_option("-o,--output", arguments->output, "Mesh to write: .ply .obj .off")
-      ->required();
+  command->add_option("KIND", arguments->kind, "torus terrain grid plate scan sierpinski")->required();
+  command->add_option("-o,--output", arguments->output, "Mesh to write: .ply .obj .off")->required();
   command->add_option("--triangles", arguments->mesh.triangles, "About how many (10000, 12M, 372M)")
-      ->transform(CLI::AsNumberWithUnit(std::map<std::string, std::uint64_t>{
-          {"k", 1'000}, {"m", 1'000'000}, {"g", 1'000'000'000}}))
+      ->transform(CLI::AsNumberWithUnit(
+          std::map<std::string, std::uint64_t>{{"k", 1'000}, {"m", 1'000'000}, {"g", 1'000'000'000}}))
       ->capture_default_str();
-  command->add_option("--order", arguments->order, "rows, patches or random")
-      ->capture_default_str();
-  command->add_option("--seed", arguments->mesh.seed, "Of noise, handles and random order")
-      ->capture_default_str();
+  command->add_option("--order", arguments->order, "rows, patches or random")->capture_default_str();
+  command->add_option("--seed", arguments->mesh.seed, "Of noise, handles and random order")->capture_default_str();
   command->add_option("--width", arguments->mesh.width, "Cells in a row of the grid");
   command->add_option("--dimension", arguments->mesh.dimension, "Of a sierpinski simplex: 2 to 5")
       ->capture_default_str();
   command->add_flag("--force", arguments->force, "Replace an existing output");
-  command->footer(
-      "Example:\n  reeb generate scan --triangles 12M --order patches --seed 7 -o scan.ply");
+  command->footer("Example:\n  reeb generate scan --triangles 12M --order patches --seed 7 -o scan.ply");
   command->callback([arguments] { run_generate(*arguments); });
 }
 

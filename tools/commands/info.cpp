@@ -3,11 +3,11 @@
 #include <string>
 
 #include "libreeb/base/memory_budget.h"
-#include "ooc/reeb_file.h"
+#include "ooc/reeb_file/reeb_file.h"
 #include "tools/commands/commands.h"
-#include "tools/commands/reeb_info.h"
-#include "tools/mesh_info.h"
-#include "tools/quantity.h"
+#include "tools/program/mesh_info.h"
+#include "tools/program/quantity.h"
+#include "tools/program/reeb_info.h"
 
 namespace reeb::tools {
 
@@ -25,8 +25,10 @@ void add_info(CLI::App& app) {
   command->footer("Example:\n  reeb info scan.reeb");
   command->callback([options] {
     const std::uint64_t memory = options->memory.empty() ? MemoryBudget::kUnlimited : parse_size(options->memory);
-    if (options->file != "-" && ooc::is_reeb_file(options->file)) print_reeb_info(options->file, options->json);
-    else print_mesh_info(options->file, memory, options->temp_folder, options->json);
+    if (options->file != "-" && ooc::is_reeb_file(options->file))
+      print_reeb_info(options->file, options->json);
+    else
+      print_mesh_info(options->file, memory, options->temp_folder, options->json);
   });
 }
 

@@ -4,10 +4,10 @@
 #include <string>
 #include <tuple>
 
-#include "io/text_sink.h"
-#include "ooc/reeb_file.h"
+#include "io/text/text_sink.h"
+#include "ooc/reeb_file/reeb_file.h"
 #include "tools/commands/commands.h"
-#include "tools/output.h"
+#include "tools/program/output.h"
 
 namespace reeb::tools {
 namespace {

@@ -2,15 +2,18 @@
 #include <fmt/core.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 
+#include "io/formats/mesh_io.h"
 #include "libreeb/base/error.h"
 #include "libreeb/base/memory_budget.h"
-#include "ooc/reeb_file.h"
+#include "ooc/reeb_file/reeb_file.h"
+#include "ooc/whole_mesh/mesh_recount.h"
+#include "ooc/whole_mesh/workspace.h"
 #include "tools/commands/commands.h"
-#include "tools/mesh_recount.h"
-#include "tools/quantity.h"
-#include "tools/workspace.h"
+#include "tools/program/node_check.h"
+#include "tools/program/quantity.h"
 
 namespace reeb::tools {
 namespace {
@@ -27,7 +30,7 @@ void compare(const std::string& path, const char* what, Count in_file, Count in_
       .at(path);
 }
 
-std::string describe_surface(const MeshRecount& mesh) {
+std::string describe_surface(const ooc::MeshRecount& mesh) {
   if (!mesh.most_loops) return "not a surface, so its loops are not bounded";
   if (!mesh.closed) return fmt::format("a surface with boundary: at most {} loops", *mesh.most_loops);
   return fmt::format("a closed surface of genus {}", *mesh.most_loops);
@@ -35,15 +38,21 @@ std::string describe_surface(const MeshRecount& mesh) {
 
 void compare_with_mesh(const ooc::ReebFile& file, const VerifyOptions& options) {
   const std::uint64_t memory = options.memory.empty() ? MemoryBudget::kUnlimited : parse_size(options.memory);
-  Workspace space(options.temp_folder, memory);
+  ooc::Workspace space(options.temp_folder, memory);
   const FileHeader& header = file.header();
-  const MeshRecount mesh = recount_mesh(options.mesh, header.function, file.load(0).graph, space);
+  const ReebGraph graph = file.load(0).graph;
+  NodeCheck nodes(options.mesh, header.function, graph);
+  const auto reader = io::open_mesh(options.mesh, {.properties = nodes.properties()});
+  nodes.start(reader->info());
+  const ooc::MeshRecount mesh =
+      ooc::recount_mesh(*reader, space, [&nodes](const MeshBatch& batch) { nodes.add(batch); });
+  const std::optional<ValueRange> range = nodes.finish();
   compare(options.file, "vertices", header.mesh_vertices, mesh.vertices);
   compare(options.file, "triangles", header.mesh_triangles, mesh.triangles);
   compare(options.file, "components", header.components, mesh.components);
-  if (mesh.range) {
-    compare(options.file, "as the least value", header.function_min, mesh.range->min);
-    compare(options.file, "as the greatest value", header.function_max, mesh.range->max);
+  if (range) {
+    compare(options.file, "as the least value", header.function_min, range->min);
+    compare(options.file, "as the greatest value", header.function_max, range->max);
   }
   if (mesh.most_loops && header.loops > *mesh.most_loops)
     throw Error(ErrorKind::kBadInput,
@@ -59,8 +68,7 @@ void verify(const VerifyOptions& options) {
   file.verify();
   const FileHeader& header = file.header();
   fmt::print("{}: good: {} nodes, {} arcs, {} components, {} loops, {} pairs, {} versions\n", options.file,
-             header.nodes, header.arcs, header.components, header.loops, header.pairs,
-             std::uint64_t{header.steps} + 1);
+             header.nodes, header.arcs, header.components, header.loops, header.pairs, std::uint64_t{header.steps} + 1);
   if (!options.mesh.empty()) compare_with_mesh(file, options);
 }
 

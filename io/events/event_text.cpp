@@ -1,0 +1,112 @@
+#include "io/events/event_text.h"
+
+#include <array>
+#include <charconv>
+
+namespace reeb::io {
+namespace {
+
+constexpr std::size_t kFlushBytes = 1u << 16;
+
+void append_real(std::string& out, double value) {
+  std::array<char, 32> text;
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, 9).ptr;
+  out.push_back(' ');
+  out.append(text.data(), end);
+}
+
+template <class Integer>
+void append_integer(std::string& out, Integer value) {
+  std::array<char, 24> text;
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
+  out.push_back(' ');
+  out.append(text.data(), end);
+}
+
+void append_values(std::string& out, const StreamEvent& event, std::size_t floats, std::size_t ints) {
+  for (std::size_t i = 0; i < floats; ++i) append_real(out, static_cast<double>(event.floats[i]));
+  for (std::size_t i = 0; i < ints; ++i) append_integer(out, event.ints[i]);
+}
+
+// Text on its way to a stream, in large pieces; also when an error passes by.
+class Lines {
+ public:
+  explicit Lines(std::ostream& out) : out_(out) {}
+  Lines(const Lines&) = delete;
+  Lines& operator=(const Lines&) = delete;
+  ~Lines() { flush(); }
+
+  std::string& text() {
+    if (text_.size() >= kFlushBytes) flush();
+    return text_;
+  }
+
+ private:
+  void flush() {
+    out_.write(text_.data(), static_cast<std::streamsize>(text_.size()));
+    text_.clear();
+  }
+
+  std::ostream& out_;
+  std::string text_;
+};
+
+void append_batch_vertex(std::string& out, const MeshBatch& batch, std::size_t i) {
+  out += 'v';
+  append_integer(out, batch.first_vertex.value() + i);
+  for (const auto& column : batch.coordinates) append_real(out, column[i]);
+  for (const auto& column : batch.properties) append_real(out, column[i]);
+  out += '\n';
+}
+
+void append_batch_cells(Lines& lines, char letter, const std::vector<VertexId>& corners, std::size_t size) {
+  for (std::size_t i = 0; i + size <= corners.size(); i += size) {
+    std::string& out = lines.text();
+    out += letter;
+    for (std::size_t k = 0; k < size; ++k) append_integer(out, corners[i + k].value());
+    out += '\n';
+  }
+}
+
+}  // namespace
+
+void append_event(std::string& out, const StreamEvent& event, const StreamHeader& header) {
+  switch (event.kind) {
+    case EventKind::kVertex:
+      out += 'v';
+      append_integer(out, event.vertex);
+      append_values(out, event, header.vertex_floats, header.vertex_ints);
+      break;
+    case EventKind::kTriangle:
+    case EventKind::kTetrahedron: {
+      const bool triangle = event.kind == EventKind::kTriangle;
+      out += triangle ? 't' : 'c';
+      for (std::size_t k = 0; k < (triangle ? 3 : 4); ++k) append_integer(out, event.corners[k]);
+      append_values(out, event, header.cell_floats, header.cell_ints);
+      break;
+    }
+    case EventKind::kFinalized:
+      out += 'f';
+      append_integer(out, event.vertex);
+      break;
+  }
+  out += '\n';
+}
+
+void write_events(EventReader& reader, std::ostream& out) {
+  Lines lines(out);
+  while (const StreamEvent* event = reader.next()) append_event(lines.text(), *event, reader.header());
+}
+
+void write_events(MeshReader& reader, std::ostream& out) {
+  Lines lines(out);
+  MeshBatch batch;
+  while (reader.read(batch)) {
+    for (std::size_t i = 0; i < batch.vertex_count; ++i) append_batch_vertex(lines.text(), batch, i);
+    append_batch_cells(lines, 't', batch.triangles, 3);
+    append_batch_cells(lines, 'c', batch.tetrahedra, 4);
+    append_batch_cells(lines, 'f', batch.finalized, 1);
+  }
+}
+
+}  // namespace reeb::io

@@ -1,0 +1,107 @@
+#include "io/events/pre_order.h"
+
+#include <algorithm>
+
+#include "io/events/flat_map.h"
+
+namespace reeb::io {
+namespace {
+
+constexpr std::uint32_t kNoCell = ~0u;
+
+class PreOrderReader : public EventReader {
+ public:
+  explicit PreOrderReader(std::unique_ptr<EventReader> reader)
+      : reader_(std::move(reader)), corners_(reader_->header().volume ? 4 : 3) {
+    header_ = reader_->header();
+    header_.post_order = false;
+    set_name(reader_->name());
+  }
+
+  std::vector<std::string> warnings() const override { return reader_->warnings(); }
+  std::uint64_t bytes_read() const override { return reader_->bytes_read(); }
+
+ private:
+  // A vertex that some waiting cell names.
+  struct Named {
+    std::uint32_t first = kNoCell;  // 4 * cell + corner of the last corner that named it
+    std::uint32_t cells = 0;        // corners of waiting cells
+  };
+  struct WaitingCell {
+    StreamEvent event;
+    std::array<std::uint32_t, 4> next;  // by corner: the corner before it in the vertex's list
+    std::uint32_t missing;              // corners whose vertex has not arrived
+  };
+
+  void fill() override {
+    while (queued() == 0) {
+      const StreamEvent* event = reader_->next();
+      if (event == nullptr) return;
+      if (event->kind == EventKind::kVertex) arrive(*event);
+      // Finalizations of the post-order stream follow from the vertices.
+      else if (event->kind != EventKind::kFinalized)
+        wait(*event);
+    }
+  }
+
+  void wait(const StreamEvent& event) {
+    std::uint32_t cell = static_cast<std::uint32_t>(cells_.size());
+    if (free_cells_.empty()) {
+      cells_.emplace_back();
+    } else {
+      cell = free_cells_.back();
+      free_cells_.pop_back();
+    }
+    WaitingCell& waiting = cells_[cell];
+    waiting.event = event;
+    waiting.missing = corners_;
+    for (std::uint32_t k = 0; k < corners_; ++k) {
+      Named& named = named_[event.corners[k]];
+      waiting.next[k] = named.first;
+      named.first = 4 * cell + k;
+      ++named.cells;
+    }
+  }
+
+  void arrive(const StreamEvent& vertex) {
+    push(EventKind::kVertex) = vertex;
+    Named* named = named_.find(vertex.vertex);
+    if (named == nullptr) return push_finalized(vertex.vertex);
+    for (std::uint32_t at = named->first; at != kNoCell;) {
+      WaitingCell& cell = cells_[at / 4];
+      if (--cell.missing == 0) complete_.push_back(at / 4);
+      at = cell.next[at % 4];
+    }
+    std::reverse(complete_.begin(), complete_.end());  // the lists run backwards
+    for (const std::uint32_t cell : complete_) deliver(cell);
+    complete_.clear();
+  }
+
+  void deliver(std::uint32_t cell) {
+    const StreamEvent& event = cells_[cell].event;
+    push(event.kind) = event;
+    for (std::uint32_t k = 0; k < corners_; ++k) {
+      const std::uint32_t vertex = event.corners[k];
+      if (--named_[vertex].cells != 0) continue;
+      named_.erase(vertex);
+      push_finalized(vertex);
+    }
+    free_cells_.push_back(cell);
+  }
+
+  std::unique_ptr<EventReader> reader_;
+  std::uint32_t corners_;
+  FlatMap<Named> named_;
+  std::vector<WaitingCell> cells_;
+  std::vector<std::uint32_t> free_cells_;
+  std::vector<std::uint32_t> complete_;  // scratch: cells that a vertex completes
+};
+
+}  // namespace
+
+std::unique_ptr<EventReader> in_pre_order(std::unique_ptr<EventReader> reader) {
+  if (!reader->header().post_order) return reader;
+  return std::make_unique<PreOrderReader>(std::move(reader));
+}
+
+}  // namespace reeb::io

@@ -1,0 +1,44 @@
+// Reeb graphs as text files that other programs read (INTERFACE.md, Text formats).
+#pragma once
+
+#include <optional>
+#include <ostream>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "libreeb/graph/arc_buckets.h"
+#include "libreeb/graph/reeb_graph.h"
+
+namespace reeb::io {
+
+// What is exported; refers to what the caller holds.
+struct GraphView {
+  const ReebGraph& graph;
+  std::string_view function;
+  double threshold = 0;
+  ArcBucketsView buckets;  // of graph's arcs, or empty
+  int bucket_exponent = 0;
+};
+
+enum class GraphFormat { kRg, kJson, kCsv, kDot, kGraphml, kVtp, kVtu, kPly, kObj };
+
+// By name ("rg", "json", ...); nothing if there is no such format.
+std::optional<GraphFormat> graph_format(std::string_view name);
+// The names, for messages: "rg json csv dot ...".
+std::string graph_format_names();
+
+// Writes item by item, so that memory does not grow with the graph beyond its node degrees. Numbers
+// restore every double. Formats that show lines in space draw an arc along its buckets, if it has
+// any, and put nodes without known positions at (0, 0, value).
+//
+//   rg       the project's own: sorted lines `n VERTEX DOWN UP VALUE` and `a LO HI`
+//   json     schema reeb.graph.v1
+//   csv      one table: `item,vertex,down,up,value,x,y,z,lo,hi,vertices`; node rows leave the last
+//            three empty, arc rows fill these alone
+//   dot, graphml      a graph; nodes are named by their vertices
+//   vtp, vtu          VTK XML, lines with the point data `value`, `vertex`
+//   ply, obj          vertices and edges or lines
+void write_graph(GraphFormat format, const GraphView& view, std::ostream& out);
+
+}  // namespace reeb::io

@@ -1,0 +1,18 @@
+// Reeb graphs as polylines in space: VTK XML, PLY, OBJ.
+//
+// Points are the nodes, in their order, then for each arc one a non-empty bucket, from below, as
+// arc_line.h makes them; an arc is the line from its lower node through these to its upper node.
+#pragma once
+
+#include "io/export/graph_export.h"
+#include "io/text/text_sink.h"
+
+namespace reeb::io {
+
+enum class VtkKind { kPolyData, kUnstructuredGrid };
+
+void write_vtk_lines(const GraphView& view, VtkKind kind, TextSink& out);
+void write_ply_lines(const GraphView& view, TextSink& out);
+void write_obj_lines(const GraphView& view, TextSink& out);
+
+}  // namespace reeb::io

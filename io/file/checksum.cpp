@@ -1,0 +1,27 @@
+#include "io/file/checksum.h"
+
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
+namespace reeb::ooc {
+
+struct RunningChecksum::State {
+  XXH64_state_t hash;
+};
+
+std::uint64_t checksum(std::span<const std::byte> bytes, std::uint64_t seed) {
+  return XXH64(bytes.data(), bytes.size(), seed);
+}
+
+RunningChecksum::RunningChecksum() : state_(std::make_unique<State>()) { XXH64_reset(&state_->hash, 0); }
+RunningChecksum::~RunningChecksum() = default;
+RunningChecksum::RunningChecksum(RunningChecksum&&) noexcept = default;
+RunningChecksum& RunningChecksum::operator=(RunningChecksum&&) noexcept = default;
+
+void RunningChecksum::add(std::span<const std::byte> bytes) {
+  if (!bytes.empty()) XXH64_update(&state_->hash, bytes.data(), bytes.size());
+}
+
+std::uint64_t RunningChecksum::value() const { return XXH64_digest(&state_->hash); }
+
+}  // namespace reeb::ooc

@@ -1,0 +1,198 @@
+#include "io/file/content_source.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <utility>
+#include <vector>
+
+#include "io/file/decompressor.h"
+#include "io/file/input_file.h"
+#include "io/file/mapped_windows.h"
+#include "libreeb/base/error.h"
+
+namespace reeb::io {
+namespace {
+
+class MappedSource final : public ContentSource {
+ public:
+  explicit MappedSource(const std::string& path)
+      : ContentSource(path), windows_(path, {.window_count = 2, .overlap_bytes = kLookahead}) {}
+  using ContentSource::view;
+
+  std::string_view view(std::uint64_t offset, std::size_t /*least*/) override {
+    read_ = std::min(offset, windows_.size());
+    return offset < windows_.size() ? windows_.view(offset) : std::string_view{};
+  }
+  bool can_seek() const override { return true; }
+  std::optional<std::uint64_t> size() const override { return windows_.size(); }
+  std::uint64_t file_bytes_read() const override { return read_; }
+  std::uint64_t file_bytes() const override { return windows_.size(); }
+
+ private:
+  MappedWindows windows_;
+  std::uint64_t read_ = 0;
+};
+
+// A mapped file as the sequential input of a decompressor.
+class MappedInput final : public RawInput {
+ public:
+  explicit MappedInput(const std::string& path) : windows_(path, {.window_count = 2}) {}
+
+  std::size_t read(char* out, std::size_t limit) override {
+    if (offset_ == windows_.size()) return 0;
+    const auto bytes = windows_.view(offset_).substr(0, limit);
+    std::memcpy(out, bytes.data(), bytes.size());
+    offset_ += bytes.size();
+    return bytes.size();
+  }
+  std::uint64_t consumed() const override { return offset_; }
+
+ private:
+  MappedWindows windows_;
+  std::uint64_t offset_ = 0;
+};
+
+class PipeInput final : public RawInput {
+ public:
+  PipeInput(std::string name, int descriptor, bool owned)
+      : name_(std::move(name)), descriptor_(descriptor), owned_(owned) {}
+  ~PipeInput() override {
+    if (owned_) ::close(descriptor_);
+  }
+
+  std::size_t read(char* out, std::size_t limit) override {
+    ssize_t got = 0;
+    do {
+      got = ::read(descriptor_, out, limit);
+    } while (got < 0 && errno == EINTR);
+    if (got < 0)
+      throw Error(ErrorKind::kBadInput, std::string("cannot be read: ") + std::strerror(errno),
+                  "check what is connected to the input")
+          .at(name_);
+    consumed_ += static_cast<std::uint64_t>(got);
+    return static_cast<std::size_t>(got);
+  }
+  std::uint64_t consumed() const override { return consumed_; }
+
+ private:
+  std::string name_;
+  int descriptor_;
+  bool owned_;
+  std::uint64_t consumed_ = 0;
+};
+
+// A stream without random access, through a sliding buffer.
+class StreamSource final : public ContentSource {
+ public:
+  StreamSource(const std::string& name, std::unique_ptr<RawInput> input, std::uint64_t file_bytes)
+      : ContentSource(name), input_(std::move(input)), file_bytes_(file_bytes), buffer_(kBufferBytes) {}
+
+  std::string_view view(std::uint64_t offset, std::size_t least) override {
+    // Only a reader's own arithmetic decides the offset, and it has seen every byte before it.
+    const std::size_t skip = std::min(static_cast<std::size_t>(offset - begin_), filled_);
+    filled_ -= skip;
+    begin_ += skip;
+    if (ended_ || filled_ >= least) {
+      start_ += skip;
+    } else {
+      std::memmove(buffer_.data(), buffer_.data() + start_ + skip, filled_);
+      start_ = 0;
+      fill(least);
+    }
+    return {buffer_.data() + start_, filled_};
+  }
+  bool can_seek() const override { return false; }
+  std::optional<std::uint64_t> size() const override { return std::nullopt; }
+  std::uint64_t file_bytes_read() const override { return input_->consumed(); }
+  std::uint64_t file_bytes() const override { return file_bytes_; }
+
+ private:
+  static constexpr std::size_t kBufferBytes = std::size_t{1} << 18;
+
+  void fill(std::size_t least) {
+    while (filled_ < least && !ended_) {
+      const std::size_t got = input_->read(buffer_.data() + filled_, buffer_.size() - filled_);
+      ended_ = got == 0;
+      filled_ += got;
+    }
+  }
+
+  std::unique_ptr<RawInput> input_;
+  std::uint64_t file_bytes_;
+  std::vector<char> buffer_;
+  std::uint64_t begin_ = 0;  // content offset of buffer_[start_]
+  std::size_t start_ = 0, filled_ = 0;
+  bool ended_ = false;
+};
+
+// The first bytes of a pipe, read to tell its compression, then the rest.
+class PeekedInput final : public RawInput {
+ public:
+  explicit PeekedInput(std::unique_ptr<RawInput> input) : input_(std::move(input)) {
+    while (filled_ < head_.size()) {
+      const std::size_t got = input_->read(head_.data() + filled_, head_.size() - filled_);
+      if (got == 0) break;
+      filled_ += got;
+    }
+  }
+
+  std::string_view head() const { return {head_.data(), filled_}; }
+
+  std::size_t read(char* out, std::size_t limit) override {
+    const std::size_t size = std::min(limit, filled_ - given_);
+    if (size == 0) return input_->read(out, limit);
+    std::memcpy(out, head_.data() + given_, size);
+    given_ += size;
+    return size;
+  }
+  std::uint64_t consumed() const override { return input_->consumed(); }
+
+ private:
+  std::unique_ptr<RawInput> input_;
+  std::array<char, 4> head_{};
+  std::size_t filled_ = 0, given_ = 0;
+};
+
+std::unique_ptr<ContentSource> stream_source(const std::string& name, std::unique_ptr<RawInput> raw,
+                                             std::uint64_t file_bytes) {
+  auto peeked = std::make_unique<PeekedInput>(std::move(raw));
+  const auto compression = detect_compression(peeked->head());
+  auto source = std::make_unique<StreamSource>(name, decompress(name, std::move(peeked), compression), file_bytes);
+  if (source->view(0, 1).empty()) throw_empty(name);
+  return source;
+}
+
+std::unique_ptr<RawInput> open_pipe(const std::string& path) {
+  if (path == "-") return std::make_unique<PipeInput>("standard input", STDIN_FILENO, false);
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0)
+    throw Error(ErrorKind::kBadInput, std::string("cannot be read: ") + std::strerror(errno),
+                "check the permissions of the file")
+        .at(path);
+  return std::make_unique<PipeInput>(path, descriptor, true);
+}
+
+std::unique_ptr<ContentSource> open_file(const std::string& path) {
+  auto mapped = std::make_unique<MappedSource>(path);
+  if (detect_compression(mapped->view(0)) == Compression::kNone) return mapped;
+  return stream_source(path, std::make_unique<MappedInput>(path), mapped->file_bytes());
+}
+
+}  // namespace
+
+std::unique_ptr<ContentSource> open_content(const std::string& path) {
+  if (path != "-") {
+    check_input_file(path);
+    if (std::filesystem::is_regular_file(path)) return open_file(path);
+  }
+  const std::string name = path == "-" ? "standard input" : path;
+  return stream_source(name, open_pipe(path), 0);
+}
+
+}  // namespace reeb::io

@@ -1,0 +1,125 @@
+#include "io/file/decompressor.h"
+
+#include <zstd.h>
+
+#include <boost/iostreams/categories.hpp>
+#include <boost/iostreams/filter/gzip.hpp>
+#include <boost/iostreams/filtering_streambuf.hpp>
+#include <boost/iostreams/read.hpp>
+#include <exception>
+#include <utility>
+#include <vector>
+
+#include "libreeb/base/error.h"
+
+namespace reeb::io {
+namespace {
+
+namespace bio = boost::iostreams;
+
+constexpr std::streamsize kChunkBytes = 65536;
+
+// The raw bytes as a Boost.Iostreams device.
+class RawDevice {
+ public:
+  using char_type = char;
+  using category = bio::source_tag;
+
+  explicit RawDevice(RawInput* raw) : raw_(raw) {}
+
+  std::streamsize read(char* out, std::streamsize limit) {
+    const std::size_t got = raw_->read(out, static_cast<std::size_t>(limit));
+    return got == 0 ? -1 : static_cast<std::streamsize>(got);
+  }
+
+ private:
+  RawInput* raw_;
+};
+
+// bio::zstd_decompressor takes a cut stream for its end, so frames are followed here.
+class ZstdFilter {
+ public:
+  using char_type = char;
+  struct category : bio::multichar_input_filter_tag {};
+
+  ZstdFilter() : stream_(ZSTD_createDStream(), &ZSTD_freeDStream), chunk_(kChunkBytes) {}
+
+  template <class Source>
+  std::streamsize read(Source& source, char* out, std::streamsize limit) {
+    ZSTD_outBuffer produced{out, static_cast<std::size_t>(limit), 0};
+    while (produced.pos == 0) {
+      if (given_.pos == given_.size && !flushing_) {
+        const std::streamsize got = bio::read(source, chunk_.data(), kChunkBytes);
+        if (got <= 0) {
+          if (inside_frame_) throw Error(ErrorKind::kBadInput, "ends inside a zstd frame", "");
+          return -1;
+        }
+        given_ = {chunk_.data(), static_cast<std::size_t>(got), 0};
+      }
+      const std::size_t wanted = ZSTD_decompressStream(stream_.get(), &produced, &given_);
+      if (ZSTD_isError(wanted) != 0) throw Error(ErrorKind::kBadInput, ZSTD_getErrorName(wanted), "");
+      inside_frame_ = wanted != 0;
+      flushing_ = inside_frame_ && produced.pos == produced.size;
+    }
+    return static_cast<std::streamsize>(produced.pos);
+  }
+
+ private:
+  std::shared_ptr<ZSTD_DStream> stream_;  // Boost copies its filters
+  std::vector<char> chunk_;
+  ZSTD_inBuffer given_{nullptr, 0, 0};
+  bool inside_frame_ = false;  // the last frame is not complete
+  bool flushing_ = false;      // more output may be waiting without more input
+};
+
+class DecompressedInput final : public RawInput {
+ public:
+  DecompressedInput(std::string name, std::unique_ptr<RawInput> raw, Compression compression)
+      : name_(std::move(name)), raw_(std::move(raw)) {
+    if (compression == Compression::kGzip)
+      chain_.push(bio::gzip_decompressor(bio::zlib::default_window_bits, kChunkBytes), kChunkBytes);
+    else
+      chain_.push(ZstdFilter(), kChunkBytes);
+    chain_.push(RawDevice(raw_.get()), kChunkBytes);
+  }
+
+  std::size_t read(char* out, std::size_t limit) override {
+    try {
+      const std::streamsize got = bio::read(chain_, out, static_cast<std::streamsize>(limit));
+      return got < 0 ? 0 : static_cast<std::size_t>(got);
+    } catch (const Error& failure) {
+      if (!failure.file().empty()) throw;
+      throw_damaged(failure.message());
+    } catch (const std::exception&) {
+      throw_damaged("is not a whole gzip stream");
+    }
+  }
+
+  std::uint64_t consumed() const override { return raw_->consumed(); }
+
+ private:
+  [[noreturn]] void throw_damaged(const std::string& reason) const {
+    throw Error(ErrorKind::kBadInput, "the compressed data are damaged or cut: " + reason,
+                "fetch or compress the file again; gzip -t and zstd -t check one")
+        .at(name_, std::to_string(raw_->consumed()));
+  }
+
+  std::string name_;
+  std::unique_ptr<RawInput> raw_;
+  bio::filtering_streambuf<bio::input> chain_;
+};
+
+}  // namespace
+
+Compression detect_compression(std::string_view first_bytes) {
+  if (first_bytes.starts_with("\x1F\x8B")) return Compression::kGzip;
+  if (first_bytes.starts_with("\x28\xB5\x2F\xFD")) return Compression::kZstd;
+  return Compression::kNone;
+}
+
+std::unique_ptr<RawInput> decompress(const std::string& name, std::unique_ptr<RawInput> raw, Compression compression) {
+  if (compression == Compression::kNone) return raw;
+  return std::make_unique<DecompressedInput>(name, std::move(raw), compression);
+}
+
+}  // namespace reeb::io

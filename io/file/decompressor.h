@@ -1,0 +1,35 @@
+// Unpacking gzip and zstd on the way in, through Boost.Iostreams filters.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+
+namespace reeb::io {
+
+// Bytes in order, with a count.
+class RawInput {
+ public:
+  RawInput() = default;
+  RawInput(const RawInput&) = delete;
+  RawInput& operator=(const RawInput&) = delete;
+  virtual ~RawInput() = default;
+
+  // Fills at most `limit` bytes; 0 at the end only.
+  virtual std::size_t read(char* out, std::size_t limit) = 0;
+  // Bytes of the file itself that were taken so far.
+  virtual std::uint64_t consumed() const = 0;
+};
+
+enum class Compression { kNone, kGzip, kZstd };
+
+Compression detect_compression(std::string_view first_bytes);
+
+// The content of `raw`: any number of gzip members or zstd frames, one after the other.
+// read() THROWS: Error{kBadInput} with `name` and the byte offset in the compressed file where the
+// stream is damaged or ends too early.
+std::unique_ptr<RawInput> decompress(const std::string& name, std::unique_ptr<RawInput> raw, Compression compression);
+
+}  // namespace reeb::io

@@ -1,0 +1,16 @@
+// What the name of a file tells.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace reeb::io {
+
+// The suffix in lower case, with its dot: ".ply".
+std::string name_suffix(const std::string& path);
+
+// Whether a name ends as those of streaming meshes do (.sma .smb .smc .smd .sva .svb .svc), perhaps
+// with .gz or .zst after it.
+bool is_streaming_name(std::string_view path);
+
+}  // namespace reeb::io

@@ -1,0 +1,46 @@
+#include "io/file/temp_dir.h"
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <utility>
+
+#include "libreeb/base/error.h"
+
+namespace reeb::ooc {
+
+namespace {
+
+[[noreturn]] void refuse_folder(const std::string& folder, int error) {
+  throw Error(ErrorKind::kResource, std::string("temporary files cannot be written there: ") + std::strerror(error),
+              "choose a folder that exists and that you may write to with --temp-dir DIR")
+      .at(folder);
+}
+
+}  // namespace
+
+TempDir::TempDir(std::string folder, WriteFault fault)
+    : folder_(folder.empty() ? default_folder("") : std::move(folder)),
+      fault_(fault ? std::make_shared<const WriteFault>(std::move(fault)) : nullptr) {
+  const int probe = open_unnamed(folder_);
+  if (probe < 0) refuse_folder(folder_, errno);
+  ::close(probe);
+}
+
+std::string TempDir::default_folder(const std::string& output_path) {
+  if (const char* chosen = std::getenv("TMPDIR"); chosen != nullptr && *chosen != '\0') return chosen;
+  const std::string parent = std::filesystem::path(output_path).parent_path().string();
+  return parent.empty() ? "." : parent;
+}
+
+File TempDir::create_unnamed(const std::string& role) const {
+  const std::string shown = folder_ + "/(temporary " + role + ")";
+  const int descriptor = open_unnamed(folder_);
+  if (descriptor < 0) refuse_folder(folder_, errno);
+  return {descriptor, shown, fault_};
+}
+
+}  // namespace reeb::ooc

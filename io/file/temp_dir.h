@@ -1,0 +1,36 @@
+// Where temporary files live: out of sight, and gone on every way out (DESIGN.md 4).
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "io/file/file.h"
+
+namespace reeb::ooc {
+
+// A place for temporary files in `folder`. They have no name, so that nothing is left even if the
+// process is killed.
+//
+// THROWS: Error{kResource} naming --temp-dir if `folder` cannot be written.
+// THREADS: any thread may create files.
+class TempDir {
+ public:
+  // An empty `folder` means default_folder("").
+  explicit TempDir(std::string folder = {}, WriteFault fault = {});
+  TempDir(const TempDir&) = delete;
+  TempDir& operator=(const TempDir&) = delete;
+
+  // $TMPDIR if it is set, else the folder of `output_path` ("." for a bare name).
+  static std::string default_folder(const std::string& output_path);
+
+  // A file without a name, open for reading and writing; `role` ("segments") names it in messages.
+  File create_unnamed(const std::string& role) const;
+
+  const std::string& folder() const { return folder_; }
+
+ private:
+  std::string folder_;
+  std::shared_ptr<const WriteFault> fault_;
+};
+
+}  // namespace reeb::ooc

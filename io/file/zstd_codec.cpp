@@ -1,0 +1,51 @@
+#include "io/file/zstd_codec.h"
+
+#include <memory>
+#include <new>
+#include <string>
+
+#include "libreeb/base/error.h"
+
+namespace reeb::ooc {
+
+ZstdCompressor::ZstdCompressor() : context_(ZSTD_createCCtx()) {
+  if (context_ == nullptr) throw std::bad_alloc();
+}
+
+// By way of memory of its own: `out` grows by no more than it has to, and nothing is filled first.
+void ZstdCompressor::compress(std::span<const std::byte> bytes, int level, std::vector<std::byte>& out) {
+  const std::size_t bound = ZSTD_compressBound(bytes.size());
+  if (capacity_ < bound) frame_ = std::make_unique_for_overwrite<std::byte[]>(capacity_ = bound);
+  const std::size_t size =
+      ZSTD_compressCCtx(context_.get(), frame_.get(), capacity_, bytes.data(), bytes.size(), level);
+  if (ZSTD_isError(size) != 0)
+    throw Error(ErrorKind::kResource, std::string("zstd: ") + ZSTD_getErrorName(size), "allow more with --memory");
+  out.insert(out.end(), frame_.get(), frame_.get() + size);
+}
+
+void zstd_compress(std::span<const std::byte> bytes, int level, std::vector<std::byte>& out) {
+  ZstdCompressor().compress(bytes, level, out);
+}
+
+std::size_t zstd_frame_size(std::span<const std::byte> bytes) {
+  const std::size_t size = ZSTD_findFrameCompressedSize(bytes.data(), bytes.size());
+  return ZSTD_isError(size) != 0 ? 0 : size;
+}
+
+std::size_t zstd_content_size(std::span<const std::byte> bytes) {
+  const unsigned long long size = ZSTD_getFrameContentSize(bytes.data(), bytes.size());
+  return size == ZSTD_CONTENTSIZE_UNKNOWN || size == ZSTD_CONTENTSIZE_ERROR ? 0 : static_cast<std::size_t>(size);
+}
+
+// A thread keeps its context: to make one costs as much as a small block.
+bool zstd_decompress(std::span<const std::byte> bytes, std::span<std::byte> out) {
+  struct Free {
+    void operator()(ZSTD_DCtx* context) const { ZSTD_freeDCtx(context); }
+  };
+  thread_local const std::unique_ptr<ZSTD_DCtx, Free> context(ZSTD_createDCtx());
+  if (context == nullptr) throw std::bad_alloc();
+  const std::size_t size = ZSTD_decompressDCtx(context.get(), out.data(), out.size(), bytes.data(), bytes.size());
+  return ZSTD_isError(size) == 0 && size == out.size();
+}
+
+}  // namespace reeb::ooc

@@ -1,0 +1,192 @@
+#include "io/formats/format_detection.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+
+#include "io/file/file_name.h"
+#include "io/formats/obj_reader.h"
+#include "io/formats/off_reader.h"
+#include "io/formats/scalar_bytes.h"
+#include "io/formats/stl_reader.h"
+#include "io/streaming/open_stream.h"
+
+namespace reeb::io {
+namespace {
+
+bool is_line_blank(char c) { return c == '\n' || is_blank(c); }
+
+std::string_view first_word(std::string_view text) {
+  const auto begin = std::ranges::find_if_not(text, is_line_blank);
+  return {begin, std::find_if(begin, text.end(), is_line_blank)};
+}
+
+std::string_view take_line(std::string_view& text) {
+  const std::size_t end = std::min(text.find('\n'), text.size());
+  const std::string_view line = text.substr(0, end);
+  text.remove_prefix(std::min(end + 1, text.size()));
+  return line;
+}
+
+// The text from its first line that is neither blank nor a comment.
+std::string_view skip_comments(std::string_view text) {
+  while (!text.empty()) {
+    std::string_view rest = text;
+    const std::string_view word = first_word(take_line(rest));
+    if (!word.empty() && !word.starts_with('#')) return text;
+    text = rest;
+  }
+  return text;
+}
+
+// A byte that no text has: UTF-8 and the Latin alphabets have no control characters but white space.
+bool is_control(char c) { return static_cast<unsigned char>(c) < 32 && !is_line_blank(c); }
+
+bool is_text(std::string_view head) { return std::ranges::none_of(head.substr(0, 4096), is_control); }
+
+std::uint64_t stl_facets(std::string_view head) { return load_scalar<std::uint32_t>(head.data() + 80, false); }
+
+bool has_binary_stl_size(std::string_view head, std::optional<std::uint64_t> size) {
+  return head.size() >= BinaryStlReader::kHeaderBytes && size &&
+         *size == BinaryStlReader::kHeaderBytes + stl_facets(head) * BinaryStlReader::kFacetBytes;
+}
+
+// For streams of unknown size, and files that are cut: does the first facet look like one?
+bool looks_like_binary_stl(std::string_view head) {
+  constexpr std::size_t kFirstFacet = BinaryStlReader::kHeaderBytes;
+  if (head.size() < kFirstFacet || stl_facets(head) == 0) return false;
+  for (std::size_t place = kFirstFacet; place < kFirstFacet + 48 && place + 4 <= head.size(); place += 4) {
+    const float value = std::abs(load_scalar<float>(head.data() + place, false));
+    if (value != 0 && !(value > 1e-30F && value < 1e30F) && !std::isnan(value)) return false;
+  }
+  return true;
+}
+
+bool starts_with_solid(std::string_view head) {
+  static constexpr std::string_view kSolid = "solid";
+  const std::string_view word = first_word(head);
+  return std::ranges::equal(word, kSolid, [](char a, char b) { return (a | 0x20) == b; });
+}
+
+constexpr std::array<std::string_view, 6> kStreamingKeys = {"nverts", "nfaces", "ncells", "bb_min", "bb_max", "svtype"};
+
+// Streaming meshes announce themselves in comments before their first line.
+bool has_streaming_comment(std::string_view text) {
+  while (!text.empty()) {
+    const std::string_view line = take_line(text);
+    const std::string_view word = first_word(line);
+    if (word.empty()) continue;
+    if (!word.starts_with('#')) return false;
+    const std::string_view key = first_word(line.substr(line.find('#') + 1));
+    if (std::ranges::find(kStreamingKeys, key) != kStreamingKeys.end() || key.starts_with("v_p") ||
+        key.starts_with("c_p"))
+      return true;
+  }
+  return false;
+}
+
+bool is_vertex_number(std::string_view word) {
+  return !word.empty() && word.front() != '0' && std::ranges::all_of(word, [](char c) { return c >= '0' && c <= '9'; });
+}
+
+// The words of a line are its keyword and so many numbers of vertices, counted from 1.
+bool is_line_of_vertices(std::string_view line, std::size_t count) {
+  std::size_t words = 0;
+  for (std::string_view word = first_word(line); !word.empty(); word = first_word(line), ++words) {
+    if (words > 0 && !is_vertex_number(word)) return false;
+    line.remove_prefix(static_cast<std::size_t>(word.end() - line.begin()));
+  }
+  return words == count + 1;
+}
+
+bool is_corner_number(std::string_view word) {
+  if (word.starts_with('-')) word.remove_prefix(1);
+  return is_vertex_number(word);
+}
+
+// A tetrahedron, perhaps with values behind its corners.
+bool is_cell_line(std::string_view line) {
+  std::size_t words = 0;
+  for (std::string_view word = first_word(line); !word.empty() && words < 5; word = first_word(line), ++words) {
+    if (words == 0 ? word != "c" : !is_corner_number(word)) return false;
+    line.remove_prefix(static_cast<std::size_t>(word.end() - line.begin()));
+  }
+  return words == 5;
+}
+
+// Streaming meshes may do without comments, too. What no OBJ file has: a triangle before all vertices,
+// as in post-order (faces of OBJ stand behind their vertices), a tetrahedron, and a line that finalizes
+// a vertex.
+bool has_streaming_line(std::string_view text) {
+  bool vertices = false;
+  while (!text.empty()) {
+    const std::string_view line = take_line(text);
+    const std::string_view word = first_word(line);
+    if (word == "x" && is_line_of_vertices(line, 1)) return true;
+    if (word == "c" && is_cell_line(line)) return true;
+    if (word == "f" && !vertices) return is_line_of_vertices(line, 3);
+    vertices |= word == "v";
+  }
+  return false;
+}
+
+// The heads of binary STL that begin with a zero have nothing but zeros; those of streaming meshes
+// do not.
+bool is_streaming_binary(std::string_view head) {
+  const std::string_view stl_title = head.substr(0, 80);
+  return looks_like_binary_stream(static_cast<std::byte>(head.front())) &&
+         std::ranges::any_of(stl_title, [](char c) { return c != 0; });
+}
+
+// Files in the wild have stray lines before the first one that OBJ knows.
+bool has_obj_vertex(std::string_view text) {
+  while (!text.empty()) {
+    const std::string_view line = take_line(text);
+    const std::string_view word = first_word(line);
+    if (word != "v") continue;
+    const std::string_view rest = line.substr(static_cast<std::size_t>(word.end() - line.begin()));
+    if (parse_number<double>(first_word(rest)).ok) return true;
+  }
+  return false;
+}
+
+MeshFormat detect_text(std::string_view text, const std::string& path) {
+  if (is_streaming_name(path)) return MeshFormat::kStreaming;
+  if (has_streaming_line(text)) return MeshFormat::kStreaming;
+  const std::string_view word = first_word(skip_comments(text));
+  if (is_obj_keyword(word)) return MeshFormat::kObj;
+  return has_obj_vertex(text) ? MeshFormat::kObj : MeshFormat::kUnknown;
+}
+
+// The whole lines of a text whose end has not come yet.
+std::string_view whole_lines(std::string_view text) { return text.substr(0, text.rfind('\n') + 1); }
+
+// Whether the beginning of a pipe is enough to know a streaming mesh.
+bool starts_streaming(std::string_view head) {
+  return is_streaming_binary(head) || has_streaming_comment(whole_lines(head)) || has_streaming_line(whole_lines(head));
+}
+
+}  // namespace
+
+MeshFormat detect_format(ContentSource& source, const std::string& path) {
+  if (!source.size())
+    for (const std::size_t least : {1u, 80u})
+      if (starts_streaming(source.view(0, least))) return MeshFormat::kStreaming;
+  std::string_view head = source.view(0);
+  if (head.starts_with("\xEF\xBB\xBF")) head.remove_prefix(3);
+  if (head.starts_with("ply") && (head.size() == 3 || is_line_blank(head[3]))) return MeshFormat::kPly;
+  if (parse_off_keyword(first_word(skip_comments(head)))) return MeshFormat::kOff;
+  if (has_binary_stl_size(head, source.size())) return MeshFormat::kBinaryStl;
+  if (is_streaming_binary(head) || has_streaming_comment(head)) return MeshFormat::kStreaming;
+  const bool text = is_text(head);
+  if (starts_with_solid(head)) return text ? MeshFormat::kAsciiStl : MeshFormat::kBinaryStl;
+  if (text) return detect_text(head, path);
+  if (looks_like_binary_stl(head)) return MeshFormat::kBinaryStl;
+  const bool too_short_for_stl = head.size() < BinaryStlReader::kHeaderBytes;
+  if (too_short_for_stl && looks_like_binary_stream(static_cast<std::byte>(head.front())))
+    return MeshFormat::kStreaming;
+  return is_streaming_name(path) ? MeshFormat::kStreaming : MeshFormat::kUnknown;
+}
+
+}  // namespace reeb::io

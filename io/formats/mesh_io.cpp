@@ -1,0 +1,50 @@
+#include "io/formats/mesh_io.h"
+
+#include "io/formats/format_detection.h"
+#include "io/formats/obj_reader.h"
+#include "io/formats/off_reader.h"
+#include "io/formats/ply_indexed.h"
+#include "io/formats/ply_reader.h"
+#include "io/formats/stl_reader.h"
+#include "io/streaming/event_input.h"
+#include "io/streaming/stream_mesh_reader.h"
+#include "libreeb/base/error.h"
+
+namespace reeb::io {
+
+std::unique_ptr<MeshReader> open_mesh(const std::string& path, const ReadOptions& options) {
+  return open_mesh(open_content(path), path, options);
+}
+
+std::unique_ptr<MeshReader> open_mesh(std::unique_ptr<ContentSource> source, const std::string& path,
+                                      const ReadOptions& options) {
+  const std::string name = source->name();
+  switch (detect_format(*source, path)) {
+    case MeshFormat::kPly:
+      return open_ply(std::move(source), options);
+    case MeshFormat::kOff:
+      return open_off(std::move(source), options);
+    case MeshFormat::kObj:
+      return std::make_unique<ObjReader>(std::move(source), options);
+    case MeshFormat::kAsciiStl:
+      return std::make_unique<AsciiStlReader>(std::move(source), options);
+    case MeshFormat::kBinaryStl:
+      return std::make_unique<BinaryStlReader>(std::move(source), options);
+    case MeshFormat::kStreaming: {
+      const std::uint64_t bytes = source->file_bytes();
+      return make_stream_mesh_reader(open_events(std::move(source), path), options, bytes);
+    }
+    case MeshFormat::kUnknown:
+      break;
+  }
+  throw Error(
+      ErrorKind::kBadInput, "is in no known mesh format",
+      "PLY, OBJ, OFF, STL and streaming meshes (SMA, SMB, SMC, SVA, SVB) are read, plain or packed with gzip or zstd")
+      .at(name, "0");
+}
+
+std::unique_ptr<IndexedMesh> open_indexed_mesh(const std::string& path, const ReadOptions& options) {
+  return open_indexed_ply(path, options);
+}
+
+}  // namespace reeb::io

@@ -1,0 +1,119 @@
+#include "io/formats/obj_reader.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace reeb::io {
+namespace {
+
+constexpr std::string_view kTruncatedHint = "the file may be cut or damaged here";
+
+// Sorted. Free-form geometry, groups, materials and rendering state carry no simplices.
+constexpr auto kSkippedKeywords = std::to_array<std::string_view>(
+    {"bevel",  "bmat",      "bsp",   "bzp",      "c_interp", "call", "cdc",  "cdp",        "con", "csh",    "cstype",
+     "ctech",  "curv",      "curv2", "d_interp", "deg",      "end",  "g",    "hole",       "lod", "maplib", "mg",
+     "mtllib", "o",         "p",     "parm",     "res",      "s",    "scrv", "shadow_obj", "sp",  "stech",  "step",
+     "surf",   "trace_obj", "trim",  "usemap",   "usemtl",   "vn",   "vp",   "vt"});
+static_assert(std::ranges::is_sorted(kSkippedKeywords));
+
+bool is_skipped(std::string_view word) { return std::ranges::binary_search(kSkippedKeywords, word); }
+
+}  // namespace
+
+bool is_obj_keyword(std::string_view word) {
+  return word == "v" || word == "f" || word == "fo" || word == "l" || is_skipped(word);
+}
+
+ObjReader::ObjReader(std::unique_ptr<ContentSource> source, ReadOptions options)
+    : BatchReader(std::move(options)), text_(std::move(source), {.comments = true, .continuation = true}) {
+  refuse_properties(this->options(), "OBJ", text_.source().name());
+  info_.format = "OBJ";
+  info_.file_bytes = text_.source().file_bytes();
+}
+
+void ObjReader::fill(MeshBatch& batch) {
+  while (room(batch) != 0) {
+    if (in_face_)
+      read_corner(batch);
+    else if (text_.more())
+      begin_line(batch);
+    else
+      return;
+  }
+}
+
+void ObjReader::begin_line(MeshBatch& batch) {
+  const std::string_view keyword = text_.token();
+  if (keyword == "v") {
+    read_vertex(batch);
+  } else if (keyword == "f" || keyword == "l" || keyword == "fo") {
+    face_.begin(keyword == "l" ? FaceShape::kPolyline : FaceShape::kPolygon);
+    in_face_ = true;
+  } else {
+    if (!is_skipped(keyword) && unknown_lines_++ == 0) first_unknown_line_ = text_.line();
+    text_.skip_line();
+  }
+}
+
+void ObjReader::read_vertex(MeshBatch& batch) {
+  std::array<double, 3> point{};
+  for (double& coordinate : point) coordinate = text_.finite_number<double>("coordinate");
+  unsigned numbers = 3;
+  for (; text_.more_on_line(); ++numbers)
+    if (spells_non_finite(text_.token())) ++odd_extras_;
+  if (numbers == 5 || numbers > 6)
+    text_.fail("a vertex of " + std::to_string(numbers) + " numbers",
+               "a vertex has 3 coordinates, and perhaps a weight or a colour of 3 numbers");
+  text_.skip_line();
+  for (std::size_t k = 0; k < 3; ++k) batch.coordinates[k].push_back(point[k]);
+  count_vertices(batch, 1);
+}
+
+void ObjReader::read_corner(MeshBatch& batch) {
+  if (text_.more_on_line()) {
+    face_.add(corner(), batch.triangles);
+    return;
+  }
+  face_.end(batch.triangles);
+  in_face_ = false;
+  text_.skip_line();
+}
+
+VertexId ObjReader::corner() {
+  text_.mark();
+  const bool negative = text_.peek() == '-';
+  if (negative) text_.advance();
+  std::uint64_t number = 0;
+  if (!text_.digits(number)) text_.fail("a vertex number should be here", std::string(kTruncatedHint));
+  if (text_.peek() == '/') skip_texture_and_normal();
+  const char next = text_.peek();
+  if (next != '\n' && next != '\\' && next != '#' && !is_blank(next))
+    text_.fail("a face corner is not of the form a, a/t, a//n or a/t/n", std::string(kTruncatedHint));
+  if (number == 0 || number > vertices_read()) fail_corner(negative, number);
+  return VertexId(negative ? vertices_read() - number : number - 1);
+}
+
+void ObjReader::skip_texture_and_normal() {
+  for (char c = text_.peek(); c == '/' || c == '-' || (c >= '0' && c <= '9'); c = text_.peek()) text_.advance();
+}
+
+void ObjReader::fail_corner(bool negative, std::uint64_t number) const {
+  const std::string name = (negative ? "-" : "") + std::to_string(number);
+  if (number == 0) text_.fail("a face names vertex 0", "vertices are numbered from 1");
+  text_.fail(
+      "a face names vertex " + name + ", but only " + std::to_string(vertices_read()) + " vertices came before it",
+      "put each face behind its vertices; if the vertex never comes, the file is damaged");
+}
+
+std::vector<std::string> ObjReader::warnings() const {
+  std::vector<std::string> lines;
+  if (unknown_lines_ != 0)
+    lines.push_back(std::to_string(unknown_lines_) + " lines of unknown kind were skipped, the first is line " +
+                    std::to_string(first_unknown_line_));
+  if (odd_extras_ != 0)
+    lines.push_back(std::to_string(odd_extras_) + " weights or colours are not finite (they are not used)");
+  return lines;
+}
+
+}  // namespace reeb::io

@@ -1,0 +1,40 @@
+// Wavefront OBJ: v, f and l; everything else is skipped. Numbers are float64.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "io/mesh/batch_reader.h"
+#include "io/mesh/simplex_assembler.h"
+#include "io/text/text_cursor.h"
+
+namespace reeb::io {
+
+// True if the word can begin a line of an OBJ file.
+bool is_obj_keyword(std::string_view word);
+
+class ObjReader final : public BatchReader {
+ public:
+  ObjReader(std::unique_ptr<ContentSource> source, ReadOptions options);
+
+  std::uint64_t bytes_read() const override { return text_.source().file_bytes_read(); }
+  std::vector<std::string> warnings() const override;
+
+ private:
+  void fill(MeshBatch& batch) override;
+  void begin_line(MeshBatch& batch);
+  void read_vertex(MeshBatch& batch);
+  void read_corner(MeshBatch& batch);
+  VertexId corner();
+  void skip_texture_and_normal();
+  [[noreturn]] void fail_corner(bool negative, std::uint64_t number) const;
+
+  TextCursor text_;
+  SimplexAssembler face_;
+  bool in_face_ = false;
+  std::uint64_t unknown_lines_ = 0, first_unknown_line_ = 0, odd_extras_ = 0;
+};
+
+}  // namespace reeb::io

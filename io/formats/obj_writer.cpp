@@ -1,0 +1,53 @@
+// OBJ: `v` and `f` lines as they come; indices from 1. Exactly three coordinates a vertex.
+#include "io/formats/writers.h"
+#include "io/mesh/written_records.h"
+#include "libreeb/base/error.h"
+
+namespace reeb::io {
+namespace {
+
+class ObjWriter : public MeshWriter {
+ public:
+  ObjWriter(const std::string& path, const MeshWriterOptions& options)
+      : dimension_(options.dimension), file_(path, options.existing) {}
+
+  void write(const MeshBatch& batch) override {
+    for (std::size_t i = 0; i < batch.vertex_count; ++i) {
+      TextRecord line(file_.out());
+      line.put('v');
+      for (unsigned k = 0; k < 3; ++k) {
+        line.put(' ');
+        line.put(k < dimension_ ? batch.coordinates[k][i] : 0.0);
+      }
+      line.put('\n');
+    }
+    for_each_face(batch, [this](VertexId a, VertexId b, VertexId c) {
+      TextRecord line(file_.out());
+      line.put('f');
+      for (const VertexId v : {a, b, c}) {
+        line.put(' ');
+        line.put(v.value() + 1);
+      }
+      line.put('\n');
+    });
+  }
+
+  void close() override { file_.commit(); }
+
+ private:
+  unsigned dimension_;
+  AtomicFile file_;
+};
+
+}  // namespace
+
+std::unique_ptr<MeshWriter> create_obj(const std::string& path, const MeshWriterOptions& options) {
+  if (options.dimension > 3)
+    throw Error(ErrorKind::kBadInput,
+                "OBJ cannot hold vertices of " + std::to_string(options.dimension) + " coordinates",
+                "write .ply or .off")
+        .at(path);
+  return std::make_unique<ObjWriter>(path, options);
+}
+
+}  // namespace reeb::io

@@ -1,0 +1,35 @@
+// OFF (Geomview): [ST][C][N][4][n]OFF, ASCII (float64) and "BINARY" (big endian, float32).
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string_view>
+
+#include "io/mesh/batch_reader.h"
+#include "io/mesh/simplex_assembler.h"
+#include "io/text/cursor.h"
+#include "io/text/text_cursor.h"
+
+namespace reeb::io {
+
+// What the keyword at the head of an OFF file says.
+struct OffKind {
+  bool texture = false, colours = false, normals = false, four = false, any_dimension = false;
+  bool binary = false;
+
+  // Numbers of a binary vertex behind its `dimension` coordinates.
+  std::size_t extra_numbers(std::size_t dimension) const {
+    return (normals ? dimension : 0) + (colours ? 4 : 0) + (texture ? 2 : 0);
+  }
+};
+
+// Empty if the word is not the keyword of an OFF file.
+std::optional<OffKind> parse_off_keyword(std::string_view word);
+
+// THROWS: Error{kBadInput} as open_mesh.
+std::unique_ptr<MeshReader> open_off(std::unique_ptr<ContentSource> source, const ReadOptions& options);
+
+}  // namespace reeb::io

@@ -1,0 +1,73 @@
+// OFF, and nOFF where a vertex has other than three coordinates.
+#include "io/formats/sectioned_file.h"
+#include "io/formats/writers.h"
+#include "io/mesh/written_records.h"
+#include "libreeb/base/error.h"
+
+namespace reeb::io {
+namespace {
+
+// More coordinates would not fit one TextRecord; real meshes have a handful.
+constexpr unsigned kMaxDimension = 128;
+
+class OffWriter : public MeshWriter {
+ public:
+  OffWriter(const std::string& path, const MeshWriterOptions& options)
+      : dimension_(options.dimension),
+        header_bytes_(header(~std::uint64_t{0}, ~std::uint64_t{0}).size()),
+        file_(path, options.existing, header_bytes_, options.vertex_count) {}
+
+  void write(const MeshBatch& batch) override {
+    OutputFile& out = file_.vertices(batch.vertex_count);
+    for (std::size_t i = 0; i < batch.vertex_count; ++i) {
+      TextRecord line(out);
+      for (unsigned k = 0; k < dimension_; ++k) {
+        line.put(batch.coordinates[k][i]);
+        line.put(k + 1 < dimension_ ? ' ' : '\n');
+      }
+    }
+    if (!batch.triangles.empty() || !batch.tetrahedra.empty()) write_faces(batch);
+  }
+
+  void close() override {
+    std::string text = header(file_.vertex_count(), file_.face_count());
+    // Blanks before the line's end take up the room of the digits that the counts did not need.
+    text.insert(text.size() - 1, header_bytes_ - text.size(), ' ');
+    file_.commit(text);
+  }
+
+ private:
+  std::string header(std::uint64_t vertices, std::uint64_t faces) const {
+    const std::string magic = dimension_ == 3 ? "OFF\n" : "nOFF\n" + std::to_string(dimension_) + "\n";
+    return magic + std::to_string(vertices) + " " + std::to_string(faces) + " 0\n";
+  }
+
+  void write_faces(const MeshBatch& batch) {
+    OutputFile& out = file_.faces(batch.triangle_count() + 4 * batch.tetrahedron_count());
+    for_each_face(batch, [&out](VertexId a, VertexId b, VertexId c) {
+      TextRecord line(out);
+      line.put('3');
+      for (const VertexId v : {a, b, c}) {
+        line.put(' ');
+        line.put(v.value());
+      }
+      line.put('\n');
+    });
+  }
+
+  unsigned dimension_;
+  std::size_t header_bytes_;
+  SectionedFile file_;
+};
+
+}  // namespace
+
+std::unique_ptr<MeshWriter> create_off(const std::string& path, const MeshWriterOptions& options) {
+  if (options.dimension == 0 || options.dimension > kMaxDimension)
+    throw Error(ErrorKind::kBadInput,
+                "OFF is not written with " + std::to_string(options.dimension) + " coordinates a vertex", "write .ply")
+        .at(path);
+  return std::make_unique<OffWriter>(path, options);
+}
+
+}  // namespace reeb::io

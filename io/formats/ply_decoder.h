@@ -1,0 +1,136 @@
+// The two ways in which a PLY body holds values. A reader asks for one value after the other, in
+// the order of the header; each decoder knows where it is when something is wrong.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "io/formats/ply_header.h"
+#include "io/formats/scalar_bytes.h"
+#include "io/text/text_cursor.h"
+
+namespace reeb::io {
+
+// One line a record.
+class AsciiPlyDecoder {
+ public:
+  static constexpr bool kBinary = false;
+
+  AsciiPlyDecoder(TextCursor text, const PlyHeader& header)
+      : text_(std::move(text)), body_(header.body_offset), body_line_(text_.line()) {}
+
+  void begin_record(const PlyElement& element) {
+    if (text_.more()) return;
+    text_.mark();
+    text_.fail("the file ends inside the element " + element.name, "the file is cut; get a whole copy");
+  }
+  void end_record(const PlyElement&) {
+    if (text_.more_on_line()) {
+      text_.token();
+      text_.fail("the line has more values than the header declares", "the file may be damaged here");
+    }
+    text_.skip_line();
+  }
+  double finite_value(PlyType type, const char* what) {
+    if (type == PlyType::kFloat32) return static_cast<double>(text_.finite_number<float>(what));
+    if (type == PlyType::kFloat64) return text_.finite_number<double>(what);
+    return static_cast<double>(checked_integer(type, what));
+  }
+  std::int64_t integer(PlyType type, const char* what) {
+    text_.more_on_line();
+    text_.mark();
+    std::uint64_t value = 0;
+    const char first = text_.peek();
+    if (first < '0' || first > '9' || !text_.digits(value)) return checked_integer(type, what);
+    if (const char next = text_.peek(); next != '\n' && !is_blank(next))
+      text_.fail(std::string("a ") + what + " is not an integer", "the file may be damaged here");
+    return within(type, static_cast<std::int64_t>(value), what);
+  }
+  // True if the skipped value is not finite.
+  bool skip(PlyType, const char* what) {
+    const auto word = text_.token();
+    if (word.empty())
+      text_.fail(std::string("the line ends where a ") + what + " should be", "the file may be cut or damaged here");
+    return spells_non_finite(word);
+  }
+  void move_to_body() { text_.move_to_line(body_, body_line_); }
+  [[noreturn]] void fail(const std::string& what, const std::string& hint) const { text_.fail(what, hint); }
+
+  const ContentSource& source() const { return text_.source(); }
+  Cursor& bytes() { return text_.bytes(); }
+
+ private:
+  std::int64_t checked_integer(PlyType type, const char* what) { return within(type, text_.integer(what), what); }
+
+  std::int64_t within(PlyType type, std::int64_t value, const char* what) const {
+    const unsigned bits = static_cast<unsigned>(8 * byte_size(type));
+    const bool is_signed = type == PlyType::kInt8 || type == PlyType::kInt16 || type == PlyType::kInt32;
+    const std::int64_t least = is_signed ? -(std::int64_t{1} << (bits - 1)) : 0;
+    const std::int64_t most = (std::int64_t{1} << (is_signed ? bits - 1 : bits)) - 1;
+    if (value < least || value > most)
+      text_.fail("the " + std::string(what) + " " + std::to_string(value) + " does not fit its declared type",
+                 "the file may be damaged here");
+    return value;
+  }
+
+  TextCursor text_;
+  std::uint64_t body_, body_line_;
+};
+
+// Records without separators.
+class BinaryPlyDecoder {
+ public:
+  static constexpr bool kBinary = true;
+
+  BinaryPlyDecoder(TextCursor text, const PlyHeader& header)
+      : cursor_(std::move(text.bytes())),
+        body_(header.body_offset),
+        swap_(header.encoding == PlyEncoding::kBigEndian) {}
+
+  void begin_record(const PlyElement&) {}
+  void end_record(const PlyElement&) {}
+  double finite_value(PlyType type, const char* what) {
+    const double value = load_double(type, take(byte_size(type)), swap_);
+    if (!std::isfinite(value))
+      fail(std::string("a ") + what + " is not finite", "mend this value, or remove what uses it");
+    return value;
+  }
+  std::int64_t integer(PlyType type, const char*) { return load_integer(type, take(byte_size(type)), swap_); }
+  bool skip(PlyType type, const char*) {
+    const char* const bytes = take(byte_size(type));
+    return is_float(type) && !std::isfinite(load_double(type, bytes, swap_));
+  }
+  void move_to_body() { cursor_.move_to(body_); }
+
+  // Fails at the value read last.
+  [[noreturn]] void fail(const std::string& what, const std::string& hint) const { fail_at(taken_, what, hint); }
+  [[noreturn]] void fail_at(std::uint64_t offset, const std::string& what, const std::string& hint) const {
+    throw Error(ErrorKind::kBadInput, what, hint).at(source().name(), std::to_string(offset));
+  }
+
+  const ContentSource& source() const { return cursor_.source(); }
+  Cursor& bytes() { return cursor_; }
+  bool swaps() const { return swap_; }
+
+  // The next `size` bytes. THROWS: Error{kBadInput} if the file ends before.
+  const char* take(std::size_t size) {
+    taken_ = cursor_.offset();
+    if (!cursor_.ensure(size)) [[unlikely]]
+      fail_at(cursor_.offset() + cursor_.available(), "the file ends before its last element",
+              "the file is cut; get a whole copy");
+    const char* const bytes = cursor_.data();
+    cursor_.advance(size);
+    return bytes;
+  }
+
+ private:
+  Cursor cursor_;
+  std::uint64_t body_;
+  std::uint64_t taken_ = 0;
+  bool swap_;
+};
+
+}  // namespace reeb::io

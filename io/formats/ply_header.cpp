@@ -1,0 +1,245 @@
+#include "io/formats/ply_header.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace reeb::io {
+namespace {
+
+constexpr std::array<const char*, 3> kCoordinateNames = {"x", "y", "z"};
+
+struct TypeName {
+  std::string_view name;
+  PlyType type;
+};
+constexpr std::array<TypeName, 16> kTypeNames = {{{"char", PlyType::kInt8},
+                                                  {"int8", PlyType::kInt8},
+                                                  {"uchar", PlyType::kUint8},
+                                                  {"uint8", PlyType::kUint8},
+                                                  {"short", PlyType::kInt16},
+                                                  {"int16", PlyType::kInt16},
+                                                  {"ushort", PlyType::kUint16},
+                                                  {"uint16", PlyType::kUint16},
+                                                  {"int", PlyType::kInt32},
+                                                  {"int32", PlyType::kInt32},
+                                                  {"uint", PlyType::kUint32},
+                                                  {"uint32", PlyType::kUint32},
+                                                  {"float", PlyType::kFloat32},
+                                                  {"float32", PlyType::kFloat32},
+                                                  {"double", PlyType::kFloat64},
+                                                  {"float64", PlyType::kFloat64}}};
+
+constexpr const char* kHeaderHint = "the PLY header is damaged; write the file again";
+
+std::optional<std::size_t> find(const std::vector<PlyProperty>& properties, std::string_view name) {
+  const auto found = std::ranges::find(properties, name, &PlyProperty::name);
+  if (found == properties.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - properties.begin());
+}
+
+class HeaderParser {
+ public:
+  explicit HeaderParser(TextCursor& text) : text_(text) {}
+
+  PlyHeader parse() {
+    if (text_.token() != "ply") text_.fail("a PLY file begins with the line \"ply\"", kHeaderHint);
+    text_.skip_line();
+    while (parse_line()) text_.skip_line();
+    if (!saw_format_) text_.fail("the PLY header has no format line", kHeaderHint);
+    text_.skip_line();
+    header_.body_offset = text_.bytes().offset();
+    finish_elements();
+    check_size();
+    return std::move(header_);
+  }
+
+ private:
+  // False at end_header.
+  bool parse_line() {
+    if (!text_.more()) text_.fail("the file ends in its header", "the file is cut; get a whole copy");
+    const std::string keyword(text_.token());
+    if (keyword == "end_header") return false;
+    if (keyword == "format")
+      parse_format();
+    else if (keyword == "element")
+      parse_element();
+    else if (keyword == "property")
+      parse_property();
+    else if (keyword != "comment" && keyword != "obj_info")
+      text_.fail("\"" + keyword.substr(0, 40) + "\" is not a PLY header line", kHeaderHint);
+    return true;
+  }
+
+  void parse_format() {
+    const std::string_view encoding = text_.token();
+    saw_format_ = true;
+    if (encoding == "ascii")
+      header_.encoding = PlyEncoding::kAscii;
+    else if (encoding == "binary_little_endian")
+      header_.encoding = PlyEncoding::kLittleEndian;
+    else if (encoding == "binary_big_endian")
+      header_.encoding = PlyEncoding::kBigEndian;
+    else
+      text_.fail("unknown PLY encoding \"" + std::string(encoding.substr(0, 40)) + "\"",
+                 "PLY is ascii, binary_little_endian or binary_big_endian");
+  }
+
+  void parse_element() {
+    PlyElement element;
+    element.name = text_.token();
+    if (element.name.empty()) text_.fail("an element without a name", kHeaderHint);
+    const std::int64_t count = text_.integer("count");
+    if (count < 0) text_.fail("an element count is negative", kHeaderHint);
+    element.count = static_cast<std::uint64_t>(count);
+    header_.elements.push_back(std::move(element));
+  }
+
+  void parse_property() {
+    if (header_.elements.empty()) text_.fail("a property before the first element", kHeaderHint);
+    PlyProperty property;
+    std::string word(text_.token());
+    if (word == "list") {
+      property.list_count = type_named(text_.token());
+      if (is_float(*property.list_count)) text_.fail("a list length must be of an integer type", kHeaderHint);
+      word = text_.token();
+    }
+    property.type = type_named(word);
+    property.name = text_.token();
+    if (property.name.empty()) text_.fail("a property without a name", kHeaderHint);
+    if (find(header_.elements.back().properties, property.name))
+      text_.fail("the property \"" + property.name + "\" is declared twice", kHeaderHint);
+    header_.elements.back().properties.push_back(std::move(property));
+  }
+
+  PlyType type_named(std::string_view name) {
+    const auto found = std::ranges::find(kTypeNames, name, &TypeName::name);
+    if (found == kTypeNames.end())
+      text_.fail("unknown PLY type \"" + std::string(name.substr(0, 40)) + "\"",
+                 "the types are char uchar short ushort int uint float double, or int8 ... float64");
+    return found->type;
+  }
+
+  void finish_elements() {
+    std::erase_if(header_.elements, [](const PlyElement& e) { return e.properties.empty(); });
+    bool has_vertices = false;
+    for (std::size_t i = 0; i < header_.elements.size(); ++i) {
+      PlyElement& element = header_.elements[i];
+      if (element.name == "vertex") {
+        if (std::exchange(has_vertices, true)) text_.fail("the element vertex is declared twice", kHeaderHint);
+        element.role = PlyRole::kVertices;
+        header_.vertex_element = i;
+      } else if (element.name == "face" || element.name == "tristrips") {
+        element.role = element.name == "face" ? PlyRole::kFaces : PlyRole::kStrips;
+        find_corners(element);
+      }
+    }
+    if (!has_vertices) text_.fail("the PLY file has no vertex element", "is it a mesh?");
+    count_coordinates();
+  }
+
+  void find_corners(PlyElement& element) {
+    auto corners = find(element.properties, "vertex_indices");
+    if (!corners) corners = find(element.properties, "vertex_index");
+    if (!corners || !element.properties[*corners].list_count || is_float(element.properties[*corners].type))
+      text_.fail("the element " + element.name + " has no integer list vertex_indices",
+                 "write the corners of faces as the list vertex_indices or vertex_index");
+    element.corners = *corners;
+  }
+
+  void count_coordinates() {
+    header_.dimension = 0;
+    for (const char* name : kCoordinateNames) {
+      const auto found = find(header_.vertices().properties, name);
+      if (!found || header_.vertices().properties[*found].list_count) break;
+      ++header_.dimension;
+    }
+    if (header_.dimension == 0)
+      text_.fail("the vertices have no coordinate x", "write them with properties x, y and z");
+  }
+
+  // Least bytes that a record takes in the body.
+  std::uint64_t least_bytes(const PlyElement& element) const {
+    if (header_.encoding != PlyEncoding::kAscii) return element.fixed_bytes();
+    return 2 * element.properties.size();  // a digit and what separates it from the next
+  }
+
+  void check_size() const {
+    const auto size = text_.source().size();
+    if (!size) return;
+    std::uint64_t left = *size - header_.body_offset;
+    if (header_.encoding == PlyEncoding::kAscii) ++left;  // the last line end may be missing
+    for (const PlyElement& element : header_.elements) {
+      const std::uint64_t each = least_bytes(element);
+      if (element.count > left / each)
+        throw Error(ErrorKind::kBadInput,
+                    "the header promises " + std::to_string(element.count) + " of " + element.name +
+                        ", but the file holds at most " + std::to_string(left / each),
+                    "the file is cut, or its header is damaged; get a whole copy")
+            .at(text_.source().name(),
+                header_.encoding == PlyEncoding::kAscii ? text_.position() : std::to_string(header_.body_offset));
+      left -= element.count * each;
+    }
+  }
+
+  TextCursor& text_;
+  PlyHeader header_;
+  bool saw_format_ = false;
+};
+
+}  // namespace
+
+std::size_t byte_size(PlyType type) {
+  static constexpr std::array<std::size_t, 8> kBytes = {1, 1, 2, 2, 4, 4, 4, 8};
+  return kBytes[static_cast<std::size_t>(type)];
+}
+
+std::size_t PlyElement::fixed_bytes() const {
+  std::size_t bytes = 0;
+  for (const PlyProperty& p : properties) bytes += byte_size(p.list_count.value_or(p.type));
+  return bytes;
+}
+
+bool PlyElement::has_lists() const {
+  return std::ranges::any_of(properties, [](const PlyProperty& p) { return p.list_count.has_value(); });
+}
+
+std::string PlyHeader::format() const {
+  static constexpr std::array<const char*, 3> kNames = {"ASCII", "binary little endian", "binary big endian"};
+  return std::string("PLY ") + kNames[static_cast<std::size_t>(encoding)];
+}
+
+std::vector<std::string> PlyHeader::property_names() const {
+  std::vector<std::string> names;
+  for (const PlyProperty& property : vertices().properties)
+    if (!property.list_count && std::ranges::find(kCoordinateNames, property.name) == kCoordinateNames.end())
+      names.push_back(property.name);
+  return names;
+}
+
+std::vector<std::size_t> PlyHeader::find_properties(const std::vector<std::string>& names,
+                                                    const std::string& file) const {
+  std::vector<std::size_t> places;
+  for (const std::string& name : names) {
+    const auto found = find(vertices().properties, name);
+    if (!found || vertices().properties[*found].list_count) {
+      std::string known;
+      for (const std::string& other : property_names()) known += (known.empty() ? "" : ", ") + other;
+      throw Error(ErrorKind::kBadInput, "the mesh has no vertex property \"" + name + "\"",
+                  known.empty() ? "it has none but its coordinates" : "it has these: " + known)
+          .at(file);
+    }
+    places.push_back(*found);
+  }
+  return places;
+}
+
+std::vector<std::size_t> PlyHeader::coordinate_properties() const {
+  std::vector<std::size_t> places;
+  for (unsigned k = 0; k < dimension; ++k) places.push_back(*find(vertices().properties, kCoordinateNames[k]));
+  return places;
+}
+
+PlyHeader read_ply_header(TextCursor& text) { return HeaderParser(text).parse(); }
+
+}  // namespace reeb::io

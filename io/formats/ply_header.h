@@ -1,0 +1,62 @@
+// The header of a PLY file: its elements, their properties, and what each means for a mesh.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/text/text_cursor.h"
+
+namespace reeb::io {
+
+enum class PlyEncoding { kAscii, kLittleEndian, kBigEndian };
+
+enum class PlyType { kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kFloat32, kFloat64 };
+std::size_t byte_size(PlyType type);
+inline bool is_float(PlyType type) { return type >= PlyType::kFloat32; }
+
+struct PlyProperty {
+  std::string name;
+  PlyType type = PlyType::kFloat32;   // of the value, or of the items of the list
+  std::optional<PlyType> list_count;  // the type of the length, if it is a list
+};
+
+enum class PlyRole { kSkipped, kVertices, kFaces, kStrips };
+
+struct PlyElement {
+  std::string name;
+  PlyRole role = PlyRole::kSkipped;
+  std::uint64_t count = 0;
+  std::vector<PlyProperty> properties;
+  std::size_t corners = 0;  // the property that lists the corners, of faces and strips
+
+  // Bytes of a binary record without its list items; its size, if it has no lists.
+  std::size_t fixed_bytes() const;
+  bool has_lists() const;
+};
+
+struct PlyHeader {
+  PlyEncoding encoding = PlyEncoding::kAscii;
+  std::vector<PlyElement> elements;  // those without properties left out
+  std::size_t vertex_element = 0;
+  unsigned dimension = 3;  // of x, y, z, the leading ones that exist
+  std::uint64_t body_offset = 0;
+
+  const PlyElement& vertices() const { return elements[vertex_element]; }
+  std::string format() const;
+  std::vector<std::string> property_names() const;
+  // The place of each name among the vertex properties.
+  // THROWS: Error{kBadInput} naming the scalar properties that exist.
+  std::vector<std::size_t> find_properties(const std::vector<std::string>& names, const std::string& file) const;
+  // The vertex properties that are the coordinates.
+  std::vector<std::size_t> coordinate_properties() const;
+};
+
+// Reads up to and with the line end_header, and checks against the size of the input, where it is
+// known, that the elements can be there.
+// THROWS: Error{kBadInput} at the line in question.
+PlyHeader read_ply_header(TextCursor& text);
+
+}  // namespace reeb::io

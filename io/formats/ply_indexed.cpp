@@ -1,0 +1,161 @@
+#include "io/formats/ply_indexed.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+#include "io/file/mapped_windows.h"
+#include "io/formats/ply_reader.h"
+#include "io/formats/scalar_bytes.h"
+#include "libreeb/base/error.h"
+
+namespace reeb::io {
+namespace {
+
+constexpr std::size_t kMostRecordBytes = 4096;
+// Small windows, many at once: the vertices of a chunk lie in several places of the file.
+constexpr WindowOptions kVertexWindows = {.window_bits = 16, .window_count = 16, .overlap_bytes = kMostRecordBytes};
+
+struct Column {
+  PlyType type = PlyType::kFloat32;
+  std::size_t place = 0;  // in the record
+};
+
+std::vector<Column> find_columns(const PlyHeader& header, const ReadOptions& options, const std::string& file) {
+  std::vector<Column> all;
+  std::size_t place = 0;
+  for (const PlyProperty& property : header.vertices().properties) {
+    all.push_back({property.type, place});
+    place += byte_size(property.type);
+  }
+  std::vector<Column> columns;
+  for (const std::size_t p : header.coordinate_properties()) columns.push_back(all[p]);
+  for (const std::size_t p : header.find_properties(options.properties, file)) columns.push_back(all[p]);
+  return columns;
+}
+
+class IndexedPly final : public IndexedMesh {
+ public:
+  IndexedPly(const std::string& path, PlyHeader header, const ReadOptions& options)
+      : path_(path),
+        header_(std::move(header)),
+        columns_(find_columns(header_, options, path)),
+        swap_(header_.encoding == PlyEncoding::kBigEndian),
+        stride_(header_.vertices().fixed_bytes()),
+        vertices_begin_(header_.body_offset),
+        windows_(path, kVertexWindows) {
+    for (std::size_t i = 0; i < header_.vertex_element; ++i)
+      vertices_begin_ += header_.elements[i].count * header_.elements[i].fixed_bytes();
+    rewind();
+  }
+
+  std::uint64_t vertex_count() const override { return header_.vertices().count; }
+  unsigned column_count() const override { return static_cast<unsigned>(columns_.size()); }
+
+  void gather(std::span<const VertexId> ids, std::span<const unsigned> columns, std::span<double> values) override {
+    const bool plain =
+        !swap_ && std::ranges::all_of(columns, [this](unsigned c) { return columns_[c].type == PlyType::kFloat32; });
+    if (plain && columns.size() == 1)
+      gather_floats<1>(ids, columns, values);
+    else if (plain && columns.size() == 3)
+      gather_floats<3>(ids, columns, values);
+    else if (plain && columns.size() == 4)
+      gather_floats<4>(ids, columns, values);
+    else
+      gather_any(ids, columns, values);
+    if (!all_finite(values)) fail_not_finite(ids, columns, values);
+  }
+
+  void rewind() override { faces_ = open_ply_faces(open_content(path_), header_); }
+
+  bool read(std::vector<VertexId>& corners, std::size_t limit) override {
+    corners.clear();
+    batch_.triangles.swap(corners);
+    faces_->set_batch_events(limit);
+    const bool more = faces_->read(batch_);
+    batch_.triangles.swap(corners);
+    return more;
+  }
+
+  std::uint64_t bytes_read() const override { return faces_->bytes_read(); }
+  std::uint64_t bytes_total() const override { return windows_.size(); }
+  std::vector<std::string> warnings() const override { return faces_->warnings(); }
+
+ private:
+  const char* record(VertexId id) { return windows_.at(vertices_begin_ + id.value() * stride_); }
+
+  // Little-endian float32, the columns known at compile time to be so many.
+  template <std::size_t kColumns>
+  void gather_floats(std::span<const VertexId> ids, std::span<const unsigned> columns, std::span<double> values) {
+    std::array<std::size_t, kColumns> place{};
+    for (std::size_t k = 0; k < kColumns; ++k) place[k] = columns_[columns[k]].place;
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+      const char* const bytes = record(ids[i]);
+      for (std::size_t k = 0; k < kColumns; ++k)
+        values[k * ids.size() + i] = static_cast<double>(load_scalar<float>(bytes + place[k], false)) + 0.0;
+    }
+  }
+
+  void gather_any(std::span<const VertexId> ids, std::span<const unsigned> columns, std::span<double> values) {
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+      const Column& column = columns_[columns[k]];
+      double* const out = values.data() + k * ids.size();
+      with_type(column.type, [&](auto zero) {
+        for (std::size_t i = 0; i < ids.size(); ++i)
+          out[i] = static_cast<double>(load_scalar<decltype(zero)>(record(ids[i]) + column.place, swap_)) + 0.0;
+      });
+    }
+  }
+
+  [[noreturn]] void fail_not_finite(std::span<const VertexId> ids, std::span<const unsigned> columns,
+                                    std::span<const double> values) const {
+    const auto odd = std::ranges::find_if(values, [](double value) { return !std::isfinite(value); });
+    const auto index = static_cast<std::size_t>(odd - values.begin());
+    const VertexId id = ids[index % ids.size()];
+    const unsigned column = columns[index / ids.size()];
+    throw Error(ErrorKind::kBadInput,
+                std::string("a ") + (column < header_.dimension ? "coordinate" : "vertex property") + " of vertex " +
+                    std::to_string(id.value()) + " is not finite",
+                "mend this value, or remove what uses it")
+        .at(path_, std::to_string(vertices_begin_ + id.value() * stride_ + columns_[column].place));
+  }
+
+  std::string path_;
+  PlyHeader header_;
+  std::vector<Column> columns_;
+  bool swap_;
+  std::size_t stride_;
+  std::uint64_t vertices_begin_;
+  MappedWindows windows_;
+  std::unique_ptr<BatchReader> faces_;
+  MeshBatch batch_;
+};
+
+bool has_place_for_index(const PlyHeader& header) {
+  if (header.encoding == PlyEncoding::kAscii) return false;
+  if (header.vertices().has_lists() || header.vertices().fixed_bytes() > kMostRecordBytes) return false;
+  // Faces before the vertices have no fixed size, and neither have other elements with lists.
+  return std::none_of(header.elements.begin(),
+                      header.elements.begin() + static_cast<std::ptrdiff_t>(header.vertex_element),
+                      [](const PlyElement& element) { return element.has_lists(); });
+}
+
+}  // namespace
+
+std::unique_ptr<IndexedMesh> open_indexed_ply(const std::string& path, const ReadOptions& options) {
+  // A pipe gives its bytes only once: it is left for open_mesh.
+  std::error_code failure;
+  const auto status = std::filesystem::status(path, failure);
+  if (path == "-" || std::filesystem::is_fifo(status) || std::filesystem::is_character_file(status)) return nullptr;
+  auto source = open_content(path);
+  if (!source->can_seek() || !source->view(0).starts_with("ply")) return nullptr;
+  TextCursor text(std::move(source));
+  PlyHeader header = read_ply_header(text);
+  if (!has_place_for_index(header)) return nullptr;
+  return std::make_unique<IndexedPly>(path, std::move(header), options);
+}
+
+}  // namespace reeb::io

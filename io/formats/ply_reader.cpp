@@ -1,0 +1,395 @@
+#include "io/formats/ply_reader.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "io/formats/ply_decoder.h"
+#include "io/mesh/simplex_assembler.h"
+
+namespace reeb::io {
+namespace {
+
+constexpr std::size_t kNoColumn = std::numeric_limits<std::size_t>::max();
+
+// One walk over an element; walks over all of them may happen twice.
+struct Step {
+  std::size_t element = 0;
+  bool deliver = false;    // or only pass over it
+  bool from_body = false;  // begin again at the first element
+};
+
+// In the order of the file, unless faces stand before the vertices.
+std::vector<Step> plan_steps(const PlyHeader& header) {
+  std::vector<Step> steps;
+  const auto& elements = header.elements;
+  const auto names_corners = [](const PlyElement& e) {
+    return (e.role == PlyRole::kFaces || e.role == PlyRole::kStrips) && e.count != 0;
+  };
+  const auto vertices = elements.begin() + static_cast<std::ptrdiff_t>(header.vertex_element);
+  const bool faces_first = std::any_of(elements.begin(), vertices, names_corners);
+  if (faces_first)
+    for (std::size_t i = 0; i <= header.vertex_element; ++i) steps.push_back({i, i == header.vertex_element, false});
+  for (std::size_t i = 0; i < elements.size(); ++i)
+    steps.push_back({i, !(faces_first && i == header.vertex_element), faces_first && i == 0});
+  return steps;
+}
+
+MeshInfo describe(const PlyHeader& header, const ContentSource& source) {
+  MeshInfo info;
+  info.format = header.format();
+  info.dimension = header.dimension;
+  info.property_names = header.property_names();
+  info.vertex_count = header.vertices().count;
+  info.simplex_count = 0;
+  for (const PlyElement& element : header.elements) {
+    if (element.role == PlyRole::kFaces && info.simplex_count) *info.simplex_count += element.count;
+    if (element.role == PlyRole::kStrips) info.simplex_count.reset();  // a strip has any number
+  }
+  info.float32 = std::ranges::all_of(header.vertices().properties, [](const PlyProperty& property) {
+    return property.type == PlyType::kFloat32 || byte_size(property.type) < 4;
+  });
+  info.file_bytes = source.file_bytes();
+  return info;
+}
+
+// One column of a run of fixed-size records, whose first value is at `bytes`, goes to the end of
+// `column`. True if all values are finite.
+bool append_column(PlyType type, bool swap, const char* bytes, std::size_t stride, std::size_t count,
+                   std::vector<double>& column) {
+  const std::size_t before = column.size();
+  column.resize(before + count);
+  double* const out = column.data() + before;
+  with_type(type, [&](auto zero) {
+    for (std::size_t i = 0; i < count; ++i)
+      out[i] = static_cast<double>(load_scalar<decltype(zero)>(bytes + i * stride, swap)) + 0.0;
+  });
+  return all_finite({out, count});
+}
+
+template <class Decoder>
+class PlyReader final : public BatchReader {
+ public:
+  PlyReader(TextCursor text, PlyHeader header, ReadOptions options)
+      : BatchReader(std::move(options)),
+        header_(std::move(header)),
+        steps_(plan_steps(header_)),
+        decoder_(std::move(text), header_),
+        vertex_limit_(header_.vertices().count) {
+    info_ = describe(header_, decoder_.source());
+    choose_columns();
+    if (std::ranges::any_of(steps_, &Step::from_body) && !decoder_.source().can_seek())
+      throw Error(ErrorKind::kBadInput, "the faces stand before their vertices, and the input can be read only once",
+                  "unpack it to a file, or write the element vertex before the element face")
+          .at(decoder_.source().name());
+  }
+
+  // Skips all up to and with the vertices, whose records have a fixed size.
+  void pass_vertices() {
+    std::uint64_t offset = header_.body_offset;
+    for (; step_ <= header_.vertex_element; ++step_)
+      offset += header_.elements[step_].count * header_.elements[step_].fixed_bytes();
+    decoder_.bytes().move_to(offset);
+  }
+
+  std::uint64_t bytes_read() const override { return decoder_.source().file_bytes_read(); }
+
+  std::vector<std::string> warnings() const override {
+    std::vector<std::string> lines;
+    if (odd_values_ != 0)
+      lines.push_back(std::to_string(odd_values_) + " values of properties that are not used are not finite");
+    if (trailing_) lines.push_back("there are bytes behind the last element; they were not read");
+    return lines;
+  }
+
+ private:
+  void choose_columns() {
+    column_of_.assign(header_.vertices().properties.size(), kNoColumn);
+    const auto take = [this](std::size_t property) {
+      if (column_of_[property] == kNoColumn)
+        column_of_[property] = columns_.size();
+      else
+        copies_.emplace_back(columns_.size(), column_of_[property]);
+      columns_.push_back(nullptr);
+    };
+    for (const std::size_t property : header_.coordinate_properties()) take(property);
+    for (const std::size_t property : header_.find_properties(options().properties, decoder_.source().name()))
+      take(property);
+  }
+
+  void fill(MeshBatch& batch) override {
+    for (std::size_t k = 0; k < columns_.size(); ++k)
+      columns_[k] = k < info_.dimension ? &batch.coordinates[k] : &batch.properties[k - info_.dimension];
+    while (room(batch) != 0 && step_ < steps_.size()) {
+      const Step& step = steps_[step_];
+      const PlyElement& element = header_.elements[step.element];
+      if (record_ == 0 && !in_record_ && step.from_body) decoder_.move_to_body();
+      if (!step.deliver || element.role == PlyRole::kSkipped)
+        pass_element(element);
+      else if (element.role == PlyRole::kVertices)
+        read_vertices(element, batch);
+      else
+        read_faces(element, batch);
+      if (record_ == element.count) next_step();
+    }
+  }
+
+  void next_step() {
+    ++step_;
+    record_ = 0;
+    if (step_ == steps_.size()) trailing_ = Decoder::kBinary && !decoder_.bytes().at_end();
+  }
+
+  void pass_element(const PlyElement& element) {
+    if constexpr (Decoder::kBinary) {
+      if (!element.has_lists()) {
+        pass_fixed_records(element);
+        return;
+      }
+    }
+    for (; record_ != element.count; ++record_) {
+      decoder_.begin_record(element);
+      for (const PlyProperty& property : element.properties) pass_property(property);
+      decoder_.end_record(element);
+    }
+  }
+
+  void pass_fixed_records(const PlyElement& element) {
+    const std::size_t stride = element.fixed_bytes();
+    if (stride > ContentSource::kLookahead) decoder_.fail("a record is too long", "is the header right?");
+    for (; record_ != element.count; ++record_) decoder_.take(stride);
+  }
+
+  void pass_property(const PlyProperty& property) {
+    const std::uint64_t values = property.list_count ? list_length(property) : 1;
+    for (std::uint64_t i = 0; i < values; ++i) decoder_.skip(property.type, "value");
+  }
+
+  std::uint64_t list_length(const PlyProperty& property) {
+    const std::int64_t length = decoder_.integer(*property.list_count, "list length");
+    if (length < 0) decoder_.fail("a list has a negative length", "the file may be damaged here");
+    return static_cast<std::uint64_t>(length);
+  }
+
+  // --- vertices
+
+  void read_vertices(const PlyElement& element, MeshBatch& batch) {
+    if constexpr (Decoder::kBinary) {
+      if (!element.has_lists() && element.fixed_bytes() <= ContentSource::kLookahead) {
+        while (room(batch) != 0 && record_ != element.count) read_vertex_run(element, batch);
+        return;
+      }
+    }
+    for (; room(batch) != 0 && record_ != element.count; ++record_) read_vertex(element, batch);
+  }
+
+  void read_vertex(const PlyElement& element, MeshBatch& batch) {
+    decoder_.begin_record(element);
+    for (std::size_t p = 0; p < element.properties.size(); ++p) {
+      const PlyProperty& property = element.properties[p];
+      if (column_of_[p] != kNoColumn)
+        columns_[column_of_[p]]->push_back(decoder_.finite_value(property.type, what_is(p)));
+      else if (property.list_count)
+        pass_property(property);
+      else
+        odd_values_ += decoder_.skip(property.type, "value") ? 1u : 0u;
+    }
+    decoder_.end_record(element);
+    for (const auto& [to, from] : copies_) columns_[to]->push_back(columns_[from]->back());
+    count_vertices(batch, 1);
+  }
+
+  const char* what_is(std::size_t property) const {
+    return column_of_[property] < info_.dimension ? "coordinate" : "vertex property";
+  }
+
+  // Many fixed-size records at once, column by column.
+  void read_vertex_run(const PlyElement& element, MeshBatch& batch) {
+    const std::size_t stride = element.fixed_bytes();
+    Cursor& bytes = decoder_.bytes();
+    if (!bytes.ensure(stride)) decoder_.take(stride);  // fails
+    const auto left = static_cast<std::size_t>(std::min<std::uint64_t>(element.count - record_, room(batch)));
+    const std::size_t count = std::min({left, bytes.available() / stride, kRunRecords});
+    std::size_t place = 0;
+    for (std::size_t p = 0; p < element.properties.size(); ++p) {
+      const PlyType type = element.properties[p].type;
+      const char* const first = bytes.data() + place;
+      if (column_of_[p] == kNoColumn)
+        count_odd_values(type, first, stride, count);
+      else if (!append_column(type, decoder_.swaps(), first, stride, count, *columns_[column_of_[p]]))
+        fail_not_finite(p, place, stride, count);
+      place += byte_size(type);
+    }
+    for (const auto& [to, from] : copies_)
+      columns_[to]->insert(columns_[to]->end(), columns_[from]->end() - static_cast<std::ptrdiff_t>(count),
+                           columns_[from]->end());
+    bytes.advance(count * stride);
+    record_ += count;
+    count_vertices(batch, count);
+  }
+
+  void count_odd_values(PlyType type, const char* first, std::size_t stride, std::size_t count) {
+    if (!is_float(type)) return;
+    scratch_.clear();
+    if (append_column(type, decoder_.swaps(), first, stride, count, scratch_)) return;
+    odd_values_ +=
+        static_cast<std::uint64_t>(std::ranges::count_if(scratch_, [](double value) { return !std::isfinite(value); }));
+  }
+
+  [[noreturn]] void fail_not_finite(std::size_t property, std::size_t place, std::size_t stride, std::size_t count) {
+    const auto& column = *columns_[column_of_[property]];
+    const auto odd = std::find_if(column.end() - static_cast<std::ptrdiff_t>(count), column.end(),
+                                  [](double value) { return !std::isfinite(value); });
+    const auto index = count - static_cast<std::size_t>(column.end() - odd);
+    decoder_.fail_at(
+        decoder_.bytes().offset() + index * stride + place,
+        std::string("a ") + what_is(property) + " of vertex " + std::to_string(record_ + index) + " is not finite",
+        "mend this value, or remove what uses it");
+  }
+
+  // --- faces and strips
+
+  void read_faces(const PlyElement& element, MeshBatch& batch) {
+    while (room(batch) != 0 && record_ != element.count) {
+      if constexpr (Decoder::kBinary) {
+        if (!in_record_ && is_plain(element) && read_triangle_run(element, batch)) continue;
+      }
+      advance_face(element, batch);
+    }
+  }
+
+  // Takes a face one step on: to its next property, or through its corners while there is room.
+  void advance_face(const PlyElement& element, MeshBatch& batch) {
+    if (!std::exchange(in_record_, true)) {
+      decoder_.begin_record(element);
+      property_ = 0;
+      in_list_ = false;
+    }
+    if (property_ == element.properties.size()) {
+      decoder_.end_record(element);
+      in_record_ = false;
+      ++record_;
+    } else if (property_ != element.corners) {
+      pass_property(element.properties[property_++]);
+    } else if (advance_corners(element, batch)) {
+      ++property_;
+    }
+  }
+
+  // True when the list is through.
+  bool advance_corners(const PlyElement& element, MeshBatch& batch) {
+    const PlyProperty& list = element.properties[element.corners];
+    const bool strip = element.role == PlyRole::kStrips;
+    if (!std::exchange(in_list_, true)) {
+      corners_left_ = list_length(list);
+      face_.begin(strip ? FaceShape::kStrip : FaceShape::kPolygon);
+    }
+    for (; corners_left_ != 0 && room(batch) != 0; --corners_left_) {
+      const std::int64_t corner = decoder_.integer(list.type, "vertex index");
+      if (strip && corner == -1) {
+        face_.end(batch.triangles);
+        face_.begin(FaceShape::kStrip);
+      } else {
+        check_corner(corner);
+        face_.add(VertexId(static_cast<std::uint64_t>(corner)), batch.triangles);
+      }
+    }
+    if (corners_left_ != 0 || room(batch) == 0) return false;
+    face_.end(batch.triangles);
+    return true;
+  }
+
+  void check_corner(std::int64_t corner) const {
+    if (corner >= 0 && static_cast<std::uint64_t>(corner) < vertex_limit_) [[likely]]
+      return;
+    decoder_.fail("a face names vertex " + std::to_string(corner) + ", but there are only " +
+                      std::to_string(vertex_limit_) + " vertices",
+                  "vertices are numbered from 0; the file may be damaged here");
+  }
+
+  // Nothing but the usual list: a byte for the length and 32-bit corners.
+  static bool is_plain(const PlyElement& element) {
+    if (element.role != PlyRole::kFaces || element.properties.size() != 1) return false;
+    const PlyProperty& list = element.properties.front();
+    return byte_size(*list.list_count) == 1 && byte_size(list.type) == 4;
+  }
+
+  // Takes the triangles that come next in a row, at most kRunRecords. False if there is none that
+  // is whole and good; what is odd about it is for advance_face() to say.
+  bool read_triangle_run(const PlyElement& element, MeshBatch& batch) {
+    static constexpr std::size_t kRecordBytes = 13;
+    Cursor& bytes = decoder_.bytes();
+    if (!bytes.ensure(kRecordBytes)) return false;
+    const auto left = static_cast<std::size_t>(std::min<std::uint64_t>(element.count - record_, room(batch)));
+    const std::size_t most = std::min({left, bytes.available() / kRecordBytes, kRunRecords});
+    const bool is_signed = element.properties.front().type == PlyType::kInt32;
+    const std::uint64_t limit = std::min(vertex_limit_, std::uint64_t{1} << (is_signed ? 31 : 32));
+    const std::size_t count = decoder_.swaps() ? copy_triangles<true>(bytes.data(), most, limit, run_.data())
+                                               : copy_triangles<false>(bytes.data(), most, limit, run_.data());
+    batch.triangles.insert(batch.triangles.end(), run_.begin(), run_.begin() + static_cast<std::ptrdiff_t>(3 * count));
+    bytes.advance(count * kRecordBytes);
+    record_ += count;
+    return count != 0;
+  }
+
+  // Copies triangles until one is no triangle or has a corner not below `limit`; says how many it copied.
+  template <bool kSwap>
+  static std::size_t copy_triangles(const char* record, std::size_t most, std::uint64_t limit, VertexId* out) {
+    for (std::size_t i = 0; i < most; ++i, record += 13, out += 3) {
+      const std::uint64_t a = load_scalar<std::uint32_t>(record + 1, kSwap);
+      const std::uint64_t b = load_scalar<std::uint32_t>(record + 5, kSwap);
+      const std::uint64_t c = load_scalar<std::uint32_t>(record + 9, kSwap);
+      if (record[0] != 3 || std::max({a, b, c}) >= limit) [[unlikely]]
+        return i;
+      out[0] = VertexId(a);
+      out[1] = VertexId(b);
+      out[2] = VertexId(c);
+    }
+    return most;
+  }
+
+  // Short enough for a run's output to stay in the first cache.
+  static constexpr std::size_t kRunRecords = 512;
+
+  PlyHeader header_;
+  std::vector<Step> steps_;
+  Decoder decoder_;
+  std::uint64_t vertex_limit_;
+
+  std::vector<std::size_t> column_of_;                       // of each vertex property
+  std::vector<std::vector<double>*> columns_;                // coordinates, then properties, of the batch
+  std::vector<std::pair<std::size_t, std::size_t>> copies_;  // columns asked for twice: to, from
+  std::vector<double> scratch_;
+  // Triangles on their way into a batch, which would clear the room for them first.
+  std::array<VertexId, 3 * kRunRecords> run_;
+
+  std::size_t step_ = 0;
+  std::uint64_t record_ = 0;  // of the element of the step
+  bool in_record_ = false, in_list_ = false;
+  std::size_t property_ = 0;
+  std::uint64_t corners_left_ = 0;
+  SimplexAssembler face_;
+  std::uint64_t odd_values_ = 0;
+  bool trailing_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<MeshReader> open_ply(std::unique_ptr<ContentSource> source, const ReadOptions& options) {
+  TextCursor text(std::move(source));
+  PlyHeader header = read_ply_header(text);
+  if (header.encoding == PlyEncoding::kAscii)
+    return std::make_unique<PlyReader<AsciiPlyDecoder>>(std::move(text), std::move(header), options);
+  return std::make_unique<PlyReader<BinaryPlyDecoder>>(std::move(text), std::move(header), options);
+}
+
+std::unique_ptr<BatchReader> open_ply_faces(std::unique_ptr<ContentSource> source, const PlyHeader& header) {
+  auto reader = std::make_unique<PlyReader<BinaryPlyDecoder>>(TextCursor(std::move(source)), header, ReadOptions{});
+  reader->pass_vertices();
+  return reader;
+}
+
+}  // namespace reeb::io

@@ -1,0 +1,122 @@
+// Binary little-endian PLY: float or double vertex columns, faces as uchar + three 32-bit indices.
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+
+#include "io/formats/sectioned_file.h"
+#include "io/formats/writers.h"
+#include "io/mesh/written_records.h"
+#include "io/text/number_text.h"
+#include "libreeb/base/error.h"
+
+namespace reeb::io {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "records are copied as they lie in memory");
+
+constexpr std::uint64_t kMaxVertices = std::uint64_t{1} << 32;
+constexpr std::size_t kFaceBytes = 1 + 3 * sizeof(std::uint32_t);
+
+template <class Number>
+class PlyWriter : public MeshWriter {
+ public:
+  PlyWriter(const std::string& path, const MeshWriterOptions& options)
+      : columns_(column_names(options)),
+        dimension_(options.dimension),
+        header_bytes_(header(kMaxVertices, ~std::uint64_t{0}).size() + kMinPadding),
+        file_(path, options.existing, header_bytes_, options.vertex_count) {}
+
+  void write(const MeshBatch& batch) override {
+    write_vertices(batch);
+    if (!batch.triangles.empty() || !batch.tetrahedra.empty()) write_faces(batch);
+  }
+
+  void close() override {
+    std::string text = header(file_.vertex_count(), file_.face_count());
+    // A comment takes up the room of the digits that the counts did not need.
+    const std::size_t end = text.size() - std::strlen("end_header\n");
+    text.insert(end, "comment" + std::string(header_bytes_ - text.size() - 8, ' ') + "\n");
+    file_.commit(text);
+  }
+
+ private:
+  static constexpr std::size_t kMinPadding = std::size_t{8};  // "comment\n"
+
+  // A flat mesh gets a third coordinate; coordinates beyond the third are further columns.
+  static std::vector<std::string> column_names(const MeshWriterOptions& options) {
+    std::vector<std::string> names = {"x", "y", "z"};
+    for (unsigned k = 3; k < options.dimension; ++k) names.push_back(std::string("c").append(std::to_string(k)));
+    names.insert(names.end(), options.property_names.begin(), options.property_names.end());
+    return names;
+  }
+
+  std::string header(std::uint64_t vertices, std::uint64_t faces) const {
+    std::string text = "ply\nformat binary_little_endian 1.0\n";
+    text += "element vertex " + std::to_string(vertices) + "\n";
+    for (const std::string& name : columns_)
+      text += std::string("property ") + (sizeof(Number) == 4 ? "float " : "double ") + name + "\n";
+    text += "element face " + std::to_string(faces) + "\n";
+    const bool is_signed = vertices <= kMaxVertices / 2;  // the bytes are the same
+    text += std::string("property list uchar ") + (is_signed ? "int" : "uint") + " vertex_indices\n";
+    return text + "end_header\n";
+  }
+
+  void write_vertices(const MeshBatch& batch) {
+    OutputFile& out = file_.vertices(batch.vertex_count);
+    if (file_.vertex_count() > kMaxVertices)
+      throw Error(ErrorKind::kBadInput, "PLY indices cannot name more than 4294967296 vertices",
+                  "write a mesh of fewer vertices, or OBJ");
+    std::vector<const double*> columns;
+    for (unsigned k = 0; k < std::max(3u, dimension_); ++k)
+      columns.push_back(k < dimension_ ? batch.coordinates[k].data() : nullptr);
+    for (const auto& column : batch.properties) columns.push_back(column.data());
+    for (std::size_t i = 0; i < batch.vertex_count; ++i) {
+      char* record = out.reserve_record(columns.size() * sizeof(Number));
+      for (const double* column : columns) {
+        const Number number = column == nullptr ? Number{0} : narrow(column[i]);
+        std::memcpy(record, &number, sizeof(Number));
+        record += sizeof(Number);
+      }
+      out.commit_record(columns.size() * sizeof(Number));
+    }
+  }
+
+  static Number narrow(double value) {
+    const auto number = static_cast<Number>(value);
+    if (std::isfinite(value) && !std::isfinite(number)) throw_out_of_range(value);
+    return number;
+  }
+
+  [[noreturn]] static void throw_out_of_range(double value) {
+    std::string text = "the number ";
+    append_double(text, value);
+    throw Error(ErrorKind::kBadInput, text + " does not fit a float", "write double numbers, or OBJ");
+  }
+
+  void write_faces(const MeshBatch& batch) {
+    OutputFile& out = file_.faces(batch.triangle_count() + 4 * batch.tetrahedron_count());
+    for_each_face(batch, [&out](VertexId a, VertexId b, VertexId c) {
+      char* record = out.reserve_record(kFaceBytes);
+      const std::uint32_t corners[3] = {static_cast<std::uint32_t>(a.value()), static_cast<std::uint32_t>(b.value()),
+                                        static_cast<std::uint32_t>(c.value())};
+      *record = 3;
+      std::memcpy(record + 1, corners, sizeof corners);
+      out.commit_record(kFaceBytes);
+    });
+  }
+
+  std::vector<std::string> columns_;
+  unsigned dimension_;
+  std::size_t header_bytes_;
+  SectionedFile file_;
+};
+
+}  // namespace
+
+std::unique_ptr<MeshWriter> create_ply(const std::string& path, const MeshWriterOptions& options) {
+  if (options.float64) return std::make_unique<PlyWriter<double>>(path, options);
+  return std::make_unique<PlyWriter<float>>(path, options);
+}
+
+}  // namespace reeb::io

@@ -1,0 +1,73 @@
+// Scalars as binary files hold them: any type, either byte order.
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <utility>
+
+#include "io/formats/ply_header.h"
+
+namespace reeb::io {
+
+static_assert(std::endian::native == std::endian::little, "byte orders are told against little endian");
+
+template <class T>
+T load_scalar(const char* bytes, bool swap) {
+  T value;
+  if (!swap) {
+    std::memcpy(&value, bytes, sizeof value);
+    return value;
+  }
+  char turned[sizeof(T)];
+  for (std::size_t i = 0; i < sizeof(T); ++i) turned[i] = bytes[sizeof(T) - 1 - i];
+  std::memcpy(&value, turned, sizeof value);
+  return value;
+}
+
+// Calls `use` with a zero of the C++ type, so that a loop over values is compiled once a type.
+template <class Use>
+decltype(auto) with_type(PlyType type, Use&& use) {
+  switch (type) {
+    case PlyType::kInt8:
+      return use(std::int8_t{});
+    case PlyType::kUint8:
+      return use(std::uint8_t{});
+    case PlyType::kInt16:
+      return use(std::int16_t{});
+    case PlyType::kUint16:
+      return use(std::uint16_t{});
+    case PlyType::kInt32:
+      return use(std::int32_t{});
+    case PlyType::kUint32:
+      return use(std::uint32_t{});
+    case PlyType::kFloat32:
+      return use(float{});
+    case PlyType::kFloat64:
+      break;
+  }
+  return use(double{});
+}
+
+inline double load_double(PlyType type, const char* bytes, bool swap) {
+  return with_type(type,
+                   [&](auto zero) { return static_cast<double>(load_scalar<decltype(zero)>(bytes, swap)) + 0.0; });
+}
+
+// By exponents, without branches: this runs over every value that is read.
+inline bool all_finite(std::span<const double> values) {
+  constexpr std::uint64_t kExponent = 0x7ff0'0000'0000'0000u;
+  std::uint64_t odd = 0;
+  for (const double value : values) odd |= (std::bit_cast<std::uint64_t>(value) & kExponent) == kExponent ? 1u : 0u;
+  return odd == 0;
+}
+
+// REQUIRES: an integer type.
+inline std::int64_t load_integer(PlyType type, const char* bytes, bool swap) {
+  return with_type(type,
+                   [&](auto zero) { return static_cast<std::int64_t>(load_scalar<decltype(zero)>(bytes, swap)); });
+}
+
+}  // namespace reeb::io

@@ -1,0 +1,141 @@
+#include "io/formats/stl_reader.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "io/formats/scalar_bytes.h"
+
+namespace reeb::io {
+namespace {
+
+std::string lower_case(std::string_view word) {
+  std::string lower(word.substr(0, 16));
+  for (char& c : lower)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return lower;
+}
+
+constexpr const char* kDamagedHint = "the file may be cut or damaged here";
+
+}  // namespace
+
+StlReader::StlReader(const ContentSource& source, ReadOptions options, std::string format)
+    : BatchReader(std::move(options)) {
+  refuse_properties(this->options(), "STL", source.name());
+  info_.format = std::move(format);
+  info_.file_bytes = source.file_bytes();
+}
+
+void StlReader::add_corner(const VertexWeld::Coordinates& point, MeshBatch& batch) {
+  const auto [number, is_new] = weld_.number(point);
+  if (is_new) {
+    for (std::size_t k = 0; k < point.size(); ++k) batch.coordinates[k].push_back(point[k]);
+    count_vertices(batch, 1);
+  }
+  pending_ = VertexId(number);
+}
+
+void StlReader::fill(MeshBatch& batch) {
+  while (room(batch) != 0) {
+    if (pending_) {
+      facet_.add(*pending_, batch.triangles);
+      pending_.reset();
+    } else if (!advance(batch)) {
+      return;
+    }
+  }
+}
+
+AsciiStlReader::AsciiStlReader(std::unique_ptr<ContentSource> source, ReadOptions options)
+    : StlReader(*source, std::move(options), "STL ASCII"), text_(std::move(source)) {}
+
+bool AsciiStlReader::advance(MeshBatch& batch) {
+  if (!text_.more()) {
+    text_.mark();
+    if (in_solid_) text_.fail("the file ends inside a solid", "the file is cut; get a whole copy");
+    return false;
+  }
+  const std::string keyword = lower_case(text_.token());
+  if (keyword == "vertex" && in_facet_) {
+    VertexWeld::Coordinates point{};
+    for (double& coordinate : point) coordinate = text_.finite_number<double>("coordinate");
+    add_corner(point, batch);
+    ++facet_corners_;
+  } else if (keyword == "endloop" && in_facet_) {
+    end_facet(batch);
+  } else if (keyword == "facet" && in_solid_ && !in_facet_) {
+    in_facet_ = true;
+    facet_corners_ = 0;
+    facet_.begin(FaceShape::kPolygon);
+  } else if (keyword == "solid" && !in_solid_) {
+    in_solid_ = true;
+  } else if (keyword == "endsolid" && in_solid_ && !in_facet_) {
+    in_solid_ = false;
+  } else if (keyword == "endfacet" && in_facet_) {
+    in_facet_ = false;
+  } else if (keyword != "outer" || !in_facet_) {
+    text_.fail("\"" + keyword + "\" does not belong here in an STL file", kDamagedHint);
+  }
+  text_.skip_line();
+  return true;
+}
+
+void AsciiStlReader::end_facet(MeshBatch& batch) {
+  if (facet_corners_ < 3) text_.fail("a facet of " + std::to_string(facet_corners_) + " corners", kDamagedHint);
+  facet_.end(batch.triangles);
+}
+
+BinaryStlReader::BinaryStlReader(std::unique_ptr<ContentSource> source, ReadOptions options)
+    : StlReader(*source, std::move(options), "STL binary"), cursor_(std::move(source)) {
+  require(kHeaderBytes);
+  facets_left_ = load_scalar<std::uint32_t>(cursor_.data() + 80, false);
+  info_.simplex_count = facets_left_;
+  info_.float32 = true;
+  const auto size = cursor_.source().size();
+  if (size && facets_left_ > (*size - kHeaderBytes) / kFacetBytes)
+    throw Error(ErrorKind::kBadInput,
+                "the header promises " + std::to_string(facets_left_) + " facets, but the file holds " +
+                    std::to_string((*size - kHeaderBytes) / kFacetBytes),
+                "the file is cut, or its header is damaged; get a whole copy")
+        .at(cursor_.source().name(), "80");
+  cursor_.advance(kHeaderBytes);
+}
+
+void BinaryStlReader::require(std::size_t bytes) {
+  if (cursor_.ensure(bytes)) return;
+  throw Error(ErrorKind::kBadInput, "the file ends before its last facet", "the file is cut; get a whole copy")
+      .at(cursor_.source().name(), std::to_string(cursor_.offset() + cursor_.available()));
+}
+
+bool BinaryStlReader::advance(MeshBatch& batch) {
+  if (facets_left_ == 0) {
+    trailing_ = !cursor_.at_end();
+    return false;
+  }
+  require(kFacetBytes);
+  if (corner_ == 0) facet_.begin(FaceShape::kPolygon);
+  const std::size_t place = 12 + 12 * corner_;  // behind the normal
+  VertexWeld::Coordinates point{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const float coordinate = load_scalar<float>(cursor_.data() + place + 4 * k, false);
+    if (!std::isfinite(coordinate))
+      throw Error(ErrorKind::kBadInput, "a coordinate is not finite", "mend this facet, or leave it out")
+          .at(cursor_.source().name(), std::to_string(cursor_.offset() + place + 4 * k));
+    point[k] = static_cast<double>(coordinate) + 0.0;
+  }
+  add_corner(point, batch);
+  if (++corner_ == 3) {
+    corner_ = 0;
+    --facets_left_;
+    cursor_.advance(kFacetBytes);
+  }
+  return true;
+}
+
+std::vector<std::string> BinaryStlReader::warnings() const {
+  if (!trailing_) return {};
+  return {"there are bytes behind the last facet; they were not read"};
+}
+
+}  // namespace reeb::io

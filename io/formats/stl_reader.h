@@ -1,0 +1,73 @@
+// STL, ASCII (float64) and binary. Corners with equal coordinates are one vertex.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "io/formats/vertex_weld.h"
+#include "io/mesh/batch_reader.h"
+#include "io/mesh/simplex_assembler.h"
+#include "io/text/cursor.h"
+#include "io/text/text_cursor.h"
+
+namespace reeb::io {
+
+// Delivers each corner that is new as a vertex just before the facet that it belongs to.
+// MEMORY: grows with the number of distinct vertices, see VertexWeld.
+class StlReader : public BatchReader {
+ public:
+  std::uint64_t memory_bytes() const override { return weld_.memory_bytes(); }
+
+ protected:
+  StlReader(const ContentSource& source, ReadOptions options, std::string format);
+
+  // Takes a step that calls add_corner() at most once and adds no other event. False at the end.
+  virtual bool advance(MeshBatch& batch) = 0;
+  // Numbers the corner, and adds it to the batch if it is new.
+  void add_corner(const VertexWeld::Coordinates& point, MeshBatch& batch);
+
+  SimplexAssembler facet_;
+
+ private:
+  void fill(MeshBatch& batch) final;
+
+  VertexWeld weld_;
+  std::optional<VertexId> pending_;  // a corner that is not yet in its facet: that is the next event
+};
+
+class AsciiStlReader final : public StlReader {
+ public:
+  AsciiStlReader(std::unique_ptr<ContentSource> source, ReadOptions options);
+  std::uint64_t bytes_read() const override { return text_.source().file_bytes_read(); }
+
+ private:
+  bool advance(MeshBatch& batch) override;
+  void end_facet(MeshBatch& batch);
+
+  TextCursor text_;
+  bool in_solid_ = false, in_facet_ = false;
+  unsigned facet_corners_ = 0;
+};
+
+class BinaryStlReader final : public StlReader {
+ public:
+  static constexpr std::size_t kHeaderBytes = 84, kFacetBytes = 50;
+
+  BinaryStlReader(std::unique_ptr<ContentSource> source, ReadOptions options);
+  std::uint64_t bytes_read() const override { return cursor_.source().file_bytes_read(); }
+  std::vector<std::string> warnings() const override;
+
+ private:
+  bool advance(MeshBatch& batch) override;
+  void require(std::size_t bytes);
+
+  Cursor cursor_;
+  std::uint64_t facets_left_ = 0;
+  unsigned corner_ = 0;  // of the facet at the cursor
+  bool trailing_ = false;
+};
+
+}  // namespace reeb::io

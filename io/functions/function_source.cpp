@@ -1,0 +1,268 @@
+#include "io/functions/function_source.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <utility>
+
+#include "io/file/content_source.h"
+#include "io/file/mapped_windows.h"
+#include "io/formats/scalar_bytes.h"
+#include "io/text/text_cursor.h"
+#include "libreeb/base/error.h"
+
+namespace reeb::io {
+namespace {
+
+std::optional<std::uint64_t> whole_number(std::string_view text) {
+  std::uint64_t value = 0;
+  const auto parsed = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (parsed.ec != std::errc{} || parsed.ptr != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+std::optional<FunctionSpec> try_parse(std::string_view text) {
+  using Kind = FunctionSpec::Kind;
+  const std::string whole(text);
+  if (text == "x" || text == "y" || text == "z")
+    return FunctionSpec{Kind::kCoordinate, static_cast<std::uint64_t>(text[0] - 'x'), {}, whole};
+  if (text == "index") return FunctionSpec{Kind::kIndex, 0, {}, whole};
+  if (text.starts_with('c')) {
+    const auto coordinate = whole_number(text.substr(1));
+    if (coordinate) return FunctionSpec{Kind::kCoordinate, *coordinate, {}, whole};
+    return std::nullopt;
+  }
+  const std::size_t colon = text.find(':');
+  if (colon == std::string_view::npos || colon + 1 == text.size()) return std::nullopt;
+  const std::string_view name = text.substr(0, colon), argument = text.substr(colon + 1);
+  if (name == "property") return FunctionSpec{Kind::kProperty, 0, std::string(argument), whole};
+  if (name == "file") return FunctionSpec{Kind::kFile, 0, std::string(argument), whole};
+  const auto seed = whole_number(argument);
+  if (name == "random" && seed) return FunctionSpec{Kind::kRandom, *seed, {}, whole};
+  return std::nullopt;
+}
+
+std::uint64_t mix(std::uint64_t x) noexcept {
+  x += 0x9e3779b97f4a7c15u;
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
+  return x ^ (x >> 31);
+}
+
+}  // namespace
+
+class ValueFile {
+ public:
+  ValueFile() = default;
+  ValueFile(const ValueFile&) = delete;
+  ValueFile& operator=(const ValueFile&) = delete;
+  virtual ~ValueFile() = default;
+
+  // The values of vertices 0, 1, 2, ... in turn.
+  virtual double next() = 0;
+  virtual double at(std::uint64_t vertex) = 0;
+  virtual void check_count(std::uint64_t vertex_count) = 0;
+  // What at() will keep in memory, for so many vertices.
+  virtual std::uint64_t lookup_bytes(std::uint64_t) const { return 0; }
+};
+
+namespace {
+
+[[noreturn]] void throw_wrong_count(const std::string& path, const std::string& position, std::uint64_t values,
+                                    bool or_more, std::uint64_t vertices) {
+  throw Error(ErrorKind::kBadInput,
+              "has " + std::to_string(values) + (or_more ? " or more" : "") + " values, but the mesh has " +
+                  std::to_string(vertices) + " vertices",
+              "the file must have one value a vertex")
+      .at(path, position);
+}
+
+class RawValueFile final : public ValueFile {
+ public:
+  explicit RawValueFile(const std::string& path)
+      : path_(path), windows_(path, {.window_bits = 18, .window_count = 16, .overlap_bytes = 8}) {
+    if (windows_.size() % 8 != 0)
+      throw Error(ErrorKind::kBadInput, "does not hold whole float64 values",
+                  "a .f64 file is 8 bytes a vertex; the file may be cut")
+          .at(path, std::to_string(windows_.size() / 8 * 8));
+  }
+  double next() override { return at(next_++); }
+  double at(std::uint64_t vertex) override {
+    if (vertex >= windows_.size() / 8)
+      throw_wrong_count(path_, std::to_string(windows_.size()), windows_.size() / 8, false, vertex + 1);
+    const double value = load_scalar<double>(windows_.at(8 * vertex), false);
+    if (std::isfinite(value)) [[likely]]
+      return value + 0.0;
+    throw Error(ErrorKind::kBadInput, "the value of vertex " + std::to_string(vertex) + " is not finite",
+                "give every vertex a finite value")
+        .at(path_, std::to_string(8 * vertex));
+  }
+  void check_count(std::uint64_t vertex_count) override {
+    if (windows_.size() / 8 != vertex_count)
+      throw_wrong_count(path_, std::to_string(8 * std::min(vertex_count, windows_.size() / 8)), windows_.size() / 8,
+                        false, vertex_count);
+  }
+
+ private:
+  std::string path_;
+  MappedWindows windows_;
+  std::uint64_t next_ = 0;
+};
+
+class TextValueFile final : public ValueFile {
+ public:
+  explicit TextValueFile(const std::string& path) : path_(path) { open(); }
+
+  double next() override {
+    if (!text_->more()) {
+      text_->mark();
+      throw_wrong_count(path_, text_->position(), read_, false, read_ + 1);
+    }
+    const auto value = text_->finite_number<double>("value");
+    if (text_->more_on_line()) {
+      text_->token();
+      text_->fail("a line has more than one number", "write one number a line, in the order of vertices");
+    }
+    ++read_;
+    return value;
+  }
+  double at(std::uint64_t vertex) override {
+    if (values_.empty()) {
+      if (vertex == read_) return next();
+      open();
+    }
+    while (values_.size() <= vertex) values_.push_back(next());
+    return values_[vertex];
+  }
+  void check_count(std::uint64_t vertex_count) override {
+    if (!values_.empty() || read_ == 0) {
+      values_.reserve(vertex_count);
+      while (values_.size() < vertex_count) values_.push_back(next());
+    }
+    const bool more = text_->more();
+    text_->mark();
+    if (more || read_ != vertex_count)
+      throw_wrong_count(path_, text_->position(), read_ + (more ? 1 : 0), more, vertex_count);
+  }
+  std::uint64_t lookup_bytes(std::uint64_t vertex_count) const override { return vertex_count * sizeof(double); }
+
+ private:
+  void open() {
+    text_.emplace(open_content(path_), TextStyle{.comments = true});
+    read_ = 0;
+  }
+
+  std::string path_;
+  std::optional<TextCursor> text_;
+  std::uint64_t read_ = 0;
+  std::vector<double> values_;  // only where vertices are looked up, not in order
+};
+
+}  // namespace
+
+FunctionSpec parse_function(std::string_view text) {
+  if (auto spec = try_parse(text)) return *std::move(spec);
+  throw Error(ErrorKind::kUsage, "\"" + std::string(text) + "\" is not a function",
+              "functions are x, y, z, cK (a coordinate, from 0), index, random:SEED, property:NAME, file:PATH");
+}
+
+std::string file_name_part(const FunctionSpec& spec) {
+  std::string name = spec.text;
+  std::ranges::replace(name, ':', '-');
+  std::ranges::replace(name, '/', '-');
+  return name;
+}
+
+std::vector<std::string> needed_properties(std::span<const FunctionSpec> specs) {
+  std::vector<std::string> names;
+  for (const FunctionSpec& spec : specs)
+    if (spec.kind == FunctionSpec::Kind::kProperty && std::ranges::find(names, spec.argument) == names.end())
+      names.push_back(spec.argument);
+  return names;
+}
+
+double random_value(std::uint64_t seed, std::uint64_t vertex) noexcept {
+  return static_cast<double>(mix(mix(seed) + vertex) >> 11) * 0x1p-53;
+}
+
+FunctionSource::FunctionSource(const FunctionSpec& spec, const MeshInfo& info, std::span<const std::string> properties,
+                               std::string mesh_name)
+    : spec_(spec), mesh_name_(std::move(mesh_name)) {
+  using Kind = FunctionSpec::Kind;
+  if (spec.kind == Kind::kCoordinate) {
+    if (spec.number >= info.dimension)
+      throw Error(ErrorKind::kBadInput,
+                  "the mesh has no coordinate " + spec.text + "; its vertices have " + std::to_string(info.dimension),
+                  "choose one of c0 to c" + std::to_string(info.dimension - 1))
+          .at(mesh_name_);
+    column_ = static_cast<unsigned>(spec.number);
+  } else if (spec.kind == Kind::kProperty) {
+    const auto found = std::ranges::find(properties, spec.argument);
+    if (found == properties.end())
+      throw Error(ErrorKind::kBadInput, "the mesh has no vertex property \"" + spec.argument + "\"",
+                  "choose a property that the mesh has, a coordinate, or file:PATH")
+          .at(mesh_name_);
+    column_ = info.dimension + static_cast<unsigned>(found - properties.begin());
+  } else if (spec.kind == Kind::kFile) {
+    if (spec.argument.ends_with(".f64")) {
+      file_ = std::make_unique<RawValueFile>(spec.argument);
+      if (info.vertex_count) file_->check_count(*info.vertex_count);
+    } else {
+      file_ = std::make_unique<TextValueFile>(spec.argument);
+    }
+  }
+}
+
+FunctionSource::~FunctionSource() = default;
+FunctionSource::FunctionSource(FunctionSource&&) noexcept = default;
+FunctionSource& FunctionSource::operator=(FunctionSource&&) noexcept = default;
+
+void FunctionSource::evaluate(const MeshBatch& batch, std::span<double> values) {
+  const std::uint64_t first = batch.first_vertex.value();
+  if (column_) {
+    const std::size_t dimension = batch.coordinates.size();
+    copy_finite(*column_ < dimension ? batch.coordinates[*column_] : batch.properties[*column_ - dimension], values, {},
+                first);
+  } else if (file_) {
+    for (double& value : values) value = file_->next();
+  } else {
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = value_of(first + i);
+  }
+}
+
+void FunctionSource::evaluate(std::span<const VertexId> ids, std::span<const double> gathered,
+                              std::span<double> values) {
+  if (column_)
+    copy_finite(gathered, values, ids, 0);
+  else
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = value_of(ids[i].value());
+}
+
+void FunctionSource::check_count(std::uint64_t vertex_count) {
+  if (file_) file_->check_count(vertex_count);
+}
+
+std::uint64_t FunctionSource::lookup_bytes(std::uint64_t vertex_count) const {
+  return file_ ? file_->lookup_bytes(vertex_count) : 0;
+}
+
+double FunctionSource::value_of(std::uint64_t vertex) {
+  if (file_) return file_->at(vertex);
+  if (spec_.kind == FunctionSpec::Kind::kRandom) return random_value(spec_.number, vertex);
+  return static_cast<double>(vertex);
+}
+
+void FunctionSource::copy_finite(std::span<const double> from, std::span<double> to, std::span<const VertexId> ids,
+                                 std::uint64_t first) const {
+  for (std::size_t i = 0; i < to.size(); ++i) to[i] = from[i] + 0.0;
+  if (all_finite(to)) [[likely]]
+    return;
+  const auto odd = std::ranges::find_if(to, [](double value) { return !std::isfinite(value); });
+  const auto index = static_cast<std::size_t>(odd - to.begin());
+  const std::uint64_t vertex = ids.empty() ? first + index : ids[index].value();
+  throw Error(ErrorKind::kBadInput, spec_.text + " of vertex " + std::to_string(vertex) + " is not finite",
+              "mend this vertex, or choose another function")
+      .at(mesh_name_);
+}
+
+}  // namespace reeb::io

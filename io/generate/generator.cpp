@@ -1,0 +1,139 @@
+#include "io/generate/generator.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "io/generate/permutation.h"
+#include "io/generate/shape.h"
+#include "io/generate/sierpinski.h"
+#include "io/generate/surfaces.h"
+#include "libreeb/base/error.h"
+
+namespace reeb::io {
+namespace {
+
+constexpr std::uint64_t kMaxTriangles = std::uint64_t{1} << 42;
+
+template <class Value>
+using Names = std::pair<std::string_view, Value>;
+
+constexpr std::array<Names<MeshKind>, 6> kKinds = {{{"torus", MeshKind::kTorus},
+                                                    {"terrain", MeshKind::kTerrain},
+                                                    {"grid", MeshKind::kGrid},
+                                                    {"plate", MeshKind::kPlate},
+                                                    {"scan", MeshKind::kScan},
+                                                    {"sierpinski", MeshKind::kSierpinski}}};
+constexpr std::array<Names<MeshOrder>, 3> kOrders = {
+    {{"rows", MeshOrder::kRows}, {"patches", MeshOrder::kPatches}, {"random", MeshOrder::kRandom}}};
+
+template <class Table>
+auto find_by_name(const Table& table, std::string_view what, std::string_view name) {
+  std::string known;
+  for (const auto& [entry, value] : table) {
+    if (entry == name) return value;
+    known += (known.empty() ? "" : ", ") + std::string(entry);
+  }
+  throw Error(ErrorKind::kUsage, "unknown " + std::string(what) + " '" + std::string(name) + "'",
+              "choose one of " + known);
+}
+
+template <class Table, class Value>
+std::string name_of(const Table& table, Value value) {
+  const auto it =
+      std::find_if(table.begin(), table.end(), [value](const auto& entry) { return entry.second == value; });
+  return std::string(it->first);
+}
+
+// Delivers all vertices, then all triangles.
+class ShapeReader : public GeneratedMesh {
+ public:
+  ShapeReader(std::unique_ptr<Shape> shape, const GeneratorOptions& options, std::size_t batch_events)
+      : shape_(std::move(shape)),
+        topology_(shape_->topology()),
+        random_(options.order == MeshOrder::kRandom),
+        permutation_(topology_.triangles, options.seed),
+        batch_events_(std::max<std::size_t>(batch_events, 1)) {
+    info_.format = "generated " + name_of(kKinds, options.kind);
+    info_.dimension = shape_->dimension();
+    info_.vertex_count = topology_.vertices;
+    info_.simplex_count = topology_.triangles;
+  }
+
+  const MeshInfo& info() const override { return info_; }
+  const ExpectedTopology& topology() const override { return topology_; }
+  std::uint64_t bytes_read() const override { return 0; }
+
+  bool read(MeshBatch& batch) override {
+    batch.clear();
+    batch.first_vertex = VertexId(next_vertex_);
+    if (next_vertex_ < topology_.vertices)
+      read_vertices(batch);
+    else if (random_)
+      read_random_triangles(batch);
+    else
+      read_cells(batch);
+    return !batch.empty();
+  }
+
+ private:
+  void read_vertices(MeshBatch& batch) {
+    batch.vertex_count =
+        static_cast<std::size_t>(std::min<std::uint64_t>(batch_events_, topology_.vertices - next_vertex_));
+    batch.coordinates.resize(info_.dimension);
+    shape_->append_vertices(next_vertex_, batch.vertex_count, batch.coordinates);
+    next_vertex_ += batch.vertex_count;
+  }
+
+  void read_random_triangles(MeshBatch& batch) {
+    for (; batch.triangle_count() < batch_events_ && next_ < topology_.triangles; ++next_)
+      shape_->append_triangle(permutation_(next_), batch.triangles);
+  }
+
+  // A cell may have more triangles than the batch has room left; the rest waits for the next one.
+  void read_cells(MeshBatch& batch) {
+    batch.triangles.swap(waiting_);
+    while (batch.triangle_count() < batch_events_ && next_ < shape_->cell_count())
+      shape_->append_cell(next_++, batch.triangles);
+    const std::size_t end = std::min(batch.triangles.size(), 3 * batch_events_);
+    const auto rest = batch.triangles.begin() + static_cast<std::ptrdiff_t>(end);
+    waiting_.assign(rest, batch.triangles.end());
+    batch.triangles.erase(rest, batch.triangles.end());
+  }
+
+  std::unique_ptr<Shape> shape_;
+  ExpectedTopology topology_;
+  MeshInfo info_;
+  bool random_;
+  Permutation permutation_;
+  std::size_t batch_events_;
+  std::uint64_t next_vertex_ = 0;
+  std::uint64_t next_ = 0;  // cell, or place in the random order
+  std::vector<VertexId> waiting_;
+};
+
+std::unique_ptr<Shape> make_shape(const GeneratorOptions& options) {
+  if (options.triangles == 0 || options.triangles > kMaxTriangles)
+    throw Error(ErrorKind::kUsage, "cannot generate " + std::to_string(options.triangles) + " triangles",
+                "choose --triangles between 1 and " + std::to_string(kMaxTriangles));
+  if (options.kind != MeshKind::kSierpinski) return make_grid_surface(options);
+  if (options.dimension < SierpinskiSimplex::kMinDimension || options.dimension > SierpinskiSimplex::kMaxDimension)
+    throw Error(ErrorKind::kUsage, "no Sierpinski simplex of dimension " + std::to_string(options.dimension),
+                "choose --dimension 2, 3, 4 or 5");
+  return std::make_unique<SierpinskiSimplex>(options.dimension, options.triangles);
+}
+
+}  // namespace
+
+std::unique_ptr<GeneratedMesh> generate_mesh(const GeneratorOptions& options, const ReadOptions& read_options) {
+  if (!read_options.properties.empty())
+    throw Error(ErrorKind::kBadInput, "the mesh has no vertex property '" + read_options.properties.front() + "'",
+                "generated meshes have coordinates only");
+  return std::make_unique<ShapeReader>(make_shape(options), options, read_options.batch_events);
+}
+
+MeshKind mesh_kind(std::string_view name) { return find_by_name(kKinds, "kind of mesh", name); }
+
+MeshOrder mesh_order(std::string_view name) { return find_by_name(kOrders, "order", name); }
+
+}  // namespace reeb::io

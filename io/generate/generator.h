@@ -1,0 +1,68 @@
+// Test meshes of any size, computed on the fly: nothing is stored but one batch.
+//
+// Vertices, positions and triangles are functions of their index alone, so a mesh of 372M
+// triangles needs no more memory than one of a thousand. What the mesh is topologically is known
+// by construction; tests and benchmarks compare with that.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "libreeb/port/mesh_reader.h"
+
+namespace reeb::io {
+
+enum class MeshKind {
+  kTorus,       // standing on its side: along z it has one loop
+  kTerrain,     // a disc: height field of fractal noise
+  kGrid,        // a disc: flat, x and y integers, z = 0; every sweep meets ties
+  kPlate,       // closed: a flat plate with a through-hole in every 4 x 4 cells
+  kScan,        // closed: a rough, noisy body of two close sheets with many small handles
+  kSierpinski,  // the 2-skeleton of a Sierpinski simplex of dimension 2 to 5; not a manifold
+};
+
+enum class MeshOrder {
+  kRows,     // vertices and triangles row by row: the front is one row
+  kPatches,  // square patches, row of patches by row of patches; vertices numbered patch by patch
+  kRandom,   // vertices in rows, triangles in pseudo-random order
+};
+
+struct GeneratorOptions {
+  MeshKind kind = MeshKind::kScan;
+  std::uint64_t triangles = 1'000'000;  // the mesh has the nearest count that its kind and width allow
+  MeshOrder order = MeshOrder::kPatches;
+  std::uint64_t seed = 1;                // of noise, places of handles, and random order
+  std::optional<std::uint64_t> width{};  // cells in a row of the grid; default: about as many as rows
+  unsigned dimension = 3;                // of the Sierpinski simplex
+};
+
+struct ExpectedTopology {
+  std::uint64_t vertices = 0, triangles = 0;
+  std::uint64_t components = 1;
+  std::int64_t euler_characteristic = 0;        // of the 2-skeleton
+  std::uint64_t first_betti = 0;                // of the 2-skeleton
+  std::optional<std::uint64_t> genus;           // orientable surfaces
+  std::optional<std::uint64_t> boundary_loops;  // manifolds
+  // No Reeb graph of the mesh has more loops. A closed orientable surface has exactly so many
+  // under every function all of whose saddles are simple.
+  std::uint64_t max_reeb_loops = 0;
+};
+
+class GeneratedMesh : public MeshReader {
+ public:
+  virtual const ExpectedTopology& topology() const = 0;
+};
+
+// A reader of the mesh that the options describe. All numbers are exact in float32. The mesh
+// depends on kind, triangles, seed, width and dimension only; the order renumbers and permutes.
+// THROWS: Error{kUsage} for options that no mesh can meet.
+std::unique_ptr<GeneratedMesh> generate_mesh(const GeneratorOptions& options, const ReadOptions& read_options = {});
+
+// By the name of INTERFACE.md ("scan", "patches"). THROWS: Error{kUsage} that lists the names.
+MeshKind mesh_kind(std::string_view name);
+MeshOrder mesh_order(std::string_view name);
+
+}  // namespace reeb::io

@@ -1,0 +1,59 @@
+// The part that all mesh readers share: batches of a bounded number of events.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <utility>
+
+#include "libreeb/port/mesh_reader.h"
+
+namespace reeb::io {
+
+class BatchReader : public MeshReader {
+ public:
+  const MeshInfo& info() const final { return info_; }
+
+  // For the reads to come.
+  void set_batch_events(std::size_t count) { options_.batch_events = std::max<std::size_t>(count, 1); }
+
+  bool read(MeshBatch& batch) final {
+    batch.clear();
+    batch.first_vertex = VertexId(vertices_read_);
+    batch.coordinates.resize(info_.dimension);
+    batch.properties.resize(options_.properties.size());
+    fill(batch);
+    return !batch.empty();
+  }
+
+ protected:
+  explicit BatchReader(ReadOptions options) : options_(std::move(options)) { set_batch_events(options_.batch_events); }
+
+  // Adds events in the order of the file while room() is left. Adds none at the end only.
+  virtual void fill(MeshBatch& batch) = 0;
+
+  std::size_t room(const MeshBatch& batch) const {
+    const std::size_t used = batch.vertex_count + batch.triangle_count();
+    return options_.batch_events - std::min(used, options_.batch_events);
+  }
+
+  // Counts vertices whose columns were filled.
+  void count_vertices(MeshBatch& batch, std::size_t count) {
+    batch.vertex_count += count;
+    vertices_read_ += count;
+  }
+  std::uint64_t vertices_read() const { return vertices_read_; }
+
+  const ReadOptions& options() const { return options_; }
+
+  MeshInfo info_;
+
+ private:
+  ReadOptions options_;
+  std::uint64_t vertices_read_ = 0;
+};
+
+// For formats whose vertices have nothing but coordinates.
+// THROWS: Error{kBadInput} if a property is asked for.
+void refuse_properties(const ReadOptions& options, const std::string& format, const std::string& file);
+
+}  // namespace reeb::io

@@ -1,0 +1,22 @@
+// What a writer of meshes is told before the first batch.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/file/atomic_output.h"
+
+namespace reeb::io {
+
+struct MeshWriterOptions {
+  unsigned dimension = 3;                        // coordinates a vertex
+  std::vector<std::string> property_names{};     // columns of MeshBatch::properties; PLY and volume meshes keep them
+  bool float64 = false;                          // PLY numbers: double instead of float
+  std::optional<std::uint64_t> vertex_count{};   // a promise; saves the temporary copy of the faces
+  std::optional<std::uint64_t> simplex_count{};  // a promise too, for headers
+  Existing existing = Existing::kRefuse;
+};
+
+}  // namespace reeb::io

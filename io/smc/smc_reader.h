@@ -1,0 +1,53 @@
+// Reads SMC, versions 1 and 3: triangles as operations on the boundary of what was read so far,
+// adaptively coded (Isenburg, Lindstrom, Gumhold, Snoeyink: Streaming Compression of Triangle
+// Meshes, 2005). Always pre-order. Messages name the triangle, positions are byte offsets.
+#pragma once
+
+#include <memory>
+
+#include "io/events/byte_source.h"
+#include "io/events/stream_event.h"
+#include "io/smc/range_coder.h"
+#include "io/smc/smc_positions.h"
+#include "io/smc/smc_state.h"
+
+namespace reeb::io {
+
+class SmcEventReader : public EventReader {
+ public:
+  // REQUIRES: the source starts with the version byte, 1 or 3. THROWS: as next().
+  explicit SmcEventReader(std::unique_ptr<ByteSource> source);
+
+  std::uint64_t bytes_read() const override { return source_->consumed(); }
+
+ private:
+  void fill() override;
+  // False at the end of the stream.
+  bool read_triangle();
+  bool read_start(SmcState::Triangle& triangle);
+  void read_edge(SmcState::Triangle& triangle, SmcOperation operation);
+  SmcOperation read_pair(SmcState::Triangle& triangle);
+
+  std::uint32_t read_active();
+  std::uint32_t read_cached(std::size_t entry) const;
+  std::uint32_t read_edge_at(std::uint32_t slot, bool incoming);
+  void read_new_vertex(SmcState::Triangle& triangle, std::size_t corner, const PredictionInput& from);
+  void deliver(const SmcState::Triangle& triangle, SmcOperation operation);
+  void finish();
+  template <class Action>
+  void guarded(Action action);
+
+  unsigned version_;
+  std::unique_ptr<ByteSource> source_;
+  ByteWindow window_;
+  std::optional<RangeDecoder> decoder_;
+  std::optional<PositionCoder> positions_;
+  SmcModels models_;
+  SmcState state_;
+  std::uint32_t vertices_ = 0;
+  std::uint64_t triangles_ = 0;
+  std::uint32_t new_vertices_ = 0;  // of the triangle being read
+  bool done_ = false;
+};
+
+}  // namespace reeb::io

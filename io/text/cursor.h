@@ -1,0 +1,53 @@
+// A place in a ContentSource that moves forward: the ground of the text and binary decoders.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "io/file/content_source.h"
+#include "libreeb/base/error.h"
+
+namespace reeb::io {
+
+class Cursor {
+ public:
+  explicit Cursor(std::unique_ptr<ContentSource> source) : source_(std::move(source)) { move_to(0); }
+
+  // Offset in the content of the next byte.
+  std::uint64_t offset() const { return view_offset_ + static_cast<std::uint64_t>(next_ - view_.data()); }
+  const ContentSource& source() const { return *source_; }
+
+  // Makes at least `count` bytes, or all that are left, contiguous at data(); false if fewer are.
+  // REQUIRES: count <= ContentSource::kLookahead.
+  bool ensure(std::size_t count) {
+    if (available() >= count) [[likely]]
+      return true;
+    move_to(offset());
+    return available() >= count;
+  }
+  std::size_t available() const { return static_cast<std::size_t>(end_ - next_); }
+  const char* data() const { return next_; }
+  // REQUIRES: count <= available().
+  void advance(std::size_t count) { next_ += count; }
+
+  // REQUIRES: source().can_seek(), or `offset` is not before the current one and within view.
+  void move_to(std::uint64_t offset) {
+    view_ = source_->view(offset);
+    view_offset_ = offset;
+    next_ = view_.data();
+    end_ = next_ + view_.size();
+  }
+  bool at_end() { return !ensure(1); }
+
+ private:
+  std::unique_ptr<ContentSource> source_;
+  std::string_view view_;
+  std::uint64_t view_offset_ = 0;
+  const char* next_ = nullptr;
+  const char* end_ = nullptr;
+};
+
+}  // namespace reeb::io

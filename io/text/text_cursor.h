@@ -1,0 +1,147 @@
+// Tokens, numbers and lines of a text format, straight from the windows of the input.
+//
+// Lines end with LF or CR LF; blanks are space, tab and CR. Nothing is copied, and no line needs
+// to fit into memory: only a token must be contiguous (kTokenBytes).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "io/text/cursor.h"
+
+namespace reeb::io {
+
+// A number as the text says it; `ok` is false if the token is not a number at all. Values beyond
+// the range of the type come out as infinities or zero, like NaN for the caller to judge.
+template <class Float>
+struct ParsedNumber {
+  Float value = 0;
+  bool ok = false;
+};
+template <class Float>
+ParsedNumber<Float> parse_number(std::string_view token);
+extern template ParsedNumber<float> parse_number<float>(std::string_view);
+extern template ParsedNumber<double> parse_number<double>(std::string_view);
+
+inline bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }
+
+// True if the token spells NaN or an infinity ("nan", "-inf", "Infinity", ...).
+bool spells_non_finite(std::string_view token);
+
+// What a format adds to plain lines of words.
+struct TextStyle {
+  bool comments = false;      // a word that begins with # ends the line
+  bool continuation = false;  // a backslash at the end of a line is blank, and so is the line end
+};
+
+class TextCursor {
+ public:
+  static constexpr std::size_t kTokenBytes = 4096;
+
+  explicit TextCursor(std::unique_ptr<ContentSource> source, TextStyle style = {})
+      : cursor_(std::move(source)), style_(style) {
+    skip_byte_order_mark();
+  }
+
+  // Skips blanks. True if a token follows on this line.
+  bool more_on_line() {
+    skip_blanks();
+    if (cursor_.available() == 0) return false;
+    const char c = *cursor_.data();
+    return c != '\n' && (c != '#' || !style_.comments);
+  }
+  // Goes to the next token, over line ends. False at the end of the input.
+  bool more();
+  // Goes behind the end of this line, with its continuations.
+  void skip_line();
+  bool at_end() { return cursor_.at_end(); }
+
+  // The token at the cursor, which moves behind it; empty at the end of the line. Valid until the
+  // next call. THROWS: Error{kBadInput} if it is longer than kTokenBytes.
+  std::string_view token();
+
+  // The next number of the line, of a type that the format prescribes.
+  // THROWS: Error{kBadInput} at its place if there is none, or it is not a finite number; `what`
+  // names it ("coordinate").
+  template <class Float>
+  Float finite_number(const char* what);
+  // The same for an integer. Accepts the token only as a whole.
+  std::int64_t integer(const char* what);
+  // The digits at the cursor, without a sign; blanks are not skipped. False, and nothing moved, if
+  // there are none or more than 18.
+  bool digits(std::uint64_t& value);
+
+  char peek() { return cursor_.ensure(1) ? *cursor_.data() : '\n'; }
+  void advance() { cursor_.advance(1); }
+
+  // Where the token read last began, as "line:column".
+  std::string position() const;
+  // The error at position().
+  [[noreturn]] void fail(const std::string& what, const std::string& hint) const;
+  // Makes the cursor's place that of the next fail().
+  void mark() {
+    marked_line_ = line_;
+    marked_column_ = cursor_.offset() - line_begin_ + 1;
+  }
+
+  std::uint64_t line() const { return line_; }
+  // Goes to the beginning of a line that was passed before. REQUIRES: source().can_seek().
+  void move_to_line(std::uint64_t offset, std::uint64_t line) {
+    cursor_.move_to(offset);
+    line_ = line;
+    line_begin_ = offset;
+  }
+  const ContentSource& source() const { return cursor_.source(); }
+  Cursor& bytes() { return cursor_; }
+
+ private:
+  void skip_byte_order_mark();
+  void skip_blanks();
+  bool skip_continuation();
+  void pass_newline() {
+    cursor_.advance(1);
+    ++line_;
+    line_begin_ = cursor_.offset();
+  }
+  template <class Float>
+  Float slow_number(const char* what);
+  [[noreturn]] void fail_number(std::string_view token, const char* what) const;
+
+  Cursor cursor_;
+  TextStyle style_;
+  std::uint64_t line_ = 1, line_begin_ = 0;
+  std::uint64_t marked_line_ = 1, marked_column_ = 1;
+};
+
+inline void TextCursor::skip_blanks() {
+  while (cursor_.ensure(1)) {
+    const char c = *cursor_.data();
+    if (is_blank(c))
+      cursor_.advance(1);
+    else if (c != '\\' || !style_.continuation || !skip_continuation())
+      return;
+  }
+}
+
+inline bool TextCursor::digits(std::uint64_t& value) {
+  cursor_.ensure(32);
+  const char* const begin = cursor_.data();
+  const std::size_t limit = cursor_.available() < 19 ? cursor_.available() : 19;
+  std::uint64_t result = 0;
+  std::size_t i = 0;
+  for (; i < limit; ++i) {
+    const unsigned digit = static_cast<unsigned char>(begin[i]) - unsigned{'0'};
+    if (digit > 9) break;
+    result = result * 10 + digit;
+  }
+  if (i == 0 || i == 19) return false;
+  value = result;
+  cursor_.advance(i);
+  return true;
+}
+
+}  // namespace reeb::io

@@ -1,0 +1,43 @@
+// How large the next chunk of a mesh is to be.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+
+#include "libreeb/engine/chunk.h"
+#include "ooc/chunks/chunk_source.h"
+
+namespace reeb::ooc {
+
+// A chunk grows while too many of its vertices are shared with others, since gluing is what such a
+// chunk costs. What comes out depends on the chunks only.
+class ChunkGrowth {
+ public:
+  // Sizes are in units of so many triangles.
+  explicit ChunkGrowth(const ChunkSize& limits, std::size_t unit = 1)
+      : least_(std::max<std::size_t>(1, limits.first / unit)),
+        most_(std::max<std::size_t>(1, limits.most / unit)),
+        size_(least_) {}
+
+  std::size_t size() const { return size_; }
+  void set_size(std::size_t size) { size_ = std::min(size, most_); }
+
+  // To be called with each chunk, once its uses are known.
+  void adapt(const Chunk& chunk) {
+    // Grow above this share of shared vertices, shrink below a quarter of it. A shared vertex brings
+    // about one shared edge, of three in all, so this is a twentieth of the edges.
+    constexpr double kManyShared = 0.30;
+    const auto shared = static_cast<double>(
+        std::count_if(chunk.uses.begin(), chunk.uses.end(), [](std::uint8_t u) { return u != kUsedHereOnly; }));
+    const double many = kManyShared * static_cast<double>(chunk.vertex_count());
+    if (shared > many)
+      size_ = std::min(2 * size_, most_);
+    else if (shared < many / 4)
+      size_ = std::max(size_ / 2, least_);
+  }
+
+ private:
+  std::size_t least_, most_, size_;
+};
+
+}  // namespace reeb::ooc

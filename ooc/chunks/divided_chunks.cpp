@@ -1,0 +1,110 @@
+#include "ooc/chunks/divided_chunks.h"
+
+#include <limits>
+#include <utility>
+
+namespace reeb::ooc {
+namespace {
+
+constexpr std::uint16_t kNoPatch = std::numeric_limits<std::uint16_t>::max();
+
+}  // namespace
+
+bool DividedChunks::next(WorkItem& item) {
+  if (next_patch_ == patches_.patch_count()) {
+    if (!stretches_.next(stretch_)) return false;
+    if (stretch_.chunk.triangle_count() <= whole_) {
+      take_whole(item);
+      return true;
+    }
+    divide();
+  }
+  take_patch(item);
+  return true;
+}
+
+void DividedChunks::take_whole(WorkItem& item) {
+  // The memory of a stretch is not for those in flight.
+  if (reservation_.bytes() != 0) {
+    stretch_.shrink_to_fit();
+    reservation_.resize(0);
+  }
+  std::swap(item.chunk, stretch_.chunk);
+  std::swap(item.values, stretch_.values);
+  std::swap(item.end, stretch_.end);
+  item.ends_stretch = true;
+}
+
+void DividedChunks::divide() {
+  patches_.divide(stretch_.chunk, patch_);
+  next_patch_ = 0;
+  find_last_patches();
+  local_.resize(stretch_.chunk.vertex_count());
+  reservation_.resize(stretch_.memory_bytes() + patches_.memory_bytes() + 2 * last_patch_.capacity() +
+                      4 * (local_.capacity() + taken_.capacity()));
+}
+
+void DividedChunks::find_last_patches() {
+  last_patch_.assign(stretch_.chunk.vertex_count(), kNoPatch);
+  for (std::size_t p = 0; p < patches_.patch_count(); ++p)
+    for (const std::uint32_t triangle : patches_.patch(p))
+      for (std::size_t k = 0; k < 3; ++k)
+        last_patch_[stretch_.chunk.corners[3 * std::size_t{triangle} + k]] = static_cast<std::uint16_t>(p);
+}
+
+void DividedChunks::take_patch(WorkItem& item) {
+  number_corners(patches_.patch(next_patch_), item.chunk.corners);
+  if (next_patch_ == 0) add_loose_vertices();
+  take_vertices(item);
+  item.end = stretch_.end;
+  ++next_patch_;
+  item.ends_stretch = next_patch_ == patches_.patch_count();
+}
+
+// Numbers the vertices of a patch in order of first appearance, in taken_.
+void DividedChunks::number_corners(std::span<const std::uint32_t> triangles, std::vector<std::uint32_t>& corners) {
+  taken_.clear();
+  corners.resize(3 * triangles.size());
+  auto corner = corners.begin();
+  for (const std::uint32_t triangle : triangles)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t vertex = stretch_.chunk.corners[3 * std::size_t{triangle} + k];
+      std::uint32_t number = local_[vertex];
+      if (number >= taken_.size() || taken_[number] != vertex) {
+        number = local_[vertex] = static_cast<std::uint32_t>(taken_.size());
+        taken_.push_back(vertex);
+      }
+      *corner++ = number;
+    }
+}
+
+// Those of the stretch that no triangle uses.
+void DividedChunks::add_loose_vertices() {
+  for (std::uint32_t vertex = 0; vertex < last_patch_.size(); ++vertex)
+    if (last_patch_[vertex] == kNoPatch) taken_.push_back(vertex);
+}
+
+// One array after the other, so that the processor can fetch far ahead.
+void DividedChunks::take_vertices(WorkItem& item) {
+  const auto gather = [this](const auto& from, auto& to) {
+    to.resize(taken_.size());
+    for (std::size_t i = 0; i < taken_.size(); ++i) to[i] = from[taken_[i]];
+  };
+  gather(stretch_.chunk.ids, item.chunk.ids);
+  if (stretch_.chunk.positions.empty())
+    item.chunk.positions.clear();
+  else
+    gather(stretch_.chunk.positions, item.chunk.positions);
+  item.values.resize(stretch_.values.size());
+  for (std::size_t f = 0; f < item.values.size(); ++f) gather(stretch_.values[f], item.values[f]);
+
+  gather(stretch_.chunk.uses, item.chunk.uses);
+  for (std::size_t i = 0; i < taken_.size(); ++i) {
+    const std::uint16_t last = last_patch_[taken_[i]];
+    if (last == next_patch_ || last == kNoPatch) continue;
+    item.chunk.uses[i] |= kUsedLater;
+    stretch_.chunk.uses[taken_[i]] |= kUsedEarlier;  // for the patches that follow
+  }
+}
+
+}  // namespace reeb::ooc

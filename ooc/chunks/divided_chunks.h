@@ -1,0 +1,56 @@
+// Large chunks of a source, cut into patches (DESIGN.md 3; docs/ARCHITECTURE.md, Wide fronts).
+//
+// Where a stream runs along a wide front, a chunk of consecutive triangles is a thin strip, nearly all
+// of it border, and gluing costs a border's length. So a stretch of many chunks is read at once and cut
+// across into patches, whose borders are short. A patch is swept in scratch memory for itself, so a
+// stretch costs a small part of what a chunk of its size would. Any partition gives the same result.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "libreeb/base/memory_budget.h"
+#include "ooc/chunks/chunk_source.h"
+#include "ooc/chunks/patch_partition.h"
+
+namespace reeb::ooc {
+
+// MEMORY: the stretch and 9 bytes a triangle of it, reserved; nothing where chunks are small enough.
+class DividedChunks : public ChunkSource {
+ public:
+  // `stretches` must outlive this. Chunks of at most `whole` triangles come through as they are, others
+  // in patches of about `patch` at most.
+  // THROWS, in next(): Error{kResource} of the budget.
+  DividedChunks(ChunkSource& stretches, std::size_t whole, std::size_t patch, MemoryBudget& budget)
+      : stretches_(stretches), whole_(whole), patch_(patch), reservation_(budget.reserve("stretch of chunks", 0)) {}
+
+  bool next(WorkItem& item) override;
+  std::uint64_t bytes_read() const override { return stretches_.bytes_read(); }
+  std::uint64_t bytes_total() const override { return stretches_.bytes_total(); }
+  std::uint64_t triangles_read() const override { return stretches_.triangles_read(); }
+  std::uint64_t vertex_count() const override { return stretches_.vertex_count(); }
+
+ private:
+  void take_whole(WorkItem& item);
+  void divide();
+  void find_last_patches();
+  void take_patch(WorkItem& item);
+  void number_corners(std::span<const std::uint32_t> triangles, std::vector<std::uint32_t>& corners);
+  void add_loose_vertices();
+  void take_vertices(WorkItem& item);
+
+  ChunkSource& stretches_;
+  std::size_t whole_, patch_;
+  Reservation reservation_;
+  WorkItem stretch_;
+  PatchPartition patches_;
+  std::size_t next_patch_ = 0;
+  // By vertex of the stretch.
+  std::vector<std::uint16_t> last_patch_;
+  std::vector<std::uint32_t> local_;  // its number in the patch at hand, if taken_ says so, too
+  std::vector<std::uint32_t> taken_;  // vertices of the patch at hand
+};
+
+}  // namespace reeb::ooc

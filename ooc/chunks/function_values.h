@@ -1,0 +1,84 @@
+// The functions of a run on batches of vertices: which columns of the mesh they need, how each finds
+// its own among those gathered, and the range of values seen.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "libreeb/base/ids.h"
+#include "libreeb/port/graph_sink.h"
+#include "libreeb/port/vertex_function.h"
+
+namespace reeb::ooc {
+
+// The least and greatest value of a function; min > max before the first.
+struct FunctionRange {
+  double min = std::numeric_limits<double>::infinity();
+  double max = -std::numeric_limits<double>::infinity();
+
+  // So much of the way from the least to the greatest value, which itself may be more than a double
+  // holds. Never falls when the range grows. REQUIRES: share >= 0; there was a value.
+  double part(double share) const {
+    const double width = max - min;
+    return std::isfinite(width) ? share * width : 2 * (share * (max / 2 - min / 2));
+  }
+};
+
+class FunctionValues {
+ public:
+  // Positions are the first three coordinates, as far as the mesh has them.
+  FunctionValues(std::span<VertexFunction* const> functions, unsigned dimension)
+      : functions_(functions.begin(), functions.end()),
+        ranges_(functions.size()),
+        position_columns_(std::min(dimension, 3u)) {
+    for (unsigned k = 0; k < position_columns_; ++k) columns_.push_back(k);
+    for (const VertexFunction* f : functions_)
+      for (const unsigned column : f->columns())
+        if (std::find(columns_.begin(), columns_.end(), column) == columns_.end()) columns_.push_back(column);
+  }
+
+  // To be gathered, in this order.
+  std::span<const unsigned> columns() const { return columns_; }
+  std::size_t function_count() const { return functions_.size(); }
+  const FunctionRange& range(std::size_t function) const { return ranges_[function]; }
+  std::span<const FunctionRange> ranges() const { return ranges_; }
+  // As if the values of these ranges had been seen. REQUIRES: one a function.
+  void set_ranges(std::span<const FunctionRange> ranges) { ranges_.assign(ranges.begin(), ranges.end()); }
+
+  // From gathered columns (data[k] is columns()[k]) to positions and one array of values a function,
+  // which are appended.
+  void evaluate(std::span<const VertexId> ids, std::span<const std::span<const double>> data,
+                std::vector<Point>& positions, std::vector<std::vector<double>>& values) {
+    const std::size_t before = positions.size();
+    positions.resize(before + ids.size());
+    for (unsigned k = 0; k < position_columns_; ++k)
+      for (std::size_t i = 0; i < ids.size(); ++i) positions[before + i][k] = data[k][i];
+    values.resize(functions_.size());
+    for (std::size_t f = 0; f < functions_.size(); ++f) {
+      own_.clear();
+      for (const unsigned column : functions_[f]->columns())
+        own_.push_back(
+            data[static_cast<std::size_t>(std::find(columns_.begin(), columns_.end(), column) - columns_.begin())]);
+      values[f].resize(before + ids.size());
+      const auto here = std::span(values[f]).subspan(before);
+      functions_[f]->evaluate(ids, own_, here);
+      for (const double value : here) {
+        ranges_[f].min = std::min(ranges_[f].min, value);
+        ranges_[f].max = std::max(ranges_[f].max, value);
+      }
+    }
+  }
+
+ private:
+  std::vector<VertexFunction*> functions_;
+  std::vector<FunctionRange> ranges_;
+  unsigned position_columns_;
+  std::vector<unsigned> columns_;
+  std::vector<std::span<const double>> own_;
+};
+
+}  // namespace reeb::ooc

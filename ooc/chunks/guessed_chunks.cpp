@@ -1,0 +1,88 @@
+#include "ooc/chunks/guessed_chunks.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "ooc/chunks/coherence.h"
+
+namespace reeb::ooc {
+
+GuessedChunks::GuessedChunks(Spooler& spooler, FunctionValues& columns, const TempDir& temp, MemoryBudget& budget,
+                             const GuessOptions& options, const ChunkPlace& start)
+    : spooler_(spooler),
+      columns_(columns),
+      lookup_(columns),
+      options_(options),
+      size_(options.chunk),
+      guesses_(temp, budget, options.allowance_bytes) {
+  pass_over(start);
+}
+
+bool GuessedChunks::next(WorkItem& item) {
+  if (!read_chunk(item.chunk)) return false;
+  lookup_.look_up(spooler_.mesh(), item);
+  item.end.triangles = triangles_read_;
+  item.end.next_vertex = next_vertex_;
+  item.end.chunk_blocks = 0;
+  item.end.ranges.assign(columns_.ranges().begin(), columns_.ranges().end());
+  return true;
+}
+
+void GuessedChunks::pass_over(const ChunkPlace& start) {
+  passing_over_ = true;
+  Chunk chunk;
+  while ((triangles_read_ < start.triangles || next_vertex_ < start.next_vertex) && read_chunk(chunk)) continue;
+  passing_over_ = false;
+  if (!start.ranges.empty()) columns_.set_ranges(start.ranges);
+}
+
+bool GuessedChunks::read_chunk(Chunk& chunk) {
+  chunk.clear();
+  if (given_up_) return false;
+  return read_triangles(chunk) || (!given_up_ && read_rest(chunk));
+}
+
+// In pieces, so that corners are numbered while they are in the first cache.
+bool GuessedChunks::read_triangles(Chunk& chunk) {
+  constexpr std::size_t kPiece = 3 * 1024;
+  const std::size_t most = 3 * size_.size();
+  std::size_t count = 0;
+  numbers_.start(chunk.ids, size_.size());
+  chunk.corners.resize(most);
+  while (count < most && has_corners()) {
+    const auto corners = std::span(spooler_.triangles()).subspan(taken_);
+    const std::size_t piece = std::min({kPiece, most - count, corners.size()});
+    numbers_.number(corners.first(piece), std::span(chunk.corners).subspan(count, piece));
+    count += piece;
+    taken_ += piece;
+  }
+  chunk.corners.resize(count);
+  if (count == 0) return false;
+  triangles_read_ += count / 3;
+  given_up_ = guesses_.add(chunk, most_open()) != UseGuesses::Verdict::kGood;
+  size_.adapt(chunk);
+  return !given_up_;
+}
+
+// Whether there are corners that are in no chunk yet, once more were read if need be.
+bool GuessedChunks::has_corners() {
+  while (!ended_ && taken_ == spooler_.triangles().size()) {
+    taken_ = 0;
+    ended_ = !spooler_.read();
+  }
+  return !ended_;
+}
+
+bool GuessedChunks::read_rest(Chunk& chunk) {
+  constexpr std::size_t kBatch = 16384;
+  next_vertex_ = guesses_.take_rest(next_vertex_, spooler_.mesh().vertex_count(), kBatch, chunk);
+  return chunk.vertex_count() != 0;
+}
+
+// What an earlier run has guessed was worth it then.
+std::uint64_t GuessedChunks::most_open() const {
+  if (passing_over_) return std::numeric_limits<std::uint64_t>::max();
+  return std::min(options_.most_open_vertices, usual_front(spooler_.mesh().vertex_count()));
+}
+
+}  // namespace reeb::ooc

@@ -1,0 +1,68 @@
+// Chunks of a mesh without finalization while it is read for the first time (DESIGN.md 2, 4).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "ooc/chunks/chunk_growth.h"
+#include "ooc/chunks/chunk_source.h"
+#include "ooc/chunks/spooled_mesh.h"
+#include "ooc/chunks/use_guesses.h"
+#include "ooc/chunks/vertex_lookup.h"
+#include "ooc/tables/local_numbers.h"
+
+namespace reeb::ooc {
+
+struct GuessOptions {
+  ChunkSize chunk;
+  std::uint64_t allowance_bytes = 16 << 20;  // of the budget, for the table of guesses
+  // More open vertices than this, and than what a coherent mesh of its size has, are not worth
+  // guessing for.
+  std::uint64_t most_open_vertices = ~std::uint64_t{0};
+};
+
+// Cuts chunks from what a Spooler reads, and guesses which vertices are complete (use_guesses.h).
+//
+// A guess that proves wrong, or a mesh in no coherent order, ends the chunks early and given_up() says
+// so: what came of them is then to be thrown away. What was read is in the spooler, which goes on to
+// read the rest, and the mesh is run from there with its last uses known. So the result is exact in
+// either case; a guess decides about time only. Where the chunks are cut, and so whether a guess fails,
+// does not depend on threads.
+class GuessedChunks : public ChunkSource {
+ public:
+  // All must outlive this. The chunks before `start` are passed over: read, but not looked up.
+  // REQUIRES: nothing was read; a start came of the same options.
+  GuessedChunks(Spooler& spooler, FunctionValues& columns, const TempDir& temp, MemoryBudget& budget,
+                const GuessOptions& options, const ChunkPlace& start = {});
+
+  bool next(WorkItem& item) override;
+  std::uint64_t bytes_read() const override { return spooler_.reader().bytes_read(); }
+  std::uint64_t bytes_total() const override { return spooler_.reader().info().file_bytes; }
+  std::uint64_t triangles_read() const override { return triangles_read_; }
+  std::uint64_t vertex_count() const override { return spooler_.mesh().vertex_count(); }
+
+  bool given_up() const override { return given_up_; }
+  const UseGuesses& guesses() const { return guesses_; }
+
+ private:
+  void pass_over(const ChunkPlace& start);
+  bool read_chunk(Chunk& chunk);
+  bool read_triangles(Chunk& chunk);
+  bool has_corners();
+  bool read_rest(Chunk& chunk);
+  std::uint64_t most_open() const;
+
+  Spooler& spooler_;
+  FunctionValues& columns_;
+  VertexLookup lookup_;
+  GuessOptions options_;
+  ChunkGrowth size_;  // in triangles
+  UseGuesses guesses_;
+  LocalNumbers numbers_;
+  std::size_t taken_ = 0;  // corners of the spooler's batch that are in a chunk
+  std::uint64_t triangles_read_ = 0;
+  std::uint64_t next_vertex_ = 0;  // from which on vertices are left that no guess has completed
+  bool passing_over_ = false, ended_ = false, given_up_ = false;
+};
+
+}  // namespace reeb::ooc

@@ -1,0 +1,147 @@
+#include <algorithm>
+
+#include "ooc/chunks/chunk_growth.h"
+#include "ooc/chunks/chunk_source.h"
+#include "ooc/chunks/vertex_lookup.h"
+#include "ooc/tables/local_numbers.h"
+
+namespace reeb::ooc {
+namespace {
+
+class IndexedChunks : public ChunkSource {
+ public:
+  IndexedChunks(IndexedMesh& mesh, LastUse& last_use, FunctionValues& columns, ChunkSize size, const ChunkPlace& start)
+      : mesh_(mesh),
+        last_use_(last_use),
+        columns_(columns),
+        lookup_(columns),
+        block_triangles_(static_cast<std::size_t>(std::max<std::uint64_t>(1, last_use.summary().block_triangles))),
+        blocks_(size, block_triangles_) {
+    mesh_.rewind();
+    pass_over(start);
+  }
+
+  bool next(WorkItem& item) override;
+  std::uint64_t bytes_read() const override { return mesh_.bytes_read(); }
+  std::uint64_t bytes_total() const override { return mesh_.bytes_total(); }
+  std::uint64_t triangles_read() const override { return triangles_read_; }
+  std::uint64_t vertex_count() const override { return mesh_.vertex_count(); }
+
+ private:
+  void pass_over(const ChunkPlace& start);
+  bool read_triangles(Chunk& chunk);
+  bool read_loose_vertices(Chunk& chunk);
+  void set_uses(Chunk& chunk);
+
+  IndexedMesh& mesh_;
+  LastUse& last_use_;
+  FunctionValues& columns_;
+  VertexLookup lookup_;
+  std::size_t block_triangles_;
+  ChunkGrowth blocks_;
+  std::uint64_t first_block_ = 0;  // of the next chunk
+  std::uint64_t triangles_read_ = 0;
+  std::uint64_t next_vertex_ = 0;  // from which on unused vertices are looked for
+
+  std::vector<VertexId> corners_;
+  LocalNumbers numbers_;
+  std::vector<std::uint32_t> entries_;
+};
+
+bool IndexedChunks::next(WorkItem& item) {
+  item.chunk.clear();
+  if (!read_triangles(item.chunk) && !read_loose_vertices(item.chunk)) return false;
+  lookup_.look_up(mesh_, item);
+  item.end.triangles = triangles_read_;
+  item.end.next_vertex = next_vertex_;
+  item.end.chunk_blocks = blocks_.size();
+  item.end.ranges.assign(columns_.ranges().begin(), columns_.ranges().end());
+  return true;
+}
+
+void IndexedChunks::pass_over(const ChunkPlace& start) {
+  constexpr std::uint64_t kPiece = 65536;
+  while (triangles_read_ < start.triangles &&
+         mesh_.read(corners_, static_cast<std::size_t>(std::min(kPiece, start.triangles - triangles_read_))))
+    triangles_read_ += corners_.size() / 3;
+  first_block_ = triangles_read_ / block_triangles_;
+  next_vertex_ = start.next_vertex;
+  if (start.chunk_blocks != 0) blocks_.set_size(static_cast<std::size_t>(start.chunk_blocks));
+  if (!start.ranges.empty()) columns_.set_ranges(start.ranges);
+}
+
+// In pieces, so that corners are numbered while they are in the first cache.
+bool IndexedChunks::read_triangles(Chunk& chunk) {
+  constexpr std::size_t kPiece = 1024;
+  const std::uint64_t left = last_use_.summary().triangle_count - triangles_read_;
+  const auto most = static_cast<std::size_t>(std::min<std::uint64_t>(blocks_.size() * block_triangles_, left));
+  numbers_.start(chunk.ids, most);
+  chunk.corners.resize(3 * most);
+  std::size_t count = 0;
+  while (count < most && mesh_.read(corners_, std::min(kPiece, most - count))) {
+    numbers_.number(corners_, std::span(chunk.corners).subspan(3 * count, corners_.size()));
+    count += corners_.size() / 3;
+  }
+  if (count == 0) return false;
+  chunk.corners.resize(3 * count);
+  triangles_read_ += count;
+  set_uses(chunk);
+  first_block_ += blocks_.size();
+  blocks_.adapt(chunk);
+  return true;
+}
+
+void IndexedChunks::set_uses(Chunk& chunk) {
+  entries_.resize(chunk.vertex_count());
+  last_use_.lookup(chunk.ids, entries_);
+  const std::uint64_t last_block = first_block_ + blocks_.size() - 1;
+  chunk.uses.resize(chunk.vertex_count());
+  for (std::size_t i = 0; i < chunk.vertex_count(); ++i) {
+    const UseEntry entry(entries_[i]);
+    // A saturated span says earlier than it may be, which is allowed.
+    const bool earlier = entry.last_block() < first_block_ + entry.span() || entry.span() == UseEntry::kManyBlocks;
+    const bool later = entry.last_block() > last_block;
+    chunk.uses[i] = static_cast<std::uint8_t>((earlier ? kUsedEarlier : 0) | (later ? kUsedLater : 0));
+  }
+}
+
+bool IndexedChunks::read_loose_vertices(Chunk& chunk) {
+  constexpr std::size_t kBatch = 16384;
+  const std::uint64_t count = mesh_.vertex_count();
+  if (last_use_.summary().unused_vertices == 0) return false;
+  while (next_vertex_ < count && chunk.vertex_count() < kBatch) {
+    entries_.resize(static_cast<std::size_t>(std::min<std::uint64_t>(kBatch, count - next_vertex_)));
+    last_use_.read(VertexId(next_vertex_), entries_);
+    for (const std::uint32_t entry : entries_) {
+      if (UseEntry(entry).unused()) chunk.ids.push_back(VertexId(next_vertex_));
+      ++next_vertex_;
+    }
+  }
+  chunk.uses.assign(chunk.vertex_count(), kUsedHereOnly);
+  return chunk.vertex_count() != 0;
+}
+
+}  // namespace
+
+std::unique_ptr<ChunkSource> chunks_of(IndexedMesh& mesh, LastUse& last_use, FunctionValues& columns, ChunkSize size,
+                                       const ChunkPlace& start) {
+  return std::make_unique<IndexedChunks>(mesh, last_use, columns, size, start);
+}
+
+void WorkItem::shrink_to_fit() {
+  chunk.ids.shrink_to_fit();
+  chunk.uses.shrink_to_fit();
+  chunk.positions.shrink_to_fit();
+  chunk.corners.shrink_to_fit();
+  for (auto& column : values) column.shrink_to_fit();
+}
+
+std::size_t WorkItem::memory_bytes() const {
+  std::size_t bytes = chunk.ids.capacity() * sizeof(VertexId) + chunk.uses.capacity() +
+                      chunk.positions.capacity() * sizeof(Point) + chunk.corners.capacity() * 4;
+  for (const auto& column : values) bytes += column.capacity() * 8;
+  for (const Fragment& fragment : fragments) bytes += fragment.memory_bytes();
+  return bytes;
+}
+
+}  // namespace reeb::ooc

@@ -1,0 +1,197 @@
+#include "ooc/chunks/last_use.h"
+
+#include <algorithm>
+#include <atomic>
+#include <utility>
+
+#include "ooc/threads/read_ahead.h"
+
+namespace reeb::ooc {
+
+namespace {
+
+constexpr std::size_t kStretch = 16 << 10;  // table entries read at once
+constexpr std::size_t kMostSamples = 256;
+
+// Calls visit(first, entries) for stretches of the table that cover 0..count-1.
+template <class Visit>
+void for_each_stretch(PagedTable<std::uint32_t>& table, std::uint64_t count, const Visit& visit) {
+  std::vector<std::uint32_t> entries(kStretch);
+  for (std::uint64_t first = 0; first < count; first += kStretch) {
+    const auto size = static_cast<std::size_t>(std::min<std::uint64_t>(kStretch, count - first));
+    table.read(first, std::span(entries).first(size));
+    visit(first, std::span(entries).first(size));
+  }
+}
+
+class Scan {
+ public:
+  Scan(IndexedMesh& mesh, const TempDir& temp, MemoryBudget& budget, const LastUseOptions& options)
+      : mesh_(mesh),
+        options_(options),
+        table_("last uses", temp, budget, options.allowance_bytes, UseEntry::kUnused),
+        most_blocks_(std::max<std::size_t>(2, options.most_blocks & ~1u)),
+        block_triangles_(std::max<std::uint64_t>(1, options.block_triangles)),
+        change_charge_(budget.reserve("last uses", 0)) {
+    summary_.vertex_count = mesh.vertex_count();
+  }
+
+  // False if it gave up.
+  bool read_triangles() {
+    mesh_.rewind();
+    read_ahead<Piece>(
+        options_.threads > 1, [this](Piece& piece) { return !gave_up_ && read(piece); },
+        [this](const Piece& piece) { use(piece); });
+    return !gave_up_;
+  }
+
+  LastUse finish() {
+    for_each_stretch(table_, summary_.vertex_count, [this](std::uint64_t, std::span<const std::uint32_t> entries) {
+      for (const std::uint32_t packed : entries) {
+        const UseEntry entry(packed);
+        if (entry.unused())
+          ++summary_.unused_vertices;
+        else
+          --live_change_[entry.last_block()];
+      }
+    });
+    summary_.block_triangles = block_triangles_;
+    summary_.block_count = live_change_.size();
+    profile_front();
+    return {std::move(summary_), std::move(table_)};
+  }
+
+ private:
+  // Some triangles on their way from the mesh to the table.
+  struct Piece {
+    std::vector<VertexId> corners;
+    std::uint64_t degenerate = 0;
+    std::uint64_t bytes_read = 0;  // of the mesh, up to here
+  };
+
+  bool read(Piece& piece) {
+    constexpr std::size_t kTriangles = 2048;
+    if (!mesh_.read(piece.corners, kTriangles)) return false;
+    piece.bytes_read = mesh_.bytes_read();
+    piece.degenerate = 0;
+    for (std::size_t t = 0; t < piece.corners.size(); t += 3)
+      piece.degenerate += piece.corners[t] == piece.corners[t + 1] || piece.corners[t + 1] == piece.corners[t + 2] ||
+                          piece.corners[t] == piece.corners[t + 2];
+    return true;
+  }
+
+  void use(const Piece& piece) {
+    summary_.degenerate_triangles += piece.degenerate;
+    summary_.triangle_count += piece.corners.size() / 3;
+    for (std::span<const VertexId> corners = piece.corners; !corners.empty() && !gave_up_;) {
+      if (in_block_ == 0) open_block();
+      const auto count =
+          static_cast<std::size_t>(std::min<std::uint64_t>(corners.size() / 3, block_triangles_ - in_block_));
+      use(corners.first(3 * count));
+      corners = corners.subspan(3 * count);
+      in_block_ += count;
+      if (in_block_ == block_triangles_) close_block(piece);
+    }
+  }
+
+  void close_block(const Piece& piece) {
+    in_block_ = 0;
+    gave_up_ = options_.give_up_when_incoherent && is_thrashing();
+    if (!gave_up_ && options_.progress) options_.progress(piece.bytes_read);
+  }
+
+  void open_block() {
+    if (live_change_.size() == most_blocks_) double_blocks();
+    if (live_change_.size() == live_change_.capacity()) {
+      const std::size_t capacity = std::max<std::size_t>(1024, 2 * live_change_.size());
+      change_charge_.resize(capacity * sizeof(std::int32_t));
+      live_change_.reserve(capacity);
+    }
+    live_change_.push_back(0);
+  }
+
+  void use(std::span<const VertexId> corners) {
+    const auto block = static_cast<std::uint32_t>(live_change_.size() - 1);
+    std::int32_t introduced = 0;
+    for (const VertexId v : corners) {
+      std::uint32_t& entry = table_.change(v.value());
+      const UseEntry before(entry);
+      if (before.last_block() == block) continue;
+      entry = next_use(before, block).packed();
+      introduced += before.unused() ? 1 : 0;
+    }
+    live_change_.back() += introduced;
+  }
+
+  static UseEntry next_use(UseEntry before, std::uint32_t block) {
+    if (before.unused()) return {block, 0};
+    if (before.span() == UseEntry::kManyBlocks) return {block, UseEntry::kManyBlocks};
+    return {block, block - (before.last_block() - before.span())};
+  }
+
+  // Joins blocks in pairs. A span that was too long to be known stays so.
+  void double_blocks() {
+    for_each_stretch(table_, summary_.vertex_count, [this](std::uint64_t first, std::span<std::uint32_t> entries) {
+      for (std::uint32_t& packed : entries) packed = halved(UseEntry(packed));
+      table_.write(first, entries);
+    });
+    for (std::size_t b = 0; b < live_change_.size() / 2; ++b)
+      live_change_[b] = live_change_[2 * b] + live_change_[2 * b + 1];
+    live_change_.resize(live_change_.size() / 2);
+    block_triangles_ *= 2;
+  }
+
+  static std::uint32_t halved(UseEntry entry) {
+    if (entry.unused()) return UseEntry::kUnused;
+    const std::uint32_t last = entry.last_block() / 2;
+    if (entry.span() == UseEntry::kManyBlocks) return UseEntry(last, UseEntry::kManyBlocks).packed();
+    return UseEntry(last, last - (entry.last_block() - entry.span()) / 2).packed();
+  }
+
+  // A refetch costs some 30 us; a coherent mesh needs each page again a few times at most.
+  bool is_thrashing() const { return table_.pages().refetches() > 64 + 8 * table_.pages().page_count(); }
+
+  void profile_front() {
+    const std::size_t blocks = live_change_.size();
+    const std::size_t stretch = std::max<std::size_t>(1, (blocks + kMostSamples - 1) / kMostSamples);
+    std::int64_t live = 0;
+    for (std::size_t b = 0; b < blocks; ++b) {
+      live += live_change_[b];
+      if (b % stretch == 0) summary_.live_profile.push_back(0);
+      auto& sample = summary_.live_profile.back();
+      sample = std::max(sample, static_cast<std::uint64_t>(live));
+      summary_.max_live_vertices = std::max(summary_.max_live_vertices, sample);
+    }
+  }
+
+  IndexedMesh& mesh_;
+  const LastUseOptions& options_;
+  PagedTable<std::uint32_t> table_;
+  std::size_t most_blocks_;  // even, so that blocks can be joined in pairs
+  std::uint64_t block_triangles_;
+  std::uint64_t in_block_ = 0;         // triangles of the last block so far
+  std::atomic<bool> gave_up_ = false;  // told by the thread of the table to the one that reads
+  Reservation change_charge_;
+  // By block: vertices used first in it, less those used last.
+  std::vector<std::int32_t> live_change_;
+  UseSummary summary_;
+};
+
+}  // namespace
+
+void LastUse::for_each_unused(const std::function<void(VertexId)>& visit) {
+  if (summary_.unused_vertices == 0) return;
+  for_each_stretch(table_, summary_.vertex_count, [&](std::uint64_t first, std::span<const std::uint32_t> entries) {
+    for (std::size_t i = 0; i < entries.size(); ++i)
+      if (UseEntry(entries[i]).unused()) visit(VertexId(first + i));
+  });
+}
+
+std::optional<LastUse> scan_last_use(IndexedMesh& mesh, const TempDir& temp, MemoryBudget& budget,
+                                     const LastUseOptions& options) {
+  Scan scan(mesh, temp, budget, options);
+  if (!scan.read_triangles()) return std::nullopt;
+  return scan.finish();
+}
+
+}  // namespace reeb::ooc

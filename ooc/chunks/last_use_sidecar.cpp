@@ -1,0 +1,230 @@
+#include "ooc/chunks/last_use_sidecar.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cerrno>
+#include <cstring>
+#include <stdexcept>
+#include <vector>
+
+#include "io/file/atomic_file.h"
+#include "io/file/checksum.h"
+#include "io/file/zstd_codec.h"
+#include "libreeb/base/error.h"
+
+// Bytes, all little-endian:
+//   Header, then Header::samples 64-bit numbers (the live profile), then XXH64 of both;
+//   for each kBlockEntries table entries (fewer in the last): BlockHeader, then the entries as
+//   differences to the one before, in four byte planes, zstd-compressed. Nothing follows.
+
+namespace reeb::ooc {
+
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "files are little-endian");
+
+constexpr std::array<char, 8> kMagic = {'R', 'E', 'E', 'B', 'F', 'I', 'N', '\n'};
+constexpr std::uint64_t kVersion = 1;
+constexpr std::size_t kBlockEntries = 16 << 10;
+constexpr std::uint64_t kMostSamples = 4096;
+constexpr int kLevel = 1;
+constexpr std::size_t kProbeBytes = 64 << 10;
+constexpr std::uint64_t kProbes = 16;
+
+struct Header {
+  std::array<char, 8> magic;
+  std::uint64_t version;
+  std::uint64_t mesh_bytes;
+  std::int64_t mesh_changed_ns;
+  std::uint64_t mesh_digest;
+  std::uint64_t vertex_count, unused_vertices;
+  std::uint64_t triangle_count, degenerate_triangles;
+  std::uint64_t block_triangles, block_count;
+  std::uint64_t max_live_vertices;
+  std::uint64_t samples;
+};
+static_assert(sizeof(Header) == 13 * 8);
+
+struct BlockHeader {
+  std::uint64_t packed_bytes;
+  std::uint64_t checksum;  // XXH64 of the packed bytes
+};
+
+template <class T>
+std::span<const std::byte> object_bytes(const T& object) {
+  return std::as_bytes(std::span(&object, 1));
+}
+
+void to_planes(std::span<const std::uint32_t> entries, std::vector<std::byte>& planes) {
+  const std::size_t count = entries.size();
+  planes.resize(4 * count);
+  std::uint32_t before = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint32_t difference = entries[i] - before;
+    before = entries[i];
+    for (std::size_t b = 0; b < 4; ++b) planes[b * count + i] = static_cast<std::byte>(difference >> (8 * b));
+  }
+}
+
+void from_planes(std::span<const std::byte> planes, std::span<std::uint32_t> entries) {
+  const std::size_t count = entries.size();
+  std::uint32_t value = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    std::uint32_t difference = 0;
+    for (std::size_t b = 0; b < 4; ++b) difference |= std::to_integer<std::uint32_t>(planes[b * count + i]) << (8 * b);
+    entries[i] = value += difference;
+  }
+}
+
+void write_sidecar(AtomicFile& out, const MeshIdentity& mesh, LastUse& uses) {
+  const UseSummary& s = uses.summary();
+  const Header header{kMagic,
+                      kVersion,
+                      mesh.bytes,
+                      mesh.changed_ns,
+                      mesh.digest,
+                      s.vertex_count,
+                      s.unused_vertices,
+                      s.triangle_count,
+                      s.degenerate_triangles,
+                      s.block_triangles,
+                      s.block_count,
+                      s.max_live_vertices,
+                      s.live_profile.size()};
+  const auto profile = std::as_bytes(std::span(s.live_profile));
+  out.append(object_bytes(header));
+  out.append(profile);
+  out.append(object_bytes(checksum(profile, checksum(object_bytes(header)))));
+  std::vector<std::uint32_t> entries(kBlockEntries);
+  std::vector<std::byte> planes, packed;
+  for (std::uint64_t first = 0; first < s.vertex_count; first += kBlockEntries) {
+    entries.resize(static_cast<std::size_t>(std::min<std::uint64_t>(kBlockEntries, s.vertex_count - first)));
+    uses.read(VertexId(first), entries);
+    to_planes(entries, planes);
+    packed.clear();
+    zstd_compress(planes, kLevel, packed);
+    out.append(object_bytes(BlockHeader{packed.size(), checksum(packed)}));
+    out.append(packed);
+  }
+  out.commit();
+}
+
+struct Damaged {};
+
+// Reads from the start on; what the file does not hold is Damaged.
+class Reader {
+ public:
+  explicit Reader(const std::string& path) : file_(File::open_for_reading(path)), size_(file_.size()) {}
+  void take(std::span<std::byte> bytes) {
+    if (bytes.size() > size_ - at_) throw Damaged();
+    file_.read_at(at_, bytes);
+    at_ += bytes.size();
+  }
+  template <class T>
+  T take() {
+    T object;
+    take(std::as_writable_bytes(std::span(&object, 1)));
+    return object;
+  }
+  std::uint64_t left() const { return size_ - at_; }
+
+ private:
+  File file_;
+  std::uint64_t size_, at_ = 0;
+};
+
+UseSummary read_summary(Reader& in, const Header& header) {
+  if (header.samples > kMostSamples || header.block_count > UseEntry::kMostBlocks || header.block_triangles == 0 ||
+      header.block_count != (header.triangle_count + header.block_triangles - 1) / header.block_triangles)
+    throw Damaged();
+  UseSummary s;
+  s.live_profile.resize(static_cast<std::size_t>(header.samples));
+  const auto profile = std::as_writable_bytes(std::span(s.live_profile));
+  in.take(profile);
+  if (in.take<std::uint64_t>() != checksum(profile, checksum(object_bytes(header)))) throw Damaged();
+  s.vertex_count = header.vertex_count;
+  s.unused_vertices = header.unused_vertices;
+  s.triangle_count = header.triangle_count;
+  s.degenerate_triangles = header.degenerate_triangles;
+  s.block_triangles = header.block_triangles;
+  s.block_count = header.block_count;
+  s.max_live_vertices = header.max_live_vertices;
+  return s;
+}
+
+void read_table(Reader& in, const UseSummary& summary, PagedTable<std::uint32_t>& table) {
+  std::vector<std::uint32_t> entries;
+  std::vector<std::byte> planes, packed;
+  for (std::uint64_t first = 0; first < summary.vertex_count; first += kBlockEntries) {
+    entries.resize(static_cast<std::size_t>(std::min<std::uint64_t>(kBlockEntries, summary.vertex_count - first)));
+    const auto header = in.take<BlockHeader>();
+    if (header.packed_bytes > 8 * kBlockEntries) throw Damaged();
+    packed.resize(static_cast<std::size_t>(header.packed_bytes));
+    in.take(packed);
+    planes.resize(4 * entries.size());
+    if (checksum(packed) != header.checksum || !zstd_decompress(packed, planes)) throw Damaged();
+    from_planes(planes, entries);
+    for (const std::uint32_t entry : entries)
+      if (!UseEntry(entry).unused() && UseEntry(entry).last_block() >= summary.block_count) throw Damaged();
+    table.write(first, entries);
+  }
+  if (in.left() != 0) throw Damaged();
+}
+
+}  // namespace
+
+MeshIdentity identify_mesh(const std::string& path) {
+  struct stat status {};
+  const File file = File::open_for_reading(path);
+  if (::stat(path.c_str(), &status) != 0)
+    throw Error(ErrorKind::kBadInput, std::strerror(errno), "check the name").at(path);
+  MeshIdentity identity;
+  identity.bytes = file.size();
+  identity.changed_ns = std::int64_t{status.st_mtim.tv_sec} * 1'000'000'000 + status.st_mtim.tv_nsec;
+  std::vector<std::byte> probe(static_cast<std::size_t>(std::min<std::uint64_t>(kProbeBytes, identity.bytes)));
+  for (std::uint64_t k = 0; k < kProbes; ++k) {
+    const std::uint64_t room = identity.bytes - probe.size();
+    file.read_at(room / (kProbes - 1) * k + room % (kProbes - 1) * k / (kProbes - 1), probe);
+    identity.digest = checksum(probe, identity.digest);
+    if (room == 0) break;
+  }
+  return identity;
+}
+
+void save_sidecar(const std::string& path, const MeshIdentity& mesh, LastUse& uses) {
+  try {
+    AtomicFile out(path);
+    write_sidecar(out, mesh, uses);
+  } catch (const Error& e) {
+    throw Error(e.kind(), e.message(), "make room in the folder of the mesh, or leave out --sidecar")
+        .at(e.file(), e.position());
+  }
+}
+
+SidecarLoad load_sidecar(const std::string& path, const MeshIdentity& mesh, std::uint64_t vertex_count,
+                         const TempDir& temp, MemoryBudget& budget, std::uint64_t allowance_bytes) {
+  if (::access(path.c_str(), R_OK) != 0) return {};
+  try {
+    Reader in(path);
+    const auto header = in.take<Header>();
+    if (header.magic != kMagic) return {{}, path + ": not a finalization file, ignored"};
+    if (header.version != kVersion)
+      return {{}, path + ": version " + std::to_string(header.version) + " is not known, ignored"};
+    if (MeshIdentity{header.mesh_bytes, header.mesh_changed_ns, header.mesh_digest} != mesh ||
+        header.vertex_count != vertex_count)
+      return {{}, path + ": made for another state of the mesh, ignored"};
+    UseSummary summary = read_summary(in, header);
+    PagedTable<std::uint32_t> table("last uses", temp, budget, allowance_bytes, UseEntry::kUnused);
+    read_table(in, summary, table);
+    return {LastUse(std::move(summary), std::move(table)), {}};
+  } catch (const Damaged&) {
+    return {{}, path + ": damaged, ignored"};
+  }
+}
+
+}  // namespace reeb::ooc

@@ -1,0 +1,89 @@
+#include "ooc/chunks/patch_partition.h"
+
+#include <algorithm>
+
+namespace reeb::ooc {
+
+void PatchPartition::divide(const Chunk& chunk, std::size_t most) {
+  constexpr std::size_t kSamplesAPatch = 1024;
+  const std::size_t n = chunk.triangle_count(), stride = std::max<std::size_t>(1, most / kSamplesAPatch);
+  cuts_.clear();
+  patches_ = 0;
+  triangles_.clear();
+  triangles_.reserve(n);
+  for (std::size_t i = 0; i < n; i += stride) triangles_.push_back(static_cast<std::uint32_t>(i));
+  const std::uint32_t root = cut(chunk, triangles_, most / stride);
+  patch_of_.resize(n);
+  for (std::uint32_t i = 0; i < n; ++i) patch_of_[i] = patch_of(chunk, i, root);
+  collect();
+}
+
+// Returns the cut that divides the sample, or its patch.
+std::uint32_t PatchPartition::cut(const Chunk& chunk, std::span<std::uint32_t> sample, std::size_t most) {
+  if (sample.size() <= most) return kIsPatch | patches_++;
+  Cut cut;
+  const std::size_t below = divide_sample(chunk, sample, cut);
+  const auto index = static_cast<std::uint32_t>(cuts_.size());
+  cuts_.push_back(cut);
+  const std::uint32_t lower = this->cut(chunk, sample.first(below), most);
+  const std::uint32_t upper = this->cut(chunk, sample.subspan(below), most);
+  cuts_[index].below = lower;
+  cuts_[index].above = upper;
+  return index;
+}
+
+// Puts those below the cut first, and returns how many they are: neither none nor all.
+std::size_t PatchPartition::divide_sample(const Chunk& chunk, std::span<std::uint32_t> sample, Cut& cut) const {
+  const auto cut_at_median = [&](std::size_t axis) {
+    const auto middle = sample.begin() + static_cast<std::ptrdiff_t>(sample.size() / 2);
+    std::nth_element(sample.begin(), middle, sample.end(),
+                     [&](std::uint32_t a, std::uint32_t b) { return place(chunk, a, axis) < place(chunk, b, axis); });
+    cut.axis = axis;
+    cut.at = place(chunk, *middle, axis);
+    return static_cast<std::size_t>(
+        std::partition(sample.begin(), middle, [&](std::uint32_t t) { return place(chunk, t, axis) < cut.at; }) -
+        sample.begin());
+  };
+  double longest = 0;
+  std::size_t axis = kStream;
+  for (std::size_t k = 0; k < kStream && !chunk.positions.empty(); ++k) {
+    const auto [least, greatest] =
+        std::minmax_element(sample.begin(), sample.end(),
+                            [&](std::uint32_t a, std::uint32_t b) { return place(chunk, a, k) < place(chunk, b, k); });
+    const double width = place(chunk, *greatest, k) - place(chunk, *least, k);
+    if (width > longest) {
+      longest = width;
+      axis = k;
+    }
+  }
+  if (axis != kStream)
+    if (const std::size_t below = cut_at_median(axis); 4 * below >= sample.size()) return below;
+  return cut_at_median(kStream);
+}
+
+std::uint16_t PatchPartition::patch_of(const Chunk& chunk, std::uint32_t triangle, std::uint32_t root) const {
+  std::uint32_t at = root;
+  while ((at & kIsPatch) == 0) {
+    const Cut& cut = cuts_[at];
+    at = place(chunk, triangle, cut.axis) < cut.at ? cut.below : cut.above;
+  }
+  return static_cast<std::uint16_t>(at);
+}
+
+void PatchPartition::collect() {
+  begin_.assign(patches_ + 1, 0);
+  for (const std::uint16_t p : patch_of_) ++begin_[p + 1];
+  for (std::size_t p = 0; p < patches_; ++p) begin_[p + 1] += begin_[p];
+  triangles_.resize(patch_of_.size());
+  for (std::uint32_t i = 0; i < patch_of_.size(); ++i) triangles_[begin_[patch_of_[i]]++] = i;
+  // Now each has moved to where the next began.
+  begin_.insert(begin_.begin(), 0);
+  begin_.pop_back();
+  begin_.erase(std::unique(begin_.begin(), begin_.end()), begin_.end());
+}
+
+std::size_t PatchPartition::memory_bytes() const {
+  return cuts_.capacity() * sizeof(Cut) + patch_of_.capacity() * 2 + (begin_.capacity() + triangles_.capacity()) * 4;
+}
+
+}  // namespace reeb::ooc

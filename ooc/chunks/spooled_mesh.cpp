@@ -1,0 +1,100 @@
+#include "ooc/chunks/spooled_mesh.h"
+
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "libreeb/base/error.h"
+
+namespace reeb::ooc {
+
+namespace {
+
+void append_faces(const std::vector<VertexId>& tetrahedra, std::vector<VertexId>& triangles) {
+  for (std::size_t t = 0; t + 4 <= tetrahedra.size(); t += 4)
+    for (std::size_t left_out = 0; left_out < 4; ++left_out)
+      for (std::size_t c = 0; c < 4; ++c)
+        if (c != left_out) triangles.push_back(tetrahedra[t + c]);
+}
+
+}  // namespace
+
+SpooledMesh::SpooledMesh(unsigned columns, const TempDir& temp, MemoryBudget& budget, std::uint64_t allowance_bytes)
+    : triangles_(temp, budget, allowance_bytes / 2) {
+  columns_.reserve(columns);
+  for (unsigned k = 0; k < columns; ++k) columns_.emplace_back(temp, budget, allowance_bytes / 2 / columns);
+}
+
+void SpooledMesh::append(const MeshBatch& batch) {
+  std::vector<std::span<const double>> values;
+  for (const auto& column : batch.coordinates) values.emplace_back(column);
+  for (const auto& column : batch.properties) values.emplace_back(column);
+  append_vertices(values);
+  append_triangles(batch.triangles);
+  if (batch.tetrahedra.empty()) return;
+  std::vector<VertexId> faces;
+  append_faces(batch.tetrahedra, faces);
+  append_triangles(faces);
+}
+
+void SpooledMesh::append_vertices(std::span<const std::span<const double>> values) {
+  for (std::size_t k = 0; k < columns_.size() && k < values.size(); ++k) columns_[k].append(values[k]);
+}
+
+std::uint64_t SpooledMesh::vertex_count() const { return columns_.empty() ? 0 : columns_.front().size(); }
+
+void SpooledMesh::gather(std::span<const VertexId> ids, std::span<const unsigned> columns, std::span<double> values) {
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    VertexColumn& column = columns_[columns[k]];
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+      const double value = column.get(ids[i].value());
+      if (!std::isfinite(value)) [[unlikely]]
+        throw Error(ErrorKind::kBadInput, "column " + std::to_string(columns[k]) + " is not a finite number",
+                    "repair the value or choose another function")
+            .at("", "vertex " + std::to_string(ids[i].value()));
+      values[k * ids.size() + i] = value + 0.0;  // -0.0 becomes 0.0
+    }
+  }
+}
+
+std::uint64_t SpooledMesh::spilled_bytes() const {
+  std::uint64_t bytes = triangles_.spilled_bytes();
+  for (const VertexColumn& column : columns_) bytes += column.spilled_bytes();
+  return bytes;
+}
+
+Spooler::Spooler(MeshReader& reader, const TempDir& temp, MemoryBudget& budget, SpoolOptions options)
+    : reader_(reader),
+      temp_(temp),
+      budget_(budget),
+      options_(std::move(options)),
+      reader_memory_(budget.reserve("mesh reader", 0)) {}
+
+bool Spooler::read() {
+  if (ended_) return false;
+  const bool some = reader_.read(batch_);
+  ended_ = !some;
+  if (mesh_ == nullptr) {
+    const std::size_t columns = some ? batch_.coordinates.size() + batch_.properties.size() : reader_.info().dimension;
+    mesh_ = std::make_unique<SpooledMesh>(static_cast<unsigned>(columns), temp_, budget_, options_.allowance_bytes);
+  }
+  if (!some) return false;
+  reader_memory_.resize(reader_.memory_bytes());
+  append_faces(batch_.tetrahedra, batch_.triangles);
+  batch_.tetrahedra.clear();
+  mesh_->append(batch_);
+  if (options_.progress) options_.progress(reader_);
+  return true;
+}
+
+std::unique_ptr<SpooledMesh> Spooler::finish() {
+  while (read()) continue;
+  return std::move(mesh_);
+}
+
+std::unique_ptr<SpooledMesh> spool(MeshReader& reader, const TempDir& temp, MemoryBudget& budget,
+                                   const SpoolOptions& options) {
+  return Spooler(reader, temp, budget, options).finish();
+}
+
+}  // namespace reeb::ooc

@@ -1,0 +1,92 @@
+// Any mesh, read once and kept in a form that can be looked up and read again (DESIGN.md 4).
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "io/file/temp_dir.h"
+#include "libreeb/base/memory_budget.h"
+#include "libreeb/port/indexed_mesh.h"
+#include "libreeb/port/mesh_reader.h"
+#include "ooc/tables/triangle_log.h"
+#include "ooc/tables/vertex_column.h"
+
+namespace reeb::ooc {
+
+struct SpoolOptions {
+  std::uint64_t allowance_bytes = 32 << 20;  // of the budget, for vertices and triangles
+  std::function<void(const MeshReader&)> progress = {};
+};
+
+// Coordinates, then the properties that the reader delivers, in one column each; triangles in a
+// log. All in memory while it fits the allowance and the budget, else in unnamed files.
+//
+// THREADS: one at a time.
+class SpooledMesh : public IndexedMesh {
+ public:
+  SpooledMesh(unsigned columns, const TempDir& temp, MemoryBudget& budget, std::uint64_t allowance_bytes);
+
+  // Takes over the vertices and simplices of a batch. REQUIRES: no triangle was read yet.
+  void append(const MeshBatch& batch);
+  // Appends vertices: values[k] is column k, all of one length.
+  void append_vertices(std::span<const std::span<const double>> values);
+  // The same for one column; in the end all must be of one length.
+  void append_column(unsigned column, std::span<const double> values) { columns_[column].append(values); }
+  // REQUIRES: no triangle was read yet.
+  void append_triangles(std::span<const VertexId> corners) { triangles_.append(corners); }
+
+  std::uint64_t vertex_count() const override;
+  unsigned column_count() const override { return static_cast<unsigned>(columns_.size()); }
+  void gather(std::span<const VertexId> ids, std::span<const unsigned> columns, std::span<double> values) override;
+  void rewind() override { triangles_.rewind(); }
+  bool read(std::vector<VertexId>& corners, std::size_t limit) override { return triangles_.read(corners, limit); }
+  std::uint64_t bytes_read() const override { return triangles_.bytes_read(); }
+  std::uint64_t bytes_total() const override { return triangles_.bytes_total(); }
+
+  std::uint64_t triangle_count() const { return triangles_.triangle_count(); }
+  std::uint64_t spilled_bytes() const;
+
+ private:
+  std::vector<VertexColumn> columns_;
+  TriangleLog triangles_;
+};
+
+// A mesh on its way from a reader into that form. Tetrahedra become their four faces; finalizations
+// are passed over.
+//
+// THROWS: what the reader throws; Error{kResource} of the budget or the disk.
+// THREADS: one at a time.
+class Spooler {
+ public:
+  // `reader`, `temp` and `budget` must outlive this.
+  Spooler(MeshReader& reader, const TempDir& temp, MemoryBudget& budget, SpoolOptions options = {});
+
+  // Takes over the next batch; false at the end, again and again.
+  bool read();
+  // Three corners each, of the batch that was read last.
+  const std::vector<VertexId>& triangles() const { return batch_.triangles; }
+  const MeshReader& reader() const { return reader_; }
+  // As far as it was read. REQUIRES: something was.
+  SpooledMesh& mesh() { return *mesh_; }
+
+  // Reads what is left; the whole mesh.
+  std::unique_ptr<SpooledMesh> finish();
+
+ private:
+  MeshReader& reader_;
+  const TempDir& temp_;
+  MemoryBudget& budget_;
+  SpoolOptions options_;
+  Reservation reader_memory_;
+  MeshBatch batch_;
+  std::unique_ptr<SpooledMesh> mesh_;
+  bool ended_ = false;
+};
+
+// Reads `reader` to its end.
+std::unique_ptr<SpooledMesh> spool(MeshReader& reader, const TempDir& temp, MemoryBudget& budget,
+                                   const SpoolOptions& options = {});
+
+}  // namespace reeb::ooc

@@ -1,0 +1,132 @@
+#include "libreeb/base/error.h"
+#include "ooc/chunks/chunk_growth.h"
+#include "ooc/chunks/chunk_source.h"
+
+namespace reeb::ooc {
+namespace {
+
+class StreamChunks : public ChunkSource {
+ public:
+  StreamChunks(MeshReader& reader, FunctionValues& columns, ChunkSize size, const ChunkPlace& start,
+               std::optional<std::uint64_t> most_active_vertices)
+      : reader_(reader),
+        columns_(columns),
+        size_(size),
+        most_active_vertices_(most_active_vertices),
+        chunker_(columns.function_count(), true) {
+    pass_over(start);
+  }
+
+  bool next(WorkItem& item) override;
+  bool given_up() const override { return given_up_; }
+  std::uint64_t bytes_read() const override { return reader_.bytes_read(); }
+  std::uint64_t bytes_total() const override { return reader_.info().file_bytes; }
+  std::uint64_t triangles_read() const override { return triangles_read_; }
+  std::uint64_t vertex_count() const override { return chunker_.vertex_count(); }
+
+ private:
+  void pass_over(const ChunkPlace& start);
+  bool is_hopeless() const;
+  void read_batch();
+  void add_vertices();
+  void add_simplices(const std::vector<VertexId>& corners, std::size_t size);
+
+  MeshReader& reader_;
+  FunctionValues& columns_;
+  ChunkGrowth size_;                                   // in triangles
+  std::optional<std::uint64_t> most_active_vertices_;  // if it may give up
+  StreamChunker chunker_;
+  std::uint64_t triangles_read_ = 0;
+  std::uint64_t batches_ = 0;
+  bool ended_ = false, given_up_ = false;
+
+  MeshBatch batch_;
+  std::vector<VertexId> ids_;
+  std::vector<std::span<const double>> data_;
+  std::vector<Point> positions_;
+  std::vector<std::vector<double>> values_;
+  std::vector<double> row_;
+};
+
+bool StreamChunks::next(WorkItem& item) {
+  while (!ended_ && chunker_.chunk_size() < size_.size()) read_batch();
+  given_up_ = is_hopeless();
+  if (given_up_ || chunker_.chunk_size() == 0) return false;
+  chunker_.take(item.chunk, item.values);
+  size_.adapt(item.chunk);
+  item.end.triangles = triangles_read_;
+  item.end.next_vertex = chunker_.vertex_count();
+  item.end.batches = batches_;
+  item.end.chunk_blocks = size_.size();
+  item.end.ranges.assign(columns_.ranges().begin(), columns_.ranges().end());
+  return true;
+}
+
+bool StreamChunks::is_hopeless() const {
+  constexpr std::uint64_t kMany = 1'000'000, kLargePart = 8;
+  if (!most_active_vertices_) return false;
+  const std::uint64_t active = chunker_.active_vertices(), all = chunker_.vertex_count();
+  return active > *most_active_vertices_ || (all > kMany && active > all / kLargePart);
+}
+
+// Which vertices are live at a chunk's end, and which of them were used, does not depend on where the
+// chunks before were cut.
+void StreamChunks::pass_over(const ChunkPlace& start) {
+  Chunk chunk;
+  std::vector<std::vector<double>> values;
+  while (!ended_ && batches_ < start.batches) {
+    read_batch();
+    if (chunker_.chunk_size() >= size_.size() || batches_ == start.batches) chunker_.take(chunk, values);
+  }
+  if (batches_ != start.batches || triangles_read_ != start.triangles || chunker_.vertex_count() != start.next_vertex)
+    throw Error(ErrorKind::kBadInput, "the stream is not the one that the checkpoint was made of",
+                "run it again without --resume");
+  if (start.chunk_blocks != 0) size_.set_size(static_cast<std::size_t>(start.chunk_blocks));
+  if (!start.ranges.empty()) columns_.set_ranges(start.ranges);
+}
+
+void StreamChunks::read_batch() {
+  ++batches_;
+  if (!reader_.read(batch_)) {
+    chunker_.finalize_all();
+    ended_ = true;
+    return;
+  }
+  add_vertices();
+  add_simplices(batch_.triangles, 3);
+  add_simplices(batch_.tetrahedra, 4);
+  triangles_read_ += batch_.triangle_count() + 4 * batch_.tetrahedron_count();
+  for (const VertexId v : batch_.finalized) chunker_.finalize(v);
+}
+
+void StreamChunks::add_vertices() {
+  const std::size_t n = batch_.vertex_count;
+  if (n == 0) return;
+  ids_.resize(n);
+  for (std::size_t i = 0; i < n; ++i) ids_[i] = VertexId(batch_.first_vertex.value() + i);
+  data_.clear();
+  for (const unsigned column : columns_.columns())
+    data_.emplace_back(column < batch_.coordinates.size() ? batch_.coordinates[column]
+                                                          : batch_.properties[column - batch_.coordinates.size()]);
+  positions_.clear();
+  for (auto& values : values_) values.clear();
+  columns_.evaluate(ids_, data_, positions_, values_);
+  row_.resize(values_.size());
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t f = 0; f < values_.size(); ++f) row_[f] = values_[f][i];
+    chunker_.add_vertex(row_, positions_[i]);
+  }
+}
+
+void StreamChunks::add_simplices(const std::vector<VertexId>& corners, std::size_t size) {
+  for (std::size_t i = 0; i < corners.size(); i += size) chunker_.add_simplex({corners.data() + i, size});
+}
+
+}  // namespace
+
+std::unique_ptr<ChunkSource> chunks_of(MeshReader& reader, FunctionValues& columns, ChunkSize size,
+                                       const ChunkPlace& start, std::optional<std::uint64_t> most_active_vertices) {
+  return std::make_unique<StreamChunks>(reader, columns, size, start, most_active_vertices);
+}
+
+}  // namespace reeb::ooc

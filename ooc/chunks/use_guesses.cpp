@@ -1,0 +1,85 @@
+#include "ooc/chunks/use_guesses.h"
+
+#include <algorithm>
+
+namespace reeb::ooc {
+
+namespace {
+
+// The finalizer of SplitMix64: any two vertices have different sums for all that can be told from 29 bits.
+std::uint32_t hash(VertexId v) {
+  std::uint64_t x = v.value() + 0x9e3779b97f4a7c15;
+  x = (x ^ x >> 30) * 0xbf58476d1ce4e5b9;
+  x = (x ^ x >> 27) * 0x94d049bb133111eb;
+  return static_cast<std::uint32_t>(x >> 32);
+}
+
+}  // namespace
+
+UseGuesses::Verdict UseGuesses::add(Chunk& chunk, std::uint64_t most_open) {
+  constexpr std::size_t kOften = 1024;
+  sum_links(chunk);
+  // Before the table is touched, which costs much where vertices lie far apart.
+  const auto open_here = static_cast<std::uint64_t>(
+      std::count_if(links_.begin(), links_.end(), [](std::uint32_t link) { return !is_closed(link); }));
+  if (open_here > most_open) return Verdict::kIncoherent;
+  chunk.uses.resize(chunk.vertex_count());
+  for (std::size_t i = 0; i < chunk.vertex_count(); ++i) {
+    if (i % kOften == 0 && is_thrashing()) return Verdict::kIncoherent;
+    std::uint32_t& entry = table_.change(chunk.ids[i].value());
+    if ((entry & kGuessed) != 0) {
+      ++revoked_;
+      continue;
+    }
+    const bool earlier = (entry & kUsed) != 0;
+    entry = ((entry ^ links_[i]) & ~kFlags) | ((entry | links_[i]) & kFan) | kUsed;
+    const bool later = !is_closed(entry);
+    if (!later) entry = kGuessed;
+    open_ = open_ + (later ? 1 : 0) - (earlier ? 1 : 0);
+    guessed_ += later ? 0 : 1;
+    chunk.uses[i] = static_cast<std::uint8_t>((earlier ? kUsedEarlier : 0) | (later ? kUsedLater : 0));
+  }
+  if (revoked_ != 0) return Verdict::kRevoked;
+  return open_ > most_open ? Verdict::kIncoherent : Verdict::kGood;
+}
+
+void UseGuesses::sum_links(const Chunk& chunk) {
+  hashes_.resize(chunk.vertex_count());
+  for (std::size_t i = 0; i < chunk.vertex_count(); ++i) hashes_[i] = hash(chunk.ids[i]) & ~kFlags;
+  links_.assign(chunk.vertex_count(), 0);
+  for (std::size_t t = 0; t < chunk.corners.size(); t += 3) {
+    const std::uint32_t a = chunk.corners[t], b = chunk.corners[t + 1], c = chunk.corners[t + 2];
+    if (a != b && b != c && a != c) [[likely]] {
+      links_[a] = (links_[a] ^ hashes_[b] ^ hashes_[c]) | kFan;
+      links_[b] = (links_[b] ^ hashes_[c] ^ hashes_[a]) | kFan;
+      links_[c] = (links_[c] ^ hashes_[a] ^ hashes_[b]) | kFan;
+      continue;
+    }
+    ++degenerate_;
+    const std::uint32_t other = b != a ? b : c;
+    if (other == a) continue;  // a vertex
+    links_[a] ^= hashes_[other];
+    links_[other] ^= hashes_[a];
+  }
+}
+
+// A refetch costs some 30 us; a coherent mesh needs each page again a few times at most.
+bool UseGuesses::is_thrashing() const { return table_.pages().refetches() > 64 + 8 * table_.pages().page_count(); }
+
+std::uint64_t UseGuesses::take_rest(std::uint64_t first, std::uint64_t end, std::size_t most, Chunk& chunk) {
+  constexpr std::uint64_t kStretch = 16 << 10;
+  while (first < end && chunk.vertex_count() < most) {
+    entries_.resize(static_cast<std::size_t>(std::min(kStretch, end - first)));
+    table_.read(first, entries_);
+    for (std::size_t i = 0; i < entries_.size() && chunk.vertex_count() < most; ++i, ++first) {
+      if ((entries_[i] & kGuessed) != 0) continue;
+      const bool used = (entries_[i] & kUsed) != 0;
+      unused_ += used ? 0 : 1;
+      chunk.ids.emplace_back(first);
+      chunk.uses.push_back(used ? kUsedEarlier : kUsedHereOnly);
+    }
+  }
+  return first;
+}
+
+}  // namespace reeb::ooc

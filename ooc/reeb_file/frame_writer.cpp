@@ -1,0 +1,57 @@
+#include "ooc/reeb_file/frame_writer.h"
+
+#include "libreeb/base/byte_coding.h"
+
+namespace reeb::ooc {
+namespace {
+
+constexpr int kZstdLevel = 1;
+// Below it a frame is stored as it is: nothing is gained, and small files can be read by eye.
+constexpr std::size_t kCompressFromBytes = 512;
+
+}  // namespace
+
+FrameWriter::FrameWriter(const std::string& path, std::uint64_t region_bytes) : file_(path) {
+  file_.append(std::vector<std::byte>(region_bytes));
+}
+
+void FrameWriter::add(FrameHeader header, std::span<const std::byte> payload) {
+  digest_.add(payload);
+  packed_.clear();
+  if (payload.size() >= kCompressFromBytes) compressor_.compress(payload, kZstdLevel, packed_);
+  const bool pays = !packed_.empty() && packed_.size() < payload.size();
+  const std::span<const std::byte> stored = pays ? packed_ : payload;
+  header.raw_bytes = static_cast<std::uint32_t>(payload.size());
+  header.stored_bytes = static_cast<std::uint32_t>(stored.size());
+
+  frame_.clear();
+  encode_frame_header(header, frame_);
+  RunningChecksum sum;
+  sum.add(frame_);
+  sum.add(stored);
+  ByteWriter out(frame_);
+  out.u64(sum.value());
+  out.bytes(stored);
+  offsets_.push_back(file_.size());
+  file_.append(frame_);
+}
+
+void FrameWriter::finish(FileHeader& header) {
+  std::vector<std::byte> bytes;
+  ByteWriter out(bytes);
+  const std::uint64_t table_offset = file_.size();
+  for (const std::uint64_t offset : offsets_) out.u64(offset);
+  out.u64(table_offset);
+  out.u64(checksum(bytes));
+  for (const std::uint8_t byte : kReebEndMagic) out.u8(byte);
+  file_.append(bytes);
+
+  header.content_digest = digest_.value();
+  bytes.clear();
+  encode_header(header, bytes);
+  out.u64(checksum(bytes));
+  file_.write_at(0, bytes);
+  file_.commit();
+}
+
+}  // namespace reeb::ooc

@@ -1,0 +1,40 @@
+// The part of a `.reeb` file that all its writers share: frames one after the other, then the seek
+// table and the tail, and the header region in front once everything in it is known.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "io/file/atomic_file.h"
+#include "io/file/checksum.h"
+#include "io/file/zstd_codec.h"
+#include "libreeb/format/reeb_format.h"
+
+namespace reeb::ooc {
+
+// THROWS: Error{kResource} with the path, from every call.
+class FrameWriter {
+ public:
+  // Leaves room for a header region of this size.
+  FrameWriter(const std::string& path, std::uint64_t region_bytes);
+
+  // Appends a frame; sizes in `header` are filled in here.
+  void add(FrameHeader header, std::span<const std::byte> payload);
+
+  std::uint64_t size() const { return file_.size(); }
+
+  // Writes seek table, tail and header (whose digest is filled in here), and commits the file.
+  // REQUIRES: header.region_bytes() is what was announced.
+  void finish(FileHeader& header);
+
+ private:
+  AtomicFile file_;
+  RunningChecksum digest_;
+  ZstdCompressor compressor_;
+  std::vector<std::uint64_t> offsets_;  // of the frames
+  std::vector<std::byte> frame_, packed_;
+};
+
+}  // namespace reeb::ooc

@@ -1,0 +1,178 @@
+// GraphFileWriter: the streaming writer of graphs without hierarchy.
+#include <algorithm>
+#include <numeric>
+#include <stdexcept>
+#include <utility>
+
+#include "io/file/atomic_file.h"
+#include "ooc/reeb_file/file_header.h"
+#include "ooc/reeb_file/frame_size.h"
+#include "ooc/reeb_file/reeb_file_writer.h"
+
+namespace reeb::ooc {
+namespace {
+
+constexpr std::size_t kPiece = 4096;
+
+constexpr std::uint32_t kNoNode = ~std::uint32_t{0};
+
+FileHeader first_header(FileMeta meta, const GraphFileWriter::Options& options) {
+  FileHeader header = header_of(std::move(meta));
+  header.flags = {true, options.has_positions, options.has_embedding};
+  header.levels.resize(1);
+  return header;
+}
+
+bool in_order(const FileArc& a, const FileArc& b) { return a.lo < b.lo || (a.lo == b.lo && a.hi <= b.hi); }
+
+}  // namespace
+
+GraphFileWriter::GraphFileWriter(const std::string& path, FileMeta meta, const Options& options)
+    : header_(first_header(std::move(meta), options)),
+      writer_(path, header_.region_bytes()),
+      background_(options.background) {
+  if (options.ends == ArcEnds::kKeys) keys_.emplace(folder_of(path));
+  if (options.ends == ArcEnds::kKeysInMemory) rank_of_.assign(static_cast<std::size_t>(header_.mesh_vertices), kNoNode);
+}
+
+void GraphFileWriter::add_nodes(std::span<const SettledNode> nodes) {
+  for (const SettledNode& node : nodes) {
+    if (last_node_ && !(*last_node_ < node.key)) throw std::logic_error("GraphFileWriter: nodes are not ascending");
+    last_node_ = node.key;
+    if (keys_) keys_->append(node.key);
+    if (!rank_of_.empty()) rank_of_.at(node.key.vertex.value()) = static_cast<std::uint32_t>(header_.nodes);
+    frame_.nodes.push_back(node);
+    ++header_.nodes;
+    flush_if_full();
+  }
+}
+
+void GraphFileWriter::add_arcs(std::span<const ArcKeys> arcs, const ArcBucketsView& buckets) {
+  ranked_.resize(arcs.size());
+  if (keys_)
+    rank_by_search(arcs);
+  else
+    rank_by_vertex(arcs);
+  add_arcs(std::span<const FileArc>(ranked_), buckets);
+}
+
+void GraphFileWriter::rank_by_vertex(std::span<const ArcKeys> arcs) {
+  const auto rank = [&](const SweepKey& key) {
+    const std::uint64_t vertex = key.vertex.value();
+    if (vertex >= rank_of_.size() || rank_of_[vertex] == kNoNode)
+      throw std::logic_error("GraphFileWriter: no node is vertex " + std::to_string(vertex));
+    return rank_of_[vertex];
+  };
+  for (std::size_t i = 0; i < arcs.size(); ++i) ranked_[i] = {rank(arcs[i].lo), rank(arcs[i].hi), 0, kNeverDies};
+}
+
+// Upper ends are looked up in their own order: a large piece then touches each page of the table
+// once, and each search starts next to the last.
+void GraphFileWriter::rank_by_search(std::span<const ArcKeys> arcs) {
+  if (!std::exchange(sealed_, true)) keys_->seal();
+  by_hi_.resize(arcs.size());
+  std::iota(by_hi_.begin(), by_hi_.end(), 0u);
+  std::sort(by_hi_.begin(), by_hi_.end(), [&](std::uint32_t a, std::uint32_t b) { return arcs[a].hi < arcs[b].hi; });
+  for (std::size_t i = 0; i < arcs.size(); ++i) {
+    lo_rank_ = keys_->rank(arcs[i].lo, lo_rank_);
+    ranked_[i] = {lo_rank_, 0, 0, kNeverDies};
+  }
+  std::uint64_t hi_rank = 0;
+  for (std::size_t k = 0; k < by_hi_.size(); ++k) {
+    constexpr std::size_t kLookups = 64;  // each may map sixteen pages that none before did
+    if (k % kLookups == 0) keys_->release_pages();
+    ranked_[by_hi_[k]].hi = hi_rank = keys_->rank(arcs[by_hi_[k]].hi, hi_rank);
+  }
+  keys_->release_pages();
+}
+
+void GraphFileWriter::add_arcs(std::span<const FileArc> arcs, const ArcBucketsView& buckets) {
+  for (std::size_t i = 0; i < arcs.size(); ++i) {
+    const FileArc arc{arcs[i].lo, arcs[i].hi, 0, kNeverDies};
+    if (arc.lo >= arc.hi || arc.hi >= header_.nodes || (last_arc_ && !in_order(*last_arc_, arc)))
+      throw std::logic_error("GraphFileWriter: arc " + std::to_string(header_.arcs) + " is out of order");
+    last_arc_ = arc;
+    frame_.arcs.push_back(arc);
+    ++header_.arcs;
+    if (header_.flags.has_embedding) {
+      frame_.add_buckets(buckets.of(i));
+      buckets_ += buckets.count(i);
+    }
+    flush_if_full();
+  }
+}
+
+void GraphFileWriter::finish() {
+  frame_.versions.push_back({0.0, header_.nodes, header_.arcs, buckets_});
+  flush();
+  worker_.wait();
+  header_.components = header_.nodes - unions_;
+  header_.loops = header_.arcs - unions_;
+  header_.records = header_.arcs;
+  header_.levels[0] = {.version = 0,
+                       .frames = header_.graph_frames,
+                       .threshold = 0,
+                       .nodes = header_.nodes,
+                       .arcs = header_.arcs,
+                       .buckets = buckets_,
+                       .file_bytes = writer_.size(),
+                       .memory_bytes = level_memory(header_.nodes, header_.arcs, buckets_)};
+  writer_.finish(header_);
+}
+
+void GraphFileWriter::flush_if_full() {
+  if (frame_.nodes.size() * kNodeCost + frame_.arcs.size() * kArcCost + frame_.buckets.size() * kBucketCost >=
+      kFrameTargetBytes)
+    flush();
+}
+
+void GraphFileWriter::flush() {
+  worker_.wait();
+  std::swap(frame_, writing_);
+  frame_.clear();
+  ++header_.graph_frames;
+  if (!writing_.arcs.empty() && components_.size() == 0)
+    components_ = UnionFind(static_cast<std::uint32_t>(header_.nodes));
+  if (background_)
+    worker_.start([this] { write(writing_); });
+  else
+    write(writing_);
+}
+
+void GraphFileWriter::write(const GraphFrame& frame) {
+  for (const FileArc& arc : frame.arcs)
+    unions_ += components_.unite(static_cast<std::uint32_t>(arc.lo), static_cast<std::uint32_t>(arc.hi)) ? 1u : 0u;
+  payload_.clear();
+  encode_graph_frame(frame, header_.flags, payload_);
+  writer_.add({.kind = FrameKind::kGraph,
+               .nodes = static_cast<std::uint32_t>(frame.nodes.size()),
+               .records = static_cast<std::uint32_t>(frame.arcs.size()),
+               .versions = static_cast<std::uint32_t>(frame.versions.size()),
+               .finest = frame.versions.empty() ? 1u : 0u},
+              payload_);
+}
+
+void write_graph_file(const std::string& path, const FileMeta& meta, const ReebGraph& graph,
+                      const ArcBucketsView& buckets) {
+  GraphFileWriter writer(path, meta, {.has_positions = !graph.positions.empty(), .has_embedding = !buckets.empty()});
+  std::vector<SettledNode> nodes;
+  for (std::size_t i = 0; i < graph.node_count(); ++i) {
+    nodes.push_back({graph.nodes[i], graph.positions.empty() ? Point{} : graph.positions[i]});
+    if (nodes.size() < kPiece && i + 1 < graph.node_count()) continue;
+    writer.add_nodes(nodes);
+    nodes.clear();
+  }
+  std::vector<FileArc> arcs;
+  for (std::size_t first = 0; first < graph.arc_count(); first += arcs.size()) {
+    arcs.clear();
+    const std::size_t last = std::min(first + kPiece, graph.arc_count());
+    for (std::size_t i = first; i < last; ++i)
+      arcs.push_back({graph.lo[i].value(), graph.hi[i].value(), 0, kNeverDies});
+    ArcBucketsView piece = buckets;
+    if (!buckets.empty()) piece.offsets = buckets.offsets.subspan(first, last - first + 1);
+    writer.add_arcs(std::span<const FileArc>(arcs), piece);
+  }
+  writer.finish();
+}
+
+}  // namespace reeb::ooc

@@ -1,0 +1,165 @@
+// write_hierarchy_file: frames as HierarchyLayout planned them.
+#include <algorithm>
+
+#include "libreeb/graph/packed_buckets.h"
+#include "ooc/reeb_file/file_header.h"
+#include "ooc/reeb_file/frame_size.h"
+#include "ooc/reeb_file/hierarchy_layout.h"
+#include "ooc/reeb_file/reeb_file_writer.h"
+#include "ooc/threads/read_ahead.h"
+
+namespace reeb::ooc {
+namespace {
+
+constexpr std::uint32_t kNotIntroduced = ~std::uint32_t{0};
+
+class HierarchyFileWriter {
+ public:
+  HierarchyFileWriter(const std::string& path, const FileMeta& meta, const HierarchyContent& content)
+      : graph_(content.nodes),
+        hierarchy_(content.hierarchy),
+        records_(content.records),
+        layout_(lay_out(graph_.node_count(), hierarchy_, records_)),
+        header_(make_header(meta, content)),
+        writer_(path, header_.region_bytes()),
+        background_(content.background),
+        file_index_(graph_.node_count(), kNotIntroduced) {}
+
+  void run(const Poll& poll) {
+    std::vector<std::uint64_t> frame_ends;
+    records_.rewind();
+    std::size_t next = 0;
+    read_ahead<PlannedFrame>(
+        background_, [&](PlannedFrame& frame) { return next < layout_.cuts.size() && (make(next++, frame), true); },
+        [&](const PlannedFrame& frame) {
+          if (poll) poll();
+          write(frame);
+          frame_ends.push_back(writer_.size());
+        });
+    for (LevelLine& level : header_.levels) level.file_bytes = frame_ends[level.frames - 1];
+    write_pairs();
+    writer_.finish(header_);
+  }
+
+ private:
+  struct PlannedFrame {
+    GraphFrame frame;
+    std::uint32_t finest = 0;  // version
+  };
+
+  FileHeader make_header(const FileMeta& meta, const HierarchyContent& content) const {
+    const auto pairs_of = [&](PairType type) {
+      return static_cast<std::uint64_t>(
+          std::ranges::count(hierarchy_.pairs, type, [](const PersistencePair& pair) { return pair.type; }));
+    };
+    FileHeader header = header_of(meta);
+    header.flags = {false, !graph_.positions.empty(), content.has_embedding};
+    header.nodes = graph_.node_count();
+    header.arcs = layout_.versions[0].arcs;
+    header.components = pairs_of(PairType::kExt0);
+    header.loops = pairs_of(PairType::kExt1);
+    header.records = layout_.records;
+    header.pairs = hierarchy_.pairs.size();
+    header.kept_loops = static_cast<std::uint64_t>(
+        std::ranges::count_if(hierarchy_.pairs, [](const PersistencePair& pair) { return pair.kept; }));
+    header.steps = static_cast<std::uint32_t>(hierarchy_.persistence.size());
+    header.graph_frames = static_cast<std::uint32_t>(layout_.cuts.size());
+    header.pair_frames = static_cast<std::uint32_t>((hierarchy_.pairs.size() + kPairsPerFrame - 1) / kPairsPerFrame);
+    header.levels = layout_.levels;
+    return header;
+  }
+
+  void make(std::size_t number, PlannedFrame& planned) {
+    const FrameCut before = number == 0 ? FrameCut{0, 0, header_.steps + 1} : layout_.cuts[number - 1];
+    const FrameCut& cut = layout_.cuts[number];
+    GraphFrame& frame = planned.frame;
+    frame.clear();
+    read_records(cut.record_end - before.record_end, frame);
+    introduce_nodes(before, cut, frame);
+    for (const ArcVersion& arc : arcs_)
+      frame.arcs.push_back({file_index_[arc.lo.value()], file_index_[arc.hi.value()], arc.born, arc.died});
+    for (std::uint32_t version = before.finest; version > cut.finest; --version)
+      frame.versions.push_back(layout_.versions[version - 1]);
+    planned.finest = cut.finest;
+  }
+
+  void write(const PlannedFrame& planned) {
+    const GraphFrame& frame = planned.frame;
+    payload_.clear();
+    encode_graph_frame(frame, header_.flags, payload_);
+    writer_.add({.kind = FrameKind::kGraph,
+                 .nodes = static_cast<std::uint32_t>(frame.nodes.size()),
+                 .records = static_cast<std::uint32_t>(frame.arcs.size()),
+                 .versions = static_cast<std::uint32_t>(frame.versions.size()),
+                 .finest = planned.finest},
+                payload_);
+  }
+
+  // The next records with their buckets.
+  void read_records(std::uint64_t count, GraphFrame& frame) {
+    arcs_.clear();
+    ArcVersion arc;
+    std::span<const std::byte> packed;
+    while (arcs_.size() < count && records_.next(arc, packed)) {
+      arcs_.push_back(arc);
+      if (header_.flags.has_embedding) frame.add_buckets(packed);
+    }
+  }
+
+  // The nodes that this frame is the first to need, ascending.
+  void introduce_nodes(const FrameCut& before, const FrameCut& cut, GraphFrame& frame) {
+    new_nodes_.clear();
+    for (std::size_t i = before.isolated_end; i < cut.isolated_end; ++i)
+      new_nodes_.push_back(hierarchy_.isolated[i].value());
+    for (const ArcVersion& arc : arcs_)
+      for (const NodeId end : {arc.lo, arc.hi})
+        if (file_index_[end.value()] == kNotIntroduced) new_nodes_.push_back(end.value());
+    std::sort(new_nodes_.begin(), new_nodes_.end());
+    new_nodes_.erase(std::unique(new_nodes_.begin(), new_nodes_.end()), new_nodes_.end());
+    for (const std::uint32_t node : new_nodes_) {
+      file_index_[node] = introduced_++;
+      frame.nodes.push_back({graph_.nodes[node], graph_.positions.empty() ? Point{} : graph_.positions[node]});
+    }
+  }
+
+  void write_pairs() {
+    std::vector<FilePair> pairs;
+    for (std::size_t i = 0; i < hierarchy_.pairs.size(); ++i) {
+      const PersistencePair& pair = hierarchy_.pairs[i];
+      pairs.push_back({file_index_[pair.lo.value()], file_index_[pair.hi.value()], pair.type, pair.kept});
+      if (pairs.size() < kPairsPerFrame && i + 1 < hierarchy_.pairs.size()) continue;
+      payload_.clear();
+      encode_pairs_frame(pairs, payload_);
+      writer_.add({.kind = FrameKind::kPairs, .nodes = static_cast<std::uint32_t>(pairs.size())}, payload_);
+      pairs.clear();
+    }
+  }
+
+  const ReebGraph& graph_;
+  const Hierarchy& hierarchy_;
+  RecordSource& records_;
+  const HierarchyLayout layout_;
+  FileHeader header_;
+  FrameWriter writer_;
+  const bool background_;
+  std::vector<std::uint32_t> file_index_;  // of nodes: their order of introduction
+  std::uint32_t introduced_ = 0;
+  std::vector<ArcVersion> arcs_;  // of the frame
+  std::vector<std::uint32_t> new_nodes_;
+  std::vector<std::byte> payload_;
+};
+
+}  // namespace
+
+void write_hierarchy_file(const std::string& path, const FileMeta& meta, const HierarchyContent& content,
+                          const Poll& poll) {
+  HierarchyFileWriter(path, meta, content).run(poll);
+}
+
+void write_hierarchy_file(const std::string& path, const FileMeta& meta, const ReebGraph& graph,
+                          const Hierarchy& hierarchy, const ArcBucketsView& buckets) {
+  SortedRecords records(hierarchy.arcs, buckets);
+  write_hierarchy_file(path, meta, {graph, hierarchy, records, !buckets.empty()});
+}
+
+}  // namespace reeb::ooc

@@ -1,0 +1,213 @@
+#include "ooc/reeb_file/hierarchy_layout.h"
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "libreeb/graph/packed_buckets.h"
+#include "ooc/reeb_file/frame_size.h"
+
+namespace reeb::ooc {
+namespace {
+
+[[noreturn]] void fail(const char* what, std::uint64_t i, const char* why) {
+  throw std::logic_error(std::string("Hierarchy: ") + what + " " + std::to_string(i) + " " + why);
+}
+
+// Counts nodes, arcs and buckets of every version from records that come by `died` descending.
+class VersionCounter {
+ public:
+  VersionCounter(std::size_t node_count, std::size_t versions) : present_from_(node_count, kNever), change_(versions) {}
+
+  bool was_named(NodeId node) const { return present_from_[node.value()] != kNever; }
+
+  void add(const ArcVersion& arc, std::uint64_t buckets) {
+    arrives(arc.born, arc.died, {.arcs = 1, .buckets = buckets});
+    for (const NodeId end : {arc.lo, arc.hi}) add_node(end, arc.born, arc.died);
+  }
+  void add_isolated(NodeId node) { add_node(node, 0, kNeverDies); }
+
+  std::vector<VersionCounts> take(std::span<const double> persistence) {
+    for (std::size_t version = 1; version < change_.size(); ++version) {
+      const VersionCounts& before = change_[version - 1];
+      change_[version].persistence = persistence[version - 1];
+      change_[version].nodes += before.nodes;
+      change_[version].arcs += before.arcs;
+      change_[version].buckets += before.buckets;
+    }
+    return std::move(change_);
+  }
+
+ private:
+  static constexpr std::uint32_t kNever = ~std::uint32_t{0};
+
+  // Unsigned numbers wrap, and what leaves cancels what came.
+  void arrives(std::uint32_t born, std::uint32_t died, const VersionCounts& what) {
+    change_[born].nodes += what.nodes;
+    change_[born].arcs += what.arcs;
+    change_[born].buckets += what.buckets;
+    if (died >= change_.size()) return;
+    change_[died].nodes -= what.nodes;
+    change_[died].arcs -= what.arcs;
+    change_[died].buckets -= what.buckets;
+  }
+
+  // A node is there while any of its arcs is. Of the versions before `died` it is known to be there from
+  // present_from_ on, if that is not later.
+  void add_node(NodeId node, std::uint32_t born, std::uint32_t died) {
+    std::uint32_t& from = present_from_[node.value()];
+    if (born >= from) return;
+    arrives(born, std::min(died, from), {.nodes = 1});
+    from = born;
+  }
+
+  std::vector<std::uint32_t> present_from_;  // of each node
+  std::vector<VersionCounts> change_;        // from the version before
+};
+
+// Cuts the sequence "isolated nodes, then records" where a frame is full.
+class FrameCutter {
+ public:
+  FrameCutter(std::uint32_t steps, std::vector<FrameCut>& cuts) : complete_(steps + 1), cuts_(cuts) {}
+
+  void add_isolated() {
+    settle(complete_);
+    ++isolated_;
+    add(kNodeCost);
+  }
+  void add_record(std::uint32_t died, std::uint64_t new_nodes, std::uint64_t buckets) {
+    // The records that follow die with some version or before: all coarser ones are complete.
+    settle(std::min(complete_, died));
+    ++records_;
+    std::uint64_t cost = kArcCost + kNodeCost * new_nodes + kBucketCost * buckets;
+    if (died < last_died_ && last_died_ != kNeverDies) cost += kVersionCost * (last_died_ - died);
+    last_died_ = died;
+    add(cost);
+  }
+  void finish() {
+    if (!is_cut_) cuts_.push_back({isolated_, records_, 0});
+    settle(0);
+  }
+
+ private:
+  void add(std::uint64_t cost) {
+    if ((cost_ += cost) < kFrameTargetBytes) return;
+    cuts_.push_back({isolated_, records_, 0});
+    is_cut_ = true;
+    cost_ = 0;
+  }
+  // What follows a cut says which versions it completes.
+  void settle(std::uint32_t complete) {
+    if (!std::exchange(is_cut_, false)) return;
+    cuts_.back().finest = complete_ = complete;
+  }
+
+  std::uint32_t complete_;
+  std::uint32_t last_died_ = kNeverDies;
+  std::uint64_t cost_ = 0, records_ = 0;
+  std::size_t isolated_ = 0;
+  bool is_cut_ = false;  // the last cut is where everything ends so far
+  std::vector<FrameCut>& cuts_;
+};
+
+// Whether a threshold yields exactly this version: the next cancellation has another persistence.
+bool has_threshold(const std::vector<VersionCounts>& versions, std::size_t version) {
+  return version == 0 || version + 1 == versions.size() ||
+         versions[version + 1].persistence > versions[version].persistence;
+}
+
+// The versions worth a line: where frames end, and wherever the nodes have about doubled; each
+// moved towards the coarse to one that a threshold can name.
+std::vector<std::uint32_t> table_versions(const HierarchyLayout& layout, std::uint32_t steps) {
+  const auto& versions = layout.versions;
+  std::vector<std::uint32_t> result{0, steps};
+  for (const FrameCut& cut : layout.cuts)
+    if (cut.finest <= steps) result.push_back(cut.finest);
+  std::uint64_t nodes = std::max<std::uint64_t>(1, versions[steps].nodes);
+  for (std::uint32_t version = steps; version > 0; --version) {
+    if (versions[version - 1].nodes < 2 * nodes) continue;
+    result.push_back(version);
+    nodes = versions[version - 1].nodes;
+  }
+  for (std::uint32_t& version : result)
+    while (!has_threshold(versions, version)) ++version;
+  std::sort(result.begin(), result.end(), std::greater<>());
+  result.erase(std::unique(result.begin(), result.end()), result.end());
+  return result;
+}
+
+std::vector<LevelLine> level_table(const HierarchyLayout& layout, std::uint32_t steps) {
+  std::vector<LevelLine> levels;
+  std::uint32_t frame = 0;
+  for (const std::uint32_t version : table_versions(layout, steps)) {
+    while (layout.cuts[frame].finest > version) ++frame;
+    const VersionCounts& counts = layout.versions[version];
+    levels.push_back({.version = version,
+                      .frames = frame + 1,
+                      .threshold = level_threshold(version, counts.persistence),
+                      .nodes = counts.nodes,
+                      .arcs = counts.arcs,
+                      .buckets = counts.buckets,
+                      .file_bytes = 0,
+                      .memory_bytes = level_memory(counts.nodes, counts.arcs, counts.buckets)});
+  }
+  return levels;
+}
+
+void check_steps(const std::vector<double>& persistence) {
+  if (persistence.size() >= kNeverDies - 1) fail("step", persistence.size(), "is one too many");
+  for (std::size_t i = 0; i < persistence.size(); ++i)
+    if (!(persistence[i] >= (i == 0 ? 0.0 : persistence[i - 1])))
+      fail("step", i + 1, "has a smaller persistence than the one before");
+}
+
+void check_record(const ArcVersion& arc, std::uint64_t i, std::size_t nodes, std::size_t steps) {
+  if (!(arc.lo < arc.hi) || arc.hi.value() >= nodes) fail("arc", i, "does not go up to a node");
+  if (arc.born >= arc.died || (arc.died > steps && arc.died != kNeverDies))
+    fail("arc", i, "does not live between two versions");
+}
+
+void check_pairs(const std::vector<PersistencePair>& pairs, std::size_t nodes) {
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+    if (pairs[i].hi < pairs[i].lo || pairs[i].hi.value() >= nodes) fail("pair", i, "does not go up to a node");
+}
+
+}  // namespace
+
+HierarchyLayout lay_out(std::size_t node_count, const Hierarchy& hierarchy, RecordSource& records) {
+  const std::size_t steps = hierarchy.persistence.size();
+  check_steps(hierarchy.persistence);
+  check_pairs(hierarchy.pairs, node_count);
+  HierarchyLayout layout;
+  {
+    VersionCounter counter(node_count, steps + 1);
+    FrameCutter cutter(static_cast<std::uint32_t>(steps), layout.cuts);
+    const auto& isolated = hierarchy.isolated;
+    for (std::size_t i = 0; i < isolated.size(); ++i) {
+      if (isolated[i].value() >= node_count || (i > 0 && !(isolated[i - 1] < isolated[i])))
+        fail("isolated node", i, "is not above the one before it");
+      counter.add_isolated(isolated[i]);
+      cutter.add_isolated();
+    }
+    ArcVersion arc, before;
+    std::span<const std::byte> packed;
+    for (records.rewind(); records.next(arc, packed); ++layout.records) {
+      check_record(arc, layout.records, node_count, steps);
+      if (arc.died > std::exchange(before, arc).died) fail("arc", layout.records, "lives longer than the one before");
+      const std::uint64_t buckets = packed_count(packed);
+      const std::uint64_t new_nodes = (counter.was_named(arc.lo) ? 0u : 1u) + (counter.was_named(arc.hi) ? 0u : 1u);
+      counter.add(arc, buckets);
+      cutter.add_record(arc.died, new_nodes, buckets);
+    }
+    for (std::uint32_t node = 0; node < node_count; ++node)
+      if (!counter.was_named(NodeId(node))) fail("node", node, "is neither isolated nor named by an arc");
+    cutter.finish();
+    layout.versions = counter.take(hierarchy.persistence);
+  }
+  layout.levels = level_table(layout, static_cast<std::uint32_t>(steps));
+  return layout;
+}
+
+}  // namespace reeb::ooc

@@ -1,0 +1,33 @@
+// Where everything of a hierarchy goes in its file: the cuts between frames, and the level table
+// (DESIGN.md 6).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "libreeb/format/frame_codec.h"
+#include "libreeb/format/reeb_format.h"
+#include "libreeb/hierarchy/hierarchy.h"
+#include "ooc/reeb_file/record_source.h"
+
+namespace reeb::ooc {
+
+struct FrameCut {
+  std::size_t isolated_end = 0;  // isolated nodes up to here
+  std::uint64_t record_end = 0;  // records up to here, in the order of their source
+  std::uint32_t finest = 0;      // finest complete version with this frame; steps + 1: none
+};
+
+struct HierarchyLayout {
+  std::uint64_t records = 0;
+  std::vector<VersionCounts> versions;  // entry e is version e
+  std::vector<FrameCut> cuts;           // one a frame, at least one
+  std::vector<LevelLine> levels;        // without file_bytes
+};
+
+// Reads all records, once. Hierarchy::arcs is not looked at.
+// MEMORY: 32 bytes a version; until it returns, 4 a node.
+// THROWS: std::logic_error that names the first record, pair or step that cannot be.
+HierarchyLayout lay_out(std::size_t node_count, const Hierarchy& hierarchy, RecordSource& records);
+
+}  // namespace reeb::ooc

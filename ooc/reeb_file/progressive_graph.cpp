@@ -1,0 +1,133 @@
+#include "ooc/reeb_file/progressive_graph.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace reeb::ooc {
+
+// What has to come in before anything is touched, so that a bad frame changes nothing.
+struct ProgressiveGraph::Change {
+  std::vector<Node> nodes;      // beyond those that are here
+  std::size_t nodes_total = 0;  // introduced by the frames that the version needs
+  std::vector<Arc> arcs;        // that live at the version and are not here
+  FrameCursor last_frame;
+  std::uint64_t last_record = 0;
+};
+
+ProgressiveGraph::ProgressiveGraph(const ReebFile& file, GraphListener* listener)
+    : file_(file), listener_(listener), last_frame_(file) {}
+
+void ProgressiveGraph::go_to_version(std::uint32_t version) {
+  if (loaded_ && version == version_) return;
+  apply(gather(version), version);
+}
+
+ProgressiveGraph::Change ProgressiveGraph::gather(std::uint32_t version) const {
+  const bool refine = loaded_ && version < version_;
+  Change change{.nodes = {},
+                .nodes_total = 0,
+                .arcs = {},
+                .last_frame = refine ? last_frame_ : FrameCursor(file_),
+                .last_record = refine ? last_record_ : 0};
+  FrameCursor cursor = change.last_frame;
+  std::uint64_t record = change.last_record;
+  GraphFrame frame;
+  ReebFile::FrameBuffers buffers;
+  while (!cursor.covers(version)) {
+    change.last_frame = cursor;
+    change.last_record = record;
+    const std::uint64_t first_node = cursor.nodes_read();
+    cursor.next(file_, frame, buffers);
+    for (std::size_t i = 0; i < frame.nodes.size(); ++i)
+      if (first_node + i >= nodes_.size()) change.nodes.push_back({frame.nodes[i], 0});
+    std::vector<bool> named(file_.header().flags.graph_only ? 0 : frame.nodes.size());
+    for (const FileArc& arc : frame.arcs) {
+      const auto here = [&](std::uint32_t at) { return arc.born <= at && at < arc.died; };
+      if (here(version) && !(loaded_ && here(version_)))
+        change.arcs.push_back(
+            {record, static_cast<std::uint32_t>(arc.lo), static_cast<std::uint32_t>(arc.hi), arc.born, arc.died});
+      for (const std::uint64_t end : {arc.lo, arc.hi})
+        if (end >= first_node && !named.empty()) named[end - first_node] = true;
+      ++record;
+    }
+    // Nodes that no arc of their own frame needs are isolated points: they hold themselves.
+    for (std::size_t i = 0; i < named.size(); ++i)
+      if (!named[i] && first_node + i >= nodes_.size()) change.nodes[first_node + i - nodes_.size()].degree = 1;
+  }
+  change.nodes_total = cursor.nodes_read();
+  return change;
+}
+
+void ProgressiveGraph::apply(Change change, std::uint32_t version) {
+  const std::size_t old_nodes = nodes_.size();
+  nodes_.reserve(std::max(nodes_.size(), change.nodes_total));
+  nodes_.insert(nodes_.end(), change.nodes.begin(), change.nodes.end());
+  for (std::size_t i = old_nodes; i < nodes_.size(); ++i)
+    if (nodes_[i].degree != 0) {
+      nodes_[i].degree = 0;
+      add_reference(static_cast<std::uint32_t>(i));
+    }
+  // New arcs first: a node that lives before and after is not removed in between.
+  const std::size_t old_arcs = arcs_.size();
+  arcs_.insert(arcs_.end(), change.arcs.begin(), change.arcs.end());
+  for (std::size_t i = old_arcs; i < arcs_.size(); ++i) {
+    add_reference(arcs_[i].lo);
+    add_reference(arcs_[i].hi);
+    if (listener_ != nullptr) listener_->arc_added(arcs_[i].record, arcs_[i].lo, arcs_[i].hi);
+  }
+  std::erase_if(arcs_, [&](const Arc& arc) {
+    if (arc.born <= version && version < arc.died) return false;
+    if (listener_ != nullptr) listener_->arc_removed(arc.record);
+    drop_reference(arc.lo);
+    drop_reference(arc.hi);
+    return true;
+  });
+  nodes_.resize(change.nodes_total);
+  nodes_.shrink_to_fit();
+  arcs_.shrink_to_fit();
+  last_frame_ = change.last_frame;
+  last_record_ = change.last_record;
+  version_ = version;
+  loaded_ = true;
+}
+
+void ProgressiveGraph::add_reference(std::uint32_t node) {
+  if (nodes_[node].degree++ != 0) return;
+  ++node_count_;
+  if (listener_ != nullptr) listener_->node_added(node, nodes_[node].place);
+}
+
+void ProgressiveGraph::drop_reference(std::uint32_t node) {
+  if (--nodes_[node].degree != 0) return;
+  --node_count_;
+  if (listener_ != nullptr) listener_->node_removed(node);
+}
+
+std::uint64_t ProgressiveGraph::memory_bytes() const {
+  static_assert(sizeof(Node) == kNodeMemoryBytes && sizeof(Arc) == kArcMemoryBytes);
+  return nodes_.capacity() * sizeof(Node) + arcs_.capacity() * sizeof(Arc);
+}
+
+ReebGraph ProgressiveGraph::graph() const {
+  ReebGraph graph;
+  std::vector<std::uint32_t> order, rank(nodes_.size());
+  for (std::uint32_t i = 0; i < nodes_.size(); ++i)
+    if (nodes_[i].degree != 0) order.push_back(i);
+  std::sort(order.begin(), order.end(),
+            [&](std::uint32_t a, std::uint32_t b) { return nodes_[a].place.key < nodes_[b].place.key; });
+  for (const std::uint32_t node : order) {
+    rank[node] = static_cast<std::uint32_t>(graph.nodes.size());
+    graph.nodes.push_back(nodes_[node].place.key);
+    if (file_.header().flags.has_positions) graph.positions.push_back(nodes_[node].place.position);
+  }
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> ends;
+  for (const Arc& arc : arcs_) ends.emplace_back(rank[arc.lo], rank[arc.hi]);
+  std::sort(ends.begin(), ends.end());
+  for (const auto& [lo, hi] : ends) {
+    graph.lo.push_back(NodeId(lo));
+    graph.hi.push_back(NodeId(hi));
+  }
+  return graph;
+}
+
+}  // namespace reeb::ooc

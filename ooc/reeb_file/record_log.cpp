@@ -1,0 +1,65 @@
+#include "ooc/reeb_file/record_log.h"
+
+#include <cstring>
+
+namespace reeb::ooc {
+namespace {
+
+// What stands behind a record's buckets.
+struct Trailer {
+  std::uint32_t lo, hi, born, died;
+  std::uint32_t bucket_bytes;
+};
+
+}  // namespace
+
+RecordLog::RecordLog(const TempDir& temp, MemoryBudget& budget, std::size_t block_bytes)
+    : temp_(&temp), block_bytes_(block_bytes), charge_(budget.reserve("arc records", 2 * block_bytes)) {
+  open_.reserve(block_bytes);
+}
+
+void RecordLog::add(const ArcVersion& record, std::span<const std::byte> buckets) {
+  const std::size_t bytes = buckets.size() + sizeof(Trailer);
+  if (in_open_ != 0 && open_.size() + bytes > block_bytes_) seal_block();
+  const Trailer trailer{record.lo.value(), record.hi.value(), record.born, record.died,
+                        static_cast<std::uint32_t>(buckets.size())};
+  const auto behind = std::as_bytes(std::span(&trailer, 1));
+  open_.insert(open_.end(), buckets.begin(), buckets.end());
+  open_.insert(open_.end(), behind.begin(), behind.end());
+  ++in_open_;
+  ++count_;
+}
+
+void RecordLog::seal_block() {
+  if (!file_) file_.emplace(temp_->create_unnamed("arc records"));
+  offsets_.push_back(file_->size());
+  file_->append(open_, in_open_);
+  open_.clear();
+  in_open_ = 0;
+}
+
+void RecordLog::rewind() {
+  blocks_left_ = offsets_.size();
+  unread_ = open_;
+}
+
+bool RecordLog::next(ArcVersion& record, std::span<const std::byte>& buckets) {
+  if (unread_.empty() && !fetch_block()) return false;
+  Trailer trailer;
+  unread_ = unread_.first(unread_.size() - sizeof(trailer));
+  std::memcpy(&trailer, unread_.data() + unread_.size(), sizeof(trailer));
+  record = {NodeId(trailer.lo), NodeId(trailer.hi), trailer.born, trailer.died};
+  buckets = unread_.last(trailer.bucket_bytes);
+  unread_ = unread_.first(unread_.size() - trailer.bucket_bytes);
+  return true;
+}
+
+bool RecordLog::fetch_block() {
+  if (blocks_left_ == 0) return false;
+  RunPlace place{offsets_[--blocks_left_], 1};
+  file_->read(place, fetched_);
+  unread_ = fetched_;
+  return true;
+}
+
+}  // namespace reeb::ooc

@@ -1,0 +1,62 @@
+// The arc records of a hierarchy on disk: written as they end, read from the last to the first.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "io/file/temp_dir.h"
+#include "libreeb/base/memory_budget.h"
+#include "libreeb/port/record_sink.h"
+#include "ooc/reeb_file/record_source.h"
+#include "ooc/sorting/run_file.h"
+
+namespace reeb::ooc {
+
+// A record is its buckets, packed, and behind them how many bytes those are, so that a block can be read
+// from its end: 20 bytes a record and its buckets. Blocks are checksummed; while one is enough, there is
+// no file.
+//
+// MEMORY: two blocks, and 8 bytes a block of the file.
+// THROWS: Error{kResource} if the disk is full, or gives back other bytes than were written, or the budget
+//         lacks two blocks.   THREADS: one at a time.
+class RecordLog : public RecordSink, public RecordSource {
+ public:
+  static constexpr std::size_t kBlockBytes = 64 << 10;
+
+  // What one of them holds.
+  static constexpr std::uint64_t memory_bytes() { return 2 * kBlockBytes; }
+
+  // `temp` must outlive this. A block holds at least one record, however large.
+  RecordLog(const TempDir& temp, MemoryBudget& budget, std::size_t block_bytes = kBlockBytes);
+
+  void add(const ArcVersion& record, std::span<const std::byte> buckets) override;
+
+  // REQUIRES, for all that follows: nothing is added any more.
+  void rewind() override;
+  bool next(ArcVersion& record, std::span<const std::byte>& buckets) override;
+
+  std::uint64_t record_count() const { return count_; }
+  std::uint64_t spilled_bytes() const { return file_ ? file_->size() : 0; }
+
+ private:
+  void seal_block();
+  bool fetch_block();
+
+  const TempDir* temp_;
+  const std::size_t block_bytes_;
+  Reservation charge_;
+  std::optional<RunFile> file_;
+  std::vector<std::uint64_t> offsets_;  // of the blocks in the file
+  std::vector<std::byte> open_;         // the block behind them
+  std::size_t in_open_ = 0;
+  std::uint64_t count_ = 0;
+
+  std::size_t blocks_left_ = 0;        // in the file, to be read
+  std::vector<std::byte> fetched_;     // a block of the file
+  std::span<const std::byte> unread_;  // of the block at hand
+};
+
+}  // namespace reeb::ooc

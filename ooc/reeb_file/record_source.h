@@ -1,0 +1,45 @@
+// Arc records of a hierarchy, delivered in the order of a file.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "libreeb/graph/arc_buckets.h"
+#include "libreeb/hierarchy/hierarchy.h"
+
+namespace reeb::ooc {
+
+// Records come by `died` descending, then (lo, hi, born), as often as they are asked for.
+class RecordSource {
+ public:
+  RecordSource() = default;
+  RecordSource(const RecordSource&) = delete;
+  RecordSource& operator=(const RecordSource&) = delete;
+  virtual ~RecordSource() = default;
+
+  virtual void rewind() = 0;
+  // The next record and its packed buckets, which are valid until the next call; false at the end.
+  virtual bool next(ArcVersion& record, std::span<const std::byte>& buckets) = 0;
+};
+
+// Records in memory, in any order. Those that are equal keep the order in which they are.
+// MEMORY: 4 bytes a record.
+class SortedRecords : public RecordSource {
+ public:
+  // `records` must outlive this, and so must what `buckets` looks at: theirs, or nothing.
+  SortedRecords(const std::vector<ArcVersion>& records, const ArcBucketsView& buckets);
+
+  void rewind() override { next_ = 0; }
+  bool next(ArcVersion& record, std::span<const std::byte>& buckets) override;
+
+ private:
+  const std::vector<ArcVersion>& records_;
+  const ArcBucketsView buckets_;
+  std::vector<std::uint32_t> order_;
+  std::size_t next_ = 0;
+  std::vector<std::byte> packed_;
+};
+
+}  // namespace reeb::ooc

@@ -1,0 +1,172 @@
+// ReebFile: levels and pairs.
+#include <algorithm>
+#include <numeric>
+#include <tuple>
+
+#include "libreeb/base/error.h"
+#include "ooc/reeb_file/reeb_file.h"
+
+namespace reeb::ooc {
+namespace {
+
+// The records that live at one version, as they come from the frames.
+struct LiveRecords {
+  std::vector<SettledNode> nodes;  // introduced so far, by file index
+  std::vector<std::uint8_t> used;  // one entry a node: whether it belongs to the version
+  std::vector<FileArc> arcs;
+  std::vector<std::uint32_t> bucket_counts;
+  std::vector<Bucket> buckets;
+};
+
+// Adds the frame. Nodes that no arc of their own frame needs are isolated points.
+void add_frame(const GraphFrame& frame, std::uint32_t version, bool graph_only, LiveRecords& live) {
+  constexpr std::uint8_t kUnreferenced = 1, kAbsent = 0, kPresent = 2;
+  const std::size_t first_node = live.nodes.size();
+  live.nodes.insert(live.nodes.end(), frame.nodes.begin(), frame.nodes.end());
+  live.used.resize(live.nodes.size(), kUnreferenced);
+  std::size_t bucket = 0;
+  for (std::size_t i = 0; i < frame.arcs.size(); ++i) {
+    const FileArc& arc = frame.arcs[i];
+    const std::size_t count = frame.bucket_counts.empty() ? 0 : frame.bucket_counts[i];
+    const bool alive = arc.born <= version && version < arc.died;
+    for (const std::uint64_t end : {arc.lo, arc.hi})
+      if (alive)
+        live.used[end] = kPresent;
+      else if (live.used[end] == kUnreferenced)
+        live.used[end] = kAbsent;
+    if (alive) {
+      live.arcs.push_back(arc);
+      if (!frame.bucket_counts.empty()) {
+        live.bucket_counts.push_back(frame.bucket_counts[i]);
+        live.buckets.insert(live.buckets.end(), frame.buckets.begin() + static_cast<std::ptrdiff_t>(bucket),
+                            frame.buckets.begin() + static_cast<std::ptrdiff_t>(bucket + count));
+      }
+    }
+    bucket += count;
+  }
+  if (graph_only) return;
+  for (std::size_t i = first_node; i < live.used.size(); ++i)
+    if (live.used[i] == kUnreferenced) live.used[i] = kPresent;
+}
+
+std::vector<std::uint32_t> sorted_nodes(const LiveRecords& live) {
+  std::vector<std::uint32_t> order;
+  for (std::uint32_t i = 0; i < live.nodes.size(); ++i)
+    if (live.used[i] != 0) order.push_back(i);
+  const auto before = [&](std::uint32_t a, std::uint32_t b) { return live.nodes[a].key < live.nodes[b].key; };
+  if (!std::ranges::is_sorted(order, before)) std::sort(order.begin(), order.end(), before);
+  return order;
+}
+
+// Arcs in canonical order; equal ones keep the order of the file, so that buckets stay with theirs.
+std::vector<std::uint32_t> sorted_arcs(const std::vector<FileArc>& arcs) {
+  std::vector<std::uint32_t> order(arcs.size());
+  std::iota(order.begin(), order.end(), 0u);
+  const auto before = [&](std::uint32_t a, std::uint32_t b) {
+    return std::tie(arcs[a].lo, arcs[a].hi) < std::tie(arcs[b].lo, arcs[b].hi);
+  };
+  if (!std::ranges::is_sorted(order, before)) std::stable_sort(order.begin(), order.end(), before);
+  return order;
+}
+
+// Uses up the nodes.
+ReebGraph nodes_by_rank(LiveRecords& live, bool positions) {
+  ReebGraph graph;
+  const auto order = sorted_nodes(live);
+  std::vector<std::uint32_t> rank(live.nodes.size());
+  graph.nodes.reserve(order.size());
+  if (positions) graph.positions.reserve(order.size());
+  for (const std::uint32_t node : order) {
+    rank[node] = static_cast<std::uint32_t>(graph.nodes.size());
+    graph.nodes.push_back(live.nodes[node].key);
+    if (positions) graph.positions.push_back(live.nodes[node].position);
+  }
+  for (FileArc& arc : live.arcs) {
+    arc.lo = rank[arc.lo];
+    arc.hi = rank[arc.hi];
+  }
+  live.nodes = {};
+  live.used = {};
+  return graph;
+}
+
+void arcs_by_rank(const LiveRecords& live, ReebGraph& graph, ArcBuckets& buckets) {
+  const auto order = sorted_arcs(live.arcs);
+  graph.lo.reserve(order.size());
+  graph.hi.reserve(order.size());
+  for (const std::uint32_t i : order) {
+    graph.lo.push_back(NodeId(static_cast<std::uint32_t>(live.arcs[i].lo)));
+    graph.hi.push_back(NodeId(static_cast<std::uint32_t>(live.arcs[i].hi)));
+  }
+  if (live.bucket_counts.empty()) return;
+  std::vector<std::uint64_t> first(order.size());
+  std::exclusive_scan(live.bucket_counts.begin(), live.bucket_counts.end(), first.begin(), std::uint64_t{0});
+  buckets.offsets.reserve(order.size() + 1);
+  buckets.offsets.push_back(0);
+  buckets.buckets.reserve(live.buckets.size());
+  for (const std::uint32_t i : order) {
+    const auto begin = live.buckets.begin() + static_cast<std::ptrdiff_t>(first[i]);
+    buckets.buckets.insert(buckets.buckets.end(), begin, begin + live.bucket_counts[i]);
+    buckets.offsets.push_back(buckets.buckets.size());
+  }
+}
+
+}  // namespace
+
+Level ReebFile::load(std::uint32_t version) const {
+  if (version > header_.steps)
+    throw Error(ErrorKind::kBadInput, "there is no version " + std::to_string(version),
+                "the coarsest is " + std::to_string(header_.steps))
+        .at(path());
+  LiveRecords live;
+  GraphFrame frame;
+  FrameBuffers buffers;
+  VersionCounts counts;
+  FrameCursor cursor(*this);
+  while (!cursor.covers(version)) {
+    const std::uint32_t coarser = cursor.finest_complete();
+    cursor.next(*this, frame, buffers);
+    add_frame(frame, version, header_.flags.graph_only, live);
+    if (cursor.covers(version)) counts = frame.versions[coarser - 1 - version];
+  }
+  Level level;
+  level.version = version;
+  level.threshold = level_threshold(version, counts.persistence);
+  level.graph = nodes_by_rank(live, header_.flags.has_positions);
+  const std::uint64_t end = offsets_[cursor.frames_read()];
+  for (const FileArc& arc : live.arcs)
+    if (arc.lo >= arc.hi) fail(end, "an arc does not go up");
+  arcs_by_rank(live, level.graph, level.buckets);
+  if (level.graph.node_count() != counts.nodes || level.graph.arc_count() != counts.arcs ||
+      level.buckets.buckets.size() != counts.buckets)
+    fail(end, "version " + std::to_string(version) + " has other counts than the file says");
+  return level;
+}
+
+std::vector<PairRow> ReebFile::pairs() const {
+  require_hierarchy("pairs");
+  std::vector<SettledNode> nodes;
+  GraphFrame frame;
+  FrameBuffers buffers;
+  for (FrameCursor cursor(*this); cursor.frames_read() < header_.graph_frames;) {
+    cursor.next(*this, frame, buffers);
+    nodes.insert(nodes.end(), frame.nodes.begin(), frame.nodes.end());
+  }
+  std::vector<PairRow> rows;
+  std::vector<FilePair> pairs;
+  for (std::size_t i = header_.graph_frames; i < std::size_t{header_.graph_frames} + header_.pair_frames; ++i) {
+    FrameHeader header;
+    const auto payload = read_frame(i, header, buffers);
+    const std::uint64_t offset = frame_offset(i);
+    if (const char* why = decode_pairs_frame(payload, header, pairs)) fail(offset, why);
+    for (const FilePair& pair : pairs) {
+      if (pair.lo >= nodes.size() || pair.hi >= nodes.size() || nodes[pair.hi].key < nodes[pair.lo].key)
+        fail(offset, "a pair does not go up to a node");
+      rows.push_back({nodes[pair.lo], nodes[pair.hi], pair.type, pair.kept});
+    }
+  }
+  if (rows.size() != header_.pairs) fail(0, "there are not as many pairs as the header says");
+  return rows;
+}
+
+}  // namespace reeb::ooc

@@ -1,0 +1,120 @@
+// Writes `.reeb` files (docs/FORMAT.md). Bytes depend on the arguments only: no times, no paths.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "libreeb/base/union_find.h"
+#include "libreeb/format/frame_codec.h"
+#include "libreeb/format/reeb_format.h"
+#include "libreeb/graph/arc_buckets.h"
+#include "libreeb/graph/reeb_graph.h"
+#include "libreeb/hierarchy/cancel.h"
+#include "libreeb/hierarchy/hierarchy.h"
+#include "libreeb/port/graph_sink.h"
+#include "ooc/reeb_file/frame_writer.h"
+#include "ooc/reeb_file/record_source.h"
+#include "ooc/tables/key_table.h"
+#include "ooc/threads/worker.h"
+
+namespace reeb::ooc {
+
+// What a file says about the run that made it.
+struct FileMeta {
+  std::string function = "z";
+  double function_min = 0, function_max = 0;
+  std::uint64_t mesh_vertices = 0, mesh_triangles = 0;
+  double denoise_threshold = 0;
+  std::uint64_t denoised_pairs = 0;
+  std::int32_t bucket_exponent = 0;
+};
+
+// A graph with all its levels.
+struct HierarchyContent {
+  const ReebGraph& nodes;      // its arcs are not looked at
+  const Hierarchy& hierarchy;  // nor are the records in here
+  RecordSource& records;
+  bool has_embedding = false;  // records come with buckets
+  bool background = false;     // make frames in a thread of its own
+};
+
+// Reads the records twice. `poll` is called before every frame; it may throw to end that.
+// MEMORY: 32 bytes a version, 4 a node, and three frames.
+// THROWS: Error{kResource}; then nothing is left behind. std::logic_error if graph, hierarchy and records
+//         contradict each other.
+void write_hierarchy_file(const std::string& path, const FileMeta& meta, const HierarchyContent& content,
+                          const Poll& poll = {});
+
+// The same from memory: hierarchy.arcs in any order, with their buckets or none; 4 bytes a record more.
+void write_hierarchy_file(const std::string& path, const FileMeta& meta, const ReebGraph& graph,
+                          const Hierarchy& hierarchy, const ArcBucketsView& buckets = {});
+
+// A graph without hierarchy, from memory. The same bytes as GraphFileWriter gives.
+void write_graph_file(const std::string& path, const FileMeta& meta, const ReebGraph& graph,
+                      const ArcBucketsView& buckets = {});
+
+// A graph without hierarchy that need not fit in memory: nodes in pieces, arcs in pieces, done.
+// The file appears at finish(); cuts between pieces do not show in it.
+// MEMORY: two frames, 4 bytes a node, and what ArcEnds says.
+// THROWS: Error{kResource}, of an earlier frame, too; std::logic_error for items out of order.
+class GraphFileWriter {
+ public:
+  // How arcs name their nodes.
+  enum class ArcEnds {
+    kRanks,
+    kKeys,          // looked up in a scratch file of 16 bytes a node beside the output
+    kKeysInMemory,  // looked up in 4 bytes a vertex of the mesh
+  };
+  struct Options {
+    bool has_positions = true;
+    bool has_embedding = false;
+    ArcEnds ends = ArcEnds::kRanks;
+    bool background = false;  // pack and write frames in a thread of their own
+  };
+
+  GraphFileWriter(const std::string& path, FileMeta meta, const Options& options);
+
+  // REQUIRES: ascending, over all calls.
+  void add_nodes(std::span<const SettledNode> nodes);
+
+  // Faster in large pieces (40 bytes an arc of the piece).
+  // REQUIRES: after all nodes; ascending by (lo, hi), over all calls; lo below hi. With an
+  //           embedding, `buckets` has those of this piece.
+  void add_arcs(std::span<const ArcKeys> arcs, const ArcBucketsView& buckets = {});
+  // The same, ends by the ranks of nodes.
+  void add_arcs(std::span<const FileArc> arcs, const ArcBucketsView& buckets = {});
+
+  void finish();
+  // What was written, complete after finish().
+  const FileHeader& header() const { return header_; }
+
+ private:
+  void rank_by_vertex(std::span<const ArcKeys> arcs);
+  void rank_by_search(std::span<const ArcKeys> arcs);
+  void flush_if_full();
+  void flush();
+  void write(const GraphFrame& frame);
+
+  FileHeader header_;
+  FrameWriter writer_;
+  bool background_;
+  std::optional<KeyTable> keys_;
+  std::vector<std::uint32_t> rank_of_;  // by vertex
+  GraphFrame frame_, writing_;
+  std::vector<std::byte> payload_;
+  std::vector<FileArc> ranked_;
+  std::vector<std::uint32_t> by_hi_;
+  std::optional<SweepKey> last_node_;
+  std::optional<FileArc> last_arc_;
+  UnionFind components_;
+  std::uint64_t unions_ = 0;  // arcs that joined two components
+  std::uint64_t lo_rank_ = 0, buckets_ = 0;
+  bool sealed_ = false;
+  Worker worker_;  // writes writing_; the last member, so that it ends first
+};
+
+}  // namespace reeb::ooc

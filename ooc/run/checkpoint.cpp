@@ -1,0 +1,155 @@
+#include "ooc/run/checkpoint.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "io/file/atomic_file.h"
+#include "io/file/checksum.h"
+#include "io/file/file.h"
+#include "libreeb/base/error.h"
+#include "ooc/chunks/last_use_sidecar.h"
+
+namespace reeb::ooc {
+namespace {
+
+constexpr std::array<char, 8> kMagic = {'R', 'E', 'E', 'B', 'C', 'K', 'P', '\n'};
+constexpr std::uint64_t kVersion = 7;
+
+struct Header {
+  std::array<char, 8> magic;
+  std::uint64_t version;
+  std::uint64_t mesh, functions, settings;  // RunIdentity
+  std::uint64_t block_triangles;
+  std::uint64_t origin;
+  std::uint64_t chunk_first, chunk_most;
+  std::uint64_t triangles;
+  std::uint64_t next_vertex;
+  std::uint64_t batches;
+  std::uint64_t chunk_blocks;
+};
+static_assert(sizeof(Header) == 13 * 8);
+
+template <class T>
+std::uint64_t digest_of(const T& object, std::uint64_t seed) {
+  return checksum(std::as_bytes(std::span(&object, 1)), seed);
+}
+
+std::uint64_t digest_of_file(const std::string& path, std::uint64_t seed) {
+  const MeshIdentity identity = identify_mesh(path);
+  return digest_of(std::array{identity.bytes, static_cast<std::uint64_t>(identity.changed_ns), identity.digest}, seed);
+}
+
+class Writer : public StateWriter {
+ public:
+  explicit Writer(const std::string& path) : file_(path) {}
+  void write(std::span<const std::byte> bytes) override {
+    file_.append(bytes);
+    checksum_.add(bytes);
+  }
+  void commit() {
+    put(checksum_.value());
+    file_.commit();
+  }
+
+ private:
+  AtomicFile file_;
+  RunningChecksum checksum_;
+};
+
+class Reader : public StateReader {
+ public:
+  explicit Reader(const std::string& path)
+      : file_(File::open_for_reading(path)), end_(std::max<std::uint64_t>(file_.size(), 8) - 8) {}
+
+  void read(std::span<std::byte> bytes) override {
+    if (bytes.size() > left()) throw DamagedState();
+    file_.read_at(at_, bytes);
+    at_ += bytes.size();
+  }
+  std::uint64_t left() const override { return end_ - at_; }
+
+  bool is_whole() const {
+    std::vector<std::byte> piece(1 << 20);
+    RunningChecksum checksum;
+    for (std::uint64_t at = 0; at < end_; at += piece.size()) {
+      piece.resize(static_cast<std::size_t>(std::min<std::uint64_t>(piece.size(), end_ - at)));
+      file_.read_at(at, piece);
+      checksum.add(piece);
+    }
+    std::uint64_t expected = 0;
+    if (file_.size() < sizeof(expected)) return false;
+    file_.read_at(end_, std::as_writable_bytes(std::span(&expected, 1)));
+    return checksum.value() == expected;
+  }
+
+ private:
+  File file_;
+  std::uint64_t end_, at_ = 0;  // the checksum is at the end
+};
+
+}  // namespace
+
+RunIdentity identify_run(const std::string& mesh, std::span<VertexFunction* const> functions,
+                         const RunSettings& settings) {
+  RunIdentity run;
+  run.settings = digest_of(settings, 0);
+  run.mesh = digest_of_file(mesh, 0);
+  for (const VertexFunction* function : functions) {
+    const std::string name = function->name();
+    run.functions = digest_of(std::uint64_t{name.size()}, run.functions);
+    run.functions = checksum(std::as_bytes(std::span(name)), run.functions);
+    if (const std::string file = function->source_file(); !file.empty())
+      run.functions = digest_of_file(file, run.functions);
+  }
+  return run;
+}
+
+void write_checkpoint(const std::string& path, const RunIdentity& run, const Checkpoint& checkpoint,
+                      const std::function<void(StateWriter&)>& save) {
+  const ChunkPlace& place = checkpoint.place;
+  Writer out(path);
+  out.put(Header{kMagic, kVersion, run.mesh, run.functions, run.settings, checkpoint.block_triangles,
+                 static_cast<std::uint64_t>(checkpoint.origin), checkpoint.chunk.first, checkpoint.chunk.most,
+                 place.triangles, place.next_vertex, place.batches, place.chunk_blocks});
+  out.put_array(place.ranges);
+  save(out);
+  sync_folder(folder_of(path));  // the names of the files that `save` has made
+  out.commit();
+}
+
+CheckpointLoad load_checkpoint(const std::string& path, const RunIdentity& run) {
+  if (::access(path.c_str(), F_OK) != 0) return {};
+  const auto useless = [](const char* why) {
+    CheckpointLoad none;
+    none.note = std::string("the checkpoint ") + why + ", so the run starts anew";
+    return none;
+  };
+  try {
+    auto in = std::make_unique<Reader>(path);
+    if (!in->is_whole()) return useless("is damaged");
+    const auto header = in->get<Header>();
+    if (header.magic != kMagic || header.version != kVersion) return useless("is of another version");
+    if (header.mesh != run.mesh) return useless("is of another mesh, or of this one before it was changed");
+    if (header.functions != run.functions) return useless("is of other functions");
+    if (header.settings != run.settings) return useless("is of other options");
+    Checkpoint checkpoint{.place = {.triangles = header.triangles,
+                                    .next_vertex = header.next_vertex,
+                                    .batches = header.batches,
+                                    .chunk_blocks = header.chunk_blocks,
+                                    .ranges = {}},
+                          .block_triangles = header.block_triangles,
+                          .origin = static_cast<ChunkOrigin>(header.origin),
+                          .chunk = {header.chunk_first, header.chunk_most}};
+    in->get_array(checkpoint.place.ranges);
+    return {std::move(checkpoint), std::move(in), {}};
+  } catch (const DamagedState&) {
+    return useless("is damaged");
+  } catch (const Error&) {
+    return useless("cannot be read");
+  }
+}
+
+}  // namespace reeb::ooc

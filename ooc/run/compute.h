@@ -1,0 +1,102 @@
+// The central function: from a mesh to the files of its Reeb graphs, within a memory budget
+// (DESIGN.md 3, 4, 6).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "libreeb/base/memory_budget.h"
+#include "libreeb/graph/reeb_graph.h"
+#include "libreeb/hierarchy/hierarchy.h"
+#include "libreeb/port/indexed_mesh.h"
+#include "libreeb/port/mesh_reader.h"
+#include "libreeb/port/vertex_function.h"
+#include "ooc/chunks/function_values.h"
+#include "ooc/run/pipeline.h"
+
+namespace reeb::ooc {
+
+// A mesh in one of two forms. An indexed mesh is read twice. A reader is read once: as a stream if
+// it finalizes its vertices, else finalization is guessed, and the mesh is kept on disk meanwhile to be
+// run again if a guess was wrong. A stream of which too many vertices are live at once is read again, if
+// that is possible, and sorted on disk.
+struct MeshInput {
+  std::unique_ptr<IndexedMesh> indexed;
+  std::unique_ptr<MeshReader> reader;
+  std::function<std::unique_ptr<MeshReader>()> read_again;  // from the first batch; or empty
+  unsigned dimension = 3;
+  std::string path;        // for the sidecar, checkpoints and messages; "-": none
+  bool may_resume = true;  // a later process reads the file at `path` in the same batches
+};
+
+struct ComputeProgress {
+  enum class Phase { kSpool, kFinalization, kReorder, kReeb, kHierarchy };
+  Phase phase;
+  std::uint64_t done = 0, total = 0;  // bytes; total 0: unknown
+  std::uint64_t triangles = 0;        // so far
+};
+
+struct ComputeOptions {
+  std::uint64_t memory_bytes = MemoryBudget::kUnlimited;
+  unsigned threads = 1;
+  std::size_t chunk_triangles = 0;  // 0: adaptive
+  // With a chosen size of chunks: they are cut from stretches that grow up to so many triangles.
+  std::size_t stretch_triangles = 0;
+  std::string temp_dir;  // empty: $TMPDIR, or the folder of the first output
+  bool graph_only = false;
+  bool keep_sidecar = false;
+  bool may_reorder = true;        // an incoherent mesh, on disk
+  bool may_guess = true;          // what is complete, in a reader without finalization
+  std::uint32_t buckets = 64;     // the range of a function has so many, to twice as many; 0: no embedding
+  double denoise = 0;             // remove noise below this persistence; 0: keep all
+  bool denoise_is_share = false;  // `denoise` is a share of the function's range
+  std::function<void(const ComputeProgress&)> progress = {};
+  // A run on a mesh that is a file keeps checkpoints in the folder OUT.partial, from which a later
+  // run with the same mesh, functions and first output can go on; the result is the same.
+  bool resume = false;
+  double checkpoint_seconds = 2;           // between two of them, at least; 0: after every chunk
+  std::function<bool()> interrupted = {};  // asked often: is the run to end?
+};
+
+struct PhaseSeconds {
+  double wall = 0, finalization = 0, reorder = 0, reeb = 0, hierarchy = 0;
+};
+
+// A pair as a person wants to see it.
+struct Feature {
+  PairType type;
+  SweepKey lo, hi;
+};
+
+// What a run learned of one function.
+struct ComputeResult {
+  std::string function, output;
+  FunctionRange range;
+  std::uint64_t vertices = 0, unused_vertices = 0;
+  std::uint64_t triangles = 0, degenerate_triangles = 0;
+  std::uint64_t nodes = 0, arcs = 0;
+  BettiNumbers betti;
+  std::array<std::uint64_t, 4> pairs{};  // by PairType
+  std::uint64_t kept_loops = 0, denoised_pairs = 0;
+  bool reordered = false;
+  std::uint64_t guessed_vertices = 0;  // taken for complete while the mesh was read for the first time,
+  std::uint64_t revoked_guesses = 0;   // and of these used again: then the mesh was run from disk
+  std::vector<Feature> largest;        // the few of largest persistence, Ext0 left out, largest first
+  std::uint64_t spilled_bytes = 0;
+  LiveMaximum live;
+  PhaseSeconds seconds;
+  std::vector<std::string> notes;  // one line each: what was odd but harmless
+};
+
+// Computes the graph of functions[i] and writes it to outputs[i], all in one reading of the mesh.
+// THROWS: Error; then no output appeared. Of kResource and kInterrupted the hint says whether a later
+//         run can go on.
+std::vector<ComputeResult> compute(MeshInput input, std::span<VertexFunction* const> functions,
+                                   std::span<const std::string> outputs, const ComputeOptions& options);
+
+}  // namespace reeb::ooc

@@ -1,0 +1,186 @@
+#include "ooc/run/pipeline.h"
+
+#include <tbb/concurrent_queue.h>
+#include <tbb/global_control.h>
+#include <tbb/parallel_pipeline.h>
+
+#include <algorithm>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "libreeb/engine/chunk_sweep.h"
+#include "libreeb/engine/glue.h"
+#include "ooc/threads/kept_arena.h"
+
+namespace reeb::ooc {
+namespace {
+
+// Scratch memory for sweeping.
+struct Sweeper {
+  explicit Sweeper(MemoryBudget& budget) : reservation(budget.reserve("chunk sweep", 0)) {}
+  ChunkSweep sweep;
+  Reservation reservation;
+};
+
+// As many as sweep at a time.
+class Sweepers {
+ public:
+  explicit Sweepers(MemoryBudget& budget) : budget_(budget) {}
+
+  std::unique_ptr<Sweeper> take() {
+    const std::lock_guard lock(mutex_);
+    if (free_.empty()) return std::make_unique<Sweeper>(budget_);
+    auto sweeper = std::move(free_.back());
+    free_.pop_back();
+    return sweeper;
+  }
+  void give_back(std::unique_ptr<Sweeper> sweeper) {
+    const std::lock_guard lock(mutex_);
+    free_.push_back(std::move(sweeper));
+  }
+
+ private:
+  MemoryBudget& budget_;
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<Sweeper>> free_;
+};
+
+struct Slot {
+  explicit Slot(MemoryBudget& budget) : reservation(budget.reserve("chunks in flight", 0)) {}
+  WorkItem item;
+  SourceProgress progress;  // taken by the reader, which may be further on when the chunk is glued
+  Reservation reservation;
+};
+
+class Pipeline {
+ public:
+  Pipeline(ChunkSource& source, std::span<GraphSink* const> sinks, MemoryBudget& budget, const PipelineOptions& options)
+      : source_(source), budget_(budget), options_(options), live_(budget.reserve("live graph", 0)) {
+    for (GraphSink* sink : sinks) glues_.emplace_back(std::make_unique<Glue>(*sink, true));
+    if (options.saved_engine != nullptr) restore(*options.saved_engine);
+  }
+
+  PipelineResult run() {
+    if (options_.threads <= 1)
+      run_alone();
+    else
+      run_in_parallel();
+    PipelineResult result{maximum_, {}};
+    for (const auto& glue : glues_) result.removed_pairs.push_back(glue->removed_pairs());
+    return result;
+  }
+
+ private:
+  void save(StateWriter& out) const {
+    out.put(maximum_);
+    for (const auto& glue : glues_) glue->save(out);
+  }
+
+  void restore(StateReader& in) {
+    in.get(maximum_);
+    for (const auto& glue : glues_) glue->restore(in);
+  }
+
+  bool read(Slot& slot) {
+    if (!source_.next(slot.item)) return false;
+    slot.progress = {source_.bytes_read(), source_.bytes_total(), source_.triangles_read()};
+    slot.reservation.resize(slot.item.memory_bytes());
+    return true;
+  }
+
+  void sweep(Slot& slot, Sweeper& sweeper) {
+    slot.item.fragments.resize(glues_.size());
+    for (std::size_t f = 0; f < glues_.size(); ++f)
+      sweeper.sweep.run(slot.item.chunk, slot.item.values[f], slot.item.fragments[f], sweep_options(slot.item, f));
+    sweeper.reservation.resize(sweeper.sweep.memory_bytes());
+    slot.reservation.resize(slot.item.memory_bytes());
+  }
+
+  void sweep_in_parallel(Slot& slot, Sweepers& sweepers) {
+    auto sweeper = sweepers.take();
+    sweep(slot, *sweeper);
+    sweepers.give_back(std::move(sweeper));
+  }
+
+  SweepOptions sweep_options(const WorkItem& item, std::size_t function) const {
+    return options_.choose_sweep ? options_.choose_sweep(function, item.end.ranges[function]) : SweepOptions{};
+  }
+
+  void glue(Slot& slot) {
+    LiveMaximum now;
+    std::size_t bytes = 0;
+    for (std::size_t f = 0; f < glues_.size(); ++f) {
+      glues_[f]->add(slot.item.fragments[f]);
+      now.vertices += glues_[f]->live_vertices();
+      now.edges += glues_[f]->live_edges();
+      now.arcs += glues_[f]->graph().arc_count();
+      bytes += glues_[f]->memory_bytes();
+    }
+    live_.resize(bytes);
+    maximum_.vertices = std::max(maximum_.vertices, now.vertices);
+    maximum_.edges = std::max(maximum_.edges, now.edges);
+    maximum_.arcs = std::max(maximum_.arcs, now.arcs);
+    if (options_.progress) options_.progress(slot.progress);
+    if (options_.between_chunks && slot.item.ends_stretch)
+      options_.between_chunks(slot.item.end, [this](StateWriter& out) { save(out); });
+  }
+
+  void run_alone() {
+    Sweeper sweeper(budget_);
+    Slot slot(budget_);
+    while (read(slot)) {
+      sweep(slot, sweeper);
+      glue(slot);
+    }
+  }
+
+  void run_in_parallel() {
+    const std::size_t in_flight = options_.threads + 1;
+    std::vector<std::unique_ptr<Slot>> slots;
+    tbb::concurrent_queue<Slot*> free_slots;
+    for (std::size_t i = 0; i < in_flight; ++i) {
+      slots.push_back(std::make_unique<Slot>(budget_));
+      free_slots.push(slots.back().get());
+    }
+    Sweepers sweepers(budget_);
+
+    const tbb::global_control control(tbb::global_control::max_allowed_parallelism, options_.threads);
+    kept_arena(options_.threads).execute([&] {
+      tbb::parallel_pipeline(in_flight,
+                             tbb::make_filter<void, Slot*>(tbb::filter_mode::serial_in_order,
+                                                           [&](tbb::flow_control& control_flow) -> Slot* {
+                                                             Slot* slot = nullptr;
+                                                             free_slots.try_pop(slot);  // as many as tokens
+                                                             if (read(*slot)) return slot;
+                                                             control_flow.stop();
+                                                             return nullptr;
+                                                           }) &
+                                 tbb::make_filter<Slot*, Slot*>(tbb::filter_mode::parallel,
+                                                                [&](Slot* slot) {
+                                                                  sweep_in_parallel(*slot, sweepers);
+                                                                  return slot;
+                                                                }) &
+                                 tbb::make_filter<Slot*, void>(tbb::filter_mode::serial_in_order, [&](Slot* slot) {
+                                   glue(*slot);
+                                   free_slots.push(slot);
+                                 }));
+    });
+  }
+
+  ChunkSource& source_;
+  MemoryBudget& budget_;
+  const PipelineOptions& options_;
+  std::vector<std::unique_ptr<Glue>> glues_;
+  Reservation live_;
+  LiveMaximum maximum_;
+};
+
+}  // namespace
+
+PipelineResult run_pipeline(ChunkSource& source, std::span<GraphSink* const> sinks, MemoryBudget& budget,
+                            const PipelineOptions& options) {
+  return Pipeline(source, sinks, budget, options).run();
+}
+
+}  // namespace reeb::ooc

@@ -1,0 +1,115 @@
+#include "ooc/run/resumable_run.h"
+
+#include <algorithm>
+
+#include "io/file/file.h"
+
+namespace reeb::ooc {
+namespace {
+
+// A checkpoint may take this share of the time since the last one.
+constexpr double kMostShare = 0.01;
+
+}  // namespace
+
+ResumableRun::ResumableRun(const std::string& output, const std::string& mesh,
+                           std::span<VertexFunction* const> functions, const RunSettings& settings,
+                           const ResumeOptions& options)
+    : options_(options) {
+  if (!is_regular_file(mesh)) return;
+  identity_ = identify_run(mesh, functions, settings);
+  folder_.emplace(output);
+}
+
+std::string ResumableRun::segments_of(std::size_t function) const {
+  return folder_ ? folder_->file("function-" + std::to_string(function)) : "";
+}
+
+const Checkpoint* ResumableRun::start(const std::function<void(StateReader&)>& restore,
+                                      std::vector<std::string>& notes) {
+  last_ = Clock::now();
+  if (options_.resume && !folder_)
+    notes.push_back("a mesh that is no file of its own cannot be resumed, so the run starts anew");
+  if (!folder_) return nullptr;
+  if (options_.resume) {
+    load_ = load_checkpoint(folder_->checkpoint(), identity_);
+    if (!load_.checkpoint && load_.note.empty()) load_.note = "there is nothing to resume, so the run starts anew";
+    if (load_.checkpoint && restores(restore)) {
+      notes.push_back("an earlier run had read " + std::to_string(load_.checkpoint->place.triangles) +
+                      " triangles; this one goes on from there");
+      return &*load_.checkpoint;
+    }
+    notes.push_back(load_.note);
+  }
+  folder_->clear();
+  return nullptr;
+}
+
+bool ResumableRun::restores(const std::function<void(StateReader&)>& restore) {
+  try {
+    restore(*load_.state);
+    return true;
+  } catch (const DamagedState&) {
+  } catch (const Error& error) {
+    if (!error.file().starts_with(folder_->path())) throw;
+  }
+  load_ = {};
+  load_.note = "the files of the checkpoint are damaged or missing, so the run starts anew";
+  return false;
+}
+
+void ResumableRun::start_anew() {
+  load_ = {};
+  if (folder_) folder_->clear();
+}
+
+void ResumableRun::check_interruption() const {
+  if (options_.interrupted && options_.interrupted())
+    throw Error(ErrorKind::kInterrupted, "interrupted", "run it again");
+}
+
+void ResumableRun::between_chunks(const Checkpoint& here, const Save& save) {
+  const bool to_end = options_.interrupted && options_.interrupted();
+  if (folder_ && (to_end || is_due())) {
+    const Clock::time_point begin = Clock::now();
+    try {
+      folder_->sync_name();
+      write_checkpoint(folder_->checkpoint(), identity_, here, save);
+    } catch (const Error&) {
+      if (to_end) throw;
+    }
+    last_ = Clock::now();
+    cost_seconds_ = std::chrono::duration<double>(last_ - begin).count();
+  }
+  if (to_end) check_interruption();
+}
+
+bool ResumableRun::is_due() const {
+  if (options_.seconds == 0) return true;
+  const double since = std::chrono::duration<double>(Clock::now() - last_).count();
+  return since >= std::max(options_.seconds, cost_seconds_ / kMostShare);
+}
+
+Error ResumableRun::explain(const Error& error) {
+  if (!folder_) return error;
+  if (error.kind() == ErrorKind::kBadInput) folder_->clear();  // the same again would meet the same
+  std::string hint = error.hint();
+  // What grows in the folder is not in the temporary folder.
+  if (error.file().starts_with(folder_->path())) hint = "make room in this folder, or choose another output with -o";
+  if (folder_->has_checkpoint()) {
+    const std::string go_on = "the same command with --resume goes on from where it was";
+    hint = error.kind() == ErrorKind::kInterrupted ? go_on : hint + "; then " + go_on;
+  } else if (error.kind() == ErrorKind::kInterrupted) {
+    hint = "run it again; it ended too early to be resumed";
+  }
+  Error explained(error.kind(), error.message(), hint);
+  explained.at(error.file(), error.position());
+  return explained;
+}
+
+void ResumableRun::done() {
+  if (folder_) folder_->clear();
+  folder_.reset();
+}
+
+}  // namespace reeb::ooc

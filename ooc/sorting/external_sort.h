@@ -1,0 +1,411 @@
+// Sorts more records than memory holds: sorted runs on disk, merged while they are read back.
+#pragma once
+
+#include <tbb/parallel_sort.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <future>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "io/file/temp_dir.h"
+#include "libreeb/base/memory_budget.h"
+#include "libreeb/base/state_stream.h"
+#include "ooc/sorting/record_batch.h"
+#include "ooc/sorting/run_file.h"
+#include "ooc/sorting/run_merger.h"
+#include "ooc/threads/read_ahead.h"
+
+namespace reeb::ooc {
+
+struct SortOptions {
+  std::uint64_t allowance_bytes = 16 << 20;  // of the budget
+  std::uint64_t most_bytes = 0;              // if more: the allowance grows up to this as the file does
+  bool parallel = false;                     // sort each run with all threads
+  bool background = false;                   // sort and write runs in a thread of its own, with half the buffer
+  std::string file = {};                     // for the runs, if another process may have to go on; else unnamed
+};
+
+// add() any number of records, finish(), then read() them in order, as often as rewind() says.
+// While all fit in the allowance no file is made. Records that carry payloads come out in the order
+// in which they went in where Less finds them equal.
+//
+// THROWS: Error{kResource} of the budget or the disk; what fails in the background is thrown by
+//         the next call and by all after it, since records are lost.
+// MEMORY: the allowance, all of it reserved as it is needed, and a few blocks of 64 KiB. A payload
+//         that is larger than the allowance gets what it needs. An allowance that grows is a sixteenth of
+//         the bytes on disk, so that of a large file the runs are not so many: merging holds a block of each.
+// THREADS: one at a time.
+template <class Record, class Codec = PlainCodec<Record>, class Less = std::less<Record>>
+class ExternalSort {
+ public:
+  using Batch = RecordBatch<Record>;
+  static constexpr std::size_t kBlockRecords = kRunBlockBytes / sizeof(Record);
+
+  // `owner` is a string literal for the budget's texts; `temp` and `budget` must outlive this.
+  ExternalSort(const char* owner, const TempDir& temp, MemoryBudget& budget, const SortOptions& options = {})
+      : owner_(owner),
+        temp_(&temp),
+        options_(options),
+        most_bytes_(std::max<std::uint64_t>(kBlockRecords * sizeof(Record),
+                                            options.allowance_bytes / (options.background ? 2 : 1))),
+        filling_{{}, budget.reserve(owner, 0)},
+        writing_{{}, budget.reserve(owner, 0)},
+        merge_charge_(budget.reserve(owner, 0)) {}
+  ExternalSort(const ExternalSort&) = delete;
+  ExternalSort& operator=(const ExternalSort&) = delete;
+  ~ExternalSort() {
+    if (written_.valid()) written_.wait();
+  }
+
+  void add(std::span<const Record> records) {
+    size_ += records.size();
+    while (!records.empty()) {
+      auto& buffer = filling_.batch.records;
+      if (buffer.size() == buffer.capacity() && !grow_records()) flush();
+      const std::size_t count = std::min(records.size(), buffer.capacity() - buffer.size());
+      buffer.insert(buffer.end(), records.begin(), records.begin() + static_cast<std::ptrdiff_t>(count));
+      records = records.subspan(count);
+    }
+  }
+  void add(const Record& record) { add(std::span(&record, 1)); }
+
+  void add(const Record& record, std::span<const std::byte> payload) requires CarriesPayload<Record> {
+    largest_payload_ = std::max<std::uint64_t>(largest_payload_, payload.size());
+    ++size_;
+    auto& buffer = filling_.batch.records;
+    if ((buffer.size() == buffer.capacity() && !grow_records()) || !make_room(payload.size())) {
+      flush();
+      if (!make_room(payload.size())) grow_pool_anyway(payload.size());
+    }
+    filling_.batch.add(record, payload);
+  }
+
+  // All that was added so far, for another process: the runs once they are on the device, and what
+  // is still in memory. REQUIRES: a named file, and that finish() was not called.
+  void save(StateWriter& out) {
+    wait_for_writer();
+    if (file_) file_->sync();
+    out.put_array(runs_);
+    out.put(file_ ? file_->manifest() : RunManifest{});
+    out.put(largest_payload_);
+    out.put_array(filling_.batch.records);
+    out.put_array(filling_.batch.pool);
+  }
+  // REQUIRES: a named file, and that nothing was added yet.
+  // THROWS: DamagedState or Error if the file of the runs is missing or not what it was.
+  void restore(StateReader& in) {
+    in.get_array(runs_);
+    const auto manifest = in.get<RunManifest>();
+    if (!runs_.empty()) file_.emplace(File::open_for_update(options_.file), manifest);
+    size_ = manifest.records;
+    in.get(largest_payload_);
+    Batch rest;
+    in.get_array(rest.records);
+    in.get_array(rest.pool);
+    if constexpr (CarriesPayload<Record>) {
+      for (const Record& record : rest.records) {
+        if (record.payload.first > rest.pool.size() || record.payload.size > rest.pool.size() - record.payload.first)
+          throw DamagedState();
+        add(record, rest.payload(record));
+      }
+    } else {
+      add(rest.records);
+    }
+  }
+
+  // Ends adding. Runs are merged until those left can be merged while they are read, within
+  // `merge_bytes` of the budget (0: the allowance), or less if it has not so much.
+  void finish(std::uint64_t merge_bytes = 0) {
+    wait_for_writer();
+    if (runs_.empty()) {
+      sort(filling_.batch.records);
+    } else {
+      flush();
+      wait_for_writer();
+      filling_.free();
+      writing_.free();
+      reduce_runs(merge_bytes == 0 ? options_.allowance_bytes : merge_bytes);
+    }
+    rewind();
+  }
+
+  std::uint64_t reserved_bytes() const {
+    return filling_.charge.bytes() + writing_.charge.bytes() + merge_charge_.bytes();
+  }
+
+  // Starts again from the first record. REQUIRES: finish() was called.
+  void rewind() {
+    at_ = 0;
+    merger_.reset();
+  }
+
+  // Replaces `out` by at most `limit` next records in order, fewer if their payloads come to more
+  // than `payload_limit` bytes; false at the end.
+  bool read(Batch& out, std::size_t limit, std::size_t payload_limit = kRunBlockBytes) {
+    out.clear();
+    const auto is_full = [&] { return out.records.size() == limit || out.pool.size() > payload_limit; };
+    if (runs_.empty()) {
+      const Batch& all = filling_.batch;
+      for (; !is_full() && at_ < size_; ++at_) out.add(all.records[at_], all.payload(all.records[at_]));
+    } else if (at_ < size_) {
+      // Blocks are held from the first record to the last only.
+      if (!merger_) merger_ = std::make_unique<Merger>(*file_, runs_);
+      for (; !is_full() && !merger_->empty(); ++at_) merger_->take(out);
+      if (merger_->empty()) merger_.reset();
+    }
+    return !out.empty();
+  }
+  bool read(std::vector<Record>& out, std::size_t limit) requires(!CarriesPayload<Record>) {
+    Batch batch;
+    batch.records.swap(out);
+    const bool some = read(batch, limit);
+    batch.records.swap(out);
+    return some;
+  }
+
+  // For what needs no order, at a fraction of the cost of merging. In no order but that of adding where Less finds
+  // records equal; between any reads.
+  // REQUIRES: finish() was called.   MEMORY: three blocks.
+
+  // Calls visit(record) for all records, of which only what they are sorted by is there.
+  template <class Visit>
+  void scan_keys(const Visit& visit) const {
+    scan_blocks([](std::span<const Record>) { return Wanted::kKeys; },
+                [&](const Batch& block) { std::ranges::for_each(block.records, visit); });
+  }
+  // Calls visit(record, batch), with the batch that holds its payload, where wanted(record) is true. That is asked
+  // of what records are sorted by, by several threads: of most blocks no more is unpacked where few are wanted.
+  template <class Is, class Visit>
+  void scan(const Is& wanted, const Visit& visit) const {
+    scan_blocks(
+        [&](std::span<const Record> records) {
+          return std::ranges::any_of(records, wanted) ? Wanted::kAll : Wanted::kNothing;
+        },
+        [&](const Batch& block) {
+          for (const Record& record : block.records)
+            if (wanted(record)) visit(record, block);
+        });
+  }
+
+  // The order in which records of a batch come out: places in its pool ascend in the order of adding.
+  static bool in_order(const Record& a, const Record& b) {
+    if constexpr (CarriesPayload<Record>) {
+      if (Less()(a, b)) return true;
+      if (Less()(b, a)) return false;
+      return a.payload.first < b.payload.first ||
+             (a.payload.first == b.payload.first && a.payload.size < b.payload.size);
+    } else {
+      return Less()(a, b);
+    }
+  }
+
+  std::uint64_t size() const { return size_; }
+  // Bytes written so far, merging passes included.
+  std::uint64_t spilled_bytes() const { return spilled_ + (file_ ? file_->size() : 0); }
+
+ private:
+  using Merger = RunMerger<Record, Codec, Less>;
+  struct Buffer {
+    Batch batch;
+    Reservation charge;
+    std::uint64_t bytes(std::size_t records, std::size_t pool) const { return records * sizeof(Record) + pool; }
+    void free() {
+      batch = {};
+      charge.resize(0);
+    }
+  };
+
+  // How much of the records of a block a scan unpacks.
+  enum class Wanted { kNothing, kKeys, kAll };
+
+  // Calls look(records) for all blocks, in several threads; and visit(batch), one at a time, for those of which that
+  // wants more than nothing.
+  template <class Look, class Visit>
+  void scan_blocks(const Look& look, const Visit& visit) const {
+    if (runs_.empty()) {
+      if (look(std::span(filling_.batch.records)) != Wanted::kNothing) visit(filling_.batch);
+      return;
+    }
+    struct Block {
+      std::uint64_t offset = 0;
+      std::vector<std::byte> packed;
+      Batch batch;
+      Wanted wanted = Wanted::kNothing;
+    };
+    auto run = runs_.begin();
+    RunPlace place = *run;
+    const auto read_next = [&](Block& block) {
+      if (place.blocks == 0 && ++run == runs_.end()) return false;
+      if (place.blocks == 0) place = *run;
+      block.offset = place.offset;
+      block.batch.records.resize(file_->read(place, block.packed));
+      return true;
+    };
+    const auto unpack = [&](Block& block) {
+      auto& [records, pool] = block.batch;
+      pool.clear();
+      bool is_block = Codec::decode_keys(block.packed, records);
+      block.wanted = is_block ? look(std::span(std::as_const(records))) : Wanted::kNothing;
+      if (block.wanted == Wanted::kAll) is_block = decode_block<Record, Codec>(block.packed, block.batch);
+      if (!is_block) file_->refuse(block.offset);
+    };
+    read_ahead<Block>(options_.background, read_next, unpack, [&](const Block& block) {
+      if (block.wanted != Wanted::kNothing) visit(block.batch);
+    });
+  }
+
+  // Room for as many records again, if the share allows; both the old and the new memory exist while
+  // they move over.
+  bool grow_records() {
+    auto& [records, pool] = filling_.batch;
+    const std::size_t before = records.capacity();
+    const std::uint64_t left = most_bytes_ - std::min<std::uint64_t>(most_bytes_, pool.capacity());
+    const std::size_t after =
+        std::min(static_cast<std::size_t>(left / sizeof(Record)), std::max(kBlockRecords, 2 * before));
+    if (before == 0) {
+      filling_.charge.resize(filling_.bytes(kBlockRecords, pool.capacity()));
+      records.reserve(kBlockRecords);
+      return true;
+    }
+    if (after <= before || !filling_.charge.try_resize(filling_.bytes(before + after, pool.capacity()))) return false;
+    records.reserve(after);
+    filling_.charge.resize(filling_.bytes(records.capacity(), pool.capacity()));
+    return true;
+  }
+
+  // The same for the pool, if it has to grow for `bytes` more.
+  bool make_room(std::size_t bytes) {
+    auto& [records, pool] = filling_.batch;
+    const std::size_t needed = pool.size() + bytes, before = pool.capacity();
+    if (needed <= before) return true;
+    const std::uint64_t held = filling_.bytes(records.capacity(), 0);
+    const std::uint64_t left = most_bytes_ - std::min(most_bytes_, held);
+    const auto after =
+        static_cast<std::size_t>(std::min<std::uint64_t>(left, std::max<std::uint64_t>(needed, 2 * before)));
+    if (after < needed || !filling_.charge.try_resize(held + before + after)) return false;
+    pool.reserve(after);
+    filling_.charge.resize(held + pool.capacity());
+    return true;
+  }
+
+  // For the first payload of a run, which has to go somewhere.
+  void grow_pool_anyway(std::size_t bytes) {
+    auto& [records, pool] = filling_.batch;
+    std::vector<std::byte>().swap(pool);
+    filling_.charge.resize(filling_.bytes(records.capacity(), bytes));
+    pool.reserve(bytes);
+  }
+
+  void flush() {
+    wait_for_writer();
+    if (filling_.batch.empty()) return;
+    if (!file_) file_.emplace(options_.file.empty() ? temp_->create_unnamed(owner_) : File::create(options_.file));
+    std::swap(filling_, writing_);
+    if (options_.background) {
+      written_ = std::async(std::launch::async, [this] { write_run(writing_.batch); });
+    } else {
+      write_run(writing_.batch);
+      std::swap(filling_, writing_);
+    }
+    grow_allowance();
+    // A budget too small for a second buffer is met by waiting for the first.
+    if (filling_.batch.records.capacity() == 0 && !grow_second()) {
+      wait_for_writer();
+      std::swap(filling_, writing_);
+    }
+  }
+
+  void grow_allowance() {
+    constexpr std::uint64_t kShare = 16;
+    const std::uint64_t bytes = std::min(spilled_bytes() / kShare, options_.most_bytes);
+    most_bytes_ = std::max(most_bytes_, bytes / (options_.background ? 2 : 1));
+  }
+
+  bool grow_second() {
+    if (!filling_.charge.try_resize(kBlockRecords * sizeof(Record))) return false;
+    filling_.batch.records.reserve(kBlockRecords);
+    return true;
+  }
+
+  void wait_for_writer() {
+    if (written_.valid()) written_.get();
+  }
+
+  void sort(std::vector<Record>& records) const {
+    const auto less = [](const Record& a, const Record& b) { return in_order(a, b); };
+    if (options_.parallel)
+      tbb::parallel_sort(records.begin(), records.end(), less);
+    else
+      std::sort(records.begin(), records.end(), less);
+  }
+
+  void write_run(Batch& batch) {
+    sort(batch.records);
+    RunPlace run{file_->size(), 0};
+    run.blocks = append_blocks<Record, Codec>(batch.records, batch.pool, *file_);
+    batch.clear();
+    runs_.push_back(run);
+  }
+
+  // Merges in passes until the runs left can be merged at once.
+  void reduce_runs(std::uint64_t merge_bytes) {
+    const std::size_t fan_in = reserve_fan_in(merge_bytes);
+    while (runs_.size() > fan_in) {
+      RunFile merged(temp_->create_unnamed(owner_));
+      std::vector<RunPlace> longer;
+      for (std::size_t first = 0; first < runs_.size(); first += fan_in) {
+        const std::size_t count = std::min(fan_in, runs_.size() - first);
+        longer.push_back(merge(std::span<const RunPlace>(runs_).subspan(first, count), merged));
+      }
+      spilled_ += file_->size();
+      file_.emplace(std::move(merged));
+      runs_ = std::move(longer);
+    }
+  }
+
+  // A run at hand is a block; as much again serves packing and unpacking.
+  std::size_t reserve_fan_in(std::uint64_t merge_bytes) {
+    const std::uint64_t cursor = kRunBlockBytes + largest_payload_, rest = 4 * cursor;
+    std::uint64_t fan_in = std::clamp<std::uint64_t>((merge_bytes - std::min(merge_bytes, rest)) / cursor, 2,
+                                                     std::max<std::uint64_t>(runs_.size(), 2));
+    while (fan_in > 2 && !merge_charge_.try_resize(fan_in * cursor + rest))
+      fan_in = std::max<std::uint64_t>(2, fan_in / 2);
+    merge_charge_.resize(fan_in * cursor + rest);
+    return static_cast<std::size_t>(fan_in);
+  }
+
+  RunPlace merge(std::span<const RunPlace> runs, RunFile& out) const {
+    Merger merger(*file_, runs);
+    RunPlace place{out.size(), 0};
+    for (Batch block; !merger.empty();) {
+      block.clear();
+      while (!merger.empty() && block.bytes() + sizeof(Record) <= kRunBlockBytes) merger.take(block);
+      place.blocks += append_blocks<Record, Codec>(block.records, block.pool, out);
+    }
+    return place;
+  }
+
+  const char* owner_;
+  const TempDir* temp_;
+  SortOptions options_;
+  std::uint64_t most_bytes_;  // of a buffer
+  Buffer filling_, writing_;
+  Reservation merge_charge_;
+  std::shared_future<void> written_;  // shared, since a failure is for every later call, not for the first alone
+  std::optional<RunFile> file_;
+  std::vector<RunPlace> runs_;
+  std::unique_ptr<Merger> merger_;
+  std::uint64_t at_ = 0;  // records read so far
+  std::uint64_t size_ = 0, spilled_ = 0;
+  std::uint64_t largest_payload_ = 0;
+};
+
+}  // namespace reeb::ooc

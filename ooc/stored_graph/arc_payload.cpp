@@ -1,0 +1,37 @@
+#include "ooc/stored_graph/arc_payload.h"
+
+#include "libreeb/base/byte_coding.h"
+#include "libreeb/graph/packed_buckets.h"
+
+namespace reeb::ooc {
+
+void encode_buckets(std::span<const Bucket> buckets, int exponent, std::vector<std::byte>& payload) {
+  if (buckets.empty()) return;
+  ByteWriter(payload).varint(zigzag(exponent));
+  pack_buckets(buckets, payload);
+}
+
+void encode_packed_buckets(std::span<const std::byte> packed, int exponent, std::vector<std::byte>& payload) {
+  if (packed.empty()) return;
+  ByteWriter(payload).varint(zigzag(exponent));
+  payload.insert(payload.end(), packed.begin(), packed.end());
+}
+
+std::uint64_t bucket_count(std::span<const std::byte> payload) {
+  if (payload.empty()) return 0;
+  ByteReader in(payload);
+  in.delta(0);
+  return in.varint();
+}
+
+bool decode_buckets(std::span<const std::byte> payload, int exponent, std::vector<Bucket>& buckets) {
+  if (payload.empty()) return true;
+  ByteReader in(payload);
+  const auto own = static_cast<std::int64_t>(in.delta(0));
+  const std::size_t first = buckets.size();
+  if (!in.ok() || own > exponent || !unpack_buckets(in.bytes(in.remaining()), buckets)) return false;
+  coarsen(buckets, first, static_cast<unsigned>(exponent - own));
+  return true;
+}
+
+}  // namespace reeb::ooc

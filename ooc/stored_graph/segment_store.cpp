@@ -1,0 +1,360 @@
+#include "ooc/stored_graph/segment_store.h"
+
+#include <algorithm>
+#include <future>
+#include <stdexcept>
+#include <string>
+
+#include "ooc/sorting/column_codec.h"
+#include "ooc/stored_graph/arc_payload.h"
+#include "ooc/tables/node_table.h"
+#include "ooc/threads/read_ahead.h"
+
+namespace reeb::ooc {
+
+namespace {
+
+std::uint64_t bits(const SweepKey& key) { return ordered_bits(key.value); }
+std::uint64_t id(const SweepKey& key) { return key.vertex.value(); }
+
+// A column of what `number` rises by from each record to the next, the first from 0.
+template <class Record, class Number>
+void add_differences(ColumnEncoder& columns, std::span<const Record> records, const Number& number) {
+  columns.add(records.size(),
+              [&](std::size_t i) { return zigzag(number(records[i]) - (i == 0 ? 0 : number(records[i - 1]))); });
+}
+
+// Calls sum(i, s) with the sum s of the first i + 1 differences.
+template <class Sum>
+void for_sums(std::span<const std::uint64_t> differences, const Sum& sum) {
+  std::uint64_t total = 0;
+  for (std::size_t i = 0; i < differences.size(); ++i) sum(i, total += unzigzag(differences[i]));
+}
+
+}  // namespace
+
+void NodeCodec::encode(std::span<const SettledNode> nodes, std::vector<std::byte>& packed) {
+  ColumnEncoder columns;
+  add_differences(columns, nodes, [](const SettledNode& n) { return bits(n.key); });
+  add_differences(columns, nodes, [](const SettledNode& n) { return id(n.key); });
+  columns.pack(packed);
+  for (std::size_t k = 0; k < 3; ++k)
+    add_differences(columns, nodes, [k](const SettledNode& n) { return ordered_bits(n.position[k]); });
+  columns.pack(packed);
+}
+
+namespace {
+
+// Keys, and what follows them.
+ColumnDecoder decode_node_keys(std::span<const std::byte> packed, std::span<SettledNode> nodes) {
+  ColumnDecoder columns(packed, 2, nodes.size());
+  if (!columns.ok()) return columns;
+  for_sums(columns.column(0), [&](std::size_t i, std::uint64_t sum) { nodes[i].key.value = from_ordered_bits(sum); });
+  for_sums(columns.column(1), [&](std::size_t i, std::uint64_t sum) { nodes[i].key.vertex = VertexId(sum); });
+  return columns;
+}
+
+}  // namespace
+
+bool NodeCodec::decode_keys(std::span<const std::byte> packed, std::span<SettledNode> nodes) {
+  return decode_node_keys(packed, nodes).ok();
+}
+
+bool NodeCodec::decode(std::span<const std::byte> packed, std::span<SettledNode> nodes) {
+  const ColumnDecoder keys = decode_node_keys(packed, nodes);
+  if (!keys.ok()) return false;
+  ColumnDecoder columns(keys.tail(), 3, nodes.size());
+  if (!columns.ok() || !columns.tail().empty()) return false;
+  for (std::size_t k = 0; k < 3; ++k)
+    for_sums(columns.column(k),
+             [&](std::size_t i, std::uint64_t sum) { nodes[i].position[k] = from_ordered_bits(sum); });
+  return true;
+}
+
+namespace {
+
+// Sorting has left the payloads anywhere in the pool.
+void add_payloads(std::span<const StoredArc> arcs, std::span<const std::byte> pool, std::vector<std::byte>& packed) {
+  constexpr std::size_t kAhead = 16;
+  for (std::size_t i = 0; i < arcs.size(); ++i) {
+    if (i + kAhead < arcs.size()) __builtin_prefetch(pool.data() + arcs[i + kAhead].payload.first);
+    const auto payload = pool.subspan(arcs[i].payload.first, arcs[i].payload.size);
+    if (!payload.empty()) packed.insert(packed.end(), payload.begin(), payload.end());
+  }
+}
+
+}  // namespace
+
+void ArcCodec::encode(std::span<const StoredArc> arcs, std::span<const std::byte> pool,
+                      std::vector<std::byte>& packed) {
+  ColumnEncoder columns;
+  add_differences(columns, arcs, [](const StoredArc& a) { return bits(a.keys.lo); });
+  add_differences(columns, arcs, [](const StoredArc& a) { return id(a.keys.lo); });
+  columns.add(arcs.size(), [&](std::size_t i) { return bits(arcs[i].keys.hi) - bits(arcs[i].keys.lo); });
+  columns.add(arcs.size(), [&](std::size_t i) { return zigzag(id(arcs[i].keys.hi) - id(arcs[i].keys.lo)); });
+  columns.add(arcs.size(), [&](std::size_t i) { return arcs[i].payload.size; });
+  columns.pack(packed);
+  add_payloads(arcs, pool, packed);
+}
+
+namespace {
+
+// Keys; the last column is left, and what follows.
+ColumnDecoder decode_arc_keys(std::span<const std::byte> packed, std::span<StoredArc> arcs) {
+  ColumnDecoder columns(packed, 5, arcs.size());
+  if (!columns.ok()) return columns;
+  for_sums(columns.column(0),
+           [&](std::size_t i, std::uint64_t sum) { arcs[i].keys.lo.value = from_ordered_bits(sum); });
+  for_sums(columns.column(1), [&](std::size_t i, std::uint64_t sum) { arcs[i].keys.lo.vertex = VertexId(sum); });
+  auto column = columns.column(2);
+  for (std::size_t i = 0; i < arcs.size(); ++i)
+    arcs[i].keys.hi.value = from_ordered_bits(bits(arcs[i].keys.lo) + column[i]);
+  column = columns.column(3);
+  for (std::size_t i = 0; i < arcs.size(); ++i)
+    arcs[i].keys.hi.vertex = VertexId(id(arcs[i].keys.lo) + unzigzag(column[i]));
+  return columns;
+}
+
+}  // namespace
+
+bool ArcCodec::decode_keys(std::span<const std::byte> packed, std::span<StoredArc> arcs) {
+  return decode_arc_keys(packed, arcs).ok();
+}
+
+bool ArcCodec::decode(std::span<const std::byte> packed, std::span<StoredArc> arcs, std::vector<std::byte>& pool) {
+  ColumnDecoder columns = decode_arc_keys(packed, arcs);
+  if (!columns.ok()) return false;
+  const auto column = columns.column(4);
+  std::uint64_t first = 0;
+  for (std::size_t i = 0; i < arcs.size(); first += column[i++])
+    arcs[i].payload = {static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(column[i])};
+  pool.assign(columns.tail().begin(), columns.tail().end());
+  return first == pool.size();
+}
+
+namespace {
+
+SortOptions half_of(const SegmentOptions& options, const char* suffix) {
+  return {.allowance_bytes = options.allowance_bytes / 2,
+          .most_bytes = options.most_bytes / 2,
+          .background = options.background,
+          .file = options.files.empty() ? "" : options.files + suffix};
+}
+
+}  // namespace
+
+SegmentStore::SegmentStore(const TempDir& temp, MemoryBudget& budget, const SegmentOptions& options)
+    : budget_(&budget),
+      background_(options.background),
+      nodes_("settled nodes", temp, budget, half_of(options, ".nodes")),
+      arcs_("settled arcs", temp, budget, half_of(options, ".arcs")) {}
+
+void SegmentStore::add_arcs(const SettledArcs& settled) {
+  if (settled.bucket_counts.empty()) {
+    plain_.clear();
+    for (const ArcKeys& arc : settled.arcs) plain_.push_back({arc});
+    arcs_.add(plain_);
+    return;
+  }
+  std::size_t first = 0;
+  for (std::size_t i = 0; i < settled.arcs.size(); first += settled.bucket_counts[i++]) {
+    payload_.clear();
+    encode_buckets(settled.buckets.subspan(first, settled.bucket_counts[i]), settled.bucket_exponent, payload_);
+    arcs_.add({settled.arcs[i]}, payload_);
+    payload_bytes_ += payload_.size();
+  }
+  bucket_count_ += first;
+}
+
+void SegmentStore::save(StateWriter& out) {
+  out.put(bucket_count_);
+  out.put(payload_bytes_);
+  nodes_.save(out);
+  arcs_.save(out);
+}
+
+void SegmentStore::restore(StateReader& in) {
+  in.get(bucket_count_);
+  in.get(payload_bytes_);
+  nodes_.restore(in);
+  arcs_.restore(in);
+}
+
+void SegmentStore::finish() {
+  constexpr std::uint64_t kMost = 64 << 20;  // a thousand runs
+  const std::uint64_t merge_bytes = std::min(budget_->free_bytes() / 8, kMost);
+  std::future<void> nodes;
+  if (background_) nodes = std::async(std::launch::async, [&] { nodes_.finish(merge_bytes); });
+  arcs_.finish(merge_bytes);
+  if (background_)
+    nodes.get();
+  else
+    nodes_.finish(merge_bytes);
+}
+
+void decode_buckets_of(const ArcKeys& arc, std::span<const std::byte> payload, int bucket_exponent,
+                       std::vector<Bucket>& buckets) {
+  if (!decode_buckets(payload, bucket_exponent, buckets))
+    throw std::logic_error("the buckets of an arc from vertex " + std::to_string(arc.lo.vertex.value()) +
+                           " are no buckets of exponent " + std::to_string(bucket_exponent));
+}
+
+std::uint64_t SegmentStore::reserved_bytes() const {
+  return nodes_.reserved_bytes() + arcs_.reserved_bytes() + (patch_ ? patch_->patch().memory.bytes() : 0);
+}
+
+namespace {
+
+void add_arc(const ArcKeys& arc, std::span<const std::byte> payload, std::optional<int> bucket_exponent,
+             ArcPiece& piece) {
+  piece.arcs.push_back(arc);
+  if (!bucket_exponent) return;
+  decode_buckets_of(arc, payload, *bucket_exponent, piece.buckets.buckets);
+  piece.buckets.offsets.push_back(piece.buckets.buckets.size());
+}
+
+}  // namespace
+
+void SegmentStore::rewind_nodes() {
+  nodes_.rewind();
+  if (patch_) patch_->rewind_nodes();
+}
+
+void SegmentStore::rewind_arcs() {
+  arcs_.rewind();
+  batch_.clear();
+  next_ = 0;
+  at_end_ = false;
+  if (patch_) patch_->rewind_arcs();
+}
+
+bool SegmentStore::read_nodes(std::vector<SettledNode>& nodes, std::size_t limit) {
+  while (nodes_.read(nodes, limit)) {
+    if (patch_) std::erase_if(nodes, [&](const SettledNode& node) { return patch_->drops(node.key); });
+    if (!nodes.empty()) return true;
+  }
+  return false;
+}
+
+bool SegmentStore::read_arcs(ArcPiece& piece, std::size_t limit, std::optional<int> bucket_exponent) {
+  piece.arcs.clear();
+  piece.buckets.buckets.clear();
+  piece.buckets.offsets.assign(bucket_exponent ? 1 : 0, 0);
+  while (piece.arcs.size() < limit) {
+    if (next_ == batch_.records.size() && !at_end_) {
+      if (!piece.arcs.empty()) break;  // a piece comes of one batch
+      refill_arcs(limit);
+      continue;
+    }
+    const StoredArc* stored = at_end_ ? nullptr : &batch_.records[next_];
+    if (patch_ && patch_->comes_before(stored == nullptr ? nullptr : &stored->keys)) {
+      const PatchArc& arc = patch_->take();
+      add_arc(arc.keys, patch_->payload(arc), bucket_exponent, piece);
+      continue;
+    }
+    if (stored == nullptr) break;
+    ++next_;
+    if (!patch_ || !patch_->drops(stored->keys)) add_arc(stored->keys, batch_.payload(*stored), bucket_exponent, piece);
+  }
+  return !piece.arcs.empty();
+}
+
+void SegmentStore::refill_arcs(std::size_t limit) {
+  constexpr std::size_t kPayloads = 256 << 10;
+  at_end_ = !arcs_.read(batch_, limit, kPayloads);
+  next_ = 0;
+}
+
+void SegmentStore::apply(GraphPatch patch) {
+  patch_.emplace(std::move(patch));
+  rewind_nodes();
+  rewind_arcs();
+}
+
+std::uint64_t SegmentStore::node_count() const { return nodes_.size() - (patch_ ? patch_->patch().gone.size() : 0); }
+
+std::uint64_t SegmentStore::arc_count() const {
+  if (!patch_) return arcs_.size();
+  return arcs_.size() - patch_->patch().replaced_arcs + patch_->patch().arcs.records.size();
+}
+
+std::uint64_t SegmentStore::bucket_count() const {
+  if (!patch_) return bucket_count_;
+  return bucket_count_ - patch_->patch().replaced_buckets + patch_->patch().buckets;
+}
+
+namespace {
+
+constexpr std::size_t kStretch = 4096;  // records taken over at once
+
+NodeId node_of(const SweepKey& key, const NodeTable& table) {
+  const std::uint32_t node = table.find(key);
+  if (node == NodeTable::kNone)
+    throw std::logic_error("an arc ends in vertex " + std::to_string(key.vertex.value()) + ", which is no node");
+  return NodeId(node);
+}
+
+std::uint64_t graph_bytes(const SegmentStore& store, const LoadOptions& options) {
+  const std::uint64_t nodes = store.node_count(), arcs = store.arc_count();
+  std::uint64_t bytes = nodes * sizeof(SweepKey) + arcs * 2 * sizeof(NodeId);
+  if (options.positions) bytes += nodes * sizeof(Point);
+  if (options.bucket_exponent) bytes += PackedLists::most_bytes(arcs, store.bucket_count());
+  return bytes;
+}
+
+}  // namespace
+
+void copy_graph(SegmentStore& from, SegmentStore& to, std::optional<int> bucket_exponent) {
+  from.rewind_nodes();
+  for (std::vector<SettledNode> nodes; from.read_nodes(nodes, kStretch);) to.add_nodes(nodes);
+  from.rewind_arcs();
+  std::vector<std::uint32_t> counts;
+  for (ArcPiece piece; from.read_arcs(piece, kStretch, bucket_exponent);) {
+    counts.clear();
+    for (std::size_t i = 0; bucket_exponent && i < piece.arcs.size(); ++i)
+      counts.push_back(static_cast<std::uint32_t>(piece.buckets.view().count(i)));
+    to.add_arcs({piece.arcs, counts, piece.buckets.buckets, bucket_exponent.value_or(0)});
+  }
+}
+
+std::uint64_t loading_bytes(const SegmentStore& store, const LoadOptions& options) {
+  return graph_bytes(store, options) + NodeTable::bytes(store.node_count());
+}
+
+LoadedGraph read_graph(SegmentStore& store, const LoadOptions& options) {
+  const auto node_count = static_cast<std::size_t>(store.node_count());
+  const auto arc_count = static_cast<std::size_t>(store.arc_count());
+  LoadedGraph loaded;
+  ReebGraph& graph = loaded.graph;
+  loaded.memory = store.budget().reserve("graph", graph_bytes(store, options));
+  graph.nodes.reserve(node_count);
+  if (options.positions) graph.positions.reserve(node_count);
+  store.rewind_nodes();
+  for (std::vector<SettledNode> some; store.read_nodes(some, kStretch);)
+    for (const SettledNode& node : some) {
+      graph.nodes.push_back(node.key);
+      if (options.positions) graph.positions.push_back(node.position);
+    }
+  graph.lo.reserve(arc_count);
+  graph.hi.reserve(arc_count);
+  if (options.bucket_exponent) loaded.buckets.reserve(arc_count);
+  const Reservation table_memory = store.budget().reserve("ends of arcs", NodeTable::bytes(node_count));
+  const NodeTable table(graph.nodes);
+  store.rewind_arcs();
+  read_ahead<ArcPiece>(
+      store.background(), [&](ArcPiece& piece) { return store.read_arcs(piece, kStretch, options.bucket_exponent); },
+      [&](const ArcPiece& piece) {
+        for (const ArcKeys& arc : piece.arcs) {
+          graph.lo.push_back(node_of(arc.lo, table));
+          graph.hi.push_back(node_of(arc.hi, table));
+        }
+        for (std::size_t arc = 0; arc + 1 < piece.buckets.offsets.size(); ++arc)
+          loaded.buckets.add(piece.buckets.view().of(arc));
+      });
+  if (options.bucket_exponent)
+    loaded.memory.resize(loaded.memory.bytes() - PackedLists::most_bytes(arc_count, store.bucket_count()) +
+                         loaded.buckets.memory_bytes());
+  return loaded;
+}
+
+}  // namespace reeb::ooc

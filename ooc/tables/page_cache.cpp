@@ -1,0 +1,95 @@
+#include "ooc/tables/page_cache.h"
+
+#include <algorithm>
+#include <cstring>
+#include <utility>
+
+namespace reeb::ooc {
+
+PageCache::PageCache(const char* owner, const TempDir& temp, MemoryBudget& budget, std::uint64_t allowance_bytes,
+                     std::span<const std::byte> fill)
+    : owner_(owner),
+      temp_(&temp),
+      allowance_(std::max<std::uint64_t>(allowance_bytes, kLeastFrames * kPageBytes)),
+      fill_(fill.begin(), fill.end()),
+      pages_charge_(budget.reserve(owner, 0)),
+      directory_charge_(budget.reserve(owner, 0)) {}
+
+std::byte* PageCache::fault(std::size_t page, bool writing) {
+  if (page >= places_.size()) grow_directory(page + 1);
+  const std::uint32_t number = take_frame();
+  Frame& frame = frames_[number];
+  const bool stored = places_[page] == kOnDisk;
+  if (stored) {
+    file_.read_at(page * kPageBytes, {frame.bytes, kPageBytes});
+    ++refetches_;
+  } else {
+    fill_fresh(frame.bytes);
+  }
+  frame.page = page;
+  frame.marks = kTouched | (stored ? kStored : 0) | (writing ? kDirty : 0);
+  places_[page] = number;
+  return frame.bytes;
+}
+
+void PageCache::grow_directory(std::size_t pages) {
+  if (pages > places_.capacity()) {
+    const std::size_t capacity = std::max({pages, places_.capacity() + places_.capacity() / 4, std::size_t{1024}});
+    directory_charge_.resize(capacity * sizeof(std::uint32_t));
+    places_.reserve(capacity);
+  }
+  places_.resize(pages, kFresh);
+}
+
+// A frame that no page has: of new memory if it may grow, else another page's.
+std::uint32_t PageCache::take_frame() {
+  const auto next = static_cast<std::uint32_t>(frames_.size());
+  if (frames_.size() == blocks_.size() * kBlockFrames) {
+    if (!may_grow()) return evict_one();
+    blocks_.push_back(std::make_unique_for_overwrite<std::byte[]>(kBlockFrames * kPageBytes));
+  }
+  frames_.push_back({blocks_.back().get() + next % kBlockFrames * kPageBytes, kNoPage, 0});
+  return next;
+}
+
+// By a block of frames. THROWS: Error{kResource} if the budget does not grant the least.
+bool PageCache::may_grow() {
+  const std::uint64_t grown = (blocks_.size() + 1) * kBlockFrames * kPageBytes;
+  if (grown <= kLeastFrames * kPageBytes) {
+    pages_charge_.resize(grown);
+    return true;
+  }
+  return grown <= allowance_ && pages_charge_.try_resize(grown);
+}
+
+std::uint32_t PageCache::evict_one() {
+  while ((frames_[hand_].marks & kTouched) != 0) {
+    frames_[hand_].marks &= ~kTouched;
+    hand_ = (hand_ + 1) % frames_.size();
+  }
+  const auto victim = static_cast<std::uint32_t>(hand_);
+  hand_ = (hand_ + 1) % frames_.size();
+  Frame& frame = frames_[victim];
+  if (frame.page == kNoPage) return victim;  // left so by a read that failed
+  if ((frame.marks & kDirty) != 0) {
+    if (!file_.is_open()) file_ = temp_->create_unnamed(owner_);
+    file_.write_at(frame.page * kPageBytes, {frame.bytes, kPageBytes});
+    spilled_ += kPageBytes;
+    frame.marks |= kStored;
+  }
+  places_[frame.page] = (frame.marks & kStored) != 0 ? kOnDisk : kFresh;
+  frame.page = kNoPage;
+  return victim;
+}
+
+void PageCache::fill_fresh(std::byte* bytes) const {
+  std::size_t filled = std::min(fill_.size(), kPageBytes);
+  std::memcpy(bytes, fill_.data(), filled);
+  while (filled < kPageBytes) {  // doubling keeps the pattern in step
+    const std::size_t more = std::min(filled, kPageBytes - filled);
+    std::memcpy(bytes + filled, bytes, more);
+    filled += more;
+  }
+}
+
+}  // namespace reeb::ooc

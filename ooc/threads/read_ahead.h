@@ -1,0 +1,56 @@
+// Reading the next pieces while one is used.
+#pragma once
+
+#include <tbb/global_control.h>
+#include <tbb/parallel_pipeline.h>
+
+#include <array>
+#include <cstddef>
+
+#include "ooc/threads/kept_arena.h"
+
+namespace reeb::ooc {
+
+// Calls read(piece) until it is false, prepare(piece) for each piece, and use(piece) for each in order. With
+// `background` two threads do so: one call of `read` at a time, one of `use`, and any of `prepare`.
+// THROWS: what these throw.   MEMORY: three pieces.
+template <class Piece, class Read, class Prepare, class Use>
+void read_ahead(bool background, const Read& read, const Prepare& prepare, const Use& use) {
+  if (!background) {
+    for (Piece piece; read(piece);) {
+      prepare(piece);
+      use(piece);
+    }
+    return;
+  }
+  constexpr int kThreads = 2;
+  std::array<Piece, 3> pieces;
+  std::size_t next = 0;
+  const auto read_next = [&](tbb::flow_control& flow) -> Piece* {
+    Piece& piece = pieces[next++ % pieces.size()];
+    if (read(piece)) return &piece;
+    flow.stop();
+    return nullptr;
+  };
+  const auto prepare_one = [&](Piece* piece) {
+    prepare(*piece);
+    return piece;
+  };
+  const auto use_one = [&](Piece* piece) { use(*piece); };
+  using tbb::filter_mode;
+  const tbb::global_control control(tbb::global_control::max_allowed_parallelism, kThreads);
+  kept_arena(kThreads).execute([&] {
+    tbb::parallel_pipeline(pieces.size(), tbb::make_filter<void, Piece*>(filter_mode::serial_in_order, read_next) &
+                                              tbb::make_filter<Piece*, Piece*>(filter_mode::parallel, prepare_one) &
+                                              tbb::make_filter<Piece*, void>(filter_mode::serial_in_order, use_one));
+  });
+}
+
+// The same without preparing.
+template <class Piece, class Read, class Use>
+void read_ahead(bool background, const Read& read, const Use& use) {
+  read_ahead<Piece>(
+      background, read, [](Piece&) {}, use);
+}
+
+}  // namespace reeb::ooc

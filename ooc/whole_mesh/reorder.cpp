@@ -1,0 +1,218 @@
+#include "ooc/whole_mesh/reorder.h"
+
+#include <algorithm>
+#include <array>
+#include <compare>
+#include <limits>
+#include <numeric>
+#include <vector>
+
+#include "ooc/sorting/external_sort.h"
+#include "ooc/tables/bucket_logs.h"
+#include "ooc/whole_mesh/hilbert.h"
+
+namespace reeb::ooc {
+
+namespace {
+
+constexpr std::size_t kStretch = 4096;  // vertices or triangles taken at once
+
+struct KeyedVertex {
+  std::uint64_t key, vertex;
+  friend auto operator<=>(const KeyedVertex&, const KeyedVertex&) = default;
+};
+struct RankedTriangle {
+  std::array<std::uint64_t, 3> corners;  // the lowest first, turned, not flipped
+  friend auto operator<=>(const RankedTriangle&, const RankedTriangle&) = default;
+};
+struct PlacedNumber {
+  std::uint64_t place;
+  double number;
+};
+struct PlacedRank {
+  std::uint64_t place, rank;
+};
+
+// The vertices fall into slices of consecutive ids (or ranks) whose entries fit memory. A join by
+// vertex is then: partition the records by slice, and for each slice look up in memory.
+class Reorder {
+ public:
+  Reorder(IndexedMesh& mesh, const TempDir& temp, MemoryBudget& budget, const ReorderOptions& options)
+      : mesh_(mesh),
+        temp_(temp),
+        budget_(budget),
+        options_(options),
+        vertex_count_(mesh.vertex_count()),
+        slice_entries_(std::max<std::uint64_t>(kStretch, options.allowance_bytes / 4 / 8)),
+        slices_(static_cast<std::size_t>((vertex_count_ + slice_entries_ - 1) / slice_entries_)),
+        ranks_(temp.create_unnamed("ranks")),
+        result_(std::make_unique<ReorderedMesh>(mesh.column_count(), temp, budget, options.allowance_bytes / 4)) {}
+
+  std::unique_ptr<ReorderedMesh> run() {
+    rank_vertices();
+    for (unsigned column = 0; column < mesh_.column_count(); ++column) place_column(column);
+    sort_triangles();
+    return std::move(result_);
+  }
+
+ private:
+  // Calls visit(first, values) for stretches of consecutive vertices; values as by gather.
+  template <class Visit>
+  void for_each_stretch(std::span<const unsigned> columns, const Visit& visit) {
+    std::vector<VertexId> ids;
+    std::vector<double> values;
+    for (std::uint64_t first = 0; first < vertex_count_; first += ids.size()) {
+      ids.clear();
+      for (std::uint64_t v = first; v < std::min(first + kStretch, vertex_count_); ++v) ids.emplace_back(v);
+      values.resize(columns.size() * ids.size());
+      mesh_.gather(ids, columns, values);
+      visit(first, ids.size(), std::span<const double>(values));
+    }
+  }
+
+  // Rank: the place of a vertex along the curve.
+  void rank_vertices() {
+    ExternalSort<KeyedVertex> by_key("reorder", temp_, budget_, sorting());
+    add_keys(by_key);
+    by_key.finish();
+    BucketLogs<PlacedRank> by_slice("reorder", temp_, budget_, slices_);
+    std::uint64_t rank = 0;
+    for (std::vector<KeyedVertex> some; by_key.read(some, kStretch);)
+      for (const KeyedVertex& keyed : some) {
+        result_->set_original(VertexId(rank), VertexId(keyed.vertex));
+        by_slice.append(slice_of(keyed.vertex), {keyed.vertex, rank++});
+      }
+    const Reservation charge = budget_.reserve("reorder", slice_entries_ * 8);
+    std::vector<std::uint64_t> slice;
+    for (std::size_t s = 0; s < slices_; ++s) {
+      slice.resize(slice_size(s));
+      for (std::uint64_t i = by_slice.count(s); i-- > 0;) {
+        const PlacedRank& placed = by_slice.next(s);
+        slice[placed.place % slice_entries_] = placed.rank;
+      }
+      ranks_.write_at(s * slice_entries_ * 8, std::as_bytes(std::span(slice)));
+    }
+  }
+
+  void add_keys(ExternalSort<KeyedVertex>& by_key) {
+    std::vector<unsigned> axes(std::min({options_.coordinates, mesh_.column_count(), 3u}));
+    std::iota(axes.begin(), axes.end(), 0u);
+    std::array<double, 3> low, high;
+    low.fill(std::numeric_limits<double>::infinity());
+    high.fill(-std::numeric_limits<double>::infinity());
+    for_each_stretch(axes, [&](std::uint64_t, std::size_t count, std::span<const double> values) {
+      for (std::size_t a = 0; a < axes.size(); ++a)
+        for (std::size_t i = 0; i < count; ++i) {
+          low[a] = std::min(low[a], values[a * count + i]);
+          high[a] = std::max(high[a], values[a * count + i]);
+        }
+    });
+    // One scale for all axes, so that the curve's cells are cubes. Halves cannot overflow.
+    double half_size = 0;
+    for (std::size_t a = 0; a < axes.size(); ++a) half_size = std::max(half_size, high[a] / 2 - low[a] / 2);
+    constexpr double kCells = (1u << kHilbertBits) - 1;
+    for_each_stretch(axes, [&](std::uint64_t first, std::size_t count, std::span<const double> values) {
+      for (std::size_t i = 0; i < count; ++i) {
+        std::array<std::uint32_t, 3> cell{};
+        for (std::size_t a = 0; a < axes.size() && half_size > 0; ++a) {
+          const double part = (values[a * count + i] / 2 - low[a] / 2) / half_size;
+          cell[a] = static_cast<std::uint32_t>(std::clamp(part, 0.0, 1.0) * kCells);
+        }
+        by_key.add({hilbert_index(cell), first + i});
+      }
+    });
+  }
+
+  // Brings a column from the order of ids into that of ranks.
+  void place_column(unsigned column) {
+    BucketLogs<PlacedNumber> by_slice("reorder", temp_, budget_, slices_);
+    std::vector<std::uint64_t> ranks;
+    for_each_stretch(std::array{column}, [&](std::uint64_t first, std::size_t count, std::span<const double> values) {
+      ranks.resize(count);
+      ranks_.read_at(first * 8, std::as_writable_bytes(std::span(ranks)));
+      for (std::size_t i = 0; i < count; ++i) by_slice.append(slice_of(ranks[i]), {ranks[i], values[i]});
+    });
+    const Reservation charge = budget_.reserve("reorder", slice_entries_ * 8);
+    std::vector<double> slice;
+    for (std::size_t s = 0; s < slices_; ++s) {
+      slice.resize(slice_size(s));
+      for (std::uint64_t i = by_slice.count(s); i-- > 0;) {
+        const PlacedNumber& placed = by_slice.next(s);
+        slice[placed.place % slice_entries_] = placed.number;
+      }
+      result_->append_column(column, slice);
+    }
+  }
+
+  void sort_triangles() {
+    ExternalSort<RankedTriangle> by_rank("reorder", temp_, budget_, sorting());
+    add_ranked_triangles(by_rank);
+    by_rank.finish();
+    std::vector<VertexId> corners;
+    for (std::vector<RankedTriangle> some; by_rank.read(some, kStretch);) {
+      corners.clear();
+      for (const RankedTriangle& triangle : some)
+        for (const std::uint64_t corner : triangle.corners) corners.emplace_back(corner);
+      result_->append_triangles(corners);
+    }
+  }
+
+  void add_ranked_triangles(ExternalSort<RankedTriangle>& by_rank) {
+    BucketLogs<std::uint64_t> corner_ranks = ranks_by_slice();
+    // The corners are read again; each finds its rank next in the log of its slice.
+    std::vector<VertexId> corners;
+    mesh_.rewind();
+    while (mesh_.read(corners, kStretch))
+      for (std::size_t t = 0; t < corners.size(); t += 3) {
+        RankedTriangle triangle;
+        for (std::size_t c = 0; c < 3; ++c) triangle.corners[c] = corner_ranks.next(slice_of(corners[t + c].value()));
+        auto& ranks = triangle.corners;
+        std::rotate(ranks.begin(), std::min_element(ranks.begin(), ranks.end()), ranks.end());
+        by_rank.add(triangle);
+      }
+  }
+
+  // The ranks of all corners, in the order of the mesh within each slice.
+  BucketLogs<std::uint64_t> ranks_by_slice() {
+    BucketLogs<std::uint32_t> places("reorder", temp_, budget_, slices_);
+    std::vector<VertexId> corners;
+    mesh_.rewind();
+    while (mesh_.read(corners, kStretch))
+      for (const VertexId v : corners)
+        places.append(slice_of(v.value()), static_cast<std::uint32_t>(v.value() % slice_entries_));
+    BucketLogs<std::uint64_t> result("reorder", temp_, budget_, slices_);
+    const Reservation charge = budget_.reserve("reorder", slice_entries_ * 8);
+    std::vector<std::uint64_t> slice;
+    for (std::size_t s = 0; s < slices_; ++s) {
+      slice.resize(slice_size(s));
+      ranks_.read_at(s * slice_entries_ * 8, std::as_writable_bytes(std::span(slice)));
+      for (std::uint64_t i = places.count(s); i-- > 0;) result.append(s, slice[places.next(s)]);
+    }
+    return result;
+  }
+
+  SortOptions sorting() const { return {.allowance_bytes = options_.allowance_bytes / 2, .parallel = true}; }
+  std::size_t slice_of(std::uint64_t id) const { return static_cast<std::size_t>(id / slice_entries_); }
+  std::size_t slice_size(std::size_t s) const {
+    return static_cast<std::size_t>(std::min(slice_entries_, vertex_count_ - s * slice_entries_));
+  }
+
+  IndexedMesh& mesh_;
+  const TempDir& temp_;
+  MemoryBudget& budget_;
+  const ReorderOptions& options_;
+  std::uint64_t vertex_count_;
+  std::uint64_t slice_entries_;
+  std::size_t slices_;
+  File ranks_;  // by vertex, 8 bytes each
+  std::unique_ptr<ReorderedMesh> result_;
+};
+
+}  // namespace
+
+std::unique_ptr<ReorderedMesh> reorder(IndexedMesh& mesh, const TempDir& temp, MemoryBudget& budget,
+                                       const ReorderOptions& options) {
+  return Reorder(mesh, temp, budget, options).run();
+}
+
+}  // namespace reeb::ooc

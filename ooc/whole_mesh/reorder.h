@@ -1,0 +1,47 @@
+// Makes an incoherent mesh coherent, on disk (DESIGN.md 4, Incoherent input).
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "io/file/temp_dir.h"
+#include "libreeb/base/memory_budget.h"
+#include "libreeb/port/indexed_mesh.h"
+#include "ooc/chunks/spooled_mesh.h"
+
+namespace reeb::ooc {
+
+// The same mesh with its vertices numbered along a Hilbert curve through the bounding box, and its
+// triangles sorted by their lowest vertex. to_original() gives the ids that the total order needs
+// (DESIGN.md 1.2), so that results are those of the mesh as it was.
+class ReorderedMesh : public SpooledMesh {
+ public:
+  ReorderedMesh(unsigned columns, const TempDir& temp, MemoryBudget& budget, std::uint64_t allowance_bytes)
+      : SpooledMesh(columns, temp, budget, allowance_bytes / 4 * 3),
+        originals_("original ids", temp, budget, allowance_bytes / 4, 0) {}
+
+  void to_original(std::span<VertexId> ids) override {
+    for (VertexId& id : ids) id = VertexId(originals_.get(id.value()));
+  }
+  void set_original(VertexId id, VertexId original) { originals_.set(id.value(), original.value()); }
+
+ private:
+  PagedTable<std::uint64_t> originals_;
+};
+
+struct ReorderOptions {
+  std::uint64_t allowance_bytes = 32 << 20;  // of the budget, while it runs
+  unsigned coordinates = 3;                  // the first columns, of which at most 3 are used
+};
+
+// Reads the triangles of `mesh` twice and its vertices in order a few times; all that would be
+// random access is done by partitioning and sorting.
+//
+// THROWS: what reading the mesh throws; Error{kResource} of the budget or the disk.
+// MEMORY: the allowance; the result keeps a quarter of it. O(n log n) time, about 60 bytes of
+//         disk a triangle.
+std::unique_ptr<ReorderedMesh> reorder(IndexedMesh& mesh, const TempDir& temp, MemoryBudget& budget,
+                                       const ReorderOptions& options = {});
+
+}  // namespace reeb::ooc

@@ -1,0 +1,26 @@
+// Other orders of the triangles of a mesh, found by sorting on disk.
+#pragma once
+
+#include <memory>
+
+#include "libreeb/port/indexed_mesh.h"
+#include "libreeb/port/vertex_function.h"
+#include "ooc/whole_mesh/workspace.h"
+
+namespace reeb::ooc {
+
+// The triangles of `mesh` sorted by their highest corner in the total order of `function`; equal
+// ones stay in the order they had. Vertices keep their numbers.
+// MEMORY: one share, and the triangles in a log of another. O(n log n), on disk beyond that.
+std::unique_ptr<IndexedMesh> sorted_by_function(std::unique_ptr<IndexedMesh> mesh, VertexFunction& function,
+                                                Workspace& space);
+
+// The triangles along a Hilbert curve (ooc/whole_mesh/reorder.h); `dimension` leading columns are coordinates.
+std::unique_ptr<IndexedMesh> sorted_along_hilbert(std::unique_ptr<IndexedMesh> mesh, unsigned dimension,
+                                                  Workspace& space);
+
+// The triangles along the Fiedler vector of the mesh (fiedler.h).
+std::unique_ptr<IndexedMesh> sorted_by_spectrum(std::unique_ptr<IndexedMesh> mesh, unsigned dimension,
+                                                Workspace& space);
+
+}  // namespace reeb::ooc

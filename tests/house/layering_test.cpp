@@ -1,0 +1,174 @@
+// The include rules between rooms (folders). A room may include the rooms that its line in kRooms names, and
+// itself; the table is in order, so that an include never goes up and rooms form no cycle.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+using Rooms = std::vector<std::pair<std::string, std::set<std::string>>>;
+
+// A name without a slash stands for all rooms of that layer.
+const Rooms kRooms = {
+    {"libreeb/base", {}},
+    {"libreeb/graph", {"libreeb/base"}},
+    {"libreeb/port", {"libreeb/base", "libreeb/graph"}},
+    {"libreeb/engine", {"libreeb/base", "libreeb/graph", "libreeb/port"}},
+    {"libreeb/hierarchy", {"libreeb/base", "libreeb/graph", "libreeb/port"}},
+    {"libreeb/format", {"libreeb/base", "libreeb/graph", "libreeb/port", "libreeb/hierarchy"}},
+
+    {"io/file", {"libreeb/base"}},
+    {"io/text", {"libreeb", "io/file"}},
+    {"io/mesh", {"libreeb", "io/file", "io/text"}},
+    {"io/events", {"libreeb", "io/file", "io/text", "io/mesh"}},
+    {"io/smc", {"libreeb", "io/file", "io/events"}},
+    {"io/streaming", {"libreeb", "io/file", "io/text", "io/mesh", "io/events", "io/smc"}},
+    {"io/formats", {"libreeb", "io/file", "io/text", "io/mesh", "io/events", "io/streaming"}},
+    {"io/functions", {"libreeb", "io/file", "io/text", "io/mesh", "io/formats"}},
+    {"io/export", {"libreeb", "io/file", "io/text"}},
+    {"io/generate", {"libreeb"}},
+
+    {"ooc/threads", {"libreeb"}},
+    {"ooc/sorting", {"libreeb", "io/file", "ooc/threads"}},
+    {"ooc/tables", {"libreeb", "io/file", "ooc/threads", "ooc/sorting"}},
+    {"ooc/chunks", {"libreeb", "io/file", "ooc/threads", "ooc/sorting", "ooc/tables"}},
+    {"ooc/whole_mesh", {"libreeb", "io/file", "ooc/threads", "ooc/sorting", "ooc/tables", "ooc/chunks"}},
+    {"ooc/stored_graph", {"libreeb", "io/file", "ooc/threads", "ooc/sorting", "ooc/tables"}},
+    {"ooc/reeb_file", {"libreeb", "io/file", "ooc/threads", "ooc/sorting", "ooc/tables"}},
+    {"ooc/run", {"libreeb", "io/file", "ooc"}},
+
+    {"tools/program", {"libreeb", "io", "ooc"}},
+    {"tools/commands", {"libreeb", "io", "ooc", "tools/program"}},
+    {"tools", {"libreeb", "io", "ooc", "tools"}},
+    {"tests", {"libreeb", "io", "ooc", "tests"}},
+    {"bench", {"libreeb", "io", "ooc", "tests/support", "bench"}},
+};
+
+// libreeb has no files and no threads; the one lock guards the account of memory.
+const std::set<std::string> kForbiddenHeaders = {
+    "atomic", "barrier", "condition_variable", "filesystem",   "fstream",    "future",     "iostream",
+    "latch",  "mutex",   "semaphore",          "shared_mutex", "stop_token", "syncstream", "thread"};
+const std::set<std::pair<std::string, std::string>> kExceptions = {{"memory_budget.h", "mutex"}};
+
+std::string layer_of(const std::string& room) { return room.substr(0, room.find('/')); }
+
+// The room of a file by its path from the root; of tests and bench, whose rooms are not told apart, the layer.
+std::string room_of(const std::string& path) {
+  const std::string folder = fs::path(path).parent_path().generic_string();
+  const std::string layer = layer_of(folder);
+  if (layer == "tests") return folder.starts_with("tests/support") ? "tests/support" : "tests";
+  return layer == "bench" ? layer : folder;
+}
+
+const std::set<std::string>* allowed_for(const std::string& room) {
+  const auto it = std::ranges::find_if(kRooms, [&](const auto& entry) {
+    return entry.first == room || (layer_of(room) == "tests" && entry.first == "tests");
+  });
+  return it == kRooms.end() ? nullptr : &it->second;
+}
+
+// What is wrong with one line of the file `path`; empty if nothing is.
+std::string violation(const std::string& path, const std::string& line) {
+  static const std::regex kQuoted(R"re(^\s*#\s*include\s*"([^"]+)")re");
+  static const std::regex kAngled(R"re(^\s*#\s*include\s*<([^>]+)>)re");
+  const std::string room = room_of(path);
+  const std::set<std::string>* const allowed = allowed_for(room);
+  if (allowed == nullptr) return "the room " + room + " is not in the table";
+  std::smatch match;
+  if (std::regex_search(line, match, kQuoted)) {
+    const std::string header = match[1];
+    if (header.find('/') == std::string::npos) return "not root-relative: " + line;
+    const std::string other = room_of(header);
+    if (other != room && !allowed->contains(other) && !allowed->contains(layer_of(other))) return line;
+  } else if (layer_of(room) == "libreeb" && std::regex_search(line, match, kAngled)) {
+    const std::string header = match[1];
+    if (header.find_first_of("/.") != std::string::npos) return "beyond the standard library: " + line;
+    const std::string name = fs::path(path).filename().string();
+    if (kForbiddenHeaders.contains(header) && !kExceptions.contains({name, header}))
+      return "a file or a thread: " + line;
+  }
+  return {};
+}
+
+std::vector<std::string> source_files(const fs::path& root, const std::string& layer) {
+  std::vector<std::string> files;
+  for (const auto& entry : fs::recursive_directory_iterator(root / layer)) {
+    const auto extension = entry.path().extension();
+    if (extension == ".h" || extension == ".cpp")
+      files.push_back(entry.path().lexically_relative(root).generic_string());
+  }
+  return files;
+}
+
+TEST(Layering, EveryIncludeIsAllowed) {
+  const fs::path root = REEB_SOURCE_DIR;
+  for (const char* layer : {"libreeb", "io", "ooc", "tools", "tests", "bench"}) {
+    const auto files = source_files(root, layer);
+    EXPECT_FALSE(files.empty()) << layer;
+    for (const std::string& file : files) {
+      std::ifstream in(root / file);
+      for (std::string line; std::getline(in, line);) EXPECT_EQ(violation(file, line), "") << "in " << file;
+    }
+  }
+}
+
+// Each room names only rooms that stand above it in the table.
+TEST(Layering, TheTableHasNoCycle) {
+  std::set<std::string> before;
+  for (const auto& [room, allowed] : kRooms) {
+    for (const std::string& other : allowed) {
+      if (layer_of(room) == other || other.starts_with("tests")) continue;  // the last room of its layer
+      const bool is_layer = other.find('/') == std::string::npos;
+      const bool known = is_layer ? std::ranges::any_of(before, [&](const auto& b) { return layer_of(b) == other; })
+                                  : before.contains(other);
+      EXPECT_TRUE(known) << room << " names " << other;
+    }
+    before.insert(room);
+  }
+}
+
+// A part is a header with its source.
+TEST(Layering, RoomsAreSmall) {
+  constexpr std::size_t kMostParts = 17, kMostLooseFiles = 5;
+  const fs::path root = REEB_SOURCE_DIR;
+  for (const char* layer : {"libreeb", "io", "ooc", "tools"}) {
+    std::map<std::string, std::set<std::string>> parts;
+    for (const std::string& file : source_files(root, layer))
+      parts[room_of(file)].insert(fs::path(file).stem().string());
+    for (const auto& [room, names] : parts) EXPECT_LE(names.size(), kMostParts) << room;
+    const auto loose = std::distance(fs::directory_iterator(root / layer), fs::directory_iterator());
+    const auto folders = std::count_if(fs::directory_iterator(root / layer), fs::directory_iterator(),
+                                       [](const fs::directory_entry& entry) { return entry.is_directory(); });
+    EXPECT_LE(static_cast<std::size_t>(loose - folders), kMostLooseFiles) << layer;
+  }
+}
+
+TEST(Layering, AViolationIsSeen) {
+  const auto seen = [](const char* path, const char* line) { return !violation(path, line).empty(); };
+  EXPECT_TRUE(seen("io/text/cursor.h", "#include \"ooc/run/compute.h\""));
+  EXPECT_TRUE(seen("ooc/run/compute.cpp", "#include \"io/formats/mesh_io.h\""));
+  EXPECT_TRUE(seen("io/file/file.cpp", "#include \"io/formats/mesh_io.h\""));
+  EXPECT_TRUE(seen("libreeb/graph/bucket.h", "#include \"libreeb/hierarchy/hierarchy.h\""));
+  EXPECT_TRUE(seen("libreeb/port/graph_sink.h", "#include \"libreeb/engine/glue.h\""));
+  EXPECT_TRUE(seen("libreeb/base/error.h", "#include <tbb/tbb.h>"));
+  EXPECT_TRUE(seen("libreeb/engine/glue.cpp", "#include <thread>"));
+  EXPECT_TRUE(seen("libreeb/engine/glue.cpp", "  #  include <fstream>"));
+  EXPECT_TRUE(seen("libreeb/engine/glue.cpp", "#include \"glue.h\""));
+  EXPECT_TRUE(seen("tests/whole/model_test.cpp", "#include \"bench/made_graph.h\""));
+  EXPECT_TRUE(seen("ooc/cellar/file.h", "#include <vector>"));
+  EXPECT_FALSE(seen("ooc/run/compute.cpp", "#include \"io/file/file.h\""));
+  EXPECT_FALSE(seen("libreeb/base/memory_budget.h", "#include <mutex>"));
+  EXPECT_FALSE(seen("bench/reader_bench.cpp", "#include \"tests/support/held_memory.h\""));
+}
+
+}  // namespace

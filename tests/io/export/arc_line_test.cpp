@@ -1,0 +1,87 @@
+// Lines of arcs: what smoothing keeps (ends, straight lines, hulls) and what it takes away (zigzag).
+#include "io/export/arc_line.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+namespace reeb::io {
+namespace {
+
+using Point = std::array<double, 3>;
+
+Bucket bucket(std::int64_t index, std::uint64_t count, const Point& mean) { return {index, count, mean}; }
+
+std::vector<Point> drawn(const Point& lo, const std::vector<Bucket>& buckets, const Point& hi) {
+  std::vector<Point> line{{9, 9, 9}};  // what was there before is gone
+  draw_arc(lo, buckets, hi, line);
+  return line;
+}
+
+TEST(ArcLine, HasNothingBetweenNodesWithoutBuckets) {
+  EXPECT_TRUE(drawn({0, 0, 0}, {}, {1, 1, 1}).empty());
+  EXPECT_TRUE(drawn({0, 0, 0}, {bucket(3, 0, {5, 5, 5})}, {1, 1, 1}).empty());
+}
+
+TEST(ArcLine, KeepsTheBucketOfAShortArc) {
+  EXPECT_EQ(drawn({0, 0, 0}, {bucket(0, 7, {5, 6, 7})}, {1, 1, 1}), (std::vector<Point>{{5, 6, 7}}));
+}
+
+TEST(ArcLine, KeepsTheMiddleOfAStraightLine) {
+  std::vector<Bucket> buckets;
+  for (int i = 1; i <= 40; ++i) buckets.push_back(bucket(i, 10, {1.0 * i, 2.0 * i, -1.0 * i}));
+  const auto line = drawn({0, 0, 0}, buckets, {41, 82, -41});
+  ASSERT_EQ(line.size(), 40u);
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    EXPECT_NEAR(line[i][1], 2 * line[i][0], 1e-12) << i;
+    EXPECT_NEAR(line[i][2], -line[i][0], 1e-12) << i;
+    EXPECT_GT(line[i][0], i == 0 ? 0 : line[i - 1][0]) << i;
+    const bool whole_window = i + 1 >= kLineReach && i + kLineReach <= 40;
+    if (whole_window) {
+      EXPECT_NEAR(line[i][0], 1.0 + static_cast<double>(i), 1e-12) << i;
+    }
+  }
+}
+
+TEST(ArcLine, StaysBetweenWhatItIsMadeOf) {
+  std::mt19937_64 random(11);
+  const auto coordinate = [&] { return static_cast<double>(random() % 2001) / 1000 - 1; };
+  for (int round = 0; round < 200; ++round) {
+    std::vector<Bucket> buckets;
+    for (std::size_t k = random() % 30; k-- > 0;)
+      buckets.push_back(
+          bucket(static_cast<std::int64_t>(buckets.size()), random() % 5, {coordinate(), coordinate(), coordinate()}));
+    const auto filled = std::ranges::count_if(buckets, [](const Bucket& b) { return b.count != 0; });
+    const auto line = drawn({coordinate(), 0, 0}, buckets, {0, coordinate(), 0});
+    ASSERT_EQ(line.size(), static_cast<std::size_t>(filled));
+    for (const Point& point : line)
+      for (const double x : point) EXPECT_LE(std::abs(x), 1 + 1e-12);
+  }
+}
+
+TEST(ArcLine, TakesZigzagAway) {
+  std::vector<Bucket> buckets;
+  for (int i = 1; i <= 40; ++i) buckets.push_back(bucket(i, 100, {i % 2 == 0 ? 1.0 : -1.0, 0, 1.0 * i}));
+  for (const Point& point : drawn({0, 0, 0}, buckets, {0, 0, 41})) EXPECT_LT(std::abs(point[0]), 0.07);
+}
+
+TEST(ArcLine, IsHardlyBentByFewVertices) {
+  std::vector<Bucket> buckets;
+  for (int i = 1; i <= 40; ++i) buckets.push_back(bucket(i, i == 20 ? 1 : 10'000, {i == 20 ? 1.0 : 0.0, 0, 1.0 * i}));
+  for (const Point& point : drawn({0, 0, 0}, buckets, {0, 0, 41})) EXPECT_LT(point[0], 0.002);
+}
+
+TEST(ArcLine, BendsIntoItsNodes) {
+  // The contour's centre is 10 away from the node; the line goes there in steps, the first short.
+  std::vector<Bucket> buckets;
+  for (int i = 1; i <= 40; ++i) buckets.push_back(bucket(i, 100, {10, 0, 1.0 * i}));
+  const auto line = drawn({0, 0, 0}, buckets, {10, 0, 41});
+  EXPECT_LT(line[0][0], 6);
+  for (std::size_t i = 1; i < line.size(); ++i) EXPECT_GE(line[i][0], line[i - 1][0]) << i;
+  EXPECT_DOUBLE_EQ(line[kLineReach][0], 10);
+}
+
+}  // namespace
+}  // namespace reeb::io

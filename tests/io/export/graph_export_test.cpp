@@ -1,0 +1,95 @@
+// Exporters against files written by hand.
+#include "io/export/graph_export.h"
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+namespace reeb::io {
+namespace {
+
+// A circle: two arcs from vertex 7 to vertex 3, one with two buckets, one of which is empty; and an
+// isolated vertex.
+struct Circle {
+  ReebGraph graph;
+  ArcBuckets buckets;
+  Circle() {
+    const SweepKey lo{-0.0, VertexId(7)}, hi{1.5, VertexId(3)}, point{0.1, VertexId(9)};
+    graph = make_graph({{lo, hi}, {lo, hi}}, {point});
+    graph.positions = {{0, 0, 0}, {4, 4, 4}, {0, 0, 1.5}};
+    buckets.offsets = {0, 2, 2};
+    buckets.buckets = {{0, 3, {1, 0.5, -0.0}}, {1, 0, {}}};
+  }
+  std::string text(const char* format) const {
+    std::ostringstream out;
+    write_graph(*graph_format(format), {graph, "a \"b\"", 0.25, buckets.view(), -2}, out);
+    return out.str();
+  }
+};
+
+TEST(GraphExport, Rg) {
+  EXPECT_EQ(Circle().text("rg"),
+            "n 7 0 2 0\n"
+            "n 9 0 0 0.10000000000000001\n"
+            "n 3 2 0 1.5\n"
+            "a 7 3\n"
+            "a 7 3\n");
+}
+
+TEST(GraphExport, Json) {
+  EXPECT_EQ(Circle().text("json"),
+            "{\"schema\": \"reeb.graph.v1\", \"function\": \"a \\\"b\\\"\", \"threshold\": 0.25,\n"
+            "\"nodes\": [\n"
+            "{\"vertex\": 7, \"value\": 0, \"position\": [0, 0, 0], \"down\": 0, \"up\": 2},\n"
+            "{\"vertex\": 9, \"value\": 0.10000000000000001, \"position\": [4, 4, 4], \"down\": 0, \"up\": 0},\n"
+            "{\"vertex\": 3, \"value\": 1.5, \"position\": [0, 0, 1.5], \"down\": 2, \"up\": 0}],\n"
+            "\"arcs\": [\n"
+            "{\"lo\": 7, \"hi\": 3, \"vertices\": 3, \"path\": [[1, 0.5, 0, 3]]},\n"
+            "{\"lo\": 7, \"hi\": 3, \"vertices\": 0, \"path\": []}]}\n");
+}
+
+TEST(GraphExport, Csv) {
+  EXPECT_EQ(Circle().text("csv"),
+            "item,vertex,down,up,value,x,y,z,lo,hi,vertices\n"
+            "node,7,0,2,0,0,0,0,,,\n"
+            "node,9,0,0,0.10000000000000001,4,4,4,,,\n"
+            "node,3,2,0,1.5,0,0,1.5,,,\n"
+            "arc,,,,,,,,7,3,3\n"
+            "arc,,,,,,,,7,3,0\n");
+}
+
+TEST(GraphExport, DotAndObjAndPly) {
+  EXPECT_EQ(Circle().text("dot"),
+            "graph reeb {\n  rankdir=BT;\n"
+            "  7 [label=\"7\\n0\"];\n  9 [label=\"9\\n0.10000000000000001\"];\n  3 [label=\"3\\n1.5\"];\n"
+            "  7 -- 3;\n  7 -- 3;\n}\n");
+  EXPECT_EQ(Circle().text("obj"), "v 0 0 0\nv 4 4 4\nv 0 0 1.5\nv 1 0.5 0\nl 1 4 3\nl 1 3\n");
+  EXPECT_EQ(Circle().text("ply"),
+            "ply\nformat ascii 1.0\nelement vertex 4\nproperty double x\nproperty double y\nproperty double z\n"
+            "element edge 3\nproperty int vertex1\nproperty int vertex2\nend_header\n"
+            "0 0 0\n4 4 4\n0 0 1.5\n1 0.5 0\n0 3\n3 2\n0 2\n");
+}
+
+TEST(GraphExport, XmlFormatsHaveTheirLines) {
+  EXPECT_NE(Circle().text("graphml").find("<edge source=\"7\" target=\"3\"/>\n<edge source=\"7\" target=\"3\"/>"),
+            std::string::npos);
+  EXPECT_NE(Circle().text("graphml").find("a &quot;b&quot;"), std::string::npos);
+  for (const char* format : {"vtp", "vtu"}) {
+    EXPECT_NE(Circle().text(format).find("NumberOfPoints=\"4\""), std::string::npos);
+    EXPECT_NE(Circle().text(format).find("0 3 2 \n0 2 \n"), std::string::npos);
+    EXPECT_NE(Circle().text(format).find("\n3\n5\n</DataArray>"), std::string::npos) << "offsets";
+    EXPECT_NE(Circle().text(format).find("\n0\n0.10000000000000001\n1.5\n0.125\n</DataArray>"), std::string::npos)
+        << "values: the nodes', and the middle of the bucket";
+  }
+}
+
+TEST(GraphExport, EmptyGraphAndUnknownFormat) {
+  std::ostringstream out;
+  write_graph(GraphFormat::kJson, {ReebGraph{}, "z", 0, {}, 0}, out);
+  EXPECT_EQ(out.str(),
+            "{\"schema\": \"reeb.graph.v1\", \"function\": \"z\", \"threshold\": 0,\n\"nodes\": [],\n\"arcs\": []}\n");
+  EXPECT_FALSE(graph_format("docx").has_value());
+}
+
+}  // namespace
+}  // namespace reeb::io

@@ -1,0 +1,106 @@
+#include "io/file/temp_dir.h"
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+
+#include "libreeb/base/error.h"
+#include "tests/support/scratch.h"
+
+namespace reeb::ooc {
+namespace {
+
+std::span<const std::byte> text_bytes(const std::string& text) {
+  return std::as_bytes(std::span(text.data(), text.size()));
+}
+
+TEST(TempDir, FilesHaveNoName) {
+  const Scratch scratch;
+  const TempDir temp(scratch.path());
+  const File unnamed = temp.create_unnamed("pages");
+  unnamed.write_at(0, text_bytes("abc"));
+  unnamed.sync();
+  EXPECT_TRUE(scratch.empty());
+  std::array<char, 3> text{};
+  unnamed.read_at(0, std::as_writable_bytes(std::span(text)));
+  EXPECT_EQ(std::string(text.data(), 3), "abc");
+  EXPECT_EQ(unnamed.size(), 3u);
+}
+
+TEST(TempDir, RefusesAFolderThatCannotBeWritten) {
+  const Scratch scratch;
+  const std::string plain = scratch.path() + "/file";
+  std::ofstream(plain) << "x";
+  for (const std::string& folder : {scratch.path() + "/missing", plain}) {
+    try {
+      TempDir temp(folder);
+      ADD_FAILURE() << folder << " was accepted";
+    } catch (const Error& e) {
+      EXPECT_EQ(e.kind(), ErrorKind::kResource);
+      EXPECT_EQ(e.file(), folder);
+      EXPECT_NE(e.hint().find("--temp-dir"), std::string::npos);
+    }
+  }
+}
+
+TEST(TempDir, TakesTheOutputsFolderUnlessTmpdirIsSet) {
+  ::unsetenv("TMPDIR");
+  EXPECT_EQ(TempDir::default_folder("/data/out/a.reeb"), "/data/out");
+  EXPECT_EQ(TempDir::default_folder("a.reeb"), ".");
+  ::setenv("TMPDIR", "/somewhere", 1);
+  EXPECT_EQ(TempDir::default_folder("/data/out/a.reeb"), "/somewhere");
+  ::unsetenv("TMPDIR");
+}
+
+TEST(File, ReportsAFullDiskWithPlaceAndNeed) {
+  const Scratch scratch;
+  TempDir temp(scratch.path(), FailNthWrite(2, ENOSPC));
+  const File file = temp.create_unnamed("arcs");
+  file.write_at(0, text_bytes("abc"));
+  try {
+    file.write_at(4096, text_bytes("abcde"));
+    FAIL() << "the error was swallowed";
+  } catch (const Error& e) {
+    EXPECT_EQ(e.kind(), ErrorKind::kResource);
+    EXPECT_EQ(e.position(), "4096");
+    EXPECT_NE(e.file().find("arcs"), std::string::npos);
+    EXPECT_NE(e.message().find("5 bytes"), std::string::npos);
+    EXPECT_NE(e.hint().find("--temp-dir"), std::string::npos);
+  }
+}
+
+TEST(File, ReportsARealLimitOfTheSystem) {
+  const Scratch scratch;
+  TempDir temp(scratch.path());
+  const File file = temp.create_unnamed("pages");
+  rlimit before{};
+  ::getrlimit(RLIMIT_FSIZE, &before);
+  rlimit small = before;
+  small.rlim_cur = 10'000;
+  const auto old = std::signal(SIGXFSZ, SIG_IGN);
+  ::setrlimit(RLIMIT_FSIZE, &small);
+  const std::vector<std::byte> block(64 << 10);
+  EXPECT_THROW(file.write_at(0, block), Error);  // a short write, then none
+  ::setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, old);
+  EXPECT_EQ(file.size(), 10'000u);
+}
+
+TEST(File, RefusesToReadPastTheEnd) {
+  const Scratch scratch;
+  TempDir temp(scratch.path());
+  const File file = temp.create_unnamed("pages");
+  file.write_at(0, text_bytes("abc"));
+  std::array<std::byte, 8> bytes{};
+  EXPECT_THROW(file.read_at(0, bytes), Error);
+  EXPECT_THROW(File::open_for_reading(scratch.path() + "/none"), Error);
+}
+
+}  // namespace
+}  // namespace reeb::ooc

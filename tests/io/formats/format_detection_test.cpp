@@ -1,0 +1,69 @@
+// Formats are told by content; a name decides only between OBJ and streaming text.
+#include "io/formats/format_detection.h"
+
+#include <unistd.h>
+
+#include "tests/io/formats/mesh_files.h"
+
+namespace reeb::io::testing {
+namespace {
+
+MeshFormat detect(const std::string& bytes, const std::string& name = "mesh") {
+  const std::string path = write_file(name, bytes);
+  return detect_format(*open_content(path), path);
+}
+
+TEST(FormatDetection, ByContent) {
+  EXPECT_EQ(detect("ply\r\nformat"), MeshFormat::kPly);
+  EXPECT_EQ(detect("plywood\n"), MeshFormat::kUnknown);
+  EXPECT_EQ(detect("# c\n\nSTCN4nOFF\n3\n"), MeshFormat::kOff);
+  EXPECT_EQ(detect("NCOFF\n"), MeshFormat::kUnknown);
+  EXPECT_EQ(detect("SOLID a\nfacet"), MeshFormat::kAsciiStl);
+  EXPECT_EQ(detect("solid" + std::string(79, ' ') + std::string(50, '\0')), MeshFormat::kBinaryStl);
+  EXPECT_EQ(detect(std::string(84, '\0')), MeshFormat::kBinaryStl);
+  EXPECT_EQ(detect("# by hand\n\n\tmtllib a.mtl\n"), MeshFormat::kObj);
+  EXPECT_EQ(detect("$ stray\nv 1 2 3\n"), MeshFormat::kObj);
+  EXPECT_EQ(detect("dear v all\n"), MeshFormat::kUnknown);
+}
+
+TEST(FormatDetection, StreamingTextAgainstObj) {
+  const std::string body = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 -1\n";
+  EXPECT_EQ(detect(body), MeshFormat::kObj);
+  EXPECT_EQ(detect(body, "mesh.sma"), MeshFormat::kStreaming);
+  EXPECT_EQ(detect("# a\n# nverts 3\n" + body), MeshFormat::kStreaming);
+  EXPECT_EQ(detect(body + "# nverts 3\n"), MeshFormat::kObj);
+  EXPECT_EQ(detect(std::string("\0\1\2\3", 4)), MeshFormat::kStreaming);
+}
+
+TEST(FormatDetection, StreamingTextWithoutHeadShowsInItsLines) {
+  EXPECT_EQ(detect("f 1 2 3\nv 0 0 0\nv 1 0 0\nv 0 1 0\n"), MeshFormat::kStreaming);
+  EXPECT_EQ(detect("# by hand\r\n\r\nf 1\t2 3\r\nv 0 0 0\r\n"), MeshFormat::kStreaming);
+  EXPECT_EQ(detect("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nx 1\n"), MeshFormat::kStreaming);
+  EXPECT_EQ(detect("x 1\nv 0 0 0\n"), MeshFormat::kStreaming);
+  EXPECT_EQ(detect("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nc -1 2 3 -4 0.5\n"), MeshFormat::kStreaming);
+  EXPECT_EQ(detect("c 1 2 3 4\nv 0 0 0\n"), MeshFormat::kStreaming);
+  // What only OBJ has.
+  EXPECT_EQ(detect("f 1/1 2/2 3/3\nv 0 0 0\n"), MeshFormat::kObj);
+  EXPECT_EQ(detect("f 1 2 3 4\nv 0 0 0\n"), MeshFormat::kObj);
+  EXPECT_EQ(detect("f -1 -2 -3\nv 0 0 0\n"), MeshFormat::kObj);
+  EXPECT_EQ(detect("g part\nv 0 0 0\nf 1 1 1\n"), MeshFormat::kObj);
+  EXPECT_EQ(detect("v 0 0 0\nx y z\n"), MeshFormat::kObj);
+  EXPECT_EQ(detect("v 0 0 0\nc 1 2 3\nc 1 2 3 a\n"), MeshFormat::kObj);
+}
+
+TEST(FormatDetection, APostOrderStreamIsKnownBeforeThePipeEnds) {
+  const std::string bytes =
+      "f 1 2 3\nf 1 3 4\nv 0 0 0\nf 2 3 4\nv 0 1 0\nv 1 0 0\nv 0 0 1\nf 5 6 7\nv 0 0 0\nv 1 1 1\n";
+  ASSERT_EQ(bytes.size(), 80u) << "what is waited for";
+  int ends[2];
+  ASSERT_EQ(::pipe(ends), 0);
+  ASSERT_EQ(::write(ends[1], bytes.data(), bytes.size()), static_cast<ssize_t>(bytes.size()));
+  const auto source = open_content("/proc/self/fd/" + std::to_string(ends[0]));
+  // The other end stays open: this would wait for ever if it wanted more.
+  EXPECT_EQ(detect_format(*source, "-"), MeshFormat::kStreaming);
+  ::close(ends[0]);
+  ::close(ends[1]);
+}
+
+}  // namespace
+}  // namespace reeb::io::testing

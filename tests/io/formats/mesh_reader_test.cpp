@@ -1,0 +1,389 @@
+// The readers against files made by hand, and against each other.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <sstream>
+
+#include "tests/io/formats/mesh_files.h"
+
+namespace reeb::io::testing {
+namespace {
+
+// A tetrahedron of float32 coordinates, in the order in which its corners appear.
+const Mesh kTetrahedron = {{{0, 0, 0.5}, {1, 0, 0}, {0, 1, 0}, {0.25, 0.25, -1}},
+                           {{0, 1, 2}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
+
+std::string ply_header(const std::string& encoding, const std::string& eol = "\n") {
+  std::string text;
+  for (const std::string& line :
+       {std::string("ply"), "format " + encoding + " 1.0", std::string("comment by hand"),
+        std::string("element vertex 4"), std::string("property float x"), std::string("property float32 y"),
+        std::string("property float z"), std::string("element face 4"),
+        std::string("property list uchar int vertex_indices"), std::string("end_header")})
+    text += line + eol;
+  return text;
+}
+
+std::string ascii_ply(const std::string& eol = "\n") {
+  std::ostringstream text;
+  text << ply_header("ascii", eol);
+  for (const auto& v : kTetrahedron.vertices) text << v[0] << " " << v[1] << "\t" << v[2] << " " << eol;
+  for (const auto& t : kTetrahedron.triangles) text << "3 " << t[0] << " " << t[1] << " " << t[2] << eol;
+  return text.str();
+}
+
+std::string binary_ply(bool big) {
+  std::string bytes = ply_header(big ? "binary_big_endian" : "binary_little_endian");
+  for (const auto& v : kTetrahedron.vertices)
+    for (const double x : v) bytes += scalar_bytes(static_cast<float>(x), big);
+  for (const auto& t : kTetrahedron.triangles) {
+    bytes += '\3';
+    for (const auto corner : t) bytes += scalar_bytes(static_cast<std::int32_t>(corner), big);
+  }
+  return bytes;
+}
+
+std::string obj() {
+  std::ostringstream text;
+  for (const auto& v : kTetrahedron.vertices) text << "v " << v[0] << " " << v[1] << " " << v[2] << "\n";
+  for (const auto& t : kTetrahedron.triangles) text << "f " << t[0] + 1 << " " << t[1] + 1 << " " << t[2] + 1 << "\n";
+  return text.str();
+}
+
+std::string off(const std::string& head = "OFF\n4 4 6\n") {
+  std::ostringstream text;
+  text << head;
+  for (const auto& v : kTetrahedron.vertices) text << v[0] << " " << v[1] << " " << v[2] << "\n";
+  for (const auto& t : kTetrahedron.triangles) text << "3 " << t[0] << " " << t[1] << " " << t[2] << "\n";
+  return text.str();
+}
+
+std::string binary_off() {
+  std::string bytes = "OFF BINARY\n";
+  for (const std::int32_t count : {4, 4, 6}) bytes += scalar_bytes(count, true);
+  for (const auto& v : kTetrahedron.vertices)
+    for (const double x : v) bytes += scalar_bytes(static_cast<float>(x), true);
+  for (const auto& t : kTetrahedron.triangles) {
+    bytes += scalar_bytes(std::int32_t{3}, true);
+    for (const auto corner : t) bytes += scalar_bytes(static_cast<std::int32_t>(corner), true);
+    bytes += scalar_bytes(std::int32_t{1}, true) + scalar_bytes(0.5F, true);  // a colour
+  }
+  return bytes;
+}
+
+std::string ascii_stl() {
+  std::ostringstream text;
+  text << "solid one\n";
+  for (std::size_t i = 0; i < 4; ++i) {
+    if (i == 2) text << "endsolid one\nsolid two\n";
+    text << "facet normal 0 0 nan\n outer loop\n";
+    for (const auto corner : kTetrahedron.triangles[i]) {
+      text << "  vertex";
+      for (const double x : kTetrahedron.vertices[corner]) text << " " << (x == 0 ? "-0" : std::to_string(x));
+      text << "\n";
+    }
+    text << " endloop\nendfacet\n";
+  }
+  text << "endsolid two\n";
+  return text.str();
+}
+
+std::string binary_stl(std::uint32_t promised = 4) {
+  std::string bytes = "solid but binary";
+  bytes.resize(80, ' ');
+  bytes += scalar_bytes(promised);
+  for (const auto& t : kTetrahedron.triangles) {
+    for (int k = 0; k < 3; ++k) bytes += scalar_bytes(0.0F);
+    for (const auto corner : t)
+      for (const double x : kTetrahedron.vertices[corner]) bytes += scalar_bytes(static_cast<float>(x));
+    bytes += std::string(2, '\0');
+  }
+  return bytes;
+}
+
+std::string run_on(const char* command, const std::string& path, const std::string& ending) {
+  const std::string packed = path + ending;
+  EXPECT_EQ(std::system((std::string(command) + " < '" + path + "' > '" + packed + "'").c_str()), 0);
+  return packed;
+}
+
+struct Example {
+  std::string name, bytes;
+};
+std::vector<Example> examples() {
+  return {{"a.ply", ascii_ply()},
+          {"crlf.ply", ascii_ply("\r\n")},
+          {"le.ply", binary_ply(false)},
+          {"be.ply", binary_ply(true)},
+          {"a.obj", obj()},
+          {"a.off", off()},
+          {"b.off", binary_off()},
+          {"a.stl", ascii_stl()},
+          {"b.stl", binary_stl()}};
+}
+
+TEST(Readers, AllFormatsGiveTheSameMesh) {
+  for (const auto& [name, bytes] : examples()) {
+    SCOPED_TRACE(name);
+    EXPECT_EQ(read_mesh(write_file(name, bytes)), kTetrahedron);
+  }
+}
+
+TEST(Readers, EveryPrefixIsAnErrorOrAPart) {
+  for (const auto& [name, bytes] : examples()) {
+    SCOPED_TRACE(name);
+    expect_prefixes_safe(name, bytes);
+  }
+}
+
+TEST(Readers, PackedFilesOfSeveralPartsAndUnderAnyName) {
+  for (const auto& [name, bytes] : examples()) {
+    SCOPED_TRACE(name);
+    const std::string first = write_file("first", bytes.substr(0, 40)), rest = write_file("rest", bytes.substr(40));
+    for (const char* tool : {"gzip", "zstd -q"}) {
+      std::string packed;
+      for (const auto& part : {run_on(tool, first, ".1"), run_on(tool, rest, ".2")}) {
+        std::ostringstream bytes_of_part;
+        bytes_of_part << std::ifstream(part, std::ios::binary).rdbuf();
+        packed += bytes_of_part.str();
+      }
+      EXPECT_EQ(read_mesh(write_file("packed", packed)), kTetrahedron) << tool;
+      EXPECT_EQ(open_indexed_mesh(write_file("packed", packed)), nullptr);
+      for (std::size_t cut = 1; cut < 30; ++cut) {
+        const std::string path = write_file("cut", packed.substr(0, packed.size() - cut));
+        EXPECT_THROW(read_all(*open_mesh(path)), Error) << tool << " cut by " << cut;
+      }
+    }
+  }
+}
+
+TEST(Readers, SmallOddities) {
+  EXPECT_EQ(read_mesh(write_file("bom.obj", "\xEF\xBB\xBF" + obj())), kTetrahedron);
+  EXPECT_EQ(read_mesh(write_file("eof.obj", obj().substr(0, obj().size() - 1))), kTetrahedron);
+  EXPECT_EQ(read_mesh(write_file("eof.ply", ascii_ply().substr(0, ascii_ply().size() - 1))), kTetrahedron);
+  EXPECT_EQ(read_mesh(write_file("one_line.off", off("# a\nOFF 4 4 0 # b\n\n"))), kTetrahedron);
+  EXPECT_EQ(read_mesh(write_file("n.off", off("nOFF 3\n4 4 0\n"))), kTetrahedron);
+}
+
+TEST(Ply, TypesOrderExtrasAndStrips) {
+  const std::string bytes =
+      "ply\nformat ascii 1.0\nelement edge 1\nproperty int a\nproperty list uint8 double b\n"
+      "element vertex 5\nproperty uchar red\nproperty double z\nproperty list char short l\n"
+      "property float quality\nproperty float x\nproperty int16 y\n"
+      "element face 5\nproperty float area\nproperty list ushort uint16 vertex_index\nproperty int flags\n"
+      "element tristrips 1\nproperty list int int32 vertex_indices\nelement other 1\nproperty int q\nend_header\n"
+      "1 2 0.5 nan\n"
+      "7 0.1 0 0.1 0.1 3\n8 -0.0 1 5 nan 1 4\n9 3 2 1 1 +1.5 2 5\n1 4 0 inf 2 6\n2 5 0 1 3 7\n"
+      "1.5 4 0 1 2 3 9\n0 2 4 1 9\n0 1 3 9\n0 0 9\n0 3 0 0 1 9\n"
+      "8 0 1 2 3 -1 4 3 2\n"
+      "5\n";
+  const std::string path = write_file("rich.ply", bytes);
+  const Mesh mesh = read_mesh(path, {"red"});
+  const double tenth = static_cast<double>(0.1F);
+  EXPECT_EQ(mesh.vertices, (std::vector<std::vector<double>>{
+                               {tenth, 3, 0.1, 7}, {1, 4, 0, 8}, {2, 5, 3, 9}, {2, 6, 4, 1}, {3, 7, 5, 2}}));
+  // A fan, an edge, a vertex, nothing, a degenerate triangle; then two strips.
+  EXPECT_EQ(mesh.triangles,
+            (std::vector<std::array<std::uint64_t, 3>>{
+                {0, 1, 2}, {0, 2, 3}, {4, 1, 1}, {3, 3, 3}, {0, 0, 1}, {0, 1, 2}, {2, 1, 3}, {4, 3, 2}}));
+  const auto reader = open_mesh(path);
+  EXPECT_EQ(reader->info().property_names, (std::vector<std::string>{"red", "quality"}));
+  read_all(*reader);
+  EXPECT_EQ(reader->warnings().size(), 1u) << "the odd quality of vertices 1 and 3";
+}
+
+TEST(Ply, FacesBeforeVertices) {
+  const std::string head =
+      "ply\nformat binary_little_endian 1.0\nelement face 1\nproperty list uchar uint vertex_indices\n"
+      "element vertex 3\nproperty float x\nproperty float y\nproperty float z\nend_header\n";
+  std::string bytes = head + '\3';
+  for (const std::uint32_t corner : {2u, 1u, 0u}) bytes += scalar_bytes(corner);
+  for (int i = 0; i < 9; ++i) bytes += scalar_bytes(static_cast<float>(i));
+  const std::string path = write_file("faces_first.ply", bytes);
+  const Mesh expected = {{{0, 1, 2}, {3, 4, 5}, {6, 7, 8}}, {{2, 1, 0}}};
+  EXPECT_EQ(read_mesh(path), expected);
+  const std::string packed = run_on("gzip", path, ".gz");
+  expect_bad(packed, "", "read only once");
+}
+
+TEST(Ply, IndexedIsTheSameMesh) {
+  for (const bool big : {false, true}) {
+    const auto indexed = open_indexed_mesh(write_file("indexed.ply", binary_ply(big)));
+    ASSERT_NE(indexed, nullptr);
+    EXPECT_EQ(read_indexed(*indexed), kTetrahedron);
+    indexed->rewind();
+    EXPECT_EQ(read_indexed(*indexed), kTetrahedron);
+  }
+  EXPECT_EQ(open_indexed_mesh(write_file("a.ply", ascii_ply())), nullptr);
+  EXPECT_EQ(open_indexed_mesh(write_file("a.obj", obj())), nullptr);
+}
+
+TEST(Obj, FacesOfAllForms) {
+  const Mesh mesh = read_mesh(
+      write_file("forms.obj",
+                 "# dir C:\\tmp\\\nmtllib a\ng\no x\nv 0 0 0\nv 1 0 0 1.0\nvt 0 0\nv 0 1 0 0.5 0.5 nan\nvn 0 0 1\n"
+                 "f 1/1 2/1 3/1 # c\nv 4 4 -0.0\ns 1\nusemtl b\nf -1//1 -2//1 1//1\nf 1/1/1 2/1/1 \\\n 3/1/1 4/1/1\r\n"
+                 "l 1 2 3\nl 4\np 1 2\nf 2\nf 3 4\nodd line\nf"));
+  EXPECT_EQ(mesh.vertices.size(), 4u);
+  const std::vector<std::array<std::uint64_t, 3>> expected = {{0, 1, 2}, {3, 2, 0}, {0, 1, 2}, {0, 2, 3}, {0, 1, 1},
+                                                              {1, 2, 2}, {3, 3, 3}, {1, 1, 1}, {2, 3, 3}};
+  EXPECT_EQ(mesh.triangles, expected);
+  const auto reader = open_mesh(write_file("odd.obj", "v 0 0 0\nodd line\nv 1 1 1\n"));
+  read_all(*reader);
+  EXPECT_EQ(reader->warnings().size(), 1u);
+}
+
+TEST(Off, PrefixesAndDimensions) {
+  const Mesh colours = read_mesh(write_file("c.off", "COFF\n1 1 0\n1 2 3 255 0 0 255\n1 0 0.5 0.5 0.5\n"));
+  EXPECT_EQ(colours, (Mesh{{{1, 2, 3}}, {{0, 0, 0}}}));
+  EXPECT_EQ(read_mesh(write_file("stcn4.off", "STCN4OFF 1 0 0\n1 2 3 4 0 0 1 1\n")), (Mesh{{{1, 2, 3, 4}}, {}}));
+  EXPECT_EQ(read_mesh(write_file("n5.off", "nOFF\n5\n1 0 0\n1 2 3 4 5\n")), (Mesh{{{1, 2, 3, 4, 5}}, {}}));
+  EXPECT_EQ(open_mesh((scratch_folder() / "n5.off").string())->info().dimension, 5u);
+}
+
+TEST(Errors, HavePositionAndHint) {
+  const std::string ply = ascii_ply();
+  const auto with = [](std::string text, const std::string& from, const std::string& to) {
+    const auto place = text.find(from);
+    EXPECT_NE(place, std::string::npos);
+    return text.replace(place, from.size(), to);
+  };
+  expect_bad((scratch_folder() / "absent").string(), "", "no such file");
+  expect_bad(scratch_folder().string(), "", "directory");
+  expect_bad(write_file("empty", ""), "0", "empty");
+  expect_bad(write_file("unknown", "hello world\n"), "0", "no known mesh format");
+  expect_bad(write_file("p1.ply", with(ply, "1 0\t0", "1 nan\t0")), "12:3", "cannot be \"nan\"");
+  expect_bad(write_file("p2.ply", with(ply, "1 0\t0", "1 1e39\t0")), "12:3", "1e39");
+  expect_bad(write_file("p3.ply", with(ply, "3 2 0 3", "3 2 0 4")), "18:7", "names vertex 4");
+  expect_bad(write_file("p4.ply", with(ply, "3 2 0 3", "3 2 0")), "18:6", "line ends");
+  expect_bad(write_file("p5.ply", with(ply, "3 2 0 3", "3 2 0 3 1")), "18:9", "more values");
+  expect_bad(write_file("p6.ply", with(ply, "face 4", "face 5")), "19:1", "ends inside");
+  expect_bad(write_file("p7.ply", with(ply, "face 4", "face 9000000000000")), "10:1", "promises 9000000000000");
+  const std::string binary = binary_ply(false);
+  const std::size_t body = ply_header("binary_little_endian").size();
+  expect_bad(write_file("b1.ply", binary.substr(0, binary.size() - 1)), std::to_string(binary.size() - 1),
+             "ends before");
+  std::string odd = binary;
+  odd.replace(body + 16, 4, scalar_bytes(std::numeric_limits<float>::quiet_NaN()));
+  expect_bad(write_file("b2.ply", odd), std::to_string(body + 16), "of vertex 1 is not finite");
+  odd = binary;
+  odd.replace(odd.size() - 4, 4, scalar_bytes(std::int32_t{-1}));
+  expect_bad(write_file("b3.ply", odd), std::to_string(odd.size() - 4), "names vertex -1");
+  expect_bad(write_file("o1.obj", "v 0 0 0\nf 1 1 2\nv 1 1 1\n"), "2:7", "names vertex 2");
+  expect_bad(write_file("o2.obj", "v 0 0 0\nf 0 1 1\n"), "2:3", "vertex 0");
+  expect_bad(write_file("o3.obj", "v 0 0 0\nf 1 \\\n 1 -2\n"), "3:4", "names vertex -2");
+  expect_bad(write_file("o4.obj", "v 0 0\n"), "1:6", "line ends");
+  expect_bad(write_file("o5.obj", "v 0 0 0 0 0\n"), "1:11", "5 numbers");
+  expect_bad(write_file("o6.obj", "v 0 0 -inf\n"), "1:7", "-inf");
+  expect_bad(write_file("f1.off", "OFF\n9999999 1 0\n0 0 0\n"), "2:9", "promises");
+  expect_bad(write_file("f2.off", off("OFF 4 5 0\n")), "10:1", "before its last face");
+  expect_bad(write_file("s1.stl", binary_stl(5)), "80", "promises 5 facets");
+  expect_bad(write_file("s2.stl", "solid\nfacet normal 0 0 0\nouter loop\nvertex 0 0 inf\n"), "4:12", "inf");
+  expect_bad(write_file("q.ply", binary), "", "no vertex property \"q\"", {{"q"}, 65536});
+}
+
+// Larger than several windows, so that records, lines and tokens cross their borders.
+TEST(Readers, ManyWindowsInTextAndBinary) {
+  constexpr std::uint32_t kCount = 150'000;
+  std::string text, binary = "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(kCount) +
+                             "\nproperty float x\nproperty float y\nproperty float z\nproperty uchar c\nelement face " +
+                             std::to_string(kCount - 2) + "\nproperty list uchar uint vertex_indices\nend_header\n";
+  std::string faces;
+  for (std::uint32_t i = 0; i < kCount; ++i) {
+    const float x = static_cast<float>(i) * 0.25F;
+    text += "v " + std::to_string(x) + " " + std::to_string(-x) + " 1\n";
+    binary += scalar_bytes(x) + scalar_bytes(-x) + scalar_bytes(1.0F) + "c";
+    if (i < 2) continue;
+    text += "f " + std::to_string(i - 1) + " " + std::to_string(i) + " " + std::to_string(i + 1) + "\n";
+    faces += '\3' + scalar_bytes(i - 2) + scalar_bytes(i - 1) + scalar_bytes(i);
+  }
+  ASSERT_GT(text.size(), std::size_t{4} << 20);
+  const std::string path = write_file("large.obj", text), ply = write_file("large.ply", binary + faces);
+  const Mesh mesh = read_all(*open_mesh(path));
+  ASSERT_EQ(mesh.vertices.size(), kCount);
+  EXPECT_EQ(mesh.vertices[kCount - 1], (std::vector<double>{0.25 * (kCount - 1), -0.25 * (kCount - 1), 1}));
+  EXPECT_EQ(mesh.triangles[kCount - 3], (std::array<std::uint64_t, 3>{kCount - 3, kCount - 2, kCount - 1}));
+  EXPECT_TRUE(read_all(*open_mesh(ply)) == mesh);
+  EXPECT_TRUE(read_indexed(*open_indexed_mesh(ply)) == mesh);
+  EXPECT_TRUE(read_all(*open_mesh(run_on("gzip", path, ".gz"))) == mesh);
+  EXPECT_TRUE(read_all(*open_mesh(run_on("zstd -q", path, ".zst"))) == mesh);
+}
+
+TEST(Readers, StandardInput) {
+  for (const auto& [name, bytes] : examples()) {
+    SCOPED_TRACE(name);
+    ASSERT_NE(std::freopen(write_file(name, bytes).c_str(), "rb", stdin), nullptr);
+    EXPECT_EQ(read_all(*open_mesh("-")), kTetrahedron);
+  }
+  ASSERT_NE(std::freopen(write_file("nothing", "").c_str(), "rb", stdin), nullptr);
+  EXPECT_THROW(open_mesh("-"), Error);
+}
+
+TEST(Ply, EveryScalarTypeInBothSpellings) {
+  struct Type {
+    std::string names[2], little, big;
+  };
+  const std::vector<Type> types = {
+      {{"char", "int8"}, scalar_bytes(std::int8_t{-2}), scalar_bytes(std::int8_t{-2}, true)},
+      {{"uchar", "uint8"}, scalar_bytes(std::uint8_t{254}), scalar_bytes(std::uint8_t{254}, true)},
+      {{"short", "int16"}, scalar_bytes(std::int16_t{-300}), scalar_bytes(std::int16_t{-300}, true)},
+      {{"ushort", "uint16"}, scalar_bytes(std::uint16_t{65000}), scalar_bytes(std::uint16_t{65000}, true)},
+      {{"int", "int32"}, scalar_bytes(std::int32_t{-70000}), scalar_bytes(std::int32_t{-70000}, true)},
+      {{"uint", "uint32"}, scalar_bytes(std::uint32_t{4000000000}), scalar_bytes(std::uint32_t{4000000000}, true)},
+      {{"float", "float32"}, scalar_bytes(0.1F), scalar_bytes(0.1F, true)},
+      {{"double", "float64"}, scalar_bytes(0.1), scalar_bytes(0.1, true)}};
+  const std::vector<double> expected = {-2, 254, -300, 65000, -70000, 4000000000, static_cast<double>(0.1F), 0.1};
+  const std::vector<std::string> text = {"-2", "254", "-300", "65000", "-70000", "4000000000", "0.1", "0.1"};
+  for (std::size_t i = 0; i < types.size(); ++i) {
+    for (const std::string& name : types[i].names) {
+      const std::string head = " 1.0\nelement vertex 1\nproperty " + name + " x\nend_header\n";
+      const Mesh mesh = {{{expected[i]}}, {}};
+      EXPECT_EQ(read_mesh(write_file("t.ply", "ply\nformat ascii" + head + text[i])), mesh) << name;
+      EXPECT_EQ(read_mesh(write_file("t.ply", "ply\nformat binary_little_endian" + head + types[i].little)), mesh);
+      const auto indexed =
+          open_indexed_mesh(write_file("t.ply", "ply\nformat binary_big_endian" + head + types[i].big));
+      EXPECT_EQ(read_indexed(*indexed), mesh) << name;
+    }
+  }
+}
+
+struct Expected {
+  std::string file;
+  std::uint64_t vertices = 0, triangles = 0;
+};
+
+std::string data_folder() {
+  const char* named = std::getenv("REEB_DATA");
+  return named != nullptr ? named : REEB_SOURCE_DIR "/../shared/data";
+}
+
+TEST(RealMeshes, HaveTheCountsOfTheManifest) {
+  std::ifstream manifest(data_folder() + "/meshes/MANIFEST.tsv");
+  if (!manifest) GTEST_SKIP() << "no meshes in " << data_folder();
+  std::string line;
+  std::getline(manifest, line);
+  std::size_t read = 0;
+  while (std::getline(manifest, line)) {
+    std::istringstream fields(line);
+    Expected expected;
+    std::uint64_t bytes = 0, tetrahedra = 0;
+    fields >> expected.file >> bytes >> expected.vertices >> expected.triangles >> tetrahedra;
+    if (tetrahedra != 0) continue;
+    SCOPED_TRACE(expected.file);
+    const auto reader = open_mesh(data_folder() + "/meshes/" + expected.file);
+    std::uint64_t vertices = 0, triangles = 0;
+    for (MeshBatch batch; reader->read(batch);) {
+      vertices += batch.vertex_count;
+      triangles += batch.triangle_count();
+    }
+    EXPECT_EQ(vertices, expected.vertices);
+    EXPECT_EQ(triangles, expected.triangles);
+    EXPECT_EQ(reader->info().vertex_count.value_or(vertices), vertices);
+    ++read;
+  }
+  EXPECT_GE(read, 15u);
+}
+
+}  // namespace
+}  // namespace reeb::io::testing

@@ -1,0 +1,132 @@
+// FUNC texts, and the values they stand for.
+#include "io/functions/function_source.h"
+
+#include <cmath>
+#include <limits>
+
+#include "io/file/mapped_windows.h"
+#include "tests/io/formats/mesh_files.h"
+
+namespace reeb::io::testing {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+MeshBatch two_vertices(std::uint64_t first = 0) {
+  MeshBatch batch;
+  batch.first_vertex = VertexId(first);
+  batch.vertex_count = 2;
+  batch.coordinates = {{1, 2}, {3, 4}, {-0.0, 6}};
+  batch.properties = {{7, kInfinity}};
+  return batch;
+}
+
+FunctionSource source(const std::string& text) {
+  return FunctionSource(parse_function(text), MeshInfo{}, std::vector<std::string>{"q"}, "mesh");
+}
+
+std::vector<double> values_of(FunctionSource function, std::uint64_t first = 0) {
+  std::vector<double> values(2);
+  function.evaluate(two_vertices(first), values);
+  return values;
+}
+
+template <class Action>
+Error error_of(Action action) {
+  try {
+    action();
+  } catch (const Error& error) {
+    return error;
+  }
+  ADD_FAILURE() << "no error";
+  return Error(ErrorKind::kUsage, "", "");
+}
+
+TEST(FunctionText, IsParsedOrRefused) {
+  for (const char* good :
+       {"x", "y", "z", "c0", "c12", "index", "random:18446744073709551615", "property:a b", "file:/a:b"})
+    EXPECT_EQ(parse_function(good).text, good);
+  for (const char* bad :
+       {"", "w", "c", "c-1", "cx", "random", "random:", "random:-1", "random:1x", "property:", "file:", "file", "z "}) {
+    const Error error = error_of([&] { parse_function(bad); });
+    EXPECT_EQ(error.kind(), ErrorKind::kUsage) << bad;
+    EXPECT_FALSE(error.hint().empty());
+  }
+  EXPECT_EQ(file_name_part(parse_function("file:a/b.f64")), "file-a-b.f64");
+  const std::vector<FunctionSpec> specs = {parse_function("property:b"), parse_function("z"),
+                                           parse_function("property:a"), parse_function("property:b")};
+  EXPECT_EQ(needed_properties(specs), (std::vector<std::string>{"b", "a"}));
+}
+
+TEST(FunctionValues, OfEveryKind) {
+  EXPECT_EQ(values_of(source("x")), (std::vector<double>{1, 2}));
+  EXPECT_FALSE(std::signbit(values_of(source("z"))[0]));
+  EXPECT_EQ(values_of(source("c1")), (std::vector<double>{3, 4}));
+  EXPECT_EQ(values_of(source("index"), 40), (std::vector<double>{40, 41}));
+  EXPECT_EQ(values_of(source("file:" + write_file("v.txt", "1e3 # a\n\n-0\r\n"))), (std::vector<double>{1000, 0}));
+  const std::string raw = write_file("v.f64", scalar_bytes(2.5) + scalar_bytes(-1.0));
+  EXPECT_EQ(values_of(source("file:" + raw)), (std::vector<double>{2.5, -1}));
+  // The output of splitmix64 for the seed 0 is well known, and mix(0) is its first number.
+  EXPECT_EQ(random_value(0, 0 - 0xe220a8397b1dcdafu), static_cast<double>(0xe220a8397b1dcdafu >> 11) * 0x1p-53);
+}
+
+TEST(FunctionValues, ByIndexAreTheSame) {
+  const std::vector<VertexId> ids = {VertexId(1), VertexId(0), VertexId(1)};
+  std::vector<double> values(3);
+  for (const std::string& path :
+       {write_file("v.txt", "10\n20\n"), write_file("w.f64", scalar_bytes(10.0) + scalar_bytes(20.0))}) {
+    auto function = source("file:" + path);
+    EXPECT_FALSE(function.column());
+    function.evaluate(ids, {}, values);
+    EXPECT_EQ(values, (std::vector<double>{20, 10, 20}));
+    function.check_count(2);
+    EXPECT_THROW(function.check_count(1), Error);
+    EXPECT_THROW(function.check_count(3), Error);
+  }
+  // In order, then again from the beginning.
+  auto lines = source("file:" + write_file("v.txt", "10\n20\n"));
+  for (int i = 0; i < 2; ++i) {
+    lines.evaluate(std::vector<VertexId>{VertexId(0), VertexId(1)}, {}, std::span(values).first(2));
+    EXPECT_EQ(values, (std::vector<double>{10, 20, 20}));
+    lines.check_count(2);
+  }
+  EXPECT_EQ(lines.lookup_bytes(1000), 8000u);
+  auto property = source("property:q");
+  EXPECT_EQ(property.column(), 3u);
+  property.evaluate(ids, std::vector<double>{5, 6, 5}, values);
+  EXPECT_EQ(values, (std::vector<double>{5, 6, 5}));
+}
+
+TEST(FunctionErrors, SayWhere) {
+  EXPECT_EQ(error_of([] { source("c3"); }).kind(), ErrorKind::kBadInput);
+  EXPECT_NE(error_of([] { source("property:p"); }).message().find("\"p\""), std::string::npos);
+  const Error odd = error_of([] { values_of(source("property:q"), 10); });
+  EXPECT_EQ(odd.file(), "mesh");
+  EXPECT_NE(odd.message().find("vertex 11"), std::string::npos);
+  EXPECT_EQ(error_of([] { values_of(source("file:" + write_file("s", "1\n"))); }).position(), "2:1");
+  EXPECT_EQ(error_of([] { values_of(source("file:" + write_file("n", "1\n2 3\n"))); }).position(), "2:3");
+  EXPECT_EQ(error_of([] { values_of(source("file:" + write_file("n", "1\nnan\n"))); }).position(), "2:1");
+  const std::string nan = write_file("n.f64", scalar_bytes(1.0) + scalar_bytes(kInfinity));
+  EXPECT_EQ(error_of([&] { values_of(source("file:" + nan)); }).position(), "8");
+  EXPECT_EQ(error_of([] { source("file:" + write_file("c.f64", "123456789")); }).position(), "8");
+}
+
+TEST(MappedWindows, SeeEveryByteWithOverlapInAnyOrder) {
+  std::string bytes(300'001, '\0');
+  for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<char>(i * 2654435761u >> 13);
+  MappedWindows windows(write_file("windows", bytes), {.window_bits = 12, .window_count = 3, .overlap_bytes = 64});
+  for (std::size_t step : {1u, 4099u, 77'777u})
+    for (std::size_t i = 0, offset = 0; i < 300'001; i += step, offset = (offset + step * 3) % bytes.size()) {
+      const std::size_t length = std::min<std::size_t>(64, bytes.size() - offset);
+      ASSERT_EQ(std::string_view(windows.at(offset), length), std::string_view(bytes).substr(offset, length));
+      ASSERT_GE(windows.view(offset).size(), length);
+    }
+}
+
+TEST(MappedWindows, RefuseWhatIsNoFile) {
+  EXPECT_EQ(error_of([] { MappedWindows windows(scratch_folder().string()); }).kind(), ErrorKind::kBadInput);
+  EXPECT_EQ(error_of([] { MappedWindows windows(write_file("nothing", "")); }).position(), "0");
+}
+
+}  // namespace
+}  // namespace reeb::io::testing

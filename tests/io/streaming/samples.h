@@ -1,0 +1,92 @@
+// The sample files of streaming meshes and what is to come of them.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <span>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "io/events/event_text.h"
+#include "io/streaming/open_stream.h"
+#include "libreeb/base/error.h"
+
+namespace reeb::io {
+
+struct Sample {
+  std::string file, verdict, warnings;
+
+  bool good() const { return verdict == "OK"; }
+};
+
+inline std::filesystem::path sample_folder() {
+  const char* data = std::getenv("REEB_DATA");
+  return std::filesystem::path(data != nullptr ? data : REEB_SOURCE_DIR "/../shared/data") / "streaming";
+}
+
+inline std::string slurp(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::ostringstream out;
+  out << in.rdbuf();
+  return out.str();
+}
+
+inline std::string sample_bytes(const std::string& file) { return slurp(sample_folder() / file); }
+inline std::string golden_events(const std::string& file) { return slurp(sample_folder() / (file + ".events.txt")); }
+
+// The rows of the manifest; empty if the samples are not there.
+inline std::vector<Sample> all_samples() {
+  std::ifstream in(sample_folder() / "MANIFEST.tsv");
+  std::vector<Sample> samples;
+  std::string line;
+  std::getline(in, line);  // names of the columns
+  while (std::getline(in, line)) {
+    std::istringstream row(line);
+    Sample sample;
+    std::getline(row, sample.file, '\t');
+    std::getline(row, sample.verdict, '\t');
+    std::getline(row, sample.warnings, '\t');
+    samples.push_back(sample);
+  }
+  return samples;
+}
+
+#define REEB_REQUIRE_SAMPLES()                   \
+  if (!std::filesystem::exists(sample_folder())) \
+  GTEST_SKIP() << "no samples in " << sample_folder() << "; set REEB_DATA to the folder that holds streaming/"
+
+inline std::unique_ptr<EventReader> open_bytes(const std::string& bytes, const std::string& name = {}) {
+  return open_stream(std::make_unique<SpanSource>(std::as_bytes(std::span(bytes))), name);
+}
+
+// All events as text, and the error that ended them, if any.
+struct Outcome {
+  std::string events, error;
+  std::vector<std::string> warnings;
+};
+
+inline Outcome read_all(const std::string& bytes, const std::string& name = {}) {
+  Outcome outcome;
+  std::ostringstream out;
+  try {
+    const auto reader = open_bytes(bytes, name);
+    try {
+      write_events(*reader, out);
+    } catch (...) {
+      outcome.events = out.str();
+      throw;
+    }
+    outcome.warnings = reader->warnings();
+  } catch (const Error& error) {
+    outcome.error = error.message();
+  }
+  if (outcome.error.empty()) outcome.events = out.str();
+  return outcome;
+}
+
+}  // namespace reeb::io

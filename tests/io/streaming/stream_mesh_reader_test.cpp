@@ -1,0 +1,141 @@
+// The adapter to MeshReader: legal streams from pre-order and post-order files alike.
+#include "io/streaming/stream_mesh_reader.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <set>
+
+#include "io/events/pre_order.h"
+#include "tests/io/streaming/samples.h"
+
+namespace reeb::io {
+namespace {
+
+using Cell = std::vector<std::uint64_t>;
+
+// Follows a stream by the definition: plain sets, no cleverness.
+struct Checker {
+  std::set<std::uint64_t> arrived, final;
+  std::multiset<Cell> cells;
+  std::map<std::uint64_t, std::array<double, 3>> positions;
+
+  void cell(const VertexId* corners, std::size_t size) {
+    Cell cell;
+    for (std::size_t k = 0; k < size; ++k) {
+      EXPECT_TRUE(arrived.contains(corners[k].value())) << "a cell before its vertex";
+      EXPECT_FALSE(final.contains(corners[k].value())) << "a cell after a finalization";
+      cell.push_back(corners[k].value());
+    }
+    cells.insert(cell);
+  }
+
+  void batch(const MeshBatch& batch) {
+    for (std::size_t i = 0; i < batch.vertex_count; ++i) {
+      const std::uint64_t vertex = batch.first_vertex.value() + i;
+      EXPECT_EQ(vertex, arrived.size()) << "numbers have a gap";
+      arrived.insert(vertex);
+      positions[vertex] = {batch.coordinates[0][i], batch.coordinates[1][i], batch.coordinates[2][i]};
+    }
+    for (std::size_t i = 0; i < batch.triangle_count(); ++i) cell(&batch.triangles[3 * i], 3);
+    for (std::size_t i = 0; i < batch.tetrahedron_count(); ++i) cell(&batch.tetrahedra[4 * i], 4);
+    for (const VertexId vertex : batch.finalized) {
+      EXPECT_TRUE(arrived.contains(vertex.value())) << "finalized before it arrived";
+      EXPECT_TRUE(final.insert(vertex.value()).second) << "finalized twice";
+    }
+  }
+};
+
+std::unique_ptr<MeshReader> open_mesh_bytes(const Sample& sample, const std::string& bytes, std::size_t batch_events) {
+  ReadOptions options;
+  options.batch_events = batch_events;
+  return make_stream_mesh_reader(open_bytes(bytes, sample.file), options, bytes.size());
+}
+
+// The cells of a golden listing.
+std::multiset<Cell> golden_cells(const std::string& file) {
+  std::istringstream lines(golden_events(file));
+  std::multiset<Cell> cells;
+  for (std::string line; std::getline(lines, line);) {
+    if (line[0] != 't' && line[0] != 'c') continue;
+    std::istringstream numbers(line.substr(1));
+    Cell cell(line[0] == 't' ? 3 : 4);
+    for (std::uint64_t& corner : cell) numbers >> corner;
+    cells.insert(cell);
+  }
+  return cells;
+}
+
+TEST(StreamMeshReader, EverySampleIsALegalStreamWithAllItsCells) {
+  REEB_REQUIRE_SAMPLES();
+  for (const Sample& sample : all_samples()) {
+    if (!sample.good()) continue;
+    const std::string bytes = sample_bytes(sample.file);
+    for (const std::size_t batch_events : {1u, 5u, 65536u}) {
+      SCOPED_TRACE(sample.file + " by " + std::to_string(batch_events));
+      const auto reader = open_mesh_bytes(sample, bytes, batch_events);
+      Checker checker;
+      MeshBatch batch;
+      while (reader->read(batch)) {
+        checker.batch(batch);
+        if (batch_events == 1) {
+          EXPECT_EQ(batch.vertex_count + batch.triangle_count() + batch.tetrahedron_count() + batch.finalized.size(),
+                    1u);
+        }
+      }
+      EXPECT_TRUE(batch.empty());
+      EXPECT_TRUE(checker.cells == golden_cells(sample.file));
+      const bool post_order = open_bytes(bytes, sample.file)->header().post_order;
+      if (post_order) {
+        EXPECT_EQ(checker.final.size(), checker.arrived.size());
+      }
+      const auto& warnings = reader->warnings();
+      const bool told = std::any_of(warnings.begin(), warnings.end(),
+                                    [](const auto& text) { return text.ends_with("were never finalized"); });
+      EXPECT_EQ(told, checker.final.size() < checker.arrived.size());
+    }
+  }
+}
+
+TEST(StreamMeshReader, EventsOfPreOrderFilesAreThoseOfTheFile) {
+  REEB_REQUIRE_SAMPLES();
+  for (const Sample& sample : all_samples()) {
+    if (!sample.good()) continue;
+    const std::string bytes = sample_bytes(sample.file);
+    const auto raw = open_bytes(bytes, sample.file);
+    if (raw->header().post_order || raw->header().volume) continue;
+    std::ostringstream out;
+    write_events(*open_mesh_bytes(sample, bytes, 1), out);
+    EXPECT_TRUE(out.str() == golden_events(sample.file)) << sample.file;
+  }
+}
+
+TEST(StreamMeshReader, APostOrderCellComesWithItsLastVertexAndThenTheFinalizations) {
+  const std::string bytes = "f 1 3 2\nf 3 2 2\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 5 5 5\n";
+  std::ostringstream out;
+  write_events(*make_stream_mesh_reader(open_bytes(bytes), {.properties = {}, .batch_events = 1}), out);
+  EXPECT_EQ(out.str(), "v 0 0 0 0\nv 1 1 0 0\nv 2 0 1 0\nt 0 2 1\nf 0\nt 2 1 1\nf 2\nf 1\nv 3 5 5 5\nf 3\n");
+}
+
+TEST(StreamMeshReader, ScalarsAreProperties) {
+  const std::string bytes =
+      "# v_pnum_f 4\n# v_pnum_i 2\nv 0 0 0 2.5 7 8\nv 1 0 0 3.5 -7 9\nv 0 1 0 1 1 1\n"
+      "v 0 0 1 1 1 1\nc -1 -2 -3 -4\n";
+  ReadOptions options;
+  options.properties = {"i1", "s0"};
+  const auto reader = make_stream_mesh_reader(open_bytes(bytes), options);
+  EXPECT_EQ(reader->info().property_names, (std::vector<std::string>{"s0", "i0", "i1"}));
+  MeshBatch batch;
+  ASSERT_TRUE(reader->read(batch));
+  EXPECT_EQ(batch.properties[0], (std::vector<double>{8, 9, 1, 1}));
+  EXPECT_EQ(batch.properties[1], (std::vector<double>{2.5, 3.5, 1, 1}));
+  EXPECT_EQ(batch.tetrahedron_count(), 1u);
+  EXPECT_EQ(batch.finalized.size(), 4u);
+  options.properties = {"pressure"};
+  EXPECT_THROW(make_stream_mesh_reader(open_bytes(bytes), options), Error);
+}
+
+}  // namespace
+}  // namespace reeb::io

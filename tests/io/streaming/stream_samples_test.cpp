@@ -1,0 +1,93 @@
+// Every sample file gives its golden events, or stops with its class of error.
+#include <gtest/gtest.h>
+
+#include "tests/io/streaming/samples.h"
+
+namespace reeb::io {
+namespace {
+
+// Hands out one byte to `step` bytes at a time, of unknown size: a slow pipe.
+class PipeSource : public ByteSource {
+ public:
+  PipeSource(const std::string& bytes, std::size_t step) : bytes_(bytes), step_(step) {}
+  std::size_t read(std::span<std::byte> out) override {
+    const std::size_t count = std::min({out.size(), step_, bytes_.size() - at_});
+    for (std::size_t i = 0; i < count; ++i) out[i] = static_cast<std::byte>(bytes_[at_ + i]);
+    at_ += count;
+    return count;
+  }
+  std::uint64_t consumed() const override { return at_; }
+
+ private:
+  const std::string& bytes_;
+  std::size_t step_, at_ = 0;
+};
+
+std::string warning_classes(const std::vector<std::string>& warnings) {
+  std::string classes;
+  for (const auto& text : warnings) {
+    const std::string name = text.substr(0, text.find(':'));
+    if (classes.find(name) == std::string::npos) classes += (classes.empty() ? "" : ",") + name;
+  }
+  return classes.empty() ? "-" : classes;
+}
+
+TEST(StreamSamples, GoodFilesGiveExactlyTheirGoldenEvents) {
+  REEB_REQUIRE_SAMPLES();
+  std::size_t count = 0;
+  for (const Sample& sample : all_samples()) {
+    if (!sample.good()) continue;
+    ++count;
+    const Outcome outcome = read_all(sample_bytes(sample.file), sample.file);
+    EXPECT_EQ(outcome.error, "") << sample.file;
+    EXPECT_TRUE(outcome.events == golden_events(sample.file)) << sample.file;
+    EXPECT_EQ(warning_classes(outcome.warnings), sample.warnings) << sample.file;
+  }
+  EXPECT_GT(count, 250u);
+}
+
+TEST(StreamSamples, GoodFilesGiveTheSameThroughAPipe) {
+  REEB_REQUIRE_SAMPLES();
+  for (const Sample& sample : all_samples()) {
+    if (!sample.good()) continue;
+    const std::string bytes = sample_bytes(sample.file);
+    for (const std::size_t step : {1u, 7u, 1000u}) {
+      std::ostringstream out;
+      const auto reader = open_stream(std::make_unique<PipeSource>(bytes, step), sample.file);
+      write_events(*reader, out);
+      EXPECT_TRUE(out.str() == golden_events(sample.file)) << sample.file << " by " << step;
+      if (sample.warnings != "TRAIL") {
+        EXPECT_EQ(reader->bytes_read(), bytes.size()) << sample.file;
+      }
+    }
+  }
+}
+
+TEST(StreamSamples, MalformedFilesGetTheirVerdict) {
+  REEB_REQUIRE_SAMPLES();
+  std::size_t count = 0;
+  for (const Sample& sample : all_samples()) {
+    if (sample.good()) continue;
+    ++count;
+    const Outcome outcome = read_all(sample_bytes(sample.file), sample.file);
+    EXPECT_NE(outcome.error, "") << sample.file;
+    if (sample.verdict.starts_with("any error")) continue;
+    EXPECT_TRUE(outcome.error.starts_with(sample.verdict + ": "))
+        << sample.file << " is " << sample.verdict << ", but: " << outcome.error;
+    EXPECT_TRUE(golden_events(sample.file).starts_with(outcome.events)) << sample.file;
+  }
+  EXPECT_GT(count, 70u);
+}
+
+TEST(StreamSamples, SmallExampleOfTheCompressedFormat) {
+  static constexpr unsigned char kFile[] = {
+      0x03, 0x01, 0,    0,    0, 0, 0,    0,    0,    0,    0,    0,    0,    0, 0, 0,    0, 0, 0,
+      4,    0x10, 0x4f, 0,    0, 0, 0,    0,    4,    0x10, 0x4f, 0,    0,    0, 0, 0,    0, 0, 0,
+      0,    0,    0x41, 0x80, 0, 0, 0x12, 0xba, 0xad, 0x80, 4,    0xa4, 0x25, 0, 0, 0x3c, 0, 0, 0x38};
+  const Outcome outcome = read_all(std::string(reinterpret_cast<const char*>(kFile), sizeof kFile));
+  EXPECT_EQ(outcome.error, "");
+  EXPECT_EQ(outcome.events, "v 0 0 0 0\nv 1 0 1 0\nv 2 1 0 0\nt 0 1 2\nv 3 0 0 1\nt 0 2 3\n");
+}
+
+}  // namespace
+}  // namespace reeb::io

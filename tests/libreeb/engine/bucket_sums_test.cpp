@@ -1,0 +1,255 @@
+// Bucket sums against plain ones: exact, so that no order of adding shows; and lists of buckets
+// against maps (DESIGN.md 5).
+#include "libreeb/engine/bucket_sums.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "tests/support/random.h"
+#include "tests/support/seed.h"
+
+namespace reeb::test {
+namespace {
+
+bool same(const BucketSum& a, const BucketSum& b) { return a.index == b.index && a.count == b.count && a.sum == b.sum; }
+
+// Of any magnitude and sign; beyond what the sums hold, too.
+Point random_point(Random& random) {
+  Point point;
+  for (double& x : point) x = std::ldexp(random.unit() - 0.5, static_cast<int>(random.below(120)) - 60);
+  return point;
+}
+
+TEST(BucketSum, DoesNotDependOnTheOrderOfAdding) {
+  const std::uint64_t seed = base_seed(), cases = case_count(300);
+  for (std::uint64_t i = 0; i < cases; ++i) {
+    Random random(seed + i);
+    std::vector<Point> points(1 + random.below(200));
+    for (Point& point : points) point = random_point(random);
+    BucketSum in_order;
+    for (const Point& point : points) in_order.add(point);
+
+    random.shuffle(points);
+    std::vector<BucketSum> parts(1 + random.below(8));
+    for (const Point& point : points) parts[random.below(parts.size())].add(point);
+    while (parts.size() > 1) {
+      random.shuffle(parts);
+      parts[parts.size() - 2].add(parts.back());
+      parts.pop_back();
+    }
+    ASSERT_TRUE(same(parts[0], in_order)) << "case " << i;
+  }
+}
+
+TEST(BucketSum, RoundsToItsUnitAndCutsOffWhatItCannotHold) {
+  const double unit = 0x1p-44, most = 0x1p50;
+  const auto mean = [](double x) {
+    BucketSum sum;
+    sum.add(Point{x, 0, 0});
+    return sum.mean().mean[0];
+  };
+  for (const double x : {0.0, 1.5, -1.5, unit, -unit, 0x1p18, -0x1p18, 0x1p18 + 0x1p-34, most, -most, 1e15 + 0.125})
+    EXPECT_EQ(mean(x), x);
+  EXPECT_EQ(mean(unit / 2), 0);
+  EXPECT_EQ(mean(1 + unit * 1.5), 1 + unit);
+  const double infinity = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(mean(2 * most), most);
+  EXPECT_EQ(mean(infinity), most);
+  EXPECT_EQ(mean(-1e308), -most);
+  EXPECT_EQ(mean(std::numeric_limits<double>::quiet_NaN()), -most);
+}
+
+TEST(BucketSum, HoldsAsManyOfTheGreatestAsThereAreVertices) {
+  BucketSum sum;
+  sum.add(Point{0x1p50, -0x1p50, 0});
+  for (int doublings = 0; doublings < 32; ++doublings) sum.add(BucketSum(sum));
+  EXPECT_EQ(sum.count, std::uint64_t{1} << 32);
+  EXPECT_EQ(sum.mean().mean, (std::array<double, 3>{0x1p50, -0x1p50, 0}));
+}
+
+// What a list should hold: buckets of the pool's exponent by index.
+struct Model {
+  std::map<std::int64_t, BucketSum> buckets;
+
+  void add(const BucketSum& bucket) {
+    const auto at = buckets.try_emplace(bucket.index, BucketSum{bucket.index, 0, {}}).first;
+    at->second.add(bucket);
+  }
+  void add_all(Model& other) {
+    for (const auto& [index, bucket] : other.buckets) add(bucket);
+    other.buckets.clear();
+  }
+  void coarsen(int levels) {
+    Model coarse;
+    for (auto [index, bucket] : buckets) {
+      bucket.index >>= levels;
+      coarse.add(bucket);
+    }
+    buckets = std::move(coarse.buckets);
+  }
+};
+
+// Any sequence of what the engine does to lists, against maps.
+class ManyLists {
+ public:
+  // Half of them of so few buckets that most lists have no more than one.
+  explicit ManyLists(std::uint64_t seed)
+      : random_(seed),
+        few_(random_.chance(50)),
+        exponent_((few_ ? 4 : 0) - static_cast<int>(random_.below(few_ ? 3 : 6))) {
+    pool_.start(exponent_);
+    for (std::int64_t index = -20; index < 20 && !few_; index += static_cast<std::int64_t>(random_.below(3)))
+      sweep(index);
+    for (std::uint64_t steps = random_.below(60); steps > 0; --steps) step();
+  }
+
+  void check() {
+    for (std::size_t i = 0; i < kLists; ++i) {
+      auto expected = models_[i].buckets.begin();
+      const auto end = models_[i].buckets.end();
+      pool_.drain(lists_[i], [&](const BucketSum& bucket) {
+        ASSERT_NE(expected, end);
+        ASSERT_TRUE(same(bucket, expected->second)) << "bucket " << bucket.index;
+        ++expected;
+      });
+      ASSERT_EQ(expected, end);
+      ASSERT_TRUE(lists_[i].empty());
+    }
+  }
+
+ private:
+  static constexpr std::size_t kLists = 4;
+  static constexpr double kMost = 10;  // values are from -kMost to kMost
+
+  double value() { return kMost * (2 * random_.unit() - 1); }
+
+  void sweep(std::int64_t index) {
+    pool_.start_bucket(index);
+    for (std::uint64_t n = random_.below(6); n > 0; --n) {
+      const std::size_t i = random_.below(kLists);
+      BucketSum vertex{index, 0, {}};
+      const Point position = random_point(random_);
+      vertex.add(position);
+      pool_.add_to_bucket(pool_.bucket_at_hand(lists_[i]), position);
+      models_[i].add(vertex);
+    }
+  }
+
+  void step() {
+    const std::size_t i = random_.below(kLists), j = random_.below(kLists);
+    switch (random_.below(6)) {
+      case 0:
+        return i != j ? cut(i, j) : void();
+      case 1:
+        if (i == j) return;
+        pool_.merge(lists_[i], lists_[j]);
+        return models_[i].add_all(models_[j]);
+      case 2:
+        if (random_.chance(80)) return;
+        pool_.raise_exponent(++exponent_, lists_);
+        for (Model& model : models_) model.coarsen(1);
+        return;
+      case 3:
+        return i != j ? concatenate(i, j) : void();
+      default:
+        return add_vertex(i);
+    }
+  }
+
+  BucketSum vertex(double at, const Point& position) const {
+    BucketSum sum{bucket_index(at, exponent_), 0, {}};
+    sum.add(position);
+    return sum;
+  }
+
+  void add_vertex(std::size_t i) {
+    const double at = value();
+    const Point position = random_point(random_);
+    pool_.add_vertex(lists_[i], at, position);
+    models_[i].add(vertex(at, position));
+  }
+
+  void concatenate(std::size_t i, std::size_t j) {
+    auto &lower = models_[i].buckets, &upper = models_[j].buckets;
+    if (!lower.empty() && !upper.empty() && lower.rbegin()->first > upper.begin()->first) return;
+    const double at = value();
+    const std::int64_t index = bucket_index(at, exponent_);
+    if ((!lower.empty() && lower.rbegin()->first > index) || (!upper.empty() && upper.begin()->first < index)) {
+      pool_.concatenate(lists_[i], lists_[j]);
+    } else {
+      const Point position = random_point(random_);
+      pool_.concatenate(lists_[i], at, position, lists_[j]);
+      models_[i].add(vertex(at, position));
+    }
+    models_[i].add_all(models_[j]);
+  }
+
+  // What is above goes from list i to list j, which has nothing below it. The bucket that is cut is divided
+  // in proportion if it has four vertices or more, and goes to where its greater part is otherwise.
+  void cut(std::size_t i, std::size_t j) {
+    const double at = value();
+    const std::int64_t divided = bucket_index(at, exponent_);
+    auto &from = models_[i].buckets, &into = models_[j].buckets;
+    if (!into.empty() && into.begin()->first < divided) return;
+    if (into.empty() && random_.chance(50))
+      lists_[j] = pool_.take_above(lists_[i], -kMost, at, kMost);
+    else
+      pool_.move_above(lists_[i], -kMost, at, kMost, lists_[j]);
+    if (const auto bucket = from.find(divided); bucket != from.end()) {
+      const std::uint64_t count = bucket->second.count, above = count_above(at, divided, count);
+      if (above == count) {
+        models_[j].add(bucket->second);
+        from.erase(bucket);
+      } else if (above != 0) {
+        models_[j].add(divide(bucket->second, count - above));
+      }
+    }
+    for (auto bucket = from.upper_bound(divided); bucket != from.end(); bucket = from.erase(bucket))
+      models_[j].add(bucket->second);
+  }
+
+  std::uint64_t count_above(double at, std::int64_t divided, std::uint64_t count) const {
+    const double begin = std::max(-kMost, std::ldexp(static_cast<double>(divided), exponent_));
+    const double end = std::min(kMost, std::ldexp(static_cast<double>(divided + 1), exponent_));
+    if (count < 4) return end - at > at - begin ? count : 0;
+    return static_cast<std::uint64_t>(std::nearbyint((end - at) / (end - begin) * static_cast<double>(count)));
+  }
+
+  // Leaves so many of the vertices in the bucket, with their share of the sum. Returns the others.
+  static BucketSum divide(BucketSum& bucket, std::uint64_t left) {
+    BucketSum rest = bucket;
+    const double share = static_cast<double>(left) / static_cast<double>(bucket.count);
+    for (std::size_t k = 0; k < 3; ++k) {
+      bucket.sum[k] = static_cast<Int128>(static_cast<double>(bucket.sum[k]) * share);
+      rest.sum[k] -= bucket.sum[k];
+    }
+    bucket.count = left;
+    rest.count -= left;
+    return rest;
+  }
+
+  Random random_;
+  bool few_;
+  int exponent_;
+  BucketLists pool_;
+  std::array<BucketLists::List, kLists> lists_{};
+  std::array<Model, kLists> models_;
+};
+
+TEST(BucketLists, HoldWhatMapsHold) {
+  const std::uint64_t seed = base_seed(), cases = case_count(2000);
+  for (std::uint64_t i = 0; i < cases && !HasFailure(); ++i) {
+    SCOPED_TRACE(testing::Message() << "case " << i);
+    ManyLists(seed + i).check();
+  }
+}
+
+}  // namespace
+}  // namespace reeb::test

@@ -1,0 +1,115 @@
+// On-line noise removal against the definition: what is removed on the way and in the last pass
+// together is what is removed from the exact graph, whatever the stream (DESIGN.md 1.6).
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <iostream>
+#include <limits>
+
+#include "libreeb/hierarchy/denoise.h"
+#include "tests/libreeb/engine/player.h"
+#include "tests/libreeb/engine/streamed_mesh.h"
+#include "tests/model/naive_denoise.h"
+#include "tests/model/reference_reeb.h"
+#include "tests/support/random_complex.h"
+#include "tests/support/seed.h"
+
+namespace reeb::test {
+namespace {
+
+constexpr std::size_t kBatches[] = {1, 3, 7, 4096};
+
+// A threshold that is a difference of two values, or a little off it: so that ties count.
+double random_threshold(const Complex& complex, Random& random) {
+  if (complex.values.empty()) return 1;
+  const auto any = [&] { return complex.values[random.below(complex.values.size())]; };
+  const double difference = std::abs(any() / 2 - any() / 2);
+  switch (random.below(4)) {
+    case 0:
+      return difference;
+    case 1:
+      return std::numeric_limits<double>::infinity();
+    default:
+      return 2 * difference;
+  }
+}
+
+class OnlineNoise : public testing::Test {
+ protected:
+  // Holds a graph from which `online` pairs are gone to what the exact graph becomes.
+  void expect_same_in_the_end(const ReebGraph& graph, std::uint64_t online, const ReebGraph& exact, double threshold) {
+    ASSERT_NO_THROW(graph.validate());
+    const reeb::Denoised rest = reeb::denoise(graph, threshold);
+    const reeb::Denoised all = reeb::denoise(exact, threshold);
+    ASSERT_EQ(without_positions(rest.graph), without_positions(all.graph)) << "got\n"
+                                                                           << describe(graph) << "from\n"
+                                                                           << describe(exact);
+    ASSERT_EQ(online + rest.removed.size(), all.removed.size());
+    online_ += online;
+    all_ += all.removed.size();
+  }
+
+  void check_case(std::uint64_t seed);
+
+  std::uint64_t online_ = 0, all_ = 0;
+};
+
+void OnlineNoise::check_case(std::uint64_t seed) {
+  const Complex complex = random_complex(seed);
+  const ReebGraph exact = reference_reeb(complex);
+  Random random(seed);
+  const double threshold = random_threshold(complex, random);
+  SCOPED_TRACE(testing::Message() << "threshold " << threshold << ", " << describe(complex));
+  if (exact.node_count() < 30) {
+    const Denoised naive = naive_denoise(exact, threshold, random.next());
+    ASSERT_EQ(without_positions(naive.graph), without_positions(reeb::denoise(exact, threshold).graph));
+  }
+  for (const std::size_t batch : kBatches) {
+    SCOPED_TRACE(batch);
+    OnlineReeb engine({.batch_triangles = batch, .noise_below = threshold});
+    Player(complex, any_finalization(random), random.next()).play(engine);
+    const ReebGraph snapshot = engine.snapshot();
+    expect_same_in_the_end(snapshot, engine.removed_pairs(), exact, threshold);
+    engine.finish();
+    const ReebGraph finished = engine.snapshot();
+    expect_same_in_the_end(finished, engine.removed_pairs(), exact, threshold);
+  }
+}
+
+TEST_F(OnlineNoise, TogetherWithTheLastPassEqualsTheDefinition) {
+  const std::uint64_t seed = base_seed(), cases = case_count(20'000);
+  for (std::uint64_t i = 0; i < cases && !HasFatalFailure(); ++i) check_case(seed + i);
+  std::cout << online_ << " of " << all_ << " pairs were removed on the way\n";
+  EXPECT_GT(all_, cases / 10);
+  EXPECT_GT(online_, all_ / 2) << "hardly anything is removed on the way";
+}
+
+// A saddle that was settled lost a leaf, and before it could disappear another of its arcs was handed over.
+TEST_F(OnlineNoise, ASettledSaddleDisappearsWithItsLeaf) { check_case(20086495); }
+
+// Chunks with long paths through many splits, and a threshold that grows along the stream.
+TEST_F(OnlineNoise, AShareOfTheRangeSoFarLeadsToTheSameEnd) {
+  for (const auto kind : {io::MeshKind::kScan, io::MeshKind::kGrid})
+    for (const auto function : {Function::kY, Function::kZ, Function::kRandom})
+      for (const double share : {0.001, 0.05, 0.6}) {
+        const Mesh mesh = make_mesh(kind, io::MeshOrder::kPatches, function);
+        KeepingSink exact;
+        stream(mesh, mesh.corners.size(), exact, [](double, double) { return SweepOptions{}; });
+        const auto [min, max] = std::minmax_element(mesh.values.begin(), mesh.values.end());
+        for (const std::size_t size : {300u, 4096u, 1'000'000u}) {
+          SCOPED_TRACE(testing::Message()
+                       << "kind " << static_cast<int>(kind) << ", function " << static_cast<int>(function) << ", share "
+                       << share << ", chunks of " << size);
+          KeepingSink sink;
+          const std::uint64_t online = stream(mesh, size, sink, [&](double least, double most) {
+            return SweepOptions{.noise_below = share * (most - least)};
+          });
+          expect_same_in_the_end(sink.graph(), online, exact.graph(), share * (*max - *min));
+        }
+      }
+  std::cout << online_ << " of " << all_ << " pairs were removed on the way\n";
+  EXPECT_GT(online_, all_ / 4 * 3) << "much is left for the last pass";
+}
+
+}  // namespace
+}  // namespace reeb::test

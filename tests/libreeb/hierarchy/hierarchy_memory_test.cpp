@@ -1,0 +1,86 @@
+// What a hierarchy holds stays below what it says beforehand, and within 160 bytes an arc.
+#include <gtest/gtest.h>
+
+#include "libreeb/hierarchy/cancel.h"
+#include "tests/support/held_memory.h"
+#include "tests/support/made_graph.h"
+#include "tests/support/random_function_graph.h"
+
+namespace reeb {
+namespace {
+
+constexpr std::size_t kArcs = 100'000;
+
+// Where records go that nobody wants.
+class Nowhere : public RecordSink {
+ public:
+  void add(const ArcVersion&, std::span<const std::byte>) override { ++records_; }
+  std::uint64_t records() const { return records_; }
+
+ private:
+  std::uint64_t records_ = 0;
+};
+
+// `make` returns a graph with its buckets, of this exponent, or none.
+template <class Make>
+void expect_within_promise(Make make, int exponent) {
+  std::uint64_t promised = 0, records = 0;
+  std::size_t arcs = 0;
+  const std::size_t peak = bench::peak_of([&] {
+    auto [graph, buckets] = make();
+    arcs = graph.arc_count();
+    std::optional<std::uint64_t> lists;
+    if (buckets.size() != 0) lists = buckets.memory_bytes();
+    promised = hierarchy_bytes(graph.node_count(), arcs, lists);
+    Nowhere nowhere;
+    bench::peak_bytes = bench::held_bytes.load();  // what it took to make the graph does not count
+    const Hierarchy hierarchy = build_hierarchy(graph, std::move(buckets), exponent, nowhere);
+    records = nowhere.records();
+    ASSERT_GT(hierarchy.persistence.size(), arcs / 50);
+  });
+  EXPECT_GT(records, arcs);
+  EXPECT_LE(peak, promised);
+  EXPECT_GE(peak, promised / 2) << "a promise that keeps others waiting";
+  EXPECT_LE(peak, 160 * arcs);
+  std::printf("held %.1f bytes an arc of %.1f\n", static_cast<double>(peak) / static_cast<double>(arcs),
+              static_cast<double>(promised) / static_cast<double>(arcs));
+}
+
+struct GraphAndLists {
+  ReebGraph graph;
+  PackedLists buckets;
+};
+
+class MadeGraphs : public testing::TestWithParam<std::tuple<bench::GraphKind, bool>> {};
+INSTANTIATE_TEST_SUITE_P(Kinds, MadeGraphs,
+                         testing::Combine(testing::Values(bench::kPlate, bench::kNoise, bench::kExpander),
+                                          testing::Bool()));
+
+TEST_P(MadeGraphs, HoldNoMoreThanPromised) {
+  const auto [kind, embeds] = GetParam();
+  int exponent = 0;
+  ReebGraph made = bench::GraphMaker(kind, kArcs).make();
+  for (std::size_t node = 0; node < made.node_count(); ++node)
+    made.positions.push_back({static_cast<double>(node % 400), static_cast<double>(node / 400), 0});
+  exponent = bucket_exponent(made.nodes.front().value, made.nodes.back().value, 64);
+  expect_within_promise(
+      [&] {
+        return GraphAndLists{made, embeds ? pack_lists(bench::make_buckets(made, exponent).view()) : PackedLists{}};
+      },
+      exponent);
+}
+
+TEST(RandomFunction, HoldsNoMoreThanPromised) {
+  const ooc::TempDir temp;
+  MemoryBudget budget;
+  int exponent = 0;
+  expect_within_promise(
+      [&] {
+        ooc::LoadedGraph loaded = bench::make_random_function_graph(kArcs, 64, exponent, temp, budget);
+        return GraphAndLists{std::move(loaded.graph), std::move(loaded.buckets)};
+      },
+      bucket_exponent(0, 1, 64));
+}
+
+}  // namespace
+}  // namespace reeb

@@ -1,0 +1,86 @@
+// A mesh in plain arrays behind the ports, and meshes to put there.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <numeric>
+#include <random>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "libreeb/port/indexed_mesh.h"
+#include "libreeb/port/mesh_reader.h"
+
+namespace reeb::ooc {
+
+struct ModelMesh {
+  std::vector<std::vector<double>> columns;  // the first three are coordinates
+  std::vector<VertexId> corners;             // three a triangle
+
+  std::uint64_t vertex_count() const { return columns.front().size(); }
+};
+
+class ModelIndexedMesh : public IndexedMesh {
+ public:
+  explicit ModelIndexedMesh(const ModelMesh& mesh) : mesh_(mesh) {}
+
+  std::uint64_t vertex_count() const override { return mesh_.vertex_count(); }
+  unsigned column_count() const override { return static_cast<unsigned>(mesh_.columns.size()); }
+  void gather(std::span<const VertexId> ids, std::span<const unsigned> columns, std::span<double> values) override {
+    for (std::size_t k = 0; k < columns.size(); ++k)
+      for (std::size_t i = 0; i < ids.size(); ++i)
+        values[k * ids.size() + i] = mesh_.columns[columns[k]][ids[i].value()];
+  }
+  void rewind() override { at_ = 0; }
+  bool read(std::vector<VertexId>& corners, std::size_t limit) override {
+    const std::size_t count = std::min(3 * limit, mesh_.corners.size() - at_);
+    corners.assign(mesh_.corners.begin() + static_cast<std::ptrdiff_t>(at_),
+                   mesh_.corners.begin() + static_cast<std::ptrdiff_t>(at_ + count));
+    at_ += count;
+    return count != 0;
+  }
+  std::uint64_t bytes_read() const override { return at_ * sizeof(VertexId); }
+  std::uint64_t bytes_total() const override { return mesh_.corners.size() * sizeof(VertexId); }
+
+ private:
+  const ModelMesh& mesh_;
+  std::size_t at_ = 0;
+};
+
+// A grid of columns x rows vertices, triangles row by row; coordinates are exact as float32.
+inline ModelMesh grid_mesh(std::uint64_t columns, std::uint64_t rows) {
+  ModelMesh mesh{std::vector<std::vector<double>>(3), {}};
+  for (std::uint64_t y = 0; y < rows; ++y)
+    for (std::uint64_t x = 0; x < columns; ++x) {
+      mesh.columns[0].push_back(static_cast<double>(x) / 4);
+      mesh.columns[1].push_back(static_cast<double>(y) / 4);
+      mesh.columns[2].push_back(static_cast<double>(x * 7 % 5 + y * 3 % 4));
+    }
+  for (std::uint64_t y = 0; y + 1 < rows; ++y)
+    for (std::uint64_t x = 0; x + 1 < columns; ++x) {
+      const std::uint64_t v = y * columns + x;
+      for (const std::uint64_t corner : {v, v + 1, v + columns, v + 1, v + columns + 1, v + columns})
+        mesh.corners.push_back(VertexId(corner));
+    }
+  return mesh;
+}
+
+// The same surface with vertices renumbered and triangles shuffled at random.
+inline ModelMesh shuffled(const ModelMesh& mesh, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  std::vector<std::size_t> place(mesh.vertex_count()), order(mesh.corners.size() / 3);
+  std::iota(place.begin(), place.end(), std::size_t{0});
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::shuffle(place.begin(), place.end(), random);
+  std::shuffle(order.begin(), order.end(), random);
+  ModelMesh result = mesh;
+  for (std::size_t k = 0; k < mesh.columns.size(); ++k)
+    for (std::size_t v = 0; v < place.size(); ++v) result.columns[k][place[v]] = mesh.columns[k][v];
+  for (std::size_t t = 0; t < order.size(); ++t)
+    for (std::size_t c = 0; c < 3; ++c)
+      result.corners[3 * t + c] = VertexId(place[mesh.corners[3 * order[t] + c].value()]);
+  return result;
+}
+
+}  // namespace reeb::ooc

@@ -1,0 +1,422 @@
+// The .reeb container: what goes in comes out, at every level, and nothing wrong ever does.
+#include "ooc/reeb_file/reeb_file.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <random>
+#include <tuple>
+
+#include "libreeb/base/error.h"
+#include "ooc/reeb_file/reeb_file_writer.h"
+#include "tests/ooc/reeb_file/made_up_hierarchy.h"
+
+namespace reeb::ooc {
+namespace {
+
+namespace fs = std::filesystem;
+
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    std::string name = (fs::temp_directory_path() / "reeb-file-XXXXXX").string();
+    path_ = mkdtemp(name.data());
+  }
+  ~TemporaryFolder() { fs::remove_all(path_); }
+  std::string operator/(const std::string& name) const { return (path_ / name).string(); }
+  const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+std::string read_bytes(const std::string& path) {
+  std::string bytes(fs::file_size(path), '\0');
+  std::ifstream(path, std::ios::binary).read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  return bytes;
+}
+
+// A new file each time: some file systems flush one that is overwritten.
+void write_bytes(const std::string& path, const std::string& bytes) {
+  fs::remove(path);
+  std::ofstream(path, std::ios::binary) << bytes;
+}
+
+const FileMeta kMeta{.function = "laplacian:1",
+                     .function_min = -0.25,
+                     .function_max = 0.75,
+                     .mesh_vertices = 1234,
+                     .mesh_triangles = 2468,
+                     .denoise_threshold = 0.125,
+                     .denoised_pairs = 7,
+                     .bucket_exponent = MadeUp::kBucketExponent};
+
+FileMeta meta_of(const MadeUp& made) {
+  FileMeta meta = kMeta;
+  meta.mesh_vertices = made.vertices();
+  return meta;
+}
+
+void expect_same_buckets(const ArcBuckets& a, const ArcBuckets& b) {
+  ASSERT_EQ(a.offsets, b.offsets);
+  for (std::size_t i = 0; i < a.buckets.size(); ++i) {
+    ASSERT_EQ(a.buckets[i].index, b.buckets[i].index);
+    ASSERT_EQ(a.buckets[i].count, b.buckets[i].count);
+    ASSERT_EQ(a.buckets[i].mean, b.buckets[i].mean);
+  }
+}
+
+TEST(ReebFile, EveryVersionOfRandomHierarchiesIsTheDefinition) {
+  const TemporaryFolder folder;
+  for (std::uint64_t seed = 0; seed < 150; ++seed) {
+    SCOPED_TRACE(testing::Message() << "seed " << seed);
+    const auto size = static_cast<std::uint32_t>(seed % 40);
+    const MadeUp made = MadeUpMaker(seed).make(size, size * 2, size);
+    const std::string path = folder / "a.reeb";
+    write_hierarchy_file(path, meta_of(made), made.graph, made.hierarchy,
+                         seed % 2 == 0 ? ArcBucketsView{} : made.buckets.view());
+    const ReebFile file(path);
+    ASSERT_EQ(file.damage(), nullptr);
+    ASSERT_NO_THROW(file.verify());
+    for (std::uint32_t version = 0; version <= made.hierarchy.persistence.size(); ++version)
+      ASSERT_EQ(file.load(version).graph, naive_level(made, version)) << "version " << version;
+  }
+}
+
+TEST(ReebFile, ManyFramesGiveTheSameLevelsAndChoices) {
+  const TemporaryFolder folder;
+  const MadeUp made = MadeUpMaker(5).make(20'000, 120'000, 200'000);
+  const std::string path = folder / "a.reeb";
+  write_hierarchy_file(path, meta_of(made), made.graph, made.hierarchy, made.buckets.view());
+  const ReebFile file(path);
+  ASSERT_GT(file.header().graph_frames, 20u);
+  ASSERT_NO_THROW(file.verify());
+  const auto& persistence = made.hierarchy.persistence;
+  for (const LevelLine& line : file.levels()) {
+    if (line.version % 3 != 0 && line.version > 1000) continue;
+    const ReebGraph expected = naive_level(made, line.version);
+    const Level level = file.load(line.version);
+    ASSERT_EQ(level.graph, expected);
+    EXPECT_EQ(line.nodes, expected.node_count());
+    EXPECT_EQ(line.arcs, expected.arc_count());
+    EXPECT_EQ(line.threshold, level.threshold);
+    EXPECT_EQ(file.version_at(line.threshold), line.version);
+    const Level fitting = file.load(file.finest_with_memory(line.memory_bytes));
+    EXPECT_LE(level_memory(fitting.graph.node_count(), fitting.graph.arc_count(), fitting.buckets.buckets.size()),
+              line.memory_bytes);
+  }
+  for (const double t : {0.0, 0.001, 0.01, 1.2345, 20.0, 1e9}) {
+    const auto cancelled = std::lower_bound(persistence.begin(), persistence.end(), t) - persistence.begin();
+    EXPECT_EQ(file.version_at(t), static_cast<std::uint32_t>(cancelled)) << t;
+  }
+  for (const std::uint64_t limit : {file.levels().front().nodes, std::uint64_t{2'000}, std::uint64_t{19'000}}) {
+    const std::uint32_t version = file.finest_with_nodes(limit);
+    EXPECT_LE(naive_level(made, version).node_count(), limit);
+    EXPECT_GT(naive_level(made, version - 1).node_count(), limit);
+  }
+  EXPECT_EQ(file.finest_with_nodes(1'000'000), 0u);
+  EXPECT_THROW(file.finest_with_nodes(1), Error);
+}
+
+TEST(ReebFile, PairsHeaderAndBucketsComeBack) {
+  const TemporaryFolder folder;
+  const MadeUp made = MadeUpMaker(11).make(50, 90, 15);
+  const std::string path = folder / "a.reeb";
+  write_hierarchy_file(path, meta_of(made), made.graph, made.hierarchy, made.buckets.view());
+  const ReebFile file(path);
+  const FileHeader& header = file.header();
+  EXPECT_EQ(header.function, "laplacian:1");
+  EXPECT_EQ(header.function_min, -0.25);
+  EXPECT_EQ(header.mesh_triangles, 2468u);
+  EXPECT_EQ(header.denoised_pairs, 7u);
+  EXPECT_EQ(header.bucket_exponent, -3);
+  const auto rows = file.pairs();
+  ASSERT_EQ(rows.size(), made.hierarchy.pairs.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const PersistencePair& pair = made.hierarchy.pairs[i];
+    EXPECT_EQ(rows[i].lo.key, made.graph.nodes[pair.lo.value()]);
+    EXPECT_EQ(rows[i].hi.key, made.graph.nodes[pair.hi.value()]);
+    EXPECT_EQ(rows[i].hi.position, made.graph.positions[pair.hi.value()]);
+    EXPECT_EQ(rows[i].type, pair.type);
+    EXPECT_EQ(rows[i].kept, pair.kept);
+  }
+}
+
+TEST(GraphFile, PiecesDoNotShowAndBucketsFollowTheirArcs) {
+  const TemporaryFolder folder;
+  const MadeUp made = MadeUpMaker(3).make(9'000, 15'000, 0);
+  const FileMeta meta = meta_of(made);
+  write_graph_file(folder / "whole.reeb", meta, made.graph, made.buckets.view());
+  const std::string expected = read_bytes(folder / "whole.reeb");
+  using Ends = GraphFileWriter::ArcEnds;
+  struct Case {
+    std::size_t piece;
+    Ends ends;
+    bool background;
+  };
+  for (const auto& [piece, ends, background] :
+       {Case{1, Ends::kKeys, false}, Case{7, Ends::kKeys, true}, Case{100'000, Ends::kKeysInMemory, true}}) {
+    GraphFileWriter writer(folder / "pieces.reeb", meta,
+                           {.has_embedding = true, .ends = ends, .background = background});
+    for (std::size_t i = 0; i < made.graph.node_count(); ++i) {
+      const SettledNode node{made.graph.nodes[i], made.graph.positions[i]};
+      writer.add_nodes({&node, 1});
+    }
+    for (std::size_t first = 0; first < made.graph.arc_count(); first += piece) {
+      const std::size_t last = std::min(first + piece, made.graph.arc_count());
+      std::vector<ArcKeys> arcs;
+      for (std::size_t i = first; i < last; ++i)
+        arcs.push_back({made.graph.nodes[made.graph.lo[i].value()], made.graph.nodes[made.graph.hi[i].value()]});
+      ArcBucketsView view = made.buckets.view();
+      view.offsets = view.offsets.subspan(first, last - first + 1);
+      writer.add_arcs(std::span<const ArcKeys>(arcs), view);
+    }
+    writer.finish();
+    EXPECT_EQ(read_bytes(folder / "pieces.reeb"), expected) << "pieces of " << piece;
+  }
+  const ReebFile file(folder / "pieces.reeb");
+  ASSERT_NO_THROW(file.verify());
+  const Level level = file.load();
+  EXPECT_EQ(level.graph, made.graph);
+  expect_same_buckets(level.buckets, made.buckets);
+  EXPECT_THROW(file.pairs(), Error);
+  EXPECT_THROW(file.version_at(0.1), Error);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 2) << "scratch files are left";
+}
+
+TEST(GraphFile, EmptyGraph) {
+  const TemporaryFolder folder;
+  write_graph_file(folder / "a.reeb", {}, {});
+  const ReebFile file(folder / "a.reeb");
+  ASSERT_NO_THROW(file.verify());
+  EXPECT_EQ(file.load().graph.node_count(), 0u);
+}
+
+TEST(ReebFile, BytesDependOnTheContentOnly) {
+  const TemporaryFolder folder;
+  const MadeUp made = MadeUpMaker(8).make(500, 800, 200);
+  write_hierarchy_file(folder / "a.reeb", meta_of(made), made.graph, made.hierarchy);
+  MadeUp shuffled = made;
+  std::shuffle(shuffled.hierarchy.arcs.begin(), shuffled.hierarchy.arcs.end(), std::mt19937_64(1));
+  fs::create_directory(folder / "other");
+  write_hierarchy_file(folder / "other/b.reeb", meta_of(made), shuffled.graph, shuffled.hierarchy);
+  EXPECT_EQ(read_bytes(folder / "a.reeb"), read_bytes(folder / "other/b.reeb"));
+}
+
+// The buckets of a level are those of the records that live, if it has any.
+void expect_buckets_of(const MadeUp& made, std::uint32_t version, const Level& level) {
+  if (level.buckets.offsets.empty()) return;
+  std::vector<Bucket> expected;
+  for (std::size_t i = 0; i < made.hierarchy.arcs.size(); ++i)
+    if (made.hierarchy.arcs[i].born <= version && version < made.hierarchy.arcs[i].died)
+      for (const Bucket& bucket : made.buckets.view().of(i)) expected.push_back(bucket);
+  std::vector<Bucket> given = level.buckets.buckets;
+  const auto key = [](const Bucket& b) { return std::tuple(b.index, b.count, b.mean); };
+  for (auto* list : {&expected, &given})
+    std::ranges::sort(*list, [&](const Bucket& a, const Bucket& b) { return key(a) < key(b); });
+  EXPECT_EQ(given, expected);
+}
+
+// Reads all that `bytes` gives; every level that is given is the right one.
+// Returns how many levels were given, or -1 if the file was refused.
+int levels_given(const std::string& path, const std::string& bytes, const MadeUp& made,
+                 const std::vector<ReebGraph>& expected) {
+  write_bytes(path, bytes);
+  try {
+    const ReebFile file(path);
+    int given = 0;
+    for (std::uint32_t version = 0; version < expected.size(); ++version) {
+      try {
+        const Level level = file.load(version);
+        EXPECT_EQ(level.graph, expected[version]);
+        expect_buckets_of(made, version, level);
+        ++given;
+      } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), ErrorKind::kBadInput);
+        EXPECT_FALSE(error.position().empty());
+      }
+    }
+    try {
+      EXPECT_EQ(file.pairs().size(), made.hierarchy.pairs.size());
+    } catch (const Error&) {
+    }
+    EXPECT_THROW(file.verify(), Error);
+    return given;
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::kBadInput);
+    EXPECT_FALSE(error.hint().empty());
+    return -1;
+  }
+}
+
+struct SmallFile {
+  MadeUp made = MadeUpMaker(21).make(7, 12, 2);
+  std::vector<ReebGraph> expected;
+  TemporaryFolder folder;
+  std::string bytes;
+
+  explicit SmallFile(bool embedding) {
+    write_hierarchy_file(folder / "a.reeb", meta_of(made), made.graph, made.hierarchy,
+                         embedding ? made.buckets.view() : ArcBucketsView{});
+    bytes = read_bytes(folder / "a.reeb");
+    for (std::uint32_t v = 0; v <= made.hierarchy.persistence.size(); ++v) expected.push_back(naive_level(made, v));
+  }
+};
+
+class DamagedFile : public testing::TestWithParam<bool> {};
+INSTANTIATE_TEST_SUITE_P(Embedding, DamagedFile, testing::Bool());
+
+TEST_P(DamagedFile, EveryPrefixOfASmallOneIsRefusedOrRight) {
+  const SmallFile small(GetParam());
+  int refused = 0, whole = 0;
+  for (std::size_t size = 0; size < small.bytes.size(); ++size) {
+    SCOPED_TRACE(testing::Message() << size << " bytes");
+    const int given = levels_given(small.folder / "cut.reeb", small.bytes.substr(0, size), small.made, small.expected);
+    refused += given == -1 ? 1 : 0;
+    whole += given == static_cast<int>(small.expected.size()) ? 1 : 0;
+  }
+  EXPECT_GT(refused, 0);
+  EXPECT_GT(whole, 0) << "a file that lacks only its tail still has its graph";
+}
+
+TEST_P(DamagedFile, EveryFlippedBitOfASmallOneIsNoticed) {
+  const SmallFile small(GetParam());
+  for (std::size_t bit = 0; bit < small.bytes.size() * 8; ++bit) {
+    SCOPED_TRACE(testing::Message() << "byte " << bit / 8 << " bit " << bit % 8);
+    std::string bytes = small.bytes;
+    bytes[bit / 8] = static_cast<char>(bytes[bit / 8] ^ (1 << (bit % 8)));
+    levels_given(small.folder / "bad.reeb", bytes, small.made, small.expected);
+    if (testing::Test::HasFailure()) break;
+  }
+}
+
+// A file of many frames, and what three of its levels are.
+struct LargeFile {
+  MadeUp made = MadeUpMaker(6).make(20'000, 40'000, 8'000);
+  TemporaryFolder folder;
+  std::string bytes;
+  std::vector<Level> levels;  // the coarsest, one between, the full graph
+
+  explicit LargeFile(bool embedding) {
+    write_hierarchy_file(folder / "a.reeb", meta_of(made), made.graph, made.hierarchy,
+                         embedding ? made.buckets.view() : ArcBucketsView{});
+    bytes = read_bytes(folder / "a.reeb");
+    const ReebFile file(folder / "a.reeb");
+    for (const LevelLine& line : {file.levels().front(), file.levels()[file.levels().size() / 2], file.levels().back()})
+      levels.push_back(file.load(line.version));
+  }
+
+  // Returns how many of the levels `damaged` gives; a level that is given is the right one.
+  std::size_t given_by(const std::string& damaged) const {
+    write_bytes(folder / "bad.reeb", damaged);
+    std::size_t given = 0;
+    try {
+      const ReebFile file(folder / "bad.reeb");
+      EXPECT_THROW(file.verify(), Error);
+      for (const Level& expected : levels) {
+        const Level level = file.load(expected.version);
+        EXPECT_EQ(level.graph, expected.graph);
+        expect_same_buckets(level.buckets, expected.buckets);
+        ++given;
+      }
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::kBadInput);
+      EXPECT_FALSE(error.hint().empty());
+    }
+    return given;
+  }
+};
+
+TEST_P(DamagedFile, SomePrefixesAndFlippedBitsOfALargeOne) {
+  const LargeFile large(GetParam());
+  std::mt19937_64 random(4);
+  std::array<int, 4> cut{}, flipped{};
+  for (int i = 0; i < 100; ++i) {
+    const std::size_t place = random() % large.bytes.size();
+    SCOPED_TRACE(testing::Message() << "byte " << place);
+    ++cut[large.given_by(large.bytes.substr(0, place))];
+    std::string bytes = large.bytes;
+    bytes[place] = static_cast<char>(bytes[place] ^ (1 << (random() % 8)));
+    ++flipped[large.given_by(bytes)];
+  }
+  // Many places lie behind the coarsest level and before the end of the finest.
+  EXPECT_GT(cut[1] + cut[2], 10);
+  EXPECT_GT(flipped[1] + flipped[2], 10);
+}
+
+TEST(ReebFile, AnEmbeddingThatLosesOrMakesVerticesIsNoticed) {
+  const TemporaryFolder folder;
+  const MadeUp made = MadeUpMaker(11).make(50, 90, 15);
+  const auto verify = [&](const FileMeta& meta, const ArcBuckets& buckets) {
+    write_hierarchy_file(folder / "a.reeb", meta, made.graph, made.hierarchy, buckets.view());
+    ReebFile(folder / "a.reeb").verify();
+  };
+  ASSERT_NO_THROW(verify(meta_of(made), made.buckets));
+  FileMeta meta = meta_of(made);
+  ++meta.mesh_vertices;
+  EXPECT_THROW(verify(meta, made.buckets), Error) << "one is missing";
+  meta.mesh_vertices -= 2;
+  EXPECT_THROW(verify(meta, made.buckets), Error) << "one is too many";
+
+  ArcBuckets wrong = made.buckets;
+  wrong.buckets[0].index += 100;
+  EXPECT_THROW(verify(meta_of(made), wrong), Error) << "beyond its arc";
+  wrong = made.buckets;
+  std::swap(wrong.buckets[0], wrong.buckets[1]);
+  EXPECT_THROW(verify(meta_of(made), wrong), Error) << "not ascending";
+  wrong = made.buckets;
+  wrong.buckets.back().count += 1'000'000;
+  EXPECT_THROW(verify(meta_of(made), wrong), Error) << "a later version has more than the mesh";
+}
+
+TEST(ReebFile, ACutFileYieldsTheLevelsOfItsWholeFrames) {
+  const TemporaryFolder folder;
+  const MadeUp made = MadeUpMaker(6).make(20'000, 40'000, 8'000);
+  write_hierarchy_file(folder / "a.reeb", meta_of(made), made.graph, made.hierarchy);
+  const std::string bytes = read_bytes(folder / "a.reeb");
+  const ReebFile whole(folder / "a.reeb");
+  for (const LevelLine& line : whole.levels()) {
+    write_bytes(folder / "cut.reeb", bytes.substr(0, line.file_bytes + 5));
+    const ReebFile cut(folder / "cut.reeb");
+    ASSERT_NE(cut.damage(), nullptr);
+    EXPECT_EQ(cut.load(line.version).graph, naive_level(made, line.version));
+    for (const LevelLine& other : whole.levels()) {
+      if (other.frames > line.frames) {
+        EXPECT_THROW(cut.load(other.version), Error);
+      }
+    }
+  }
+}
+
+TEST(ReebFile, AnUnwritablePlaceIsAResourceErrorAndNothingIsLeft) {
+  try {
+    write_graph_file("/nowhere/at/all.reeb", {}, {});
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::kResource);
+  }
+  const TemporaryFolder folder;
+  EXPECT_THROW(write_graph_file(folder.path().string(), {}, {}), Error) << "a folder is no place for a file";
+  EXPECT_TRUE(fs::is_empty(folder.path()));
+}
+
+TEST(ReebFile, TheFirstThousandNodesOfALargeFileLoadFast) {
+  const TemporaryFolder folder;
+  const MadeUp made = MadeUpMaker(9).make(200'000, 600'000, 1'000'000);
+  write_hierarchy_file(folder / "a.reeb", meta_of(made), made.graph, made.hierarchy);
+  const auto start = std::chrono::steady_clock::now();
+  const ReebFile file(folder / "a.reeb");
+  const std::uint64_t limit = std::max<std::uint64_t>(1000, file.levels().front().nodes);
+  const Level level = file.load(file.finest_with_nodes(limit));
+  const double ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  EXPECT_LE(level.graph.node_count(), limit);
+  std::printf("%zu nodes of %.1f MB in %.2f ms\n", level.graph.node_count(),
+              static_cast<double>(file.file_bytes()) * 1e-6, ms);
+}
+
+}  // namespace
+}  // namespace reeb::ooc

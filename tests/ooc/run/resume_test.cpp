@@ -1,0 +1,455 @@
+// A run that is interrupted and gone on with writes the bytes of one that is not.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <random>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "io/formats/create_mesh.h"
+#include "io/formats/mesh_io.h"
+#include "io/functions/mesh_function.h"
+#include "libreeb/base/error.h"
+#include "ooc/run/compute.h"
+#include "ooc/run/partial_folder.h"
+#include "tests/ooc/chunks/model_mesh.h"
+#include "tests/support/random_complex.h"
+#include "tests/support/scratch.h"
+
+namespace reeb::ooc {
+namespace {
+
+namespace fs = std::filesystem;
+using Notes = std::vector<std::string>;
+
+std::string read_file(const std::string& path) {
+  std::ostringstream bytes;
+  bytes << std::ifstream(path, std::ios::binary).rdbuf();
+  return bytes.str();
+}
+
+void write_file(const std::string& path, const std::string& bytes) { std::ofstream(path, std::ios::binary) << bytes; }
+
+// A PLY file of double coordinates. Binary, it is read in place; as text, it is spooled.
+void write_ply(const std::string& path, const ModelMesh& mesh, bool binary) {
+  std::ostringstream out;
+  out.precision(17);
+  out << "ply\nformat " << (binary ? "binary_little_endian" : "ascii") << " 1.0\nelement vertex " << mesh.vertex_count()
+      << "\nproperty double x\nproperty double y\nproperty double z\nelement face " << mesh.corners.size() / 3
+      << "\nproperty list uchar int vertex_indices\nend_header\n";
+  const auto put = [&](const auto& value) {
+    if (!binary) {
+      out << +value << ' ';
+      return;
+    }
+    char bytes[sizeof value];
+    std::memcpy(bytes, &value, sizeof value);
+    out.write(bytes, sizeof value);
+  };
+  const char* line_end = binary ? "" : "\n";
+  for (std::size_t v = 0; v < mesh.vertex_count(); ++v, out << line_end)
+    for (const auto& column : mesh.columns) put(column[v]);
+  for (std::size_t i = 0; i < mesh.corners.size(); ++i, out << (i % 3 == 0 ? line_end : "")) {
+    if (i % 3 == 0) put(std::uint8_t{3});
+    put(static_cast<std::int32_t>(mesh.corners[i].value()));
+  }
+  write_file(path, out.str());
+}
+
+// A streaming mesh: a vertex comes when a triangle needs it, and is final with the last that does.
+void write_stream(const std::string& path, const ModelMesh& mesh) {
+  std::vector<std::size_t> last_use(mesh.vertex_count(), 0);
+  for (std::size_t i = 0; i < mesh.corners.size(); ++i) last_use[mesh.corners[i].value()] = i / 3;
+  const auto writer = io::create_mesh(path, {.existing = io::Existing::kReplace});
+  std::uint64_t next = 0;
+  for (std::size_t t = 0; t <= mesh.corners.size() / 3; ++t) {
+    const bool at_end = t == mesh.corners.size() / 3;  // with the vertices that nothing uses
+    MeshBatch batch;
+    batch.first_vertex = VertexId(next);
+    if (!at_end)
+      batch.triangles.assign(mesh.corners.begin() + 3 * static_cast<std::ptrdiff_t>(t),
+                             mesh.corners.begin() + 3 * static_cast<std::ptrdiff_t>(t + 1));
+    std::uint64_t end = at_end ? mesh.vertex_count() : next;
+    for (const VertexId v : batch.triangles) {
+      end = std::max(end, v.value() + 1);
+      if (last_use[v.value()] == t &&
+          std::find(batch.finalized.begin(), batch.finalized.end(), v) == batch.finalized.end())
+        batch.finalized.push_back(v);
+    }
+    batch.vertex_count = end - next;
+    for (const auto& column : mesh.columns)
+      batch.coordinates.emplace_back(column.begin() + static_cast<std::ptrdiff_t>(next),
+                                     column.begin() + static_cast<std::ptrdiff_t>(end));
+    next = end;
+    writer->write(batch);
+  }
+  writer->close();
+}
+
+// Values as z; edges and vertices as degenerate triangles.
+ModelMesh mesh_of(const test::Complex& complex) {
+  ModelMesh mesh{std::vector<std::vector<double>>(3), {}};
+  for (std::size_t v = 0; v < complex.vertex_count(); ++v) {
+    for (std::size_t k = 0; k < 2; ++k) mesh.columns[k].push_back(complex.positions[v][k]);
+    mesh.columns[2].push_back(complex.values[v]);
+  }
+  const test::Skeleton skeleton = test::two_skeleton(complex);
+  for (const auto& [a, b] : skeleton.edges)
+    for (const std::uint64_t corner : {a, b, b}) mesh.corners.emplace_back(corner);
+  for (const auto& triangle : skeleton.triangles)
+    for (const std::uint64_t corner : triangle) mesh.corners.emplace_back(corner);
+  return mesh;
+}
+
+// In place; spooled, on guesses; with finalization of its own.
+enum class Form { kBinary, kText, kStream };
+constexpr Form kForms[] = {Form::kBinary, Form::kText, Form::kStream};
+
+// One mesh file and runs on it; the output is OUT.reeb in the same folder.
+class Runs {
+ public:
+  explicit Runs(const ModelMesh& mesh, Form form = Form::kBinary, std::string function = "z")
+      : form_(form), function_(std::move(function)) {
+    write(mesh);
+  }
+
+  void write(const ModelMesh& mesh) const {
+    if (form_ == Form::kStream)
+      write_stream(mesh_path(), mesh);
+    else
+      write_ply(mesh_path(), mesh, form_ == Form::kBinary);
+  }
+  std::string mesh_path() const { return scratch_.path() + (form_ == Form::kStream ? "/mesh.sma" : "/mesh.ply"); }
+  std::string output() const { return scratch_.path() + "/OUT.reeb"; }
+  std::string partial() const { return PartialFolder::path_for(output()); }
+  void set_function(const std::string& function) { function_ = function; }
+
+  ComputeOptions options;
+  ReadOptions reading;
+  std::function<void()> watch = {};  // called after each chunk
+
+  // Runs to the end; the bytes of the output, which is then removed.
+  std::string finish(bool resume) {
+    Notes ignored;
+    return finish(resume, ignored);
+  }
+  std::string finish(bool resume, Notes& notes) {
+    run(resume, ~std::uint64_t{0}, &notes);
+    EXPECT_FALSE(fs::exists(partial()));
+    const std::string bytes = read_file(output());
+    fs::remove(output());
+    return bytes;
+  }
+
+  // Runs up to the end of the n-th chunk, counted from 1. False if the run was shorter; then it
+  // wrote its output.
+  bool stop_after(std::uint64_t n, bool resume) {
+    try {
+      run(resume, n, nullptr);
+      return false;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::kInterrupted) << error.what();
+      EXPECT_NE(error.hint().find("--resume"), std::string::npos) << error.hint();
+      EXPECT_TRUE(PartialFolder::has_checkpoint(output()));
+      EXPECT_FALSE(fs::exists(output()));
+      return true;
+    }
+  }
+
+ private:
+  void run(bool resume, std::uint64_t chunks, Notes* notes) {
+    MeshInput input;
+    input.path = mesh_path();
+    input.reader = io::open_mesh(input.path, reading);
+    io::MeshFunction function(io::parse_function(function_), input.reader->info(), {}, input.path);
+    input.indexed = io::open_indexed_mesh(input.path, reading);
+    if (input.indexed) input.reader.reset();
+    VertexFunction* functions[] = {&function};
+    const std::string outputs[] = {output()};
+    std::uint64_t done = 0;
+    ComputeOptions all = options;
+    all.resume = resume;
+    all.progress = [&](const ComputeProgress& p) {
+      if (p.phase != ComputeProgress::Phase::kReeb) return;
+      ++done;
+      if (watch) watch();
+    };
+    all.interrupted = [&] { return done >= chunks; };
+    const auto results = compute(std::move(input), functions, outputs, all);
+    if (notes) *notes = results[0].notes;
+  }
+
+  Scratch scratch_;
+  Form form_;
+  std::string function_;
+};
+
+TEST(Resume, GoesOnFromEveryChunkOfRandomComplexes) {
+  for (std::uint64_t seed = 0; seed < 45; ++seed) {
+    SCOPED_TRACE(testing::Message() << "seed " << seed);
+    Runs runs(mesh_of(test::random_complex(seed)), kForms[seed % 3]);
+    runs.reading.batch_events = 1 + seed % 4;  // of a stream no chunk is cut within a batch
+    runs.options.chunk_triangles = 1 + seed % 5;
+    runs.options.threads = static_cast<unsigned>(1 + seed % 3);
+    const std::string expected = runs.finish(false);
+    for (std::uint64_t n = 1; runs.stop_after(n, false); n += 1 + n / 4)
+      ASSERT_EQ(runs.finish(true), expected) << "after chunk " << n;
+    fs::remove(runs.output());
+  }
+}
+
+TEST(Resume, GoesOnAsOftenAsItIsInterrupted) {
+  for (std::uint64_t seed = 100; seed < 115; ++seed) {
+    SCOPED_TRACE(testing::Message() << "seed " << seed);
+    Runs runs(mesh_of(test::random_complex(seed)), kForms[seed % 3]);
+    runs.reading.batch_events = 3;
+    runs.options.chunk_triangles = 7;
+    const std::string expected = runs.finish(false);
+    for (bool resume = false; runs.stop_after(1, resume); resume = true) continue;
+    EXPECT_EQ(read_file(runs.output()), expected);
+  }
+}
+
+// Enough nodes for segments on disk, and gone on with in another way than begun.
+class ResumeForm : public testing::TestWithParam<Form> {};
+INSTANTIATE_TEST_SUITE_P(Forms, ResumeForm, testing::ValuesIn(kForms), [](const auto& form) {
+  return std::string(form.param == Form::kBinary ? "InPlace" : form.param == Form::kText ? "Guessed" : "Stream");
+});
+
+TEST_P(ResumeForm, TakesOverSegmentsWhateverTheThreadsChunksAndMemory) {
+  Runs runs(grid_mesh(250, 250), GetParam(), "random:1");
+  runs.reading.batch_events = 100;
+  runs.options.graph_only = true;  // the least budget has no room for the second stage
+  runs.options.buckets = 0;        // an embedding shows where chunks were cut
+  runs.options.memory_bytes = 16 << 20;
+  runs.options.chunk_triangles = 4096;
+  const std::string expected = runs.finish(false);
+  std::uint64_t with_segments = 0;
+  for (std::uint64_t n = 1; n <= 30; n += 4) {
+    runs.options.memory_bytes = 16 << 20;
+    runs.options.chunk_triangles = 4096;
+    runs.options.threads = 1;
+    ASSERT_TRUE(runs.stop_after(n, false));
+    with_segments += fs::exists(runs.partial() + "/function-0.arcs");
+    runs.options.memory_bytes = n % 8 == 1 ? MemoryBudget::kUnlimited : 17 << 20;
+    runs.options.chunk_triangles = n % 3 == 0 ? 0 : 10'000;
+    runs.options.threads = 2;
+    ASSERT_EQ(runs.finish(true), expected) << "after chunk " << n;
+  }
+  EXPECT_GT(with_segments, 2u) << "nothing spills any more";
+}
+
+// Chunks that adapt are cut in the same places, and buckets come out of segments as they went in.
+TEST_P(ResumeForm, GivesTheSameEmbeddingWhateverTheThreads) {
+  Runs runs(grid_mesh(250, 250), GetParam(), "random:1");
+  runs.reading.batch_events = 100;
+  runs.options.graph_only = true;
+  runs.options.memory_bytes = 24 << 20;
+  runs.options.threads = 2;
+  for (const double denoise : {0.0, 0.3}) {
+    runs.options.denoise = denoise;
+    const std::string expected = runs.finish(false);
+    std::uint64_t with_segments = 0;
+    for (const std::uint64_t n : {1u, 3u, 5u, 7u}) {
+      runs.options.threads = static_cast<unsigned>(1 + n % 3);
+      ASSERT_TRUE(runs.stop_after(n, false));
+      with_segments += fs::exists(runs.partial() + "/function-0.arcs");
+      runs.options.threads = static_cast<unsigned>(1 + n % 2);
+      Notes notes;
+      ASSERT_EQ(runs.finish(true, notes), expected) << "after chunk " << n;
+      EXPECT_NE(notes.at(0).find("goes on"), std::string::npos) << notes[0];
+    }
+    if (denoise == 0) {
+      EXPECT_GT(with_segments, 0u) << "nothing spills any more";
+    }
+  }
+}
+
+// The checkpoint is of what came before the mesh was run from disk, or after.
+TEST(Resume, GoesOnBeforeAndAfterAGuessWasRevoked) {
+  ModelMesh mesh = grid_mesh(60, 60);
+  const std::vector<VertexId> first(mesh.corners.begin(), mesh.corners.begin() + 1000 * 3);
+  mesh.corners.insert(mesh.corners.end(), first.begin(), first.end());
+  Runs runs(mesh, Form::kText, "random:1");
+  runs.options.chunk_triangles = 500;
+  const std::string expected = runs.finish(false);
+  const std::uint64_t before = (59 * 59 * 2 + 499) / 500;
+  for (const std::uint64_t n : {std::uint64_t{1}, before - 1, before, before + 1, 2 * before})
+    for (const unsigned threads : {1u, 2u}) {
+      runs.options.threads = threads;
+      ASSERT_TRUE(runs.stop_after(n, false));
+      Notes notes;
+      ASSERT_EQ(runs.finish(true, notes), expected) << "after chunk " << n;
+      EXPECT_NE(notes.at(0).find("goes on"), std::string::npos) << notes[0];
+    }
+}
+
+TEST(Resume, StartsAnewWithOtherSettings) {
+  Runs runs(grid_mesh(60, 60), Form::kBinary, "random:1");
+  runs.options.chunk_triangles = 500;
+  runs.options.buckets = 16;
+  const std::string expected = runs.finish(false);
+  runs.options.buckets = 8;
+  ASSERT_TRUE(runs.stop_after(3, false));
+  runs.options.buckets = 16;
+  Notes notes;
+  EXPECT_EQ(runs.finish(true, notes), expected);
+  EXPECT_NE(notes.at(0).find("other options"), std::string::npos) << notes[0];
+}
+
+// With more memory a run would not reorder the mesh; one that goes on has to.
+TEST(Resume, KeepsToTheOrderInWhichTheRunBegan) {
+  Runs runs(shuffled(grid_mesh(150, 150), 5));
+  runs.options.buckets = 0;
+  const std::string expected = runs.finish(false);
+  runs.options.chunk_triangles = 2048;
+  for (const std::uint64_t n : {1u, 9u, 20u}) {
+    runs.options.memory_bytes = 16 << 20;
+    ASSERT_TRUE(runs.stop_after(n, false));
+    runs.options.memory_bytes = MemoryBudget::kUnlimited;
+    Notes notes;
+    ASSERT_EQ(runs.finish(true, notes), expected) << "after chunk " << n;
+    EXPECT_NE(testing::PrintToString(notes).find("sorted on disk"), std::string::npos);
+  }
+}
+
+TEST(Resume, StartsAnewFromWhatIsDamaged) {
+  Runs runs(grid_mesh(250, 250), Form::kBinary, "random:1");
+  runs.options.graph_only = true;  // the least budget has no room for the second stage
+  runs.options.memory_bytes = 16 << 20;
+  runs.options.chunk_triangles = 4096;
+  const std::string expected = runs.finish(false);
+  ASSERT_TRUE(runs.stop_after(24, false));
+  const fs::path kept = runs.partial() + ".kept";
+  fs::rename(runs.partial(), kept);
+  std::mt19937_64 random(11);
+  for (const char* name : {"checkpoint", "function-0.nodes", "function-0.arcs"}) {
+    const std::string good = read_file(kept / name);
+    ASSERT_FALSE(good.empty()) << name;
+    for (int trial = 0; trial < 12; ++trial) {
+      std::string bad = good;
+      const std::size_t at = trial == 0 ? 0 : trial == 1 ? good.size() - 1 : random() % good.size();
+      if (trial % 2 == 0)
+        bad.resize(at);
+      else
+        bad[at] = static_cast<char>(bad[at] ^ (1 << random() % 8));
+      SCOPED_TRACE(testing::Message() << name << (trial % 2 == 0 ? " cut" : " changed") << " at " << at);
+      fs::copy(kept, runs.partial());
+      write_file(runs.partial() + "/" + name, bad);
+      // What the run wrote behind the last checkpoint does not matter.
+      const bool behind = std::string(name) != "checkpoint" && bad.substr(0, good.size()) == good;
+      Notes notes;
+      ASSERT_EQ(runs.finish(true, notes), expected);
+      EXPECT_EQ(notes.empty() || notes[0].find("starts anew") == std::string::npos, behind)
+          << testing::PrintToString(notes);
+    }
+  }
+  fs::rename(kept, runs.partial());
+  EXPECT_EQ(runs.finish(true), expected);
+}
+
+TEST(Resume, RefusesEveryCutAndChangedByteOfASmallCheckpoint) {
+  Runs runs(grid_mesh(4, 4));
+  runs.options.chunk_triangles = 5;
+  const std::string expected = runs.finish(false);
+  ASSERT_TRUE(runs.stop_after(2, false));
+  const std::string checkpoint = runs.partial() + "/checkpoint";
+  const std::string good = read_file(checkpoint);
+  for (std::size_t at = 0; at < good.size(); at += 1 + at / 8)
+    for (const bool cut : {true, false}) {
+      std::string bad = good;
+      if (cut)
+        bad.resize(at);
+      else
+        bad[at] = static_cast<char>(bad[at] ^ 0x10);
+      fs::create_directory(runs.partial());
+      write_file(checkpoint, bad);
+      Notes notes;
+      ASSERT_EQ(runs.finish(true, notes), expected) << "at " << at;
+      ASSERT_FALSE(notes.empty()) << "at " << at;
+      ASSERT_NE(notes[0].find("starts anew"), std::string::npos) << "at " << at;
+    }
+}
+
+TEST(Resume, IgnoresACheckpointOfAnotherMeshOrFunction) {
+  Runs runs(grid_mesh(20, 20));
+  runs.options.chunk_triangles = 100;
+  const std::string of_z = runs.finish(false);
+  Notes notes;
+  ASSERT_TRUE(runs.stop_after(2, false));
+  runs.set_function("x");
+  const std::string of_x = runs.finish(true, notes);
+  EXPECT_NE(of_x, of_z);
+  EXPECT_NE(notes.at(0).find("other functions"), std::string::npos) << notes[0];
+  EXPECT_EQ(runs.finish(false), of_x);
+
+  ASSERT_TRUE(runs.stop_after(2, false));
+  runs.write(grid_mesh(25, 16));
+  const std::string of_other = runs.finish(true, notes);
+  EXPECT_NE(notes.at(0).find("another mesh"), std::string::npos) << notes[0];
+  EXPECT_EQ(runs.finish(false), of_other);
+}
+
+TEST(Resume, SaysThatThereIsNothingToResume) {
+  Runs runs(grid_mesh(20, 20));
+  Notes notes;
+  runs.finish(true, notes);
+  EXPECT_NE(notes.at(0).find("nothing to resume"), std::string::npos) << notes[0];
+}
+
+TEST(Resume, KeepsCheckpointsAlongTheWayOnlyWhenTheyAreDue) {
+  for (const double seconds : {0.0, 1000.0}) {
+    Runs runs(grid_mesh(60, 60));
+    runs.options.chunk_triangles = 500;
+    runs.options.checkpoint_seconds = seconds;
+    std::uint64_t seen = 0;
+    const std::string output = runs.output();
+    // As a process that ends without a word: a copy of the folder is all that is left of it.
+    std::string last;
+    runs.watch = [&] {
+      if (PartialFolder::has_checkpoint(output)) ++seen, last = read_file(runs.partial() + "/checkpoint");
+    };
+    const std::string expected = runs.finish(false);
+    EXPECT_EQ(seen > 5, seconds == 0);
+    if (seconds != 0) continue;
+    runs.watch = {};
+    fs::create_directory(runs.partial());
+    write_file(runs.partial() + "/checkpoint", last);
+    Notes notes;
+    EXPECT_EQ(runs.finish(true, notes), expected);
+    EXPECT_NE(notes.at(0).find("goes on"), std::string::npos) << notes[0];
+  }
+}
+
+TEST(PartialFolder, BelongsToOneRunAtATime) {
+  const Scratch scratch;
+  const std::string output = scratch.path() + "/a.reeb";
+  {
+    const PartialFolder folder(output);
+    EXPECT_THROW(PartialFolder{output}, Error);
+  }
+  EXPECT_TRUE(scratch.empty());
+}
+
+TEST(PartialFolder, LeavesFilesOfOtherOriginAlone) {
+  const Scratch scratch;
+  const std::string output = scratch.path() + "/a.reeb";
+  fs::create_directory(output + ".partial");
+  write_file(output + ".partial/notes.txt", "mine");
+  write_file(output + ".partial/function-0.arcs", "left");
+  {
+    PartialFolder folder(output);
+    folder.clear();
+  }
+  EXPECT_TRUE(fs::exists(output + ".partial/notes.txt"));
+  EXPECT_FALSE(fs::exists(output + ".partial/function-0.arcs"));
+}
+
+}  // namespace
+}  // namespace reeb::ooc

@@ -1,0 +1,85 @@
+// One thread beside its owner, and reading ahead.
+#include "ooc/threads/worker.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <stdexcept>
+#include <thread>
+#include <vector>
+
+#include "ooc/threads/read_ahead.h"
+
+namespace reeb::ooc {
+namespace {
+
+TEST(Worker, DoesTasksInOrderInOneOtherThread) {
+  std::vector<int> done;
+  std::vector<std::thread::id> threads;
+  Worker worker;
+  for (int i = 0; i < 100; ++i)
+    worker.start([&, i] {
+      done.push_back(i);
+      threads.push_back(std::this_thread::get_id());
+    });
+  worker.wait();
+  ASSERT_EQ(done.size(), 100u);
+  for (int i = 0; i < 100; ++i) EXPECT_EQ(done[static_cast<std::size_t>(i)], i);
+  for (const std::thread::id id : threads) EXPECT_EQ(id, threads[0]);
+  EXPECT_NE(threads[0], std::this_thread::get_id());
+}
+
+TEST(Worker, ThrowsOnceWhatATaskThrew) {
+  Worker worker;
+  bool ran = false;
+  worker.start([] { throw std::runtime_error("full"); });
+  EXPECT_THROW(worker.start([&] { ran = true; }), std::runtime_error);
+  EXPECT_FALSE(ran);
+  worker.start([&] { ran = true; });
+  worker.wait();
+  EXPECT_TRUE(ran);
+}
+
+TEST(Worker, EndsItsTaskBeforeItGoes) {
+  bool ended = false;
+  {
+    Worker worker;
+    worker.start([&] {
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+      ended = true;
+    });
+  }
+  EXPECT_TRUE(ended);
+}
+
+class ReadAhead : public testing::TestWithParam<bool> {};
+INSTANTIATE_TEST_SUITE_P(Background, ReadAhead, testing::Bool());
+
+TEST_P(ReadAhead, UsesAllPiecesInOrder) {
+  for (int count : {0, 1, 2, 3, 4, 100}) {
+    int read = 0;
+    std::vector<int> used;
+    read_ahead<int>(
+        GetParam(),
+        [&](int& piece) {
+          piece = read;
+          return read++ < count;
+        },
+        [&](const int& piece) { used.push_back(piece); });
+    ASSERT_EQ(used.size(), static_cast<std::size_t>(count));
+    for (int i = 0; i < count; ++i) EXPECT_EQ(used[static_cast<std::size_t>(i)], i);
+    EXPECT_EQ(read, count + 1);
+  }
+}
+
+TEST_P(ReadAhead, ThrowsWhatReadAndUseThrow) {
+  const auto endless = [](int&) { return true; };
+  EXPECT_THROW(read_ahead<int>(GetParam(), endless, [](const int&) { throw std::runtime_error("use"); }),
+               std::runtime_error);
+  EXPECT_THROW(read_ahead<int>(
+                   GetParam(), [](int&) -> bool { throw std::runtime_error("read"); }, [](const int&) {}),
+               std::runtime_error);
+}
+
+}  // namespace
+}  // namespace reeb::ooc

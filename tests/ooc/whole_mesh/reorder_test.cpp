@@ -1,0 +1,124 @@
+#include "ooc/whole_mesh/reorder.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <set>
+
+#include "libreeb/base/error.h"
+#include "ooc/chunks/last_use.h"
+#include "ooc/whole_mesh/hilbert.h"
+#include "tests/ooc/chunks/model_mesh.h"
+#include "tests/support/scratch.h"
+
+namespace reeb::ooc {
+namespace {
+
+using Triangle = std::array<std::uint64_t, 3>;
+
+Triangle turned(Triangle t) {
+  std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+  return t;
+}
+
+std::vector<Triangle> triangles_of(std::span<const VertexId> corners) {
+  std::vector<Triangle> triangles;
+  for (std::size_t t = 0; t < corners.size(); t += 3)
+    triangles.push_back(turned({corners[t].value(), corners[t + 1].value(), corners[t + 2].value()}));
+  std::sort(triangles.begin(), triangles.end());
+  return triangles;
+}
+
+// The reordered mesh is the old one under original(), vertex by vertex and triangle by triangle.
+void expect_same(const ModelMesh& model, ReorderedMesh& mesh) {
+  ASSERT_EQ(mesh.vertex_count(), model.vertex_count());
+  std::vector<VertexId> ids, originals(model.vertex_count());
+  for (std::uint64_t v = 0; v < model.vertex_count(); ++v) ids.emplace_back(v);
+  originals = ids;
+  mesh.to_original(originals);
+  EXPECT_EQ(std::set<VertexId>(originals.begin(), originals.end()).size(), ids.size());
+  std::vector<double> values(ids.size());
+  for (unsigned k = 0; k < model.columns.size(); ++k) {
+    mesh.gather(ids, std::array{k}, values);
+    for (std::size_t i = 0; i < ids.size(); ++i) ASSERT_EQ(values[i], model.columns[k][originals[i].value()]);
+  }
+  std::vector<VertexId> corners, some;
+  mesh.rewind();
+  while (mesh.read(some, 1000))
+    for (const VertexId v : some) corners.push_back(originals[v.value()]);
+  EXPECT_EQ(triangles_of(corners), triangles_of(model.corners));
+}
+
+void compare(const ModelMesh& model, std::uint64_t allowance, std::uint64_t limit) {
+  const Scratch scratch;
+  const TempDir temp(scratch.path());
+  MemoryBudget budget(limit);
+  {
+    ModelIndexedMesh indexed(model);
+    const auto mesh = reorder(indexed, temp, budget, {.allowance_bytes = allowance});
+    expect_same(model, *mesh);
+  }
+  EXPECT_EQ(budget.used_bytes(), 0u);
+  EXPECT_TRUE(scratch.empty());
+}
+
+TEST(Reorder, KeepsTheMeshUnderItsOriginalIds) {
+  compare(shuffled(grid_mesh(60, 50), 1), 32 << 20, 64 << 20);
+  compare(shuffled(grid_mesh(250, 200), 2), 256 << 10, 8 << 20);  // many slices, many runs
+}
+
+TEST(Reorder, OddMeshes) {
+  ModelMesh mesh = grid_mesh(9, 8);
+  mesh.columns.emplace_back(mesh.vertex_count() + 1, 0.1);                                 // a property
+  for (int k = 0; k < 3; ++k) mesh.columns[static_cast<std::size_t>(k)].push_back(1e308);  // unused
+  for (const std::uint64_t v : {5u, 5u, 7u, 9u, 9u, 9u, 4u, 3u, 4u}) mesh.corners.emplace_back(v);
+  compare(mesh, 0, 8 << 20);
+  compare({std::vector<std::vector<double>>(3), {}}, 1 << 20, 8 << 20);
+  compare({std::vector<std::vector<double>>(3, {1.0, 1.0, 1.0}), {VertexId(2), VertexId(0), VertexId(1)}}, 1 << 20,
+          8 << 20);
+}
+
+TEST(Reorder, MakesTheFrontSmall) {
+  const Scratch scratch;
+  const TempDir temp(scratch.path());
+  MemoryBudget budget;
+  const ModelMesh model = shuffled(grid_mesh(300, 300), 3);
+  ModelIndexedMesh before(model);
+  const LastUseOptions blocks{.block_triangles = 256};
+  const auto mesh = reorder(before, temp, budget);
+  const auto live_before = scan_last_use(before, temp, budget, blocks)->summary().max_live_vertices;
+  const auto live_after = scan_last_use(*mesh, temp, budget, blocks)->summary().max_live_vertices;
+  EXPECT_GT(live_before, 50'000u);
+  EXPECT_LT(live_after, 3000u) << "a square patch of n vertices has a border of about 4 sqrt(n)";
+}
+
+TEST(Reorder, EachFailingWriteIsReported) {
+  const ModelMesh model = shuffled(grid_mesh(120, 120), 5);
+  expect_failing_writes_are_reported([&](const TempDir& temp, MemoryBudget& budget) {
+    ModelIndexedMesh indexed(model);
+    reorder(indexed, temp, budget, {.allowance_bytes = 64 << 10});
+  });
+}
+
+// Cells of the coarsest levels: the curve's start on the fine grid visits neighbours in turn.
+TEST(Hilbert, NeighboursOnTheCurveShareAFace) {
+  constexpr std::uint32_t kSide = 16;
+  std::vector<std::array<std::uint32_t, 3>> by_index(kSide * kSide * kSide);
+  for (std::uint32_t x = 0; x < kSide; ++x)
+    for (std::uint32_t y = 0; y < kSide; ++y)
+      for (std::uint32_t z = 0; z < kSide; ++z) {
+        const std::uint64_t index = hilbert_index({x, y, z});
+        ASSERT_LT(index, by_index.size());
+        by_index[index] = {x, y, z};
+      }
+  for (std::size_t i = 1; i < by_index.size(); ++i) {
+    int distance = 0;
+    for (std::size_t a = 0; a < 3; ++a)
+      distance += std::abs(static_cast<int>(by_index[i][a]) - static_cast<int>(by_index[i - 1][a]));
+    ASSERT_EQ(distance, 1) << "at " << i;
+  }
+}
+
+}  // namespace
+}  // namespace reeb::ooc

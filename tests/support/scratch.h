@@ -1,0 +1,86 @@
+// What the tests of ooc share: a folder that must be empty in the end, and writes that fail.
+#pragma once
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "io/file/file.h"
+#include "io/file/temp_dir.h"
+#include "libreeb/base/error.h"
+#include "libreeb/base/memory_budget.h"
+
+namespace reeb::ooc {
+
+// A fresh folder of its own, removed by the destructor.
+class Scratch {
+ public:
+  Scratch() : path_((std::filesystem::temp_directory_path() / "ooc-test-XXXXXX").string()) {
+    if (::mkdtemp(path_.data()) == nullptr) std::abort();
+  }
+  Scratch(const Scratch&) = delete;
+  Scratch& operator=(const Scratch&) = delete;
+  ~Scratch() { std::filesystem::remove_all(path_); }
+
+  const std::string& path() const { return path_; }
+  bool empty() const { return std::filesystem::is_empty(path_); }
+
+ private:
+  std::string path_;
+};
+
+// A WriteFault: the n-th write fails, counted from 1, and all after it, as on a full disk.
+class FailNthWrite {
+ public:
+  FailNthWrite(std::uint64_t n, int error) : n_(n), error_(error) {}
+  int operator()(std::uint64_t, std::size_t) const { return ++*count_ >= n_ ? error_ : 0; }
+
+ private:
+  std::uint64_t n_;
+  int error_;
+  std::shared_ptr<std::atomic<std::uint64_t>> count_ = std::make_shared<std::atomic<std::uint64_t>>(0);
+};
+
+// A WriteFault that fails nothing and counts.
+class CountWrites {
+ public:
+  int operator()(std::uint64_t, std::size_t) const { return ++*count_, 0; }
+  std::uint64_t count() const { return *count_; }
+
+ private:
+  std::shared_ptr<std::atomic<std::uint64_t>> count_ = std::make_shared<std::atomic<std::uint64_t>>(0);
+};
+
+// Runs `run(temp, budget)` once with a good disk, then with one that is full from the n-th write
+// on, for n spread over all writes: each failure must arrive as an Error that names a file, and
+// leave nothing reserved and nothing in the folder.
+template <class Run>
+void expect_failing_writes_are_reported(const Run& run) {
+  const Scratch scratch;
+  const CountWrites writes;
+  {
+    MemoryBudget budget;
+    run(TempDir(scratch.path(), writes), budget);
+  }
+  ASSERT_GT(writes.count(), 3u) << "nothing spills any more";
+  for (std::uint64_t n = 1; n <= writes.count(); n += 1 + n / 8) {
+    MemoryBudget budget;
+    try {
+      run(TempDir(scratch.path(), FailNthWrite(n, ENOSPC)), budget);
+      ADD_FAILURE() << "write " << n << ": the error was swallowed";
+    } catch (const Error& e) {
+      EXPECT_EQ(e.kind(), ErrorKind::kResource);
+      EXPECT_NE(e.file(), "");
+    }
+    EXPECT_EQ(budget.used_bytes(), 0u);
+    EXPECT_TRUE(scratch.empty());
+  }
+}
+
+}  // namespace reeb::ooc

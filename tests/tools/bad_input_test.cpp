@@ -1,0 +1,319 @@
+// Bad meshes of every format, as a user would meet them: exit code 1, one error line with the place,
+// one hint, and nothing left behind. Formats without a count or an index have no such fault.
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cstring>
+#include <limits>
+#include <regex>
+
+#include "tests/tools/program.h"
+
+namespace reeb::test {
+namespace {
+
+template <class T>
+std::string bytes_of(T value) {
+  std::string bytes(sizeof value, '\0');
+  std::memcpy(bytes.data(), &value, sizeof value);
+  return bytes;
+}
+
+// What a writer of each format is told; the defaults are a good mesh of four triangles.
+struct Content {
+  double second_x = 1;            // x of vertex 1
+  std::uint64_t last_corner = 2;  // last corner of the last triangle
+  std::uint64_t vertices_said = 4, triangles_said = 4;
+};
+
+constexpr double kPoints[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+constexpr std::uint64_t kFaces[4][3] = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
+
+double coordinate(const Content& content, std::size_t vertex, std::size_t k) {
+  return vertex == 1 && k == 0 ? content.second_x : kPoints[vertex][k];
+}
+
+std::uint64_t corner(const Content& content, std::size_t face, std::size_t c) {
+  return face == 3 && c == 2 ? content.last_corner : kFaces[face][c];
+}
+
+std::string number(double value) {
+  std::ostringstream text;
+  text << value;
+  return text.str();
+}
+
+std::string point_text(const Content& content, std::size_t vertex) {
+  return number(coordinate(content, vertex, 0)) + " " + number(coordinate(content, vertex, 1)) + " " +
+         number(coordinate(content, vertex, 2)) + "\n";
+}
+
+std::string ply_header(const Content& content, const char* kind) {
+  return std::string("ply\nformat ") + kind + " 1.0\nelement vertex " + std::to_string(content.vertices_said) +
+         "\nproperty float x\nproperty float y\nproperty float z\nelement face " +
+         std::to_string(content.triangles_said) + "\nproperty list uchar int vertex_indices\nend_header\n";
+}
+
+std::string ply_text(const Content& content) {
+  std::string file = ply_header(content, "ascii");
+  for (std::size_t v = 0; v < 4; ++v) file += point_text(content, v);
+  for (std::size_t f = 0; f < 4; ++f) {
+    file += "3";
+    for (std::size_t c = 0; c < 3; ++c) file.append(" ").append(std::to_string(corner(content, f, c)));
+    file += "\n";
+  }
+  return file;
+}
+
+std::string ply_binary(const Content& content) {
+  std::string file = ply_header(content, "binary_little_endian");
+  for (std::size_t v = 0; v < 4; ++v)
+    for (std::size_t k = 0; k < 3; ++k) file += bytes_of(static_cast<float>(coordinate(content, v, k)));
+  for (std::size_t f = 0; f < 4; ++f) {
+    file += bytes_of(std::uint8_t{3});
+    for (std::size_t c = 0; c < 3; ++c) file += bytes_of(static_cast<std::int32_t>(corner(content, f, c)));
+  }
+  return file;
+}
+
+std::string obj(const Content& content) {
+  std::string file;
+  for (std::size_t v = 0; v < 4; ++v) file += "v " + point_text(content, v);
+  for (std::size_t f = 0; f < 4; ++f) {
+    file += "f";
+    for (std::size_t c = 0; c < 3; ++c) file.append(" ").append(std::to_string(corner(content, f, c) + 1));
+    file += "\n";
+  }
+  return file;
+}
+
+std::string off(const Content& content) {
+  std::string file =
+      "OFF\n" + std::to_string(content.vertices_said) + " " + std::to_string(content.triangles_said) + " 0\n";
+  for (std::size_t v = 0; v < 4; ++v) file += point_text(content, v);
+  for (std::size_t f = 0; f < 4; ++f) {
+    file += "3";
+    for (std::size_t c = 0; c < 3; ++c) file.append(" ").append(std::to_string(corner(content, f, c)));
+    file += "\n";
+  }
+  return file;
+}
+
+std::string stl_text(const Content& content) {
+  std::string file = "solid s\n";
+  for (const auto& face : kFaces) {
+    file += "facet normal 0 0 0\nouter loop\n";
+    for (const std::uint64_t v : face) file += "vertex " + point_text(content, v);
+    file += "endloop\nendfacet\n";
+  }
+  return file + "endsolid s\n";
+}
+
+std::string stl_binary(const Content& content) {
+  std::string file = std::string(80, ' ') + bytes_of(static_cast<std::uint32_t>(content.triangles_said));
+  for (const auto& face : kFaces) {
+    for (int i = 0; i < 3; ++i) file += bytes_of(0.0F);
+    for (const std::uint64_t v : face)
+      for (std::size_t k = 0; k < 3; ++k) file += bytes_of(static_cast<float>(coordinate(content, v, k)));
+    file += std::string(2, '\0');
+  }
+  return file;
+}
+
+struct Format {
+  const char* name;
+  std::string (*make)(const Content&);
+  bool has_indices, has_vertex_count, has_triangle_count;
+};
+
+constexpr Format kFormats[] = {
+    {"PlyText", ply_text, true, true, true},    {"PlyBinary", ply_binary, true, true, true},
+    {"Obj", obj, true, false, false},           {"Off", off, true, true, true},
+    {"StlText", stl_text, false, false, false}, {"StlBinary", stl_binary, false, false, true},
+};
+
+// A run on a bad file must not need more than this, whatever the file promises.
+constexpr std::uint64_t kMostBytes = 64u << 20;
+constexpr double kMostSeconds = 5;
+
+class BadInput : public ProgramTest {
+ protected:
+  // Expects the error, and that nothing but the input is there afterwards.
+  void expect_refused(const std::string& mesh, bool has_position) {
+    const std::vector<std::string> before = files();
+    const Outcome outcome = reeb({"compute", mesh, "--report", "report.json"});
+    expect_error(outcome, 1, mesh + ":");
+    if (has_position) {
+      const std::regex place("reeb: error: " + mesh + ":[0-9]+(:[0-9]+)?: [^\n]+\n");
+      EXPECT_TRUE(std::regex_search(outcome.error, place)) << last_command() << '\n' << outcome.error;
+    }
+    EXPECT_EQ(files(), before) << last_command();
+    EXPECT_LT(outcome.seconds, kMostSeconds) << last_command();
+    if (!kSanitized) {
+      EXPECT_LT(outcome.peak_rss_bytes, kMostBytes) << last_command();
+    }
+  }
+
+  std::string gzipped(const std::string& name) const {
+    const Outcome outcome = run_process({.arguments = {"gzip", "-c", in_folder(name)}});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
+    return outcome.output;
+  }
+};
+
+class BadMesh : public BadInput, public testing::WithParamInterface<Format> {
+ protected:
+  // The same bytes as they are, gzipped, and from standard input.
+  void expect_refused_in_every_wrapping(const std::string& bytes) {
+    write("bad.mesh", bytes);
+    expect_refused("bad.mesh", true);
+    write("bad.mesh.gz", gzipped("bad.mesh"));
+    expect_refused("bad.mesh.gz", true);
+    Command command;
+    command.input = in_folder("bad.mesh");
+    expect_error(reeb({"compute", "-"}, command), 1);
+  }
+
+  static std::string make(const Content& content) { return GetParam().make(content); }
+};
+
+TEST_P(BadMesh, TheGoodOneIsRead) {
+  write("good.mesh", make({}));
+  expect_success(reeb({"compute", "good.mesh"}));
+  write("good.mesh.gz", gzipped("good.mesh"));
+  expect_success(reeb({"compute", "good.mesh.gz", "--force"}));
+}
+
+TEST_P(BadMesh, Truncated) {
+  const std::string whole = make({});
+  // In the last but one number; an OBJ can only be told to be cut within a vertex.
+  const std::size_t length = std::string(GetParam().name) == "Obj" ? whole.find("v 0 0 1") + 5 : whole.size() - 20;
+  expect_refused_in_every_wrapping(whole.substr(0, length));
+}
+
+TEST_P(BadMesh, TruncatedWithinTheCompression) {
+  write("whole", make({}));
+  const std::string whole = gzipped("whole");
+  write("cut.gz", whole.substr(0, whole.size() - 12));
+  expect_refused("cut.gz", true);
+}
+
+TEST_P(BadMesh, NotANumber) {
+  expect_refused_in_every_wrapping(make({.second_x = std::numeric_limits<double>::quiet_NaN()}));
+}
+
+TEST_P(BadMesh, Infinite) {
+  expect_refused_in_every_wrapping(make({.second_x = std::numeric_limits<double>::infinity()}));
+}
+
+TEST_P(BadMesh, IndexOutOfRange) {
+  if (!GetParam().has_indices) GTEST_SKIP() << "the format has no indices";
+  expect_refused_in_every_wrapping(make({.last_corner = 4}));
+  expect_refused_in_every_wrapping(make({.last_corner = 2'000'000'000}));
+}
+
+TEST_P(BadMesh, WrongCount) {
+  if (!GetParam().has_triangle_count) GTEST_SKIP() << "the format has no counts";
+  expect_refused_in_every_wrapping(make({.triangles_said = 5}));
+  // Of binary records nobody can tell which are vertices; that bytes are left over is said (below).
+  const bool is_binary = std::string(GetParam().name) == "PlyBinary";
+  if (GetParam().has_vertex_count && !is_binary) expect_refused_in_every_wrapping(make({.vertices_said = 5}));
+}
+
+TEST_P(BadMesh, PromisesFarMoreThanItHolds) {
+  if (!GetParam().has_triangle_count) GTEST_SKIP() << "the format has no counts";
+  expect_refused_in_every_wrapping(make({.triangles_said = 800'000'000}));
+  if (!GetParam().has_vertex_count) return;
+  expect_refused_in_every_wrapping(make({.vertices_said = 800'000'000}));
+  expect_refused_in_every_wrapping(make({.vertices_said = 800'000'000, .triangles_said = 1'600'000'000}));
+  expect_refused_in_every_wrapping(make({.vertices_said = std::numeric_limits<std::uint64_t>::max()}));
+}
+
+INSTANTIATE_TEST_SUITE_P(Formats, BadMesh, testing::ValuesIn(kFormats),
+                         [](const auto& format) { return std::string(format.param.name); });
+
+TEST_F(BadInput, Empty) {
+  write("empty.ply", "");
+  expect_refused("empty.ply", false);
+  write("empty.ply.gz", gzipped("empty.ply"));
+  expect_refused("empty.ply.gz", false);
+  expect_error(reeb({"compute", "-"}), 1);
+}
+
+TEST_F(BadInput, Directory) {
+  std::filesystem::create_directory(in_folder("folder.ply"));
+  expect_refused("folder.ply", false);
+}
+
+TEST_F(BadInput, NotThere) { expect_refused("missing.ply", false); }
+
+TEST_F(BadInput, Unreadable) {
+  if (::geteuid() == 0) GTEST_SKIP() << "root reads every file";
+  write("secret.off", kSmallOff);
+  ASSERT_EQ(::chmod(in_folder("secret.off").c_str(), 0), 0);
+  expect_refused("secret.off", false);
+}
+
+TEST_F(BadInput, UnknownFormat) {
+  write("picture.ply", "\x89PNG\r\n\x1a\n" + std::string(2000, '\x07'));
+  expect_refused("picture.ply", false);
+  write("letter.ply", "Dear all,\nthis is no mesh.\n");
+  expect_refused("letter.ply", false);
+  write("letter.ply.gz", gzipped("letter.ply"));
+  expect_refused("letter.ply.gz", false);
+}
+
+TEST_F(BadInput, BytesLeftOverAreSaid) {
+  write("long.ply", ply_binary({.triangles_said = 3}));
+  write("long.ply.gz", gzipped("long.ply"));
+  for (const std::string mesh : {"long.ply", "long.ply.gz"}) {
+    const Outcome outcome = reeb({"compute", mesh, "--force"});
+    expect_success(outcome);
+    EXPECT_EQ(lines_after("note: ", outcome.error).size(), 1u) << mesh << '\n' << outcome.error;
+  }
+}
+
+TEST_F(BadInput, FileOfValues) {
+  write("mesh.off", kSmallOff);
+  for (const std::string values : {"1\n2\n3\n", "1\n2\nnan\n4\n", "1\ntwo\n3\n4\n"}) {
+    write("values.txt", values);
+    const std::vector<std::string> before = files();
+    expect_error(reeb({"compute", "mesh.off", "-f", "file:values.txt"}), 1);
+    EXPECT_EQ(files(), before);
+  }
+}
+
+TEST_F(BadInput, AValueFileHasOneValueAVertexInEveryFormOfAMesh) {
+  write("mesh.off", "OFF\n3 1 0\n0 0 0\n1 0 1\n0 1 2\n3 0 1 2\n");
+  write("mesh.sma", "v 0 0 0\nv 1 0 1\nv 0 1 2\nf 1 2 3\nx 1\nx 2\nx 3\n");
+  write("right.txt", "1\n2\n3\n");
+  write("long.txt", "1\n2\n3\n4\n");
+  for (const std::string mesh : {"mesh.off", "mesh.sma"}) {
+    expect_success(reeb({"compute", mesh, "-f", "file:right.txt", "-o", mesh + ".reeb"}));
+    const std::vector<std::string> before = files();
+    expect_error(reeb({"compute", mesh, "-f", "file:long.txt"}), 1);
+    EXPECT_EQ(files(), before);
+  }
+}
+
+TEST_F(BadInput, MissingPropertyOrCoordinate) {
+  write("mesh.off", kSmallOff);
+  write("mesh.ply", ply_text({}));
+  const std::vector<std::string> before = files();
+  for (const std::string mesh : {"mesh.off", "mesh.ply"})
+    for (const std::string function : {"property:quality", "c3", "file:missing.txt"})
+      expect_error(reeb({"compute", mesh, "-f", function}), 1);
+  EXPECT_EQ(files(), before);
+}
+
+TEST_F(BadInput, NotAReebFile) {
+  write("mesh.off", kSmallOff);
+  for (const char* command : {"extract", "pairs", "verify"}) {
+    expect_error(reeb({command, "mesh.off"}), 1, "mesh.off:");
+    expect_error(reeb({command, "missing.reeb"}), 1, "missing.reeb:");
+  }
+}
+
+}  // namespace
+}  // namespace reeb::test

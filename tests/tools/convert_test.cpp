@@ -1,0 +1,333 @@
+// `reeb convert`, `reeb info` of meshes and streams in `reeb compute`, through the program.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "tests/io/streaming/samples.h"
+#include "tests/tools/event_list.h"
+
+namespace reeb::test {
+namespace {
+
+using io::all_samples;
+using io::golden_events;
+using io::Sample;
+using io::sample_folder;
+using io::slurp;
+
+class Convert : public testing::Test {
+ protected:
+  struct Outcome {
+    int exit_code;
+    std::string output, error;
+  };
+
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  std::string text(const std::string& name) const { return slurp(folder_ / name); }
+  void write(const std::string& name, const std::string& bytes) const {
+    std::ofstream(folder_ / name, std::ios::binary) << bytes;
+  }
+
+  // Runs the program with words for the shell, in a folder of its own.
+  Outcome reeb(const std::string& words) const {
+    const std::string command = "cd '" + folder_.string() + "' && '" REEB_PROGRAM "' " + words + " >stdout 2>stderr";
+    const int status = std::system(command.c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text("stdout"), text("stderr")};
+  }
+  void expect_success(const std::string& words) const {
+    const Outcome outcome = reeb(words);
+    EXPECT_EQ(outcome.exit_code, 0) << words << '\n' << outcome.error;
+  }
+  EventList events_of(const std::string& mesh) const {
+    expect_success("convert " + mesh + " listed.events.txt --force");
+    return parse_events(text("listed.events.txt"));
+  }
+  nlohmann::json info_of(const std::string& mesh) const {
+    return nlohmann::json::parse(reeb("info --json " + mesh).output);
+  }
+  // Counts of the graph that a run reports, as text.
+  std::string graph_of(const std::string& words) const {
+    const Outcome outcome = reeb("compute " + words + " -o graph.reeb --force --quiet --report -");
+    EXPECT_EQ(outcome.exit_code, 0) << words << '\n' << outcome.error;
+    return outcome.exit_code == 0 ? nlohmann::json::parse(outcome.output)["graph"].dump() : "";
+  }
+
+  void SetUp() override {
+    folder_ = std::filesystem::temp_directory_path() / ("reeb-convert-" + std::to_string(::getpid()) + "-" +
+                                                        testing::UnitTest::GetInstance()->current_test_info()->name());
+    std::filesystem::create_directories(folder_);
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  std::filesystem::path folder_;
+};
+
+std::string sample(const std::string& file) { return (sample_folder() / file).string(); }
+
+TEST_F(Convert, EverySampleGivesItsGoldenListOrItsClassOfError) {
+  REEB_REQUIRE_SAMPLES();
+  std::size_t good = 0, bad = 0;
+  for (const Sample& s : all_samples()) {
+    const Outcome outcome = reeb("convert " + sample(s.file) + " x.events.txt --force");
+    if (s.good()) {
+      ++good;
+      EXPECT_EQ(outcome.exit_code, 0) << s.file << '\n' << outcome.error;
+      EXPECT_TRUE(text("x.events.txt") == golden_events(s.file)) << s.file;
+      std::filesystem::remove(path("x.events.txt"));
+      continue;
+    }
+    ++bad;
+    EXPECT_EQ(outcome.exit_code, 1) << s.file << '\n' << outcome.error;
+    EXPECT_FALSE(std::filesystem::exists(path("x.events.txt"))) << s.file;
+    // Gzip is read, so that only the damage in it is left to report.
+    if (s.verdict.starts_with("any error") || s.file.ends_with(".gz")) continue;
+    EXPECT_NE(outcome.error.find(": " + s.verdict + ": "), std::string::npos) << s.file << '\n' << outcome.error;
+  }
+  EXPECT_GT(good, 250u);
+  EXPECT_GT(bad, 70u);
+}
+
+TEST_F(Convert, EveryVariantOfAStreamHasTheSameGraph) {
+  REEB_REQUIRE_SAMPLES();
+  for (const std::string name : {"torus", "nonmanifold", "twoparts", "mobius", "soup", "shuffled"}) {
+    const std::string graph = graph_of(sample(name + ".pre.sma"));
+    for (const char* variant : {".post.sma", ".le.smb", ".be-mislabelled.smb", ".post.be.smb", ".v1.smc", ".v3.smc"}) {
+      const std::string file = sample(name + variant);
+      if (!std::filesystem::exists(file)) continue;
+      EXPECT_EQ(graph_of(file), graph) << file;
+      EXPECT_EQ(graph_of("- < " + file), graph) << "standard input, " << file;
+    }
+    ASSERT_EQ(std::system(("gzip -c " + sample(name + ".v3.smc") + " > " + path("packed.gz")).c_str()), 0);
+    EXPECT_EQ(graph_of("packed.gz"), graph) << name;
+    EXPECT_EQ(graph_of("- < packed.gz"), graph) << name;
+  }
+  EXPECT_EQ(graph_of(sample("smalltorus-nofinal.v3-q12.smc")), graph_of(sample("smalltorus.v3-q12.smc")));
+}
+
+TEST_F(Convert, EachFormatReadBackHoldsTheSameMesh) {
+  REEB_REQUIRE_SAMPLES();
+  for (const std::string name : {"terrain", "soup", "twoparts"}) {
+    const EventList before = parse_events(golden_events(name + ".pre.sma"));
+    for (const std::string suffix : {"sma", "smb", "smc", "ply", "obj", "off"}) {
+      expect_success("convert " + sample(name + ".pre.sma") + " there." + suffix + " --force");
+      expect_success("convert there." + suffix + " back.sma --force");
+      const EventList after = events_of("back.sma");
+      EXPECT_TRUE(after.triangles() == before.triangles()) << name << " as " << suffix;
+      EXPECT_TRUE(after.sorted_places() == before.sorted_places()) << name << " as " << suffix;
+    }
+  }
+  // Between streams the list itself stays, values of vertices and all.
+  for (const std::string file : {"terrain.pre.sma", "terrain.post.sma", "tetcube.s4.pre.sva", "tetcube.s4.post.sva"}) {
+    const std::string block = file.ends_with(".sva") ? "x.svb" : "x.smb";
+    expect_success("convert " + sample(file) + " " + block + " --force");
+    expect_success("convert " + block + " x.events.txt --force");
+    EXPECT_TRUE(text("x.events.txt") == golden_events(file)) << file;
+  }
+}
+
+std::string as_stl(const EventList& mesh) {
+  std::ostringstream out;
+  out.precision(9);
+  out << "solid terrain\n";
+  for (const EventList::Event& event : mesh.events) {
+    if (event.kind != 't') continue;
+    out << "facet normal 0 0 0\nouter loop\n";
+    for (const std::size_t v : event.vertices) {
+      const auto& [x, y, z] = mesh.places[v];
+      out << "vertex " << x << ' ' << y << ' ' << z << '\n';
+    }
+    out << "endloop\nendfacet\n";
+  }
+  out << "endsolid terrain\n";
+  return out.str();
+}
+
+// Every format into every other. The mesh as the source has it is known from the list of its events; triangles
+// are compared by the places of their corners, since some formats number vertices anew.
+TEST_F(Convert, EveryFormatIntoEveryOther) {
+  REEB_REQUIRE_SAMPLES();
+  const std::vector<std::string> writable = {"ply", "obj", "off", "sma", "smb", "smc"};
+  const std::string origin = sample("terrain.pre.sma");
+  const EventList expected = parse_events(golden_events("terrain.pre.sma"));
+  std::vector<std::string> sources = {origin, sample("terrain.post.sma"), sample("terrain.post.be.smb"),
+                                      sample("terrain.be-mislabelled.smb"), sample("terrain.v1.smc")};
+  for (const std::string& suffix : writable) {
+    expect_success("convert " + origin + " source." + suffix);
+    sources.push_back("source." + suffix);
+  }
+  write("source.stl", as_stl(expected));
+  sources.push_back("source.stl");
+  for (const std::string& source : sources)
+    for (const std::string& suffix : writable)
+      for (const std::string finalize : {"", " --finalize"}) {
+        const std::string words = source + " there." + suffix + finalize;
+        expect_success("convert " + words + " --force --memory 16M");
+        const EventList mesh = events_of("there." + suffix);
+        EXPECT_TRUE(mesh.triangles() == expected.triangles()) << words;
+        EXPECT_TRUE(mesh.sorted_places() == expected.sorted_places()) << words;
+        if (finalize.empty() || !suffix.starts_with("sm")) continue;
+        EXPECT_EQ(check_compact(mesh).fault, "") << words;
+        EXPECT_EQ(info_of("there." + suffix)["finalized_vertices"], expected.places.size()) << words;
+      }
+}
+
+// Into a surface a tetrahedron goes as its four faces, in any order; its values only where they have a place.
+TEST_F(Convert, VolumesKeepTheirGraphsAndTheValuesOfTheirVertices) {
+  REEB_REQUIRE_SAMPLES();
+  const std::string volume = sample("tetcube.s4.pre.sva");
+  const std::string height = graph_of(volume + " -f z"), value = graph_of(volume + " -f property:s0");
+  EXPECT_NE(height, value) << "a test that could not fail";
+  for (const std::string variant : {"tetcube.s4.post.sva", "tetcube.s4.pre.be.svb", "tetcube.s4.post.le.svb"}) {
+    EXPECT_EQ(graph_of(sample(variant) + " -f property:s0"), value) << variant;
+    EXPECT_EQ(graph_of("- -f property:s0 < " + sample(variant)), value) << "standard input, " << variant;
+  }
+  for (const std::string target : {"a.svb", "a.sva", "a.ply"}) {
+    expect_success("convert " + volume + " " + target);
+    EXPECT_EQ(graph_of(target + " -f property:s0"), value) << target;
+  }
+  for (const std::string order : {"keep", "hilbert", "spectral", "sweep:z", "sweep:property:s0"})
+    for (const std::string target : {"b.ply", "b.smb", "b.smc"}) {
+      expect_success("convert " + volume + " " + target + " --force --order " + order);
+      EXPECT_EQ(info_of(target)["triangles"], info_of(volume)["triangles"]) << order << ' ' << target;
+      if (target == "b.ply") {
+        EXPECT_EQ(graph_of("b.ply -f property:s0"), value) << order;
+      }
+    }
+  const Outcome absent = reeb("compute " + volume + " -f property:s1");
+  EXPECT_EQ(absent.exit_code, 1);
+  EXPECT_NE(absent.error.find("hint: it has: s0"), std::string::npos) << absent.error;
+  for (const std::string option : {"--finalize", "--order hilbert"}) {
+    const Outcome refused = reeb("convert " + volume + " c.svb " + option);
+    EXPECT_EQ(refused.exit_code, 2) << option;
+    EXPECT_NE(refused.error.find("volume meshes are converted in their own order only"), std::string::npos)
+        << refused.error;
+  }
+}
+
+TEST_F(Convert, EveryOrderIsACompactStreamOfTheSameTriangles) {
+  expect_success("generate scan --triangles 20000 --order random --seed 5 -o scan.ply");
+  const EventList input = events_of("scan.ply");
+  std::map<std::string, std::size_t> width;
+  for (const std::string order : {"keep", "hilbert", "spectral", "sweep:z", "sweep:random:3"}) {
+    expect_success("convert scan.ply out.events.txt --force --finalize --memory 16M --order " + order);
+    const EventList output = parse_events(text("out.events.txt"));
+    EXPECT_TRUE(output.triangles() == input.triangles()) << order;
+    EXPECT_TRUE(output.sorted_places() == input.sorted_places()) << order;
+    const CompactStream stream = check_compact(output);
+    EXPECT_EQ(stream.fault, "") << order;
+    width[order] = stream.front_width;
+    for (const std::string suffix : {"smb", "smc"}) {
+      expect_success("convert scan.ply out." + suffix + " --force --finalize --memory 16M --order " + order);
+      const auto info = info_of("out." + suffix);
+      EXPECT_EQ(info["live_front"], stream.front_width) << order << ' ' << suffix;
+      EXPECT_EQ(info["finalized_vertices"], input.places.size()) << order << ' ' << suffix;
+    }
+  }
+  EXPECT_LT(width["hilbert"] * 5, width["keep"]);
+  EXPECT_LT(width["sweep:z"] * 5, width["sweep:random:3"]);
+  EXPECT_LE(width["spectral"], width["hilbert"]);
+}
+
+TEST_F(Convert, IsolatedVerticesAndDegenerateTrianglesSurviveFinalization) {
+  write("odd.obj", "v 9 9 9\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 5 5 5\nf 2 3 4\nf 2 3\nf 4 3 4\n");
+  expect_success("convert odd.obj odd.events.txt --finalize");
+  const EventList list = parse_events(text("odd.events.txt"));
+  EXPECT_EQ(check_compact(list).fault, "");
+  EXPECT_EQ(list.places.size(), 5u);
+  EXPECT_EQ(list.triangles().size(), 3u);
+  expect_success("convert odd.obj odd.smb --finalize");
+  EXPECT_EQ(graph_of("odd.smb"), graph_of("odd.obj"));
+  const Outcome refused = reeb("convert odd.obj odd.smc");
+  EXPECT_EQ(refused.exit_code, 1);
+  EXPECT_NE(refused.error.find("repeated corner"), std::string::npos) << refused.error;
+  EXPECT_FALSE(std::filesystem::exists(path("odd.smc")));
+}
+
+TEST_F(Convert, CompressedStreamOfARealMeshIsLossless) {
+  const auto mesh = sample_folder().parent_path() / "meshes" / "dragon_vrip.ply.gz";
+  if (!std::filesystem::exists(mesh)) GTEST_SKIP() << "no " << mesh << "; set REEB_DATA";
+  expect_success("convert " + mesh.string() + " dragon.smc");
+  const EventList before = events_of(mesh.string()), after = events_of("dragon.smc");
+  EXPECT_TRUE(after.triangles() == before.triangles());
+  EXPECT_TRUE(after.sorted_places() == before.sorted_places());
+  EXPECT_EQ(after.places.size(), 437645u);
+}
+
+TEST_F(Convert, KeepsDoublePrecisionWhereTheInputHasIt) {
+  write("fine.obj", "v 0.1 0.2 0.3\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  expect_success("convert fine.obj fine.ply");
+  EXPECT_NE(text("fine.ply").find("property double x"), std::string::npos);
+  const Outcome rounded = reeb("convert fine.obj fine.sma");
+  EXPECT_NE(rounded.error.find("1 vertices were rounded to float32"), std::string::npos) << rounded.error;
+}
+
+TEST_F(Convert, RefusesWhatItCannotDo) {
+  write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  write("taken.smb", "mine");
+  EXPECT_EQ(reeb("convert a.obj taken.smb").exit_code, 1);
+  EXPECT_EQ(text("taken.smb"), "mine");
+  expect_success("convert a.obj taken.smb --force");
+  EXPECT_EQ(reeb("convert a.obj b.xyz").exit_code, 2);
+  EXPECT_EQ(reeb("convert a.obj b.smb --order up").exit_code, 2);
+  EXPECT_EQ(reeb("convert a.obj b.svb").exit_code, 1) << "triangles in a volume mesh";
+  for (const std::string number : {"0", "-3", "many"}) {
+    const Outcome refused = reeb("compute a.obj --snapshot-every " + number);
+    EXPECT_EQ(refused.exit_code, 2) << number;
+    EXPECT_NE(refused.error.find("--snapshot-every: must be 1 at least"), std::string::npos) << refused.error;
+  }
+  EXPECT_EQ(reeb("convert a.obj nowhere/b.smb").exit_code, 3);
+}
+
+TEST_F(Convert, InfoSaysWhatAMeshHolds) {
+  write("two.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 5 5 5\nv 6 5 5\nv 5 6 5\nv 7 7 7\nf 1 2 3\nf 4 5 6\nf 4 4 5\n");
+  const auto info = info_of("two.obj");
+  EXPECT_EQ(info["vertices"], 7);
+  EXPECT_EQ(info["triangles"], 3);
+  EXPECT_EQ(info["degenerate"], 1);
+  EXPECT_EQ(info["unreferenced_vertices"], 1);
+  EXPECT_EQ(info["components"], 3);
+  EXPECT_EQ(info["finalization"], false);
+  EXPECT_EQ(info["bounds"][0]["max"], 7.0);
+  EXPECT_EQ(info["live_front"], 2) << "vertices 4 and 5 wait for the last triangle";
+  EXPECT_NE(reeb("info two.obj").output.find("components    3"), std::string::npos);
+}
+
+TEST_F(Convert, SnapshotsAreTheGraphsOfTheStreamSoFar) {
+  REEB_REQUIRE_SAMPLES();
+  constexpr std::size_t kEvery = 100;
+  expect_success("compute - --snapshot-every 100 -f y -o live.reeb --quiet < " + sample("torus.v3.smc"));
+  std::istringstream events(golden_events("torus.v3.smc"));
+  std::string prefix, line;
+  std::size_t triangles = 0, snapshots = 0;
+  while (std::getline(events, line)) {
+    std::istringstream words(line);
+    char kind = 0;
+    std::string numbers[4];
+    words >> kind >> numbers[0] >> numbers[1] >> numbers[2] >> numbers[3];
+    if (kind == 'v') prefix += "v " + numbers[1] + " " + numbers[2] + " " + numbers[3] + "\n";
+    if (kind != 't') continue;
+    prefix += "f";
+    for (int c = 0; c < 3; ++c) prefix += " " + std::to_string(std::stoul(numbers[c]) + 1);
+    prefix += "\n";
+    if (++triangles % kEvery != 0) continue;
+    write("prefix.sma", prefix);
+    expect_success("compute prefix.sma -f y -o prefix.reeb --graph-only --quiet --force");
+    expect_success("extract prefix.reeb -o prefix.rg --force");
+    const std::string name = "live-00000" + std::to_string(++snapshots);
+    expect_success("verify " + name + ".reeb");
+    expect_success("extract " + name + ".reeb -o " + name + ".rg");
+    EXPECT_EQ(text(name + ".rg"), text("prefix.rg")) << name;
+  }
+  EXPECT_EQ(snapshots, 3u);
+  EXPECT_FALSE(std::filesystem::exists(path("live-000004.reeb")));
+  expect_success("verify live.reeb");
+}
+
+}  // namespace
+}  // namespace reeb::test

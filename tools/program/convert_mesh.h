@@ -1,0 +1,43 @@
+// From a mesh of any format to one of any other.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/file/atomic_output.h"
+#include "io/functions/function_source.h"
+#include "libreeb/base/memory_budget.h"
+
+namespace reeb::tools {
+
+struct TriangleOrder {
+  enum class Kind { kKeep, kHilbert, kSpectral, kSweep };
+  Kind kind = Kind::kKeep;
+  std::optional<io::FunctionSpec> function;  // of a sweep
+};
+
+// "keep", "hilbert", "spectral", "sweep:FUNC". THROWS: Error{kUsage}.
+TriangleOrder parse_order(const std::string& text);
+
+struct ConvertOptions {
+  std::string input, output;  // "-": standard input
+  TriangleOrder order;
+  bool finalize = false;
+  std::uint64_t memory_bytes = MemoryBudget::kUnlimited;
+  std::string temp_folder;
+  io::Existing existing = io::Existing::kRefuse;
+};
+
+// One of three ways, the first that fits:
+// - between streaming formats, and into lists of events, the events of the file one by one, with
+//   the finalization, the post-order and the values that they have;
+// - with another order or --finalize, and into SMC where the input has no finalization, as a
+//   compact stream (compact_stream.h) of the mesh, which is spooled to disk if it must be;
+// - else batch by batch, as the reader delivers them.
+// Returns what was odd or could not be kept, one line each.
+// THROWS: Error; then no output appeared.
+std::vector<std::string> convert_mesh(const ConvertOptions& options);
+
+}  // namespace reeb::tools

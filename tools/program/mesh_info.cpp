@@ -1,0 +1,197 @@
+#include "tools/program/mesh_info.h"
+
+#include <fmt/core.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <limits>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "io/file/content_source.h"
+#include "io/formats/format_detection.h"
+#include "io/formats/mesh_io.h"
+#include "ooc/chunks/last_use.h"
+#include "ooc/chunks/spooled_mesh.h"
+#include "ooc/tables/paged_union_find.h"
+#include "ooc/whole_mesh/workspace.h"
+
+namespace reeb::tools {
+namespace {
+
+struct Bounds {
+  double min = std::numeric_limits<double>::infinity();
+  double max = -std::numeric_limits<double>::infinity();
+};
+
+// Components and use of vertices.
+class Connection {
+ public:
+  explicit Connection(ooc::Workspace& space)
+      : sets_("components", space.temp, space.budget, space.share()),
+        used_flags_("components", space.temp, space.budget, space.share(), 0) {}
+
+  void add_vertices(std::uint64_t count) { vertices_ += count; }
+  void join(VertexId a, VertexId b) { sets_.unite(a.value(), b.value()); }
+  void use(VertexId v) {
+    std::uint8_t& flag = used_flags_.change(v.value());
+    used_ += flag == 0;
+    flag = 1;
+  }
+  std::uint64_t components() const { return vertices_ - sets_.unions(); }
+  std::uint64_t used() const { return used_; }
+
+ private:
+  ooc::PagedUnionFind sets_;
+  ooc::PagedTable<std::uint8_t> used_flags_;
+  std::uint64_t vertices_ = 0, used_ = 0;
+};
+
+// Streams event by event, so that their front is measured exactly.
+std::unique_ptr<MeshReader> open(const std::string& path) {
+  auto source = io::open_content(path);
+  ReadOptions options;
+  if (io::detect_format(*source, path) == io::MeshFormat::kStreaming) options.batch_events = 1;
+  return io::open_mesh(std::move(source), path, options);
+}
+
+std::uint64_t distinct(std::span<const VertexId> corners) {
+  std::uint64_t count = 0;
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    count += std::find(corners.begin(), corners.begin() + static_cast<std::ptrdiff_t>(i), corners[i]) ==
+             corners.begin() + static_cast<std::ptrdiff_t>(i);
+  return count;
+}
+
+class MeshSurvey {
+ public:
+  MeshSurvey(const std::string& path, ooc::Workspace& space)
+      : path_(path), space_(space), reader_(open(path)), connection_(space) {
+    bounds_.resize(reader_->info().dimension);
+  }
+
+  void run() {
+    const bool measures = reader_->info().finalizes;
+    std::unique_ptr<IndexedMesh> mesh;
+    if (!measures && path_ != "-") mesh = io::open_indexed_mesh(path_);
+    std::unique_ptr<ooc::SpooledMesh> spooled;
+    if (!measures && mesh == nullptr)
+      spooled =
+          std::make_unique<ooc::SpooledMesh>(reader_->info().dimension, space_.temp, space_.budget, 2 * space_.share());
+    for (MeshBatch batch; reader_->read(batch);) {
+      add(batch);
+      if (spooled) spooled->append(batch);
+    }
+    if (spooled) mesh = std::move(spooled);
+    if (mesh) predict_front(*mesh);
+  }
+
+  void print_text() const;
+  void print_json() const;
+
+ private:
+  void add(const MeshBatch& batch);
+  void add_simplex(std::span<const VertexId> corners);
+  void predict_front(IndexedMesh& mesh);
+
+  const std::string& path_;
+  ooc::Workspace& space_;
+  std::unique_ptr<MeshReader> reader_;
+  Connection connection_;
+  std::vector<Bounds> bounds_;
+  std::uint64_t vertices_ = 0, triangles_ = 0, tetrahedra_ = 0, degenerate_ = 0, finalized_ = 0;
+  std::uint64_t front_ = 0;
+};
+
+void MeshSurvey::add(const MeshBatch& batch) {
+  vertices_ += batch.vertex_count;
+  connection_.add_vertices(batch.vertex_count);
+  for (std::size_t k = 0; k < bounds_.size(); ++k)
+    for (const double value : batch.coordinates[k]) {
+      bounds_[k].min = std::min(bounds_[k].min, value);
+      bounds_[k].max = std::max(bounds_[k].max, value);
+    }
+  const std::span<const VertexId> triangles(batch.triangles), tetrahedra(batch.tetrahedra);
+  triangles_ += batch.triangle_count();
+  tetrahedra_ += batch.tetrahedron_count();
+  for (std::size_t t = 0; t < triangles.size(); t += 3) add_simplex(triangles.subspan(t, 3));
+  for (std::size_t t = 0; t < tetrahedra.size(); t += 4) add_simplex(tetrahedra.subspan(t, 4));
+  if (reader_->info().finalizes) front_ = std::max(front_, vertices_ - finalized_);
+  finalized_ += batch.finalized.size();
+}
+
+void MeshSurvey::add_simplex(std::span<const VertexId> corners) {
+  degenerate_ += distinct(corners) < corners.size();
+  for (const VertexId v : corners) connection_.use(v);
+  for (const VertexId v : corners.subspan(1)) connection_.join(corners[0], v);
+}
+
+void MeshSurvey::predict_front(IndexedMesh& mesh) {
+  ooc::LastUseOptions options;
+  options.allowance_bytes = space_.share();
+  // Blocks of one triangle show the front exactly; large meshes double them.
+  options.block_triangles = 1;
+  options.most_blocks = 1u << 16;
+  front_ = ooc::scan_last_use(mesh, space_.temp, space_.budget, options)->summary().max_live_vertices;
+}
+
+void MeshSurvey::print_text() const {
+  const MeshInfo& info = reader_->info();
+  fmt::print("{}: {}\n", path_, info.format);
+  fmt::print("  vertices      {}, {} of them in no simplex\n", vertices_, vertices_ - connection_.used());
+  if (tetrahedra_ != 0) fmt::print("  tetrahedra    {}\n", tetrahedra_);
+  fmt::print("  triangles     {}, {} degenerate\n", triangles_ + 4 * tetrahedra_, degenerate_);
+  fmt::print("  components    {}\n", connection_.components());
+  fmt::print("  dimension     {}\n", info.dimension);
+  if (vertices_ != 0)
+    for (std::size_t k = 0; k < bounds_.size(); ++k)
+      fmt::print("  {:<13} {:.9g} to {:.9g}\n", k < 3 ? std::string(1, "xyz"[k]) : fmt::format("c{}", k),
+                 bounds_[k].min, bounds_[k].max);
+  fmt::print("  properties    {}\n",
+             info.property_names.empty() ? "none" : fmt::format("{}", fmt::join(info.property_names, ", ")));
+  fmt::print("  finalization  {}\n", info.finalizes ? fmt::format("of {} vertices", finalized_) : "none");
+  fmt::print("  live front    {} vertices, {}\n", front_, info.finalizes ? "measured" : "if finalized exactly");
+  for (const std::string& warning : reader_->warnings()) fmt::print("  note          {}\n", warning);
+}
+
+void MeshSurvey::print_json() const {
+  const MeshInfo& info = reader_->info();
+  nlohmann::ordered_json bounds = nlohmann::ordered_json::array();
+  if (vertices_ != 0)
+    for (const Bounds& b : bounds_) bounds.push_back({{"min", b.min}, {"max", b.max}});
+  nlohmann::ordered_json json = {{"schema", "reeb.mesh.v1"},
+                                 {"path", path_},
+                                 {"format", info.format},
+                                 {"bytes", info.file_bytes},
+                                 {"vertices", vertices_},
+                                 {"triangles", triangles_ + 4 * tetrahedra_},
+                                 {"tetrahedra", tetrahedra_},
+                                 {"degenerate", degenerate_},
+                                 {"unreferenced_vertices", vertices_ - connection_.used()},
+                                 {"components", connection_.components()},
+                                 {"dimension", info.dimension},
+                                 {"bounds", bounds},
+                                 {"properties", info.property_names},
+                                 {"finalization", info.finalizes && finalized_ != 0},
+                                 {"finalized_vertices", finalized_},
+                                 {"live_front", front_},
+                                 {"notes", reader_->warnings()}};
+  fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+}
+
+}  // namespace
+
+void print_mesh_info(const std::string& path, std::uint64_t memory_bytes, const std::string& temp_folder, bool json) {
+  ooc::Workspace space(temp_folder, memory_bytes);
+  MeshSurvey survey(path, space);
+  survey.run();
+  if (json)
+    survey.print_json();
+  else
+    survey.print_text();
+}
+
+}  // namespace reeb::tools

@@ -1,0 +1,66 @@
+#include "tools/program/node_check.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+#include <span>
+
+#include "libreeb/base/error.h"
+
+namespace reeb::tools {
+
+NodeCheck::NodeCheck(const std::string& mesh, const std::string& function, const ReebGraph& graph)
+    : graph_(graph),
+      mesh_(mesh),
+      by_vertex_(graph.node_count()),
+      range_{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()} {
+  std::iota(by_vertex_.begin(), by_vertex_.end(), std::size_t{0});
+  std::sort(by_vertex_.begin(), by_vertex_.end(),
+            [&](std::size_t a, std::size_t b) { return graph.nodes[a].vertex < graph.nodes[b].vertex; });
+  try {
+    spec_ = io::parse_function(function);
+    properties_ = io::needed_properties(std::span(&*spec_, 1));
+  } catch (const Error&) {
+    spec_.reset();  // a name from elsewhere: its values are taken as they are
+  }
+}
+
+void NodeCheck::start(const MeshInfo& info) {
+  if (spec_) source_.emplace(*spec_, info, properties_, mesh_);
+}
+
+void NodeCheck::add(const MeshBatch& batch) {
+  if (source_) {
+    values_.resize(batch.vertex_count);
+    source_->evaluate(batch, values_);
+    for (const double value : values_) {
+      range_.min = std::min(range_.min, value);
+      range_.max = std::max(range_.max, value);
+    }
+  }
+  const std::uint64_t first = batch.first_vertex.value(), end = first + batch.vertex_count;
+  for (; next_ < by_vertex_.size() && graph_.nodes[by_vertex_[next_]].vertex.value() < end; ++next_) {
+    const std::size_t node = by_vertex_[next_];
+    const auto i = static_cast<std::size_t>(graph_.nodes[node].vertex.value() - first);
+    if (source_ && graph_.nodes[node].value != values_[i]) fail(node, "has another value in the mesh");
+    for (std::size_t k = 0; k < 3 && !graph_.positions.empty(); ++k)
+      if (graph_.positions[node][k] != (k < batch.coordinates.size() ? batch.coordinates[k][i] : 0.0))
+        fail(node, "has another position in the mesh");
+  }
+}
+
+std::optional<ValueRange> NodeCheck::finish() const {
+  if (next_ != by_vertex_.size()) fail(by_vertex_[next_], "is not in the mesh");
+  if (!source_ || range_.min > range_.max) return std::nullopt;
+  return range_;
+}
+
+void NodeCheck::fail(std::size_t node, const char* why) const {
+  throw Error(ErrorKind::kBadInput, fmt::format("the node of vertex {} {}", graph_.nodes[node].vertex.value(), why),
+              "name the mesh that the file was computed from")
+      .at(mesh_);
+}
+
+}  // namespace reeb::tools

@@ -1,0 +1,48 @@
+// The nodes of a graph against the vertices of its mesh.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/functions/function_source.h"
+#include "libreeb/graph/reeb_graph.h"
+#include "libreeb/port/mesh_reader.h"
+
+namespace reeb::tools {
+
+struct ValueRange {
+  double min = 0, max = 0;
+};
+
+// Compares each node with its vertex, as the batches of the mesh pass by: position (where the graph has
+// positions) and value of the function, if that has a name that can be evaluated here.
+// THROWS: Error{kBadInput} at the first node that is not its vertex.
+class NodeCheck {
+ public:
+  // All three must outlive this.
+  NodeCheck(const std::string& mesh, const std::string& function, const ReebGraph& graph);
+
+  // The properties that the reader must deliver.
+  const std::vector<std::string>& properties() const { return properties_; }
+  void start(const MeshInfo& info);
+  void add(const MeshBatch& batch);
+  // The range of the function over the mesh; null if it could not be evaluated.
+  std::optional<ValueRange> finish() const;
+
+ private:
+  [[noreturn]] void fail(std::size_t node, const char* why) const;
+
+  const ReebGraph& graph_;
+  const std::string& mesh_;
+  std::vector<std::size_t> by_vertex_;
+  std::size_t next_ = 0;
+  std::optional<io::FunctionSpec> spec_;
+  std::vector<std::string> properties_;
+  std::optional<io::FunctionSource> source_;
+  std::vector<double> values_;
+  ValueRange range_;
+};
+
+}  // namespace reeb::tools

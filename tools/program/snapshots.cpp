@@ -1,0 +1,118 @@
+#include "tools/program/snapshots.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "libreeb/engine/online_reeb.h"
+#include "ooc/reeb_file/reeb_file_writer.h"
+
+namespace reeb::tools {
+namespace {
+
+// The graph of one function as far as the stream has come.
+class LiveFunction {
+ public:
+  LiveFunction(VertexFunction& function, const std::string& output) : function_(function), stem_(output) {
+    if (stem_.extension() == ".reeb") stem_.replace_extension();
+  }
+
+  void add_vertices(const MeshBatch& batch) {
+    if (batch.vertex_count == 0) return;
+    ids_.clear();
+    for (std::size_t i = 0; i < batch.vertex_count; ++i) ids_.emplace_back(batch.first_vertex.value() + i);
+    columns_.clear();
+    const std::size_t dimension = batch.coordinates.size();
+    for (const unsigned k : function_.columns())
+      columns_.emplace_back(k < dimension ? batch.coordinates[k] : batch.properties[k - dimension]);
+    values_.resize(ids_.size());
+    function_.evaluate(ids_, columns_, values_);
+    for (std::size_t i = 0; i < ids_.size(); ++i) {
+      min_ = std::min(min_, values_[i]);
+      max_ = std::max(max_, values_[i]);
+      graph_.add_vertex(values_[i]);
+    }
+  }
+  void add_simplex(std::span<const VertexId> corners) { graph_.add_simplex(corners); }
+  void finalize(VertexId v) { graph_.finalize(v); }
+
+  void write(std::uint64_t number, std::uint64_t vertices, std::uint64_t triangles) {
+    ooc::FileMeta meta;
+    meta.function = function_.name();
+    if (vertices != 0) {
+      meta.function_min = min_;
+      meta.function_max = max_;
+    }
+    meta.mesh_vertices = vertices;
+    meta.mesh_triangles = triangles;
+    ooc::write_graph_file(fmt::format("{}-{:06}.reeb", stem_.string(), number), meta, graph_.snapshot());
+  }
+
+ private:
+  VertexFunction& function_;
+  std::filesystem::path stem_;
+  OnlineReeb graph_;
+  double min_ = std::numeric_limits<double>::infinity(), max_ = -std::numeric_limits<double>::infinity();
+  std::vector<VertexId> ids_;
+  std::vector<std::span<const double>> columns_;
+  std::vector<double> values_;
+};
+
+class SnapshotReader : public MeshReader {
+ public:
+  SnapshotReader(std::unique_ptr<MeshReader> reader, std::uint64_t every, std::span<VertexFunction* const> functions,
+                 std::span<const std::string> outputs)
+      : reader_(std::move(reader)), every_(every), next_(every) {
+    for (std::size_t f = 0; f < functions.size(); ++f) graphs_.emplace_back(*functions[f], outputs[f]);
+  }
+
+  const MeshInfo& info() const override { return reader_->info(); }
+  std::uint64_t bytes_read() const override { return reader_->bytes_read(); }
+  std::uint64_t memory_bytes() const override { return reader_->memory_bytes(); }
+  std::vector<std::string> warnings() const override { return reader_->warnings(); }
+
+  bool read(MeshBatch& batch) override {
+    if (!reader_->read(batch)) return false;
+    vertices_ += batch.vertex_count;
+    for (LiveFunction& graph : graphs_) graph.add_vertices(batch);
+    add_simplices(batch.triangles, 3, 1);
+    add_simplices(batch.tetrahedra, 4, 4);
+    for (const VertexId v : batch.finalized)
+      for (LiveFunction& graph : graphs_) graph.finalize(v);
+    return true;
+  }
+
+ private:
+  void add_simplices(std::span<const VertexId> corners, std::size_t size, std::uint64_t triangles) {
+    for (std::size_t at = 0; at < corners.size(); at += size) {
+      for (LiveFunction& graph : graphs_) graph.add_simplex(corners.subspan(at, size));
+      triangles_ += triangles;
+      if (triangles_ >= next_) write();
+    }
+  }
+
+  void write() {
+    ++number_;
+    for (LiveFunction& graph : graphs_) graph.write(number_, vertices_, triangles_);
+    next_ += every_;
+  }
+
+  std::unique_ptr<MeshReader> reader_;
+  std::uint64_t every_, next_;
+  std::vector<LiveFunction> graphs_;
+  std::uint64_t number_ = 0, vertices_ = 0, triangles_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<MeshReader> with_snapshots(std::unique_ptr<MeshReader> reader, std::uint64_t every,
+                                           std::span<VertexFunction* const> functions,
+                                           std::span<const std::string> outputs) {
+  return std::make_unique<SnapshotReader>(std::move(reader), every, functions, outputs);
+}
+
+}  // namespace reeb::tools
