@@ -22,11 +22,11 @@ std::vector<std::byte> byte_planes(std::size_t count) {
 void BM_Zstd(benchmark::State& state) {
   const auto planes = byte_planes(65536);
   std::vector<std::byte> packed, back(planes.size());
-  reeb::ooc::zstd_compress(planes, static_cast<int>(state.range(0)), packed);
-  if (!reeb::ooc::zstd_decompress(packed, back) || back != planes) return state.SkipWithError("wrong bytes");
+  reeb::io::zstd_compress(planes, static_cast<int>(state.range(0)), packed);
+  if (!reeb::io::zstd_decompress(packed, back) || back != planes) return state.SkipWithError("wrong bytes");
   for (auto _ : state) {
     packed.clear();
-    reeb::ooc::zstd_compress(planes, static_cast<int>(state.range(0)), packed);
+    reeb::io::zstd_compress(planes, static_cast<int>(state.range(0)), packed);
     benchmark::DoNotOptimize(packed.data());
   }
   state.SetBytesProcessed(state.iterations() * static_cast<std::int64_t>(planes.size()));

@@ -19,8 +19,8 @@ namespace {
 using namespace reeb;
 using namespace reeb::ooc;
 
-const TempDir& temp() {
-  static const TempDir dir(TempDir::default_folder("/tmp/."));
+const io::TempDir& temp() {
+  static const io::TempDir dir(io::TempDir::default_folder("/tmp/."));
   return dir;
 }
 

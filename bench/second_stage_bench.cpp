@@ -41,8 +41,8 @@ struct Given {
   }
 };
 
-const ooc::TempDir& temp() {
-  static const ooc::TempDir dir;
+const io::TempDir& temp() {
+  static const io::TempDir dir;
   return dir;
 }
 

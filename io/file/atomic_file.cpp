@@ -15,7 +15,7 @@
 #include "io/file/file.h"
 #include "libreeb/base/error.h"
 
-namespace reeb::ooc {
+namespace reeb::io {
 namespace {
 
 namespace fs = std::filesystem;
@@ -158,4 +158,4 @@ int AtomicOutput::sync() {
   return 0;
 }
 
-}  // namespace reeb::ooc
+}  // namespace reeb::io

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace reeb::ooc {
+namespace reeb::io {
 
 // The folder that holds `path`.
 std::string folder_of(const std::string& path);
@@ -67,4 +67,4 @@ class AtomicOutput : private std::streambuf, public std::ostream {
   std::vector<char> buffer_;
 };
 
-}  // namespace reeb::ooc
+}  // namespace reeb::io

@@ -51,7 +51,7 @@ void check_output_name(const std::string& path, Existing existing) {
   if (fs::is_regular_file(status) && existing == Existing::kRefuse) throw_name_is_taken(path);
 }
 
-AtomicFile::AtomicFile(const std::string& path, Existing existing) : path_(path), existing_(existing) {
+AtomicOutputFile::AtomicOutputFile(const std::string& path, Existing existing) : path_(path), existing_(existing) {
   check_output_name(path, existing);
   if (is_device(path)) {
     out_.emplace(open_or_throw(path, O_WRONLY, path), path);
@@ -65,11 +65,11 @@ AtomicFile::AtomicFile(const std::string& path, Existing existing) : path_(path)
   out_.emplace(open_or_throw(temporary_, O_RDWR | O_CREAT | O_EXCL, path_), path_);
 }
 
-AtomicFile::~AtomicFile() {
+AtomicOutputFile::~AtomicOutputFile() {
   if (!temporary_.empty()) ::unlink(temporary_.c_str());
 }
 
-void AtomicFile::commit() {
+void AtomicOutputFile::commit() {
   out_->sync();
   out_.reset();
   if (temporary_.empty()) return;
@@ -78,7 +78,7 @@ void AtomicFile::commit() {
   sync_folder_of(path_);
 }
 
-void AtomicFile::give_name() {
+void AtomicOutputFile::give_name() {
   const unsigned flags = existing_ == Existing::kRefuse ? RENAME_NOREPLACE : 0u;
   if (::renameat2(AT_FDCWD, temporary_.c_str(), AT_FDCWD, path_.c_str(), flags) == 0) return;
   if (errno == EEXIST) throw_name_is_taken(path_);

@@ -14,16 +14,16 @@ namespace reeb::io {
 
 enum class Existing { kRefuse, kReplace };
 
-class AtomicFile {
+class AtomicOutputFile {
  public:
   // A path that names a device or a pipe is written to directly, since there is nothing to replace;
   // a symbolic link is followed.
   // THROWS: Error{kBadInput} if `path` exists and may not be replaced, or is a folder;
   //         Error{kResource} if the folder is missing or cannot be written.
-  explicit AtomicFile(const std::string& path, Existing existing = Existing::kRefuse);
-  AtomicFile(const AtomicFile&) = delete;
-  AtomicFile& operator=(const AtomicFile&) = delete;
-  ~AtomicFile();
+  explicit AtomicOutputFile(const std::string& path, Existing existing = Existing::kRefuse);
+  AtomicOutputFile(const AtomicOutputFile&) = delete;
+  AtomicOutputFile& operator=(const AtomicOutputFile&) = delete;
+  ~AtomicOutputFile();
 
   // REQUIRES: commit() was not called.
   OutputFile& out() { return *out_; }
@@ -41,7 +41,7 @@ class AtomicFile {
 };
 
 // Says before any work that an output cannot have this name.
-// THROWS: Error{kBadInput} as the constructor of AtomicFile.
+// THROWS: Error{kBadInput} as the constructor of AtomicOutputFile.
 void check_output_name(const std::string& path, Existing existing);
 
 }  // namespace reeb::io

@@ -3,7 +3,7 @@
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
-namespace reeb::ooc {
+namespace reeb::io {
 
 struct RunningChecksum::State {
   XXH64_state_t hash;
@@ -24,4 +24,4 @@ void RunningChecksum::add(std::span<const std::byte> bytes) {
 
 std::uint64_t RunningChecksum::value() const { return XXH64_digest(&state_->hash); }
 
-}  // namespace reeb::ooc
+}  // namespace reeb::io

@@ -6,7 +6,7 @@
 #include <memory>
 #include <span>
 
-namespace reeb::ooc {
+namespace reeb::io {
 
 std::uint64_t checksum(std::span<const std::byte> bytes, std::uint64_t seed = 0);
 
@@ -26,4 +26,4 @@ class RunningChecksum {
   std::unique_ptr<State> state_;
 };
 
-}  // namespace reeb::ooc
+}  // namespace reeb::io

@@ -12,7 +12,7 @@
 #include "libreeb/base/error.h"
 #include "libreeb/base/memory_budget.h"
 
-namespace reeb::ooc {
+namespace reeb::io {
 
 bool is_regular_file(const std::string& path) {
   struct stat status {};
@@ -124,4 +124,4 @@ void File::fail(const char* doing, int error, std::uint64_t offset, std::size_t 
   throw Error(ErrorKind::kResource, what, hint).at(path_, std::to_string(offset));
 }
 
-}  // namespace reeb::ooc
+}  // namespace reeb::io

@@ -8,7 +8,7 @@
 #include <span>
 #include <string>
 
-namespace reeb::ooc {
+namespace reeb::io {
 
 // Whether `path` names a file whose bytes lie on a disk: not a pipe, a folder or nothing.
 bool is_regular_file(const std::string& path);
@@ -63,4 +63,4 @@ class File {
   std::shared_ptr<const WriteFault> fault_;
 };
 
-}  // namespace reeb::ooc
+}  // namespace reeb::io

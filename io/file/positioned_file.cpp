@@ -10,7 +10,7 @@
 
 #include "libreeb/base/error.h"
 
-namespace reeb::ooc {
+namespace reeb::io {
 
 InputFile::InputFile(std::string path) : path_(std::move(path)) {
   struct stat status {};
@@ -42,4 +42,4 @@ void InputFile::fail(const std::string& what) const {
   throw Error(ErrorKind::kBadInput, "cannot be read: " + what, "name a file that exists and may be read").at(path_);
 }
 
-}  // namespace reeb::ooc
+}  // namespace reeb::io

@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-namespace reeb::ooc {
+namespace reeb::io {
 
 class InputFile {
  public:
@@ -30,4 +30,4 @@ class InputFile {
   std::uint64_t size_ = 0;
 };
 
-}  // namespace reeb::ooc
+}  // namespace reeb::io

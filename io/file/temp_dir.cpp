@@ -10,7 +10,7 @@
 
 #include "libreeb/base/error.h"
 
-namespace reeb::ooc {
+namespace reeb::io {
 
 namespace {
 
@@ -43,4 +43,4 @@ File TempDir::create_unnamed(const std::string& role) const {
   return {descriptor, shown, fault_};
 }
 
-}  // namespace reeb::ooc
+}  // namespace reeb::io

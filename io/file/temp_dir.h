@@ -6,7 +6,7 @@
 
 #include "io/file/file.h"
 
-namespace reeb::ooc {
+namespace reeb::io {
 
 // A place for temporary files in `folder`. They have no name, so that nothing is left even if the
 // process is killed.
@@ -33,4 +33,4 @@ class TempDir {
   std::shared_ptr<const WriteFault> fault_;
 };
 
-}  // namespace reeb::ooc
+}  // namespace reeb::io

@@ -6,7 +6,7 @@
 
 #include "libreeb/base/error.h"
 
-namespace reeb::ooc {
+namespace reeb::io {
 
 ZstdCompressor::ZstdCompressor() : context_(ZSTD_createCCtx()) {
   if (context_ == nullptr) throw std::bad_alloc();
@@ -48,4 +48,4 @@ bool zstd_decompress(std::span<const std::byte> bytes, std::span<std::byte> out)
   return ZSTD_isError(size) == 0 && size == out.size();
 }
 
-}  // namespace reeb::ooc
+}  // namespace reeb::io

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-namespace reeb::ooc {
+namespace reeb::io {
 
 // Keeps its tables, about 1 MB, from one call to the next: for many small pieces.
 // THREADS: one at a time.
@@ -40,4 +40,4 @@ std::size_t zstd_content_size(std::span<const std::byte> bytes);
 // never reads or writes out of bounds, whatever `bytes` holds.
 bool zstd_decompress(std::span<const std::byte> bytes, std::span<std::byte> out);
 
-}  // namespace reeb::ooc
+}  // namespace reeb::io

@@ -36,7 +36,7 @@ class ObjWriter : public MeshWriter {
 
  private:
   unsigned dimension_;
-  AtomicFile file_;
+  AtomicOutputFile file_;
 };
 
 }  // namespace

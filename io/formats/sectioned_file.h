@@ -30,7 +30,7 @@ class SectionedFile {
   void commit(const std::string& header);
 
  private:
-  AtomicFile file_;
+  AtomicOutputFile file_;
   std::optional<OutputFile> waiting_;  // faces, in the order of their arrival
   std::optional<std::uint64_t> promised_;
   std::uint64_t vertices_ = 0, faces_ = 0;

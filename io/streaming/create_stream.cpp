@@ -60,7 +60,7 @@ class StreamFile : public StreamWriter {
   std::vector<std::string> warnings() const override { return writer_->warnings(); }
 
  private:
-  AtomicFile file_;
+  AtomicOutputFile file_;
   OutputStream out_;
   std::unique_ptr<StreamWriter> writer_;
 };

@@ -7,7 +7,7 @@
 
 namespace reeb::ooc {
 
-GuessedChunks::GuessedChunks(Spooler& spooler, FunctionValues& columns, const TempDir& temp, MemoryBudget& budget,
+GuessedChunks::GuessedChunks(Spooler& spooler, FunctionValues& columns, const io::TempDir& temp, MemoryBudget& budget,
                              const GuessOptions& options, const ChunkPlace& start)
     : spooler_(spooler),
       columns_(columns),

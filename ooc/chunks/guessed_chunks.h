@@ -32,7 +32,7 @@ class GuessedChunks : public ChunkSource {
  public:
   // All must outlive this. The chunks before `start` are passed over: read, but not looked up.
   // REQUIRES: nothing was read; a start came of the same options.
-  GuessedChunks(Spooler& spooler, FunctionValues& columns, const TempDir& temp, MemoryBudget& budget,
+  GuessedChunks(Spooler& spooler, FunctionValues& columns, const io::TempDir& temp, MemoryBudget& budget,
                 const GuessOptions& options, const ChunkPlace& start = {});
 
   bool next(WorkItem& item) override;

@@ -26,7 +26,7 @@ void for_each_stretch(PagedTable<std::uint32_t>& table, std::uint64_t count, con
 
 class Scan {
  public:
-  Scan(IndexedMesh& mesh, const TempDir& temp, MemoryBudget& budget, const LastUseOptions& options)
+  Scan(IndexedMesh& mesh, const io::TempDir& temp, MemoryBudget& budget, const LastUseOptions& options)
       : mesh_(mesh),
         options_(options),
         table_("last uses", temp, budget, options.allowance_bytes, UseEntry::kUnused),
@@ -187,7 +187,7 @@ void LastUse::for_each_unused(const std::function<void(VertexId)>& visit) {
   });
 }
 
-std::optional<LastUse> scan_last_use(IndexedMesh& mesh, const TempDir& temp, MemoryBudget& budget,
+std::optional<LastUse> scan_last_use(IndexedMesh& mesh, const io::TempDir& temp, MemoryBudget& budget,
                                      const LastUseOptions& options) {
   Scan scan(mesh, temp, budget, options);
   if (!scan.read_triangles()) return std::nullopt;

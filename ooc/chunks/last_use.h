@@ -98,7 +98,7 @@ class LastUse {
 //
 // THROWS: what reading the mesh throws; Error{kResource} of the budget or the disk.
 // MEMORY: the allowance and 4 bytes a block. O(triangles + vertices).
-std::optional<LastUse> scan_last_use(IndexedMesh& mesh, const TempDir& temp, MemoryBudget& budget,
+std::optional<LastUse> scan_last_use(IndexedMesh& mesh, const io::TempDir& temp, MemoryBudget& budget,
                                      const LastUseOptions& options = {});
 
 }  // namespace reeb::ooc

@@ -81,7 +81,7 @@ void from_planes(std::span<const std::byte> planes, std::span<std::uint32_t> ent
   }
 }
 
-void write_sidecar(AtomicFile& out, const MeshIdentity& mesh, LastUse& uses) {
+void write_sidecar(io::AtomicFile& out, const MeshIdentity& mesh, LastUse& uses) {
   const UseSummary& s = uses.summary();
   const Header header{kMagic,
                       kVersion,
@@ -99,7 +99,7 @@ void write_sidecar(AtomicFile& out, const MeshIdentity& mesh, LastUse& uses) {
   const auto profile = std::as_bytes(std::span(s.live_profile));
   out.append(object_bytes(header));
   out.append(profile);
-  out.append(object_bytes(checksum(profile, checksum(object_bytes(header)))));
+  out.append(object_bytes(io::checksum(profile, io::checksum(object_bytes(header)))));
   std::vector<std::uint32_t> entries(kBlockEntries);
   std::vector<std::byte> planes, packed;
   for (std::uint64_t first = 0; first < s.vertex_count; first += kBlockEntries) {
@@ -107,8 +107,8 @@ void write_sidecar(AtomicFile& out, const MeshIdentity& mesh, LastUse& uses) {
     uses.read(VertexId(first), entries);
     to_planes(entries, planes);
     packed.clear();
-    zstd_compress(planes, kLevel, packed);
-    out.append(object_bytes(BlockHeader{packed.size(), checksum(packed)}));
+    io::zstd_compress(planes, kLevel, packed);
+    out.append(object_bytes(BlockHeader{packed.size(), io::checksum(packed)}));
     out.append(packed);
   }
   out.commit();
@@ -119,7 +119,7 @@ struct Damaged {};
 // Reads from the start on; what the file does not hold is Damaged.
 class Reader {
  public:
-  explicit Reader(const std::string& path) : file_(File::open_for_reading(path)), size_(file_.size()) {}
+  explicit Reader(const std::string& path) : file_(io::File::open_for_reading(path)), size_(file_.size()) {}
   void take(std::span<std::byte> bytes) {
     if (bytes.size() > size_ - at_) throw Damaged();
     file_.read_at(at_, bytes);
@@ -134,7 +134,7 @@ class Reader {
   std::uint64_t left() const { return size_ - at_; }
 
  private:
-  File file_;
+  io::File file_;
   std::uint64_t size_, at_ = 0;
 };
 
@@ -146,7 +146,7 @@ UseSummary read_summary(Reader& in, const Header& header) {
   s.live_profile.resize(static_cast<std::size_t>(header.samples));
   const auto profile = std::as_writable_bytes(std::span(s.live_profile));
   in.take(profile);
-  if (in.take<std::uint64_t>() != checksum(profile, checksum(object_bytes(header)))) throw Damaged();
+  if (in.take<std::uint64_t>() != io::checksum(profile, io::checksum(object_bytes(header)))) throw Damaged();
   s.vertex_count = header.vertex_count;
   s.unused_vertices = header.unused_vertices;
   s.triangle_count = header.triangle_count;
@@ -167,7 +167,7 @@ void read_table(Reader& in, const UseSummary& summary, PagedTable<std::uint32_t>
     packed.resize(static_cast<std::size_t>(header.packed_bytes));
     in.take(packed);
     planes.resize(4 * entries.size());
-    if (checksum(packed) != header.checksum || !zstd_decompress(packed, planes)) throw Damaged();
+    if (io::checksum(packed) != header.checksum || !io::zstd_decompress(packed, planes)) throw Damaged();
     from_planes(planes, entries);
     for (const std::uint32_t entry : entries)
       if (!UseEntry(entry).unused() && UseEntry(entry).last_block() >= summary.block_count) throw Damaged();
@@ -180,7 +180,7 @@ void read_table(Reader& in, const UseSummary& summary, PagedTable<std::uint32_t>
 
 MeshIdentity identify_mesh(const std::string& path) {
   struct stat status {};
-  const File file = File::open_for_reading(path);
+  const io::File file = io::File::open_for_reading(path);
   if (::stat(path.c_str(), &status) != 0)
     throw Error(ErrorKind::kBadInput, std::strerror(errno), "check the name").at(path);
   MeshIdentity identity;
@@ -190,7 +190,7 @@ MeshIdentity identify_mesh(const std::string& path) {
   for (std::uint64_t k = 0; k < kProbes; ++k) {
     const std::uint64_t room = identity.bytes - probe.size();
     file.read_at(room / (kProbes - 1) * k + room % (kProbes - 1) * k / (kProbes - 1), probe);
-    identity.digest = checksum(probe, identity.digest);
+    identity.digest = io::checksum(probe, identity.digest);
     if (room == 0) break;
   }
   return identity;
@@ -198,7 +198,7 @@ MeshIdentity identify_mesh(const std::string& path) {
 
 void save_sidecar(const std::string& path, const MeshIdentity& mesh, LastUse& uses) {
   try {
-    AtomicFile out(path);
+    io::AtomicFile out(path);
     write_sidecar(out, mesh, uses);
   } catch (const Error& e) {
     throw Error(e.kind(), e.message(), "make room in the folder of the mesh, or leave out --sidecar")
@@ -207,7 +207,7 @@ void save_sidecar(const std::string& path, const MeshIdentity& mesh, LastUse& us
 }
 
 SidecarLoad load_sidecar(const std::string& path, const MeshIdentity& mesh, std::uint64_t vertex_count,
-                         const TempDir& temp, MemoryBudget& budget, std::uint64_t allowance_bytes) {
+                         const io::TempDir& temp, MemoryBudget& budget, std::uint64_t allowance_bytes) {
   if (::access(path.c_str(), R_OK) != 0) return {};
   try {
     Reader in(path);

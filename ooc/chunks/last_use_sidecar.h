@@ -34,6 +34,6 @@ struct SidecarLoad {
 // Reads a sidecar. One that is missing, stale or damaged is not an error: the pass is done again.
 // THROWS: Error{kResource} of the budget or the disk.
 SidecarLoad load_sidecar(const std::string& path, const MeshIdentity& mesh, std::uint64_t vertex_count,
-                         const TempDir& temp, MemoryBudget& budget, std::uint64_t allowance_bytes);
+                         const io::TempDir& temp, MemoryBudget& budget, std::uint64_t allowance_bytes);
 
 }  // namespace reeb::ooc

@@ -19,7 +19,7 @@ void append_faces(const std::vector<VertexId>& tetrahedra, std::vector<VertexId>
 
 }  // namespace
 
-SpooledMesh::SpooledMesh(unsigned columns, const TempDir& temp, MemoryBudget& budget, std::uint64_t allowance_bytes)
+SpooledMesh::SpooledMesh(unsigned columns, const io::TempDir& temp, MemoryBudget& budget, std::uint64_t allowance_bytes)
     : triangles_(temp, budget, allowance_bytes / 2) {
   columns_.reserve(columns);
   for (unsigned k = 0; k < columns; ++k) columns_.emplace_back(temp, budget, allowance_bytes / 2 / columns);
@@ -63,7 +63,7 @@ std::uint64_t SpooledMesh::spilled_bytes() const {
   return bytes;
 }
 
-Spooler::Spooler(MeshReader& reader, const TempDir& temp, MemoryBudget& budget, SpoolOptions options)
+Spooler::Spooler(MeshReader& reader, const io::TempDir& temp, MemoryBudget& budget, SpoolOptions options)
     : reader_(reader),
       temp_(temp),
       budget_(budget),
@@ -92,7 +92,7 @@ std::unique_ptr<SpooledMesh> Spooler::finish() {
   return std::move(mesh_);
 }
 
-std::unique_ptr<SpooledMesh> spool(MeshReader& reader, const TempDir& temp, MemoryBudget& budget,
+std::unique_ptr<SpooledMesh> spool(MeshReader& reader, const io::TempDir& temp, MemoryBudget& budget,
                                    const SpoolOptions& options) {
   return Spooler(reader, temp, budget, options).finish();
 }

@@ -26,7 +26,7 @@ struct SpoolOptions {
 // THREADS: one at a time.
 class SpooledMesh : public IndexedMesh {
  public:
-  SpooledMesh(unsigned columns, const TempDir& temp, MemoryBudget& budget, std::uint64_t allowance_bytes);
+  SpooledMesh(unsigned columns, const io::TempDir& temp, MemoryBudget& budget, std::uint64_t allowance_bytes);
 
   // Takes over the vertices and simplices of a batch. REQUIRES: no triangle was read yet.
   void append(const MeshBatch& batch);
@@ -61,7 +61,7 @@ class SpooledMesh : public IndexedMesh {
 class Spooler {
  public:
   // `reader`, `temp` and `budget` must outlive this.
-  Spooler(MeshReader& reader, const TempDir& temp, MemoryBudget& budget, SpoolOptions options = {});
+  Spooler(MeshReader& reader, const io::TempDir& temp, MemoryBudget& budget, SpoolOptions options = {});
 
   // Takes over the next batch; false at the end, again and again.
   bool read();
@@ -76,7 +76,7 @@ class Spooler {
 
  private:
   MeshReader& reader_;
-  const TempDir& temp_;
+  const io::TempDir& temp_;
   MemoryBudget& budget_;
   SpoolOptions options_;
   Reservation reader_memory_;
@@ -86,7 +86,7 @@ class Spooler {
 };
 
 // Reads `reader` to its end.
-std::unique_ptr<SpooledMesh> spool(MeshReader& reader, const TempDir& temp, MemoryBudget& budget,
+std::unique_ptr<SpooledMesh> spool(MeshReader& reader, const io::TempDir& temp, MemoryBudget& budget,
                                    const SpoolOptions& options = {});
 
 }  // namespace reeb::ooc

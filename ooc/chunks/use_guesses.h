@@ -22,7 +22,7 @@ namespace reeb::ooc {
 // MEMORY: the allowance, for a table of 4 bytes a vertex that is paged to disk.
 class UseGuesses {
  public:
-  UseGuesses(const TempDir& temp, MemoryBudget& budget, std::uint64_t allowance_bytes)
+  UseGuesses(const io::TempDir& temp, MemoryBudget& budget, std::uint64_t allowance_bytes)
       : table_("guessed uses", temp, budget, allowance_bytes, 0) {}
 
   enum class Verdict {

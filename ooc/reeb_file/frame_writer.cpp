@@ -26,7 +26,7 @@ void FrameWriter::add(FrameHeader header, std::span<const std::byte> payload) {
 
   frame_.clear();
   encode_frame_header(header, frame_);
-  RunningChecksum sum;
+  io::RunningChecksum sum;
   sum.add(frame_);
   sum.add(stored);
   ByteWriter out(frame_);
@@ -42,14 +42,14 @@ void FrameWriter::finish(FileHeader& header) {
   const std::uint64_t table_offset = file_.size();
   for (const std::uint64_t offset : offsets_) out.u64(offset);
   out.u64(table_offset);
-  out.u64(checksum(bytes));
+  out.u64(io::checksum(bytes));
   for (const std::uint8_t byte : kReebEndMagic) out.u8(byte);
   file_.append(bytes);
 
   header.content_digest = digest_.value();
   bytes.clear();
   encode_header(header, bytes);
-  out.u64(checksum(bytes));
+  out.u64(io::checksum(bytes));
   file_.write_at(0, bytes);
   file_.commit();
 }

@@ -30,9 +30,9 @@ class FrameWriter {
   void finish(FileHeader& header);
 
  private:
-  AtomicFile file_;
-  RunningChecksum digest_;
-  ZstdCompressor compressor_;
+  io::AtomicFile file_;
+  io::RunningChecksum digest_;
+  io::ZstdCompressor compressor_;
   std::vector<std::uint64_t> offsets_;  // of the frames
   std::vector<std::byte> frame_, packed_;
 };

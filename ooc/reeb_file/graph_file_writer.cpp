@@ -31,7 +31,7 @@ GraphFileWriter::GraphFileWriter(const std::string& path, FileMeta meta, const O
     : header_(first_header(std::move(meta), options)),
       writer_(path, header_.region_bytes()),
       background_(options.background) {
-  if (options.ends == ArcEnds::kKeys) keys_.emplace(folder_of(path));
+  if (options.ends == ArcEnds::kKeys) keys_.emplace(io::folder_of(path));
   if (options.ends == ArcEnds::kKeysInMemory) rank_of_.assign(static_cast<std::size_t>(header_.mesh_vertices), kNoNode);
 }
 

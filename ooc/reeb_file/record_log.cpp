@@ -13,7 +13,7 @@ struct Trailer {
 
 }  // namespace
 
-RecordLog::RecordLog(const TempDir& temp, MemoryBudget& budget, std::size_t block_bytes)
+RecordLog::RecordLog(const io::TempDir& temp, MemoryBudget& budget, std::size_t block_bytes)
     : temp_(&temp), block_bytes_(block_bytes), charge_(budget.reserve("arc records", 2 * block_bytes)) {
   open_.reserve(block_bytes);
 }

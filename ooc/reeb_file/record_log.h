@@ -30,7 +30,7 @@ class RecordLog : public RecordSink, public RecordSource {
   static constexpr std::uint64_t memory_bytes() { return 2 * kBlockBytes; }
 
   // `temp` must outlive this. A block holds at least one record, however large.
-  RecordLog(const TempDir& temp, MemoryBudget& budget, std::size_t block_bytes = kBlockBytes);
+  RecordLog(const io::TempDir& temp, MemoryBudget& budget, std::size_t block_bytes = kBlockBytes);
 
   void add(const ArcVersion& record, std::span<const std::byte> buckets) override;
 
@@ -45,7 +45,7 @@ class RecordLog : public RecordSink, public RecordSource {
   void seal_block();
   bool fetch_block();
 
-  const TempDir* temp_;
+  const io::TempDir* temp_;
   const std::size_t block_bytes_;
   Reservation charge_;
   std::optional<RunFile> file_;

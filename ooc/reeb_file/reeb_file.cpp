@@ -29,7 +29,7 @@ bool is_reeb_file(std::span<const std::byte> bytes) {
 
 bool is_reeb_file(const std::string& path) {
   try {
-    const InputFile file(path);
+    const io::InputFile file(path);
     std::array<std::byte, kReebMagic.size()> start{};
     if (file.size() < start.size()) return false;
     file.read(0, start);
@@ -58,7 +58,7 @@ void ReebFile::read_header() {
   region.resize(region_bytes);
   file_.read(0, region);
   const auto content = std::span(region).first(region_bytes - kChecksumBytes);
-  if (checksum(content) != last_u64(region)) fail(region_bytes - kChecksumBytes, "the header's checksum is wrong");
+  if (io::checksum(content) != last_u64(region)) fail(region_bytes - kChecksumBytes, "the header's checksum is wrong");
   if (const char* why = decode_header(content, header_)) fail(0, why);
   // Each frame has a header and an entry in the seek table.
   if (frame_count(header_) == 0) fail(0, "the header announces no frames");
@@ -79,7 +79,7 @@ void ReebFile::read_seek_table() {
   offsets_.clear();
   for (std::size_t i = 0; i < frame_count(header_); ++i) offsets_.push_back(in.u64());
   offsets_.push_back(in.u64());
-  if (in.u64() != checksum(covered)) fail(table_offset, "the seek table's checksum is wrong");
+  if (in.u64() != io::checksum(covered)) fail(table_offset, "the seek table's checksum is wrong");
   if (offsets_.front() != region || offsets_.back() != table_offset || !std::ranges::is_sorted(offsets_))
     fail(table_offset, "the seek table does not fit the file");
 }
@@ -126,13 +126,13 @@ std::span<const std::byte> ReebFile::read_frame(std::size_t index, FrameHeader& 
   const std::size_t covered = kFrameHeaderBytes - kChecksumBytes;
   buffers.stored.resize(covered + header.stored_bytes);
   file_.read(offset + kFrameHeaderBytes, std::span(buffers.stored).subspan(covered));
-  if (checksum(buffers.stored) != sum) fail(offset, "a frame's checksum is wrong");
+  if (io::checksum(buffers.stored) != sum) fail(offset, "a frame's checksum is wrong");
   const bool graph = index < header_.graph_frames;
   if (header.kind != (graph ? FrameKind::kGraph : FrameKind::kPairs)) fail(offset, "a frame is of the wrong kind");
   const auto payload = std::span<const std::byte>(buffers.stored).subspan(covered);
   if (header.stored_bytes == header.raw_bytes) return payload;
   buffers.raw.resize(header.raw_bytes);
-  if (!zstd_decompress(payload, buffers.raw)) fail(offset, "a frame cannot be decompressed");
+  if (!io::zstd_decompress(payload, buffers.raw)) fail(offset, "a frame cannot be decompressed");
   return buffers.raw;
 }
 

@@ -95,7 +95,7 @@ class ReebFile {
   template <class Measure>
   std::uint32_t finest_within(std::uint64_t limit, const Measure& measure, const char* unit) const;
 
-  InputFile file_;
+  io::InputFile file_;
   FileHeader header_;
   std::vector<std::uint64_t> offsets_;  // of the whole frames, and the end of the last
   std::optional<Error> damage_;

@@ -63,7 +63,7 @@ Content gather(const ReebFile& file) {
 }
 
 void verify_digest(const ReebFile& file) {
-  RunningChecksum digest;
+  io::RunningChecksum digest;
   FrameHeader header;
   ReebFile::FrameBuffers buffers;
   for (std::size_t i = 0; i < std::size_t{file.header().graph_frames} + file.header().pair_frames; ++i)

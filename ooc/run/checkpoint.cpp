@@ -34,7 +34,7 @@ static_assert(sizeof(Header) == 13 * 8);
 
 template <class T>
 std::uint64_t digest_of(const T& object, std::uint64_t seed) {
-  return checksum(std::as_bytes(std::span(&object, 1)), seed);
+  return io::checksum(std::as_bytes(std::span(&object, 1)), seed);
 }
 
 std::uint64_t digest_of_file(const std::string& path, std::uint64_t seed) {
@@ -55,14 +55,14 @@ class Writer : public StateWriter {
   }
 
  private:
-  AtomicFile file_;
-  RunningChecksum checksum_;
+  io::AtomicFile file_;
+  io::RunningChecksum checksum_;
 };
 
 class Reader : public StateReader {
  public:
   explicit Reader(const std::string& path)
-      : file_(File::open_for_reading(path)), end_(std::max<std::uint64_t>(file_.size(), 8) - 8) {}
+      : file_(io::File::open_for_reading(path)), end_(std::max<std::uint64_t>(file_.size(), 8) - 8) {}
 
   void read(std::span<std::byte> bytes) override {
     if (bytes.size() > left()) throw DamagedState();
@@ -73,7 +73,7 @@ class Reader : public StateReader {
 
   bool is_whole() const {
     std::vector<std::byte> piece(1 << 20);
-    RunningChecksum checksum;
+    io::RunningChecksum checksum;
     for (std::uint64_t at = 0; at < end_; at += piece.size()) {
       piece.resize(static_cast<std::size_t>(std::min<std::uint64_t>(piece.size(), end_ - at)));
       file_.read_at(at, piece);
@@ -86,7 +86,7 @@ class Reader : public StateReader {
   }
 
  private:
-  File file_;
+  io::File file_;
   std::uint64_t end_, at_ = 0;  // the checksum is at the end
 };
 
@@ -100,7 +100,7 @@ RunIdentity identify_run(const std::string& mesh, std::span<VertexFunction* cons
   for (const VertexFunction* function : functions) {
     const std::string name = function->name();
     run.functions = digest_of(std::uint64_t{name.size()}, run.functions);
-    run.functions = checksum(std::as_bytes(std::span(name)), run.functions);
+    run.functions = io::checksum(std::as_bytes(std::span(name)), run.functions);
     if (const std::string file = function->source_file(); !file.empty())
       run.functions = digest_of_file(file, run.functions);
   }
@@ -116,7 +116,7 @@ void write_checkpoint(const std::string& path, const RunIdentity& run, const Che
                  place.triangles, place.next_vertex, place.batches, place.chunk_blocks});
   out.put_array(place.ranges);
   save(out);
-  sync_folder(folder_of(path));  // the names of the files that `save` has made
+  io::sync_folder(io::folder_of(path));  // the names of the files that `save` has made
   out.commit();
 }
 

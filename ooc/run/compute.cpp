@@ -79,7 +79,7 @@ class Run {
                            .embeds = options.buckets != 0,
                            .denoises = options.denoise > 0})),
         budget_(plan_.account_bytes, plan_.set_aside_bytes),
-        temp_(options.temp_dir.empty() ? TempDir::default_folder(outputs[0]) : options.temp_dir),
+        temp_(options.temp_dir.empty() ? io::TempDir::default_folder(outputs[0]) : options.temp_dir),
         input_(std::move(input)),
         values_(functions, input_.dimension),
         resumable_(outputs[0], readable_again(input_), functions,
@@ -160,7 +160,7 @@ class Run {
   const ComputeOptions& options_;
   MemoryPlan plan_;
   MemoryBudget budget_;
-  TempDir temp_;
+  io::TempDir temp_;
   MeshInput input_;  // a spooled mesh holds reservations and files of the two above
   FunctionValues values_;
   ResumableRun resumable_;
@@ -191,7 +191,7 @@ void Run::restore_stores(StateReader& in) {
 }
 
 void Run::first_stage() {
-  for (const std::string& output : outputs_) remove_abandoned(output);
+  for (const std::string& output : outputs_) io::remove_abandoned(output);
   start_ = resumable_.start([this](StateReader& in) { restore_stores(in); }, common_.notes);
   if (input_.indexed)
     run_indexed();
@@ -371,7 +371,7 @@ std::string Run::sidecar_path() const {
 
 bool Run::has_sidecar() const {
   const std::string path = sidecar_path();
-  return !path.empty() && is_regular_file(path);
+  return !path.empty() && io::is_regular_file(path);
 }
 
 // From the sidecar if there is one that fits, else by reading the mesh once. Nothing if the mesh
@@ -629,7 +629,7 @@ void Run::write_hierarchy(ComputeResult& result, std::unique_ptr<SegmentStore> s
 
 std::vector<ComputeResult> compute(MeshInput input, std::span<VertexFunction* const> functions,
                                    std::span<const std::string> outputs, const ComputeOptions& options) {
-  for (const std::string& output : outputs) require_output_folder(output);
+  for (const std::string& output : outputs) io::require_output_folder(output);
   return Run(std::move(input), functions, outputs, options).run();
 }
 

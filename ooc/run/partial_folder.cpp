@@ -75,7 +75,7 @@ bool PartialFolder::has_checkpoint(const std::string& output) { return exists(pa
 bool PartialFolder::has_checkpoint() const { return exists(checkpoint()); }
 
 void PartialFolder::sync_name() {
-  if (!name_is_synced_) sync_folder(folder_of(path_));
+  if (!name_is_synced_) io::sync_folder(io::folder_of(path_));
   name_is_synced_ = true;
 }
 

@@ -28,19 +28,19 @@ void ColumnEncoder::add_planes() {
 }
 
 void ColumnEncoder::pack(std::vector<std::byte>& packed, int level) {
-  thread_local ZstdCompressor compressor;
+  thread_local io::ZstdCompressor compressor;
   compressor.compress(bytes_, level, packed);
   bytes_.clear();
 }
 
 ColumnDecoder::ColumnDecoder(std::span<const std::byte> packed, std::size_t columns, std::size_t count)
     : column_(count), zeros_(count), begin_(columns) {
-  const std::size_t frame = zstd_frame_size(packed), size = zstd_content_size(packed);
+  const std::size_t frame = io::zstd_frame_size(packed), size = io::zstd_content_size(packed);
   if (frame == 0 || size > columns * (1 + kBytePlanes * count)) return;
   memory_ = std::make_unique_for_overwrite<std::byte[]>(size);
   bytes_ = {memory_.get(), size};
   tail_ = packed.subspan(frame);
-  ok_ = zstd_decompress(packed.first(frame), bytes_) && find_columns();
+  ok_ = io::zstd_decompress(packed.first(frame), bytes_) && find_columns();
 }
 
 bool ColumnDecoder::find_columns() {

@@ -50,7 +50,7 @@ class ExternalSort {
   static constexpr std::size_t kBlockRecords = kRunBlockBytes / sizeof(Record);
 
   // `owner` is a string literal for the budget's texts; `temp` and `budget` must outlive this.
-  ExternalSort(const char* owner, const TempDir& temp, MemoryBudget& budget, const SortOptions& options = {})
+  ExternalSort(const char* owner, const io::TempDir& temp, MemoryBudget& budget, const SortOptions& options = {})
       : owner_(owner),
         temp_(&temp),
         options_(options),
@@ -104,7 +104,7 @@ class ExternalSort {
   void restore(StateReader& in) {
     in.get_array(runs_);
     const auto manifest = in.get<RunManifest>();
-    if (!runs_.empty()) file_.emplace(File::open_for_update(options_.file), manifest);
+    if (!runs_.empty()) file_.emplace(io::File::open_for_update(options_.file), manifest);
     size_ = manifest.records;
     in.get(largest_payload_);
     Batch rest;
@@ -307,7 +307,7 @@ class ExternalSort {
   void flush() {
     wait_for_writer();
     if (filling_.batch.empty()) return;
-    if (!file_) file_.emplace(options_.file.empty() ? temp_->create_unnamed(owner_) : File::create(options_.file));
+    if (!file_) file_.emplace(options_.file.empty() ? temp_->create_unnamed(owner_) : io::File::create(options_.file));
     std::swap(filling_, writing_);
     if (options_.background) {
       written_ = std::async(std::launch::async, [this] { write_run(writing_.batch); });
@@ -394,7 +394,7 @@ class ExternalSort {
   }
 
   const char* owner_;
-  const TempDir* temp_;
+  const io::TempDir* temp_;
   SortOptions options_;
   std::uint64_t most_bytes_;  // of a buffer
   Buffer filling_, writing_;

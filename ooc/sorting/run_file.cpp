@@ -17,12 +17,12 @@ struct BlockHeader {
 void add_block(RunManifest& manifest, const BlockHeader& header) {
   manifest.bytes += sizeof(header) + header.packed_bytes;
   manifest.records += header.records;
-  manifest.digest = checksum(std::as_bytes(std::span(&header, 1)), manifest.digest);
+  manifest.digest = io::checksum(std::as_bytes(std::span(&header, 1)), manifest.digest);
 }
 
 }  // namespace
 
-RunFile::RunFile(File file, const RunManifest& manifest) : file_(std::move(file)) {
+RunFile::RunFile(io::File file, const RunManifest& manifest) : file_(std::move(file)) {
   if (file_.size() < manifest.bytes) throw DamagedState();
   std::vector<std::byte> packed;
   while (manifest_.bytes + sizeof(BlockHeader) <= manifest.bytes) {
@@ -32,7 +32,7 @@ RunFile::RunFile(File file, const RunManifest& manifest) : file_(std::move(file)
     if (header.packed_bytes > manifest.bytes - offset) throw DamagedState();
     packed.resize(header.packed_bytes);
     file_.read_at(offset, packed);
-    if (checksum(packed, header.records) != header.checksum) throw DamagedState();
+    if (io::checksum(packed, header.records) != header.checksum) throw DamagedState();
     add_block(manifest_, header);
   }
   if (manifest_ != manifest) throw DamagedState();
@@ -40,7 +40,7 @@ RunFile::RunFile(File file, const RunManifest& manifest) : file_(std::move(file)
 
 void RunFile::append(std::span<const std::byte> packed, std::size_t records) {
   const BlockHeader header{static_cast<std::uint32_t>(packed.size()), static_cast<std::uint32_t>(records),
-                           checksum(packed, records)};
+                           io::checksum(packed, records)};
   file_.write_at(size(), std::as_bytes(std::span(&header, 1)));
   file_.write_at(size() + sizeof(header), packed);
   add_block(manifest_, header);
@@ -52,7 +52,7 @@ std::size_t RunFile::read(RunPlace& run, std::vector<std::byte>& packed) const {
   if (header.packed_bytes > size() - run.offset) refuse(run.offset);
   packed.resize(header.packed_bytes);
   file_.read_at(run.offset + sizeof(header), packed);
-  if (checksum(packed, header.records) != header.checksum) refuse(run.offset);
+  if (io::checksum(packed, header.records) != header.checksum) refuse(run.offset);
   run.offset += sizeof(header) + packed.size();
   --run.blocks;
   return header.records;

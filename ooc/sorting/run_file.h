@@ -29,11 +29,11 @@ struct RunManifest {
 // THREADS: one writer or many readers.
 class RunFile {
  public:
-  explicit RunFile(File file) : file_(std::move(file)) {}
+  explicit RunFile(io::File file) : file_(std::move(file)) {}
 
   // Goes on with a file of an earlier process; what follows after the manifest's bytes is lost.
   // THROWS: DamagedState if the bytes are not those that the manifest tells of. O(bytes).
-  RunFile(File file, const RunManifest& manifest);
+  RunFile(io::File file, const RunManifest& manifest);
 
   // Where the next block goes.
   std::uint64_t size() const { return manifest_.bytes; }
@@ -47,7 +47,7 @@ class RunFile {
   [[noreturn]] void refuse(std::uint64_t offset) const;
 
  private:
-  File file_;
+  io::File file_;
   RunManifest manifest_;
 };
 

@@ -143,7 +143,7 @@ SortOptions half_of(const SegmentOptions& options, const char* suffix) {
 
 }  // namespace
 
-SegmentStore::SegmentStore(const TempDir& temp, MemoryBudget& budget, const SegmentOptions& options)
+SegmentStore::SegmentStore(const io::TempDir& temp, MemoryBudget& budget, const SegmentOptions& options)
     : budget_(&budget),
       background_(options.background),
       nodes_("settled nodes", temp, budget, half_of(options, ".nodes")),

@@ -80,7 +80,7 @@ struct SegmentOptions {
 // MEMORY: the allowance; once finished, up to a quarter of what was free.   THREADS: one at a time.
 class SegmentStore : public GraphSink {
  public:
-  SegmentStore(const TempDir& temp, MemoryBudget& budget, const SegmentOptions& options = {});
+  SegmentStore(const io::TempDir& temp, MemoryBudget& budget, const SegmentOptions& options = {});
 
   void add_nodes(std::span<const SettledNode> nodes) override { nodes_.add(nodes); }
   void add_arcs(const SettledArcs& settled) override;

@@ -26,7 +26,7 @@ class BucketLogs {
  public:
   static constexpr std::size_t kBlockBytes = 16 << 10;
 
-  BucketLogs(const char* owner, const TempDir& temp, MemoryBudget& budget, std::size_t buckets)
+  BucketLogs(const char* owner, const io::TempDir& temp, MemoryBudget& budget, std::size_t buckets)
       : charge_(budget.reserve(owner, buckets * kBlockBytes)), file_(temp.create_unnamed(owner)), buckets_(buckets) {
     for (Bucket& bucket : buckets_) bucket.records.reserve(kBlockRecords);
   }
@@ -77,7 +77,7 @@ class BucketLogs {
   }
 
   Reservation charge_;
-  File file_;
+  io::File file_;
   std::uint64_t size_ = 0;
   std::vector<Bucket> buckets_;
 };

@@ -6,7 +6,7 @@
 
 namespace reeb::ooc {
 
-PageCache::PageCache(const char* owner, const TempDir& temp, MemoryBudget& budget, std::uint64_t allowance_bytes,
+PageCache::PageCache(const char* owner, const io::TempDir& temp, MemoryBudget& budget, std::uint64_t allowance_bytes,
                      std::span<const std::byte> fill)
     : owner_(owner),
       temp_(&temp),

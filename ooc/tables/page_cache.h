@@ -32,7 +32,7 @@ class PageCache {
   static constexpr std::size_t kLeastFrames = 64;
 
   // `owner` is a string literal for the budget's texts. `temp` must outlive this.
-  PageCache(const char* owner, const TempDir& temp, MemoryBudget& budget, std::uint64_t allowance_bytes,
+  PageCache(const char* owner, const io::TempDir& temp, MemoryBudget& budget, std::uint64_t allowance_bytes,
             std::span<const std::byte> fill);
   PageCache(PageCache&&) noexcept = default;
   PageCache& operator=(PageCache&&) noexcept = default;
@@ -77,7 +77,7 @@ class PageCache {
   void fill_fresh(std::byte* bytes) const;
 
   const char* owner_;
-  const TempDir* temp_;
+  const io::TempDir* temp_;
   std::uint64_t allowance_;
   std::vector<std::byte> fill_;
   Reservation pages_charge_, directory_charge_;
@@ -85,7 +85,7 @@ class PageCache {
   std::vector<Frame> frames_;                         // the clock's face
   std::vector<std::unique_ptr<std::byte[]>> blocks_;  // memory of the frames
   std::size_t hand_ = 0;                              // into frames_
-  File file_;
+  io::File file_;
   std::uint64_t spilled_ = 0, refetches_ = 0;
 };
 

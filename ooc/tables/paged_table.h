@@ -27,7 +27,8 @@ class PagedTable {
   static constexpr unsigned kShift = std::bit_width(PageCache::kPageBytes / sizeof(T)) - 1;
   static constexpr std::size_t kPageEntries = std::size_t{1} << kShift;
 
-  PagedTable(const char* owner, const TempDir& temp, MemoryBudget& budget, std::uint64_t allowance_bytes, const T& fill)
+  PagedTable(const char* owner, const io::TempDir& temp, MemoryBudget& budget, std::uint64_t allowance_bytes,
+             const T& fill)
       : cache_(owner, temp, budget, allowance_bytes, std::as_bytes(std::span(&fill, 1))) {}
 
   T get(std::uint64_t index) { return entry(index, false); }

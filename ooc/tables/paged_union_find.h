@@ -14,7 +14,7 @@ namespace reeb::ooc {
 // THROWS, MEMORY, THREADS: as PagedTable, of 8 bytes an element that was ever in a union.
 class PagedUnionFind {
  public:
-  PagedUnionFind(const char* owner, const TempDir& temp, MemoryBudget& budget, std::uint64_t allowance_bytes)
+  PagedUnionFind(const char* owner, const io::TempDir& temp, MemoryBudget& budget, std::uint64_t allowance_bytes)
       : links_(owner, temp, budget, allowance_bytes, 0) {}
 
   std::uint64_t find(std::uint64_t x) {

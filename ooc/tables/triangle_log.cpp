@@ -29,7 +29,7 @@ unsigned length_code(std::uint64_t value) {
 
 }  // namespace
 
-TriangleLog::TriangleLog(const TempDir& temp, MemoryBudget& budget, std::uint64_t allowance_bytes)
+TriangleLog::TriangleLog(const io::TempDir& temp, MemoryBudget& budget, std::uint64_t allowance_bytes)
     : temp_(&temp),
       allowance_(allowance_bytes),
       charge_(budget.reserve("triangles", 2 * kBlockBytes)),

@@ -22,7 +22,7 @@ namespace reeb::ooc {
 // THROWS: Error{kResource} of the budget or the disk.   THREADS: one at a time.
 class TriangleLog {
  public:
-  TriangleLog(const TempDir& temp, MemoryBudget& budget, std::uint64_t allowance_bytes);
+  TriangleLog(const io::TempDir& temp, MemoryBudget& budget, std::uint64_t allowance_bytes);
 
   // REQUIRES: three corners a triangle; nothing was read yet.
   void append(std::span<const VertexId> corners);
@@ -44,11 +44,11 @@ class TriangleLog {
   void seal_block();
   const std::byte* block(std::uint64_t index);
 
-  const TempDir* temp_;
+  const io::TempDir* temp_;
   std::uint64_t allowance_;
   Reservation charge_;
   std::vector<Block> in_memory_;  // blocks 0, 1, ...
-  File file_;                     // the blocks after them
+  io::File file_;                 // the blocks after them
   std::uint64_t block_count_ = 0;
   std::uint64_t triangle_count_ = 0;
 

@@ -17,7 +17,7 @@ bool is_float32(double value) {
 
 }  // namespace
 
-VertexColumn::VertexColumn(const TempDir& temp, MemoryBudget& budget, std::uint64_t allowance_bytes)
+VertexColumn::VertexColumn(const io::TempDir& temp, MemoryBudget& budget, std::uint64_t allowance_bytes)
     : temp_(&temp), budget_(&budget), allowance_(allowance_bytes) {
   narrow_.emplace("vertices", temp, budget, allowance_bytes, 0.0f);
 }

@@ -16,7 +16,7 @@ namespace reeb::ooc {
 // allowance.
 class VertexColumn {
  public:
-  VertexColumn(const TempDir& temp, MemoryBudget& budget, std::uint64_t allowance_bytes);
+  VertexColumn(const io::TempDir& temp, MemoryBudget& budget, std::uint64_t allowance_bytes);
 
   // Appends the next values.
   void append(std::span<const double> values);
@@ -30,7 +30,7 @@ class VertexColumn {
   const PageCache& pages() const { return wide_ ? wide_->pages() : narrow_->pages(); }
   void widen();
 
-  const TempDir* temp_;
+  const io::TempDir* temp_;
   MemoryBudget* budget_;
   std::uint64_t allowance_;
   std::optional<PagedTable<float>> narrow_;

@@ -37,7 +37,7 @@ struct PlacedRank {
 // vertex is then: partition the records by slice, and for each slice look up in memory.
 class Reorder {
  public:
-  Reorder(IndexedMesh& mesh, const TempDir& temp, MemoryBudget& budget, const ReorderOptions& options)
+  Reorder(IndexedMesh& mesh, const io::TempDir& temp, MemoryBudget& budget, const ReorderOptions& options)
       : mesh_(mesh),
         temp_(temp),
         budget_(budget),
@@ -198,19 +198,19 @@ class Reorder {
   }
 
   IndexedMesh& mesh_;
-  const TempDir& temp_;
+  const io::TempDir& temp_;
   MemoryBudget& budget_;
   const ReorderOptions& options_;
   std::uint64_t vertex_count_;
   std::uint64_t slice_entries_;
   std::size_t slices_;
-  File ranks_;  // by vertex, 8 bytes each
+  io::File ranks_;  // by vertex, 8 bytes each
   std::unique_ptr<ReorderedMesh> result_;
 };
 
 }  // namespace
 
-std::unique_ptr<ReorderedMesh> reorder(IndexedMesh& mesh, const TempDir& temp, MemoryBudget& budget,
+std::unique_ptr<ReorderedMesh> reorder(IndexedMesh& mesh, const io::TempDir& temp, MemoryBudget& budget,
                                        const ReorderOptions& options) {
   return Reorder(mesh, temp, budget, options).run();
 }

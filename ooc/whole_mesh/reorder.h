@@ -17,7 +17,7 @@ namespace reeb::ooc {
 // (DESIGN.md 1.2), so that results are those of the mesh as it was.
 class ReorderedMesh : public SpooledMesh {
  public:
-  ReorderedMesh(unsigned columns, const TempDir& temp, MemoryBudget& budget, std::uint64_t allowance_bytes)
+  ReorderedMesh(unsigned columns, const io::TempDir& temp, MemoryBudget& budget, std::uint64_t allowance_bytes)
       : SpooledMesh(columns, temp, budget, allowance_bytes / 4 * 3),
         originals_("original ids", temp, budget, allowance_bytes / 4, 0) {}
 
@@ -41,7 +41,7 @@ struct ReorderOptions {
 // THROWS: what reading the mesh throws; Error{kResource} of the budget or the disk.
 // MEMORY: the allowance; the result keeps a quarter of it. O(n log n) time, about 60 bytes of
 //         disk a triangle.
-std::unique_ptr<ReorderedMesh> reorder(IndexedMesh& mesh, const TempDir& temp, MemoryBudget& budget,
+std::unique_ptr<ReorderedMesh> reorder(IndexedMesh& mesh, const io::TempDir& temp, MemoryBudget& budget,
                                        const ReorderOptions& options = {});
 
 }  // namespace reeb::ooc

@@ -17,7 +17,7 @@ struct Workspace {
   std::uint64_t share() const { return std::min<std::uint64_t>(budget.limit_bytes() / 8, 256u << 20); }
 
   MemoryBudget budget;
-  TempDir temp;
+  io::TempDir temp;
 };
 
 }  // namespace reeb::ooc

@@ -261,7 +261,7 @@ void store_checksum(std::string& bytes, std::size_t at, std::uint64_t value) {
 }
 
 std::uint64_t checksum_of(const std::string& bytes, std::size_t begin, std::size_t end) {
-  return ooc::checksum(std::as_bytes(std::span(bytes)).subspan(begin, end - begin));
+  return io::checksum(std::as_bytes(std::span(bytes)).subspan(begin, end - begin));
 }
 
 }  // namespace
@@ -270,7 +270,7 @@ void mend_reeb_file(std::string& bytes) {
   if (bytes.size() < kFixedHeaderBytes + kChecksumBytes) return;
   const std::uint64_t region = load(bytes, 16, 8);
   if (region < kFixedHeaderBytes + kChecksumBytes || region > bytes.size()) return;
-  ooc::RunningChecksum digest;
+  io::RunningChecksum digest;
   std::size_t at = region;
   const std::uint64_t frames = load(bytes, 144, 4) + load(bytes, 148, 4);
   for (std::uint64_t i = 0; i < frames && at + kFrameHeaderBytes <= bytes.size(); ++i) {

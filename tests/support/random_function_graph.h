@@ -16,7 +16,7 @@ namespace reeb::bench {
 
 // About so many arcs. Buckets are at least `buckets` over the range, of the exponent that comes with them.
 inline ooc::LoadedGraph make_random_function_graph(std::size_t arcs, std::uint32_t buckets, int& exponent,
-                                                   const ooc::TempDir& temp, MemoryBudget& budget) {
+                                                   const io::TempDir& temp, MemoryBudget& budget) {
   constexpr double kArcsAVertex = 0.557;
   const auto width = static_cast<std::uint64_t>(std::sqrt(static_cast<double>(arcs) / kArcsAVertex)) + 2;
   ooc::SegmentStore store(temp, budget);

@@ -66,13 +66,13 @@ void expect_failing_writes_are_reported(const Run& run) {
   const CountWrites writes;
   {
     MemoryBudget budget;
-    run(TempDir(scratch.path(), writes), budget);
+    run(io::TempDir(scratch.path(), writes), budget);
   }
   ASSERT_GT(writes.count(), 3u) << "nothing spills any more";
   for (std::uint64_t n = 1; n <= writes.count(); n += 1 + n / 8) {
     MemoryBudget budget;
     try {
-      run(TempDir(scratch.path(), FailNthWrite(n, ENOSPC)), budget);
+      run(io::TempDir(scratch.path(), FailNthWrite(n, ENOSPC)), budget);
       ADD_FAILURE() << "write " << n << ": the error was swallowed";
     } catch (const Error& e) {
       EXPECT_EQ(e.kind(), ErrorKind::kResource);

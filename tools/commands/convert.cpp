@@ -24,7 +24,7 @@ void run_convert(ConvertArguments arguments) {
   ConvertOptions& options = arguments.options;
   options.order = parse_order(arguments.order);
   if (!arguments.memory.empty()) options.memory_bytes = parse_size(arguments.memory);
-  if (options.temp_folder.empty()) options.temp_folder = ooc::TempDir::default_folder(options.output);
+  if (options.temp_folder.empty()) options.temp_folder = io::TempDir::default_folder(options.output);
   if (arguments.force) options.existing = io::Existing::kReplace;
   io::check_output_name(options.output, options.existing);
   const auto notes = convert_mesh(options);

@@ -104,7 +104,7 @@ class Conversion {
   }
 
   Lines list_events() {
-    io::AtomicFile file(options_.output, options_.existing);
+    io::AtomicOutputFile file(options_.output, options_.existing);
     io::OutputStream out(file.out());
     io::write_events(*reader_, out);
     file.commit();

@@ -21,7 +21,7 @@ void refuse_existing(const std::string& path, bool force) {
 
 void write_output(const std::string& path, const std::function<void(std::ostream&)>& write) {
   if (!is_standard_output(path)) {
-    ooc::AtomicOutput out(path);
+    io::AtomicOutput out(path);
     write(out);
     out.commit();
     return;

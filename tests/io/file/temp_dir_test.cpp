@@ -22,8 +22,8 @@ std::span<const std::byte> text_bytes(const std::string& text) {
 
 TEST(TempDir, FilesHaveNoName) {
   const Scratch scratch;
-  const TempDir temp(scratch.path());
-  const File unnamed = temp.create_unnamed("pages");
+  const io::TempDir temp(scratch.path());
+  const io::File unnamed = temp.create_unnamed("pages");
   unnamed.write_at(0, text_bytes("abc"));
   unnamed.sync();
   EXPECT_TRUE(scratch.empty());
@@ -39,7 +39,7 @@ TEST(TempDir, RefusesAFolderThatCannotBeWritten) {
   std::ofstream(plain) << "x";
   for (const std::string& folder : {scratch.path() + "/missing", plain}) {
     try {
-      TempDir temp(folder);
+      io::TempDir temp(folder);
       ADD_FAILURE() << folder << " was accepted";
     } catch (const Error& e) {
       EXPECT_EQ(e.kind(), ErrorKind::kResource);
@@ -51,17 +51,17 @@ TEST(TempDir, RefusesAFolderThatCannotBeWritten) {
 
 TEST(TempDir, TakesTheOutputsFolderUnlessTmpdirIsSet) {
   ::unsetenv("TMPDIR");
-  EXPECT_EQ(TempDir::default_folder("/data/out/a.reeb"), "/data/out");
-  EXPECT_EQ(TempDir::default_folder("a.reeb"), ".");
+  EXPECT_EQ(io::TempDir::default_folder("/data/out/a.reeb"), "/data/out");
+  EXPECT_EQ(io::TempDir::default_folder("a.reeb"), ".");
   ::setenv("TMPDIR", "/somewhere", 1);
-  EXPECT_EQ(TempDir::default_folder("/data/out/a.reeb"), "/somewhere");
+  EXPECT_EQ(io::TempDir::default_folder("/data/out/a.reeb"), "/somewhere");
   ::unsetenv("TMPDIR");
 }
 
 TEST(File, ReportsAFullDiskWithPlaceAndNeed) {
   const Scratch scratch;
-  TempDir temp(scratch.path(), FailNthWrite(2, ENOSPC));
-  const File file = temp.create_unnamed("arcs");
+  io::TempDir temp(scratch.path(), FailNthWrite(2, ENOSPC));
+  const io::File file = temp.create_unnamed("arcs");
   file.write_at(0, text_bytes("abc"));
   try {
     file.write_at(4096, text_bytes("abcde"));
@@ -77,8 +77,8 @@ TEST(File, ReportsAFullDiskWithPlaceAndNeed) {
 
 TEST(File, ReportsARealLimitOfTheSystem) {
   const Scratch scratch;
-  TempDir temp(scratch.path());
-  const File file = temp.create_unnamed("pages");
+  io::TempDir temp(scratch.path());
+  const io::File file = temp.create_unnamed("pages");
   rlimit before{};
   ::getrlimit(RLIMIT_FSIZE, &before);
   rlimit small = before;
@@ -94,12 +94,12 @@ TEST(File, ReportsARealLimitOfTheSystem) {
 
 TEST(File, RefusesToReadPastTheEnd) {
   const Scratch scratch;
-  TempDir temp(scratch.path());
-  const File file = temp.create_unnamed("pages");
+  io::TempDir temp(scratch.path());
+  const io::File file = temp.create_unnamed("pages");
   file.write_at(0, text_bytes("abc"));
   std::array<std::byte, 8> bytes{};
   EXPECT_THROW(file.read_at(0, bytes), Error);
-  EXPECT_THROW(File::open_for_reading(scratch.path() + "/none"), Error);
+  EXPECT_THROW(io::File::open_for_reading(scratch.path() + "/none"), Error);
 }
 
 }  // namespace

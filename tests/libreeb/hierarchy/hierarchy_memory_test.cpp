@@ -71,7 +71,7 @@ TEST_P(MadeGraphs, HoldNoMoreThanPromised) {
 }
 
 TEST(RandomFunction, HoldsNoMoreThanPromised) {
-  const ooc::TempDir temp;
+  const io::TempDir temp;
   MemoryBudget budget;
   int exponent = 0;
   expect_within_promise(

@@ -39,7 +39,7 @@ class Sidecar : public testing::Test {
   }
 
   const Scratch scratch_;
-  const TempDir temp_;
+  const io::TempDir temp_;
   MemoryBudget budget_;
   std::string path_;
   ModelMesh mesh_ = grid_mesh(60, 50);

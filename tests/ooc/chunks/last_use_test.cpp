@@ -49,7 +49,7 @@ ModelMesh random_mesh(std::uint64_t vertices, std::uint64_t triangles, std::uint
   return mesh;
 }
 
-void compare_once(const ModelMesh& mesh, const LastUseOptions& options, const TempDir& temp) {
+void compare_once(const ModelMesh& mesh, const LastUseOptions& options, const io::TempDir& temp) {
   ModelIndexedMesh indexed(mesh);
   MemoryBudget budget(4 << 20);
   {
@@ -96,7 +96,7 @@ void compare_once(const ModelMesh& mesh, const LastUseOptions& options, const Te
   EXPECT_EQ(budget.used_bytes(), 0u);
 }
 
-void compare(const ModelMesh& mesh, LastUseOptions options, const TempDir& temp) {
+void compare(const ModelMesh& mesh, LastUseOptions options, const io::TempDir& temp) {
   for (options.threads = 1; options.threads <= 2; ++options.threads) {
     SCOPED_TRACE(testing::Message() << "threads " << options.threads);
     compare_once(mesh, options, temp);
@@ -105,7 +105,7 @@ void compare(const ModelMesh& mesh, LastUseOptions options, const TempDir& temp)
 
 TEST(LastUse, AgreesWithTheDefinition) {
   const Scratch scratch;
-  const TempDir temp(scratch.path());
+  const io::TempDir temp(scratch.path());
   compare(grid_mesh(40, 30), {.block_triangles = 64}, temp);
   compare(shuffled(grid_mesh(40, 30), 5), {.block_triangles = 10}, temp);
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
@@ -116,20 +116,20 @@ TEST(LastUse, AgreesWithTheDefinition) {
 
 TEST(LastUse, EmptyAndTriangleFreeMeshes) {
   const Scratch scratch;
-  const TempDir temp(scratch.path());
+  const io::TempDir temp(scratch.path());
   compare(random_mesh(0, 0, 1), {}, temp);
   compare(random_mesh(100, 0, 1), {}, temp);
 }
 
 TEST(LastUse, LongSpansSaturate) {
   const Scratch scratch;
-  const TempDir temp(scratch.path());
+  const io::TempDir temp(scratch.path());
   compare(random_mesh(50, 9000, 3), {.block_triangles = 1}, temp);
 }
 
 TEST(LastUse, JoinsBlocksWhenTheyAreTooMany) {
   const Scratch scratch;
-  const TempDir temp(scratch.path());
+  const io::TempDir temp(scratch.path());
   for (std::uint32_t most : {2u, 6u, 7u, 64u})
     compare(random_mesh(300, 1001, most), {.block_triangles = 3, .most_blocks = most}, temp);
   compare(random_mesh(60, 20'000, 9), {.block_triangles = 1, .most_blocks = 6000}, temp);
@@ -137,7 +137,7 @@ TEST(LastUse, JoinsBlocksWhenTheyAreTooMany) {
 
 TEST(LastUse, TheTableMaySpill) {
   const Scratch scratch;
-  const TempDir temp(scratch.path());
+  const io::TempDir temp(scratch.path());
   const ModelMesh mesh = random_mesh(200'000, 4000, 2);
   compare(mesh, {.block_triangles = 512, .allowance_bytes = 0}, temp);
   ModelIndexedMesh indexed(mesh);
@@ -148,7 +148,7 @@ TEST(LastUse, TheTableMaySpill) {
 
 TEST(LastUse, GivesUpOnAnIncoherentMeshOnly) {
   const Scratch scratch;
-  const TempDir temp(scratch.path());
+  const io::TempDir temp(scratch.path());
   const ModelMesh rows = grid_mesh(500, 300);
   const ModelMesh random = shuffled(rows, 2);
   for (const auto& [mesh, incoherent] : {std::pair(&rows, false), std::pair(&random, true)}) {
@@ -161,7 +161,7 @@ TEST(LastUse, GivesUpOnAnIncoherentMeshOnly) {
 
 TEST(LastUse, EachFailingWriteIsReported) {
   const ModelMesh mesh = random_mesh(200'000, 1000, 2);
-  expect_failing_writes_are_reported([&](const TempDir& temp, MemoryBudget& budget) {
+  expect_failing_writes_are_reported([&](const io::TempDir& temp, MemoryBudget& budget) {
     ModelIndexedMesh indexed(mesh);
     scan_last_use(indexed, temp, budget, {.allowance_bytes = 0});
   });

@@ -65,7 +65,7 @@ std::vector<VertexId> all_corners(IndexedMesh& mesh, std::size_t limit) {
 
 void compare(const ModelMesh& model, std::uint64_t allowance, bool must_spill) {
   const Scratch scratch;
-  const TempDir temp(scratch.path());
+  const io::TempDir temp(scratch.path());
   MemoryBudget budget(64 << 20);
   {
     ModelReader reader(model);
@@ -110,7 +110,7 @@ TEST(SpooledMesh, GivesBackWhatWasReadWhenItSpills) {
 
 TEST(SpooledMesh, ChargesWhatTheReaderKeeps) {
   const Scratch scratch;
-  const TempDir temp(scratch.path());
+  const io::TempDir temp(scratch.path());
   MemoryBudget budget(8 << 20);
   const ModelMesh model = with_property(grid_mesh(20, 20));
   ModelReader modest(model), greedy(model);
@@ -124,7 +124,7 @@ TEST(SpooledMesh, ChargesWhatTheReaderKeeps) {
 
 TEST(SpooledMesh, AnEmptyMesh) {
   const Scratch scratch;
-  const TempDir temp(scratch.path());
+  const io::TempDir temp(scratch.path());
   MemoryBudget budget;
   const ModelMesh model{std::vector<std::vector<double>>(3), {}};
   ModelReader reader(model);
@@ -136,7 +136,7 @@ TEST(SpooledMesh, AnEmptyMesh) {
 
 TEST(SpooledMesh, ATetrahedronIsItsFourFaces) {
   const Scratch scratch;
-  const TempDir temp(scratch.path());
+  const io::TempDir temp(scratch.path());
   MemoryBudget budget;
   const ModelMesh model{std::vector<std::vector<double>>(3, {0, 1, 2, 3}), {}};
   ModelReader reader(model, {VertexId(0), VertexId(1), VertexId(2), VertexId(3)});
@@ -151,7 +151,7 @@ TEST(SpooledMesh, ATetrahedronIsItsFourFaces) {
 
 TEST(SpooledMesh, SignedZerosAndOddValues) {
   const Scratch scratch;
-  const TempDir temp(scratch.path());
+  const io::TempDir temp(scratch.path());
   MemoryBudget budget;
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const ModelMesh model{{{-0.0, 1e300, 5e-324}, {1, 2, 3}, {0, nan, 1}}, {}};
@@ -174,7 +174,7 @@ TEST(SpooledMesh, SignedZerosAndOddValues) {
 
 TEST(SpooledMesh, IdsBeyond32Bits) {
   const Scratch scratch;
-  const TempDir temp(scratch.path());
+  const io::TempDir temp(scratch.path());
   MemoryBudget budget;
   TriangleLog log(temp, budget, 0);
   std::mt19937_64 random(5);
@@ -188,7 +188,7 @@ TEST(SpooledMesh, IdsBeyond32Bits) {
 
 TEST(SpooledMesh, EachFailingWriteIsReported) {
   const ModelMesh model = with_property(grid_mesh(400, 400));
-  expect_failing_writes_are_reported([&](const TempDir& temp, MemoryBudget& budget) {
+  expect_failing_writes_are_reported([&](const io::TempDir& temp, MemoryBudget& budget) {
     ModelReader reader(model);
     spool(reader, temp, budget, {.allowance_bytes = 0});
   });

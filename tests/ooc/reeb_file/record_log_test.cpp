@@ -49,7 +49,7 @@ INSTANTIATE_TEST_SUITE_P(Bytes, Blocks, testing::Values(1, 20, 100, 1000, Record
 
 TEST_P(Blocks, RecordsComeBackFromTheLastToTheFirstAsOftenAsAsked) {
   const Scratch scratch;
-  const TempDir temp(scratch.path());
+  const io::TempDir temp(scratch.path());
   for (const std::size_t count : {0u, 1u, 2u, 2000u}) {
     SCOPED_TRACE(testing::Message() << count << " records");
     MemoryBudget budget;
@@ -68,7 +68,7 @@ TEST_P(Blocks, RecordsComeBackFromTheLastToTheFirstAsOftenAsAsked) {
 
 TEST(RecordLog, NoFileIsMadeWhileABlockIsEnough) {
   const Scratch scratch;
-  const TempDir temp(scratch.path(), [](std::uint64_t, std::size_t) { return ENOSPC; });
+  const io::TempDir temp(scratch.path(), [](std::uint64_t, std::size_t) { return ENOSPC; });
   MemoryBudget budget;
   RecordLog log(temp, budget);
   const auto records = random_records(1000, 100, 1);
@@ -78,7 +78,7 @@ TEST(RecordLog, NoFileIsMadeWhileABlockIsEnough) {
 }
 
 TEST(RecordLog, AFullDiskIsReported) {
-  expect_failing_writes_are_reported([](const TempDir& temp, MemoryBudget& budget) {
+  expect_failing_writes_are_reported([](const io::TempDir& temp, MemoryBudget& budget) {
     RecordLog log(temp, budget, 500);
     for (const Logged& record : random_records(1000, 100, 2)) log.add(record.arc, record.buckets);
     EXPECT_GT(log.spilled_bytes(), 0u);
@@ -87,7 +87,7 @@ TEST(RecordLog, AFullDiskIsReported) {
 
 TEST(RecordLog, ABudgetWithoutRoomIsAResourceError) {
   const Scratch scratch;
-  const TempDir temp(scratch.path());
+  const io::TempDir temp(scratch.path());
   MemoryBudget budget(RecordLog::memory_bytes() - 1);
   EXPECT_THROW(RecordLog(temp, budget), Error);
 }

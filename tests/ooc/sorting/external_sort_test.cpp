@@ -40,7 +40,7 @@ void compare(std::size_t count, SortOptions options, std::uint64_t limit_bytes, 
   SCOPED_TRACE(testing::Message() << count << " records, allowance " << options.allowance_bytes << " background "
                                   << options.background);
   const Scratch scratch;
-  const TempDir temp(scratch.path());
+  const io::TempDir temp(scratch.path());
   MemoryBudget budget(limit_bytes);
   std::vector<Pair> expected = random_pairs(count, count);
   {
@@ -82,7 +82,7 @@ TEST(ExternalSort, AnAllowanceThatGrowsLeavesLessToMerge) {
   std::vector<Pair> expected = random_pairs(kCount, 5);
   const auto peak_bytes = [&](std::uint64_t most_bytes) {
     const Scratch scratch;
-    const TempDir temp(scratch.path());
+    const io::TempDir temp(scratch.path());
     MemoryBudget budget;
     ExternalSort<Pair> sort("pairs", temp, budget, {.allowance_bytes = 64 << 10, .most_bytes = most_bytes});
     add_in_pieces(sort, random_pairs(kCount, 5));
@@ -98,7 +98,7 @@ TEST(ExternalSort, AnAllowanceThatGrowsLeavesLessToMerge) {
 
 TEST(ExternalSort, SaysWhenNotEvenTheLeastFits) {
   const Scratch scratch;
-  const TempDir temp(scratch.path());
+  const io::TempDir temp(scratch.path());
   MemoryBudget budget(10 << 10);
   ExternalSort<Pair> sort("pairs", temp, budget);
   EXPECT_THROW(sort.add(Pair{1, 2}), Error);
@@ -107,7 +107,7 @@ TEST(ExternalSort, SaysWhenNotEvenTheLeastFits) {
 TEST(ExternalSort, EachFailingWriteIsReported) {
   const auto pairs = random_pairs(60'000, 1);
   for (const bool background : {false, true})
-    expect_failing_writes_are_reported([&](const TempDir& temp, MemoryBudget& budget) {
+    expect_failing_writes_are_reported([&](const io::TempDir& temp, MemoryBudget& budget) {
       ExternalSort<Pair> sort("pairs", temp, budget, {.allowance_bytes = 256 << 10, .background = background});
       add_in_pieces(sort, pairs);
       sort.finish();
@@ -120,7 +120,7 @@ TEST(ExternalSort, DoesNotForgetThatRecordsWereLost) {
     void write(std::span<const std::byte>) override {}
   };
   const Scratch scratch;
-  const TempDir temp(scratch.path());
+  const io::TempDir temp(scratch.path());
   MemoryBudget budget;
   const std::vector<Pair> pairs = random_pairs(20'000, 1);
   ExternalSort<Pair> sort("pairs", temp, budget,

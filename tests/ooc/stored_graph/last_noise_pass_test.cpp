@@ -78,7 +78,7 @@ void expect_arcs(SegmentStore& store, std::size_t limit, std::optional<int> expo
 
 struct Stored {
   Scratch scratch;
-  TempDir temp{scratch.path()};
+  io::TempDir temp{scratch.path()};
   MemoryBudget budget;
   SegmentStore store;
 

@@ -48,7 +48,7 @@ class Segments : public testing::TestWithParam<bool> {};
 void compare(std::size_t count, SegmentOptions options, bool must_spill) {
   SCOPED_TRACE(testing::Message() << count << " nodes, allowance " << options.allowance_bytes);
   const Scratch scratch;
-  const TempDir temp(scratch.path());
+  const io::TempDir temp(scratch.path());
   MemoryBudget budget(32 << 20);
   Pieces pieces = random_pieces(count, count);
   {
@@ -86,7 +86,7 @@ TEST_P(Segments, GiveBackAllInCanonicalOrder) {
 
 TEST_P(Segments, EachFailingWriteIsReported) {
   const Pieces pieces = random_pieces(12'000, 4);
-  expect_failing_writes_are_reported([&](const TempDir& temp, MemoryBudget& budget) {
+  expect_failing_writes_are_reported([&](const io::TempDir& temp, MemoryBudget& budget) {
     SegmentStore store(temp, budget, {.allowance_bytes = 0, .background = GetParam()});
     add(store, pieces);
     store.finish();
@@ -97,7 +97,7 @@ INSTANTIATE_TEST_SUITE_P(Background, Segments, testing::Bool());
 
 TEST(SegmentStore, AGraphThatDoesNotFitIsRefusedByItsSize) {
   const Scratch scratch;
-  const TempDir temp(scratch.path());
+  const io::TempDir temp(scratch.path());
   MemoryBudget budget(2 << 20);
   SegmentStore store(temp, budget, {.allowance_bytes = 512 << 10, .background = false});
   add(store, random_pieces(100'000, 1));
@@ -107,7 +107,7 @@ TEST(SegmentStore, AGraphThatDoesNotFitIsRefusedByItsSize) {
 
 TEST(SegmentStore, AnArcThatEndsNowhereIsSeen) {
   const Scratch scratch;
-  const TempDir temp(scratch.path());
+  const io::TempDir temp(scratch.path());
   MemoryBudget budget;
   SegmentStore store(temp, budget);
   store.add_nodes(std::vector<SettledNode>{{{1.0, VertexId(0)}, {}}});
@@ -208,7 +208,7 @@ TEST_P(Segments, BucketsTravelWithTheirArcs) {
                         Case{0, 2 << 20, 20, true}, Case{0, 64 << 20, 4000, true}}) {
     SCOPED_TRACE(testing::Message() << "allowance " << c.allowance << ", up to " << c.most_buckets << " buckets");
     const Scratch scratch;
-    const TempDir temp(scratch.path());
+    const io::TempDir temp(scratch.path());
     MemoryBudget budget(c.budget);
     Pieces some = pieces;
     if (c.most_buckets > 100) some.arcs.resize(900);
@@ -228,7 +228,7 @@ TEST_P(Segments, BucketsTravelWithTheirArcs) {
 
 TEST_P(Segments, AGraphHasTheBucketsOfItsArcs) {
   const Scratch scratch;
-  const TempDir temp(scratch.path());
+  const io::TempDir temp(scratch.path());
   MemoryBudget budget(64 << 20);
   const Pieces pieces = random_pieces(9'000, 23);
   const EmbeddedArcs all = random_embedded_arcs(pieces, 6, 10);
@@ -273,7 +273,7 @@ TEST_P(Segments, AnotherProcessGoesOnWithTheBuckets) {
   const auto expected = expected_arcs(all);
   for (const std::uint64_t allowance : {std::uint64_t{0}, std::uint64_t{8} << 20}) {
     const Scratch scratch;
-    const TempDir temp(scratch.path());
+    const io::TempDir temp(scratch.path());
     MemoryBudget budget;
     const SegmentOptions options{
         .allowance_bytes = allowance, .background = GetParam(), .files = scratch.path() + "/segments"};
@@ -295,7 +295,7 @@ TEST_P(Segments, AnotherProcessGoesOnWithTheBuckets) {
 
 TEST(SegmentStore, BucketsOfALargerExponentThanTheLastAreSeen) {
   const Scratch scratch;
-  const TempDir temp(scratch.path());
+  const io::TempDir temp(scratch.path());
   MemoryBudget budget;
   SegmentStore store(temp, budget);
   store.add_arcs({std::vector<ArcKeys>{{{1.0, VertexId(0)}, {2.0, VertexId(1)}}}, std::vector<std::uint32_t>{1},

@@ -30,7 +30,7 @@ template <class T>
 void compare_with_map(std::uint64_t allowance, std::uint64_t seed) {
   SCOPED_TRACE(testing::Message() << "allowance " << allowance << " seed " << seed);
   const Scratch scratch;
-  const TempDir temp(scratch.path());
+  const io::TempDir temp(scratch.path());
   MemoryBudget budget(1 << 20);
   {
     const T fill = value_of<T>(77);
@@ -86,7 +86,7 @@ TEST(PagedTable, AgreesWithAMapWhileItSpills) {
 TEST(PagedTable, IsPlainMemoryWhileItFits) {
   const Scratch scratch;
   CountWrites writes;
-  const TempDir temp(scratch.path(), writes);
+  const io::TempDir temp(scratch.path(), writes);
   MemoryBudget budget;
   PagedTable<std::uint32_t> table("table", temp, budget, 8 << 20, 0u);
   for (std::uint32_t i = 0; i < 1'000'000; ++i) table.set(i, i * 3);
@@ -98,7 +98,7 @@ TEST(PagedTable, IsPlainMemoryWhileItFits) {
 TEST(PagedTable, ReadingWhatWasNeverSetWritesNothing) {
   const Scratch scratch;
   CountWrites writes;
-  const TempDir temp(scratch.path(), writes);
+  const io::TempDir temp(scratch.path(), writes);
   MemoryBudget budget;
   PagedTable<std::uint64_t> table("table", temp, budget, 0, 42u);
   for (std::uint64_t i = 0; i < 1'000'000; i += 1000) ASSERT_EQ(table.get(i), 42u);
@@ -107,7 +107,7 @@ TEST(PagedTable, ReadingWhatWasNeverSetWritesNothing) {
 
 TEST(PagedTable, SpillsWhenTheBudgetNotTheAllowanceIsUsedUp) {
   const Scratch scratch;
-  const TempDir temp(scratch.path());
+  const io::TempDir temp(scratch.path());
   MemoryBudget budget(1 << 20);
   const Reservation other = budget.reserve("other", 600 << 10);
   PagedTable<std::uint64_t> table("table", temp, budget, MemoryBudget::kUnlimited, 0u);
@@ -118,7 +118,7 @@ TEST(PagedTable, SpillsWhenTheBudgetNotTheAllowanceIsUsedUp) {
 
 TEST(PagedTable, SaysWhenNotEvenTheLeastFits) {
   const Scratch scratch;
-  const TempDir temp(scratch.path());
+  const io::TempDir temp(scratch.path());
   MemoryBudget budget(100 << 10);
   PagedTable<std::uint64_t> table("last uses", temp, budget, 1 << 20, 0u);
   try {
@@ -131,7 +131,7 @@ TEST(PagedTable, SaysWhenNotEvenTheLeastFits) {
 }
 
 TEST(PagedTable, EachFailingWriteIsReported) {
-  expect_failing_writes_are_reported([](const TempDir& temp, MemoryBudget& budget) {
+  expect_failing_writes_are_reported([](const io::TempDir& temp, MemoryBudget& budget) {
     PagedTable<std::uint64_t> table("table", temp, budget, 0, 0u);
     for (std::uint64_t i = 0; i < 100'000; ++i) table.set(i * 17 % 100'000, i);
   });

@@ -52,7 +52,7 @@ void expect_same(const ModelMesh& model, ReorderedMesh& mesh) {
 
 void compare(const ModelMesh& model, std::uint64_t allowance, std::uint64_t limit) {
   const Scratch scratch;
-  const TempDir temp(scratch.path());
+  const io::TempDir temp(scratch.path());
   MemoryBudget budget(limit);
   {
     ModelIndexedMesh indexed(model);
@@ -81,7 +81,7 @@ TEST(Reorder, OddMeshes) {
 
 TEST(Reorder, MakesTheFrontSmall) {
   const Scratch scratch;
-  const TempDir temp(scratch.path());
+  const io::TempDir temp(scratch.path());
   MemoryBudget budget;
   const ModelMesh model = shuffled(grid_mesh(300, 300), 3);
   ModelIndexedMesh before(model);
@@ -95,7 +95,7 @@ TEST(Reorder, MakesTheFrontSmall) {
 
 TEST(Reorder, EachFailingWriteIsReported) {
   const ModelMesh model = shuffled(grid_mesh(120, 120), 5);
-  expect_failing_writes_are_reported([&](const TempDir& temp, MemoryBudget& budget) {
+  expect_failing_writes_are_reported([&](const io::TempDir& temp, MemoryBudget& budget) {
     ModelIndexedMesh indexed(model);
     reorder(indexed, temp, budget, {.allowance_bytes = 64 << 10});
   });
