@@ -15,8 +15,12 @@ void LiveGraph::save(StateWriter& out) const {
   positions_.save(out);
   arcs_.save(out);
   references_.save(out);
-  for (const Index first : {first_free_node_, first_free_arc_, first_free_reference_}) out.put(first);
-  for (const std::size_t count : {free_nodes_, free_arcs_, free_references_}) out.put(std::uint64_t{count});
+  nodes_.save_first_free(out);
+  arcs_.save_first_free(out);
+  references_.save_first_free(out);
+  nodes_.save_free_count(out);
+  arcs_.save_free_count(out);
+  references_.save_free_count(out);
 }
 
 void LiveGraph::restore(StateReader& in) {
@@ -31,9 +35,12 @@ void LiveGraph::restore(StateReader& in) {
   positions_.restore(in);
   arcs_.restore(in);
   references_.restore(in);
-  for (Index* first : {&first_free_node_, &first_free_arc_, &first_free_reference_}) in.get(*first);
-  for (std::size_t* count : {&free_nodes_, &free_arcs_, &free_references_})
-    *count = static_cast<std::size_t>(in.get<std::uint64_t>());
+  nodes_.restore_first_free(in);
+  arcs_.restore_first_free(in);
+  references_.restore_first_free(in);
+  nodes_.restore_free_count(in);
+  arcs_.restore_free_count(in);
+  references_.restore_free_count(in);
 }
 
 }  // namespace reeb
