@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "libreeb/engine/bucket_sums.h"
+#include "libreeb/engine/sweep_ids.h"
 #include "libreeb/engine/sweep_options.h"
 #include "libreeb/graph/reeb_graph.h"
 #include "libreeb/port/graph_sink.h"
@@ -32,7 +33,7 @@ struct Fragment {
   std::vector<Point> positions;  // one a node, or empty
   // Open arcs, by open nodes.
   struct Arc {
-    std::uint32_t lo, hi;
+    FragmentNode lo, hi;
   };
   std::vector<Arc> arcs;
   // Their embedding, or empty; buckets of arc i: buckets[bucket_begin[i] .. bucket_begin[i + 1]).
@@ -41,11 +42,11 @@ struct Fragment {
 
   // Shared edges; path of edge i: path_arcs[path_begin[i] .. path_begin[i + 1]), from above.
   struct SharedEdge {
-    std::uint32_t lo, hi;  // open nodes
+    FragmentNode lo, hi;
   };
   std::vector<SharedEdge> edges;
   std::vector<std::uint32_t> path_begin;
-  std::vector<std::uint32_t> path_arcs;
+  std::vector<FragmentArc> path_arcs;
 
   // In which order to glue: after all of an edge's triangles, zip it; after all of a vertex's
   // simplices, complete it. Sorted by place in the stream.

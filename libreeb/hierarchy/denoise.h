@@ -17,7 +17,7 @@ struct Denoised {
   // order of cancelling. All others are as before.
   std::vector<PersistencePair> removed;
   // Of each arc, the number in the graph that was given of its lowest part.
-  std::vector<std::uint32_t> former;
+  std::vector<ArcId> former;
 };
 
 // Repeats, until nothing changes: remove a leaf (an extremum with one arc) of persistence <
