@@ -41,8 +41,8 @@ void ChunkLeafRemoval::find_candidates() {
 
 // All of them, or leaves and their saddles.
 void ChunkLeafRemoval::choose_whole_nodes() {
-  constexpr std::size_t kMany = 32;
-  const bool all = candidates_.size() * kMany >= graph_->nodes.size();
+  constexpr std::size_t kNodesALeaf = 32;  // with more, looking at all nodes does not pay
+  const bool all = candidates_.size() * kNodesALeaf >= graph_->nodes.size();
   whole_.assign(graph_->nodes.size(), all ? 1 : 0);
   if (all) return;
   for (const SweepArc a : arcs_) whole_[graph_->arcs[a].lo] = whole_[graph_->arcs[a].hi] = 1;

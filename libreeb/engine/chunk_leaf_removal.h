@@ -1,4 +1,5 @@
-// Noise removal in one chunk: leaves that no other chunk can save (DESIGN.md 1.6, 5).
+// Noise removal in one chunk: leaves that no other chunk can save
+// (docs/SEMANTICS.md, Noise removal).
 //
 // A leaf whose vertex is used in this chunk only is a leaf of the whole graph, with the same
 // saddle, since no path of a shared edge runs on its arc; and a path of the chunk's graph is one

@@ -1,5 +1,5 @@
 // The Reeb graph of one chunk, reduced to what the rest of the mesh can still change
-// (DESIGN.md 3). It replaces its chunk exactly.
+// (docs/ARCHITECTURE.md, Why fragments are right). It replaces its chunk exactly.
 //
 // Open nodes are the chunk's vertices that occur in other chunks, whatever their degree, and the
 // nodes that such vertices or shared edges can still touch. A shared edge is a mesh edge that
@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "libreeb/engine/bucket_sums.h"
-#include "libreeb/engine/sweep_ids.h"
+#include "libreeb/engine/chunk.h"
 #include "libreeb/engine/sweep_options.h"
 #include "libreeb/graph/reeb_graph.h"
 #include "libreeb/port/graph_sink.h"

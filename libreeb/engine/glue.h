@@ -1,5 +1,5 @@
 // Glues fragments, in stream order, into the live graph: the one engine behind the parallel
-// pipeline and the on-line class (DESIGN.md 2 and 3).
+// pipeline and the on-line class (docs/ARCHITECTURE.md, Why fragments are right).
 //
 // Why it is right: the Reeb graph of a union is that of its parts once equal vertices are one
 // node and, for every edge that two parts share, the two paths are zipped. A fragment brings a

@@ -1,5 +1,5 @@
 // The part of the Reeb graph that can still change: nodes, arcs, and the paths of mesh edges
-// (the paper's section 2; DESIGN.md 2).
+// (the paper's section 2; docs/ARCHITECTURE.md, Why fragments are right).
 //
 // A path is a chain of references, one on each arc of a monotone chain, from above; each arc
 // lists the references on it. Two paths with the same ends are zipped: their arcs are merged from
@@ -8,7 +8,7 @@
 // complete and can never come to that; an arc without references whose ends are settled leaves for
 // the sink. So of a bump on a long path only the fork stays, not the arc to its top.
 //
-// Noise (DESIGN.md 1.6): a leaf whose arc cannot change is removed as soon as its saddle is seen to
+// Noise (docs/SEMANTICS.md, Noise removal): a leaf whose arc cannot change is removed as soon as its saddle is seen to
 // have another path that reaches beyond it. Looks are few; a leaf for which they do not suffice
 // stays for a last pass over the whole graph.
 //
@@ -26,10 +26,10 @@
 #include "libreeb/base/state_stream.h"
 #include "libreeb/base/sweep_key.h"
 #include "libreeb/engine/bucket_sums.h"
-#include "libreeb/engine/settled_batch.h"
 #include "libreeb/engine/sweep_options.h"
 #include "libreeb/graph/reeb_graph.h"
 #include "libreeb/port/graph_sink.h"
+#include "libreeb/port/settled_batch.h"
 
 namespace reeb {
 

@@ -77,8 +77,8 @@ bool LiveGraph::find_path_beyond(Index from, Index leaf, Direction d) {
     Index node, by_arc;
     std::size_t before;
   };
-  constexpr std::size_t kLooks = 16;
-  std::array<Seen, kLooks> seen;
+  constexpr std::size_t kNodesLookedAt = 16;
+  std::array<Seen, kNodesLookedAt> seen;
   std::size_t count = 0;
   seen[count++] = {from, kNone, 0};
   for (std::size_t i = 0; i < count; ++i)
@@ -92,7 +92,7 @@ bool LiveGraph::find_path_beyond(Index from, Index leaf, Direction d) {
         std::reverse(path_.begin(), path_.end());
         return true;
       }
-      if (count == kLooks) return false;
+      if (count == kNodesLookedAt) return false;
       seen[count++] = {end, a, i};
     }
   return false;

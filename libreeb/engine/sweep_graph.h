@@ -14,7 +14,6 @@
 #include "libreeb/engine/bucket_sums.h"
 #include "libreeb/engine/chunk.h"
 #include "libreeb/engine/chunk_stars.h"
-#include "libreeb/engine/sweep_ids.h"
 
 namespace reeb {
 

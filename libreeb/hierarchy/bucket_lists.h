@@ -1,4 +1,4 @@
-// The embedding of a graph while its arcs are cut, laid together and joined (DESIGN.md 5).
+// The embedding of a graph while its arcs are cut, merged and joined (docs/SEMANTICS.md, Buckets).
 #pragma once
 
 #include <array>

@@ -1,13 +1,14 @@
-// The rules by which pairs are cancelled (DESIGN.md 1.5), one step at a time.
+// The rules by which pairs are cancelled (docs/SEMANTICS.md, Cancelling), one step at a time.
 //
-// WHY THE SEARCHES ARE SHORT. When the turn of a pair comes, every pair inside its interval is
-// gone, but for kept loops. So
-//  (1) the component of a maximum u above its up-fork v has no other maximum: any way up from v
-//  into
-//      it ends in u, and any way up from v outside it passes u;
+// WHY THE SEARCHES ARE SHORT. When a pair is to be cancelled, every pair inside its interval has
+// been, except kept loops. So
+//  (1) the component of a maximum u above its up-fork v has no other maximum: any path up from v
+//      into it ends in u, and any path up from v outside it passes the level of u;
 //  (2) no two arcs of v lead into one component of that set, nor of the interlevel set (v, y) of a
-//      loop, or else there would be a cycle above v that ends sooner: a loop with lo = v, kept.
-// Only at a fork with a kept loop is a component searched through.
+//      loop: else a cycle above v would end sooner, a loop with lo = v, which was kept.
+// Only at a fork with a kept loop is a whole component searched.
+//
+// THREADS: a Canceller belongs to one thread.
 #pragma once
 
 #include <array>
@@ -57,13 +58,13 @@ struct IgnoreContent {
   bool merge(ArcId /*from*/, ArcId /*into*/) { return false; }
   // `lower` ends where `upper` starts, at a node that disappears; `lower` becomes both.
   void join(ArcId /*upper*/, ArcId /*lower*/, NodeId /*node*/) {}
-  // The arc is taken away with so many nodes, and its content is laid nowhere.
+  // The arc is removed, and this number of nodes with it; its content is dropped.
   void drop(ArcId /*arc*/, std::uint32_t /*nodes*/) {}
   // What the arc had before this step, as it goes into a record.
   std::span<const std::byte> before_step(ArcId /*arc*/) const { return {}; }
   // The step is done.
   void commit() {}
-  // As of the Canceller: of a node, where the content of an arc is, and itself.
+  // As the prefetches of the Canceller: of a node; of the place of an arc's content; of the content.
   void prefetch_node(NodeId /*node*/) const {}
   void prefetch_place(ArcId /*arc*/) const {}
   void prefetch(ArcId /*arc*/) const {}
@@ -73,7 +74,7 @@ struct IgnoreContent {
 template <class Content = IgnoreContent>
 class Canceller {
  public:
-  // Looks at the graph's arcs no more. REQUIRES: `sink` outlives this.
+  // Copies the arcs of `graph`, whose own are not needed afterwards. REQUIRES: `sink` outlives this.
   Canceller(const ReebGraph& graph, RecordSink& sink, Content content = {})
       : graph_(graph), log_(graph_, sink), ahead_(graph_), back_(graph_), ways_(graph_), content_(std::move(content)) {
     for (std::vector<bool>& nodes : kept_) nodes.resize(graph.node_count());
@@ -99,8 +100,8 @@ class Canceller {
     return true;
   }
 
-  // Fetches what the turn of a pair will look at first, which lies anywhere in memory: to be called one
-  // after the other, each some pairs ahead of the next.
+  // Prefetch what cancelling a pair reads first. Call them in this order, each some pairs ahead of the
+  // next: each but the first reads what the one before has fetched.
   void prefetch_nodes(const PersistencePair& pair) const {
     for (const NodeId id : {pair.lo, pair.hi}) {
       graph_.prefetch_node(id);
@@ -131,9 +132,9 @@ class Canceller {
 
  private:
   static constexpr ArcId kNone = WorkingGraph::kNone;
-  // The content of an arc that ends in an extremum is laid on so many arcs at most, and the rest is
-  // dropped: the way is all that is walked for its sake, and each arc on it gets a new record. A hundredth
-  // of the extrema of a scan, and a sixth of those of a random function, have a longer way.
+  // The content of an arc that ends in an extremum is laid on at most this many arcs; the rest is dropped.
+  // The path is walked for this purpose only, and each arc on it gets a new record. One in a hundred
+  // extrema of a scan, and one in six of a random function, have a longer path.
   static constexpr std::uint32_t kMostBeside = 8, kAny = ~std::uint32_t{0};
 
   // A pair of `fork` with the extremum that is its partner in direction d.
@@ -194,7 +195,6 @@ class Canceller {
 };
 
 // ---- extrema
-// --------------------------------------------------------------------------------------
 
 template <class Content>
 void Canceller<Content>::cancel_extremum(Direction d, NodeId fork, NodeId extremum) {
@@ -287,7 +287,6 @@ ArcId Canceller<Content>::arc_to_extremum(Direction d, NodeId fork, NodeId extre
 }
 
 // ---- loops
-// ----------------------------------------------------------------------------------------
 
 template <class Content>
 bool Canceller<Content>::cancel_loop(NodeId v, NodeId y) {
@@ -363,7 +362,6 @@ void Canceller<Content>::trace(std::vector<ArcId>& path, NodeId y) {
 }
 
 // ---- moving arcs
-// ----------------------------------------------------------------------------------
 
 template <class Content>
 void Canceller<Content>::zip(Direction d) {

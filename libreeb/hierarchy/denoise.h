@@ -1,4 +1,5 @@
-// Noise removal on a graph in memory, or on a part of one: the exact last pass (DESIGN.md 1.6).
+// Noise removal on a graph in memory, or on a part of one: the exact last pass
+// (docs/SEMANTICS.md, Noise removal).
 #pragma once
 
 #include <cstdint>

@@ -11,8 +11,8 @@ PathFollower::PathFollower(const WorkingGraph& graph) : graph_(graph), exits_{kN
 // Makes a stretch of the nodes that were followed before `exit`, if they are enough.
 void PathFollower::keep_followed(NodeId exit, Direction d) {
   if (!followed_.empty() && followed_.back() == exit) followed_.pop_back();
-  if (followed_.size() >= kLeast) {
-    if (exits_.size() > stretch_of_.size() / kLeast) {
+  if (followed_.size() >= kLeastNodes) {
+    if (exits_.size() > stretch_of_.size() / kLeastNodes) {
       std::fill(stretch_of_.begin(), stretch_of_.end(), std::array{kNoStretch, kNoStretch});
       exits_.resize(1);
     }

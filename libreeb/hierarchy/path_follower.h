@@ -41,7 +41,7 @@ class PathFollower {
  private:
   static constexpr NodeId kNone = NodeId::none();
   static constexpr std::uint32_t kNoStretch = 0;
-  static constexpr std::size_t kLeast = 8, kMost = 32;  // nodes of a stretch
+  static constexpr std::size_t kLeastNodes = 8, kMostNodes = 32;  // of a stretch
   static constexpr std::size_t kMostPutBetween = 4;
 
   struct Change {
@@ -71,7 +71,7 @@ NodeId PathFollower::follow(NodeId node, Direction d, Passes passes) {
   while (true) {
     const NodeId exit = exit_of(node, d);
     if (exit == kNone) {
-      if (followed_.size() == kMost) keep_followed(node, d);
+      if (followed_.size() == kMostNodes) keep_followed(node, d);
       followed_.push_back(node);
     } else {
       keep_followed(node, d);

@@ -1,4 +1,5 @@
-// Writes down which arcs live between which steps: the partially persistent graph (DESIGN.md 6).
+// Writes down which arcs live between which steps: the partially persistent graph
+// (docs/SEMANTICS.md, Levels).
 #pragma once
 
 #include <algorithm>
