@@ -155,7 +155,6 @@ Result run(const std::vector<Input>& inputs, std::int64_t extras = 0) {
     result.glue += std::clock() - swept;
     result.live_bytes = std::max(result.live_bytes, glue.memory_bytes());
   }
-  glue.complete_all();
   result.nodes = sink.nodes;
   result.vertices = sink.vertices;
   result.removed = glue.removed_pairs();

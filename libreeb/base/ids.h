@@ -2,9 +2,11 @@
 //
 // An id is its number and nothing else: trivially copyable, ordered by number, hashed by value().
 // Converting between two kinds is always a named function of the table that knows the mapping.
+// Ids that only the engine uses are in engine/chunk.h.
 #pragma once
 
 #include <compare>
+#include <concepts>
 #include <cstdint>
 
 namespace reeb {
@@ -14,7 +16,14 @@ class Id {
  public:
   constexpr Id() = default;
   constexpr explicit Id(Rep value) : value_(value) {}
+  // The id that nothing has.
+  static constexpr Id none() { return Id(static_cast<Rep>(~Rep{0})); }
+
   constexpr Rep value() const { return value_; }
+  constexpr Id& operator++() {
+    ++value_;
+    return *this;
+  }
   friend constexpr auto operator<=>(const Id&, const Id&) = default;
 
  private:
@@ -27,5 +36,9 @@ using VertexId = Id<struct VertexTag, std::uint64_t>;
 using NodeId = Id<struct NodeTag, std::uint32_t>;
 // An arc of a Reeb graph in memory: its place in the canonical order of arcs.
 using ArcId = Id<struct ArcTag, std::uint32_t>;
+
+static_assert(!std::equality_comparable_with<VertexId, NodeId> && !std::equality_comparable_with<NodeId, ArcId>);
+static_assert(!std::convertible_to<NodeId, ArcId> && !std::convertible_to<std::uint32_t, NodeId>);
+static_assert(sizeof(NodeId) == sizeof(std::uint32_t));
 
 }  // namespace reeb

@@ -1,4 +1,4 @@
-// The total order of vertices in which every tie is settled (DESIGN.md 1.2).
+// The total order of vertices in which every tie is settled (docs/SEMANTICS.md, Order).
 #pragma once
 
 #include <bit>

@@ -174,12 +174,12 @@ BucketLists::List BucketLists::split_behind(List& list, Index last_below) {
 
 // Of the bucket in which `at` lies. In halves, so that no difference overflows.
 std::uint64_t BucketLists::count_above(Index bucket, double lo, double at, double hi) const {
-  constexpr std::uint64_t kMany = 4;
+  constexpr std::uint64_t kDividesFrom = 4;  // vertices
   const std::int64_t index = links_[bucket].index;
   const double least = indexer_(lo) == index ? lo / 2 : std::ldexp(static_cast<double>(index), exponent() - 1);
   const double most = indexer_(hi) == index ? hi / 2 : std::ldexp(static_cast<double>(index + 1), exponent() - 1);
   const std::uint64_t count = sums_[bucket].count;
-  if (count < kMany) return most - at / 2 > at / 2 - least ? count : 0;
+  if (count < kDividesFrom) return most - at / 2 > at / 2 - least ? count : 0;
   const double share = most > least ? std::clamp((most - at / 2) / (most - least), 0.0, 1.0) : 0.5;
   return std::min(static_cast<std::uint64_t>(std::nearbyint(share * static_cast<double>(count))), count);
 }

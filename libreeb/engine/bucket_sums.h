@@ -1,4 +1,4 @@
-// Exact sums of positions by buckets of function value, in lists (DESIGN.md 5).
+// Exact sums of positions by buckets of function value, in lists (docs/SEMANTICS.md, Buckets).
 //
 // A sum does not depend on the order in which it is added up: positions are whole numbers of
 // 2^-44, clamped to +-2^50 and added in 128 bits, which hold 2^32 of them.
@@ -25,9 +25,9 @@ inline constexpr double kSmallCoordinate = 0x1p18;
 
 // A coordinate in units of 2^-44, cut off towards zero; what is no number is the least.
 inline Int128 fixed_point(double x) {
-  constexpr double kMost = 0x1p50;
-  x = x > -kMost ? x : -kMost;
-  x = x < kMost ? x : kMost;
+  constexpr double kMostCoordinate = 0x1p50;
+  x = x > -kMostCoordinate ? x : -kMostCoordinate;
+  x = x < kMostCoordinate ? x : kMostCoordinate;
   const auto whole = static_cast<std::int64_t>(x);
   const double rest = x - static_cast<double>(whole);
   return (static_cast<Int128>(whole) << 44) + static_cast<std::int64_t>(rest * 0x1p44);

@@ -8,6 +8,7 @@
 
 #include "libreeb/engine/chunk_stars.h"
 #include "libreeb/engine/fragment_builder.h"
+#include "libreeb/engine/shared_edges.h"
 #include "libreeb/engine/vertex_ranks.h"
 
 namespace reeb {
@@ -122,7 +123,7 @@ class Labels {
  public:
   void clear() { labels_.clear(); }
   std::uint32_t count() const { return static_cast<std::uint32_t>(labels_.size()); }
-  std::uint32_t add(std::uint32_t arc) {
+  std::uint32_t add(SweepArc arc) {
     labels_.push_back({count(), arc, 0});
     return count() - 1;
   }
@@ -132,14 +133,15 @@ class Labels {
   }
   bool is_root(std::uint32_t x) const { return labels_[x].parent == x; }
   void merge_into(std::uint32_t root, std::uint32_t other) { labels_[other].parent = root; }
-  std::uint32_t& arc(std::uint32_t root) { return labels_[root].arc; }
+  SweepArc& arc(std::uint32_t root) { return labels_[root].arc; }
   // True the first time that it is asked about this root at v.
   bool mark(std::uint32_t root, std::uint32_t v) { return std::exchange(labels_[root].marked, v + 1) != v + 1; }
   std::size_t memory_bytes() const { return labels_.capacity() * sizeof(Label); }
 
  private:
   struct Label {
-    std::uint32_t parent, arc;
+    std::uint32_t parent;
+    SweepArc arc;
     std::uint32_t marked;  // 1 + the last vertex at which it was
   };
   std::vector<Label> labels_;
@@ -183,14 +185,14 @@ struct ChunkSweep::Scratch {
   void reset(const SweepOptions& options);
   void visit(std::uint32_t v);
   void collect_below(std::uint32_t v);
-  void end_arcs_below(std::uint32_t node);
+  void end_arcs_below(SweepNode node);
   void label_lows(std::uint32_t v, std::uint32_t label);
-  void start_arcs(std::uint32_t v, std::uint32_t node);
-  std::uint32_t join_below(std::uint32_t node);
-  void continue_as_one(std::uint32_t v, std::uint32_t node);
-  void separate(std::uint32_t v, std::uint32_t node);
-  void note_branches(std::uint32_t v, const Side& side, std::uint32_t node, std::uint32_t arc);
-  void add_shared_edges(std::uint32_t v, std::uint32_t node);
+  void start_arcs(std::uint32_t v, SweepNode node);
+  SweepArc join_below(SweepNode node);
+  void continue_as_one(std::uint32_t v, SweepNode node);
+  void separate(std::uint32_t v, SweepNode node);
+  void note_branches(std::uint32_t v, const Side& side, SweepNode node, SweepArc arc);
+  void add_shared_edges(std::uint32_t v, SweepNode node);
 
   std::size_t walk(std::uint32_t v);
   void seed_sides(std::uint32_t v);
@@ -201,8 +203,8 @@ struct ChunkSweep::Scratch {
     sides[side].queue.push_back(t);
   }
 
-  void note_if_shared(std::uint32_t lo, std::uint32_t hi, std::uint32_t node, std::uint32_t arc) {
-    if ((uses[lo] & uses[hi]) != 0) builder.note_branch(lo, hi, node, arc);
+  void note_if_shared(std::uint32_t lo, std::uint32_t hi, SweepNode node, SweepArc arc) {
+    if ((uses[lo] & uses[hi]) != 0) shared_edges.note_branch(VertexRank(lo), VertexRank(hi), node, arc);
   }
 
   const Chunk* chunk = nullptr;
@@ -211,14 +213,15 @@ struct ChunkSweep::Scratch {
   VertexRanks ranks;
   ChunkStars stars;
   FragmentBuilder builder;
+  SharedEdges shared_edges;
 
   std::vector<std::uint8_t> uses;  // by rank
   Crossings crossings;             // by triangle
   Labels labels;
   UpwardEdges up;
-  std::vector<std::uint32_t> below;      // label roots of the arcs that reach v
-  std::vector<std::uint32_t> group_arc;  // by upward edge that stands for its group
-  std::vector<std::uint32_t> side_of;    // by upward edge that stands for its group
+  std::vector<std::uint32_t> below;    // label roots of the arcs that reach v
+  std::vector<SweepArc> group_arc;     // by upward edge that stands for its group
+  std::vector<std::uint32_t> side_of;  // by upward edge that stands for its group
 
   // The walk at hand. Side s has the label first_side + s; sides that met have one root.
   std::vector<Side> sides;
@@ -250,13 +253,13 @@ void ChunkSweep::Scratch::run(const Chunk& chunk_in, std::span<const double> val
   // Bucket after bucket where they are wanted, else all at once.
   for (std::uint32_t v = 0, end = n; v < n; end = n) {
     if (options.bucket_exponent) {
-      const std::int64_t index = bucket_index(swept->value(v), *options.bucket_exponent);
+      const std::int64_t index = bucket_index(swept->value(VertexRank(v)), *options.bucket_exponent);
       end = end_of_bucket(*swept, v, index, *options.bucket_exponent);
       builder.start_bucket(index);
     }
     while (v < end) visit(v++);
   }
-  builder.finish(swept_chunk, fragment);
+  builder.finish(swept_chunk, shared_edges, fragment);
 }
 
 void ChunkSweep::Scratch::reset(const SweepOptions& options) {
@@ -268,17 +271,18 @@ void ChunkSweep::Scratch::reset(const SweepOptions& options) {
   labels.clear();
   up.reset(n);
   builder.start(n, options);
+  shared_edges.start(n);
 }
 
 std::size_t ChunkSweep::Scratch::memory_bytes() const {
   std::size_t walked = sides.capacity() * sizeof(Side);
   for (const Side& side : sides) walked += 4 * side.queue.capacity();
-  return ranks.memory_bytes() + stars.memory_bytes() + builder.memory_bytes() + uses.capacity() +
-         crossings.memory_bytes() + labels.memory_bytes() + up.memory_bytes() + walked;
+  return ranks.memory_bytes() + stars.memory_bytes() + builder.memory_bytes() + shared_edges.memory_bytes() +
+         uses.capacity() + crossings.memory_bytes() + labels.memory_bytes() + up.memory_bytes() + walked;
 }
 
 void ChunkSweep::Scratch::visit(std::uint32_t v) {
-  builder.reach(v);
+  shared_edges.reach(VertexRank(v));
   collect_below(v);
   up.collect(v, stars, crossings);
   const bool walks = up.groups() > 1 && !below.empty();
@@ -286,10 +290,10 @@ void ChunkSweep::Scratch::visit(std::uint32_t v) {
   const bool shared = uses[v] != kUsedHereOnly;
   if (joined && below.size() == 1 && !shared) {  // a regular vertex
     label_lows(v, below[0]);
-    if (embeds) builder.add_regular(labels.arc(below[0]), swept->order[v]);
+    if (embeds) builder.add_regular(labels.arc(below[0]), swept->local(VertexRank(v)));
     return;
   }
-  const std::uint32_t node = builder.add_node(v);
+  const SweepNode node = builder.add_node(VertexRank(v));
   end_arcs_below(node);
   if (joined)
     continue_as_one(v, node);
@@ -315,7 +319,7 @@ void ChunkSweep::Scratch::collect_below(std::uint32_t v) {
   }
 }
 
-void ChunkSweep::Scratch::end_arcs_below(std::uint32_t node) {
+void ChunkSweep::Scratch::end_arcs_below(SweepNode node) {
   for (const std::uint32_t root : below) builder.end_arc(labels.arc(root), node);
 }
 
@@ -324,7 +328,7 @@ void ChunkSweep::Scratch::label_lows(std::uint32_t v, std::uint32_t label) {
 }
 
 // Nothing hangs below v: each group is a contour of its own.
-void ChunkSweep::Scratch::start_arcs(std::uint32_t v, std::uint32_t node) {
+void ChunkSweep::Scratch::start_arcs(std::uint32_t v, SweepNode node) {
   group_arc.resize(up.count());
   side_of.resize(up.count());  // here: the label of the group
   for (std::uint32_t e = 0; e < up.count(); ++e) {
@@ -337,8 +341,8 @@ void ChunkSweep::Scratch::start_arcs(std::uint32_t v, std::uint32_t node) {
 }
 
 // All arcs from below go on as one new arc, which is returned.
-std::uint32_t ChunkSweep::Scratch::join_below(std::uint32_t node) {
-  const std::uint32_t arc = builder.add_arc(node);
+SweepArc ChunkSweep::Scratch::join_below(SweepNode node) {
+  const SweepArc arc = builder.add_arc(node);
   if (below.empty()) below.push_back(labels.add(arc));
   for (std::size_t i = 1; i < below.size(); ++i) labels.merge_into(below[0], below[i]);
   labels.arc(below[0]) = arc;
@@ -346,9 +350,9 @@ std::uint32_t ChunkSweep::Scratch::join_below(std::uint32_t node) {
   return arc;
 }
 
-void ChunkSweep::Scratch::continue_as_one(std::uint32_t v, std::uint32_t node) {
+void ChunkSweep::Scratch::continue_as_one(std::uint32_t v, SweepNode node) {
   const bool is_leaf = below.empty();
-  const std::uint32_t arc = join_below(node);
+  const SweepArc arc = join_below(node);
   if (is_leaf) builder.note_leaf(node, arc);
   group_arc.assign(up.count(), arc);
   label_lows(v, below[0]);
@@ -356,12 +360,12 @@ void ChunkSweep::Scratch::continue_as_one(std::uint32_t v, std::uint32_t node) {
 
 // v splits: the side that was not exhausted goes on under the labels from below, each of the
 // others under its own.
-void ChunkSweep::Scratch::separate(std::uint32_t v, std::uint32_t node) {
-  const std::uint32_t main_arc = join_below(node);
+void ChunkSweep::Scratch::separate(std::uint32_t v, SweepNode node) {
+  const SweepArc main_arc = join_below(node);
   for (std::uint32_t s = 0; s < up.groups(); ++s)
     if (sides[s].exhausted) labels.arc(first_side + s) = builder.add_arc(node);
   for (std::uint32_t s = 0; s < up.groups(); ++s)
-    if (const std::uint32_t arc = labels.arc(labels.find(first_side + s)); arc != main_arc)
+    if (const SweepArc arc = labels.arc(labels.find(first_side + s)); arc != main_arc)
       note_branches(v, sides[s], node, arc);
   group_arc.resize(up.count());
   for (std::uint32_t e = 0; e < up.count(); ++e)
@@ -369,7 +373,7 @@ void ChunkSweep::Scratch::separate(std::uint32_t v, std::uint32_t node) {
 }
 
 // The shared edges that cross the level on this side do not take the main branch.
-void ChunkSweep::Scratch::note_branches(std::uint32_t v, const Side& side, std::uint32_t node, std::uint32_t arc) {
+void ChunkSweep::Scratch::note_branches(std::uint32_t v, const Side& side, SweepNode node, SweepArc arc) {
   for (const std::uint32_t t : side.queue) {
     const auto& [lo, mid, hi, place] = stars[t];
     if (lo == v) continue;
@@ -381,7 +385,7 @@ void ChunkSweep::Scratch::note_branches(std::uint32_t v, const Side& side, std::
   }
 }
 
-void ChunkSweep::Scratch::add_shared_edges(std::uint32_t v, std::uint32_t node) {
+void ChunkSweep::Scratch::add_shared_edges(std::uint32_t v, SweepNode node) {
   for (std::uint32_t e = 0; e < up.count(); ++e) {
     if ((uses[v] & uses[up.hi(e)]) == 0) continue;
     std::uint32_t place = 0, half = up.head(e);
@@ -389,9 +393,9 @@ void ChunkSweep::Scratch::add_shared_edges(std::uint32_t v, std::uint32_t node) 
       place = std::max(place, stars[half / 2].place);
       half = crossings.next(half);
     } while (half != up.head(e));
-    builder.add_shared_edge(node, up.hi(e), group_arc[up.group(e)], place);
+    shared_edges.add(node, VertexRank(up.hi(e)), group_arc[up.group(e)], place);
   }
-  builder.finish_shared_edges_of(v);
+  shared_edges.finish_vertex(VertexRank(v));
 }
 
 // Walks the level set just above v from all groups in lockstep until all but one are exhausted or
@@ -428,7 +432,7 @@ void ChunkSweep::Scratch::seed_sides(std::uint32_t v) {
   first_side = labels.count();
   for (std::uint32_t e = 0; e < up.count(); ++e) {
     if (up.group(e) != e) continue;
-    side_of[e] = labels.add(kNone) - first_side;
+    side_of[e] = labels.add(SweepArc::none()) - first_side;
     active.push_back(side_of[e]);
     sides[side_of[e]].start();
   }

@@ -1,4 +1,5 @@
-// The Reeb graph of one chunk by one sweep over its vertices (DESIGN.md 3).
+// The Reeb graph of one chunk by one sweep over its vertices
+// (docs/ARCHITECTURE.md, The sweep of one chunk).
 //
 // Just above a vertex the level set is a graph: its points are the mesh edges that cross the
 // level, its segments the triangles that do. Each crossing triangle carries a label; a union-find

@@ -1,5 +1,5 @@
 // The Reeb graph of one chunk, reduced to what the rest of the mesh can still change
-// (DESIGN.md 3). It replaces its chunk exactly.
+// (docs/ARCHITECTURE.md, Why fragments are right). It replaces its chunk exactly.
 //
 // Open nodes are the chunk's vertices that occur in other chunks, whatever their degree, and the
 // nodes that such vertices or shared edges can still touch. A shared edge is a mesh edge that
@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "libreeb/engine/bucket_sums.h"
+#include "libreeb/engine/chunk.h"
 #include "libreeb/engine/sweep_options.h"
 #include "libreeb/graph/reeb_graph.h"
 #include "libreeb/port/graph_sink.h"
@@ -32,7 +33,7 @@ struct Fragment {
   std::vector<Point> positions;  // one a node, or empty
   // Open arcs, by open nodes.
   struct Arc {
-    std::uint32_t lo, hi;
+    FragmentNode lo, hi;
   };
   std::vector<Arc> arcs;
   // Their embedding, or empty; buckets of arc i: buckets[bucket_begin[i] .. bucket_begin[i + 1]).
@@ -41,11 +42,11 @@ struct Fragment {
 
   // Shared edges; path of edge i: path_arcs[path_begin[i] .. path_begin[i + 1]), from above.
   struct SharedEdge {
-    std::uint32_t lo, hi;  // open nodes
+    FragmentNode lo, hi;
   };
   std::vector<SharedEdge> edges;
   std::vector<std::uint32_t> path_begin;
-  std::vector<std::uint32_t> path_arcs;
+  std::vector<FragmentArc> path_arcs;
 
   // In which order to glue: after all of an edge's triangles, zip it; after all of a vertex's
   // simplices, complete it. Sorted by place in the stream.

@@ -41,7 +41,7 @@ void Glue::add_nodes(const Fragment& fragment) {
 
 void Glue::add_arcs(const Fragment& fragment) {
   arcs_.clear();
-  for (const Fragment::Arc& arc : fragment.arcs) arcs_.push_back(graph_.add_arc(nodes_[arc.lo], nodes_[arc.hi]));
+  for (const Fragment::Arc& arc : fragment.arcs) arcs_.push_back(graph_.add_arc(node(arc.lo), node(arc.hi)));
   for (std::size_t i = 0; i + 1 < fragment.bucket_begin.size(); ++i)
     graph_.add_buckets(arcs_[i],
                        std::span(fragment.buckets)
@@ -53,19 +53,19 @@ void Glue::add_paths(const Fragment& fragment) {
   pending_.assign(fragment.edges.size(), {});
   for (std::size_t i = 0; i < fragment.edges.size(); ++i) {
     const auto [lo, hi] = fragment.edges[i];
-    const Index known = edge_of_.find(edge_key(nodes_[lo], nodes_[hi]));
-    const bool needed_later = (fragment.nodes[lo].uses & fragment.nodes[hi].uses & kUsedLater) != 0;
+    const Index known = edge_of_.find(edge_key(node(lo), node(hi)));
+    const bool needed_later = (fragment.nodes[lo.value()].uses & fragment.nodes[hi.value()].uses & kUsedLater) != 0;
     if (known != kNone)
       pending_[i] = {known, add_path(fragment, i)};
     else if (needed_later)
-      add_edge(nodes_[lo], nodes_[hi], add_path(fragment, i));
+      add_edge(node(lo), node(hi), add_path(fragment, i));
   }
 }
 
 LiveGraph::Index Glue::add_path(const Fragment& fragment, std::size_t edge) {
   Index top = kNone;
   for (std::size_t i = fragment.path_begin[edge + 1]; i-- > fragment.path_begin[edge];)
-    top = graph_.add_reference(arcs_[fragment.path_arcs[i]], top);
+    top = graph_.add_reference(arcs_[fragment.path_arcs[i].value()], top);
   return top;
 }
 
@@ -77,16 +77,10 @@ void Glue::run_steps(const Fragment& fragment) {
     } else if (const auto [edge, top] = pending_[step.index]; edge != kNone) {
       graph_.zip(edges_[edge].top, top);
       const auto [lo, hi] = fragment.edges[step.index];
-      if ((fragment.nodes[lo].uses & fragment.nodes[hi].uses & kUsedLater) == 0) drop_edge(edge);
+      if ((fragment.nodes[lo.value()].uses & fragment.nodes[hi.value()].uses & kUsedLater) == 0) drop_edge(edge);
       graph_.tidy();
     }
   }
-}
-
-void Glue::complete_all() {
-  for (Index n = 0; n < first_link_.size(); ++n)
-    if (graph_.is_incomplete(n)) complete_node(n);
-  graph_.flush();
 }
 
 void Glue::complete_node(Index n) {
@@ -138,6 +132,35 @@ std::size_t Glue::memory_bytes() const {
   return graph_.memory_bytes() + node_of_.memory_bytes() + edge_of_.memory_bytes() + edges_.memory_bytes() +
          links_.memory_bytes() + first_link_.memory_bytes() + (nodes_.capacity() + arcs_.capacity()) * sizeof(Index) +
          pending_.capacity() * sizeof(Pending);
+}
+
+// ---- saving and restoring, between two fragments; the two maps are told from the arrays
+
+void Glue::save(StateWriter& out) const {
+  graph_.save(out);
+  out.put(removed_in_fragments_);
+  first_link_.save(out);
+  edges_.save(out);
+  links_.save(out);
+  out.put(first_free_edge_);
+}
+
+void Glue::restore(StateReader& in) {
+  graph_.restore(in);
+  in.get(removed_in_fragments_);
+  first_link_.restore(in);
+  edges_.restore(in);
+  links_.restore(in);
+  in.get(first_free_edge_);
+
+  node_of_.clear();
+  for (Index n = 0; n < first_link_.size(); ++n)
+    if (graph_.is_incomplete(n)) node_of_.find_or_insert(graph_.key(n).vertex.value(), n);
+  edge_of_.clear();
+  std::vector<bool> is_free(edges_.size());
+  for (Index e = first_free_edge_; e != kNone; e = edges_[e].top) is_free[e] = true;
+  for (Index e = 0; e < edges_.size(); ++e)
+    if (!is_free[e]) edge_of_.find_or_insert(edge_key(edges_[e].lo, edges_[e].hi), e);
 }
 
 }  // namespace reeb

@@ -1,5 +1,5 @@
 // Glues fragments, in stream order, into the live graph: the one engine behind the parallel
-// pipeline and the on-line class (DESIGN.md 2 and 3).
+// pipeline and the on-line class (docs/ARCHITECTURE.md, Why fragments are right).
 //
 // Why it is right: the Reeb graph of a union is that of its parts once equal vertices are one
 // node and, for every edge that two parts share, the two paths are zipped. A fragment brings a
@@ -31,9 +31,6 @@ class Glue {
   // called used later there; its options do not fall behind those of earlier fragments.
   void add(const Fragment& fragment);
 
-  // No later fragment has anything.
-  void complete_all();
-
   // What was glued so far, for another process to go on with; settled parts are the sink's.
   void save(StateWriter& out) const;
   // THROWS: DamagedState; then this is of no use any more.
@@ -60,6 +57,7 @@ class Glue {
     Index next, prev;
   };
 
+  Index node(FragmentNode n) const { return nodes_[n.value()]; }
   void add_nodes(const Fragment& fragment);
   void add_arcs(const Fragment& fragment);
   void add_paths(const Fragment& fragment);

@@ -24,17 +24,12 @@ void LiveGraph::grow_arc_buckets() {
 // ---- nodes and arcs
 
 LiveGraph::Index LiveGraph::add_node(const SweepKey& key, const Point& position, State state) {
-  Index n = first_free_node_;
-  if (n != kNone) {
-    first_free_node_ = nodes_[n].up_first;
-    --free_nodes_;
-  } else {
-    n = static_cast<Index>(nodes_.size());
-    nodes_.grow_by(1);
-    if (track_positions_) positions_.grow_by(1);
+  const Index n = nodes_.take();
+  nodes_[n] = {key, {kNone, kNone}, {0, 0}, 0, state, state != State::kSettled, false, true, false};
+  if (track_positions_) {
+    if (positions_.size() < nodes_.size()) positions_.grow_by(1);
+    positions_[n] = position;
   }
-  nodes_[n] = {key, kNone, kNone, 0, 0, 0, state, state != State::kSettled, false, true, false};
-  if (track_positions_) positions_[n] = position;
   // A complete node is looked at once everything that comes with it is in place.
   if (state != State::kIncomplete) queue(n);
   return n;
@@ -42,24 +37,16 @@ LiveGraph::Index LiveGraph::add_node(const SweepKey& key, const Point& position,
 
 void LiveGraph::free_node(Index n) {
   nodes_[n].used = false;
-  nodes_[n].up_first = std::exchange(first_free_node_, n);
-  ++free_nodes_;
+  nodes_.free(n);
 }
 
 LiveGraph::Index LiveGraph::add_arc(Index lo, Index hi) {
-  Index a = first_free_arc_;
-  if (a != kNone) {
-    first_free_arc_ = arcs_[a].lo_next;
-    --free_arcs_;
-  } else {
-    a = static_cast<Index>(arcs_.size());
-    arcs_.grow_by(1);
-    if (embeds_) grow_arc_buckets();
-  }
+  const Index a = arcs_.take();
+  if (embeds_) grow_arc_buckets();
   arcs_[a].first_reference = kNone;
   arcs_[a].references = 0;
-  attach_lo(a, lo);
-  attach_hi(a, hi);
+  attach(a, kDown, lo);
+  attach(a, kUp, hi);
   return a;
 }
 
@@ -80,69 +67,32 @@ void LiveGraph::prefetch_buckets(Index a, Index b) const {
 }
 
 void LiveGraph::free_arc(Index a) {
-  arcs_[a].lo = kNone;
-  arcs_[a].lo_next = std::exchange(first_free_arc_, a);
-  ++free_arcs_;
+  arcs_[a].end[kDown] = kNone;
+  arcs_.free(a);
 }
 
-void LiveGraph::attach_lo(Index a, Index n) {
+void LiveGraph::attach(Index a, Direction side, Index n) {
   Arc& arc = arcs_[a];
   Node& node = nodes_[n];
-  arc.lo = n;
-  arc.lo_prev = kNone;
-  arc.lo_next = std::exchange(node.up_first, a);
-  if (arc.lo_next != kNone) arcs_[arc.lo_next].lo_prev = a;
-  ++node.up_degree;
+  arc.end[side] = n;
+  Links& links = arc.links[side];
+  links = {std::exchange(node.first_at[side], a), kNone};
+  if (links.next != kNone) arcs_[links.next].links[side].prev = a;
+  ++node.degree_at[side];
   if (arc.references != 0) ++node.referenced_arcs;
 }
 
-void LiveGraph::attach_hi(Index a, Index n) {
-  Arc& arc = arcs_[a];
-  Node& node = nodes_[n];
-  arc.hi = n;
-  arc.hi_prev = kNone;
-  arc.hi_next = std::exchange(node.down_first, a);
-  if (arc.hi_next != kNone) arcs_[arc.hi_next].hi_prev = a;
-  ++node.down_degree;
-  if (arc.references != 0) ++node.referenced_arcs;
-}
-
-void LiveGraph::detach_lo(Index a) {
+void LiveGraph::detach(Index a, Direction side) {
   const Arc& arc = arcs_[a];
-  Node& node = nodes_[arc.lo];
-  (arc.lo_prev == kNone ? node.up_first : arcs_[arc.lo_prev].lo_next) = arc.lo_next;
-  if (arc.lo_next != kNone) arcs_[arc.lo_next].lo_prev = arc.lo_prev;
-  --node.up_degree;
-  if (arc.references != 0) --node.referenced_arcs;
-}
-
-void LiveGraph::detach_hi(Index a) {
-  const Arc& arc = arcs_[a];
-  Node& node = nodes_[arc.hi];
-  (arc.hi_prev == kNone ? node.down_first : arcs_[arc.hi_prev].hi_next) = arc.hi_next;
-  if (arc.hi_next != kNone) arcs_[arc.hi_next].hi_prev = arc.hi_prev;
-  --node.down_degree;
+  Node& node = nodes_[arc.end[side]];
+  const Links& links = arc.links[side];
+  (links.prev == kNone ? node.first_at[side] : arcs_[links.prev].links[side].next) = links.next;
+  if (links.next != kNone) arcs_[links.next].links[side].prev = links.prev;
+  --node.degree_at[side];
   if (arc.references != 0) --node.referenced_arcs;
 }
 
 // ---- references
-
-LiveGraph::Index LiveGraph::new_reference() {
-  Index r = first_free_reference_;
-  if (r != kNone) {
-    first_free_reference_ = references_[r].next;
-    --free_references_;
-  } else {
-    r = static_cast<Index>(references_.size());
-    references_.grow_by(1);
-  }
-  return r;
-}
-
-void LiveGraph::free_reference(Index r) {
-  references_[r].next = std::exchange(first_free_reference_, r);
-  ++free_references_;
-}
 
 void LiveGraph::link(Index r, Index a) {
   Arc& arc = arcs_[a];
@@ -163,12 +113,12 @@ void LiveGraph::unlink(Index r) {
 }
 
 void LiveGraph::gained_reference(Index a) {
-  ++nodes_[arcs_[a].lo].referenced_arcs;
-  ++nodes_[arcs_[a].hi].referenced_arcs;
+  ++nodes_[arcs_[a].lo()].referenced_arcs;
+  ++nodes_[arcs_[a].hi()].referenced_arcs;
 }
 
 void LiveGraph::lost_references(Index a) {
-  const Index lo = arcs_[a].lo, hi = arcs_[a].hi;
+  const Index lo = arcs_[a].lo(), hi = arcs_[a].hi();
   for (const Index n : {lo, hi}) {
     --nodes_[n].referenced_arcs;
     queue(n);
@@ -177,7 +127,7 @@ void LiveGraph::lost_references(Index a) {
 }
 
 LiveGraph::Index LiveGraph::add_reference(Index arc, Index below) {
-  const Index r = new_reference();
+  const Index r = references_.take();
   link(r, arc);
   references_[r].down = below;
   if (arcs_[arc].references == 1) gained_reference(arc);
@@ -190,7 +140,7 @@ void LiveGraph::drop_path(Index top) {
     unlink(top);
     if (arcs_[a].references == 0) lost_references(a);
     const Index below = references_[top].down;
-    free_reference(top);
+    references_.free(top);
     top = below;
   }
 }
@@ -202,7 +152,7 @@ void LiveGraph::zip(Index a, Index b) {
   for (; b != kNone; ++zip_steps_) {
     const Index arc_a = references_[a].arc, arc_b = references_[b].arc;
     if (arc_a != arc_b) {
-      const Index lo_a = arcs_[arc_a].lo, lo_b = arcs_[arc_b].lo;
+      const Index lo_a = arcs_[arc_a].lo(), lo_b = arcs_[arc_b].lo();
       if (lo_a == lo_b) {
         if (arcs_[arc_a].references >= arcs_[arc_b].references)
           merge_parallel(arc_a, arc_b);
@@ -217,7 +167,7 @@ void LiveGraph::zip(Index a, Index b) {
     // Both references are on the same arc now, and one is enough.
     unlink(b);
     const Index below = references_[b].down;
-    free_reference(b);
+    references_.free(b);
     b = below;
     a = references_[a].down;
   }
@@ -236,10 +186,9 @@ void LiveGraph::merge_parallel(Index keep, Index gone) {
   if (kept.first_reference != kNone) references_[kept.first_reference].prev = last;
   kept.first_reference = arcs_[gone].first_reference;
   kept.references += arcs_[gone].references;
-  queue(arcs_[gone].lo);
-  queue(arcs_[gone].hi);
-  detach_lo(gone);
-  detach_hi(gone);
+  queue(arcs_[gone].lo());
+  queue(arcs_[gone].hi());
+  detach(gone);
   notice_noise(keep);
   free_arc(gone);
   if (embeds_) buckets_.merge(arc_buckets_[keep], arc_buckets_[gone]);
@@ -248,26 +197,26 @@ void LiveGraph::merge_parallel(Index keep, Index gone) {
 // `longer` and `shorter` have the same upper end: the upper part of `longer` becomes one with
 // `shorter`, what is left of it ends at the lower node of `shorter`.
 void LiveGraph::cut(Index longer, Index shorter) {
-  const Index top = arcs_[longer].hi, bottom = arcs_[shorter].lo;
+  const Index top = arcs_[longer].hi(), bottom = arcs_[shorter].lo();
   prefetch_buckets(longer, shorter);
   queue(top);
-  detach_hi(longer);
+  detach(longer, kUp);
   Index r = std::exchange(arcs_[longer].first_reference, kNone);
   arcs_[longer].references = 0;
   while (r != kNone) {
     const Index next = references_[r].next;
-    const Index rest = new_reference();
+    const Index rest = references_.take();
     references_[rest].down = std::exchange(references_[r].down, rest);
     link(rest, longer);
     link(r, shorter);
     r = next;
   }
-  attach_hi(longer, bottom);
+  attach(longer, kUp, bottom);
   notice_noise(longer);
   notice_noise_at(top);
   if (embeds_) {
     const auto value = [&](Index n) { return nodes_[n].key.value; };
-    buckets_.move_above(arc_buckets_[longer], value(arcs_[longer].lo), value(bottom), value(top),
+    buckets_.move_above(arc_buckets_[longer], value(arcs_[longer].lo()), value(bottom), value(top),
                         arc_buckets_[shorter]);
   }
 }
@@ -300,13 +249,13 @@ void LiveGraph::tidy() {
     else if (node.state == State::kComplete && stays_for_good(node))
       settle(n);
     // A settled node leaves with its last arc; one without arcs leaves at once.
-    if (node.used && node.state == State::kSettled && node.up_degree + node.down_degree == 0) {
-      settled_nodes_.push_back({node.key, track_positions_ ? positions_[n] : Point{}});
+    if (node.used && node.state == State::kSettled && node.degree() == 0) {
+      settled_.add_node({node.key, track_positions_ ? positions_[n] : Point{}});
       free_node(n);
     }
   }
-  constexpr std::size_t kMany = 4096;
-  if (settled_arcs_.size() + settled_nodes_.size() >= kMany) flush();
+  constexpr std::size_t kNodesAndArcsAFlush = 4096;
+  if (settled_.size() >= kNodesAndArcsAFlush) flush();
 }
 
 // Whether a complete node, not a (1, 1) one, will never become one. Zips merge referenced arcs with
@@ -315,35 +264,34 @@ void LiveGraph::tidy() {
 // go as long as the arcs of its saddle are here, so near noise they wait until no path is left.
 bool LiveGraph::stays_for_good(const Node& node) const {
   if (node.near_noise) return node.referenced_arcs == 0;
-  if (node.up_degree == 0 || node.down_degree == 0) return true;
-  std::uint32_t lasting = node.up_degree + node.down_degree - node.referenced_arcs;
-  if (node.up_degree == 1 && arcs_[node.up_first].references == 0) --lasting;
-  if (node.down_degree == 1 && arcs_[node.down_first].references == 0) --lasting;
+  if (node.degree(kUp) == 0 || node.degree(kDown) == 0) return true;
+  std::uint32_t lasting = node.degree() - node.referenced_arcs;
+  for (const Direction d : {kUp, kDown})
+    if (node.degree(d) == 1 && arcs_[node.first(d)].references == 0) --lasting;
   return lasting != 0;
 }
 
 bool LiveGraph::can_leave(Index a) const {
-  return arcs_[a].references == 0 && nodes_[arcs_[a].lo].state == State::kSettled &&
-         nodes_[arcs_[a].hi].state == State::kSettled;
+  return arcs_[a].references == 0 && nodes_[arcs_[a].lo()].state == State::kSettled &&
+         nodes_[arcs_[a].hi()].state == State::kSettled;
 }
 
 // The two arcs of a (1, 1) node become one: every path on the upper arc goes on along the lower
 // one, since no path ends at a complete vertex.
 void LiveGraph::contract(Index n) {
-  const Index upper = nodes_[n].up_first, lower = nodes_[n].down_first;
+  const Index upper = nodes_[n].first(kUp), lower = nodes_[n].first(kDown);
   prefetch_buckets(lower, upper);
   if (embeds_ && track_positions_) __builtin_prefetch(&positions_[n]);
   for (Index r = arcs_[upper].first_reference; r != kNone; r = references_[r].next) {
     const Index skipped = references_[r].down;
     references_[r].down = references_[skipped].down;
-    free_reference(skipped);
+    references_.free(skipped);
   }
-  const Index lo = arcs_[lower].lo, hi = arcs_[upper].hi;
-  detach_lo(lower);
-  detach_hi(lower);
+  const Index lo = arcs_[lower].lo(), hi = arcs_[upper].hi();
+  detach(lower);
   free_arc(lower);
-  detach_lo(upper);
-  attach_lo(upper, lo);
+  detach(upper, kDown);
+  attach(upper, kDown, lo);
   if (embeds_) {
     auto& below = arc_buckets_[lower];
     buckets_.concatenate(below, nodes_[n].key.value, track_positions_ ? positions_[n] : Point{}, arc_buckets_[upper]);
@@ -361,44 +309,30 @@ void LiveGraph::contract(Index n) {
 
 void LiveGraph::settle(Index n) {
   nodes_[n].state = State::kSettled;
-  for (Index a = nodes_[n].up_first; a != kNone;) {
-    const Index next = arcs_[a].lo_next;
-    if (can_leave(a)) hand_over(a);
-    a = next;
-  }
-  for (Index a = nodes_[n].down_first; a != kNone;) {
-    const Index next = arcs_[a].hi_next;
-    if (can_leave(a)) hand_over(a);
-    a = next;
-  }
+  for (const Direction d : {kUp, kDown})
+    for (Index a = nodes_[n].first(d); a != kNone;) {
+      const Index next = arcs_[a].next(d);
+      if (can_leave(a)) hand_over(a);
+      a = next;
+    }
 }
 
 void LiveGraph::hand_over(Index a) {
-  const Index lo = arcs_[a].lo, hi = arcs_[a].hi;
-  settled_arcs_.push_back({nodes_[lo].key, nodes_[hi].key});
-  if (embeds_) {
-    const std::size_t before = settled_buckets_.size();
-    buckets_.drain(arc_buckets_[a], [&](const BucketSum& bucket) { settled_buckets_.push_back(bucket.mean()); });
-    settled_bucket_counts_.push_back(static_cast<std::uint32_t>(settled_buckets_.size() - before));
-  }
-  detach_lo(a);
-  detach_hi(a);
+  const Index lo = arcs_[a].lo(), hi = arcs_[a].hi();
+  settled_.add_arc({nodes_[lo].key, nodes_[hi].key});
+  if (embeds_)
+    settled_.add_buckets([&](const auto& add) {
+      buckets_.drain(arc_buckets_[a], [&](const BucketSum& bucket) { add(bucket.mean()); });
+    });
+  detach(a);
   free_arc(a);
   for (const Index n : {lo, hi}) {
     nodes_[n].intact = false;
-    if (nodes_[n].up_degree + nodes_[n].down_degree == 0) queue(n);
+    if (nodes_[n].degree() == 0) queue(n);
   }
 }
 
-void LiveGraph::flush() {
-  if (!settled_nodes_.empty()) sink_->add_nodes(settled_nodes_);
-  if (!settled_arcs_.empty())
-    sink_->add_arcs({settled_arcs_, settled_bucket_counts_, settled_buckets_, buckets_.exponent()});
-  settled_nodes_.clear();
-  settled_bucket_counts_.clear();
-  settled_buckets_.clear();
-  settled_arcs_.clear();
-}
+void LiveGraph::flush() { settled_.flush(*sink_, buckets_.exponent()); }
 
 // ---- looking
 
@@ -408,10 +342,10 @@ void LiveGraph::snapshot(std::vector<ArcKeys>& arcs, std::vector<SweepKey>& isol
   for (Index n = 0; n < nodes_.size(); ++n) {
     const Node& node = nodes_[n];
     if (!node.used || !stays(node)) continue;
-    if (node.up_degree + node.down_degree == 0 && node.intact) isolated.push_back(node.key);
-    for (Index a = node.up_first; a != kNone; a = arcs_[a].lo_next) {
-      Index end = arcs_[a].hi;
-      while (!stays(nodes_[end])) end = arcs_[nodes_[end].up_first].hi;
+    if (node.degree() == 0 && node.intact) isolated.push_back(node.key);
+    for (Index a = node.first(kUp); a != kNone; a = arcs_[a].next(kUp)) {
+      Index end = arcs_[a].hi();
+      while (!stays(nodes_[end])) end = arcs_[nodes_[end].first(kUp)].hi();
       arcs.push_back({node.key, nodes_[end].key});
     }
   }
@@ -419,9 +353,8 @@ void LiveGraph::snapshot(std::vector<ArcKeys>& arcs, std::vector<SweepKey>& isol
 
 std::size_t LiveGraph::memory_bytes() const {
   return nodes_.memory_bytes() + positions_.memory_bytes() + arcs_.memory_bytes() + references_.memory_bytes() +
-         changed_.capacity() * sizeof(Index) + settled_nodes_.capacity() * sizeof(SettledNode) +
-         settled_arcs_.capacity() * sizeof(ArcKeys) + buckets_.memory_bytes() + arc_buckets_.memory_bytes() +
-         4 * settled_bucket_counts_.capacity() + settled_buckets_.capacity() * sizeof(Bucket);
+         changed_.capacity() * sizeof(Index) + settled_.memory_bytes() + buckets_.memory_bytes() +
+         arc_buckets_.memory_bytes();
 }
 
 void LiveGraph::validate() const {
@@ -432,36 +365,78 @@ void LiveGraph::validate() const {
   std::size_t on_arcs = 0;
   for (Index a = 0; a < arcs_.size(); ++a) {
     const Arc& arc = arcs_[a];
-    if (arc.lo == kNone) continue;
-    if (!nodes_[arc.lo].used || !nodes_[arc.hi].used) fail("a free node ends arc", a);
-    if (!(nodes_[arc.lo].key < nodes_[arc.hi].key)) fail("not upward: arc", a);
-    ++up[arc.lo];
-    ++down[arc.hi];
+    if (arc.is_free()) continue;
+    if (!nodes_[arc.lo()].used || !nodes_[arc.hi()].used) fail("a free node ends arc", a);
+    if (!(nodes_[arc.lo()].key < nodes_[arc.hi()].key)) fail("not upward: arc", a);
+    ++up[arc.lo()];
+    ++down[arc.hi()];
     std::uint32_t references = 0;
     for (Index r = arc.first_reference; r != kNone; r = references_[r].next, ++references) {
       if (references_[r].arc != a) fail("on the wrong arc: reference", r);
       const Index below = references_[r].down;
-      if (below != kNone && arcs_[references_[below].arc].hi != arc.lo) fail("path broken below reference", r);
+      if (below != kNone && arcs_[references_[below].arc].hi() != arc.lo()) fail("path broken below reference", r);
     }
     if (references != arc.references) fail("wrong number of references on arc", a);
     if (can_leave(a)) fail("not handed over: arc", a);
-    const Node &lo = nodes_[arc.lo], &hi = nodes_[arc.hi];
+    const Node &lo = nodes_[arc.lo()], &hi = nodes_[arc.hi()];
     if (is_noise(a) && (is_leaf(lo) || is_leaf(hi)) && !(lo.near_noise && hi.near_noise))
       fail("no node notices leaf", a);
     on_arcs += references;
     if (references != 0) {
-      ++referenced[arc.lo];
-      ++referenced[arc.hi];
+      ++referenced[arc.lo()];
+      ++referenced[arc.hi()];
     }
   }
   if (on_arcs != reference_count()) fail("references astray:", reference_count() - on_arcs);
   for (Index n = 0; n < nodes_.size(); ++n) {
     const Node& node = nodes_[n];
     if (!node.used) continue;
-    if (node.up_degree != up[n] || node.down_degree != down[n]) fail("wrong degree of node", n);
+    if (node.degree(kUp) != up[n] || node.degree(kDown) != down[n]) fail("wrong degree of node", n);
     if (node.referenced_arcs != referenced[n]) fail("wrong count of referenced arcs at node", n);
     if (node.state == State::kComplete && (is_pass_through(node) || stays_for_good(node))) fail("not tidied: node", n);
   }
+}
+
+// ---- saving and restoring, between two fragments
+
+void LiveGraph::save(StateWriter& out) const {
+  out.put(track_positions_);
+  out.put(noise_below_);
+  out.put(noticed_below_);
+  out.put(removed_pairs_);
+  out.put(embeds_);
+  buckets_.save(out);
+  arc_buckets_.save(out);
+  nodes_.save(out);
+  positions_.save(out);
+  arcs_.save(out);
+  references_.save(out);
+  nodes_.save_first_free(out);
+  arcs_.save_first_free(out);
+  references_.save_first_free(out);
+  nodes_.save_free_count(out);
+  arcs_.save_free_count(out);
+  references_.save_free_count(out);
+}
+
+void LiveGraph::restore(StateReader& in) {
+  if (in.get<bool>() != track_positions_) throw DamagedState();
+  in.get(noise_below_);
+  in.get(noticed_below_);
+  in.get(removed_pairs_);
+  in.get(embeds_);
+  buckets_.restore(in);
+  arc_buckets_.restore(in);
+  nodes_.restore(in);
+  positions_.restore(in);
+  arcs_.restore(in);
+  references_.restore(in);
+  nodes_.restore_first_free(in);
+  arcs_.restore_first_free(in);
+  references_.restore_first_free(in);
+  nodes_.restore_free_count(in);
+  arcs_.restore_free_count(in);
+  references_.restore_free_count(in);
 }
 
 }  // namespace reeb

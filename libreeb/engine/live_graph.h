@@ -1,5 +1,5 @@
 // The part of the Reeb graph that can still change: nodes, arcs, and the paths of mesh edges
-// (the paper's section 2; DESIGN.md 2).
+// (the paper's section 2; docs/ARCHITECTURE.md, Why fragments are right).
 //
 // A path is a chain of references, one on each arc of a monotone chain, from above; each arc
 // lists the references on it. Two paths with the same ends are zipped: their arcs are merged from
@@ -8,25 +8,28 @@
 // complete and can never come to that; an arc without references whose ends are settled leaves for
 // the sink. So of a bump on a long path only the fork stays, not the arc to its top.
 //
-// Noise (DESIGN.md 1.6): a leaf whose arc cannot change is removed as soon as its saddle is seen to
+// Noise (docs/SEMANTICS.md, Noise removal): a leaf whose arc cannot change is removed as soon as its saddle is seen to
 // have another path that reaches beyond it. Looks are few; a leaf for which they do not suffice
 // stays for a last pass over the whole graph.
 //
 // Everything is a 32-bit index into flat arrays with free lists; a reference is 16 bytes.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
 #include "libreeb/base/direction.h"
 #include "libreeb/base/growing_array.h"
+#include "libreeb/base/recycling_array.h"
 #include "libreeb/base/state_stream.h"
 #include "libreeb/base/sweep_key.h"
 #include "libreeb/engine/bucket_sums.h"
 #include "libreeb/engine/sweep_options.h"
 #include "libreeb/graph/reeb_graph.h"
 #include "libreeb/port/graph_sink.h"
+#include "libreeb/port/settled_batch.h"
 
 namespace reeb {
 
@@ -76,9 +79,9 @@ class LiveGraph {
   // isolated nodes.
   void snapshot(std::vector<ArcKeys>& arcs, std::vector<SweepKey>& isolated) const;
 
-  std::size_t node_count() const { return nodes_.size() - free_nodes_; }
-  std::size_t arc_count() const { return arcs_.size() - free_arcs_; }
-  std::size_t reference_count() const { return references_.size() - free_references_; }
+  std::size_t node_count() const { return nodes_.used(); }
+  std::size_t arc_count() const { return arcs_.used(); }
+  std::size_t reference_count() const { return references_.used(); }
   std::uint64_t removed_pairs() const { return removed_pairs_; }  // leaves, so far
   std::uint64_t zips() const { return zips_; }                    // so far
   std::uint64_t zip_steps() const { return zip_steps_; }          // arcs that they went over
@@ -90,40 +93,58 @@ class LiveGraph {
  private:
   struct Node {
     SweepKey key;
-    Index up_first, down_first;  // lists of arcs; up_first also links free nodes
-    std::uint32_t up_degree, down_degree;
+    // The lists of its arcs and how many they are, each by the end that the arcs have here: those up
+    // from the node have their lower end, so first_at[kDown], here.
+    std::array<Index, 2> first_at;
+    std::array<std::uint32_t, 2> degree_at;
     std::uint32_t referenced_arcs;  // arcs at this node that have references
     State state;
     bool intact : 1;  // no arc of it was handed over
     bool queued : 1;  // in changed_
     bool used : 1;
     bool near_noise : 1;  // it had an arc that can be noise, or come to be
+
+    // Its first arc in direction d, and how many there are.
+    Index first(Direction d) const { return first_at[opposite(d)]; }
+    std::uint32_t degree(Direction d) const { return degree_at[opposite(d)]; }
+    std::uint32_t degree() const { return degree_at[kDown] + degree_at[kUp]; }
+    Index& next_free() { return first_at[kDown]; }
+  };
+  // An arc's neighbours in a list.
+  struct Links {
+    Index next, prev;
   };
   struct Arc {
-    Index lo, hi;
-    Index lo_next, lo_prev;  // among the arcs up from lo; lo_next also links free arcs
-    Index hi_next, hi_prev;  // among the arcs down from hi
+    std::array<Index, 2> end;    // by side; end[kDown] == kNone: free
+    std::array<Links, 2> links;  // by side: among the arcs that have the same end there
     Index first_reference;
     std::uint32_t references;
 
-    Index end(Direction d) const { return d == kUp ? hi : lo; }
+    Index lo() const { return end[kDown]; }
+    Index hi() const { return end[kUp]; }
+    bool is_free() const { return lo() == kNone; }
+    // The next arc in direction d of the node that both leave in that direction.
+    Index next(Direction d) const { return links[opposite(d)].next; }
+    Index& next_free() { return links[kDown].next; }
   };
   struct Reference {
     Index arc;
     Index next, prev;  // on the arc; next also links free references
     Index down;        // the next one of the path
+
+    Index& next_free() { return next; }
   };
 
-  void attach_lo(Index arc, Index node);
-  void attach_hi(Index arc, Index node);
-  void detach_lo(Index arc);
-  void detach_hi(Index arc);
+  void attach(Index arc, Direction side, Index node);
+  void detach(Index arc, Direction side);
+  void detach(Index arc) {
+    detach(arc, kDown);
+    detach(arc, kUp);
+  }
   void free_arc(Index arc);
   void free_node(Index node);
   void grow_arc_buckets();
   void prefetch_buckets(Index a, Index b) const;
-  Index new_reference();
-  void free_reference(Index r);
   void link(Index r, Index arc);
   void unlink(Index r);
   void merge_parallel(Index keep, Index gone);
@@ -131,18 +152,16 @@ class LiveGraph {
   void gained_reference(Index arc);
   void lost_references(Index arc);
   void queue(Index node);
-  bool is_pass_through(const Node& n) const { return n.intact && n.up_degree == 1 && n.down_degree == 1; }
+  bool is_pass_through(const Node& n) const { return n.intact && n.degree(kUp) == 1 && n.degree(kDown) == 1; }
   bool stays_for_good(const Node& node) const;
   bool can_leave(Index arc) const;
   void set_noise(double below);
-  double length(Index arc) const { return nodes_[arcs_[arc].hi].key.value - nodes_[arcs_[arc].lo].key.value; }
+  double length(Index arc) const { return nodes_[arcs_[arc].hi()].key.value - nodes_[arcs_[arc].lo()].key.value; }
   bool is_noise(Index arc) const { return length(arc) < noise_below_; }
-  static bool has_one_arc(const Node& n) { return n.up_degree + n.down_degree == 1; }
+  static bool has_one_arc(const Node& n) { return n.degree() == 1; }
   void notice_noise(Index arc);
   void notice_noise_at(Index node);
   bool is_leaf(const Node& n) const;
-  Index first_arc(Index node, Direction d) const;
-  Index next_arc(Index arc, Direction d) const;
   void remove_noise_at(Index node);
   void try_leaf(Index leaf);
   bool find_path_beyond(Index from, Index leaf, Direction d);
@@ -153,12 +172,10 @@ class LiveGraph {
 
   GraphSink* sink_;
   bool track_positions_;
-  GrowingArray<Node> nodes_;
+  RecyclingArray<Node> nodes_;
   GrowingArray<Point> positions_;  // one a node, if tracked
-  GrowingArray<Arc> arcs_;
-  GrowingArray<Reference> references_;
-  Index first_free_node_ = kNone, first_free_arc_ = kNone, first_free_reference_ = kNone;
-  std::size_t free_nodes_ = 0, free_arcs_ = 0, free_references_ = 0;
+  RecyclingArray<Arc> arcs_;
+  RecyclingArray<Reference> references_;
   double noise_below_ = 0;
   double noticed_below_ = 0;  // the ends of shorter arcs to leaves know that they are near noise
   bool embeds_ = false;
@@ -168,10 +185,7 @@ class LiveGraph {
   std::vector<PathBuckets> path_buckets_;
   std::uint64_t removed_pairs_ = 0, zips_ = 0, zip_steps_ = 0;
   std::vector<Index> changed_;  // complete nodes to look at in tidy()
-  std::vector<SettledNode> settled_nodes_;
-  std::vector<ArcKeys> settled_arcs_;
-  std::vector<std::uint32_t> settled_bucket_counts_;  // one an arc, if there is an embedding
-  std::vector<Bucket> settled_buckets_;
+  SettledBatch settled_;
 };
 
 }  // namespace reeb

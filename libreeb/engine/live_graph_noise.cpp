@@ -13,14 +13,14 @@ void LiveGraph::set_noise(double below) {
   if (noise_below_ <= noticed_below_) return;
   noticed_below_ = 2 * noise_below_;
   for (Index a = 0; a < arcs_.size(); ++a)
-    if (arcs_[a].lo != kNone) notice_noise(a);
+    if (!arcs_[a].is_free()) notice_noise(a);
 }
 
 // For an arc that has come, has got another end, or is the only one that is left at one of its ends. One that
 // leads to no leaf yet may when what is beyond it has gone.
 void LiveGraph::notice_noise(Index a) {
   if (noticed_below_ == 0) return;
-  Node &lo = nodes_[arcs_[a].lo], &hi = nodes_[arcs_[a].hi];
+  Node &lo = nodes_[arcs_[a].lo()], &hi = nodes_[arcs_[a].hi()];
   const double below = has_one_arc(lo) || has_one_arc(hi) ? noticed_below_ : noise_below_;
   if (length(a) < below) lo.near_noise = hi.near_noise = true;
 }
@@ -28,21 +28,12 @@ void LiveGraph::notice_noise(Index a) {
 // For a node that has lost an arc.
 void LiveGraph::notice_noise_at(Index n) {
   const Node& node = nodes_[n];
-  if (has_one_arc(node)) notice_noise(node.up_degree == 1 ? node.up_first : node.down_first);
+  if (has_one_arc(node)) notice_noise(node.first(node.degree(kUp) == 1 ? kUp : kDown));
 }
 
 // An extremum with one arc, which nothing can change any more but a contraction of its other end.
 bool LiveGraph::is_leaf(const Node& n) const {
   return n.intact && has_one_arc(n) && n.referenced_arcs == 0 && n.state != State::kIncomplete;
-}
-
-LiveGraph::Index LiveGraph::first_arc(Index n, Direction d) const {
-  return d == kUp ? nodes_[n].up_first : nodes_[n].down_first;
-}
-
-// The next arc, in direction d, of the same node.
-LiveGraph::Index LiveGraph::next_arc(Index a, Direction d) const {
-  return d == kUp ? arcs_[a].lo_next : arcs_[a].hi_next;
 }
 
 // The node may have become a leaf, or the saddle of one; before it is settled this is the last moment
@@ -53,25 +44,24 @@ void LiveGraph::remove_noise_at(Index n) {
   if (!node.intact) return;
   for (const Direction d : {kDown, kUp}) {
     // A leaf goes only where another arc leads on, and has an arc without references.
-    if ((d == kUp ? node.up_degree : node.down_degree) < 2) continue;
-    for (Index a = first_arc(n, d); a != kNone;) {
+    if (node.degree(d) < 2) continue;
+    for (Index a = node.first(d); a != kNone;) {
       const Arc& arc = arcs_[a];
-      a = next_arc(a, d);
-      if (arc.references == 0 && is_leaf(nodes_[arc.end(d)])) try_leaf(arc.end(d));
+      a = arc.next(d);
+      if (arc.references == 0 && is_leaf(nodes_[arc.end[d]])) try_leaf(arc.end[d]);
     }
   }
 }
 
 void LiveGraph::try_leaf(Index leaf) {
-  const Direction d = nodes_[leaf].down_degree == 1 ? kUp : kDown;
-  const Index arc = first_arc(leaf, opposite(d));
-  const Index saddle = arcs_[arc].end(opposite(d));
+  const Direction d = nodes_[leaf].degree(kDown) == 1 ? kUp : kDown;
+  const Index arc = nodes_[leaf].first(opposite(d));
+  const Index saddle = arcs_[arc].end[opposite(d)];
   if (!nodes_[saddle].intact) return;
   if (!is_noise(arc)) return;
   if (!find_path_beyond(saddle, leaf, d)) return;
   if (embeds_) move_buckets(arc, leaf, d);
-  detach_lo(arc);
-  detach_hi(arc);
+  detach(arc);
   free_arc(arc);
   free_node(leaf);
   notice_noise_at(saddle);
@@ -87,13 +77,13 @@ bool LiveGraph::find_path_beyond(Index from, Index leaf, Direction d) {
     Index node, by_arc;
     std::size_t before;
   };
-  constexpr std::size_t kLooks = 16;
-  std::array<Seen, kLooks> seen;
+  constexpr std::size_t kNodesLookedAt = 16;
+  std::array<Seen, kNodesLookedAt> seen;
   std::size_t count = 0;
   seen[count++] = {from, kNone, 0};
   for (std::size_t i = 0; i < count; ++i)
-    for (Index a = first_arc(seen[i].node, d); a != kNone; a = next_arc(a, d)) {
-      const Index end = arcs_[a].end(d);
+    for (Index a = nodes_[seen[i].node].first(d); a != kNone; a = arcs_[a].next(d)) {
+      const Index end = arcs_[a].end[d];
       if (end == leaf) continue;
       const SweepKey &key = nodes_[end].key, &limit = nodes_[leaf].key;
       if (d == kUp ? limit < key : key < limit) {
@@ -102,7 +92,7 @@ bool LiveGraph::find_path_beyond(Index from, Index leaf, Direction d) {
         std::reverse(path_.begin(), path_.end());
         return true;
       }
-      if (count == kLooks) return false;
+      if (count == kNodesLookedAt) return false;
       seen[count++] = {end, a, i};
     }
   return false;
@@ -112,9 +102,9 @@ bool LiveGraph::find_path_beyond(Index from, Index leaf, Direction d) {
 void LiveGraph::move_buckets(Index arc, Index leaf, Direction d) {
   const auto value = [&](Index n) { return nodes_[n].key.value; };
   path_buckets_.clear();
-  for (const Index a : path_) path_buckets_.push_back({&arc_buckets_[a], value(arcs_[a].end(d))});
+  for (const Index a : path_) path_buckets_.push_back({&arc_buckets_[a], value(arcs_[a].end[d])});
   buckets_.add_vertex(arc_buckets_[arc], value(leaf), track_positions_ ? positions_[leaf] : Point{});
-  lay_on_path(buckets_, arc_buckets_[arc], d, value(arcs_[arc].end(opposite(d))), value(leaf), path_buckets_);
+  lay_on_path(buckets_, arc_buckets_[arc], d, value(arcs_[arc].end[opposite(d)]), value(leaf), path_buckets_);
 }
 
 }  // namespace reeb

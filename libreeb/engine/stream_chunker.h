@@ -1,4 +1,5 @@
-// Cuts a stream of vertices, simplices and finalizations into chunks (DESIGN.md 1.1, 2).
+// Cuts a stream of vertices, simplices and finalizations into chunks
+// (docs/SEMANTICS.md, Input).
 //
 // Holds the vertices that are not final yet and the chunk that is being filled, nothing else.
 #pragma once

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "libreeb/base/direction.h"
+#include "libreeb/base/id_vector.h"
 #include "libreeb/base/sweep_key.h"
 #include "libreeb/engine/bucket_sums.h"
 #include "libreeb/engine/chunk.h"
@@ -17,39 +18,39 @@
 namespace reeb {
 
 struct SweepGraph {
-  static constexpr std::uint32_t kNone = ~std::uint32_t{0};
-
   // The arcs on one side of a node: whether there are any, or several, any on no path, any on some.
   struct Side {
     bool any = false, several = false, loose = false, tied = false;
   };
   struct Node {
-    SweepKey key;               // once the sweep is over
-    std::uint32_t vertex;       // its rank
-    std::uint32_t main_branch;  // the arc up that every path takes for which no other is noted
-    bool gone;                  // removed as noise, or contracted since
+    SweepKey key;          // once the sweep is over
+    VertexRank vertex;     // whose node it is
+    SweepArc main_branch;  // the arc up that every path takes for which no other is noted
+    bool gone;             // removed as noise, or contracted since
     Side up, down;
-    bool near_noise;     // it has an arc that is short enough to be noise
-    bool can_change;     // not a node of the final graph for certain
-    bool lost_arcs;      // some of its arcs are settled
-    std::uint32_t open;  // the number of the node in the fragment, or kNone
+    bool near_noise;    // it has an arc that is short enough to be noise
+    bool can_change;    // not a node of the final graph for certain
+    bool lost_arcs;     // some of its arcs are settled
+    FragmentNode open;  // itself in the fragment, or none()
   };
   struct Arc {
-    std::uint32_t lo, hi;  // nodes; lo == kNone: gone
-    std::uint32_t open;    // the number of an open arc in the fragment
-    bool referenced;
+    SweepNode lo, hi;  // lo == none(): gone
+    FragmentArc open;  // itself in the fragment, if it is open
+    bool referenced;   // by the path of a shared edge
 
-    std::uint32_t end(Direction d) const { return d == kUp ? hi : lo; }
+    SweepNode end(Direction d) const { return d == kUp ? hi : lo; }
+    bool gone() const { return lo == SweepNode::none(); }
   };
   // An extremum with one arc.
   struct Leaf {
-    std::uint32_t node, arc;
+    SweepNode node;
+    SweepArc arc;
   };
-  std::vector<Node> nodes;
-  std::vector<Arc> arcs;
+  IdVector<SweepNode, Node> nodes;
+  IdVector<SweepArc, Arc> arcs;
   std::vector<Leaf> leaves;
   // The embedding, if there is one.
-  std::vector<BucketLists::List> arc_buckets;
+  IdVector<SweepArc, BucketLists::List> arc_buckets;
   BucketLists buckets;
 
   double length(const Arc& arc) const { return nodes[arc.hi].key.value - nodes[arc.lo].key.value; }
@@ -73,10 +74,11 @@ struct SweptChunk {
   std::span<const std::uint32_t> order;
   const ChunkStars& stars;
 
-  std::uint8_t uses(std::uint32_t v) const { return chunk.uses[order[v]]; }
-  double value(std::uint32_t v) const { return values[order[v]]; }
-  SweepKey key(std::uint32_t v) const { return {values[order[v]], chunk.ids[order[v]]}; }
-  Point position(std::uint32_t v) const { return chunk.positions.empty() ? Point{} : chunk.positions[order[v]]; }
+  LocalVertex local(VertexRank v) const { return LocalVertex(order[v.value()]); }
+  std::uint8_t uses(VertexRank v) const { return chunk.uses[local(v).value()]; }
+  double value(VertexRank v) const { return values[local(v).value()]; }
+  SweepKey key(VertexRank v) const { return {value(v), chunk.ids[local(v).value()]}; }
+  Point position(VertexRank v) const { return chunk.positions.empty() ? Point{} : chunk.positions[local(v).value()]; }
 };
 
 }  // namespace reeb

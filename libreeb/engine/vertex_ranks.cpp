@@ -28,8 +28,8 @@ class Buckets {
 // Most buckets hold a few; and of a large one, a tie, the vertices are often in order already.
 template <class Iterator, class Before>
 void sort_bucket(Iterator first, Iterator last, const Before& before) {
-  constexpr std::ptrdiff_t kFew = 8;
-  if (last - first > kFew) {
+  constexpr std::ptrdiff_t kInsertionSortsUpTo = 8;
+  if (last - first > kInsertionSortsUpTo) {
     if (!std::is_sorted(first, last, before)) std::sort(first, last, before);
     return;
   }

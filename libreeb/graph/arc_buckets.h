@@ -1,4 +1,5 @@
-// The embedding of a run of arcs: the buckets of each, one arc after the other (DESIGN.md 5).
+// The embedding of a run of arcs: the buckets of each, one arc after the other
+// (docs/SEMANTICS.md, Buckets).
 #pragma once
 
 #include <cstddef>

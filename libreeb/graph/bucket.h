@@ -1,5 +1,5 @@
 // The embedding of an arc: where the vertices lie that it passes, by buckets of function value
-// (DESIGN.md 5; the paper's "Embedding").
+// (docs/SEMANTICS.md, Buckets; the paper's "Embedding").
 //
 // Bucket i of exponent h covers the values [i * 2^h, (i + 1) * 2^h). Two buckets of exponent h, of
 // which the lower has an even index, are one bucket of exponent h + 1.

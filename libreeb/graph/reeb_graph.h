@@ -1,4 +1,4 @@
-// A Reeb graph in memory, in the one order in which every result is compared (DESIGN.md 1.3).
+// A Reeb graph in memory, in the one order in which every result is compared (docs/SEMANTICS.md, Graph).
 //
 // Nodes are numbered by rank in the total order of their vertices; arcs are sorted by (lo, hi),
 // and parallel arcs repeat. Two graphs are equal exactly if their arrays are.

@@ -17,11 +17,11 @@ namespace reeb {
 // MEMORY: 4 bytes a node of the graph, kept between searches, and up to 16 bytes an arc in the queue.
 class BoundedSearch {
  public:
-  explicit BoundedSearch(const WorkingGraph& graph) : graph_(graph), reached_(graph.node_count()) {}
+  explicit BoundedSearch(const WorkingGraph& graph) : graph_(graph) { reached_.assign(graph.end_node().value(), 0); }
 
   // Begins a search at `node` that follows arcs in direction d to nodes not beyond `limit`, and
   // forgets what was reached before.
-  void start(std::uint32_t node, Direction d, std::uint32_t limit) {
+  void start(NodeId node, Direction d, NodeId limit) {
     limit_[d] = limit;
     follows_[d] = true;
     follows_[opposite(d)] = false;
@@ -29,7 +29,7 @@ class BoundedSearch {
   }
 
   // The same in both directions, to nodes from `bottom` to `top`.
-  void start_both(std::uint32_t node, std::uint32_t bottom, std::uint32_t top) {
+  void start_both(NodeId node, NodeId bottom, NodeId top) {
     limit_[kDown] = bottom;
     limit_[kUp] = top;
     follows_[kDown] = follows_[kUp] = true;
@@ -38,36 +38,36 @@ class BoundedSearch {
 
   // Follows one arc to its far end if `enter(far end)`. Returns the arc, kNone when none is left.
   template <class Enter>
-  std::uint32_t step(Enter enter) {
+  ArcId step(Enter enter) {
     while (first_ < queue_.size()) {
       prefetch_ahead();
       const auto [arc, d] = queue_[first_++];
       if (along(d, graph_.end(arc, d)) > along(d, limit_[d])) continue;  // and so do those below it in the heap
-      for (const std::uint32_t child : graph_.below_in_heap(arc, d)) push(child, d);
-      const std::uint32_t node = graph_.end(arc, d);
+      for (const ArcId child : graph_.below_in_heap(arc, d)) push(child, d);
+      const NodeId node = graph_.end(arc, d);
       if (!reached(node) && enter(node)) reach(node);
       return arc;
     }
     return WorkingGraph::kNone;
   }
-  std::uint32_t step() {
-    return step([](std::uint32_t) { return true; });
+  ArcId step() {
+    return step([](NodeId) { return true; });
   }
   void finish() {
     while (step() != WorkingGraph::kNone) {
     }
   }
 
-  void prefetch(std::uint32_t node) const { __builtin_prefetch(&reached_[node]); }
-  bool reached(std::uint32_t node) const { return reached_[node] == search_; }
+  void prefetch(NodeId node) const { __builtin_prefetch(&reached_[node]); }
+  bool reached(NodeId node) const { return reached_[node] == search_; }
 
  private:
   struct Visit {
-    std::uint32_t arc;
+    ArcId arc;
     Direction direction;
   };
 
-  void begin(std::uint32_t node) {
+  void begin(NodeId node) {
     if (++search_ == 0) {
       reached_.assign(reached_.size(), 0);
       search_ = 1;
@@ -76,12 +76,12 @@ class BoundedSearch {
     first_ = 0;
     reach(node);
   }
-  void reach(std::uint32_t node) {
+  void reach(NodeId node) {
     reached_[node] = search_;
     for (const Direction d : {kDown, kUp})
       if (follows_[d]) push(graph_.nearest(node, d), d);
   }
-  void push(std::uint32_t arc, Direction d) {
+  void push(ArcId arc, Direction d) {
     if (arc == WorkingGraph::kNone) return;
     graph_.prefetch_arc(arc);
     if (queue_.size() == queue_.capacity() && 2 * first_ > queue_.size()) {
@@ -94,15 +94,15 @@ class BoundedSearch {
     constexpr std::size_t kAhead = 4;
     if (first_ + kAhead >= queue_.size()) return;
     const auto [arc, d] = queue_[first_ + kAhead];
-    const std::uint32_t node = graph_.end(arc, d);
+    const NodeId node = graph_.end(arc, d);
     prefetch(node);
     graph_.prefetch_node(node);
   }
 
   const WorkingGraph& graph_;
-  std::vector<std::uint32_t> reached_;  // the last search that reached each node
+  IdVector<NodeId, std::uint32_t> reached_;  // the last search that reached each node
   std::uint32_t search_ = 0;
-  std::array<std::uint32_t, 2> limit_{};
+  std::array<NodeId, 2> limit_{};
   std::array<bool, 2> follows_{};
   std::vector<Visit> queue_;
   std::size_t first_ = 0;  // in the queue

@@ -32,18 +32,19 @@ std::uint64_t count_below(const Bucket& bucket, const CutValues& values, int exp
 
 ArcBucketLists::ArcBucketLists(PackedLists lists, int exponent) : exponent_(exponent), packed_(std::move(lists)) {}
 
-void ArcBucketLists::open(std::uint32_t arc) {
+void ArcBucketLists::open(ArcId arc) {
   if (is_open(arc)) return;
-  open_.find_or_insert(arc, static_cast<std::uint32_t>(opened_.size()));
+  open_.find_or_insert(arc.value(), static_cast<std::uint32_t>(opened_.size()));
   opened_.push_back({arc, kNone});
   const auto own = unpacked(arc);
   for (auto bucket = own.rbegin(); bucket != own.rend(); ++bucket) first(arc) = make(*bucket, first(arc));
 }
 
 // Valid until the next call.
-std::span<const Bucket> ArcBucketLists::unpacked(std::uint32_t arc) {
+std::span<const Bucket> ArcBucketLists::unpacked(ArcId arc) {
   buckets_.clear();
-  if (!unpack_buckets(packed_.of(arc), buckets_)) throw std::logic_error("ArcBucketLists: a list cannot be read");
+  if (!unpack_buckets(packed_.of(arc.value()), buckets_))
+    throw std::logic_error("ArcBucketLists: a list cannot be read");
   return buckets_;
 }
 
@@ -54,8 +55,8 @@ void ArcBucketLists::close() {
       buckets_.push_back(items_[item].bucket);
     bytes_.clear();
     pack_buckets(buckets_, bytes_);
-    packed_.replace(opened.arc, bytes_);
-    open_.erase(opened.arc);
+    packed_.replace(opened.arc.value(), bytes_);
+    open_.erase(opened.arc.value());
   }
   opened_.clear();
   items_.clear();
@@ -76,7 +77,7 @@ std::uint32_t ArcBucketLists::make(const Bucket& bucket, std::uint32_t next) {
 void ArcBucketLists::free(std::uint32_t item) { items_[item].next = std::exchange(free_, item); }
 
 // Puts a chain of items where they belong in a list.
-void ArcBucketLists::insert(std::uint32_t chain, std::uint32_t into) {
+void ArcBucketLists::insert(std::uint32_t chain, ArcId into) {
   std::uint32_t before = kNone;
   while (chain != kNone) {
     const Bucket& bucket = items_[chain].bucket;
@@ -97,13 +98,13 @@ void ArcBucketLists::insert(std::uint32_t chain, std::uint32_t into) {
   }
 }
 
-void ArcBucketLists::add(std::uint32_t arc, double value, const std::array<double, 3>& position) {
+void ArcBucketLists::add(ArcId arc, double value, const std::array<double, 3>& position) {
   open(arc);
   insert(make({bucket_index(value, exponent_), 1, position}, kNone), arc);
 }
 
 // Divides the arc's bucket that the cut lies in, and returns the last item below the cut.
-std::uint32_t ArcBucketLists::last_below(std::uint32_t arc, const CutValues& values) {
+std::uint32_t ArcBucketLists::last_below(ArcId arc, const CutValues& values) {
   const std::int64_t middle = bucket_index(values.at, exponent_);
   std::uint32_t before = kNone, item = first(arc);
   while (item != kNone && items_[item].bucket.index < middle) {
@@ -123,7 +124,7 @@ std::uint32_t ArcBucketLists::last_below(std::uint32_t arc, const CutValues& val
   return item;
 }
 
-double ArcBucketLists::first_value(Direction d, std::uint32_t arc, double lo, double hi) {
+double ArcBucketLists::first_value(Direction d, ArcId arc, double lo, double hi) {
   const Bucket& bucket = first_bucket(d, arc);
   const auto [bottom, top] = own_values(bucket, lo, hi, exponent_);
   if (!(bottom < top)) return bottom;
@@ -132,7 +133,7 @@ double ArcBucketLists::first_value(Direction d, std::uint32_t arc, double lo, do
 }
 
 // The first along direction d. Valid until the next call.
-const Bucket& ArcBucketLists::first_bucket(Direction d, std::uint32_t arc) {
+const Bucket& ArcBucketLists::first_bucket(Direction d, ArcId arc) {
   if (!is_open(arc)) {
     const auto own = unpacked(arc);
     return d == kUp ? own.front() : own.back();
@@ -142,7 +143,7 @@ const Bucket& ArcBucketLists::first_bucket(Direction d, std::uint32_t arc) {
   return items_[item].bucket;
 }
 
-bool ArcBucketLists::cut(Direction d, std::uint32_t from, std::uint32_t into, const CutValues& values) {
+bool ArcBucketLists::cut(Direction d, ArcId from, ArcId into, const CutValues& values) {
   open(from);
   open(into);
   if (first(from) == kNone) return false;
@@ -155,7 +156,7 @@ bool ArcBucketLists::cut(Direction d, std::uint32_t from, std::uint32_t into, co
   return chain != kNone;
 }
 
-bool ArcBucketLists::merge(std::uint32_t from, std::uint32_t into) {
+bool ArcBucketLists::merge(ArcId from, ArcId into) {
   open(from);
   open(into);
   const std::uint32_t chain = std::exchange(first(from), kNone);
@@ -163,7 +164,7 @@ bool ArcBucketLists::merge(std::uint32_t from, std::uint32_t into) {
   return chain != kNone;
 }
 
-std::uint64_t ArcBucketLists::drop(std::uint32_t arc) {
+std::uint64_t ArcBucketLists::drop(ArcId arc) {
   open(arc);
   std::uint64_t count = 0;
   for (std::uint32_t item = std::exchange(first(arc), kNone); item != kNone;) {

@@ -1,4 +1,4 @@
-// The embedding of a graph while its arcs are cut, laid together and joined (DESIGN.md 5).
+// The embedding of a graph while its arcs are cut, merged and joined (docs/SEMANTICS.md, Buckets).
 #pragma once
 
 #include <array>
@@ -8,6 +8,7 @@
 
 #include "libreeb/base/direction.h"
 #include "libreeb/base/flat_map.h"
+#include "libreeb/base/ids.h"
 #include "libreeb/graph/bucket.h"
 #include "libreeb/hierarchy/packed_lists.h"
 
@@ -32,37 +33,37 @@ class ArcBucketLists {
   ArcBucketLists(PackedLists lists, int exponent);
 
   std::size_t arc_count() const { return packed_.size(); }
-  bool empty(std::uint32_t arc) const {
-    const std::uint32_t opened = open_.find(arc);
-    return opened != kNone ? opened_[opened].first == kNone : packed_.of(arc).empty();
+  bool empty(ArcId arc) const {
+    const std::uint32_t opened = open_.find(arc.value());
+    return opened != kNone ? opened_[opened].first == kNone : packed_.of(arc.value()).empty();
   }
 
   // Fetches into the caches, without waiting: where the arc's list is; and, when that was fetched, the list.
-  void prefetch_place(std::uint32_t arc) const { packed_.prefetch_place(arc); }
-  void prefetch(std::uint32_t arc) const { packed_.prefetch(arc); }
+  void prefetch_place(ArcId arc) const { packed_.prefetch_place(arc.value()); }
+  void prefetch(ArcId arc) const { packed_.prefetch(arc.value()); }
 
   // A vertex enters its bucket.
-  void add(std::uint32_t arc, double value, const std::array<double, 3>& position);
+  void add(ArcId arc, double value, const std::array<double, 3>& position);
 
   // Up to which value, going along an arc that spans the values from `lo` to `hi`, a cut moves nothing of
   // what lies before it. REQUIRES: !empty(arc).
-  double first_value(Direction d, std::uint32_t arc, double lo, double hi);
+  double first_value(Direction d, ArcId arc, double lo, double hi);
 
   // What `from` has on side d of values.at goes to `into`. The bucket that the value lies in is
   // divided in proportion to the values of the arc within it, to whole vertices; both parts keep
   // its mean. Returns whether anything moved.
-  bool cut(Direction d, std::uint32_t from, std::uint32_t into, const CutValues& values);
+  bool cut(Direction d, ArcId from, ArcId into, const CutValues& values);
 
   // All that `from` has goes to `into`. Returns whether anything did.
-  bool merge(std::uint32_t from, std::uint32_t into);
+  bool merge(ArcId from, ArcId into);
 
   // Forgets what the arc has, and returns how many vertices that was.
-  std::uint64_t drop(std::uint32_t arc);
+  std::uint64_t drop(ArcId arc);
 
   // Packs what was opened. Spans of closed() end here.
   void close();
   // What the arc had at the last close(), packed.
-  std::span<const std::byte> closed(std::uint32_t arc) const { return packed_.of(arc); }
+  std::span<const std::byte> closed(ArcId arc) const { return packed_.of(arc.value()); }
 
  private:
   static constexpr std::uint32_t kNone = ~std::uint32_t{0};
@@ -71,20 +72,21 @@ class ArcBucketLists {
     std::uint32_t next = kNone;
   };
   struct Opened {
-    std::uint32_t arc, first;
+    ArcId arc;
+    std::uint32_t first;
   };
 
-  bool is_open(std::uint32_t arc) const { return open_.find(arc) != kNone; }
-  std::uint32_t& first(std::uint32_t arc) { return opened_[open_.find(arc)].first; }
+  bool is_open(ArcId arc) const { return open_.find(arc.value()) != kNone; }
+  std::uint32_t& first(ArcId arc) { return opened_[open_.find(arc.value())].first; }
   // The link that leads on from the item, or to the first one of the arc.
-  std::uint32_t& after(std::uint32_t item, std::uint32_t arc) { return item == kNone ? first(arc) : items_[item].next; }
-  void open(std::uint32_t arc);
-  std::span<const Bucket> unpacked(std::uint32_t arc);
-  const Bucket& first_bucket(Direction d, std::uint32_t arc);
+  std::uint32_t& after(std::uint32_t item, ArcId arc) { return item == kNone ? first(arc) : items_[item].next; }
+  void open(ArcId arc);
+  std::span<const Bucket> unpacked(ArcId arc);
+  const Bucket& first_bucket(Direction d, ArcId arc);
   std::uint32_t make(const Bucket& bucket, std::uint32_t next);
   void free(std::uint32_t item);
-  void insert(std::uint32_t chain, std::uint32_t into);
-  std::uint32_t last_below(std::uint32_t arc, const CutValues& values);
+  void insert(std::uint32_t chain, ArcId into);
+  std::uint32_t last_below(ArcId arc, const CutValues& values);
 
   int exponent_;
   PackedLists packed_;

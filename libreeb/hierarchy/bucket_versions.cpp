@@ -22,12 +22,12 @@ double BucketVersions::first_value(const ArcPart& part) {
   return lists_.first_value(part.direction, part.arc, value(lo), value(hi));
 }
 
-void BucketVersions::join(std::uint32_t upper, std::uint32_t lower, std::uint32_t node) {
+void BucketVersions::join(ArcId upper, ArcId lower, NodeId node) {
   lists_.merge(upper, lower);
-  lists_.add(lower, value(node), graph_.positions.empty() ? std::array<double, 3>{} : graph_.positions[node]);
+  lists_.add(lower, value(node), graph_.positions.empty() ? std::array<double, 3>{} : graph_.positions[node.value()]);
 }
 
-void BucketVersions::drop(std::uint32_t arc, std::uint32_t nodes) {
+void BucketVersions::drop(ArcId arc, std::uint32_t nodes) {
   if (const std::uint64_t count = lists_.drop(arc) + nodes; count != 0) sink_.drop({step_, count});
 }
 

@@ -27,23 +27,23 @@ class BucketVersions {
   // The content of the Canceller.
   bool cut(const ArcCut& arc);
   double first_value(const ArcPart& part);
-  bool is_reached(double first, Direction d, std::uint32_t node) const {
+  bool is_reached(double first, Direction d, NodeId node) const {
     return d == kUp ? value(node) >= first : value(node) <= first;
   }
-  bool merge(std::uint32_t from, std::uint32_t into) { return !lists_.empty(from) && lists_.merge(from, into); }
-  void join(std::uint32_t upper, std::uint32_t lower, std::uint32_t node);
-  void drop(std::uint32_t arc, std::uint32_t nodes);
-  std::span<const std::byte> before_step(std::uint32_t arc) const { return lists_.closed(arc); }
+  bool merge(ArcId from, ArcId into) { return !lists_.empty(from) && lists_.merge(from, into); }
+  void join(ArcId upper, ArcId lower, NodeId node);
+  void drop(ArcId arc, std::uint32_t nodes);
+  std::span<const std::byte> before_step(ArcId arc) const { return lists_.closed(arc); }
   void commit();
-  void prefetch_node(std::uint32_t node) const {
-    __builtin_prefetch(&graph_.nodes[node]);
-    if (!graph_.positions.empty()) __builtin_prefetch(&graph_.positions[node]);
+  void prefetch_node(NodeId node) const {
+    __builtin_prefetch(&graph_.nodes[node.value()]);
+    if (!graph_.positions.empty()) __builtin_prefetch(&graph_.positions[node.value()]);
   }
-  void prefetch_place(std::uint32_t arc) const { lists_.prefetch_place(arc); }
-  void prefetch(std::uint32_t arc) const { lists_.prefetch(arc); }
+  void prefetch_place(ArcId arc) const { lists_.prefetch_place(arc); }
+  void prefetch(ArcId arc) const { lists_.prefetch(arc); }
 
  private:
-  double value(std::uint32_t node) const { return graph_.nodes[node].value; }
+  double value(NodeId node) const { return graph_.nodes[node.value()].value; }
 
   const ReebGraph& graph_;
   RecordSink& sink_;

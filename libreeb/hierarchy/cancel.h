@@ -1,4 +1,4 @@
-// All levels of detail of a Reeb graph at once (DESIGN.md 1.5, 6).
+// All levels of detail of a Reeb graph at once (docs/SEMANTICS.md, Cancelling and Levels).
 #pragma once
 
 #include <cstdint>

@@ -1,13 +1,14 @@
-// The rules by which pairs are cancelled (DESIGN.md 1.5), one step at a time.
+// The rules by which pairs are cancelled (docs/SEMANTICS.md, Cancelling), one step at a time.
 //
-// WHY THE SEARCHES ARE SHORT. When the turn of a pair comes, every pair inside its interval is
-// gone, but for kept loops. So
-//  (1) the component of a maximum u above its up-fork v has no other maximum: any way up from v
-//  into
-//      it ends in u, and any way up from v outside it passes u;
+// WHY THE SEARCHES ARE SHORT. When a pair is to be cancelled, every pair inside its interval has
+// been, except kept loops. So
+//  (1) the component of a maximum u above its up-fork v has no other maximum: any path up from v
+//      into it ends in u, and any path up from v outside it passes the level of u;
 //  (2) no two arcs of v lead into one component of that set, nor of the interlevel set (v, y) of a
-//      loop, or else there would be a cycle above v that ends sooner: a loop with lo = v, kept.
-// Only at a fork with a kept loop is a component searched through.
+//      loop: else a cycle above v would end sooner, a loop with lo = v, which was kept.
+// Only at a fork with a kept loop is a whole component searched.
+//
+// THREADS: a Canceller belongs to one thread.
 #pragma once
 
 #include <array>
@@ -29,15 +30,15 @@ namespace reeb {
 // An arc that two paths cut: `from` goes from `start` in `direction` to `end`, past `node`.
 struct ArcCut {
   Direction direction;
-  std::uint32_t from, into;
-  std::uint32_t start, node, end;
+  ArcId from, into;
+  NodeId start, node, end;
 };
 
 // A part of an arc: from `start` in `direction` to `end`.
 struct ArcPart {
   Direction direction;
-  std::uint32_t arc;
-  std::uint32_t start, end;
+  ArcId arc;
+  NodeId start, end;
 };
 
 // What happens to the content of arcs (an embedding, a count) while the rules move them. Arcs are
@@ -52,28 +53,28 @@ struct IgnoreContent {
   bool cut(const ArcCut& /*cut*/) { return false; }
   // Up to which value, going along, there is nothing for cut() to move; and whether a node is so far.
   double first_value(const ArcPart& /*part*/) { return 0; }
-  bool is_reached(double /*value*/, Direction /*along*/, std::uint32_t /*node*/) const { return false; }
+  bool is_reached(double /*value*/, Direction /*along*/, NodeId /*node*/) const { return false; }
   // Both have the same ends; `from` goes to `into` whole.
-  bool merge(std::uint32_t /*from*/, std::uint32_t /*into*/) { return false; }
+  bool merge(ArcId /*from*/, ArcId /*into*/) { return false; }
   // `lower` ends where `upper` starts, at a node that disappears; `lower` becomes both.
-  void join(std::uint32_t /*upper*/, std::uint32_t /*lower*/, std::uint32_t /*node*/) {}
-  // The arc is taken away with so many nodes, and its content is laid nowhere.
-  void drop(std::uint32_t /*arc*/, std::uint32_t /*nodes*/) {}
+  void join(ArcId /*upper*/, ArcId /*lower*/, NodeId /*node*/) {}
+  // The arc is removed, and this number of nodes with it; its content is dropped.
+  void drop(ArcId /*arc*/, std::uint32_t /*nodes*/) {}
   // What the arc had before this step, as it goes into a record.
-  std::span<const std::byte> before_step(std::uint32_t /*arc*/) const { return {}; }
+  std::span<const std::byte> before_step(ArcId /*arc*/) const { return {}; }
   // The step is done.
   void commit() {}
-  // As of the Canceller: of a node, where the content of an arc is, and itself.
-  void prefetch_node(std::uint32_t /*node*/) const {}
-  void prefetch_place(std::uint32_t /*arc*/) const {}
-  void prefetch(std::uint32_t /*arc*/) const {}
+  // As the prefetches of the Canceller: of a node; of the place of an arc's content; of the content.
+  void prefetch_node(NodeId /*node*/) const {}
+  void prefetch_place(ArcId /*arc*/) const {}
+  void prefetch(ArcId /*arc*/) const {}
 };
 
 // MEMORY: 40 bytes an arc and 25 bytes a node.
 template <class Content = IgnoreContent>
 class Canceller {
  public:
-  // Looks at the graph's arcs no more. REQUIRES: `sink` outlives this.
+  // Copies the arcs of `graph`, whose own are not needed afterwards. REQUIRES: `sink` outlives this.
   Canceller(const ReebGraph& graph, RecordSink& sink, Content content = {})
       : graph_(graph), log_(graph_, sink), ahead_(graph_), back_(graph_), ways_(graph_), content_(std::move(content)) {
     for (std::vector<bool>& nodes : kept_) nodes.resize(graph.node_count());
@@ -84,12 +85,12 @@ class Canceller {
   // Cancels the pair and makes a version of it. False, with nothing changed, for a loop that no
   // rule can cancel. REQUIRES: called in the order of cancelling, for all pairs but Ext0.
   bool cancel(const PersistencePair& pair) {
-    const std::uint32_t lo = pair.lo.value(), hi = pair.hi.value();
+    const NodeId lo = pair.lo, hi = pair.hi;
     if (pair.type == PairType::kRel1) cancel_extremum(kUp, lo, hi);
     if (pair.type == PairType::kOrd0) cancel_extremum(kDown, hi, lo);
     if (pair.type == PairType::kExt1 && !cancel_loop(lo, hi)) {
-      kept_[kUp][lo] = true;
-      kept_[kDown][hi] = true;
+      kept_[kUp][lo.value()] = true;
+      kept_[kDown][hi.value()] = true;
       return false;
     }
     contract(lo);
@@ -99,21 +100,21 @@ class Canceller {
     return true;
   }
 
-  // Fetches what the turn of a pair will look at first, which lies anywhere in memory: to be called one
-  // after the other, each some pairs ahead of the next.
+  // Prefetch what cancelling a pair reads first. Call them in this order, each some pairs ahead of the
+  // next: each but the first reads what the one before has fetched.
   void prefetch_nodes(const PersistencePair& pair) const {
     for (const NodeId id : {pair.lo, pair.hi}) {
-      graph_.prefetch_node(id.value());
-      ahead_.prefetch(id.value());
-      back_.prefetch(id.value());
-      ways_.prefetch(id.value());
-      content_.prefetch_node(id.value());
+      graph_.prefetch_node(id);
+      ahead_.prefetch(id);
+      back_.prefetch(id);
+      ways_.prefetch(id);
+      content_.prefetch_node(id);
     }
   }
   void prefetch_arcs(const PersistencePair& pair) const {
     for (const NodeId id : {pair.lo, pair.hi}) {
-      graph_.prefetch_arcs(id.value());
-      for_nearest(id.value(), [&](std::uint32_t arc) {
+      graph_.prefetch_arcs(id);
+      for_nearest(id, [&](ArcId arc) {
         log_.prefetch(arc);
         content_.prefetch_place(arc);
       });
@@ -121,8 +122,8 @@ class Canceller {
   }
   void prefetch_neighbours(const PersistencePair& pair) const {
     for (const NodeId id : {pair.lo, pair.hi}) {
-      graph_.prefetch_neighbours(id.value());
-      for_nearest(id.value(), [&](std::uint32_t arc) { content_.prefetch(arc); });
+      graph_.prefetch_neighbours(id);
+      for_nearest(id, [&](ArcId arc) { content_.prefetch(arc); });
     }
   }
 
@@ -130,57 +131,56 @@ class Canceller {
   void finish() { log_.finish(content_); }
 
  private:
-  static constexpr std::uint32_t kNone = WorkingGraph::kNone;
-  // The content of an arc that ends in an extremum is laid on so many arcs at most, and the rest is
-  // dropped: the way is all that is walked for its sake, and each arc on it gets a new record. A hundredth
-  // of the extrema of a scan, and a sixth of those of a random function, have a longer way.
-  static constexpr std::uint32_t kMostBeside = 8, kAny = kNone;
+  static constexpr ArcId kNone = WorkingGraph::kNone;
+  // The content of an arc that ends in an extremum is laid on at most this many arcs; the rest is dropped.
+  // The path is walked for this purpose only, and each arc on it gets a new record. One in a hundred
+  // extrema of a scan, and one in six of a random function, have a longer path.
+  static constexpr std::uint32_t kMostBeside = 8, kAny = ~std::uint32_t{0};
 
   // A pair of `fork` with the extremum that is its partner in direction d.
-  void cancel_extremum(Direction d, std::uint32_t fork, std::uint32_t extremum);
-  void lay_beside(Direction d, std::uint32_t arc, std::uint32_t beside, std::uint32_t extremum);
-  bool go_beside(Direction d, std::uint32_t arc, std::uint32_t& beside, std::uint32_t& start, std::uint32_t end,
-                 std::uint32_t most = kAny);
-  std::uint32_t arc_to_extremum(Direction d, std::uint32_t fork, std::uint32_t extremum);
-  bool cancel_loop(std::uint32_t v, std::uint32_t y);
-  bool take_away(std::uint32_t arc);
-  void search_paths(std::uint32_t v, std::uint32_t y);
-  std::uint32_t second_path(std::uint32_t v, std::uint32_t y, std::uint32_t first);
-  void trace(std::vector<std::uint32_t>& path, std::uint32_t y);
+  void cancel_extremum(Direction d, NodeId fork, NodeId extremum);
+  void lay_beside(Direction d, ArcId arc, ArcId beside, NodeId extremum);
+  bool go_beside(Direction d, ArcId arc, ArcId& beside, NodeId& start, NodeId end, std::uint32_t most = kAny);
+  ArcId arc_to_extremum(Direction d, NodeId fork, NodeId extremum);
+  bool cancel_loop(NodeId v, NodeId y);
+  bool take_away(ArcId arc);
+  void search_paths(NodeId v, NodeId y);
+  ArcId second_path(NodeId v, NodeId y, ArcId first);
+  void trace(std::vector<ArcId>& path, NodeId y);
 
   template <class Visit>
-  void for_nearest(std::uint32_t node, const Visit& visit) const {
+  void for_nearest(NodeId node, const Visit& visit) const {
     for (const Direction d : {kDown, kUp})
-      if (const std::uint32_t arc = graph_.nearest(node, d); arc != kNone) visit(arc);
+      if (const ArcId arc = graph_.nearest(node, d); arc != kNone) visit(arc);
   }
-  bool leads(std::uint32_t arc) const { return back_.reached(graph_.end(arc, kUp)); }
+  bool leads(ArcId arc) const { return back_.reached(graph_.end(arc, kUp)); }
 
   // Zips two paths that start in one node, go in direction d, and end in one node.
   void zip(Direction d);
-  void move_start(Direction d, std::uint32_t arc, std::uint32_t node) {
+  void move_start(Direction d, ArcId arc, NodeId node) {
     log_.touch(arc);
     note_ends(arc);
     graph_.move_end(arc, opposite(d), node);
     ways_.note(node, d);
   }
-  void remove(std::uint32_t arc) {
+  void remove(ArcId arc) {
     log_.touch(arc);
     note_ends(arc);
     graph_.remove(arc);
   }
-  void note_ends(std::uint32_t arc) {
+  void note_ends(ArcId arc) {
     ways_.note(graph_.end(arc, kDown), kUp);
     ways_.note(graph_.end(arc, kUp), kDown);
   }
-  void cut(Direction d, std::uint32_t from, std::uint32_t into, std::uint32_t node) {
+  void cut(Direction d, ArcId from, ArcId into, NodeId node) {
     if (content_.cut({d, from, into, graph_.end(from, opposite(d)), node, graph_.end(from, d)})) log_.touch(into);
     move_start(d, from, node);
   }
-  void merge(std::uint32_t from, std::uint32_t into) {
+  void merge(ArcId from, ArcId into) {
     if (content_.merge(from, into)) log_.touch(into);
     remove(from);
   }
-  void contract(std::uint32_t node);
+  void contract(NodeId node);
 
   [[noreturn]] static void not_a_pair() { throw std::logic_error("Canceller: not a pair of this graph"); }
 
@@ -189,21 +189,19 @@ class Canceller {
   BoundedSearch ahead_;  // from the fork of the pair
   BoundedSearch back_;   // from its partner
   PathFollower ways_;
-  std::array<std::vector<bool>, 2> kept_;      // whether a loop in direction d of the node was kept
-  std::vector<std::uint32_t> first_, second_;  // arcs of the two paths to be zipped
+  std::array<std::vector<bool>, 2> kept_;  // whether a loop in direction d of the node was kept
+  std::vector<ArcId> first_, second_;      // arcs of the two paths to be zipped
   Content content_;
 };
 
 // ---- extrema
-// --------------------------------------------------------------------------------------
 
 template <class Content>
-void Canceller<Content>::cancel_extremum(Direction d, std::uint32_t fork, std::uint32_t extremum) {
-  const std::uint32_t in = arc_to_extremum(d, fork, extremum);
-  const bool searched = kept_[d][fork];
-  const std::uint32_t out = graph_.nearest_if(fork, d, farthest(d), [&](std::uint32_t arc) {
-    return searched ? !back_.reached(graph_.end(arc, d)) : arc != in;
-  });
+void Canceller<Content>::cancel_extremum(Direction d, NodeId fork, NodeId extremum) {
+  const ArcId in = arc_to_extremum(d, fork, extremum);
+  const bool searched = kept_[d][fork.value()];
+  const ArcId out = graph_.nearest_if(
+      fork, d, farthest(d), [&](ArcId arc) { return searched ? !back_.reached(graph_.end(arc, d)) : arc != in; });
   if (in == kNone || out == kNone) not_a_pair();
 
   lay_beside(d, in, out, extremum);
@@ -214,10 +212,11 @@ void Canceller<Content>::cancel_extremum(Direction d, std::uint32_t fork, std::u
 // arcs move only where a node of the first path comes between two of the second; an extremum of one
 // arc is none.
 template <class Content>
-void Canceller<Content>::lay_beside(Direction d, std::uint32_t arc, std::uint32_t beside, std::uint32_t extremum) {
-  std::uint32_t start = graph_.end(arc, opposite(d));  // all before it is one path
+void Canceller<Content>::lay_beside(Direction d, ArcId arc, ArcId beside, NodeId extremum) {
+  NodeId start = graph_.end(arc, opposite(d));  // all before it is one path
   while (true) {
-    const std::uint32_t end = graph_.end(arc, d), next = graph_.nearest(end, d);
+    const NodeId end = graph_.end(arc, d);
+    const ArcId next = graph_.nearest(end, d);
     if (end == extremum && graph_.has_one(extremum, opposite(d))) break;
     go_beside(d, arc, beside, start, end);
     if (graph_.end(arc, opposite(d)) != start) move_start(d, arc, start);
@@ -240,18 +239,18 @@ void Canceller<Content>::lay_beside(Direction d, std::uint32_t arc, std::uint32_
 // Follows the second path from `start` until its arc `beside` reaches to `end` or beyond, and lays the
 // content of `arc` on the arcs that are passed. False if there are more than `most` of them.
 template <class Content>
-bool Canceller<Content>::go_beside(Direction d, std::uint32_t arc, std::uint32_t& beside, std::uint32_t& start,
-                                   std::uint32_t end, std::uint32_t most) {
+bool Canceller<Content>::go_beside(Direction d, ArcId arc, ArcId& beside, NodeId& start, NodeId end,
+                                   std::uint32_t most) {
   ArcPart left{d, arc, start, end};  // with the content that is not laid yet
   double first = content_.first_value(left);
-  for (std::uint32_t node = graph_.end(beside, d); along(d, node) < along(d, end); node = graph_.end(beside, d)) {
+  for (NodeId node = graph_.end(beside, d); along(d, node) < along(d, end); node = graph_.end(beside, d)) {
     if (most != kAny && most-- == 0) return false;
     if (content_.is_reached(first, d, node)) {
       if (content_.cut({d, arc, beside, left.start, node, end})) log_.touch(beside);
       left.start = node;
       first = content_.first_value(left);
     }
-    start = most != kAny ? node : ways_.follow(node, d, [&](std::uint32_t next) {
+    start = most != kAny ? node : ways_.follow(node, d, [&](NodeId next) {
       return along(d, next) < along(d, end) && !content_.is_reached(first, d, next);
     });
     beside = graph_.nearest(start, d);
@@ -263,43 +262,41 @@ bool Canceller<Content>::go_beside(Direction d, std::uint32_t arc, std::uint32_t
 // there can be several; then back_ is left with that component. Otherwise there is one, and it is
 // looked for from both ends: back from the extremum, and along from each arc of the fork.
 template <class Content>
-std::uint32_t Canceller<Content>::arc_to_extremum(Direction d, std::uint32_t fork, std::uint32_t extremum) {
-  const bool searched = kept_[d][fork];
+ArcId Canceller<Content>::arc_to_extremum(Direction d, NodeId fork, NodeId extremum) {
+  const bool searched = kept_[d][fork.value()];
   back_.start(extremum, opposite(d), fork);
   if (searched) {
     back_.finish();
-    return graph_.nearest_if(fork, d, extremum, [&](std::uint32_t arc) { return back_.reached(graph_.end(arc, d)); });
+    return graph_.nearest_if(fork, d, extremum, [&](ArcId arc) { return back_.reached(graph_.end(arc, d)); });
   }
   // The second search visits the fork's own arcs only; each is walked to its end in turn.
   ahead_.start(fork, d, extremum);
-  std::uint32_t walker = kNone, walked = kNone;
+  ArcId walker = kNone, walked = kNone;
   while (true) {
-    const std::uint32_t back = back_.step();
+    const ArcId back = back_.step();
     if (back != kNone && graph_.end(back, opposite(d)) == fork) return back;
     if (walked == kNone) {
-      walker = walked = ahead_.step([](std::uint32_t) { return false; });
+      walker = walked = ahead_.step([](NodeId) { return false; });
       if (walker == kNone && back == kNone) not_a_pair();
       continue;
     }
-    const std::uint32_t node = graph_.end(walked, d);
+    const NodeId node = graph_.end(walked, d);
     if (node == extremum) return walker;
     walked = along(d, node) < along(d, extremum) ? graph_.nearest(node, d) : kNone;
   }
 }
 
 // ---- loops
-// ----------------------------------------------------------------------------------------
 
 template <class Content>
-bool Canceller<Content>::cancel_loop(std::uint32_t v, std::uint32_t y) {
-  const std::uint32_t direct =
-      graph_.nearest_if(v, kUp, y, [&](std::uint32_t arc) { return graph_.end(arc, kUp) == y; });
+bool Canceller<Content>::cancel_loop(NodeId v, NodeId y) {
+  const ArcId direct = graph_.nearest_if(v, kUp, y, [&](ArcId arc) { return graph_.end(arc, kUp) == y; });
   if (direct != kNone) return take_away(direct);
 
   search_paths(v, y);
-  const std::uint32_t first = graph_.nearest_if(v, kUp, y, [&](std::uint32_t arc) { return leads(arc); });
+  const ArcId first = graph_.nearest_if(v, kUp, y, [&](ArcId arc) { return leads(arc); });
   if (first == kNone) return false;
-  const std::uint32_t second = second_path(v, y, first);
+  const ArcId second = second_path(v, y, first);
   if (second == kNone) return false;
   first_.assign(1, first);
   second_.assign(1, second);
@@ -310,12 +307,11 @@ bool Canceller<Content>::cancel_loop(std::uint32_t v, std::uint32_t y) {
 }
 
 template <class Content>
-bool Canceller<Content>::take_away(std::uint32_t arc) {
+bool Canceller<Content>::take_away(ArcId arc) {
   if constexpr (Content::kFollows) {
-    const std::uint32_t v = graph_.end(arc, kDown), y = graph_.end(arc, kUp);
+    const NodeId v = graph_.end(arc, kDown), y = graph_.end(arc, kUp);
     search_paths(v, y);
-    const std::uint32_t beside =
-        graph_.nearest_if(v, kUp, y, [&](std::uint32_t other) { return other != arc && leads(other); });
+    const ArcId beside = graph_.nearest_if(v, kUp, y, [&](ArcId other) { return other != arc && leads(other); });
     if (beside != kNone) {
       first_.assign(1, beside);
       second_.assign(1, arc);
@@ -332,13 +328,13 @@ bool Canceller<Content>::take_away(std::uint32_t arc) {
 // Makes leads() true for the arcs above v from which a monotone path reaches y, as far as they can
 // be reached from v: searches down from y and up from v in turn, until either has seen all.
 template <class Content>
-void Canceller<Content>::search_paths(std::uint32_t v, std::uint32_t y) {
+void Canceller<Content>::search_paths(NodeId v, NodeId y) {
   back_.start(y, kDown, v);
   ahead_.start(v, kUp, y);
   while (back_.step() != kNone)
     if (ahead_.step() == kNone) {
       back_.start(y, kDown, v);
-      while (back_.step([&](std::uint32_t node) { return ahead_.reached(node); }) != kNone) {
+      while (back_.step([&](NodeId node) { return ahead_.reached(node); }) != kNone) {
       }
       return;
     }
@@ -347,33 +343,31 @@ void Canceller<Content>::search_paths(std::uint32_t v, std::uint32_t y) {
 // The nearest arc of v that leads to y in another component of the open interlevel set (v, y) than
 // that of the arc `first`; kNone if there is none.
 template <class Content>
-std::uint32_t Canceller<Content>::second_path(std::uint32_t v, std::uint32_t y, std::uint32_t first) {
-  if (!kept_[kUp][v])
-    return graph_.nearest_if(v, kUp, y, [&](std::uint32_t arc) { return arc != first && leads(arc); });
-  ahead_.start_both(graph_.end(first, kUp), v + 1, y - 1);
+ArcId Canceller<Content>::second_path(NodeId v, NodeId y, ArcId first) {
+  if (!kept_[kUp][v.value()])
+    return graph_.nearest_if(v, kUp, y, [&](ArcId arc) { return arc != first && leads(arc); });
+  ahead_.start_both(graph_.end(first, kUp), NodeId(v.value() + 1), NodeId(y.value() - 1));
   ahead_.finish();
-  return graph_.nearest_if(v, kUp, y,
-                           [&](std::uint32_t arc) { return leads(arc) && !ahead_.reached(graph_.end(arc, kUp)); });
+  return graph_.nearest_if(v, kUp, y, [&](ArcId arc) { return leads(arc) && !ahead_.reached(graph_.end(arc, kUp)); });
 }
 
 // Prolongs the path to y, taking at each choice the arc with the lowest upper node that leads
 // there.
 template <class Content>
-void Canceller<Content>::trace(std::vector<std::uint32_t>& path, std::uint32_t y) {
-  for (std::uint32_t node = graph_.end(path.back(), kUp); node != y; node = graph_.end(path.back(), kUp)) {
-    path.push_back(graph_.nearest_if(node, kUp, y, [&](std::uint32_t arc) { return leads(arc); }));
+void Canceller<Content>::trace(std::vector<ArcId>& path, NodeId y) {
+  for (NodeId node = graph_.end(path.back(), kUp); node != y; node = graph_.end(path.back(), kUp)) {
+    path.push_back(graph_.nearest_if(node, kUp, y, [&](ArcId arc) { return leads(arc); }));
     if (path.back() == kNone) not_a_pair();
   }
 }
 
 // ---- moving arcs
-// ----------------------------------------------------------------------------------
 
 template <class Content>
 void Canceller<Content>::zip(Direction d) {
   for (std::size_t i = 0, j = 0; i < first_.size() && j < second_.size();) {
-    const std::uint32_t a = first_[i], b = second_[j];
-    const std::uint32_t end_a = graph_.end(a, d), end_b = graph_.end(b, d);
+    const ArcId a = first_[i], b = second_[j];
+    const NodeId end_a = graph_.end(a, d), end_b = graph_.end(b, d);
     if (end_a == end_b) {
       merge(b, a);
       ++i, ++j;
@@ -388,10 +382,10 @@ void Canceller<Content>::zip(Direction d) {
 }
 
 template <class Content>
-void Canceller<Content>::contract(std::uint32_t node) {
+void Canceller<Content>::contract(NodeId node) {
   if (!graph_.is_regular(node)) return;
-  const std::uint32_t lower = graph_.nearest(node, kDown), upper = graph_.nearest(node, kUp);
-  const std::uint32_t end = graph_.end(upper, kUp);
+  const ArcId lower = graph_.nearest(node, kDown), upper = graph_.nearest(node, kUp);
+  const NodeId end = graph_.end(upper, kUp);
   content_.join(upper, lower, node);
   remove(upper);
   move_start(kDown, lower, end);

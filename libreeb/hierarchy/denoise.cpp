@@ -15,19 +15,19 @@ namespace reeb {
 namespace {
 
 // Removes leaves of a graph whose arcs it takes; the nodes stay for the caller.
-class LeafRemoval {
+class GraphLeafRemoval {
  public:
   // `whole` says which nodes have all their arcs, all do if it is null; `lists`, of the graph's arcs,
   // may be null. All must outlive this.
-  LeafRemoval(ReebGraph& full, const std::vector<bool>* whole, double threshold, ArcBucketLists* lists)
-      : full_(full), whole_(whole), threshold_(threshold), graph_(full), lists_(lists), reach_(full.node_count()) {
+  GraphLeafRemoval(ReebGraph& full, const std::vector<bool>* whole, double threshold, ArcBucketLists* lists)
+      : full_(full), whole_(whole), threshold_(threshold), graph_(full), lists_(lists) {
     find_reaches();
     full.lo = std::vector<NodeId>();
     full.hi = std::vector<NodeId>();
   }
 
   void run() {
-    for (std::uint32_t node = 0; node < graph_.node_count(); ++node) {
+    for (NodeId node; node < graph_.end_node(); ++node) {
       leaves_.push_back(node);
       look_at_leaves();
     }
@@ -39,25 +39,23 @@ class LeafRemoval {
   }
 
   // The arcs that are left, by (lo, hi).
-  std::vector<std::uint32_t> remaining() const {
-    std::vector<std::uint32_t> arcs;
-    arcs.reserve(graph_.arc_count());
-    for (std::uint32_t arc = 0; arc < graph_.arc_count(); ++arc)
+  std::vector<ArcId> remaining() const {
+    std::vector<ArcId> arcs;
+    arcs.reserve(graph_.end_arc().value());
+    for (ArcId arc; arc < graph_.end_arc(); ++arc)
       if (graph_.alive(arc)) arcs.push_back(arc);
-    const auto key = [this](std::uint32_t arc) {
-      return std::tuple(graph_.end(arc, kDown), graph_.end(arc, kUp), arc);
-    };
-    std::sort(arcs.begin(), arcs.end(), [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
+    const auto key = [this](ArcId arc) { return std::tuple(graph_.end(arc, kDown), graph_.end(arc, kUp), arc); };
+    std::sort(arcs.begin(), arcs.end(), [&](ArcId a, ArcId b) { return key(a) < key(b); });
     return arcs;
   }
 
   // Puts these arcs into the graph, which still has all nodes.
-  void give_back(const std::vector<std::uint32_t>& arcs) const {
+  void give_back(const std::vector<ArcId>& arcs) const {
     full_.lo.reserve(arcs.size());
     full_.hi.reserve(arcs.size());
-    for (const std::uint32_t arc : arcs) {
-      full_.lo.emplace_back(graph_.end(arc, kDown));
-      full_.hi.emplace_back(graph_.end(arc, kUp));
+    for (const ArcId arc : arcs) {
+      full_.lo.push_back(graph_.end(arc, kDown));
+      full_.hi.push_back(graph_.end(arc, kUp));
     }
   }
 
@@ -65,24 +63,25 @@ class LeafRemoval {
   // A leaf is only removed where its saddle reaches beyond it, and joining arcs moves no path: no
   // step ever changes what is found here.
   void find_reaches() {
-    for (std::uint32_t node = 0; node < reach_.size(); ++node) reach_[node] = {node, node};
+    reach_.resize(full_.node_count());
+    for (NodeId node; node < reach_.end_id(); ++node) reach_[node] = {node, node};
     // Arcs are sorted by lower end, so all that lies below an arc comes before it, all above after.
     for (std::size_t arc = 0; arc < full_.arc_count(); ++arc) {
-      std::uint32_t& reach = reach_[full_.hi[arc].value()][kDown];
-      reach = std::min(reach, reach_[full_.lo[arc].value()][kDown]);
+      NodeId& reach = reach_[full_.hi[arc]][kDown];
+      reach = std::min(reach, reach_[full_.lo[arc]][kDown]);
     }
     for (std::size_t arc = full_.arc_count(); arc-- > 0;) {
-      std::uint32_t& reach = reach_[full_.lo[arc].value()][kUp];
-      reach = std::max(reach, reach_[full_.hi[arc].value()][kUp]);
+      NodeId& reach = reach_[full_.lo[arc]][kUp];
+      reach = std::max(reach, reach_[full_.hi[arc]][kUp]);
     }
   }
-  bool reaches_beyond(std::uint32_t node, Direction d, std::uint32_t leaf) const {
+  bool reaches_beyond(NodeId node, Direction d, NodeId leaf) const {
     return along(d, reach_[node][d]) > along(d, leaf);
   }
 
   void look_at_leaves() {
     while (!leaves_.empty()) {
-      const std::uint32_t node = leaves_.back();
+      const NodeId node = leaves_.back();
       leaves_.pop_back();
       for (const Direction d : {kDown, kUp})
         if (is_leaf(node, d)) try_leaf(node, d);
@@ -90,17 +89,17 @@ class LeafRemoval {
   }
 
   // True for a maximum (d = kUp) or minimum (d = kDown) with one arc.
-  bool is_leaf(std::uint32_t node, Direction d) const {
+  bool is_leaf(NodeId node, Direction d) const {
     return graph_.nearest(node, d) == WorkingGraph::kNone && graph_.has_one(node, opposite(d)) &&
-           (whole_ == nullptr || (*whole_)[node]);
+           (whole_ == nullptr || (*whole_)[node.value()]);
   }
 
-  void try_leaf(std::uint32_t leaf, Direction d) {
-    const std::uint32_t arc = graph_.nearest(leaf, opposite(d));
-    const std::uint32_t saddle = graph_.end(arc, opposite(d));
+  void try_leaf(NodeId leaf, Direction d) {
+    const ArcId arc = graph_.nearest(leaf, opposite(d));
+    const NodeId saddle = graph_.end(arc, opposite(d));
     if (!reaches_beyond(saddle, d, leaf)) return;
-    const PersistencePair pair = d == kUp ? PersistencePair{NodeId(saddle), NodeId(leaf), PairType::kRel1}
-                                          : PersistencePair{NodeId(leaf), NodeId(saddle), PairType::kOrd0};
+    const PersistencePair pair =
+        d == kUp ? PersistencePair{saddle, leaf, PairType::kRel1} : PersistencePair{leaf, saddle, PairType::kOrd0};
     if (!(persistence_of(full_, pair) < threshold_)) return;
     removed_.push_back(pair);
     graph_.remove(arc);
@@ -110,13 +109,14 @@ class LeafRemoval {
   }
 
   // The buckets of an arc that was removed, and its leaf, go to the nearest path beyond it.
-  void lay_aside(std::uint32_t arc, std::uint32_t saddle, std::uint32_t leaf, Direction d) {
-    const auto next = [&](std::uint32_t node) {
+  void lay_aside(ArcId arc, NodeId saddle, NodeId leaf, Direction d) {
+    const auto next = [&](NodeId node) {
       return graph_.nearest_if(node, d, farthest(d),
-                               [&](std::uint32_t other) { return reaches_beyond(graph_.end(other, d), d, leaf); });
+                               [&](ArcId other) { return reaches_beyond(graph_.end(other, d), d, leaf); });
     };
-    std::uint32_t start = saddle, beside = next(saddle);
-    for (std::uint32_t end = graph_.end(beside, d); along(d, end) < along(d, leaf); end = graph_.end(beside, d)) {
+    NodeId start = saddle;
+    ArcId beside = next(saddle);
+    for (NodeId end = graph_.end(beside, d); along(d, end) < along(d, leaf); end = graph_.end(beside, d)) {
       const auto [lo, hi] = std::minmax(start, leaf);
       lists_->cut(opposite(d), arc, beside, {value(lo), value(end), value(hi)});
       start = end;
@@ -126,20 +126,20 @@ class LeafRemoval {
     add_vertex(beside, leaf);
   }
 
-  void add_vertex(std::uint32_t arc, std::uint32_t node) {
-    lists_->add(arc, value(node), full_.positions.empty() ? std::array<double, 3>{} : full_.positions[node]);
+  void add_vertex(ArcId arc, NodeId node) {
+    lists_->add(arc, value(node), full_.positions.empty() ? std::array<double, 3>{} : full_.positions[node.value()]);
   }
-  double value(std::uint32_t node) const { return full_.nodes[node].value; }
+  double value(NodeId node) const { return full_.nodes[node.value()].value; }
 
   // A saddle that lost an arc may disappear, which gives leaves beyond it another saddle, or become
   // a leaf itself.
-  void settle(std::uint32_t node) {
+  void settle(NodeId node) {
     if (!graph_.is_regular(node)) {
       leaves_.push_back(node);
       return;
     }
-    const std::uint32_t lower = graph_.nearest(node, kDown), upper = graph_.nearest(node, kUp);
-    const std::uint32_t bottom = graph_.end(lower, kDown), top = graph_.end(upper, kUp);
+    const ArcId lower = graph_.nearest(node, kDown), upper = graph_.nearest(node, kUp);
+    const NodeId bottom = graph_.end(lower, kDown), top = graph_.end(upper, kUp);
     graph_.remove(upper);
     graph_.move_end(lower, kUp, top);
     if (lists_ != nullptr) {
@@ -155,8 +155,8 @@ class LeafRemoval {
   const double threshold_;
   WorkingGraph graph_;
   ArcBucketLists* lists_;
-  std::vector<std::array<std::uint32_t, 2>> reach_;  // the farthest nodes on monotone paths
-  std::vector<std::uint32_t> leaves_;                // nodes that may be leaves to be looked at
+  IdVector<NodeId, std::array<NodeId, 2>> reach_;  // the farthest nodes on monotone paths
+  std::vector<NodeId> leaves_;                     // nodes that may be leaves to be looked at
   std::vector<PersistencePair> removed_;
 };
 
@@ -183,7 +183,7 @@ void drop_lone_nodes(ReebGraph& graph, const std::vector<NodeId>& isolated) {
 void remove_leaves(Denoised& result, const std::vector<bool>* whole, double threshold, ArcBucketLists* lists) {
   const std::vector<NodeId> isolated = isolated_nodes(result.graph);
   {
-    LeafRemoval removal(result.graph, whole, threshold, lists);
+    GraphLeafRemoval removal(result.graph, whole, threshold, lists);
     removal.run();
     result.removed = removal.take_removed();
     result.former = removal.remaining();
@@ -192,21 +192,21 @@ void remove_leaves(Denoised& result, const std::vector<bool>* whole, double thre
   drop_lone_nodes(result.graph, isolated);
 }
 
-ArcBuckets buckets_of(const ArcBucketLists& lists, const std::vector<std::uint32_t>& arcs) {
+ArcBuckets buckets_of(const ArcBucketLists& lists, const std::vector<ArcId>& arcs) {
   ArcBuckets buckets;
   buckets.offsets.reserve(arcs.size() + 1);
   std::uint64_t end = 0;
   buckets.offsets.push_back(0);
-  for (const std::uint32_t arc : arcs) buckets.offsets.push_back(end += packed_count(lists.closed(arc)));
+  for (const ArcId arc : arcs) buckets.offsets.push_back(end += packed_count(lists.closed(arc)));
   buckets.buckets.reserve(end);
-  for (const std::uint32_t arc : arcs) unpack_buckets(lists.closed(arc), buckets.buckets);
+  for (const ArcId arc : arcs) unpack_buckets(lists.closed(arc), buckets.buckets);
   return buckets;
 }
 
-PackedLists lists_of(const ArcBucketLists& lists, const std::vector<std::uint32_t>& arcs) {
+PackedLists lists_of(const ArcBucketLists& lists, const std::vector<ArcId>& arcs) {
   PackedLists packed;
   packed.reserve(arcs.size());
-  for (const std::uint32_t arc : arcs) packed.add_packed(lists.closed(arc));
+  for (const ArcId arc : arcs) packed.add_packed(lists.closed(arc));
   return packed;
 }
 

@@ -1,4 +1,5 @@
-// Noise removal on a graph in memory, or on a part of one: the exact last pass (DESIGN.md 1.6).
+// Noise removal on a graph in memory, or on a part of one: the exact last pass
+// (docs/SEMANTICS.md, Noise removal).
 #pragma once
 
 #include <cstdint>
@@ -17,7 +18,7 @@ struct Denoised {
   // order of cancelling. All others are as before.
   std::vector<PersistencePair> removed;
   // Of each arc, the number in the graph that was given of its lowest part.
-  std::vector<std::uint32_t> former;
+  std::vector<ArcId> former;
 };
 
 // Repeats, until nothing changes: remove a leaf (an extremum with one arc) of persistence <

@@ -1,5 +1,5 @@
 // The result of the second stage: persistence pairs, and all levels of detail at once
-// (DESIGN.md 1.4, 1.5, 6; the paper's "Simplification and Hierarchy").
+// (docs/SEMANTICS.md, Pairs and Levels; the paper's "Simplification and Hierarchy").
 //
 // The sequence of simplified graphs is partially persistent: an arc is a record with the steps
 // between which it lives. Cancellation number s (from 1) turns version s-1 into version s; version
@@ -27,14 +27,14 @@ struct PersistencePair {
 };
 
 struct Hierarchy {
-  // All pairs, in the order of cancelling (DESIGN.md 1.5); Ext0 last.
+  // All pairs, in the order of cancelling (docs/SEMANTICS.md, Cancelling); Ext0 last.
   std::vector<PersistencePair> pairs;
   // persistence[s - 1] is that of the pair cancelled by step s; not decreasing.
   std::vector<double> persistence;
   // By died, descending: every prefix up to some `died` is all that lives then. Then by (lo, hi, born).
   std::vector<ArcVersion> arcs;
   // A node without arcs in a version is present in it only as an isolated point:
-  // isolated[i] is the node; present in every version (DESIGN.md: Ext0 is never cancelled).
+  // isolated[i] is the node; present in every version, since Ext0 is never cancelled.
   std::vector<NodeId> isolated;
   // By version, ascending; empty without an embedding.
   std::vector<DroppedVertices> dropped;

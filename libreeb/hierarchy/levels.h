@@ -1,4 +1,9 @@
-// Questions to a hierarchy: which version, how large, which graph (DESIGN.md 1.5, 6).
+// Levels of a hierarchy in memory: which version belongs to a threshold, how large it is, and its graph
+// (docs/SEMANTICS.md, Levels).
+//
+// For users of the library who build a hierarchy in memory, as with build_hierarchy() after OnlineReeb.
+// The program itself reads levels from files (ooc/reeb_file). A Hierarchy that does not change may be
+// asked by several threads at once.
 //
 // A version is a number of cancellations; kept loops and Ext0 pairs are none. Node ids are those of
 // the full graph that the hierarchy was built from.

@@ -1,4 +1,5 @@
-// Where noise removal can change a graph, told from its short arcs alone (DESIGN.md 1.6).
+// Where noise removal can change a graph, told from its short arcs alone
+// (docs/SEMANTICS.md, Noise removal).
 #pragma once
 
 #include <vector>

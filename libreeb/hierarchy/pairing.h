@@ -1,4 +1,4 @@
-// Extended persistence pairs of a Reeb graph (DESIGN.md 1.4; Agarwal, Edelsbrunner, Harer, Wang
+// Extended persistence pairs of a Reeb graph (docs/SEMANTICS.md, Pairs; Agarwal, Edelsbrunner, Harer, Wang
 // 2004).
 #pragma once
 
@@ -14,7 +14,7 @@ inline double persistence_of(const ReebGraph& graph, const PersistencePair& pair
   return graph.nodes[pair.hi.value()].value - graph.nodes[pair.lo.value()].value;
 }
 
-// All pairs, in the order of cancelling (DESIGN.md 1.5), Ext0 last. Exact: every decision is made
+// All pairs, in the order of cancelling, Ext0 last. Exact: every decision is made
 // in the total order; persistences only sort the result. As a multiset the result does not depend
 // on the order of arcs.
 //

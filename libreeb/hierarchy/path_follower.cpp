@@ -4,17 +4,19 @@
 
 namespace reeb {
 
-PathFollower::PathFollower(const WorkingGraph& graph) : graph_(graph), stretch_of_(graph.node_count()), exits_{kNone} {}
+PathFollower::PathFollower(const WorkingGraph& graph) : graph_(graph), exits_{kNone} {
+  stretch_of_.assign(graph.end_node().value(), {kNoStretch, kNoStretch});
+}
 
 // Makes a stretch of the nodes that were followed before `exit`, if they are enough.
-void PathFollower::keep_followed(std::uint32_t exit, Direction d) {
+void PathFollower::keep_followed(NodeId exit, Direction d) {
   if (!followed_.empty() && followed_.back() == exit) followed_.pop_back();
-  if (followed_.size() >= kLeast) {
-    if (exits_.size() > stretch_of_.size() / kLeast) {
+  if (followed_.size() >= kLeastNodes) {
+    if (exits_.size() > stretch_of_.size() / kLeastNodes) {
       std::fill(stretch_of_.begin(), stretch_of_.end(), std::array{kNoStretch, kNoStretch});
       exits_.resize(1);
     }
-    for (const std::uint32_t node : followed_) stretch_of_[node][d] = static_cast<std::uint32_t>(exits_.size());
+    for (const NodeId node : followed_) stretch_of_[node][d] = static_cast<std::uint32_t>(exits_.size());
     exits_.push_back(exit);
   }
   followed_.clear();
@@ -22,7 +24,7 @@ void PathFollower::keep_followed(std::uint32_t exit, Direction d) {
 
 void PathFollower::heed_changes() {
   for (const auto [node, d] : changed_) {
-    std::uint32_t& exit = exits_[stretch_of_[node][d]];
+    NodeId& exit = exits_[stretch_of_[node][d]];
     if (exit != kNone && !still_leads_on(node, d)) exit = kNone;
   }
   changed_.clear();
@@ -30,14 +32,14 @@ void PathFollower::heed_changes() {
 
 // Whether the path from a node of a stretch still goes on in it, or to its exit; nodes that were put
 // between become part of it, and one that is gone is on no path any more.
-bool PathFollower::still_leads_on(std::uint32_t node, Direction d) {
+bool PathFollower::still_leads_on(NodeId node, Direction d) {
   const std::uint32_t stretch = stretch_of_[node][d];
-  const auto is_in = [&](std::uint32_t other) { return other == exits_[stretch] || stretch_of_[other][d] == stretch; };
-  std::array<std::uint32_t, kMostPutBetween> between{};
+  const auto is_in = [&](NodeId other) { return other == exits_[stretch] || stretch_of_[other][d] == stretch; };
+  std::array<NodeId, kMostPutBetween> between{};
   std::size_t count = 0;
-  std::uint32_t to = next(node, d);
+  NodeId to = next(node, d);
   if (to == kNone) {
-    if (graph_.nearest(node, opposite(d)) != kNone) return false;
+    if (graph_.nearest(node, opposite(d)) != ArcId::none()) return false;
     stretch_of_[node][d] = kNoStretch;
     return true;
   }

@@ -24,54 +24,54 @@ class PathFollower {
 
   // To be called when the nearest arc of a node in direction d is another one, or ends elsewhere.
   // May be called while more changes are to come, up to the next follow() or heed_changes().
-  void note(std::uint32_t node, Direction d) {
+  void note(NodeId node, Direction d) {
     if (exit_of(node, d) != kNone) changed_.push_back({node, d});
   }
   // Forgets what was noted, once it is clear what that means. To be called now and then, for what is noted
   // is held until then.
   void heed_changes();
 
-  void prefetch(std::uint32_t node) const { __builtin_prefetch(&stretch_of_[node]); }
+  void prefetch(NodeId node) const { __builtin_prefetch(&stretch_of_[node]); }
 
   // The last node of the path from `node` in direction d that `passes`, or `node` itself.
   // REQUIRES: the node has arcs; after one that does not pass none does.
   template <class Passes>
-  std::uint32_t follow(std::uint32_t node, Direction d, Passes passes);
+  NodeId follow(NodeId node, Direction d, Passes passes);
 
  private:
-  static constexpr std::uint32_t kNone = WorkingGraph::kNone;
+  static constexpr NodeId kNone = NodeId::none();
   static constexpr std::uint32_t kNoStretch = 0;
-  static constexpr std::size_t kLeast = 8, kMost = 32;  // nodes of a stretch
+  static constexpr std::size_t kLeastNodes = 8, kMostNodes = 32;  // of a stretch
   static constexpr std::size_t kMostPutBetween = 4;
 
   struct Change {
-    std::uint32_t node;
+    NodeId node;
     Direction direction;
   };
 
-  std::uint32_t exit_of(std::uint32_t node, Direction d) const { return exits_[stretch_of_[node][d]]; }
-  std::uint32_t next(std::uint32_t node, Direction d) const {
-    const std::uint32_t arc = graph_.nearest(node, d);
-    return arc == kNone ? kNone : graph_.end(arc, d);
+  NodeId exit_of(NodeId node, Direction d) const { return exits_[stretch_of_[node][d]]; }
+  NodeId next(NodeId node, Direction d) const {
+    const ArcId arc = graph_.nearest(node, d);
+    return arc == ArcId::none() ? kNone : graph_.end(arc, d);
   }
-  void keep_followed(std::uint32_t exit, Direction d);
-  bool still_leads_on(std::uint32_t node, Direction d);
+  void keep_followed(NodeId exit, Direction d);
+  bool still_leads_on(NodeId node, Direction d);
 
   const WorkingGraph& graph_;
-  std::vector<std::array<std::uint32_t, 2>> stretch_of_;  // by node and direction
-  std::vector<std::uint32_t> exits_;                      // by stretch; kNone if it broke
-  std::vector<Change> changed_;                           // nodes of stretches, not yet heeded
-  std::vector<std::uint32_t> followed_;                   // one by one, of no stretch
+  IdVector<NodeId, std::array<std::uint32_t, 2>> stretch_of_;  // by direction
+  std::vector<NodeId> exits_;                                  // by stretch; kNone if it broke
+  std::vector<Change> changed_;                                // nodes of stretches, not yet heeded
+  std::vector<NodeId> followed_;                               // one by one, of no stretch
 };
 
 template <class Passes>
-std::uint32_t PathFollower::follow(std::uint32_t node, Direction d, Passes passes) {
+NodeId PathFollower::follow(NodeId node, Direction d, Passes passes) {
   heed_changes();
   followed_.clear();
   while (true) {
-    const std::uint32_t exit = exit_of(node, d);
+    const NodeId exit = exit_of(node, d);
     if (exit == kNone) {
-      if (followed_.size() == kMost) keep_followed(node, d);
+      if (followed_.size() == kMostNodes) keep_followed(node, d);
       followed_.push_back(node);
     } else {
       keep_followed(node, d);
@@ -80,7 +80,7 @@ std::uint32_t PathFollower::follow(std::uint32_t node, Direction d, Passes passe
         continue;
       }
     }
-    const std::uint32_t to = next(node, d);
+    const NodeId to = next(node, d);
     if (to == kNone || !passes(to)) break;
     node = to;
   }

@@ -1,4 +1,5 @@
-// Writes down which arcs live between which steps: the partially persistent graph (DESIGN.md 6).
+// Writes down which arcs live between which steps: the partially persistent graph
+// (docs/SEMANTICS.md, Levels).
 #pragma once
 
 #include <algorithm>
@@ -21,12 +22,14 @@ namespace reeb {
 class VersionLog {
  public:
   // Both must outlive this.
-  VersionLog(const WorkingGraph& graph, RecordSink& sink) : graph_(graph), sink_(sink), born_(graph.arc_count()) {}
+  VersionLog(const WorkingGraph& graph, RecordSink& sink) : graph_(graph), sink_(sink) {
+    born_.assign(graph.end_arc().value(), 0);
+  }
 
-  void prefetch(std::uint32_t arc) const { __builtin_prefetch(&born_[arc]); }
+  void prefetch(ArcId arc) const { __builtin_prefetch(&born_[arc]); }
 
   // To be called before an arc is moved or removed.
-  void touch(std::uint32_t arc) {
+  void touch(ArcId arc) {
     if (born_[arc] == step_) return;
     ended_.push_back({record(arc), arc});
     born_[arc] = step_;
@@ -49,20 +52,18 @@ class VersionLog {
   // Hands over the arcs of the last version. To be called once, at the end.
   template <class Content>
   void finish(const Content& content) {
-    std::vector<std::uint32_t> arcs;
-    for (std::uint32_t arc = 0; arc < graph_.arc_count(); ++arc)
+    std::vector<ArcId> arcs;
+    for (ArcId arc; arc < graph_.end_arc(); ++arc)
       if (graph_.alive(arc)) arcs.push_back(arc);
-    std::sort(arcs.begin(), arcs.end(), [this](std::uint32_t a, std::uint32_t b) {
-      return in_order({record(b), b}, {record(a), a});
-    });
-    for (const std::uint32_t arc : arcs) sink_.add(record(arc), content.before_step(arc));
+    std::sort(arcs.begin(), arcs.end(), [this](ArcId a, ArcId b) { return in_order({record(b), b}, {record(a), a}); });
+    for (const ArcId arc : arcs) sink_.add(record(arc), content.before_step(arc));
   }
 
  private:
   // A version that this step touched, as it was before, and the arc it belongs to.
   struct Ended {
     ArcVersion version;
-    std::uint32_t arc;
+    ArcId arc;
   };
 
   // Records that have ended go on where an arc has their ends after the step, too.
@@ -70,8 +71,7 @@ class VersionLog {
     changed_.clear();
     for (const Ended& ended : ended_)
       if (graph_.alive(ended.arc)) changed_.push_back(ended.arc);
-    std::sort(changed_.begin(), changed_.end(),
-              [this](std::uint32_t a, std::uint32_t b) { return ends(record(a)) < ends(record(b)); });
+    std::sort(changed_.begin(), changed_.end(), [this](ArcId a, ArcId b) { return ends(record(a)) < ends(record(b)); });
     auto arc = changed_.begin();
     std::erase_if(ended_, [&](const Ended& ended) {
       while (arc != changed_.end() && ends(record(*arc)) < ends(ended.version)) ++arc;
@@ -81,9 +81,7 @@ class VersionLog {
     });
   }
 
-  ArcVersion record(std::uint32_t arc) const {
-    return {NodeId(graph_.end(arc, kDown)), NodeId(graph_.end(arc, kUp)), born_[arc]};
-  }
+  ArcVersion record(ArcId arc) const { return {graph_.end(arc, kDown), graph_.end(arc, kUp), born_[arc]}; }
   static bool in_order(const Ended& a, const Ended& b) {
     return std::tuple(ends(a.version), a.version.born, a.arc) < std::tuple(ends(b.version), b.version.born, b.arc);
   }
@@ -92,9 +90,9 @@ class VersionLog {
   const WorkingGraph& graph_;
   RecordSink& sink_;
   std::uint32_t step_ = 1;
-  std::vector<std::uint32_t> born_;  // of each arc's present version
+  IdVector<ArcId, std::uint32_t> born_;  // of each arc's present version
   std::vector<Ended> ended_;
-  std::vector<std::uint32_t> changed_;  // arcs of ended_ that are still there
+  std::vector<ArcId> changed_;  // arcs of ended_ that are still there
 };
 
 }  // namespace reeb

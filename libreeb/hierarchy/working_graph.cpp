@@ -2,26 +2,27 @@
 
 namespace reeb {
 
-WorkingGraph::WorkingGraph(const ReebGraph& graph)
-    : arcs_(graph.arc_count()), top_(graph.node_count(), {kNone, kNone}) {
-  for (std::uint32_t arc = 0; arc < arc_count(); ++arc) {
-    arcs_[arc].end = {graph.lo[arc].value(), graph.hi[arc].value()};
+WorkingGraph::WorkingGraph(const ReebGraph& graph) {
+  arcs_.resize(graph.arc_count());
+  top_.assign(graph.node_count(), {kNone, kNone});
+  for (ArcId arc; arc < end_arc(); ++arc) {
+    arcs_[arc].end = {graph.lo[arc.value()], graph.hi[arc.value()]};
     insert(arc, kUp);
     insert(arc, kDown);
   }
 }
 
-void WorkingGraph::prefetch_neighbours(std::uint32_t node) const {
+void WorkingGraph::prefetch_neighbours(NodeId node) const {
   for (const Direction d : {kDown, kUp}) {
     if (top_[node][d] == kNone) continue;
     const Arc& arc = arcs_[top_[node][d]];
     prefetch_node(arc.end[d]);
-    for (const std::uint32_t child : arc.heap[d].child)
+    for (const ArcId child : arc.heap[d].child)
       if (child != kNone) prefetch_arc(child);
   }
 }
 
-void WorkingGraph::move_end(std::uint32_t arc, Direction d, std::uint32_t node) {
+void WorkingGraph::move_end(ArcId arc, Direction d, NodeId node) {
   // The end is the arc's key in the heap at its other end, and names the heap at this one.
   erase(arc, d);
   erase(arc, opposite(d));
@@ -30,18 +31,18 @@ void WorkingGraph::move_end(std::uint32_t arc, Direction d, std::uint32_t node) 
   insert(arc, opposite(d));
 }
 
-void WorkingGraph::remove(std::uint32_t arc) {
+void WorkingGraph::remove(ArcId arc) {
   erase(arc, kUp);
   erase(arc, kDown);
-  arcs_[arc].end = {kNone, kNone};
+  arcs_[arc].end = {NodeId::none(), NodeId::none()};
 }
 
 // Melds two heaps of arcs of direction d, walking down their right spines: what is passed swaps its
 // children. O(log n) amortized.
-std::uint32_t WorkingGraph::meld(std::uint32_t a, std::uint32_t b, Direction d) {
+ArcId WorkingGraph::meld(ArcId a, ArcId b, Direction d) {
   if (a == kNone) return b;
   if (b == kNone) return a;
-  std::uint32_t root = kNone, parent = kNone;
+  ArcId root = kNone, parent = kNone;
   while (a != kNone && b != kNone) {
     if (key(b, d) < key(a, d)) std::swap(a, b);
     if (parent == kNone)
@@ -53,22 +54,22 @@ std::uint32_t WorkingGraph::meld(std::uint32_t a, std::uint32_t b, Direction d) 
     parent = a;
     a = std::exchange(links.child[1], links.child[0]);
   }
-  const std::uint32_t rest = a != kNone ? a : b;
+  const ArcId rest = a != kNone ? a : b;
   arcs_[parent].heap[d].child[0] = rest;
   arcs_[rest].heap[d].parent = parent;
   return root;
 }
 
-void WorkingGraph::insert(std::uint32_t arc, Direction d) {
+void WorkingGraph::insert(ArcId arc, Direction d) {
   arcs_[arc].heap[d] = {};
-  std::uint32_t& top = top_[arcs_[arc].end[opposite(d)]][d];
+  ArcId& top = top_[arcs_[arc].end[opposite(d)]][d];
   top = meld(top, arc, d);
   arcs_[top].heap[d].parent = kNone;
 }
 
-void WorkingGraph::erase(std::uint32_t arc, Direction d) {
+void WorkingGraph::erase(ArcId arc, Direction d) {
   const HeapLinks links = arcs_[arc].heap[d];
-  const std::uint32_t rest = meld(links.child[0], links.child[1], d);
+  const ArcId rest = meld(links.child[0], links.child[1], d);
   if (rest != kNone) arcs_[rest].heap[d].parent = links.parent;
   if (links.parent == kNone) {
     top_[arcs_[arc].end[opposite(d)]][d] = rest;

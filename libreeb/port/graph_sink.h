@@ -1,4 +1,4 @@
-// Port: where finished pieces of the Reeb graph go (DESIGN.md 4, Spilling).
+// Port: where finished pieces of the Reeb graph go (docs/ARCHITECTURE.md, A triangle's way through).
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Port: how a mesh of any format reaches the engine, batch by batch (DESIGN.md 1.1).
+// Port: how a mesh of any format reaches the engine, batch by batch (docs/SEMANTICS.md, Input).
 //
 // A reader delivers the events of one mesh in stream order, grouped into batches: structures of
 // arrays of vertices, simplices and finalizations. Within a batch all vertices come first, then

@@ -1,4 +1,4 @@
-// Port: where the arc records of a hierarchy go as they end (DESIGN.md 6).
+// Port: where the arc records of a hierarchy go as they end (docs/SEMANTICS.md, Levels).
 #pragma once
 
 #include <cstddef>

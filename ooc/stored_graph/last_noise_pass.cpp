@@ -298,7 +298,7 @@ class Pass {
     memory_.try_resize(held_ + bytes / 2);  // most is free again
     make_room_in_patch(denoised.graph.arc_count(), buckets);
     for (std::size_t arc = 0; arc < denoised.graph.arc_count() && result_.fits; ++arc)
-      add_to_patch({keys_of(denoised.graph, arc), former_nodes[former_hi[denoised.former[arc]].value()]},
+      add_to_patch({keys_of(denoised.graph, arc), former_nodes[former_hi[denoised.former[arc].value()].value()]},
                    exponent_ ? buckets.of(arc) : std::span<const std::byte>());
     add_gone(scope, denoised.graph.nodes);
   }

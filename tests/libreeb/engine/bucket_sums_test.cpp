@@ -1,5 +1,5 @@
 // Bucket sums against plain ones: exact, so that no order of adding shows; and lists of buckets
-// against maps (DESIGN.md 5).
+// against maps (docs/SEMANTICS.md, Buckets).
 #include "libreeb/engine/bucket_sums.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // The embedding against its definition: every vertex in the bucket of its value on the arc on
-// which it lies; nothing lost and nothing counted twice, whatever the stream (DESIGN.md 1.8, 5).
+// which it lies; nothing lost and nothing counted twice, whatever the stream (docs/SEMANTICS.md, Conservation).
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,5 +1,5 @@
 // On-line noise removal against the definition: what is removed on the way and in the last pass
-// together is what is removed from the exact graph, whatever the stream (DESIGN.md 1.6).
+// together is what is removed from the exact graph, whatever the stream (docs/SEMANTICS.md, Noise removal).
 #include <gtest/gtest.h>
 
 #include <cmath>

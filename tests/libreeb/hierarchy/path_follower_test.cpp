@@ -9,7 +9,7 @@
 namespace reeb::test {
 namespace {
 
-constexpr std::uint32_t kNone = WorkingGraph::kNone;
+constexpr ArcId kNone = WorkingGraph::kNone;
 constexpr std::uint32_t kNodes = 2000, kSpare = 100;
 
 // A path through every second node, arcs beside it, shorter paths into it through the nodes between, and
@@ -39,8 +39,8 @@ class Fixture {
   void change() {
     const std::uint64_t kind = random_.below(5);
     if (kind == 4) {  // to the next path and back
-      const std::uint32_t from = node();
-      move(graph_.nearest(from, kUp), kUp, from + 1 + static_cast<std::uint32_t>(random_.below(4)));
+      const NodeId from = node();
+      move(graph_.nearest(from, kUp), kUp, NodeId(from.value() + 1 + below(4)));
     }
     if (kind == 0) contract(node());
     if (kind == 1) put_between(node());
@@ -50,60 +50,63 @@ class Fixture {
 
   void expect_same_way() {
     const Direction d = random_.chance(50) ? kUp : kDown;
-    const std::uint32_t from = node(), limit = node();
+    const NodeId from = node(), limit = node();
     if (graph_.nearest(from, kUp) == kNone && graph_.nearest(from, kDown) == kNone) return;
-    const auto passes = [&](std::uint32_t node) { return along(d, node) <= along(d, limit); };
-    std::uint32_t expected = from;
-    for (std::uint32_t arc = graph_.nearest(from, d); arc != kNone && passes(graph_.end(arc, d));
+    const auto passes = [&](NodeId node) { return along(d, node) <= along(d, limit); };
+    NodeId expected = from;
+    for (ArcId arc = graph_.nearest(from, d); arc != kNone && passes(graph_.end(arc, d));
          arc = graph_.nearest(expected, d))
       expected = graph_.end(arc, d), ++steps_;
-    ASSERT_EQ(follower_.follow(from, d, [&](std::uint32_t to) { return ++looks_, passes(to); }), expected);
+    ASSERT_EQ(follower_.follow(from, d, [&](NodeId to) { return ++looks_, passes(to); }), expected);
   }
   std::size_t steps() const { return steps_; }
   std::size_t looks() const { return looks_; }
 
  private:
-  std::uint32_t node() { return 2 + static_cast<std::uint32_t>(random_.below(kNodes - 8)); }
-  std::uint32_t arc() { return kSpare + static_cast<std::uint32_t>(random_.below(graph_.arc_count() - kSpare)); }
+  NodeId node() { return NodeId(2 + below(kNodes - 8)); }
+  ArcId arc() { return ArcId(kSpare + below(graph_.end_arc().value() - kSpare)); }
+  std::uint32_t below(std::uint32_t limit) { return static_cast<std::uint32_t>(random_.below(limit)); }
 
-  void note_ends(std::uint32_t arc) {
+  void note_ends(ArcId arc) {
     follower_.note(graph_.end(arc, kDown), kUp);
     follower_.note(graph_.end(arc, kUp), kDown);
   }
-  void remove(std::uint32_t arc) {
+  void remove(ArcId arc) {
     if (!graph_.alive(arc)) return;
     note_ends(arc);
     graph_.remove(arc);
   }
-  void move(std::uint32_t arc, Direction d, std::uint32_t node) {
+  void move(ArcId arc, Direction d, NodeId node) {
     if (arc == kNone || !graph_.alive(arc) || along(d, graph_.end(arc, opposite(d))) >= along(d, node)) return;
     note_ends(arc);
     graph_.move_end(arc, d, node);
     note_ends(arc);
   }
-  void contract(std::uint32_t node) {
+  void contract(NodeId node) {
     if (!graph_.is_regular(node)) return;
-    const std::uint32_t lower = graph_.nearest(node, kDown), upper = graph_.nearest(node, kUp);
-    const std::uint32_t end = graph_.end(upper, kUp);
+    const ArcId lower = graph_.nearest(node, kDown), upper = graph_.nearest(node, kUp);
+    const NodeId end = graph_.end(upper, kUp);
     remove(upper);
     move(lower, kUp, end);
   }
   // A node without arcs comes into the nearest arc from below it.
-  void put_between(std::uint32_t node) {
-    const std::uint32_t below = node - 1;
-    const std::uint32_t arc = graph_.nearest(below, kUp);
-    if (spare_ == kSpare || arc == kNone || graph_.end(arc, kUp) <= node || graph_.nearest(node, kUp) != kNone) return;
-    const std::uint32_t end = graph_.end(arc, kUp);
+  void put_between(NodeId node) {
+    const NodeId below(node.value() - 1);
+    const ArcId arc = graph_.nearest(below, kUp);
+    if (spare_ == ArcId(kSpare) || arc == kNone || graph_.end(arc, kUp) <= node || graph_.nearest(node, kUp) != kNone)
+      return;
+    const NodeId end = graph_.end(arc, kUp);
     move(arc, kUp, node);
     move(spare_, kUp, end);
-    move(spare_++, kDown, node);
+    move(spare_, kDown, node);
+    ++spare_;
   }
 
   Random random_;
   const ReebGraph full_;
   WorkingGraph graph_;
   PathFollower follower_;
-  std::uint32_t spare_ = 0;
+  ArcId spare_;
   std::size_t steps_ = 0, looks_ = 0;
 };
 

@@ -1,4 +1,5 @@
-// Noise removal in one chunk: leaves that no other chunk can save (DESIGN.md 1.6, 5).
+// Noise removal in one chunk: leaves that no other chunk can save
+// (docs/SEMANTICS.md, Noise removal).
 //
 // A leaf whose vertex is used in this chunk only is a leaf of the whole graph, with the same
 // saddle, since no path of a shared edge runs on its arc; and a path of the chunk's graph is one
@@ -14,7 +15,7 @@
 
 namespace reeb {
 
-class LeafRemoval {
+class ChunkLeafRemoval {
  public:
   // Removes, until nothing changes, extrema with one arc of persistence < noise_below whose saddle
   // has another path in their direction that reaches beyond them; saddles used here only
@@ -31,26 +32,27 @@ class LeafRemoval {
   struct Node {
     std::array<std::uint32_t, 2> degree;
     std::array<std::uint32_t, 2> arcs_xor;
-    std::array<std::uint32_t, 2> reach;  // the farthest node on monotone paths
-    std::array<std::uint32_t, 2> via;    // the first arc on the way there
+    std::array<SweepNode, 2> reach;  // the farthest node on monotone paths
+    std::array<SweepArc, 2> via;     // the first arc on the way there
   };
 
   void find_candidates();
   void choose_whole_nodes();
   void prepare();
-  void extend_reach(std::uint32_t node, Direction d, std::uint32_t arc);
-  void try_leaf(std::uint32_t leaf, Direction d);
-  void settle(std::uint32_t saddle);
-  void contract(std::uint32_t node);
-  void move_buckets(std::uint32_t leaf, std::uint32_t arc, Direction d);
-  void attach(std::uint32_t node, Direction d, std::uint32_t arc);
-  void detach(std::uint32_t node, Direction d, std::uint32_t arc);
-  bool is_used_here_only(std::uint32_t node) const;
-  bool is_noise(std::uint32_t arc) const { return graph_->length(graph_->arcs[arc]) < noise_below_; }
+  void extend_reach(SweepNode node, Direction d, SweepArc arc);
+  void try_leaf(SweepNode leaf, Direction d);
+  void settle(SweepNode saddle);
+  void contract(SweepNode node);
+  void move_buckets(SweepNode leaf, SweepArc arc, Direction d);
+  void attach(SweepNode node, Direction d, SweepArc arc);
+  void detach(SweepNode node, Direction d, SweepArc arc);
+  bool is_used_here_only(SweepNode node) const;
+  bool is_noise(SweepArc arc) const { return graph_->length(graph_->arcs[arc]) < noise_below_; }
   bool embeds() const { return !graph_->arc_buckets.empty(); }
-  double value(std::uint32_t node) const { return graph_->nodes[node].key.value; }
-  Point position(std::uint32_t node) const { return swept_->position(graph_->nodes[node].vertex); }
-  bool is_leaf(std::uint32_t node, Direction d) const {
+  double value(SweepNode node) const { return graph_->nodes[node].key.value; }
+  Point position(SweepNode node) const { return swept_->position(graph_->nodes[node].vertex); }
+  SweepArc only_arc(SweepNode node, Direction d) const { return SweepArc(nodes_[node].arcs_xor[d]); }
+  bool is_leaf(SweepNode node, Direction d) const {
     return nodes_[node].degree[d] == 0 && nodes_[node].degree[opposite(d)] == 1;
   }
 
@@ -58,11 +60,11 @@ class LeafRemoval {
   const SweptChunk* swept_ = nullptr;
   double noise_below_ = 0;
   std::size_t removed_ = 0;
-  std::vector<Node> nodes_;
-  std::vector<std::uint8_t> whole_;  // by node: whether it knows all its arcs; nothing is done at others
-  std::vector<std::uint32_t> arcs_;  // of candidates; then all that whole nodes have, ascending
+  IdVector<SweepNode, Node> nodes_;
+  IdVector<SweepNode, std::uint8_t> whole_;  // by node: whether it knows all its arcs; nothing is done at others
+  std::vector<SweepArc> arcs_;               // of candidates; then all that whole nodes have, ascending
   std::vector<PathBuckets> path_;
-  std::vector<std::uint32_t> candidates_;  // nodes that may be leaves to be looked at
+  std::vector<SweepNode> candidates_;  // nodes that may be leaves to be looked at
 };
 
 }  // namespace reeb

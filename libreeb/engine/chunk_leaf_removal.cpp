@@ -1,10 +1,10 @@
-#include "libreeb/engine/leaf_removal.h"
+#include "libreeb/engine/chunk_leaf_removal.h"
 
 #include <algorithm>
 
 namespace reeb {
 
-std::size_t LeafRemoval::run(SweepGraph& graph, const SweptChunk& swept, double noise_below) {
+std::size_t ChunkLeafRemoval::run(SweepGraph& graph, const SweptChunk& swept, double noise_below) {
   graph_ = &graph;
   swept_ = &swept;
   noise_below_ = noise_below;
@@ -14,7 +14,7 @@ std::size_t LeafRemoval::run(SweepGraph& graph, const SweptChunk& swept, double 
   choose_whole_nodes();
   prepare();
   while (!candidates_.empty()) {
-    const std::uint32_t node = candidates_.back();
+    const SweepNode node = candidates_.back();
     candidates_.pop_back();
     if (whole_[node] == 0 || !is_used_here_only(node)) continue;
     for (const Direction d : {kDown, kUp})
@@ -23,13 +23,13 @@ std::size_t LeafRemoval::run(SweepGraph& graph, const SweptChunk& swept, double 
   return removed_;
 }
 
-std::size_t LeafRemoval::memory_bytes() const {
+std::size_t ChunkLeafRemoval::memory_bytes() const {
   return nodes_.capacity() * sizeof(Node) + path_.capacity() * sizeof(PathBuckets) + whole_.capacity() +
          4 * (arcs_.capacity() + candidates_.capacity());
 }
 
 // Every removal begins with a leaf that is one from the start.
-void LeafRemoval::find_candidates() {
+void ChunkLeafRemoval::find_candidates() {
   candidates_.clear();
   arcs_.clear();
   for (const auto& [node, arc] : graph_->leaves) {
@@ -40,61 +40,61 @@ void LeafRemoval::find_candidates() {
 }
 
 // All of them, or leaves and their saddles.
-void LeafRemoval::choose_whole_nodes() {
-  constexpr std::size_t kMany = 32;
-  const bool all = candidates_.size() * kMany >= graph_->nodes.size();
+void ChunkLeafRemoval::choose_whole_nodes() {
+  constexpr std::size_t kNodesALeaf = 32;  // with more, looking at all nodes does not pay
+  const bool all = candidates_.size() * kNodesALeaf >= graph_->nodes.size();
   whole_.assign(graph_->nodes.size(), all ? 1 : 0);
   if (all) return;
-  for (const std::uint32_t a : arcs_) whole_[graph_->arcs[a].lo] = whole_[graph_->arcs[a].hi] = 1;
+  for (const SweepArc a : arcs_) whole_[graph_->arcs[a].lo] = whole_[graph_->arcs[a].hi] = 1;
 }
 
 // A leaf is only removed where its saddle reaches beyond it, and joining arcs moves no path: no
 // step ever changes the reaches that are found here.
-void LeafRemoval::prepare() {
-  const std::vector<SweepGraph::Arc>& arcs = graph_->arcs;
+void ChunkLeafRemoval::prepare() {
+  const auto& arcs = graph_->arcs;
   nodes_.resize(graph_->nodes.size());
   arcs_.clear();
-  for (std::uint32_t a = 0; a < arcs.size(); ++a) {
+  for (SweepArc a; a < arcs.end_id(); ++a) {
     if ((whole_[arcs[a].lo] | whole_[arcs[a].hi]) == 0) continue;
     arcs_.push_back(a);
-    for (const std::uint32_t n : {arcs[a].lo, arcs[a].hi}) nodes_[n] = {{0, 0}, {0, 0}, {n, n}, {}};
+    for (const SweepNode n : {arcs[a].lo, arcs[a].hi}) nodes_[n] = {{0, 0}, {0, 0}, {n, n}, {}};
   }
-  for (const std::uint32_t a : arcs_) {
+  for (const SweepArc a : arcs_) {
     attach(arcs[a].lo, kUp, a);
     attach(arcs[a].hi, kDown, a);
   }
   // All that lies below an arc comes before it, all above after.
-  for (const std::uint32_t a : arcs_) extend_reach(arcs[a].hi, kDown, a);
+  for (const SweepArc a : arcs_) extend_reach(arcs[a].hi, kDown, a);
   for (auto a = arcs_.rbegin(); a != arcs_.rend(); ++a) extend_reach(arcs[*a].lo, kUp, *a);
 }
 
-void LeafRemoval::extend_reach(std::uint32_t node, Direction d, std::uint32_t arc) {
-  const std::uint32_t reach = nodes_[graph_->arcs[arc].end(d)].reach[d];
+void ChunkLeafRemoval::extend_reach(SweepNode node, Direction d, SweepArc arc) {
+  const SweepNode reach = nodes_[graph_->arcs[arc].end(d)].reach[d];
   if (along(d, reach) <= along(d, nodes_[node].reach[d])) return;
   nodes_[node].reach[d] = reach;
   nodes_[node].via[d] = arc;
 }
 
-void LeafRemoval::try_leaf(std::uint32_t leaf, Direction d) {
-  const std::uint32_t arc = nodes_[leaf].arcs_xor[opposite(d)];
-  const std::uint32_t saddle = graph_->arcs[arc].end(opposite(d));
+void ChunkLeafRemoval::try_leaf(SweepNode leaf, Direction d) {
+  const SweepArc arc = only_arc(leaf, opposite(d));
+  const SweepNode saddle = graph_->arcs[arc].end(opposite(d));
   if (whole_[saddle] == 0 || along(d, nodes_[saddle].reach[d]) <= along(d, leaf) || !is_noise(arc)) return;
   ++removed_;
   if (embeds()) move_buckets(leaf, arc, d);
   detach(leaf, opposite(d), arc);
   detach(saddle, d, arc);
-  graph_->arcs[arc].lo = SweepGraph::kNone;
+  graph_->arcs[arc].lo = SweepNode::none();
   graph_->nodes[leaf].gone = true;
   settle(saddle);
 }
 
 // The path is that to where the saddle reaches farthest.
-void LeafRemoval::move_buckets(std::uint32_t leaf, std::uint32_t arc, Direction d) {
+void ChunkLeafRemoval::move_buckets(SweepNode leaf, SweepArc arc, Direction d) {
   path_.clear();
-  std::uint32_t node = graph_->arcs[arc].end(opposite(d));
+  SweepNode node = graph_->arcs[arc].end(opposite(d));
   const double saddle_value = value(node);
   while (along(d, node) < along(d, leaf)) {
-    const std::uint32_t step = nodes_[node].via[d];
+    const SweepArc step = nodes_[node].via[d];
     node = graph_->arcs[step].end(d);
     path_.push_back({&graph_->arc_buckets[step], value(node)});
   }
@@ -105,7 +105,7 @@ void LeafRemoval::move_buckets(std::uint32_t leaf, std::uint32_t arc, Direction 
 
 // A saddle that lost an arc may disappear, which gives leaves beyond it another saddle, or become
 // a leaf itself.
-void LeafRemoval::settle(std::uint32_t saddle) {
+void ChunkLeafRemoval::settle(SweepNode saddle) {
   if (nodes_[saddle].degree != std::array{1u, 1u}) {
     candidates_.push_back(saddle);
     return;
@@ -114,9 +114,9 @@ void LeafRemoval::settle(std::uint32_t saddle) {
 }
 
 // The lower arc is what both become: paths come to it from below, by a branch of the node there.
-void LeafRemoval::contract(std::uint32_t node) {
-  const std::uint32_t lower = nodes_[node].arcs_xor[kDown], upper = nodes_[node].arcs_xor[kUp];
-  const std::uint32_t top = graph_->arcs[upper].hi;
+void ChunkLeafRemoval::contract(SweepNode node) {
+  const SweepArc lower = only_arc(node, kDown), upper = only_arc(node, kUp);
+  const SweepNode top = graph_->arcs[upper].hi;
   if (embeds()) {
     graph_->buckets.concatenate(graph_->arc_buckets[lower], value(node), position(node), graph_->arc_buckets[upper]);
   }
@@ -125,23 +125,23 @@ void LeafRemoval::contract(std::uint32_t node) {
   detach(top, kDown, upper);
   attach(top, kDown, lower);
   graph_->arcs[lower].hi = top;
-  graph_->arcs[upper].lo = SweepGraph::kNone;
+  graph_->arcs[upper].lo = SweepNode::none();
   graph_->nodes[node].gone = true;
   candidates_.push_back(graph_->arcs[lower].lo);
   candidates_.push_back(top);
 }
 
-void LeafRemoval::attach(std::uint32_t node, Direction d, std::uint32_t arc) {
+void ChunkLeafRemoval::attach(SweepNode node, Direction d, SweepArc arc) {
   ++nodes_[node].degree[d];
-  nodes_[node].arcs_xor[d] ^= arc;
+  nodes_[node].arcs_xor[d] ^= arc.value();
 }
 
-void LeafRemoval::detach(std::uint32_t node, Direction d, std::uint32_t arc) {
+void ChunkLeafRemoval::detach(SweepNode node, Direction d, SweepArc arc) {
   --nodes_[node].degree[d];
-  nodes_[node].arcs_xor[d] ^= arc;
+  nodes_[node].arcs_xor[d] ^= arc.value();
 }
 
-bool LeafRemoval::is_used_here_only(std::uint32_t node) const {
+bool ChunkLeafRemoval::is_used_here_only(SweepNode node) const {
   return swept_->uses(graph_->nodes[node].vertex) == kUsedHereOnly;
 }
 

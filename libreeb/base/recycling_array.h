@@ -1,0 +1,56 @@
+// An array whose elements come and go, each named by its place. A place that was freed is used again, the
+// last one first; the list of free places runs through the free elements.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+
+#include "libreeb/base/growing_array.h"
+#include "libreeb/base/state_stream.h"
+
+namespace reeb {
+
+// T has a member function next_free() that returns a std::uint32_t&, which a free element does not need.
+template <class T>
+class RecyclingArray {
+ public:
+  T& operator[](std::size_t i) { return elements_[i]; }
+  const T& operator[](std::size_t i) const { return elements_[i]; }
+  std::size_t size() const { return elements_.size(); }  // places, free ones too
+  std::size_t used() const { return elements_.size() - free_; }
+  std::size_t memory_bytes() const { return elements_.memory_bytes(); }
+
+  // A place whose element the caller sets.
+  std::uint32_t take() {
+    const std::uint32_t place = first_free_;
+    if (place == kNone) {
+      elements_.grow_by(1);
+      return static_cast<std::uint32_t>(elements_.size() - 1);
+    }
+    first_free_ = elements_[place].next_free();
+    --free_;
+    return place;
+  }
+  void free(std::uint32_t place) {
+    elements_[place].next_free() = std::exchange(first_free_, place);
+    ++free_;
+  }
+
+  // In three parts, which the owner puts where it likes.
+  void save(StateWriter& out) const { elements_.save(out); }
+  void save_first_free(StateWriter& out) const { out.put(first_free_); }
+  void save_free_count(StateWriter& out) const { out.put(std::uint64_t{free_}); }
+  void restore(StateReader& in) { elements_.restore(in); }
+  void restore_first_free(StateReader& in) { in.get(first_free_); }
+  void restore_free_count(StateReader& in) { free_ = static_cast<std::size_t>(in.get<std::uint64_t>()); }
+
+ private:
+  static constexpr std::uint32_t kNone = ~std::uint32_t{0};
+
+  GrowingArray<T> elements_;
+  std::uint32_t first_free_ = kNone;
+  std::size_t free_ = 0;
+};
+
+}  // namespace reeb

@@ -1,0 +1,37 @@
+// Divides the graph of a sweep into what the rest of the mesh can still change and what it cannot:
+// a fragment's open nodes and arcs, and its settled ones.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "libreeb/engine/fragment.h"
+#include "libreeb/engine/sweep_graph.h"
+#include "libreeb/engine/sweep_options.h"
+
+namespace reeb {
+
+class FragmentDivision {
+ public:
+  // Adds the nodes and arcs of `graph` to `fragment`, with their embedding, which leaves the graph.
+  // Nodes and arcs of the graph then know what they are in the fragment.
+  // REQUIRES: arcs know whether a path runs on them.
+  void run(SweepGraph& graph, const SweptChunk& swept, const SweepOptions& options, Fragment& fragment);
+  std::size_t memory_bytes() const {
+    return 4 * (node_at_.capacity() + open_arcs_.capacity() + arc_at_.capacity() + arcs_from_.capacity());
+  }
+
+ private:
+  void divide_arcs(SweepGraph& graph, bool embeds, Fragment& fragment);
+  void add_nodes(SweepGraph& graph, const SweptChunk& swept, Fragment& fragment);
+  void add_arcs(SweepGraph& graph, Fragment& fragment);
+  void add_buckets(SweepGraph& graph, Fragment& fragment);
+
+  std::vector<SweepArc> open_arcs_;
+  IdVector<LocalVertex, SweepNode> node_at_;  // none() if it is no open node
+  IdVector<FragmentArc, SweepArc> arc_at_;
+  std::vector<std::uint32_t> arcs_from_;  // by open node: where its arcs up are numbered from
+};
+
+}  // namespace reeb

@@ -1,0 +1,79 @@
+// The shared edges that a sweep finds, and the path of each through the graph that it takes down.
+//
+// A path is not traced along the way: above a node with one arc up it is implied, and at a split
+// only the edges on relabelled sides are noted; all others follow the main branch.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "libreeb/engine/sweep_graph.h"
+
+namespace reeb {
+
+class SharedEdges {
+ public:
+  struct Edge {
+    SweepNode lo;
+    VertexRank hi;
+    SweepArc first_arc;
+    std::uint32_t place;  // of its last triangle, in the chunk's stream
+    std::uint32_t first_note, last_note;
+  };
+
+  // Forgets all edges; keeps the memory.
+  void start(std::size_t vertices);
+  // The sweep arrives at v; to be called for 0, 1, 2, ...
+  void reach(VertexRank v) { begin_[v] = static_cast<std::uint32_t>(edges_.size()); }
+
+  // An edge from the vertex that was reached last up to `hi`, whose path starts with `arc`.
+  void add(SweepNode lower_node, VertexRank hi, SweepArc arc, std::uint32_t place) {
+    edges_.push_back({lower_node, hi, arc, place, kNone, kNone});
+  }
+  // No more of them for v.
+  void finish_vertex(VertexRank v);
+  // If lo-hi is a shared edge, its path goes up from `node` by `arc`.
+  void note_branch(VertexRank lo, VertexRank hi, SweepNode node, SweepArc arc);
+
+  std::uint32_t size() const { return static_cast<std::uint32_t>(edges_.size()); }
+  const Edge& operator[](std::uint32_t e) const { return edges_[e]; }
+
+  // Calls visit(arc) for the path of an edge, from below.
+  template <class Visit>
+  void trace(const Edge& edge, const SweepGraph& graph, const Visit& visit) const;
+
+  std::size_t memory_bytes() const {
+    return edges_.capacity() * sizeof(Edge) + notes_.capacity() * sizeof(Note) + 4 * begin_.capacity();
+  }
+
+ private:
+  static constexpr std::uint32_t kNone = ~std::uint32_t{0};
+
+  // A branch that the path of an edge takes, and the edge's next note.
+  struct Note {
+    SweepNode node;
+    SweepArc arc;
+    std::uint32_t next;
+  };
+
+  std::vector<Edge> edges_;                    // of one vertex after the other, each time sorted by hi
+  IdVector<VertexRank, std::uint32_t> begin_;  // those of vertex v are begin_[v] .. begin_[v + 1]
+  std::vector<Note> notes_;
+};
+
+template <class Visit>
+void SharedEdges::trace(const Edge& edge, const SweepGraph& graph, const Visit& visit) const {
+  std::uint32_t note = edge.first_note;
+  for (SweepArc arc = edge.first_arc;;) {
+    visit(arc);
+    const SweepNode node = graph.arcs[arc].hi;
+    if (graph.nodes[node].vertex == edge.hi) break;
+    while (note != kNone && graph.nodes[notes_[note].node].gone) note = notes_[note].next;
+    const bool noted = note != kNone && notes_[note].node == node;
+    arc = noted ? notes_[note].arc : graph.nodes[node].main_branch;
+    if (noted) note = notes_[note].next;
+  }
+}
+
+}  // namespace reeb
