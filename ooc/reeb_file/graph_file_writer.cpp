@@ -79,11 +79,13 @@ void GraphFileWriter::rank_by_search(std::span<const ArcKeys> arcs) {
     lo_rank_ = keys_->rank(arcs[i].lo, lo_rank_);
     ranked_[i] = {lo_rank_, 0, 0, kNeverDies};
   }
-  std::uint64_t hi_rank = 0;
-  for (std::size_t k = 0; k < by_hi_.size(); ++k) {
-    constexpr std::size_t kLookups = 64;  // each may map sixteen pages that none before did
-    if (k % kLookups == 0) keys_->release_pages();
-    ranked_[by_hi_[k]].hi = hi_rank = keys_->rank(arcs[by_hi_[k]].hi, hi_rank);
+  // The system maps as much as a window around each page that is touched, which no other lookup may need.
+  constexpr std::uint64_t kWindowKeys = (64 << 10) / sizeof(SweepKey), kWindows = 16;
+  std::uint64_t hi_rank = 0, windows = 0;
+  for (const std::uint32_t arc : by_hi_) {
+    const std::uint64_t rank = keys_->rank(arcs[arc].hi, hi_rank);
+    if (rank / kWindowKeys != hi_rank / kWindowKeys && ++windows % kWindows == 0) keys_->release_pages();
+    ranked_[arc].hi = hi_rank = rank;
   }
   keys_->release_pages();
 }
