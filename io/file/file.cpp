@@ -96,7 +96,9 @@ File File::open_for_update(const std::string& path) {
 }
 
 File File::create(const std::string& path) {
-  ::unlink(path.c_str());
+  // Only a file is removed; a device or a link fails below.
+  struct stat status {};
+  if (::lstat(path.c_str(), &status) == 0 && S_ISREG(status.st_mode)) ::unlink(path.c_str());
   const int descriptor = system::open(path, O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW, 0600);
   if (descriptor < 0)
     throw Error(ErrorKind::kResource, std::string("cannot be created: ") + std::strerror(errno),

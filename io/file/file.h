@@ -61,7 +61,8 @@ class File {
   static File open_for_reading(const std::string& path);
   // A file that this program made. THROWS: Error{kBadInput} if it cannot be opened, or is a link.
   static File open_for_update(const std::string& path);
-  // A new file of this program, for this user only; what had its name before is removed.
+  // A new file of this program, for this user only. A file that had its name before is removed; anything else is left
+  // alone. THROWS: Error{kResource}.
   static File create(const std::string& path);
 
   bool is_open() const { return descriptor_ >= 0; }

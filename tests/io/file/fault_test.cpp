@@ -3,6 +3,7 @@
 #include "io/file/fault.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <cerrno>
 #include <filesystem>
@@ -120,6 +121,21 @@ TEST(Fault, AFullDiskIsSaidInTheWordsOfTheSystem) {
     EXPECT_NE(error.message().find("No space left"), std::string::npos);
     EXPECT_NE(error.hint().find("make room"), std::string::npos);
   }
+}
+
+TEST(File, CreateReplacesFilesOnly) {
+  const Scratch scratch;
+  const std::string path = scratch.path() + "/a", link = scratch.path() + "/link";
+  std::ofstream(path) << "old";
+  EXPECT_EQ(File::create(path).size(), 0u);
+  fs::create_symlink(path, link);
+  std::ofstream(path) << "mine";
+  EXPECT_THROW(File::create(link), Error);
+  EXPECT_EQ(content(path), "mine");
+  fs::remove(link);
+  ASSERT_EQ(::mkfifo(link.c_str(), 0600), 0);
+  EXPECT_THROW(File::create(link), Error);
+  EXPECT_TRUE(fs::is_fifo(link));
 }
 
 TEST(File, AnInputThatEndsEarlyIsABadInput) {
