@@ -5,28 +5,25 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <string_view>
 #include <system_error>
 #include <utility>
+#include <vector>
 
-#include "io/file/file.h"
+#include "io/file/system.h"
+#include "io/file/temp_dir.h"
 #include "libreeb/base/error.h"
 
 namespace reeb::io {
 namespace {
 
 namespace fs = std::filesystem;
-using Traits = std::char_traits<char>;
-
-constexpr std::size_t kTextBufferBytes = 1 << 16;
-
-bool is_folder(const std::string& path) {
-  struct stat status {};
-  return ::stat(path.c_str(), &status) == 0 && S_ISDIR(status.st_mode);
-}
 
 // PATH.partial-PID-N
 constexpr const char* kSuffix = ".partial-";
@@ -39,17 +36,55 @@ bool is_number_pair(std::string_view text) {
   return dash != std::string_view::npos && is_number(text.substr(0, dash)) && is_number(text.substr(dash + 1));
 }
 
+[[noreturn]] void throw_name_is_taken(const std::string& path) {
+  throw Error(ErrorKind::kBadInput, "the output exists already",
+              "choose another name, or allow replacing it with --force")
+      .at(path);
+}
+
+// Where the links lead that `path` may be. There need not be a file yet.
+std::string follow_links(const std::string& path) {
+  constexpr int kMostLinks = 40;  // as the system follows
+  fs::path place = path;
+  std::error_code ignored;
+  for (int i = 0; i < kMostLinks; ++i) {
+    if (!fs::is_symlink(fs::symlink_status(place, ignored))) return place.string();
+    const fs::path target = fs::read_symlink(place, ignored);
+    place = target.is_absolute() ? target : place.parent_path() / target;
+  }
+  throw Error(ErrorKind::kBadInput, "the output is a symbolic link that leads to itself", "name a file").at(path);
+}
+
+// What the umask leaves of 0666. The system tells the umask only to who sets it, which would show in other threads, so
+// that its own list is asked first.
+mode_t usual_mode() {
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);)
+    if (line.starts_with("Umask:")) return 0666 & ~static_cast<mode_t>(std::strtoul(line.c_str() + 6, nullptr, 8));
+  const mode_t mask = ::umask(077);
+  ::umask(mask);
+  return 0666 & ~mask;
+}
+
+bool has_name(int descriptor) {
+  struct stat status {};
+  return ::fstat(descriptor, &status) == 0 && status.st_nlink > 0;
+}
+
 }  // namespace
 
-std::string folder_of(const std::string& path) {
-  const auto slash = path.find_last_of('/');
-  if (slash == std::string::npos) return ".";
-  return slash == 0 ? "/" : path.substr(0, slash);
+void check_output_name(const std::string& path, Existing existing) {
+  std::error_code ignored;
+  const fs::file_status status = fs::status(path.empty() ? path : follow_links(path), ignored);
+  if (path.empty() || fs::is_directory(status))
+    throw Error(ErrorKind::kBadInput, "the output is a folder", "name a file").at(path);
+  if (fs::is_regular_file(status) && existing == Existing::kRefuse) throw_name_is_taken(path);
 }
 
 void require_output_folder(const std::string& path) {
-  const std::string folder = folder_of(path);
-  const int probe = open_unnamed(folder);
+  if (is_device(path)) return;
+  const std::string folder = folder_of(follow_links(path));
+  const int probe = system::open_unnamed(folder);
   if (probe < 0)
     throw Error(ErrorKind::kResource,
                 std::string("the output cannot be written to this folder: ") + std::strerror(errno),
@@ -58,104 +93,87 @@ void require_output_folder(const std::string& path) {
   ::close(probe);
 }
 
-void remove_abandoned(const std::string& path) noexcept {
-  const std::string prefix = fs::path(path).filename().string() + kSuffix;
+void remove_abandoned(const std::string& path) {
+  const std::string target = follow_links(path), prefix = fs::path(target).filename().string() + kSuffix;
   std::error_code error;
-  for (fs::directory_iterator entry(folder_of(path), error), end; !error && entry != end; entry.increment(error)) {
+  for (fs::directory_iterator entry(folder_of(target), error), end; !error && entry != end; entry.increment(error)) {
     const std::string name = entry->path().filename().string();
     if (!name.starts_with(prefix) || !is_number_pair(std::string_view(name).substr(prefix.size()))) continue;
-    const int file = ::open(entry->path().c_str(), O_RDONLY | O_CLOEXEC);
+    const int file = system::open(entry->path().string(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK);
     if (file < 0) continue;
     if (::flock(file, LOCK_EX | LOCK_NB) == 0) ::unlink(entry->path().c_str());
     ::close(file);
   }
 }
 
-AtomicFile::AtomicFile(std::string path) : path_(std::move(path)) {
-  if (is_folder(path_)) {
-    errno = EISDIR;
-    fail("cannot be written");
+AtomicFile::AtomicFile(const std::string& path, const AtomicOptions& options) : path_(path), options_(options) {
+  check_output_name(path_, options_.existing);
+  if (is_device(path_)) {
+    open_device();
+    return;
   }
-  remove_abandoned(path_);
-  for (unsigned attempt = 0; fd_ < 0; ++attempt) {
-    temporary_ = path_ + kSuffix + std::to_string(::getpid()) + "-" + std::to_string(attempt);
-    fd_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (fd_ < 0 && errno != EEXIST) fail("cannot be written");
-  }
-  ::flock(fd_, LOCK_EX | LOCK_NB);  // for remove_abandoned()
+  target_ = follow_links(path_);
+  remove_abandoned(target_);
+  open_temporary();
 }
 
-AtomicFile::~AtomicFile() { discard(); }
-
-void AtomicFile::append(std::span<const std::byte> bytes) {
-  write_fully(size_, bytes);
-  size_ += bytes.size();
+AtomicFile::~AtomicFile() {
+  if (!temporary_.empty()) ::unlink(temporary_.c_str());
 }
 
-void AtomicFile::write_at(std::uint64_t offset, std::span<const std::byte> bytes) { write_fully(offset, bytes); }
+void AtomicFile::open_temporary() {
+  File file;
+  for (unsigned attempt = 0; !file.is_open(); ++attempt) {
+    std::string name = target_ + kSuffix + std::to_string(::getpid()) + "-" + std::to_string(attempt);
+    const int descriptor = system::open(name, O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW, 0600);
+    if (descriptor < 0 && errno == EEXIST) continue;
+    if (descriptor < 0) throw_output_error(errno, path_);
+    file = File(descriptor, path_, File::Use::kOutput);
+    temporary_ = std::move(name);
+    // For remove_abandoned(). One that looked between the two calls has removed the file: then another is made.
+    ::flock(descriptor, LOCK_EX);
+    if (!has_name(descriptor)) file = {};
+  }
+  out_.emplace(std::move(file), options_.buffer_bytes);
+}
+
+void AtomicFile::open_device() {
+  const int descriptor = system::open(path_, O_WRONLY);
+  if (descriptor < 0) throw_output_error(errno, path_);
+  File device(descriptor, path_, File::Use::kOutput);
+  if (options_.overwrites) {
+    collected_ = std::move(device);
+    device = TempDir(TempDir::default_folder(path_)).create_unnamed("output");
+  }
+  out_.emplace(std::move(device), options_.buffer_bytes);
+}
 
 void AtomicFile::commit() {
-  while (::fsync(fd_) != 0)
-    if (errno != EINTR) fail("cannot be written to disk");
-  ::close(std::exchange(fd_, -1));  // all of it is on the device by now
-  if (::rename(temporary_.c_str(), path_.c_str()) != 0) fail("cannot be renamed into place");
+  if (collected_) return copy_to_device();
+  out_->sync();
+  if (!temporary_.empty()) give_name();
+  out_.reset();  // the lock goes last
+}
+
+void AtomicFile::copy_to_device() {
+  out_->flush();
+  BufferedWriter device(std::move(*collected_));
+  device.append_file(*out_);
+  device.sync();
+  out_.reset();
+}
+
+void AtomicFile::give_name() {
+  struct stat old {};
+  const bool replaces = ::stat(target_.c_str(), &old) == 0;
+  // No file system but those without modes refuses this.
+  (void)!::fchmod(out_->file().descriptor(), replaces ? old.st_mode & 0777 : usual_mode());
+  const int error = options_.existing == Existing::kRefuse ? system::rename_to_new(temporary_, target_)
+                                                           : system::rename(temporary_, target_);
+  if (error == EEXIST && options_.existing == Existing::kRefuse) throw_name_is_taken(path_);
+  if (error != 0) throw_output_error(error, path_);
   temporary_.clear();
-  sync_folder(folder_of(path_));
-}
-
-void AtomicFile::write_fully(std::uint64_t offset, std::span<const std::byte> bytes) {
-  while (!bytes.empty()) {
-    const ssize_t written = ::pwrite(fd_, bytes.data(), bytes.size(), static_cast<off_t>(offset));
-    if (written < 0) {
-      if (errno == EINTR) continue;
-      fail("cannot be written");
-    }
-    bytes = bytes.subspan(static_cast<std::size_t>(written));
-    offset += static_cast<std::uint64_t>(written);
-  }
-}
-
-void AtomicFile::fail(const char* action) const {
-  const int code = errno;
-  const bool full = code == ENOSPC || code == EDQUOT || code == EFBIG;
-  throw Error(ErrorKind::kResource, std::string(action) + ": " + std::strerror(code),
-              full ? "make room on the disk, or write to another folder"
-                   : "write to a folder that exists and that you may write to")
-      .at(path_);
-}
-
-void AtomicFile::discard() noexcept {
-  if (fd_ >= 0) ::close(std::exchange(fd_, -1));
-  if (!temporary_.empty()) ::unlink(temporary_.c_str());
-  temporary_.clear();
-}
-
-AtomicOutput::AtomicOutput(std::string path)
-    : std::ostream(nullptr), file_(std::move(path)), buffer_(kTextBufferBytes) {
-  setp(buffer_.data(), buffer_.data() + buffer_.size());
-  rdbuf(this);
-  exceptions(std::ios::badbit);
-}
-
-AtomicOutput::~AtomicOutput() = default;
-
-void AtomicOutput::commit() {
-  sync();
-  file_.commit();
-}
-
-std::streambuf::int_type AtomicOutput::overflow(std::streambuf::int_type c) {
-  sync();
-  if (Traits::eq_int_type(c, Traits::eof())) return Traits::not_eof(c);
-  *pptr() = Traits::to_char_type(c);
-  pbump(1);
-  return c;
-}
-
-int AtomicOutput::sync() {
-  file_.append(std::as_bytes(std::span(pbase(), pptr())));
-  setp(buffer_.data(), buffer_.data() + buffer_.size());
-  return 0;
+  if (const int failed = system::sync_folder(folder_of(target_)); failed != 0) throw_output_error(failed, path_);
 }
 
 }  // namespace reeb::io

@@ -1,53 +1,77 @@
 #include "io/file/file.h"
 
 #include <fcntl.h>
+#include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstdlib>
 #include <cstring>
 #include <utility>
 
+#include "io/file/system.h"
 #include "libreeb/base/error.h"
 #include "libreeb/base/memory_budget.h"
 
 namespace reeb::io {
+namespace {
+
+bool is_full(int error) { return error == ENOSPC || error == EDQUOT || error == EFBIG; }
+
+[[noreturn]] void throw_input_error(const std::string& why, const std::string& path) {
+  throw Error(ErrorKind::kBadInput, "cannot be read: " + why, "name a file that exists and may be read").at(path);
+}
+
+}  // namespace
 
 bool is_regular_file(const std::string& path) {
   struct stat status {};
   return ::stat(path.c_str(), &status) == 0 && S_ISREG(status.st_mode);
 }
 
-int open_unnamed(const std::string& folder) noexcept {
-  const int descriptor = ::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
-  if (descriptor >= 0) return descriptor;
-  // Not every file system has files without a name.
-  std::string name = folder + "/reeb-XXXXXX";
-  const int named = ::mkostemp(name.data(), O_CLOEXEC);
-  if (named >= 0) ::unlink(name.c_str());
-  return named;
+bool is_device(const std::string& path) {
+  struct stat status {};
+  return ::stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode);
 }
 
-void sync_folder(const std::string& folder) noexcept {
-  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (descriptor < 0) return;
-  ::fsync(descriptor);
-  ::close(descriptor);
+std::string folder_of(const std::string& path) {
+  const auto slash = path.find_last_of('/');
+  if (slash == std::string::npos) return ".";
+  return slash == 0 ? "/" : path.substr(0, slash);
 }
 
-File::File(int descriptor, std::string path, std::shared_ptr<const WriteFault> fault)
-    : descriptor_(descriptor), path_(std::move(path)), fault_(std::move(fault)) {}
+void sync_folder(const std::string& folder) {
+  if (const int error = system::sync_folder(folder); error != 0) throw_output_error(error, folder);
+}
+
+Mapping::Mapping(Mapping&& other) noexcept : bytes_(std::exchange(other.bytes_, {})) {}
+
+Mapping& Mapping::operator=(Mapping&& other) noexcept {
+  std::swap(bytes_, other.bytes_);
+  return *this;
+}
+
+Mapping::~Mapping() {
+  if (!bytes_.empty()) ::munmap(const_cast<std::byte*>(bytes_.data()), bytes_.size());
+}
+
+void Mapping::expect_random_access() const noexcept {
+  if (!bytes_.empty()) ::madvise(const_cast<std::byte*>(bytes_.data()), bytes_.size(), MADV_RANDOM);
+}
+
+void Mapping::release_pages() const noexcept {
+  if (!bytes_.empty()) ::madvise(const_cast<std::byte*>(bytes_.data()), bytes_.size(), MADV_DONTNEED);
+}
+
+File::File(int descriptor, std::string path, Use use) : descriptor_(descriptor), path_(std::move(path)), use_(use) {}
 
 File::File(File&& other) noexcept
-    : descriptor_(std::exchange(other.descriptor_, -1)),
-      path_(std::move(other.path_)),
-      fault_(std::move(other.fault_)) {}
+    : descriptor_(std::exchange(other.descriptor_, -1)), path_(std::move(other.path_)), use_(other.use_) {}
 
 File& File::operator=(File&& other) noexcept {
   std::swap(descriptor_, other.descriptor_);
   std::swap(path_, other.path_);
-  std::swap(fault_, other.fault_);
+  std::swap(use_, other.use_);
   return *this;
 }
 
@@ -55,30 +79,32 @@ File::~File() {
   if (descriptor_ >= 0) ::close(descriptor_);
 }
 
-namespace {
-
-File open_existing(const std::string& path, int access) {
-  const int descriptor = ::open(path.c_str(), access | O_CLOEXEC);
-  if (descriptor < 0)
-    throw Error(ErrorKind::kBadInput, std::string("cannot be opened: ") + std::strerror(errno),
-                "check the name and the permissions")
-        .at(path);
-  return {descriptor, path};
+File File::open_for_reading(const std::string& path) {
+  // Asked first: to open a FIFO is to wait for its writer.
+  struct stat status {};
+  if (::stat(path.c_str(), &status) != 0) throw_input_error(std::strerror(errno), path);
+  if (!S_ISREG(status.st_mode)) throw_input_error("not a regular file", path);
+  const int descriptor = system::open(path, O_RDONLY);
+  if (descriptor < 0) throw_input_error(std::strerror(errno), path);
+  return {descriptor, path, Use::kInput};
 }
 
-}  // namespace
-
-File File::open_for_reading(const std::string& path) { return open_existing(path, O_RDONLY); }
-
-File File::open_for_update(const std::string& path) { return open_existing(path, O_RDWR); }
+File File::open_for_update(const std::string& path) {
+  const int descriptor = system::open(path, O_RDWR | O_NOFOLLOW);
+  if (descriptor < 0) throw_input_error(std::strerror(errno), path);
+  return {descriptor, path, Use::kTemporary};
+}
 
 File File::create(const std::string& path) {
-  const int descriptor = ::open(path.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  // Only a file is removed; a device or a link fails below.
+  struct stat status {};
+  if (::lstat(path.c_str(), &status) == 0 && S_ISREG(status.st_mode)) ::unlink(path.c_str());
+  const int descriptor = system::open(path, O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW, 0600);
   if (descriptor < 0)
     throw Error(ErrorKind::kResource, std::string("cannot be created: ") + std::strerror(errno),
                 "choose a folder that exists and can be written")
         .at(path);
-  return {descriptor, path};
+  return {descriptor, path, Use::kTemporary};
 }
 
 std::uint64_t File::size() const {
@@ -88,40 +114,54 @@ std::uint64_t File::size() const {
 }
 
 void File::read_at(std::uint64_t offset, std::span<std::byte> bytes) const {
-  while (!bytes.empty()) {
-    const ssize_t done = ::pread(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(offset));
-    if (done < 0 && errno == EINTR) continue;
-    if (done <= 0) fail("read", done < 0 ? errno : 0, offset, bytes.size());
-    offset += static_cast<std::uint64_t>(done);
-    bytes = bytes.subspan(static_cast<std::size_t>(done));
-  }
+  const auto [done, error] = system::read_at(descriptor_, offset, bytes);
+  if (done != bytes.size()) fail("read", error, offset + done, bytes.size() - done);
 }
 
 void File::write_at(std::uint64_t offset, std::span<const std::byte> bytes) const {
-  if (fault_ != nullptr && *fault_)
-    if (const int error = (*fault_)(offset, bytes.size()); error != 0) fail("write", error, offset, bytes.size());
-  while (!bytes.empty()) {
-    const ssize_t done = ::pwrite(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(offset));
-    if (done < 0 && errno == EINTR) continue;
-    if (done <= 0) fail("write", done < 0 ? errno : ENOSPC, offset, bytes.size());
-    offset += static_cast<std::uint64_t>(done);
-    bytes = bytes.subspan(static_cast<std::size_t>(done));
-  }
+  const auto [done, error] = system::write_at(descriptor_, offset, bytes);
+  if (error != 0) fail("write", error, offset + done, bytes.size() - done);
+}
+
+void File::write_next(std::uint64_t offset, std::span<const std::byte> bytes) const {
+  const auto [done, error] = system::write_next(descriptor_, bytes);
+  if (error != 0) fail("write", error, offset + done, bytes.size() - done);
+}
+
+Mapping File::map(std::uint64_t offset, std::size_t bytes) const {
+  void* const begin = system::map(descriptor_, offset, bytes);
+  if (begin == nullptr)
+    throw Error(ErrorKind::kResource, std::string("cannot be mapped: ") + std::strerror(errno),
+                "check that the file is still there and that memory is left")
+        .at(path_, std::to_string(offset));
+  Mapping mapping;
+  mapping.bytes_ = {static_cast<const std::byte*>(begin), bytes};
+  return mapping;
 }
 
 void File::sync() const {
-  while (::fsync(descriptor_) != 0)
-    if (errno != EINTR) fail("flush", errno, 0, 0);
+  if (const int error = system::sync(descriptor_); error != 0) fail("flush", error, 0, 0);
 }
 
 void File::fail(const char* doing, int error, std::uint64_t offset, std::size_t bytes) const {
-  const bool full = error == ENOSPC || error == EDQUOT || error == EFBIG;
+  if (use_ == Use::kOutput) throw_output_error(error == 0 ? EIO : error, path_, std::to_string(offset));
+  if (use_ == Use::kInput)
+    throw Error(ErrorKind::kBadInput, error == 0 ? "the file ends here" : std::strerror(error),
+                "the file was cut or cannot be read; make it again")
+        .at(path_, std::to_string(offset));
   std::string what = std::string("cannot ") + doing + " " + format_bytes(bytes) + ": ";
   what += error == 0 ? "the file ends before" : std::strerror(error);
-  const std::string hint = full ? "free at least " + format_bytes(offset + bytes) +
-                                      " more on this volume, or choose another with --temp-dir DIR"
-                                : "check the disk, or choose another with --temp-dir DIR";
+  const std::string hint = is_full(error) ? "free at least " + format_bytes(offset + bytes) +
+                                                " more on this volume, or choose another with --temp-dir DIR"
+                                          : "check the disk, or choose another with --temp-dir DIR";
   throw Error(ErrorKind::kResource, what, hint).at(path_, std::to_string(offset));
+}
+
+void throw_output_error(int error, const std::string& path, const std::string& position) {
+  throw Error(ErrorKind::kResource, std::string("cannot be written: ") + std::strerror(error),
+              is_full(error) ? "make room on the disk, or write to another folder"
+                             : "write to a folder that exists and that you may write to")
+      .at(path, position);
 }
 
 }  // namespace reeb::io

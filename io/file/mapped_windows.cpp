@@ -1,24 +1,20 @@
 #include "io/file/mapped_windows.h"
 
 #include <algorithm>
-#include <exception>
-#include <filesystem>
-#include <system_error>
 
 #include "io/file/input_file.h"
 #include "libreeb/base/error.h"
 
 namespace reeb::io {
 
-MappedWindows::MappedWindows(const std::string& path, WindowOptions options) : path_(path), options_(options) {
+MappedWindows::MappedWindows(const std::string& path, WindowOptions options) : options_(options) {
   check_input_file(path);
-  std::error_code failure;
-  if (!std::filesystem::is_regular_file(path, failure))
+  if (!is_regular_file(path))
     throw Error(ErrorKind::kBadInput, "is not a regular file, so it cannot be mapped",
                 "copy it to a regular file first")
         .at(path);
-  size_ = std::filesystem::file_size(path, failure);
-  if (failure) throw Error(ErrorKind::kBadInput, "cannot be read: " + failure.message(), "check the file").at(path);
+  file_ = File::open_for_reading(path);
+  size_ = file_.size();
   if (size_ == 0) throw_empty(path);
   window_mask_ = (std::uint64_t{1} << options_.window_bits) - 1;
   slot_of_.resize((size_ >> options_.window_bits) + 1, kNone);
@@ -41,10 +37,10 @@ std::uint8_t MappedWindows::victim() {
     const auto number = static_cast<std::uint8_t>(hand_);
     Slot& slot = slots_[number];
     hand_ = (hand_ + 1) % slots_.size();
-    if (!slot.map.is_open()) return number;
+    if (slot.map.bytes().empty()) return number;
     if (!slot.recent) {
       slot_of_[slot.window] = kNone;
-      slot.map.close();
+      slot.map = {};
       return number;
     }
     slot.recent = false;
@@ -54,15 +50,8 @@ std::uint8_t MappedWindows::victim() {
 std::uint8_t MappedWindows::map(std::uint64_t window) {
   const std::uint8_t number = victim();
   Slot& slot = slots_[number];
-  try {
-    slot.map.open(path_, mapped_bytes(window),
-                  static_cast<boost::iostreams::stream_offset>(window << options_.window_bits));
-  } catch (const std::exception& failure) {
-    throw Error(ErrorKind::kResource, std::string("cannot be mapped: ") + failure.what(),
-                "check that the file is still there and that memory is left")
-        .at(path_, std::to_string(window << options_.window_bits));
-  }
-  slot.base = slot.map.data();
+  slot.map = file_.map(window << options_.window_bits, mapped_bytes(window));
+  slot.base = reinterpret_cast<const char*>(slot.map.bytes().data());
   slot.window = window;
   slot_of_[window] = number;
   return number;

@@ -11,12 +11,13 @@
 // THREADS: one at a time.
 #pragma once
 
-#include <boost/iostreams/device/mapped_file.hpp>
 #include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "io/file/file.h"
 
 namespace reeb::io {
 
@@ -54,7 +55,7 @@ class MappedWindows {
     const char* base = nullptr;  // of the window
     bool recent = false;
     std::uint64_t window = 0;
-    boost::iostreams::mapped_file_source map;
+    Mapping map;
   };
   static constexpr std::uint8_t kNone = 255;
 
@@ -62,7 +63,7 @@ class MappedWindows {
   std::uint8_t victim();
   std::size_t mapped_bytes(std::uint64_t window) const;
 
-  std::string path_;
+  File file_;
   WindowOptions options_;
   std::uint64_t size_ = 0;
   std::uint64_t window_mask_ = 0;

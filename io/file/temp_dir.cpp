@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "io/file/system.h"
 #include "libreeb/base/error.h"
 
 namespace reeb::io {
@@ -22,25 +23,24 @@ namespace {
 
 }  // namespace
 
-TempDir::TempDir(std::string folder, WriteFault fault)
-    : folder_(folder.empty() ? default_folder("") : std::move(folder)),
-      fault_(fault ? std::make_shared<const WriteFault>(std::move(fault)) : nullptr) {
-  const int probe = open_unnamed(folder_);
+TempDir::TempDir(std::string folder) : folder_(folder.empty() ? default_folder("") : std::move(folder)) {
+  const int probe = system::open_unnamed(folder_);
   if (probe < 0) refuse_folder(folder_, errno);
   ::close(probe);
 }
 
 std::string TempDir::default_folder(const std::string& output_path) {
   if (const char* chosen = std::getenv("TMPDIR"); chosen != nullptr && *chosen != '\0') return chosen;
+  if (is_device(output_path)) return "/tmp";
   const std::string parent = std::filesystem::path(output_path).parent_path().string();
   return parent.empty() ? "." : parent;
 }
 
 File TempDir::create_unnamed(const std::string& role) const {
   const std::string shown = folder_ + "/(temporary " + role + ")";
-  const int descriptor = open_unnamed(folder_);
+  const int descriptor = system::open_unnamed(folder_);
   if (descriptor < 0) refuse_folder(folder_, errno);
-  return {descriptor, shown, fault_};
+  return {descriptor, shown, File::Use::kTemporary};
 }
 
 }  // namespace reeb::io

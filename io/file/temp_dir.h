@@ -1,7 +1,6 @@
-// Where temporary files live: out of sight, and gone on every way out (DESIGN.md 4).
+// Where temporary files live: out of sight, and gone on every way out.
 #pragma once
 
-#include <memory>
 #include <string>
 
 #include "io/file/file.h"
@@ -16,11 +15,11 @@ namespace reeb::io {
 class TempDir {
  public:
   // An empty `folder` means default_folder("").
-  explicit TempDir(std::string folder = {}, WriteFault fault = {});
+  explicit TempDir(std::string folder = {});
   TempDir(const TempDir&) = delete;
   TempDir& operator=(const TempDir&) = delete;
 
-  // $TMPDIR if it is set, else the folder of `output_path` ("." for a bare name).
+  // $TMPDIR if it is set, else the folder of `output_path` ("." for a bare name, /tmp for a device).
   static std::string default_folder(const std::string& output_path);
 
   // A file without a name, open for reading and writing; `role` ("segments") names it in messages.
@@ -30,7 +29,6 @@ class TempDir {
 
  private:
   std::string folder_;
-  std::shared_ptr<const WriteFault> fault_;
 };
 
 }  // namespace reeb::io

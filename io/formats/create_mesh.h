@@ -16,7 +16,7 @@
 namespace reeb::io {
 
 // The format is told by the suffix of `path`: .ply .obj .off .sma .smb .smc .sva .svb .events.txt.
-// THROWS: Error{kUsage} for another suffix; else as AtomicOutputFile.
+// THROWS: Error{kUsage} for another suffix; else as AtomicFile.
 std::unique_ptr<MeshWriter> create_mesh(const std::string& path, const MeshWriterOptions& options = {});
 
 }  // namespace reeb::io

@@ -1,4 +1,5 @@
 // OBJ: `v` and `f` lines as they come; indices from 1. Exactly three coordinates a vertex.
+#include "io/file/atomic_file.h"
 #include "io/formats/writers.h"
 #include "io/mesh/written_records.h"
 #include "libreeb/base/error.h"
@@ -9,7 +10,7 @@ namespace {
 class ObjWriter : public MeshWriter {
  public:
   ObjWriter(const std::string& path, const MeshWriterOptions& options)
-      : dimension_(options.dimension), file_(path, options.existing) {}
+      : dimension_(options.dimension), file_(path, {.existing = options.existing}) {}
 
   void write(const MeshBatch& batch) override {
     for (std::size_t i = 0; i < batch.vertex_count; ++i) {
@@ -36,7 +37,7 @@ class ObjWriter : public MeshWriter {
 
  private:
   unsigned dimension_;
-  AtomicOutputFile file_;
+  AtomicFile file_;
 };
 
 }  // namespace

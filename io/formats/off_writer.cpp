@@ -15,10 +15,10 @@ class OffWriter : public MeshWriter {
   OffWriter(const std::string& path, const MeshWriterOptions& options)
       : dimension_(options.dimension),
         header_bytes_(header(~std::uint64_t{0}, ~std::uint64_t{0}).size()),
-        file_(path, options.existing, header_bytes_, options.vertex_count) {}
+        file_(path, options, header_bytes_) {}
 
   void write(const MeshBatch& batch) override {
-    OutputFile& out = file_.vertices(batch.vertex_count);
+    BufferedWriter& out = file_.vertices(batch.vertex_count);
     for (std::size_t i = 0; i < batch.vertex_count; ++i) {
       TextRecord line(out);
       for (unsigned k = 0; k < dimension_; ++k) {
@@ -43,7 +43,7 @@ class OffWriter : public MeshWriter {
   }
 
   void write_faces(const MeshBatch& batch) {
-    OutputFile& out = file_.faces(batch.triangle_count() + 4 * batch.tetrahedron_count());
+    BufferedWriter& out = file_.faces(batch.triangle_count() + 4 * batch.tetrahedron_count());
     for_each_face(batch, [&out](VertexId a, VertexId b, VertexId c) {
       TextRecord line(out);
       line.put('3');

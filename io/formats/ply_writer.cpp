@@ -25,7 +25,7 @@ class PlyWriter : public MeshWriter {
       : columns_(column_names(options)),
         dimension_(options.dimension),
         header_bytes_(header(kMaxVertices, ~std::uint64_t{0}).size() + kMinPadding),
-        file_(path, options.existing, header_bytes_, options.vertex_count) {}
+        file_(path, options, header_bytes_) {}
 
   void write(const MeshBatch& batch) override {
     write_vertices(batch);
@@ -63,7 +63,7 @@ class PlyWriter : public MeshWriter {
   }
 
   void write_vertices(const MeshBatch& batch) {
-    OutputFile& out = file_.vertices(batch.vertex_count);
+    BufferedWriter& out = file_.vertices(batch.vertex_count);
     if (file_.vertex_count() > kMaxVertices)
       throw Error(ErrorKind::kBadInput, "PLY indices cannot name more than 4294967296 vertices",
                   "write a mesh of fewer vertices, or OBJ");
@@ -95,7 +95,7 @@ class PlyWriter : public MeshWriter {
   }
 
   void write_faces(const MeshBatch& batch) {
-    OutputFile& out = file_.faces(batch.triangle_count() + 4 * batch.tetrahedron_count());
+    BufferedWriter& out = file_.faces(batch.triangle_count() + 4 * batch.tetrahedron_count());
     for_each_face(batch, [&out](VertexId a, VertexId b, VertexId c) {
       char* record = out.reserve_record(kFaceBytes);
       const std::uint32_t corners[3] = {static_cast<std::uint32_t>(a.value()), static_cast<std::uint32_t>(b.value()),

@@ -1,16 +1,18 @@
 #include "io/formats/sectioned_file.h"
 
+#include "io/file/temp_dir.h"
 #include "libreeb/base/error.h"
 
 namespace reeb::io {
 
-SectionedFile::SectionedFile(const std::string& path, Existing existing, std::size_t header_bytes,
-                             std::optional<std::uint64_t> vertex_count)
-    : file_(path, existing), promised_(vertex_count) {
+SectionedFile::SectionedFile(const std::string& path, const MeshWriterOptions& options, std::size_t header_bytes)
+    : file_(path, {.existing = options.existing, .overwrites = true}),
+      temp_folder_(options.temp_folder.empty() ? TempDir::default_folder(path) : options.temp_folder),
+      promised_(options.vertex_count) {
   file_.out().append(std::string(header_bytes, ' '));
 }
 
-OutputFile& SectionedFile::vertices(std::uint64_t count) {
+BufferedWriter& SectionedFile::vertices(std::uint64_t count) {
   vertices_ += count;
   if (promised_ && vertices_ > *promised_)
     throw Error(ErrorKind::kBadInput,
@@ -19,11 +21,11 @@ OutputFile& SectionedFile::vertices(std::uint64_t count) {
   return file_.out();
 }
 
-OutputFile& SectionedFile::faces(std::uint64_t count) {
+BufferedWriter& SectionedFile::faces(std::uint64_t count) {
   faces_ += count;
-  // Once a face waits, all that follow wait behind it.
+  // Once a face waits, all that follow wait, too.
   if (!waiting_ && promised_ == vertices_) return file_.out();
-  if (!waiting_) waiting_.emplace(open_nameless_file(file_.path()), file_.path());
+  if (!waiting_) waiting_.emplace(TempDir(temp_folder_).create_unnamed("faces"));
   return *waiting_;
 }
 

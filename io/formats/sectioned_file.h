@@ -5,23 +5,23 @@
 #include <optional>
 #include <string>
 
-#include "io/file/atomic_output.h"
+#include "io/file/atomic_file.h"
+#include "io/mesh/mesh_writer_options.h"
 
 namespace reeb::io {
 
 // Vertices and faces may arrive interleaved and their counts may be known only at the end: the
-// header gets its room first and its bytes last, and faces wait in a nameless file beside the
-// output until no vertex can follow.
+// header gets its room first and its bytes last, and faces wait in a temporary file until no
+// vertex can follow.
 class SectionedFile {
  public:
-  SectionedFile(const std::string& path, Existing existing, std::size_t header_bytes,
-                std::optional<std::uint64_t> vertex_count);
+  SectionedFile(const std::string& path, const MeshWriterOptions& options, std::size_t header_bytes);
 
   // Where the records of `count` further vertices go.
   // THROWS: Error{kBadInput} if they are more than promised.
-  OutputFile& vertices(std::uint64_t count);
+  BufferedWriter& vertices(std::uint64_t count);
   // Where the records of `count` further faces go.
-  OutputFile& faces(std::uint64_t count);
+  BufferedWriter& faces(std::uint64_t count);
 
   std::uint64_t vertex_count() const { return vertices_; }
   std::uint64_t face_count() const { return faces_; }
@@ -30,8 +30,9 @@ class SectionedFile {
   void commit(const std::string& header);
 
  private:
-  AtomicOutputFile file_;
-  std::optional<OutputFile> waiting_;  // faces, in the order of their arrival
+  AtomicFile file_;
+  std::string temp_folder_;
+  std::optional<BufferedWriter> waiting_;  // faces, in the order of their arrival
   std::optional<std::uint64_t> promised_;
   std::uint64_t vertices_ = 0, faces_ = 0;
 };

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "io/file/atomic_output.h"
+#include "io/file/atomic_file.h"
 
 namespace reeb::io {
 
@@ -17,6 +17,7 @@ struct MeshWriterOptions {
   std::optional<std::uint64_t> vertex_count{};   // a promise; saves the temporary copy of the faces
   std::optional<std::uint64_t> simplex_count{};  // a promise too, for headers
   Existing existing = Existing::kRefuse;
+  std::string temp_folder{};  // of that copy; empty: TempDir::default_folder of the output
 };
 
 }  // namespace reeb::io

@@ -4,7 +4,7 @@
 #include <charconv>
 #include <concepts>
 
-#include "io/file/output_file.h"
+#include "io/file/buffered_writer.h"
 #include "libreeb/port/mesh_reader.h"
 
 namespace reeb::io {
@@ -28,7 +28,7 @@ class TextRecord {
  public:
   static constexpr std::size_t kMaxBytes = 4096;
 
-  explicit TextRecord(OutputFile& out) : out_(out), begin_(out.reserve_record(kMaxBytes)), end_(begin_) {}
+  explicit TextRecord(BufferedWriter& out) : out_(out), begin_(out.reserve_record(kMaxBytes)), end_(begin_) {}
   TextRecord(const TextRecord&) = delete;
   TextRecord& operator=(const TextRecord&) = delete;
   ~TextRecord() { out_.commit_record(static_cast<std::size_t>(end_ - begin_)); }
@@ -39,7 +39,7 @@ class TextRecord {
   void put(double number) { end_ = std::to_chars(end_, begin_ + kMaxBytes, number + 0.0).ptr; }
 
  private:
-  OutputFile& out_;
+  BufferedWriter& out_;
   char* begin_;
   char* end_;
 };

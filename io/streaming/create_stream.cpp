@@ -6,8 +6,9 @@
 
 #include "io/events/event_text.h"
 #include "io/events/stream_output.h"
+#include "io/file/atomic_file.h"
 #include "io/file/file_name.h"
-#include "io/file/output_stream.h"
+#include "io/file/file_ostream.h"
 #include "io/mesh/written_records.h"
 #include "libreeb/base/error.h"
 
@@ -50,7 +51,9 @@ std::unique_ptr<StreamWriter> make_writer(StreamFormat format, std::ostream& out
 class StreamFile : public StreamWriter {
  public:
   StreamFile(const std::string& path, const StreamHeader& header, Existing existing)
-      : file_(path, existing), out_(file_.out()), writer_(make_writer(stream_format(path), out_, header)) {}
+      : file_(path, {.existing = existing, .overwrites = stream_format(path) == StreamFormat::kBlocks}),
+        out_(file_.out()),
+        writer_(make_writer(stream_format(path), out_, header)) {}
 
   void write(const StreamEvent& event) override { writer_->write(event); }
   void close() override {
@@ -60,8 +63,8 @@ class StreamFile : public StreamWriter {
   std::vector<std::string> warnings() const override { return writer_->warnings(); }
 
  private:
-  AtomicOutputFile file_;
-  OutputStream out_;
+  AtomicFile file_;
+  FileOstream out_;
   std::unique_ptr<StreamWriter> writer_;
 };
 

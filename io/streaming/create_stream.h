@@ -18,7 +18,7 @@ bool is_volume_name(const std::string& path);  // .sva .svb
 
 // A writer of events into the file `path`, which appears under its name with close().
 // REQUIRES: stream_format(path) is not kNone.
-// THROWS: as AtomicOutputFile, and as the writers of stream_writer.h.
+// THROWS: as AtomicFile, and as the writers of stream_writer.h.
 std::unique_ptr<StreamWriter> create_stream(const std::string& path, const StreamHeader& header, Existing existing);
 
 // The same for batches. A triangle format gets the faces of tetrahedra; properties go to volume

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <new>
 #include <utility>
 
 #include "libreeb/base/error.h"
@@ -71,7 +72,13 @@ bool MemoryBudget::change(const char* owner, std::uint64_t from, std::uint64_t t
   const std::lock_guard lock(mutex_);
   if (to > from && to - from > limit_ - std::min(used_, limit_)) return false;
   auto it = owners_.find(owner);
-  if (it == owners_.end()) it = owners_.emplace(owner, 0).first;
+  if (it == owners_.end()) {
+    try {
+      it = owners_.emplace(owner, 0).first;
+    } catch (const std::bad_alloc&) {  // the system has not even this much
+      return false;
+    }
+  }
   it->second += to - from;
   used_ += to - from;
   peak_ = std::max(peak_, used_);

@@ -33,6 +33,7 @@ constexpr std::uint64_t kVersion = 1;
 constexpr std::size_t kBlockEntries = 16 << 10;
 constexpr std::uint64_t kMostSamples = 4096;
 constexpr int kLevel = 1;
+constexpr std::size_t kBufferBytes = 64 << 10;
 constexpr std::size_t kProbeBytes = 64 << 10;
 constexpr std::uint64_t kProbes = 16;
 
@@ -81,7 +82,7 @@ void from_planes(std::span<const std::byte> planes, std::span<std::uint32_t> ent
   }
 }
 
-void write_sidecar(io::AtomicFile& out, const MeshIdentity& mesh, LastUse& uses) {
+void write_sidecar(io::BufferedWriter& out, const MeshIdentity& mesh, LastUse& uses) {
   const UseSummary& s = uses.summary();
   const Header header{kMagic,
                       kVersion,
@@ -111,7 +112,6 @@ void write_sidecar(io::AtomicFile& out, const MeshIdentity& mesh, LastUse& uses)
     out.append(object_bytes(BlockHeader{packed.size(), io::checksum(packed)}));
     out.append(packed);
   }
-  out.commit();
 }
 
 struct Damaged {};
@@ -198,8 +198,9 @@ MeshIdentity identify_mesh(const std::string& path) {
 
 void save_sidecar(const std::string& path, const MeshIdentity& mesh, LastUse& uses) {
   try {
-    io::AtomicFile out(path);
-    write_sidecar(out, mesh, uses);
+    io::AtomicFile file(path, {.existing = io::Existing::kReplace, .buffer_bytes = kBufferBytes});
+    write_sidecar(file.out(), mesh, uses);
+    file.commit();
   } catch (const Error& e) {
     throw Error(e.kind(), e.message(), "make room in the folder of the mesh, or leave out --sidecar")
         .at(e.file(), e.position());

@@ -8,10 +8,14 @@ namespace {
 constexpr int kZstdLevel = 1;
 // Below it a frame is stored as it is: nothing is gained, and small files can be read by eye.
 constexpr std::size_t kCompressFromBytes = 512;
+// Frames are larger as a rule, and then go past the buffer.
+constexpr std::size_t kBufferBytes = 64 << 10;
 
 }  // namespace
 
-FrameWriter::FrameWriter(const std::string& path, std::uint64_t region_bytes) : file_(path) {
+FrameWriter::FrameWriter(const std::string& path, std::uint64_t region_bytes)
+    : output_(path, {.existing = io::Existing::kReplace, .overwrites = true, .buffer_bytes = kBufferBytes}),
+      file_(output_.out()) {
   file_.append(std::vector<std::byte>(region_bytes));
 }
 
@@ -50,8 +54,8 @@ void FrameWriter::finish(FileHeader& header) {
   bytes.clear();
   encode_header(header, bytes);
   out.u64(io::checksum(bytes));
-  file_.write_at(0, bytes);
-  file_.commit();
+  file_.overwrite(0, bytes);
+  output_.commit();
 }
 
 }  // namespace reeb::ooc

@@ -30,7 +30,8 @@ class FrameWriter {
   void finish(FileHeader& header);
 
  private:
-  io::AtomicFile file_;
+  io::AtomicFile output_;
+  io::BufferedWriter& file_;
   io::RunningChecksum digest_;
   io::ZstdCompressor compressor_;
   std::vector<std::uint64_t> offsets_;  // of the frames

@@ -4,7 +4,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "io/file/atomic_file.h"
 #include "ooc/reeb_file/file_header.h"
 #include "ooc/reeb_file/frame_size.h"
 #include "ooc/reeb_file/reeb_file_writer.h"
@@ -30,8 +29,10 @@ bool in_order(const FileArc& a, const FileArc& b) { return a.lo < b.lo || (a.lo 
 GraphFileWriter::GraphFileWriter(const std::string& path, FileMeta meta, const Options& options)
     : header_(first_header(std::move(meta), options)),
       writer_(path, header_.region_bytes()),
-      background_(options.background) {
-  if (options.ends == ArcEnds::kKeys) keys_.emplace(io::folder_of(path));
+      announced_nodes_(options.nodes),
+      background_(options.background),
+      components_(options.nodes, options.temp, options.budget) {
+  if (options.ends == ArcEnds::kKeys) keys_.emplace(*options.temp);
   if (options.ends == ArcEnds::kKeysInMemory) rank_of_.assign(static_cast<std::size_t>(header_.mesh_vertices), kNoNode);
 }
 
@@ -42,6 +43,7 @@ void GraphFileWriter::add_nodes(std::span<const SettledNode> nodes) {
     if (keys_) keys_->append(node.key);
     if (!rank_of_.empty()) rank_of_.at(node.key.vertex.value()) = static_cast<std::uint32_t>(header_.nodes);
     frame_.nodes.push_back(node);
+    if (header_.nodes == announced_nodes_) throw std::logic_error("GraphFileWriter: more nodes than announced");
     ++header_.nodes;
     flush_if_full();
   }
@@ -77,11 +79,13 @@ void GraphFileWriter::rank_by_search(std::span<const ArcKeys> arcs) {
     lo_rank_ = keys_->rank(arcs[i].lo, lo_rank_);
     ranked_[i] = {lo_rank_, 0, 0, kNeverDies};
   }
-  std::uint64_t hi_rank = 0;
-  for (std::size_t k = 0; k < by_hi_.size(); ++k) {
-    constexpr std::size_t kLookups = 64;  // each may map sixteen pages that none before did
-    if (k % kLookups == 0) keys_->release_pages();
-    ranked_[by_hi_[k]].hi = hi_rank = keys_->rank(arcs[by_hi_[k]].hi, hi_rank);
+  // The system maps as much as a window around each page that is touched, which no other lookup may need.
+  constexpr std::uint64_t kWindowKeys = (64 << 10) / sizeof(SweepKey), kWindows = 16;
+  std::uint64_t hi_rank = 0, windows = 0;
+  for (const std::uint32_t arc : by_hi_) {
+    const std::uint64_t rank = keys_->rank(arcs[arc].hi, hi_rank);
+    if (rank / kWindowKeys != hi_rank / kWindowKeys && ++windows % kWindows == 0) keys_->release_pages();
+    ranked_[arc].hi = hi_rank = rank;
   }
   keys_->release_pages();
 }
@@ -106,8 +110,9 @@ void GraphFileWriter::finish() {
   frame_.versions.push_back({0.0, header_.nodes, header_.arcs, buckets_});
   flush();
   worker_.wait();
-  header_.components = header_.nodes - unions_;
-  header_.loops = header_.arcs - unions_;
+  const std::uint64_t joined = components_.joined();
+  header_.components = header_.nodes - joined;
+  header_.loops = header_.arcs - joined;
   header_.records = header_.arcs;
   header_.levels[0] = {.version = 0,
                        .frames = header_.graph_frames,
@@ -131,8 +136,6 @@ void GraphFileWriter::flush() {
   std::swap(frame_, writing_);
   frame_.clear();
   ++header_.graph_frames;
-  if (!writing_.arcs.empty() && components_.size() == 0)
-    components_ = UnionFind(static_cast<std::uint32_t>(header_.nodes));
   if (background_)
     worker_.start([this] { write(writing_); });
   else
@@ -140,8 +143,7 @@ void GraphFileWriter::flush() {
 }
 
 void GraphFileWriter::write(const GraphFrame& frame) {
-  for (const FileArc& arc : frame.arcs)
-    unions_ += components_.unite(static_cast<std::uint32_t>(arc.lo), static_cast<std::uint32_t>(arc.hi)) ? 1u : 0u;
+  for (const FileArc& arc : frame.arcs) components_.add(arc.lo, arc.hi);
   payload_.clear();
   encode_graph_frame(frame, header_.flags, payload_);
   writer_.add({.kind = FrameKind::kGraph,
@@ -154,7 +156,9 @@ void GraphFileWriter::write(const GraphFrame& frame) {
 
 void write_graph_file(const std::string& path, const FileMeta& meta, const ReebGraph& graph,
                       const ArcBucketsView& buckets) {
-  GraphFileWriter writer(path, meta, {.has_positions = !graph.positions.empty(), .has_embedding = !buckets.empty()});
+  GraphFileWriter writer(
+      path, meta,
+      {.nodes = graph.node_count(), .has_positions = !graph.positions.empty(), .has_embedding = !buckets.empty()});
   std::vector<SettledNode> nodes;
   for (std::size_t i = 0; i < graph.node_count(); ++i) {
     nodes.push_back({graph.nodes[i], graph.positions.empty() ? Point{} : graph.positions[i]});

@@ -29,17 +29,17 @@ bool is_reeb_file(std::span<const std::byte> bytes) {
 
 bool is_reeb_file(const std::string& path) {
   try {
-    const io::InputFile file(path);
+    const io::File file = io::File::open_for_reading(path);
     std::array<std::byte, kReebMagic.size()> start{};
     if (file.size() < start.size()) return false;
-    file.read(0, start);
+    file.read_at(0, start);
     return is_reeb_file(start);
   } catch (const Error&) {
     return false;
   }
 }
 
-ReebFile::ReebFile(const std::string& path) : file_(path) {
+ReebFile::ReebFile(const std::string& path) : file_(io::File::open_for_reading(path)) {
   read_header();
   try {
     read_seek_table();
@@ -51,12 +51,12 @@ ReebFile::ReebFile(const std::string& path) : file_(path) {
 
 void ReebFile::read_header() {
   std::vector<std::byte> region(std::min<std::uint64_t>(file_.size(), kFixedHeaderBytes));
-  file_.read(0, region);
+  file_.read_at(0, region);
   std::uint64_t region_bytes = 0;
   if (const char* why = decode_region_bytes(region, region_bytes)) fail(0, why);
   if (region_bytes > file_.size()) fail(file_.size(), "the file ends within its header");
   region.resize(region_bytes);
-  file_.read(0, region);
+  file_.read_at(0, region);
   const auto content = std::span(region).first(region_bytes - kChecksumBytes);
   if (io::checksum(content) != last_u64(region)) fail(region_bytes - kChecksumBytes, "the header's checksum is wrong");
   if (const char* why = decode_header(content, header_)) fail(0, why);
@@ -71,7 +71,7 @@ void ReebFile::read_seek_table() {
     fail(file_.size(), "the file ends before its end mark");
   const std::uint64_t table_offset = file_.size() - kTailBytes - table_bytes;
   std::vector<std::byte> bytes(table_bytes + kTailBytes);
-  file_.read(table_offset, bytes);
+  file_.read_at(table_offset, bytes);
   if (std::memcmp(bytes.data() + bytes.size() - kReebEndMagic.size(), kReebEndMagic.data(), kReebEndMagic.size()) != 0)
     fail(file_.size() - kReebEndMagic.size(), "the end mark is missing");
   const auto covered = std::span(bytes).first(table_bytes + 8);
@@ -118,14 +118,14 @@ std::span<const std::byte> ReebFile::read_frame(std::size_t index, FrameHeader& 
   const std::uint64_t limit = offsets_[index + 1] - offset;
   if (limit < kFrameHeaderBytes) fail(offset, "the file ends within a frame");
   buffers.stored.resize(kFrameHeaderBytes);
-  file_.read(offset, buffers.stored);
+  file_.read_at(offset, buffers.stored);
   if (const char* why = decode_frame_header(buffers.stored, header)) fail(offset, why);
   if (header.stored_bytes > limit - kFrameHeaderBytes) fail(offset, "the file ends within a frame");
   const std::uint64_t sum = last_u64(buffers.stored);
   // The payload takes the place of the checksum, so that what is covered lies in one piece.
   const std::size_t covered = kFrameHeaderBytes - kChecksumBytes;
   buffers.stored.resize(covered + header.stored_bytes);
-  file_.read(offset + kFrameHeaderBytes, std::span(buffers.stored).subspan(covered));
+  file_.read_at(offset + kFrameHeaderBytes, std::span(buffers.stored).subspan(covered));
   if (io::checksum(buffers.stored) != sum) fail(offset, "a frame's checksum is wrong");
   const bool graph = index < header_.graph_frames;
   if (header.kind != (graph ? FrameKind::kGraph : FrameKind::kPairs)) fail(offset, "a frame is of the wrong kind");

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "io/file/positioned_file.h"
+#include "io/file/file.h"
 #include "libreeb/base/error.h"
 #include "libreeb/format/frame_codec.h"
 #include "libreeb/format/reeb_format.h"
@@ -95,7 +95,7 @@ class ReebFile {
   template <class Measure>
   std::uint32_t finest_within(std::uint64_t limit, const Measure& measure, const char* unit) const;
 
-  io::InputFile file_;
+  io::File file_;
   FileHeader header_;
   std::vector<std::uint64_t> offsets_;  // of the whole frames, and the end of the last
   std::optional<Error> damage_;

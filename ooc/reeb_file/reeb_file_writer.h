@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "libreeb/base/union_find.h"
+#include "libreeb/base/memory_budget.h"
 #include "libreeb/format/frame_codec.h"
 #include "libreeb/format/reeb_format.h"
 #include "libreeb/graph/arc_buckets.h"
@@ -18,6 +18,7 @@
 #include "libreeb/port/graph_sink.h"
 #include "ooc/reeb_file/frame_writer.h"
 #include "ooc/reeb_file/record_source.h"
+#include "ooc/tables/component_count.h"
 #include "ooc/tables/key_table.h"
 #include "ooc/threads/worker.h"
 
@@ -59,21 +60,24 @@ void write_graph_file(const std::string& path, const FileMeta& meta, const ReebG
 
 // A graph without hierarchy that need not fit in memory: nodes in pieces, arcs in pieces, done.
 // The file appears at finish(); cuts between pieces do not show in it.
-// MEMORY: two frames, 4 bytes a node, and what ArcEnds says.
+// MEMORY: two frames and 16 bytes a frame; what ArcEnds says; reserved: 4 bytes a node, or as ComponentCount.
 // THROWS: Error{kResource}, of an earlier frame, too; std::logic_error for items out of order.
 class GraphFileWriter {
  public:
   // How arcs name their nodes.
   enum class ArcEnds {
     kRanks,
-    kKeys,          // looked up in a scratch file of 16 bytes a node beside the output
+    kKeys,          // looked up in a temporary file of 16 bytes a node
     kKeysInMemory,  // looked up in 4 bytes a vertex of the mesh
   };
   struct Options {
+    std::uint64_t nodes = 0;  // as many will be added
     bool has_positions = true;
     bool has_embedding = false;
     ArcEnds ends = ArcEnds::kRanks;
-    bool background = false;  // pack and write frames in a thread of their own
+    bool background = false;            // pack and write frames in a thread of their own
+    const io::TempDir* temp = nullptr;  // REQUIRED for kKeys
+    MemoryBudget* budget = nullptr;     // needs `temp`; null: memory is not counted
   };
 
   GraphFileWriter(const std::string& path, FileMeta meta, const Options& options);
@@ -91,6 +95,8 @@ class GraphFileWriter {
   void finish();
   // What was written, complete after finish().
   const FileHeader& header() const { return header_; }
+  // To temporary files.
+  std::uint64_t spilled_bytes() const { return components_.spilled_bytes() + (keys_ ? keys_->spilled_bytes() : 0); }
 
  private:
   void rank_by_vertex(std::span<const ArcKeys> arcs);
@@ -101,6 +107,7 @@ class GraphFileWriter {
 
   FileHeader header_;
   FrameWriter writer_;
+  std::uint64_t announced_nodes_;
   bool background_;
   std::optional<KeyTable> keys_;
   std::vector<std::uint32_t> rank_of_;  // by vertex
@@ -110,8 +117,7 @@ class GraphFileWriter {
   std::vector<std::uint32_t> by_hi_;
   std::optional<SweepKey> last_node_;
   std::optional<FileArc> last_arc_;
-  UnionFind components_;
-  std::uint64_t unions_ = 0;  // arcs that joined two components
+  ComponentCount components_;
   std::uint64_t lo_rank_ = 0, buckets_ = 0;
   bool sealed_ = false;
   Worker worker_;  // writes writing_; the last member, so that it ends first

@@ -17,6 +17,7 @@ namespace {
 
 constexpr std::array<char, 8> kMagic = {'R', 'E', 'E', 'B', 'C', 'K', 'P', '\n'};
 constexpr std::uint64_t kVersion = 7;
+constexpr std::size_t kBufferBytes = 64 << 10;
 
 struct Header {
   std::array<char, 8> magic;
@@ -44,9 +45,10 @@ std::uint64_t digest_of_file(const std::string& path, std::uint64_t seed) {
 
 class Writer : public StateWriter {
  public:
-  explicit Writer(const std::string& path) : file_(path) {}
+  explicit Writer(const std::string& path)
+      : file_(path, {.existing = io::Existing::kReplace, .buffer_bytes = kBufferBytes}) {}
   void write(std::span<const std::byte> bytes) override {
-    file_.append(bytes);
+    file_.out().append(bytes);
     checksum_.add(bytes);
   }
   void commit() {

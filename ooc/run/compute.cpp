@@ -507,21 +507,26 @@ FileMeta Run::file_meta(const ComputeResult& result) const {
   return meta;
 }
 
-// The graph as it was stored, in memory that does not grow with it but for 4 bytes a node; and, where
-// there is much to look up and memory is free, 4 bytes a vertex.
+// The graph as it was stored, in memory that need not grow with it. Where memory is free, 4 bytes a node, and 4 bytes
+// a vertex if there is much to look up.
 void Run::write_stored_graph(ComputeResult& result, SegmentStore& store, const FileMeta& meta) {
   constexpr std::size_t kNodes = 16384, kBytesAnArc = 1000, kManyVerticesANode = 16;
-  std::size_t pieces = std::clamp<std::size_t>(budget_.free_bytes() / kBytesAnArc, 4096, 65536);
-  GraphFileWriter::Options writing{
-      .has_embedding = embeds(), .ends = GraphFileWriter::ArcEnds::kKeys, .background = plan_.threads > 1};
+  GraphFileWriter::Options writing{.nodes = result.nodes,
+                                   .has_embedding = embeds(),
+                                   .ends = GraphFileWriter::ArcEnds::kKeys,
+                                   .background = plan_.threads > 1,
+                                   .temp = &temp_,
+                                   .budget = &budget_};
   const std::uint64_t table_bytes = result.vertices * sizeof(std::uint32_t);
   Reservation table;
   if (result.vertices / kManyVerticesANode <= result.nodes && table_bytes <= budget_.free_bytes() / 4) {
     table = budget_.reserve("ranks of nodes", table_bytes);
     writing.ends = GraphFileWriter::ArcEnds::kKeysInMemory;
-    pieces = 8192;  // large ones are for the scratch file
   }
   GraphFileWriter writer(result.output, meta, writing);
+  // Large pieces are for the lookup in a file.
+  const std::size_t pieces =
+      table.bytes() != 0 ? 8192 : std::clamp<std::size_t>(budget_.free_bytes() / kBytesAnArc, 4096, 65536);
   store.rewind_nodes();
   read_ahead<std::vector<SettledNode>>(
       writing.background, [&](auto& nodes) { return store.read_nodes(nodes, kNodes); },
@@ -533,6 +538,7 @@ void Run::write_stored_graph(ComputeResult& result, SegmentStore& store, const F
       [&](const ArcPiece& piece) { writer.add_arcs(piece.arcs, piece.buckets.view()); });
   writer.finish();
   result.betti = {writer.header().components, writer.header().loops};
+  result.spilled_bytes += writer.spilled_bytes();
 }
 
 // What was left of the noise on the way goes here. Where memory does not suffice, the graph is kept as

@@ -8,10 +8,12 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <new>
+#include <string_view>
 #include <system_error>
 
-#include "io/file/atomic_file.h"
 #include "io/file/file.h"
+#include "io/file/system.h"
 #include "libreeb/base/error.h"
 
 namespace reeb::ooc {
@@ -19,9 +21,30 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool is_ours(const fs::path& file) {
-  const std::string name = file.filename().string();
-  return name.starts_with("checkpoint") || name.ends_with(".nodes") || name.ends_with(".arcs");
+// In every folder that a run has made.
+constexpr const char* kMark = "reeb-partial";
+
+bool is_number(std::string_view text) {
+  return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos;
+}
+
+// Whether a run gives its files such a name: checkpoint, checkpoint.partial-PID-N, function-N.nodes, function-N.arcs.
+bool is_name_of_a_run(std::string_view name) {
+  const auto take = [&name](std::string_view start) {
+    if (!name.starts_with(start)) return false;
+    name.remove_prefix(start.size());
+    return true;
+  };
+  if (take("checkpoint")) {
+    if (name.empty()) return true;
+    if (!take(".partial-")) return false;
+    const auto dash = name.find('-');
+    return dash != std::string_view::npos && is_number(name.substr(0, dash)) && is_number(name.substr(dash + 1));
+  }
+  if (!take("function-")) return false;
+  const auto dot = name.find('.');
+  if (dot == std::string_view::npos || !is_number(name.substr(0, dot))) return false;
+  return name.substr(dot) == ".nodes" || name.substr(dot) == ".arcs";
 }
 
 bool exists(const std::string& path) { return ::access(path.c_str(), F_OK) == 0; }
@@ -42,6 +65,12 @@ PartialFolder::PartialFolder(const std::string& output) : path_(path_for(output)
     if (folder_ >= 0) ::close(folder_);
     open();
   } while (!is_named(folder_, path_));
+  try {
+    claim();
+  } catch (...) {
+    ::close(folder_);
+    throw;
+  }
 }
 
 void PartialFolder::open() {
@@ -49,8 +78,9 @@ void PartialFolder::open() {
     throw Error(ErrorKind::kResource, std::string(what) + ": " + std::strerror(errno), hint).at(path_);
   };
   const char* elsewhere = "write the output to a folder that exists and that you may write to";
-  if (::mkdir(path_.c_str(), 0777) != 0 && errno != EEXIST) fail("cannot be made", elsewhere);
-  folder_ = ::open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (::mkdir(path_.c_str(), 0700) != 0 && errno != EEXIST) fail("cannot be made", elsewhere);
+  if (fs::is_symlink(path_)) refuse("is a symbolic link, not a folder that a run has made");
+  folder_ = io::system::open(path_, O_RDONLY | O_DIRECTORY | O_NOFOLLOW);
   if (folder_ < 0) fail("cannot be opened", elsewhere);
   if (::access(path_.c_str(), W_OK | X_OK) != 0) fail("cannot be written", elsewhere);
   // A file system without locks is no reason not to work on it.
@@ -62,12 +92,41 @@ void PartialFolder::open() {
   }
 }
 
+// The folder is ours if it has the mark. One that is empty gets it: the run that made the folder may have ended before.
+void PartialFolder::claim() {
+  struct stat folder {
+  }, mark{};
+  if (::fstat(folder_, &folder) != 0 || folder.st_uid != ::geteuid()) refuse("belongs to another user");
+  if (::fstatat(folder_, kMark, &mark, AT_SYMLINK_NOFOLLOW) == 0 && S_ISREG(mark.st_mode)) return;
+  if (!entries().empty()) refuse("has files in it and was not made by a run");
+  const int made = io::system::open(file(kMark), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW, 0600);
+  if (made < 0) io::throw_output_error(errno, path_);
+  ::close(made);
+}
+
+void PartialFolder::refuse(const char* why) const {
+  throw Error(ErrorKind::kResource, std::string(why) + ", so it is left alone",
+              "move it away, or choose another output with -o")
+      .at(path_);
+}
+
 PartialFolder::~PartialFolder() {
   if (!has_checkpoint()) {
     clear();
-    ::rmdir(path_.c_str());  // if nothing else is in it
+    if (has_only_the_mark()) {
+      ::unlinkat(folder_, kMark, 0);
+      ::rmdir(path_.c_str());
+    }
   }
   ::close(folder_);
+}
+
+// If not, files of other origin keep the folder, and its mark for the next run.
+bool PartialFolder::has_only_the_mark() const noexcept try {
+  const auto left = entries();
+  return left.size() == 1 && left[0] == kMark;
+} catch (const std::bad_alloc&) {
+  return false;
 }
 
 bool PartialFolder::has_checkpoint(const std::string& output) { return exists(path_for(output) + "/checkpoint"); }
@@ -79,11 +138,19 @@ void PartialFolder::sync_name() {
   name_is_synced_ = true;
 }
 
-void PartialFolder::clear() noexcept {
-  if (::unlink(checkpoint().c_str()) == 0) ::fsync(folder_);
+void PartialFolder::clear() noexcept try {
+  if (::unlinkat(folder_, "checkpoint", 0) == 0) io::system::sync(folder_);
+  for (const std::string& name : entries())
+    if (is_name_of_a_run(name)) ::unlinkat(folder_, name.c_str(), 0);
+} catch (const std::bad_alloc&) {  // the next run clears up
+}
+
+std::vector<std::string> PartialFolder::entries() const {
+  std::vector<std::string> names;
   std::error_code error;
   for (fs::directory_iterator entry(path_, error), end; !error && entry != end; entry.increment(error))
-    if (is_ours(entry->path())) ::unlink(entry->path().c_str());
+    names.push_back(entry->path().filename().string());
+  return names;
 }
 
 }  // namespace reeb::ooc

@@ -3,13 +3,16 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace reeb::ooc {
 
 // The folder beside `output`. It holds the checkpoint and the files that the checkpoint names, and
 // belongs to one process at a time.
+// Only this user may look into it. A mark says that a run has made it: a folder without the mark that is not empty, one
+// of another user, or a symbolic link is refused and left as it is.
 //
-// THROWS: Error{kResource} if the folder cannot be written, or another process is at work in it.
+// THROWS: Error{kResource} if the folder is refused, cannot be written, or another process is at work in it.
 class PartialFolder {
  public:
   // Makes the folder if there is none.
@@ -31,12 +34,16 @@ class PartialFolder {
   // To be called before the first checkpoint: the folder's own name reaches the device.
   void sync_name();
 
-  // Removes the checkpoint and then, once that is durable, the files that it names. Files of other
-  // origin stay.
+  // Removes the checkpoint and then, once that is durable, the other files that have a name as runs give it. What else
+  // is in the folder stays.
   void clear() noexcept;
 
  private:
   void open();
+  void claim();
+  [[noreturn]] void refuse(const char* why) const;
+  std::vector<std::string> entries() const;
+  bool has_only_the_mark() const noexcept;
 
   std::string path_;
   int folder_ = -1;  // open and locked

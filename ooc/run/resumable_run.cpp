@@ -16,7 +16,7 @@ ResumableRun::ResumableRun(const std::string& output, const std::string& mesh,
                            std::span<VertexFunction* const> functions, const RunSettings& settings,
                            const ResumeOptions& options)
     : options_(options) {
-  if (!io::is_regular_file(mesh)) return;
+  if (!io::is_regular_file(mesh) || io::is_device(output)) return;
   identity_ = identify_run(mesh, functions, settings);
   folder_.emplace(output);
 }

@@ -46,7 +46,7 @@ class BucketLogs {
   std::uint64_t count(std::size_t index) const { return buckets_[index].count; }
   std::uint64_t spilled_bytes() const { return size_; }
 
-  // The next record of a bucket. REQUIRES: it has one left, and nothing is appended any more.
+  // The next record of a bucket. REQUIRES: it has one left, and nothing is appended to it any more.
   const Record& next(std::size_t index) {
     Bucket& bucket = buckets_[index];
     if (bucket.taken % kBlockRecords == 0) fetch(bucket);

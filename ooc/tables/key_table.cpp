@@ -1,17 +1,8 @@
 #include "ooc/tables/key_table.h"
 
-#include <fcntl.h>
-#include <sys/mman.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
-#include <cstdlib>
-#include <cstring>
 #include <stdexcept>
-#include <utility>
-
-#include "libreeb/base/error.h"
+#include <string>
 
 namespace reeb::ooc {
 namespace {
@@ -20,17 +11,8 @@ constexpr std::size_t kBufferKeys = 4096;
 
 }  // namespace
 
-KeyTable::KeyTable(std::string folder) : folder_(std::move(folder)) {
-  std::string name = folder_ + "/.reeb-keys-XXXXXX";
-  fd_ = ::mkstemp(name.data());
-  if (fd_ < 0) fail("a scratch file cannot be made");
-  ::unlink(name.c_str());
+KeyTable::KeyTable(const io::TempDir& temp) : file_(temp.create_unnamed("keys of nodes")) {
   buffer_.reserve(kBufferKeys);
-}
-
-KeyTable::~KeyTable() {
-  if (keys_ != nullptr) ::munmap(const_cast<SweepKey*>(keys_), count_ * sizeof(SweepKey));
-  if (fd_ >= 0) ::close(fd_);
 }
 
 void KeyTable::append(const SweepKey& key) {
@@ -39,13 +21,7 @@ void KeyTable::append(const SweepKey& key) {
 }
 
 void KeyTable::flush() {
-  auto bytes = std::as_bytes(std::span(buffer_));
-  while (!bytes.empty()) {
-    const ssize_t written = ::write(fd_, bytes.data(), bytes.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) fail("a scratch file cannot be written");
-    bytes = bytes.subspan(static_cast<std::size_t>(written));
-  }
+  file_.write_at(count_ * sizeof(SweepKey), std::as_bytes(std::span(buffer_)));
   count_ += buffer_.size();
   buffer_.clear();
 }
@@ -53,10 +29,9 @@ void KeyTable::flush() {
 void KeyTable::seal() {
   flush();
   if (count_ == 0) return;
-  void* mapping = ::mmap(nullptr, count_ * sizeof(SweepKey), PROT_READ, MAP_SHARED, fd_, 0);
-  if (mapping == MAP_FAILED) fail("a scratch file cannot be mapped");
-  ::madvise(mapping, count_ * sizeof(SweepKey), MADV_RANDOM);  // no pages around the one needed
-  keys_ = static_cast<const SweepKey*>(mapping);
+  mapping_ = file_.map(0, static_cast<std::size_t>(count_ * sizeof(SweepKey)));
+  mapping_.expect_random_access();
+  keys_ = reinterpret_cast<const SweepKey*>(mapping_.bytes().data());
 }
 
 std::uint64_t KeyTable::rank(const SweepKey& key, std::uint64_t from) const {
@@ -71,16 +46,6 @@ std::uint64_t KeyTable::rank(const SweepKey& key, std::uint64_t from) const {
   if (found == keys_ + count_ || !(*found == key))
     throw std::logic_error("KeyTable: no node is vertex " + std::to_string(key.vertex.value()));
   return static_cast<std::uint64_t>(found - keys_);
-}
-
-void KeyTable::release_pages() const {
-  if (keys_ != nullptr) ::madvise(const_cast<SweepKey*>(keys_), count_ * sizeof(SweepKey), MADV_DONTNEED);
-}
-
-void KeyTable::fail(const char* action) const {
-  throw Error(ErrorKind::kResource, std::string(action) + ": " + std::strerror(errno),
-              "make room there, or write to another folder")
-      .at(folder_);
 }
 
 }  // namespace reeb::ooc

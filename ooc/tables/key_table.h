@@ -3,22 +3,20 @@
 
 #include <cstdint>
 #include <span>
-#include <string>
 #include <vector>
 
+#include "io/file/file.h"
+#include "io/file/temp_dir.h"
 #include "libreeb/base/sweep_key.h"
 
 namespace reeb::ooc {
 
-// Keys are appended to a nameless scratch file and then searched through a mapping of it, which is
+// Keys are appended to a temporary file and then searched through a mapping of it, which is
 // given back after each batch: memory is one buffer, whatever the number of keys.
-// THROWS: Error{kResource} with the folder.
+// THROWS: Error{kResource} if the disk is full.
 class KeyTable {
  public:
-  explicit KeyTable(std::string folder);
-  KeyTable(const KeyTable&) = delete;
-  KeyTable& operator=(const KeyTable&) = delete;
-  ~KeyTable();
+  explicit KeyTable(const io::TempDir& temp);
 
   // REQUIRES: ascending; no rank was asked for yet.
   void append(const SweepKey& key);
@@ -29,16 +27,17 @@ class KeyTable {
   // THROWS: std::logic_error if it is not there.
   std::uint64_t rank(const SweepKey& key, std::uint64_t from) const;
   // Gives the pages that were looked at back to the system.
-  void release_pages() const;
+  void release_pages() const { mapping_.release_pages(); }
+
+  std::uint64_t spilled_bytes() const { return count_ * sizeof(SweepKey); }
 
  private:
   void flush();
-  [[noreturn]] void fail(const char* action) const;
 
-  std::string folder_;
-  int fd_ = -1;
+  io::File file_;
   std::uint64_t count_ = 0;
   std::vector<SweepKey> buffer_;
+  io::Mapping mapping_;
   const SweepKey* keys_ = nullptr;
 };
 

@@ -11,6 +11,7 @@
 #include <memory>
 #include <string>
 
+#include "io/file/fault.h"
 #include "io/file/file.h"
 #include "io/file/temp_dir.h"
 #include "libreeb/base/error.h"
@@ -35,25 +36,27 @@ class Scratch {
   std::string path_;
 };
 
-// A WriteFault: the n-th write fails, counted from 1, and all after it, as on a full disk.
-class FailNthWrite {
+// Counts the calls of one kind. The n-th, counted from 1, gets the fault, and so do all that follow, as on a full
+// disk, or only that one; n = 0: none does.
+class FaultAtCall {
  public:
-  FailNthWrite(std::uint64_t n, int error) : n_(n), error_(error) {}
-  int operator()(std::uint64_t, std::size_t) const { return ++*count_ >= n_ ? error_ : 0; }
+  enum class Which { kOne, kAllFrom };
+  explicit FaultAtCall(io::FileCall call, std::uint64_t n = 0, io::FileFault fault = {}, Which which = Which::kAllFrom)
+      : call_(call), n_(n), fault_(fault), which_(which) {}
 
- private:
-  std::uint64_t n_;
-  int error_;
-  std::shared_ptr<std::atomic<std::uint64_t>> count_ = std::make_shared<std::atomic<std::uint64_t>>(0);
-};
-
-// A WriteFault that fails nothing and counts.
-class CountWrites {
- public:
-  int operator()(std::uint64_t, std::size_t) const { return ++*count_, 0; }
+  io::FileFault operator()(io::FileCall call) const {
+    if (call != call_) return {};
+    const std::uint64_t number = ++*count_;
+    const bool now = n_ != 0 && (which_ == Which::kOne ? number == n_ : number >= n_);
+    return now ? fault_ : io::FileFault{};
+  }
   std::uint64_t count() const { return *count_; }
 
  private:
+  io::FileCall call_;
+  std::uint64_t n_;
+  io::FileFault fault_;
+  Which which_;
   std::shared_ptr<std::atomic<std::uint64_t>> count_ = std::make_shared<std::atomic<std::uint64_t>>(0);
 };
 
@@ -63,16 +66,18 @@ class CountWrites {
 template <class Run>
 void expect_failing_writes_are_reported(const Run& run) {
   const Scratch scratch;
-  const CountWrites writes;
+  const FaultAtCall writes(io::FileCall::kWrite);
   {
+    const io::ScopedFileFaults faults(writes);
     MemoryBudget budget;
-    run(io::TempDir(scratch.path(), writes), budget);
+    run(io::TempDir(scratch.path()), budget);
   }
   ASSERT_GT(writes.count(), 3u) << "nothing spills any more";
   for (std::uint64_t n = 1; n <= writes.count(); n += 1 + n / 8) {
     MemoryBudget budget;
     try {
-      run(io::TempDir(scratch.path(), FailNthWrite(n, ENOSPC)), budget);
+      const io::ScopedFileFaults faults(FaultAtCall(io::FileCall::kWrite, n, {.error = ENOSPC}));
+      run(io::TempDir(scratch.path()), budget);
       ADD_FAILURE() << "write " << n << ": the error was swallowed";
     } catch (const Error& e) {
       EXPECT_EQ(e.kind(), ErrorKind::kResource);

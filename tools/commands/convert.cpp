@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "io/file/atomic_file.h"
 #include "io/file/temp_dir.h"
 #include "io/formats/create_mesh.h"
 #include "libreeb/base/error.h"

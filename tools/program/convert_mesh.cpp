@@ -7,7 +7,7 @@
 #include "io/events/pre_order.h"
 #include "io/file/content_source.h"
 #include "io/file/file_name.h"
-#include "io/file/output_stream.h"
+#include "io/file/file_ostream.h"
 #include "io/formats/create_mesh.h"
 #include "io/formats/format_detection.h"
 #include "io/formats/mesh_io.h"
@@ -97,6 +97,7 @@ class Conversion {
     options.dimension = info.dimension;
     options.float64 = !info.float32;
     options.existing = options_.existing;
+    options.temp_folder = options_.temp_folder;
     if (holds_properties()) options.property_names = read_options_.properties;
     // SMC leaves vertices out that no triangle names.
     if (format_ != io::StreamFormat::kCompressed) options.vertex_count = vertex_count;
@@ -104,8 +105,8 @@ class Conversion {
   }
 
   Lines list_events() {
-    io::AtomicOutputFile file(options_.output, options_.existing);
-    io::OutputStream out(file.out());
+    io::AtomicFile file(options_.output, {.existing = options_.existing});
+    io::FileOstream out(file.out());
     io::write_events(*reader_, out);
     file.commit();
     return reader_->warnings();

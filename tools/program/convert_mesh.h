@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "io/file/atomic_output.h"
+#include "io/file/atomic_file.h"
 #include "io/functions/function_source.h"
 #include "libreeb/base/memory_budget.h"
 

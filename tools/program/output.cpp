@@ -1,9 +1,9 @@
 #include "tools/program/output.h"
 
-#include <filesystem>
 #include <iostream>
 
 #include "io/file/atomic_file.h"
+#include "io/file/file_ostream.h"
 #include "libreeb/base/error.h"
 
 namespace reeb::tools {
@@ -14,16 +14,16 @@ bool is_standard_output(const std::string& path) { return path.empty() || path =
 }  // namespace
 
 void refuse_existing(const std::string& path, bool force) {
-  std::error_code ignored;
-  if (force || is_standard_output(path) || !std::filesystem::exists(path, ignored)) return;
-  throw Error(ErrorKind::kBadInput, "the output exists", "choose another name, or overwrite it with --force").at(path);
+  if (is_standard_output(path)) return;
+  io::check_output_name(path, force ? io::Existing::kReplace : io::Existing::kRefuse);
 }
 
 void write_output(const std::string& path, const std::function<void(std::ostream&)>& write) {
   if (!is_standard_output(path)) {
-    io::AtomicOutput out(path);
+    io::AtomicFile file(path, {.existing = io::Existing::kReplace});
+    io::FileOstream out(file.out());
     write(out);
-    out.commit();
+    file.commit();
     return;
   }
   write(std::cout);

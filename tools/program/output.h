@@ -7,7 +7,7 @@
 
 namespace reeb::tools {
 
-// THROWS: Error{kBadInput} if `path` exists and `force` is not given. Nothing for "" and "-".
+// THROWS: Error{kBadInput} if `path` exists and `force` is not given, or is a folder. Nothing for "" and "-".
 void refuse_existing(const std::string& path, bool force);
 
 // Calls `write` with the stream of `path`, or standard output for "" and "-".

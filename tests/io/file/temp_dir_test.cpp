@@ -60,7 +60,8 @@ TEST(TempDir, TakesTheOutputsFolderUnlessTmpdirIsSet) {
 
 TEST(File, ReportsAFullDiskWithPlaceAndNeed) {
   const Scratch scratch;
-  io::TempDir temp(scratch.path(), FailNthWrite(2, ENOSPC));
+  const io::ScopedFileFaults faults(FaultAtCall(io::FileCall::kWrite, 2, {.error = ENOSPC}));
+  const io::TempDir temp(scratch.path());
   const io::File file = temp.create_unnamed("arcs");
   file.write_at(0, text_bytes("abc"));
   try {

@@ -190,7 +190,7 @@ TEST_F(Writers, EveryFormatHoldsTheSameGeneratedMesh) {
   write("a.obj", true);
   write("a.off", false);
   const Mesh mesh = parse_ply(path("a.ply"));
-  EXPECT_GT(fs::file_size(path("a.ply")), 2 * OutputFile::kBufferBytes);
+  EXPECT_GT(fs::file_size(path("a.ply")), 2 * BufferedWriter::kBufferBytes);
   EXPECT_TRUE(mesh == parse_ply(path("b.ply")));
   EXPECT_TRUE(mesh == parse_obj(path("a.obj")));
   EXPECT_TRUE(mesh == parse_off(path("a.off")));

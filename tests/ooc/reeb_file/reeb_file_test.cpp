@@ -148,6 +148,7 @@ TEST(ReebFile, PairsHeaderAndBucketsComeBack) {
 
 TEST(GraphFile, PiecesDoNotShowAndBucketsFollowTheirArcs) {
   const TemporaryFolder folder;
+  const io::TempDir temp(folder.path().string());
   const MadeUp made = MadeUpMaker(3).make(9'000, 15'000, 0);
   const FileMeta meta = meta_of(made);
   write_graph_file(folder / "whole.reeb", meta, made.graph, made.buckets.view());
@@ -161,7 +162,11 @@ TEST(GraphFile, PiecesDoNotShowAndBucketsFollowTheirArcs) {
   for (const auto& [piece, ends, background] :
        {Case{1, Ends::kKeys, false}, Case{7, Ends::kKeys, true}, Case{100'000, Ends::kKeysInMemory, true}}) {
     GraphFileWriter writer(folder / "pieces.reeb", meta,
-                           {.has_embedding = true, .ends = ends, .background = background});
+                           {.nodes = made.graph.node_count(),
+                            .has_embedding = true,
+                            .ends = ends,
+                            .background = background,
+                            .temp = &temp});
     for (std::size_t i = 0; i < made.graph.node_count(); ++i) {
       const SettledNode node{made.graph.nodes[i], made.graph.positions[i]};
       writer.add_nodes({&node, 1});

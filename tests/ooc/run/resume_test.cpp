@@ -369,6 +369,7 @@ TEST(Resume, RefusesEveryCutAndChangedByteOfASmallCheckpoint) {
       else
         bad[at] = static_cast<char>(bad[at] ^ 0x10);
       fs::create_directory(runs.partial());
+      write_file(runs.partial() + "/reeb-partial", "");
       write_file(checkpoint, bad);
       Notes notes;
       ASSERT_EQ(runs.finish(true, notes), expected) << "at " << at;
@@ -420,6 +421,7 @@ TEST(Resume, KeepsCheckpointsAlongTheWayOnlyWhenTheyAreDue) {
     if (seconds != 0) continue;
     runs.watch = {};
     fs::create_directory(runs.partial());
+    write_file(runs.partial() + "/reeb-partial", "");
     write_file(runs.partial() + "/checkpoint", last);
     Notes notes;
     EXPECT_EQ(runs.finish(true, notes), expected);
@@ -439,16 +441,55 @@ TEST(PartialFolder, BelongsToOneRunAtATime) {
 
 TEST(PartialFolder, LeavesFilesOfOtherOriginAlone) {
   const Scratch scratch;
-  const std::string output = scratch.path() + "/a.reeb";
-  fs::create_directory(output + ".partial");
-  write_file(output + ".partial/notes.txt", "mine");
-  write_file(output + ".partial/function-0.arcs", "left");
-  {
+  const std::string output = scratch.path() + "/a.reeb", partial = PartialFolder::path_for(output);
+  const std::vector<std::string> ours = {"checkpoint.partial-12-0", "function-0.arcs", "function-10.nodes"};
+  const std::vector<std::string> others = {
+      "notes.txt",          "checkpoints",      "checkpoint.old", "function-.arcs",        "mine.arcs",
+      "function-0.arcs.gz", "function-a.nodes", "my.nodes",       "checkpoint.partial-12", "xfunction-0.arcs"};
+  for (int run = 0; run < 2; ++run) {
     PartialFolder folder(output);
-    folder.clear();
+    for (const std::string& name : ours) write_file(folder.file(name), "left");
+    for (const std::string& name : others) write_file(folder.file(name), "mine");
+    if (run == 0) folder.clear();
   }
-  EXPECT_TRUE(fs::exists(output + ".partial/notes.txt"));
-  EXPECT_FALSE(fs::exists(output + ".partial/function-0.arcs"));
+  for (const std::string& name : ours) EXPECT_FALSE(fs::exists(partial + "/" + name)) << name;
+  for (const std::string& name : others) EXPECT_TRUE(fs::exists(partial + "/" + name)) << name;
+  for (const std::string& name : others) fs::remove(partial + "/" + name);
+  { const PartialFolder folder(output); }
+  EXPECT_TRUE(scratch.empty());
+}
+
+TEST(PartialFolder, RefusesWhatNoRunHasMade) {
+  const Scratch scratch;
+  const std::string output = scratch.path() + "/a.reeb", partial = PartialFolder::path_for(output);
+  const auto expect_refused = [&] {
+    try {
+      const PartialFolder folder(output);
+      ADD_FAILURE() << "accepted";
+    } catch (const Error& e) {
+      EXPECT_EQ(e.kind(), ErrorKind::kResource);
+      EXPECT_EQ(e.file(), partial);
+      EXPECT_NE(e.hint().find("move it away"), std::string::npos);
+    }
+  };
+  fs::create_directory(partial);
+  write_file(partial + "/function-0.arcs", "mine");
+  expect_refused();
+  // A link that has the mark's name is no mark.
+  fs::create_symlink(partial + "/function-0.arcs", partial + "/reeb-partial");
+  expect_refused();
+  EXPECT_EQ(read_file(partial + "/function-0.arcs"), "mine");
+  fs::rename(partial, scratch.path() + "/elsewhere");
+  fs::create_symlink(scratch.path() + "/elsewhere", partial);
+  expect_refused();
+  EXPECT_EQ(read_file(scratch.path() + "/elsewhere/function-0.arcs"), "mine");
+}
+
+TEST(PartialFolder, IsForThisUserOnly) {
+  const Scratch scratch;
+  const PartialFolder folder(scratch.path() + "/a.reeb");
+  EXPECT_EQ(fs::status(folder.path()).permissions(), fs::perms::owner_all);
+  EXPECT_EQ(fs::status(folder.file("reeb-partial")).permissions(), fs::perms::owner_read | fs::perms::owner_write);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cerrno>
 #include <random>
 
 #include "libreeb/base/error.h"
@@ -124,7 +125,8 @@ TEST(ExternalSort, DoesNotForgetThatRecordsWereLost) {
   MemoryBudget budget;
   const std::vector<Pair> pairs = random_pairs(20'000, 1);
   ExternalSort<Pair> sort("pairs", temp, budget,
-                          {.allowance_bytes = 256 << 10, .background = true, .file = "/dev/full"});
+                          {.allowance_bytes = 256 << 10, .background = true, .file = scratch.path() + "/records"});
+  const io::ScopedFileFaults full(FaultAtCall(io::FileCall::kWrite, 1, {.error = ENOSPC}));
   bool failed = false;
   for (std::size_t i = 0; !failed && i < pairs.size(); i += 100) {
     sort.add(std::span(pairs).subspan(i, 100));

@@ -85,8 +85,9 @@ TEST(PagedTable, AgreesWithAMapWhileItSpills) {
 
 TEST(PagedTable, IsPlainMemoryWhileItFits) {
   const Scratch scratch;
-  CountWrites writes;
-  const io::TempDir temp(scratch.path(), writes);
+  const FaultAtCall writes(io::FileCall::kWrite);
+  const io::ScopedFileFaults faults(writes);
+  const io::TempDir temp(scratch.path());
   MemoryBudget budget;
   PagedTable<std::uint32_t> table("table", temp, budget, 8 << 20, 0u);
   for (std::uint32_t i = 0; i < 1'000'000; ++i) table.set(i, i * 3);
@@ -97,8 +98,9 @@ TEST(PagedTable, IsPlainMemoryWhileItFits) {
 
 TEST(PagedTable, ReadingWhatWasNeverSetWritesNothing) {
   const Scratch scratch;
-  CountWrites writes;
-  const io::TempDir temp(scratch.path(), writes);
+  const FaultAtCall writes(io::FileCall::kWrite);
+  const io::ScopedFileFaults faults(writes);
+  const io::TempDir temp(scratch.path());
   MemoryBudget budget;
   PagedTable<std::uint64_t> table("table", temp, budget, 0, 42u);
   for (std::uint64_t i = 0; i < 1'000'000; i += 1000) ASSERT_EQ(table.get(i), 42u);

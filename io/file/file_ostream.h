@@ -1,19 +1,19 @@
-// A std::ostream on an OutputFile, for writers that work on streams.
+// A std::ostream on a BufferedWriter, for writers that work on streams.
 #pragma once
 
 #include <ostream>
 #include <streambuf>
 
-#include "io/file/output_file.h"
+#include "io/file/buffered_writer.h"
 
 namespace reeb::io {
 
 // Bytes pass on at once, since the file has a buffer of its own; the place of writing can be set
 // back to overwrite what was written. Errors of the file pass through the stream as they are.
-class OutputStream : private std::streambuf, public std::ostream {
+class FileOstream : private std::streambuf, public std::ostream {
  public:
   // `file` must outlive this.
-  explicit OutputStream(OutputFile& file);
+  explicit FileOstream(BufferedWriter& file);
 
  private:
   using Traits = std::streambuf::traits_type;
@@ -26,7 +26,7 @@ class OutputStream : private std::streambuf, public std::ostream {
   pos_type seekoff(off_type offset, std::ios_base::seekdir direction, std::ios_base::openmode which) override;
   pos_type seekpos(pos_type place, std::ios_base::openmode which) override;
 
-  OutputFile& file_;
+  BufferedWriter& file_;
   std::uint64_t at_;
 };
 

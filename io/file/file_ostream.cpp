@@ -1,14 +1,14 @@
-#include "io/file/output_stream.h"
+#include "io/file/file_ostream.h"
 
 #include <algorithm>
 
 namespace reeb::io {
 
-OutputStream::OutputStream(OutputFile& file) : std::ostream(this), file_(file), at_(file.size()) {
+FileOstream::FileOstream(BufferedWriter& file) : std::ostream(this), file_(file), at_(file.size()) {
   exceptions(std::ios::badbit | std::ios::failbit);
 }
 
-std::streamsize OutputStream::xsputn(const char* bytes, std::streamsize count) {
+std::streamsize FileOstream::xsputn(const char* bytes, std::streamsize count) {
   const std::string_view all(bytes, static_cast<std::size_t>(count));
   const auto old = static_cast<std::size_t>(std::min<std::uint64_t>(file_.size() - at_, all.size()));
   if (old != 0) file_.overwrite(at_, all.substr(0, old));
@@ -17,22 +17,22 @@ std::streamsize OutputStream::xsputn(const char* bytes, std::streamsize count) {
   return count;
 }
 
-OutputStream::int_type OutputStream::overflow(int_type c) {
+FileOstream::int_type FileOstream::overflow(int_type c) {
   if (Traits::eq_int_type(c, Traits::eof())) return Traits::not_eof(c);
   const char byte = Traits::to_char_type(c);
   xsputn(&byte, 1);
   return c;
 }
 
-OutputStream::pos_type OutputStream::seekoff(off_type offset, std::ios_base::seekdir direction,
-                                             std::ios_base::openmode which) {
+FileOstream::pos_type FileOstream::seekoff(off_type offset, std::ios_base::seekdir direction,
+                                           std::ios_base::openmode which) {
   off_type base = 0;
   if (direction == std::ios_base::cur) base = static_cast<off_type>(at_);
   if (direction == std::ios_base::end) base = static_cast<off_type>(file_.size());
   return seekpos(base + offset, which);
 }
 
-OutputStream::pos_type OutputStream::seekpos(pos_type place, std::ios_base::openmode /*which*/) {
+FileOstream::pos_type FileOstream::seekpos(pos_type place, std::ios_base::openmode /*which*/) {
   const auto offset = static_cast<off_type>(place);
   if (offset < 0 || static_cast<std::uint64_t>(offset) > file_.size()) return off_type{-1};
   at_ = static_cast<std::uint64_t>(offset);

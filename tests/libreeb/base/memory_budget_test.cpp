@@ -1,0 +1,56 @@
+#include "libreeb/base/memory_budget.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <new>
+
+#include "libreeb/base/error.h"
+
+namespace {
+bool no_memory = false;
+}
+
+void* operator new(std::size_t bytes) {
+  void* const memory = no_memory ? nullptr : std::malloc(bytes);
+  if (memory == nullptr) throw std::bad_alloc();
+  return memory;
+}
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+
+namespace reeb {
+namespace {
+
+TEST(MemoryBudget, RefusesANewOwnerWhenTheSystemHasNoMemoryForTheEntry) {
+  MemoryBudget budget(1000);
+  Reservation known = budget.reserve("known", 10);
+  no_memory = true;
+  const Reservation unknown = budget.try_reserve("unknown", 10);
+  const bool grew = known.try_resize(20);
+  no_memory = false;
+  EXPECT_EQ(unknown.bytes(), 0u);
+  EXPECT_TRUE(grew) << "an owner that has an entry needs no other";
+  EXPECT_EQ(budget.used_bytes(), 20u);
+  known.release();
+  EXPECT_EQ(budget.used_bytes(), 0u);
+  EXPECT_EQ(budget.peak_bytes(), 20u);
+}
+
+TEST(MemoryBudget, NamesTheOwnersWhenItRefuses) {
+  MemoryBudget budget(1000, 24);
+  const Reservation held = budget.reserve("chunks", 900);
+  try {
+    const Reservation more = budget.reserve("live graph", 200);
+    FAIL() << "granted";
+  } catch (const Error& e) {
+    EXPECT_EQ(e.kind(), ErrorKind::kResource);
+    EXPECT_EQ(e.message(),
+              "live graph needs 200 bytes more memory, but 100 bytes of 1000 bytes is free "
+              "(in use: chunks 900 bytes)");
+    EXPECT_NE(e.hint().find("--memory"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace reeb
