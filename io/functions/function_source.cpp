@@ -10,6 +10,7 @@
 #include "io/formats/scalar_bytes.h"
 #include "io/text/text_cursor.h"
 #include "libreeb/base/error.h"
+#include "libreeb/base/hash.h"
 
 namespace reeb::io {
 namespace {
@@ -40,13 +41,6 @@ std::optional<FunctionSpec> try_parse(std::string_view text) {
   const auto seed = whole_number(argument);
   if (name == "random" && seed) return FunctionSpec{Kind::kRandom, *seed, {}, whole};
   return std::nullopt;
-}
-
-std::uint64_t mix(std::uint64_t x) noexcept {
-  x += 0x9e3779b97f4a7c15u;
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
-  return x ^ (x >> 31);
 }
 
 }  // namespace
