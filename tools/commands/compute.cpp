@@ -10,7 +10,6 @@
 
 #include "io/formats/mesh_io.h"
 #include "io/functions/function_source.h"
-#include "io/functions/mesh_function.h"
 #include "libreeb/base/error.h"
 #include "ooc/reeb_file/reeb_file.h"
 #include "ooc/run/compute.h"
@@ -133,10 +132,10 @@ void run_compute(ComputeArguments arguments) {
   facts.format = info.format;
   facts.input_bytes = info.file_bytes;
 
-  std::vector<std::unique_ptr<io::MeshFunction>> functions;
+  std::vector<std::unique_ptr<io::FunctionSource>> functions;
   std::vector<VertexFunction*> pointers;
   for (const io::FunctionSpec& spec : specs) {
-    functions.push_back(std::make_unique<io::MeshFunction>(spec, info, read_options.properties, arguments.mesh));
+    functions.push_back(std::make_unique<io::FunctionSource>(spec, info, read_options.properties, arguments.mesh));
     pointers.push_back(functions.back().get());
   }
   if (!arguments.quiet) fmt::print(stderr, "{}: {}\n", arguments.mesh, describe(info));

@@ -11,7 +11,7 @@
 #include "io/formats/create_mesh.h"
 #include "io/formats/format_detection.h"
 #include "io/formats/mesh_io.h"
-#include "io/functions/mesh_function.h"
+#include "io/functions/function_source.h"
 #include "io/streaming/create_stream.h"
 #include "io/streaming/event_input.h"
 #include "io/streaming/stream_mesh_reader.h"
@@ -169,7 +169,7 @@ std::unique_ptr<IndexedMesh> Conversion::sorted(std::unique_ptr<IndexedMesh> mes
     case TriangleOrder::Kind::kSweep:
       break;
   }
-  io::MeshFunction function(*options_.order.function, reader_->info(), read_options_.properties, options_.input);
+  io::FunctionSource function(*options_.order.function, reader_->info(), read_options_.properties, options_.input);
   return ooc::sorted_by_function(std::move(mesh), function, space);
 }
 
