@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "tests/io/formats/mesh_files.h"
+#include "tests/support/files.h"
 
 namespace reeb::io::testing {
 namespace {
@@ -143,11 +144,7 @@ TEST(Readers, PackedFilesOfSeveralPartsAndUnderAnyName) {
     const std::string first = write_file("first", bytes.substr(0, 40)), rest = write_file("rest", bytes.substr(40));
     for (const char* tool : {"gzip", "zstd -q"}) {
       std::string packed;
-      for (const auto& part : {run_on(tool, first, ".1"), run_on(tool, rest, ".2")}) {
-        std::ostringstream bytes_of_part;
-        bytes_of_part << std::ifstream(part, std::ios::binary).rdbuf();
-        packed += bytes_of_part.str();
-      }
+      for (const auto& part : {run_on(tool, first, ".1"), run_on(tool, rest, ".2")}) packed += test::read_file(part);
       EXPECT_EQ(read_mesh(write_file("packed", packed)), kTetrahedron) << tool;
       EXPECT_EQ(open_indexed_mesh(write_file("packed", packed)), nullptr);
       for (std::size_t cut = 1; cut < 30; ++cut) {
