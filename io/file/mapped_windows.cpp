@@ -1,27 +1,17 @@
 #include "io/file/mapped_windows.h"
 
 #include <algorithm>
-#include <exception>
-#include <filesystem>
-#include <system_error>
+#include <boost/interprocess/exceptions.hpp>
+#include <utility>
 
-#include "io/file/input_file.h"
 #include "libreeb/base/error.h"
 
 namespace reeb::io {
 
-MappedWindows::MappedWindows(const std::string& path, WindowOptions options) : path_(path), options_(options) {
-  check_input_file(path);
-  std::error_code failure;
-  if (!std::filesystem::is_regular_file(path, failure))
-    throw Error(ErrorKind::kBadInput, "is not a regular file, so it cannot be mapped",
-                "copy it to a regular file first")
-        .at(path);
-  size_ = std::filesystem::file_size(path, failure);
-  if (failure) throw Error(ErrorKind::kBadInput, "cannot be read: " + failure.message(), "check the file").at(path);
-  if (size_ == 0) throw_empty(path);
+MappedWindows::MappedWindows(std::shared_ptr<const MappableFile> file, WindowOptions options)
+    : file_(std::move(file)), options_(options) {
   window_mask_ = (std::uint64_t{1} << options_.window_bits) - 1;
-  slot_of_.resize((size_ >> options_.window_bits) + 1, kNone);
+  slot_of_.resize((size() >> options_.window_bits) + 1, kNone);
   slots_.resize(std::clamp<std::size_t>(options_.window_count, 2, kNone));
 }
 
@@ -32,7 +22,7 @@ std::string_view MappedWindows::view(std::uint64_t offset) {
 
 std::size_t MappedWindows::mapped_bytes(std::uint64_t window) const {
   const std::uint64_t wanted = window_mask_ + 1 + options_.overlap_bytes;
-  return static_cast<std::size_t>(std::min(wanted, size_ - (window << options_.window_bits)));
+  return static_cast<std::size_t>(std::min(wanted, size() - (window << options_.window_bits)));
 }
 
 // The clock rule: the hand passes over windows used since it came by last.
@@ -41,10 +31,10 @@ std::uint8_t MappedWindows::victim() {
     const auto number = static_cast<std::uint8_t>(hand_);
     Slot& slot = slots_[number];
     hand_ = (hand_ + 1) % slots_.size();
-    if (!slot.map.is_open()) return number;
+    if (slot.map.get_size() == 0) return number;
     if (!slot.recent) {
       slot_of_[slot.window] = kNone;
-      slot.map.close();
+      slot.map = {};
       return number;
     }
     slot.recent = false;
@@ -55,14 +45,15 @@ std::uint8_t MappedWindows::map(std::uint64_t window) {
   const std::uint8_t number = victim();
   Slot& slot = slots_[number];
   try {
-    slot.map.open(path_, mapped_bytes(window),
-                  static_cast<boost::iostreams::stream_offset>(window << options_.window_bits));
-  } catch (const std::exception& failure) {
+    slot.map = boost::interprocess::mapped_region(
+        file_->mapping(), boost::interprocess::read_only,
+        static_cast<boost::interprocess::offset_t>(window << options_.window_bits), mapped_bytes(window));
+  } catch (const boost::interprocess::interprocess_exception& failure) {
     throw Error(ErrorKind::kResource, std::string("cannot be mapped: ") + failure.what(),
                 "check that the file is still there and that memory is left")
-        .at(path_, std::to_string(window << options_.window_bits));
+        .at(file_->path(), std::to_string(window << options_.window_bits));
   }
-  slot.base = slot.map.data();
+  slot.base = static_cast<const char*>(slot.map.get_address());
   slot.window = window;
   slot_of_[window] = number;
   return number;

@@ -11,12 +11,15 @@
 // THREADS: one at a time.
 #pragma once
 
-#include <boost/iostreams/device/mapped_file.hpp>
+#include <boost/interprocess/mapped_region.hpp>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "io/file/input_file.h"
 
 namespace reeb::io {
 
@@ -28,10 +31,13 @@ struct WindowOptions {
 
 class MappedWindows {
  public:
-  // THROWS: Error{kBadInput}: absent, a directory or another special file, unreadable, empty.
-  explicit MappedWindows(const std::string& path, WindowOptions options = {});
+  explicit MappedWindows(std::shared_ptr<const MappableFile> file, WindowOptions options = {});
+  // Opens the file. THROWS: as MappableFile.
+  explicit MappedWindows(const std::string& path, WindowOptions options = {})
+      : MappedWindows(std::make_shared<const MappableFile>(path), options) {}
 
-  std::uint64_t size() const { return size_; }
+  std::uint64_t size() const { return file_->size(); }
+  const std::shared_ptr<const MappableFile>& file() const { return file_; }
   std::size_t overlap_bytes() const { return options_.overlap_bytes; }
 
   // The bytes from `offset` on: at least overlap_bytes(), or all up to the end of the file. Valid
@@ -54,7 +60,7 @@ class MappedWindows {
     const char* base = nullptr;  // of the window
     bool recent = false;
     std::uint64_t window = 0;
-    boost::iostreams::mapped_file_source map;
+    boost::interprocess::mapped_region map;
   };
   static constexpr std::uint8_t kNone = 255;
 
@@ -62,9 +68,8 @@ class MappedWindows {
   std::uint8_t victim();
   std::size_t mapped_bytes(std::uint64_t window) const;
 
-  std::string path_;
+  std::shared_ptr<const MappableFile> file_;
   WindowOptions options_;
-  std::uint64_t size_ = 0;
   std::uint64_t window_mask_ = 0;
   std::vector<std::uint8_t> slot_of_;  // by window
   std::vector<Slot> slots_;

@@ -12,7 +12,7 @@
 #include <string>
 #include <tuple>
 
-#include "io/formats/mesh_io.h"
+#include "io/formats/open_mesh.h"
 #include "io/functions/function_source.h"
 #include "tests/model/naive_denoise.h"
 #include "tests/model/reference_reeb.h"

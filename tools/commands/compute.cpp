@@ -8,7 +8,7 @@
 #include <thread>
 #include <vector>
 
-#include "io/formats/mesh_io.h"
+#include "io/formats/open_mesh.h"
 #include "io/functions/function_source.h"
 #include "libreeb/base/error.h"
 #include "ooc/reeb_file/reeb_file.h"
@@ -141,8 +141,8 @@ void run_compute(ComputeArguments arguments) {
   if (!arguments.quiet) fmt::print(stderr, "{}: {}\n", arguments.mesh, describe(info));
   if (arguments.snapshot_every != 0)
     input.reader = with_snapshots(std::move(input.reader), arguments.snapshot_every, pointers, outputs);
-  else if (arguments.mesh != "-")
-    input.indexed = io::open_indexed_mesh(arguments.mesh, read_options);
+  else
+    input.indexed = input.reader->indexed();
   if (input.indexed) input.reader.reset();
   if (arguments.mesh != "-" && arguments.snapshot_every == 0)
     input.read_again = [&] { return io::open_mesh(arguments.mesh, read_options); };

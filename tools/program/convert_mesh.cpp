@@ -10,7 +10,7 @@
 #include "io/file/output_stream.h"
 #include "io/formats/create_mesh.h"
 #include "io/formats/format_detection.h"
-#include "io/formats/mesh_io.h"
+#include "io/formats/open_mesh.h"
 #include "io/functions/function_source.h"
 #include "io/streaming/create_stream.h"
 #include "io/streaming/event_input.h"
@@ -148,8 +148,7 @@ Lines Conversion::write_sorted() {
 }
 
 std::unique_ptr<IndexedMesh> Conversion::index(ooc::Workspace& space, Lines& notes) {
-  if (options_.input != "-")
-    if (auto mesh = io::open_indexed_mesh(options_.input, read_options_)) return mesh;
+  if (auto mesh = reader_->indexed()) return mesh;
   ooc::SpoolOptions options;
   options.allowance_bytes = 2 * space.share();
   auto mesh = ooc::spool(*reader_, space.temp, space.budget, options);

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "io/formats/create_mesh.h"
-#include "io/formats/mesh_io.h"
+#include "io/formats/open_mesh.h"
 #include "io/functions/function_source.h"
 #include "libreeb/base/error.h"
 #include "ooc/run/compute.h"
@@ -163,7 +163,7 @@ class Runs {
     input.path = mesh_path();
     input.reader = io::open_mesh(input.path, reading);
     io::FunctionSource function(io::parse_function(function_), input.reader->info(), {}, input.path);
-    input.indexed = io::open_indexed_mesh(input.path, reading);
+    input.indexed = input.reader->indexed();
     if (input.indexed) input.reader.reset();
     VertexFunction* functions[] = {&function};
     const std::string outputs[] = {output()};
