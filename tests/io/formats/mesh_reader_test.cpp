@@ -1,6 +1,7 @@
 // The readers against files made by hand, and against each other.
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -261,6 +262,35 @@ TEST(Ply, IndexedGoesBackFromAnywhere) {
     EXPECT_EQ(read_indexed(*indexed), mesh) << limit;
     indexed->rewind();
   }
+}
+
+// Time that grows with the square of their number would be half a minute here.
+TEST(Ply, AHeaderMayHaveManyProperties) {
+  constexpr std::size_t kCount = 200000;
+  std::string head = "ply\nformat ascii 1.0\nelement vertex 1\nproperty uchar x\n", body = "3";
+  ReadOptions options;
+  for (std::size_t i = 0; i < kCount; ++i) {
+    options.properties.push_back(std::string("p").append(std::to_string(i)));
+    head += "property uchar " + options.properties.back() + "\n";
+    body += i % 2 == 0 ? " 0" : " 1";
+  }
+  const auto begin = std::chrono::steady_clock::now();
+  const Mesh mesh = read_all(*open_mesh(write_file("many.ply", head + "end_header\n" + body + "\n"), options));
+  ASSERT_EQ(mesh.vertices.size(), 1u);
+  ASSERT_EQ(mesh.vertices[0].size(), kCount + 1);
+  EXPECT_EQ(mesh.vertices[0].back(), 1);
+  expect_bad(write_file("twice.ply", head + "property uchar p7\nend_header\n" + body + " 0\n"),
+             std::to_string(kCount + 5) + ":16", "the property \"p7\" is declared twice");
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(10));
+}
+
+// The same name in two elements is two properties.
+TEST(Ply, NamesAreOfAnElement) {
+  const Mesh mesh = {{{5, 6}}, {}};
+  const std::string path = write_file("names.ply",
+                                      "ply\nformat ascii 1.0\nelement other 1\nproperty int q\nelement vertex 1\n"
+                                      "property int x\nproperty int q\nend_header\n9\n5 6\n");
+  EXPECT_EQ(read_mesh(path, {"q"}), mesh);
 }
 
 TEST(Obj, FacesOfAllForms) {
