@@ -31,7 +31,7 @@ const Rooms kRooms = {
     {"io/text", {"libreeb", "io/file"}},
     {"io/mesh", {"libreeb", "io/file", "io/text"}},
     {"io/events", {"libreeb", "io/file", "io/text", "io/mesh"}},
-    {"io/smc", {"libreeb", "io/file", "io/events"}},
+    {"io/smc", {"libreeb", "io/file", "io/text", "io/events"}},
     {"io/streaming", {"libreeb", "io/file", "io/text", "io/mesh", "io/events", "io/smc"}},
     {"io/formats", {"libreeb", "io/file", "io/text", "io/mesh", "io/events", "io/streaming"}},
     {"io/functions", {"libreeb", "io/file", "io/text", "io/mesh", "io/formats"}},
