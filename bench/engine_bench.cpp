@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "io/generate/generator.h"
-#include "io/generate/noise.h"
+#include "libreeb/base/hash.h"
 #include "libreeb/engine/chunk_sweep.h"
 #include "libreeb/engine/glue.h"
 
@@ -73,7 +73,7 @@ const Mesh& mesh_of(Layout layout) {
 
 double value(const Mesh& mesh, std::int64_t function, std::uint64_t v) {
   if (function != kRandom) return mesh.coordinates[static_cast<std::size_t>(function)][v];
-  return static_cast<double>(io::mix(io::mix(1) + v) >> 11) * 0x1p-53;
+  return static_cast<double>(mix(mix(1) + v) >> 11) * 0x1p-53;
 }
 
 struct Input {
@@ -120,7 +120,7 @@ struct CountingSink : GraphSink {
   void add_arcs(const SettledArcs& more) override {
     arcs += more.arcs.size();
     for (const Bucket& bucket : more.buckets) vertices += bucket.count;
-    for (const ArcKeys& arc : more.arcs) check ^= io::mix(arc.lo.vertex.value() ^ io::mix(arc.hi.vertex.value()));
+    for (const ArcKeys& arc : more.arcs) check ^= mix(arc.lo.vertex.value() ^ mix(arc.hi.vertex.value()));
   }
   std::uint64_t nodes = 0, arcs = 0, check = 0;
   std::uint64_t vertices = 0;  // in buckets

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "io/file/temp_dir.h"
+#include "libreeb/base/byte_coding.h"
 #include "libreeb/base/memory_budget.h"
 #include "ooc/chunks/last_use.h"
 #include "ooc/sorting/column_codec.h"

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "io/formats/mesh_io.h"
+#include "io/formats/open_mesh.h"
 
 namespace {
 
@@ -105,7 +105,7 @@ BENCHMARK(BM_Stream)
 
 void BM_IndexedFaces(benchmark::State& state) {
   const GridFile file(Kind::kBinaryPly);
-  const auto mesh = reeb::io::open_indexed_mesh(file.path());
+  const auto mesh = reeb::io::open_mesh(file.path())->indexed();
   std::vector<VertexId> corners;
   for (auto _ : state) {
     std::uint64_t triangles = 0;
@@ -119,7 +119,7 @@ BENCHMARK(BM_IndexedFaces)->Unit(benchmark::kMillisecond);
 
 void BM_IndexedGather(benchmark::State& state) {
   const GridFile file(Kind::kBinaryPly);
-  const auto mesh = reeb::io::open_indexed_mesh(file.path());
+  const auto mesh = reeb::io::open_mesh(file.path())->indexed();
   std::vector<VertexId> ids(16384);
   const std::vector<unsigned> columns = {2};
   std::vector<double> values(ids.size());

@@ -3,10 +3,10 @@
 #include <array>
 #include <charconv>
 
+#include "io/text/output_buffer.h"
+
 namespace reeb::io {
 namespace {
-
-constexpr std::size_t kFlushBytes = 1u << 16;
 
 void append_real(std::string& out, double value) {
   std::array<char, 32> text;
@@ -28,27 +28,21 @@ void append_values(std::string& out, const StreamEvent& event, std::size_t float
   for (std::size_t i = 0; i < ints; ++i) append_integer(out, event.ints[i]);
 }
 
-// Text on its way to a stream, in large pieces; also when an error passes by.
+// Writes what it has also when an error passes by.
 class Lines {
  public:
-  explicit Lines(std::ostream& out) : out_(out) {}
+  explicit Lines(std::ostream& out) : buffer_(out) {}
   Lines(const Lines&) = delete;
   Lines& operator=(const Lines&) = delete;
-  ~Lines() { flush(); }
+  ~Lines() { buffer_.flush(); }
 
   std::string& text() {
-    if (text_.size() >= kFlushBytes) flush();
-    return text_;
+    buffer_.flush_if_full();
+    return buffer_.text();
   }
 
  private:
-  void flush() {
-    out_.write(text_.data(), static_cast<std::streamsize>(text_.size()));
-    text_.clear();
-  }
-
-  std::ostream& out_;
-  std::string text_;
+  OutputBuffer buffer_;
 };
 
 void append_batch_vertex(std::string& out, const MeshBatch& batch, std::size_t i) {

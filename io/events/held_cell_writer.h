@@ -9,8 +9,9 @@
 #include <utility>
 
 #include "io/events/cell_hold.h"
-#include "io/events/stream_output.h"
+#include "io/events/format_limits.h"
 #include "io/events/stream_writer.h"
+#include "io/text/output_buffer.h"
 
 namespace reeb::io {
 
@@ -67,7 +68,7 @@ class HeldCellWriter : public StreamWriter {
   std::uint32_t vertices() const { return vertices_; }
   std::uint32_t cells() const { return cells_; }
 
-  StreamOutput out_;
+  OutputBuffer out_;
   const StreamHeader header_;
 
  private:

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "io/export/graph_lines.h"
-#include "io/text/text_sink.h"
+#include "io/text/output_buffer.h"
 
 namespace reeb::io {
 namespace {
@@ -34,7 +34,7 @@ std::uint64_t vertices_of(const GraphView& view, std::size_t arc) {
 }
 
 // A JSON string literal: control characters, quotes and backslashes escaped, UTF-8 as it is.
-void write_json_string(std::string_view text, TextSink& out) {
+void write_json_string(std::string_view text, OutputBuffer& out) {
   constexpr std::string_view kHex = "0123456789abcdef";
   out << '"';
   for (const char c : text) {
@@ -50,14 +50,14 @@ void write_json_string(std::string_view text, TextSink& out) {
 }
 
 // JSON has no infinities.
-void write_json_number(double value, TextSink& out) {
+void write_json_number(double value, OutputBuffer& out) {
   if (std::isfinite(value))
     out << value;
   else
     out << "null";
 }
 
-void write_xml_text(std::string_view text, TextSink& out) {
+void write_xml_text(std::string_view text, OutputBuffer& out) {
   for (const char c : text) {
     if (c == '&')
       out << "&amp;";
@@ -72,7 +72,7 @@ void write_xml_text(std::string_view text, TextSink& out) {
   }
 }
 
-void write_rg(const GraphView& view, TextSink& out) {
+void write_rg(const GraphView& view, OutputBuffer& out) {
   const ReebGraph& graph = view.graph;
   const Degrees degree = degrees(graph);
   for (std::size_t i = 0; i < graph.node_count(); ++i)
@@ -82,7 +82,7 @@ void write_rg(const GraphView& view, TextSink& out) {
     out << "a " << vertex_of(graph, graph.lo[i]) << ' ' << vertex_of(graph, graph.hi[i]) << '\n';
 }
 
-void write_json(const GraphView& view, TextSink& out) {
+void write_json(const GraphView& view, OutputBuffer& out) {
   const ReebGraph& graph = view.graph;
   const Degrees degree = degrees(graph);
   out << "{\"schema\": \"reeb.graph.v1\", \"function\": ";
@@ -116,7 +116,7 @@ void write_json(const GraphView& view, TextSink& out) {
   out << "]}\n";
 }
 
-void write_csv(const GraphView& view, TextSink& out) {
+void write_csv(const GraphView& view, OutputBuffer& out) {
   const ReebGraph& graph = view.graph;
   const Degrees degree = degrees(graph);
   out << "item,vertex,down,up,value,x,y,z,lo,hi,vertices\n";
@@ -134,7 +134,7 @@ void write_csv(const GraphView& view, TextSink& out) {
         << vertices_of(view, i) << '\n';
 }
 
-void write_dot(const GraphView& view, TextSink& out) {
+void write_dot(const GraphView& view, OutputBuffer& out) {
   const ReebGraph& graph = view.graph;
   out << "graph reeb {\n  rankdir=BT;\n";
   for (const SweepKey& node : graph.nodes)
@@ -144,7 +144,7 @@ void write_dot(const GraphView& view, TextSink& out) {
   out << "}\n";
 }
 
-void write_graphml(const GraphView& view, TextSink& out) {
+void write_graphml(const GraphView& view, OutputBuffer& out) {
   const ReebGraph& graph = view.graph;
   out << "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
          "<graphml xmlns=\"http://graphml.graphdrawing.org/xmlns\">\n"
@@ -189,7 +189,7 @@ std::string graph_format_names() {
 }
 
 void write_graph(GraphFormat format, const GraphView& view, std::ostream& stream) {
-  TextSink out(stream);
+  OutputBuffer out(stream);
   switch (format) {
     case GraphFormat::kRg:
       write_rg(view, out);

@@ -63,11 +63,11 @@ void for_each_line(const GraphView& view, const Begin& begin, const At& at, cons
   }
 }
 
-void write_point(const std::array<double, 3>& point, TextSink& out) {
+void write_point(const std::array<double, 3>& point, OutputBuffer& out) {
   out << point[0] << ' ' << point[1] << ' ' << point[2] << '\n';
 }
 
-void begin_array(const char* type, const char* name, TextSink& out) {
+void begin_array(const char* type, const char* name, OutputBuffer& out) {
   out << "<DataArray type=\"" << type << "\" Name=\"" << name << "\" format=\"ascii\">\n";
 }
 
@@ -82,7 +82,7 @@ double value_of(const GraphView& view, std::size_t arc, const Bucket& bucket) {
 }
 
 // Points with the nodes' values and vertices; along arcs the vertex is -1.
-void write_vtk_point_data(const GraphView& view, TextSink& out) {
+void write_vtk_point_data(const GraphView& view, OutputBuffer& out) {
   const ReebGraph& graph = view.graph;
   out << "<PointData Scalars=\"value\">\n";
   begin_array("Float64", "value", out);
@@ -97,7 +97,7 @@ void write_vtk_point_data(const GraphView& view, TextSink& out) {
   out << "</DataArray>\n</PointData>\n";
 }
 
-void write_vtk_cells(const GraphView& view, VtkKind kind, TextSink& out) {
+void write_vtk_cells(const GraphView& view, VtkKind kind, OutputBuffer& out) {
   const char* element = kind == VtkKind::kPolyData ? "Lines" : "Cells";
   const auto nothing = [](auto...) {};
   out << '<' << element << ">\n";
@@ -121,7 +121,7 @@ void write_vtk_cells(const GraphView& view, VtkKind kind, TextSink& out) {
 
 }  // namespace
 
-void write_vtk_lines(const GraphView& view, VtkKind kind, TextSink& out) {
+void write_vtk_lines(const GraphView& view, VtkKind kind, OutputBuffer& out) {
   const char* type = kind == VtkKind::kPolyData ? "PolyData" : "UnstructuredGrid";
   const char* cells = kind == VtkKind::kPolyData ? "NumberOfLines" : "NumberOfCells";
   out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"" << type << "\" version=\"0.1\" byte_order=\"LittleEndian\">\n<"
@@ -135,7 +135,7 @@ void write_vtk_lines(const GraphView& view, VtkKind kind, TextSink& out) {
   out << "</Piece>\n</" << type << ">\n</VTKFile>\n";
 }
 
-void write_ply_lines(const GraphView& view, TextSink& out) {
+void write_ply_lines(const GraphView& view, OutputBuffer& out) {
   std::uint64_t edges = 0;
   for_each_line(
       view, [&](std::uint64_t points) { edges += points - 1; }, [](std::uint64_t) {}, [] {});
@@ -155,7 +155,7 @@ void write_ply_lines(const GraphView& view, TextSink& out) {
       [] {});
 }
 
-void write_obj_lines(const GraphView& view, TextSink& out) {
+void write_obj_lines(const GraphView& view, OutputBuffer& out) {
   for_each_point(view, [&](const auto& point) {
     out << "v ";
     write_point(point, out);

@@ -5,14 +5,14 @@
 #pragma once
 
 #include "io/export/graph_export.h"
-#include "io/text/text_sink.h"
+#include "io/text/output_buffer.h"
 
 namespace reeb::io {
 
 enum class VtkKind { kPolyData, kUnstructuredGrid };
 
-void write_vtk_lines(const GraphView& view, VtkKind kind, TextSink& out);
-void write_ply_lines(const GraphView& view, TextSink& out);
-void write_obj_lines(const GraphView& view, TextSink& out);
+void write_vtk_lines(const GraphView& view, VtkKind kind, OutputBuffer& out);
+void write_ply_lines(const GraphView& view, OutputBuffer& out);
+void write_obj_lines(const GraphView& view, OutputBuffer& out);
 
 }  // namespace reeb::io

@@ -21,8 +21,8 @@ namespace {
 
 class MappedSource final : public ContentSource {
  public:
-  explicit MappedSource(const std::string& path)
-      : ContentSource(path), windows_(path, {.window_count = 2, .overlap_bytes = kLookahead}) {}
+  explicit MappedSource(std::shared_ptr<const MappableFile> file)
+      : ContentSource(file->path()), windows_(std::move(file), {.window_count = 2, .overlap_bytes = kLookahead}) {}
   using ContentSource::view;
 
   std::string_view view(std::uint64_t offset, std::size_t /*least*/) override {
@@ -33,6 +33,7 @@ class MappedSource final : public ContentSource {
   std::optional<std::uint64_t> size() const override { return windows_.size(); }
   std::uint64_t file_bytes_read() const override { return read_; }
   std::uint64_t file_bytes() const override { return windows_.size(); }
+  std::shared_ptr<const MappableFile> file() const override { return windows_.file(); }
 
  private:
   MappedWindows windows_;
@@ -42,7 +43,7 @@ class MappedSource final : public ContentSource {
 // A mapped file as the sequential input of a decompressor.
 class MappedInput final : public RawInput {
  public:
-  explicit MappedInput(const std::string& path) : windows_(path, {.window_count = 2}) {}
+  explicit MappedInput(std::shared_ptr<const MappableFile> file) : windows_(std::move(file), {.window_count = 2}) {}
 
   std::size_t read(char* out, std::size_t limit) override {
     if (offset_ == windows_.size()) return 0;
@@ -178,18 +179,18 @@ std::unique_ptr<RawInput> open_pipe(const std::string& path) {
   return std::make_unique<PipeInput>(path, descriptor, true);
 }
 
-std::unique_ptr<ContentSource> open_file(const std::string& path) {
-  auto mapped = std::make_unique<MappedSource>(path);
-  if (detect_compression(mapped->view(0)) == Compression::kNone) return mapped;
-  return stream_source(path, std::make_unique<MappedInput>(path), mapped->file_bytes());
-}
-
 }  // namespace
+
+std::unique_ptr<ContentSource> open_content(std::shared_ptr<const MappableFile> file) {
+  auto mapped = std::make_unique<MappedSource>(file);
+  if (detect_compression(mapped->view(0)) == Compression::kNone) return mapped;
+  return stream_source(file->path(), std::make_unique<MappedInput>(file), file->size());
+}
 
 std::unique_ptr<ContentSource> open_content(const std::string& path) {
   if (path != "-") {
     check_input_file(path);
-    if (std::filesystem::is_regular_file(path)) return open_file(path);
+    if (std::filesystem::is_regular_file(path)) return open_content(std::make_shared<const MappableFile>(path));
   }
   const std::string name = path == "-" ? "standard input" : path;
   return stream_source(name, open_pipe(path), 0);

@@ -13,6 +13,8 @@
 
 namespace reeb::io {
 
+class MappableFile;
+
 class ContentSource {
  public:
   // What a view holds at least where nothing else is said, or all that is left.
@@ -39,6 +41,10 @@ class ContentSource {
   virtual std::uint64_t file_bytes_read() const = 0;
   virtual std::uint64_t file_bytes() const = 0;
 
+  // The file, where the content is that of an uncompressed one: it can be mapped without opening it again.
+  // Else null.
+  virtual std::shared_ptr<const MappableFile> file() const { return nullptr; }
+
   // What error messages call it.
   const std::string& name() const { return name_; }
 
@@ -52,5 +58,7 @@ class ContentSource {
 // "-" is standard input. A source that is not a regular file is read as a pipe.
 // THROWS: Error{kBadInput}: absent, a directory, unreadable, empty.
 std::unique_ptr<ContentSource> open_content(const std::string& path);
+// The same for a file that is open.
+std::unique_ptr<ContentSource> open_content(std::shared_ptr<const MappableFile> file);
 
 }  // namespace reeb::io

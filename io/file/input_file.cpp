@@ -25,6 +25,17 @@ void check_input_file(const std::string& path) {
         .at(path);
 }
 
+MappableFile::MappableFile(const std::string& path) {
+  check_input_file(path);
+  if (!is_regular_file(path))
+    throw Error(ErrorKind::kBadInput, "is not a regular file, so it cannot be mapped",
+                "copy it to a regular file first")
+        .at(path);
+  file_ = File::open_for_reading(path);
+  size_ = file_.size();
+  if (size_ == 0) throw_empty(path);
+}
+
 void throw_empty(const std::string& path) {
   const std::string fault = is_streaming_name(path) ? "TRUNCATED: " : "";
   throw Error(ErrorKind::kBadInput, fault + "is empty", "check how the file was written").at(path, "0");

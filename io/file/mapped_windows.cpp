@@ -1,23 +1,16 @@
 #include "io/file/mapped_windows.h"
 
 #include <algorithm>
+#include <utility>
 
-#include "io/file/input_file.h"
 #include "libreeb/base/error.h"
 
 namespace reeb::io {
 
-MappedWindows::MappedWindows(const std::string& path, WindowOptions options) : options_(options) {
-  check_input_file(path);
-  if (!is_regular_file(path))
-    throw Error(ErrorKind::kBadInput, "is not a regular file, so it cannot be mapped",
-                "copy it to a regular file first")
-        .at(path);
-  file_ = File::open_for_reading(path);
-  size_ = file_.size();
-  if (size_ == 0) throw_empty(path);
+MappedWindows::MappedWindows(std::shared_ptr<const MappableFile> file, WindowOptions options)
+    : file_(std::move(file)), options_(options) {
   window_mask_ = (std::uint64_t{1} << options_.window_bits) - 1;
-  slot_of_.resize((size_ >> options_.window_bits) + 1, kNone);
+  slot_of_.resize((size() >> options_.window_bits) + 1, kNone);
   slots_.resize(std::clamp<std::size_t>(options_.window_count, 2, kNone));
 }
 
@@ -28,7 +21,7 @@ std::string_view MappedWindows::view(std::uint64_t offset) {
 
 std::size_t MappedWindows::mapped_bytes(std::uint64_t window) const {
   const std::uint64_t wanted = window_mask_ + 1 + options_.overlap_bytes;
-  return static_cast<std::size_t>(std::min(wanted, size_ - (window << options_.window_bits)));
+  return static_cast<std::size_t>(std::min(wanted, size() - (window << options_.window_bits)));
 }
 
 // The clock rule: the hand passes over windows used since it came by last.
@@ -50,7 +43,7 @@ std::uint8_t MappedWindows::victim() {
 std::uint8_t MappedWindows::map(std::uint64_t window) {
   const std::uint8_t number = victim();
   Slot& slot = slots_[number];
-  slot.map = file_.map(window << options_.window_bits, mapped_bytes(window));
+  slot.map = file_->map(window << options_.window_bits, mapped_bytes(window));
   slot.base = reinterpret_cast<const char*>(slot.map.bytes().data());
   slot.window = window;
   slot_of_[window] = number;

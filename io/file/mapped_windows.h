@@ -13,11 +13,13 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "io/file/file.h"
+#include "io/file/input_file.h"
 
 namespace reeb::io {
 
@@ -29,10 +31,13 @@ struct WindowOptions {
 
 class MappedWindows {
  public:
-  // THROWS: Error{kBadInput}: absent, a directory or another special file, unreadable, empty.
-  explicit MappedWindows(const std::string& path, WindowOptions options = {});
+  explicit MappedWindows(std::shared_ptr<const MappableFile> file, WindowOptions options = {});
+  // Opens the file. THROWS: as MappableFile.
+  explicit MappedWindows(const std::string& path, WindowOptions options = {})
+      : MappedWindows(std::make_shared<const MappableFile>(path), options) {}
 
-  std::uint64_t size() const { return size_; }
+  std::uint64_t size() const { return file_->size(); }
+  const std::shared_ptr<const MappableFile>& file() const { return file_; }
   std::size_t overlap_bytes() const { return options_.overlap_bytes; }
 
   // The bytes from `offset` on: at least overlap_bytes(), or all up to the end of the file. Valid
@@ -63,9 +68,8 @@ class MappedWindows {
   std::uint8_t victim();
   std::size_t mapped_bytes(std::uint64_t window) const;
 
-  File file_;
+  std::shared_ptr<const MappableFile> file_;
   WindowOptions options_;
-  std::uint64_t size_ = 0;
   std::uint64_t window_mask_ = 0;
   std::vector<std::uint8_t> slot_of_;  // by window
   std::vector<Slot> slots_;

@@ -1,7 +1,9 @@
 #include "io/formats/create_mesh.h"
 
 #include "io/file/file_name.h"
-#include "io/formats/writers.h"
+#include "io/formats/obj_writer.h"
+#include "io/formats/off_writer.h"
+#include "io/formats/ply_writer.h"
 #include "io/streaming/create_stream.h"
 #include "libreeb/base/error.h"
 

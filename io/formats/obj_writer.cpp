@@ -1,6 +1,6 @@
-// OBJ: `v` and `f` lines as they come; indices from 1. Exactly three coordinates a vertex.
+#include "io/formats/obj_writer.h"
+
 #include "io/file/atomic_file.h"
-#include "io/formats/writers.h"
 #include "io/mesh/written_records.h"
 #include "libreeb/base/error.h"
 

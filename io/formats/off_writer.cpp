@@ -1,6 +1,6 @@
-// OFF, and nOFF where a vertex has other than three coordinates.
+#include "io/formats/off_writer.h"
+
 #include "io/formats/sectioned_file.h"
-#include "io/formats/writers.h"
 #include "io/mesh/written_records.h"
 #include "libreeb/base/error.h"
 

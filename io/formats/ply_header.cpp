@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <string_view>
+#include <unordered_map>
+#include <unordered_set>
 #include <utility>
 
 namespace reeb::io {
@@ -93,6 +96,7 @@ class HeaderParser {
     if (count < 0) text_.fail("an element count is negative", kHeaderHint);
     element.count = static_cast<std::uint64_t>(count);
     header_.elements.push_back(std::move(element));
+    names_.clear();
   }
 
   void parse_property() {
@@ -107,7 +111,7 @@ class HeaderParser {
     property.type = type_named(word);
     property.name = text_.token();
     if (property.name.empty()) text_.fail("a property without a name", kHeaderHint);
-    if (find(header_.elements.back().properties, property.name))
+    if (!names_.insert(property.name).second)
       text_.fail("the property \"" + property.name + "\" is declared twice", kHeaderHint);
     header_.elements.back().properties.push_back(std::move(property));
   }
@@ -184,6 +188,7 @@ class HeaderParser {
 
   TextCursor& text_;
   PlyHeader header_;
+  std::unordered_set<std::string> names_;  // of the properties of the last element
   bool saw_format_ = false;
 };
 
@@ -219,17 +224,20 @@ std::vector<std::string> PlyHeader::property_names() const {
 
 std::vector<std::size_t> PlyHeader::find_properties(const std::vector<std::string>& names,
                                                     const std::string& file) const {
+  const std::vector<PlyProperty>& properties = vertices().properties;
+  std::unordered_map<std::string_view, std::size_t> place_of;
+  for (std::size_t i = 0; i < properties.size(); ++i) place_of.emplace(properties[i].name, i);
   std::vector<std::size_t> places;
   for (const std::string& name : names) {
-    const auto found = find(vertices().properties, name);
-    if (!found || vertices().properties[*found].list_count) {
+    const auto found = place_of.find(name);
+    if (found == place_of.end() || properties[found->second].list_count) {
       std::string known;
       for (const std::string& other : property_names()) known += (known.empty() ? "" : ", ") + other;
       throw Error(ErrorKind::kBadInput, "the mesh has no vertex property \"" + name + "\"",
                   known.empty() ? "it has none but its coordinates" : "it has these: " + known)
           .at(file);
     }
-    places.push_back(*found);
+    places.push_back(found->second);
   }
   return places;
 }

@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <filesystem>
-#include <system_error>
 #include <utility>
 
+#include "io/file/content_source.h"
 #include "io/file/mapped_windows.h"
 #include "io/formats/ply_reader.h"
 #include "io/formats/scalar_bytes.h"
@@ -39,17 +38,17 @@ std::vector<Column> find_columns(const PlyHeader& header, const ReadOptions& opt
 
 class IndexedPly final : public IndexedMesh {
  public:
-  IndexedPly(const std::string& path, PlyHeader header, const ReadOptions& options)
-      : path_(path),
-        header_(std::move(header)),
-        columns_(find_columns(header_, options, path)),
+  IndexedPly(std::shared_ptr<const MappableFile> file, const PlyHeader& header, const ReadOptions& options)
+      : path_(file->path()),
+        header_(header),
+        columns_(find_columns(header_, options, path_)),
         swap_(header_.encoding == PlyEncoding::kBigEndian),
         stride_(header_.vertices().fixed_bytes()),
         vertices_begin_(header_.body_offset),
-        windows_(path, kVertexWindows) {
+        windows_(file, kVertexWindows),
+        faces_(open_ply_faces(open_content(std::move(file)), header_)) {
     for (std::size_t i = 0; i < header_.vertex_element; ++i)
       vertices_begin_ += header_.elements[i].count * header_.elements[i].fixed_bytes();
-    rewind();
   }
 
   std::uint64_t vertex_count() const override { return header_.vertices().count; }
@@ -69,7 +68,7 @@ class IndexedPly final : public IndexedMesh {
     if (!all_finite(values)) fail_not_finite(ids, columns, values);
   }
 
-  void rewind() override { faces_ = open_ply_faces(open_content(path_), header_); }
+  void rewind() override { faces_->move_to_faces(); }
 
   bool read(std::vector<VertexId>& corners, std::size_t limit) override {
     corners.clear();
@@ -130,11 +129,13 @@ class IndexedPly final : public IndexedMesh {
   std::size_t stride_;
   std::uint64_t vertices_begin_;
   MappedWindows windows_;
-  std::unique_ptr<BatchReader> faces_;
+  std::unique_ptr<PlyBodyReader> faces_;
   MeshBatch batch_;
 };
 
-bool has_place_for_index(const PlyHeader& header) {
+}  // namespace
+
+bool has_indexed_vertices(const PlyHeader& header) {
   if (header.encoding == PlyEncoding::kAscii) return false;
   if (header.vertices().has_lists() || header.vertices().fixed_bytes() > kMostRecordBytes) return false;
   // Faces before the vertices have no fixed size, and neither have other elements with lists.
@@ -143,19 +144,9 @@ bool has_place_for_index(const PlyHeader& header) {
                       [](const PlyElement& element) { return element.has_lists(); });
 }
 
-}  // namespace
-
-std::unique_ptr<IndexedMesh> open_indexed_ply(const std::string& path, const ReadOptions& options) {
-  // A pipe gives its bytes only once: it is left for open_mesh.
-  std::error_code failure;
-  const auto status = std::filesystem::status(path, failure);
-  if (path == "-" || std::filesystem::is_fifo(status) || std::filesystem::is_character_file(status)) return nullptr;
-  auto source = open_content(path);
-  if (!source->can_seek() || !source->view(0).starts_with("ply")) return nullptr;
-  TextCursor text(std::move(source));
-  PlyHeader header = read_ply_header(text);
-  if (!has_place_for_index(header)) return nullptr;
-  return std::make_unique<IndexedPly>(path, std::move(header), options);
+std::unique_ptr<IndexedMesh> index_ply(std::shared_ptr<const MappableFile> file, const PlyHeader& header,
+                                       const ReadOptions& options) {
+  return std::make_unique<IndexedPly>(std::move(file), header, options);
 }
 
 }  // namespace reeb::io

@@ -2,16 +2,20 @@
 #pragma once
 
 #include <memory>
-#include <string>
 
+#include "io/file/input_file.h"
+#include "io/formats/ply_header.h"
 #include "libreeb/port/indexed_mesh.h"
 #include "libreeb/port/mesh_reader.h"
 
 namespace reeb::io {
 
-// Null unless `path` is an uncompressed binary PLY file with vertices of fixed size that stand
-// before all faces.
-// THROWS: Error{kBadInput} as open_mesh, where it is a PLY file.
-std::unique_ptr<IndexedMesh> open_indexed_ply(const std::string& path, const ReadOptions& options);
+// Whether the place of a vertex follows from its index: the file is binary, and all records up to the last
+// vertex have a fixed size.
+bool has_indexed_vertices(const PlyHeader& header);
+
+// REQUIRES: has_indexed_vertices(header), and `file` has this header.
+std::unique_ptr<IndexedMesh> index_ply(std::shared_ptr<const MappableFile> file, const PlyHeader& header,
+                                       const ReadOptions& options);
 
 }  // namespace reeb::io

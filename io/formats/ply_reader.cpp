@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "io/formats/ply_decoder.h"
+#include "io/formats/ply_indexed.h"
 #include "io/mesh/simplex_assembler.h"
 
 namespace reeb::io {
@@ -71,10 +72,10 @@ bool append_column(PlyType type, bool swap, const char* bytes, std::size_t strid
 }
 
 template <class Decoder>
-class PlyReader final : public BatchReader {
+class PlyReader final : public PlyBodyReader {
  public:
   PlyReader(TextCursor text, PlyHeader header, ReadOptions options)
-      : BatchReader(std::move(options)),
+      : PlyBodyReader(std::move(options)),
         header_(std::move(header)),
         steps_(plan_steps(header_)),
         decoder_(std::move(text), header_),
@@ -87,12 +88,18 @@ class PlyReader final : public BatchReader {
           .at(decoder_.source().name());
   }
 
-  // Skips all up to and with the vertices, whose records have a fixed size.
-  void pass_vertices() {
+  void move_to_faces() override {
     std::uint64_t offset = header_.body_offset;
-    for (; step_ <= header_.vertex_element; ++step_)
+    for (step_ = 0; step_ <= header_.vertex_element; ++step_)
       offset += header_.elements[step_].count * header_.elements[step_].fixed_bytes();
     decoder_.bytes().move_to(offset);
+    record_ = odd_values_ = 0;
+    in_record_ = trailing_ = false;
+  }
+
+  std::unique_ptr<IndexedMesh> indexed() const override {
+    auto file = decoder_.source().file();
+    return file != nullptr && has_indexed_vertices(header_) ? index_ply(std::move(file), header_, options()) : nullptr;
   }
 
   std::uint64_t bytes_read() const override { return decoder_.source().file_bytes_read(); }
@@ -386,9 +393,9 @@ std::unique_ptr<MeshReader> open_ply(std::unique_ptr<ContentSource> source, cons
   return std::make_unique<PlyReader<BinaryPlyDecoder>>(std::move(text), std::move(header), options);
 }
 
-std::unique_ptr<BatchReader> open_ply_faces(std::unique_ptr<ContentSource> source, const PlyHeader& header) {
+std::unique_ptr<PlyBodyReader> open_ply_faces(std::unique_ptr<ContentSource> source, const PlyHeader& header) {
   auto reader = std::make_unique<PlyReader<BinaryPlyDecoder>>(TextCursor(std::move(source)), header, ReadOptions{});
-  reader->pass_vertices();
+  reader->move_to_faces();
   return reader;
 }
 

@@ -1,11 +1,11 @@
-// Binary little-endian PLY: float or double vertex columns, faces as uchar + three 32-bit indices.
+#include "io/formats/ply_writer.h"
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstring>
 
 #include "io/formats/sectioned_file.h"
-#include "io/formats/writers.h"
 #include "io/mesh/written_records.h"
 #include "io/text/number_text.h"
 #include "libreeb/base/error.h"

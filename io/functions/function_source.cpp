@@ -10,6 +10,7 @@
 #include "io/formats/scalar_bytes.h"
 #include "io/text/text_cursor.h"
 #include "libreeb/base/error.h"
+#include "libreeb/base/hash.h"
 
 namespace reeb::io {
 namespace {
@@ -40,13 +41,6 @@ std::optional<FunctionSpec> try_parse(std::string_view text) {
   const auto seed = whole_number(argument);
   if (name == "random" && seed) return FunctionSpec{Kind::kRandom, *seed, {}, whole};
   return std::nullopt;
-}
-
-std::uint64_t mix(std::uint64_t x) noexcept {
-  x += 0x9e3779b97f4a7c15u;
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
-  return x ^ (x >> 31);
 }
 
 }  // namespace
@@ -214,8 +208,14 @@ FunctionSource::FunctionSource(const FunctionSpec& spec, const MeshInfo& info, s
 }
 
 FunctionSource::~FunctionSource() = default;
-FunctionSource::FunctionSource(FunctionSource&&) noexcept = default;
-FunctionSource& FunctionSource::operator=(FunctionSource&&) noexcept = default;
+
+std::string FunctionSource::source_file() const {
+  return spec_.kind == FunctionSpec::Kind::kFile ? spec_.argument : std::string();
+}
+
+std::span<const unsigned> FunctionSource::columns() const {
+  return column_ ? std::span<const unsigned>(&*column_, 1) : std::span<const unsigned>();
+}
 
 void FunctionSource::evaluate(const MeshBatch& batch, std::span<double> values) {
   const std::uint64_t first = batch.first_vertex.value();
@@ -230,10 +230,10 @@ void FunctionSource::evaluate(const MeshBatch& batch, std::span<double> values) 
   }
 }
 
-void FunctionSource::evaluate(std::span<const VertexId> ids, std::span<const double> gathered,
+void FunctionSource::evaluate(std::span<const VertexId> ids, std::span<const std::span<const double>> columns,
                               std::span<double> values) {
   if (column_)
-    copy_finite(gathered, values, ids, 0);
+    copy_finite(columns[0], values, ids, 0);
   else
     for (std::size_t i = 0; i < values.size(); ++i) values[i] = value_of(ids[i].value());
 }

@@ -1,4 +1,4 @@
-// Functions on the vertices of a mesh, as a user names them (INTERFACE.md, FUNC).
+// Functions on the vertices of a mesh, as a user names them.
 #pragma once
 
 #include <cstdint>
@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "libreeb/port/mesh_reader.h"
+#include "libreeb/port/vertex_function.h"
 
 namespace reeb::io {
 
@@ -37,38 +38,30 @@ double random_value(std::uint64_t seed, std::uint64_t vertex) noexcept;
 // One number a vertex from a file: lines of text, or raw little-endian float64 (".f64").
 class ValueFile;
 
-// Evaluates one function, for the vertices of a stream or for any vertices by index. Values are
-// finite, and -0.0 is 0.0.
-class FunctionSource {
+// One function, for the vertices of a stream or for any vertices by index. Values are finite, and -0.0
+// is 0.0.
+class FunctionSource final : public VertexFunction {
  public:
   // `properties` is the ReadOptions::properties with which the mesh was opened.
   // THROWS: Error{kBadInput}: the mesh (`mesh_name`) lacks the coordinate or property; the file
   //         cannot be read, or does not have one value a vertex, as far as that is known.
-  FunctionSource(const FunctionSpec& spec, const MeshInfo& info, std::span<const std::string> properties,
-                 std::string mesh_name);
-  ~FunctionSource();
-  FunctionSource(FunctionSource&&) noexcept;
-  FunctionSource& operator=(FunctionSource&&) noexcept;
+  FunctionSource(const FunctionSpec& spec, const MeshInfo& info, std::span<const std::string> properties = {},
+                 std::string mesh_name = {});
+  ~FunctionSource() override;
 
-  // The column of the mesh that the function is, as in IndexedMesh: coordinates, then properties.
-  std::optional<unsigned> column() const { return column_; }
+  std::string name() const override { return spec_.text; }
+  std::string source_file() const override;
+  std::span<const unsigned> columns() const override;
+  void check_count(std::uint64_t vertex_count) override;
+  std::uint64_t lookup_bytes(std::uint64_t vertex_count) const override;
+  // A text file is read into memory for this, unless its vertices are asked for in order, once.
+  void evaluate(std::span<const VertexId> ids, std::span<const std::span<const double>> columns,
+                std::span<double> values) override;
 
   // The values of the batch's vertices, one after the other. REQUIRES: values.size() ==
   // batch.vertex_count, and batches come in order.
   // THROWS: Error{kBadInput} with the vertex where a value is not finite or missing.
   void evaluate(const MeshBatch& batch, std::span<double> values);
-
-  // The values of any vertices; `gathered` is column() of them, and empty if there is none. A text
-  // file is read into memory for this, unless they are asked for in order, once.
-  void evaluate(std::span<const VertexId> ids, std::span<const double> gathered, std::span<double> values);
-
-  // To be called when the number of vertices is known: before the first look-up, or behind the last
-  // vertex of a stream.
-  // THROWS: Error{kBadInput} if the value file has more or fewer values.
-  void check_count(std::uint64_t vertex_count);
-
-  // Memory that looking up so many vertices takes.
-  std::uint64_t lookup_bytes(std::uint64_t vertex_count) const;
 
  private:
   double value_of(std::uint64_t vertex);
@@ -77,7 +70,7 @@ class FunctionSource {
 
   FunctionSpec spec_;
   std::string mesh_name_;
-  std::optional<unsigned> column_;
+  std::optional<unsigned> column_;  // of the mesh, that the function is
   std::unique_ptr<ValueFile> file_;
 };
 

@@ -1,18 +1,12 @@
-// Hash and value noise: smooth random fields that need no table.
+// Value noise: smooth random fields that need no table.
 #pragma once
 
 #include <cmath>
 #include <cstdint>
 
-namespace reeb::io {
+#include "libreeb/base/hash.h"
 
-// The mixing function that INTERFACE.md fixes for random functions (splitmix64).
-constexpr std::uint64_t mix(std::uint64_t x) {
-  x += 0x9e3779b97f4a7c15u;
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
-  return x ^ (x >> 31);
-}
+namespace reeb::io {
 
 constexpr std::uint64_t hash_of(std::uint64_t seed, std::uint64_t x, std::uint64_t y) {
   return mix(seed ^ (x * 0x9e3779b97f4a7c15u) ^ (y * 0xc2b2ae3d27d4eb4fu));

@@ -5,11 +5,12 @@
 
 #include "io/events/cell_hold.h"
 #include "io/events/flat_map.h"
-#include "io/events/stream_output.h"
+#include "io/events/format_limits.h"
 #include "io/events/stream_writer.h"
 #include "io/smc/smc_head.h"
 #include "io/smc/smc_positions.h"
 #include "io/smc/smc_state.h"
+#include "io/text/output_buffer.h"
 
 namespace reeb::io {
 namespace {
@@ -267,7 +268,7 @@ class SmcWriter : public StreamWriter {
     return false;
   }
 
-  StreamOutput out_;
+  OutputBuffer out_;
   unsigned version_;
   RangeEncoder encoder_;
   PositionCoder positions_;

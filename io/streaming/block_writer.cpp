@@ -1,4 +1,5 @@
 // SMB and SVB.
+#include "io/events/format_limits.h"
 #include "io/events/held_cell_writer.h"
 #include "io/streaming/block_head.h"
 

@@ -5,11 +5,12 @@
 #include <utility>
 
 #include "io/events/event_text.h"
-#include "io/events/stream_output.h"
+#include "io/events/format_limits.h"
 #include "io/file/atomic_file.h"
 #include "io/file/file_name.h"
 #include "io/file/file_ostream.h"
 #include "io/mesh/written_records.h"
+#include "io/text/output_buffer.h"
 #include "libreeb/base/error.h"
 
 namespace reeb::io {
@@ -28,7 +29,7 @@ class EventListWriter : public StreamWriter {
   void close() override { out_.finish(); }
 
  private:
-  StreamOutput out_;
+  OutputBuffer out_;
   StreamHeader header_;
 };
 

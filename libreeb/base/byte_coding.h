@@ -15,13 +15,10 @@
 
 namespace reeb {
 
-// Small magnitudes of either sign become small unsigned numbers: 0, -1, 1, -2, ...
-inline std::uint64_t zigzag(std::int64_t value) noexcept {
-  return (static_cast<std::uint64_t>(value) << 1) ^ static_cast<std::uint64_t>(value >> 63);
-}
-inline std::int64_t unzigzag(std::uint64_t value) noexcept {
-  return static_cast<std::int64_t>((value >> 1) ^ (~(value & 1) + 1));
-}
+// A difference modulo 2^64, or a signed number in two's complement, so that small magnitudes of either sign
+// become small numbers: 0, -1, 1, -2, ... are 0, 1, 2, 3, ...
+constexpr std::uint64_t zigzag(std::uint64_t difference) noexcept { return difference << 1 ^ (0 - (difference >> 63)); }
+constexpr std::uint64_t unzigzag(std::uint64_t code) noexcept { return code >> 1 ^ (0 - (code & 1)); }
 
 // Appends to a vector that the caller owns.
 class ByteWriter {
@@ -39,7 +36,7 @@ class ByteWriter {
     u8(static_cast<std::uint8_t>(value));
   }
   // The difference a - b modulo 2^64, zigzagged: exact for every pair of numbers.
-  void delta(std::uint64_t a, std::uint64_t b) { varint(zigzag(static_cast<std::int64_t>(a - b))); }
+  void delta(std::uint64_t a, std::uint64_t b) { varint(zigzag(a - b)); }
 
   void text(std::string_view value) {
     for (const char c : value) u8(static_cast<std::uint8_t>(c));
@@ -95,7 +92,7 @@ class ByteReader {
     return 0;
   }
   // The inverse of ByteWriter::delta.
-  std::uint64_t delta(std::uint64_t base) { return base + static_cast<std::uint64_t>(unzigzag(varint())); }
+  std::uint64_t delta(std::uint64_t base) { return base + unzigzag(varint()); }
   // A varint that has to fit 32 bits.
   std::uint32_t varint32() {
     const std::uint64_t value = varint();

@@ -46,7 +46,7 @@ void pack_buckets(std::span<const Bucket> buckets, std::vector<std::byte>& packe
   std::int64_t last = 0;
   for (const Bucket& bucket : buckets) {
     const bool single = is_single(bucket.mean);
-    to = put_varint(to, zigzag(bucket.index - last));
+    to = put_varint(to, zigzag(static_cast<std::uint64_t>(bucket.index - last)));
     to = put_varint(to, bucket.count << 1 | (single ? 1 : 0));
     const auto& [x, y, z] = bucket.mean;
     to = single ? put_raw(to, Single{static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)})

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "libreeb/base/ids.h"
+#include "libreeb/port/indexed_mesh.h"
 
 namespace reeb {
 
@@ -72,6 +73,10 @@ class MeshReader {
   // Replaces `batch` by the next events. False, and an empty batch, at the end of the mesh.
   // THROWS: Error{kBadInput} with file and position. All events delivered before were good.
   virtual bool read(MeshBatch& batch) = 0;
+
+  // The same mesh from its beginning, with random access to its vertices, where the format allows that on
+  // the input itself; else null. Both can be read side by side.
+  virtual std::unique_ptr<IndexedMesh> indexed() const { return nullptr; }
 
   // How much of the input was consumed so far, in bytes of the file as it lies on disk.
   virtual std::uint64_t bytes_read() const = 0;

@@ -2,17 +2,14 @@
 
 #include <algorithm>
 
+#include "libreeb/base/hash.h"
+
 namespace reeb::ooc {
 
 namespace {
 
-// The finalizer of SplitMix64: any two vertices have different sums for all that can be told from 29 bits.
-std::uint32_t hash(VertexId v) {
-  std::uint64_t x = v.value() + 0x9e3779b97f4a7c15;
-  x = (x ^ x >> 30) * 0xbf58476d1ce4e5b9;
-  x = (x ^ x >> 27) * 0x94d049bb133111eb;
-  return static_cast<std::uint32_t>(x >> 32);
-}
+// Any two vertices have different sums, as far as 29 bits can tell.
+std::uint32_t hash(VertexId v) { return static_cast<std::uint32_t>(mix(v.value()) >> 32); }
 
 }  // namespace
 

@@ -12,10 +12,6 @@ namespace reeb::ooc {
 // zstd level of temporary segments; bench/ooc_bench.cpp compares levels.
 inline constexpr int kSegmentLevel = -1;
 
-// Small numbers of either sign as small numbers without sign.
-inline std::uint64_t zigzag(std::uint64_t difference) { return difference << 1 ^ (0 - (difference >> 63)); }
-inline std::uint64_t unzigzag(std::uint64_t code) { return code >> 1 ^ (0 - (code & 1)); }
-
 // Gathers the columns of one block, all of one length, and packs them together.
 class ColumnEncoder {
  public:

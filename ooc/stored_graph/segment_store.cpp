@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "libreeb/base/byte_coding.h"
 #include "ooc/sorting/column_codec.h"
 #include "ooc/stored_graph/arc_payload.h"
 #include "ooc/tables/node_table.h"

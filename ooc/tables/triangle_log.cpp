@@ -6,7 +6,7 @@
 #include <cstring>
 #include <utility>
 
-#include "ooc/sorting/column_codec.h"
+#include "libreeb/base/byte_coding.h"
 
 namespace reeb::ooc {
 

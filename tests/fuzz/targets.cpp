@@ -9,9 +9,9 @@
 
 #include "io/events/event_text.h"
 #include "io/file/content_source.h"
-#include "io/formats/mesh_io.h"
 #include "io/formats/obj_reader.h"
 #include "io/formats/off_reader.h"
+#include "io/formats/open_mesh.h"
 #include "io/formats/ply_indexed.h"
 #include "io/formats/ply_reader.h"
 #include "io/formats/stl_reader.h"
@@ -159,7 +159,7 @@ bool run_indexed_ply(const std::string& bytes) {
   bool indexed = false;
   Delivered delivered, again, streamed;
   const bool good = without_error([&] {
-    const auto mesh = open_indexed_mesh(file.path());
+    const auto mesh = open_mesh(file.path())->indexed();
     indexed = mesh != nullptr;
     if (!indexed) return;
     delivered = read_indexed(*mesh);

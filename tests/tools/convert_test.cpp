@@ -19,7 +19,6 @@ using io::all_samples;
 using io::golden_events;
 using io::Sample;
 using io::sample_folder;
-using io::slurp;
 
 class Convert : public testing::Test {
  protected:
@@ -29,7 +28,7 @@ class Convert : public testing::Test {
   };
 
   std::string path(const std::string& name) const { return (folder_ / name).string(); }
-  std::string text(const std::string& name) const { return slurp(folder_ / name); }
+  std::string text(const std::string& name) const { return read_file(path(name)); }
   void write(const std::string& name, const std::string& bytes) const {
     std::ofstream(folder_ / name, std::ios::binary) << bytes;
   }

@@ -12,7 +12,7 @@
 #include <sstream>
 
 #include "io/formats/create_mesh.h"
-#include "io/formats/mesh_io.h"
+#include "io/formats/open_mesh.h"
 #include "libreeb/base/error.h"
 #include "tests/support/random.h"
 #include "tests/support/seed.h"

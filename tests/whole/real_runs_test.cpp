@@ -12,8 +12,8 @@
 #include <string>
 #include <tuple>
 
-#include "io/formats/mesh_io.h"
-#include "io/functions/mesh_function.h"
+#include "io/formats/open_mesh.h"
+#include "io/functions/function_source.h"
 #include "tests/model/naive_denoise.h"
 #include "tests/model/reference_reeb.h"
 #include "tests/support/embedding_places.h"
@@ -50,7 +50,7 @@ struct RealInput {
 
 RealInput read_mesh(const std::string& path, const std::string& function_text) {
   const auto reader = io::open_mesh(path);
-  io::MeshFunction function(io::parse_function(function_text), reader->info());
+  io::FunctionSource function(io::parse_function(function_text), reader->info());
   RealInput input;
   Complex& complex = input.complex;
   for (MeshBatch batch; reader->read(batch);) {

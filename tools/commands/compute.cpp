@@ -8,9 +8,8 @@
 #include <thread>
 #include <vector>
 
-#include "io/formats/mesh_io.h"
+#include "io/formats/open_mesh.h"
 #include "io/functions/function_source.h"
-#include "io/functions/mesh_function.h"
 #include "libreeb/base/error.h"
 #include "ooc/reeb_file/reeb_file.h"
 #include "ooc/run/compute.h"
@@ -133,17 +132,17 @@ void run_compute(ComputeArguments arguments) {
   facts.format = info.format;
   facts.input_bytes = info.file_bytes;
 
-  std::vector<std::unique_ptr<io::MeshFunction>> functions;
+  std::vector<std::unique_ptr<io::FunctionSource>> functions;
   std::vector<VertexFunction*> pointers;
   for (const io::FunctionSpec& spec : specs) {
-    functions.push_back(std::make_unique<io::MeshFunction>(spec, info, read_options.properties, arguments.mesh));
+    functions.push_back(std::make_unique<io::FunctionSource>(spec, info, read_options.properties, arguments.mesh));
     pointers.push_back(functions.back().get());
   }
   if (!arguments.quiet) fmt::print(stderr, "{}: {}\n", arguments.mesh, describe(info));
   if (arguments.snapshot_every != 0)
     input.reader = with_snapshots(std::move(input.reader), arguments.snapshot_every, pointers, outputs);
-  else if (arguments.mesh != "-")
-    input.indexed = io::open_indexed_mesh(arguments.mesh, read_options);
+  else
+    input.indexed = input.reader->indexed();
   if (input.indexed) input.reader.reset();
   if (arguments.mesh != "-" && arguments.snapshot_every == 0)
     input.read_again = [&] { return io::open_mesh(arguments.mesh, read_options); };

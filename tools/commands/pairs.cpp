@@ -4,7 +4,7 @@
 #include <string>
 #include <tuple>
 
-#include "io/text/text_sink.h"
+#include "io/text/output_buffer.h"
 #include "ooc/reeb_file/reeb_file.h"
 #include "tools/commands/commands.h"
 #include "tools/program/output.h"
@@ -29,7 +29,7 @@ void sort_rows(std::vector<ooc::PairRow>& rows) {
 }
 
 void write_rows(const std::vector<ooc::PairRow>& rows, std::ostream& stream) {
-  io::TextSink out(stream);
+  io::OutputBuffer out(stream);
   out << "type,lo,hi,lo_value,hi_value,persistence,lo_x,lo_y,lo_z,hi_x,hi_y,hi_z,kept\n";
   for (const ooc::PairRow& pair : rows) {
     out << kTypeNames[static_cast<std::size_t>(pair.type)] << ',' << pair.lo.key.vertex.value() << ','

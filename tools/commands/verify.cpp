@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "io/formats/mesh_io.h"
+#include "io/formats/open_mesh.h"
 #include "libreeb/base/error.h"
 #include "libreeb/base/memory_budget.h"
 #include "ooc/reeb_file/reeb_file.h"

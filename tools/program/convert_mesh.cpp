@@ -10,8 +10,8 @@
 #include "io/file/file_ostream.h"
 #include "io/formats/create_mesh.h"
 #include "io/formats/format_detection.h"
-#include "io/formats/mesh_io.h"
-#include "io/functions/mesh_function.h"
+#include "io/formats/open_mesh.h"
+#include "io/functions/function_source.h"
 #include "io/streaming/create_stream.h"
 #include "io/streaming/event_input.h"
 #include "io/streaming/stream_mesh_reader.h"
@@ -149,8 +149,7 @@ Lines Conversion::write_sorted() {
 }
 
 std::unique_ptr<IndexedMesh> Conversion::index(ooc::Workspace& space, Lines& notes) {
-  if (options_.input != "-")
-    if (auto mesh = io::open_indexed_mesh(options_.input, read_options_)) return mesh;
+  if (auto mesh = reader_->indexed()) return mesh;
   ooc::SpoolOptions options;
   options.allowance_bytes = 2 * space.share();
   auto mesh = ooc::spool(*reader_, space.temp, space.budget, options);
@@ -170,7 +169,7 @@ std::unique_ptr<IndexedMesh> Conversion::sorted(std::unique_ptr<IndexedMesh> mes
     case TriangleOrder::Kind::kSweep:
       break;
   }
-  io::MeshFunction function(*options_.order.function, reader_->info(), read_options_.properties, options_.input);
+  io::FunctionSource function(*options_.order.function, reader_->info(), read_options_.properties, options_.input);
   return ooc::sorted_by_function(std::move(mesh), function, space);
 }
 

@@ -13,7 +13,7 @@
 
 #include "io/file/content_source.h"
 #include "io/formats/format_detection.h"
-#include "io/formats/mesh_io.h"
+#include "io/formats/open_mesh.h"
 #include "ooc/chunks/last_use.h"
 #include "ooc/chunks/spooled_mesh.h"
 #include "ooc/tables/paged_union_find.h"
@@ -76,7 +76,7 @@ class MeshSurvey {
   void run() {
     const bool measures = reader_->info().finalizes;
     std::unique_ptr<IndexedMesh> mesh;
-    if (!measures && path_ != "-") mesh = io::open_indexed_mesh(path_);
+    if (!measures) mesh = reader_->indexed();
     std::unique_ptr<ooc::SpooledMesh> spooled;
     if (!measures && mesh == nullptr)
       spooled =

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "io/formats/mesh_io.h"
+#include "io/formats/open_mesh.h"
 #include "libreeb/base/error.h"
 
 namespace reeb::io::testing {

@@ -1,11 +1,15 @@
 // The readers against files made by hand, and against each other.
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <sstream>
 
 #include "tests/io/formats/mesh_files.h"
+#include "tests/support/files.h"
 
 namespace reeb::io::testing {
 namespace {
@@ -143,13 +147,9 @@ TEST(Readers, PackedFilesOfSeveralPartsAndUnderAnyName) {
     const std::string first = write_file("first", bytes.substr(0, 40)), rest = write_file("rest", bytes.substr(40));
     for (const char* tool : {"gzip", "zstd -q"}) {
       std::string packed;
-      for (const auto& part : {run_on(tool, first, ".1"), run_on(tool, rest, ".2")}) {
-        std::ostringstream bytes_of_part;
-        bytes_of_part << std::ifstream(part, std::ios::binary).rdbuf();
-        packed += bytes_of_part.str();
-      }
+      for (const auto& part : {run_on(tool, first, ".1"), run_on(tool, rest, ".2")}) packed += test::read_file(part);
       EXPECT_EQ(read_mesh(write_file("packed", packed)), kTetrahedron) << tool;
-      EXPECT_EQ(open_indexed_mesh(write_file("packed", packed)), nullptr);
+      EXPECT_EQ(open_mesh(write_file("packed", packed))->indexed(), nullptr);
       for (std::size_t cut = 1; cut < 30; ++cut) {
         const std::string path = write_file("cut", packed.substr(0, packed.size() - cut));
         EXPECT_THROW(read_all(*open_mesh(path)), Error) << tool << " cut by " << cut;
@@ -209,14 +209,88 @@ TEST(Ply, FacesBeforeVertices) {
 
 TEST(Ply, IndexedIsTheSameMesh) {
   for (const bool big : {false, true}) {
-    const auto indexed = open_indexed_mesh(write_file("indexed.ply", binary_ply(big)));
+    const auto indexed = open_mesh(write_file("indexed.ply", binary_ply(big)))->indexed();
     ASSERT_NE(indexed, nullptr);
     EXPECT_EQ(read_indexed(*indexed), kTetrahedron);
     indexed->rewind();
     EXPECT_EQ(read_indexed(*indexed), kTetrahedron);
   }
-  EXPECT_EQ(open_indexed_mesh(write_file("a.ply", ascii_ply())), nullptr);
-  EXPECT_EQ(open_indexed_mesh(write_file("a.obj", obj())), nullptr);
+  EXPECT_EQ(open_mesh(write_file("a.ply", ascii_ply()))->indexed(), nullptr);
+  EXPECT_EQ(open_mesh(write_file("a.obj", obj()))->indexed(), nullptr);
+}
+
+// After a mesh is open, neither its name nor its header is looked at again: not for random access to its
+// vertices, and not to go back to the first face.
+TEST(Ply, IsOpenedOnceAndItsHeaderIsReadOnce) {
+  const std::string bytes = binary_ply(false), path = write_file("once.ply", bytes);
+  const auto reader = open_mesh(path);
+  const std::size_t header_bytes = bytes.find("end_header");
+  std::fstream(path, std::ios::in | std::ios::out | std::ios::binary) << std::string(header_bytes, '?');
+  ASSERT_EQ(test::read_file(path).size(), bytes.size());
+  std::filesystem::remove(path);
+  const auto indexed = reader->indexed();
+  ASSERT_NE(indexed, nullptr);
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_EQ(read_indexed(*indexed), kTetrahedron);
+    indexed->rewind();
+    EXPECT_LT(indexed->bytes_read(), bytes.size());
+  }
+  EXPECT_EQ(read_all(*reader), kTetrahedron);
+  EXPECT_EQ(read_indexed(*reader->indexed()), kTetrahedron);
+}
+
+// Going back in the middle of a polygon, past elements without faces, with faces that are not plain.
+TEST(Ply, IndexedGoesBackFromAnywhere) {
+  std::string bytes =
+      "ply\nformat binary_little_endian 1.0\nelement extra 2\nproperty short s\nelement vertex 5\nproperty float x\n"
+      "element face 2\nproperty uchar colour\nproperty list uchar int vertex_indices\nend_header\n";
+  bytes += scalar_bytes(std::int16_t{1}) + scalar_bytes(std::int16_t{2});
+  for (int i = 0; i < 5; ++i) bytes += scalar_bytes(static_cast<float>(i));
+  for (int face = 0; face < 2; ++face) {
+    bytes += std::string("\7\5", 2);
+    for (std::int32_t corner = 0; corner < 5; ++corner) bytes += scalar_bytes(corner);
+  }
+  const std::string path = write_file("back.ply", bytes);
+  const Mesh mesh = read_mesh(path);
+  ASSERT_EQ(mesh.triangles.size(), 6u);
+  const auto indexed = open_mesh(path)->indexed();
+  ASSERT_NE(indexed, nullptr);
+  std::vector<VertexId> corners;
+  for (std::size_t limit = 1; limit < 6; ++limit) {
+    indexed->read(corners, limit);
+    indexed->rewind();
+    EXPECT_EQ(read_indexed(*indexed), mesh) << limit;
+    indexed->rewind();
+  }
+}
+
+// Time that grows with the square of their number would be half a minute here.
+TEST(Ply, AHeaderMayHaveManyProperties) {
+  constexpr std::size_t kCount = 200000;
+  std::string head = "ply\nformat ascii 1.0\nelement vertex 1\nproperty uchar x\n", body = "3";
+  ReadOptions options;
+  for (std::size_t i = 0; i < kCount; ++i) {
+    options.properties.push_back(std::string("p").append(std::to_string(i)));
+    head += "property uchar " + options.properties.back() + "\n";
+    body += i % 2 == 0 ? " 0" : " 1";
+  }
+  const auto begin = std::chrono::steady_clock::now();
+  const Mesh mesh = read_all(*open_mesh(write_file("many.ply", head + "end_header\n" + body + "\n"), options));
+  ASSERT_EQ(mesh.vertices.size(), 1u);
+  ASSERT_EQ(mesh.vertices[0].size(), kCount + 1);
+  EXPECT_EQ(mesh.vertices[0].back(), 1);
+  expect_bad(write_file("twice.ply", head + "property uchar p7\nend_header\n" + body + " 0\n"),
+             std::to_string(kCount + 5) + ":16", "the property \"p7\" is declared twice");
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(10));
+}
+
+// The same name in two elements is two properties.
+TEST(Ply, NamesAreOfAnElement) {
+  const Mesh mesh = {{{5, 6}}, {}};
+  const std::string path = write_file("names.ply",
+                                      "ply\nformat ascii 1.0\nelement other 1\nproperty int q\nelement vertex 1\n"
+                                      "property int x\nproperty int q\nend_header\n9\n5 6\n");
+  EXPECT_EQ(read_mesh(path, {"q"}), mesh);
 }
 
 TEST(Obj, FacesOfAllForms) {
@@ -305,7 +379,7 @@ TEST(Readers, ManyWindowsInTextAndBinary) {
   EXPECT_EQ(mesh.vertices[kCount - 1], (std::vector<double>{0.25 * (kCount - 1), -0.25 * (kCount - 1), 1}));
   EXPECT_EQ(mesh.triangles[kCount - 3], (std::array<std::uint64_t, 3>{kCount - 3, kCount - 2, kCount - 1}));
   EXPECT_TRUE(read_all(*open_mesh(ply)) == mesh);
-  EXPECT_TRUE(read_indexed(*open_indexed_mesh(ply)) == mesh);
+  EXPECT_TRUE(read_indexed(*open_mesh(ply)->indexed()) == mesh);
   EXPECT_TRUE(read_all(*open_mesh(run_on("gzip", path, ".gz"))) == mesh);
   EXPECT_TRUE(read_all(*open_mesh(run_on("zstd -q", path, ".zst"))) == mesh);
 }
@@ -342,7 +416,7 @@ TEST(Ply, EveryScalarTypeInBothSpellings) {
       EXPECT_EQ(read_mesh(write_file("t.ply", "ply\nformat ascii" + head + text[i])), mesh) << name;
       EXPECT_EQ(read_mesh(write_file("t.ply", "ply\nformat binary_little_endian" + head + types[i].little)), mesh);
       const auto indexed =
-          open_indexed_mesh(write_file("t.ply", "ply\nformat binary_big_endian" + head + types[i].big));
+          open_mesh(write_file("t.ply", "ply\nformat binary_big_endian" + head + types[i].big))->indexed();
       EXPECT_EQ(read_indexed(*indexed), mesh) << name;
     }
   }

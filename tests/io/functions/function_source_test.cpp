@@ -76,7 +76,7 @@ TEST(FunctionValues, ByIndexAreTheSame) {
   for (const std::string& path :
        {write_file("v.txt", "10\n20\n"), write_file("w.f64", scalar_bytes(10.0) + scalar_bytes(20.0))}) {
     auto function = source("file:" + path);
-    EXPECT_FALSE(function.column());
+    EXPECT_TRUE(function.columns().empty());
     function.evaluate(ids, {}, values);
     EXPECT_EQ(values, (std::vector<double>{20, 10, 20}));
     function.check_count(2);
@@ -92,8 +92,11 @@ TEST(FunctionValues, ByIndexAreTheSame) {
   }
   EXPECT_EQ(lines.lookup_bytes(1000), 8000u);
   auto property = source("property:q");
-  EXPECT_EQ(property.column(), 3u);
-  property.evaluate(ids, std::vector<double>{5, 6, 5}, values);
+  ASSERT_EQ(property.columns().size(), 1u);
+  EXPECT_EQ(property.columns()[0], 3u);
+  const std::vector<double> gathered = {5, 6, 5};
+  const std::span<const double> columns[] = {gathered};
+  property.evaluate(ids, columns, values);
   EXPECT_EQ(values, (std::vector<double>{5, 6, 5}));
 }
 

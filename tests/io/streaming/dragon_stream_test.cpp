@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "io/events/stream_writer.h"
-#include "io/formats/mesh_io.h"
+#include "io/formats/open_mesh.h"
 #include "tests/io/streaming/samples.h"
 
 namespace reeb::io {

@@ -15,6 +15,7 @@
 #include "io/events/event_text.h"
 #include "io/streaming/open_stream.h"
 #include "libreeb/base/error.h"
+#include "tests/support/files.h"
 
 namespace reeb::io {
 
@@ -29,15 +30,10 @@ inline std::filesystem::path sample_folder() {
   return std::filesystem::path(data != nullptr ? data : REEB_SOURCE_DIR "/../shared/data") / "streaming";
 }
 
-inline std::string slurp(const std::filesystem::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::ostringstream out;
-  out << in.rdbuf();
-  return out.str();
+inline std::string sample_bytes(const std::string& file) { return test::read_file(sample_folder() / file); }
+inline std::string golden_events(const std::string& file) {
+  return test::read_file(sample_folder() / (file + ".events.txt"));
 }
-
-inline std::string sample_bytes(const std::string& file) { return slurp(sample_folder() / file); }
-inline std::string golden_events(const std::string& file) { return slurp(sample_folder() / (file + ".events.txt")); }
 
 // The rows of the manifest; empty if the samples are not there.
 inline std::vector<Sample> all_samples() {

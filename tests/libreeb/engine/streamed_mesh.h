@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "io/generate/generator.h"
-#include "io/generate/noise.h"
+#include "libreeb/base/hash.h"
 #include "libreeb/engine/chunk_sweep.h"
 #include "libreeb/engine/glue.h"
 #include "libreeb/engine/stream_chunker.h"
@@ -39,7 +39,7 @@ inline Mesh make_mesh(io::MeshKind kind, io::MeshOrder order, Function function)
   for (MeshBatch batch; reader->read(batch);) {
     for (std::size_t i = 0; i < batch.vertex_count; ++i) {
       mesh.positions.push_back({batch.coordinates[0][i], batch.coordinates[1][i], batch.coordinates[2][i]});
-      mesh.values.push_back(function == Function::kRandom ? static_cast<double>(io::mix(mesh.values.size()) >> 11)
+      mesh.values.push_back(function == Function::kRandom ? static_cast<double>(mix(mesh.values.size()) >> 11)
                                                           : batch.coordinates[function == Function::kY ? 1 : 2][i]);
     }
     mesh.corners.insert(mesh.corners.end(), batch.triangles.begin(), batch.triangles.end());

@@ -14,11 +14,13 @@
 #include "libreeb/base/error.h"
 #include "ooc/reeb_file/reeb_file_writer.h"
 #include "tests/ooc/reeb_file/made_up_hierarchy.h"
+#include "tests/support/files.h"
 
 namespace reeb::ooc {
 namespace {
 
 namespace fs = std::filesystem;
+using test::read_file;
 
 class TemporaryFolder {
  public:
@@ -33,12 +35,6 @@ class TemporaryFolder {
  private:
   fs::path path_;
 };
-
-std::string read_bytes(const std::string& path) {
-  std::string bytes(fs::file_size(path), '\0');
-  std::ifstream(path, std::ios::binary).read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  return bytes;
-}
 
 // A new file each time: some file systems flush one that is overwritten.
 void write_bytes(const std::string& path, const std::string& bytes) {
@@ -152,7 +148,7 @@ TEST(GraphFile, PiecesDoNotShowAndBucketsFollowTheirArcs) {
   const MadeUp made = MadeUpMaker(3).make(9'000, 15'000, 0);
   const FileMeta meta = meta_of(made);
   write_graph_file(folder / "whole.reeb", meta, made.graph, made.buckets.view());
-  const std::string expected = read_bytes(folder / "whole.reeb");
+  const std::string expected = read_file(folder / "whole.reeb");
   using Ends = GraphFileWriter::ArcEnds;
   struct Case {
     std::size_t piece;
@@ -181,7 +177,7 @@ TEST(GraphFile, PiecesDoNotShowAndBucketsFollowTheirArcs) {
       writer.add_arcs(std::span<const ArcKeys>(arcs), view);
     }
     writer.finish();
-    EXPECT_EQ(read_bytes(folder / "pieces.reeb"), expected) << "pieces of " << piece;
+    EXPECT_EQ(read_file(folder / "pieces.reeb"), expected) << "pieces of " << piece;
   }
   const ReebFile file(folder / "pieces.reeb");
   ASSERT_NO_THROW(file.verify());
@@ -209,7 +205,7 @@ TEST(ReebFile, BytesDependOnTheContentOnly) {
   std::shuffle(shuffled.hierarchy.arcs.begin(), shuffled.hierarchy.arcs.end(), std::mt19937_64(1));
   fs::create_directory(folder / "other");
   write_hierarchy_file(folder / "other/b.reeb", meta_of(made), shuffled.graph, shuffled.hierarchy);
-  EXPECT_EQ(read_bytes(folder / "a.reeb"), read_bytes(folder / "other/b.reeb"));
+  EXPECT_EQ(read_file(folder / "a.reeb"), read_file(folder / "other/b.reeb"));
 }
 
 // The buckets of a level are those of the records that live, if it has any.
@@ -267,7 +263,7 @@ struct SmallFile {
   explicit SmallFile(bool embedding) {
     write_hierarchy_file(folder / "a.reeb", meta_of(made), made.graph, made.hierarchy,
                          embedding ? made.buckets.view() : ArcBucketsView{});
-    bytes = read_bytes(folder / "a.reeb");
+    bytes = read_file(folder / "a.reeb");
     for (std::uint32_t v = 0; v <= made.hierarchy.persistence.size(); ++v) expected.push_back(naive_level(made, v));
   }
 };
@@ -309,7 +305,7 @@ struct LargeFile {
   explicit LargeFile(bool embedding) {
     write_hierarchy_file(folder / "a.reeb", meta_of(made), made.graph, made.hierarchy,
                          embedding ? made.buckets.view() : ArcBucketsView{});
-    bytes = read_bytes(folder / "a.reeb");
+    bytes = read_file(folder / "a.reeb");
     const ReebFile file(folder / "a.reeb");
     for (const LevelLine& line : {file.levels().front(), file.levels()[file.levels().size() / 2], file.levels().back()})
       levels.push_back(file.load(line.version));
@@ -382,7 +378,7 @@ TEST(ReebFile, ACutFileYieldsTheLevelsOfItsWholeFrames) {
   const TemporaryFolder folder;
   const MadeUp made = MadeUpMaker(6).make(20'000, 40'000, 8'000);
   write_hierarchy_file(folder / "a.reeb", meta_of(made), made.graph, made.hierarchy);
-  const std::string bytes = read_bytes(folder / "a.reeb");
+  const std::string bytes = read_file(folder / "a.reeb");
   const ReebFile whole(folder / "a.reeb");
   for (const LevelLine& line : whole.levels()) {
     write_bytes(folder / "cut.reeb", bytes.substr(0, line.file_bytes + 5));

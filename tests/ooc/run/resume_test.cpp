@@ -13,12 +13,13 @@
 #include <vector>
 
 #include "io/formats/create_mesh.h"
-#include "io/formats/mesh_io.h"
-#include "io/functions/mesh_function.h"
+#include "io/formats/open_mesh.h"
+#include "io/functions/function_source.h"
 #include "libreeb/base/error.h"
 #include "ooc/run/compute.h"
 #include "ooc/run/partial_folder.h"
 #include "tests/ooc/chunks/model_mesh.h"
+#include "tests/support/files.h"
 #include "tests/support/random_complex.h"
 #include "tests/support/scratch.h"
 
@@ -27,14 +28,8 @@ namespace {
 
 namespace fs = std::filesystem;
 using Notes = std::vector<std::string>;
-
-std::string read_file(const std::string& path) {
-  std::ostringstream bytes;
-  bytes << std::ifstream(path, std::ios::binary).rdbuf();
-  return bytes.str();
-}
-
-void write_file(const std::string& path, const std::string& bytes) { std::ofstream(path, std::ios::binary) << bytes; }
+using test::read_file;
+using test::write_file;
 
 // A PLY file of double coordinates. Binary, it is read in place; as text, it is spooled.
 void write_ply(const std::string& path, const ModelMesh& mesh, bool binary) {
@@ -167,8 +162,8 @@ class Runs {
     MeshInput input;
     input.path = mesh_path();
     input.reader = io::open_mesh(input.path, reading);
-    io::MeshFunction function(io::parse_function(function_), input.reader->info(), {}, input.path);
-    input.indexed = io::open_indexed_mesh(input.path, reading);
+    io::FunctionSource function(io::parse_function(function_), input.reader->info(), {}, input.path);
+    input.indexed = input.reader->indexed();
     if (input.indexed) input.reader.reset();
     VertexFunction* functions[] = {&function};
     const std::string outputs[] = {output()};

@@ -1,4 +1,4 @@
-// The writers behind create_mesh(), one a format.
+// Writes OFF, and nOFF where a vertex has other than three coordinates.
 #pragma once
 
 #include <memory>
@@ -9,8 +9,7 @@
 
 namespace reeb::io {
 
-std::unique_ptr<MeshWriter> create_ply(const std::string& path, const MeshWriterOptions& options);
-std::unique_ptr<MeshWriter> create_obj(const std::string& path, const MeshWriterOptions& options);
+// THROWS: as create_mesh().
 std::unique_ptr<MeshWriter> create_off(const std::string& path, const MeshWriterOptions& options);
 
 }  // namespace reeb::io

@@ -5,12 +5,12 @@
 #include <string>
 
 #include "io/file/content_source.h"
-#include "libreeb/port/indexed_mesh.h"
 #include "libreeb/port/mesh_reader.h"
 
 namespace reeb::io {
 
-// Opens `path` ("-": standard input), unwrapping gzip and zstd, and reads its header.
+// Opens `path` ("-": standard input), unwrapping gzip and zstd, and reads its header. The file is opened
+// once, and so is MeshReader::indexed() on it, which uncompressed binary PLY with vertices of fixed size has.
 // THROWS: Error{kBadInput} with file, position and a hint: unreadable, a directory, empty, of an
 //         unknown format, a damaged header, a property that the mesh lacks.
 std::unique_ptr<MeshReader> open_mesh(const std::string& path, const ReadOptions& options = {});
@@ -19,9 +19,5 @@ std::unique_ptr<MeshReader> open_mesh(const std::string& path, const ReadOptions
 // where the content does not.
 std::unique_ptr<MeshReader> open_mesh(std::unique_ptr<ContentSource> source, const std::string& path,
                                       const ReadOptions& options = {});
-
-// The same mesh with random access to its vertices, where the format allows that on the file
-// itself (uncompressed binary PLY with fixed-size vertex records); null otherwise.
-std::unique_ptr<IndexedMesh> open_indexed_mesh(const std::string& path, const ReadOptions& options = {});
 
 }  // namespace reeb::io

@@ -1,19 +1,8 @@
-#include "io/events/stream_output.h"
+#include "io/events/format_limits.h"
 
 #include "libreeb/base/error.h"
 
 namespace reeb::io {
-
-void StreamOutput::flush() {
-  out_.write(text_.data(), static_cast<std::streamsize>(text_.size()));
-  text_.clear();
-}
-
-void StreamOutput::finish() {
-  flush();
-  out_.flush();
-  if (!out_) throw Error(ErrorKind::kResource, "cannot write the mesh", "is the disk full, or the place read-only?");
-}
 
 void require_cell_kind(EventKind kind, bool volume) {
   if (kind == EventKind::kTriangle && volume)

@@ -1,9 +1,8 @@
-#include "io/formats/mesh_io.h"
+#include "io/formats/open_mesh.h"
 
 #include "io/formats/format_detection.h"
 #include "io/formats/obj_reader.h"
 #include "io/formats/off_reader.h"
-#include "io/formats/ply_indexed.h"
 #include "io/formats/ply_reader.h"
 #include "io/formats/stl_reader.h"
 #include "io/streaming/event_input.h"
@@ -41,10 +40,6 @@ std::unique_ptr<MeshReader> open_mesh(std::unique_ptr<ContentSource> source, con
       ErrorKind::kBadInput, "is in no known mesh format",
       "PLY, OBJ, OFF, STL and streaming meshes (SMA, SMB, SMC, SVA, SVB) are read, plain or packed with gzip or zstd")
       .at(name, "0");
-}
-
-std::unique_ptr<IndexedMesh> open_indexed_mesh(const std::string& path, const ReadOptions& options) {
-  return open_indexed_ply(path, options);
 }
 
 }  // namespace reeb::io

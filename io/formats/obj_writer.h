@@ -1,0 +1,15 @@
+// Writes OBJ: `v` and `f` lines as they come, three coordinates a vertex.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "io/mesh/mesh_writer_options.h"
+#include "libreeb/port/mesh_writer.h"
+
+namespace reeb::io {
+
+// THROWS: as create_mesh().
+std::unique_ptr<MeshWriter> create_obj(const std::string& path, const MeshWriterOptions& options);
+
+}  // namespace reeb::io

@@ -1,0 +1,69 @@
+// Text and bytes on their way to a stream, which gets them in large pieces.
+#pragma once
+
+#include <bit>
+#include <charconv>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <ostream>
+#include <string>
+#include <string_view>
+
+#include "io/text/number_text.h"
+#include "libreeb/base/error.h"
+
+namespace reeb::io {
+
+class OutputBuffer {
+ public:
+  explicit OutputBuffer(std::ostream& out) : out_(out) { text_.reserve(kFlushBytes + 4096); }
+  OutputBuffer(const OutputBuffer&) = delete;
+  OutputBuffer& operator=(const OutputBuffer&) = delete;
+
+  OutputBuffer& operator<<(std::string_view text) {
+    text_ += text;
+    flush_if_full();
+    return *this;
+  }
+  OutputBuffer& operator<<(char c) { return *this << std::string_view(&c, 1); }
+  OutputBuffer& operator<<(double value) {
+    append_double(text_, value);
+    return *this;
+  }
+  OutputBuffer& operator<<(std::integral auto value) {
+    char digits[24];
+    const auto result = std::to_chars(digits, digits + sizeof digits, value);
+    return *this << std::string_view(digits, static_cast<std::size_t>(result.ptr - digits));
+  }
+
+  // To append to, for what has a format of its own; flush_if_full() has to be called now and then.
+  std::string& text() { return text_; }
+  void append_word(std::uint32_t word) {  // little endian
+    for (unsigned shift = 0; shift < 32; shift += 8) text_.push_back(static_cast<char>((word >> shift) & 0xFF));
+  }
+  void append_float(float value) { append_word(std::bit_cast<std::uint32_t>(value)); }
+
+  void flush_if_full() {
+    if (text_.size() >= kFlushBytes) flush();
+  }
+  // Not done by a destructor: an error of the stream has to be seen.
+  void flush() {
+    out_.write(text_.data(), static_cast<std::streamsize>(text_.size()));
+    text_.clear();
+  }
+  // Flushes the stream, too. THROWS: Error{kResource} if anything could not be written.
+  void finish() {
+    flush();
+    out_.flush();
+    if (!out_) throw Error(ErrorKind::kResource, "cannot write the mesh", "is the disk full, or the place read-only?");
+  }
+  std::ostream& stream() { return out_; }
+
+ private:
+  static constexpr std::size_t kFlushBytes = 1 << 16;
+  std::ostream& out_;
+  std::string text_;
+};
+
+}  // namespace reeb::io
