@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <exception>
 #include <functional>
-#include <future>
 #include <memory>
 #include <optional>
 #include <span>
@@ -19,9 +19,10 @@
 #include "libreeb/base/memory_budget.h"
 #include "libreeb/base/state_stream.h"
 #include "ooc/sorting/record_batch.h"
-#include "ooc/sorting/run_file.h"
 #include "ooc/sorting/run_merger.h"
+#include "ooc/sorting/run_file.h"
 #include "ooc/threads/read_ahead.h"
+#include "ooc/threads/worker.h"
 
 namespace reeb::ooc {
 
@@ -29,7 +30,7 @@ struct SortOptions {
   std::uint64_t allowance_bytes = 16 << 20;  // of the budget
   std::uint64_t most_bytes = 0;              // if more: the allowance grows up to this as the file does
   bool parallel = false;                     // sort each run with all threads
-  bool background = false;                   // sort and write runs in a thread of its own, with half the buffer
+  bool background = false;                   // sort and write runs in a kept thread, with half the buffer
   std::string file = {};                     // for the runs, if another process may have to go on; else unnamed
 };
 
@@ -61,9 +62,6 @@ class ExternalSort {
         merge_charge_(budget.reserve(owner, 0)) {}
   ExternalSort(const ExternalSort&) = delete;
   ExternalSort& operator=(const ExternalSort&) = delete;
-  ~ExternalSort() {
-    if (written_.valid()) written_.wait();
-  }
 
   void add(std::span<const Record> records) {
     size_ += records.size();
@@ -310,7 +308,7 @@ class ExternalSort {
     if (!file_) file_.emplace(options_.file.empty() ? temp_->create_unnamed(owner_) : io::File::create(options_.file));
     std::swap(filling_, writing_);
     if (options_.background) {
-      written_ = std::async(std::launch::async, [this] { write_run(writing_.batch); });
+      writer_.start([this] { write_run(writing_.batch); });
     } else {
       write_run(writing_.batch);
       std::swap(filling_, writing_);
@@ -336,7 +334,12 @@ class ExternalSort {
   }
 
   void wait_for_writer() {
-    if (written_.valid()) written_.get();
+    try {
+      writer_.wait();
+    } catch (...) {
+      failure_ = std::current_exception();
+    }
+    if (failure_) std::rethrow_exception(failure_);
   }
 
   void sort(std::vector<Record>& records) const {
@@ -399,13 +402,14 @@ class ExternalSort {
   std::uint64_t most_bytes_;  // of a buffer
   Buffer filling_, writing_;
   Reservation merge_charge_;
-  std::shared_future<void> written_;  // shared, since a failure is for every later call, not for the first alone
+  std::exception_ptr failure_;  // of the writer: for every later call, not for the first alone
   std::optional<RunFile> file_;
   std::vector<RunPlace> runs_;
   std::unique_ptr<Merger> merger_;
   std::uint64_t at_ = 0;  // records read so far
   std::uint64_t size_ = 0, spilled_ = 0;
   std::uint64_t largest_payload_ = 0;
+  Worker writer_;  // sorts and writes writing_; the last member, so that it ends first
 };
 
 }  // namespace reeb::ooc
