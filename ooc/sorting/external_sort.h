@@ -20,7 +20,7 @@
 #include "libreeb/base/state_stream.h"
 #include "ooc/sorting/record_batch.h"
 #include "ooc/sorting/run_merger.h"
-#include "ooc/sorting/run_file.h"
+#include "ooc/sorting/sorted_run_file.h"
 #include "ooc/threads/read_ahead.h"
 #include "ooc/threads/worker.h"
 
@@ -362,7 +362,7 @@ class ExternalSort {
   void reduce_runs(std::uint64_t merge_bytes) {
     const std::size_t fan_in = reserve_fan_in(merge_bytes);
     while (runs_.size() > fan_in) {
-      RunFile merged(temp_->create_unnamed(owner_));
+      SortedRunFile merged(temp_->create_unnamed(owner_));
       std::vector<RunPlace> longer;
       for (std::size_t first = 0; first < runs_.size(); first += fan_in) {
         const std::size_t count = std::min(fan_in, runs_.size() - first);
@@ -385,7 +385,7 @@ class ExternalSort {
     return static_cast<std::size_t>(fan_in);
   }
 
-  RunPlace merge(std::span<const RunPlace> runs, RunFile& out) const {
+  RunPlace merge(std::span<const RunPlace> runs, SortedRunFile& out) const {
     Merger merger(*file_, runs);
     RunPlace place{out.size(), 0};
     for (Batch block; !merger.empty();) {
@@ -403,7 +403,7 @@ class ExternalSort {
   Buffer filling_, writing_;
   Reservation merge_charge_;
   std::exception_ptr failure_;  // of the writer: for every later call, not for the first alone
-  std::optional<RunFile> file_;
+  std::optional<SortedRunFile> file_;
   std::vector<RunPlace> runs_;
   std::unique_ptr<Merger> merger_;
   std::uint64_t at_ = 0;  // records read so far
