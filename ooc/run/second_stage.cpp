@@ -91,15 +91,15 @@ LastNoise remove_last_noise(RunContext& run, StoredGraph& graph) {
     throw no_memory_for(run, "the last pass of noise removal", graph.output, store.arc_count(), pass.needed_bytes,
                         "do without --denoise");
   }
-  if (!pass.patch) return {pass.removed_pairs};
-  const std::uint64_t patch_bytes = pass.patch->memory.bytes(), changed_arcs = pass.patch->arcs.records.size();
-  store.apply(std::move(*pass.patch));
+  if (!pass.change) return {pass.removed_pairs};
+  const std::uint64_t change_bytes = pass.change->memory.bytes(), changed_arcs = pass.change->arcs.records.size();
+  store.apply(std::move(*pass.change));
   // A change of more than this share of the graph, or of memory, takes more memory than reading the graph
   // that it leaves.
   constexpr std::uint64_t kSmallShare = 8;
   const bool is_small =
-      kSmallShare * changed_arcs <= store.arc_count() && kSmallShare * patch_bytes <= run.budget.free_bytes();
-  if (patch_bytes <= run.plan.segment_bytes || is_small) return {pass.removed_pairs};
+      kSmallShare * changed_arcs <= store.arc_count() && kSmallShare * change_bytes <= run.budget.free_bytes();
+  if (change_bytes <= run.plan.segment_bytes || is_small) return {pass.removed_pairs};
   auto changed = std::make_unique<SegmentStore>(run.temp, run.budget,
                                                 SegmentOptions{.allowance_bytes = run.plan.segment_bytes,
                                                                .most_bytes = run.plan.most_segment_bytes,

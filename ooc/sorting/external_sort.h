@@ -19,8 +19,9 @@
 #include "libreeb/base/memory_budget.h"
 #include "libreeb/base/state_stream.h"
 #include "ooc/sorting/record_batch.h"
-#include "ooc/sorting/run_merger.h"
+#include "ooc/sorting/sort_buffer.h"
 #include "ooc/sorting/sorted_run_file.h"
+#include "ooc/sorting/sorted_run_merger.h"
 #include "ooc/threads/read_ahead.h"
 #include "ooc/threads/worker.h"
 
@@ -79,9 +80,9 @@ class ExternalSort {
     largest_payload_ = std::max<std::uint64_t>(largest_payload_, payload.size());
     ++size_;
     auto& buffer = filling_.batch.records;
-    if ((buffer.size() == buffer.capacity() && !grow_records()) || !make_room(payload.size())) {
+    if ((buffer.size() == buffer.capacity() && !grow_records()) || !filling_.grow_pool(payload.size(), most_bytes_)) {
       flush();
-      if (!make_room(payload.size())) grow_pool_anyway(payload.size());
+      if (!filling_.grow_pool(payload.size(), most_bytes_)) filling_.replace_pool(payload.size());
     }
     filling_.batch.add(record, payload);
   }
@@ -210,16 +211,8 @@ class ExternalSort {
   std::uint64_t spilled_bytes() const { return spilled_ + (file_ ? file_->size() : 0); }
 
  private:
-  using Merger = RunMerger<Record, Codec, Less>;
-  struct Buffer {
-    Batch batch;
-    Reservation charge;
-    std::uint64_t bytes(std::size_t records, std::size_t pool) const { return records * sizeof(Record) + pool; }
-    void free() {
-      batch = {};
-      charge.resize(0);
-    }
-  };
+  using Merger = SortedRunMerger<Record, Codec, Less>;
+  using Buffer = SortBuffer<Record>;
 
   // How much of the records of a block a scan unpacks.
   enum class Wanted { kNothing, kKeys, kAll };
@@ -260,46 +253,10 @@ class ExternalSort {
     });
   }
 
-  // Room for as many records again, if the share allows; both the old and the new memory exist while
-  // they move over.
   bool grow_records() {
-    auto& [records, pool] = filling_.batch;
-    const std::size_t before = records.capacity();
-    const std::uint64_t left = most_bytes_ - std::min<std::uint64_t>(most_bytes_, pool.capacity());
-    const std::size_t after =
-        std::min(static_cast<std::size_t>(left / sizeof(Record)), std::max(kBlockRecords, 2 * before));
-    if (before == 0) {
-      filling_.charge.resize(filling_.bytes(kBlockRecords, pool.capacity()));
-      records.reserve(kBlockRecords);
-      return true;
-    }
-    if (after <= before || !filling_.charge.try_resize(filling_.bytes(before + after, pool.capacity()))) return false;
-    records.reserve(after);
-    filling_.charge.resize(filling_.bytes(records.capacity(), pool.capacity()));
+    if (filling_.batch.records.capacity() != 0) return filling_.grow_records(kBlockRecords, most_bytes_);
+    filling_.start(kBlockRecords);
     return true;
-  }
-
-  // The same for the pool, if it has to grow for `bytes` more.
-  bool make_room(std::size_t bytes) {
-    auto& [records, pool] = filling_.batch;
-    const std::size_t needed = pool.size() + bytes, before = pool.capacity();
-    if (needed <= before) return true;
-    const std::uint64_t held = filling_.bytes(records.capacity(), 0);
-    const std::uint64_t left = most_bytes_ - std::min(most_bytes_, held);
-    const auto after =
-        static_cast<std::size_t>(std::min<std::uint64_t>(left, std::max<std::uint64_t>(needed, 2 * before)));
-    if (after < needed || !filling_.charge.try_resize(held + before + after)) return false;
-    pool.reserve(after);
-    filling_.charge.resize(held + pool.capacity());
-    return true;
-  }
-
-  // For the first payload of a run, which has to go somewhere.
-  void grow_pool_anyway(std::size_t bytes) {
-    auto& [records, pool] = filling_.batch;
-    std::vector<std::byte>().swap(pool);
-    filling_.charge.resize(filling_.bytes(records.capacity(), bytes));
-    pool.reserve(bytes);
   }
 
   void flush() {
@@ -315,7 +272,7 @@ class ExternalSort {
     }
     grow_allowance();
     // A budget too small for a second buffer is met by waiting for the first.
-    if (filling_.batch.records.capacity() == 0 && !grow_second()) {
+    if (filling_.batch.records.capacity() == 0 && !filling_.try_start(kBlockRecords)) {
       wait_for_writer();
       std::swap(filling_, writing_);
     }
@@ -325,12 +282,6 @@ class ExternalSort {
     constexpr std::uint64_t kShare = 16;
     const std::uint64_t bytes = std::min(spilled_bytes() / kShare, options_.most_bytes);
     most_bytes_ = std::max(most_bytes_, bytes / (options_.background ? 2 : 1));
-  }
-
-  bool grow_second() {
-    if (!filling_.charge.try_resize(kBlockRecords * sizeof(Record))) return false;
-    filling_.batch.records.reserve(kBlockRecords);
-    return true;
   }
 
   void wait_for_writer() {

@@ -216,12 +216,12 @@ void decode_buckets_of(const ArcKeys& arc, std::span<const std::byte> payload, i
 }
 
 std::uint64_t SegmentStore::reserved_bytes() const {
-  return nodes_.reserved_bytes() + arcs_.reserved_bytes() + (patch_ ? patch_->patch().memory.bytes() : 0);
+  return nodes_.reserved_bytes() + arcs_.reserved_bytes() + (change_ ? change_->change().memory.bytes() : 0);
 }
 
 void SegmentStore::rewind_nodes() {
   nodes_.rewind();
-  if (patch_) patch_->rewind_nodes();
+  if (change_) change_->rewind_nodes();
 }
 
 void SegmentStore::rewind_arcs() {
@@ -229,12 +229,12 @@ void SegmentStore::rewind_arcs() {
   batch_.clear();
   next_ = 0;
   at_end_ = false;
-  if (patch_) patch_->rewind_arcs();
+  if (change_) change_->rewind_arcs();
 }
 
 bool SegmentStore::read_nodes(std::vector<SettledNode>& nodes, std::size_t limit) {
   while (nodes_.read(nodes, limit)) {
-    if (patch_) std::erase_if(nodes, [&](const SettledNode& node) { return patch_->drops(node.key); });
+    if (change_) std::erase_if(nodes, [&](const SettledNode& node) { return change_->drops(node.key); });
     if (!nodes.empty()) return true;
   }
   return false;
@@ -251,15 +251,15 @@ bool SegmentStore::take_arcs(std::size_t limit, const Take& take) {
       continue;
     }
     const StoredArc* stored = at_end_ ? nullptr : &batch_.records[next_];
-    if (patch_ && patch_->comes_before(stored == nullptr ? nullptr : &stored->keys)) {
-      const PatchArc& arc = patch_->take();
-      take(arc.keys, patch_->payload(arc));
+    if (change_ && change_->comes_before(stored == nullptr ? nullptr : &stored->keys)) {
+      const ChangedArc& arc = change_->take();
+      take(arc.keys, change_->payload(arc));
       ++taken;
       continue;
     }
     if (stored == nullptr) break;
     ++next_;
-    if (patch_ && patch_->drops(stored->keys)) continue;
+    if (change_ && change_->drops(stored->keys)) continue;
     take(stored->keys, batch_.payload(*stored));
     ++taken;
   }
@@ -294,22 +294,22 @@ void SegmentStore::refill_arcs(std::size_t limit) {
   next_ = 0;
 }
 
-void SegmentStore::apply(GraphPatch patch) {
-  patch_.emplace(std::move(patch));
+void SegmentStore::apply(GraphChange change) {
+  change_.emplace(std::move(change));
   rewind_nodes();
   rewind_arcs();
 }
 
-std::uint64_t SegmentStore::node_count() const { return nodes_.size() - (patch_ ? patch_->patch().gone.size() : 0); }
+std::uint64_t SegmentStore::node_count() const { return nodes_.size() - (change_ ? change_->change().gone.size() : 0); }
 
 std::uint64_t SegmentStore::arc_count() const {
-  if (!patch_) return arcs_.size();
-  return arcs_.size() - patch_->patch().replaced_arcs + patch_->patch().arcs.records.size();
+  if (!change_) return arcs_.size();
+  return arcs_.size() - change_->change().replaced_arcs + change_->change().arcs.records.size();
 }
 
 std::uint64_t SegmentStore::bucket_count() const {
-  if (!patch_) return bucket_count_;
-  return bucket_count_ - patch_->patch().replaced_buckets + patch_->patch().buckets;
+  if (!change_) return bucket_count_;
+  return bucket_count_ - change_->change().replaced_buckets + change_->change().buckets;
 }
 
 namespace {

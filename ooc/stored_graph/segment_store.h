@@ -17,7 +17,7 @@
 #include "ooc/sorting/external_sort.h"
 #include "ooc/sorting/record_batch.h"
 #include "ooc/stored_graph/arc_payload.h"
-#include "ooc/stored_graph/graph_patch.h"
+#include "ooc/stored_graph/graph_change.h"
 
 namespace reeb::ooc {
 
@@ -120,7 +120,7 @@ class SegmentStore : public GraphSink {
   void scan_nodes(const Is& wanted, const Visit& visit) const;
 
   // From now on the graph is read, and counted, with this change; scans go on without it. Rewinds.
-  void apply(GraphPatch patch);
+  void apply(GraphChange change);
 
   std::uint64_t node_count() const;
   std::uint64_t arc_count() const;
@@ -147,7 +147,7 @@ class SegmentStore : public GraphSink {
   RecordBatch<StoredArc> batch_;  // read last,
   std::size_t next_ = 0;          // delivered so far
   bool at_end_ = false;           // of the stored arcs
-  std::optional<PatchReader> patch_;
+  std::optional<ChangeReader> change_;
   std::vector<StoredArc> plain_;
   std::vector<std::byte> payload_;
   CoarsenedList coarsened_;

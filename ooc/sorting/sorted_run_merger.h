@@ -100,9 +100,9 @@ std::uint64_t rank_of(const Record& record) {
 // runs. Of equal records those of earlier runs come first. Holds one block of each run.
 // REQUIRES: at least one run.
 template <class Record, class Codec, class Less>
-class RunMerger {
+class SortedRunMerger {
  public:
-  RunMerger(const SortedRunFile& file, std::span<const RunPlace> runs)
+  SortedRunMerger(const SortedRunFile& file, std::span<const RunPlace> runs)
       : file_(&file), cursors_(runs.size()), heads_(runs.size()), ranks_(runs.size()), losers_(runs.size()) {
     for (std::size_t i = 0; i < runs.size(); ++i) {
       cursors_[i].rest = runs[i];
