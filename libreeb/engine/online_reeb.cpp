@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "libreeb/base/value_range.h"
 #include "libreeb/engine/chunk_sweep.h"
 #include "libreeb/engine/glue.h"
 #include "libreeb/engine/stream_chunker.h"
@@ -67,16 +68,14 @@ class OnlineReeb::Impl {
   SweepOptions sweep_options() {
     SweepOptions sweep{.noise_below = options_.noise_below};
     if (options_.buckets != 0 && !values_[0].empty()) {
-      const auto [least, most] = std::minmax_element(values_[0].begin(), values_[0].end());
-      min_ = std::min(min_, *least);
-      max_ = std::max(max_, *most);
-      sweep.bucket_exponent = bucket_exponent(min_, max_, options_.buckets);
+      for (const double value : values_[0]) range_.add(value);
+      sweep.bucket_exponent = bucket_exponent(range_.min, range_.max, options_.buckets);
     }
     return sweep;
   }
 
   Options options_;
-  double min_ = std::numeric_limits<double>::max(), max_ = -min_;  // of the values so far
+  ValueRange range_;  // of the values so far
   StreamChunker chunker_;
   KeepingSink kept_;
   ChunkSweep sweep_;

@@ -25,7 +25,7 @@ class ChunkGrowth {
   // To be called with each chunk, once its uses are known.
   void adapt(const Chunk& chunk) {
     // Grow above this share of shared vertices, shrink below a quarter of it. A shared vertex brings
-    // about one shared edge, of three in all, so this is a twentieth of the edges.
+    // about one shared edge, of three in all, so this is a tenth of the edges.
     constexpr double kManyShared = 0.30;
     const auto shared = static_cast<double>(
         std::count_if(chunk.uses.begin(), chunk.uses.end(), [](std::uint8_t u) { return u != kUsedHereOnly; }));

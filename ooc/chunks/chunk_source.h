@@ -72,14 +72,14 @@ class ChunkSource {
 // come last, as chunks of loose vertices. A chunk grows while too many of its vertices are shared
 // with others, since gluing is what such a chunk costs. The chunks before `start` are passed over.
 // REQUIRES: start.triangles is at a block's end.
-std::unique_ptr<ChunkSource> chunks_of(IndexedMesh& mesh, LastUse& last_use, FunctionValues& columns, ChunkSize size,
+std::unique_ptr<ChunkSource> chunks_of(IndexedMesh& mesh, LastUse& last_use, FunctionValues& functions, ChunkSize size,
                                        const ChunkPlace& start = {});
 
 // Chunks of a stream, read once. What is not finalized by the stream is finalized at its end. What
 // comes before `start` is read and passed over. It gives up, if it may at all, once more vertices than
 // that are active (not finalized yet), or a large part of many.
 // THROWS, at once: Error{kBadInput} if the stream has not such a place.
-std::unique_ptr<ChunkSource> chunks_of(MeshReader& reader, FunctionValues& columns, ChunkSize size,
+std::unique_ptr<ChunkSource> chunks_of(MeshReader& reader, FunctionValues& functions, ChunkSize size,
                                        const ChunkPlace& start = {},
                                        std::optional<std::uint64_t> most_active_vertices = {});
 

@@ -10,8 +10,8 @@ namespace reeb::ooc {
 // A front of many times the square root of the mesh is what an incoherent order gives, not a shape; its
 // long paths cost more than sorting the triangles.
 inline std::uint64_t usual_front(std::uint64_t vertices) {
-  constexpr double kMuch = 16, kLittle = 4096;
-  return static_cast<std::uint64_t>(std::max(kLittle, kMuch * std::sqrt(static_cast<double>(vertices))));
+  constexpr double kSquareRoots = 16, kSmallFront = 4096;
+  return static_cast<std::uint64_t>(std::max(kSmallFront, kSquareRoots * std::sqrt(static_cast<double>(vertices))));
 }
 
 // The same where chunks are cut from stretches of so many triangles, which have three times as many

@@ -3,30 +3,19 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
-#include <limits>
 #include <span>
 #include <vector>
 
 #include "libreeb/base/ids.h"
+#include "libreeb/base/value_range.h"
 #include "libreeb/port/graph_sink.h"
 #include "libreeb/port/vertex_function.h"
 
 namespace reeb::ooc {
 
-// The least and greatest value of a function; min > max before the first.
-struct FunctionRange {
-  double min = std::numeric_limits<double>::infinity();
-  double max = -std::numeric_limits<double>::infinity();
-
-  // So much of the way from the least to the greatest value, which itself may be more than a double
-  // holds. Never falls when the range grows. REQUIRES: share >= 0; there was a value.
-  double part(double share) const {
-    const double width = max - min;
-    return std::isfinite(width) ? share * width : 2 * (share * (max / 2 - min / 2));
-  }
-};
+// Of a function's values.
+using FunctionRange = ValueRange;
 
 class FunctionValues {
  public:
@@ -45,7 +34,7 @@ class FunctionValues {
   std::span<const unsigned> columns() const { return columns_; }
   std::size_t function_count() const { return functions_.size(); }
   const FunctionRange& range(std::size_t function) const { return ranges_[function]; }
-  std::span<const FunctionRange> ranges() const { return ranges_; }
+  const std::vector<FunctionRange>& ranges() const { return ranges_; }
   // As if the values of these ranges had been seen. REQUIRES: one a function.
   void set_ranges(std::span<const FunctionRange> ranges) { ranges_.assign(ranges.begin(), ranges.end()); }
 
@@ -66,10 +55,7 @@ class FunctionValues {
       values[f].resize(before + ids.size());
       const auto here = std::span(values[f]).subspan(before);
       functions_[f]->evaluate(ids, own_, here);
-      for (const double value : here) {
-        ranges_[f].min = std::min(ranges_[f].min, value);
-        ranges_[f].max = std::max(ranges_[f].max, value);
-      }
+      for (const double value : here) ranges_[f].add(value);
     }
   }
 

@@ -7,11 +7,11 @@
 
 namespace reeb::ooc {
 
-GuessedChunks::GuessedChunks(Spooler& spooler, FunctionValues& columns, const io::TempDir& temp, MemoryBudget& budget,
+GuessedChunks::GuessedChunks(Spooler& spooler, FunctionValues& functions, const io::TempDir& temp, MemoryBudget& budget,
                              const GuessOptions& options, const ChunkPlace& start)
     : spooler_(spooler),
-      columns_(columns),
-      lookup_(columns),
+      functions_(functions),
+      lookup_(functions),
       options_(options),
       size_(options.chunk),
       guesses_(temp, budget, options.allowance_bytes) {
@@ -21,10 +21,7 @@ GuessedChunks::GuessedChunks(Spooler& spooler, FunctionValues& columns, const io
 bool GuessedChunks::next(WorkItem& item) {
   if (!read_chunk(item.chunk)) return false;
   lookup_.look_up(spooler_.mesh(), item);
-  item.end.triangles = triangles_read_;
-  item.end.next_vertex = next_vertex_;
-  item.end.chunk_blocks = 0;
-  item.end.ranges.assign(columns_.ranges().begin(), columns_.ranges().end());
+  item.end = {.triangles = triangles_read_, .next_vertex = next_vertex_, .ranges = functions_.ranges()};
   return true;
 }
 
@@ -33,7 +30,7 @@ void GuessedChunks::pass_over(const ChunkPlace& start) {
   Chunk chunk;
   while ((triangles_read_ < start.triangles || next_vertex_ < start.next_vertex) && read_chunk(chunk)) continue;
   passing_over_ = false;
-  if (!start.ranges.empty()) columns_.set_ranges(start.ranges);
+  if (!start.ranges.empty()) functions_.set_ranges(start.ranges);
 }
 
 bool GuessedChunks::read_chunk(Chunk& chunk) {
@@ -44,14 +41,14 @@ bool GuessedChunks::read_chunk(Chunk& chunk) {
 
 // In pieces, so that corners are numbered while they are in the first cache.
 bool GuessedChunks::read_triangles(Chunk& chunk) {
-  constexpr std::size_t kPiece = 3 * 1024;
+  constexpr std::size_t kCornersInCache = 3 * 1024;
   const std::size_t most = 3 * size_.size();
   std::size_t count = 0;
   numbers_.start(chunk.ids, size_.size());
   chunk.corners.resize(most);
   while (count < most && has_corners()) {
     const auto corners = std::span(spooler_.triangles()).subspan(taken_);
-    const std::size_t piece = std::min({kPiece, most - count, corners.size()});
+    const std::size_t piece = std::min({kCornersInCache, most - count, corners.size()});
     numbers_.number(corners.first(piece), std::span(chunk.corners).subspan(count, piece));
     count += piece;
     taken_ += piece;
@@ -74,8 +71,8 @@ bool GuessedChunks::has_corners() {
 }
 
 bool GuessedChunks::read_rest(Chunk& chunk) {
-  constexpr std::size_t kBatch = 16384;
-  next_vertex_ = guesses_.take_rest(next_vertex_, spooler_.mesh().vertex_count(), kBatch, chunk);
+  constexpr std::size_t kRestVertices = 16384;
+  next_vertex_ = guesses_.take_rest(next_vertex_, spooler_.mesh().vertex_count(), kRestVertices, chunk);
   return chunk.vertex_count() != 0;
 }
 

@@ -32,7 +32,7 @@ class GuessedChunks : public ChunkSource {
  public:
   // All must outlive this. The chunks before `start` are passed over: read, but not looked up.
   // REQUIRES: nothing was read; a start came of the same options.
-  GuessedChunks(Spooler& spooler, FunctionValues& columns, const io::TempDir& temp, MemoryBudget& budget,
+  GuessedChunks(Spooler& spooler, FunctionValues& functions, const io::TempDir& temp, MemoryBudget& budget,
                 const GuessOptions& options, const ChunkPlace& start = {});
 
   bool next(WorkItem& item) override;
@@ -53,7 +53,7 @@ class GuessedChunks : public ChunkSource {
   std::uint64_t most_open() const;
 
   Spooler& spooler_;
-  FunctionValues& columns_;
+  FunctionValues& functions_;
   VertexLookup lookup_;
   GuessOptions options_;
   ChunkGrowth size_;  // in triangles

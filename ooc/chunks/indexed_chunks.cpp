@@ -10,11 +10,12 @@ namespace {
 
 class IndexedChunks : public ChunkSource {
  public:
-  IndexedChunks(IndexedMesh& mesh, LastUse& last_use, FunctionValues& columns, ChunkSize size, const ChunkPlace& start)
+  IndexedChunks(IndexedMesh& mesh, LastUse& last_use, FunctionValues& functions, ChunkSize size,
+                const ChunkPlace& start)
       : mesh_(mesh),
         last_use_(last_use),
-        columns_(columns),
-        lookup_(columns),
+        functions_(functions),
+        lookup_(functions),
         block_triangles_(static_cast<std::size_t>(std::max<std::uint64_t>(1, last_use.summary().block_triangles))),
         blocks_(size, block_triangles_) {
     mesh_.rewind();
@@ -35,7 +36,7 @@ class IndexedChunks : public ChunkSource {
 
   IndexedMesh& mesh_;
   LastUse& last_use_;
-  FunctionValues& columns_;
+  FunctionValues& functions_;
   VertexLookup lookup_;
   std::size_t block_triangles_;
   ChunkGrowth blocks_;
@@ -52,33 +53,33 @@ bool IndexedChunks::next(WorkItem& item) {
   item.chunk.clear();
   if (!read_triangles(item.chunk) && !read_loose_vertices(item.chunk)) return false;
   lookup_.look_up(mesh_, item);
-  item.end.triangles = triangles_read_;
-  item.end.next_vertex = next_vertex_;
-  item.end.chunk_blocks = blocks_.size();
-  item.end.ranges.assign(columns_.ranges().begin(), columns_.ranges().end());
+  item.end = {.triangles = triangles_read_,
+              .next_vertex = next_vertex_,
+              .chunk_blocks = blocks_.size(),
+              .ranges = functions_.ranges()};
   return true;
 }
 
 void IndexedChunks::pass_over(const ChunkPlace& start) {
-  constexpr std::uint64_t kPiece = 65536;
+  constexpr std::uint64_t kTrianglesAtOnce = 65536;
   while (triangles_read_ < start.triangles &&
-         mesh_.read(corners_, static_cast<std::size_t>(std::min(kPiece, start.triangles - triangles_read_))))
+         mesh_.read(corners_, static_cast<std::size_t>(std::min(kTrianglesAtOnce, start.triangles - triangles_read_))))
     triangles_read_ += corners_.size() / 3;
   first_block_ = triangles_read_ / block_triangles_;
   next_vertex_ = start.next_vertex;
   if (start.chunk_blocks != 0) blocks_.set_size(static_cast<std::size_t>(start.chunk_blocks));
-  if (!start.ranges.empty()) columns_.set_ranges(start.ranges);
+  if (!start.ranges.empty()) functions_.set_ranges(start.ranges);
 }
 
 // In pieces, so that corners are numbered while they are in the first cache.
 bool IndexedChunks::read_triangles(Chunk& chunk) {
-  constexpr std::size_t kPiece = 1024;
+  constexpr std::size_t kTrianglesInCache = 1024;
   const std::uint64_t left = last_use_.summary().triangle_count - triangles_read_;
   const auto most = static_cast<std::size_t>(std::min<std::uint64_t>(blocks_.size() * block_triangles_, left));
   numbers_.start(chunk.ids, most);
   chunk.corners.resize(3 * most);
   std::size_t count = 0;
-  while (count < most && mesh_.read(corners_, std::min(kPiece, most - count))) {
+  while (count < most && mesh_.read(corners_, std::min(kTrianglesInCache, most - count))) {
     numbers_.number(corners_, std::span(chunk.corners).subspan(3 * count, corners_.size()));
     count += corners_.size() / 3;
   }
@@ -106,11 +107,11 @@ void IndexedChunks::set_uses(Chunk& chunk) {
 }
 
 bool IndexedChunks::read_loose_vertices(Chunk& chunk) {
-  constexpr std::size_t kBatch = 16384;
+  constexpr std::size_t kLooseVertices = 16384;
   const std::uint64_t count = mesh_.vertex_count();
   if (last_use_.summary().unused_vertices == 0) return false;
-  while (next_vertex_ < count && chunk.vertex_count() < kBatch) {
-    entries_.resize(static_cast<std::size_t>(std::min<std::uint64_t>(kBatch, count - next_vertex_)));
+  while (next_vertex_ < count && chunk.vertex_count() < kLooseVertices) {
+    entries_.resize(static_cast<std::size_t>(std::min<std::uint64_t>(kLooseVertices, count - next_vertex_)));
     last_use_.read(VertexId(next_vertex_), entries_);
     for (const std::uint32_t entry : entries_) {
       if (UseEntry(entry).unused()) chunk.ids.push_back(VertexId(next_vertex_));
@@ -123,9 +124,9 @@ bool IndexedChunks::read_loose_vertices(Chunk& chunk) {
 
 }  // namespace
 
-std::unique_ptr<ChunkSource> chunks_of(IndexedMesh& mesh, LastUse& last_use, FunctionValues& columns, ChunkSize size,
+std::unique_ptr<ChunkSource> chunks_of(IndexedMesh& mesh, LastUse& last_use, FunctionValues& functions, ChunkSize size,
                                        const ChunkPlace& start) {
-  return std::make_unique<IndexedChunks>(mesh, last_use, columns, size, start);
+  return std::make_unique<IndexedChunks>(mesh, last_use, functions, size, start);
 }
 
 void WorkItem::shrink_to_fit() {

@@ -10,15 +10,15 @@ namespace reeb::ooc {
 
 namespace {
 
-constexpr std::size_t kStretch = 16 << 10;  // table entries read at once
+constexpr std::size_t kEntriesAtOnce = 16 << 10;
 constexpr std::size_t kMostSamples = 256;
 
 // Calls visit(first, entries) for stretches of the table that cover 0..count-1.
 template <class Visit>
 void for_each_stretch(PagedTable<std::uint32_t>& table, std::uint64_t count, const Visit& visit) {
-  std::vector<std::uint32_t> entries(kStretch);
-  for (std::uint64_t first = 0; first < count; first += kStretch) {
-    const auto size = static_cast<std::size_t>(std::min<std::uint64_t>(kStretch, count - first));
+  std::vector<std::uint32_t> entries(kEntriesAtOnce);
+  for (std::uint64_t first = 0; first < count; first += kEntriesAtOnce) {
+    const auto size = static_cast<std::size_t>(std::min<std::uint64_t>(kEntriesAtOnce, count - first));
     table.read(first, std::span(entries).first(size));
     visit(first, std::span(entries).first(size));
   }
@@ -96,7 +96,7 @@ class Scan {
 
   void close_block(const Piece& piece) {
     in_block_ = 0;
-    gave_up_ = options_.give_up_when_incoherent && is_thrashing();
+    gave_up_ = options_.give_up_when_incoherent && table_.pages().is_thrashing();
     if (!gave_up_ && options_.progress) options_.progress(piece.bytes_read);
   }
 
@@ -148,9 +148,6 @@ class Scan {
     return UseEntry(last, last - (entry.last_block() - entry.span()) / 2).packed();
   }
 
-  // A refetch costs some 30 us; a coherent mesh needs each page again a few times at most.
-  bool is_thrashing() const { return table_.pages().refetches() > 64 + 8 * table_.pages().page_count(); }
-
   void profile_front() {
     const std::size_t blocks = live_change_.size();
     const std::size_t stretch = std::max<std::size_t>(1, (blocks + kMostSamples - 1) / kMostSamples);
@@ -178,14 +175,6 @@ class Scan {
 };
 
 }  // namespace
-
-void LastUse::for_each_unused(const std::function<void(VertexId)>& visit) {
-  if (summary_.unused_vertices == 0) return;
-  for_each_stretch(table_, summary_.vertex_count, [&](std::uint64_t first, std::span<const std::uint32_t> entries) {
-    for (std::size_t i = 0; i < entries.size(); ++i)
-      if (UseEntry(entries[i]).unused()) visit(VertexId(first + i));
-  });
-}
 
 std::optional<LastUse> scan_last_use(IndexedMesh& mesh, const io::TempDir& temp, MemoryBudget& budget,
                                      const LastUseOptions& options) {

@@ -85,9 +85,6 @@ class LastUse {
   // Packed entries of consecutive vertices from `first`.
   void read(VertexId first, std::span<std::uint32_t> entries) { table_.read(first.value(), entries); }
 
-  // Calls `visit` for each vertex that no triangle names, in ascending order.
-  void for_each_unused(const std::function<void(VertexId)>& visit);
-
  private:
   UseSummary summary_;
   PagedTable<std::uint32_t> table_;

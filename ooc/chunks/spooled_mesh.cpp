@@ -63,11 +63,11 @@ std::uint64_t SpooledMesh::spilled_bytes() const {
   return bytes;
 }
 
-Spooler::Spooler(MeshReader& reader, const io::TempDir& temp, MemoryBudget& budget, SpoolOptions options)
+Spooler::Spooler(MeshReader& reader, const io::TempDir& temp, MemoryBudget& budget, std::uint64_t allowance_bytes)
     : reader_(reader),
       temp_(temp),
       budget_(budget),
-      options_(std::move(options)),
+      allowance_bytes_(allowance_bytes),
       reader_memory_(budget.reserve("mesh reader", 0)) {}
 
 bool Spooler::read() {
@@ -76,25 +76,25 @@ bool Spooler::read() {
   ended_ = !some;
   if (mesh_ == nullptr) {
     const std::size_t columns = some ? batch_.coordinates.size() + batch_.properties.size() : reader_.info().dimension;
-    mesh_ = std::make_unique<SpooledMesh>(static_cast<unsigned>(columns), temp_, budget_, options_.allowance_bytes);
+    mesh_ = std::make_unique<SpooledMesh>(static_cast<unsigned>(columns), temp_, budget_, allowance_bytes_);
   }
   if (!some) return false;
   reader_memory_.resize(reader_.memory_bytes());
   append_faces(batch_.tetrahedra, batch_.triangles);
   batch_.tetrahedra.clear();
   mesh_->append(batch_);
-  if (options_.progress) options_.progress(reader_);
   return true;
 }
 
-std::unique_ptr<SpooledMesh> Spooler::finish() {
-  while (read()) continue;
+std::unique_ptr<SpooledMesh> Spooler::finish(const SpoolProgress& progress) {
+  while (read())
+    if (progress) progress(reader_);
   return std::move(mesh_);
 }
 
 std::unique_ptr<SpooledMesh> spool(MeshReader& reader, const io::TempDir& temp, MemoryBudget& budget,
                                    const SpoolOptions& options) {
-  return Spooler(reader, temp, budget, options).finish();
+  return Spooler(reader, temp, budget, options.allowance_bytes).finish(options.progress);
 }
 
 }  // namespace reeb::ooc

@@ -15,9 +15,12 @@
 
 namespace reeb::ooc {
 
+// Called with the reader after each batch.
+using SpoolProgress = std::function<void(const MeshReader&)>;
+
 struct SpoolOptions {
   std::uint64_t allowance_bytes = 32 << 20;  // of the budget, for vertices and triangles
-  std::function<void(const MeshReader&)> progress = {};
+  SpoolProgress progress = {};
 };
 
 // Coordinates, then the properties that the reader delivers, in one column each; triangles in a
@@ -61,7 +64,7 @@ class SpooledMesh : public IndexedMesh {
 class Spooler {
  public:
   // `reader`, `temp` and `budget` must outlive this.
-  Spooler(MeshReader& reader, const io::TempDir& temp, MemoryBudget& budget, SpoolOptions options = {});
+  Spooler(MeshReader& reader, const io::TempDir& temp, MemoryBudget& budget, std::uint64_t allowance_bytes);
 
   // Takes over the next batch; false at the end, again and again.
   bool read();
@@ -72,13 +75,13 @@ class Spooler {
   SpooledMesh& mesh() { return *mesh_; }
 
   // Reads what is left; the whole mesh.
-  std::unique_ptr<SpooledMesh> finish();
+  std::unique_ptr<SpooledMesh> finish(const SpoolProgress& progress = {});
 
  private:
   MeshReader& reader_;
   const io::TempDir& temp_;
   MemoryBudget& budget_;
-  SpoolOptions options_;
+  std::uint64_t allowance_bytes_;
   Reservation reader_memory_;
   MeshBatch batch_;
   std::unique_ptr<SpooledMesh> mesh_;

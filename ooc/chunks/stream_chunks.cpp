@@ -7,13 +7,13 @@ namespace {
 
 class StreamChunks : public ChunkSource {
  public:
-  StreamChunks(MeshReader& reader, FunctionValues& columns, ChunkSize size, const ChunkPlace& start,
+  StreamChunks(MeshReader& reader, FunctionValues& functions, ChunkSize size, const ChunkPlace& start,
                std::optional<std::uint64_t> most_active_vertices)
       : reader_(reader),
-        columns_(columns),
+        functions_(functions),
         size_(size),
         most_active_vertices_(most_active_vertices),
-        chunker_(columns.function_count(), true) {
+        chunker_(functions.function_count(), true) {
     pass_over(start);
   }
 
@@ -32,7 +32,7 @@ class StreamChunks : public ChunkSource {
   void add_simplices(const std::vector<VertexId>& corners, std::size_t size);
 
   MeshReader& reader_;
-  FunctionValues& columns_;
+  FunctionValues& functions_;
   ChunkGrowth size_;                                   // in triangles
   std::optional<std::uint64_t> most_active_vertices_;  // if it may give up
   StreamChunker chunker_;
@@ -54,19 +54,19 @@ bool StreamChunks::next(WorkItem& item) {
   if (given_up_ || chunker_.chunk_size() == 0) return false;
   chunker_.take(item.chunk, item.values);
   size_.adapt(item.chunk);
-  item.end.triangles = triangles_read_;
-  item.end.next_vertex = chunker_.vertex_count();
-  item.end.batches = batches_;
-  item.end.chunk_blocks = size_.size();
-  item.end.ranges.assign(columns_.ranges().begin(), columns_.ranges().end());
+  item.end = {.triangles = triangles_read_,
+              .next_vertex = chunker_.vertex_count(),
+              .batches = batches_,
+              .chunk_blocks = size_.size(),
+              .ranges = functions_.ranges()};
   return true;
 }
 
 bool StreamChunks::is_hopeless() const {
-  constexpr std::uint64_t kMany = 1'000'000, kLargePart = 8;
+  constexpr std::uint64_t kLargeMeshVertices = 1'000'000, kLargePart = 8;
   if (!most_active_vertices_) return false;
   const std::uint64_t active = chunker_.active_vertices(), all = chunker_.vertex_count();
-  return active > *most_active_vertices_ || (all > kMany && active > all / kLargePart);
+  return active > *most_active_vertices_ || (all > kLargeMeshVertices && active > all / kLargePart);
 }
 
 // Which vertices are live at a chunk's end, and which of them were used, does not depend on where the
@@ -82,7 +82,7 @@ void StreamChunks::pass_over(const ChunkPlace& start) {
     throw Error(ErrorKind::kBadInput, "the stream is not the one that the checkpoint was made of",
                 "run it again without --resume");
   if (start.chunk_blocks != 0) size_.set_size(static_cast<std::size_t>(start.chunk_blocks));
-  if (!start.ranges.empty()) columns_.set_ranges(start.ranges);
+  if (!start.ranges.empty()) functions_.set_ranges(start.ranges);
 }
 
 void StreamChunks::read_batch() {
@@ -105,12 +105,12 @@ void StreamChunks::add_vertices() {
   ids_.resize(n);
   for (std::size_t i = 0; i < n; ++i) ids_[i] = VertexId(batch_.first_vertex.value() + i);
   data_.clear();
-  for (const unsigned column : columns_.columns())
+  for (const unsigned column : functions_.columns())
     data_.emplace_back(column < batch_.coordinates.size() ? batch_.coordinates[column]
                                                           : batch_.properties[column - batch_.coordinates.size()]);
   positions_.clear();
   for (auto& values : values_) values.clear();
-  columns_.evaluate(ids_, data_, positions_, values_);
+  functions_.evaluate(ids_, data_, positions_, values_);
   row_.resize(values_.size());
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t f = 0; f < values_.size(); ++f) row_[f] = values_[f][i];
@@ -124,9 +124,9 @@ void StreamChunks::add_simplices(const std::vector<VertexId>& corners, std::size
 
 }  // namespace
 
-std::unique_ptr<ChunkSource> chunks_of(MeshReader& reader, FunctionValues& columns, ChunkSize size,
+std::unique_ptr<ChunkSource> chunks_of(MeshReader& reader, FunctionValues& functions, ChunkSize size,
                                        const ChunkPlace& start, std::optional<std::uint64_t> most_active_vertices) {
-  return std::make_unique<StreamChunks>(reader, columns, size, start, most_active_vertices);
+  return std::make_unique<StreamChunks>(reader, functions, size, start, most_active_vertices);
 }
 
 }  // namespace reeb::ooc

@@ -14,7 +14,7 @@ std::uint32_t hash(VertexId v) { return static_cast<std::uint32_t>(mix(v.value()
 }  // namespace
 
 UseGuesses::Verdict UseGuesses::add(Chunk& chunk, std::uint64_t most_open) {
-  constexpr std::size_t kOften = 1024;
+  constexpr std::size_t kVerticesBetweenLooks = 1024;
   sum_links(chunk);
   // Before the table is touched, which costs much where vertices lie far apart.
   const auto open_here = static_cast<std::uint64_t>(
@@ -22,7 +22,7 @@ UseGuesses::Verdict UseGuesses::add(Chunk& chunk, std::uint64_t most_open) {
   if (open_here > most_open) return Verdict::kIncoherent;
   chunk.uses.resize(chunk.vertex_count());
   for (std::size_t i = 0; i < chunk.vertex_count(); ++i) {
-    if (i % kOften == 0 && is_thrashing()) return Verdict::kIncoherent;
+    if (i % kVerticesBetweenLooks == 0 && table_.pages().is_thrashing()) return Verdict::kIncoherent;
     std::uint32_t& entry = table_.change(chunk.ids[i].value());
     if ((entry & kGuessed) != 0) {
       ++revoked_;
@@ -60,13 +60,10 @@ void UseGuesses::sum_links(const Chunk& chunk) {
   }
 }
 
-// A refetch costs some 30 us; a coherent mesh needs each page again a few times at most.
-bool UseGuesses::is_thrashing() const { return table_.pages().refetches() > 64 + 8 * table_.pages().page_count(); }
-
 std::uint64_t UseGuesses::take_rest(std::uint64_t first, std::uint64_t end, std::size_t most, Chunk& chunk) {
-  constexpr std::uint64_t kStretch = 16 << 10;
+  constexpr std::uint64_t kEntriesAtOnce = 16 << 10;
   while (first < end && chunk.vertex_count() < most) {
-    entries_.resize(static_cast<std::size_t>(std::min(kStretch, end - first)));
+    entries_.resize(static_cast<std::size_t>(std::min(kEntriesAtOnce, end - first)));
     table_.read(first, entries_);
     for (std::size_t i = 0; i < entries_.size() && chunk.vertex_count() < most; ++i, ++first) {
       if ((entries_[i] & kGuessed) != 0) continue;

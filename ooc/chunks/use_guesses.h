@@ -51,7 +51,6 @@ class UseGuesses {
   static bool is_closed(std::uint32_t entry) { return (entry & ~kUsed) == kFan; }
 
   void sum_links(const Chunk& chunk);
-  bool is_thrashing() const;
 
   PagedTable<std::uint32_t> table_;
   std::uint64_t open_ = 0, guessed_ = 0, revoked_ = 0, unused_ = 0, degenerate_ = 0;

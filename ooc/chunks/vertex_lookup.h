@@ -14,36 +14,36 @@ namespace reeb::ooc {
 
 class VertexLookup {
  public:
-  explicit VertexLookup(FunctionValues& columns) : columns_(columns) {}
+  explicit VertexLookup(FunctionValues& functions) : functions_(functions) {}
 
   // Sets positions and values of the item's vertices, whose ids become those of the input.
   // THROWS: what the mesh and the functions throw.
   void look_up(IndexedMesh& mesh, WorkItem& item) {
-    constexpr std::size_t kPiece = 16384;
+    constexpr std::size_t kVerticesAtOnce = 16384;
     const std::size_t n = item.chunk.vertex_count();
     item.chunk.positions.clear();
     item.chunk.positions.reserve(n);
-    item.values.resize(columns_.function_count());
+    item.values.resize(functions_.function_count());
     for (auto& values : item.values) {
       values.clear();
       values.reserve(n);
     }
-    for (std::size_t first = 0; first < n; first += kPiece)
-      look_up(mesh, std::span(item.chunk.ids).subspan(first, std::min(kPiece, n - first)), item);
+    for (std::size_t first = 0; first < n; first += kVerticesAtOnce)
+      look_up(mesh, std::span(item.chunk.ids).subspan(first, std::min(kVerticesAtOnce, n - first)), item);
   }
 
  private:
   void look_up(IndexedMesh& mesh, std::span<VertexId> ids, WorkItem& item) {
     const std::size_t n = ids.size();
-    gathered_.resize(n * columns_.columns().size());
-    mesh.gather(ids, columns_.columns(), gathered_);
+    gathered_.resize(n * functions_.columns().size());
+    mesh.gather(ids, functions_.columns(), gathered_);
     data_.clear();
-    for (std::size_t k = 0; k < columns_.columns().size(); ++k) data_.emplace_back(gathered_.data() + k * n, n);
+    for (std::size_t k = 0; k < functions_.columns().size(); ++k) data_.emplace_back(gathered_.data() + k * n, n);
     mesh.to_original(ids);
-    columns_.evaluate(ids, data_, item.chunk.positions, item.values);
+    functions_.evaluate(ids, data_, item.chunk.positions, item.values);
   }
 
-  FunctionValues& columns_;
+  FunctionValues& functions_;
   std::vector<double> gathered_;
   std::vector<std::span<const double>> data_;
 };

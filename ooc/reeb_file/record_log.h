@@ -11,7 +11,7 @@
 #include "libreeb/base/memory_budget.h"
 #include "libreeb/port/record_sink.h"
 #include "ooc/reeb_file/record_source.h"
-#include "ooc/sorting/run_file.h"
+#include "ooc/sorting/sorted_run_file.h"
 
 namespace reeb::ooc {
 
@@ -48,7 +48,7 @@ class RecordLog : public RecordSink, public RecordSource {
   const io::TempDir* temp_;
   const std::size_t block_bytes_;
   Reservation charge_;
-  std::optional<RunFile> file_;
+  std::optional<SortedRunFile> file_;
   std::vector<std::uint64_t> offsets_;  // of the blocks in the file
   std::vector<std::byte> open_;         // the block behind them
   std::size_t in_open_ = 0;

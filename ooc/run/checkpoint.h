@@ -40,7 +40,7 @@ enum class ChunkOrigin : std::uint64_t {
 
 // Where the run was.
 struct Checkpoint {
-  ChunkPlace place;
+  ChunkPlace place = {};
   std::uint64_t block_triangles = 0;  // of the last-use table, if there is one
   ChunkOrigin origin = ChunkOrigin::kLookedUp;
   ChunkSize chunk = {};  // with guesses: they are made at the ends of chunks

@@ -93,9 +93,14 @@ struct ComputeResult {
   std::vector<std::string> notes;  // one line each: what was odd but harmless
 };
 
-// Computes the graph of functions[i] and writes it to outputs[i], all in one reading of the mesh.
-// THROWS: Error; then no output appeared. Of kResource and kInterrupted the hint says whether a later
-//         run can go on.
+// Computes the graph of functions[i] and writes it to outputs[i]. All functions share one pass over the mesh
+// in which it is glued; a mesh whose last uses must be found first, or that is sorted first, is read
+// before that pass, too.
+//
+// THROWS: Error. No output is ever written in part, but some may be there: those of earlier functions; and
+//         the graph alone, if kResource says that a function's hierarchy or the end of its noise removal
+//         did not fit the memory. For kResource and kInterrupted the hint says whether a later run can
+//         resume this one.
 std::vector<ComputeResult> compute(MeshInput input, std::span<VertexFunction* const> functions,
                                    std::span<const std::string> outputs, const ComputeOptions& options);
 

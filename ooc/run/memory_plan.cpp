@@ -14,7 +14,7 @@ namespace {
 constexpr std::uint64_t kMiB = 1 << 20;
 // Measured, at most: code, allocator and stacks; and windows of a mesh that is looked up in place.
 constexpr std::uint64_t kProcess = 8 * kMiB, kWindows = kMiB;
-constexpr std::uint64_t kLeast = 16 * kMiB;
+constexpr std::uint64_t kLeastBudget = 16 * kMiB;
 // Besides, what the allocator cannot use again: of the least budget nothing can be spared for it.
 constexpr std::uint64_t kUnused = 2 * kMiB;
 
@@ -27,7 +27,7 @@ constexpr std::uint64_t kBucketsSmooth = 70, kBucketsRemoved = 160, kBucketsKept
 
 // What live graphs and chunks take together where memory is free: chunks of a wide front are smaller,
 // which costs a few per cent of the time, down to kUsefulTriangles.
-constexpr std::uint64_t kUsual = 16 * kMiB;
+constexpr std::uint64_t kUsualForLiveAndChunks = 16 * kMiB;
 constexpr std::size_t kUsefulTriangles = 12288;
 
 // Measured a triangle: scratch of a sweep, a chunk in flight with its fragment, and what the source
@@ -51,21 +51,21 @@ std::uint64_t machine_bytes() {
   return pages > 0 && page > 0 ? static_cast<std::uint64_t>(pages) * static_cast<std::uint64_t>(page) : 1024 * kMiB;
 }
 
-std::uint64_t less(std::uint64_t a, std::uint64_t b) { return a - std::min(a, b); }
+std::uint64_t saturating_minus(std::uint64_t a, std::uint64_t b) { return a - std::min(a, b); }
 
 }  // namespace
 
 MemoryPlan plan_memory(const MemoryRequest& request) {
-  if (request.limit_bytes < kLeast)
+  if (request.limit_bytes < kLeastBudget)
     throw Error(ErrorKind::kResource,
-                "a run needs at least " + format_bytes(kLeast) + " of memory, but only " +
+                "a run needs at least " + format_bytes(kLeastBudget) + " of memory, but only " +
                     format_bytes(request.limit_bytes) + " are allowed",
                 "allow more, for instance --memory 32M");
   const std::uint64_t limit =
       request.limit_bytes == MemoryBudget::kUnlimited ? machine_bytes() / 2 : request.limit_bytes;
   MemoryPlan plan;
   plan.request_ = request;
-  plan.set_aside_bytes = kProcess + (request.in_place ? kWindows : 0) + std::min(kUnused, (limit - kLeast) / 4);
+  plan.set_aside_bytes = kProcess + (request.in_place ? kWindows : 0) + std::min(kUnused, (limit - kLeastBudget) / 4);
   plan.account_bytes = limit - plan.set_aside_bytes;
   // Beyond these sizes more memory makes nothing faster.
   plan.table_bytes = std::min(plan.account_bytes / 16, kMiB);
@@ -87,18 +87,20 @@ std::uint64_t MemoryPlan::taken_bytes(const FrontNeeds& needs) const {
 
 // What the least chunks leave for the live graphs.
 std::uint64_t MemoryPlan::live_room(const FrontNeeds& needs) const {
-  return less(account_bytes, taken_bytes(needs) + kLeastTriangles * triangle_bytes());
+  return saturating_minus(account_bytes, taken_bytes(needs) + kLeastTriangles * triangle_bytes());
 }
 
 bool MemoryPlan::fits(const FrontNeeds& needs) const {
-  return needs.live_vertices * vertex_bytes_ <= less(live_room(needs), account_bytes / 16);
+  return needs.live_vertices * vertex_bytes_ <= saturating_minus(live_room(needs), account_bytes / 16);
 }
 
 bool MemoryPlan::exceeds(const FrontNeeds& needs) const {
   return needs.live_vertices * least_vertex_bytes_ > live_room(needs);
 }
 
-std::uint64_t MemoryPlan::most_live_vertices() const { return less(live_room({}), account_bytes / 16) / vertex_bytes_; }
+std::uint64_t MemoryPlan::most_live_vertices() const {
+  return saturating_minus(live_room({}), account_bytes / 16) / vertex_bytes_;
+}
 
 std::uint64_t MemoryPlan::needed_bytes(const FrontNeeds& needs) const {
   const std::uint64_t fixed = taken_bytes(needs) + kLeastTriangles * triangle_bytes();
@@ -114,8 +116,8 @@ std::uint64_t MemoryPlan::triangle_bytes() const {
 // A rough function takes up to twice as much for the live graph; so half of the room is left.
 void MemoryPlan::share_out(const FrontNeeds& needs) {
   const std::uint64_t live = needs.live_vertices * vertex_bytes_;
-  const std::uint64_t room = less(account_bytes, taken_bytes(needs) + live);
-  const std::uint64_t usual = less(kUsual, live) / triangle_bytes();
+  const std::uint64_t room = saturating_minus(account_bytes, taken_bytes(needs) + live);
+  const std::uint64_t usual = saturating_minus(kUsualForLiveAndChunks, live) / triangle_bytes();
   size_chunks(std::max(account_bytes / 8, room / 2), std::max<std::size_t>(usual, kUsefulTriangles));
 }
 
@@ -129,7 +131,8 @@ void MemoryPlan::size_chunks(std::uint64_t bytes, std::size_t most_triangles) {
   };
   chunk.first = fitting(bytes);
   chunk.patch = fitting(bytes / 4);
-  const auto stretch = static_cast<std::size_t>(less(bytes, chunk.patch * triangle_bytes()) / kStretchBytes);
+  const auto stretch =
+      static_cast<std::size_t>(saturating_minus(bytes, chunk.patch * triangle_bytes()) / kStretchBytes);
   chunk.most = std::clamp(stretch, chunk.first, chunk.most);
   threads = allows_threads() ? request_.threads : 1;
   const std::uint64_t parallel = std::max(bytes, account_bytes / 4);

@@ -1,7 +1,6 @@
 #include "ooc/run/pipeline.h"
 
 #include <tbb/concurrent_queue.h>
-#include <tbb/global_control.h>
 #include <tbb/parallel_pipeline.h>
 
 #include <algorithm>
@@ -145,8 +144,7 @@ class Pipeline {
     }
     Sweepers sweepers(budget_);
 
-    const tbb::global_control control(tbb::global_control::max_allowed_parallelism, options_.threads);
-    kept_arena(options_.threads).execute([&] {
+    run_in_kept_arena(options_.threads, [&] {
       tbb::parallel_pipeline(in_flight,
                              tbb::make_filter<void, Slot*>(tbb::filter_mode::serial_in_order,
                                                            [&](tbb::flow_control& control_flow) -> Slot* {

@@ -37,7 +37,7 @@ const Checkpoint* ResumableRun::start(const std::function<void(StateReader&)>& r
     if (load_.checkpoint && restores(restore)) {
       notes.push_back("an earlier run had read " + std::to_string(load_.checkpoint->place.triangles) +
                       " triangles; this one goes on from there");
-      return &*load_.checkpoint;
+      return checkpoint();
     }
     notes.push_back(load_.note);
   }
@@ -58,7 +58,7 @@ bool ResumableRun::restores(const std::function<void(StateReader&)>& restore) {
   return false;
 }
 
-void ResumableRun::start_anew() {
+void ResumableRun::start_over() {
   load_ = {};
   if (folder_) folder_->clear();
 }

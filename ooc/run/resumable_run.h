@@ -40,11 +40,13 @@ class ResumableRun {
   // is removed. The state is read by `restore`; if it is damaged, that counts as no checkpoint.
   // Why there is none is added to `notes`.
   const Checkpoint* start(const std::function<void(StateReader&)>& restore, std::vector<std::string>& notes);
+  // The same, until start_over().
+  const Checkpoint* checkpoint() const { return load_.checkpoint ? &*load_.checkpoint : nullptr; }
   // What start() left unread: the engine. Null if there is no checkpoint to go on from.
   StateReader* saved_engine() const { return load_.state.get(); }
 
-  // What was run so far came to nothing: all that was kept of it is removed.
-  void start_anew();
+  // What was run so far was of no use: all that was kept of it is removed.
+  void start_over();
 
   // At a place where nothing can be saved.
   // THROWS: Error{kInterrupted} if the run is to end.

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <exception>
 #include <functional>
-#include <future>
 #include <memory>
 #include <optional>
 #include <span>
@@ -19,9 +19,11 @@
 #include "libreeb/base/memory_budget.h"
 #include "libreeb/base/state_stream.h"
 #include "ooc/sorting/record_batch.h"
-#include "ooc/sorting/run_file.h"
-#include "ooc/sorting/run_merger.h"
+#include "ooc/sorting/sort_buffer.h"
+#include "ooc/sorting/sorted_run_file.h"
+#include "ooc/sorting/sorted_run_merger.h"
 #include "ooc/threads/read_ahead.h"
+#include "ooc/threads/worker.h"
 
 namespace reeb::ooc {
 
@@ -29,7 +31,7 @@ struct SortOptions {
   std::uint64_t allowance_bytes = 16 << 20;  // of the budget
   std::uint64_t most_bytes = 0;              // if more: the allowance grows up to this as the file does
   bool parallel = false;                     // sort each run with all threads
-  bool background = false;                   // sort and write runs in a thread of its own, with half the buffer
+  bool background = false;                   // sort and write runs in a kept thread, with half the buffer
   std::string file = {};                     // for the runs, if another process may have to go on; else unnamed
 };
 
@@ -61,9 +63,6 @@ class ExternalSort {
         merge_charge_(budget.reserve(owner, 0)) {}
   ExternalSort(const ExternalSort&) = delete;
   ExternalSort& operator=(const ExternalSort&) = delete;
-  ~ExternalSort() {
-    if (written_.valid()) written_.wait();
-  }
 
   void add(std::span<const Record> records) {
     size_ += records.size();
@@ -81,9 +80,9 @@ class ExternalSort {
     largest_payload_ = std::max<std::uint64_t>(largest_payload_, payload.size());
     ++size_;
     auto& buffer = filling_.batch.records;
-    if ((buffer.size() == buffer.capacity() && !grow_records()) || !make_room(payload.size())) {
+    if ((buffer.size() == buffer.capacity() && !grow_records()) || !filling_.grow_pool(payload.size(), most_bytes_)) {
       flush();
-      if (!make_room(payload.size())) grow_pool_anyway(payload.size());
+      if (!filling_.grow_pool(payload.size(), most_bytes_)) filling_.replace_pool(payload.size());
     }
     filling_.batch.add(record, payload);
   }
@@ -212,16 +211,8 @@ class ExternalSort {
   std::uint64_t spilled_bytes() const { return spilled_ + (file_ ? file_->size() : 0); }
 
  private:
-  using Merger = RunMerger<Record, Codec, Less>;
-  struct Buffer {
-    Batch batch;
-    Reservation charge;
-    std::uint64_t bytes(std::size_t records, std::size_t pool) const { return records * sizeof(Record) + pool; }
-    void free() {
-      batch = {};
-      charge.resize(0);
-    }
-  };
+  using Merger = SortedRunMerger<Record, Codec, Less>;
+  using Buffer = SortBuffer<Record>;
 
   // How much of the records of a block a scan unpacks.
   enum class Wanted { kNothing, kKeys, kAll };
@@ -262,46 +253,10 @@ class ExternalSort {
     });
   }
 
-  // Room for as many records again, if the share allows; both the old and the new memory exist while
-  // they move over.
   bool grow_records() {
-    auto& [records, pool] = filling_.batch;
-    const std::size_t before = records.capacity();
-    const std::uint64_t left = most_bytes_ - std::min<std::uint64_t>(most_bytes_, pool.capacity());
-    const std::size_t after =
-        std::min(static_cast<std::size_t>(left / sizeof(Record)), std::max(kBlockRecords, 2 * before));
-    if (before == 0) {
-      filling_.charge.resize(filling_.bytes(kBlockRecords, pool.capacity()));
-      records.reserve(kBlockRecords);
-      return true;
-    }
-    if (after <= before || !filling_.charge.try_resize(filling_.bytes(before + after, pool.capacity()))) return false;
-    records.reserve(after);
-    filling_.charge.resize(filling_.bytes(records.capacity(), pool.capacity()));
+    if (filling_.batch.records.capacity() != 0) return filling_.grow_records(kBlockRecords, most_bytes_);
+    filling_.start(kBlockRecords);
     return true;
-  }
-
-  // The same for the pool, if it has to grow for `bytes` more.
-  bool make_room(std::size_t bytes) {
-    auto& [records, pool] = filling_.batch;
-    const std::size_t needed = pool.size() + bytes, before = pool.capacity();
-    if (needed <= before) return true;
-    const std::uint64_t held = filling_.bytes(records.capacity(), 0);
-    const std::uint64_t left = most_bytes_ - std::min(most_bytes_, held);
-    const auto after =
-        static_cast<std::size_t>(std::min<std::uint64_t>(left, std::max<std::uint64_t>(needed, 2 * before)));
-    if (after < needed || !filling_.charge.try_resize(held + before + after)) return false;
-    pool.reserve(after);
-    filling_.charge.resize(held + pool.capacity());
-    return true;
-  }
-
-  // For the first payload of a run, which has to go somewhere.
-  void grow_pool_anyway(std::size_t bytes) {
-    auto& [records, pool] = filling_.batch;
-    std::vector<std::byte>().swap(pool);
-    filling_.charge.resize(filling_.bytes(records.capacity(), bytes));
-    pool.reserve(bytes);
   }
 
   void flush() {
@@ -310,14 +265,14 @@ class ExternalSort {
     if (!file_) file_.emplace(options_.file.empty() ? temp_->create_unnamed(owner_) : io::File::create(options_.file));
     std::swap(filling_, writing_);
     if (options_.background) {
-      written_ = std::async(std::launch::async, [this] { write_run(writing_.batch); });
+      writer_.start([this] { write_run(writing_.batch); });
     } else {
       write_run(writing_.batch);
       std::swap(filling_, writing_);
     }
     grow_allowance();
     // A budget too small for a second buffer is met by waiting for the first.
-    if (filling_.batch.records.capacity() == 0 && !grow_second()) {
+    if (filling_.batch.records.capacity() == 0 && !filling_.try_start(kBlockRecords)) {
       wait_for_writer();
       std::swap(filling_, writing_);
     }
@@ -329,14 +284,13 @@ class ExternalSort {
     most_bytes_ = std::max(most_bytes_, bytes / (options_.background ? 2 : 1));
   }
 
-  bool grow_second() {
-    if (!filling_.charge.try_resize(kBlockRecords * sizeof(Record))) return false;
-    filling_.batch.records.reserve(kBlockRecords);
-    return true;
-  }
-
   void wait_for_writer() {
-    if (written_.valid()) written_.get();
+    try {
+      writer_.wait();
+    } catch (...) {
+      failure_ = std::current_exception();
+    }
+    if (failure_) std::rethrow_exception(failure_);
   }
 
   void sort(std::vector<Record>& records) const {
@@ -359,7 +313,7 @@ class ExternalSort {
   void reduce_runs(std::uint64_t merge_bytes) {
     const std::size_t fan_in = reserve_fan_in(merge_bytes);
     while (runs_.size() > fan_in) {
-      RunFile merged(temp_->create_unnamed(owner_));
+      SortedRunFile merged(temp_->create_unnamed(owner_));
       std::vector<RunPlace> longer;
       for (std::size_t first = 0; first < runs_.size(); first += fan_in) {
         const std::size_t count = std::min(fan_in, runs_.size() - first);
@@ -382,7 +336,7 @@ class ExternalSort {
     return static_cast<std::size_t>(fan_in);
   }
 
-  RunPlace merge(std::span<const RunPlace> runs, RunFile& out) const {
+  RunPlace merge(std::span<const RunPlace> runs, SortedRunFile& out) const {
     Merger merger(*file_, runs);
     RunPlace place{out.size(), 0};
     for (Batch block; !merger.empty();) {
@@ -399,13 +353,14 @@ class ExternalSort {
   std::uint64_t most_bytes_;  // of a buffer
   Buffer filling_, writing_;
   Reservation merge_charge_;
-  std::shared_future<void> written_;  // shared, since a failure is for every later call, not for the first alone
-  std::optional<RunFile> file_;
+  std::exception_ptr failure_;  // of the writer: for every later call, not for the first alone
+  std::optional<SortedRunFile> file_;
   std::vector<RunPlace> runs_;
   std::unique_ptr<Merger> merger_;
   std::uint64_t at_ = 0;  // records read so far
   std::uint64_t size_ = 0, spilled_ = 0;
   std::uint64_t largest_payload_ = 0;
+  Worker writer_;  // sorts and writes writing_; the last member, so that it ends first
 };
 
 }  // namespace reeb::ooc

@@ -34,4 +34,17 @@ bool decode_buckets(std::span<const std::byte> payload, int exponent, std::vecto
   return true;
 }
 
+std::optional<std::span<const std::byte>> packed_list(std::span<const std::byte> payload, int exponent,
+                                                      CoarsenedList& coarsened) {
+  if (payload.empty()) return payload;
+  ByteReader in(payload);
+  const auto own = static_cast<std::int64_t>(in.delta(0));
+  if (in.ok() && own == exponent) return in.bytes(in.remaining());
+  coarsened.buckets.clear();
+  if (!decode_buckets(payload, exponent, coarsened.buckets)) return std::nullopt;
+  coarsened.packed.clear();
+  pack_buckets(coarsened.buckets, coarsened.packed);
+  return coarsened.packed;
+}
+
 }  // namespace reeb::ooc

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -19,6 +20,16 @@ void encode_packed_buckets(std::span<const std::byte> packed, int exponent, std:
 // Appends the buckets of a payload, coarsened to `exponent`. False if the bytes are no payload, or
 // are coarser.
 bool decode_buckets(std::span<const std::byte> payload, int exponent, std::vector<Bucket>& buckets);
+
+// The packed list of a payload, coarsened to `exponent`. Nothing if the bytes are no payload, or are coarser.
+// A list that has this exponent already, as nearly all do, is not unpacked: it lies in the payload. Else it is in
+// `coarsened`, until the next call.
+struct CoarsenedList {
+  std::vector<Bucket> buckets;
+  std::vector<std::byte> packed;
+};
+std::optional<std::span<const std::byte>> packed_list(std::span<const std::byte> payload, int exponent,
+                                                      CoarsenedList& coarsened);
 
 // How many buckets a payload has, before any is coarsened.
 std::uint64_t bucket_count(std::span<const std::byte> payload);

@@ -82,13 +82,13 @@ class Pass {
         exponent_(options.bucket_exponent),
         memory_(store.budget().reserve("last pass of noise removal", 0)),
         spare_memory_(store.budget().reserve("last pass of noise removal", 0)) {
-    patch_.memory = store.budget().reserve("noise that is gone", 0);
+    change_.memory = store.budget().reserve("noise that is gone", 0);
   }
 
   LastNoisePass run() {
     find_scope();
     if (result_.fits && scope_.size() != 0) remove_noise();
-    if (result_.fits && result_.removed_pairs != 0) finish_patch();
+    if (result_.fits && result_.removed_pairs != 0) finish_change();
     return std::move(result_);
   }
 
@@ -112,14 +112,14 @@ class Pass {
     spare_memory_.release();
   }
 
-  // What removing noise takes if all of the graph is looked at, the patch included.
+  // What removing noise takes if all of the graph is looked at, the change included.
   std::uint64_t most_bytes() const {
     const std::uint64_t of_buckets =
         exponent_ ? kPackedByte * store_.payload_bytes() + kBucketBytes * store_.bucket_count() : 0;
     constexpr std::uint64_t kGoneNode = 2 * sizeof(SweepKey) + 20;
-    const std::uint64_t of_patch = sizeof(PatchArc) * store_.arc_count() + (exponent_ ? store_.payload_bytes() : 0) +
-                                   kGoneNode * store_.node_count();
-    return kNodeBytes * store_.node_count() + kInnerArcBytes * store_.arc_count() + of_buckets + of_patch;
+    const std::uint64_t of_change = sizeof(ChangedArc) * store_.arc_count() + (exponent_ ? store_.payload_bytes() : 0) +
+                                    kGoneNode * store_.node_count();
+    return kNodeBytes * store_.node_count() + kInnerArcBytes * store_.arc_count() + of_buckets + of_change;
   }
 
   // ---- where noise can be
@@ -284,8 +284,8 @@ class Pass {
     if (!make_room(memory_, held_ + bytes, enough_)) return;
     RecordBatch<StoredArc> arcs = gather(scope);
     PackedLists buckets = buckets_of(arcs);
-    patch_.replaced_arcs += arcs.records.size();
-    for (std::size_t arc = 0; arc < buckets.size(); ++arc) patch_.replaced_buckets += packed_count(buckets.of(arc));
+    change_.replaced_arcs += arcs.records.size();
+    for (std::size_t arc = 0; arc < buckets.size(); ++arc) change_.replaced_buckets += packed_count(buckets.of(arc));
     ReebGraph part = graph_of(std::move(arcs));
     std::vector<bool> whole(part.node_count());
     for (std::size_t node = 0, next = 0; next < scope.size(); ++node)
@@ -296,10 +296,10 @@ class Pass {
     const Denoised denoised = denoise_part(std::move(part), whole, options_.threshold, buckets, exponent_.value_or(0));
     result_.removed_pairs += denoised.removed.size();
     memory_.try_resize(held_ + bytes / 2);  // most is free again
-    make_room_in_patch(denoised.graph.arc_count(), buckets);
+    make_room_in_change(denoised.graph.arc_count(), buckets);
     for (std::size_t arc = 0; arc < denoised.graph.arc_count() && result_.fits; ++arc)
-      add_to_patch({keys_of(denoised.graph, arc), former_nodes[former_hi[denoised.former[arc].value()].value()]},
-                   exponent_ ? buckets.of(arc) : std::span<const std::byte>());
+      add_to_change({keys_of(denoised.graph, arc), former_nodes[former_hi[denoised.former[arc].value()].value()]},
+                    exponent_ ? buckets.of(arc) : std::span<const std::byte>());
     add_gone(scope, denoised.graph.nodes);
   }
 
@@ -362,58 +362,58 @@ class Pass {
                       [&](const SettledNode& stored) { part.positions[table.find(stored.key)] = stored.position; });
   }
 
-  // ---- the patch
+  // ---- the change
 
   // For so many arcs with these buckets; parts are few.
-  void make_room_in_patch(std::size_t arc_count, const PackedLists& buckets) {
+  void make_room_in_change(std::size_t arc_count, const PackedLists& buckets) {
     constexpr std::size_t kExponent = 10;  // in a payload, at most
     std::size_t payloads = 0;
     for (std::size_t arc = 0; arc < buckets.size(); ++arc)
       if (const std::size_t size = buckets.of(arc).size(); size != 0) payloads += size + kExponent;
-    auto& [records, pool] = patch_.arcs;
-    if (grow_patch((records.size() + arc_count) * sizeof(PatchArc))) records.reserve(records.size() + arc_count);
-    if (result_.fits && grow_patch(pool.size() + payloads)) pool.reserve(pool.size() + payloads);
+    auto& [records, pool] = change_.arcs;
+    if (grow_change((records.size() + arc_count) * sizeof(ChangedArc))) records.reserve(records.size() + arc_count);
+    if (result_.fits && grow_change(pool.size() + payloads)) pool.reserve(pool.size() + payloads);
   }
 
-  void add_to_patch(const PatchArc& arc, std::span<const std::byte> packed_buckets) {
+  void add_to_change(const ChangedArc& arc, std::span<const std::byte> packed_buckets) {
     payload_.clear();
     if (exponent_) encode_packed_buckets(packed_buckets, *exponent_, payload_);
     constexpr std::size_t kMostPool = std::numeric_limits<std::uint32_t>::max();
-    if (patch_.arcs.pool.size() + payload_.size() > kMostPool) {
+    if (change_.arcs.pool.size() + payload_.size() > kMostPool) {
       result_.fits = false;
       result_.needed_bytes = enough_;
       return;
     }
-    patch_.arcs.add(arc, payload_);
-    patch_.buckets += packed_count(packed_buckets);
+    change_.arcs.add(arc, payload_);
+    change_.buckets += packed_count(packed_buckets);
   }
 
-  std::uint64_t patch_bytes() const {
-    return patch_.arcs.records.capacity() * sizeof(PatchArc) + patch_.arcs.pool.capacity() +
-           patch_.gone.capacity() * sizeof(SweepKey);
+  std::uint64_t change_bytes() const {
+    return change_.arcs.records.capacity() * sizeof(ChangedArc) + change_.arcs.pool.capacity() +
+           change_.gone.capacity() * sizeof(SweepKey);
   }
-  bool grow_patch(std::uint64_t bytes) { return make_room(patch_.memory, patch_bytes() + bytes, enough_); }
+  bool grow_change(std::uint64_t bytes) { return make_room(change_.memory, change_bytes() + bytes, enough_); }
 
   // Both ascend.
   void add_gone(const std::vector<SweepKey>& before, const std::vector<SweepKey>& after) {
-    std::set_difference(before.begin(), before.end(), after.begin(), after.end(), std::back_inserter(patch_.gone));
+    std::set_difference(before.begin(), before.end(), after.begin(), after.end(), std::back_inserter(change_.gone));
   }
 
-  void finish_patch() {
-    patch_.redone = std::move(scope_.nodes);
+  void finish_change() {
+    change_.redone = std::move(scope_.nodes);
     scope_ = {};
     memory_.release();
-    const std::size_t redone = patch_.redone.capacity();
-    if (!grow_patch(redone * sizeof(SweepKey) + SparseNodeTable::bytes(redone))) return;
-    std::sort(patch_.gone.begin(), patch_.gone.end());
+    const std::size_t redone = change_.redone.capacity();
+    if (!grow_change(redone * sizeof(SweepKey) + SparseNodeTable::bytes(redone))) return;
+    std::sort(change_.gone.begin(), change_.gone.end());
     // Of parallel arcs the one whose lowest part was stored first; the payloads of a part are in its order.
-    std::sort(patch_.arcs.records.begin(), patch_.arcs.records.end(), [](const PatchArc& a, const PatchArc& b) {
-      const auto key = [](const PatchArc& arc) {
+    std::sort(change_.arcs.records.begin(), change_.arcs.records.end(), [](const ChangedArc& a, const ChangedArc& b) {
+      const auto key = [](const ChangedArc& arc) {
         return std::tuple(arc.keys.lo, arc.keys.hi, arc.former_hi, arc.payload.first, arc.payload.size);
       };
       return key(a) < key(b);
     });
-    result_.patch = std::move(patch_);
+    result_.change = std::move(change_);
   }
 
   SegmentStore& store_;
@@ -427,7 +427,7 @@ class Pass {
   std::uint64_t held_ = 0;    // of memory, for the scope
   std::uint64_t enough_ = 0;  // to remove its noise
   std::vector<std::byte> payload_;
-  GraphPatch patch_;
+  GraphChange change_;
   LastNoisePass result_;
 };
 

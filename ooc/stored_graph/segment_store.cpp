@@ -1,15 +1,15 @@
 #include "ooc/stored_graph/segment_store.h"
 
 #include <algorithm>
-#include <future>
 #include <stdexcept>
 #include <string>
 
 #include "libreeb/base/byte_coding.h"
+#include "libreeb/graph/packed_buckets.h"
 #include "ooc/sorting/column_codec.h"
-#include "ooc/stored_graph/arc_payload.h"
 #include "ooc/tables/node_table.h"
 #include "ooc/threads/read_ahead.h"
+#include "ooc/threads/worker.h"
 
 namespace reeb::ooc {
 
@@ -167,6 +167,17 @@ void SegmentStore::add_arcs(const SettledArcs& settled) {
   bucket_count_ += first;
 }
 
+void SegmentStore::add_arcs(const PackedArcPiece& piece, std::optional<int> bucket_exponent) {
+  for (const StoredArc& arc : piece.records) {
+    const std::span<const std::byte> list = piece.payload(arc);
+    payload_.clear();
+    if (bucket_exponent) encode_packed_buckets(list, *bucket_exponent, payload_);
+    arcs_.add({arc.keys}, payload_);
+    payload_bytes_ += payload_.size();
+    bucket_count_ += packed_count(list);
+  }
+}
+
 void SegmentStore::save(StateWriter& out) {
   out.put(bucket_count_);
   out.put(payload_bytes_);
@@ -182,43 +193,36 @@ void SegmentStore::restore(StateReader& in) {
 }
 
 void SegmentStore::finish() {
-  constexpr std::uint64_t kMost = 64 << 20;  // a thousand runs
-  const std::uint64_t merge_bytes = std::min(budget_->free_bytes() / 8, kMost);
-  std::future<void> nodes;
-  if (background_) nodes = std::async(std::launch::async, [&] { nodes_.finish(merge_bytes); });
+  constexpr std::uint64_t kMostMergeBytes = 64 << 20;  // a thousand runs
+  const std::uint64_t merge_bytes = std::min(budget_->free_bytes() / 8, kMostMergeBytes);
+  Worker worker;
+  if (background_) worker.start([&] { nodes_.finish(merge_bytes); });
   arcs_.finish(merge_bytes);
-  if (background_)
-    nodes.get();
-  else
-    nodes_.finish(merge_bytes);
-}
-
-void decode_buckets_of(const ArcKeys& arc, std::span<const std::byte> payload, int bucket_exponent,
-                       std::vector<Bucket>& buckets) {
-  if (!decode_buckets(payload, bucket_exponent, buckets))
-    throw std::logic_error("the buckets of an arc from vertex " + std::to_string(arc.lo.vertex.value()) +
-                           " are no buckets of exponent " + std::to_string(bucket_exponent));
-}
-
-std::uint64_t SegmentStore::reserved_bytes() const {
-  return nodes_.reserved_bytes() + arcs_.reserved_bytes() + (patch_ ? patch_->patch().memory.bytes() : 0);
+  worker.wait();
+  if (!background_) nodes_.finish(merge_bytes);
 }
 
 namespace {
 
-void add_arc(const ArcKeys& arc, std::span<const std::byte> payload, std::optional<int> bucket_exponent,
-             ArcPiece& piece) {
-  piece.arcs.push_back(arc);
-  if (!bucket_exponent) return;
-  decode_buckets_of(arc, payload, *bucket_exponent, piece.buckets.buckets);
-  piece.buckets.offsets.push_back(piece.buckets.buckets.size());
+[[noreturn]] void refuse_payload(const ArcKeys& arc, int bucket_exponent) {
+  throw std::logic_error("the buckets of an arc from vertex " + std::to_string(arc.lo.vertex.value()) +
+                         " are no buckets of exponent " + std::to_string(bucket_exponent));
 }
 
 }  // namespace
 
+void decode_buckets_of(const ArcKeys& arc, std::span<const std::byte> payload, int bucket_exponent,
+                       std::vector<Bucket>& buckets) {
+  if (!decode_buckets(payload, bucket_exponent, buckets)) refuse_payload(arc, bucket_exponent);
+}
+
+std::uint64_t SegmentStore::reserved_bytes() const {
+  return nodes_.reserved_bytes() + arcs_.reserved_bytes() + (change_ ? change_->change().memory.bytes() : 0);
+}
+
 void SegmentStore::rewind_nodes() {
   nodes_.rewind();
-  if (patch_) patch_->rewind_nodes();
+  if (change_) change_->rewind_nodes();
 }
 
 void SegmentStore::rewind_arcs() {
@@ -226,38 +230,63 @@ void SegmentStore::rewind_arcs() {
   batch_.clear();
   next_ = 0;
   at_end_ = false;
-  if (patch_) patch_->rewind_arcs();
+  if (change_) change_->rewind_arcs();
 }
 
 bool SegmentStore::read_nodes(std::vector<SettledNode>& nodes, std::size_t limit) {
   while (nodes_.read(nodes, limit)) {
-    if (patch_) std::erase_if(nodes, [&](const SettledNode& node) { return patch_->drops(node.key); });
+    if (change_) std::erase_if(nodes, [&](const SettledNode& node) { return change_->drops(node.key); });
     if (!nodes.empty()) return true;
   }
   return false;
+}
+
+// Calls take(keys, payload) for at most `limit` next arcs in order.
+template <class Take>
+bool SegmentStore::take_arcs(std::size_t limit, const Take& take) {
+  std::size_t taken = 0;
+  while (taken < limit) {
+    if (next_ == batch_.records.size() && !at_end_) {
+      if (taken != 0) break;  // a piece comes of one batch
+      refill_arcs(limit);
+      continue;
+    }
+    const StoredArc* stored = at_end_ ? nullptr : &batch_.records[next_];
+    if (change_ && change_->comes_before(stored == nullptr ? nullptr : &stored->keys)) {
+      const ChangedArc& arc = change_->take();
+      take(arc.keys, change_->payload(arc));
+      ++taken;
+      continue;
+    }
+    if (stored == nullptr) break;
+    ++next_;
+    if (change_ && change_->drops(stored->keys)) continue;
+    take(stored->keys, batch_.payload(*stored));
+    ++taken;
+  }
+  return taken != 0;
 }
 
 bool SegmentStore::read_arcs(ArcPiece& piece, std::size_t limit, std::optional<int> bucket_exponent) {
   piece.arcs.clear();
   piece.buckets.buckets.clear();
   piece.buckets.offsets.assign(bucket_exponent ? 1 : 0, 0);
-  while (piece.arcs.size() < limit) {
-    if (next_ == batch_.records.size() && !at_end_) {
-      if (!piece.arcs.empty()) break;  // a piece comes of one batch
-      refill_arcs(limit);
-      continue;
-    }
-    const StoredArc* stored = at_end_ ? nullptr : &batch_.records[next_];
-    if (patch_ && patch_->comes_before(stored == nullptr ? nullptr : &stored->keys)) {
-      const PatchArc& arc = patch_->take();
-      add_arc(arc.keys, patch_->payload(arc), bucket_exponent, piece);
-      continue;
-    }
-    if (stored == nullptr) break;
-    ++next_;
-    if (!patch_ || !patch_->drops(stored->keys)) add_arc(stored->keys, batch_.payload(*stored), bucket_exponent, piece);
-  }
-  return !piece.arcs.empty();
+  return take_arcs(limit, [&](const ArcKeys& arc, std::span<const std::byte> payload) {
+    piece.arcs.push_back(arc);
+    if (!bucket_exponent) return;
+    decode_buckets_of(arc, payload, *bucket_exponent, piece.buckets.buckets);
+    piece.buckets.offsets.push_back(piece.buckets.buckets.size());
+  });
+}
+
+bool SegmentStore::read_arcs(PackedArcPiece& piece, std::size_t limit, std::optional<int> bucket_exponent) {
+  piece.clear();
+  return take_arcs(limit, [&](const ArcKeys& arc, std::span<const std::byte> payload) {
+    if (!bucket_exponent) return piece.add({arc}, {});
+    const auto list = packed_list(payload, *bucket_exponent, coarsened_);
+    if (!list) refuse_payload(arc, *bucket_exponent);
+    piece.add({arc}, *list);
+  });
 }
 
 void SegmentStore::refill_arcs(std::size_t limit) {
@@ -266,27 +295,27 @@ void SegmentStore::refill_arcs(std::size_t limit) {
   next_ = 0;
 }
 
-void SegmentStore::apply(GraphPatch patch) {
-  patch_.emplace(std::move(patch));
+void SegmentStore::apply(GraphChange change) {
+  change_.emplace(std::move(change));
   rewind_nodes();
   rewind_arcs();
 }
 
-std::uint64_t SegmentStore::node_count() const { return nodes_.size() - (patch_ ? patch_->patch().gone.size() : 0); }
+std::uint64_t SegmentStore::node_count() const { return nodes_.size() - (change_ ? change_->change().gone.size() : 0); }
 
 std::uint64_t SegmentStore::arc_count() const {
-  if (!patch_) return arcs_.size();
-  return arcs_.size() - patch_->patch().replaced_arcs + patch_->patch().arcs.records.size();
+  if (!change_) return arcs_.size();
+  return arcs_.size() - change_->change().replaced_arcs + change_->change().arcs.records.size();
 }
 
 std::uint64_t SegmentStore::bucket_count() const {
-  if (!patch_) return bucket_count_;
-  return bucket_count_ - patch_->patch().replaced_buckets + patch_->patch().buckets;
+  if (!change_) return bucket_count_;
+  return bucket_count_ - change_->change().replaced_buckets + change_->change().buckets;
 }
 
 namespace {
 
-constexpr std::size_t kStretch = 4096;  // records taken over at once
+constexpr std::size_t kRecordsAtOnce = 4096;
 
 NodeId node_of(const SweepKey& key, const NodeTable& table) {
   const std::uint32_t node = table.find(key);
@@ -307,15 +336,10 @@ std::uint64_t graph_bytes(const SegmentStore& store, const LoadOptions& options)
 
 void copy_graph(SegmentStore& from, SegmentStore& to, std::optional<int> bucket_exponent) {
   from.rewind_nodes();
-  for (std::vector<SettledNode> nodes; from.read_nodes(nodes, kStretch);) to.add_nodes(nodes);
+  for (std::vector<SettledNode> nodes; from.read_nodes(nodes, kRecordsAtOnce);) to.add_nodes(nodes);
   from.rewind_arcs();
-  std::vector<std::uint32_t> counts;
-  for (ArcPiece piece; from.read_arcs(piece, kStretch, bucket_exponent);) {
-    counts.clear();
-    for (std::size_t i = 0; bucket_exponent && i < piece.arcs.size(); ++i)
-      counts.push_back(static_cast<std::uint32_t>(piece.buckets.view().count(i)));
-    to.add_arcs({piece.arcs, counts, piece.buckets.buckets, bucket_exponent.value_or(0)});
-  }
+  for (PackedArcPiece piece; from.read_arcs(piece, kRecordsAtOnce, bucket_exponent);)
+    to.add_arcs(piece, bucket_exponent);
 }
 
 std::uint64_t loading_bytes(const SegmentStore& store, const LoadOptions& options) {
@@ -331,7 +355,7 @@ LoadedGraph read_graph(SegmentStore& store, const LoadOptions& options) {
   graph.nodes.reserve(node_count);
   if (options.positions) graph.positions.reserve(node_count);
   store.rewind_nodes();
-  for (std::vector<SettledNode> some; store.read_nodes(some, kStretch);)
+  for (std::vector<SettledNode> some; store.read_nodes(some, kRecordsAtOnce);)
     for (const SettledNode& node : some) {
       graph.nodes.push_back(node.key);
       if (options.positions) graph.positions.push_back(node.position);
@@ -342,15 +366,15 @@ LoadedGraph read_graph(SegmentStore& store, const LoadOptions& options) {
   const Reservation table_memory = store.budget().reserve("ends of arcs", NodeTable::bytes(node_count));
   const NodeTable table(graph.nodes);
   store.rewind_arcs();
-  read_ahead<ArcPiece>(
-      store.background(), [&](ArcPiece& piece) { return store.read_arcs(piece, kStretch, options.bucket_exponent); },
-      [&](const ArcPiece& piece) {
-        for (const ArcKeys& arc : piece.arcs) {
-          graph.lo.push_back(node_of(arc.lo, table));
-          graph.hi.push_back(node_of(arc.hi, table));
+  read_ahead<PackedArcPiece>(
+      store.background(),
+      [&](PackedArcPiece& piece) { return store.read_arcs(piece, kRecordsAtOnce, options.bucket_exponent); },
+      [&](const PackedArcPiece& piece) {
+        for (const StoredArc& arc : piece.records) {
+          graph.lo.push_back(node_of(arc.keys.lo, table));
+          graph.hi.push_back(node_of(arc.keys.hi, table));
+          if (options.bucket_exponent) loaded.buckets.add_packed(piece.payload(arc));
         }
-        for (std::size_t arc = 0; arc + 1 < piece.buckets.offsets.size(); ++arc)
-          loaded.buckets.add(piece.buckets.view().of(arc));
       });
   if (options.bucket_exponent)
     loaded.memory.resize(loaded.memory.bytes() - PackedLists::most_bytes(arc_count, store.bucket_count()) +

@@ -16,7 +16,8 @@
 #include "libreeb/port/graph_sink.h"
 #include "ooc/sorting/external_sort.h"
 #include "ooc/sorting/record_batch.h"
-#include "ooc/stored_graph/graph_patch.h"
+#include "ooc/stored_graph/arc_payload.h"
+#include "ooc/stored_graph/graph_change.h"
 
 namespace reeb::ooc {
 
@@ -61,6 +62,8 @@ struct ArcPiece {
   std::vector<ArcKeys> arcs;
   ArcBuckets buckets;  // without offsets where none are wanted
 };
+// The same with packed lists (packed_buckets.h) as payloads.
+using PackedArcPiece = RecordBatch<StoredArc>;
 
 struct SegmentOptions {
   std::uint64_t allowance_bytes = 8 << 20;  // of the budget, half for nodes and half for arcs
@@ -84,6 +87,8 @@ class SegmentStore : public GraphSink {
 
   void add_nodes(std::span<const SettledNode> nodes) override { nodes_.add(nodes); }
   void add_arcs(const SettledArcs& settled) override;
+  // With lists of this exponent, if there are any.
+  void add_arcs(const PackedArcPiece& piece, std::optional<int> bucket_exponent);
   // Ends adding, and merges as far as memory makes it necessary: O(n) for each pass that takes.
   void finish();
 
@@ -100,6 +105,7 @@ class SegmentStore : public GraphSink {
   // the end. Buckets are delivered if an exponent is given, which is not below any that
   // was added.
   bool read_arcs(ArcPiece& piece, std::size_t limit, std::optional<int> bucket_exponent = {});
+  bool read_arcs(PackedArcPiece& piece, std::size_t limit, std::optional<int> bucket_exponent = {});
 
   // All that was added, in no order but that parallel arcs come as they are read. Blocks without a node or arc
   // for whose keys `wanted` is true, which several threads ask, are hardly unpacked.
@@ -114,7 +120,7 @@ class SegmentStore : public GraphSink {
   void scan_nodes(const Is& wanted, const Visit& visit) const;
 
   // From now on the graph is read, and counted, with this change; scans go on without it. Rewinds.
-  void apply(GraphPatch patch);
+  void apply(GraphChange change);
 
   std::uint64_t node_count() const;
   std::uint64_t arc_count() const;
@@ -129,6 +135,8 @@ class SegmentStore : public GraphSink {
   bool background() const { return background_; }
 
  private:
+  template <class Take>
+  bool take_arcs(std::size_t limit, const Take& take);
   void refill_arcs(std::size_t limit);
 
   MemoryBudget* budget_;
@@ -139,9 +147,10 @@ class SegmentStore : public GraphSink {
   RecordBatch<StoredArc> batch_;  // read last,
   std::size_t next_ = 0;          // delivered so far
   bool at_end_ = false;           // of the stored arcs
-  std::optional<PatchReader> patch_;
+  std::optional<ChangeReader> change_;
   std::vector<StoredArc> plain_;
   std::vector<std::byte> payload_;
+  CoarsenedList coarsened_;
 };
 
 template <class Visit>

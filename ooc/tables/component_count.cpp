@@ -26,7 +26,7 @@ ComponentCount::ComponentCount(std::uint64_t nodes, const io::TempDir* temp, Mem
 
 // The nodes of a range and the buffers of all ranges take the same memory, which then is least.
 void ComponentCount::divide(std::uint64_t nodes, const io::TempDir& temp, MemoryBudget& budget) {
-  constexpr double kBytes = static_cast<double>(BucketLogs<Edge>::kBlockBytes) / kRangeNodeBytes;
+  constexpr double kBytes = static_cast<double>(PartitionLogs<Edge>::kBlockBytes) / kRangeNodeBytes;
   range_nodes_ = static_cast<std::uint64_t>(std::sqrt(kBytes * static_cast<double>(nodes))) + 1;
   range_count_ = static_cast<std::size_t>((nodes + range_nodes_ - 1) / range_nodes_);
   memory_ = budget.reserve(kOwner, range_nodes_ * kRangeNodeBytes);

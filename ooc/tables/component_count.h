@@ -8,7 +8,7 @@
 #include "io/file/temp_dir.h"
 #include "libreeb/base/memory_budget.h"
 #include "libreeb/base/union_find.h"
-#include "ooc/tables/bucket_logs.h"
+#include "ooc/tables/partition_logs.h"
 
 namespace reeb::ooc {
 
@@ -54,7 +54,7 @@ class ComponentCount {
   UnionFind sets_;
   std::uint64_t range_nodes_ = 0;
   std::size_t range_count_ = 0;
-  std::optional<BucketLogs<Edge>> ranges_;
+  std::optional<PartitionLogs<Edge>> ranges_;
   std::uint64_t joined_ = 0;
 };
 

@@ -52,10 +52,9 @@ class PageCache {
   std::uint64_t resident_bytes() const { return frames_.size() * kPageBytes; }
   // Bytes written to the file so far.
   std::uint64_t spilled_bytes() const { return spilled_; }
-  // Pages read back so far, and pages ever named: where the first far exceeds the second, the
-  // access is too scattered for the memory at hand.
-  std::uint64_t refetches() const { return refetches_; }
-  std::uint64_t page_count() const { return places_.size(); }
+  // Whether access is too scattered for the memory. A refetch costs some 30 us; a coherent mesh needs each page
+  // again a few times at most.
+  bool is_thrashing() const { return refetches_ > 64 + 8 * places_.size(); }
 
  private:
   // Where a page is: in the frame of this number, or one of these.

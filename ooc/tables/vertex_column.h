@@ -23,7 +23,6 @@ class VertexColumn {
   double get(std::uint64_t index) { return wide_ ? wide_->get(index) : double{narrow_->get(index)}; }
 
   std::uint64_t size() const { return size_; }
-  bool is_wide() const { return wide_.has_value(); }
   std::uint64_t spilled_bytes() const { return spilled_before_ + pages().spilled_bytes(); }
 
  private:

@@ -1,7 +1,6 @@
 // Reading the next pieces while one is used.
 #pragma once
 
-#include <tbb/global_control.h>
 #include <tbb/parallel_pipeline.h>
 
 #include <array>
@@ -23,7 +22,7 @@ void read_ahead(bool background, const Read& read, const Prepare& prepare, const
     }
     return;
   }
-  constexpr int kThreads = 2;
+  constexpr unsigned kThreads = 2;
   std::array<Piece, 3> pieces;
   std::size_t next = 0;
   const auto read_next = [&](tbb::flow_control& flow) -> Piece* {
@@ -38,8 +37,7 @@ void read_ahead(bool background, const Read& read, const Prepare& prepare, const
   };
   const auto use_one = [&](Piece* piece) { use(*piece); };
   using tbb::filter_mode;
-  const tbb::global_control control(tbb::global_control::max_allowed_parallelism, kThreads);
-  kept_arena(kThreads).execute([&] {
+  run_in_kept_arena(kThreads, [&] {
     tbb::parallel_pipeline(pieces.size(), tbb::make_filter<void, Piece*>(filter_mode::serial_in_order, read_next) &
                                               tbb::make_filter<Piece*, Piece*>(filter_mode::parallel, prepare_one) &
                                               tbb::make_filter<Piece*, void>(filter_mode::serial_in_order, use_one));

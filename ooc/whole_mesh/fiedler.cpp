@@ -18,7 +18,7 @@ constexpr std::uint64_t kMostRows = 200'000;
 constexpr std::uint64_t kClusters = 50'000;
 constexpr std::uint64_t kRowBytes = 1024;  // of the factorization, by experience with surfaces
 constexpr int kSmoothingSteps = 8;
-constexpr std::size_t kStretch = 4096;
+constexpr std::size_t kTrianglesAtOnce = 4096;
 constexpr double kWeakEdge = 1e-3;
 
 using Matrix = Eigen::SparseMatrix<double>;
@@ -29,7 +29,7 @@ template <class Visit>
 void for_each_edge(IndexedMesh& mesh, const Visit& visit) {
   std::vector<VertexId> corners;
   mesh.rewind();
-  while (mesh.read(corners, kStretch))
+  while (mesh.read(corners, kTrianglesAtOnce))
     for (std::size_t t = 0; t < corners.size(); t += 3)
       for (std::size_t c = 0; c < 3; ++c) {
         const std::uint64_t a = corners[t + c].value(), b = corners[t + (c + 1) % 3].value();

@@ -94,7 +94,7 @@ class Simplices {
   void list_edges_of_triangles() {
     triangles_.finish();
     Triangle before{{0, 0, 0}};
-    for (std::vector<Triangle> piece; triangles_.read(piece, kPiece);)
+    for (std::vector<Triangle> piece; triangles_.read(piece, kRecordsAtOnce);)
       for (const Triangle& triangle : piece) {
         if (triangle == before) continue;
         before = triangle;
@@ -109,7 +109,7 @@ class Simplices {
   void count_edges() {
     edges_.finish();
     std::vector<EdgeUse> same;
-    for (std::vector<EdgeUse> piece; edges_.read(piece, kPiece);)
+    for (std::vector<EdgeUse> piece; edges_.read(piece, kRecordsAtOnce);)
       for (const EdgeUse& edge : piece) {
         if (!same.empty() && !same[0].same_edge(edge)) {
           count_edge(same);
@@ -150,7 +150,7 @@ class Simplices {
     result.most_loops = result.closed ? b1 / 2 : b1;
   }
 
-  static constexpr std::size_t kPiece = 4096;
+  static constexpr std::size_t kRecordsAtOnce = 4096;
 
   ExternalSort<Triangle> triangles_;
   ExternalSort<EdgeUse> edges_;

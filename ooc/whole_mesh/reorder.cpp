@@ -8,14 +8,14 @@
 #include <vector>
 
 #include "ooc/sorting/external_sort.h"
-#include "ooc/tables/bucket_logs.h"
+#include "ooc/tables/partition_logs.h"
 #include "ooc/whole_mesh/hilbert.h"
 
 namespace reeb::ooc {
 
 namespace {
 
-constexpr std::size_t kStretch = 4096;  // vertices or triangles taken at once
+constexpr std::size_t kItemsAtOnce = 4096;  // vertices or triangles
 
 struct KeyedVertex {
   std::uint64_t key, vertex;
@@ -43,7 +43,7 @@ class Reorder {
         budget_(budget),
         options_(options),
         vertex_count_(mesh.vertex_count()),
-        slice_entries_(std::max<std::uint64_t>(kStretch, options.allowance_bytes / 4 / 8)),
+        slice_entries_(std::max<std::uint64_t>(kItemsAtOnce, options.allowance_bytes / 4 / 8)),
         slices_(static_cast<std::size_t>((vertex_count_ + slice_entries_ - 1) / slice_entries_)),
         ranks_(temp.create_unnamed("ranks")),
         result_(std::make_unique<ReorderedMesh>(mesh.column_count(), temp, budget, options.allowance_bytes / 4)) {}
@@ -63,7 +63,7 @@ class Reorder {
     std::vector<double> values;
     for (std::uint64_t first = 0; first < vertex_count_; first += ids.size()) {
       ids.clear();
-      for (std::uint64_t v = first; v < std::min(first + kStretch, vertex_count_); ++v) ids.emplace_back(v);
+      for (std::uint64_t v = first; v < std::min(first + kItemsAtOnce, vertex_count_); ++v) ids.emplace_back(v);
       values.resize(columns.size() * ids.size());
       mesh_.gather(ids, columns, values);
       visit(first, ids.size(), std::span<const double>(values));
@@ -75,9 +75,9 @@ class Reorder {
     ExternalSort<KeyedVertex> by_key("reorder", temp_, budget_, sorting());
     add_keys(by_key);
     by_key.finish();
-    BucketLogs<PlacedRank> by_slice("reorder", temp_, budget_, slices_);
+    PartitionLogs<PlacedRank> by_slice("reorder", temp_, budget_, slices_);
     std::uint64_t rank = 0;
-    for (std::vector<KeyedVertex> some; by_key.read(some, kStretch);)
+    for (std::vector<KeyedVertex> some; by_key.read(some, kItemsAtOnce);)
       for (const KeyedVertex& keyed : some) {
         result_->set_original(VertexId(rank), VertexId(keyed.vertex));
         by_slice.append(slice_of(keyed.vertex), {keyed.vertex, rank++});
@@ -125,7 +125,7 @@ class Reorder {
 
   // Brings a column from the order of ids into that of ranks.
   void place_column(unsigned column) {
-    BucketLogs<PlacedNumber> by_slice("reorder", temp_, budget_, slices_);
+    PartitionLogs<PlacedNumber> by_slice("reorder", temp_, budget_, slices_);
     std::vector<std::uint64_t> ranks;
     for_each_stretch(std::array{column}, [&](std::uint64_t first, std::size_t count, std::span<const double> values) {
       ranks.resize(count);
@@ -149,7 +149,7 @@ class Reorder {
     add_ranked_triangles(by_rank);
     by_rank.finish();
     std::vector<VertexId> corners;
-    for (std::vector<RankedTriangle> some; by_rank.read(some, kStretch);) {
+    for (std::vector<RankedTriangle> some; by_rank.read(some, kItemsAtOnce);) {
       corners.clear();
       for (const RankedTriangle& triangle : some)
         for (const std::uint64_t corner : triangle.corners) corners.emplace_back(corner);
@@ -158,11 +158,11 @@ class Reorder {
   }
 
   void add_ranked_triangles(ExternalSort<RankedTriangle>& by_rank) {
-    BucketLogs<std::uint64_t> corner_ranks = ranks_by_slice();
+    PartitionLogs<std::uint64_t> corner_ranks = ranks_by_slice();
     // The corners are read again; each finds its rank next in the log of its slice.
     std::vector<VertexId> corners;
     mesh_.rewind();
-    while (mesh_.read(corners, kStretch))
+    while (mesh_.read(corners, kItemsAtOnce))
       for (std::size_t t = 0; t < corners.size(); t += 3) {
         RankedTriangle triangle;
         for (std::size_t c = 0; c < 3; ++c) triangle.corners[c] = corner_ranks.next(slice_of(corners[t + c].value()));
@@ -173,14 +173,14 @@ class Reorder {
   }
 
   // The ranks of all corners, in the order of the mesh within each slice.
-  BucketLogs<std::uint64_t> ranks_by_slice() {
-    BucketLogs<std::uint32_t> places("reorder", temp_, budget_, slices_);
+  PartitionLogs<std::uint64_t> ranks_by_slice() {
+    PartitionLogs<std::uint32_t> places("reorder", temp_, budget_, slices_);
     std::vector<VertexId> corners;
     mesh_.rewind();
-    while (mesh_.read(corners, kStretch))
+    while (mesh_.read(corners, kItemsAtOnce))
       for (const VertexId v : corners)
         places.append(slice_of(v.value()), static_cast<std::uint32_t>(v.value() % slice_entries_));
-    BucketLogs<std::uint64_t> result("reorder", temp_, budget_, slices_);
+    PartitionLogs<std::uint64_t> result("reorder", temp_, budget_, slices_);
     const Reservation charge = budget_.reserve("reorder", slice_entries_ * 8);
     std::vector<std::uint64_t> slice;
     for (std::size_t s = 0; s < slices_; ++s) {

@@ -15,7 +15,7 @@
 namespace reeb::ooc {
 namespace {
 
-constexpr std::size_t kStretch = 4096;  // triangles taken at once
+constexpr std::size_t kTrianglesAtOnce = 4096;
 
 struct KeyedTriangle {
   double value;
@@ -125,7 +125,7 @@ std::unique_ptr<IndexedMesh> sorted_by_function(std::unique_ptr<IndexedMesh> mes
   }
   sort.finish();
   std::vector<VertexId> corners;
-  for (std::vector<KeyedTriangle> some; sort.read(some, kStretch);) {
+  for (std::vector<KeyedTriangle> some; sort.read(some, kTrianglesAtOnce);) {
     corners.clear();
     for (const KeyedTriangle& triangle : some)
       for (const std::uint64_t corner : triangle.corners) corners.emplace_back(corner);

@@ -6,11 +6,13 @@
 namespace reeb::ooc {
 namespace {
 
-constexpr std::uint64_t kLeast = 1 << 12, kMost = 1 << 17;  // triangles
+constexpr std::uint64_t kLeastTriangles = 1 << 12, kMostTriangles = 1 << 17;
 // Of a triangle whose corners nobody shares, with what users keep of each vertex: its values, twice.
 constexpr std::uint64_t kTriangleBytes = 512;
 
-std::uint64_t stretch_of(const Workspace& space) { return std::clamp(space.share() / kTriangleBytes, kLeast, kMost); }
+std::uint64_t stretch_of(const Workspace& space) {
+  return std::clamp(space.share() / kTriangleBytes, kLeastTriangles, kMostTriangles);
+}
 
 }  // namespace
 

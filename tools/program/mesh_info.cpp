@@ -14,6 +14,7 @@
 #include "io/file/content_source.h"
 #include "io/formats/format_detection.h"
 #include "io/formats/open_mesh.h"
+#include "libreeb/base/value_range.h"
 #include "ooc/chunks/last_use.h"
 #include "ooc/chunks/spooled_mesh.h"
 #include "ooc/tables/paged_union_find.h"
@@ -21,11 +22,6 @@
 
 namespace reeb::tools {
 namespace {
-
-struct Bounds {
-  double min = std::numeric_limits<double>::infinity();
-  double max = -std::numeric_limits<double>::infinity();
-};
 
 // Components and use of vertices.
 class Connection {
@@ -101,7 +97,7 @@ class MeshSurvey {
   ooc::Workspace& space_;
   std::unique_ptr<MeshReader> reader_;
   Connection connection_;
-  std::vector<Bounds> bounds_;
+  std::vector<ValueRange> bounds_;
   std::uint64_t vertices_ = 0, triangles_ = 0, tetrahedra_ = 0, degenerate_ = 0, finalized_ = 0;
   std::uint64_t front_ = 0;
 };
@@ -110,10 +106,7 @@ void MeshSurvey::add(const MeshBatch& batch) {
   vertices_ += batch.vertex_count;
   connection_.add_vertices(batch.vertex_count);
   for (std::size_t k = 0; k < bounds_.size(); ++k)
-    for (const double value : batch.coordinates[k]) {
-      bounds_[k].min = std::min(bounds_[k].min, value);
-      bounds_[k].max = std::max(bounds_[k].max, value);
-    }
+    for (const double value : batch.coordinates[k]) bounds_[k].add(value);
   const std::span<const VertexId> triangles(batch.triangles), tetrahedra(batch.tetrahedra);
   triangles_ += batch.triangle_count();
   tetrahedra_ += batch.tetrahedron_count();
@@ -161,7 +154,7 @@ void MeshSurvey::print_json() const {
   const MeshInfo& info = reader_->info();
   nlohmann::ordered_json bounds = nlohmann::ordered_json::array();
   if (vertices_ != 0)
-    for (const Bounds& b : bounds_) bounds.push_back({{"min", b.min}, {"max", b.max}});
+    for (const ValueRange& b : bounds_) bounds.push_back({{"min", b.min}, {"max", b.max}});
   nlohmann::ordered_json json = {{"schema", "reeb.mesh.v1"},
                                  {"path", path_},
                                  {"format", info.format},

@@ -2,12 +2,11 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <filesystem>
-#include <limits>
 #include <utility>
 #include <vector>
 
+#include "libreeb/base/value_range.h"
 #include "libreeb/engine/online_reeb.h"
 #include "ooc/reeb_file/reeb_file_writer.h"
 
@@ -32,8 +31,7 @@ class LiveFunction {
     values_.resize(ids_.size());
     function_.evaluate(ids_, columns_, values_);
     for (std::size_t i = 0; i < ids_.size(); ++i) {
-      min_ = std::min(min_, values_[i]);
-      max_ = std::max(max_, values_[i]);
+      range_.add(values_[i]);
       graph_.add_vertex(values_[i]);
     }
   }
@@ -44,8 +42,8 @@ class LiveFunction {
     ooc::FileMeta meta;
     meta.function = function_.name();
     if (vertices != 0) {
-      meta.function_min = min_;
-      meta.function_max = max_;
+      meta.function_min = range_.min;
+      meta.function_max = range_.max;
     }
     meta.mesh_vertices = vertices;
     meta.mesh_triangles = triangles;
@@ -56,7 +54,7 @@ class LiveFunction {
   VertexFunction& function_;
   std::filesystem::path stem_;
   OnlineReeb graph_;
-  double min_ = std::numeric_limits<double>::infinity(), max_ = -std::numeric_limits<double>::infinity();
+  ValueRange range_;
   std::vector<VertexId> ids_;
   std::vector<std::span<const double>> columns_;
   std::vector<double> values_;

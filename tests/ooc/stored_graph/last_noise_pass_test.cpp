@@ -111,8 +111,8 @@ std::uint64_t check(const EmbeddedGraph& made, double threshold, bool embeds, Ra
   LastNoisePass pass = run_last_noise_pass(store, {threshold, exponent, vertices, part_bytes});
   EXPECT_TRUE(pass.fits);
   EXPECT_EQ(pass.removed_pairs, expected.removed.size());
-  EXPECT_EQ(pass.patch.has_value(), pass.removed_pairs != 0);
-  if (pass.patch) store.apply(std::move(*pass.patch));
+  EXPECT_EQ(pass.change.has_value(), pass.removed_pairs != 0);
+  if (pass.change) store.apply(std::move(*pass.change));
   EXPECT_EQ(store.node_count(), expected.graph.node_count());
   EXPECT_EQ(store.arc_count(), expected.graph.arc_count());
   const LoadedGraph loaded = read_graph(store, {.bucket_exponent = exponent});
@@ -218,8 +218,8 @@ TEST(LastNoisePass, HoldsWhatNoiseCanTouchAndNotTheGraph) {
   Stored stored(made, true, random);
   // A twig of 1 can go, the loops of 9 all around it stay as they are.
   const LastNoisePass pass = run_last_noise_pass(stored.store, {10, made.exponent});
-  ASSERT_TRUE(pass.patch);
-  const std::size_t touched = pass.patch->replaced_arcs;
+  ASSERT_TRUE(pass.change);
+  const std::size_t touched = pass.change->replaced_arcs;
   EXPECT_LT(touched, 8 * pass.removed_pairs);
   EXPECT_LT(touched, made.graph.arc_count() / 2);
 }
@@ -244,7 +244,7 @@ TEST(LastNoisePass, WhatItSaysThatItNeedsIsEnough) {
       return;
     }
     ++refusals;
-    ASSERT_FALSE(pass.patch);
+    ASSERT_FALSE(pass.change);
     ASSERT_EQ(budget.used_bytes(), used);
     ASSERT_GT(pass.needed_bytes, room);
     ASSERT_TRUE(pass_with(pass.needed_bytes).fits) << pass.needed_bytes << " with " << room;

@@ -252,6 +252,51 @@ TEST_P(Segments, AGraphHasTheBucketsOfItsArcs) {
   EXPECT_EQ(read_graph(store).buckets.size(), 0u);
 }
 
+TEST_P(Segments, ACopyHasTheSameArcsAndBuckets) {
+  const Scratch scratch;
+  const io::TempDir temp(scratch.path());
+  MemoryBudget budget(64 << 20);
+  const Pieces pieces = random_pieces(9'000, 31);
+  const EmbeddedArcs all = random_embedded_arcs(pieces, 8, 10);
+  const auto expected = expected_arcs(all);
+  const SegmentOptions options{.allowance_bytes = 0, .background = GetParam()};
+  SegmentStore store(temp, budget, options), copy(temp, budget, options), plain(temp, budget, options);
+  store.add_nodes(pieces.nodes);
+  add(store, all, 0, all.calls.size());
+  store.finish();
+  copy_graph(store, copy, EmbeddedArcs::kLast);
+  copy.finish();
+  EXPECT_EQ(copy.node_count(), store.node_count());
+  expect_arcs(copy, expected, 1000);
+  std::uint64_t buckets = 0;
+  for (const EmbeddedArc& arc : expected) buckets += arc.buckets.size();
+  EXPECT_EQ(copy.bucket_count(), buckets);
+  copy_graph(store, plain, {});
+  plain.finish();
+  EXPECT_EQ(plain.arc_count(), store.arc_count());
+  EXPECT_EQ(plain.payload_bytes(), 0u);
+}
+
+TEST(ArcPayload, AListIsUnpackedOnlyToCoarsenIt) {
+  const std::vector<Bucket> buckets{{-3, 2, {1, 2, 3}}, {4, 1, {0.1, 0.2, 0.3}}, {5, 7, {4, 5, 6}}};
+  std::vector<std::byte> list, payload;
+  pack_buckets(buckets, list);
+  encode_buckets(buckets, -2, payload);
+  CoarsenedList coarsened;
+  const auto same = packed_list(payload, -2, coarsened);
+  ASSERT_TRUE(same.has_value());
+  EXPECT_TRUE(std::ranges::equal(*same, list));
+  EXPECT_EQ(same->data() + same->size(), payload.data() + payload.size());
+  const auto coarser = packed_list(payload, 0, coarsened);
+  ASSERT_TRUE(coarser.has_value());
+  std::vector<Bucket> expected = buckets, own;
+  coarsen(expected, 0, 2);
+  ASSERT_TRUE(unpack_buckets(*coarser, own));
+  EXPECT_EQ(own, expected);
+  EXPECT_FALSE(packed_list(payload, -3, coarsened).has_value());
+  EXPECT_TRUE(packed_list({}, 5, coarsened)->empty());
+}
+
 class StateBytes : public StateWriter, public StateReader {
  public:
   void write(std::span<const std::byte> bytes) override { bytes_.insert(bytes_.end(), bytes.begin(), bytes.end()); }

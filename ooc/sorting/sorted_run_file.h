@@ -27,13 +27,13 @@ struct RunManifest {
 
 // THROWS: Error{kResource} if the disk is full, or gives back other bytes than were written.
 // THREADS: one writer or many readers.
-class RunFile {
+class SortedRunFile {
  public:
-  explicit RunFile(io::File file) : file_(std::move(file)) {}
+  explicit SortedRunFile(io::File file) : file_(std::move(file)) {}
 
   // Goes on with a file of an earlier process; what follows after the manifest's bytes is lost.
   // THROWS: DamagedState if the bytes are not those that the manifest tells of. O(bytes).
-  RunFile(io::File file, const RunManifest& manifest);
+  SortedRunFile(io::File file, const RunManifest& manifest);
 
   // Where the next block goes.
   std::uint64_t size() const { return manifest_.bytes; }

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "ooc/sorting/record_batch.h"
-#include "ooc/sorting/run_file.h"
+#include "ooc/sorting/sorted_run_file.h"
 
 namespace reeb::ooc {
 
@@ -38,8 +38,7 @@ inline constexpr std::size_t kRunBlockBytes = 64 << 10;
 // How many of the first records make a block.
 template <class Record>
 std::size_t block_records(std::span<const Record> records) {
-  constexpr std::size_t kMost = kRunBlockBytes / sizeof(Record);
-  const std::size_t most = std::min(kMost, records.size());
+  const std::size_t most = std::min(kRunBlockBytes / sizeof(Record), records.size());
   if constexpr (CarriesPayload<Record>) {
     std::size_t bytes = 0;
     for (std::size_t i = 0; i < most; ++i) {
@@ -53,7 +52,7 @@ std::size_t block_records(std::span<const Record> records) {
 // Appends all records to `file`, block after block. Returns the number of blocks.
 template <class Record, class Codec>
 std::uint64_t append_blocks(std::span<const Record> records, [[maybe_unused]] std::span<const std::byte> pool,
-                            RunFile& file) {
+                            SortedRunFile& file) {
   std::uint64_t blocks = 0;
   for (std::vector<std::byte> packed; !records.empty(); ++blocks) {
     const auto block = records.first(block_records(records));
@@ -78,10 +77,10 @@ bool decode_block(std::span<const std::byte> packed, RecordBatch<Record>& block)
     return Codec::decode(packed, block.records);
 }
 
-// Reads the next block of `run`, which has one, and moves on. THROWS: as RunFile, also for a block that
+// Reads the next block of `run`, which has one, and moves on. THROWS: as SortedRunFile, also for a block that
 // cannot be decoded.
 template <class Record, class Codec>
-void read_block(const RunFile& file, RunPlace& run, std::vector<std::byte>& packed, RecordBatch<Record>& block) {
+void read_block(const SortedRunFile& file, RunPlace& run, std::vector<std::byte>& packed, RecordBatch<Record>& block) {
   const std::uint64_t offset = run.offset;
   block.records.resize(file.read(run, packed));
   if (!decode_block<Record, Codec>(packed, block)) file.refuse(offset);
@@ -101,9 +100,9 @@ std::uint64_t rank_of(const Record& record) {
 // runs. Of equal records those of earlier runs come first. Holds one block of each run.
 // REQUIRES: at least one run.
 template <class Record, class Codec, class Less>
-class RunMerger {
+class SortedRunMerger {
  public:
-  RunMerger(const RunFile& file, std::span<const RunPlace> runs)
+  SortedRunMerger(const SortedRunFile& file, std::span<const RunPlace> runs)
       : file_(&file), cursors_(runs.size()), heads_(runs.size()), ranks_(runs.size()), losers_(runs.size()) {
     for (std::size_t i = 0; i < runs.size(); ++i) {
       cursors_[i].rest = runs[i];
@@ -195,7 +194,7 @@ class RunMerger {
     winner_ = winner;
   }
 
-  const RunFile* file_;
+  const SortedRunFile* file_;
   std::vector<std::byte> packed_;
   std::vector<Cursor> cursors_;
   std::vector<Head> heads_;           // by run

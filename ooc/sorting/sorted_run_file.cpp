@@ -1,4 +1,4 @@
-#include "ooc/sorting/run_file.h"
+#include "ooc/sorting/sorted_run_file.h"
 
 #include "io/file/checksum.h"
 #include "libreeb/base/error.h"
@@ -22,7 +22,7 @@ void add_block(RunManifest& manifest, const BlockHeader& header) {
 
 }  // namespace
 
-RunFile::RunFile(io::File file, const RunManifest& manifest) : file_(std::move(file)) {
+SortedRunFile::SortedRunFile(io::File file, const RunManifest& manifest) : file_(std::move(file)) {
   if (file_.size() < manifest.bytes) throw DamagedState();
   std::vector<std::byte> packed;
   while (manifest_.bytes + sizeof(BlockHeader) <= manifest.bytes) {
@@ -38,7 +38,7 @@ RunFile::RunFile(io::File file, const RunManifest& manifest) : file_(std::move(f
   if (manifest_ != manifest) throw DamagedState();
 }
 
-void RunFile::append(std::span<const std::byte> packed, std::size_t records) {
+void SortedRunFile::append(std::span<const std::byte> packed, std::size_t records) {
   const BlockHeader header{static_cast<std::uint32_t>(packed.size()), static_cast<std::uint32_t>(records),
                            io::checksum(packed, records)};
   file_.write_at(size(), std::as_bytes(std::span(&header, 1)));
@@ -46,7 +46,7 @@ void RunFile::append(std::span<const std::byte> packed, std::size_t records) {
   add_block(manifest_, header);
 }
 
-std::size_t RunFile::read(RunPlace& run, std::vector<std::byte>& packed) const {
+std::size_t SortedRunFile::read(RunPlace& run, std::vector<std::byte>& packed) const {
   BlockHeader header;
   file_.read_at(run.offset, std::as_writable_bytes(std::span(&header, 1)));
   if (header.packed_bytes > size() - run.offset) refuse(run.offset);
@@ -58,7 +58,7 @@ std::size_t RunFile::read(RunPlace& run, std::vector<std::byte>& packed) const {
   return header.records;
 }
 
-void RunFile::refuse(std::uint64_t offset) const {
+void SortedRunFile::refuse(std::uint64_t offset) const {
   throw Error(ErrorKind::kResource, "the disk gave back other bytes than were written",
               "check the disk, or choose another with --temp-dir DIR")
       .at(file_.path(), std::to_string(offset));

@@ -1,0 +1,28 @@
+// The range of some values.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace reeb {
+
+// The least and the greatest; min > max before the first.
+struct ValueRange {
+  double min = std::numeric_limits<double>::infinity();
+  double max = -std::numeric_limits<double>::infinity();
+
+  void add(double value) {
+    min = std::min(min, value);
+    max = std::max(max, value);
+  }
+
+  // share * (max - min), without overflow. Never falls when the range grows.
+  // REQUIRES: share >= 0; there was a value.
+  double part(double share) const {
+    const double width = max - min;
+    return std::isfinite(width) ? share * width : 2 * (share * (max / 2 - min / 2));
+  }
+};
+
+}  // namespace reeb

@@ -1,0 +1,31 @@
+// The first stage of a run: from a mesh to sorted segments of its Reeb graphs.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "ooc/run/compute.h"
+#include "ooc/run/pipeline.h"
+#include "ooc/run/run_context.h"
+
+namespace reeb::ooc {
+
+// What all functions of the run share in their results, and how many pairs were removed for each.
+struct FirstStageResult {
+  std::uint64_t vertices = 0, unused_vertices = 0;
+  std::uint64_t triangles = 0, degenerate_triangles = 0;
+  std::uint64_t guessed_vertices = 0, revoked_guesses = 0;
+  std::uint64_t spilled_bytes = 0;
+  bool reordered = false;
+  LiveMaximum live;
+  std::vector<std::uint64_t> removed_pairs;  // as noise, by function
+  PhaseSeconds seconds;
+  std::vector<std::string> notes;
+};
+
+// Fills the stores of the run, and the ranges of its values.
+// THROWS: Error, of the input, the budget, the disk, or as interrupted.
+FirstStageResult run_first_stage(RunContext& run, MeshInput input);
+
+}  // namespace reeb::ooc

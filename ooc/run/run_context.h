@@ -1,0 +1,61 @@
+// What both stages of a run share.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "io/file/temp_dir.h"
+#include "libreeb/base/memory_budget.h"
+#include "libreeb/base/state_stream.h"
+#include "libreeb/engine/sweep_options.h"
+#include "libreeb/port/vertex_function.h"
+#include "ooc/chunks/function_values.h"
+#include "ooc/run/compute.h"
+#include "ooc/run/memory_plan.h"
+#include "ooc/run/resumable_run.h"
+#include "ooc/stored_graph/segment_store.h"
+
+namespace reeb::ooc {
+
+// What a sweep does if a function's values were in this range so far. The range only grows: what is noise
+// below a share of it, stays noise. REQUIRES: there was a value, or min = max = 0.
+SweepOptions sweep_options(const ComputeOptions& options, const FunctionRange& range);
+
+// The first stage fills the stores and the ranges of the values; the second reads both. The rest stays as
+// it was made.
+struct RunContext {
+  // All but `input`, of which nothing is kept, must outlive this.
+  // THROWS: Error{kResource} if the budget is too small, or of a folder; Error{kBadInput} if a file
+  //         cannot be opened.
+  RunContext(const MeshInput& input, std::span<VertexFunction* const> functions, std::span<const std::string> outputs,
+             const ComputeOptions& options);
+
+  // Goes back to the start of the run: nothing was stored, and no value was seen.
+  void start_over();
+  // What an earlier process saved of the stores. If that is damaged, they are empty.
+  void restore_stores(StateReader& in);
+
+  // THROWS: Error{kInterrupted} if the run is to end. While chunks are glued that is asked between two of
+  // them instead, where the run can be saved.
+  void tell(const ComputeProgress& progress) const;
+
+  bool embeds() const { return options.buckets != 0; }
+  bool background() const { return plan.threads > 1; }
+
+  const std::span<VertexFunction* const> functions;
+  const std::span<const std::string> outputs;
+  const ComputeOptions& options;
+  const MemoryPlan plan;  // as long as the front is not known
+  MemoryBudget budget;
+  const io::TempDir temp;
+  FunctionValues values;
+  ResumableRun resumable;
+  std::vector<std::unique_ptr<SegmentStore>> stores;  // by function
+
+ private:
+  void make_stores();
+};
+
+}  // namespace reeb::ooc

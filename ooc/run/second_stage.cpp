@@ -1,0 +1,269 @@
+#include "ooc/run/second_stage.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <utility>
+
+#include "libreeb/base/error.h"
+#include "libreeb/hierarchy/cancel.h"
+#include "ooc/reeb_file/record_log.h"
+#include "ooc/reeb_file/reeb_file_writer.h"
+#include "ooc/run/freed_memory.h"
+#include "ooc/run/stopwatch.h"
+#include "ooc/stored_graph/last_noise_pass.h"
+#include "ooc/stored_graph/segment_store.h"
+#include "ooc/threads/read_ahead.h"
+
+namespace reeb::ooc {
+namespace {
+
+// A finished store, and what is to be written of it.
+struct StoredGraph {
+  std::unique_ptr<SegmentStore> store;
+  std::string output;
+  SweepOptions sweep;
+  FileMeta meta;
+};
+
+// ---- the graph alone
+
+struct WrittenGraph {
+  BettiNumbers betti;
+  std::uint64_t spilled_bytes = 0;
+};
+
+// As it was stored, in memory that need not grow with it. Where memory is free, 4 bytes a node, and 4 bytes a
+// vertex if there is much to look up.
+WrittenGraph write_graph(RunContext& run, const StoredGraph& graph, const FileMeta& meta) {
+  constexpr std::size_t kNodes = 16384, kBytesAnArc = 1000, kManyVerticesANode = 16;
+  SegmentStore& store = *graph.store;
+  GraphFileWriter::Options writing{.nodes = store.node_count(),
+                                   .has_embedding = run.embeds(),
+                                   .ends = GraphFileWriter::ArcEnds::kKeys,
+                                   .background = run.background(),
+                                   .temp = &run.temp,
+                                   .budget = &run.budget};
+  const std::uint64_t table_bytes = meta.mesh_vertices * sizeof(std::uint32_t);
+  Reservation table;
+  if (meta.mesh_vertices / kManyVerticesANode <= store.node_count() && table_bytes <= run.budget.free_bytes() / 4) {
+    table = run.budget.reserve("ranks of nodes", table_bytes);
+    writing.ends = GraphFileWriter::ArcEnds::kKeysInMemory;
+  }
+  GraphFileWriter writer(graph.output, meta, writing);
+  // Large pieces are for the lookup in a file.
+  const std::size_t piece_arcs =
+      table.bytes() != 0 ? 8192 : std::clamp<std::size_t>(run.budget.free_bytes() / kBytesAnArc, 4096, 65536);
+  store.rewind_nodes();
+  read_ahead<std::vector<SettledNode>>(
+      writing.background, [&](auto& nodes) { return store.read_nodes(nodes, kNodes); },
+      [&](const auto& nodes) { writer.add_nodes(nodes); });
+  store.rewind_arcs();
+  read_ahead<ArcPiece>(
+      writing.background,
+      [&](ArcPiece& piece) { return store.read_arcs(piece, piece_arcs, graph.sweep.bucket_exponent); },
+      [&](const ArcPiece& piece) { writer.add_arcs(piece.arcs, piece.buckets.view()); });
+  writer.finish();
+  return {{writer.header().components, writer.header().loops}, writer.spilled_bytes()};
+}
+
+// For when the graph was written, but no more.
+Error no_memory_for(const RunContext& run, const std::string& what, const std::string& output, std::uint64_t arcs,
+                    std::uint64_t needed, const std::string& otherwise) {
+  // Reading what is stored takes up to a quarter of the account.
+  const std::uint64_t enough = run.plan.set_aside_bytes + (run.budget.used_bytes() + needed) / 3 * 4;
+  Error error(ErrorKind::kResource,
+              what + " of " + std::to_string(arcs) + " arcs needs up to " + format_bytes(needed) +
+                  " of memory, but only " + format_bytes(run.budget.free_bytes()) +
+                  " are left; the graph itself was written",
+              "allow --memory " + std::to_string(enough / (1 << 20) + 1) + "M, or " + otherwise);
+  error.at(output);
+  return error;
+}
+
+// ---- noise
+
+struct LastNoise {
+  std::uint64_t removed_pairs = 0, spilled_bytes = 0;
+};
+
+// What was left of the noise on the way goes here. Where memory does not suffice, the graph is kept as
+// it is and the user is told.
+LastNoise remove_last_noise(RunContext& run, StoredGraph& graph) {
+  SegmentStore& store = *graph.store;
+  LastNoisePass pass = run_last_noise_pass(store, {.threshold = graph.sweep.noise_below,
+                                                   .bucket_exponent = graph.sweep.bucket_exponent,
+                                                   .vertices = graph.meta.mesh_vertices});
+  if (!pass.fits) {
+    FileMeta meta = graph.meta;
+    meta.denoise_threshold = 0;
+    write_graph(run, graph, meta);
+    throw no_memory_for(run, "the last pass of noise removal", graph.output, store.arc_count(), pass.needed_bytes,
+                        "do without --denoise");
+  }
+  if (!pass.change) return {pass.removed_pairs};
+  const std::uint64_t change_bytes = pass.change->memory.bytes(), changed_arcs = pass.change->arcs.records.size();
+  store.apply(std::move(*pass.change));
+  // A change of more than this share of the graph, or of memory, takes more memory than reading the graph
+  // that it leaves.
+  constexpr std::uint64_t kSmallShare = 8;
+  const bool is_small =
+      kSmallShare * changed_arcs <= store.arc_count() && kSmallShare * change_bytes <= run.budget.free_bytes();
+  if (change_bytes <= run.plan.segment_bytes || is_small) return {pass.removed_pairs};
+  auto changed = std::make_unique<SegmentStore>(run.temp, run.budget,
+                                                SegmentOptions{.allowance_bytes = run.plan.segment_bytes,
+                                                               .most_bytes = run.plan.most_segment_bytes,
+                                                               .background = run.background()});
+  copy_graph(store, *changed, graph.sweep.bucket_exponent);
+  changed->finish();
+  graph.store = std::move(changed);
+  return {pass.removed_pairs, graph.store->spilled_bytes()};
+}
+
+// ---- the hierarchy
+
+struct WrittenHierarchy {
+  BettiNumbers betti;
+  std::array<std::uint64_t, 4> pairs{};  // by PairType
+  std::uint64_t kept_loops = 0;
+  std::vector<Feature> largest;
+  std::uint64_t spilled_bytes = 0;
+};
+
+std::vector<Feature> largest_features(const ReebGraph& graph, const std::vector<PersistencePair>& ascending) {
+  constexpr std::size_t kLargest = 5;
+  std::vector<Feature> largest;
+  for (auto it = ascending.rbegin(); it != ascending.rend() && largest.size() < kLargest; ++it)
+    if (it->type != PairType::kExt0)
+      largest.push_back({it->type, graph.nodes[it->lo.value()], graph.nodes[it->hi.value()]});
+  return largest;
+}
+
+struct GraphInMemory {
+  LoadedGraph loaded;
+  std::uint64_t more_bytes = 0;  // that pairing and cancelling take besides
+};
+
+// Pairing and cancelling hold the graph in memory, though not what they make of it. Where that does not
+// fit, the graph is kept and the user is told, before the work starts.
+GraphInMemory load_for_hierarchy(RunContext& run, const StoredGraph& graph) {
+  SegmentStore& store = *graph.store;
+  const std::uint64_t nodes = store.node_count(), arcs = store.arc_count();
+  const auto refuse = [&](std::uint64_t needed) {
+    write_graph(run, graph, graph.meta);
+    throw no_memory_for(run, "the hierarchy", graph.output, arcs, needed,
+                        "remove noise with --denoise, or keep to the graph with --graph-only");
+  };
+  const LoadOptions loading{.bucket_exponent = graph.sweep.bucket_exponent};
+  if (loading_bytes(store, loading) > run.budget.free_bytes())
+    refuse(hierarchy_bytes(nodes, arcs, PackedLists::most_bytes(arcs, store.bucket_count())));
+  LoadedGraph loaded = read_graph(store, loading);
+  std::optional<std::uint64_t> lists;
+  if (run.embeds()) lists = loaded.buckets.memory_bytes();
+  const std::uint64_t needed = hierarchy_bytes(nodes, arcs, lists) + RecordLog::memory_bytes();
+  const std::uint64_t more = needed - loaded.memory.bytes();
+  if (more > run.budget.free_bytes() + store.reserved_bytes()) {
+    loaded = {};
+    refuse(needed);
+  }
+  return {std::move(loaded), more};
+}
+
+WrittenHierarchy write_hierarchy(RunContext& run, StoredGraph stored) {
+  GraphInMemory in_memory = load_for_hierarchy(run, stored);
+  stored.store.reset();
+  RecordLog records(run.temp, run.budget);
+  const Reservation memory = run.budget.reserve("hierarchy", in_memory.more_bytes - RecordLog::memory_bytes());
+
+  ReebGraph& graph = in_memory.loaded.graph;
+  WrittenHierarchy written;
+  written.betti = betti_numbers(graph);
+  const Poll poll = [&run] { run.resumable.check_interruption(); };
+  const Hierarchy hierarchy =
+      build_hierarchy(graph, std::move(in_memory.loaded.buckets), stored.meta.bucket_exponent, records, poll);
+  for (const PersistencePair& pair : hierarchy.pairs) {
+    ++written.pairs[static_cast<std::size_t>(pair.type)];
+    written.kept_loops += pair.kept ? 1u : 0u;
+  }
+  written.largest = largest_features(graph, hierarchy.pairs);
+  write_hierarchy_file(stored.output, stored.meta, {graph, hierarchy, records, run.embeds(), run.background()}, poll);
+  written.spilled_bytes = records.spilled_bytes();
+  return written;
+}
+
+// ---- all of it
+
+// What the first stage knows of a function.
+ComputeResult result_of(const RunContext& run, const FirstStageResult& first, std::size_t function) {
+  ComputeResult result;
+  result.function = run.functions[function]->name();
+  result.output = run.outputs[function];
+  if (first.vertices != 0)
+    result.range = run.values.range(function);
+  else
+    result.range = {0, 0};
+  result.vertices = first.vertices;
+  result.unused_vertices = first.unused_vertices;
+  result.triangles = first.triangles;
+  result.degenerate_triangles = first.degenerate_triangles;
+  result.denoised_pairs = first.removed_pairs[function];
+  result.reordered = first.reordered;
+  result.guessed_vertices = first.guessed_vertices;
+  result.revoked_guesses = first.revoked_guesses;
+  result.spilled_bytes = first.spilled_bytes;
+  result.live = first.live;
+  result.seconds = first.seconds;
+  result.notes = first.notes;
+  return result;
+}
+
+FileMeta file_meta(const ComputeResult& result, const SweepOptions& sweep) {
+  FileMeta meta;
+  meta.function = result.function;
+  meta.function_min = result.range.min;
+  meta.function_max = result.range.max;
+  meta.mesh_vertices = result.vertices;
+  meta.mesh_triangles = result.triangles;
+  meta.denoise_threshold = sweep.noise_below;
+  meta.denoised_pairs = result.denoised_pairs;
+  meta.bucket_exponent = sweep.bucket_exponent.value_or(0);
+  return meta;
+}
+
+}  // namespace
+
+ComputeResult run_second_stage(RunContext& run, const FirstStageResult& first, std::size_t function) {
+  ComputeResult result = result_of(run, first, function);
+  const SweepOptions sweep = sweep_options(run.options, result.range);
+  StoredGraph graph{std::move(run.stores[function]), result.output, sweep, file_meta(result, sweep)};
+  run.tell({ComputeProgress::Phase::kHierarchy});
+  const Stopwatch watch;
+  graph.store->finish();
+  result.spilled_bytes += graph.store->spilled_bytes();
+  if (run.options.denoise > 0) {
+    const LastNoise noise = remove_last_noise(run, graph);
+    result.spilled_bytes += noise.spilled_bytes;
+    result.denoised_pairs += noise.removed_pairs;
+    graph.meta.denoised_pairs = result.denoised_pairs;
+    give_back_freed_memory();
+  }
+  result.nodes = graph.store->node_count();
+  result.arcs = graph.store->arc_count();
+  if (run.options.graph_only) {
+    const WrittenGraph written = write_graph(run, graph, graph.meta);
+    result.betti = written.betti;
+    result.spilled_bytes += written.spilled_bytes;
+  } else {
+    WrittenHierarchy written = write_hierarchy(run, std::move(graph));
+    result.betti = written.betti;
+    result.pairs = written.pairs;
+    result.kept_loops = written.kept_loops;
+    result.largest = std::move(written.largest);
+    result.spilled_bytes += written.spilled_bytes;
+  }
+  result.seconds.hierarchy += watch.seconds();
+  result.seconds.wall += watch.seconds();
+  return result;
+}
+
+}  // namespace reeb::ooc

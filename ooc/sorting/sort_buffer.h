@@ -1,0 +1,77 @@
+// Records in memory before they are sorted.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "libreeb/base/memory_budget.h"
+#include "ooc/sorting/record_batch.h"
+
+namespace reeb::ooc {
+
+// A batch that grows within an allowance and the budget. While it grows, both the old and the new memory
+// exist and are reserved.
+template <class Record>
+struct SortBuffer {
+  RecordBatch<Record> batch;
+  Reservation charge;
+
+  void free() {
+    batch = {};
+    charge.resize(0);
+  }
+
+  // Room for the first records. THROWS: Error{kResource}.
+  void start(std::size_t records) {
+    charge.resize(bytes(records, batch.pool.capacity()));
+    batch.records.reserve(records);
+  }
+  // The same; false if the budget does not allow it.
+  bool try_start(std::size_t records) {
+    if (!charge.try_resize(records * sizeof(Record))) return false;
+    batch.records.reserve(records);
+    return true;
+  }
+
+  // Room for as many records again, but for `least` at least, if all then takes at most `most_bytes`.
+  bool grow_records(std::size_t least, std::uint64_t most_bytes) {
+    auto& [records, pool] = batch;
+    const std::size_t before = records.capacity();
+    const std::uint64_t left = most_bytes - std::min<std::uint64_t>(most_bytes, pool.capacity());
+    const std::size_t after = std::min(static_cast<std::size_t>(left / sizeof(Record)), std::max(least, 2 * before));
+    if (after <= before || !charge.try_resize(bytes(before + after, pool.capacity()))) return false;
+    records.reserve(after);
+    charge.resize(bytes(records.capacity(), pool.capacity()));
+    return true;
+  }
+
+  // The same for the pool, if it has to grow for this many bytes more.
+  bool grow_pool(std::size_t more, std::uint64_t most_bytes) {
+    auto& [records, pool] = batch;
+    const std::size_t needed = pool.size() + more, before = pool.capacity();
+    if (needed <= before) return true;
+    const std::uint64_t held = bytes(records.capacity(), 0);
+    const std::uint64_t left = most_bytes - std::min(most_bytes, held);
+    const auto after =
+        static_cast<std::size_t>(std::min<std::uint64_t>(left, std::max<std::uint64_t>(needed, 2 * before)));
+    if (after < needed || !charge.try_resize(held + before + after)) return false;
+    pool.reserve(after);
+    charge.resize(held + pool.capacity());
+    return true;
+  }
+
+  // For the first payload of a run, which has to go somewhere. REQUIRES: the pool is empty.
+  void replace_pool(std::size_t size) {
+    auto& [records, pool] = batch;
+    std::vector<std::byte>().swap(pool);
+    charge.resize(bytes(records.capacity(), size));
+    pool.reserve(size);
+  }
+
+ private:
+  static std::uint64_t bytes(std::size_t records, std::size_t pool) { return records * sizeof(Record) + pool; }
+};
+
+}  // namespace reeb::ooc

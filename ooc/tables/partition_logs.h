@@ -1,0 +1,84 @@
+// Records divided into parts, each read back in the order of writing: the partition step of joins that
+// would otherwise need random access.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <type_traits>
+#include <vector>
+
+#include "io/file/file.h"
+#include "io/file/temp_dir.h"
+#include "libreeb/base/memory_budget.h"
+
+namespace reeb::ooc {
+
+// append() all, then next() takes each part's records in turn; parts may be read interleaved.
+//
+// THROWS: Error{kResource} of the budget or the disk.
+// MEMORY: 16 KiB a part, reserved, and 8 bytes for each 16 KiB written.   THREADS: one at a time.
+template <class Record>
+class PartitionLogs {
+  static_assert(std::is_trivially_copyable_v<Record>);
+
+ public:
+  static constexpr std::size_t kBlockBytes = 16 << 10;
+
+  PartitionLogs(const char* owner, const io::TempDir& temp, MemoryBudget& budget, std::size_t parts)
+      : charge_(budget.reserve(owner, parts * kBlockBytes)), file_(temp.create_unnamed(owner)), parts_(parts) {
+    for (Part& part : parts_) part.records.reserve(kBlockRecords);
+  }
+
+  void append(std::size_t index, const Record& record) {
+    Part& part = parts_[index];
+    if (part.records.size() == kBlockRecords) {
+      file_.write_at(size_, std::as_bytes(std::span<const Record>(part.records)));
+      part.blocks.push_back(size_);
+      size_ += kBlockRecords * sizeof(Record);
+      part.records.clear();
+    }
+    part.records.push_back(record);
+    ++part.count;
+  }
+
+  std::uint64_t count(std::size_t index) const { return parts_[index].count; }
+  std::uint64_t spilled_bytes() const { return size_; }
+
+  // The next record of a part. REQUIRES: it has one left, and nothing is appended any more.
+  const Record& next(std::size_t index) {
+    Part& part = parts_[index];
+    if (part.taken % kBlockRecords == 0) fetch(part);
+    return part.records[part.taken++ % kBlockRecords];
+  }
+
+ private:
+  static constexpr std::size_t kBlockRecords = kBlockBytes / sizeof(Record);
+  struct Part {
+    std::vector<Record> records;  // the block at hand
+    std::vector<std::uint64_t> blocks;
+    std::uint64_t count = 0, taken = 0;
+  };
+
+  // The last block was never written: its records wait at the end of the file until they are
+  // needed, so that a part has one buffer only.
+  void fetch(Part& part) {
+    if (part.taken == 0 && !part.blocks.empty()) {
+      file_.write_at(size_, std::as_bytes(std::span<const Record>(part.records)));
+      part.blocks.push_back(size_);
+      size_ += part.records.size() * sizeof(Record);
+    }
+    if (part.blocks.empty()) return;
+    part.records.resize(static_cast<std::size_t>(std::min<std::uint64_t>(kBlockRecords, part.count - part.taken)));
+    file_.read_at(part.blocks[static_cast<std::size_t>(part.taken / kBlockRecords)],
+                  std::as_writable_bytes(std::span(part.records)));
+  }
+
+  Reservation charge_;
+  io::File file_;
+  std::uint64_t size_ = 0;
+  std::vector<Part> parts_;
+};
+
+}  // namespace reeb::ooc
