@@ -12,6 +12,7 @@
 #include "libreeb/engine/chunk_sweep.h"
 #include "libreeb/engine/glue.h"
 #include "ooc/threads/kept_arena.h"
+#include "ooc/threads/pipeline_order.h"
 
 namespace reeb::ooc {
 namespace {
@@ -144,6 +145,7 @@ class Pipeline {
       free_slots.push(slots.back().get());
     }
     Sweepers sweepers(budget_);
+    const PipelineOrder order;
 
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism, options_.threads);
     kept_arena(options_.threads).execute([&] {
@@ -152,16 +154,19 @@ class Pipeline {
                                                            [&](tbb::flow_control& control_flow) -> Slot* {
                                                              Slot* slot = nullptr;
                                                              free_slots.try_pop(slot);  // as many as tokens
+                                                             const PipelineOrder::Filter filter(order, slot, &source_);
                                                              if (read(*slot)) return slot;
                                                              control_flow.stop();
                                                              return nullptr;
                                                            }) &
                                  tbb::make_filter<Slot*, Slot*>(tbb::filter_mode::parallel,
                                                                 [&](Slot* slot) {
+                                                                  const PipelineOrder::Filter filter(order, slot);
                                                                   sweep_in_parallel(*slot, sweepers);
                                                                   return slot;
                                                                 }) &
                                  tbb::make_filter<Slot*, void>(tbb::filter_mode::serial_in_order, [&](Slot* slot) {
+                                   const PipelineOrder::Filter filter(order, slot, &glues_);
                                    glue(*slot);
                                    free_slots.push(slot);
                                  }));

@@ -8,6 +8,7 @@
 #include <cstddef>
 
 #include "ooc/threads/kept_arena.h"
+#include "ooc/threads/pipeline_order.h"
 
 namespace reeb::ooc {
 
@@ -26,17 +27,24 @@ void read_ahead(bool background, const Read& read, const Prepare& prepare, const
   constexpr int kThreads = 2;
   std::array<Piece, 3> pieces;
   std::size_t next = 0;
+  const PipelineOrder order;
   const auto read_next = [&](tbb::flow_control& flow) -> Piece* {
+    const PipelineOrder::Filter serial(order, &next);
     Piece& piece = pieces[next++ % pieces.size()];
+    const PipelineOrder::Filter filter(order, &piece);
     if (read(piece)) return &piece;
     flow.stop();
     return nullptr;
   };
   const auto prepare_one = [&](Piece* piece) {
+    const PipelineOrder::Filter filter(order, piece);
     prepare(*piece);
     return piece;
   };
-  const auto use_one = [&](Piece* piece) { use(*piece); };
+  const auto use_one = [&](Piece* piece) {
+    const PipelineOrder::Filter filter(order, piece, &use);
+    use(*piece);
+  };
   using tbb::filter_mode;
   const tbb::global_control control(tbb::global_control::max_allowed_parallelism, kThreads);
   kept_arena(kThreads).execute([&] {
