@@ -308,7 +308,7 @@ TEST_F(Convert, SnapshotsAreTheGraphsOfTheStreamSoFar) {
     if (kind == 'v') prefix += "v " + numbers[1] + " " + numbers[2] + " " + numbers[3] + "\n";
     if (kind != 't') continue;
     prefix += "f";
-    for (int c = 0; c < 3; ++c) prefix += " " + std::to_string(std::stoul(numbers[c]) + 1);
+    for (int c = 0; c < 3; ++c) prefix.append(1, ' ').append(std::to_string(std::stoul(numbers[c]) + 1));
     prefix += "\n";
     if (++triangles % kEvery != 0) continue;
     write("prefix.sma", prefix);
