@@ -174,7 +174,7 @@ TEST(Pipeline, SpillsUnderTheLeastBudget) {
   for (double& value : complex.values) value = random.unit();
   Runner runner(/*graph_only=*/true);
   runner.options().memory_bytes = 16 << 20;
-  runner.run(ComplexMesh(complex), {static_cast<std::size_t>(chunk_limit().value_or(0)), 2, Form::kIndexed});
+  runner.run(ComplexMesh(complex), {static_cast<std::size_t>(chunk_limit().value_or(7)), 2, Form::kIndexed});
   EXPECT_GT(runner.results()[0].spilled_bytes, 0u);
 }
 
