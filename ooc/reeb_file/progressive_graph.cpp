@@ -1,7 +1,10 @@
 #include "ooc/reeb_file/progressive_graph.h"
 
 #include <algorithm>
+#include <string>
 #include <utility>
+
+#include "libreeb/base/error.h"
 
 namespace reeb::ooc {
 
@@ -19,6 +22,10 @@ ProgressiveGraph::ProgressiveGraph(const ReebFile& file, GraphListener* listener
 
 void ProgressiveGraph::go_to_version(std::uint32_t version) {
   if (loaded_ && version == version_) return;
+  if (const std::uint32_t steps = file_.header().steps; version > steps)
+    throw Error(ErrorKind::kBadInput, "there is no version " + std::to_string(version),
+                "the coarsest is " + std::to_string(steps))
+        .at(file_.path());
   apply(gather(version), version);
 }
 

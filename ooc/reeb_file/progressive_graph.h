@@ -29,6 +29,7 @@ class ProgressiveGraph {
   // Both must outlive this; `listener` may be null.
   explicit ProgressiveGraph(const ReebFile& file, GraphListener* listener = nullptr);
 
+  // THROWS: Error{kBadInput} if the file has no such version, as ReebFile::load.
   void go_to_version(std::uint32_t version);
   void go_to_threshold(double threshold) { go_to_version(file_.version_at(threshold)); }
   void go_to_nodes(std::uint64_t limit) { go_to_version(file_.finest_with_nodes(limit)); }

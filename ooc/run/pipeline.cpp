@@ -11,6 +11,7 @@
 #include "libreeb/engine/chunk_sweep.h"
 #include "libreeb/engine/glue.h"
 #include "ooc/threads/kept_arena.h"
+#include "ooc/threads/pipeline_order.h"
 
 namespace reeb::ooc {
 namespace {
@@ -143,6 +144,7 @@ class Pipeline {
       free_slots.push(slots.back().get());
     }
     Sweepers sweepers(budget_);
+    const PipelineOrder order;
 
     run_in_kept_arena(options_.threads, [&] {
       tbb::parallel_pipeline(in_flight,
@@ -150,16 +152,19 @@ class Pipeline {
                                                            [&](tbb::flow_control& control_flow) -> Slot* {
                                                              Slot* slot = nullptr;
                                                              free_slots.try_pop(slot);  // as many as tokens
+                                                             const PipelineOrder::Filter filter(order, slot, &source_);
                                                              if (read(*slot)) return slot;
                                                              control_flow.stop();
                                                              return nullptr;
                                                            }) &
                                  tbb::make_filter<Slot*, Slot*>(tbb::filter_mode::parallel,
                                                                 [&](Slot* slot) {
+                                                                  const PipelineOrder::Filter filter(order, slot);
                                                                   sweep_in_parallel(*slot, sweepers);
                                                                   return slot;
                                                                 }) &
                                  tbb::make_filter<Slot*, void>(tbb::filter_mode::serial_in_order, [&](Slot* slot) {
+                                   const PipelineOrder::Filter filter(order, slot, &glues_);
                                    glue(*slot);
                                    free_slots.push(slot);
                                  }));

@@ -7,6 +7,7 @@
 #include <cstddef>
 
 #include "ooc/threads/kept_arena.h"
+#include "ooc/threads/pipeline_order.h"
 
 namespace reeb::ooc {
 
@@ -25,17 +26,24 @@ void read_ahead(bool background, const Read& read, const Prepare& prepare, const
   constexpr unsigned kThreads = 2;
   std::array<Piece, 3> pieces;
   std::size_t next = 0;
+  const PipelineOrder order;
   const auto read_next = [&](tbb::flow_control& flow) -> Piece* {
+    const PipelineOrder::Filter serial(order, &next);
     Piece& piece = pieces[next++ % pieces.size()];
+    const PipelineOrder::Filter filter(order, &piece);
     if (read(piece)) return &piece;
     flow.stop();
     return nullptr;
   };
   const auto prepare_one = [&](Piece* piece) {
+    const PipelineOrder::Filter filter(order, piece);
     prepare(*piece);
     return piece;
   };
-  const auto use_one = [&](Piece* piece) { use(*piece); };
+  const auto use_one = [&](Piece* piece) {
+    const PipelineOrder::Filter filter(order, piece, &use);
+    use(*piece);
+  };
   using tbb::filter_mode;
   run_in_kept_arena(kThreads, [&] {
     tbb::parallel_pipeline(pieces.size(), tbb::make_filter<void, Piece*>(filter_mode::serial_in_order, read_next) &

@@ -52,7 +52,8 @@ class Capture {
   }
   ::alarm(command.most_seconds);
   std::vector<char*> arguments;
-  for (const std::string& argument : command.arguments) arguments.push_back(const_cast<char*>(argument.c_str()));
+  for (const auto* words : {&command.wrapper, &command.arguments})
+    for (const std::string& word : *words) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
   if (good) ::execvp(arguments[0], arguments.data());
   std::perror(arguments[0]);

@@ -10,6 +10,7 @@ namespace reeb::test {
 
 struct Command {
   std::vector<std::string> arguments;                                 // the first is the program, looked up in PATH
+  std::vector<std::string> wrapper = {};                              // a program that starts it, with arguments
   std::string folder = {};                                            // to run in; empty: this one
   std::string input = "/dev/null";                                    // file that is its standard input
   std::vector<std::pair<std::string, std::string>> environment = {};  // on top of this process's

@@ -207,8 +207,9 @@ TEST_F(CommandLine, ASmallMeshNeedsLittle) {
     peak = std::max(peak, outcome.peak_rss_bytes);
   }
   std::cout << "1,000 triangles: " << 1000 * seconds << " ms, " << peak << " bytes\n";
-  if (kSanitized) GTEST_SKIP() << "memory figures of a sanitized program mean nothing";
-  EXPECT_LE(peak, 12u << 20);
+  if (!kSanitized) {
+    EXPECT_LE(peak, 12u << 20);
+  }
 }
 
 }  // namespace

@@ -14,17 +14,13 @@
 #include "io/formats/create_mesh.h"
 #include "io/formats/open_mesh.h"
 #include "libreeb/base/error.h"
+#include "tests/support/data.h"
 #include "tests/support/random.h"
 #include "tests/support/seed.h"
 #include "tests/tools/program.h"
 
 namespace reeb::test {
 namespace {
-
-std::string mesh_folder() {
-  const char* data = std::getenv("REEB_DATA");
-  return (data != nullptr ? std::string(data) : std::string(REEB_SOURCE_DIR "/../shared/data")) + "/meshes";
-}
 
 struct Expected {
   std::string function;
@@ -58,8 +54,8 @@ std::vector<std::string> meshes_to_run() {
   constexpr const char* kLargest[] = {"ct_head_iso60.ply.gz", "etopo20_terrain.ply.gz", "dragon_vrip.ply.gz"};
   std::vector<std::string> names;
   for (const auto& [name, results] : read_table())
-    if (std::getenv("REEB_TEST_ALL") != nullptr ||
-        std::find(std::begin(kLargest), std::end(kLargest), name) == std::end(kLargest))
+    if (is_readable_mesh(name) && (std::getenv("REEB_TEST_ALL") != nullptr ||
+                                   std::find(std::begin(kLargest), std::end(kLargest), name) == std::end(kLargest)))
       names.push_back(name);
   return names;
 }
@@ -68,7 +64,6 @@ class RealMesh : public ProgramTest, public testing::WithParamInterface<std::str
  protected:
   // Computes all functions of the table in one run and compares each.
   void check(const std::string& mesh, const std::string& input = "/dev/null") {
-    if (!can_be_read()) GTEST_SKIP() << "the program does not read this format";
     const std::vector<Expected> all = read_table().at(GetParam());
     std::vector<std::string> words = {"compute", mesh, "-o", "out", "--report", "report.json", "--force"};
     for (const Expected& expected : all) words.insert(words.end(), {"-f", expected.function});
@@ -82,15 +77,6 @@ class RealMesh : public ProgramTest, public testing::WithParamInterface<std::str
   }
 
  private:
-  bool can_be_read() const {
-    try {
-      return io::open_mesh(mesh_folder() + "/" + GetParam()) != nullptr;
-    } catch (const Error& error) {
-      EXPECT_NE(error.message().find("format"), std::string::npos) << error.what();
-      return false;
-    }
-  }
-
   void compare(const nlohmann::json& report, const Expected& expected) {
     SCOPED_TRACE(last_command() + "\nf = " + expected.function);
     EXPECT_EQ(report.at("function").at("name"), expected.function);
@@ -144,7 +130,6 @@ void write_shuffled(const std::string& from, const std::string& to, std::uint64_
 }
 
 TEST_P(RealMesh, WithItsTrianglesShuffled) {
-  if (GetParam().find(".vtk") != std::string::npos) GTEST_SKIP() << "tetrahedra are not triangles";
   ASSERT_NO_FATAL_FAILURE(write_shuffled(mesh_folder() + "/" + GetParam(), in_folder("shuffled.ply"), base_seed()));
   check("shuffled.ply");
 }
@@ -159,8 +144,23 @@ std::string test_name(const testing::TestParamInfo<std::string>& mesh) {
 INSTANTIATE_TEST_SUITE_P(Meshes, RealMesh, testing::ValuesIn(meshes_to_run()), test_name);
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(RealMesh);
 
+// Without it, a folder with other files would run no test and fail none.
 TEST(RealMeshes, AreThere) {
-  if (meshes_to_run().empty()) GTEST_SKIP() << "no meshes in " << mesh_folder() << "; REEB_DATA may name their place";
+  REEB_REQUIRE_MESHES();
+  const Table table = read_table();
+  EXPECT_GE(table.size(), 20u) << "in " << mesh_folder();
+  for (const auto& [name, results] : table)
+    EXPECT_TRUE(std::filesystem::exists(mesh_folder() + "/" + name)) << name << " in " << mesh_folder();
+}
+
+// As soon as one of them can be read, it belongs to those above.
+TEST(RealMeshes, OtherFormatsAreRefused) {
+  REEB_REQUIRE_MESHES();
+  for (const char* name : kUnreadableMeshes) {
+    SCOPED_TRACE(name);
+    EXPECT_TRUE(std::filesystem::exists(mesh_folder() + "/" + name));
+    EXPECT_THROW(io::open_mesh(mesh_folder() + "/" + name), Error);
+  }
 }
 
 }  // namespace

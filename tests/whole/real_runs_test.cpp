@@ -16,6 +16,7 @@
 #include "io/functions/function_source.h"
 #include "tests/model/naive_denoise.h"
 #include "tests/model/reference_reeb.h"
+#include "tests/support/data.h"
 #include "tests/support/embedding_places.h"
 #include "tests/support/whole_run.h"
 
@@ -24,19 +25,14 @@ namespace {
 
 bool runs_all() { return std::getenv("REEB_TEST_ALL") != nullptr; }
 
-std::string mesh_folder() {
-  const char* data = std::getenv("REEB_DATA");
-  return (data != nullptr ? std::string(data) : std::string(REEB_SOURCE_DIR "/../shared/data")) + "/meshes";
-}
-
 std::vector<std::string> mesh_names() {
   constexpr std::uintmax_t kLarge = 1'100'000;  // bytes of a file
   std::vector<std::string> names;
   std::error_code none;
   for (const auto& entry : std::filesystem::directory_iterator(mesh_folder(), none)) {
     const std::string name = entry.path().filename().string();
-    // Tables and a page about them; and VTK, which is not among the formats that are read.
-    if (name.ends_with(".tsv") || name.ends_with(".md") || name.find(".vtk") != name.npos) continue;
+    // Tables and a page about them.
+    if (name.ends_with(".tsv") || name.ends_with(".md") || !is_readable_mesh(name)) continue;
     if (runs_all() || entry.file_size() < kLarge) names.push_back(name);
   }
   std::sort(names.begin(), names.end());
@@ -184,8 +180,10 @@ INSTANTIATE_TEST_SUITE_P(Meshes, RealRun,
                          test_name);
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(RealRun);
 
+// Without it, a folder with other files would run no test and fail none.
 TEST(RealRuns, HaveMeshes) {
-  if (mesh_names().empty()) GTEST_SKIP() << "no meshes in " << mesh_folder() << "; REEB_DATA may name their place";
+  REEB_REQUIRE_MESHES();
+  EXPECT_GE(mesh_names().size(), 10u) << "in " << mesh_folder();
 }
 
 }  // namespace

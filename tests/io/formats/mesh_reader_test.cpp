@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "tests/io/formats/mesh_files.h"
+#include "tests/support/data.h"
 #include "tests/support/files.h"
 
 namespace reeb::io::testing {
@@ -427,14 +428,9 @@ struct Expected {
   std::uint64_t vertices = 0, triangles = 0;
 };
 
-std::string data_folder() {
-  const char* named = std::getenv("REEB_DATA");
-  return named != nullptr ? named : REEB_SOURCE_DIR "/../shared/data";
-}
-
 TEST(RealMeshes, HaveTheCountsOfTheManifest) {
-  std::ifstream manifest(data_folder() + "/meshes/MANIFEST.tsv");
-  if (!manifest) GTEST_SKIP() << "no meshes in " << data_folder();
+  REEB_REQUIRE_MESHES();
+  std::ifstream manifest(test::mesh_folder() + "/MANIFEST.tsv");
   std::string line;
   std::getline(manifest, line);
   std::size_t read = 0;
@@ -445,7 +441,7 @@ TEST(RealMeshes, HaveTheCountsOfTheManifest) {
     fields >> expected.file >> bytes >> expected.vertices >> expected.triangles >> tetrahedra;
     if (tetrahedra != 0) continue;
     SCOPED_TRACE(expected.file);
-    const auto reader = open_mesh(data_folder() + "/meshes/" + expected.file);
+    const auto reader = open_mesh(test::mesh_folder() + "/" + expected.file);
     std::uint64_t vertices = 0, triangles = 0;
     for (MeshBatch batch; reader->read(batch);) {
       vertices += batch.vertex_count;

@@ -9,6 +9,7 @@
 #include "io/events/stream_writer.h"
 #include "io/formats/open_mesh.h"
 #include "tests/io/streaming/samples.h"
+#include "tests/support/data.h"
 
 namespace reeb::io {
 namespace {
@@ -134,10 +135,8 @@ class Comparison {
 };
 
 TEST(DragonStream, EveryFormatKeepsEveryBit) {
-  const auto path = sample_folder().parent_path() / "meshes" / "dragon_vrip.ply.gz";
-  if (!std::filesystem::exists(path))
-    GTEST_SKIP() << "no " << path << "; set REEB_DATA to the folder that holds meshes/";
-  const Scan scan = read_scan(path);
+  REEB_REQUIRE_MESHES();
+  const Scan scan = read_scan(test::mesh_folder() + "/dragon_vrip.ply.gz");
   ASSERT_EQ(scan.triangles.size(), 871414u);
   const std::pair<const char*, std::unique_ptr<StreamWriter> (*)(std::ostream&)> formats[] = {
       {"SMC version 3", [](std::ostream& out) { return make_smc_writer(out, {}); }},

@@ -1,10 +1,6 @@
 // The sample files of streaming meshes and what is to come of them.
 #pragma once
 
-#include <gtest/gtest.h>
-
-#include <cstdlib>
-#include <filesystem>
 #include <fstream>
 #include <memory>
 #include <span>
@@ -15,6 +11,7 @@
 #include "io/events/event_text.h"
 #include "io/streaming/open_stream.h"
 #include "libreeb/base/error.h"
+#include "tests/support/data.h"
 #include "tests/support/files.h"
 
 namespace reeb::io {
@@ -25,19 +22,12 @@ struct Sample {
   bool good() const { return verdict == "OK"; }
 };
 
-inline std::filesystem::path sample_folder() {
-  const char* data = std::getenv("REEB_DATA");
-  return std::filesystem::path(data != nullptr ? data : REEB_SOURCE_DIR "/../shared/data") / "streaming";
-}
+inline std::string sample_bytes(const std::string& file) { return test::read_file(test::sample_folder() + "/" + file); }
+inline std::string golden_events(const std::string& file) { return sample_bytes(file + ".events.txt"); }
 
-inline std::string sample_bytes(const std::string& file) { return test::read_file(sample_folder() / file); }
-inline std::string golden_events(const std::string& file) {
-  return test::read_file(sample_folder() / (file + ".events.txt"));
-}
-
-// The rows of the manifest; empty if the samples are not there.
+// The rows of the manifest.
 inline std::vector<Sample> all_samples() {
-  std::ifstream in(sample_folder() / "MANIFEST.tsv");
+  std::ifstream in(test::sample_folder() + "/MANIFEST.tsv");
   std::vector<Sample> samples;
   std::string line;
   std::getline(in, line);  // names of the columns
@@ -51,10 +41,6 @@ inline std::vector<Sample> all_samples() {
   }
   return samples;
 }
-
-#define REEB_REQUIRE_SAMPLES()                   \
-  if (!std::filesystem::exists(sample_folder())) \
-  GTEST_SKIP() << "no samples in " << sample_folder() << "; set REEB_DATA to the folder that holds streaming/"
 
 inline std::unique_ptr<EventReader> open_bytes(const std::string& bytes, const std::string& name = {}) {
   return open_stream(std::make_unique<SpanSource>(std::as_bytes(std::span(bytes))), name);

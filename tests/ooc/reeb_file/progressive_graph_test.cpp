@@ -5,11 +5,13 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <set>
 
 #include "ooc/reeb_file/reeb_file_writer.h"
 #include "tests/ooc/reeb_file/made_up_hierarchy.h"
+#include "tests/support/scratch.h"
 
 namespace reeb::ooc {
 namespace {
@@ -75,6 +77,60 @@ TEST(ProgressiveGraph, SmallFilesEverywhere) {
 }
 
 TEST(ProgressiveGraph, ManyFrames) { wander(MadeUpMaker(4).make(20'000, 120'000, 200'000), 12, 4, false); }
+
+// By threshold, nodes or memory it goes to the level that the file itself loads for them.
+TEST(ProgressiveGraph, GoesToTheLevelThatTheFileChooses) {
+  const Scratch scratch;
+  const std::string path = scratch.path() + "/made.reeb";
+  const MadeUp made = MadeUpMaker(7).make(300, 900, 200);
+  write_hierarchy_file(path, {}, made.graph, made.hierarchy);
+  const ReebFile file(path);
+  ProgressiveGraph graph(file);
+  const auto expect_level = [&](std::uint32_t version) {
+    EXPECT_EQ(graph.version(), version);
+    EXPECT_EQ(graph.graph(), file.load(version).graph);
+  };
+  const std::uint32_t steps = file.header().steps;
+  ASSERT_GT(steps, 20u);
+  std::set<std::uint32_t> seen;
+  for (std::uint32_t step = 0; step <= steps; step += 3) {
+    const Level level = file.load(step);
+    SCOPED_TRACE(testing::Message() << "version " << step);
+    graph.go_to_threshold(level.threshold);
+    expect_level(file.version_at(level.threshold));
+    seen.insert(graph.version());
+    graph.go_to_nodes(level.graph.node_count());
+    expect_level(file.finest_with_nodes(level.graph.node_count()));
+    EXPECT_LE(graph.node_count(), level.graph.node_count());
+    const std::uint64_t memory = level_memory(level.graph.node_count(), level.graph.arc_count(), 0);
+    graph.go_to_memory(memory);
+    expect_level(file.finest_with_memory(memory));
+    EXPECT_LE(level_memory(graph.node_count(), graph.arc_count(), 0), memory);
+  }
+  EXPECT_GT(seen.size(), 10u);
+}
+
+TEST(ProgressiveGraph, ALevelThatIsNotThereIsRefused) {
+  const Scratch scratch;
+  const std::string path = scratch.path() + "/made.reeb";
+  const MadeUp made = MadeUpMaker(3).make(30, 60, 20);
+  write_hierarchy_file(path, {}, made.graph, made.hierarchy);
+  const ReebFile file(path);
+  ProgressiveGraph graph(file);
+  const std::uint32_t steps = file.header().steps;
+  EXPECT_THROW(graph.go_to_version(steps + 1), Error);
+  EXPECT_TRUE(graph.empty());
+  graph.go_to_version(steps);
+  const ReebGraph before = graph.graph();
+  for (const std::uint32_t version : {steps + 1, std::numeric_limits<std::uint32_t>::max()}) {
+    EXPECT_THROW(graph.go_to_version(version), Error);
+    EXPECT_THROW(file.load(version), Error);
+  }
+  EXPECT_THROW(graph.go_to_nodes(0), Error);
+  EXPECT_THROW(graph.go_to_memory(0), Error);
+  EXPECT_EQ(graph.version(), steps);
+  EXPECT_EQ(graph.graph(), before);
+}
 
 }  // namespace
 }  // namespace reeb::ooc

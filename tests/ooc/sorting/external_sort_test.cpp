@@ -6,6 +6,7 @@
 #include <random>
 
 #include "libreeb/base/error.h"
+#include "tests/support/same.h"
 #include "tests/support/scratch.h"
 
 namespace reeb::ooc {
@@ -51,9 +52,9 @@ void compare(std::size_t count, SortOptions options, std::uint64_t limit_bytes, 
     std::sort(expected.begin(), expected.end());
     EXPECT_EQ(sort.size(), count);
     EXPECT_EQ(sort.spilled_bytes() > 0, must_spill);
-    EXPECT_TRUE(read_all(sort, 1000) == expected);
+    EXPECT_TRUE(test::same(read_all(sort, 1000), expected));
     sort.rewind();
-    EXPECT_TRUE(read_all(sort, 7) == expected);
+    EXPECT_TRUE(test::same(read_all(sort, 7), expected));
     EXPECT_LE(budget.peak_bytes(), limit_bytes);
   }
   EXPECT_EQ(budget.used_bytes(), 0u);
@@ -88,7 +89,7 @@ TEST(ExternalSort, AnAllowanceThatGrowsLeavesLessToMerge) {
     ExternalSort<Pair> sort("pairs", temp, budget, {.allowance_bytes = 64 << 10, .most_bytes = most_bytes});
     add_in_pieces(sort, random_pairs(kCount, 5));
     sort.finish(64 << 20);
-    EXPECT_TRUE(read_all(sort, 1000) == expected);
+    EXPECT_TRUE(test::same(read_all(sort, 1000), expected));
     return budget.peak_bytes();
   };
   std::sort(expected.begin(), expected.end());

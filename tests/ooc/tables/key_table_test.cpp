@@ -1,33 +1,84 @@
+// Ranks are those of std::lower_bound, from any starting point that is allowed.
 #include "ooc/tables/key_table.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <random>
 #include <stdexcept>
 
+#include "libreeb/base/error.h"
 #include "tests/support/scratch.h"
 
 namespace reeb::ooc {
 namespace {
 
-SweepKey key_of(std::uint64_t rank) { return {static_cast<double>(rank / 3), VertexId(7 * rank)}; }
+// Ascending, many of one value, every vertex even: odd ones are not there.
+std::vector<SweepKey> made_keys(std::size_t count) {
+  std::mt19937_64 random(count);
+  std::vector<SweepKey> keys(count);
+  for (std::size_t i = 0; i < count; ++i)
+    keys[i] = {static_cast<double>(random() % (1 + count / 3)), VertexId(2 * static_cast<std::uint64_t>(i))};
+  std::sort(keys.begin(), keys.end());
+  return keys;
+}
 
-TEST(KeyTable, FindsEveryKeyFromAnyPlaceBefore) {
+void fill(KeyTable& table, const std::vector<SweepKey>& keys) {
+  for (const SweepKey& key : keys) table.append(key);
+  table.seal();
+}
+
+TEST(KeyTable, RanksAreThoseOfASearch) {
   const Scratch scratch;
   const io::TempDir temp(scratch.path());
-  for (const std::uint64_t count : {1u, 2u, 4096u, 10'000u}) {
+  // Around the size of the buffer, and many times that.
+  for (const std::size_t count : {1u, 2u, 100u, 4095u, 4096u, 4097u, 100'000u}) {
+    SCOPED_TRACE(count);
+    const std::vector<SweepKey> keys = made_keys(count);
     KeyTable table(temp);
-    for (std::uint64_t i = 0; i < count; ++i) table.append(key_of(i));
-    table.seal();
+    fill(table, keys);
     EXPECT_EQ(table.spilled_bytes(), count * sizeof(SweepKey));
-    for (std::uint64_t i = 0; i < count; i += 1 + i / 5)
-      for (std::uint64_t from = 0; from <= i; from += 1 + from / 3) ASSERT_EQ(table.rank(key_of(i), from), i);
-    table.release_pages();
-    EXPECT_EQ(table.rank(key_of(count - 1), 0), count - 1) << "pages come back";
-    EXPECT_THROW(table.rank({0.5, VertexId(1)}, 0), std::logic_error);
-    EXPECT_THROW(table.rank(key_of(count), 0), std::logic_error);
+    EXPECT_TRUE(scratch.empty());
+    std::mt19937_64 random(1);
+    for (int i = 0; i < 2000; ++i) {
+      const std::uint64_t expected = random() % count, from = i % 2 == 0 ? random() % (expected + 1) : expected;
+      const auto found = std::lower_bound(keys.begin(), keys.end(), keys[expected]);
+      ASSERT_EQ(static_cast<std::uint64_t>(found - keys.begin()), expected) << "a test that could not fail";
+      ASSERT_EQ(table.rank(keys[expected], from), expected) << "from " << from;
+      if (i % 500 == 0) table.release_pages();
+    }
   }
-  EXPECT_TRUE(scratch.empty());
 }
+
+TEST(KeyTable, AKeyThatIsNotThereIsAnError) {
+  const Scratch scratch;
+  const io::TempDir temp(scratch.path());
+  const std::vector<SweepKey> keys = made_keys(5000);
+  KeyTable table(temp);
+  fill(table, keys);
+  for (std::size_t i = 0; i < keys.size(); i += 7) {
+    const SweepKey missing{keys[i].value, VertexId(keys[i].vertex.value() + 1)};
+    EXPECT_THROW(table.rank(missing, 0), std::logic_error);
+    EXPECT_THROW(table.rank(missing, i), std::logic_error);
+  }
+  EXPECT_THROW(table.rank({-1, VertexId(0)}, 0), std::logic_error);
+  EXPECT_THROW(table.rank({1e9, VertexId(0)}, keys.size() - 1), std::logic_error);
+  KeyTable empty(temp);
+  empty.seal();
+  EXPECT_THROW(empty.rank(keys[0], 0), std::logic_error);
+}
+
+TEST(KeyTable, AFolderThatIsNotThereIsNamed) {
+  try {
+    const KeyTable table{io::TempDir("/nowhere/at/all")};
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::kResource);
+    EXPECT_NE(std::string(error.what()).find("/nowhere/at/all"), std::string::npos) << error.what();
+  }
+}
+
+SweepKey key_of(std::uint64_t rank) { return {static_cast<double>(rank / 3), VertexId(7 * rank)}; }
 
 TEST(KeyTable, ReportsAFullDisk) {
   expect_failing_writes_are_reported([](const io::TempDir& temp, MemoryBudget&) {

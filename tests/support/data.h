@@ -1,0 +1,41 @@
+// Where the tests' data is, and why a test without it is skipped.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+
+namespace reeb::test {
+
+// Streaming meshes with golden listings: part of the repository.
+inline std::string sample_folder() { return REEB_SOURCE_DIR "/tests/golden/streaming"; }
+
+// Real meshes with tables of what is known of them: too large for the repository. They are looked for in
+// $REEB_DATA/meshes if REEB_DATA is set, else beside the checkout, and nowhere else.
+inline std::string mesh_folder() {
+  const char* data = std::getenv("REEB_DATA");
+  return std::string(data != nullptr ? data : REEB_SOURCE_DIR "/../shared/data") + "/meshes";
+}
+
+inline bool has_meshes() { return std::filesystem::is_directory(mesh_folder()); }
+
+// tests/run.sh --no-skips allows a skip only if its reason begins with "no data:".
+inline std::string no_meshes() {
+  return std::getenv("REEB_DATA") == nullptr ? "no data: there is no " + mesh_folder() + ", and REEB_DATA is not set"
+                                             : "REEB_DATA is set, but there is no " + mesh_folder();
+}
+
+#define REEB_REQUIRE_MESHES() \
+  if (!reeb::test::has_meshes()) GTEST_SKIP() << reeb::test::no_meshes()
+
+// The real meshes of a format that the program does not read (VTK).
+inline constexpr const char* kUnreadableMeshes[] = {"bluntfin_tets.vtk.gz", "post_tets.vtk", "spx_tets.vtk"};
+
+inline bool is_readable_mesh(const std::string& name) {
+  return std::find(std::begin(kUnreadableMeshes), std::end(kUnreadableMeshes), name) == std::end(kUnreadableMeshes);
+}
+
+}  // namespace reeb::test
