@@ -149,11 +149,12 @@ TEST(ByteCoding, BelievesNoCountThatTheBytesCannotHold) {
 }
 
 TEST(ByteCoding, ZigzagsSmallMagnitudesToSmallNumbers) {
-  const std::array<std::int64_t, 5> values = {0, -1, 1, -2, 2};
-  for (std::uint64_t i = 0; i < values.size(); ++i) EXPECT_EQ(zigzag(values[i]), i);
-  for (const std::int64_t value :
-       {std::numeric_limits<std::int64_t>::min(), std::int64_t{-1}, std::numeric_limits<std::int64_t>::max()})
-    EXPECT_EQ(unzigzag(zigzag(value)), value);
+  // Differences modulo 2^64: 0, -1, 1, -2, 2.
+  constexpr std::uint64_t kMinus = ~std::uint64_t{0};
+  const std::array<std::uint64_t, 5> differences = {0, kMinus, 1, kMinus - 1, 2};
+  for (std::uint64_t i = 0; i < differences.size(); ++i) EXPECT_EQ(zigzag(differences[i]), i);
+  for (const std::uint64_t difference : {std::uint64_t{1} << 63, kMinus, (std::uint64_t{1} << 63) - 1})
+    EXPECT_EQ(unzigzag(zigzag(difference)), difference);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <random>
 #include <vector>
 
+#include "io/file/fault.h"
 #include "tests/support/scratch.h"
 
 namespace reeb::ooc {
@@ -68,7 +69,9 @@ TEST_P(Blocks, RecordsComeBackFromTheLastToTheFirstAsOftenAsAsked) {
 
 TEST(RecordLog, NoFileIsMadeWhileABlockIsEnough) {
   const Scratch scratch;
-  const io::TempDir temp(scratch.path(), [](std::uint64_t, std::size_t) { return ENOSPC; });
+  const io::TempDir temp(scratch.path());
+  const io::ScopedFileFaults faults(
+      [](io::FileCall call) { return io::FileFault{.error = call == io::FileCall::kWrite ? ENOSPC : 0}; });
   MemoryBudget budget;
   RecordLog log(temp, budget);
   const auto records = random_records(1000, 100, 1);
