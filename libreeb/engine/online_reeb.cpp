@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "libreeb/base/error.h"
 #include "libreeb/base/value_range.h"
 #include "libreeb/engine/chunk_sweep.h"
 #include "libreeb/engine/glue.h"
@@ -39,7 +40,14 @@ class OnlineReeb::Impl {
   Impl(Options options, GraphSink* sink)
       : options_(options), chunker_(1, sink != nullptr), glue_(sink != nullptr ? *sink : kept_, sink != nullptr) {}
 
-  StreamChunker& chunker() { return chunker_; }
+  // For what adds to the graph.
+  // THROWS: Error{kBadInput} after finish().
+  StreamChunker& chunker() {
+    if (finished_)
+      throw Error(ErrorKind::kBadInput, "the on-line graph is finished, so nothing can be added",
+                  "call finish() after the last addition, or start another graph");
+    return chunker_;
+  }
 
   void flush_full_batch() {
     if (chunker_.chunk_size() >= options_.batch_triangles) flush();
@@ -60,6 +68,7 @@ class OnlineReeb::Impl {
   }
   std::uint64_t removed_pairs() const { return glue_.removed_pairs(); }
   void finish() {
+    finished_ = true;
     chunker_.finalize_all();
     flush();
   }
@@ -75,6 +84,7 @@ class OnlineReeb::Impl {
   }
 
   Options options_;
+  bool finished_ = false;
   ValueRange range_;  // of the values so far
   StreamChunker chunker_;
   KeepingSink kept_;

@@ -255,5 +255,20 @@ TEST(OnlineReebMisuse, IsRefusedAndLeavesTheGraphAlone) {
   }
 }
 
+TEST(OnlineReebMisuse, NothingIsAddedAfterFinish) {
+  OnlineReeb engine;
+  const VertexId a = engine.add_vertex(0), b = engine.add_vertex(1);
+  engine.add_simplex(std::vector{a, b});
+  engine.finish();
+  const ReebGraph graph = engine.snapshot();
+  EXPECT_EQ(graph.arc_count(), 1u);
+
+  expect_bad_input([&] { engine.add_vertex(2); });
+  expect_bad_input([&] { engine.add_simplex(std::vector{a, b}); });
+  expect_bad_input([&] { engine.finalize(a); });
+  engine.finish();
+  EXPECT_EQ(engine.snapshot(), graph);
+}
+
 }  // namespace
 }  // namespace reeb::test
