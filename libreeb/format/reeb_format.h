@@ -8,8 +8,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <string>
 #include <vector>
+
+#include "libreeb/format/file_header.h"
 
 namespace reeb {
 
@@ -26,51 +27,6 @@ inline constexpr std::size_t kFrameHeaderBytes = 40;  // its checksum included
 inline constexpr std::size_t kTailBytes = 24;
 inline constexpr std::uint32_t kMaxNameBytes = 4096;
 inline constexpr std::uint32_t kMaxFrameBytes = 16u << 20;  // uncompressed
-
-// Memory of a loaded level, as the level table promises it.
-inline constexpr std::uint64_t kNodeMemoryBytes = 48;
-inline constexpr std::uint64_t kArcMemoryBytes = 24;
-inline constexpr std::uint64_t kBucketMemoryBytes = 40;
-
-struct FileFlags {
-  bool graph_only = false;     // one version, no pairs
-  bool has_positions = false;  // nodes have places in space
-  bool has_embedding = false;  // arcs have buckets
-  friend bool operator==(const FileFlags&, const FileFlags&) = default;
-};
-
-// A version that can be loaded, and what it costs. Lines go from coarse to fine.
-struct LevelLine {
-  std::uint32_t version = 0;  // cancellations that were done
-  std::uint32_t frames = 0;   // it needs the first so many graph frames
-  double threshold = 0;       // the least threshold that yields it; see level_threshold
-  std::uint64_t nodes = 0, arcs = 0;
-  std::uint64_t buckets = 0;       // of its arcs
-  std::uint64_t file_bytes = 0;    // from the start of the file to the end of those frames
-  std::uint64_t memory_bytes = 0;  // see level_memory
-  friend bool operator==(const LevelLine&, const LevelLine&) = default;
-};
-
-struct FileHeader {
-  FileFlags flags;
-  std::string function;                       // as the user named it
-  double function_min = 0, function_max = 0;  // over all vertices; both 0 without vertices
-  std::uint64_t mesh_vertices = 0, mesh_triangles = 0;
-  std::uint64_t nodes = 0, arcs = 0, components = 0, loops = 0;  // of version 0
-  std::uint64_t records = 0;                                     // arc records in all frames
-  std::uint64_t pairs = 0, kept_loops = 0;
-  double denoise_threshold = 0;  // noise below it was removed before
-  std::uint64_t denoised_pairs = 0;
-  std::int32_t bucket_exponent = 0;  // a bucket is 2^this wide
-  std::uint32_t steps = 0;           // versions are 0..steps
-  std::uint32_t graph_frames = 0, pair_frames = 0;
-  std::uint64_t content_digest = 0;  // XXH64 of all uncompressed payloads, in file order
-  std::vector<LevelLine> levels;
-
-  // Size of the header region, its checksum included.
-  std::uint64_t region_bytes() const;
-  friend bool operator==(const FileHeader&, const FileHeader&) = default;
-};
 
 // The header region without its checksum.
 void encode_header(const FileHeader& header, std::vector<std::byte>& out);
@@ -101,8 +57,5 @@ const char* decode_frame_header(std::span<const std::byte> bytes, FrameHeader& h
 // The least threshold t at which all cancellations up to one of this persistence are done: the next
 // number above it, as cancelling below t is strict. Version 0 has threshold 0.
 double level_threshold(std::uint32_t version, double persistence) noexcept;
-
-// Bytes that a level holds in memory once loaded, by the constants above.
-std::uint64_t level_memory(std::uint64_t nodes, std::uint64_t arcs, std::uint64_t buckets) noexcept;
 
 }  // namespace reeb

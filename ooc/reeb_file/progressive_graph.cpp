@@ -3,24 +3,77 @@
 #include <algorithm>
 #include <string>
 #include <utility>
+#include <vector>
+
+#include "ooc/reeb_file/frame_file.h"
 
 #include "libreeb/base/error.h"
 
 namespace reeb::ooc {
 
-// What has to come in before anything is touched, so that a bad frame changes nothing.
-struct ProgressiveGraph::Change {
-  std::vector<Node> nodes;      // beyond those that are here
-  std::size_t nodes_total = 0;  // introduced by the frames that the version needs
-  std::vector<Arc> arcs;        // that live at the version and are not here
-  FrameCursor last_frame;
-  std::uint64_t last_record = 0;
+class ProgressiveGraph::Impl {
+ public:
+  Impl(const FrameFile& file, GraphListener* listener) : file_(file), listener_(listener), last_frame_(file) {}
+
+  void go_to_version(std::uint32_t version);
+  bool empty() const { return !loaded_; }
+  std::uint32_t version() const { return version_; }
+  std::size_t node_count() const { return node_count_; }
+  std::size_t arc_count() const { return arcs_.size(); }
+  std::uint64_t memory_bytes() const;
+  ReebGraph graph() const;
+
+ private:
+  struct Node {
+    SettledNode place;
+    std::uint32_t degree;  // isolated points have one more than arcs
+  };
+  struct Arc {
+    std::uint64_t record;
+    std::uint32_t lo, hi, born, died;
+  };
+  // What has to come in before anything is touched, so that a bad frame changes nothing.
+  struct Change {
+    std::vector<Node> nodes;      // beyond those that are here
+    std::size_t nodes_total = 0;  // introduced by the frames that the version needs
+    std::vector<Arc> arcs;        // that live at the version and are not here
+    FrameCursor last_frame;
+    std::uint64_t last_record = 0;
+  };
+  // The frames whose records `version` needs, from a bookmark on.
+  Change gather(std::uint32_t version) const;
+  void apply(Change change, std::uint32_t version);
+  void add_reference(std::uint32_t node);
+  void drop_reference(std::uint32_t node);
+
+  const FrameFile& file_;
+  GraphListener* listener_;
+  bool loaded_ = false;
+  std::uint32_t version_ = 0;
+  std::vector<Node> nodes_;  // by file index
+  std::vector<Arc> arcs_;    // live, in no order
+  std::size_t node_count_ = 0;
+  FrameCursor last_frame_;         // before the last frame read: its rest is needed next
+  std::uint64_t last_record_ = 0;  // record index at that bookmark
 };
 
 ProgressiveGraph::ProgressiveGraph(const ReebFile& file, GraphListener* listener)
-    : file_(file), listener_(listener), last_frame_(file) {}
+    : file_(&file), impl_(std::make_unique<Impl>(*file.frames_, listener)) {}
+ProgressiveGraph::ProgressiveGraph(ProgressiveGraph&&) noexcept = default;
+ProgressiveGraph::~ProgressiveGraph() = default;
 
-void ProgressiveGraph::go_to_version(std::uint32_t version) {
+void ProgressiveGraph::go_to_version(std::uint32_t version) { impl_->go_to_version(version); }
+void ProgressiveGraph::go_to_threshold(double threshold) { go_to_version(file_->version_at(threshold)); }
+void ProgressiveGraph::go_to_nodes(std::uint64_t limit) { go_to_version(file_->finest_with_nodes(limit)); }
+void ProgressiveGraph::go_to_memory(std::uint64_t limit) { go_to_version(file_->finest_with_memory(limit)); }
+bool ProgressiveGraph::empty() const { return impl_->empty(); }
+std::uint32_t ProgressiveGraph::version() const { return impl_->version(); }
+std::size_t ProgressiveGraph::node_count() const { return impl_->node_count(); }
+std::size_t ProgressiveGraph::arc_count() const { return impl_->arc_count(); }
+std::uint64_t ProgressiveGraph::memory_bytes() const { return impl_->memory_bytes(); }
+ReebGraph ProgressiveGraph::graph() const { return impl_->graph(); }
+
+void ProgressiveGraph::Impl::go_to_version(std::uint32_t version) {
   if (loaded_ && version == version_) return;
   if (const std::uint32_t steps = file_.header().steps; version > steps)
     throw Error(ErrorKind::kBadInput, "there is no version " + std::to_string(version),
@@ -29,7 +82,7 @@ void ProgressiveGraph::go_to_version(std::uint32_t version) {
   apply(gather(version), version);
 }
 
-ProgressiveGraph::Change ProgressiveGraph::gather(std::uint32_t version) const {
+ProgressiveGraph::Impl::Change ProgressiveGraph::Impl::gather(std::uint32_t version) const {
   const bool refine = loaded_ && version < version_;
   Change change{.nodes = {},
                 .nodes_total = 0,
@@ -39,7 +92,7 @@ ProgressiveGraph::Change ProgressiveGraph::gather(std::uint32_t version) const {
   FrameCursor cursor = change.last_frame;
   std::uint64_t record = change.last_record;
   GraphFrame frame;
-  ReebFile::FrameBuffers buffers;
+  FrameFile::Buffers buffers;
   while (!cursor.covers(version)) {
     change.last_frame = cursor;
     change.last_record = record;
@@ -65,7 +118,7 @@ ProgressiveGraph::Change ProgressiveGraph::gather(std::uint32_t version) const {
   return change;
 }
 
-void ProgressiveGraph::apply(Change change, std::uint32_t version) {
+void ProgressiveGraph::Impl::apply(Change change, std::uint32_t version) {
   const std::size_t old_nodes = nodes_.size();
   nodes_.reserve(std::max(nodes_.size(), change.nodes_total));
   nodes_.insert(nodes_.end(), change.nodes.begin(), change.nodes.end());
@@ -98,24 +151,24 @@ void ProgressiveGraph::apply(Change change, std::uint32_t version) {
   loaded_ = true;
 }
 
-void ProgressiveGraph::add_reference(std::uint32_t node) {
+void ProgressiveGraph::Impl::add_reference(std::uint32_t node) {
   if (nodes_[node].degree++ != 0) return;
   ++node_count_;
   if (listener_ != nullptr) listener_->node_added(node, nodes_[node].place);
 }
 
-void ProgressiveGraph::drop_reference(std::uint32_t node) {
+void ProgressiveGraph::Impl::drop_reference(std::uint32_t node) {
   if (--nodes_[node].degree != 0) return;
   --node_count_;
   if (listener_ != nullptr) listener_->node_removed(node);
 }
 
-std::uint64_t ProgressiveGraph::memory_bytes() const {
+std::uint64_t ProgressiveGraph::Impl::memory_bytes() const {
   static_assert(sizeof(Node) == kNodeMemoryBytes && sizeof(Arc) == kArcMemoryBytes);
   return nodes_.capacity() * sizeof(Node) + arcs_.capacity() * sizeof(Arc);
 }
 
-ReebGraph ProgressiveGraph::graph() const {
+ReebGraph ProgressiveGraph::Impl::graph() const {
   ReebGraph graph;
   std::vector<std::uint32_t> order, rank(nodes_.size());
   for (std::uint32_t i = 0; i < nodes_.size(); ++i)

@@ -4,6 +4,7 @@
 #include <tuple>
 
 #include "libreeb/base/error.h"
+#include "ooc/reeb_file/frame_file.h"
 #include "ooc/reeb_file/reeb_file.h"
 
 namespace reeb::ooc {
@@ -114,32 +115,32 @@ void arcs_by_rank(const LiveRecords& live, ReebGraph& graph, ArcBuckets& buckets
 }  // namespace
 
 Level ReebFile::load(std::uint32_t version) const {
-  if (version > header_.steps)
+  if (version > header().steps)
     throw Error(ErrorKind::kBadInput, "there is no version " + std::to_string(version),
-                "the coarsest is " + std::to_string(header_.steps))
+                "the coarsest is " + std::to_string(header().steps))
         .at(path());
   LiveRecords live;
   GraphFrame frame;
-  FrameBuffers buffers;
+  FrameFile::Buffers buffers;
   VersionCounts counts;
-  FrameCursor cursor(*this);
+  FrameCursor cursor(*frames_);
   while (!cursor.covers(version)) {
     const std::uint32_t coarser = cursor.finest_complete();
-    cursor.next(*this, frame, buffers);
-    add_frame(frame, version, header_.flags.graph_only, live);
+    cursor.next(*frames_, frame, buffers);
+    add_frame(frame, version, header().flags.graph_only, live);
     if (cursor.covers(version)) counts = frame.versions[coarser - 1 - version];
   }
   Level level;
   level.version = version;
   level.threshold = level_threshold(version, counts.persistence);
-  level.graph = nodes_by_rank(live, header_.flags.has_positions);
-  const std::uint64_t end = offsets_[cursor.frames_read()];
+  level.graph = nodes_by_rank(live, header().flags.has_positions);
+  const std::uint64_t end = frames_->end_of(cursor.frames_read());
   for (const FileArc& arc : live.arcs)
-    if (arc.lo >= arc.hi) fail(end, "an arc does not go up");
+    if (arc.lo >= arc.hi) frames_->fail(end, "an arc does not go up");
   arcs_by_rank(live, level.graph, level.buckets);
   if (level.graph.node_count() != counts.nodes || level.graph.arc_count() != counts.arcs ||
       level.buckets.buckets.size() != counts.buckets)
-    fail(end, "version " + std::to_string(version) + " has other counts than the file says");
+    frames_->fail(end, "version " + std::to_string(version) + " has other counts than the file says");
   return level;
 }
 
@@ -147,25 +148,25 @@ std::vector<PairRow> ReebFile::pairs() const {
   require_hierarchy("pairs");
   std::vector<SettledNode> nodes;
   GraphFrame frame;
-  FrameBuffers buffers;
-  for (FrameCursor cursor(*this); cursor.frames_read() < header_.graph_frames;) {
-    cursor.next(*this, frame, buffers);
+  FrameFile::Buffers buffers;
+  for (FrameCursor cursor(*frames_); cursor.frames_read() < header().graph_frames;) {
+    cursor.next(*frames_, frame, buffers);
     nodes.insert(nodes.end(), frame.nodes.begin(), frame.nodes.end());
   }
   std::vector<PairRow> rows;
   std::vector<FilePair> pairs;
-  for (std::size_t i = header_.graph_frames; i < std::size_t{header_.graph_frames} + header_.pair_frames; ++i) {
+  for (std::size_t i = header().graph_frames; i < std::size_t{header().graph_frames} + header().pair_frames; ++i) {
     FrameHeader header;
-    const auto payload = read_frame(i, header, buffers);
-    const std::uint64_t offset = frame_offset(i);
-    if (const char* why = decode_pairs_frame(payload, header, pairs)) fail(offset, why);
+    const auto payload = frames_->read_frame(i, header, buffers);
+    const std::uint64_t offset = frames_->frame_offset(i);
+    if (const char* why = decode_pairs_frame(payload, header, pairs)) frames_->fail(offset, why);
     for (const FilePair& pair : pairs) {
       if (pair.lo >= nodes.size() || pair.hi >= nodes.size() || nodes[pair.hi].key < nodes[pair.lo].key)
-        fail(offset, "a pair does not go up to a node");
+        frames_->fail(offset, "a pair does not go up to a node");
       rows.push_back({nodes[pair.lo], nodes[pair.hi], pair.type, pair.kept});
     }
   }
-  if (rows.size() != header_.pairs) fail(0, "there are not as many pairs as the header says");
+  if (rows.size() != header().pairs) frames_->fail(0, "there are not as many pairs as the header says");
   return rows;
 }
 

@@ -6,6 +6,7 @@
 #include "io/file/checksum.h"
 #include "libreeb/base/error.h"
 #include "libreeb/format/version_counts.h"
+#include "ooc/reeb_file/frame_file.h"
 #include "ooc/reeb_file/reeb_file.h"
 
 namespace reeb::ooc {
@@ -23,7 +24,7 @@ struct Content {
 
 // Buckets ascend, are of values between the ends of their arc, and hold what has a place. Appends
 // the vertices of each arc.
-void gather_buckets(const ReebFile& file, const GraphFrame& frame, Content& content) {
+void gather_buckets(const FrameFile& file, const GraphFrame& frame, Content& content) {
   const auto bucket_of = [&](std::uint64_t node) {
     return std::floor(std::ldexp(content.nodes[node].value, -file.header().bucket_exponent));
   };
@@ -44,10 +45,10 @@ void gather_buckets(const ReebFile& file, const GraphFrame& frame, Content& cont
   }
 }
 
-Content gather(const ReebFile& file) {
+Content gather(const FrameFile& file) {
   Content content;
   GraphFrame frame;
-  ReebFile::FrameBuffers buffers;
+  FrameFile::Buffers buffers;
   for (FrameCursor cursor(file); cursor.frames_read() < file.header().graph_frames;) {
     cursor.next(file, frame, buffers);
     for (const SettledNode& node : frame.nodes) content.nodes.push_back(node.key);
@@ -62,17 +63,17 @@ Content gather(const ReebFile& file) {
   return content;
 }
 
-void verify_digest(const ReebFile& file) {
+void verify_digest(const FrameFile& file) {
   io::RunningChecksum digest;
   FrameHeader header;
-  ReebFile::FrameBuffers buffers;
+  FrameFile::Buffers buffers;
   for (std::size_t i = 0; i < std::size_t{file.header().graph_frames} + file.header().pair_frames; ++i)
     digest.add(file.read_frame(i, header, buffers));
   if (digest.value() != file.header().content_digest) file.fail(0, "the digest of the content is wrong");
 }
 
 // The counts that the frames announce are those of their arcs. Returns them by version.
-std::vector<VersionCounts> verify_versions(const ReebFile& file, const Content& content) {
+std::vector<VersionCounts> verify_versions(const FrameFile& file, const Content& content) {
   if (content.versions.size() != std::size_t{file.header().steps} + 1)
     file.fail(0, "the frames do not complete all versions");
   std::vector<double> persistence;
@@ -88,7 +89,7 @@ std::vector<VersionCounts> verify_versions(const ReebFile& file, const Content& 
 
 // A vertex of the mesh is a node or in one bucket of the full graph; coarser versions may have
 // dropped some.
-void verify_vertices(const ReebFile& file, const Content& content, const std::vector<VersionCounts>& versions) {
+void verify_vertices(const FrameFile& file, const Content& content, const std::vector<VersionCounts>& versions) {
   if (!file.header().flags.has_embedding) return;
   std::vector<std::uint64_t> change(versions.size());  // differences wrap and cancel out
   for (std::size_t i = 0; i < content.arcs.size(); ++i) {
@@ -105,8 +106,8 @@ void verify_vertices(const ReebFile& file, const Content& content, const std::ve
   }
 }
 
-void verify_levels(const ReebFile& file, const Content& content, const std::vector<VersionCounts>& versions) {
-  for (const LevelLine& line : file.levels()) {
+void verify_levels(const FrameFile& file, const Content& content, const std::vector<VersionCounts>& versions) {
+  for (const LevelLine& line : file.header().levels) {
     const VersionCounts& counts = versions[line.version];
     const bool needs_all_its_frames = line.frames == 1 || content.frame_finest[line.frames - 2] > line.version;
     if (line.nodes != counts.nodes || line.arcs != counts.arcs || line.buckets != counts.buckets ||
@@ -117,11 +118,13 @@ void verify_levels(const ReebFile& file, const Content& content, const std::vect
   }
 }
 
-void verify_full_graph(const ReebFile& file, const Content& content) {
-  const FileHeader& header = file.header();
+void verify_arcs(const FrameFile& file, const Content& content) {
   for (const ArcVersion& arc : content.arcs)
     if (!(content.nodes[arc.lo.value()] < content.nodes[arc.hi.value()])) file.fail(0, "an arc does not go up");
-  const ReebGraph graph = file.load(0).graph;
+}
+
+void verify_full_graph(const FrameFile& file, const Content& content, const ReebGraph& graph) {
+  const FileHeader& header = file.header();
   const BettiNumbers betti = betti_numbers(graph);
   if (header.nodes != graph.node_count() || header.arcs != graph.arc_count() || header.components != betti.components ||
       header.loops != betti.loops || header.records != content.arcs.size())
@@ -131,11 +134,11 @@ void verify_full_graph(const ReebFile& file, const Content& content) {
   if (std::ranges::adjacent_find(graph.nodes) != graph.nodes.end()) file.fail(0, "a node was introduced twice");
 }
 
-void verify_pairs(const ReebFile& file) {
+void verify_pairs(const FrameFile& file, const std::vector<PairRow>& pairs) {
   const FileHeader& header = file.header();
   std::array<std::uint64_t, 4> count{};
   std::uint64_t kept = 0;
-  for (const PairRow& pair : file.pairs()) {
+  for (const PairRow& pair : pairs) {
     ++count[static_cast<std::size_t>(pair.type)];
     kept += pair.kept ? 1 : 0;
   }
@@ -147,16 +150,18 @@ void verify_pairs(const ReebFile& file) {
 }  // namespace
 
 void ReebFile::verify() const {
-  if (damage_) throw Error(*damage_);
-  const Content content = gather(*this);
-  const std::vector<VersionCounts> versions = verify_versions(*this, content);
-  verify_levels(*this, content, versions);
-  verify_vertices(*this, content, versions);
-  for (const LevelLine& line : header_.levels)
-    if (line.file_bytes != offsets_[line.frames]) fail(0, "the level table does not fit the seek table");
-  verify_full_graph(*this, content);
-  if (!header_.flags.graph_only) verify_pairs(*this);
-  verify_digest(*this);
+  const FrameFile& file = *frames_;
+  if (file.damage() != nullptr) throw Error(*file.damage());
+  const Content content = gather(file);
+  const std::vector<VersionCounts> versions = verify_versions(file, content);
+  verify_levels(file, content, versions);
+  verify_vertices(file, content, versions);
+  for (const LevelLine& line : levels())
+    if (line.file_bytes != file.end_of(line.frames)) file.fail(0, "the level table does not fit the seek table");
+  verify_arcs(file, content);
+  verify_full_graph(file, content, load(0).graph);
+  if (!header().flags.graph_only) verify_pairs(file, pairs());
+  verify_digest(file);
 }
 
 }  // namespace reeb::ooc
