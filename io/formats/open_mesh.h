@@ -4,10 +4,11 @@
 #include <memory>
 #include <string>
 
-#include "io/file/content_source.h"
 #include "libreeb/port/mesh_reader.h"
 
 namespace reeb::io {
+
+class ContentSource;
 
 // Opens `path` ("-": standard input), unwrapping gzip and zstd, and reads its header. The file is opened
 // once, and so is MeshReader::indexed() on it, which uncompressed binary PLY with vertices of fixed size has.

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <optional>
 
 #include "libreeb/graph/arc_buckets.h"
@@ -16,9 +15,6 @@ namespace reeb {
 // What build_hierarchy() holds at most, the graph and its buckets included: of an embedding, `lists` is what
 // PackedLists::memory_bytes() says of it. Only buckets that are cut again and again could make it more.
 std::uint64_t hierarchy_bytes(std::uint64_t nodes, std::uint64_t arcs, std::optional<std::uint64_t> lists);
-
-// Called now and then while a hierarchy is built; it may throw to end that.
-using Poll = std::function<void()>;
 
 // Pairs the nodes, cancels all pairs but Ext0 in the order of persistence, and tells when each arc
 // lives: its records go to `sink`, and Hierarchy::arcs and dropped stay empty. A record's arc has the
@@ -39,12 +35,5 @@ using Poll = std::function<void()>;
 // MEMORY: hierarchy_bytes().
 // REQUIRES: no node is of degree (1, 1).
 Hierarchy build_hierarchy(ReebGraph& graph, PackedLists buckets, int exponent, RecordSink& sink, const Poll& poll = {});
-
-// The same with the records in memory, 16 bytes each.
-Hierarchy build_hierarchy(ReebGraph graph, const Poll& poll = {});
-
-// The same with an embedding: `buckets` becomes that of Hierarchy::arcs, 40 bytes a bucket of all
-// records. With empty `buckets` there is no embedding.
-Hierarchy build_hierarchy(ReebGraph graph, ArcBuckets& buckets, int exponent, const Poll& poll = {});
 
 }  // namespace reeb

@@ -7,11 +7,12 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "libreeb/base/ids.h"
+#include "libreeb/graph/arc_buckets.h"
 #include "libreeb/graph/arc_version.h"
-#include "libreeb/graph/bucket.h"
 #include "libreeb/graph/reeb_graph.h"
 
 namespace reeb {
@@ -39,5 +40,22 @@ struct Hierarchy {
   // By version, ascending; empty without an embedding.
   std::vector<DroppedVertices> dropped;
 };
+
+// Called now and then while a hierarchy is built; it may throw to end that.
+using Poll = std::function<void()>;
+
+// Pairs the nodes and cancels all pairs but Ext0 in the order of persistence.
+//
+// TIME:    O(m log m) for the pairs; a cancellation costs its two paths and a search that stays within the
+//          pair's interval.
+// MEMORY:  about 115 bytes an arc; of the result, 16 a record.
+// THREADS: any number of calls at the same time.
+// REQUIRES: no node is of degree (1, 1). (What OnlineReeb and ReebFile give has none.)
+Hierarchy build_hierarchy(ReebGraph graph, const Poll& poll = {});
+
+// The same with an embedding, of this exponent: `buckets` becomes that of Hierarchy::arcs, 40 bytes a
+// bucket of all records. With empty `buckets` there is no embedding. Pairs and graphs are the same with it
+// and without.
+Hierarchy build_hierarchy(ReebGraph graph, ArcBuckets& buckets, int exponent, const Poll& poll = {});
 
 }  // namespace reeb

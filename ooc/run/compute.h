@@ -2,7 +2,6 @@
 // (DESIGN.md 3, 4, 6).
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -11,13 +10,10 @@
 #include <vector>
 
 #include "libreeb/base/memory_budget.h"
-#include "libreeb/graph/reeb_graph.h"
-#include "libreeb/hierarchy/hierarchy.h"
 #include "libreeb/port/indexed_mesh.h"
 #include "libreeb/port/mesh_reader.h"
 #include "libreeb/port/vertex_function.h"
-#include "ooc/chunks/function_values.h"
-#include "ooc/run/pipeline.h"
+#include "ooc/run/compute_result.h"
 
 namespace reeb::ooc {
 
@@ -32,13 +28,6 @@ struct MeshInput {
   unsigned dimension = 3;
   std::string path;        // for the sidecar, checkpoints and messages; "-": none
   bool may_resume = true;  // a later process reads the file at `path` in the same batches
-};
-
-struct ComputeProgress {
-  enum class Phase { kSpool, kFinalization, kReorder, kReeb, kHierarchy };
-  Phase phase;
-  std::uint64_t done = 0, total = 0;  // bytes; total 0: unknown
-  std::uint64_t triangles = 0;        // so far
 };
 
 struct ComputeOptions {
@@ -61,36 +50,6 @@ struct ComputeOptions {
   bool resume = false;
   double checkpoint_seconds = 2;           // between two of them, at least; 0: after every chunk
   std::function<bool()> interrupted = {};  // asked often: is the run to end?
-};
-
-struct PhaseSeconds {
-  double wall = 0, finalization = 0, reorder = 0, reeb = 0, hierarchy = 0;
-};
-
-// A pair as a person wants to see it.
-struct Feature {
-  PairType type;
-  SweepKey lo, hi;
-};
-
-// What a run learned of one function.
-struct ComputeResult {
-  std::string function, output;
-  FunctionRange range;
-  std::uint64_t vertices = 0, unused_vertices = 0;
-  std::uint64_t triangles = 0, degenerate_triangles = 0;
-  std::uint64_t nodes = 0, arcs = 0;
-  BettiNumbers betti;
-  std::array<std::uint64_t, 4> pairs{};  // by PairType
-  std::uint64_t kept_loops = 0, denoised_pairs = 0;
-  bool reordered = false;
-  std::uint64_t guessed_vertices = 0;  // taken for complete while the mesh was read for the first time,
-  std::uint64_t revoked_guesses = 0;   // and of these used again: then the mesh was run from disk
-  std::vector<Feature> largest;        // the few of largest persistence, Ext0 left out, largest first
-  std::uint64_t spilled_bytes = 0;
-  LiveMaximum live;
-  PhaseSeconds seconds;
-  std::vector<std::string> notes;  // one line each: what was odd but harmless
 };
 
 // Computes the graph of functions[i] and writes it to outputs[i]. All functions share one pass over the mesh

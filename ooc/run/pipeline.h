@@ -16,6 +16,7 @@
 #include "libreeb/engine/sweep_options.h"
 #include "libreeb/port/graph_sink.h"
 #include "ooc/chunks/chunk_source.h"
+#include "ooc/run/compute_result.h"
 
 namespace reeb::ooc {
 
@@ -41,11 +42,6 @@ struct PipelineOptions {
   std::function<void(const ChunkPlace&, const SaveEngine&)> between_chunks = {};
   // What an earlier process saved; the source starts at that place.
   StateReader* saved_engine = nullptr;
-};
-
-// The largest sizes of what was live at a chunk's end, over all functions.
-struct LiveMaximum {
-  std::uint64_t vertices = 0, edges = 0, arcs = 0;
 };
 
 struct PipelineResult {

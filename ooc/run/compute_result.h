@@ -1,0 +1,58 @@
+// What a run tells: how far it is, and what it found.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "libreeb/base/sweep_key.h"
+#include "libreeb/base/value_range.h"
+#include "libreeb/graph/reeb_graph.h"
+#include "libreeb/hierarchy/hierarchy.h"
+
+namespace reeb::ooc {
+
+struct ComputeProgress {
+  enum class Phase { kSpool, kFinalization, kReorder, kReeb, kHierarchy };
+  Phase phase;
+  std::uint64_t done = 0, total = 0;  // bytes; total 0: unknown
+  std::uint64_t triangles = 0;        // so far
+};
+
+// The largest sizes of what was live at a chunk's end, over all functions.
+struct LiveMaximum {
+  std::uint64_t vertices = 0, edges = 0, arcs = 0;
+};
+
+struct PhaseSeconds {
+  double wall = 0, finalization = 0, reorder = 0, reeb = 0, hierarchy = 0;
+};
+
+// A pair as a person wants to see it.
+struct Feature {
+  PairType type;
+  SweepKey lo, hi;
+};
+
+// What a run learned of one function.
+struct ComputeResult {
+  std::string function, output;
+  ValueRange range;  // of the function; min > max without vertices
+  std::uint64_t vertices = 0, unused_vertices = 0;
+  std::uint64_t triangles = 0, degenerate_triangles = 0;
+  std::uint64_t nodes = 0, arcs = 0;
+  BettiNumbers betti;
+  std::array<std::uint64_t, 4> pairs{};  // by PairType
+  std::uint64_t kept_loops = 0, denoised_pairs = 0;
+  bool reordered = false;
+  std::uint64_t guessed_vertices = 0;  // taken for complete while the mesh was read for the first time,
+  std::uint64_t revoked_guesses = 0;   // and of these used again: then the mesh was run from disk
+  std::vector<Feature> largest;        // the few of largest persistence, Ext0 left out, largest first
+  std::uint64_t spilled_bytes = 0;
+  LiveMaximum live;
+  PhaseSeconds seconds;
+  std::vector<std::string> notes;  // one line each: what was odd but harmless
+};
+
+}  // namespace reeb::ooc
