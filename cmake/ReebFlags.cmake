@@ -22,18 +22,21 @@ if(REEB_WERROR)
 endif()
 target_include_directories(reeb_flags INTERFACE "${PROJECT_SOURCE_DIR}")
 
-# reeb_library(NAME sources...): a library target reeb_NAME with the alias reeb::NAME.
+# reeb_library(NAME sources...): a library target reeb_NAME with the alias reeb::NAME, shared with
+# BUILD_SHARED_LIBS. Users see the public headers only (ReebPublicHeaders.cmake).
 function(reeb_library name)
   set(target ${name})
   if(NOT name STREQUAL "reeb")
     set(target reeb_${name})
   endif()
-  add_library(${target} STATIC ${ARGN})
+  add_library(${target} ${ARGN})
   add_library(reeb::${name} ALIAS ${target})
-  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
+  # No compatibility between minor versions is promised before 1.0.
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON
+    VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR} INSTALL_RPATH "$ORIGIN")
   target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:reeb_flags>)
   target_compile_features(${target} PUBLIC cxx_std_20)
-  target_include_directories(${target} PUBLIC
-    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
-    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/reeb>)
+  target_include_directories(${target} INTERFACE
+    $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include>
+    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
 endfunction()

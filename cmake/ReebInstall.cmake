@@ -1,14 +1,23 @@
-# find_package(reeb) after `cmake --install`: targets reeb::reeb, reeb::io, reeb::ooc.
+# find_package(reeb) after `cmake --install`: targets reeb::reeb, reeb::file, reeb::io, reeb::ooc and
+# reeb::compute, which are its components, too.
 include(CMakePackageConfigHelpers)
+set(package "${CMAKE_INSTALL_LIBDIR}/cmake/reeb")
 
-install(TARGETS reeb reeb_file reeb_io reeb_ooc EXPORT reebTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-install(TARGETS reeb_program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-foreach(folder libreeb io ooc)
-  install(DIRECTORY ${folder} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/reeb FILES_MATCHING PATTERN "*.h")
+install(TARGETS reeb reeb_file reeb_io reeb_ooc reeb_compute EXPORT reebTargets
+  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+if(REEB_PROGRAM)
+  # Finds shared libraries of ours wherever the prefix is moved.
+  file(RELATIVE_PATH libraries "${CMAKE_INSTALL_FULL_BINDIR}" "${CMAKE_INSTALL_FULL_LIBDIR}")
+  set_target_properties(reeb_program PROPERTIES INSTALL_RPATH "$ORIGIN/${libraries}")
+  install(TARGETS reeb_program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endif()
+foreach(name IN LISTS reeb_public_headers)
+  install(FILES "${PROJECT_BINARY_DIR}/include/reeb/${name}.h" DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/reeb)
 endforeach()
-install(EXPORT reebTargets NAMESPACE reeb:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/reeb)
-configure_package_config_file(cmake/reebConfig.cmake.in reebConfig.cmake
-  INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/reeb)
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/reeb)
+
+install(EXPORT reebTargets NAMESPACE reeb:: DESTINATION ${package})
+configure_package_config_file(cmake/reebConfig.cmake.in reebConfig.cmake INSTALL_DESTINATION ${package})
 write_basic_package_version_file(reebConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/reebConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/reebConfigVersion.cmake
-  DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/reeb)
+  DESTINATION ${package})

@@ -47,8 +47,9 @@ const Rooms kRooms = {
     {"ooc/reeb_file", {"libreeb", "io/file", "ooc/threads", "ooc/sorting", "ooc/tables"}},
     {"ooc/run", {"libreeb", "io/file", "ooc"}},
 
-    {"tools/program", {"libreeb", "io", "ooc"}},
-    {"tools/commands", {"libreeb", "io", "ooc", "tools/program"}},
+    {"tools/library", {"libreeb", "io", "ooc"}},
+    {"tools/program", {"libreeb", "io", "ooc", "tools/library"}},
+    {"tools/commands", {"libreeb", "io", "ooc", "tools/library", "tools/program"}},
     {"tools", {"libreeb", "io", "ooc", "tools"}},
     {"tests", {"libreeb", "io", "ooc", "tests"}},
     {"bench", {"libreeb", "io", "ooc", "tests/support", "bench"}},

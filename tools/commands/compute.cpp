@@ -8,19 +8,14 @@
 #include <thread>
 #include <vector>
 
-#include "io/formats/open_mesh.h"
 #include "io/functions/function_source.h"
-#include "libreeb/base/error.h"
-#include "ooc/reeb_file/reeb_file.h"
-#include "ooc/run/compute.h"
-#include "ooc/run/partial_folder.h"
 #include "tools/commands/commands.h"
+#include "tools/library/compute.h"
 #include "tools/program/compute_report.h"
 #include "tools/program/output.h"
 #include "tools/program/progress.h"
 #include "tools/program/quantity.h"
 #include "tools/program/signals.h"
-#include "tools/program/snapshots.h"
 
 namespace reeb::tools {
 namespace {
@@ -30,9 +25,8 @@ namespace fs = std::filesystem;
 struct ComputeArguments {
   std::string mesh, output, memory, report, denoise;
   std::vector<std::string> functions;
-  ooc::ComputeOptions options;
-  std::uint64_t snapshot_every = 0;  // triangles; 0: no snapshots
-  bool force = false, quiet = false;
+  ComputeOptions options;
+  bool quiet = false;
 };
 
 // scan.ply.gz -> scan, - -> mesh
@@ -43,21 +37,14 @@ std::string stem_of(const std::string& mesh) {
   return name.stem().string();
 }
 
-std::vector<std::string> output_names(const ComputeArguments& arguments, const std::vector<io::FunctionSpec>& specs) {
+std::vector<std::string> output_names(const ComputeArguments& arguments) {
   fs::path output = arguments.output.empty() ? stem_of(arguments.mesh) + ".reeb" : arguments.output;
-  if (specs.size() == 1) return {output.string()};
+  if (arguments.functions.size() == 1) return {output.string()};
   if (output.extension() == ".reeb") output.replace_extension();
   std::vector<std::string> names;
-  for (const io::FunctionSpec& spec : specs)
-    names.push_back(output.string() + "-" + io::file_name_part(spec) + ".reeb");
+  for (const std::string& function : arguments.functions)
+    names.push_back(output.string() + "-" + io::file_name_part(io::parse_function(function)) + ".reeb");
   return names;
-}
-
-std::vector<io::FunctionSpec> parse_functions(const std::vector<std::string>& texts) {
-  std::vector<io::FunctionSpec> specs;
-  for (const std::string& text : texts) specs.push_back(io::parse_function(text));
-  if (specs.empty()) specs.push_back(io::parse_function("z"));
-  return specs;
 }
 
 std::string describe(const MeshInfo& info) {
@@ -67,8 +54,8 @@ std::string describe(const MeshInfo& info) {
   return text;
 }
 
-const char* title(ooc::ComputeProgress::Phase phase) {
-  using Phase = ooc::ComputeProgress::Phase;
+const char* title(ComputeProgress::Phase phase) {
+  using Phase = ComputeProgress::Phase;
   switch (phase) {
     case Phase::kSpool:
       return "reading";
@@ -95,64 +82,28 @@ CLI::Validator at_least_one() {
 }
 
 void run_compute(ComputeArguments arguments) {
-  const std::vector<io::FunctionSpec> specs = parse_functions(arguments.functions);
-  const std::vector<std::string> outputs = output_names(arguments, specs);
-  // A run that goes on may have written some of its outputs before.
-  const bool goes_on = arguments.options.resume && ooc::PartialFolder::has_checkpoint(outputs[0]);
-  for (const std::string& output : outputs) refuse_existing(output, arguments.force || goes_on);
-  refuse_existing(arguments.report, arguments.force);
-
+  ComputeOptions& options = arguments.options;
+  if (arguments.functions.empty()) arguments.functions.push_back("z");
+  const std::vector<std::string> outputs = output_names(arguments);
+  refuse_existing(arguments.report, options.replace);
   RunFacts facts;
   facts.path = arguments.mesh;
-  facts.threads = arguments.options.threads;
-  if (!arguments.memory.empty()) {
-    facts.memory_budget_bytes = parse_size(arguments.memory);
-    arguments.options.memory_bytes = facts.memory_budget_bytes;
-  }
-
+  facts.threads = options.threads;
+  if (!arguments.memory.empty()) options.memory_bytes = facts.memory_budget_bytes = parse_size(arguments.memory);
   if (!arguments.denoise.empty()) {
-    arguments.options.denoise_is_share = arguments.denoise.ends_with('%');
-    arguments.options.denoise = parse_threshold(arguments.denoise, 1.0);
+    options.denoise_is_share = arguments.denoise.ends_with('%');
+    options.denoise = parse_threshold(arguments.denoise, 1.0);
   }
 
-  ReadOptions read_options;
-  read_options.batch_events = 8192;  // a few hundred KiB, beside chunks on their way
-  read_options.properties = io::needed_properties(specs);
-  if (arguments.snapshot_every != 0) read_options.batch_events = 1;  // exactly as far as the stream came
-  ooc::MeshInput input;
-  input.path = arguments.mesh;
-  input.may_resume = arguments.snapshot_every == 0;
-  if (arguments.mesh != "-" && ooc::is_reeb_file(arguments.mesh))
-    throw Error(ErrorKind::kBadInput, "is a Reeb graph already, not a mesh",
-                "look at it with reeb info, or take a level out with reeb extract")
-        .at(arguments.mesh);
-  input.reader = io::open_mesh(arguments.mesh, read_options);
-  const MeshInfo info = input.reader->info();
-  input.dimension = info.dimension;
-  facts.format = info.format;
-  facts.input_bytes = info.file_bytes;
-
-  std::vector<std::unique_ptr<io::FunctionSource>> functions;
-  std::vector<VertexFunction*> pointers;
-  for (const io::FunctionSpec& spec : specs) {
-    functions.push_back(std::make_unique<io::FunctionSource>(spec, info, read_options.properties, arguments.mesh));
-    pointers.push_back(functions.back().get());
-  }
-  if (!arguments.quiet) fmt::print(stderr, "{}: {}\n", arguments.mesh, describe(info));
-  if (arguments.snapshot_every != 0)
-    input.reader = with_snapshots(std::move(input.reader), arguments.snapshot_every, pointers, outputs);
-  else
-    input.indexed = input.reader->indexed();
-  if (input.indexed) input.reader.reset();
-  if (arguments.mesh != "-" && arguments.snapshot_every == 0)
-    input.read_again = [&] { return io::open_mesh(arguments.mesh, read_options); };
-
-  ProgressBar bar(arguments.quiet);
-  arguments.options.progress = [&](const ooc::ComputeProgress& p) {
-    bar.update(title(p.phase), p.done, p.total, p.triangles);
+  options.opened = [&](const MeshInfo& info) {
+    facts.format = info.format;
+    facts.input_bytes = info.file_bytes;
+    if (!arguments.quiet) fmt::print(stderr, "{}: {}\n", arguments.mesh, describe(info));
   };
-  arguments.options.interrupted = watch_signals();
-  const auto results = ooc::compute(std::move(input), pointers, outputs, arguments.options);
+  ProgressBar bar(arguments.quiet);
+  options.progress = [&](const ComputeProgress& p) { bar.update(title(p.phase), p.done, p.total, p.triangles); };
+  options.interrupted = watch_signals();
+  const auto results = compute(arguments.mesh, arguments.functions, outputs, options);
   bar.clear();
   if (!arguments.quiet) print_summary(facts, results);
   if (!arguments.report.empty())
@@ -195,11 +146,11 @@ void add_compute(CLI::App& program) {
   command->add_flag("--sidecar", arguments->options.keep_sidecar, "Keep the finalization as MESH.final for later runs");
   command->add_option("--report", arguments->report, "Write a JSON report (-: to standard output)");
   command
-      ->add_option("--snapshot-every", arguments->snapshot_every,
+      ->add_option("--snapshot-every", arguments->options.snapshot_every,
                    "Triangles after which the graph so far is written, as OUT-000001.reeb, OUT-000002.reeb, ...")
       ->check(at_least_one());
   command->add_flag("--quiet", arguments->quiet, "No progress and no summary");
-  command->add_flag("--force", arguments->force, "Replace existing outputs");
+  command->add_flag("--force", arguments->options.replace, "Replace existing outputs");
   command->footer("Example:\n  reeb compute scan.ply -f z --memory 64M --report report.json");
   command->callback([arguments] { run_compute(*arguments); });
 }

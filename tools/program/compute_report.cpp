@@ -5,6 +5,7 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
+#include "libreeb/base/memory_budget.h"
 #include "tools/program/progress.h"
 
 namespace reeb::tools {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "ooc/run/compute.h"
+#include "ooc/run/compute_result.h"
 
 namespace reeb::tools {
 

@@ -1,4 +1,4 @@
-// Exact graphs of a stream while it goes on (`--snapshot-every N`).
+// Exact graphs of a stream while it goes on (`ComputeOptions::snapshot_every`).
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 #include "libreeb/port/mesh_reader.h"
 #include "libreeb/port/vertex_function.h"
 
-namespace reeb::tools {
+namespace reeb {
 
 // Passes on what `reader` delivers, and keeps an on-line graph (libreeb/engine/online_reeb.h) of
 // every function beside it. Each time `every` further triangles have been delivered, the exact
@@ -22,4 +22,4 @@ std::unique_ptr<MeshReader> with_snapshots(std::unique_ptr<MeshReader> reader, s
                                            std::span<VertexFunction* const> functions,
                                            std::span<const std::string> outputs);
 
-}  // namespace reeb::tools
+}  // namespace reeb

@@ -1,8 +1,7 @@
-#include "tools/program/snapshots.h"
-
-#include <fmt/core.h>
+#include "tools/library/snapshots.h"
 
 #include <filesystem>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -10,7 +9,7 @@
 #include "libreeb/engine/online_reeb.h"
 #include "ooc/reeb_file/reeb_file_writer.h"
 
-namespace reeb::tools {
+namespace reeb {
 namespace {
 
 // The graph of one function as far as the stream has come.
@@ -47,7 +46,9 @@ class LiveFunction {
     }
     meta.mesh_vertices = vertices;
     meta.mesh_triangles = triangles;
-    ooc::write_graph_file(fmt::format("{}-{:06}.reeb", stem_.string(), number), meta, graph_.snapshot());
+    std::string digits = std::to_string(number);
+    if (digits.size() < 6) digits.insert(0, 6 - digits.size(), '0');
+    ooc::write_graph_file(stem_.string() + "-" + digits + ".reeb", meta, graph_.snapshot());
   }
 
  private:
@@ -113,4 +114,4 @@ std::unique_ptr<MeshReader> with_snapshots(std::unique_ptr<MeshReader> reader, s
   return std::make_unique<SnapshotReader>(std::move(reader), every, functions, outputs);
 }
 
-}  // namespace reeb::tools
+}  // namespace reeb

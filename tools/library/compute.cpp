@@ -1,0 +1,99 @@
+#include "tools/library/compute.h"
+
+#include <algorithm>
+#include <memory>
+#include <thread>
+#include <utility>
+
+#include "io/file/atomic_file.h"
+#include "io/formats/open_mesh.h"
+#include "io/functions/function_source.h"
+#include "libreeb/base/error.h"
+#include "ooc/reeb_file/reeb_file.h"
+#include "ooc/run/compute.h"
+#include "ooc/run/partial_folder.h"
+#include "tools/library/snapshots.h"
+
+namespace reeb {
+namespace {
+
+ooc::ComputeOptions run_options(const ComputeOptions& options) {
+  ooc::ComputeOptions run;
+  run.memory_bytes = options.memory_bytes;
+  run.threads = options.threads != 0 ? options.threads : std::max(1u, std::thread::hardware_concurrency());
+  run.chunk_triangles = options.chunk_triangles;
+  run.temp_dir = options.temp_dir;
+  run.graph_only = options.graph_only;
+  run.keep_sidecar = options.keep_sidecar;
+  run.may_reorder = options.may_reorder;
+  run.buckets = options.buckets;
+  run.denoise = options.denoise;
+  run.denoise_is_share = options.denoise_is_share;
+  run.progress = options.progress;
+  run.resume = options.resume;
+  run.checkpoint_seconds = options.checkpoint_seconds;
+  run.interrupted = options.interrupted;
+  return run;
+}
+
+// Before any work.
+void check_outputs(std::span<const std::string> functions, std::span<const std::string> outputs,
+                   const ComputeOptions& options) {
+  if (functions.empty() || functions.size() != outputs.size())
+    throw Error(ErrorKind::kUsage,
+                "there are " + std::to_string(functions.size()) + " functions and " + std::to_string(outputs.size()) +
+                    " outputs",
+                "name one output for each function, and at least one function");
+  // A run that goes on may have written some of its outputs before.
+  const bool replace = options.replace || (options.resume && ooc::PartialFolder::has_checkpoint(outputs[0]));
+  for (const std::string& output : outputs)
+    io::check_output_name(output, replace ? io::Existing::kReplace : io::Existing::kRefuse);
+}
+
+}  // namespace
+
+std::vector<ComputeResult> compute(const std::string& path, std::span<const std::string> functions,
+                                   std::span<const std::string> outputs, const ComputeOptions& options) {
+  std::vector<io::FunctionSpec> specs;
+  for (const std::string& function : functions) specs.push_back(io::parse_function(function));
+  check_outputs(functions, outputs, options);
+  if (path != "-" && ooc::is_reeb_file(path))
+    throw Error(ErrorKind::kBadInput, "is a Reeb graph already, not a mesh",
+                "look at it with reeb info, or take a level out with reeb extract")
+        .at(path);
+
+  const bool snapshots = options.snapshot_every != 0;
+  ReadOptions read_options;
+  read_options.batch_events = 8192;              // a few hundred KiB, beside chunks on their way
+  if (snapshots) read_options.batch_events = 1;  // exactly as far as the stream came
+  read_options.properties = io::needed_properties(specs);
+
+  ooc::MeshInput input;
+  input.path = path;
+  input.may_resume = !snapshots;
+  input.reader = io::open_mesh(path, read_options);
+  const MeshInfo info = input.reader->info();
+  input.dimension = info.dimension;
+  std::vector<std::unique_ptr<io::FunctionSource>> sources;
+  std::vector<VertexFunction*> pointers;
+  for (const io::FunctionSpec& spec : specs) {
+    sources.push_back(std::make_unique<io::FunctionSource>(spec, info, read_options.properties, path));
+    pointers.push_back(sources.back().get());
+  }
+  if (options.opened) options.opened(info);
+  if (snapshots) {
+    input.reader = with_snapshots(std::move(input.reader), options.snapshot_every, pointers, outputs);
+  } else {
+    input.indexed = input.reader->indexed();
+    if (path != "-") input.read_again = [&] { return io::open_mesh(path, read_options); };
+  }
+  if (input.indexed) input.reader.reset();
+  return ooc::compute(std::move(input), pointers, outputs, run_options(options));
+}
+
+ComputeResult compute(const std::string& path, const std::string& function, const std::string& output,
+                      const ComputeOptions& options) {
+  return std::move(compute(path, std::span(&function, 1), std::span(&output, 1), options).front());
+}
+
+}  // namespace reeb

@@ -1,0 +1,64 @@
+// From a mesh in a file to its Reeb graph in a file, in one call: what the program `reeb compute` does.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "libreeb/port/mesh_reader.h"
+#include "ooc/run/compute_result.h"
+
+namespace reeb {
+
+using ooc::ComputeProgress;
+using ooc::ComputeResult;
+
+struct ComputeOptions {
+  std::uint64_t memory_bytes = ~std::uint64_t{0};  // what the run may use; default: no limit
+  unsigned threads = 0;                            // 0: all that the machine has
+  bool replace = false;                            // outputs that exist; else they are an Error
+  bool graph_only = false;                         // no pairs and levels
+  // Minima and maxima of less persistence are removed; `denoise` is a share of the function's range (0.001
+  // is 0.1%), or in units of the function. 0: all stay.
+  double denoise = 0;
+  bool denoise_is_share = false;
+  std::uint32_t buckets = 64;        // arcs are embedded in so many buckets of value, to twice as many; 0: not at all
+  std::string temp_dir{};            // for temporary files; empty: $TMPDIR, or the folder of the first output
+  bool may_reorder = true;           // sort a mesh in no coherent order on disk first
+  bool keep_sidecar = false;         // keep what the first pass learns in MESH.final, for the next run
+  std::size_t chunk_triangles = 0;   // 0: adaptive
+  std::uint64_t snapshot_every = 0;  // write the graph so far each time so many triangles came; 0: never
+  // Go on from where an interrupted run with the same mesh, functions and first output was.
+  bool resume = false;
+  double checkpoint_seconds = 2;  // between two checkpoints, at least; 0: after every chunk
+  // Called by one thread at a time, not always the same. They may throw: that ends the run.
+  std::function<void(const MeshInfo&)> opened{};           // once, before the first triangle
+  std::function<void(const ComputeProgress&)> progress{};  // often
+  std::function<bool()> interrupted{};                     // often: true ends the run with Error{kInterrupted}
+};
+
+// Computes the Reeb graph of the mesh `path` ("-": standard input) for a function ("z", "c3", "index",
+// "random:1", "property:NAME", "file:PATH", as the program's -f) and writes it to `output` with all levels of
+// detail; ReebFile reads that. Format and compression are told by content. The bytes of the result do not
+// depend on memory, threads or chunks.
+//
+// THROWS:  Error: kUsage for a function that is none; kBadInput with file and position for a bad mesh, or an
+//          output that exists; kResource if memory or disk do not suffice; kInterrupted. An output that was
+//          not written whole does not appear. Of the last two the hint says whether options.resume can go on.
+// TIME:    about 60 ns a triangle where the order of the mesh is coherent; one or two readings of the file.
+// MEMORY:  tens of MiB for the chunks, and the front of the sweep; with levels also about 115 bytes an arc of
+//          the graph. options.memory_bytes bounds it.
+// THREADS: starts options.threads of its own, and may be called by several threads at once for different
+//          outputs.
+ComputeResult compute(const std::string& path, const std::string& function, const std::string& output,
+                      const ComputeOptions& options = {});
+
+// Several functions in one reading of the mesh: the graph of functions[i] goes to outputs[i].
+// REQUIRES: one output a function, and at least one; else Error{kUsage}.
+std::vector<ComputeResult> compute(const std::string& path, std::span<const std::string> functions,
+                                   std::span<const std::string> outputs, const ComputeOptions& options = {});
+
+}  // namespace reeb
