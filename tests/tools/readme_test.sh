@@ -54,7 +54,8 @@ while block cpp $((programs + 1)) >source.cpp && [[ -s source.cpp ]]; do
   mv source.cpp "project/$name.cpp"
   block text "$programs" >"$name.expected"
 done
-[[ $programs -eq 2 ]] || { echo "the README has $programs programs, not 2"; exit 1; }
+[[ $programs -eq 4 ]] || { echo "the README has $programs programs, not 4"; exit 1; }
+if grep -hE '#include "' project/*.cpp | grep -v '"reeb/'; then echo "the README includes private headers"; exit 1; fi
 cmake -S project -B project/build -G Ninja -DCMAKE_PREFIX_PATH="$work/prefix" -DCMAKE_CXX_FLAGS="$flags" \
   -DCMAKE_CXX_COMPILER_LAUNCHER= >configure.log 2>&1 || { cat configure.log; exit 1; }
 cmake --build project/build >build.log 2>&1 || { cat build.log; exit 1; }
