@@ -1,0 +1,102 @@
+// reeb::compute(): the mesh of a file to the files of its graphs, as the program does it.
+#include "tools/library/compute.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "libreeb/base/error.h"
+#include "ooc/reeb_file/reeb_file.h"
+#include "tests/support/files.h"
+#include "tests/support/scratch.h"
+
+namespace reeb::test {
+namespace {
+
+class Folder : public ooc::Scratch {
+ public:
+  std::string operator/(const char* name) const { return path() + "/" + name; }
+};
+
+// A square of four triangles about its highest vertex.
+std::string pyramid(const Folder& folder) {
+  const std::string path = folder / "pyramid.obj";
+  write_file(path,
+             "v 0 0 0\nv 1 0 0.1\nv 1 1 0.2\nv 0 1 0.3\nv 0.5 0.5 1\n"
+             "f 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\n");
+  return path;
+}
+
+ErrorKind kind_of_failure(const std::function<void()>& call) {
+  try {
+    call();
+  } catch (const Error& error) {
+    EXPECT_FALSE(error.hint().empty());
+    return error.kind();
+  }
+  ADD_FAILURE() << "nothing was thrown";
+  return ErrorKind::kInterrupted;
+}
+
+TEST(Compute, WritesTheGraphThatItTells) {
+  const Folder folder;
+  std::string format;
+  std::uint64_t triangles = 0;
+  const ComputeResult result = compute(
+      pyramid(folder), "z", folder / "z.reeb",
+      {.opened = [&](const MeshInfo& info) { format = info.format; },
+       .progress = [&](const ComputeProgress& progress) { triangles = std::max(triangles, progress.triangles); }});
+  EXPECT_EQ(format, "OBJ");
+  EXPECT_EQ(triangles, 4u);
+  EXPECT_EQ(result.nodes, 2u);
+  const ooc::ReebFile file(folder / "z.reeb");
+  EXPECT_EQ(file.load().graph.node_count(), 2u);
+  EXPECT_EQ(file.header().function, "z");
+}
+
+TEST(Compute, SeveralFunctionsAreWhatTheyAreAlone) {
+  const Folder folder;
+  const std::string mesh = pyramid(folder);
+  const std::vector<std::string> functions = {"x", "random:1"}, outputs = {folder / "x.reeb", folder / "r.reeb"};
+  const auto results = compute(mesh, functions, outputs);
+  ASSERT_EQ(results.size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(results[i].function, functions[i]);
+    compute(mesh, functions[i], folder / "alone.reeb", {.threads = 1, .replace = true});
+    EXPECT_EQ(read_file(folder / "alone.reeb"), read_file(outputs[i]));
+  }
+}
+
+TEST(Compute, AnOutputIsReplacedOnlyIfThatIsAllowed) {
+  const Folder folder;
+  const std::string mesh = pyramid(folder), output = folder / "z.reeb";
+  compute(mesh, "z", output);
+  const auto before = read_file(output);
+  EXPECT_EQ(kind_of_failure([&] { compute(mesh, "x", output); }), ErrorKind::kBadInput);
+  EXPECT_EQ(read_file(output), before);
+  compute(mesh, "x", output, {.replace = true});
+  EXPECT_EQ(ooc::ReebFile(output).header().function, "x");
+}
+
+TEST(Compute, RefusesWhatItCannotDo) {
+  const Folder folder;
+  const std::string mesh = pyramid(folder), output = folder / "z.reeb";
+  const std::vector<std::string> two = {"x", "y"}, one = {output}, none;
+  EXPECT_EQ(kind_of_failure([&] { compute(mesh, two, one); }), ErrorKind::kUsage);
+  EXPECT_EQ(kind_of_failure([&] { compute(mesh, none, none); }), ErrorKind::kUsage);
+  EXPECT_EQ(kind_of_failure([&] { compute(mesh, "height", output); }), ErrorKind::kUsage);
+  EXPECT_EQ(kind_of_failure([&] { compute(folder / "missing.ply", "z", output); }), ErrorKind::kBadInput);
+  EXPECT_EQ(kind_of_failure([&] { compute(mesh, "z", output, {.interrupted = [] { return true; }}); }),
+            ErrorKind::kInterrupted);
+  EXPECT_FALSE(std::filesystem::exists(output));
+  compute(mesh, "z", output);
+  EXPECT_EQ(kind_of_failure([&] { compute(output, "z", folder / "again.reeb"); }), ErrorKind::kBadInput);
+}
+
+}  // namespace
+}  // namespace reeb::test
