@@ -32,6 +32,9 @@ std::string graph_format_names();
 // restore every double. Formats that show lines in space draw an arc along its buckets, if it has
 // any, and put nodes without known positions at (0, 0, value).
 //
+// TIME:    O(nodes + arcs + buckets), and that of `out`.
+// THREADS: any number of calls at the same time, each with a stream of its own.
+//
 //   rg       the project's own: sorted lines `n VERTEX DOWN UP VALUE` and `a LO HI`
 //   json     schema reeb.graph.v1
 //   csv      one table: `item,vertex,down,up,value,x,y,z,lo,hi,vertices`; node rows leave the last

@@ -14,6 +14,7 @@ class ContentSource;
 // once, and so is MeshReader::indexed() on it, which uncompressed binary PLY with vertices of fixed size has.
 // THROWS: Error{kBadInput} with file, position and a hint: unreadable, a directory, empty, of an
 //         unknown format, a damaged header, a property that the mesh lacks.
+// THREADS: any number of calls at the same time; "-" once.
 std::unique_ptr<MeshReader> open_mesh(const std::string& path, const ReadOptions& options = {});
 
 // The same for content that was opened, and perhaps looked at, before. `path` tells formats apart

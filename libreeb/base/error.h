@@ -18,6 +18,7 @@ enum class ErrorKind : int {
   kInterrupted = 130  // by a signal
 };
 
+// A plain value, like any exception.
 class Error : public std::exception {
  public:
   Error(ErrorKind kind, std::string what, std::string hint);

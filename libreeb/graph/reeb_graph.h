@@ -15,6 +15,8 @@
 
 namespace reeb {
 
+// A plain value: any number of threads may read one at the same time, and it costs 16 bytes a node (40 with
+// its place) and 8 an arc.
 struct ReebGraph {
   // One entry a node.
   std::vector<SweepKey> nodes;

@@ -7,6 +7,8 @@
 //
 // A version is a number of cancellations; kept loops and Ext0 pairs are none. Node ids are those of
 // the full graph that the hierarchy was built from.
+//
+// THREADS: nothing here changes its arguments; any number of calls at the same time.
 #pragma once
 
 #include <cstdint>

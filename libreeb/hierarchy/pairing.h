@@ -19,6 +19,7 @@ inline double persistence_of(const ReebGraph& graph, const PersistencePair& pair
 // on the order of arcs.
 //
 // TIME:   O(m log m), in expectation for the loops (see BottleneckForest).
+// THREADS: any number of calls at the same time.
 // MEMORY: 4 bytes an arc and 20 bytes a node besides 36 bytes a pair (12 of them the result).
 std::vector<PersistencePair> persistence_pairs(const ReebGraph& graph);
 

@@ -21,6 +21,8 @@ struct SettledArcs {
 
 // Receives every node and every arc of the final graph exactly once, in no particular order.
 // The spans are valid during the call only.
+//
+// THREADS: called by one thread at a time, not always the same.
 class GraphSink {
  public:
   GraphSink() = default;

@@ -14,6 +14,7 @@
 
 namespace reeb {
 
+// THREADS: one at a time; different meshes share nothing.
 class IndexedMesh {
  public:
   IndexedMesh() = default;

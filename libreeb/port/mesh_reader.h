@@ -60,6 +60,8 @@ struct ReadOptions {
   std::size_t batch_events = 65536;     // about so many vertices or simplices a batch
 };
 
+// THREADS: one at a time; different readers share nothing.
+// TIME:    that of reading and parsing the input once.
 class MeshReader {
  public:
   MeshReader() = default;

@@ -8,6 +8,8 @@
 
 namespace reeb {
 
+// THREADS: a run calls it from one thread at a time, not always the same.
+// TIME:    evaluate() sees each vertex once, and where vertices are looked up, once for each chunk that has it.
 class VertexFunction {
  public:
   VertexFunction() = default;
