@@ -46,8 +46,9 @@ struct ComputeOptions {
 // depend on memory, threads or chunks.
 //
 // THROWS:  Error: kUsage for a function that is none; kBadInput with file and position for a bad mesh, or an
-//          output that exists; kResource if memory or disk do not suffice; kInterrupted. An output that was
-//          not written whole does not appear. Of the last two the hint says whether options.resume can go on.
+//          output that exists; kResource if memory or disk do not suffice; kInterrupted. No output is ever written in
+//          part, but those of earlier functions may be there, and the graph alone if its levels did not fit the memory.
+//          Of the last two kinds the hint says whether options.resume can go on.
 // TIME:    about 60 ns a triangle where the order of the mesh is coherent; one or two readings of the file.
 // MEMORY:  tens of MiB for the chunks, and the front of the sweep; with levels also about 115 bytes an arc of
 //          the graph. options.memory_bytes bounds it.
