@@ -61,7 +61,7 @@ int run(int argc, char** argv) {
     program.parse(with_default_command(program, argc, argv));
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return program.exit(error);  // --help
-    return report(reeb::ErrorKind::kUsage, error.what(), "see reeb --help, or --help of the command");
+    return report(reeb::ErrorKind::kUsage, error.what(), "see reeb --help, or the command's own --help");
   }
   return 0;
 }
@@ -83,8 +83,8 @@ int main(int argc, char** argv) {
     return report(reeb::ErrorKind::kResource, "out of memory", "close other programs, or use a smaller mesh");
   } catch (const std::system_error& error) {  // of fmt, which has standard output alone
     return report(reeb::ErrorKind::kResource, std::string("standard output ") + error.what(),
-                  "keep what reads it open, or see to the disk");
+                  "keep the reading program open, or free disk space");
   } catch (const std::exception& error) {
-    return report(reeb::ErrorKind::kResource, error.what(), "please report this as a defect");
+    return report(reeb::ErrorKind::kResource, error.what(), "please report this as a bug");
   }
 }

@@ -17,7 +17,7 @@ FaultText text_of(Fault fault) {
     case Fault::kBadHeader:
       return {"BAD_HEADER", "the head of the file is damaged; write the file again"};
     case Fault::kBadNumber:
-      return {"BAD_NUMBER", "mend this element in the file, or write the file again"};
+      return {"BAD_NUMBER", "fix this element in the file, or write the file again"};
     case Fault::kBadIndex:
       return {"BAD_INDEX", "a cell may only name vertices that the stream has"};
     case Fault::kFinalIndex:
@@ -46,7 +46,7 @@ void fail(Fault fault, const std::string& what, const std::string& position) {
 std::string count_warning(const Tally& tally, const char* what, bool fewer_too) {
   if (!tally.promised || tally.delivered == *tally.promised) return {};
   if (tally.delivered < *tally.promised && !fewer_too) return {};
-  return "COUNT: the header promises " + std::to_string(*tally.promised) + " " + what + ", the stream holds " +
+  return "COUNT: the header announces " + std::to_string(*tally.promised) + " " + what + ", the stream holds " +
          std::to_string(tally.delivered);
 }
 

@@ -88,7 +88,7 @@ void require_output_folder(const std::string& path) {
   if (probe < 0)
     throw Error(ErrorKind::kResource,
                 std::string("the output cannot be written to this folder: ") + std::strerror(errno),
-                "write to a folder that exists and that you may write to with -o FILE")
+                "choose a folder that exists and is writable with -o FILE")
         .at(folder);
   ::close(probe);
 }

@@ -160,7 +160,7 @@ void File::fail(const char* doing, int error, std::uint64_t offset, std::size_t 
 void throw_output_error(int error, const std::string& path, const std::string& position) {
   throw Error(ErrorKind::kResource, std::string("cannot be written: ") + std::strerror(error),
               is_full(error) ? "make room on the disk, or write to another folder"
-                             : "write to a folder that exists and that you may write to")
+                             : "choose a folder that exists and is writable")
       .at(path, position);
 }
 

@@ -103,7 +103,7 @@ void ObjReader::fail_corner(bool negative, std::uint64_t number) const {
   if (number == 0) text_.fail("a face names vertex 0", "vertices are numbered from 1");
   text_.fail(
       "a face names vertex " + name + ", but only " + std::to_string(vertices_read()) + " vertices came before it",
-      "put each face behind its vertices; if the vertex never comes, the file is damaged");
+      "put each face after its vertices; if the vertex never comes, the file is damaged");
 }
 
 std::vector<std::string> ObjReader::warnings() const {

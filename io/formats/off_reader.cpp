@@ -35,7 +35,7 @@ void check_counts(const OffHeader& header, const ContentSource& source, std::uin
   const bool vertices_fit = header.vertices <= left / vertex_bytes;
   if (vertices_fit && header.faces <= (left - header.vertices * vertex_bytes) / face_bytes) return;
   throw Error(ErrorKind::kBadInput,
-              "the header promises " + std::to_string(header.vertices) + " vertices and " +
+              "the header announces " + std::to_string(header.vertices) + " vertices and " +
                   std::to_string(header.faces) + " faces, more than the file can hold",
               "the file is cut, or its header is damaged; get a whole copy")
       .at(source.name(), position);
@@ -214,7 +214,7 @@ class BinaryOffReader final : public OffReader {
       const float value = load_scalar<float>(bytes + 4 * k, true);
       if (!std::isfinite(value)) {
         taken_ += 4 * k;
-        fail("a coordinate is not finite", "mend this vertex, or leave it out");
+        fail("a coordinate is not finite", "fix this vertex, or remove it");
       }
       batch.coordinates[k].push_back(static_cast<double>(value) + 0.0);
     }

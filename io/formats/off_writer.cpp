@@ -65,7 +65,8 @@ class OffWriter : public MeshWriter {
 std::unique_ptr<MeshWriter> create_off(const std::string& path, const MeshWriterOptions& options) {
   if (options.dimension == 0 || options.dimension > kMaxDimension)
     throw Error(ErrorKind::kBadInput,
-                "OFF is not written with " + std::to_string(options.dimension) + " coordinates a vertex", "write .ply")
+                "OFF cannot be written with " + std::to_string(options.dimension) + " coordinates per vertex",
+                "write .ply")
         .at(path);
   return std::make_unique<OffWriter>(path, options);
 }

@@ -37,7 +37,7 @@ std::unique_ptr<MeshReader> open_mesh(std::unique_ptr<ContentSource> source, con
       break;
   }
   throw Error(
-      ErrorKind::kBadInput, "is in no known mesh format",
+      ErrorKind::kBadInput, "unknown mesh format",
       "PLY, OBJ, OFF, STL and streaming meshes (SMA, SMB, SMC, SVA, SVB) are read, plain or packed with gzip or zstd")
       .at(name, "0");
 }

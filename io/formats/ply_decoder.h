@@ -94,8 +94,7 @@ class BinaryPlyDecoder {
   void end_record(const PlyElement&) {}
   double finite_value(PlyType type, const char* what) {
     const double value = load_double(type, take(byte_size(type)), swap_);
-    if (!std::isfinite(value))
-      fail(std::string("a ") + what + " is not finite", "mend this value, or remove what uses it");
+    if (!std::isfinite(value)) fail(std::string("a ") + what + " is not finite", "fix this value in the file");
     return value;
   }
   std::int64_t integer(PlyType type, const char*) { return load_integer(type, take(byte_size(type)), swap_); }

@@ -138,7 +138,7 @@ class HeaderParser {
         find_corners(element);
       }
     }
-    if (!has_vertices) text_.fail("the PLY file has no vertex element", "is it a mesh?");
+    if (!has_vertices) text_.fail("the PLY file has no vertex element", "check that this file is a mesh");
     count_coordinates();
   }
 
@@ -177,8 +177,8 @@ class HeaderParser {
       const std::uint64_t each = least_bytes(element);
       if (element.count > left / each)
         throw Error(ErrorKind::kBadInput,
-                    "the header promises " + std::to_string(element.count) + " of " + element.name +
-                        ", but the file holds at most " + std::to_string(left / each),
+                    "the header announces " + std::to_string(element.count) + " elements \"" + element.name +
+                        "\", but the file has room for " + std::to_string(left / each) + " at most",
                     "the file is cut, or its header is damaged; get a whole copy")
             .at(text_.source().name(),
                 header_.encoding == PlyEncoding::kAscii ? text_.position() : std::to_string(header_.body_offset));

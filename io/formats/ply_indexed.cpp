@@ -118,7 +118,7 @@ class IndexedPly final : public IndexedMesh {
     throw Error(ErrorKind::kBadInput,
                 std::string("a ") + (column < header_.dimension ? "coordinate" : "vertex property") + " of vertex " +
                     std::to_string(id.value()) + " is not finite",
-                "mend this value, or remove what uses it")
+                "fix this value in the file")
         .at(path_, std::to_string(vertices_begin_ + id.value() * stride_ + columns_[column].place));
   }
 

@@ -108,7 +108,7 @@ class PlyReader final : public PlyBodyReader {
     std::vector<std::string> lines;
     if (odd_values_ != 0)
       lines.push_back(std::to_string(odd_values_) + " values of properties that are not used are not finite");
-    if (trailing_) lines.push_back("there are bytes behind the last element; they were not read");
+    if (trailing_) lines.push_back("bytes after the last element were ignored");
     return lines;
   }
 
@@ -166,7 +166,7 @@ class PlyReader final : public PlyBodyReader {
 
   void pass_fixed_records(const PlyElement& element) {
     const std::size_t stride = element.fixed_bytes();
-    if (stride > ContentSource::kLookahead) decoder_.fail("a record is too long", "is the header right?");
+    if (stride > ContentSource::kLookahead) decoder_.fail("a record is too long", "check the header");
     for (; record_ != element.count; ++record_) decoder_.take(stride);
   }
 
@@ -254,7 +254,7 @@ class PlyReader final : public PlyBodyReader {
     decoder_.fail_at(
         decoder_.bytes().offset() + index * stride + place,
         std::string("a ") + what_is(property) + " of vertex " + std::to_string(record_ + index) + " is not finite",
-        "mend this value, or remove what uses it");
+        "fix this value in the file");
   }
 
   // --- faces and strips

@@ -16,7 +16,7 @@ BufferedWriter& SectionedFile::vertices(std::uint64_t count) {
   vertices_ += count;
   if (promised_ && vertices_ > *promised_)
     throw Error(ErrorKind::kBadInput,
-                "the mesh has more than the " + std::to_string(*promised_) + " vertices it promised",
+                "the mesh has more than the " + std::to_string(*promised_) + " vertices that it announced",
                 "check the input's header");
   return file_.out();
 }

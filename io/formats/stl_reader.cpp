@@ -95,7 +95,7 @@ BinaryStlReader::BinaryStlReader(std::unique_ptr<ContentSource> source, ReadOpti
   const auto size = cursor_.source().size();
   if (size && facets_left_ > (*size - kHeaderBytes) / kFacetBytes)
     throw Error(ErrorKind::kBadInput,
-                "the header promises " + std::to_string(facets_left_) + " facets, but the file holds " +
+                "the header announces " + std::to_string(facets_left_) + " facets, but the file holds " +
                     std::to_string((*size - kHeaderBytes) / kFacetBytes),
                 "the file is cut, or its header is damaged; get a whole copy")
         .at(cursor_.source().name(), "80");
@@ -120,7 +120,7 @@ bool BinaryStlReader::advance(MeshBatch& batch) {
   for (std::size_t k = 0; k < 3; ++k) {
     const float coordinate = load_scalar<float>(cursor_.data() + place + 4 * k, false);
     if (!std::isfinite(coordinate))
-      throw Error(ErrorKind::kBadInput, "a coordinate is not finite", "mend this facet, or leave it out")
+      throw Error(ErrorKind::kBadInput, "a coordinate is not finite", "fix this facet, or remove it")
           .at(cursor_.source().name(), std::to_string(cursor_.offset() + place + 4 * k));
     point[k] = static_cast<double>(coordinate) + 0.0;
   }
@@ -135,7 +135,7 @@ bool BinaryStlReader::advance(MeshBatch& batch) {
 
 std::vector<std::string> BinaryStlReader::warnings() const {
   if (!trailing_) return {};
-  return {"there are bytes behind the last facet; they were not read"};
+  return {"bytes after the last facet were ignored"};
 }
 
 }  // namespace reeb::io

@@ -67,7 +67,7 @@ namespace {
   throw Error(ErrorKind::kBadInput,
               "has " + std::to_string(values) + (or_more ? " or more" : "") + " values, but the mesh has " +
                   std::to_string(vertices) + " vertices",
-              "the file must have one value a vertex")
+              "the file must have one value per vertex")
       .at(path, position);
 }
 
@@ -76,8 +76,8 @@ class RawValueFile final : public ValueFile {
   explicit RawValueFile(const std::string& path)
       : path_(path), windows_(path, {.window_bits = 18, .window_count = 16, .overlap_bytes = 8}) {
     if (windows_.size() % 8 != 0)
-      throw Error(ErrorKind::kBadInput, "does not hold whole float64 values",
-                  "a .f64 file is 8 bytes a vertex; the file may be cut")
+      throw Error(ErrorKind::kBadInput, "its size is not a multiple of 8 bytes",
+                  "a .f64 file has 8 bytes per vertex; the file may be cut")
           .at(path, std::to_string(windows_.size() / 8 * 8));
   }
   double next() override { return at(next_++); }
@@ -115,7 +115,7 @@ class TextValueFile final : public ValueFile {
     const auto value = text_->finite_number<double>("value");
     if (text_->more_on_line()) {
       text_->token();
-      text_->fail("a line has more than one number", "write one number a line, in the order of vertices");
+      text_->fail("a line has more than one number", "write one number per line, in the order of vertices");
     }
     ++read_;
     return value;
@@ -261,7 +261,7 @@ void FunctionSource::copy_finite(std::span<const double> from, std::span<double>
   const auto index = static_cast<std::size_t>(odd - to.begin());
   const std::uint64_t vertex = ids.empty() ? first + index : ids[index].value();
   throw Error(ErrorKind::kBadInput, spec_.text + " of vertex " + std::to_string(vertex) + " is not finite",
-              "mend this vertex, or choose another function")
+              "fix this vertex, or choose another function")
       .at(mesh_name_);
 }
 

@@ -43,7 +43,7 @@ void RangeDecoder::finish() {
 }
 
 void RangeDecoder::fail_damaged() const {
-  fail(Fault::kCorrupt, "a symbol that was never coded", std::to_string(position()));
+  fail(Fault::kCorrupt, "a symbol that cannot be decoded", std::to_string(position()));
 }
 
 void RangeEncoder::put(std::uint32_t byte) {

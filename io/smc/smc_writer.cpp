@@ -80,7 +80,7 @@ class SmcWriter : public StreamWriter {
     code_held();
     for (std::size_t k = 0; k < 3; ++k)
       if (!std::isfinite(event.floats[k]))
-        fail_format("a coordinate of vertex " + std::to_string(event.vertex) + " is not finite", "mend the mesh first");
+        fail_format("a coordinate of vertex " + std::to_string(event.vertex) + " is not finite", "fix the mesh first");
     const std::array<float, 3> xyz{event.floats[0], event.floats[1], event.floats[2]};
     slots_[event.vertex] = state_.create_vertex(event.vertex, positions_.to_coded(xyz));
   }

@@ -13,7 +13,7 @@ class BlockWriter : public HeldCellWriter {
       : HeldCellWriter(out, header, false), words_(header.volume ? 4 : 3) {
     if (header.volume &&
         (header.vertex_floats + header.vertex_ints > 4 || header.cell_floats > 0 || header.cell_ints > 0))
-      fail_format("SVB holds one value a vertex and none a cell", "write SVA instead");
+      fail_format("SVB holds one value per vertex and none per cell", "write SVA instead");
     write_head();
   }
 

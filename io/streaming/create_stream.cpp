@@ -116,7 +116,7 @@ class StreamMeshWriter : public MeshWriter {
     const bool values = header.volume || stream_format(path) == StreamFormat::kEvents;
     if (values) header.vertex_floats = 3 + static_cast<unsigned>(options.property_names.size());
     if (header.vertex_floats > kMaxFloats)
-      throw Error(ErrorKind::kBadInput, "streaming meshes hold at most 5 values a vertex besides its place",
+      throw Error(ErrorKind::kBadInput, "streaming meshes hold at most 5 values per vertex besides its position",
                   "write PLY instead")
           .at(path);
     return header;

@@ -56,7 +56,8 @@ class OutputBuffer {
   void finish() {
     flush();
     out_.flush();
-    if (!out_) throw Error(ErrorKind::kResource, "cannot write the mesh", "is the disk full, or the place read-only?");
+    if (!out_)
+      throw Error(ErrorKind::kResource, "cannot write the mesh", "check that the disk has room and can be written");
   }
   std::ostream& stream() { return out_; }
 

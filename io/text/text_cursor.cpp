@@ -147,7 +147,7 @@ void TextCursor::fail_number(std::string_view token, const char* what) const {
   if (token.empty())
     fail(std::string("the line ends where a ") + what + " should be", "the file may be cut or damaged here");
   if (parse_number<double>(token).ok)
-    fail(std::string("a ") + what + " cannot be " + quoted(token), "mend this value, or remove what uses it");
+    fail(std::string("a ") + what + " cannot be " + quoted(token), "fix this value in the file");
   fail(quoted(token) + " is not a number (a " + what + " should be here)", "the file may be cut or damaged here");
 }
 

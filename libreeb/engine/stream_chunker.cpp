@@ -79,7 +79,7 @@ void StreamChunker::add_triangle(VertexId a, VertexId b, VertexId c) {
   for (const VertexId v : {a, b, c}) chunk_.corners.push_back(bring_in(v, slot_of_.find(v.value())));
 }
 
-void StreamChunker::finalize(VertexId v) { finalize(v, slot_of(v, "finalized is")); }
+void StreamChunker::finalize(VertexId v) { finalize(v, slot_of(v, "finalize() names")); }
 
 void StreamChunker::finalize_all() {
   for (std::uint64_t v = 0; v < next_vertex_ && slot_of_.size() != 0; ++v)

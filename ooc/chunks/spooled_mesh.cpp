@@ -50,7 +50,7 @@ void SpooledMesh::gather(std::span<const VertexId> ids, std::span<const unsigned
       const double value = column.get(ids[i].value());
       if (!std::isfinite(value)) [[unlikely]]
         throw Error(ErrorKind::kBadInput, "column " + std::to_string(columns[k]) + " is not a finite number",
-                    "repair the value or choose another function")
+                    "fix this value, or choose another function")
             .at("", "vertex " + std::to_string(ids[i].value()));
       values[k * ids.size() + i] = value + 0.0;  // -0.0 becomes 0.0
     }

@@ -142,8 +142,8 @@ void verify_pairs(const FrameFile& file, const std::vector<PairRow>& pairs) {
     ++count[static_cast<std::size_t>(pair.type)];
     kept += pair.kept ? 1 : 0;
   }
-  if (count[0] != header.components) file.fail(0, "there is not one Ext0 pair a component");
-  if (count[1] != header.loops) file.fail(0, "there is not one Ext1 pair a loop");
+  if (count[0] != header.components) file.fail(0, "the number of Ext0 pairs is not that of components");
+  if (count[1] != header.loops) file.fail(0, "the number of Ext1 pairs is not that of loops");
   if (kept != header.kept_loops) file.fail(0, "there are not as many kept loops as the header says");
 }
 

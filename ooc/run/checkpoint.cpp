@@ -126,7 +126,7 @@ CheckpointLoad load_checkpoint(const std::string& path, const RunIdentity& run) 
   if (::access(path.c_str(), F_OK) != 0) return {};
   const auto useless = [](const char* why) {
     CheckpointLoad none;
-    none.note = std::string("the checkpoint ") + why + ", so the run starts anew";
+    none.note = std::string("the checkpoint ") + why + ", so the run starts from the beginning";
     return none;
   };
   try {

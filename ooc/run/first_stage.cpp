@@ -77,7 +77,7 @@ StreamRun run_stream(RunContext& run, const MeshInput& input, const Checkpoint* 
   const auto source = chunks_of(*input.reader, run.values, run.plan.chunk, place_of(start), most_active_vertices);
   result = glue_chunks(run, *source, run.plan, {.origin = ChunkOrigin::kStream}, std::move(result));
   if (source->given_up()) {
-    result.notes.push_back("too many vertices of the stream are live at once, so it was read again from the start");
+    result.notes.push_back("too many vertices of the stream are live at once, so it was read again and sorted on disk");
     run.start_over();
     return {std::move(result), true};
   }
@@ -255,7 +255,7 @@ FirstStageResult run_indexed(RunContext& run, const MeshInput& input, std::uniqu
       start != nullptr ? was_sorted : run.options.may_reorder && !(uses && is_coherent(run, uses->summary()));
   if (result.reordered) {
     const Stopwatch watch;
-    result.notes.push_back("the triangles are in no coherent order, so they were sorted on disk first");
+    result.notes.push_back("neighbouring triangles lie far apart in this file, so they were sorted on disk first");
     uses.reset();
     auto sorted = sort_on_disk(run, *mesh, input.dimension);
     result.spilled_bytes += sorted->spilled_bytes();

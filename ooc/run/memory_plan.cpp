@@ -59,7 +59,7 @@ MemoryPlan plan_memory(const MemoryRequest& request) {
   if (request.limit_bytes < kLeastBudget)
     throw Error(ErrorKind::kResource,
                 "a run needs at least " + format_bytes(kLeastBudget) + " of memory, but only " +
-                    format_bytes(request.limit_bytes) + " are allowed",
+                    format_bytes(request.limit_bytes) + " is allowed",
                 "allow more, for instance --memory 32M");
   const std::uint64_t limit =
       request.limit_bytes == MemoryBudget::kUnlimited ? machine_bytes() / 2 : request.limit_bytes;

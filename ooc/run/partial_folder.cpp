@@ -77,8 +77,8 @@ void PartialFolder::open() {
   const auto fail = [this](const char* what, const char* hint) {
     throw Error(ErrorKind::kResource, std::string(what) + ": " + std::strerror(errno), hint).at(path_);
   };
-  const char* elsewhere = "write the output to a folder that exists and that you may write to";
-  if (::mkdir(path_.c_str(), 0700) != 0 && errno != EEXIST) fail("cannot be made", elsewhere);
+  const char* elsewhere = "write the output to a folder that exists and is writable";
+  if (::mkdir(path_.c_str(), 0700) != 0 && errno != EEXIST) fail("cannot be created", elsewhere);
   if (fs::is_symlink(path_)) refuse("is a symbolic link, not a folder that a run has made");
   folder_ = io::system::open(path_, O_RDONLY | O_DIRECTORY | O_NOFOLLOW);
   if (folder_ < 0) fail("cannot be opened", elsewhere);

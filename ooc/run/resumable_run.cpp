@@ -29,14 +29,15 @@ const Checkpoint* ResumableRun::start(const std::function<void(StateReader&)>& r
                                       std::vector<std::string>& notes) {
   last_ = Clock::now();
   if (options_.resume && !folder_)
-    notes.push_back("a mesh that is no file of its own cannot be resumed, so the run starts anew");
+    notes.push_back("only runs on a regular file can be resumed, so the run starts from the beginning");
   if (!folder_) return nullptr;
   if (options_.resume) {
     load_ = load_checkpoint(folder_->checkpoint(), identity_);
-    if (!load_.checkpoint && load_.note.empty()) load_.note = "there is nothing to resume, so the run starts anew";
+    if (!load_.checkpoint && load_.note.empty())
+      load_.note = "there is nothing to resume, so the run starts from the beginning";
     if (load_.checkpoint && restores(restore)) {
       notes.push_back("an earlier run had read " + std::to_string(load_.checkpoint->place.triangles) +
-                      " triangles; this one goes on from there");
+                      " triangles; this one continues from there");
       return checkpoint();
     }
     notes.push_back(load_.note);
@@ -54,7 +55,7 @@ bool ResumableRun::restores(const std::function<void(StateReader&)>& restore) {
     if (!error.file().starts_with(folder_->path())) throw;
   }
   load_ = {};
-  load_.note = "the files of the checkpoint are damaged or missing, so the run starts anew";
+  load_.note = "the files of the checkpoint are damaged or missing, so the run starts from the beginning";
   return false;
 }
 
@@ -97,7 +98,7 @@ Error ResumableRun::explain(const Error& error) {
   // What grows in the folder is not in the temporary folder.
   if (error.file().starts_with(folder_->path())) hint = "make room in this folder, or choose another output with -o";
   if (folder_->has_checkpoint()) {
-    const std::string go_on = "the same command with --resume goes on from where it was";
+    const std::string go_on = "the same command with --resume continues the run";
     hint = error.kind() == ErrorKind::kInterrupted ? go_on : hint + "; then " + go_on;
   } else if (error.kind() == ErrorKind::kInterrupted) {
     hint = "run it again; it ended too early to be resumed";

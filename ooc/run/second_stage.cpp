@@ -75,7 +75,7 @@ Error no_memory_for(const RunContext& run, const std::string& what, const std::s
   Error error(ErrorKind::kResource,
               what + " of " + std::to_string(arcs) + " arcs needs up to " + format_bytes(needed) +
                   " of memory, but only " + format_bytes(run.budget.free_bytes()) +
-                  " are left; the graph itself was written",
+                  " is left; the graph itself was written",
               "allow --memory " + std::to_string(enough / (1 << 20) + 1) + "M, or " + otherwise);
   error.at(output);
   return error;
@@ -99,7 +99,7 @@ LastNoise remove_last_noise(RunContext& run, StoredGraph& graph) {
     meta.denoise_threshold = 0;
     write_graph(run, graph, meta);
     throw no_memory_for(run, "the last pass of noise removal", graph.output, store.arc_count(), pass.needed_bytes,
-                        "do without --denoise");
+                        "leave out --denoise");
   }
   if (!pass.change) return {pass.removed_pairs};
   const std::uint64_t change_bytes = pass.change->memory.bytes(), changed_arcs = pass.change->arcs.records.size();
@@ -152,7 +152,7 @@ GraphInMemory load_for_hierarchy(RunContext& run, const StoredGraph& graph) {
   const auto refuse = [&](std::uint64_t needed) {
     write_graph(run, graph, graph.meta);
     throw no_memory_for(run, "the hierarchy", graph.output, arcs, needed,
-                        "remove noise with --denoise, or keep to the graph with --graph-only");
+                        "remove noise with --denoise, or compute the graph alone with --graph-only");
   };
   const LoadOptions loading{.bucket_exponent = graph.sweep.bucket_exponent};
   if (loading_bytes(store, loading) > run.budget.free_bytes())

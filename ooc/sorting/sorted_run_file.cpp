@@ -59,7 +59,7 @@ std::size_t SortedRunFile::read(RunPlace& run, std::vector<std::byte>& packed) c
 }
 
 void SortedRunFile::refuse(std::uint64_t offset) const {
-  throw Error(ErrorKind::kResource, "the disk gave back other bytes than were written",
+  throw Error(ErrorKind::kResource, "the disk returned other bytes than were written",
               "check the disk, or choose another with --temp-dir DIR")
       .at(file_.path(), std::to_string(offset));
 }

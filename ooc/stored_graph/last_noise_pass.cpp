@@ -82,7 +82,7 @@ class Pass {
         exponent_(options.bucket_exponent),
         memory_(store.budget().reserve("last pass of noise removal", 0)),
         spare_memory_(store.budget().reserve("last pass of noise removal", 0)) {
-    change_.memory = store.budget().reserve("noise that is gone", 0);
+    change_.memory = store.budget().reserve("patch of removed noise", 0);
   }
 
   LastNoisePass run() {

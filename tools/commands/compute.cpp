@@ -76,7 +76,7 @@ CLI::Validator at_least_one() {
   return CLI::Validator(
       [](const std::string& text) {
         const bool positive = !text.starts_with('-') && text.find_first_of("123456789") != std::string::npos;
-        return positive ? std::string() : std::string("must be 1 at least");
+        return positive ? std::string() : std::string("must be at least 1");
       },
       "");
 }
@@ -129,7 +129,7 @@ void add_compute(CLI::App& program) {
                    "x y z cK index random:SEED property:NAME file:PATH (default z; may be repeated)")
       ->allow_extra_args(false);
   command->add_flag("--graph-only", arguments->options.graph_only, "Stop after the graph: no pairs, no levels");
-  command->add_option("--chunk", arguments->options.chunk_triangles, "Triangles a chunk (default: adaptive)")
+  command->add_option("--chunk", arguments->options.chunk_triangles, "Triangles per chunk (default: adaptive)")
       ->check(at_least_one());
   command->add_option("--memory", arguments->memory, "Memory that the run may use, as 64M or 1.5GiB");
   command->add_option("--threads", arguments->options.threads, "Threads (default: all)")->check(CLI::Range(1u, 1024u));
@@ -138,16 +138,15 @@ void add_compute(CLI::App& program) {
   command->add_option("--denoise", arguments->denoise, "Remove minima and maxima of less persistence: 0.01, or 0.1%");
   command
       ->add_option("--buckets", arguments->options.buckets,
-                   "Buckets of value, at least, in which arcs are embedded (0: no embedding; default 64)")
+                   "Embed arcs in at least this many buckets of value (0: no embedding; default 64)")
       ->check(CLI::Range(0u, 1u << 20));
-  command->add_flag("!--no-reorder", arguments->options.may_reorder, "Never sort an incoherent mesh on disk first");
-  command->add_flag("--resume", arguments->options.resume,
-                    "Go on from where an interrupted run was, if its OUT.partial is there and fits");
+  command->add_flag("!--no-reorder", arguments->options.may_reorder, "Do not sort incoherent meshes on disk first");
+  command->add_flag("--resume", arguments->options.resume, "Continue an interrupted run from its folder OUT.partial");
   command->add_flag("--sidecar", arguments->options.keep_sidecar, "Keep the finalization as MESH.final for later runs");
   command->add_option("--report", arguments->report, "Write a JSON report (-: to standard output)");
   command
       ->add_option("--snapshot-every", arguments->options.snapshot_every,
-                   "Triangles after which the graph so far is written, as OUT-000001.reeb, OUT-000002.reeb, ...")
+                   "Write the graph so far every N triangles, as OUT-000001.reeb, OUT-000002.reeb, ...")
       ->check(at_least_one());
   command->add_flag("--quiet", arguments->quiet, "No progress and no summary");
   command->add_flag("--force", arguments->options.replace, "Replace existing outputs");

@@ -46,7 +46,7 @@ void add_convert(CLI::App& program) {
                    "Mesh to write: .ply .obj .off .sma .smb .smc .sva .svb; .events.txt lists the events")
       ->required();
   command->add_flag("--finalize", arguments->options.finalize,
-                    "Put each vertex before its first triangle and finalize it behind its last");
+                    "Put each vertex before its first triangle and finalize it after its last");
   command->add_option("--order", arguments->order, "keep, hilbert, spectral or sweep:FUNC")->capture_default_str();
   command->add_option("--memory", arguments->memory, "Memory that the run may use, as 64M or 1.5GiB");
   command->add_option("--temp-dir", arguments->options.temp_folder,

@@ -65,16 +65,17 @@ void extract(const ExtractOptions& options) {
 void add_extract(CLI::App& app) {
   auto options = std::make_shared<ExtractOptions>();
   CLI::App* command = app.add_subcommand("extract", "Write the graph, or a coarser level of it");
-  command->add_option("FILE", options->file, "the .reeb file")->required();
-  command->add_option("-o,--output", options->output, "where to (standard output if not given)");
-  command->add_option("--format", options->format, io::graph_format_names() + " (by suffix if not given)");
-  auto* threshold = command->add_option("--threshold", options->threshold,
-                                        "without features below it: 0.01 (function units) or 0.1% (of the range)");
-  auto* memory = command->add_option("--memory", options->memory, "the finest level that fits, like 64M");
-  auto* nodes = command->add_option("--nodes", options->nodes, "the finest level with at most so many nodes");
+  command->add_option("FILE", options->file, "The .reeb file")->required();
+  command->add_option("-o,--output", options->output, "Output file (default: standard output)");
+  command->add_option("--format", options->format, io::graph_format_names() + " (default: by suffix)");
+  auto* threshold =
+      command->add_option("--threshold", options->threshold,
+                          "Without features of less persistence: 0.01 (function units) or 0.1% (of the range)");
+  auto* memory = command->add_option("--memory", options->memory, "The finest level that fits in this memory, as 64M");
+  auto* nodes = command->add_option("--nodes", options->nodes, "The finest level with at most this many nodes");
   threshold->excludes(memory)->excludes(nodes);
   memory->excludes(nodes);
-  command->add_flag("--force", options->force, "overwrite the output");
+  command->add_flag("--force", options->force, "Replace an existing output");
   command->footer("Example:\n  reeb extract scan.reeb --threshold 0.1% -o coarse.json");
   command->callback([options, nodes] {
     options->by_nodes = nodes->count() != 0;

@@ -47,14 +47,14 @@ void add_generate(CLI::App& program) {
   CLI::App* command = program.add_subcommand("generate", "Write a test mesh of any size");
   command->add_option("KIND", arguments->kind, "torus terrain grid plate scan sierpinski")->required();
   command->add_option("-o,--output", arguments->output, "Mesh to write: .ply .obj .off")->required();
-  command->add_option("--triangles", arguments->mesh.triangles, "About how many (10000, 12M, 372M)")
+  command->add_option("--triangles", arguments->mesh.triangles, "Approximate number of triangles (10000, 12M, 372M)")
       ->transform(CLI::AsNumberWithUnit(
           std::map<std::string, std::uint64_t>{{"k", 1'000}, {"m", 1'000'000}, {"g", 1'000'000'000}}))
       ->capture_default_str();
   command->add_option("--order", arguments->order, "rows, patches or random")->capture_default_str();
-  command->add_option("--seed", arguments->mesh.seed, "Of noise, handles and random order")->capture_default_str();
+  command->add_option("--seed", arguments->mesh.seed, "Seed of noise, handles and random order")->capture_default_str();
   command->add_option("--width", arguments->mesh.width, "Cells in a row of the grid");
-  command->add_option("--dimension", arguments->mesh.dimension, "Of a sierpinski simplex: 2 to 5")
+  command->add_option("--dimension", arguments->mesh.dimension, "Dimension of a sierpinski simplex: 2 to 5")
       ->capture_default_str();
   command->add_flag("--force", arguments->force, "Replace an existing output");
   command->footer("Example:\n  reeb generate scan --triangles 12M --order patches --seed 7 -o scan.ply");

@@ -17,11 +17,14 @@ void add_info(CLI::App& app) {
     bool json = false;
   };
   auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand("info", "Say what a file holds");
-  command->add_option("FILE", options->file, "a .reeb file, or a mesh of any format; - reads a mesh")->required();
-  command->add_flag("--json", options->json, "for programs");
-  command->add_option("--memory", options->memory, "memory for the tables of a mesh, like 64M");
-  command->add_option("--temp-dir", options->temp_folder, "folder for temporary files (default: $TMPDIR, or here)");
+  CLI::App* command = app.add_subcommand("info", "Describe a mesh or a .reeb file");
+  command
+      ->add_option("FILE", options->file, "A .reeb file, or a mesh of any format; - reads a mesh from standard input")
+      ->required();
+  command->add_flag("--json", options->json, "JSON output");
+  command->add_option("--memory", options->memory, "Memory for the tables of a mesh, as 64M");
+  command->add_option("--temp-dir", options->temp_folder,
+                      "Folder for temporary files (default: $TMPDIR, or the current folder)");
   command->footer("Example:\n  reeb info scan.reeb");
   command->callback([options] {
     const std::uint64_t memory = options->memory.empty() ? MemoryBudget::kUnlimited : parse_size(options->memory);

@@ -47,9 +47,9 @@ void write_rows(const std::vector<ooc::PairRow>& rows, std::ostream& stream) {
 void add_pairs(CLI::App& app) {
   auto options = std::make_shared<PairsOptions>();
   CLI::App* command = app.add_subcommand("pairs", "List the persistence pairs as CSV");
-  command->add_option("FILE", options->file, "the .reeb file")->required();
-  command->add_option("-o,--output", options->output, "where to (standard output if not given)");
-  command->add_flag("--force", options->force, "overwrite the output");
+  command->add_option("FILE", options->file, "The .reeb file")->required();
+  command->add_option("-o,--output", options->output, "Output file (default: standard output)");
+  command->add_flag("--force", options->force, "Replace an existing output");
   command->footer("Example:\n  reeb pairs scan.reeb -o scan-pairs.csv");
   command->callback([options] {
     refuse_existing(options->output, options->force);

@@ -77,10 +77,11 @@ void verify(const VerifyOptions& options) {
 void add_verify(CLI::App& app) {
   auto options = std::make_shared<VerifyOptions>();
   CLI::App* command = app.add_subcommand("verify", "Check a .reeb file: checksums, structure, counts");
-  command->add_option("FILE", options->file, "the .reeb file")->required();
-  command->add_option("--mesh", options->mesh, "the mesh that it was computed from, to count again");
-  command->add_option("--memory", options->memory, "memory for the tables of the mesh, like 64M");
-  command->add_option("--temp-dir", options->temp_folder, "folder for temporary files (default: $TMPDIR, or here)");
+  command->add_option("FILE", options->file, "The .reeb file")->required();
+  command->add_option("--mesh", options->mesh, "The mesh that it was computed from, to count again independently");
+  command->add_option("--memory", options->memory, "Memory for the tables of the mesh, as 64M");
+  command->add_option("--temp-dir", options->temp_folder,
+                      "Folder for temporary files (default: $TMPDIR, or the current folder)");
   command->footer("Example:\n  reeb verify scan.reeb --mesh scan.ply");
   command->callback([options] { verify(*options); });
 }

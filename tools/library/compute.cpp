@@ -58,8 +58,8 @@ std::vector<ComputeResult> compute(const std::string& path, std::span<const std:
   for (const std::string& function : functions) specs.push_back(io::parse_function(function));
   check_outputs(functions, outputs, options);
   if (path != "-" && ooc::is_reeb_file(path))
-    throw Error(ErrorKind::kBadInput, "is a Reeb graph already, not a mesh",
-                "look at it with reeb info, or take a level out with reeb extract")
+    throw Error(ErrorKind::kBadInput, "is a Reeb graph, not a mesh",
+                "look at it with reeb info, or extract a level with reeb extract")
         .at(path);
 
   const bool snapshots = options.snapshot_every != 0;

@@ -93,7 +93,7 @@ void print_summary(const RunFacts& facts, const std::vector<ooc::ComputeResult>&
     if (r.denoised_pairs != 0) fmt::print(stderr, "  {} pairs of noise were removed\n", r.denoised_pairs);
     print_features(r);
     if (r.kept_loops != 0)
-      fmt::print(stderr, "  {} loops stay in every level, since no exact cancellation is known\n", r.kept_loops);
+      fmt::print(stderr, "  {} of the loops cannot be cancelled exactly; they stay in every level\n", r.kept_loops);
     const double seconds = r.seconds.wall;
     fmt::print(stderr, "  {:.2f} s ({:.1f} M triangles/s), peak memory {}\n", seconds,
                seconds > 0 ? static_cast<double>(r.triangles) / seconds / 1e6 : 0, format_bytes(peak_rss_bytes()));
