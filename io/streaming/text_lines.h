@@ -36,7 +36,7 @@ class LineScanner {
   bool unfinished_ = false, put_back_ = false;
 };
 
-enum class NumberVerdict : std::uint8_t { kGood, kMissing, kNotANumber, kOutOfRange };
+enum class NumberVerdict : std::uint8_t { kValid, kMissing, kNotANumber, kOutOfRange };
 
 // Reads the numbers of one line from left to right.
 class LineCursor {
