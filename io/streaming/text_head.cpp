@@ -56,7 +56,7 @@ bool TextHead::read_keyword(std::string_view line, std::string_view word, std::s
       fail(Fault::kUnsupported, "cells of type '" + std::string(type) + "'; only tetrahedra are read",
            std::to_string(number_) + ":" + std::to_string(cursor.column()));
   } else {
-    return volume_word;  // bounds of further values, which nobody needs
+    return volume_word;  // bounds of further values are not used
   }
   return true;
 }

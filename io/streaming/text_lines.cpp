@@ -26,7 +26,7 @@ bool has_control_byte(std::string_view line) {
   return found;
 }
 
-// `text` is what follows "0x". Underflow is 0 as for decimal numbers, overflow infinite.
+// `text` is the part after "0x". Underflow gives 0, as for decimal numbers; overflow gives infinity.
 bool parse_hexadecimal(std::string_view text, float& value) {
   const char* end = text.data() + text.size();
   const auto narrow = std::from_chars(text.data(), end, value, std::chars_format::hex);

@@ -6,7 +6,7 @@
 namespace reeb::io {
 namespace {
 
-constexpr std::size_t kEventsAFill = 128;
+constexpr std::size_t kEventsPerFill = 128;
 constexpr std::uint64_t kSkippedInFull = 5;
 
 bool starts_with_letter(std::string_view line, char letter) {
@@ -64,7 +64,7 @@ std::vector<std::string> TextEventReader::warnings() const {
 }
 
 void TextEventReader::fill() {
-  while (!done_ && queued() < kEventsAFill) {
+  while (!done_ && queued() < kEventsPerFill) {
     const auto line = lines_.next();
     if (!line) return finish();
     switch (classify(*line)) {
