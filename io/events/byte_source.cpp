@@ -19,7 +19,7 @@ bool ByteWindow::refill(std::size_t count) {
     begin_ = 0;
   }
   while (available() < count) {
-    // Doubling, never straight to `count`: the memory follows the data, not a number in a header.
+    // Doubles instead of growing to `count` at once: memory follows the data, not a number in a header.
     if (end_ == buffer_.size()) buffer_.resize(std::max(kWindowBytes, 2 * buffer_.size()));
     const std::size_t got = source_.read(std::span(buffer_).subspan(end_));
     if (got == 0) return false;

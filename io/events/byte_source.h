@@ -1,8 +1,9 @@
-// Bytes in, and a window over them: how every streaming mesh reader sees its input.
+// The input of every streaming mesh reader: a source of bytes, and a window over them.
 //
-// A source hands out large pieces; the window keeps the piece being parsed contiguous, so that
-// decoding never makes a virtual call a byte. Memory: the largest span ever asked of ensure(),
-// at least kWindowBytes, and only ever as much as the input really delivered.
+// A source is read in large blocks. The window keeps the bytes being parsed contiguous, so that decoding makes no
+// virtual call per byte.
+// MEMORY: kWindowBytes, or up to twice the largest span that ensure() delivered. A size that is only announced takes
+// none.
 #pragma once
 
 #include <cstddef>
@@ -20,11 +21,11 @@ class ByteSource {
   ByteSource& operator=(const ByteSource&) = delete;
   virtual ~ByteSource() = default;
 
-  // Fills a part of `out` and returns its size; 0 only at the end of the input.
+  // Fills the beginning of `out` and returns the number of bytes; 0 only at the end of the input.
   virtual std::size_t read(std::span<std::byte> out) = 0;
-  // How much of the input was consumed, in bytes as it lies on disk.
+  // Bytes of the input consumed so far, as stored on disk (before decompression).
   virtual std::uint64_t consumed() const = 0;
-  // Number of bytes that read() will deliver in all, where that is known beforehand.
+  // Total number of bytes that read() delivers, if known beforehand.
   virtual std::optional<std::uint64_t> size() const { return {}; }
 };
 
@@ -41,15 +42,15 @@ class SpanSource : public ByteSource {
   std::size_t at_ = 0;
 };
 
-// A contiguous look at the bytes that come next.
+// A contiguous view of the next bytes.
 class ByteWindow {
  public:
   static constexpr std::size_t kWindowBytes = 1u << 18;
 
   explicit ByteWindow(ByteSource& source) : source_(source) {}
 
-  // Tries to make at least `count` bytes available; false if the input ends before. What data()
-  // returned before is void after a call that had to read.
+  // Tries to make at least `count` bytes available; false if the input ends before. A call that has to read invalidates
+  // what data() returned before.
   bool ensure(std::size_t count) { return available() >= count || refill(count); }
   std::size_t available() const { return end_ - begin_; }
   const std::byte* data() const { return buffer_.data() + begin_; }

@@ -22,9 +22,8 @@ class CellHold {
   }
   void clear() { full_ = false; }
 
-  // Marks the last corner that is `vertex`; false if there is none.
-  // in_order: also false if a later corner is marked already, since readers deliver the
-  // finalizations of a cell in the order of its corners.
+  // Marks the last corner that is `vertex`; false if there is none. With `in_order` also false if a later corner is
+  // already marked, since readers deliver the finalizations of a cell in the order of its corners.
   bool finalize(std::uint32_t vertex, bool in_order) {
     for (std::size_t k = full_ ? corners_ : 0; k-- > 0;) {
       if (in_order && final_[k]) return false;

@@ -28,7 +28,7 @@ void append_values(std::string& out, const StreamEvent& event, std::size_t float
   for (std::size_t i = 0; i < ints; ++i) append_integer(out, event.ints[i]);
 }
 
-// Writes what it has also when an error passes by.
+// Its destructor writes the rest, so events before an error are written too.
 class Lines {
  public:
   explicit Lines(std::ostream& out) : buffer_(out) {}

@@ -1,5 +1,5 @@
-// A hash map from 32-bit keys to small values in one flat array, with erasure that leaves no
-// tombstones: for tables over the front of a stream, whose keys come and go without end.
+// A hash map from 32-bit keys to small values in one flat array. Erasure leaves no tombstones: the tables over the
+// front of a stream gain and lose keys without end.
 #pragma once
 
 #include <cstddef>
@@ -37,7 +37,7 @@ class FlatMap {
   void erase(std::uint32_t key) {
     std::size_t hole = locate(key);
     for (std::size_t at = next(hole); entries_[at].key != kFree; at = next(at)) {
-      // An entry may move back to the hole unless its home lies behind it.
+      // An entry can move back to the hole unless its home is after the hole.
       if (((at - home(entries_[at].key)) & mask()) < ((at - hole) & mask())) continue;
       entries_[hole] = std::move(entries_[at]);
       hole = at;

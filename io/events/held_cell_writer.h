@@ -1,5 +1,5 @@
-// What the writers of SMA, SMB and their volume forms share: the order of a file, and a cell that
-// waits until it is known which of its corners are finalized directly behind it.
+// What the writers of SMA, SMB and their volume forms share: the order of the file, and a cell that waits until it is
+// known which of its corners are finalized directly after it.
 #pragma once
 
 #include <array>
@@ -34,7 +34,7 @@ class HeldCellWriter : public StreamWriter {
         held_.put(event);
         return;
       case EventKind::kFinalized:
-        // In post-order a vertex is final when it comes.
+        // In post-order a vertex is final when it arrives.
         if (!post_order_ && !held_.finalize(event.vertex, in_order_)) write_finalized(event.vertex);
         return;
     }
@@ -46,12 +46,12 @@ class HeldCellWriter : public StreamWriter {
       : out_(out), header_(std::move(header)), in_order_(in_order) {}
 
   virtual void write_vertex(const StreamEvent& vertex) = 0;
-  // The corners by the numbers that stand in the file: 1-based, negative and relative if final.
+  // `corners` are the numbers to write: from 1; negative and relative to the newest vertex if the corner is final.
   virtual void write_cell(const StreamEvent& cell, std::span<const std::int32_t> corners) = 0;
-  // One that the cell before it does not cover.
+  // Writes a finalization that the cell before it does not express.
   virtual void write_finalized(std::uint32_t vertex) = 0;
 
-  // To be called before anything else is written, and at the end.
+  // Call it before anything else is written, and at the end.
   void write_held() {
     if (!held_.full()) return;
     std::array<std::int32_t, 4> numbers{};

@@ -30,7 +30,7 @@ IndexVerdict IndexRules::corner_post(std::int32_t number, std::uint32_t& vertex)
   vertex = static_cast<std::uint32_t>(number - 1);
   if (vertex < vertex_count()) return IndexVerdict::kFinal;
   named_ = std::max(named_, vertex + 1);
-  return IndexVerdict::kGood;
+  return IndexVerdict::kValid;
 }
 
 void IndexRules::require_all_arrived(const char* cells, const std::string& position) const {

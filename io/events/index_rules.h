@@ -1,8 +1,8 @@
-// Which vertex a number in a file means, and whether the stream may name it now.
+// Which vertex a number in a file refers to, and whether the stream may name that vertex now.
 //
-// Numbers of SMA, SMB, SVA and SVB: n > 0 is vertex n - 1; n < 0 is counted back from the newest
-// vertex (-1) and final after this cell; 0 is never legal. In post-order a cell names only
-// vertices that have not arrived, with n > 0.
+// Numbers in SMA, SMB, SVA and SVB: n > 0 is vertex n - 1. n < 0 counts back from the newest vertex (-1), and the
+// vertex is final after this cell. 0 is never legal. In post-order a cell names only vertices that have not arrived,
+// with n > 0.
 #pragma once
 
 #include <cstdint>
@@ -15,8 +15,8 @@ namespace reeb::io {
 
 inline constexpr std::uint32_t kMaxVertices = 0x7FFFFFFF;
 
-// Which vertices are final: a bit each, in pages that are given back when all their vertices are
-// final, so that memory follows the active vertices (and 4 bytes for 4096 others).
+// The set of final vertices, one bit each. A page is released when all its vertices are final.
+// MEMORY: follows the active vertices, plus 4 bytes per 4096 vertices.
 class FinalSet {
  public:
   void add_vertex() {
@@ -47,14 +47,14 @@ class FinalSet {
   void close_page(std::uint32_t number);
 
   std::uint32_t size_ = 0;
-  std::vector<std::uint32_t> pages_;   // of each 4096 vertices, or kAllFinal
+  std::vector<std::uint32_t> pages_;   // one for every 4096 vertices; or kAllFinal
   std::vector<std::uint64_t> words_;   // pool of pages
   std::vector<std::uint32_t> counts_;  // vertices in the set, by page
   std::vector<std::uint32_t> free_;
 };
 
-// What is wrong with one number; kGood: nothing.
-enum class IndexVerdict : std::uint8_t { kGood, kZero, kNotArrived, kBeforeFirst, kFinal };
+// What is wrong with a number, if anything.
+enum class IndexVerdict : std::uint8_t { kValid, kZero, kNotArrived, kBeforeFirst, kFinal };
 
 class IndexRules {
  public:
@@ -68,22 +68,22 @@ class IndexRules {
     if (post_order_) final_.insert(vertex_count() - 1);
   }
 
-  // The vertex that a corner `number` of a cell means, in `vertex`.
+  // Sets `vertex` to the one that a corner `number` of a cell refers to.
   IndexVerdict corner(std::int32_t number, std::uint32_t& vertex) {
     return post_order_ ? corner_post(number, vertex) : resolve(number, vertex);
   }
-  // The vertex that an explicit finalization means.
+  // The same for an explicit finalization.
   IndexVerdict finalization(std::int32_t number, std::uint32_t& vertex) const {
     const IndexVerdict verdict = resolve(number, vertex);
-    return post_order_ && verdict == IndexVerdict::kGood ? IndexVerdict::kFinal : verdict;
+    return post_order_ && verdict == IndexVerdict::kValid ? IndexVerdict::kFinal : verdict;
   }
-  // REQUIRES: pre-order, and the vertex was found good.
+  // REQUIRES: pre-order, and the verdict on the vertex was kValid.
   void finalize(std::uint32_t vertex) { final_.insert(vertex); }
   bool is_final(std::uint32_t vertex) const { return final_.contains(vertex); }
 
   // At the end. THROWS: MISSING_VERTEX.
   void require_all_arrived(const char* cells, const std::string& position) const;
-  // THROWS: the error that belongs to a verdict; `who` is "corner 2" or "finalization".
+  // THROWS: the error for this verdict; `who` is "corner 2" or "finalization".
   [[noreturn]] void fail_index(IndexVerdict verdict, std::int32_t number, const std::string& who,
                                const std::string& position) const;
 
@@ -94,7 +94,7 @@ class IndexRules {
     if (index < 0) return IndexVerdict::kBeforeFirst;
     if (index >= vertex_count()) return IndexVerdict::kNotArrived;
     vertex = static_cast<std::uint32_t>(index);
-    return final_.contains(vertex) ? IndexVerdict::kFinal : IndexVerdict::kGood;
+    return final_.contains(vertex) ? IndexVerdict::kFinal : IndexVerdict::kValid;
   }
   IndexVerdict corner_post(std::int32_t number, std::uint32_t& vertex);
 

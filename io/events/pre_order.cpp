@@ -22,9 +22,9 @@ class PreOrderReader : public EventReader {
   std::uint64_t bytes_read() const override { return reader_->bytes_read(); }
 
  private:
-  // A vertex that some waiting cell names.
+  // A vertex that a waiting cell names.
   struct Named {
-    std::uint32_t first = kNoCell;  // 4 * cell + corner of the last corner that named it
+    std::uint32_t first = kNoCell;  // the last corner that named it, as 4 * cell + corner
     std::uint32_t cells = 0;        // corners of waiting cells
   };
   struct WaitingCell {
@@ -38,7 +38,7 @@ class PreOrderReader : public EventReader {
       const StreamEvent* event = reader_->next();
       if (event == nullptr) return;
       if (event->kind == EventKind::kVertex) arrive(*event);
-      // Finalizations of the post-order stream follow from the vertices.
+      // Finalizations are not read: in a post-order stream they follow from the vertices.
       else if (event->kind != EventKind::kFinalized)
         wait(*event);
     }

@@ -1,4 +1,4 @@
-// Turns a post-order stream into a pre-order one: cells wait until their last vertex has come.
+// Turns a post-order stream into a pre-order one: each cell waits for the last of its vertices.
 #pragma once
 
 #include <memory>
@@ -7,10 +7,9 @@
 
 namespace reeb::io {
 
-// Delivers each vertex when it arrives, each cell directly after the last of its vertices, and
-// each finalization after the last cell that uses the vertex. Numbers are those of the file. A
-// pre-order `reader` is given back as it is.
-// MEMORY: the waiting cells and the vertices that they name, which is the front of the stream.
+// Delivers each vertex when it arrives, each cell directly after the last of its vertices, and each finalization after
+// the last cell that uses the vertex. Vertices keep their numbers. A pre-order `reader` is returned unchanged.
+// MEMORY: the waiting cells and the vertices that they name: the front of the stream.
 std::unique_ptr<EventReader> in_pre_order(std::unique_ptr<EventReader> reader);
 
 }  // namespace reeb::io

@@ -1,8 +1,8 @@
 // The event model of streaming meshes (Isenburg and Lindstrom, Streaming Meshes, 2005).
 //
-// A streaming mesh is one sequence in which vertices, cells and finalizations are interleaved.
-// In *pre-order* every vertex precedes the cells that use it; in *post-order* it follows them all
-// and is final in the moment it arrives. An EventReader delivers exactly the sequence of the file.
+// A streaming mesh is one sequence in which vertices, cells and finalizations are interleaved. In *pre-order* every
+// vertex precedes the cells that use it. In *post-order* it follows all of them and is final as soon as it arrives. An
+// EventReader delivers exactly the sequence of the file.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@ namespace reeb::io {
 
 enum class EventKind : std::uint8_t { kVertex, kTriangle, kTetrahedron, kFinalized };
 
-inline constexpr std::size_t kMaxFloats = 8;  // of one vertex, x, y, z included, or of one cell
+inline constexpr std::size_t kMaxFloats = 8;  // per vertex (with x, y, z) and per cell
 inline constexpr std::size_t kMaxInts = 8;
 
 // Vertices are numbered from 0 in order of arrival; numbers fit in 31 bits.
@@ -35,7 +35,7 @@ struct StreamBox {
   std::array<float, 3> min, max;
 };
 
-// What the head of a file says. Counts are hints: absent, or not to be trusted.
+// The head of a file. Counts are hints: they can be absent or wrong.
 struct StreamHeader {
   std::string format;  // "SMA", "SMC version 3"
   bool volume = false;
@@ -54,7 +54,7 @@ class EventReader {
   EventReader& operator=(const EventReader&) = delete;
   virtual ~EventReader() = default;
 
-  // Complete as soon as the reader exists.
+  // Complete from construction on.
   const StreamHeader& header() const { return header_; }
 
   // The next event, valid until the next call; null at the regular end of the stream.
@@ -63,12 +63,12 @@ class EventReader {
   const StreamEvent* next() { return at_ < count_ || refill() ? &queue_[at_++] : nullptr; }
 
   const std::string& name() const { return name_; }
-  // What error messages call the input from now on.
+  // Sets the name of the input in later error messages.
   void set_name(std::string name) { name_ = std::move(name); }
 
-  // "COUNT: ...", one line each. Final once next() has returned null.
+  // One line each, as "COUNT: ...". Complete once next() has returned null.
   virtual std::vector<std::string> warnings() const { return warnings_; }
-  // How much of the input was consumed, in bytes as it lies on disk.
+  // Bytes of the input consumed so far, as stored on disk (before decompression).
   virtual std::uint64_t bytes_read() const = 0;
 
  protected:
@@ -92,7 +92,7 @@ class EventReader {
   std::string name_;
   std::vector<StreamEvent> queue_;  // reused; only the first count_ entries are events
   std::size_t at_ = 0, count_ = 0;
-  std::exception_ptr fault_;  // met after the queued events
+  std::exception_ptr fault_;  // thrown after the queued events
   std::vector<std::string> warnings_;
 };
 

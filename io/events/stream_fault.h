@@ -23,15 +23,15 @@ enum class Fault {
 // THROWS: Error{kBadInput}, always.
 [[noreturn]] void fail(Fault fault, const std::string& what, const std::string& position);
 
-// How many elements a header promised and a stream delivered.
+// How many elements a header announced, and how many the stream delivered.
 struct Tally {
   std::optional<std::uint32_t> promised;
   std::uint64_t delivered = 0;
 };
 
-// "COUNT: ..." if more (or, with `fewer_too`, fewer) came than promised, else empty.
+// "COUNT: ..." if more elements (or, with `fewer_too`, fewer) came than announced, else empty.
 std::string count_warning(const Tally& tally, const char* what, bool fewer_too);
-// THROWS: TRUNCATED if fewer came than promised.
+// THROWS: TRUNCATED if fewer elements came than announced.
 void require_promised(const Tally& tally, const char* what, const std::string& position);
 
 }  // namespace reeb::io

@@ -1,8 +1,8 @@
 // Writes streaming meshes event by event.
 //
-// The events must be a legal stream (stream_event.h); the first one decides between pre-order and
-// post-order. Memory follows the front. Output goes to a stream; a file under its final name is
-// the caller's business.
+// The events must be a legal stream (stream_event.h); the first one decides between pre-order and post-order. Output
+// goes to a stream: giving a file its final name is left to the caller.
+// MEMORY: follows the front.
 #pragma once
 
 #include <memory>
@@ -26,22 +26,22 @@ class StreamWriter {
   virtual void write(const StreamEvent& event) = 0;
   // Ends the file. THROWS: Error{kResource} if something could not be written.
   virtual void close() = 0;
-  // What the format could not hold, one line each. Final after close().
+  // What the format could not hold, one line each. Complete after close().
   virtual std::vector<std::string> warnings() const { return {}; }
 };
 
-// Of the header counts, box, comments, volume and the numbers of values are used; what is unknown
-// is left out. Text, SMA or (where header.volume) SVA.
+// Text: SMA or (if header.volume) SVA. Uses the counts, box, comments, volume and numbers of values of the header;
+// unknown ones are left out of the file.
 std::unique_ptr<StreamWriter> make_text_writer(std::ostream& out, const StreamHeader& header);
-// Little endian, SMB or (where header.volume) SVB. Unknown counts are patched in at the end if the
-// output can seek. Finalizations apart from the last cell of a vertex are dropped and counted.
+// Little endian: SMB or (if header.volume) SVB. Counts that are not known yet are patched in at the end if the output
+// can seek. A finalization that is not directly after a cell of its vertex cannot be stored: it is dropped and counted.
 std::unique_ptr<StreamWriter> make_block_writer(std::ostream& out, const StreamHeader& header);
 
 struct SmcOptions {
-  unsigned version = 3;         // 3, or 1: only if no edge is left open at the end
-  std::uint32_t precision = 0;  // bits a coordinate; 0 is lossless; needs header.box to be a grid
+  unsigned version = 3;         // 3; or 1, which requires that no edge is open at the end
+  std::uint32_t precision = 0;  // bits per coordinate; 0 is lossless; a grid needs header.box
 };
-// Vertices are numbered anew, in order of first use; isolated ones are dropped and counted.
+// Vertices are renumbered in order of first use; isolated ones are dropped and counted.
 std::unique_ptr<StreamWriter> make_smc_writer(std::ostream& out, const StreamHeader& header,
                                               const SmcOptions& options = {});
 

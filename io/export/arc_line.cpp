@@ -11,7 +11,7 @@ struct Stop {
   double weight;
 };
 
-// The node below, the non-empty buckets, the node above. A node weighs as much as the bucket next to it.
+// The node below, the non-empty buckets, the node above. A node has the weight of the bucket next to it.
 std::vector<Stop> stops_of(const std::array<double, 3>& lo, std::span<const Bucket> buckets,
                            const std::array<double, 3>& hi) {
   std::vector<Stop> stops{{lo, 1}};

@@ -1,15 +1,14 @@
-// The line that an arc is drawn as, from the buckets of its embedding (DESIGN.md 5).
+// The line that is drawn for an arc, made from the buckets of its embedding (docs/SEMANTICS.md, Buckets).
 //
-// A bucket's mean is the centre of a slab of the surface as far as vertices sample that slab evenly.
-// On coarse meshes, and where a cancelled feature enters or leaves the arc, means of neighbours lie
-// to either side of the line that one sees; and from a node on the surface to the first centre is a
-// jump. So each point of the line is a mean over a window of buckets, in which
-//  - a bucket counts less the farther it is, in buckets;
-//  - it counts by the root of its vertices: one vertex does not bend the line, a feature laid onto
-//    the arc does not swamp it;
-//  - beyond the end of the arc there is its node, again and again, so the line bends into its nodes,
-//    which stay on their vertices.
-// Weights are not negative: a line stays in the convex hull of its nodes and means.
+// The mean of a bucket is the centre of a slab of the surface, if vertices sample that slab evenly. On coarse meshes,
+// and where a cancelled pair enters or leaves the arc, the means of neighbouring buckets are on alternate sides of the
+// line that one would draw. The first centre is also far from the node, which is on the surface. So each point of the
+// line is a mean over a window of buckets, in which
+//  - the weight of a bucket falls with its distance, counted in buckets;
+//  - the weight is proportional to the square root of its vertex count: a single vertex does not bend the line, and
+//    the vertices of a cancelled pair that were moved to the arc do not dominate it;
+//  - beyond each end of the arc its node is repeated, so the line bends into its nodes, which stay on their vertices.
+// No weight is negative, so a line stays in the convex hull of its nodes and means.
 #pragma once
 
 #include <array>
@@ -21,12 +20,11 @@
 
 namespace reeb::io {
 
-// Buckets to either side in a window; not more than a third of the arc's, so that a short arc keeps
-// its shape.
+// Buckets on either side in a window; at most a third of the arc's, so that a short arc keeps its shape.
 inline constexpr std::size_t kLineReach = 7;
 
-// Replaces `line` by one point for each non-empty bucket, from below: what lies between `lo` and `hi`.
-// O(buckets).
+// Replaces `line` by one point for each non-empty bucket, from below: the points between `lo` and `hi`.
+// TIME: O(buckets).
 void draw_arc(const std::array<double, 3>& lo, std::span<const Bucket> buckets, const std::array<double, 3>& hi,
               std::vector<std::array<double, 3>>& line);
 

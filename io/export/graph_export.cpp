@@ -33,7 +33,7 @@ std::uint64_t vertices_of(const GraphView& view, std::size_t arc) {
   return sum;
 }
 
-// A JSON string literal: control characters, quotes and backslashes escaped, UTF-8 as it is.
+// A JSON string literal: control characters, quotes and backslashes are escaped, UTF-8 is unchanged.
 void write_json_string(std::string_view text, OutputBuffer& out) {
   constexpr std::string_view kHex = "0123456789abcdef";
   out << '"';

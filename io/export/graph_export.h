@@ -1,4 +1,4 @@
-// Reeb graphs as text files that other programs read (INTERFACE.md, Text formats).
+// Reeb graphs as text files that other programs read (docs/CLI.md, `reeb extract FILE`).
 #pragma once
 
 #include <optional>
@@ -12,7 +12,7 @@
 
 namespace reeb::io {
 
-// What is exported; refers to what the caller holds.
+// What is exported. Refers to data of the caller, which must outlive it.
 struct GraphView {
   const ReebGraph& graph;
   std::string_view function;
@@ -23,14 +23,14 @@ struct GraphView {
 
 enum class GraphFormat { kRg, kJson, kCsv, kDot, kGraphml, kVtp, kVtu, kPly, kObj };
 
-// By name ("rg", "json", ...); nothing if there is no such format.
+// The format with this name ("rg", "json", ...), if there is one.
 std::optional<GraphFormat> graph_format(std::string_view name);
 // The names, for messages: "rg json csv dot ...".
 std::string graph_format_names();
 
-// Writes item by item, so that memory does not grow with the graph beyond its node degrees. Numbers
-// restore every double. Formats that show lines in space draw an arc along its buckets, if it has
-// any, and put nodes without known positions at (0, 0, value).
+// Numbers restore every double. Formats with lines in space draw an arc along its buckets, if it has any, and put nodes
+// without known positions at (0, 0, value).
+// MEMORY: of the whole graph, only the degrees of its nodes; items are written one by one.
 //
 // TIME:    O(nodes + arcs + buckets), and that of `out`.
 // THREADS: any number of calls at the same time, each with a stream of its own.

@@ -71,7 +71,7 @@ void begin_array(const char* type, const char* name, OutputBuffer& out) {
   out << "<DataArray type=\"" << type << "\" Name=\"" << name << "\" format=\"ascii\">\n";
 }
 
-// The middle of the values that an arc has in its bucket.
+// The middle of the values that the arc has in this bucket.
 double value_of(const GraphView& view, std::size_t arc, const Bucket& bucket) {
   const double lo = view.graph.nodes[view.graph.lo[arc].value()].value;
   const double hi = view.graph.nodes[view.graph.hi[arc].value()].value;
@@ -81,7 +81,7 @@ double value_of(const GraphView& view, std::size_t arc, const Bucket& bucket) {
   return bottom + (top - bottom) / 2;
 }
 
-// Points with the nodes' values and vertices; along arcs the vertex is -1.
+// Nodes have their value and vertex; points along arcs have the vertex -1.
 void write_vtk_point_data(const GraphView& view, OutputBuffer& out) {
   const ReebGraph& graph = view.graph;
   out << "<PointData Scalars=\"value\">\n";

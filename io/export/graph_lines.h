@@ -1,7 +1,7 @@
 // Reeb graphs as polylines in space: VTK XML, PLY, OBJ.
 //
-// Points are the nodes, in their order, then for each arc one a non-empty bucket, from below, as
-// arc_line.h makes them; an arc is the line from its lower node through these to its upper node.
+// The points are first the nodes, in their order, then for each arc one point per non-empty bucket, from below
+// (arc_line.h). An arc is the line from its lower node through these points to its upper node.
 #pragma once
 
 #include "io/export/graph_export.h"

@@ -42,12 +42,12 @@ bool is_number_pair(std::string_view text) {
       .at(path);
 }
 
-// Where the links lead that `path` may be. There need not be a file yet.
+// The end of the chain of links that starts at `path`. There need not be a file yet.
 std::string follow_links(const std::string& path) {
-  constexpr int kMostLinks = 40;  // as the system follows
+  constexpr int kMaxLinks = 40;  // the limit of the system
   fs::path place = path;
   std::error_code ignored;
-  for (int i = 0; i < kMostLinks; ++i) {
+  for (int i = 0; i < kMaxLinks; ++i) {
     if (!fs::is_symlink(fs::symlink_status(place, ignored))) return place.string();
     const fs::path target = fs::read_symlink(place, ignored);
     place = target.is_absolute() ? target : place.parent_path() / target;
@@ -55,8 +55,8 @@ std::string follow_links(const std::string& path) {
   throw Error(ErrorKind::kBadInput, "the output is a symbolic link that leads to itself", "name a file").at(path);
 }
 
-// What the umask leaves of 0666. The system tells the umask only to who sets it, which would show in other threads, so
-// that its own list is asked first.
+// 0666 minus the umask. umask() returns the mask only by setting it, which other threads could notice, so /proc is read
+// first.
 mode_t usual_mode() {
   std::ifstream status("/proc/self/status");
   for (std::string line; std::getline(status, line);)
@@ -130,7 +130,8 @@ void AtomicFile::open_temporary() {
     if (descriptor < 0) throw_output_error(errno, path_);
     file = File(descriptor, path_, File::Use::kOutput);
     temporary_ = std::move(name);
-    // For remove_abandoned(). One that looked between the two calls has removed the file: then another is made.
+    // The lock is for remove_abandoned(). If that ran between the two calls, it has removed the file, and another is
+    // created.
     ::flock(descriptor, LOCK_EX);
     if (!has_name(descriptor)) file = {};
   }
@@ -152,7 +153,7 @@ void AtomicFile::commit() {
   if (collected_) return copy_to_device();
   out_->sync();
   if (!temporary_.empty()) give_name();
-  out_.reset();  // the lock goes last
+  out_.reset();  // releases the lock, as the last step
 }
 
 void AtomicFile::copy_to_device() {
@@ -166,7 +167,7 @@ void AtomicFile::copy_to_device() {
 void AtomicFile::give_name() {
   struct stat old {};
   const bool replaces = ::stat(target_.c_str(), &old) == 0;
-  // No file system but those without modes refuses this.
+  // Only a file system without modes refuses this.
   (void)!::fchmod(out_->file().descriptor(), replaces ? old.st_mode & 0777 : usual_mode());
   const int error = options_.existing == Existing::kRefuse ? system::rename_to_new(temporary_, target_)
                                                            : system::rename(temporary_, target_);

@@ -1,4 +1,4 @@
-// A file written through a buffer: the one way in which outputs are written.
+// A file written through a buffer. All outputs are written this way.
 #pragma once
 
 #include <cstddef>
@@ -12,34 +12,34 @@
 
 namespace reeb::io {
 
-// Bytes are handed to the system in pieces of the buffer's size, so small records cost a copy only.
-// The destructor closes without flushing: what was not flushed was not wanted.
+// Bytes are passed to the system a full buffer at a time, so a small record costs only a copy. The destructor closes
+// without flushing: an output that was not flushed was abandoned.
 // THROWS: as File.
 class BufferedWriter {
  public:
   static constexpr std::size_t kBufferBytes = std::size_t{1} << 20;
 
-  // `file` is empty.
+  // REQUIRES: `file` is empty.
   explicit BufferedWriter(File file, std::size_t buffer_bytes = kBufferBytes);
 
   void append(std::span<const std::byte> bytes);
   void append(std::string_view text) { append(std::as_bytes(std::span(text))); }
-  // Room for a record of at most `bytes` bytes, to be filled in place; commit_record() then takes
-  // the first `used` of them. REQUIRES: bytes are at most the buffer's.
+  // Returns room for a record of at most `bytes` bytes, to be filled in place; commit_record() then takes the first
+  // `used` of them. REQUIRES: `bytes` is at most the size of the buffer.
   char* reserve_record(std::size_t bytes) {
     if (bytes > buffer_bytes_ - filled_) flush();
     return buffer_.get() + filled_;
   }
   void commit_record(std::size_t used) { filled_ += used; }
 
-  // Overwrites bytes that were appended before. Flushes. REQUIRES: a file, not a pipe.
+  // Flushes, then overwrites bytes that were appended before. REQUIRES: a file, not a pipe.
   void overwrite(std::uint64_t offset, std::span<const std::byte> bytes);
   void overwrite(std::uint64_t offset, std::string_view text) { overwrite(offset, std::as_bytes(std::span(text))); }
   // Appends the whole content of `other`, in bounded memory. Flushes both.
   void append_file(BufferedWriter& other);
 
   void flush();
-  // Flushes and waits until the bytes are on the device, as far as the file is on one.
+  // Flushes, and waits until the bytes are on the device, if the file is on one.
   void sync();
 
   std::uint64_t size() const { return flushed_ + filled_; }

@@ -10,7 +10,7 @@ namespace reeb::io {
 
 std::uint64_t checksum(std::span<const std::byte> bytes, std::uint64_t seed = 0);
 
-// The checksum of bytes that come in pieces; does not depend on where they were cut.
+// The checksum of bytes that arrive in parts. It does not depend on where they were cut.
 class RunningChecksum {
  public:
   RunningChecksum();

@@ -25,7 +25,7 @@ class MappedSource final : public ContentSource {
       : ContentSource(file->path()), windows_(std::move(file), {.window_count = 2, .overlap_bytes = kLookahead}) {}
   using ContentSource::view;
 
-  std::string_view view(std::uint64_t offset, std::size_t /*least*/) override {
+  std::string_view view(std::uint64_t offset, std::size_t /*min_bytes*/) override {
     read_ = std::min(offset, windows_.size());
     return offset < windows_.size() ? windows_.view(offset) : std::string_view{};
   }
@@ -94,17 +94,18 @@ class StreamSource final : public ContentSource {
   StreamSource(const std::string& name, std::unique_ptr<RawInput> input, std::uint64_t file_bytes)
       : ContentSource(name), input_(std::move(input)), file_bytes_(file_bytes), buffer_(kBufferBytes) {}
 
-  std::string_view view(std::uint64_t offset, std::size_t least) override {
-    // Only a reader's own arithmetic decides the offset, and it has seen every byte before it.
+  std::string_view view(std::uint64_t offset, std::size_t min_bytes) override {
+    // The offset comes from the reader's own arithmetic, never from the file, and the reader has seen every byte before
+    // it.
     const std::size_t skip = std::min(static_cast<std::size_t>(offset - begin_), filled_);
     filled_ -= skip;
     begin_ += skip;
-    if (ended_ || filled_ >= least) {
+    if (ended_ || filled_ >= min_bytes) {
       start_ += skip;
     } else {
       std::memmove(buffer_.data(), buffer_.data() + start_ + skip, filled_);
       start_ = 0;
-      fill(least);
+      fill(min_bytes);
     }
     return {buffer_.data() + start_, filled_};
   }
@@ -116,8 +117,8 @@ class StreamSource final : public ContentSource {
  private:
   static constexpr std::size_t kBufferBytes = std::size_t{1} << 18;
 
-  void fill(std::size_t least) {
-    while (filled_ < least && !ended_) {
+  void fill(std::size_t min_bytes) {
+    while (filled_ < min_bytes && !ended_) {
       const std::size_t got = input_->read(buffer_.data() + filled_, buffer_.size() - filled_);
       ended_ = got == 0;
       filled_ += got;
@@ -132,7 +133,7 @@ class StreamSource final : public ContentSource {
   bool ended_ = false;
 };
 
-// The first bytes of a pipe, read to tell its compression, then the rest.
+// The first bytes of a pipe, which were read to detect its compression, then the rest.
 class PeekedInput final : public RawInput {
  public:
   explicit PeekedInput(std::unique_ptr<RawInput> input) : input_(std::move(input)) {

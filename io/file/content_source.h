@@ -1,7 +1,7 @@
-// The bytes of an input in order, wherever they come from: a mapped file, a compressed one, a pipe.
+// The bytes of an input in order: from a mapped file, a compressed one, or a pipe.
 //
-// Compression is told by content (gzip 1F 8B, zstd 28 B5 2F FD), never by name, and undone on the
-// way; everything behind this interface sees the content only.
+// Compression is detected from the content (gzip 1F 8B, zstd 28 B5 2F FD), never from the name. Users of this interface
+// see the decompressed content only.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +17,7 @@ class MappableFile;
 
 class ContentSource {
  public:
-  // What a view holds at least where nothing else is said, or all that is left.
+  // The least number of bytes in a view, unless another number is given or the content ends before.
   static constexpr std::size_t kLookahead = 65536;
 
   ContentSource() = default;
@@ -25,27 +25,24 @@ class ContentSource {
   ContentSource& operator=(const ContentSource&) = delete;
   virtual ~ContentSource() = default;
 
-  // The content from `offset` on, at least `least` bytes unless it ends before; empty at the end.
-  // Ends the validity of the view before. Offsets never fall, except where can_seek(). A pipe is
-  // waited for until `least` bytes have come, and no longer.
-  // REQUIRES: 1 <= least <= kLookahead.
+  // The content from `offset` on: at least `min_bytes`, unless it ends before; empty at the end. Invalidates the
+  // previous view. On a pipe it waits until `min_bytes` have arrived, and no longer.
+  // REQUIRES: 1 <= min_bytes <= kLookahead; `offset` is not below the previous one, unless can_seek().
   // THROWS: Error{kBadInput} where a compressed stream is damaged or cut.
-  virtual std::string_view view(std::uint64_t offset, std::size_t least) = 0;
+  virtual std::string_view view(std::uint64_t offset, std::size_t min_bytes) = 0;
   std::string_view view(std::uint64_t offset) { return view(offset, kLookahead); }
 
   virtual bool can_seek() const = 0;
-  // Bytes of content, where known without reading it.
+  // Bytes of content, if known without reading it.
   virtual std::optional<std::uint64_t> size() const = 0;
-  // Bytes of the file as it lies on disk: consumed so far for the views given out, and in all
-  // (0: unknown).
+  // Bytes of the file as stored on disk: those consumed so far, and all of them (0: unknown).
   virtual std::uint64_t file_bytes_read() const = 0;
   virtual std::uint64_t file_bytes() const = 0;
 
-  // The file, where the content is that of an uncompressed one: it can be mapped without opening it again.
-  // Else null.
+  // The file, if it is uncompressed: it can be mapped without being opened again. Else null.
   virtual std::shared_ptr<const MappableFile> file() const { return nullptr; }
 
-  // What error messages call it.
+  // Its name in error messages.
   const std::string& name() const { return name_; }
 
  protected:
@@ -58,7 +55,7 @@ class ContentSource {
 // "-" is standard input. A source that is not a regular file is read as a pipe.
 // THROWS: Error{kBadInput}: absent, a directory, unreadable, empty.
 std::unique_ptr<ContentSource> open_content(const std::string& path);
-// The same for a file that is open.
+// The same for an open file.
 std::unique_ptr<ContentSource> open_content(std::shared_ptr<const MappableFile> file);
 
 }  // namespace reeb::io

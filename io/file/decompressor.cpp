@@ -36,7 +36,7 @@ class RawDevice {
   RawInput* raw_;
 };
 
-// bio::zstd_decompressor takes a cut stream for its end, so frames are followed here.
+// bio::zstd_decompressor accepts a truncated stream as complete, so this filter follows the frames itself.
 class ZstdFilter {
  public:
   using char_type = char;

@@ -1,4 +1,4 @@
-// Unpacking gzip and zstd on the way in, through Boost.Iostreams filters.
+// Decompresses gzip and zstd while the input is read, with Boost.Iostreams filters.
 #pragma once
 
 #include <cstddef>
@@ -17,9 +17,9 @@ class RawInput {
   RawInput& operator=(const RawInput&) = delete;
   virtual ~RawInput() = default;
 
-  // Fills at most `limit` bytes; 0 at the end only.
+  // Reads at most `limit` bytes and returns their number; 0 only at the end.
   virtual std::size_t read(char* out, std::size_t limit) = 0;
-  // Bytes of the file itself that were taken so far.
+  // Bytes consumed so far, as stored in the file.
   virtual std::uint64_t consumed() const = 0;
 };
 

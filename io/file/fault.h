@@ -1,4 +1,4 @@
-// Faults on request: tests let any call of this layer to the system fail, be short, or be interrupted.
+// Faults on request: tests can make any system call of this layer fail, transfer less, or be interrupted.
 #pragma once
 
 #include <atomic>
@@ -11,11 +11,11 @@ namespace reeb::io {
 enum class FileCall { kOpen, kRead, kWrite, kMap, kSync, kRename };
 
 struct FileFault {
-  int error = 0;                                                     // an errno: the call is not made and fails with it
-  std::size_t most_bytes = std::numeric_limits<std::size_t>::max();  // a read or write moves no more than these
+  int error = 0;                                                     // an errno: the call fails with it and is not made
+  std::size_t most_bytes = std::numeric_limits<std::size_t>::max();  // limit for one read or write
 };
 
-// Asked before each call. THREADS: any thread may ask, also several at once.
+// Called before each system call. THREADS: any number at once.
 using FileFaultHook = std::function<FileFault(FileCall)>;
 
 namespace detail {
@@ -30,7 +30,7 @@ inline FileFault fault_for(FileCall call) {
   return (*hook)(call);
 }
 
-// Sets the hook of the process for as long as it lives; one at a time.
+// Sets the hook of the process during its lifetime. REQUIRES: one at a time.
 class ScopedFileFaults {
  public:
   explicit ScopedFileFaults(FileFaultHook hook) : hook_(std::move(hook)) { detail::fault_hook.store(&hook_); }

@@ -80,7 +80,7 @@ File::~File() {
 }
 
 File File::open_for_reading(const std::string& path) {
-  // Asked first: to open a FIFO is to wait for its writer.
+  // Checked first: opening a FIFO would wait for its writer.
   struct stat status {};
   if (::stat(path.c_str(), &status) != 0) throw_input_error(std::strerror(errno), path);
   if (!S_ISREG(status.st_mode)) throw_input_error("not a regular file", path);

@@ -1,4 +1,4 @@
-// A file by its descriptor: whole reads and writes at a place, and errors that say what to do.
+// A file by its descriptor: complete reads and writes at an offset, and errors that say what to do.
 #pragma once
 
 #include <cstddef>
@@ -9,19 +9,19 @@
 
 namespace reeb::io {
 
-// Whether `path` names a file whose bytes lie on a disk: not a pipe, a folder or nothing.
+// Whether `path` names a regular file: not a pipe, a folder or nothing.
 bool is_regular_file(const std::string& path);
-// Whether `path` names a device, a FIFO or a socket: something that is written into, not replaced.
+// Whether `path` names a device, a FIFO or a socket: something that an output is written to and does not replace.
 bool is_device(const std::string& path);
 
 // The folder that holds `path`.
 std::string folder_of(const std::string& path);
 
-// Returns once the names in `folder` have reached the device, as far as the file system can tell.
+// Returns once the names in `folder` are on the device, as far as the file system can tell.
 // THROWS: Error{kResource}.
 void sync_folder(const std::string& folder);
 
-// Part of a file in the address space, for reading; the destructor gives it back.
+// Part of a file in the address space, for reading; the destructor unmaps it.
 class Mapping {
  public:
   Mapping() = default;
@@ -30,9 +30,9 @@ class Mapping {
   ~Mapping();
 
   std::span<const std::byte> bytes() const { return bytes_; }
-  // Pages around one that is touched are not read.
+  // Tells the system not to read pages around the one that is touched.
   void expect_random_access() const noexcept;
-  // Gives the pages that were touched back to the system; they are read again when needed.
+  // Returns the touched pages to the system, which reads them again when needed.
   void release_pages() const noexcept;
 
  private:
@@ -40,12 +40,12 @@ class Mapping {
   std::span<const std::byte> bytes_;
 };
 
-// Move-only owner of an open file; closing is the destructor's. Reads and writes name their
-// place, are whole or throw, and go on after signals.
+// Move-only owner of an open file, which the destructor closes. Reads and writes name their offset. They transfer
+// everything or throw, and continue after signals.
 //
-// THROWS: Error with file and byte offset. Of an input: kBadInput, also where it ends before. Of other files:
-//         kResource with what is needed (a full disk, a quota, a device that fails).
-// THREADS: any number may read and write at places that do not overlap.
+// THROWS: Error with file and byte offset. For an input kBadInput, also if it ends too early. For other files
+//         kResource, with a hint at what is needed (after a full disk, a quota, or a failing device).
+// THREADS: any number may read and write ranges that do not overlap.
 class File {
  public:
   enum class Use { kInput, kTemporary, kOutput };  // what errors say and advise
@@ -61,8 +61,8 @@ class File {
   static File open_for_reading(const std::string& path);
   // A file that this program made. THROWS: Error{kBadInput} if it cannot be opened, or is a link.
   static File open_for_update(const std::string& path);
-  // A new file of this program, for this user only. A file that had its name before is removed; anything else is left
-  // alone. THROWS: Error{kResource}.
+  // A new file of this program, for this user only. It replaces a file of that name; anything else of that name stays,
+  // and is an error. THROWS: Error{kResource}.
   static File create(const std::string& path);
 
   bool is_open() const { return descriptor_ >= 0; }
@@ -72,14 +72,14 @@ class File {
 
   void read_at(std::uint64_t offset, std::span<std::byte> bytes) const;
   void write_at(std::uint64_t offset, std::span<const std::byte> bytes) const;
-  // Where the descriptor stands, which is `offset` in messages: pipes know no other place.
+  // Writes at the current position of the descriptor, since a pipe has no other. `offset` is only for messages.
   void write_next(std::uint64_t offset, std::span<const std::byte> bytes) const;
-  // REQUIRES: offset is a multiple of the page size; the file has the bytes, of which there are some.
+  // REQUIRES: `offset` is a multiple of the page size; bytes > 0, and the file has them.
   Mapping map(std::uint64_t offset, std::size_t bytes) const;
-  // Returns once the content has reached the device.
+  // Returns once the content is on the device.
   void sync() const;
 
-  // Throws the Error for the system's error number `error`, met while `doing` ("write").
+  // Throws the Error for the system's error number `error`, which occurred while `doing` ("write").
   [[noreturn]] void fail(const char* doing, int error, std::uint64_t offset, std::size_t bytes) const;
 
  private:

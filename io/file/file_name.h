@@ -1,4 +1,4 @@
-// What the name of a file tells.
+// What the name of a file says about its content.
 #pragma once
 
 #include <string>
@@ -9,8 +9,8 @@ namespace reeb::io {
 // The suffix in lower case, with its dot: ".ply".
 std::string name_suffix(const std::string& path);
 
-// Whether a name ends as those of streaming meshes do (.sma .smb .smc .smd .sva .svb .svc), perhaps
-// with .gz or .zst after it.
+// Whether a name has a suffix of streaming meshes (.sma .smb .smc .smd .sva .svb .svc), with or without .gz or .zst
+// after it.
 bool is_streaming_name(std::string_view path);
 
 }  // namespace reeb::io

@@ -32,11 +32,11 @@ FileOstream::pos_type FileOstream::seekoff(off_type offset, std::ios_base::seekd
   return seekpos(base + offset, which);
 }
 
-FileOstream::pos_type FileOstream::seekpos(pos_type place, std::ios_base::openmode /*which*/) {
-  const auto offset = static_cast<off_type>(place);
+FileOstream::pos_type FileOstream::seekpos(pos_type position, std::ios_base::openmode /*which*/) {
+  const auto offset = static_cast<off_type>(position);
   if (offset < 0 || static_cast<std::uint64_t>(offset) > file_.size()) return off_type{-1};
   at_ = static_cast<std::uint64_t>(offset);
-  return place;
+  return position;
 }
 
 }  // namespace reeb::io

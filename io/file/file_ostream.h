@@ -8,8 +8,8 @@
 
 namespace reeb::io {
 
-// Bytes pass on at once, since the file has a buffer of its own; the place of writing can be set
-// back to overwrite what was written. Errors of the file pass through the stream as they are.
+// Bytes are passed on at once, since the file has its own buffer. The position can be set back to overwrite bytes. The
+// stream passes on errors of the file unchanged.
 class FileOstream : private std::streambuf, public std::ostream {
  public:
   // `file` must outlive this.
@@ -24,7 +24,7 @@ class FileOstream : private std::streambuf, public std::ostream {
   std::streamsize xsputn(const char* bytes, std::streamsize count) override;
   int_type overflow(int_type c) override;
   pos_type seekoff(off_type offset, std::ios_base::seekdir direction, std::ios_base::openmode which) override;
-  pos_type seekpos(pos_type place, std::ios_base::openmode which) override;
+  pos_type seekpos(pos_type position, std::ios_base::openmode which) override;
 
   BufferedWriter& file_;
   std::uint64_t at_;

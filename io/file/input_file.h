@@ -1,4 +1,4 @@
-// A regular file that is read: what can be said about it before its first byte, and the file opened once.
+// An input that is a regular file: checks before the first byte is read, and the file opened once.
 #pragma once
 
 #include <cstddef>
@@ -9,16 +9,17 @@
 
 namespace reeb::io {
 
-// THROWS: Error{kBadInput} with a hint: absent, a directory, or not readable by this user.
+// THROWS: Error{kBadInput} with a hint if it is missing, a directory, or not readable by this user.
 void check_input_file(const std::string& path);
 
 [[noreturn]] void throw_empty(const std::string& path);
 
-// An open file that any number of readers map, so that all of them see the same file, whatever happens to
-// its name. THREADS: any.
+// An open file that any number of readers can map. All of them see the same file, even if its name is removed or
+// replaced.
+// THREADS: any.
 class MappableFile {
  public:
-  // THROWS: Error{kBadInput}: absent, a directory or another special file, unreadable, empty.
+  // THROWS: Error{kBadInput} if it is missing, a directory or another special file, unreadable, or empty.
   explicit MappableFile(const std::string& path);
 
   const std::string& path() const { return file_.path(); }

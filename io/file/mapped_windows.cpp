@@ -24,7 +24,7 @@ std::size_t MappedWindows::mapped_bytes(std::uint64_t window) const {
   return static_cast<std::size_t>(std::min(wanted, size() - (window << options_.window_bits)));
 }
 
-// The clock rule: the hand passes over windows used since it came by last.
+// The clock rule: the hand skips windows that were used since its last visit.
 std::uint8_t MappedWindows::victim() {
   while (true) {
     const auto number = static_cast<std::uint8_t>(hand_);

@@ -1,13 +1,12 @@
-// A file seen through a few mapped windows, so that resident memory never grows with the file
-// (DESIGN.md 4, Reading).
+// A file seen through a few mapped windows, so that resident memory never grows with the file.
 //
-// The file is divided into windows of equal size. Each is mapped when first touched, together with
-// `overlap` bytes of its successor, so that a record that crosses a border is still contiguous; the
-// window that was longest without use is unmapped for it. A hit costs a shift and two table lookups.
+// The file is divided into windows of equal size. Each is mapped when it is first touched, with `overlap_bytes` of the
+// next window, so that a record across a border is still contiguous. If too many are mapped, one that has not been used
+// recently is unmapped. A hit costs a shift and two table lookups.
 //
-// The table takes a byte a window of the file: 4 MB a terabyte at the default size.
-// The size is checked when the file is opened; a file cut by someone else while it is being read
-// ends the process with SIGBUS, so inputs must not change meanwhile.
+// REQUIRES: the file does not change while it is read. Its size is checked only when it is opened; if it shrinks later,
+// the process ends with SIGBUS.
+// MEMORY: one byte per window of the file: 4 MB per terabyte at the default size.
 // THREADS: one at a time.
 #pragma once
 
@@ -24,9 +23,9 @@
 namespace reeb::io {
 
 struct WindowOptions {
-  unsigned window_bits = 18;          // windows of 2^bits bytes, at least the page size
+  unsigned window_bits = 18;          // a window has 2^window_bits bytes, at least a page
   std::size_t window_count = 4;       // mapped at once, 2 to 255
-  std::size_t overlap_bytes = 65536;  // longest record that at() can be asked for
+  std::size_t overlap_bytes = 65536;  // the longest record that at() guarantees
 };
 
 class MappedWindows {
@@ -40,8 +39,8 @@ class MappedWindows {
   const std::shared_ptr<const MappableFile>& file() const { return file_; }
   std::size_t overlap_bytes() const { return options_.overlap_bytes; }
 
-  // The bytes from `offset` on: at least overlap_bytes(), or all up to the end of the file. Valid
-  // until `window_count - 1` other windows were touched.
+  // The bytes from `offset` on: at least overlap_bytes(), or all up to the end of the file. Valid until `window_count -
+  // 1` other windows are touched.
   // REQUIRES: offset < size(). THROWS: Error{kResource} if the system refuses the mapping.
   const char* at(std::uint64_t offset) {
     const std::uint64_t window = offset >> options_.window_bits;
@@ -52,7 +51,7 @@ class MappedWindows {
     return slot.base + (offset & window_mask_);
   }
 
-  // The same with its length: all that is mapped behind `offset`.
+  // The same with its length: all mapped bytes from `offset` on.
   std::string_view view(std::uint64_t offset);
 
  private:

@@ -14,7 +14,7 @@
 namespace reeb::io::system {
 namespace {
 
-// Calls until no signal interrupts. A fault takes the place of the call.
+// Repeats the call until no signal interrupts it. A fault replaces the call.
 template <class Call>
 auto uninterrupted(FileCall kind, const Call& call) noexcept -> decltype(call(std::size_t{})) {
   while (true) {
@@ -53,7 +53,7 @@ int open(const std::string& path, int flags, unsigned mode) noexcept {
 
 int open_unnamed(const std::string& folder) noexcept {
   const int descriptor = open(folder, O_TMPFILE | O_RDWR, 0600);
-  // Not every file system has files without a name.
+  // Some file systems do not support files without a name.
   if (descriptor >= 0 || (errno != EOPNOTSUPP && errno != EISDIR && errno != EINVAL)) return descriptor;
   std::string name = folder + "/reeb-XXXXXX";
   const int named = ::mkostemp(name.data(), O_CLOEXEC);
@@ -120,8 +120,8 @@ int rename_to_new(const std::string& from, const std::string& to) noexcept {
   });
   if (result == 0) return 0;
   if (errno != EINVAL && errno != ENOSYS) return errno;
-  // Not every file system can do that. A second name is refused as well where there is a file; some have none, and
-  // are left with a gap between the question and the renaming.
+  // Some file systems do not support RENAME_NOREPLACE. link() also refuses a name that exists. Where there are no hard
+  // links either, a gap remains between the check and the rename.
   if (::link(from.c_str(), to.c_str()) == 0) {
     ::unlink(from.c_str());
     return 0;

@@ -1,4 +1,4 @@
-// Where temporary files live: out of sight, and gone on every way out.
+// Where temporary files are: without a name, and gone on every way out.
 #pragma once
 
 #include <string>
@@ -7,8 +7,7 @@
 
 namespace reeb::io {
 
-// A place for temporary files in `folder`. They have no name, so that nothing is left even if the
-// process is killed.
+// Creates temporary files in `folder`. They have no name, so nothing is left even if the process is killed.
 //
 // THROWS: Error{kResource} naming --temp-dir if `folder` cannot be written.
 // THREADS: any thread may create files.

@@ -12,7 +12,7 @@ ZstdCompressor::ZstdCompressor() : context_(ZSTD_createCCtx()) {
   if (context_ == nullptr) throw std::bad_alloc();
 }
 
-// By way of memory of its own: `out` grows by no more than it has to, and nothing is filled first.
+// Compresses into its own uninitialized memory first, so that `out` grows by the compressed size only.
 void ZstdCompressor::compress(std::span<const std::byte> bytes, int level, std::vector<std::byte>& out) {
   const std::size_t bound = ZSTD_compressBound(bytes.size());
   if (capacity_ < bound) frame_ = std::make_unique_for_overwrite<std::byte[]>(capacity_ = bound);
@@ -37,7 +37,7 @@ std::size_t zstd_content_size(std::span<const std::byte> bytes) {
   return size == ZSTD_CONTENTSIZE_UNKNOWN || size == ZSTD_CONTENTSIZE_ERROR ? 0 : static_cast<std::size_t>(size);
 }
 
-// A thread keeps its context: to make one costs as much as a small block.
+// Each thread keeps its context: creating one costs as much as decompressing a small block.
 bool zstd_decompress(std::span<const std::byte> bytes, std::span<std::byte> out) {
   struct Free {
     void operator()(ZSTD_DCtx* context) const { ZSTD_freeDCtx(context); }

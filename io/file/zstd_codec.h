@@ -1,4 +1,4 @@
-// zstd around byte spans. Checksums are the callers': a frame's meaning decides what is covered.
+// zstd for spans of bytes. Checksums are left to the callers, which know what has to be covered.
 #pragma once
 
 #include <zstd.h>
@@ -10,7 +10,7 @@
 
 namespace reeb::io {
 
-// Keeps its tables, about 1 MB, from one call to the next: for many small pieces.
+// Keeps its tables, about 1 MB, from one call to the next: for many small blocks.
 // THREADS: one at a time.
 class ZstdCompressor {
  public:
@@ -27,17 +27,17 @@ class ZstdCompressor {
   std::size_t capacity_ = 0;
 };
 
-// The same for a single piece.
+// The same for a single block.
 void zstd_compress(std::span<const std::byte> bytes, int level, std::vector<std::byte>& out);
 
-// How many of these bytes are their first frame; 0 if they do not begin with one.
+// The size of the frame at the beginning of `bytes`; 0 if there is none.
 std::size_t zstd_frame_size(std::span<const std::byte> bytes);
 
-// How many bytes these say that they were; 0 if they are nothing that zstd_compress wrote.
+// The content size that the frame announces; 0 if `bytes` is not from zstd_compress().
 std::size_t zstd_content_size(std::span<const std::byte> bytes);
 
-// Fills `out` exactly. False if `bytes` is not one frame of exactly out.size() bytes of content;
-// never reads or writes out of bounds, whatever `bytes` holds.
+// Fills `out` exactly. False if `bytes` is not one frame with exactly out.size() bytes of content. Never reads or
+// writes out of bounds, whatever `bytes` contains.
 bool zstd_decompress(std::span<const std::byte> bytes, std::span<std::byte> out);
 
 }  // namespace reeb::io

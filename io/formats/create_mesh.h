@@ -1,10 +1,9 @@
-// Writes meshes: what any reader delivers goes into any format.
+// Writes meshes: the batches of any reader into any format.
 //
-// Formats: binary little-endian PLY, OBJ, OFF (nOFF where a vertex has other than 3 coordinates),
-// and the streaming meshes SMA, SMB, SMC (version 3), SVA and SVB, as well as lists of events.
-// Every simplex is written as triangles: a tetrahedron as its four faces (but in volume meshes, SVA
-// and SVB), an edge as a triangle with a repeated corner, so that nothing is lost that matters to a
-// Reeb graph. Only streaming meshes hold finalizations.
+// Formats: binary little-endian PLY, OBJ, OFF (nOFF if a vertex does not have 3 coordinates), the streaming meshes SMA,
+// SMB, SMC (version 3), SVA and SVB, and lists of events. Every simplex is written as triangles: a tetrahedron as its
+// four faces (except in the volume meshes SVA and SVB), an edge as a triangle with a repeated corner. This keeps
+// everything that the Reeb graph depends on. Only streaming meshes and lists of events store finalizations.
 #pragma once
 
 #include <memory>
@@ -15,7 +14,7 @@
 
 namespace reeb::io {
 
-// The format is told by the suffix of `path`: .ply .obj .off .sma .smb .smc .sva .svb .events.txt.
+// The suffix of `path` determines the format: .ply .obj .off .sma .smb .smc .sva .svb .events.txt.
 // THROWS: Error{kUsage} for another suffix; else as AtomicFile.
 std::unique_ptr<MeshWriter> create_mesh(const std::string& path, const MeshWriterOptions& options = {});
 

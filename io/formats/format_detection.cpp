@@ -29,7 +29,7 @@ std::string_view take_line(std::string_view& text) {
   return line;
 }
 
-// The text from its first line that is neither blank nor a comment.
+// The text from the first line that is neither blank nor a comment.
 std::string_view skip_comments(std::string_view text) {
   while (!text.empty()) {
     std::string_view rest = text;
@@ -52,7 +52,7 @@ bool has_binary_stl_size(std::string_view head, std::optional<std::uint64_t> siz
          *size == BinaryStlReader::kHeaderBytes + stl_facets(head) * BinaryStlReader::kFacetBytes;
 }
 
-// For streams of unknown size, and files that are cut: does the first facet look like one?
+// Whether the first facet looks like one: for streams of unknown size and truncated files.
 bool looks_like_binary_stl(std::string_view head) {
   constexpr std::size_t kFirstFacet = BinaryStlReader::kHeaderBytes;
   if (head.size() < kFirstFacet || stl_facets(head) == 0) return false;
@@ -90,7 +90,7 @@ bool is_vertex_number(std::string_view word) {
   return !word.empty() && word.front() != '0' && std::ranges::all_of(word, [](char c) { return c >= '0' && c <= '9'; });
 }
 
-// The words of a line are its keyword and so many numbers of vertices, counted from 1.
+// Whether a line is a keyword and `count` numbers of vertices, from 1.
 bool is_line_of_vertices(std::string_view line, std::size_t count) {
   std::size_t words = 0;
   for (std::string_view word = first_word(line); !word.empty(); word = first_word(line), ++words) {
@@ -105,7 +105,7 @@ bool is_corner_number(std::string_view word) {
   return is_vertex_number(word);
 }
 
-// A tetrahedron, perhaps with values behind its corners.
+// Whether a line is a tetrahedron, with or without values after its corners.
 bool is_cell_line(std::string_view line) {
   std::size_t words = 0;
   for (std::string_view word = first_word(line); !word.empty() && words < 5; word = first_word(line), ++words) {
@@ -115,9 +115,8 @@ bool is_cell_line(std::string_view line) {
   return words == 5;
 }
 
-// Streaming meshes may do without comments, too. What no OBJ file has: a triangle before all vertices,
-// as in post-order (faces of OBJ stand behind their vertices), a tetrahedron, and a line that finalizes
-// a vertex.
+// A streaming mesh can also come without comments. Three things occur in no OBJ file: a triangle before all vertices
+// (post-order), a tetrahedron, and a line that finalizes a vertex.
 bool has_streaming_line(std::string_view text) {
   bool vertices = false;
   while (!text.empty()) {
@@ -131,15 +130,14 @@ bool has_streaming_line(std::string_view text) {
   return false;
 }
 
-// The heads of binary STL that begin with a zero have nothing but zeros; those of streaming meshes
-// do not.
+// A binary STL title that begins with a zero byte has only zeros; the head of a streaming mesh does not.
 bool is_streaming_binary(std::string_view head) {
   const std::string_view stl_title = head.substr(0, 80);
   return looks_like_binary_stream(static_cast<std::byte>(head.front())) &&
          std::ranges::any_of(stl_title, [](char c) { return c != 0; });
 }
 
-// Files in the wild have stray lines before the first one that OBJ knows.
+// Some OBJ files have stray lines before the first line that is OBJ.
 bool has_obj_vertex(std::string_view text) {
   while (!text.empty()) {
     const std::string_view line = take_line(text);
@@ -159,10 +157,10 @@ MeshFormat detect_text(std::string_view text, const std::string& path) {
   return has_obj_vertex(text) ? MeshFormat::kObj : MeshFormat::kUnknown;
 }
 
-// The whole lines of a text whose end has not come yet.
+// The complete lines of a text that has not arrived in full.
 std::string_view whole_lines(std::string_view text) { return text.substr(0, text.rfind('\n') + 1); }
 
-// Whether the beginning of a pipe is enough to know a streaming mesh.
+// Whether these first bytes of a pipe are enough to recognize a streaming mesh.
 bool starts_streaming(std::string_view head) {
   return is_streaming_binary(head) || has_streaming_comment(whole_lines(head)) || has_streaming_line(whole_lines(head));
 }
@@ -171,8 +169,8 @@ bool starts_streaming(std::string_view head) {
 
 MeshFormat detect_format(ContentSource& source, const std::string& path) {
   if (!source.size())
-    for (const std::size_t least : {1u, 80u})
-      if (starts_streaming(source.view(0, least))) return MeshFormat::kStreaming;
+    for (const std::size_t min_bytes : {1u, 80u})
+      if (starts_streaming(source.view(0, min_bytes))) return MeshFormat::kStreaming;
   std::string_view head = source.view(0);
   if (head.starts_with("\xEF\xBB\xBF")) head.remove_prefix(3);
   if (head.starts_with("ply") && (head.size() == 3 || is_line_blank(head[3]))) return MeshFormat::kPly;

@@ -1,4 +1,4 @@
-// Which format an input is in, told by its first bytes.
+// Detects the format of an input from its first bytes.
 #pragma once
 
 #include <string>
@@ -9,11 +9,10 @@ namespace reeb::io {
 
 enum class MeshFormat { kUnknown, kPly, kOff, kAsciiStl, kBinaryStl, kObj, kStreaming };
 
-// `path` decides only where content cannot: between OBJ and the text form of streaming meshes,
-// which share their lines v and f, and for damaged streaming meshes. A stream in post-order, of
-// tetrahedra or with explicit finalization shows in its lines; one without these and without a head
-// reads as OBJ, which is the same mesh. Of a pipe no more is waited for than it takes: most streaming
-// meshes show in their first 80 bytes.
+// `path` decides only where the content cannot: between OBJ and the text form of streaming meshes, which share their
+// lines v and f, and for damaged streaming meshes. A text stream is recognized by its head, by post-order, by
+// tetrahedra or by explicit finalizations. A stream with none of these is read as OBJ, which gives the same mesh. On a
+// pipe it waits only for the bytes that it needs: most streaming meshes are recognized by their first 80 bytes.
 MeshFormat detect_format(ContentSource& source, const std::string& path);
 
 }  // namespace reeb::io

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::string_view kTruncatedHint = "the file may be cut or damaged here";
 
-// Sorted. Free-form geometry, groups, materials and rendering state carry no simplices.
+// Sorted. Lines without simplices: free-form geometry, groups, materials and rendering state.
 constexpr auto kSkippedKeywords = std::to_array<std::string_view>(
     {"bevel",  "bmat",      "bsp",   "bzp",      "c_interp", "call", "cdc",  "cdp",        "con", "csh",    "cstype",
      "ctech",  "curv",      "curv2", "d_interp", "deg",      "end",  "g",    "hole",       "lod", "maplib", "mg",

@@ -12,7 +12,7 @@
 
 namespace reeb::io {
 
-// True if the word can begin a line of an OBJ file.
+// Whether the word can begin a line of an OBJ file.
 bool is_obj_keyword(std::string_view word);
 
 class ObjReader final : public BatchReader {

@@ -1,4 +1,4 @@
-// Writes OBJ: `v` and `f` lines as they come, three coordinates a vertex.
+// Writes OBJ: `v` and `f` lines in the order of arrival, three coordinates per vertex.
 #pragma once
 
 #include <memory>

@@ -10,8 +10,8 @@
 namespace reeb::io {
 namespace {
 
-// More coordinates than any mesh has; a header beyond it is damaged.
-constexpr std::int64_t kMostDimensions = 1024;
+// More coordinates than any mesh has: a header that announces more is damaged.
+constexpr std::int64_t kMaxDimension = 1024;
 constexpr const char* kHeaderHint = "the OFF header is damaged; write the file again";
 constexpr const char* kCutHint = "the file is cut; get a whole copy";
 
@@ -26,7 +26,7 @@ unsigned dimension_of(const OffKind& kind, std::int64_t declared) {
   return static_cast<unsigned>(kind.any_dimension ? declared : 3) + (kind.four ? 1 : 0);
 }
 
-// Refuses counts that the rest of the input cannot hold, where its size is known.
+// Refuses counts for which the rest of the input is too short, if its size is known.
 void check_counts(const OffHeader& header, const ContentSource& source, std::uint64_t offset,
                   std::uint64_t vertex_bytes, std::uint64_t face_bytes, const std::string& position) {
   const auto size = source.size();
@@ -64,7 +64,7 @@ class OffReader : public BatchReader {
   }
 
   virtual void read_vertex(MeshBatch& batch) = 0;
-  virtual std::int64_t begin_face() = 0;  // its number of corners
+  virtual std::int64_t begin_face() = 0;  // returns the number of corners
   virtual std::int64_t read_corner() = 0;
   virtual void end_face() = 0;
   [[noreturn]] virtual void fail(const std::string& what, const std::string& hint) const = 0;
@@ -100,20 +100,20 @@ class OffReader : public BatchReader {
   std::int64_t corners_left_ = 0;
 };
 
-// One vertex or face a line; what follows its numbers (normals, colours) is skipped.
+// One vertex or face per line; the rest of a line (normals, colours) is skipped.
 class AsciiOffReader final : public OffReader {
  public:
   AsciiOffReader(TextCursor text, OffHeader header, ReadOptions options)
       : OffReader(std::move(options)), text_(std::move(text)) {
     if (header.kind.any_dimension) {
       const std::int64_t declared = header_integer();
-      if (declared < 1 || declared > kMostDimensions)
+      if (declared < 1 || declared > kMaxDimension)
         text_.fail("a mesh of dimension " + std::to_string(declared), kHeaderHint);
       header.dimension = dimension_of(header.kind, declared);
     }
     header.vertices = count();
     header.faces = count();
-    text_.skip_line();  // the number of edges, which nobody keeps right
+    text_.skip_line();  // the number of edges, which is often wrong
     check_counts(header, text_.source(), text_.bytes().offset(), std::uint64_t{2} * header.dimension, 2,
                  text_.position());
     describe(header, text_.source());
@@ -175,7 +175,7 @@ class BinaryOffReader final : public OffReader {
       : OffReader(std::move(options)), cursor_(std::move(cursor)) {
     if (header.kind.any_dimension) {
       const std::int64_t declared = integer();
-      if (declared < 1 || declared > kMostDimensions)
+      if (declared < 1 || declared > kMaxDimension)
         fail("a mesh of dimension " + std::to_string(declared), kHeaderHint);
       header.dimension = dimension_of(header.kind, declared);
     }

@@ -15,18 +15,18 @@
 
 namespace reeb::io {
 
-// What the keyword at the head of an OFF file says.
+// The keyword at the head of an OFF file.
 struct OffKind {
   bool texture = false, colours = false, normals = false, four = false, any_dimension = false;
   bool binary = false;
 
-  // Numbers of a binary vertex behind its `dimension` coordinates.
+  // The number of values of a binary vertex after its `dimension` coordinates.
   std::size_t extra_numbers(std::size_t dimension) const {
     return (normals ? dimension : 0) + (colours ? 4 : 0) + (texture ? 2 : 0);
   }
 };
 
-// Empty if the word is not the keyword of an OFF file.
+// Nothing if the word is not the keyword of an OFF file.
 std::optional<OffKind> parse_off_keyword(std::string_view word);
 
 // THROWS: Error{kBadInput} as open_mesh.

@@ -7,7 +7,7 @@
 namespace reeb::io {
 namespace {
 
-// More coordinates would not fit one TextRecord; real meshes have a handful.
+// More coordinates would not fit into one TextRecord.
 constexpr unsigned kMaxDimension = 128;
 
 class OffWriter : public MeshWriter {
@@ -31,7 +31,7 @@ class OffWriter : public MeshWriter {
 
   void close() override {
     std::string text = header(file_.vertex_count(), file_.face_count());
-    // Blanks before the line's end take up the room of the digits that the counts did not need.
+    // Blanks at the end of the line fill the room that was reserved for longer counts.
     text.insert(text.size() - 1, header_bytes_ - text.size(), ' ');
     file_.commit(text);
   }

@@ -1,4 +1,4 @@
-// Writes OFF, and nOFF where a vertex has other than three coordinates.
+// Writes OFF, or nOFF if a vertex does not have three coordinates.
 #pragma once
 
 #include <memory>

@@ -1,4 +1,4 @@
-// Opens a mesh of any supported format; the format is told by content, never by name.
+// Opens a mesh of any supported format, which is detected from the content.
 #pragma once
 
 #include <memory>
@@ -10,15 +10,15 @@ namespace reeb::io {
 
 class ContentSource;
 
-// Opens `path` ("-": standard input), unwrapping gzip and zstd, and reads its header. The file is opened
-// once, and so is MeshReader::indexed() on it, which uncompressed binary PLY with vertices of fixed size has.
-// THROWS: Error{kBadInput} with file, position and a hint: unreadable, a directory, empty, of an
-//         unknown format, a damaged header, a property that the mesh lacks.
+// Opens `path` ("-": standard input), decompresses gzip and zstd, and reads the header. Uncompressed binary PLY with
+// vertices of fixed size also has MeshReader::indexed(), which does not open the file again.
+// THROWS: Error{kBadInput} with file, position and a hint: unreadable, a directory, empty, of an unknown format, a
+//         damaged header, a property that the mesh does not have.
 // THREADS: any number of calls at the same time; "-" once.
 std::unique_ptr<MeshReader> open_mesh(const std::string& path, const ReadOptions& options = {});
 
-// The same for content that was opened, and perhaps looked at, before. `path` tells formats apart
-// where the content does not.
+// The same for content that is open already; views of its beginning may have been taken. `path` decides between formats
+// where the content cannot (format_detection.h).
 std::unique_ptr<MeshReader> open_mesh(std::unique_ptr<ContentSource> source, const std::string& path,
                                       const ReadOptions& options = {});
 

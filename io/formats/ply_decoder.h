@@ -1,5 +1,5 @@
-// The two ways in which a PLY body holds values. A reader asks for one value after the other, in
-// the order of the header; each decoder knows where it is when something is wrong.
+// The two forms of values in a PLY body, text and binary. A reader reads one value after the other, in the order of the
+// header. Errors have the position of the value.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 
 namespace reeb::io {
 
-// One line a record.
+// One record per line.
 class AsciiPlyDecoder {
  public:
   static constexpr bool kBinary = false;
@@ -49,7 +49,7 @@ class AsciiPlyDecoder {
       text_.fail(std::string("a ") + what + " is not an integer", "the file may be damaged here");
     return within(type, static_cast<std::int64_t>(value), what);
   }
-  // True if the skipped value is not finite.
+  // Returns true if the skipped value is not finite.
   bool skip(PlyType, const char* what) {
     const auto word = text_.token();
     if (word.empty())

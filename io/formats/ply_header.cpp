@@ -162,10 +162,10 @@ class HeaderParser {
       text_.fail("the vertices have no coordinate x", "write them with properties x, y and z");
   }
 
-  // Least bytes that a record takes in the body.
+  // The least size of a record in the body.
   std::uint64_t least_bytes(const PlyElement& element) const {
     if (header_.encoding != PlyEncoding::kAscii) return element.fixed_bytes();
-    return 2 * element.properties.size();  // a digit and what separates it from the next
+    return 2 * element.properties.size();  // a digit and a separator
   }
 
   void check_size() const {

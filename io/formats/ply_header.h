@@ -1,4 +1,4 @@
-// The header of a PLY file: its elements, their properties, and what each means for a mesh.
+// The header of a PLY file: its elements and properties, and the role of each in a mesh.
 #pragma once
 
 #include <cstddef>
@@ -30,33 +30,33 @@ struct PlyElement {
   PlyRole role = PlyRole::kSkipped;
   std::uint64_t count = 0;
   std::vector<PlyProperty> properties;
-  std::size_t corners = 0;  // the property that lists the corners, of faces and strips
+  std::size_t corners = 0;  // for faces and strips: the property that lists the corners
 
-  // Bytes of a binary record without its list items; its size, if it has no lists.
+  // Bytes of a binary record without its list items: the size of the record if it has no lists.
   std::size_t fixed_bytes() const;
   bool has_lists() const;
 };
 
 struct PlyHeader {
   PlyEncoding encoding = PlyEncoding::kAscii;
-  std::vector<PlyElement> elements;  // those without properties left out
+  std::vector<PlyElement> elements;  // without those that have no properties
   std::size_t vertex_element = 0;
-  unsigned dimension = 3;  // of x, y, z, the leading ones that exist
+  unsigned dimension = 3;  // how many of x, y, z exist, from the first
   std::uint64_t body_offset = 0;
 
   const PlyElement& vertices() const { return elements[vertex_element]; }
   std::string format() const;
   std::vector<std::string> property_names() const;
-  // The place of each name among the vertex properties.
+  // The index of each name among the vertex properties.
   // THROWS: Error{kBadInput} naming the scalar properties that exist.
   std::vector<std::size_t> find_properties(const std::vector<std::string>& names, const std::string& file) const;
-  // The vertex properties that are the coordinates.
+  // The indices of the coordinates among the vertex properties.
   std::vector<std::size_t> coordinate_properties() const;
 };
 
-// Reads up to and with the line end_header, and checks against the size of the input, where it is
-// known, that the elements can be there.
-// THROWS: Error{kBadInput} at the line in question.
+// Reads up to and including the line end_header. If the size of the input is known, checks that it is large enough for
+// the elements.
+// THROWS: Error{kBadInput} with the line.
 PlyHeader read_ply_header(TextCursor& text);
 
 }  // namespace reeb::io

@@ -14,21 +14,21 @@
 namespace reeb::io {
 namespace {
 
-constexpr std::size_t kMostRecordBytes = 4096;
-// Small windows, many at once: the vertices of a chunk lie in several places of the file.
-constexpr WindowOptions kVertexWindows = {.window_bits = 16, .window_count = 16, .overlap_bytes = kMostRecordBytes};
+constexpr std::size_t kMaxRecordBytes = 4096;
+// Many small windows, since the vertices of a chunk are in several places of the file.
+constexpr WindowOptions kVertexWindows = {.window_bits = 16, .window_count = 16, .overlap_bytes = kMaxRecordBytes};
 
 struct Column {
   PlyType type = PlyType::kFloat32;
-  std::size_t place = 0;  // in the record
+  std::size_t offset = 0;  // in the record
 };
 
 std::vector<Column> find_columns(const PlyHeader& header, const ReadOptions& options, const std::string& file) {
   std::vector<Column> all;
-  std::size_t place = 0;
+  std::size_t offset = 0;
   for (const PlyProperty& property : header.vertices().properties) {
-    all.push_back({property.type, place});
-    place += byte_size(property.type);
+    all.push_back({property.type, offset});
+    offset += byte_size(property.type);
   }
   std::vector<Column> columns;
   for (const std::size_t p : header.coordinate_properties()) columns.push_back(all[p]);
@@ -86,11 +86,11 @@ class IndexedPly final : public IndexedMesh {
  private:
   const char* record(VertexId id) { return windows_.at(vertices_begin_ + id.value() * stride_); }
 
-  // Little-endian float32, the columns known at compile time to be so many.
+  // For little-endian float32 and a number of columns that is known at compile time.
   template <std::size_t kColumns>
   void gather_floats(std::span<const VertexId> ids, std::span<const unsigned> columns, std::span<double> values) {
     std::array<std::size_t, kColumns> place{};
-    for (std::size_t k = 0; k < kColumns; ++k) place[k] = columns_[columns[k]].place;
+    for (std::size_t k = 0; k < kColumns; ++k) place[k] = columns_[columns[k]].offset;
     for (std::size_t i = 0; i < ids.size(); ++i) {
       const char* const bytes = record(ids[i]);
       for (std::size_t k = 0; k < kColumns; ++k)
@@ -104,7 +104,7 @@ class IndexedPly final : public IndexedMesh {
       double* const out = values.data() + k * ids.size();
       with_type(column.type, [&](auto zero) {
         for (std::size_t i = 0; i < ids.size(); ++i)
-          out[i] = static_cast<double>(load_scalar<decltype(zero)>(record(ids[i]) + column.place, swap_)) + 0.0;
+          out[i] = static_cast<double>(load_scalar<decltype(zero)>(record(ids[i]) + column.offset, swap_)) + 0.0;
       });
     }
   }
@@ -119,7 +119,7 @@ class IndexedPly final : public IndexedMesh {
                 std::string("a ") + (column < header_.dimension ? "coordinate" : "vertex property") + " of vertex " +
                     std::to_string(id.value()) + " is not finite",
                 "fix this value in the file")
-        .at(path_, std::to_string(vertices_begin_ + id.value() * stride_ + columns_[column].place));
+        .at(path_, std::to_string(vertices_begin_ + id.value() * stride_ + columns_[column].offset));
   }
 
   std::string path_;
@@ -137,8 +137,8 @@ class IndexedPly final : public IndexedMesh {
 
 bool has_indexed_vertices(const PlyHeader& header) {
   if (header.encoding == PlyEncoding::kAscii) return false;
-  if (header.vertices().has_lists() || header.vertices().fixed_bytes() > kMostRecordBytes) return false;
-  // Faces before the vertices have no fixed size, and neither have other elements with lists.
+  if (header.vertices().has_lists() || header.vertices().fixed_bytes() > kMaxRecordBytes) return false;
+  // Faces have no fixed size, and neither have other elements with lists.
   return std::none_of(header.elements.begin(),
                       header.elements.begin() + static_cast<std::ptrdiff_t>(header.vertex_element),
                       [](const PlyElement& element) { return element.has_lists(); });

@@ -1,4 +1,4 @@
-// Binary PLY in place: vertices by index, straight from mapped windows, and the faces in order.
+// Random access to binary PLY: vertices by index, directly from mapped windows, and the faces in order.
 #pragma once
 
 #include <memory>
@@ -10,8 +10,8 @@
 
 namespace reeb::io {
 
-// Whether the place of a vertex follows from its index: the file is binary, and all records up to the last
-// vertex have a fixed size.
+// Whether the position of a vertex follows from its index: the file is binary, and all records up to the last vertex
+// have a fixed size.
 bool has_indexed_vertices(const PlyHeader& header);
 
 // REQUIRES: has_indexed_vertices(header), and `file` has this header.

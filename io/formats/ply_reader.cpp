@@ -16,14 +16,14 @@ namespace {
 
 constexpr std::size_t kNoColumn = std::numeric_limits<std::size_t>::max();
 
-// One walk over an element; walks over all of them may happen twice.
+// One pass over an element. There can be two passes over the file.
 struct Step {
   std::size_t element = 0;
-  bool deliver = false;    // or only pass over it
-  bool from_body = false;  // begin again at the first element
+  bool deliver = false;    // else skip it
+  bool from_body = false;  // start again at the first element
 };
 
-// In the order of the file, unless faces stand before the vertices.
+// In the order of the file, unless there are faces before the vertices.
 std::vector<Step> plan_steps(const PlyHeader& header) {
   std::vector<Step> steps;
   const auto& elements = header.elements;
@@ -48,7 +48,7 @@ MeshInfo describe(const PlyHeader& header, const ContentSource& source) {
   info.simplex_count = 0;
   for (const PlyElement& element : header.elements) {
     if (element.role == PlyRole::kFaces && info.simplex_count) *info.simplex_count += element.count;
-    if (element.role == PlyRole::kStrips) info.simplex_count.reset();  // a strip has any number
+    if (element.role == PlyRole::kStrips) info.simplex_count.reset();  // unknown: a strip has any number of triangles
   }
   info.float32 = std::ranges::all_of(header.vertices().properties, [](const PlyProperty& property) {
     return property.type == PlyType::kFloat32 || byte_size(property.type) < 4;
@@ -57,8 +57,8 @@ MeshInfo describe(const PlyHeader& header, const ContentSource& source) {
   return info;
 }
 
-// One column of a run of fixed-size records, whose first value is at `bytes`, goes to the end of
-// `column`. True if all values are finite.
+// Appends one column of `count` records of fixed size to `column`; its first value is at `bytes`. Returns whether all
+// values are finite.
 bool append_column(PlyType type, bool swap, const char* bytes, std::size_t stride, std::size_t count,
                    std::vector<double>& column) {
   const std::size_t before = column.size();
@@ -213,7 +213,7 @@ class PlyReader final : public PlyBodyReader {
     return column_of_[property] < info_.dimension ? "coordinate" : "vertex property";
   }
 
-  // Many fixed-size records at once, column by column.
+  // Reads many records of fixed size at once, column by column.
   void read_vertex_run(const PlyElement& element, MeshBatch& batch) {
     const std::size_t stride = element.fixed_bytes();
     Cursor& bytes = decoder_.bytes();
@@ -268,7 +268,7 @@ class PlyReader final : public PlyBodyReader {
     }
   }
 
-  // Takes a face one step on: to its next property, or through its corners while there is room.
+  // Advances a face by one step: to its next property, or through its corners while there is room.
   void advance_face(const PlyElement& element, MeshBatch& batch) {
     if (!std::exchange(in_record_, true)) {
       decoder_.begin_record(element);
@@ -286,7 +286,7 @@ class PlyReader final : public PlyBodyReader {
     }
   }
 
-  // True when the list is through.
+  // Returns true at the end of the list.
   bool advance_corners(const PlyElement& element, MeshBatch& batch) {
     const PlyProperty& list = element.properties[element.corners];
     const bool strip = element.role == PlyRole::kStrips;
@@ -317,15 +317,15 @@ class PlyReader final : public PlyBodyReader {
                   "vertices are numbered from 0; the file may be damaged here");
   }
 
-  // Nothing but the usual list: a byte for the length and 32-bit corners.
+  // Whether the element is only the usual list: a byte for the length, then 32-bit corners.
   static bool is_plain(const PlyElement& element) {
     if (element.role != PlyRole::kFaces || element.properties.size() != 1) return false;
     const PlyProperty& list = element.properties.front();
     return byte_size(*list.list_count) == 1 && byte_size(list.type) == 4;
   }
 
-  // Takes the triangles that come next in a row, at most kRunRecords. False if there is none that
-  // is whole and good; what is odd about it is for advance_face() to say.
+  // Reads consecutive triangles, at most kRunRecords. Returns false if the next record is not a complete, valid
+  // triangle: advance_face() then finds out why.
   bool read_triangle_run(const PlyElement& element, MeshBatch& batch) {
     static constexpr std::size_t kRecordBytes = 13;
     Cursor& bytes = decoder_.bytes();
@@ -342,7 +342,8 @@ class PlyReader final : public PlyBodyReader {
     return count != 0;
   }
 
-  // Copies triangles until one is no triangle or has a corner not below `limit`; says how many it copied.
+  // Copies triangles up to the first face that is not a triangle or has a corner not below `limit`. Returns their
+  // number.
   template <bool kSwap>
   static std::size_t copy_triangles(const char* record, std::size_t most, std::uint64_t limit, VertexId* out) {
     for (std::size_t i = 0; i < most; ++i, record += 13, out += 3) {
@@ -358,7 +359,7 @@ class PlyReader final : public PlyBodyReader {
     return most;
   }
 
-  // Short enough for a run's output to stay in the first cache.
+  // Few enough for the output of one call to stay in the first-level cache.
   static constexpr std::size_t kRunRecords = 512;
 
   PlyHeader header_;
@@ -368,9 +369,9 @@ class PlyReader final : public PlyBodyReader {
 
   std::vector<std::size_t> column_of_;                       // of each vertex property
   std::vector<std::vector<double>*> columns_;                // coordinates, then properties, of the batch
-  std::vector<std::pair<std::size_t, std::size_t>> copies_;  // columns asked for twice: to, from
+  std::vector<std::pair<std::size_t, std::size_t>> copies_;  // columns that were requested twice: to, from
   std::vector<double> scratch_;
-  // Triangles on their way into a batch, which would clear the room for them first.
+  // A buffer for triangles: growing the batch instead would fill the new room with zeros first.
   std::array<VertexId, 3 * kRunRecords> run_;
 
   std::size_t step_ = 0;

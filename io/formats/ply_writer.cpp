@@ -34,7 +34,7 @@ class PlyWriter : public MeshWriter {
 
   void close() override {
     std::string text = header(file_.vertex_count(), file_.face_count());
-    // A comment takes up the room of the digits that the counts did not need.
+    // A comment fills the room that was reserved for longer counts.
     const std::size_t end = text.size() - std::strlen("end_header\n");
     text.insert(end, "comment" + std::string(header_bytes_ - text.size() - 8, ' ') + "\n");
     file_.commit(text);
@@ -43,7 +43,7 @@ class PlyWriter : public MeshWriter {
  private:
   static constexpr std::size_t kMinPadding = std::size_t{8};  // "comment\n"
 
-  // A flat mesh gets a third coordinate; coordinates beyond the third are further columns.
+  // A mesh with two coordinates gets a third one; coordinates after the third are further columns.
   static std::vector<std::string> column_names(const MeshWriterOptions& options) {
     std::vector<std::string> names = {"x", "y", "z"};
     for (unsigned k = 3; k < options.dimension; ++k) names.push_back(std::string("c").append(std::to_string(k)));

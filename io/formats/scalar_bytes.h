@@ -1,4 +1,4 @@
-// Scalars as binary files hold them: any type, either byte order.
+// Scalars in binary files: any type, either byte order.
 #pragma once
 
 #include <bit>
@@ -27,7 +27,7 @@ T load_scalar(const char* bytes, bool swap) {
   return value;
 }
 
-// Calls `use` with a zero of the C++ type, so that a loop over values is compiled once a type.
+// Calls `use` with a zero of the C++ type, so that a loop over values is compiled once for each type.
 template <class Use>
 decltype(auto) with_type(PlyType type, Use&& use) {
   switch (type) {
@@ -56,7 +56,7 @@ inline double load_double(PlyType type, const char* bytes, bool swap) {
                    [&](auto zero) { return static_cast<double>(load_scalar<decltype(zero)>(bytes, swap)) + 0.0; });
 }
 
-// By exponents, without branches: this runs over every value that is read.
+// Tests the exponents without branches, since this runs over every value that is read.
 inline bool all_finite(std::span<const double> values) {
   constexpr std::uint64_t kExponent = 0x7ff0'0000'0000'0000u;
   std::uint64_t odd = 0;

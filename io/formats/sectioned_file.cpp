@@ -23,7 +23,7 @@ BufferedWriter& SectionedFile::vertices(std::uint64_t count) {
 
 BufferedWriter& SectionedFile::faces(std::uint64_t count) {
   faces_ += count;
-  // Once a face waits, all that follow wait, too.
+  // Once a face waits, all later faces wait too.
   if (!waiting_ && promised_ == vertices_) return file_.out();
   if (!waiting_) waiting_.emplace(TempDir(temp_folder_).create_unnamed("faces"));
   return *waiting_;

@@ -10,23 +10,22 @@
 
 namespace reeb::io {
 
-// Vertices and faces may arrive interleaved and their counts may be known only at the end: the
-// header gets its room first and its bytes last, and faces wait in a temporary file until no
-// vertex can follow.
+// Vertices and faces can arrive interleaved, and their counts can be unknown until the end. So room for the header is
+// reserved first and filled last, and faces wait in a temporary file until no vertex can follow.
 class SectionedFile {
  public:
   SectionedFile(const std::string& path, const MeshWriterOptions& options, std::size_t header_bytes);
 
-  // Where the records of `count` further vertices go.
-  // THROWS: Error{kBadInput} if they are more than promised.
+  // Returns the writer for the records of `count` more vertices.
+  // THROWS: Error{kBadInput} if there are more than announced.
   BufferedWriter& vertices(std::uint64_t count);
-  // Where the records of `count` further faces go.
+  // Returns the writer for the records of `count` more faces.
   BufferedWriter& faces(std::uint64_t count);
 
   std::uint64_t vertex_count() const { return vertices_; }
   std::uint64_t face_count() const { return faces_; }
 
-  // REQUIRES: header has the size that the constructor was told.
+  // REQUIRES: `header` has the size that the constructor was given.
   void commit(const std::string& header);
 
  private:

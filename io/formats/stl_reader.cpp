@@ -115,7 +115,7 @@ bool BinaryStlReader::advance(MeshBatch& batch) {
   }
   require(kFacetBytes);
   if (corner_ == 0) facet_.begin(FaceShape::kPolygon);
-  const std::size_t place = 12 + 12 * corner_;  // behind the normal
+  const std::size_t place = 12 + 12 * corner_;  // after the normal
   VertexWeld::Coordinates point{};
   for (std::size_t k = 0; k < 3; ++k) {
     const float coordinate = load_scalar<float>(cursor_.data() + place + 4 * k, false);

@@ -15,7 +15,7 @@
 
 namespace reeb::io {
 
-// Delivers each corner that is new as a vertex just before the facet that it belongs to.
+// Delivers each new corner as a vertex, directly before its facet.
 // MEMORY: grows with the number of distinct vertices, see VertexWeld.
 class StlReader : public BatchReader {
  public:
@@ -24,7 +24,7 @@ class StlReader : public BatchReader {
  protected:
   StlReader(const ContentSource& source, ReadOptions options, std::string format);
 
-  // Takes a step that calls add_corner() at most once and adds no other event. False at the end.
+  // Reads on with at most one call of add_corner() and no other event. Returns false at the end.
   virtual bool advance(MeshBatch& batch) = 0;
   // Numbers the corner, and adds it to the batch if it is new.
   void add_corner(const VertexWeld::Coordinates& point, MeshBatch& batch);
@@ -35,7 +35,7 @@ class StlReader : public BatchReader {
   void fill(MeshBatch& batch) final;
 
   VertexWeld weld_;
-  std::optional<VertexId> pending_;  // a corner that is not yet in its facet: that is the next event
+  std::optional<VertexId> pending_;  // a corner to be added to its facet, which is the next event
 };
 
 class AsciiStlReader final : public StlReader {
@@ -66,7 +66,7 @@ class BinaryStlReader final : public StlReader {
 
   Cursor cursor_;
   std::uint64_t facets_left_ = 0;
-  unsigned corner_ = 0;  // of the facet at the cursor
+  unsigned corner_ = 0;  // number of the corner in the facet at the cursor
   bool trailing_ = false;
 };
 

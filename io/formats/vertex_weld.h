@@ -1,7 +1,7 @@
 // Numbers points by first appearance; equal points get the same number.
 //
-// MEMORY: 24 bytes a distinct point and 16 to 32 bytes of hash table. STL has no shared vertices, so
-// there is no other way to know them.
+// MEMORY: 24 bytes per distinct point, and 16 to 32 bytes for its hash table entry. STL does not store which corners
+// are shared, so only a table of all points finds them.
 #pragma once
 
 #include <array>

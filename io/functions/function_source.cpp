@@ -56,7 +56,7 @@ class ValueFile {
   virtual double next() = 0;
   virtual double at(std::uint64_t vertex) = 0;
   virtual void check_count(std::uint64_t vertex_count) = 0;
-  // What at() will keep in memory, for so many vertices.
+  // Memory that at() takes, for this number of vertices.
   virtual std::uint64_t lookup_bytes(std::uint64_t) const { return 0; }
 };
 
@@ -149,7 +149,7 @@ class TextValueFile final : public ValueFile {
   std::string path_;
   std::optional<TextCursor> text_;
   std::uint64_t read_ = 0;
-  std::vector<double> values_;  // only where vertices are looked up, not in order
+  std::vector<double> values_;  // filled if vertices are looked up out of order or counted beforehand
 };
 
 }  // namespace

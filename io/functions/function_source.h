@@ -18,33 +18,33 @@ struct FunctionSpec {
   enum class Kind { kCoordinate, kIndex, kRandom, kProperty, kFile };
 
   Kind kind = Kind::kCoordinate;
-  std::uint64_t number = 2;  // the coordinate, or the seed
+  std::uint64_t number = 2;  // of the coordinate, or the seed
   std::string argument;      // the property, or the path
   std::string text = "z";    // as the user wrote it
 };
 
-// THROWS: Error{kUsage} that lists what there is.
+// THROWS: Error{kUsage} that lists the functions.
 FunctionSpec parse_function(std::string_view text);
 
-// The text of a function as a part of a file name: ':' and '/' become '-'.
+// The text of a function as part of a file name: ':' and '/' become '-'.
 std::string file_name_part(const FunctionSpec& spec);
 
-// What ReadOptions::properties must hold for these functions; each name once.
+// What ReadOptions::properties must contain for these functions; each name once.
 std::vector<std::string> needed_properties(std::span<const FunctionSpec> specs);
 
-// `random:SEED` of a vertex: in [0, 1).
+// The value of `random:SEED` at a vertex, in [0, 1).
 double random_value(std::uint64_t seed, std::uint64_t vertex) noexcept;
 
-// One number a vertex from a file: lines of text, or raw little-endian float64 (".f64").
+// One number per vertex, from a file: lines of text, or raw little-endian float64 (".f64").
 class ValueFile;
 
-// One function, for the vertices of a stream or for any vertices by index. Values are finite, and -0.0
-// is 0.0.
+// One function, for the vertices of a stream in order or for any vertices by index. Values are finite, and -0.0 becomes
+// 0.0.
 class FunctionSource final : public VertexFunction {
  public:
   // `properties` is the ReadOptions::properties with which the mesh was opened.
-  // THROWS: Error{kBadInput}: the mesh (`mesh_name`) lacks the coordinate or property; the file
-  //         cannot be read, or does not have one value a vertex, as far as that is known.
+  // THROWS: Error{kBadInput}: the mesh (`mesh_name`) does not have the coordinate or property; the file cannot be read,
+  //         or is known not to have one value per vertex.
   FunctionSource(const FunctionSpec& spec, const MeshInfo& info, std::span<const std::string> properties = {},
                  std::string mesh_name = {});
   ~FunctionSource() override;
@@ -54,13 +54,13 @@ class FunctionSource final : public VertexFunction {
   std::span<const unsigned> columns() const override;
   void check_count(std::uint64_t vertex_count) override;
   std::uint64_t lookup_bytes(std::uint64_t vertex_count) const override;
-  // A text file is read into memory for this, unless its vertices are asked for in order, once.
+  // A text file is read into memory for this, unless all calls together go through the vertices once, in order.
   void evaluate(std::span<const VertexId> ids, std::span<const std::span<const double>> columns,
                 std::span<double> values) override;
 
-  // The values of the batch's vertices, one after the other. REQUIRES: values.size() ==
-  // batch.vertex_count, and batches come in order.
-  // THROWS: Error{kBadInput} with the vertex where a value is not finite or missing.
+  // The values of the vertices of a batch, in order. REQUIRES: values.size() == batch.vertex_count, and batches are
+  // passed in order.
+  // THROWS: Error{kBadInput} that names the vertex, if a value is missing or not finite.
   void evaluate(const MeshBatch& batch, std::span<double> values);
 
  private:
@@ -70,7 +70,7 @@ class FunctionSource final : public VertexFunction {
 
   FunctionSpec spec_;
   std::string mesh_name_;
-  std::optional<unsigned> column_;  // of the mesh, that the function is
+  std::optional<unsigned> column_;  // the column of the mesh that is the function
   std::unique_ptr<ValueFile> file_;
 };
 

@@ -90,7 +90,7 @@ class ShapeReader : public GeneratedMesh {
       shape_->append_triangle(permutation_(next_), batch.triangles);
   }
 
-  // A cell may have more triangles than the batch has room left; the rest waits for the next one.
+  // A cell can have more triangles than the batch has room for; the rest waits for the next batch.
   void read_cells(MeshBatch& batch) {
     batch.triangles.swap(waiting_);
     while (batch.triangle_count() < batch_events_ && next_ < shape_->cell_count())
@@ -108,7 +108,7 @@ class ShapeReader : public GeneratedMesh {
   Permutation permutation_;
   std::size_t batch_events_;
   std::uint64_t next_vertex_ = 0;
-  std::uint64_t next_ = 0;  // cell, or place in the random order
+  std::uint64_t next_ = 0;  // cell, or index in the random order
   std::vector<VertexId> waiting_;
 };
 

@@ -1,8 +1,7 @@
-// Test meshes of any size, computed on the fly: nothing is stored but one batch.
+// Test meshes of any size, computed while they are read: only one batch is stored.
 //
-// Vertices, positions and triangles are functions of their index alone, so a mesh of 372M
-// triangles needs no more memory than one of a thousand. What the mesh is topologically is known
-// by construction; tests and benchmarks compare with that.
+// Vertices, positions and triangles are functions of their index alone, so a mesh of 372M triangles takes no more
+// memory than one of a thousand. Its topology is known by construction, for comparison in tests and benchmarks.
 #pragma once
 
 #include <cstdint>
@@ -16,8 +15,8 @@
 namespace reeb::io {
 
 enum class MeshKind {
-  kTorus,       // standing on its side: along z it has one loop
-  kTerrain,     // a disc: height field of fractal noise
+  kTorus,       // stands on its side: the function z has one loop
+  kTerrain,     // a disc: a height field of fractal noise
   kGrid,        // a disc: flat, x and y integers, z = 0; every sweep meets ties
   kPlate,       // closed: a flat plate with a through-hole in every 4 x 4 cells
   kScan,        // closed: a rough, noisy body of two close sheets with many small handles
@@ -34,7 +33,7 @@ struct GeneratorOptions {
   MeshKind kind = MeshKind::kScan;
   std::uint64_t triangles = 1'000'000;  // the mesh has the nearest count that its kind and width allow
   MeshOrder order = MeshOrder::kPatches;
-  std::uint64_t seed = 1;                // of noise, places of handles, and random order
+  std::uint64_t seed = 1;                // of noise, positions of handles, and random order
   std::optional<std::uint64_t> width{};  // cells in a row of the grid; default: about as many as rows
   unsigned dimension = 3;                // of the Sierpinski simplex
 };
@@ -46,8 +45,8 @@ struct ExpectedTopology {
   std::uint64_t first_betti = 0;                // of the 2-skeleton
   std::optional<std::uint64_t> genus;           // orientable surfaces
   std::optional<std::uint64_t> boundary_loops;  // manifolds
-  // No Reeb graph of the mesh has more loops. A closed orientable surface has exactly so many
-  // under every function all of whose saddles are simple.
+  // No Reeb graph of the mesh has more loops. On a closed orientable surface, every function with simple saddles only
+  // has exactly this number.
   std::uint64_t max_reeb_loops = 0;
 };
 
@@ -56,12 +55,12 @@ class GeneratedMesh : public MeshReader {
   virtual const ExpectedTopology& topology() const = 0;
 };
 
-// A reader of the mesh that the options describe. All numbers are exact in float32. The mesh
-// depends on kind, triangles, seed, width and dimension only; the order renumbers and permutes.
-// THROWS: Error{kUsage} for options that no mesh can meet.
+// A reader of the mesh that the options describe. All numbers are exact in float32. The mesh depends on kind,
+// triangles, seed, width and dimension only; the order only renumbers vertices and permutes triangles.
+// THROWS: Error{kUsage} for options that no mesh can have.
 std::unique_ptr<GeneratedMesh> generate_mesh(const GeneratorOptions& options, const ReadOptions& read_options = {});
 
-// By the name of INTERFACE.md ("scan", "patches"). THROWS: Error{kUsage} that lists the names.
+// By the name on the command line ("scan", "patches"). THROWS: Error{kUsage} that lists the names.
 MeshKind mesh_kind(std::string_view name);
 MeshOrder mesh_order(std::string_view name);
 

@@ -14,8 +14,8 @@ constexpr unsigned kPatchShift = 7;  // with two sheets a patch has 64K triangle
 
 std::uint64_t sheet_count(const GridLayout& layout) { return layout.closing == Closing::kTwoSheets ? 2 : 1; }
 
-// Triangles of a cell without its rim: also the slots of a hole that its tube's first half takes.
-std::uint64_t triangles_a_cell(const GridLayout& layout) { return 2 * sheet_count(layout); }
+// Triangles of a cell without the rim. In a hole, the same number of indices goes to the first half of its tube.
+std::uint64_t triangles_per_cell(const GridLayout& layout) { return 2 * sheet_count(layout); }
 
 unsigned patch_shift(const GridLayout& layout) {
   if (layout.order == MeshOrder::kPatches) return kPatchShift;
@@ -26,7 +26,7 @@ std::uint64_t rim_edges(const GridLayout& layout) {
   return layout.closing == Closing::kTwoSheets ? 2 * (layout.width + layout.height) : 0;
 }
 
-// Vertices along an axis of so many cells.
+// Vertices along an axis with this number of cells.
 std::uint64_t axis_vertices(const GridLayout& layout, std::uint64_t cells) {
   return layout.closing == Closing::kTorus ? cells : cells + 1;
 }
@@ -39,8 +39,8 @@ std::uint64_t hole_count(const GridLayout& layout) {
 }
 
 std::uint64_t triangle_count(const GridLayout& layout) {
-  const std::uint64_t tube_extra = kTubeTriangles - triangles_a_cell(layout);
-  return layout.width * layout.height * triangles_a_cell(layout) + hole_count(layout) * tube_extra +
+  const std::uint64_t tube_extra = kTubeTriangles - triangles_per_cell(layout);
+  return layout.width * layout.height * triangles_per_cell(layout) + hole_count(layout) * tube_extra +
          rim_edges(layout) * 2;
 }
 
@@ -75,15 +75,15 @@ void GridSurface::append_cell(std::uint64_t cell, std::vector<VertexId>& corners
   if (is_hole(p)) {
     for (unsigned k = 0; k < kTubeTriangles; ++k) append_tube_triangle(p, k, corners);
   } else {
-    for (unsigned k = 0; k < triangles_a_cell(layout_); ++k) append_sheet_triangle(p, k, corners);
+    for (unsigned k = 0; k < triangles_per_cell(layout_); ++k) append_sheet_triangle(p, k, corners);
   }
   append_rim_of_cell(p, corners);
 }
 
-// Indices: first the sheet triangles cell by cell, where a hole has the first half of its tube;
-// then the second halves of all tubes; then the rim.
+// The order of indices: the sheet triangles cell by cell, where a hole has the first half of its tube; then the second
+// halves of all tubes; then the rim.
 void GridSurface::append_triangle(std::uint64_t triangle, std::vector<VertexId>& corners) const {
-  const std::uint64_t of_cell = triangles_a_cell(layout_), of_cells = cells_.size() * of_cell;
+  const std::uint64_t of_cell = triangles_per_cell(layout_), of_cells = cells_.size() * of_cell;
   if (triangle < of_cells) {
     const GridPoint p = cells_.at(triangle / of_cell);
     const auto k = static_cast<unsigned>(triangle % of_cell);
@@ -110,8 +110,7 @@ bool GridSurface::is_hole(GridPoint cell) const {
   return whole && cell == hole_in_block(block);
 }
 
-// Never in the first or last line of cells of its block: holes share no vertex with each other,
-// nor with the rim.
+// Never in the first or last line of cells of its block. So holes share no vertex with each other or with the rim.
 GridPoint GridSurface::hole_in_block(GridPoint block) const {
   const unsigned shift = layout_.holes.block_shift;
   const std::uint64_t half = std::uint64_t{1} << (shift - 1);
@@ -136,7 +135,7 @@ void GridSurface::append_sheet_triangle(GridPoint cell, unsigned k, std::vector<
   const auto at = corners_of(cell);
   const Sheet sheet = k < 2 ? kUpper : kLower;
   GridPoint b = at[1 + k % 2], c = at[2 + k % 2];
-  if (sheet == kLower) std::swap(b, c);  // seen from outside, the other way round
+  if (sheet == kLower) std::swap(b, c);  // the lower sheet faces down
   corners.insert(corners.end(), {vertex(at[0], sheet), vertex(b, sheet), vertex(c, sheet)});
 }
 
@@ -157,7 +156,7 @@ void GridSurface::append_rim_triangle(std::uint64_t edge, unsigned k, std::vecto
   append_wall_triangle({0, edge + 1}, {0, edge}, k, corners);
 }
 
-// The upper sheet uses the edge from p to q, so the wall has to use it from q to p.
+// The upper sheet uses the edge from p to q, so the wall must use it from q to p.
 void GridSurface::append_wall_triangle(GridPoint p, GridPoint q, unsigned k, std::vector<VertexId>& corners) const {
   corners.push_back(vertex(q, kUpper));
   corners.push_back(k == 0 ? vertex(p, kUpper) : vertex(p, kLower));

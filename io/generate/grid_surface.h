@@ -1,5 +1,5 @@
-// Surfaces made of a grid of square cells: a disc, a torus, or two sheets sewn along the rim with
-// tubes through them. The topology is here; a derived class places the vertices in space.
+// Surfaces made of a grid of square cells: a disc, a torus, or two sheets that are joined along the rim and connected
+// by tubes. This class has the topology; a derived class places the vertices in space.
 #pragma once
 
 #include <array>
@@ -10,17 +10,17 @@
 
 namespace reeb::io {
 
-// How the holes of a closed surface lie: one in every whole block of 2^block_shift cells squared.
+// The holes of a closed surface: one in every complete block of 2^block_shift by 2^block_shift cells.
 struct HoleLayout {
-  unsigned block_shift = 2;  // REQUIRES: >= 2, so that no two holes and no hole and rim touch
-  bool scattered = false;    // at pseudo-random places in the blocks, instead of in the middle
+  unsigned block_shift = 2;  // REQUIRES: >= 2, so that holes touch neither each other nor the rim
+  bool scattered = false;    // at pseudo-random positions in the blocks, instead of in the middle
 };
 
 struct GridLayout {
   enum class Closing {
     kDisc,       // one sheet with a boundary
     kTorus,      // one sheet, opposite sides identified. REQUIRES: width, height >= 3
-    kTwoSheets,  // an upper and a lower sheet, sewn along the rim, with a tube at every hole
+    kTwoSheets,  // an upper and a lower sheet, joined along the rim, with a tube at every hole
   };
   std::uint64_t width = 1, height = 1;  // cells
   Closing closing = Closing::kDisc;
@@ -50,7 +50,7 @@ class GridSurface : public Shape {
  private:
   enum Sheet : std::uint64_t { kUpper = 0, kLower = 1 };
 
-  // The places of the vertices at `p`: of the upper, then of the lower sheet if there is one.
+  // The positions of the vertices at `p`: of the upper sheet, then of the lower one if there is one.
   virtual std::array<Point, 2> place(GridPoint p) const = 0;
 
   VertexId vertex(GridPoint p, Sheet sheet) const;
@@ -61,7 +61,7 @@ class GridSurface : public Shape {
   void append_sheet_triangle(GridPoint cell, unsigned k, std::vector<VertexId>& corners) const;
   // Triangle k of the eight around the tube of a hole.
   void append_tube_triangle(GridPoint hole, unsigned k, std::vector<VertexId>& corners) const;
-  // Triangle k of the two on edge `edge` of the rim, counted around the grid.
+  // Triangle k of the two at edge `edge` of the rim; edges are numbered around the grid.
   void append_rim_triangle(std::uint64_t edge, unsigned k, std::vector<VertexId>& corners) const;
   // Triangle k of the two of an upright wall along the upper edge from p to q.
   void append_wall_triangle(GridPoint p, GridPoint q, unsigned k, std::vector<VertexId>& corners) const;

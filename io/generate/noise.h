@@ -28,8 +28,8 @@ inline double value_noise(std::uint64_t seed, double x, double y) {
   return std::lerp(low, high, sy);
 }
 
-// Octaves of value noise with wavelengths from `longest` down to `shortest`, a quarter each time,
-// every octave with slopes of about `slope`.
+// Octaves of value noise, with wavelengths from `longest` down to `shortest`, each a quarter of the one before. Every
+// octave has slopes of about `slope`.
 inline double fractal_noise(std::uint64_t seed, double x, double y, double longest, double shortest, double slope) {
   double sum = 0;
   for (double length = longest; length >= shortest; length /= 4)

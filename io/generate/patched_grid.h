@@ -1,4 +1,4 @@
-// Numbers the points of a grid patch by patch, in closed form both ways.
+// Numbers the points of a grid patch by patch, with a closed form in both directions.
 #pragma once
 
 #include <algorithm>
@@ -11,9 +11,9 @@ struct GridPoint {
   friend bool operator==(const GridPoint&, const GridPoint&) = default;
 };
 
-// One axis, cut into stretches of 2^shift points; the first is longer by `lead`. With lead 0 these
-// are the cells of patches; with lead 1 the vertices that each patch is the first to use, since a
-// patch shares its first line of vertices with the patch before.
+// One axis, cut into intervals of 2^shift points; the first is longer by `lead`. With lead 0 these are the cells of the
+// patches. With lead 1 they are the vertices that each patch is the first to use, since a patch shares its first line
+// of vertices with the patch before.
 class CutAxis {
  public:
   CutAxis(std::uint64_t size, unsigned shift, std::uint64_t lead) : size_(size), shift_(shift), lead_(lead) {}
@@ -44,7 +44,7 @@ class PatchedGrid {
 
   GridPoint at(std::uint64_t rank) const {
     const std::uint64_t columns = columns_.size();
-    // A row of patches takes as many ranks as its rows have points, so this is a row in it.
+    // A row of patches has one rank per point of its rows, so this quotient is a row inside it.
     const std::uint64_t patch_row = rows_.patch_of(rank / columns);
     const std::uint64_t y = rows_.begin(patch_row), height = rows_.end(patch_row) - y;
     rank -= y * columns;

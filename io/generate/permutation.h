@@ -8,8 +8,8 @@
 
 namespace reeb::io {
 
-// A balanced Feistel network permutes the numbers below the next power of four; cycle walking
-// (applying it until the result is below n, fewer than 4 times on average) restricts it to n.
+// A balanced Feistel network permutes the numbers below the next power of four. Cycle walking (applying it until the
+// result is below n, fewer than 4 times on average) restricts it to n.
 class Permutation {
  public:
   Permutation(std::uint64_t n, std::uint64_t seed)

@@ -1,4 +1,4 @@
-// A mesh as a function of indices: what a kind of generated mesh has to supply.
+// A mesh as a function of indices: what each kind of generated mesh provides.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +8,8 @@
 
 namespace reeb::io {
 
-// Triangles come in cells. Walking the cells 0, 1, ... gives the mesh in its coherent order;
-// single triangles can be had by index for any other.
+// Triangles are grouped into cells. The cells 0, 1, ... give the mesh in its coherent order; for other orders, each
+// triangle can be computed by its index.
 class Shape {
  public:
   using Columns = std::vector<std::vector<double>>;
@@ -25,9 +25,9 @@ class Shape {
 
   // Appends the coordinates of vertices first, first + 1, ... first + count - 1 to `columns`.
   virtual void append_vertices(std::uint64_t first, std::size_t count, Columns& columns) const = 0;
-  // Appends the corners of all triangles of a cell; consistently oriented on orientable surfaces.
+  // Appends the corners of all triangles of a cell, consistently oriented on orientable surfaces.
   virtual void append_cell(std::uint64_t cell, std::vector<VertexId>& corners) const = 0;
-  // Appends the corners of one triangle; every triangle has one index below topology().triangles.
+  // Appends the corners of one triangle. REQUIRES: triangle < topology().triangles.
   virtual void append_triangle(std::uint64_t triangle, std::vector<VertexId>& corners) const = 0;
 };
 

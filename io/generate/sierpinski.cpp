@@ -42,8 +42,8 @@ ExpectedTopology SierpinskiSimplex::topology() const {
   t.triangles = cells_ * faces_;
   t.euler_characteristic = static_cast<std::int64_t>(t.vertices) - static_cast<std::int64_t>(cells_ * edges_) +
                            static_cast<std::int64_t>(t.triangles);
-  // The 2-skeleton of a simplex is simply connected: the loops are those of the graph that joins
-  // every cell to its corners.
+  // The 2-skeleton of a simplex is simply connected, so the loops are those of the graph that joins every cell to its
+  // corners.
   t.first_betti = cells_ * corners_ - t.vertices - cells_ + 1;
   t.max_reeb_loops = t.first_betti;
   return t;
@@ -77,7 +77,7 @@ void SierpinskiSimplex::append_triangle(std::uint64_t triangle, std::vector<Vert
     }
 }
 
-// Corner 0 of the whole is the origin, corner k lies 2^levels along axis k - 1.
+// Corner 0 of the whole simplex is the origin, corner k is 2^levels along axis k - 1.
 void SierpinskiSimplex::add_corner(Position& sum, unsigned corner, std::uint64_t length) const {
   if (corner > 0) sum[corner - 1] += length;
 }
@@ -91,7 +91,7 @@ SierpinskiSimplex::Position SierpinskiSimplex::position(std::uint64_t vertex) co
   }
   vertex -= corners_;
   const auto [a, b] = edge_corners(static_cast<unsigned>(vertex % edges_));
-  // Down to the simplex with this number; its children lie at half the way to its corners.
+  // Descends to the simplex with this number; child k is moved half the way towards corner k.
   std::uint64_t number = vertex / edges_;
   for (unsigned depth = 0; number > 0; ++depth) {
     --number;
@@ -104,8 +104,8 @@ SierpinskiSimplex::Position SierpinskiSimplex::position(std::uint64_t vertex) co
   return at;
 }
 
-// Corner c of a simplex is corner c of the one that it lies in if it lies in that corner, and else
-// the middle of an edge of that.
+// Corner c of a simplex, which is child k of its parent: for c = k it is corner c of the parent, else the middle of the
+// edge between corners c and k of the parent.
 std::array<VertexId, SierpinskiSimplex::kMaxCorners> SierpinskiSimplex::corners_of(std::uint64_t cell) const {
   std::array<VertexId, kMaxCorners> at;
   for (unsigned c = 0; c < corners_; ++c) at[c] = VertexId(c);

@@ -7,17 +7,17 @@
 
 namespace reeb::io {
 
-// Level 0 is one d-simplex; each further level replaces a simplex by d + 1 of half the size, one in
-// each of its corners. A cell is a simplex of the last level, named by its address: the corners
-// chosen on the way down, first choice most significant.
+// Level 0 is one d-simplex. Each level replaces every simplex of the level before by d + 1 simplices of half the size,
+// one in each corner. A cell is a simplex of the last level. Its number is its address: the corners chosen from level
+// to level, the first as the most significant digit.
 //
-// A simplex that is divided owns the midpoints of its edges; simplices are numbered in preorder, so
-// that vertices are near the cells that use them. All coordinates are integers.
+// A divided simplex owns the midpoints of its edges. Simplices are numbered in preorder, so that vertices are near the
+// cells that use them. All coordinates are integers.
 class SierpinskiSimplex : public Shape {
  public:
   static constexpr unsigned kMinDimension = 2, kMaxDimension = 5;
 
-  // The level whose triangles come nearest to `triangles`. REQUIRES: a dimension within the limits.
+  // Chooses the level with the number of triangles nearest to `triangles`. REQUIRES: a dimension within the limits.
   SierpinskiSimplex(unsigned dimension, std::uint64_t triangles);
 
   unsigned dimension() const override;
@@ -40,7 +40,7 @@ class SierpinskiSimplex : public Shape {
   unsigned dimension_, corners_, edges_, faces_;  // of a simplex
   unsigned levels_ = 0;
   std::uint64_t cells_ = 1;
-  // How many simplices are divided in the subtree of one at this depth, itself included.
+  // By depth: the number of divided simplices in the subtree of a simplex, itself included.
   std::array<std::uint64_t, kMaxLevels + 1> divided_{};
 };
 

@@ -20,14 +20,14 @@ float coordinate(double x) { return static_cast<float>(x); }
 
 double longest_wave(const GridLayout& layout) { return static_cast<double>(std::max(layout.width, layout.height)) / 2; }
 
-// Stands on its side, the circle of rings upright: z has one minimum, two saddles, one maximum.
+// Stands on its side, with the circle of rings upright: z has one minimum, two saddles, one maximum.
 class Torus : public GridSurface {
  public:
   using GridSurface::GridSurface;
 
  private:
   static double angle(std::uint64_t step, std::uint64_t steps) {
-    // A quarter step off, so that no vertex has a mirror image of equal height.
+    // Rotated by a quarter step, so that no vertex has a mirror image at the same height.
     return 2 * std::numbers::pi * (static_cast<double>(step) + 0.25) / static_cast<double>(steps);
   }
   std::array<Point, 2> place(GridPoint p) const override {
@@ -97,19 +97,19 @@ Closing closing_of(MeshKind kind) {
   return kind == MeshKind::kPlate || kind == MeshKind::kScan ? Closing::kTwoSheets : Closing::kDisc;
 }
 
-// Small handles everywhere: one in 64 x 64 cells, closer on small meshes.
+// Small handles everywhere: one per 64 x 64 cells, more on small meshes.
 HoleLayout scattered_holes(std::uint64_t width, std::uint64_t height) {
   const auto quarter = static_cast<int>(std::bit_width(std::min(width, height) / 4)) - 1;
   return {static_cast<unsigned>(std::clamp(quarter, 2, 6)), true};
 }
 
-// The height with which the layout, otherwise complete, comes nearest to `triangles`.
-std::uint64_t nearest_height(GridLayout layout, std::uint64_t least, std::uint64_t triangles) {
+// The height that brings the triangle count of `layout` nearest to `triangles`.
+std::uint64_t nearest_height(GridLayout layout, std::uint64_t min_height, std::uint64_t triangles) {
   const auto count = [&layout](std::uint64_t height) {
     layout.height = height;
     return triangle_count(layout);
   };
-  std::uint64_t low = least, high = std::max(least, triangles / layout.width + 1);
+  std::uint64_t low = min_height, high = std::max(min_height, triangles / layout.width + 1);
   while (low < high) {
     const std::uint64_t middle = low + (high - low) / 2;
     if (count(middle) < triangles)
@@ -117,7 +117,8 @@ std::uint64_t nearest_height(GridLayout layout, std::uint64_t least, std::uint64
     else
       high = middle;
   }
-  const bool below_is_nearer = low > least && triangles - count(low - 1) < count(low) - std::min(triangles, count(low));
+  const bool below_is_nearer =
+      low > min_height && triangles - count(low - 1) < count(low) - std::min(triangles, count(low));
   return below_is_nearer ? low - 1 : low;
 }
 
@@ -126,15 +127,15 @@ GridLayout layout_of(const GeneratorOptions& options) {
   layout.closing = closing_of(options.kind);
   layout.order = options.order;
   layout.seed = mix(options.seed);
-  const std::uint64_t least = layout.closing == Closing::kTorus ? 3 : 1;
+  const std::uint64_t min_side = layout.closing == Closing::kTorus ? 3 : 1;
   const std::uint64_t cells = options.triangles / (layout.closing == Closing::kTwoSheets ? 4 : 2);
   const auto side = static_cast<std::uint64_t>(std::lround(std::sqrt(static_cast<double>(cells))));
-  layout.width = options.width.value_or(std::max(side, least));
-  if (layout.width < least || layout.width > options.triangles + least)
+  layout.width = options.width.value_or(std::max(side, min_side));
+  if (layout.width < min_side || layout.width > options.triangles + min_side)
     throw Error(ErrorKind::kUsage, "a row of " + std::to_string(layout.width) + " cells does not fit the mesh",
-                "choose --width between " + std::to_string(least) + " and the number of triangles");
+                "choose --width between " + std::to_string(min_side) + " and the number of triangles");
   if (options.kind == MeshKind::kScan) layout.holes = scattered_holes(layout.width, cells / layout.width);
-  layout.height = nearest_height(layout, least, options.triangles);
+  layout.height = nearest_height(layout, min_side, options.triangles);
   return layout;
 }
 

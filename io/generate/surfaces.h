@@ -1,4 +1,4 @@
-// The kinds of grid surfaces: which layout each has, and how it lies in space.
+// The kinds of grid surfaces: the layout of each, and its position in space.
 #pragma once
 
 #include <memory>
@@ -7,7 +7,7 @@
 
 namespace reeb::io {
 
-// REQUIRES: options.kind is not kSierpinski. THROWS: Error{kUsage} for a width it cannot have.
+// REQUIRES: options.kind is not kSierpinski. THROWS: Error{kUsage} for a width that the kind cannot have.
 std::unique_ptr<Shape> make_grid_surface(const GeneratorOptions& options);
 
 }  // namespace reeb::io

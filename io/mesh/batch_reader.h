@@ -1,4 +1,4 @@
-// The part that all mesh readers share: batches of a bounded number of events.
+// What all mesh readers share: batches with a bounded number of events.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@ class BatchReader : public MeshReader {
  public:
   const MeshInfo& info() const final { return info_; }
 
-  // For the reads to come.
+  // Sets the size of later batches.
   void set_batch_events(std::size_t count) { options_.batch_events = std::max<std::size_t>(count, 1); }
 
   bool read(MeshBatch& batch) final {
@@ -28,7 +28,7 @@ class BatchReader : public MeshReader {
  protected:
   explicit BatchReader(ReadOptions options) : options_(std::move(options)) { set_batch_events(options_.batch_events); }
 
-  // Adds events in the order of the file while room() is left. Adds none at the end only.
+  // Adds events in the order of the file while room() is left. Adds none only at the end.
   virtual void fill(MeshBatch& batch) = 0;
 
   std::size_t room(const MeshBatch& batch) const {
@@ -36,7 +36,7 @@ class BatchReader : public MeshReader {
     return options_.batch_events - std::min(used, options_.batch_events);
   }
 
-  // Counts vertices whose columns were filled.
+  // Counts vertices after their columns were filled.
   void count_vertices(MeshBatch& batch, std::size_t count) {
     batch.vertex_count += count;
     vertices_read_ += count;
@@ -53,7 +53,7 @@ class BatchReader : public MeshReader {
 };
 
 // For formats whose vertices have nothing but coordinates.
-// THROWS: Error{kBadInput} if a property is asked for.
+// THROWS: Error{kBadInput} if a property is requested.
 void refuse_properties(const ReadOptions& options, const std::string& format, const std::string& file);
 
 }  // namespace reeb::io

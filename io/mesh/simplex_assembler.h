@@ -1,8 +1,7 @@
 // Corners in, triangles out: how faces of any length become the triangles of a batch.
 //
-// A face is begun, fed corner by corner and ended; each corner adds at most one triangle, so that
-// a batch can be cut anywhere and no face needs to fit into memory (a PLY triangle strip can be a
-// whole mesh).
+// A face is begun, gets its corners one by one, and is ended. Each corner adds at most one triangle. So a batch can end
+// anywhere, and no face has to fit into memory (a PLY triangle strip can be a whole mesh).
 #pragma once
 
 #include <cstdint>
@@ -14,7 +13,7 @@ namespace reeb::io {
 
 enum class FaceShape {
   kPolygon,   // a fan from its first corner
-  kStrip,     // each corner with its two predecessors, turned alternately
+  kStrip,     // each corner with its two predecessors, with alternating orientation
   kPolyline,  // each corner with its predecessor
 };
 
@@ -41,7 +40,7 @@ class SimplexAssembler {
     last_ = corner;
   }
 
-  // A face of two corners is an edge, of one a vertex, of none nothing.
+  // A face with two corners is an edge, one with a single corner is a vertex, one without corners is nothing.
   void end(std::vector<VertexId>& triangles) {
     if (corners_ == 1) triangles.insert(triangles.end(), {first_, first_, first_});
     if (corners_ == 2 && shape_ != FaceShape::kPolyline) triangles.insert(triangles.end(), {first_, last_, last_});

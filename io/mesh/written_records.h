@@ -1,4 +1,4 @@
-// What the writers of all formats share: the faces of a batch, and lines of text.
+// What the writers of several formats share: the faces of a batch, and lines of text.
 #pragma once
 
 #include <charconv>
@@ -23,7 +23,7 @@ void for_each_face(const MeshBatch& batch, Visit visit) {
   }
 }
 
-// One line of a text format, built in the buffer of its file: no allocation a record.
+// One line of a text format, built in the buffer of its file: no allocation per record.
 class TextRecord {
  public:
   static constexpr std::size_t kMaxBytes = 4096;
@@ -35,7 +35,7 @@ class TextRecord {
 
   void put(char c) { *end_++ = c; }
   void put(std::integral auto number) { end_ = std::to_chars(end_, begin_ + kMaxBytes, number).ptr; }
-  // The shortest text that restores the number exactly; -0 as 0.
+  // Appends the shortest text that restores the number exactly; -0 becomes 0.
   void put(double number) { end_ = std::to_chars(end_, begin_ + kMaxBytes, number + 0.0).ptr; }
 
  private:

@@ -15,14 +15,14 @@ AdaptiveModel::AdaptiveModel(std::uint32_t symbols, const ModelKind& kind)
       interval_((symbols >> 4) | 2) {
   const std::uint32_t share = total_ / symbols, rest = total_ % symbols;
   for (std::uint32_t i = 0; i < symbols; ++i) counts_[i] = static_cast<std::uint16_t>(share + (i < rest ? 1 : 0));
-  // About one hint a symbol: find() then needs a step or two, whatever the frequencies.
+  // About one hint per symbol: find() then takes one or two steps on average.
   hint_shift_ = bits_ - static_cast<std::uint32_t>(std::bit_width(symbols - 1));
   hints_.resize((std::size_t{1} << (bits_ - hint_shift_)) + 1);
   rescale();
 }
 
 void AdaptiveModel::rescale() {
-  if (more_ > 0) {  // the rest of the interval: the total must come out exactly
+  if (more_ > 0) {  // the rest of the interval, with a larger increment: the total must be exact
     ++increment_;
     left_ = more_;
     more_ = 0;

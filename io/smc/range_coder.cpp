@@ -16,7 +16,7 @@ RangeDecoder::RangeDecoder(ByteWindow& window) : window_(window), start_(window.
 }
 
 void RangeDecoder::refill() {
-  // The length at the end is checked against the last three bytes, which may lie in two windows.
+  // finish() checks the length against the last three bytes, which can be in two windows.
   for (std::size_t i = used_ > 3 ? used_ - 3 : 0; i < used_; ++i)
     tail_ = (tail_ << 8) | std::to_integer<std::uint32_t>(bytes_[i]);
   window_.skip(used_);

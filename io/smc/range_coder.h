@@ -1,7 +1,7 @@
-// The range coder of SMC files (after Martin 1979 and Schindler 1998), byte-wise with carry.
+// The range coder of SMC files (after Martin 1979 and Schindler 1998), bytewise, with carry.
 //
-// Encoder and decoder share one interface, so that code which describes the file is written once:
-// code(model, symbol) returns the symbol; the decoder ignores the argument.
+// Encoder and decoder have the same interface, so that the code that describes the file is written once: code(model,
+// symbol) returns the symbol; the decoder ignores the argument.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@
 
 namespace reeb::io {
 
-// Sizes of the one-part alphabets of uniform numbers; larger ones are coded in two parts.
+// The largest alphabet of uniform numbers that is coded in one part; larger ones are coded in two.
 inline constexpr std::uint32_t kMaxUniform = 4194303;
 
 class RangeDecoder {
@@ -59,7 +59,7 @@ class RangeDecoder {
     return symbol;
   }
 
-  // As code(), for a small model of two symbols: a comparison takes the place of division and search.
+  // As code(), for a small model with two symbols: a comparison replaces division and search.
   bool bit(AdaptiveModel& model, bool = false) {
     normalize();
     const std::uint32_t first = (range_ >> kSmallModel.bits) * model.below(1);
@@ -72,7 +72,7 @@ class RangeDecoder {
     return symbol;
   }
 
-  // After the last symbol. THROWS: TRUNCATED; CORRUPT if the stored length is not the true one.
+  // Call it after the last symbol. THROWS: TRUNCATED; CORRUPT if the stored length is wrong.
   void finish();
 
   std::uint64_t position() const { return window_.position() + used_; }
@@ -98,7 +98,7 @@ class RangeDecoder {
 
   ByteWindow& window_;
   std::uint64_t start_;
-  const std::byte* bytes_ = nullptr;  // of the window, of which used_ were taken
+  const std::byte* bytes_ = nullptr;  // of the window; used_ of them are consumed
   std::size_t used_ = 0, ready_ = 0;
   std::uint32_t tail_ = 0;  // the last bytes before those in bytes_
   std::uint32_t low_ = 0, range_ = 128, last_ = 0;
@@ -115,7 +115,7 @@ class RangeEncoder {
   std::uint32_t word(std::uint32_t value);
   std::uint32_t code(AdaptiveModel& model, std::uint32_t symbol);
   bool bit(AdaptiveModel& model, bool symbol) { return code(model, symbol ? 1 : 0) != 0; }
-  // Writes what is held back, and the length of the stream.
+  // Writes the bytes that are held back, and the length of the stream.
   void finish();
 
  private:
@@ -129,8 +129,8 @@ class RangeEncoder {
   std::ostream& out_;
   std::string buffer_;
   std::uint32_t low_ = 0, range_ = kTop;
-  std::uint32_t held_ = 1;     // the oldest byte that a carry may still change
-  std::uint64_t pending_ = 0;  // bytes 0xFF behind it
+  std::uint32_t held_ = 1;     // the oldest byte that a carry can still change
+  std::uint64_t pending_ = 0;  // number of bytes 0xFF after it
   std::uint32_t shifts_ = 0;
 };
 

@@ -12,9 +12,9 @@
 namespace reeb::io {
 
 struct SmcHead {
-  std::uint32_t precision = 0;  // bits a coordinate, 0 is lossless
+  std::uint32_t precision = 0;  // bits per coordinate, 0 is lossless
   std::optional<std::uint32_t> vertex_count, cell_count;
-  // A file may hold one corner of the box alone; it means nothing then.
+  // A file can have one corner of the box only, which is then ignored.
   std::optional<std::array<float, 3>> min, max;
 
   std::optional<StreamBox> box() const { return min && max ? std::optional(StreamBox{*min, *max}) : std::nullopt; }

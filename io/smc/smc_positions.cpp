@@ -9,7 +9,7 @@ std::uint32_t bits_of(float value) { return std::bit_cast<std::uint32_t>(value);
 std::uint32_t exponent_of(float value) { return (bits_of(value) >> 23) & 0xFF; }
 std::int32_t mantissa_of(float value) { return static_cast<std::int32_t>(bits_of(value) & 0x7FFFFF); }
 
-// Of a grid with 2^precision places: bits of the small alphabet, and bits coded apart as low part.
+// The alphabet for a grid with 2^precision places: its bits, and the low bits that are coded separately.
 struct GridAlphabet {
   std::uint32_t small_bits, low_bits;
 };
@@ -66,7 +66,7 @@ std::uint32_t FloatAxis::code_mantissa(Coder& coder, Models& models, std::uint32
   else if (correction > kExtreme)
     correction -= kMantissaSize;
   auto magnitude = correction == kExtreme ? 0u : static_cast<std::uint32_t>(std::abs(correction) >> drop);
-  // At most 2048 symbols a model: longer magnitudes are coded in a high and a low part.
+  // A model has at most 2048 symbols: longer magnitudes are coded in a high and a low part.
   if (keep >= 13) {
     const auto low_bits = static_cast<std::uint32_t>(keep - 12);
     const std::uint32_t high = coder.code(ready(models.high[exponent], 1u << 11), magnitude >> low_bits);
@@ -166,7 +166,7 @@ std::int32_t GridAxis::code_correction(Coder& coder, std::size_t kind, std::int3
   if (symbol != 0) return static_cast<std::int32_t>(symbol) - cut_;
   if (!escapes_) fail(Fault::kCorrupt, "an escape on a grid that has none", {});
   if (low_bits_ == 0) {
-    const std::int32_t gap = 2 * cut_ - 1;  // the corrections that are small
+    const std::int32_t gap = 2 * cut_ - 1;  // the number of small corrections
     const std::int32_t shifted = correction - least_ - (correction > 0 ? gap : 0);
     const auto high = static_cast<std::int32_t>(coder.code(high_[kind], static_cast<std::uint32_t>(shifted)));
     return high + least_ + (high <= -least_ - cut_ ? 0 : gap);
@@ -187,18 +187,18 @@ Grid::Grid(const StreamBox& box, std::uint32_t precision) {
   }
   const double longest = *std::max_element(extent.begin(), extent.end());
   const double steps = static_cast<double>((1u << precision) - 1);
-  places_a_unit = steps / longest;
-  units_a_place = longest / steps;
-  for (std::size_t k = 0; k < 3; ++k) top[k] = static_cast<std::int32_t>(extent[k] * places_a_unit + 0.5);
+  places_per_unit = steps / longest;
+  units_per_place = longest / steps;
+  for (std::size_t k = 0; k < 3; ++k) top[k] = static_cast<std::int32_t>(extent[k] * places_per_unit + 0.5);
 }
 
 std::int32_t Grid::place(std::size_t axis, float x) const {
-  const double place = places_a_unit * (static_cast<double>(x) - min[axis]) + 0.5;
+  const double place = places_per_unit * (static_cast<double>(x) - min[axis]) + 0.5;
   return static_cast<std::int32_t>(std::clamp(place, 0.0, static_cast<double>(top[axis])));
 }
 
 float Grid::position(std::size_t axis, std::int32_t place) const {
-  const double offset = units_a_place * place;
+  const double offset = units_per_place * place;
   const double x = offset + min[axis];
   if (std::abs(x) > static_cast<double>(std::numeric_limits<float>::max()))
     fail(Fault::kBadNumber, "a coordinate is not finite", {});

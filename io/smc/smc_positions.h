@@ -1,7 +1,7 @@
-// Positions of vertices in SMC files: predicted, and the prediction's error coded.
+// Positions of vertices in SMC files: each is predicted, and the error of the prediction is coded.
 //
-// Three ways: quantized to a grid in a box; lossless float32; float32 with mantissas cut so that
-// the precision follows the range of the values seen (adaptive). Encoder and decoder are one code.
+// There are three modes: quantized to a grid in a box; lossless float32; and float32 with mantissas shortened to a
+// precision that follows the range of the values so far (adaptive). The same code encodes and decodes.
 #pragma once
 
 #include <array>
@@ -18,16 +18,16 @@
 
 namespace reeb::io {
 
-// From what a position is predicted: nothing, the first corner, the parallelogram across an edge.
+// How a position is predicted: not at all, from the first corner, or by the parallelogram across an edge.
 enum class Prediction : std::uint8_t { kNone, kLast, kAcross };
 inline constexpr std::size_t kPredictions = 3;
 
-// A position as it is coded: bits of three float32, or three places on the grid.
+// A coded position: the bits of three float32, or three places on the grid.
 using CodedPosition = std::array<std::int32_t, 3>;
 
 struct PredictionInput {
   Prediction kind = Prediction::kNone;
-  // kLast: a. kAcross: a and c are the ends of the edge, b lies across it.
+  // For kLast: a. For kAcross: a and c are the ends of the edge, b is opposite to it.
   const CodedPosition* a = nullptr;
   const CodedPosition* b = nullptr;
   const CodedPosition* c = nullptr;
@@ -36,7 +36,7 @@ struct PredictionInput {
 // One axis of float32, lossless or adaptive.
 class FloatAxis {
  public:
-  // precision: 0 is lossless, else the bits to keep of the largest range.
+  // `precision`: 0 is lossless, else the number of bits to keep, relative to the largest range.
   explicit FloatAxis(std::uint32_t precision);
 
   // THROWS: BAD_NUMBER for infinities and NaN.
@@ -53,10 +53,10 @@ class FloatAxis {
   static constexpr std::int32_t kMantissaBits = 23, kMantissaSize = 1 << kMantissaBits;
   static constexpr std::int32_t kExtreme = 1 << 22;  // the one correction without a sign
 
-  // The models of one kind of prediction, made when first used.
+  // The models for one kind of prediction, each created when first used.
   struct Models {
-    std::array<AdaptiveModel, 256> exponent;  // by exponent of the prediction
-    std::array<AdaptiveModel, 256> sign;      // all others by exponent of the value
+    std::array<AdaptiveModel, 256> exponent;  // by the exponent of the prediction
+    std::array<AdaptiveModel, 256> sign;      // this and the others: by the exponent of the value
     std::array<AdaptiveModel, 256> high, low;
   };
 
@@ -105,16 +105,16 @@ class GridAxis {
   std::int32_t previous_ = 0;
 };
 
-// Between float32 positions and a uniform grid of 2^precision places along the longest side.
+// Converts between float32 positions and a uniform grid with 2^precision places along the longest side.
 struct Grid {
   std::array<double, 3> min{};
-  double places_a_unit = 0, units_a_place = 0;
+  double places_per_unit = 0, units_per_place = 0;
   std::array<std::int32_t, 3> top{};
 
   // REQUIRES: a finite box with some extent; 1 <= precision <= 24.
   Grid(const StreamBox& box, std::uint32_t precision);
   std::int32_t place(std::size_t axis, float x) const;
-  // THROWS: BAD_NUMBER: the last place may lie half a step outside the box, and so beyond float32.
+  // THROWS: BAD_NUMBER. The last place can be half a step outside the box, and so beyond float32.
   float position(std::size_t axis, std::int32_t place) const;
 };
 
@@ -123,11 +123,11 @@ class PositionCoder {
   // Quantized if precision > 0 and there is a box, lossless if precision == 0, else adaptive.
   PositionCoder(std::uint32_t precision, const std::optional<StreamBox>& box);
 
-  // How a position is coded; loses what the precision does not hold.
+  // The coded position; on a grid it is rounded.
   CodedPosition to_coded(const std::array<float, 3>& position) const;
   std::array<float, 3> to_position(const CodedPosition& coded) const;
 
-  // Codes `value` (the decoder ignores it) and returns what a decoder sees.
+  // Codes `value` (the decoder ignores it) and returns the value that a decoder gets.
   template <class Coder>
   CodedPosition code(Coder& coder, const PredictionInput& from, const CodedPosition& value);
 
@@ -137,7 +137,7 @@ class PositionCoder {
   template <class Coder>
   std::int32_t code_place(Coder& coder, std::size_t axis, const PredictionInput& from, std::int32_t value);
 
-  std::vector<Grid> grid_;  // one, or none: floats
+  std::vector<Grid> grid_;  // one element; empty for floats
   std::vector<FloatAxis> float_axes_;
   std::vector<GridAxis> grid_axes_;
 };

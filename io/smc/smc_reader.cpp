@@ -8,7 +8,7 @@
 namespace reeb::io {
 namespace {
 
-constexpr std::size_t kEventsAFill = 128;
+constexpr std::size_t kEventsPerFill = 128;
 
 unsigned version_byte(ByteWindow& window) {
   window.ensure(1);
@@ -17,7 +17,7 @@ unsigned version_byte(ByteWindow& window) {
   return version;
 }
 
-// "CORRUPT: what" becomes "CORRUPT: triangle 133: what", at the byte where the decoder stands.
+// "CORRUPT: what" becomes "CORRUPT: triangle 133: what", at the position of the decoder.
 Error located(const Error& error, const std::string& triangle, const char* note, std::uint64_t position) {
   const std::size_t end = error.message().find(": ") + 2;
   Error result(error.kind(), error.message().substr(0, end) + triangle + error.message().substr(end) + note,
@@ -28,7 +28,7 @@ Error located(const Error& error, const std::string& triangle, const char* note,
 
 }  // namespace
 
-// Runs a part of the decoding; faults in it get their place.
+// Runs a part of the decoding, and adds the position to its faults.
 template <class Action>
 void SmcEventReader::guarded(Action action) {
   try {
@@ -58,7 +58,7 @@ SmcEventReader::SmcEventReader(std::unique_ptr<ByteSource> source)
 
 void SmcEventReader::fill() {
   guarded([this] {
-    while (!done_ && queued() < kEventsAFill)
+    while (!done_ && queued() < kEventsPerFill)
       if (!read_triangle()) finish();
   });
 }

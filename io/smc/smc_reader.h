@@ -1,6 +1,6 @@
-// Reads SMC, versions 1 and 3: triangles as operations on the boundary of what was read so far,
-// adaptively coded (Isenburg, Lindstrom, Gumhold, Snoeyink: Streaming Compression of Triangle
-// Meshes, 2005). Always pre-order. Messages name the triangle, positions are byte offsets.
+// Reads SMC, versions 1 and 3: triangles as operations on the boundary of the mesh read so far, adaptively coded
+// (Isenburg, Lindstrom, Gumhold, Snoeyink: Streaming Compression of Triangle Meshes, 2005). Always pre-order. Messages
+// name the triangle; positions are byte offsets.
 #pragma once
 
 #include <memory>

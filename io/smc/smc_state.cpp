@@ -67,7 +67,7 @@ void SmcState::append_active(std::uint32_t slot) {
   ++active_count_;
 }
 
-// The first vertex takes its place, and the order loses its front.
+// The first vertex of the order moves to the position of the removed one.
 void SmcState::remove_active(std::uint32_t slot) {
   const std::uint32_t first = active_at(0), place = vertices_[slot].place;
   active_[place & (active_.size() - 1)] = first;

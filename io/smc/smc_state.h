@@ -1,8 +1,9 @@
-// What encoder and decoder of SMC files know in common at any moment of the stream: the active
-// vertices, the open edges between them, the last triangle, and the models of the connectivity.
+// The common state of encoder and decoder of SMC files at any moment of the stream: the active vertices, the open edges
+// between them, the last triangle, and the models of the connectivity.
 //
-// All of it follows from the triangles so far; every order in here (of active vertices, of the
-// edges of a vertex) is part of the file format. Memory follows the active vertices.
+// All of it follows from the triangles so far. Every order in it (of active vertices, of the edges of a vertex) is part
+// of the file format.
+// MEMORY: follows the active vertices.
 #pragma once
 
 #include <algorithm>
@@ -17,14 +18,14 @@ namespace reeb::io {
 
 inline constexpr std::uint32_t kNone = ~0u;
 
-// START a component, ADD a vertex at an open edge, JOIN an active vertex to it, FILL between two
-// open edges, END between three. In the file FILL and END have the same symbol.
+// START a component, ADD a vertex at an open edge, JOIN an active vertex to an open edge, FILL between two open edges,
+// END between three. In the file FILL and END have the same symbol.
 enum class SmcOperation : std::uint8_t { kStart, kAdd, kJoin, kFill, kEnd };
 inline constexpr std::size_t kSmcOperations = 5;
 inline constexpr std::uint32_t kFillSymbol = 3;
-// Symbols that say "neither is in the cache": of a start corner, an edge, a pair of edges.
+// Symbols for "not in the cache": for a start corner, an edge, a pair of edges.
 inline constexpr std::uint32_t kStartEscape = 3, kEdgeEscape = 6, kPairEscape = 9;
-inline constexpr std::uint32_t kEndOfStream = 4;  // of the number of old corners, in version 3
+inline constexpr std::uint32_t kEndOfStream = 4;  // in place of the number of old corners, in version 3
 
 struct SmcModels {
   explicit SmcModels(unsigned version);
@@ -45,7 +46,7 @@ struct SmcModels {
   std::vector<AdaptiveModel> finals_;
 };
 
-// Lists of numbers in one array, cut from it in powers of two and given back by size.
+// Lists of numbers in one array. Capacities are powers of two; released parts are reused by lists of the same capacity.
 class NumberLists {
  public:
   struct List {
@@ -57,7 +58,7 @@ class NumberLists {
     if (list.begin == kNone || list.size == 1u << list.log_capacity) grow(list);
     numbers_[list.begin + list.size++] = number;
   }
-  // Takes the first occurrence away; the last entry takes its place. REQUIRES: it is there.
+  // Removes the first occurrence; the last entry takes its place. REQUIRES: the list contains `number`.
   void remove(List& list, std::uint32_t number) {
     std::uint32_t i = 0;
     while (numbers_[list.begin + i] != number) ++i;
@@ -76,19 +77,19 @@ class NumberLists {
 
 struct SmcVertex {
   std::uint32_t index;  // in the stream; kNone: the slot is free
-  std::uint32_t place;  // in the order of active vertices, counted from its first entry ever
+  std::uint32_t place;  // in the order of active vertices, counted from its first entry since the start
   std::uint32_t uses;   // triangles so far
   NumberLists::List edges;
   CodedPosition position;
 };
 
-// Runs from `origin` to `target`, as the triangle that made it saw it.
+// Directed from `origin` to `target`, as in the triangle that opened it.
 struct SmcEdge {
   std::uint32_t origin, target;  // slots of vertices
   CodedPosition apex;            // third corner of that triangle
 };
 
-// A vertex of the last triangle. It may be final by now, and its slot used for another.
+// A vertex of the last triangle. It can be final by now, and its slot can have another vertex.
 struct SmcCached {
   std::uint32_t slot = kNone, index = kNone;
 };
@@ -102,12 +103,12 @@ class SmcState {
     std::array<std::uint32_t, 3> edges{kNone, kNone, kNone};
   };
 
-  // A new slot, not yet in the order of active vertices.
+  // Returns a new slot, which is not yet in the order of active vertices.
   std::uint32_t create_vertex(std::uint32_t index, const CodedPosition& position);
   void append_active(std::uint32_t slot);
-  // Takes the vertex and its open edges away. REQUIRES: it is active.
+  // Removes the vertex and its open edges. REQUIRES: it is active.
   void finalize(std::uint32_t slot);
-  // Gives back the slot of a vertex that was never made active.
+  // Releases the slot of a vertex that never became active.
   void drop_vertex(std::uint32_t slot) { release(slot); }
 
   SmcVertex& vertex(std::uint32_t slot) { return vertices_[slot]; }
@@ -117,16 +118,16 @@ class SmcState {
 
   std::uint32_t active_count() const { return active_count_; }
   std::uint32_t open_edges() const { return open_edges_; }
-  // Position of an active vertex in the order, from 0, and back.
+  // The position of an active vertex in the order, from 0; and the vertex at a position.
   std::uint32_t place_of(std::uint32_t slot) const { return vertices_[slot].place - first_place_; }
   std::uint32_t active_at(std::uint32_t place) const { return active_[(first_place_ + place) & (active_.size() - 1)]; }
 
-  // Slot of cache entry `i`, kNone if it is empty or final.
+  // The slot of cache entry `i`; kNone if it is empty or final.
   std::uint32_t cached(std::size_t i) const {
     const SmcCached& entry = cache_[i];
     return entry.slot != kNone && vertices_[entry.slot].index == entry.index ? entry.slot : kNone;
   }
-  // First cache entry that is this vertex, or 3.
+  // The first cache entry with this vertex, or 3.
   std::uint32_t cache_entry(std::uint32_t slot) const {
     for (std::uint32_t i = 0; i < 3; ++i)
       if (cached(i) == slot) return i;
@@ -135,16 +136,16 @@ class SmcState {
   SmcOperation previous() const { return previous_; }
   std::size_t context() const { return static_cast<std::size_t>(previous_); }
 
-  // Number of edges at `slot` that have it as their target (or origin).
+  // The number of edges at `slot` that have it as their target (or origin).
   std::uint32_t count_edges(std::uint32_t slot, bool incoming) const;
-  // The edge with number `rank` of these, and the number of an edge.
+  // The edge with rank `rank` among these; and the rank of an edge.
   std::uint32_t pick_edge(std::uint32_t slot, bool incoming, std::uint32_t rank) const;
   std::uint32_t rank_of_edge(std::uint32_t slot, bool incoming, std::uint32_t edge) const;
-  // First edge at `slot` whose origin (target) is the vertex `end`, or kNone.
+  // The first edge at `slot` whose origin (target) is the vertex `end`, or kNone.
   std::uint32_t find_edge_from(std::uint32_t slot, std::uint32_t end) const;
   std::uint32_t find_edge_to(std::uint32_t slot, std::uint32_t end) const;
 
-  // The triangle becomes the last one: counts its uses, closes and opens edges.
+  // Makes this the last triangle: counts its uses, closes and opens edges.
   void apply(const Triangle& triangle, SmcOperation operation);
 
  private:

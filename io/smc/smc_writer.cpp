@@ -1,5 +1,5 @@
-// SMC, versions 1 and 3. Of the operations that give a triangle, those are chosen that the
-// programs of the format's authors choose, so that files are the same byte for byte.
+// SMC, versions 1 and 3. If several operations give the same triangle, this writer chooses as the programs of the
+// format's authors do, so that files are the same byte for byte.
 #include <algorithm>
 #include <cmath>
 
@@ -70,7 +70,7 @@ class SmcWriter : public StreamWriter {
  private:
   using Triangle = SmcState::Triangle;
 
-  // The version byte lies before the range coder's stream.
+  // The version byte comes before the stream of the range coder.
   static std::ostream& after_version(std::ostream& out, unsigned version) {
     return out.put(static_cast<char>(version));
   }
@@ -103,7 +103,7 @@ class SmcWriter : public StreamWriter {
     if (held_.finalize(vertex, false)) return;
     const std::uint32_t* slot = slots_.find(vertex);
     if (slot == nullptr) return;
-    // A vertex that some triangle used stays open; one that none used is forgotten.
+    // A vertex that a triangle has used stays active; one without triangles is removed.
     if (state_.vertex(*slot).uses > 0 || held_names(vertex)) {
       ++dropped_;
       return;
@@ -151,7 +151,7 @@ class SmcWriter : public StreamWriter {
       code_pair(triangle, matches);
   }
 
-  // Only where some edge is open does an operation need saying; without one it is a start.
+  // The operation is coded only if an edge is open; otherwise it is always a start.
   void code_operation(std::uint32_t symbol) {
     if (state_.open_edges() > 0)
       encoder_.code(models_.operation[state_.context()], symbol);
@@ -242,7 +242,7 @@ class SmcWriter : public StreamWriter {
     state_.apply(triangle, matches == 3 ? SmcOperation::kEnd : SmcOperation::kFill);
   }
 
-  // Which corner comes first: the open side, if any, must be side 1.
+  // Returns which corner comes first: the side without an open edge, if any, must be side 1.
   std::size_t pair_rotation(const Triangle& triangle, std::uint32_t matches) const {
     for (std::size_t i = 0; i < 3; ++i) {
       if (matches == 2 && triangle.edges[i] == kNone) return (i + 2) % 3;

@@ -14,7 +14,7 @@ constexpr std::size_t kMaxHeadBytes = 64u << 20;
 constexpr std::size_t kJudgedBlocks = 64;
 constexpr std::uint64_t kImplausible = std::numeric_limits<std::uint64_t>::max();
 
-// One reading of a head in one byte order. `fault` is the first thing found wrong.
+// A head, read in one byte order. `fault` is the first thing found wrong.
 struct HeadReading {
   WordOrder order;
   StreamHeader header;
@@ -90,7 +90,7 @@ class HeadParser {
     return value <= 1 || refuse("bounding box flag " + std::to_string(value) + " is not plausible");
   }
 
-  // Minima and maxima of `width` values; the first three of floats are the box.
+  // Reads the minima and maxima of `width` values; if they are floats, the first three are the box.
   bool read_bounds(std::size_t width, bool floats) {
     bool present = false;
     if (!read_flag(present)) return false;
@@ -133,7 +133,7 @@ bool odd_coordinate(float value) {
   return !std::isfinite(value) || (value != 0 && (magnitude < 1e-30f || magnitude > 1e30f));
 }
 
-// Counts the elements of the first blocks that make no sense in the order of `reading`.
+// Counts the elements in the first blocks that make no sense in the byte order of `reading`.
 class Judge {
  public:
   Judge(ByteWindow& window, const HeadReading& reading)

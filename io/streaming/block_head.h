@@ -1,8 +1,8 @@
 // The head of SMB and SVB files, and their byte order.
 //
-// The byte order mark of old files often contradicts the data: programs built for 64-bit machines
-// took these for big endian. So the head and the first blocks are judged in both orders, by how
-// many elements are nonsense, and the mark is overruled where the other order is better.
+// The byte order mark of old files often contradicts the data: programs built for 64-bit machines took those for big
+// endian. So the head and the first blocks are read in both orders. If the other order gives fewer elements that make
+// no sense, it overrules the mark.
 #pragma once
 
 #include <bit>
@@ -16,9 +16,9 @@ namespace reeb::io {
 
 inline constexpr std::size_t kBlockElements = 32;
 
-// 32-bit words of a file in either byte order.
+// Reads 32-bit words in either byte order.
 struct WordOrder {
-  bool swapped = false;  // against this machine
+  bool swapped = false;  // relative to this machine
 
   static WordOrder big_endian(bool big) { return {big == (std::endian::native == std::endian::little)}; }
   std::uint32_t word(const std::byte* at) const {
@@ -36,7 +36,7 @@ struct BlockHead {
   bool overruled = false;  // the byte order mark was wrong
 };
 
-// Reads the head of an SMB file, or of an SVB file where `volume`, and skips it in the window.
+// Reads the head of an SMB file, or of an SVB file if `volume`, and skips it in the window.
 // THROWS: TRUNCATED, BAD_HEADER, UNSUPPORTED.
 BlockHead read_block_head(ByteWindow& window, bool volume);
 

@@ -75,7 +75,7 @@ void BlockEventReader<kWords>::read_cell(const std::byte* element, std::uint64_t
     IndexVerdict verdict = rules_.corner(numbers[k], vertices[k]);
     for (std::size_t i = 0; i < k; ++i)
       if (numbers[k] < 0 && numbers[i] == numbers[k]) verdict = IndexVerdict::kFinal;
-    if (verdict != IndexVerdict::kGood) [[unlikely]]
+    if (verdict != IndexVerdict::kValid) [[unlikely]]
       rules_.fail_index(verdict, numbers[k], "corner " + std::to_string(k + 1), std::to_string(position));
   }
   ++cells_;

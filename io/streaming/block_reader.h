@@ -1,7 +1,7 @@
 // Reads SMB (triangles) and SVB (tetrahedra): binary blocks of 32 elements.
 //
-// A block is a 32-bit descriptor, lowest bit first, 1 for a vertex and 0 for a cell, then up to 32
-// elements of 12 (SMB) or 16 (SVB) bytes. Positions of faults are byte offsets.
+// A block is a 32-bit descriptor, then up to 32 elements of 12 (SMB) or 16 (SVB) bytes. The bits of the descriptor,
+// lowest first, are 1 for a vertex and 0 for a cell. Positions of faults are byte offsets.
 #pragma once
 
 #include <memory>

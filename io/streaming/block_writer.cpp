@@ -8,7 +8,7 @@ namespace {
 
 class BlockWriter : public HeldCellWriter {
  public:
-  // The readers' order of finalizations in a cell is not the file's to say.
+  // The format does not store the order of finalizations in a cell.
   BlockWriter(std::ostream& out, const StreamHeader& header)
       : HeldCellWriter(out, header, false), words_(header.volume ? 4 : 3) {
     if (header.volume &&
@@ -17,7 +17,7 @@ class BlockWriter : public HeldCellWriter {
     write_head();
   }
 
-  // A last block without elements is written too: old readers expect it.
+  // A last block is written even if it has no elements: old readers expect it.
   void close() override {
     write_held();
     write_block();
@@ -47,7 +47,7 @@ class BlockWriter : public HeldCellWriter {
       out_.append_word(header_.vertex_floats);
       out_.append_word(header_.vertex_ints);
     }
-    // The bounds of further values are not known, and all stand or fall together.
+    // One flag is for the bounds of all floats, and those of a fourth float are unknown.
     const bool box = header_.box && header_.vertex_floats == 3;
     out_.text() += box ? '\1' : '\0';
     if (box) {

@@ -48,7 +48,7 @@ std::unique_ptr<StreamWriter> make_writer(StreamFormat format, std::ostream& out
   return std::make_unique<EventListWriter>(out, header);
 }
 
-// A stream writer with the file that it writes to.
+// A stream writer that owns its file.
 class StreamFile : public StreamWriter {
  public:
   StreamFile(const std::string& path, const StreamHeader& header, Existing existing)

@@ -1,4 +1,4 @@
-// Streaming meshes and lists of events as files, by the suffix of their name.
+// Writes streaming meshes and lists of events to files, by the suffix of the name.
 #pragma once
 
 #include <memory>
@@ -16,13 +16,13 @@ enum class StreamFormat { kNone, kText, kBlocks, kCompressed, kEvents };
 StreamFormat stream_format(const std::string& path);
 bool is_volume_name(const std::string& path);  // .sva .svb
 
-// A writer of events into the file `path`, which appears under its name with close().
+// A writer of events to the file `path`, which gets its name on close().
 // REQUIRES: stream_format(path) is not kNone.
 // THROWS: as AtomicFile, and as the writers of stream_writer.h.
 std::unique_ptr<StreamWriter> create_stream(const std::string& path, const StreamHeader& header, Existing existing);
 
-// The same for batches. A triangle format gets the faces of tetrahedra; properties go to volume
-// formats and lists of events, and numbers become float32 in all.
+// The same for batches. A triangle format gets the faces of tetrahedra. Volume formats and lists of events keep
+// properties. Numbers become float32 in all of them.
 std::unique_ptr<MeshWriter> create_stream_mesh(const std::string& path, const MeshWriterOptions& options);
 
 }  // namespace reeb::io

@@ -14,14 +14,14 @@ class ContentBytes : public ByteSource {
  public:
   explicit ContentBytes(std::unique_ptr<ContentSource> content) : content_(std::move(content)) {}
 
-  // As much as is there; waits for one byte only.
+  // Reads what is available; waits for one byte only.
   std::size_t read(std::span<std::byte> out) override {
     const std::string_view bytes = content_->view(offset_, 1).substr(0, out.size());
     if (!bytes.empty()) std::memcpy(out.data(), bytes.data(), bytes.size());
     offset_ += bytes.size();
     return bytes.size();
   }
-  // A mapped file knows only the offsets that it was asked for.
+  // A mapped file does not count consumed bytes, so the offset is used.
   std::uint64_t consumed() const override { return content_->can_seek() ? offset_ : content_->file_bytes_read(); }
   std::optional<std::uint64_t> size() const override { return content_->size(); }
 

@@ -9,9 +9,9 @@
 
 namespace reeb::io {
 
-// The content must be that of a streaming mesh (format_detection.h); `path` tells SVA from SMA
-// where the content does not. What a pipe holds is decoded as it comes.
-// THROWS: as open_stream(), with the name of the source; so do the reader's errors.
+// The content must be a streaming mesh (format_detection.h). `path` decides between SVA and SMA where the content
+// cannot. A pipe is decoded as its bytes arrive.
+// THROWS: as open_stream(), with the name of the source. The errors of the reader have that name too.
 std::unique_ptr<EventReader> open_events(std::unique_ptr<ContentSource> source, const std::string& path);
 
 }  // namespace reeb::io

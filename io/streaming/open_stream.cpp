@@ -11,7 +11,7 @@
 namespace reeb::io {
 namespace {
 
-// A source whose first bytes were looked at already.
+// A source whose first bytes were read already.
 class PeekedSource : public ByteSource {
  public:
   explicit PeekedSource(std::unique_ptr<ByteSource> rest) : rest_(std::move(rest)) {

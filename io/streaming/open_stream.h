@@ -1,4 +1,4 @@
-// Tells the streaming mesh formats apart by content and makes the reader.
+// Detects the format of a streaming mesh from its content, and makes the reader.
 #pragma once
 
 #include <memory>
@@ -9,13 +9,12 @@
 
 namespace reeb::io {
 
-// Reads the head of a streaming mesh: SMA, SMB, SMC (versions 1 and 3), SVA or SVB. `name` only
-// tells SVA from SMA where the content does not, by its suffix.
-// THROWS: Error{kBadInput}, also for SMD, SVC, the SMC of 2003 and for gzip, all by name.
+// Reads the head of a streaming mesh: SMA, SMB, SMC (versions 1 and 3), SVA or SVB. The suffix of `name` only decides
+// between SVA and SMA where the content cannot.
+// THROWS: Error{kBadInput}; for SMD, SVC, the SMC of 2003 and gzip it names the format.
 std::unique_ptr<EventReader> open_stream(std::unique_ptr<ByteSource> source, const std::string& name = {});
 
-// Whether a file that starts with `first` is a streaming mesh by its first byte alone: binary
-// formats only, since text may be other things too.
+// Whether the first byte alone shows a streaming mesh. Binary formats only: text can be something else.
 bool looks_like_binary_stream(std::byte first);
 
 }  // namespace reeb::io

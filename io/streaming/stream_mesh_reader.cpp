@@ -38,7 +38,7 @@ class StreamMeshReader : public MeshReader {
     batch.properties.resize(columns_.size());
     batch.first_vertex = VertexId(vertices_);
     std::size_t count = 0;
-    // A finalization comes with what it follows, where a batch is more than one event.
+    // Finalizations do not count towards the size of a batch, unless a batch has a single event.
     while (count < batch_events_) {
       const StreamEvent* event = next();
       if (event == nullptr) break;
@@ -60,7 +60,7 @@ class StreamMeshReader : public MeshReader {
   // Which value of a vertex a requested property is.
   struct Column {
     bool integer;
-    std::size_t place;
+    std::size_t index;
   };
 
   Column column_of(const std::string& name) const {
@@ -86,8 +86,8 @@ class StreamMeshReader : public MeshReader {
       case EventKind::kVertex:
         for (std::size_t k = 0; k < 3; ++k) batch.coordinates[k].push_back(static_cast<double>(event.floats[k]));
         for (std::size_t k = 0; k < columns_.size(); ++k)
-          batch.properties[k].push_back(columns_[k].integer ? static_cast<double>(event.ints[columns_[k].place])
-                                                            : static_cast<double>(event.floats[columns_[k].place]));
+          batch.properties[k].push_back(columns_[k].integer ? static_cast<double>(event.ints[columns_[k].index])
+                                                            : static_cast<double>(event.floats[columns_[k].index]));
         ++batch.vertex_count;
         ++vertices_;
         return;

@@ -9,14 +9,13 @@
 
 namespace reeb::io {
 
-// Names of the scalars of a volume mesh's vertices, which have none in the file: further floats
-// are "s0", "s1", ..., integers "i0", "i1", ...
+// Names for the further values of the vertices of a volume mesh, which have none in the file: "s0", "s1", ... for
+// floats, "i0", "i1", ... for integers.
 std::vector<std::string> stream_property_names(const StreamHeader& header);
 
-// Post-order streams are turned into pre-order on the way (pre_order.h). Triangles of SMA, SMB and
-// SMC arrive as triangles, cells of SVA and SVB as tetrahedra; values of cells are not delivered.
-// Vertices that were never finalized are counted in the warnings.
-// THROWS: Error{kBadInput} if the mesh lacks a property that is asked for.
+// Post-order streams are turned into pre-order (pre_order.h). SMA, SMB and SMC deliver triangles, SVA and SVB
+// tetrahedra; values of cells are not delivered. The warnings count the vertices that were never finalized.
+// THROWS: Error{kBadInput} if the mesh does not have a requested property.
 std::unique_ptr<MeshReader> make_stream_mesh_reader(std::unique_ptr<EventReader> reader,
                                                     const ReadOptions& options = {}, std::uint64_t file_bytes = 0);
 

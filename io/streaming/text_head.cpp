@@ -56,7 +56,7 @@ bool TextHead::read_keyword(std::string_view line, std::string_view word, std::s
       fail(Fault::kUnsupported, "cells of type '" + std::string(type) + "'; only tetrahedra are read",
            std::to_string(number_) + ":" + std::to_string(cursor.column()));
   } else {
-    return volume_word;  // bounds of further values, which nobody needs
+    return volume_word;  // bounds of further values are not used
   }
   return true;
 }
@@ -64,7 +64,7 @@ bool TextHead::read_keyword(std::string_view line, std::string_view word, std::s
 void TextHead::read_count(std::size_t after, std::optional<std::uint32_t>& count) {
   LineCursor cursor(line_, after);
   std::int32_t value = 0;
-  if (cursor.number(value) != NumberVerdict::kGood)
+  if (cursor.number(value) != NumberVerdict::kValid)
     fail_here("the count is not a number: '" + std::string(cursor.last_word()) + "'", cursor.column());
   count = value < 0 ? std::nullopt : std::optional(static_cast<std::uint32_t>(value));
 }
@@ -72,7 +72,7 @@ void TextHead::read_count(std::size_t after, std::optional<std::uint32_t>& count
 void TextHead::read_width(std::size_t after, unsigned& width, std::int32_t least) {
   LineCursor cursor(line_, after);
   std::int32_t value = 0;
-  const bool good = cursor.number(value) == NumberVerdict::kGood;
+  const bool good = cursor.number(value) == NumberVerdict::kValid;
   const auto most = static_cast<std::int32_t>(kMaxFloats);
   if (!good || value < least || value > most)
     fail_here(std::string(cursor.last_word()) + " values each; " + std::to_string(least) + " to " +
@@ -84,7 +84,7 @@ void TextHead::read_width(std::size_t after, unsigned& width, std::int32_t least
 void TextHead::read_corner(std::size_t after, std::array<float, 3>& corner, bool& seen) {
   LineCursor cursor(line_, after);
   for (float& value : corner)
-    if (cursor.number(value) != NumberVerdict::kGood)
+    if (cursor.number(value) != NumberVerdict::kValid)
       fail_here("not a number in the bounding box: '" + std::string(cursor.last_word()) + "'", cursor.column());
   seen = true;
 }

@@ -9,7 +9,7 @@
 
 namespace reeb::io {
 
-// Gathers the head line by line. A file is a volume mesh (SVA) as soon as a keyword says so.
+// Collects the head line by line. A file is a volume mesh (SVA) as soon as a keyword says so.
 class TextHead {
  public:
   explicit TextHead(StreamHeader& header) : header_(header) {}

@@ -26,7 +26,7 @@ bool has_control_byte(std::string_view line) {
   return found;
 }
 
-// `text` is what follows "0x". Underflow is 0 as for decimal numbers, overflow infinite.
+// `text` is the part after "0x". Underflow gives 0, as for decimal numbers; overflow gives infinity.
 bool parse_hexadecimal(std::string_view text, float& value) {
   const char* end = text.data() + text.size();
   const auto narrow = std::from_chars(text.data(), end, value, std::chars_format::hex);
@@ -102,7 +102,7 @@ NumberVerdict LineCursor::number(float& value) {
   const std::string_view text = word();
   if (text.empty()) return NumberVerdict::kMissing;
   if (!parse_float(text, value)) return NumberVerdict::kNotANumber;
-  return std::isfinite(value) ? NumberVerdict::kGood : NumberVerdict::kOutOfRange;
+  return std::isfinite(value) ? NumberVerdict::kValid : NumberVerdict::kOutOfRange;
 }
 
 NumberVerdict LineCursor::number(std::int32_t& value) {
@@ -112,7 +112,7 @@ NumberVerdict LineCursor::number(std::int32_t& value) {
   const char* end = text.data() + text.size();
   const auto result = std::from_chars(text.data(), end, value);
   if (result.ec == std::errc::invalid_argument || result.ptr != end) return NumberVerdict::kNotANumber;
-  return result.ec == std::errc() ? NumberVerdict::kGood : NumberVerdict::kOutOfRange;
+  return result.ec == std::errc() ? NumberVerdict::kValid : NumberVerdict::kOutOfRange;
 }
 
 }  // namespace reeb::io

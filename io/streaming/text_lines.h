@@ -1,6 +1,6 @@
 // Lines of a text file, and the numbers in a line, for SMA and SVA.
 //
-// Lines end in LF or CR LF, the last one perhaps in nothing; blanks are spaces and tabs.
+// Lines end with LF or CR LF; the last one may have no end. Blanks are spaces and tabs.
 #pragma once
 
 #include <cstdint>
@@ -21,27 +21,27 @@ class LineScanner {
   // The next line without its end, valid until the next call; nothing at the end of the file.
   // THROWS: UNSUPPORTED for control bytes, BAD_NUMBER for a line longer than kMaxLine.
   std::optional<std::string_view> next();
-  // Gives the line back: next() will return it again.
+  // Makes next() return the last line again.
   void put_back() { put_back_ = true; }
 
   std::uint64_t number() const { return number_; }  // of the line last returned, from 1
-  // The line last returned has no line end, so the file may have been cut in it.
+  // The line last returned has no line end, so the file could be truncated there.
   bool unfinished() const { return unfinished_; }
 
  private:
   ByteWindow& window_;
-  std::size_t length_ = 0;  // bytes of the last line in the window, its end included
+  std::size_t length_ = 0;  // bytes of the last line in the window, with its line end
   std::string_view line_;
   std::uint64_t number_ = 0;
   bool unfinished_ = false, put_back_ = false;
 };
 
-enum class NumberVerdict : std::uint8_t { kGood, kMissing, kNotANumber, kOutOfRange };
+enum class NumberVerdict : std::uint8_t { kValid, kMissing, kNotANumber, kOutOfRange };
 
 // Reads the numbers of one line from left to right.
 class LineCursor {
  public:
-  // `line` is a whole line, of which the first `at` characters were dealt with.
+  // `line` is a complete line; reading starts at its character `at`.
   LineCursor(std::string_view line, std::size_t at) : line_(line), at_(at), token_(at) {}
 
   bool at_end() {
@@ -49,8 +49,8 @@ class LineCursor {
     return at_ == line_.size();
   }
   std::string_view word();  // up to the next blank, empty at the end
-  // The nearest float32 of a decimal or hexadecimal number; kOutOfRange for an infinity or NaN or
-  // beyond float32, underflow is 0.
+  // The float32 nearest to a decimal or hexadecimal number. Infinities, NaN and numbers beyond float32 are kOutOfRange;
+  // underflow gives 0.
   NumberVerdict number(float& value);
   NumberVerdict number(std::int32_t& value);
 

@@ -6,7 +6,7 @@
 namespace reeb::io {
 namespace {
 
-constexpr std::size_t kEventsAFill = 128;
+constexpr std::size_t kEventsPerFill = 128;
 constexpr std::uint64_t kSkippedInFull = 5;
 
 bool starts_with_letter(std::string_view line, char letter) {
@@ -64,7 +64,7 @@ std::vector<std::string> TextEventReader::warnings() const {
 }
 
 void TextEventReader::fill() {
-  while (!done_ && queued() < kEventsAFill) {
+  while (!done_ && queued() < kEventsPerFill) {
     const auto line = lines_.next();
     if (!line) return finish();
     switch (classify(*line)) {
@@ -94,7 +94,7 @@ std::string TextEventReader::place(const LineCursor& cursor) const {
 void TextEventReader::require(NumberVerdict verdict, const char* what, const LineCursor& cursor) const {
   const std::string word(cursor.last_word().substr(0, 60));
   switch (verdict) {
-    case NumberVerdict::kGood:
+    case NumberVerdict::kValid:
       return;
     case NumberVerdict::kMissing:
       fail(Fault::kBadNumber,
@@ -143,7 +143,7 @@ TextEventReader::Corner TextEventReader::read_corner(LineCursor& cursor, std::si
   require(verdict, who.c_str(), cursor);
   Corner result{0, number < 0};
   const IndexVerdict index = rules_.corner(number, result.vertex);
-  if (index != IndexVerdict::kGood) rules_.fail_index(index, number, who, place(cursor));
+  if (index != IndexVerdict::kValid) rules_.fail_index(index, number, who, place(cursor));
   for (std::size_t i = 0; i < corner; ++i)
     if (result.final && earlier[i].final && earlier[i].vertex == result.vertex)
       rules_.fail_index(IndexVerdict::kFinal, number, who, place(cursor));
@@ -187,7 +187,7 @@ void TextEventReader::read_finalization(std::string_view line) {
     fail(Fault::kBadIndex, "the finalized vertex is out of range", place(cursor));
   require(verdict, "the finalized vertex", cursor);
   const IndexVerdict index = rules_.finalization(number, vertex);
-  if (index != IndexVerdict::kGood) rules_.fail_index(index, number, "finalization", place(cursor));
+  if (index != IndexVerdict::kValid) rules_.fail_index(index, number, "finalization", place(cursor));
   rules_.finalize(vertex);
   push_finalized(vertex);
 }

@@ -1,4 +1,4 @@
-// Reads SMA (triangles) and SVA (tetrahedra): text, one element a line.
+// Reads SMA (triangles) and SVA (tetrahedra): text, one element per line.
 //
 //   v X Y Z ...   a vertex            f I J K (SMA), c I J K L ... (SVA)   a cell
 //   x I           a finalization      # ...                                head, or a comment
@@ -18,7 +18,7 @@ namespace reeb::io {
 
 class TextEventReader : public EventReader {
  public:
-  // Reads the head, up to the first line of the body. `volume`: it is known to be SVA.
+  // Reads the head, up to the first line of the body. `volume`: the file is known to be SVA.
   TextEventReader(std::unique_ptr<ByteSource> source, bool volume);
 
   std::vector<std::string> warnings() const override;
@@ -26,7 +26,7 @@ class TextEventReader : public EventReader {
 
  private:
   enum class Line { kEmpty, kHash, kVertex, kCell, kFinal, kUnknown };
-  // The number of corners that a finalization may concern, with what the line said of it.
+  // A corner of a cell, and whether the line finalizes its vertex.
   struct Corner {
     std::uint32_t vertex;
     bool final;
@@ -51,7 +51,7 @@ class TextEventReader : public EventReader {
   IndexRules rules_;
   bool has_body_ = false, done_ = false;
   std::uint64_t cells_ = 0, skipped_ = 0;
-  bool surplus_ = false;  // numbers beyond those an element has
+  bool surplus_ = false;  // a line had more numbers than its element
 };
 
 }  // namespace reeb::io

@@ -1,4 +1,4 @@
-// A place in a ContentSource that moves forward: the ground of the text and binary decoders.
+// A position in a ContentSource that moves forward. Text and binary decoders are built on it.
 #pragma once
 
 #include <cstddef>
@@ -16,11 +16,12 @@ class Cursor {
  public:
   explicit Cursor(std::unique_ptr<ContentSource> source) : source_(std::move(source)) { move_to(0); }
 
-  // Offset in the content of the next byte.
+  // Offset of the next byte in the content.
   std::uint64_t offset() const { return view_offset_ + static_cast<std::uint64_t>(next_ - view_.data()); }
   const ContentSource& source() const { return *source_; }
 
-  // Makes at least `count` bytes, or all that are left, contiguous at data(); false if fewer are.
+  // Makes at least `count` bytes contiguous at data(), or all the remaining ones if there are fewer; false in that
+  // case.
   // REQUIRES: count <= ContentSource::kLookahead.
   bool ensure(std::size_t count) {
     if (available() >= count) [[likely]]

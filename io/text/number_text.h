@@ -1,4 +1,4 @@
-// Numbers as the text formats print them (INTERFACE.md, Text formats).
+// Numbers as the text formats print them (docs/CLI.md, `reeb extract FILE`).
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// Text and bytes on their way to a stream, which gets them in large pieces.
+// Collects text and bytes, and passes them to a stream in large blocks.
 #pragma once
 
 #include <bit>
@@ -37,7 +37,7 @@ class OutputBuffer {
     return *this << std::string_view(digits, static_cast<std::size_t>(result.ptr - digits));
   }
 
-  // To append to, for what has a format of its own; flush_if_full() has to be called now and then.
+  // For callers that append by themselves; they must call flush_if_full() now and then.
   std::string& text() { return text_; }
   void append_word(std::uint32_t word) {  // little endian
     for (unsigned shift = 0; shift < 32; shift += 8) text_.push_back(static_cast<char>((word >> shift) & 0xFF));
@@ -47,12 +47,12 @@ class OutputBuffer {
   void flush_if_full() {
     if (text_.size() >= kFlushBytes) flush();
   }
-  // Not done by a destructor: an error of the stream has to be seen.
+  // The destructor does not flush, since an error of the stream must not be lost.
   void flush() {
     out_.write(text_.data(), static_cast<std::streamsize>(text_.size()));
     text_.clear();
   }
-  // Flushes the stream, too. THROWS: Error{kResource} if anything could not be written.
+  // Flushes the stream too. THROWS: Error{kResource} if anything could not be written.
   void finish() {
     flush();
     out_.flush();

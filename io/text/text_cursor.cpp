@@ -70,7 +70,7 @@ bool TextCursor::more() {
 }
 
 void TextCursor::skip_line() {
-  // A comment is not continued: people end them with a Windows path.
+  // A comment is not continued: some end with a Windows path, and so with a backslash.
   const bool may_continue = style_.continuation && more_on_line();
   bool continued = false;  // the last byte but CR was a backslash
   while (cursor_.ensure(1)) {
@@ -124,7 +124,7 @@ Float TextCursor::finite_number(const char* what) {
 template float TextCursor::finite_number<float>(const char*);
 template double TextCursor::finite_number<double>(const char*);
 
-// What is rare: a plus sign, a number that ends in a continuation, and all that is wrong.
+// The rare cases: a plus sign, a number that ends in a continuation, and everything invalid.
 template <class Float>
 Float TextCursor::slow_number(const char* what) {
   const std::string_view word = token();

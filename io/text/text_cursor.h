@@ -1,7 +1,7 @@
-// Tokens, numbers and lines of a text format, straight from the windows of the input.
+// Tokens, numbers and lines of a text format, read directly from the windows of the input.
 //
-// Lines end with LF or CR LF; blanks are space, tab and CR. Nothing is copied, and no line needs
-// to fit into memory: only a token must be contiguous (kTokenBytes).
+// Lines end with LF or CR LF; blanks are space, tab and CR. Nothing is copied. A line can have any length: only a token
+// must be contiguous (kTokenBytes).
 #pragma once
 
 #include <cstddef>
@@ -15,8 +15,8 @@
 
 namespace reeb::io {
 
-// A number as the text says it; `ok` is false if the token is not a number at all. Values beyond
-// the range of the type come out as infinities or zero, like NaN for the caller to judge.
+// A parsed number; `ok` is false if the token is not a number. Values out of the range of the type become infinities or
+// zero. The caller decides about these and NaN.
 template <class Float>
 struct ParsedNumber {
   Float value = 0;
@@ -29,13 +29,13 @@ extern template ParsedNumber<double> parse_number<double>(std::string_view);
 
 inline bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }
 
-// True if the token spells NaN or an infinity ("nan", "-inf", "Infinity", ...).
+// Whether the token spells NaN or an infinity ("nan", "-inf", "Infinity", ...).
 bool spells_non_finite(std::string_view token);
 
-// What a format adds to plain lines of words.
+// What a format allows in addition to plain lines of words.
 struct TextStyle {
   bool comments = false;      // a word that begins with # ends the line
-  bool continuation = false;  // a backslash at the end of a line is blank, and so is the line end
+  bool continuation = false;  // a backslash at the end of a line is a blank, and so is the line end
 };
 
 class TextCursor {
@@ -54,42 +54,41 @@ class TextCursor {
     const char c = *cursor_.data();
     return c != '\n' && (c != '#' || !style_.comments);
   }
-  // Goes to the next token, over line ends. False at the end of the input.
+  // Moves to the next token, across line ends. False at the end of the input.
   bool more();
-  // Goes behind the end of this line, with its continuations.
+  // Moves past the end of this line and its continuations.
   void skip_line();
   bool at_end() { return cursor_.at_end(); }
 
-  // The token at the cursor, which moves behind it; empty at the end of the line. Valid until the
-  // next call. THROWS: Error{kBadInput} if it is longer than kTokenBytes.
+  // Returns the token at the cursor and moves past it; empty at the end of the line. Valid until the next call. THROWS:
+  // Error{kBadInput} if it is longer than kTokenBytes.
   std::string_view token();
 
-  // The next number of the line, of a type that the format prescribes.
-  // THROWS: Error{kBadInput} at its place if there is none, or it is not a finite number; `what`
-  // names it ("coordinate").
+  // The next number of the line, of the type that the format prescribes.
+  // THROWS: Error{kBadInput} with its position if it is missing or not a finite number; `what` names it ("coordinate").
   template <class Float>
   Float finite_number(const char* what);
-  // The same for an integer. Accepts the token only as a whole.
+  // The same for an integer. The whole token must be one.
   std::int64_t integer(const char* what);
-  // The digits at the cursor, without a sign; blanks are not skipped. False, and nothing moved, if
-  // there are none or more than 18.
+  // Reads the digits at the cursor, without a sign; blanks are not skipped. If there are none or more than 18, returns
+  // false and does not move.
   bool digits(std::uint64_t& value);
 
   char peek() { return cursor_.ensure(1) ? *cursor_.data() : '\n'; }
   void advance() { cursor_.advance(1); }
 
-  // Where the token read last began, as "line:column".
+  // The start of the token read last, as "line:column".
   std::string position() const;
   // The error at position().
   [[noreturn]] void fail(const std::string& what, const std::string& hint) const;
-  // Makes the cursor's place that of the next fail().
+  // The next fail() reports the current position.
   void mark() {
     marked_line_ = line_;
     marked_column_ = cursor_.offset() - line_begin_ + 1;
   }
 
   std::uint64_t line() const { return line_; }
-  // Goes to the beginning of a line that was passed before. REQUIRES: source().can_seek().
+  // Moves back to the beginning of a line. REQUIRES: source().can_seek().
   void move_to_line(std::uint64_t offset, std::uint64_t line) {
     cursor_.move_to(offset);
     line_ = line;

@@ -266,7 +266,7 @@ std::uint64_t checksum_of(const std::string& bytes, std::size_t begin, std::size
 
 }  // namespace
 
-void mend_reeb_file(std::string& bytes) {
+void fix_reeb_checksums(std::string& bytes) {
   if (bytes.size() < kFixedHeaderBytes + kChecksumBytes) return;
   const std::uint64_t region = load(bytes, 16, 8);
   if (region < kFixedHeaderBytes + kChecksumBytes || region > bytes.size()) return;

@@ -1,5 +1,5 @@
-// Files to start fuzzing from: the samples of streaming meshes where they are there, small meshes by
-// the project's own writers, and texts by hand that use what the writers do not.
+// Files to start fuzzing from: the samples of streaming meshes if they are available, small meshes from the project's
+// own writers, and texts written by hand for what the writers do not use.
 #pragma once
 
 #include <string>
@@ -7,10 +7,10 @@
 
 namespace reeb::test {
 
-// All samples with one of these endings (".sma"), good and bad.
+// All samples with one of these suffixes (".sma"), good and bad.
 std::vector<std::string> samples_ending(const std::vector<std::string>& endings);
 
-// The small mesh as a file with this ending, in several forms.
+// A small mesh as files with this suffix, in several forms.
 std::vector<std::string> written_meshes(const std::string& ending);
 
 std::vector<std::string> ascii_ply_files();
@@ -23,7 +23,7 @@ std::vector<std::string> gzip_files();
 std::vector<std::string> zstd_files();
 std::vector<std::string> reeb_files();
 
-// Makes the checksums and the digest of a `.reeb` file right, as far as its frames can be followed.
-void mend_reeb_file(std::string& bytes);
+// Corrects the checksums and the digest of a `.reeb` file, as far as its frames can be followed.
+void fix_reeb_checksums(std::string& bytes);
 
 }  // namespace reeb::test

@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <string_view>
 
-// There under sanitizers only.
+// Exists under sanitizers only.
 extern "C" __attribute__((weak)) void __sanitizer_set_death_callback(void (*callback)());
 
 namespace reeb::test {
@@ -19,7 +19,7 @@ std::string file_name;
 
 void say(std::string_view text) { [[maybe_unused]] const auto done = ::write(STDERR_FILENO, text.data(), text.size()); }
 
-// Nothing here allocates or locks.
+// Neither allocates nor locks: it is called from signal handlers.
 void keep_input() {
   const std::string* const input = current;
   if (input == nullptr) return;
@@ -64,7 +64,7 @@ void watch_input(const std::string* bytes, const std::string& target) {
     file_name =
         std::filesystem::temp_directory_path() / ("reeb-fuzz-" + target + "-" + std::to_string(::getpid()) + ".input");
   current = bytes;
-  ::alarm(bytes == nullptr ? 0 : kMostSeconds);
+  ::alarm(bytes == nullptr ? 0 : kMaxSecondsPerInput);
 }
 
 }  // namespace reeb::test

@@ -1,5 +1,5 @@
-// Every reader against changed files: a second each in an ordinary run, REEB_FUZZ_SECONDS otherwise.
-// REEB_FUZZ_INPUT runs one file that was kept instead (see README.md). Best under sanitizers.
+// Every reader on mutated files, for a second each, or REEB_FUZZ_SECONDS. REEB_FUZZ_INPUT runs one saved file instead
+// (see README.md). Best under sanitizers.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 #include "tests/support/run_limits.h"
 #include "tests/support/seed.h"
 
-// A reader that reserves what a header promises is found out, not the machine's limits.
+// Limits allocations, so that a reader that reserves what a header announces fails here.
 extern "C" const char* __asan_default_options();
 extern "C" const char* __asan_default_options() { return "max_allocation_size_mb=256:hard_rss_limit_mb=2048"; }
 

@@ -1,7 +1,7 @@
-// What every reader promises of the events that it delivers, whatever its input is.
+// The rules that every reader must follow in the events that it delivers, whatever its input is.
 //
-// A broken promise prints what it is and aborts, as a sanitizer would, so that whoever drives the
-// fuzzing treats both alike.
+// A violation is printed and aborts the process, as a finding of a sanitizer does, so that all fuzzing tools treat it
+// the same.
 #pragma once
 
 #include <cstdint>
@@ -17,15 +17,14 @@ namespace reeb::io {
 [[noreturn]] void violation(const std::string& what);
 void expect(bool holds, const char* promise);
 
-// An error has a message and a hint, and is the user's to mend.
+// Expects that an error has a message and a hint, and that the user can fix its cause.
 void expect_helpful(const Error& error);
 
-// What was delivered, apart from the order between vertices, simplices and finalizations, which
-// depends on the size of batches.
+// What was delivered, without the order between vertices, simplices and finalizations, which depends on the batch size.
 struct Delivered {
   std::uint64_t vertices = 0, simplices = 0, finalized = 0;
   std::uint64_t vertex_digest = 0, simplex_digest = 0, final_digest = 0;
-  bool whole = false;  // up to the regular end of the mesh
+  bool whole = false;  // complete, up to the regular end of the mesh
   friend bool operator==(const Delivered&, const Delivered&) = default;
 };
 

@@ -1,5 +1,5 @@
-// The targets under libFuzzer (preset `fuzz`, see README.md): guided by coverage, with our own
-// mutations besides its own. The first argument names the target: --target=smc.
+// The targets under libFuzzer (preset `fuzz`, see README.md): guided by coverage, with the mutations of the project in
+// addition to its own. The first argument names the target: --target=smc.
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -48,7 +48,7 @@ extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t s
   if (choice < 8) {
     size = LLVMFuzzerMutate(data, size, most);
     bytes.assign(reinterpret_cast<const char*>(data), size);
-    if (target->mend != nullptr) target->mend(bytes);
+    if (target->fix_checksums != nullptr) target->fix_checksums(bytes);
   } else if (choice < 15) {
     bytes.assign(reinterpret_cast<const char*>(data), size);
     mutator->mutate(bytes);

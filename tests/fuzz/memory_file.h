@@ -1,4 +1,4 @@
-// Bytes as a file that has a path but no place on a disk, for what opens files by name.
+// Bytes as a file that has a path but is not on a disk, for code that opens files by name.
 #pragma once
 
 #include <sys/mman.h>

@@ -1,5 +1,5 @@
-// A mesh file in memory, for readers under sanitizers: every view is a block of its own, exactly as
-// large as it says, and is gone with the next view. A read beyond it, or of a stale one, shows.
+// A mesh file in memory, for readers under sanitizers. Every view is a separate allocation of exactly its size and is
+// freed by the next view, so a sanitizer notices a read out of bounds or of an old view.
 #pragma once
 
 #include <algorithm>
@@ -13,16 +13,15 @@ namespace reeb::io {
 
 class MemorySource final : public ContentSource {
  public:
-  // As a file that can be sought and knows its size, or as a pipe that gives little more than what
-  // is asked for.
+  // A file that can seek and knows its size, or a pipe that gives little more than the requested bytes.
   enum class Kind { kFile, kPipe };
 
   MemorySource(std::string bytes, Kind kind) : ContentSource("input"), bytes_(std::move(bytes)), kind_(kind) {}
   using ContentSource::view;
 
-  std::string_view view(std::uint64_t offset, std::size_t least) override {
+  std::string_view view(std::uint64_t offset, std::size_t min_bytes) override {
     const std::size_t begin = static_cast<std::size_t>(std::min<std::uint64_t>(offset, bytes_.size()));
-    const std::size_t wanted = can_seek() ? kLookahead : least + offset * 7 % 31;
+    const std::size_t wanted = can_seek() ? kLookahead : min_bytes + offset * 7 % 31;
     const std::size_t size = std::min(wanted, bytes_.size() - begin);
     read_ = std::max<std::uint64_t>(read_, begin + size);
     block_ = std::make_unique<char[]>(size);

@@ -65,7 +65,7 @@ bool is_number(char c) { return (c >= '0' && c <= '9') || c == '-' || c == '.' |
 Mutator::Mutator(const FuzzTarget& target, std::uint64_t seed)
     : target_(target), random_(seed), corpus_(target.corpus()) {
   for (std::string& sample : corpus_)
-    if (sample.size() > kMostBytes) sample.resize(kMostBytes);
+    if (sample.size() > kMaxBytes) sample.resize(kMaxBytes);
 }
 
 std::string Mutator::next() {
@@ -78,8 +78,8 @@ void Mutator::mutate(std::string& bytes) {
   std::uint64_t changes = 1;
   while (changes < 8 && random_.chance(50)) ++changes;
   while (changes-- > 0) change_once(bytes);
-  if (bytes.size() > kMostBytes) bytes.resize(kMostBytes);
-  if (target_.mend != nullptr && !random_.chance(10)) target_.mend(bytes);
+  if (bytes.size() > kMaxBytes) bytes.resize(kMaxBytes);
+  if (target_.fix_checksums != nullptr && !random_.chance(10)) target_.fix_checksums(bytes);
 }
 
 std::size_t Mutator::place(const std::string& bytes) {
@@ -122,7 +122,7 @@ void Mutator::change_once(std::string& bytes) {
   }
 }
 
-// A field of 1, 2, 4 or 8 bytes, in either order.
+// Overwrites a field of 1, 2, 4 or 8 bytes, in either byte order.
 void Mutator::overwrite_field(std::string& bytes) {
   const std::size_t at = place(bytes), width = std::size_t{1} << random_.below(4);
   if (at + width > bytes.size()) return;
@@ -134,7 +134,7 @@ void Mutator::overwrite_field(std::string& bytes) {
   std::memcpy(bytes.data() + at, field.data(), width);
 }
 
-// The number in a text at or behind some place.
+// Overwrites the number at or after some position of a text.
 void Mutator::overwrite_number(std::string& bytes) {
   const auto from = bytes.begin() + static_cast<std::ptrdiff_t>(place(bytes));
   const auto begin = std::find_if(from, bytes.end(), is_number);
@@ -142,7 +142,7 @@ void Mutator::overwrite_number(std::string& bytes) {
   if (begin != end) bytes.replace(begin, end, kNumbers[random_.below(kNumbers.size())]);
 }
 
-// Takes a line out, doubles it, ends it early, or moves it elsewhere.
+// Removes, doubles, breaks or moves a line.
 void Mutator::change_line(std::string& bytes) {
   const std::size_t at = place(bytes);
   const std::size_t begin = at == 0 ? 0 : bytes.rfind('\n', at - 1) + 1;
@@ -166,7 +166,7 @@ void Mutator::change_line(std::string& bytes) {
   }
 }
 
-// The beginning of this one and the end of another, or a piece of another inside.
+// Joins the beginning of this file and the end of another, or inserts a part of another.
 void Mutator::splice(std::string& bytes) {
   const std::string& other = sample();
   const std::size_t from = random_.below(other.size() + 1), at = place(bytes);

@@ -1,5 +1,5 @@
-// Changes files so that readers have to think: bits and bytes, but also whole numbers, fields, lines and
-// words of a text, pieces of other samples, and ends cut off.
+// Mutates files: bits and bytes, but also fields, numbers, lines and words of a text. It also splices in parts of other
+// samples and cuts files off.
 #pragma once
 
 #include <cstdint>
@@ -15,16 +15,16 @@ namespace reeb::test {
 class Mutator {
  public:
   // Inputs longer than this are cut.
-  static constexpr std::size_t kMostBytes = 6'000;
+  static constexpr std::size_t kMaxBytes = 6'000;
 
   Mutator(const FuzzTarget& target, std::uint64_t seed);
 
-  // A changed sample.
+  // Returns a mutated sample.
   std::string next();
-  // One to eight changes, mostly few; checksums are mended most of the time.
+  // Makes one to eight changes, mostly few; most of the time it corrects checksums after them.
   void mutate(std::string& bytes);
   const std::string& sample() { return corpus_[random_.below(corpus_.size())]; }
-  // What follows depends on the seed only.
+  // All later results depend on the seed only.
   void reseed(std::uint64_t seed) { random_ = Random(seed); }
 
  private:
@@ -33,7 +33,7 @@ class Mutator {
   void overwrite_number(std::string& bytes);
   void change_line(std::string& bytes);
   void splice(std::string& bytes);
-  // A place, more often near the beginning, where headers are.
+  // A position, more often near the beginning, where headers are.
   std::size_t place(const std::string& bytes);
 
   const FuzzTarget& target_;

@@ -28,12 +28,12 @@ namespace {
 
 using namespace reeb::io;
 
-// Few bytes of a compressed file can stand for very many.
-constexpr std::uint64_t kMostEvents = 20'000;
-constexpr std::uint64_t kMostContent = 32u << 20;
-constexpr std::size_t kMostProperties = 3;
+// A few bytes of a compressed file can stand for very many.
+constexpr std::uint64_t kMaxEvents = 20'000;
+constexpr std::uint64_t kMaxContentBytes = 32u << 20;
+constexpr std::size_t kMaxProperties = 3;
 
-// The message of the error that it ends in, which must be a good one; empty if there is none.
+// The message of the error that ends the reading, which must have a hint; empty if there is none.
 template <class Reading>
 std::string error_of(const Reading& reading) {
   try {
@@ -54,7 +54,7 @@ Delivered read_batches(MeshReader& reader, std::size_t properties) {
   BatchLegality legality;
   MeshBatch batch;
   bool more = true;
-  for (std::uint64_t events = 0; events < kMostEvents && (more = reader.read(batch));) {
+  for (std::uint64_t events = 0; events < kMaxEvents && (more = reader.read(batch));) {
     legality.add(batch, reader.info(), properties);
     events += batch.vertex_count + batch.triangle_count() + batch.tetrahedron_count();
   }
@@ -68,7 +68,7 @@ Delivered read_batches(MeshReader& reader, std::size_t properties) {
 
 using OpenMesh = std::unique_ptr<MeshReader> (*)(std::unique_ptr<ContentSource>, const ReadOptions&);
 
-// As a file in large batches, and, mostly as a pipe, in small ones with some of its properties.
+// Reads as a file in large batches; then, usually as a pipe, in small batches and with some properties.
 template <OpenMesh open, MemorySource::Kind second = MemorySource::Kind::kPipe>
 bool run_mesh(const std::string& bytes) {
   Delivered file, pipe;
@@ -79,8 +79,8 @@ bool run_mesh(const std::string& bytes) {
     file = read_batches(*reader, 0);
   });
   const std::size_t shift = bytes.size() % 7;
-  if (options.properties.size() > kMostProperties) options.properties.resize(kMostProperties);
-  const bool asks = shift < 3 && !options.properties.empty();  // their values may be what is wrong
+  if (options.properties.size() > kMaxProperties) options.properties.resize(kMaxProperties);
+  const bool asks = shift < 3 && !options.properties.empty();  // the fault might be in their values
   if (!asks) options.properties.clear();
   options.batch_events = std::size_t{1} << shift;
   const std::string pipe_error = error_of([&] {
@@ -121,7 +121,7 @@ bool run_stream(const std::string& bytes) {
     std::string line;
     const StreamEvent* event = nullptr;
     std::uint64_t events = 0;
-    while (events++ < kMostEvents && (event = reader->next()) != nullptr) {
+    while (events++ < kMaxEvents && (event = reader->next()) != nullptr) {
       legality.add(*event, reader->header());
       line.clear();
       append_event(line, *event, reader->header());
@@ -131,7 +131,7 @@ bool run_stream(const std::string& bytes) {
     (void)reader->warnings();
   });
   const bool good_mesh = run_mesh<open_stream_mesh<volume>>(bytes);
-  expect(good == good_mesh || bytes.size() > kMostEvents / 20, "events and batches agree on what is wrong");
+  expect(good == good_mesh || bytes.size() > kMaxEvents / 20, "events and batches agree on what is wrong");
   return good;
 }
 
@@ -142,7 +142,7 @@ Delivered read_indexed(IndexedMesh& mesh) {
   std::vector<double> values;
   std::vector<unsigned> columns;
   for (unsigned k = 0; k < mesh.column_count(); ++k) columns.push_back(k);
-  while (delivered.simplices < kMostEvents && mesh.read(corners, 100)) {
+  while (delivered.simplices < kMaxEvents && mesh.read(corners, 100)) {
     expect(!corners.empty() && corners.size() % 3 == 0 && corners.size() <= 300,
            "triangles come whole, as many as asked for");
     for (const VertexId v : corners) expect(v.value() < mesh.vertex_count(), "a corner exists");
@@ -169,8 +169,8 @@ bool run_indexed_ply(const std::string& bytes) {
   if (!good || !indexed) return good;
   expect(delivered == again, "a mesh is the same after rewinding");
   const bool good_stream = without_error([&] { streamed = read_batches(*open_mesh(file.path()), 0); });
-  // A vertex that no face names is not looked at by the one, and is by the other.
-  if (good_stream && streamed.whole && delivered.simplices < kMostEvents)
+  // Random access does not read vertices that no face names; the stream does.
+  if (good_stream && streamed.whole && delivered.simplices < kMaxEvents)
     expect(streamed.vertices == delivered.vertices && streamed.simplices == delivered.simplices,
            "a mesh has the same size by index and in order");
   return good;
@@ -182,7 +182,7 @@ bool run_packed(const std::string& bytes) {
     if (bytes.empty()) throw Error(ErrorKind::kBadInput, "is empty", "fill it").at("input");
     const auto source = open_content(file.path());
     std::uint64_t offset = 0;
-    for (std::string_view view; offset < kMostContent && !(view = source->view(offset, 1 + offset % 1000)).empty();)
+    for (std::string_view view; offset < kMaxContentBytes && !(view = source->view(offset, 1 + offset % 1000)).empty();)
       offset += view.size();
     expect(source->file_bytes() == bytes.size(), "the size of a file is known");
     expect(source->file_bytes_read() <= bytes.size(), "no more is read than there is");
@@ -271,7 +271,7 @@ const std::array<FuzzTarget, 16> kTargets = {{
     {"gzip", run_packed, gzip_files, {}, nullptr},
     {"zstd", run_packed, zstd_files, {}, nullptr},
     {"any-mesh", run_mesh<open_any, MemorySource::Kind::kFile>, everything, kStreamWords, nullptr},
-    {"reeb", run_reeb, reeb_files, {}, mend_reeb_file},
+    {"reeb", run_reeb, reeb_files, {}, fix_reeb_checksums},
 }};
 
 }  // namespace

@@ -1,4 +1,4 @@
-// What is fuzzed: one target for every reader of the project.
+// The targets of fuzzing: one for every reader of the project.
 #pragma once
 
 #include <cstdint>
@@ -9,18 +9,18 @@
 
 namespace reeb::test {
 
-// An input as a target sees it. All randomness is in here, so that an input repeats itself.
+// A target depends on the bytes of its input only, so that an input can be run again.
 struct FuzzTarget {
   std::string_view name;
-  // Reads `bytes` in the ways that the reader knows, which must agree. Returns whether the whole of
-  // it was read without an error; does not return from anything but that and an Error of the project.
+  // Reads `bytes` in all ways that the reader has, which must agree. Returns whether everything was read without an
+  // error. An Error of the project counts as false; anything else ends the process.
   bool (*run)(const std::string& bytes);
   // Good and bad files to start from; never empty.
   std::vector<std::string> (*corpus)();
-  // Words of the format's texts, besides numbers.
+  // Words of the format, in addition to numbers.
   std::span<const std::string_view> words;
-  // Mends checksums that would hide everything behind them; may be null.
-  void (*mend)(std::string& bytes);
+  // Corrects checksums, since a wrong one would hide all faults after it; can be null.
+  void (*fix_checksums)(std::string& bytes);
 };
 
 std::span<const FuzzTarget> fuzz_targets();

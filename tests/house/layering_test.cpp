@@ -1,5 +1,5 @@
-// The include rules between rooms (folders). A room may include the rooms that its line in kRooms names, and
-// itself; the table is in order, so that an include never goes up and rooms form no cycle.
+// The include rules between rooms (folders). A room may include itself and the rooms that its line in kRooms names. A
+// line names only rooms above it, so rooms form no cycle.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -55,7 +55,7 @@ const Rooms kRooms = {
     {"bench", {"libreeb", "io", "ooc", "tests/support", "bench"}},
 };
 
-// libreeb has no files and no threads; the one lock guards the account of memory.
+// libreeb uses no files and no threads; its only lock guards the memory budget.
 const std::set<std::string> kForbiddenHeaders = {
     "atomic", "barrier", "condition_variable", "filesystem",   "fstream",    "future",     "iostream",
     "latch",  "mutex",   "semaphore",          "shared_mutex", "stop_token", "syncstream", "thread"};
@@ -63,7 +63,8 @@ const std::set<std::pair<std::string, std::string>> kExceptions = {{"memory_budg
 
 std::string layer_of(const std::string& room) { return room.substr(0, room.find('/')); }
 
-// The room of a file by its path from the root; of tests and bench, whose rooms are not told apart, the layer.
+// The room of a file, from its path below the root. For tests and bench, whose rooms are not distinguished, it is the
+// layer.
 std::string room_of(const std::string& path) {
   const std::string folder = fs::path(path).parent_path().generic_string();
   const std::string layer = layer_of(folder);
@@ -78,7 +79,7 @@ const std::set<std::string>* allowed_for(const std::string& room) {
   return it == kRooms.end() ? nullptr : &it->second;
 }
 
-// What is wrong with one line of the file `path`; empty if nothing is.
+// What is wrong with one line of the file `path`; empty if it is allowed.
 std::string violation(const std::string& path, const std::string& line) {
   static const std::regex kQuoted(R"re(^\s*#\s*include\s*"([^"]+)")re");
   static const std::regex kAngled(R"re(^\s*#\s*include\s*<([^>]+)>)re");
@@ -123,7 +124,7 @@ TEST(Layering, EveryIncludeIsAllowed) {
   }
 }
 
-// Each room names only rooms that stand above it in the table.
+// Each room names only rooms above it in the table.
 TEST(Layering, TheTableHasNoCycle) {
   std::set<std::string> before;
   for (const auto& [room, allowed] : kRooms) {
@@ -138,19 +139,19 @@ TEST(Layering, TheTableHasNoCycle) {
   }
 }
 
-// A part is a header with its source.
+// A part is a header with its source file.
 TEST(Layering, RoomsAreSmall) {
-  constexpr std::size_t kMostParts = 17, kMostLooseFiles = 5;
+  constexpr std::size_t kMaxParts = 17, kMaxLooseFiles = 5;
   const fs::path root = REEB_SOURCE_DIR;
   for (const char* layer : {"libreeb", "io", "ooc", "tools"}) {
     std::map<std::string, std::set<std::string>> parts;
     for (const std::string& file : source_files(root, layer))
       parts[room_of(file)].insert(fs::path(file).stem().string());
-    for (const auto& [room, names] : parts) EXPECT_LE(names.size(), kMostParts) << room;
+    for (const auto& [room, names] : parts) EXPECT_LE(names.size(), kMaxParts) << room;
     const auto loose = std::distance(fs::directory_iterator(root / layer), fs::directory_iterator());
     const auto folders = std::count_if(fs::directory_iterator(root / layer), fs::directory_iterator(),
                                        [](const fs::directory_entry& entry) { return entry.is_directory(); });
-    EXPECT_LE(static_cast<std::size_t>(loose - folders), kMostLooseFiles) << layer;
+    EXPECT_LE(static_cast<std::size_t>(loose - folders), kMaxLooseFiles) << layer;
   }
 }
 

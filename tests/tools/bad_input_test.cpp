@@ -1,5 +1,5 @@
-// Bad meshes of every format, as a user would meet them: exit code 1, one error line with the place,
-// one hint, and nothing left behind. Formats without a count or an index have no such fault.
+// Bad meshes of every format, through the program: exit code 1, one error line with the position, one hint, and nothing
+// left behind. Formats without a count or an index cannot have a bad one.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -22,7 +22,7 @@ std::string bytes_of(T value) {
   return bytes;
 }
 
-// What a writer of each format is told; the defaults are a good mesh of four triangles.
+// What to write in each format; the defaults are a good mesh of four triangles.
 struct Content {
   double second_x = 1;            // x of vertex 1
   std::uint64_t last_corner = 2;  // last corner of the last triangle
@@ -135,13 +135,13 @@ constexpr Format kFormats[] = {
     {"StlText", stl_text, false, false, false}, {"StlBinary", stl_binary, false, false, true},
 };
 
-// A run on a bad file must not need more than this, whatever the file promises.
-constexpr std::uint64_t kMostBytes = 64u << 20;
-constexpr double kMostSeconds = 5;
+// A run on a bad file must not take more than this, whatever the file announces.
+constexpr std::uint64_t kMaxPeakBytes = 64u << 20;
+constexpr double kMaxRunSeconds = 5;
 
 class BadInput : public ProgramTest {
  protected:
-  // Expects the error, and that nothing but the input is there afterwards.
+  // Expects the error, and only the input in the folder afterwards.
   void expect_refused(const std::string& mesh, bool has_position) {
     const std::vector<std::string> before = files();
     const Outcome outcome = reeb({"compute", mesh, "--report", "report.json"});
@@ -151,9 +151,9 @@ class BadInput : public ProgramTest {
       EXPECT_TRUE(std::regex_search(outcome.error, place)) << last_command() << '\n' << outcome.error;
     }
     EXPECT_EQ(files(), before) << last_command();
-    EXPECT_LT(outcome.seconds, kMostSeconds) << last_command();
+    EXPECT_LT(outcome.seconds, kMaxRunSeconds) << last_command();
     if (!kSanitized) {
-      EXPECT_LT(outcome.peak_rss_bytes, kMostBytes) << last_command();
+      EXPECT_LT(outcome.peak_rss_bytes, kMaxPeakBytes) << last_command();
     }
   }
 
@@ -166,7 +166,7 @@ class BadInput : public ProgramTest {
 
 class BadMesh : public BadInput, public testing::WithParamInterface<Format> {
  protected:
-  // The same bytes as they are, gzipped, and from standard input.
+  // The same bytes as a file, gzipped, and from standard input.
   void expect_refused_in_every_wrapping(const std::string& bytes) {
     write("bad.mesh", bytes);
     expect_refused("bad.mesh", true);
@@ -180,7 +180,7 @@ class BadMesh : public BadInput, public testing::WithParamInterface<Format> {
   static std::string make(const Content& content) { return GetParam().make(content); }
 };
 
-// Formats with corners that are numbers of vertices; and with counts.
+// Formats with corners that are numbers of vertices, and formats with counts.
 class BadIndex : public BadMesh {};
 class BadCount : public BadMesh {};
 
@@ -193,7 +193,7 @@ TEST_P(BadMesh, TheGoodOneIsRead) {
 
 TEST_P(BadMesh, Truncated) {
   const std::string whole = make({});
-  // In the last but one number; an OBJ can only be told to be cut within a vertex.
+  // Cuts the file in the second-last number. An OBJ file is only known to be cut if it ends within a vertex.
   const std::size_t length = std::string(GetParam().name) == "Obj" ? whole.find("v 0 0 1") + 5 : whole.size() - 20;
   expect_refused_in_every_wrapping(whole.substr(0, length));
 }
@@ -220,12 +220,12 @@ TEST_P(BadIndex, IndexOutOfRange) {
 
 TEST_P(BadCount, WrongCount) {
   expect_refused_in_every_wrapping(make({.triangles_said = 5}));
-  // Of binary records nobody can tell which are vertices; that bytes are left over is said (below).
+  // In a binary file nothing marks a record as a vertex, so a wrong count shows only as trailing data (tested below).
   const bool is_binary = std::string(GetParam().name) == "PlyBinary";
   if (GetParam().has_vertex_count && !is_binary) expect_refused_in_every_wrapping(make({.vertices_said = 5}));
 }
 
-TEST_P(BadCount, PromisesFarMoreThanItHolds) {
+TEST_P(BadCount, AnnouncesFarMoreThanItHolds) {
   expect_refused_in_every_wrapping(make({.triangles_said = 800'000'000}));
   if (!GetParam().has_vertex_count) return;
   expect_refused_in_every_wrapping(make({.vertices_said = 800'000'000}));
@@ -265,7 +265,7 @@ TEST_F(BadInput, Unreadable) {
   write("secret.off", kSmallOff);
   ASSERT_EQ(::chmod(in_folder("secret.off").c_str(), 0), 0);
   Command command;
-  // Root may read every file unless it gives that right up.
+  // Root can read every file, so it has to drop that capability.
   if (::geteuid() == 0) command.wrapper = {"setpriv", "--bounding-set=-dac_override,-dac_read_search"};
   expect_error(reeb({"compute", "secret.off"}, command), 1, "secret.off");
 }
@@ -279,7 +279,7 @@ TEST_F(BadInput, UnknownFormat) {
   expect_refused("letter.ply.gz", false);
 }
 
-TEST_F(BadInput, BytesLeftOverAreSaid) {
+TEST_F(BadInput, TrailingDataIsNoted) {
   write("long.ply", ply_binary({.triangles_said = 3}));
   write("long.ply.gz", gzipped("long.ply"));
   for (const std::string mesh : {"long.ply", "long.ply.gz"}) {

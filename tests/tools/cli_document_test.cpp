@@ -13,7 +13,7 @@ namespace {
 
 using Names = std::set<std::string>;
 
-// All matches of the first group of `pattern`.
+// The first group of all matches of `pattern`.
 Names matches(const std::string& text, const std::string& pattern) {
   Names names;
   const std::regex regex(pattern);
@@ -21,7 +21,7 @@ Names matches(const std::string& text, const std::string& pattern) {
   return names;
 }
 
-// What follows the heading, up to the next one of the same or a higher level.
+// The text after the heading, up to the next heading of the same or a higher level.
 std::string section(const std::string& document, const std::string& heading) {
   const auto start = document.find("\n" + heading);
   if (start == std::string::npos) return {};
@@ -50,14 +50,14 @@ Names documented_options(const std::string& text) {
   return options;
 }
 
-// As the lines of a help begin: "  -o,--output TEXT", "  --force".
+// The options at the beginning of the lines of a help: " -o,--output TEXT", " --force".
 Names help_options(const std::string& help) {
   Names options = matches(help, "\n  (--[a-z][a-z-]*)");
   for (const char* part : {"\n  (-[a-z]),--[a-z]", "\n  -[a-z],(--[a-z][a-z-]*)"}) options.merge(matches(help, part));
   return options;
 }
 
-// Paths of all values but objects, in lower objects and in arrays of objects, too: "graph.nodes".
+// Paths of all values that are not objects, such as "graph.nodes"; also inside nested objects and arrays of objects.
 void collect_fields(const nlohmann::json& json, const std::string& path, Names& fields) {
   if (json.is_object()) {
     for (const auto& [name, value] : json.items())
@@ -99,12 +99,12 @@ TEST_F(CliDocument, HasEveryOption) {
     EXPECT_GE(options.size(), 3u) << command;
     EXPECT_EQ(documented_options(documented("## `reeb " + command)), options) << command;
   }
-  // Of the program itself, in prose.
+  // The options of the program itself are in prose.
   for (const std::string& option : help_options(reeb({}).output))
     EXPECT_NE(document_.find(option + '`'), std::string::npos) << option;
 }
 
-// Options in prose and in examples exist, too.
+// Options in prose and in examples also exist.
 TEST_F(CliDocument, NamesNoOtherOption) {
   Names options = help_options(reeb({}).output);
   for (const std::string& command : matches(reeb({}).output, "\n  ([a-z]+) +[A-Z]"))

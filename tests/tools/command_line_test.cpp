@@ -1,4 +1,4 @@
-// The command line: help, exit codes, what is said before any work, and the figures of a small run.
+// The command line: help, exit codes, errors before any work, and the figures of a small run.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -16,7 +16,7 @@ class CommandLine : public ProgramTest {
  protected:
   void SetUp() override { write("mesh.off", kSmallOff); }
 
-  // As the program's help lists them.
+  // The subcommands that the help of the program lists.
   std::vector<std::string> subcommands() {
     const std::string help = reeb({}).output;
     std::vector<std::string> names;
@@ -99,7 +99,7 @@ TEST_F(CommandLine, AWordThatIsNoCommandNamesAMesh) {
 TEST_F(CommandLine, AnExistingOutputIsRefusedBeforeAnyWork) {
   write("mesh.reeb", "precious");
   expect_error(reeb({"compute", "mesh.off"}), 1, "mesh.reeb:");
-  // The mesh is bad, too, but is not looked at.
+  // The mesh is bad too, but is not read.
   write("bad.off", "OFF\n");
   expect_error(reeb({"compute", "bad.off", "-o", "mesh.reeb"}), 1, "mesh.reeb:");
   expect_error(reeb({"compute", "mesh.off", "-o", "new.reeb", "--report", "mesh.reeb"}), 1, "mesh.reeb:");

@@ -1,4 +1,4 @@
-// `reeb convert`, `reeb info` of meshes and streams in `reeb compute`, through the program.
+// Through the program: `reeb convert`, `reeb info` of meshes, and streams in `reeb compute`.
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -51,7 +51,7 @@ class Convert : public testing::Test {
   nlohmann::json info_of(const std::string& mesh) const {
     return nlohmann::json::parse(reeb("info --json " + mesh).output);
   }
-  // Counts of the graph that a run reports, as text.
+  // The counts of the graph that a run reports, as text.
   std::string graph_of(const std::string& words) const {
     const Outcome outcome = reeb("compute " + words + " -o graph.reeb --force --quiet --report -");
     EXPECT_EQ(outcome.exit_code, 0) << words << '\n' << outcome.error;
@@ -84,7 +84,7 @@ TEST_F(Convert, EverySampleGivesItsGoldenListOrItsClassOfError) {
     ++bad;
     EXPECT_EQ(outcome.exit_code, 1) << s.file << '\n' << outcome.error;
     EXPECT_FALSE(std::filesystem::exists(path("x.events.txt"))) << s.file;
-    // Gzip is read, so that only the damage in it is left to report.
+    // Gzip itself is no error: only damage inside it is reported.
     if (s.verdict.starts_with("any error") || s.file.ends_with(".gz")) continue;
     EXPECT_NE(outcome.error.find(": " + s.verdict + ": "), std::string::npos) << s.file << '\n' << outcome.error;
   }
@@ -116,10 +116,10 @@ TEST_F(Convert, EachFormatReadBackHoldsTheSameMesh) {
       expect_success("convert there." + suffix + " back.sma --force");
       const EventList after = events_of("back.sma");
       EXPECT_TRUE(same(after.triangles(), before.triangles())) << name << " as " << suffix;
-      EXPECT_TRUE(same(after.sorted_places(), before.sorted_places())) << name << " as " << suffix;
+      EXPECT_TRUE(same(after.sorted_positions(), before.sorted_positions())) << name << " as " << suffix;
     }
   }
-  // Between streams the list itself stays, values of vertices and all.
+  // From stream to stream the list of events stays the same, including the values of vertices.
   for (const std::string file : {"terrain.pre.sma", "terrain.post.sma", "tetcube.s4.pre.sva", "tetcube.s4.post.sva"}) {
     const std::string block = file.ends_with(".sva") ? "x.svb" : "x.smb";
     expect_success("convert " + sample(file) + " " + block + " --force");
@@ -136,7 +136,7 @@ std::string as_stl(const EventList& mesh) {
     if (event.kind != 't') continue;
     out << "facet normal 0 0 0\nouter loop\n";
     for (const std::size_t v : event.vertices) {
-      const auto& [x, y, z] = mesh.places[v];
+      const auto& [x, y, z] = mesh.positions[v];
       out << "vertex " << x << ' ' << y << ' ' << z << '\n';
     }
     out << "endloop\nendfacet\n";
@@ -145,8 +145,8 @@ std::string as_stl(const EventList& mesh) {
   return out.str();
 }
 
-// Every format into every other. The mesh as the source has it is known from the list of its events; triangles
-// are compared by the places of their corners, since some formats number vertices anew.
+// Every format into every other. The list of its events says what the source mesh is. Triangles are compared by the
+// positions of their corners, since some formats renumber vertices.
 TEST_F(Convert, EveryFormatIntoEveryOther) {
   const std::vector<std::string> writable = {"ply", "obj", "off", "sma", "smb", "smc"};
   const std::string origin = sample("terrain.pre.sma");
@@ -166,14 +166,14 @@ TEST_F(Convert, EveryFormatIntoEveryOther) {
         expect_success("convert " + words + " --force --memory 16M");
         const EventList mesh = events_of("there." + suffix);
         EXPECT_TRUE(same(mesh.triangles(), expected.triangles())) << words;
-        EXPECT_TRUE(same(mesh.sorted_places(), expected.sorted_places())) << words;
+        EXPECT_TRUE(same(mesh.sorted_positions(), expected.sorted_positions())) << words;
         if (finalize.empty() || !suffix.starts_with("sm")) continue;
         EXPECT_EQ(check_compact(mesh).fault, "") << words;
-        EXPECT_EQ(info_of("there." + suffix)["finalized_vertices"], expected.places.size()) << words;
+        EXPECT_EQ(info_of("there." + suffix)["finalized_vertices"], expected.positions.size()) << words;
       }
 }
 
-// Into a surface a tetrahedron goes as its four faces, in any order; its values only where they have a place.
+// A surface format gets the four faces of a tetrahedron, in any order. Values are kept where the format can store them.
 TEST_F(Convert, VolumesKeepTheirGraphsAndTheValuesOfTheirVertices) {
   const std::string volume = sample("tetcube.s4.pre.sva");
   const std::string height = graph_of(volume + " -f z"), value = graph_of(volume + " -f property:s0");
@@ -213,7 +213,7 @@ TEST_F(Convert, EveryOrderIsACompactStreamOfTheSameTriangles) {
     expect_success("convert scan.ply out.events.txt --force --finalize --memory 16M --order " + order);
     const EventList output = parse_events(text("out.events.txt"));
     EXPECT_TRUE(same(output.triangles(), input.triangles())) << order;
-    EXPECT_TRUE(same(output.sorted_places(), input.sorted_places())) << order;
+    EXPECT_TRUE(same(output.sorted_positions(), input.sorted_positions())) << order;
     const CompactStream stream = check_compact(output);
     EXPECT_EQ(stream.fault, "") << order;
     width[order] = stream.front_width;
@@ -221,7 +221,7 @@ TEST_F(Convert, EveryOrderIsACompactStreamOfTheSameTriangles) {
       expect_success("convert scan.ply out." + suffix + " --force --finalize --memory 16M --order " + order);
       const auto info = info_of("out." + suffix);
       EXPECT_EQ(info["live_front"], stream.front_width) << order << ' ' << suffix;
-      EXPECT_EQ(info["finalized_vertices"], input.places.size()) << order << ' ' << suffix;
+      EXPECT_EQ(info["finalized_vertices"], input.positions.size()) << order << ' ' << suffix;
     }
   }
   EXPECT_LT(width["hilbert"] * 5, width["keep"]);
@@ -234,7 +234,7 @@ TEST_F(Convert, IsolatedVerticesAndDegenerateTrianglesSurviveFinalization) {
   expect_success("convert odd.obj odd.events.txt --finalize");
   const EventList list = parse_events(text("odd.events.txt"));
   EXPECT_EQ(check_compact(list).fault, "");
-  EXPECT_EQ(list.places.size(), 5u);
+  EXPECT_EQ(list.positions.size(), 5u);
   EXPECT_EQ(list.triangles().size(), 3u);
   expect_success("convert odd.obj odd.smb --finalize");
   EXPECT_EQ(graph_of("odd.smb"), graph_of("odd.obj"));
@@ -250,8 +250,8 @@ TEST_F(Convert, CompressedStreamOfARealMeshIsLossless) {
   expect_success("convert " + mesh + " dragon.smc");
   const EventList before = events_of(mesh), after = events_of("dragon.smc");
   EXPECT_TRUE(same(after.triangles(), before.triangles()));
-  EXPECT_TRUE(same(after.sorted_places(), before.sorted_places()));
-  EXPECT_EQ(after.places.size(), 437645u);
+  EXPECT_TRUE(same(after.sorted_positions(), before.sorted_positions()));
+  EXPECT_EQ(after.positions.size(), 437645u);
 }
 
 TEST_F(Convert, KeepsDoublePrecisionWhereTheInputHasIt) {

@@ -15,18 +15,18 @@ struct EventList {
     char kind;
     std::vector<std::size_t> vertices;
   };
-  using Place = std::array<float, 3>;
+  using Position = std::array<float, 3>;
 
-  std::vector<Place> places;
+  std::vector<Position> positions;
   std::vector<Event> events;
 
-  // The triangles by the places of their corners, which no renumbering changes; sorted.
-  std::vector<std::array<Place, 3>> triangles() const {
-    std::vector<std::array<Place, 3>> all;
+  // The triangles by the positions of their corners, which no renumbering changes; sorted.
+  std::vector<std::array<Position, 3>> triangles() const {
+    std::vector<std::array<Position, 3>> all;
     for (const Event& event : events) {
       if (event.kind != 't') continue;
-      std::array<Place, 3> corners;
-      for (std::size_t c = 0; c < 3; ++c) corners[c] = places[event.vertices[c]];
+      std::array<Position, 3> corners;
+      for (std::size_t c = 0; c < 3; ++c) corners[c] = positions[event.vertices[c]];
       std::sort(corners.begin(), corners.end());
       all.push_back(corners);
     }
@@ -34,8 +34,8 @@ struct EventList {
     return all;
   }
 
-  std::vector<Place> sorted_places() const {
-    auto all = places;
+  std::vector<Position> sorted_positions() const {
+    auto all = positions;
     std::sort(all.begin(), all.end());
     return all;
   }
@@ -52,7 +52,7 @@ inline EventList parse_events(const std::string& text) {
     if (event.kind == 'v') {
       std::array<std::string, 3> numbers;
       words >> vertex >> numbers[0] >> numbers[1] >> numbers[2];
-      list.places.push_back({std::stof(numbers[0]), std::stof(numbers[1]), std::stof(numbers[2])});
+      list.positions.push_back({std::stof(numbers[0]), std::stof(numbers[1]), std::stof(numbers[2])});
       event.vertices.push_back(vertex);
     } else {
       while (words >> vertex) event.vertices.push_back(vertex);
@@ -62,24 +62,24 @@ inline EventList parse_events(const std::string& text) {
   return list;
 }
 
-// Vertices in order, each before its first and final directly behind its last triangle.
+// A compact stream: vertices in order, each before its first triangle, and final directly after its last.
 struct CompactStream {
   std::string fault;            // empty: none
-  std::size_t front_width = 0;  // most vertices that were introduced and not yet final
+  std::size_t front_width = 0;  // the largest number of vertices that were introduced and not yet final
 };
 
 inline CompactStream check_compact(const EventList& list) {
   constexpr std::size_t kNever = ~std::size_t{0};
-  std::vector<std::size_t> last_use(list.places.size(), kNever), first_use(list.places.size(), kNever);
+  std::vector<std::size_t> last_use(list.positions.size(), kNever), first_use(list.positions.size(), kNever);
   for (std::size_t e = 0; e < list.events.size(); ++e)
     if (list.events[e].kind == 't')
       for (const std::size_t v : list.events[e].vertices) {
-        if (v >= list.places.size()) return {"a triangle names vertex " + std::to_string(v), 0};
+        if (v >= list.positions.size()) return {"a triangle names vertex " + std::to_string(v), 0};
         last_use[v] = e;
         first_use[v] = std::min(first_use[v], e);
       }
   CompactStream result;
-  std::vector<bool> final_now(list.places.size());
+  std::vector<bool> final_now(list.positions.size());
   std::size_t introduced = 0, finalized = 0, triangle_before = kNever;
   std::vector<std::size_t> fresh;  // introduced since the last triangle
   for (std::size_t e = 0; e < list.events.size(); ++e) {

@@ -1,4 +1,4 @@
-// The built program in a folder of its own, for tests that use it as a user would.
+// The built program in its own folder, for tests that use it as a user does.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -17,15 +17,15 @@
 namespace reeb::test {
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-inline constexpr bool kSanitized = true;  // memory figures mean nothing
+inline constexpr bool kSanitized = true;  // memory figures are meaningless
 #else
 inline constexpr bool kSanitized = false;
 #endif
 
 class ProgramTest : public testing::Test {
  protected:
-  // Runs `reeb WORDS...` in folder(), its temporary files in another. A run of compute is confined as
-  // the environment says (run_limits.h).
+  // Runs `reeb WORDS...` in folder(), with its temporary files in another folder. The environment can limit runs of
+  // compute (run_limits.h).
   Outcome reeb(std::vector<std::string> words, Command command = {}) {
     if (!words.empty() && words[0] == "compute") {
       if (const auto bytes = memory_limit()) words.insert(words.end(), {"--memory", std::to_string(*bytes)});
@@ -45,7 +45,7 @@ class ProgramTest : public testing::Test {
   std::string file(const std::string& name) const { return read_file(in_folder(name)); }
   void write(const std::string& name, const std::string& bytes) const { write_file(in_folder(name), bytes); }
 
-  // The names in folder() and, with their place, of temporary files; sorted.
+  // The names in folder(), and the full paths of temporary files; sorted.
   std::vector<std::string> files() const {
     std::vector<std::string> names;
     for (const auto& entry : std::filesystem::directory_iterator(folder())) names.push_back(entry.path().filename());
@@ -58,7 +58,7 @@ class ProgramTest : public testing::Test {
     EXPECT_EQ(outcome.exit_code, 0) << last_command_ << '\n' << outcome.error;
   }
 
-  // One error line that begins as said, one hint, nothing on standard output, this exit code.
+  // Expects one error line that begins with `error_begin`, one hint, nothing on standard output, and this exit code.
   void expect_error(const Outcome& outcome, int exit_code, const std::string& error_begin = {}) const {
     SCOPED_TRACE(last_command_ + '\n' + outcome.error);
     EXPECT_EQ(outcome.exit_code, exit_code);
@@ -71,7 +71,7 @@ class ProgramTest : public testing::Test {
     EXPECT_TRUE(outcome.error.ends_with("hint: " + hints[0] + "\n")) << "something follows the hint";
   }
 
-  // What follows `begin` in the lines that begin so.
+  // The rest of each line that begins with `begin`.
   static std::vector<std::string> lines_after(const std::string& begin, const std::string& text) {
     std::vector<std::string> rests;
     for (std::size_t at = 0; at < text.size();) {
@@ -90,7 +90,7 @@ class ProgramTest : public testing::Test {
   std::string last_command_;
 };
 
-// A tetrahedron's surface.
+// The surface of a tetrahedron.
 inline constexpr const char* kSmallOff = "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n";
 
 }  // namespace reeb::test

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# What the README shows is true: installs the project into a temporary prefix, runs the commands of
-# its ```console blocks, builds its programs against the installed package with its own
-# CMakeLists.txt, and compares all output with what stands there.
+# Checks what the README shows. Installs the project into a temporary prefix, runs the commands of the ```console
+# blocks, builds the programs against the installed package with the CMakeLists.txt of the README, and compares all
+# output with the README.
 #
 #   readme_test.sh README.md BUILD_FOLDER [CXX_FLAGS]
 set -euo pipefail
@@ -12,7 +12,7 @@ trap 'rm -rf "$work"' EXIT
 cd "$work"
 failures=0
 
-# Lines with times differ from run to run.
+# Ignores lines with times, which differ from run to run.
 same() {  # same WHAT EXPECTED ACTUAL
   if diff -u --label README --label "$1" <(grep -v 'triangles/s' "$2") <(grep -v 'triangles/s' "$3"); then
     echo "ok: $1"

@@ -1,6 +1,6 @@
-// `reeb compute` on real meshes against the results of an independent program (EXPECTED.tsv beside
-// them): as they lie there, from standard input, and with their triangles shuffled. The largest are
-// left out unless REEB_TEST_ALL is set.
+// `reeb compute` on real meshes against the results of an independent program (EXPECTED.tsv in the same folder): from
+// the file, from standard input, and with shuffled triangles. The largest meshes are skipped unless REEB_TEST_ALL is
+// set.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -100,7 +100,7 @@ class RealMesh : public ProgramTest, public testing::WithParamInterface<std::str
   }
 };
 
-TEST_P(RealMesh, AsItLiesThere) { check(mesh_folder() + "/" + GetParam()); }
+TEST_P(RealMesh, FromTheFile) { check(mesh_folder() + "/" + GetParam()); }
 
 TEST_P(RealMesh, FromStandardInput) { check("-", mesh_folder() + "/" + GetParam()); }
 
@@ -144,7 +144,7 @@ std::string test_name(const testing::TestParamInfo<std::string>& mesh) {
 INSTANTIATE_TEST_SUITE_P(Meshes, RealMesh, testing::ValuesIn(meshes_to_run()), test_name);
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(RealMesh);
 
-// Without it, a folder with other files would run no test and fail none.
+// Otherwise a folder with other files would run no test, and so pass.
 TEST(RealMeshes, AreThere) {
   REEB_REQUIRE_MESHES();
   const Table table = read_table();
@@ -153,7 +153,7 @@ TEST(RealMeshes, AreThere) {
     EXPECT_TRUE(std::filesystem::exists(mesh_folder() + "/" + name)) << name << " in " << mesh_folder();
 }
 
-// As soon as one of them can be read, it belongs to those above.
+// If one of them can be read, it belongs to the tests above.
 TEST(RealMeshes, OtherFormatsAreRefused) {
   REEB_REQUIRE_MESHES();
   for (const char* name : kUnreadableMeshes) {

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The program when a run ends early: killed, interrupted, out of disk. What it says, what it leaves,
-# and that --resume ends with the bytes of a run that was left alone.
+# The program when a run ends early: killed, interrupted, out of disk space. Checks what it says and leaves, and that
+# --resume gives the same bytes as an undisturbed run.
 #
 #   resume_program_test.sh SOURCE_FOLDER REEB
 set -euo pipefail
@@ -42,7 +42,7 @@ start() {
   process=$!
   until [[ -e out.reeb.partial/checkpoint ]] || ! kill -0 "$process" 2>/dev/null; do sleep 0.01; done
 }
-# Runs to the end; its exit code is then in $code.
+# Runs to the end; sets $code to the exit code.
 run() { code=0; "${compute[@]}" "$@" >messages 2>&1 || code=$?; }
 
 for signal in INT TERM; do
@@ -83,7 +83,7 @@ check "a stream is computed despite --resume" test "$code" = 0
 check "with a note" says "cannot be resumed"
 rm out.reeb
 
-# Files may not grow beyond so many KiB. The first is too little for any checkpoint.
+# Limits the size of files, in KiB. The first limit is too small for any checkpoint.
 for limit in 16 1200; do
   code=0
   (ulimit -f "$limit" && exec "${compute[@]}" -o out.reeb) >messages 2>&1 || code=$?
@@ -118,7 +118,7 @@ else
   echo "skipped: a full disk needs root and mount"
 fi
 
-# A mesh that is read once, and a place for temporary files that is too small for it.
+# A mesh that is read only once, and a folder for temporary files that is too small for it.
 "$reeb" convert mesh.ply mesh.obj 2>messages
 rm -rf full && mkdir full
 if [[ -n $mounted ]]; then

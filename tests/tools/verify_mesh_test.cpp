@@ -6,7 +6,7 @@ namespace {
 
 class VerifyMesh : public ProgramTest {
  protected:
-  // What is said of the mesh, when its file is good.
+  // What the program says about the mesh of a good file.
   std::string said_of(const std::string& mesh, const std::string& function = "z") {
     expect_success(reeb({"compute", mesh, "-f", function, "-o", "out.reeb", "--quiet", "--force"}));
     const Outcome outcome = reeb({"verify", "out.reeb", "--mesh", mesh});
@@ -23,7 +23,7 @@ constexpr const char* kTetrahedron = "1 components, Euler characteristic 2, a cl
 TEST_F(VerifyMesh, CountsWhatTheMeshIs) {
   write("closed.off", kSmallOff);
   EXPECT_EQ(said_of("closed.off"), kTetrahedron);
-  // Repeated, turned and degenerate triangles change nothing.
+  // Repeated, reversed and degenerate triangles change nothing.
   write("repeated.off",
         "OFF\n4 7 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n3 2 1 0\n3 0 1 1\n3 2 2 2\n");
   EXPECT_EQ(said_of("repeated.off"), kTetrahedron);
@@ -54,7 +54,7 @@ TEST_F(VerifyMesh, AnotherMeshIsNoticed) {
     EXPECT_EQ(lines_after("reeb: error: ", outcome.error).size(), 1u) << outcome.error;
   };
   expect_refused("OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 2\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n");    // a value
-  expect_refused("OFF\n4 4 0\n0 0.5 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n");  // a place
+  expect_refused("OFF\n4 4 0\n0 0.5 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n");  // a position
   expect_refused("OFF\n4 3 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n");             // a triangle
   expect_refused("OFF\n5 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n0 0 .5\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n");
   expect_refused("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 2 1\n");

@@ -1,4 +1,4 @@
-// Lines of arcs: what smoothing keeps (ends, straight lines, hulls) and what it takes away (zigzag).
+// Lines of arcs: what smoothing keeps (ends, straight lines, hulls) and what it removes (zigzag).
 #include "io/export/arc_line.h"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ using Point = std::array<double, 3>;
 Bucket bucket(std::int64_t index, std::uint64_t count, const Point& mean) { return {index, count, mean}; }
 
 std::vector<Point> drawn(const Point& lo, const std::vector<Bucket>& buckets, const Point& hi) {
-  std::vector<Point> line{{9, 9, 9}};  // what was there before is gone
+  std::vector<Point> line{{9, 9, 9}};  // old content must be replaced
   draw_arc(lo, buckets, hi, line);
   return line;
 }
@@ -74,7 +74,7 @@ TEST(ArcLine, IsHardlyBentByFewVertices) {
 }
 
 TEST(ArcLine, BendsIntoItsNodes) {
-  // The contour's centre is 10 away from the node; the line goes there in steps, the first short.
+  // The centre of the contour is 10 away from the node. The line gets there in steps, of which the first is short.
   std::vector<Bucket> buckets;
   for (int i = 1; i <= 40; ++i) buckets.push_back(bucket(i, 100, {10, 0, 1.0 * i}));
   const auto line = drawn({0, 0, 0}, buckets, {10, 0, 41});

@@ -8,8 +8,8 @@
 namespace reeb::io {
 namespace {
 
-// A circle: two arcs from vertex 7 to vertex 3, one with two buckets, one of which is empty; and an
-// isolated vertex.
+// A circle, and an isolated vertex. The circle is two arcs from vertex 7 to vertex 3. One arc has two buckets, of which
+// one is empty.
 struct Circle {
   ReebGraph graph;
   ArcBuckets buckets;

@@ -82,7 +82,7 @@ TEST(AtomicFile, AnExistingFileIsReplacedOnlyOnRequest) {
   put(path, "old");
   const auto early = error_of([&] { AtomicFile file(path); });
   EXPECT_EQ(early->kind(), ErrorKind::kBadInput);
-  // One that comes while the output is written.
+  // A file that is created while the output is written.
   fs::remove(path);
   const auto late = error_of([&] {
     AtomicFile file(path);
@@ -99,7 +99,7 @@ TEST(AtomicFile, AnExistingFileIsReplacedOnlyOnRequest) {
   EXPECT_EQ(content(path), "new");
 }
 
-// Tells how the file system answers that does not know RENAME_NOREPLACE.
+// Simulates a file system that does not support RENAME_NOREPLACE.
 TEST(AtomicFile, RefusesWithoutHelpOfTheFileSystem) {
   const Scratch scratch;
   const std::string path = scratch.path() + "/a";
@@ -202,7 +202,7 @@ TEST(AtomicFile, RemovesWhatKilledWritersLeft) {
   EXPECT_EQ(entries(scratch), 1u);
   put(path + ".partial-notes", "mine");
   {
-    AtomicFile living(path);  // and the next writer leaves this one alone
+    AtomicFile living(path);  // the next writer must leave its file alone
     write(path, "whole");
     EXPECT_EQ(entries(scratch), 3u);
   }

@@ -1,5 +1,5 @@
-// Every call of the file layer to the system fails once: the failure arrives as an Error that names a file, and leaves
-// nothing in the folder. What is only short or interrupted goes on.
+// Every system call of the file layer fails once: the failure arrives as an Error that names a file, and leaves nothing
+// in the folder. A short or interrupted call is continued.
 #include "io/file/fault.h"
 
 #include <gtest/gtest.h>
@@ -39,7 +39,7 @@ std::string content(const std::string& path) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-// Uses all of the layer: an output with a part that waits in a temporary file, then reads it back in both ways.
+// Uses the whole layer: writes an output, part of which waits in a temporary file, and reads it back in both ways.
 void use_files(const std::string& folder, Existing existing) {
   const std::string path = folder + "/out", expected = pattern(300'000);
   const TempDir temp(folder);
@@ -82,7 +82,7 @@ TEST_P(Faults, EachIsReportedAndLeavesNothing) {
         EXPECT_TRUE(error.file().starts_with(scratch.path())) << error.what();
         EXPECT_FALSE(error.hint().empty());
       }
-      // The output is whole, or what was there before.
+      // The output is complete, or the old one is unchanged.
       const std::string left = content(scratch.path() + "/out");
       EXPECT_TRUE(left == pattern(300'000) || left == (GetParam() == Existing::kReplace ? "old" : ""));
       fs::remove(scratch.path() + "/out");
@@ -95,7 +95,7 @@ INSTANTIATE_TEST_SUITE_P(Existing, Faults, testing::Values(Existing::kRefuse, Ex
 TEST(Fault, WhatIsInterruptedIsCalledAgain) {
   const Scratch scratch;
   std::uint64_t calls = 0;
-  // Every call twice over, then it is made.
+  // Every call is interrupted twice before it is made.
   const ScopedFileFaults faults(
       [&calls](FileCall) { return ++calls % 3 != 0 ? FileFault{.error = EINTR} : FileFault{}; });
   ASSERT_NO_THROW(use_files(scratch.path(), Existing::kRefuse));

@@ -1,4 +1,4 @@
-// Formats are told by content; a name decides only between OBJ and streaming text.
+// Formats are detected from the content; the name decides only between OBJ and streaming text.
 #include "io/formats/format_detection.h"
 
 #include <unistd.h>
@@ -42,7 +42,7 @@ TEST(FormatDetection, StreamingTextWithoutHeadShowsInItsLines) {
   EXPECT_EQ(detect("x 1\nv 0 0 0\n"), MeshFormat::kStreaming);
   EXPECT_EQ(detect("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nc -1 2 3 -4 0.5\n"), MeshFormat::kStreaming);
   EXPECT_EQ(detect("c 1 2 3 4\nv 0 0 0\n"), MeshFormat::kStreaming);
-  // What only OBJ has.
+  // Lines that only OBJ has.
   EXPECT_EQ(detect("f 1/1 2/2 3/3\nv 0 0 0\n"), MeshFormat::kObj);
   EXPECT_EQ(detect("f 1 2 3 4\nv 0 0 0\n"), MeshFormat::kObj);
   EXPECT_EQ(detect("f -1 -2 -3\nv 0 0 0\n"), MeshFormat::kObj);
@@ -59,7 +59,7 @@ TEST(FormatDetection, APostOrderStreamIsKnownBeforeThePipeEnds) {
   ASSERT_EQ(::pipe(ends), 0);
   ASSERT_EQ(::write(ends[1], bytes.data(), bytes.size()), static_cast<ssize_t>(bytes.size()));
   const auto source = open_content("/proc/self/fd/" + std::to_string(ends[0]));
-  // The other end stays open: this would wait for ever if it wanted more.
+  // The other end stays open: asking for more bytes would wait forever.
   EXPECT_EQ(detect_format(*source, "-"), MeshFormat::kStreaming);
   ::close(ends[0]);
   ::close(ends[1]);

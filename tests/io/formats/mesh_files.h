@@ -1,4 +1,4 @@
-// Mesh files made by hand, and meshes as the readers deliver them, for the tests of io.
+// For the tests of io: mesh files written by hand, and meshes as the readers deliver them.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -41,7 +41,7 @@ std::string scalar_bytes(T value, bool big_endian = false) {
   return big_endian ? std::string(bytes.rbegin(), bytes.rend()) : bytes;
 }
 
-// The events of a mesh in two sequences.
+// A mesh without its order of events: vertices and triangles as two sequences.
 struct Mesh {
   std::vector<std::vector<double>> vertices;  // coordinates, then properties
   std::vector<std::array<std::uint64_t, 3>> triangles;
@@ -75,7 +75,7 @@ inline Mesh read_all(MeshReader& reader, std::size_t batch_events = 65536) {
   return mesh;
 }
 
-// Reads with several batch sizes, which must not matter.
+// Reads with several batch sizes, which must not change the mesh.
 inline Mesh read_mesh(const std::string& path, std::vector<std::string> properties = {}) {
   Mesh mesh;
   for (const std::size_t batch_events : {std::size_t{65536}, std::size_t{7}, std::size_t{1}}) {
@@ -111,7 +111,7 @@ inline Mesh read_indexed(IndexedMesh& indexed) {
   return mesh;
 }
 
-// Expects that `path` cannot be read, with this position, these words in the message, and a hint.
+// Expects an error that has this position, these words in its message, and a hint.
 inline void expect_bad(const std::string& path, const std::string& position, const std::string& words,
                        const ReadOptions& options = {}) {
   SCOPED_TRACE(path);
@@ -130,7 +130,7 @@ inline void expect_bad(const std::string& path, const std::string& position, con
   }
 }
 
-// Every prefix of a file is an error or a part of the whole, never anything else.
+// Expects that every prefix of a file gives an error or a part of the mesh.
 inline void expect_prefixes_safe(const std::string& name, const std::string& bytes) {
   const Mesh whole = read_mesh(write_file("whole_" + name, bytes));
   for (std::size_t length = 0; length < bytes.size(); ++length) {

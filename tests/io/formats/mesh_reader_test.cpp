@@ -1,4 +1,4 @@
-// The readers against files made by hand, and against each other.
+// The readers against files written by hand, and against each other.
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -15,7 +15,7 @@
 namespace reeb::io::testing {
 namespace {
 
-// A tetrahedron of float32 coordinates, in the order in which its corners appear.
+// A tetrahedron with float32 coordinates; vertices in the order in which corners name them.
 const Mesh kTetrahedron = {{{0, 0, 0.5}, {1, 0, 0}, {0, 1, 0}, {0.25, 0.25, -1}},
                            {{0, 1, 2}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
 
@@ -220,8 +220,8 @@ TEST(Ply, IndexedIsTheSameMesh) {
   EXPECT_EQ(open_mesh(write_file("a.obj", obj()))->indexed(), nullptr);
 }
 
-// After a mesh is open, neither its name nor its header is looked at again: not for random access to its
-// vertices, and not to go back to the first face.
+// Once a mesh is open, neither its name nor its header is used again: not for random access to its vertices, and not to
+// return to the first face.
 TEST(Ply, IsOpenedOnceAndItsHeaderIsReadOnce) {
   const std::string bytes = binary_ply(false), path = write_file("once.ply", bytes);
   const auto reader = open_mesh(path);
@@ -240,7 +240,7 @@ TEST(Ply, IsOpenedOnceAndItsHeaderIsReadOnce) {
   EXPECT_EQ(read_indexed(*reader->indexed()), kTetrahedron);
 }
 
-// Going back in the middle of a polygon, past elements without faces, with faces that are not plain.
+// Returns to the first face in the middle of a polygon, past elements without faces, with faces that are not plain.
 TEST(Ply, IndexedGoesBackFromAnywhere) {
   std::string bytes =
       "ply\nformat binary_little_endian 1.0\nelement extra 2\nproperty short s\nelement vertex 5\nproperty float x\n"
@@ -265,7 +265,7 @@ TEST(Ply, IndexedGoesBackFromAnywhere) {
   }
 }
 
-// Time that grows with the square of their number would be half a minute here.
+// In quadratic time this would take half a minute.
 TEST(Ply, AHeaderMayHaveManyProperties) {
   constexpr std::size_t kCount = 200000;
   std::string head = "ply\nformat ascii 1.0\nelement vertex 1\nproperty uchar x\n", body = "3";
@@ -358,7 +358,7 @@ TEST(Errors, HavePositionAndHint) {
   expect_bad(write_file("q.ply", binary), "", "no vertex property \"q\"", {{"q"}, 65536});
 }
 
-// Larger than several windows, so that records, lines and tokens cross their borders.
+// Larger than several windows, so that records, lines and tokens cross the borders of windows.
 TEST(Readers, ManyWindowsInTextAndBinary) {
   constexpr std::uint32_t kCount = 150'000;
   std::string text, binary = "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(kCount) +

@@ -1,4 +1,4 @@
-// Writers: what comes back from a file is what went in, and failures leave nothing behind.
+// Writers: a file gives back what was written, and failures leave nothing behind.
 #include "io/formats/create_mesh.h"
 
 #include <gtest/gtest.h>
@@ -40,7 +40,7 @@ class Writers : public testing::Test {
   fs::path folder_;
 };
 
-// Vertices and faces in turns, a property, a tetrahedron, an edge.
+// Vertices and faces alternate; with a property, a tetrahedron and an edge.
 std::vector<MeshBatch> interleaved() {
   MeshBatch first, second;
   first.vertex_count = 4;
@@ -178,7 +178,7 @@ TEST_F(Writers, ObjAndOffKeepInterleavedMeshesExactly) {
 }
 
 TEST_F(Writers, EveryFormatHoldsTheSameGeneratedMesh) {
-  // Larger than the write buffer, with and without a promised vertex count.
+  // Larger than the write buffer, with and without an announced vertex count.
   const auto write = [this](const std::string& name, bool promise) {
     const auto mesh = generate_mesh({.kind = MeshKind::kScan, .triangles = 150'000});
     MeshWriterOptions options;
@@ -215,7 +215,7 @@ TEST_F(Writers, AnEmptyMeshIsAFileToo) {
 TEST_F(Writers, AnExistingOutputIsReplacedOnlyOnRequest) {
   std::ofstream(path("a.ply")) << "mine";
   EXPECT_EQ(kind_of([&] { create_mesh(path("a.ply")); }), ErrorKind::kBadInput);
-  // Created by someone else while it was being written.
+  // Another process creates the file while it is being written.
   const auto late = create_mesh(path("b.ply"));
   std::ofstream(path("b.ply")) << "mine";
   EXPECT_EQ(kind_of([&] { late->close(); }), ErrorKind::kBadInput);

@@ -1,4 +1,4 @@
-// FUNC texts, and the values they stand for.
+// Texts of functions, and the values that they stand for.
 #include "io/functions/function_source.h"
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// Generated meshes against an independent count of their topology, in every kind and order.
+// Generated meshes of every kind and order against an independent count of their topology.
 #include "io/generate/generator.h"
 
 #include <gtest/gtest.h>
@@ -50,7 +50,7 @@ Mesh collect(const GeneratorOptions& options, std::size_t batch_events = 1000) {
   return mesh;
 }
 
-// What an independent count finds, from edges and union-find alone.
+// The result of an independent count, from edges and union-find only.
 struct Counted {
   std::uint64_t components = 0, edges = 0, boundary_loops = 0, unused_vertices = 0;
   std::int64_t euler_characteristic = 0;
@@ -64,7 +64,7 @@ std::uint64_t component_count(UnionFind& sets, const std::vector<std::uint64_t>&
   return roots.size();
 }
 
-// A vertex is manifold if its link is one path or circle; given manifold edges, if it is connected.
+// A vertex is manifold if its link is one path or circle. If the edges are manifold, a connected link is enough.
 bool links_are_connected(const Mesh& mesh) {
   std::vector<std::vector<Triangle>> stars(mesh.positions.size());
   for (const Triangle& t : mesh.triangles)
@@ -127,7 +127,7 @@ Counted count(const Mesh& mesh) {
   return c;
 }
 
-// The mesh up to renumbering: its triangles by the places of their corners.
+// The mesh up to renumbering: its triangles by the positions of their corners.
 std::vector<std::array<Position, 3>> by_position(const Mesh& mesh) {
   std::vector<std::array<Position, 3>> all;
   for (const Triangle& t : mesh.triangles) {
@@ -138,7 +138,7 @@ std::vector<std::array<Position, 3>> by_position(const Mesh& mesh) {
   return all;
 }
 
-// The largest number of vertices that are used before and after a triangle.
+// The largest number of vertices that are used both before and after a triangle.
 std::uint64_t front_width(const Mesh& mesh) {
   std::vector<std::size_t> first(mesh.positions.size(), mesh.triangles.size()), last(first.size());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
@@ -208,7 +208,7 @@ std::vector<GeneratorOptions> all_kinds() {
   for (const auto kind : {MeshKind::kTorus, MeshKind::kTerrain, MeshKind::kGrid, MeshKind::kPlate, MeshKind::kScan}) {
     for (const std::uint64_t triangles : {1u, 50u, 3000u, 30'000u})
       all.push_back({.kind = kind, .triangles = triangles, .seed = triangles});
-    // Several patches each way, and a last patch that is one cell or one line of vertices wide.
+    // Several patches in each direction, and a last patch that is one cell or one line of vertices wide.
     all.push_back({.kind = kind, .triangles = 70'000, .width = 129});
     all.push_back({.kind = kind, .triangles = 4000, .width = 333});
   }
@@ -219,8 +219,8 @@ std::vector<GeneratorOptions> all_kinds() {
 }
 INSTANTIATE_TEST_SUITE_P(Kinds, Generated, testing::ValuesIn(all_kinds()));
 
-// b1 of the 2-skeleton by definition-level means: of the first levels of the Sierpinski triangle,
-// 3^L cells around 1 + 3 + ... + 3^(L-1) holes.
+// b1 of the 2-skeleton by counting: level L of the Sierpinski triangle has 3^L cells around 1 + 3 + ... + 3^(L-1)
+// holes.
 TEST(Generator, TheSierpinskiTriangleHasItsKnownNumberOfHoles) {
   std::uint64_t cells = 1, holes = 0;
   for (int level = 0; level < 8; ++level) {
@@ -264,7 +264,7 @@ TEST(Generator, CoordinatesAreExactInFloat32) {
 
 TEST(Generator, CoherentOrdersHaveASmallFrontAndRandomHasNot) {
   GeneratorOptions options{.kind = MeshKind::kScan, .triangles = 400'000};
-  const std::uint64_t side = 316;  // two sheets, four triangles a cell
+  const std::uint64_t side = 316;  // two sheets, four triangles per cell
   options.order = MeshOrder::kRows;
   EXPECT_LE(front_width(collect(options)), 2 * (side + 10));
   options.order = MeshOrder::kPatches;
@@ -273,7 +273,7 @@ TEST(Generator, CoherentOrdersHaveASmallFrontAndRandomHasNot) {
   EXPECT_GT(front_width(collect(options)), 100'000u);
 }
 
-// In patch order each run of 64K triangles shares few of its vertices with the rest.
+// In patch order, 64K consecutive triangles share few vertices with the rest.
 TEST(Generator, PatchesShareFewVertices) {
   const Mesh mesh = collect({.kind = MeshKind::kScan, .triangles = 1'000'000});
   std::vector<std::set<std::size_t>> chunks_of(mesh.positions.size());

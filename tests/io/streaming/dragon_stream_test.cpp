@@ -1,5 +1,5 @@
-// A large scan through each streaming format and back: every bit of every coordinate, every triangle
-// in its place, every finalization at its moment.
+// A large scan, written in each streaming format and read back. Every bit of every coordinate is kept, and so is the
+// order of triangles and finalizations.
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -16,11 +16,11 @@ namespace {
 
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
-using Place = std::array<std::uint32_t, 3>;  // bits of x, y, z
+using Position = std::array<std::uint32_t, 3>;  // bits of x, y, z
 using Corners = std::array<std::uint32_t, 3>;
 
 struct Scan {
-  std::vector<Place> places;
+  std::vector<Position> positions;
   std::vector<Corners> triangles;
   std::vector<std::uint32_t> first, last;  // the triangles of a vertex; kNone: it has none
 };
@@ -31,17 +31,17 @@ Scan read_scan(const std::string& path) {
   MeshBatch batch;
   while (reader->read(batch)) {
     for (std::size_t i = 0; i < batch.vertex_count; ++i) {
-      Place& place = scan.places.emplace_back();
+      Position& position = scan.positions.emplace_back();
       for (std::size_t k = 0; k < 3; ++k)
-        place[k] = std::bit_cast<std::uint32_t>(static_cast<float>(batch.coordinates[k][i]));
+        position[k] = std::bit_cast<std::uint32_t>(static_cast<float>(batch.coordinates[k][i]));
     }
     for (std::size_t t = 0; t < batch.triangles.size(); t += 3) {
       Corners& corners = scan.triangles.emplace_back();
       for (std::size_t k = 0; k < 3; ++k) corners[k] = static_cast<std::uint32_t>(batch.triangles[t + k].value());
     }
   }
-  scan.first.assign(scan.places.size(), kNone);
-  scan.last.assign(scan.places.size(), kNone);
+  scan.first.assign(scan.positions.size(), kNone);
+  scan.last.assign(scan.positions.size(), kNone);
   for (std::uint32_t t = 0; t < scan.triangles.size(); ++t)
     for (const std::uint32_t v : scan.triangles[t]) {
       if (scan.first[v] == kNone) scan.first[v] = t;
@@ -50,9 +50,9 @@ Scan read_scan(const std::string& path) {
   return scan;
 }
 
-// Each vertex directly before its first triangle, final directly behind its last.
+// Writes each vertex directly before its first triangle, and finalizes it directly after its last.
 void write_compact(const Scan& scan, StreamWriter& writer) {
-  std::vector<std::uint32_t> number(scan.places.size(), kNone);
+  std::vector<std::uint32_t> number(scan.positions.size(), kNone);
   std::uint32_t numbered = 0;
   StreamEvent event{};
   for (std::uint32_t t = 0; t < scan.triangles.size(); ++t) {
@@ -60,7 +60,7 @@ void write_compact(const Scan& scan, StreamWriter& writer) {
       if (number[v] != kNone) continue;
       event.kind = EventKind::kVertex;
       event.vertex = number[v] = numbered++;
-      for (std::size_t k = 0; k < 3; ++k) event.floats[k] = std::bit_cast<float>(scan.places[v][k]);
+      for (std::size_t k = 0; k < 3; ++k) event.floats[k] = std::bit_cast<float>(scan.positions[v][k]);
       writer.write(event);
     }
     event.kind = EventKind::kTriangle;
@@ -76,10 +76,10 @@ void write_compact(const Scan& scan, StreamWriter& writer) {
   writer.close();
 }
 
-// Follows a stream of the same triangles, which may number vertices otherwise and turn triangles.
+// Follows a stream with the same triangles. It may renumber vertices and rotate the corners of a triangle.
 class Comparison {
  public:
-  explicit Comparison(const Scan& scan) : scan_(scan), final_(scan.places.size()) {}
+  explicit Comparison(const Scan& scan) : scan_(scan), final_(scan.positions.size()) {}
 
   void take(const StreamEvent& event) {
     if (event.kind == EventKind::kVertex) take_vertex(event);
@@ -88,16 +88,16 @@ class Comparison {
   }
   void end() const {
     EXPECT_EQ(triangles_, scan_.triangles.size());
-    for (std::size_t v = 0; v < scan_.places.size(); ++v)
+    for (std::size_t v = 0; v < scan_.positions.size(); ++v)
       ASSERT_EQ(final_[v], scan_.last[v] != kNone) << "vertex " << v;
   }
 
  private:
   void take_vertex(const StreamEvent& event) {
-    ASSERT_EQ(event.vertex, places_.size());
-    places_.push_back({});
+    ASSERT_EQ(event.vertex, positions_.size());
+    positions_.push_back({});
     original_.push_back(kNone);
-    for (std::size_t k = 0; k < 3; ++k) places_.back()[k] = std::bit_cast<std::uint32_t>(event.floats[k]);
+    for (std::size_t k = 0; k < 3; ++k) positions_.back()[k] = std::bit_cast<std::uint32_t>(event.floats[k]);
   }
 
   void take_triangle(const StreamEvent& event) {
@@ -114,7 +114,7 @@ class Comparison {
   bool agrees(const StreamEvent& event, const Corners& expected, std::size_t turn) const {
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t v = event.corners[k], w = expected[(k + turn) % 3];
-      if (original_[v] != kNone ? original_[v] != w : places_[v] != scan_.places[w]) return false;
+      if (original_[v] != kNone ? original_[v] != w : positions_[v] != scan_.positions[w]) return false;
     }
     return true;
   }
@@ -129,8 +129,8 @@ class Comparison {
 
   const Scan& scan_;
   std::vector<bool> final_;
-  std::vector<Place> places_;
-  std::vector<std::uint32_t> original_;  // the scan's vertex of each
+  std::vector<Position> positions_;
+  std::vector<std::uint32_t> original_;  // by vertex of the stream: the vertex of the scan
   std::size_t triangles_ = 0;
 };
 
@@ -148,7 +148,7 @@ TEST(DragonStream, EveryFormatKeepsEveryBit) {
     write_compact(scan, *make(out));
     const std::string bytes = out.str();
     std::printf("%s: %zu bytes, %.1f bits a vertex\n", name, bytes.size(),
-                8.0 * static_cast<double>(bytes.size()) / static_cast<double>(scan.places.size()));
+                8.0 * static_cast<double>(bytes.size()) / static_cast<double>(scan.positions.size()));
     const auto reader = open_bytes(bytes);
     EXPECT_EQ(reader->header().format, name);
     Comparison comparison(scan);

@@ -1,4 +1,4 @@
-// The sample files of streaming meshes and what is to come of them.
+// The sample files of streaming meshes, and the results expected from them.
 #pragma once
 
 #include <fstream>

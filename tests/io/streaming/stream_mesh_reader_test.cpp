@@ -1,4 +1,4 @@
-// The adapter to MeshReader: legal streams from pre-order and post-order files alike.
+// The adapter to MeshReader: pre-order and post-order files both give legal streams.
 #include "io/streaming/stream_mesh_reader.h"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ namespace {
 
 using Cell = std::vector<std::uint64_t>;
 
-// Follows a stream by the definition: plain sets, no cleverness.
+// Checks a stream by the definition, with plain sets.
 struct Checker {
   std::set<std::uint64_t> arrived, final;
   std::multiset<Cell> cells;

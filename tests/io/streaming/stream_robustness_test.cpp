@@ -1,5 +1,4 @@
-// Damaged files: every prefix of small samples, and what faults are called. Random changes are in
-// tests/fuzz.
+// Damaged files: every prefix of small samples, and the classes of faults. Random changes are in tests/fuzz.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -19,7 +18,7 @@ TEST(StreamRobustness, NoPrefixOfABinarySampleReadsAsAWholeFile) {
     for (std::size_t size = 0; size < bytes.size(); ++size) {
       const std::string prefix = bytes.substr(0, size);
       const Outcome outcome = read_all(prefix, sample.file);
-      // The code stream has an end of its own and its length in it.
+      // The code stream contains its own end and length, so every prefix is an error.
       if (!sample.good() || !sample.file.ends_with(".smc") || sample.warnings == "TRAIL") continue;
       EXPECT_TRUE(outcome.error.starts_with("TRUNCATED: ")) << sample.file << " cut at " << size;
       EXPECT_TRUE(golden_events(sample.file).starts_with(outcome.events)) << sample.file;
@@ -53,8 +52,8 @@ TEST(StreamRobustness, NumbersAreTheNearestFloats) {
   EXPECT_TRUE(read_all("v 0 0 --1\n").error.starts_with("BAD_NUMBER: "));
 }
 
-// A grid of two places an axis, as far apart as the longest side of the box: on the second axis the
-// upper one lies a quarter of that above the largest float32.
+// A grid with two places per axis, at a distance of the longest side of the box. On the second axis the upper place is
+// above the largest float32, by a quarter of that distance.
 TEST(StreamRobustness, APlaceOfTheGridBeyondFloat32IsNoCoordinate) {
   constexpr float kLargest = std::numeric_limits<float>::max();
   StreamHeader header;

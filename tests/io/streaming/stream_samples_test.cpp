@@ -1,4 +1,4 @@
-// Every sample file gives its golden events, or stops with its class of error.
+// Every sample file gives its golden events, or ends with its class of error.
 #include <gtest/gtest.h>
 
 #include "tests/io/streaming/samples.h"
@@ -7,7 +7,7 @@
 namespace reeb::io {
 namespace {
 
-// Hands out one byte to `step` bytes at a time, of unknown size: a slow pipe.
+// A slow pipe: delivers 1 to `step` bytes per call, and its size is unknown.
 class PipeSource : public ByteSource {
  public:
   PipeSource(const std::string& bytes, std::size_t step) : bytes_(bytes), step_(step) {}

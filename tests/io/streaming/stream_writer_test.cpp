@@ -1,4 +1,4 @@
-// Writers: byte for byte the files of the format's authors, and back again.
+// Writers: byte for byte the files of the authors of the formats, and back.
 #include <gtest/gtest.h>
 
 #include <filesystem>
