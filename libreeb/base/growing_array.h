@@ -47,8 +47,8 @@ class GrowingArray {
 
  private:
   void reserve(std::size_t least) {
-    constexpr std::size_t kLeastCapacity = 256;
-    const std::size_t capacity = std::max({kLeastCapacity, least, capacity_ + capacity_ / 4});
+    constexpr std::size_t kInitialCapacity = 256;
+    const std::size_t capacity = std::max({kInitialCapacity, least, capacity_ + capacity_ / 4});
     void* moved = std::realloc(data_.get(), capacity * sizeof(T));
     if (moved == nullptr) throw std::bad_alloc();
     static_cast<void>(data_.release());

@@ -91,9 +91,9 @@ class BoundedSearch {
     queue_.push_back({arc, d});
   }
   void prefetch_ahead() const {
-    constexpr std::size_t kAhead = 4;
-    if (first_ + kAhead >= queue_.size()) return;
-    const auto [arc, d] = queue_[first_ + kAhead];
+    constexpr std::size_t kPrefetchDistance = 4;
+    if (first_ + kPrefetchDistance >= queue_.size()) return;
+    const auto [arc, d] = queue_[first_ + kPrefetchDistance];
     const NodeId node = graph_.end(arc, d);
     prefetch(node);
     graph_.prefetch_node(node);
