@@ -1,9 +1,9 @@
 // The result of the second stage: persistence pairs, and all levels of detail at once
 // (docs/SEMANTICS.md, Pairs and Levels; the paper's "Simplification and Hierarchy").
 //
-// The sequence of simplified graphs is partially persistent: an arc is a record with the steps
-// between which it lives. Cancellation number s (from 1) turns version s-1 into version s; version
-// 0 is the full graph. The graph of version e has the arcs with born <= e < died.
+// All versions of the graph are stored together: an arc is a record with the versions between which it lives. Version 0
+// is the full graph; cancellation s (from 1) turns version s - 1 into version s. The graph of version e has the arcs
+// with born <= e < died.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@
 
 namespace reeb {
 
-// In the order in which equal persistences are listed in files.
+// The order is that in which files list pairs of equal persistence.
 enum class PairType : std::uint8_t { kExt0, kExt1, kOrd0, kRel1 };
 
 struct PersistencePair {
@@ -32,10 +32,10 @@ struct Hierarchy {
   std::vector<PersistencePair> pairs;
   // persistence[s - 1] is that of the pair cancelled by step s; not decreasing.
   std::vector<double> persistence;
-  // By died, descending: every prefix up to some `died` is all that lives then. Then by (lo, hi, born).
+  // By died, descending, then by (lo, hi, born). So the arcs that live longer than a given version are a prefix.
   std::vector<ArcVersion> arcs;
-  // A node without arcs in a version is present in it only as an isolated point:
-  // isolated[i] is the node; present in every version, since Ext0 is never cancelled.
+  // The nodes without arcs, which are isolated points. Each is in every version, since Ext0 is never cancelled. (Any
+  // other node is in the versions in which it has arcs.)
   std::vector<NodeId> isolated;
   // By version, ascending; empty without an embedding.
   std::vector<DroppedVertices> dropped;
