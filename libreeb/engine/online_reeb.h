@@ -15,14 +15,14 @@
 
 namespace reeb {
 
-// THREADS: one at a time for each object, snapshot() included. Different objects share nothing. A sink
-//          is called by the thread that adds.
-// TIME:    adding collects; each full batch costs O(k log k) for k simplices, and the paths that gluing
-//          goes over, which are short where the live graph is small.
-// MEMORY:  grows with the front (vertices that are not finalized, and the edges between them), the live
-//          graph and one batch; without a sink also with the settled graph, 32 bytes an arc. Without
-//          finalize() the front is the whole mesh: 4 to 12 KB a triangle. Then a mesh in a file is better
-//          given to reeb::compute(), which finds out by itself what is final.
+// THREADS: one thread at a time for each object, also for snapshot(). Different objects share nothing. The thread that
+//          adds also calls the sink.
+// TIME:    adding only collects. Each full batch costs O(k log k) for k simplices, and the paths that gluing goes over,
+//          which are short where the live graph is small.
+// MEMORY:  the front (vertices that are not finalized, and the edges between them), the live graph and one batch;
+//          without a sink also the settled graph, 32 bytes per arc. Without finalize() the front is the whole mesh: 4
+//          to 12 KB per triangle. For a mesh in a file, reeb::compute() is then the better choice: it finds out by
+//          itself which vertices are final.
 // An Error from a call leaves the graph as it was before the call; one from a sink does not.
 class OnlineReeb {
  public:

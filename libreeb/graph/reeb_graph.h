@@ -15,8 +15,8 @@
 
 namespace reeb {
 
-// A plain value: any number of threads may read one at the same time, and it costs 16 bytes a node (40 with
-// its place) and 8 an arc.
+// A plain value. Any number of threads may read one at the same time. It takes 16 bytes per node (40 with positions)
+// and 8 per arc.
 struct ReebGraph {
   // One entry per node.
   std::vector<SweepKey> nodes;

@@ -41,21 +41,20 @@ struct Hierarchy {
   std::vector<DroppedVertices> dropped;
 };
 
-// Called now and then while a hierarchy is built; it may throw to end that.
+// Called from time to time while a hierarchy is built; it may throw to stop that.
 using Poll = std::function<void()>;
 
-// Pairs the nodes and cancels all pairs but Ext0 in the order of persistence.
+// Pairs the nodes, and cancels all pairs but Ext0 in the order of cancelling.
 //
 // TIME:    O(m log m) for the pairs; a cancellation costs its two paths and a search that stays within the
 //          pair's interval.
-// MEMORY:  about 115 bytes an arc; of the result, 16 a record.
+// MEMORY:  about 115 bytes per arc; for the result, 16 per record.
 // THREADS: any number of calls at the same time.
-// REQUIRES: no node is of degree (1, 1). (What OnlineReeb and ReebFile give has none.)
+// REQUIRES: no node is of degree (1, 1). (Graphs from OnlineReeb and ReebFile have none.)
 Hierarchy build_hierarchy(ReebGraph graph, const Poll& poll = {});
 
-// The same with an embedding, of this exponent: `buckets` becomes that of Hierarchy::arcs, 40 bytes a
-// bucket of all records. With empty `buckets` there is no embedding. Pairs and graphs are the same with it
-// and without.
+// The same with an embedding, of this exponent: `buckets` becomes that of Hierarchy::arcs, 40 bytes per bucket of all
+// records. With empty `buckets` there is no embedding. Pairs and graphs are the same with an embedding and without.
 Hierarchy build_hierarchy(ReebGraph graph, ArcBuckets& buckets, int exponent, const Poll& poll = {});
 
 }  // namespace reeb
