@@ -1,5 +1,5 @@
-// Little-endian numbers, varints and byte planes on byte vectors and spans: the alphabet of every
-// file that this project writes (docs/FORMAT.md, Numbers).
+// Little-endian numbers, varints and byte planes on byte vectors and spans. Every binary file of this project is
+// written in them (docs/FORMAT.md, Numbers).
 #pragma once
 
 #include <array>
@@ -15,8 +15,8 @@
 
 namespace reeb {
 
-// A difference modulo 2^64, or a signed number in two's complement, so that small magnitudes of either sign
-// become small numbers: 0, -1, 1, -2, ... are 0, 1, 2, 3, ...
+// Maps a difference modulo 2^64, or a signed number in two's complement, such that small magnitudes of either sign
+// become small numbers: 0, -1, 1, -2, ... become 0, 1, 2, 3, ...
 constexpr std::uint64_t zigzag(std::uint64_t difference) noexcept { return difference << 1 ^ (0 - (difference >> 63)); }
 constexpr std::uint64_t unzigzag(std::uint64_t code) noexcept { return code >> 1 ^ (0 - (code & 1)); }
 
@@ -30,7 +30,7 @@ class ByteWriter {
   void u64(std::uint64_t value) { fixed(value, 8); }
   void f64(double value) { u64(std::bit_cast<std::uint64_t>(value)); }
 
-  // LEB128: seven bits a byte, lowest first, the high bit set on all but the last byte.
+  // LEB128: seven bits per byte, lowest first; the high bit is set on all but the last byte.
   void varint(std::uint64_t value) {
     for (; value >= 0x80; value >>= 7) u8(static_cast<std::uint8_t>(value | 0x80));
     u8(static_cast<std::uint8_t>(value));
@@ -43,7 +43,7 @@ class ByteWriter {
   }
   void bytes(std::span<const std::byte> value) { out_.insert(out_.end(), value.begin(), value.end()); }
 
-  // All lowest bytes, then all second bytes, and so on: equal bytes come to lie side by side.
+  // All lowest bytes, then all second bytes, and so on. This puts equal bytes next to each other.
   void planes(std::span<const std::uint64_t> values) {
     const std::size_t before = out_.size();
     out_.resize(before + values.size_bytes());
@@ -58,8 +58,8 @@ class ByteWriter {
   std::vector<std::byte>& out_;
 };
 
-// Reads a span from front to back. Reading past its end, or a varint of more than 64 bits, makes
-// ok() false for good and yields zeros: a decoder checks once, at its end.
+// Reads a span from front to back. After a read past its end, or a varint of more than 64 bits, ok() stays false
+// and every read yields zeros. So a decoder needs to check only once, at its end.
 class ByteReader {
  public:
   explicit ByteReader(std::span<const std::byte> bytes) : rest_(bytes) {}
@@ -93,7 +93,7 @@ class ByteReader {
   }
   // The inverse of ByteWriter::delta.
   std::uint64_t delta(std::uint64_t base) { return base + unzigzag(varint()); }
-  // A varint that has to fit 32 bits.
+  // A varint that must fit in 32 bits.
   std::uint32_t varint32() {
     const std::uint64_t value = varint();
     if (value >> 32 != 0) fail();
@@ -105,10 +105,10 @@ class ByteReader {
     return {reinterpret_cast<const char*>(part.data()), part.size()};
   }
 
-  // The next bytes as they are; none if there are not so many.
+  // The next `size` bytes; none, and ok() is false, if fewer remain.
   std::span<const std::byte> bytes(std::size_t size) { return take(size); }
 
-  // Fills `values`, which the caller has sized; see may_hold().
+  // Fills `values`, which the caller has sized after may_hold().
   void planes(std::span<std::uint64_t> values) {
     const auto part = take(values.size_bytes());
     if (part.empty()) return;
@@ -117,8 +117,8 @@ class ByteReader {
     join_planes(planes, values);
   }
 
-  // Whether `count` items of at least `item_bytes` each can still follow. Asked before anything is
-  // sized by a count that the bytes promise.
+  // Whether `count` items of at least `item_bytes` each can still follow. Call it before sizing anything by a count
+  // that was read from the bytes.
   bool may_hold(std::uint64_t count, std::size_t item_bytes) {
     if (count > rest_.size() / item_bytes) fail();
     return ok_;

@@ -4,8 +4,8 @@
 #include <bit>
 #include <cstring>
 
-// Written out byte by byte, so that a compiler sees interleaved bytes and shuffles many at once: half a
-// nanosecond a number, where shifting takes two to four.
+// The loops are written out byte by byte. So the compiler sees interleaved bytes and shuffles many at once: half a
+// nanosecond per number, where shifting takes two to four.
 
 namespace reeb {
 
@@ -13,13 +13,13 @@ static_assert(std::endian::native == std::endian::little, "planes are the bytes 
 
 namespace {
 
-// So many numbers at a time: planes at a known distance do not overlap.
-constexpr std::size_t kTile = 64;
-using Tile = std::array<std::array<std::byte, kTile>, kBytePlanes>;
+// split() works on tiles of fixed size, in which the compiler knows that planes do not overlap.
+constexpr std::size_t kNumbersPerTile = 64;
+using Tile = std::array<std::array<std::byte, kNumbersPerTile>, kBytePlanes>;
 
-void split(const std::array<std::uint64_t, kTile>& numbers, Tile& planes) {
+void split(const std::array<std::uint64_t, kNumbersPerTile>& numbers, Tile& planes) {
   const std::byte* from = std::as_bytes(std::span(numbers)).data();
-  for (std::size_t i = 0; i < kTile; ++i) {
+  for (std::size_t i = 0; i < kNumbersPerTile; ++i) {
     planes[0][i] = from[8 * i];
     planes[1][i] = from[8 * i + 1];
     planes[2][i] = from[8 * i + 2];
@@ -35,12 +35,12 @@ void split(const std::array<std::uint64_t, kTile>& numbers, Tile& planes) {
 
 void split_planes(std::span<const std::uint64_t> numbers, std::byte* planes) {
   const std::size_t count = numbers.size();
-  std::array<std::uint64_t, kTile> some{};
+  std::array<std::uint64_t, kNumbersPerTile> numbers_of_tile{};
   Tile tile;
-  for (std::size_t begin = 0; begin < count; begin += kTile) {
-    const std::size_t size = std::min(kTile, count - begin);
-    std::ranges::copy(numbers.subspan(begin, size), some.begin());
-    split(some, tile);
+  for (std::size_t begin = 0; begin < count; begin += kNumbersPerTile) {
+    const std::size_t size = std::min(kNumbersPerTile, count - begin);
+    std::ranges::copy(numbers.subspan(begin, size), numbers_of_tile.begin());
+    split(numbers_of_tile, tile);
     for (std::size_t p = 0; p < kBytePlanes; ++p) std::memcpy(planes + p * count + begin, tile[p].data(), size);
   }
 }

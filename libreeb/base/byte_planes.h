@@ -10,10 +10,12 @@ namespace reeb {
 
 inline constexpr std::size_t kBytePlanes = 8;
 
-// Writes all planes, one after the other. REQUIRES: room for kBytePlanes * numbers.size() bytes, elsewhere.
+// Writes all planes, one after the other.
+// REQUIRES: `planes` has room for kBytePlanes * numbers.size() bytes and does not overlap `numbers`.
 void split_planes(std::span<const std::uint64_t> numbers, std::byte* planes);
 
-// The reverse, of planes that lie anywhere else. REQUIRES: each has numbers.size() bytes; any of them may be the same.
+// The inverse; the planes need not be contiguous.
+// REQUIRES: each plane has numbers.size() bytes and does not overlap `numbers`. Planes may share memory.
 void join_planes(const std::array<const std::byte*, kBytePlanes>& planes, std::span<std::uint64_t> numbers);
 
 }  // namespace reeb

@@ -1,4 +1,4 @@
-// Up and down along the function: what holds for one direction holds, mirrored, for the other.
+// Up and down along the function. Code that takes a Direction serves both, since they mirror each other.
 #pragma once
 
 #include <cstdint>

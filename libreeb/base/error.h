@@ -14,7 +14,7 @@ namespace reeb {
 enum class ErrorKind : int {
   kBadInput = 1,      // the input, or a file that the user names, is bad
   kUsage = 2,         // the command line is wrong
-  kResource = 3,      // memory or disk ran out, or an output place cannot be written
+  kResource = 3,      // memory or disk ran out, or an output cannot be written
   kInterrupted = 130  // by a signal
 };
 
@@ -23,8 +23,8 @@ class Error : public std::exception {
  public:
   Error(ErrorKind kind, std::string what, std::string hint);
 
-  // Says where: the file, and a byte offset ("12") or "line:column" in it. Either may be empty.
-  // The layer that knows more calls it on its way out; a place already set stays.
+  // Sets the file, and the byte offset ("12") or "line:column" in it. Either may be empty.
+  // A layer that knows them calls this while the error passes through; what was set before stays.
   Error& at(const std::string& file, const std::string& position = {});
 
   ErrorKind kind() const { return kind_; }
@@ -33,7 +33,7 @@ class Error : public std::exception {
   const std::string& message() const { return message_; }
   const std::string& hint() const { return hint_; }
 
-  // "FILE:POSITION: WHAT", without what is unknown.
+  // "FILE:POSITION: WHAT", without the parts that are unknown.
   const char* what() const noexcept override { return text_.c_str(); }
 
  private:

@@ -26,7 +26,7 @@ class FlatMap {
     }
   }
 
-  // The value of `key`; `value` is entered first if there was none.
+  // The value of `key`; `value` is inserted first if there was none.
   // REQUIRES: value != kNone.
   std::uint32_t find_or_insert(std::uint64_t key, std::uint32_t value) {
     if (2 * (size_ + 1) > values_.size()) grow();
@@ -39,7 +39,7 @@ class FlatMap {
     return value;
   }
 
-  // Removes `key` if it is there.
+  // Removes `key` if it is present.
   void erase(std::uint64_t key) {
     if (size_ == 0) return;
     std::size_t i = home(key);
@@ -47,7 +47,7 @@ class FlatMap {
       if (values_[i] == kNone) return;
       if (keys_[i] == key) break;
     }
-    // Close the gap: an entry further on moves back if its home does not lie behind the gap.
+    // Close the gap: a later entry moves back into it unless the entry's home is after the gap.
     for (std::size_t j = (i + 1) & mask_; values_[j] != kNone; j = (j + 1) & mask_) {
       if (((j - home(keys_[j])) & mask_) >= ((j - i) & mask_)) {
         keys_[i] = keys_[j];

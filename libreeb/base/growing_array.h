@@ -1,6 +1,6 @@
-// An array of plain elements that grows by realloc, which moves large blocks by their pages: growing
-// does not hold two copies, and room to grow is not resident until it is used. So memory_bytes() is
-// what the array holds, also while it grows; a vector would take twice that for a moment.
+// An array of plain elements that grows by realloc. For large blocks realloc remaps pages instead of copying, so there
+// are never two copies, and spare capacity is not resident until it is used. So memory_bytes() is right even while the
+// array grows; a vector would need twice that for a moment.
 //
 // For arrays that live as long as a run and count against its memory budget.
 #pragma once
@@ -47,8 +47,8 @@ class GrowingArray {
 
  private:
   void reserve(std::size_t least) {
-    constexpr std::size_t kLeastCapacity = 256;
-    const std::size_t capacity = std::max({kLeastCapacity, least, capacity_ + capacity_ / 4});
+    constexpr std::size_t kInitialCapacity = 256;
+    const std::size_t capacity = std::max({kInitialCapacity, least, capacity_ + capacity_ / 4});
     void* moved = std::realloc(data_.get(), capacity * sizeof(T));
     if (moved == nullptr) throw std::bad_alloc();
     static_cast<void>(data_.release());

@@ -5,8 +5,8 @@
 
 namespace reeb {
 
-// A number of SplitMix64: a bijection of the 64-bit numbers that looks random. Values of random functions
-// and generated meshes come from it, so it may never change.
+// One step of SplitMix64: a bijection of the 64-bit numbers that looks random. The values of random functions and the
+// generated meshes depend on it, so it must never change.
 constexpr std::uint64_t mix(std::uint64_t x) noexcept {
   x += 0x9e3779b97f4a7c15u;
   x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;

@@ -1,4 +1,4 @@
-// A vector whose elements are named by ids of one kind: what belongs to a node cannot be looked up by an arc.
+// A vector that is indexed by ids of one kind, so that an arc's id cannot be used in an array of nodes.
 #pragma once
 
 #include <cstddef>

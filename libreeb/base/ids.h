@@ -16,7 +16,7 @@ class Id {
  public:
   constexpr Id() = default;
   constexpr explicit Id(Rep value) : value_(value) {}
-  // The id that nothing has.
+  // An id that no object has.
   static constexpr Id none() { return Id(static_cast<Rep>(~Rep{0})); }
 
   constexpr Rep value() const { return value_; }
@@ -34,7 +34,7 @@ class Id {
 using VertexId = Id<struct VertexTag, std::uint64_t>;
 // A node of a Reeb graph in memory: its rank in the total order of the graph's nodes.
 using NodeId = Id<struct NodeTag, std::uint32_t>;
-// An arc of a Reeb graph in memory: its place in the canonical order of arcs.
+// An arc of a Reeb graph in memory: its index in the canonical order of arcs.
 using ArcId = Id<struct ArcTag, std::uint32_t>;
 
 static_assert(!std::equality_comparable_with<VertexId, NodeId> && !std::equality_comparable_with<NodeId, ArcId>);

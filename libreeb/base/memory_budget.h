@@ -1,8 +1,8 @@
-// The account from which everything that holds much memory reserves it (DESIGN.md 4).
+// The budget from which every large user of memory reserves it (docs/ARCHITECTURE.md, Decisions worth knowing).
 //
-// One MemoryBudget exists a run. An owner asks before it allocates and holds a move-only
-// Reservation for as long as it holds the memory; the destructor gives it back. Allocator hooks
-// were not chosen: they see bytes, not owners, and come too late to choose another plan.
+// Each run has one MemoryBudget. An owner reserves memory before it allocates, and holds a move-only Reservation for
+// as long as it holds the memory; the destructor returns it. Allocator hooks would not do: they see bytes, not
+// owners, and come too late to choose another plan.
 //
 // THREADS: any thread may reserve and release.
 #pragma once
@@ -24,9 +24,9 @@ class Reservation {
   ~Reservation() { release(); }
 
   std::uint64_t bytes() const { return bytes_; }
-  // Changes the size. THROWS: as MemoryBudget::reserve, with the old size kept.
+  // Changes the size. THROWS: as MemoryBudget::reserve; the size then stays as it was.
   void resize(std::uint64_t bytes);
-  // Changes the size if that is possible; says whether it was.
+  // Changes the size if the budget allows it; returns whether it did.
   bool try_resize(std::uint64_t bytes) noexcept;
   void release() noexcept;
 
@@ -41,16 +41,16 @@ class MemoryBudget {
  public:
   static constexpr std::uint64_t kUnlimited = ~std::uint64_t{0};
 
-  // `set_aside_bytes` were taken off a user's limit beforehand; hints add them again.
+  // `set_aside_bytes` were subtracted from the user's limit beforehand; hints add them again.
   explicit MemoryBudget(std::uint64_t limit_bytes = kUnlimited, std::uint64_t set_aside_bytes = 0)
       : limit_(limit_bytes), set_aside_(set_aside_bytes) {}
   MemoryBudget(const MemoryBudget&) = delete;
   MemoryBudget& operator=(const MemoryBudget&) = delete;
 
   // `owner` is a string literal that names the holder in error texts ("live graph").
-  // THROWS: Error{kResource} with what was asked, what is in use by whom, and what to do.
+  // THROWS: Error{kResource} with the bytes requested, the bytes in use by each owner, and what to do.
   Reservation reserve(const char* owner, std::uint64_t bytes);
-  // The same, but an empty reservation of the same owner when it does not fit; ask bytes().
+  // The same, but when it does not fit, returns an empty reservation of that owner: bytes() is 0.
   Reservation try_reserve(const char* owner, std::uint64_t bytes) noexcept;
 
   std::uint64_t limit_bytes() const { return limit_; }

@@ -1,5 +1,5 @@
-// An array whose elements come and go, each named by its place. A place that was freed is used again, the
-// last one first; the list of free places runs through the free elements.
+// An array whose elements are taken and freed, each named by its index. The index freed last is taken first; the free
+// elements themselves form the list of free indices.
 #pragma once
 
 #include <cstddef>
@@ -11,33 +11,33 @@
 
 namespace reeb {
 
-// T has a member function next_free() that returns a std::uint32_t&, which a free element does not need.
+// T has a member function next_free() that returns a std::uint32_t&. A free element holds a list link there.
 template <class T>
 class RecyclingArray {
  public:
   T& operator[](std::size_t i) { return elements_[i]; }
   const T& operator[](std::size_t i) const { return elements_[i]; }
-  std::size_t size() const { return elements_.size(); }  // places, free ones too
+  std::size_t size() const { return elements_.size(); }  // elements, including free ones
   std::size_t used() const { return elements_.size() - free_; }
   std::size_t memory_bytes() const { return elements_.memory_bytes(); }
 
-  // A place whose element the caller sets.
+  // The index of an element that the caller sets.
   std::uint32_t take() {
-    const std::uint32_t place = first_free_;
-    if (place == kNone) {
+    const std::uint32_t index = first_free_;
+    if (index == kNone) {
       elements_.grow_by(1);
       return static_cast<std::uint32_t>(elements_.size() - 1);
     }
-    first_free_ = elements_[place].next_free();
+    first_free_ = elements_[index].next_free();
     --free_;
-    return place;
+    return index;
   }
-  void free(std::uint32_t place) {
-    elements_[place].next_free() = std::exchange(first_free_, place);
+  void free(std::uint32_t index) {
+    elements_[index].next_free() = std::exchange(first_free_, index);
     ++free_;
   }
 
-  // In three parts, which the owner puts where it likes.
+  // Three parts, so that the owner decides where each is stored.
   void save(StateWriter& out) const { elements_.save(out); }
   void save_first_free(StateWriter& out) const { out.put(first_free_); }
   void save_free_count(StateWriter& out) const { out.put(std::uint64_t{free_}); }

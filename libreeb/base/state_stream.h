@@ -1,8 +1,8 @@
-// Saving and restoring flat state: values and arrays as they lie in memory.
+// Saving and restoring flat state: values and arrays, with their bytes as in memory.
 //
-// For a later process of the same program on the same kind of machine; whoever stores the bytes
-// sees to their checksum. Arrays carry their length and element size, and a length is believed only
-// as far as there are bytes.
+// Only a later process of the same program on the same kind of machine can restore them. The code that stores the
+// bytes adds a checksum. Arrays are saved with their length and element size; a length for which there are not enough
+// bytes is an error.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@
 
 namespace reeb {
 
-// The bytes are not the state that was asked for.
+// The bytes are not the requested state.
 class DamagedState : public std::exception {
  public:
   const char* what() const noexcept override { return "the saved state is damaged"; }
@@ -74,7 +74,7 @@ class StateReader {
     array.resize(get_array_size<T>());
     read(std::as_writable_bytes(std::span(array)));
   }
-  // How many elements of an array follow; never more than there can be.
+  // The number of elements of the array that follows; never more than the remaining bytes can hold.
   template <class T>
   std::size_t get_array_size() {
     static_assert(std::is_trivially_copyable_v<T>);

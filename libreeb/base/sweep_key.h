@@ -1,4 +1,4 @@
-// The total order of vertices in which every tie is settled (docs/SEMANTICS.md, Order).
+// The total order of vertices, which decides every tie (docs/SEMANTICS.md, Order).
 #pragma once
 
 #include <bit>
@@ -16,14 +16,14 @@ struct SweepKey {
   friend bool operator==(const SweepKey&, const SweepKey&) = default;
 };
 
-// Strict total order: by value, ties by index. No arithmetic is done, so the answer is exact;
-// it depends on its arguments only, not on chunks, threads or arrival order.
+// Strict total order: by value, ties by index. It does no arithmetic, so the answer is exact. It depends on its
+// arguments only, not on chunks, threads or stream order.
 // REQUIRES: neither value is NaN (readers refuse NaN).
 inline bool operator<(const SweepKey& a, const SweepKey& b) noexcept {
   return a.value < b.value || (a.value == b.value && a.vertex < b.vertex);
 }
 
-// The value's bits, mapped so that unsigned comparison of results is comparison of values.
+// The value's bits, mapped such that the results compare as unsigned numbers the way the values do.
 // REQUIRES: not NaN, not -0.0.
 inline std::uint64_t ordered_bits(double value) noexcept {
   const auto bits = std::bit_cast<std::uint64_t>(value);

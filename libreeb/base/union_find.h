@@ -9,8 +9,8 @@
 
 namespace reeb {
 
-// Linking always makes the smaller index the root, so a set is named by its least element: the
-// outcome does not depend on the order of unions. Amortized O(log n) a call.
+// The smaller index always becomes the root, so a set is named by its least element, and the result does not depend on
+// the order of unions. Amortized O(log n) per call.
 class UnionFind {
  public:
   explicit UnionFind(std::uint32_t size = 0) : parent_(size) { std::iota(parent_.begin(), parent_.end(), 0u); }

@@ -1,4 +1,4 @@
-// The range of some values.
+// The range of a set of values.
 #pragma once
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 
 namespace reeb {
 
-// The least and the greatest; min > max before the first.
+// The least and the greatest value; min > max before the first one.
 struct ValueRange {
   double min = std::numeric_limits<double>::infinity();
   double max = -std::numeric_limits<double>::infinity();
@@ -18,7 +18,7 @@ struct ValueRange {
   }
 
   // share * (max - min), without overflow. Never falls when the range grows.
-  // REQUIRES: share >= 0; there was a value.
+  // REQUIRES: share >= 0; at least one value was added.
   double part(double share) const {
     const double width = max - min;
     return std::isfinite(width) ? share * width : 2 * (share * (max / 2 - min / 2));

@@ -23,7 +23,7 @@ void BucketLists::start(int exponent) {
   free_.clear();
   free_count_ = 0;
   indexer_ = BucketIndexer(exponent);
-  first_at_hand_ = 0;
+  first_current_ = 0;
   new_bucket({});  // kNowhere
 }
 
@@ -31,7 +31,7 @@ BucketLists::Index BucketLists::new_bucket(const BucketSum& bucket) {
   Index b = 0;
   if (free_count_ != 0) {
     b = free_[--free_count_];
-    // The one after it is wanted soon.
+    // The next free bucket will be needed soon.
     if (free_count_ != 0) prefetch(List{free_[free_count_ - 1]});
   } else {
     b = static_cast<Index>(sums_.size());
@@ -49,7 +49,7 @@ void BucketLists::link_last(List& list, Index b) {
   list.last = b;
 }
 
-// The bucket comes last, or becomes one with the last.
+// Appends the bucket, or adds it to the last one if their indices are equal.
 void BucketLists::link_or_add(List& list, Index b) {
   if (list.empty() || links_[list.last].index != links_[b].index) return link_last(list, b);
   sums_[list.last].add(sums_[b]);
@@ -141,7 +141,7 @@ BucketLists::List BucketLists::take_above(List& list, double lo, double at, doub
       below = part;
     }
   }
-  return split_behind(list, below);
+  return split_after(list, below);
 }
 
 void BucketLists::move_above(List& from, double lo, double at, double hi, List& into) {
@@ -162,8 +162,8 @@ void BucketLists::move_above(List& from, double lo, double at, double hi, List& 
   free_bucket(last);
 }
 
-// Takes what comes behind `last_below`, or all if that is none.
-BucketLists::List BucketLists::split_behind(List& list, Index last_below) {
+// Takes the buckets after `last_below`, or all if that is kNone.
+BucketLists::List BucketLists::split_after(List& list, Index last_below) {
   if (last_below == kNone) return std::exchange(list, {});
   if (last_below == list.last) return {};
   const List taken = list;
@@ -172,14 +172,15 @@ BucketLists::List BucketLists::split_behind(List& list, Index last_below) {
   return taken;
 }
 
-// Of the bucket in which `at` lies. In halves, so that no difference overflows.
+// How many vertices of the bucket that contains `at` count as above it. Works on halved values, so that no difference
+// overflows.
 std::uint64_t BucketLists::count_above(Index bucket, double lo, double at, double hi) const {
-  constexpr std::uint64_t kDividesFrom = 4;  // vertices
+  constexpr std::uint64_t kBucketDividesFrom = 4;  // vertices
   const std::int64_t index = links_[bucket].index;
   const double least = indexer_(lo) == index ? lo / 2 : std::ldexp(static_cast<double>(index), exponent() - 1);
   const double most = indexer_(hi) == index ? hi / 2 : std::ldexp(static_cast<double>(index + 1), exponent() - 1);
   const std::uint64_t count = sums_[bucket].count;
-  if (count < kDividesFrom) return most - at / 2 > at / 2 - least ? count : 0;
+  if (count < kBucketDividesFrom) return most - at / 2 > at / 2 - least ? count : 0;
   const double share = most > least ? std::clamp((most - at / 2) / (most - least), 0.0, 1.0) : 0.5;
   return std::min(static_cast<std::uint64_t>(std::nearbyint(share * static_cast<double>(count))), count);
 }

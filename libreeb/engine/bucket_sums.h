@@ -1,7 +1,7 @@
 // Exact sums of positions by buckets of function value, in lists (docs/SEMANTICS.md, Buckets).
 //
-// A sum does not depend on the order in which it is added up: positions are whole numbers of
-// 2^-44, clamped to +-2^50 and added in 128 bits, which hold 2^32 of them.
+// A sum does not depend on the order of additions: positions are clamped to +-2^50 and rounded to whole multiples of
+// 2^-44, and are added in 128 bits, which is enough for 2^32 of them.
 #pragma once
 
 #include <array>
@@ -20,20 +20,20 @@ namespace reeb {
 
 __extension__ typedef __int128 Int128;
 
-// In units of 2^-44 a coordinate below this is a 64-bit number.
+// A coordinate below this, in units of 2^-44, fits in 64 bits.
 inline constexpr double kSmallCoordinate = 0x1p18;
 
-// A coordinate in units of 2^-44, cut off towards zero; what is no number is the least.
+// A coordinate in units of 2^-44, rounded towards zero. A NaN counts as the least coordinate.
 inline Int128 fixed_point(double x) {
-  constexpr double kMostCoordinate = 0x1p50;
-  x = x > -kMostCoordinate ? x : -kMostCoordinate;
-  x = x < kMostCoordinate ? x : kMostCoordinate;
+  constexpr double kMaxCoordinate = 0x1p50;
+  x = x > -kMaxCoordinate ? x : -kMaxCoordinate;
+  x = x < kMaxCoordinate ? x : kMaxCoordinate;
   const auto whole = static_cast<std::int64_t>(x);
   const double rest = x - static_cast<double>(whole);
   return (static_cast<Int128>(whole) << 44) + static_cast<std::int64_t>(rest * 0x1p44);
 }
 
-// Between whole numbers and doubles; most have 64 bits, which are converted faster.
+// Conversions between whole numbers and doubles. Most numbers fit in 64 bits, which convert faster.
 inline double to_double(Int128 whole) {
   const auto low = static_cast<std::int64_t>(whole);
   return low == whole ? static_cast<double>(low) : static_cast<double>(whole);
@@ -57,36 +57,36 @@ struct BucketSum {
     count += other.count;
     for (std::size_t k = 0; k < 3; ++k) sum[k] += other.sum[k];
   }
-  // Keeps so many of the vertices, with their share of the sum, or nearly, and adds the rest to `other`:
-  // nothing is lost.
+  // Keeps this number of the vertices, with their share of the sum (rounded), and adds the rest to `other`. The totals
+  // of both stay exact.
   void keep(std::uint64_t kept, BucketSum& other);
   Bucket mean() const {  // REQUIRES: count != 0
     Bucket bucket{index, count, {}};
     for (std::size_t k = 0; k < 3; ++k) bucket.mean[k] = to_double(sum[k]) * 0x1p-44;
-    if (count == 1) return bucket;  // as most are where values are random
+    if (count == 1) return bucket;  // the most frequent case where values are random
     for (double& x : bucket.mean) x /= static_cast<double>(count);
     return bucket;
   }
 };
 
-// Lists of buckets, ascending by index, in one pool, all of one exponent. What the lists are asked for
-// mostly lies apart from the sums, and close together.
+// Lists of buckets, ascending by index, in one pool, all of one exponent. Indices and links are used most, so they are
+// in an array of their own, apart from the large sums.
 class BucketLists {
  public:
   using Index = std::uint32_t;
   static constexpr Index kNone = ~Index{0};
-  static constexpr Index kNowhere = 0;  // after start(): a bucket in no list, for what is not to be kept
+  static constexpr Index kNowhere = 0;  // after start(): a bucket in no list, for vertices that are not to be kept
 
   struct List {
-    Index last = kNone;  // whose next one is the first
+    Index last = kNone;  // its `next` is the first bucket
     bool empty() const { return last == kNone; }
   };
 
   // Forgets all lists; keeps the memory.
   void start(int exponent);
   int exponent() const { return indexer_.exponent(); }
-  // Sets the exponent, for which `lists`, all that there are, are coarsened: O(buckets) if it changes.
-  // REQUIRES: not less than before, unless all lists are empty.
+  // Sets the exponent, and coarsens `lists` to it. O(buckets) if it changes.
+  // REQUIRES: `lists` are all lists; the exponent is not less than before, unless all lists are empty.
   template <class Lists>
   void raise_exponent(int exponent, Lists& lists) {
     const int levels = exponent - indexer_.exponent();
@@ -95,17 +95,17 @@ class BucketLists {
     for (std::size_t i = 0; i < lists.size(); ++i) coarsen(lists[i], levels);
   }
 
-  // For a sweep: all vertices up to the next call are in the bucket of this index, which is not less
-  // than before, and may be the same. REQUIRES, for as long as vertices are added by bucket_at_hand: no
-  // other change.
+  // For a sweep: all vertices up to the next call are in buckets of this index.
+  // REQUIRES: the index is not less than before (it may be the same); while vertices are added through
+  // current_bucket(), nothing else changes the lists.
   void start_bucket(std::int64_t index) {
-    if (index == index_at_hand_) return;
-    index_at_hand_ = index;
-    first_at_hand_ = static_cast<Index>(sums_.size());
+    if (index == current_index_) return;
+    current_index_ = index;
+    first_current_ = static_cast<Index>(sums_.size());
   }
-  // That bucket of the list, to which vertices can be added at any later time.
-  Index bucket_at_hand(List& list) {
-    if (list.last + 1 <= first_at_hand_) link_last(list, new_bucket({index_at_hand_, 0, {}}));  // none + 1 == 0
+  // The bucket of that index in the list. Vertices can be added to it at any later time.
+  Index current_bucket(List& list) {
+    if (list.last + 1 <= first_current_) link_last(list, new_bucket({current_index_, 0, {}}));  // none + 1 == 0
     return list.last;
   }
   void add_to_bucket(Index bucket, const Point& position) { sums_[bucket].add(position); }
@@ -114,21 +114,20 @@ class BucketLists {
   void add_vertex(List& list, double value, const Point& position);
   // REQUIRES: the list's last index <= this one.
   void append(List& list, const BucketSum& bucket);
-  // Moves the buckets of `upper` behind those of `lower`. O(1).
+  // Moves the buckets of `upper` to the end of `lower`. O(1).
   // REQUIRES: last index of `lower` <= first index of `upper`.
   void concatenate(List& lower, List& upper);
   // The same with a vertex between them.
   void concatenate(List& lower, double value, const Point& position, List& upper);
-  // Moves the buckets of `from`, whichever they are, to `into`.
+  // Moves the buckets of `from`, whatever their indices, to `into`.
   void merge(List& into, List& from);
-  // Of buckets that lie between the values lo and hi, takes those above `at`. The one in which `at` lies
-  // is divided in proportion to the value, if it has many vertices; else it goes whole to where the
-  // greater part of it is.
+  // Takes the buckets above the value `at` from a list that covers the values from lo to hi. The bucket that contains
+  // `at` is divided in proportion to the value. If it has few vertices, it goes whole to the side with the greater part
+  // of its values.
   List take_above(List& list, double lo, double at, double hi);
-  // Moves to `into`, whose buckets lie above `at`, what take_above takes. O(1) if all of `from` lies in
-  // one bucket.
+  // Moves what take_above takes to `into`, whose buckets are above `at`. O(1) if `from` is a single bucket.
   void move_above(List& from, double lo, double at, double hi, List& into);
-  // Calls visit(bucket) for all buckets, ascending, and forgets them.
+  // Calls visit(bucket) for all buckets, ascending, and leaves the list empty.
   template <class Visit>
   void drain(List& list, const Visit& visit) {
     if (list.empty()) return;
@@ -141,7 +140,7 @@ class BucketLists {
     list.last = kNone;
   }
 
-  // Asks for a bucket, or for the last of a list, which mostly is its only one.
+  // Prefetches a bucket, or the last one of a list, which mostly is its only one.
   void prefetch_sum(Index bucket) const {
     __builtin_prefetch(&sums_[bucket]);
     __builtin_prefetch(&sums_[bucket].sum[2]);
@@ -168,28 +167,28 @@ class BucketLists {
   void link_or_add(List& list, Index b);
   void remove_first(List& list);
   void coarsen(List& list, int levels);
-  List split_behind(List& list, Index last_below);
+  List split_after(List& list, Index last_below);
   std::uint64_t count_above(Index bucket, double lo, double at, double hi) const;
 
   GrowingArray<BucketSum> sums_;
   GrowingArray<Link> links_;
-  // Free buckets, the first free_count_ of as many as there are buckets: which is next is known without
-  // a look at one of them.
+  // The first free_count_ entries are the free buckets. Unlike a list through the free buckets, this names the next one
+  // without reading a bucket.
   GrowingArray<Index> free_;
   std::size_t free_count_ = 0;
   BucketIndexer indexer_;
-  std::int64_t index_at_hand_ = 0;
-  Index first_at_hand_ = 0;  // buckets from here on are of that index
+  std::int64_t current_index_ = 0;
+  Index first_current_ = 0;  // buckets from here on are of that index
 };
 
-// An arc of a path, from its beginning, and the value at its far end.
+// The buckets of an arc of a path, and the value at the far end of the arc.
 struct PathBuckets {
   BucketLists::List* list;
   double end;
 };
 
-// Moves the buckets of the arc from `saddle` in direction d to `leaf` onto another path from the
-// same saddle, each to the arc that covers its values, all that is left to the last arc.
+// Moves the buckets of the arc between `saddle` and `leaf`, which is in direction d from it, to another path from the
+// same saddle: each bucket to the arc that covers its values, the rest to the last arc.
 void lay_on_path(BucketLists& lists, BucketLists::List& from, Direction d, double saddle, double leaf,
                  std::span<const PathBuckets> path);
 

@@ -28,7 +28,7 @@ std::size_t ChunkLeafRemoval::memory_bytes() const {
          4 * (arcs_.capacity() + candidates_.capacity());
 }
 
-// Every removal begins with a leaf that is one from the start.
+// The first leaf to be removed is a leaf from the start. So if no such leaf is noise, there is nothing to do.
 void ChunkLeafRemoval::find_candidates() {
   candidates_.clear();
   arcs_.clear();
@@ -39,17 +39,17 @@ void ChunkLeafRemoval::find_candidates() {
   }
 }
 
-// All of them, or leaves and their saddles.
+// All nodes, or leaves and their saddles.
 void ChunkLeafRemoval::choose_whole_nodes() {
-  constexpr std::size_t kNodesALeaf = 32;  // with more, looking at all nodes does not pay
-  const bool all = candidates_.size() * kNodesALeaf >= graph_->nodes.size();
+  constexpr std::size_t kNodesPerLeaf = 32;  // with more, examining all nodes does not pay
+  const bool all = candidates_.size() * kNodesPerLeaf >= graph_->nodes.size();
   whole_.assign(graph_->nodes.size(), all ? 1 : 0);
   if (all) return;
   for (const SweepArc a : arcs_) whole_[graph_->arcs[a].lo] = whole_[graph_->arcs[a].hi] = 1;
 }
 
-// A leaf is only removed where its saddle reaches beyond it, and joining arcs moves no path: no
-// step ever changes the reaches that are found here.
+// The reaches that are found here never change. A leaf is removed only if its saddle reaches beyond it, and joining
+// arcs changes no path.
 void ChunkLeafRemoval::prepare() {
   const auto& arcs = graph_->arcs;
   nodes_.resize(graph_->nodes.size());
@@ -63,7 +63,7 @@ void ChunkLeafRemoval::prepare() {
     attach(arcs[a].lo, kUp, a);
     attach(arcs[a].hi, kDown, a);
   }
-  // All that lies below an arc comes before it, all above after.
+  // Arcs below an arc come before it, arcs above it after it.
   for (const SweepArc a : arcs_) extend_reach(arcs[a].hi, kDown, a);
   for (auto a = arcs_.rbegin(); a != arcs_.rend(); ++a) extend_reach(arcs[*a].lo, kUp, *a);
 }
@@ -88,7 +88,7 @@ void ChunkLeafRemoval::try_leaf(SweepNode leaf, Direction d) {
   settle(saddle);
 }
 
-// The path is that to where the saddle reaches farthest.
+// The path leads to the farthest node that the saddle reaches.
 void ChunkLeafRemoval::move_buckets(SweepNode leaf, SweepArc arc, Direction d) {
   path_.clear();
   SweepNode node = graph_->arcs[arc].end(opposite(d));
@@ -103,8 +103,7 @@ void ChunkLeafRemoval::move_buckets(SweepNode leaf, SweepArc arc, Direction d) {
   lay_on_path(graph_->buckets, moved, d, saddle_value, value(leaf), path_);
 }
 
-// A saddle that lost an arc may disappear, which gives leaves beyond it another saddle, or become
-// a leaf itself.
+// A saddle that lost an arc might become a leaf, or be contracted, which gives leaves beyond it another saddle.
 void ChunkLeafRemoval::settle(SweepNode saddle) {
   if (nodes_[saddle].degree != std::array{1u, 1u}) {
     candidates_.push_back(saddle);
@@ -113,7 +112,7 @@ void ChunkLeafRemoval::settle(SweepNode saddle) {
   if (is_used_here_only(saddle)) contract(saddle);
 }
 
-// The lower arc is what both become: paths come to it from below, by a branch of the node there.
+// Both arcs become the lower one, since paths reach it from below, through a branch of its lower node.
 void ChunkLeafRemoval::contract(SweepNode node) {
   const SweepArc lower = only_arc(node, kDown), upper = only_arc(node, kUp);
   const SweepNode top = graph_->arcs[upper].hi;

@@ -1,9 +1,8 @@
-// Noise removal in one chunk: leaves that no other chunk can save
-// (docs/SEMANTICS.md, Noise removal).
+// Noise removal in one chunk: leaves that are noise whatever the other chunks are (docs/SEMANTICS.md, Noise removal).
 //
-// A leaf whose vertex is used in this chunk only is a leaf of the whole graph, with the same
-// saddle, since no path of a shared edge runs on its arc; and a path of the chunk's graph is one
-// of the whole graph. So a step that is right here is right there.
+// A leaf whose vertex is used in this chunk only is a leaf of the whole graph, with the same saddle, since no path of a
+// shared edge uses its arc. And a path in the graph of the chunk is a path in the whole graph. So a step that is right
+// here is right in the whole graph.
 #pragma once
 
 #include <array>
@@ -17,23 +16,22 @@ namespace reeb {
 
 class ChunkLeafRemoval {
  public:
-  // Removes, until nothing changes, extrema with one arc of persistence < noise_below whose saddle
-  // has another path in their direction that reaches beyond them; saddles used here only
-  // disappear when they become (1, 1). What lay on a leaf's arc comes to lie on that other path,
-  // the leaf with it. Returns how many leaves are gone. If such leaves are few, only the arcs at their
-  // saddles are looked at: what takes longer ways to be seen is left, for whoever sees all of the graph.
-  // O(leaves) if none is of so little persistence, else O(nodes + arcs), most of it for the looks.
+  // Removes, until nothing changes, leaves of persistence < noise_below whose saddle has another path in their
+  // direction that reaches beyond them. Saddles that are used here only are contracted when they become (1, 1) nodes.
+  // The vertices of a leaf's arc, and the leaf, are moved to that other path. Returns the number of removed leaves.
+  // If such leaves are few, only the arcs at their saddles are examined; the last pass over the whole graph removes
+  // the leaves for which that does not suffice.
+  // O(leaves) if no leaf has a persistence < noise_below, else O(nodes + arcs), most of it for finding other paths.
   std::size_t run(SweepGraph& graph, const SweptChunk& swept, double noise_below);
   std::size_t memory_bytes() const;
 
  private:
-  // A node's arcs on each side, by their number and the exclusive or of their ids: enough to find
-  // the arc of a side that has only one.
+  // The arcs of a node on each side: their number, and the xor of their ids, which is the arc if there is only one.
   struct Node {
     std::array<std::uint32_t, 2> degree;
     std::array<std::uint32_t, 2> arcs_xor;
     std::array<SweepNode, 2> reach;  // the farthest node on monotone paths
-    std::array<SweepArc, 2> via;     // the first arc on the way there
+    std::array<SweepArc, 2> via;     // the first arc on the path to it
   };
 
   void find_candidates();
@@ -61,10 +59,10 @@ class ChunkLeafRemoval {
   double noise_below_ = 0;
   std::size_t removed_ = 0;
   IdVector<SweepNode, Node> nodes_;
-  IdVector<SweepNode, std::uint8_t> whole_;  // by node: whether it knows all its arcs; nothing is done at others
-  std::vector<SweepArc> arcs_;               // of candidates; then all that whole nodes have, ascending
+  IdVector<SweepNode, std::uint8_t> whole_;  // whether all arcs of a node are in nodes_; other nodes stay as they are
+  std::vector<SweepArc> arcs_;               // first those of candidates; then all arcs of whole nodes, ascending
   std::vector<PathBuckets> path_;
-  std::vector<SweepNode> candidates_;  // nodes that may be leaves to be looked at
+  std::vector<SweepNode> candidates_;  // nodes to examine, which might be leaves
 };
 
 }  // namespace reeb

@@ -10,7 +10,7 @@ namespace {
 struct SortedCorners {
   SortedCorners(const std::uint32_t* rank, const std::uint32_t* corners) {
     const std::uint32_t a = rank[corners[0]], b = rank[corners[1]], c = rank[corners[2]];
-    // Without branches, since none could be foretold.
+    // Without branches, since they could not be predicted.
     lo = std::min(std::min(a, b), c);
     hi = std::max(std::max(a, b), c);
     const std::uint32_t rest = a ^ b ^ c ^ lo ^ hi;
@@ -28,8 +28,7 @@ void ChunkStars::build(const Chunk& chunk, std::span<const std::uint32_t> order)
   fill(chunk);
 }
 
-// Leaves ends_[v + 1] where the triangles and lists of v begin, so that filling them advances it to
-// their end.
+// Sets ends_[v + 1] to where the triangles and lists of v begin; fill() then advances it to where they end.
 void ChunkStars::count(const Chunk& chunk) {
   ends_.assign(chunk.vertex_count() + 1, {0, 0, 0});
   Ends* const counts = ends_.data() + 1;

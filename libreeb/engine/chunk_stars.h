@@ -1,8 +1,8 @@
-// The stars of a chunk's vertices in rank space: who is lowest, middle and highest where.
+// The stars of a chunk's vertices, by rank: in which triangles a vertex is the lowest, middle or highest corner.
 //
-// Triangles are renumbered so that those with the same lowest vertex are consecutive; for middle
-// and highest vertices there are lists (CSR). An edge is kept as a triangle with mid == hi and is
-// in no middle list; a loose vertex is in no list at all.
+// Triangles are renumbered such that those with the same lowest vertex are consecutive; for middle and highest vertices
+// there are lists (CSR). An edge is stored as a triangle with mid == hi and is in no middle list. A loose vertex is in
+// no list.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ class ChunkStars {
  public:
   struct Triangle {
     std::uint32_t lo, mid, hi;  // ranks
-    std::uint32_t place;        // in the chunk's stream
+    std::uint32_t place;        // its index in the chunk, which is in stream order
   };
 
   // O(vertices + triangles). `order[r]` is the local vertex of rank r.
@@ -31,11 +31,11 @@ class ChunkStars {
   std::span<const std::uint32_t> middles(std::uint32_t v) const {
     return {lists_.data() + ends_[v].high, ends_[v + 1].mid - ends_[v].high};
   }
-  // Those in which rank v is not lowest: the middles first.
+  // The triangles in which rank v is not lowest: the middles first.
   std::span<const std::uint32_t> middles_and_highs(std::uint32_t v) const {
     return {lists_.data() + ends_[v].high, ends_[v + 1].high - ends_[v].high};
   }
-  // The last place in the stream at which rank v is used; 0 if nowhere.
+  // The place of the last triangle that uses rank v; 0 if there is none.
   std::uint32_t last_place(std::uint32_t v) const;
 
   std::size_t memory_bytes() const {
@@ -44,8 +44,8 @@ class ChunkStars {
   }
 
  private:
-  // Where those end in which a vertex is lowest (among the triangles), and in which it is middle and
-  // then highest (in the lists).
+  // Where the triangles of a vertex end: those in which it is lowest, among the triangles; those in which it is middle,
+  // then those in which it is highest, in the lists.
   struct Ends {
     std::uint32_t low, mid, high;
   };
@@ -55,7 +55,7 @@ class ChunkStars {
 
   std::vector<std::uint32_t> rank_;  // of each local vertex
   std::vector<Triangle> triangles_;
-  std::vector<Ends> ends_;  // of rank v at v + 1, before it zeros
+  std::vector<Ends> ends_;  // those of rank v are at v + 1; entry 0 is zeros
   std::vector<std::uint32_t> lists_;
 };
 

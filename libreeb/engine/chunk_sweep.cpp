@@ -16,9 +16,9 @@ namespace {
 
 constexpr std::uint32_t kNone = ~std::uint32_t{0};
 
-// The triangles that cross the level, each by two of its edges: lo-hi, and lo-mid up to its middle
-// vertex, mid-hi from there on. These are its half-edges 2 * t and 2 * t + 1, each in a ring with
-// those of the other triangles at the same mesh edge.
+// The triangles that cross the level. Two edges of a triangle t cross it: lo-hi always; lo-mid below its middle vertex
+// and mid-hi above it. They are its half-edges 2 * t and 2 * t + 1. Each is in a ring with the half-edges of the other
+// triangles at the same mesh edge.
 class Crossings {
  public:
   void reset(std::size_t triangles) { halves_.resize(2 * triangles); }
@@ -26,14 +26,14 @@ class Crossings {
   std::uint32_t next(std::uint32_t half) const { return halves_[half].next; }
   std::uint32_t& label(std::uint32_t t) { return halves_[2 * std::size_t{t}].label; }
   std::uint32_t label(std::uint32_t t) const { return halves_[2 * std::size_t{t}].label; }
-  // Asks for what a step from triangle t looks at.
+  // Prefetches what a step from triangle t reads.
   void prefetch_beyond(std::uint32_t t) const {
     for (const std::uint32_t half : {2 * t, 2 * t + 1}) __builtin_prefetch(&halves_[halves_[half].next & ~1u]);
   }
   std::size_t memory_bytes() const { return halves_.capacity() * sizeof(Half); }
 
  private:
-  // Label and rings of a triangle lie side by side, since a walk asks for all of them.
+  // Label and rings of a triangle are next to each other, since a walk reads all of them.
   struct Half {
     std::uint32_t next;
     std::uint32_t label;  // of the triangle, in its first half-edge
@@ -41,8 +41,8 @@ class Crossings {
   std::vector<Half> halves_;
 };
 
-// The edges up from the vertex at hand, numbered in order of discovery, and their groups: edges
-// that triangles with the vertex as lowest corner hold together.
+// The edges up from the current vertex, numbered in order of discovery, and their groups: edges that are connected by
+// triangles with the vertex as lowest corner.
 class UpwardEdges {
  public:
   void reset(std::size_t vertices) {
@@ -50,14 +50,14 @@ class UpwardEdges {
     first_ = 1;
     count_ = 0;
   }
-  // Takes the edges up from v, makes the rings of their half-edges, and unites edges of one triangle.
+  // Finds the edges up from v, links their half-edges into rings, and unites the edges of each triangle.
   void collect(std::uint32_t v, const ChunkStars& stars, Crossings& crossings) {
     const std::uint32_t low_first = stars.low_first(v), low_last = stars.low_last(v);
     const auto middles = stars.middles(v);
     const std::size_t most = middles.size() + 2 * std::size_t{low_last - low_first};
     if (edges_.size() < most) edges_.resize(most);
     const std::uint32_t first = first_ + count_;
-    std::uint32_t count = 0, groups = 0;  // kept out of reach of what is written through pointers
+    std::uint32_t count = 0, groups = 0;  // locals stay in registers: no write through a pointer can change them
 
     // Enters a half-edge up to `hi` and links it into the ring of its edge; returns the edge.
     const auto touch = [&](std::uint32_t hi, std::uint32_t half) {
@@ -91,7 +91,7 @@ class UpwardEdges {
   std::uint32_t groups() const { return groups_; }
   std::uint32_t hi(std::uint32_t e) const { return edges_[e].hi; }
   std::uint32_t head(std::uint32_t e) const { return edges_[e].head; }
-  // The edge that stands for the group of e.
+  // The edge that represents the group of e.
   std::uint32_t group(std::uint32_t e) {
     while (edges_[e].parent != e) e = edges_[e].parent = edges_[edges_[e].parent].parent;
     return e;
@@ -112,13 +112,13 @@ class UpwardEdges {
     return a != b;
   }
 
-  std::vector<std::uint32_t> edge_of_;  // by rank: first_ + edge; of earlier vertices if less
+  std::vector<std::uint32_t> edge_of_;  // by rank: first_ + edge; less than first_: of an earlier vertex
   std::uint32_t first_ = 1;
   std::vector<Edge> edges_;  // count_ of them
   std::uint32_t count_ = 0, groups_ = 0;
 };
 
-// Labels of crossing triangles, and which arc each set of labels stands for.
+// Labels of crossing triangles, and the arc of each set of labels.
 class Labels {
  public:
   void clear() { labels_.clear(); }
@@ -134,7 +134,7 @@ class Labels {
   bool is_root(std::uint32_t x) const { return labels_[x].parent == x; }
   void merge_into(std::uint32_t root, std::uint32_t other) { labels_[other].parent = root; }
   SweepArc& arc(std::uint32_t root) { return labels_[root].arc; }
-  // True the first time that it is asked about this root at v.
+  // True in the first call for this root at v.
   bool mark(std::uint32_t root, std::uint32_t v) { return std::exchange(labels_[root].marked, v + 1) != v + 1; }
   std::size_t memory_bytes() const { return labels_.capacity() * sizeof(Label); }
 
@@ -142,7 +142,7 @@ class Labels {
   struct Label {
     std::uint32_t parent;
     SweepArc arc;
-    std::uint32_t marked;  // 1 + the last vertex at which it was
+    std::uint32_t marked;  // 1 + the last vertex at which it was marked
   };
   std::vector<Label> labels_;
 };
@@ -220,13 +220,13 @@ struct ChunkSweep::Scratch {
   Labels labels;
   UpwardEdges up;
   std::vector<std::uint32_t> below;    // label roots of the arcs that reach v
-  std::vector<SweepArc> group_arc;     // by upward edge that stands for its group
-  std::vector<std::uint32_t> side_of;  // by upward edge that stands for its group
+  std::vector<SweepArc> group_arc;     // by upward edge that represents its group
+  std::vector<std::uint32_t> side_of;  // by upward edge that represents its group
 
-  // The walk at hand. Side s has the label first_side + s; sides that met have one root.
+  // The current walk. Side s has the label first_side + s; sides that met have the same root.
   std::vector<Side> sides;
   std::uint32_t first_side = 0;
-  std::vector<std::uint32_t> active;  // sides that may be neither exhausted nor met
+  std::vector<std::uint32_t> active;  // sides that are not known to be exhausted or to have met another
 };
 
 ChunkSweep::ChunkSweep() : scratch_(std::make_unique<Scratch>()) {}
@@ -250,7 +250,7 @@ void ChunkSweep::Scratch::run(const Chunk& chunk_in, std::span<const double> val
   const SweptChunk swept_chunk{*chunk, values, ranks.order(), stars};
   swept = &swept_chunk;
   const auto n = static_cast<std::uint32_t>(chunk->vertex_count());
-  // Bucket after bucket where they are wanted, else all at once.
+  // One bucket after the other if there is an embedding, else all vertices at once.
   for (std::uint32_t v = 0, end = n; v < n; end = n) {
     if (options.bucket_exponent) {
       const std::int64_t index = bucket_index(swept->value(VertexRank(v)), *options.bucket_exponent);
@@ -327,10 +327,10 @@ void ChunkSweep::Scratch::label_lows(std::uint32_t v, std::uint32_t label) {
   for (std::uint32_t t = stars.low_first(v); t < stars.low_last(v); ++t) crossings.label(t) = label;
 }
 
-// Nothing hangs below v: each group is a contour of its own.
+// v has nothing below it: each group is a contour of its own.
 void ChunkSweep::Scratch::start_arcs(std::uint32_t v, SweepNode node) {
   group_arc.resize(up.count());
-  side_of.resize(up.count());  // here: the label of the group
+  side_of.resize(up.count());  // holds the label of the group here
   for (std::uint32_t e = 0; e < up.count(); ++e) {
     if (up.group(e) != e) continue;
     group_arc[e] = builder.add_arc(node);
@@ -340,7 +340,7 @@ void ChunkSweep::Scratch::start_arcs(std::uint32_t v, SweepNode node) {
     crossings.label(t) = side_of[up.group_of_neighbour(stars[t].hi)];
 }
 
-// All arcs from below go on as one new arc, which is returned.
+// All arcs from below continue as one new arc, which is returned.
 SweepArc ChunkSweep::Scratch::join_below(SweepNode node) {
   const SweepArc arc = builder.add_arc(node);
   if (below.empty()) below.push_back(labels.add(arc));
@@ -358,8 +358,7 @@ void ChunkSweep::Scratch::continue_as_one(std::uint32_t v, SweepNode node) {
   label_lows(v, below[0]);
 }
 
-// v splits: the side that was not exhausted goes on under the labels from below, each of the
-// others under its own.
+// v splits: the side that was not exhausted keeps the labels from below, each of the others has its own.
 void ChunkSweep::Scratch::separate(std::uint32_t v, SweepNode node) {
   const SweepArc main_arc = join_below(node);
   for (std::uint32_t s = 0; s < up.groups(); ++s)
@@ -372,7 +371,7 @@ void ChunkSweep::Scratch::separate(std::uint32_t v, SweepNode node) {
     if (up.group(e) == e) group_arc[e] = labels.arc(labels.find(first_side + side_of[e]));
 }
 
-// The shared edges that cross the level on this side do not take the main branch.
+// The paths of shared edges that cross the level on this side do not take the main branch.
 void ChunkSweep::Scratch::note_branches(std::uint32_t v, const Side& side, SweepNode node, SweepArc arc) {
   for (const std::uint32_t t : side.queue) {
     const auto& [lo, mid, hi, place] = stars[t];
@@ -398,9 +397,9 @@ void ChunkSweep::Scratch::add_shared_edges(std::uint32_t v, SweepNode node) {
   shared_edges.finish_vertex(VertexRank(v));
 }
 
-// Walks the level set just above v from all groups in lockstep until all but one are exhausted or
-// met. Returns the number of sides: the exhausted ones and the one that is left. The work is a
-// constant times what the exhausted sides hold, and at most as much again on the last.
+// Walks the level set just above v from all groups in lockstep until all but one are exhausted or have met another.
+// Returns the number of sides: the exhausted ones and the remaining one. The work is proportional to the size of the
+// exhausted sides, plus at most the same work on the remaining side.
 std::size_t ChunkSweep::Scratch::walk(std::uint32_t v) {
   seed_sides(v);
   std::size_t exhausted = 0;
@@ -441,9 +440,9 @@ void ChunkSweep::Scratch::seed_sides(std::uint32_t v) {
     enter(t, side_of[up.group_of_neighbour(stars[t].hi)]);
 }
 
-// Visits one triangle. Of the triangles round a crossing edge only the next in the ring is
-// looked at: following the rings from every visited triangle reaches all of them, at a constant
-// cost a triangle however many share an edge.
+// Visits one triangle. Of the other triangles at a crossing edge, only the next one in the ring is examined. Since that
+// is done from every visited triangle, the walk reaches all of them. The cost per triangle is constant, however many
+// share an edge.
 void ChunkSweep::Scratch::step(std::uint32_t s) {
   Side& side = sides[s];
   const std::uint32_t t = side.queue[side.visited++];
@@ -456,7 +455,7 @@ void ChunkSweep::Scratch::step(std::uint32_t s) {
     }
     const std::uint32_t there = labels.find(label) - first_side;
     if (there == s) continue;
-    // Both are active: an exhausted side has no way out to another. The side at hand stays.
+    // Both sides are active: no step leads from an exhausted side to another one. The current side stays.
     labels.merge_into(first_side + s, first_side + there);
     side.take_pending(sides[there]);
   }

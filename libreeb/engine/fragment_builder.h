@@ -1,4 +1,4 @@
-// Takes down the arcs of a sweep and reduces them to a fragment.
+// Records the nodes and arcs of a sweep, and reduces them to a fragment.
 #pragma once
 
 #include <compare>
@@ -22,23 +22,23 @@ class FragmentBuilder {
   SweepNode add_node(VertexRank v);
   SweepArc add_arc(SweepNode lower_node);
   void end_arc(SweepArc arc, SweepNode upper_node) { graph_.arcs[arc].hi = upper_node; }
-  // The node has this arc and no other.
+  // Notes that the node has this arc and no other.
   void note_leaf(SweepNode node, SweepArc arc) { graph_.leaves.push_back({node, arc}); }
-  // From here on vertices are in the bucket of this index, which rises from call to call.
+  // Says that the vertices up to the next call are in the bucket of this index, which rises from call to call.
   void start_bucket(std::int64_t index) { graph_.buckets.start_bucket(index); }
-  // This vertex, which no other chunk uses, is no node; it lies on the arc.
+  // Adds a regular vertex, which no other chunk uses, to the arc.
   void add_regular(SweepArc arc, LocalVertex v) {
-    bucket_of_[v] = graph_.buckets.bucket_at_hand(graph_.arc_buckets[arc]);
+    bucket_of_[v] = graph_.buckets.current_bucket(graph_.arc_buckets[arc]);
   }
-  // The arc up from `node` that every path takes for which no other branch is noted.
+  // Sets the arc up from `node` that a path takes unless another branch is noted for it.
   void set_main_branch(SweepNode node, SweepArc arc) { graph_.nodes[node].main_branch = arc; }
 
-  // Replaces `fragment`. REQUIRES: every arc has both ends; `shared` are all shared edges of the chunk.
+  // Replaces `fragment`. REQUIRES: every arc has both ends; `shared` has all shared edges of the chunk.
   void finish(const SweptChunk& swept, const SharedEdges& shared, Fragment& fragment);
   std::size_t memory_bytes() const;
 
  private:
-  // A step of gluing as one number, in the order of steps: zipping the shared edge, or completing the
+  // A step of gluing, packed into a number that sorts in the order of steps. It zips the shared edge, or completes the
   // node, with this index.
   class PackedStep {
    public:
@@ -63,8 +63,8 @@ class FragmentBuilder {
   SweepGraph graph_;
   ChunkLeafRemoval leaf_removal_;
   FragmentDivision division_;
-  IdVector<VertexRank, SweepNode> node_of_;              // for those that are nodes
-  IdVector<LocalVertex, BucketLists::Index> bucket_of_;  // nowhere for nodes
+  IdVector<VertexRank, SweepNode> node_of_;              // set for nodes only
+  IdVector<LocalVertex, BucketLists::Index> bucket_of_;  // kNowhere for nodes
   std::vector<PackedStep> steps_;                        // sorted
   std::vector<SweepArc> path_arcs_;                      // as in the fragment
 };

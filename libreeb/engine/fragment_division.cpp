@@ -3,9 +3,9 @@
 namespace reeb {
 namespace {
 
-// Finds which nodes can still become (1, 1) nodes, or get further arcs. As in LiveGraph, a node that no
-// other chunk uses stays one for good if on one of its sides there is no arc, or two and one of them
-// without paths; a node that is near noise can change as long as there is any path.
+// Finds which nodes can still become (1, 1) nodes, or get further arcs. As in LiveGraph, a node that no other chunk
+// uses cannot change if one of its sides has no arc, or has two arcs of which one is on no path. A node near noise can
+// change while any of its arcs is on a path.
 void find_changing_nodes(SweepGraph& graph, const SweptChunk& swept, double noise_below) {
   using Side = SweepGraph::Side;
   auto& nodes = graph.nodes;
@@ -32,8 +32,8 @@ void find_changing_nodes(SweepGraph& graph, const SweptChunk& swept, double nois
 }
 
 void add_settled_buckets(SweepGraph& graph, SweepArc arc, Fragment& fragment) {
-  constexpr std::uint32_t kAhead = 8;
-  if (const SweepArc later(arc.value() + kAhead); later < graph.arc_buckets.end_id())
+  constexpr std::uint32_t kPrefetchDistance = 8;  // arcs
+  if (const SweepArc later(arc.value() + kPrefetchDistance); later < graph.arc_buckets.end_id())
     graph.buckets.prefetch(graph.arc_buckets[later]);
   const std::size_t before = fragment.settled_buckets.size();
   graph.buckets.drain(graph.arc_buckets[arc],
@@ -52,7 +52,7 @@ void FragmentDivision::run(SweepGraph& graph, const SweptChunk& swept, const Swe
   if (options.bucket_exponent) add_buckets(graph, fragment);
 }
 
-// An arc is settled if no path runs on it and none of its ends can change; a node leaves when all its arcs do.
+// An arc is settled if it is on no path and neither of its ends can change. A node is settled if all its arcs are.
 void FragmentDivision::divide_arcs(SweepGraph& graph, bool embeds, Fragment& fragment) {
   constexpr FragmentNode kOpen{0};  // numbered later
   for (SweepGraph::Node& node : graph.nodes) node.open = node.can_change ? kOpen : FragmentNode::none();
@@ -73,8 +73,8 @@ void FragmentDivision::divide_arcs(SweepGraph& graph, bool embeds, Fragment& fra
   }
 }
 
-// Open nodes, and arcs and edges too, are numbered in the order of the stream, not of the sweep:
-// what is glued together then lies together in memory.
+// Open nodes, arcs and edges are numbered in stream order, not in the order of the sweep. So what is glued together is
+// near each other in memory.
 void FragmentDivision::add_nodes(SweepGraph& graph, const SweptChunk& swept, Fragment& fragment) {
   node_at_.assign(swept.order.size(), SweepNode::none());
   for (SweepNode n; n < graph.nodes.end_id(); ++n) {

@@ -1,5 +1,5 @@
-// Divides the graph of a sweep into what the rest of the mesh can still change and what it cannot:
-// a fragment's open nodes and arcs, and its settled ones.
+// Divides the graph of a sweep into a fragment's open nodes and arcs, which the rest of the mesh can still change, and
+// its settled ones.
 #pragma once
 
 #include <cstddef>
@@ -14,9 +14,8 @@ namespace reeb {
 
 class FragmentDivision {
  public:
-  // Adds the nodes and arcs of `graph` to `fragment`, with their embedding, which leaves the graph.
-  // Nodes and arcs of the graph then know what they are in the fragment.
-  // REQUIRES: arcs know whether a path runs on them.
+  // Adds the nodes and arcs of `graph` to `fragment`, and moves their embedding there. Sets `open` of the nodes and
+  // arcs of the graph. REQUIRES: `referenced` is set for the arcs on paths.
   void run(SweepGraph& graph, const SweptChunk& swept, const SweepOptions& options, Fragment& fragment);
   std::size_t memory_bytes() const {
     return 4 * (node_at_.capacity() + open_arcs_.capacity() + arc_at_.capacity() + arcs_from_.capacity());
@@ -31,7 +30,7 @@ class FragmentDivision {
   std::vector<SweepArc> open_arcs_;
   IdVector<LocalVertex, SweepNode> node_at_;  // none() if it is no open node
   IdVector<FragmentArc, SweepArc> arc_at_;
-  std::vector<std::uint32_t> arcs_from_;  // by open node: where its arcs up are numbered from
+  std::vector<std::uint32_t> arcs_from_;  // by open node: the next number for its arcs up
 };
 
 }  // namespace reeb

@@ -48,7 +48,7 @@ void Glue::add_arcs(const Fragment& fragment) {
                            .subspan(fragment.bucket_begin[i], fragment.bucket_begin[i + 1] - fragment.bucket_begin[i]));
 }
 
-// All paths first: zips change the arcs that later paths of the same fragment run on.
+// All paths are added before the first zip, since zips change the arcs that later paths of the fragment run on.
 void Glue::add_paths(const Fragment& fragment) {
   pending_.assign(fragment.edges.size(), {});
   for (std::size_t i = 0; i < fragment.edges.size(); ++i) {
@@ -69,7 +69,7 @@ LiveGraph::Index Glue::add_path(const Fragment& fragment, std::size_t edge) {
   return top;
 }
 
-// Completing between zips, in stream order, keeps the paths short that are still to be zipped.
+// Vertices are completed between zips, in stream order. That keeps short the paths that are still to be zipped.
 void Glue::run_steps(const Fragment& fragment) {
   for (const Fragment::Step& step : fragment.steps) {
     if (step.completes) {
@@ -134,7 +134,7 @@ std::size_t Glue::memory_bytes() const {
          pending_.capacity() * sizeof(Pending);
 }
 
-// ---- saving and restoring, between two fragments; the two maps are told from the arrays
+// ---- saving and restoring, between two fragments; the two maps are rebuilt from the arrays
 
 void Glue::save(StateWriter& out) const {
   graph_.save(out);

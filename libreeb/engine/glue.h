@@ -1,12 +1,12 @@
-// Glues fragments, in stream order, into the live graph: the one engine behind the parallel
-// pipeline and the on-line class (docs/ARCHITECTURE.md, Why fragments are right).
+// Glues fragments, in stream order, to the live graph. The parallel pipeline and the on-line class both use it
+// (docs/ARCHITECTURE.md, Why fragments are right).
 //
-// Why it is right: the Reeb graph of a union is that of its parts once equal vertices are one
-// node and, for every edge that two parts share, the two paths are zipped. A fragment brings a
-// path for every edge that another chunk can have, so nothing is missed; a path is dropped when
-// one of its ends is complete, since then no later chunk can have the edge.
+// Why it is right: take the Reeb graphs of two chunks, make the nodes of equal vertices one node, and zip the two paths
+// of every edge that both chunks have. That yields the Reeb graph of the union. A fragment has a path for every edge
+// that another chunk can have. A path is dropped when one of its ends is complete, since then no later chunk can have
+// the edge.
 //
-// TIME: O(fragment) plus the steps of the zips. MEMORY: proportional to the live front.
+// TIME: O(fragment) plus the steps of the zips. MEMORY: proportional to the front.
 #pragma once
 
 #include <cstddef>
@@ -27,13 +27,13 @@ class Glue {
   Glue(GraphSink& sink, bool track_positions) : sink_(&sink), graph_(sink, track_positions) {}
 
   // Adds the next fragment of the stream.
-  // REQUIRES: vertices that its nodes call used earlier were in an earlier fragment, and were
-  // called used later there; its options do not fall behind those of earlier fragments.
+  // REQUIRES: a vertex that it marks kUsedEarlier was marked kUsedLater in an earlier fragment; its options are not
+  // less than those of earlier fragments.
   void add(const Fragment& fragment);
 
-  // What was glued so far, for another process to go on with; settled parts are the sink's.
+  // The state so far, from which another process can continue. What was passed to the sink is not part of it.
   void save(StateWriter& out) const;
-  // THROWS: DamagedState; then this is of no use any more.
+  // THROWS: DamagedState; then the object must not be used any more.
   void restore(StateReader& in);
 
   // Pairs that were removed as noise so far, here and in fragments.
@@ -47,8 +47,8 @@ class Glue {
   using Index = LiveGraph::Index;
   static constexpr Index kNone = LiveGraph::kNone;
 
-  // A mesh edge whose path is kept. Edge e is in the list of its lower end by link 2e and in that
-  // of its upper end by link 2e + 1.
+  // A mesh edge whose path is kept. Link 2e puts edge e in the list of its lower end, link 2e + 1 in the list of its
+  // upper end.
   struct Edge {
     Index lo, hi;
     Index top;  // of its path; while free, the next free edge
@@ -80,7 +80,7 @@ class Glue {
   Index first_free_edge_ = kNone;
   GrowingArray<Index> first_link_;  // by node: its list of kept edges
 
-  std::vector<Index> nodes_, arcs_;  // of the fragment at hand
+  std::vector<Index> nodes_, arcs_;  // of the current fragment
   struct Pending {
     Index edge = kNone;  // the live edge with which to zip
     Index top = kNone;   // of the fragment's path

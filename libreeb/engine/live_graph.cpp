@@ -30,7 +30,7 @@ LiveGraph::Index LiveGraph::add_node(const SweepKey& key, const Point& position,
     if (positions_.size() < nodes_.size()) positions_.grow_by(1);
     positions_[n] = position;
   }
-  // A complete node is looked at once everything that comes with it is in place.
+  // tidy() examines a complete node when the arcs and paths of its fragment are in place.
   if (state != State::kIncomplete) queue(n);
   return n;
 }
@@ -52,14 +52,14 @@ LiveGraph::Index LiveGraph::add_arc(Index lo, Index hi) {
 
 void LiveGraph::release(Index a) {
   notice_noise(a);
-  if (can_leave(a)) hand_over(a);
+  if (can_leave(a)) write_out(a);
 }
 
 void LiveGraph::add_buckets(Index arc, std::span<const BucketSum> buckets) {
   for (const BucketSum& bucket : buckets) buckets_.append(arc_buckets_[arc], bucket);
 }
 
-// Buckets are moved after the arcs, and asked for before: they come meanwhile.
+// Buckets are moved after their arcs were relinked. Prefetched before that, they arrive in the cache meanwhile.
 void LiveGraph::prefetch_buckets(Index a, Index b) const {
   if (!embeds_) return;
   buckets_.prefetch(arc_buckets_[a]);
@@ -123,7 +123,7 @@ void LiveGraph::lost_references(Index a) {
     --nodes_[n].referenced_arcs;
     queue(n);
   }
-  if (can_leave(a)) hand_over(a);
+  if (can_leave(a)) write_out(a);
 }
 
 LiveGraph::Index LiveGraph::add_reference(Index arc, Index below) {
@@ -164,7 +164,7 @@ void LiveGraph::zip(Index a, Index b) {
         cut(arc_b, arc_a);
       }
     }
-    // Both references are on the same arc now, and one is enough.
+    // Both references are on the same arc now: drop one of them.
     unlink(b);
     const Index below = references_[b].down;
     references_.free(b);
@@ -173,7 +173,6 @@ void LiveGraph::zip(Index a, Index b) {
   }
 }
 
-// Two arcs with the same ends become one.
 void LiveGraph::merge_parallel(Index keep, Index gone) {
   prefetch_buckets(keep, gone);
   Index last = kNone;
@@ -194,8 +193,8 @@ void LiveGraph::merge_parallel(Index keep, Index gone) {
   if (embeds_) buckets_.merge(arc_buckets_[keep], arc_buckets_[gone]);
 }
 
-// `longer` and `shorter` have the same upper end: the upper part of `longer` becomes one with
-// `shorter`, what is left of it ends at the lower node of `shorter`.
+// `longer` and `shorter` have the same upper end. The upper part of `longer` is merged into `shorter`; the rest of
+// `longer` then ends at the lower node of `shorter`.
 void LiveGraph::cut(Index longer, Index shorter) {
   const Index top = arcs_[longer].hi(), bottom = arcs_[shorter].lo();
   prefetch_buckets(longer, shorter);
@@ -248,20 +247,20 @@ void LiveGraph::tidy() {
       contract(n);
     else if (node.state == State::kComplete && stays_for_good(node))
       settle(n);
-    // A settled node leaves with its last arc; one without arcs leaves at once.
+    // A settled node is written out after its last arc; without arcs, at once.
     if (node.used && node.state == State::kSettled && node.degree() == 0) {
       settled_.add_node({node.key, track_positions_ ? positions_[n] : Point{}});
       free_node(n);
     }
   }
-  constexpr std::size_t kNodesAndArcsAFlush = 4096;
-  if (settled_.size() >= kNodesAndArcsAFlush) flush();
+  constexpr std::size_t kNodesAndArcsPerFlush = 4096;
+  if (settled_.size() >= kNodesAndArcsPerFlush) flush();
 }
 
-// Whether a complete node, not a (1, 1) one, will never become one. Zips merge referenced arcs with
-// each other only, and leave at least one on each side that has any. So a side keeps two arcs for
-// good if it has two and one of them is not referenced; and an empty side stays empty. But noise can
-// go as long as the arcs of its saddle are here, so near noise they wait until no path is left.
+// Whether a complete node that is not a (1, 1) node will never become one. Zips merge referenced arcs with each other
+// only, and leave at least one on each side that has any. So a side with two arcs keeps two for good if one of them is
+// not referenced, and an empty side stays empty. But noise can be removed only while the arcs of its saddle are here.
+// So a node near noise waits until none of its arcs is referenced.
 bool LiveGraph::stays_for_good(const Node& node) const {
   if (node.near_noise) return node.referenced_arcs == 0;
   if (node.degree(kUp) == 0 || node.degree(kDown) == 0) return true;
@@ -276,8 +275,8 @@ bool LiveGraph::can_leave(Index a) const {
          nodes_[arcs_[a].hi()].state == State::kSettled;
 }
 
-// The two arcs of a (1, 1) node become one: every path on the upper arc goes on along the lower
-// one, since no path ends at a complete vertex.
+// The two arcs of a (1, 1) node become one. Every path on the upper arc continues on the lower one, since no path ends
+// at a complete vertex.
 void LiveGraph::contract(Index n) {
   const Index upper = nodes_[n].first(kUp), lower = nodes_[n].first(kDown);
   prefetch_buckets(lower, upper);
@@ -299,12 +298,12 @@ void LiveGraph::contract(Index n) {
   }
   free_node(n);
   notice_noise(upper);
-  if (is_noise(upper)) {  // a leaf has another saddle now
+  if (is_noise(upper)) {  // if an end is a leaf, its saddle has changed
     for (const Index end : {lo, hi})
       if (is_leaf(nodes_[end])) try_leaf(end);
     if (!nodes_[lo].used || !nodes_[hi].used) return;
   }
-  if (can_leave(upper)) hand_over(upper);
+  if (can_leave(upper)) write_out(upper);
 }
 
 void LiveGraph::settle(Index n) {
@@ -312,12 +311,12 @@ void LiveGraph::settle(Index n) {
   for (const Direction d : {kUp, kDown})
     for (Index a = nodes_[n].first(d); a != kNone;) {
       const Index next = arcs_[a].next(d);
-      if (can_leave(a)) hand_over(a);
+      if (can_leave(a)) write_out(a);
       a = next;
     }
 }
 
-void LiveGraph::hand_over(Index a) {
+void LiveGraph::write_out(Index a) {
   const Index lo = arcs_[a].lo(), hi = arcs_[a].hi();
   settled_.add_arc({nodes_[lo].key, nodes_[hi].key});
   if (embeds_)
@@ -337,7 +336,7 @@ void LiveGraph::flush() { settled_.flush(*sink_, buckets_.exponent()); }
 // ---- looking
 
 void LiveGraph::snapshot(std::vector<ArcKeys>& arcs, std::vector<SweepKey>& isolated) const {
-  // Where arcs were handed over already, the degree here says nothing.
+  // is_pass_through() is false for a node whose arcs were partly written out: its degree here means nothing.
   const auto stays = [&](const Node& n) { return !is_pass_through(n); };
   for (Index n = 0; n < nodes_.size(); ++n) {
     const Node& node = nodes_[n];

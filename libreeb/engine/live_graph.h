@@ -1,16 +1,15 @@
 // The part of the Reeb graph that can still change: nodes, arcs, and the paths of mesh edges
 // (the paper's section 2; docs/ARCHITECTURE.md, Why fragments are right).
 //
-// A path is a chain of references, one on each arc of a monotone chain, from above; each arc
-// lists the references on it. Two paths with the same ends are zipped: their arcs are merged from
-// above, the shorter arc cutting the longer one. A node whose vertex is complete (all its
-// simplices are in) disappears when it has one arc up and one down. A node is settled when it is
-// complete and can never come to that; an arc without references whose ends are settled leaves for
-// the sink. So of a bump on a long path only the fork stays, not the arc to its top.
+// A path is a chain of references, one on each arc of a monotone chain, from the top down; each arc lists the
+// references on it. Two paths with the same ends are zipped: their arcs are merged from above, and the shorter arc
+// cuts the longer one. A node whose vertex is complete (all its simplices are in) is contracted when it has one arc up
+// and one down. A complete node that can never come to that is settled. An arc without references whose ends are
+// settled is written out. So of a bump on a long path only the fork stays here, not the arc to its top.
 //
-// Noise (docs/SEMANTICS.md, Noise removal): a leaf whose arc cannot change is removed as soon as its saddle is seen to
-// have another path that reaches beyond it. Looks are few; a leaf for which they do not suffice
-// stays for a last pass over the whole graph.
+// Noise (docs/SEMANTICS.md, Noise removal): a leaf whose arc cannot change is removed once a search finds that its
+// saddle has another path that reaches beyond the leaf. The searches are short; a last pass over the whole graph
+// removes the leaves for which they do not suffice.
 //
 // Everything is a 32-bit index into flat arrays with free lists; a reference is 16 bytes.
 #pragma once
@@ -38,45 +37,45 @@ class LiveGraph {
   using Index = std::uint32_t;
   static constexpr Index kNone = ~Index{0};
 
-  // Whether a node's vertex can get further simplices, or not, or the node is one of the final
-  // graph for certain (but for the removal of noise).
+  // Incomplete: the node's vertex can get further simplices. Complete: it cannot. Settled: in addition, the node is
+  // certain to be in the final graph, unless noise removal takes it away.
   enum class State : std::uint8_t { kIncomplete, kComplete, kSettled };
 
   // Settled nodes and arcs go to `sink` when flush() is called.
   LiveGraph(GraphSink& sink, bool track_positions) : sink_(&sink), track_positions_(track_positions) {}
 
-  // What is noise, and whether there is an embedding and how fine, from now on.
+  // Sets the noise threshold and the width of buckets, for what follows.
   void set_options(const SweepOptions& options);
 
   Index add_node(const SweepKey& key, const Point& position, State state);
   Index add_arc(Index lo, Index hi);
-  // Says that a new arc has got all the references that it gets.
+  // To be called when a new arc has all the references of its fragment.
   void release(Index arc);
-  // The embedding of an arc that was just added. REQUIRES: of the exponent of the options.
+  // The embedding of an arc that was just added. REQUIRES: buckets of the exponent in the options.
   void add_buckets(Index arc, std::span<const BucketSum> buckets);
   const SweepKey& key(Index node) const { return nodes_[node].key; }
   bool is_incomplete(Index node) const { return nodes_[node].used && nodes_[node].state == State::kIncomplete; }
 
-  // Puts a reference on `arc` above the path that starts with `below` (kNone: nothing), and
-  // returns it: the top of a path is a name for it.
+  // Puts a reference on `arc` above the path that starts with `below` (kNone: nothing), and returns it. A path is named
+  // by its top reference.
   Index add_reference(Index arc, Index below);
-  // Merges two paths with the same ends into one. `a` stays a valid top, `b` is gone.
+  // Merges two paths with the same ends into one. `a` stays a valid top, `b` does not.
   void zip(Index a, Index b);
-  // Forgets the path from `top` down.
+  // Removes the references of the path that starts with `top`.
   void drop_path(Index top);
-  // The node's vertex gets no further simplices. REQUIRES: no path starts or ends at it.
+  // To be called when the node's vertex gets no further simplices. REQUIRES: no path starts or ends at it.
   void complete(Index node);
-  // Contracts and settles what zips have made ready. Not during a walk along a path.
+  // Contracts and settles the nodes that zips and complete() made ready for it. REQUIRES: not during a walk along a
+  // path.
   void tidy();
-  // Hands what has settled to the sink.
+  // Passes what has settled on to the sink.
   void flush();
 
-  // All of it, for another process to go on with. REQUIRES: tidy() and flush() came last.
+  // The whole state, from which another process can continue. REQUIRES: the last calls were tidy() and flush().
   void save(StateWriter& out) const;
   void restore(StateReader& in);
 
-  // The present graph without its (1, 1) nodes and what was removed as noise: appends its arcs and
-  // isolated nodes.
+  // Appends the arcs and isolated nodes of the present graph, without its (1, 1) nodes and without removed noise.
   void snapshot(std::vector<ArcKeys>& arcs, std::vector<SweepKey>& isolated) const;
 
   std::size_t node_count() const { return nodes_.used(); }
@@ -84,27 +83,27 @@ class LiveGraph {
   std::size_t reference_count() const { return references_.used(); }
   std::uint64_t removed_pairs() const { return removed_pairs_; }  // leaves, so far
   std::uint64_t zips() const { return zips_; }                    // so far
-  std::uint64_t zip_steps() const { return zip_steps_; }          // arcs that they went over
+  std::uint64_t zip_steps() const { return zip_steps_; }          // arcs that zips went over
   std::size_t memory_bytes() const;
 
-  // THROWS: std::logic_error naming the first broken promise. O(live).
+  // THROWS: std::logic_error that names the first inconsistency. O(live).
   void validate() const;
 
  private:
   struct Node {
     SweepKey key;
-    // The lists of its arcs and how many they are, each by the end that the arcs have here: those up
-    // from the node have their lower end, so first_at[kDown], here.
+    // The lists of its arcs and their lengths, indexed by which end of the arc is at this node: arcs up from the node
+    // have their lower end here, so they are in the list first_at[kDown].
     std::array<Index, 2> first_at;
     std::array<std::uint32_t, 2> degree_at;
     std::uint32_t referenced_arcs;  // arcs at this node that have references
     State state;
-    bool intact : 1;  // no arc of it was handed over
+    bool intact : 1;  // no arc of it was written out
     bool queued : 1;  // in changed_
     bool used : 1;
-    bool near_noise : 1;  // it had an arc that can be noise, or come to be
+    bool near_noise : 1;  // it has or had an arc that is noise or might become noise
 
-    // Its first arc in direction d, and how many there are.
+    // Its first arc in direction d, and the number of arcs there.
     Index first(Direction d) const { return first_at[opposite(d)]; }
     std::uint32_t degree(Direction d) const { return degree_at[opposite(d)]; }
     std::uint32_t degree() const { return degree_at[kDown] + degree_at[kUp]; }
@@ -130,7 +129,7 @@ class LiveGraph {
   struct Reference {
     Index arc;
     Index next, prev;  // on the arc; next also links free references
-    Index down;        // the next one of the path
+    Index down;        // the next one on the path
 
     Index& next_free() { return next; }
   };
@@ -168,23 +167,23 @@ class LiveGraph {
   void move_buckets(Index arc, Index leaf, Direction d);
   void contract(Index node);
   void settle(Index node);
-  void hand_over(Index arc);
+  void write_out(Index arc);
 
   GraphSink* sink_;
   bool track_positions_;
   RecyclingArray<Node> nodes_;
-  GrowingArray<Point> positions_;  // one a node, if tracked
+  GrowingArray<Point> positions_;  // one per node, if tracked
   RecyclingArray<Arc> arcs_;
   RecyclingArray<Reference> references_;
   double noise_below_ = 0;
-  double noticed_below_ = 0;  // the ends of shorter arcs to leaves know that they are near noise
+  double noticed_below_ = 0;  // at both ends of a leaf's arc that is shorter, near_noise is set
   bool embeds_ = false;
   BucketLists buckets_;
-  GrowingArray<BucketLists::List> arc_buckets_;  // one an arc, if there is an embedding
+  GrowingArray<BucketLists::List> arc_buckets_;  // one per arc, if there is an embedding
   std::vector<Index> path_;                      // arcs, from the saddle of a leaf
   std::vector<PathBuckets> path_buckets_;
   std::uint64_t removed_pairs_ = 0, zips_ = 0, zip_steps_ = 0;
-  std::vector<Index> changed_;  // complete nodes to look at in tidy()
+  std::vector<Index> changed_;  // complete nodes that tidy() has to examine
   SettledBatch settled_;
 };
 

@@ -6,8 +6,9 @@
 
 namespace reeb {
 
-// Where values are random, next to no leaf is noise: so nodes know if they are worth a look. What is noise
-// mostly rises with the range of the function, step by step, and what is noticed is ahead of it.
+// Where values are random, hardly any leaf is noise. So each node notes whether it is near noise, and only those nodes
+// are examined. The threshold often rises with the range of the function, step by step. noticed_below_ is ahead of it,
+// so that few steps have to go over all arcs.
 void LiveGraph::set_noise(double below) {
   noise_below_ = below;
   if (noise_below_ <= noticed_below_) return;
@@ -16,8 +17,8 @@ void LiveGraph::set_noise(double below) {
     if (!arcs_[a].is_free()) notice_noise(a);
 }
 
-// For an arc that has come, has got another end, or is the only one that is left at one of its ends. One that
-// leads to no leaf yet may when what is beyond it has gone.
+// To be called for an arc that is new, has another end, or is now the only one at one of its ends. An arc that leads to
+// no leaf yet might do so later, when what is beyond it was removed.
 void LiveGraph::notice_noise(Index a) {
   if (noticed_below_ == 0) return;
   Node &lo = nodes_[arcs_[a].lo()], &hi = nodes_[arcs_[a].hi()];
@@ -25,25 +26,25 @@ void LiveGraph::notice_noise(Index a) {
   if (length(a) < below) lo.near_noise = hi.near_noise = true;
 }
 
-// For a node that has lost an arc.
+// To be called for a node that has lost an arc.
 void LiveGraph::notice_noise_at(Index n) {
   const Node& node = nodes_[n];
   if (has_one_arc(node)) notice_noise(node.first(node.degree(kUp) == 1 ? kUp : kDown));
 }
 
-// An extremum with one arc, which nothing can change any more but a contraction of its other end.
+// An extremum with one arc, which nothing can change any more except a contraction of its other end.
 bool LiveGraph::is_leaf(const Node& n) const {
   return n.intact && has_one_arc(n) && n.referenced_arcs == 0 && n.state != State::kIncomplete;
 }
 
-// The node may have become a leaf, or the saddle of one; before it is settled this is the last moment
-// at which all its arcs are there.
+// The node might have become a leaf, or the saddle of one. This is the last moment when all its arcs are certain to be
+// here: next, the node might be settled.
 void LiveGraph::remove_noise_at(Index n) {
   const Node& node = nodes_[n];
   if (is_leaf(node)) return try_leaf(n);
   if (!node.intact) return;
   for (const Direction d : {kDown, kUp}) {
-    // A leaf goes only where another arc leads on, and has an arc without references.
+    // A leaf is removed only if its saddle has another arc in its direction, and its own arc has no references.
     if (node.degree(d) < 2) continue;
     for (Index a = node.first(d); a != kNone;) {
       const Arc& arc = arcs_[a];
@@ -66,19 +67,19 @@ void LiveGraph::try_leaf(Index leaf) {
   free_node(leaf);
   notice_noise_at(saddle);
   ++removed_pairs_;
-  if (nodes_[saddle].state == State::kSettled) nodes_[saddle].state = State::kComplete;  // it may disappear
+  if (nodes_[saddle].state == State::kSettled) nodes_[saddle].state = State::kComplete;  // it might be contracted
   queue(saddle);
 }
 
-// Looks for another path than that to the leaf which reaches beyond it. The nearest nodes are
-// looked at, and no more than a few: what they do not show is left to the last pass.
+// Searches for a path from `from` in direction d that reaches beyond the leaf. It examines the nearest nodes only, and
+// no more than a few of them; the last pass finds the other leaves.
 bool LiveGraph::find_path_beyond(Index from, Index leaf, Direction d) {
   struct Seen {
     Index node, by_arc;
     std::size_t before;
   };
-  constexpr std::size_t kNodesLookedAt = 16;
-  std::array<Seen, kNodesLookedAt> seen;
+  constexpr std::size_t kNodesExamined = 16;
+  std::array<Seen, kNodesExamined> seen;
   std::size_t count = 0;
   seen[count++] = {from, kNone, 0};
   for (std::size_t i = 0; i < count; ++i)
@@ -92,13 +93,13 @@ bool LiveGraph::find_path_beyond(Index from, Index leaf, Direction d) {
         std::reverse(path_.begin(), path_.end());
         return true;
       }
-      if (count == kNodesLookedAt) return false;
+      if (count == kNodesExamined) return false;
       seen[count++] = {end, a, i};
     }
   return false;
 }
 
-// What lay on the arc comes to lie on the path, the leaf with it.
+// Moves the vertices of the arc, and the leaf, to the path.
 void LiveGraph::move_buckets(Index arc, Index leaf, Direction d) {
   const auto value = [&](Index n) { return nodes_[n].key.value; };
   path_buckets_.clear();

@@ -15,7 +15,7 @@
 namespace reeb {
 namespace {
 
-// Keeps what is handed over, for users who want the whole graph in memory.
+// Keeps settled nodes and arcs, for users who want the whole graph in memory.
 class KeepingSink : public GraphSink {
  public:
   void add_nodes(std::span<const SettledNode> nodes) override {

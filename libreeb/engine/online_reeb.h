@@ -1,9 +1,7 @@
-// The on-line Reeb graph: vertices, simplices and finalizations in, an exact graph out at any
-// moment.
+// The on-line Reeb graph: it takes vertices, simplices and finalizations, and yields an exact graph at any moment.
 //
-// Simplices are collected into small batches and glued with the same code as the parallel
-// pipeline: a batch is swept alone into a fragment, and the fragment is glued to the live graph.
-// What is finalized and can no longer change is handed to the sink and forgotten.
+// Simplices are collected into small batches. A batch is swept alone into a fragment, and the fragment is glued to the
+// live graph, by the same code as in the parallel pipeline. Settled nodes and arcs are passed on to the sink.
 #pragma once
 
 #include <cstddef>
@@ -17,24 +15,23 @@
 
 namespace reeb {
 
-// THREADS: one at a time for each object, snapshot() included. Different objects share nothing. A sink
-//          is called by the thread that adds.
-// TIME:    adding collects; each full batch costs O(k log k) for k simplices, and the paths that gluing
-//          goes over, which are short where the live graph is small.
-// MEMORY:  grows with the front (vertices that are not finalized, and the edges between them), the live
-//          graph and one batch; without a sink also with the settled graph, 32 bytes an arc. Without
-//          finalize() the front is the whole mesh: 4 to 12 KB a triangle. Then a mesh in a file is better
-//          given to reeb::compute(), which finds out by itself what is final.
+// THREADS: one thread at a time for each object, also for snapshot(). Different objects share nothing. The thread that
+//          adds also calls the sink.
+// TIME:    adding only collects. Each full batch costs O(k log k) for k simplices, and the paths that gluing goes over,
+//          which are short where the live graph is small.
+// MEMORY:  the front (vertices that are not finalized, and the edges between them), the live graph and one batch;
+//          without a sink also the settled graph, 32 bytes per arc. Without finalize() the front is the whole mesh: 4
+//          to 12 KB per triangle. For a mesh in a file, reeb::compute() is then the better choice: it finds out by
+//          itself which vertices are final.
 // An Error from a call leaves the graph as it was before the call; one from a sink does not.
 class OnlineReeb {
  public:
   struct Options {
     std::size_t batch_triangles = 4096;  // 1: glue every triangle at once
-    // Leaves of less persistence are removed where it is already sure that they are noise; what is not
-    // sure yet stays.
+    // Leaves of less persistence are removed as soon as they are certain to be noise; the others stay.
     double noise_below = 0;
-    // The values so far span this many buckets of the embedding, or up to twice as many; at most
-    // 2^20. 0: no embedding. Buckets reach a sink only.
+    // The values so far span this number of buckets of the embedding, or up to twice that number; at most 2^20.
+    // 0: no embedding. Only a sink gets buckets.
     std::uint32_t buckets = 0;
   };
 
@@ -54,20 +51,19 @@ class OnlineReeb {
   // THROWS: Error{kBadInput} if a corner was not added or was finalized, or after finish().
   void add_simplex(std::span<const VertexId> corners);
 
-  // Promises that no later simplex names `v`.
+  // Announces that no later simplex names `v`.
   // THROWS: Error{kBadInput} if `v` was not added or was finalized before, or after finish().
   void finalize(VertexId v);
 
-  // The exact Reeb graph of everything added so far, whether finalized or not, less what was
-  // removed as noise. O(live graph) plus what is kept here; with a sink, only what was not yet
-  // handed over.
+  // The exact Reeb graph of everything added so far, whether finalized or not, without removed noise. With a sink, only
+  // the part that was not yet passed on. O(live graph), plus O(settled graph) without a sink.
   ReebGraph snapshot();
 
   // Pairs that were removed as noise so far.
   std::uint64_t removed_pairs() const;
 
-  // Finalizes all that is left and hands it over. Nothing can be added afterwards; snapshot() still gives
-  // what is kept here. A second call does nothing.
+  // Finalizes all remaining vertices and passes on the rest of the graph. Nothing can be added afterwards. Without a
+  // sink, snapshot() still returns the whole graph. A second call does nothing.
   void finish();
 
  private:

@@ -1,7 +1,7 @@
-// The shared edges that a sweep finds, and the path of each through the graph that it takes down.
+// The shared edges that a sweep finds, and the path of each through the graph that the sweep records.
 //
-// A path is not traced along the way: above a node with one arc up it is implied, and at a split
-// only the edges on relabelled sides are noted; all others follow the main branch.
+// A path is not traced during the sweep. Above a node with one arc up it is implied. At a split, only edges on
+// relabelled sides get a note with their branch; all others follow the main branch.
 #pragma once
 
 #include <cstddef>
@@ -24,22 +24,22 @@ class SharedEdges {
 
   // Forgets all edges; keeps the memory.
   void start(std::size_t vertices);
-  // The sweep arrives at v; to be called for 0, 1, 2, ...
+  // Says that the sweep arrives at v. To be called for 0, 1, 2, ...
   void reach(VertexRank v) { begin_[v] = static_cast<std::uint32_t>(edges_.size()); }
 
   // An edge from the vertex that was reached last up to `hi`, whose path starts with `arc`.
   void add(SweepNode lower_node, VertexRank hi, SweepArc arc, std::uint32_t place) {
     edges_.push_back({lower_node, hi, arc, place, kNone, kNone});
   }
-  // No more of them for v.
+  // Says that all shared edges up from v were added.
   void finish_vertex(VertexRank v);
-  // If lo-hi is a shared edge, its path goes up from `node` by `arc`.
+  // Notes that the path of lo-hi goes up from `node` by `arc`. Does nothing if lo-hi is not a shared edge.
   void note_branch(VertexRank lo, VertexRank hi, SweepNode node, SweepArc arc);
 
   std::uint32_t size() const { return static_cast<std::uint32_t>(edges_.size()); }
   const Edge& operator[](std::uint32_t e) const { return edges_[e]; }
 
-  // Calls visit(arc) for the path of an edge, from below.
+  // Calls visit(arc) for each arc on the path of an edge, from below.
   template <class Visit>
   void trace(const Edge& edge, const SweepGraph& graph, const Visit& visit) const;
 
@@ -50,14 +50,14 @@ class SharedEdges {
  private:
   static constexpr std::uint32_t kNone = ~std::uint32_t{0};
 
-  // A branch that the path of an edge takes, and the edge's next note.
+  // The branch that the path of an edge takes at a node, and the edge's next note.
   struct Note {
     SweepNode node;
     SweepArc arc;
     std::uint32_t next;
   };
 
-  std::vector<Edge> edges_;                    // of one vertex after the other, each time sorted by hi
+  std::vector<Edge> edges_;                    // by lower vertex; those of a vertex are sorted by hi
   IdVector<VertexRank, std::uint32_t> begin_;  // those of vertex v are begin_[v] .. begin_[v + 1]
   std::vector<Note> notes_;
 };

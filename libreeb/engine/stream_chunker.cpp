@@ -50,7 +50,7 @@ std::uint32_t StreamChunker::slot_of(VertexId v, const char* use) const {
                     : "add every vertex before the first simplex that uses it");
 }
 
-// Gives a vertex a place in the chunk.
+// The vertex in the chunk, added to it if it is not there yet.
 std::uint32_t StreamChunker::bring_in(VertexId v, std::uint32_t slot) {
   if (local_[slot] != kNone) return local_[slot];
   const bool used_earlier = std::exchange(state_[slot], State::kUsed) == State::kUsed;
@@ -86,7 +86,7 @@ void StreamChunker::finalize_all() {
     if (const std::uint32_t slot = slot_of_.find(v); slot != FlatMap::kNone) finalize(VertexId(v), slot);
 }
 
-// A vertex that is not in the chunk comes in as a loose vertex, to be completed with it.
+// A vertex that is not in the chunk is added as a loose vertex, so that gluing the chunk completes it.
 void StreamChunker::finalize(VertexId v, std::uint32_t slot) {
   const std::uint32_t local = bring_in(v, slot);
   chunk_.uses[local] &= static_cast<std::uint8_t>(~kUsedLater);

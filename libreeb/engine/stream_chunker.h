@@ -1,7 +1,6 @@
-// Cuts a stream of vertices, simplices and finalizations into chunks
-// (docs/SEMANTICS.md, Input).
+// Cuts a stream of vertices, simplices and finalizations into chunks (docs/SEMANTICS.md, Input).
 //
-// Holds the vertices that are not final yet and the chunk that is being filled, nothing else.
+// MEMORY: the vertices that are not final yet, and the chunk so far.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +17,7 @@ namespace reeb {
 
 class StreamChunker {
  public:
-  // `functions`: how many values a vertex has.
+  // `functions`: the number of values of a vertex.
   StreamChunker(std::size_t functions, bool track_positions)
       : functions_(functions), track_positions_(track_positions), values_(functions) {}
 
@@ -26,8 +25,7 @@ class StreamChunker {
   // THROWS: Error{kBadInput} if a value is not finite.
   VertexId add_vertex(std::span<const double> values, const Point& position);
 
-  // Adds the simplex with this set of corners (repeats are ignored), of any dimension, through
-  // its 2-skeleton.
+  // Adds the 2-skeleton of the simplex with this set of corners (repeats are ignored), of any dimension.
   // THROWS: Error{kBadInput} if a corner was not added or was finalized.
   void add_simplex(std::span<const VertexId> corners);
 
@@ -35,13 +33,13 @@ class StreamChunker {
   void finalize(VertexId v);
   void finalize_all();
 
-  // Triangles, or vertices where they are more, of the chunk so far.
+  // The triangles of the chunk so far, or its vertices, whichever are more.
   std::size_t chunk_size() const { return std::max(chunk_.triangle_count(), chunk_.vertex_count()); }
-  // Moves the chunk so far out, with one array of values a function, and starts the next.
+  // Moves the chunk so far out, with one array of values per function, and starts the next.
   void take(Chunk& chunk, std::vector<std::vector<double>>& values);
 
-  // Calls visit(values, vertex) for the vertices so far that no simplex has used and that are not
-  // final: no chunk has had them.
+  // Calls visit(values, vertex) for the vertices that no simplex has used yet and that are not final. No chunk so far
+  // has them.
   template <class Visit>
   void for_each_unused(const Visit& visit) const {
     for (std::size_t slot = 0; slot < state_.size(); ++slot)
@@ -55,8 +53,8 @@ class StreamChunker {
 
  private:
   static constexpr std::uint32_t kNone = ~std::uint32_t{0};
-  // Of a slot. A vertex counts as used from the first chunk that has it, not from its arrival: else
-  // all edges of a mesh whose vertices come first would look shared.
+  // The state of a slot. A vertex counts as used when a chunk has it, not when it arrives: otherwise all edges of a
+  // mesh whose vertices come first would count as shared.
   enum class State : std::uint8_t { kFree, kUnused, kUsed };
 
   std::uint32_t slot_of(VertexId v, const char* use) const;
@@ -73,7 +71,7 @@ class StreamChunker {
   std::vector<State> state_;
   std::vector<VertexId> slot_vertices_;
   std::vector<std::uint32_t> local_;  // in the chunk, or kNone
-  std::vector<double> slot_values_;   // functions_ a slot
+  std::vector<double> slot_values_;   // functions_ per slot
   std::vector<Point> slot_positions_;
   std::vector<std::uint32_t> free_slots_;
 

@@ -1,4 +1,4 @@
-// The graph that a sweep takes down, before it is reduced to a fragment.
+// The graph that a sweep records, before it is reduced to a fragment.
 //
 // Nodes are numbered in the order of the sweep, arcs by ascending lower node.
 #pragma once
@@ -18,24 +18,25 @@
 namespace reeb {
 
 struct SweepGraph {
-  // The arcs on one side of a node: whether there are any, or several, any on no path, any on some.
+  // The arcs on one side of a node: whether there is one, whether there are several, whether one of them is on no path
+  // (loose), and whether one of them is on a path (tied).
   struct Side {
     bool any = false, several = false, loose = false, tied = false;
   };
   struct Node {
-    SweepKey key;          // once the sweep is over
-    VertexRank vertex;     // whose node it is
-    SweepArc main_branch;  // the arc up that every path takes for which no other is noted
-    bool gone;             // removed as noise, or contracted since
+    SweepKey key;          // set when the sweep is over
+    VertexRank vertex;     // its vertex
+    SweepArc main_branch;  // the arc up that a path takes unless another one is noted for it
+    bool gone;             // removed as noise, or contracted
     Side up, down;
     bool near_noise;    // it has an arc that is short enough to be noise
-    bool can_change;    // not a node of the final graph for certain
+    bool can_change;    // not certain to be a node of the final graph
     bool lost_arcs;     // some of its arcs are settled
-    FragmentNode open;  // itself in the fragment, or none()
+    FragmentNode open;  // its id in the fragment, or none()
   };
   struct Arc {
     SweepNode lo, hi;  // lo == none(): gone
-    FragmentArc open;  // itself in the fragment, if it is open
+    FragmentArc open;  // its id in the fragment, if it is open
     bool referenced;   // by the path of a shared edge
 
     SweepNode end(Direction d) const { return d == kUp ? hi : lo; }
@@ -67,7 +68,7 @@ struct SweepGraph {
   }
 };
 
-// What the sweep ran over; order[r] is the local vertex of rank r.
+// The input of a sweep; order[r] is the local vertex of rank r.
 struct SweptChunk {
   const Chunk& chunk;
   std::span<const double> values;

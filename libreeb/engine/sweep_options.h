@@ -1,16 +1,16 @@
-// What a sweep does besides finding the graph.
+// What a sweep does in addition to finding the graph.
 #pragma once
 
 #include <optional>
 
 namespace reeb {
 
-// Neither may decrease along a stream: the glue goes by the latest fragment.
+// Neither option may decrease along a stream: the glue uses those of the latest fragment.
 struct SweepOptions {
-  // Leaves of less persistence are removed where it is already sure that they are noise
-  // (docs/SEMANTICS.md, Noise removal). What is not sure yet is left: a last pass over the whole graph finishes.
+  // Leaves of less persistence are removed as soon as they are certain to be noise (docs/SEMANTICS.md, Noise removal).
+  // A last pass over the whole graph removes the others.
   double noise_below = 0;
-  // Of the embedding's buckets; without it there are none.
+  // The exponent of the embedding's buckets; without it there is no embedding.
   // REQUIRES: at least bucket_exponent() of a range with all values so far.
   std::optional<int> bucket_exponent = {};
 };

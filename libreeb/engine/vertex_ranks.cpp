@@ -7,8 +7,8 @@
 namespace reeb {
 namespace {
 
-// Numbers buckets of equal width from the least value to the greatest. Every step rounds
-// monotonically, so a greater value is never in a lesser bucket, whatever the rounding.
+// Numbers buckets of equal width from the least value to the greatest. Rounding is monotone in every step, so a greater
+// value is never in a lower bucket.
 class Buckets {
  public:
   Buckets(std::span<const double> values, std::size_t count) : last_(static_cast<double>(count - 1)) {
@@ -25,7 +25,7 @@ class Buckets {
   double last_, least_, scale_;
 };
 
-// Most buckets hold a few; and of a large one, a tie, the vertices are often in order already.
+// Most buckets have a few vertices. A large one is a tie, whose vertices are often in order already.
 template <class Iterator, class Before>
 void sort_bucket(Iterator first, Iterator last, const Before& before) {
   constexpr std::ptrdiff_t kInsertionSortsUpTo = 8;

@@ -9,12 +9,11 @@
 
 namespace reeb {
 
-// One counting pass spreads the vertices over as many buckets of equal width as there are
-// vertices; what shares a bucket is sorted by comparison. O(n) for values that are spread about
-// evenly, and for ties that come in order of id; O(n log n) at worst.
+// A counting pass distributes n vertices over n buckets of equal width; each bucket is sorted by comparison. O(n) if
+// values are distributed about evenly, and for ties in order of id; O(n log n) at worst.
 class VertexRanks {
  public:
-  // After it, order()[r] is the local vertex of rank r.
+  // Afterwards order()[r] is the local vertex of rank r.
   // REQUIRES: no value is NaN or infinite; ids are distinct; fewer than 2^31 vertices.
   void sort(std::span<const double> values, std::span<const VertexId> ids);
 

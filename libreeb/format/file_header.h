@@ -7,25 +7,25 @@
 
 namespace reeb {
 
-// Memory of a loaded level, as the level table promises it.
+// Memory of a loaded level, as announced in the level table.
 inline constexpr std::uint64_t kNodeMemoryBytes = 48;
 inline constexpr std::uint64_t kArcMemoryBytes = 24;
 inline constexpr std::uint64_t kBucketMemoryBytes = 40;
 
-// Bytes that a level holds in memory once loaded, by the constants above.
+// Bytes of memory that a loaded level holds, by the constants above.
 std::uint64_t level_memory(std::uint64_t nodes, std::uint64_t arcs, std::uint64_t buckets) noexcept;
 
 struct FileFlags {
   bool graph_only = false;     // one version, no pairs
-  bool has_positions = false;  // nodes have places in space
+  bool has_positions = false;  // nodes have positions
   bool has_embedding = false;  // arcs have buckets
   friend bool operator==(const FileFlags&, const FileFlags&) = default;
 };
 
-// A version that can be loaded, and what it costs. Lines go from coarse to fine.
+// A version that can be loaded, and its size. Lines go from coarse to fine.
 struct LevelLine {
-  std::uint32_t version = 0;  // cancellations that were done
-  std::uint32_t frames = 0;   // it needs the first so many graph frames
+  std::uint32_t version = 0;  // the number of cancellations
+  std::uint32_t frames = 0;   // loading it takes this number of graph frames, from the first
   double threshold = 0;       // the least threshold that yields it; see level_threshold
   std::uint64_t nodes = 0, arcs = 0;
   std::uint64_t buckets = 0;       // of its arcs
@@ -42,7 +42,7 @@ struct FileHeader {
   std::uint64_t nodes = 0, arcs = 0, components = 0, loops = 0;  // of version 0
   std::uint64_t records = 0;                                     // arc records in all frames
   std::uint64_t pairs = 0, kept_loops = 0;
-  double denoise_threshold = 0;  // noise below it was removed before
+  double denoise_threshold = 0;  // of the noise removal that came before the hierarchy
   std::uint64_t denoised_pairs = 0;
   std::int32_t bucket_exponent = 0;  // a bucket is 2^this wide
   std::uint32_t steps = 0;           // versions are 0..steps

@@ -63,7 +63,7 @@ const char* decode_nodes(ByteReader& in, std::size_t count, bool positions, std:
   return nullptr;
 }
 
-// `died` is stored as its distance from kNeverDies, so that arcs that never die cost nothing.
+// `died` is stored as its distance from kNeverDies, which for arcs that never die compresses to almost nothing.
 void encode_arcs(std::span<const FileArc> arcs, ByteWriter& out) {
   std::uint32_t distance = 0;
   for (const FileArc& arc : arcs) {

@@ -1,5 +1,5 @@
 // The payloads of frames: columns of nodes, arc records, versions, buckets and pairs, delta-coded
-// (docs/FORMAT.md, Graph frame and Pairs frame). Compression and checksums are not done here.
+// (docs/FORMAT.md, Graph frame and Pairs frame). The file layer adds compression and checksums.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@
 
 namespace reeb {
 
-// An arc record by the file indices of its nodes: their order of introduction, from 0.
+// An arc record. Its nodes are numbered in the order in which the file introduces them, from 0.
 struct FileArc {
   std::uint64_t lo = 0, hi = 0;
   std::uint32_t born = 0, died = kNeverDies;
@@ -27,29 +27,29 @@ struct VersionCounts {
   friend bool operator==(const VersionCounts&, const VersionCounts&) = default;
 };
 
-// Reused from frame to frame, so that its memory is.
+// An object is used for one frame after the other, so that its memory is reused.
 struct GraphFrame {
   std::vector<SettledNode> nodes;            // introduced here, ascending
   std::vector<FileArc> arcs;                 // by died, descending
   std::vector<VersionCounts> versions;       // completed here, from coarse to fine
-  std::vector<std::uint32_t> bucket_counts;  // one entry an arc, with an embedding
+  std::vector<std::uint32_t> bucket_counts;  // one entry per arc, if there is an embedding
   std::vector<Bucket> buckets;               // of all arcs, one arc after the other
   void clear();
-  // Those of the next arc; packed as in packed_buckets.h.
+  // The buckets of the next arc; packed as in packed_buckets.h.
   void add_buckets(std::span<const Bucket> own);
   void add_buckets(std::span<const std::byte> packed);
 };
 
-// Appends the payload. Buckets are written with has_embedding, positions with has_positions.
+// Appends the payload, with buckets if has_embedding, and with positions if has_positions.
 void encode_graph_frame(const GraphFrame& frame, const FileFlags& flags, std::vector<std::byte>& out);
 
-// Fills `frame` from a payload with the counts of `header`. Null, or what is wrong. Nothing is
-// sized beyond what the payload can hold. Checked: order of nodes and of `died`, born < died,
-// finite values, no byte left over. What spans frames is the reader's to check.
+// Fills `frame` from a payload with the counts of `header`. Returns null, or what is wrong with the payload. Allocates
+// no more than a payload of this size can need. Checks the order of nodes and of `died`, born < died, that values are
+// finite and that no byte is left over. The reader checks what concerns several frames.
 const char* decode_graph_frame(std::span<const std::byte> payload, const FrameHeader& header, const FileFlags& flags,
                                GraphFrame& frame);
 
-// A persistence pair by the file indices of its nodes.
+// A persistence pair; its nodes are numbered as those of FileArc.
 struct FilePair {
   std::uint64_t lo = 0, hi = 0;
   PairType type = PairType::kExt0;

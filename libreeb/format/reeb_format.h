@@ -1,7 +1,7 @@
 // The fixed objects of a `.reeb` file: header region, frame header, tail (docs/FORMAT.md).
 //
-// One struct an object; encode appends its bytes, decode reads a span and returns null, or says in
-// a few words what is wrong with it. Checksums are laid around these bytes by the file layer.
+// Each object is a struct. Its encode function appends its bytes; its decode function reads a span, and returns null or
+// a few words that say what is wrong. The file layer adds the checksums.
 #pragma once
 
 #include <array>
@@ -14,8 +14,8 @@
 
 namespace reeb {
 
-// The first and the last eight bytes of every file. The first is chosen like PNG's: a transfer that
-// drops the high bit or turns line ends shows at once.
+// The first and the last eight bytes of every file. The first are chosen as in PNG: they reveal a transfer that drops
+// the high bit or converts line ends.
 inline constexpr std::array<std::uint8_t, 8> kReebMagic = {0x89, 'R', 'E', 'E', 'B', '\r', '\n', 0x1a};
 inline constexpr std::array<std::uint8_t, 8> kReebEndMagic = {'R', 'E', 'E', 'B', 'E', 'N', 'D', '\n'};
 inline constexpr std::uint32_t kReebVersion = 1;
@@ -31,21 +31,21 @@ inline constexpr std::uint32_t kMaxFrameBytes = 16u << 20;  // uncompressed
 // The header region without its checksum.
 void encode_header(const FileHeader& header, std::vector<std::byte>& out);
 
-// Size of the whole region, from its first kFixedHeaderBytes bytes.
+// Reads the size of the whole region from its first kFixedHeaderBytes bytes.
 const char* decode_region_bytes(std::span<const std::byte> fixed_part, std::uint64_t& region_bytes);
-// REQUIRES: `region` is what decode_region_bytes announced, without the checksum.
+// REQUIRES: `region` has the size that decode_region_bytes found, without the checksum.
 const char* decode_header(std::span<const std::byte> region, FileHeader& header);
 
 enum class FrameKind : std::uint32_t { kGraph = 1, kPairs = 2 };
 
 struct FrameHeader {
   FrameKind kind = FrameKind::kGraph;
-  std::uint32_t stored_bytes = 0;  // of the payload; equal to raw_bytes: it is not compressed
+  std::uint32_t stored_bytes = 0;  // of the payload; if equal to raw_bytes, it is not compressed
   std::uint32_t raw_bytes = 0;
   std::uint32_t nodes = 0;     // introduced here; in a pairs frame, the pairs
   std::uint32_t records = 0;   // arc records
   std::uint32_t versions = 0;  // that this frame completes
-  std::uint32_t finest = 0;    // the finest complete version; steps + 1: none is
+  std::uint32_t finest = 0;    // the finest complete version; steps + 1 if there is none
   std::uint32_t reserved = 0;
   friend bool operator==(const FrameHeader&, const FrameHeader&) = default;
 };
@@ -54,8 +54,8 @@ struct FrameHeader {
 void encode_frame_header(const FrameHeader& header, std::vector<std::byte>& out);
 const char* decode_frame_header(std::span<const std::byte> bytes, FrameHeader& header);
 
-// The least threshold t at which all cancellations up to one of this persistence are done: the next
-// number above it, as cancelling below t is strict. Version 0 has threshold 0.
+// The least threshold that yields a version whose last cancellation has this persistence: the next number above it,
+// since a pair is cancelled only if its persistence is less than the threshold. Version 0 has threshold 0.
 double level_threshold(std::uint32_t version, double persistence) noexcept;
 
 }  // namespace reeb

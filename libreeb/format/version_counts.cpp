@@ -5,7 +5,7 @@
 namespace reeb {
 namespace {
 
-// Changes from one version to the next, summed at the end; unsigned, so that they wrap.
+// Changes from one version to the next, added up at the end. They are unsigned, so that negative ones wrap.
 class Changes {
  public:
   explicit Changes(std::size_t versions) : change_(versions + 1) {}
@@ -19,7 +19,7 @@ class Changes {
   std::vector<std::uint64_t> change_;
 };
 
-// The records at each node: two passes over the arcs.
+// The records at each node.
 struct Incidence {
   std::vector<std::uint64_t> offsets;
   std::vector<std::uint32_t> records;
@@ -32,7 +32,7 @@ Incidence incidence(std::uint32_t node_count, std::span<const ArcVersion> arcs) 
     for (const NodeId end : {arc.lo, arc.hi}) ++result.offsets[end.value()];
   std::uint64_t sum = 0;
   for (std::uint64_t& offset : result.offsets) offset = sum += offset;
-  // Filling from the back turns each end into the beginning.
+  // Each offset is the end of its node's records. Filling from there downwards turns it into the beginning.
   for (std::uint32_t i = 0; i < arcs.size(); ++i)
     for (const NodeId end : {arcs[i].lo, arcs[i].hi}) result.records[--result.offsets[end.value()]] = i;
   return result;

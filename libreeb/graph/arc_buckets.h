@@ -1,5 +1,4 @@
-// The embedding of a run of arcs: the buckets of each, one arc after the other
-// (docs/SEMANTICS.md, Buckets).
+// The embedding of an array of arcs: the buckets of each, one arc after the other (docs/SEMANTICS.md, Buckets).
 #pragma once
 
 #include <cstddef>
@@ -23,7 +22,7 @@ struct ArcBucketsView {
   }
 };
 
-// Its owner: offsets has one entry more than there are arcs, or is empty.
+// Owns what a view shows. `offsets` has one entry more than there are arcs, or is empty.
 struct ArcBuckets {
   std::vector<std::uint64_t> offsets;
   std::vector<Bucket> buckets;

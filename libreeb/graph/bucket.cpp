@@ -7,7 +7,7 @@
 namespace reeb {
 namespace {
 
-// 2^-exponent may be no number, while the quotient is one.
+// 2^-exponent might overflow where the quotient does not.
 double scaled(double value, int exponent) noexcept { return std::floor(std::ldexp(value, -exponent)); }
 
 bool fits(double min, double max, std::uint32_t buckets, int exponent) noexcept {
@@ -26,7 +26,7 @@ BucketIndexer::BucketIndexer(int exponent) noexcept
     : exponent_(exponent), scale_(std::abs(exponent) < 1000 ? std::ldexp(1.0, -exponent) : 0) {}
 
 int bucket_exponent(double min, double max, std::uint32_t buckets) noexcept {
-  // Twice the least exponent of a double, so that halves of halves of the least range are there.
+  // Beyond the exponents of all doubles, so that the narrowest range can still be divided.
   int least = -1100, most = 1100;
   while (least < most) {
     const int middle = least + (most - least) / 2;

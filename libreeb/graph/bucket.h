@@ -1,8 +1,8 @@
-// The embedding of an arc: where the vertices lie that it passes, by buckets of function value
+// The embedding of an arc: the positions of the vertices along it, by buckets of function value
 // (docs/SEMANTICS.md, Buckets; the paper's "Embedding").
 //
-// Bucket i of exponent h covers the values [i * 2^h, (i + 1) * 2^h). Two buckets of exponent h, of
-// which the lower has an even index, are one bucket of exponent h + 1.
+// Bucket i of exponent h covers the values [i * 2^h, (i + 1) * 2^h). Buckets 2i and 2i + 1 of exponent h together are
+// bucket i of exponent h + 1.
 #pragma once
 
 #include <array>
@@ -40,17 +40,16 @@ class BucketIndexer {
   double scale_;  // 2^-exponent, or 0 if that is no normal number
 };
 
-// The least exponent for which the values from min to max lie in at most 2 * buckets consecutive
-// buckets, with indices that are exact; so they lie in more than `buckets` of them, or nearly,
-// unless there are too few numbers between min and max. It never falls when the range grows.
+// The least exponent for which the values from min to max are in at most 2 * buckets consecutive buckets whose indices
+// are exact. So they are in about `buckets` of them or more, unless there are too few numbers between min and max. The
+// exponent never falls when the range grows.
 // REQUIRES: min <= max, finite; 1 <= buckets <= 2^20.
 int bucket_exponent(double min, double max, std::uint32_t buckets) noexcept;
 
 // Adds `other` to `bucket`: counts add up, the mean is weighted by them. REQUIRES: equal indices.
 void merge_into(Bucket& bucket, const Bucket& other) noexcept;
 
-// Makes those from buckets[first] on, which ascend by index, buckets of an exponent that is larger by
-// `levels`. O(buckets).
+// Raises the exponent of buckets[first] and all after it by `levels`. REQUIRES: they ascend by index. O(buckets).
 void coarsen(std::vector<Bucket>& buckets, std::size_t first, unsigned levels);
 
 }  // namespace reeb

@@ -11,7 +11,7 @@ namespace {
 
 using Single = std::array<float, 3>;
 
-constexpr std::size_t kMostVarint = 10, kMostBucket = 2 * kMostVarint + sizeof(Bucket::mean);
+constexpr std::size_t kMaxVarintBytes = 10, kMaxBucketBytes = 2 * kMaxVarintBytes + sizeof(Bucket::mean);
 
 bool is_single(const std::array<double, 3>& mean) {
   return std::ranges::all_of(mean, [](double x) { return static_cast<double>(static_cast<float>(x)) == x; });
@@ -41,8 +41,8 @@ T get_raw(ByteReader& in) {
 
 void pack_buckets(std::span<const Bucket> buckets, std::vector<std::byte>& packed) {
   if (buckets.empty()) return;
-  std::array<std::byte, kMostVarint + kMostBucket> piece;
-  std::byte* to = put_varint(piece.data(), buckets.size());
+  std::array<std::byte, kMaxVarintBytes + kMaxBucketBytes> bytes;
+  std::byte* to = put_varint(bytes.data(), buckets.size());
   std::int64_t last = 0;
   for (const Bucket& bucket : buckets) {
     const bool single = is_single(bucket.mean);
@@ -51,8 +51,8 @@ void pack_buckets(std::span<const Bucket> buckets, std::vector<std::byte>& packe
     const auto& [x, y, z] = bucket.mean;
     to = single ? put_raw(to, Single{static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)})
                 : put_raw(to, bucket.mean);
-    packed.insert(packed.end(), piece.data(), to);
-    to = piece.data();
+    packed.insert(packed.end(), bytes.data(), to);
+    to = bytes.data();
     last = bucket.index;
   }
 }

@@ -1,9 +1,9 @@
-// Lists of buckets as bytes: the form in which they are kept where there are many.
+// Lists of buckets as bytes, for places that hold many of them.
 //
-// A list is its length, then for each bucket the difference of its index to that of the one before (0
-// at first), its count with a mark, and its mean: in single precision where that loses nothing, as for
-// single vertices of most meshes, else in double. Most buckets take 14 or 26 bytes, and 28 at most but
-// for counts beyond 2^13. A list without buckets has no bytes.
+// A list is its length, then for each bucket: the difference between its index and the index before (0 at first), its
+// count with a mark, and its mean. The mark says whether the mean is in single precision. It is if that loses nothing,
+// as for single vertices of most meshes. Most buckets take 14 or 26 bytes, and at most 28 unless the count is beyond
+// 2^13. A list without buckets has no bytes.
 #pragma once
 
 #include <cstddef>
@@ -15,11 +15,10 @@
 
 namespace reeb {
 
-// Appends the list. Nothing is lost: unpack_buckets() gives equal buckets.
+// Appends the list, without loss: unpack_buckets() yields equal buckets.
 void pack_buckets(std::span<const Bucket> buckets, std::vector<std::byte>& packed);
 
-// Appends the buckets of a list. False if the bytes are no list; nothing is sized by a length that they
-// cannot hold.
+// Appends the buckets of a list. False if the bytes are not a list; a length that they cannot hold allocates nothing.
 bool unpack_buckets(std::span<const std::byte> packed, std::vector<Bucket>& buckets);
 
 // The length of a list. REQUIRES: pack_buckets() wrote it. O(1).

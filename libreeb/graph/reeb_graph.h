@@ -15,13 +15,13 @@
 
 namespace reeb {
 
-// A plain value: any number of threads may read one at the same time, and it costs 16 bytes a node (40 with
-// its place) and 8 an arc.
+// A plain value. Any number of threads may read one at the same time. It takes 16 bytes per node (40 with positions)
+// and 8 per arc.
 struct ReebGraph {
-  // One entry a node.
+  // One entry per node.
   std::vector<SweepKey> nodes;
   std::vector<std::array<double, 3>> positions;  // empty when unknown
-  // One entry an arc: its ends, lo below hi.
+  // One entry per arc: its ends, lo below hi.
   std::vector<NodeId> lo, hi;
 
   std::size_t node_count() const { return nodes.size(); }
@@ -29,11 +29,11 @@ struct ReebGraph {
 
   friend bool operator==(const ReebGraph&, const ReebGraph&) = default;
 
-  // THROWS: std::logic_error that names the first node or arc that breaks a promise above.
+  // THROWS: std::logic_error that names the first node or arc that breaks a rule above.
   void validate() const;
 };
 
-// An arc by its two vertices, lo below hi: the form in which arcs leave the engine.
+// An arc, named by the vertices of its ends, lo below hi. The engine writes out arcs in this form.
 struct ArcKeys {
   SweepKey lo, hi;
   friend bool operator==(const ArcKeys&, const ArcKeys&) = default;
@@ -42,11 +42,11 @@ inline bool operator<(const ArcKeys& a, const ArcKeys& b) noexcept {
   return a.lo < b.lo || (a.lo == b.lo && a.hi < b.hi);
 }
 
-// The graph of these arcs and of isolated nodes, in any order, in O(n log n).
+// The graph of these arcs and isolated nodes, which may come in any order. O(n log n).
 // REQUIRES: lo below hi for each arc; a vertex has the same value everywhere.
 ReebGraph make_graph(std::vector<ArcKeys> arcs, std::vector<SweepKey> isolated);
 
-// Arcs below and above each node.
+// The numbers of arcs below and above each node.
 struct Degrees {
   std::vector<std::uint32_t> down, up;
 };

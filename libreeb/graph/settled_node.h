@@ -9,7 +9,7 @@ namespace reeb {
 
 using Point = std::array<double, 3>;
 
-// A node of the final graph with its place in space (zeros when positions are not tracked).
+// A node of the final graph with its position (zeros when positions are not tracked).
 struct SettledNode {
   SweepKey key;
   Point position{};

@@ -1,11 +1,10 @@
-// A maximum spanning forest that grows edge by edge and tells which edge each cycle loses.
+// A maximum spanning forest that grows edge by edge, and reports which edge each cycle loses.
 //
-// Every point but a root hangs under another of higher priority by a link with a weight; climbing
-// from x over links of weight >= w ends at the point that stands for x's component in the forest's
-// edges of weight >= w. Inserting an edge climbs both ways, hangs the lesser point under the
-// greater, and goes on with the link that was displaced, until that finds a root or closes a cycle.
-// Only the components at each weight are kept, not the forest's own edges: a pairing needs no more,
-// and a step costs two array reads where a link-cut tree rotates.
+// Every point except a root has a link, with a weight, to a parent of higher priority. Climbing from x over links of
+// weight >= w ends at the point that represents x's component in the forest's edges of weight >= w. Inserting an edge
+// climbs from both ends, links the point of lower priority to the other one, and continues with the link that was
+// displaced, until it reaches a root or closes a cycle. Only the components at each weight are stored, not the edges of
+// the forest: pairing needs no more, and a step costs two array reads where a link-cut tree rotates.
 #pragma once
 
 #include <cstdint>
@@ -14,8 +13,8 @@
 
 namespace reeb {
 
-// Priorities are a fixed bijective hash of the points, so the depth is O(log n) in expectation for
-// every order of insertion that does not aim at the hash. 8 bytes a point.
+// Priorities are a fixed bijective hash of the points. So the expected depth is O(log n) for every order of insertion
+// that was not made to defeat the hash. 8 bytes per point.
 class BottleneckForest {
  public:
   static constexpr std::uint32_t kNone = ~std::uint32_t{0};
@@ -54,7 +53,7 @@ class BottleneckForest {
     while (links_[x].parent != kNone && links_[x].weight >= weight) {
       Link& link = links_[x];
       const Link above = links_[link.parent];
-      // What joins x to its parent joins it to the grandparent too: shorten the way.
+      // The grandparent is in the component of x at the weight of this link too: shorten the path.
       if (above.parent != kNone && above.weight >= link.weight)
         link.parent = above.parent;
       else

@@ -1,6 +1,5 @@
-// Search along arcs within an interval of nodes, one arc at a time.
-//
-// Two searches can so be advanced in turn until the cheaper one has the answer.
+// Search along arcs within an interval of nodes, one arc at a time. So two searches can be advanced in turn until the
+// cheaper one has the answer.
 #pragma once
 
 #include <array>
@@ -11,10 +10,10 @@
 
 namespace reeb {
 
-// Arcs are taken in the order in which they are found: time enough to fetch what is known of one that
-// lies anywhere in memory.
+// Arcs are taken in the order in which they are found (breadth first). That leaves time to prefetch an arc and its node
+// before they are read.
 //
-// MEMORY: 4 bytes a node of the graph, kept between searches, and up to 16 bytes an arc in the queue.
+// MEMORY: 4 bytes per node of the graph, kept between searches, and up to 16 bytes per arc in the queue.
 class BoundedSearch {
  public:
   explicit BoundedSearch(const WorkingGraph& graph) : graph_(graph) { reached_.assign(graph.end_node().value(), 0); }
@@ -28,7 +27,7 @@ class BoundedSearch {
     begin(node);
   }
 
-  // The same in both directions, to nodes from `bottom` to `top`.
+  // The same in both directions, within the nodes from `bottom` to `top`.
   void start_both(NodeId node, NodeId bottom, NodeId top) {
     limit_[kDown] = bottom;
     limit_[kUp] = top;
@@ -36,13 +35,14 @@ class BoundedSearch {
     begin(node);
   }
 
-  // Follows one arc to its far end if `enter(far end)`. Returns the arc, kNone when none is left.
+  // Takes the next arc, and continues from its far end if `enter(far end)` is true. Returns the arc, or kNone if the
+  // search is over.
   template <class Enter>
   ArcId step(Enter enter) {
     while (first_ < queue_.size()) {
       prefetch_ahead();
       const auto [arc, d] = queue_[first_++];
-      if (along(d, graph_.end(arc, d)) > along(d, limit_[d])) continue;  // and so do those below it in the heap
+      if (along(d, graph_.end(arc, d)) > along(d, limit_[d])) continue;  // arcs below it in the heap go farther still
       for (const ArcId child : graph_.below_in_heap(arc, d)) push(child, d);
       const NodeId node = graph_.end(arc, d);
       if (!reached(node) && enter(node)) reach(node);
@@ -91,9 +91,9 @@ class BoundedSearch {
     queue_.push_back({arc, d});
   }
   void prefetch_ahead() const {
-    constexpr std::size_t kAhead = 4;
-    if (first_ + kAhead >= queue_.size()) return;
-    const auto [arc, d] = queue_[first_ + kAhead];
+    constexpr std::size_t kPrefetchDistance = 4;
+    if (first_ + kPrefetchDistance >= queue_.size()) return;
+    const auto [arc, d] = queue_[first_ + kPrefetchDistance];
     const NodeId node = graph_.end(arc, d);
     prefetch(node);
     graph_.prefetch_node(node);

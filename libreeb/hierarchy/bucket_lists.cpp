@@ -14,13 +14,13 @@ struct Values {
   double bottom, top;
 };
 
-// Those of the bucket that the arc spans.
+// The values of the bucket that the arc spans.
 Values own_values(const Bucket& bucket, double lo, double hi, int exponent) {
   const auto index = static_cast<double>(bucket.index);
   return {std::max(lo, std::ldexp(index, exponent)), std::min(hi, std::ldexp(index + 1, exponent))};
 }
 
-// How many of the bucket's vertices are taken to lie below the cut.
+// How many of the bucket's vertices count as below the cut.
 std::uint64_t count_below(const Bucket& bucket, const CutValues& values, int exponent) {
   const auto [bottom, top] = own_values(bucket, values.lo, values.hi, exponent);
   if (!(bottom < top)) return bucket.count;
@@ -76,7 +76,7 @@ std::uint32_t ArcBucketLists::make(const Bucket& bucket, std::uint32_t next) {
 
 void ArcBucketLists::free(std::uint32_t item) { items_[item].next = std::exchange(free_, item); }
 
-// Puts a chain of items where they belong in a list.
+// Inserts a chain of items into a list, in order.
 void ArcBucketLists::insert(std::uint32_t chain, ArcId into) {
   std::uint32_t before = kNone;
   while (chain != kNone) {
@@ -103,7 +103,7 @@ void ArcBucketLists::add(ArcId arc, double value, const std::array<double, 3>& p
   insert(make({bucket_index(value, exponent_), 1, position}, kNone), arc);
 }
 
-// Divides the arc's bucket that the cut lies in, and returns the last item below the cut.
+// Divides the bucket that contains the cut, and returns the last item below the cut.
 std::uint32_t ArcBucketLists::last_below(ArcId arc, const CutValues& values) {
   const std::int64_t middle = bucket_index(values.at, exponent_);
   std::uint32_t before = kNone, item = first(arc);
@@ -132,7 +132,7 @@ double ArcBucketLists::first_value(Direction d, ArcId arc, double lo, double hi)
   return d == kUp ? bottom + half_a_vertex : top - half_a_vertex;
 }
 
-// The first along direction d. Valid until the next call.
+// The first bucket in direction d. Valid until the next call.
 const Bucket& ArcBucketLists::first_bucket(Direction d, ArcId arc) {
   if (!is_open(arc)) {
     const auto own = unpacked(arc);

@@ -14,19 +14,19 @@
 
 namespace reeb {
 
-// An arc that is to be cut: `at` divides the values from `lo` to `hi` that it spans.
+// A cut of an arc that spans the values from `lo` to `hi`, at the value `at`.
 struct CutValues {
   double lo = 0, at = 0, hi = 0;
 };
 
-// A list of buckets an arc, ascending, one for each index. What leaves a list enters another, unless
-// it is dropped, so the counts add up to the same at all times.
+// Each arc has a list of buckets, ascending, one per index. Vertices that leave a list enter another one or are
+// dropped, so no vertex is counted twice or lost.
 //
-// Lists are kept packed. An operation opens those that it changes: they become linked lists, until
-// close() packs them again. What an arc had when that was done last stays at hand meanwhile.
+// Lists are stored packed. An operation opens the lists that it changes: they become linked lists until close() packs
+// them again. Until then closed() still returns the former list.
 //
-// TIME:   an operation walks the lists that it names, once; so does close().
-// MEMORY: PackedLists; 48 bytes a bucket that is open.
+// TIME:   an operation walks the lists of its arcs once; close() walks the open lists once.
+// MEMORY: PackedLists; 48 bytes per open bucket.
 class ArcBucketLists {
  public:
   // REQUIRES: all buckets are of this exponent, and none is empty.
@@ -38,31 +38,31 @@ class ArcBucketLists {
     return opened != kNone ? opened_[opened].first == kNone : packed_.of(arc.value()).empty();
   }
 
-  // Fetches into the caches, without waiting: where the arc's list is; and, when that was fetched, the list.
+  // Prefetches where the arc's list is stored; when that has arrived, prefetch() fetches the list.
   void prefetch_place(ArcId arc) const { packed_.prefetch_place(arc.value()); }
   void prefetch(ArcId arc) const { packed_.prefetch(arc.value()); }
 
-  // A vertex enters its bucket.
+  // Adds a vertex to its bucket.
   void add(ArcId arc, double value, const std::array<double, 3>& position);
 
-  // Up to which value, going along an arc that spans the values from `lo` to `hi`, a cut moves nothing of
-  // what lies before it. REQUIRES: !empty(arc).
+  // The arc spans the values from `lo` to `hi`. Returns the first value, in direction d, at which a cut finds vertices
+  // before it. A cut at an earlier value moves nothing. REQUIRES: !empty(arc).
   double first_value(Direction d, ArcId arc, double lo, double hi);
 
-  // What `from` has on side d of values.at goes to `into`. The bucket that the value lies in is
-  // divided in proportion to the values of the arc within it, to whole vertices; both parts keep
-  // its mean. Returns whether anything moved.
+  // Moves the vertices of `from` on side d of values.at to `into`. The bucket that contains the value is divided in
+  // proportion to the values of the arc within it, in whole vertices; both parts keep its mean. Returns whether
+  // anything moved.
   bool cut(Direction d, ArcId from, ArcId into, const CutValues& values);
 
-  // All that `from` has goes to `into`. Returns whether anything did.
+  // Moves all buckets of `from` to `into`. Returns whether anything moved.
   bool merge(ArcId from, ArcId into);
 
-  // Forgets what the arc has, and returns how many vertices that was.
+  // Removes all vertices of the arc, and returns their number.
   std::uint64_t drop(ArcId arc);
 
-  // Packs what was opened. Spans of closed() end here.
+  // Packs the open lists. Spans from closed() become invalid.
   void close();
-  // What the arc had at the last close(), packed.
+  // The list of the arc at the last close(), packed.
   std::span<const std::byte> closed(ArcId arc) const { return packed_.of(arc.value()); }
 
  private:
@@ -78,7 +78,7 @@ class ArcBucketLists {
 
   bool is_open(ArcId arc) const { return open_.find(arc.value()) != kNone; }
   std::uint32_t& first(ArcId arc) { return opened_[open_.find(arc.value())].first; }
-  // The link that leads on from the item, or to the first one of the arc.
+  // The link from the item to the next one, or from the arc to its first item.
   std::uint32_t& after(std::uint32_t item, ArcId arc) { return item == kNone ? first(arc) : items_[item].next; }
   void open(ArcId arc);
   std::span<const Bucket> unpacked(ArcId arc);
@@ -90,7 +90,7 @@ class ArcBucketLists {
 
   int exponent_;
   PackedLists packed_;
-  FlatMap open_;  // of arcs, their entries in opened_
+  FlatMap open_;  // from arcs to their entries in opened_
   std::vector<Opened> opened_;
   std::vector<Item> items_;     // of opened lists
   std::uint32_t free_ = kNone;  // a list of unused items

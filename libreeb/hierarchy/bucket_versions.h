@@ -1,4 +1,4 @@
-// The embedding of every arc record of a hierarchy: the content that the Canceller carries along.
+// The embedding as the content of a Canceller: it yields the buckets of every arc record.
 #pragma once
 
 #include <cstddef>
@@ -12,15 +12,14 @@
 
 namespace reeb {
 
-// A node that disappears enters a bucket of the arc that it becomes part of.
+// A node that is contracted enters a bucket of the arc that contains it then.
 //
-// MEMORY: ArcBucketLists, in which what a step changes is open until it ends.
+// MEMORY: ArcBucketLists. The lists that a step changes are open until the step ends.
 class BucketVersions {
  public:
   static constexpr bool kFollows = true;
 
-  // `graph` and `sink` must outlive this. REQUIRES: `lists` has those of the graph's arcs, of this
-  // exponent.
+  // REQUIRES: `graph` and `sink` outlive this; `lists` are those of the graph's arcs, of this exponent.
   BucketVersions(const ReebGraph& graph, PackedLists lists, int exponent, RecordSink& sink)
       : graph_(graph), sink_(sink), lists_(std::move(lists), exponent) {}
 

@@ -12,20 +12,21 @@
 namespace reeb {
 namespace {
 
-// The canceller has the arcs; only the nodes are needed besides.
+// The canceller has a copy of the arcs; of the graph only the nodes are still needed.
 void release_arcs(ReebGraph& graph) {
   graph.lo = std::vector<NodeId>();
   graph.hi = std::vector<NodeId>();
 }
 
-// Pairs near in persistence lie anywhere, so that each would wait for memory many times.
+// Pairs that are near in persistence can be anywhere in memory. Without prefetching, each would wait for memory many
+// times.
 template <class Content>
 void prefetch(const Canceller<Content>& canceller, const std::vector<PersistencePair>& pairs, std::size_t at) {
-  constexpr std::size_t kNodes = 12, kArcs = 8, kNeighbours = 4;  // so many pairs ahead
-  if (at + kNodes >= pairs.size()) return;
-  canceller.prefetch_nodes(pairs[at + kNodes]);
-  canceller.prefetch_arcs(pairs[at + kArcs]);
-  canceller.prefetch_neighbours(pairs[at + kNeighbours]);
+  constexpr std::size_t kNodesAhead = 12, kArcsAhead = 8, kNeighboursAhead = 4;  // counted in pairs
+  if (at + kNodesAhead >= pairs.size()) return;
+  canceller.prefetch_nodes(pairs[at + kNodesAhead]);
+  canceller.prefetch_arcs(pairs[at + kArcsAhead]);
+  canceller.prefetch_neighbours(pairs[at + kNeighboursAhead]);
 }
 
 template <class Content>
@@ -43,7 +44,7 @@ void cancel_all(const ReebGraph& graph, Canceller<Content>& canceller, Hierarchy
   canceller.finish();
 }
 
-// Keeps all records, in the order of a file once reverse() is called.
+// Keeps all records; move_to() and buckets() reverse them into the order of a file.
 class RecordsInMemory : public RecordSink {
  public:
   void add(const ArcVersion& record, std::span<const std::byte> buckets) override {
@@ -78,14 +79,14 @@ class RecordsInMemory : public RecordSink {
 }  // namespace
 
 std::uint64_t hierarchy_bytes(std::uint64_t nodes, std::uint64_t arcs, std::optional<std::uint64_t> lists) {
-  // Keys, positions, heaps, searches and stretches; ends, heaps and the log; and as many pairs as there can be.
-  constexpr std::uint64_t kNode = 16 + 24 + 8 + 9 + 9, kArc = 8 + 36 + 4,
-                          kPair = sizeof(PersistencePair) + sizeof(double);
-  const std::uint64_t bytes = kNode * nodes + kArc * arcs + kPair * std::max(nodes, arcs);
+  // Per node: key, position, heaps, searches and sections. Per arc: ends, heaps and the log.
+  constexpr std::uint64_t kNodeBytes = 16 + 24 + 8 + 9 + 9, kArcBytes = 8 + 36 + 4,
+                          kPairBytes = sizeof(PersistencePair) + sizeof(double);
+  const std::uint64_t bytes = kNodeBytes * nodes + kArcBytes * arcs + kPairBytes * std::max(nodes, arcs);
   if (!lists) return bytes;
-  // Lists that change leave holes; and a node that disappears may get a bucket of its own.
-  constexpr std::uint64_t kNewBucket = 32;
-  return bytes + *lists + *lists / 2 + kNewBucket * nodes;
+  // Lists that change leave holes, and a node that is contracted might get a bucket of its own.
+  constexpr std::uint64_t kNewBucketBytes = 32;
+  return bytes + *lists + *lists / 2 + kNewBucketBytes * nodes;
 }
 
 Hierarchy build_hierarchy(ReebGraph& graph, PackedLists buckets, int exponent, RecordSink& sink, const Poll& poll) {

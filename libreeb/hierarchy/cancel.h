@@ -12,26 +12,24 @@
 
 namespace reeb {
 
-// What build_hierarchy() holds at most, the graph and its buckets included: of an embedding, `lists` is what
-// PackedLists::memory_bytes() says of it. Only buckets that are cut again and again could make it more.
+// The most memory that build_hierarchy() holds, including the graph and its buckets. With an embedding, `lists` is its
+// PackedLists::memory_bytes(). Only buckets that are cut over and over could exceed it.
 std::uint64_t hierarchy_bytes(std::uint64_t nodes, std::uint64_t arcs, std::optional<std::uint64_t> lists);
 
-// Pairs the nodes, cancels all pairs but Ext0 in the order of persistence, and tells when each arc
-// lives: its records go to `sink`, and Hierarchy::arcs and dropped stay empty. A record's arc has the
-// same ends throughout, and arcs that a step leaves as they were keep their record. Of the graph only
-// nodes and positions are left.
+// Pairs the nodes, and cancels all pairs but Ext0 in the order of cancelling. The arc records, with the versions in
+// which each lives, go to `sink`; Hierarchy::arcs and dropped stay empty. The ends of a record never change, and an arc
+// that a step does not change keeps its record. Afterwards `graph` has only its nodes and positions.
 //
-// `buckets` are an embedding of the graph's arcs, of this exponent; or there are none. Pairs and the
-// graph of every version are the same with it and without. An arc to which a step adds vertices gets a
-// record of its own; so in every version
+// `buckets` are an embedding of the graph's arcs, of this exponent, or empty. Pairs and the graph of every version are
+// the same with an embedding and without. An arc to which a step adds vertices gets a new record. So in every version
 //
 //   vertices in buckets + nodes + vertices dropped in this version or before
 //
-// is what it was in version 0.
+// is the same as in version 0.
 //
-// TIME:   O(m log m) for the pairs; a cancellation costs its two paths and a search that goes no
-//         further than the lesser of what lies above the lower and below the upper node within
-//         the pair's interval.
+// TIME:   O(m log m) for the pairs. A cancellation costs its two paths and a search. The search costs no more than the
+//         smaller of two parts of the graph within the pair's interval: that above the lower node, and that below the
+//         upper node.
 // MEMORY: hierarchy_bytes().
 // REQUIRES: no node is of degree (1, 1).
 Hierarchy build_hierarchy(ReebGraph& graph, PackedLists buckets, int exponent, RecordSink& sink, const Poll& poll = {});

@@ -1,11 +1,11 @@
 // The rules by which pairs are cancelled (docs/SEMANTICS.md, Cancelling), one step at a time.
 //
-// WHY THE SEARCHES ARE SHORT. When a pair is to be cancelled, every pair inside its interval has
-// been, except kept loops. So
-//  (1) the component of a maximum u above its up-fork v has no other maximum: any path up from v
-//      into it ends in u, and any path up from v outside it passes the level of u;
-//  (2) no two arcs of v lead into one component of that set, nor of the interlevel set (v, y) of a
-//      loop: else a cycle above v would end sooner, a loop with lo = v, which was kept.
+// WHY THE SEARCHES ARE SHORT. When the turn of a pair comes, every pair inside its interval is gone, except kept loops.
+// So
+//  (1) the component of a maximum u above its up-fork v has no other maximum: any path up from v into it ends in u, and
+//      any path up from v outside it passes the level of u;
+//  (2) no two arcs of v lead into that component, or into the same component of the interlevel set (v, y) of a loop
+//      (v, y). Otherwise there would be a loop with lo = v that ends below u, or y, and only a kept loop can.
 // Only at a fork with a kept loop is a whole component searched.
 //
 // THREADS: a Canceller belongs to one thread.
@@ -27,7 +27,8 @@
 
 namespace reeb {
 
-// An arc that two paths cut: `from` goes from `start` in `direction` to `end`, past `node`.
+// A cut of the arc `from`, which goes from `start` in `direction` to `end`, at `node`. The part before `node` goes to
+// `into`.
 struct ArcCut {
   Direction direction;
   ArcId from, into;
@@ -41,36 +42,37 @@ struct ArcPart {
   NodeId start, end;
 };
 
-// What happens to the content of arcs (an embedding, a count) while the rules move them. Arcs are
-// named by their numbers in the full graph; a number stays with one of two arcs that become one.
-// cut and merge return whether they changed what is in `into`.
+// Follows the content of arcs (an embedding, a count) while the rules move the arcs. Arcs are named by their numbers in
+// the full graph; when two arcs become one, it has the number of one of them. cut and merge return whether they changed
+// the content of `into`.
 struct IgnoreContent {
-  // Whether the content of an arc that is taken away is laid on another path where there is one,
-  // and an arc whose content changes gets a new record.
+  // Whether there is content. If so, the content of a removed arc is moved to another path where there is one, and an
+  // arc whose content changes gets a new record.
   static constexpr bool kFollows = false;
   // The part of `from` between `start` and `node` goes to `into`, which has these ends. The rest
   // stays.
   bool cut(const ArcCut& /*cut*/) { return false; }
-  // Up to which value, going along, there is nothing for cut() to move; and whether a node is so far.
+  // The first value, in the direction of the part, at which cut() has anything to move; and whether a node is at that
+  // value or beyond.
   double first_value(const ArcPart& /*part*/) { return 0; }
   bool is_reached(double /*value*/, Direction /*along*/, NodeId /*node*/) const { return false; }
-  // Both have the same ends; `from` goes to `into` whole.
+  // Two arcs with the same ends: the content of `from` goes to `into`.
   bool merge(ArcId /*from*/, ArcId /*into*/) { return false; }
-  // `lower` ends where `upper` starts, at a node that disappears; `lower` becomes both.
+  // `lower` ends where `upper` starts, at a node that is contracted; `lower` becomes both.
   void join(ArcId /*upper*/, ArcId /*lower*/, NodeId /*node*/) {}
-  // The arc is removed, and this number of nodes with it; its content is dropped.
+  // The arc is removed, with this number of nodes; its content is dropped.
   void drop(ArcId /*arc*/, std::uint32_t /*nodes*/) {}
-  // What the arc had before this step, as it goes into a record.
+  // The content that the arc had before this step, in the form of a record.
   std::span<const std::byte> before_step(ArcId /*arc*/) const { return {}; }
-  // The step is done.
+  // Ends the step.
   void commit() {}
-  // As the prefetches of the Canceller: of a node; of the place of an arc's content; of the content.
+  // For the prefetches of the Canceller: a node; where the content of an arc is stored; the content.
   void prefetch_node(NodeId /*node*/) const {}
   void prefetch_place(ArcId /*arc*/) const {}
   void prefetch(ArcId /*arc*/) const {}
 };
 
-// MEMORY: 40 bytes an arc and 25 bytes a node.
+// MEMORY: 40 bytes per arc and 25 bytes per node.
 template <class Content = IgnoreContent>
 class Canceller {
  public:
@@ -82,8 +84,8 @@ class Canceller {
   Canceller(const Canceller&) = delete;
   Canceller& operator=(const Canceller&) = delete;
 
-  // Cancels the pair and makes a version of it. False, with nothing changed, for a loop that no
-  // rule can cancel. REQUIRES: called in the order of cancelling, for all pairs but Ext0.
+  // Cancels the pair, which makes a version. For a loop that no rule can cancel it changes nothing and returns false.
+  // REQUIRES: called in the order of cancelling, for all pairs but Ext0.
   bool cancel(const PersistencePair& pair) {
     const NodeId lo = pair.lo, hi = pair.hi;
     if (pair.type == PairType::kRel1) cancel_extremum(kUp, lo, hi);
@@ -95,13 +97,13 @@ class Canceller {
     }
     contract(lo);
     contract(hi);
-    ways_.heed_changes();
+    ways_.apply_changes();
     log_.commit(content_);
     return true;
   }
 
-  // Prefetch what cancelling a pair reads first. Call them in this order, each some pairs ahead of the
-  // next: each but the first reads what the one before has fetched.
+  // Prefetch what cancelling a pair reads first. Call them in this order, each for a pair some turns before the next
+  // call for it: each reads what the one before has fetched.
   void prefetch_nodes(const PersistencePair& pair) const {
     for (const NodeId id : {pair.lo, pair.hi}) {
       graph_.prefetch_node(id);
@@ -127,20 +129,20 @@ class Canceller {
     }
   }
 
-  // Hands over the records of the last version. REQUIRES: nothing is cancelled any more.
+  // Writes the records of the last version. REQUIRES: nothing is cancelled afterwards.
   void finish() { log_.finish(content_); }
 
  private:
   static constexpr ArcId kNone = WorkingGraph::kNone;
-  // The content of an arc that ends in an extremum is laid on at most this many arcs; the rest is dropped.
-  // The path is walked for this purpose only, and each arc on it gets a new record. One in a hundred
-  // extrema of a scan, and one in six of a random function, have a longer path.
-  static constexpr std::uint32_t kMostBeside = 8, kAny = ~std::uint32_t{0};
+  // The content of the arc of an extremum is moved to at most this many arcs; the rest is dropped. The path is walked
+  // for this purpose only, and each arc on it gets a new record. One in a hundred extrema of a scan, and one in six of
+  // a random function, have a longer path.
+  static constexpr std::uint32_t kMaxArcsWithContent = 8, kAny = ~std::uint32_t{0};
 
   // A pair of `fork` with the extremum that is its partner in direction d.
   void cancel_extremum(Direction d, NodeId fork, NodeId extremum);
-  void lay_beside(Direction d, ArcId arc, ArcId beside, NodeId extremum);
-  bool go_beside(Direction d, ArcId arc, ArcId& beside, NodeId& start, NodeId end, std::uint32_t most = kAny);
+  void zip_onto(Direction d, ArcId arc, ArcId other, NodeId extremum);
+  bool follow_in_parallel(Direction d, ArcId arc, ArcId& other, NodeId& start, NodeId end, std::uint32_t most = kAny);
   ArcId arc_to_extremum(Direction d, NodeId fork, NodeId extremum);
   bool cancel_loop(NodeId v, NodeId y);
   bool take_away(ArcId arc);
@@ -189,7 +191,7 @@ class Canceller {
   BoundedSearch ahead_;  // from the fork of the pair
   BoundedSearch back_;   // from its partner
   PathFollower ways_;
-  std::array<std::vector<bool>, 2> kept_;  // whether a loop in direction d of the node was kept
+  std::array<std::vector<bool>, 2> kept_;  // by direction and node: whether a kept loop starts there in that direction
   std::vector<ArcId> first_, second_;      // arcs of the two paths to be zipped
   Content content_;
 };
@@ -204,31 +206,30 @@ void Canceller<Content>::cancel_extremum(Direction d, NodeId fork, NodeId extrem
       fork, d, farthest(d), [&](ArcId arc) { return searched ? !back_.reached(graph_.end(arc, d)) : arc != in; });
   if (in == kNone || out == kNone) not_a_pair();
 
-  lay_beside(d, in, out, extremum);
+  zip_onto(d, in, out, extremum);
 }
 
-// Zips the path that starts with `arc` and ends in the extremum onto the one that starts with
-// `beside`, in another component, and reaches beyond. What lies beside a long arc stays as it is, so
-// arcs move only where a node of the first path comes between two of the second; an extremum of one
-// arc is none.
+// Zips the path that starts with `arc` and ends in the extremum onto the path that starts with `other`, which is in
+// another component and reaches beyond. An arc of the second path is cut only where a node of the first path comes
+// between its ends. An extremum with a single arc does not count as such a node: it is removed with its arc.
 template <class Content>
-void Canceller<Content>::lay_beside(Direction d, ArcId arc, ArcId beside, NodeId extremum) {
-  NodeId start = graph_.end(arc, opposite(d));  // all before it is one path
+void Canceller<Content>::zip_onto(Direction d, ArcId arc, ArcId other, NodeId extremum) {
+  NodeId start = graph_.end(arc, opposite(d));  // before it the two paths are already one
   while (true) {
     const NodeId end = graph_.end(arc, d);
     const ArcId next = graph_.nearest(end, d);
     if (end == extremum && graph_.has_one(extremum, opposite(d))) break;
-    go_beside(d, arc, beside, start, end);
+    follow_in_parallel(d, arc, other, start, end);
     if (graph_.end(arc, opposite(d)) != start) move_start(d, arc, start);
-    cut(d, beside, arc, end);
+    cut(d, other, arc, end);
     if (end == extremum) return;
     start = end;
     arc = next;
   }
   if constexpr (Content::kFollows) {
-    if (go_beside(d, arc, beside, start, extremum, kMostBeside)) {
-      log_.touch(beside);
-      content_.join(arc, beside, extremum);
+    if (follow_in_parallel(d, arc, other, start, extremum, kMaxArcsWithContent)) {
+      log_.touch(other);
+      content_.join(arc, other, extremum);
     } else {
       content_.drop(arc, 1);
     }
@@ -236,31 +237,31 @@ void Canceller<Content>::lay_beside(Direction d, ArcId arc, ArcId beside, NodeId
   remove(arc);
 }
 
-// Follows the second path from `start` until its arc `beside` reaches to `end` or beyond, and lays the
-// content of `arc` on the arcs that are passed. False if there are more than `most` of them.
+// Follows the second path from `start` until its arc `other` reaches `end` or beyond, and moves the content of `arc` to
+// the arcs that are passed. False if there are more than `most` of them.
 template <class Content>
-bool Canceller<Content>::go_beside(Direction d, ArcId arc, ArcId& beside, NodeId& start, NodeId end,
-                                   std::uint32_t most) {
-  ArcPart left{d, arc, start, end};  // with the content that is not laid yet
+bool Canceller<Content>::follow_in_parallel(Direction d, ArcId arc, ArcId& other, NodeId& start, NodeId end,
+                                            std::uint32_t most) {
+  ArcPart left{d, arc, start, end};  // the part whose content was not moved yet
   double first = content_.first_value(left);
-  for (NodeId node = graph_.end(beside, d); along(d, node) < along(d, end); node = graph_.end(beside, d)) {
+  for (NodeId node = graph_.end(other, d); along(d, node) < along(d, end); node = graph_.end(other, d)) {
     if (most != kAny && most-- == 0) return false;
     if (content_.is_reached(first, d, node)) {
-      if (content_.cut({d, arc, beside, left.start, node, end})) log_.touch(beside);
+      if (content_.cut({d, arc, other, left.start, node, end})) log_.touch(other);
       left.start = node;
       first = content_.first_value(left);
     }
     start = most != kAny ? node : ways_.follow(node, d, [&](NodeId next) {
       return along(d, next) < along(d, end) && !content_.is_reached(first, d, next);
     });
-    beside = graph_.nearest(start, d);
+    other = graph_.nearest(start, d);
   }
   return true;
 }
 
-// The nearest arc of `fork` that leads into the extremum's component. With a kept loop at the fork
-// there can be several; then back_ is left with that component. Otherwise there is one, and it is
-// looked for from both ends: back from the extremum, and along from each arc of the fork.
+// The nearest arc of `fork` that leads into the extremum's component. With a kept loop at the fork there can be several
+// such arcs; then back_ has reached the whole component in the end. Otherwise there is one, and the search goes from
+// both ends: back from the extremum, and forward from each arc of the fork.
 template <class Content>
 ArcId Canceller<Content>::arc_to_extremum(Direction d, NodeId fork, NodeId extremum) {
   const bool searched = kept_[d][fork.value()];
@@ -311,9 +312,9 @@ bool Canceller<Content>::take_away(ArcId arc) {
   if constexpr (Content::kFollows) {
     const NodeId v = graph_.end(arc, kDown), y = graph_.end(arc, kUp);
     search_paths(v, y);
-    const ArcId beside = graph_.nearest_if(v, kUp, y, [&](ArcId other) { return other != arc && leads(other); });
-    if (beside != kNone) {
-      first_.assign(1, beside);
+    const ArcId parallel = graph_.nearest_if(v, kUp, y, [&](ArcId other) { return other != arc && leads(other); });
+    if (parallel != kNone) {
+      first_.assign(1, parallel);
       second_.assign(1, arc);
       trace(first_, y);
       zip(kUp);
@@ -325,8 +326,8 @@ bool Canceller<Content>::take_away(ArcId arc) {
   return true;
 }
 
-// Makes leads() true for the arcs above v from which a monotone path reaches y, as far as they can
-// be reached from v: searches down from y and up from v in turn, until either has seen all.
+// Makes leads() true for the arcs that can be reached from v and from which a monotone path reaches y. Searches down
+// from y and up from v in turn, until one of the two searches is complete.
 template <class Content>
 void Canceller<Content>::search_paths(NodeId v, NodeId y) {
   back_.start(y, kDown, v);
@@ -351,8 +352,7 @@ ArcId Canceller<Content>::second_path(NodeId v, NodeId y, ArcId first) {
   return graph_.nearest_if(v, kUp, y, [&](ArcId arc) { return leads(arc) && !ahead_.reached(graph_.end(arc, kUp)); });
 }
 
-// Prolongs the path to y, taking at each choice the arc with the lowest upper node that leads
-// there.
+// Extends the path to y. At each choice it takes, of the arcs that lead to y, the one with the lowest upper node.
 template <class Content>
 void Canceller<Content>::trace(std::vector<ArcId>& path, NodeId y) {
   for (NodeId node = graph_.end(path.back(), kUp); node != y; node = graph_.end(path.back(), kUp)) {

@@ -14,11 +14,11 @@
 namespace reeb {
 namespace {
 
-// Removes leaves of a graph whose arcs it takes; the nodes stay for the caller.
+// Removes leaves of a graph. It takes the arcs out of the graph; the nodes stay there.
 class GraphLeafRemoval {
  public:
-  // `whole` says which nodes have all their arcs, all do if it is null; `lists`, of the graph's arcs,
-  // may be null. All must outlive this.
+  // `whole`: which nodes have all their arcs; if null, all nodes do. `lists`, of the graph's arcs, may be null.
+  // REQUIRES: all arguments outlive this.
   GraphLeafRemoval(ReebGraph& full, const std::vector<bool>* whole, double threshold, ArcBucketLists* lists)
       : full_(full), whole_(whole), threshold_(threshold), graph_(full), lists_(lists) {
     find_reaches();
@@ -29,7 +29,7 @@ class GraphLeafRemoval {
   void run() {
     for (NodeId node; node < graph_.end_node(); ++node) {
       leaves_.push_back(node);
-      look_at_leaves();
+      remove_leaves_at();
     }
   }
 
@@ -38,7 +38,7 @@ class GraphLeafRemoval {
     return std::move(removed_);
   }
 
-  // The arcs that are left, by (lo, hi).
+  // The remaining arcs, by (lo, hi).
   std::vector<ArcId> remaining() const {
     std::vector<ArcId> arcs;
     arcs.reserve(graph_.end_arc().value());
@@ -60,12 +60,11 @@ class GraphLeafRemoval {
   }
 
  private:
-  // A leaf is only removed where its saddle reaches beyond it, and joining arcs moves no path: no
-  // step ever changes what is found here.
+  // The reaches never change. A leaf is removed only if its saddle reaches beyond it, and joining arcs changes no path.
   void find_reaches() {
     reach_.resize(full_.node_count());
     for (NodeId node; node < reach_.end_id(); ++node) reach_[node] = {node, node};
-    // Arcs are sorted by lower end, so all that lies below an arc comes before it, all above after.
+    // Arcs are sorted by lower end. So arcs below an arc come before it, arcs above it after it.
     for (std::size_t arc = 0; arc < full_.arc_count(); ++arc) {
       NodeId& reach = reach_[full_.hi[arc]][kDown];
       reach = std::min(reach, reach_[full_.lo[arc]][kDown]);
@@ -79,7 +78,7 @@ class GraphLeafRemoval {
     return along(d, reach_[node][d]) > along(d, leaf);
   }
 
-  void look_at_leaves() {
+  void remove_leaves_at() {
     while (!leaves_.empty()) {
       const NodeId node = leaves_.back();
       leaves_.pop_back();
@@ -103,27 +102,27 @@ class GraphLeafRemoval {
     if (!(persistence_of(full_, pair) < threshold_)) return;
     removed_.push_back(pair);
     graph_.remove(arc);
-    if (lists_ != nullptr) lay_aside(arc, saddle, leaf, d);
+    if (lists_ != nullptr) move_buckets(arc, saddle, leaf, d);
     settle(saddle);
     if (lists_ != nullptr) lists_->close();
   }
 
-  // The buckets of an arc that was removed, and its leaf, go to the nearest path beyond it.
-  void lay_aside(ArcId arc, NodeId saddle, NodeId leaf, Direction d) {
+  // Moves the buckets of a removed arc, and its leaf, to the nearest path that reaches beyond the leaf.
+  void move_buckets(ArcId arc, NodeId saddle, NodeId leaf, Direction d) {
     const auto next = [&](NodeId node) {
       return graph_.nearest_if(node, d, farthest(d),
                                [&](ArcId other) { return reaches_beyond(graph_.end(other, d), d, leaf); });
     };
     NodeId start = saddle;
-    ArcId beside = next(saddle);
-    for (NodeId end = graph_.end(beside, d); along(d, end) < along(d, leaf); end = graph_.end(beside, d)) {
+    ArcId path_arc = next(saddle);
+    for (NodeId end = graph_.end(path_arc, d); along(d, end) < along(d, leaf); end = graph_.end(path_arc, d)) {
       const auto [lo, hi] = std::minmax(start, leaf);
-      lists_->cut(opposite(d), arc, beside, {value(lo), value(end), value(hi)});
+      lists_->cut(opposite(d), arc, path_arc, {value(lo), value(end), value(hi)});
       start = end;
-      beside = next(end);
+      path_arc = next(end);
     }
-    lists_->merge(arc, beside);
-    add_vertex(beside, leaf);
+    lists_->merge(arc, path_arc);
+    add_vertex(path_arc, leaf);
   }
 
   void add_vertex(ArcId arc, NodeId node) {
@@ -131,8 +130,7 @@ class GraphLeafRemoval {
   }
   double value(NodeId node) const { return full_.nodes[node.value()].value; }
 
-  // A saddle that lost an arc may disappear, which gives leaves beyond it another saddle, or become
-  // a leaf itself.
+  // A saddle that lost an arc might become a leaf, or be contracted, which gives leaves beyond it another saddle.
   void settle(NodeId node) {
     if (!graph_.is_regular(node)) {
       leaves_.push_back(node);
@@ -156,11 +154,11 @@ class GraphLeafRemoval {
   WorkingGraph graph_;
   ArcBucketLists* lists_;
   IdVector<NodeId, std::array<NodeId, 2>> reach_;  // the farthest nodes on monotone paths
-  std::vector<NodeId> leaves_;                     // nodes that may be leaves to be looked at
+  std::vector<NodeId> leaves_;                     // nodes to examine, which might be leaves
   std::vector<PersistencePair> removed_;
 };
 
-// Takes out the nodes that have no arc any more; those that had none before stay.
+// Removes the nodes that have no arc any more; `isolated` had none before, and stay.
 void drop_lone_nodes(ReebGraph& graph, const std::vector<NodeId>& isolated) {
   constexpr std::uint32_t kGone = ~std::uint32_t{0};
   std::vector<std::uint32_t> rank(graph.node_count(), kGone);

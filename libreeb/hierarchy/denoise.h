@@ -14,39 +14,37 @@ namespace reeb {
 
 struct Denoised {
   ReebGraph graph;
-  // The pairs that are gone, Ord0 and Rel1 only, by the nodes of the graph that was given, in the
-  // order of cancelling. All others are as before.
+  // The removed pairs, all Ord0 or Rel1, in the order of cancelling. Their nodes are numbered as in the given graph.
+  // All other pairs are as before.
   std::vector<PersistencePair> removed;
-  // Of each arc, the number in the graph that was given of its lowest part.
+  // For each arc, the number that its lowest part had in the given graph.
   std::vector<ArcId> former;
 };
 
-// Repeats, until nothing changes: remove a leaf (an extremum with one arc) of persistence <
-// threshold whose saddle has another monotone path, in the leaf's direction, that reaches beyond
-// the leaf in the total order; then (1, 1) nodes disappear. The result does not depend on any order
-// of steps.
+// Repeats, until nothing changes: remove a leaf (an extremum with one arc) of persistence < threshold whose saddle has
+// another monotone path, in the leaf's direction, that reaches beyond the leaf in the total order; then contract the
+// saddle if it is a (1, 1) node. The result does not depend on the order of the steps.
 //
 // TIME:   O(m log m).
-// MEMORY: besides the graph, which becomes the result, 32 bytes an arc and 20 a node; 36 a removed
-//         pair (12 of them the result).
+// MEMORY: in addition to the graph, which becomes the result, 32 bytes per arc and 20 per node; 36 per removed pair (12
+//         of them the result).
 // REQUIRES: no node is of degree (1, 1).
 Denoised denoise(ReebGraph graph, double threshold);
 
-// The same with an embedding: `buckets`, of the graph's arcs, becomes that of the result's. What a
-// removed leaf held, and the leaf itself, are laid on a path that proves that it may go, taking at
-// each choice the arc with the nearest end of those from which the path reaches beyond the leaf. A
-// node that disappears enters a bucket. So vertices in buckets + nodes stay the same. With empty
-// `buckets` there is no embedding.
+// The same with an embedding: `buckets`, of the graph's arcs, become those of the result's arcs. The vertices of a
+// removed leaf's arc, and the leaf, are moved to another path from its saddle that reaches beyond the leaf: at each
+// choice it takes, of the arcs from which it can still reach beyond, the one with the nearest end. A contracted node
+// enters a bucket. So vertices in buckets + nodes stay the same. With empty `buckets` there is no embedding.
 //
-// TIME:   besides, the buckets of the arcs that a removal changes, and one copy of all.
-// MEMORY: besides, ArcBucketLists: 8 bytes an arc, 6 a list and its packed buckets, with holes half as much
-//         again; at the end, when the rest is free again, 8 an arc and 40 a bucket for the result.
+// TIME:   in addition, the buckets of the arcs that a removal changes, and one copy of all.
+// MEMORY: in addition, ArcBucketLists: 8 bytes per arc, 6 per list and its packed buckets, with holes half as much
+//         again; at the end, when the rest is free again, 8 per arc and 40 per bucket for the result.
 // REQUIRES: all buckets are of this exponent, and none is empty.
 Denoised denoise(ReebGraph graph, double threshold, ArcBuckets& buckets, int exponent);
 
-// The same in a part of a graph: all arcs of the nodes that are `whole`, in the order of the graph.
-// Other nodes only say where those arcs end, and stay. With the nodes of noise_scope() whole, the
-// arcs and buckets of the result, in the place of the part's, make of the graph what denoise() does.
+// The same in a part of a graph, which has all arcs of the nodes that are `whole`, in the order of the graph. The other
+// nodes are only the ends of these arcs, and stay. If the nodes of noise_scope() are whole, replacing the part by the
+// result, with its buckets, changes the graph as denoise() does.
 Denoised denoise_part(ReebGraph part, const std::vector<bool>& whole, double threshold, PackedLists& buckets,
                       int exponent);
 

@@ -1,9 +1,9 @@
 // The result of the second stage: persistence pairs, and all levels of detail at once
 // (docs/SEMANTICS.md, Pairs and Levels; the paper's "Simplification and Hierarchy").
 //
-// The sequence of simplified graphs is partially persistent: an arc is a record with the steps
-// between which it lives. Cancellation number s (from 1) turns version s-1 into version s; version
-// 0 is the full graph. The graph of version e has the arcs with born <= e < died.
+// All versions of the graph are stored together: an arc is a record with the versions between which it lives. Version 0
+// is the full graph; cancellation s (from 1) turns version s - 1 into version s. The graph of version e has the arcs
+// with born <= e < died.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@
 
 namespace reeb {
 
-// In the order in which equal persistences are listed in files.
+// The order is that in which files list pairs of equal persistence.
 enum class PairType : std::uint8_t { kExt0, kExt1, kOrd0, kRel1 };
 
 struct PersistencePair {
@@ -32,30 +32,29 @@ struct Hierarchy {
   std::vector<PersistencePair> pairs;
   // persistence[s - 1] is that of the pair cancelled by step s; not decreasing.
   std::vector<double> persistence;
-  // By died, descending: every prefix up to some `died` is all that lives then. Then by (lo, hi, born).
+  // By died, descending, then by (lo, hi, born). So the arcs that live longer than a given version are a prefix.
   std::vector<ArcVersion> arcs;
-  // A node without arcs in a version is present in it only as an isolated point:
-  // isolated[i] is the node; present in every version, since Ext0 is never cancelled.
+  // The nodes without arcs, which are isolated points. Each is in every version, since Ext0 is never cancelled. (Any
+  // other node is in the versions in which it has arcs.)
   std::vector<NodeId> isolated;
   // By version, ascending; empty without an embedding.
   std::vector<DroppedVertices> dropped;
 };
 
-// Called now and then while a hierarchy is built; it may throw to end that.
+// Called from time to time while a hierarchy is built; it may throw to stop that.
 using Poll = std::function<void()>;
 
-// Pairs the nodes and cancels all pairs but Ext0 in the order of persistence.
+// Pairs the nodes, and cancels all pairs but Ext0 in the order of cancelling.
 //
 // TIME:    O(m log m) for the pairs; a cancellation costs its two paths and a search that stays within the
 //          pair's interval.
-// MEMORY:  about 115 bytes an arc; of the result, 16 a record.
+// MEMORY:  about 115 bytes per arc; for the result, 16 per record.
 // THREADS: any number of calls at the same time.
-// REQUIRES: no node is of degree (1, 1). (What OnlineReeb and ReebFile give has none.)
+// REQUIRES: no node is of degree (1, 1). (Graphs from OnlineReeb and ReebFile have none.)
 Hierarchy build_hierarchy(ReebGraph graph, const Poll& poll = {});
 
-// The same with an embedding, of this exponent: `buckets` becomes that of Hierarchy::arcs, 40 bytes a
-// bucket of all records. With empty `buckets` there is no embedding. Pairs and graphs are the same with it
-// and without.
+// The same with an embedding, of this exponent: `buckets` becomes that of Hierarchy::arcs, 40 bytes per bucket of all
+// records. With empty `buckets` there is no embedding. Pairs and graphs are the same with an embedding and without.
 Hierarchy build_hierarchy(ReebGraph graph, ArcBuckets& buckets, int exponent, const Poll& poll = {});
 
 }  // namespace reeb

@@ -13,7 +13,7 @@ std::uint32_t version_below(const Hierarchy& hierarchy, double threshold) {
 
 std::vector<LevelSize> level_sizes(const Hierarchy& hierarchy) {
   const std::uint32_t last = last_version(hierarchy);
-  // What arrives in a version and what leaves it; the differences wrap and cancel out.
+  // Arcs born in each version minus those that died; negative differences wrap.
   std::vector<std::uint64_t> arc_change(last + 1);
   for (const ArcVersion& arc : hierarchy.arcs) {
     ++arc_change[arc.born];

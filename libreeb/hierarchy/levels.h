@@ -1,12 +1,11 @@
 // Levels of a hierarchy in memory: which version belongs to a threshold, how large it is, and its graph
 // (docs/SEMANTICS.md, Levels).
 //
-// For users of the library who build a hierarchy in memory, as with build_hierarchy() after OnlineReeb.
-// The program itself reads levels from files (ooc/reeb_file). A Hierarchy that does not change may be
-// asked by several threads at once.
+// For users of the library who build a hierarchy in memory, for instance with build_hierarchy() after OnlineReeb. The
+// program itself reads levels from files (ooc/reeb_file).
 //
-// A version is a number of cancellations; kept loops and Ext0 pairs are none. Node ids are those of
-// the full graph that the hierarchy was built from.
+// A version is a number of cancellations; kept loops and Ext0 pairs do not count. Node ids are those of the full graph
+// from which the hierarchy was built.
 //
 // THREADS: nothing here changes its arguments; any number of calls at the same time.
 #pragma once
@@ -33,15 +32,15 @@ struct LevelSize {
   std::uint64_t arcs = 0;
 };
 
-// One entry a version, from version 0 on; neither nodes nor arcs ever grow. O(records + pairs).
+// One entry per version, starting with version 0. Neither nodes nor arcs ever become more. O(records + pairs).
 std::vector<LevelSize> level_sizes(const Hierarchy& hierarchy);
 
 // The finest version with at most `nodes` nodes; the number of versions if even the coarsest is
 // larger. `sizes` is level_sizes of the hierarchy. O(log n).
 std::uint32_t finest_with_nodes(const std::vector<LevelSize>& sizes, std::uint64_t nodes);
 
-// The graph of a version. Looks only at the records that died after it: O(r + k log k) for r of
-// those and k arcs in the result.
+// The graph of a version. It reads only the records that died after the version: O(r + k log k) for r such records and
+// k arcs in the result.
 ReebGraph graph_at(const Hierarchy& hierarchy, const ReebGraph& full, std::uint32_t version);
 
 }  // namespace reeb

@@ -35,7 +35,7 @@ class NoiseScope {
   std::uint32_t degree(std::uint32_t node, Direction d) const { return (d == kUp ? degrees_.up : degrees_.down)[node]; }
   std::uint32_t end(std::uint32_t arc, Direction d) const { return (d == kUp ? graph_.hi : graph_.lo)[arc].value(); }
   bool is_extremum(std::uint32_t node, Direction d) const { return degree(node, d) == 0; }
-  bool may_disappear(std::uint32_t node) const { return firm_[node][kDown] <= 1 && firm_[node][kUp] <= 1; }
+  bool can_be_contracted(std::uint32_t node) const { return firm_[node][kDown] <= 1 && firm_[node][kUp] <= 1; }
 
   // The short arcs of a node in direction d.
   std::span<const std::uint32_t> arcs(std::uint32_t node, Direction d) const {
@@ -65,13 +65,13 @@ class NoiseScope {
     while (!changed_.empty()) {
       const std::uint32_t node = changed_.back();
       changed_.pop_back();
-      if (!may_disappear(node)) continue;
+      if (!can_be_contracted(node)) continue;
       for (const Direction d : {kDown, kUp})
         if (firm_[node][d] < degree(node, d)) pass_on(node, d);
     }
   }
 
-  // A leaf's arc in direction d may begin with this one.
+  // The arc of a leaf in direction d might begin with this arc.
   void loosen(std::uint32_t arc, Direction d) {
     if (loose_[d][arc]) return;
     loose_[d][arc] = true;
@@ -80,18 +80,19 @@ class NoiseScope {
     changed_.push_back(saddle);
   }
 
-  // One that goes on from this node may begin before it.
+  // A loose arc continues from this node in direction d, so the arcs before the node are loose too.
   void pass_on(std::uint32_t node, Direction d) {
     if (passed_on_[d][node]) return;
     passed_on_[d][node] = true;
     for (const std::uint32_t arc : arcs(node, opposite(d))) loosen(arc, d);
   }
 
-  // A leaf only goes where its saddle has another arc beside it: the others are not loose.
+  // A leaf is removed only if its saddle has another arc in its direction. Arcs on no chain from such a saddle are not
+  // loose after all.
   void keep_chains_from_forks(Direction d) {
-    std::vector<bool> goes_on(graph_.node_count());
+    std::vector<bool> continues(graph_.node_count());
     for_nodes_along(d, [&](std::uint32_t node) {
-      const bool begins = degree(node, d) > 1 || goes_on[node];
+      const bool begins = degree(node, d) > 1 || continues[node];
       for (const std::uint32_t arc : arcs(node, d)) {
         if (!loose_[d][arc]) continue;
         const std::uint32_t next = end(arc, d);
@@ -100,12 +101,12 @@ class NoiseScope {
           continue;
         }
         in_scope_[node] = in_scope_[next] = true;
-        if (may_disappear(next)) goes_on[next] = true;
+        if (can_be_contracted(next)) continues[next] = true;
       }
     });
   }
 
-  // What is on paths along direction d from the ends of loose arcs, before the farthest leaf there.
+  // Adds the nodes on paths in direction d from the starts of loose arcs, up to the farthest leaf there.
   void add_paths(Direction d) {
     std::vector<std::uint32_t> farthest(graph_.node_count());
     for_nodes_along(opposite(d), [&](std::uint32_t node) {
@@ -133,7 +134,7 @@ class NoiseScope {
   std::array<std::vector<bool>, 2> loose_;          // by arc
   std::array<std::vector<bool>, 2> passed_on_;      // by node
   std::vector<bool> in_scope_;
-  std::vector<std::uint32_t> changed_;  // nodes that may disappear now
+  std::vector<std::uint32_t> changed_;  // nodes that lost a firm arc
 };
 
 }  // namespace

@@ -10,8 +10,8 @@
 namespace reeb {
 namespace {
 
-// Before a list: the arc in four bytes, then the size, seven bits a byte.
-constexpr std::size_t kArcBytes = 4, kMostSizeBytes = 5;
+// A list comes after its arc, in four bytes, and its size, seven bits per byte.
+constexpr std::size_t kArcBytes = 4, kMaxSizeBytes = 5;
 
 }  // namespace
 
@@ -32,9 +32,9 @@ std::uint64_t PackedLists::memory_bytes() const {
 }
 
 std::uint64_t PackedLists::most_bytes(std::uint64_t arcs, std::uint64_t buckets) {
-  constexpr std::uint64_t kBucket = 28, kList = kArcBytes + 2 + 3;  // with its size and its length
-  const std::uint64_t bytes = kBucket * buckets + kList * std::min(arcs, buckets);
-  return sizeof(std::uint64_t) * arcs + bytes + bytes / (kListsAChunk - 1) + 2 * kChunkBytes;
+  constexpr std::uint64_t kBucketBytes = 28, kListBytes = kArcBytes + 2 + 3;  // arc, size in bytes, length
+  const std::uint64_t bytes = kBucketBytes * buckets + kListBytes * std::min(arcs, buckets);
+  return sizeof(std::uint64_t) * arcs + bytes + bytes / (kListsPerChunk - 1) + 2 * kChunkBytes;
 }
 
 std::span<const std::byte> PackedLists::of(std::size_t arc) const {
@@ -62,7 +62,7 @@ PackedLists::Block PackedLists::block_at(const Chunk& chunk, std::uint32_t offse
 }
 
 std::uint64_t PackedLists::store(std::uint32_t arc, std::span<const std::byte> list) {
-  const std::size_t most = kArcBytes + kMostSizeBytes + list.size();
+  const std::size_t most = kArcBytes + kMaxSizeBytes + list.size();
   if (most > ~std::uint32_t{0}) throw std::length_error("PackedLists: a list of 4 GiB");
   const std::uint32_t index = chunk_with_room(most);
   Chunk& chunk = chunks_[index];
@@ -79,12 +79,12 @@ std::uint64_t PackedLists::store(std::uint32_t arc, std::span<const std::byte> l
   return place(index, offset);
 }
 
-// Large lists have chunks of their own, so that little is lost at the end of the others.
+// A large list has a chunk of its own, so that little room is lost at the ends of chunks.
 std::uint32_t PackedLists::chunk_with_room(std::size_t bytes) {
-  if (bytes > kChunkBytes / kListsAChunk) return new_chunk(bytes);
+  if (bytes > kChunkBytes / kListsPerChunk) return new_chunk(bytes);
   if (open_ != kNoChunk && chunks_[open_].room - chunks_[open_].used >= bytes) return open_;
   const std::uint32_t full = std::exchange(open_, new_chunk(kChunkBytes));
-  if (full != kNoChunk) note_if_due(full);  // which was spared while it was being filled
+  if (full != kNoChunk) note_if_due(full);  // a chunk is not noted while it is being filled
   return open_;
 }
 
@@ -110,21 +110,21 @@ void PackedLists::forget(std::uint64_t place) {
 
 void PackedLists::note_if_due(std::uint32_t index) {
   Chunk& chunk = chunks_[index];
-  if (chunk.is_due || chunk.live >= kLeastLive * chunk.used) return;
+  if (chunk.is_due || chunk.live >= kMinLiveShare * chunk.used) return;
   chunk.is_due = true;
   due_.push_back(index);
 }
 
 void PackedLists::collect() {
-  // What moves may fill the open chunk, which then may be due itself.
+  // Lists that are moved might fill the open chunk, which then might be due itself.
   while (!due_.empty()) {
     const std::uint32_t chunk = due_.back();
     due_.pop_back();
-    give_up(chunk);
+    abandon(chunk);
   }
 }
 
-void PackedLists::give_up(std::uint32_t index) {
+void PackedLists::abandon(std::uint32_t index) {
   for (std::uint32_t offset = 0; chunks_[index].live != 0 && offset < chunks_[index].used;) {
     const Block block = block_at(chunks_[index], offset);
     if (places_[block.arc] == place(index, offset)) {

@@ -1,5 +1,5 @@
-// A packed list of buckets for each of many arcs (libreeb/graph/packed_buckets.h), in memory that is
-// used again as lists are replaced.
+// A packed list of buckets for each of many arcs (libreeb/graph/packed_buckets.h). Memory is reused when lists are
+// replaced.
 #pragma once
 
 #include <cstddef>
@@ -13,12 +13,11 @@
 
 namespace reeb {
 
-// Lists lie in chunks, each behind the number of its arc. A list that is replaced stays readable until
-// collect(); then a chunk of which less than kLeastLive is in use is given up, and what lives in it
-// moves on. So lists that change all the time, which soon fill chunks of their own, cost no moves.
+// Lists are stored in memory chunks, each list after the number of its arc. A list that was replaced stays readable
+// until collect(). That abandons each chunk of which less than kMinLiveShare is in use, and moves the lists that are
+// still in use to another chunk. Lists that change all the time soon fill chunks of their own, so they cost no moves.
 //
-// MEMORY: 8 bytes an arc; 6 and its bytes a list, and up to half as much again for what is no longer
-//         in use; two chunks.
+// MEMORY: 8 bytes per arc; for each list its bytes and 6 more, and up to half as much again for holes; two chunks.
 class PackedLists {
  public:
   void reserve(std::size_t arcs) { places_.reserve(arcs); }
@@ -27,14 +26,14 @@ class PackedLists {
   void add_packed(std::span<const std::byte> packed);
 
   std::size_t size() const { return places_.size(); }
-  // What it holds at present.
+  // The memory that it holds at present.
   std::uint64_t memory_bytes() const;
-  // What it holds at most once so many arcs were added with so many buckets, of counts up to 2^13.
+  // The most memory that it holds after adding these numbers of arcs and buckets, whose counts are up to 2^13.
   static std::uint64_t most_bytes(std::uint64_t arcs, std::uint64_t buckets);
   // Empty for an arc without buckets. Valid until the next collect().
   std::span<const std::byte> of(std::size_t arc) const;
 
-  // Fetches into the caches, without waiting: where the list is; and, when that was fetched, the list.
+  // Prefetches where the list is stored; when that has arrived, prefetch() fetches the list.
   void prefetch_place(std::size_t arc) const { __builtin_prefetch(&places_[arc]); }
   void prefetch(std::size_t arc) const {
     const std::uint64_t place = places_[arc];
@@ -46,20 +45,20 @@ class PackedLists {
 
  private:
   static constexpr std::size_t kChunkBytes = 64 << 10;
-  static constexpr std::size_t kListsAChunk = 8;  // at least
-  static constexpr double kLeastLive = 2.0 / 3;
+  static constexpr std::size_t kListsPerChunk = 8;  // at least
+  static constexpr double kMinLiveShare = 2.0 / 3;
   static constexpr std::uint64_t kNowhere = ~std::uint64_t{0};
   static constexpr std::uint32_t kNoChunk = ~std::uint32_t{0};
   struct Chunk {
     std::unique_ptr<std::byte[]> bytes;
     std::uint32_t room = 0, used = 0, live = 0;
-    bool is_due = false;  // to be given up
+    bool is_due = false;  // to be abandoned
   };
-  // A list with what stands before it.
+  // A list and the number of its arc, as stored in a chunk.
   struct Block {
     std::uint32_t arc;
     std::span<const std::byte> list;
-    std::uint32_t end;  // its place in the chunk is over here
+    std::uint32_t end;  // offset of the end in the chunk
   };
 
   static std::uint64_t place(std::uint32_t chunk, std::uint32_t offset) { return std::uint64_t{chunk} << 32 | offset; }
@@ -69,19 +68,19 @@ class PackedLists {
   std::uint32_t new_chunk(std::size_t room);
   void forget(std::uint64_t place);
   void note_if_due(std::uint32_t chunk);
-  void give_up(std::uint32_t chunk);
+  void abandon(std::uint32_t chunk);
 
-  std::vector<std::uint64_t> places_;  // of arcs: chunk and offset
+  std::vector<std::uint64_t> places_;  // by arc: chunk and offset
   std::vector<Chunk> chunks_;
   std::vector<std::uint32_t> free_;  // chunks without memory
   std::vector<std::uint32_t> due_;
-  std::unique_ptr<std::byte[]> spare_;  // memory of a chunk given up
-  std::uint32_t open_ = kNoChunk;       // which is being filled
+  std::unique_ptr<std::byte[]> spare_;  // memory of an abandoned chunk
+  std::uint32_t open_ = kNoChunk;       // the chunk that is being filled
   std::uint64_t chunk_bytes_ = 0;       // of all chunks
   std::vector<std::byte> packed_;       // of add()
 };
 
-// The buckets of these arcs, all of them; none where there is no embedding.
+// The lists of all arcs; without an embedding, no lists.
 PackedLists pack_lists(const ArcBucketsView& buckets);
 
 }  // namespace reeb

@@ -9,7 +9,7 @@
 namespace reeb {
 namespace {
 
-// The arcs grouped by upper end: those below node y are order[first[y]] .. order[first[y + 1] - 1].
+// The arcs grouped by upper end: the arcs down from node y are order[first[y]] .. order[first[y + 1] - 1].
 struct ArcsBelow {
   std::vector<std::uint32_t> first, order;
 };
@@ -25,11 +25,11 @@ ArcsBelow arcs_below(const ReebGraph& graph) {
   return below;
 }
 
-// Upward sweep: a down-arc of y joins two components of the sublevel set, and the one whose minimum
-// is higher ends (elder rule), or it closes a cycle. The cycles within an interlevel set [a, b]
-// number the Ext1 pairs within it, and the arcs with hi <= b that a maximum spanning forest by
-// lower end keeps are, from any a on, a spanning forest of [a, b]: so y pairs with the lower end
-// that the forest loses. Returns the sublevel components at the end, named by their minima.
+// Upward sweep. An arc down from y either joins two components of the sublevel set, and the one whose minimum is higher
+// ends (elder rule), or it closes a cycle. Why y is then paired with the lower end of the arc that a maximum spanning
+// forest, by lower end, loses: the number of independent cycles within [a, b] is the number of Ext1 pairs there. Of the
+// arcs with hi <= b, those that the forest keeps and whose lower end is at least a are a spanning forest of [a, b], for
+// every a. Returns the components of the whole graph, named by their minima.
 UnionFind sweep_up(const ReebGraph& graph, std::vector<PersistencePair>& pairs) {
   const ArcsBelow below = arcs_below(graph);
   const auto nodes = static_cast<std::uint32_t>(graph.node_count());
@@ -50,8 +50,8 @@ UnionFind sweep_up(const ReebGraph& graph, std::vector<PersistencePair>& pairs) 
   return sublevel;
 }
 
-// Downward sweep, in ranks counted from the top so that a superlevel component is named by its
-// maximum. Arcs are sorted by lower end already.
+// Downward sweep, in ranks counted from the top, so that a superlevel component is named by its maximum. Arcs are
+// already sorted by lower end.
 UnionFind sweep_down(const ReebGraph& graph, std::vector<PersistencePair>& pairs) {
   const auto nodes = static_cast<std::uint32_t>(graph.node_count());
   const auto flip = [nodes](std::uint32_t node) { return nodes - 1 - node; };

@@ -5,49 +5,49 @@
 namespace reeb {
 
 PathFollower::PathFollower(const WorkingGraph& graph) : graph_(graph), exits_{kNone} {
-  stretch_of_.assign(graph.end_node().value(), {kNoStretch, kNoStretch});
+  section_of_.assign(graph.end_node().value(), {kNoSection, kNoSection});
 }
 
-// Makes a stretch of the nodes that were followed before `exit`, if they are enough.
+// Makes a section of the nodes that were followed before `exit`, if there are enough of them.
 void PathFollower::keep_followed(NodeId exit, Direction d) {
   if (!followed_.empty() && followed_.back() == exit) followed_.pop_back();
-  if (followed_.size() >= kLeastNodes) {
-    if (exits_.size() > stretch_of_.size() / kLeastNodes) {
-      std::fill(stretch_of_.begin(), stretch_of_.end(), std::array{kNoStretch, kNoStretch});
+  if (followed_.size() >= kMinNodes) {
+    if (exits_.size() > section_of_.size() / kMinNodes) {
+      std::fill(section_of_.begin(), section_of_.end(), std::array{kNoSection, kNoSection});
       exits_.resize(1);
     }
-    for (const NodeId node : followed_) stretch_of_[node][d] = static_cast<std::uint32_t>(exits_.size());
+    for (const NodeId node : followed_) section_of_[node][d] = static_cast<std::uint32_t>(exits_.size());
     exits_.push_back(exit);
   }
   followed_.clear();
 }
 
-void PathFollower::heed_changes() {
+void PathFollower::apply_changes() {
   for (const auto [node, d] : changed_) {
-    NodeId& exit = exits_[stretch_of_[node][d]];
-    if (exit != kNone && !still_leads_on(node, d)) exit = kNone;
+    NodeId& exit = exits_[section_of_[node][d]];
+    if (exit != kNone && !still_leads_to_exit(node, d)) exit = kNone;
   }
   changed_.clear();
 }
 
-// Whether the path from a node of a stretch still goes on in it, or to its exit; nodes that were put
-// between become part of it, and one that is gone is on no path any more.
-bool PathFollower::still_leads_on(NodeId node, Direction d) {
-  const std::uint32_t stretch = stretch_of_[node][d];
-  const auto is_in = [&](NodeId other) { return other == exits_[stretch] || stretch_of_[other][d] == stretch; };
-  std::array<NodeId, kMostPutBetween> between{};
+// Whether the path from a node of a section still leads to another node of the section, or to its exit. Nodes that were
+// inserted on the way become part of the section. A node that was removed leaves it.
+bool PathFollower::still_leads_to_exit(NodeId node, Direction d) {
+  const std::uint32_t section = section_of_[node][d];
+  const auto is_in = [&](NodeId other) { return other == exits_[section] || section_of_[other][d] == section; };
+  std::array<NodeId, kMaxInserted> inserted{};
   std::size_t count = 0;
   NodeId to = next(node, d);
   if (to == kNone) {
     if (graph_.nearest(node, opposite(d)) != ArcId::none()) return false;
-    stretch_of_[node][d] = kNoStretch;
+    section_of_[node][d] = kNoSection;
     return true;
   }
   for (; !is_in(to); to = next(to, d)) {
-    if (count == between.size() || exit_of(to, d) != kNone || next(to, d) == kNone) return false;
-    between[count++] = to;
+    if (count == inserted.size() || exit_of(to, d) != kNone || next(to, d) == kNone) return false;
+    inserted[count++] = to;
   }
-  for (std::size_t i = 0; i < count; ++i) stretch_of_[between[i]][d] = stretch;
+  for (std::size_t i = 0; i < count; ++i) section_of_[inserted[i]][d] = section;
   return true;
 }
 

@@ -1,11 +1,12 @@
-// Follows paths that take the nearest arc at each node, past many nodes at once.
+// Follows paths that take the nearest arc at each node, a section of many nodes at a time.
 //
-// WHY. Long arcs have all that ever hung on them as nodes: the ways past them that cancelling goes make
-// up a few per cent of all ways, but nearly all of the steps, time and again along the same nodes.
+// WHY. A path next to a long arc has the nodes of all branches that were ever moved there. Only a few per cent of the
+// paths that cancelling follows are of this kind, but they make up nearly all of its steps, always along the same
+// nodes.
 //
-// So what was followed node by node is kept as stretches, consecutive nodes of a path from each of which
-// it leads to one exit. A stretch outlives the nodes that disappear from its path, and takes in a few
-// that are put between; else it breaks, and its nodes are followed one by one the next time.
+// So nodes that were followed one by one become a section: consecutive nodes of a path from each of which it leads to
+// the same exit. A section stays valid when nodes are removed from its path, and includes a few nodes that are inserted
+// there. Other changes break it, and its nodes are followed one by one the next time.
 #pragma once
 
 #include <array>
@@ -17,61 +18,61 @@
 
 namespace reeb {
 
-// MEMORY: 8.5 bytes a node of the graph.
+// MEMORY: 8.5 bytes per node of the graph.
 class PathFollower {
  public:
   explicit PathFollower(const WorkingGraph& graph);
 
-  // To be called when the nearest arc of a node in direction d is another one, or ends elsewhere.
-  // May be called while more changes are to come, up to the next follow() or heed_changes().
+  // To be called when the nearest arc of a node in direction d has changed, or its end has. Other changes may follow;
+  // follow() and apply_changes() then use the final state.
   void note(NodeId node, Direction d) {
     if (exit_of(node, d) != kNone) changed_.push_back({node, d});
   }
-  // Forgets what was noted, once it is clear what that means. To be called now and then, for what is noted
-  // is held until then.
-  void heed_changes();
+  // Takes the noted changes into account, and forgets them. To be called from time to time, since they take memory
+  // until then.
+  void apply_changes();
 
-  void prefetch(NodeId node) const { __builtin_prefetch(&stretch_of_[node]); }
+  void prefetch(NodeId node) const { __builtin_prefetch(&section_of_[node]); }
 
-  // The last node of the path from `node` in direction d that `passes`, or `node` itself.
-  // REQUIRES: the node has arcs; after one that does not pass none does.
+  // The last node of the path from `node` in direction d for which `passes` is true, or `node` itself.
+  // REQUIRES: the node has arcs; on the path, `passes` is false for all nodes after the first for which it is false.
   template <class Passes>
   NodeId follow(NodeId node, Direction d, Passes passes);
 
  private:
   static constexpr NodeId kNone = NodeId::none();
-  static constexpr std::uint32_t kNoStretch = 0;
-  static constexpr std::size_t kLeastNodes = 8, kMostNodes = 32;  // of a stretch
-  static constexpr std::size_t kMostPutBetween = 4;
+  static constexpr std::uint32_t kNoSection = 0;
+  static constexpr std::size_t kMinNodes = 8, kMaxNodes = 32;  // of a section when it is made
+  static constexpr std::size_t kMaxInserted = 4;
 
   struct Change {
     NodeId node;
     Direction direction;
   };
 
-  NodeId exit_of(NodeId node, Direction d) const { return exits_[stretch_of_[node][d]]; }
+  NodeId exit_of(NodeId node, Direction d) const { return exits_[section_of_[node][d]]; }
   NodeId next(NodeId node, Direction d) const {
     const ArcId arc = graph_.nearest(node, d);
     return arc == ArcId::none() ? kNone : graph_.end(arc, d);
   }
   void keep_followed(NodeId exit, Direction d);
-  bool still_leads_on(NodeId node, Direction d);
+  bool still_leads_to_exit(NodeId node, Direction d);
 
   const WorkingGraph& graph_;
-  IdVector<NodeId, std::array<std::uint32_t, 2>> stretch_of_;  // by direction
-  std::vector<NodeId> exits_;                                  // by stretch; kNone if it broke
-  std::vector<Change> changed_;                                // nodes of stretches, not yet heeded
-  std::vector<NodeId> followed_;                               // one by one, of no stretch
+  IdVector<NodeId, std::array<std::uint32_t, 2>> section_of_;  // by direction
+  std::vector<NodeId> exits_;                                  // by section; kNone if it broke
+  std::vector<Change> changed_;                                // nodes of sections, not yet taken into account
+  std::vector<NodeId> followed_;                               // nodes that were followed one by one, in no section
 };
 
 template <class Passes>
 NodeId PathFollower::follow(NodeId node, Direction d, Passes passes) {
-  heed_changes();
+  apply_changes();
   followed_.clear();
   while (true) {
     const NodeId exit = exit_of(node, d);
     if (exit == kNone) {
-      if (followed_.size() == kMostNodes) keep_followed(node, d);
+      if (followed_.size() == kMaxNodes) keep_followed(node, d);
       followed_.push_back(node);
     } else {
       keep_followed(node, d);

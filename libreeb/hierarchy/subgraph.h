@@ -14,9 +14,8 @@ struct NodeArc {
   friend auto operator<=>(const NodeArc&, const NodeArc&) = default;
 };
 
-// The graph with these arcs, in any order, the nodes that they join, and isolated nodes
-// (ascending). Keys and positions are taken over. O(k log k) in the size of the result, whatever
-// that of `full`.
+// The graph of these arcs (in any order), their ends, and isolated nodes (ascending). Keys and positions are copied.
+// O(k log k) for a result of size k, whatever the size of `full`.
 ReebGraph subgraph(const ReebGraph& full, std::vector<NodeArc> arcs, std::span<const NodeId> isolated);
 
 // The nodes without arcs, ascending.

@@ -1,5 +1,4 @@
-// Writes down which arcs live between which steps: the partially persistent graph
-// (docs/SEMANTICS.md, Levels).
+// Records between which versions each arc lives (docs/SEMANTICS.md, Levels).
 #pragma once
 
 #include <algorithm>
@@ -13,12 +12,11 @@
 
 namespace reeb {
 
-// Collects the arcs that a step changes. An arc with the same ends before and after a step, even if
-// it was cut and joined again on the way, keeps its record, unless its content follows (canceller.h):
-// then a touched arc always starts a new one. Records go to a sink as they end, with what the arc had
-// before the step.
+// Collects the arcs that a step changes. When a record ends, it goes to a sink, with the content that the arc had
+// before the step. Without content (canceller.h), an arc with the same ends before and after a step keeps its record,
+// even if the step cut it and joined it again. With content, every touched arc starts a new record.
 //
-// MEMORY: 4 bytes an arc; 28 an arc that a step changes, until it ends.
+// MEMORY: 4 bytes per arc; 28 per arc that a step changes, until the step ends.
 class VersionLog {
  public:
   // Both must outlive this.
@@ -39,7 +37,7 @@ class VersionLog {
   template <class Content>
   void commit(Content& content) {
     std::sort(ended_.begin(), ended_.end(), in_order);
-    if constexpr (!Content::kFollows) go_on_with_unchanged();
+    if constexpr (!Content::kFollows) continue_unchanged();
     for (auto ended = ended_.rbegin(); ended != ended_.rend(); ++ended) {
       ended->version.died = step_;
       sink_.add(ended->version, content.before_step(ended->arc));
@@ -49,7 +47,7 @@ class VersionLog {
     ++step_;
   }
 
-  // Hands over the arcs of the last version. To be called once, at the end.
+  // Passes on the arcs of the last version. To be called once, at the end.
   template <class Content>
   void finish(const Content& content) {
     std::vector<ArcId> arcs;
@@ -66,8 +64,8 @@ class VersionLog {
     ArcId arc;
   };
 
-  // Records that have ended go on where an arc has their ends after the step, too.
-  void go_on_with_unchanged() {
+  // An ended record continues if, after the step, a changed arc has the same ends.
+  void continue_unchanged() {
     changed_.clear();
     for (const Ended& ended : ended_)
       if (graph_.alive(ended.arc)) changed_.push_back(ended.arc);
@@ -92,7 +90,7 @@ class VersionLog {
   std::uint32_t step_ = 1;
   IdVector<ArcId, std::uint32_t> born_;  // of each arc's present version
   std::vector<Ended> ended_;
-  std::vector<ArcId> changed_;  // arcs of ended_ that are still there
+  std::vector<ArcId> changed_;  // arcs of ended_ that still exist
 };
 
 }  // namespace reeb

@@ -37,8 +37,8 @@ void WorkingGraph::remove(ArcId arc) {
   arcs_[arc].end = {NodeId::none(), NodeId::none()};
 }
 
-// Melds two heaps of arcs of direction d, walking down their right spines: what is passed swaps its
-// children. O(log n) amortized.
+// Melds two heaps of arcs of direction d. Walks down their right spines, and swaps the children of each arc on the way.
+// O(log n) amortized.
 ArcId WorkingGraph::meld(ArcId a, ArcId b, Direction d) {
   if (a == kNone) return b;
   if (b == kNone) return a;

@@ -1,9 +1,9 @@
-// The graph that is simplified step by step: arcs whose ends move, found from their nodes in order.
+// The graph that is simplified step by step. The ends of arcs move; a node finds its arcs in order.
 //
-// Each node keeps the arcs above it in a heap with the nearest upper end on top, and the arcs below
-// it in a heap with the nearest lower end on top. So the arc with the lowest upper node is at hand,
-// and all arcs that end within an interval are enumerated without a look at the others, whatever
-// the node's degree. The heaps are skew heaps threaded through the arcs.
+// Each node has a heap of the arcs above it, with the nearest upper end on top, and a heap of the arcs below it, with
+// the nearest lower end on top. So the nearest arc is found at once, and the arcs that end within an interval are
+// enumerated without visiting the others, whatever the degree of the node. They are skew heaps, linked through the
+// arcs.
 #pragma once
 
 #include <array>
@@ -20,7 +20,7 @@ namespace reeb {
 // A limit that no node is beyond.
 constexpr NodeId farthest(Direction d) { return d == kUp ? NodeId::none() : NodeId(0); }
 
-// MEMORY: 36 bytes an arc, 8 bytes a node. No operation but the constructor allocates.
+// MEMORY: 36 bytes per arc, 8 bytes per node. Only the constructor and nearest_if() allocate.
 class WorkingGraph {
  public:
   static constexpr ArcId kNone = ArcId::none();
@@ -44,13 +44,13 @@ class WorkingGraph {
   }
   bool is_regular(NodeId node) const { return has_one(node, kUp) && has_one(node, kDown); }
 
-  // The arc of `node` in direction d with the nearest far end of those that `accept`, and not
-  // beyond `limit`; kNone if there is none. Looks only at arcs nearer than the answer.
+  // Of the arcs of `node` in direction d that `accept` is true for and that end not beyond `limit`, the one with the
+  // nearest far end; kNone if there is none. Visits only arcs that are nearer than the answer.
   template <class Accept>
   ArcId nearest_if(NodeId node, Direction d, NodeId limit, Accept accept);
 
-  // Fetches into the caches, without waiting: what is known of a node; its nearest arcs; and what these lie
-  // next to. Each but the first reads what the one before has fetched.
+  // Prefetch a node; its nearest arcs; the far ends of these and the arcs below them in their heaps. Each call reads
+  // what the one before has fetched.
   void prefetch_node(NodeId node) const { __builtin_prefetch(&top_[node]); }
   void prefetch_arc(ArcId arc) const { __builtin_prefetch(&arcs_[arc]); }
   void prefetch_arcs(NodeId node) const {
@@ -59,7 +59,7 @@ class WorkingGraph {
   }
   void prefetch_neighbours(NodeId node) const;
 
-  // Moves the end of `arc` on side d to `node`; its two ends stay in order.
+  // Moves the end of `arc` on side d to `node`. REQUIRES: its lower end stays below its upper end.
   void move_end(ArcId arc, Direction d, NodeId node);
   void remove(ArcId arc);
 

@@ -1,4 +1,4 @@
-// Port: where finished pieces of the Reeb graph go (docs/ARCHITECTURE.md, A triangle's way through).
+// Port: where settled nodes and arcs go (docs/ARCHITECTURE.md, A triangle's way through).
 #pragma once
 
 #include <cstdint>
@@ -14,9 +14,9 @@ namespace reeb {
 // bucket_counts[i] of `buckets`, ascending.
 struct SettledArcs {
   std::span<const ArcKeys> arcs;
-  std::span<const std::uint32_t> bucket_counts = {};  // one an arc; empty: no embedding
+  std::span<const std::uint32_t> bucket_counts = {};  // one per arc; empty: no embedding
   std::span<const Bucket> buckets = {};
-  int bucket_exponent = 0;  // of all of them; a later call may have a larger one
+  int bucket_exponent = 0;  // of all these buckets; a later call may have a larger one
 };
 
 // Receives every node and every arc of the final graph exactly once, in no particular order.

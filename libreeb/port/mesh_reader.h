@@ -5,8 +5,8 @@
 // all simplices, then all finalizations; readers cut batches so that this is legal. With
 // `ReadOptions::batch_events == 1` every batch holds exactly one event, in the order of the file.
 //
-// MEMORY: a reader holds one batch and windows of its input, never the file; whatever else it has
-// to keep, it tells in memory_bytes().
+// MEMORY: a reader holds one batch and windows of its input, never the file. memory_bytes() reports anything else that
+//         it has to keep.
 #pragma once
 
 #include <cstddef>
@@ -46,18 +46,18 @@ struct MeshBatch {
 
 struct MeshInfo {
   std::string format;                          // "PLY binary little endian", "OBJ", "SMC version 3"
-  unsigned dimension = 3;                      // coordinates a vertex
+  unsigned dimension = 3;                      // coordinates per vertex
   std::vector<std::string> property_names;     // scalar vertex properties a function can use
-  std::optional<std::uint64_t> vertex_count;   // as far as the header says so, or it is known
+  std::optional<std::uint64_t> vertex_count;   // if the header announces it, or it is known otherwise
   std::optional<std::uint64_t> simplex_count;  // faces or cells, before polygons become fans
-  bool finalizes = false;                      // the stream brings finalization with it
+  bool finalizes = false;                      // the stream contains finalization
   bool float32 = false;                        // every number is exactly a float32
   std::uint64_t file_bytes = 0;                // 0: unknown (a pipe)
 };
 
 struct ReadOptions {
   std::vector<std::string> properties;  // vertex properties to deliver, by name
-  std::size_t batch_events = 65536;     // about so many vertices or simplices a batch
+  std::size_t batch_events = 65536;     // vertices or simplices per batch, roughly
 };
 
 // THREADS: one at a time; different readers share nothing.
@@ -69,24 +69,24 @@ class MeshReader {
   MeshReader& operator=(const MeshReader&) = delete;
   virtual ~MeshReader() = default;
 
-  // Complete as soon as the reader exists.
+  // Known as soon as the reader exists.
   virtual const MeshInfo& info() const = 0;
 
   // Replaces `batch` by the next events. False, and an empty batch, at the end of the mesh.
-  // THROWS: Error{kBadInput} with file and position. All events delivered before were good.
+  // THROWS: Error{kBadInput} with file and position. All events delivered before that are valid.
   virtual bool read(MeshBatch& batch) = 0;
 
-  // The same mesh from its beginning, with random access to its vertices, where the format allows that on
-  // the input itself; else null. Both can be read side by side.
+  // The same mesh from its beginning, with random access to its vertices, if the format allows that on the input
+  // itself; else null. The two are read independently of each other.
   virtual std::unique_ptr<IndexedMesh> indexed() const { return nullptr; }
 
-  // How much of the input was consumed so far, in bytes of the file as it lies on disk.
+  // How much of the input was read so far, in bytes of the file as stored on disk.
   virtual std::uint64_t bytes_read() const = 0;
 
-  // What it keeps so far that grows with the mesh.
+  // The memory that it holds so far and that grows with the mesh.
   virtual std::uint64_t memory_bytes() const { return 0; }
 
-  // What was odd but harmless, one line each ("3 unknown lines were skipped"). Final at the end.
+  // Harmless oddities of the input, one line each ("3 unknown lines were skipped"). Complete at the end of the mesh.
   virtual std::vector<std::string> warnings() const { return {}; }
 };
 

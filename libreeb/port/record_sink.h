@@ -8,8 +8,8 @@
 
 namespace reeb {
 
-// Records come by `died` ascending, the arcs of the last version at the end; those that die together by
-// (lo, hi, born) descending. So, from the last to the first, they are in the order of a file.
+// Records come by `died` ascending, the arcs of the last version at the end; those with the same `died` by
+// (lo, hi, born) descending. So read backwards they are in the order of a `.reeb` file.
 class RecordSink {
  public:
   RecordSink() = default;
@@ -19,7 +19,7 @@ class RecordSink {
 
   // `buckets`, packed (libreeb/graph/packed_buckets.h), are valid during the call only.
   virtual void add(const ArcVersion& record, std::span<const std::byte> buckets) = 0;
-  // Vertices that the step before the next records drops.
+  // The vertices that a cancellation drops. Called before the records of the arcs that it ends.
   virtual void drop(const DroppedVertices& /*dropped*/) {}
 };
 

@@ -1,4 +1,4 @@
-// Settled nodes and arcs on their way to a sink, which takes many at once.
+// Collects settled nodes and arcs for a sink, which takes many at once.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@ class SettledBatch {
   std::size_t size() const { return nodes_.size() + arcs_.size(); }
   void add_node(const SettledNode& node) { nodes_.push_back(node); }
   void add_arc(const ArcKeys& arc) { arcs_.push_back(arc); }
-  // The embedding of the arc that was added last, by calling list_buckets(add) once, which calls add(bucket).
+  // The embedding of the arc that was added last: calls list_buckets(add) once, which calls add(bucket) for each.
   template <class ListBuckets>
   void add_buckets(const ListBuckets& list_buckets) {
     const std::size_t before = buckets_.size();
@@ -23,7 +23,7 @@ class SettledBatch {
     bucket_counts_.push_back(static_cast<std::uint32_t>(buckets_.size() - before));
   }
 
-  // Hands over all of them, and keeps the memory.
+  // Passes all of them on to the sink, and keeps the memory.
   void flush(GraphSink& sink, int bucket_exponent) {
     if (!nodes_.empty()) sink.add_nodes(nodes_);
     if (!arcs_.empty()) sink.add_arcs({arcs_, bucket_counts_, buckets_, bucket_exponent});
@@ -41,7 +41,7 @@ class SettledBatch {
  private:
   std::vector<SettledNode> nodes_;
   std::vector<ArcKeys> arcs_;
-  std::vector<std::uint32_t> bucket_counts_;  // one an arc, if there is an embedding
+  std::vector<std::uint32_t> bucket_counts_;  // one per arc, if there is an embedding
   std::vector<Bucket> buckets_;
 };
 

@@ -20,18 +20,18 @@ class VertexFunction {
   // As the user names it: "z", "random:1".
   virtual std::string name() const = 0;
 
-  // The file that it reads its values from, besides the mesh; empty: none.
+  // The file other than the mesh from which it reads its values; empty: none.
   virtual std::string source_file() const { return {}; }
 
-  // The columns of the mesh that evaluate() needs, by number: coordinates first, then the
-  // properties that were asked for (as IndexedMesh::gather counts them).
+  // The columns of the mesh that evaluate() needs, numbered as in IndexedMesh::gather: coordinates first, then the
+  // requested properties.
   virtual std::span<const unsigned> columns() const = 0;
 
-  // To be called when the number of vertices is known: before the first of evaluate() where vertices
-  // are looked up, behind the last where they come in order.
+  // Call this when the number of vertices is known: before the first evaluate() if vertices are looked up, after the
+  // last one if they come in order.
   // THROWS: Error{kBadInput} if there are values for more or fewer vertices.
   virtual void check_count(std::uint64_t /*vertices*/) {}
-  // What looking up the values of so many vertices keeps in memory.
+  // The memory that looking up the values of this number of vertices holds.
   virtual std::uint64_t lookup_bytes(std::uint64_t /*vertices*/) const { return 0; }
 
   // values[i] = f(ids[i]); columns[k][i] is column columns()[k] of that vertex. No -0.0 comes out.

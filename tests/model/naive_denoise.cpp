@@ -41,7 +41,7 @@ std::vector<Node> noise(const PlainGraph& graph, const ReebGraph& full, double t
   return leaves;
 }
 
-// Arcs by the ranks of their ends in the full graph; what has no arc is not there.
+// A graph as its arcs, named by the ranks of their ends in the full graph. It has no nodes without arcs.
 class ArcGraph {
  public:
   ArcGraph(const ReebGraph& full, double threshold) : full_(full), threshold_(threshold) {
@@ -52,7 +52,7 @@ class ArcGraph {
       if (!has_arc[n]) isolated_.push_back(full.nodes[n]);
   }
 
-  // Takes the leaves away that are noise now; returns how many.
+  // Removes the leaves that are noise now, and returns their number.
   std::size_t remove_leaves() {
     look();
     const auto is_noise = [&](const Arc& arc) {
@@ -93,7 +93,7 @@ class ArcGraph {
     lowest_.resize(n);
     for (Node i = 0; i < n; ++i) highest_[i] = lowest_[i] = i;
     for (const auto& [lo, hi] : arcs_) ++up_[lo], ++down_[hi];
-    // All that lies below an arc's lower end has been seen by then, and from behind all above.
+    // Arcs are sorted by lower end. So forward, all arcs below an arc come before it; backward, all arcs above it.
     std::sort(arcs_.begin(), arcs_.end(), [](const Arc& a, const Arc& b) { return a.lo < b.lo; });
     for (auto arc = arcs_.rbegin(); arc != arcs_.rend(); ++arc)
       highest_[arc->lo] = std::max(highest_[arc->lo], highest_[arc->hi]);

@@ -1,4 +1,4 @@
-// Noise removal as DESIGN.md 1.6 words it, leaf by leaf on the exact graph.
+// Noise removal straight from its definition (docs/SEMANTICS.md, Noise removal), leaf by leaf on the exact graph.
 #pragma once
 
 #include <cstdint>
@@ -15,9 +15,9 @@ struct Denoised {
 // The result does not depend on the order in which leaves are removed; `seed` chooses one.
 Denoised naive_denoise(const ReebGraph& graph, double threshold, std::uint64_t seed = 0);
 
-// The same for large graphs, in rounds: what each node reaches is found anew, all leaves that are
-// noise by it go at once, (1, 1) nodes disappear. (What a saddle reaches at the farthest reaches
-// farthest from its own saddle too, so it never goes in the same round.) O(nodes + arcs) a round.
+// The same for large graphs, in rounds: find how far each node reaches, remove all leaves that are noise by that, and
+// contract (1, 1) nodes. (The farthest extremum that a saddle reaches is never removed in the same round, since it is
+// also the farthest from its own saddle.) O(nodes + arcs) per round.
 Denoised denoise_in_rounds(const ReebGraph& graph, double threshold);
 
 }  // namespace reeb::test

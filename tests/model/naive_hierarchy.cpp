@@ -21,7 +21,7 @@ void sort_for_cancelling(const ReebGraph& graph, std::vector<PersistencePair>& p
   });
 }
 
-// Upward from `from` to `to`, each time to the lowest node that still leads there.
+// The path up from `from` to `to` that goes, at each choice, to the lowest node that still leads to `to`.
 Path lowest_path(const PlainGraph& graph, Node from, Node to) {
   Path path{from};
   while (path.back() != to) {
@@ -50,7 +50,7 @@ void cancel_maximum(PlainGraph& graph, Node v, Node u) {
   graph.zip(first, second);
 }
 
-// Monotone paths from v to y, the first of each component of the open interlevel set, in order.
+// Monotone paths from v to y: the first in each component of the open interlevel set, in order.
 std::vector<Path> interlevel_paths(const PlainGraph& graph, Node v, Node y) {
   std::vector<Path> paths;
   std::set<Node> seen;
@@ -65,9 +65,9 @@ std::vector<Path> interlevel_paths(const PlainGraph& graph, Node v, Node y) {
   return paths;
 }
 
-// Ext1 (v, y). False: the loop is kept.
+// Ext1 (v, y). False if the loop is kept.
 bool cancel_loop(PlainGraph& graph, Node v, Node y) {
-  // Zipped onto another path or dropped is the same here, since the arc has no nodes.
+  // Removing the arc is the same as zipping it onto another path, since it has no inner nodes.
   if (graph.has_arc(v, y)) {
     graph.remove_arc(v, y);
     return true;
@@ -78,7 +78,7 @@ bool cancel_loop(PlainGraph& graph, Node v, Node y) {
   return true;
 }
 
-// False: kept.
+// False if the pair is kept.
 bool cancel(PlainGraph& graph, const PersistencePair& pair, std::size_t node_count) {
   const Node lo = pair.lo.value(), hi = pair.hi.value();
   if (pair.type == PairType::kExt1) return cancel_loop(graph, lo, hi);

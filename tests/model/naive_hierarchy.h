@@ -1,5 +1,5 @@
-// The hierarchy by copying and cancelling, as DESIGN.md 1.5 words it: the judge of the second
-// stage.
+// The hierarchy straight from its definition (docs/SEMANTICS.md, Cancelling), with a copy of the graph for each
+// version: the model by which the second stage is judged.
 #pragma once
 
 #include <vector>
@@ -10,13 +10,11 @@
 namespace reeb::test {
 
 struct NaiveHierarchy {
-  // In the order of cancelling, loops that are kept marked and in their turn; Ext0 last, in the
-  // same order among themselves.
+  // In the order of cancelling; kept loops are marked. Ext0 pairs come last, sorted in the same way.
   std::vector<PersistencePair> pairs;
-  // versions[s] is the graph after s cancellations, versions[0] the full graph. Keeping a loop is
-  // no cancellation.
+  // versions[s] is the graph after s cancellations, versions[0] the full graph. A kept loop is not a cancellation.
   std::vector<ReebGraph> versions;
-  // steps[s - 1] is the place in `pairs` of what turned version s - 1 into version s.
+  // steps[s - 1] is the index in `pairs` of the pair whose cancellation turned version s - 1 into version s.
   std::vector<std::size_t> steps;
 
   // The version in which every pair with persistence below t is cancelled or kept.
@@ -27,7 +25,7 @@ struct NaiveHierarchy {
 double persistence(const ReebGraph& graph, const PersistencePair& pair);
 
 // REQUIRES: `pairs` are the extended persistence pairs of `graph`.
-// THROWS: std::logic_error if a rule finds no path where the design says there is one.
+// THROWS: std::logic_error if a rule finds no path where there must be one.
 NaiveHierarchy naive_hierarchy(const ReebGraph& graph, std::vector<PersistencePair> pairs);
 
 }  // namespace reeb::test

@@ -1,5 +1,5 @@
-// A Reeb graph that can be changed, for the models of simplification: a set of nodes, a multiset of
-// arcs, and everything else found by looking at all of them.
+// A Reeb graph that can be changed, for the models of simplification: a set of nodes and a multiset of arcs. Everything
+// else is found by going through all of them.
 #pragma once
 
 #include <cstdint>
@@ -12,8 +12,7 @@
 
 namespace reeb::test {
 
-// Nodes keep the numbers that they have in the graph it is made of, so numbers compare as the
-// total order does.
+// Nodes have the numbers of the graph that it was made from, so comparing numbers is comparing in the total order.
 class PlainGraph {
  public:
   using Node = std::uint32_t;
@@ -27,22 +26,22 @@ class PlainGraph {
   const std::set<Node>& nodes() const { return nodes_; }
   bool has_arc(Node lo, Node hi) const { return arcs_.contains({lo, hi}); }
 
-  // Whether a path of arcs upward leads from one to the other; from == to does.
+  // Whether a rising path leads from one node to the other; true if they are equal.
   bool leads_up(Node from, Node to) const;
   // The nodes among those `allowed` that are connected with `start` through allowed nodes.
   std::set<Node> component(Node start, const std::function<bool(Node)>& allowed) const;
 
-  // Takes away one arc. THROWS: std::logic_error if there is none.
+  // Removes one of the arcs between the nodes. THROWS: std::logic_error if there is none.
   void remove_arc(Node lo, Node hi);
-  // Makes one monotone path of two: nodes of both in order, arcs between neighbours. The paths
-  // start in the same node, and the one that ends lower (or both) ends on the merged path.
+  // Zips two monotone paths that start in the same node: the nodes of both come in order, with arcs between neighbours.
+  // The path that ends lower ends at a node of the zipped path.
   void zip(const Path& first, const Path& second);
-  // Takes away a leaf with its arc, or any node that has no arcs left.
+  // Removes a leaf with its arc, or a node without arcs.
   void remove_node(Node node);
-  // (1, 1) nodes disappear.
+  // Contracts all (1, 1) nodes.
   void contract_regular_nodes();
 
-  // Upside down: what was highest is lowest.
+  // The graph turned upside down: the highest node becomes the lowest.
   PlainGraph flipped() const;
 
   ReebGraph graph() const;

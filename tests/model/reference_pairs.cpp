@@ -7,7 +7,7 @@
 namespace reeb::test {
 namespace {
 
-// A cell of a filtered cell complex. Boundaries name cells by their place in the list.
+// A cell of a filtered cell complex. Boundaries name cells by their index in the list.
 struct Cell {
   unsigned dimension;
   std::size_t lowest, highest;  // rank of its lowest and highest vertex
@@ -28,8 +28,8 @@ Column sum(const Column& a, const Column& b) {
   return result;
 }
 
-// First every cell when its highest vertex comes, upwards; then its cone when its lowest
-// vertex comes, downwards; faces first. The apex itself precedes all and is left out of it.
+// The filtration. Going up, every cell enters with its highest vertex; then, going down, the cone over it enters with
+// its lowest vertex; faces first. The apex comes before everything and is not listed.
 std::vector<Step> filtration(const std::vector<Cell>& cells) {
   std::vector<Step> ascending, descending;
   for (std::size_t i = 0; i < cells.size(); ++i) {
@@ -65,7 +65,7 @@ std::vector<Column> boundary_matrix(const std::vector<Cell>& cells, const std::v
   return columns;
 }
 
-// Places in `steps` of the births and deaths.
+// Indices in `steps` of the births and deaths.
 std::vector<std::pair<std::size_t, std::size_t>> reduce(std::vector<Column> columns) {
   std::vector<std::pair<std::size_t, std::size_t>> pairs;
   std::map<std::size_t, std::size_t> column_of_pivot;
@@ -91,7 +91,7 @@ std::vector<RankPair> extended_pairs(const std::vector<Cell>& cells) {
   for (const auto& [birth, death] : reduce(boundary_matrix(cells, steps))) {
     const Step from = steps[birth], to = steps[death];
     const Cell &born = cells[from.cell], &dying = cells[to.cell];
-    // The dimension of the class is that of the cell, or of the cone, that bears it.
+    // The dimension of the class is that of the cell, or of the cone, that creates it.
     const unsigned dimension = born.dimension + (from.coned ? 1 : 0);
     if (!to.coned && dimension == 0 && born.highest != dying.highest)
       result.push_back({PairType::kOrd0, born.highest, dying.highest});

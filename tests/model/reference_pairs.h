@@ -1,6 +1,5 @@
-// Extended persistence by reducing the boundary matrix of the ascending and descending cone
-// filtration, modulo 2 (Agarwal, Edelsbrunner, Harer, Wang 2004; DESIGN.md 1.4). Cubic, and apart
-// from anything that the second stage does.
+// Extended persistence by reducing the boundary matrix of the ascending and descending cone filtration, modulo 2
+// (Agarwal, Edelsbrunner, Harer, Wang 2004; docs/SEMANTICS.md, Pairs). Cubic, and independent of the second stage.
 #pragma once
 
 #include <vector>
@@ -14,7 +13,7 @@ namespace reeb::test {
 // All pairs, sorted by type, lo, hi; a node of higher degree occurs several times.
 std::vector<PersistencePair> reference_pairs(const ReebGraph& graph);
 
-// Type and the two vertices, where nodes are not numbered.
+// A pair by its type and its two vertices, for graphs whose nodes are not numbered.
 struct VertexPair {
   PairType type;
   VertexId lo, hi;
@@ -23,7 +22,7 @@ struct VertexPair {
 std::vector<VertexPair> vertex_pairs(const ReebGraph& graph,
                                      const std::vector<PersistencePair>& pairs);  // sorted
 
-// The same pairs from the complex itself, without its Reeb graph: those of its 2-skeleton in
+// The same pairs from the complex itself, without its Reeb graph. Of the pairs of its 2-skeleton, these are all of
 // dimension 0, and of dimension 1 the relative ones and the extended ones with lo below hi.
 std::vector<VertexPair> reference_pairs(const Complex& complex);  // sorted
 

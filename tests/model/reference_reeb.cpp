@@ -11,8 +11,8 @@
 namespace reeb::test {
 namespace {
 
-// The 2-skeleton over ranks: the vertices in the total order are 0, 1, 2, ..., and the function is
-// the rank. Corners ascend.
+// The 2-skeleton in terms of ranks: the vertices in the total order are 0, 1, 2, ..., and the function is the rank.
+// Corners ascend.
 struct RankedComplex {
   std::size_t vertex_count = 0;
   std::vector<std::array<std::size_t, 2>> edges;
@@ -36,9 +36,9 @@ RankedComplex rank_vertices(const Complex& complex, const std::vector<std::uint6
   return ranked;
 }
 
-// One level set, at height h / 2: even h is the level of vertex h / 2, odd h lies between two.
-// Its points are the edges that cross the level and the vertex on it; a triangle that crosses the
-// level joins the two points in which its boundary does.
+// One level set, at height h / 2: for even h the level of vertex h / 2, for odd h a level between two vertices. Its
+// points are the edges that cross the level, and the vertex on it. A triangle that crosses the level joins the two
+// points where its boundary crosses it.
 class LevelSet {
  public:
   LevelSet(const RankedComplex& complex, std::size_t height)
@@ -73,13 +73,13 @@ class LevelSet {
 
 // A contour at the level of a vertex: a point of the quotient.
 struct Contour {
-  std::optional<std::size_t> vertex;  // that lies on it, by rank
-  std::vector<std::size_t> down, up;  // contours that it is joined with, next level below, above
+  std::optional<std::size_t> vertex;  // the rank of the vertex on it
+  std::vector<std::size_t> down, up;  // the contours to which it is joined, one level below and one level above
   bool regular() const { return down.size() == 1 && up.size() == 1; }
 };
 
-// The quotient before (1, 1) points are left out: contours at the levels of vertices are its
-// points, contours between two such levels its segments.
+// The quotient, still with its (1, 1) points: contours at the levels of vertices are its points, contours between two
+// such levels its segments.
 class Quotient {
  public:
   explicit Quotient(const RankedComplex& complex) : complex_(complex) {
@@ -110,7 +110,7 @@ class Quotient {
     }
   }
 
-  // Each contour between the levels r and r + 1 shrinks or grows into one contour of either.
+  // Each contour between the levels r and r + 1 leads to one contour at each of the two levels.
   void join(LevelSet& below, LevelSet& between, LevelSet& above, std::size_t r) {
     std::map<std::size_t, std::pair<std::size_t, std::size_t>> ends;
     for (std::size_t e = 0; e < complex_.edges.size(); ++e) {

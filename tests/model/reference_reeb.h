@@ -1,5 +1,5 @@
-// The Reeb graph straight from its definition (DESIGN.md 1.1-1.3), slow and plain: the model that
-// the engine is judged by. It shares no code with the engine.
+// The Reeb graph straight from its definition (docs/SEMANTICS.md, Input, Order and Graph), slow and plain: the model by
+// which the engine is judged. It shares no code with the engine.
 #pragma once
 
 #include "libreeb/graph/reeb_graph.h"
@@ -7,14 +7,13 @@
 
 namespace reeb::test {
 
-// The graph in canonical form, with the positions of its nodes.
-// Takes O(vertices * (edges + triangles)).
+// The graph in canonical form, with the positions of its nodes. O(vertices * (edges + triangles)).
 ReebGraph reference_reeb(const Complex& complex);
 
-// The same graph, positions unknown: for comparing with a result that does not carry them.
+// The same graph without positions, for comparing with a result that has none.
 ReebGraph without_positions(ReebGraph graph);
 
-// A graph as text, one node or arc a line, for messages.
+// A graph as text, one node or arc per line, for messages.
 std::string describe(const ReebGraph& graph);
 
 }  // namespace reeb::test

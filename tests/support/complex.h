@@ -1,4 +1,5 @@
-// A small mesh in memory, as tests build it: what an input stream says, in order (DESIGN.md 1.1).
+// A small mesh in memory, as tests build it: the vertices and simplices of an input stream, in order
+// (docs/SEMANTICS.md, Input).
 #pragma once
 
 #include <array>
@@ -9,16 +10,16 @@
 namespace reeb::test {
 
 struct Complex {
-  std::vector<double> values;  // one a vertex; -0.0 may occur
-  // Corners in any order, of any number from 1 on, possibly repeated.
+  std::vector<double> values;  // one per vertex; -0.0 may occur
+  // Each simplex has one or more corners, in any order, possibly repeated.
   std::vector<std::vector<std::uint64_t>> simplices;
-  std::vector<std::array<double, 3>> positions;  // one a vertex
+  std::vector<std::array<double, 3>> positions;  // one per vertex
   std::string kind;                              // how it was made, for messages
 
   std::size_t vertex_count() const { return positions.size(); }
 };
 
-// A complex written down by hand, all positions zero.
+// A complex from given values and simplices, all positions zero.
 Complex make_complex(std::vector<double> values, std::vector<std::vector<std::uint64_t>> simplices);
 
 // The distinct edges and triangles of all simplices, corners ascending by index, sorted.

@@ -5,7 +5,7 @@
 namespace reeb::test {
 namespace {
 
-// Every simplex as triangles: all that its corners span, a smaller one with its last corner repeated.
+// Every simplex as all triangles of its corners; a vertex or an edge as a triangle with its last corner repeated.
 void append_triangles(const std::vector<std::uint64_t>& simplex, std::vector<VertexId>& triangles) {
   const std::size_t n = simplex.size();
   const auto append = [&](std::size_t a, std::size_t b, std::size_t c) {
@@ -17,7 +17,7 @@ void append_triangles(const std::vector<std::uint64_t>& simplex, std::vector<Ver
       for (std::size_t c = b + 1; c < n; ++c) append(a, b, c);
 }
 
-// As the ports want it: no -0.0.
+// The ports require that there is no -0.0.
 double plain(double value) { return value + 0.0; }
 
 }  // namespace
@@ -65,8 +65,8 @@ ComplexStream::ComplexStream(const ComplexMesh& mesh, std::uint64_t seed)
   constexpr std::size_t kBatches[] = {1, 3, 4096};
   most_simplices_ = kBatches[random_.below(std::size(kBatches))];
   eager_percent_ = random_.chance(50) ? 100 : 40;
-  // Paths of edges whose ends stay open for long are long: a vertex of a large mesh comes when it is
-  // needed and is finalized at once.
+  // The path of an edge becomes long if its ends stay incomplete for long. So in a large mesh, a vertex comes when it
+  // is needed, and is finalized at once.
   if (simplex_count() > 10'000) {
     most_simplices_ = 4096;
     eager_percent_ = 100;

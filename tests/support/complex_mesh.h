@@ -1,5 +1,4 @@
-// A complex behind the ports of the pipeline: as a mesh with random access, and as a stream that
-// brings its finalization with it.
+// A complex as input of the pipeline: as a mesh with random access, and as a stream that contains finalization.
 #pragma once
 
 #include <array>
@@ -16,8 +15,8 @@
 
 namespace reeb::test {
 
-// What both forms deliver: columns 0 to 2 are the position, column 3 is the complex's value, those
-// after it are more functions on the same vertices.
+// The data of both forms. Columns 0 to 2 are the position, column 3 is the value in the complex, and further columns
+// are more functions on the same vertices.
 struct ComplexMesh {
   explicit ComplexMesh(const Complex& complex);
   void add_function(const std::vector<double>& values);
@@ -29,9 +28,9 @@ struct ComplexMesh {
   std::vector<VertexId> triangles;
   // triangle_begin[i]: the first corner in `triangles` of simplex i; one more entry than simplices.
   std::vector<std::size_t> triangle_begin;
-  // The corners of simplex i if it has four, for which a stream has a form of its own.
+  // The corners of simplex i if it has four: a stream delivers it as a tetrahedron.
   std::vector<std::array<VertexId, 4>> tetrahedra;
-  std::vector<bool> is_tetrahedron;  // one a simplex
+  std::vector<bool> is_tetrahedron;  // one per simplex
 };
 
 // The function that is one column of a ComplexMesh.
@@ -47,7 +46,7 @@ class ColumnFunction : public VertexFunction {
   std::array<unsigned, 1> column_;
 };
 
-// REQUIRES: the mesh outlives it; so for ComplexStream.
+// REQUIRES: the mesh outlives it. The same holds for ComplexStream.
 class IndexedComplex : public IndexedMesh {
  public:
   explicit IndexedComplex(const ComplexMesh& mesh) : mesh_(mesh) {}
@@ -65,9 +64,9 @@ class IndexedComplex : public IndexedMesh {
   std::size_t at_ = 0;
 };
 
-// A vertex comes when a simplex first needs it or some time before, and is finalized when no later
-// simplex names it, or some time after, or never: the seed decides, and the size of the batches.
-// A vertex of a large complex comes just when it is needed and is finalized at once.
+// A vertex comes when a simplex first needs it, or some time before. It is finalized when no later simplex names it, or
+// some time after, or never. The seed and the size of the batches decide. A vertex of a large complex comes just when
+// it is needed, and is finalized at once.
 class ComplexStream : public MeshReader {
  public:
   ComplexStream(const ComplexMesh& mesh, std::uint64_t seed);
@@ -85,15 +84,15 @@ class ComplexStream : public MeshReader {
   const ComplexMesh& mesh_;
   Random random_;
   MeshInfo info_;
-  std::size_t most_simplices_;   // a batch
-  unsigned eager_percent_;       // of the vertices that could be finalized, how many are
-  unsigned early_percent_ = 10;  // of the batches, how many bring all vertices
+  std::size_t most_simplices_;   // per batch
+  unsigned eager_percent_;       // how many of the vertices that could be finalized are finalized
+  unsigned early_percent_ = 10;  // how many of the batches contain all remaining vertices
   std::vector<std::size_t> last_use_;
   std::vector<std::size_t> waiting_;  // introduced and not finalized
   std::size_t next_simplex_ = 0, next_tetrahedron_ = 0, next_vertex_ = 0;
 };
 
-// The same without a word about finalization.
+// The same without finalization.
 class UnfinalizedComplex : public MeshReader {
  public:
   UnfinalizedComplex(const ComplexMesh& mesh, std::uint64_t seed) : stream_(mesh, seed), info_(stream_.info()) {

@@ -1,4 +1,4 @@
-// No vertex is lost and none counted twice (DESIGN.md 1.8).
+// No vertex is lost and none is counted twice (docs/SEMANTICS.md, Conservation).
 #pragma once
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ inline std::uint64_t vertices_in_buckets(const ArcBuckets& buckets) {
   return vertices;
 }
 
-// So many vertices are in nodes and buckets, and each bucket lies on its arc.
+// Expects this number of vertices in nodes and buckets, and each bucket within the values of its arc.
 inline std::uint64_t expect_vertices_placed(const ooc::Level& level, int exponent) {
   if (level.graph.arc_count() == 0) return level.graph.node_count();
   EXPECT_EQ(level.buckets.offsets.size(), level.graph.arc_count() + 1);
@@ -39,8 +39,8 @@ inline std::uint64_t expect_vertices_placed(const ooc::Level& level, int exponen
   return vertices_in_buckets(level.buckets) + level.graph.node_count();
 }
 
-// Vertices in buckets + nodes + vertices that were dropped with a feature = vertices read: in version 0,
-// where nothing was dropped, and in every version, or some of many. Nothing if there is no embedding.
+// Expects vertices in buckets + nodes + dropped vertices = vertices of the mesh, in version 0, where nothing was
+// dropped, and in every version, or in some if there are many. Checks nothing if there is no embedding.
 inline void expect_vertices_conserved(const ooc::ReebFile& file) {
   const FileHeader& header = file.header();
   if (!header.flags.has_embedding) return;
@@ -48,7 +48,7 @@ inline void expect_vertices_conserved(const ooc::ReebFile& file) {
   ASSERT_EQ(expect_vertices_placed(level, header.bucket_exponent), header.mesh_vertices);
   if (header.flags.graph_only) return;
 
-  // A file has no record of what was dropped: the cancellations are done again.
+  // A file does not record what was dropped, so the cancellations are repeated.
   const Hierarchy again = build_hierarchy(level.graph, level.buckets, header.bucket_exponent);
   ASSERT_EQ(again.persistence.size(), header.steps);
 

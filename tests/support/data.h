@@ -1,4 +1,4 @@
-// Where the tests' data is, and why a test without it is skipped.
+// Where the data of the tests is. A test without its data is skipped.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -13,8 +13,8 @@ namespace reeb::test {
 // Streaming meshes with golden listings: part of the repository.
 inline std::string sample_folder() { return REEB_SOURCE_DIR "/tests/golden/streaming"; }
 
-// Real meshes with tables of what is known of them: too large for the repository. They are looked for in
-// $REEB_DATA/meshes if REEB_DATA is set, else beside the checkout, and nowhere else.
+// Real meshes, with tables of known facts about them: too large for the repository. The only place where tests look for
+// them is $REEB_DATA/meshes if REEB_DATA is set, else next to the checkout.
 inline std::string mesh_folder() {
   const char* data = std::getenv("REEB_DATA");
   return std::string(data != nullptr ? data : REEB_SOURCE_DIR "/../shared/data") + "/meshes";

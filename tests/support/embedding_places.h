@@ -1,10 +1,9 @@
-// Where the vertices of an embedding lie, as far as it does not depend on how the mesh was cut into
-// chunks (DESIGN.md 1.7).
+// Where the vertices of an embedding are, as far as that does not depend on how the mesh was cut into chunks
+// (docs/SEMANTICS.md, Determinism).
 //
-// A node that a later chunk brings cuts the bucket in which its value lies, whose vertices are no longer
-// known one by one: a vertex of that bucket may then be taken for one of another arc of the same node. So what lies in
-// a bucket of all arcs together that hang together through nodes of that very bucket does not depend on the chunks; a
-// vertex never strays from there.
+// A node of a later chunk cuts the bucket that contains its value. The vertices of that bucket are no longer known one
+// by one, so some can be counted on another arc of the node. Take all arcs that are connected through nodes within the
+// same bucket: the content of that bucket on all of them together does not depend on the chunks.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -25,19 +24,19 @@ struct Contents {
   std::array<double, 3> sum{};
 };
 
-// By bucket and by the first of the arcs that hang together there; parallel arcs count as one, since
-// nothing tells them apart.
+// By bucket and by the first of the arcs that are connected there. Parallel arcs count as one, since nothing
+// distinguishes them.
 using Places = std::map<std::pair<std::int64_t, std::size_t>, Contents>;
 
 inline Places places_of(const ooc::Level& level, int exponent) {
   const ReebGraph& graph = level.graph;
   const auto index_of_node = [&](NodeId n) { return bucket_index(graph.nodes[n.value()].value, exponent); };
-  std::vector<std::size_t> first(graph.arc_count());  // among its parallels
+  std::vector<std::size_t> first(graph.arc_count());  // the first of the arcs that are parallel to it
   for (std::size_t a = 0; a < graph.arc_count(); ++a)
     first[a] = a > 0 && graph.lo[a] == graph.lo[a - 1] && graph.hi[a] == graph.hi[a - 1] ? first[a - 1] : a;
 
-  // The arcs at a node hang together in its bucket. An arc has two ends, thus two buckets at most in
-  // which it does not stand for itself.
+  // The arcs at a node are connected in its bucket. An arc has two ends, so it is represented by another arc in two
+  // buckets at most.
   std::map<std::pair<std::int64_t, std::size_t>, std::uint32_t> elements;
   UnionFind united;
   const auto element = [&](std::int64_t index, std::size_t arc) {
@@ -68,7 +67,8 @@ inline Places places_of(const ooc::Level& level, int exponent) {
   return places;
 }
 
-// REQUIRES: both of the same graph, with buckets of this exponent. `size`: of coordinates.
+// `size`: the size of coordinates.
+// REQUIRES: both are of the same graph, with buckets of this exponent.
 inline void expect_same_places(const ooc::Level& level, const ooc::Level& other, int exponent, double size) {
   ASSERT_EQ(level.graph, other.graph);
   const Places places = places_of(level, exponent), others = places_of(other, exponent);

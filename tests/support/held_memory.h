@@ -1,5 +1,5 @@
-// What a program holds through operator new, as the allocator rounds it. To be included by one source
-// file of a program: it replaces the operators.
+// The memory that a program holds through operator new, as rounded by the allocator. It replaces the operators, so only
+// one source file of a program may include it.
 #pragma once
 
 #include <malloc.h>
@@ -13,7 +13,7 @@ namespace reeb::bench {
 
 inline std::atomic<std::size_t> held_bytes{0}, peak_bytes{0};
 
-// Runs `work` once, untimed. The most that was held while it ran, beyond what was held before.
+// Runs `work` once, untimed. Returns the most memory that was held meanwhile, minus what was held before.
 template <class Work>
 std::size_t peak_of(Work work) {
   const std::size_t before = held_bytes;

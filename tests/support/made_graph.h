@@ -1,5 +1,5 @@
-// Large Reeb graphs of several kinds, made by a sweep over a row of contours in which neighbours
-// merge and contours split, start and end.
+// Large Reeb graphs of several kinds. A generator sweeps over a row of contours, which start, split, merge with a
+// neighbour, and end.
 #pragma once
 
 #include <algorithm>
@@ -36,7 +36,7 @@ class GraphMaker {
  private:
   static constexpr std::size_t kWidth = 1000;
   struct Contour {
-    SweepKey below;  // the node that it comes from
+    SweepKey below;  // the lower node of its arc
     std::uint32_t component;
   };
 
@@ -85,8 +85,7 @@ class GraphMaker {
         end(i);
     } else if (grow || row_.size() == 1) {
       split(i);
-      // A split that is followed at once by an end or a merge: small features are the most
-      // frequent.
+      // A split is followed by an end or a merge at once, so that small features are the most frequent.
       if (kind_ == kNoise && random_() % 4 != 0) {
         if (random_() % 2 == 0)
           end(i);
@@ -110,7 +109,7 @@ class GraphMaker {
   std::vector<ArcKeys> arcs_;
 };
 
-// An embedding of the graph: an arc has a vertex in every bucket that it crosses.
+// An embedding of the graph in which an arc has a vertex in every bucket that it crosses.
 inline ArcBuckets make_buckets(const ReebGraph& graph, int exponent) {
   ArcBuckets buckets{.offsets = {0}, .buckets = {}};
   for (std::size_t arc = 0; arc < graph.arc_count(); ++arc) {

@@ -14,10 +14,10 @@
 namespace reeb::test {
 namespace {
 
-// Exit code of a child that could not start the program, as of a shell.
+// Exit code of a child that could not start the program, the same as in a shell.
 constexpr int kNotStarted = 127;
 
-// A nameless file for what the program prints: unlike a pipe it never makes the program wait.
+// A nameless file for the output of the program. Unlike a pipe, it never makes the program wait.
 class Capture {
  public:
   Capture() : file_(std::tmpfile()) {

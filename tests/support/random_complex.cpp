@@ -19,7 +19,7 @@ std::size_t random_side(Random& random) {
 
 std::size_t random_count(Random& random) { return random_side(random) * random_side(random) + random.below(3); }
 
-// Simplices with corners at random, the number of corners within the bounds; corners may repeat.
+// Simplices with random corners, which may repeat; the number of corners is within the bounds.
 Complex random_soup(Random& random, std::size_t least_corners, std::size_t most_corners) {
   Complex complex;
   complex.positions.resize(1 + random_count(random));
@@ -58,7 +58,7 @@ Complex random_grid(Random& random) {
   return complex;
 }
 
-// Several fans at one vertex, which is then no manifold vertex.
+// Several fans at one vertex, which makes it a non-manifold vertex.
 Complex random_fans(Random& random) {
   Complex complex = fan(random.between(1, 8), random.chance(50));
   for (std::uint64_t n = random.below(3); n > 0; --n) {

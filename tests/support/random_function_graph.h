@@ -14,11 +14,11 @@
 
 namespace reeb::bench {
 
-// About so many arcs. Buckets are at least `buckets` over the range, of the exponent that comes with them.
+// A graph of about this number of arcs. At least `buckets` buckets span the range; their exponent is returned too.
 inline ooc::LoadedGraph make_random_function_graph(std::size_t arcs, std::uint32_t buckets, int& exponent,
                                                    const io::TempDir& temp, MemoryBudget& budget) {
-  constexpr double kArcsAVertex = 0.557;
-  const auto width = static_cast<std::uint64_t>(std::sqrt(static_cast<double>(arcs) / kArcsAVertex)) + 2;
+  constexpr double kArcsPerVertex = 0.557;
+  const auto width = static_cast<std::uint64_t>(std::sqrt(static_cast<double>(arcs) / kArcsPerVertex)) + 2;
   ooc::SegmentStore store(temp, budget);
   OnlineReeb reeb({.buckets = buckets}, &store);
   std::mt19937_64 random(1);

@@ -1,4 +1,4 @@
-// Random Reeb graphs that no complex need bear: denser in loops than those of small complexes.
+// Random Reeb graphs that were not made from a complex. They have more loops than those of small complexes.
 #pragma once
 
 #include <cstdint>
@@ -7,10 +7,10 @@
 
 namespace reeb::test {
 
-// Without (1, 1) nodes, with parallel arcs, several parts and tied values; up to about 16 nodes.
+// Without (1, 1) nodes; with parallel arcs, several components and tied values; up to about 16 nodes.
 ReebGraph random_graph(std::uint64_t seed);
 
-// The same made of this many arcs, less what contracting (1, 1) nodes takes.
+// The same from this number of arcs, some of which contracting (1, 1) nodes removes.
 ReebGraph random_graph(std::uint64_t seed, std::size_t arcs);
 
 }  // namespace reeb::test

@@ -1,4 +1,4 @@
-// The least memory and the tiny chunks under which the tests of whole runs are run a second time.
+// Limits under which the tests of whole runs are run a second time: the least memory, and tiny chunks.
 #pragma once
 
 #include <cstdint>
@@ -13,9 +13,9 @@ inline std::optional<std::uint64_t> number_in_environment(const char* name) {
   return std::strtoull(text, nullptr, 10);
 }
 
-// Bytes; none: as much as a run wants.
+// Bytes; none: no limit.
 inline std::optional<std::uint64_t> memory_limit() { return number_in_environment("REEB_TEST_MEMORY"); }
-// Triangles a chunk; none: what the test chooses.
+// Triangles per chunk; none: the test chooses.
 inline std::optional<std::uint64_t> chunk_limit() { return number_in_environment("REEB_TEST_CHUNK"); }
 
 }  // namespace reeb::test

@@ -1,4 +1,4 @@
-// Equality of long things: EXPECT_EQ would print them whole, EXPECT_TRUE(a == b) nothing.
+// Comparisons of long strings and lists. EXPECT_EQ would print them whole, EXPECT_TRUE(a == b) nothing.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 
 namespace reeb::test {
 
-// Says where two strings differ first, with what follows there.
+// Says where two strings differ first, and prints the text there.
 inline testing::AssertionResult same(const std::string& actual, const std::string& expected) {
   if (actual == expected) return testing::AssertionSuccess();
   const auto [a, e] = std::mismatch(actual.begin(), actual.end(), expected.begin(), expected.end());

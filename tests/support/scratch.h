@@ -1,4 +1,4 @@
-// What the tests of ooc share: a folder that must be empty in the end, and writes that fail.
+// For the tests of ooc: a folder that must be empty in the end, and writes that fail.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -36,8 +36,8 @@ class Scratch {
   std::string path_;
 };
 
-// Counts the calls of one kind. The n-th, counted from 1, gets the fault, and so do all that follow, as on a full
-// disk, or only that one; n = 0: none does.
+// Counts the calls of one kind, from 1. The fault is in call n and all later ones, as on a full disk, or in call n
+// only. n = 0: no fault.
 class FaultAtCall {
  public:
   enum class Which { kOne, kAllFrom };
@@ -60,9 +60,9 @@ class FaultAtCall {
   std::shared_ptr<std::atomic<std::uint64_t>> count_ = std::make_shared<std::atomic<std::uint64_t>>(0);
 };
 
-// Runs `run(temp, budget)` once with a good disk, then with one that is full from the n-th write
-// on, for n spread over all writes: each failure must arrive as an Error that names a file, and
-// leave nothing reserved and nothing in the folder.
+// Runs `run(temp, budget)` once with a good disk, then with disks that are full starting at the n-th write, for n
+// spread over all writes. Each failure must arrive as an Error that names a file, and leave no memory reserved and no
+// file in the folder.
 template <class Run>
 void expect_failing_writes_are_reported(const Run& run) {
   const Scratch scratch;

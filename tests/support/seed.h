@@ -5,10 +5,10 @@
 
 namespace reeb::test {
 
-// REEB_SEED, else a fixed one; printed, so that a failure can be repeated.
+// REEB_SEED, or a fixed seed. It is printed, so that a failure can be repeated.
 std::uint64_t base_seed();
 
-// REEB_CASES, else what the test runs ordinarily.
+// REEB_CASES, or the usual number for the test.
 std::uint64_t case_count(std::uint64_t ordinary);
 
 }  // namespace reeb::test

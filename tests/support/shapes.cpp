@@ -55,7 +55,7 @@ Complex disc(std::size_t columns, std::size_t rows) {
   return complex;
 }
 
-// Takes a triangle out of each and glues the two holes.
+// Removes a triangle from each, and glues the two holes.
 Complex connected_sum(Complex first, Complex second) {
   const std::vector<std::uint64_t> hole = first.simplices.back();
   std::vector<std::uint64_t> other = second.simplices.front();

@@ -1,5 +1,5 @@
-// Whole runs, from a mesh in memory to `.reeb` files, for chunks of any size, any number of threads
-// and all forms of input. REEB_TEST_MEMORY and REEB_TEST_CHUNK confine them.
+// Whole runs, from a mesh in memory to `.reeb` files, for chunks of any size, any number of threads and all forms of
+// input. REEB_TEST_MEMORY and REEB_TEST_CHUNK limit them.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -52,26 +52,25 @@ inline std::vector<RunShape> all_shapes() {
     for (const unsigned threads : {1u, 2u, 4u})
       for (const Form form : kForms) {
         shapes.push_back({chunk, threads, form});
-        // Cut from stretches, as where fronts are wide.
+        // Chunks are cut from stretches, as for wide fronts.
         if (chunk != 0 && chunk <= 7) shapes.push_back({chunk, threads, form, 20 * chunk});
       }
   return shapes;
 }
 
-// A run syncs its output to disk, which would be nearly all that many small runs wait for: where the
-// system has a folder in memory, scratch folders are there.
+// A run syncs its output to disk, and many small runs would wait for that most of the time. So scratch folders are in
+// memory where the system has such a folder.
 inline const bool scratch_is_in_memory =
     ::access("/dev/shm", W_OK) == 0 && ::setenv("TMPDIR", "/dev/shm", /*overwrite=*/0) == 0;
 
-// Runs of `compute` on one mesh; each works in a folder that is empty before and after, and loses no
-// vertex.
+// Runs of `compute` on one mesh. Each works in a folder that is empty before and after, and loses no vertex.
 class Runner {
  public:
   explicit Runner(bool graph_only = false) { options_.graph_only = graph_only; }
 
-  // For the runs that follow.
+  // Applies to the runs after this call.
   ooc::ComputeOptions& options() { return options_; }
-  // Where the output of a function goes that is this column of the mesh.
+  // The output file of the function that is this column of the mesh.
   std::string output(unsigned column) const { return outputs_.path() + "/" + ColumnFunction(column).name() + ".reeb"; }
 
   // The outputs of the functions that are these columns of the mesh, in one run.

@@ -16,7 +16,7 @@ namespace {
 
 using Bytes = std::vector<std::byte>;
 
-constexpr std::uint64_t kMost = std::numeric_limits<std::uint64_t>::max();
+constexpr std::uint64_t kMaxNumber = std::numeric_limits<std::uint64_t>::max();
 
 Bytes bytes_of(std::initializer_list<unsigned> values) {
   Bytes bytes;
@@ -92,7 +92,7 @@ TEST(ByteCoding, NoticesEveryPrefix) {
       read(in);
       ASSERT_FALSE(in.ok()) << size << " of " << bytes.size() << " bytes";
       ASSERT_FALSE(in.done());
-      // Once failed, always failed: what follows is not read.
+      // After a failure every read fails: the rest is not read.
       ASSERT_EQ(in.remaining(), 0u);
       ASSERT_EQ(in.u64(), 0u);
       ASSERT_EQ(in.varint(), 0u);
@@ -102,7 +102,7 @@ TEST(ByteCoding, NoticesEveryPrefix) {
 
 TEST(ByteCoding, ReadsVarintsUpTo64Bits) {
   for (const std::uint64_t value :
-       {std::uint64_t{0}, std::uint64_t{127}, std::uint64_t{128}, std::uint64_t{1} << 63, kMost - 1, kMost}) {
+       {std::uint64_t{0}, std::uint64_t{127}, std::uint64_t{128}, std::uint64_t{1} << 63, kMaxNumber - 1, kMaxNumber}) {
     Bytes bytes;
     ByteWriter(bytes).varint(value);
     ByteReader in(bytes);
@@ -120,9 +120,9 @@ TEST(ByteCoding, RefusesVarintsOfMoreThan64Bits) {
     ByteReader in(bytes);
     const std::uint64_t value = in.varint();
     EXPECT_EQ(in.ok(), tenth <= 1) << tenth;
-    EXPECT_EQ(value, tenth > 1 ? 0 : tenth == 1 ? kMost : kMost >> 1);
+    EXPECT_EQ(value, tenth > 1 ? 0 : tenth == 1 ? kMaxNumber : kMaxNumber >> 1);
   }
-  // Zeros do not make a number that is too long a shorter one.
+  // A number of too many bytes is refused even if the last ones are zero.
   Bytes zeros(10, std::byte{0x80});
   zeros.push_back(std::byte{0});
   ByteReader in(zeros);
@@ -144,7 +144,7 @@ TEST(ByteCoding, BelievesNoCountThatTheBytesCannotHold) {
   const Bytes bytes = bytes_of({1, 2, 3, 4, 5, 6, 7});
   EXPECT_TRUE(ByteReader(bytes).may_hold(3, 2));
   EXPECT_FALSE(ByteReader(bytes).may_hold(4, 2));
-  EXPECT_FALSE(ByteReader(bytes).may_hold(kMost, 8));
+  EXPECT_FALSE(ByteReader(bytes).may_hold(kMaxNumber, 8));
   EXPECT_TRUE(ByteReader({}).may_hold(0, 8));
 }
 

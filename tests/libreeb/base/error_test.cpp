@@ -1,4 +1,4 @@
-// Where an error says that it is, and in which form.
+// The location that an error names, and the form of its text.
 #include "libreeb/base/error.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// FlatMap against std::unordered_map, on random operations in tables that stay small: there entries that
-// share a home, gaps that are closed, and rows of entries that run over the end of the table are common.
+// FlatMap against std::unordered_map, on random operations. The tables stay small, so that these are frequent: entries
+// with the same home, gaps that are closed, and runs of entries that wrap around the end of the table.
 #include "libreeb/base/flat_map.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Bucket sums against plain ones: exact, so that no order of adding shows; and lists of buckets
+// Bucket sums against plain sums: they are exact, so that the order of additions does not show. Lists of buckets
 // against maps (docs/SEMANTICS.md, Buckets).
 #include "libreeb/engine/bucket_sums.h"
 
@@ -20,7 +20,7 @@ namespace {
 
 bool same(const BucketSum& a, const BucketSum& b) { return a.index == b.index && a.count == b.count && a.sum == b.sum; }
 
-// Of any magnitude and sign; beyond what the sums hold, too.
+// A coordinate of any magnitude and sign, also beyond the limit of the sums.
 Point random_point(Random& random) {
   Point point;
   for (double& x : point) x = std::ldexp(random.unit() - 0.5, static_cast<int>(random.below(120)) - 60);
@@ -74,7 +74,7 @@ TEST(BucketSum, HoldsAsManyOfTheGreatestAsThereAreVertices) {
   EXPECT_EQ(sum.mean().mean, (std::array<double, 3>{0x1p50, -0x1p50, 0}));
 }
 
-// What a list should hold: buckets of the pool's exponent by index.
+// The expected content of a list: buckets of the pool's exponent, by index.
 struct Model {
   std::map<std::int64_t, BucketSum> buckets;
 
@@ -96,10 +96,10 @@ struct Model {
   }
 };
 
-// Any sequence of what the engine does to lists, against maps.
+// Any sequence of the operations that the engine does on lists, against maps.
 class ManyLists {
  public:
-  // Half of them of so few buckets that most lists have no more than one.
+  // In half of the cases there are so few buckets that most lists have at most one.
   explicit ManyLists(std::uint64_t seed)
       : random_(seed),
         few_(random_.chance(50)),
@@ -126,9 +126,9 @@ class ManyLists {
 
  private:
   static constexpr std::size_t kLists = 4;
-  static constexpr double kMost = 10;  // values are from -kMost to kMost
+  static constexpr double kMaxValue = 10;  // values are from -kMaxValue to kMaxValue
 
-  double value() { return kMost * (2 * random_.unit() - 1); }
+  double value() { return kMaxValue * (2 * random_.unit() - 1); }
 
   void sweep(std::int64_t index) {
     pool_.start_bucket(index);
@@ -191,17 +191,17 @@ class ManyLists {
     models_[i].add_all(models_[j]);
   }
 
-  // What is above goes from list i to list j, which has nothing below it. The bucket that is cut is divided
-  // in proportion if it has four vertices or more, and goes to where its greater part is otherwise.
+  // Moves what is above the cut from list i to list j, which has nothing below the cut. If the bucket that is cut has
+  // four vertices or more, it is divided in proportion; otherwise it goes whole to the side of its greater part.
   void cut(std::size_t i, std::size_t j) {
     const double at = value();
     const std::int64_t divided = bucket_index(at, exponent_);
     auto &from = models_[i].buckets, &into = models_[j].buckets;
     if (!into.empty() && into.begin()->first < divided) return;
     if (into.empty() && random_.chance(50))
-      lists_[j] = pool_.take_above(lists_[i], -kMost, at, kMost);
+      lists_[j] = pool_.take_above(lists_[i], -kMaxValue, at, kMaxValue);
     else
-      pool_.move_above(lists_[i], -kMost, at, kMost, lists_[j]);
+      pool_.move_above(lists_[i], -kMaxValue, at, kMaxValue, lists_[j]);
     if (const auto bucket = from.find(divided); bucket != from.end()) {
       const std::uint64_t count = bucket->second.count, above = count_above(at, divided, count);
       if (above == count) {
@@ -216,13 +216,13 @@ class ManyLists {
   }
 
   std::uint64_t count_above(double at, std::int64_t divided, std::uint64_t count) const {
-    const double begin = std::max(-kMost, std::ldexp(static_cast<double>(divided), exponent_));
-    const double end = std::min(kMost, std::ldexp(static_cast<double>(divided + 1), exponent_));
+    const double begin = std::max(-kMaxValue, std::ldexp(static_cast<double>(divided), exponent_));
+    const double end = std::min(kMaxValue, std::ldexp(static_cast<double>(divided + 1), exponent_));
     if (count < 4) return end - at > at - begin ? count : 0;
     return static_cast<std::uint64_t>(std::nearbyint((end - at) / (end - begin) * static_cast<double>(count)));
   }
 
-  // Leaves so many of the vertices in the bucket, with their share of the sum. Returns the others.
+  // Leaves this number of vertices in the bucket, with their share of the sum. Returns the others.
   static BucketSum divide(BucketSum& bucket, std::uint64_t left) {
     BucketSum rest = bucket;
     const double share = static_cast<double>(left) / static_cast<double>(bucket.count);

@@ -1,5 +1,5 @@
-// Gluing at scale: the live graph keeps its promises after every fragment, and the graph does not
-// depend on how a mesh of many thousand triangles is cut.
+// Gluing at scale: the live graph is consistent after every fragment, and the result does not depend on how a mesh of
+// many thousand triangles is cut.
 #include <gtest/gtest.h>
 
 #include "tests/libreeb/engine/streamed_mesh.h"

@@ -1,5 +1,5 @@
-// The embedding against its definition: every vertex in the bucket of its value on the arc on
-// which it lies; nothing lost and nothing counted twice, whatever the stream (docs/SEMANTICS.md, Conservation).
+// The embedding against its definition: every vertex is in the bucket of its value, on its arc; none is lost or counted
+// twice, whatever the stream (docs/SEMANTICS.md, Conservation).
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -58,7 +58,7 @@ void expect_within_its_arc(const Embedded& embedded) {
   }
 }
 
-// Each vertex is a node or in one bucket; positions are at most 1 or so.
+// Expects each vertex to be a node or in one bucket. Positions are at most about 1.
 void expect_conserved(const EmbeddedGraph& sink, const std::vector<Point>& positions) {
   std::uint64_t count = sink.nodes.size();
   std::array<double, 3> sum{};
@@ -110,7 +110,7 @@ TEST(Embedding, ConservesVerticesAndPositionsInAnyStream) {
   }
 }
 
-// What lies in a bucket of arcs between these vertices. Parallel arcs cannot be told apart.
+// The content of a bucket on all arcs between two vertices. Parallel arcs cannot be distinguished.
 using Place = std::tuple<std::uint64_t, std::uint64_t, std::int64_t>;
 struct Contents {
   std::uint64_t count = 0;
@@ -121,8 +121,8 @@ struct Contents {
   }
 };
 
-// The definition: with a hair that grows out of it, a regular vertex becomes a node of the Reeb
-// graph, whose other two arcs are the parts of that on which it lay.
+// The definition: if an edge is attached to a regular vertex, the vertex becomes a node of the Reeb graph. The two arcs
+// at it other than that edge are the parts of the arc of the vertex.
 std::map<Place, Contents> contents_by_definition(const Complex& complex, int exponent) {
   std::map<Place, Contents> contents;
   const ReebGraph graph = reference_reeb(complex);

@@ -1,5 +1,5 @@
-// On-line noise removal against the definition: what is removed on the way and in the last pass
-// together is what is removed from the exact graph, whatever the stream (docs/SEMANTICS.md, Noise removal).
+// On-line noise removal against the definition: the run and the last pass together remove the same leaves as removal
+// from the exact graph, whatever the stream (docs/SEMANTICS.md, Noise removal).
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t kBatches[] = {1, 3, 7, 4096};
 
-// A threshold that is a difference of two values, or a little off it: so that ties count.
+// A threshold that is the difference of two values, or almost, so that ties matter.
 double random_threshold(const Complex& complex, Random& random) {
   if (complex.values.empty()) return 1;
   const auto any = [&] { return complex.values[random.below(complex.values.size())]; };
@@ -36,7 +36,7 @@ double random_threshold(const Complex& complex, Random& random) {
 
 class OnlineNoise : public testing::Test {
  protected:
-  // Holds a graph from which `online` pairs are gone to what the exact graph becomes.
+  // Compares a graph from which `online` pairs were removed with the exact graph after noise removal.
   void expect_same_in_the_end(const ReebGraph& graph, std::uint64_t online, const ReebGraph& exact, double threshold) {
     ASSERT_NO_THROW(graph.validate());
     const reeb::Denoised rest = reeb::denoise(graph, threshold);
@@ -84,7 +84,7 @@ TEST_F(OnlineNoise, TogetherWithTheLastPassEqualsTheDefinition) {
   EXPECT_GT(online_, all_ / 2) << "hardly anything is removed on the way";
 }
 
-// A saddle that was settled lost a leaf, and before it could disappear another of its arcs was handed over.
+// A settled saddle lost a leaf, and before it was contracted another of its arcs was written out.
 TEST_F(OnlineNoise, ASettledSaddleDisappearsWithItsLeaf) { check_case(20086495); }
 
 // Chunks with long paths through many splits, and a threshold that grows along the stream.

@@ -1,5 +1,5 @@
-// The on-line engine against the definition of the Reeb graph, on random complexes of every kind
-// (REEB_SEED and REEB_CASES choose which and how many).
+// The on-line engine against the definition of the Reeb graph, on random complexes of every kind. REEB_SEED and
+// REEB_CASES choose which complexes, and how many.
 #include "libreeb/engine/online_reeb.h"
 
 #include <gtest/gtest.h>
@@ -31,7 +31,7 @@ Complex beginning(const Complex& complex, std::size_t vertices, std::size_t simp
   return part;
 }
 
-// The same nodes and arcs; positions right where they are known.
+// Expects the same nodes and arcs, and the right positions where they are known.
 testing::AssertionResult same_graph(const ReebGraph& graph, const ReebGraph& expected) {
   graph.validate();
   if (without_positions(graph) != without_positions(expected))
@@ -55,8 +55,8 @@ struct CollectingSink : GraphSink {
   std::vector<ArcKeys> arcs;
 };
 
-// Nodes one by one; a graph made of the arcs has parallel arcs only where the expected one has.
-void expect_handed_over_once(const CollectingSink& sink, const ReebGraph& expected, const Complex& complex) {
+// Compares nodes one by one. A graph made of the arcs has parallel arcs only where the expected graph has.
+void expect_written_once(const CollectingSink& sink, const ReebGraph& expected, const Complex& complex) {
   for (std::size_t i = 0; i < sink.nodes.size(); ++i) {
     if (sink.positions[i] == Point{}) continue;
     ASSERT_EQ(sink.positions[i], complex.positions[sink.nodes[i].vertex.value()]);
@@ -137,7 +137,7 @@ TEST(OnlineReeb, HandsEverythingToTheSinkExactlyOnce) {
       OnlineReeb engine({.batch_triangles = batch}, &sink);
       Player(complex, any_finalization(random), random.next()).play(engine);
       engine.finish();
-      expect_handed_over_once(sink, expected, complex);
+      expect_written_once(sink, expected, complex);
     }
   }
 }

@@ -1,4 +1,4 @@
-// Plays a complex to the on-line engine, as a user would stream it.
+// Streams a complex to the on-line engine, as a user would.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -17,8 +17,8 @@ namespace reeb::test {
 // When vertices are finalized: never, as soon as no later simplex names them, or some time later.
 enum class Finalization { kNever, kAtOnce, kLater };
 
-// Feeds a complex in its order. Vertices come when a simplex first needs them or, at random,
-// before; after each simplex `step` is told how many vertices and simplices were added.
+// Adds a complex in its order. Vertices come when a simplex first needs them or, at random, before. After each simplex,
+// `step` is called with the numbers of vertices and simplices added so far.
 class Player {
  public:
   using Step = std::function<void(std::size_t vertices, std::size_t simplices)>;

@@ -24,7 +24,7 @@ struct Mesh {
   std::vector<double> values;
   std::vector<Point> positions;
   std::vector<VertexId> corners;
-  std::vector<std::size_t> last_use;  // of each vertex: a corner
+  std::vector<std::size_t> last_use;  // by vertex: the index of its last corner
   std::uint64_t max_loops = 0;
 };
 
@@ -60,10 +60,9 @@ struct KeepingSink : GraphSink {
   std::vector<ArcKeys> arcs;
 };
 
-// Streams the mesh in chunks of this many triangles; options_of(min, max) says what to do with a
-// chunk after which the values so far have this range, between_chunks(glue) is called after each.
-// `overstated`: every third vertex is said to be used earlier, whether it is or not. Returns how
-// many pairs were removed.
+// Streams the mesh in chunks of this number of triangles. options_of(min, max) returns the options of a chunk, for the
+// range of the values up to its end; between_chunks(glue) is called after each chunk. `overstated`: every third vertex
+// is marked as used earlier, whether it is or not. Returns the number of removed pairs.
 template <class OptionsOf, class BetweenChunks>
 std::uint64_t stream(const Mesh& mesh, std::size_t size, GraphSink& sink, const OptionsOf& options_of,
                      const BetweenChunks& between_chunks, bool overstated = false) {

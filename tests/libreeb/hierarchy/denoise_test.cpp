@@ -61,7 +61,7 @@ TEST(Denoise, EqualsTheDefinitionInAnyOrder) {
     ASSERT_EQ(result.graph, naive_denoise(full, threshold, random));
     removed += result.removed.size();
 
-    // The pairs that are left and those that are gone are the pairs of the full graph.
+    // The remaining pairs and the removed ones together are the pairs of the full graph.
     auto pairs = test::vertex_pairs(result.graph, test::reference_pairs(result.graph));
     for (const auto& key : test::vertex_pairs(full, result.removed)) pairs.push_back(key);
     std::sort(pairs.begin(), pairs.end());

@@ -1,5 +1,5 @@
-// The embedding through noise removal and cancelling: no vertex is lost, each stays in the bucket of
-// its value, and the graphs are what they are without.
+// The embedding during noise removal and cancelling: no vertex is lost, each stays in the bucket of its value, and the
+// graphs are the same as without an embedding.
 #include <gtest/gtest.h>
 
 #include "libreeb/hierarchy/cancel.h"
@@ -115,7 +115,7 @@ std::vector<Bucket> of(const ArcBuckets& buckets, std::size_t arc) {
 }
 
 TEST(Embedding, ALeafIsLaidBesideItselfAndEndsInsideItsBucket) {
-  // Up-fork 4 with the maximum 6 and the way on to 9: nothing but (0, 9) is left.
+  // Up-fork 4 with the maximum 6 and the arc to 9. Only the arc (0, 9) remains.
   const ReebGraph graph = graph_of({{0, 4}, {4, 6}, {4, 9}});
   const std::vector<std::vector<Bucket>> of_arcs{
       {{1, 2, {1.5, 0, 0}}}, {{4, 1, {4.5, 4, 0}}, {5, 3, {5.5, 4, 0}}}, {{5, 1, {5.5, 0, 0}}, {8, 5, {8.5, 0, 0}}}};
@@ -135,8 +135,8 @@ TEST(Embedding, ALeafIsLaidBesideItselfAndEndsInsideItsBucket) {
 }
 
 TEST(Embedding, ABucketThatANodeCutsIsDividedInProportion) {
-  // The maximum 6 is laid past the up-fork 5: its bucket of width 4, of which it has the values from
-  // 4 to 6, holds 8 vertices. Half of them lie below 5.
+  // The arc of the maximum 6 is zipped past the up-fork 5. It has the values from 4 to 6 of a bucket of width 4, with 8
+  // vertices. Half of them count as below 5.
   const ReebGraph graph = graph_of({{0, 4}, {4, 5}, {4, 6}, {5, 9}, {5, 10}});
   ArcBuckets buckets = embedding({{}, {}, {{1, 8, {5, 0, 0}}}, {}, {}});
   const Denoised result = denoise(graph, 3, buckets, 2);
@@ -155,7 +155,7 @@ TEST(Embedding, AnArcOfALoopIsLaidOnTheOtherWay) {
 }
 
 TEST(Embedding, AnArcOfALoopWithoutAnotherWayIsDropped) {
-  // Besides the arc (10, 14), the loop goes up to 13, down to 12 and up again.
+  // The arc (10, 14) is one side of the loop; the other goes up to 13, down to 12 and up again.
   const ReebGraph graph = graph_of({{0, 10}, {2, 12}, {10, 13}, {10, 14}, {12, 13}, {12, 14}, {13, 30}, {14, 31}});
   const std::vector<Bucket> of_direct{{11, 9, {11.5, 0, 0}}, {12, 1, {12.5, 0, 0}}};
   ArcBuckets buckets = embedding({{}, {}, {}, of_direct, {}, {}, {}, {}});
@@ -165,7 +165,7 @@ TEST(Embedding, AnArcOfALoopWithoutAnotherWayIsDropped) {
 }
 
 TEST(Embedding, AnArcThatNothingIsLaidOnKeepsItsRecord) {
-  // Cancelling (4, 5) touches what hangs on 4 from above only.
+  // Cancelling (4, 5) touches only the arcs up from 4.
   const ReebGraph graph = graph_of({{0, 4}, {1, 4}, {4, 5}, {4, 9}});
   ArcBuckets buckets = embedding({{{2, 1, {2.5, 0, 0}}}, {}, {}, {{7, 1, {7.5, 0, 0}}}});
   const Hierarchy h = build_hierarchy(graph, buckets, kUnit);
@@ -178,7 +178,7 @@ TEST(Embedding, AnArcThatNothingIsLaidOnKeepsItsRecord) {
 }
 
 TEST(Embedding, AnExtremumIsLaidOn8ArcsAtMost) {
-  // The maximum 150 beside a way up with a fork at each of 2, 3, ..., 101, all of larger persistence.
+  // The maximum 150, next to a path up with forks at 2, 3, ..., 101, all of larger persistence.
   std::vector<std::pair<std::uint64_t, std::uint64_t>> arcs{{0, 1}, {1, 2}, {1, 150}};
   std::vector<std::vector<Bucket>> of_arcs(3);
   for (int i = 2; i < 150; ++i) of_arcs[2].push_back({i, 1, {i + 0.5, 0, 0}});
@@ -193,7 +193,7 @@ TEST(Embedding, AnExtremumIsLaidOn8ArcsAtMost) {
   ArcBuckets buckets = made.buckets;
   const Hierarchy h = build_hierarchy(made.graph, buckets, kUnit);
   ASSERT_EQ(h.pairs[0].type, PairType::kRel1);
-  // Of 2 to 149 those up to 8 are laid on the arcs that end in 3, ..., 9.
+  // Of the vertices 2 to 149, those up to 8 are moved to the arcs that end in 3, ..., 9.
   ASSERT_FALSE(h.dropped.empty());
   EXPECT_EQ(h.dropped.front(), (DroppedVertices{1, 149 - 8 + 1}));
   check_every_version(made, h, buckets.view());

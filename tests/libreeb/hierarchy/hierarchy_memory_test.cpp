@@ -1,4 +1,4 @@
-// What a hierarchy holds stays below what it says beforehand, and within 160 bytes an arc.
+// Building a hierarchy holds no more memory than hierarchy_bytes() says, and at most 160 bytes per arc.
 #include <gtest/gtest.h>
 
 #include "libreeb/hierarchy/cancel.h"
@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t kArcs = 100'000;
 
-// Where records go that nobody wants.
+// A sink that discards the records.
 class Nowhere : public RecordSink {
  public:
   void add(const ArcVersion&, std::span<const std::byte>) override { ++records_; }
@@ -21,7 +21,7 @@ class Nowhere : public RecordSink {
   std::uint64_t records_ = 0;
 };
 
-// `make` returns a graph with its buckets, of this exponent, or none.
+// `make` returns a graph, with buckets of this exponent or without.
 template <class Make>
 void expect_within_promise(Make make, int exponent) {
   std::uint64_t promised = 0, records = 0;
@@ -33,7 +33,7 @@ void expect_within_promise(Make make, int exponent) {
     if (buckets.size() != 0) lists = buckets.memory_bytes();
     promised = hierarchy_bytes(graph.node_count(), arcs, lists);
     Nowhere nowhere;
-    bench::peak_bytes = bench::held_bytes.load();  // what it took to make the graph does not count
+    bench::peak_bytes = bench::held_bytes.load();  // memory for making the graph does not count
     const Hierarchy hierarchy = build_hierarchy(graph, std::move(buckets), exponent, nowhere);
     records = nowhere.records();
     ASSERT_GT(hierarchy.persistence.size(), arcs / 50);

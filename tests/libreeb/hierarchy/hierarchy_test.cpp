@@ -1,5 +1,5 @@
-// Every version of small hierarchies: the diagram loses exactly the pair of its step, and the rules
-// that leave one choice are checked on graphs drawn by hand.
+// Every version of small hierarchies: the diagram loses exactly the pair of its step. Rules with a unique result are
+// checked on graphs drawn by hand.
 #include <gtest/gtest.h>
 
 #include "libreeb/hierarchy/cancel.h"
@@ -55,7 +55,7 @@ TEST(Hierarchy, AThresholdIsStrict) {
 }
 
 TEST(Hierarchy, AMaximumsPathGoesIntoTheArcWithTheLowestUpperNode) {
-  // From 4 up: to the maximum 6 past the down-fork 5, or to the up-fork 7, or straight to 20.
+  // From 4 up: to the maximum 6 past the down-fork 5, to the up-fork 7, or directly to 20.
   const ArcList arcs{{0, 4}, {1, 5}, {4, 5}, {5, 6}, {4, 7}, {7, 18}, {7, 19}, {4, 20}};
   EXPECT_EQ(level(arcs, 2.5), (ArcList{{0, 4}, {1, 5}, {4, 5}, {4, 20}, {5, 7}, {7, 18}, {7, 19}}));
 }
@@ -88,7 +88,7 @@ TEST(Hierarchy, OfThreePathsTheFirstTwoAreZipped) {
 }
 
 TEST(Hierarchy, ALoopWithoutTwoMonotonePathsIsKept) {
-  // v = 10 goes up to y = 14 by 11, and to 13; 13 hangs together with y by 12 only.
+  // Paths up from v = 10 lead to y = 14 through 11, and to 13; 13 is connected with y through 12 only.
   const ArcList arcs{{0, 10}, {10, 11}, {1, 11}, {11, 14}, {10, 13}, {12, 13}, {2, 12}, {12, 14}, {13, 30}, {14, 31}};
   const ReebGraph full = graph_of(arcs);
   const Hierarchy h = build_hierarchy(full);
@@ -99,8 +99,8 @@ TEST(Hierarchy, ALoopWithoutTwoMonotonePathsIsKept) {
   EXPECT_EQ(betti_numbers(graph_at(h, full, last_version(h))).loops, 1u);
 }
 
-// The same loop (110, 114), kept; the maximum 130 is then laid on the way to 114, so that two
-// monotone paths 110-111-114 and 110-113-114 are left, in one component above 110.
+// The same loop (110, 114), kept. The maximum 130 is then zipped onto the path to 114. That leaves two monotone paths
+// 110-111-114 and 110-113-114, in one component above 110.
 ArcList around_a_kept_loop(const ArcList& more) {
   ArcList arcs{{0, 110}, {110, 111}, {1, 111}, {111, 114}, {110, 113}, {112, 113}, {2, 112}, {112, 114}, {113, 130}};
   arcs.insert(arcs.end(), more.begin(), more.end());

@@ -42,9 +42,8 @@ TEST(HierarchyAgainstNaive, EveryVersionOfGraphsWithManyLoops) {
   }
 }
 
-// Trunks that start at a node of another one, and some that end in one, with arcs of minima far below all
-// along them: what is zipped are long paths with many nodes of larger persistence. For maxima the same
-// upside down.
+// Trunks that start at a node of another trunk; some also end in one. All along a trunk there are arcs from minima far
+// below. So cancelling zips long paths with many nodes of larger persistence. For maxima the same upside down.
 ReebGraph brush(std::uint64_t seed, bool upside_down) {
   Random random(seed);
   std::vector<ArcKeys> arcs;

@@ -1,5 +1,5 @@
-// Where noise removal looks, by hand. That nothing of what it looks at is missed is in
-// ooc/last_noise_pass_test.cpp.
+// The scope of noise removal in graphs drawn by hand. tests/ooc/stored_graph/last_noise_pass_test.cpp tests that the
+// scope misses nothing.
 #include "libreeb/hierarchy/noise_scope.h"
 
 #include <gtest/gtest.h>
@@ -44,20 +44,20 @@ TEST(NoiseScope, IsALeafAndItsSaddle) {
 }
 
 TEST(NoiseScope, IsNotWhereNoLeafIs) {
-  // Loops of short arcs only; and maxima without another way up beside them.
+  // Loops of short arcs only; and maxima whose saddle has no other path up.
   EXPECT_EQ(scope({{0, 40}, {40, 41}, {40, 41}, {41, 42}, {42, 43}, {42, 43}, {43, 90}}, 2), Values{});
   EXPECT_EQ(scope({{0, 40}, {20, 40}, {40, 41}}, 2), Values{});
 }
 
 TEST(NoiseScope, GoesOnWhereASaddleDisappears) {
-  // With the maximum 43 gone, 42 disappears, and 44 has the saddle 41; from there another way up.
+  // Without the maximum 43, 42 is contracted, and 44 has the saddle 41, which has another path up.
   EXPECT_EQ(scope({{0, 41}, {41, 42}, {41, 90}, {42, 43}, {42, 44}}, 4), (Values{41, 42, 43, 44}));
-  // Here 42 cannot disappear: it is the upper end of a loop, so 41 is no saddle of a leaf.
+  // Here 42 cannot be contracted, since it is the upper end of a loop. So 41 is not the saddle of a leaf.
   EXPECT_EQ(scope({{0, 41}, {41, 42}, {41, 42}, {42, 43}, {42, 90}}, 4), (Values{42, 43}));
 }
 
 TEST(NoiseScope, HasThePathsBesideALeafAndNothingBeyondIt) {
-  // Beside the maximum 43.5 lie 42 and 43, which fork into loops; 44 lies above it.
+  // The other path goes past the maximum 43.5 through 42 and 43, which fork into loops; 44 is above the maximum.
   EXPECT_EQ(scope({{0, 41}, {41, 43.5}, {41, 42}, {42, 43}, {42, 43}, {43, 44}, {44, 45}, {44, 45}, {45, 90}}, 4),
             (Values{41, 42, 43, 43.5}));
 }

@@ -1,5 +1,5 @@
-// Packed lists of buckets: nothing is lost by packing, and lists that are replaced again and again, in any
-// order, stay what they are in a plain vector of vectors, in memory that does not grow with the changes.
+// Packed lists of buckets: packing loses nothing. Lists that are replaced repeatedly, in any order, stay equal to a
+// plain vector of vectors, in memory that does not grow with the number of changes.
 #include "libreeb/hierarchy/packed_lists.h"
 
 #include <gtest/gtest.h>

@@ -75,7 +75,7 @@ TEST(Pairing, EqualsTheBoundaryMatrixReduction) {
   }
 }
 
-// The reduction of the complex itself, which knows of no Reeb graph.
+// Against the reduction of the complex itself, which needs no Reeb graph.
 TEST(Pairing, EqualsTheBoundaryMatrixReductionOfComplexes) {
   const std::uint64_t base = test::base_seed();
   for (std::uint64_t i = 0; i < test::case_count(10000); ++i) {

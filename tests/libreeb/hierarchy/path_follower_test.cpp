@@ -1,4 +1,4 @@
-// PathFollower against following arc by arc, in graphs that change between and under way.
+// PathFollower against following arc by arc, in graphs that change between calls and while a path is followed.
 #include "libreeb/hierarchy/path_follower.h"
 
 #include <gtest/gtest.h>
@@ -12,8 +12,8 @@ namespace {
 constexpr ArcId kNone = WorkingGraph::kNone;
 constexpr std::uint32_t kNodes = 2000, kSpare = 100;
 
-// A path through every second node, arcs beside it, shorter paths into it through the nodes between, and
-// spare arcs far below it.
+// A path through every second node, arcs that leave it and skip nodes, shorter paths into it through the other nodes,
+// and spare arcs far below it.
 ReebGraph with_a_long_path(Random& random) {
   ReebGraph graph;
   for (std::uint32_t node = 0; node < kNodes; ++node)
@@ -89,7 +89,7 @@ class Fixture {
     remove(upper);
     move(lower, kUp, end);
   }
-  // A node without arcs comes into the nearest arc from below it.
+  // Inserts a node without arcs into the nearest arc from below it.
   void put_between(NodeId node) {
     const NodeId below(node.value() - 1);
     const ArcId arc = graph_.nearest(below, kUp);

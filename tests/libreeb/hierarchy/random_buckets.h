@@ -24,7 +24,7 @@ inline Bucket bucket_of_points(std::int64_t index, const std::vector<std::array<
   return bucket;
 }
 
-// Up to 11 vertices in each of half the arcs, anywhere between its ends.
+// Half of the arcs have up to 11 vertices, anywhere between their ends.
 inline EmbeddedGraph random_embedded_graph(Random& random, std::uint32_t max_nodes) {
   EmbeddedGraph made{
       random_graph(random, max_nodes), {.offsets = {0}, .buckets = {}}, static_cast<int>(below(random, 7)) - 3};
@@ -46,7 +46,7 @@ inline EmbeddedGraph random_embedded_graph(Random& random, std::uint32_t max_nod
   return made;
 }
 
-// Vertices and the sum of their positions: what moving them about must not change.
+// The number of vertices and the sum of their positions, which moving them between arcs must not change.
 struct Mass {
   std::uint64_t count = 0;
   std::array<double, 3> sum{};
@@ -72,7 +72,7 @@ inline Mass mass_of(const ReebGraph& graph, const ArcBucketsView& buckets) {
   return mass;
 }
 
-// Whether buckets ascend, are not empty, lie where the arc does, and hold points of their own values.
+// Whether the buckets of an arc ascend, are not empty, are within its values, and have means within their own values.
 inline bool well_formed(std::span<const Bucket> own, double lo, double hi, int exponent) {
   constexpr double kRounding = 1e-9;
   for (std::size_t i = 0; i < own.size(); ++i) {

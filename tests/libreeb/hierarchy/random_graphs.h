@@ -1,4 +1,4 @@
-// Small random Reeb graphs of every kind that the second stage has to serve.
+// Small random Reeb graphs of every kind that the second stage has to process.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@ using Random = std::mt19937_64;
 
 inline std::uint32_t below(Random& random, std::uint32_t bound) { return static_cast<std::uint32_t>(random() % bound); }
 
-// Replaces the arcs of (1, 1) nodes until none is left, and makes the graph.
+// Contracts all (1, 1) nodes, and makes the graph.
 inline ReebGraph contracted(std::vector<ArcKeys> arcs, std::vector<SweepKey> isolated) {
   for (std::size_t i = 0; i < arcs.size();) {
     const SweepKey middle = arcs[i].hi;
@@ -31,8 +31,8 @@ inline ReebGraph contracted(std::vector<ArcKeys> arcs, std::vector<SweepKey> iso
   return make_graph(std::move(arcs), std::move(isolated));
 }
 
-// Monotone arcs between up to `max_nodes` nodes: a multigraph, a forest, a ladder or bundles of
-// parallel arcs, with values that are distinct, tied in part, or all equal, and isolated nodes.
+// Arcs between up to `max_nodes` nodes: a multigraph, a forest, a ladder or bundles of parallel arcs; with isolated
+// nodes, and values that are distinct, partly tied, or all equal.
 inline ReebGraph random_graph(Random& random, std::uint32_t max_nodes) {
   const std::uint32_t nodes = 2 + below(random, max_nodes - 1);
   const std::uint32_t values = 1 + below(random, 2) * below(random, 3 * nodes);
