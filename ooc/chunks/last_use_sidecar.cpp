@@ -116,7 +116,7 @@ void write_sidecar(io::BufferedWriter& out, const MeshIdentity& mesh, LastUse& u
 
 struct Damaged {};
 
-// Reads from the start on; what the file does not hold is Damaged.
+// Reads from the start of the file. Throws Damaged where the file ends too early.
 class Reader {
  public:
   explicit Reader(const std::string& path) : file_(io::File::open_for_reading(path)), size_(file_.size()) {}

@@ -122,7 +122,7 @@ class Pipeline {
     maximum_.edges = std::max(maximum_.edges, now.edges);
     maximum_.arcs = std::max(maximum_.arcs, now.arcs);
     if (options_.progress) options_.progress(slot.progress);
-    if (options_.between_chunks && slot.item.ends_stretch)
+    if (options_.between_chunks && slot.item.can_resume_after)
       options_.between_chunks(slot.item.end, [this](StateWriter& out) { save(out); });
   }
 

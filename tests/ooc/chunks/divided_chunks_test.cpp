@@ -94,7 +94,7 @@ void expect_whole(const WorkItem& stretch, const std::vector<WorkItem>& chunks) 
       ASSERT_TRUE(is_new || it->second.last != c) << "a vertex twice in a chunk";
       it->second.last = c;
     }
-    EXPECT_EQ(chunks[c].ends_stretch, c + 1 == chunks.size());
+    EXPECT_EQ(chunks[c].can_resume_after, c + 1 == chunks.size());
     EXPECT_EQ(chunks[c].end.triangles, stretch.end.triangles);
   }
   std::sort(triangles.begin(), triangles.end());
@@ -135,7 +135,7 @@ TEST(DividedChunks, HaveWhatTheStretchHas) {
     auto chunk = chunks.begin();
     for (const WorkItem& stretch : stretches) {
       auto end = chunk;
-      while (!end->ends_stretch) ++end;
+      while (!end->can_resume_after) ++end;
       const std::vector<WorkItem> own(chunk, ++end);
       expect_whole(stretch, own);
       for (const WorkItem& item : own) EXPECT_LE(item.chunk.triangle_count(), own.size() == 1 ? whole : patch);
