@@ -110,7 +110,7 @@ ProgressiveGraph::Impl::Change ProgressiveGraph::Impl::gather(std::uint32_t vers
         if (end >= first_node && !named.empty()) named[end - first_node] = true;
       ++record;
     }
-    // Nodes that no arc of their own frame needs are isolated points: they hold themselves.
+    // Nodes that no arc of their own frame names are isolated points: they hold a reference to themselves.
     for (std::size_t i = 0; i < named.size(); ++i)
       if (!named[i] && first_node + i >= nodes_.size()) change.nodes[first_node + i - nodes_.size()].degree = 1;
   }

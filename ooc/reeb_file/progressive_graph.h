@@ -11,8 +11,8 @@
 
 namespace reeb::ooc {
 
-// Told of every change, in an order in which an arc only ever joins nodes that are there. Nodes go
-// by their file index, arcs by their record: both mean the same for as long as the file does.
+// Receives every change, in an order in which an arc only ever joins nodes that exist. Nodes are named by their file
+// index, arcs by their record: both keep their meaning as long as the file exists.
 class GraphListener {
  public:
   virtual ~GraphListener() = default;

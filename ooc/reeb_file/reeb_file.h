@@ -31,7 +31,7 @@ bool is_reeb_file(const std::string& path);
 // A graph at one version.
 struct Level {
   std::uint32_t version = 0;
-  double threshold = 0;  // the least that yields it
+  double threshold = 0;  // the smallest threshold that yields it
   ReebGraph graph;
   ArcBuckets buckets;  // of graph's arcs; empty without an embedding
 };
@@ -70,21 +70,21 @@ class ReebFile {
 
   // The version after all cancellations of persistence below `threshold`.
   std::uint32_t version_at(double threshold) const;
-  // The finest version with at most so many nodes, or so much memory as level_memory counts it.
-  // THROWS: Error{kBadInput} if even the coarsest is larger, with its size.
+  // The finest version with at most this many nodes, or with at most this much memory as level_memory counts it.
+  // THROWS: Error{kBadInput} with the size of the coarsest version if even that is larger.
   std::uint32_t finest_with_nodes(std::uint64_t nodes) const;
   std::uint32_t finest_with_memory(std::uint64_t bytes) const;
 
-  // Version 0 is the full graph. Reads the frames that it needs and no others.
+  // Version 0 is the full graph. Reads only the frames that the version needs.
   Level load(std::uint32_t version = 0) const;
 
   // In the order of cancelling, Ext0 last. THROWS also for a file without hierarchy.
   // MEMORY: 48 bytes a node besides the rows.
   std::vector<PairRow> pairs() const;
 
-  // Checks everything that can be checked: checksums and digest, order, counts of every version,
-  // level table, pairs against Betti numbers; with an embedding also that every vertex of the mesh is
-  // somewhere. MEMORY: about 108 bytes an arc record.
+  // Checks everything that can be checked: checksums and digest, order, counts of every version, level table, pairs
+  // against Betti numbers. With an embedding it also checks that every vertex of the mesh is a node or in a bucket.
+  // MEMORY: about 108 bytes per arc record.
   void verify() const;
 
  private:

@@ -1,4 +1,4 @@
-// ReebFile::verify: everything about a file that can be checked without the mesh.
+// ReebFile::verify: checks everything that can be checked without the mesh.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -91,7 +91,7 @@ std::vector<VersionCounts> verify_versions(const FrameFile& file, const Content&
 // dropped some.
 void verify_vertices(const FrameFile& file, const Content& content, const std::vector<VersionCounts>& versions) {
   if (!file.header().flags.has_embedding) return;
-  std::vector<std::uint64_t> change(versions.size());  // differences wrap and cancel out
+  std::vector<std::uint64_t> change(versions.size());  // differences; they wrap around and cancel out
   for (std::size_t i = 0; i < content.arcs.size(); ++i) {
     change[content.arcs[i].born] += content.vertices[i];
     if (content.arcs[i].died != kNeverDies) change[content.arcs[i].died] -= content.vertices[i];
@@ -129,7 +129,7 @@ void verify_full_graph(const FrameFile& file, const Content& content, const Reeb
   if (header.nodes != graph.node_count() || header.arcs != graph.arc_count() || header.components != betti.components ||
       header.loops != betti.loops || header.records != content.arcs.size())
     file.fail(0, "the full graph has other counts than the header says");
-  // Cancellation adds no node: every node that any version needs is one of the full graph.
+  // Cancelling adds no node: each node of any version is one of the full graph.
   if (content.nodes.size() != graph.node_count()) file.fail(0, "there are nodes that the full graph lacks");
   if (std::ranges::adjacent_find(graph.nodes) != graph.nodes.end()) file.fail(0, "a node was introduced twice");
 }

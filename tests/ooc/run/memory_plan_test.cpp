@@ -39,9 +39,9 @@ TEST(MemoryPlan, SharesAddUpToAtMostTheLimit) {
     for (const std::uint64_t limit : limits()) {
       SCOPED_TRACE(testing::Message() << limit << " bytes, " << request.functions << " functions");
       const MemoryPlan p = plan(request, limit);
-      EXPECT_EQ(p.account_bytes + p.set_aside_bytes, limit);
-      EXPECT_LE((request.in_place ? 1 : 2) * p.table_bytes + request.functions * p.segment_bytes, p.account_bytes / 5);
-      EXPECT_LE(request.functions * p.most_segment_bytes, p.account_bytes / 5);
+      EXPECT_EQ(p.budget_bytes + p.set_aside_bytes, limit);
+      EXPECT_LE((request.in_place ? 1 : 2) * p.table_bytes + request.functions * p.segment_bytes, p.budget_bytes / 5);
+      EXPECT_LE(request.functions * p.most_segment_bytes, p.budget_bytes / 5);
       EXPECT_GE(p.threads, 1u);
       EXPECT_LE(p.threads, request.threads);
     }
@@ -53,7 +53,7 @@ TEST(MemoryPlan, MoreMemoryNeverGivesLess) {
     for (const std::uint64_t limit : limits()) {
       SCOPED_TRACE(testing::Message() << limit << " bytes, " << request.functions << " functions");
       const MemoryPlan p = plan(request, limit);
-      EXPECT_GE(p.account_bytes, before.account_bytes);
+      EXPECT_GE(p.budget_bytes, before.budget_bytes);
       EXPECT_GE(p.table_bytes, before.table_bytes);
       EXPECT_GE(p.segment_bytes, before.segment_bytes);
       EXPECT_GE(p.most_live_vertices(), before.most_live_vertices());
@@ -117,7 +117,7 @@ TEST(MemoryPlan, LessThanTheLeastIsRefused) {
       EXPECT_EQ(error.kind(), ErrorKind::kResource);
       EXPECT_NE(error.hint().find("--memory"), std::string::npos);
     }
-  EXPECT_GT(plan({}, MemoryBudget::kUnlimited).account_bytes, kMiB);
+  EXPECT_GT(plan({}, MemoryBudget::kUnlimited).budget_bytes, kMiB);
 }
 
 }  // namespace
