@@ -27,7 +27,8 @@ SweepOptions sweep_options(const ComputeOptions& options, const FunctionRange& r
 // change.
 struct RunContext {
   // Everything except `input` must outlive this.
-  // THROWS: Error{kResource} if the budget is too small, or for a folder; Error{kBadInput} if a file cannot be opened.
+  // THROWS: Error{kResource} if the budget is too small or a folder cannot be used; Error{kBadInput} if a file cannot
+  //         be opened.
   RunContext(const MeshInput& input, std::span<VertexFunction* const> functions, std::span<const std::string> outputs,
              const ComputeOptions& options);
 
