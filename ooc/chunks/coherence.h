@@ -14,8 +14,8 @@ inline std::uint64_t usual_front(std::uint64_t vertices) {
   return static_cast<std::uint64_t>(std::max(kSmallFront, kPerSquareRoot * std::sqrt(static_cast<double>(vertices))));
 }
 
-// The same where chunks are cut from stretches of this many triangles. Such a stretch has three times as many vertices
-// as a wide front, and it must not be a large part of the mesh.
+// The same where chunks are cut from stretches of this many triangles. The front may have a third of the vertices of
+// such a stretch, unless that is a large part of the mesh.
 inline std::uint64_t usual_front(std::uint64_t vertices, std::uint64_t stretch_triangles) {
   constexpr std::uint64_t kMeshShare = 64;
   return std::max(usual_front(vertices), std::min(stretch_triangles / 6, vertices / kMeshShare));

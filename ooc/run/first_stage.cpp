@@ -232,10 +232,10 @@ std::optional<LastUse> find_last_uses(RunContext& run, const MeshInput& input, I
 }
 
 std::unique_ptr<ReorderedMesh> sort_on_disk(RunContext& run, IndexedMesh& mesh, unsigned dimension) {
-  constexpr std::uint64_t kMostSortBytes = 64u << 20;
+  constexpr std::uint64_t kSortBytesLimit = 64u << 20;
   run.tell({Phase::kReorder});
   return reorder(mesh, run.temp, run.budget,
-                 {.allowance_bytes = std::min<std::uint64_t>(run.budget.free_bytes() / 2, kMostSortBytes),
+                 {.allowance_bytes = std::min<std::uint64_t>(run.budget.free_bytes() / 2, kSortBytesLimit),
                   .coordinates = std::min(dimension, 3u)});
 }
 

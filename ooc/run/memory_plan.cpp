@@ -122,7 +122,7 @@ void MemoryPlan::share_out(const FrontNeeds& needs) {
   size_chunks(std::max(budget_bytes / 8, room / 2), std::max<std::size_t>(usual, kUsefulTriangles));
 }
 
-// The patches of a stretch take a quarter of its memory, so that the stretch can be long.
+// The patches of a stretch take a quarter of the memory, so that the stretch can be long.
 void MemoryPlan::size_chunks(std::uint64_t bytes, std::size_t most_triangles) {
   bytes = std::min(bytes, allows_threads() ? kUsefulChunkBytes : budget_bytes / 10);
   chunk = {};

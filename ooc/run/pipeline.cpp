@@ -23,7 +23,7 @@ struct Sweeper {
   Reservation reservation;
 };
 
-// The sweepers: as many as chunks are swept at the same time.
+// The sweepers. There is one for each chunk that is swept at the same time.
 class Sweepers {
  public:
   explicit Sweepers(MemoryBudget& budget) : budget_(budget) {}

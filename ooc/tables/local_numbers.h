@@ -20,7 +20,8 @@ namespace reeb::ooc {
 // TIME: O(1) per look-up, about 1 ns if the ids of a chunk are near each other.
 class LocalNumbers {
  public:
-  // Starts a new chunk, whose vertices are appended to `ids`. REQUIRES: ids is empty.
+  // Starts a new chunk, whose vertices are appended to `ids`. Look-ups are fastest with up to `expected` vertices; more
+  // are allowed. REQUIRES: ids is empty.
   void start(std::vector<VertexId>& ids, std::size_t expected) {
     ids_ = &ids;
     elsewhere_.clear();

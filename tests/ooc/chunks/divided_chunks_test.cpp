@@ -15,7 +15,7 @@ namespace {
 
 using test::Random;
 
-// Delivers chunks that were made before.
+// Delivers chunks that were made in advance.
 class Made : public ChunkSource {
  public:
   explicit Made(std::vector<WorkItem> items) : items_(std::move(items)) {}
@@ -34,7 +34,7 @@ class Made : public ChunkSource {
   std::size_t next_ = 0;
 };
 
-// A strip of a grid in rows, two triangles a cell.
+// A strip of a grid in rows, two triangles per cell.
 WorkItem strip(std::uint32_t columns, std::uint32_t rows) {
   WorkItem item;
   item.values.resize(1);
@@ -73,7 +73,7 @@ WorkItem random_item(Random& random, Places places) {
   return item;
 }
 
-// What a stretch has is in its chunks once, and each vertex says truly where else it is used.
+// The content of a stretch is in its chunks exactly once, and the uses of each vertex are correct.
 void expect_whole(const WorkItem& stretch, const std::vector<WorkItem>& chunks) {
   struct Seen {
     std::size_t first, last;
@@ -145,7 +145,7 @@ TEST(DividedChunks, HaveWhatTheStretchHas) {
   }
 }
 
-// The border of a strip's patches is what a sixteenth of it has, not what its rows have.
+// The border of a strip's patches is like that of a sixteenth of the strip, not like that of its rows.
 TEST(DividedChunks, HaveShortBorders) {
   Made made({strip(4000, 25)});
   MemoryBudget budget;

@@ -10,12 +10,12 @@ namespace reeb::ooc {
 namespace {
 
 constexpr std::uint64_t kMiB = 1 << 20;
-constexpr std::uint64_t kLeast = 16 * kMiB;
+constexpr std::uint64_t kSmallestLimit = 16 * kMiB;
 
-// Limits from the least to 64 GiB, with odd ones between.
+// Limits from the smallest to 64 GiB, with odd ones between.
 std::vector<std::uint64_t> limits() {
   std::vector<std::uint64_t> all;
-  for (std::uint64_t limit = kLeast; limit <= 64 * 1024 * kMiB; limit += limit / 5 + 1) all.push_back(limit);
+  for (std::uint64_t limit = kSmallestLimit; limit <= 64 * 1024 * kMiB; limit += limit / 5 + 1) all.push_back(limit);
   return all;
 }
 
@@ -49,7 +49,7 @@ TEST(MemoryPlan, SharesAddUpToAtMostTheLimit) {
 
 TEST(MemoryPlan, MoreMemoryNeverGivesLess) {
   for (const MemoryRequest& request : requests()) {
-    MemoryPlan before = plan(request, kLeast);
+    MemoryPlan before = plan(request, kSmallestLimit);
     for (const std::uint64_t limit : limits()) {
       SCOPED_TRACE(testing::Message() << limit << " bytes, " << request.functions << " functions");
       const MemoryPlan p = plan(request, limit);
@@ -63,15 +63,15 @@ TEST(MemoryPlan, MoreMemoryNeverGivesLess) {
   }
 }
 
-// A limit that is said to be needed is enough, and a front of the largest size that fits does fit.
+// A limit that is reported as needed is enough, and the largest front that is reported to fit does fit.
 TEST(MemoryPlan, WhatIsSaidToBeNeededIsEnough) {
   for (const MemoryRequest& request : requests())
     for (const std::uint64_t live : {1'000u, 100'000u, 10'000'000u}) {
       const FrontNeeds needs{.vertices = 20 * live, .live_vertices = live, .function_bytes = 1000};
       const std::uint64_t needed = plan(request, 64 * 1024 * kMiB).needed_bytes(needs);
       SCOPED_TRACE(testing::Message() << live << " live vertices need " << needed << " bytes");
-      EXPECT_TRUE(plan(request, needed + needed / 50 + kLeast).fits(needs));
-      if (needed > 2 * kLeast) {
+      EXPECT_TRUE(plan(request, needed + needed / 50 + kSmallestLimit).fits(needs));
+      if (needed > 2 * kSmallestLimit) {
         EXPECT_FALSE(plan(request, needed / 2).fits(needs));
       }
     }
@@ -101,7 +101,7 @@ TEST(MemoryPlan, ChunksGetWhatTheLiveGraphLeaves) {
 }
 
 TEST(MemoryPlan, AUsersChunksAreKept) {
-  MemoryPlan p = plan({.chunk_triangles = 7, .stretch_triangles = 140}, kLeast);
+  MemoryPlan p = plan({.chunk_triangles = 7, .stretch_triangles = 140}, kSmallestLimit);
   p.share_out({.vertices = 1'000'000, .live_vertices = 1'000'000});
   EXPECT_EQ(p.chunk.first, 7u);
   EXPECT_EQ(p.chunk.patch, 7u);
@@ -109,8 +109,8 @@ TEST(MemoryPlan, AUsersChunksAreKept) {
 }
 
 TEST(MemoryPlan, LessThanTheLeastIsRefused) {
-  EXPECT_NO_THROW(plan({}, kLeast));
-  for (const std::uint64_t limit : {std::uint64_t{0}, kLeast - 1}) try {
+  EXPECT_NO_THROW(plan({}, kSmallestLimit));
+  for (const std::uint64_t limit : {std::uint64_t{0}, kSmallestLimit - 1}) try {
       plan({}, limit);
       FAIL() << limit;
     } catch (const Error& error) {
