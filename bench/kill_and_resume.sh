@@ -52,7 +52,7 @@ run_and_kill() {
   (compute -o "$output" "$@" 2>messages) &
   local process=$!
   sleep "$(printf '%d.%03d' $((moment / 1000)) $((moment % 1000)))"
-  # The run ended before it was killed.
+  # Killing fails if the run has already ended.
   kill -KILL "$process" 2>/dev/null || true
   wait "$process" 2>/dev/null || true
   printf ' %d ms' "$moment"

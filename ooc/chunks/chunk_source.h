@@ -20,10 +20,10 @@ namespace reeb::ooc {
 
 // How far a source has read, so that another process can resume there.
 struct ChunkPlace {
-  std::uint64_t triangles = 0;        // read so far
-  std::uint64_t next_vertex = 0;      // the search for loose vertices continues here; of a stream: vertices read so far
-  std::uint64_t batches = 0;          // of a stream, read so far; its end counts as one
-  std::uint64_t chunk_blocks = 0;     // size of the next chunk, in the source's unit, where it adapts; 0: the first size
+  std::uint64_t triangles = 0;     // read so far
+  std::uint64_t next_vertex = 0;   // the search for loose vertices continues here; of a stream: vertices read so far
+  std::uint64_t batches = 0;       // of a stream, read so far; its end counts as one
+  std::uint64_t chunk_blocks = 0;  // size of the next chunk, in the source's unit, where it adapts; 0: the first size
   std::vector<FunctionRange> ranges;  // of the values so far
 };
 
@@ -33,7 +33,7 @@ struct WorkItem {
   std::vector<std::vector<double>> values;  // one array per function
   std::vector<Fragment> fragments;          // one per function
   ChunkPlace end;                           // after this chunk, or after the stretch that it was cut from
-  bool can_resume_after = true;                 // a run can be resumed after this chunk
+  bool can_resume_after = true;             // a run can be resumed after this chunk
   void shrink_to_fit();
   std::size_t memory_bytes() const;
 };

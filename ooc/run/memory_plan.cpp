@@ -66,7 +66,8 @@ MemoryPlan plan_memory(const MemoryRequest& request) {
       request.limit_bytes == MemoryBudget::kUnlimited ? machine_bytes() / 2 : request.limit_bytes;
   MemoryPlan plan;
   plan.request_ = request;
-  plan.set_aside_bytes = kProcess + (request.in_place ? kWindows : 0) + std::min(kFragmentation, (limit - kSmallestBudget) / 4);
+  plan.set_aside_bytes =
+      kProcess + (request.in_place ? kWindows : 0) + std::min(kFragmentation, (limit - kSmallestBudget) / 4);
   plan.budget_bytes = limit - plan.set_aside_bytes;
   // Beyond these sizes, more memory makes nothing faster.
   plan.table_bytes = std::min(plan.budget_bytes / 16, kMiB);

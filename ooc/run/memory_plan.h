@@ -28,7 +28,7 @@ struct FrontNeeds {
 
 class MemoryPlan {
  public:
-  std::uint64_t budget_bytes = 0;       // the most that reservations may add up to
+  std::uint64_t budget_bytes = 0;        // the most that reservations may add up to
   std::uint64_t set_aside_bytes = 0;     // what the process needs in addition
   std::uint64_t table_bytes = 0;         // for last uses; the same again for a spooled mesh
   std::uint64_t segment_bytes = 0;       // per function, for settled arcs and nodes

@@ -46,7 +46,8 @@ WrittenGraph write_graph(RunContext& run, const StoredGraph& graph, const FileMe
                                    .budget = &run.budget};
   const std::uint64_t table_bytes = meta.mesh_vertices * sizeof(std::uint32_t);
   Reservation table;
-  if (meta.mesh_vertices / kVerticesPerNodeForTable <= store.node_count() && table_bytes <= run.budget.free_bytes() / 4) {
+  if (meta.mesh_vertices / kVerticesPerNodeForTable <= store.node_count() &&
+      table_bytes <= run.budget.free_bytes() / 4) {
     table = run.budget.reserve("ranks of nodes", table_bytes);
     writing.ends = GraphFileWriter::ArcEnds::kKeysInMemory;
   }

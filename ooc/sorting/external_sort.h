@@ -299,7 +299,8 @@ class ExternalSort {
   void sort(std::vector<Record>& records) const {
     const auto less = [](const Record& a, const Record& b) { return in_order(a, b); };
 #ifdef __SANITIZE_THREAD__
-    constexpr bool kVisibleToSanitizer = false;  // TBB passes records between threads where the thread sanitizer cannot see it
+    constexpr bool kVisibleToSanitizer =
+        false;  // TBB passes records between threads where the thread sanitizer cannot see it
 #else
     constexpr bool kVisibleToSanitizer = true;
 #endif

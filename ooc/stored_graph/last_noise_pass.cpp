@@ -420,8 +420,8 @@ class NoisePass {
   const LastNoiseOptions options_;
   const std::optional<int> exponent_;
   Reservation memory_;
-  Reservation spare_memory_;                    // of one of the next two, never both:
-  std::optional<ArcEnds> ends_;                 // during the search for short arcs
+  Reservation spare_memory_;                         // of one of the next two, never both:
+  std::optional<ArcEnds> ends_;                      // during the search for short arcs
   std::optional<RecordBatch<StoredArc>> kept_arcs_;  // all arcs of the scope's nodes, and some others, if they are few
   Scope scope_;
   std::uint64_t held_ = 0;    // bytes of memory_ for the scope
