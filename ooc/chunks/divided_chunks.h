@@ -49,8 +49,7 @@ class DividedChunks : public ChunkSource {
   std::size_t next_patch_ = 0;
   // By vertex of the stretch.
   std::vector<std::uint16_t> last_patch_;
-  std::vector<std::uint32_t>
-      local_;  // its number in the current patch; valid only if taken_ has the vertex at that number
+  std::vector<std::uint32_t> local_;  // its number in the current patch, if taken_ has it at that number
   std::vector<std::uint32_t> taken_;  // vertices of the current patch
 };
 

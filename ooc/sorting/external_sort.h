@@ -174,9 +174,8 @@ class ExternalSort {
   // Scans are for callers that need no order: they cost a fraction of merging. The order is unspecified, except that
   // records that Less finds equal come in the order of adding. A scan may be called between any reads.
   // REQUIRES: finish() was called.   MEMORY: three blocks.
-  // Calls visit(record) for all records. Only the sort key of a record is filled in.
 
-  // Calls visit(record) for all records, of which only what they are sorted by is there.
+  // Calls visit(record) for all records. Only the sort key of a record is filled in.
   template <class Visit>
   void scan_keys(const Visit& visit) const {
     scan_blocks([](std::span<const Record>) { return Wanted::kKeys; },
@@ -299,8 +298,7 @@ class ExternalSort {
   void sort(std::vector<Record>& records) const {
     const auto less = [](const Record& a, const Record& b) { return in_order(a, b); };
 #ifdef __SANITIZE_THREAD__
-    constexpr bool kVisibleToSanitizer =
-        false;  // TBB passes records between threads where the thread sanitizer cannot see it
+    constexpr bool kVisibleToSanitizer = false;  // the sanitizer does not see TBB pass records between threads
 #else
     constexpr bool kVisibleToSanitizer = true;
 #endif

@@ -104,6 +104,7 @@ class SegmentStore : public GraphSink {
 
   // The scans visit everything added, in unspecified order; parallel arcs keep their reading order. `wanted` is called
   // concurrently. A block with no wanted key is decoded only as far as its keys.
+  // Calls visit(keys) for all arcs.
   template <class Visit>
   void scan_arc_keys(const Visit& visit) const;
   // Calls visit(arc, batch) for arcs for which wanted(keys) is true. `batch` holds the arc's payload.
