@@ -1,8 +1,8 @@
 // Reads `.reeb` files: any level in time proportional to what it yields.
 //
-// Nothing in the file is trusted: every byte is under a checksum that is verified before it is
-// used, and nothing is reserved on the word of a count alone. A file that was cut, or is damaged
-// after its header, yields the levels that its whole frames cover.
+// Nothing in the file is trusted. Each byte is under a checksum that is verified before the byte is used, and no memory
+// is reserved because of a count alone. A file that was cut off, or is damaged after its header, yields the levels that
+// its whole frames cover.
 #pragma once
 
 #include <cstddef>
@@ -23,7 +23,7 @@ namespace reeb::ooc {
 
 class FrameFile;
 
-// Whether `bytes` begins like a `.reeb` file; eight bytes are enough.
+// Whether `bytes` begins like a `.reeb` file. Eight bytes are enough.
 bool is_reeb_file(std::span<const std::byte> bytes);
 // The same for a file; false if it cannot be read.
 bool is_reeb_file(const std::string& path);
@@ -48,8 +48,8 @@ struct PairRow {
 // THREADS: any number may call const members of one object at the same time.
 // TIME:    opening reads the header, the level table and the seek table. A question for a version reads the
 //          frames between two lines of the level table; load() the frames that the version needs.
-// MEMORY:  the two tables, 8 bytes a frame of about 128 KiB; what a call returns, and two frames meanwhile.
-//          The file stays open; it must not change meanwhile, but if it shrinks, that is an Error.
+// MEMORY:  the two tables, 8 bytes per frame of about 128 KiB; what a call returns, and two frames during it.
+//          The file stays open and must not change; if it shrinks, that is an Error.
 class ReebFile {
  public:
   // Reads header, level table and seek table.
@@ -64,8 +64,8 @@ class ReebFile {
   const std::string& path() const;
   std::uint64_t file_bytes() const;
 
-  // Null for a whole file; else what is wrong after the header, and where. Levels that need the
-  // missing part are refused.
+  // Null for a whole file; else what is wrong after the header, and where. Levels that need the missing part are
+  // refused.
   const Error* damage() const;
 
   // The version after all cancellations of persistence below `threshold`.
@@ -78,8 +78,8 @@ class ReebFile {
   // Version 0 is the full graph. Reads only the frames that the version needs.
   Level load(std::uint32_t version = 0) const;
 
-  // In the order of cancelling, Ext0 last. THROWS also for a file without hierarchy.
-  // MEMORY: 48 bytes a node besides the rows.
+  // In the order of cancelling, Ext0 last. Also THROWS for a file without a hierarchy.
+  // MEMORY: 48 bytes per node, in addition to the rows.
   std::vector<PairRow> pairs() const;
 
   // Checks everything that can be checked: checksums and digest, order, counts of every version, level table, pairs

@@ -51,9 +51,8 @@ struct ComputeOptions {
   std::function<bool()> interrupted = {};  // called often: whether the run is to end
 };
 
-// Computes the graph of functions[i] and writes it to outputs[i]. All functions share one pass over the mesh
-// in which it is glued; a mesh whose last uses must be found first, or that is sorted first, is read
-// before that pass, too.
+// Computes the graph of functions[i] and writes it to outputs[i]. All functions share the pass over the mesh in which
+// it is glued. If last uses must be found or the mesh must be sorted first, the mesh is also read before that pass.
 //
 // THROWS: Error. No output is ever partly written, but some outputs may exist: those of earlier functions; and the
 //         graph alone, if kResource says that a function's hierarchy or the end of its noise removal did not fit in

@@ -12,7 +12,7 @@
 namespace reeb {
 namespace {
 
-// The graph of one function for the stream so far.
+// The graph of one function as far as the stream has come.
 class LiveFunction {
  public:
   LiveFunction(VertexFunction& function, const std::string& output) : function_(function), stem_(output) {

@@ -11,12 +11,13 @@
 
 namespace reeb {
 
-// Passes on what `reader` delivers, and maintains an on-line graph (libreeb/engine/online_reeb.h) of every function in
-// addition. After every `every` triangles, the exact graph of all events so far is written to OUT-000001.reeb,
-// OUT-000002.reeb, ... where OUT is the function's output without ".reeb": whole files without levels, each appearing
-// in one step. Existing files with such names are replaced. `functions` must outlive the reader and must not be
-// evaluated elsewhere at the same time.
-// COST: the on-line graph comes on top of the run; its memory follows the front and the graph.
+// Passes on what `reader` delivers, and keeps an on-line graph (libreeb/engine/online_reeb.h) of
+// every function beside it. Each time `every` further triangles have been delivered, the exact
+// graph of all events so far is written as OUT-000001.reeb, OUT-000002.reeb, ... where OUT is the
+// function's output without ".reeb": whole files without levels, each appearing in one step. Files
+// of such names are replaced. `functions` must outlive the reader and is not evaluated elsewhere at
+// the same time.
+// COST: the on-line graph comes on top of the run; memory follows the front and the graph.
 std::unique_ptr<MeshReader> with_snapshots(std::unique_ptr<MeshReader> reader, std::uint64_t every,
                                            std::span<VertexFunction* const> functions,
                                            std::span<const std::string> outputs);
