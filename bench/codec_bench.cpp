@@ -1,4 +1,4 @@
-// How fast zstd packs and unpacks byte planes of arcs, by level: the choice of the segment level.
+// How fast zstd packs and unpacks byte planes of arcs, by level. The segment level was chosen by it.
 #include <benchmark/benchmark.h>
 
 #include <cstring>

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# What the order of a mesh costs and gives, as the table of docs/CONVERSION.md: conversion to SMB with
+# What each order of a mesh costs and gains, as the table of docs/CONVERSION.md: conversion to SMB with
 # finalization in every order, the live front of the result, and `reeb compute --graph-only` on it.
 #
 #   bench/conversion_table.sh [--reeb PROGRAM] [--folder DIR] [--runs N] [--orders "ORDER ..."]
@@ -9,13 +9,12 @@
 # these with sweep:z and sweep:random:1, a random order; functions are x, y, z and random:1. A cell is
 # seconds / peak MiB of the process, the median of N runs (default 3).
 #
-# Cells are kept in DIR/cells (default DIR: build/bench), and those that are there are not measured again:
-# an interrupted table goes on where it was. Remove the folder to measure anew.
+# Cells are kept in DIR/cells (default DIR: build/bench), and existing ones are not measured again, so an
+# interrupted table is resumed. Remove the folder to measure again.
 #
-# Before the rows of a mesh are printed, its graphs in all orders are held against each other. Conversion
-# numbers vertices anew, which settles ties otherwise and gives other random functions; but the persistence
-# pairs of x, y and z that are not of persistence 0 do not depend on ties, and must be the same, value for
-# value.
+# Before the rows of a mesh are printed, its graphs in all orders are compared. Conversion renumbers
+# vertices, so ties are decided differently and random functions change. The persistence pairs of x, y and z
+# with a persistence above 0 do not depend on ties, and must be the same, value for value.
 set -euo pipefail
 shopt -s inherit_errexit
 cd "$(dirname "$0")/.."
@@ -41,7 +40,7 @@ trap 'rm -f "$stream" "$out" "$folder/ordered" "$folder/time"' EXIT
 
 fail() { echo "error: $1" >&2; exit 1; }
 
-# cell NAME COMMAND...: what the command prints, kept for the next time.
+# cell NAME COMMAND...: the output of the command, kept for the next time.
 cell() {
   local kept=$folder/cells/$mesh_name.$order.$1
   if [[ ! -e $kept ]]; then
@@ -59,7 +58,7 @@ timed() {
   done | sort -n | awk -v n="$runs" 'NR == int((n + 1) / 2) { printf "%.1f / %.0f", $1, $2 / 1024 }'
 }
 
-# ordered: the mesh in the order at hand.
+# ordered: the mesh in the current order.
 ordered() {
   if [[ $order == input ]]; then
     echo "$mesh"

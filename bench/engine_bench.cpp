@@ -1,10 +1,9 @@
 // The engine without input and output: sweeping chunks and gluing their fragments, one thread.
 //
-// Arguments: function (0 x, 1 y, 2 z, 3 random), layout (0 rows of 256 cells, 1 rows of 20,000,
-// 2 patches, 3 flat grid in rows of 256: ties along the stream), triangles a chunk, extras (0 the
-// graph only, 1 noise removal below 0.1 % of the range, 2 an embedding of 64 buckets, 3 both).
-// Counters: processor time of sweep and glue in ns a triangle, the least of all iterations; steps
-// a zip; largest scratch memory of the sweep and largest live structure in MB.
+// Arguments: function (0 x, 1 y, 2 z, 3 random), layout (0 rows of 256 cells, 1 rows of 20,000, 2 patches, 3 flat grid
+// in rows of 256: ties along the stream), triangles per chunk, extras (0 the graph only, 1 noise removal below 0.1 % of
+// the range, 2 an embedding of 64 buckets, 3 both). Counters: processor time of sweep and glue in ns per triangle, the
+// smallest of all iterations; steps per zip; largest scratch memory of the sweep and largest live structure in MB.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -82,7 +81,7 @@ struct Input {
   double least = 0, most = 0;  // value up to and with this chunk
 };
 
-// The range of these values and of the inputs before the last.
+// The range of these values and of all inputs except the last.
 std::pair<double, double> range_with(const std::vector<Input>& inputs, std::span<const double> values) {
   const auto [least, most] = std::minmax_element(values.begin(), values.end());
   if (inputs.size() == 1) return {*least, *most};
@@ -166,8 +165,8 @@ Result run(const std::vector<Input>& inputs, std::int64_t extras = 0) {
   return result;
 }
 
-// Empty if the chunks gave the graph that the mesh in one piece gives, and that has the
-// components of the mesh and no more loops than it can have.
+// Empty if the chunks give the same graph as the whole mesh in one chunk, and that graph has the components of the mesh
+// and no more loops than it can have.
 std::string fault(const Mesh& mesh, std::int64_t function, const Result& result) {
   const Result whole = run(cut(mesh, function, mesh.corners.size() / 3));
   if (result.nodes != whole.nodes || result.arcs != whole.arcs || result.check != whole.check)

@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# How time and memory grow with a mesh whose front is what its order gives: `reeb compute` with noise
+# How time and memory grow with the size of a mesh, for fronts that grow and fronts that do not: `reeb compute` with noise
 # removal and hierarchy on scan-like surfaces, as a table.
 #
 #   bench/growth.sh [--reeb PROGRAM] [--folder DIR] [--options "OPTION..."] [SIZE...]
 #
 # SIZE defaults to 1M 4M 12M; 372M takes 7 GB of disk for each order. Meshes are made once in DIR (default:
-# build/bench) and kept: `patches`, whose front grows as the root of the size, and `wide`, rows of a fixed
+# build/bench) and kept: `patches`, whose front grows with the square root of the size, and `wide`, rows of a fixed
 # width of 9,990 cells, whose front of 20,000 vertices does not grow. The graph is verified before a line
 # is printed: one component, and no more loops than the genus that the generator reports; the scan has
 # exactly as many. OPTIONS default to "--denoise 0.1%".
@@ -39,7 +39,7 @@ mesh() {
 # field NAME: the first number of that name in the report.
 field() { sed -n "s/.*\"$1\": \([0-9.e+-]*\).*/\1/p" "$scratch/report.json" | head -1; }
 
-# row NAME: one run of a mesh in the page cache as far as that holds it.
+# row NAME: one run of a mesh, which is in the page cache as far as it fits.
 row() {
   cat "$folder/$1.ply" >/dev/null
   # shellcheck disable=SC2086  # options are words

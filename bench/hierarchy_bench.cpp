@@ -1,5 +1,5 @@
-// Pairing, hierarchy and noise removal in memory: time and peak bytes an arc, by kind and size of graph.
-// With an embedding and records on disk: second_stage_bench.cpp.
+// Pairing, hierarchy and noise removal in memory: time and peak bytes per arc, by kind and size of graph.
+// second_stage_bench.cpp measures them with an embedding and records on disk.
 //
 // Arguments: kind (see made_graph.h), arcs. Ten million arcs are left out unless REEB_BENCH_LARGE is
 // set in the environment.
@@ -50,7 +50,7 @@ void BM_Pairing(benchmark::State& state) {
   report(state, graph, bytes_of(graph) + peak);
 }
 
-// Pairing included; the peak counts the graph it starts from, and the records.
+// Includes pairing. The peak counts the graph it starts from, and the records.
 void BM_Hierarchy(benchmark::State& state) {
   const ReebGraph graph = make(state);
   Hierarchy hierarchy;

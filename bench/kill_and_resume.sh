@@ -1,15 +1,15 @@
 #!/usr/bin/env bash
-# Kills runs at random moments, goes on with --resume, and compares the bytes of the results with
-# those of a run that was left alone.
+# Kills runs at random moments, resumes them with --resume, and compares the bytes of the results with
+# those of an uninterrupted run.
 #
 #   bench/kill_and_resume.sh REEB [MOMENTS [TRIANGLES [FOLDER]]]
 #
-# REEB is the program; 50 moments, 4M triangles and a folder under $TMPDIR unless said otherwise.
-# In turn the mesh is looked up in place (binary PLY), read once on guesses (OBJ), and a stream with
+# REEB is the program; 50 moments, 4M triangles and a folder under $TMPDIR by default.
+# In turn the mesh is looked up in place (binary PLY), read once with guesses (OBJ), and a stream with
 # finalization (SMC), without and with noise removal; all with an embedding.
 # A run makes a checkpoint after every chunk, and is killed once or several times before it may end.
-# SEED=N repeats a run of this script. Prints one line a moment; the exit code is 0 only if all
-# results were the same and nothing else was left behind.
+# SEED=N repeats a run of this script. Prints one line per moment; the exit code is 0 only if all
+# results were the same and no other file was left.
 set -euo pipefail
 
 case ${1:-} in
@@ -52,7 +52,7 @@ run_and_kill() {
   (compute -o "$output" "$@" 2>messages) &
   local process=$!
   sleep "$(printf '%d.%03d' $((moment / 1000)) $((moment % 1000)))"
-  # One that has ended already was too fast.
+  # Killing fails if the run has already ended.
   kill -KILL "$process" 2>/dev/null || true
   wait "$process" 2>/dev/null || true
   printf ' %d ms' "$moment"
@@ -72,7 +72,7 @@ for ((i = 1; i <= moments; ++i)); do
   kept="no checkpoint"
   [[ -e $output.partial/checkpoint ]] && kept="a checkpoint"
   [[ -e $output ]] && kept="the whole output"
-  # A run killed when its output is whole may not have removed its folder yet: a run of the same name does.
+  # A run that is killed when its output is whole might not have removed its folder: the next run of that name does.
   [[ -e $output && -e $output.partial ]] && (compute -o "$output" --force)
   [[ -e $output ]] || (compute -o "$output" --resume)
   if cmp -s "whole-$run.reeb" "$output" && [[ $left == 0 && -z $(find . -name '*.partial*') ]]; then

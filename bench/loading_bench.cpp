@@ -1,7 +1,7 @@
-// Loading a level of a `.reeb` file: time and memory by its size, from 100 nodes to a million.
+// Loading a level of a `.reeb` file: time and memory by the size of the level, from 100 nodes to a million.
 //
-// Arguments: embedding (0 or 1), nodes. The file is made once, of a noisy graph of 2.5 million arcs.
-// docs/figures/loading.py draws the figure of it.
+// Arguments: embedding (0 or 1), nodes. The file is written once, for a noisy graph of 2.5 million arcs.
+// docs/figures/loading.py draws the figure from the output.
 #include <benchmark/benchmark.h>
 #include <unistd.h>
 
@@ -22,7 +22,7 @@ namespace {
 using namespace reeb;
 using namespace reeb::bench;
 
-// A file, and the graph and hierarchy that it was written of.
+// A file, and the graph and hierarchy that it was written from.
 class Sample {
  public:
   explicit Sample(bool embedding) : graph_(GraphMaker(kNoise, 2'500'000).make()) {

@@ -1,4 +1,4 @@
-// What the out-of-core pieces cost by item: table hits, the last-use pass, segments.
+// The cost of the out-of-core structures per item: table hits, the last-use pass, segments.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -25,7 +25,7 @@ const io::TempDir& temp() {
   return dir;
 }
 
-// A grid of the given width, row by row, made as it is read.
+// A grid of the given width, row by row, generated while it is read.
 class GridMesh : public IndexedMesh {
  public:
   GridMesh(std::uint64_t width, std::uint64_t height) : width_(width), height_(height) {}
@@ -56,7 +56,7 @@ class GridMesh : public IndexedMesh {
   std::uint64_t width_, height_, x_ = 0, y_ = 0;
 };
 
-// Places as a mesh names them: a slow drift with jumps of one row.
+// Indices as a mesh names them: a slow drift with jumps of one row.
 std::vector<std::uint64_t> drifting_places(std::size_t count, std::uint64_t row) {
   std::vector<std::uint64_t> places(count);
   for (std::size_t i = 0; i < count; ++i) places[i] = i / 6 + (i % 2) * row;
@@ -112,7 +112,7 @@ BENCHMARK(BM_LastUse)
     ->ArgNames({"allowance_MiB", "scan"})
     ->Unit(benchmark::kMillisecond);
 
-// Arcs as a noisy surface leaves them: short, in the order of a sweep that wanders.
+// Arcs like those of a noisy surface: short, in the order of a sweep that wanders.
 std::vector<ArcKeys> noisy_arcs(std::size_t count) {
   std::mt19937_64 random(1);
   std::vector<ArcKeys> arcs(count);

@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
-# What an embedding and the removal of noise cost: runs of `reeb compute --graph-only` with and
-# without them, in turns, on the same mesh; and what they do to the sizes of what is stored.
+# What an embedding and noise removal cost: runs of `reeb compute --graph-only` with and without
+# them, in turns, on the same mesh; and how they change the sizes of the stored files.
 #
 #   bench/overhead.sh [--reeb PROGRAM] [--folder DIR] [--runs N] [--threads N] [TRIANGLES...]
 #
 # TRIANGLES default to 12M. The mesh is made once in DIR (default: build/bench) and kept. Every run
-# has a partner next to it that computes the graph only; the overheads are medians of the quotients
-# of N pairs (default 9): of processor time, which other programs disturb least, and of wall time.
-# Without noise removal the graph has to have as many nodes with an embedding as without.
+# is paired with one that computes the graph only. The overheads are medians of the quotients of N
+# pairs (default 9): of processor time, which other programs disturb least, and of wall time.
+# Without noise removal the graph must have the same number of nodes with an embedding as without.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -28,7 +28,7 @@ report=$folder/overhead.json out=$folder/overhead.reeb
 
 fail() { echo "error: $1" >&2; exit 1; }
 
-# compute OPTION...: one run on the mesh at hand.
+# compute OPTION...: one run on the current mesh.
 compute() {
   "$reeb" compute "$mesh" -o "$out" --force --quiet --graph-only --threads "$threads" -f "$function" "$@"
 }
@@ -64,7 +64,7 @@ for size in "${sizes[@]}"; do
   mesh=$folder/scan-$size-patches.ply
   [[ -e $mesh ]] || "$reeb" generate scan -o "$mesh" --triangles "$size" --order patches 2>"${mesh%.ply}.topology"
   for function in z random:1; do
-    # What the table of last uses spills does not depend on the graph: a run without any noise left.
+    # The bytes spilled by the table of last uses do not depend on the graph: measured by a run without noise.
     compute --buckets 0 --denoise 100% --report "$report"
     tables=$(field spilled_bytes)
     compute --buckets 0 --report "$report"

@@ -1,4 +1,4 @@
-// How fast meshes are read: text in bytes a second, binary PLY in place in triangles and values.
+// How fast meshes are read: text in bytes per second, binary PLY in place in triangles and values.
 #include <benchmark/benchmark.h>
 #include <unistd.h>
 
@@ -27,7 +27,7 @@ void append(std::string& out, const auto& value) {
   out.append(bytes, sizeof value);
 }
 
-// A grid of kSide x kSide vertices in row order, its vertices with eight digits a coordinate.
+// A grid of kSide x kSide vertices in row order, with eight digits per coordinate.
 std::string grid(Kind kind) {
   std::string out;
   if (kind != Kind::kObj)

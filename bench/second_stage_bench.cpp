@@ -1,8 +1,8 @@
-// The second stage from a graph in memory to its file: time, and peak bytes held, an arc.
+// The second stage, from a graph in memory to its file: time and peak bytes per arc.
 //
-// Arguments: kind of graph, arcs, buckets over the range (0: no embedding). The peak counts everything
-// from the graph and its buckets on, as operator new gives it. Arc records go to a log on disk. Ten
-// million arcs are left out unless REEB_BENCH_LARGE is set in the environment.
+// Arguments: kind of graph, arcs, buckets over the range (0: no embedding). The peak counts the graph with its buckets
+// and everything allocated later by operator new. Arc records go to a log on disk. Ten million arcs are left out unless
+// REEB_BENCH_LARGE is set in the environment.
 #include <benchmark/benchmark.h>
 
 #include <cstdlib>
@@ -24,7 +24,7 @@ using namespace reeb::bench;
 
 constexpr std::int64_t kRandomFunction = kExpander + 1;
 
-// What a run has after its first stage.
+// The data of a run after its first stage.
 struct Given {
   ReebGraph graph;
   ArcBuckets buckets;

@@ -1,5 +1,5 @@
-// How fast streaming meshes decode, in triangles a second of processor time, and what they take, in bits
-// a vertex.
+// How fast streaming meshes are decoded, in triangles per second of processor time, and how large they are, in bits per
+// vertex.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -14,7 +14,7 @@ namespace {
 
 using namespace reeb::io;
 
-// A rough height field of side x side vertices in rows, each vertex final with its last triangle.
+// A rough height field of side x side vertices in rows. Each vertex is finalized with its last triangle.
 std::string encode(std::uint32_t side, const std::function<std::unique_ptr<StreamWriter>(std::ostream&)>& make) {
   std::ostringstream out;
   const auto writer = make(out);

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Times whole runs of `reeb compute` on generated meshes, as a table: wall and processor seconds,
-# triangles a second, peak resident memory of the process.
+# triangles per second, peak resident memory of the process.
 #
 #   bench/whole_runs.sh [--reeb PROGRAM] [--folder DIR] [--runs N] [TRIANGLES...]
 #
@@ -8,7 +8,7 @@
 # answer is verified before it is timed: the surface is closed and orientable with known genus, so
 # the graph of the height has at most that many loops and exactly one component; the flat grid has
 # one arc. Each line is the median of N runs (default 3). A mesh of 1,000 triangles, run 21 times, shows
-# what starting takes. An OBJ file shows what the one pass over a mesh without finalization takes.
+# the start-up time. An OBJ file shows the time of the single pass over a mesh without finalization.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 

@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# Installs the Debian packages that are missing, and says which. Does nothing when all are there.
+# Installs the Debian packages that are missing, and says which. Does nothing if all are installed.
 #
-#   tools/install_packages.sh              what building the program needs
-#   tools/install_packages.sh tests        also what the tests and benchmarks need
+#   tools/install_packages.sh              for building the program
+#   tools/install_packages.sh tests        also for the tests and benchmarks
 #   tools/install_packages.sh PACKAGE...   also these
 #
-# Needs apt-get, and root or sudo only if something is missing. Asks nothing.
+# Needs apt-get, and root or sudo only if something is missing. Never asks a question.
 set -euo pipefail
 
 packages=(cmake ninja-build g++ pkg-config libtbb-dev libzstd-dev zlib1g-dev libboost-iostreams-dev
@@ -52,7 +52,7 @@ echo "installing Debian packages: ${missing[*]}"
 log=$(mktemp)
 trap 'rm -f "$log"' EXIT
 install() { apt install --yes --no-install-recommends "${missing[@]}" >"$log" 2>&1; }
-# Package lists may be absent or old: fetch them only if the first attempt fails.
+# Package lists can be missing or old: fetch them only if the first attempt fails.
 if ! install; then
   echo "fetching the package lists"
   apt update >"$log" 2>&1 || { cat "$log" >&2; exit 1; }

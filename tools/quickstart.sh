@@ -1,15 +1,15 @@
 #!/usr/bin/env bash
-# From nothing to a Reeb graph: installs what is missing, builds the program, and computes the Reeb
+# From a fresh machine to a Reeb graph: installs what is missing, builds the program, and computes the Reeb
 # graph of a mesh.
 #
 #   tools/quickstart.sh [MESH [OPTION...]]
 #
-# OPTIONs go to `reeb compute`, for instance `-f x`. Without MESH it takes a real one, the surface
+# OPTIONs go to `reeb compute`, for instance `-f x`. Without MESH it uses a real one, the surface
 # of a motorcycle with its rider (331,653 triangles), from the Debian package openfoam-examples
 # (GPL-3+); the package is unpacked below build/, not installed. Results, in build/quickstart/:
 #
 #   NAME.reeb  the graph with all its levels of detail
-#   NAME.rg    the full graph as text, one node or arc a line
+#   NAME.rg    the full graph as text, one node or arc per line
 #   NAME.svg   a picture of the coarsest levels, at most 60 nodes, drawn bottom to top
 set -euo pipefail
 
@@ -59,7 +59,7 @@ fetch_motorbike() {
   rm -rf "$folder"
 }
 
-# Nodes show vertex and value; four digits of the value are enough to look at.
+# Nodes show vertex and value; four digits of the value are enough.
 draw() {
   "$reeb" extract "$out/$name.reeb" --nodes 60 --format dot |
     awk '/^graph/ { print; print "  node [shape=box style=rounded fontsize=11 height=0.3]"; next }

@@ -1,5 +1,4 @@
-// The program `reeb`: finds the subcommand, and turns every error into one line, a hint and an exit
-// code (INTERFACE.md, Errors).
+// The program `reeb`: finds the subcommand, and turns every error into one line, a hint and an exit code (docs/CLI.md).
 #include <fmt/core.h>
 #include <malloc.h>
 
@@ -29,7 +28,7 @@ constexpr const char* kExamples = R"(Examples:
 
 Every command has --help.)";
 
-// `reeb scan.ply` means `reeb compute scan.ply`: a first word that is no command names a mesh.
+// `reeb scan.ply` means `reeb compute scan.ply`: a first word that is not a command is the name of a mesh.
 std::vector<std::string> with_default_command(const CLI::App& program, int argc, char** argv) {
   std::vector<std::string> words(argv + 1, argv + argc);
   const bool is_command =
@@ -37,7 +36,7 @@ std::vector<std::string> with_default_command(const CLI::App& program, int argc,
       !program.get_subcommands([&](const CLI::App* command) { return command->get_name() == words[0]; }).empty();
   const bool is_help = words.empty() || words[0] == "-h" || words[0] == "--help" || words[0] == "--version";
   if (!is_command && !is_help) words.insert(words.begin(), "compute");
-  std::reverse(words.begin(), words.end());  // as CLI11 takes them
+  std::reverse(words.begin(), words.end());  // CLI11 takes them in reverse order
   return words;
 }
 
@@ -69,8 +68,8 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  // Large blocks go back to the system as soon as they are freed: resident memory is what the
-  // budget accounts for, not what was needed once.
+  // Large blocks return to the system as soon as they are freed. So resident memory is what the budget counts, not what
+  // was needed at some earlier time.
   mallopt(M_MMAP_THRESHOLD, 128 * 1024);
   mallopt(M_TRIM_THRESHOLD, 256 * 1024);
   mallopt(M_ARENA_MAX, 2);
@@ -81,7 +80,7 @@ int main(int argc, char** argv) {
     return report(error.kind(), error.what(), error.hint());
   } catch (const std::bad_alloc&) {
     return report(reeb::ErrorKind::kResource, "out of memory", "close other programs, or use a smaller mesh");
-  } catch (const std::system_error& error) {  // of fmt, which has standard output alone
+  } catch (const std::system_error& error) {  // from fmt, which writes to standard output only
     return report(reeb::ErrorKind::kResource, std::string("standard output ") + error.what(),
                   "keep the reading program open, or free disk space");
   } catch (const std::exception& error) {

@@ -1,4 +1,4 @@
-// How large the next chunk of a mesh is to be.
+// The size of the next chunk of a mesh.
 #pragma once
 
 #include <algorithm>
@@ -9,11 +9,11 @@
 
 namespace reeb::ooc {
 
-// A chunk grows while too many of its vertices are shared with others, since gluing is what such a
-// chunk costs. What comes out depends on the chunks only.
+// Chunks grow while too many of their vertices are shared with other chunks, since gluing a chunk costs its shared
+// vertices. The sizes depend on the chunks only.
 class ChunkGrowth {
  public:
-  // Sizes are in units of so many triangles.
+  // `limits` count triangles; size() counts units of `unit` triangles each.
   explicit ChunkGrowth(const ChunkSize& limits, std::size_t unit = 1)
       : least_(std::max<std::size_t>(1, limits.first / unit)),
         most_(std::max<std::size_t>(1, limits.most / unit)),
@@ -22,14 +22,14 @@ class ChunkGrowth {
   std::size_t size() const { return size_; }
   void set_size(std::size_t size) { size_ = std::min(size, most_); }
 
-  // To be called with each chunk, once its uses are known.
+  // Call this with each chunk once its uses are known.
   void adapt(const Chunk& chunk) {
-    // Grow above this share of shared vertices, shrink below a quarter of it. A shared vertex brings
-    // about one shared edge, of three in all, so this is a tenth of the edges.
-    constexpr double kManyShared = 0.30;
+    // A larger share of shared vertices makes the next chunk larger, less than a quarter of it makes it smaller. A
+    // shared vertex brings about one shared edge, of three in all, so this is a tenth of the edges.
+    constexpr double kShareToGrow = 0.30;
     const auto shared = static_cast<double>(
         std::count_if(chunk.uses.begin(), chunk.uses.end(), [](std::uint8_t u) { return u != kUsedHereOnly; }));
-    const double many = kManyShared * static_cast<double>(chunk.vertex_count());
+    const double many = kShareToGrow * static_cast<double>(chunk.vertex_count());
     if (shared > many)
       size_ = std::min(2 * size_, most_);
     else if (shared < many / 4)

@@ -1,5 +1,4 @@
-// Where the pipeline's chunks come from: an indexed mesh with known last uses, or a stream that
-// brings its finalization with it (DESIGN.md 3, 4).
+// The sources of the pipeline's chunks: an indexed mesh with known last uses, or a stream that finalizes its vertices.
 #pragma once
 
 #include <cstddef>
@@ -19,31 +18,31 @@
 
 namespace reeb::ooc {
 
-// How far a source has come, for another process to go on from there.
+// How far a source has read, so that another process can resume there.
 struct ChunkPlace {
-  std::uint64_t triangles = 0;        // read so far
-  std::uint64_t next_vertex = 0;      // from which on loose vertices are looked for; of a stream: read so far
-  std::uint64_t batches = 0;          // of a stream, read so far, its end counted as one
-  std::uint64_t chunk_blocks = 0;     // of the next chunk, where its size adapts; 0: to start with
+  std::uint64_t triangles = 0;     // read so far
+  std::uint64_t next_vertex = 0;   // the search for loose vertices continues here; of a stream: vertices read so far
+  std::uint64_t batches = 0;       // of a stream, read so far; its end counts as one
+  std::uint64_t chunk_blocks = 0;  // size of the next chunk, in the source's unit, where it adapts; 0: the first size
   std::vector<FunctionRange> ranges;  // of the values so far
 };
 
-// A chunk on its way through the pipeline; its memory is reused by later ones.
+// A chunk in the pipeline. Later chunks reuse its memory.
 struct WorkItem {
   Chunk chunk;
-  std::vector<std::vector<double>> values;  // one array a function
-  std::vector<Fragment> fragments;          // one a function
-  ChunkPlace end;                           // behind this chunk, or the stretch that it was cut from
-  bool ends_stretch = true;                 // a run can go on from behind this chunk
+  std::vector<std::vector<double>> values;  // one array per function
+  std::vector<Fragment> fragments;          // one per function
+  ChunkPlace end;                           // after this chunk, or after the stretch that it was cut from
+  bool can_resume_after = true;             // a run can be resumed after this chunk
   void shrink_to_fit();
   std::size_t memory_bytes() const;
 };
 
 // How many triangles a chunk has.
 struct ChunkSize {
-  std::size_t first = 32768;  // to start with
-  std::size_t most = 524288;  // as far as it may grow; equal to `first`: fixed
-  // One of more than `first` is a stretch, to be cut into patches of at most so many
+  std::size_t first = 32768;  // of the first chunk
+  std::size_t most = 524288;  // the limit of growth; equal to `first`: fixed
+  // A chunk of more than `first` triangles is a stretch. It is cut into patches of at most this many
   // (divided_chunks.h).
   std::size_t patch = 32768;
 };
@@ -57,8 +56,8 @@ class ChunkSource {
 
   // Fills chunk and values with the next chunk of the stream. False at the end.
   virtual bool next(WorkItem& item) = 0;
-  // Whether the chunks ended before the mesh did, since it is not worth going on in its order: what
-  // came of them is then to be thrown away.
+  // Whether the source stopped before the end of the mesh because it is not worth continuing in that order. The caller
+  // then discards the results of its chunks.
   virtual bool given_up() const { return false; }
   // Bytes of input consumed so far, and in all (0: unknown).
   virtual std::uint64_t bytes_read() const = 0;
@@ -68,17 +67,16 @@ class ChunkSource {
   virtual std::uint64_t vertex_count() const = 0;
 };
 
-// Chunks of an indexed mesh: whole blocks of its last-use table. Vertices that no triangle uses
-// come last, as chunks of loose vertices. A chunk grows while too many of its vertices are shared
-// with others, since gluing is what such a chunk costs. The chunks before `start` are passed over.
+// Chunks of an indexed mesh: whole blocks of its last-use table. Vertices that no triangle uses come last, as chunks of
+// loose vertices. The sizes of chunks adapt (chunk_growth.h). The chunks before `start` are skipped.
 // REQUIRES: start.triangles is at a block's end.
 std::unique_ptr<ChunkSource> chunks_of(IndexedMesh& mesh, LastUse& last_use, FunctionValues& functions, ChunkSize size,
                                        const ChunkPlace& start = {});
 
-// Chunks of a stream, read once. What is not finalized by the stream is finalized at its end. What
-// comes before `start` is read and passed over. It gives up, if it may at all, once more vertices than
-// that are active (not finalized yet), or a large part of many.
-// THROWS, at once: Error{kBadInput} if the stream has not such a place.
+// Chunks of a stream that is read once. Vertices that the stream does not finalize are finalized at its end. The input
+// before `start` is read and skipped. If `most_active_vertices` is given, the source gives up as soon as more vertices
+// than that are active (not finalized yet), or a large part of the vertices of a large mesh.
+// THROWS, at once: Error{kBadInput} if the stream does not match `start`.
 std::unique_ptr<ChunkSource> chunks_of(MeshReader& reader, FunctionValues& functions, ChunkSize size,
                                        const ChunkPlace& start = {},
                                        std::optional<std::uint64_t> most_active_vertices = {});

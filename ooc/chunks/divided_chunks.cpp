@@ -24,7 +24,7 @@ bool DividedChunks::next(WorkItem& item) {
 }
 
 void DividedChunks::take_whole(WorkItem& item) {
-  // The memory of a stretch is not for those in flight.
+  // The memory of a stretch must not go into the chunks in flight.
   if (reservation_.bytes() != 0) {
     stretch_.shrink_to_fit();
     reservation_.resize(0);
@@ -32,7 +32,7 @@ void DividedChunks::take_whole(WorkItem& item) {
   std::swap(item.chunk, stretch_.chunk);
   std::swap(item.values, stretch_.values);
   std::swap(item.end, stretch_.end);
-  item.ends_stretch = true;
+  item.can_resume_after = true;
 }
 
 void DividedChunks::divide() {
@@ -58,7 +58,7 @@ void DividedChunks::take_patch(WorkItem& item) {
   take_vertices(item);
   item.end = stretch_.end;
   ++next_patch_;
-  item.ends_stretch = next_patch_ == patches_.patch_count();
+  item.can_resume_after = next_patch_ == patches_.patch_count();
 }
 
 // Numbers the vertices of a patch in order of first appearance, in taken_.
@@ -78,7 +78,7 @@ void DividedChunks::number_corners(std::span<const std::uint32_t> triangles, std
     }
 }
 
-// Those of the stretch that no triangle uses.
+// Vertices of the stretch that no triangle uses.
 void DividedChunks::add_loose_vertices() {
   for (std::uint32_t vertex = 0; vertex < last_patch_.size(); ++vertex)
     if (last_patch_[vertex] == kNoPatch) taken_.push_back(vertex);

@@ -1,9 +1,9 @@
-// Large chunks of a source, cut into patches (DESIGN.md 3; docs/ARCHITECTURE.md, Wide fronts).
+// Cuts the large chunks of a source into patches (docs/ARCHITECTURE.md, Wide fronts).
 //
-// Where a stream runs along a wide front, a chunk of consecutive triangles is a thin strip, nearly all
-// of it border, and gluing costs a border's length. So a stretch of many chunks is read at once and cut
-// across into patches, whose borders are short. A patch is swept in scratch memory for itself, so a
-// stretch costs a small part of what a chunk of its size would. Any partition gives the same result.
+// Where the front is wide, a chunk of consecutive triangles is a thin strip: nearly all of it is border, and gluing
+// costs the length of the border. So a stretch of many chunks is read at once and cut across into patches, whose
+// borders are short. Each patch is swept on its own in scratch memory, so a stretch costs a small part of what a chunk
+// of its size costs. Any partition gives the same result.
 #pragma once
 
 #include <cstddef>
@@ -17,11 +17,11 @@
 
 namespace reeb::ooc {
 
-// MEMORY: the stretch and 9 bytes a triangle of it, reserved; nothing where chunks are small enough.
+// MEMORY: reserved: the stretch and 9 bytes per triangle of it; nothing if chunks are small enough.
 class DividedChunks : public ChunkSource {
  public:
-  // `stretches` must outlive this. Chunks of at most `whole` triangles come through as they are, others
-  // in patches of about `patch` at most.
+  // `stretches` must outlive this. Chunks of at most `whole` triangles pass unchanged. Others are cut into patches of
+  // at most about `patch` triangles.
   // THROWS, in next(): Error{kResource} of the budget.
   DividedChunks(ChunkSource& stretches, std::size_t whole, std::size_t patch, MemoryBudget& budget)
       : stretches_(stretches), whole_(whole), patch_(patch), reservation_(budget.reserve("stretch of chunks", 0)) {}
@@ -49,8 +49,8 @@ class DividedChunks : public ChunkSource {
   std::size_t next_patch_ = 0;
   // By vertex of the stretch.
   std::vector<std::uint16_t> last_patch_;
-  std::vector<std::uint32_t> local_;  // its number in the patch at hand, if taken_ says so, too
-  std::vector<std::uint32_t> taken_;  // vertices of the patch at hand
+  std::vector<std::uint32_t> local_;  // its number in the current patch, if taken_ has it at that number
+  std::vector<std::uint32_t> taken_;  // vertices of the current patch
 };
 
 }  // namespace reeb::ooc

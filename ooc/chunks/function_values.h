@@ -1,5 +1,5 @@
-// The functions of a run on batches of vertices: which columns of the mesh they need, how each finds
-// its own among those gathered, and the range of values seen.
+// The functions of a run on batches of vertices: the columns of the mesh that they need, how each function finds its
+// own columns among those gathered, and the range of the values seen.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 
 namespace reeb::ooc {
 
-// Of a function's values.
+// The range of a function's values.
 using FunctionRange = ValueRange;
 
 class FunctionValues {
@@ -30,16 +30,16 @@ class FunctionValues {
         if (std::find(columns_.begin(), columns_.end(), column) == columns_.end()) columns_.push_back(column);
   }
 
-  // To be gathered, in this order.
+  // The columns to gather, in this order.
   std::span<const unsigned> columns() const { return columns_; }
   std::size_t function_count() const { return functions_.size(); }
   const FunctionRange& range(std::size_t function) const { return ranges_[function]; }
   const std::vector<FunctionRange>& ranges() const { return ranges_; }
-  // As if the values of these ranges had been seen. REQUIRES: one a function.
+  // Sets the ranges as if their values had been seen. REQUIRES: one per function.
   void set_ranges(std::span<const FunctionRange> ranges) { ranges_.assign(ranges.begin(), ranges.end()); }
 
-  // From gathered columns (data[k] is columns()[k]) to positions and one array of values a function,
-  // which are appended.
+  // Turns gathered columns (data[k] is columns()[k]) into positions and one array of values per function. Both are
+  // appended.
   void evaluate(std::span<const VertexId> ids, std::span<const std::span<const double>> data,
                 std::vector<Point>& positions, std::vector<std::vector<double>>& values) {
     const std::size_t before = positions.size();

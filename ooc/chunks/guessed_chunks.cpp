@@ -39,7 +39,7 @@ bool GuessedChunks::read_chunk(Chunk& chunk) {
   return read_triangles(chunk) || (!given_up_ && read_rest(chunk));
 }
 
-// In pieces, so that corners are numbered while they are in the first cache.
+// A small batch at a time, so that corners are numbered while they are in the first-level cache.
 bool GuessedChunks::read_triangles(Chunk& chunk) {
   constexpr std::size_t kCornersInCache = 3 * 1024;
   const std::size_t most = 3 * size_.size();
@@ -56,12 +56,12 @@ bool GuessedChunks::read_triangles(Chunk& chunk) {
   chunk.corners.resize(count);
   if (count == 0) return false;
   triangles_read_ += count / 3;
-  given_up_ = guesses_.add(chunk, most_open()) != UseGuesses::Verdict::kGood;
+  given_up_ = guesses_.add(chunk, most_open()) != UseGuesses::Verdict::kHolds;
   size_.adapt(chunk);
   return !given_up_;
 }
 
-// Whether there are corners that are in no chunk yet, once more were read if need be.
+// Whether there are corners that are in no chunk yet. Reads more of the mesh if needed.
 bool GuessedChunks::has_corners() {
   while (!ended_ && taken_ == spooler_.triangles().size()) {
     taken_ = 0;
@@ -76,7 +76,7 @@ bool GuessedChunks::read_rest(Chunk& chunk) {
   return chunk.vertex_count() != 0;
 }
 
-// What an earlier run has guessed was worth it then.
+// An earlier run found guessing worthwhile up to there, so the limit does not apply again.
 std::uint64_t GuessedChunks::most_open() const {
   if (passing_over_) return std::numeric_limits<std::uint64_t>::max();
   return std::min(options_.most_open_vertices, usual_front(spooler_.mesh().vertex_count()));

@@ -1,4 +1,4 @@
-// Chunks of a mesh without finalization while it is read for the first time (DESIGN.md 2, 4).
+// Chunks of a mesh without finalization, made while it is read for the first time.
 #pragma once
 
 #include <cstddef>
@@ -16,22 +16,20 @@ namespace reeb::ooc {
 struct GuessOptions {
   ChunkSize chunk;
   std::uint64_t allowance_bytes = 16 << 20;  // of the budget, for the table of guesses
-  // More open vertices than this, and than what a coherent mesh of its size has, are not worth
-  // guessing for.
+  // With more open vertices than this, or than a coherent mesh of its size has, guessing is not worthwhile.
   std::uint64_t most_open_vertices = ~std::uint64_t{0};
 };
 
-// Cuts chunks from what a Spooler reads, and guesses which vertices are complete (use_guesses.h).
+// Cuts chunks from the mesh that a Spooler reads, and guesses which vertices are complete (use_guesses.h).
 //
-// A guess that proves wrong, or a mesh in no coherent order, ends the chunks early and given_up() says
-// so: what came of them is then to be thrown away. What was read is in the spooler, which goes on to
-// read the rest, and the mesh is run from there with its last uses known. So the result is exact in
-// either case; a guess decides about time only. Where the chunks are cut, and so whether a guess fails,
-// does not depend on threads.
+// A wrong guess or an incoherent mesh ends the chunks early. Then given_up() is true, and the caller discards the
+// results of the chunks. The spooler has what was read and can read the rest, and the mesh is run from there with known
+// last uses. So the result is exact in either case, and a guess affects the time only. Where chunks are cut, and so
+// whether a guess fails, does not depend on threads.
 class GuessedChunks : public ChunkSource {
  public:
-  // All must outlive this. The chunks before `start` are passed over: read, but not looked up.
-  // REQUIRES: nothing was read; a start came of the same options.
+  // All must outlive this. The chunks before `start` are skipped: read, but not looked up.
+  // REQUIRES: nothing was read yet; `start` was made with the same options.
   GuessedChunks(Spooler& spooler, FunctionValues& functions, const io::TempDir& temp, MemoryBudget& budget,
                 const GuessOptions& options, const ChunkPlace& start = {});
 
@@ -61,7 +59,7 @@ class GuessedChunks : public ChunkSource {
   LocalNumbers numbers_;
   std::size_t taken_ = 0;  // corners of the spooler's batch that are in a chunk
   std::uint64_t triangles_read_ = 0;
-  std::uint64_t next_vertex_ = 0;  // from which on vertices are left that no guess has completed
+  std::uint64_t next_vertex_ = 0;  // the search for vertices that no guess completed continues here
   bool passing_over_ = false, ended_ = false, given_up_ = false;
 };
 

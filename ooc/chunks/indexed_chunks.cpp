@@ -42,7 +42,7 @@ class IndexedChunks : public ChunkSource {
   ChunkGrowth blocks_;
   std::uint64_t first_block_ = 0;  // of the next chunk
   std::uint64_t triangles_read_ = 0;
-  std::uint64_t next_vertex_ = 0;  // from which on unused vertices are looked for
+  std::uint64_t next_vertex_ = 0;  // the search for unused vertices continues here
 
   std::vector<VertexId> corners_;
   LocalNumbers numbers_;
@@ -71,7 +71,7 @@ void IndexedChunks::pass_over(const ChunkPlace& start) {
   if (!start.ranges.empty()) functions_.set_ranges(start.ranges);
 }
 
-// In pieces, so that corners are numbered while they are in the first cache.
+// A small batch at a time, so that corners are numbered while they are in the first-level cache.
 bool IndexedChunks::read_triangles(Chunk& chunk) {
   constexpr std::size_t kTrianglesInCache = 1024;
   const std::uint64_t left = last_use_.summary().triangle_count - triangles_read_;
@@ -99,8 +99,8 @@ void IndexedChunks::set_uses(Chunk& chunk) {
   chunk.uses.resize(chunk.vertex_count());
   for (std::size_t i = 0; i < chunk.vertex_count(); ++i) {
     const UseEntry entry(entries_[i]);
-    // A saturated span says earlier than it may be, which is allowed.
-    const bool earlier = entry.last_block() < first_block_ + entry.span() || entry.span() == UseEntry::kManyBlocks;
+    // A saturated span can mark a vertex as used earlier although it was not. That is allowed.
+    const bool earlier = entry.last_block() < first_block_ + entry.span() || entry.span() == UseEntry::kSaturatedSpan;
     const bool later = entry.last_block() > last_block;
     chunk.uses[i] = static_cast<std::uint8_t>((earlier ? kUsedEarlier : 0) | (later ? kUsedLater : 0));
   }

@@ -11,11 +11,11 @@ namespace reeb::ooc {
 namespace {
 
 constexpr std::size_t kEntriesAtOnce = 16 << 10;
-constexpr std::size_t kMostSamples = 256;
+constexpr std::size_t kProfileSamples = 256;
 
-// Calls visit(first, entries) for stretches of the table that cover 0..count-1.
+// Calls visit(first, entries) for ranges of the table that together cover 0..count-1.
 template <class Visit>
-void for_each_stretch(PagedTable<std::uint32_t>& table, std::uint64_t count, const Visit& visit) {
+void for_each_range(PagedTable<std::uint32_t>& table, std::uint64_t count, const Visit& visit) {
   std::vector<std::uint32_t> entries(kEntriesAtOnce);
   for (std::uint64_t first = 0; first < count; first += kEntriesAtOnce) {
     const auto size = static_cast<std::size_t>(std::min<std::uint64_t>(kEntriesAtOnce, count - first));
@@ -39,14 +39,14 @@ class Scan {
   // False if it gave up.
   bool read_triangles() {
     mesh_.rewind();
-    read_ahead<Piece>(
-        options_.threads > 1, [this](Piece& piece) { return !gave_up_ && read(piece); },
-        [this](const Piece& piece) { use(piece); });
+    read_ahead<TriangleBatch>(
+        options_.threads > 1, [this](TriangleBatch& batch) { return !gave_up_ && read(batch); },
+        [this](const TriangleBatch& batch) { use(batch); });
     return !gave_up_;
   }
 
   LastUse finish() {
-    for_each_stretch(table_, summary_.vertex_count, [this](std::uint64_t, std::span<const std::uint32_t> entries) {
+    for_each_range(table_, summary_.vertex_count, [this](std::uint64_t, std::span<const std::uint32_t> entries) {
       for (const std::uint32_t packed : entries) {
         const UseEntry entry(packed);
         if (entry.unused())
@@ -62,42 +62,42 @@ class Scan {
   }
 
  private:
-  // Some triangles on their way from the mesh to the table.
-  struct Piece {
+  // Triangles on their way from the mesh to the table.
+  struct TriangleBatch {
     std::vector<VertexId> corners;
     std::uint64_t degenerate = 0;
     std::uint64_t bytes_read = 0;  // of the mesh, up to here
   };
 
-  bool read(Piece& piece) {
-    constexpr std::size_t kTriangles = 2048;
-    if (!mesh_.read(piece.corners, kTriangles)) return false;
-    piece.bytes_read = mesh_.bytes_read();
-    piece.degenerate = 0;
-    for (std::size_t t = 0; t < piece.corners.size(); t += 3)
-      piece.degenerate += piece.corners[t] == piece.corners[t + 1] || piece.corners[t + 1] == piece.corners[t + 2] ||
-                          piece.corners[t] == piece.corners[t + 2];
+  bool read(TriangleBatch& batch) {
+    constexpr std::size_t kTrianglesAtOnce = 2048;
+    if (!mesh_.read(batch.corners, kTrianglesAtOnce)) return false;
+    batch.bytes_read = mesh_.bytes_read();
+    batch.degenerate = 0;
+    for (std::size_t t = 0; t < batch.corners.size(); t += 3)
+      batch.degenerate += batch.corners[t] == batch.corners[t + 1] || batch.corners[t + 1] == batch.corners[t + 2] ||
+                          batch.corners[t] == batch.corners[t + 2];
     return true;
   }
 
-  void use(const Piece& piece) {
-    summary_.degenerate_triangles += piece.degenerate;
-    summary_.triangle_count += piece.corners.size() / 3;
-    for (std::span<const VertexId> corners = piece.corners; !corners.empty() && !gave_up_;) {
+  void use(const TriangleBatch& batch) {
+    summary_.degenerate_triangles += batch.degenerate;
+    summary_.triangle_count += batch.corners.size() / 3;
+    for (std::span<const VertexId> corners = batch.corners; !corners.empty() && !gave_up_;) {
       if (in_block_ == 0) open_block();
       const auto count =
           static_cast<std::size_t>(std::min<std::uint64_t>(corners.size() / 3, block_triangles_ - in_block_));
       use(corners.first(3 * count));
       corners = corners.subspan(3 * count);
       in_block_ += count;
-      if (in_block_ == block_triangles_) close_block(piece);
+      if (in_block_ == block_triangles_) close_block(batch);
     }
   }
 
-  void close_block(const Piece& piece) {
+  void close_block(const TriangleBatch& batch) {
     in_block_ = 0;
     gave_up_ = options_.give_up_when_incoherent && table_.pages().is_thrashing();
-    if (!gave_up_ && options_.progress) options_.progress(piece.bytes_read);
+    if (!gave_up_ && options_.progress) options_.progress(batch.bytes_read);
   }
 
   void open_block() {
@@ -125,13 +125,13 @@ class Scan {
 
   static UseEntry next_use(UseEntry before, std::uint32_t block) {
     if (before.unused()) return {block, 0};
-    if (before.span() == UseEntry::kManyBlocks) return {block, UseEntry::kManyBlocks};
+    if (before.span() == UseEntry::kSaturatedSpan) return {block, UseEntry::kSaturatedSpan};
     return {block, block - (before.last_block() - before.span())};
   }
 
-  // Joins blocks in pairs. A span that was too long to be known stays so.
+  // Joins blocks in pairs. A saturated span stays saturated.
   void double_blocks() {
-    for_each_stretch(table_, summary_.vertex_count, [this](std::uint64_t first, std::span<std::uint32_t> entries) {
+    for_each_range(table_, summary_.vertex_count, [this](std::uint64_t first, std::span<std::uint32_t> entries) {
       for (std::uint32_t& packed : entries) packed = halved(UseEntry(packed));
       table_.write(first, entries);
     });
@@ -144,13 +144,13 @@ class Scan {
   static std::uint32_t halved(UseEntry entry) {
     if (entry.unused()) return UseEntry::kUnused;
     const std::uint32_t last = entry.last_block() / 2;
-    if (entry.span() == UseEntry::kManyBlocks) return UseEntry(last, UseEntry::kManyBlocks).packed();
+    if (entry.span() == UseEntry::kSaturatedSpan) return UseEntry(last, UseEntry::kSaturatedSpan).packed();
     return UseEntry(last, last - (entry.last_block() - entry.span()) / 2).packed();
   }
 
   void profile_front() {
     const std::size_t blocks = live_change_.size();
-    const std::size_t stretch = std::max<std::size_t>(1, (blocks + kMostSamples - 1) / kMostSamples);
+    const std::size_t stretch = std::max<std::size_t>(1, (blocks + kProfileSamples - 1) / kProfileSamples);
     std::int64_t live = 0;
     for (std::size_t b = 0; b < blocks; ++b) {
       live += live_change_[b];
@@ -167,9 +167,9 @@ class Scan {
   std::size_t most_blocks_;  // even, so that blocks can be joined in pairs
   std::uint64_t block_triangles_;
   std::uint64_t in_block_ = 0;         // triangles of the last block so far
-  std::atomic<bool> gave_up_ = false;  // told by the thread of the table to the one that reads
+  std::atomic<bool> gave_up_ = false;  // the thread of the table sets it, the reading thread checks it
   Reservation change_charge_;
-  // By block: vertices used first in it, less those used last.
+  // By block: vertices used first in it, minus those used last.
   std::vector<std::int32_t> live_change_;
   UseSummary summary_;
 };

@@ -1,7 +1,7 @@
-// Finalization: in which block of the stream each vertex is used last (DESIGN.md 4).
+// Finalization: the block of triangles that uses each vertex last.
 //
-// The table does not depend on the function, only on the mesh, and is kept beside it on request
-// (ooc/chunks/last_use_sidecar.h). It also tells, before the run, how many vertices will be live.
+// The table depends on the mesh only, not on the function. On request it is kept in a file next to the mesh
+// (ooc/chunks/last_use_sidecar.h). It also shows, before the run, how many vertices will be live.
 #pragma once
 
 #include <cstdint>
@@ -18,22 +18,22 @@
 
 namespace reeb::ooc {
 
-// What a vertex's triangles span, in blocks of consecutive triangles: the last block in the high
-// 20 bits, the number of blocks between the first and the last in the low 12.
+// The blocks of consecutive triangles that use a vertex: the last block in the high 20 bits, the number of blocks from
+// the first to the last in the low 12.
 class UseEntry {
  public:
   static constexpr std::uint32_t kUnused = ~std::uint32_t{0};
-  static constexpr std::uint32_t kManyBlocks = 0xfff;  // so many or more: the first is not known
+  static constexpr std::uint32_t kSaturatedSpan = 0xfff;  // this many or more: the first block is not known
   static constexpr std::uint32_t kMostBlocks = (1u << 20) - 2;
 
   explicit UseEntry(std::uint32_t packed = kUnused) : packed_(packed) {}
   UseEntry(std::uint32_t last_block, std::uint32_t span)
-      : packed_(last_block << 12 | (span < kManyBlocks ? span : kManyBlocks)) {}
+      : packed_(last_block << 12 | (span < kSaturatedSpan ? span : kSaturatedSpan)) {}
 
   bool unused() const { return packed_ == kUnused; }
   // The next two REQUIRE a used vertex.
   std::uint32_t last_block() const { return packed_ >> 12; }
-  std::uint32_t span() const { return packed_ & kManyBlocks; }
+  std::uint32_t span() const { return packed_ & kSaturatedSpan; }
   std::uint32_t packed() const { return packed_; }
 
  private:
@@ -41,17 +41,17 @@ class UseEntry {
 };
 
 struct LastUseOptions {
-  std::uint64_t block_triangles = 4096;      // doubled as often as most_blocks demands
+  std::uint64_t block_triangles = 4096;      // doubled whenever there would be more than most_blocks
   std::uint64_t allowance_bytes = 16 << 20;  // of the budget, for the table
-  // Give up early on a mesh so incoherent that the table would be paged in and out all the time.
+  // Give up early on a mesh so incoherent that pages of the table would be read and written all the time.
   bool give_up_when_incoherent = false;
   std::uint32_t most_blocks = UseEntry::kMostBlocks;
-  unsigned threads = 1;  // with more, one reads the mesh while another fills the table
-  // Called about once a block with the bytes of the mesh that were read.
+  unsigned threads = 1;  // with two or more, one reads the mesh while another fills the table
+  // Called about once per block, with the number of bytes of the mesh read so far.
   std::function<void(std::uint64_t)> progress = {};
 };
 
-// What the pass learned besides the table.
+// What the pass learned in addition to the table.
 struct UseSummary {
   std::uint64_t vertex_count = 0;
   std::uint64_t unused_vertices = 0;
@@ -61,8 +61,7 @@ struct UseSummary {
   std::uint64_t block_count = 0;
   // A vertex is live at the end of a block if it was used up to there and will be used again.
   std::uint64_t max_live_vertices = 0;
-  // Live vertices along the stream: at most 256 stretches of equally many blocks, the maximum of
-  // each.
+  // Live vertices along the stream: the maxima of at most 256 groups of the same number of blocks each.
   std::vector<std::uint64_t> live_profile;
 
   friend bool operator==(const UseSummary&, const UseSummary&) = default;
@@ -76,13 +75,13 @@ class LastUse {
   const UseSummary& summary() const { return summary_; }
   std::uint64_t spilled_bytes() const { return table_.pages().spilled_bytes(); }
 
-  // entries[i] = UseEntry::packed of ids[i]; fast where ids are near each other.
-  // REQUIRES: ids are below vertex_count, and as many as entries.
+  // entries[i] = UseEntry::packed of ids[i]. Fast if ids are near each other.
+  // REQUIRES: ids are below vertex_count; ids and entries have the same length.
   void lookup(std::span<const VertexId> ids, std::span<std::uint32_t> entries) {
     for (std::size_t i = 0; i < ids.size(); ++i) entries[i] = table_.get(ids[i].value());
   }
 
-  // Packed entries of consecutive vertices from `first`.
+  // The packed entries of consecutive vertices, starting at `first`.
   void read(VertexId first, std::span<std::uint32_t> entries) { table_.read(first.value(), entries); }
 
  private:
@@ -90,11 +89,11 @@ class LastUse {
   PagedTable<std::uint32_t> table_;
 };
 
-// The first pass: reads all triangles of `mesh` once, from the first. Nothing is returned if the
-// options allow to give up on an incoherent mesh, and it is one.
+// The first pass: reads all triangles of `mesh` once, starting at the first. Returns nothing if the options allow
+// giving up on an incoherent mesh, and the mesh is incoherent.
 //
 // THROWS: what reading the mesh throws; Error{kResource} of the budget or the disk.
-// MEMORY: the allowance and 4 bytes a block. O(triangles + vertices).
+// MEMORY: the allowance and 4 bytes per block.   TIME: O(triangles + vertices).
 std::optional<LastUse> scan_last_use(IndexedMesh& mesh, const io::TempDir& temp, MemoryBudget& budget,
                                      const LastUseOptions& options = {});
 

@@ -31,7 +31,7 @@ static_assert(std::endian::native == std::endian::little, "files are little-endi
 constexpr std::array<char, 8> kMagic = {'R', 'E', 'E', 'B', 'F', 'I', 'N', '\n'};
 constexpr std::uint64_t kVersion = 1;
 constexpr std::size_t kBlockEntries = 16 << 10;
-constexpr std::uint64_t kMostSamples = 4096;
+constexpr std::uint64_t kSamplesLimit = 4096;
 constexpr int kLevel = 1;
 constexpr std::size_t kBufferBytes = 64 << 10;
 constexpr std::size_t kProbeBytes = 64 << 10;
@@ -116,7 +116,7 @@ void write_sidecar(io::BufferedWriter& out, const MeshIdentity& mesh, LastUse& u
 
 struct Damaged {};
 
-// Reads from the start on; what the file does not hold is Damaged.
+// Reads from the start of the file. Throws Damaged where the file ends too early.
 class Reader {
  public:
   explicit Reader(const std::string& path) : file_(io::File::open_for_reading(path)), size_(file_.size()) {}
@@ -139,7 +139,7 @@ class Reader {
 };
 
 UseSummary read_summary(Reader& in, const Header& header) {
-  if (header.samples > kMostSamples || header.block_count > UseEntry::kMostBlocks || header.block_triangles == 0 ||
+  if (header.samples > kSamplesLimit || header.block_count > UseEntry::kMostBlocks || header.block_triangles == 0 ||
       header.block_count != (header.triangle_count + header.block_triangles - 1) / header.block_triangles)
     throw Damaged();
   UseSummary s;

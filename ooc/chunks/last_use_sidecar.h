@@ -1,4 +1,4 @@
-// MESH.final: the finalization of a mesh, kept beside it for later runs (DESIGN.md 4).
+// MESH.final: the finalization of a mesh, kept next to it for later runs.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +9,8 @@
 
 namespace reeb::ooc {
 
-// What ties a sidecar to a mesh file: size, time of change, and XXH64 of up to 16 samples of
-// 64 KiB spread evenly over the file, the first and the last bytes among them.
+// Identifies the state of a mesh file that a sidecar belongs to: size, time of change, and XXH64 of up to 16 samples of
+// 64 KiB. The samples are spread evenly over the file, from its first to its last bytes.
 struct MeshIdentity {
   std::uint64_t bytes = 0;
   std::int64_t changed_ns = 0;
@@ -21,17 +21,16 @@ struct MeshIdentity {
 // THROWS: Error{kBadInput} if the file cannot be opened.
 MeshIdentity identify_mesh(const std::string& path);
 
-// Writes the sidecar; it appears under its name only when whole, and an older one stays until
-// then.
+// Writes the sidecar. It appears under its name only when it is whole; an older one stays until then.
 // THROWS: Error{kResource} with a hint naming --sidecar.
 void save_sidecar(const std::string& path, const MeshIdentity& mesh, LastUse& uses);
 
 struct SidecarLoad {
   std::optional<LastUse> uses;
-  std::string note;  // why a sidecar that is there was not used; empty if there is none
+  std::string note;  // why an existing sidecar was not used; else empty
 };
 
-// Reads a sidecar. One that is missing, stale or damaged is not an error: the pass is done again.
+// Reads a sidecar. A missing, outdated or damaged one is not an error: the pass is done again.
 // THROWS: Error{kResource} of the budget or the disk.
 SidecarLoad load_sidecar(const std::string& path, const MeshIdentity& mesh, std::uint64_t vertex_count,
                          const io::TempDir& temp, MemoryBudget& budget, std::uint64_t allowance_bytes);

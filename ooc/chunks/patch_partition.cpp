@@ -18,7 +18,7 @@ void PatchPartition::divide(const Chunk& chunk, std::size_t most) {
   collect();
 }
 
-// Returns the cut that divides the sample, or its patch.
+// Returns the index of the cut that divides the sample, or its patch.
 std::uint32_t PatchPartition::cut(const Chunk& chunk, std::span<std::uint32_t> sample, std::size_t most) {
   if (sample.size() <= most) return kIsPatch | patches_++;
   Cut cut;
@@ -32,7 +32,7 @@ std::uint32_t PatchPartition::cut(const Chunk& chunk, std::span<std::uint32_t> s
   return index;
 }
 
-// Puts those below the cut first, and returns how many they are: neither none nor all.
+// Puts the triangles below the cut first and returns their number: neither none nor all.
 std::size_t PatchPartition::divide_sample(const Chunk& chunk, std::span<std::uint32_t> sample, Cut& cut) const {
   const auto cut_at_median = [&](std::size_t axis) {
     const auto middle = sample.begin() + static_cast<std::ptrdiff_t>(sample.size() / 2);
@@ -76,7 +76,7 @@ void PatchPartition::collect() {
   for (std::size_t p = 0; p < patches_; ++p) begin_[p + 1] += begin_[p];
   triangles_.resize(patch_of_.size());
   for (std::uint32_t i = 0; i < patch_of_.size(); ++i) triangles_[begin_[patch_of_[i]]++] = i;
-  // Now each has moved to where the next began.
+  // Now each entry has moved to where the next patch begins.
   begin_.insert(begin_.begin(), 0);
   begin_.pop_back();
   begin_.erase(std::unique(begin_.begin(), begin_.end()), begin_.end());

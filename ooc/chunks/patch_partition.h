@@ -1,4 +1,4 @@
-// Divides the triangles of a chunk into patches that lie together in space (DESIGN.md 3).
+// Divides the triangles of a chunk into patches of triangles that are near each other in space.
 #pragma once
 
 #include <cstddef>
@@ -10,27 +10,28 @@
 
 namespace reeb::ooc {
 
-// A k-d tree on a sample of the triangles: their box is cut across its longest side at the median, and
-// the halves again. What lies in one place, or nearly all of it, or has no place at all, is cut in the
-// middle of the stream. A triangle lies where its first corner does.
+// A k-d tree on a sample of the triangles: their box is cut across its longest side at the median, then each half is
+// cut in the same way. Triangles that are all, or nearly all, at one point, or have no positions, are cut in the middle
+// of the stream. The position of a triangle is that of its first corner.
 //
-// TIME: O(n log(n / most)), about 10 ns a triangle.   MEMORY: 6 bytes a triangle.
+// TIME: O(n log(n / most)), about 10 ns per triangle.   MEMORY: 6 bytes per triangle.
 class PatchPartition {
  public:
-  // Patches of about `most` triangles at most, none of them empty; exactly at most where that is less
-  // than 1,024. REQUIRES: most >= 1; the chunk has triangles, 65,536 times `most` at most.
+  // Cuts patches of at most about `most` triangles, none of them empty. The limit is exact if `most` is less than
+  // 1,024.
+  // REQUIRES: most >= 1; the chunk has triangles, at most 65,536 times `most`.
   void divide(const Chunk& chunk, std::size_t most);
 
-  // None before anything was divided.
+  // 0 before the first division.
   std::size_t patch_count() const { return begin_.size() - 1; }
-  // Triangles of a patch, in stream order. Successive patches are mostly neighbours.
+  // The triangles of a patch, in stream order. Successive patches are mostly neighbours.
   std::span<const std::uint32_t> patch(std::size_t index) const {
     return std::span(triangles_).subspan(begin_[index], begin_[index + 1] - begin_[index]);
   }
   std::size_t memory_bytes() const;
 
  private:
-  static constexpr std::size_t kStream = 3;  // an axis besides those of space
+  static constexpr std::size_t kStream = 3;  // a fourth axis: the index in the stream
   struct Cut {
     std::size_t axis = 0;
     double at = 0;

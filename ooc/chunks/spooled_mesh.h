@@ -1,4 +1,4 @@
-// Any mesh, read once and kept in a form that can be looked up and read again (DESIGN.md 4).
+// Any mesh, read once and stored in a form that can be looked up and read again.
 #pragma once
 
 #include <cstdint>
@@ -23,8 +23,8 @@ struct SpoolOptions {
   SpoolProgress progress = {};
 };
 
-// Coordinates, then the properties that the reader delivers, in one column each; triangles in a
-// log. All in memory while it fits the allowance and the budget, else in unnamed files.
+// Coordinates, then the properties that the reader delivers, in one column each; triangles in a log. All are in memory
+// while they fit the allowance and the budget, else in unnamed files.
 //
 // THREADS: one at a time.
 class SpooledMesh : public IndexedMesh {
@@ -35,7 +35,7 @@ class SpooledMesh : public IndexedMesh {
   void append(const MeshBatch& batch);
   // Appends vertices: values[k] is column k, all of one length.
   void append_vertices(std::span<const std::span<const double>> values);
-  // The same for one column; in the end all must be of one length.
+  // The same for one column. In the end, all columns must have the same length.
   void append_column(unsigned column, std::span<const double> values) { columns_[column].append(values); }
   // REQUIRES: no triangle was read yet.
   void append_triangles(std::span<const VertexId> corners) { triangles_.append(corners); }
@@ -56,8 +56,7 @@ class SpooledMesh : public IndexedMesh {
   TriangleLog triangles_;
 };
 
-// A mesh on its way from a reader into that form. Tetrahedra become their four faces; finalizations
-// are passed over.
+// Reads a mesh into that form. Tetrahedra become their four faces; finalizations are ignored.
 //
 // THROWS: what the reader throws; Error{kResource} of the budget or the disk.
 // THREADS: one at a time.
@@ -66,15 +65,15 @@ class Spooler {
   // `reader`, `temp` and `budget` must outlive this.
   Spooler(MeshReader& reader, const io::TempDir& temp, MemoryBudget& budget, std::uint64_t allowance_bytes);
 
-  // Takes over the next batch; false at the end, again and again.
+  // Takes over the next batch. False at the end, however often it is called.
   bool read();
-  // Three corners each, of the batch that was read last.
+  // Three corners per triangle, of the batch that was read last.
   const std::vector<VertexId>& triangles() const { return batch_.triangles; }
   const MeshReader& reader() const { return reader_; }
-  // As far as it was read. REQUIRES: something was.
+  // The mesh as far as it was read. REQUIRES: something was read.
   SpooledMesh& mesh() { return *mesh_; }
 
-  // Reads what is left; the whole mesh.
+  // Reads the rest and returns the whole mesh.
   std::unique_ptr<SpooledMesh> finish(const SpoolProgress& progress = {});
 
  private:

@@ -34,7 +34,7 @@ class StreamChunks : public ChunkSource {
   MeshReader& reader_;
   FunctionValues& functions_;
   ChunkGrowth size_;                                   // in triangles
-  std::optional<std::uint64_t> most_active_vertices_;  // if it may give up
+  std::optional<std::uint64_t> most_active_vertices_;  // set if it may give up
   StreamChunker chunker_;
   std::uint64_t triangles_read_ = 0;
   std::uint64_t batches_ = 0;
@@ -63,10 +63,10 @@ bool StreamChunks::next(WorkItem& item) {
 }
 
 bool StreamChunks::is_hopeless() const {
-  constexpr std::uint64_t kLargeMeshVertices = 1'000'000, kLargePart = 8;
+  constexpr std::uint64_t kLargeMeshVertices = 1'000'000, kMeshShare = 8;
   if (!most_active_vertices_) return false;
   const std::uint64_t active = chunker_.active_vertices(), all = chunker_.vertex_count();
-  return active > *most_active_vertices_ || (all > kLargeMeshVertices && active > all / kLargePart);
+  return active > *most_active_vertices_ || (all > kLargeMeshVertices && active > all / kMeshShare);
 }
 
 // Which vertices are live at a chunk's end, and which of them were used, does not depend on where the

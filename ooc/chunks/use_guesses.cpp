@@ -8,21 +8,21 @@ namespace reeb::ooc {
 
 namespace {
 
-// Any two vertices have different sums, as far as 29 bits can tell.
+// 29 bits of this are kept, so that any two vertices almost always differ.
 std::uint32_t hash(VertexId v) { return static_cast<std::uint32_t>(mix(v.value()) >> 32); }
 
 }  // namespace
 
 UseGuesses::Verdict UseGuesses::add(Chunk& chunk, std::uint64_t most_open) {
-  constexpr std::size_t kVerticesBetweenLooks = 1024;
+  constexpr std::size_t kVerticesBetweenChecks = 1024;
   sum_links(chunk);
-  // Before the table is touched, which costs much where vertices lie far apart.
+  // Checked before the table is touched, which is expensive if vertices are far apart.
   const auto open_here = static_cast<std::uint64_t>(
       std::count_if(links_.begin(), links_.end(), [](std::uint32_t link) { return !is_closed(link); }));
   if (open_here > most_open) return Verdict::kIncoherent;
   chunk.uses.resize(chunk.vertex_count());
   for (std::size_t i = 0; i < chunk.vertex_count(); ++i) {
-    if (i % kVerticesBetweenLooks == 0 && table_.pages().is_thrashing()) return Verdict::kIncoherent;
+    if (i % kVerticesBetweenChecks == 0 && table_.pages().is_thrashing()) return Verdict::kIncoherent;
     std::uint32_t& entry = table_.change(chunk.ids[i].value());
     if ((entry & kGuessed) != 0) {
       ++revoked_;
@@ -37,7 +37,7 @@ UseGuesses::Verdict UseGuesses::add(Chunk& chunk, std::uint64_t most_open) {
     chunk.uses[i] = static_cast<std::uint8_t>((earlier ? kUsedEarlier : 0) | (later ? kUsedLater : 0));
   }
   if (revoked_ != 0) return Verdict::kRevoked;
-  return open_ > most_open ? Verdict::kIncoherent : Verdict::kGood;
+  return open_ > most_open ? Verdict::kIncoherent : Verdict::kHolds;
 }
 
 void UseGuesses::sum_links(const Chunk& chunk) {

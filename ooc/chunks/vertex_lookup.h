@@ -16,7 +16,7 @@ class VertexLookup {
  public:
   explicit VertexLookup(FunctionValues& functions) : functions_(functions) {}
 
-  // Sets positions and values of the item's vertices, whose ids become those of the input.
+  // Sets the positions and values of the item's vertices. Their ids become those of the input.
   // THROWS: what the mesh and the functions throw.
   void look_up(IndexedMesh& mesh, WorkItem& item) {
     constexpr std::size_t kVerticesAtOnce = 16384;

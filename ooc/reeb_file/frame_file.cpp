@@ -64,7 +64,7 @@ void FrameFile::read_seek_table() {
     fail(table_offset, "the seek table does not fit the file");
 }
 
-// Without a seek table: from frame to frame, as far as they are whole.
+// Without a seek table: goes from frame to frame while they are whole.
 void FrameFile::scan_frames() {
   offsets_.assign(1, header_.region_bytes());
   Buffers buffers;
@@ -102,7 +102,7 @@ std::span<const std::byte> FrameFile::read_frame(std::size_t index, FrameHeader&
   if (const char* why = decode_frame_header(buffers.stored, header)) fail(offset, why);
   if (header.stored_bytes > limit - kFrameHeaderBytes) fail(offset, "the file ends within a frame");
   const std::uint64_t sum = last_u64(buffers.stored);
-  // The payload takes the place of the checksum, so that what is covered lies in one piece.
+  // The payload takes the place of the checksum, so that the covered bytes are contiguous.
   const std::size_t covered = kFrameHeaderBytes - kChecksumBytes;
   buffers.stored.resize(covered + header.stored_bytes);
   file_.read_at(offset + kFrameHeaderBytes, std::span(buffers.stored).subspan(covered));
@@ -142,7 +142,7 @@ void FrameCursor::check(const FrameFile& file, const FrameHeader& header, const 
       file.fail(offset, "an arc ends at a node that was not introduced");
     if (arc.died != kNeverDies && arc.died > steps) file.fail(offset, "an arc dies after the last version");
     if (arc.died > last_died_ || arc.born > steps) file.fail(offset, "the arcs are not sorted by their end");
-    // Versions announced as complete get no further arcs.
+    // A version announced as complete gets no further arcs.
     if (arc.died > complete_ && complete_ <= steps)
       file.fail(offset, "an arc comes after the versions that it belongs to");
     last_died_ = arc.died;

@@ -1,4 +1,4 @@
-// The frames of a `.reeb` file: header, seek table, and each frame checked as it is read.
+// The frames of a `.reeb` file: header and seek table, and frames that are checked when they are read.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +17,7 @@
 namespace reeb::ooc {
 
 // THROWS, from all members: Error{kBadInput} with path and byte offset.
-// THREADS: const members by any number at the same time, each with buffers of its own.
+// THREADS: any number may call const members at the same time, each with its own buffers.
 class FrameFile {
  public:
   explicit FrameFile(const std::string& path);
@@ -29,15 +29,15 @@ class FrameFile {
   // Null for a whole file; else what is wrong after the header, and where.
   const Error* damage() const { return damage_ ? &*damage_ : nullptr; }
 
-  // Reads and checks frame `index` (graph frames first, then pairs). The payload is valid until the
-  // next call with the same buffers.
+  // Reads and checks frame `index` (graph frames first, then pairs). The payload is valid until the next call with the
+  // same buffers.
   struct Buffers {
     std::vector<std::byte> stored, raw;
   };
   std::span<const std::byte> read_frame(std::size_t index, FrameHeader& header, Buffers& buffers) const;
-  // Byte offset of frame `index`. THROWS if the file was cut before its end.
+  // The byte offset of frame `index`. THROWS if the file was cut off before the frame's end.
   std::uint64_t frame_offset(std::size_t index) const;
-  // Byte offset behind the first so many frames. REQUIRES: they are whole.
+  // The byte offset after the first `frames` frames. REQUIRES: they are whole.
   std::uint64_t end_of(std::size_t frames) const { return offsets_[frames]; }
 
   [[noreturn]] void fail(std::uint64_t offset, const std::string& what) const;
@@ -53,13 +53,13 @@ class FrameFile {
   std::optional<Error> damage_;
 };
 
-// Reads graph frames one after the other and checks what spans frames. Copyable: a copy is a
-// bookmark from which reading can go on.
+// Reads graph frames one after the other, and checks the rules that span frames. Copyable: a copy is a bookmark from
+// which reading can continue.
 class FrameCursor {
  public:
   explicit FrameCursor(const FrameFile& file) : complete_(file.header().steps + 1) {}
 
-  // Replaces `frame` by the next one. THROWS: Error{kBadInput}; at the end of all graph frames too.
+  // Replaces `frame` by the next one. THROWS: Error{kBadInput}, also after the last graph frame.
   void next(const FrameFile& file, GraphFrame& frame, FrameFile::Buffers& buffers);
 
   std::size_t frames_read() const { return frames_; }

@@ -1,4 +1,4 @@
-// When a frame under construction is full: estimates of its uncompressed columns.
+// The sizes at which a frame under construction is full: estimates of its uncompressed columns.
 #pragma once
 
 #include <cstddef>

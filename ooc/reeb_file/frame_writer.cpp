@@ -6,9 +6,9 @@ namespace reeb::ooc {
 namespace {
 
 constexpr int kZstdLevel = 1;
-// Below it a frame is stored as it is: nothing is gained, and small files can be read by eye.
+// Smaller frames are stored uncompressed: compression gains nothing, and a person can read small files.
 constexpr std::size_t kCompressFromBytes = 512;
-// Frames are larger as a rule, and then go past the buffer.
+// Most frames are larger than this, and bypass the buffer.
 constexpr std::size_t kBufferBytes = 64 << 10;
 
 }  // namespace

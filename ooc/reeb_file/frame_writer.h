@@ -1,5 +1,5 @@
-// The part of a `.reeb` file that all its writers share: frames one after the other, then the seek
-// table and the tail, and the header region in front once everything in it is known.
+// The part of a `.reeb` file that all its writers share: frames one after the other, then the seek table and the tail.
+// The header region in front is written once everything in it is known.
 #pragma once
 
 #include <cstdint>
@@ -20,13 +20,13 @@ class FrameWriter {
   // Leaves room for a header region of this size.
   FrameWriter(const std::string& path, std::uint64_t region_bytes);
 
-  // Appends a frame; sizes in `header` are filled in here.
+  // Appends a frame. The sizes in `header` are filled in here.
   void add(FrameHeader header, std::span<const std::byte> payload);
 
   std::uint64_t size() const { return file_.size(); }
 
   // Writes seek table, tail and header (whose digest is filled in here), and commits the file.
-  // REQUIRES: header.region_bytes() is what was announced.
+  // REQUIRES: header.region_bytes() has not changed since the constructor.
   void finish(FileHeader& header);
 
  private:

@@ -11,7 +11,7 @@
 namespace reeb::ooc {
 namespace {
 
-constexpr std::size_t kPiece = 4096;
+constexpr std::size_t kItemsAtOnce = 4096;
 
 constexpr std::uint32_t kNoNode = ~std::uint32_t{0};
 
@@ -68,8 +68,8 @@ void GraphFileWriter::rank_by_vertex(std::span<const ArcKeys> arcs) {
   for (std::size_t i = 0; i < arcs.size(); ++i) ranked_[i] = {rank(arcs[i].lo), rank(arcs[i].hi), 0, kNeverDies};
 }
 
-// Upper ends are looked up in their own order: a large piece then touches each page of the table
-// once, and each search starts next to the last.
+// Upper ends are looked up in their own order: a large batch then touches each page of the table once, and each search
+// starts near the result of the last one.
 void GraphFileWriter::rank_by_search(std::span<const ArcKeys> arcs) {
   if (!std::exchange(sealed_, true)) keys_->seal();
   by_hi_.resize(arcs.size());
@@ -79,7 +79,8 @@ void GraphFileWriter::rank_by_search(std::span<const ArcKeys> arcs) {
     lo_rank_ = keys_->rank(arcs[i].lo, lo_rank_);
     ranked_[i] = {lo_rank_, 0, 0, kNeverDies};
   }
-  // The system maps as much as a window around each page that is touched, which no other lookup may need.
+  // The system maps a window around each page that is touched. Other look-ups might not need that window, so the pages
+  // are released regularly.
   constexpr std::uint64_t kWindowKeys = (64 << 10) / sizeof(SweepKey), kWindows = 16;
   std::uint64_t hi_rank = 0, windows = 0;
   for (const std::uint32_t arc : by_hi_) {
@@ -162,14 +163,14 @@ void write_graph_file(const std::string& path, const FileMeta& meta, const ReebG
   std::vector<SettledNode> nodes;
   for (std::size_t i = 0; i < graph.node_count(); ++i) {
     nodes.push_back({graph.nodes[i], graph.positions.empty() ? Point{} : graph.positions[i]});
-    if (nodes.size() < kPiece && i + 1 < graph.node_count()) continue;
+    if (nodes.size() < kItemsAtOnce && i + 1 < graph.node_count()) continue;
     writer.add_nodes(nodes);
     nodes.clear();
   }
   std::vector<FileArc> arcs;
   for (std::size_t first = 0; first < graph.arc_count(); first += arcs.size()) {
     arcs.clear();
-    const std::size_t last = std::min(first + kPiece, graph.arc_count());
+    const std::size_t last = std::min(first + kItemsAtOnce, graph.arc_count());
     for (std::size_t i = first; i < last; ++i)
       arcs.push_back({graph.lo[i].value(), graph.hi[i].value(), 0, kNeverDies});
     ArcBucketsView piece = buckets;

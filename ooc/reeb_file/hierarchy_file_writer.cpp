@@ -106,7 +106,7 @@ class HierarchyFileWriter {
     }
   }
 
-  // The nodes that this frame is the first to need, ascending.
+  // The nodes that this frame is the first to name, ascending.
   void introduce_nodes(const FrameCut& before, const FrameCut& cut, GraphFrame& frame) {
     new_nodes_.clear();
     for (std::size_t i = before.isolated_end; i < cut.isolated_end; ++i)
@@ -142,9 +142,9 @@ class HierarchyFileWriter {
   FileHeader header_;
   FrameWriter writer_;
   const bool background_;
-  std::vector<std::uint32_t> file_index_;  // of nodes: their order of introduction
+  std::vector<std::uint32_t> file_index_;  // by node: its place in the order of introduction
   std::uint32_t introduced_ = 0;
-  std::vector<ArcVersion> arcs_;  // of the frame
+  std::vector<ArcVersion> arcs_;  // of the current frame
   std::vector<std::uint32_t> new_nodes_;
   std::vector<std::byte> payload_;
 };

@@ -43,7 +43,7 @@ class VersionCounter {
  private:
   static constexpr std::uint32_t kNever = ~std::uint32_t{0};
 
-  // Unsigned numbers wrap, and what leaves cancels what came.
+  // Unsigned numbers wrap around, so adding and subtracting cancel out.
   void arrives(std::uint32_t born, std::uint32_t died, const VersionCounts& what) {
     change_[born].nodes += what.nodes;
     change_[born].arcs += what.arcs;
@@ -54,8 +54,8 @@ class VersionCounter {
     change_[died].buckets -= what.buckets;
   }
 
-  // A node is there while any of its arcs is. Of the versions before `died` it is known to be there from
-  // present_from_ on, if that is not later.
+  // A node exists while any of its arcs does. Among the versions before `died`, it is known to exist from present_from_
+  // on, if that is not later than `died`.
   void add_node(NodeId node, std::uint32_t born, std::uint32_t died) {
     std::uint32_t& from = present_from_[node.value()];
     if (born >= from) return;
@@ -63,8 +63,8 @@ class VersionCounter {
     from = born;
   }
 
-  std::vector<std::uint32_t> present_from_;  // of each node
-  std::vector<VersionCounts> change_;        // from the version before
+  std::vector<std::uint32_t> present_from_;  // by node
+  std::vector<VersionCounts> change_;        // by version: the change from the version before
 };
 
 // Cuts the sequence "isolated nodes, then records" where a frame is full.
@@ -78,7 +78,7 @@ class FrameCutter {
     add(kNodeCost);
   }
   void add_record(std::uint32_t died, std::uint64_t new_nodes, std::uint64_t buckets) {
-    // The records that follow die with some version or before: all coarser ones are complete.
+    // The records that follow die with this version or a finer one: all coarser versions are complete.
     settle(std::min(complete_, died));
     ++records_;
     std::uint64_t cost = kArcCost + kNodeCost * new_nodes + kBucketCost * buckets;
@@ -98,7 +98,7 @@ class FrameCutter {
     is_cut_ = true;
     cost_ = 0;
   }
-  // What follows a cut says which versions it completes.
+  // The record after a cut determines which versions the cut completes.
   void settle(std::uint32_t complete) {
     if (!std::exchange(is_cut_, false)) return;
     cuts_.back().finest = complete_ = complete;
@@ -108,7 +108,7 @@ class FrameCutter {
   std::uint32_t last_died_ = kNeverDies;
   std::uint64_t cost_ = 0, records_ = 0;
   std::size_t isolated_ = 0;
-  bool is_cut_ = false;  // the last cut is where everything ends so far
+  bool is_cut_ = false;  // the last cut is at the end of what was added so far
   std::vector<FrameCut>& cuts_;
 };
 
@@ -118,8 +118,8 @@ bool has_threshold(const std::vector<VersionCounts>& versions, std::size_t versi
          versions[version + 1].persistence > versions[version].persistence;
 }
 
-// The versions worth a line: where frames end, and wherever the nodes have about doubled; each
-// moved towards the coarse to one that a threshold can name.
+// The versions that get a line: at the ends of frames, and wherever the number of nodes has about doubled. Each is
+// moved to the next coarser one that a threshold yields.
 std::vector<std::uint32_t> table_versions(const HierarchyLayout& layout, std::uint32_t steps) {
   const auto& versions = layout.versions;
   std::vector<std::uint32_t> result{0, steps};

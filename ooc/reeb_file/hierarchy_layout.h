@@ -1,5 +1,4 @@
-// Where everything of a hierarchy goes in its file: the cuts between frames, and the level table
-// (DESIGN.md 6).
+// The layout of a hierarchy in its file: the cuts between frames, and the level table.
 #pragma once
 
 #include <cstdint>
@@ -21,13 +20,13 @@ struct FrameCut {
 struct HierarchyLayout {
   std::uint64_t records = 0;
   std::vector<VersionCounts> versions;  // entry e is version e
-  std::vector<FrameCut> cuts;           // one a frame, at least one
+  std::vector<FrameCut> cuts;           // one per frame, at least one
   std::vector<LevelLine> levels;        // without file_bytes
 };
 
-// Reads all records, once. Hierarchy::arcs is not looked at.
-// MEMORY: 32 bytes a version; until it returns, 4 a node.
-// THROWS: std::logic_error that names the first record, pair or step that cannot be.
+// Reads all records, once. Hierarchy::arcs is not read.
+// MEMORY: 32 bytes per version; until it returns, 4 per node.
+// THROWS: std::logic_error that names the first impossible record, pair or step.
 HierarchyLayout lay_out(std::size_t node_count, const Hierarchy& hierarchy, RecordSource& records);
 
 }  // namespace reeb::ooc

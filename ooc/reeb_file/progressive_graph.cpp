@@ -26,21 +26,21 @@ class ProgressiveGraph::Impl {
  private:
   struct Node {
     SettledNode place;
-    std::uint32_t degree;  // isolated points have one more than arcs
+    std::uint32_t degree;  // the number of arcs; isolated points have 1
   };
   struct Arc {
     std::uint64_t record;
     std::uint32_t lo, hi, born, died;
   };
-  // What has to come in before anything is touched, so that a bad frame changes nothing.
+  // Everything that must be read before the level is touched, so that a bad frame changes nothing.
   struct Change {
-    std::vector<Node> nodes;      // beyond those that are here
+    std::vector<Node> nodes;      // in addition to those in memory
     std::size_t nodes_total = 0;  // introduced by the frames that the version needs
-    std::vector<Arc> arcs;        // that live at the version and are not here
+    std::vector<Arc> arcs;        // that are live at the version and not in memory
     FrameCursor last_frame;
     std::uint64_t last_record = 0;
   };
-  // The frames whose records `version` needs, from a bookmark on.
+  // Reads the frames whose records `version` needs, starting at a bookmark.
   Change gather(std::uint32_t version) const;
   void apply(Change change, std::uint32_t version);
   void add_reference(std::uint32_t node);
@@ -51,7 +51,7 @@ class ProgressiveGraph::Impl {
   bool loaded_ = false;
   std::uint32_t version_ = 0;
   std::vector<Node> nodes_;  // by file index
-  std::vector<Arc> arcs_;    // live, in no order
+  std::vector<Arc> arcs_;    // live, in unspecified order
   std::size_t node_count_ = 0;
   FrameCursor last_frame_;         // before the last frame read: its rest is needed next
   std::uint64_t last_record_ = 0;  // record index at that bookmark
@@ -110,7 +110,7 @@ ProgressiveGraph::Impl::Change ProgressiveGraph::Impl::gather(std::uint32_t vers
         if (end >= first_node && !named.empty()) named[end - first_node] = true;
       ++record;
     }
-    // Nodes that no arc of their own frame needs are isolated points: they hold themselves.
+    // Nodes that no arc of their own frame names are isolated points: they hold a reference to themselves.
     for (std::size_t i = 0; i < named.size(); ++i)
       if (!named[i] && first_node + i >= nodes_.size()) change.nodes[first_node + i - nodes_.size()].degree = 1;
   }

@@ -11,8 +11,8 @@
 
 namespace reeb::ooc {
 
-// Told of every change, in an order in which an arc only ever joins nodes that are there. Nodes go
-// by their file index, arcs by their record: both mean the same for as long as the file does.
+// Receives every change, in an order in which an arc only ever joins nodes that exist. Nodes are named by their file
+// index, arcs by their record: both keep their meaning as long as the file exists.
 class GraphListener {
  public:
   virtual ~GraphListener() = default;
@@ -26,10 +26,10 @@ class GraphListener {
 //
 // TIME:    refining reads only the frames that follow; coarsening reads again those that the coarser level
 //          needs. Either costs time proportional to the larger level.
-// MEMORY:  what level_memory says of the level, and the nodes of at most one frame more.
+// MEMORY:  what level_memory says for the level, and the nodes of at most one further frame.
 // THREADS: one at a time; several objects may share a file. The listener is called by the thread that moves
 //          the graph, and must not move it.
-// THROWS:  as ReebFile; then the level is what it was before.
+// THROWS:  as ReebFile; then the level is unchanged.
 class ProgressiveGraph {
  public:
   // Both must outlive this; `listener` may be null.

@@ -5,7 +5,7 @@
 namespace reeb::ooc {
 namespace {
 
-// What stands behind a record's buckets.
+// Follows a record's buckets.
 struct Trailer {
   std::uint32_t lo, hi, born, died;
   std::uint32_t bucket_bytes;

@@ -1,4 +1,4 @@
-// The arc records of a hierarchy on disk: written as they end, read from the last to the first.
+// The arc records of a hierarchy on disk: written in the order in which they end, read from the last to the first.
 #pragma once
 
 #include <cstddef>
@@ -15,18 +15,18 @@
 
 namespace reeb::ooc {
 
-// A record is its buckets, packed, and behind them how many bytes those are, so that a block can be read
-// from its end: 20 bytes a record and its buckets. Blocks are checksummed; while one is enough, there is
-// no file.
+// A record is its packed buckets, followed by its fields and the byte count of the buckets, so that a block can be read
+// from its end: 20 bytes per record, and its buckets. Each block has a checksum. No file is made while one block is
+// enough.
 //
-// MEMORY: two blocks, and 8 bytes a block of the file.
-// THROWS: Error{kResource} if the disk is full, or gives back other bytes than were written, or the budget
-//         lacks two blocks.   THREADS: one at a time.
+// MEMORY: two blocks, and 8 bytes per block of the file.
+// THROWS: Error{kResource} if the disk is full, or returns other bytes than were written, or the budget lacks two
+//         blocks.
 class RecordLog : public RecordSink, public RecordSource {
  public:
   static constexpr std::size_t kBlockBytes = 64 << 10;
 
-  // What one of them holds.
+  // The memory of one log.
   static constexpr std::uint64_t memory_bytes() { return 2 * kBlockBytes; }
 
   // `temp` must outlive this. A block holds at least one record, however large.
@@ -34,7 +34,7 @@ class RecordLog : public RecordSink, public RecordSource {
 
   void add(const ArcVersion& record, std::span<const std::byte> buckets) override;
 
-  // REQUIRES, for all that follows: nothing is added any more.
+  // REQUIRES, for everything below: nothing more is added.
   void rewind() override;
   bool next(ArcVersion& record, std::span<const std::byte>& buckets) override;
 
@@ -50,13 +50,13 @@ class RecordLog : public RecordSink, public RecordSource {
   Reservation charge_;
   std::optional<SortedRunFile> file_;
   std::vector<std::uint64_t> offsets_;  // of the blocks in the file
-  std::vector<std::byte> open_;         // the block behind them
+  std::vector<std::byte> open_;         // the block after them
   std::size_t in_open_ = 0;
   std::uint64_t count_ = 0;
 
   std::size_t blocks_left_ = 0;        // in the file, to be read
   std::vector<std::byte> fetched_;     // a block of the file
-  std::span<const std::byte> unread_;  // of the block at hand
+  std::span<const std::byte> unread_;  // of the current block
 };
 
 }  // namespace reeb::ooc

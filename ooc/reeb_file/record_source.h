@@ -11,7 +11,7 @@
 
 namespace reeb::ooc {
 
-// Records come by `died` descending, then (lo, hi, born), as often as they are asked for.
+// Delivers the records by `died` descending, then by (lo, hi, born). rewind() starts over.
 class RecordSource {
  public:
   RecordSource() = default;
@@ -20,15 +20,15 @@ class RecordSource {
   virtual ~RecordSource() = default;
 
   virtual void rewind() = 0;
-  // The next record and its packed buckets, which are valid until the next call; false at the end.
+  // The next record and its packed buckets. The buckets are valid until the next call. False at the end.
   virtual bool next(ArcVersion& record, std::span<const std::byte>& buckets) = 0;
 };
 
-// Records in memory, in any order. Those that are equal keep the order in which they are.
-// MEMORY: 4 bytes a record.
+// Records in memory, in any order. Equal records keep their order.
+// MEMORY: 4 bytes per record.
 class SortedRecords : public RecordSource {
  public:
-  // `records` must outlive this, and so must what `buckets` looks at: theirs, or nothing.
+  // `records` and the data that `buckets` refers to must outlive this. `buckets` are those of the records, or empty.
   SortedRecords(const std::vector<ArcVersion>& records, const ArcBucketsView& buckets);
 
   void rewind() override { next_ = 0; }

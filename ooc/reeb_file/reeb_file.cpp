@@ -10,8 +10,8 @@
 namespace reeb::ooc {
 namespace {
 
-// The first version, from coarse to fine, for which `reached` holds; `reached` of a line of the
-// level table tells which frames to look into.
+// The first version, from coarse to fine, for which `reached` holds. `reached` of the lines of the level table
+// determines which frames to search.
 template <class Reached>
 std::optional<std::uint32_t> first_version(const FrameFile& file, const Reached& reached) {
   const LevelLine* before = nullptr;

@@ -1,8 +1,8 @@
 // Reads `.reeb` files: any level in time proportional to what it yields.
 //
-// Nothing in the file is trusted: every byte is under a checksum that is verified before it is
-// used, and nothing is reserved on the word of a count alone. A file that was cut, or is damaged
-// after its header, yields the levels that its whole frames cover.
+// Nothing in the file is trusted. Each byte is under a checksum that is verified before the byte is used, and no memory
+// is reserved because of a count alone. A file that was cut off, or is damaged after its header, yields the levels that
+// its whole frames cover.
 #pragma once
 
 #include <cstddef>
@@ -23,7 +23,7 @@ namespace reeb::ooc {
 
 class FrameFile;
 
-// Whether `bytes` begins like a `.reeb` file; eight bytes are enough.
+// Whether `bytes` begins like a `.reeb` file. Eight bytes are enough.
 bool is_reeb_file(std::span<const std::byte> bytes);
 // The same for a file; false if it cannot be read.
 bool is_reeb_file(const std::string& path);
@@ -31,7 +31,7 @@ bool is_reeb_file(const std::string& path);
 // A graph at one version.
 struct Level {
   std::uint32_t version = 0;
-  double threshold = 0;  // the least that yields it
+  double threshold = 0;  // the smallest threshold that yields it
   ReebGraph graph;
   ArcBuckets buckets;  // of graph's arcs; empty without an embedding
 };
@@ -48,8 +48,8 @@ struct PairRow {
 // THREADS: any number may call const members of one object at the same time.
 // TIME:    opening reads the header, the level table and the seek table. A question for a version reads the
 //          frames between two lines of the level table; load() the frames that the version needs.
-// MEMORY:  the two tables, 8 bytes a frame of about 128 KiB; what a call returns, and two frames meanwhile.
-//          The file stays open; it must not change meanwhile, but if it shrinks, that is an Error.
+// MEMORY:  the two tables, 8 bytes per frame of about 128 KiB; what a call returns, and two frames during it.
+//          The file stays open and must not change; if it shrinks, that is an Error.
 class ReebFile {
  public:
   // Reads header, level table and seek table.
@@ -64,27 +64,27 @@ class ReebFile {
   const std::string& path() const;
   std::uint64_t file_bytes() const;
 
-  // Null for a whole file; else what is wrong after the header, and where. Levels that need the
-  // missing part are refused.
+  // Null for a whole file; else what is wrong after the header, and where. Levels that need the missing part are
+  // refused.
   const Error* damage() const;
 
   // The version after all cancellations of persistence below `threshold`.
   std::uint32_t version_at(double threshold) const;
-  // The finest version with at most so many nodes, or so much memory as level_memory counts it.
-  // THROWS: Error{kBadInput} if even the coarsest is larger, with its size.
+  // The finest version with at most this many nodes, or with at most this much memory as level_memory counts it.
+  // THROWS: Error{kBadInput} with the size of the coarsest version if even that is larger.
   std::uint32_t finest_with_nodes(std::uint64_t nodes) const;
   std::uint32_t finest_with_memory(std::uint64_t bytes) const;
 
-  // Version 0 is the full graph. Reads the frames that it needs and no others.
+  // Version 0 is the full graph. Reads only the frames that the version needs.
   Level load(std::uint32_t version = 0) const;
 
-  // In the order of cancelling, Ext0 last. THROWS also for a file without hierarchy.
-  // MEMORY: 48 bytes a node besides the rows.
+  // In the order of cancelling, Ext0 last. Also THROWS for a file without a hierarchy.
+  // MEMORY: 48 bytes per node, in addition to the rows.
   std::vector<PairRow> pairs() const;
 
-  // Checks everything that can be checked: checksums and digest, order, counts of every version,
-  // level table, pairs against Betti numbers; with an embedding also that every vertex of the mesh is
-  // somewhere. MEMORY: about 108 bytes an arc record.
+  // Checks everything that can be checked: checksums and digest, order, counts of every version, level table, pairs
+  // against Betti numbers. With an embedding it also checks that every vertex of the mesh is a node or in a bucket.
+  // MEMORY: about 108 bytes per arc record.
   void verify() const;
 
  private:

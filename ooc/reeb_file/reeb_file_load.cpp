@@ -10,10 +10,10 @@
 namespace reeb::ooc {
 namespace {
 
-// The records that live at one version, as they come from the frames.
+// The records that are live at one version, as the frames deliver them.
 struct LiveRecords {
   std::vector<SettledNode> nodes;  // introduced so far, by file index
-  std::vector<std::uint8_t> used;  // one entry a node: whether it belongs to the version
+  std::vector<std::uint8_t> used;  // one entry per node: whether it belongs to the version
   std::vector<FileArc> arcs;
   std::vector<std::uint32_t> bucket_counts;
   std::vector<Bucket> buckets;
@@ -59,7 +59,7 @@ std::vector<std::uint32_t> sorted_nodes(const LiveRecords& live) {
   return order;
 }
 
-// Arcs in canonical order; equal ones keep the order of the file, so that buckets stay with theirs.
+// Arcs in canonical order. Equal arcs keep the order of the file, so that each keeps its buckets.
 std::vector<std::uint32_t> sorted_arcs(const std::vector<FileArc>& arcs) {
   std::vector<std::uint32_t> order(arcs.size());
   std::iota(order.begin(), order.end(), 0u);
@@ -70,7 +70,7 @@ std::vector<std::uint32_t> sorted_arcs(const std::vector<FileArc>& arcs) {
   return order;
 }
 
-// Uses up the nodes.
+// Consumes the nodes.
 ReebGraph nodes_by_rank(LiveRecords& live, bool positions) {
   ReebGraph graph;
   const auto order = sorted_nodes(live);

@@ -1,4 +1,4 @@
-// ReebFile::verify: everything about a file that can be checked without the mesh.
+// ReebFile::verify: checks everything that can be checked without the mesh.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -22,8 +22,8 @@ struct Content {
   std::vector<std::uint32_t> frame_finest;
 };
 
-// Buckets ascend, are of values between the ends of their arc, and hold what has a place. Appends
-// the vertices of each arc.
+// Checks that buckets ascend, are within the values of their arc's ends, and have finite means. Appends the number of
+// vertices of each arc.
 void gather_buckets(const FrameFile& file, const GraphFrame& frame, Content& content) {
   const auto bucket_of = [&](std::uint64_t node) {
     return std::floor(std::ldexp(content.nodes[node].value, -file.header().bucket_exponent));
@@ -72,7 +72,7 @@ void verify_digest(const FrameFile& file) {
   if (digest.value() != file.header().content_digest) file.fail(0, "the digest of the content is wrong");
 }
 
-// The counts that the frames announce are those of their arcs. Returns them by version.
+// Checks that the counts announced by the frames are those of their arcs. Returns the counts by version.
 std::vector<VersionCounts> verify_versions(const FrameFile& file, const Content& content) {
   if (content.versions.size() != std::size_t{file.header().steps} + 1)
     file.fail(0, "the frames do not complete all versions");
@@ -87,11 +87,11 @@ std::vector<VersionCounts> verify_versions(const FrameFile& file, const Content&
   return counts;
 }
 
-// A vertex of the mesh is a node or in one bucket of the full graph; coarser versions may have
-// dropped some.
+// Checks that each vertex of the mesh is a node or in one bucket of the full graph. Coarser versions may have dropped
+// some.
 void verify_vertices(const FrameFile& file, const Content& content, const std::vector<VersionCounts>& versions) {
   if (!file.header().flags.has_embedding) return;
-  std::vector<std::uint64_t> change(versions.size());  // differences wrap and cancel out
+  std::vector<std::uint64_t> change(versions.size());  // differences; they wrap around and cancel out
   for (std::size_t i = 0; i < content.arcs.size(); ++i) {
     change[content.arcs[i].born] += content.vertices[i];
     if (content.arcs[i].died != kNeverDies) change[content.arcs[i].died] -= content.vertices[i];
@@ -129,7 +129,7 @@ void verify_full_graph(const FrameFile& file, const Content& content, const Reeb
   if (header.nodes != graph.node_count() || header.arcs != graph.arc_count() || header.components != betti.components ||
       header.loops != betti.loops || header.records != content.arcs.size())
     file.fail(0, "the full graph has other counts than the header says");
-  // Cancellation adds no node: every node that any version needs is one of the full graph.
+  // Cancelling adds no node: each node of any version is one of the full graph.
   if (content.nodes.size() != graph.node_count()) file.fail(0, "there are nodes that the full graph lacks");
   if (std::ranges::adjacent_find(graph.nodes) != graph.nodes.end()) file.fail(0, "a node was introduced twice");
 }

@@ -1,4 +1,4 @@
-// Writes `.reeb` files (docs/FORMAT.md). Bytes depend on the arguments only: no times, no paths.
+// Writes `.reeb` files (docs/FORMAT.md). The bytes depend on the arguments only: they contain no times and no paths.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +24,7 @@
 
 namespace reeb::ooc {
 
-// What a file says about the run that made it.
+// What a file records about the run that made it.
 struct FileMeta {
   std::string function = "z";
   double function_min = 0, function_max = 0;
@@ -36,48 +36,48 @@ struct FileMeta {
 
 // A graph with all its levels.
 struct HierarchyContent {
-  const ReebGraph& nodes;      // its arcs are not looked at
-  const Hierarchy& hierarchy;  // nor are the records in here
+  const ReebGraph& nodes;      // its arcs are not read
+  const Hierarchy& hierarchy;  // nor are its records
   RecordSource& records;
   bool has_embedding = false;  // records come with buckets
-  bool background = false;     // make frames in a thread of its own
+  bool background = false;     // pack and write frames in a separate thread
 };
 
-// Reads the records twice. `poll` is called before every frame; it may throw to end that.
-// MEMORY: 32 bytes a version, 4 a node, and three frames.
-// THROWS: Error{kResource}; then nothing is left behind. std::logic_error if graph, hierarchy and records
-//         contradict each other.
+// Reads the records twice. `poll` is called before every frame; it may throw to stop writing.
+// MEMORY: 32 bytes per version, 4 per node, and three frames.
+// THROWS: Error{kResource}; then no file is left. std::logic_error if graph, hierarchy and records contradict each
+//         other.
 void write_hierarchy_file(const std::string& path, const FileMeta& meta, const HierarchyContent& content,
                           const Poll& poll = {});
 
-// The same from memory: hierarchy.arcs in any order, with their buckets or none; 4 bytes a record more.
+// The same from memory: hierarchy.arcs in any order, with their buckets or none. It needs 4 more bytes per record.
 void write_hierarchy_file(const std::string& path, const FileMeta& meta, const ReebGraph& graph,
                           const Hierarchy& hierarchy, const ArcBucketsView& buckets = {});
 
-// A graph without hierarchy, from memory. The same bytes as GraphFileWriter gives.
+// A graph without hierarchy, from memory. Writes the same bytes as GraphFileWriter.
 void write_graph_file(const std::string& path, const FileMeta& meta, const ReebGraph& graph,
                       const ArcBucketsView& buckets = {});
 
-// A graph without hierarchy that need not fit in memory: nodes in pieces, arcs in pieces, done.
-// The file appears at finish(); cuts between pieces do not show in it.
-// MEMORY: two frames and 16 bytes a frame; what ArcEnds says; reserved: 4 bytes a node, or as ComponentCount.
-// THROWS: Error{kResource}, of an earlier frame, too; std::logic_error for items out of order.
+// A graph without hierarchy that need not fit in memory: add its nodes in batches, then its arcs in batches, then call
+// finish(). The file appears at finish(). Its bytes do not depend on the batches.
+// MEMORY: two frames and 16 bytes per frame; what ArcEnds says; reserved: 4 bytes per node, or as ComponentCount.
+// THROWS: Error{kResource}, also that of an earlier frame; std::logic_error for items out of order.
 class GraphFileWriter {
  public:
   // How arcs name their nodes.
   enum class ArcEnds {
     kRanks,
-    kKeys,          // looked up in a temporary file of 16 bytes a node
-    kKeysInMemory,  // looked up in 4 bytes a vertex of the mesh
+    kKeys,          // looked up in a temporary file of 16 bytes per node
+    kKeysInMemory,  // looked up in 4 bytes per vertex of the mesh
   };
   struct Options {
-    std::uint64_t nodes = 0;  // as many will be added
+    std::uint64_t nodes = 0;  // the number of nodes that will be added
     bool has_positions = true;
     bool has_embedding = false;
     ArcEnds ends = ArcEnds::kRanks;
-    bool background = false;            // pack and write frames in a thread of their own
+    bool background = false;            // pack and write frames in a separate thread
     const io::TempDir* temp = nullptr;  // REQUIRED for kKeys
-    MemoryBudget* budget = nullptr;     // needs `temp`; null: memory is not counted
+    MemoryBudget* budget = nullptr;     // requires `temp`; null: memory is not counted
   };
 
   GraphFileWriter(const std::string& path, FileMeta meta, const Options& options);
@@ -85,17 +85,17 @@ class GraphFileWriter {
   // REQUIRES: ascending, over all calls.
   void add_nodes(std::span<const SettledNode> nodes);
 
-  // Faster in large pieces (40 bytes an arc of the piece).
-  // REQUIRES: after all nodes; ascending by (lo, hi), over all calls; lo below hi. With an
-  //           embedding, `buckets` has those of this piece.
+  // Faster in large batches (40 bytes per arc of the batch).
+  // REQUIRES: after all nodes; ascending by (lo, hi), over all calls; lo below hi. With an embedding, `buckets` has
+  //           those of this batch.
   void add_arcs(std::span<const ArcKeys> arcs, const ArcBucketsView& buckets = {});
-  // The same, ends by the ranks of nodes.
+  // The same, with the ends given as ranks of nodes.
   void add_arcs(std::span<const FileArc> arcs, const ArcBucketsView& buckets = {});
 
   void finish();
-  // What was written, complete after finish().
+  // The header that was written; complete after finish().
   const FileHeader& header() const { return header_; }
-  // To temporary files.
+  // Bytes written to temporary files.
   std::uint64_t spilled_bytes() const { return components_.spilled_bytes() + (keys_ ? keys_->spilled_bytes() : 0); }
 
  private:
@@ -120,7 +120,7 @@ class GraphFileWriter {
   ComponentCount components_;
   std::uint64_t lo_rank_ = 0, buckets_ = 0;
   bool sealed_ = false;
-  Worker worker_;  // writes writing_; the last member, so that it ends first
+  Worker worker_;  // writes writing_; the last member, so that it is destroyed first
 };
 
 }  // namespace reeb::ooc

@@ -18,7 +18,7 @@ std::vector<ComputeResult> run_stages(RunContext& run, MeshInput input) {
   const Stopwatch watch;
   FirstStageResult first = run_first_stage(run, std::move(input));
   first.seconds.wall = watch.seconds();
-  give_back_freed_memory();
+  return_freed_memory();
   std::vector<ComputeResult> results;
   for (std::size_t f = 0; f < run.functions.size(); ++f) results.push_back(run_second_stage(run, first, f));
   run.resumable.done();

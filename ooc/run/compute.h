@@ -1,5 +1,4 @@
-// The central function: from a mesh to the files of its Reeb graphs, within a memory budget
-// (DESIGN.md 3, 4, 6).
+// The central function: from a mesh to the files of its Reeb graphs, within a memory budget.
 #pragma once
 
 #include <cstdint>
@@ -17,49 +16,47 @@
 
 namespace reeb::ooc {
 
-// A mesh in one of two forms. An indexed mesh is read twice. A reader is read once: as a stream if
-// it finalizes its vertices, else finalization is guessed, and the mesh is kept on disk meanwhile to be
-// run again if a guess was wrong. A stream of which too many vertices are live at once is read again, if
-// that is possible, and sorted on disk.
+// A mesh in one of two forms. An indexed mesh is read twice. A reader is read once: as a stream if it finalizes its
+// vertices; else finalization is guessed, and a copy of the mesh is kept on disk, from which it is run again if a guess
+// was wrong. If too many vertices of a stream are live at once, it is read again, if that is possible, and sorted on
+// disk.
 struct MeshInput {
   std::unique_ptr<IndexedMesh> indexed;
   std::unique_ptr<MeshReader> reader;
-  std::function<std::unique_ptr<MeshReader>()> read_again;  // from the first batch; or empty
+  std::function<std::unique_ptr<MeshReader>()> read_again;  // starts over at the first batch; or empty
   unsigned dimension = 3;
   std::string path;        // for the sidecar, checkpoints and messages; "-": none
-  bool may_resume = true;  // a later process reads the file at `path` in the same batches
+  bool may_resume = true;  // a later process can read the file at `path` in the same batches
 };
 
 struct ComputeOptions {
   std::uint64_t memory_bytes = MemoryBudget::kUnlimited;
   unsigned threads = 1;
   std::size_t chunk_triangles = 0;  // 0: adaptive
-  // With a chosen size of chunks: they are cut from stretches that grow up to so many triangles.
+  // With a chosen size of chunks: they are cut from stretches that grow up to this many triangles.
   std::size_t stretch_triangles = 0;
   std::string temp_dir;  // empty: $TMPDIR, or the folder of the first output
   bool graph_only = false;
   bool keep_sidecar = false;
-  bool may_reorder = true;        // an incoherent mesh, on disk
-  bool may_guess = true;          // what is complete, in a reader without finalization
-  std::uint32_t buckets = 64;     // the range of a function has so many, to twice as many; 0: no embedding
+  bool may_reorder = true;        // may sort an incoherent mesh on disk
+  bool may_guess = true;          // may guess complete vertices of a reader without finalization
+  std::uint32_t buckets = 64;     // K: K to 2K buckets span the range of a function; 0: no embedding
   double denoise = 0;             // remove noise below this persistence; 0: keep all
   bool denoise_is_share = false;  // `denoise` is a share of the function's range
   std::function<void(const ComputeProgress&)> progress = {};
-  // A run on a mesh that is a file keeps checkpoints in the folder OUT.partial, from which a later
-  // run with the same mesh, functions and first output can go on; the result is the same.
+  // A run on a mesh in a file keeps checkpoints in the folder OUT.partial. A later run with the same mesh, functions
+  // and first output can resume from them; the result is the same.
   bool resume = false;
-  double checkpoint_seconds = 2;           // between two of them, at least; 0: after every chunk
-  std::function<bool()> interrupted = {};  // asked often: is the run to end?
+  double checkpoint_seconds = 2;           // least time between checkpoints; 0: after every chunk
+  std::function<bool()> interrupted = {};  // called often: whether the run is to end
 };
 
-// Computes the graph of functions[i] and writes it to outputs[i]. All functions share one pass over the mesh
-// in which it is glued; a mesh whose last uses must be found first, or that is sorted first, is read
-// before that pass, too.
+// Computes the graph of functions[i] and writes it to outputs[i]. All functions share the pass over the mesh in which
+// it is glued. If last uses must be found or the mesh must be sorted first, the mesh is also read before that pass.
 //
-// THROWS: Error. No output is ever written in part, but some may be there: those of earlier functions; and
-//         the graph alone, if kResource says that a function's hierarchy or the end of its noise removal
-//         did not fit the memory. For kResource and kInterrupted the hint says whether a later run can
-//         resume this one.
+// THROWS: Error. No output is ever partly written, but some outputs may exist: those of earlier functions; and the
+//         graph alone, if kResource says that a function's hierarchy or the end of its noise removal did not fit in
+//         memory. For kResource and kInterrupted the hint says whether a later run can resume this one.
 std::vector<ComputeResult> compute(MeshInput input, std::span<VertexFunction* const> functions,
                                    std::span<const std::string> outputs, const ComputeOptions& options);
 

@@ -1,4 +1,4 @@
-// What a run tells: how far it is, and what it found.
+// The progress of a run, and its results.
 #pragma once
 
 #include <array>
@@ -20,7 +20,7 @@ struct ComputeProgress {
   std::uint64_t triangles = 0;        // so far
 };
 
-// The largest sizes of what was live at a chunk's end, over all functions.
+// The largest numbers of live vertices, edges and arcs at the end of a chunk, over all functions.
 struct LiveMaximum {
   std::uint64_t vertices = 0, edges = 0, arcs = 0;
 };
@@ -29,13 +29,13 @@ struct PhaseSeconds {
   double wall = 0, finalization = 0, reorder = 0, reeb = 0, hierarchy = 0;
 };
 
-// A pair as a person wants to see it.
+// A pair for people to read.
 struct Feature {
   PairType type;
   SweepKey lo, hi;
 };
 
-// What a run learned of one function.
+// The results of a run for one function.
 struct ComputeResult {
   std::string function, output;
   ValueRange range;  // of the function; min > max without vertices
@@ -46,13 +46,13 @@ struct ComputeResult {
   std::array<std::uint64_t, 4> pairs{};  // by PairType
   std::uint64_t kept_loops = 0, denoised_pairs = 0;
   bool reordered = false;
-  std::uint64_t guessed_vertices = 0;  // taken for complete while the mesh was read for the first time,
-  std::uint64_t revoked_guesses = 0;   // and of these used again: then the mesh was run from disk
-  std::vector<Feature> largest;        // the few of largest persistence, Ext0 left out, largest first
+  std::uint64_t guessed_vertices = 0;  // vertices guessed to be complete in the first reading of the mesh,
+  std::uint64_t revoked_guesses = 0;   // and how many of these guesses were wrong: then the mesh was run from disk
+  std::vector<Feature> largest;        // a few pairs of largest persistence, without Ext0, largest first
   std::uint64_t spilled_bytes = 0;
   LiveMaximum live;
   PhaseSeconds seconds;
-  std::vector<std::string> notes;  // one line each: what was odd but harmless
+  std::vector<std::string> notes;  // one line each about something odd but harmless
 };
 
 }  // namespace reeb::ooc

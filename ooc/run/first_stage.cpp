@@ -31,11 +31,11 @@ ChunkPlace place_of(const Checkpoint* start) { return start != nullptr ? start->
 
 // ---- from chunks to the stores
 
-// `here` is what a checkpoint says besides its place.
+// `here` is the content of a checkpoint apart from its place.
 FirstStageResult glue_chunks(RunContext& run, ChunkSource& stretches, const MemoryPlan& plan, Checkpoint here,
                              FirstStageResult result) {
   const Stopwatch watch;
-  const std::size_t whole = plan.chunk.first + plan.chunk.first / 4;  // the last batch of a stream goes beyond
+  const std::size_t whole = plan.chunk.first + plan.chunk.first / 4;  // the last batch of a stream can exceed it
   DividedChunks source(stretches, whole, plan.chunk.patch, run.budget);
   std::vector<GraphSink*> sinks;
   for (const auto& store : run.stores) sinks.push_back(store.get());
@@ -69,7 +69,7 @@ struct StreamRun {
   bool gave_up = false;  // too many vertices are live at once
 };
 
-// As it comes. It gives up only if the stream can be read again; then nothing is in the stores.
+// Glues the stream as it comes. It gives up only if the stream can be read again; then the stores are empty.
 StreamRun run_stream(RunContext& run, const MeshInput& input, const Checkpoint* start, FirstStageResult result) {
   std::optional<std::uint64_t> most_active_vertices;
   if (run.options.may_reorder && input.read_again && start == nullptr)
@@ -88,7 +88,7 @@ StreamRun run_stream(RunContext& run, const MeshInput& input, const Checkpoint* 
 
 // ---- a mesh that is read once, and kept on disk for what cannot be done meanwhile
 
-// Empty if none is used: its blocks are too large for small chunks.
+// Empty if no sidecar is used. With a chosen chunk size none is: its blocks can be too large for small chunks.
 std::string sidecar_path(const RunContext& run, const MeshInput& input) {
   const bool has_file = !input.path.empty() && input.path != "-" && run.options.chunk_triangles == 0;
   return has_file ? input.path + ".final" : "";
@@ -111,7 +111,7 @@ struct SpooledRun {
   std::unique_ptr<SpooledMesh> mesh = {};
 };
 
-// Glues chunks while the mesh is spooled. Where guesses did not hold nothing is in the stores.
+// Glues chunks while the mesh is spooled. If guesses do not hold, the stores are empty afterwards.
 SpooledRun run_guessing(RunContext& run, Spooler& spooler, const Checkpoint* start, FirstStageResult result) {
   const ChunkSize chunk = start != nullptr ? start->chunk : run.plan.chunk;
   GuessedChunks source(
@@ -132,7 +132,7 @@ SpooledRun run_guessing(RunContext& run, Spooler& spooler, const Checkpoint* sta
   return {std::move(result), true};
 }
 
-// In one pass if guesses hold; else the mesh is to be run from disk.
+// Runs in one pass if guesses hold; else the mesh is to be run from disk.
 SpooledRun run_spooled(RunContext& run, const MeshInput& input, const Checkpoint* start, FirstStageResult result) {
   Spooler spooler(*input.reader, run.temp, run.budget, run.plan.table_bytes);
   SpooledRun spooled{std::move(result)};
@@ -149,7 +149,7 @@ SpooledRun run_spooled(RunContext& run, const MeshInput& input, const Checkpoint
 
 // ---- an indexed mesh, with its last uses known
 
-// For looking up vertices some functions keep all their values.
+// Some functions keep all their values, to look up vertices.
 std::uint64_t value_bytes(const RunContext& run, std::uint64_t vertices) {
   std::uint64_t bytes = 0;
   for (const VertexFunction* function : run.functions) bytes += function->lookup_bytes(vertices);
@@ -166,8 +166,8 @@ FrontNeeds needs(const RunContext& run, const UseSummary& summary) {
   return {summary.vertex_count, summary.max_live_vertices, value_bytes(run, summary.vertex_count)};
 }
 
-// Whether to glue the mesh as it comes. A front that does not fit is sorted if it can be expected to
-// come out smaller.
+// Whether to glue the mesh in its own order. If its front does not fit, the mesh is sorted if that can be expected to
+// make the front smaller.
 bool is_coherent(const RunContext& run, const UseSummary& summary) {
   constexpr double kSortedFront = 2;  // of a sorted mesh, in square roots of its vertices
   const auto sorted = static_cast<std::uint64_t>(kSortedFront * std::sqrt(static_cast<double>(summary.vertex_count)));
@@ -177,8 +177,8 @@ bool is_coherent(const RunContext& run, const UseSummary& summary) {
   return summary.max_live_vertices <= usual_front(summary.vertex_count, plan.chunk.most);
 }
 
-// The plan now that the front is known: chunks get what the live graphs leave.
-// THROWS: Error{kResource} if these cannot fit.
+// The plan with a known front: chunks get what the live graphs leave.
+// THROWS: Error{kResource} if the live graphs cannot fit.
 MemoryPlan plan_for(const RunContext& run, const UseSummary& summary) {
   MemoryPlan plan = run.plan;
   const FrontNeeds front = needs(run, summary);
@@ -186,7 +186,7 @@ MemoryPlan plan_for(const RunContext& run, const UseSummary& summary) {
     const std::string megabytes = std::to_string((plan.needed_bytes(front) >> 20) + 1) + "M";
     throw Error(ErrorKind::kResource,
                 std::to_string(front.live_vertices) + " vertices are live at once, and their graph will not fit " +
-                    format_bytes(plan.set_aside_bytes + plan.account_bytes) + " of memory",
+                    format_bytes(plan.set_aside_bytes + plan.budget_bytes) + " of memory",
                 "allow --memory " + megabytes +
                     (run.options.may_reorder ? "" : ", or let the triangles be sorted (without --no-reorder)"));
   }
@@ -194,7 +194,7 @@ MemoryPlan plan_for(const RunContext& run, const UseSummary& summary) {
   return plan;
 }
 
-// Nothing if it may give up, and the mesh turns out to be so incoherent that it will be reordered anyway.
+// Returns nothing if it may give up and the mesh is so incoherent that it will be sorted anyway.
 std::optional<LastUse> scan(RunContext& run, IndexedMesh& mesh, const Checkpoint* start, bool may_give_up) {
   LastUseOptions options;
   options.allowance_bytes = run.plan.table_bytes;
@@ -216,7 +216,7 @@ bool can_start(const Checkpoint* start, const UseSummary& summary) {
   return triangles == summary.triangle_count || triangles % summary.block_triangles == 0;
 }
 
-// From the sidecar if there is one that fits, else as scan().
+// Takes the last uses from the sidecar if there is one that fits, else from scan().
 std::optional<LastUse> find_last_uses(RunContext& run, const MeshInput& input, IndexedMesh& mesh,
                                       const Checkpoint* start, std::vector<std::string>& notes) {
   const bool may_give_up = run.options.may_reorder && start == nullptr;
@@ -232,14 +232,14 @@ std::optional<LastUse> find_last_uses(RunContext& run, const MeshInput& input, I
 }
 
 std::unique_ptr<ReorderedMesh> sort_on_disk(RunContext& run, IndexedMesh& mesh, unsigned dimension) {
-  constexpr std::uint64_t kMostSortBytes = 64u << 20;
+  constexpr std::uint64_t kSortBytesLimit = 64u << 20;
   run.tell({Phase::kReorder});
   return reorder(mesh, run.temp, run.budget,
-                 {.allowance_bytes = std::min<std::uint64_t>(run.budget.free_bytes() / 2, kMostSortBytes),
+                 {.allowance_bytes = std::min<std::uint64_t>(run.budget.free_bytes() / 2, kSortBytesLimit),
                   .coordinates = std::min(dimension, 3u)});
 }
 
-// `mesh` is that of the input, or was spooled from it.
+// `mesh` is the mesh of the input, or was spooled from it.
 FirstStageResult run_indexed(RunContext& run, const MeshInput& input, std::unique_ptr<IndexedMesh> mesh,
                              const Checkpoint* start, FirstStageResult result) {
   const Reservation values = prepare_values(run, mesh->vertex_count());
@@ -279,8 +279,8 @@ FirstStageResult run_indexed(RunContext& run, const MeshInput& input, std::uniqu
 
 }  // namespace
 
-// An indexed mesh can be looked up. A stream is glued as it comes, unless that takes too much memory. Any
-// other mesh is spooled, and while it is, guesses may do; else it is an indexed mesh then.
+// An indexed mesh can be looked up. A stream is glued as it comes, unless that takes too much memory. Any other mesh is
+// spooled. Guesses can suffice to glue it meanwhile; if not, it is then run as an indexed mesh.
 FirstStageResult run_first_stage(RunContext& run, MeshInput input) {
   for (const std::string& output : run.outputs) io::remove_abandoned(output);
   FirstStageResult result;

@@ -11,7 +11,7 @@
 
 namespace reeb::ooc {
 
-// What all functions of the run share in their results, and how many pairs were removed for each.
+// The results that all functions of the run share, and how many pairs were removed for each.
 struct FirstStageResult {
   std::uint64_t vertices = 0, unused_vertices = 0;
   std::uint64_t triangles = 0, degenerate_triangles = 0;
@@ -24,8 +24,8 @@ struct FirstStageResult {
   std::vector<std::string> notes;
 };
 
-// Fills the stores of the run, and the ranges of its values.
-// THROWS: Error, of the input, the budget, the disk, or as interrupted.
+// Fills the stores of the run and the ranges of its values.
+// THROWS: Error, of the input, the budget or the disk, or because the run was interrupted.
 FirstStageResult run_first_stage(RunContext& run, MeshInput input);
 
 }  // namespace reeb::ooc

@@ -1,4 +1,4 @@
-// Between two stages.
+// Returns freed memory to the system between two stages.
 #pragma once
 
 #include <cstdlib>  // says which library it is
@@ -9,9 +9,8 @@
 
 namespace reeb::ooc {
 
-// What a stage has freed lies in small pieces. The next one, with pieces of other sizes, would be piled on top
-// of them.
-inline void give_back_freed_memory() {
+// A stage frees many small blocks. The next stage needs blocks of other sizes, which would take new memory in addition.
+inline void return_freed_memory() {
 #ifdef __GLIBC__
   malloc_trim(0);
 #endif

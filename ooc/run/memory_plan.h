@@ -1,4 +1,4 @@
-// How a run divides its memory budget among those who hold much (DESIGN.md 4, The budget).
+// How a run divides its memory budget among its large data structures (docs/ARCHITECTURE.md).
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,7 @@
 
 namespace reeb::ooc {
 
-// What a run asks of its memory.
+// What the memory of a run depends on.
 struct MemoryRequest {
   std::uint64_t limit_bytes = 0;  // for the whole process; kUnlimited: half of this machine's memory
   unsigned threads = 1;
@@ -19,33 +19,33 @@ struct MemoryRequest {
   bool denoises = false;
 };
 
-// What is known of a mesh before it is glued.
+// What is known about a mesh before it is glued.
 struct FrontNeeds {
   std::uint64_t vertices = 0;        // in all
   std::uint64_t live_vertices = 0;   // at once, at most
-  std::uint64_t function_bytes = 0;  // that functions keep for looking up
+  std::uint64_t function_bytes = 0;  // of values that functions keep for looking up
 };
 
 class MemoryPlan {
  public:
-  std::uint64_t account_bytes = 0;       // what reservations may add up to
-  std::uint64_t set_aside_bytes = 0;     // what the process needs besides
-  std::uint64_t table_bytes = 0;         // last uses; as much again for a spooled mesh
-  std::uint64_t segment_bytes = 0;       // settled arcs and nodes, a function
-  std::uint64_t most_segment_bytes = 0;  // the same where they are many
+  std::uint64_t budget_bytes = 0;        // the most that reservations may add up to
+  std::uint64_t set_aside_bytes = 0;     // what the process needs in addition
+  std::uint64_t table_bytes = 0;         // for last uses; the same again for a spooled mesh
+  std::uint64_t segment_bytes = 0;       // per function, for settled arcs and nodes
+  std::uint64_t most_segment_bytes = 0;  // the same where there are many
   unsigned threads = 1;
   ChunkSize chunk;
 
-  // Whether the live graphs will likely fit beside chunks of a useful size.
+  // Whether the live graphs will likely fit together with chunks of a useful size.
   bool fits(const FrontNeeds& needs) const;
   // Whether they would not fit even if the functions were smooth.
   bool exceeds(const FrontNeeds& needs) const;
-  // The largest front of a mesh of which nothing is known that will likely fit.
+  // The largest front that will likely fit, for a mesh of which nothing is known.
   std::uint64_t most_live_vertices() const;
-  // A limit for the whole process within which they fit.
+  // A memory limit for the whole process with which they fit.
   std::uint64_t needed_bytes(const FrontNeeds& needs) const;
-  // Gives chunks what the live graphs leave. Depends on nothing but the request and the needs, so
-  // that a run that goes on cuts the same chunks.
+  // Gives chunks the memory that the live graphs leave. The result depends on the request and the needs only, so a
+  // resumed run cuts the same chunks.
   void share_out(const FrontNeeds& needs);
 
  private:
@@ -57,12 +57,12 @@ class MemoryPlan {
   void size_chunks(std::uint64_t bytes, std::size_t most_triangles);
 
   MemoryRequest request_;
-  std::uint64_t vertex_bytes_ = 0;        // of the live graphs, likely, a live vertex
+  std::uint64_t vertex_bytes_ = 0;        // of the live graphs, likely, per live vertex
   std::uint64_t least_vertex_bytes_ = 0;  // the same for smooth functions
 };
 
-// What the process needs for itself (code, stacks, windows of mapped input) is set aside first.
-// THROWS: Error{kResource} if too little is left to do anything.
+// First sets aside what the process itself needs (code, stacks, windows of mapped input).
+// THROWS: Error{kResource} if too little is left to work with.
 MemoryPlan plan_memory(const MemoryRequest& request);
 
 }  // namespace reeb::ooc

@@ -21,14 +21,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// In every folder that a run has made.
+// The mark: a file in every folder that a run has created.
 constexpr const char* kMark = "reeb-partial";
 
 bool is_number(std::string_view text) {
   return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos;
 }
 
-// Whether a run gives its files such a name: checkpoint, checkpoint.partial-PID-N, function-N.nodes, function-N.arcs.
+// Whether runs give their files such a name: checkpoint, checkpoint.partial-PID-N, function-N.nodes, function-N.arcs.
 bool is_name_of_a_run(std::string_view name) {
   const auto take = [&name](std::string_view start) {
     if (!name.starts_with(start)) return false;
@@ -49,7 +49,7 @@ bool is_name_of_a_run(std::string_view name) {
 
 bool exists(const std::string& path) { return ::access(path.c_str(), F_OK) == 0; }
 
-// Whether `descriptor` is what has the name now.
+// Whether the path still names the file that is open as `descriptor`.
 bool is_named(int descriptor, const std::string& path) {
   struct stat opened {
   }, named{};
@@ -60,7 +60,7 @@ bool is_named(int descriptor, const std::string& path) {
 }  // namespace
 
 PartialFolder::PartialFolder(const std::string& output) : path_(path_for(output)) {
-  // Again if the run that had the folder removed it just before it was locked.
+  // Try again if the run that owned the folder removed it just before it was locked.
   do {
     if (folder_ >= 0) ::close(folder_);
     open();
@@ -83,7 +83,7 @@ void PartialFolder::open() {
   folder_ = io::system::open(path_, O_RDONLY | O_DIRECTORY | O_NOFOLLOW);
   if (folder_ < 0) fail("cannot be opened", elsewhere);
   if (::access(path_.c_str(), W_OK | X_OK) != 0) fail("cannot be written", elsewhere);
-  // A file system without locks is no reason not to work on it.
+  // A file system without locks must not prevent a run.
   if (::flock(folder_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
     ::close(folder_);
     throw Error(ErrorKind::kResource, "another run is writing this output",
@@ -92,7 +92,8 @@ void PartialFolder::open() {
   }
 }
 
-// The folder is ours if it has the mark. One that is empty gets it: the run that made the folder may have ended before.
+// The folder is ours if it has the mark. An empty folder gets the mark: the run that created it could have ended before
+// it set the mark.
 void PartialFolder::claim() {
   struct stat folder {
   }, mark{};
@@ -121,7 +122,7 @@ PartialFolder::~PartialFolder() {
   ::close(folder_);
 }
 
-// If not, files of other origin keep the folder, and its mark for the next run.
+// If not, files of another origin keep the folder, with its mark for the next run.
 bool PartialFolder::has_only_the_mark() const noexcept try {
   const auto left = entries();
   return left.size() == 1 && left[0] == kMark;
@@ -142,7 +143,7 @@ void PartialFolder::clear() noexcept try {
   if (::unlinkat(folder_, "checkpoint", 0) == 0) io::system::sync(folder_);
   for (const std::string& name : entries())
     if (is_name_of_a_run(name)) ::unlinkat(folder_, name.c_str(), 0);
-} catch (const std::bad_alloc&) {  // the next run clears up
+} catch (const std::bad_alloc&) {  // the next run removes the rest
 }
 
 std::vector<std::string> PartialFolder::entries() const {

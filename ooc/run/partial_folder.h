@@ -1,5 +1,5 @@
-// OUT.partial/: what a run on its way to OUT keeps for a later process to go on with
-// (docs/FORMAT.md, The partial folder).
+// OUT.partial/: the files from which a later process can resume the run that writes OUT (docs/FORMAT.md, The partial
+// folder).
 #pragma once
 
 #include <string>
@@ -7,19 +7,18 @@
 
 namespace reeb::ooc {
 
-// The folder beside `output`. It holds the checkpoint and the files that the checkpoint names, and
-// belongs to one process at a time.
-// Only this user may look into it. A mark says that a run has made it: a folder without the mark that is not empty, one
-// of another user, or a symbolic link is refused and left as it is.
+// The folder next to `output`. It holds the checkpoint and the files that the checkpoint names, and belongs to one
+// process at a time. Only this user has access to it. A mark shows that a run has created it. A folder that is not
+// empty and has no mark, a folder of another user, and a symbolic link are refused and left unchanged.
 //
 // THROWS: Error{kResource} if the folder is refused, cannot be written, or another process is at work in it.
 class PartialFolder {
  public:
-  // Makes the folder if there is none.
+  // Creates the folder if there is none.
   explicit PartialFolder(const std::string& output);
   PartialFolder(const PartialFolder&) = delete;
   PartialFolder& operator=(const PartialFolder&) = delete;
-  // The folder stays if there is a checkpoint in it.
+  // Keeps the folder if there is a checkpoint in it.
   ~PartialFolder();
 
   static std::string path_for(const std::string& output) { return output + ".partial"; }
@@ -31,11 +30,11 @@ class PartialFolder {
   std::string checkpoint() const { return file("checkpoint"); }
   bool has_checkpoint() const;
 
-  // To be called before the first checkpoint: the folder's own name reaches the device.
+  // Call this before the first checkpoint: it makes the folder's own name reach the device.
   void sync_name();
 
-  // Removes the checkpoint and then, once that is durable, the other files that have a name as runs give it. What else
-  // is in the folder stays.
+  // Removes the checkpoint and then, once that is durable, the other files with names that runs use. Anything else in
+  // the folder stays.
   void clear() noexcept;
 
  private:

@@ -23,7 +23,7 @@ struct Sweeper {
   Reservation reservation;
 };
 
-// As many as sweep at a time.
+// The sweepers. There is one for each chunk that is swept at the same time.
 class Sweepers {
  public:
   explicit Sweepers(MemoryBudget& budget) : budget_(budget) {}
@@ -49,7 +49,7 @@ class Sweepers {
 struct Slot {
   explicit Slot(MemoryBudget& budget) : reservation(budget.reserve("chunks in flight", 0)) {}
   WorkItem item;
-  SourceProgress progress;  // taken by the reader, which may be further on when the chunk is glued
+  SourceProgress progress;  // from the reader, which can be further when the chunk is glued
   Reservation reservation;
 };
 
@@ -122,7 +122,7 @@ class Pipeline {
     maximum_.edges = std::max(maximum_.edges, now.edges);
     maximum_.arcs = std::max(maximum_.arcs, now.arcs);
     if (options_.progress) options_.progress(slot.progress);
-    if (options_.between_chunks && slot.item.ends_stretch)
+    if (options_.between_chunks && slot.item.can_resume_after)
       options_.between_chunks(slot.item.end, [this](StateWriter& out) { save(out); });
   }
 
@@ -151,7 +151,7 @@ class Pipeline {
                              tbb::make_filter<void, Slot*>(tbb::filter_mode::serial_in_order,
                                                            [&](tbb::flow_control& control_flow) -> Slot* {
                                                              Slot* slot = nullptr;
-                                                             free_slots.try_pop(slot);  // as many as tokens
+                                                             free_slots.try_pop(slot);  // there are as many as tokens
                                                              const PipelineOrder::Filter filter(order, slot, &source_);
                                                              if (read(*slot)) return slot;
                                                              control_flow.stop();

@@ -1,7 +1,7 @@
-// The first stage in parallel: read -> sweep -> glue in order -> hand over (DESIGN.md 3).
+// The first stage in parallel: read -> sweep -> glue in order -> write out.
 //
-// Chunks are swept by several threads and glued in stream order by one at a time. A fixed number
-// of chunks is in flight, so the queue cannot become the memory use.
+// Several threads sweep chunks; one at a time glues them in stream order. The number of chunks in flight is fixed, so
+// the queue cannot grow.
 #pragma once
 
 #include <atomic>
@@ -20,27 +20,27 @@
 
 namespace reeb::ooc {
 
-// Writes what the pipeline needs to go on from between two chunks.
+// Writes the state that the pipeline needs to resume between two chunks.
 using SaveEngine = std::function<void(StateWriter&)>;
 
-// What to do with a chunk, from a function's number and the range of its values up to and with the
-// chunk. Called by several threads.
+// Chooses how to sweep a chunk, from the number of a function and the range of its values up to the end of the chunk.
+// Several threads call it.
 using ChooseSweep = std::function<SweepOptions(std::size_t function, const FunctionRange& range)>;
 
-// How far the source was when it had read a chunk.
+// How much the source had read after it read a chunk.
 struct SourceProgress {
   std::uint64_t bytes_read = 0, bytes_total = 0, triangles_read = 0;
 };
 
 struct PipelineOptions {
   unsigned threads = 1;
-  ChooseSweep choose_sweep = {};  // empty: nothing but the graph
-  // Called in order after each chunk was glued; may throw to stop the run.
+  ChooseSweep choose_sweep = {};  // empty: the graph alone
+  // Called in order after each chunk was glued. May throw to stop the run.
   std::function<void(const SourceProgress&)> progress = {};
-  // Called after that where the run can go on: the place behind the chunk, and how to save what was
-  // glued up to there.
+  // Called after that if the run can be resumed after this chunk: with the place after the chunk, and a function that
+  // saves what was glued up to there.
   std::function<void(const ChunkPlace&, const SaveEngine&)> between_chunks = {};
-  // What an earlier process saved; the source starts at that place.
+  // The state that an earlier process saved; the source starts at its place.
   StateReader* saved_engine = nullptr;
 };
 
@@ -49,9 +49,8 @@ struct PipelineResult {
   std::vector<std::uint64_t> removed_pairs;  // as noise, by function
 };
 
-// Runs all chunks of `source`; the graph of function i goes to sinks[i], called in stream order
-// by one thread at a time. The graph does not depend on threads or chunks, and an embedding or what
-// was removed as noise not on threads.
+// Runs all chunks of `source`. The graph of function i goes to sinks[i], which one thread at a time calls in stream
+// order. The graph does not depend on threads or chunks. The embedding and the noise removed do not depend on threads.
 // THROWS: what the source and the sinks throw; DamagedState of saved_engine; Error{kResource} when the budget is too
 // small.
 PipelineResult run_pipeline(ChunkSource& source, std::span<GraphSink* const> sinks, MemoryBudget& budget,

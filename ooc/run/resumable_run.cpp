@@ -7,8 +7,8 @@
 namespace reeb::ooc {
 namespace {
 
-// A checkpoint may take this share of the time since the last one.
-constexpr double kMostShare = 0.01;
+// The share of the time since the last checkpoint that writing one may take.
+constexpr double kTimeShare = 0.01;
 
 }  // namespace
 
@@ -88,14 +88,14 @@ void ResumableRun::between_chunks(const Checkpoint& here, const Save& save) {
 bool ResumableRun::is_due() const {
   if (options_.seconds == 0) return true;
   const double since = std::chrono::duration<double>(Clock::now() - last_).count();
-  return since >= std::max(options_.seconds, cost_seconds_ / kMostShare);
+  return since >= std::max(options_.seconds, cost_seconds_ / kTimeShare);
 }
 
 Error ResumableRun::explain(const Error& error) {
   if (!folder_) return error;
-  if (error.kind() == ErrorKind::kBadInput) folder_->clear();  // the same again would meet the same
+  if (error.kind() == ErrorKind::kBadInput) folder_->clear();  // running again would fail in the same way
   std::string hint = error.hint();
-  // What grows in the folder is not in the temporary folder.
+  // The files that grow in this folder are not in the temporary folder.
   if (error.file().starts_with(folder_->path())) hint = "make room in this folder, or choose another output with -o";
   if (folder_->has_checkpoint()) {
     const std::string go_on = "the same command with --resume continues the run";

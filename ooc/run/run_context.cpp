@@ -34,7 +34,7 @@ RunContext::RunContext(const MeshInput& input, std::span<VertexFunction* const> 
       outputs(run_outputs),
       options(run_options),
       plan(plan_memory(memory_request(input, functions.size(), options))),
-      budget(plan.account_bytes, plan.set_aside_bytes),
+      budget(plan.budget_bytes, plan.set_aside_bytes),
       temp(options.temp_dir.empty() ? io::TempDir::default_folder(outputs[0]) : options.temp_dir),
       values(functions, input.dimension),
       resumable(outputs[0], readable_again(input), functions,

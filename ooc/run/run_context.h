@@ -19,26 +19,26 @@
 
 namespace reeb::ooc {
 
-// What a sweep does if a function's values were in this range so far. The range only grows: what is noise
-// below a share of it, stays noise. REQUIRES: there was a value, or min = max = 0.
+// The options of a sweep if a function's values were in this range so far. The range only grows, so noise below a share
+// of it stays noise. REQUIRES: there was a value, or min = max = 0.
 SweepOptions sweep_options(const ComputeOptions& options, const FunctionRange& range);
 
-// The first stage fills the stores and the ranges of the values; the second reads both. The rest stays as
-// it was made.
+// The first stage fills the stores and the ranges of the values; the second reads both. Everything else does not
+// change.
 struct RunContext {
-  // All but `input`, of which nothing is kept, must outlive this.
-  // THROWS: Error{kResource} if the budget is too small, or of a folder; Error{kBadInput} if a file
-  //         cannot be opened.
+  // Everything except `input` must outlive this.
+  // THROWS: Error{kResource} if the budget is too small or a folder cannot be used; Error{kBadInput} if a file cannot
+  //         be opened.
   RunContext(const MeshInput& input, std::span<VertexFunction* const> functions, std::span<const std::string> outputs,
              const ComputeOptions& options);
 
   // Goes back to the start of the run: nothing was stored, and no value was seen.
   void start_over();
-  // What an earlier process saved of the stores. If that is damaged, they are empty.
+  // Restores what an earlier process saved of the stores. If that is damaged, the stores are empty.
   void restore_stores(StateReader& in);
 
-  // THROWS: Error{kInterrupted} if the run is to end. While chunks are glued that is asked between two of
-  // them instead, where the run can be saved.
+  // THROWS: Error{kInterrupted} if the run is to end. While chunks are glued, interruption is checked between two
+  //         chunks instead, where the run can be saved.
   void tell(const ComputeProgress& progress) const;
 
   bool embeds() const { return options.buckets != 0; }
@@ -47,7 +47,7 @@ struct RunContext {
   const std::span<VertexFunction* const> functions;
   const std::span<const std::string> outputs;
   const ComputeOptions& options;
-  const MemoryPlan plan;  // as long as the front is not known
+  const MemoryPlan plan;  // the plan while the front is not known
   MemoryBudget budget;
   const io::TempDir temp;
   FunctionValues values;

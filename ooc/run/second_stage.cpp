@@ -18,7 +18,7 @@
 namespace reeb::ooc {
 namespace {
 
-// A finished store, and what is to be written of it.
+// A finished store and how to write it.
 struct StoredGraph {
   std::unique_ptr<SegmentStore> store;
   std::string output;
@@ -33,10 +33,10 @@ struct WrittenGraph {
   std::uint64_t spilled_bytes = 0;
 };
 
-// As it was stored, in memory that need not grow with it. Where memory is free, 4 bytes a node, and 4 bytes a
-// vertex if there is much to look up.
+// Writes the graph as it was stored; the memory need not grow with the graph. If there is memory to spare, it uses 4
+// bytes per node, and 4 bytes per vertex if there are many look-ups.
 WrittenGraph write_graph(RunContext& run, const StoredGraph& graph, const FileMeta& meta) {
-  constexpr std::size_t kNodes = 16384, kBytesAnArc = 1000, kManyVerticesANode = 16;
+  constexpr std::size_t kNodesAtOnce = 16384, kBytesPerArc = 1000, kVerticesPerNodeForTable = 16;
   SegmentStore& store = *graph.store;
   GraphFileWriter::Options writing{.nodes = store.node_count(),
                                    .has_embedding = run.embeds(),
@@ -46,31 +46,32 @@ WrittenGraph write_graph(RunContext& run, const StoredGraph& graph, const FileMe
                                    .budget = &run.budget};
   const std::uint64_t table_bytes = meta.mesh_vertices * sizeof(std::uint32_t);
   Reservation table;
-  if (meta.mesh_vertices / kManyVerticesANode <= store.node_count() && table_bytes <= run.budget.free_bytes() / 4) {
+  if (meta.mesh_vertices / kVerticesPerNodeForTable <= store.node_count() &&
+      table_bytes <= run.budget.free_bytes() / 4) {
     table = run.budget.reserve("ranks of nodes", table_bytes);
     writing.ends = GraphFileWriter::ArcEnds::kKeysInMemory;
   }
   GraphFileWriter writer(graph.output, meta, writing);
-  // Large pieces are for the lookup in a file.
-  const std::size_t piece_arcs =
-      table.bytes() != 0 ? 8192 : std::clamp<std::size_t>(run.budget.free_bytes() / kBytesAnArc, 4096, 65536);
+  // Only the look-up in a file gains from large batches.
+  const std::size_t batch_arcs =
+      table.bytes() != 0 ? 8192 : std::clamp<std::size_t>(run.budget.free_bytes() / kBytesPerArc, 4096, 65536);
   store.rewind_nodes();
   read_ahead<std::vector<SettledNode>>(
-      writing.background, [&](auto& nodes) { return store.read_nodes(nodes, kNodes); },
+      writing.background, [&](auto& nodes) { return store.read_nodes(nodes, kNodesAtOnce); },
       [&](const auto& nodes) { writer.add_nodes(nodes); });
   store.rewind_arcs();
   read_ahead<ArcPiece>(
       writing.background,
-      [&](ArcPiece& piece) { return store.read_arcs(piece, piece_arcs, graph.sweep.bucket_exponent); },
+      [&](ArcPiece& piece) { return store.read_arcs(piece, batch_arcs, graph.sweep.bucket_exponent); },
       [&](const ArcPiece& piece) { writer.add_arcs(piece.arcs, piece.buckets.view()); });
   writer.finish();
   return {{writer.header().components, writer.header().loops}, writer.spilled_bytes()};
 }
 
-// For when the graph was written, but no more.
+// The error for a graph that was written although its next step did not fit.
 Error no_memory_for(const RunContext& run, const std::string& what, const std::string& output, std::uint64_t arcs,
                     std::uint64_t needed, const std::string& otherwise) {
-  // Reading what is stored takes up to a quarter of the account.
+  // Reading what is stored takes up to a quarter of the budget.
   const std::uint64_t enough = run.plan.set_aside_bytes + (run.budget.used_bytes() + needed) / 3 * 4;
   Error error(ErrorKind::kResource,
               what + " of " + std::to_string(arcs) + " arcs needs up to " + format_bytes(needed) +
@@ -87,8 +88,8 @@ struct LastNoise {
   std::uint64_t removed_pairs = 0, spilled_bytes = 0;
 };
 
-// What was left of the noise on the way goes here. Where memory does not suffice, the graph is kept as
-// it is and the user is told.
+// Removes the noise that the first stage left. If memory does not suffice, the graph stays as it is and the user is
+// told.
 LastNoise remove_last_noise(RunContext& run, StoredGraph& graph) {
   SegmentStore& store = *graph.store;
   LastNoisePass pass = run_last_noise_pass(store, {.threshold = graph.sweep.noise_below,
@@ -104,8 +105,7 @@ LastNoise remove_last_noise(RunContext& run, StoredGraph& graph) {
   if (!pass.change) return {pass.removed_pairs};
   const std::uint64_t change_bytes = pass.change->memory.bytes(), changed_arcs = pass.change->arcs.records.size();
   store.apply(std::move(*pass.change));
-  // A change of more than this share of the graph, or of memory, takes more memory than reading the graph
-  // that it leaves.
+  // A change of more than this share of the graph, or of memory, takes more memory than reading the changed graph.
   constexpr std::uint64_t kSmallShare = 8;
   const bool is_small =
       kSmallShare * changed_arcs <= store.arc_count() && kSmallShare * change_bytes <= run.budget.free_bytes();
@@ -141,11 +141,11 @@ std::vector<Feature> largest_features(const ReebGraph& graph, const std::vector<
 
 struct GraphInMemory {
   LoadedGraph loaded;
-  std::uint64_t more_bytes = 0;  // that pairing and cancelling take besides
+  std::uint64_t more_bytes = 0;  // that pairing and cancelling take in addition
 };
 
-// Pairing and cancelling hold the graph in memory, though not what they make of it. Where that does not
-// fit, the graph is kept and the user is told, before the work starts.
+// Pairing and cancelling hold the graph in memory, but not their results. If the graph does not fit, it is written as
+// it is and the user is told, before the work starts.
 GraphInMemory load_for_hierarchy(RunContext& run, const StoredGraph& graph) {
   SegmentStore& store = *graph.store;
   const std::uint64_t nodes = store.node_count(), arcs = store.arc_count();
@@ -193,7 +193,7 @@ WrittenHierarchy write_hierarchy(RunContext& run, StoredGraph stored) {
 
 // ---- all of it
 
-// What the first stage knows of a function.
+// The results of the first stage for a function.
 ComputeResult result_of(const RunContext& run, const FirstStageResult& first, std::size_t function) {
   ComputeResult result;
   result.function = run.functions[function]->name();
@@ -245,7 +245,7 @@ ComputeResult run_second_stage(RunContext& run, const FirstStageResult& first, s
     result.spilled_bytes += noise.spilled_bytes;
     result.denoised_pairs += noise.removed_pairs;
     graph.meta.denoised_pairs = result.denoised_pairs;
-    give_back_freed_memory();
+    return_freed_memory();
   }
   result.nodes = graph.store->node_count();
   result.arcs = graph.store->arc_count();

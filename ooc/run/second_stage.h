@@ -9,9 +9,9 @@
 
 namespace reeb::ooc {
 
-// Takes the store of this function, and writes its output.
-// THROWS: Error. If noise removal or the hierarchy does not fit the memory, that is known before the work
-//         starts: then the output is the graph alone, and the error says so.
+// Takes the store of this function and writes its output.
+// THROWS: Error. Whether noise removal and the hierarchy fit in memory is known before their work starts. If they do
+//         not, the output is the graph alone, and the error says so.
 ComputeResult run_second_stage(RunContext& run, const FirstStageResult& first, std::size_t function);
 
 }  // namespace reeb::ooc

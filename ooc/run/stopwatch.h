@@ -5,7 +5,7 @@
 
 namespace reeb::ooc {
 
-// Runs from when it is made.
+// Starts when it is constructed.
 class Stopwatch {
  public:
   double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }

@@ -29,21 +29,21 @@ namespace reeb::ooc {
 
 struct SortOptions {
   std::uint64_t allowance_bytes = 16 << 20;  // of the budget
-  std::uint64_t most_bytes = 0;              // if more: the allowance grows up to this as the file does
+  std::uint64_t most_bytes = 0;              // if larger: the allowance grows with the file, up to this
   bool parallel = false;                     // sort each run with all threads
-  bool background = false;                   // sort and write runs in a kept thread, with half the buffer
-  std::string file = {};                     // for the runs, if another process may have to go on; else unnamed
+  bool background = false;                   // sort and write runs in a separate thread, with half the buffer
+  std::string file = {};                     // of the runs, so that another process can resume; empty: unnamed
 };
 
-// add() any number of records, finish(), then read() them in order, as often as rewind() says.
-// While all fit in the allowance no file is made. Records that carry payloads come out in the order
-// in which they went in where Less finds them equal.
+// add() any number of records, finish(), then read() them in order; rewind() starts over. While all records fit in the
+// allowance, no file is made. Records with payloads that Less finds equal come out in the order in which they were
+// added.
 //
-// THROWS: Error{kResource} of the budget or the disk; what fails in the background is thrown by
-//         the next call and by all after it, since records are lost.
-// MEMORY: the allowance, all of it reserved as it is needed, and a few blocks of 64 KiB. A payload
-//         that is larger than the allowance gets what it needs. An allowance that grows is a sixteenth of
-//         the bytes on disk, so that of a large file the runs are not so many: merging holds a block of each.
+// THROWS: Error{kResource} of the budget or the disk. An error in the background is thrown by the next call and by
+//         every later one, since records are lost.
+// MEMORY: the allowance, reserved as it is needed, and a few blocks of 64 KiB. A payload that is larger than the
+//         allowance gets the memory it needs. An allowance that grows is a sixteenth of the bytes on disk, so that a
+//         large file does not have too many runs: merging holds a block of each.
 // THREADS: one at a time.
 template <class Record, class Codec = PlainCodec<Record>, class Less = std::less<Record>>
 class ExternalSort {
@@ -87,8 +87,9 @@ class ExternalSort {
     filling_.batch.add(record, payload);
   }
 
-  // All that was added so far, for another process: the runs once they are on the device, and what
-  // is still in memory. REQUIRES: a named file, and that finish() was not called.
+  // Saves all that was added so far, for another process: the runs, once they are on the device, and the records still
+  // in memory.
+  // REQUIRES: a named file; finish() was not called.
   void save(StateWriter& out) {
     wait_for_writer();
     if (file_) file_->sync();
@@ -98,8 +99,8 @@ class ExternalSort {
     out.put_array(filling_.batch.records);
     out.put_array(filling_.batch.pool);
   }
-  // REQUIRES: a named file, and that nothing was added yet.
-  // THROWS: DamagedState or Error if the file of the runs is missing or not what it was.
+  // REQUIRES: a named file; nothing was added yet.
+  // THROWS: DamagedState or Error if the file of the runs is missing or has changed.
   void restore(StateReader& in) {
     in.get_array(runs_);
     const auto manifest = in.get<RunManifest>();
@@ -120,8 +121,8 @@ class ExternalSort {
     }
   }
 
-  // Ends adding. Runs are merged until those left can be merged while they are read, within
-  // `merge_bytes` of the budget (0: the allowance), or less if it has not so much.
+  // Ends adding. Merges runs until the remaining ones can be merged while they are read, within `merge_bytes` of the
+  // budget (0: the allowance), or less if the budget has less.
   void finish(std::uint64_t merge_bytes = 0) {
     wait_for_writer();
     if (runs_.empty()) {
@@ -146,8 +147,8 @@ class ExternalSort {
     merger_.reset();
   }
 
-  // Replaces `out` by at most `limit` next records in order, fewer if their payloads come to more
-  // than `payload_limit` bytes; false at the end.
+  // Replaces `out` by the next records in order: at most `limit`, fewer if their payloads exceed `payload_limit` bytes.
+  // False at the end.
   bool read(Batch& out, std::size_t limit, std::size_t payload_limit = kRunBlockBytes) {
     out.clear();
     const auto is_full = [&] { return out.records.size() == limit || out.pool.size() > payload_limit; };
@@ -155,7 +156,7 @@ class ExternalSort {
       const Batch& all = filling_.batch;
       for (; !is_full() && at_ < size_; ++at_) out.add(all.records[at_], all.payload(all.records[at_]));
     } else if (at_ < size_) {
-      // Blocks are held from the first record to the last only.
+      // Blocks are in memory only from the first record to the last.
       if (!merger_) merger_ = std::make_unique<Merger>(*file_, runs_);
       for (; !is_full() && !merger_->empty(); ++at_) merger_->take(out);
       if (merger_->empty()) merger_.reset();
@@ -170,20 +171,21 @@ class ExternalSort {
     return some;
   }
 
-  // For what needs no order, at a fraction of the cost of merging. In no order but that of adding where Less finds
-  // records equal; between any reads.
+  // Scans are for callers that need no order: they cost a fraction of merging. The order is unspecified, except that
+  // records that Less finds equal come in the order of adding. A scan may be called between any reads.
   // REQUIRES: finish() was called.   MEMORY: three blocks.
 
-  // Calls visit(record) for all records, of which only what they are sorted by is there.
+  // Calls visit(record) for all records. Only the sort key of a record is filled in.
   template <class Visit>
   void scan_keys(const Visit& visit) const {
     scan_blocks([](std::span<const Record>) { return Wanted::kKeys; },
                 [&](const Batch& block) { std::ranges::for_each(block.records, visit); });
   }
-  // Calls visit(record, batch), with the batch that holds its payload, where wanted(record) is true. That is asked
-  // of what records are sorted by, by several threads: of most blocks no more is unpacked where few are wanted.
-  template <class Is, class Visit>
-  void scan(const Is& wanted, const Visit& visit) const {
+  // Calls visit(record, batch) for records for which wanted(record) is true. `batch` holds the record's payload.
+  // `wanted` sees the sort key only and is called concurrently. A block with no wanted record is decoded only as far as
+  // its keys.
+  template <class Predicate, class Visit>
+  void scan(const Predicate& wanted, const Visit& visit) const {
     scan_blocks(
         [&](std::span<const Record> records) {
           return std::ranges::any_of(records, wanted) ? Wanted::kAll : Wanted::kNothing;
@@ -194,7 +196,7 @@ class ExternalSort {
         });
   }
 
-  // The order in which records of a batch come out: places in its pool ascend in the order of adding.
+  // The order in which the records of a batch come out: payload positions in the pool ascend in the order of adding.
   static bool in_order(const Record& a, const Record& b) {
     if constexpr (CarriesPayload<Record>) {
       if (Less()(a, b)) return true;
@@ -207,18 +209,18 @@ class ExternalSort {
   }
 
   std::uint64_t size() const { return size_; }
-  // Bytes written so far, merging passes included.
+  // Bytes written so far, including merging passes.
   std::uint64_t spilled_bytes() const { return spilled_ + (file_ ? file_->size() : 0); }
 
  private:
   using Merger = SortedRunMerger<Record, Codec, Less>;
   using Buffer = SortBuffer<Record>;
 
-  // How much of the records of a block a scan unpacks.
+  // How much of a block a scan unpacks.
   enum class Wanted { kNothing, kKeys, kAll };
 
-  // Calls look(records) for all blocks, in several threads; and visit(batch), one at a time, for those of which that
-  // wants more than nothing.
+  // Calls look(records) for all blocks, in several threads; and visit(batch), one at a time, for the blocks for which
+  // look() returned more than kNothing.
   template <class Look, class Visit>
   void scan_blocks(const Look& look, const Visit& visit) const {
     if (runs_.empty()) {
@@ -271,7 +273,7 @@ class ExternalSort {
       std::swap(filling_, writing_);
     }
     grow_allowance();
-    // A budget too small for a second buffer is met by waiting for the first.
+    // If the budget is too small for a second buffer, wait for the first.
     if (filling_.batch.records.capacity() == 0 && !filling_.try_start(kBlockRecords)) {
       wait_for_writer();
       std::swap(filling_, writing_);
@@ -296,11 +298,11 @@ class ExternalSort {
   void sort(std::vector<Record>& records) const {
     const auto less = [](const Record& a, const Record& b) { return in_order(a, b); };
 #ifdef __SANITIZE_THREAD__
-    constexpr bool kSeen = false;  // TBB hands records over where the thread sanitizer cannot see it
+    constexpr bool kVisibleToSanitizer = false;  // the sanitizer does not see TBB pass records between threads
 #else
-    constexpr bool kSeen = true;
+    constexpr bool kVisibleToSanitizer = true;
 #endif
-    if (options_.parallel && kSeen)
+    if (options_.parallel && kVisibleToSanitizer)
       tbb::parallel_sort(records.begin(), records.end(), less);
     else
       std::sort(records.begin(), records.end(), less);
@@ -314,7 +316,7 @@ class ExternalSort {
     runs_.push_back(run);
   }
 
-  // Merges in passes until the runs left can be merged at once.
+  // Merges in passes until the remaining runs can be merged at once.
   void reduce_runs(std::uint64_t merge_bytes) {
     const std::size_t fan_in = reserve_fan_in(merge_bytes);
     while (runs_.size() > fan_in) {
@@ -330,7 +332,7 @@ class ExternalSort {
     }
   }
 
-  // A run at hand is a block; as much again serves packing and unpacking.
+  // A run that is being merged holds one block; packing and unpacking take the same again.
   std::size_t reserve_fan_in(std::uint64_t merge_bytes) {
     const std::uint64_t cursor = kRunBlockBytes + largest_payload_, rest = 4 * cursor;
     std::uint64_t fan_in = std::clamp<std::uint64_t>((merge_bytes - std::min(merge_bytes, rest)) / cursor, 2,
@@ -358,14 +360,14 @@ class ExternalSort {
   std::uint64_t most_bytes_;  // of a buffer
   Buffer filling_, writing_;
   Reservation merge_charge_;
-  std::exception_ptr failure_;  // of the writer: for every later call, not for the first alone
+  std::exception_ptr failure_;  // of the writer; every later call throws it
   std::optional<SortedRunFile> file_;
   std::vector<RunPlace> runs_;
   std::unique_ptr<Merger> merger_;
   std::uint64_t at_ = 0;  // records read so far
   std::uint64_t size_ = 0, spilled_ = 0;
   std::uint64_t largest_payload_ = 0;
-  Worker writer_;  // sorts and writes writing_; the last member, so that it ends first
+  Worker writer_;  // sorts and writes writing_; the last member, so that it is destroyed first
 };
 
 }  // namespace reeb::ooc

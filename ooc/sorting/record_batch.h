@@ -1,4 +1,4 @@
-// Records together with what travels with them: payloads, bytes that sorting does not look at.
+// Records together with their payloads: bytes that sorting does not look at.
 #pragma once
 
 #include <concepts>
@@ -10,7 +10,7 @@
 
 namespace reeb::ooc {
 
-// Where the payload of a record lies in the pool of its batch.
+// The position of a record's payload in the pool of its batch.
 struct PayloadPlace {
   std::uint32_t first = 0, size = 0;
 };
@@ -20,7 +20,7 @@ concept CarriesPayload = requires(Record record) {
   { (record.payload) } -> std::same_as<PayloadPlace&>;
 };
 
-// MEMORY: bytes() and the room that vectors have to grow. A pool has less than 4 GiB.
+// MEMORY: bytes(), and the spare capacity of the vectors. A pool has less than 4 GiB.
 template <class Record>
 struct RecordBatch {
   static_assert(std::is_trivially_copyable_v<Record>);

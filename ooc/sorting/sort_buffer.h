@@ -1,4 +1,4 @@
-// Records in memory before they are sorted.
+// The records in memory before they are sorted.
 #pragma once
 
 #include <algorithm>
@@ -11,8 +11,8 @@
 
 namespace reeb::ooc {
 
-// A batch that grows within an allowance and the budget. While it grows, both the old and the new memory
-// exist and are reserved.
+// A batch that grows within an allowance and the budget. While it grows, the old and the new memory both exist, and
+// both are reserved.
 template <class Record>
 struct SortBuffer {
   RecordBatch<Record> batch;
@@ -23,19 +23,19 @@ struct SortBuffer {
     charge.resize(0);
   }
 
-  // Room for the first records. THROWS: Error{kResource}.
+  // Makes room for the first records. THROWS: Error{kResource}.
   void start(std::size_t records) {
     charge.resize(bytes(records, batch.pool.capacity()));
     batch.records.reserve(records);
   }
-  // The same; false if the budget does not allow it.
+  // The same, but returns false if the budget does not allow it.
   bool try_start(std::size_t records) {
     if (!charge.try_resize(records * sizeof(Record))) return false;
     batch.records.reserve(records);
     return true;
   }
 
-  // Room for as many records again, but for `least` at least, if all then takes at most `most_bytes`.
+  // Doubles the room for records, to at least `least`, within `most_bytes` for records and pool together.
   bool grow_records(std::size_t least, std::uint64_t most_bytes) {
     auto& [records, pool] = batch;
     const std::size_t before = records.capacity();
@@ -47,7 +47,7 @@ struct SortBuffer {
     return true;
   }
 
-  // The same for the pool, if it has to grow for this many bytes more.
+  // The same for the pool, if it must grow for `more` bytes.
   bool grow_pool(std::size_t more, std::uint64_t most_bytes) {
     auto& [records, pool] = batch;
     const std::size_t needed = pool.size() + more, before = pool.capacity();
@@ -62,7 +62,7 @@ struct SortBuffer {
     return true;
   }
 
-  // For the first payload of a run, which has to go somewhere. REQUIRES: the pool is empty.
+  // For the first payload of a run, which must be stored whatever its size. REQUIRES: the pool is empty.
   void replace_pool(std::size_t size) {
     auto& [records, pool] = batch;
     std::vector<std::byte>().swap(pool);

@@ -11,13 +11,13 @@
 
 namespace reeb::ooc {
 
-// Where a run lies, and how far it was read.
+// Where the rest of a run starts, and the number of its blocks.
 struct RunPlace {
   std::uint64_t offset = 0;
   std::uint64_t blocks = 0;
 };
 
-// What is in a file of runs, for another process to go on with it.
+// Describes the content of a file of runs, so that another process can continue it.
 struct RunManifest {
   std::uint64_t bytes = 0;
   std::uint64_t records = 0;
@@ -25,23 +25,23 @@ struct RunManifest {
   friend bool operator==(const RunManifest&, const RunManifest&) = default;
 };
 
-// THROWS: Error{kResource} if the disk is full, or gives back other bytes than were written.
+// THROWS: Error{kResource} if the disk is full, or returns other bytes than were written.
 // THREADS: one writer or many readers.
 class SortedRunFile {
  public:
   explicit SortedRunFile(io::File file) : file_(std::move(file)) {}
 
-  // Goes on with a file of an earlier process; what follows after the manifest's bytes is lost.
-  // THROWS: DamagedState if the bytes are not those that the manifest tells of. O(bytes).
+  // Continues a file of an earlier process. Discards the bytes after those of the manifest.
+  // THROWS: DamagedState if the bytes are not those that the manifest describes.   TIME: O(bytes).
   SortedRunFile(io::File file, const RunManifest& manifest);
 
-  // Where the next block goes.
+  // The position of the next block.
   std::uint64_t size() const { return manifest_.bytes; }
   const RunManifest& manifest() const { return manifest_; }
   // Returns once all that was appended has reached the device.
   void sync() const { file_.sync(); }
   void append(std::span<const std::byte> packed, std::size_t records);
-  // Reads the next block of `run`, which has one, and moves on. Returns the number of records.
+  // Reads the next block of `run` and advances it. Returns the number of records. REQUIRES: the run has a next block.
   std::size_t read(RunPlace& run, std::vector<std::byte>& packed) const;
 
   [[noreturn]] void refuse(std::uint64_t offset) const;

@@ -1,4 +1,4 @@
-// Blocks of sorted records, and merging the runs that they make up.
+// Blocks of sorted records, and a merger of the runs that they form.
 #pragma once
 
 #include <algorithm>
@@ -15,9 +15,9 @@
 
 namespace reeb::ooc {
 
-// How a block of sorted records becomes bytes: as it lies in memory. Another codec has the same
-// two functions; decode is false if the bytes are not a block of so many records. For records with
-// payloads encode takes the pool, too, and decode fills one.
+// Converts a block of sorted records to bytes: as it is in memory. Another codec has the same two functions. decode()
+// returns false if the bytes are not a block of this many records. For records with payloads, encode() also takes the
+// pool, and decode() fills one.
 template <class Record>
 struct PlainCodec {
   static_assert(!CarriesPayload<Record>);
@@ -32,7 +32,7 @@ struct PlainCodec {
   }
 };
 
-// A block has about so many bytes of records and payloads, and at least one record.
+// A block has about this many bytes of records and payloads, and at least one record.
 inline constexpr std::size_t kRunBlockBytes = 64 << 10;
 
 // How many of the first records make a block.
@@ -67,7 +67,7 @@ std::uint64_t append_blocks(std::span<const Record> records, [[maybe_unused]] st
   return blocks;
 }
 
-// Unpacks a block of as many records as `block` has. False if the bytes are no such block.
+// Unpacks a block of as many records as `block` has. False if the bytes are not such a block.
 template <class Record, class Codec>
 bool decode_block(std::span<const std::byte> packed, RecordBatch<Record>& block) {
   if (block.empty()) return false;
@@ -77,7 +77,7 @@ bool decode_block(std::span<const std::byte> packed, RecordBatch<Record>& block)
     return Codec::decode(packed, block.records);
 }
 
-// Reads the next block of `run`, which has one, and moves on. THROWS: as SortedRunFile, also for a block that
+// Reads the next block of `run`, which must have one, and advances it. THROWS: as SortedRunFile, also for a block that
 // cannot be decoded.
 template <class Record, class Codec>
 void read_block(const SortedRunFile& file, RunPlace& run, std::vector<std::byte>& packed, RecordBatch<Record>& block) {
@@ -86,8 +86,8 @@ void read_block(const SortedRunFile& file, RunPlace& run, std::vector<std::byte>
   if (!decode_block<Record, Codec>(packed, block)) file.refuse(offset);
 }
 
-// A number that rises with the record; unequal numbers settle the order of most records without a
-// branch that could not be foretold.
+// A number that rises with the record. Unequal numbers order most records without a branch that the processor cannot
+// predict.
 template <class Less, class Record>
 std::uint64_t rank_of(const Record& record) {
   if constexpr (requires { Less::rank(record); })
@@ -96,8 +96,8 @@ std::uint64_t rank_of(const Record& record) {
     return 0;
 }
 
-// Merges sorted runs of a file by a tree of losers: a comparison for each doubling of the number of
-// runs. Of equal records those of earlier runs come first. Holds one block of each run.
+// Merges the sorted runs of a file with a tree of losers: one comparison for each doubling of the number of runs. Of
+// equal records, those of earlier runs come first. Holds one block of each run.
 // REQUIRES: at least one run.
 template <class Record, class Codec, class Less>
 class SortedRunMerger {
@@ -131,11 +131,11 @@ class SortedRunMerger {
  private:
   struct Cursor {
     RunPlace rest;
-    RecordBatch<Record> block;  // at hand
+    RecordBatch<Record> block;  // the current one
     const Record* end = nullptr;
   };
-  // The first record left of a run, copied from its place, so that comparing does not touch a block of
-  // each run. At the run's end the place is null.
+  // The next record of a run, copied, so that comparing does not touch a block of each run. At the end of the run,
+  // `place` is null.
   struct Head {
     Record record{};
     const Record* place = nullptr;
@@ -153,13 +153,13 @@ class SortedRunMerger {
     ranks_[i] = rank_of<Less>(records[0]);
   }
 
-  // It is taken when the record wins, and was not looked at since its block was unpacked.
+  // The payload is read when the record wins; it was not touched since its block was unpacked.
   static void prefetch_payload([[maybe_unused]] const RecordBatch<Record>& block,
                                [[maybe_unused]] const Record& record) {
     if constexpr (CarriesPayload<Record>) __builtin_prefetch(block.pool.data() + record.payload.first);
   }
 
-  // A total order of the runs that have records left; the others come after them.
+  // A total order of the runs that have records left; exhausted runs come after them.
   bool beats(std::size_t a, std::size_t b) const {
     return ranks_[a] != ranks_[b] ? ranks_[a] < ranks_[b] : beats_of_equal_rank(a, b);
   }
@@ -198,7 +198,7 @@ class SortedRunMerger {
   std::vector<std::byte> packed_;
   std::vector<Cursor> cursors_;
   std::vector<Head> heads_;           // by run
-  std::vector<std::uint64_t> ranks_;  // of their records; the greatest at a run's end
+  std::vector<std::uint64_t> ranks_;  // of the heads; the greatest value at a run's end
   std::vector<std::size_t> losers_;   // by inner node: who lost there
   std::size_t winner_ = 0;
 };

@@ -6,7 +6,7 @@ ArcEnds::ArcEnds(std::uint64_t vertices) {
   for (std::vector<bool>* bits : {&goes_up_, &goes_down_, &near_}) bits->resize(static_cast<std::size_t>(vertices));
 }
 
-void ArcEnds::keep_near_extrema(std::vector<ArcKeys>& arcs) {
+void ArcEnds::keep_connected_to_extrema(std::vector<ArcKeys>& arcs) {
   constexpr int kLooks = 16;
   for (const ArcKeys& arc : arcs)
     if (ends_in_extremum(arc)) near_[place(arc.lo)] = near_[place(arc.hi)] = true;

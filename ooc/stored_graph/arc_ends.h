@@ -9,10 +9,10 @@
 
 namespace reeb::ooc {
 
-// Told from all arcs of a graph as they go by, in any order. Then it is known, without another look at
-// the graph, where its extrema are.
+// Gathered from all arcs of a graph as they are read, in any order. This locates the extrema without another reading of
+// the graph.
 //
-// MEMORY: bytes(), three bits a vertex.
+// MEMORY: bytes(), three bits per vertex.
 class ArcEnds {
  public:
   // REQUIRES: the vertices of all arcs are below `vertices`.
@@ -24,15 +24,14 @@ class ArcEnds {
     goes_down_[place(arc.hi)] = true;
   }
 
-  // Of some arcs keeps those that hang together, by each other's ends, with one that rises to a maximum
-  // or from a minimum of the whole graph; or all, if it takes more than a few looks at each to tell.
-  // O(arcs).
-  void keep_near_extrema(std::vector<ArcKeys>& arcs);
+  // Keeps the arcs connected, through shared ends, to an arc that touches an extremum of the whole graph; or all arcs,
+  // if it takes too many rounds over them to tell.   TIME: O(arcs).
+  void keep_connected_to_extrema(std::vector<ArcKeys>& arcs);
 
  private:
   static std::size_t place(const SweepKey& key) { return static_cast<std::size_t>(key.vertex.value()); }
   bool ends_in_extremum(const ArcKeys& arc) const { return !goes_down_[place(arc.lo)] || !goes_up_[place(arc.hi)]; }
-  // Whether an arc of `arcs` came to be near that was not.
+  // Marks the ends of arcs that touch a marked vertex. Returns whether that marked a new one.
   bool spread(const std::vector<ArcKeys>& arcs);
 
   std::vector<bool> goes_up_, goes_down_, near_;  // by vertex

@@ -1,4 +1,4 @@
-// The buckets of an arc as the payload with which it is sorted.
+// The buckets of an arc as the payload of its record in sorting.
 #pragma once
 
 #include <cstddef>
@@ -11,19 +11,19 @@
 
 namespace reeb::ooc {
 
-// Appends the payload: the exponent as a varint, then the packed list (packed_buckets.h). An arc without
-// buckets has none.
+// Appends the payload: the exponent as a varint, then the packed list (packed_buckets.h). The payload of an arc without
+// buckets is empty.
 void encode_buckets(std::span<const Bucket> buckets, int exponent, std::vector<std::byte>& payload);
-// The same for a list that is packed already.
+// The same for a list that is already packed.
 void encode_packed_buckets(std::span<const std::byte> packed, int exponent, std::vector<std::byte>& payload);
 
-// Appends the buckets of a payload, coarsened to `exponent`. False if the bytes are no payload, or
-// are coarser.
+// Appends the buckets of a payload, coarsened to `exponent`. False if the bytes are not a payload, or are coarser than
+// that.
 bool decode_buckets(std::span<const std::byte> payload, int exponent, std::vector<Bucket>& buckets);
 
-// The packed list of a payload, coarsened to `exponent`. Nothing if the bytes are no payload, or are coarser.
-// A list that has this exponent already, as nearly all do, is not unpacked: it lies in the payload. Else it is in
-// `coarsened`, until the next call.
+// The packed list of a payload, coarsened to `exponent`. Empty if the bytes are not a payload, or are coarser than
+// that. Nearly every list already has this exponent. It is not unpacked, and the result points into the payload. Else
+// the result points into `coarsened` and is valid until the next call.
 struct CoarsenedList {
   std::vector<Bucket> buckets;
   std::vector<std::byte> packed;
@@ -31,7 +31,7 @@ struct CoarsenedList {
 std::optional<std::span<const std::byte>> packed_list(std::span<const std::byte> payload, int exponent,
                                                       CoarsenedList& coarsened);
 
-// How many buckets a payload has, before any is coarsened.
+// The number of buckets of a payload, before coarsening.
 std::uint64_t bucket_count(std::span<const std::byte> payload);
 
 }  // namespace reeb::ooc

@@ -1,4 +1,4 @@
-// A change of a stored graph that is made while the graph is read.
+// A change of a stored graph. It is applied while the graph is read.
 #pragma once
 
 #include <cstddef>
@@ -14,23 +14,23 @@
 
 namespace reeb::ooc {
 
-// An arc of a change, its buckets as payload (arc_payload.h).
+// An arc of a change, with its buckets as payload (arc_payload.h).
 struct ChangedArc {
   ArcKeys keys;
-  SweepKey former_hi;  // of its lowest part, as it was stored
+  SweepKey former_hi;  // the upper end of its lowest part, as stored
   PayloadPlace payload{};
 };
 
 struct GraphChange {
   Reservation memory;
-  std::vector<SweepKey> redone;  // ascending: nodes of which no stored arc stays
-  std::vector<SweepKey> gone;    // ascending: those of them that do not stay either
+  std::vector<SweepKey> redone;  // ascending: nodes whose stored arcs are all replaced
+  std::vector<SweepKey> gone;    // ascending: the redone nodes that are removed
   std::uint64_t replaced_arcs = 0, replaced_buckets = 0;
-  RecordBatch<ChangedArc> arcs;  // that come instead, in order; arcs that were joined have the place of
-  std::uint64_t buckets = 0;     // their lowest part among parallel ones
+  RecordBatch<ChangedArc> arcs;  // the replacements, in order; a joined arc is placed where its
+  std::uint64_t buckets = 0;     // lowest part was among parallel arcs
 };
 
-// A place in a change, while nodes and arcs go by in their order.
+// A position in a change while nodes and arcs are read in their order.
 class ChangeReader {
  public:
   explicit ChangeReader(GraphChange change) : change_(std::move(change)), table_(change_.redone) {}
@@ -41,24 +41,24 @@ class ChangeReader {
   void rewind_nodes() { gone_ = 0; }
   void rewind_arcs() { redone_ = arc_ = 0; }
 
-  // REQUIRES, since the last rewind: ascending; for arcs, by lo.
+  // REQUIRES: since the last rewind, arguments ascend; arcs by lo.
   bool drops(const SweepKey& node) { return is_next(change_.gone, gone_, node); }
   bool drops(const ArcKeys& arc) {
     return is_next(change_.redone, redone_, arc.lo) || table_.find(arc.hi) != NodeTable::kNone;
   }
 
-  // Whether an arc of the change comes before this stored one, or, if null, is left. Of a stored arc
-  // between the same nodes it does: it was joined, of parts the lowest of which ended below.
+  // Whether an arc of the change comes before this stored arc; for null, whether one is left. It also comes before a
+  // stored arc between the same nodes, because it was joined from parts, the lowest of which ended further down.
   bool comes_before(const ArcKeys* stored) const {
     const auto& arcs = change_.arcs.records;
     return arc_ < arcs.size() && (stored == nullptr || !(*stored < arcs[arc_].keys));
   }
-  // The first arc left, and on to the next.
+  // Returns the first remaining arc and advances.
   const ChangedArc& take() { return change_.arcs.records[arc_++]; }
   std::span<const std::byte> payload(const ChangedArc& arc) const { return change_.arcs.payload(arc); }
 
  private:
-  // Whether `key` is in the list, from `at` on, which moves on to it.
+  // Whether `key` is in the list, starting at index `at`, which advances to it.
   static bool is_next(const std::vector<SweepKey>& list, std::size_t& at, const SweepKey& key) {
     while (at < list.size() && list[at] < key) ++at;
     return at < list.size() && list[at] == key;

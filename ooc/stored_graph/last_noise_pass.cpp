@@ -19,28 +19,27 @@
 namespace reeb::ooc {
 namespace {
 
-// To remove leaves in a part of the graph: for each of its nodes, and for each of its arcs with one end in
-// it, or two; and for its buckets, packed and not.
+// Memory to remove leaves in a part of the graph: per node; per arc with two ends in the part, and with one; and per
+// byte of packed buckets, and per unpacked bucket.
 constexpr std::uint64_t kNodeBytes = 72, kInnerArcBytes = 64, kArcBytes = kInnerArcBytes + kNodeBytes;
 constexpr std::uint64_t kPackedByte = 1, kBucketBytes = 42;
 
-// To find the scope in a graph of short arcs: the graph, the degrees of its nodes and what their buckets take, and
-// either the table in which these are looked up, or what noise_scope() takes.
+// Memory to find the scope in a graph of short arcs: the graph, the degrees of its nodes and the size of their buckets,
+// and either the table that finds nodes or what noise_scope() takes.
 std::uint64_t search_bytes(std::uint64_t arcs, std::uint64_t nodes) {
   constexpr std::uint64_t kNode = sizeof(SweepKey) + 16, kArc = 2 * sizeof(NodeId), kScopeNode = 25, kScopeArc = 12;
   return kNode * nodes + kArc * arcs + std::max(SparseNodeTable::bytes(nodes), kScopeNode * nodes + kScopeArc * arcs);
 }
 
-// To make that graph of arcs in a vector of this capacity.
+// Memory to make that graph from arcs in a vector of this capacity.
 std::uint64_t short_graph_bytes(std::uint64_t arcs, std::uint64_t capacity) {
   return sizeof(ArcKeys) * capacity + (4 * sizeof(SweepKey) + 2 * sizeof(NodeId)) * arcs;
 }
 
-// Copying a quarter more each time costs little, and leaves little unused.
+// Growing by a quarter copies little and leaves little unused.
 std::size_t next_capacity(std::size_t capacity) { return std::max<std::size_t>(1024, capacity + capacity / 4); }
 
-// Nodes that noise removal can look at, ascending, and of each how many arcs it has, and what the buckets
-// of these take.
+// The nodes that noise removal can touch, ascending; for each the number of its arcs, and the memory for their buckets.
 struct Scope {
   std::vector<SweepKey> nodes;
   std::vector<std::uint32_t> arcs;
@@ -58,12 +57,12 @@ struct Scope {
     arcs.push_back(arc_count);
     bucket_bytes.push_back(of_buckets);
   }
-  // The rest only says how to divide them.
+  // The rest is only needed to divide the nodes into parts.
   void keep_nodes() {
     arcs = {};
     bucket_bytes = {};
   }
-  // What removing noise at a node takes if no arc joins it to another one of the scope.
+  // The memory for removing noise at a node if no arc joins it to another node of the scope.
   std::uint64_t weight(std::size_t node) const { return kNodeBytes + kArcBytes * arcs[node] + bucket_bytes[node]; }
 };
 
@@ -74,9 +73,9 @@ auto meets(const SparseNodeTable& nodes) {
   };
 }
 
-class Pass {
+class NoisePass {
  public:
-  Pass(SegmentStore& store, const LastNoiseOptions& options)
+  NoisePass(SegmentStore& store, const LastNoiseOptions& options)
       : store_(store),
         options_(options),
         exponent_(options.bucket_exponent),
@@ -93,26 +92,26 @@ class Pass {
   }
 
  private:
-  // Whether there is room; if not, this much would have been enough.
+  // Whether there is room. If not, `enough` is recorded as the memory needed.
   bool make_room(Reservation& memory, std::uint64_t bytes, std::uint64_t enough) {
     if (!result_.fits) return false;
     result_.fits = memory.try_resize(bytes);
     if (!result_.fits && spare_memory_.bytes() != 0) {
-      give_up_spare_memory();
+      release_spare_memory();
       result_.fits = memory.try_resize(bytes);
     }
     if (!result_.fits) result_.needed_bytes = enough;
     return result_.fits;
   }
 
-  // What only saves time.
-  void give_up_spare_memory() {
+  // Releases memory that only saves time.
+  void release_spare_memory() {
     ends_.reset();
-    near_.reset();
+    kept_arcs_.reset();
     spare_memory_.release();
   }
 
-  // What removing noise takes if all of the graph is looked at, the change included.
+  // The memory for removing noise if all of the graph is touched, including the change.
   std::uint64_t most_bytes() const {
     const std::uint64_t of_buckets =
         exponent_ ? kPackedByte * store_.payload_bytes() + kBucketBytes * store_.bucket_count() : 0;
@@ -126,7 +125,7 @@ class Pass {
 
   void find_scope() {
     std::vector<ArcKeys> found = find_short_arcs();
-    give_up_spare_memory();
+    release_spare_memory();
     if (!result_.fits || found.empty()) return;
     const ReebGraph short_arcs = make_graph(std::move(found), {});
     const std::uint64_t bytes = search_bytes(short_arcs.arc_count(), short_arcs.node_count());
@@ -143,7 +142,7 @@ class Pass {
       if (in_scope[node]) scope_.add(short_arcs.nodes[node], degrees.down[node] + degrees.up[node], of_buckets[node]);
   }
 
-  // Those from which noise removal can begin, and what hangs together with them; or all.
+  // Short arcs that end in an extremum, plus those connected to them; or all short arcs if that takes too long to tell.
   std::vector<ArcKeys> find_short_arcs() {
     std::vector<ArcKeys> found;
     std::uint64_t count = 0;
@@ -155,7 +154,7 @@ class Pass {
       if (result_.fits && found.size() == found.capacity()) grow(found);
       if (result_.fits) found.push_back(arc);
     });
-    if (ends_) ends_->keep_near_extrema(found);
+    if (ends_) ends_->keep_connected_to_extrema(found);
     make_room(memory_, short_graph_bytes(found.size(), found.capacity()), 0);
     if (result_.fits) return found;
     result_.needed_bytes =
@@ -163,7 +162,7 @@ class Pass {
     return {};
   }
 
-  // Worth while where the graph is not small beside the mesh.
+  // Worthwhile if the graph is not small compared with the mesh.
   void note_ends() {
     const std::uint64_t bytes = ArcEnds::bytes(options_.vertices), few = sizeof(ArcKeys) / 8 * store_.arc_count();
     if (options_.vertices != 0 && bytes <= few && spare_memory_.try_resize(bytes)) ends_.emplace(options_.vertices);
@@ -177,42 +176,42 @@ class Pass {
       std::vector<ArcKeys>().swap(arcs);
   }
 
-  // Degrees of these nodes in the whole graph, and what the buckets of all their arcs take. If these arcs
-  // are few, they are kept.
+  // Finds the degrees of these nodes in the whole graph, and the memory for the buckets of all their arcs. Keeps these
+  // arcs if they are few.
   void look_at_ends(const ReebGraph& graph, Degrees& degrees, std::vector<std::uint64_t>& of_buckets) {
     const SparseNodeTable table(graph.nodes);
-    if (spare_memory_.try_resize(options_.part_bytes)) near_.emplace();
+    if (spare_memory_.try_resize(options_.part_bytes)) kept_arcs_.emplace();
     store_.scan_arcs(meets(table), [&](const StoredArc& arc, const auto& batch) {
       const std::uint32_t lo = table.find(arc.keys.lo), hi = table.find(arc.keys.hi);
       const std::span<const std::byte> payload = batch.payload(arc);
       const std::uint64_t bytes = bucket_bytes(payload);
       if (lo != NodeTable::kNone) ++degrees.up[lo], of_buckets[lo] += bytes;
       if (hi != NodeTable::kNone) ++degrees.down[hi], of_buckets[hi] += bytes;
-      if (near_) keep_near(arc, payload);
+      if (kept_arcs_) keep_arc(arc, payload);
     });
   }
 
-  // Room that grows is up to three times what is in it.
-  void keep_near(const StoredArc& arc, std::span<const std::byte> payload) {
-    if (near_->bytes() + sizeof(arc) + payload.size() <= options_.part_bytes / 3)
-      near_->add(arc, payload);
+  // Vectors that grow take up to three times their content.
+  void keep_arc(const StoredArc& arc, std::span<const std::byte> payload) {
+    if (kept_arcs_->bytes() + sizeof(arc) + payload.size() <= options_.part_bytes / 3)
+      kept_arcs_->add(arc, payload);
     else
-      give_up_spare_memory();
+      release_spare_memory();
   }
 
   // Calls visit(arc, batch) for all arcs that meet these nodes of the scope, as scan_arcs does.
   template <class Visit>
-  void scan_near(const SparseNodeTable& nodes, const Visit& visit) const {
-    if (!near_) return store_.scan_arcs(meets(nodes), visit);
-    for (const StoredArc& arc : near_->records)
-      if (meets(nodes)(arc.keys)) visit(arc, *near_);
+  void scan_meeting_arcs(const SparseNodeTable& nodes, const Visit& visit) const {
+    if (!kept_arcs_) return store_.scan_arcs(meets(nodes), visit);
+    for (const StoredArc& arc : kept_arcs_->records)
+      if (meets(nodes)(arc.keys)) visit(arc, *kept_arcs_);
   }
 
   std::uint64_t bucket_bytes(std::span<const std::byte> payload) const {
     return exponent_ ? kPackedByte * payload.size() + kBucketBytes * bucket_count(payload) : 0;
   }
 
-  // ---- removing it, in parts that have nothing to do with each other
+  // ---- removing it, in independent parts
 
   void remove_noise() {
     constexpr std::uint64_t kParts = 16;
@@ -243,7 +242,7 @@ class Pass {
     std::vector<std::uint64_t> weights;  // by part
   };
 
-  // Nodes that an arc joins are in one part; parts are of about this size if such nodes are few.
+  // Nodes joined by an arc are in the same part. Parts are of about this size unless one set of joined nodes is larger.
   Division divide(std::uint64_t part_bytes) {
     const auto count = static_cast<std::uint32_t>(scope_.size());
     if (!make_room(memory_, held_ + SparseNodeTable::bytes(count) + 20ull * count, enough_)) return {};
@@ -268,10 +267,10 @@ class Pass {
     return division;
   }
 
-  // An arc between two nodes of the scope was counted at both.
+  // An arc between two nodes of the scope was counted at both nodes.
   void join_neighbours(UnionFind& joined, std::vector<std::uint64_t>& weights) const {
     const SparseNodeTable table(scope_.nodes);
-    scan_near(table, [&](const StoredArc& arc, const auto& batch) {
+    scan_meeting_arcs(table, [&](const StoredArc& arc, const auto& batch) {
       const std::uint32_t lo = table.find(arc.keys.lo), hi = table.find(arc.keys.hi);
       if (lo == NodeTable::kNone || hi == NodeTable::kNone) return;
       joined.unite(lo, hi);
@@ -295,7 +294,7 @@ class Pass {
     const std::vector<NodeId> former_hi = part.hi;
     const Denoised denoised = denoise_part(std::move(part), whole, options_.threshold, buckets, exponent_.value_or(0));
     result_.removed_pairs += denoised.removed.size();
-    memory_.try_resize(held_ + bytes / 2);  // most is free again
+    memory_.try_resize(held_ + bytes / 2);  // most of it is free again
     make_room_in_change(denoised.graph.arc_count(), buckets);
     for (std::size_t arc = 0; arc < denoised.graph.arc_count() && result_.fits; ++arc)
       add_to_change({keys_of(denoised.graph, arc), former_nodes[former_hi[denoised.former[arc].value()].value()]},
@@ -307,12 +306,12 @@ class Pass {
     return {graph.nodes[graph.lo[arc].value()], graph.nodes[graph.hi[arc].value()]};
   }
 
-  // All arcs of these nodes with their payloads, in the order of the graph. They are counted first, for
-  // room that grows would be twice as much.
+  // All arcs of these nodes with their payloads, in the order of the graph. They are counted first, since growing
+  // vectors would take twice the memory.
   RecordBatch<StoredArc> gather(const std::vector<SweepKey>& scope) const {
     const SparseNodeTable table(scope);
     const auto for_each = [&](const auto& visit) {
-      scan_near(table, [&](const StoredArc& arc, const auto& batch) {
+      scan_meeting_arcs(table, [&](const StoredArc& arc, const auto& batch) {
         visit(arc, exponent_ ? batch.payload(arc) : std::span<const std::byte>());
       });
     };
@@ -350,7 +349,7 @@ class Pass {
     return make_graph(std::move(keys), {});
   }
 
-  // Of these nodes, which may enter a bucket.
+  // Finds the positions of the wanted nodes of a part: those that can enter a bucket.
   void find_positions(ReebGraph& part, const std::vector<bool>& wanted) const {
     part.positions.resize(part.node_count());
     const SparseNodeTable table(part.nodes);
@@ -364,9 +363,9 @@ class Pass {
 
   // ---- the change
 
-  // For so many arcs with these buckets; parts are few.
+  // For this many arcs with these buckets. There are few parts, so growing exactly is cheap.
   void make_room_in_change(std::size_t arc_count, const PackedLists& buckets) {
-    constexpr std::size_t kExponent = 10;  // in a payload, at most
+    constexpr std::size_t kExponent = 10;  // most bytes of an exponent in a payload
     std::size_t payloads = 0;
     for (std::size_t arc = 0; arc < buckets.size(); ++arc)
       if (const std::size_t size = buckets.of(arc).size(); size != 0) payloads += size + kExponent;
@@ -378,8 +377,8 @@ class Pass {
   void add_to_change(const ChangedArc& arc, std::span<const std::byte> packed_buckets) {
     payload_.clear();
     if (exponent_) encode_packed_buckets(packed_buckets, *exponent_, payload_);
-    constexpr std::size_t kMostPool = std::numeric_limits<std::uint32_t>::max();
-    if (change_.arcs.pool.size() + payload_.size() > kMostPool) {
+    constexpr std::size_t kPoolLimit = std::numeric_limits<std::uint32_t>::max();
+    if (change_.arcs.pool.size() + payload_.size() > kPoolLimit) {
       result_.fits = false;
       result_.needed_bytes = enough_;
       return;
@@ -394,7 +393,7 @@ class Pass {
   }
   bool grow_change(std::uint64_t bytes) { return make_room(change_.memory, change_bytes() + bytes, enough_); }
 
-  // Both ascend.
+  // Adds the nodes that are in `before` but not in `after`. Both ascend.
   void add_gone(const std::vector<SweepKey>& before, const std::vector<SweepKey>& after) {
     std::set_difference(before.begin(), before.end(), after.begin(), after.end(), std::back_inserter(change_.gone));
   }
@@ -406,7 +405,8 @@ class Pass {
     const std::size_t redone = change_.redone.capacity();
     if (!grow_change(redone * sizeof(SweepKey) + SparseNodeTable::bytes(redone))) return;
     std::sort(change_.gone.begin(), change_.gone.end());
-    // Of parallel arcs the one whose lowest part was stored first; the payloads of a part are in its order.
+    // Of parallel arcs, the one whose lowest part was stored first comes first; the payloads of a part are in its
+    // order.
     std::sort(change_.arcs.records.begin(), change_.arcs.records.end(), [](const ChangedArc& a, const ChangedArc& b) {
       const auto key = [](const ChangedArc& arc) {
         return std::tuple(arc.keys.lo, arc.keys.hi, arc.former_hi, arc.payload.first, arc.payload.size);
@@ -420,12 +420,12 @@ class Pass {
   const LastNoiseOptions options_;
   const std::optional<int> exponent_;
   Reservation memory_;
-  Reservation spare_memory_;                    // of one of these two, which come one after the other:
-  std::optional<ArcEnds> ends_;                 // while short arcs are looked for
-  std::optional<RecordBatch<StoredArc>> near_;  // all arcs of the scope's nodes, and others, if they are few
+  Reservation spare_memory_;                         // of one of the next two, never both:
+  std::optional<ArcEnds> ends_;                      // during the search for short arcs
+  std::optional<RecordBatch<StoredArc>> kept_arcs_;  // all arcs of the scope's nodes, and some others, if they are few
   Scope scope_;
-  std::uint64_t held_ = 0;    // of memory, for the scope
-  std::uint64_t enough_ = 0;  // to remove its noise
+  std::uint64_t held_ = 0;    // bytes of memory_ for the scope
+  std::uint64_t enough_ = 0;  // bytes that are enough to remove its noise
   std::vector<std::byte> payload_;
   GraphChange change_;
   LastNoisePass result_;
@@ -434,7 +434,7 @@ class Pass {
 }  // namespace
 
 LastNoisePass run_last_noise_pass(SegmentStore& store, const LastNoiseOptions& options) {
-  return Pass(store, options).run();
+  return NoisePass(store, options).run();
 }
 
 }  // namespace reeb::ooc

@@ -18,7 +18,7 @@ namespace {
 std::uint64_t bits(const SweepKey& key) { return ordered_bits(key.value); }
 std::uint64_t id(const SweepKey& key) { return key.vertex.value(); }
 
-// A column of what `number` rises by from each record to the next, the first from 0.
+// A column of the differences of `number` from each record to the next, the first from 0.
 template <class Record, class Number>
 void add_differences(ColumnEncoder& columns, std::span<const Record> records, const Number& number) {
   columns.add(records.size(),
@@ -46,7 +46,7 @@ void NodeCodec::encode(std::span<const SettledNode> nodes, std::vector<std::byte
 
 namespace {
 
-// Keys, and what follows them.
+// Decodes the keys. The result's tail is what follows them.
 ColumnDecoder decode_node_keys(std::span<const std::byte> packed, std::span<SettledNode> nodes) {
   ColumnDecoder columns(packed, 2, nodes.size());
   if (!columns.ok()) return columns;
@@ -74,7 +74,7 @@ bool NodeCodec::decode(std::span<const std::byte> packed, std::span<SettledNode>
 
 namespace {
 
-// Sorting has left the payloads anywhere in the pool.
+// After sorting, the payloads are anywhere in the pool, so they are prefetched.
 void add_payloads(std::span<const StoredArc> arcs, std::span<const std::byte> pool, std::vector<std::byte>& packed) {
   constexpr std::size_t kAhead = 16;
   for (std::size_t i = 0; i < arcs.size(); ++i) {
@@ -100,7 +100,7 @@ void ArcCodec::encode(std::span<const StoredArc> arcs, std::span<const std::byte
 
 namespace {
 
-// Keys; the last column is left, and what follows.
+// Decodes the keys. The last column and the tail remain in the result.
 ColumnDecoder decode_arc_keys(std::span<const std::byte> packed, std::span<StoredArc> arcs) {
   ColumnDecoder columns(packed, 5, arcs.size());
   if (!columns.ok()) return columns;
@@ -193,8 +193,8 @@ void SegmentStore::restore(StateReader& in) {
 }
 
 void SegmentStore::finish() {
-  constexpr std::uint64_t kMostMergeBytes = 64 << 20;  // a thousand runs
-  const std::uint64_t merge_bytes = std::min(budget_->free_bytes() / 8, kMostMergeBytes);
+  constexpr std::uint64_t kMergeLimitBytes = 64 << 20;  // a thousand runs
+  const std::uint64_t merge_bytes = std::min(budget_->free_bytes() / 8, kMergeLimitBytes);
   Worker worker;
   if (background_) worker.start([&] { nodes_.finish(merge_bytes); });
   arcs_.finish(merge_bytes);
@@ -241,13 +241,13 @@ bool SegmentStore::read_nodes(std::vector<SettledNode>& nodes, std::size_t limit
   return false;
 }
 
-// Calls take(keys, payload) for at most `limit` next arcs in order.
+// Calls take(keys, payload) for the next arcs in order, at most `limit`.
 template <class Take>
 bool SegmentStore::take_arcs(std::size_t limit, const Take& take) {
   std::size_t taken = 0;
   while (taken < limit) {
     if (next_ == batch_.records.size() && !at_end_) {
-      if (taken != 0) break;  // a piece comes of one batch
+      if (taken != 0) break;  // a piece comes from one batch
       refill_arcs(limit);
       continue;
     }

@@ -24,7 +24,7 @@ ComponentCount::ComponentCount(std::uint64_t nodes, const io::TempDir* temp, Mem
   sets_ = UnionFind(static_cast<std::uint32_t>(nodes));
 }
 
-// The nodes of a range and the buffers of all ranges take the same memory, which then is least.
+// The nodes of a range take the same memory as the buffers of all ranges: that minimizes the sum.
 void ComponentCount::divide(std::uint64_t nodes, const io::TempDir& temp, MemoryBudget& budget) {
   constexpr double kBytes = static_cast<double>(PartitionLogs<Edge>::kBlockBytes) / kRangeNodeBytes;
   range_nodes_ = static_cast<std::uint64_t>(std::sqrt(kBytes * static_cast<double>(nodes))) + 1;
@@ -42,7 +42,7 @@ void ComponentCount::contract(std::size_t range) {
   const std::uint64_t first = range * range_nodes_;
   UnionFind sets(static_cast<std::uint32_t>(range_nodes_));
   std::vector<std::uint64_t> below(static_cast<std::size_t>(range_nodes_), kNoNode);  // by set: joined to this node
-  // That `set` is connected with `node`, too.
+  // Records that `set` is also connected to `node`.
   const auto connect = [&](std::uint32_t set, std::uint64_t node) {
     if (below[set] == kNoNode) {
       below[set] = node;
@@ -63,7 +63,7 @@ void ComponentCount::contract(std::size_t range) {
     if (!sets.unite(lo, hi)) continue;
     const auto [root, rest] = std::minmax(lo, hi);  // as UnionFind links
     const std::uint64_t other = std::exchange(below[rest], kNoNode);
-    // Where both sets are joined to nodes below, an edge between those takes the place of this one.
+    // If both sets are joined to nodes below, an edge between those nodes replaces this one.
     if (other == kNoNode)
       ++joined_;
     else

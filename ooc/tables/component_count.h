@@ -1,4 +1,4 @@
-// How many components a graph has whose nodes need not fit in memory.
+// The number of components of a graph whose nodes need not fit in memory.
 #pragma once
 
 #include <cstdint>
@@ -12,15 +12,15 @@
 
 namespace reeb::ooc {
 
-// Takes the edges of a graph on nodes 0..n-1 and tells how many of them join two components.
+// Takes the edges of a graph on nodes 0..n-1 and counts how many of them join two components.
 //
-// While the budget permits, the nodes are in one UnionFind. Else edges go to files, divided by their upper end into
-// ranges of nodes that fit in memory. Ranges are contracted from the highest to the lowest: within one, each set of
-// nodes is joined to at most one node below the range, and an edge that would join it to a second one is replaced by
-// an edge between these two, which is of a lower range. All of it is read and written in order; a table of pages
+// If the budget permits, the nodes are in one UnionFind. Else edges go to files, divided by their upper end into ranges
+// of nodes that fit in memory. Ranges are contracted from the highest to the lowest. Within a range, each set of nodes
+// is joined to at most one node below the range; an edge that would join it to a second one is replaced by an edge
+// between these two nodes, which belongs to a lower range. All of this is read and written in order. A table of pages
 // would be read at random.
 //
-// MEMORY: reserved: 4 bytes a node if there is that much; else about 900 bytes times the square root of n.
+// MEMORY: reserved: 4 bytes per node if there is that much; else about 900 bytes times the square root of n.
 // THROWS: Error{kResource} of the budget or the disk.   THREADS: one at a time.
 class ComponentCount {
  public:
@@ -35,7 +35,7 @@ class ComponentCount {
       joined_ += sets_.unite(static_cast<std::uint32_t>(lo), static_cast<std::uint32_t>(hi)) ? 1u : 0u;
   }
 
-  // Edges so far that joined two components: the graph has n less these. Ends adding.
+  // The number of edges so far that joined two components: the graph has n minus this many. Ends adding.
   std::uint64_t joined();
   std::uint64_t spilled_bytes() const { return ranges_ ? ranges_->spilled_bytes() : 0; }
 

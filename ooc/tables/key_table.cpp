@@ -35,7 +35,7 @@ void KeyTable::seal() {
 }
 
 std::uint64_t KeyTable::rank(const SweepKey& key, std::uint64_t from) const {
-  // Doubling steps first: upper ends lie near lower ends more often than not.
+  // Doubling steps first, since most upper ends are near lower ends.
   std::uint64_t step = 1;
   while (from + step < count_ && keys_[from + step] < key) {
     from += step;

@@ -11,22 +11,22 @@
 
 namespace reeb::ooc {
 
-// Keys are appended to a temporary file and then searched through a mapping of it, which is
-// given back after each batch: memory is one buffer, whatever the number of keys.
+// Keys are appended to a temporary file and then searched through a mapping of it, whose pages can be released after
+// each batch. So the memory is one buffer, whatever the number of keys.
 // THROWS: Error{kResource} if the disk is full.
 class KeyTable {
  public:
   explicit KeyTable(const io::TempDir& temp);
 
-  // REQUIRES: ascending; no rank was asked for yet.
+  // REQUIRES: ascending; rank() was not called yet.
   void append(const SweepKey& key);
   // Ends appending.
   void seal();
 
-  // Rank of `key`; it is not below the rank `from`, and the nearer the faster.
-  // THROWS: std::logic_error if it is not there.
+  // The rank of `key`. Faster if it is near `from`. REQUIRES: the rank is not below `from`.
+  // THROWS: std::logic_error if the key is not in the table.
   std::uint64_t rank(const SweepKey& key, std::uint64_t from) const;
-  // Gives the pages that were looked at back to the system.
+  // Returns the pages that were read to the system.
   void release_pages() const { mapping_.release_pages(); }
 
   std::uint64_t spilled_bytes() const { return count_ * sizeof(SweepKey); }

@@ -12,16 +12,16 @@
 
 namespace reeb::ooc {
 
-// The numbers lie in a table indexed by the low bits of the vertex id, so that near ids are near in
-// memory: what a coherent stream asks for. A vertex whose place is taken goes to a hash map instead.
+// The numbers are in a table indexed by the low bits of the vertex id, so that near ids are near in memory: a coherent
+// stream needs that. A vertex whose entry is taken goes to a hash map instead.
 //
-// Nothing is cleared between chunks: a place is taken if the vertex that its number stands for in
-// this chunk belongs there (a sparse set, Briggs and Torczon 1993).
-// TIME: O(1) a look-up, about 1 ns where the ids of a chunk are near each other.
+// Nothing is cleared between chunks: an entry is taken if the vertex that has its number in this chunk belongs to that
+// entry (a sparse set, Briggs and Torczon 1993).
+// TIME: O(1) per look-up, about 1 ns if the ids of a chunk are near each other.
 class LocalNumbers {
  public:
-  // For a new chunk, whose vertices are appended to `ids`. REQUIRES: ids is empty.
-  // `expected` vertices are looked up fastest; more are legal.
+  // Starts a new chunk, whose vertices are appended to `ids`. Look-ups are fastest with up to `expected` vertices; more
+  // are allowed. REQUIRES: ids is empty.
   void start(std::vector<VertexId>& ids, std::size_t expected) {
     ids_ = &ids;
     elsewhere_.clear();
@@ -29,7 +29,7 @@ class LocalNumbers {
     if (place_.size() < size) place_.resize(size);
   }
 
-  // numbers[i] is that of vertices[i]. REQUIRES: as many of the one as of the other.
+  // Sets numbers[i] to the number of vertices[i]. REQUIRES: both have the same length.
   void number(std::span<const VertexId> vertices, std::span<std::uint32_t> numbers) {
     const std::size_t mask = place_.size() - 1;
     const VertexId* ids = ids_->data();

@@ -1,4 +1,4 @@
-// From vertices to nodes: a table with linear probing, at most half full.
+// Finds the node of a vertex: a table with linear probing, at most half full.
 #pragma once
 
 #include <bit>
@@ -10,11 +10,10 @@
 
 namespace reeb::ooc {
 
-// An arc's upper end may be anywhere, and where values are random it mostly is: a look-up costs two
-// places in memory, and those of successive arcs are fetched side by side, which a binary search
-// would not allow.
+// The upper end of an arc can be any node; where values are random, it mostly is far away. A look-up touches two places
+// in memory, and those of successive arcs are fetched at the same time, which a binary search would not allow.
 //
-// MEMORY: bytes(), 8 to 16 a node.
+// MEMORY: bytes(), 8 to 16 per node.
 class NodeTable {
  public:
   static constexpr std::uint32_t kNone = ~std::uint32_t{0};
@@ -31,7 +30,7 @@ class NodeTable {
 
   static std::uint64_t bytes(std::uint64_t nodes) { return std::bit_ceil(2 * nodes + 1) * sizeof(std::uint32_t); }
 
-  // The place of the key among the nodes, or kNone.
+  // The index of the key among the nodes, or kNone.
   std::uint32_t find(const SweepKey& key) const {
     for (std::size_t slot = home(key); slots_[slot] != kNone; slot = (slot + 1) & (slots_.size() - 1))
       if (nodes_[slots_[slot]] == key) return slots_[slot];
@@ -47,9 +46,9 @@ class NodeTable {
   std::vector<std::uint32_t> slots_;
 };
 
-// The same where most keys that are asked for are no nodes: one bit tells so of 15 in 16 of them.
+// The same for look-ups of which most find no node: one bit rules out 15 of 16 such keys.
 //
-// MEMORY: bytes(), 2 to 4 a node more.
+// MEMORY: bytes(), 2 to 4 per node more.
 class SparseNodeTable {
  public:
   // REQUIRES: as NodeTable.

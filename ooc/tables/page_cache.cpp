@@ -10,7 +10,7 @@ PageCache::PageCache(const char* owner, const io::TempDir& temp, MemoryBudget& b
                      std::span<const std::byte> fill)
     : owner_(owner),
       temp_(&temp),
-      allowance_(std::max<std::uint64_t>(allowance_bytes, kLeastFrames * kPageBytes)),
+      allowance_(std::max<std::uint64_t>(allowance_bytes, kRequiredFrames * kPageBytes)),
       fill_(fill.begin(), fill.end()),
       pages_charge_(budget.reserve(owner, 0)),
       directory_charge_(budget.reserve(owner, 0)) {}
@@ -41,7 +41,7 @@ void PageCache::grow_directory(std::size_t pages) {
   places_.resize(pages, kFresh);
 }
 
-// A frame that no page has: of new memory if it may grow, else another page's.
+// A frame without a page: in new memory if the cache may grow, else taken from another page.
 std::uint32_t PageCache::take_frame() {
   const auto next = static_cast<std::uint32_t>(frames_.size());
   if (frames_.size() == blocks_.size() * kBlockFrames) {
@@ -52,10 +52,11 @@ std::uint32_t PageCache::take_frame() {
   return next;
 }
 
-// By a block of frames. THROWS: Error{kResource} if the budget does not grant the least.
+// Whether the cache may grow by a block of frames. THROWS: Error{kResource} if the budget does not grant the required
+// frames.
 bool PageCache::may_grow() {
   const std::uint64_t grown = (blocks_.size() + 1) * kBlockFrames * kPageBytes;
-  if (grown <= kLeastFrames * kPageBytes) {
+  if (grown <= kRequiredFrames * kPageBytes) {
     pages_charge_.resize(grown);
     return true;
   }

@@ -1,4 +1,4 @@
-// Pages of 4 KiB, some in memory and the rest in an unnamed file: what a PagedTable stands on.
+// Pages of 4 KiB, some in memory and the rest in an unnamed file: the storage of a PagedTable.
 #pragma once
 
 #include <cstddef>
@@ -14,22 +14,20 @@
 
 namespace reeb::ooc {
 
-// Page k is a run of kPageBytes bytes that starts as repetitions of a fill pattern. Pages stay in
-// memory while the allowance and the budget permit; then the clock (second chance) picks one that
-// was not touched lately, and writes it if it was changed. Nothing is written, and no file made,
-// while all pages fit.
+// Page k is kPageBytes bytes, at first repetitions of a fill pattern. Pages stay in memory while the allowance and the
+// budget permit. After that, the clock algorithm (second chance) picks a page that was not touched recently, and writes
+// it if it was changed. While all pages fit, nothing is written and no file is made.
 //
-// Pages are small, since what is needed again is mostly a line of vertices here and there: the border
-// of each patch, the last row. The system collects what is written, so that small pages cost little
-// more of its time than large ones.
+// Pages are small, since most of what is needed again is a line of vertices here and there: the border of each patch,
+// the last row. The system collects writes, so small pages cost it little more time than large ones.
 //
-// MEMORY: each resident page, and 4 bytes for each page ever named, are charged to the budget.
+// MEMORY: each resident page, and 4 bytes for each page ever named, are reserved from the budget.
 // THREADS: one at a time.
 class PageCache {
  public:
   static constexpr std::size_t kPageBytes = 4 << 10;
-  // Fewer frames than this make no progress worth having; the budget must grant them.
-  static constexpr std::size_t kLeastFrames = 64;
+  // The budget must grant at least this many frames; with fewer, nearly every access would be a miss.
+  static constexpr std::size_t kRequiredFrames = 64;
 
   // `owner` is a string literal for the budget's texts. `temp` must outlive this.
   PageCache(const char* owner, const io::TempDir& temp, MemoryBudget& budget, std::uint64_t allowance_bytes,
@@ -37,8 +35,8 @@ class PageCache {
   PageCache(PageCache&&) noexcept = default;
   PageCache& operator=(PageCache&&) noexcept = default;
 
-  // The bytes of page `page`, in memory until the next call that names another page; the page is
-  // marked as changed if `writing`.
+  // The bytes of page `page`, in memory until the next call that names another page. The page is marked as changed if
+  // `writing`.
   std::byte* page(std::size_t page, bool writing) {
     const std::uint32_t place = page < places_.size() ? places_[page] : kFresh;
     if (place < kOnDisk) [[likely]] {
@@ -52,12 +50,12 @@ class PageCache {
   std::uint64_t resident_bytes() const { return frames_.size() * kPageBytes; }
   // Bytes written to the file so far.
   std::uint64_t spilled_bytes() const { return spilled_; }
-  // Whether access is too scattered for the memory. A refetch costs some 30 us; a coherent mesh needs each page
-  // again a few times at most.
+  // Whether access is too scattered for the memory. Fetching a page again costs about 30 us; a coherent mesh needs each
+  // page again a few times at most.
   bool is_thrashing() const { return refetches_ > 64 + 8 * places_.size(); }
 
  private:
-  // Where a page is: in the frame of this number, or one of these.
+  // Where a page is: in the frame with this number, or one of these values.
   static constexpr std::uint32_t kFresh = ~std::uint32_t{0}, kOnDisk = kFresh - 1;
   static constexpr std::uint32_t kTouched = 1, kDirty = 2, kStored = 4;  // kStored: in the file, too
   static constexpr std::size_t kNoPage = ~std::size_t{0};
@@ -66,7 +64,7 @@ class PageCache {
     std::size_t page;
     std::uint32_t marks;
   };
-  static constexpr std::size_t kBlockFrames = 16;  // whose memory is asked for at once
+  static constexpr std::size_t kBlockFrames = 16;  // frames whose memory is allocated at once
 
   std::byte* fault(std::size_t page, bool writing);
   void grow_directory(std::size_t pages);
@@ -81,7 +79,7 @@ class PageCache {
   std::vector<std::byte> fill_;
   Reservation pages_charge_, directory_charge_;
   std::vector<std::uint32_t> places_;                 // by page
-  std::vector<Frame> frames_;                         // the clock's face
+  std::vector<Frame> frames_;                         // in the order of the clock
   std::vector<std::unique_ptr<std::byte[]>> blocks_;  // memory of the frames
   std::size_t hand_ = 0;                              // into frames_
   io::File file_;

@@ -1,4 +1,4 @@
-// One entry a vertex, for more vertices than memory holds (DESIGN.md 4, Finalization).
+// One entry per vertex, for more vertices than memory holds.
 #pragma once
 
 #include <algorithm>
@@ -12,11 +12,11 @@
 
 namespace reeb::ooc {
 
-// A table of T indexed from 0 without an end: an entry never set has the fill value and costs
-// nothing. A hit is a shift, three loads and a mark, about 2 ns; a miss reads, and perhaps writes,
-// a page. Made for access whose places are mostly near each other.
+// A table of T, indexed from 0 without an upper limit. An entry that was never set has the fill value and costs
+// nothing. A hit is a shift, three loads and a mark, about 2 ns. A miss reads a page, and might write one. Made for
+// accesses that are mostly near each other.
 //
-// THROWS: Error{kResource} if the disk is full, or the budget lacks the least working set.
+// THROWS: Error{kResource} if the disk is full, or the budget lacks the smallest working set.
 // MEMORY: as PageCache.   THREADS: one at a time.
 template <class T>
 class PagedTable {

@@ -8,10 +8,10 @@
 
 namespace reeb::ooc {
 
-// Elements are numbered from 0 without an end; each is a set of its own at first. As UnionFind: path
-// halving, linking to the smaller index, so a set is named by its least element.
+// Elements are numbered from 0 without an upper limit; each is a set of its own at first. As in UnionFind: path
+// halving, and linking to the smaller index, so the name of a set is its smallest element.
 //
-// THROWS, MEMORY, THREADS: as PagedTable, of 8 bytes an element that was ever in a union.
+// THROWS, MEMORY, THREADS: as PagedTable, with 8 bytes per element that was ever in a union.
 class PagedUnionFind {
  public:
   PagedUnionFind(const char* owner, const io::TempDir& temp, MemoryBudget& budget, std::uint64_t allowance_bytes)
@@ -36,11 +36,11 @@ class PagedUnionFind {
     return true;
   }
 
-  // Sets among n elements are n less these.
+  // The number of successful unions; n elements form n minus this many sets.
   std::uint64_t unions() const { return unions_; }
 
  private:
-  // A link is the parent, told from the element itself so that a fresh entry is its own root.
+  // A link is the parent xor the element itself, so that a fresh entry is its own root.
   std::uint64_t parent(std::uint64_t x) { return links_.get(x) ^ x; }
   void set_parent(std::uint64_t x, std::uint64_t parent) { links_.set(x, parent ^ x); }
 

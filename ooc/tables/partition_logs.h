@@ -1,5 +1,5 @@
-// Records divided into parts, each read back in the order of writing: the partition step of joins that
-// would otherwise need random access.
+// Records divided into parts, each read back in the order of writing: the partition step of joins that would otherwise
+// access memory at random.
 #pragma once
 
 #include <algorithm>
@@ -15,10 +15,10 @@
 
 namespace reeb::ooc {
 
-// append() all, then next() takes each part's records in turn; parts may be read interleaved.
+// Call append() for all records; then next() delivers the records of each part in order. Parts can be read interleaved.
 //
 // THROWS: Error{kResource} of the budget or the disk.
-// MEMORY: 16 KiB a part, reserved, and 8 bytes for each 16 KiB written.   THREADS: one at a time.
+// MEMORY: 16 KiB per part, reserved, and 8 bytes for each 16 KiB written.   THREADS: one at a time.
 template <class Record>
 class PartitionLogs {
   static_assert(std::is_trivially_copyable_v<Record>);
@@ -46,7 +46,7 @@ class PartitionLogs {
   std::uint64_t count(std::size_t index) const { return parts_[index].count; }
   std::uint64_t spilled_bytes() const { return size_; }
 
-  // The next record of a part. REQUIRES: it has one left, and nothing is appended any more.
+  // The next record of a part. REQUIRES: the part has one left, and nothing more is appended.
   const Record& next(std::size_t index) {
     Part& part = parts_[index];
     if (part.taken % kBlockRecords == 0) fetch(part);
@@ -56,13 +56,13 @@ class PartitionLogs {
  private:
   static constexpr std::size_t kBlockRecords = kBlockBytes / sizeof(Record);
   struct Part {
-    std::vector<Record> records;  // the block at hand
+    std::vector<Record> records;  // the current block
     std::vector<std::uint64_t> blocks;
     std::uint64_t count = 0, taken = 0;
   };
 
-  // The last block was never written: its records wait at the end of the file until they are
-  // needed, so that a part has one buffer only.
+  // The last block was never written. Its records move to the end of the file when reading starts, so that a part needs
+  // only one buffer.
   void fetch(Part& part) {
     if (part.taken == 0 && !part.blocks.empty()) {
       file_.write_at(size_, std::as_bytes(std::span<const Record>(part.records)));

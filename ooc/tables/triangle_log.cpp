@@ -14,10 +14,10 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "low bytes are copied first");
 
-// Block: a 4-byte count of the bytes used, then triangles; the decoder loads 8 bytes at a time,
-// so a block ends with room for one load.
+// Block: a 4-byte count of the bytes used, then triangles. The decoder loads 8 bytes at a time, so a block ends with
+// room for one load.
 constexpr std::size_t kCountBytes = 4;
-constexpr std::size_t kMostTriangleBytes = 1 + 3 * 8;
+constexpr std::size_t kTriangleBytesLimit = 1 + 3 * 8;
 constexpr std::size_t kSlackBytes = 8;
 
 constexpr std::array<std::size_t, 4> kLength = {1, 2, 4, 8};
@@ -38,7 +38,7 @@ TriangleLog::TriangleLog(const io::TempDir& temp, MemoryBudget& budget, std::uin
 
 void TriangleLog::append(std::span<const VertexId> corners) {
   for (std::size_t t = 0; t + 3 <= corners.size(); t += 3) {
-    if (write_at_ + kMostTriangleBytes + kSlackBytes > kBlockBytes) seal_block();
+    if (write_at_ + kTriangleBytesLimit + kSlackBytes > kBlockBytes) seal_block();
     const std::uint64_t first = corners[t].value();
     const std::array<std::uint64_t, 3> codes = {zigzag(first - write_before_), zigzag(corners[t + 1].value() - first),
                                                 zigzag(corners[t + 2].value() - first)};

@@ -1,4 +1,4 @@
-// Triangles kept in a few bytes each, written once and read in order again and again.
+// Triangles in a few bytes each, written once and read in order any number of times.
 #pragma once
 
 #include <cstddef>
@@ -14,25 +14,24 @@
 
 namespace reeb::ooc {
 
-// Corners are stored as differences to corners near by, each in 1, 2, 4 or 8 bytes, behind one
-// byte with their lengths: 4 to 7 bytes a triangle of a coherent mesh. Blocks of 64 KiB decode
-// alone; the first are kept in memory as far as allowance and budget permit, the others go to
-// an unnamed file.
+// Corners are stored as differences to corners near by, each in 1, 2, 4 or 8 bytes, after one byte with their lengths:
+// 4 to 7 bytes per triangle of a coherent mesh. Each block of 64 KiB can be decoded alone. The first blocks stay in
+// memory as far as allowance and budget permit; the others go to an unnamed file.
 //
 // THROWS: Error{kResource} of the budget or the disk.   THREADS: one at a time.
 class TriangleLog {
  public:
   TriangleLog(const io::TempDir& temp, MemoryBudget& budget, std::uint64_t allowance_bytes);
 
-  // REQUIRES: three corners a triangle; nothing was read yet.
+  // REQUIRES: three corners per triangle; nothing was read yet.
   void append(std::span<const VertexId> corners);
 
   void rewind();
-  // Replaces `corners` by at most `limit` next triangles; false at the end.
+  // Replaces `corners` by those of the next triangles, at most `limit`. False at the end.
   bool read(std::vector<VertexId>& corners, std::size_t limit);
 
   std::uint64_t triangle_count() const { return triangle_count_; }
-  // Encoded bytes: in all, before the place of reading, and of these in the file.
+  // Encoded bytes: in all; before the reading position; and in the file.
   std::uint64_t bytes_total() const { return block_count_ * kBlockBytes + write_at_; }
   std::uint64_t bytes_read() const { return read_block_ * kBlockBytes + read_at_; }
   std::uint64_t spilled_bytes() const { return (block_count_ - in_memory_.size()) * kBlockBytes; }
@@ -54,7 +53,7 @@ class TriangleLog {
 
   Block open_;  // the block being written
   std::size_t write_at_ = 0;
-  std::uint64_t write_before_ = 0;  // the corner that the next one is told from
+  std::uint64_t write_before_ = 0;  // the corner that the next one is encoded relative to
 
   Block fetched_;  // a block of the file
   std::uint64_t fetched_index_ = ~std::uint64_t{0};

@@ -1,4 +1,4 @@
-// One number a vertex, in four bytes where that loses nothing.
+// One number per vertex, in four bytes if that loses nothing.
 #pragma once
 
 #include <cstdint>
@@ -9,11 +9,10 @@
 
 namespace reeb::ooc {
 
-// A column that starts as float32 and turns into float64 at the first value that is not exactly
-// a float32. Values come back exactly as written.
+// A column that starts as float32 and changes to float64 at the first value that is not exactly a float32. Values are
+// read exactly as written.
 //
-// THROWS, MEMORY, THREADS: as PagedTable; while it turns, both tables are held within the
-// allowance.
+// THROWS, MEMORY, THREADS: as PagedTable; during the change, both tables are within the allowance.
 class VertexColumn {
  public:
   VertexColumn(const io::TempDir& temp, MemoryBudget& budget, std::uint64_t allowance_bytes);

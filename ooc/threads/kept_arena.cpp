@@ -7,7 +7,7 @@
 namespace reeb::ooc {
 
 tbb::task_arena& kept_arena(unsigned threads) {
-  // Never destroyed: at the end of the process TBB may be gone before.
+  // Never destroyed: at the end of the process, TBB can be gone already.
   static auto& mutex = *new std::mutex;
   static auto& arenas = *new std::map<unsigned, std::unique_ptr<tbb::task_arena>>;
   const std::scoped_lock lock(mutex);

@@ -1,7 +1,7 @@
-// Arenas of threads that are kept for the next run.
+// Arenas of threads that are kept from run to run.
 //
-// TBB gives an arena back long after it was destroyed, and searches all of them for work meanwhile: a
-// process that makes thousands of short runs would become slower with each.
+// TBB frees an arena long after it was destroyed, and until then searches all arenas for work: a process that makes
+// thousands of short runs would become slower with each run.
 #pragma once
 
 #include <tbb/global_control.h>
@@ -9,14 +9,14 @@
 
 namespace reeb::ooc {
 
-// The arena of this process with this number of threads, the caller among them. Any thread may use it.
+// The arena of this process with this number of threads, including the caller. Any thread may use it.
 tbb::task_arena& kept_arena(unsigned threads);
 
 // Calls work() in that arena.
 //
-// Without the limit TBB would have no more threads than the machine has processors, however many a user
-// asks for; and the limit exists for the process only. So while this runs, TBB work that the process
-// does elsewhere has no more threads than this, either. Nothing else in the library sets a limit.
+// Without the limit TBB would use at most as many threads as the machine has processors, even if a user asks for more.
+// The limit applies to the whole process: while this runs, other TBB work of the process has no more threads than this,
+// either. Nothing else in the library sets a limit.
 template <class Work>
 void run_in_kept_arena(unsigned threads, const Work& work) {
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);

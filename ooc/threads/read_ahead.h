@@ -1,4 +1,4 @@
-// Reading the next pieces while one is used.
+// Reads the next items while one is used.
 #pragma once
 
 #include <tbb/parallel_pipeline.h>
@@ -11,52 +11,52 @@
 
 namespace reeb::ooc {
 
-// Calls read(piece) until it is false, prepare(piece) for each piece, and use(piece) for each in order. With
-// `background` two threads do so: one call of `read` at a time, one of `use`, and any of `prepare`.
-// THROWS: what these throw.   MEMORY: three pieces.
-template <class Piece, class Read, class Prepare, class Use>
+// Calls read(item) until it returns false, prepare(item) for each item, and use(item) for each in order. With
+// `background`, two threads do this: one call of `read` at a time, one of `use`, and any number of `prepare`.
+// THROWS: what these throw.   MEMORY: three items.
+template <class Item, class Read, class Prepare, class Use>
 void read_ahead(bool background, const Read& read, const Prepare& prepare, const Use& use) {
   if (!background) {
-    for (Piece piece; read(piece);) {
-      prepare(piece);
-      use(piece);
+    for (Item item; read(item);) {
+      prepare(item);
+      use(item);
     }
     return;
   }
   constexpr unsigned kThreads = 2;
-  std::array<Piece, 3> pieces;
+  std::array<Item, 3> pieces;
   std::size_t next = 0;
   const PipelineOrder order;
-  const auto read_next = [&](tbb::flow_control& flow) -> Piece* {
+  const auto read_next = [&](tbb::flow_control& flow) -> Item* {
     const PipelineOrder::Filter serial(order, &next);
-    Piece& piece = pieces[next++ % pieces.size()];
-    const PipelineOrder::Filter filter(order, &piece);
-    if (read(piece)) return &piece;
+    Item& item = pieces[next++ % pieces.size()];
+    const PipelineOrder::Filter filter(order, &item);
+    if (read(item)) return &item;
     flow.stop();
     return nullptr;
   };
-  const auto prepare_one = [&](Piece* piece) {
-    const PipelineOrder::Filter filter(order, piece);
-    prepare(*piece);
-    return piece;
+  const auto prepare_one = [&](Item* item) {
+    const PipelineOrder::Filter filter(order, item);
+    prepare(*item);
+    return item;
   };
-  const auto use_one = [&](Piece* piece) {
-    const PipelineOrder::Filter filter(order, piece, &use);
-    use(*piece);
+  const auto use_one = [&](Item* item) {
+    const PipelineOrder::Filter filter(order, item, &use);
+    use(*item);
   };
   using tbb::filter_mode;
   run_in_kept_arena(kThreads, [&] {
-    tbb::parallel_pipeline(pieces.size(), tbb::make_filter<void, Piece*>(filter_mode::serial_in_order, read_next) &
-                                              tbb::make_filter<Piece*, Piece*>(filter_mode::parallel, prepare_one) &
-                                              tbb::make_filter<Piece*, void>(filter_mode::serial_in_order, use_one));
+    tbb::parallel_pipeline(pieces.size(), tbb::make_filter<void, Item*>(filter_mode::serial_in_order, read_next) &
+                                              tbb::make_filter<Item*, Item*>(filter_mode::parallel, prepare_one) &
+                                              tbb::make_filter<Item*, void>(filter_mode::serial_in_order, use_one));
   });
 }
 
 // The same without preparing.
-template <class Piece, class Read, class Use>
+template <class Item, class Read, class Use>
 void read_ahead(bool background, const Read& read, const Use& use) {
-  read_ahead<Piece>(
-      background, read, [](Piece&) {}, use);
+  read_ahead<Item>(
+      background, read, [](Item&) {}, use);
 }
 
 }  // namespace reeb::ooc

@@ -1,4 +1,4 @@
-// A thread that does one thing after the other, beside its owner.
+// A thread that runs one task after the other, in parallel to its owner.
 #pragma once
 
 #include <condition_variable>
@@ -10,8 +10,8 @@
 
 namespace reeb::ooc {
 
-// The thread starts with the first task and is kept. Threads that are started for a few milliseconds each
-// tend to run on the core of who started them, one after the other, while another core is idle.
+// The thread starts with the first task and is kept. Threads that are started for a few milliseconds each tend to run
+// one after the other on the core of the thread that starts them, while another core is idle.
 //
 // THREADS: one owner.
 class Worker {
@@ -19,7 +19,7 @@ class Worker {
   Worker() = default;
   Worker(const Worker&) = delete;
   Worker& operator=(const Worker&) = delete;
-  // Waits for the task at hand; what it throws is lost.
+  // Waits for the current task; an exception from it is lost.
   ~Worker() {
     if (!thread_.joinable()) return;
     {
@@ -30,7 +30,7 @@ class Worker {
     thread_.join();
   }
 
-  // Waits for the task before, and starts this one. THROWS: as wait(); then this one is not started.
+  // Waits for the previous task, then starts this one. THROWS: as wait(); then this one is not started.
   void start(std::function<void()> task) {
     wait();
     {
@@ -44,7 +44,7 @@ class Worker {
       thread_ = std::thread([this] { run(); });
   }
 
-  // Returns once there is no task. THROWS: what the last one threw, once.
+  // Returns once there is no task. THROWS: what the last task threw, once.
   void wait() {
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [&] { return !busy_; });

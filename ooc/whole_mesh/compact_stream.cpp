@@ -16,7 +16,7 @@ constexpr std::size_t kUnusedAtOnce = 4096;
 
 struct Place {
   std::uint64_t last = kNone;    // the last triangle that names the vertex
-  std::uint64_t number = kNone;  // its new one
+  std::uint64_t number = kNone;  // its new number
 };
 
 class CompactStream {
@@ -56,7 +56,7 @@ class CompactStream {
     }
   }
 
-  // By first appearance. Their columns are looked up together.
+  // Numbers new vertices by first appearance. Their columns are looked up together.
   void number_new_vertices(const TriangleStretches& stretch) {
     const auto vertices = stretch.vertices();
     here_.resize(vertices.size());
@@ -66,7 +66,7 @@ class CompactStream {
       if (place.number == kNone) place.number = numbered_++;
     new_ids_.clear();
     new_places_.clear();
-    // Backwards, since the pages read last are still there.
+    // Backwards, since the pages read last are still in memory.
     for (const std::uint32_t n : std::views::reverse(stretch.lookup_order())) {
       if (here_[n].number < first_new) continue;
       places_.change(vertices[n].value()).number = here_[n].number;
@@ -76,7 +76,7 @@ class CompactStream {
     gather_new();
   }
 
-  // The columns of the new ids, brought to their places.
+  // Gathers the columns of the new ids and puts the values in the order of first appearance.
   void gather_new() {
     const std::size_t count = new_ids_.size();
     new_used_ = 0;
@@ -101,7 +101,7 @@ class CompactStream {
     send();
   }
 
-  // The next of the new vertices, which come in the order of their numbers.
+  // Adds the next new vertex. New vertices come in the order of their numbers.
   void add_vertex() {
     for (std::size_t k = 0; k < columns_.size(); ++k) {
       auto& column = k < dimension_ ? batch_.coordinates[k] : batch_.properties[k - dimension_];
@@ -144,8 +144,8 @@ class CompactStream {
   PagedTable<Place> places_;
   std::vector<unsigned> columns_;
   unsigned dimension_;
-  std::uint64_t numbered_ = 0, sent_ = 0;  // vertices with a number, and those that were written
-  std::vector<Place> here_;                // of the vertices of the stretch at hand
+  std::uint64_t numbered_ = 0, sent_ = 0;  // vertices that have a number, and vertices that were written
+  std::vector<Place> here_;                // of the vertices of the current stretch
   std::vector<VertexId> new_ids_;
   std::vector<std::size_t> new_places_;    // of the new ids, among them by first appearance
   std::vector<double> gathered_, values_;  // by column, then by new id, or by place

@@ -14,9 +14,9 @@
 namespace reeb::ooc {
 namespace {
 
-constexpr std::uint64_t kMostRows = 200'000;
+constexpr std::uint64_t kRowsLimit = 200'000;
 constexpr std::uint64_t kClusters = 50'000;
-constexpr std::uint64_t kRowBytes = 1024;  // of the factorization, by experience with surfaces
+constexpr std::uint64_t kRowBytes = 1024;  // of the factorization, measured on surfaces
 constexpr int kSmoothingSteps = 8;
 constexpr std::size_t kTrianglesAtOnce = 4096;
 constexpr double kWeakEdge = 1e-3;
@@ -24,7 +24,7 @@ constexpr double kWeakEdge = 1e-3;
 using Matrix = Eigen::SparseMatrix<double>;
 using Vector = Eigen::VectorXd;
 
-// Calls visit(a, b) for the edges of all triangles, each as often as it occurs.
+// Calls visit(a, b) for the edges of all triangles. An edge of several triangles is visited for each.
 template <class Visit>
 void for_each_edge(IndexedMesh& mesh, const Visit& visit) {
   std::vector<VertexId> corners;
@@ -37,11 +37,11 @@ void for_each_edge(IndexedMesh& mesh, const Visit& visit) {
       }
 }
 
-// Which row of the matrix a vertex belongs to.
+// The row of the matrix that a vertex belongs to.
 class Rows {
  public:
   Rows(std::uint64_t vertices, std::uint64_t memory_bytes) : vertices_(vertices) {
-    const std::uint64_t most = std::clamp<std::uint64_t>(memory_bytes / 4 / kRowBytes, 64, kMostRows);
+    const std::uint64_t most = std::clamp<std::uint64_t>(memory_bytes / 4 / kRowBytes, 64, kRowsLimit);
     const std::uint64_t rows = vertices <= most ? vertices : std::min(most, kClusters);
     per_row_ = (vertices + rows - 1) / rows;
   }
@@ -53,7 +53,7 @@ class Rows {
   std::uint64_t vertices_, per_row_;
 };
 
-// Sums the weights of a graph's edges as they come; compacts itself when they have doubled.
+// Sums the weights of a graph's edges as they are added; compacts itself whenever their number has doubled.
 class EdgeWeights {
  public:
   void add(std::uint64_t a, std::uint64_t b, double weight) {
@@ -149,17 +149,17 @@ Vector coarse_fiedler(EdgeWeights& weights, std::size_t rows) {
   const auto size = static_cast<Eigen::Index>(rows);
   if (rows < 3) return Vector::LinSpaced(size, 0, 1);
   const Matrix lower = laplacian(weights, rows);
-  // Far below the eigenvalue sought, which is of the order of 1 / rows^2 for a chain.
+  // Far below the eigenvalue that is sought, which is of the order of 1 / rows^2 for a chain.
   const double shift = 1e-3 / (static_cast<double>(rows) * static_cast<double>(rows)) + 1e-12;
   InverseLaplacian inverse(lower, shift);
   Spectra::SymEigsSolver<InverseLaplacian> solver(inverse, 2, std::min<Eigen::Index>(20, size));
-  // A start of its own, not at random: the same mesh gives the same order.
+  // A fixed start vector instead of a random one: the same mesh always gives the same order.
   Vector start(size);
   for (Eigen::Index i = 0; i < size; ++i) start[i] = static_cast<double>(i) / static_cast<double>(size) - 0.4;
   solver.init(start.data());
   solver.compute(Spectra::SortRule::LargestMagn, 300, 1e-6);
   if (solver.info() != Spectra::CompInfo::Successful || solver.eigenvectors().cols() < 2)
-    return Vector::LinSpaced(size, 0, 1);  // the order along the curve is still a good one
+    return Vector::LinSpaced(size, 0, 1);  // the order along the curve is still good
   return solver.eigenvectors().col(1);
 }
 

@@ -1,4 +1,4 @@
-// Places along a Hilbert curve through the unit cube, on a grid of 2^21 cells a side.
+// Positions along a Hilbert curve through the unit cube, on a grid of 2^21 cells per side.
 #pragma once
 
 #include <array>
@@ -8,9 +8,8 @@ namespace reeb::ooc {
 
 inline constexpr unsigned kHilbertBits = 21;
 
-// Position of a cell on the curve; cells that follow each other share a face. Each coordinate is
-// below 2^21. (After Skilling, Programming the Hilbert curve, 2004: the coordinates become the
-// bits of the position, transposed.)
+// The position of a cell on the curve. Successive cells share a face. Each coordinate is below 2^21. (After Skilling,
+// Programming the Hilbert curve, 2004: the coordinates become the bits of the position, transposed.)
 inline std::uint64_t hilbert_index(std::array<std::uint32_t, 3> x) {
   for (std::uint32_t q = 1u << (kHilbertBits - 1); q > 1; q >>= 1) {
     const std::uint32_t low = q - 1;

@@ -22,7 +22,7 @@ struct EdgeUse {
   static constexpr std::uint64_t kLoose = ~std::uint64_t{0};  // of no triangle
 
   std::uint64_t lo, hi;
-  std::uint64_t use = kLoose;  // triangle * 3 + the place of the corner opposite
+  std::uint64_t use = kLoose;  // triangle * 3 + the index of the opposite corner
   friend auto operator<=>(const EdgeUse&, const EdgeUse&) = default;
 
   bool same_edge(const EdgeUse& other) const { return lo == other.lo && hi == other.hi; }
@@ -74,7 +74,7 @@ class Simplices {
     components_.unite(a, b);
     components_.unite(a, c);
     if (a == b || b == c || a == c) {
-      // Of at most two distinct corners.
+      // At most two distinct corners.
       const auto [lo, hi] = std::minmax({a, b, c});
       if (lo != hi) edges_.add(EdgeUse{lo, hi});
       return;
@@ -115,7 +115,7 @@ class Simplices {
           count_edge(same);
           same.clear();
         }
-        if (same.size() < 4) same.push_back(edge);  // more tell no more
+        if (same.size() < 4) same.push_back(edge);  // more of them say nothing more
       }
     if (!same.empty()) count_edge(same);
   }

@@ -1,4 +1,4 @@
-// What a mesh itself says of its Reeb graph, counted without computing one.
+// Facts about a Reeb graph that can be counted on the mesh without computing the graph.
 #pragma once
 
 #include <cstdint>
@@ -16,20 +16,19 @@ struct MeshRecount {
   std::uint64_t components = 0;  // of the mesh, by union-find over its vertices
   std::int64_t euler = 0;        // vertices - edges + triangles, of distinct ones with distinct corners
 
-  // Where the mesh is a surface (with isolated points): at most two triangles at each edge, one fan
-  // at each vertex. Then the loops of any Reeb graph of it are at most this many: its genus if it is
-  // closed, else its first Betti number. They can be fewer: a vertex at which a contour splits and
-  // meets itself again hides a loop.
+  // Set if the mesh is a surface (with isolated points): at most two triangles at each edge, one fan at each vertex.
+  // Then any Reeb graph of it has at most this many loops: its genus if it is closed, else its first Betti number. It
+  // can have fewer: a vertex at which a contour splits and meets itself again hides a loop.
   std::optional<std::uint64_t> most_loops;
   bool closed = false;
 };
 
 using BatchObserver = std::function<void(const MeshBatch&)>;
 
-// Reads the mesh to its end, once. `observe` sees each batch, too.
+// Reads the mesh to its end, once. `observe` also sees each batch.
 //
-// MEMORY: tables of 8 bytes a vertex and a corner, and sorts of 24 bytes a triangle and an edge
-//         of each, all on disk beyond the space's budget.
+// MEMORY: tables of 8 bytes per vertex and per corner, and sorts of 24 bytes per triangle and per edge of each; beyond
+//         the space's budget they are on disk.
 // THROWS: Error{kBadInput} of the reader; what `observe` throws.
 MeshRecount recount_mesh(MeshReader& reader, Workspace& space, const BatchObserver& observe = {});
 

@@ -22,7 +22,7 @@ struct KeyedVertex {
   friend auto operator<=>(const KeyedVertex&, const KeyedVertex&) = default;
 };
 struct RankedTriangle {
-  std::array<std::uint64_t, 3> corners;  // the lowest first, turned, not flipped
+  std::array<std::uint64_t, 3> corners;  // rotated so that the lowest is first, not flipped
   friend auto operator<=>(const RankedTriangle&, const RankedTriangle&) = default;
 };
 struct PlacedNumber {
@@ -33,8 +33,8 @@ struct PlacedRank {
   std::uint64_t place, rank;
 };
 
-// The vertices fall into slices of consecutive ids (or ranks) whose entries fit memory. A join by
-// vertex is then: partition the records by slice, and for each slice look up in memory.
+// The vertices are divided into slices of consecutive ids (or ranks) whose entries fit in memory. A join by vertex then
+// partitions the records by slice, and looks up each slice in memory.
 class Reorder {
  public:
   Reorder(IndexedMesh& mesh, const io::TempDir& temp, MemoryBudget& budget, const ReorderOptions& options)
@@ -56,9 +56,9 @@ class Reorder {
   }
 
  private:
-  // Calls visit(first, values) for stretches of consecutive vertices; values as by gather.
+  // Calls visit(first, count, values) for ranges of consecutive vertices; values as from gather().
   template <class Visit>
-  void for_each_stretch(std::span<const unsigned> columns, const Visit& visit) {
+  void for_each_range(std::span<const unsigned> columns, const Visit& visit) {
     std::vector<VertexId> ids;
     std::vector<double> values;
     for (std::uint64_t first = 0; first < vertex_count_; first += ids.size()) {
@@ -70,7 +70,7 @@ class Reorder {
     }
   }
 
-  // Rank: the place of a vertex along the curve.
+  // The rank of a vertex is its place along the curve.
   void rank_vertices() {
     ExternalSort<KeyedVertex> by_key("reorder", temp_, budget_, sorting());
     add_keys(by_key);
@@ -100,7 +100,7 @@ class Reorder {
     std::array<double, 3> low, high;
     low.fill(std::numeric_limits<double>::infinity());
     high.fill(-std::numeric_limits<double>::infinity());
-    for_each_stretch(axes, [&](std::uint64_t, std::size_t count, std::span<const double> values) {
+    for_each_range(axes, [&](std::uint64_t, std::size_t count, std::span<const double> values) {
       for (std::size_t a = 0; a < axes.size(); ++a)
         for (std::size_t i = 0; i < count; ++i) {
           low[a] = std::min(low[a], values[a * count + i]);
@@ -111,7 +111,7 @@ class Reorder {
     double half_size = 0;
     for (std::size_t a = 0; a < axes.size(); ++a) half_size = std::max(half_size, high[a] / 2 - low[a] / 2);
     constexpr double kCells = (1u << kHilbertBits) - 1;
-    for_each_stretch(axes, [&](std::uint64_t first, std::size_t count, std::span<const double> values) {
+    for_each_range(axes, [&](std::uint64_t first, std::size_t count, std::span<const double> values) {
       for (std::size_t i = 0; i < count; ++i) {
         std::array<std::uint32_t, 3> cell{};
         for (std::size_t a = 0; a < axes.size() && half_size > 0; ++a) {
@@ -123,11 +123,11 @@ class Reorder {
     });
   }
 
-  // Brings a column from the order of ids into that of ranks.
+  // Reorders a column from the order of ids to that of ranks.
   void place_column(unsigned column) {
     PartitionLogs<PlacedNumber> by_slice("reorder", temp_, budget_, slices_);
     std::vector<std::uint64_t> ranks;
-    for_each_stretch(std::array{column}, [&](std::uint64_t first, std::size_t count, std::span<const double> values) {
+    for_each_range(std::array{column}, [&](std::uint64_t first, std::size_t count, std::span<const double> values) {
       ranks.resize(count);
       ranks_.read_at(first * 8, std::as_writable_bytes(std::span(ranks)));
       for (std::size_t i = 0; i < count; ++i) by_slice.append(slice_of(ranks[i]), {ranks[i], values[i]});
@@ -159,7 +159,7 @@ class Reorder {
 
   void add_ranked_triangles(ExternalSort<RankedTriangle>& by_rank) {
     PartitionLogs<std::uint64_t> corner_ranks = ranks_by_slice();
-    // The corners are read again; each finds its rank next in the log of its slice.
+    // The corners are read again. The rank of each is the next one in the log of its slice.
     std::vector<VertexId> corners;
     mesh_.rewind();
     while (mesh_.read(corners, kItemsAtOnce))

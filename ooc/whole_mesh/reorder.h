@@ -1,4 +1,4 @@
-// Makes an incoherent mesh coherent, on disk (DESIGN.md 4, Incoherent input).
+// Makes an incoherent mesh coherent, on disk.
 #pragma once
 
 #include <cstdint>
@@ -12,9 +12,9 @@
 
 namespace reeb::ooc {
 
-// The same mesh with its vertices numbered along a Hilbert curve through the bounding box, and its
-// triangles sorted by their lowest vertex. to_original() gives the ids that the total order needs
-// (DESIGN.md 1.2), so that results are those of the mesh as it was.
+// The same mesh with its vertices numbered along a Hilbert curve through the bounding box, and its triangles sorted by
+// their lowest vertex. to_original() returns the ids that the total order needs (docs/SEMANTICS.md, Order), so that the
+// results are those of the original mesh.
 class ReorderedMesh : public SpooledMesh {
  public:
   ReorderedMesh(unsigned columns, const io::TempDir& temp, MemoryBudget& budget, std::uint64_t allowance_bytes)
@@ -31,16 +31,15 @@ class ReorderedMesh : public SpooledMesh {
 };
 
 struct ReorderOptions {
-  std::uint64_t allowance_bytes = 32 << 20;  // of the budget, while it runs
-  unsigned coordinates = 3;                  // the first columns, of which at most 3 are used
+  std::uint64_t allowance_bytes = 32 << 20;  // of the budget, while reorder() runs
+  unsigned coordinates = 3;                  // the number of leading columns that are coordinates; at most 3 are used
 };
 
-// Reads the triangles of `mesh` twice and its vertices in order a few times; all that would be
-// random access is done by partitioning and sorting.
+// Reads the triangles of `mesh` twice, and its vertices in order a few times. Partitioning and sorting replace all
+// random access.
 //
 // THROWS: what reading the mesh throws; Error{kResource} of the budget or the disk.
-// MEMORY: the allowance; the result keeps a quarter of it. O(n log n) time, about 60 bytes of
-//         disk a triangle.
+// MEMORY: the allowance; the result keeps a quarter of it. About 60 bytes of disk per triangle.   TIME: O(n log n).
 std::unique_ptr<ReorderedMesh> reorder(IndexedMesh& mesh, const io::TempDir& temp, MemoryBudget& budget,
                                        const ReorderOptions& options = {});
 

@@ -55,7 +55,7 @@ class StretchValues {
  public:
   StretchValues(IndexedMesh& mesh, VertexFunction& function) : mesh_(mesh), function_(function) {}
 
-  // By number.
+  // The values by number.
   std::span<const double> operator()(const TriangleStretches& stretch) {
     const auto order = stretch.lookup_order();
     ids_.clear();
@@ -95,7 +95,7 @@ KeyedTriangle keyed(const TriangleStretches& stretch, std::size_t t, std::span<c
           {corners[0].value(), corners[1].value(), corners[2].value()}};
 }
 
-// Values that lie in a table, as a function.
+// The values of a table, as a function.
 class TableFunction : public VertexFunction {
  public:
   explicit TableFunction(VertexNumbers& values) : values_(values) {}

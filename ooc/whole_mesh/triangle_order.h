@@ -9,8 +9,8 @@
 
 namespace reeb::ooc {
 
-// The triangles of `mesh` sorted by their highest corner in the total order of `function`; equal
-// ones stay in the order they had. Vertices keep their numbers.
+// The triangles of `mesh`, sorted by their highest corner in the total order of `function`. Triangles with the same
+// highest corner keep their order. Vertices keep their numbers.
 // MEMORY: one share, and the triangles in a log of another. O(n log n), on disk beyond that.
 std::unique_ptr<IndexedMesh> sorted_by_function(std::unique_ptr<IndexedMesh> mesh, VertexFunction& function,
                                                 Workspace& space);

@@ -6,12 +6,12 @@
 namespace reeb::ooc {
 namespace {
 
-constexpr std::uint64_t kLeastTriangles = 1 << 12, kMostTriangles = 1 << 17;
-// Of a triangle whose corners nobody shares, with what users keep of each vertex: its values, twice.
+constexpr std::uint64_t kTrianglesAtLeast = 1 << 12, kTrianglesAtMost = 1 << 17;
+// For a triangle that shares no corner, with the data that callers keep per vertex: its values, twice.
 constexpr std::uint64_t kTriangleBytes = 512;
 
 std::uint64_t stretch_of(const Workspace& space) {
-  return std::clamp(space.share() / kTriangleBytes, kLeastTriangles, kMostTriangles);
+  return std::clamp(space.share() / kTriangleBytes, kTrianglesAtLeast, kTrianglesAtMost);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// The triangles of a mesh a stretch at a time, with the distinct vertices of each.
+// The triangles of a mesh in groups of consecutive ones, with the distinct vertices of each group.
 #pragma once
 
 #include <cstdint>
@@ -11,29 +11,28 @@
 
 namespace reeb::ooc {
 
-// What is kept by vertex lies in pages, some of them on disk. Triangles whose order runs across that of
-// the vertices touch a page anew at nearly every corner; a stretch of many triangles, whose vertices are
-// looked up once and in ascending order, touches each page once. So stretches are as long as a share
-// of the memory allows.
+// Data per vertex is in pages, some of them on disk. If the order of triangles runs across that of the vertices, nearly
+// every corner touches another page. A group of many triangles, whose vertices are looked up once and in ascending
+// order, touches each page once. So groups are as long as a share of the memory allows. They are called stretches here.
 //
-// TIME: a hash look-up a corner, and a sort of the distinct vertices where they lie far apart.
-// MEMORY: one share, reserved; half a kilobyte a triangle, 2 MiB at least and 72 MiB at most.
+// TIME: a hash look-up per corner, and a sort of the distinct vertices if they are far apart.
+// MEMORY: one share, reserved; half a kilobyte per triangle, at least 2 MiB and at most 72 MiB.
 class TriangleStretches {
  public:
-  // Reads from the first triangle on.
+  // Reads the mesh, starting at the first triangle.
   TriangleStretches(const char* owner, IndexedMesh& mesh, Workspace& space);
 
   // False at the end of the mesh.
   bool next();
 
-  // The place of the first triangle of this stretch among all.
+  // The index of the first triangle of this stretch.
   std::uint64_t first_triangle() const { return first_triangle_; }
   std::span<const VertexId> corners() const { return corners_; }
-  // The number of each corner's vertex in this stretch, by first appearance.
+  // The number of each corner's vertex within this stretch, by first appearance.
   std::span<const std::uint32_t> numbers() const { return numbers_; }
   // The vertex of each number.
   std::span<const VertexId> vertices() const { return vertices_; }
-  // All numbers, in an order in which their vertices are best looked up.
+  // All numbers, in an order that is good for looking up their vertices.
   std::span<const std::uint32_t> lookup_order() const { return lookup_order_; }
 
  private:

@@ -1,4 +1,4 @@
-// What the steps of a command share: the place for temporary files, and the memory account.
+// The place for temporary files and the memory budget, which the steps of a command share.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace reeb::ooc {
 struct Workspace {
   Workspace(const std::string& temp_folder, std::uint64_t memory_bytes) : budget(memory_bytes), temp(temp_folder) {}
 
-  // What one of about eight tables and buffers that live at the same time may take.
+  // The memory that one of about eight tables and buffers that exist at the same time may take.
   std::uint64_t share() const { return std::min<std::uint64_t>(budget.limit_bytes() / 8, 256u << 20); }
 
   MemoryBudget budget;

@@ -1,5 +1,5 @@
-// The models themselves: on graphs known by hand, against counts that need no graph, and against
-// each other. What these tests do not see, the engine's tests cannot either.
+// Tests of the models themselves: on graphs known by hand, against counts that need no graph, and against each other. A
+// fault that these tests miss is missed by the engine's tests, too.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -86,7 +86,7 @@ TEST(ReferenceReeb, DoesNotCountARepeatedSimplexTwice) {
 }
 
 TEST(ReferenceReeb, KeepsTheFoldOfAMonkeySaddle) {
-  // Vertex 0 amid a closed fan, three times up and down around it, above and below alternating.
+  // Vertex 0 in the middle of a closed fan that goes up and down three times around it.
   Complex complex = fan(6, true);
   complex.values = {0, -1, 1, -2, 2, -3, 3};
   expect_graph(complex, {5, 3, 1, 0, 2, 4, 6}, {{5, 0}, {3, 0}, {1, 0}, {0, 2}, {0, 4}, {0, 6}});
@@ -153,7 +153,7 @@ TEST(ReferencePairs, AreThoseOfGraphsKnownByHand) {
   using Expected = decltype(pairs({}, {}));
   EXPECT_EQ(pairs({5}, {}), (Expected{{kExt0, 0, 0}}));
   EXPECT_EQ(pairs({0, 1}, {{0, 1}}), (Expected{{kExt0, 0, 1}}));
-  // A Y has a maximum more, its mirror image a minimum more.
+  // A Y has one maximum more, its mirror image one minimum more.
   EXPECT_EQ(pairs({0, 1, 2, 3}, {{0, 1}, {1, 2}, {1, 3}}), (Expected{{kExt0, 0, 3}, {kRel1, 1, 2}}));
   EXPECT_EQ(pairs({3, 2, 1, 0}, {{0, 1}, {1, 2}, {1, 3}}), (Expected{{kExt0, 3, 0}, {kOrd0, 2, 1}}));
   // Three up-arcs: the two lower maxima die in the fork.
@@ -186,7 +186,7 @@ TEST(Models, AgreeOnRandomComplexes) {
   }
 }
 
-// The pairs of `before` without one that is `pair`.
+// The pairs of `before` without one that equals `pair`.
 std::vector<VertexPair> without(std::vector<VertexPair> before, const VertexPair& pair) {
   const auto it = std::find(before.begin(), before.end(), pair);
   if (it != before.end()) before.erase(it);
@@ -241,7 +241,7 @@ TEST(NaiveHierarchy, RemovesExactlyItsPairAtEachStepOfARandomGraph) {
   EXPECT_LT(counts.kept, counts.loops);
 }
 
-// The graph of a complex of edges, one arc an edge, named by the values of its ends.
+// The graph of a complex of edges, one arc per edge, named by the values of its ends.
 struct ValueGraph {
   explicit ValueGraph(const std::vector<std::pair<double, double>>& arcs) {
     std::set<double> distinct;
@@ -270,7 +270,7 @@ struct ValueGraph {
 using ValueArcs = std::vector<std::pair<double, double>>;
 
 TEST(NaiveHierarchy, ZipsAMaximumOntoTheLowestOtherPath) {
-  // Rel1 (0, 2): 0 -> 1.5 -> 2 goes onto 0 -> 1 -> 5, and 1.5 keeps its branch to -50.
+  // Rel1 (0, 2): 0 -> 1.5 -> 2 is zipped onto 0 -> 1 -> 5, and 1.5 keeps its branch to -50.
   const ValueGraph g({{-60, 0}, {0, 1.5}, {-50, 1.5}, {1.5, 2}, {0, 1}, {1, 5}, {1, 6}});
   EXPECT_EQ(g.arcs_of_version(1), (ValueArcs{{-60, 1}, {-50, 1.5}, {1, 1.5}, {1, 6}, {1.5, 5}}));
 }
@@ -294,7 +294,7 @@ TEST(NaiveHierarchy, ZipsTheFirstTwoPathsOfALoop) {
 }
 
 TEST(NaiveHierarchy, KeepsALoopThatNoTwoPathsSpan) {
-  // 0 -> 1.5 -> 3 and 0 -> 2 <- 1 -> 3, and from each node a branch that outlives the loop.
+  // 0 -> 1.5 -> 3 and 0 -> 2 <- 1 -> 3, and a branch at each node that outlives the loop.
   const ValueGraph g({{0, 1.5}, {1.5, 3}, {0, 2}, {1, 2}, {1, 3}, {-90, 0}, {-100, 1}, {1.5, 80}, {2, 100}, {3, 90}});
   const PersistencePair& loop = g.hierarchy.pairs.front();
   EXPECT_EQ(loop.type, PairType::kExt1);
@@ -323,7 +323,7 @@ TEST(NaiveHierarchy, CutsBelowAThresholdStrictly) {
 
 bool is_extremal(const VertexPair& pair) { return pair.type == PairType::kOrd0 || pair.type == PairType::kRel1; }
 
-// Denoising in any order gives one graph, and takes only short extremal pairs from the diagram.
+// Denoising in any order gives one graph, and removes only short extremal pairs from the diagram.
 void check_denoise(const ReebGraph& graph, double threshold, std::uint64_t& removed_in_all) {
   SCOPED_TRACE(describe(graph));
   const Denoised denoised = naive_denoise(graph, threshold);

@@ -34,7 +34,8 @@ TEST(Pipeline, EqualsTheDefinitionOnRandomComplexes) {
     const ReebGraph expected = reference_reeb(complex);
     Random random(seed + i);
     SCOPED_TRACE(testing::Message() << "case " << i);
-    // With an embedding, in one shape after another; and without, in two of which one is any: same bytes.
+    // With an embedding: in one shape after another. Without: in two shapes, one of them random; both give the same
+    // bytes.
     const RunShape &embedded = shapes[i % shapes.size()], &one = shapes[(i / 2) % shapes.size()],
                    &other = shapes[random.below(shapes.size())];
     const auto run = [&](const RunShape& shape, std::uint32_t buckets) {
@@ -57,7 +58,7 @@ TEST(Pipeline, EqualsTheDefinitionOnRandomComplexes) {
   }
 }
 
-// Guesses about what is complete hold and fail, and the graph is the same.
+// Whether the guesses about complete vertices hold or fail, the graph is the same.
 TEST(Pipeline, RevokesGuessesThatWereWrong) {
   const std::uint64_t seed = base_seed(), cases = case_count(3'000);
   Runner runner(/*graph_only=*/true);
@@ -95,7 +96,7 @@ TEST(Pipeline, WritesTheSameBytesHoweverItRuns) {
   }
 }
 
-// With embedding and noise of each, by its own range.
+// With an embedding and noise removal for each function, by its own range.
 TEST(Pipeline, SeveralFunctionsInOneRunEqualSingleRuns) {
   const std::uint64_t seed = base_seed(), cases = case_count(500);
   const std::vector<RunShape> shapes = all_shapes();
@@ -110,7 +111,7 @@ TEST(Pipeline, SeveralFunctionsInOneRunEqualSingleRuns) {
     }
     Random random(seed + i);
     const RunShape& shape = shapes[random.below(shapes.size())];
-    const std::uint64_t stream = random.next();  // one, since an embedding shows how it finalizes
+    const std::uint64_t stream = random.next();  // one for all, since an embedding shows how the stream finalizes
     runner.options().buckets = random.chance(70) ? 1 + static_cast<std::uint32_t>(random.below(100)) : 0;
     runner.options().denoise = random.chance(70) ? random.unit() : 0;
     runner.options().denoise_is_share = random.chance(70);
@@ -167,7 +168,7 @@ TEST(Pipeline, ReadsTheMeshForAllFunctionsTogether) {
   EXPECT_EQ(read(both), vertices);
 }
 
-// Without it, nobody would notice that the least budget no longer reaches the disk.
+// Without this test, it would go unnoticed if runs with the smallest budget no longer spilled to disk.
 TEST(Pipeline, SpillsUnderTheLeastBudget) {
   Complex complex = plateau(1000, 700);
   Random random(1);
@@ -185,11 +186,10 @@ constexpr std::size_t kScale = 20;  // smaller shapes, since everything is slowe
 #else
 constexpr std::size_t kScale = 1;
 #endif
-// A quadratic run of this many triangles takes hours, a linear one a fraction of this, even on a busy
-// machine.
-constexpr double kMostSeconds = 20;
+// A quadratic run of this many triangles takes hours, a linear one a fraction of this limit, even on a busy machine.
+constexpr double kSecondsLimit = 20;
 
-// Of all threads of this process: unlike the time on the wall, others have no part in it.
+// The processor time of all threads of this process: unlike wall time, it does not depend on other processes.
 double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 struct Shape {
@@ -204,14 +204,14 @@ ArcKeys arc_of(const Complex& complex, std::uint64_t lo, std::uint64_t hi) {
   return {key_of(complex, lo), key_of(complex, hi)};
 }
 
-// All of it is one monotone patch: an arc from the first vertex to the last.
+// The whole complex is one monotone patch: an arc from the first vertex to the last.
 Shape one_arc(std::string name, Complex complex) {
   Shape shape{std::move(name), std::move(complex), {}};
   shape.arcs = {arc_of(shape.complex, 0, shape.complex.vertex_count() - 1)};
   return shape;
 }
 
-// The rim goes up and down past the hub, which is in the middle: every rim vertex is an extremum.
+// The rim goes up and down past the value of the hub: every rim vertex is an extremum.
 Shape crown(std::size_t blades) {
   Shape shape{"crown", fan(blades, true), {}};
   for (std::uint64_t v = 1; v <= blades; ++v) {
@@ -229,7 +229,7 @@ Shape spine(std::size_t pages) {
   return shape;
 }
 
-// No triangle at all.
+// Edges only, no triangle.
 Shape star(std::size_t edges) {
   Complex complex;
   complex.positions.resize(edges + 1);
@@ -273,7 +273,7 @@ class LargeShape : public testing::TestWithParam<Form> {
       const double seconds = cpu_seconds() - start;
       std::cout << complex.kind << ", " << run << ": " << seconds << " s\n";
       if (!memory_limit()) {
-        EXPECT_LT(seconds, kMostSeconds) << complex.kind << ", " << run;
+        EXPECT_LT(seconds, kSecondsLimit) << complex.kind << ", " << run;
       }
       EXPECT_TRUE(without_positions(take_graph(output)) == expected) << complex.kind << ", " << run;
     }
@@ -289,7 +289,7 @@ TEST_P(LargeShape, RepeatsOfATriangle) { check(repeats(1'000'000 / kScale)); }
 TEST_P(LargeShape, Plateau) { check(one_arc("plateau", plateau(1000, 500 / kScale))); }
 TEST_P(LargeShape, TiesAlongTheStream) { check(one_arc("strip", tied_strip(1000, 500 / kScale))); }
 
-// In whatever order a stream comes, it is run within the budget, and is read again where it has to be.
+// A stream in any order is run within the budget; it is read again if necessary.
 TEST(Pipeline, SortsAStreamOfWhichTooMuchIsLive) {
   const Shape shape = one_arc("plateau", plateau(400, 100));
   const ComplexMesh mesh(shuffled(shape.complex, 1));
@@ -304,7 +304,7 @@ TEST(Pipeline, SortsAStreamOfWhichTooMuchIsLive) {
     EXPECT_NE(result.notes[0].find("read again"), std::string::npos) << result.notes[0];
     EXPECT_EQ(result.triangles, mesh.triangles.size() / 3);
   }
-  // What is not to be sorted ends with what is needed.
+  // If sorting is not allowed, the run ends with an error that says how much memory it needs.
   runner.options().may_reorder = false;
   EXPECT_THROW(runner.run(mesh, {0, 2, Form::kStream}), Error);
 }

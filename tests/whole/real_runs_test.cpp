@@ -1,6 +1,6 @@
-// What DESIGN.md 1.6 to 1.8 promise of any run, on real meshes held in memory: the same bytes for
-// chunks of any size, any number of threads and both forms of input; noise removed as from the exact
-// graph; an embedding that loses no vertex, stays within its buckets, and does not depend on threads.
+// What docs/SEMANTICS.md (Noise removal, Determinism, Conservation) guarantees for any run, on real meshes held in
+// memory: the same bytes for chunks of any size, any number of threads and both forms of input; the same noise removed
+// as from the exact graph; an embedding that loses no vertex, stays within its buckets, and does not depend on threads.
 // The largest meshes and most shapes of runs are left out unless REEB_TEST_ALL is set.
 #include <gtest/gtest.h>
 
@@ -110,7 +110,7 @@ TEST_P(RealRun, WritesTheSameBytesHoweverItRuns) {
     Runner runner(graph_only);
     runner.options().buckets = 0;
     const std::string expected = take_bytes(runner.run(mesh(), kWhole)[0]);
-    // A hierarchy is made from the graph alone, so it is made a few times only.
+    // A hierarchy depends on the graph alone, so it is made for a few shapes only.
     for (const RunShape& shape : graph_only ? shapes_to_run() : std::vector<RunShape>{kFewShapes[0]})
       EXPECT_TRUE(take_bytes(runner.run(mesh(), shape)[0]) == expected) << shape;
   }
@@ -134,7 +134,7 @@ TEST_P(RealRun, RemovesNoiseAsFromTheExactGraph) {
   }
 }
 
-// Of height, the centre of a bucket is in it; coordinates are rounded to 2^-44.
+// For the height function, the centre of a bucket is within the bucket; coordinates are rounded to 2^-44.
 void expect_centres_in_their_buckets(const ooc::Level& level, int exponent, double size) {
   const double slack = 0x1p-43 + 1e-12 * size;
   std::size_t outside = 0;
@@ -180,7 +180,7 @@ INSTANTIATE_TEST_SUITE_P(Meshes, RealRun,
                          test_name);
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(RealRun);
 
-// Without it, a folder with other files would run no test and fail none.
+// Without this test, a folder without meshes would run no test and report no failure.
 TEST(RealRuns, HaveMeshes) {
   REEB_REQUIRE_MESHES();
   EXPECT_GE(mesh_names().size(), 10u) << "in " << mesh_folder();

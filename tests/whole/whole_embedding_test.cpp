@@ -1,6 +1,6 @@
-// The embedding of whole runs: nothing else changes by it; it is the same for any number of threads,
-// and for chunks of any size but for what a divided bucket leaves open (DESIGN.md 1.7). That no vertex
-// is lost is checked in every run of tests/support/whole_run.h.
+// The embedding of whole runs: it changes nothing else. It is the same for any number of threads, and for chunks of any
+// size, except where a divided bucket leaves a choice (docs/ARCHITECTURE.md, Buckets). Every run of
+// tests/support/whole_run.h checks that no vertex is lost.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -14,7 +14,7 @@
 namespace reeb::test {
 namespace {
 
-// Graph, pairs and numbers of levels: all that an embedding does not add.
+// Compares graph, pairs and the number of levels: everything that does not depend on an embedding.
 void expect_same_but_for_buckets(const std::string& path, const std::string& other) {
   const ooc::ReebFile a(path), b(other);
   ASSERT_EQ(a.load().graph, b.load().graph);

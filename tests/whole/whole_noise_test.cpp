@@ -1,6 +1,6 @@
-// Noise removal in whole runs against its definition: what is removed in chunks, in the live graph and
-// in the last pass together is what goes from the exact graph leaf by leaf, whatever the chunks, the
-// threads, the form of the input and of the output (DESIGN.md 1.6).
+// Noise removal in whole runs against its definition (docs/SEMANTICS.md, Noise removal): chunks, the live graph and the
+// last pass together remove exactly what removing leaf by leaf removes from the exact graph, whatever the chunks, the
+// threads, the form of the input and of the output.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -27,7 +27,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 struct Threshold {
   double denoise;
   bool is_share;
-  double absolute;  // what it comes to
+  double absolute;  // the threshold in units of the function
 };
 
 std::ostream& operator<<(std::ostream& out, const Threshold& threshold) {
@@ -35,7 +35,7 @@ std::ostream& operator<<(std::ostream& out, const Threshold& threshold) {
              << threshold.absolute;
 }
 
-// In numbers that are wide enough for the range of any two doubles.
+// Computed so that the range of any two doubles does not overflow.
 double share_of_range(double share, const Complex& complex) {
   if (complex.values.empty()) return 0;
   const auto [min, max] = std::minmax_element(complex.values.begin(), complex.values.end());
@@ -43,7 +43,8 @@ double share_of_range(double share, const Complex& complex) {
   return static_cast<double>(share * (static_cast<long double>(*max) - *min));
 }
 
-// None, all, a persistence that occurs or the number next to it, any; as such, or as a share.
+// Thresholds that remove nothing or everything, a persistence that occurs, the number next to it, or any value;
+// absolute or as a share.
 Threshold random_threshold(const Complex& complex, Random& random) {
   const auto value = [&] { return complex.values.empty() ? 0 : complex.values[random.below(complex.values.size())]; };
   const double tie = std::abs(value() - value());
@@ -71,7 +72,7 @@ Denoised denoised_by_definition(const ReebGraph& exact, double threshold, Random
   return exact.node_count() < 40 ? naive_denoise(exact, threshold, random.next()) : denoise_in_rounds(exact, threshold);
 }
 
-// Every version of the file is that of copying and cancelling what the definition leaves.
+// Checks that each version of the file is what the definition of denoising and cancelling gives.
 void expect_levels(const ooc::ReebFile& file, const ReebGraph& full) {
   const NaiveHierarchy expected = naive_hierarchy(full, reference_pairs(full));
   ASSERT_EQ(file.header().steps + 1, expected.versions.size());
@@ -149,7 +150,7 @@ TEST(WholeNoise, SaysWhatTheLastPassOfNoiseRemovalNeeds) {
   Random random(1);
   for (double& value : complex.values) value = random.unit();
   Runner runner(/*graph_only=*/true);
-  // Of a rough function very many arcs are short, though few can be removed.
+  // A rough function has very many short arcs, though few can be removed.
   runner.options().denoise = 0.1;
   runner.options().memory_bytes = 16 << 20;
   try {

@@ -1,5 +1,5 @@
-// The subcommands of `reeb`, one file each. Each function adds its subcommand, options and help to
-// the program; the work happens in its callback. Errors leave as reeb::Error.
+// The subcommands of `reeb`, one file each. Each function adds its subcommand, options and help to the program; the
+// callback does the work. Errors are thrown as reeb::Error.
 #pragma once
 
 #include <CLI/CLI.hpp>

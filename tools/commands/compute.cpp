@@ -71,7 +71,7 @@ const char* title(ComputeProgress::Phase phase) {
   return "hierarchy";
 }
 
-// CLI::PositiveNumber tells a wrong number the largest double there is.
+// CLI::PositiveNumber reports a wrong number as the largest double.
 CLI::Validator at_least_one() {
   return CLI::Validator(
       [](const std::string& text) {
@@ -115,7 +115,7 @@ void run_compute(ComputeArguments arguments) {
 void add_compute(CLI::App& program) {
   auto arguments = std::make_shared<ComputeArguments>();
   arguments->options.threads = std::max(1u, std::thread::hardware_concurrency());
-  // For tests: a short run has checkpoints only if asked for them.
+  // For tests: short runs otherwise end before their first checkpoint.
   if (const char* seconds = std::getenv("REEB_CHECKPOINT_SECONDS"))
     arguments->options.checkpoint_seconds = std::atof(seconds);
   CLI::App* command = program.add_subcommand("compute", "Compute the Reeb graph of a mesh (the default command)");

@@ -20,7 +20,7 @@ struct ExtractOptions {
   bool by_nodes = false, force = false;
 };
 
-// By --format, or else by the ending of the output's name; rg on standard output.
+// Chooses by --format, or else by the ending of the output's name; rg on standard output.
 io::GraphFormat choose_format(const ExtractOptions& options) {
   std::string name = options.format;
   if (name.empty()) {
@@ -45,7 +45,7 @@ std::uint32_t choose_version(const ooc::ReebFile& file, const ExtractOptions& op
 
 void extract(const ExtractOptions& options) {
   const io::GraphFormat format = choose_format(options);
-  // What is wrong with the command line is said before the file is looked at.
+  // Errors in the command line are reported before the file is read.
   if (!options.threshold.empty()) parse_threshold(options.threshold, 1);
   if (!options.memory.empty()) parse_size(options.memory);
   refuse_existing(options.output, options.force);

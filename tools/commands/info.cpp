@@ -1,4 +1,4 @@
-// `reeb info`: what a file holds, a graph or a mesh.
+// `reeb info`: the contents of a file, a graph or a mesh.
 #include <memory>
 #include <string>
 

@@ -1,4 +1,4 @@
-// `reeb verify`: whether a .reeb file is whole and says nothing that contradicts itself or its mesh.
+// `reeb verify`: whether a .reeb file is whole and contradicts neither itself nor its mesh.
 #include <fmt/core.h>
 
 #include <memory>

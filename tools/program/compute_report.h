@@ -1,4 +1,4 @@
-// What a finished run says: a summary for a person, a report for programs (INTERFACE.md).
+// The output of a finished run: a summary for people, a report for programs (docs/CLI.md).
 #pragma once
 
 #include <cstdint>
@@ -12,13 +12,13 @@ namespace reeb::tools {
 struct RunFacts {
   std::string path, format;
   std::uint64_t input_bytes = 0;
-  std::uint64_t memory_budget_bytes = 0;  // 0: none was given
+  std::uint64_t memory_budget_bytes = 0;  // 0: no limit was given
   unsigned threads = 1;
 };
 
 void print_summary(const RunFacts& facts, const std::vector<ooc::ComputeResult>& results);
 
-// The JSON text of schema reeb.report.v1: an object, or with several functions an array.
+// The JSON text of schema reeb.report.v1: an object, or an array if there are several functions.
 std::string report_json(const RunFacts& facts, const std::vector<ooc::ComputeResult>& results);
 
 }  // namespace reeb::tools

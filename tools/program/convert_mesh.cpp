@@ -69,23 +69,23 @@ class Conversion {
     return notes;
   }
 
-  // Further values of vertices are kept where the output can hold them.
+  // Other values of vertices are kept if the output can hold them.
   bool holds_properties() const {
     return io::name_suffix(options_.output) == ".ply" || io::is_volume_name(options_.output);
   }
 
-  // How to read a mesh that has these properties.
+  // The options for reading a mesh that has these properties.
   const ReadOptions& read_options(Lines known_properties) {
     if (holds_properties())
       read_options_.properties = std::move(known_properties);
     else if (options_.order.function)
       read_options_.properties = io::needed_properties({&*options_.order.function, 1});
-    // Finalizations stay directly behind the triangles that they follow.
+    // With batches of one event, finalizations stay directly after the triangles that they follow.
     if (!sorts_ && format_ != io::StreamFormat::kNone) read_options_.batch_events = 1;
     return read_options_;
   }
 
-  // A pipe cannot be asked first what properties it has.
+  // The properties of a pipe cannot be read in advance.
   Lines properties_of_input() const {
     if (!holds_properties() || options_.input == "-") return {};
     return io::open_mesh(options_.input)->info().property_names;
@@ -99,7 +99,7 @@ class Conversion {
     options.existing = options_.existing;
     options.temp_folder = options_.temp_folder;
     if (holds_properties()) options.property_names = read_options_.properties;
-    // SMC leaves vertices out that no triangle names.
+    // SMC leaves out vertices that no triangle names.
     if (format_ != io::StreamFormat::kCompressed) options.vertex_count = vertex_count;
     return io::create_mesh(options_.output, options);
   }
@@ -114,7 +114,7 @@ class Conversion {
 
   Lines copy_batches() {
     const MeshInfo& info = reader_->info();
-    // What a stream's header promises may be wrong.
+    // The counts that a stream's header announces can be wrong.
     const auto writer = create_writer(info.finalizes ? std::nullopt : info.vertex_count);
     copy_mesh(*reader_, *writer);
     Lines notes = reader_->warnings();

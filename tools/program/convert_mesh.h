@@ -1,4 +1,4 @@
-// From a mesh of any format to one of any other.
+// Converts a mesh of any format to any other.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ namespace reeb::tools {
 struct TriangleOrder {
   enum class Kind { kKeep, kHilbert, kSpectral, kSweep };
   Kind kind = Kind::kKeep;
-  std::optional<io::FunctionSpec> function;  // of a sweep
+  std::optional<io::FunctionSpec> function;  // the function of a sweep
 };
 
 // "keep", "hilbert", "spectral", "sweep:FUNC". THROWS: Error{kUsage}.
@@ -30,14 +30,14 @@ struct ConvertOptions {
   io::Existing existing = io::Existing::kRefuse;
 };
 
-// One of three ways, the first that fits:
-// - between streaming formats, and into lists of events, the events of the file one by one, with
-//   the finalization, the post-order and the values that they have;
-// - with another order or --finalize, and into SMC where the input has no finalization, as a
-//   compact stream (compact_stream.h) of the mesh, which is spooled to disk if it must be;
+// Converts in one of three ways, the first that fits:
+// - between streaming formats, and into lists of events: the events of the file one by one, with the finalization, the
+//   post-order and the values that they have;
+// - with another order or --finalize, and into SMC if the input has no finalization: as a compact stream
+//   (compact_stream.h) of the mesh, which is spooled to disk if necessary;
 // - else batch by batch, as the reader delivers them.
-// Returns what was odd or could not be kept, one line each.
-// THROWS: Error; then no output appeared.
+// Returns notes, one line each, on what was odd or could not be kept.
+// THROWS: Error; then no output appears.
 std::vector<std::string> convert_mesh(const ConvertOptions& options);
 
 }  // namespace reeb::tools

@@ -23,7 +23,7 @@
 namespace reeb::tools {
 namespace {
 
-// Components and use of vertices.
+// The components of a mesh, and which vertices are used.
 class Connection {
  public:
   explicit Connection(ooc::Workspace& space)
@@ -46,7 +46,7 @@ class Connection {
   std::uint64_t vertices_ = 0, used_ = 0;
 };
 
-// Streams event by event, so that their front is measured exactly.
+// Opens streams for reading event by event, so that their front is measured exactly.
 std::unique_ptr<MeshReader> open(const std::string& path) {
   auto source = io::open_content(path);
   ReadOptions options;
@@ -125,7 +125,7 @@ void MeshSurvey::add_simplex(std::span<const VertexId> corners) {
 void MeshSurvey::predict_front(IndexedMesh& mesh) {
   ooc::LastUseOptions options;
   options.allowance_bytes = space_.share();
-  // Blocks of one triangle show the front exactly; large meshes double them.
+  // Blocks of one triangle give the exact front; for large meshes, blocks are doubled.
   options.block_triangles = 1;
   options.most_blocks = 1u << 16;
   front_ = ooc::scan_last_use(mesh, space_.temp, space_.budget, options)->summary().max_live_vertices;

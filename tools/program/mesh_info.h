@@ -1,4 +1,4 @@
-// `reeb info MESH`: what there is to know of a mesh before anything is computed of it.
+// `reeb info MESH`: what is known about a mesh before anything is computed from it.
 #pragma once
 
 #include <cstdint>
@@ -6,11 +6,10 @@
 
 namespace reeb::tools {
 
-// Reads the mesh once, and the triangles of one without finalization once more.
-// The live front is the largest number of vertices that were introduced (in a stream without
-// finalization: used) and will be used again: measured in a stream that finalizes its vertices,
-// else what exact finalization would give in this order.
-// MEMORY: tables of 8 and 4 bytes a vertex, paged to disk within `memory_bytes`.
+// Reads the mesh once, and the triangles of a mesh without finalization twice. The live front is the largest number of
+// vertices that were introduced (in a stream without finalization: used) and will be used again. It is measured in a
+// stream that finalizes its vertices; else it is the front that exact finalization would give in this order.
+// MEMORY: tables of 8 and 4 bytes per vertex, paged to disk within `memory_bytes`.
 void print_mesh_info(const std::string& path, std::uint64_t memory_bytes, const std::string& temp_folder, bool json);
 
 }  // namespace reeb::tools

@@ -23,7 +23,7 @@ NodeCheck::NodeCheck(const std::string& mesh, const std::string& function, const
     spec_ = io::parse_function(function);
     properties_ = io::needed_properties(std::span(&*spec_, 1));
   } catch (const Error&) {
-    spec_.reset();  // a name from elsewhere: its values are taken as they are
+    spec_.reset();  // not a name of this program: its values cannot be checked
   }
 }
 

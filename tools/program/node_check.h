@@ -1,4 +1,4 @@
-// The nodes of a graph against the vertices of its mesh.
+// Checks the nodes of a graph against the vertices of its mesh.
 #pragma once
 
 #include <cstdint>
@@ -16,9 +16,9 @@ struct ValueRange {
   double min = 0, max = 0;
 };
 
-// Compares each node with its vertex, as the batches of the mesh pass by: position (where the graph has
-// positions) and value of the function, if that has a name that can be evaluated here.
-// THROWS: Error{kBadInput} at the first node that is not its vertex.
+// Compares each node with its vertex while the mesh is read: the position (if the graph has positions) and the value of
+// the function, if its name can be evaluated here.
+// THROWS: Error{kBadInput} at the first node that differs from its vertex.
 class NodeCheck {
  public:
   // All three must outlive this.

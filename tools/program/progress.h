@@ -1,4 +1,4 @@
-// What a person sees while a run goes on: a bar on a terminal, nothing elsewhere.
+// The display while a run continues: a bar on a terminal, nothing elsewhere.
 #pragma once
 
 #include <chrono>
@@ -10,8 +10,8 @@ namespace reeb::tools {
 // Peak resident memory of this process so far, in bytes.
 std::uint64_t peak_rss_bytes();
 
-// One bar a pass on standard error, redrawn at most ten times a second: share done, rate, time left
-// and memory. Draws nothing unless standard error is a terminal and `quiet` is false.
+// One bar per pass on standard error, redrawn at most ten times a second: share done, rate, time left and memory. Draws
+// only if standard error is a terminal and `quiet` is false.
 class ProgressBar {
  public:
   explicit ProgressBar(bool quiet);

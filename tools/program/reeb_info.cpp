@@ -12,7 +12,7 @@
 namespace reeb::tools {
 namespace {
 
-// Of the full graph, which is the last line of the table.
+// The buckets of the full graph, which is the last line of the table.
 std::uint64_t buckets_of_graph(const ooc::ReebFile& file) {
   return file.levels().empty() ? 0 : file.levels().back().buckets;
 }
@@ -53,7 +53,7 @@ nlohmann::ordered_json to_json(const ooc::ReebFile& file) {
   return json;
 }
 
-// Thresholds are printed in full: typed back, they yield exactly their level.
+// Thresholds are printed with all digits: used as input, they yield exactly their level.
 void print_text(const ooc::ReebFile& file) {
   const FileHeader& header = file.header();
   fmt::print("{}: Reeb graph, {}\n", file.path(), format_bytes(file.file_bytes()));
@@ -85,7 +85,7 @@ void print_reeb_info(const std::string& path, bool json) {
   const ooc::ReebFile file(path);
   if (const Error* damage = file.damage()) fmt::print(stderr, "reeb: warning: {}\n", damage->what());
   if (!json) return print_text(file);
-  // Names may hold any bytes; what is not UTF-8 is shown as a replacement character.
+  // Names can contain any bytes. Bytes that are not UTF-8 become replacement characters.
   fmt::print("{}\n", to_json(file).dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
 }
 

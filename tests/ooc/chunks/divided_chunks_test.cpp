@@ -15,7 +15,7 @@ namespace {
 
 using test::Random;
 
-// Delivers chunks that were made before.
+// Delivers chunks that were made in advance.
 class Made : public ChunkSource {
  public:
   explicit Made(std::vector<WorkItem> items) : items_(std::move(items)) {}
@@ -34,7 +34,7 @@ class Made : public ChunkSource {
   std::size_t next_ = 0;
 };
 
-// A strip of a grid in rows, two triangles a cell.
+// A strip of a grid in rows, two triangles per cell.
 WorkItem strip(std::uint32_t columns, std::uint32_t rows) {
   WorkItem item;
   item.values.resize(1);
@@ -73,7 +73,7 @@ WorkItem random_item(Random& random, Places places) {
   return item;
 }
 
-// What a stretch has is in its chunks once, and each vertex says truly where else it is used.
+// The content of a stretch is in its chunks exactly once, and the uses of each vertex are correct.
 void expect_whole(const WorkItem& stretch, const std::vector<WorkItem>& chunks) {
   struct Seen {
     std::size_t first, last;
@@ -94,7 +94,7 @@ void expect_whole(const WorkItem& stretch, const std::vector<WorkItem>& chunks) 
       ASSERT_TRUE(is_new || it->second.last != c) << "a vertex twice in a chunk";
       it->second.last = c;
     }
-    EXPECT_EQ(chunks[c].ends_stretch, c + 1 == chunks.size());
+    EXPECT_EQ(chunks[c].can_resume_after, c + 1 == chunks.size());
     EXPECT_EQ(chunks[c].end.triangles, stretch.end.triangles);
   }
   std::sort(triangles.begin(), triangles.end());
@@ -135,7 +135,7 @@ TEST(DividedChunks, HaveWhatTheStretchHas) {
     auto chunk = chunks.begin();
     for (const WorkItem& stretch : stretches) {
       auto end = chunk;
-      while (!end->ends_stretch) ++end;
+      while (!end->can_resume_after) ++end;
       const std::vector<WorkItem> own(chunk, ++end);
       expect_whole(stretch, own);
       for (const WorkItem& item : own) EXPECT_LE(item.chunk.triangle_count(), own.size() == 1 ? whole : patch);
@@ -145,7 +145,7 @@ TEST(DividedChunks, HaveWhatTheStretchHas) {
   }
 }
 
-// The border of a strip's patches is what a sixteenth of it has, not what its rows have.
+// The border of a strip's patches is like that of a sixteenth of the strip, not like that of its rows.
 TEST(DividedChunks, HaveShortBorders) {
   Made made({strip(4000, 25)});
   MemoryBudget budget;

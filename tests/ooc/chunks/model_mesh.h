@@ -1,4 +1,4 @@
-// A mesh in plain arrays behind the ports, and meshes to put there.
+// A mesh in plain arrays that implements the ports, and meshes to store in it.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace reeb::ooc {
 
 struct ModelMesh {
   std::vector<std::vector<double>> columns;  // the first three are coordinates
-  std::vector<VertexId> corners;             // three a triangle
+  std::vector<VertexId> corners;             // three per triangle
 
   std::uint64_t vertex_count() const { return columns.front().size(); }
 };

@@ -13,7 +13,7 @@
 namespace reeb::ooc {
 namespace {
 
-// Delivers a model mesh in batches: all vertices in stretches, then triangles, then tetrahedra.
+// Delivers a model mesh in batches: all vertices, a range at a time, then triangles, then tetrahedra.
 class ModelReader : public MeshReader {
  public:
   explicit ModelReader(const ModelMesh& mesh, std::vector<VertexId> tetrahedra = {})
@@ -91,7 +91,7 @@ void compare(const ModelMesh& model, std::uint64_t allowance, bool must_spill) {
 
 ModelMesh with_property(ModelMesh mesh) {
   mesh.columns.emplace_back();
-  for (std::uint64_t v = 0; v < mesh.vertex_count(); ++v)  // float64 from the middle on
+  for (std::uint64_t v = 0; v < mesh.vertex_count(); ++v)  // float64 from the middle to the end
     mesh.columns[3].push_back(v < mesh.vertex_count() / 2 ? 0.5 : 0.1 * static_cast<double>(v));
   return mesh;
 }

@@ -1,4 +1,4 @@
-// The example in docs/FORMAT.md is what the writer writes, byte for byte, and the reader reads it.
+// The writer writes the example in docs/FORMAT.md byte for byte, and the reader reads it.
 #include <gtest/gtest.h>
 
 #include <cstdlib>

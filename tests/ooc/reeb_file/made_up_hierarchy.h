@@ -1,5 +1,5 @@
-// Random graphs with hierarchies that obey the rules of versions without any topology behind them:
-// every step takes arcs away and adds fewer between nodes that are still there.
+// Random graphs with hierarchies that obey the rules of versions but have no topological meaning: every step removes
+// arcs and adds fewer between nodes that are still there.
 #pragma once
 
 #include <algorithm>
@@ -22,7 +22,7 @@ struct MadeUp {
   Hierarchy hierarchy;
   ArcBuckets buckets;  // of hierarchy.arcs
 
-  // What the full graph holds: its nodes, and what its arcs have in buckets.
+  // The vertices of the full graph: its nodes, and the vertices in the buckets of its arcs.
   std::uint64_t vertices() const {
     std::uint64_t sum = graph.node_count();
     for (std::size_t i = 0; i < hierarchy.arcs.size(); ++i)
@@ -93,7 +93,7 @@ class MadeUpMaker {
     hierarchy.persistence.push_back(last + (below(3) == 0 ? 0.0 : 0.001 * below(10)));
   }
 
-  // As many Ext0 as components and Ext1 as loops, as verify() wants; ends are arbitrary.
+  // As many Ext0 pairs as components and Ext1 pairs as loops, as verify() requires; ends are arbitrary.
   void make_pairs(MadeUp& result) {
     const BettiNumbers betti = betti_numbers(result.graph);
     const auto random_pair = [&](PairType type) {
@@ -107,8 +107,8 @@ class MadeUpMaker {
     for (std::uint64_t i = 0; i < betti.components; ++i) random_pair(PairType::kExt0);
   }
 
-  // Some of the buckets between the arc's ends; arcs that are born later have less than they took
-  // the place of.
+  // Adds some of the buckets between the arc's ends. Arcs that are born later have fewer than the arcs that they
+  // replace.
   void add_buckets(MadeUp& result, const ArcVersion& arc) {
     const auto index = [&](NodeId node) {
       return bucket_index(result.graph.nodes[node.value()].value, MadeUp::kBucketExponent);

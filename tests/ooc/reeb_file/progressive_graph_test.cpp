@@ -1,5 +1,5 @@
-// Refining and coarsening in place: always the level itself, and a viewer who follows the events
-// sees the same.
+// Refining and coarsening in place: the result is always the level itself, and a viewer that follows the events sees
+// the same level.
 #include "ooc/reeb_file/progressive_graph.h"
 
 #include <gtest/gtest.h>
@@ -78,7 +78,7 @@ TEST(ProgressiveGraph, SmallFilesEverywhere) {
 
 TEST(ProgressiveGraph, ManyFrames) { wander(MadeUpMaker(4).make(20'000, 120'000, 200'000), 12, 4, false); }
 
-// By threshold, nodes or memory it goes to the level that the file itself loads for them.
+// Given a threshold, nodes or memory, it goes to the level that the file itself loads for them.
 TEST(ProgressiveGraph, GoesToTheLevelThatTheFileChooses) {
   const Scratch scratch;
   const std::string path = scratch.path() + "/made.reeb";

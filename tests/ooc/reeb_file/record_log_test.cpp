@@ -1,4 +1,4 @@
-// The log of arc records gives them back from the last to the first, whatever the blocks.
+// The log of arc records returns them from the last to the first, whatever the blocks.
 #include "ooc/reeb_file/record_log.h"
 
 #include <gtest/gtest.h>
@@ -24,7 +24,7 @@ std::vector<Logged> random_records(std::size_t count, std::size_t most_bytes, st
   for (std::size_t i = 0; i < count; ++i) {
     const auto number = [&] { return static_cast<std::uint32_t>(random()); };
     Logged record{{NodeId(number()), NodeId(number()), number(), number()}, {}};
-    // A third without any; a few as large as several small blocks.
+    // A third have none; a few are as large as several small blocks.
     const std::size_t bytes = i % 3 == 0 ? 0 : random() % (i % 50 == 1 ? most_bytes : 40);
     for (std::size_t k = 0; k < bytes; ++k) record.buckets.push_back(static_cast<std::byte>(random()));
     records.push_back(std::move(record));

@@ -1,4 +1,4 @@
-// The .reeb container: what goes in comes out, at every level, and nothing wrong ever does.
+// The .reeb container: each level is read as it was written, and damage never yields a wrong level.
 #include "ooc/reeb_file/reeb_file.h"
 
 #include <gtest/gtest.h>
@@ -36,7 +36,7 @@ class TemporaryFolder {
   fs::path path_;
 };
 
-// A new file each time: some file systems flush one that is overwritten.
+// A new file each time: some file systems flush a file that is overwritten.
 void write_bytes(const std::string& path, const std::string& bytes) {
   fs::remove(path);
   std::ofstream(path, std::ios::binary) << bytes;
@@ -208,7 +208,7 @@ TEST(ReebFile, BytesDependOnTheContentOnly) {
   EXPECT_EQ(read_file(folder / "a.reeb"), read_file(folder / "other/b.reeb"));
 }
 
-// The buckets of a level are those of the records that live, if it has any.
+// Expects the buckets of a level to be those of the live records, if it has any.
 void expect_buckets_of(const MadeUp& made, std::uint32_t version, const Level& level) {
   if (level.buckets.offsets.empty()) return;
   std::vector<Bucket> expected;
@@ -222,8 +222,8 @@ void expect_buckets_of(const MadeUp& made, std::uint32_t version, const Level& l
   EXPECT_EQ(given, expected);
 }
 
-// Reads all that `bytes` gives; every level that is given is the right one.
-// Returns how many levels were given, or -1 if the file was refused.
+// Reads every level that `bytes` yields. Each of them must be right. Returns their number, or -1 if the file was
+// refused.
 int levels_given(const std::string& path, const std::string& bytes, const MadeUp& made,
                  const std::vector<ReebGraph>& expected) {
   write_bytes(path, bytes);
@@ -295,7 +295,7 @@ TEST_P(DamagedFile, EveryFlippedBitOfASmallOneIsNoticed) {
   }
 }
 
-// A file of many frames, and what three of its levels are.
+// A file of many frames, and three of its levels.
 struct LargeFile {
   MadeUp made = MadeUpMaker(6).make(20'000, 40'000, 8'000);
   TemporaryFolder folder;
@@ -311,7 +311,7 @@ struct LargeFile {
       levels.push_back(file.load(line.version));
   }
 
-  // Returns how many of the levels `damaged` gives; a level that is given is the right one.
+  // Returns how many of the levels `damaged` yields. Each of them must be right.
   std::size_t given_by(const std::string& damaged) const {
     write_bytes(folder / "bad.reeb", damaged);
     std::size_t given = 0;
@@ -344,7 +344,7 @@ TEST_P(DamagedFile, SomePrefixesAndFlippedBitsOfALargeOne) {
     bytes[place] = static_cast<char>(bytes[place] ^ (1 << (random() % 8)));
     ++flipped[large.given_by(bytes)];
   }
-  // Many places lie behind the coarsest level and before the end of the finest.
+  // Many positions are after the coarsest level and before the end of the finest.
   EXPECT_GT(cut[1] + cut[2], 10);
   EXPECT_GT(flipped[1] + flipped[2], 10);
 }

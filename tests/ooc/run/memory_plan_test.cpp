@@ -10,12 +10,12 @@ namespace reeb::ooc {
 namespace {
 
 constexpr std::uint64_t kMiB = 1 << 20;
-constexpr std::uint64_t kLeast = 16 * kMiB;
+constexpr std::uint64_t kSmallestLimit = 16 * kMiB;
 
-// Limits from the least to 64 GiB, with odd ones between.
+// Limits from the smallest to 64 GiB, with odd ones between.
 std::vector<std::uint64_t> limits() {
   std::vector<std::uint64_t> all;
-  for (std::uint64_t limit = kLeast; limit <= 64 * 1024 * kMiB; limit += limit / 5 + 1) all.push_back(limit);
+  for (std::uint64_t limit = kSmallestLimit; limit <= 64 * 1024 * kMiB; limit += limit / 5 + 1) all.push_back(limit);
   return all;
 }
 
@@ -39,9 +39,9 @@ TEST(MemoryPlan, SharesAddUpToAtMostTheLimit) {
     for (const std::uint64_t limit : limits()) {
       SCOPED_TRACE(testing::Message() << limit << " bytes, " << request.functions << " functions");
       const MemoryPlan p = plan(request, limit);
-      EXPECT_EQ(p.account_bytes + p.set_aside_bytes, limit);
-      EXPECT_LE((request.in_place ? 1 : 2) * p.table_bytes + request.functions * p.segment_bytes, p.account_bytes / 5);
-      EXPECT_LE(request.functions * p.most_segment_bytes, p.account_bytes / 5);
+      EXPECT_EQ(p.budget_bytes + p.set_aside_bytes, limit);
+      EXPECT_LE((request.in_place ? 1 : 2) * p.table_bytes + request.functions * p.segment_bytes, p.budget_bytes / 5);
+      EXPECT_LE(request.functions * p.most_segment_bytes, p.budget_bytes / 5);
       EXPECT_GE(p.threads, 1u);
       EXPECT_LE(p.threads, request.threads);
     }
@@ -49,11 +49,11 @@ TEST(MemoryPlan, SharesAddUpToAtMostTheLimit) {
 
 TEST(MemoryPlan, MoreMemoryNeverGivesLess) {
   for (const MemoryRequest& request : requests()) {
-    MemoryPlan before = plan(request, kLeast);
+    MemoryPlan before = plan(request, kSmallestLimit);
     for (const std::uint64_t limit : limits()) {
       SCOPED_TRACE(testing::Message() << limit << " bytes, " << request.functions << " functions");
       const MemoryPlan p = plan(request, limit);
-      EXPECT_GE(p.account_bytes, before.account_bytes);
+      EXPECT_GE(p.budget_bytes, before.budget_bytes);
       EXPECT_GE(p.table_bytes, before.table_bytes);
       EXPECT_GE(p.segment_bytes, before.segment_bytes);
       EXPECT_GE(p.most_live_vertices(), before.most_live_vertices());
@@ -63,15 +63,15 @@ TEST(MemoryPlan, MoreMemoryNeverGivesLess) {
   }
 }
 
-// A limit that is said to be needed is enough, and a front of the largest size that fits does fit.
+// A limit that is reported as needed is enough, and the largest front that is reported to fit does fit.
 TEST(MemoryPlan, WhatIsSaidToBeNeededIsEnough) {
   for (const MemoryRequest& request : requests())
     for (const std::uint64_t live : {1'000u, 100'000u, 10'000'000u}) {
       const FrontNeeds needs{.vertices = 20 * live, .live_vertices = live, .function_bytes = 1000};
       const std::uint64_t needed = plan(request, 64 * 1024 * kMiB).needed_bytes(needs);
       SCOPED_TRACE(testing::Message() << live << " live vertices need " << needed << " bytes");
-      EXPECT_TRUE(plan(request, needed + needed / 50 + kLeast).fits(needs));
-      if (needed > 2 * kLeast) {
+      EXPECT_TRUE(plan(request, needed + needed / 50 + kSmallestLimit).fits(needs));
+      if (needed > 2 * kSmallestLimit) {
         EXPECT_FALSE(plan(request, needed / 2).fits(needs));
       }
     }
@@ -101,7 +101,7 @@ TEST(MemoryPlan, ChunksGetWhatTheLiveGraphLeaves) {
 }
 
 TEST(MemoryPlan, AUsersChunksAreKept) {
-  MemoryPlan p = plan({.chunk_triangles = 7, .stretch_triangles = 140}, kLeast);
+  MemoryPlan p = plan({.chunk_triangles = 7, .stretch_triangles = 140}, kSmallestLimit);
   p.share_out({.vertices = 1'000'000, .live_vertices = 1'000'000});
   EXPECT_EQ(p.chunk.first, 7u);
   EXPECT_EQ(p.chunk.patch, 7u);
@@ -109,15 +109,15 @@ TEST(MemoryPlan, AUsersChunksAreKept) {
 }
 
 TEST(MemoryPlan, LessThanTheLeastIsRefused) {
-  EXPECT_NO_THROW(plan({}, kLeast));
-  for (const std::uint64_t limit : {std::uint64_t{0}, kLeast - 1}) try {
+  EXPECT_NO_THROW(plan({}, kSmallestLimit));
+  for (const std::uint64_t limit : {std::uint64_t{0}, kSmallestLimit - 1}) try {
       plan({}, limit);
       FAIL() << limit;
     } catch (const Error& error) {
       EXPECT_EQ(error.kind(), ErrorKind::kResource);
       EXPECT_NE(error.hint().find("--memory"), std::string::npos);
     }
-  EXPECT_GT(plan({}, MemoryBudget::kUnlimited).account_bytes, kMiB);
+  EXPECT_GT(plan({}, MemoryBudget::kUnlimited).budget_bytes, kMiB);
 }
 
 }  // namespace

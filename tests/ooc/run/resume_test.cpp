@@ -1,4 +1,4 @@
-// A run that is interrupted and gone on with writes the bytes of one that is not.
+// A run that is interrupted and resumed writes the same bytes as an uninterrupted run.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -57,14 +57,14 @@ void write_ply(const std::string& path, const ModelMesh& mesh, bool binary) {
   write_file(path, out.str());
 }
 
-// A streaming mesh: a vertex comes when a triangle needs it, and is final with the last that does.
+// A streaming mesh: a vertex comes when a triangle needs it, and is finalized with the last triangle that does.
 void write_stream(const std::string& path, const ModelMesh& mesh) {
   std::vector<std::size_t> last_use(mesh.vertex_count(), 0);
   for (std::size_t i = 0; i < mesh.corners.size(); ++i) last_use[mesh.corners[i].value()] = i / 3;
   const auto writer = io::create_mesh(path, {.existing = io::Existing::kReplace});
   std::uint64_t next = 0;
   for (std::size_t t = 0; t <= mesh.corners.size() / 3; ++t) {
-    const bool at_end = t == mesh.corners.size() / 3;  // with the vertices that nothing uses
+    const bool at_end = t == mesh.corners.size() / 3;  // with the unused vertices
     MeshBatch batch;
     batch.first_vertex = VertexId(next);
     if (!at_end)
@@ -102,7 +102,7 @@ ModelMesh mesh_of(const test::Complex& complex) {
   return mesh;
 }
 
-// In place; spooled, on guesses; with finalization of its own.
+// Read in place; spooled, with guesses; with finalization of its own.
 enum class Form { kBinary, kText, kStream };
 constexpr Form kForms[] = {Form::kBinary, Form::kText, Form::kStream};
 
@@ -129,7 +129,7 @@ class Runs {
   ReadOptions reading;
   std::function<void()> watch = {};  // called after each chunk
 
-  // Runs to the end; the bytes of the output, which is then removed.
+  // Runs to the end. Returns the bytes of the output, which is then removed.
   std::string finish(bool resume) {
     Notes ignored;
     return finish(resume, ignored);
@@ -142,8 +142,7 @@ class Runs {
     return bytes;
   }
 
-  // Runs up to the end of the n-th chunk, counted from 1. False if the run was shorter; then it
-  // wrote its output.
+  // Runs to the end of the n-th chunk, counted from 1. False if the run was shorter; then it wrote its output.
   bool stop_after(std::uint64_t n, bool resume) {
     try {
       run(resume, n, nullptr);
@@ -211,7 +210,7 @@ TEST(Resume, GoesOnAsOftenAsItIsInterrupted) {
   }
 }
 
-// Enough nodes for segments on disk, and gone on with in another way than begun.
+// Enough nodes for segments on disk. The run is resumed in another way than it began.
 class ResumeForm : public testing::TestWithParam<Form> {};
 INSTANTIATE_TEST_SUITE_P(Forms, ResumeForm, testing::ValuesIn(kForms), [](const auto& form) {
   return std::string(form.param == Form::kBinary ? "InPlace" : form.param == Form::kText ? "Guessed" : "Stream");
@@ -240,7 +239,7 @@ TEST_P(ResumeForm, TakesOverSegmentsWhateverTheThreadsChunksAndMemory) {
   EXPECT_GT(with_segments, 2u) << "nothing spills any more";
 }
 
-// Chunks that adapt are cut in the same places, and buckets come out of segments as they went in.
+// Chunks with adaptive sizes are cut in the same places, and segments return the buckets that were stored.
 TEST_P(ResumeForm, GivesTheSameEmbeddingWhateverTheThreads) {
   Runs runs(grid_mesh(250, 250), GetParam(), "random:1");
   runs.reading.batch_events = 100;
@@ -266,7 +265,7 @@ TEST_P(ResumeForm, GivesTheSameEmbeddingWhateverTheThreads) {
   }
 }
 
-// The checkpoint is of what came before the mesh was run from disk, or after.
+// The checkpoint is from before the mesh was run from disk, or from after that.
 TEST(Resume, GoesOnBeforeAndAfterAGuessWasRevoked) {
   ModelMesh mesh = grid_mesh(60, 60);
   const std::vector<VertexId> first(mesh.corners.begin(), mesh.corners.begin() + 1000 * 3);
@@ -298,7 +297,7 @@ TEST(Resume, StartsAnewWithOtherSettings) {
   EXPECT_NE(notes.at(0).find("other options"), std::string::npos) << notes[0];
 }
 
-// With more memory a run would not reorder the mesh; one that goes on has to.
+// With more memory a new run would not reorder the mesh; a resumed one must.
 TEST(Resume, KeepsToTheOrderInWhichTheRunBegan) {
   Runs runs(shuffled(grid_mesh(150, 150), 5));
   runs.options.buckets = 0;
@@ -337,11 +336,11 @@ TEST(Resume, StartsAnewFromWhatIsDamaged) {
       SCOPED_TRACE(testing::Message() << name << (trial % 2 == 0 ? " cut" : " changed") << " at " << at);
       fs::copy(kept, runs.partial());
       write_file(runs.partial() + "/" + name, bad);
-      // What the run wrote behind the last checkpoint does not matter.
-      const bool behind = std::string(name) != "checkpoint" && bad.substr(0, good.size()) == good;
+      // What the run wrote after the last checkpoint does not matter.
+      const bool is_after = std::string(name) != "checkpoint" && bad.substr(0, good.size()) == good;
       Notes notes;
       ASSERT_EQ(runs.finish(true, notes), expected);
-      EXPECT_EQ(notes.empty() || notes[0].find("starts anew") == std::string::npos, behind)
+      EXPECT_EQ(notes.empty() || notes[0].find("starts anew") == std::string::npos, is_after)
           << testing::PrintToString(notes);
     }
   }
@@ -406,7 +405,7 @@ TEST(Resume, KeepsCheckpointsAlongTheWayOnlyWhenTheyAreDue) {
     runs.options.checkpoint_seconds = seconds;
     std::uint64_t seen = 0;
     const std::string output = runs.output();
-    // As a process that ends without a word: a copy of the folder is all that is left of it.
+    // Like a process that is killed: a copy of the folder is all that remains of it.
     std::string last;
     runs.watch = [&] {
       if (PartialFolder::has_checkpoint(output)) ++seen, last = read_file(runs.partial() + "/checkpoint");
@@ -470,7 +469,7 @@ TEST(PartialFolder, RefusesWhatNoRunHasMade) {
   fs::create_directory(partial);
   write_file(partial + "/function-0.arcs", "mine");
   expect_refused();
-  // A link that has the mark's name is no mark.
+  // A link with the name of the mark is not a mark.
   fs::create_symlink(partial + "/function-0.arcs", partial + "/reeb-partial");
   expect_refused();
   EXPECT_EQ(read_file(partial + "/function-0.arcs"), "mine");

@@ -78,7 +78,7 @@ TEST(ExternalSort, AgreesWithASortInMemory) {
     }
 }
 
-// Merging holds a block of each run: of a large file there are fewer if they are longer.
+// Merging holds a block of each run: a large file has fewer runs if they are longer.
 TEST(ExternalSort, AnAllowanceThatGrowsLeavesLessToMerge) {
   constexpr std::size_t kCount = 1'000'000;
   std::vector<Pair> expected = random_pairs(kCount, 5);
@@ -116,7 +116,7 @@ TEST(ExternalSort, EachFailingWriteIsReported) {
     });
 }
 
-// The first to hear of it may live without, as a checkpoint that cannot be made does.
+// The first caller that gets the error might ignore it, as a checkpoint that cannot be written does.
 TEST(ExternalSort, DoesNotForgetThatRecordsWereLost) {
   struct Nowhere : StateWriter {
     void write(std::span<const std::byte>) override {}

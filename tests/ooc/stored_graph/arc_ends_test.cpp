@@ -18,7 +18,7 @@ ArcKeys keys_of(const ReebGraph& graph, std::size_t arc) {
   return {graph.nodes[graph.lo[arc].value()], graph.nodes[graph.hi[arc].value()]};
 }
 
-// By node: whether arcs with `chosen` connect it with one of them that ends in an extremum.
+// By node: whether arcs with `chosen` connect it to such an arc that ends in an extremum.
 std::vector<bool> near_extrema(const ReebGraph& graph, const std::vector<bool>& chosen) {
   const Degrees degree = degrees(graph);
   UnionFind joined(static_cast<std::uint32_t>(graph.node_count()));
@@ -57,15 +57,15 @@ TEST(ArcEnds, KeepsWhatHangsTogetherWithAnExtremum) {
     }
     dropped += arcs.size() - expected.size();
     kept += expected.size();
-    ends.keep_near_extrema(arcs);
+    ends.keep_connected_to_extrema(arcs);
     EXPECT_EQ(arcs, expected);
   }
   EXPECT_GT(kept, cases);
   EXPECT_GT(dropped, cases / 2);
 }
 
-// Each look goes one arc on along a chain that lies the wrong way round. Another arc of the same trunk, far
-// above, has nothing to do with it.
+// Each round advances one arc along a chain whose arcs are in reverse order. Another arc of the same trunk, far above,
+// is not connected to it.
 TEST(ArcEnds, KeepsAllWhereItIsLongToTell) {
   const auto arc = [](std::uint64_t n) {
     return ArcKeys{{static_cast<double>(n), VertexId(n)}, {static_cast<double>(n + 1), VertexId(n + 1)}};
@@ -76,7 +76,7 @@ TEST(ArcEnds, KeepsAllWhereItIsLongToTell) {
     for (std::uint64_t n = 0; n < kTrunk; ++n) ends.add(arc(n));
     std::vector<ArcKeys> arcs{arc(kTrunk - 50)};
     for (std::uint64_t n = chain; n-- > 0;) arcs.push_back(arc(n));
-    ends.keep_near_extrema(arcs);
+    ends.keep_connected_to_extrema(arcs);
     EXPECT_EQ(arcs.size(), chain < 16 ? chain : chain + 1);
   }
 }

@@ -1,5 +1,5 @@
-// The last pass on a stored graph against noise removal on the whole graph in memory: the same nodes,
-// arcs and buckets, to the bit, however the graph is stored and read.
+// The last pass on a stored graph is compared with noise removal on the whole graph in memory: the same nodes, arcs and
+// buckets, to the bit, however the graph is stored and read.
 #include "ooc/stored_graph/last_noise_pass.h"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ namespace {
 using test::EmbeddedGraph;
 using test::Random;
 
-// In any order, but parallel arcs in the graph's own.
+// A random order, except that parallel arcs stay in the graph's own order.
 std::vector<std::size_t> order_of_adding(const ReebGraph& graph, Random& random) {
   std::vector<std::size_t> order(graph.arc_count());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -50,14 +50,14 @@ void add(SegmentStore& store, const EmbeddedGraph& made, bool embeds, Random& ra
   }
 }
 
-// One more than the greatest.
+// One more than the largest vertex.
 std::uint64_t vertices_of(const ReebGraph& graph) {
   std::uint64_t count = 0;
   for (const SweepKey& node : graph.nodes) count = std::max(count, node.vertex.value() + 1);
   return count;
 }
 
-// Reads all arcs in pieces of at most `limit`, and compares.
+// Reads all arcs, at most `limit` at a time, and compares.
 void expect_arcs(SegmentStore& store, std::size_t limit, std::optional<int> exponent, const ReebGraph& graph,
                  const ArcBuckets& buckets) {
   store.rewind_arcs();
@@ -134,7 +134,7 @@ TEST(LastNoisePass, LeavesWhatNoiseRemovalInMemoryDoes) {
     Random random(seed + i);
     const std::uint32_t nodes = i % 4 == 0 ? 120 : 14;
     const EmbeddedGraph made = test::random_embedded_graph(random, nodes);
-    // From none to nearly all; values of graphs of n nodes lie within 3n.
+    // From no arc to nearly all; the values of graphs with n nodes are within 3n.
     const double threshold = static_cast<double>(test::below(random, i % 3 == 0 ? 6 : 2 * nodes));
     removed += check(made, threshold, i % 2 == 0, random);
   }
@@ -153,7 +153,7 @@ EmbeddedGraph embedded(std::vector<ArcKeys> arcs) {
   return made;
 }
 
-// A trunk of small loops with twigs that have twigs: a few of many short arcs can be removed.
+// A trunk of small loops with twigs that have twigs: few of many short arcs can be removed.
 EmbeddedGraph trunk(std::uint32_t segments, Random& random) {
   std::vector<ArcKeys> arcs;
   std::uint64_t next = 0;
@@ -186,9 +186,8 @@ TEST(LastNoisePass, FindsTheTwigsOfATrunk) {
   }
 }
 
-// Four ways from 0 to 1000 become arcs when their twigs are gone, beside two that are; of each pair of
-// ways the lower one has its twigs above those of the other, or below, so that no order of parts is the
-// order of the arcs.
+// Four ways from 0 to 1000 become arcs when their twigs are removed, next to two that are arcs already. In each pair of
+// ways the lower one has its twigs above those of the other, or below, so no order of parts is the order of the arcs.
 TEST(LastNoisePass, ParallelArcsKeepTheOrderOfTheirLowestParts) {
   const auto arc = [](double lo, double hi) {
     const auto key = [](double value) { return SweepKey{value, VertexId(static_cast<std::uint64_t>(value))}; };
@@ -216,7 +215,7 @@ TEST(LastNoisePass, HoldsWhatNoiseCanTouchAndNotTheGraph) {
   Random random(3);
   EmbeddedGraph made = trunk(700, random);
   Stored stored(made, true, random);
-  // A twig of 1 can go, the loops of 9 all around it stay as they are.
+  // A twig of 1 can be removed; the loops of 9 all around it stay as they are.
   const LastNoisePass pass = run_last_noise_pass(stored.store, {10, made.exponent});
   ASSERT_TRUE(pass.change);
   const std::size_t touched = pass.change->replaced_arcs;

@@ -116,7 +116,7 @@ TEST(SegmentStore, AnArcThatEndsNowhereIsSeen) {
   EXPECT_THROW(read_graph(store), std::logic_error);
 }
 
-// Arcs as they come: calls with embedding, some of a larger exponent than those before.
+// Arcs in the order of adding: calls with an embedding, some of a larger exponent than those before.
 struct EmbeddedArcs {
   static constexpr int kExponents = 6, kLast = 2;  // -3 .. 2
   struct Call {
@@ -128,7 +128,7 @@ struct EmbeddedArcs {
   std::vector<Call> calls;
 };
 
-// Values are small integers, so that means are exact and equal keys have to keep their order.
+// Values are small integers, so that means are exact and equal keys must keep their order.
 EmbeddedArcs random_embedded_arcs(const Pieces& pieces, std::uint64_t seed, std::size_t most_buckets) {
   std::mt19937_64 random(seed);
   EmbeddedArcs all;
@@ -158,7 +158,7 @@ struct EmbeddedArc {
   std::vector<Bucket> buckets;
 };
 
-// What is to come back: by a stable sort in memory, coarsened one arc at a time.
+// The expected arcs: by a stable sort in memory, coarsened one arc at a time.
 std::vector<EmbeddedArc> expected_arcs(const EmbeddedArcs& all) {
   std::vector<EmbeddedArc> arcs;
   for (const auto& call : all.calls) {
@@ -328,7 +328,7 @@ TEST_P(Segments, AnotherProcessGoesOnWithTheBuckets) {
       SegmentStore store(temp, budget, options);
       add(store, all, 0, half);
       store.save(state);
-      add(store, all, half, half + 20);  // is lost
+      add(store, all, half, half + 20);  // is discarded
     }
     SegmentStore store(temp, budget, options);
     store.restore(state);
@@ -350,7 +350,7 @@ TEST(SegmentStore, BucketsOfALargerExponentThanTheLastAreSeen) {
   EXPECT_THROW(store.read_arcs(piece, 1, 2), std::logic_error);
 }
 
-// Whatever the bytes, a decoder answers or refuses; it never leaves its arrays.
+// Whatever the bytes, a decoder returns a result or refuses; it never reads beyond its arrays.
 TEST(SegmentCodecs, RefuseDamagedBlocks) {
   Pieces pieces = random_pieces(300, 8);
   std::sort(pieces.arcs.begin(), pieces.arcs.end());

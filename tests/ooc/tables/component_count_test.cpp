@@ -18,7 +18,7 @@ std::uint64_t joined(std::uint64_t nodes, const Edges& edges, const io::TempDir&
   return count.joined();
 }
 
-// `degree` edges a node, to places as far away as `reach`.
+// `degree` edges per node, to nodes at a distance of at most `reach`.
 Edges random_edges(std::uint64_t nodes, double degree, std::uint64_t reach, std::mt19937_64& random) {
   Edges edges;
   for (auto left = static_cast<std::uint64_t>(degree * static_cast<double>(nodes)); left > 0; --left) {

@@ -1,4 +1,4 @@
-// Ranks are those of std::lower_bound, from any starting point that is allowed.
+// The ranks are those of std::lower_bound, from any allowed starting point.
 #include "ooc/tables/key_table.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@
 namespace reeb::ooc {
 namespace {
 
-// Ascending, many of one value, every vertex even: odd ones are not there.
+// Ascending, with many equal values. Every vertex is even, so odd ones are missing.
 std::vector<SweepKey> made_keys(std::size_t count) {
   std::mt19937_64 random(count);
   std::vector<SweepKey> keys(count);
@@ -31,7 +31,7 @@ void fill(KeyTable& table, const std::vector<SweepKey>& keys) {
 TEST(KeyTable, RanksAreThoseOfASearch) {
   const Scratch scratch;
   const io::TempDir temp(scratch.path());
-  // Around the size of the buffer, and many times that.
+  // Counts around the size of the buffer, and many times that.
   for (const std::size_t count : {1u, 2u, 100u, 4095u, 4096u, 4097u, 100'000u}) {
     SCOPED_TRACE(count);
     const std::vector<SweepKey> keys = made_keys(count);

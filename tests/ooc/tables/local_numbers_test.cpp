@@ -13,7 +13,7 @@ namespace {
 using test::Random;
 
 std::vector<VertexId> random_vertices(Random& random) {
-  // Runs of near ids, far apart by powers of two as often as not, so that places are contended for.
+  // Groups of near ids, a power of two apart, so that vertices compete for entries.
   std::vector<VertexId> vertices;
   const std::uint64_t range = random.between(1, 200), stride = std::uint64_t{1} << random.between(0, 40);
   for (std::uint64_t n = random.between(0, 500); n > 0; --n)

@@ -25,7 +25,7 @@ T value_of(std::uint64_t number) {
     return static_cast<T>(number);
 }
 
-// Random operations against a map, in places that jump between near and far.
+// Random operations compared with a map, at indices that jump between near and far.
 template <class T>
 void compare_with_map(std::uint64_t allowance, std::uint64_t seed) {
   SCOPED_TRACE(testing::Message() << "allowance " << allowance << " seed " << seed);

@@ -1,5 +1,5 @@
-// A program with a data race in each of our kinds of thread, for the thread sanitizer to find, and the same
-// without: the test that the sanitizer is not blind (tests/tsan.supp) and raises no false alarm.
+// A program with a data race in each of our kinds of thread, for the thread sanitizer to find, and the same without
+// races. It tests that the sanitizer finds races (tests/tsan.supp) and raises no false alarm.
 //
 //   planted_race none|read_ahead|worker
 #include <atomic>
@@ -15,9 +15,9 @@ namespace {
 using reeb::ooc::read_ahead;
 using reeb::ooc::Worker;
 
-constexpr int kPieces = 200;
+constexpr int kItems = 200;
 
-// Waits until two threads are here. Relaxed: the sanitizer must not see an order in it.
+// Waits until two threads have arrived. Relaxed: it must not give the sanitizer an order.
 class Meeting {
  public:
   void wait() {
@@ -32,14 +32,14 @@ class Meeting {
 
 int prepared = 0;  // the race
 
-int pieces_read_ahead(bool race) {
+int items_read_ahead(bool race) {
   int read = 0, sum = 0;
   Meeting meeting;
   read_ahead<int>(
       true,
       [&](int& piece) {
         piece = read;
-        return read++ < kPieces;
+        return read++ < kItems;
       },
       [&](int& piece) {
         meeting.wait();
@@ -54,7 +54,7 @@ int work_in_background(bool race) {
   int sum = 0;
   Meeting meeting;
   Worker worker;
-  for (int i = 0; i < kPieces; ++i) {
+  for (int i = 0; i < kItems; ++i) {
     worker.start([&] {
       meeting.wait();
       ++sum;
@@ -72,5 +72,5 @@ int work_in_background(bool race) {
 
 int main(int argument_count, char** arguments) {
   const std::string race = argument_count > 1 ? arguments[1] : "none";
-  std::printf("%d %d\n", pieces_read_ahead(race == "read_ahead"), work_in_background(race == "worker"));
+  std::printf("%d %d\n", items_read_ahead(race == "read_ahead"), work_in_background(race == "worker"));
 }

@@ -1,4 +1,4 @@
-// One thread beside its owner, and reading ahead.
+// A thread in parallel to its owner, and reading ahead.
 #include "ooc/threads/worker.h"
 
 #include <gtest/gtest.h>

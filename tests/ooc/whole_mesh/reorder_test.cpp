@@ -30,7 +30,7 @@ std::vector<Triangle> triangles_of(std::span<const VertexId> corners) {
   return triangles;
 }
 
-// The reordered mesh is the old one under original(), vertex by vertex and triangle by triangle.
+// Expects the reordered mesh to be the original one under to_original(), vertex by vertex and triangle by triangle.
 void expect_same(const ModelMesh& model, ReorderedMesh& mesh) {
   ASSERT_EQ(mesh.vertex_count(), model.vertex_count());
   std::vector<VertexId> ids, originals(model.vertex_count());
