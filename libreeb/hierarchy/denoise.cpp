@@ -29,7 +29,7 @@ class GraphLeafRemoval {
   void run() {
     for (NodeId node; node < graph_.end_node(); ++node) {
       leaves_.push_back(node);
-      remove_leaves_at();
+      process_leaves();
     }
   }
 
@@ -78,7 +78,7 @@ class GraphLeafRemoval {
     return along(d, reach_[node][d]) > along(d, leaf);
   }
 
-  void remove_leaves_at() {
+  void process_leaves() {
     while (!leaves_.empty()) {
       const NodeId node = leaves_.back();
       leaves_.pop_back();
