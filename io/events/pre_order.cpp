@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "io/events/flat_map.h"
+#include "libreeb/base/flat_map.h"
 
 namespace reeb::io {
 namespace {
@@ -56,18 +56,30 @@ class PreOrderReader : public EventReader {
     waiting.event = event;
     waiting.missing = corners_;
     for (std::uint32_t k = 0; k < corners_; ++k) {
-      Named& named = named_[event.corners[k]];
+      Named& named = named_of(event.corners[k]);
       waiting.next[k] = named.first;
       named.first = 4 * cell + k;
       ++named.cells;
     }
   }
 
+  Named& named_of(std::uint32_t vertex) {
+    const auto next = free_named_.empty() ? static_cast<std::uint32_t>(named_.size()) : free_named_.back();
+    const std::uint32_t index = index_of_.find_or_insert(vertex, next);
+    if (index == named_.size()) {
+      named_.emplace_back();
+    } else if (!free_named_.empty() && index == free_named_.back()) {
+      free_named_.pop_back();
+      named_[index] = {};
+    }
+    return named_[index];
+  }
+
   void arrive(const StreamEvent& vertex) {
     push(EventKind::kVertex) = vertex;
-    Named* named = named_.find(vertex.vertex);
-    if (named == nullptr) return push_finalized(vertex.vertex);
-    for (std::uint32_t at = named->first; at != kNoCell;) {
+    const std::uint32_t index = index_of_.find(vertex.vertex);
+    if (index == FlatMap::kNone) return push_finalized(vertex.vertex);
+    for (std::uint32_t at = named_[index].first; at != kNoCell;) {
       WaitingCell& cell = cells_[at / 4];
       if (--cell.missing == 0) complete_.push_back(at / 4);
       at = cell.next[at % 4];
@@ -82,8 +94,10 @@ class PreOrderReader : public EventReader {
     push(event.kind) = event;
     for (std::uint32_t k = 0; k < corners_; ++k) {
       const std::uint32_t vertex = event.corners[k];
-      if (--named_[vertex].cells != 0) continue;
-      named_.erase(vertex);
+      const std::uint32_t index = index_of_.find(vertex);
+      if (--named_[index].cells != 0) continue;
+      index_of_.erase(vertex);
+      free_named_.push_back(index);
       push_finalized(vertex);
     }
     free_cells_.push_back(cell);
@@ -91,7 +105,9 @@ class PreOrderReader : public EventReader {
 
   std::unique_ptr<EventReader> reader_;
   std::uint32_t corners_;
-  FlatMap<Named> named_;
+  FlatMap index_of_;  // of vertices that waiting cells name, in named_
+  std::vector<Named> named_;
+  std::vector<std::uint32_t> free_named_;
   std::vector<WaitingCell> cells_;
   std::vector<std::uint32_t> free_cells_;
   std::vector<std::uint32_t> complete_;  // scratch: cells that a vertex completes

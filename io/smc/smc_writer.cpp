@@ -4,13 +4,13 @@
 #include <cmath>
 
 #include "io/events/cell_hold.h"
-#include "io/events/flat_map.h"
 #include "io/events/format_limits.h"
 #include "io/events/stream_writer.h"
 #include "io/smc/smc_head.h"
 #include "io/smc/smc_positions.h"
 #include "io/smc/smc_state.h"
 #include "io/text/output_buffer.h"
+#include "libreeb/base/flat_map.h"
 
 namespace reeb::io {
 namespace {
@@ -82,7 +82,7 @@ class SmcWriter : public StreamWriter {
       if (!std::isfinite(event.floats[k]))
         fail_format("a coordinate of vertex " + std::to_string(event.vertex) + " is not finite", "fix the mesh first");
     const std::array<float, 3> xyz{event.floats[0], event.floats[1], event.floats[2]};
-    slots_[event.vertex] = state_.create_vertex(event.vertex, positions_.to_coded(xyz));
+    slots_.find_or_insert(event.vertex, state_.create_vertex(event.vertex, positions_.to_coded(xyz)));
   }
 
   void write_triangle(const StreamEvent& event) {
@@ -93,7 +93,7 @@ class SmcWriter : public StreamWriter {
                       std::to_string(c[0] == c[1] ? c[0] : c[2]) + ")",
                   "drop degenerate triangles, or write SMB instead");
     for (std::size_t k = 0; k < 3; ++k)
-      if (slots_.find(c[k]) == nullptr)
+      if (slots_.find(c[k]) == FlatMap::kNone)
         fail_format("vertex " + std::to_string(c[k]) + " is not active where a triangle names it",
                     "SMC needs every vertex before its triangles (pre-order)");
     held_.put(event);
@@ -101,14 +101,14 @@ class SmcWriter : public StreamWriter {
 
   void write_finalized(std::uint32_t vertex) {
     if (held_.finalize(vertex, false)) return;
-    const std::uint32_t* slot = slots_.find(vertex);
-    if (slot == nullptr) return;
+    const std::uint32_t slot = slots_.find(vertex);
+    if (slot == FlatMap::kNone) return;
     // A vertex that a triangle has used stays active; one without triangles is removed.
-    if (state_.vertex(*slot).uses > 0 || held_names(vertex)) {
+    if (state_.vertex(slot).uses > 0 || held_names(vertex)) {
       ++dropped_;
       return;
     }
-    state_.drop_vertex(*slot);
+    state_.drop_vertex(slot);
     slots_.erase(vertex);
     ++isolated_;
   }
@@ -129,7 +129,7 @@ class SmcWriter : public StreamWriter {
   void code_held() {
     if (!held_.full()) return;
     Triangle triangle;
-    for (std::size_t k = 0; k < 3; ++k) triangle.corners[k] = slots_[held_.cell().corners[k]];
+    for (std::size_t k = 0; k < 3; ++k) triangle.corners[k] = slots_.find(held_.cell().corners[k]);
     code_triangle(triangle);
     code_finalizations(triangle);
     held_.clear();
@@ -274,7 +274,7 @@ class SmcWriter : public StreamWriter {
   PositionCoder positions_;
   SmcModels models_;
   SmcState state_;
-  FlatMap<std::uint32_t> slots_;  // of vertices that arrived and are not final, by their number
+  FlatMap slots_;  // of vertices that arrived and are not final, by their number
   CellHold held_;
   std::uint64_t isolated_ = 0, dropped_ = 0;
 };
