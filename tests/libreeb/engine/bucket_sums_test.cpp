@@ -137,7 +137,7 @@ class ManyLists {
       BucketSum vertex{index, 0, {}};
       const Point position = random_point(random_);
       vertex.add(position);
-      pool_.add_to_bucket(pool_.bucket_at_hand(lists_[i]), position);
+      pool_.add_to_bucket(pool_.current_bucket(lists_[i]), position);
       models_[i].add(vertex);
     }
   }
