@@ -29,7 +29,7 @@ const Checkpoint* ResumableRun::start(const std::function<void(StateReader&)>& r
                                       std::vector<std::string>& notes) {
   last_ = Clock::now();
   if (options_.resume && !folder_)
-    notes.push_back("only runs on a regular file can be resumed, so the run starts from the beginning");
+    notes.push_back("the input is not a regular file, so the run cannot be resumed and starts from the beginning");
   if (!folder_) return nullptr;
   if (options_.resume) {
     load_ = load_checkpoint(folder_->checkpoint(), identity_);

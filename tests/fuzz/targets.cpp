@@ -59,7 +59,7 @@ Delivered read_batches(MeshReader& reader, std::size_t properties) {
     events += batch.vertex_count + batch.triangle_count() + batch.tetrahedron_count();
   }
   if (!more) {
-    expect(batch.empty(), "there is nothing behind the end");
+    expect(batch.empty(), "there is nothing after the end");
     (void)reader.warnings();
     legality.delivered().whole = true;
   }

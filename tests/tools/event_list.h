@@ -99,7 +99,7 @@ inline CompactStream check_compact(const EventList& list) {
       const std::size_t v = event.vertices[0];
       if (v >= introduced || final_now[v]) return {at + "finalizes what is not live", 0};
       if (last_use[v] != kNever && last_use[v] != triangle_before)
-        return {at + "is not directly behind the last use", 0};
+        return {at + "is not directly after the last use", 0};
       final_now[v] = true;
       ++finalized;
     }

@@ -51,10 +51,10 @@ for signal in INT TERM; do
   code=0
   wait "$process" || code=$?
   check "SIG$signal ends a run with 130" test "$code" = 130
-  check "it says how to go on" says "--resume goes on"
+  check "it says how to resume" says "--resume continues"
   check "it leaves a folder" only . mesh.ply whole.reeb messages out.reeb.partial
   run -o out.reeb --resume
-  check "it goes on" says "goes on from there"
+  check "it continues" says "continues from there"
   check "with the same bytes" cmp whole.reeb out.reeb
   check "and leaves nothing else" only . mesh.ply whole.reeb messages out.reeb
   rm out.reeb
@@ -69,13 +69,13 @@ wait "$process" 2>/dev/null || true
 : >out.reeb.partial-999999-0
 : >out.reeb.partial-notes
 run -o out.reeb
-check "a run without --resume starts anew" says_not "goes on"
+check "a run without --resume starts from the beginning" says_not "continues from there"
 check "and clears up" only . mesh.ply whole.reeb messages out.reeb out.reeb.partial-notes
 check "with the same bytes" cmp whole.reeb out.reeb
 rm out.reeb out.reeb.partial-notes
 
 run -o out.reeb --resume
-check "without a checkpoint --resume starts anew" says "nothing to resume"
+check "without a checkpoint --resume starts from the beginning" says "nothing to resume"
 rm out.reeb
 code=0
 "$reeb" compute - -o out.reeb --resume <mesh.ply >messages 2>&1 || code=$?
@@ -93,11 +93,11 @@ for limit in 16 1200; do
     check "nothing to resume is promised" says_not "--resume"
     check "nothing is left" only . mesh.ply whole.reeb messages
   else
-    check "the way on is said" says "--resume goes on"
+    check "it says how to resume" says "--resume continues"
     check "the folder is left" only . mesh.ply whole.reeb messages out.reeb.partial
   fi
   run -o out.reeb --resume
-  check "gone on with larger files: same bytes" cmp whole.reeb out.reeb
+  check "resumed with larger files: same bytes" cmp whole.reeb out.reeb
   rm out.reeb
 done
 
@@ -107,11 +107,11 @@ if [[ $EUID == 0 ]] && mount -t tmpfs -o size=1500k none small 2>messages; then
   run -o small/out.reeb
   check "a full disk: 3" test "$code" = 3
   check "in clear text" says "No space left"
-  check "the way on is said" says "--resume goes on"
+  check "it says how to resume" says "--resume continues"
   check "the folder is left" only small out.reeb.partial
   mount -o remount,size=64m "$folder/small"
   run -o small/out.reeb --resume
-  check "it goes on after space is made" says "goes on from there"
+  check "it continues after space is made" says "continues from there"
   check "with the same bytes" cmp whole.reeb small/out.reeb
   check "and leaves nothing else" only small out.reeb
 else

@@ -257,7 +257,7 @@ TEST_P(ResumeForm, GivesTheSameEmbeddingWhateverTheThreads) {
       runs.options.threads = static_cast<unsigned>(1 + n % 2);
       Notes notes;
       ASSERT_EQ(runs.finish(true, notes), expected) << "after chunk " << n;
-      EXPECT_NE(notes.at(0).find("goes on"), std::string::npos) << notes[0];
+      EXPECT_NE(notes.at(0).find("continues from there"), std::string::npos) << notes[0];
     }
     if (denoise == 0) {
       EXPECT_GT(with_segments, 0u) << "nothing spills any more";
@@ -280,7 +280,7 @@ TEST(Resume, GoesOnBeforeAndAfterAGuessWasRevoked) {
       ASSERT_TRUE(runs.stop_after(n, false));
       Notes notes;
       ASSERT_EQ(runs.finish(true, notes), expected) << "after chunk " << n;
-      EXPECT_NE(notes.at(0).find("goes on"), std::string::npos) << notes[0];
+      EXPECT_NE(notes.at(0).find("continues from there"), std::string::npos) << notes[0];
     }
 }
 
@@ -340,7 +340,7 @@ TEST(Resume, StartsAnewFromWhatIsDamaged) {
       const bool is_after = std::string(name) != "checkpoint" && bad.substr(0, good.size()) == good;
       Notes notes;
       ASSERT_EQ(runs.finish(true, notes), expected);
-      EXPECT_EQ(notes.empty() || notes[0].find("starts anew") == std::string::npos, is_after)
+      EXPECT_EQ(notes.empty() || notes[0].find("starts from the beginning") == std::string::npos, is_after)
           << testing::PrintToString(notes);
     }
   }
@@ -368,7 +368,7 @@ TEST(Resume, RefusesEveryCutAndChangedByteOfASmallCheckpoint) {
       Notes notes;
       ASSERT_EQ(runs.finish(true, notes), expected) << "at " << at;
       ASSERT_FALSE(notes.empty()) << "at " << at;
-      ASSERT_NE(notes[0].find("starts anew"), std::string::npos) << "at " << at;
+      ASSERT_NE(notes[0].find("starts from the beginning"), std::string::npos) << "at " << at;
     }
 }
 
@@ -419,7 +419,7 @@ TEST(Resume, KeepsCheckpointsAlongTheWayOnlyWhenTheyAreDue) {
     write_file(runs.partial() + "/checkpoint", last);
     Notes notes;
     EXPECT_EQ(runs.finish(true, notes), expected);
-    EXPECT_NE(notes.at(0).find("goes on"), std::string::npos) << notes[0];
+    EXPECT_NE(notes.at(0).find("continues from there"), std::string::npos) << notes[0];
   }
 }
 
