@@ -265,6 +265,7 @@ class ExternalSort {
     wait_for_writer();
     if (filling_.batch.empty()) return;
     if (!file_) file_.emplace(options_.file.empty() ? temp_->create_unnamed(owner_) : io::File::create(options_.file));
+    grow_allowance();  // while no writer changes the size of the file
     std::swap(filling_, writing_);
     if (options_.background) {
       writer_.start([this] { write_run(writing_.batch); });
@@ -272,7 +273,6 @@ class ExternalSort {
       write_run(writing_.batch);
       std::swap(filling_, writing_);
     }
-    grow_allowance();
     // If the budget is too small for a second buffer, wait for the first.
     if (filling_.batch.records.capacity() == 0 && !filling_.try_start(kBlockRecords)) {
       wait_for_writer();
