@@ -81,7 +81,7 @@ class NoisePass {
         exponent_(options.bucket_exponent),
         memory_(store.budget().reserve("last pass of noise removal", 0)),
         spare_memory_(store.budget().reserve("last pass of noise removal", 0)) {
-    change_.memory = store.budget().reserve("patch of removed noise", 0);
+    change_.memory = store.budget().reserve("changes by noise removal", 0);
   }
 
   LastNoisePass run() {

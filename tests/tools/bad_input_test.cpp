@@ -57,15 +57,21 @@ std::string ply_header(const Content& content, const char* kind) {
          std::to_string(content.triangles_said) + "\nproperty list uchar int vertex_indices\nend_header\n";
 }
 
+// The faces as ascii PLY and OFF have them.
+std::string face_lines(const Content& content) {
+  std::string lines;
+  for (std::size_t f = 0; f < 4; ++f) {
+    lines += "3";
+    for (std::size_t c = 0; c < 3; ++c) lines.append(" ").append(std::to_string(corner(content, f, c)));
+    lines += "\n";
+  }
+  return lines;
+}
+
 std::string ply_text(const Content& content) {
   std::string file = ply_header(content, "ascii");
   for (std::size_t v = 0; v < 4; ++v) file += point_text(content, v);
-  for (std::size_t f = 0; f < 4; ++f) {
-    file += "3";
-    for (std::size_t c = 0; c < 3; ++c) file.append(" ").append(std::to_string(corner(content, f, c)));
-    file += "\n";
-  }
-  return file;
+  return file + face_lines(content);
 }
 
 std::string ply_binary(const Content& content) {
@@ -94,12 +100,7 @@ std::string off(const Content& content) {
   std::string file =
       "OFF\n" + std::to_string(content.vertices_said) + " " + std::to_string(content.triangles_said) + " 0\n";
   for (std::size_t v = 0; v < 4; ++v) file += point_text(content, v);
-  for (std::size_t f = 0; f < 4; ++f) {
-    file += "3";
-    for (std::size_t c = 0; c < 3; ++c) file.append(" ").append(std::to_string(corner(content, f, c)));
-    file += "\n";
-  }
-  return file;
+  return file + face_lines(content);
 }
 
 std::string stl_text(const Content& content) {

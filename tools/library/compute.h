@@ -25,12 +25,12 @@ struct ComputeOptions {
   // is 0.1%), or in units of the function. 0: all stay.
   double denoise = 0;
   bool denoise_is_share = false;
-  std::uint32_t buckets = 64;        // arcs are embedded in so many buckets of value, to twice as many; 0: not at all
+  std::uint32_t buckets = 64;        // buckets of value over the range, at least; at most twice that; 0: none
   std::string temp_dir{};            // for temporary files; empty: $TMPDIR, or the folder of the first output
   bool may_reorder = true;           // sort a mesh in no coherent order on disk first
   bool keep_sidecar = false;         // keep what the first pass learns in MESH.final, for the next run
   std::size_t chunk_triangles = 0;   // 0: adaptive
-  std::uint64_t snapshot_every = 0;  // write the graph so far each time so many triangles came; 0: never
+  std::uint64_t snapshot_every = 0;  // write the graph so far after every N triangles; 0: never
   // Go on from where an interrupted run with the same mesh, functions and first output was.
   bool resume = false;
   double checkpoint_seconds = 2;  // between two checkpoints, at least; 0: after every chunk
