@@ -150,6 +150,7 @@ class Pipeline {
       tbb::parallel_pipeline(in_flight,
                              tbb::make_filter<void, Slot*>(tbb::filter_mode::serial_in_order,
                                                            [&](tbb::flow_control& control_flow) -> Slot* {
+                                                             PipelineOrder::begin_filter();
                                                              Slot* slot = nullptr;
                                                              free_slots.try_pop(slot);  // there are as many as tokens
                                                              const PipelineOrder::Filter filter(order, slot, &source_);
@@ -159,11 +160,13 @@ class Pipeline {
                                                            }) &
                                  tbb::make_filter<Slot*, Slot*>(tbb::filter_mode::parallel,
                                                                 [&](Slot* slot) {
+                                                                  PipelineOrder::begin_filter();
                                                                   const PipelineOrder::Filter filter(order, slot);
                                                                   sweep_in_parallel(*slot, sweepers);
                                                                   return slot;
                                                                 }) &
                                  tbb::make_filter<Slot*, void>(tbb::filter_mode::serial_in_order, [&](Slot* slot) {
+                                   PipelineOrder::begin_filter();
                                    const PipelineOrder::Filter filter(order, slot, &glues_);
                                    glue(*slot);
                                    free_slots.push(slot);

@@ -19,12 +19,15 @@ class PipelineOrder {
   PipelineOrder& operator=(const PipelineOrder&) = delete;
   ~PipelineOrder() { observe(&end_); }
 
+  // A filter calls this first, before it reads anything that it captured: the thread that started the pipeline wrote
+  // it. One place for all pipelines, since the place must be known without reading a capture.
+  static void begin_filter() { observe(&begin_); }
+
   // Exists while a filter works on an item. `serial` names a filter that runs once at a time.
   class Filter {
    public:
     Filter(const PipelineOrder& order, const void* item, const void* serial = nullptr)
         : order_(order), item_(item), serial_(serial) {
-      observe(&order_.begin_);
       observe(item_);
       if (serial_ != nullptr) observe(serial_);
     }
@@ -52,7 +55,8 @@ class PipelineOrder {
   static void observe(const void*) {}
 #endif
 
-  char begin_ = 0, end_ = 0;
+  inline static char begin_ = 0;
+  char end_ = 0;
 };
 
 }  // namespace reeb::ooc

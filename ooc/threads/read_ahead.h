@@ -28,6 +28,7 @@ void read_ahead(bool background, const Read& read, const Prepare& prepare, const
   std::size_t next = 0;
   const PipelineOrder order;
   const auto read_next = [&](tbb::flow_control& flow) -> Item* {
+    PipelineOrder::begin_filter();
     const PipelineOrder::Filter serial(order, &next);
     Item& item = pieces[next++ % pieces.size()];
     const PipelineOrder::Filter filter(order, &item);
@@ -36,11 +37,13 @@ void read_ahead(bool background, const Read& read, const Prepare& prepare, const
     return nullptr;
   };
   const auto prepare_one = [&](Item* item) {
+    PipelineOrder::begin_filter();
     const PipelineOrder::Filter filter(order, item);
     prepare(*item);
     return item;
   };
   const auto use_one = [&](Item* item) {
+    PipelineOrder::begin_filter();
     const PipelineOrder::Filter filter(order, item, &use);
     use(*item);
   };
