@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "io/file/file_name.h"
+#include "io/formats/foreign_format.h"
 #include "io/formats/obj_reader.h"
 #include "io/formats/off_reader.h"
 #include "io/formats/scalar_bytes.h"
@@ -130,11 +131,17 @@ bool has_streaming_line(std::string_view text) {
   return false;
 }
 
+// The second byte of SMB and SVB is a byte order, that of SMC version 1 is 1. Older and other kinds are told by name.
+bool starts_like_stream(std::string_view head) {
+  if (!looks_like_binary_stream(static_cast<std::byte>(head.front()))) return false;
+  if (head.size() == 1 || head[0] == 3) return true;
+  return head[0] == 1 ? head[1] == 1 : head[0] != 2 && (head[1] == 0 || head[1] == 1);
+}
+
 // A binary STL title that begins with a zero byte has only zeros; the head of a streaming mesh does not.
 bool is_streaming_binary(std::string_view head) {
   const std::string_view stl_title = head.substr(0, 80);
-  return looks_like_binary_stream(static_cast<std::byte>(head.front())) &&
-         std::ranges::any_of(stl_title, [](char c) { return c != 0; });
+  return starts_like_stream(head) && std::ranges::any_of(stl_title, [](char c) { return c != 0; });
 }
 
 // Some OBJ files have stray lines before the first line that is OBJ.
@@ -147,6 +154,13 @@ bool has_obj_vertex(std::string_view text) {
     if (parse_number<double>(first_word(rest)).ok) return true;
   }
   return false;
+}
+
+bool is_stl_name(const std::string& path) {
+  std::string name = path;
+  if (const std::string suffix = name_suffix(name); suffix == ".gz" || suffix == ".zst")
+    name.resize(name.size() - suffix.size());
+  return name_suffix(name) == ".stl";
 }
 
 MeshFormat detect_text(std::string_view text, const std::string& path) {
@@ -174,17 +188,38 @@ MeshFormat detect_format(ContentSource& source, const std::string& path) {
   std::string_view head = source.view(0);
   if (head.starts_with("\xEF\xBB\xBF")) head.remove_prefix(3);
   if (head.starts_with("ply") && (head.size() == 3 || is_line_blank(head[3]))) return MeshFormat::kPly;
-  if (parse_off_keyword(first_word(skip_comments(head)))) return MeshFormat::kOff;
   if (has_binary_stl_size(head, source.size())) return MeshFormat::kBinaryStl;
+  if (!foreign_format(head).name.empty()) return MeshFormat::kUnknown;
+  if (parse_off_keyword(first_word(skip_comments(head)))) return MeshFormat::kOff;
   if (is_streaming_binary(head) || has_streaming_comment(head)) return MeshFormat::kStreaming;
   const bool text = is_text(head);
   if (starts_with_solid(head)) return text ? MeshFormat::kAsciiStl : MeshFormat::kBinaryStl;
   if (text) return detect_text(head, path);
-  if (looks_like_binary_stl(head)) return MeshFormat::kBinaryStl;
+  if (is_streaming_name(path)) return MeshFormat::kStreaming;
+  // A size that is known is that of a binary STL file, unless it is cut; then the name must say what it is.
+  const bool may_be_stl = !source.size() || is_stl_name(path);
+  if (may_be_stl && looks_like_binary_stl(head)) return MeshFormat::kBinaryStl;
   const bool too_short_for_stl = head.size() < BinaryStlReader::kHeaderBytes;
-  if (too_short_for_stl && looks_like_binary_stream(static_cast<std::byte>(head.front())))
-    return MeshFormat::kStreaming;
-  return is_streaming_name(path) ? MeshFormat::kStreaming : MeshFormat::kUnknown;
+  return too_short_for_stl && starts_like_stream(head) ? MeshFormat::kStreaming : MeshFormat::kUnknown;
+}
+
+std::string_view format_name(MeshFormat format) {
+  switch (format) {
+    case MeshFormat::kPly:
+      return "PLY";
+    case MeshFormat::kOff:
+      return "OFF";
+    case MeshFormat::kAsciiStl:
+    case MeshFormat::kBinaryStl:
+      return "STL";
+    case MeshFormat::kObj:
+      return "OBJ";
+    case MeshFormat::kStreaming:
+      return "a streaming mesh";
+    case MeshFormat::kUnknown:
+      break;
+  }
+  return "unknown";
 }
 
 }  // namespace reeb::io

@@ -1,4 +1,5 @@
 #include "io/formats/obj_reader.h"
+#include "libreeb/base/count_text.h"
 
 #include <algorithm>
 #include <array>
@@ -101,18 +102,19 @@ void ObjReader::skip_texture_and_normal() {
 void ObjReader::fail_corner(bool negative, std::uint64_t number) const {
   const std::string name = (negative ? "-" : "") + std::to_string(number);
   if (number == 0) text_.fail("a face names vertex 0", "vertices are numbered from 1");
-  text_.fail(
-      "a face names vertex " + name + ", but only " + std::to_string(vertices_read()) + " vertices came before it",
-      "put each face after its vertices; if the vertex never comes, the file is damaged");
+  text_.fail("a face names vertex " + name + ", but only " + count_of(vertices_read(), "vertex") + " came before it",
+             "put each face after its vertices; if the vertex never comes, the file is damaged");
 }
 
 std::vector<std::string> ObjReader::warnings() const {
   std::vector<std::string> lines;
   if (unknown_lines_ != 0)
-    lines.push_back(std::to_string(unknown_lines_) + " lines of unknown kind were skipped, the first is line " +
+    lines.push_back(count_of(unknown_lines_, "unknown line") +
+                    (unknown_lines_ == 1 ? " was skipped: line " : " were skipped, the first is line ") +
                     std::to_string(first_unknown_line_));
   if (odd_extras_ != 0)
-    lines.push_back(std::to_string(odd_extras_) + " weights or colours are not finite (they are not used)");
+    lines.push_back(count_of(odd_extras_, "number") + " for weights or colours, which are not used, " +
+                    (odd_extras_ == 1 ? "is" : "are") + " not finite");
   return lines;
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "io/formats/scalar_bytes.h"
+#include "libreeb/base/count_text.h"
 
 namespace reeb::io {
 namespace {
@@ -35,8 +36,8 @@ void check_counts(const OffHeader& header, const ContentSource& source, std::uin
   const bool vertices_fit = header.vertices <= left / vertex_bytes;
   if (vertices_fit && header.faces <= (left - header.vertices * vertex_bytes) / face_bytes) return;
   throw Error(ErrorKind::kBadInput,
-              "the header announces " + std::to_string(header.vertices) + " vertices and " +
-                  std::to_string(header.faces) + " faces, more than the file can hold",
+              "the header announces " + count_of(header.vertices, "vertex") + " and " + count_of(header.faces, "face") +
+                  ", more than the file has room for",
               "the file is cut, or its header is damaged; get a whole copy")
       .at(source.name(), position);
 }
@@ -82,8 +83,8 @@ class OffReader : public BatchReader {
       --corners_left_;
       const std::int64_t corner = read_corner();
       if (corner < 0 || static_cast<std::uint64_t>(corner) >= header_.vertices)
-        fail("a face names vertex " + std::to_string(corner) + ", but there are only " +
-                 std::to_string(header_.vertices) + " vertices",
+        fail("a face names vertex " + std::to_string(corner) + ", but the mesh has only " +
+                 count_of(header_.vertices, "vertex"),
              "vertices are numbered from 0; the file may be damaged here");
       face_.add(VertexId(static_cast<std::uint64_t>(corner)), batch.triangles);
       return;

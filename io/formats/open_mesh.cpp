@@ -1,5 +1,6 @@
 #include "io/formats/open_mesh.h"
 
+#include "io/formats/foreign_format.h"
 #include "io/formats/format_detection.h"
 #include "io/formats/obj_reader.h"
 #include "io/formats/off_reader.h"
@@ -10,6 +11,12 @@
 #include "libreeb/base/error.h"
 
 namespace reeb::io {
+namespace {
+
+constexpr const char* kFormatsRead =
+    "PLY, OBJ, OFF, STL and streaming meshes (SMA, SMB, SMC, SVA, SVB) are read, plain or packed with gzip or zstd";
+
+}  // namespace
 
 std::unique_ptr<MeshReader> open_mesh(const std::string& path, const ReadOptions& options) {
   return open_mesh(open_content(path), path, options);
@@ -36,9 +43,11 @@ std::unique_ptr<MeshReader> open_mesh(std::unique_ptr<ContentSource> source, con
     case MeshFormat::kUnknown:
       break;
   }
-  throw Error(
-      ErrorKind::kBadInput, "unknown mesh format",
-      "PLY, OBJ, OFF, STL and streaming meshes (SMA, SMB, SMC, SVA, SVB) are read, plain or packed with gzip or zstd")
+  const ForeignFormat known = foreign_format(source->view(0));
+  std::string what = "unknown file format";
+  if (!known.name.empty())
+    what = "this is " + std::string(known.name) + (known.may_be_mesh ? ", which is not read yet" : ", not a mesh");
+  throw Error(ErrorKind::kBadInput, what, known.advice.empty() ? kFormatsRead : std::string(known.advice))
       .at(name, "0");
 }
 

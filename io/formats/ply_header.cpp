@@ -1,4 +1,5 @@
 #include "io/formats/ply_header.h"
+#include "libreeb/base/count_text.h"
 
 #include <algorithm>
 #include <array>
@@ -177,8 +178,8 @@ class HeaderParser {
       const std::uint64_t each = least_bytes(element);
       if (element.count > left / each)
         throw Error(ErrorKind::kBadInput,
-                    "the header announces " + std::to_string(element.count) + " elements \"" + element.name +
-                        "\", but the file has room for " + std::to_string(left / each) + " at most",
+                    "the header announces " + count_of(element.count, element.name) + ", but the file has room for " +
+                        with_commas(left / each) + " at most",
                     "the file is cut, or its header is damaged; get a whole copy")
             .at(text_.source().name(),
                 header_.encoding == PlyEncoding::kAscii ? text_.position() : std::to_string(header_.body_offset));

@@ -10,6 +10,7 @@
 #include "io/formats/ply_decoder.h"
 #include "io/formats/ply_indexed.h"
 #include "io/mesh/simplex_assembler.h"
+#include "libreeb/base/count_text.h"
 
 namespace reeb::io {
 namespace {
@@ -107,7 +108,8 @@ class PlyReader final : public PlyBodyReader {
   std::vector<std::string> warnings() const override {
     std::vector<std::string> lines;
     if (odd_values_ != 0)
-      lines.push_back(std::to_string(odd_values_) + " values of properties that are not used are not finite");
+      lines.push_back(count_of(odd_values_, "value") + " of properties that are not used " +
+                      (odd_values_ == 1 ? "is" : "are") + " not finite");
     if (trailing_) lines.push_back("bytes after the last element were ignored");
     return lines;
   }
@@ -312,8 +314,8 @@ class PlyReader final : public PlyBodyReader {
   void check_corner(std::int64_t corner) const {
     if (corner >= 0 && static_cast<std::uint64_t>(corner) < vertex_limit_) [[likely]]
       return;
-    decoder_.fail("a face names vertex " + std::to_string(corner) + ", but there are only " +
-                      std::to_string(vertex_limit_) + " vertices",
+    decoder_.fail("a face names vertex " + std::to_string(corner) + ", but the mesh has only " +
+                      count_of(vertex_limit_, "vertex"),
                   "vertices are numbered from 0; the file may be damaged here");
   }
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "io/formats/scalar_bytes.h"
+#include "libreeb/base/count_text.h"
 
 namespace reeb::io {
 namespace {
@@ -95,8 +96,8 @@ BinaryStlReader::BinaryStlReader(std::unique_ptr<ContentSource> source, ReadOpti
   const auto size = cursor_.source().size();
   if (size && facets_left_ > (*size - kHeaderBytes) / kFacetBytes)
     throw Error(ErrorKind::kBadInput,
-                "the header announces " + std::to_string(facets_left_) + " facets, but the file holds " +
-                    std::to_string((*size - kHeaderBytes) / kFacetBytes),
+                "the header announces " + count_of(facets_left_, "facet") + ", but the file holds " +
+                    with_commas((*size - kHeaderBytes) / kFacetBytes),
                 "the file is cut, or its header is damaged; get a whole copy")
         .at(cursor_.source().name(), "80");
   cursor_.advance(kHeaderBytes);

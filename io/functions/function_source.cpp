@@ -9,6 +9,7 @@
 #include "io/file/mapped_windows.h"
 #include "io/formats/scalar_bytes.h"
 #include "io/text/text_cursor.h"
+#include "libreeb/base/count_text.h"
 #include "libreeb/base/error.h"
 #include "libreeb/base/hash.h"
 
@@ -65,8 +66,8 @@ namespace {
 [[noreturn]] void throw_wrong_count(const std::string& path, const std::string& position, std::uint64_t values,
                                     bool or_more, std::uint64_t vertices) {
   throw Error(ErrorKind::kBadInput,
-              "has " + std::to_string(values) + (or_more ? " or more" : "") + " values, but the mesh has " +
-                  std::to_string(vertices) + " vertices",
+              "has " + count_of(values, "value") + (or_more ? " or more" : "") + ", but the mesh has " +
+                  count_of(vertices, "vertex"),
               "the file must have one value per vertex")
       .at(path, position);
 }

@@ -10,6 +10,7 @@
 #include "io/smc/smc_positions.h"
 #include "io/smc/smc_state.h"
 #include "io/text/output_buffer.h"
+#include "libreeb/base/count_text.h"
 #include "libreeb/base/flat_map.h"
 
 namespace reeb::io {
@@ -60,10 +61,9 @@ class SmcWriter : public StreamWriter {
 
   std::vector<std::string> warnings() const override {
     std::vector<std::string> all;
-    if (isolated_ > 0) all.push_back(std::to_string(isolated_) + " vertices that no triangle uses were left out");
+    if (isolated_ > 0) all.push_back("left out: " + count_of(isolated_, "vertex") + " in no triangle");
     if (dropped_ > 0)
-      all.push_back(std::to_string(dropped_) +
-                    " finalizations apart from the last triangle of their vertex were left out");
+      all.push_back("left out: " + count_of(dropped_, "finalization") + " apart from the last triangle of the vertex");
     return all;
   }
 

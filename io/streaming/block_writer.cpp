@@ -2,6 +2,7 @@
 #include "io/events/format_limits.h"
 #include "io/events/held_cell_writer.h"
 #include "io/streaming/block_head.h"
+#include "libreeb/base/count_text.h"
 
 namespace reeb::io {
 namespace {
@@ -28,7 +29,7 @@ class BlockWriter : public HeldCellWriter {
 
   std::vector<std::string> warnings() const override {
     if (dropped_ == 0) return {};
-    return {std::to_string(dropped_) + " finalizations apart from the last cell of their vertex were left out"};
+    return {"left out: " + count_of(dropped_, "finalization") + " apart from the last cell of the vertex"};
   }
 
  private:

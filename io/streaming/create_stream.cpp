@@ -11,6 +11,7 @@
 #include "io/file/file_ostream.h"
 #include "io/mesh/written_records.h"
 #include "io/text/output_buffer.h"
+#include "libreeb/base/count_text.h"
 #include "libreeb/base/error.h"
 
 namespace reeb::io {
@@ -96,8 +97,7 @@ class StreamMeshWriter : public MeshWriter {
   std::vector<std::string> warnings() const override {
     auto all = writer_->warnings();
     if (rounded_ != 0)
-      all.push_back(std::to_string(rounded_) +
-                    " vertices were rounded to float32, which is what streaming meshes hold");
+      all.push_back("rounded to float32, which is what streaming meshes hold: " + count_of(rounded_, "vertex"));
     return all;
   }
 

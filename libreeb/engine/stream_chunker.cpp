@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "libreeb/base/count_text.h"
 #include "libreeb/base/error.h"
 
 namespace reeb {
@@ -44,8 +45,9 @@ std::uint32_t StreamChunker::slot_of(VertexId v, const char* use) const {
   const bool known = v.value() < next_vertex_;
   throw Error(ErrorKind::kBadInput,
               std::string(use) + " vertex " + std::to_string(v.value()) +
-                  (known ? ", which was finalized before"
-                         : ", but only " + std::to_string(next_vertex_) + " vertices were added"),
+                  (known ? ", which was already finalized"
+                         : ", but only " + count_of(next_vertex_, "vertex") + (next_vertex_ == 1 ? " was" : " were") +
+                               " added"),
               known ? "finalize a vertex once, after the last simplex that uses it"
                     : "add every vertex before the first simplex that uses it");
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "io/file/file.h"
+#include "libreeb/base/count_text.h"
 
 namespace reeb::ooc {
 namespace {
@@ -36,8 +37,8 @@ const Checkpoint* ResumableRun::start(const std::function<void(StateReader&)>& r
     if (!load_.checkpoint && load_.note.empty())
       load_.note = "there is nothing to resume, so the run starts from the beginning";
     if (load_.checkpoint && restores(restore)) {
-      notes.push_back("an earlier run had read " + std::to_string(load_.checkpoint->place.triangles) +
-                      " triangles; this one continues from there");
+      notes.push_back("an earlier run had read " + count_of(load_.checkpoint->place.triangles, "triangle") +
+                      "; this one continues from there");
       return checkpoint();
     }
     notes.push_back(load_.note);

@@ -327,14 +327,14 @@ TEST(Errors, HavePositionAndHint) {
   expect_bad((scratch_folder() / "absent").string(), "", "no such file");
   expect_bad(scratch_folder().string(), "", "directory");
   expect_bad(write_file("empty", ""), "0", "empty");
-  expect_bad(write_file("unknown", "hello world\n"), "0", "unknown mesh format");
+  expect_bad(write_file("unknown", "hello world\n"), "0", "unknown file format");
   expect_bad(write_file("p1.ply", with(ply, "1 0\t0", "1 nan\t0")), "12:3", "cannot be \"nan\"");
   expect_bad(write_file("p2.ply", with(ply, "1 0\t0", "1 1e39\t0")), "12:3", "1e39");
   expect_bad(write_file("p3.ply", with(ply, "3 2 0 3", "3 2 0 4")), "18:7", "names vertex 4");
   expect_bad(write_file("p4.ply", with(ply, "3 2 0 3", "3 2 0")), "18:6", "line ends");
   expect_bad(write_file("p5.ply", with(ply, "3 2 0 3", "3 2 0 3 1")), "18:9", "more values");
   expect_bad(write_file("p6.ply", with(ply, "face 4", "face 5")), "19:1", "ends inside");
-  expect_bad(write_file("p7.ply", with(ply, "face 4", "face 9000000000000")), "10:1", "announces 9000000000000");
+  expect_bad(write_file("p7.ply", with(ply, "face 4", "face 9000000000000")), "10:1", "announces 9,000,000,000,000");
   const std::string binary = binary_ply(false);
   const std::size_t body = ply_header("binary_little_endian").size();
   expect_bad(write_file("b1.ply", binary.substr(0, binary.size() - 1)), std::to_string(binary.size() - 1),
