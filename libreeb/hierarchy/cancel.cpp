@@ -36,7 +36,7 @@ void cancel_all(const ReebGraph& graph, Canceller<Content>& canceller, Hierarchy
   for (std::size_t i = 0; i < hierarchy.pairs.size(); ++i) {
     PersistencePair& pair = hierarchy.pairs[i];
     if (pair.type == PairType::kExt0) break;
-    if (poll && i % kPairsBetweenPolls == 0) poll();
+    if (poll && i % kPairsBetweenPolls == 0) poll(static_cast<double>(i) / static_cast<double>(hierarchy.pairs.size()));
     prefetch(canceller, hierarchy.pairs, i);
     pair.kept = !canceller.cancel(pair);
     if (!pair.kept) hierarchy.persistence.push_back(persistence_of(graph, pair));
@@ -90,17 +90,19 @@ std::uint64_t hierarchy_bytes(std::uint64_t nodes, std::uint64_t arcs, std::opti
 }
 
 Hierarchy build_hierarchy(ReebGraph& graph, PackedLists buckets, int exponent, RecordSink& sink, const Poll& poll) {
+  constexpr double kPairing = 0.4;  // of the time, about
+  const Poll pairing = part_of(poll, 0, kPairing), cancelling = part_of(poll, kPairing, 1);
   Hierarchy hierarchy;
-  hierarchy.pairs = persistence_pairs(graph);
+  hierarchy.pairs = persistence_pairs(graph, pairing);
   hierarchy.isolated = isolated_nodes(graph);
   if (buckets.size() == 0) {
     Canceller<> canceller(graph, sink);
     release_arcs(graph);
-    cancel_all(graph, canceller, hierarchy, poll);
+    cancel_all(graph, canceller, hierarchy, cancelling);
   } else {
     Canceller canceller(graph, sink, BucketVersions(graph, std::move(buckets), exponent, sink));
     release_arcs(graph);
-    cancel_all(graph, canceller, hierarchy, poll);
+    cancel_all(graph, canceller, hierarchy, cancelling);
   }
   return hierarchy;
 }

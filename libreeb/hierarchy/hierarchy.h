@@ -41,8 +41,14 @@ struct Hierarchy {
   std::vector<DroppedVertices> dropped;
 };
 
-// Called from time to time while a hierarchy is built; it may throw to stop that.
-using Poll = std::function<void()>;
+// Called from time to time with the part of the work that is done, from 0 to 1. It may throw to stop the work.
+using Poll = std::function<void(double done)>;
+
+// For a part of the work of `poll`, which goes from `from` to `to`. `poll` must outlive the result.
+inline Poll part_of(const Poll& poll, double from, double to) {
+  if (!poll) return {};
+  return [&poll, from, to](double done) { poll(from + done * (to - from)); };
+}
 
 // Pairs the nodes, and cancels all pairs but Ext0 in the order of cancelling.
 //

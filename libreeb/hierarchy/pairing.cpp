@@ -30,12 +30,14 @@ ArcsBelow arcs_below(const ReebGraph& graph) {
 // forest, by lower end, loses: the number of independent cycles within [a, b] is the number of Ext1 pairs there. Of the
 // arcs with hi <= b, those that the forest keeps and whose lower end is at least a are a spanning forest of [a, b], for
 // every a. Returns the components of the whole graph, named by their minima.
-UnionFind sweep_up(const ReebGraph& graph, std::vector<PersistencePair>& pairs) {
+UnionFind sweep_up(const ReebGraph& graph, std::vector<PersistencePair>& pairs, const Poll& poll) {
+  constexpr std::uint32_t kNodesBetweenPolls = 1u << 14;
   const ArcsBelow below = arcs_below(graph);
   const auto nodes = static_cast<std::uint32_t>(graph.node_count());
   UnionFind sublevel(nodes);
   BottleneckForest forest(nodes);
-  for (std::uint32_t y = 0; y < nodes; ++y)
+  for (std::uint32_t y = 0; y < nodes; ++y) {
+    if (poll && y % kNodesBetweenPolls == 0) poll(static_cast<double>(y) / nodes);
     for (std::uint32_t i = below.first[y]; i < below.first[y + 1]; ++i) {
       const std::uint32_t x = graph.lo[below.order[i]].value();
       const std::uint32_t lost = forest.insert(x, y, x);
@@ -47,6 +49,7 @@ UnionFind sweep_up(const ReebGraph& graph, std::vector<PersistencePair>& pairs) 
       if (younger != y) pairs.push_back({NodeId(younger), NodeId(y), PairType::kOrd0});
       sublevel.unite(x, y);
     }
+  }
   return sublevel;
 }
 
@@ -104,9 +107,9 @@ void sort_for_cancelling(const ReebGraph& graph, std::vector<PersistencePair>& p
   std::transform(keyed.begin(), keyed.end(), pairs.begin(), [](const Keyed& k) { return k.pair; });
 }
 
-std::vector<PersistencePair> persistence_pairs(const ReebGraph& graph) {
+std::vector<PersistencePair> persistence_pairs(const ReebGraph& graph, const Poll& poll) {
   std::vector<PersistencePair> pairs;
-  UnionFind sublevel = sweep_up(graph, pairs);
+  UnionFind sublevel = sweep_up(graph, pairs, poll);
   UnionFind superlevel = sweep_down(graph, pairs);
   const auto nodes = static_cast<std::uint32_t>(graph.node_count());
   for (std::uint32_t x = 0; x < nodes; ++x)

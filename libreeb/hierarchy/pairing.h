@@ -20,7 +20,7 @@ inline double persistence_of(const ReebGraph& graph, const PersistencePair& pair
 // TIME:   O(m log m), in expectation for the loops (see BottleneckForest).
 // THREADS: any number of calls at the same time.
 // MEMORY: 4 bytes per arc, 20 bytes per node and 36 bytes per pair (12 of them the result).
-std::vector<PersistencePair> persistence_pairs(const ReebGraph& graph);
+std::vector<PersistencePair> persistence_pairs(const ReebGraph& graph, const Poll& poll = {});
 
 // Sorts pairs into the order of cancelling: Ext0 after all others; then persistence ascending, hi
 // ascending, lo descending, Ext1 before Ord0 before Rel1. So a pair inside another's interval always comes before it.

@@ -32,7 +32,7 @@ class HierarchyFileWriter {
     read_ahead<PlannedFrame>(
         background_, [&](PlannedFrame& frame) { return next < layout_.cuts.size() && (make(next++, frame), true); },
         [&](const PlannedFrame& frame) {
-          if (poll) poll();
+          if (poll) poll(static_cast<double>(frame_ends.size()) / static_cast<double>(layout_.cuts.size()));
           write(frame);
           frame_ends.push_back(writer_.size());
         });

@@ -16,7 +16,7 @@ namespace reeb::ooc {
 struct ComputeProgress {
   enum class Phase { kSpool, kFinalization, kReorder, kReeb, kHierarchy };
   Phase phase;
-  std::uint64_t done = 0, total = 0;  // bytes; total 0: unknown
+  std::uint64_t done = 0, total = 0;  // in one unit; total 0: unknown
   std::uint64_t triangles = 0;        // so far
 };
 
@@ -48,7 +48,8 @@ struct ComputeResult {
   bool reordered = false;
   std::uint64_t guessed_vertices = 0;  // vertices guessed to be complete in the first reading of the mesh,
   std::uint64_t revoked_guesses = 0;   // and how many of these guesses were wrong: then the mesh was run from disk
-  std::vector<Feature> largest;        // a few pairs of largest persistence, without Ext0, largest first
+  // Up to five loops, and up to five minima and maxima, of positive persistence, largest first.
+  std::vector<Feature> largest;
   std::uint64_t spilled_bytes = 0;
   LiveMaximum live;
   PhaseSeconds seconds;

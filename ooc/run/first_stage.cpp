@@ -194,8 +194,18 @@ MemoryPlan plan_for(const RunContext& run, const UseSummary& summary) {
   return plan;
 }
 
-// Returns nothing if it may give up and the mesh is so incoherent that it will be sorted anyway.
-std::optional<LastUse> scan(RunContext& run, IndexedMesh& mesh, const Checkpoint* start, bool may_give_up) {
+// Sorting a mesh, and scanning it afterwards, are one pass for who waits.
+constexpr double kSorted = 0.9;
+
+void tell_sorting(const RunContext& run, double done) {
+  constexpr std::uint64_t kSteps = 10000;
+  run.tell({Phase::kReorder, static_cast<std::uint64_t>(done * kSteps), kSteps});
+}
+
+// Returns nothing if it may give up and the mesh is so incoherent that it will be sorted anyway. `sorted`: it was
+// sorted on disk.
+std::optional<LastUse> scan(RunContext& run, IndexedMesh& mesh, const Checkpoint* start, bool may_give_up,
+                            bool sorted = false) {
   LastUseOptions options;
   options.allowance_bytes = run.plan.table_bytes;
   options.give_up_when_incoherent = may_give_up;
@@ -203,8 +213,10 @@ std::optional<LastUse> scan(RunContext& run, IndexedMesh& mesh, const Checkpoint
   options.block_triangles = std::min<std::uint64_t>(options.block_triangles, run.plan.chunk.first);
   if (start != nullptr) options.block_triangles = start->block_triangles;
   options.threads = run.plan.threads;
-  options.progress = [&run, total = mesh.bytes_total()](std::uint64_t bytes_read) {
-    run.tell({Phase::kFinalization, bytes_read, total});
+  options.progress = [&run, sorted, total = mesh.bytes_total()](std::uint64_t bytes_read) {
+    if (!sorted) return run.tell({Phase::kFinalization, bytes_read, total});
+    const double done = static_cast<double>(bytes_read) / static_cast<double>(std::max<std::uint64_t>(total, 1));
+    tell_sorting(run, kSorted + (1 - kSorted) * done);
   };
   return scan_last_use(mesh, run.temp, run.budget, options);
 }
@@ -233,10 +245,10 @@ std::optional<LastUse> find_last_uses(RunContext& run, const MeshInput& input, I
 
 std::unique_ptr<ReorderedMesh> sort_on_disk(RunContext& run, IndexedMesh& mesh, unsigned dimension) {
   constexpr std::uint64_t kSortBytesLimit = 64u << 20;
-  run.tell({Phase::kReorder});
   return reorder(mesh, run.temp, run.budget,
                  {.allowance_bytes = std::min<std::uint64_t>(run.budget.free_bytes() / 2, kSortBytesLimit),
-                  .coordinates = std::min(dimension, 3u)});
+                  .coordinates = std::min(dimension, 3u),
+                  .progress = [&run](double done) { tell_sorting(run, kSorted * done); }});
 }
 
 // `mesh` is the mesh of the input, or was spooled from it.
@@ -261,7 +273,7 @@ FirstStageResult run_indexed(RunContext& run, const MeshInput& input, std::uniqu
     result.spilled_bytes += sorted->spilled_bytes();
     append(result.notes, mesh->warnings());
     mesh = std::move(sorted);
-    uses = scan(run, *mesh, start, false);
+    uses = scan(run, *mesh, start, false, true);
     result.seconds.reorder += watch.seconds();
   }
   const UseSummary& summary = uses->summary();

@@ -7,6 +7,7 @@
 
 #include "libreeb/base/error.h"
 #include "libreeb/hierarchy/cancel.h"
+#include "libreeb/hierarchy/pairing.h"
 #include "ooc/reeb_file/record_log.h"
 #include "ooc/reeb_file/reeb_file_writer.h"
 #include "ooc/run/freed_memory.h"
@@ -25,6 +26,17 @@ struct StoredGraph {
   SweepOptions sweep;
   FileMeta meta;
 };
+
+// The share of the whole stage that its parts take, about: they are not alike for all graphs.
+constexpr double kLoaded = 0.15, kBuilt = 0.8;
+
+// Tells the progress of the second stage.
+Poll stage_poll(const RunContext& run) {
+  return [&run](double done) {
+    constexpr std::uint64_t kSteps = 10000;
+    run.tell({ComputeProgress::Phase::kHierarchy, static_cast<std::uint64_t>(done * kSteps), kSteps});
+  };
+}
 
 // ---- the graph alone
 
@@ -55,15 +67,27 @@ WrittenGraph write_graph(RunContext& run, const StoredGraph& graph, const FileMe
   // Only the look-up in a file gains from large batches.
   const std::size_t batch_arcs =
       table.bytes() != 0 ? 8192 : std::clamp<std::size_t>(run.budget.free_bytes() / kBytesPerArc, 4096, 65536);
+  std::uint64_t written = 0;
+  const Poll poll = stage_poll(run);
+  const auto tell = [&](std::uint64_t more) {
+    written += more;
+    poll(static_cast<double>(written) / static_cast<double>(store.node_count() + store.arc_count()));
+  };
   store.rewind_nodes();
   read_ahead<std::vector<SettledNode>>(
       writing.background, [&](auto& nodes) { return store.read_nodes(nodes, kNodesAtOnce); },
-      [&](const auto& nodes) { writer.add_nodes(nodes); });
+      [&](const auto& nodes) {
+        writer.add_nodes(nodes);
+        tell(nodes.size());
+      });
   store.rewind_arcs();
   read_ahead<ArcPiece>(
       writing.background,
       [&](ArcPiece& piece) { return store.read_arcs(piece, batch_arcs, graph.sweep.bucket_exponent); },
-      [&](const ArcPiece& piece) { writer.add_arcs(piece.arcs, piece.buckets.view()); });
+      [&](const ArcPiece& piece) {
+        writer.add_arcs(piece.arcs, piece.buckets.view());
+        tell(piece.arcs.size());
+      });
   writer.finish();
   return {{writer.header().components, writer.header().loops}, writer.spilled_bytes()};
 }
@@ -130,12 +154,19 @@ struct WrittenHierarchy {
   std::uint64_t spilled_bytes = 0;
 };
 
+// The largest loops, and the largest minima and maxima, of each at most kLargest.
 std::vector<Feature> largest_features(const ReebGraph& graph, const std::vector<PersistencePair>& ascending) {
   constexpr std::size_t kLargest = 5;
+  std::size_t loops = 0, others = 0;
   std::vector<Feature> largest;
-  for (auto it = ascending.rbegin(); it != ascending.rend() && largest.size() < kLargest; ++it)
-    if (it->type != PairType::kExt0)
-      largest.push_back({it->type, graph.nodes[it->lo.value()], graph.nodes[it->hi.value()]});
+  for (auto it = ascending.rbegin(); it != ascending.rend() && loops + others < 2 * kLargest; ++it) {
+    if (it->type == PairType::kExt0) continue;
+    if (!(persistence_of(graph, *it) > 0)) break;
+    std::size_t& count = it->type == PairType::kExt1 ? loops : others;
+    if (count == kLargest) continue;
+    ++count;
+    largest.push_back({it->type, graph.nodes[it->lo.value()], graph.nodes[it->hi.value()]});
+  }
   return largest;
 }
 
@@ -157,7 +188,8 @@ GraphInMemory load_for_hierarchy(RunContext& run, const StoredGraph& graph) {
   const LoadOptions loading{.bucket_exponent = graph.sweep.bucket_exponent};
   if (loading_bytes(store, loading) > run.budget.free_bytes())
     refuse(hierarchy_bytes(nodes, arcs, PackedLists::most_bytes(arcs, store.bucket_count())));
-  LoadedGraph loaded = read_graph(store, loading);
+  const Poll poll = stage_poll(run);
+  LoadedGraph loaded = read_graph(store, loading, part_of(poll, 0, kLoaded));
   std::optional<std::uint64_t> lists;
   if (run.embeds()) lists = loaded.buckets.memory_bytes();
   const std::uint64_t needed = hierarchy_bytes(nodes, arcs, lists) + RecordLog::memory_bytes();
@@ -178,15 +210,16 @@ WrittenHierarchy write_hierarchy(RunContext& run, StoredGraph stored) {
   ReebGraph& graph = in_memory.loaded.graph;
   WrittenHierarchy written;
   written.betti = betti_numbers(graph);
-  const Poll poll = [&run] { run.resumable.check_interruption(); };
-  const Hierarchy hierarchy =
-      build_hierarchy(graph, std::move(in_memory.loaded.buckets), stored.meta.bucket_exponent, records, poll);
+  const Poll poll = stage_poll(run);
+  const Hierarchy hierarchy = build_hierarchy(graph, std::move(in_memory.loaded.buckets), stored.meta.bucket_exponent,
+                                              records, part_of(poll, kLoaded, kBuilt));
   for (const PersistencePair& pair : hierarchy.pairs) {
     ++written.pairs[static_cast<std::size_t>(pair.type)];
     written.kept_loops += pair.kept ? 1u : 0u;
   }
   written.largest = largest_features(graph, hierarchy.pairs);
-  write_hierarchy_file(stored.output, stored.meta, {graph, hierarchy, records, run.embeds(), run.background()}, poll);
+  write_hierarchy_file(stored.output, stored.meta, {graph, hierarchy, records, run.embeds(), run.background()},
+                       part_of(poll, kBuilt, 1));
   written.spilled_bytes = records.spilled_bytes();
   return written;
 }

@@ -346,16 +346,20 @@ std::uint64_t loading_bytes(const SegmentStore& store, const LoadOptions& option
   return graph_bytes(store, options) + NodeTable::bytes(store.node_count());
 }
 
-LoadedGraph read_graph(SegmentStore& store, const LoadOptions& options) {
+LoadedGraph read_graph(SegmentStore& store, const LoadOptions& options, const Poll& poll) {
   const auto node_count = static_cast<std::size_t>(store.node_count());
   const auto arc_count = static_cast<std::size_t>(store.arc_count());
+  const double records = static_cast<double>(node_count + arc_count);
   LoadedGraph loaded;
   ReebGraph& graph = loaded.graph;
+  const auto tell = [&] {
+    if (poll) poll(static_cast<double>(graph.nodes.size() + graph.hi.size()) / records);
+  };
   loaded.memory = store.budget().reserve("graph", graph_bytes(store, options));
   graph.nodes.reserve(node_count);
   if (options.positions) graph.positions.reserve(node_count);
   store.rewind_nodes();
-  for (std::vector<SettledNode> some; store.read_nodes(some, kRecordsAtOnce);)
+  for (std::vector<SettledNode> some; store.read_nodes(some, kRecordsAtOnce); tell())
     for (const SettledNode& node : some) {
       graph.nodes.push_back(node.key);
       if (options.positions) graph.positions.push_back(node.position);
@@ -375,6 +379,7 @@ LoadedGraph read_graph(SegmentStore& store, const LoadOptions& options) {
           graph.hi.push_back(node_of(arc.keys.hi, table));
           if (options.bucket_exponent) loaded.buckets.add_packed(piece.payload(arc));
         }
+        tell();
       });
   if (options.bucket_exponent)
     loaded.memory.resize(loaded.memory.bytes() - PackedLists::most_bytes(arc_count, store.bucket_count()) +

@@ -11,6 +11,7 @@
 #include "libreeb/base/memory_budget.h"
 #include "libreeb/graph/arc_buckets.h"
 #include "libreeb/graph/reeb_graph.h"
+#include "libreeb/hierarchy/hierarchy.h"
 #include "libreeb/hierarchy/packed_lists.h"
 #include "libreeb/port/graph_sink.h"
 #include "ooc/sorting/external_sort.h"
@@ -186,6 +187,6 @@ std::uint64_t loading_bytes(const SegmentStore& store, const LoadOptions& option
 //
 // THROWS: Error{kResource} if the graph does not fit the budget, before anything is read;
 //         std::logic_error if an arc ends in no node.
-LoadedGraph read_graph(SegmentStore& store, const LoadOptions& options = {});
+LoadedGraph read_graph(SegmentStore& store, const LoadOptions& options = {}, const Poll& poll = {});
 
 }  // namespace reeb::ooc

@@ -50,12 +50,27 @@ class Reorder {
 
   std::unique_ptr<ReorderedMesh> run() {
     rank_vertices();
-    for (unsigned column = 0; column < mesh_.column_count(); ++column) place_column(column);
+    for (unsigned column = 0; column < mesh_.column_count(); ++column) {
+      place_column(column);
+      tell(kRanked + (kPlaced - kRanked) * (column + 1) / mesh_.column_count());
+    }
     sort_triangles();
     return std::move(result_);
   }
 
  private:
+  // The parts of the time after which a step is done, about.
+  static constexpr double kKeyed = 0.05, kRanked = 0.15, kPlaced = 0.25, kLooked = 0.5, kSorted = 0.75;
+
+  void tell(double done) const {
+    if (options_.progress) options_.progress(done);
+  }
+  // For a step that reads the mesh, and lasts from `from` to `to`.
+  void tell_reading(double from, double to) const {
+    tell(from + (to - from) * static_cast<double>(mesh_.bytes_read()) /
+                    static_cast<double>(std::max<std::uint64_t>(mesh_.bytes_total(), 1)));
+  }
+
   // Calls visit(first, count, values) for ranges of consecutive vertices; values as from gather().
   template <class Visit>
   void for_each_range(std::span<const unsigned> columns, const Visit& visit) {
@@ -75,6 +90,7 @@ class Reorder {
     ExternalSort<KeyedVertex> by_key("reorder", temp_, budget_, sorting());
     add_keys(by_key);
     by_key.finish();
+    tell(kKeyed);
     PartitionLogs<PlacedRank> by_slice("reorder", temp_, budget_, slices_);
     std::uint64_t rank = 0;
     for (std::vector<KeyedVertex> some; by_key.read(some, kItemsAtOnce);)
@@ -82,6 +98,7 @@ class Reorder {
         result_->set_original(VertexId(rank), VertexId(keyed.vertex));
         by_slice.append(slice_of(keyed.vertex), {keyed.vertex, rank++});
       }
+    tell(kRanked);
     const Reservation charge = budget_.reserve("reorder", slice_entries_ * 8);
     std::vector<std::uint64_t> slice;
     for (std::size_t s = 0; s < slices_; ++s) {
@@ -149,7 +166,10 @@ class Reorder {
     add_ranked_triangles(by_rank);
     by_rank.finish();
     std::vector<VertexId> corners;
+    std::uint64_t appended = 0;
     for (std::vector<RankedTriangle> some; by_rank.read(some, kItemsAtOnce);) {
+      appended += some.size();
+      tell(kSorted + (1 - kSorted) * static_cast<double>(appended) / static_cast<double>(triangle_count_));
       corners.clear();
       for (const RankedTriangle& triangle : some)
         for (const std::uint64_t corner : triangle.corners) corners.emplace_back(corner);
@@ -162,7 +182,9 @@ class Reorder {
     // The corners are read again. The rank of each is the next one in the log of its slice.
     std::vector<VertexId> corners;
     mesh_.rewind();
-    while (mesh_.read(corners, kItemsAtOnce))
+    while (mesh_.read(corners, kItemsAtOnce)) {
+      triangle_count_ += corners.size() / 3;
+      tell_reading(kLooked, kSorted);
       for (std::size_t t = 0; t < corners.size(); t += 3) {
         RankedTriangle triangle;
         for (std::size_t c = 0; c < 3; ++c) triangle.corners[c] = corner_ranks.next(slice_of(corners[t + c].value()));
@@ -170,6 +192,7 @@ class Reorder {
         std::rotate(ranks.begin(), std::min_element(ranks.begin(), ranks.end()), ranks.end());
         by_rank.add(triangle);
       }
+    }
   }
 
   // The ranks of all corners, in the order of the mesh within each slice.
@@ -177,9 +200,11 @@ class Reorder {
     PartitionLogs<std::uint32_t> places("reorder", temp_, budget_, slices_);
     std::vector<VertexId> corners;
     mesh_.rewind();
-    while (mesh_.read(corners, kItemsAtOnce))
+    while (mesh_.read(corners, kItemsAtOnce)) {
+      tell_reading(kPlaced, kLooked);
       for (const VertexId v : corners)
         places.append(slice_of(v.value()), static_cast<std::uint32_t>(v.value() % slice_entries_));
+    }
     PartitionLogs<std::uint64_t> result("reorder", temp_, budget_, slices_);
     const Reservation charge = budget_.reserve("reorder", slice_entries_ * 8);
     std::vector<std::uint64_t> slice;
@@ -201,7 +226,7 @@ class Reorder {
   const io::TempDir& temp_;
   MemoryBudget& budget_;
   const ReorderOptions& options_;
-  std::uint64_t vertex_count_;
+  std::uint64_t vertex_count_, triangle_count_ = 0;
   std::uint64_t slice_entries_;
   std::size_t slices_;
   io::File ranks_;  // by vertex, 8 bytes each

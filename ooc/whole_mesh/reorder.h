@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 
@@ -31,8 +32,9 @@ class ReorderedMesh : public SpooledMesh {
 };
 
 struct ReorderOptions {
-  std::uint64_t allowance_bytes = 32 << 20;  // of the budget, while reorder() runs
-  unsigned coordinates = 3;                  // the number of leading columns that are coordinates; at most 3 are used
+  std::uint64_t allowance_bytes = 32 << 20;   // of the budget, while reorder() runs
+  unsigned coordinates = 3;                   // the number of leading columns that are coordinates; at most 3 are used
+  std::function<void(double)> progress = {};  // the part that is done, from 0 to 1; called often
 };
 
 // Reads the triangles of `mesh` twice, and its vertices in order a few times. Partitioning and sorting replace all

@@ -1,5 +1,6 @@
 #include "ooc/whole_mesh/triangle_order.h"
 
+#include <algorithm>
 #include <array>
 #include <compare>
 #include <utility>
@@ -113,15 +114,24 @@ class TableFunction : public VertexFunction {
 }  // namespace
 
 std::unique_ptr<IndexedMesh> sorted_by_function(std::unique_ptr<IndexedMesh> mesh, VertexFunction& function,
-                                                Workspace& space) {
+                                                Workspace& space, const SortProgress& progress) {
   auto ordered = std::make_unique<OrderedMesh>(std::move(mesh), space);
   SortOptions sorting;
   sorting.allowance_bytes = space.share();
   ExternalSort<KeyedTriangle> sort("triangle order", space.temp, space.budget, sorting);
+  constexpr double kMerged = 0.7;  // of the time, about
+  const auto tell = [&](double done) {
+    if (progress) progress(done);
+  };
+  std::uint64_t triangles = 0, appended = 0;
   StretchValues values_of(ordered->vertices(), function);
   for (TriangleStretches stretch("triangle order", ordered->vertices(), space); stretch.next();) {
     const auto values = values_of(stretch);
     for (std::size_t t = 0; t < stretch.corners().size() / 3; ++t) sort.add(keyed(stretch, t, values));
+    triangles += stretch.corners().size() / 3;
+    const IndexedMesh& from = ordered->vertices();
+    tell(kMerged * static_cast<double>(from.bytes_read()) /
+         static_cast<double>(std::max<std::uint64_t>(from.bytes_total(), 1)));
   }
   sort.finish();
   std::vector<VertexId> corners;
@@ -130,24 +140,33 @@ std::unique_ptr<IndexedMesh> sorted_by_function(std::unique_ptr<IndexedMesh> mes
     for (const KeyedTriangle& triangle : some)
       for (const std::uint64_t corner : triangle.corners) corners.emplace_back(corner);
     ordered->append(corners);
+    appended += some.size();
+    tell(kMerged + (1 - kMerged) * static_cast<double>(appended) / static_cast<double>(triangles));
   }
   return ordered;
 }
 
 std::unique_ptr<IndexedMesh> sorted_along_hilbert(std::unique_ptr<IndexedMesh> mesh, unsigned dimension,
-                                                  Workspace& space) {
+                                                  Workspace& space, const SortProgress& progress) {
   ReorderOptions options;
   options.allowance_bytes = 2 * space.share();
   options.coordinates = dimension;
+  options.progress = progress;
   return reorder(*mesh, space.temp, space.budget, options);
 }
 
-std::unique_ptr<IndexedMesh> sorted_by_spectrum(std::unique_ptr<IndexedMesh> mesh, unsigned dimension,
-                                                Workspace& space) {
-  auto coherent = sorted_along_hilbert(std::move(mesh), dimension, space);
+std::unique_ptr<IndexedMesh> sorted_by_spectrum(std::unique_ptr<IndexedMesh> mesh, unsigned dimension, Workspace& space,
+                                                const SortProgress& progress) {
+  constexpr double kCoherent = 0.25, kVector = 0.85;  // of the time, about
+  const auto part = [&progress](double from, double to) {
+    return [&progress, from, to](double done) {
+      if (progress) progress(from + (to - from) * done);
+    };
+  };
+  auto coherent = sorted_along_hilbert(std::move(mesh), dimension, space, part(0, kCoherent));
   VertexNumbers values = fiedler_vector(*coherent, space);
   TableFunction function(values);
-  return sorted_by_function(std::move(coherent), function, space);
+  return sorted_by_function(std::move(coherent), function, space, part(kVector, 1));
 }
 
 }  // namespace reeb::ooc
