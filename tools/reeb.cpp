@@ -2,8 +2,9 @@
 #include <fmt/core.h>
 #include <malloc.h>
 
-#include <algorithm>
 #include <exception>
+#include <filesystem>
+#include <memory>
 #include <new>
 #include <string>
 #include <system_error>
@@ -12,6 +13,8 @@
 #include "libreeb/base/error.h"
 #include "tools/commands/commands.h"
 #include "tools/program/signals.h"
+#include "tools/program/usage_error.h"
+#include "tools/program/wrapping.h"
 
 namespace {
 
@@ -29,21 +32,43 @@ constexpr const char* kExamples = R"(Examples:
 Every command has --help.)";
 
 // `reeb scan.ply` means `reeb compute scan.ply`: a first word that is not a command is the name of a mesh.
-std::vector<std::string> with_default_command(const CLI::App& program, int argc, char** argv) {
-  std::vector<std::string> words(argv + 1, argv + argc);
-  const bool is_command =
-      !words.empty() &&
-      !program.get_subcommands([&](const CLI::App* command) { return command->get_name() == words[0]; }).empty();
-  const bool is_help = words.empty() || words[0] == "-h" || words[0] == "--help" || words[0] == "--version";
-  if (!is_command && !is_help) words.insert(words.begin(), "compute");
-  std::reverse(words.begin(), words.end());  // CLI11 takes them in reverse order
+// THROWS: Error{kUsage} if it is neither.
+std::vector<std::string> with_default_command(const CLI::App& program, std::vector<std::string> words) {
+  const std::string& first = words[0];
+  if (first == "-h" || first == "--help" || first == "--version") return words;
+  if (first == "help") {
+    if (words.size() == 1) return {"--help"};
+    if (reeb::tools::find_command(program, words[1]) == nullptr) throw reeb::tools::no_such_command(program, words[1]);
+    return {words[1], "--help"};
+  }
+  if (reeb::tools::find_command(program, first) != nullptr) return words;
+  const bool is_name = first.starts_with('-') || first.find_first_of("./") != std::string::npos;
+  if (std::error_code ignored; !is_name && !std::filesystem::exists(first, ignored))
+    throw reeb::tools::no_such_command(program, first);
+  words.insert(words.begin(), "compute");
   return words;
 }
 
+// Helps in 80 columns.
+class HelpFormatter : public CLI::Formatter {
+ public:
+  HelpFormatter() {
+    label("REQUIRED", "(required)");
+    label("Positionals", "Arguments");
+    label("SUBCOMMAND", "COMMAND");
+    column_width(27);
+  }
+  std::string make_option_desc(const CLI::Option* option) const override {
+    return reeb::tools::wrapped(option->get_description(), 0, reeb::tools::kTextColumns - get_column_width());
+  }
+};
+
 int run(int argc, char** argv) {
   CLI::App program("Exact Reeb graphs of meshes of any size", "reeb");
+  program.formatter(std::make_shared<HelpFormatter>());
+  program.set_help_flag("-h,--help", "Print this help");
   program.require_subcommand(0, 1);
-  program.set_version_flag("--version", "reeb " REEB_VERSION);
+  program.set_version_flag("--version", "reeb " REEB_VERSION, "Print the version");
   program.footer(kExamples);
   reeb::tools::add_compute(program);
   reeb::tools::add_info(program);
@@ -52,15 +77,17 @@ int run(int argc, char** argv) {
   reeb::tools::add_verify(program);
   reeb::tools::add_generate(program);
   reeb::tools::add_convert(program);
+  for (CLI::App* command : program.get_subcommands({})) command->group("Commands");
   if (argc == 1) {
     fmt::print("{}", program.help());
     return 0;
   }
+  const std::vector<std::string> words = with_default_command(program, std::vector<std::string>(argv + 1, argv + argc));
   try {
-    program.parse(with_default_command(program, argc, argv));
-  } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return program.exit(error);  // --help
-    return report(reeb::ErrorKind::kUsage, error.what(), "see reeb --help, or the command's own --help");
+    program.parse(std::vector<std::string>(words.rbegin(), words.rend()));  // CLI11 takes them in reverse order
+  } catch (const CLI::ParseError& refusal) {
+    if (refusal.get_exit_code() == 0) return program.exit(refusal);  // --help
+    throw reeb::tools::usage_error(program, words, refusal);
   }
   return 0;
 }

@@ -59,9 +59,9 @@ def text(x, y, words, anchor="start", size=13):
     print(f'<text x="{x:.0f}" y="{y:.0f}" font-size="{size}" text-anchor="{anchor}">{words}</text>')
 
 
-print('<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 640 350" width="640" height="350" '
+print('<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 680 350" width="680" height="350" '
       'font-family="sans-serif" fill="#222">')
-print('<rect width="640" height="350" fill="white"/>')
+print('<rect width="680" height="350" fill="white"/>')
 for _, corners, fill in sorted(quads()):
     path = " ".join(f"{x:.1f},{y:.1f}" for x, y in corners)
     print(f'<polygon points="{path}" fill="{fill}" stroke="{fill}" stroke-width="0.6"/>')

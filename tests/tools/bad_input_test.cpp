@@ -8,8 +8,10 @@
 #include <cstring>
 #include <iterator>
 #include <limits>
+#include <random>
 #include <regex>
 
+#include "tests/support/seed.h"
 #include "tests/tools/program.h"
 
 namespace reeb::test {
@@ -280,6 +282,54 @@ TEST_F(BadInput, UnknownFormat) {
   expect_refused("letter.ply.gz", false);
 }
 
+TEST_F(BadInput, FilesOfOtherKindsAreNamed) {
+  std::string nifti = std::string("\x5C\1\0\0", 4) + std::string(340, '\0') + std::string("n+1\0", 4);
+  nifti += std::string(4000, '\0');
+  const std::vector<std::pair<std::string, std::string>> kinds = {
+      {"# vtk DataFile Version 3.0\nimage\nBINARY\n" + std::string(300, '\x11'), "a VTK legacy file"},
+      {"<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\">\n", "a VTK XML file"},
+      {nifti, "a NIfTI image"},
+      {"$MeshFormat\n4.1 0 8\n", "a Gmsh mesh"},
+      {"# by hand\n\nMeshVersionFormatted 2\nDimension 3\n", "a Medit mesh"},
+      {std::string("\1\0\0\0\2\0\0\0\3\0\0\0", 12) + std::string(400, '\x22'), "a Medit mesh"},
+      {"version https://git-lfs.github.com/spec/v1\noid sha256:00\nsize 9\n", "a Git LFS pointer"},
+      {std::string("\xFF\xFEp\0l\0y\0", 8), "text in UTF-16"},
+      {"\x89PNG\r\n\x1a\n" + std::string(2000, '\x07'), "a PNG picture"}};
+  for (const auto& [bytes, name] : kinds) {
+    write("file.ply", bytes);
+    expect_error(reeb({"compute", "file.ply"}), 1, "file.ply:0: this is " + name);
+    write("file.ply.gz", gzipped("file.ply"));
+    expect_error(reeb({"compute", "file.ply.gz"}), 1, "file.ply.gz:0: this is " + name);
+    expect_error(reeb({"pairs", "file.ply"}), 1, "file.ply: this is not a Reeb graph, but " + name);
+  }
+}
+
+// Whatever random bytes are taken for, it is nothing that a few bytes decide.
+TEST_F(BadInput, RandomBytesAreOfUnknownFormat) {
+  std::mt19937 random(base_seed());
+  for (int first = 0; first < 5; ++first) {
+    std::string bytes(3000, '\0');
+    for (char& byte : bytes) byte = static_cast<char>(random());
+    bytes[0] = static_cast<char>(first);
+    bytes[1] = static_cast<char>(2 + random() % 250);
+    write("noise.ply", bytes);
+    if (first == 3) continue;  // SMC version 3 has no other mark
+    expect_error(reeb({"compute", "noise.ply"}), 1, "noise.ply:0: unknown file format");
+  }
+}
+
+TEST_F(BadInput, ABinaryStlHasTheSizeThatItAnnouncesOrIsNamedSo) {
+  const std::string whole = stl_binary({});
+  write("mesh", whole);
+  expect_success(reeb({"mesh", "-o", "a.reeb"}));
+  write("mesh", whole + "more");
+  expect_error(reeb({"mesh"}), 1, "mesh:0: unknown file format");
+  write("mesh.STL", whole + "more");
+  expect_success(reeb({"mesh.STL", "-o", "b.reeb"}));
+  write("mesh.stl", whole.substr(0, whole.size() - 20));
+  expect_error(reeb({"mesh.stl"}), 1, "mesh.stl:80: the header announces 4 facets, but the file holds 3");
+}
+
 TEST_F(BadInput, TrailingDataIsNoted) {
   write("long.ply", ply_binary({.triangles_said = 3}));
   write("long.ply.gz", gzipped("long.ply"));
@@ -326,9 +376,25 @@ TEST_F(BadInput, MissingPropertyOrCoordinate) {
 TEST_F(BadInput, NotAReebFile) {
   write("mesh.off", kSmallOff);
   for (const char* command : {"extract", "pairs", "verify"}) {
-    expect_error(reeb({command, "mesh.off"}), 1, "mesh.off:");
+    const Outcome outcome = reeb({command, "mesh.off"});
+    expect_error(outcome, 1, "mesh.off: this is a mesh (OFF), not a Reeb graph");
+    EXPECT_NE(outcome.error.find("`reeb mesh.off`, then `reeb " + std::string(command) + " mesh.reeb`"),
+              std::string::npos)
+        << outcome.error;
     expect_error(reeb({command, "missing.reeb"}), 1, "missing.reeb:");
+    write("letter.reeb", "Dear all,\n");
+    expect_error(reeb({command, "letter.reeb"}), 1, "letter.reeb: this is not a Reeb graph");
   }
+}
+
+TEST_F(BadInput, AReebFileIsNoMesh) {
+  write("mesh.off", kSmallOff);
+  expect_success(reeb({"mesh.off"}));
+  // Whatever else is wrong, such as that the output exists.
+  expect_error(reeb({"mesh.reeb"}), 1, "mesh.reeb: this is a Reeb graph already");
+  expect_error(reeb({"convert", "mesh.reeb", "mesh.ply"}), 1, "mesh.reeb:0: this is a Reeb graph, not a mesh");
+  expect_error(reeb({"verify", "mesh.reeb", "--mesh", "mesh.reeb"}), 1,
+               "mesh.reeb:0: this is a Reeb graph, not a mesh");
 }
 
 }  // namespace

@@ -93,7 +93,127 @@ TEST_F(CommandLine, WhatItDoesNotKnowIsExitCode2) {
 TEST_F(CommandLine, AWordThatIsNoCommandNamesAMesh) {
   expect_success(reeb({"mesh.off"}));
   EXPECT_TRUE(std::filesystem::exists(in_folder("mesh.reeb")));
-  expect_error(reeb({"comptue"}), 1, "comptue");
+  expect_error(reeb({"missing.off"}), 1, "missing.off: ");
+  expect_error(reeb({"./missing"}), 1, "./missing: ");
+  std::filesystem::rename(in_folder("mesh.off"), in_folder("mesh"));
+  expect_success(reeb({"mesh", "--force"}));
+}
+
+TEST_F(CommandLine, AWordThatIsNeitherCommandNorFileIsSaidToBe) {
+  expect_error(reeb({"comptue"}), 2, "there is no command 'comptue', and no file of that name (did you mean compute?)");
+  for (const std::vector<std::string>& words :
+       std::vector<std::vector<std::string>>{{"holes", "mesh.off"}, {"holes", "--help"}, {"help", "holes"}}) {
+    const Outcome outcome = reeb(words);
+    expect_error(outcome, 2, "there is no command 'holes'");
+    EXPECT_NE(outcome.error.find("compute, info, extract"), std::string::npos) << outcome.error;
+  }
+}
+
+TEST_F(CommandLine, HelpIsACommandToo) {
+  EXPECT_EQ(reeb({"help"}).output, reeb({}).output);
+  EXPECT_EQ(reeb({"help", "pairs"}).output, reeb({"pairs", "--help"}).output);
+  EXPECT_EQ(reeb({"help", "pairs"}).exit_code, 0);
+}
+
+TEST_F(CommandLine, HelpsFitEightyColumnsAndAreOfOneStyle) {
+  std::vector<std::string> helps = {reeb({}).output};
+  for (const std::string& name : subcommands()) helps.push_back(reeb({name, "--help"}).output);
+  for (const std::string& help : helps) {
+    for (const std::string& line : lines_after("", help)) EXPECT_LE(line.size(), 80u) << line;
+    for (const char* of_the_library : {"REQUIRED", "UINT", "TEXT", "{false}", "Excludes", "INT in"})
+      EXPECT_EQ(help.find(of_the_library), std::string::npos) << help;
+    // Descriptions begin with a capital letter, or name values.
+    for (const std::string& line : lines_after("  --", help)) {
+      const auto at = line.find("  ");
+      if (at == std::string::npos) continue;
+      EXPECT_EQ(std::islower(static_cast<unsigned char>(line[line.find_first_not_of(' ', at)])), 0) << line;
+    }
+  }
+}
+
+TEST_F(CommandLine, UnknownOptionsAreNamedWithTheNearest) {
+  expect_success(reeb({"mesh.off"}));
+  expect_error(reeb({"mesh.off", "--foo"}), 2, "unknown option --foo (did you mean --force?)");
+  expect_error(reeb({"mesh.off", "--memry=64M"}), 2, "unknown option --memry (did you mean --memory?)");
+  expect_error(reeb({"--versions"}), 2, "unknown option --versions (did you mean --version?)");
+  expect_error(reeb({"-v"}), 2, "unknown option -v");
+  expect_error(reeb({"-dash.off"}), 2, "unknown option -dash.off");
+  expect_error(reeb({"extract", "mesh.reeb", "--node", "3"}), 2, "unknown option --node (did you mean --nodes?)");
+  const Outcome outcome = reeb({"extract", "mesh.reeb", "--frist"});
+  EXPECT_NE(outcome.error.find("hint: see `reeb extract --help`"), std::string::npos) << outcome.error;
+  expect_error(reeb({"extract"}), 2, "FILE is missing");
+  expect_error(reeb({"generate", "torus"}), 2, "--output is missing");
+  expect_error(reeb({"mesh.off", "-o"}), 2, "--output needs one value");
+  expect_error(reeb({"extract", "mesh.reeb", "--nodes", "3", "--threshold", "1"}), 2);
+}
+
+TEST_F(CommandLine, NegativeHugeAndEmptyNumbersAreRefused) {
+  expect_success(reeb({"mesh.off"}));
+  const std::vector<std::string> before = files();
+  expect_error(reeb({"extract", "mesh.reeb", "--nodes", "-1"}), 2, "--nodes: \"-1\" is not a whole number");
+  expect_error(reeb({"extract", "mesh.reeb", "--memory", ""}), 2, "--memory: \"\" is not a size");
+  expect_error(reeb({"generate", "torus", "--triangles", "-5", "-o", "t.ply"}), 2, "--triangles: \"-5\"");
+  expect_error(reeb({"generate", "torus", "--triangles", "99999999999999999999", "-o", "t.ply"}), 2, "--triangles: ");
+  expect_error(reeb({"generate", "torus", "--seed", "x", "-o", "t.ply"}), 2, "--seed: \"x\" is not a whole number");
+  for (const char* option : {"--memory", "--chunk", "--threads", "--snapshot-every", "--buckets"})
+    for (const char* value : {"", "-1", "1e300", "lots"})
+      expect_error(reeb({"mesh.off", "--force", option, value}), 2, std::string(option) + ": ");
+  expect_error(reeb({"mesh.off", "--force", "--chunk", "0"}), 2, "--chunk must be at least 1");
+  EXPECT_EQ(files(), before);
+}
+
+TEST_F(CommandLine, CountsTakeUnitsEverywhere) {
+  expect_success(reeb({"generate", "torus", "--triangles", "1.5k", "-o", "t.sma"}));
+  expect_success(reeb({"t.sma", "--chunk", "1k", "--snapshot-every", "1e3", "--buckets", "0.1k", "--memory", "32m"}));
+  EXPECT_EQ(files(), (std::vector<std::string>{"mesh.off", "t-000001.reeb", "t.reeb", "t.sma"}));
+  expect_success(reeb({"extract", "t.reeb", "--nodes", "1k"}));
+}
+
+TEST_F(CommandLine, OptionsThatAKindOfMeshDoesNotHaveAreRefused) {
+  expect_error(reeb({"generate", "torus", "--dimension", "4", "-o", "t.ply"}), 2, "a torus has no --dimension");
+  expect_error(reeb({"generate", "sierpinski", "--width", "9", "-o", "t.ply"}), 2, "a sierpinski has no --width");
+  const Outcome seeded = reeb({"generate", "torus", "--triangles", "1k", "--seed", "7", "-o", "t.ply"});
+  expect_success(seeded);
+  EXPECT_EQ(lines_after("note: ", seeded.error).size(), 1u) << seeded.error;
+  const Outcome far = reeb({"generate", "sierpinski", "--triangles", "2k", "-o", "s.ply"});
+  expect_success(far);
+  EXPECT_NE(far.error.find("note: 2,000 triangles were asked for"), std::string::npos) << far.error;
+  const Outcome near = reeb({"generate", "torus", "--triangles", "2k", "-o", "u.ply"});
+  EXPECT_EQ(lines_after("note: ", near.error).size(), 0u) << near.error;
+}
+
+TEST_F(CommandLine, TheSuffixOfAGraphMayBeInCapitals) {
+  expect_success(reeb({"mesh.off"}));
+  expect_success(reeb({"extract", "mesh.reeb", "-o", "graph.JSON"}));
+  expect_success(reeb({"extract", "mesh.reeb", "--format", "json", "-o", "graph"}));
+  EXPECT_EQ(file("graph.JSON"), file("graph"));
+  expect_error(reeb({"extract", "mesh.reeb", "-o", "out"}), 2, "out: cannot tell the format of the graph");
+  expect_error(reeb({"extract", "mesh.reeb", "-o", "out.pdf"}), 2, "out.pdf: cannot tell the format of the graph");
+}
+
+TEST_F(CommandLine, TheSummaryListsLoopsAndExtremaAndFitsEightyColumns) {
+  expect_success(reeb({"generate", "scan", "--triangles", "20k", "-o", "scan.ply"}));
+  const Outcome outcome = reeb({"scan.ply"});
+  expect_success(outcome);
+  for (const std::string& line : lines_after("", outcome.error)) EXPECT_LE(line.size(), 80u) << line;
+  const auto pairs = reeb({"pairs", "scan.reeb"}).output;
+  const std::size_t loops = lines_after("Ext1,", pairs).size();
+  const std::size_t others = lines_after("Ord0,", pairs).size() + lines_after("Rel1,", pairs).size();
+  EXPECT_EQ(lines_after("  largest loops (" + std::to_string(loops) + " in all):", outcome.error).size(), 1u);
+  EXPECT_EQ(lines_after("    loop ", outcome.error).size(), 5u) << outcome.error;
+  EXPECT_EQ(lines_after("  largest minima and maxima (" + std::to_string(others) + " in all):", outcome.error).size(),
+            1u)
+      << outcome.error;
+  EXPECT_EQ(lines_after("    m", outcome.error).size(), 5u) << outcome.error;
+  EXPECT_EQ(lines_after("  mesh: ", outcome.error).size(), 1u);
+}
+
+// All values are equal, so all pairs have persistence zero.
+TEST_F(CommandLine, FeaturesWithoutPersistenceAreNotListed) {
+  expect_success(reeb({"generate", "grid", "--triangles", "1k", "-o", "grid.ply"}));
+  const Outcome outcome = reeb({"grid.ply"});
+  expect_success(outcome);
+  EXPECT_EQ(outcome.error.find("largest"), std::string::npos) << outcome.error;
 }
 
 TEST_F(CommandLine, AnExistingOutputIsRefusedBeforeAnyWork) {

@@ -11,14 +11,14 @@ class VerifyMesh : public ProgramTest {
     expect_success(reeb({"compute", mesh, "-f", function, "-o", "out.reeb", "--quiet", "--force"}));
     const Outcome outcome = reeb({"verify", "out.reeb", "--mesh", mesh});
     expect_success(outcome);
-    const std::string begin = mesh + ": good: ";
+    const std::string begin = mesh + ": OK: ";
     std::string said = outcome.output;
     said.erase(0, said.find(begin) == std::string::npos ? 0 : said.find(begin) + begin.size());
     return said;
   }
 };
 
-constexpr const char* kTetrahedron = "1 components, Euler characteristic 2, a closed surface of genus 0\n";
+constexpr const char* kTetrahedron = "1 component, Euler characteristic 2, a closed surface of genus 0\n";
 
 TEST_F(VerifyMesh, CountsWhatTheMeshIs) {
   write("closed.off", kSmallOff);
@@ -30,18 +30,23 @@ TEST_F(VerifyMesh, CountsWhatTheMeshIs) {
   write("open.off", "OFF\n5 2 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n5 5 5\n3 0 1 2\n3 1 2 3\n");
   EXPECT_EQ(said_of("open.off"), "2 components, Euler characteristic 2, a surface with boundary: at most 0 loops\n");
   write("edge.off", "OFF\n4 2 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 1 2\n2 2 3\n");
-  EXPECT_EQ(said_of("edge.off"), "1 components, Euler characteristic 1, not a surface, so its loops are not bounded\n");
+  EXPECT_EQ(said_of("edge.off"),
+            "1 component, Euler characteristic 1, not a 2-manifold, so the genus is undefined and the loops are not "
+            "bounded\n");
   write("book.off", "OFF\n5 3 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n0 0 2\n3 0 1 2\n3 0 1 3\n3 0 1 4\n");
-  EXPECT_EQ(said_of("book.off"), "1 components, Euler characteristic 1, not a surface, so its loops are not bounded\n");
+  EXPECT_EQ(said_of("book.off"),
+            "1 component, Euler characteristic 1, not a 2-manifold, so the genus is undefined and the loops are not "
+            "bounded\n");
   write("pinched.off", "OFF\n5 2 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n0 0 2\n3 0 1 2\n3 0 3 4\n");
   EXPECT_EQ(said_of("pinched.off"),
-            "1 components, Euler characteristic 1, not a surface, so its loops are not bounded\n");
+            "1 component, Euler characteristic 1, not a 2-manifold, so the genus is undefined and the loops are not "
+            "bounded\n");
 }
 
 TEST_F(VerifyMesh, ATorusHasGenusOneForEveryFunction) {
   expect_success(reeb({"generate", "torus", "--triangles", "2000", "-o", "torus.ply"}));
   for (const char* function : {"x", "z", "index", "random:3"})
-    EXPECT_EQ(said_of("torus.ply", function), "1 components, Euler characteristic 0, a closed surface of genus 1\n");
+    EXPECT_EQ(said_of("torus.ply", function), "1 component, Euler characteristic 0, a closed surface of genus 1\n");
 }
 
 TEST_F(VerifyMesh, AnotherMeshIsNoticed) {

@@ -1,6 +1,5 @@
 // `reeb compute MESH`, the default command: from a mesh to its `.reeb` file.
-#include <fmt/core.h>
-
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
@@ -9,13 +8,17 @@
 #include <vector>
 
 #include "io/functions/function_source.h"
+#include "libreeb/base/count_text.h"
+#include "libreeb/base/memory_budget.h"
 #include "tools/commands/commands.h"
 #include "tools/library/compute.h"
 #include "tools/program/compute_report.h"
+#include "tools/program/options.h"
 #include "tools/program/output.h"
 #include "tools/program/progress.h"
 #include "tools/program/quantity.h"
 #include "tools/program/signals.h"
+#include "tools/program/wrapping.h"
 
 namespace reeb::tools {
 namespace {
@@ -23,7 +26,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct ComputeArguments {
-  std::string mesh, output, memory, report, denoise;
+  std::string mesh, output, report, denoise;
   std::vector<std::string> functions;
   ComputeOptions options;
   bool quiet = false;
@@ -49,36 +52,26 @@ std::vector<std::string> output_names(const ComputeArguments& arguments) {
 
 std::string describe(const MeshInfo& info) {
   std::string text = info.format;
-  if (info.vertex_count) text += fmt::format(", {} vertices", *info.vertex_count);
-  if (info.simplex_count) text += fmt::format(", {} faces", *info.simplex_count);
+  if (info.vertex_count) text += ", " + count_of(*info.vertex_count, "vertex");
+  if (info.simplex_count) text += ", " + count_of(*info.simplex_count, "face");
   return text;
 }
 
-const char* title(ComputeProgress::Phase phase) {
+ProgressBar::Pass pass_of(ComputeProgress::Phase phase) {
   using Phase = ComputeProgress::Phase;
   switch (phase) {
     case Phase::kSpool:
-      return "reading";
+      return {"reading", 3};
     case Phase::kFinalization:
-      return "finalization";
-    case Phase::kReeb:
-      return "Reeb graph";
+      return {"reading", 2};
     case Phase::kReorder:
-      return "reordering";
+      return {"sorting on disk", 2};
+    case Phase::kReeb:
+      return {"Reeb graph", 1};
     case Phase::kHierarchy:
       break;
   }
-  return "hierarchy";
-}
-
-// CLI::PositiveNumber reports a wrong number as the largest double.
-CLI::Validator at_least_one() {
-  return CLI::Validator(
-      [](const std::string& text) {
-        const bool positive = !text.starts_with('-') && text.find_first_of("123456789") != std::string::npos;
-        return positive ? std::string() : std::string("must be at least 1");
-      },
-      "");
+  return {"simplification", 0};
 }
 
 void run_compute(ComputeArguments arguments) {
@@ -89,19 +82,19 @@ void run_compute(ComputeArguments arguments) {
   RunFacts facts;
   facts.path = arguments.mesh;
   facts.threads = options.threads;
-  if (!arguments.memory.empty()) options.memory_bytes = facts.memory_budget_bytes = parse_size(arguments.memory);
+  if (options.memory_bytes != MemoryBudget::kUnlimited) facts.memory_budget_bytes = options.memory_bytes;
   if (!arguments.denoise.empty()) {
     options.denoise_is_share = arguments.denoise.ends_with('%');
-    options.denoise = parse_threshold(arguments.denoise, 1.0);
+    options.denoise = parse_threshold("--denoise", arguments.denoise, 1.0);
   }
 
   options.opened = [&](const MeshInfo& info) {
     facts.format = info.format;
     facts.input_bytes = info.file_bytes;
-    if (!arguments.quiet) fmt::print(stderr, "{}: {}\n", arguments.mesh, describe(info));
+    if (!arguments.quiet) print_line(arguments.mesh + ": " + describe(info));
   };
   ProgressBar bar(arguments.quiet);
-  options.progress = [&](const ComputeProgress& p) { bar.update(title(p.phase), p.done, p.total, p.triangles); };
+  options.progress = [&](const ComputeProgress& p) { bar.update(pass_of(p.phase), p.done, p.total, p.triangles); };
   options.interrupted = watch_signals();
   const auto results = compute(arguments.mesh, arguments.functions, outputs, options);
   bar.clear();
@@ -118,38 +111,49 @@ void add_compute(CLI::App& program) {
   // For tests: short runs otherwise end before their first checkpoint.
   if (const char* seconds = std::getenv("REEB_CHECKPOINT_SECONDS"))
     arguments->options.checkpoint_seconds = std::atof(seconds);
+  ComputeOptions& options = arguments->options;
   CLI::App* command = program.add_subcommand("compute", "Compute the Reeb graph of a mesh (the default command)");
   command
       ->add_option("MESH", arguments->mesh,
-                   "PLY, OBJ, OFF, STL, SMA, SMB, SMC, SVA or SVB, also .gz and .zst; - reads standard input")
-      ->required();
-  command->add_option("-o,--output", arguments->output, "File to write (default: the mesh's name with .reeb)");
+                   "PLY, OBJ, OFF, STL, SMA, SMB, SMC, SVA or SVB, also as .gz and .zst; - reads standard input")
+      ->required()
+      ->type_name("");
+  command
+      ->add_option("-o,--output", arguments->output,
+                   "File to write (default: the name of the mesh with .reeb, in the current folder; mesh.reeb for "
+                   "standard input)")
+      ->type_name("FILE");
   command
       ->add_option("-f,--function", arguments->functions,
-                   "x y z cK index random:SEED property:NAME file:PATH (default z; may be repeated)")
-      ->allow_extra_args(false);
-  command->add_flag("--graph-only", arguments->options.graph_only, "Stop after the graph: no pairs, no levels");
-  command->add_option("--chunk", arguments->options.chunk_triangles, "Triangles per chunk (default: adaptive)")
-      ->check(at_least_one());
-  command->add_option("--memory", arguments->memory, "Memory that the run may use, as 64M or 1.5GiB");
-  command->add_option("--threads", arguments->options.threads, "Threads (default: all)")->check(CLI::Range(1u, 1024u));
-  command->add_option("--temp-dir", arguments->options.temp_dir,
-                      "Folder for temporary files (default: $TMPDIR, or the output's folder)");
-  command->add_option("--denoise", arguments->denoise, "Remove minima and maxima of less persistence: 0.01, or 0.1%");
+                   "x, y, z, cK (the K-th coordinate, from 0), index, random:SEED, property:NAME or file:PATH "
+                   "(default: z; may be repeated)")
+      ->allow_extra_args(false)
+      ->option_text("FUNC");
+  command->add_flag("--graph-only", options.graph_only, "Stop after the graph: no pairs, no levels");
+  add_size(*command, "--memory", options.memory_bytes, "Memory that the run may use: 64M, 1.5GiB (default: no limit)");
   command
-      ->add_option("--buckets", arguments->options.buckets,
-                   "Embed arcs in at least this many buckets of value (0: no embedding; default 64)")
-      ->check(CLI::Range(0u, 1u << 20));
-  command->add_flag("!--no-reorder", arguments->options.may_reorder, "Do not sort incoherent meshes on disk first");
-  command->add_flag("--resume", arguments->options.resume, "Continue an interrupted run from its folder OUT.partial");
-  command->add_flag("--sidecar", arguments->options.keep_sidecar, "Keep the finalization as MESH.final for later runs");
-  command->add_option("--report", arguments->report, "Write a JSON report (-: to standard output)");
+      ->add_option("--denoise", arguments->denoise,
+                   "Remove minima and maxima of less persistence: 0.01 (function units), or 0.1% (of the range)")
+      ->type_name("T");
+  add_count(*command, "--buckets", options.buckets,
+            "Embed arcs in at least N buckets of value (default: 64; 0: no embedding)", {.most = 1u << 20});
+  add_count(*command, "--threads", options.threads, "Number of threads, 1 to 1024 (default: all)",
+            {.least = 1, .most = 1024});
+  add_count(*command, "--chunk", options.chunk_triangles, "Triangles per chunk (default: adaptive)", {.least = 1});
   command
-      ->add_option("--snapshot-every", arguments->options.snapshot_every,
-                   "Write the graph so far every N triangles, as OUT-000001.reeb, OUT-000002.reeb, ...")
-      ->check(at_least_one());
-  command->add_flag("--quiet", arguments->quiet, "No progress and no summary");
-  command->add_flag("--force", arguments->options.replace, "Replace existing outputs");
+      ->add_option("--temp-dir", options.temp_dir,
+                   "Folder for temporary files (default: $TMPDIR, or the folder of the output)")
+      ->type_name("DIR");
+  command->add_flag_callback(
+      "--no-reorder", [&options] { options.may_reorder = false; }, "Do not sort incoherent meshes on disk first");
+  command->add_flag("--sidecar", options.keep_sidecar, "Keep what the first pass finds in MESH.final, for later runs");
+  command->add_flag("--resume", options.resume, "Continue an interrupted run from its folder OUT.partial");
+  add_count(*command, "--snapshot-every", options.snapshot_every,
+            "Write the graph so far every N triangles, as OUT-000001.reeb, OUT-000002.reeb, ...", {.least = 1});
+  command->add_option("--report", arguments->report, "Write figures of the run as JSON; - is standard output")
+      ->type_name("FILE");
+  command->add_flag("--quiet", arguments->quiet, "Print no progress and no summary");
+  command->add_flag("--force", options.replace, "Replace existing outputs");
   command->footer("Example:\n  reeb compute scan.ply -f z --memory 64M --report report.json");
   command->callback([arguments] { run_compute(*arguments); });
 }

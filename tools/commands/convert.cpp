@@ -10,13 +10,15 @@
 #include "libreeb/base/error.h"
 #include "tools/commands/commands.h"
 #include "tools/program/convert_mesh.h"
-#include "tools/program/quantity.h"
+#include "tools/program/options.h"
+#include "tools/program/progress.h"
+#include "tools/program/wrapping.h"
 
 namespace reeb::tools {
 namespace {
 
 struct ConvertArguments {
-  std::string order = "keep", memory;
+  std::string order = "keep";
   ConvertOptions options;
   bool force = false, quiet = false;
 };
@@ -24,13 +26,14 @@ struct ConvertArguments {
 void run_convert(ConvertArguments arguments) {
   ConvertOptions& options = arguments.options;
   options.order = parse_order(arguments.order);
-  if (!arguments.memory.empty()) options.memory_bytes = parse_size(arguments.memory);
   if (options.temp_folder.empty()) options.temp_folder = io::TempDir::default_folder(options.output);
   if (arguments.force) options.existing = io::Existing::kReplace;
   io::check_output_name(options.output, options.existing);
-  const auto notes = convert_mesh(options);
+  ProgressBar bar(arguments.quiet);
+  const auto notes = convert_mesh(options, bar);
+  bar.clear();
   if (arguments.quiet) return;
-  for (const std::string& note : notes) fmt::print(stderr, "reeb: note: {}\n", note);
+  for (const std::string& note : notes) print_line("note: " + note);
   fmt::print(stderr, "wrote {}\n", options.output);
 }
 
@@ -38,21 +41,27 @@ void run_convert(ConvertArguments arguments) {
 
 void add_convert(CLI::App& program) {
   auto arguments = std::make_shared<ConvertArguments>();
+  ConvertOptions& options = arguments->options;
   CLI::App* command = program.add_subcommand("convert", "Convert a mesh into another format or order");
-  command->add_option("IN", arguments->options.input, "Mesh of any format, also .gz and .zst; - reads standard input")
-      ->required();
+  command->add_option("IN", options.input, "Mesh of any format, also as .gz and .zst; - reads standard input")
+      ->required()
+      ->type_name("");
   command
-      ->add_option("OUT", arguments->options.output,
+      ->add_option("OUT", options.output,
                    "Mesh to write: .ply .obj .off .sma .smb .smc .sva .svb; .events.txt lists the events")
-      ->required();
-  command->add_flag("--finalize", arguments->options.finalize,
-                    "Put each vertex before its first triangle and finalize it after its last");
-  command->add_option("--order", arguments->order, "keep, hilbert, spectral or sweep:FUNC")->capture_default_str();
-  command->add_option("--memory", arguments->memory, "Memory that the run may use, as 64M or 1.5GiB");
-  command->add_option("--temp-dir", arguments->options.temp_folder,
-                      "Folder for temporary files (default: $TMPDIR, or the output's folder)");
+      ->required()
+      ->type_name("");
+  command->add_option("--order", arguments->order, "keep, hilbert, spectral or sweep:FUNC (default: keep)")
+      ->type_name("ORDER");
+  command->add_flag("--finalize", options.finalize,
+                    "Put each vertex before its first triangle, and finalize it after its last");
+  add_size(*command, "--memory", options.memory_bytes, "Memory that the run may use: 64M, 1.5GiB (default: no limit)");
+  command
+      ->add_option("--temp-dir", options.temp_folder,
+                   "Folder for temporary files (default: $TMPDIR, or the folder of the output)")
+      ->type_name("DIR");
   command->add_flag("--force", arguments->force, "Replace an existing output");
-  command->add_flag("--quiet", arguments->quiet, "No notes");
+  command->add_flag("--quiet", arguments->quiet, "Print no progress and no notes");
   command->footer("Example:\n  reeb convert scan.ply scan.smc --order spectral --memory 256M");
   command->callback([arguments] { run_convert(*arguments); });
 }

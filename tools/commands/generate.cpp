@@ -1,13 +1,19 @@
 // `reeb generate KIND -o MESH`: test meshes of any size, streamed.
 #include <fmt/core.h>
 
-#include <map>
+#include <algorithm>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "io/formats/create_mesh.h"
 #include "io/generate/generator.h"
+#include "libreeb/base/count_text.h"
+#include "libreeb/base/error.h"
 #include "tools/commands/commands.h"
+#include "tools/program/options.h"
+#include "tools/program/progress.h"
+#include "tools/program/wrapping.h"
 
 namespace reeb::tools {
 namespace {
@@ -15,29 +21,65 @@ namespace {
 struct GenerateArguments {
   std::string kind, order = "patches", output;
   io::GeneratorOptions mesh;
+  std::optional<std::uint64_t> seed, dimension;
   bool force = false;
 };
 
-void print_summary(const std::string& output, const io::ExpectedTopology& t) {
-  fmt::print(stderr, "wrote {}: {} vertices, {} triangles, Euler characteristic {}", output, t.vertices, t.triangles,
-             t.euler_characteristic);
-  if (t.genus) fmt::print(stderr, ", genus {}", *t.genus);
-  if (t.boundary_loops) fmt::print(stderr, ", {} boundary loops", *t.boundary_loops);
-  if (!t.genus) fmt::print(stderr, ", first Betti number {}", t.first_betti);
-  fmt::print(stderr, "\n");
+void print_summary(const GenerateArguments& arguments, const io::ExpectedTopology& t) {
+  std::string text =
+      fmt::format("wrote {}: {}, {}, Euler characteristic {}", arguments.output, count_of(t.vertices, "vertex"),
+                  count_of(t.triangles, "triangle"), t.euler_characteristic);
+  if (t.genus) text += fmt::format(", genus {}", *t.genus);
+  if (t.boundary_loops) text += ", " + count_of(*t.boundary_loops, "boundary loop");
+  if (!t.genus) text += ", first Betti number " + with_commas(t.first_betti);
+  print_line(text);
+  const std::uint64_t asked = arguments.mesh.triangles,
+                      more = std::max(asked, t.triangles) - std::min(asked, t.triangles);
+  if (more > asked / 10)
+    print_line(fmt::format("note: {} triangles were asked for; a {} of {} is the nearest that there is",
+                           with_commas(asked), arguments.kind, with_commas(t.triangles)));
+}
+
+// An option that would be ignored is refused; a seed that changes nothing is harmless.
+void check_options(const GenerateArguments& arguments) {
+  const io::MeshKind kind = arguments.mesh.kind;
+  const bool sierpinski = kind == io::MeshKind::kSierpinski;
+  const auto refuse = [&](const char* option, const std::string& hint) {
+    throw Error(ErrorKind::kUsage, fmt::format("a {} has no {}", arguments.kind, option), hint);
+  };
+  if (arguments.mesh.width && sierpinski)
+    refuse("--width", "leave it out; --triangles and --dimension say how large it is");
+  if (arguments.dimension && !sierpinski) refuse("--dimension", "leave it out; only a sierpinski has one");
+  const bool is_random =
+      kind == io::MeshKind::kTerrain || kind == io::MeshKind::kScan || arguments.mesh.order == io::MeshOrder::kRandom;
+  if (arguments.seed && !is_random)
+    print_line(fmt::format("note: nothing is random in a {} in this order, so --seed changes nothing", arguments.kind));
 }
 
 void run_generate(GenerateArguments arguments) {
   arguments.mesh.kind = io::mesh_kind(arguments.kind);
   arguments.mesh.order = io::mesh_order(arguments.order);
+  check_options(arguments);
+  if (arguments.seed) arguments.mesh.seed = *arguments.seed;
+  if (arguments.dimension) arguments.mesh.dimension = static_cast<unsigned>(*arguments.dimension);
   const auto mesh = io::generate_mesh(arguments.mesh);
+  const io::ExpectedTopology& topology = mesh->topology();
   io::MeshWriterOptions options;
   options.dimension = mesh->info().dimension;
   options.vertex_count = mesh->info().vertex_count;
   options.existing = arguments.force ? io::Existing::kReplace : io::Existing::kRefuse;
   const auto writer = io::create_mesh(arguments.output, options);
-  copy_mesh(*mesh, *writer);
-  print_summary(arguments.output, mesh->topology());
+  ProgressBar bar(false);
+  std::uint64_t vertices = 0, triangles = 0;
+  for (MeshBatch batch; mesh->read(batch);) {
+    writer->write(batch);
+    vertices += batch.vertex_count;
+    triangles += batch.triangle_count();
+    bar.update({"writing"}, vertices + triangles, topology.vertices + topology.triangles, triangles);
+  }
+  writer->close();
+  bar.clear();
+  print_summary(arguments, topology);
 }
 
 }  // namespace
@@ -45,17 +87,22 @@ void run_generate(GenerateArguments arguments) {
 void add_generate(CLI::App& program) {
   auto arguments = std::make_shared<GenerateArguments>();
   CLI::App* command = program.add_subcommand("generate", "Write a test mesh of any size");
-  command->add_option("KIND", arguments->kind, "torus terrain grid plate scan sierpinski")->required();
-  command->add_option("-o,--output", arguments->output, "Mesh to write: .ply .obj .off")->required();
-  command->add_option("--triangles", arguments->mesh.triangles, "Approximate number of triangles (10000, 12M, 372M)")
-      ->transform(CLI::AsNumberWithUnit(
-          std::map<std::string, std::uint64_t>{{"k", 1'000}, {"m", 1'000'000}, {"g", 1'000'000'000}}))
-      ->capture_default_str();
-  command->add_option("--order", arguments->order, "rows, patches or random")->capture_default_str();
-  command->add_option("--seed", arguments->mesh.seed, "Seed of noise, handles and random order")->capture_default_str();
-  command->add_option("--width", arguments->mesh.width, "Cells in a row of the grid");
-  command->add_option("--dimension", arguments->mesh.dimension, "Dimension of a sierpinski simplex: 2 to 5")
-      ->capture_default_str();
+  command->add_option("KIND", arguments->kind, "torus, terrain, grid, plate, scan or sierpinski")
+      ->required()
+      ->type_name("");
+  command
+      ->add_option("-o,--output", arguments->output,
+                   "Mesh to write: .ply .obj .off .sma .smb .smc .sva .svb; .events.txt lists the events")
+      ->required()
+      ->type_name("FILE");
+  add_count(*command, "--triangles", arguments->mesh.triangles,
+            "About how many triangles: 10000, 12M, 372M (default: 1M)", {.least = 1});
+  command->add_option("--order", arguments->order, "rows, patches or random (default: patches)")->type_name("ORDER");
+  add_count(*command, "--seed", arguments->seed, "Seed of noise, handles and random order (default: 1)");
+  add_count(*command, "--width", arguments->mesh.width,
+            "Cells in a row of the grid (default: about as many as there are rows)", {.least = 1});
+  add_count(*command, "--dimension", arguments->dimension, "Dimension of a sierpinski, 2 to 5 (default: 3)",
+            {.least = 2, .most = 5});
   command->add_flag("--force", arguments->force, "Replace an existing output");
   command->footer("Example:\n  reeb generate scan --triangles 12M --order patches --seed 7 -o scan.ply");
   command->callback([arguments] { run_generate(*arguments); });

@@ -6,32 +6,35 @@
 #include "ooc/reeb_file/reeb_file.h"
 #include "tools/commands/commands.h"
 #include "tools/program/mesh_info.h"
-#include "tools/program/quantity.h"
+#include "tools/program/options.h"
 #include "tools/program/reeb_info.h"
 
 namespace reeb::tools {
 
 void add_info(CLI::App& app) {
   struct Options {
-    std::string file, memory, temp_folder;
+    std::string file, temp_folder;
+    std::uint64_t memory_bytes = MemoryBudget::kUnlimited;
     bool json = false;
   };
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("info", "Describe a mesh or a .reeb file");
   command
       ->add_option("FILE", options->file, "A .reeb file, or a mesh of any format; - reads a mesh from standard input")
-      ->required();
-  command->add_flag("--json", options->json, "JSON output");
-  command->add_option("--memory", options->memory, "Memory for the tables of a mesh, as 64M");
-  command->add_option("--temp-dir", options->temp_folder,
-                      "Folder for temporary files (default: $TMPDIR, or the current folder)");
+      ->required()
+      ->type_name("");
+  command->add_flag("--json", options->json, "Print JSON");
+  add_size(*command, "--memory", options->memory_bytes, "Memory for the tables of a mesh: 64M (default: no limit)");
+  command
+      ->add_option("--temp-dir", options->temp_folder,
+                   "Folder for temporary files (default: $TMPDIR, or the current folder)")
+      ->type_name("DIR");
   command->footer("Example:\n  reeb info scan.reeb");
   command->callback([options] {
-    const std::uint64_t memory = options->memory.empty() ? MemoryBudget::kUnlimited : parse_size(options->memory);
     if (options->file != "-" && ooc::is_reeb_file(options->file))
       print_reeb_info(options->file, options->json);
     else
-      print_mesh_info(options->file, memory, options->temp_folder, options->json);
+      print_mesh_info(options->file, options->memory_bytes, options->temp_folder, options->json);
   });
 }
 

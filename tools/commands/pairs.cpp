@@ -7,6 +7,7 @@
 #include "io/text/output_buffer.h"
 #include "ooc/reeb_file/reeb_file.h"
 #include "tools/commands/commands.h"
+#include "tools/program/input_kind.h"
 #include "tools/program/output.h"
 
 namespace reeb::tools {
@@ -47,11 +48,13 @@ void write_rows(const std::vector<ooc::PairRow>& rows, std::ostream& stream) {
 void add_pairs(CLI::App& app) {
   auto options = std::make_shared<PairsOptions>();
   CLI::App* command = app.add_subcommand("pairs", "List the persistence pairs as CSV");
-  command->add_option("FILE", options->file, "The .reeb file")->required();
-  command->add_option("-o,--output", options->output, "Output file (default: standard output)");
+  command->add_option("FILE", options->file, "The .reeb file")->required()->type_name("");
+  command->add_option("-o,--output", options->output, "File to write (default, and -: standard output)")
+      ->type_name("FILE");
   command->add_flag("--force", options->force, "Replace an existing output");
   command->footer("Example:\n  reeb pairs scan.reeb -o scan-pairs.csv");
   command->callback([options] {
+    require_reeb_file(options->file, "pairs");
     refuse_existing(options->output, options->force);
     auto rows = ooc::ReebFile(options->file).pairs();
     sort_rows(rows);

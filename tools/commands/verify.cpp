@@ -6,20 +6,24 @@
 #include <string>
 
 #include "io/formats/open_mesh.h"
+#include "libreeb/base/count_text.h"
 #include "libreeb/base/error.h"
 #include "libreeb/base/memory_budget.h"
 #include "ooc/reeb_file/reeb_file.h"
 #include "ooc/whole_mesh/mesh_recount.h"
 #include "ooc/whole_mesh/workspace.h"
 #include "tools/commands/commands.h"
+#include "tools/program/input_kind.h"
 #include "tools/program/node_check.h"
-#include "tools/program/quantity.h"
+#include "tools/program/options.h"
+#include "tools/program/progress.h"
 
 namespace reeb::tools {
 namespace {
 
 struct VerifyOptions {
-  std::string file, mesh, memory, temp_folder;
+  std::string file, mesh, temp_folder;
+  std::uint64_t memory_bytes = MemoryBudget::kUnlimited;
 };
 
 template <class Count>
@@ -31,21 +35,26 @@ void compare(const std::string& path, const char* what, Count in_file, Count in_
 }
 
 std::string describe_surface(const ooc::MeshRecount& mesh) {
-  if (!mesh.most_loops) return "not a surface, so its loops are not bounded";
-  if (!mesh.closed) return fmt::format("a surface with boundary: at most {} loops", *mesh.most_loops);
-  return fmt::format("a closed surface of genus {}", *mesh.most_loops);
+  if (!mesh.most_loops) return "not a 2-manifold, so the genus is undefined and the loops are not bounded";
+  if (!mesh.closed) return fmt::format("a surface with boundary: at most {}", count_of(*mesh.most_loops, "loop"));
+  return "a closed surface of genus " + with_commas(*mesh.most_loops);
 }
 
 void compare_with_mesh(const ooc::ReebFile& file, const VerifyOptions& options) {
-  const std::uint64_t memory = options.memory.empty() ? MemoryBudget::kUnlimited : parse_size(options.memory);
-  ooc::Workspace space(options.temp_folder, memory);
+  ooc::Workspace space(options.temp_folder, options.memory_bytes);
   const FileHeader& header = file.header();
   const ReebGraph graph = file.load(0).graph;
   NodeCheck nodes(options.mesh, header.function, graph);
   const auto reader = io::open_mesh(options.mesh, {.properties = nodes.properties()});
   nodes.start(reader->info());
-  const ooc::MeshRecount mesh =
-      ooc::recount_mesh(*reader, space, [&nodes](const MeshBatch& batch) { nodes.add(batch); });
+  ProgressBar bar(false);
+  std::uint64_t triangles = 0;
+  const ooc::MeshRecount mesh = ooc::recount_mesh(*reader, space, [&](const MeshBatch& batch) {
+    nodes.add(batch);
+    triangles += batch.triangle_count();
+    bar.update({"counting"}, reader->bytes_read(), reader->info().file_bytes, triangles);
+  });
+  bar.clear();
   const std::optional<ValueRange> range = nodes.finish();
   compare(options.file, "vertices", header.mesh_vertices, mesh.vertices);
   compare(options.file, "triangles", header.mesh_triangles, mesh.triangles);
@@ -56,19 +65,21 @@ void compare_with_mesh(const ooc::ReebFile& file, const VerifyOptions& options) 
   }
   if (mesh.most_loops && header.loops > *mesh.most_loops)
     throw Error(ErrorKind::kBadInput,
-                fmt::format("there are {} loops, but the mesh is {}", header.loops, describe_surface(mesh)),
+                fmt::format("it has {}, but the mesh is {}", count_of(header.loops, "loop"), describe_surface(mesh)),
                 "name the mesh that the file was computed from")
         .at(options.file);
-  fmt::print("{}: good: {} components, Euler characteristic {}, {}\n", options.mesh, mesh.components, mesh.euler,
-             describe_surface(mesh));
+  fmt::print("{}: OK: {}, Euler characteristic {}, {}\n", options.mesh, count_of(mesh.components, "component"),
+             mesh.euler, describe_surface(mesh));
 }
 
 void verify(const VerifyOptions& options) {
+  require_reeb_file(options.file, "verify");
   const ooc::ReebFile file(options.file);
   file.verify();
   const FileHeader& header = file.header();
-  fmt::print("{}: good: {} nodes, {} arcs, {} components, {} loops, {} pairs, {} versions\n", options.file,
-             header.nodes, header.arcs, header.components, header.loops, header.pairs, std::uint64_t{header.steps} + 1);
+  fmt::print("{}: OK: {}, {}, {}, {}, {}, {}\n", options.file, count_of(header.nodes, "node"),
+             count_of(header.arcs, "arc"), count_of(header.components, "component"), count_of(header.loops, "loop"),
+             count_of(header.pairs, "pair"), count_of(std::uint64_t{header.steps} + 1, "version"));
   if (!options.mesh.empty()) compare_with_mesh(file, options);
 }
 
@@ -77,11 +88,14 @@ void verify(const VerifyOptions& options) {
 void add_verify(CLI::App& app) {
   auto options = std::make_shared<VerifyOptions>();
   CLI::App* command = app.add_subcommand("verify", "Check a .reeb file: checksums, structure, counts");
-  command->add_option("FILE", options->file, "The .reeb file")->required();
-  command->add_option("--mesh", options->mesh, "The mesh that it was computed from, to count again independently");
-  command->add_option("--memory", options->memory, "Memory for the tables of the mesh, as 64M");
-  command->add_option("--temp-dir", options->temp_folder,
-                      "Folder for temporary files (default: $TMPDIR, or the current folder)");
+  command->add_option("FILE", options->file, "The .reeb file")->required()->type_name("");
+  command->add_option("--mesh", options->mesh, "The mesh that it was computed from, to count again independently")
+      ->type_name("MESH");
+  add_size(*command, "--memory", options->memory_bytes, "Memory for the tables of the mesh: 64M (default: no limit)");
+  command
+      ->add_option("--temp-dir", options->temp_folder,
+                   "Folder for temporary files (default: $TMPDIR, or the current folder)")
+      ->type_name("DIR");
   command->footer("Example:\n  reeb verify scan.reeb --mesh scan.ply");
   command->callback([options] { verify(*options); });
 }

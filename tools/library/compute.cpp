@@ -56,11 +56,11 @@ std::vector<ComputeResult> compute(const std::string& path, std::span<const std:
                                    std::span<const std::string> outputs, const ComputeOptions& options) {
   std::vector<io::FunctionSpec> specs;
   for (const std::string& function : functions) specs.push_back(io::parse_function(function));
-  check_outputs(functions, outputs, options);
   if (path != "-" && ooc::is_reeb_file(path))
-    throw Error(ErrorKind::kBadInput, "is a Reeb graph, not a mesh",
-                "look at it with reeb info, or extract a level with reeb extract")
+    throw Error(ErrorKind::kBadInput, "this is a Reeb graph already, not a mesh",
+                "look at it with `reeb info " + path + "`, or write a level of it with `reeb extract " + path + "`")
         .at(path);
+  check_outputs(functions, outputs, options);
 
   const bool snapshots = options.snapshot_every != 0;
   ReadOptions read_options;

@@ -4,9 +4,12 @@
 
 #include <array>
 #include <nlohmann/json.hpp>
+#include <utility>
 
+#include "libreeb/base/count_text.h"
 #include "libreeb/base/memory_budget.h"
 #include "tools/program/progress.h"
+#include "tools/program/wrapping.h"
 
 namespace reeb::tools {
 namespace {
@@ -30,15 +33,46 @@ const char* feature_name(PairType type) {
   return "component";
 }
 
-void print_features(const ooc::ComputeResult& r) {
+void print_features(const ooc::ComputeResult& r, const std::string& title, bool loops) {
   const double range = r.range.max - r.range.min;
-  if (!r.largest.empty()) fmt::print(stderr, "  largest features:\n");
+  bool first = true;
   for (const ooc::Feature& f : r.largest) {
+    if ((f.type == PairType::kExt1) != loops) continue;
+    if (std::exchange(first, false)) print_line("  " + title);
     const double persistence = f.hi.value - f.lo.value;
-    fmt::print(stderr, "    {:<8} {:>12.6g}  ({:5.2f} %)  from {:.6g} (vertex {}) to {:.6g} (vertex {})\n",
-               feature_name(f.type), persistence, range > 0 ? 100 * persistence / range : 0, f.lo.value,
-               f.lo.vertex.value(), f.hi.value, f.hi.vertex.value());
+    print_line(fmt::format("    {:<7} {:>11.6g} {:>7.2f} %  vertex {} ({:.6g}) to {} ({:.6g})", feature_name(f.type),
+                           persistence, 100 * (persistence / range), f.lo.vertex.value(), f.lo.value,
+                           f.hi.vertex.value(), f.hi.value),
+               35);
   }
+}
+
+// The run does not count edges, so it does not know the genus.
+std::string genus_line(const RunFacts& facts, const ooc::ComputeResult& r) {
+  if (facts.path == "-") return "  genus: not counted";
+  return fmt::format("  genus: not counted; `reeb verify {} --mesh {}` counts it", r.output, facts.path);
+}
+
+void print_result(const RunFacts& facts, const ooc::ComputeResult& r) {
+  print_line(fmt::format("Reeb graph of {} for f = {} (from {:.6g} to {:.6g})", facts.path, r.function,
+                         r.vertices == 0 ? 0 : r.range.min, r.vertices == 0 ? 0 : r.range.max));
+  print_line(fmt::format("  mesh: {}, {}", count_of(r.vertices, "vertex"), count_of(r.triangles, "triangle")));
+  print_line(genus_line(facts, r));
+  print_line(fmt::format("  graph: {}, {}, {}, {}", count_of(r.nodes, "node"), count_of(r.arcs, "arc"),
+                         count_of(r.betti.components, "component"), count_of(r.betti.loops, "loop")));
+  if (r.denoised_pairs != 0) print_line("  removed as noise: " + count_of(r.denoised_pairs, "pair"));
+  const auto pairs = [&](PairType type) { return r.pairs[static_cast<std::size_t>(type)]; };
+  const std::uint64_t loops = pairs(PairType::kExt1), others = pairs(PairType::kOrd0) + pairs(PairType::kRel1);
+  print_features(r, fmt::format("largest loops ({} in all):", with_commas(loops)), true);
+  print_features(r, fmt::format("largest minima and maxima ({} in all):", with_commas(others)), false);
+  if (r.kept_loops != 0)
+    print_line(fmt::format("  {} of the loops cannot be cancelled exactly; {} in every simplified level",
+                           with_commas(r.kept_loops), r.kept_loops == 1 ? "it stays" : "they stay"));
+  const double seconds = r.seconds.wall;
+  print_line(fmt::format("  {:.2f} s ({:.1f} M triangles/s), peak memory {}", seconds,
+                         seconds > 0 ? static_cast<double>(r.triangles) / seconds / 1e6 : 0,
+                         format_bytes(peak_rss_bytes())));
+  print_line("  wrote " + r.output);
 }
 
 nlohmann::ordered_json to_json(const RunFacts& facts, const ooc::ComputeResult& r) {
@@ -80,25 +114,17 @@ nlohmann::ordered_json to_json(const RunFacts& facts, const ooc::ComputeResult& 
 
 void print_summary(const RunFacts& facts, const std::vector<ooc::ComputeResult>& results) {
   const ooc::ComputeResult& first = results.front();
-  for (const std::string& note : first.notes) fmt::print(stderr, "note: {}\n", note);
-  if (first.degenerate_triangles != 0)
-    fmt::print(stderr, "note: {} degenerate triangles count as edges or vertices\n", first.degenerate_triangles);
-  if (first.unused_vertices != 0)
-    fmt::print(stderr, "note: {} vertices are in no triangle and count as isolated points\n", first.unused_vertices);
-  for (const ooc::ComputeResult& r : results) {
-    fmt::print(stderr, "Reeb graph of {} for f = {}  (from {:.6g} to {:.6g})\n", facts.path, r.function,
-               r.vertices == 0 ? 0 : r.range.min, r.vertices == 0 ? 0 : r.range.max);
-    fmt::print(stderr, "  {} nodes, {} arcs, {} components, {} loops\n", r.nodes, r.arcs, r.betti.components,
-               r.betti.loops);
-    if (r.denoised_pairs != 0) fmt::print(stderr, "  {} pairs of noise were removed\n", r.denoised_pairs);
-    print_features(r);
-    if (r.kept_loops != 0)
-      fmt::print(stderr, "  {} of the loops cannot be cancelled exactly; they stay in every level\n", r.kept_loops);
-    const double seconds = r.seconds.wall;
-    fmt::print(stderr, "  {:.2f} s ({:.1f} M triangles/s), peak memory {}\n", seconds,
-               seconds > 0 ? static_cast<double>(r.triangles) / seconds / 1e6 : 0, format_bytes(peak_rss_bytes()));
-    fmt::print(stderr, "  wrote {}\n", r.output);
-  }
+  for (const std::string& note : first.notes) print_line("note: " + note);
+  if (first.degenerate_triangles == 1)
+    print_line("note: 1 face has fewer than three different corners and counts as an edge or a point");
+  if (first.degenerate_triangles > 1)
+    print_line("note: " + count_of(first.degenerate_triangles, "face") +
+               " have fewer than three different corners and count as edges or points");
+  if (first.unused_vertices == 1) print_line("note: 1 vertex is in no triangle and counts as an isolated point");
+  if (first.unused_vertices > 1)
+    print_line("note: " + count_of(first.unused_vertices, "vertex") +
+               " are in no triangle and count as isolated points");
+  for (const ooc::ComputeResult& r : results) print_result(facts, r);
 }
 
 std::string report_json(const RunFacts& facts, const std::vector<ooc::ComputeResult>& results) {

@@ -29,10 +29,63 @@ void append(Lines& all, Lines more) {
   all.insert(all.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
 }
 
+// Passes on what another reader delivers, and shows how far it is.
+class WatchedReader : public MeshReader {
+ public:
+  WatchedReader(MeshReader& reader, ProgressBar::Pass pass, ProgressBar& bar)
+      : reader_(reader), pass_(pass), bar_(bar) {}
+
+  const MeshInfo& info() const override { return reader_.info(); }
+  std::uint64_t bytes_read() const override { return reader_.bytes_read(); }
+  std::uint64_t memory_bytes() const override { return reader_.memory_bytes(); }
+  std::vector<std::string> warnings() const override { return reader_.warnings(); }
+  bool read(MeshBatch& batch) override {
+    const bool more = reader_.read(batch);
+    triangles_ += batch.triangle_count();
+    constexpr std::uint64_t kBatchesBetweenUpdates = 1024;  // of one event
+    if (batch.vertex_count + batch.triangle_count() > 1 || ++batches_ % kBatchesBetweenUpdates == 0)
+      bar_.update(pass_, reader_.bytes_read(), reader_.info().file_bytes, triangles_);
+    return more;
+  }
+
+ private:
+  MeshReader& reader_;
+  const ProgressBar::Pass pass_;
+  ProgressBar& bar_;
+  std::uint64_t triangles_ = 0, batches_ = 0;
+};
+
+// The same for a mesh that is looked up.
+class WatchedMesh : public IndexedMesh {
+ public:
+  WatchedMesh(IndexedMesh& mesh, ProgressBar::Pass pass, ProgressBar& bar) : mesh_(mesh), pass_(pass), bar_(bar) {}
+
+  std::uint64_t vertex_count() const override { return mesh_.vertex_count(); }
+  unsigned column_count() const override { return mesh_.column_count(); }
+  void gather(std::span<const VertexId> ids, std::span<const unsigned> columns, std::span<double> values) override {
+    mesh_.gather(ids, columns, values);
+  }
+  void to_original(std::span<VertexId> ids) override { mesh_.to_original(ids); }
+  void rewind() override { mesh_.rewind(); }
+  bool read(std::vector<VertexId>& corners, std::size_t limit) override {
+    bar_.update(pass_, mesh_.bytes_read(), mesh_.bytes_total());
+    return mesh_.read(corners, limit);
+  }
+  std::uint64_t bytes_read() const override { return mesh_.bytes_read(); }
+  std::uint64_t bytes_total() const override { return mesh_.bytes_total(); }
+  std::vector<std::string> warnings() const override { return mesh_.warnings(); }
+
+ private:
+  IndexedMesh& mesh_;
+  const ProgressBar::Pass pass_;
+  ProgressBar& bar_;
+};
+
 class Conversion {
  public:
-  explicit Conversion(const ConvertOptions& options)
+  Conversion(const ConvertOptions& options, ProgressBar& bar)
       : options_(options),
+        bar_(bar),
         format_(io::stream_format(options.output)),
         sorts_(options.finalize || options.order.kind != TriangleOrder::Kind::kKeep) {}
 
@@ -41,7 +94,7 @@ class Conversion {
     if (io::detect_format(*source, options_.input) == io::MeshFormat::kStreaming) {
       const std::uint64_t bytes = source->file_bytes();
       auto events = io::open_events(std::move(source), options_.input);
-      if (can_copy_events(events->header())) return copy_events(std::move(events));
+      if (can_copy_events(events->header())) return copy_events(std::move(events), bytes);
       const ReadOptions& options = read_options(io::stream_property_names(events->header()));
       reader_ = io::make_stream_mesh_reader(std::move(events), options, bytes);
     } else {
@@ -59,10 +112,14 @@ class Conversion {
     return format_ == io::StreamFormat::kEvents || header.volume == io::is_volume_name(options_.output);
   }
 
-  Lines copy_events(std::unique_ptr<io::EventReader> events) const {
+  Lines copy_events(std::unique_ptr<io::EventReader> events, std::uint64_t bytes) const {
+    constexpr std::uint64_t kEventsBetweenUpdates = 4096;
     if (format_ == io::StreamFormat::kCompressed) events = io::in_pre_order(std::move(events));
     const auto writer = io::create_stream(options_.output, events->header(), options_.existing);
-    while (const io::StreamEvent* event = events->next()) writer->write(*event);
+    for (std::uint64_t n = 0; const io::StreamEvent* event = events->next(); ++n) {
+      writer->write(*event);
+      if (n % kEventsBetweenUpdates == 0) bar_.update({"converting"}, events->bytes_read(), bytes);
+    }
     writer->close();
     Lines notes = events->warnings();
     append(notes, writer->warnings());
@@ -107,7 +164,8 @@ class Conversion {
   Lines list_events() {
     io::AtomicFile file(options_.output, {.existing = options_.existing});
     io::FileOstream out(file.out());
-    io::write_events(*reader_, out);
+    WatchedReader watched(*reader_, {"converting"}, bar_);
+    io::write_events(watched, out);
     file.commit();
     return reader_->warnings();
   }
@@ -116,17 +174,20 @@ class Conversion {
     const MeshInfo& info = reader_->info();
     // The counts that a stream's header announces can be wrong.
     const auto writer = create_writer(info.finalizes ? std::nullopt : info.vertex_count);
-    copy_mesh(*reader_, *writer);
+    WatchedReader watched(*reader_, {"converting"}, bar_);
+    copy_mesh(watched, *writer);
     Lines notes = reader_->warnings();
     append(notes, writer->warnings());
     return notes;
   }
 
+  bool sorts_order() const { return options_.order.kind != TriangleOrder::Kind::kKeep; }
   Lines write_sorted();
   std::unique_ptr<IndexedMesh> index(ooc::Workspace& space, Lines& notes);
   std::unique_ptr<IndexedMesh> sorted(std::unique_ptr<IndexedMesh> mesh, ooc::Workspace& space) const;
 
   const ConvertOptions& options_;
+  ProgressBar& bar_;
   io::StreamFormat format_;
   bool sorts_;
   std::unique_ptr<MeshReader> reader_;
@@ -140,9 +201,10 @@ Lines Conversion::write_sorted() {
   ooc::Workspace space(options_.temp_folder, options_.memory_bytes);
   Lines notes;
   auto mesh = sorted(index(space, notes), space);
+  WatchedMesh watched(*mesh, {"writing"}, bar_);
   const bool exact = format_ != io::StreamFormat::kNone;
   const auto writer = create_writer(mesh->vertex_count());
-  ooc::write_compact(*mesh, reader_->info().dimension, exact, *writer, space);
+  ooc::write_compact(watched, reader_->info().dimension, exact, *writer, space);
   writer->close();
   append(notes, writer->warnings());
   return notes;
@@ -152,6 +214,9 @@ std::unique_ptr<IndexedMesh> Conversion::index(ooc::Workspace& space, Lines& not
   if (auto mesh = reader_->indexed()) return mesh;
   ooc::SpoolOptions options;
   options.allowance_bytes = 2 * space.share();
+  options.progress = [&](const MeshReader& reader) {
+    bar_.update({"reading", sorts_order() ? 2u : 1u}, reader.bytes_read(), reader.info().file_bytes);
+  };
   auto mesh = ooc::spool(*reader_, space.temp, space.budget, options);
   append(notes, reader_->warnings());
   return mesh;
@@ -159,18 +224,22 @@ std::unique_ptr<IndexedMesh> Conversion::index(ooc::Workspace& space, Lines& not
 
 std::unique_ptr<IndexedMesh> Conversion::sorted(std::unique_ptr<IndexedMesh> mesh, ooc::Workspace& space) const {
   const unsigned dimension = reader_->info().dimension;
+  const std::function<void(double)> progress = [&](double done) {
+    constexpr std::uint64_t kSteps = 10000;
+    bar_.update({"sorting on disk", 1}, static_cast<std::uint64_t>(done * kSteps), kSteps);
+  };
   switch (options_.order.kind) {
     case TriangleOrder::Kind::kKeep:
       return mesh;
     case TriangleOrder::Kind::kHilbert:
-      return ooc::sorted_along_hilbert(std::move(mesh), dimension, space);
+      return ooc::sorted_along_hilbert(std::move(mesh), dimension, space, progress);
     case TriangleOrder::Kind::kSpectral:
-      return ooc::sorted_by_spectrum(std::move(mesh), dimension, space);
+      return ooc::sorted_by_spectrum(std::move(mesh), dimension, space, progress);
     case TriangleOrder::Kind::kSweep:
       break;
   }
   io::FunctionSource function(*options_.order.function, reader_->info(), read_options_.properties, options_.input);
-  return ooc::sorted_by_function(std::move(mesh), function, space);
+  return ooc::sorted_by_function(std::move(mesh), function, space, progress);
 }
 
 }  // namespace
@@ -185,6 +254,6 @@ TriangleOrder parse_order(const std::string& text) {
               "use keep, hilbert, spectral or sweep:FUNC");
 }
 
-Lines convert_mesh(const ConvertOptions& options) { return Conversion(options).run(); }
+Lines convert_mesh(const ConvertOptions& options, ProgressBar& bar) { return Conversion(options, bar).run(); }
 
 }  // namespace reeb::tools

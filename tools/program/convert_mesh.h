@@ -9,6 +9,7 @@
 #include "io/file/atomic_file.h"
 #include "io/functions/function_source.h"
 #include "libreeb/base/memory_budget.h"
+#include "tools/program/progress.h"
 
 namespace reeb::tools {
 
@@ -38,6 +39,6 @@ struct ConvertOptions {
 // - else batch by batch, as the reader delivers them.
 // Returns notes, one line each, on what was odd or could not be kept.
 // THROWS: Error; then no output appears.
-std::vector<std::string> convert_mesh(const ConvertOptions& options);
+std::vector<std::string> convert_mesh(const ConvertOptions& options, ProgressBar& bar);
 
 }  // namespace reeb::tools

@@ -14,11 +14,13 @@
 #include "io/file/content_source.h"
 #include "io/formats/format_detection.h"
 #include "io/formats/open_mesh.h"
+#include "libreeb/base/count_text.h"
 #include "libreeb/base/value_range.h"
 #include "ooc/chunks/last_use.h"
 #include "ooc/chunks/spooled_mesh.h"
 #include "ooc/tables/paged_union_find.h"
 #include "ooc/whole_mesh/workspace.h"
+#include "tools/program/progress.h"
 
 namespace reeb::tools {
 namespace {
@@ -79,10 +81,12 @@ class MeshSurvey {
           std::make_unique<ooc::SpooledMesh>(reader_->info().dimension, space_.temp, space_.budget, 2 * space_.share());
     for (MeshBatch batch; reader_->read(batch);) {
       add(batch);
+      bar_.update({"reading", measures ? 0u : 1u}, reader_->bytes_read(), reader_->info().file_bytes, triangles_);
       if (spooled) spooled->append(batch);
     }
     if (spooled) mesh = std::move(spooled);
     if (mesh) predict_front(*mesh);
+    bar_.clear();
   }
 
   void print_text() const;
@@ -100,6 +104,7 @@ class MeshSurvey {
   std::vector<ValueRange> bounds_;
   std::uint64_t vertices_ = 0, triangles_ = 0, tetrahedra_ = 0, degenerate_ = 0, finalized_ = 0;
   std::uint64_t front_ = 0;
+  ProgressBar bar_{false};
 };
 
 void MeshSurvey::add(const MeshBatch& batch) {
@@ -128,25 +133,30 @@ void MeshSurvey::predict_front(IndexedMesh& mesh) {
   // Blocks of one triangle give the exact front; for large meshes, blocks are doubled.
   options.block_triangles = 1;
   options.most_blocks = 1u << 16;
+  options.progress = [&](std::uint64_t bytes) { bar_.update({"front"}, bytes, mesh.bytes_total()); };
   front_ = ooc::scan_last_use(mesh, space_.temp, space_.budget, options)->summary().max_live_vertices;
 }
 
 void MeshSurvey::print_text() const {
   const MeshInfo& info = reader_->info();
+  const std::uint64_t unused = vertices_ - connection_.used();
   fmt::print("{}: {}\n", path_, info.format);
-  fmt::print("  vertices      {}, {} of them in no simplex\n", vertices_, vertices_ - connection_.used());
-  if (tetrahedra_ != 0) fmt::print("  tetrahedra    {}\n", tetrahedra_);
-  fmt::print("  triangles     {}, {} degenerate\n", triangles_ + 4 * tetrahedra_, degenerate_);
-  fmt::print("  components    {}\n", connection_.components());
-  fmt::print("  dimension     {}\n", info.dimension);
+  fmt::print("  vertices      {}, {}\n", with_commas(vertices_),
+             unused == 0 ? "all used" : with_commas(unused) + " in no triangle");
+  if (tetrahedra_ != 0) fmt::print("  tetrahedra    {}\n", with_commas(tetrahedra_));
+  fmt::print("  triangles     {}{}\n", with_commas(triangles_ + 4 * tetrahedra_),
+             degenerate_ == 0 ? "" : fmt::format(", {} of them degenerate", with_commas(degenerate_)));
+  fmt::print("  components    {}\n", with_commas(connection_.components()));
+  fmt::print("  coordinates   {}\n", info.dimension);
   if (vertices_ != 0)
     for (std::size_t k = 0; k < bounds_.size(); ++k)
       fmt::print("  {:<13} {:.9g} to {:.9g}\n", k < 3 ? std::string(1, "xyz"[k]) : fmt::format("c{}", k),
                  bounds_[k].min, bounds_[k].max);
   fmt::print("  properties    {}\n",
              info.property_names.empty() ? "none" : fmt::format("{}", fmt::join(info.property_names, ", ")));
-  fmt::print("  finalization  {}\n", info.finalizes ? fmt::format("of {} vertices", finalized_) : "none");
-  fmt::print("  live front    {} vertices, {}\n", front_, info.finalizes ? "measured" : "if finalized exactly");
+  fmt::print("  finalization  {}\n", finalized_ == 0 ? "none" : fmt::format("of {}", count_of(finalized_, "vertex")));
+  fmt::print("  live front    {} at once: {}\n", count_of(front_, "vertex"),
+             info.finalizes ? "measured" : "what a single pass would hold");
   for (const std::string& warning : reader_->warnings()) fmt::print("  note          {}\n", warning);
 }
 

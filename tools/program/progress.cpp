@@ -1,15 +1,26 @@
 #include "tools/program/progress.h"
 
 #include <fmt/core.h>
+#include <sys/ioctl.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
+#include <string_view>
 
-#include "libreeb/base/memory_budget.h"
+#include "tools/program/bar_line.h"
 
 namespace reeb::tools {
+namespace {
+
+bool can_redraw() {
+  const char* term = std::getenv("TERM");
+  return isatty(STDERR_FILENO) == 1 && term != nullptr && std::string_view(term) != "dumb";
+}
+
+}  // namespace
 
 std::uint64_t peak_rss_bytes() {
   rusage usage{};
@@ -17,30 +28,38 @@ std::uint64_t peak_rss_bytes() {
   return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
 }
 
-ProgressBar::ProgressBar(bool quiet) : on_(!quiet && isatty(STDERR_FILENO) == 1) {}
+std::size_t terminal_columns() {
+  winsize size{};
+  return ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col != 0 ? size.ws_col : 80;
+}
 
-void ProgressBar::update(const std::string& title, std::uint64_t done, std::uint64_t total, std::uint64_t triangles) {
+ProgressBar::ProgressBar(bool quiet) : on_(!quiet && can_redraw()) {}
+
+void ProgressBar::update(Pass pass, std::uint64_t done, std::uint64_t total, std::uint64_t triangles) {
   if (!on_) return;
   const auto now = Clock::now();
-  if (title != title_) {
+  if (name_ == nullptr || std::string_view(pass.name) != name_) {
     clear();
-    title_ = title;
+    name_ = pass.name;
+    ++number_;
+    pass_start_ = now;
+  } else if (done < last_done_) {  // the same pass, for another function
     pass_start_ = now;
   }
-  if (drawn_ && now - last_draw_ < std::chrono::milliseconds(100)) return;
+  last_done_ = done;
+  constexpr auto kNoDrawing = std::chrono::milliseconds(200), kBetweenDraws = std::chrono::milliseconds(100);
+  if (now - start_ < kNoDrawing || (drawn_ && now - last_draw_ < kBetweenDraws)) return;
   last_draw_ = now;
   drawn_ = true;
 
-  constexpr int kWidth = 28;
-  const double seconds = std::chrono::duration<double>(now - pass_start_).count();
-  const double share = total == 0 ? 0 : std::min(1.0, static_cast<double>(done) / static_cast<double>(total));
-  const auto filled = static_cast<std::size_t>(share * kWidth);
-  fmt::print(stderr, "\r\033[K{:<12} [{}{}] {:3.0f} %", title, std::string(filled, '#'),
-             std::string(kWidth - filled, '.'), 100 * share);
-  if (triangles != 0 && seconds > 0)
-    fmt::print(stderr, "  {:.1f} M triangles/s", static_cast<double>(triangles) / seconds / 1e6);
-  if (share > 0.01) fmt::print(stderr, "  {:.0f} s left", seconds * (1 - share) / share);
-  fmt::print(stderr, "  {}", format_bytes(peak_rss_bytes()));
+  BarState state;
+  state.title = fmt::format("{}/{} {}", number_, number_ + pass.more, pass.name);
+  state.seconds = std::chrono::duration<double>(now - pass_start_).count();
+  if (total != 0) state.share = std::min(1.0, static_cast<double>(done) / static_cast<double>(total));
+  if (state.seconds > 0) state.millions = static_cast<double>(triangles) / state.seconds / 1e6;
+  state.bytes = peak_rss_bytes();
+  // The last column stays free: some terminals go to the next line when it is written.
+  fmt::print(stderr, "\r\033[K{}", bar_line(state, terminal_columns() - 1));
   std::fflush(stderr);
 }
 

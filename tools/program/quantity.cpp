@@ -1,10 +1,13 @@
 #include "tools/program/quantity.h"
 
+#include <algorithm>
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <optional>
 #include <string_view>
 
+#include "libreeb/base/count_text.h"
 #include "libreeb/base/error.h"
 
 namespace reeb::tools {
@@ -19,36 +22,64 @@ double take_number(std::string_view& text) {
   return value;
 }
 
-[[noreturn]] void refuse(const std::string& text, const char* what, const char* hint) {
-  throw Error(ErrorKind::kUsage, "'" + text + "' is not " + what, hint);
+// The exponent of the unit at the start of `text`, which becomes what follows it: 1 for k, 2 for M; 0 without one.
+int take_unit(std::string_view& text) {
+  constexpr std::string_view kUnits = "KMGT";
+  if (text.empty()) return 0;
+  const auto unit = kUnits.find(static_cast<char>(std::toupper(static_cast<unsigned char>(text.front()))));
+  if (unit == std::string_view::npos) return 0;
+  text.remove_prefix(1);
+  return static_cast<int>(unit) + 1;
+}
+
+[[noreturn]] void refuse(const std::string& option, const std::string& text, const char* what,
+                         const std::string& hint) {
+  throw Error(ErrorKind::kUsage, option + ": \"" + text + "\" is not " + what, hint);
+}
+
+// Doubles are exact up to 2^53 only, so numbers of digits alone are read as they are.
+std::optional<std::uint64_t> whole_number(std::string_view text) {
+  std::uint64_t value = 0;
+  const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (result.ec == std::errc() && result.ptr == text.data() + text.size()) return value;
+  const double number = take_number(text);
+  const double scaled = number * std::pow(1000.0, take_unit(text));
+  if (number < 0 || !text.empty() || scaled != std::floor(scaled) || scaled >= 0x1p63) return {};
+  return static_cast<std::uint64_t>(scaled);
 }
 
 }  // namespace
 
-std::uint64_t parse_size(const std::string& text) {
-  constexpr std::string_view kUnits = "KMGT";
+std::uint64_t parse_size(const std::string& option, const std::string& text) {
   constexpr const char* kHint = "give a size like 512K, 64M or 1.5GiB";
   std::string_view rest = text;
-  double bytes = take_number(rest);
-  if (bytes < 0) refuse(text, "a size", kHint);
-  if (!rest.empty()) {
-    const auto unit = kUnits.find(static_cast<char>(std::toupper(static_cast<unsigned char>(rest.front()))));
-    if (unit != std::string_view::npos) {
-      bytes = std::ldexp(bytes, 10 * (static_cast<int>(unit) + 1));
-      rest.remove_prefix(1);
-      if (rest.starts_with('i') && rest.size() == 2) rest.remove_prefix(1);
-    }
-    if (!rest.empty() && rest != "B" && rest != "b") refuse(text, "a size", kHint);
-  }
-  if (bytes >= 0x1p63) refuse(text, "a size that a machine can have", kHint);
+  const double number = take_number(rest);
+  if (number < 0) refuse(option, text, "a size", kHint);
+  const int unit = take_unit(rest);
+  if (unit != 0 && rest.starts_with('i') && rest.size() == 2) rest.remove_prefix(1);
+  if (!rest.empty() && rest != "B" && rest != "b") refuse(option, text, "a size", kHint);
+  const double bytes = std::ldexp(number, 10 * unit);
+  if (bytes >= 0x1p63) refuse(option, text, "a size that a machine can have", kHint);
   return static_cast<std::uint64_t>(bytes);
 }
 
-double parse_threshold(const std::string& text, double range) {
+std::uint64_t parse_count(const std::string& option, const std::string& text, CountLimits limits) {
+  const auto count = whole_number(text);
+  if (!count)
+    refuse(option, text, "a whole number",
+           "give a number from " + std::to_string(limits.least) + " on, like 50000, 50k, 1.5M or 1e6");
+  if (*count < limits.least)
+    throw Error(ErrorKind::kUsage, option + " must be at least " + with_commas(limits.least), "give a larger number");
+  if (*count > limits.most)
+    throw Error(ErrorKind::kUsage, option + " can be at most " + with_commas(limits.most), "give a smaller number");
+  return *count;
+}
+
+double parse_threshold(const std::string& option, const std::string& text, double range) {
   std::string_view rest = text;
   const double value = take_number(rest);
   if (value < 0 || (!rest.empty() && rest != "%"))
-    refuse(text, "a threshold", "give a number from 0 on, like 0.01, or a share of the range, like 0.1%");
+    refuse(option, text, "a threshold", "give a number from 0 on, like 0.01, or a share of the range, like 0.1%");
   return rest.empty() ? value : value / 100 * range;
 }
 

@@ -1,16 +1,26 @@
-// Sizes and thresholds as users type them.
+// Sizes, counts and thresholds as users type them.
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <string>
 
 namespace reeb::tools {
 
-// Bytes: "4096", "64M", "1.5GiB" (K M G T count in 1024s, with or without "iB" or "B").
+// Bytes: "4096", "64M", "1.5GiB" (K M G T count in 1024s, in either case, with or without "iB" or "B"). Here and below,
+// `option` is what errors name.
 // THROWS: Error{kUsage}.
-std::uint64_t parse_size(const std::string& text);
+std::uint64_t parse_size(const std::string& option, const std::string& text);
+
+struct CountLimits {
+  std::uint64_t least = 0, most = std::numeric_limits<std::uint64_t>::max();
+};
+
+// A whole number: "50000", "50k", "1.5M", "1e6" (k M G T count in 1000s, in either case).
+// THROWS: Error{kUsage}.
+std::uint64_t parse_count(const std::string& option, const std::string& text, CountLimits limits = {});
 
 // "0.01" in units of the function, or "0.1%" of `range`. THROWS: Error{kUsage}.
-double parse_threshold(const std::string& text, double range);
+double parse_threshold(const std::string& option, const std::string& text, double range);
 
 }  // namespace reeb::tools

@@ -3,8 +3,10 @@
 #include <fmt/core.h>
 
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 
+#include "libreeb/base/count_text.h"
 #include "libreeb/base/error.h"
 #include "libreeb/base/memory_budget.h"
 #include "ooc/reeb_file/reeb_file.h"
@@ -53,30 +55,38 @@ nlohmann::ordered_json to_json(const ooc::ReebFile& file) {
   return json;
 }
 
-// Thresholds are printed with all digits: used as input, they yield exactly their level.
+// Enough for people; --json has thresholds that yield exactly their level when typed back.
+std::string short_threshold(double threshold) {
+  return threshold == std::numeric_limits<double>::denorm_min() ? "> 0" : fmt::format("{:.6g}", threshold);
+}
+
 void print_text(const ooc::ReebFile& file) {
   const FileHeader& header = file.header();
+  const double range = header.function_max - header.function_min;
   fmt::print("{}: Reeb graph, {}\n", file.path(), format_bytes(file.file_bytes()));
   fmt::print("  function   {} from {:.9g} to {:.9g}\n", header.function, header.function_min, header.function_max);
-  fmt::print("  mesh       {} vertices, {} triangles\n", header.mesh_vertices, header.mesh_triangles);
-  fmt::print("  graph      {} nodes, {} arcs, {} components, {} loops\n", header.nodes, header.arcs, header.components,
-             header.loops);
+  fmt::print("  mesh       {}, {}\n", count_of(header.mesh_vertices, "vertex"),
+             count_of(header.mesh_triangles, "triangle"));
+  fmt::print("  graph      {}, {}, {}, {}\n", count_of(header.nodes, "node"), count_of(header.arcs, "arc"),
+             count_of(header.components, "component"), count_of(header.loops, "loop"));
   if (header.flags.has_embedding)
-    fmt::print("  embedding  {} buckets, each {:.9g} of the function wide\n", buckets_of_graph(file),
+    fmt::print("  embedding  {} of width {:.9g}\n", count_of(buckets_of_graph(file), "bucket"),
                std::ldexp(1.0, header.bucket_exponent));
-  if (header.denoise_threshold > 0 && header.denoised_pairs != 0)
-    fmt::print("  denoised   {} pairs below {:.9g}\n", header.denoised_pairs, header.denoise_threshold);
-  else if (header.denoised_pairs != 0)
-    fmt::print("  denoised   {} pairs; others may be left\n", header.denoised_pairs);
+  if (header.denoised_pairs != 0)
+    fmt::print(
+        "  denoised   {}{}\n", count_of(header.denoised_pairs, "pair"),
+        header.denoise_threshold > 0 ? fmt::format(" below {:.9g}", header.denoise_threshold) : "; others may be left");
   if (header.flags.graph_only)
     fmt::print("  hierarchy  none (the graph only)\n");
   else
-    fmt::print("  hierarchy  {} pairs, {} cancellations, {} loops kept\n", header.pairs, header.steps,
-               header.kept_loops);
-  fmt::print("\n  {:>22} {:>12} {:>12} {:>12} {:>12}\n", "threshold", "nodes", "arcs", "of the file", "in memory");
+    fmt::print("  hierarchy  {}, {}, {} that cannot be cancelled\n", count_of(header.pairs, "pair"),
+               count_of(header.steps, "cancellation"), count_of(header.kept_loops, "loop"));
+  fmt::print("\n  {:>12} {:>9} {:>12} {:>12} {:>11} {:>11}\n", "threshold", "of range", "nodes", "arcs", "bytes read",
+             "memory");
   for (const LevelLine& line : file.levels())
-    fmt::print("  {:>22} {:>12} {:>12} {:>12} {:>12}\n", line.threshold, line.nodes, line.arcs,
-               format_bytes(line.file_bytes), format_bytes(line.memory_bytes));
+    fmt::print("  {:>12} {:>9} {:>12} {:>12} {:>11} {:>11}\n", short_threshold(line.threshold),
+               range > 0 ? fmt::format("{:.3g} %", 100 * (line.threshold / range)) : "", with_commas(line.nodes),
+               with_commas(line.arcs), format_bytes(line.file_bytes), format_bytes(line.memory_bytes));
 }
 
 }  // namespace

@@ -1,0 +1,120 @@
+// The texts of the program: counts, sizes, progress bars and lines of 80 columns.
+#include <gtest/gtest.h>
+
+#include "libreeb/base/count_text.h"
+#include "libreeb/base/error.h"
+#include "tools/program/bar_line.h"
+#include "tools/program/quantity.h"
+#include "tools/program/usage_error.h"
+#include "tools/program/wrapping.h"
+
+namespace reeb::tools {
+namespace {
+
+TEST(CountText, OneIsSingularAndThousandsAreSeparated) {
+  EXPECT_EQ(count_of(0, "loop"), "0 loops");
+  EXPECT_EQ(count_of(1, "loop"), "1 loop");
+  EXPECT_EQ(count_of(1, "vertex"), "1 vertex");
+  EXPECT_EQ(count_of(2, "vertex"), "2 vertices");
+  EXPECT_EQ(count_of(1000, "boundary loop"), "1,000 boundary loops");
+  EXPECT_EQ(with_commas(999), "999");
+  EXPECT_EQ(with_commas(372001196), "372,001,196");
+  EXPECT_EQ(with_commas(18446744073709551615u), "18,446,744,073,709,551,615");
+}
+
+TEST(Quantity, CountsTakeUnitsFractionsAndExponents) {
+  const auto count = [](const std::string& text) { return parse_count("--chunk", text); };
+  EXPECT_EQ(count("0"), 0u);
+  EXPECT_EQ(count("50000"), 50'000u);
+  EXPECT_EQ(count("10k"), 10'000u);
+  EXPECT_EQ(count("1.5k"), 1'500u);
+  EXPECT_EQ(count("1.5K"), 1'500u);
+  EXPECT_EQ(count("12M"), 12'000'000u);
+  EXPECT_EQ(count("1G"), 1'000'000'000u);
+  EXPECT_EQ(count("1e3"), 1'000u);
+  EXPECT_EQ(count("1.25e2k"), 125'000u);
+  EXPECT_EQ(count("18446744073709551615"), 18446744073709551615u);
+  EXPECT_EQ(count("9007199254740993"), 9007199254740993u) << "2^53 + 1, which no double is";
+}
+
+TEST(Quantity, WhatIsNoCountIsRefusedWithTheNameOfTheOption) {
+  for (const char* text : {"", " ", "-1", "-5k", "+1", "x", "1.5", "0.0001k", "1kk", "10kB", "1e30", "nan", "inf",
+                           "0x10", "99999999999999999999"}) {
+    try {
+      parse_count("--nodes", text);
+      ADD_FAILURE() << text;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::kUsage);
+      EXPECT_EQ(error.message(), "--nodes: \"" + std::string(text) + "\" is not a whole number");
+    }
+  }
+  try {
+    parse_count("--chunk", "0", {.least = 1});
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.message(), "--chunk must be at least 1");
+  }
+  try {
+    parse_count("--threads", "2k", {.least = 1, .most = 1024});
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.message(), "--threads can be at most 1,024");
+  }
+}
+
+TEST(Quantity, SizesAreInPowersOf1024) {
+  const auto size = [](const std::string& text) { return parse_size("--memory", text); };
+  EXPECT_EQ(size("4096"), 4096u);
+  EXPECT_EQ(size("64M"), 64u << 20);
+  EXPECT_EQ(size("64mb"), 64u << 20);
+  EXPECT_EQ(size("1.5GiB"), 3u << 29);
+  EXPECT_EQ(size("1e3k"), 1000u << 10);
+  for (const char* text : {"", "-1", "-64M", "64X", "M", "1Mi", "1ib", "1e40", "nan"})
+    EXPECT_THROW(size(text), Error) << text;
+}
+
+TEST(BarLine, FitsAnyTerminalAndKeepsWhatMatters) {
+  const BarState full{"2/4 sorting on disk", 0.425, 7.4, 12.34, 123u << 20};
+  EXPECT_EQ(bar_line(full, 200),
+            "2/4 sorting on disk  [###########.................]  42 %  12.3 M triangles/s  10 s left  123.0 MiB");
+  for (const BarState& state :
+       {full, BarState{"1/3 reading", -1, 100, 0.1, 1u << 30}, BarState{"4/4 simplification", 1, 0, 0, 12},
+        BarState{"3/3 simplification", 0.0101, 86400, 0, 1u << 30}})
+    for (std::size_t columns = 1; columns <= 120; ++columns) {
+      const std::string line = bar_line(state, columns);
+      EXPECT_LE(line.size(), columns) << line;
+      if (columns >= 30 && state.share >= 0) {
+        EXPECT_NE(line.find('%'), std::string::npos) << line;
+      }
+      if (columns >= 79) {
+        EXPECT_EQ(line.find('[') != std::string::npos, state.share >= 0) << line;
+      }
+    }
+}
+
+TEST(BarLine, SaysHowLongInTheLargestFittingUnit) {
+  EXPECT_NE(bar_line({"x", 0.5, 10, 0, 0}, 80).find("10 s left"), std::string::npos);
+  EXPECT_NE(bar_line({"x", 0.5, 200, 0, 0}, 80).find("3 min 20 s left"), std::string::npos);
+  EXPECT_NE(bar_line({"x", 0.5, 3900, 0, 0}, 80).find("1 h 05 min left"), std::string::npos);
+  EXPECT_EQ(bar_line({"x", 0.001, 10, 0, 0}, 80).find("left"), std::string::npos) << "too early to tell";
+}
+
+TEST(Wrapping, BreaksAtSpacesOnly) {
+  EXPECT_EQ(wrapped("one two three", 2, 20), "one two three");
+  EXPECT_EQ(wrapped("one two three", 2, 9), "one two\n  three");
+  EXPECT_EQ(wrapped("one two three", 2, 7), "one two\n  three");
+  EXPECT_EQ(wrapped("  a  b  c", 4, 20), "  a  b  c");
+  EXPECT_EQ(wrapped("a-very-long-word x", 2, 5), "a-very-long-word\n  x");
+  EXPECT_EQ(wrapped("", 2, 5), "");
+}
+
+TEST(UsageError, FindsNamesThatAreNear) {
+  const std::vector<std::string> names = {"compute", "info", "convert", "--force", "--format"};
+  EXPECT_EQ(nearest("comptue", names), "compute");
+  EXPECT_EQ(nearest("--foo", names), "--force");
+  EXPECT_EQ(nearest("holes", names), "");
+  EXPECT_EQ(nearest("x", {}), "");
+}
+
+}  // namespace
+}  // namespace reeb::tools

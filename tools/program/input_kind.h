@@ -1,0 +1,12 @@
+// Whether an input is of the kind that a command needs.
+#pragma once
+
+#include <string>
+
+namespace reeb::tools {
+
+// For `reeb COMMAND FILE`, where FILE must be a Reeb graph.
+// THROWS: Error{kBadInput} that says what the file is instead, and what to do.
+void require_reeb_file(const std::string& path, const std::string& command);
+
+}  // namespace reeb::tools

@@ -1,0 +1,136 @@
+#include "tools/program/usage_error.h"
+
+#include <algorithm>
+#include <cctype>
+#include <numeric>
+#include <optional>
+
+namespace reeb::tools {
+namespace {
+
+// Of insertions, deletions and changes of a letter.
+std::size_t edit_distance(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::size_t diagonal = row[0]++;
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      const std::size_t changed = diagonal + (a[i] == b[j] ? 0 : 1);
+      diagonal = row[j + 1];
+      row[j + 1] = std::min({changed, row[j] + 1, row[j + 1] + 1});
+    }
+  }
+  return row.back();
+}
+
+// Short names are not near to anything.
+std::vector<std::string> long_names(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options({}))
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  return names;
+}
+
+bool looks_like_option(const std::string& word) {
+  return word.size() > 1 && word[0] == '-' && std::isdigit(static_cast<unsigned char>(word[1])) == 0 && word[1] != '.';
+}
+
+struct Word {
+  std::string text;
+  std::size_t values = 0;  // further words that belong to it
+  bool known = false;
+};
+
+// A word that begins with '-': "--option", "--option=value", "-o", "-ovalue".
+Word option_word(const CLI::App& command, const std::string& word) {
+  const bool is_long = word.starts_with("--");
+  const std::string name = is_long ? word.substr(0, word.find('=')) : word.substr(0, 2);
+  const CLI::Option* option = command.get_option_no_throw(name);
+  if (option == nullptr) return {is_long ? name : word, 0, false};
+  const bool has_value = name.size() < word.size();
+  return {name, has_value || option->get_items_expected_min() == 0 ? 0u : 1u, true};
+}
+
+// The first option in `words` (from the second on) that the command does not have.
+std::optional<std::string> unknown_option(const CLI::App& command, const std::vector<std::string>& words) {
+  for (std::size_t i = 1; i < words.size(); ++i) {
+    if (words[i] == "--") return {};
+    if (!looks_like_option(words[i])) continue;
+    const Word word = option_word(command, words[i]);
+    if (!word.known) return word.text;
+    i += word.values;
+  }
+  return {};
+}
+
+std::string without(std::string text, const std::string& end) {
+  const auto at = text.find(end);
+  return at == std::string::npos ? text : text.substr(0, at);
+}
+
+// The words of CLI11 for the errors that are left, in other words.
+std::string in_plain_words(const CLI::ParseError& refusal) {
+  const std::string text = refusal.what();
+  if (dynamic_cast<const CLI::RequiredError*>(&refusal) != nullptr)
+    return without(text, " is required") + " is missing";
+  if (const std::string between = " excludes "; dynamic_cast<const CLI::ExcludesError*>(&refusal) != nullptr) {
+    const auto at = text.find(between);
+    if (at != std::string::npos)
+      return text.substr(0, at) + " and " + text.substr(at + between.size()) + " cannot be given together";
+  }
+  if (dynamic_cast<const CLI::ArgumentMismatch*>(&refusal) != nullptr && text.find(": ") != std::string::npos)
+    return without(text, ": ") + " needs one value";
+  if (dynamic_cast<const CLI::ExtrasError*>(&refusal) != nullptr && text.find(": ") != std::string::npos)
+    return "more words than expected: " + text.substr(text.find(": ") + 2);
+  return text;
+}
+
+}  // namespace
+
+const CLI::App* find_command(const CLI::App& program, const std::string& name) {
+  const auto found = program.get_subcommands([&](const CLI::App* command) { return command->get_name() == name; });
+  return found.empty() ? nullptr : found.front();
+}
+
+std::string command_names(const CLI::App& program) {
+  std::string names;
+  for (const CLI::App* command : program.get_subcommands({}))
+    names += (names.empty() ? "" : ", ") + command->get_name();
+  return names;
+}
+
+std::string nearest(const std::string& word, const std::vector<std::string>& names) {
+  const auto best =
+      std::ranges::min_element(names, {}, [&](const std::string& name) { return edit_distance(word, name); });
+  if (best == names.end()) return {};
+  const std::size_t dashes = std::min(word.find_first_not_of('-'), word.size());
+  const std::size_t letters = std::max(word.size(), best->size()) - dashes;
+  // About half of the letters must agree.
+  return 2 * edit_distance(word, *best) <= letters + 1 ? *best : std::string();
+}
+
+Error no_such_command(const CLI::App& program, const std::string& word) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : program.get_subcommands({})) names.push_back(command->get_name());
+  const std::string near = nearest(word, names);
+  return {ErrorKind::kUsage,
+          "there is no command '" + word + "', and no file of that name" +
+              (near.empty() ? "" : " (did you mean " + near + "?)"),
+          "the commands are " + command_names(program)};
+}
+
+Error usage_error(const CLI::App& program, const std::vector<std::string>& words, const CLI::ParseError& refusal) {
+  const CLI::App* command = words.empty() ? nullptr : find_command(program, words[0]);
+  if (command == nullptr) return {ErrorKind::kUsage, in_plain_words(refusal), "see `reeb --help`"};
+  const std::string hint = "see `reeb " + command->get_name() + " --help`";
+  if (const auto option = unknown_option(*command, words)) {
+    std::vector<std::string> names = long_names(*command);
+    for (const std::string& name : long_names(program)) names.push_back(name);
+    const std::string near = nearest(*option, names);
+    return {ErrorKind::kUsage, "unknown option " + *option + (near.empty() ? "" : " (did you mean " + near + "?)"),
+            hint};
+  }
+  return {ErrorKind::kUsage, in_plain_words(refusal), hint};
+}
+
+}  // namespace reeb::tools
