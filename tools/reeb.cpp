@@ -24,10 +24,10 @@ int report(reeb::ErrorKind kind, const std::string& what, const std::string& hin
 }
 
 constexpr const char* kExamples = R"(Examples:
-  reeb scan.ply                          the Reeb graph of the height, as scan.reeb
-  reeb scan.ply -f x --memory 64M        another function, in 64 MB
+  reeb scan.ply                     the Reeb graph of the height, as scan.reeb
+  reeb scan.ply -f x --memory 64M   another function, in 64 MiB
   reeb extract scan.reeb --nodes 100 -o coarse.dot
-                                         the finest level with at most 100 nodes
+                                    the finest level with at most 100 nodes
 
 Every command has --help.)";
 

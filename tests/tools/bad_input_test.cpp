@@ -393,8 +393,7 @@ TEST_F(BadInput, AReebFileIsNoMesh) {
   // Whatever else is wrong, such as that the output exists.
   expect_error(reeb({"mesh.reeb"}), 1, "mesh.reeb: this is a Reeb graph already");
   expect_error(reeb({"convert", "mesh.reeb", "mesh.ply"}), 1, "mesh.reeb:0: this is a Reeb graph, not a mesh");
-  expect_error(reeb({"verify", "mesh.reeb", "--mesh", "mesh.reeb"}), 1,
-               "mesh.reeb:0: this is a Reeb graph, not a mesh");
+  expect_error(reeb({"verify", "mesh.reeb", "--mesh", "mesh.reeb"}), 1, "mesh.reeb: this is a Reeb graph, not a mesh");
 }
 
 }  // namespace

@@ -122,7 +122,7 @@ TEST_F(CommandLine, HelpsFitEightyColumnsAndAreOfOneStyle) {
     for (const std::string& line : lines_after("", help)) EXPECT_LE(line.size(), 80u) << line;
     for (const char* of_the_library : {"REQUIRED", "UINT", "TEXT", "{false}", "Excludes", "INT in"})
       EXPECT_EQ(help.find(of_the_library), std::string::npos) << help;
-    // Descriptions begin with a capital letter, or name values.
+    // Descriptions begin with a capital letter.
     for (const std::string& line : lines_after("  --", help)) {
       const auto at = line.find("  ");
       if (at == std::string::npos) continue;

@@ -109,10 +109,11 @@ TEST(Wrapping, BreaksAtSpacesOnly) {
 }
 
 TEST(UsageError, FindsNamesThatAreNear) {
-  const std::vector<std::string> names = {"compute", "info", "convert", "--force", "--format"};
-  EXPECT_EQ(nearest("comptue", names), "compute");
-  EXPECT_EQ(nearest("--foo", names), "--force");
-  EXPECT_EQ(nearest("holes", names), "");
+  const std::vector<std::string> commands = {"compute", "info", "convert"}, options = {"--force", "--format"};
+  EXPECT_EQ(nearest("comptue", commands), "compute");
+  EXPECT_EQ(nearest("holes", commands), "");
+  EXPECT_EQ(nearest("--foo", options), "--force");
+  EXPECT_EQ(nearest("--wide", options), "");
   EXPECT_EQ(nearest("x", {}), "");
 }
 

@@ -112,7 +112,7 @@ void add_compute(CLI::App& program) {
   if (const char* seconds = std::getenv("REEB_CHECKPOINT_SECONDS"))
     arguments->options.checkpoint_seconds = std::atof(seconds);
   ComputeOptions& options = arguments->options;
-  CLI::App* command = program.add_subcommand("compute", "Compute the Reeb graph of a mesh (the default command)");
+  CLI::App* command = program.add_subcommand("compute", "Compute the Reeb graph of a mesh (the default)");
   command
       ->add_option("MESH", arguments->mesh,
                    "PLY, OBJ, OFF, STL, SMA, SMB, SMC, SVA or SVB, also as .gz and .zst; - reads standard input")

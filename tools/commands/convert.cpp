@@ -51,7 +51,9 @@ void add_convert(CLI::App& program) {
                    "Mesh to write: .ply .obj .off .sma .smb .smc .sva .svb; .events.txt lists the events")
       ->required()
       ->type_name("");
-  command->add_option("--order", arguments->order, "keep, hilbert, spectral or sweep:FUNC (default: keep)")
+  command
+      ->add_option("--order", arguments->order,
+                   "Order of the triangles: keep, hilbert, spectral or sweep:FUNC (default: keep)")
       ->type_name("ORDER");
   command->add_flag("--finalize", options.finalize,
                     "Put each vertex before its first triangle, and finalize it after its last");

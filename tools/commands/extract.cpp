@@ -75,8 +75,9 @@ void add_extract(CLI::App& app) {
   command->add_option("-o,--output", options->output, "File to write (default, and -: standard output)")
       ->type_name("FILE");
   command
-      ->add_option("--format", options->format,
-                   io::graph_format_names() + " (default: by the suffix of the output; rg on standard output)")
+      ->add_option(
+          "--format", options->format,
+          "One of " + io::graph_format_names() + " (default: by the suffix of the output; rg on standard output)")
       ->type_name("NAME");
   auto* threshold = command
                         ->add_option("--threshold", options->threshold,

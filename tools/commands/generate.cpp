@@ -97,7 +97,8 @@ void add_generate(CLI::App& program) {
       ->type_name("FILE");
   add_count(*command, "--triangles", arguments->mesh.triangles,
             "About how many triangles: 10000, 12M, 372M (default: 1M)", {.least = 1});
-  command->add_option("--order", arguments->order, "rows, patches or random (default: patches)")->type_name("ORDER");
+  command->add_option("--order", arguments->order, "Order of the triangles: rows, patches or random (default: patches)")
+      ->type_name("ORDER");
   add_count(*command, "--seed", arguments->seed, "Seed of noise, handles and random order (default: 1)");
   add_count(*command, "--width", arguments->mesh.width,
             "Cells in a row of the grid (default: about as many as there are rows)", {.least = 1});

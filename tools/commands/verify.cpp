@@ -74,6 +74,10 @@ void compare_with_mesh(const ooc::ReebFile& file, const VerifyOptions& options) 
 
 void verify(const VerifyOptions& options) {
   require_reeb_file(options.file, "verify");
+  if (options.mesh != "-" && ooc::is_reeb_file(options.mesh))
+    throw Error(ErrorKind::kBadInput, "this is a Reeb graph, not a mesh",
+                "name the mesh that the file was computed from")
+        .at(options.mesh);
   const ooc::ReebFile file(options.file);
   file.verify();
   const FileHeader& header = file.header();

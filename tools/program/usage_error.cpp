@@ -41,7 +41,7 @@ struct Word {
   bool known = false;
 };
 
-// A word that begins with '-': "--option", "--option=value", "-o", "-ovalue".
+// A word that begins with '-': the long or short name of an option, perhaps with its value.
 Word option_word(const CLI::App& command, const std::string& word) {
   const bool is_long = word.starts_with("--");
   const std::string name = is_long ? word.substr(0, word.find('=')) : word.substr(0, 2);
