@@ -276,7 +276,7 @@ TEST_F(Convert, RefusesWhatItCannotDo) {
   for (const std::string number : {"0", "-3", "many"}) {
     const Outcome refused = reeb("compute a.obj --snapshot-every " + number);
     EXPECT_EQ(refused.exit_code, 2) << number;
-    EXPECT_NE(refused.error.find("--snapshot-every: must be at least 1"), std::string::npos) << refused.error;
+    EXPECT_NE(refused.error.find("error: --snapshot-every"), std::string::npos) << refused.error;
   }
   EXPECT_EQ(reeb("convert a.obj nowhere/b.smb").exit_code, 3);
 }
