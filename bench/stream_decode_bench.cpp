@@ -9,6 +9,7 @@
 #include "io/events/stream_writer.h"
 #include "io/streaming/open_stream.h"
 #include "io/streaming/stream_mesh_reader.h"
+#include "tests/support/bytes_source.h"
 
 namespace {
 
@@ -54,7 +55,7 @@ std::string encode(std::uint32_t side, const std::function<std::unique_ptr<Strea
 }
 
 std::unique_ptr<reeb::MeshReader> open_bytes(const std::string& bytes) {
-  return make_stream_mesh_reader(open_stream(std::make_unique<SpanSource>(std::as_bytes(std::span(bytes)))));
+  return make_stream_mesh_reader(open_stream(std::make_unique<reeb::test::BytesSource>(bytes)));
 }
 
 struct Counts {

@@ -19,7 +19,7 @@ class ObjReader final : public BatchReader {
  public:
   ObjReader(std::unique_ptr<ContentSource> source, ReadOptions options);
 
-  std::uint64_t bytes_read() const override { return text_.source().file_bytes_read(); }
+  std::uint64_t bytes_read() const override { return text_.bytes_read(); }
   std::vector<std::string> warnings() const override;
 
  private:

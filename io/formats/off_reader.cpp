@@ -120,7 +120,7 @@ class AsciiOffReader final : public OffReader {
     describe(header, text_.source());
   }
 
-  std::uint64_t bytes_read() const override { return text_.source().file_bytes_read(); }
+  std::uint64_t bytes_read() const override { return text_.bytes_read(); }
   std::vector<std::string> warnings() const override {
     if (odd_values_ == 0) return {};
     return {std::to_string(odd_values_) + " normals or colours are not finite (they are not used)"};
@@ -189,7 +189,7 @@ class BinaryOffReader final : public OffReader {
     describe(header, cursor_.source());
   }
 
-  std::uint64_t bytes_read() const override { return cursor_.source().file_bytes_read(); }
+  std::uint64_t bytes_read() const override { return cursor_.bytes_read(); }
 
  private:
   const char* take(std::size_t size) {

@@ -6,7 +6,7 @@
 #include "io/formats/off_reader.h"
 #include "io/formats/ply_reader.h"
 #include "io/formats/stl_reader.h"
-#include "io/streaming/event_input.h"
+#include "io/streaming/open_stream.h"
 #include "io/streaming/stream_mesh_reader.h"
 #include "libreeb/base/error.h"
 
@@ -38,7 +38,7 @@ std::unique_ptr<MeshReader> open_mesh(std::unique_ptr<ContentSource> source, con
       return std::make_unique<BinaryStlReader>(std::move(source), options);
     case MeshFormat::kStreaming: {
       const std::uint64_t bytes = source->file_bytes();
-      return make_stream_mesh_reader(open_events(std::move(source), path), options, bytes);
+      return make_stream_mesh_reader(open_stream(std::move(source), path), options, bytes);
     }
     case MeshFormat::kUnknown:
       break;

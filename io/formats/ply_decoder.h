@@ -60,6 +60,7 @@ class AsciiPlyDecoder {
   [[noreturn]] void fail(const std::string& what, const std::string& hint) const { text_.fail(what, hint); }
 
   const ContentSource& source() const { return text_.source(); }
+  std::uint64_t bytes_read() const { return text_.bytes_read(); }
   Cursor& bytes() { return text_.bytes(); }
 
  private:
@@ -111,6 +112,7 @@ class BinaryPlyDecoder {
   }
 
   const ContentSource& source() const { return cursor_.source(); }
+  std::uint64_t bytes_read() const { return cursor_.bytes_read(); }
   Cursor& bytes() { return cursor_; }
   bool swaps() const { return swap_; }
 

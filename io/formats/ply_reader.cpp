@@ -103,7 +103,7 @@ class PlyReader final : public PlyBodyReader {
     return file != nullptr && has_indexed_vertices(header_) ? index_ply(std::move(file), header_, options()) : nullptr;
   }
 
-  std::uint64_t bytes_read() const override { return decoder_.source().file_bytes_read(); }
+  std::uint64_t bytes_read() const override { return decoder_.bytes_read(); }
 
   std::vector<std::string> warnings() const override {
     std::vector<std::string> lines;

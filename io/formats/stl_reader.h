@@ -41,7 +41,7 @@ class StlReader : public BatchReader {
 class AsciiStlReader final : public StlReader {
  public:
   AsciiStlReader(std::unique_ptr<ContentSource> source, ReadOptions options);
-  std::uint64_t bytes_read() const override { return text_.source().file_bytes_read(); }
+  std::uint64_t bytes_read() const override { return text_.bytes_read(); }
 
  private:
   bool advance(MeshBatch& batch) override;
@@ -57,7 +57,7 @@ class BinaryStlReader final : public StlReader {
   static constexpr std::size_t kHeaderBytes = 84, kFacetBytes = 50;
 
   BinaryStlReader(std::unique_ptr<ContentSource> source, ReadOptions options);
-  std::uint64_t bytes_read() const override { return cursor_.source().file_bytes_read(); }
+  std::uint64_t bytes_read() const override { return cursor_.bytes_read(); }
   std::vector<std::string> warnings() const override;
 
  private:

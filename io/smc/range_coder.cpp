@@ -9,32 +9,32 @@ constexpr std::size_t kFlushBytes = 1u << 16;
 
 }  // namespace
 
-RangeDecoder::RangeDecoder(ByteWindow& window) : window_(window), start_(window.position()) {
+RangeDecoder::RangeDecoder(Cursor& cursor) : cursor_(cursor), start_(cursor.offset()) {
   if (next_byte() != 1) fail(Fault::kBadHeader, "the code stream does not start with 1", std::to_string(start_));
   last_ = next_byte();
   low_ = last_ >> 1;
 }
 
 void RangeDecoder::refill() {
-  // finish() checks the length against the last three bytes, which can be in two windows.
+  // finish() checks the length against the last three bytes, which can be in two views.
   for (std::size_t i = used_ > 3 ? used_ - 3 : 0; i < used_; ++i)
-    tail_ = (tail_ << 8) | std::to_integer<std::uint32_t>(bytes_[i]);
-  window_.skip(used_);
+    tail_ = (tail_ << 8) | static_cast<unsigned char>(bytes_[i]);
+  cursor_.advance(used_);
   used_ = ready_ = 0;
-  if (!window_.ensure(1)) fail(Fault::kTruncated, "file ends inside the code stream", std::to_string(position()));
-  bytes_ = window_.data();
-  ready_ = window_.available();
+  if (!cursor_.ensure(1)) fail(Fault::kTruncated, "file ends inside the code stream", std::to_string(position()));
+  bytes_ = cursor_.data();
+  ready_ = cursor_.available();
 }
 
 void RangeDecoder::finish() {
   normalize();
   std::uint32_t stored = tail_;
   for (std::size_t i = used_ > 3 ? used_ - 3 : 0; i < used_; ++i)
-    stored = (stored << 8) | std::to_integer<std::uint32_t>(bytes_[i]);
-  window_.skip(used_);
+    stored = (stored << 8) | static_cast<unsigned char>(bytes_[i]);
+  cursor_.advance(used_);
   ready_ -= used_;
   used_ = 0;
-  bytes_ = window_.data();
+  bytes_ = cursor_.data();
   const std::uint64_t length = position() - start_;
   if ((stored & 0xFFFFFF) != (length & 0xFFFFFF))
     fail(Fault::kCorrupt,

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "io/events/byte_source.h"
 #include "io/smc/adaptive_model.h"
+#include "io/text/cursor.h"
 
 namespace reeb::io {
 
@@ -21,8 +21,8 @@ class RangeDecoder {
  public:
   static constexpr bool kDecodes = true;
 
-  // THROWS: BAD_HEADER, TRUNCATED. The window must outlive the decoder.
-  explicit RangeDecoder(ByteWindow& window);
+  // THROWS: BAD_HEADER, TRUNCATED. The cursor must outlive the decoder.
+  explicit RangeDecoder(Cursor& cursor);
 
   // A number less than `size`. REQUIRES: size > 0. THROWS: TRUNCATED, CORRUPT.
   std::uint32_t uniform(std::uint32_t size, std::uint32_t = 0) {
@@ -75,7 +75,7 @@ class RangeDecoder {
   // Call it after the last symbol. THROWS: TRUNCATED; CORRUPT if the stored length is wrong.
   void finish();
 
-  std::uint64_t position() const { return window_.position() + used_; }
+  std::uint64_t position() const { return cursor_.offset() + used_; }
 
  private:
   static constexpr std::uint32_t kBottom = 1u << 23;
@@ -91,14 +91,14 @@ class RangeDecoder {
   std::uint32_t next_byte() {
     if (used_ == ready_) [[unlikely]]
       refill();
-    return std::to_integer<std::uint32_t>(bytes_[used_++]);
+    return static_cast<unsigned char>(bytes_[used_++]);
   }
   void refill();
   [[noreturn]] void fail_damaged() const;
 
-  ByteWindow& window_;
+  Cursor& cursor_;
   std::uint64_t start_;
-  const std::byte* bytes_ = nullptr;  // of the window; used_ of them are consumed
+  const char* bytes_ = nullptr;  // at the cursor; used_ of them are consumed
   std::size_t used_ = 0, ready_ = 0;
   std::uint32_t tail_ = 0;  // the last bytes before those in bytes_
   std::uint32_t low_ = 0, range_ = 128, last_ = 0;

@@ -10,10 +10,10 @@ namespace {
 
 constexpr std::size_t kEventsPerFill = 128;
 
-unsigned version_byte(ByteWindow& window) {
-  window.ensure(1);
-  const auto version = std::to_integer<unsigned>(*window.data());
-  window.skip(1);
+unsigned version_byte(Cursor& cursor) {
+  cursor.ensure(1);
+  const auto version = static_cast<unsigned char>(*cursor.data());
+  cursor.advance(1);
   return version;
 }
 
@@ -36,17 +36,15 @@ void SmcEventReader::guarded(Action action) {
   } catch (const Error& error) {
     const std::string triangle = positions_ ? "triangle " + std::to_string(triangles_) + ": " : "";
     throw located(error, triangle, version_ == 1 ? " (or an old SMC file of 2003)" : "",
-                  decoder_ ? decoder_->position() : window_.position());
+                  decoder_ ? decoder_->position() : cursor_.offset());
   }
 }
 
-SmcEventReader::SmcEventReader(std::unique_ptr<ByteSource> source)
-    : version_(0), source_(std::move(source)), window_(*source_), models_(3) {
-  version_ = version_byte(window_);
-  models_ = SmcModels(version_);
+SmcEventReader::SmcEventReader(Cursor cursor)
+    : version_(version_byte(cursor)), cursor_(std::move(cursor)), models_(version_) {
   header_.format = "SMC version " + std::to_string(version_);
   guarded([this] {
-    decoder_.emplace(window_);
+    decoder_.emplace(cursor_);
     SmcHead head;
     code_smc_head(*decoder_, head);
     header_.vertex_count = head.vertex_count;
@@ -209,7 +207,7 @@ void SmcEventReader::finish() {
   for (auto text : {count_warning({header_.vertex_count, vertices_}, "vertices", true),
                     count_warning({header_.cell_count, triangles_}, "triangles", true)})
     if (!text.empty()) warn(std::move(text));
-  if (window_.ensure(1)) warn("TRAIL: bytes after the end of the code stream are ignored");
+  if (!cursor_.at_end()) warn("TRAIL: bytes after the end of the code stream are ignored");
 }
 
 }  // namespace reeb::io

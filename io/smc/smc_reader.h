@@ -3,22 +3,22 @@
 // name the triangle; positions are byte offsets.
 #pragma once
 
-#include <memory>
+#include <optional>
 
-#include "io/events/byte_source.h"
 #include "io/events/stream_event.h"
 #include "io/smc/range_coder.h"
 #include "io/smc/smc_positions.h"
 #include "io/smc/smc_state.h"
+#include "io/text/cursor.h"
 
 namespace reeb::io {
 
 class SmcEventReader : public EventReader {
  public:
-  // REQUIRES: the source starts with the version byte, 1 or 3. THROWS: as next().
-  explicit SmcEventReader(std::unique_ptr<ByteSource> source);
+  // REQUIRES: the cursor is at the version byte, 1 or 3. THROWS: as next().
+  explicit SmcEventReader(Cursor cursor);
 
-  std::uint64_t bytes_read() const override { return source_->consumed(); }
+  std::uint64_t bytes_read() const override { return cursor_.bytes_read(); }
 
  private:
   void fill() override;
@@ -38,8 +38,7 @@ class SmcEventReader : public EventReader {
   void guarded(Action action);
 
   unsigned version_;
-  std::unique_ptr<ByteSource> source_;
-  ByteWindow window_;
+  Cursor cursor_;
   std::optional<RangeDecoder> decoder_;
   std::optional<PositionCoder> positions_;
   SmcModels models_;

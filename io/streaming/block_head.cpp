@@ -12,63 +12,91 @@ namespace {
 constexpr std::int32_t kMaxComments = 65535, kMaxCommentBytes = 1 << 20;
 constexpr std::size_t kMaxHeadBytes = 64u << 20;
 constexpr std::size_t kJudgedBlocks = 64;
+// Both readings look at this many bytes in one view.
+static_assert(256 + kJudgedBlocks * (4 + kBlockElements * 16) <= ContentSource::kLookahead);
 constexpr std::uint64_t kImplausible = std::numeric_limits<std::uint64_t>::max();
 
 // A head, read in one byte order. `fault` is the first thing found wrong.
 struct HeadReading {
   WordOrder order;
   StreamHeader header;
-  std::size_t bytes = 0;  // length of the head
+  std::uint64_t end = 0;  // offset of what follows the head, or of the fault
   bool truncated = false;
   std::string fault;  // empty: plausible
+
+  bool is_plausible() const { return fault.empty(); }
+  bool refuse(std::string what) {
+    fault = std::move(what);
+    return false;
+  }
+  bool refuse_truncated() {
+    truncated = true;
+    return refuse("file ends inside the header");
+  }
 };
 
+// Reads the number of comments; the cursor stays before it.
+std::int32_t read_comment_count(Cursor& cursor, HeadReading& reading) {
+  reading.end = cursor.offset();
+  if (!cursor.ensure(4)) {
+    reading.refuse_truncated();
+    return 0;
+  }
+  const std::int32_t count = reading.order.integer(cursor.data());
+  reading.end += 4;
+  if (count < 0 || count > kMaxComments) reading.refuse("comment count " + std::to_string(count) + " is not plausible");
+  return reading.is_plausible() ? count : 0;
+}
+
+bool read_comment(Cursor& cursor, HeadReading& reading) {
+  if (!cursor.ensure(4)) return reading.refuse_truncated();
+  const std::int32_t length = reading.order.integer(cursor.data());
+  cursor.advance(4);
+  reading.end = cursor.offset();
+  if (length < 0 || length > kMaxCommentBytes)
+    return reading.refuse("comment length " + std::to_string(length) + " is not plausible");
+  auto left = static_cast<std::size_t>(length);
+  if (reading.end + left > kMaxHeadBytes) return reading.refuse("more than 64 MiB of comments");
+  std::string& comment = reading.header.comments.emplace_back();
+  while (left != 0) {
+    if (cursor.at_end()) return reading.refuse_truncated();
+    const std::size_t size = std::min(left, cursor.available());
+    comment.append(cursor.data(), size);
+    cursor.advance(size);
+    left -= size;
+  }
+  reading.end = cursor.offset();
+  return true;
+}
+
+// Reads the comments, and moves past them. No number but 0 is a plausible count in both byte orders, so at most one
+// of the readings has comments.
+void read_comments(Cursor& cursor, HeadReading& first, HeadReading& second) {
+  const std::int32_t first_count = read_comment_count(cursor, first), second_count = read_comment_count(cursor, second);
+  if (!first.is_plausible() && !second.is_plausible()) return;
+  cursor.advance(4);
+  HeadReading& reading = second_count != 0 ? second : first;
+  for (std::int32_t left = std::max(first_count, second_count); left != 0; --left)
+    if (!read_comment(cursor, reading)) return;
+}
+
+// Reads what follows the comments, without moving the cursor.
 class HeadParser {
  public:
-  HeadParser(ByteWindow& window, WordOrder order, bool volume) : window_(window) {
-    reading_.order = order;
-    reading_.header.volume = volume;
-    reading_.header.format = volume ? "SVB" : "SMB";
-  }
+  HeadParser(Cursor& cursor, HeadReading& reading) : cursor_(cursor), reading_(reading) {}
 
-  HeadReading parse() {
-    if (read_comments() && read_counts()) (reading_.header.volume ? read_widths() : read_box());
-    reading_.bytes = at_;
-    return std::move(reading_);
+  void parse() {
+    if (read_counts()) (reading_.header.volume ? read_widths() : read_box());
+    reading_.end = cursor_.offset() + at_;
   }
 
  private:
-  bool refuse(std::string what) {
-    reading_.fault = std::move(what);
-    return false;
-  }
-  bool have(std::size_t count) {
-    if (window_.ensure(at_ + count)) return true;
-    reading_.truncated = true;
-    return refuse("file ends inside the header");
-  }
+  bool refuse(std::string what) { return reading_.refuse(std::move(what)); }
+  bool have(std::size_t count) { return cursor_.ensure(at_ + count) || reading_.refuse_truncated(); }
   bool read_integer(std::int32_t& value) {
     if (!have(4)) return false;
-    value = reading_.order.integer(window_.data() + at_);
+    value = reading_.order.integer(cursor_.data() + at_);
     at_ += 4;
-    return true;
-  }
-
-  bool read_comments() {
-    std::int32_t count = 0, length = 0;
-    if (!read_integer(count)) return false;
-    if (count < 0 || count > kMaxComments)
-      return refuse("comment count " + std::to_string(count) + " is not plausible");
-    for (std::int32_t i = 0; i < count; ++i) {
-      if (!read_integer(length)) return false;
-      if (length < 0 || length > kMaxCommentBytes)
-        return refuse("comment length " + std::to_string(length) + " is not plausible");
-      const auto size = static_cast<std::size_t>(length);
-      if (at_ + size > kMaxHeadBytes) return refuse("more than 64 MiB of comments");
-      if (!have(size)) return false;
-      reading_.header.comments.emplace_back(reinterpret_cast<const char*>(window_.data() + at_), size);
-      at_ += size;
-    }
     return true;
   }
 
@@ -85,7 +113,7 @@ class HeadParser {
 
   bool read_flag(bool& set) {
     if (!have(1)) return false;
-    const auto value = std::to_integer<unsigned>(window_.data()[at_++]);
+    const unsigned value = static_cast<unsigned char>(cursor_.data()[at_++]);
     set = value == 1;
     return value <= 1 || refuse("bounding box flag " + std::to_string(value) + " is not plausible");
   }
@@ -96,7 +124,7 @@ class HeadParser {
     if (!read_flag(present)) return false;
     if (!present) return true;
     if (!have(8 * width)) return false;
-    const std::byte* data = window_.data() + at_;
+    const char* data = cursor_.data() + at_;
     at_ += 8 * width;
     if (!floats) return true;
     StreamBox box{};
@@ -123,9 +151,9 @@ class HeadParser {
            (ints == 0 || read_bounds(reading_.header.vertex_ints, false));
   }
 
-  ByteWindow& window_;
-  HeadReading reading_;
-  std::size_t at_ = 4;
+  Cursor& cursor_;
+  HeadReading& reading_;
+  std::size_t at_ = 0;
 };
 
 bool odd_coordinate(float value) {
@@ -136,24 +164,25 @@ bool odd_coordinate(float value) {
 // Counts the elements in the first blocks that make no sense in the byte order of `reading`.
 class Judge {
  public:
-  Judge(ByteWindow& window, const HeadReading& reading)
-      : window_(window), reading_(reading), words_(reading.header.volume ? 4 : 3) {
-    if (const auto size = window.source_size(); size && *size >= window.position() + reading.bytes)
-      most_elements_ = (*size - window.position() - reading.bytes) / (4 * words_);
+  // The cursor is after the comments.
+  Judge(Cursor& cursor, const HeadReading& reading)
+      : cursor_(cursor), reading_(reading), words_(reading.header.volume ? 4 : 3) {
+    if (const auto size = cursor_.source().size(); size && *size >= reading.end)
+      most_elements_ = (*size - reading.end) / (4 * words_);
   }
 
   std::uint64_t badness() {
-    if (!reading_.fault.empty()) return kImplausible;
+    if (!reading_.is_plausible()) return kImplausible;
     std::uint64_t bad = 0;
     for (const auto& count : {reading_.header.vertex_count, reading_.header.cell_count})
       bad += count && most_elements_ && *count > *most_elements_;
-    std::size_t at = reading_.bytes;
-    for (std::size_t block = 0; block < kJudgedBlocks && window_.ensure(at + 4); ++block) {
-      const std::uint32_t descriptor = reading_.order.word(window_.data() + at);
+    auto at = static_cast<std::size_t>(reading_.end - cursor_.offset());
+    for (std::size_t block = 0; block < kJudgedBlocks && cursor_.ensure(at + 4); ++block) {
+      const std::uint32_t descriptor = reading_.order.word(cursor_.data() + at);
       at += 4;
       if (block == 0) post_order_ = (descriptor & 1) == 0;
-      for (std::size_t j = 0; j < kBlockElements && window_.ensure(at + 4 * words_); ++j) {
-        const std::byte* element = window_.data() + at;
+      for (std::size_t j = 0; j < kBlockElements && cursor_.ensure(at + 4 * words_); ++j) {
+        const char* element = cursor_.data() + at;
         bad += ((descriptor >> j) & 1) != 0 ? odd_vertex(element) : odd_cell(element);
         at += 4 * words_;
       }
@@ -162,13 +191,13 @@ class Judge {
   }
 
  private:
-  bool odd_vertex(const std::byte* element) {
+  bool odd_vertex(const char* element) {
     ++vertices_;
     bool odd = false;
     for (std::size_t k = 0; k < 3; ++k) odd = odd || odd_coordinate(reading_.order.real(element + 4 * k));
     return odd;
   }
-  bool odd_cell(const std::byte* element) const {
+  bool odd_cell(const char* element) const {
     const std::int64_t limit = !post_order_                   ? vertices_
                                : reading_.header.vertex_count ? std::int64_t{*reading_.header.vertex_count}
                                : most_elements_               ? static_cast<std::int64_t>(*most_elements_)
@@ -182,7 +211,7 @@ class Judge {
     return odd;
   }
 
-  ByteWindow& window_;
+  Cursor& cursor_;
   const HeadReading& reading_;
   std::size_t words_;
   std::optional<std::uint64_t> most_elements_;
@@ -190,35 +219,44 @@ class Judge {
   bool post_order_ = false;
 };
 
-bool judge_post_order(ByteWindow& window, const HeadReading& reading) {
-  const std::size_t element = reading.header.volume ? 16 : 12;
-  return window.ensure(reading.bytes + 4 + element) && (reading.order.word(window.data() + reading.bytes) & 1) == 0;
+// The cursor is after the head.
+bool judge_post_order(Cursor& cursor, const StreamHeader& header, WordOrder order) {
+  const std::size_t element = header.volume ? 16 : 12;
+  return cursor.ensure(4 + element) && (order.word(cursor.data()) & 1) == 0;
 }
 
 }  // namespace
 
-BlockHead read_block_head(ByteWindow& window, bool volume) {
-  if (!window.ensure(4)) fail(Fault::kTruncated, "file ends inside the header", "0");
-  const auto byte = [&](std::size_t i) { return std::to_integer<unsigned>(window.data()[i]); };
+BlockHead read_block_head(Cursor& cursor, bool volume) {
+  if (!cursor.ensure(4)) fail(Fault::kTruncated, "file ends inside the header", "0");
+  const auto byte = [&](std::size_t i) -> unsigned { return static_cast<unsigned char>(cursor.data()[i]); };
   if (byte(1) > 1) fail(Fault::kBadHeader, "byte order mark " + std::to_string(byte(1)) + " is neither 0 nor 1", "1");
   for (std::size_t i = 2; i < 4; ++i)
     if (byte(i) != 0)
       fail(Fault::kUnsupported, "compression " + std::to_string(byte(i)) + " is not known", std::to_string(i));
 
-  const WordOrder declared = WordOrder::big_endian(byte(1) == 1), other{!declared.swapped};
-  HeadReading first = HeadParser(window, declared, volume).parse();
-  HeadReading second = HeadParser(window, other, volume).parse();
-  const std::uint64_t first_bad = Judge(window, first).badness();
-  const std::uint64_t second_bad = Judge(window, second).badness();
+  HeadReading first, second;
+  first.order = WordOrder::big_endian(byte(1) == 1);
+  second.order = {!first.order.swapped};
+  for (HeadReading* reading : {&first, &second}) {
+    reading->header.volume = volume;
+    reading->header.format = volume ? "SVB" : "SMB";
+  }
+  cursor.advance(4);
+  read_comments(cursor, first, second);
+  for (HeadReading* reading : {&first, &second})
+    if (reading->is_plausible()) HeadParser(cursor, *reading).parse();
+  const std::uint64_t first_bad = Judge(cursor, first).badness();
+  const std::uint64_t second_bad = Judge(cursor, second).badness();
   if (first_bad == kImplausible && second_bad == kImplausible)
-    fail(first.truncated ? Fault::kTruncated : Fault::kBadHeader, first.fault, std::to_string(first.bytes));
+    fail(first.truncated ? Fault::kTruncated : Fault::kBadHeader, first.fault, std::to_string(first.end));
 
   const bool overruled = first_bad > second_bad;
   HeadReading& chosen = overruled ? second : first;
-  chosen.header.post_order = judge_post_order(window, chosen);
+  cursor.advance(static_cast<std::size_t>(chosen.end - cursor.offset()));
+  chosen.header.post_order = judge_post_order(cursor, chosen.header, chosen.order);
   chosen.header.format +=
       WordOrder::big_endian(true).swapped == chosen.order.swapped ? " big endian" : " little endian";
-  window.skip(chosen.bytes);
   return {std::move(chosen.header), chosen.order, overruled};
 }
 

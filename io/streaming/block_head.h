@@ -9,8 +9,8 @@
 #include <cstdint>
 #include <cstring>
 
-#include "io/events/byte_source.h"
 #include "io/events/stream_event.h"
+#include "io/text/cursor.h"
 
 namespace reeb::io {
 
@@ -21,13 +21,13 @@ struct WordOrder {
   bool swapped = false;  // relative to this machine
 
   static WordOrder big_endian(bool big) { return {big == (std::endian::native == std::endian::little)}; }
-  std::uint32_t word(const std::byte* at) const {
+  std::uint32_t word(const char* at) const {
     std::uint32_t value;
     std::memcpy(&value, at, sizeof value);
     return swapped ? __builtin_bswap32(value) : value;
   }
-  std::int32_t integer(const std::byte* at) const { return static_cast<std::int32_t>(word(at)); }
-  float real(const std::byte* at) const { return std::bit_cast<float>(word(at)); }
+  std::int32_t integer(const char* at) const { return static_cast<std::int32_t>(word(at)); }
+  float real(const char* at) const { return std::bit_cast<float>(word(at)); }
 };
 
 struct BlockHead {
@@ -36,8 +36,8 @@ struct BlockHead {
   bool overruled = false;  // the byte order mark was wrong
 };
 
-// Reads the head of an SMB file, or of an SVB file if `volume`, and skips it in the window.
+// Reads the head of an SMB file, or of an SVB file if `volume`, and moves past it.
 // THROWS: TRUNCATED, BAD_HEADER, UNSUPPORTED.
-BlockHead read_block_head(ByteWindow& window, bool volume);
+BlockHead read_block_head(Cursor& cursor, bool volume);
 
 }  // namespace reeb::io

@@ -8,9 +8,8 @@
 namespace reeb::io {
 
 template <std::size_t kWords>
-BlockEventReader<kWords>::BlockEventReader(std::unique_ptr<ByteSource> source)
-    : source_(std::move(source)), window_(*source_) {
-  BlockHead head = read_block_head(window_, kWords == 4);
+BlockEventReader<kWords>::BlockEventReader(Cursor cursor) : cursor_(std::move(cursor)) {
+  BlockHead head = read_block_head(cursor_, kWords == 4);
   header_ = std::move(head.header);
   order_ = head.order;
   rules_.set_post_order(header_.post_order);
@@ -20,33 +19,33 @@ BlockEventReader<kWords>::BlockEventReader(std::unique_ptr<ByteSource> source)
 template <std::size_t kWords>
 void BlockEventReader<kWords>::fill() {
   if (done_) return;
-  if (!window_.ensure(4 + kBlockElements * kElementBytes)) {
-    if (window_.available() == 0) return finish();
-    if (window_.available() < 4)
-      fail(Fault::kTruncated, "ends inside a block descriptor", std::to_string(window_.position()));
+  if (!cursor_.ensure(4 + kBlockElements * kElementBytes)) {
+    if (cursor_.available() == 0) return finish();
+    if (cursor_.available() < 4)
+      fail(Fault::kTruncated, "ends inside a block descriptor", std::to_string(cursor_.offset()));
   }
-  const std::uint32_t descriptor = order_.word(window_.data());
-  const std::size_t rest = window_.available() - 4;
+  const std::uint32_t descriptor = order_.word(cursor_.data());
+  const std::size_t rest = cursor_.available() - 4;
   const std::size_t count = std::min(kBlockElements, rest / kElementBytes);
-  const std::byte* elements = window_.data() + 4;
-  const std::uint64_t position = window_.position() + 4;
+  const char* elements = cursor_.data() + 4;
+  const std::uint64_t position = cursor_.offset() + 4;
   for (std::size_t j = 0; j < count; ++j) {
     const std::size_t at = j * kElementBytes;
     ((descriptor >> j) & 1) != 0 ? read_vertex(elements + at, position + at) : read_cell(elements + at, position + at);
   }
-  window_.skip(4 + count * kElementBytes);
+  cursor_.advance(4 + count * kElementBytes);
   if (count == kBlockElements) return;
   if (rest % kElementBytes != 0)
     fail(Fault::kTruncated, "ends inside element " + std::to_string(count) + " of a block",
-         std::to_string(window_.position()));
+         std::to_string(cursor_.offset()));
   finish();
 }
 
 template <std::size_t kWords>
-void BlockEventReader<kWords>::read_vertex(const std::byte* element, std::uint64_t position) {
+void BlockEventReader<kWords>::read_vertex(const char* element, std::uint64_t position) {
   const std::array<float, 3> xyz = {order_.real(element), order_.real(element + 4), order_.real(element + 8)};
   // SVB only: a fourth float, or an integer, or nothing.
-  const std::byte* more = element + kElementBytes - 4;
+  const char* more = element + kElementBytes - 4;
   const float fourth = header_.vertex_floats == 4 ? order_.real(more) : 0;
   if (!std::isfinite(xyz[0]) || !std::isfinite(xyz[1]) || !std::isfinite(xyz[2]) || !std::isfinite(fourth))
     fail(Fault::kBadNumber, "a value of vertex " + std::to_string(rules_.vertex_count()) + " is not finite",
@@ -67,7 +66,7 @@ void BlockEventReader<kWords>::read_vertex(const std::byte* element, std::uint64
 }
 
 template <std::size_t kWords>
-void BlockEventReader<kWords>::read_cell(const std::byte* element, std::uint64_t position) {
+void BlockEventReader<kWords>::read_cell(const char* element, std::uint64_t position) {
   std::array<std::int32_t, kWords> numbers;
   std::array<std::uint32_t, kWords> vertices{};
   for (std::size_t k = 0; k < kWords; ++k) {
@@ -92,7 +91,7 @@ template <std::size_t kWords>
 void BlockEventReader<kWords>::finish() {
   done_ = true;
   const char* cell_name = kWords == 4 ? "tetrahedra" : "triangles";
-  const std::string end = std::to_string(window_.position());
+  const std::string end = std::to_string(cursor_.offset());
   rules_.require_all_arrived(cell_name, end);
   const Tally vertices{header_.vertex_count, rules_.vertex_count()};
   const Tally cells{header_.cell_count, cells_};

@@ -4,12 +4,10 @@
 // lowest first, are 1 for a vertex and 0 for a cell. Positions of faults are byte offsets.
 #pragma once
 
-#include <memory>
-
-#include "io/events/byte_source.h"
 #include "io/events/index_rules.h"
 #include "io/events/stream_event.h"
 #include "io/streaming/block_head.h"
+#include "io/text/cursor.h"
 
 namespace reeb::io {
 
@@ -17,20 +15,19 @@ namespace reeb::io {
 template <std::size_t kWords>
 class BlockEventReader : public EventReader {
  public:
-  explicit BlockEventReader(std::unique_ptr<ByteSource> source);
+  explicit BlockEventReader(Cursor cursor);
 
-  std::uint64_t bytes_read() const override { return source_->consumed(); }
+  std::uint64_t bytes_read() const override { return cursor_.bytes_read(); }
 
  private:
   static constexpr std::size_t kElementBytes = 4 * kWords;
 
   void fill() override;
-  void read_vertex(const std::byte* element, std::uint64_t position);
-  void read_cell(const std::byte* element, std::uint64_t position);
+  void read_vertex(const char* element, std::uint64_t position);
+  void read_cell(const char* element, std::uint64_t position);
   void finish();
 
-  std::unique_ptr<ByteSource> source_;
-  ByteWindow window_;
+  Cursor cursor_;
   WordOrder order_;
   IndexRules rules_;
   std::uint64_t cells_ = 0;

@@ -1,43 +1,16 @@
 #include "io/streaming/open_stream.h"
 
-#include <algorithm>
 #include <cstring>
 
 #include "io/events/stream_fault.h"
 #include "io/smc/smc_reader.h"
 #include "io/streaming/block_reader.h"
 #include "io/streaming/text_reader.h"
+#include "io/text/cursor.h"
+#include "libreeb/base/error.h"
 
 namespace reeb::io {
 namespace {
-
-// A source whose first bytes were read already.
-class PeekedSource : public ByteSource {
- public:
-  explicit PeekedSource(std::unique_ptr<ByteSource> rest) : rest_(std::move(rest)) {
-    while (count_ < peeked_.size()) {
-      const std::size_t got = rest_->read(std::span(peeked_).subspan(count_));
-      if (got == 0) break;
-      count_ += got;
-    }
-  }
-  std::span<const std::byte> peeked() const { return std::span(peeked_).first(count_); }
-
-  std::size_t read(std::span<std::byte> out) override {
-    if (at_ == count_) return rest_->read(out);
-    const std::size_t size = std::min(out.size(), count_ - at_);
-    std::memcpy(out.data(), peeked_.data() + at_, size);
-    at_ += size;
-    return size;
-  }
-  std::uint64_t consumed() const override { return rest_->consumed(); }
-  std::optional<std::uint64_t> size() const override { return rest_->size(); }
-
- private:
-  std::unique_ptr<ByteSource> rest_;
-  std::array<std::byte, 2> peeked_{};
-  std::size_t count_ = 0, at_ = 0;
-};
 
 // The suffix before .gz or .zst.
 bool has_suffix(std::string name, const std::string& suffix) {
@@ -57,35 +30,45 @@ std::string hexadecimal(unsigned byte) {
   fail(Fault::kUnsupported, "this is " + what + "; only SMA, SMB, SMC (versions 1 and 3), SVA and SVB are read", "0");
 }
 
-}  // namespace
+std::unique_ptr<EventReader> open_any(Cursor cursor, const std::string& path) {
+  if (cursor.at_end()) fail(Fault::kTruncated, "the file is empty", "0");
+  const bool has_second = cursor.ensure(2);
+  const unsigned first = static_cast<unsigned char>(cursor.data()[0]);
+  const unsigned second = has_second ? static_cast<unsigned char>(cursor.data()[1]) : 0;
 
-bool looks_like_binary_stream(std::byte first) { return std::to_integer<unsigned>(first) <= 4; }
-
-std::unique_ptr<EventReader> open_stream(std::unique_ptr<ByteSource> source, const std::string& name) {
-  auto input = std::make_unique<PeekedSource>(std::move(source));
-  const auto peeked = input->peeked();
-  if (peeked.empty()) fail(Fault::kTruncated, "the file is empty", "0");
-  const auto first = std::to_integer<unsigned>(peeked[0]);
-  const bool has_second = peeked.size() > 1;
-  const unsigned second = has_second ? std::to_integer<unsigned>(peeked[1]) : 0;
-
-  if (has_suffix(name, ".svc")) refuse("a compressed volume mesh (SVC)");
+  if (has_suffix(path, ".svc")) refuse("a compressed volume mesh (SVC)");
   if (first == 0x1F && second == 0x8B) refuse("gzip-compressed");
-  if (is_text(first)) return std::make_unique<TextEventReader>(std::move(input), has_suffix(name, ".sva"));
+  if (is_text(first)) return std::make_unique<TextEventReader>(std::move(cursor), has_suffix(path, ".sva"));
   switch (first) {
     case 0:
-      return std::make_unique<SmbEventReader>(std::move(input));
+      return std::make_unique<SmbEventReader>(std::move(cursor));
     case 1:
       if (has_second && second != 1) refuse("an old SMC (2003) file");
-      return std::make_unique<SmcEventReader>(std::move(input));
+      return std::make_unique<SmcEventReader>(std::move(cursor));
     case 2:
       refuse("an SMD file");
     case 3:
-      return std::make_unique<SmcEventReader>(std::move(input));
+      return std::make_unique<SmcEventReader>(std::move(cursor));
     case 4:
-      return std::make_unique<SvbEventReader>(std::move(input));
+      return std::make_unique<SvbEventReader>(std::move(cursor));
     default:
       refuse("no streaming mesh (first byte " + hexadecimal(first) + ")");
+  }
+}
+
+}  // namespace
+
+bool looks_like_binary_stream(char first) { return static_cast<unsigned char>(first) <= 4; }
+
+std::unique_ptr<EventReader> open_stream(std::unique_ptr<ContentSource> source, const std::string& path) {
+  const std::string name = source->name();
+  try {
+    auto reader = open_any(Cursor(std::move(source)), path);
+    reader->set_name(name);
+    return reader;
+  } catch (Error& error) {
+    error.at(name);
+    throw;
   }
 }
 

@@ -62,22 +62,22 @@ std::optional<std::string_view> LineScanner::next() {
     put_back_ = false;
     return line_;
   }
-  window_.skip(length_);
+  cursor_.advance(length_);
   length_ = 0;
   std::size_t searched = 0;
   const void* end = nullptr;
   for (;;) {
-    const std::size_t available = window_.available();
+    const std::size_t available = cursor_.available();
     if (available > searched) {
-      end = std::memchr(window_.data() + searched, '\n', available - searched);
+      end = std::memchr(cursor_.data() + searched, '\n', available - searched);
       searched = available;
     }
-    if (end != nullptr || searched > kMaxLine || !window_.ensure(searched + 1)) break;
+    if (end != nullptr || searched > kMaxLine || !cursor_.ensure(searched + 1)) break;
   }
   if (end == nullptr && searched == 0) return std::nullopt;
   ++number_;
   unfinished_ = end == nullptr;
-  const char* begin = reinterpret_cast<const char*>(window_.data());
+  const char* begin = cursor_.data();
   std::size_t size = unfinished_ ? searched : static_cast<std::size_t>(static_cast<const char*>(end) - begin);
   length_ = size + (unfinished_ ? 0 : 1);
   if (size > 0 && begin[size - 1] == '\r') --size;

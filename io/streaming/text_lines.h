@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "io/events/byte_source.h"
+#include "io/text/cursor.h"
 
 namespace reeb::io {
 
@@ -16,7 +16,7 @@ class LineScanner {
  public:
   static constexpr std::size_t kMaxLine = 65535;
 
-  explicit LineScanner(ByteWindow& window) : window_(window) {}
+  explicit LineScanner(Cursor& cursor) : cursor_(cursor) {}
 
   // The next line without its end, valid until the next call; nothing at the end of the file.
   // THROWS: UNSUPPORTED for control bytes, BAD_NUMBER for a line longer than kMaxLine.
@@ -29,8 +29,8 @@ class LineScanner {
   bool unfinished() const { return unfinished_; }
 
  private:
-  ByteWindow& window_;
-  std::size_t length_ = 0;  // bytes of the last line in the window, with its line end
+  Cursor& cursor_;
+  std::size_t length_ = 0;  // bytes of the last line, with its line end; the cursor is before them
   std::string_view line_;
   std::uint64_t number_ = 0;
   bool unfinished_ = false, put_back_ = false;

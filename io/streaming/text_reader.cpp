@@ -15,8 +15,7 @@ bool starts_with_letter(std::string_view line, char letter) {
 
 }  // namespace
 
-TextEventReader::TextEventReader(std::unique_ptr<ByteSource> source, bool volume)
-    : source_(std::move(source)), window_(*source_), lines_(window_) {
+TextEventReader::TextEventReader(Cursor cursor, bool volume) : cursor_(std::move(cursor)), lines_(cursor_) {
   header_.volume = volume;
   read_head();
 }

@@ -7,22 +7,20 @@
 // are read too. Positions of faults are line:column.
 #pragma once
 
-#include <memory>
-
-#include "io/events/byte_source.h"
 #include "io/events/index_rules.h"
 #include "io/events/stream_event.h"
 #include "io/streaming/text_lines.h"
+#include "io/text/cursor.h"
 
 namespace reeb::io {
 
 class TextEventReader : public EventReader {
  public:
   // Reads the head, up to the first line of the body. `volume`: the file is known to be SVA.
-  TextEventReader(std::unique_ptr<ByteSource> source, bool volume);
+  TextEventReader(Cursor cursor, bool volume);
 
   std::vector<std::string> warnings() const override;
-  std::uint64_t bytes_read() const override { return source_->consumed(); }
+  std::uint64_t bytes_read() const override { return cursor_.bytes_read(); }
 
  private:
   enum class Line { kEmpty, kHash, kVertex, kCell, kFinal, kUnknown };
@@ -45,8 +43,7 @@ class TextEventReader : public EventReader {
   std::string place(const LineCursor& cursor) const;
   const char* cell_name() const { return header_.volume ? "tetrahedra" : "triangles"; }
 
-  std::unique_ptr<ByteSource> source_;
-  ByteWindow window_;
+  Cursor cursor_;
   LineScanner lines_;
   IndexRules rules_;
   bool has_body_ = false, done_ = false;

@@ -1,4 +1,6 @@
-// A position in a ContentSource that moves forward. Text and binary decoders are built on it.
+// A position in a ContentSource that moves forward. All text and binary decoders are built on it.
+//
+// On a pipe, nothing waits for more bytes than it was asked for.
 #pragma once
 
 #include <cstddef>
@@ -14,19 +16,21 @@ namespace reeb::io {
 
 class Cursor {
  public:
-  explicit Cursor(std::unique_ptr<ContentSource> source) : source_(std::move(source)) { move_to(0); }
+  explicit Cursor(std::unique_ptr<ContentSource> source) : source_(std::move(source)) {}
 
   // Offset of the next byte in the content.
   std::uint64_t offset() const { return view_offset_ + static_cast<std::uint64_t>(next_ - view_.data()); }
   const ContentSource& source() const { return *source_; }
+  // Bytes of the input consumed so far, as stored on disk.
+  std::uint64_t bytes_read() const { return source_->can_seek() ? offset() : source_->file_bytes_read(); }
 
   // Makes at least `count` bytes contiguous at data(), or all the remaining ones if there are fewer; false in that
-  // case.
-  // REQUIRES: count <= ContentSource::kLookahead.
+  // case. Invalidates what data() returned before, if it has to read.
+  // REQUIRES: 1 <= count <= ContentSource::kLookahead.
   bool ensure(std::size_t count) {
     if (available() >= count) [[likely]]
       return true;
-    move_to(offset());
+    view_at(offset(), count);
     return available() >= count;
   }
   std::size_t available() const { return static_cast<std::size_t>(end_ - next_); }
@@ -35,15 +39,17 @@ class Cursor {
   void advance(std::size_t count) { next_ += count; }
 
   // REQUIRES: source().can_seek(), or `offset` is not before the current one and within view.
-  void move_to(std::uint64_t offset) {
-    view_ = source_->view(offset);
+  void move_to(std::uint64_t offset) { view_at(offset, 1); }
+  bool at_end() { return !ensure(1); }
+
+ private:
+  void view_at(std::uint64_t offset, std::size_t min_bytes) {
+    view_ = source_->view(offset, min_bytes);
     view_offset_ = offset;
     next_ = view_.data();
     end_ = next_ + view_.size();
   }
-  bool at_end() { return !ensure(1); }
 
- private:
   std::unique_ptr<ContentSource> source_;
   std::string_view view_;
   std::uint64_t view_offset_ = 0;

@@ -95,6 +95,7 @@ class TextCursor {
     line_begin_ = offset;
   }
   const ContentSource& source() const { return cursor_.source(); }
+  std::uint64_t bytes_read() const { return cursor_.bytes_read(); }
   Cursor& bytes() { return cursor_; }
 
  private:

@@ -15,7 +15,7 @@
 #include "io/formats/ply_indexed.h"
 #include "io/formats/ply_reader.h"
 #include "io/formats/stl_reader.h"
-#include "io/streaming/event_input.h"
+#include "io/streaming/open_stream.h"
 #include "io/streaming/stream_mesh_reader.h"
 #include "ooc/reeb_file/reeb_file.h"
 #include "tests/fuzz/corpus.h"
@@ -108,7 +108,7 @@ const char* stream_name(bool volume) { return volume ? "input.sva" : "input.sma"
 
 template <bool volume>
 std::unique_ptr<MeshReader> open_stream_mesh(std::unique_ptr<ContentSource> source, const ReadOptions& options) {
-  return make_stream_mesh_reader(open_events(std::move(source), stream_name(volume)), options);
+  return make_stream_mesh_reader(open_stream(std::move(source), stream_name(volume)), options);
 }
 
 template <bool volume>
@@ -116,7 +116,7 @@ bool run_stream(const std::string& bytes) {
   std::ostringstream listing;
   const bool good = without_error([&] {
     const auto reader =
-        open_events(std::make_unique<MemorySource>(bytes, MemorySource::Kind::kFile), stream_name(volume));
+        open_stream(std::make_unique<MemorySource>(bytes, MemorySource::Kind::kFile), stream_name(volume));
     EventLegality legality;
     std::string line;
     const StreamEvent* event = nullptr;

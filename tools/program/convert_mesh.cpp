@@ -13,7 +13,7 @@
 #include "io/formats/open_mesh.h"
 #include "io/functions/function_source.h"
 #include "io/streaming/create_stream.h"
-#include "io/streaming/event_input.h"
+#include "io/streaming/open_stream.h"
 #include "io/streaming/stream_mesh_reader.h"
 #include "libreeb/base/error.h"
 #include "ooc/chunks/spooled_mesh.h"
@@ -93,7 +93,7 @@ class Conversion {
     auto source = io::open_content(options_.input);
     if (io::detect_format(*source, options_.input) == io::MeshFormat::kStreaming) {
       const std::uint64_t bytes = source->file_bytes();
-      auto events = io::open_events(std::move(source), options_.input);
+      auto events = io::open_stream(std::move(source), options_.input);
       if (can_copy_events(events->header())) return copy_events(std::move(events), bytes);
       const ReadOptions& options = read_options(io::stream_property_names(events->header()));
       reader_ = io::make_stream_mesh_reader(std::move(events), options, bytes);

@@ -3,7 +3,6 @@
 
 #include <fstream>
 #include <memory>
-#include <span>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -11,6 +10,7 @@
 #include "io/events/event_text.h"
 #include "io/streaming/open_stream.h"
 #include "libreeb/base/error.h"
+#include "tests/support/bytes_source.h"
 #include "tests/support/data.h"
 #include "tests/support/files.h"
 
@@ -42,9 +42,11 @@ inline std::vector<Sample> all_samples() {
   return samples;
 }
 
+// The bytes must outlive the reader.
 inline std::unique_ptr<EventReader> open_bytes(const std::string& bytes, const std::string& name = {}) {
-  return open_stream(std::make_unique<SpanSource>(std::as_bytes(std::span(bytes))), name);
+  return open_stream(std::make_unique<test::BytesSource>(bytes), name);
 }
+std::unique_ptr<EventReader> open_bytes(std::string&& bytes, const std::string& name = {}) = delete;
 
 // All events as text, and the error that ended them, if any.
 struct Outcome {

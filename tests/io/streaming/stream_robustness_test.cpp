@@ -35,6 +35,60 @@ TEST(StreamRobustness, AHeaderThatPromisesMuchCostsNothing) {
   EXPECT_TRUE(read_all(comments).error.starts_with("TRUNCATED: "));
 }
 
+// SMB with `count` comments of 50000 bytes each, one of 10 bytes, and a triangle.
+std::string with_long_comments(std::size_t count) {
+  StreamHeader header;
+  for (std::size_t i = 0; i < count; ++i) header.comments.emplace_back(50000, static_cast<char>('a' + i));
+  header.comments.emplace_back("the end...");
+  std::ostringstream out;
+  const auto writer = make_block_writer(out, header);
+  const std::string triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  const auto reader = open_bytes(triangle);
+  for (const StreamEvent* event = reader->next(); event != nullptr; event = reader->next()) writer->write(*event);
+  writer->close();
+  return out.str();
+}
+
+// A head can be longer than all that a source shows at once.
+TEST(StreamRobustness, LongCommentsAreReadWhole) {
+  constexpr std::size_t kCount = 5;
+  const std::string bytes = with_long_comments(kCount);
+  for (const std::size_t step : {std::size_t{1}, std::size_t{65536}, bytes.size()}) {
+    const auto reader = open_stream(std::make_unique<test::BytesSource>(bytes, step));
+    ASSERT_EQ(reader->header().comments.size(), kCount + 1);
+    for (std::size_t i = 0; i < kCount; ++i)
+      EXPECT_EQ(reader->header().comments[i], std::string(50000, static_cast<char>('a' + i)));
+    EXPECT_EQ(reader->header().comments.back(), "the end...");
+    std::ostringstream out;
+    write_events(*reader, out);
+    EXPECT_EQ(out.str(), "v 0 0 0 0\nv 1 1 0 0\nv 2 0 1 0\nt 0 1 2\n");
+  }
+}
+
+TEST(StreamRobustness, AFaultAfterLongCommentsHasItsPlace) {
+  const std::string bytes = with_long_comments(2);
+  constexpr std::size_t kLength = 8 + 2 * 50004;  // offset of the length of the last comment
+  const auto error_of = [](const std::string& file) {
+    try {
+      open_bytes(file);
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+    return std::string("no error");
+  };
+  EXPECT_EQ(error_of(bytes.substr(0, kLength + 2)),
+            std::to_string(kLength) + ": TRUNCATED: file ends inside the header");
+  EXPECT_EQ(error_of(bytes.substr(0, kLength + 7)),
+            std::to_string(kLength + 4) + ": TRUNCATED: file ends inside the header");
+  std::string odd = bytes;
+  odd[kLength + 3] = '\1';
+  EXPECT_EQ(error_of(odd), std::to_string(kLength + 4) + ": BAD_HEADER: comment length 16777226 is not plausible");
+  odd = bytes;
+  odd[kLength + 4 + 10 + 3] = '\x80';  // the number of vertices
+  EXPECT_EQ(error_of(odd),
+            std::to_string(kLength + 18) + ": BAD_HEADER: number of vertices -2147483645 is not plausible");
+}
+
 TEST(StreamRobustness, FinalizedVerticesStayFinalAcrossPages) {
   std::string text;
   for (int i = 0; i < 10000; ++i) text += "v 0 0 0\nx -1\n";

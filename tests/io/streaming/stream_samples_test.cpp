@@ -7,23 +7,6 @@
 namespace reeb::io {
 namespace {
 
-// A slow pipe: delivers 1 to `step` bytes per call, and its size is unknown.
-class PipeSource : public ByteSource {
- public:
-  PipeSource(const std::string& bytes, std::size_t step) : bytes_(bytes), step_(step) {}
-  std::size_t read(std::span<std::byte> out) override {
-    const std::size_t count = std::min({out.size(), step_, bytes_.size() - at_});
-    for (std::size_t i = 0; i < count; ++i) out[i] = static_cast<std::byte>(bytes_[at_ + i]);
-    at_ += count;
-    return count;
-  }
-  std::uint64_t consumed() const override { return at_; }
-
- private:
-  const std::string& bytes_;
-  std::size_t step_, at_ = 0;
-};
-
 std::string warning_classes(const std::vector<std::string>& warnings) {
   std::string classes;
   for (const auto& text : warnings) {
@@ -52,7 +35,7 @@ TEST(StreamSamples, GoodFilesGiveTheSameThroughAPipe) {
     const std::string bytes = sample_bytes(sample.file);
     for (const std::size_t step : {1u, 7u, 1000u}) {
       std::ostringstream out;
-      const auto reader = open_stream(std::make_unique<PipeSource>(bytes, step), sample.file);
+      const auto reader = open_stream(std::make_unique<test::BytesSource>(bytes, step), sample.file);
       write_events(*reader, out);
       EXPECT_TRUE(test::same(out.str(), golden_events(sample.file))) << sample.file << " by " << step;
       if (sample.warnings != "TRAIL") {

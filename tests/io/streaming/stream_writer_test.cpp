@@ -101,8 +101,9 @@ TEST(StreamWriters, BlocksOfEverySampleReadBackTheSame) {
     const auto writer = make_block_writer(out, header);
     copy(*reader, *writer);
     EXPECT_TRUE(writer->warnings().empty()) << sample.file;
-    EXPECT_TRUE(open_bytes(out.str())->header().vertex_count.has_value()) << sample.file;
-    const Outcome back = read_all(out.str());
+    const std::string written = out.str();
+    EXPECT_TRUE(open_bytes(written)->header().vertex_count.has_value()) << sample.file;
+    const Outcome back = read_all(written);
     EXPECT_EQ(back.error, "") << sample.file;
     EXPECT_TRUE(test::same(back.events, golden_events(sample.file))) << sample.file;
   }
@@ -125,7 +126,8 @@ TEST(StreamWriters, WhatAFormatCannotHoldIsSaid) {
     }
   }
   std::ostringstream out;
-  const auto reader = open_bytes("v 0 0 0\nv 1 0 0\nf 1 2 2\n");
+  const std::string repeated = "v 0 0 0\nv 1 0 0\nf 1 2 2\n";
+  const auto reader = open_bytes(repeated);
   EXPECT_THROW(copy(*reader, *make_smc_writer(out, reader->header())), Error);
 }
 
