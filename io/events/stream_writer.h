@@ -1,5 +1,9 @@
 // Writes streaming meshes event by event.
 //
+// A StreamWriter takes events, and so everything that a streaming mesh can have: post-order, integers, values of cells,
+// finalizations in any place. A MeshWriter (libreeb/port/mesh_writer.h) takes the batches of any mesh, which have none
+// of these but are fast to pass on; the one of streaming formats (create_stream.h) turns batches into events.
+//
 // The events must be a legal stream (stream_event.h); the first one decides between pre-order and post-order. Output
 // goes to a stream: giving a file its final name is left to the caller.
 // MEMORY: follows the front.
