@@ -130,8 +130,7 @@ class PlyReader final : public PlyBodyReader {
   }
 
   void fill(MeshBatch& batch) override {
-    for (std::size_t k = 0; k < columns_.size(); ++k)
-      columns_[k] = k < info_.dimension ? &batch.coordinates[k] : &batch.properties[k - info_.dimension];
+    for (std::size_t k = 0; k < columns_.size(); ++k) columns_[k] = &batch.column(k);
     while (room(batch) != 0 && step_ < steps_.size()) {
       const Step& step = steps_[step_];
       const PlyElement& element = header_.elements[step.element];

@@ -221,9 +221,7 @@ std::span<const unsigned> FunctionSource::columns() const {
 void FunctionSource::evaluate(const MeshBatch& batch, std::span<double> values) {
   const std::uint64_t first = batch.first_vertex.value();
   if (column_) {
-    const std::size_t dimension = batch.coordinates.size();
-    copy_finite(*column_ < dimension ? batch.coordinates[*column_] : batch.properties[*column_ - dimension], values, {},
-                first);
+    copy_finite(batch.column(*column_), values, {}, first);
   } else if (file_) {
     for (double& value : values) value = file_->next();
   } else {

@@ -30,6 +30,14 @@ struct MeshBatch {
   // properties[k][i] is ReadOptions::properties[k] of the i-th vertex.
   std::vector<std::vector<double>> properties;
 
+  // Column k, numbered as in IndexedMesh::gather: coordinates first, then properties.
+  std::vector<double>& column(std::size_t k) {
+    return k < coordinates.size() ? coordinates[k] : properties[k - coordinates.size()];
+  }
+  const std::vector<double>& column(std::size_t k) const {
+    return k < coordinates.size() ? coordinates[k] : properties[k - coordinates.size()];
+  }
+
   // Three corners each. Repeated corners are legal: (a, b, b) is an edge, (a, a, a) a vertex.
   // Polygons arrive as fans from their first corner.
   std::vector<VertexId> triangles;

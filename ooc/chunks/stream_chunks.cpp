@@ -105,9 +105,7 @@ void StreamChunks::add_vertices() {
   ids_.resize(n);
   for (std::size_t i = 0; i < n; ++i) ids_[i] = VertexId(batch_.first_vertex.value() + i);
   data_.clear();
-  for (const unsigned column : functions_.columns())
-    data_.emplace_back(column < batch_.coordinates.size() ? batch_.coordinates[column]
-                                                          : batch_.properties[column - batch_.coordinates.size()]);
+  for (const unsigned column : functions_.columns()) data_.emplace_back(batch_.column(column));
   positions_.clear();
   for (auto& values : values_) values.clear();
   functions_.evaluate(ids_, data_, positions_, values_);

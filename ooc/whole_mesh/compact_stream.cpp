@@ -103,10 +103,8 @@ class CompactStream {
 
   // Adds the next new vertex. New vertices come in the order of their numbers.
   void add_vertex() {
-    for (std::size_t k = 0; k < columns_.size(); ++k) {
-      auto& column = k < dimension_ ? batch_.coordinates[k] : batch_.properties[k - dimension_];
-      column.push_back(values_[k * new_ids_.size() + new_used_]);
-    }
+    for (std::size_t k = 0; k < columns_.size(); ++k)
+      batch_.column(k).push_back(values_[k * new_ids_.size() + new_used_]);
     ++new_used_;
     ++sent_;
     ++batch_.vertex_count;

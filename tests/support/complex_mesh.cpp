@@ -107,9 +107,7 @@ void ComplexStream::take_simplices(MeshBatch& batch) {
 
 void ComplexStream::take_vertices(MeshBatch& batch, std::size_t count) {
   for (; next_vertex_ < count; ++next_vertex_) {
-    for (std::size_t k = 0; k < 3; ++k) batch.coordinates[k].push_back(mesh_.columns[k][next_vertex_]);
-    for (std::size_t k = 3; k < mesh_.columns.size(); ++k)
-      batch.properties[k - 3].push_back(mesh_.columns[k][next_vertex_]);
+    for (std::size_t k = 0; k < mesh_.columns.size(); ++k) batch.column(k).push_back(mesh_.columns[k][next_vertex_]);
     ++batch.vertex_count;
     waiting_.push_back(next_vertex_);
   }

@@ -24,9 +24,7 @@ class LiveFunction {
     ids_.clear();
     for (std::size_t i = 0; i < batch.vertex_count; ++i) ids_.emplace_back(batch.first_vertex.value() + i);
     columns_.clear();
-    const std::size_t dimension = batch.coordinates.size();
-    for (const unsigned k : function_.columns())
-      columns_.emplace_back(k < dimension ? batch.coordinates[k] : batch.properties[k - dimension]);
+    for (const unsigned k : function_.columns()) columns_.emplace_back(batch.column(k));
     values_.resize(ids_.size());
     function_.evaluate(ids_, columns_, values_);
     for (std::size_t i = 0; i < ids_.size(); ++i) {

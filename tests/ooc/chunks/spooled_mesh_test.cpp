@@ -26,8 +26,7 @@ class ModelReader : public MeshReader {
     const std::size_t vertices = std::min<std::size_t>(1000, mesh_.vertex_count() - vertex_);
     for (std::size_t k = 0; k < mesh_.columns.size(); ++k) {
       const auto from = mesh_.columns[k].begin() + static_cast<std::ptrdiff_t>(vertex_);
-      auto& column = k < 3 ? batch.coordinates[k] : batch.properties[k - 3];
-      column.assign(from, from + static_cast<std::ptrdiff_t>(vertices));
+      batch.column(k).assign(from, from + static_cast<std::ptrdiff_t>(vertices));
     }
     batch.vertex_count = vertices;
     vertex_ += vertices;
