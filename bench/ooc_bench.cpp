@@ -207,7 +207,7 @@ void BM_Reorder(benchmark::State& state) {
   ScatteredGrid mesh(static_cast<std::uint64_t>(state.range(0)), static_cast<std::uint64_t>(state.range(0)));
   for (auto _ : state) {
     MemoryBudget budget(64 << 20);
-    const auto reordered = reorder(mesh, temp(), budget, {.allowance_bytes = 48 << 20});
+    const auto reordered = reorder(mesh, temp(), budget, {.allowance_bytes = 48 << 20, .threads = 2});
     if (reordered->triangle_count() != mesh.triangle_count()) return state.SkipWithError("wrong count");
     state.counters["peak_MiB"] = static_cast<double>(budget.peak_bytes() >> 20);
   }

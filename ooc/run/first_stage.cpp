@@ -248,6 +248,7 @@ std::unique_ptr<ReorderedMesh> sort_on_disk(RunContext& run, IndexedMesh& mesh, 
   return reorder(mesh, run.temp, run.budget,
                  {.allowance_bytes = std::min<std::uint64_t>(run.budget.free_bytes() / 2, kSortBytesLimit),
                   .coordinates = std::min(dimension, 3u),
+                  .threads = run.options.threads,
                   .progress = [&run](double done) { tell_sorting(run, kSorted * done); }});
 }
 

@@ -22,6 +22,7 @@
 #include "ooc/sorting/sort_buffer.h"
 #include "ooc/sorting/sorted_run_file.h"
 #include "ooc/sorting/sorted_run_merger.h"
+#include "ooc/threads/kept_arena.h"
 #include "ooc/threads/read_ahead.h"
 #include "ooc/threads/worker.h"
 
@@ -30,7 +31,7 @@ namespace reeb::ooc {
 struct SortOptions {
   std::uint64_t allowance_bytes = 16 << 20;  // of the budget
   std::uint64_t most_bytes = 0;              // if larger: the allowance grows with the file, up to this
-  bool parallel = false;                     // sort each run with all threads
+  unsigned threads = 1;                      // that sort a run
   bool background = false;                   // sort and write runs in a separate thread, with half the buffer
   std::string file = {};                     // of the runs, so that another process can resume; empty: unnamed
 };
@@ -302,8 +303,8 @@ class ExternalSort {
 #else
     constexpr bool kVisibleToSanitizer = true;
 #endif
-    if (options_.parallel && kVisibleToSanitizer)
-      tbb::parallel_sort(records.begin(), records.end(), less);
+    if (options_.threads > 1 && kVisibleToSanitizer)
+      run_in_kept_arena(options_.threads, [&] { tbb::parallel_sort(records.begin(), records.end(), less); });
     else
       std::sort(records.begin(), records.end(), less);
   }

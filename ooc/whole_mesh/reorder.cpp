@@ -216,7 +216,7 @@ class Reorder {
     return result;
   }
 
-  SortOptions sorting() const { return {.allowance_bytes = options_.allowance_bytes / 2, .parallel = true}; }
+  SortOptions sorting() const { return {.allowance_bytes = options_.allowance_bytes / 2, .threads = options_.threads}; }
   std::size_t slice_of(std::uint64_t id) const { return static_cast<std::size_t>(id / slice_entries_); }
   std::size_t slice_size(std::size_t s) const {
     return static_cast<std::size_t>(std::min(slice_entries_, vertex_count_ - s * slice_entries_));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <compare>
+#include <thread>
 #include <utility>
 
 #include "libreeb/base/error.h"
@@ -151,6 +152,7 @@ std::unique_ptr<IndexedMesh> sorted_along_hilbert(std::unique_ptr<IndexedMesh> m
   ReorderOptions options;
   options.allowance_bytes = 2 * space.share();
   options.coordinates = dimension;
+  options.threads = std::max(1u, std::thread::hardware_concurrency());
   options.progress = progress;
   return reorder(*mesh, space.temp, space.budget, options);
 }

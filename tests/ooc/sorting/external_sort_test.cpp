@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cerrno>
 #include <random>
 
@@ -63,9 +64,9 @@ void compare(std::size_t count, SortOptions options, std::uint64_t limit_bytes, 
 
 TEST(ExternalSort, AgreesWithASortInMemory) {
   for (const bool background : {false, true})
-    for (const bool parallel : {false, true}) {
+    for (const unsigned threads : {1u, 3u}) {
       const auto with = [&](std::uint64_t allowance) {
-        return SortOptions{.allowance_bytes = allowance, .parallel = parallel, .background = background};
+        return SortOptions{.allowance_bytes = allowance, .threads = threads, .background = background};
       };
       compare(0, with(1 << 20), 8 << 20, false);
       compare(1, with(0), 8 << 20, false);
@@ -76,6 +77,35 @@ TEST(ExternalSort, AgreesWithASortInMemory) {
       compare(200'000, with(0), 512 << 10, true);         // many passes of two
       compare(200'000, with(16 << 20), 600 << 10, true);  // the budget, not the allowance
     }
+}
+
+// Compares, and notes how many threads do so at once.
+struct CountingLess {
+  static inline std::atomic<int> now = 0, most = 0;
+  bool operator()(const Pair& a, const Pair& b) const {
+    const int count = ++now;
+    for (int before = most; before < count && !most.compare_exchange_weak(before, count);) {
+    }
+    --now;
+    return a < b;
+  }
+};
+
+TEST(ExternalSort, SortsInAsManyThreadsAsItMay) {
+  for (const unsigned threads : {1u, 2u, 3u}) {
+    const Scratch scratch;
+    const io::TempDir temp(scratch.path());
+    MemoryBudget budget;
+    CountingLess::most = 0;
+    ExternalSort<Pair, PlainCodec<Pair>, CountingLess> sort("pairs", temp, budget,
+                                                            {.allowance_bytes = 64 << 20, .threads = threads});
+    sort.add(random_pairs(1'000'000, 1));
+    sort.finish();
+    EXPECT_LE(CountingLess::most, static_cast<int>(threads));
+    if (threads == 1) {
+      EXPECT_EQ(CountingLess::most, 1);
+    }
+  }
 }
 
 // Merging holds a block of each run: a large file has fewer runs if they are longer.
