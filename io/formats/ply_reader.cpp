@@ -82,6 +82,7 @@ class PlyReader final : public PlyBodyReader {
         decoder_(std::move(text), header_),
         vertex_limit_(header_.vertices().count) {
     info_ = describe(header_, decoder_.source());
+    name_all_properties();
     choose_columns();
     if (std::ranges::any_of(steps_, &Step::from_body) && !decoder_.source().can_seek())
       throw Error(ErrorKind::kBadInput, "the faces stand before their vertices, and the input can be read only once",

@@ -28,6 +28,11 @@ class BatchReader : public MeshReader {
  protected:
   explicit BatchReader(ReadOptions options) : options_(std::move(options)) { set_batch_events(options_.batch_events); }
 
+  // Call it when info_ is known, if the format has properties.
+  void name_all_properties() {
+    if (options_.all_properties) options_.properties = info_.property_names;
+  }
+
   // Adds events in the order of the file while room() is left. Adds none only at the end.
   virtual void fill(MeshBatch& batch) = 0;
 

@@ -14,19 +14,28 @@ std::string joined(const std::vector<std::string>& names) {
   return text;
 }
 
+// Names for the further values of vertices: "s0", "s1", ... for floats, "i0", "i1", ... for integers.
+std::vector<std::string> property_names(const StreamHeader& header) {
+  std::vector<std::string> names;
+  for (unsigned i = 3; i < header.vertex_floats; ++i) names.push_back(std::string("s").append(std::to_string(i - 3)));
+  for (unsigned i = 0; i < header.vertex_ints; ++i) names.push_back(std::string("i").append(std::to_string(i)));
+  return names;
+}
+
 class StreamMeshReader : public MeshReader {
  public:
   StreamMeshReader(std::unique_ptr<EventReader> reader, const ReadOptions& options, std::uint64_t file_bytes)
       : reader_(in_pre_order(std::move(reader))), batch_events_(std::max<std::size_t>(1, options.batch_events)) {
     const StreamHeader& header = reader_->header();
     info_.format = header.format;
-    info_.property_names = stream_property_names(header);
+    info_.property_names = property_names(header);
     info_.vertex_count = header.vertex_count;
     info_.simplex_count = header.cell_count;
     info_.finalizes = true;
     info_.float32 = header.vertex_ints == 0;
     info_.file_bytes = file_bytes;
-    for (const auto& name : options.properties) columns_.push_back(column_of(name));
+    for (const auto& name : options.all_properties ? info_.property_names : options.properties)
+      columns_.push_back(column_of(name));
   }
 
   const MeshInfo& info() const override { return info_; }
@@ -113,13 +122,6 @@ class StreamMeshReader : public MeshReader {
 };
 
 }  // namespace
-
-std::vector<std::string> stream_property_names(const StreamHeader& header) {
-  std::vector<std::string> names;
-  for (unsigned i = 3; i < header.vertex_floats; ++i) names.push_back(std::string("s").append(std::to_string(i - 3)));
-  for (unsigned i = 0; i < header.vertex_ints; ++i) names.push_back(std::string("i").append(std::to_string(i)));
-  return names;
-}
 
 std::unique_ptr<MeshReader> make_stream_mesh_reader(std::unique_ptr<EventReader> reader, const ReadOptions& options,
                                                     std::uint64_t file_bytes) {

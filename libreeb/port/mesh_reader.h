@@ -27,7 +27,7 @@ struct MeshBatch {
   std::size_t vertex_count = 0;  // vertices are numbered first_vertex, first_vertex + 1, ...
   // coordinates[k][i] is the k-th coordinate of the i-th vertex; MeshInfo::dimension columns.
   std::vector<std::vector<double>> coordinates;
-  // properties[k][i] is ReadOptions::properties[k] of the i-th vertex.
+  // properties[k][i] is the k-th requested property (ReadOptions) of the i-th vertex.
   std::vector<std::vector<double>> properties;
 
   // Column k, numbered as in IndexedMesh::gather: coordinates first, then properties.
@@ -66,6 +66,7 @@ struct MeshInfo {
 struct ReadOptions {
   std::vector<std::string> properties;  // vertex properties to deliver, by name
   std::size_t batch_events = 65536;     // vertices or simplices per batch, roughly
+  bool all_properties = false;          // deliver those of MeshInfo::property_names instead
 };
 
 // THREADS: one at a time; different readers share nothing.

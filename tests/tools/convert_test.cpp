@@ -264,6 +264,24 @@ TEST_F(Convert, KeepsDoublePrecisionWhereTheInputHasIt) {
       << rounded.error;
 }
 
+// What comes through a pipe can be opened only once.
+TEST_F(Convert, ValuesOfVerticesComeThroughAPipe) {
+  expect_success("convert " + sample("tetcube.s4.pre.sva") + " file.ply");
+  ASSERT_NE(text("file.ply").find("property float s0"), std::string::npos);
+  expect_success("convert file.ply expected.ply");
+  expect_success("convert - input.ply < file.ply");
+  EXPECT_TRUE(same(text("input.ply"), text("expected.ply")));
+  for (const std::string target : {"pipe.ply", "pipe.ply --finalize --force"}) {
+    const std::string command = "cd '" + folder_.string() +
+                                "' && rm -f fifo && mkfifo fifo && (cat file.ply > fifo & timeout 20 '" REEB_PROGRAM
+                                "' convert fifo " +
+                                target + " >stdout 2>stderr)";
+    ASSERT_EQ(std::system(command.c_str()), 0) << target << '\n' << text("stderr");
+    EXPECT_EQ(graph_of("pipe.ply -f property:s0"), graph_of("file.ply -f property:s0")) << target;
+  }
+  EXPECT_NE(text("pipe.ply").find("property float s0"), std::string::npos);
+}
+
 TEST_F(Convert, RefusesWhatItCannotDo) {
   write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   write("taken.smb", "mine");

@@ -95,10 +95,9 @@ class Conversion {
       const std::uint64_t bytes = source->file_bytes();
       auto events = io::open_stream(std::move(source), options_.input);
       if (can_copy_events(events->header())) return copy_events(std::move(events), bytes);
-      const ReadOptions& options = read_options(io::stream_property_names(events->header()));
-      reader_ = io::make_stream_mesh_reader(std::move(events), options, bytes);
+      reader_ = io::make_stream_mesh_reader(std::move(events), read_options(), bytes);
     } else {
-      reader_ = io::open_mesh(std::move(source), options_.input, read_options(properties_of_input()));
+      reader_ = io::open_mesh(std::move(source), options_.input, read_options());
     }
     // Without finalization all vertices of the mesh would stay active in the writer.
     sorts_ |= format_ == io::StreamFormat::kCompressed && !reader_->info().finalizes;
@@ -131,21 +130,24 @@ class Conversion {
     return io::name_suffix(options_.output) == ".ply" || io::is_volume_name(options_.output);
   }
 
-  // The options for reading a mesh that has these properties.
-  const ReadOptions& read_options(Lines known_properties) {
-    if (holds_properties())
-      read_options_.properties = std::move(known_properties);
-    else if (options_.order.function)
-      read_options_.properties = io::needed_properties({&*options_.order.function, 1});
+  ReadOptions read_options() const {
+    ReadOptions options;
+    options.all_properties = holds_properties();
+    options.properties = requested_properties();
     // With batches of one event, finalizations stay directly after the triangles that they follow.
-    if (!sorts_ && format_ != io::StreamFormat::kNone) read_options_.batch_events = 1;
-    return read_options_;
+    if (!sorts_ && format_ != io::StreamFormat::kNone) options.batch_events = 1;
+    return options;
   }
 
-  // The properties of a pipe cannot be read in advance.
-  Lines properties_of_input() const {
-    if (!holds_properties() || options_.input == "-") return {};
-    return io::open_mesh(options_.input)->info().property_names;
+  // Those that the order needs, if not all are kept.
+  Lines requested_properties() const {
+    if (!options_.order.function) return {};
+    return io::needed_properties({&*options_.order.function, 1});
+  }
+
+  // The columns after the coordinates.
+  Lines property_columns() const {
+    return holds_properties() ? reader_->info().property_names : requested_properties();
   }
 
   std::unique_ptr<MeshWriter> create_writer(std::optional<std::uint64_t> vertex_count) const {
@@ -155,7 +157,7 @@ class Conversion {
     options.float64 = !info.float32;
     options.existing = options_.existing;
     options.temp_folder = options_.temp_folder;
-    if (holds_properties()) options.property_names = read_options_.properties;
+    if (holds_properties()) options.property_names = reader_->info().property_names;
     // SMC leaves out vertices that no triangle names.
     if (format_ != io::StreamFormat::kCompressed) options.vertex_count = vertex_count;
     return io::create_mesh(options_.output, options);
@@ -191,7 +193,6 @@ class Conversion {
   io::StreamFormat format_;
   bool sorts_;
   std::unique_ptr<MeshReader> reader_;
-  ReadOptions read_options_;
 };
 
 Lines Conversion::write_sorted() {
@@ -238,7 +239,7 @@ std::unique_ptr<IndexedMesh> Conversion::sorted(std::unique_ptr<IndexedMesh> mes
     case TriangleOrder::Kind::kSweep:
       break;
   }
-  io::FunctionSource function(*options_.order.function, reader_->info(), read_options_.properties, options_.input);
+  io::FunctionSource function(*options_.order.function, reader_->info(), property_columns(), options_.input);
   return ooc::sorted_by_function(std::move(mesh), function, space, progress);
 }
 
