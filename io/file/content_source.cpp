@@ -8,12 +8,14 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "io/file/decompressor.h"
 #include "io/file/input_file.h"
 #include "io/file/mapped_windows.h"
+#include "io/file/system.h"
 #include "libreeb/base/error.h"
 
 namespace reeb::io {
@@ -68,16 +70,13 @@ class PipeInput final : public RawInput {
   }
 
   std::size_t read(char* out, std::size_t limit) override {
-    ssize_t got = 0;
-    do {
-      got = ::read(descriptor_, out, limit);
-    } while (got < 0 && errno == EINTR);
-    if (got < 0)
-      throw Error(ErrorKind::kBadInput, std::string("cannot be read: ") + std::strerror(errno),
+    const auto got = system::read_some(descriptor_, std::as_writable_bytes(std::span(out, limit)));
+    if (got.error != 0)
+      throw Error(ErrorKind::kBadInput, std::string("cannot be read: ") + std::strerror(got.error),
                   "check what is connected to the input")
           .at(name_);
-    consumed_ += static_cast<std::uint64_t>(got);
-    return static_cast<std::size_t>(got);
+    consumed_ += got.bytes;
+    return got.bytes;
   }
   std::uint64_t consumed() const override { return consumed_; }
 
@@ -172,7 +171,7 @@ std::unique_ptr<ContentSource> stream_source(const std::string& name, std::uniqu
 
 std::unique_ptr<RawInput> open_pipe(const std::string& path) {
   if (path == "-") return std::make_unique<PipeInput>("standard input", STDIN_FILENO, false);
-  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  const int descriptor = system::open(path, O_RDONLY);
   if (descriptor < 0)
     throw Error(ErrorKind::kBadInput, std::string("cannot be read: ") + std::strerror(errno),
                 "check the permissions of the file")

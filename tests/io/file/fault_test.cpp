@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <filesystem>
 #include <fstream>
@@ -13,6 +15,7 @@
 #include <numeric>
 
 #include "io/file/atomic_file.h"
+#include "io/file/content_source.h"
 #include "io/file/mapped_windows.h"
 #include "libreeb/base/error.h"
 #include "tests/support/scratch.h"
@@ -120,6 +123,58 @@ TEST(Fault, AFullDiskIsSaidInTheWordsOfTheSystem) {
     EXPECT_EQ(error.kind(), ErrorKind::kResource);
     EXPECT_NE(error.message().find("No space left"), std::string::npos);
     EXPECT_NE(error.hint().find("make room"), std::string::npos);
+  }
+}
+
+// A pipe that holds these bytes, as a path.
+class FullPipe {
+ public:
+  explicit FullPipe(const std::string& bytes) {
+    std::array<int, 2> ends{};
+    EXPECT_EQ(::pipe(ends.data()), 0);
+    EXPECT_EQ(::write(ends[1], bytes.data(), bytes.size()), static_cast<ssize_t>(bytes.size()));
+    ::close(ends[1]);
+    descriptor_ = ends[0];
+  }
+  FullPipe(const FullPipe&) = delete;
+  FullPipe& operator=(const FullPipe&) = delete;
+  ~FullPipe() { ::close(descriptor_); }
+  std::string path() const { return "/dev/fd/" + std::to_string(descriptor_); }
+
+ private:
+  int descriptor_ = -1;
+};
+
+std::string read_content(const std::string& path) {
+  const auto source = open_content(path);
+  std::string bytes;
+  for (std::string_view view; !(view = source->view(bytes.size(), 1)).empty();) bytes += view;
+  return bytes;
+}
+
+TEST(Fault, APipeThatIsInterruptedIsReadWhole) {
+  const std::string bytes = pattern(60'000);
+  const FullPipe pipe(bytes);
+  std::uint64_t calls = 0;
+  const ScopedFileFaults faults([&calls](FileCall) {
+    return ++calls % 3 == 0 ? FileFault{.most_bytes = 1 + calls % 777} : FileFault{.error = EINTR};
+  });
+  EXPECT_TRUE(read_content(pipe.path()) == bytes);
+  EXPECT_GT(calls, 300u);
+}
+
+TEST(Fault, APipeThatCannotBeReadIsABadInput) {
+  for (const FileCall call : {FileCall::kOpen, FileCall::kRead}) {
+    const FullPipe pipe("abc");
+    const ScopedFileFaults faults(FaultAtCall(call, 1, {.error = EIO}));
+    try {
+      read_content(pipe.path());
+      ADD_FAILURE() << "the error was swallowed";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::kBadInput);
+      EXPECT_EQ(error.file(), pipe.path());
+      EXPECT_NE(error.message().find("cannot be read: "), std::string::npos) << error.what();
+    }
   }
 }
 
