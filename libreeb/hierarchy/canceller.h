@@ -1,27 +1,16 @@
 // The rules by which pairs are cancelled (docs/SEMANTICS.md, Cancelling), one step at a time.
 //
-// WHY THE SEARCHES ARE SHORT. When the turn of a pair comes, every pair inside its interval is gone, except kept loops.
-// So
-//  (1) the component of a maximum u above its up-fork v has no other maximum: any path up from v into it ends in u, and
-//      any path up from v outside it passes the level of u;
-//  (2) no two arcs of v lead into that component, or into the same component of the interlevel set (v, y) of a loop
-//      (v, y). Otherwise there would be a loop with lo = v that ends below u, or y, and only a kept loop can.
-// Only at a fork with a kept loop is a whole component searched.
-//
 // THREADS: a Canceller belongs to one thread.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <stdexcept>
 #include <utility>
-#include <vector>
 
-#include "libreeb/hierarchy/bounded_search.h"
 #include "libreeb/hierarchy/hierarchy.h"
 #include "libreeb/hierarchy/path_follower.h"
+#include "libreeb/hierarchy/path_search.h"
 #include "libreeb/hierarchy/version_log.h"
 #include "libreeb/hierarchy/working_graph.h"
 
@@ -78,9 +67,7 @@ class Canceller {
  public:
   // Copies the arcs of `graph`, whose own are not needed afterwards. REQUIRES: `sink` outlives this.
   Canceller(const ReebGraph& graph, RecordSink& sink, Content content = {})
-      : graph_(graph), log_(graph_, sink), ahead_(graph_), back_(graph_), ways_(graph_), content_(std::move(content)) {
-    for (std::vector<bool>& nodes : kept_) nodes.resize(graph.node_count());
-  }
+      : graph_(graph), log_(graph_, sink), search_(graph_), ways_(graph_), content_(std::move(content)) {}
   Canceller(const Canceller&) = delete;
   Canceller& operator=(const Canceller&) = delete;
 
@@ -91,8 +78,7 @@ class Canceller {
     if (pair.type == PairType::kRel1) cancel_extremum(kUp, lo, hi);
     if (pair.type == PairType::kOrd0) cancel_extremum(kDown, hi, lo);
     if (pair.type == PairType::kExt1 && !cancel_loop(lo, hi)) {
-      kept_[kUp][lo.value()] = true;
-      kept_[kDown][hi.value()] = true;
+      search_.note_kept(lo, hi);
       return false;
     }
     contract(lo);
@@ -107,8 +93,7 @@ class Canceller {
   void prefetch_nodes(const PersistencePair& pair) const {
     for (const NodeId id : {pair.lo, pair.hi}) {
       graph_.prefetch_node(id);
-      ahead_.prefetch(id);
-      back_.prefetch(id);
+      search_.prefetch(id);
       ways_.prefetch(id);
       content_.prefetch_node(id);
     }
@@ -140,24 +125,22 @@ class Canceller {
   static constexpr std::uint32_t kMaxArcsWithContent = 8, kAny = ~std::uint32_t{0};
 
   // A pair of `fork` with the extremum that is its partner in direction d.
-  void cancel_extremum(Direction d, NodeId fork, NodeId extremum);
+  void cancel_extremum(Direction d, NodeId fork, NodeId extremum) {
+    const auto [in, out] = search_.arcs_of_fork(d, fork, extremum);
+    zip_onto(d, in, out, extremum);
+  }
   void zip_onto(Direction d, ArcId arc, ArcId other, NodeId extremum);
   bool follow_in_parallel(Direction d, ArcId arc, ArcId& other, NodeId& start, NodeId end, std::uint32_t most = kAny);
-  ArcId arc_to_extremum(Direction d, NodeId fork, NodeId extremum);
   bool cancel_loop(NodeId v, NodeId y);
-  bool take_away(ArcId arc);
-  void search_paths(NodeId v, NodeId y);
-  ArcId second_path(NodeId v, NodeId y, ArcId first);
-  void trace(std::vector<ArcId>& path, NodeId y);
+  void take_away(ArcId arc);
 
   template <class Visit>
   void for_nearest(NodeId node, const Visit& visit) const {
     for (const Direction d : {kDown, kUp})
       if (const ArcId arc = graph_.nearest(node, d); arc != kNone) visit(arc);
   }
-  bool leads(ArcId arc) const { return back_.reached(graph_.end(arc, kUp)); }
 
-  // Zips two paths that start in one node, go in direction d, and end in one node.
+  // Zips the two paths, which go in direction d.
   void zip(Direction d);
   void move_start(Direction d, ArcId arc, NodeId node) {
     log_.touch(arc);
@@ -184,30 +167,15 @@ class Canceller {
   }
   void contract(NodeId node);
 
-  [[noreturn]] static void not_a_pair() { throw std::logic_error("Canceller: not a pair of this graph"); }
-
   WorkingGraph graph_;
   VersionLog log_;
-  BoundedSearch ahead_;  // from the fork of the pair
-  BoundedSearch back_;   // from its partner
+  PathSearch search_;
   PathFollower ways_;
-  std::array<std::vector<bool>, 2> kept_;  // by direction and node: whether a kept loop starts there in that direction
-  std::vector<ArcId> first_, second_;      // arcs of the two paths to be zipped
+  TwoPaths paths_;  // to be zipped
   Content content_;
 };
 
 // ---- extrema
-
-template <class Content>
-void Canceller<Content>::cancel_extremum(Direction d, NodeId fork, NodeId extremum) {
-  const ArcId in = arc_to_extremum(d, fork, extremum);
-  const bool searched = kept_[d][fork.value()];
-  const ArcId out = graph_.nearest_if(
-      fork, d, farthest(d), [&](ArcId arc) { return searched ? !back_.reached(graph_.end(arc, d)) : arc != in; });
-  if (in == kNone || out == kNone) not_a_pair();
-
-  zip_onto(d, in, out, extremum);
-}
 
 // Zips the path that starts with `arc` and ends in the extremum onto the path that starts with `other`, which is in
 // another component and reaches beyond. An arc of the second path is cut only where a node of the first path comes
@@ -259,114 +227,37 @@ bool Canceller<Content>::follow_in_parallel(Direction d, ArcId arc, ArcId& other
   return true;
 }
 
-// The nearest arc of `fork` that leads into the extremum's component. With a kept loop at the fork there can be several
-// such arcs; then back_ has reached the whole component in the end. Otherwise there is one, and the search goes from
-// both ends: back from the extremum, and forward from each arc of the fork.
-template <class Content>
-ArcId Canceller<Content>::arc_to_extremum(Direction d, NodeId fork, NodeId extremum) {
-  const bool searched = kept_[d][fork.value()];
-  back_.start(extremum, opposite(d), fork);
-  if (searched) {
-    back_.finish();
-    return graph_.nearest_if(fork, d, extremum, [&](ArcId arc) { return back_.reached(graph_.end(arc, d)); });
-  }
-  // The second search visits the fork's own arcs only; each is walked to its end in turn.
-  ahead_.start(fork, d, extremum);
-  ArcId walker = kNone, walked = kNone;
-  while (true) {
-    const ArcId back = back_.step();
-    if (back != kNone && graph_.end(back, opposite(d)) == fork) return back;
-    if (walked == kNone) {
-      walker = walked = ahead_.step([](NodeId) { return false; });
-      if (walker == kNone && back == kNone) not_a_pair();
-      continue;
-    }
-    const NodeId node = graph_.end(walked, d);
-    if (node == extremum) return walker;
-    walked = along(d, node) < along(d, extremum) ? graph_.nearest(node, d) : kNone;
-  }
-}
-
 // ---- loops
 
 template <class Content>
 bool Canceller<Content>::cancel_loop(NodeId v, NodeId y) {
-  const ArcId direct = graph_.nearest_if(v, kUp, y, [&](ArcId arc) { return graph_.end(arc, kUp) == y; });
-  if (direct != kNone) return take_away(direct);
-
-  search_paths(v, y);
-  const ArcId first = graph_.nearest_if(v, kUp, y, [&](ArcId arc) { return leads(arc); });
-  if (first == kNone) return false;
-  const ArcId second = second_path(v, y, first);
-  if (second == kNone) return false;
-  first_.assign(1, first);
-  second_.assign(1, second);
-  trace(first_, y);
-  trace(second_, y);
+  if (const ArcId arc = search_.find_arc(v, y); arc != kNone) {
+    take_away(arc);
+    return true;
+  }
+  if (!search_.find_paths(v, y, paths_)) return false;
   zip(kUp);
   return true;
 }
 
 template <class Content>
-bool Canceller<Content>::take_away(ArcId arc) {
+void Canceller<Content>::take_away(ArcId arc) {
   if constexpr (Content::kFollows) {
-    const NodeId v = graph_.end(arc, kDown), y = graph_.end(arc, kUp);
-    search_paths(v, y);
-    const ArcId parallel = graph_.nearest_if(v, kUp, y, [&](ArcId other) { return other != arc && leads(other); });
-    if (parallel != kNone) {
-      first_.assign(1, parallel);
-      second_.assign(1, arc);
-      trace(first_, y);
-      zip(kUp);
-      return true;
+    if (search_.find_path_beside(arc, paths_.first)) {
+      paths_.second.assign(1, arc);
+      return zip(kUp);
     }
     content_.drop(arc, 0);
   }
   remove(arc);
-  return true;
-}
-
-// Makes leads() true for the arcs that can be reached from v and from which a monotone path reaches y. Searches down
-// from y and up from v in turn, until one of the two searches is complete.
-template <class Content>
-void Canceller<Content>::search_paths(NodeId v, NodeId y) {
-  back_.start(y, kDown, v);
-  ahead_.start(v, kUp, y);
-  while (back_.step() != kNone)
-    if (ahead_.step() == kNone) {
-      back_.start(y, kDown, v);
-      while (back_.step([&](NodeId node) { return ahead_.reached(node); }) != kNone) {
-      }
-      return;
-    }
-}
-
-// The nearest arc of v that leads to y in another component of the open interlevel set (v, y) than
-// that of the arc `first`; kNone if there is none.
-template <class Content>
-ArcId Canceller<Content>::second_path(NodeId v, NodeId y, ArcId first) {
-  if (!kept_[kUp][v.value()])
-    return graph_.nearest_if(v, kUp, y, [&](ArcId arc) { return arc != first && leads(arc); });
-  ahead_.start_both(graph_.end(first, kUp), NodeId(v.value() + 1), NodeId(y.value() - 1));
-  ahead_.finish();
-  return graph_.nearest_if(v, kUp, y, [&](ArcId arc) { return leads(arc) && !ahead_.reached(graph_.end(arc, kUp)); });
-}
-
-// Extends the path to y. At each choice it takes, of the arcs that lead to y, the one with the lowest upper node.
-template <class Content>
-void Canceller<Content>::trace(std::vector<ArcId>& path, NodeId y) {
-  for (NodeId node = graph_.end(path.back(), kUp); node != y; node = graph_.end(path.back(), kUp)) {
-    path.push_back(graph_.nearest_if(node, kUp, y, [&](ArcId arc) { return leads(arc); }));
-    if (path.back() == kNone) not_a_pair();
-  }
 }
 
 // ---- moving arcs
 
 template <class Content>
 void Canceller<Content>::zip(Direction d) {
-  for (std::size_t i = 0, j = 0; i < first_.size() && j < second_.size();) {
-    const ArcId a = first_[i], b = second_[j];
+  for (std::size_t i = 0, j = 0; i < paths_.first.size() && j < paths_.second.size();) {
+    const ArcId a = paths_.first[i], b = paths_.second[j];
     const NodeId end_a = graph_.end(a, d), end_b = graph_.end(b, d);
     if (end_a == end_b) {
       merge(b, a);
