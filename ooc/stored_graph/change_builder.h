@@ -1,0 +1,42 @@
+// Collects the change of a stored graph, part by part.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "libreeb/hierarchy/denoise.h"
+#include "libreeb/hierarchy/packed_lists.h"
+#include "ooc/stored_graph/graph_change.h"
+#include "ooc/stored_graph/pass_room.h"
+
+namespace reeb::ooc {
+
+class ChangeBuilder {
+ public:
+  // REQUIRES: `room` outlives this. Without an exponent arcs have no buckets.
+  ChangeBuilder(MemoryBudget& budget, PassRoom& room, std::optional<int> exponent);
+
+  // Arcs with these buckets will be replaced.
+  void count_replaced(std::size_t arcs, const PackedLists& buckets);
+  // What has become of a part of the graph. `before` and `former_hi` are its nodes and the upper ends of its arcs as
+  // they were; `places` are the nodes whose arcs are replaced. If it does not fit the room, `enough` is recorded.
+  void add(const Denoised& part, const PackedLists& buckets, const std::vector<SweepKey>& before,
+           const std::vector<NodeId>& former_hi, const std::vector<SweepKey>& places, std::uint64_t enough);
+  // Ends the change; `redone` are all places. Nothing if it does not fit.
+  std::optional<GraphChange> finish(std::vector<SweepKey> redone, std::uint64_t enough);
+
+ private:
+  void reserve(std::size_t arc_count, const PackedLists& buckets, std::uint64_t enough);
+  void add_arc(const ChangedArc& arc, std::span<const std::byte> packed_buckets, std::uint64_t enough);
+  bool grow(std::uint64_t bytes, std::uint64_t enough);
+
+  PassRoom& room_;
+  const std::optional<int> exponent_;
+  std::vector<std::byte> payload_;
+  GraphChange change_;
+};
+
+}  // namespace reeb::ooc
