@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "libreeb/base/printable.h"
+
 namespace reeb {
 
 Error::Error(ErrorKind kind, std::string what, std::string hint)
@@ -20,7 +22,7 @@ void Error::compose() {
   text_ = file_;
   if (!position_.empty()) text_ += (text_.empty() ? "" : ":") + position_;
   if (!text_.empty()) text_ += ": ";
-  text_ += message_;
+  text_ = printable(text_ + message_);
 }
 
 }  // namespace reeb

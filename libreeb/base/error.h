@@ -33,7 +33,7 @@ class Error : public std::exception {
   const std::string& message() const { return message_; }
   const std::string& hint() const { return hint_; }
 
-  // "FILE:POSITION: WHAT", without the parts that are unknown.
+  // "FILE:POSITION: WHAT", without the parts that are unknown. One line, safe to show (printable.h).
   const char* what() const noexcept override { return text_.c_str(); }
 
  private:
