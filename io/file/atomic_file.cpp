@@ -42,19 +42,6 @@ bool is_number_pair(std::string_view text) {
       .at(path);
 }
 
-// The end of the chain of links that starts at `path`. There need not be a file yet.
-std::string follow_links(const std::string& path) {
-  constexpr int kMaxLinks = 40;  // the limit of the system
-  fs::path place = path;
-  std::error_code ignored;
-  for (int i = 0; i < kMaxLinks; ++i) {
-    if (!fs::is_symlink(fs::symlink_status(place, ignored))) return place.string();
-    const fs::path target = fs::read_symlink(place, ignored);
-    place = target.is_absolute() ? target : place.parent_path() / target;
-  }
-  throw Error(ErrorKind::kBadInput, "the output is a symbolic link that leads to itself", "name a file").at(path);
-}
-
 // 0666 minus the umask. umask() returns the mask only by setting it, which other threads could notice, so /proc is read
 // first.
 mode_t usual_mode() {
@@ -73,27 +60,51 @@ bool has_name(int descriptor) {
 
 }  // namespace
 
+std::string follow_links(const std::string& path) {
+  constexpr int kMaxLinks = 40;  // the limit of the system
+  fs::path place = path;
+  std::error_code ignored;
+  for (int i = 0; i < kMaxLinks; ++i) {
+    if (!fs::is_symlink(fs::symlink_status(place, ignored))) return place.string();
+    const fs::path target = fs::read_symlink(place, ignored);
+    place = target.is_absolute() ? target : place.parent_path() / target;
+  }
+  throw Error(ErrorKind::kBadInput, "the output is a symbolic link that leads to itself", "name a file").at(path);
+}
+
 void check_output_name(const std::string& path, Existing existing) {
+  if (is_device(path)) return;
   std::error_code ignored;
   const fs::file_status status = fs::status(path.empty() ? path : follow_links(path), ignored);
+  // A folder exists, and no permission makes it an output.
   if (path.empty() || fs::is_directory(status))
-    throw Error(ErrorKind::kBadInput, "the output is a folder", "name a file").at(path);
+    throw Error(existing == Existing::kReplace ? ErrorKind::kResource : ErrorKind::kBadInput, "the output is a folder",
+                "name a file")
+        .at(path);
   if (fs::is_regular_file(status) && existing == Existing::kRefuse) throw_name_is_taken(path);
 }
 
 void require_output_folder(const std::string& path) {
-  if (is_device(path)) return;
-  const std::string folder = folder_of(follow_links(path));
+  if (is_device(path)) {
+    if (path != kStandardOutput && ::access(path.c_str(), W_OK) != 0) throw_output_error(errno, path);
+    return;
+  }
+  const std::string target = follow_links(path), folder = folder_of(target);
+  // The temporary file has a longer name.
+  constexpr std::size_t kMaxName = 255, kSuffixBytes = sizeof(".partial-4194304-9") - 1;
+  if (fs::path(target).filename().string().size() + kSuffixBytes > kMaxName)
+    throw Error(ErrorKind::kResource, "the name of the output is too long", "choose a shorter name").at(path);
   const int probe = system::open_unnamed(folder);
   if (probe < 0)
     throw Error(ErrorKind::kResource,
                 std::string("the output cannot be written to this folder: ") + std::strerror(errno),
-                "choose a folder that exists and is writable with -o FILE")
+                hint_for(errno, "choose a folder that exists and is writable with -o FILE"))
         .at(folder);
   ::close(probe);
 }
 
 void remove_abandoned(const std::string& path) {
+  if (is_device(path)) return;
   const std::string target = follow_links(path), prefix = fs::path(target).filename().string() + kSuffix;
   std::error_code error;
   for (fs::directory_iterator entry(folder_of(target), error), end; !error && entry != end; entry.increment(error)) {
@@ -117,10 +128,6 @@ AtomicFile::AtomicFile(const std::string& path, const AtomicOptions& options) : 
   open_temporary();
 }
 
-AtomicFile::~AtomicFile() {
-  if (!temporary_.empty()) ::unlink(temporary_.c_str());
-}
-
 void AtomicFile::open_temporary() {
   File file;
   for (unsigned attempt = 0; !file.is_open(); ++attempt) {
@@ -129,7 +136,7 @@ void AtomicFile::open_temporary() {
     if (descriptor < 0 && errno == EEXIST) continue;
     if (descriptor < 0) throw_output_error(errno, path_);
     file = File(descriptor, path_, File::Use::kOutput);
-    temporary_ = std::move(name);
+    temporary_ = TemporaryName(std::move(name));
     // The lock is for remove_abandoned(). If that ran between the two calls, it has removed the file, and another is
     // created.
     ::flock(descriptor, LOCK_EX);
@@ -139,12 +146,15 @@ void AtomicFile::open_temporary() {
 }
 
 void AtomicFile::open_device() {
-  const int descriptor = system::open(path_, O_WRONLY);
-  if (descriptor < 0) throw_output_error(errno, path_);
-  File device(descriptor, path_, File::Use::kOutput);
+  const bool standard = path_ == kStandardOutput;
+  const int descriptor = standard ? system::duplicate(STDOUT_FILENO) : system::open(path_, O_WRONLY);
+  const std::string name = standard ? kStandardOutputShown : path_;
+  if (descriptor < 0) throw_output_error(errno, name);
+  File device(descriptor, name, File::Use::kOutput);
   if (options_.overwrites) {
     collected_ = std::move(device);
-    device = TempDir(TempDir::default_folder(path_)).create_unnamed("output");
+    device = TempDir(options_.temp_folder.empty() ? TempDir::default_folder(path_) : options_.temp_folder)
+                 .create_unnamed("output");
   }
   out_.emplace(std::move(device), options_.buffer_bytes);
 }
@@ -169,12 +179,30 @@ void AtomicFile::give_name() {
   const bool replaces = ::stat(target_.c_str(), &old) == 0;
   // Only a file system without modes refuses this.
   (void)!::fchmod(out_->file().descriptor(), replaces ? old.st_mode & 0777 : usual_mode());
-  const int error = options_.existing == Existing::kRefuse ? system::rename_to_new(temporary_, target_)
-                                                           : system::rename(temporary_, target_);
-  if (error == EEXIST && options_.existing == Existing::kRefuse) throw_name_is_taken(path_);
+  const bool may_replace = options_.existing == Existing::kReplace;
+  const int error =
+      may_replace ? system::rename(temporary_.path(), target_) : system::rename_to_new(temporary_.path(), target_);
+  if (error == EEXIST && !may_replace) give_other_name();
   if (error != 0) throw_output_error(error, path_);
-  temporary_.clear();
+  temporary_.release();
   if (const int failed = system::sync_folder(folder_of(target_)); failed != 0) throw_output_error(failed, path_);
+}
+
+// The work was done, so its result is kept.
+void AtomicFile::give_other_name() {
+  constexpr int kMost = 1000;
+  for (int number = 2; number < kMost; ++number) {
+    const std::string ending = std::string(".").append(std::to_string(number));
+    const int error = system::rename_to_new(temporary_.path(), target_ + ending);
+    if (error == EEXIST) continue;
+    if (error != 0) throw_output_error(error, path_);
+    temporary_.release();
+    throw Error(ErrorKind::kBadInput,
+                "another program made this file in the meantime, so the output is " + path_ + ending,
+                "rename one of the two, or allow replacing with --force")
+        .at(path_);
+  }
+  throw_name_is_taken(path_);
 }
 
 }  // namespace reeb::io

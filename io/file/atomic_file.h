@@ -1,8 +1,9 @@
 // The way to write every output: a file gets its name only when it is whole.
 //
 // Bytes go to NAME.partial-PID-N in the same folder. commit() makes them durable and gives them their name in one step.
-// Every other way out, exceptions included, removes them and leaves an older output untouched. If a process is killed,
-// the next writer of the same output removes its partial file.
+// Every other way out, exceptions included, removes them and leaves an older output untouched. A signal handler can
+// remove them, too (temporary_name.h). If a process is killed, the next writer of the same output removes its partial
+// file.
 #pragma once
 
 #include <cstdint>
@@ -10,17 +11,28 @@
 #include <string>
 
 #include "io/file/buffered_writer.h"
+#include "io/file/temporary_name.h"
 
 namespace reeb::io {
 
-enum class Existing { kRefuse, kReplace };
+// What happens to a file that has the name of an output.
+enum class Existing {
+  kRefuse,   // the output is refused
+  kReplace,  // it is replaced
+  kKeep,     // it stays, and the output gets another name: for outputs whose name was free when the work began
+};
 
 // Checks before any work that an output can have this name.
-// THROWS: Error{kBadInput} as the constructor of AtomicFile.
+// THROWS: as the constructor of AtomicFile.
 void check_output_name(const std::string& path, Existing existing);
 
-// The same for its folder. THROWS: Error{kResource} that names the folder of `path` if no file can be created there.
+// The same for its place. THROWS: Error{kResource} if no file of this name can be created in its folder, which it
+// names, or if `path` is a device that cannot be written.
 void require_output_folder(const std::string& path);
+
+// The end of the chain of links that starts at `path`. There need not be a file yet.
+// THROWS: Error{kBadInput} if the chain has no end.
+std::string follow_links(const std::string& path);
 
 // Removes the temporary files that killed writers of `path` left. A living writer holds a lock on its file, which
 // stays. AtomicFile calls this itself.
@@ -31,6 +43,7 @@ struct AtomicOptions {
   // Whether the writer overwrites bytes that it appended. If so, the output for a device is first collected in a
   // temporary file.
   bool overwrites = false;
+  std::string temp_folder = {};  // for that file; empty: TempDir::default_folder()
   std::size_t buffer_bytes = BufferedWriter::kBufferBytes;
 };
 
@@ -39,35 +52,37 @@ struct AtomicOptions {
 //   it is being written, only this user may read it.
 // - a symbolic link: the file that the link leads to, which is created if it is missing. The link stays.
 // - a device, a FIFO or a socket: that itself. Bytes are written to it as they come; it is never replaced.
+// The name "-" is standard output, which is written in the same way.
 //
 // THROWS, from every call: Error{kResource} with the path: the folder is missing or cannot be written, the disk is
 // full.
 class AtomicFile {
  public:
-  // THROWS: Error{kBadInput} if `path` exists and may not be replaced, is a folder, or is a link that leads only to
-  //         itself.
+  // THROWS: Error{kBadInput} if `path` exists and may not be replaced, or is a link that leads only to itself;
+  //         Error{kResource} if it may be replaced, but is a folder.
   explicit AtomicFile(const std::string& path, const AtomicOptions& options = {});
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
-  ~AtomicFile();
 
   // REQUIRES: commit() was not called.
   BufferedWriter& out() { return *out_; }
   const std::string& path() const { return path_; }
 
   // Calls fsync, rename, and fsync of the folder: after a power loss there is either the old file or the new one.
-  // THROWS: also Error{kBadInput} if the name was taken in the meantime and may not be replaced.
+  // THROWS: also Error{kBadInput} if there is a file of this name now that may not be replaced. Then the new file is
+  //         NAME.2 (or the next number that is free), as the error says.
   void commit();
 
  private:
   void open_temporary();
   void open_device();
   void give_name();
+  [[noreturn]] void give_other_name();
   void copy_to_device();
 
   std::string path_;               // as the user wrote it
   std::string target_;             // where links lead to
-  std::string temporary_;          // empty for devices, and after it got its name
+  TemporaryName temporary_;        // empty for devices, and after it got its name
   std::optional<File> collected_;  // the device that gets out_ at the end
   AtomicOptions options_;
   std::optional<BufferedWriter> out_;

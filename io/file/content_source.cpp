@@ -172,10 +172,7 @@ std::unique_ptr<ContentSource> stream_source(const std::string& name, std::uniqu
 std::unique_ptr<RawInput> open_pipe(const std::string& path) {
   if (path == "-") return std::make_unique<PipeInput>("standard input", STDIN_FILENO, false);
   const int descriptor = system::open(path, O_RDONLY);
-  if (descriptor < 0)
-    throw Error(ErrorKind::kBadInput, std::string("cannot be read: ") + std::strerror(errno),
-                "check the permissions of the file")
-        .at(path);
+  if (descriptor < 0) throw_input_error(errno, path);
   return std::make_unique<PipeInput>(path, descriptor, true);
 }
 

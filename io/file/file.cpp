@@ -18,9 +18,11 @@ namespace {
 
 bool is_full(int error) { return error == ENOSPC || error == EDQUOT || error == EFBIG; }
 
-[[noreturn]] void throw_input_error(const std::string& why, const std::string& path) {
+[[noreturn]] void throw_unreadable(const std::string& why, const std::string& path) {
   throw Error(ErrorKind::kBadInput, "cannot be read: " + why, "name a file that exists and may be read").at(path);
 }
+
+bool is_limit(int error) { return error == EMFILE || error == ENFILE || error == ENOMEM || error == EAGAIN; }
 
 }  // namespace
 
@@ -30,6 +32,7 @@ bool is_regular_file(const std::string& path) {
 }
 
 bool is_device(const std::string& path) {
+  if (path == kStandardOutput) return true;
   struct stat status {};
   return ::stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode);
 }
@@ -82,16 +85,16 @@ File::~File() {
 File File::open_for_reading(const std::string& path) {
   // Checked first: opening a FIFO would wait for its writer.
   struct stat status {};
-  if (::stat(path.c_str(), &status) != 0) throw_input_error(std::strerror(errno), path);
-  if (!S_ISREG(status.st_mode)) throw_input_error("not a regular file", path);
+  if (::stat(path.c_str(), &status) != 0) throw_input_error(errno, path);
+  if (!S_ISREG(status.st_mode)) throw_unreadable("not a regular file", path);
   const int descriptor = system::open(path, O_RDONLY);
-  if (descriptor < 0) throw_input_error(std::strerror(errno), path);
+  if (descriptor < 0) throw_input_error(errno, path);
   return {descriptor, path, Use::kInput};
 }
 
 File File::open_for_update(const std::string& path) {
   const int descriptor = system::open(path, O_RDWR | O_NOFOLLOW);
-  if (descriptor < 0) throw_input_error(std::strerror(errno), path);
+  if (descriptor < 0) throw_input_error(errno, path);
   return {descriptor, path, Use::kTemporary};
 }
 
@@ -102,7 +105,7 @@ File File::create(const std::string& path) {
   const int descriptor = system::open(path, O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW, 0600);
   if (descriptor < 0)
     throw Error(ErrorKind::kResource, std::string("cannot be created: ") + std::strerror(errno),
-                "choose a folder that exists and can be written")
+                hint_for(errno, "choose a folder that exists and can be written"))
         .at(path);
   return {descriptor, path, Use::kTemporary};
 }
@@ -132,7 +135,7 @@ Mapping File::map(std::uint64_t offset, std::size_t bytes) const {
   void* const begin = system::map(descriptor_, offset, bytes);
   if (begin == nullptr)
     throw Error(ErrorKind::kResource, std::string("cannot be mapped: ") + std::strerror(errno),
-                "check that the file is still there and that memory is left")
+                hint_for(errno, "check that the file is still there"))
         .at(path_, std::to_string(offset));
   Mapping mapping;
   mapping.bytes_ = {static_cast<const std::byte*>(begin), bytes};
@@ -153,15 +156,29 @@ void File::fail(const char* doing, int error, std::uint64_t offset, std::size_t 
   what += error == 0 ? "the file ends before" : std::strerror(error);
   const std::string hint = is_full(error) ? "free at least " + format_bytes(offset + bytes) +
                                                 " more on this volume, or choose another with --temp-dir DIR"
-                                          : "check the disk, or choose another with --temp-dir DIR";
+                                          : hint_for(error, "check the disk, or choose another with --temp-dir DIR");
   throw Error(ErrorKind::kResource, what, hint).at(path_, std::to_string(offset));
 }
 
+std::string hint_for(int error, const std::string& otherwise) {
+  if (error == EMFILE || error == ENFILE) return "allow more open files (ulimit -n), or close other programs";
+  if (is_limit(error)) return "allow more memory (ulimit -v), or close other programs";
+  return is_full(error) ? "make room on the disk, or write to another folder" : otherwise;
+}
+
+void throw_input_error(int error, const std::string& path) {
+  if (!is_limit(error)) throw_unreadable(std::strerror(error), path);
+  throw Error(ErrorKind::kResource, std::string("cannot be read: ") + std::strerror(error), hint_for(error, {}))
+      .at(path);
+}
+
 void throw_output_error(int error, const std::string& path, const std::string& position) {
-  throw Error(ErrorKind::kResource, std::string("cannot be written: ") + std::strerror(error),
-              is_full(error) ? "make room on the disk, or write to another folder"
-                             : "choose a folder that exists and is writable")
-      .at(path, position);
+  const bool standard = path == kStandardOutputShown;
+  throw Error(ErrorKind::kResource,
+              std::string("cannot be written") + (error == 0 ? "" : std::string(": ") + std::strerror(error)),
+              hint_for(error, standard ? "check what standard output leads to, or name a file with -o"
+                                       : "choose a folder that exists and is writable"))
+      .at(path, standard ? "" : position);
 }
 
 }  // namespace reeb::io

@@ -11,7 +11,12 @@ namespace reeb::io {
 
 // Whether `path` names a regular file: not a pipe, a folder or nothing.
 bool is_regular_file(const std::string& path);
-// Whether `path` names a device, a FIFO or a socket: something that an output is written to and does not replace.
+// The name of standard output.
+inline constexpr const char* kStandardOutput = "-";
+// Its name in messages.
+inline constexpr const char* kStandardOutputShown = "standard output";
+// Whether the output `path` is standard output, a device, a FIFO or a socket: something that is written to and not
+// replaced.
 bool is_device(const std::string& path);
 
 // The folder that holds `path`.
@@ -88,7 +93,12 @@ class File {
   Use use_ = Use::kTemporary;
 };
 
-// Throws Error{kResource}: the output `path` cannot be written, for the system's error number `error`.
+// The advice for the system's error number `error`: about a limit that was reached, or else `otherwise`.
+std::string hint_for(int error, const std::string& otherwise);
+
+// Throws the Error for an input that cannot be opened: kResource if a limit was reached, else kBadInput.
+[[noreturn]] void throw_input_error(int error, const std::string& path);
+// Throws Error{kResource}: the output `path` cannot be written, for the system's error number `error` (0: unknown).
 [[noreturn]] void throw_output_error(int error, const std::string& path, const std::string& position = {});
 
 }  // namespace reeb::io

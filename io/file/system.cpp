@@ -61,6 +61,10 @@ int open_unnamed(const std::string& folder) noexcept {
   return named;
 }
 
+int duplicate(int descriptor) noexcept {
+  return uninterrupted(FileCall::kOpen, [&](std::size_t) { return ::fcntl(descriptor, F_DUPFD_CLOEXEC, 0); });
+}
+
 Transfer read_at(int descriptor, std::uint64_t offset, std::span<std::byte> bytes) noexcept {
   return in_full(FileCall::kRead, bytes, [&](std::size_t done, std::span<std::byte> part) {
     return ::pread(descriptor, part.data(), part.size(), static_cast<off_t>(offset + done));

@@ -14,6 +14,8 @@ int open(const std::string& path, int flags, unsigned mode = 0) noexcept;
 // A new file without a name in `folder`, open for reading and writing. It is gone when it is closed, even if the
 // process is killed.
 int open_unnamed(const std::string& folder) noexcept;
+// Another descriptor of the same open file.
+int duplicate(int descriptor) noexcept;
 
 struct Transfer {
   std::size_t bytes = 0;

@@ -17,7 +17,7 @@ namespace {
 
 [[noreturn]] void refuse_folder(const std::string& folder, int error) {
   throw Error(ErrorKind::kResource, std::string("temporary files cannot be written there: ") + std::strerror(error),
-              "choose a folder that exists and is writable with --temp-dir DIR")
+              hint_for(error, "choose a folder that exists and is writable with --temp-dir DIR"))
       .at(folder);
 }
 

@@ -9,15 +9,21 @@
 
 namespace reeb::io {
 
+void check_mesh_name(const std::string& path) {
+  const std::string suffix = name_suffix(path);
+  if (stream_format(path) != StreamFormat::kNone || suffix == ".ply" || suffix == ".obj" || suffix == ".off") return;
+  throw Error(ErrorKind::kUsage, "cannot tell the mesh format to write from this name",
+              "end the name of the output in .ply .obj .off .sma .smb .smc .sva .svb or .events.txt")
+      .at(path);
+}
+
 std::unique_ptr<MeshWriter> create_mesh(const std::string& path, const MeshWriterOptions& options) {
+  check_mesh_name(path);
   if (stream_format(path) != StreamFormat::kNone) return create_stream_mesh(path, options);
   const std::string suffix = name_suffix(path);
   if (suffix == ".ply") return create_ply(path, options);
   if (suffix == ".obj") return create_obj(path, options);
-  if (suffix == ".off") return create_off(path, options);
-  throw Error(ErrorKind::kUsage, "cannot tell the mesh format to write from this name",
-              "end the name of the output in .ply .obj .off .sma .smb .smc .sva .svb or .events.txt")
-      .at(path);
+  return create_off(path, options);
 }
 
 }  // namespace reeb::io

@@ -14,6 +14,9 @@
 
 namespace reeb::io {
 
+// THROWS: Error{kUsage} if create_mesh() does not know the suffix of `path`.
+void check_mesh_name(const std::string& path);
+
 // The suffix of `path` determines the format: .ply .obj .off .sma .smb .smc .sva .svb .events.txt.
 // THROWS: Error{kUsage} for another suffix; else as AtomicFile.
 std::unique_ptr<MeshWriter> create_mesh(const std::string& path, const MeshWriterOptions& options = {});

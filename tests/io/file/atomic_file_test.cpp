@@ -90,11 +90,15 @@ TEST(AtomicFile, AnExistingFileIsReplacedOnlyOnRequest) {
     put(path, "old");
     file.commit();
   });
-  EXPECT_STREQ(late->what(), early->what());
-  EXPECT_EQ(late->message(), "the output exists already");
-  EXPECT_NE(late->hint().find("--force"), std::string::npos);
+  EXPECT_EQ(early->message(), "the output exists already");
+  EXPECT_EQ(late->kind(), ErrorKind::kBadInput);
+  EXPECT_NE(late->message().find(path + ".2"), std::string::npos) << late->message();
   EXPECT_EQ(content(path), "old");
-  EXPECT_EQ(entries(scratch), 1u);
+  EXPECT_EQ(content(path + ".2"), "new") << "the result is kept";
+  EXPECT_THROW(write(path, "newer", {.existing = Existing::kKeep}), Error);
+  EXPECT_EQ(content(path), "old");
+  EXPECT_EQ(content(path + ".3"), "newer");
+  EXPECT_EQ(entries(scratch), 3u);
   write(path, "new", {.existing = Existing::kReplace});
   EXPECT_EQ(content(path), "new");
 }
@@ -114,9 +118,9 @@ TEST(AtomicFile, RefusesWithoutHelpOfTheFileSystem) {
     put(path, "old");
     file.commit();
   });
-  EXPECT_EQ(late->message(), "the output exists already");
+  EXPECT_NE(late->message().find(path + ".2"), std::string::npos) << late->message();
   EXPECT_EQ(content(path), "old");
-  EXPECT_EQ(entries(scratch), 2u);
+  EXPECT_EQ(entries(scratch), 3u);
 }
 
 TEST(AtomicFile, HasTheUsualModeOrThatOfTheFileItReplaces) {
@@ -182,8 +186,9 @@ TEST(AtomicFile, WritesIntoADeviceAndLeavesItThere) {
 
 TEST(AtomicFile, AFolderIsNoOutput) {
   const Scratch scratch;
-  for (const Existing existing : {Existing::kRefuse, Existing::kReplace})
-    EXPECT_EQ(error_of([&] { write(scratch.path(), "x", {.existing = existing}); })->kind(), ErrorKind::kBadInput);
+  EXPECT_EQ(error_of([&] { write(scratch.path(), "x"); })->kind(), ErrorKind::kBadInput) << "it exists";
+  EXPECT_EQ(error_of([&] { write(scratch.path(), "x", {.existing = Existing::kReplace}); })->kind(),
+            ErrorKind::kResource);
   EXPECT_EQ(error_of([&] { write(scratch.path() + "/none/a", "x"); })->kind(), ErrorKind::kResource);
   EXPECT_TRUE(scratch.empty());
 }
