@@ -196,6 +196,19 @@ MeshIdentity identify_mesh(const std::string& path) {
   return identity;
 }
 
+bool is_sidecar(const std::string& path) {
+  if (!io::is_regular_file(path)) return false;
+  try {
+    const io::File file = io::File::open_for_reading(path);
+    std::array<char, 8> magic{};
+    if (file.size() < sizeof magic) return false;
+    file.read_at(0, std::as_writable_bytes(std::span(magic)));
+    return magic == kMagic;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
 void save_sidecar(const std::string& path, const MeshIdentity& mesh, LastUse& uses) {
   try {
     io::AtomicFile file(path, {.existing = io::Existing::kReplace, .buffer_bytes = kBufferBytes});

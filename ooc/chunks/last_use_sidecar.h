@@ -21,6 +21,9 @@ struct MeshIdentity {
 // THROWS: Error{kBadInput} if the file cannot be opened.
 MeshIdentity identify_mesh(const std::string& path);
 
+// Whether the file `path` was made by save_sidecar(), of any version and for any mesh.
+bool is_sidecar(const std::string& path);
+
 // Writes the sidecar. It appears under its name only when it is whole; an older one stays until then.
 // THROWS: Error{kResource} with a hint naming --sidecar.
 void save_sidecar(const std::string& path, const MeshIdentity& mesh, LastUse& uses);

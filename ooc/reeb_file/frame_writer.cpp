@@ -13,8 +13,11 @@ constexpr std::size_t kBufferBytes = 64 << 10;
 
 }  // namespace
 
-FrameWriter::FrameWriter(const std::string& path, std::uint64_t region_bytes)
-    : output_(path, {.existing = io::Existing::kReplace, .overwrites = true, .buffer_bytes = kBufferBytes}),
+FrameWriter::FrameWriter(const std::string& path, std::uint64_t region_bytes, const OutputOptions& options)
+    : output_(path, {.existing = options.existing,
+                     .overwrites = true,
+                     .temp_folder = options.temp_folder,
+                     .buffer_bytes = kBufferBytes}),
       file_(output_.out()) {
   file_.append(std::vector<std::byte>(region_bytes));
 }

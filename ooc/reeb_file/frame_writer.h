@@ -14,11 +14,17 @@
 
 namespace reeb::ooc {
 
-// THROWS: Error{kResource} with the path, from every call.
+// How the file gets its name.
+struct OutputOptions {
+  io::Existing existing = io::Existing::kReplace;
+  std::string temp_folder = {};  // for a device, whose bytes are collected first; empty: as AtomicFile
+};
+
+// THROWS: as AtomicFile, from every call.
 class FrameWriter {
  public:
   // Leaves room for a header region of this size.
-  FrameWriter(const std::string& path, std::uint64_t region_bytes);
+  FrameWriter(const std::string& path, std::uint64_t region_bytes, const OutputOptions& options);
 
   // Appends a frame. The sizes in `header` are filled in here.
   void add(FrameHeader header, std::span<const std::byte> payload);

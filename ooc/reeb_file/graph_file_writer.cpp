@@ -28,7 +28,7 @@ bool in_order(const FileArc& a, const FileArc& b) { return a.lo < b.lo || (a.lo 
 
 GraphFileWriter::GraphFileWriter(const std::string& path, FileMeta meta, const Options& options)
     : header_(first_header(std::move(meta), options)),
-      writer_(path, header_.region_bytes()),
+      writer_(path, header_.region_bytes(), options.output),
       announced_nodes_(options.nodes),
       background_(options.background),
       components_(options.nodes, options.temp, options.budget) {
@@ -156,10 +156,12 @@ void GraphFileWriter::write(const GraphFrame& frame) {
 }
 
 void write_graph_file(const std::string& path, const FileMeta& meta, const ReebGraph& graph,
-                      const ArcBucketsView& buckets) {
-  GraphFileWriter writer(
-      path, meta,
-      {.nodes = graph.node_count(), .has_positions = !graph.positions.empty(), .has_embedding = !buckets.empty()});
+                      const ArcBucketsView& buckets, const OutputOptions& output) {
+  GraphFileWriter writer(path, meta,
+                         {.nodes = graph.node_count(),
+                          .has_positions = !graph.positions.empty(),
+                          .has_embedding = !buckets.empty(),
+                          .output = output});
   std::vector<SettledNode> nodes;
   for (std::size_t i = 0; i < graph.node_count(); ++i) {
     nodes.push_back({graph.nodes[i], graph.positions.empty() ? Point{} : graph.positions[i]});

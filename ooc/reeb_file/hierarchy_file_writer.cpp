@@ -21,7 +21,7 @@ class HierarchyFileWriter {
         records_(content.records),
         layout_(lay_out(graph_.node_count(), hierarchy_, records_)),
         header_(make_header(meta, content)),
-        writer_(path, header_.region_bytes()),
+        writer_(path, header_.region_bytes(), content.output),
         background_(content.background),
         file_index_(graph_.node_count(), kNotIntroduced) {}
 

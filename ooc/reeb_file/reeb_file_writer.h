@@ -41,6 +41,7 @@ struct HierarchyContent {
   RecordSource& records;
   bool has_embedding = false;  // records come with buckets
   bool background = false;     // pack and write frames in a separate thread
+  OutputOptions output = {};
 };
 
 // Reads the records twice. `poll` is called before every frame; it may throw to stop writing.
@@ -56,7 +57,7 @@ void write_hierarchy_file(const std::string& path, const FileMeta& meta, const R
 
 // A graph without hierarchy, from memory. Writes the same bytes as GraphFileWriter.
 void write_graph_file(const std::string& path, const FileMeta& meta, const ReebGraph& graph,
-                      const ArcBucketsView& buckets = {});
+                      const ArcBucketsView& buckets = {}, const OutputOptions& output = {});
 
 // A graph without hierarchy that need not fit in memory: add its nodes in batches, then its arcs in batches, then call
 // finish(). The file appears at finish(). Its bytes do not depend on the batches.
@@ -78,6 +79,7 @@ class GraphFileWriter {
     bool background = false;            // pack and write frames in a separate thread
     const io::TempDir* temp = nullptr;  // REQUIRED for kKeys
     MemoryBudget* budget = nullptr;     // requires `temp`; null: memory is not counted
+    OutputOptions output = {};
   };
 
   GraphFileWriter(const std::string& path, FileMeta meta, const Options& options);

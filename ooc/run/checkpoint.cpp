@@ -134,9 +134,14 @@ CheckpointLoad load_checkpoint(const std::string& path, const RunIdentity& run) 
     if (!in->is_whole()) return useless("is damaged");
     const auto header = in->get<Header>();
     if (header.magic != kMagic || header.version != kVersion) return useless("is of another version");
-    if (header.mesh != run.mesh) return useless("is of another mesh, or of this one before it was changed");
-    if (header.functions != run.functions) return useless("is of other functions");
-    if (header.settings != run.settings) return useless("is of other options");
+    const auto of_another = [&](const char* why) {
+      CheckpointLoad load = useless(why);
+      load.is_of_another_run = true;
+      return load;
+    };
+    if (header.mesh != run.mesh) return of_another("is of another mesh, or of this one before it was changed");
+    if (header.functions != run.functions) return of_another("is of other functions");
+    if (header.settings != run.settings) return of_another("is of other options");
     Checkpoint checkpoint{.place = {.triangles = header.triangles,
                                     .next_vertex = header.next_vertex,
                                     .batches = header.batches,

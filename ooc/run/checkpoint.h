@@ -57,6 +57,7 @@ struct CheckpointLoad {
   std::optional<Checkpoint> checkpoint;
   std::unique_ptr<StateReader> state;  // positioned at what `save` wrote
   std::string note;                    // why an existing file cannot be used; else empty
+  bool is_of_another_run = false;      // which can use it
 };
 
 // Reads a checkpoint after verifying its checksum. A missing or damaged one, or one of another run, is not an error.

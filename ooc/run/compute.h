@@ -36,6 +36,9 @@ struct ComputeOptions {
   // With a chosen size of chunks: they are cut from stretches that grow up to this many triangles.
   std::size_t stretch_triangles = 0;
   std::string temp_dir;  // empty: $TMPDIR, or the folder of the first output
+  // Outputs that exist are replaced, and a run that was interrupted is discarded unless it is resumed. Else both are an
+  // Error{kBadInput}.
+  bool replace = true;
   bool graph_only = false;
   bool keep_sidecar = false;
   bool may_reorder = true;        // may sort an incoherent mesh on disk

@@ -29,6 +29,28 @@ void append(std::vector<std::string>& notes, const std::vector<std::string>& mor
 
 ChunkPlace place_of(const Checkpoint* start) { return start != nullptr ? start->place : ChunkPlace{}; }
 
+// Checks for interruption while no triangle comes. Else that is left to the end of the chunk, where the run can be
+// saved.
+class PolledReader : public MeshReader {
+ public:
+  PolledReader(std::unique_ptr<MeshReader> reader, const ResumableRun& run) : reader_(std::move(reader)), run_(run) {}
+
+  const MeshInfo& info() const override { return reader_->info(); }
+  bool read(MeshBatch& batch) override {
+    const bool some = reader_->read(batch);
+    if (batch.triangles.empty() && batch.tetrahedra.empty()) run_.check_interruption();
+    return some;
+  }
+  std::unique_ptr<IndexedMesh> indexed() const override { return reader_->indexed(); }
+  std::uint64_t bytes_read() const override { return reader_->bytes_read(); }
+  std::uint64_t memory_bytes() const override { return reader_->memory_bytes(); }
+  std::vector<std::string> warnings() const override { return reader_->warnings(); }
+
+ private:
+  std::unique_ptr<MeshReader> reader_;
+  const ResumableRun& run_;
+};
+
 // ---- from chunks to the stores
 
 // `here` is the content of a checkpoint apart from its place.
@@ -298,12 +320,16 @@ FirstStageResult run_first_stage(RunContext& run, MeshInput input) {
   for (const std::string& output : run.outputs) io::remove_abandoned(output);
   FirstStageResult result;
   const Checkpoint* start = run.resumable.start([&](StateReader& in) { run.restore_stores(in); }, result.notes);
+  // An earlier run may have written outputs only if this one continues it.
+  if (!run.options.replace && !run.resumable.was_resumed())
+    for (const std::string& output : run.outputs) io::check_output_name(output, io::Existing::kRefuse);
   if (input.indexed) return run_indexed(run, input, std::move(input.indexed), start, std::move(result));
 
+  input.reader = std::make_unique<PolledReader>(std::move(input.reader), run.resumable);
   if (input.reader->info().finalizes && (start == nullptr || start->origin == ChunkOrigin::kStream)) {
     StreamRun stream = run_stream(run, input, start, std::move(result));
     if (!stream.gave_up) return std::move(stream.result);
-    input.reader = input.read_again();
+    input.reader = std::make_unique<PolledReader>(input.read_again(), run.resumable);
     result = std::move(stream.result);
   }
   SpooledRun spooled = run_spooled(run, input, run.resumable.checkpoint(), std::move(result));

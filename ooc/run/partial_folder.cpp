@@ -57,28 +57,47 @@ bool is_named(int descriptor, const std::string& path) {
          opened.st_ino == named.st_ino;
 }
 
+// A file system without modes shows every folder as open to all, and nothing can change that.
+bool others_may_write(int folder, mode_t mode) {
+  constexpr mode_t kOthers = S_IWGRP | S_IWOTH, kAll = 07777;
+  if ((mode & kOthers) == 0 || ::fchmod(folder, mode & kAll & ~kOthers) != 0) return false;
+  struct stat changed {};
+  const bool has_modes = ::fstat(folder, &changed) == 0 && (changed.st_mode & kOthers) == 0;
+  if (has_modes) (void)!::fchmod(folder, mode & kAll);
+  return has_modes;
+}
+
 }  // namespace
 
 PartialFolder::PartialFolder(const std::string& output) : path_(path_for(output)) {
   // Try again if the run that owned the folder removed it just before it was locked.
+  bool is_new = false;
   do {
     if (folder_ >= 0) ::close(folder_);
-    open();
+    is_new = open();
   } while (!is_named(folder_, path_));
   try {
     claim();
   } catch (...) {
+    if (is_new) ::rmdir(path_.c_str());
     ::close(folder_);
     throw;
   }
 }
 
-void PartialFolder::open() {
-  const auto fail = [this](const char* what, const char* hint) {
-    throw Error(ErrorKind::kResource, std::string(what) + ": " + std::strerror(errno), hint).at(path_);
+// Returns whether it has made the folder.
+bool PartialFolder::open() {
+  bool is_new = false;
+  const auto fail = [this, &is_new](const char* what, const char* hint) {
+    const int error = errno;
+    if (is_new) ::rmdir(path_.c_str());
+    errno = error;
+    throw Error(ErrorKind::kResource, std::string(what) + ": " + std::strerror(errno), io::hint_for(errno, hint))
+        .at(path_);
   };
   const char* elsewhere = "write the output to a folder that exists and is writable";
-  if (::mkdir(path_.c_str(), 0700) != 0 && errno != EEXIST) fail("cannot be created", elsewhere);
+  is_new = ::mkdir(path_.c_str(), 0700) == 0;
+  if (!is_new && errno != EEXIST) fail("cannot be created", elsewhere);
   if (fs::is_symlink(path_)) refuse("is a symbolic link, not a folder that a run has made");
   folder_ = io::system::open(path_, O_RDONLY | O_DIRECTORY | O_NOFOLLOW);
   if (folder_ < 0) fail("cannot be opened", elsewhere);
@@ -90,6 +109,7 @@ void PartialFolder::open() {
                 "wait until it has ended, or choose another output with -o")
         .at(path_);
   }
+  return is_new;
 }
 
 // The folder is ours if it has the mark. An empty folder gets the mark: the run that created it could have ended before
@@ -98,8 +118,10 @@ void PartialFolder::claim() {
   struct stat folder {
   }, mark{};
   if (::fstat(folder_, &folder) != 0 || folder.st_uid != ::geteuid()) refuse("belongs to another user");
+  // In such a folder, the name of a file can become a link to another file at any moment.
+  if (others_may_write(folder_, folder.st_mode)) refuse("can be written by other users");
   if (::fstatat(folder_, kMark, &mark, AT_SYMLINK_NOFOLLOW) == 0 && S_ISREG(mark.st_mode)) return;
-  if (!entries().empty()) refuse("has files in it and was not made by a run");
+  if (!entries().empty()) refuse("has files in it and no mark that a run has made it");
   const int made = io::system::open(file(kMark), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW, 0600);
   if (made < 0) io::throw_output_error(errno, path_);
   ::close(made);
@@ -107,7 +129,7 @@ void PartialFolder::claim() {
 
 void PartialFolder::refuse(const char* why) const {
   throw Error(ErrorKind::kResource, std::string(why) + ", so it is left alone",
-              "move it away, or choose another output with -o")
+              "move it away, or remove it if an older reeb left it; or choose another output with -o")
       .at(path_);
 }
 

@@ -9,7 +9,8 @@ namespace reeb::ooc {
 
 // The folder next to `output`. It holds the checkpoint and the files that the checkpoint names, and belongs to one
 // process at a time. Only this user has access to it. A mark shows that a run has created it. A folder that is not
-// empty and has no mark, a folder of another user, and a symbolic link are refused and left unchanged.
+// empty and has no mark, a folder that other users own or may write, and a symbolic link are refused and left
+// unchanged.
 //
 // THROWS: Error{kResource} if the folder is refused, cannot be written, or another process is at work in it.
 class PartialFolder {
@@ -38,7 +39,7 @@ class PartialFolder {
   void clear() noexcept;
 
  private:
-  void open();
+  bool open();
   void claim();
   [[noreturn]] void refuse(const char* why) const;
   std::vector<std::string> entries() const;

@@ -20,6 +20,20 @@ ResumableRun::ResumableRun(const std::string& output, const std::string& mesh,
   if (!io::is_regular_file(mesh) || io::is_device(output)) return;
   identity_ = identify_run(mesh, functions, settings);
   folder_.emplace(output);
+  if (!options_.resume && !options_.discard) refuse_to_discard();
+}
+
+// A checkpoint of another run with this output is hours of work, too. One that no run can use is not.
+void ResumableRun::refuse_to_discard() {
+  const CheckpointLoad load = load_checkpoint(folder_->checkpoint(), identity_);
+  if (load.checkpoint)
+    throw Error(ErrorKind::kBadInput, "an interrupted run left what is needed to resume it",
+                "continue it with --resume, or discard it with --force")
+        .at(folder_->path());
+  if (load.is_of_another_run)
+    throw Error(ErrorKind::kBadInput, "an interrupted run with another mesh, function or option left its state here",
+                "choose another output with -o, or discard that run with --force")
+        .at(folder_->path());
 }
 
 std::string ResumableRun::segments_of(std::size_t function) const {
@@ -39,6 +53,7 @@ const Checkpoint* ResumableRun::start(const std::function<void(StateReader&)>& r
     if (load_.checkpoint && restores(restore)) {
       notes.push_back("an earlier run had read " + count_of(load_.checkpoint->place.triangles, "triangle") +
                       "; this one continues from there");
+      was_resumed_ = true;
       return checkpoint();
     }
     notes.push_back(load_.note);

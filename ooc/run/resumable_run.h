@@ -16,6 +16,7 @@ namespace reeb::ooc {
 
 struct ResumeOptions {
   bool resume = false;                     // resume from a checkpoint that fits
+  bool discard = true;                     // else discard what an earlier run kept
   double seconds = 2;                      // least time between checkpoints; 0: after every chunk
   std::function<bool()> interrupted = {};  // called often: whether the run is to end
 };
@@ -28,7 +29,8 @@ class ResumableRun {
   using Save = std::function<void(StateWriter&)>;
 
   // Pass "" as `mesh` if the mesh is not, or only partly, in files.
-  // THROWS: Error{kResource} of the folder; Error{kBadInput} if a file cannot be opened.
+  // THROWS: Error{kResource} of the folder; Error{kBadInput} if a file cannot be opened, or if there is a checkpoint
+  //         that may be neither resumed nor discarded.
   ResumableRun(const std::string& output, const std::string& mesh, std::span<VertexFunction* const> functions,
                const RunSettings& settings, const ResumeOptions& options);
 
@@ -41,6 +43,8 @@ class ResumableRun {
   const Checkpoint* start(const std::function<void(StateReader&)>& restore, std::vector<std::string>& notes);
   // The same, until start_over().
   const Checkpoint* checkpoint() const { return load_.checkpoint ? &*load_.checkpoint : nullptr; }
+  // Whether start() found a checkpoint to resume from.
+  bool was_resumed() const { return was_resumed_; }
   // The part of the state that start() left unread: the engine. Null if there is no checkpoint to resume from.
   StateReader* saved_engine() const { return load_.state.get(); }
 
@@ -62,6 +66,8 @@ class ResumableRun {
   void done();
 
  private:
+  void refuse_to_discard();
+
   using Clock = std::chrono::steady_clock;
   bool restores(const std::function<void(StateReader&)>& restore);
   bool is_due() const;
@@ -70,6 +76,7 @@ class ResumableRun {
   std::optional<PartialFolder> folder_;
   RunIdentity identity_;
   CheckpointLoad load_;
+  bool was_resumed_ = false;
   Clock::time_point last_ = Clock::now();  // when the last checkpoint was made
   double cost_seconds_ = 0;                // of writing it
 };

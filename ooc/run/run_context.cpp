@@ -39,16 +39,20 @@ RunContext::RunContext(const MeshInput& input, std::span<VertexFunction* const> 
       values(functions, input.dimension),
       resumable(outputs[0], readable_again(input), functions,
                 {options.denoise, options.denoise_is_share, options.buckets},
-                {options.resume, options.checkpoint_seconds, options.interrupted}) {
+                {options.resume, options.replace, options.checkpoint_seconds, options.interrupted}) {
   make_stores();
 }
 
 void RunContext::make_stores() {
   stores.clear();
   for (std::size_t f = 0; f < functions.size(); ++f)
-    stores.push_back(std::make_unique<SegmentStore>(
-        temp, budget,
-        SegmentOptions{plan.segment_bytes, plan.most_segment_bytes, background(), resumable.segments_of(f)}));
+    stores.push_back(
+        std::make_unique<SegmentStore>(temp, budget,
+                                       SegmentOptions{.allowance_bytes = plan.segment_bytes,
+                                                      .most_bytes = plan.most_segment_bytes,
+                                                      .background = background(),
+                                                      .files = resumable.segments_of(f),
+                                                      .poll = [this] { resumable.check_interruption(); }}));
 }
 
 void RunContext::start_over() {

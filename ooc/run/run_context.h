@@ -12,6 +12,7 @@
 #include "libreeb/engine/sweep_options.h"
 #include "libreeb/port/vertex_function.h"
 #include "ooc/chunks/function_values.h"
+#include "ooc/reeb_file/frame_writer.h"
 #include "ooc/run/compute.h"
 #include "ooc/run/memory_plan.h"
 #include "ooc/run/resumable_run.h"
@@ -43,6 +44,11 @@ struct RunContext {
 
   bool embeds() const { return options.buckets != 0; }
   bool background() const { return plan.threads > 1; }
+  OutputOptions output_options() const {
+    // A run that is resumed may have written some of its outputs before.
+    const bool replace = options.replace || resumable.was_resumed();
+    return {replace ? io::Existing::kReplace : io::Existing::kKeep, temp.folder()};
+  }
 
   const std::span<VertexFunction* const> functions;
   const std::span<const std::string> outputs;

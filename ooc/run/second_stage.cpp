@@ -55,7 +55,8 @@ WrittenGraph write_graph(RunContext& run, const StoredGraph& graph, const FileMe
                                    .ends = GraphFileWriter::ArcEnds::kKeys,
                                    .background = run.background(),
                                    .temp = &run.temp,
-                                   .budget = &run.budget};
+                                   .budget = &run.budget,
+                                   .output = run.output_options()};
   const std::uint64_t table_bytes = meta.mesh_vertices * sizeof(std::uint32_t);
   Reservation table;
   if (meta.mesh_vertices / kVerticesPerNodeForTable <= store.node_count() &&
@@ -137,7 +138,8 @@ LastNoise remove_last_noise(RunContext& run, StoredGraph& graph) {
   auto changed = std::make_unique<SegmentStore>(run.temp, run.budget,
                                                 SegmentOptions{.allowance_bytes = run.plan.segment_bytes,
                                                                .most_bytes = run.plan.most_segment_bytes,
-                                                               .background = run.background()});
+                                                               .background = run.background(),
+                                                               .poll = [&run] { run.resumable.check_interruption(); }});
   copy_graph(store, *changed, graph.sweep.bucket_exponent);
   changed->finish();
   graph.store = std::move(changed);
@@ -218,7 +220,8 @@ WrittenHierarchy write_hierarchy(RunContext& run, StoredGraph stored) {
     written.kept_loops += pair.kept ? 1u : 0u;
   }
   written.largest = largest_features(graph, hierarchy.pairs);
-  write_hierarchy_file(stored.output, stored.meta, {graph, hierarchy, records, run.embeds(), run.background()},
+  write_hierarchy_file(stored.output, stored.meta,
+                       {graph, hierarchy, records, run.embeds(), run.background(), run.output_options()},
                        part_of(poll, kBuilt, 1));
   written.spilled_bytes = records.spilled_bytes();
   return written;

@@ -34,6 +34,8 @@ struct SortOptions {
   unsigned threads = 1;                      // that sort a run
   bool background = false;                   // sort and write runs in a separate thread, with half the buffer
   std::string file = {};                     // of the runs, so that another process can resume; empty: unnamed
+  // Called for every block that is scanned, in the thread that scans. It may throw to stop.
+  std::function<void()> poll = {};
 };
 
 // add() any number of records, finish(), then read() them in order; rewind() starts over. While all records fit in the
@@ -123,8 +125,8 @@ class ExternalSort {
   }
 
   // Ends adding. Merges runs until the remaining ones can be merged while they are read, within `merge_bytes` of the
-  // budget (0: the allowance), or less if the budget has less.
-  void finish(std::uint64_t merge_bytes = 0) {
+  // budget (0: the allowance), or less if the budget has less. `poll` is called for every block that is merged.
+  void finish(std::uint64_t merge_bytes = 0, const std::function<void()>& poll = {}) {
     wait_for_writer();
     if (runs_.empty()) {
       sort(filling_.batch.records);
@@ -133,7 +135,7 @@ class ExternalSort {
       wait_for_writer();
       filling_.free();
       writing_.free();
-      reduce_runs(merge_bytes == 0 ? options_.allowance_bytes : merge_bytes);
+      reduce_runs(merge_bytes == 0 ? options_.allowance_bytes : merge_bytes, poll);
     }
     rewind();
   }
@@ -252,6 +254,7 @@ class ExternalSort {
       if (!is_block) file_->refuse(block.offset);
     };
     read_ahead<Block>(options_.background, read_next, unpack, [&](const Block& block) {
+      if (options_.poll) options_.poll();
       if (block.wanted != Wanted::kNothing) visit(block.batch);
     });
   }
@@ -318,14 +321,14 @@ class ExternalSort {
   }
 
   // Merges in passes until the remaining runs can be merged at once.
-  void reduce_runs(std::uint64_t merge_bytes) {
+  void reduce_runs(std::uint64_t merge_bytes, const std::function<void()>& poll) {
     const std::size_t fan_in = reserve_fan_in(merge_bytes);
     while (runs_.size() > fan_in) {
       SortedRunFile merged(temp_->create_unnamed(owner_));
       std::vector<RunPlace> longer;
       for (std::size_t first = 0; first < runs_.size(); first += fan_in) {
         const std::size_t count = std::min(fan_in, runs_.size() - first);
-        longer.push_back(merge(std::span<const RunPlace>(runs_).subspan(first, count), merged));
+        longer.push_back(merge(std::span<const RunPlace>(runs_).subspan(first, count), merged, poll));
       }
       spilled_ += file_->size();
       file_.emplace(std::move(merged));
@@ -344,10 +347,11 @@ class ExternalSort {
     return static_cast<std::size_t>(fan_in);
   }
 
-  RunPlace merge(std::span<const RunPlace> runs, SortedRunFile& out) const {
+  RunPlace merge(std::span<const RunPlace> runs, SortedRunFile& out, const std::function<void()>& poll) const {
     Merger merger(*file_, runs);
     RunPlace place{out.size(), 0};
     for (Batch block; !merger.empty();) {
+      if (poll) poll();
       block.clear();
       while (!merger.empty() && block.bytes() + sizeof(Record) <= kRunBlockBytes) merger.take(block);
       place.blocks += append_blocks<Record, Codec>(block.records, block.pool, out);

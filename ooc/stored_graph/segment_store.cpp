@@ -139,7 +139,8 @@ SortOptions half_of(const SegmentOptions& options, const char* suffix) {
   return {.allowance_bytes = options.allowance_bytes / 2,
           .most_bytes = options.most_bytes / 2,
           .background = options.background,
-          .file = options.files.empty() ? "" : options.files + suffix};
+          .file = options.files.empty() ? "" : options.files + suffix,
+          .poll = options.poll};
 }
 
 }  // namespace
@@ -147,6 +148,7 @@ SortOptions half_of(const SegmentOptions& options, const char* suffix) {
 SegmentStore::SegmentStore(const io::TempDir& temp, MemoryBudget& budget, const SegmentOptions& options)
     : budget_(&budget),
       background_(options.background),
+      poll_(options.poll),
       nodes_("settled nodes", temp, budget, half_of(options, ".nodes")),
       arcs_("settled arcs", temp, budget, half_of(options, ".arcs")) {}
 
@@ -197,9 +199,9 @@ void SegmentStore::finish() {
   const std::uint64_t merge_bytes = std::min(budget_->free_bytes() / 8, kMergeLimitBytes);
   Worker worker;
   if (background_) worker.start([&] { nodes_.finish(merge_bytes); });
-  arcs_.finish(merge_bytes);
+  arcs_.finish(merge_bytes, poll_);
   worker.wait();
-  if (!background_) nodes_.finish(merge_bytes);
+  if (!background_) nodes_.finish(merge_bytes, poll_);
 }
 
 namespace {

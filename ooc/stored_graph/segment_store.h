@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -71,6 +72,8 @@ struct SegmentOptions {
   bool background = true;                   // sort and write segments in separate threads
   // For segments from which another process can resume: FILES.nodes and FILES.arcs. Empty: unnamed files.
   std::string files = {};
+  // Called often while the store is merged or scanned, in the thread that asks for it. It may throw to stop.
+  std::function<void()> poll = {};
 };
 
 // Takes nodes and arcs in any order. After finish() it returns them in canonical order as often as needed: nodes by
@@ -137,6 +140,7 @@ class SegmentStore : public GraphSink {
 
   MemoryBudget* budget_;
   bool background_;
+  std::function<void()> poll_;
   SortedNodes nodes_;
   SortedArcs arcs_;
   std::uint64_t bucket_count_ = 0, payload_bytes_ = 0;

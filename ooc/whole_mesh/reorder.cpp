@@ -63,7 +63,12 @@ class Reorder {
   static constexpr double kKeyed = 0.05, kRanked = 0.15, kPlaced = 0.25, kLooked = 0.5, kSorted = 0.75;
 
   void tell(double done) const {
-    if (options_.progress) options_.progress(done);
+    done_ = done;
+    poll();
+  }
+  // Where little is done at a time.
+  void poll() const {
+    if (options_.progress) options_.progress(done_);
   }
   // For a step that reads the mesh, and lasts from `from` to `to`.
   void tell_reading(double from, double to) const {
@@ -80,6 +85,7 @@ class Reorder {
       ids.clear();
       for (std::uint64_t v = first; v < std::min(first + kItemsAtOnce, vertex_count_); ++v) ids.emplace_back(v);
       values.resize(columns.size() * ids.size());
+      poll();
       mesh_.gather(ids, columns, values);
       visit(first, ids.size(), std::span<const double>(values));
     }
@@ -89,7 +95,7 @@ class Reorder {
   void rank_vertices() {
     ExternalSort<KeyedVertex> by_key("reorder", temp_, budget_, sorting());
     add_keys(by_key);
-    by_key.finish();
+    by_key.finish(0, [this] { poll(); });
     tell(kKeyed);
     PartitionLogs<PlacedRank> by_slice("reorder", temp_, budget_, slices_);
     std::uint64_t rank = 0;
@@ -102,6 +108,7 @@ class Reorder {
     const Reservation charge = budget_.reserve("reorder", slice_entries_ * 8);
     std::vector<std::uint64_t> slice;
     for (std::size_t s = 0; s < slices_; ++s) {
+      poll();
       slice.resize(slice_size(s));
       for (std::uint64_t i = by_slice.count(s); i-- > 0;) {
         const PlacedRank& placed = by_slice.next(s);
@@ -152,6 +159,7 @@ class Reorder {
     const Reservation charge = budget_.reserve("reorder", slice_entries_ * 8);
     std::vector<double> slice;
     for (std::size_t s = 0; s < slices_; ++s) {
+      poll();
       slice.resize(slice_size(s));
       for (std::uint64_t i = by_slice.count(s); i-- > 0;) {
         const PlacedNumber& placed = by_slice.next(s);
@@ -164,7 +172,7 @@ class Reorder {
   void sort_triangles() {
     ExternalSort<RankedTriangle> by_rank("reorder", temp_, budget_, sorting());
     add_ranked_triangles(by_rank);
-    by_rank.finish();
+    by_rank.finish(0, [this] { poll(); });
     std::vector<VertexId> corners;
     std::uint64_t appended = 0;
     for (std::vector<RankedTriangle> some; by_rank.read(some, kItemsAtOnce);) {
@@ -209,6 +217,7 @@ class Reorder {
     const Reservation charge = budget_.reserve("reorder", slice_entries_ * 8);
     std::vector<std::uint64_t> slice;
     for (std::size_t s = 0; s < slices_; ++s) {
+      poll();
       slice.resize(slice_size(s));
       ranks_.read_at(s * slice_entries_ * 8, std::as_writable_bytes(std::span(slice)));
       for (std::uint64_t i = places.count(s); i-- > 0;) result.append(s, slice[places.next(s)]);
@@ -226,6 +235,7 @@ class Reorder {
   const io::TempDir& temp_;
   MemoryBudget& budget_;
   const ReorderOptions& options_;
+  mutable double done_ = 0;  // as told last
   std::uint64_t vertex_count_, triangle_count_ = 0;
   std::uint64_t slice_entries_;
   std::size_t slices_;

@@ -391,6 +391,35 @@ TEST(Resume, IgnoresACheckpointOfAnotherMeshOrFunction) {
   EXPECT_EQ(runs.finish(false), of_other);
 }
 
+TEST(Resume, AnInterruptedRunIsDiscardedOnlyByForce) {
+  Runs runs(grid_mesh(20, 20));
+  runs.options.chunk_triangles = 100;
+  const std::string expected = runs.finish(false);
+  ASSERT_TRUE(runs.stop_after(2, false));
+  const std::string checkpoint = read_file(runs.partial() + "/checkpoint");
+  runs.options.replace = false;
+  for (const char* function : {"z", "x"}) {
+    runs.set_function(function);
+    try {
+      runs.finish(false);
+      ADD_FAILURE() << "discarded, with " << function;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::kBadInput);
+      EXPECT_EQ(error.file(), runs.partial());
+      EXPECT_NE(error.hint().find("--force"), std::string::npos) << error.hint();
+    }
+    EXPECT_EQ(read_file(runs.partial() + "/checkpoint"), checkpoint);
+  }
+  runs.set_function("z");
+  Notes notes;
+  EXPECT_EQ(runs.finish(true, notes), expected);
+  EXPECT_NE(notes.at(0).find("continues from there"), std::string::npos) << notes[0];
+  // What no run can use is no run.
+  ASSERT_TRUE(runs.stop_after(2, false));
+  write_file(runs.partial() + "/checkpoint", "damaged");
+  EXPECT_EQ(runs.finish(false), expected);
+}
+
 TEST(Resume, SaysThatThereIsNothingToResume) {
   Runs runs(grid_mesh(20, 20));
   Notes notes;
@@ -477,6 +506,21 @@ TEST(PartialFolder, RefusesWhatNoRunHasMade) {
   fs::create_symlink(scratch.path() + "/elsewhere", partial);
   expect_refused();
   EXPECT_EQ(read_file(scratch.path() + "/elsewhere/function-0.arcs"), "mine");
+}
+
+// Others could replace its files by links at any moment.
+TEST(PartialFolder, RefusesWhatOthersMayWrite) {
+  const Scratch scratch;
+  const std::string output = scratch.path() + "/a.reeb", partial = PartialFolder::path_for(output);
+  for (const fs::perms more : {fs::perms::group_write, fs::perms::others_write}) {
+    fs::create_directory(partial);
+    write_file(partial + "/reeb-partial", "");
+    write_file(partial + "/checkpoint", "mine");
+    fs::permissions(partial, fs::perms::owner_all | more);
+    EXPECT_THROW(PartialFolder{output}, Error);
+    EXPECT_EQ(read_file(partial + "/checkpoint"), "mine");
+    fs::remove_all(partial);
+  }
 }
 
 TEST(PartialFolder, IsForThisUserOnly) {
