@@ -2,6 +2,8 @@
 #include <fmt/core.h>
 #include <malloc.h>
 
+#include <algorithm>
+#include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <memory>
@@ -10,17 +12,36 @@
 #include <system_error>
 #include <vector>
 
+#include "io/file/file.h"
 #include "libreeb/base/error.h"
+#include "libreeb/base/printable.h"
 #include "tools/commands/commands.h"
 #include "tools/program/signals.h"
+#include "tools/program/standard_streams.h"
 #include "tools/program/usage_error.h"
 #include "tools/program/wrapping.h"
 
 namespace {
 
+constexpr const char* kLimitHint = "allow more memory and processes (ulimit -v, ulimit -u), or use fewer --threads";
+
 int report(reeb::ErrorKind kind, const std::string& what, const std::string& hint) {
-  fmt::print(stderr, "reeb: error: {}\nhint: {}\n", what, hint);
+  fmt::print(stderr, "reeb: error: {}\nhint: {}\n", reeb::printable(what), reeb::printable(hint));
   return static_cast<int>(kind);
+}
+
+// An error of the system that no part of the program explains: stdio and fmt throw for standard output only.
+int report(const std::system_error& error) {
+  if (std::ferror(stdout) != 0)
+    return report(reeb::ErrorKind::kResource, "standard output: cannot be written: " + error.code().message(),
+                  reeb::io::hint_for(error.code().value(), "check what standard output leads to"));
+  return report(reeb::ErrorKind::kResource, error.what(), kLimitHint);
+}
+
+int report(const std::exception& error) {
+  const std::string what = error.what();
+  return report(reeb::ErrorKind::kResource, what,
+                what.starts_with("pthread_") ? kLimitHint : "please report this as a bug");  // from TBB
 }
 
 constexpr const char* kExamples = R"(Examples:
@@ -95,22 +116,26 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  reeb::tools::protect_standard_streams();
   // Large blocks return to the system as soon as they are freed. So resident memory is what the budget counts, not what
   // was needed at some earlier time.
   mallopt(M_MMAP_THRESHOLD, 128 * 1024);
   mallopt(M_TRIM_THRESHOLD, 256 * 1024);
   mallopt(M_ARENA_MAX, 2);
-  reeb::tools::turn_signals_into_errors();
+  reeb::tools::handle_signals();
   try {
-    return run(argc, argv);
+    const int code = run(argc, argv);
+    reeb::tools::finish_standard_output();
+    return code;
   } catch (const reeb::Error& error) {
+    if (error.file() == reeb::io::kStandardOutputShown) reeb::tools::end_if_nobody_reads();
     return report(error.kind(), error.what(), error.hint());
   } catch (const std::bad_alloc&) {
     return report(reeb::ErrorKind::kResource, "out of memory", "close other programs, or use a smaller mesh");
-  } catch (const std::system_error& error) {  // from fmt, which writes to standard output only
-    return report(reeb::ErrorKind::kResource, std::string("standard output ") + error.what(),
-                  "keep the reading program open, or free disk space");
+  } catch (const std::system_error& error) {
+    if (std::ferror(stdout) != 0) reeb::tools::end_if_nobody_reads();
+    return report(error);
   } catch (const std::exception& error) {
-    return report(reeb::ErrorKind::kResource, error.what(), "please report this as a bug");
+    return report(error);
   }
 }

@@ -45,7 +45,7 @@ start() {
 # Runs to the end; sets $code to the exit code.
 run() { code=0; "${compute[@]}" "$@" >messages 2>&1 || code=$?; }
 
-for signal in INT TERM; do
+for signal in INT TERM HUP; do
   start -o out.reeb
   kill -"$signal" "$process"
   code=0
@@ -53,6 +53,11 @@ for signal in INT TERM; do
   check "SIG$signal ends a run with 130" test "$code" = 130
   check "it says how to resume" says "--resume continues"
   check "it leaves a folder" only . mesh.ply whole.reeb messages out.reeb.partial
+  sum=$(md5sum <out.reeb.partial/checkpoint)
+  run -o out.reeb
+  check "the same command again is refused" test "$code" = 1
+  check "it names both ways" says "continue it with --resume, or discard it with --force"
+  check "nothing is touched" test "$sum" = "$(md5sum <out.reeb.partial/checkpoint)"
   run -o out.reeb --resume
   check "it continues" says "continues from there"
   check "with the same bytes" cmp whole.reeb out.reeb
@@ -68,8 +73,8 @@ kill -KILL "$process"
 wait "$process" 2>/dev/null || true
 : >out.reeb.partial-999999-0
 : >out.reeb.partial-notes
-run -o out.reeb
-check "a run without --resume starts from the beginning" says_not "continues from there"
+run -o out.reeb --force
+check "a run with --force starts from the beginning" says_not "continues from there"
 check "and clears up" only . mesh.ply whole.reeb messages out.reeb out.reeb.partial-notes
 check "with the same bytes" cmp whole.reeb out.reeb
 rm out.reeb out.reeb.partial-notes

@@ -7,11 +7,15 @@
 #include <thread>
 #include <vector>
 
+#include "io/file/file.h"
 #include "io/functions/function_source.h"
 #include "libreeb/base/count_text.h"
+#include "libreeb/base/error.h"
 #include "libreeb/base/memory_budget.h"
+#include "libreeb/base/printable.h"
 #include "tools/commands/commands.h"
 #include "tools/library/compute.h"
+#include "tools/library/run_files.h"
 #include "tools/program/compute_report.h"
 #include "tools/program/options.h"
 #include "tools/program/output.h"
@@ -41,6 +45,11 @@ std::string stem_of(const std::string& mesh) {
 }
 
 std::vector<std::string> output_names(const ComputeArguments& arguments) {
+  if (arguments.output == io::kStandardOutput) {
+    if (arguments.functions.size() != 1 || arguments.options.snapshot_every != 0)
+      throw Error(ErrorKind::kUsage, "several outputs cannot go to standard output", "name a file with -o");
+    return {arguments.output};
+  }
   fs::path output = arguments.output.empty() ? stem_of(arguments.mesh) + ".reeb" : arguments.output;
   if (arguments.functions.size() == 1) return {output.string()};
   if (output.extension() == ".reeb") output.replace_extension();
@@ -48,6 +57,16 @@ std::vector<std::string> output_names(const ComputeArguments& arguments) {
   for (const std::string& function : arguments.functions)
     names.push_back(output.string() + "-" + io::file_name_part(io::parse_function(function)) + ".reeb");
   return names;
+}
+
+// With the report, which compute() does not know.
+void check_files(const ComputeArguments& arguments, const std::vector<std::string>& outputs) {
+  std::vector<io::FunctionSpec> functions;
+  for (const std::string& function : arguments.functions) functions.push_back(io::parse_function(function));
+  RunFiles files = files_of_run(arguments.mesh, functions, outputs, arguments.options);
+  if (!arguments.report.empty())
+    files.add_output(arguments.report, "the report", existing_outputs(arguments.options.replace));
+  files.check();
 }
 
 std::string describe(const MeshInfo& info) {
@@ -78,7 +97,7 @@ void run_compute(ComputeArguments arguments) {
   ComputeOptions& options = arguments.options;
   if (arguments.functions.empty()) arguments.functions.push_back("z");
   const std::vector<std::string> outputs = output_names(arguments);
-  refuse_existing(arguments.report, options.replace);
+  check_files(arguments, outputs);
   RunFacts facts;
   facts.path = arguments.mesh;
   facts.threads = options.threads;
@@ -91,16 +110,17 @@ void run_compute(ComputeArguments arguments) {
   options.opened = [&](const MeshInfo& info) {
     facts.format = info.format;
     facts.input_bytes = info.file_bytes;
-    if (!arguments.quiet) print_line(arguments.mesh + ": " + describe(info));
+    if (!arguments.quiet) print_line(printable(arguments.mesh + ": " + describe(info)));
   };
   ProgressBar bar(arguments.quiet);
   options.progress = [&](const ComputeProgress& p) { bar.update(pass_of(p.phase), p.done, p.total, p.triangles); };
-  options.interrupted = watch_signals();
+  // Only a run on a file can be saved and resumed.
+  if (io::is_regular_file(arguments.mesh)) options.interrupted = watch_signals();
   const auto results = compute(arguments.mesh, arguments.functions, outputs, options);
   bar.clear();
   if (!arguments.quiet) print_summary(facts, results);
   if (!arguments.report.empty())
-    write_output(arguments.report, [&](std::ostream& out) { out << report_json(facts, results); });
+    write_output(arguments.report, options.replace, [&](std::ostream& out) { out << report_json(facts, results); });
 }
 
 }  // namespace
@@ -119,9 +139,10 @@ void add_compute(CLI::App& program) {
       ->required()
       ->type_name("");
   command
-      ->add_option("-o,--output", arguments->output,
-                   "File to write (default: the name of the mesh with .reeb, in the current folder; mesh.reeb for "
-                   "standard input)")
+      ->add_option(
+          "-o,--output", arguments->output,
+          "File to write; - is standard output (default: the name of the mesh with .reeb, in the current folder; "
+          "mesh.reeb for standard input)")
       ->type_name("FILE");
   command
       ->add_option("-f,--function", arguments->functions,
@@ -153,7 +174,7 @@ void add_compute(CLI::App& program) {
   command->add_option("--report", arguments->report, "Write figures of the run as JSON; - is standard output")
       ->type_name("FILE");
   command->add_flag("--quiet", arguments->quiet, "Print no progress and no summary");
-  command->add_flag("--force", options.replace, "Replace existing outputs");
+  command->add_flag("--force", options.replace, "Replace existing outputs, and discard an interrupted run");
   command->footer("Example:\n  reeb compute scan.ply -f z --memory 64M --report report.json");
   command->callback([arguments] { run_compute(*arguments); });
 }

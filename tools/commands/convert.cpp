@@ -4,14 +4,16 @@
 #include <memory>
 #include <string>
 
-#include "io/file/atomic_file.h"
 #include "io/file/temp_dir.h"
 #include "io/formats/create_mesh.h"
-#include "libreeb/base/error.h"
+#include "libreeb/base/printable.h"
 #include "tools/commands/commands.h"
+#include "tools/library/run_files.h"
 #include "tools/program/convert_mesh.h"
 #include "tools/program/options.h"
+#include "tools/program/output.h"
 #include "tools/program/progress.h"
+#include "tools/program/quantity.h"
 #include "tools/program/wrapping.h"
 
 namespace reeb::tools {
@@ -27,14 +29,20 @@ void run_convert(ConvertArguments arguments) {
   ConvertOptions& options = arguments.options;
   options.order = parse_order(arguments.order);
   if (options.temp_folder.empty()) options.temp_folder = io::TempDir::default_folder(options.output);
-  if (arguments.force) options.existing = io::Existing::kReplace;
-  io::check_output_name(options.output, options.existing);
+  io::check_mesh_name(options.output);
+  options.existing = late_outputs(arguments.force);
+  RunFiles files;
+  files.add_input(options.input, "the mesh");
+  if (options.order.function && options.order.function->kind == io::FunctionSpec::Kind::kFile)
+    files.add_input(options.order.function->argument, "the file of values");
+  files.add_output(options.output, "the output", existing_outputs(arguments.force));
+  files.check();
   ProgressBar bar(arguments.quiet);
   const auto notes = convert_mesh(options, bar);
   bar.clear();
   if (arguments.quiet) return;
-  for (const std::string& note : notes) print_line("note: " + note);
-  fmt::print(stderr, "wrote {}\n", options.output);
+  for (const std::string& note : notes) print_line("note: " + printable(note));
+  fmt::print(stderr, "wrote {}\n", printable(options.output));
 }
 
 }  // namespace
@@ -47,8 +55,9 @@ void add_convert(CLI::App& program) {
       ->required()
       ->type_name("");
   command
-      ->add_option("OUT", options.output,
-                   "Mesh to write: .ply .obj .off .sma .smb .smc .sva .svb; .events.txt lists the events")
+      ->add_option(
+          "OUT", options.output,
+          "Mesh to write: .ply .obj .off .sma .smb .smc .sva .svb; .events.txt lists the events; not IN itself")
       ->required()
       ->type_name("");
   command

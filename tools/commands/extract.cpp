@@ -10,6 +10,7 @@
 #include "libreeb/base/error.h"
 #include "ooc/reeb_file/reeb_file.h"
 #include "tools/commands/commands.h"
+#include "tools/library/run_files.h"
 #include "tools/program/input_kind.h"
 #include "tools/program/options.h"
 #include "tools/program/output.h"
@@ -54,11 +55,14 @@ void extract(const ExtractOptions& options) {
   // Errors in the command line are reported before the file is read.
   if (!options.threshold.empty()) parse_threshold("--threshold", options.threshold, 1);
   require_reeb_file(options.file, "extract");
-  refuse_existing(options.output, options.force);
+  RunFiles files;
+  files.add_input(options.file, "the .reeb file");
+  if (!options.output.empty()) files.add_output(options.output, "the output", existing_outputs(options.force));
+  files.check();
   const ooc::ReebFile file(options.file);
   if (const Error* damage = file.damage()) fmt::print(stderr, "reeb: warning: {}\n", damage->what());
   const ooc::Level level = file.load(choose_version(file, options));
-  write_output(options.output, [&](std::ostream& out) {
+  write_output(options.output, options.force, [&](std::ostream& out) {
     io::write_graph(
         format,
         {level.graph, file.header().function, level.threshold, level.buckets.view(), file.header().bucket_exponent},

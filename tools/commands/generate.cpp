@@ -10,8 +10,11 @@
 #include "io/generate/generator.h"
 #include "libreeb/base/count_text.h"
 #include "libreeb/base/error.h"
+#include "libreeb/base/printable.h"
 #include "tools/commands/commands.h"
+#include "tools/library/run_files.h"
 #include "tools/program/options.h"
+#include "tools/program/output.h"
 #include "tools/program/progress.h"
 #include "tools/program/wrapping.h"
 
@@ -27,8 +30,8 @@ struct GenerateArguments {
 
 void print_summary(const GenerateArguments& arguments, const io::ExpectedTopology& t) {
   std::string text =
-      fmt::format("wrote {}: {}, {}, Euler characteristic {}", arguments.output, count_of(t.vertices, "vertex"),
-                  count_of(t.triangles, "triangle"), t.euler_characteristic);
+      fmt::format("wrote {}: {}, {}, Euler characteristic {}", printable(arguments.output),
+                  count_of(t.vertices, "vertex"), count_of(t.triangles, "triangle"), t.euler_characteristic);
   if (t.genus) text += fmt::format(", genus {}", *t.genus);
   if (t.boundary_loops) text += ", " + count_of(*t.boundary_loops, "boundary loop");
   if (!t.genus) text += ", first Betti number " + with_commas(t.first_betti);
@@ -62,12 +65,16 @@ void run_generate(GenerateArguments arguments) {
   check_options(arguments);
   if (arguments.seed) arguments.mesh.seed = *arguments.seed;
   if (arguments.dimension) arguments.mesh.dimension = static_cast<unsigned>(*arguments.dimension);
+  io::check_mesh_name(arguments.output);
+  RunFiles files;
+  files.add_output(arguments.output, "the output", existing_outputs(arguments.force));
+  files.check();
   const auto mesh = io::generate_mesh(arguments.mesh);
   const io::ExpectedTopology& topology = mesh->topology();
   io::MeshWriterOptions options;
   options.dimension = mesh->info().dimension;
   options.vertex_count = mesh->info().vertex_count;
-  options.existing = arguments.force ? io::Existing::kReplace : io::Existing::kRefuse;
+  options.existing = late_outputs(arguments.force);
   const auto writer = io::create_mesh(arguments.output, options);
   ProgressBar bar(false);
   std::uint64_t vertices = 0, triangles = 0;

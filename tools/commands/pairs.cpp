@@ -7,6 +7,7 @@
 #include "io/text/output_buffer.h"
 #include "ooc/reeb_file/reeb_file.h"
 #include "tools/commands/commands.h"
+#include "tools/library/run_files.h"
 #include "tools/program/input_kind.h"
 #include "tools/program/output.h"
 
@@ -55,10 +56,13 @@ void add_pairs(CLI::App& app) {
   command->footer("Example:\n  reeb pairs scan.reeb -o scan-pairs.csv");
   command->callback([options] {
     require_reeb_file(options->file, "pairs");
-    refuse_existing(options->output, options->force);
+    RunFiles files;
+    files.add_input(options->file, "the .reeb file");
+    if (!options->output.empty()) files.add_output(options->output, "the output", existing_outputs(options->force));
+    files.check();
     auto rows = ooc::ReebFile(options->file).pairs();
     sort_rows(rows);
-    write_output(options->output, [&](std::ostream& out) { write_rows(rows, out); });
+    write_output(options->output, options->force, [&](std::ostream& out) { write_rows(rows, out); });
   });
 }
 

@@ -9,6 +9,7 @@
 #include "libreeb/base/count_text.h"
 #include "libreeb/base/error.h"
 #include "libreeb/base/memory_budget.h"
+#include "libreeb/base/printable.h"
 #include "ooc/reeb_file/reeb_file.h"
 #include "ooc/whole_mesh/mesh_recount.h"
 #include "ooc/whole_mesh/workspace.h"
@@ -68,8 +69,8 @@ void compare_with_mesh(const ooc::ReebFile& file, const VerifyOptions& options) 
                 fmt::format("it has {}, but the mesh is {}", count_of(header.loops, "loop"), describe_surface(mesh)),
                 "name the mesh that the file was computed from")
         .at(options.file);
-  fmt::print("{}: OK: {}, Euler characteristic {}, {}\n", options.mesh, count_of(mesh.components, "component"),
-             mesh.euler, describe_surface(mesh));
+  fmt::print("{}: OK: {}, Euler characteristic {}, {}\n", printable(options.mesh),
+             count_of(mesh.components, "component"), mesh.euler, describe_surface(mesh));
 }
 
 void verify(const VerifyOptions& options) {
@@ -81,7 +82,7 @@ void verify(const VerifyOptions& options) {
   const ooc::ReebFile file(options.file);
   file.verify();
   const FileHeader& header = file.header();
-  fmt::print("{}: OK: {}, {}, {}, {}, {}, {}\n", options.file, count_of(header.nodes, "node"),
+  fmt::print("{}: OK: {}, {}, {}, {}, {}, {}\n", printable(options.file), count_of(header.nodes, "node"),
              count_of(header.arcs, "arc"), count_of(header.components, "component"), count_of(header.loops, "loop"),
              count_of(header.pairs, "pair"), count_of(std::uint64_t{header.steps} + 1, "version"));
   if (!options.mesh.empty()) compare_with_mesh(file, options);

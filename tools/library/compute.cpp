@@ -5,13 +5,11 @@
 #include <thread>
 #include <utility>
 
-#include "io/file/atomic_file.h"
 #include "io/formats/open_mesh.h"
 #include "io/functions/function_source.h"
 #include "libreeb/base/error.h"
-#include "ooc/reeb_file/reeb_file.h"
 #include "ooc/run/compute.h"
-#include "ooc/run/partial_folder.h"
+#include "tools/library/run_files.h"
 #include "tools/library/snapshots.h"
 
 namespace reeb {
@@ -23,6 +21,7 @@ ooc::ComputeOptions run_options(const ComputeOptions& options) {
   run.threads = options.threads != 0 ? options.threads : std::max(1u, std::thread::hardware_concurrency());
   run.chunk_triangles = options.chunk_triangles;
   run.temp_dir = options.temp_dir;
+  run.replace = options.replace;
   run.graph_only = options.graph_only;
   run.keep_sidecar = options.keep_sidecar;
   run.may_reorder = options.may_reorder;
@@ -36,18 +35,12 @@ ooc::ComputeOptions run_options(const ComputeOptions& options) {
   return run;
 }
 
-// Before any work.
-void check_outputs(std::span<const std::string> functions, std::span<const std::string> outputs,
-                   const ComputeOptions& options) {
+void require_an_output_each(std::span<const std::string> functions, std::span<const std::string> outputs) {
   if (functions.empty() || functions.size() != outputs.size())
     throw Error(ErrorKind::kUsage,
                 "there are " + std::to_string(functions.size()) + " functions and " + std::to_string(outputs.size()) +
                     " outputs",
                 "name one output for each function, and at least one function");
-  // A run that goes on may have written some of its outputs before.
-  const bool replace = options.replace || (options.resume && ooc::PartialFolder::has_checkpoint(outputs[0]));
-  for (const std::string& output : outputs)
-    io::check_output_name(output, replace ? io::Existing::kReplace : io::Existing::kRefuse);
 }
 
 }  // namespace
@@ -56,11 +49,8 @@ std::vector<ComputeResult> compute(const std::string& path, std::span<const std:
                                    std::span<const std::string> outputs, const ComputeOptions& options) {
   std::vector<io::FunctionSpec> specs;
   for (const std::string& function : functions) specs.push_back(io::parse_function(function));
-  if (path != "-" && ooc::is_reeb_file(path))
-    throw Error(ErrorKind::kBadInput, "this is a Reeb graph already, not a mesh",
-                "look at it with `reeb info " + path + "`, or write a level of it with `reeb extract " + path + "`")
-        .at(path);
-  check_outputs(functions, outputs, options);
+  require_an_output_each(functions, outputs);
+  files_of_run(path, specs, outputs, options).check();
 
   const bool snapshots = options.snapshot_every != 0;
   ReadOptions read_options;
@@ -82,7 +72,8 @@ std::vector<ComputeResult> compute(const std::string& path, std::span<const std:
   }
   if (options.opened) options.opened(info);
   if (snapshots) {
-    input.reader = with_snapshots(std::move(input.reader), options.snapshot_every, pointers, outputs);
+    input.reader = with_snapshots(std::move(input.reader), options.snapshot_every, pointers, outputs,
+                                  options.replace ? io::Existing::kReplace : io::Existing::kKeep);
   } else {
     input.indexed = input.reader->indexed();
     if (path != "-") input.read_again = [&] { return io::open_mesh(path, read_options); };

@@ -19,7 +19,7 @@ using ooc::ComputeResult;
 struct ComputeOptions {
   std::uint64_t memory_bytes = ~std::uint64_t{0};  // what the run may use; default: no limit
   unsigned threads = 0;                            // 0: all that the machine has
-  bool replace = false;                            // outputs that exist; else they are an Error
+  bool replace = false;                            // outputs that exist, and an interrupted run; else an Error
   bool graph_only = false;                         // no pairs and levels
   // Minima and maxima of less persistence are removed; `denoise` is a share of the function's range (0.001
   // is 0.1%), or in units of the function. 0: all stay.
@@ -42,13 +42,14 @@ struct ComputeOptions {
 
 // Computes the Reeb graph of the mesh `path` ("-": standard input) for a function ("z", "c3", "index",
 // "random:1", "property:NAME", "file:PATH", as the program's -f) and writes it to `output` with all levels of
-// detail; ReebFile reads that. Format and compression are told by content. The bytes of the result do not
-// depend on memory, threads or chunks.
+// detail; ReebFile reads that. The output "-" is standard output. Format and compression are told by content. The bytes
+// of the result do not depend on memory, threads or chunks.
 //
 // THROWS:  Error: kUsage for a function that is none; kBadInput with file and position for a bad mesh, or an
-//          output that exists; kResource if memory or disk do not suffice; kInterrupted. No output is ever written in
-//          part, but those of earlier functions may be there, and the graph alone if its levels did not fit the memory.
-//          Of the last two kinds the hint says whether options.resume can go on.
+//          output that exists, is an input or is another output; kResource if memory or disk do not suffice, or an
+//          output cannot be created; kInterrupted. All of outputs is checked before any work. No output is ever written
+//          in part, but those of earlier functions may be there, and the graph alone if its levels did not fit the
+//          memory. Of the last two kinds the hint says whether options.resume can go on.
 // TIME:    about 60 ns a triangle where the order of the mesh is coherent; one or two readings of the file.
 // MEMORY:  tens of MiB for the chunks, and the front of the sweep; with levels also about 115 bytes an arc of
 //          the graph. options.memory_bytes bounds it.

@@ -1,6 +1,5 @@
 #include "tools/library/snapshots.h"
 
-#include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
@@ -8,6 +7,7 @@
 #include "libreeb/base/value_range.h"
 #include "libreeb/engine/online_reeb.h"
 #include "ooc/reeb_file/reeb_file_writer.h"
+#include "tools/library/run_files.h"
 
 namespace reeb {
 namespace {
@@ -15,9 +15,8 @@ namespace {
 // The graph of one function as far as the stream has come.
 class LiveFunction {
  public:
-  LiveFunction(VertexFunction& function, const std::string& output) : function_(function), stem_(output) {
-    if (stem_.extension() == ".reeb") stem_.replace_extension();
-  }
+  LiveFunction(VertexFunction& function, const std::string& output, io::Existing existing)
+      : function_(function), stem_(snapshot_stem(output)), existing_(existing) {}
 
   void add_vertices(const MeshBatch& batch) {
     if (batch.vertex_count == 0) return;
@@ -44,14 +43,22 @@ class LiveFunction {
     }
     meta.mesh_vertices = vertices;
     meta.mesh_triangles = triangles;
-    std::string digits = std::to_string(number);
-    if (digits.size() < 6) digits.insert(0, 6 - digits.size(), '0');
-    ooc::write_graph_file(stem_.string() + "-" + digits + ".reeb", meta, graph_.snapshot());
+    ooc::write_graph_file(snapshot_name(stem_, number), meta, graph_.snapshot(), {}, {.existing = existing_});
+  }
+
+  // The first and the last snapshot after this one.
+  std::string later_than(std::uint64_t number) const {
+    std::vector<std::uint64_t> left = existing_snapshots(stem_);
+    std::erase_if(left, [number](std::uint64_t other) { return other <= number; });
+    if (left.empty()) return {};
+    const std::string first = snapshot_name(stem_, left.front());
+    return left.size() == 1 ? first : first + " to " + snapshot_name(stem_, left.back());
   }
 
  private:
   VertexFunction& function_;
-  std::filesystem::path stem_;
+  std::string stem_;
+  io::Existing existing_;
   OnlineReeb graph_;
   ValueRange range_;
   std::vector<VertexId> ids_;
@@ -62,15 +69,21 @@ class LiveFunction {
 class SnapshotReader : public MeshReader {
  public:
   SnapshotReader(std::unique_ptr<MeshReader> reader, std::uint64_t every, std::span<VertexFunction* const> functions,
-                 std::span<const std::string> outputs)
+                 std::span<const std::string> outputs, io::Existing existing)
       : reader_(std::move(reader)), every_(every), next_(every) {
-    for (std::size_t f = 0; f < functions.size(); ++f) graphs_.emplace_back(*functions[f], outputs[f]);
+    for (std::size_t f = 0; f < functions.size(); ++f) graphs_.emplace_back(*functions[f], outputs[f], existing);
   }
 
   const MeshInfo& info() const override { return reader_->info(); }
   std::uint64_t bytes_read() const override { return reader_->bytes_read(); }
   std::uint64_t memory_bytes() const override { return reader_->memory_bytes(); }
-  std::vector<std::string> warnings() const override { return reader_->warnings(); }
+  std::vector<std::string> warnings() const override {
+    std::vector<std::string> all = reader_->warnings();
+    for (const LiveFunction& graph : graphs_)
+      if (const std::string left = graph.later_than(number_); !left.empty())
+        all.push_back("snapshots of an earlier run are left: " + left);
+    return all;
+  }
 
   bool read(MeshBatch& batch) override {
     if (!reader_->read(batch)) return false;
@@ -108,8 +121,8 @@ class SnapshotReader : public MeshReader {
 
 std::unique_ptr<MeshReader> with_snapshots(std::unique_ptr<MeshReader> reader, std::uint64_t every,
                                            std::span<VertexFunction* const> functions,
-                                           std::span<const std::string> outputs) {
-  return std::make_unique<SnapshotReader>(std::move(reader), every, functions, outputs);
+                                           std::span<const std::string> outputs, io::Existing existing) {
+  return std::make_unique<SnapshotReader>(std::move(reader), every, functions, outputs, existing);
 }
 
 }  // namespace reeb

@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 
+#include "io/file/atomic_file.h"
 #include "libreeb/port/mesh_reader.h"
 #include "libreeb/port/vertex_function.h"
 
@@ -14,12 +15,12 @@ namespace reeb {
 // Passes on what `reader` delivers, and keeps an on-line graph (libreeb/engine/online_reeb.h) of
 // every function beside it. Each time `every` further triangles have been delivered, the exact
 // graph of all events so far is written as OUT-000001.reeb, OUT-000002.reeb, ... where OUT is the
-// function's output without ".reeb": whole files without levels, each appearing in one step. Files
-// of such names are replaced. `functions` must outlive the reader and is not evaluated elsewhere at
-// the same time.
+// function's output without ".reeb": whole files without levels, each appearing in one step. Such files are replaced
+// only if `existing` says so; then warnings() names those of an earlier run that are left. `functions` must outlive the
+// reader and is not evaluated elsewhere at the same time.
 // COST: the on-line graph comes on top of the run; memory follows the front and the graph.
 std::unique_ptr<MeshReader> with_snapshots(std::unique_ptr<MeshReader> reader, std::uint64_t every,
                                            std::span<VertexFunction* const> functions,
-                                           std::span<const std::string> outputs);
+                                           std::span<const std::string> outputs, io::Existing existing);
 
 }  // namespace reeb

@@ -6,8 +6,10 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "io/file/file.h"
 #include "libreeb/base/count_text.h"
 #include "libreeb/base/memory_budget.h"
+#include "libreeb/base/printable.h"
 #include "tools/program/progress.h"
 #include "tools/program/wrapping.h"
 
@@ -49,13 +51,14 @@ void print_features(const ooc::ComputeResult& r, const std::string& title, bool 
 
 // The run does not count edges, so it does not know the genus.
 std::string genus_line(const RunFacts& facts, const ooc::ComputeResult& r) {
-  if (facts.path == "-") return "  genus: not counted";
-  return fmt::format("  genus: not counted; `reeb verify {} --mesh {}` counts it", r.output, facts.path);
+  if (facts.path == "-" || r.output == io::kStandardOutput) return "  genus: not counted";
+  return fmt::format("  genus: not counted; `reeb verify {} --mesh {}` counts it", printable(r.output),
+                     printable(facts.path));
 }
 
 void print_result(const RunFacts& facts, const ooc::ComputeResult& r) {
-  print_line(fmt::format("Reeb graph of {} for f = {} (from {:.6g} to {:.6g})", facts.path, r.function,
-                         r.vertices == 0 ? 0 : r.range.min, r.vertices == 0 ? 0 : r.range.max));
+  print_line(fmt::format("Reeb graph of {} for f = {} (from {:.6g} to {:.6g})", printable(facts.path),
+                         printable(r.function), r.vertices == 0 ? 0 : r.range.min, r.vertices == 0 ? 0 : r.range.max));
   print_line(fmt::format("  mesh: {}, {}", count_of(r.vertices, "vertex"), count_of(r.triangles, "triangle")));
   print_line(genus_line(facts, r));
   print_line(fmt::format("  graph: {}, {}, {}, {}", count_of(r.nodes, "node"), count_of(r.arcs, "arc"),
@@ -72,7 +75,7 @@ void print_result(const RunFacts& facts, const ooc::ComputeResult& r) {
   print_line(fmt::format("  {:.2f} s ({:.1f} M triangles/s), peak memory {}", seconds,
                          seconds > 0 ? static_cast<double>(r.triangles) / seconds / 1e6 : 0,
                          format_bytes(peak_rss_bytes())));
-  print_line("  wrote " + r.output);
+  print_line("  wrote " + (r.output == io::kStandardOutput ? "standard output" : printable(r.output)));
 }
 
 nlohmann::ordered_json to_json(const RunFacts& facts, const ooc::ComputeResult& r) {
@@ -114,7 +117,7 @@ nlohmann::ordered_json to_json(const RunFacts& facts, const ooc::ComputeResult& 
 
 void print_summary(const RunFacts& facts, const std::vector<ooc::ComputeResult>& results) {
   const ooc::ComputeResult& first = results.front();
-  for (const std::string& note : first.notes) print_line("note: " + note);
+  for (const std::string& note : first.notes) print_line("note: " + printable(note));
   if (first.degenerate_triangles == 1)
     print_line("note: 1 face has fewer than three different corners and counts as an edge or a point");
   if (first.degenerate_triangles > 1)
@@ -128,10 +131,11 @@ void print_summary(const RunFacts& facts, const std::vector<ooc::ComputeResult>&
 }
 
 std::string report_json(const RunFacts& facts, const std::vector<ooc::ComputeResult>& results) {
-  if (results.size() == 1) return to_json(facts, results[0]).dump(2) + "\n";
+  if (results.size() == 1)
+    return to_json(facts, results[0]).dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
   auto array = nlohmann::ordered_json::array();
   for (const ooc::ComputeResult& r : results) array.push_back(to_json(facts, r));
-  return array.dump(2) + "\n";
+  return array.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace reeb::tools

@@ -15,6 +15,7 @@
 #include "io/formats/format_detection.h"
 #include "io/formats/open_mesh.h"
 #include "libreeb/base/count_text.h"
+#include "libreeb/base/printable.h"
 #include "libreeb/base/value_range.h"
 #include "ooc/chunks/last_use.h"
 #include "ooc/chunks/spooled_mesh.h"
@@ -140,7 +141,7 @@ void MeshSurvey::predict_front(IndexedMesh& mesh) {
 void MeshSurvey::print_text() const {
   const MeshInfo& info = reader_->info();
   const std::uint64_t unused = vertices_ - connection_.used();
-  fmt::print("{}: {}\n", path_, info.format);
+  fmt::print("{}: {}\n", printable(path_), printable(info.format));
   fmt::print("  vertices      {}, {}\n", with_commas(vertices_),
              unused == 0 ? "all used" : with_commas(unused) + " in no triangle");
   if (tetrahedra_ != 0) fmt::print("  tetrahedra    {}\n", with_commas(tetrahedra_));
@@ -157,7 +158,7 @@ void MeshSurvey::print_text() const {
   fmt::print("  finalization  {}\n", finalized_ == 0 ? "none" : fmt::format("of {}", count_of(finalized_, "vertex")));
   fmt::print("  live front    {} at once: {}\n", count_of(front_, "vertex"),
              info.finalizes ? "measured" : "what a single pass would hold");
-  for (const std::string& warning : reader_->warnings()) fmt::print("  note          {}\n", warning);
+  for (const std::string& warning : reader_->warnings()) fmt::print("  note          {}\n", printable(warning));
 }
 
 void MeshSurvey::print_json() const {

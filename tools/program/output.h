@@ -5,13 +5,16 @@
 #include <ostream>
 #include <string>
 
+#include "io/file/atomic_file.h"
+
 namespace reeb::tools {
 
-// THROWS: Error{kBadInput} if `path` exists and `force` is not given, or is a folder. Never throws for "" and "-".
-void refuse_existing(const std::string& path, bool force);
+// What --force says of outputs that exist before any work, and of those that appear during the work.
+inline io::Existing existing_outputs(bool force) { return force ? io::Existing::kReplace : io::Existing::kRefuse; }
+inline io::Existing late_outputs(bool force) { return force ? io::Existing::kReplace : io::Existing::kKeep; }
 
-// Calls `write` with the stream of `path`, or standard output for "" and "-".
-// THROWS: Error{kResource} if writing fails; then no file of this name appears.
-void write_output(const std::string& path, const std::function<void(std::ostream&)>& write);
+// Calls `write` with the stream of `path`, or of standard output for "" and "-".
+// THROWS: as AtomicFile.
+void write_output(const std::string& path, bool force, const std::function<void(std::ostream&)>& write);
 
 }  // namespace reeb::tools

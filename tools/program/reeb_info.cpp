@@ -9,6 +9,7 @@
 #include "libreeb/base/count_text.h"
 #include "libreeb/base/error.h"
 #include "libreeb/base/memory_budget.h"
+#include "libreeb/base/printable.h"
 #include "ooc/reeb_file/reeb_file.h"
 
 namespace reeb::tools {
@@ -63,8 +64,9 @@ std::string short_threshold(double threshold) {
 void print_text(const ooc::ReebFile& file) {
   const FileHeader& header = file.header();
   const double range = header.function_max - header.function_min;
-  fmt::print("{}: Reeb graph, {}\n", file.path(), format_bytes(file.file_bytes()));
-  fmt::print("  function   {} from {:.9g} to {:.9g}\n", header.function, header.function_min, header.function_max);
+  fmt::print("{}: Reeb graph, {}\n", printable(file.path()), format_bytes(file.file_bytes()));
+  fmt::print("  function   {} from {:.9g} to {:.9g}\n", printable(header.function), header.function_min,
+             header.function_max);
   fmt::print("  mesh       {}, {}\n", count_of(header.mesh_vertices, "vertex"),
              count_of(header.mesh_triangles, "triangle"));
   fmt::print("  graph      {}, {}, {}, {}\n", count_of(header.nodes, "node"), count_of(header.arcs, "arc"),

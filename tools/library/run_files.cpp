@@ -1,0 +1,191 @@
+#include "tools/library/run_files.h"
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <optional>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include "io/file/file.h"
+#include "libreeb/base/error.h"
+#include "ooc/chunks/last_use_sidecar.h"
+#include "ooc/reeb_file/reeb_file.h"
+#include "ooc/run/partial_folder.h"
+
+namespace reeb {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kLeastDigits = 6;  // of the number of a snapshot
+
+// What a name leads to.
+struct Place {
+  std::optional<std::pair<dev_t, ino_t>> file, folder;
+  std::string name;  // in the folder
+  bool is_character_device = false;
+};
+
+std::optional<std::pair<dev_t, ino_t>> identity(const struct stat& status) {
+  return std::pair(status.st_dev, status.st_ino);
+}
+
+Place place_of(const std::string& path, bool is_output) {
+  Place place;
+  struct stat status {};
+  if (path == io::kStandardOutput) {
+    // Two sockets or terminals in one are usual; a file is not.
+    if (::fstat(is_output ? STDOUT_FILENO : STDIN_FILENO, &status) == 0 && S_ISREG(status.st_mode))
+      place.file = identity(status);
+    return place;
+  }
+  if (::stat(path.c_str(), &status) == 0) {
+    place.file = identity(status);
+    place.is_character_device = S_ISCHR(status.st_mode);
+    return place;
+  }
+  const std::string target = io::follow_links(path);
+  if (::stat(io::folder_of(target).c_str(), &status) != 0) return place;
+  place.folder = identity(status);
+  place.name = fs::path(target).filename().string();
+  return place;
+}
+
+// Nothing is lost in a character device.
+bool is_same(const Place& a, const Place& b) {
+  if (a.file || b.file) return a.file == b.file && !a.is_character_device;
+  return a.folder && a.folder == b.folder && a.name == b.name;
+}
+
+// The number in the name of a snapshot with this stem, both without folder.
+std::optional<std::uint64_t> snapshot_number(std::string_view name, std::string_view stem) {
+  constexpr std::string_view kSuffix = ".reeb";
+  if (!name.starts_with(stem) || !name.ends_with(kSuffix) || name.size() <= stem.size() + kSuffix.size()) return {};
+  const std::string_view digits = name.substr(stem.size() + 1, name.size() - stem.size() - 1 - kSuffix.size());
+  if (name[stem.size()] != '-' || digits.size() < kLeastDigits) return {};
+  if (digits.size() > kLeastDigits && digits[0] == '0') return {};
+  std::uint64_t number = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
+  if (error != std::errc() || end != digits.data() + digits.size()) return {};
+  return number;
+}
+
+}  // namespace
+
+void RunFiles::add_input(std::string path, std::string what) { inputs_.push_back({std::move(path), std::move(what)}); }
+
+void RunFiles::add_output(std::string path, std::string what, io::Existing existing) {
+  outputs_.push_back({std::move(path), std::move(what), existing, true});
+}
+
+void RunFiles::add_snapshots(std::string stem, io::Existing existing) {
+  snapshots_.push_back({std::move(stem), "a snapshot", existing, true});
+}
+
+// With the snapshots that exist.
+std::vector<RunFiles::File> RunFiles::outputs() const {
+  std::vector<File> all = outputs_;
+  for (const File& stem : snapshots_)
+    for (const std::uint64_t number : existing_snapshots(stem.path))
+      all.push_back({snapshot_name(stem.path, number), stem.what, stem.existing, true});
+  return all;
+}
+
+void RunFiles::check() const {
+  const std::vector<File> all = outputs();
+  std::vector<Place> places;
+  for (const File& output : all) {
+    places.push_back(place_of(output.path, true));
+    const Place& place = places.back();
+    for (const File& input : inputs_)
+      if (is_same(place, place_of(input.path, false)))
+        throw Error(ErrorKind::kBadInput, output.what + " is " + input.what + " itself", "choose another name for it")
+            .at(output.path);
+    for (std::size_t i = 0; i + 1 < places.size(); ++i)
+      if (is_same(place, places[i]) || (output.path == io::kStandardOutput && all[i].path == output.path))
+        throw Error(ErrorKind::kBadInput, output.what + " and " + all[i].what + " are the same file",
+                    "choose different names")
+            .at(output.path);
+  }
+  check_snapshot_names();
+  for (const File& output : all) io::check_output_name(output.path, output.existing);
+  for (const File& output : all) io::require_output_folder(output.path);
+  for (const File& stem : snapshots_) io::require_output_folder(snapshot_name(stem.path, 1));
+}
+
+// Snapshots that do not exist yet.
+void RunFiles::check_snapshot_names() const {
+  for (const File& stem : snapshots_) {
+    const std::string name = fs::path(stem.path).filename().string();
+    struct stat status {};
+    if (::stat(io::folder_of(stem.path).c_str(), &status) != 0) continue;
+    for (const std::vector<File>* files : {&inputs_, &outputs_})
+      for (const File& file : *files) {
+        struct stat other {};
+        if (!snapshot_number(fs::path(file.path).filename().string(), name)) continue;
+        if (::stat(io::folder_of(file.path).c_str(), &other) != 0 || identity(other) != identity(status)) continue;
+        throw Error(ErrorKind::kBadInput, file.what + " has the name of a snapshot", "choose another name for it")
+            .at(file.path);
+      }
+  }
+}
+
+RunFiles files_of_run(const std::string& mesh, std::span<const io::FunctionSpec> functions,
+                      std::span<const std::string> outputs, const ComputeOptions& options) {
+  // Said first: the default output of a .reeb file is the file itself.
+  if (mesh != "-" && ooc::is_reeb_file(mesh))
+    throw Error(ErrorKind::kBadInput, "this is a Reeb graph already, not a mesh",
+                "look at it with `reeb info " + mesh + "`, or write a level of it with `reeb extract " + mesh + "`")
+        .at(mesh);
+  // A run that is resumed may have written some of its outputs before.
+  const bool replace = options.replace || (options.resume && ooc::PartialFolder::has_checkpoint(outputs[0]));
+  const io::Existing existing = replace ? io::Existing::kReplace : io::Existing::kRefuse;
+  RunFiles files;
+  files.add_input(mesh, "the mesh");
+  for (const io::FunctionSpec& function : functions)
+    if (function.kind == io::FunctionSpec::Kind::kFile) files.add_input(function.argument, "the file of values");
+  if (!io::is_device(outputs[0])) files.add_input(ooc::PartialFolder::path_for(outputs[0]), "the folder of the run");
+  for (std::size_t i = 0; i < outputs.size(); ++i)
+    files.add_output(outputs[i], outputs.size() == 1 ? "the output" : "the output of " + functions[i].text, existing);
+  if (options.snapshot_every != 0)
+    for (const std::string& output : outputs) files.add_snapshots(snapshot_stem(output), existing);
+  if (mesh != "-") {
+    const std::string sidecar = mesh + ".final";
+    const bool is_sidecar = ooc::is_sidecar(sidecar);
+    // One that is there and fits is read, and replaced if it does not fit.
+    if (options.keep_sidecar)
+      files.add_output(sidecar, "the sidecar", is_sidecar ? io::Existing::kReplace : existing);
+    else if (is_sidecar)
+      files.add_input(sidecar, "the sidecar of the mesh");
+  }
+  return files;
+}
+
+std::string snapshot_stem(const std::string& output) {
+  fs::path stem = output;
+  if (stem.extension() == ".reeb") stem.replace_extension();
+  return stem.string();
+}
+
+std::string snapshot_name(const std::string& stem, std::uint64_t number) {
+  std::string digits = std::to_string(number);
+  if (digits.size() < kLeastDigits) digits.insert(0, kLeastDigits - digits.size(), '0');
+  return stem + "-" + digits + ".reeb";
+}
+
+std::vector<std::uint64_t> existing_snapshots(const std::string& stem) {
+  const std::string name = fs::path(stem).filename().string();
+  std::vector<std::uint64_t> numbers;
+  std::error_code error;
+  for (fs::directory_iterator entry(io::folder_of(stem), error), end; !error && entry != end; entry.increment(error))
+    if (const auto number = snapshot_number(entry->path().filename().string(), name)) numbers.push_back(*number);
+  std::sort(numbers.begin(), numbers.end());
+  return numbers;
+}
+
+}  // namespace reeb
