@@ -24,4 +24,19 @@ void RunningChecksum::add(std::span<const std::byte> bytes) {
 
 std::uint64_t RunningChecksum::value() const { return XXH64_digest(&state_->hash); }
 
+struct RunningDigest::State {
+  alignas(64) XXH3_state_t hash;
+};
+
+RunningDigest::RunningDigest() : state_(std::make_unique<State>()) { XXH3_64bits_reset(&state_->hash); }
+RunningDigest::~RunningDigest() = default;
+RunningDigest::RunningDigest(RunningDigest&&) noexcept = default;
+RunningDigest& RunningDigest::operator=(RunningDigest&&) noexcept = default;
+
+void RunningDigest::add(std::span<const std::byte> bytes) {
+  if (!bytes.empty()) XXH3_64bits_update(&state_->hash, bytes.data(), bytes.size());
+}
+
+std::uint64_t RunningDigest::value() const { return XXH3_64bits_digest(&state_->hash); }
+
 }  // namespace reeb::io

@@ -13,17 +13,17 @@
 #include <vector>
 
 #include "io/file/decompressor.h"
+#include "io/file/file_windows.h"
 #include "io/file/input_file.h"
-#include "io/file/mapped_windows.h"
 #include "io/file/system.h"
 #include "libreeb/base/error.h"
 
 namespace reeb::io {
 namespace {
 
-class MappedSource final : public ContentSource {
+class FileSource final : public ContentSource {
  public:
-  explicit MappedSource(std::shared_ptr<const MappableFile> file)
+  explicit FileSource(std::shared_ptr<const InputFile> file)
       : ContentSource(file->path()), windows_(std::move(file), {.window_count = 2, .overlap_bytes = kLookahead}) {}
   using ContentSource::view;
 
@@ -35,17 +35,17 @@ class MappedSource final : public ContentSource {
   std::optional<std::uint64_t> size() const override { return windows_.size(); }
   std::uint64_t file_bytes_read() const override { return read_; }
   std::uint64_t file_bytes() const override { return windows_.size(); }
-  std::shared_ptr<const MappableFile> file() const override { return windows_.file(); }
+  std::shared_ptr<const InputFile> file() const override { return windows_.file(); }
 
  private:
-  MappedWindows windows_;
+  FileWindows windows_;
   std::uint64_t read_ = 0;
 };
 
-// A mapped file as the sequential input of a decompressor.
-class MappedInput final : public RawInput {
+// A file as the sequential input of a decompressor.
+class FileInput final : public RawInput {
  public:
-  explicit MappedInput(std::shared_ptr<const MappableFile> file) : windows_(std::move(file), {.window_count = 2}) {}
+  explicit FileInput(std::shared_ptr<const InputFile> file) : windows_(std::move(file), {.window_count = 2}) {}
 
   std::size_t read(char* out, std::size_t limit) override {
     if (offset_ == windows_.size()) return 0;
@@ -57,7 +57,7 @@ class MappedInput final : public RawInput {
   std::uint64_t consumed() const override { return offset_; }
 
  private:
-  MappedWindows windows_;
+  FileWindows windows_;
   std::uint64_t offset_ = 0;
 };
 
@@ -178,19 +178,24 @@ std::unique_ptr<RawInput> open_pipe(const std::string& path) {
 
 }  // namespace
 
-std::unique_ptr<ContentSource> open_content(std::shared_ptr<const MappableFile> file) {
-  auto mapped = std::make_unique<MappedSource>(file);
-  if (detect_compression(mapped->view(0)) == Compression::kNone) return mapped;
-  return stream_source(file->path(), std::make_unique<MappedInput>(file), file->size());
+std::unique_ptr<ContentSource> open_content(std::shared_ptr<const InputFile> file) {
+  auto plain = std::make_unique<FileSource>(file);
+  if (detect_compression(plain->view(0)) == Compression::kNone) return plain;
+  return stream_source(file->path(), std::make_unique<FileInput>(file), file->size());
 }
 
-std::unique_ptr<ContentSource> open_content(const std::string& path) {
-  if (path != "-") {
-    check_input_file(path);
-    if (std::filesystem::is_regular_file(path)) return open_content(std::make_shared<const MappableFile>(path));
-  }
-  const std::string name = path == "-" ? "standard input" : path;
-  return stream_source(name, open_pipe(path), 0);
+std::unique_ptr<ContentSource> open_content(const std::string& path) { return Input(path).open(); }
+
+Input::Input(std::string path) : path_(std::move(path)), file_(open_if_regular(path_)) {}
+
+std::unique_ptr<ContentSource> Input::open() const {
+  if (file_) return open_content(file_);
+  const std::string name = path_ == "-" ? "standard input" : path_;
+  return stream_source(name, open_pipe(path_), 0);
+}
+
+void Input::check_unchanged(const char* content) const {
+  if (file_) file_->check_unchanged(content);
 }
 
 }  // namespace reeb::io

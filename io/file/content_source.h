@@ -1,4 +1,4 @@
-// The bytes of an input in order: from a mapped file, a compressed one, or a pipe.
+// The bytes of an input in order: from a file, a compressed one, or a pipe.
 //
 // Compression is detected from the content (gzip 1F 8B, zstd 28 B5 2F FD), never from the name. Users of this interface
 // see the decompressed content only.
@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <exception>
 #include <memory>
 #include <optional>
 #include <string>
@@ -13,7 +14,7 @@
 
 namespace reeb::io {
 
-class MappableFile;
+class InputFile;
 
 class ContentSource {
  public:
@@ -39,8 +40,8 @@ class ContentSource {
   virtual std::uint64_t file_bytes_read() const = 0;
   virtual std::uint64_t file_bytes() const = 0;
 
-  // The file, if it is uncompressed: it can be mapped without being opened again. Else null.
-  virtual std::shared_ptr<const MappableFile> file() const { return nullptr; }
+  // The file, if it is uncompressed: it can be read at any place without being opened again. Else null.
+  virtual std::shared_ptr<const InputFile> file() const { return nullptr; }
 
   // Its name in error messages.
   const std::string& name() const { return name_; }
@@ -56,6 +57,37 @@ class ContentSource {
 // THROWS: Error{kBadInput}: absent, a directory, unreadable, empty.
 std::unique_ptr<ContentSource> open_content(const std::string& path);
 // The same for an open file.
-std::unique_ptr<ContentSource> open_content(std::shared_ptr<const MappableFile> file);
+std::unique_ptr<ContentSource> open_content(std::shared_ptr<const InputFile> file);
+
+// An input that can be opened repeatedly, the same file each time, even if its name is removed or replaced.
+class Input {
+ public:
+  // THROWS: as open_content().
+  explicit Input(std::string path);
+
+  const std::string& path() const { return path_; }
+  // Its content from the start. A pipe has it once.
+  std::unique_ptr<ContentSource> open() const;
+  // As InputFile; a pipe cannot change.
+  void check_unchanged(const char* content = "the mesh") const;
+
+  // Returns what work() returns. Whatever goes wrong with an input that changes is due to the change.
+  // THROWS: InputChanged if it changed, whether work() threw or not; else what work() throws.
+  template <class Work>
+  auto read(const Work& work) const {
+    try {
+      auto result = work();
+      check_unchanged();
+      return result;
+    } catch (const std::exception&) {
+      check_unchanged();
+      throw;
+    }
+  }
+
+ private:
+  std::string path_;
+  std::shared_ptr<const InputFile> file_;  // null if it is a pipe
+};
 
 }  // namespace reeb::io

@@ -1,5 +1,6 @@
 #include "io/file/input_file.h"
 
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -25,15 +26,51 @@ void check_input_file(const std::string& path) {
         .at(path);
 }
 
-MappableFile::MappableFile(const std::string& path) {
+namespace {
+
+std::int64_t nanoseconds(const timespec& time) { return std::int64_t{time.tv_sec} * 1'000'000'000 + time.tv_nsec; }
+
+FileState to_state(const struct stat& status) {
+  return {.bytes = static_cast<std::uint64_t>(status.st_size),
+          .modified_ns = nanoseconds(status.st_mtim),
+          .changed_ns = nanoseconds(status.st_ctim),
+          .device = status.st_dev,
+          .inode = status.st_ino,
+          .names = status.st_nlink};
+}
+
+}  // namespace
+
+FileState state_of(const File& file) {
+  struct stat status {};
+  if (::fstat(file.descriptor(), &status) != 0) file.fail("ask the size of", errno, 0, 0);
+  return to_state(status);
+}
+
+InputFile::InputFile(const std::string& path) {
   check_input_file(path);
   if (!is_regular_file(path))
-    throw Error(ErrorKind::kBadInput, "is not a regular file, so it cannot be mapped",
-                "copy it to a regular file first")
-        .at(path);
+    throw Error(ErrorKind::kBadInput, "is not a regular file", "copy it to a regular file first").at(path);
   file_ = File::open_for_reading(path);
-  size_ = file_.size();
-  if (size_ == 0) throw_empty(path);
+  state_ = state_of(file_);
+  if (size() == 0) throw_empty(path);
+}
+
+void InputFile::check_unchanged(const char* content) const {
+  const FileState now = state_of(file_);
+  // A program can set the time of modification back, but not that of the change. Names come and go without one.
+  const bool written = now.bytes != state_.bytes || now.modified_ns != state_.modified_ns ||
+                       (now.changed_ns != state_.changed_ns && now.names == state_.names);
+  struct stat status {};
+  const bool replaced =
+      ::stat(path().c_str(), &status) == 0 && (status.st_dev != state_.device || status.st_ino != state_.inode);
+  if (written || replaced) throw InputChanged(std::string(content) + " changed while it was read").at(path());
+}
+
+std::shared_ptr<const InputFile> open_if_regular(const std::string& path) {
+  if (path == "-") return nullptr;
+  check_input_file(path);
+  return is_regular_file(path) ? std::make_shared<const InputFile>(path) : nullptr;
 }
 
 void throw_empty(const std::string& path) {

@@ -3,6 +3,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <span>
 #include <string>
 
 #include "io/file/file.h"
@@ -14,22 +16,39 @@ void check_input_file(const std::string& path);
 
 [[noreturn]] void throw_empty(const std::string& path);
 
-// An open file that any number of readers can map. All of them see the same file, even if its name is removed or
+// What changes when a file is written to, or replaced: its size, the times of its last changes (of the content; of
+// anything), and which file it is.
+struct FileState {
+  std::uint64_t bytes = 0;
+  std::int64_t modified_ns = 0, changed_ns = 0;
+  std::uint64_t device = 0, inode = 0;
+  std::uint64_t names = 0;  // links; adding or removing one is a change, though not of the content
+};
+FileState state_of(const File& file);
+
+// An open file that any number of readers can read. All of them see the same file, even if its name is removed or
 // replaced.
 // THREADS: any.
-class MappableFile {
+class InputFile {
  public:
   // THROWS: Error{kBadInput} if it is missing, a directory or another special file, unreadable, or empty.
-  explicit MappableFile(const std::string& path);
+  explicit InputFile(const std::string& path);
 
   const std::string& path() const { return file_.path(); }
-  std::uint64_t size() const { return size_; }
-  // As File::map.
-  Mapping map(std::uint64_t offset, std::size_t bytes) const { return file_.map(offset, bytes); }
+  std::uint64_t size() const { return state_.bytes; }
+  void read_at(std::uint64_t offset, std::span<std::byte> bytes) const { file_.read_at(offset, bytes); }
+
+  // What was read fits together only if this does not throw afterwards. `content` is for the message.
+  // THROWS: InputChanged if the file was written to since it was opened, or its name is that of another file now.
+  void check_unchanged(const char* content) const;
 
  private:
   File file_;
-  std::uint64_t size_ = 0;
+  FileState state_;
 };
+
+// The file `path`, if it is a regular one; else null ("-", a pipe).
+// THROWS: as InputFile.
+std::shared_ptr<const InputFile> open_if_regular(const std::string& path);
 
 }  // namespace reeb::io

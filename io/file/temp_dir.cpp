@@ -33,7 +33,12 @@ std::string TempDir::default_folder(const std::string& output_path) {
   if (const char* chosen = std::getenv("TMPDIR"); chosen != nullptr && *chosen != '\0') return chosen;
   if (is_device(output_path)) return "/tmp";
   const std::string parent = std::filesystem::path(output_path).parent_path().string();
-  return parent.empty() ? "." : parent;
+  if (!output_path.empty()) return parent.empty() ? "." : parent;
+  // Nothing is written to the current folder, so it need not be writable.
+  const int probe = system::open_unnamed(".");
+  if (probe < 0) return "/tmp";
+  ::close(probe);
+  return ".";
 }
 
 File TempDir::create_unnamed(const std::string& role) const {

@@ -18,7 +18,8 @@ class TempDir {
   TempDir(const TempDir&) = delete;
   TempDir& operator=(const TempDir&) = delete;
 
-  // $TMPDIR if it is set, else the folder of `output_path` ("." for a bare name, /tmp for a device).
+  // $TMPDIR if it is set, else the folder of `output_path` ("." for a bare name, /tmp for a device). Without an output:
+  // ".", or /tmp if nothing can be written there.
   static std::string default_folder(const std::string& output_path);
 
   // A file without a name, open for reading and writing; `role` ("segments") names it in messages.

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "io/file/content_source.h"
-#include "io/file/mapped_windows.h"
+#include "io/file/file_windows.h"
 #include "io/formats/ply_reader.h"
 #include "io/formats/scalar_bytes.h"
 #include "libreeb/base/error.h"
@@ -38,7 +38,7 @@ std::vector<Column> find_columns(const PlyHeader& header, const ReadOptions& opt
 
 class IndexedPly final : public IndexedMesh {
  public:
-  IndexedPly(std::shared_ptr<const MappableFile> file, const PlyHeader& header, const ReadOptions& options)
+  IndexedPly(std::shared_ptr<const InputFile> file, const PlyHeader& header, const ReadOptions& options)
       : path_(file->path()),
         header_(header),
         columns_(find_columns(header_, options, path_)),
@@ -128,7 +128,7 @@ class IndexedPly final : public IndexedMesh {
   bool swap_;
   std::size_t stride_;
   std::uint64_t vertices_begin_;
-  MappedWindows windows_;
+  FileWindows windows_;
   std::unique_ptr<PlyBodyReader> faces_;
   MeshBatch batch_;
 };
@@ -144,7 +144,7 @@ bool has_indexed_vertices(const PlyHeader& header) {
                       [](const PlyElement& element) { return element.has_lists(); });
 }
 
-std::unique_ptr<IndexedMesh> index_ply(std::shared_ptr<const MappableFile> file, const PlyHeader& header,
+std::unique_ptr<IndexedMesh> index_ply(std::shared_ptr<const InputFile> file, const PlyHeader& header,
                                        const ReadOptions& options) {
   return std::make_unique<IndexedPly>(std::move(file), header, options);
 }

@@ -1,4 +1,4 @@
-// Random access to binary PLY: vertices by index, directly from mapped windows, and the faces in order.
+// Random access to binary PLY: vertices by index, directly from windows of the file, and the faces in order.
 #pragma once
 
 #include <memory>
@@ -15,7 +15,7 @@ namespace reeb::io {
 bool has_indexed_vertices(const PlyHeader& header);
 
 // REQUIRES: has_indexed_vertices(header), and `file` has this header.
-std::unique_ptr<IndexedMesh> index_ply(std::shared_ptr<const MappableFile> file, const PlyHeader& header,
+std::unique_ptr<IndexedMesh> index_ply(std::shared_ptr<const InputFile> file, const PlyHeader& header,
                                        const ReadOptions& options);
 
 }  // namespace reeb::io

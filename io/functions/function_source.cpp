@@ -6,7 +6,9 @@
 #include <utility>
 
 #include "io/file/content_source.h"
-#include "io/file/mapped_windows.h"
+#include "io/file/file.h"
+#include "io/file/file_windows.h"
+#include "io/file/input_file.h"
 #include "io/formats/scalar_bytes.h"
 #include "io/text/text_cursor.h"
 #include "libreeb/base/count_text.h"
@@ -57,6 +59,7 @@ class ValueFile {
   virtual double next() = 0;
   virtual double at(std::uint64_t vertex) = 0;
   virtual void check_count(std::uint64_t vertex_count) = 0;
+  virtual void check_unchanged() const = 0;
   // Memory that at() takes, for this number of vertices.
   virtual std::uint64_t lookup_bytes(std::uint64_t) const { return 0; }
 };
@@ -75,7 +78,7 @@ namespace {
 class RawValueFile final : public ValueFile {
  public:
   explicit RawValueFile(const std::string& path)
-      : path_(path), windows_(path, {.window_bits = 18, .window_count = 16, .overlap_bytes = 8}) {
+      : path_(path), windows_(path, {.window_bits = 14, .window_count = 64, .overlap_bytes = 8}) {
     if (windows_.size() % 8 != 0)
       throw Error(ErrorKind::kBadInput, "its size is not a multiple of 8 bytes",
                   "a .f64 file has 8 bytes per vertex; the file may be cut")
@@ -92,6 +95,7 @@ class RawValueFile final : public ValueFile {
                 "give every vertex a finite value")
         .at(path_, std::to_string(8 * vertex));
   }
+  void check_unchanged() const override { windows_.file()->check_unchanged("the file"); }
   void check_count(std::uint64_t vertex_count) override {
     if (windows_.size() / 8 != vertex_count)
       throw_wrong_count(path_, std::to_string(8 * std::min(vertex_count, windows_.size() / 8)), windows_.size() / 8,
@@ -100,13 +104,13 @@ class RawValueFile final : public ValueFile {
 
  private:
   std::string path_;
-  MappedWindows windows_;
+  FileWindows windows_;
   std::uint64_t next_ = 0;
 };
 
 class TextValueFile final : public ValueFile {
  public:
-  explicit TextValueFile(const std::string& path) : path_(path) { open(); }
+  explicit TextValueFile(const std::string& path) : path_(path), input_(path) { open(); }
 
   double next() override {
     if (!text_->more()) {
@@ -129,6 +133,7 @@ class TextValueFile final : public ValueFile {
     while (values_.size() <= vertex) values_.push_back(next());
     return values_[vertex];
   }
+  void check_unchanged() const override { input_.check_unchanged("the file"); }
   void check_count(std::uint64_t vertex_count) override {
     if (!values_.empty() || read_ == 0) {
       values_.reserve(vertex_count);
@@ -143,15 +148,43 @@ class TextValueFile final : public ValueFile {
 
  private:
   void open() {
-    text_.emplace(open_content(path_), TextStyle{.comments = true});
+    text_.emplace(input_.open(), TextStyle{.comments = true});
     read_ = 0;
   }
 
   std::string path_;
+  Input input_;
   std::optional<TextCursor> text_;
   std::uint64_t read_ = 0;
   std::vector<double> values_;  // filled if vertices are looked up out of order or counted beforehand
 };
+
+// An empty file has the values of a mesh without vertices.
+class EmptyValueFile final : public ValueFile {
+ public:
+  explicit EmptyValueFile(const std::string& path) : path_(path) {}
+  double next() override { throw_empty(path_); }
+  double at(std::uint64_t) override { throw_empty(path_); }
+  void check_count(std::uint64_t vertex_count) override {
+    if (vertex_count != 0) throw_empty(path_);
+  }
+  void check_unchanged() const override {}
+
+ private:
+  std::string path_;
+};
+
+std::unique_ptr<ValueFile> open_values(const std::string& path, std::optional<std::uint64_t> vertex_count) {
+  check_input_file(path);
+  if (is_regular_file(path) && File::open_for_reading(path).size() == 0) {
+    if (vertex_count && *vertex_count != 0) throw_empty(path);
+    return std::make_unique<EmptyValueFile>(path);
+  }
+  if (!path.ends_with(".f64")) return std::make_unique<TextValueFile>(path);
+  auto values = std::make_unique<RawValueFile>(path);
+  if (vertex_count) values->check_count(*vertex_count);
+  return values;
+}
 
 }  // namespace
 
@@ -199,12 +232,7 @@ FunctionSource::FunctionSource(const FunctionSpec& spec, const MeshInfo& info, s
           .at(mesh_name_);
     column_ = info.dimension + static_cast<unsigned>(found - properties.begin());
   } else if (spec.kind == Kind::kFile) {
-    if (spec.argument.ends_with(".f64")) {
-      file_ = std::make_unique<RawValueFile>(spec.argument);
-      if (info.vertex_count) file_->check_count(*info.vertex_count);
-    } else {
-      file_ = std::make_unique<TextValueFile>(spec.argument);
-    }
+    file_ = open_values(spec.argument, info.vertex_count);
   }
 }
 
@@ -239,6 +267,10 @@ void FunctionSource::evaluate(std::span<const VertexId> ids, std::span<const std
 
 void FunctionSource::check_count(std::uint64_t vertex_count) {
   if (file_) file_->check_count(vertex_count);
+}
+
+void FunctionSource::check_unchanged() const {
+  if (file_) file_->check_unchanged();
 }
 
 std::uint64_t FunctionSource::lookup_bytes(std::uint64_t vertex_count) const {

@@ -53,6 +53,7 @@ class FunctionSource final : public VertexFunction {
   std::string source_file() const override;
   std::span<const unsigned> columns() const override;
   void check_count(std::uint64_t vertex_count) override;
+  void check_unchanged() const override;
   std::uint64_t lookup_bytes(std::uint64_t vertex_count) const override;
   // A text file is read into memory for this, unless all calls together go through the vertices once, in order.
   void evaluate(std::span<const VertexId> ids, std::span<const std::span<const double>> columns,

@@ -25,4 +25,7 @@ void Error::compose() {
   text_ = printable(text_ + message_);
 }
 
+InputChanged::InputChanged(const std::string& what, const std::string& hint)
+    : Error(ErrorKind::kBadInput, what, hint) {}
+
 }  // namespace reeb

@@ -43,4 +43,11 @@ class Error : public std::exception {
   std::string file_, position_, message_, hint_, text_;
 };
 
+// What was read of an input does not fit together: it changed while it was read.
+class InputChanged : public Error {
+ public:
+  explicit InputChanged(const std::string& what = "the mesh changed while it was read",
+                        const std::string& hint = "run it again while no other program writes to the file");
+};
+
 }  // namespace reeb

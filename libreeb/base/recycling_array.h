@@ -4,7 +4,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <utility>
+#include <vector>
 
 #include "libreeb/base/growing_array.h"
 #include "libreeb/base/state_stream.h"
@@ -18,6 +20,7 @@ class RecyclingArray {
   T& operator[](std::size_t i) { return elements_[i]; }
   const T& operator[](std::size_t i) const { return elements_[i]; }
   std::size_t size() const { return elements_.size(); }  // elements, including free ones
+  std::span<const T> all() const { return elements_.all(); }
   std::size_t used() const { return elements_.size() - free_; }
   std::size_t memory_bytes() const { return elements_.memory_bytes(); }
 
@@ -44,6 +47,18 @@ class RecyclingArray {
   void restore(StateReader& in) { elements_.restore(in); }
   void restore_first_free(StateReader& in) { in.get(first_free_); }
   void restore_free_count(StateReader& in) { free_ = static_cast<std::size_t>(in.get<std::uint64_t>()); }
+  // Which elements are free. To be called when all three parts were restored.
+  // THROWS: DamagedState unless the list of free elements is one, and has as many as are said to be free.
+  std::vector<bool> restored_free() {
+    std::vector<bool> is_free(elements_.size());
+    std::size_t count = 0;
+    for (std::uint32_t i = first_free_; i != kNone; i = elements_[i].next_free(), ++count) {
+      if (i >= elements_.size() || is_free[i]) throw DamagedState();
+      is_free[i] = true;
+    }
+    if (count != free_) throw DamagedState();
+    return is_free;
+  }
 
  private:
   static constexpr std::uint32_t kNone = ~std::uint32_t{0};

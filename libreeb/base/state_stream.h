@@ -69,6 +69,12 @@ class StateReader {
     get(value);
     return value;
   }
+  // A byte other than 0 and 1 is no bool.
+  bool get_bool() {
+    const auto byte = get<std::uint8_t>();
+    if (byte > 1) throw DamagedState();
+    return byte != 0;
+  }
   template <class T>
   void get_array(std::vector<T>& array) {
     array.resize(get_array_size<T>());

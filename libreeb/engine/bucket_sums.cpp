@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <utility>
+#include <vector>
 
 namespace reeb {
 
@@ -187,6 +189,7 @@ std::uint64_t BucketLists::count_above(Index bucket, double lo, double at, doubl
 
 void BucketLists::coarsen(List& list, int levels) {
   if (list.empty()) return;
+  if (levels < 0) throw DamagedState();  // only a restored list can be coarser
   Index b = links_[list.last].next;
   links_[std::exchange(list.last, kNone)].next = kNone;
   while (b != kNone) {
@@ -219,11 +222,44 @@ void BucketLists::save(StateWriter& out) const {
 }
 
 void BucketLists::restore(StateReader& in) {
+  constexpr int kMostExponent = 2048;  // more than that of any double
   sums_.restore(in);
   links_.restore(in);
   free_.restore(in);
   in.get(free_count_);
-  indexer_ = BucketIndexer(in.get<int>());
+  const int exponent = in.get<int>();
+  if (links_.size() != sums_.size() || free_.size() != sums_.size() || free_count_ > free_.size() ||
+      std::abs(exponent) > kMostExponent)
+    throw DamagedState();
+  indexer_ = BucketIndexer(exponent);
+}
+
+void BucketLists::check_restored(std::span<const List> lists) const {
+  constexpr Int128 kMostPerVertex = Int128{1} << 94;
+  std::vector<bool> seen(sums_.size());
+  const auto take = [&](Index b) {
+    if (b >= seen.size() || seen[b]) throw DamagedState();
+    seen[b] = true;
+  };
+  const auto check_sum = [&](Index b) {
+    const BucketSum& bucket = sums_[b];
+    if (bucket.count == 0 || bucket.count > ~std::uint32_t{0} || bucket.index != links_[b].index) throw DamagedState();
+    const Int128 most = kMostPerVertex * static_cast<Int128>(bucket.count);
+    for (const Int128 sum : bucket.sum)
+      if (sum > most || sum < -most) throw DamagedState();
+  };
+  for (std::size_t i = 0; i < free_count_; ++i) take(free_[i]);
+  for (const List& list : lists) {
+    if (list.empty()) continue;
+    take(list.last);
+    check_sum(list.last);
+    for (Index b = links_[list.last].next, next; b != list.last; b = next) {
+      take(b);
+      check_sum(b);
+      next = links_[b].next;
+      if (next >= seen.size() || links_[b].index > links_[next].index) throw DamagedState();
+    }
+  }
 }
 
 }  // namespace reeb

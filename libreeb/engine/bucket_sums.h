@@ -153,7 +153,10 @@ class BucketLists {
 
   std::size_t memory_bytes() const { return sums_.memory_bytes() + links_.memory_bytes() + free_.memory_bytes(); }
   void save(StateWriter& out) const;
+  // THROWS: DamagedState, as check_restored(), which tells whether `lists` are lists of buckets that no other list and
+  //         no free bucket shares.
   void restore(StateReader& in);
+  void check_restored(std::span<const List> lists) const;
 
  private:
   struct Link {

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "libreeb/base/error.h"
+
 namespace reeb {
 
 void Glue::add(const Fragment& fragment) {
@@ -26,6 +28,7 @@ void Glue::add_nodes(const Fragment& fragment) {
     const Fragment::Node& node = fragment.nodes[i];
     const std::uint64_t vertex = node.key.vertex.value();
     Index n = (node.uses & kUsedEarlier) != 0 ? node_of_.find(vertex) : kNone;
+    if (n != kNone && graph_.key(n).value != node.key.value) throw InputChanged();
     if (n == kNone) {
       const auto state = node.settled                 ? LiveGraph::State::kSettled
                          : node.uses == kUsedHereOnly ? LiveGraph::State::kComplete
@@ -152,15 +155,45 @@ void Glue::restore(StateReader& in) {
   edges_.restore(in);
   links_.restore(in);
   in.get(first_free_edge_);
+  restore_nodes();
+  restore_edges();
+}
 
+void Glue::restore_nodes() {
   node_of_.clear();
+  if (!graph_.has_nodes(first_link_.size())) throw DamagedState();
   for (Index n = 0; n < first_link_.size(); ++n)
-    if (graph_.is_incomplete(n)) node_of_.find_or_insert(graph_.key(n).vertex.value(), n);
+    if (graph_.is_incomplete(n) && node_of_.find_or_insert(graph_.key(n).vertex.value(), n) != n) throw DamagedState();
+}
+
+// Every link is in one list, and every path belongs to one edge between incomplete nodes.
+void Glue::restore_edges() {
+  const auto require = [](bool sound) {
+    if (!sound) throw DamagedState();
+  };
   edge_of_.clear();
+  require(links_.size() == 2 * edges_.size());
   std::vector<bool> is_free(edges_.size());
-  for (Index e = first_free_edge_; e != kNone; e = edges_[e].top) is_free[e] = true;
-  for (Index e = 0; e < edges_.size(); ++e)
-    if (!is_free[e]) edge_of_.find_or_insert(edge_key(edges_[e].lo, edges_[e].hi), e);
+  for (Index e = first_free_edge_; e != kNone; e = edges_[e].top) {
+    require(e < edges_.size() && !is_free[e]);
+    is_free[e] = true;
+  }
+  std::size_t links = 0;
+  for (Index n = 0; n < first_link_.size(); ++n) {
+    if (!graph_.is_incomplete(n)) continue;
+    for (Index l = first_link_[n], before = kNone; l != kNone; before = l, l = links_[l].next, ++links) {
+      require(l < links_.size() && !is_free[l / 2] && links_[l].prev == before && links < links_.size());
+      require((l % 2 == 0 ? edges_[l / 2].lo : edges_[l / 2].hi) == n);
+    }
+  }
+  for (Index e = 0; e < edges_.size(); ++e) {
+    if (is_free[e]) continue;
+    const Edge& edge = edges_[e];
+    require(edge_of_.find_or_insert(edge_key(edge.lo, edge.hi), e) == e);
+    graph_.check_restored_path(edge.top, edge.lo, edge.hi);
+  }
+  require(links == 2 * edge_of_.size());
+  graph_.check_restored_paths_end();
 }
 
 }  // namespace reeb

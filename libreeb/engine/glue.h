@@ -29,6 +29,8 @@ class Glue {
   // Adds the next fragment of the stream.
   // REQUIRES: a vertex that it marks kUsedEarlier was marked kUsedLater in an earlier fragment; its options are not
   // less than those of earlier fragments.
+  // THROWS: InputChanged if a vertex has another value than in an earlier fragment. Paths are monotone only if values
+  //         stay the same.
   void add(const Fragment& fragment);
 
   // The state so far, from which another process can continue. What was passed to the sink is not part of it.
@@ -67,6 +69,8 @@ class Glue {
   void drop_edge(Index edge);
   void link(Index link, Index node);
   void unlink(Index link, Index node);
+  void restore_nodes();
+  void restore_edges();
   void complete_node(Index node);
   static std::uint64_t edge_key(Index lo, Index hi) { return std::uint64_t{hi} << 32 | lo; }
 

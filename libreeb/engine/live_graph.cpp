@@ -1,5 +1,8 @@
 #include "libreeb/engine/live_graph.h"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -350,6 +353,13 @@ void LiveGraph::snapshot(std::vector<ArcKeys>& arcs, std::vector<SweepKey>& isol
   }
 }
 
+std::uint64_t LiveGraph::vertex_bound() const {
+  std::uint64_t bound = 0;
+  for (const Node& node : nodes_.all())
+    if (node.used) bound = std::max(bound, node.key.vertex.value() + 1);
+  return bound;
+}
+
 std::size_t LiveGraph::memory_bytes() const {
   return nodes_.memory_bytes() + positions_.memory_bytes() + arcs_.memory_bytes() + references_.memory_bytes() +
          changed_.capacity() * sizeof(Index) + settled_.memory_bytes() + buckets_.memory_bytes() +
@@ -419,11 +429,11 @@ void LiveGraph::save(StateWriter& out) const {
 }
 
 void LiveGraph::restore(StateReader& in) {
-  if (in.get<bool>() != track_positions_) throw DamagedState();
+  if (in.get_bool() != track_positions_) throw DamagedState();
   in.get(noise_below_);
   in.get(noticed_below_);
   in.get(removed_pairs_);
-  in.get(embeds_);
+  embeds_ = in.get_bool();
   buckets_.restore(in);
   arc_buckets_.restore(in);
   nodes_.restore(in);
@@ -436,6 +446,85 @@ void LiveGraph::restore(StateReader& in) {
   nodes_.restore_free_count(in);
   arcs_.restore_free_count(in);
   references_.restore_free_count(in);
+  check_restored();
+}
+
+// Nothing that was restored is used before it is known to be in range; then lists, then what they mean.
+void LiveGraph::check_restored() {
+  const auto require = [](bool sound) {
+    if (!sound) throw DamagedState();
+  };
+  require(positions_.size() == (track_positions_ ? nodes_.size() : 0));
+  require(arc_buckets_.size() == (embeds_ ? arcs_.size() : 0));
+  const std::vector<bool> free_nodes = nodes_.restored_free(), free_arcs = arcs_.restored_free();
+  std::vector<bool> seen = references_.restored_free();
+  for (Index n = 0; n < nodes_.size(); ++n) {
+    const Node& node = nodes_[n];
+    require(node.used != free_nodes[n]);
+    if (node.used)
+      require(std::isfinite(node.key.value) && node.key.vertex.value() + 1 != 0 && node.state <= State::kSettled &&
+              !node.queued);
+  }
+  std::array<std::size_t, 2> arcs_in_lists{};
+  for (Index a = 0; a < arcs_.size(); ++a) {
+    const Arc& arc = arcs_[a];
+    require(arc.is_free() == free_arcs[a]);
+    if (arc.is_free()) {
+      require(!embeds_ || arc_buckets_[a].empty());
+      continue;
+    }
+    require(arc.lo() < nodes_.size() && nodes_[arc.lo()].used && arc.hi() < nodes_.size() && nodes_[arc.hi()].used);
+    require(nodes_[arc.lo()].key < nodes_[arc.hi()].key);
+    std::size_t references = 0;
+    for (Index r = arc.first_reference, before = kNone; r != kNone; before = r, r = references_[r].next) {
+      require(r < references_.size() && !seen[r] && references_[r].arc == a && references_[r].prev == before);
+      seen[r] = true;
+      ++references;
+    }
+    require(references == arc.references);
+  }
+  require(std::find(seen.begin(), seen.end(), false) == seen.end());
+  for (Index n = 0; n < nodes_.size(); ++n)
+    for (const Direction side : {kDown, kUp}) {
+      if (!nodes_[n].used) continue;
+      std::size_t degree = 0;
+      for (Index a = nodes_[n].first_at[side], before = kNone; a != kNone;
+           before = a, a = arcs_[a].links[side].next, ++degree)
+        require(a < arcs_.size() && !arcs_[a].is_free() && arcs_[a].end[side] == n &&
+                arcs_[a].links[side].prev == before && degree < arcs_.size());
+      require(degree == nodes_[n].degree_at[side]);
+      arcs_in_lists[side] += degree;
+    }
+  require(arcs_in_lists[kDown] == arcs_.used() && arcs_in_lists[kUp] == arcs_.used());
+  // Each reference is below at most one other, on an arc that begins where the arc of the other ends.
+  path_tops_.assign(references_.size(), true);
+  const std::vector<bool> free_references = references_.restored_free();
+  for (Index r = 0; r < references_.size(); ++r) {
+    if (free_references[r]) path_tops_[r] = false;
+    const Index below = free_references[r] ? kNone : references_[r].down;
+    if (below == kNone) continue;
+    require(below < references_.size() && !free_references[below] && path_tops_[below]);
+    require(arcs_[references_[below].arc].hi() == arcs_[references_[r].arc].lo());
+    path_tops_[below] = false;
+  }
+  buckets_.check_restored(arc_buckets_.all());
+  try {
+    validate();
+  } catch (const std::logic_error&) {
+    throw DamagedState();
+  }
+}
+
+void LiveGraph::check_restored_path(Index top, Index lo, Index hi) {
+  if (top >= path_tops_.size() || !path_tops_[top] || arcs_[references_[top].arc].hi() != hi) throw DamagedState();
+  path_tops_[top] = false;
+  while (references_[top].down != kNone) top = references_[top].down;
+  if (arcs_[references_[top].arc].lo() != lo) throw DamagedState();
+}
+
+void LiveGraph::check_restored_paths_end() {
+  if (std::find(path_tops_.begin(), path_tops_.end(), true) != path_tops_.end()) throw DamagedState();
+  path_tops_ = {};
 }
 
 }  // namespace reeb

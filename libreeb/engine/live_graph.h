@@ -54,6 +54,7 @@ class LiveGraph {
   // The embedding of an arc that was just added. REQUIRES: buckets of the exponent in the options.
   void add_buckets(Index arc, std::span<const BucketSum> buckets);
   const SweepKey& key(Index node) const { return nodes_[node].key; }
+  bool has_nodes(std::size_t count) const { return nodes_.size() == count; }  // free ones included
   bool is_incomplete(Index node) const { return nodes_[node].used && nodes_[node].state == State::kIncomplete; }
 
   // Puts a reference on `arc` above the path that starts with `below` (kNone: nothing), and returns it. A path is named
@@ -73,11 +74,17 @@ class LiveGraph {
 
   // The whole state, from which another process can continue. REQUIRES: the last calls were tidy() and flush().
   void save(StateWriter& out) const;
+  // THROWS: DamagedState, as the next two, unless the state can be continued from. Then this object must not be used.
   void restore(StateReader& in);
+  // To be called after restore() for each path that its owner keeps; then once more, when no path may be left.
+  void check_restored_path(Index top, Index lo, Index hi);
+  void check_restored_paths_end();
 
   // Appends the arcs and isolated nodes of the present graph, without its (1, 1) nodes and without removed noise.
   void snapshot(std::vector<ArcKeys>& arcs, std::vector<SweepKey>& isolated) const;
 
+  // More than the id of any node's vertex.
+  std::uint64_t vertex_bound() const;
   std::size_t node_count() const { return nodes_.used(); }
   std::size_t arc_count() const { return arcs_.used(); }
   std::size_t reference_count() const { return references_.used(); }
@@ -134,6 +141,7 @@ class LiveGraph {
     Index& next_free() { return next; }
   };
 
+  void check_restored();
   void attach(Index arc, Direction side, Index node);
   void detach(Index arc, Direction side);
   void detach(Index arc) {
@@ -183,7 +191,8 @@ class LiveGraph {
   std::vector<Index> path_;                      // arcs, from the saddle of a leaf
   std::vector<PathBuckets> path_buckets_;
   std::uint64_t removed_pairs_ = 0, zips_ = 0, zip_steps_ = 0;
-  std::vector<Index> changed_;  // complete nodes that tidy() has to examine
+  std::vector<bool> path_tops_;  // by reference: a top whose path was not checked yet; while the state is restored
+  std::vector<Index> changed_;   // complete nodes that tidy() has to examine
   SettledBatch settled_;
 };
 

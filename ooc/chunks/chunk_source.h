@@ -24,6 +24,8 @@ struct ChunkPlace {
   std::uint64_t next_vertex = 0;   // the search for loose vertices continues here; of a stream: vertices read so far
   std::uint64_t batches = 0;       // of a stream, read so far; its end counts as one
   std::uint64_t chunk_blocks = 0;  // size of the next chunk, in the source's unit, where it adapts; 0: the first size
+  std::uint64_t digest = 0;        // of what was read so far, as far as it is read again up to this place
+  std::uint64_t completed = 0;     // vertices of an indexed mesh that chunks so far used last
   std::vector<FunctionRange> ranges;  // of the values so far
 };
 
@@ -69,14 +71,17 @@ class ChunkSource {
 
 // Chunks of an indexed mesh: whole blocks of its last-use table. Vertices that no triangle uses come last, as chunks of
 // loose vertices. The sizes of chunks adapt (chunk_growth.h). The chunks before `start` are skipped.
+// Every use of a vertex is checked against the table, and the triangles against its digest: chunks are right, or
+// next() throws.
 // REQUIRES: start.triangles is at a block's end.
+// THROWS: InputChanged, also from next(), if the table or `start` is of another mesh.
 std::unique_ptr<ChunkSource> chunks_of(IndexedMesh& mesh, LastUse& last_use, FunctionValues& functions, ChunkSize size,
                                        const ChunkPlace& start = {});
 
 // Chunks of a stream that is read once. Vertices that the stream does not finalize are finalized at its end. The input
 // before `start` is read and skipped. If `most_active_vertices` is given, the source gives up as soon as more vertices
 // than that are active (not finalized yet), or a large part of the vertices of a large mesh.
-// THROWS, at once: Error{kBadInput} if the stream does not match `start`.
+// THROWS, at once: InputChanged if the stream does not match `start`.
 std::unique_ptr<ChunkSource> chunks_of(MeshReader& reader, FunctionValues& functions, ChunkSize size,
                                        const ChunkPlace& start = {},
                                        std::optional<std::uint64_t> most_active_vertices = {});

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "libreeb/base/error.h"
 #include "ooc/chunks/coherence.h"
 
 namespace reeb::ooc {
@@ -21,7 +22,10 @@ GuessedChunks::GuessedChunks(Spooler& spooler, FunctionValues& functions, const 
 bool GuessedChunks::next(WorkItem& item) {
   if (!read_chunk(item.chunk)) return false;
   lookup_.look_up(spooler_.mesh(), item);
-  item.end = {.triangles = triangles_read_, .next_vertex = next_vertex_, .ranges = functions_.ranges()};
+  item.end = {.triangles = triangles_read_,
+              .next_vertex = next_vertex_,
+              .digest = spooler_.digest(),
+              .ranges = functions_.ranges()};
   return true;
 }
 
@@ -30,6 +34,9 @@ void GuessedChunks::pass_over(const ChunkPlace& start) {
   Chunk chunk;
   while ((triangles_read_ < start.triangles || next_vertex_ < start.next_vertex) && read_chunk(chunk)) continue;
   passing_over_ = false;
+  if (triangles_read_ != start.triangles || next_vertex_ != start.next_vertex ||
+      (triangles_read_ + next_vertex_ != 0 && spooler_.digest() != start.digest))
+    throw InputChanged();
   if (!start.ranges.empty()) functions_.set_ranges(start.ranges);
 }
 

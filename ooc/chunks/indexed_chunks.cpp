@@ -1,5 +1,7 @@
 #include <algorithm>
 
+#include "io/file/checksum.h"
+#include "libreeb/base/error.h"
 #include "ooc/chunks/chunk_growth.h"
 #include "ooc/chunks/chunk_source.h"
 #include "ooc/chunks/vertex_lookup.h"
@@ -30,9 +32,11 @@ class IndexedChunks : public ChunkSource {
 
  private:
   void pass_over(const ChunkPlace& start);
+  bool read_some(std::size_t most);
   bool read_triangles(Chunk& chunk);
   bool read_loose_vertices(Chunk& chunk);
   void set_uses(Chunk& chunk);
+  void check_end();
 
   IndexedMesh& mesh_;
   LastUse& last_use_;
@@ -43,6 +47,8 @@ class IndexedChunks : public ChunkSource {
   std::uint64_t first_block_ = 0;  // of the next chunk
   std::uint64_t triangles_read_ = 0;
   std::uint64_t next_vertex_ = 0;  // the search for unused vertices continues here
+  std::uint64_t completed_ = 0;    // vertices that chunks so far used last
+  io::RunningDigest digest_;       // of all triangles so far
 
   std::vector<VertexId> corners_;
   LocalNumbers numbers_;
@@ -51,11 +57,16 @@ class IndexedChunks : public ChunkSource {
 
 bool IndexedChunks::next(WorkItem& item) {
   item.chunk.clear();
-  if (!read_triangles(item.chunk) && !read_loose_vertices(item.chunk)) return false;
+  if (!read_triangles(item.chunk) && !read_loose_vertices(item.chunk)) {
+    check_end();
+    return false;
+  }
   lookup_.look_up(mesh_, item);
   item.end = {.triangles = triangles_read_,
               .next_vertex = next_vertex_,
               .chunk_blocks = blocks_.size(),
+              .digest = digest_.value(),
+              .completed = completed_,
               .ranges = functions_.ranges()};
   return true;
 }
@@ -63,12 +74,20 @@ bool IndexedChunks::next(WorkItem& item) {
 void IndexedChunks::pass_over(const ChunkPlace& start) {
   constexpr std::uint64_t kTrianglesAtOnce = 65536;
   while (triangles_read_ < start.triangles &&
-         mesh_.read(corners_, static_cast<std::size_t>(std::min(kTrianglesAtOnce, start.triangles - triangles_read_))))
+         read_some(static_cast<std::size_t>(std::min(kTrianglesAtOnce, start.triangles - triangles_read_))))
     triangles_read_ += corners_.size() / 3;
+  if (start.triangles != 0 && digest_.value() != start.digest) throw InputChanged();
+  completed_ = start.completed;
   first_block_ = triangles_read_ / block_triangles_;
   next_vertex_ = start.next_vertex;
   if (start.chunk_blocks != 0) blocks_.set_size(static_cast<std::size_t>(start.chunk_blocks));
   if (!start.ranges.empty()) functions_.set_ranges(start.ranges);
+}
+
+bool IndexedChunks::read_some(std::size_t most) {
+  if (!mesh_.read(corners_, most)) return false;
+  digest_.add(std::as_bytes(std::span(corners_)));
+  return true;
 }
 
 // A small batch at a time, so that corners are numbered while they are in the first-level cache.
@@ -79,7 +98,7 @@ bool IndexedChunks::read_triangles(Chunk& chunk) {
   numbers_.start(chunk.ids, most);
   chunk.corners.resize(3 * most);
   std::size_t count = 0;
-  while (count < most && mesh_.read(corners_, std::min(kTrianglesInCache, most - count))) {
+  while (count < most && read_some(std::min(kTrianglesInCache, most - count))) {
     numbers_.number(corners_, std::span(chunk.corners).subspan(3 * count, corners_.size()));
     count += corners_.size() / 3;
   }
@@ -97,13 +116,30 @@ void IndexedChunks::set_uses(Chunk& chunk) {
   last_use_.lookup(chunk.ids, entries_);
   const std::uint64_t last_block = first_block_ + blocks_.size() - 1;
   chunk.uses.resize(chunk.vertex_count());
+  bool fits = true;
+  std::uint64_t completed = 0;
   for (std::size_t i = 0; i < chunk.vertex_count(); ++i) {
     const UseEntry entry(entries_[i]);
+    const std::uint64_t last = entry.last_block(), span = entry.span();
     // A saturated span can mark a vertex as used earlier although it was not. That is allowed.
-    const bool earlier = entry.last_block() < first_block_ + entry.span() || entry.span() == UseEntry::kSaturatedSpan;
-    const bool later = entry.last_block() > last_block;
+    const bool earlier = last < first_block_ + span || span == UseEntry::kSaturatedSpan;
+    const bool later = last > last_block;
     chunk.uses[i] = static_cast<std::uint8_t>((earlier ? kUsedEarlier : 0) | (later ? kUsedLater : 0));
+    completed += later ? 0u : 1u;
+    // The chunk is not before its first use and not after its last. An unused vertex has the last block of all.
+    fits = fits && last >= first_block_ && (last <= last_block + span || span == UseEntry::kSaturatedSpan);
+    fits = fits && !entry.unused();
   }
+  if (!fits) throw InputChanged();
+  completed_ += completed;
+}
+
+// No chunk used a vertex after its last use. If each was used last in one chunk, all uses were right.
+void IndexedChunks::check_end() {
+  const UseSummary& uses = last_use_.summary();
+  if (triangles_read_ != uses.triangle_count || mesh_.read(corners_, 1) || completed_ != uses.vertex_count ||
+      digest_.value() != uses.digest)
+    throw InputChanged();
 }
 
 bool IndexedChunks::read_loose_vertices(Chunk& chunk) {
@@ -119,6 +155,7 @@ bool IndexedChunks::read_loose_vertices(Chunk& chunk) {
     }
   }
   chunk.uses.assign(chunk.vertex_count(), kUsedHereOnly);
+  completed_ += chunk.vertex_count();
   return chunk.vertex_count() != 0;
 }
 

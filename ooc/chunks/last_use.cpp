@@ -4,6 +4,7 @@
 #include <atomic>
 #include <utility>
 
+#include "io/file/checksum.h"
 #include "ooc/threads/read_ahead.h"
 
 namespace reeb::ooc {
@@ -57,6 +58,7 @@ class Scan {
     });
     summary_.block_triangles = block_triangles_;
     summary_.block_count = live_change_.size();
+    summary_.digest = digest_.value();
     profile_front();
     return {std::move(summary_), std::move(table_)};
   }
@@ -73,6 +75,7 @@ class Scan {
     constexpr std::size_t kTrianglesAtOnce = 2048;
     if (!mesh_.read(batch.corners, kTrianglesAtOnce)) return false;
     batch.bytes_read = mesh_.bytes_read();
+    digest_.add(std::as_bytes(std::span(batch.corners)));
     batch.degenerate = 0;
     for (std::size_t t = 0; t < batch.corners.size(); t += 3)
       batch.degenerate += batch.corners[t] == batch.corners[t + 1] || batch.corners[t + 1] == batch.corners[t + 2] ||
@@ -169,6 +172,7 @@ class Scan {
   std::uint64_t in_block_ = 0;         // triangles of the last block so far
   std::atomic<bool> gave_up_ = false;  // the thread of the table sets it, the reading thread checks it
   Reservation change_charge_;
+  io::RunningDigest digest_;  // of the reading thread
   // By block: vertices used first in it, minus those used last.
   std::vector<std::int32_t> live_change_;
   UseSummary summary_;

@@ -61,11 +61,19 @@ struct UseSummary {
   std::uint64_t block_count = 0;
   // A vertex is live at the end of a block if it was used up to there and will be used again.
   std::uint64_t max_live_vertices = 0;
+  std::uint64_t digest = 0;  // of all triangles, as IndexedMesh::read delivers them
   // Live vertices along the stream: the maxima of at most 256 groups of the same number of blocks each.
   std::vector<std::uint64_t> live_profile;
 
   friend bool operator==(const UseSummary&, const UseSummary&) = default;
 };
+
+// Whether its blocks are as small as they can be, unless the options ask for large ones. A chunk is whole blocks.
+inline bool has_usual_blocks(const UseSummary& summary) {
+  constexpr std::uint64_t kUsual = 4096;
+  return summary.block_triangles != 0 &&
+         (summary.block_triangles <= kUsual || summary.block_count > UseEntry::kMostBlocks / 2);
+}
 
 class LastUse {
  public:

@@ -29,7 +29,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "files are little-endian");
 
 constexpr std::array<char, 8> kMagic = {'R', 'E', 'E', 'B', 'F', 'I', 'N', '\n'};
-constexpr std::uint64_t kVersion = 1;
+constexpr std::uint64_t kVersion = 2;
 constexpr std::size_t kBlockEntries = 16 << 10;
 constexpr std::uint64_t kSamplesLimit = 4096;
 constexpr int kLevel = 1;
@@ -47,9 +47,10 @@ struct Header {
   std::uint64_t triangle_count, degenerate_triangles;
   std::uint64_t block_triangles, block_count;
   std::uint64_t max_live_vertices;
+  std::uint64_t triangles_digest;
   std::uint64_t samples;
 };
-static_assert(sizeof(Header) == 13 * 8);
+static_assert(sizeof(Header) == 14 * 8);
 
 struct BlockHeader {
   std::uint64_t packed_bytes;
@@ -96,6 +97,7 @@ void write_sidecar(io::BufferedWriter& out, const MeshIdentity& mesh, LastUse& u
                       s.block_triangles,
                       s.block_count,
                       s.max_live_vertices,
+                      s.digest,
                       s.live_profile.size()};
   const auto profile = std::as_bytes(std::span(s.live_profile));
   out.append(object_bytes(header));
@@ -139,8 +141,10 @@ class Reader {
 };
 
 UseSummary read_summary(Reader& in, const Header& header) {
-  if (header.samples > kSamplesLimit || header.block_count > UseEntry::kMostBlocks || header.block_triangles == 0 ||
-      header.block_count != (header.triangle_count + header.block_triangles - 1) / header.block_triangles)
+  const std::uint64_t triangles = header.triangle_count, block = header.block_triangles;
+  if (header.samples > kSamplesLimit || header.block_count > UseEntry::kMostBlocks || block == 0 ||
+      header.block_count != triangles / block + (triangles % block == 0 ? 0 : 1) ||
+      header.max_live_vertices > header.vertex_count || header.degenerate_triangles > triangles)
     throw Damaged();
   UseSummary s;
   s.live_profile.resize(static_cast<std::size_t>(header.samples));
@@ -154,12 +158,15 @@ UseSummary read_summary(Reader& in, const Header& header) {
   s.block_triangles = header.block_triangles;
   s.block_count = header.block_count;
   s.max_live_vertices = header.max_live_vertices;
+  s.digest = header.triangles_digest;
+  if (!has_usual_blocks(s)) throw Damaged();
   return s;
 }
 
 void read_table(Reader& in, const UseSummary& summary, PagedTable<std::uint32_t>& table) {
   std::vector<std::uint32_t> entries;
   std::vector<std::byte> planes, packed;
+  std::uint64_t unused = 0;
   for (std::uint64_t first = 0; first < summary.vertex_count; first += kBlockEntries) {
     entries.resize(static_cast<std::size_t>(std::min<std::uint64_t>(kBlockEntries, summary.vertex_count - first)));
     const auto header = in.take<BlockHeader>();
@@ -169,11 +176,13 @@ void read_table(Reader& in, const UseSummary& summary, PagedTable<std::uint32_t>
     planes.resize(4 * entries.size());
     if (io::checksum(packed) != header.checksum || !io::zstd_decompress(packed, planes)) throw Damaged();
     from_planes(planes, entries);
-    for (const std::uint32_t entry : entries)
+    for (const std::uint32_t entry : entries) {
+      unused += UseEntry(entry).unused() ? 1u : 0u;
       if (!UseEntry(entry).unused() && UseEntry(entry).last_block() >= summary.block_count) throw Damaged();
+    }
     table.write(first, entries);
   }
-  if (in.left() != 0) throw Damaged();
+  if (in.left() != 0 || unused != summary.unused_vertices) throw Damaged();
 }
 
 }  // namespace
@@ -222,23 +231,31 @@ void save_sidecar(const std::string& path, const MeshIdentity& mesh, LastUse& us
 
 SidecarLoad load_sidecar(const std::string& path, const MeshIdentity& mesh, std::uint64_t vertex_count,
                          const io::TempDir& temp, MemoryBudget& budget, std::uint64_t allowance_bytes) {
-  if (::access(path.c_str(), R_OK) != 0) return {};
+  if (::access(path.c_str(), F_OK) != 0) return {};
+  const auto ignored = [&](const std::string& why) { return SidecarLoad{{}, ignored_sidecar(path, why)}; };
   try {
     Reader in(path);
     const auto header = in.take<Header>();
-    if (header.magic != kMagic) return {{}, path + ": not a finalization file, ignored"};
+    if (header.magic != kMagic) return ignored("it is not a finalization file");
     if (header.version != kVersion)
-      return {{}, path + ": version " + std::to_string(header.version) + " is not known, ignored"};
+      return ignored("it is of version " + std::to_string(header.version) + ", which this program does not know");
     if (MeshIdentity{header.mesh_bytes, header.mesh_changed_ns, header.mesh_digest} != mesh ||
         header.vertex_count != vertex_count)
-      return {{}, path + ": made for another state of the mesh, ignored"};
+      return ignored("it was made for another state of the mesh");
     UseSummary summary = read_summary(in, header);
     PagedTable<std::uint32_t> table("last uses", temp, budget, allowance_bytes, UseEntry::kUnused);
     read_table(in, summary, table);
     return {LastUse(std::move(summary), std::move(table)), {}};
   } catch (const Damaged&) {
-    return {{}, path + ": damaged, ignored"};
+    return ignored("it is damaged");
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::kBadInput) throw;
+    return ignored("it cannot be read");
   }
+}
+
+std::string ignored_sidecar(const std::string& path, const std::string& why) {
+  return path + " is ignored, since " + why;
 }
 
 }  // namespace reeb::ooc

@@ -33,9 +33,13 @@ struct SidecarLoad {
   std::string note;  // why an existing sidecar was not used; else empty
 };
 
-// Reads a sidecar. A missing, outdated or damaged one is not an error: the pass is done again.
+// Reads a sidecar. A missing, outdated or damaged one is not an error: the pass is done again. One whose checksums are
+// right can still be of other content; the chunks that are made with it find that out (chunk_source.h).
 // THROWS: Error{kResource} of the budget or the disk.
 SidecarLoad load_sidecar(const std::string& path, const MeshIdentity& mesh, std::uint64_t vertex_count,
                          const io::TempDir& temp, MemoryBudget& budget, std::uint64_t allowance_bytes);
+
+// The note for a sidecar that was not used.
+std::string ignored_sidecar(const std::string& path, const std::string& why);
 
 }  // namespace reeb::ooc

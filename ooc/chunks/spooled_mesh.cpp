@@ -79,6 +79,7 @@ bool Spooler::read() {
     mesh_ = std::make_unique<SpooledMesh>(static_cast<unsigned>(columns), temp_, budget_, allowance_bytes_);
   }
   if (!some) return false;
+  digest_.add(batch_);
   reader_memory_.resize(reader_.memory_bytes());
   append_faces(batch_.tetrahedra, batch_.triangles);
   batch_.tetrahedra.clear();

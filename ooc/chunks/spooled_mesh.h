@@ -10,6 +10,7 @@
 #include "libreeb/base/memory_budget.h"
 #include "libreeb/port/indexed_mesh.h"
 #include "libreeb/port/mesh_reader.h"
+#include "ooc/chunks/batch_digest.h"
 #include "ooc/tables/triangle_log.h"
 #include "ooc/tables/vertex_column.h"
 
@@ -70,6 +71,7 @@ class Spooler {
   // Three corners per triangle, of the batch that was read last.
   const std::vector<VertexId>& triangles() const { return batch_.triangles; }
   const MeshReader& reader() const { return reader_; }
+  std::uint64_t digest() const { return digest_.value(); }  // of all that was read so far
   // The mesh as far as it was read. REQUIRES: something was read.
   SpooledMesh& mesh() { return *mesh_; }
 
@@ -83,6 +85,7 @@ class Spooler {
   std::uint64_t allowance_bytes_;
   Reservation reader_memory_;
   MeshBatch batch_;
+  BatchDigest digest_;
   std::unique_ptr<SpooledMesh> mesh_;
   bool ended_ = false;
 };

@@ -1,4 +1,5 @@
 #include "libreeb/base/error.h"
+#include "ooc/chunks/batch_digest.h"
 #include "ooc/chunks/chunk_growth.h"
 #include "ooc/chunks/chunk_source.h"
 
@@ -38,6 +39,7 @@ class StreamChunks : public ChunkSource {
   StreamChunker chunker_;
   std::uint64_t triangles_read_ = 0;
   std::uint64_t batches_ = 0;
+  BatchDigest digest_;
   bool ended_ = false, given_up_ = false;
 
   MeshBatch batch_;
@@ -58,6 +60,7 @@ bool StreamChunks::next(WorkItem& item) {
               .next_vertex = chunker_.vertex_count(),
               .batches = batches_,
               .chunk_blocks = size_.size(),
+              .digest = digest_.value(),
               .ranges = functions_.ranges()};
   return true;
 }
@@ -78,9 +81,9 @@ void StreamChunks::pass_over(const ChunkPlace& start) {
     read_batch();
     if (chunker_.chunk_size() >= size_.size() || batches_ == start.batches) chunker_.take(chunk, values);
   }
-  if (batches_ != start.batches || triangles_read_ != start.triangles || chunker_.vertex_count() != start.next_vertex)
-    throw Error(ErrorKind::kBadInput, "the stream is not the one that the checkpoint was made of",
-                "run it again without --resume");
+  if (batches_ != start.batches || triangles_read_ != start.triangles || chunker_.vertex_count() != start.next_vertex ||
+      (batches_ != 0 && digest_.value() != start.digest))
+    throw InputChanged();
   if (start.chunk_blocks != 0) size_.set_size(static_cast<std::size_t>(start.chunk_blocks));
   if (!start.ranges.empty()) functions_.set_ranges(start.ranges);
 }
@@ -92,6 +95,7 @@ void StreamChunks::read_batch() {
     ended_ = true;
     return;
   }
+  digest_.add(batch_);
   add_vertices();
   add_simplices(batch_.triangles, 3);
   add_simplices(batch_.tetrahedra, 4);

@@ -9,6 +9,7 @@
 #include "io/file/atomic_file.h"
 #include "io/file/checksum.h"
 #include "io/file/file.h"
+#include "io/file/input_file.h"
 #include "libreeb/base/error.h"
 #include "ooc/chunks/last_use_sidecar.h"
 
@@ -16,13 +17,13 @@ namespace reeb::ooc {
 namespace {
 
 constexpr std::array<char, 8> kMagic = {'R', 'E', 'E', 'B', 'C', 'K', 'P', '\n'};
-constexpr std::uint64_t kVersion = 7;
+constexpr std::uint64_t kVersion = 8;
 constexpr std::size_t kBufferBytes = 64 << 10;
 
 struct Header {
   std::array<char, 8> magic;
   std::uint64_t version;
-  std::uint64_t mesh, functions, settings;  // RunIdentity
+  std::uint64_t mesh, functions, settings, changed;  // RunIdentity
   std::uint64_t block_triangles;
   std::uint64_t origin;
   std::uint64_t chunk_first, chunk_most;
@@ -30,8 +31,9 @@ struct Header {
   std::uint64_t next_vertex;
   std::uint64_t batches;
   std::uint64_t chunk_blocks;
+  std::uint64_t digest, completed;
 };
-static_assert(sizeof(Header) == 13 * 8);
+static_assert(sizeof(Header) == 16 * 8);
 
 template <class T>
 std::uint64_t digest_of(const T& object, std::uint64_t seed) {
@@ -41,6 +43,10 @@ std::uint64_t digest_of(const T& object, std::uint64_t seed) {
 std::uint64_t digest_of_file(const std::string& path, std::uint64_t seed) {
   const MeshIdentity identity = identify_mesh(path);
   return digest_of(std::array{identity.bytes, static_cast<std::uint64_t>(identity.changed_ns), identity.digest}, seed);
+}
+
+std::uint64_t digest_of_change(const std::string& path, std::uint64_t seed) {
+  return digest_of(io::state_of(io::File::open_for_reading(path)).changed_ns, seed);
 }
 
 class Writer : public StateWriter {
@@ -99,12 +105,15 @@ RunIdentity identify_run(const std::string& mesh, std::span<VertexFunction* cons
   RunIdentity run;
   run.settings = digest_of(settings, 0);
   run.mesh = digest_of_file(mesh, 0);
+  run.changed = digest_of_change(mesh, 0);
   for (const VertexFunction* function : functions) {
     const std::string name = function->name();
     run.functions = digest_of(std::uint64_t{name.size()}, run.functions);
     run.functions = io::checksum(std::as_bytes(std::span(name)), run.functions);
-    if (const std::string file = function->source_file(); !file.empty())
+    if (const std::string file = function->source_file(); !file.empty()) {
       run.functions = digest_of_file(file, run.functions);
+      run.changed = digest_of_change(file, run.changed);
+    }
   }
   return run;
 }
@@ -113,9 +122,9 @@ void write_checkpoint(const std::string& path, const RunIdentity& run, const Che
                       const std::function<void(StateWriter&)>& save) {
   const ChunkPlace& place = checkpoint.place;
   Writer out(path);
-  out.put(Header{kMagic, kVersion, run.mesh, run.functions, run.settings, checkpoint.block_triangles,
+  out.put(Header{kMagic, kVersion, run.mesh, run.functions, run.settings, run.changed, checkpoint.block_triangles,
                  static_cast<std::uint64_t>(checkpoint.origin), checkpoint.chunk.first, checkpoint.chunk.most,
-                 place.triangles, place.next_vertex, place.batches, place.chunk_blocks});
+                 place.triangles, place.next_vertex, place.batches, place.chunk_blocks, place.digest, place.completed});
   out.put_array(place.ranges);
   save(out);
   io::sync_folder(io::folder_of(path));  // the names of the files that `save` has made
@@ -142,10 +151,15 @@ CheckpointLoad load_checkpoint(const std::string& path, const RunIdentity& run) 
     if (header.mesh != run.mesh) return of_another("is of another mesh, or of this one before it was changed");
     if (header.functions != run.functions) return of_another("is of other functions");
     if (header.settings != run.settings) return of_another("is of other options");
+    if (header.changed != run.changed)
+      throw InputChanged("the mesh has changed since the interrupted run", "start again with --force");
+    if (header.origin > static_cast<std::uint64_t>(ChunkOrigin::kGuessed)) return useless("is damaged");
     Checkpoint checkpoint{.place = {.triangles = header.triangles,
                                     .next_vertex = header.next_vertex,
                                     .batches = header.batches,
                                     .chunk_blocks = header.chunk_blocks,
+                                    .digest = header.digest,
+                                    .completed = header.completed,
                                     .ranges = {}},
                           .block_triangles = header.block_triangles,
                           .origin = static_cast<ChunkOrigin>(header.origin),
@@ -154,6 +168,8 @@ CheckpointLoad load_checkpoint(const std::string& path, const RunIdentity& run) 
     return {std::move(checkpoint), std::move(in), {}};
   } catch (const DamagedState&) {
     return useless("is damaged");
+  } catch (const InputChanged&) {
+    throw;
   } catch (const Error&) {
     return useless("cannot be read");
   }

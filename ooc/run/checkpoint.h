@@ -24,6 +24,7 @@ struct RunIdentity {
   std::uint64_t mesh = 0;       // digest that identifies this state of the mesh
   std::uint64_t functions = 0;  // of names, and of the files that values come from
   std::uint64_t settings = 0;   // of the other options that the graph depends on
+  std::uint64_t changed = 0;    // of the times at which anything about these files changed last
 };
 
 // THROWS: Error{kBadInput} if the mesh, or a file of values, cannot be opened.
@@ -61,6 +62,7 @@ struct CheckpointLoad {
 };
 
 // Reads a checkpoint after verifying its checksum. A missing or damaged one, or one of another run, is not an error.
+// THROWS: InputChanged if the mesh looks the same but was changed: its time of modification was set back.
 CheckpointLoad load_checkpoint(const std::string& path, const RunIdentity& run);
 
 }  // namespace reeb::ooc

@@ -25,7 +25,9 @@ struct MeshInput {
   std::unique_ptr<MeshReader> reader;
   std::function<std::unique_ptr<MeshReader>()> read_again;  // starts over at the first batch; or empty
   unsigned dimension = 3;
-  std::string path;        // for the sidecar, checkpoints and messages; "-": none
+  std::string path;  // for the sidecar, checkpoints and messages; "-": none
+  // Throws InputChanged if what was read so far does not fit together; empty: nothing can change.
+  std::function<void()> check_unchanged = {};
   bool may_resume = true;  // a later process can read the file at `path` in the same batches
 };
 
@@ -57,7 +59,8 @@ struct ComputeOptions {
 // Computes the graph of functions[i] and writes it to outputs[i]. All functions share the pass over the mesh in which
 // it is glued. If last uses must be found or the mesh must be sorted first, the mesh is also read before that pass.
 //
-// THROWS: Error. No output is ever partly written, but some outputs may exist: those of earlier functions; and the
+// THROWS: Error; InputChanged if the mesh or a file of values changes meanwhile. No output is ever partly written, but
+// some outputs may exist: those of earlier functions; and the
 //         graph alone, if kResource says that a function's hierarchy or the end of its noise removal did not fit in
 //         memory. For kResource and kInterrupted the hint says whether a later run can resume this one.
 std::vector<ComputeResult> compute(MeshInput input, std::span<VertexFunction* const> functions,

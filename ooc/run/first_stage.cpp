@@ -27,6 +27,13 @@ void append(std::vector<std::string>& notes, const std::vector<std::string>& mor
   notes.insert(notes.end(), more.begin(), more.end());
 }
 
+void check_ranges(const std::vector<FunctionRange>& ranges, std::size_t functions) {
+  const auto is_sound = [](const FunctionRange& range) {
+    return std::isfinite(range.min) && std::isfinite(range.max) && range.min <= range.max;
+  };
+  if (ranges.size() != functions || !std::ranges::all_of(ranges, is_sound)) throw DamagedState();
+}
+
 ChunkPlace place_of(const Checkpoint* start) { return start != nullptr ? start->place : ChunkPlace{}; }
 
 // Checks for interruption while no triangle comes. Else that is left to the end of the chunk, where the run can be
@@ -80,6 +87,9 @@ FirstStageResult glue_chunks(RunContext& run, ChunkSource& stretches, const Memo
   result.removed_pairs = std::move(done.removed_pairs);
   result.triangles = source.triangles_read();
   result.vertices = source.vertex_count();
+  if (done.restored_vertex_bound > result.vertices) throw DamagedState();
+  for (const auto& store : run.stores)
+    if (store->restored_vertex_bound() > result.vertices) throw DamagedState();
   result.seconds.reeb += watch.seconds();
   return result;
 }
@@ -136,6 +146,8 @@ struct SpooledRun {
 // Glues chunks while the mesh is spooled. If guesses do not hold, the stores are empty afterwards.
 SpooledRun run_guessing(RunContext& run, Spooler& spooler, const Checkpoint* start, FirstStageResult result) {
   const ChunkSize chunk = start != nullptr ? start->chunk : run.plan.chunk;
+  const std::uint64_t most = std::max<std::uint64_t>(run.plan.chunk.most, spooler.reader().info().file_bytes);
+  if (chunk.first == 0 || chunk.first > chunk.most || chunk.most > most) throw DamagedState();
   GuessedChunks source(
       spooler, run.values, run.temp, run.budget,
       {.chunk = chunk, .allowance_bytes = run.plan.table_bytes, .most_open_vertices = run.plan.most_live_vertices()},
@@ -240,7 +252,9 @@ std::optional<LastUse> scan(RunContext& run, IndexedMesh& mesh, const Checkpoint
     const double done = static_cast<double>(bytes_read) / static_cast<double>(std::max<std::uint64_t>(total, 1));
     tell_sorting(run, kSorted + (1 - kSorted) * done);
   };
-  return scan_last_use(mesh, run.temp, run.budget, options);
+  std::optional<LastUse> uses = scan_last_use(mesh, run.temp, run.budget, options);
+  if (start != nullptr && uses && !has_usual_blocks(uses->summary())) throw DamagedState();
+  return uses;
 }
 
 // Whether the place to resume from is at the end of a block.
@@ -250,19 +264,33 @@ bool can_start(const Checkpoint* start, const UseSummary& summary) {
   return triangles == summary.triangle_count || triangles % summary.block_triangles == 0;
 }
 
-// Takes the last uses from the sidecar if there is one that fits, else from scan().
-std::optional<LastUse> find_last_uses(RunContext& run, const MeshInput& input, IndexedMesh& mesh,
-                                      const Checkpoint* start, std::vector<std::string>& notes) {
+struct FoundUses {
+  std::optional<LastUse> uses;
+  bool of_sidecar = false;
+};
+
+// Takes the last uses from the sidecar if there is one that fits, and if it may be used; else from scan().
+FoundUses find_last_uses(RunContext& run, const MeshInput& input, IndexedMesh& mesh, const Checkpoint* start,
+                         bool use_sidecar, std::vector<std::string>& notes) {
   const bool may_give_up = run.options.may_reorder && start == nullptr;
   const std::string sidecar = sidecar_path(run, input);
-  if (sidecar.empty()) return scan(run, mesh, start, may_give_up);
+  if (sidecar.empty()) return {scan(run, mesh, start, may_give_up)};
   const MeshIdentity identity = identify_mesh(input.path);
-  SidecarLoad known = load_sidecar(sidecar, identity, mesh.vertex_count(), run.temp, run.budget, run.plan.table_bytes);
-  if (known.uses && can_start(start, known.uses->summary())) return std::move(known.uses);
+  SidecarLoad known;
+  if (use_sidecar)
+    known = load_sidecar(sidecar, identity, mesh.vertex_count(), run.temp, run.budget, run.plan.table_bytes);
+  const auto is_usable = [&](const UseSummary& uses) {
+    return can_start(start, uses) && !run.plan.exceeds(needs(run, uses));
+  };
+  if (known.uses && is_usable(known.uses->summary())) return {std::move(known.uses), true};
   if (!known.note.empty()) notes.push_back(known.note);
+  known.uses.reset();
   std::optional<LastUse> uses = scan(run, mesh, start, may_give_up && !run.options.keep_sidecar);
-  if (uses && run.options.keep_sidecar) save_sidecar(sidecar, identity, *uses);
-  return uses;
+  if (uses && run.options.keep_sidecar) {
+    if (input.check_unchanged) input.check_unchanged();
+    save_sidecar(sidecar, identity, *uses);
+  }
+  return {std::move(uses)};
 }
 
 std::unique_ptr<ReorderedMesh> sort_on_disk(RunContext& run, IndexedMesh& mesh, unsigned dimension) {
@@ -274,15 +302,18 @@ std::unique_ptr<ReorderedMesh> sort_on_disk(RunContext& run, IndexedMesh& mesh, 
                   .progress = [&run](double done) { tell_sorting(run, kSorted * done); }});
 }
 
-// `mesh` is the mesh of the input, or was spooled from it.
-FirstStageResult run_indexed(RunContext& run, const MeshInput& input, std::unique_ptr<IndexedMesh> mesh,
-                             const Checkpoint* start, FirstStageResult result) {
-  const Reservation values = prepare_values(run, mesh->vertex_count());
-  std::optional<LastUse> uses;
+// The content of the sidecar is not that of the mesh.
+struct WrongSidecar {};
+
+// THROWS: WrongSidecar, if one may be used.
+FirstStageResult run_once(RunContext& run, const MeshInput& input, std::unique_ptr<IndexedMesh>& mesh,
+                          const Checkpoint* start, bool use_sidecar, FirstStageResult result) {
+  FoundUses found;
+  std::optional<LastUse>& uses = found.uses;
   const bool was_sorted = start != nullptr && start->origin == ChunkOrigin::kSorted;
   if (!was_sorted) {
     const Stopwatch watch;
-    uses = find_last_uses(run, input, *mesh, start, result.notes);
+    found = find_last_uses(run, input, *mesh, start, use_sidecar, result.notes);
     result.seconds.finalization += watch.seconds();
   }
   // A run that is resumed keeps the order in which it began.
@@ -291,7 +322,7 @@ FirstStageResult run_indexed(RunContext& run, const MeshInput& input, std::uniqu
   if (result.reordered) {
     const Stopwatch watch;
     result.notes.push_back("neighbouring triangles lie far apart in this file, so they were sorted on disk first");
-    uses.reset();
+    found = {};
     auto sorted = sort_on_disk(run, *mesh, input.dimension);
     result.spilled_bytes += sorted->spilled_bytes();
     append(result.notes, mesh->warnings());
@@ -304,12 +335,33 @@ FirstStageResult run_indexed(RunContext& run, const MeshInput& input, std::uniqu
   result.degenerate_triangles = summary.degenerate_triangles;
   result.spilled_bytes += uses->spilled_bytes();
   const MemoryPlan plan = plan_for(run, summary);
-  const auto source = chunks_of(*mesh, *uses, run.values, plan.chunk, place_of(start));
   const Checkpoint here{.block_triangles = summary.block_triangles,
                         .origin = result.reordered ? ChunkOrigin::kSorted : ChunkOrigin::kLookedUp};
-  result = glue_chunks(run, *source, plan, here, std::move(result));
+  try {
+    const auto source = chunks_of(*mesh, *uses, run.values, plan.chunk, place_of(start));
+    result = glue_chunks(run, *source, plan, here, std::move(result));
+  } catch (const InputChanged&) {
+    if (found.of_sidecar) throw WrongSidecar();
+    throw;
+  }
   append(result.notes, mesh->warnings());
   return result;
+}
+
+// `mesh` is the mesh of the input, or was spooled from it.
+FirstStageResult run_indexed(RunContext& run, const MeshInput& input, std::unique_ptr<IndexedMesh> mesh,
+                             const Checkpoint* start, FirstStageResult result) {
+  const Reservation values = prepare_values(run, mesh->vertex_count());
+  const FirstStageResult before = result;
+  try {
+    return run_once(run, input, mesh, start, true, std::move(result));
+  } catch (const WrongSidecar&) {
+    if (input.check_unchanged) input.check_unchanged();
+    result = before;
+  }
+  run.start_over();
+  result.notes.push_back(ignored_sidecar(sidecar_path(run, input), "its content is not that of the mesh"));
+  return run_once(run, input, mesh, nullptr, false, std::move(result));
 }
 
 }  // namespace
@@ -319,7 +371,11 @@ FirstStageResult run_indexed(RunContext& run, const MeshInput& input, std::uniqu
 FirstStageResult run_first_stage(RunContext& run, MeshInput input) {
   for (const std::string& output : run.outputs) io::remove_abandoned(output);
   FirstStageResult result;
-  const Checkpoint* start = run.resumable.start([&](StateReader& in) { run.restore_stores(in); }, result.notes);
+  const auto restore = [&run](StateReader& in) {
+    check_ranges(run.resumable.checkpoint()->place.ranges, run.functions.size());
+    run.restore_stores(in);
+  };
+  const Checkpoint* start = run.resumable.start(restore, result.notes);
   // An earlier run may have written outputs only if this one continues it.
   if (!run.options.replace && !run.resumable.was_resumed())
     for (const std::string& output : run.outputs) io::check_output_name(output, io::Existing::kRefuse);

@@ -66,7 +66,7 @@ class Pipeline {
       run_alone();
     else
       run_in_parallel();
-    PipelineResult result{maximum_, {}};
+    PipelineResult result{maximum_, {}, restored_vertex_bound_};
     for (const auto& glue : glues_) result.removed_pairs.push_back(glue->removed_pairs());
     return result;
   }
@@ -79,7 +79,10 @@ class Pipeline {
 
   void restore(StateReader& in) {
     in.get(maximum_);
-    for (const auto& glue : glues_) glue->restore(in);
+    for (const auto& glue : glues_) {
+      glue->restore(in);
+      restored_vertex_bound_ = std::max(restored_vertex_bound_, glue->graph().vertex_bound());
+    }
   }
 
   bool read(Slot& slot) {
@@ -180,6 +183,7 @@ class Pipeline {
   std::vector<std::unique_ptr<Glue>> glues_;
   Reservation live_;
   LiveMaximum maximum_;
+  std::uint64_t restored_vertex_bound_ = 0;
 };
 
 }  // namespace

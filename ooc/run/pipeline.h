@@ -47,6 +47,7 @@ struct PipelineOptions {
 struct PipelineResult {
   LiveMaximum live;
   std::vector<std::uint64_t> removed_pairs;  // as noise, by function
+  std::uint64_t restored_vertex_bound = 0;   // more than the id of any vertex in saved_engine
 };
 
 // Runs all chunks of `source`. The graph of function i goes to sinks[i], which one thread at a time calls in stream

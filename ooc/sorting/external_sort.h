@@ -103,16 +103,21 @@ class ExternalSort {
     out.put_array(filling_.batch.pool);
   }
   // REQUIRES: a named file; nothing was added yet.
-  // THROWS: DamagedState or Error if the file of the runs is missing or has changed.
-  void restore(StateReader& in) {
+  // THROWS: DamagedState or Error if the file of the runs is missing or has changed, or if is_sound(record) is false
+  //         for a record that was in memory.
+  template <class Sound>
+  void restore(StateReader& in, const Sound& is_sound) {
     in.get_array(runs_);
     const auto manifest = in.get<RunManifest>();
     if (!runs_.empty()) file_.emplace(io::File::open_for_update(options_.file), manifest);
+    if (file_ ? !file_->consists_of(runs_) : manifest != RunManifest{}) throw DamagedState();
     size_ = manifest.records;
     in.get(largest_payload_);
+    if (largest_payload_ > ~std::uint32_t{0}) throw DamagedState();
     Batch rest;
     in.get_array(rest.records);
     in.get_array(rest.pool);
+    if (!std::ranges::all_of(rest.records, is_sound)) throw DamagedState();
     if constexpr (CarriesPayload<Record>) {
       for (const Record& record : rest.records) {
         if (record.payload.first > rest.pool.size() || record.payload.size > rest.pool.size() - record.payload.first)

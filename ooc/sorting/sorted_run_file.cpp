@@ -38,6 +38,20 @@ SortedRunFile::SortedRunFile(io::File file, const RunManifest& manifest) : file_
   if (manifest_ != manifest) throw DamagedState();
 }
 
+bool SortedRunFile::consists_of(std::span<const RunPlace> runs) const {
+  std::uint64_t offset = 0;
+  for (const RunPlace& run : runs) {
+    if (run.offset != offset || run.blocks == 0) return false;
+    for (std::uint64_t b = 0; b < run.blocks; ++b) {
+      if (offset + sizeof(BlockHeader) > size()) return false;
+      BlockHeader header;
+      file_.read_at(offset, std::as_writable_bytes(std::span(&header, 1)));
+      offset += sizeof(header) + header.packed_bytes;
+    }
+  }
+  return offset == size();
+}
+
 void SortedRunFile::append(std::span<const std::byte> packed, std::size_t records) {
   const BlockHeader header{static_cast<std::uint32_t>(packed.size()), static_cast<std::uint32_t>(records),
                            io::checksum(packed, records)};

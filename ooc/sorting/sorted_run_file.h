@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,8 @@ class SortedRunFile {
   // THROWS: DamagedState if the bytes are not those that the manifest describes.   TIME: O(bytes).
   SortedRunFile(io::File file, const RunManifest& manifest);
 
+  // Whether these runs, one after the other, are the whole file.
+  bool consists_of(std::span<const RunPlace> runs) const;
   // The position of the next block.
   std::uint64_t size() const { return manifest_.bytes; }
   const RunManifest& manifest() const { return manifest_; }

@@ -1,6 +1,7 @@
 #include "ooc/stored_graph/segment_store.h"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <string>
 
@@ -190,8 +191,14 @@ void SegmentStore::save(StateWriter& out) {
 void SegmentStore::restore(StateReader& in) {
   in.get(bucket_count_);
   in.get(payload_bytes_);
-  nodes_.restore(in);
-  arcs_.restore(in);
+  const auto is_sound = [this](const SweepKey& key) {
+    restored_vertex_bound_ = std::max(restored_vertex_bound_, key.vertex.value() + 1);
+    return std::isfinite(key.value) && key.vertex.value() + 1 != 0;
+  };
+  nodes_.restore(in, [&](const SettledNode& node) { return is_sound(node.key); });
+  arcs_.restore(in, [&](const StoredArc& arc) {
+    return is_sound(arc.keys.lo) && is_sound(arc.keys.hi) && arc.keys.lo < arc.keys.hi;
+  });
 }
 
 void SegmentStore::finish() {

@@ -95,6 +95,8 @@ class SegmentStore : public GraphSink {
   // As in ExternalSort. REQUIRES: finish() was not called.
   void save(StateWriter& out);
   void restore(StateReader& in);
+  // More than the id of any vertex that restore() found in memory.
+  std::uint64_t restored_vertex_bound() const { return restored_vertex_bound_; }
 
   // REQUIRES, for everything below: finish() was called.
   void rewind_nodes();
@@ -144,6 +146,7 @@ class SegmentStore : public GraphSink {
   SortedNodes nodes_;
   SortedArcs arcs_;
   std::uint64_t bucket_count_ = 0, payload_bytes_ = 0;
+  std::uint64_t restored_vertex_bound_ = 0;
   RecordBatch<StoredArc> batch_;  // the batch read last,
   std::size_t next_ = 0;          // and how many of its records were delivered
   bool at_end_ = false;           // of the stored arcs

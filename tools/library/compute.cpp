@@ -5,6 +5,8 @@
 #include <thread>
 #include <utility>
 
+#include "io/file/atomic_file.h"
+#include "io/file/content_source.h"
 #include "io/formats/open_mesh.h"
 #include "io/functions/function_source.h"
 #include "libreeb/base/error.h"
@@ -61,7 +63,9 @@ std::vector<ComputeResult> compute(const std::string& path, std::span<const std:
   ooc::MeshInput input;
   input.path = path;
   input.may_resume = !snapshots;
-  input.reader = io::open_mesh(path, read_options);
+  const io::Input mesh(path);
+  input.check_unchanged = [&] { mesh.check_unchanged(); };
+  input.reader = io::open_mesh(mesh.open(), path, read_options);
   const MeshInfo info = input.reader->info();
   input.dimension = info.dimension;
   std::vector<std::unique_ptr<io::FunctionSource>> sources;
@@ -76,7 +80,7 @@ std::vector<ComputeResult> compute(const std::string& path, std::span<const std:
                                   options.replace ? io::Existing::kReplace : io::Existing::kKeep);
   } else {
     input.indexed = input.reader->indexed();
-    if (path != "-") input.read_again = [&] { return io::open_mesh(path, read_options); };
+    if (path != "-") input.read_again = [&] { return io::open_mesh(mesh.open(), path, read_options); };
   }
   if (input.indexed) input.reader.reset();
   return ooc::compute(std::move(input), pointers, outputs, run_options(options));

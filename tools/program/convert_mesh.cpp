@@ -85,12 +85,18 @@ class Conversion {
  public:
   Conversion(const ConvertOptions& options, ProgressBar& bar)
       : options_(options),
+        input_(options.input),
         bar_(bar),
         format_(io::stream_format(options.output)),
         sorts_(options.finalize || options.order.kind != TriangleOrder::Kind::kKeep) {}
 
   Lines run() {
-    auto source = io::open_content(options_.input);
+    return input_.read([this] { return convert(); });
+  }
+
+ private:
+  Lines convert() {
+    auto source = input_.open();
     if (io::detect_format(*source, options_.input) == io::MeshFormat::kStreaming) {
       const std::uint64_t bytes = source->file_bytes();
       auto events = io::open_stream(std::move(source), options_.input);
@@ -105,7 +111,6 @@ class Conversion {
     return format_ == io::StreamFormat::kEvents ? list_events() : copy_batches();
   }
 
- private:
   bool can_copy_events(const io::StreamHeader& header) const {
     if (sorts_ || format_ == io::StreamFormat::kNone) return false;
     return format_ == io::StreamFormat::kEvents || header.volume == io::is_volume_name(options_.output);
@@ -119,6 +124,7 @@ class Conversion {
       writer->write(*event);
       if (n % kEventsBetweenUpdates == 0) bar_.update({"converting"}, events->bytes_read(), bytes);
     }
+    input_.check_unchanged();
     writer->close();
     Lines notes = events->warnings();
     append(notes, writer->warnings());
@@ -168,6 +174,7 @@ class Conversion {
     io::FileOstream out(file.out());
     WatchedReader watched(*reader_, {"converting"}, bar_);
     io::write_events(watched, out);
+    input_.check_unchanged();
     file.commit();
     return reader_->warnings();
   }
@@ -177,7 +184,9 @@ class Conversion {
     // The counts that a stream's header announces can be wrong.
     const auto writer = create_writer(info.finalizes ? std::nullopt : info.vertex_count);
     WatchedReader watched(*reader_, {"converting"}, bar_);
-    copy_mesh(watched, *writer);
+    for (MeshBatch batch; watched.read(batch);) writer->write(batch);
+    input_.check_unchanged();
+    writer->close();
     Lines notes = reader_->warnings();
     append(notes, writer->warnings());
     return notes;
@@ -189,6 +198,7 @@ class Conversion {
   std::unique_ptr<IndexedMesh> sorted(std::unique_ptr<IndexedMesh> mesh, ooc::Workspace& space) const;
 
   const ConvertOptions& options_;
+  io::Input input_;
   ProgressBar& bar_;
   io::StreamFormat format_;
   bool sorts_;
@@ -206,6 +216,7 @@ Lines Conversion::write_sorted() {
   const bool exact = format_ != io::StreamFormat::kNone;
   const auto writer = create_writer(mesh->vertex_count());
   ooc::write_compact(watched, reader_->info().dimension, exact, *writer, space);
+  input_.check_unchanged();
   writer->close();
   append(notes, writer->warnings());
   return notes;
@@ -240,7 +251,9 @@ std::unique_ptr<IndexedMesh> Conversion::sorted(std::unique_ptr<IndexedMesh> mes
       break;
   }
   io::FunctionSource function(*options_.order.function, reader_->info(), property_columns(), options_.input);
-  return ooc::sorted_by_function(std::move(mesh), function, space, progress);
+  auto sorted_mesh = ooc::sorted_by_function(std::move(mesh), function, space, progress);
+  function.check_unchanged();
+  return sorted_mesh;
 }
 
 }  // namespace

@@ -50,11 +50,11 @@ class Connection {
 };
 
 // Opens streams for reading event by event, so that their front is measured exactly.
-std::unique_ptr<MeshReader> open(const std::string& path) {
-  auto source = io::open_content(path);
+std::unique_ptr<MeshReader> open(const io::Input& input) {
+  auto source = input.open();
   ReadOptions options;
-  if (io::detect_format(*source, path) == io::MeshFormat::kStreaming) options.batch_events = 1;
-  return io::open_mesh(std::move(source), path, options);
+  if (io::detect_format(*source, input.path()) == io::MeshFormat::kStreaming) options.batch_events = 1;
+  return io::open_mesh(std::move(source), input.path(), options);
 }
 
 std::uint64_t distinct(std::span<const VertexId> corners) {
@@ -67,8 +67,8 @@ std::uint64_t distinct(std::span<const VertexId> corners) {
 
 class MeshSurvey {
  public:
-  MeshSurvey(const std::string& path, ooc::Workspace& space)
-      : path_(path), space_(space), reader_(open(path)), connection_(space) {
+  MeshSurvey(const io::Input& input, ooc::Workspace& space)
+      : path_(input.path()), space_(space), reader_(open(input)), connection_(space) {
     bounds_.resize(reader_->info().dimension);
   }
 
@@ -190,12 +190,16 @@ void MeshSurvey::print_json() const {
 
 void print_mesh_info(const std::string& path, std::uint64_t memory_bytes, const std::string& temp_folder, bool json) {
   ooc::Workspace space(temp_folder, memory_bytes);
-  MeshSurvey survey(path, space);
-  survey.run();
+  const io::Input input(path);
+  const auto survey = input.read([&] {
+    auto found = std::make_unique<MeshSurvey>(input, space);
+    found->run();
+    return found;
+  });
   if (json)
-    survey.print_json();
+    survey->print_json();
   else
-    survey.print_text();
+    survey->print_text();
 }
 
 }  // namespace reeb::tools

@@ -16,7 +16,7 @@
 
 #include "io/file/atomic_file.h"
 #include "io/file/content_source.h"
-#include "io/file/mapped_windows.h"
+#include "io/file/file_windows.h"
 #include "libreeb/base/error.h"
 #include "tests/support/scratch.h"
 
@@ -59,7 +59,7 @@ void use_files(const std::string& folder, Existing existing) {
   std::string back(static_cast<std::size_t>(in.size()), ' ');
   in.read_at(0, std::as_writable_bytes(std::span(back)));
   EXPECT_TRUE(back == expected);
-  MappedWindows windows(path, {.window_bits = 16, .window_count = 2, .overlap_bytes = 4096});
+  FileWindows windows(path, {.window_bits = 16, .window_count = 2, .overlap_bytes = 4096});
   for (std::uint64_t at = 0; at < windows.size(); at += 1000) ASSERT_EQ(*windows.at(at), expected[at]);
 }
 

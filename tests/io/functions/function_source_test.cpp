@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "io/file/mapped_windows.h"
+#include "io/file/file_windows.h"
 #include "tests/io/formats/mesh_files.h"
 
 namespace reeb::io::testing {
@@ -114,10 +114,10 @@ TEST(FunctionErrors, SayWhere) {
   EXPECT_EQ(error_of([] { source("file:" + write_file("c.f64", "123456789")); }).position(), "8");
 }
 
-TEST(MappedWindows, SeeEveryByteWithOverlapInAnyOrder) {
+TEST(FileWindows, SeeEveryByteWithOverlapInAnyOrder) {
   std::string bytes(300'001, '\0');
   for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<char>(i * 2654435761u >> 13);
-  MappedWindows windows(write_file("windows", bytes), {.window_bits = 12, .window_count = 3, .overlap_bytes = 64});
+  FileWindows windows(write_file("windows", bytes), {.window_bits = 12, .window_count = 3, .overlap_bytes = 64});
   for (std::size_t step : {1u, 4099u, 77'777u})
     for (std::size_t i = 0, offset = 0; i < 300'001; i += step, offset = (offset + step * 3) % bytes.size()) {
       const std::size_t length = std::min<std::size_t>(64, bytes.size() - offset);
@@ -126,9 +126,9 @@ TEST(MappedWindows, SeeEveryByteWithOverlapInAnyOrder) {
     }
 }
 
-TEST(MappedWindows, RefuseWhatIsNoFile) {
-  EXPECT_EQ(error_of([] { MappedWindows windows(scratch_folder().string()); }).kind(), ErrorKind::kBadInput);
-  EXPECT_EQ(error_of([] { MappedWindows windows(write_file("nothing", "")); }).position(), "0");
+TEST(FileWindows, RefuseWhatIsNoFile) {
+  EXPECT_EQ(error_of([] { FileWindows windows(scratch_folder().string()); }).kind(), ErrorKind::kBadInput);
+  EXPECT_EQ(error_of([] { FileWindows windows(write_file("nothing", "")); }).position(), "0");
 }
 
 }  // namespace

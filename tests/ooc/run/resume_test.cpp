@@ -420,6 +420,26 @@ TEST(Resume, AnInterruptedRunIsDiscardedOnlyByForce) {
   EXPECT_EQ(runs.finish(false), expected);
 }
 
+// The samples that identify a mesh do not show the change, and its time of modification is set back.
+TEST(Resume, RefusesAMeshThatWasChangedWithItsTimeKept) {
+  Runs runs(grid_mesh(400, 300));
+  runs.options.chunk_triangles = 1000;
+  ASSERT_TRUE(runs.stop_after(4, false));
+  const auto time = fs::last_write_time(runs.mesh_path());
+  std::string bytes = read_file(runs.mesh_path());
+  std::swap_ranges(bytes.end() - 100'000 * 13, bytes.end() - 99'000 * 13, bytes.end() - 50'000 * 13);
+  write_file(runs.mesh_path(), bytes);
+  fs::last_write_time(runs.mesh_path(), time);
+  try {
+    runs.finish(true);
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::kBadInput);
+    EXPECT_NE(error.message().find("changed since the interrupted run"), std::string::npos) << error.what();
+    EXPECT_NE(error.hint().find("--force"), std::string::npos);
+  }
+}
+
 TEST(Resume, SaysThatThereIsNothingToResume) {
   Runs runs(grid_mesh(20, 20));
   Notes notes;
