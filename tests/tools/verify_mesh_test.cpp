@@ -1,4 +1,9 @@
 // `reeb verify FILE --mesh MESH`: the file against a recount of the mesh.
+#include <optional>
+#include <utility>
+
+#include "ooc/reeb_file/reeb_file.h"
+#include "ooc/reeb_file/reeb_file_writer.h"
 #include "tests/tools/program.h"
 
 namespace reeb::test {
@@ -65,6 +70,89 @@ TEST_F(VerifyMesh, AnotherMeshIsNoticed) {
   expect_refused("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 2 1\n");
   write("broken.off", "OFF\n4 4");
   EXPECT_EQ(reeb({"verify", "mesh.reeb", "--mesh", "broken.off"}).exit_code, 1);
+}
+
+TEST_F(VerifyMesh, AFunctionThatIsNoneIsAnError) {
+  write("mesh.off", kSmallOff);
+  ReebGraph graph;
+  graph.nodes = {{0, VertexId(0)}, {1, VertexId(3)}};
+  graph.lo = {NodeId(0)};
+  graph.hi = {NodeId(1)};
+  ooc::FileMeta meta;
+  meta.function = "q";
+  meta.function_max = 1;
+  meta.mesh_vertices = 4;
+  meta.mesh_triangles = 4;
+  ooc::write_graph_file(in_folder("q.reeb"), meta, graph);
+  expect_success(reeb({"verify", "q.reeb"}));
+  const Outcome outcome = reeb({"verify", "q.reeb", "--mesh", "mesh.off"});
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_NE(outcome.error.find("\"q\" is not a function"), std::string::npos) << outcome.error;
+  meta.function = "x";
+  ooc::write_graph_file(in_folder("x.reeb"), meta, graph);
+  EXPECT_EQ(reeb({"verify", "x.reeb", "--mesh", "mesh.off"}).exit_code, 1);
+  meta.function = "z";
+  ooc::write_graph_file(in_folder("z.reeb"), meta, graph);
+  expect_success(reeb({"verify", "z.reeb", "--mesh", "mesh.off", "--full"}));
+}
+
+TEST_F(VerifyMesh, AFileOfValuesThatIsGoneIsSaid) {
+  write("mesh.off", kSmallOff);
+  write("values.txt", "0\n1\n2\n3\n");
+  expect_success(reeb({"compute", "mesh.off", "-f", "file:values.txt", "--quiet"}));
+  const Outcome with = reeb({"verify", "mesh.reeb", "--mesh", "mesh.off", "--full"});
+  expect_success(with);
+  EXPECT_EQ(with.output.find("note"), std::string::npos) << with.output;
+  write("values.txt", "0\n1\n2\n4\n");
+  EXPECT_EQ(reeb({"verify", "mesh.reeb", "--mesh", "mesh.off"}).exit_code, 1);
+  std::filesystem::remove(in_folder("values.txt"));
+  const Outcome without = reeb({"verify", "mesh.reeb", "--mesh", "mesh.off", "--full"});
+  expect_success(without);
+  EXPECT_NE(without.output.find("values.txt is gone, so the values were not checked"), std::string::npos)
+      << without.output;
+}
+
+// The graph with the upper ends of two arcs exchanged, or nothing if no two can be.
+std::optional<ReebGraph> with_exchanged_ends(ReebGraph graph) {
+  for (std::size_t a = 0; a < graph.arc_count(); ++a)
+    for (std::size_t b = 0; b < a; ++b)
+      if (graph.lo[a] != graph.lo[b] && graph.hi[a] != graph.hi[b] && graph.lo[a] < graph.hi[b] &&
+          graph.lo[b] < graph.hi[a]) {
+        std::swap(graph.hi[a], graph.hi[b]);
+        return graph;
+      }
+  return std::nullopt;
+}
+
+TEST_F(VerifyMesh, AForgedGraphIsFoundWhenItIsComputedAgain) {
+  expect_success(reeb({"generate", "scan", "--triangles", "20000", "-o", "scan.ply"}));
+  expect_success(reeb({"compute", "scan.ply", "--graph-only", "-o", "true.reeb", "--buckets", "0", "--quiet"}));
+  const ooc::ReebFile file(in_folder("true.reeb"));
+  const std::optional<ReebGraph> forged = with_exchanged_ends(file.load(0).graph);
+  ASSERT_TRUE(forged.has_value());
+  ooc::FileMeta meta;
+  meta.function = file.header().function;
+  meta.function_min = file.header().function_min;
+  meta.function_max = file.header().function_max;
+  meta.mesh_vertices = file.header().mesh_vertices;
+  meta.mesh_triangles = file.header().mesh_triangles;
+  ooc::write_graph_file(in_folder("forged.reeb"), meta, *forged);
+  expect_success(reeb({"verify", "true.reeb", "--mesh", "scan.ply", "--full"}));
+  const Outcome outcome = reeb({"verify", "forged.reeb", "--mesh", "scan.ply", "--full"});
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_NE(outcome.error.find("in the graph of the mesh"), std::string::npos) << outcome.error;
+}
+
+TEST_F(VerifyMesh, WhatWasComputedWithAnyOptionsIsTheSameAgain) {
+  expect_success(reeb({"generate", "scan", "--triangles", "20000", "-o", "scan.ply"}));
+  for (const char* option : {"--denoise=0.5%", "--denoise=0.03", "--graph-only", "--buckets=7", "--chunk=500"}) {
+    expect_success(reeb({"compute", "scan.ply", option, "-o", "out.reeb", "--force", "--quiet", "-f", "x"}));
+    const Outcome outcome = reeb({"verify", "out.reeb", "--mesh", "scan.ply", "--full", "--memory", "64M"});
+    expect_success(outcome);
+    EXPECT_NE(outcome.output.find("computed again"), std::string::npos) << option;
+  }
+  EXPECT_EQ(files(), (std::vector<std::string>{"out.reeb", "scan.ply"}));
+  expect_error(reeb({"verify", "out.reeb", "--full"}), 2, "--full needs a mesh");
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <limits>
 #include <numeric>
 #include <span>
@@ -11,7 +12,8 @@
 
 namespace reeb::tools {
 
-NodeCheck::NodeCheck(const std::string& mesh, const std::string& function, const ReebGraph& graph)
+NodeCheck::NodeCheck(const std::string& file, const std::string& mesh, const std::string& function,
+                     const ReebGraph& graph)
     : graph_(graph),
       mesh_(mesh),
       by_vertex_(graph.node_count()),
@@ -21,14 +23,21 @@ NodeCheck::NodeCheck(const std::string& mesh, const std::string& function, const
             [&](std::size_t a, std::size_t b) { return graph.nodes[a].vertex < graph.nodes[b].vertex; });
   try {
     spec_ = io::parse_function(function);
-    properties_ = io::needed_properties(std::span(&*spec_, 1));
-  } catch (const Error&) {
-    spec_.reset();  // not a name of this program: its values cannot be checked
+  } catch (const Error& error) {
+    throw Error(ErrorKind::kBadInput, std::string("its function: ") + error.what(),
+                "the file names a function that this program does not know")
+        .at(file);
   }
+  properties_ = io::needed_properties(std::span(&spec_, 1));
+}
+
+std::string NodeCheck::missing_file() const {
+  const bool is_file = spec_.kind == io::FunctionSpec::Kind::kFile;
+  return is_file && !std::filesystem::exists(spec_.argument) ? spec_.argument : "";
 }
 
 void NodeCheck::start(const MeshInfo& info) {
-  if (spec_) source_.emplace(*spec_, info, properties_, mesh_);
+  if (missing_file().empty()) source_.emplace(spec_, info, properties_, mesh_);
 }
 
 void NodeCheck::add(const MeshBatch& batch) {
@@ -41,6 +50,7 @@ void NodeCheck::add(const MeshBatch& batch) {
     }
   }
   const std::uint64_t first = batch.first_vertex.value(), end = first + batch.vertex_count;
+  read_ = end;
   for (; next_ < by_vertex_.size() && graph_.nodes[by_vertex_[next_]].vertex.value() < end; ++next_) {
     const std::size_t node = by_vertex_[next_];
     const auto i = static_cast<std::size_t>(graph_.nodes[node].vertex.value() - first);
@@ -51,8 +61,12 @@ void NodeCheck::add(const MeshBatch& batch) {
   }
 }
 
-std::optional<ValueRange> NodeCheck::finish() const {
+std::optional<ValueRange> NodeCheck::finish() {
   if (next_ != by_vertex_.size()) fail(by_vertex_[next_], "is not in the mesh");
+  if (source_) {
+    source_->check_count(read_);
+    source_->check_unchanged();
+  }
   if (!source_ || range_.min > range_.max) return std::nullopt;
   return range_;
 }

@@ -17,19 +17,23 @@ struct ValueRange {
 };
 
 // Compares each node with its vertex while the mesh is read: the position (if the graph has positions) and the value of
-// the function, if its name can be evaluated here.
+// the function. Values are not compared if the file that they came from is gone.
 // THROWS: Error{kBadInput} at the first node that differs from its vertex.
 class NodeCheck {
  public:
-  // All three must outlive this.
-  NodeCheck(const std::string& mesh, const std::string& function, const ReebGraph& graph);
+  // `mesh` and `graph` must outlive this; `file` is for messages.
+  // THROWS: Error{kBadInput} if `function` is no function.
+  NodeCheck(const std::string& file, const std::string& mesh, const std::string& function, const ReebGraph& graph);
 
+  // The file of values that is gone; else empty.
+  std::string missing_file() const;
   // The properties that the reader must deliver.
   const std::vector<std::string>& properties() const { return properties_; }
   void start(const MeshInfo& info);
   void add(const MeshBatch& batch);
   // The range of the function over the mesh; null if it could not be evaluated.
-  std::optional<ValueRange> finish() const;
+  // THROWS: InputChanged if the file of values changed meanwhile.
+  std::optional<ValueRange> finish();
 
  private:
   [[noreturn]] void fail(std::size_t node, const char* why) const;
@@ -38,7 +42,8 @@ class NodeCheck {
   const std::string& mesh_;
   std::vector<std::size_t> by_vertex_;
   std::size_t next_ = 0;
-  std::optional<io::FunctionSpec> spec_;
+  std::uint64_t read_ = 0;  // vertices
+  io::FunctionSpec spec_;
   std::vector<std::string> properties_;
   std::optional<io::FunctionSource> source_;
   std::vector<double> values_;
