@@ -28,8 +28,7 @@ using ooc::FaultAtCall;
 using ooc::Scratch;
 using Which = FaultAtCall::Which;
 
-constexpr FileCall kCalls[] = {FileCall::kOpen, FileCall::kRead, FileCall::kWrite,
-                               FileCall::kMap,  FileCall::kSync, FileCall::kRename};
+constexpr FileCall kCalls[] = {FileCall::kOpen, FileCall::kRead, FileCall::kWrite, FileCall::kSync, FileCall::kRename};
 
 std::string pattern(std::size_t bytes) {
   std::string text(bytes, ' ');
