@@ -133,7 +133,6 @@ TEST_F(ChangingInput, OtherCommandsNoticeItToo) {
   for (const auto& words : commands)
     for (const bool cut : {false, true}) {
       put_mesh(first_);
-      fs::remove(in_folder(words[2]));
       const Outcome outcome = run_while(words, 0.03, [&] {
         if (cut)
           fs::resize_file(in_folder("mesh.ply"), first_.size() / 2);
@@ -303,6 +302,17 @@ TEST_F(ProgramTest, AnEmptyFileOfValuesIsThatOfAMeshWithoutVertices) {
     expect_error(
         reeb({"compute", "mesh.off", "-f", std::string("file:") + name, "-o", "out.reeb", "--force", "--quiet"}), 1,
         std::string(name) + ":0: is empty");
+  }
+}
+
+TEST_F(ProgramTest, TooFewFilesThatMayBeOpenAreNotBlamedOnTheInput) {
+  write("mesh.off", kSmallOff);
+  for (int files = 3; files < 8; ++files) {
+    Command command;
+    command.wrapper = {"bash", "-c", "ulimit -n " + std::to_string(files) + "; exec \"$@\"", "-"};
+    const Outcome outcome = reeb({"info", "mesh.off"}, command);
+    EXPECT_EQ(outcome.error.find("name a file that exists"), std::string::npos) << files << ": " << outcome.error;
+    EXPECT_EQ(outcome.error.find("choose a folder"), std::string::npos) << files << ": " << outcome.error;
   }
 }
 
