@@ -36,8 +36,8 @@ void check_ranges(const std::vector<FunctionRange>& ranges, std::size_t function
 
 ChunkPlace place_of(const Checkpoint* start) { return start != nullptr ? start->place : ChunkPlace{}; }
 
-// Checks for interruption while no triangle comes. Else that is left to the end of the chunk, where the run can be
-// saved.
+// Ends an interrupted run while no triangle comes. Else that is left to the end of a chunk, where the run can be saved;
+// chunks that are on their way get the time for it.
 class PolledReader : public MeshReader {
  public:
   PolledReader(std::unique_ptr<MeshReader> reader, const ResumableRun& run) : reader_(std::move(reader)), run_(run) {}
@@ -45,7 +45,13 @@ class PolledReader : public MeshReader {
   const MeshInfo& info() const override { return reader_->info(); }
   bool read(MeshBatch& batch) override {
     const bool some = reader_->read(batch);
-    if (batch.triangles.empty() && batch.tetrahedra.empty()) run_.check_interruption();
+    const bool may_end = batch.triangles.empty() && batch.tetrahedra.empty() && run_.is_interrupted();
+    if (!may_end)
+      waiting_.reset();
+    else if (!waiting_)
+      waiting_.emplace();
+    else if (waiting_->seconds() > kSecondsForChunks)
+      run_.check_interruption();
     return some;
   }
   std::unique_ptr<IndexedMesh> indexed() const override { return reader_->indexed(); }
@@ -54,8 +60,11 @@ class PolledReader : public MeshReader {
   std::vector<std::string> warnings() const override { return reader_->warnings(); }
 
  private:
+  static constexpr double kSecondsForChunks = 0.2;
+
   std::unique_ptr<MeshReader> reader_;
   const ResumableRun& run_;
+  std::optional<Stopwatch> waiting_;  // since the interruption was seen, with no triangle since then
 };
 
 // ---- from chunks to the stores

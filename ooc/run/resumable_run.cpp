@@ -81,12 +81,11 @@ void ResumableRun::start_over() {
 }
 
 void ResumableRun::check_interruption() const {
-  if (options_.interrupted && options_.interrupted())
-    throw Error(ErrorKind::kInterrupted, "interrupted", "run it again");
+  if (is_interrupted()) throw Error(ErrorKind::kInterrupted, "interrupted", "run it again");
 }
 
 void ResumableRun::between_chunks(const Checkpoint& here, const Save& save) {
-  const bool to_end = options_.interrupted && options_.interrupted();
+  const bool to_end = is_interrupted();
   if (folder_ && (to_end || is_due())) {
     const Clock::time_point begin = Clock::now();
     try {

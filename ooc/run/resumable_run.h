@@ -51,6 +51,9 @@ class ResumableRun {
   // Discards what was run so far, and removes all that was kept of it.
   void start_over();
 
+  // Whether the run is to end.
+  bool is_interrupted() const { return options_.interrupted && options_.interrupted(); }
+
   // For places where nothing can be saved.
   // THROWS: Error{kInterrupted} if the run is to end.
   void check_interruption() const;
