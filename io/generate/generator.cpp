@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <utility>
 
 #include "io/generate/permutation.h"
@@ -24,18 +25,30 @@ constexpr std::array<Names<MeshKind>, 6> kKinds = {{{"torus", MeshKind::kTorus},
                                                     {"plate", MeshKind::kPlate},
                                                     {"scan", MeshKind::kScan},
                                                     {"sierpinski", MeshKind::kSierpinski}}};
-constexpr std::array<Names<MeshOrder>, 3> kOrders = {
-    {{"rows", MeshOrder::kRows}, {"patches", MeshOrder::kPatches}, {"random", MeshOrder::kRandom}}};
+constexpr std::array<Names<MeshOrder>, 6> kOrders = {{{"rows", MeshOrder::kRows},
+                                                     {"patches", MeshOrder::kPatches},
+                                                     {"random", MeshOrder::kRandom},
+                                                     {"tiles:N", MeshOrder::kTiles},
+                                                     {"random-tiles:N", MeshOrder::kRandomTiles},
+                                                     {"seams-last:N", MeshOrder::kSeamsLast}}};
+
+bool has_tiles(MeshOrder order) { return order >= MeshOrder::kTiles; }
 
 template <class Table>
-auto find_by_name(const Table& table, std::string_view what, std::string_view name) {
+[[noreturn]] void fail_unknown(const Table& table, std::string_view what, std::string_view name) {
   std::string known;
-  for (const auto& [entry, value] : table) {
-    if (entry == name) return value;
-    known += (known.empty() ? "" : ", ") + std::string(entry);
-  }
+  for (const auto& [entry, value] : table) known += (known.empty() ? "" : ", ") + std::string(entry);
   throw Error(ErrorKind::kUsage, "unknown " + std::string(what) + " '" + std::string(name) + "'",
               "choose one of " + known);
+}
+
+// Sets `count` if the text is a number from 1 on.
+bool read_count(std::string_view text, std::uint64_t& count) {
+  std::uint64_t value = 0;
+  const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (problem != std::errc() || end != text.data() + text.size() || value == 0) return false;
+  count = value;
+  return true;
 }
 
 template <class Table, class Value>
@@ -51,8 +64,8 @@ class ShapeReader : public GeneratedMesh {
   ShapeReader(std::unique_ptr<Shape> shape, const GeneratorOptions& options, std::size_t batch_events)
       : shape_(std::move(shape)),
         topology_(shape_->topology()),
-        random_(options.order == MeshOrder::kRandom),
-        permutation_(topology_.triangles, options.seed),
+        order_(options.order),
+        permutation_(order_ == MeshOrder::kRandomTiles ? shape_->tile_count() : topology_.triangles, options.seed),
         batch_events_(std::max<std::size_t>(batch_events, 1)) {
     info_.format = "generated " + name_of(kKinds, options.kind);
     info_.dimension = shape_->dimension();
@@ -69,7 +82,7 @@ class ShapeReader : public GeneratedMesh {
     batch.first_vertex = VertexId(next_vertex_);
     if (next_vertex_ < topology_.vertices)
       read_vertices(batch);
-    else if (random_)
+    else if (order_ == MeshOrder::kRandom)
       read_random_triangles(batch);
     else
       read_cells(batch);
@@ -93,22 +106,43 @@ class ShapeReader : public GeneratedMesh {
   // A cell can have more triangles than the batch has room for; the rest waits for the next batch.
   void read_cells(MeshBatch& batch) {
     batch.triangles.swap(waiting_);
-    while (batch.triangle_count() < batch_events_ && next_ < shape_->cell_count())
-      shape_->append_cell(next_++, batch.triangles);
+    while (batch.triangle_count() < batch_events_ && find_cell()) {
+      const bool seams_come_last = order_ == MeshOrder::kSeamsLast;
+      if (!seams_come_last || shape_->is_seam(next_) == at_seams_) shape_->append_cell(next_, batch.triangles);
+      ++next_;
+    }
     const std::size_t end = std::min(batch.triangles.size(), 3 * batch_events_);
     const auto rest = batch.triangles.begin() + static_cast<std::ptrdiff_t>(end);
     waiting_.assign(rest, batch.triangles.end());
     batch.triangles.erase(rest, batch.triangles.end());
   }
 
+  // Moves next_ to the first cell of the next tile at the end of a tile. False after the last one.
+  bool find_cell() {
+    while (next_ == tile_end_) {
+      if (tile_ == shape_->tile_count()) {
+        if (order_ != MeshOrder::kSeamsLast || at_seams_) return false;
+        at_seams_ = true;
+        tile_ = 0;
+      }
+      const std::uint64_t tile = order_ == MeshOrder::kRandomTiles ? permutation_(tile_) : tile_;
+      ++tile_;
+      next_ = shape_->tile_begin(tile);
+      tile_end_ = shape_->tile_begin(tile + 1);
+    }
+    return true;
+  }
+
   std::unique_ptr<Shape> shape_;
   ExpectedTopology topology_;
   MeshInfo info_;
-  bool random_;
+  MeshOrder order_;
   Permutation permutation_;
   std::size_t batch_events_;
   std::uint64_t next_vertex_ = 0;
   std::uint64_t next_ = 0;  // cell, or index in the random order
+  std::uint64_t tile_ = 0, tile_end_ = 0;
+  bool at_seams_ = false;
   std::vector<VertexId> waiting_;
 };
 
@@ -116,7 +150,10 @@ std::unique_ptr<Shape> make_shape(const GeneratorOptions& options) {
   if (options.triangles == 0 || options.triangles > kMaxTriangles)
     throw Error(ErrorKind::kUsage, "cannot generate " + std::to_string(options.triangles) + " triangles",
                 "choose --triangles between 1 and " + std::to_string(kMaxTriangles));
+  if (options.tile_cells == 0) throw Error(ErrorKind::kUsage, "a tile without cells", "choose at least 1");
   if (options.kind != MeshKind::kSierpinski) return make_grid_surface(options);
+  if (has_tiles(options.order))
+    throw Error(ErrorKind::kUsage, "a Sierpinski simplex has no tiles", "choose --order rows, patches or random");
   if (options.dimension < SierpinskiSimplex::kMinDimension || options.dimension > SierpinskiSimplex::kMaxDimension)
     throw Error(ErrorKind::kUsage, "no Sierpinski simplex of dimension " + std::to_string(options.dimension),
                 "choose --dimension 2, 3, 4 or 5");
@@ -132,8 +169,22 @@ std::unique_ptr<GeneratedMesh> generate_mesh(const GeneratorOptions& options, co
   return std::make_unique<ShapeReader>(make_shape(options), options, read_options.batch_events);
 }
 
-MeshKind mesh_kind(std::string_view name) { return find_by_name(kKinds, "kind of mesh", name); }
+MeshKind mesh_kind(std::string_view name) {
+  for (const auto& [known, kind] : kKinds)
+    if (known == name) return kind;
+  fail_unknown(kKinds, "kind of mesh", name);
+}
 
-MeshOrder mesh_order(std::string_view name) { return find_by_name(kOrders, "order", name); }
+void set_order(GeneratorOptions& options, std::string_view name) {
+  for (const auto& [form, order] : kOrders) {
+    const std::string_view start = form.substr(0, form.size() - (has_tiles(order) ? 1 : 0));  // without N
+    if (!name.starts_with(start)) continue;
+    const std::string_view rest = name.substr(start.size());
+    if (has_tiles(order) ? !read_count(rest, options.tile_cells) : !rest.empty()) continue;
+    options.order = order;
+    return;
+  }
+  fail_unknown(kOrders, "order", name);
+}
 
 }  // namespace reeb::io

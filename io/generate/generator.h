@@ -27,12 +27,17 @@ enum class MeshOrder {
   kRows,     // vertices and triangles row by row: the front is one row
   kPatches,  // square patches, row of patches by row of patches; vertices numbered patch by patch
   kRandom,   // vertices in rows, triangles in pseudo-random order
+  // As patches, of any size. They stand for scans that were merged from pieces. On grids only.
+  kTiles,
+  kRandomTiles,  // vertices as in kTiles; the triangles of a tile together, the tiles in pseudo-random order
+  kSeamsLast,    // as kTiles, but the triangles that join a tile to the next ones come after those of all tiles
 };
 
 struct GeneratorOptions {
   MeshKind kind = MeshKind::kScan;
   std::uint64_t triangles = 1'000'000;  // the mesh has the nearest count that its kind and width allow
   MeshOrder order = MeshOrder::kPatches;
+  std::uint64_t tile_cells = 32;         // along a side of a tile, for orders in tiles
   std::uint64_t seed = 1;                // of noise, positions of handles, and random order
   std::optional<std::uint64_t> width{};  // cells in a row of the grid; default: about as many as rows
   unsigned dimension = 3;                // of the Sierpinski simplex
@@ -60,8 +65,10 @@ class GeneratedMesh : public MeshReader {
 // THROWS: Error{kUsage} for options that no mesh can have.
 std::unique_ptr<GeneratedMesh> generate_mesh(const GeneratorOptions& options, const ReadOptions& read_options = {});
 
-// By the name on the command line ("scan", "patches"). THROWS: Error{kUsage} that lists the names.
+// By the name on the command line ("scan"). THROWS: Error{kUsage} that lists the names.
 MeshKind mesh_kind(std::string_view name);
-MeshOrder mesh_order(std::string_view name);
+// Sets the order by its name on the command line: "patches", or "tiles:N" with N cells along the side of a tile.
+// THROWS: Error{kUsage}.
+void set_order(GeneratorOptions& options, std::string_view name);
 
 }  // namespace reeb::io

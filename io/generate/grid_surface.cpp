@@ -1,6 +1,6 @@
 #include "io/generate/grid_surface.h"
 
-#include <bit>
+#include <algorithm>
 
 #include "io/generate/noise.h"
 
@@ -10,16 +10,19 @@ namespace {
 using Closing = GridLayout::Closing;
 
 constexpr unsigned kTubeTriangles = 8;
-constexpr unsigned kPatchShift = 7;  // with two sheets a patch has 64K triangles
+constexpr std::uint64_t kPatchCells = 128;  // with two sheets a patch has 64K triangles
 
 std::uint64_t sheet_count(const GridLayout& layout) { return layout.closing == Closing::kTwoSheets ? 2 : 1; }
 
 // Triangles of a cell without the rim. In a hole, the same number of indices goes to the first half of its tube.
 std::uint64_t triangles_per_cell(const GridLayout& layout) { return 2 * sheet_count(layout); }
 
-unsigned patch_shift(const GridLayout& layout) {
-  if (layout.order == MeshOrder::kPatches) return kPatchShift;
-  return static_cast<unsigned>(std::bit_width(std::max(layout.width, layout.height)));
+// Cells along the side of a patch.
+std::uint64_t patch_side(const GridLayout& layout) {
+  const std::uint64_t whole = std::max(layout.width, layout.height) + 1;
+  if (layout.order == MeshOrder::kPatches) return kPatchCells;
+  if (layout.order == MeshOrder::kRows || layout.order == MeshOrder::kRandom) return whole;
+  return std::min(layout.tile_cells, whole);
 }
 
 std::uint64_t rim_edges(const GridLayout& layout) {
@@ -47,8 +50,8 @@ std::uint64_t triangle_count(const GridLayout& layout) {
 GridSurface::GridSurface(const GridLayout& layout)
     : layout_(layout),
       sheets_(sheet_count(layout)),
-      cells_(layout.width, layout.height, patch_shift(layout), 0),
-      vertices_(axis_vertices(layout, layout.width), axis_vertices(layout, layout.height), patch_shift(layout), 1) {}
+      cells_(layout.width, layout.height, patch_side(layout), 0),
+      vertices_(axis_vertices(layout, layout.width), axis_vertices(layout, layout.height), patch_side(layout), 1) {}
 
 ExpectedTopology GridSurface::topology() const {
   ExpectedTopology t;

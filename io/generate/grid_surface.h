@@ -26,6 +26,7 @@ struct GridLayout {
   Closing closing = Closing::kDisc;
   HoleLayout holes;
   MeshOrder order = MeshOrder::kRows;
+  std::uint64_t tile_cells = 32;
   std::uint64_t seed = 0;
 };
 
@@ -38,6 +39,9 @@ class GridSurface : public Shape {
   explicit GridSurface(const GridLayout& layout);
 
   std::uint64_t cell_count() const override { return cells_.size(); }
+  std::uint64_t tile_count() const override { return cells_.patch_count(); }
+  std::uint64_t tile_begin(std::uint64_t tile) const override { return cells_.patch_begin(tile); }
+  bool is_seam(std::uint64_t cell) const override { return cells_.is_at_seam(cells_.at(cell)); }
   ExpectedTopology topology() const override;
   void append_vertices(std::uint64_t first, std::size_t count, Columns& columns) const override;
   void append_cell(std::uint64_t cell, std::vector<VertexId>& corners) const override;

@@ -11,20 +11,22 @@ struct GridPoint {
   friend bool operator==(const GridPoint&, const GridPoint&) = default;
 };
 
-// One axis, cut into intervals of 2^shift points; the first is longer by `lead`. With lead 0 these are the cells of the
+// One axis, cut into intervals of `interval` points; the first is longer by `lead`. With lead 0 these are the cells of the
 // patches. With lead 1 they are the vertices that each patch is the first to use, since a patch shares its first line
 // of vertices with the patch before.
 class CutAxis {
  public:
-  CutAxis(std::uint64_t size, unsigned shift, std::uint64_t lead) : size_(size), shift_(shift), lead_(lead) {}
+  CutAxis(std::uint64_t size, std::uint64_t interval, std::uint64_t lead)
+      : size_(size), interval_(interval), lead_(lead) {}
   std::uint64_t size() const { return size_; }
-  std::uint64_t patch_of(std::uint64_t x) const { return x < lead_ ? 0 : (x - lead_) >> shift_; }
-  std::uint64_t begin(std::uint64_t patch) const { return patch == 0 ? 0 : (patch << shift_) + lead_; }
-  std::uint64_t end(std::uint64_t patch) const { return std::min(size_, ((patch + 1) << shift_) + lead_); }
+  std::uint64_t patch_of(std::uint64_t x) const { return x < lead_ ? 0 : (x - lead_) / interval_; }
+  std::uint64_t begin(std::uint64_t patch) const { return patch == 0 ? 0 : patch * interval_ + lead_; }
+  std::uint64_t patch_count() const { return size_ == 0 ? 0 : patch_of(size_ - 1) + 1; }
+  std::uint64_t end(std::uint64_t patch) const { return std::min(size_, (patch + 1) * interval_ + lead_); }
 
  private:
   std::uint64_t size_;
-  unsigned shift_;
+  std::uint64_t interval_;
   std::uint64_t lead_;
 };
 
@@ -32,10 +34,25 @@ class CutAxis {
 // at least as large as the grid gives plain row order.
 class PatchedGrid {
  public:
-  PatchedGrid(std::uint64_t columns, std::uint64_t rows, unsigned shift, std::uint64_t lead)
-      : columns_(columns, shift, lead), rows_(rows, shift, lead) {}
+  // REQUIRES: side >= 1.
+  PatchedGrid(std::uint64_t columns, std::uint64_t rows, std::uint64_t side, std::uint64_t lead)
+      : columns_(columns, side, lead), rows_(rows, side, lead) {}
 
   std::uint64_t size() const { return columns_.size() * rows_.size(); }
+
+  std::uint64_t patch_count() const { return columns_.patch_count() * rows_.patch_count(); }
+  // The first rank of a patch. Patches are numbered in the order of ranks; one more than there are gives size().
+  std::uint64_t patch_begin(std::uint64_t patch) const {
+    const std::uint64_t across = columns_.patch_count(), x = patch % across, y = patch / across;
+    if (y == rows_.patch_count()) return size();
+    const std::uint64_t row = rows_.begin(y);
+    return row * columns_.size() + columns_.begin(x) * (rows_.end(y) - row);
+  }
+  // Whether the point is in the last row or column of its patch, and another patch follows there.
+  bool is_at_seam(GridPoint p) const {
+    return (p.i + 1 < columns_.size() && columns_.patch_of(p.i + 1) != columns_.patch_of(p.i)) ||
+           (p.j + 1 < rows_.size() && rows_.patch_of(p.j + 1) != rows_.patch_of(p.j));
+  }
 
   std::uint64_t rank(GridPoint p) const {
     const Patch patch = patch_of(p);

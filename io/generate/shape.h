@@ -21,6 +21,11 @@ class Shape {
 
   virtual unsigned dimension() const { return 3; }
   virtual std::uint64_t cell_count() const = 0;
+  // Consecutive cells form tiles. Tile t begins with cell tile_begin(t), and the last one ends at tile_begin(tiles).
+  virtual std::uint64_t tile_count() const { return 1; }
+  virtual std::uint64_t tile_begin(std::uint64_t tile) const { return tile == 0 ? 0 : cell_count(); }
+  // Whether a cell joins its tile to a later one.
+  virtual bool is_seam([[maybe_unused]] std::uint64_t cell) const { return false; }
   virtual ExpectedTopology topology() const = 0;
 
   // Appends the coordinates of vertices first, first + 1, ... first + count - 1 to `columns`.

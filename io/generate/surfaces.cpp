@@ -126,6 +126,7 @@ GridLayout layout_of(const GeneratorOptions& options) {
   GridLayout layout;
   layout.closing = closing_of(options.kind);
   layout.order = options.order;
+  layout.tile_cells = options.tile_cells;
   layout.seed = mix(options.seed);
   const std::uint64_t min_side = layout.closing == Closing::kTorus ? 3 : 1;
   const std::uint64_t cells = options.triangles / (layout.closing == Closing::kTwoSheets ? 4 : 2);

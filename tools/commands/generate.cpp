@@ -54,14 +54,15 @@ void check_options(const GenerateArguments& arguments) {
     refuse("--width", "leave it out; --triangles and --dimension say how large it is");
   if (arguments.dimension && !sierpinski) refuse("--dimension", "leave it out; only a sierpinski has one");
   const bool is_random =
-      kind == io::MeshKind::kTerrain || kind == io::MeshKind::kScan || arguments.mesh.order == io::MeshOrder::kRandom;
+      kind == io::MeshKind::kTerrain || kind == io::MeshKind::kScan || arguments.mesh.order == io::MeshOrder::kRandom ||
+                         arguments.mesh.order == io::MeshOrder::kRandomTiles;
   if (arguments.seed && !is_random)
     print_line(fmt::format("note: nothing is random in a {} in this order, so --seed changes nothing", arguments.kind));
 }
 
 void run_generate(GenerateArguments arguments) {
   arguments.mesh.kind = io::mesh_kind(arguments.kind);
-  arguments.mesh.order = io::mesh_order(arguments.order);
+  io::set_order(arguments.mesh, arguments.order);
   check_options(arguments);
   if (arguments.seed) arguments.mesh.seed = *arguments.seed;
   if (arguments.dimension) arguments.mesh.dimension = static_cast<unsigned>(*arguments.dimension);
@@ -104,7 +105,10 @@ void add_generate(CLI::App& program) {
       ->type_name("FILE");
   add_count(*command, "--triangles", arguments->mesh.triangles,
             "About how many triangles: 10000, 12M, 372M (default: 1M)", {.least = 1});
-  command->add_option("--order", arguments->order, "Order of the triangles: rows, patches or random (default: patches)")
+  command
+      ->add_option("--order", arguments->order,
+                   "Order of the triangles: rows, patches, random, tiles:N, random-tiles:N or seams-last:N, with N "
+                   "cells along a tile's side (default: patches)")
       ->type_name("ORDER");
   add_count(*command, "--seed", arguments->seed, "Seed of noise, handles and random order (default: 1)");
   add_count(*command, "--width", arguments->mesh.width,

@@ -156,7 +156,13 @@ std::uint64_t front_width(const Mesh& mesh) {
   return static_cast<std::uint64_t>(widest);
 }
 
-constexpr std::array kOrders = {MeshOrder::kRows, MeshOrder::kPatches, MeshOrder::kRandom};
+constexpr std::array kOrders = {MeshOrder::kRows,  MeshOrder::kPatches,     MeshOrder::kRandom,
+                                MeshOrder::kTiles, MeshOrder::kRandomTiles, MeshOrder::kSeamsLast};
+
+// A Sierpinski simplex has no tiles.
+bool exists(const GeneratorOptions& options) {
+  return options.kind != MeshKind::kSierpinski || options.order < MeshOrder::kTiles;
+}
 
 class Generated : public testing::TestWithParam<GeneratorOptions> {};
 
@@ -164,6 +170,8 @@ TEST_P(Generated, HasTheTopologyItPromisesInEveryOrder) {
   GeneratorOptions options = GetParam();
   for (const MeshOrder order : kOrders) {
     options.order = order;
+    options.tile_cells = 1 + options.triangles % 41;
+    if (!exists(options)) continue;
     SCOPED_TRACE(testing::Message() << "order " << static_cast<int>(order));
     const Mesh mesh = collect(options);
     const Counted counted = count(mesh);
@@ -187,8 +195,10 @@ TEST_P(Generated, IsTheSameMeshInEveryOrder) {
   GeneratorOptions options = GetParam();
   options.order = MeshOrder::kRows;
   const auto rows = by_position(collect(options));
-  for (const MeshOrder order : {MeshOrder::kPatches, MeshOrder::kRandom}) {
+  for (const MeshOrder order : kOrders) {
     options.order = order;
+    options.tile_cells = 1 + options.triangles % 41;
+    if (!exists(options)) continue;
     EXPECT_TRUE(by_position(collect(options)) == rows) << "order " << static_cast<int>(order);
   }
 }
@@ -198,6 +208,7 @@ TEST_P(Generated, DoesNotDependOnTheBatchSize) {
   const std::size_t small = options.triangles > 5000 ? 100 : 1;
   for (const MeshOrder order : kOrders) {
     options.order = order;
+    if (!exists(options)) continue;
     EXPECT_EQ(collect(options, small).triangles, collect(options, 777).triangles);
     EXPECT_EQ(collect(options, small).positions, collect(options, 777).positions);
   }
@@ -273,6 +284,55 @@ TEST(Generator, CoherentOrdersHaveASmallFrontAndRandomHasNot) {
   EXPECT_GT(front_width(collect(options)), 100'000u);
 }
 
+// A seam of tiles of n cells has about 2 (2 n) vertices of a tile's 2 n^2; half of all seams are open in the middle.
+TEST(Generator, TilesHaveTheFrontsOfMergedScans) {
+  GeneratorOptions options{.kind = MeshKind::kScan, .triangles = 400'000, .tile_cells = 16};
+  const std::uint64_t side = 316, tiles = (side / 16) * (side / 16);
+  options.order = MeshOrder::kTiles;
+  EXPECT_LE(front_width(collect(options)), 2 * (side + 2 * 16 + 10));
+  options.order = MeshOrder::kRandomTiles;
+  EXPECT_GT(front_width(collect(options)), tiles * 16);
+  options.order = MeshOrder::kSeamsLast;
+  EXPECT_GT(front_width(collect(options)), tiles * 4 * 15);
+}
+
+TEST(Generator, TilesAreReadTogether) {
+  GeneratorOptions options{.kind = MeshKind::kGrid, .triangles = 2 * 12 * 12, .tile_cells = 4, .width = 12};
+  options.order = MeshOrder::kRandomTiles;
+  const Mesh mesh = collect(options);
+  std::set<std::pair<int, int>> tiles;
+  for (std::size_t t = 0; t < mesh.triangles.size(); t += 32) {
+    Position low = mesh.positions[mesh.triangles[t][0]], high = low;
+    for (std::size_t in = t; in < t + 32; ++in)
+      for (const auto v : mesh.triangles[in])
+        for (std::size_t k = 0; k < 2; ++k) {
+          low[k] = std::min(low[k], mesh.positions[v][k]);
+          high[k] = std::max(high[k], mesh.positions[v][k]);
+        }
+    EXPECT_EQ(high[0] - low[0], 4);
+    EXPECT_EQ(high[1] - low[1], 4);
+    tiles.emplace(static_cast<int>(low[0]), static_cast<int>(low[1]));
+  }
+  EXPECT_EQ(tiles.size(), 9u);
+
+  options.order = MeshOrder::kSeamsLast;
+  const Mesh seams = collect(options);
+  const auto in_tile = [&](std::size_t t) {
+    for (std::size_t k = 0; k < 2; ++k) {
+      double low = 12, high = 0;
+      for (const auto v : seams.triangles[t]) {
+        low = std::min(low, seams.positions[v][k]);
+        high = std::max(high, seams.positions[v][k]);
+      }
+      // The last cells of a tile are seams, but not at the rim of the grid.
+      if (static_cast<int>(low) % 4 == 3 && low != 11) return false;
+    }
+    return true;
+  };
+  const std::size_t inner = 2 * 10 * 10;
+  for (std::size_t t = 0; t < seams.triangles.size(); ++t) EXPECT_EQ(in_tile(t), t < inner) << t;
+}
+
 // In patch order, 64K consecutive triangles share few vertices with the rest.
 TEST(Generator, PatchesShareFewVertices) {
   const Mesh mesh = collect({.kind = MeshKind::kScan, .triangles = 1'000'000});
@@ -288,14 +348,19 @@ TEST(PatchedGrid, RankAndPlaceAreInverse) {
   for (const std::uint64_t columns : {1u, 3u, 8u, 9u, 10u, 23u})
     for (const std::uint64_t rows : {1u, 8u, 9u, 17u})
       for (const std::uint64_t lead : {0u, 1u})
-        for (const unsigned shift : {1u, 3u, 6u}) {
-          const PatchedGrid grid(columns, rows, shift, lead);
+        for (const std::uint64_t side : {1u, 2u, 7u, 8u, 64u}) {
+          const PatchedGrid grid(columns, rows, side, lead);
+          std::uint64_t patch = 0;
           for (std::uint64_t rank = 0; rank < grid.size(); ++rank) {
             const GridPoint p = grid.at(rank);
             ASSERT_LT(p.i, columns);
             ASSERT_LT(p.j, rows);
-            ASSERT_EQ(grid.rank(p), rank) << columns << "x" << rows << " shift " << shift;
+            ASSERT_EQ(grid.rank(p), rank) << columns << "x" << rows << " side " << side;
+            if (grid.patch_begin(patch + 1) == rank) ++patch;
+            ASSERT_LT(rank, grid.patch_begin(patch + 1));
           }
+          ASSERT_EQ(grid.patch_count(), patch + 1);
+          ASSERT_EQ(grid.patch_begin(patch + 1), grid.size());
         }
 }
 
@@ -334,7 +399,16 @@ TEST(Generator, RefusesWhatNoMeshCanMeet) {
   EXPECT_EQ(kind_of({.kind = MeshKind::kTorus, .width = 2}), ErrorKind::kUsage);
   EXPECT_EQ(kind_of({.kind = MeshKind::kSierpinski, .dimension = 6}), ErrorKind::kUsage);
   EXPECT_THROW(mesh_kind("klein"), Error);
-  EXPECT_THROW(mesh_order("sorted"), Error);
+  EXPECT_EQ(kind_of({.tile_cells = 0}), ErrorKind::kUsage);
+  EXPECT_EQ(kind_of({.kind = MeshKind::kSierpinski, .order = MeshOrder::kTiles}), ErrorKind::kUsage);
+  GeneratorOptions options;
+  for (const char* name : {"sorted", "", "rows:3", "tiles", "tiles:", "tiles:0", "tiles:-1", "tiles:3x", "tiles:N"})
+    EXPECT_THROW(set_order(options, name), Error) << name;
+  set_order(options, "random-tiles:77");
+  EXPECT_EQ(options.order, MeshOrder::kRandomTiles);
+  EXPECT_EQ(options.tile_cells, 77u);
+  set_order(options, "rows");
+  EXPECT_EQ(options.order, MeshOrder::kRows);
 }
 
 }  // namespace
