@@ -114,6 +114,7 @@ class BinaryPlyDecoder {
   const ContentSource& source() const { return cursor_.source(); }
   std::uint64_t bytes_read() const { return cursor_.bytes_read(); }
   Cursor& bytes() { return cursor_; }
+  std::uint64_t offset() const { return cursor_.offset(); }
   bool swaps() const { return swap_; }
 
   // The next `size` bytes. THROWS: Error{kBadInput} if the file ends before.

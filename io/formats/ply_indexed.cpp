@@ -79,6 +79,9 @@ class IndexedPly final : public IndexedMesh {
     return more;
   }
 
+  std::optional<MeshPlace> place() const override { return faces_->place(); }
+  void seek(const MeshPlace& place) override { faces_->seek(place); }
+
   std::uint64_t bytes_read() const override { return faces_->bytes_read(); }
   std::uint64_t bytes_total() const override { return windows_.size(); }
   std::vector<std::string> warnings() const override { return faces_->warnings(); }

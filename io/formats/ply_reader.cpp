@@ -72,6 +72,18 @@ bool append_column(PlyType type, bool swap, const char* bytes, std::size_t strid
   return all_finite({out, count});
 }
 
+// The part of a place after the offset of its record, in 64 bits.
+struct Within {
+  std::size_t step = 0, triangles = 0;  // triangles of the record before the place
+  std::uint64_t record = 0;
+
+  bool fits() const { return step < 256 && triangles < 65536 && record >> 40 == 0; }
+  std::uint64_t packed() const { return record << 24 | triangles << 8 | step; }
+  static Within unpacked(std::uint64_t bits) {
+    return {static_cast<std::size_t>(bits & 0xff), static_cast<std::size_t>(bits >> 8 & 0xffff), bits >> 24};
+  }
+};
+
 template <class Decoder>
 class PlyReader final : public PlyBodyReader {
  public:
@@ -97,6 +109,26 @@ class PlyReader final : public PlyBodyReader {
     decoder_.bytes().move_to(offset);
     record_ = odd_values_ = 0;
     in_record_ = trailing_ = false;
+  }
+
+  std::optional<MeshPlace> place() const override {
+    if constexpr (Decoder::kBinary) {
+      const Within within{step_, in_record_ ? of_record_ : 0, record_};
+      if (within.fits()) return MeshPlace{in_record_ ? record_begin_ : decoder_.offset(), within.packed()};
+    }
+    return std::nullopt;
+  }
+
+  void seek(const MeshPlace& place) override {
+    const Within within = Within::unpacked(place.second);
+    decoder_.bytes().move_to(place.first);
+    step_ = within.step;
+    record_ = within.record;
+    in_record_ = false;
+    if (within.triangles == 0) return;
+    MeshBatch passed;
+    set_batch_events(within.triangles);
+    read(passed);
   }
 
   std::unique_ptr<IndexedMesh> indexed() const override {
@@ -276,6 +308,8 @@ class PlyReader final : public PlyBodyReader {
       decoder_.begin_record(element);
       property_ = 0;
       in_list_ = false;
+      if constexpr (Decoder::kBinary) record_begin_ = decoder_.offset();
+      of_record_ = 0;
     }
     if (property_ == element.properties.size()) {
       decoder_.end_record(element);
@@ -283,8 +317,10 @@ class PlyReader final : public PlyBodyReader {
       ++record_;
     } else if (property_ != element.corners) {
       pass_property(element.properties[property_++]);
-    } else if (advance_corners(element, batch)) {
-      ++property_;
+    } else {
+      const std::size_t before = batch.triangle_count();
+      if (advance_corners(element, batch)) ++property_;
+      of_record_ += batch.triangle_count() - before;
     }
   }
 
@@ -381,6 +417,9 @@ class PlyReader final : public PlyBodyReader {
   bool in_record_ = false, in_list_ = false;
   std::size_t property_ = 0;
   std::uint64_t corners_left_ = 0;
+  // Of the record that is being read: where it begins, and its triangles so far.
+  std::uint64_t record_begin_ = 0;
+  std::size_t of_record_ = 0;
   SimplexAssembler face_;
   std::uint64_t odd_values_ = 0;
   bool trailing_ = false;

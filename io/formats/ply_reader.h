@@ -2,9 +2,11 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "io/formats/ply_header.h"
 #include "io/mesh/batch_reader.h"
+#include "libreeb/port/indexed_mesh.h"
 
 namespace reeb::io {
 
@@ -19,6 +21,11 @@ class PlyBodyReader : public BatchReader {
   // Moves to the first element after the vertices, to read the faces from there.
   // REQUIRES: a binary file that allows seeking, with records of fixed size up to the last vertex.
   virtual void move_to_faces() = 0;
+
+  // Where the next face is read, between two triangles; and to go on there. Nothing within a strip or a polygon of very
+  // many corners, since a face is read again up to the place.
+  virtual std::optional<MeshPlace> place() const = 0;
+  virtual void seek(const MeshPlace& place) = 0;
 
  protected:
   using BatchReader::BatchReader;

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -13,6 +14,12 @@
 #include "libreeb/base/ids.h"
 
 namespace reeb {
+
+// A place between two triangles, as the mesh itself understands it. It stays valid as long as the mesh.
+struct MeshPlace {
+  std::uint64_t first = 0, second = 0;
+  friend bool operator==(const MeshPlace&, const MeshPlace&) = default;
+};
 
 // THREADS: one at a time; different meshes share nothing.
 class IndexedMesh {
@@ -41,6 +48,11 @@ class IndexedMesh {
   // tetrahedron is delivered as its four faces. At most `limit` triangles. False at the end.
   // All corners are below vertex_count().
   virtual bool read(std::vector<VertexId>& corners, std::size_t limit) = 0;
+
+  // Where read() goes on. Nothing if the mesh cannot return there: not at all, or not at a small cost.
+  virtual std::optional<MeshPlace> place() const { return std::nullopt; }
+  // read() goes on there. REQUIRES: place() of this mesh returned it.
+  virtual void seek([[maybe_unused]] const MeshPlace& place) {}
 
   // Bytes of input read since rewind(), and in total, for progress.
   virtual std::uint64_t bytes_read() const = 0;

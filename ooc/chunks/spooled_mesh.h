@@ -46,6 +46,8 @@ class SpooledMesh : public IndexedMesh {
   void gather(std::span<const VertexId> ids, std::span<const unsigned> columns, std::span<double> values) override;
   void rewind() override { triangles_.rewind(); }
   bool read(std::vector<VertexId>& corners, std::size_t limit) override { return triangles_.read(corners, limit); }
+  std::optional<MeshPlace> place() const override { return triangles_.place(); }
+  void seek(const MeshPlace& place) override { triangles_.seek(place); }
   std::uint64_t bytes_read() const override { return triangles_.bytes_read(); }
   std::uint64_t bytes_total() const override { return triangles_.bytes_total(); }
 

@@ -95,6 +95,12 @@ void TriangleLog::rewind() {
   read_before_ = 0;
 }
 
+void TriangleLog::seek(const MeshPlace& place) {
+  read_block_ = place.first / kBlockBytes;
+  read_at_ = static_cast<std::size_t>(place.first % kBlockBytes);
+  read_before_ = place.second;
+}
+
 bool TriangleLog::read(std::vector<VertexId>& corners, std::size_t limit) {
   corners.clear();
   while (corners.size() < 3 * limit && read_block_ <= block_count_) {

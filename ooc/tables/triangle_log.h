@@ -11,6 +11,7 @@
 #include "io/file/temp_dir.h"
 #include "libreeb/base/ids.h"
 #include "libreeb/base/memory_budget.h"
+#include "libreeb/port/indexed_mesh.h"
 
 namespace reeb::ooc {
 
@@ -29,6 +30,9 @@ class TriangleLog {
   void rewind();
   // Replaces `corners` by those of the next triangles, at most `limit`. False at the end.
   bool read(std::vector<VertexId>& corners, std::size_t limit);
+  // Where read() goes on; and to go on there.
+  MeshPlace place() const { return {read_block_ * kBlockBytes + read_at_, read_before_}; }
+  void seek(const MeshPlace& place);
 
   std::uint64_t triangle_count() const { return triangle_count_; }
   // Encoded bytes: in all; before the reading position; and in the file.

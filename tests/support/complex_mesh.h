@@ -56,6 +56,8 @@ class IndexedComplex : public IndexedMesh {
   void gather(std::span<const VertexId> ids, std::span<const unsigned> columns, std::span<double> values) override;
   void rewind() override { at_ = 0; }
   bool read(std::vector<VertexId>& corners, std::size_t limit) override;
+  std::optional<MeshPlace> place() const override { return MeshPlace{at_, 0}; }
+  void seek(const MeshPlace& place) override { at_ = static_cast<std::size_t>(place.first); }
   std::uint64_t bytes_read() const override { return at_; }
   std::uint64_t bytes_total() const override { return mesh_.triangles.size(); }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <map>
 #include <numeric>
 #include <random>
 #include <span>
@@ -40,6 +41,8 @@ class ModelIndexedMesh : public IndexedMesh {
     at_ += count;
     return count != 0;
   }
+  std::optional<MeshPlace> place() const override { return MeshPlace{at_, 7}; }
+  void seek(const MeshPlace& place) override { at_ = static_cast<std::size_t>(place.first); }
   std::uint64_t bytes_read() const override { return at_ * sizeof(VertexId); }
   std::uint64_t bytes_total() const override { return mesh_.corners.size() * sizeof(VertexId); }
 
@@ -64,6 +67,24 @@ inline ModelMesh grid_mesh(std::uint64_t columns, std::uint64_t rows) {
         mesh.corners.push_back(VertexId(corner));
     }
   return mesh;
+}
+
+// A grid mesh of that many columns of vertices, with its triangles tile by tile: tiles of side x side cells, in random
+// order.
+inline ModelMesh in_random_tiles(const ModelMesh& mesh, std::uint64_t columns, std::uint64_t side, std::uint64_t seed) {
+  std::map<std::pair<std::uint64_t, std::uint64_t>, std::vector<VertexId>> by_place;
+  for (std::size_t t = 0; t < mesh.corners.size() / 3; ++t) {
+    const std::uint64_t cell = t / 2, row = cell / (columns - 1), column = cell % (columns - 1);
+    auto& tile = by_place[{row / side, column / side}];
+    for (std::size_t c = 0; c < 3; ++c) tile.push_back(mesh.corners[3 * t + c]);
+  }
+  std::vector<std::vector<VertexId>> tiles;
+  for (auto& [place, corners] : by_place) tiles.push_back(std::move(corners));
+  std::mt19937_64 random(seed);
+  std::shuffle(tiles.begin(), tiles.end(), random);
+  ModelMesh result{mesh.columns, {}};
+  for (const auto& corners : tiles) result.corners.insert(result.corners.end(), corners.begin(), corners.end());
+  return result;
 }
 
 // The same surface with vertices renumbered and triangles shuffled at random.

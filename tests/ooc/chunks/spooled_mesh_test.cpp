@@ -62,6 +62,25 @@ std::vector<VertexId> all_corners(IndexedMesh& mesh, std::size_t limit) {
   return all;
 }
 
+void expect_places(const ModelMesh& model, SpooledMesh& mesh, std::mt19937_64& random) {
+  std::vector<std::pair<MeshPlace, std::size_t>> places;  // and the corners before
+  std::vector<VertexId> some;
+  mesh.rewind();
+  std::size_t at = 0;
+  do {
+    places.emplace_back(*mesh.place(), at);
+    if (!mesh.read(some, 1 + random() % 3000)) break;
+    at += some.size();
+  } while (true);
+  for (int trial = 0; trial < 200; ++trial) {
+    const auto& [place, before] = places[random() % places.size()];
+    mesh.seek(place);
+    if (!mesh.read(some, 500)) some.clear();
+    ASSERT_EQ(some.size(), std::min<std::size_t>(1500, model.corners.size() - before));
+    ASSERT_TRUE(std::equal(some.begin(), some.end(), model.corners.begin() + static_cast<std::ptrdiff_t>(before)));
+  }
+}
+
 void compare(const ModelMesh& model, std::uint64_t allowance, bool must_spill) {
   const Scratch scratch;
   const io::TempDir temp(scratch.path());
@@ -75,6 +94,7 @@ void compare(const ModelMesh& model, std::uint64_t allowance, bool must_spill) {
     ASSERT_EQ(mesh->column_count(), model.columns.size());
     for (const std::size_t limit : {1u, 7u, 5000u}) EXPECT_EQ(all_corners(*mesh, limit), model.corners);
     std::mt19937_64 random(1);
+    expect_places(model, *mesh, random);
     std::vector<VertexId> ids;
     for (int i = 0; i < 2000; ++i) ids.emplace_back(random() % model.vertex_count());
     const std::vector<unsigned> columns = {2, 0, 3};
