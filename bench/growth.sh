@@ -2,23 +2,25 @@
 # How time and memory grow with the size of a mesh, for fronts that grow and fronts that do not: `reeb compute` with noise
 # removal and hierarchy on scan-like surfaces, as a table.
 #
-#   bench/growth.sh [--reeb PROGRAM] [--folder DIR] [--options "OPTION..."] [SIZE...]
+#   bench/growth.sh [--reeb PROGRAM] [--folder DIR] [--options "OPTION..."] [--tiles] [SIZE...]
 #
 # SIZE defaults to 1M 4M 12M; 372M takes 7 GB of disk for each order. Meshes are made once in DIR (default:
 # build/bench) and kept: `patches`, whose front grows with the square root of the size, and `wide`, rows of a fixed
-# width of 9,990 cells, whose front of 20,000 vertices does not grow. The graph is verified before a line
+# width of 9,990 cells, whose front of 20,000 vertices does not grow. With --tiles also `tiles`, `random-tiles` and
+# `seams-last` of 32 x 32 cells, like merged scans, whose pieces are read in another order. The graph is verified before a line
 # is printed: one component, and no more loops than the genus that the generator reports; the scan has
 # exactly as many. OPTIONS default to "--denoise 0.1%".
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-reeb=build/release/tools/reeb folder=build/bench options="--denoise 0.1%"
+reeb=build/release/tools/reeb folder=build/bench options="--denoise 0.1%" tiles=()
 sizes=()
 while [[ $# -gt 0 ]]; do
   case $1 in
     --reeb) reeb=$2; shift 2 ;;
     --folder) folder=$2; shift 2 ;;
     --options) options=$2; shift 2 ;;
+    --tiles) tiles=(tiles random-tiles seams-last); shift ;;
     *) sizes+=("$1"); shift ;;
   esac
 done
@@ -63,4 +65,10 @@ done
 for size in "${sizes[@]}"; do
   mesh "scan-$size-front" --triangles "$size" --order rows --width 9990
   row "scan-$size-front"
+done
+for order in "${tiles[@]}"; do
+  for size in "${sizes[@]}"; do
+    mesh "scan-$size-$order" --triangles "$size" --order "$order:32"
+    row "scan-$size-$order"
+  done
 done

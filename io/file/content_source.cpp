@@ -42,6 +42,34 @@ class FileSource final : public ContentSource {
   std::uint64_t read_ = 0;
 };
 
+// A plain file that is read in small pieces here and there.
+class ReadSource final : public ContentSource {
+ public:
+  explicit ReadSource(std::shared_ptr<const InputFile> file)
+      : ContentSource(file->path()), file_(std::move(file)), buffer_(kLookahead) {}
+  using ContentSource::view;
+
+  std::string_view view(std::uint64_t offset, std::size_t min_bytes) override {
+    constexpr std::size_t kBytesAtFirst = 16384;  // few, since a piece may be small
+    const bool goes_on = offset >= offset_ && offset <= offset_ + size_;
+    offset_ = std::min(offset, file_->size());
+    const std::size_t wanted = goes_on ? kLookahead : std::max(min_bytes, kBytesAtFirst);
+    const auto bytes = size_ = static_cast<std::size_t>(std::min<std::uint64_t>(wanted, file_->size() - offset_));
+    if (bytes != 0) file_->read_at(offset_, std::as_writable_bytes(std::span(buffer_).first(bytes)));
+    return {buffer_.data(), bytes};
+  }
+  bool can_seek() const override { return true; }
+  std::optional<std::uint64_t> size() const override { return file_->size(); }
+  std::uint64_t file_bytes_read() const override { return offset_; }
+  std::uint64_t file_bytes() const override { return file_->size(); }
+
+ private:
+  std::shared_ptr<const InputFile> file_;
+  std::vector<char> buffer_;
+  std::uint64_t offset_ = 0;  // of the last view, and its length
+  std::size_t size_ = 0;
+};
+
 // A file as the sequential input of a decompressor.
 class FileInput final : public RawInput {
  public:
@@ -182,6 +210,10 @@ std::unique_ptr<ContentSource> open_content(std::shared_ptr<const InputFile> fil
   auto plain = std::make_unique<FileSource>(file);
   if (detect_compression(plain->view(0)) == Compression::kNone) return plain;
   return stream_source(file->path(), std::make_unique<FileInput>(file), file->size());
+}
+
+std::unique_ptr<ContentSource> open_for_seeking(std::shared_ptr<const InputFile> file) {
+  return std::make_unique<ReadSource>(std::move(file));
 }
 
 std::unique_ptr<ContentSource> open_content(const std::string& path) { return Input(path).open(); }

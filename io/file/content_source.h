@@ -58,6 +58,8 @@ class ContentSource {
 std::unique_ptr<ContentSource> open_content(const std::string& path);
 // The same for an open file.
 std::unique_ptr<ContentSource> open_content(std::shared_ptr<const InputFile> file);
+// An uncompressed file that is read in small pieces here and there: reading some bytes costs less than a window.
+std::unique_ptr<ContentSource> open_for_seeking(std::shared_ptr<const InputFile> file);
 
 // An input that can be opened repeatedly, the same file each time, even if its name is removed or replaced.
 class Input {

@@ -68,23 +68,30 @@ class IndexedPly final : public IndexedMesh {
     if (!all_finite(values)) fail_not_finite(ids, columns, values);
   }
 
-  void rewind() override { faces_->move_to_faces(); }
+  void rewind() override {
+    faces_->move_to_faces();
+    reading_ = faces_.get();
+  }
 
   bool read(std::vector<VertexId>& corners, std::size_t limit) override {
     corners.clear();
     batch_.triangles.swap(corners);
-    faces_->set_batch_events(limit);
-    const bool more = faces_->read(batch_);
+    reading_->set_batch_events(limit);
+    const bool more = reading_->read(batch_);
     batch_.triangles.swap(corners);
     return more;
   }
 
-  std::optional<MeshPlace> place() const override { return faces_->place(); }
-  void seek(const MeshPlace& place) override { faces_->seek(place); }
+  std::optional<MeshPlace> place() const override { return reading_->place(); }
+  void seek(const MeshPlace& place) override {
+    if (pieces_ == nullptr) pieces_ = open_ply_faces(open_for_seeking(windows_.file()), header_);
+    pieces_->seek(place);
+    reading_ = pieces_.get();
+  }
 
-  std::uint64_t bytes_read() const override { return faces_->bytes_read(); }
+  std::uint64_t bytes_read() const override { return reading_->bytes_read(); }
   std::uint64_t bytes_total() const override { return windows_.size(); }
-  std::vector<std::string> warnings() const override { return faces_->warnings(); }
+  std::vector<std::string> warnings() const override { return reading_->warnings(); }
 
  private:
   const char* record(VertexId id) { return windows_.at(vertices_begin_ + id.value() * stride_); }
@@ -132,7 +139,9 @@ class IndexedPly final : public IndexedMesh {
   std::size_t stride_;
   std::uint64_t vertices_begin_;
   FileWindows windows_;
-  std::unique_ptr<PlyBodyReader> faces_;
+  std::unique_ptr<PlyBodyReader> faces_;   // from the first to the last
+  std::unique_ptr<PlyBodyReader> pieces_;  // from places on; null before the first seek()
+  PlyBodyReader* reading_ = faces_.get();
   MeshBatch batch_;
 };
 

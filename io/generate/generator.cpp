@@ -26,11 +26,11 @@ constexpr std::array<Names<MeshKind>, 6> kKinds = {{{"torus", MeshKind::kTorus},
                                                     {"scan", MeshKind::kScan},
                                                     {"sierpinski", MeshKind::kSierpinski}}};
 constexpr std::array<Names<MeshOrder>, 6> kOrders = {{{"rows", MeshOrder::kRows},
-                                                     {"patches", MeshOrder::kPatches},
-                                                     {"random", MeshOrder::kRandom},
-                                                     {"tiles:N", MeshOrder::kTiles},
-                                                     {"random-tiles:N", MeshOrder::kRandomTiles},
-                                                     {"seams-last:N", MeshOrder::kSeamsLast}}};
+                                                      {"patches", MeshOrder::kPatches},
+                                                      {"random", MeshOrder::kRandom},
+                                                      {"tiles:N", MeshOrder::kTiles},
+                                                      {"random-tiles:N", MeshOrder::kRandomTiles},
+                                                      {"seams-last:N", MeshOrder::kSeamsLast}}};
 
 bool has_tiles(MeshOrder order) { return order >= MeshOrder::kTiles; }
 

@@ -11,9 +11,9 @@ struct GridPoint {
   friend bool operator==(const GridPoint&, const GridPoint&) = default;
 };
 
-// One axis, cut into intervals of `interval` points; the first is longer by `lead`. With lead 0 these are the cells of the
-// patches. With lead 1 they are the vertices that each patch is the first to use, since a patch shares its first line
-// of vertices with the patch before.
+// One axis, cut into intervals of `interval` points; the first is longer by `lead`. With lead 0 these are the cells of
+// the patches. With lead 1 they are the vertices that each patch is the first to use, since a patch shares its first
+// line of vertices with the patch before.
 class CutAxis {
  public:
   CutAxis(std::uint64_t size, std::uint64_t interval, std::uint64_t lead)

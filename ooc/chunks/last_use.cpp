@@ -99,7 +99,8 @@ class Scan {
 
   void close_block(const TriangleBatch& batch) {
     in_block_ = 0;
-    gave_up_ = options_.give_up_when_incoherent && table_.pages().is_thrashing();
+    gave_up_ = (options_.give_up_when_incoherent && table_.pages().is_thrashing()) ||
+               carried_ / live_change_.size() > options_.most_live_vertices;
     if (!gave_up_ && options_.progress) options_.progress(batch.bytes_read);
   }
 
@@ -121,7 +122,10 @@ class Scan {
       const UseEntry before(entry);
       if (before.last_block() == block) continue;
       entry = next_use(before, block).packed();
-      introduced += before.unused() ? 1 : 0;
+      if (before.unused())
+        ++introduced;
+      else
+        carried_ += block - before.last_block();
     }
     live_change_.back() += introduced;
   }
@@ -141,6 +145,7 @@ class Scan {
     for (std::size_t b = 0; b < live_change_.size() / 2; ++b)
       live_change_[b] = live_change_[2 * b] + live_change_[2 * b + 1];
     live_change_.resize(live_change_.size() / 2);
+    carried_ /= 2;
     block_triangles_ *= 2;
   }
 
@@ -175,6 +180,8 @@ class Scan {
   io::RunningDigest digest_;  // of the reading thread
   // By block: vertices used first in it, minus those used last.
   std::vector<std::int32_t> live_change_;
+  // Over the blocks so far, the sum of the vertices known to be live at their ends.
+  std::uint64_t carried_ = 0;
   UseSummary summary_;
 };
 

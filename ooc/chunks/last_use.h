@@ -45,6 +45,8 @@ struct LastUseOptions {
   std::uint64_t allowance_bytes = 16 << 20;  // of the budget, for the table
   // Give up early on a mesh so incoherent that pages of the table would be read and written all the time.
   bool give_up_when_incoherent = false;
+  // Give up as soon as it is certain that more vertices than this are live at once.
+  std::uint64_t most_live_vertices = ~std::uint64_t{0};
   std::uint32_t most_blocks = UseEntry::kMostBlocks;
   unsigned threads = 1;  // with two or more, one reads the mesh while another fills the table
   // Called about once per block, with the number of bytes of the mesh read so far.
@@ -98,7 +100,7 @@ class LastUse {
 };
 
 // The first pass: reads all triangles of `mesh` once, starting at the first. Returns nothing if the options allow
-// giving up on an incoherent mesh, and the mesh is incoherent.
+// giving up, and it gave up.
 //
 // THROWS: what reading the mesh throws; Error{kResource} of the budget or the disk.
 // MEMORY: the allowance and 4 bytes per block.   TIME: O(triangles + vertices).

@@ -17,7 +17,7 @@ namespace reeb::ooc {
 namespace {
 
 constexpr std::array<char, 8> kMagic = {'R', 'E', 'E', 'B', 'C', 'K', 'P', '\n'};
-constexpr std::uint64_t kVersion = 8;
+constexpr std::uint64_t kVersion = 9;
 constexpr std::size_t kBufferBytes = 64 << 10;
 
 struct Header {
@@ -153,7 +153,7 @@ CheckpointLoad load_checkpoint(const std::string& path, const RunIdentity& run) 
     if (header.settings != run.settings) return of_another("is of other options");
     if (header.changed != run.changed)
       throw InputChanged("the mesh has changed since the interrupted run", "start again with --force");
-    if (header.origin > static_cast<std::uint64_t>(ChunkOrigin::kGuessed)) return useless("is damaged");
+    if (header.origin > static_cast<std::uint64_t>(ChunkOrigin::kSortedInSlabs)) return useless("is damaged");
     Checkpoint checkpoint{.place = {.triangles = header.triangles,
                                     .next_vertex = header.next_vertex,
                                     .batches = header.batches,

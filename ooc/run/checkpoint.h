@@ -33,10 +33,12 @@ RunIdentity identify_run(const std::string& mesh, std::span<VertexFunction* cons
 
 // How a run gets its chunks. A resumed run gets them in the same way.
 enum class ChunkOrigin : std::uint64_t {
-  kLookedUp = 0,  // with known last uses
-  kSorted = 1,    // with known last uses, after the mesh was sorted on disk
-  kStream = 2,    // from a stream with finalization
-  kGuessed = 3,   // while the mesh is read for the first time, with guesses
+  kLookedUp = 0,       // with known last uses
+  kSorted = 1,         // with known last uses, after the mesh was sorted on disk
+  kStream = 2,         // from a stream with finalization
+  kGuessed = 3,        // while the mesh is read for the first time, with guesses
+  kPieces = 4,         // with known last uses, its pieces in another order
+  kSortedInSlabs = 5,  // as kSorted, in an order with a shorter front
 };
 
 // The state of a run apart from its stores and engine.

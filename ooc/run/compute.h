@@ -43,7 +43,7 @@ struct ComputeOptions {
   bool replace = true;
   bool graph_only = false;
   bool keep_sidecar = false;
-  bool may_reorder = true;        // may sort an incoherent mesh on disk
+  bool may_reorder = true;        // may sort a mesh on disk that has no coherent pieces
   bool may_guess = true;          // may guess complete vertices of a reader without finalization
   std::uint32_t buckets = 64;     // K: K to 2K buckets span the range of a function; 0: no embedding
   double denoise = 0;             // remove noise below this persistence; 0: keep all

@@ -1,20 +1,16 @@
 #include "ooc/run/first_stage.h"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <utility>
 
 #include "io/file/atomic_file.h"
 #include "libreeb/base/error.h"
-#include "ooc/chunks/coherence.h"
 #include "ooc/chunks/divided_chunks.h"
 #include "ooc/chunks/guessed_chunks.h"
-#include "ooc/chunks/last_use.h"
-#include "ooc/chunks/last_use_sidecar.h"
 #include "ooc/chunks/spooled_mesh.h"
+#include "ooc/run/mesh_order.h"
 #include "ooc/run/stopwatch.h"
-#include "ooc/whole_mesh/reorder.h"
 
 // Each step below takes the result as it is so far and returns it with its own part. `start` is the
 // checkpoint to resume from, or null.
@@ -129,12 +125,6 @@ StreamRun run_stream(RunContext& run, const MeshInput& input, const Checkpoint* 
 
 // ---- a mesh that is read once, and kept on disk for what cannot be done meanwhile
 
-// Empty if no sidecar is used. With a chosen chunk size none is: its blocks can be too large for small chunks.
-std::string sidecar_path(const RunContext& run, const MeshInput& input) {
-  const bool has_file = !input.path.empty() && input.path != "-" && run.options.chunk_triangles == 0;
-  return has_file ? input.path + ".final" : "";
-}
-
 // No guessing when last uses are known or must be kept, or when values come from a file: its count is
 // checked against the vertex count before the run. A run that is resumed does as it began.
 bool may_guess(const RunContext& run, const MeshInput& input, const Checkpoint* start) {
@@ -192,168 +182,32 @@ SpooledRun run_spooled(RunContext& run, const MeshInput& input, const Checkpoint
 
 // ---- an indexed mesh, with its last uses known
 
-// Some functions keep all their values, to look up vertices.
-std::uint64_t value_bytes(const RunContext& run, std::uint64_t vertices) {
-  std::uint64_t bytes = 0;
-  for (const VertexFunction* function : run.functions) bytes += function->lookup_bytes(vertices);
-  return bytes;
-}
-
-Reservation prepare_values(RunContext& run, std::uint64_t vertices) {
-  Reservation reservation = run.budget.reserve("function values", value_bytes(run, vertices));
-  for (VertexFunction* function : run.functions) function->check_count(vertices);
-  return reservation;
-}
-
-FrontNeeds needs(const RunContext& run, const UseSummary& summary) {
-  return {summary.vertex_count, summary.max_live_vertices, value_bytes(run, summary.vertex_count)};
-}
-
-// Whether to glue the mesh in its own order. If its front does not fit, the mesh is sorted if that can be expected to
-// make the front smaller.
-bool is_coherent(const RunContext& run, const UseSummary& summary) {
-  constexpr double kSortedFront = 2;  // of a sorted mesh, in square roots of its vertices
-  const auto sorted = static_cast<std::uint64_t>(kSortedFront * std::sqrt(static_cast<double>(summary.vertex_count)));
-  if (!run.plan.fits(needs(run, summary))) return summary.max_live_vertices <= sorted;
-  MemoryPlan plan = run.plan;
-  plan.share_out(needs(run, summary));
-  return summary.max_live_vertices <= usual_front(summary.vertex_count, plan.chunk.most);
-}
-
-// The plan with a known front: chunks get what the live graphs leave.
-// THROWS: Error{kResource} if the live graphs cannot fit.
-MemoryPlan plan_for(const RunContext& run, const UseSummary& summary) {
-  MemoryPlan plan = run.plan;
-  const FrontNeeds front = needs(run, summary);
-  if (plan.exceeds(front)) {
-    const std::string megabytes = std::to_string((plan.needed_bytes(front) >> 20) + 1) + "M";
-    throw Error(ErrorKind::kResource,
-                std::to_string(front.live_vertices) + " vertices are live at once, and their graph will not fit " +
-                    format_bytes(plan.set_aside_bytes + plan.budget_bytes) + " of memory",
-                "allow --memory " + megabytes +
-                    (run.options.may_reorder ? "" : ", or let the triangles be sorted (without --no-reorder)"));
-  }
-  plan.share_out(front);
-  return plan;
-}
-
-// Sorting a mesh, and scanning it afterwards, are one pass for who waits.
-constexpr double kSorted = 0.9;
-
-void tell_sorting(const RunContext& run, double done) {
-  constexpr std::uint64_t kSteps = 10000;
-  run.tell({Phase::kReorder, static_cast<std::uint64_t>(done * kSteps), kSteps});
-}
-
-// Returns nothing if it may give up and the mesh is so incoherent that it will be sorted anyway. `sorted`: it was
-// sorted on disk.
-std::optional<LastUse> scan(RunContext& run, IndexedMesh& mesh, const Checkpoint* start, bool may_give_up,
-                            bool sorted = false) {
-  LastUseOptions options;
-  options.allowance_bytes = run.plan.table_bytes;
-  options.give_up_when_incoherent = may_give_up;
-  // A chunk is whole blocks, so small chunks need small blocks.
-  options.block_triangles = std::min<std::uint64_t>(options.block_triangles, run.plan.chunk.first);
-  if (start != nullptr) options.block_triangles = start->block_triangles;
-  options.threads = run.plan.threads;
-  options.progress = [&run, sorted, total = mesh.bytes_total()](std::uint64_t bytes_read) {
-    if (!sorted) return run.tell({Phase::kFinalization, bytes_read, total});
-    const double done = static_cast<double>(bytes_read) / static_cast<double>(std::max<std::uint64_t>(total, 1));
-    tell_sorting(run, kSorted + (1 - kSorted) * done);
-  };
-  std::optional<LastUse> uses = scan_last_use(mesh, run.temp, run.budget, options);
-  if (start != nullptr && uses && !has_usual_blocks(uses->summary())) throw DamagedState();
-  return uses;
-}
-
-// Whether the place to resume from is at the end of a block.
-bool can_start(const Checkpoint* start, const UseSummary& summary) {
-  if (start == nullptr) return true;
-  const std::uint64_t triangles = start->place.triangles;
-  return triangles == summary.triangle_count || triangles % summary.block_triangles == 0;
-}
-
-struct FoundUses {
-  std::optional<LastUse> uses;
-  bool of_sidecar = false;
-};
-
-// Takes the last uses from the sidecar if there is one that fits, and if it may be used; else from scan().
-FoundUses find_last_uses(RunContext& run, const MeshInput& input, IndexedMesh& mesh, const Checkpoint* start,
-                         bool use_sidecar, std::vector<std::string>& notes) {
-  const bool may_give_up = run.options.may_reorder && start == nullptr;
-  const std::string sidecar = sidecar_path(run, input);
-  if (sidecar.empty()) return {scan(run, mesh, start, may_give_up)};
-  const MeshIdentity identity = identify_mesh(input.path);
-  SidecarLoad known;
-  if (use_sidecar)
-    known = load_sidecar(sidecar, identity, mesh.vertex_count(), run.temp, run.budget, run.plan.table_bytes);
-  const auto is_usable = [&](const UseSummary& uses) {
-    return can_start(start, uses) && !run.plan.exceeds(needs(run, uses));
-  };
-  if (known.uses && is_usable(known.uses->summary())) return {std::move(known.uses), true};
-  if (!known.note.empty()) notes.push_back(known.note);
-  known.uses.reset();
-  std::optional<LastUse> uses = scan(run, mesh, start, may_give_up && !run.options.keep_sidecar);
-  if (uses && run.options.keep_sidecar) {
-    if (input.check_unchanged) input.check_unchanged();
-    save_sidecar(sidecar, identity, *uses);
-  }
-  return {std::move(uses)};
-}
-
-std::unique_ptr<ReorderedMesh> sort_on_disk(RunContext& run, IndexedMesh& mesh, unsigned dimension) {
-  constexpr std::uint64_t kSortBytesLimit = 64u << 20;
-  return reorder(mesh, run.temp, run.budget,
-                 {.allowance_bytes = std::min<std::uint64_t>(run.budget.free_bytes() / 2, kSortBytesLimit),
-                  .coordinates = std::min(dimension, 3u),
-                  .threads = run.options.threads,
-                  .progress = [&run](double done) { tell_sorting(run, kSorted * done); }});
-}
-
 // The content of the sidecar is not that of the mesh.
 struct WrongSidecar {};
 
+// `mesh` is the mesh of the input, or was spooled from it. It stays if the sidecar is wrong.
 // THROWS: WrongSidecar, if one may be used.
 FirstStageResult run_once(RunContext& run, const MeshInput& input, std::unique_ptr<IndexedMesh>& mesh,
                           const Checkpoint* start, bool use_sidecar, FirstStageResult result) {
-  FoundUses found;
-  std::optional<LastUse>& uses = found.uses;
-  const bool was_sorted = start != nullptr && start->origin == ChunkOrigin::kSorted;
-  if (!was_sorted) {
-    const Stopwatch watch;
-    found = find_last_uses(run, input, *mesh, start, use_sidecar, result.notes);
-    result.seconds.finalization += watch.seconds();
-  }
-  // A run that is resumed keeps the order in which it began.
-  result.reordered =
-      start != nullptr ? was_sorted : run.options.may_reorder && !(uses && is_coherent(run, uses->summary()));
-  if (result.reordered) {
-    const Stopwatch watch;
-    result.notes.push_back("neighbouring triangles lie far apart in this file, so they were sorted on disk first");
-    found = {};
-    auto sorted = sort_on_disk(run, *mesh, input.dimension);
-    result.spilled_bytes += sorted->spilled_bytes();
-    append(result.notes, mesh->warnings());
-    mesh = std::move(sorted);
-    uses = scan(run, *mesh, start, false, true);
-    result.seconds.reorder += watch.seconds();
-  }
-  const UseSummary& summary = uses->summary();
+  OrderedMesh ordered = order_mesh(run, input, std::move(mesh), start, use_sidecar);
+  append(result.notes, ordered.notes);
+  result.reordered = ordered.origin == ChunkOrigin::kSorted || ordered.origin == ChunkOrigin::kSortedInSlabs;
+  result.spilled_bytes += ordered.spilled_bytes;
+  result.seconds.finalization += ordered.seconds.finalization;
+  result.seconds.reorder += ordered.seconds.reorder;
+  const UseSummary& summary = ordered.uses.summary();
   result.unused_vertices = summary.unused_vertices;
   result.degenerate_triangles = summary.degenerate_triangles;
-  result.spilled_bytes += uses->spilled_bytes();
-  const MemoryPlan plan = plan_for(run, summary);
-  const Checkpoint here{.block_triangles = summary.block_triangles,
-                        .origin = result.reordered ? ChunkOrigin::kSorted : ChunkOrigin::kLookedUp};
+  const Checkpoint here{.block_triangles = summary.block_triangles, .origin = ordered.origin};
   try {
-    const auto source = chunks_of(*mesh, *uses, run.values, plan.chunk, place_of(start));
-    result = glue_chunks(run, *source, plan, here, std::move(result));
+    const auto source = chunks_of(*ordered.mesh, ordered.uses, run.values, ordered.plan.chunk, place_of(start));
+    result = glue_chunks(run, *source, ordered.plan, here, std::move(result));
   } catch (const InputChanged&) {
-    if (found.of_sidecar) throw WrongSidecar();
-    throw;
+    if (!ordered.of_sidecar) throw;
+    mesh = std::move(ordered.mesh);
+    throw WrongSidecar();
   }
-  append(result.notes, mesh->warnings());
+  append(result.notes, ordered.mesh->warnings());
   return result;
 }
 

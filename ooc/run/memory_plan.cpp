@@ -84,7 +84,7 @@ MemoryPlan plan_memory(const MemoryRequest& request) {
 std::uint64_t MemoryPlan::taken_bytes(const FrontNeeds& needs) const {
   const std::uint64_t directory = 4 * needs.vertices / 1024;  // of the table of last uses
   return (request_.in_place ? 1 : 2) * table_bytes + directory + request_.functions * segment_bytes +
-         needs.function_bytes;
+         needs.function_bytes + needs.order_bytes;
 }
 
 // What the smallest chunks leave for the live graphs.

@@ -24,6 +24,7 @@ struct FrontNeeds {
   std::uint64_t vertices = 0;        // in all
   std::uint64_t live_vertices = 0;   // at once, at most
   std::uint64_t function_bytes = 0;  // of values that functions keep for looking up
+  std::uint64_t order_bytes = 0;     // of the list of pieces, if these are visited in another order
 };
 
 class MemoryPlan {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <compare>
 #include <limits>
 #include <numeric>
@@ -134,6 +135,10 @@ class Reorder {
     // One scale for all axes, so that the curve's cells are cubes. Halves cannot overflow.
     double half_size = 0;
     for (std::size_t a = 0; a < axes.size(); ++a) half_size = std::max(half_size, high[a] / 2 - low[a] / 2);
+    std::size_t longest = 0;
+    for (std::size_t a = 0; a < axes.size(); ++a)
+      if (high[a] / 2 - low[a] / 2 == half_size) longest = a;
+    const std::uint64_t slabs = options_.in_slabs ? slab_count() : 1;
     constexpr double kCells = (1u << kHilbertBits) - 1;
     for_each_range(axes, [&](std::uint64_t first, std::size_t count, std::span<const double> values) {
       for (std::size_t i = 0; i < count; ++i) {
@@ -142,9 +147,19 @@ class Reorder {
           const double part = (values[a * count + i] / 2 - low[a] / 2) / half_size;
           cell[a] = static_cast<std::uint32_t>(std::clamp(part, 0.0, 1.0) * kCells);
         }
-        by_key.add({hilbert_index(cell), first + i});
+        const std::uint64_t slab = slabs * cell[longest] >> kHilbertBits;
+        by_key.add(
+            {slab << (3 * kHilbertBits - kSlabBits) | hilbert_index(cell) >> (slabs == 1 ? 0 : kSlabBits), first + i});
       }
     });
+  }
+
+  static constexpr unsigned kSlabBits = 12;
+
+  // A slab of a surface is about as thick as a hundred edges.
+  std::uint64_t slab_count() const {
+    const double edges = std::sqrt(static_cast<double>(vertex_count_));
+    return static_cast<std::uint64_t>(std::clamp(edges / 128, 1.0, double{1u << kSlabBits}));
   }
 
   // Reorders a column from the order of ids to that of ranks.

@@ -5,28 +5,49 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <ostream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "ooc/reeb_file/reeb_file.h"
 #include "ooc/run/compute.h"
+#include "ooc/whole_mesh/piece_order.h"
 #include "tests/support/complex_mesh.h"
 #include "tests/support/conservation.h"
 #include "tests/support/files.h"
+#include "tests/support/random.h"
 #include "tests/support/run_limits.h"
 #include "tests/support/scratch.h"
 
 namespace reeb::test {
 
-enum class Form { kIndexed, kStream, kUnfinalized };
+enum class Form { kIndexed, kStream, kUnfinalized, kPieces };
 constexpr Form kForms[] = {Form::kIndexed, Form::kStream, Form::kUnfinalized};
 
 inline const char* name_of(Form form) {
-  return form == Form::kIndexed ? "Indexed" : form == Form::kStream ? "Stream" : "Unfinalized";
+  constexpr const char* kNames[] = {"Indexed", "Stream", "Unfinalized", "Pieces"};
+  return kNames[static_cast<std::size_t>(form)];
+}
+
+// Cut into pieces of random lengths, in random order.
+inline std::unique_ptr<IndexedMesh> in_random_pieces(const ComplexMesh& mesh, std::uint64_t seed) {
+  Random random(seed);
+  const std::size_t most = 1 + random.below(10), count = mesh.triangles.size() / 3;
+  ooc::MeshPieces pieces;
+  for (std::size_t at = 0; at < count;) {
+    const std::size_t length = std::min(count - at, 1 + random.below(most));
+    pieces.pieces.push_back(
+        {.place = {3 * at, 0}, .rank = 0, .centre = {}, .triangles = static_cast<std::uint32_t>(length)});
+    at += length;
+  }
+  for (std::size_t i = pieces.pieces.size(); i > 1; --i)
+    std::swap(pieces.pieces[i - 1], pieces.pieces[random.below(i)]);
+  return std::make_unique<ooc::PiecewiseMesh>(std::make_unique<IndexedComplex>(mesh), std::move(pieces));
 }
 
 struct RunShape {
@@ -89,6 +110,8 @@ class Runner {
       input.reader = input.read_again();
     } else if (shape.form == Form::kUnfinalized) {
       input.reader = std::make_unique<UnfinalizedComplex>(mesh, seed);
+    } else if (shape.form == Form::kPieces) {
+      input.indexed = in_random_pieces(mesh, seed);
     } else {
       input.indexed = std::make_unique<IndexedComplex>(mesh);
     }

@@ -96,6 +96,27 @@ TEST(Pipeline, WritesTheSameBytesHoweverItRuns) {
   }
 }
 
+// Pieces of any lengths in any order.
+TEST(Pipeline, PiecesInAnyOrderGiveTheSameBytes) {
+  const std::uint64_t seed = base_seed(), cases = case_count(2'000);
+  Runner runner;
+  for (std::uint64_t i = 0; i < cases; ++i) {
+    const Complex complex = random_complex(seed + i);
+    const ComplexMesh mesh(complex);
+    const std::vector<std::size_t> chunks = all_chunk_sizes();
+    RunShape shape{chunks[i % chunks.size()], static_cast<unsigned>(1 + i % 3), Form::kPieces};
+    if (i % 4 == 0 && shape.chunk_triangles != 0 && shape.chunk_triangles <= 7)
+      shape.stretch_triangles = 20 * shape.chunk_triangles;
+    runner.options().buckets = 64;
+    ASSERT_NO_FATAL_FAILURE(
+        expect_graph(take_graph(runner.run(mesh, shape, {3}, i)[0]), reference_reeb(complex), complex))
+        << shape;
+    runner.options().buckets = 0;
+    const std::string expected = take_bytes(runner.run(mesh, {shape.chunk_triangles, 1, Form::kIndexed})[0]);
+    ASSERT_TRUE(take_bytes(runner.run(mesh, shape, {3}, i)[0]) == expected) << shape << '\n' << describe(complex);
+  }
+}
+
 // With an embedding and noise removal for each function, by its own range.
 TEST(Pipeline, SeveralFunctionsInOneRunEqualSingleRuns) {
   const std::uint64_t seed = base_seed(), cases = case_count(500);

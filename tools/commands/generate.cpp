@@ -53,8 +53,8 @@ void check_options(const GenerateArguments& arguments) {
   if (arguments.mesh.width && sierpinski)
     refuse("--width", "leave it out; --triangles and --dimension say how large it is");
   if (arguments.dimension && !sierpinski) refuse("--dimension", "leave it out; only a sierpinski has one");
-  const bool is_random =
-      kind == io::MeshKind::kTerrain || kind == io::MeshKind::kScan || arguments.mesh.order == io::MeshOrder::kRandom ||
+  const bool is_random = kind == io::MeshKind::kTerrain || kind == io::MeshKind::kScan ||
+                         arguments.mesh.order == io::MeshOrder::kRandom ||
                          arguments.mesh.order == io::MeshOrder::kRandomTiles;
   if (arguments.seed && !is_random)
     print_line(fmt::format("note: nothing is random in a {} in this order, so --seed changes nothing", arguments.kind));

@@ -13,16 +13,15 @@ namespace {
 
 using testing::scalar_bytes;
 
-
 // Faces of up to `most` corners, with a property before and one after the list if `extra`.
 std::string polygons(std::uint64_t seed, std::size_t most, bool extra, bool big_endian) {
   std::mt19937_64 random(seed);
   constexpr std::uint32_t kVertices = 300, kFaces = 2000;
   std::string bytes = std::string("ply\nformat binary_") + (big_endian ? "big" : "little") +
                       "_endian 1.0\nelement vertex " + std::to_string(kVertices) +
-                      "\nproperty float x\nproperty float y\nproperty float z\nelement face " +
-                      std::to_string(kFaces) + "\n" + (extra ? "property float weight\n" : "") +
-                      "property list uchar int vertex_indices\n" + (extra ? "property ushort group\n" : "") +
+                      "\nproperty float x\nproperty float y\nproperty float z\nelement face " + std::to_string(kFaces) +
+                      "\n" + (extra ? "property float weight\n" : "") + "property list uchar int vertex_indices\n" +
+                      (extra ? "property ushort group\n" : "") +
                       "element other 3\nproperty list uchar char names\nend_header\n";
   for (std::uint32_t v = 0; v < kVertices; ++v)
     for (std::uint32_t k = 0; k < 3; ++k) bytes += scalar_bytes(static_cast<float>(v * k), big_endian);

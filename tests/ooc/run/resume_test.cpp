@@ -313,6 +313,30 @@ TEST(Resume, KeepsToTheOrderInWhichTheRunBegan) {
   }
 }
 
+// The same for a mesh in tiles: its pieces are visited in another order.
+TEST(Resume, KeepsToTheOrderOfPieces) {
+  constexpr std::uint64_t kColumns = 301;
+  ModelMesh mesh = in_random_tiles(grid_mesh(kColumns, 301), kColumns, 5, 1);
+  for (double& z : mesh.columns[2]) z /= 64;  // else the tiles are near each other, compared with the edges
+  for (const Form form : {Form::kBinary, Form::kText}) {
+    Runs runs(mesh, form);
+    runs.options.buckets = 0;
+    runs.options.graph_only = true;
+    runs.options.chunk_triangles = 4096;
+    Notes notes;
+    const std::string expected = runs.finish(false, notes);
+    EXPECT_NE(testing::PrintToString(notes).find("pieces"), std::string::npos) << testing::PrintToString(notes);
+    for (const std::uint64_t n : {1u, 9u, 30u}) {
+      runs.options.memory_bytes = MemoryBudget::kUnlimited;
+      ASSERT_TRUE(runs.stop_after(n, false));
+      runs.options.memory_bytes = n == 9 ? 24 << 20 : MemoryBudget::kUnlimited;
+      ASSERT_EQ(runs.finish(true, notes), expected) << "after chunk " << n;
+      EXPECT_NE(testing::PrintToString(notes).find("continues from there"), std::string::npos);
+      EXPECT_NE(testing::PrintToString(notes).find("pieces"), std::string::npos);
+    }
+  }
+}
+
 TEST(Resume, StartsAnewFromWhatIsDamaged) {
   Runs runs(grid_mesh(250, 250), Form::kBinary, "random:1");
   runs.options.graph_only = true;  // the least budget has no room for the second stage
