@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t kTrianglesAtOnce = 512;
 constexpr std::size_t kTrianglesPerEdge = 32;  // of which one is looked up
 // In edges. Tiles that are nearer than this are as good as one piece.
-constexpr double kFar = 16, kLarge = 128;
+constexpr double kFar = 16, kLarge = 256;
 // On average, a piece must have some triangles, or sorting is cheaper than visiting pieces.
 constexpr std::uint64_t kLeastTriangles = 24, kFirstPieces = 64;
 // To hold a piece, and to order pieces.
