@@ -8,6 +8,7 @@
 #include "libreeb/base/error.h"
 #include "ooc/chunks/divided_chunks.h"
 #include "ooc/chunks/guessed_chunks.h"
+#include "ooc/chunks/last_use_sidecar.h"
 #include "ooc/chunks/spooled_mesh.h"
 #include "ooc/run/mesh_order.h"
 #include "ooc/run/stopwatch.h"

@@ -188,7 +188,8 @@ TEST(PieceOrder, StripsAreSweptAcross) {
   ASSERT_TRUE(cut.has_value());
   order_pieces(*cut);
   PiecewiseMesh mesh(std::move(indexed), std::move(*cut));
-  EXPECT_LT(scan_last_use(mesh, temp, budget, {.block_triangles = 256})->summary().max_live_vertices, 4 * kColumns);
+  // A few rows, where the order of the strips has a third of all vertices.
+  EXPECT_LT(scan_last_use(mesh, temp, budget, {.block_triangles = 256})->summary().max_live_vertices, 6 * kColumns);
   EXPECT_GT(front_of(model.corners, model.vertex_count(), 256), 50'000u);
 }
 
