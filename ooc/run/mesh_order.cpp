@@ -27,6 +27,8 @@ constexpr double kSortedFront = 2;
 constexpr double kHilbertFront = 14;
 // A front of this share of the vertices costs less time than sorting.
 constexpr std::uint64_t kQuickShare = 8;
+// Of this share, less than finding pieces; up to this front, whose graph takes some 90 MB where memory is free.
+constexpr std::uint64_t kQuickerShare = 64, kMostOfShare = 131072;
 // Sorting a mesh, and scanning it afterwards, are one pass for who waits.
 constexpr double kSorted = 0.9;
 // Of a budget that is free, for the list of pieces.
@@ -223,10 +225,16 @@ class Ordering {
     return static_cast<std::uint64_t>(square_roots * std::sqrt(static_cast<double>(mesh_->vertex_count())));
   }
 
+  // A front that is glued as quickly as pieces are found.
+  std::uint64_t quick_front(std::uint64_t most_triangles) const {
+    const std::uint64_t vertices = mesh_->vertex_count();
+    return std::max(std::min(vertices / kQuickerShare, kMostOfShare), usual_front(vertices, most_triangles));
+  }
+
   // No larger front than this suits.
   std::uint64_t largest_front() const {
     return std::max(sorted_front(kSortedFront),
-                    std::min(run_.plan.most_live_vertices(), usual_front(mesh_->vertex_count(), run_.plan.chunk.most)));
+                    std::min(run_.plan.most_live_vertices(), quick_front(run_.plan.chunk.most)));
   }
 
   // Whether another order could hardly be better.
@@ -235,7 +243,7 @@ class Ordering {
     if (!run_.plan.fits(front)) return !sorting_helps(front.live_vertices);
     MemoryPlan plan = run_.plan;
     plan.share_out(front);
-    return front.live_vertices <= usual_front(front.vertices, plan.chunk.most);
+    return front.live_vertices <= quick_front(plan.chunk.most);
   }
 
   // Whether the mesh can be glued in less time than sorting it takes.
