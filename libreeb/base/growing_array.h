@@ -12,6 +12,7 @@
 #include <new>
 #include <span>
 #include <type_traits>
+#include <utility>
 
 #include "libreeb/base/state_stream.h"
 
@@ -21,6 +22,25 @@ template <class T>
 class GrowingArray {
  public:
   static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T>);
+
+  GrowingArray() = default;
+  GrowingArray(const GrowingArray& other) {
+    grow_by(other.size_);
+    std::copy_n(other.data_.get(), size_, data_.get());
+  }
+  GrowingArray(GrowingArray&& other) noexcept
+      : data_(std::move(other.data_)),
+        size_(std::exchange(other.size_, 0)),
+        capacity_(std::exchange(other.capacity_, 0)),
+        most_(std::exchange(other.most_, 0)) {}
+  GrowingArray& operator=(GrowingArray other) noexcept {
+    std::swap(data_, other.data_);
+    std::swap(size_, other.size_);
+    std::swap(capacity_, other.capacity_);
+    std::swap(most_, other.most_);
+    return *this;
+  }
+  ~GrowingArray() = default;
 
   T& operator[](std::size_t i) { return data_.get()[i]; }
   const T& operator[](std::size_t i) const { return data_.get()[i]; }

@@ -25,6 +25,17 @@ namespace reeb {
 class Glue {
  public:
   Glue(GraphSink& sink, bool track_positions) : sink_(&sink), graph_(sink, track_positions) {}
+  // A copy that goes its own way: of the graph alone, without positions, buckets and noise removal. What is added to it
+  // must have none of them either. O(live graph).
+  Glue(const Glue& other, GraphSink& sink)
+      : sink_(&sink),
+        graph_(other.graph_, sink),
+        node_of_(other.node_of_),
+        edge_of_(other.edge_of_),
+        edges_(other.edges_),
+        links_(other.links_),
+        first_free_edge_(other.first_free_edge_),
+        first_link_(other.first_link_) {}
 
   // Adds the next fragment of the stream.
   // REQUIRES: a vertex that it marks kUsedEarlier was marked kUsedLater in an earlier fragment; its options are not

@@ -43,6 +43,13 @@ class LiveGraph {
 
   // Settled nodes and arcs go to `sink` when flush() is called.
   LiveGraph(GraphSink& sink, bool track_positions) : sink_(&sink), track_positions_(track_positions) {}
+  // A copy of the graph alone: without positions, buckets and noise removal. REQUIRES: as save().
+  LiveGraph(const LiveGraph& other, GraphSink& sink)
+      : sink_(&sink),
+        track_positions_(false),
+        nodes_(other.nodes_),
+        arcs_(other.arcs_),
+        references_(other.references_) {}
 
   // Sets the noise threshold and the width of buckets, for what follows.
   void set_options(const SweepOptions& options);

@@ -55,10 +55,10 @@ std::uint32_t StreamChunker::slot_of(VertexId v, const char* use) const {
 // The vertex in the chunk, added to it if it is not there yet.
 std::uint32_t StreamChunker::bring_in(VertexId v, std::uint32_t slot) {
   if (local_[slot] != kNone) return local_[slot];
-  const bool used_earlier = std::exchange(state_[slot], State::kUsed) == State::kUsed;
   local_[slot] = static_cast<std::uint32_t>(chunk_.vertex_count());
   chunk_.ids.push_back(v);
-  chunk_.uses.push_back(static_cast<std::uint8_t>(kUsedLater | (used_earlier ? kUsedEarlier : 0)));
+  chunk_.uses.push_back(state_[slot] == State::kTaken ? kUsedEarlier : kUsedHereOnly);
+  if (state_[slot] == State::kUnused) state_[slot] = State::kInChunk;
   if (track_positions_) chunk_.positions.push_back(slot_positions_[slot]);
   for (std::size_t k = 0; k < functions_; ++k) values_[k].push_back(slot_values_[slot * functions_ + k]);
   slot_of_local_.push_back(slot);
@@ -91,22 +91,79 @@ void StreamChunker::finalize_all() {
 // A vertex that is not in the chunk is added as a loose vertex, so that gluing the chunk completes it.
 void StreamChunker::finalize(VertexId v, std::uint32_t slot) {
   const std::uint32_t local = bring_in(v, slot);
-  chunk_.uses[local] &= static_cast<std::uint8_t>(~kUsedLater);
   slot_of_local_[local] = kNone;
+  ++final_in_chunk_;
   state_[slot] = State::kFree;
   slot_of_.erase(v.value());
   free_slots_.push_back(slot);
 }
 
 void StreamChunker::take(Chunk& chunk, std::vector<std::vector<double>>& values) {
-  for (const std::uint32_t slot : slot_of_local_)
-    if (slot != kNone) local_[slot] = kNone;
-  slot_of_local_.clear();
+  for (std::size_t local = 0; local < slot_of_local_.size(); ++local) {
+    const std::uint32_t slot = slot_of_local_[local];
+    if (slot == kNone) continue;
+    chunk_.uses[local] |= kUsedLater;
+    state_[slot] = State::kTaken;
+    local_[slot] = kNone;
+  }
   std::swap(chunk, chunk_);
   std::swap(values, values_);
+  start_chunk();
+}
+
+void StreamChunker::start_chunk() {
   chunk_.clear();
   values_.resize(functions_);
   for (auto& column : values_) column.clear();
+  slot_of_local_.clear();
+  final_in_chunk_ = 0;
+}
+
+void StreamChunker::take_final(Chunk& chunk, std::vector<std::vector<double>>& values) {
+  const Chunk whole = std::move(chunk_);
+  const std::vector<std::vector<double>> whole_values = std::move(values_);
+  const std::vector<std::uint32_t> slots = std::move(slot_of_local_);
+  start_chunk();
+  chunk.clear();
+  values.resize(functions_);
+  for (auto& column : values) column.clear();
+
+  // The numbers of vertices in the chunk that leaves, which all final ones are in.
+  std::vector<std::uint32_t> leaving(slots.size(), kNone);
+  const auto leave = [&](std::uint32_t local) {
+    if (leaving[local] != kNone) return;
+    const std::uint32_t slot = slots[local];
+    leaving[local] = static_cast<std::uint32_t>(chunk.vertex_count());
+    chunk.ids.push_back(whole.ids[local]);
+    chunk.uses.push_back(static_cast<std::uint8_t>(whole.uses[local] | (slot == kNone ? 0 : kUsedLater)));
+    if (track_positions_) chunk.positions.push_back(whole.positions[local]);
+    for (std::size_t k = 0; k < functions_; ++k) values[k].push_back(whole_values[k][local]);
+    if (slot != kNone) state_[slot] = State::kTaken;
+  };
+  for (std::uint32_t local = 0; local < slots.size(); ++local) {
+    if (slots[local] == kNone)
+      leave(local);
+    else
+      local_[slots[local]] = kNone;
+  }
+  const auto each_triangle = [&](const auto& visit) {
+    for (std::size_t i = 0; i < whole.corners.size(); i += 3) {
+      const auto corners = std::span(whole.corners).subspan(i, 3);
+      visit(corners, std::any_of(corners.begin(), corners.end(), [&](std::uint32_t c) { return slots[c] == kNone; }));
+    }
+  };
+  each_triangle([&](std::span<const std::uint32_t> corners, bool has_final) {
+    if (!has_final) return;
+    for (const std::uint32_t c : corners) {
+      leave(c);
+      chunk.corners.push_back(leaving[c]);
+    }
+  });
+  // Only now is it known which vertices of the triangles that stay are also in the chunk that leaves.
+  each_triangle([&](std::span<const std::uint32_t> corners, bool has_final) {
+    if (has_final) return;
+    for (const std::uint32_t c : corners) chunk_.corners.push_back(bring_in(whole.ids[c], slots[c]));
+  });
 }
 
 std::size_t StreamChunker::memory_bytes() const {

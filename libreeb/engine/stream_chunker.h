@@ -35,11 +35,20 @@ class StreamChunker {
 
   // The triangles of the chunk so far, or its vertices, whichever are more.
   std::size_t chunk_size() const { return std::max(chunk_.triangle_count(), chunk_.vertex_count()); }
-  // Moves the chunk so far out, with one array of values per function, and starts the next.
-  void take(Chunk& chunk, std::vector<std::vector<double>>& values);
+  // The final ones among its vertices.
+  std::size_t final_in_chunk() const { return final_in_chunk_; }
+  // The chunk so far, as if it were the last one: no vertex is marked kUsedLater. One array of values per function.
+  const Chunk& chunk() const { return chunk_; }
+  const std::vector<std::vector<double>>& values() const { return values_; }
 
-  // Calls visit(values, vertex) for the vertices that no simplex has used yet and that are not final. No chunk so far
-  // has them.
+  // Moves the chunk so far out, with its values, and starts the next.
+  void take(Chunk& chunk, std::vector<std::vector<double>>& values);
+  // Moves out only the triangles with a final vertex, and the final vertices. The others stay in the chunk so far.
+  // O(chunk so far).
+  void take_final(Chunk& chunk, std::vector<std::vector<double>>& values);
+
+  // Calls visit(values, vertex) for the vertices that no simplex has used yet and that are not final. No chunk has
+  // them, and neither has the chunk so far.
   template <class Visit>
   void for_each_unused(const Visit& visit) const {
     for (std::size_t slot = 0; slot < state_.size(); ++slot)
@@ -53,14 +62,16 @@ class StreamChunker {
 
  private:
   static constexpr std::uint32_t kNone = ~std::uint32_t{0};
-  // The state of a slot. A vertex counts as used when a chunk has it, not when it arrives: otherwise all edges of a
-  // mesh whose vertices come first would count as shared.
-  enum class State : std::uint8_t { kFree, kUnused, kUsed };
+  // The state of a slot: its vertex is in no chunk yet, only in the chunk so far, or in a chunk that was taken. A
+  // vertex does not count as used when it arrives: otherwise all edges of a mesh whose vertices come first would be
+  // shared.
+  enum class State : std::uint8_t { kFree, kUnused, kInChunk, kTaken };
 
   std::uint32_t slot_of(VertexId v, const char* use) const;
   std::uint32_t bring_in(VertexId v, std::uint32_t slot);
   void add_triangle(VertexId a, VertexId b, VertexId c);
   void finalize(VertexId v, std::uint32_t slot);
+  void start_chunk();
 
   std::size_t functions_;
   bool track_positions_;
@@ -78,6 +89,7 @@ class StreamChunker {
   Chunk chunk_;
   std::vector<std::vector<double>> values_;
   std::vector<std::uint32_t> slot_of_local_;  // kNone once the vertex is final
+  std::size_t final_in_chunk_ = 0;
   std::vector<VertexId> corners_;
 };
 

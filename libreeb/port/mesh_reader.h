@@ -94,6 +94,8 @@ class MeshReader {
 
   // The memory that it holds so far and that grows with the mesh.
   virtual std::uint64_t memory_bytes() const { return 0; }
+  // What a user can do if that is too much, other than allowing more; empty: nothing.
+  virtual std::string memory_hint() const { return {}; }
 
   // Harmless oddities of the input, one line each ("3 unknown lines were skipped"). Complete at the end of the mesh.
   virtual std::vector<std::string> warnings() const { return {}; }

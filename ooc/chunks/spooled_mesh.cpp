@@ -64,11 +64,7 @@ std::uint64_t SpooledMesh::spilled_bytes() const {
 }
 
 Spooler::Spooler(MeshReader& reader, const io::TempDir& temp, MemoryBudget& budget, std::uint64_t allowance_bytes)
-    : reader_(reader),
-      temp_(temp),
-      budget_(budget),
-      allowance_bytes_(allowance_bytes),
-      reader_memory_(budget.reserve("mesh reader", 0)) {}
+    : reader_(reader), temp_(temp), budget_(budget), allowance_bytes_(allowance_bytes), reader_memory_(budget) {}
 
 bool Spooler::read() {
   if (ended_) return false;
@@ -80,7 +76,7 @@ bool Spooler::read() {
   }
   if (!some) return false;
   digest_.add(batch_);
-  reader_memory_.resize(reader_.memory_bytes());
+  reader_memory_.update(reader_);
   append_faces(batch_.tetrahedra, batch_.triangles);
   batch_.tetrahedra.clear();
   mesh_->append(batch_);

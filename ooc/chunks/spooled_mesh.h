@@ -11,6 +11,7 @@
 #include "libreeb/port/indexed_mesh.h"
 #include "libreeb/port/mesh_reader.h"
 #include "ooc/chunks/batch_digest.h"
+#include "ooc/chunks/reader_memory.h"
 #include "ooc/tables/triangle_log.h"
 #include "ooc/tables/vertex_column.h"
 
@@ -85,7 +86,7 @@ class Spooler {
   const io::TempDir& temp_;
   MemoryBudget& budget_;
   std::uint64_t allowance_bytes_;
-  Reservation reader_memory_;
+  ReaderMemory reader_memory_;
   MeshBatch batch_;
   BatchDigest digest_;
   std::unique_ptr<SpooledMesh> mesh_;

@@ -2,19 +2,21 @@
 #include "ooc/chunks/batch_digest.h"
 #include "ooc/chunks/chunk_growth.h"
 #include "ooc/chunks/chunk_source.h"
+#include "ooc/chunks/reader_memory.h"
 
 namespace reeb::ooc {
 namespace {
 
 class StreamChunks : public ChunkSource {
  public:
-  StreamChunks(MeshReader& reader, FunctionValues& functions, ChunkSize size, const ChunkPlace& start,
-               std::optional<std::uint64_t> most_active_vertices)
+  StreamChunks(MeshReader& reader, FunctionValues& functions, MemoryBudget& budget, ChunkSize size,
+               const ChunkPlace& start, std::optional<std::uint64_t> most_active_vertices)
       : reader_(reader),
         functions_(functions),
         size_(size),
         most_active_vertices_(most_active_vertices),
-        chunker_(functions.function_count(), true) {
+        chunker_(functions.function_count(), true),
+        reader_memory_(budget) {
     pass_over(start);
   }
 
@@ -37,6 +39,7 @@ class StreamChunks : public ChunkSource {
   ChunkGrowth size_;                                   // in triangles
   std::optional<std::uint64_t> most_active_vertices_;  // set if it may give up
   StreamChunker chunker_;
+  ReaderMemory reader_memory_;
   std::uint64_t triangles_read_ = 0;
   std::uint64_t batches_ = 0;
   BatchDigest digest_;
@@ -96,6 +99,7 @@ void StreamChunks::read_batch() {
     return;
   }
   digest_.add(batch_);
+  reader_memory_.update(reader_);
   add_vertices();
   add_simplices(batch_.triangles, 3);
   add_simplices(batch_.tetrahedra, 4);
@@ -126,9 +130,10 @@ void StreamChunks::add_simplices(const std::vector<VertexId>& corners, std::size
 
 }  // namespace
 
-std::unique_ptr<ChunkSource> chunks_of(MeshReader& reader, FunctionValues& functions, ChunkSize size,
-                                       const ChunkPlace& start, std::optional<std::uint64_t> most_active_vertices) {
-  return std::make_unique<StreamChunks>(reader, functions, size, start, most_active_vertices);
+std::unique_ptr<ChunkSource> chunks_of(MeshReader& reader, FunctionValues& functions, MemoryBudget& budget,
+                                       ChunkSize size, const ChunkPlace& start,
+                                       std::optional<std::uint64_t> most_active_vertices) {
+  return std::make_unique<StreamChunks>(reader, functions, budget, size, start, most_active_vertices);
 }
 
 }  // namespace reeb::ooc

@@ -112,7 +112,8 @@ StreamRun run_stream(RunContext& run, const MeshInput& input, const Checkpoint* 
   std::optional<std::uint64_t> most_active_vertices;
   if (run.options.may_reorder && input.read_again && start == nullptr)
     most_active_vertices = run.plan.most_live_vertices();
-  const auto source = chunks_of(*input.reader, run.values, run.plan.chunk, place_of(start), most_active_vertices);
+  const auto source =
+      chunks_of(*input.reader, run.values, run.budget, run.plan.chunk, place_of(start), most_active_vertices);
   result = glue_chunks(run, *source, run.plan, {.origin = ChunkOrigin::kStream}, std::move(result));
   if (source->given_up()) {
     result.notes.push_back("too many vertices of the stream are live at once, so it was read again and sorted on disk");

@@ -31,6 +31,7 @@ class LiveFunction {
       graph_.add_vertex(values_[i]);
     }
   }
+  std::uint64_t memory_bytes() const { return graph_.memory_bytes(); }
   void add_simplex(std::span<const VertexId> corners) { graph_.add_simplex(corners); }
   void finalize(VertexId v) { graph_.finalize(v); }
 
@@ -76,7 +77,12 @@ class SnapshotReader : public MeshReader {
 
   const MeshInfo& info() const override { return reader_->info(); }
   std::uint64_t bytes_read() const override { return reader_->bytes_read(); }
-  std::uint64_t memory_bytes() const override { return reader_->memory_bytes(); }
+  std::uint64_t memory_bytes() const override { return reader_->memory_bytes() + graph_bytes_; }
+  std::string memory_hint() const override {
+    if (info().finalizes) return reader_->memory_hint();
+    return "convert the mesh with reeb convert --finalize first; without finalization, snapshots keep all triangles in "
+           "memory";
+  }
   std::vector<std::string> warnings() const override {
     std::vector<std::string> all = reader_->warnings();
     for (const LiveFunction& graph : graphs_)
@@ -93,10 +99,18 @@ class SnapshotReader : public MeshReader {
     add_simplices(batch.tetrahedra, 4, 4);
     for (const VertexId v : batch.finalized)
       for (LiveFunction& graph : graphs_) graph.finalize(v);
+    count_memory();
     return true;
   }
 
  private:
+  // Counts in steps, since whoever reserves it does so again for each change.
+  void count_memory() {
+    std::uint64_t bytes = 0;
+    for (const LiveFunction& graph : graphs_) bytes += graph.memory_bytes();
+    if (bytes > graph_bytes_ || bytes < graph_bytes_ / 2) graph_bytes_ = bytes + bytes / 16;
+  }
+
   void add_simplices(std::span<const VertexId> corners, std::size_t size, std::uint64_t triangles) {
     for (std::size_t at = 0; at < corners.size(); at += size) {
       for (LiveFunction& graph : graphs_) graph.add_simplex(corners.subspan(at, size));
@@ -114,7 +128,7 @@ class SnapshotReader : public MeshReader {
   std::unique_ptr<MeshReader> reader_;
   std::uint64_t every_, next_;
   std::vector<LiveFunction> graphs_;
-  std::uint64_t number_ = 0, vertices_ = 0, triangles_ = 0;
+  std::uint64_t number_ = 0, vertices_ = 0, triangles_ = 0, graph_bytes_ = 0;
 };
 
 }  // namespace

@@ -18,7 +18,7 @@ namespace reeb {
 // function's output without ".reeb": whole files without levels, each appearing in one step. Such files are replaced
 // only if `existing` says so; then warnings() names those of an earlier run that are left. `functions` must outlive the
 // reader and is not evaluated elsewhere at the same time.
-// COST: the on-line graph comes on top of the run; memory follows the front and the graph.
+// COST: the on-line graphs come on top of the run. They, and what a snapshot takes, are in memory_bytes().
 std::unique_ptr<MeshReader> with_snapshots(std::unique_ptr<MeshReader> reader, std::uint64_t every,
                                            std::span<VertexFunction* const> functions,
                                            std::span<const std::string> outputs, io::Existing existing);

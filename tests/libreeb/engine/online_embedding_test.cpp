@@ -99,7 +99,10 @@ TEST(Embedding, ConservesVerticesAndPositionsInAnyStream) {
       SCOPED_TRACE(testing::Message() << "batches of " << batch << ", noise below " << noise_below << ", " << buckets
                                       << " buckets");
       EmbeddingSink sink;
-      OnlineReeb engine({.batch_triangles = batch, .noise_below = noise_below, .buckets = buckets}, &sink);
+      OnlineReeb::Options options = any_waiting(batch, random);
+      options.noise_below = noise_below;
+      options.buckets = buckets;
+      OnlineReeb engine(options, &sink);
       Player(complex, any_finalization(random), random.next()).play(engine);
       engine.finish();
       expect_conserved(sink, complex.positions);

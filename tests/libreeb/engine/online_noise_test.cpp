@@ -66,7 +66,9 @@ void OnlineNoise::check_case(std::uint64_t seed) {
   }
   for (const std::size_t batch : kBatches) {
     SCOPED_TRACE(batch);
-    OnlineReeb engine({.batch_triangles = batch, .noise_below = threshold});
+    OnlineReeb::Options options = any_waiting(batch, random);
+    options.noise_below = threshold;
+    OnlineReeb engine(options);
     Player(complex, any_finalization(random), random.next()).play(engine);
     const ReebGraph snapshot = engine.snapshot();
     expect_same_in_the_end(snapshot, engine.removed_pairs(), exact, threshold);

@@ -75,7 +75,7 @@ TEST(OnlineReeb, EqualsTheDefinitionOnRandomComplexes) {
     Random random(seed + i);
     for (const std::size_t batch : kBatches) {
       const Finalization finalization = any_finalization(random);
-      OnlineReeb engine({.batch_triangles = batch});
+      OnlineReeb engine(any_waiting(batch, random));
       Player(complex, finalization, random.next()).play(engine);
       ASSERT_TRUE(same_graph(engine.snapshot(), expected))
           << "batches of " << batch << ", finalization " << static_cast<int>(finalization) << '\n'
@@ -95,7 +95,7 @@ TEST(OnlineReeb, IsExactAfterEverySingleInsertion) {
     if (complex.simplices.size() > 40) continue;
     Random random(seed + i);
     for (const std::size_t batch : kBatches) {
-      OnlineReeb engine({.batch_triangles = batch});
+      OnlineReeb engine(any_waiting(batch, random));
       Player(complex, any_finalization(random), random.next())
           .play(engine, [&](std::size_t vertices, std::size_t simplices) {
             const ReebGraph expected = reference_reeb(beginning(complex, vertices, simplices));
@@ -117,7 +117,7 @@ TEST(OnlineReeb, DoesNotDependOnTheOrderOfSimplices) {
     Random random(seed + i);
     for (const std::size_t batch : kBatches) {
       const Complex other = shuffled(complex, random.next());
-      OnlineReeb engine({.batch_triangles = batch});
+      OnlineReeb engine(any_waiting(batch, random));
       Player(other, any_finalization(random), random.next()).play(engine);
       ASSERT_TRUE(same_graph(engine.snapshot(), expected)) << "batches of " << batch << '\n' << describe(other);
     }
@@ -134,7 +134,7 @@ TEST(OnlineReeb, HandsEverythingToTheSinkExactlyOnce) {
     for (const std::size_t batch : kBatches) {
       SCOPED_TRACE(batch);
       CollectingSink sink;
-      OnlineReeb engine({.batch_triangles = batch}, &sink);
+      OnlineReeb engine(any_waiting(batch, random), &sink);
       Player(complex, any_finalization(random), random.next()).play(engine);
       engine.finish();
       expect_written_once(sink, expected, complex);
@@ -163,9 +163,13 @@ TEST(OnlineReeb, HandsOverWhatIsFinalBeforeTheEnd) {
 // Shapes on which a careless engine is quadratic; their graphs are known.
 class LargeShapes : public testing::TestWithParam<std::size_t> {
  protected:
+  // Where triangles are glued batch by batch, and where they wait.
   static ReebGraph graph_of(const Complex& complex, Finalization finalization) {
-    OnlineReeb engine({.batch_triangles = GetParam()});
+    OnlineReeb engine({.batch_triangles = GetParam(), .waiting_triangles = 0}),
+        waiting({.batch_triangles = GetParam()});
     Player(complex, finalization, 1).play(engine);
+    Player(complex, finalization, 1).play(waiting);
+    EXPECT_EQ(waiting.snapshot(), engine.snapshot());
     return without_positions(engine.snapshot());
   }
   static ReebGraph arc(std::uint64_t lo, std::uint64_t hi, const Complex& complex) {

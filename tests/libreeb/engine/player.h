@@ -14,8 +14,9 @@
 
 namespace reeb::test {
 
-// When vertices are finalized: never, as soon as no later simplex names them, or some time later.
-enum class Finalization { kNever, kAtOnce, kLater };
+// When vertices are finalized: never, as soon as no later simplex names them, some time later, or every other one
+// never.
+enum class Finalization { kNever, kAtOnce, kLater, kPartly };
 
 // Adds a complex in its order. Vertices come when a simplex first needs them or, at random, before. After each simplex,
 // `step` is called with the numbers of vertices and simplices added so far.
@@ -56,10 +57,11 @@ class Player {
   // Finalizes, in random order, vertices that no simplex after this one names.
   void finalize_some(OnlineReeb& engine, std::size_t simplex) {
     if (finalization_ == Finalization::kNever) return;
-    const unsigned percent = finalization_ == Finalization::kAtOnce ? 100 : 30;
+    const unsigned percent = finalization_ == Finalization::kLater ? 30 : 100;
     random_.shuffle(waiting_);
     std::erase_if(waiting_, [&](std::size_t v) {
       if (last_use_[v] > simplex || !random_.chance(percent)) return false;
+      if (finalization_ == Finalization::kPartly && random_.chance(50)) return true;
       engine.finalize(VertexId(v));
       return true;
     });
@@ -72,6 +74,13 @@ class Player {
   std::size_t added_ = 0;
 };
 
-inline Finalization any_finalization(Random& random) { return static_cast<Finalization>(random.below(3)); }
+inline Finalization any_finalization(Random& random) { return static_cast<Finalization>(random.below(4)); }
+
+// Sweeps batches of this number of triangles. At random, triangles wait for final vertices, some of them, or none.
+inline OnlineReeb::Options any_waiting(std::size_t batch, Random& random) {
+  OnlineReeb::Options options{.batch_triangles = batch};
+  if (random.chance(70)) options.waiting_triangles = random.chance(60) ? 0 : random.below(30);
+  return options;
+}
 
 }  // namespace reeb::test
