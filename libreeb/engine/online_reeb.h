@@ -20,12 +20,11 @@ namespace reeb {
 // THREADS: one thread at a time for each object, also for snapshot(). Different objects share nothing. The thread that
 //          adds also calls the sink.
 // TIME:    adding a simplex or finalizing a vertex takes O(log k) for k that wait, on average, and the steps of the
-// paths
-//          that gluing goes over, which are short where the live graph is small.
+//          paths that gluing goes over, which are short where the live graph is small.
 // MEMORY:  the vertices that are not final, the simplices that wait (see Options::waiting_triangles), and the live
 //          graph; without a sink also the settled graph, 32 bytes per arc. Where each vertex is finalized after its
-//          last simplex, and neighbouring simplices come soon after each other, that is little. Without finalize() all
-//          simplices wait: 60 to 110 bytes per triangle of a surface, and about 150 more during snapshot() and
+//          last simplex, that is little: 1 to 3 KB per vertex that is used and not final. Without finalize() all
+//          simplices wait: 60 bytes per triangle of a surface in any order, and 60 to 130 more during snapshot() and
 //          finish(). For a mesh in a file, reeb::compute() is then the better choice: it finds out by itself which
 //          vertices are final.
 // An Error from a call leaves the graph as it was before the call; one from a sink does not.
@@ -34,8 +33,8 @@ class OnlineReeb {
   struct Options {
     std::size_t batch_triangles = 4096;  // at least that many simplices are swept at a time
     // Simplices wait until three quarters of their vertices are final; then those with a final vertex are glued. If
-    // more than this number wait, all of them are glued. That can take 12 KB per triangle, but it is bounded where few
-    // vertices have very many simplices. At most 2^30.
+    // more than this number wait, all of them are glued. That can take 12 KB per triangle, but less where few vertices
+    // have very many simplices. At most 2^30.
     std::size_t waiting_triangles = std::size_t{1} << 30;
     // Leaves of less persistence are removed as soon as they are certain to be noise; the others stay.
     double noise_below = 0;

@@ -52,9 +52,7 @@ std::uint32_t StreamChunker::slot_of(VertexId v, const char* use) const {
                     : "add every vertex before the first simplex that uses it");
 }
 
-// The vertex in the chunk, added to it if it is not there yet.
-std::uint32_t StreamChunker::bring_in(VertexId v, std::uint32_t slot) {
-  if (local_[slot] != kNone) return local_[slot];
+std::uint32_t StreamChunker::add_to_chunk(VertexId v, std::uint32_t slot) {
   local_[slot] = static_cast<std::uint32_t>(chunk_.vertex_count());
   chunk_.ids.push_back(v);
   chunk_.uses.push_back(state_[slot] == State::kTaken ? kUsedEarlier : kUsedHereOnly);

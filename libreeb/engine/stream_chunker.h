@@ -68,7 +68,11 @@ class StreamChunker {
   enum class State : std::uint8_t { kFree, kUnused, kInChunk, kTaken };
 
   std::uint32_t slot_of(VertexId v, const char* use) const;
-  std::uint32_t bring_in(VertexId v, std::uint32_t slot);
+  // The vertex in the chunk, added to it if it is not there yet.
+  std::uint32_t bring_in(VertexId v, std::uint32_t slot) {
+    return local_[slot] != kNone ? local_[slot] : add_to_chunk(v, slot);
+  }
+  std::uint32_t add_to_chunk(VertexId v, std::uint32_t slot);
   void add_triangle(VertexId a, VertexId b, VertexId c);
   void finalize(VertexId v, std::uint32_t slot);
   void start_chunk();
