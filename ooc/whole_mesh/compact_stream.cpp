@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <numeric>
-#include <ranges>
 #include <vector>
 
 #include "ooc/tables/paged_table.h"
@@ -67,7 +66,9 @@ class CompactStream {
     new_ids_.clear();
     new_places_.clear();
     // Backwards, since the pages read last are still in memory.
-    for (const std::uint32_t n : std::views::reverse(stretch.lookup_order())) {
+    const auto order = stretch.lookup_order();
+    for (auto it = order.rbegin(); it != order.rend(); ++it) {
+      const std::uint32_t n = *it;
       if (here_[n].number < first_new) continue;
       places_.change(vertices[n].value()).number = here_[n].number;
       new_ids_.push_back(vertices[n]);
