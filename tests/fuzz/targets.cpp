@@ -19,6 +19,7 @@
 #include "io/streaming/stream_mesh_reader.h"
 #include "ooc/reeb_file/reeb_file.h"
 #include "tests/fuzz/corpus.h"
+#include "tests/fuzz/inner_targets.h"
 #include "tests/fuzz/legality.h"
 #include "tests/fuzz/memory_file.h"
 #include "tests/fuzz/memory_source.h"
@@ -276,11 +277,19 @@ const std::array<FuzzTarget, 16> kTargets = {{
 
 }  // namespace
 
-std::span<const FuzzTarget> fuzz_targets() { return kTargets; }
+std::span<const FuzzTarget> fuzz_targets() {
+  static const std::vector<FuzzTarget> all = [] {
+    std::vector<FuzzTarget> targets(kTargets.begin(), kTargets.end());
+    for (const FuzzTarget& target : inner_fuzz_targets()) targets.push_back(target);
+    return targets;
+  }();
+  return all;
+}
 
 const FuzzTarget* find_fuzz_target(std::string_view name) {
-  const auto found = std::ranges::find(kTargets, name, &FuzzTarget::name);
-  return found == kTargets.end() ? nullptr : &*found;
+  const auto targets = fuzz_targets();
+  const auto found = std::ranges::find(targets, name, &FuzzTarget::name);
+  return found == targets.end() ? nullptr : &*found;
 }
 
 }  // namespace reeb::test

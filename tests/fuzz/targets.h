@@ -1,4 +1,4 @@
-// The targets of fuzzing: one for every reader of the project.
+// The targets of fuzzing: one for every reader of the project, and the engine.
 #pragma once
 
 #include <cstdint>
