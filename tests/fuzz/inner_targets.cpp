@@ -11,16 +11,20 @@
 #include <limits>
 #include <stdexcept>
 
+#include "io/file/checksum.h"
 #include "io/functions/function_source.h"
 #include "libreeb/engine/online_reeb.h"
 #include "libreeb/hierarchy/denoise.h"
+#include "ooc/chunks/last_use_sidecar.h"
 #include "ooc/reeb_file/reeb_file.h"
+#include "ooc/run/checkpoint.h"
 #include "ooc/run/compute.h"
 #include "ooc/stored_graph/segment_store.h"
 #include "tests/fuzz/legality.h"
 #include "tests/fuzz/memory_file.h"
 #include "tests/libreeb/engine/player.h"
 #include "tests/model/reference_reeb.h"
+#include "tests/ooc/chunks/model_mesh.h"
 #include "tests/support/complex_mesh.h"
 #include "tests/support/files.h"
 #include "tests/support/random.h"
@@ -329,15 +333,119 @@ std::vector<std::string> function_names() {
   return {"x", "z", "c0", "c18446744073709551615", "index", "random:1", "property:red", "file:a/b.f64", "c", "random:"};
 }
 
+// ---- what is kept for later runs
+
+const ooc::MeshIdentity kMesh{1, 2, 3};
+const ooc::RunIdentity kRun{4, 5, 6};
+constexpr std::size_t kGridWidth = 20;
+
+std::uint64_t number_at(const std::string& bytes, std::size_t at) {
+  std::uint64_t number = 0;
+  std::memcpy(&number, bytes.data() + at, sizeof number);
+  return number;
+}
+std::uint64_t checksum_of(const std::string& bytes, std::size_t begin, std::size_t end, std::uint64_t seed = 0) {
+  return io::checksum(std::as_bytes(std::span(bytes)).subspan(begin, end - begin), seed);
+}
+void put_number(std::string& bytes, std::size_t at, std::uint64_t number) {
+  std::memcpy(bytes.data() + at, &number, sizeof number);
+}
+
+bool run_sidecar(const std::string& bytes) {
+  static const ooc::Scratch temporary;
+  const MemoryFile file(bytes);
+  MemoryBudget budget(64 << 20);
+  const io::TempDir temp(temporary.path());
+  constexpr std::uint64_t kVertices = kGridWidth * kGridWidth;
+  ooc::SidecarLoad load = ooc::load_sidecar(file.path(), kMesh, kVertices, temp, budget, 1 << 16);
+  expect(load.uses.has_value() == load.note.empty(), "a sidecar that is not used has a note");
+  if (!load.uses) return false;
+  std::vector<std::uint32_t> entries(kVertices);
+  load.uses->read(VertexId(0), entries);
+  for (const std::uint32_t entry : entries)
+    expect(ooc::UseEntry(entry).unused() || ooc::UseEntry(entry).last_block() < load.uses->summary().block_count,
+           "the last block of a vertex exists");
+  return true;
+}
+
+std::vector<std::string> sidecars() {
+  const ooc::Scratch scratch;
+  const io::TempDir temp(scratch.path());
+  MemoryBudget budget;
+  const ooc::ModelMesh mesh = ooc::grid_mesh(kGridWidth, kGridWidth);
+  std::vector<std::string> files;
+  for (const std::uint64_t block : {1u, 64u, 4096u}) {
+    ooc::ModelIndexedMesh indexed(mesh);
+    auto uses = ooc::scan_last_use(indexed, temp, budget, {.block_triangles = block});
+    const std::string path = scratch.path() + "/mesh.final";
+    ooc::save_sidecar(path, kMesh, *uses);
+    files.push_back(read_file(path));
+  }
+  return files;
+}
+
+// Of the header, and of the one block of entries.
+void fix_sidecar_checksums(std::string& bytes) {
+  constexpr std::size_t kHeader = 104;
+  if (bytes.size() < kHeader) return;
+  const std::uint64_t samples = number_at(bytes, kHeader - 8);
+  if (samples > bytes.size() / 8 || kHeader + 8 * samples + 8 > bytes.size()) return;
+  const std::size_t profile_end = kHeader + 8 * static_cast<std::size_t>(samples);
+  put_number(bytes, profile_end, checksum_of(bytes, kHeader, profile_end, checksum_of(bytes, 0, kHeader)));
+  const std::size_t block = profile_end + 8;
+  if (block + 16 > bytes.size()) return;
+  const std::uint64_t packed = number_at(bytes, block);
+  if (packed > bytes.size() - block - 16) return;
+  put_number(bytes, block + 8, checksum_of(bytes, block + 16, block + 16 + static_cast<std::size_t>(packed)));
+}
+
+bool run_checkpoint(const std::string& bytes) {
+  const MemoryFile file(bytes);
+  const ooc::CheckpointLoad load = ooc::load_checkpoint(file.path(), kRun);
+  expect(load.checkpoint.has_value() == load.note.empty(), "a checkpoint that is not used has a note");
+  if (!load.checkpoint) return false;
+  try {
+    std::vector<std::uint64_t> array;
+    while (load.state->left() != 0) load.state->get_array(array);
+  } catch (const DamagedState&) {
+    return false;
+  }
+  return true;
+}
+
+std::vector<std::string> checkpoints() {
+  const ooc::Scratch scratch;
+  const std::string path = scratch.path() + "/checkpoint";
+  std::vector<std::string> files;
+  for (std::uint64_t ranges = 1; ranges < 4; ++ranges) {
+    ooc::Checkpoint checkpoint;
+    checkpoint.place = {.triangles = 8192, .next_vertex = 7, .batches = 3, .chunk_blocks = 2, .ranges = {}};
+    checkpoint.place.ranges.resize(static_cast<std::size_t>(ranges));
+    checkpoint.block_triangles = 4096;
+    ooc::write_checkpoint(path, kRun, checkpoint, [&](StateWriter& out) {
+      out.put_array(std::vector<std::uint64_t>(static_cast<std::size_t>(5 * ranges), 9));
+      out.put_array(std::vector<std::uint64_t>{1, 2, 3});
+    });
+    files.push_back(read_file(path));
+  }
+  return files;
+}
+
+void fix_checkpoint_checksum(std::string& bytes) {
+  if (bytes.size() >= 8) put_number(bytes, bytes.size() - 8, checksum_of(bytes, 0, bytes.size() - 8));
+}
+
 constexpr std::string_view kFunctionWords[] = {"x", "c", "index", "random:", "property:", "file:", ":", "/"};
 
-const std::array<FuzzTarget, 7> kTargets = {{
+const std::array<FuzzTarget, 9> kTargets = {{
     {"engine", run_engine, random_choices, {}, nullptr},
     {"pipeline", run_pipeline, random_choices, {}, nullptr},
     {"nodes", run_node_block, node_blocks, {}, nullptr},
     {"arcs", run_arc_block, arc_blocks, {}, nullptr},
     {"values", run_value_text, value_texts, {}, nullptr},
     {"raw-values", run_raw_values, raw_values, {}, nullptr},
+    {"sidecar", run_sidecar, sidecars, {}, fix_sidecar_checksums},
+    {"checkpoint", run_checkpoint, checkpoints, {}, fix_checkpoint_checksum},
     {"function", run_function_name, function_names, kFunctionWords, nullptr},
 }};
 
