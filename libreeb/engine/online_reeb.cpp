@@ -52,8 +52,8 @@ class OnlineReeb::Impl {
   // To be called after each addition and finalization.
   void advance() {
     ++arrived_;
-    const std::size_t waiting = chunker_.chunk_size();
-    if (waiting >= std::max(options_.batch_triangles, options_.waiting_triangles)) {
+    const std::size_t most = std::max(options_.batch_triangles, options_.waiting_triangles);
+    if (chunker_.chunk_size() >= std::min(most, kMostSwept)) {
       chunker_.take(batch_, values_);
       glue_batch();
     } else if (arrived_ >= options_.batch_triangles && arrived_ >= stayed_ / kStayedPerArrived && is_mostly_final()) {
@@ -100,6 +100,7 @@ class OnlineReeb::Impl {
  private:
   // Measured bytes, of the sweep and of its graph: the most, for random functions.
   static constexpr std::uint64_t kSweptSimplex = 120, kSweptVertex = 60, kFewSimplices = 4096;
+  static constexpr std::size_t kMostSwept = std::size_t{1} << 30;
   // So the simplices that stay are not gone over too often.
   static constexpr std::size_t kStayedPerArrived = 4;
 

@@ -34,7 +34,7 @@ class OnlineReeb {
     std::size_t batch_triangles = 4096;  // at least that many simplices are swept at a time
     // Simplices wait until three quarters of their vertices are final; then those with a final vertex are glued. If
     // more than this number wait, all of them are glued. That can take 12 KB per triangle, but less where few vertices
-    // have very many simplices. At most 2^30.
+    // have very many simplices. Never more than 2^30 wait.
     std::size_t waiting_triangles = std::size_t{1} << 30;
     // Leaves of less persistence are removed as soon as they are certain to be noise; the others stay.
     double noise_below = 0;
