@@ -349,8 +349,8 @@ TEST_F(Convert, SnapshotsObeyTheMemoryLimit) {
   constexpr std::uint64_t kLimit = 16 << 20;
   expect_success("generate scan --triangles 60k -o scan.ply");
   const auto compute = [&](const std::string& mesh) {
-    return run_process({.arguments = {REEB_PROGRAM, "compute", mesh, "-o", "live.reeb", "--graph-only", "--quiet",
-                                      "--memory", "16M", "--snapshot-every", "20000"},
+    return run_process({.arguments = {REEB_PROGRAM, "compute", mesh, "-o", "live.reeb", "--force", "--graph-only",
+                                      "--quiet", "--memory", "16M", "--snapshot-every", "20000"},
                         .folder = folder_.string()});
   };
   const auto refused = compute("scan.ply");
