@@ -189,9 +189,9 @@ bool run_block(const std::string& bytes, const Decode& decode) {
   Choices head(bytes);
   std::size_t count = head.next();
   count = (count | head.next() << 8) % kMostRecords;
-  std::vector<std::byte> packed(bytes.size() - 2);
-  std::memcpy(packed.data(), bytes.data() + 2, packed.size());
-  return decode(count, std::span<const std::byte>(packed));
+  const auto rest = std::as_bytes(std::span(bytes)).subspan(2);
+  const std::vector<std::byte> packed(rest.begin(), rest.end());
+  return decode(count, std::span(packed));
 }
 
 bool run_node_block(const std::string& bytes) {
