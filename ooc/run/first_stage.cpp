@@ -54,6 +54,7 @@ class PolledReader : public MeshReader {
   std::unique_ptr<IndexedMesh> indexed() const override { return reader_->indexed(); }
   std::uint64_t bytes_read() const override { return reader_->bytes_read(); }
   std::uint64_t memory_bytes() const override { return reader_->memory_bytes(); }
+  std::string memory_hint() const override { return reader_->memory_hint(); }
   std::vector<std::string> warnings() const override { return reader_->warnings(); }
 
  private:

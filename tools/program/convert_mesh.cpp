@@ -38,6 +38,7 @@ class WatchedReader : public MeshReader {
   const MeshInfo& info() const override { return reader_.info(); }
   std::uint64_t bytes_read() const override { return reader_.bytes_read(); }
   std::uint64_t memory_bytes() const override { return reader_.memory_bytes(); }
+  std::string memory_hint() const override { return reader_.memory_hint(); }
   std::vector<std::string> warnings() const override { return reader_.warnings(); }
   bool read(MeshBatch& batch) override {
     const bool more = reader_.read(batch);
