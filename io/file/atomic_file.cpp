@@ -105,16 +105,16 @@ void require_output_folder(const std::string& path) {
 
 void remove_abandoned(const std::string& path) {
   if (is_device(path)) return;
-  const std::string target = follow_links(path), prefix = fs::path(target).filename().string() + kSuffix;
-  std::error_code error;
-  for (fs::directory_iterator entry(folder_of(target), error), end; !error && entry != end; entry.increment(error)) {
-    const std::string name = entry->path().filename().string();
-    if (!name.starts_with(prefix) || !is_number_pair(std::string_view(name).substr(prefix.size()))) continue;
-    const int file = system::open(entry->path().string(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK);
-    if (file < 0) continue;
-    if (::flock(file, LOCK_EX | LOCK_NB) == 0) ::unlink(entry->path().c_str());
+  const std::string target = follow_links(path), folder = folder_of(target);
+  const std::string prefix = fs::path(target).filename().string() + kSuffix;
+  for_each_name(folder, [&](std::string_view name) {
+    if (!name.starts_with(prefix) || !is_number_pair(name.substr(prefix.size()))) return;
+    const std::string place = folder + "/" + std::string(name);
+    const int file = system::open(place, O_RDONLY | O_NOFOLLOW | O_NONBLOCK);
+    if (file < 0) return;
+    if (::flock(file, LOCK_EX | LOCK_NB) == 0) ::unlink(place.c_str());
     ::close(file);
-  }
+  });
 }
 
 AtomicFile::AtomicFile(const std::string& path, const AtomicOptions& options) : path_(path), options_(options) {
@@ -135,8 +135,8 @@ void AtomicFile::open_temporary() {
     const int descriptor = system::open(name, O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW, 0600);
     if (descriptor < 0 && errno == EEXIST) continue;
     if (descriptor < 0) throw_output_error(errno, path_);
-    file = File(descriptor, path_, File::Use::kOutput);
     temporary_ = TemporaryName(std::move(name));
+    file = File(descriptor, path_, File::Use::kOutput);
     // The lock is for remove_abandoned(). If that ran between the two calls, it has removed the file, and another is
     // created.
     ::flock(descriptor, LOCK_EX);

@@ -1,5 +1,6 @@
 #include "io/file/file.h"
 
+#include <dirent.h>
 #include <fcntl.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
@@ -7,6 +8,8 @@
 
 #include <cerrno>
 #include <cstring>
+#include <memory>
+#include <string_view>
 #include <utility>
 
 #include "io/file/system.h"
@@ -43,6 +46,15 @@ std::string folder_of(const std::string& path) {
   return slash == 0 ? "/" : path.substr(0, slash);
 }
 
+void for_each_name(const std::string& folder, const std::function<void(const char*)>& visit) {
+  const std::unique_ptr<DIR, void (*)(DIR*)> entries(::opendir(folder.c_str()), [](DIR* open) { ::closedir(open); });
+  if (entries == nullptr) return;
+  while (const dirent* const entry = ::readdir(entries.get())) {
+    const std::string_view name = entry->d_name;
+    if (name != "." && name != "..") visit(entry->d_name);
+  }
+}
+
 void sync_folder(const std::string& folder) {
   if (const int error = system::sync_folder(folder); error != 0) throw_output_error(error, folder);
 }
@@ -66,7 +78,10 @@ void Mapping::release_pages() const noexcept {
   if (!bytes_.empty()) ::madvise(const_cast<std::byte*>(bytes_.data()), bytes_.size(), MADV_DONTNEED);
 }
 
-File::File(int descriptor, std::string path, Use use) : descriptor_(descriptor), path_(std::move(path)), use_(use) {}
+File::File(int descriptor, const std::string& path, Use use) try : descriptor_(descriptor), path_(path), use_(use) {
+} catch (...) {
+  ::close(descriptor);
+}
 
 File::File(File&& other) noexcept
     : descriptor_(std::exchange(other.descriptor_, -1)), path_(std::move(other.path_)), use_(other.use_) {}

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -21,6 +22,10 @@ bool is_device(const std::string& path);
 
 // The folder that holds `path`.
 std::string folder_of(const std::string& path);
+
+// Visits the names in `folder`, without "." and ".."; none if it cannot be read. `visit` may remove what it is given.
+// The iterators of std::filesystem end the process when memory is out; this allocates nothing with operator new.
+void for_each_name(const std::string& folder, const std::function<void(const char*)>& visit);
 
 // Returns once the names in `folder` are on the device, as far as the file system can tell.
 // THROWS: Error{kResource}.
@@ -56,8 +61,8 @@ class File {
   enum class Use { kInput, kTemporary, kOutput };  // what errors say and advise
 
   File() = default;
-  // Takes over `descriptor`. `path` names the file in messages, even if it was unlinked.
-  File(int descriptor, std::string path, Use use);
+  // Takes over `descriptor`, also if memory is out. `path` names the file in messages, even if it was unlinked.
+  File(int descriptor, const std::string& path, Use use);
   File(File&& other) noexcept;
   File& operator=(File&& other) noexcept;
   ~File();

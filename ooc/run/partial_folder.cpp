@@ -8,9 +8,8 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
-#include <new>
 #include <string_view>
-#include <system_error>
+#include <utility>
 
 #include "io/file/file.h"
 #include "io/file/system.h"
@@ -70,46 +69,37 @@ bool others_may_write(int folder, mode_t mode) {
 }  // namespace
 
 PartialFolder::PartialFolder(const std::string& output) : path_(path_for(output)) {
-  // Try again if the run that owned the folder removed it just before it was locked.
-  bool is_new = false;
-  do {
-    if (folder_ >= 0) ::close(folder_);
-    is_new = open();
-  } while (!is_named(folder_, path_));
   try {
+    // Try again if the run that owned the folder removed it just before it was locked.
+    do {
+      if (folder_ >= 0) ::close(std::exchange(folder_, -1));
+      open();
+    } while (!is_named(folder_, path_));
     claim();
   } catch (...) {
-    if (is_new) ::rmdir(path_.c_str());
-    ::close(folder_);
+    if (is_new_) ::rmdir(path_.c_str());
+    if (folder_ >= 0) ::close(folder_);
     throw;
   }
 }
 
-// Returns whether it has made the folder.
-bool PartialFolder::open() {
-  bool is_new = false;
-  const auto fail = [this, &is_new](const char* what, const char* hint) {
-    const int error = errno;
-    if (is_new) ::rmdir(path_.c_str());
-    errno = error;
+void PartialFolder::open() {
+  const auto fail = [this](const char* what, const char* hint) {
     throw Error(ErrorKind::kResource, std::string(what) + ": " + std::strerror(errno), io::hint_for(errno, hint))
         .at(path_);
   };
   const char* elsewhere = "write the output to a folder that exists and is writable";
-  is_new = ::mkdir(path_.c_str(), 0700) == 0;
-  if (!is_new && errno != EEXIST) fail("cannot be created", elsewhere);
+  is_new_ = ::mkdir(path_.c_str(), 0700) == 0;
+  if (!is_new_ && errno != EEXIST) fail("cannot be created", elsewhere);
   if (fs::is_symlink(path_)) refuse("is a symbolic link, not a folder that a run has made");
   folder_ = io::system::open(path_, O_RDONLY | O_DIRECTORY | O_NOFOLLOW);
   if (folder_ < 0) fail("cannot be opened", elsewhere);
   if (::access(path_.c_str(), W_OK | X_OK) != 0) fail("cannot be written", elsewhere);
   // A file system without locks must not prevent a run.
-  if (::flock(folder_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
-    ::close(folder_);
+  if (::flock(folder_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
     throw Error(ErrorKind::kResource, "another run is writing this output",
                 "wait until it has ended, or choose another output with -o")
         .at(path_);
-  }
-  return is_new;
 }
 
 // The folder is ours if it has the mark. An empty folder gets the mark: the run that created it could have ended before
@@ -121,7 +111,7 @@ void PartialFolder::claim() {
   // In such a folder, the name of a file can become a link to another file at any moment.
   if (others_may_write(folder_, folder.st_mode)) refuse("can be written by other users");
   if (::fstatat(folder_, kMark, &mark, AT_SYMLINK_NOFOLLOW) == 0 && S_ISREG(mark.st_mode)) return;
-  if (!entries().empty()) refuse("has files in it and no mark that a run has made it");
+  if (has_other_than("")) refuse("has files in it and no mark that a run has made it");
   const int made = io::system::open(file(kMark), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW, 0600);
   if (made < 0) io::throw_output_error(errno, path_);
   ::close(made);
@@ -136,7 +126,7 @@ void PartialFolder::refuse(const char* why) const {
 PartialFolder::~PartialFolder() {
   if (!has_checkpoint()) {
     clear();
-    if (has_only_the_mark()) {
+    if (!has_other_than(kMark)) {  // files of another origin keep the folder, with its mark for the next run
       ::unlinkat(folder_, kMark, 0);
       ::rmdir(path_.c_str());
     }
@@ -144,36 +134,26 @@ PartialFolder::~PartialFolder() {
   ::close(folder_);
 }
 
-// If not, files of another origin keep the folder, with its mark for the next run.
-bool PartialFolder::has_only_the_mark() const noexcept try {
-  const auto left = entries();
-  return left.size() == 1 && left[0] == kMark;
-} catch (const std::bad_alloc&) {
-  return false;
-}
-
 bool PartialFolder::has_checkpoint(const std::string& output) { return exists(path_for(output) + "/checkpoint"); }
 
-bool PartialFolder::has_checkpoint() const { return exists(checkpoint()); }
+bool PartialFolder::has_checkpoint() const noexcept { return ::faccessat(folder_, "checkpoint", F_OK, 0) == 0; }
 
 void PartialFolder::sync_name() {
   if (!name_is_synced_) io::sync_folder(io::folder_of(path_));
   name_is_synced_ = true;
 }
 
-void PartialFolder::clear() noexcept try {
+void PartialFolder::clear() noexcept {
   if (::unlinkat(folder_, "checkpoint", 0) == 0) io::system::sync(folder_);
-  for (const std::string& name : entries())
-    if (is_name_of_a_run(name)) ::unlinkat(folder_, name.c_str(), 0);
-} catch (const std::bad_alloc&) {  // the next run removes the rest
+  io::for_each_name(path_, [this](const char* name) {
+    if (is_name_of_a_run(name)) ::unlinkat(folder_, name, 0);
+  });
 }
 
-std::vector<std::string> PartialFolder::entries() const {
-  std::vector<std::string> names;
-  std::error_code error;
-  for (fs::directory_iterator entry(path_, error), end; !error && entry != end; entry.increment(error))
-    names.push_back(entry->path().filename().string());
-  return names;
+bool PartialFolder::has_other_than(std::string_view known) const noexcept {
+  bool has = false;
+  io::for_each_name(path_, [&](std::string_view name) { has = has || name != known; });
+  return has;
 }
 
 }  // namespace reeb::ooc

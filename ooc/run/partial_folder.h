@@ -3,7 +3,7 @@
 #pragma once
 
 #include <string>
-#include <vector>
+#include <string_view>
 
 namespace reeb::ooc {
 
@@ -29,7 +29,7 @@ class PartialFolder {
   const std::string& path() const { return path_; }
   std::string file(const std::string& name) const { return path_ + "/" + name; }
   std::string checkpoint() const { return file("checkpoint"); }
-  bool has_checkpoint() const;
+  bool has_checkpoint() const noexcept;
 
   // Call this before the first checkpoint: it makes the folder's own name reach the device.
   void sync_name();
@@ -39,14 +39,14 @@ class PartialFolder {
   void clear() noexcept;
 
  private:
-  bool open();
+  void open();
   void claim();
   [[noreturn]] void refuse(const char* why) const;
-  std::vector<std::string> entries() const;
-  bool has_only_the_mark() const noexcept;
+  bool has_other_than(std::string_view name) const noexcept;
 
   std::string path_;
   int folder_ = -1;  // open and locked
+  bool is_new_ = false;
   bool name_is_synced_ = false;
 };
 

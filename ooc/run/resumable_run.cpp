@@ -108,17 +108,22 @@ bool ResumableRun::is_due() const {
 
 Error ResumableRun::explain(const Error& error) {
   if (!folder_) return error;
-  if (error.kind() == ErrorKind::kBadInput) folder_->clear();  // running again would fail in the same way
+  ErrorKind kind = error.kind();
   std::string hint = error.hint();
-  // The files that grow in this folder are not in the temporary folder.
-  if (error.file().starts_with(folder_->path())) hint = "make room in this folder, or choose another output with -o";
+  // The files that grow in this folder are not in the temporary folder. None of them is an input.
+  if (error.file().starts_with(folder_->path())) {
+    hint = kind == ErrorKind::kBadInput ? "check the disk, or choose another output with -o"
+                                        : "make room in this folder, or choose another output with -o";
+    kind = ErrorKind::kResource;
+  }
+  if (kind == ErrorKind::kBadInput) folder_->clear();  // running again would fail in the same way
   if (folder_->has_checkpoint()) {
     const std::string go_on = "the same command with --resume continues the run";
-    hint = error.kind() == ErrorKind::kInterrupted ? go_on : hint + "; then " + go_on;
-  } else if (error.kind() == ErrorKind::kInterrupted) {
+    hint = kind == ErrorKind::kInterrupted ? go_on : hint + "; then " + go_on;
+  } else if (kind == ErrorKind::kInterrupted) {
     hint = "run it again; it ended too early to be resumed";
   }
-  Error explained(error.kind(), error.message(), hint);
+  Error explained(kind, error.message(), hint);
   explained.at(error.file(), error.position());
   return explained;
 }

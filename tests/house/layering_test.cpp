@@ -51,7 +51,7 @@ const Rooms kRooms = {
     {"tools/program", {"libreeb", "io", "ooc", "tools/library"}},
     {"tools/commands", {"libreeb", "io", "ooc", "tools/library", "tools/program"}},
     {"tools", {"libreeb", "io", "ooc", "tools"}},
-    {"tests", {"libreeb", "io", "ooc", "tools/library", "tools/program", "tests"}},
+    {"tests", {"libreeb", "io", "ooc", "tools", "tests"}},
     {"bench", {"libreeb", "io", "ooc", "tests/support", "bench"}},
 };
 
