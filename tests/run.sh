@@ -1,11 +1,14 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds, and runs the tests.
 #
-#   tests/run.sh [--preset release|asan|tsan|dev] [--label LABEL] [--sanitize | --all] [--no-skips]
+#   tests/run.sh [--preset release|asan|tsan|dev] [--label LABEL] [--only NAME,NAME...]
+#                [--all | --sanitize] [--no-skips]
 #
-# Runs all tests of the preset (release), or those with the ctest label. --sanitize runs instead those
-# that find something with sanitizers: the labels asan and tsan with their presets. --all runs both.
-# REEB_CASES=N sets how many random cases the model tests try.
+# Runs all tests of the preset (release), or those with the ctest label; --only builds and runs the
+# programs of these names (soak_test). --all runs the release tests, and with sanitizers those that find
+# something there: the labels asan and tsan with their presets. --sanitize runs every test with both
+# presets, asan (with undefined behaviour) and tsan, in an hour or more. REEB_CASES=N sets how many
+# random cases the model tests try; with --sanitize 100 if it is not set.
 #
 # What is skipped is printed with its reason. The last line is `N passed, N failed, N skipped`. It counts
 # test cases (TEST and TEST_P of GoogleTest; a script is one case), each as often as ctest runs it.
@@ -16,14 +19,14 @@ cd "$(dirname "$0")/.."
 
 usage() { sed -n '2,/^set /s/^# \{0,1\}//p' "$0"; }
 runs=()  # PRESET:LABEL
-preset=release label= no_skips=
+preset=release label= names= no_skips=
 while [[ $# -gt 0 ]]; do
   case $1 in
-    --preset | --label)
+    --preset | --label | --only)
       [[ $# -ge 2 ]] || { echo "error: $1 needs a value" >&2; exit 2; }
-      if [[ $1 == --preset ]]; then preset=$2; else label=$2; fi
+      case $1 in --preset) preset=$2 ;; --label) label=$2 ;; --only) names=$2 ;; esac
       shift 2 ;;
-    --sanitize) runs=(asan:asan tsan:tsan); shift ;;
+    --sanitize) runs=(asan: tsan:); export REEB_CASES=${REEB_CASES:-100}; shift ;;
     --all) runs=(release: asan:asan tsan:tsan); shift ;;
     --no-skips) no_skips=1; shift ;;
     -h | --help) usage; exit 0 ;;
@@ -77,15 +80,19 @@ note_skips() {  # of a test, a reason a line
 }
 
 run() {  # PRESET LABEL
-  local folder=build/$1 options=() target=all status=0
+  local folder=build/$1 options=() targets=(all) status=0
   if [[ -n $2 ]]; then options=(-L "^$2\$"); fi
-  if [[ $1 == "$2" ]]; then target=$2_tests; fi
+  if [[ $1 == "$2" ]]; then targets=("$2_tests"); fi
+  if [[ -n $names ]]; then
+    options+=(-R "^(${names//,/|})\$")
+    IFS=, read -ra targets <<<"$names"
+  fi
   step "configure, preset $1"
   mkdir -p "$folder"
   cmake --preset "$1" -DREEB_WERROR=ON >"$folder/configure-log.txt" 2>&1 ||
     { cat "$folder/configure-log.txt"; exit 1; }
-  step "build $target of preset $1 with $jobs jobs"
-  NINJA_STATUS='[%f/%t] ' cmake --build --preset "$1" --target "$target" -j "$jobs"
+  step "build ${targets[*]} of preset $1 with $jobs jobs"
+  NINJA_STATUS='[%f/%t] ' cmake --build --preset "$1" --target "${targets[@]}" -j "$jobs"
   step "test, preset $1"
   rm -rf "$folder/test-results"
   mkdir -p "$folder/test-results"

@@ -181,9 +181,9 @@ std::string snapshot_name(const std::string& stem, std::uint64_t number) {
 std::vector<std::uint64_t> existing_snapshots(const std::string& stem) {
   const std::string name = fs::path(stem).filename().string();
   std::vector<std::uint64_t> numbers;
-  std::error_code error;
-  for (fs::directory_iterator entry(io::folder_of(stem), error), end; !error && entry != end; entry.increment(error))
-    if (const auto number = snapshot_number(entry->path().filename().string(), name)) numbers.push_back(*number);
+  io::for_each_name(io::folder_of(stem), [&](const char* found) {
+    if (const auto number = snapshot_number(found, name)) numbers.push_back(*number);
+  });
   std::sort(numbers.begin(), numbers.end());
   return numbers;
 }
