@@ -11,7 +11,6 @@
 
 #include "tests/io/streaming/samples.h"
 #include "tests/support/data.h"
-#include "tests/support/process.h"
 #include "tests/support/same.h"
 #include "tests/tools/event_list.h"
 #include "tests/tools/program.h"
@@ -343,30 +342,6 @@ TEST_F(Convert, SnapshotsAreTheGraphsOfTheStreamSoFar) {
   EXPECT_EQ(snapshots, 3u);
   EXPECT_FALSE(std::filesystem::exists(path("live-000004.reeb")));
   expect_success("verify live.reeb");
-}
-
-TEST_F(Convert, SnapshotsObeyTheMemoryLimit) {
-  constexpr std::uint64_t kLimit = 16 << 20;
-  expect_success("generate scan --triangles 60k -o scan.ply");
-  const auto compute = [&](const std::string& mesh) {
-    return run_process({.arguments = {REEB_PROGRAM, "compute", mesh, "-o", "live.reeb", "--force", "--graph-only",
-                                      "--quiet", "--memory", "16M", "--snapshot-every", "20000"},
-                        .folder = folder_.string()});
-  };
-  const auto refused = compute("scan.ply");
-  EXPECT_EQ(refused.exit_code, 3);
-  EXPECT_NE(refused.error.find("hint: convert the mesh with reeb convert --finalize first"), std::string::npos)
-      << refused.error;
-  EXPECT_FALSE(std::filesystem::exists(path("live.reeb")));
-
-  expect_success("convert scan.ply scan.smc --finalize");
-  const auto done = compute("scan.smc");
-  EXPECT_EQ(done.exit_code, 0) << done.error;
-  EXPECT_TRUE(std::filesystem::exists(path("live-000003.reeb")));
-  if (!kSanitized) {
-    EXPECT_LE(refused.peak_rss_bytes, kLimit);
-    EXPECT_LE(done.peak_rss_bytes, kLimit);
-  }
 }
 
 }  // namespace
