@@ -140,6 +140,7 @@ class StreamSource final : public ContentSource {
   std::optional<std::uint64_t> size() const override { return std::nullopt; }
   std::uint64_t file_bytes_read() const override { return input_->consumed(); }
   std::uint64_t file_bytes() const override { return file_bytes_; }
+  std::uint64_t memory_bytes() const override { return input_->memory_bytes(); }
 
  private:
   static constexpr std::size_t kBufferBytes = std::size_t{1} << 18;

@@ -43,6 +43,9 @@ class ContentSource {
   // The file, if it is uncompressed: it can be read at any place without being opened again. Else null.
   virtual std::shared_ptr<const InputFile> file() const { return nullptr; }
 
+  // What it holds to unpack its content, as far as is known from what was read.
+  virtual std::uint64_t memory_bytes() const { return 0; }
+
   // Its name in error messages.
   const std::string& name() const { return name_; }
 

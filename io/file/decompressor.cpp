@@ -42,7 +42,7 @@ class ZstdFilter {
   using char_type = char;
   struct category : bio::multichar_input_filter_tag {};
 
-  ZstdFilter() : stream_(ZSTD_createDStream(), &ZSTD_freeDStream), chunk_(kChunkBytes) {}
+  explicit ZstdFilter(std::shared_ptr<ZSTD_DStream> stream) : stream_(std::move(stream)), chunk_(kChunkBytes) {}
 
   template <class Source>
   std::streamsize read(Source& source, char* out, std::streamsize limit) {
@@ -75,11 +75,11 @@ class ZstdFilter {
 class DecompressedInput final : public RawInput {
  public:
   DecompressedInput(std::string name, std::unique_ptr<RawInput> raw, Compression compression)
-      : name_(std::move(name)), raw_(std::move(raw)) {
+      : name_(std::move(name)), raw_(std::move(raw)), zstd_(ZSTD_createDStream(), &ZSTD_freeDStream) {
     if (compression == Compression::kGzip)
       chain_.push(bio::gzip_decompressor(bio::zlib::default_window_bits, kChunkBytes), kChunkBytes);
     else
-      chain_.push(ZstdFilter(), kChunkBytes);
+      chain_.push(ZstdFilter(zstd_), kChunkBytes);
     chain_.push(RawDevice(raw_.get()), kChunkBytes);
   }
 
@@ -96,6 +96,7 @@ class DecompressedInput final : public RawInput {
   }
 
   std::uint64_t consumed() const override { return raw_->consumed(); }
+  std::uint64_t memory_bytes() const override { return ZSTD_sizeof_DStream(zstd_.get()); }
 
  private:
   [[noreturn]] void throw_damaged(const std::string& reason) const {
@@ -106,6 +107,7 @@ class DecompressedInput final : public RawInput {
 
   std::string name_;
   std::unique_ptr<RawInput> raw_;
+  std::shared_ptr<ZSTD_DStream> zstd_;  // idle if the input is packed with gzip
   bio::filtering_streambuf<bio::input> chain_;
 };
 

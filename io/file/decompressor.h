@@ -21,6 +21,8 @@ class RawInput {
   virtual std::size_t read(char* out, std::size_t limit) = 0;
   // Bytes consumed so far, as stored in the file.
   virtual std::uint64_t consumed() const = 0;
+  // What it holds to unpack: little, unless the file was packed with a large window.
+  virtual std::uint64_t memory_bytes() const { return 0; }
 };
 
 enum class Compression { kNone, kGzip, kZstd };

@@ -62,12 +62,19 @@ MemoryPlan plan_memory(const MemoryRequest& request) {
                 "a run needs at least " + format_bytes(kSmallestBudget) + " of memory, but only " +
                     format_bytes(request.limit_bytes) + " is allowed",
                 "allow more, for instance --memory 32M");
+  if (request.limit_bytes < kSmallestBudget + request.reader_bytes) {
+    const std::string megabytes = std::to_string(((kSmallestBudget + request.reader_bytes) >> 20) + 1) + "M";
+    throw Error(ErrorKind::kResource,
+                "unpacking the input takes " + format_bytes(request.reader_bytes) + ", and the run at least " +
+                    format_bytes(kSmallestBudget) + ", but only " + format_bytes(request.limit_bytes) + " is allowed",
+                "allow --memory " + megabytes + ", or pack the input with a smaller window (zstd without --long)");
+  }
   const std::uint64_t limit =
       request.limit_bytes == MemoryBudget::kUnlimited ? machine_bytes() / 2 : request.limit_bytes;
   MemoryPlan plan;
   plan.request_ = request;
-  plan.set_aside_bytes =
-      kProcess + (request.in_place ? kWindows : 0) + std::min(kFragmentation, (limit - kSmallestBudget) / 4);
+  plan.set_aside_bytes = kProcess + (request.in_place ? kWindows : 0) + request.reader_bytes +
+                         std::min(kFragmentation, (limit - kSmallestBudget - request.reader_bytes) / 4);
   plan.budget_bytes = limit - plan.set_aside_bytes;
   // Beyond these sizes, more memory makes nothing faster.
   plan.table_bytes = std::min(plan.budget_bytes / 16, kMiB);

@@ -14,6 +14,7 @@ struct MemoryRequest {
   unsigned threads = 1;
   std::size_t functions = 1;
   std::size_t chunk_triangles = 0, stretch_triangles = 0;  // a user's choice; 0: none
+  std::uint64_t reader_bytes = 0;                          // what unpacking the input holds
   bool in_place = false;                                   // the mesh is looked up in its own file, not spooled
   bool embeds = true;
   bool denoises = false;

@@ -11,6 +11,7 @@ MemoryRequest memory_request(const MeshInput& input, std::size_t functions, cons
           .functions = functions,
           .chunk_triangles = options.chunk_triangles,
           .stretch_triangles = options.stretch_triangles,
+          .reader_bytes = input.reader_bytes,
           .in_place = input.indexed != nullptr,
           .embeds = options.buckets != 0,
           .denoises = options.denoise > 0};
