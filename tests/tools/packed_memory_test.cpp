@@ -36,7 +36,9 @@ TEST_F(PackedMemory, OfALargeWindowIsPartOfTheLimit) {
   const Outcome refused = compute("large.ply.zst", "64M");
   expect_error(refused, 3, "unpacking the input takes 1");
   EXPECT_NE(refused.error.find("--memory 1"), std::string::npos) << refused.error;
-  if (!kSanitized) EXPECT_LE(refused.peak_rss_bytes, std::uint64_t{64} << 20);
+  if (!kSanitized) {
+    EXPECT_LE(refused.peak_rss_bytes, std::uint64_t{64} << 20);
+  }
   expect_success(compute("large.ply.zst", "160M"));
   expect_success(compute("usual.ply.zst", "16M"));
 }

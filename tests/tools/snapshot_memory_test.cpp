@@ -24,7 +24,9 @@ TEST_F(SnapshotMemory, IsRefusedBeforeItExceedsTheLimit) {
   EXPECT_NE(refused.error.find("hint: convert the mesh with reeb convert --finalize first"), std::string::npos)
       << refused.error;
   EXPECT_FALSE(std::filesystem::exists(in_folder("live.reeb")));
-  if (!kSanitized) EXPECT_LE(refused.peak_rss_bytes, kLimit);
+  if (!kSanitized) {
+    EXPECT_LE(refused.peak_rss_bytes, kLimit);
+  }
 }
 
 TEST_F(SnapshotMemory, IsWithinTheLimitForAStreamThatFinalizes) {
@@ -33,7 +35,9 @@ TEST_F(SnapshotMemory, IsWithinTheLimitForAStreamThatFinalizes) {
   const Outcome done = compute("scan.smc");
   expect_success(done);
   EXPECT_TRUE(std::filesystem::exists(in_folder("live-000003.reeb")));
-  if (!kSanitized) EXPECT_LE(done.peak_rss_bytes, kLimit);
+  if (!kSanitized) {
+    EXPECT_LE(done.peak_rss_bytes, kLimit);
+  }
 }
 
 }  // namespace
