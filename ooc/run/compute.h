@@ -26,7 +26,7 @@ struct MeshInput {
   std::function<std::unique_ptr<MeshReader>()> read_again;  // starts over at the first batch; or empty
   unsigned dimension = 3;
   std::uint64_t reader_bytes = 0;  // what the reader holds to unpack the input
-  std::string path;  // for the sidecar, checkpoints and messages; "-": none
+  std::string path;                // for the sidecar, checkpoints and messages; "-": none
   // Throws InputChanged if what was read so far does not fit together; empty: nothing can change.
   std::function<void()> check_unchanged = {};
   bool may_resume = true;  // a later process can read the file at `path` in the same batches

@@ -67,7 +67,7 @@ MemoryPlan plan_memory(const MemoryRequest& request) {
     throw Error(ErrorKind::kResource,
                 "unpacking the input takes " + format_bytes(request.reader_bytes) + ", and the run at least " +
                     format_bytes(kSmallestBudget) + ", but only " + format_bytes(request.limit_bytes) + " is allowed",
-                "allow --memory " + megabytes + ", or pack the input with a smaller window (zstd without --long)");
+                "allow --memory " + megabytes + ", or unpack the input first");
   }
   const std::uint64_t limit =
       request.limit_bytes == MemoryBudget::kUnlimited ? machine_bytes() / 2 : request.limit_bytes;

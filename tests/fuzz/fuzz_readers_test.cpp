@@ -51,6 +51,19 @@ TEST_P(Fuzz, ChangedFilesAreReadOrRefused) {
               good);
 }
 
+// Two vertices and the beginning of a third in one byte order, a corner out of range in the other. Only the size of the
+// file tells that the second announces more faces than there can be.
+TEST(FuzzFindings, AByteOrderThatOnlyTheSizeDecides) {
+  constexpr unsigned char kBytes[] = {0,    0,    0,    0,    0,    0,    0,    0,    0,    0,    0,    1,
+                                      0,    0,    0,    0,    0,    1,    0xbd, 0x1b, 0xcf, 0xbf, 0,    0x1b,
+                                      0xcf, 0xbf, 0xbd, 0x1b, 0xcf, 0xbf, 0xbd, 0x1b, 0x3f, 0x0a, 0x1b, 0xbd,
+                                      0xcf, 0xcf, 0x3f, 0xbd, 0x1b, 0xcf, 0x3f, 0x57, 0xa9};
+  for (const FuzzTarget& target : fuzz_targets())
+    if (target.name == "smb") {
+      EXPECT_TRUE(target.run(std::string(std::begin(kBytes), std::end(kBytes))));
+    }
+}
+
 std::vector<const FuzzTarget*> pointers() {
   std::vector<const FuzzTarget*> all;
   for (const FuzzTarget& target : fuzz_targets()) all.push_back(&target);

@@ -401,7 +401,13 @@ void fix_sidecar_checksums(std::string& bytes) {
 
 bool run_checkpoint(const std::string& bytes) {
   const MemoryFile file(bytes);
-  const ooc::CheckpointLoad load = ooc::load_checkpoint(file.path(), kRun);
+  ooc::CheckpointLoad load;
+  try {
+    load = ooc::load_checkpoint(file.path(), kRun);
+  } catch (const InputChanged& error) {
+    io::expect_helpful(error);
+    return false;
+  }
   expect(load.checkpoint.has_value() == load.note.empty(), "a checkpoint that is not used has a note");
   if (!load.checkpoint) return false;
   try {

@@ -73,9 +73,11 @@ using OpenMesh = std::unique_ptr<MeshReader> (*)(std::unique_ptr<ContentSource>,
 template <OpenMesh open, MemorySource::Kind second = MemorySource::Kind::kPipe>
 bool run_mesh(const std::string& bytes) {
   Delivered file, pipe;
+  std::string file_format, pipe_format;
   ReadOptions options;
   const bool good = without_error([&] {
     const auto reader = open(std::make_unique<MemorySource>(bytes, MemorySource::Kind::kFile), options);
+    file_format = reader->info().format;
     options.properties = reader->info().property_names;
     file = read_batches(*reader, 0);
   });
@@ -86,8 +88,12 @@ bool run_mesh(const std::string& bytes) {
   options.batch_events = std::size_t{1} << shift;
   const std::string pipe_error = error_of([&] {
     const auto reader = open(std::make_unique<MemorySource>(bytes, second), options);
+    pipe_format = reader->info().format;
     pipe = read_batches(*reader, options.properties.size());
   });
+  // The byte order of a block stream is judged from its content. If the size is known, counts that exceed it help; so
+  // damaged bytes can be two different meshes.
+  if (!file_format.empty() && !pipe_format.empty() && file_format != pipe_format) return good;
   const bool good_pipe = pipe_error.empty();
   const bool needs_seeking = pipe_error.ends_with("the input can be read only once");
   expect(good_pipe || !good || asks || needs_seeking, "a pipe is read if the file is");

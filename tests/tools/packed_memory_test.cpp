@@ -29,7 +29,7 @@ class PackedMemory : public ProgramTest {};
 TEST_F(PackedMemory, OfALargeWindowIsPartOfTheLimit) {
   expect_success(reeb({"generate", "scan", "--triangles", "20k", "-o", "scan.ply"}));
   write("large.ply.zst", packed_with_window(file("scan.ply"), 27));
-  write("usual.ply.zst", packed_with_window(file("scan.ply"), 20));
+  write("usual.ply.zst", packed_with_window(file("scan.ply"), 21));
   const auto compute = [&](const std::string& mesh, const std::string& memory) {
     return reeb({"compute", mesh, "-o", "out.reeb", "--force", "--quiet", "--memory", memory});
   };
