@@ -149,31 +149,34 @@ class Pipeline {
     Sweepers sweepers(budget_);
     const PipelineOrder order;
 
+    const auto read_next = [&](tbb::flow_control& control_flow) -> Slot* {
+      PipelineOrder::begin_filter();
+      Slot* slot = nullptr;
+      free_slots.try_pop(slot);  // there are as many as tokens
+      const PipelineOrder::Filter filter(order, slot, &source_);
+      if (read(*slot)) return slot;
+      control_flow.stop();
+      return nullptr;
+    };
+    const auto sweep_one = [&](Slot* slot) {
+      PipelineOrder::begin_filter();
+      const PipelineOrder::Filter filter(order, slot);
+      sweep_in_parallel(*slot, sweepers);
+      return slot;
+    };
+    const auto glue_one = [&](Slot* slot) {
+      PipelineOrder::begin_filter();
+      const PipelineOrder::Filter filter(order, slot, &glues_);
+      glue(*slot);
+      free_slots.push(slot);
+    };
+    using tbb::filter_mode;
+    const auto filters = tbb::make_filter<void, Slot*>(filter_mode::serial_in_order, read_next) &
+                         tbb::make_filter<Slot*, Slot*>(filter_mode::parallel, sweep_one) &
+                         tbb::make_filter<Slot*, void>(filter_mode::serial_in_order, glue_one);
     run_in_kept_arena(options_.threads, [&] {
-      tbb::parallel_pipeline(in_flight,
-                             tbb::make_filter<void, Slot*>(tbb::filter_mode::serial_in_order,
-                                                           [&](tbb::flow_control& control_flow) -> Slot* {
-                                                             PipelineOrder::begin_filter();
-                                                             Slot* slot = nullptr;
-                                                             free_slots.try_pop(slot);  // there are as many as tokens
-                                                             const PipelineOrder::Filter filter(order, slot, &source_);
-                                                             if (read(*slot)) return slot;
-                                                             control_flow.stop();
-                                                             return nullptr;
-                                                           }) &
-                                 tbb::make_filter<Slot*, Slot*>(tbb::filter_mode::parallel,
-                                                                [&](Slot* slot) {
-                                                                  PipelineOrder::begin_filter();
-                                                                  const PipelineOrder::Filter filter(order, slot);
-                                                                  sweep_in_parallel(*slot, sweepers);
-                                                                  return slot;
-                                                                }) &
-                                 tbb::make_filter<Slot*, void>(tbb::filter_mode::serial_in_order, [&](Slot* slot) {
-                                   PipelineOrder::begin_filter();
-                                   const PipelineOrder::Filter filter(order, slot, &glues_);
-                                   glue(*slot);
-                                   free_slots.push(slot);
-                                 }));
+      PipelineOrder::filters_are_made();
+      tbb::parallel_pipeline(in_flight, filters);
     });
   }
 

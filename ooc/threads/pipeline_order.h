@@ -11,16 +11,20 @@ namespace reeb::ooc {
 // serial filter runs once at a time, and would report every item as a race. This class states only what TBB guarantees,
 // so races between items are still found. Empty without the sanitizer.
 //
-// Must exist from before the pipeline starts until it has ended.
+// Must exist until the pipeline has ended.
 class PipelineOrder {
  public:
-  PipelineOrder() { publish(&begin_); }
+  PipelineOrder() = default;
   PipelineOrder(const PipelineOrder&) = delete;
   PipelineOrder& operator=(const PipelineOrder&) = delete;
   ~PipelineOrder() { observe(&end_); }
 
-  // A filter calls this first, before it reads anything that it captured: the thread that started the pipeline wrote
-  // it. One place for all pipelines, since the place must be known without reading a capture.
+  // To call once the filters are made, before the pipeline starts: make_filter copies the captures of a filter, and the
+  // threads of the pipeline read these copies.
+  static void filters_are_made() { publish(&begin_); }
+
+  // A filter calls this first, before it reads anything that it captured. One place for all pipelines, since the place
+  // must be known without reading a capture.
   static void begin_filter() { observe(&begin_); }
 
   // Exists while a filter works on an item. `serial` names a filter that runs once at a time.

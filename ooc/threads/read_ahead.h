@@ -48,10 +48,12 @@ void read_ahead(bool background, const Read& read, const Prepare& prepare, const
     use(*item);
   };
   using tbb::filter_mode;
+  const auto filters = tbb::make_filter<void, Item*>(filter_mode::serial_in_order, read_next) &
+                       tbb::make_filter<Item*, Item*>(filter_mode::parallel, prepare_one) &
+                       tbb::make_filter<Item*, void>(filter_mode::serial_in_order, use_one);
   run_in_kept_arena(kThreads, [&] {
-    tbb::parallel_pipeline(pieces.size(), tbb::make_filter<void, Item*>(filter_mode::serial_in_order, read_next) &
-                                              tbb::make_filter<Item*, Item*>(filter_mode::parallel, prepare_one) &
-                                              tbb::make_filter<Item*, void>(filter_mode::serial_in_order, use_one));
+    PipelineOrder::filters_are_made();
+    tbb::parallel_pipeline(pieces.size(), filters);
   });
 }
 
