@@ -3,7 +3,7 @@
 #include "io/file/file_name.h"
 #include "io/formats/obj_writer.h"
 #include "io/formats/off_writer.h"
-#include "io/formats/ply_writer.h"
+#include "io/ply/ply_writer.h"
 #include "io/streaming/create_stream.h"
 #include "libreeb/base/error.h"
 

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "io/formats/scalar_bytes.h"
+#include "io/mesh/scalar_bytes.h"
 
 namespace reeb::io {
 namespace {

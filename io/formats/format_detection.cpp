@@ -9,8 +9,8 @@
 #include "io/formats/foreign_format.h"
 #include "io/formats/obj_reader.h"
 #include "io/formats/off_reader.h"
-#include "io/formats/scalar_bytes.h"
 #include "io/formats/stl_reader.h"
+#include "io/mesh/scalar_bytes.h"
 #include "io/streaming/open_stream.h"
 
 namespace reeb::io {

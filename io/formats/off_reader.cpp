@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "io/formats/scalar_bytes.h"
+#include "io/mesh/scalar_bytes.h"
 #include "libreeb/base/count_text.h"
 
 namespace reeb::io {

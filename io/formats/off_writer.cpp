@@ -1,6 +1,6 @@
 #include "io/formats/off_writer.h"
 
-#include "io/formats/sectioned_file.h"
+#include "io/mesh/sectioned_file.h"
 #include "io/mesh/written_records.h"
 #include "libreeb/base/error.h"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "io/formats/scalar_bytes.h"
+#include "io/mesh/scalar_bytes.h"
 #include "libreeb/base/count_text.h"
 
 namespace reeb::io {

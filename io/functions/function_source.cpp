@@ -9,7 +9,7 @@
 #include "io/file/file.h"
 #include "io/file/file_windows.h"
 #include "io/file/input_file.h"
-#include "io/formats/scalar_bytes.h"
+#include "io/mesh/scalar_bytes.h"
 #include "io/text/text_cursor.h"
 #include "libreeb/base/count_text.h"
 #include "libreeb/base/error.h"

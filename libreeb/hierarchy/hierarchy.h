@@ -6,6 +6,7 @@
 // with born <= e < died.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <vector>
@@ -19,6 +20,10 @@ namespace reeb {
 
 // The order is that in which files list pairs of equal persistence.
 enum class PairType : std::uint8_t { kExt0, kExt1, kOrd0, kRel1 };
+constexpr const char* name_of(PairType type) {
+  constexpr const char* kNames[] = {"Ext0", "Ext1", "Ord0", "Rel1"};
+  return kNames[static_cast<std::size_t>(type)];
+}
 
 struct PersistencePair {
   NodeId lo, hi;  // nodes of the full graph; equal for an isolated vertex (Ext0)

@@ -69,14 +69,6 @@ Complex complex_from(Choices& choices) {
   return complex;
 }
 
-Complex beginning(const Complex& complex, std::size_t vertices, std::size_t simplices) {
-  Complex part = complex;
-  part.values.resize(vertices);
-  part.positions.resize(vertices);
-  part.simplices.resize(simplices);
-  return part;
-}
-
 void expect_same(const ReebGraph& graph, const ReebGraph& expected, const Complex& complex, const char* when) {
   graph.validate();
   if (without_positions(graph) != without_positions(expected))

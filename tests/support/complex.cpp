@@ -75,4 +75,12 @@ std::string describe(const Complex& complex) {
   return out.str();
 }
 
+Complex beginning(const Complex& complex, std::size_t vertices, std::size_t simplices) {
+  Complex part = complex;
+  part.values.resize(vertices);
+  part.positions.resize(vertices);
+  part.simplices.resize(simplices);
+  return part;
+}
+
 }  // namespace reeb::test

@@ -35,6 +35,9 @@ std::vector<std::uint64_t> sweep_order(const Complex& complex);
 // The same complex with its simplices, and the corners of each, in another order.
 Complex shuffled(Complex complex, std::uint64_t seed);
 
+// Its first vertices and simplices. REQUIRES: these simplices use only these vertices.
+Complex beginning(const Complex& complex, std::size_t vertices, std::size_t simplices);
+
 // Connected components, isolated vertices included.
 std::uint64_t component_count(const Complex& complex);
 

@@ -19,8 +19,6 @@ struct PairsOptions {
   bool force = false;
 };
 
-constexpr const char* kTypeNames[] = {"Ext0", "Ext1", "Ord0", "Rel1"};
-
 double persistence(const ooc::PairRow& pair) { return pair.hi.key.value - pair.lo.key.value; }
 
 void sort_rows(std::vector<ooc::PairRow>& rows) {
@@ -34,9 +32,8 @@ void write_rows(const std::vector<ooc::PairRow>& rows, std::ostream& stream) {
   io::OutputBuffer out(stream);
   out << "type,lo,hi,lo_value,hi_value,persistence,lo_x,lo_y,lo_z,hi_x,hi_y,hi_z,kept\n";
   for (const ooc::PairRow& pair : rows) {
-    out << kTypeNames[static_cast<std::size_t>(pair.type)] << ',' << pair.lo.key.vertex.value() << ','
-        << pair.hi.key.vertex.value() << ',' << pair.lo.key.value << ',' << pair.hi.key.value << ','
-        << persistence(pair);
+    out << name_of(pair.type) << ',' << pair.lo.key.vertex.value() << ',' << pair.hi.key.vertex.value() << ','
+        << pair.lo.key.value << ',' << pair.hi.key.value << ',' << persistence(pair);
     for (const Point& point : {pair.lo.position, pair.hi.position})
       for (const double coordinate : point) out << ',' << coordinate;
     out << (pair.kept ? ",1\n" : ",0\n");

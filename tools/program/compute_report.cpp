@@ -2,7 +2,6 @@
 
 #include <fmt/core.h>
 
-#include <array>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -15,11 +14,6 @@
 
 namespace reeb::tools {
 namespace {
-
-const char* type_name(PairType type) {
-  static constexpr std::array<const char*, 4> kNames = {"Ext0", "Ext1", "Ord0", "Rel1"};
-  return kNames[static_cast<std::size_t>(type)];
-}
 
 const char* feature_name(PairType type) {
   switch (type) {
@@ -81,7 +75,7 @@ void print_result(const RunFacts& facts, const ooc::ComputeResult& r) {
 nlohmann::ordered_json to_json(const RunFacts& facts, const ooc::ComputeResult& r) {
   nlohmann::ordered_json pairs;
   for (const PairType type : {PairType::kOrd0, PairType::kRel1, PairType::kExt0, PairType::kExt1})
-    pairs[type_name(type)] = r.pairs[static_cast<std::size_t>(type)];
+    pairs[name_of(type)] = r.pairs[static_cast<std::size_t>(type)];
   return {
       {"schema", "reeb.report.v1"},
       {"input",

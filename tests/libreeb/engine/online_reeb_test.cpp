@@ -22,15 +22,6 @@ namespace {
 
 constexpr std::size_t kBatches[] = {1, 3, 7, 4096};
 
-// The first vertices and simplices of a complex.
-Complex beginning(const Complex& complex, std::size_t vertices, std::size_t simplices) {
-  Complex part = complex;
-  part.values.resize(vertices);
-  part.positions.resize(vertices);
-  part.simplices.resize(simplices);
-  return part;
-}
-
 // Expects the same nodes and arcs, and the right positions where they are known.
 testing::AssertionResult same_graph(const ReebGraph& graph, const ReebGraph& expected) {
   graph.validate();

@@ -1,6 +1,8 @@
 // A mesh in plain arrays that implements the ports, and meshes to store in it.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cstdint>
 #include <map>
@@ -102,6 +104,17 @@ inline ModelMesh shuffled(const ModelMesh& mesh, std::uint64_t seed) {
     for (std::size_t c = 0; c < 3; ++c)
       result.corners[3 * t + c] = VertexId(place[mesh.corners[3 * order[t] + c].value()]);
   return result;
+}
+
+// The corners of all triangles, read `limit` triangles at a time.
+inline std::vector<VertexId> all_corners(IndexedMesh& mesh, std::size_t limit) {
+  std::vector<VertexId> all, some;
+  mesh.rewind();
+  while (mesh.read(some, limit)) {
+    EXPECT_LE(some.size(), 3 * limit);
+    all.insert(all.end(), some.begin(), some.end());
+  }
+  return all;
 }
 
 }  // namespace reeb::ooc

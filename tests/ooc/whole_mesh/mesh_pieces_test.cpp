@@ -21,16 +21,6 @@ ModelMesh flat_grid(std::uint64_t columns, std::uint64_t rows) {
   return mesh;
 }
 
-std::vector<VertexId> all_corners(IndexedMesh& mesh, std::size_t limit) {
-  std::vector<VertexId> all, some;
-  mesh.rewind();
-  while (mesh.read(some, limit)) {
-    EXPECT_LE(some.size(), 3 * limit);
-    all.insert(all.end(), some.begin(), some.end());
-  }
-  return all;
-}
-
 // The largest number of vertices that triangles use both up to the end of a block and after it.
 std::uint64_t front_of(std::span<const VertexId> corners, std::uint64_t vertices, std::uint64_t block_triangles) {
   std::vector<std::int64_t> first(vertices, -1), last(vertices, -1);

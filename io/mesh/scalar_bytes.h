@@ -8,9 +8,10 @@
 #include <span>
 #include <utility>
 
-#include "io/formats/ply_header.h"
-
 namespace reeb::io {
+
+enum class ScalarType { kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kFloat32, kFloat64 };
+inline bool is_float(ScalarType type) { return type >= ScalarType::kFloat32; }
 
 static_assert(std::endian::native == std::endian::little, "byte orders are told against little endian");
 
@@ -29,29 +30,33 @@ T load_scalar(const char* bytes, bool swap) {
 
 // Calls `use` with a zero of the C++ type, so that a loop over values is compiled once for each type.
 template <class Use>
-decltype(auto) with_type(PlyType type, Use&& use) {
+decltype(auto) with_type(ScalarType type, Use&& use) {
   switch (type) {
-    case PlyType::kInt8:
+    case ScalarType::kInt8:
       return use(std::int8_t{});
-    case PlyType::kUint8:
+    case ScalarType::kUint8:
       return use(std::uint8_t{});
-    case PlyType::kInt16:
+    case ScalarType::kInt16:
       return use(std::int16_t{});
-    case PlyType::kUint16:
+    case ScalarType::kUint16:
       return use(std::uint16_t{});
-    case PlyType::kInt32:
+    case ScalarType::kInt32:
       return use(std::int32_t{});
-    case PlyType::kUint32:
+    case ScalarType::kUint32:
       return use(std::uint32_t{});
-    case PlyType::kFloat32:
+    case ScalarType::kFloat32:
       return use(float{});
-    case PlyType::kFloat64:
+    case ScalarType::kFloat64:
       break;
   }
   return use(double{});
 }
 
-inline double load_double(PlyType type, const char* bytes, bool swap) {
+inline std::size_t byte_size(ScalarType type) {
+  return with_type(type, [](auto zero) { return sizeof zero; });
+}
+
+inline double load_double(ScalarType type, const char* bytes, bool swap) {
   return with_type(type,
                    [&](auto zero) { return static_cast<double>(load_scalar<decltype(zero)>(bytes, swap)) + 0.0; });
 }
@@ -65,7 +70,7 @@ inline bool all_finite(std::span<const double> values) {
 }
 
 // REQUIRES: an integer type.
-inline std::int64_t load_integer(PlyType type, const char* bytes, bool swap) {
+inline std::int64_t load_integer(ScalarType type, const char* bytes, bool swap) {
   return with_type(type,
                    [&](auto zero) { return static_cast<std::int64_t>(load_scalar<decltype(zero)>(bytes, swap)); });
 }

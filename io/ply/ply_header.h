@@ -7,20 +7,17 @@
 #include <string>
 #include <vector>
 
+#include "io/mesh/scalar_bytes.h"
 #include "io/text/text_cursor.h"
 
 namespace reeb::io {
 
 enum class PlyEncoding { kAscii, kLittleEndian, kBigEndian };
 
-enum class PlyType { kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kFloat32, kFloat64 };
-std::size_t byte_size(PlyType type);
-inline bool is_float(PlyType type) { return type >= PlyType::kFloat32; }
-
 struct PlyProperty {
   std::string name;
-  PlyType type = PlyType::kFloat32;   // of the value, or of the items of the list
-  std::optional<PlyType> list_count;  // the type of the length, if it is a list
+  ScalarType type = ScalarType::kFloat32;  // of the value, or of the items of the list
+  std::optional<ScalarType> list_count;    // the type of the length, if it is a list
 };
 
 enum class PlyRole { kSkipped, kVertices, kFaces, kStrips };

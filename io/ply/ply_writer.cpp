@@ -1,11 +1,11 @@
-#include "io/formats/ply_writer.h"
+#include "io/ply/ply_writer.h"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstring>
 
-#include "io/formats/sectioned_file.h"
+#include "io/mesh/sectioned_file.h"
 #include "io/mesh/written_records.h"
 #include "io/text/number_text.h"
 #include "libreeb/base/error.h"

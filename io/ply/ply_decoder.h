@@ -8,8 +8,8 @@
 #include <string>
 #include <utility>
 
-#include "io/formats/ply_header.h"
-#include "io/formats/scalar_bytes.h"
+#include "io/mesh/scalar_bytes.h"
+#include "io/ply/ply_header.h"
 #include "io/text/text_cursor.h"
 
 namespace reeb::io {
@@ -34,12 +34,12 @@ class AsciiPlyDecoder {
     }
     text_.skip_line();
   }
-  double finite_value(PlyType type, const char* what) {
-    if (type == PlyType::kFloat32) return static_cast<double>(text_.finite_number<float>(what));
-    if (type == PlyType::kFloat64) return text_.finite_number<double>(what);
+  double finite_value(ScalarType type, const char* what) {
+    if (type == ScalarType::kFloat32) return static_cast<double>(text_.finite_number<float>(what));
+    if (type == ScalarType::kFloat64) return text_.finite_number<double>(what);
     return static_cast<double>(checked_integer(type, what));
   }
-  std::int64_t integer(PlyType type, const char* what) {
+  std::int64_t integer(ScalarType type, const char* what) {
     text_.more_on_line();
     text_.mark();
     std::uint64_t value = 0;
@@ -50,7 +50,7 @@ class AsciiPlyDecoder {
     return within(type, static_cast<std::int64_t>(value), what);
   }
   // Returns true if the skipped value is not finite.
-  bool skip(PlyType, const char* what) {
+  bool skip(ScalarType, const char* what) {
     const auto word = text_.token();
     if (word.empty())
       text_.fail(std::string("the line ends where a ") + what + " should be", "the file may be cut or damaged here");
@@ -64,11 +64,11 @@ class AsciiPlyDecoder {
   Cursor& bytes() { return text_.bytes(); }
 
  private:
-  std::int64_t checked_integer(PlyType type, const char* what) { return within(type, text_.integer(what), what); }
+  std::int64_t checked_integer(ScalarType type, const char* what) { return within(type, text_.integer(what), what); }
 
-  std::int64_t within(PlyType type, std::int64_t value, const char* what) const {
+  std::int64_t within(ScalarType type, std::int64_t value, const char* what) const {
     const unsigned bits = static_cast<unsigned>(8 * byte_size(type));
-    const bool is_signed = type == PlyType::kInt8 || type == PlyType::kInt16 || type == PlyType::kInt32;
+    const bool is_signed = type == ScalarType::kInt8 || type == ScalarType::kInt16 || type == ScalarType::kInt32;
     const std::int64_t least = is_signed ? -(std::int64_t{1} << (bits - 1)) : 0;
     const std::int64_t most = (std::int64_t{1} << (is_signed ? bits - 1 : bits)) - 1;
     if (value < least || value > most)
@@ -93,13 +93,13 @@ class BinaryPlyDecoder {
 
   void begin_record(const PlyElement&) {}
   void end_record(const PlyElement&) {}
-  double finite_value(PlyType type, const char* what) {
+  double finite_value(ScalarType type, const char* what) {
     const double value = load_double(type, take(byte_size(type)), swap_);
     if (!std::isfinite(value)) fail(std::string("a ") + what + " is not finite", "fix this value in the file");
     return value;
   }
-  std::int64_t integer(PlyType type, const char*) { return load_integer(type, take(byte_size(type)), swap_); }
-  bool skip(PlyType type, const char*) {
+  std::int64_t integer(ScalarType type, const char*) { return load_integer(type, take(byte_size(type)), swap_); }
+  bool skip(ScalarType type, const char*) {
     const char* const bytes = take(byte_size(type));
     return is_float(type) && !std::isfinite(load_double(type, bytes, swap_));
   }

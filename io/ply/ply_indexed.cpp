@@ -1,4 +1,4 @@
-#include "io/formats/ply_indexed.h"
+#include "io/ply/ply_indexed.h"
 
 #include <algorithm>
 #include <array>
@@ -7,8 +7,8 @@
 
 #include "io/file/content_source.h"
 #include "io/file/file_windows.h"
-#include "io/formats/ply_reader.h"
-#include "io/formats/scalar_bytes.h"
+#include "io/mesh/scalar_bytes.h"
+#include "io/ply/ply_reader.h"
 #include "libreeb/base/error.h"
 
 namespace reeb::io {
@@ -19,7 +19,7 @@ constexpr std::size_t kMaxRecordBytes = 4096;
 constexpr WindowOptions kVertexWindows = {.window_bits = 16, .window_count = 16, .overlap_bytes = kMaxRecordBytes};
 
 struct Column {
-  PlyType type = PlyType::kFloat32;
+  ScalarType type = ScalarType::kFloat32;
   std::size_t offset = 0;  // in the record
 };
 
@@ -56,7 +56,7 @@ class IndexedPly final : public IndexedMesh {
 
   void gather(std::span<const VertexId> ids, std::span<const unsigned> columns, std::span<double> values) override {
     const bool plain =
-        !swap_ && std::ranges::all_of(columns, [this](unsigned c) { return columns_[c].type == PlyType::kFloat32; });
+        !swap_ && std::ranges::all_of(columns, [this](unsigned c) { return columns_[c].type == ScalarType::kFloat32; });
     if (plain && columns.size() == 1)
       gather_floats<1>(ids, columns, values);
     else if (plain && columns.size() == 3)

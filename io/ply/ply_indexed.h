@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "io/file/input_file.h"
-#include "io/formats/ply_header.h"
+#include "io/ply/ply_header.h"
 #include "libreeb/port/indexed_mesh.h"
 #include "libreeb/port/mesh_reader.h"
 

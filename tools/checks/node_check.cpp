@@ -1,4 +1,4 @@
-#include "tools/program/node_check.h"
+#include "tools/checks/node_check.h"
 
 #include <fmt/core.h>
 

@@ -1,4 +1,4 @@
-#include "tools/program/full_check.h"
+#include "tools/checks/full_check.h"
 
 #include <fmt/core.h>
 
@@ -43,8 +43,6 @@ class TempFolder {
       .at(file.path());
 }
 
-constexpr const char* kTypeNames[] = {"Ext0", "Ext1", "Ord0", "Rel1"};
-
 std::string describe(const SweepKey& node) {
   return fmt::format("vertex {} with the value {:.17g}", node.vertex.value(), node.value);
 }
@@ -85,8 +83,8 @@ void compare_graphs(const ooc::ReebFile& file, const ooc::ReebFile& again) {
 void compare_pairs(const ooc::ReebFile& file, const ooc::ReebFile& again) {
   const auto a = file.pairs(), b = again.pairs();
   const auto text = [](const ooc::PairRow& pair) {
-    return fmt::format("{} of vertex {} and vertex {}{}", kTypeNames[static_cast<std::size_t>(pair.type)],
-                       pair.lo.key.vertex.value(), pair.hi.key.vertex.value(), pair.kept ? ", kept" : "");
+    return fmt::format("{} of vertex {} and vertex {}{}", name_of(pair.type), pair.lo.key.vertex.value(),
+                       pair.hi.key.vertex.value(), pair.kept ? ", kept" : "");
   };
   compare_lists(file, "pair", a.size(), b.size(), [&](std::size_t i) {
     const bool same =

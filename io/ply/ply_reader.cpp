@@ -1,4 +1,4 @@
-#include "io/formats/ply_reader.h"
+#include "io/ply/ply_reader.h"
 
 #include <algorithm>
 #include <array>
@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "io/formats/ply_decoder.h"
-#include "io/formats/ply_indexed.h"
 #include "io/mesh/simplex_assembler.h"
+#include "io/ply/ply_decoder.h"
+#include "io/ply/ply_indexed.h"
 #include "libreeb/base/count_text.h"
 
 namespace reeb::io {
@@ -52,7 +52,7 @@ MeshInfo describe(const PlyHeader& header, const ContentSource& source) {
     if (element.role == PlyRole::kStrips) info.simplex_count.reset();  // unknown: a strip has any number of triangles
   }
   info.float32 = std::ranges::all_of(header.vertices().properties, [](const PlyProperty& property) {
-    return property.type == PlyType::kFloat32 || byte_size(property.type) < 4;
+    return property.type == ScalarType::kFloat32 || byte_size(property.type) < 4;
   });
   info.file_bytes = source.file_bytes();
   return info;
@@ -60,7 +60,7 @@ MeshInfo describe(const PlyHeader& header, const ContentSource& source) {
 
 // Appends one column of `count` records of fixed size to `column`; its first value is at `bytes`. Returns whether all
 // values are finite.
-bool append_column(PlyType type, bool swap, const char* bytes, std::size_t stride, std::size_t count,
+bool append_column(ScalarType type, bool swap, const char* bytes, std::size_t stride, std::size_t count,
                    std::vector<double>& column) {
   const std::size_t before = column.size();
   column.resize(before + count);
@@ -256,7 +256,7 @@ class PlyReader final : public PlyBodyReader {
     const std::size_t count = std::min({left, bytes.available() / stride, kRunRecords});
     std::size_t place = 0;
     for (std::size_t p = 0; p < element.properties.size(); ++p) {
-      const PlyType type = element.properties[p].type;
+      const ScalarType type = element.properties[p].type;
       const char* const first = bytes.data() + place;
       if (column_of_[p] == kNoColumn)
         count_odd_values(type, first, stride, count);
@@ -272,7 +272,7 @@ class PlyReader final : public PlyBodyReader {
     count_vertices(batch, count);
   }
 
-  void count_odd_values(PlyType type, const char* first, std::size_t stride, std::size_t count) {
+  void count_odd_values(ScalarType type, const char* first, std::size_t stride, std::size_t count) {
     if (!is_float(type)) return;
     scratch_.clear();
     if (append_column(type, decoder_.swaps(), first, stride, count, scratch_)) return;
@@ -370,7 +370,7 @@ class PlyReader final : public PlyBodyReader {
     if (!bytes.ensure(kRecordBytes)) return false;
     const auto left = static_cast<std::size_t>(std::min<std::uint64_t>(element.count - record_, room(batch)));
     const std::size_t most = std::min({left, bytes.available() / kRecordBytes, kRunRecords});
-    const bool is_signed = element.properties.front().type == PlyType::kInt32;
+    const bool is_signed = element.properties.front().type == ScalarType::kInt32;
     const std::uint64_t limit = std::min(vertex_limit_, std::uint64_t{1} << (is_signed ? 31 : 32));
     const std::size_t count = decoder_.swaps() ? copy_triangles<true>(bytes.data(), most, limit, run_.data())
                                                : copy_triangles<false>(bytes.data(), most, limit, run_.data());

@@ -1,4 +1,4 @@
-#include "io/formats/sectioned_file.h"
+#include "io/mesh/sectioned_file.h"
 
 #include "io/file/temp_dir.h"
 #include "libreeb/base/error.h"

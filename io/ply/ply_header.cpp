@@ -1,4 +1,4 @@
-#include "io/formats/ply_header.h"
+#include "io/ply/ply_header.h"
 #include "libreeb/base/count_text.h"
 
 #include <algorithm>
@@ -15,24 +15,24 @@ constexpr std::array<const char*, 3> kCoordinateNames = {"x", "y", "z"};
 
 struct TypeName {
   std::string_view name;
-  PlyType type;
+  ScalarType type;
 };
-constexpr std::array<TypeName, 16> kTypeNames = {{{"char", PlyType::kInt8},
-                                                  {"int8", PlyType::kInt8},
-                                                  {"uchar", PlyType::kUint8},
-                                                  {"uint8", PlyType::kUint8},
-                                                  {"short", PlyType::kInt16},
-                                                  {"int16", PlyType::kInt16},
-                                                  {"ushort", PlyType::kUint16},
-                                                  {"uint16", PlyType::kUint16},
-                                                  {"int", PlyType::kInt32},
-                                                  {"int32", PlyType::kInt32},
-                                                  {"uint", PlyType::kUint32},
-                                                  {"uint32", PlyType::kUint32},
-                                                  {"float", PlyType::kFloat32},
-                                                  {"float32", PlyType::kFloat32},
-                                                  {"double", PlyType::kFloat64},
-                                                  {"float64", PlyType::kFloat64}}};
+constexpr std::array<TypeName, 16> kTypeNames = {{{"char", ScalarType::kInt8},
+                                                  {"int8", ScalarType::kInt8},
+                                                  {"uchar", ScalarType::kUint8},
+                                                  {"uint8", ScalarType::kUint8},
+                                                  {"short", ScalarType::kInt16},
+                                                  {"int16", ScalarType::kInt16},
+                                                  {"ushort", ScalarType::kUint16},
+                                                  {"uint16", ScalarType::kUint16},
+                                                  {"int", ScalarType::kInt32},
+                                                  {"int32", ScalarType::kInt32},
+                                                  {"uint", ScalarType::kUint32},
+                                                  {"uint32", ScalarType::kUint32},
+                                                  {"float", ScalarType::kFloat32},
+                                                  {"float32", ScalarType::kFloat32},
+                                                  {"double", ScalarType::kFloat64},
+                                                  {"float64", ScalarType::kFloat64}}};
 
 constexpr const char* kHeaderHint = "the PLY header is damaged; write the file again";
 
@@ -117,7 +117,7 @@ class HeaderParser {
     header_.elements.back().properties.push_back(std::move(property));
   }
 
-  PlyType type_named(std::string_view name) {
+  ScalarType type_named(std::string_view name) {
     const auto found = std::ranges::find(kTypeNames, name, &TypeName::name);
     if (found == kTypeNames.end())
       text_.fail("unknown PLY type \"" + std::string(name.substr(0, 40)) + "\"",
@@ -194,11 +194,6 @@ class HeaderParser {
 };
 
 }  // namespace
-
-std::size_t byte_size(PlyType type) {
-  static constexpr std::array<std::size_t, 8> kBytes = {1, 1, 2, 2, 4, 4, 4, 8};
-  return kBytes[static_cast<std::size_t>(type)];
-}
 
 std::size_t PlyElement::fixed_bytes() const {
   std::size_t bytes = 0;

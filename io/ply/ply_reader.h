@@ -4,8 +4,8 @@
 #include <memory>
 #include <optional>
 
-#include "io/formats/ply_header.h"
 #include "io/mesh/batch_reader.h"
+#include "io/ply/ply_header.h"
 #include "libreeb/port/indexed_mesh.h"
 
 namespace reeb::io {
