@@ -14,6 +14,12 @@ std::string name_suffix(const std::string& path) {
   return suffix;
 }
 
+std::string content_suffix(const std::string& path) {
+  const std::string suffix = name_suffix(path);
+  if (suffix != ".gz" && suffix != ".zst") return suffix;
+  return name_suffix(path.substr(0, path.size() - suffix.size()));
+}
+
 bool is_streaming_name(std::string_view path) {
   for (const std::string_view ending : {".gz", ".zst"})
     if (path.ends_with(ending)) path.remove_suffix(ending.size());

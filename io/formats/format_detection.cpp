@@ -156,19 +156,14 @@ bool has_obj_vertex(std::string_view text) {
   return false;
 }
 
-bool is_stl_name(const std::string& path) {
-  std::string name = path;
-  if (const std::string suffix = name_suffix(name); suffix == ".gz" || suffix == ".zst")
-    name.resize(name.size() - suffix.size());
-  return name_suffix(name) == ".stl";
-}
-
 MeshFormat detect_text(std::string_view text, const std::string& path) {
   if (is_streaming_name(path)) return MeshFormat::kStreaming;
   if (has_streaming_line(text)) return MeshFormat::kStreaming;
   const std::string_view word = first_word(skip_comments(text));
   if (is_obj_keyword(word)) return MeshFormat::kObj;
-  return has_obj_vertex(text) ? MeshFormat::kObj : MeshFormat::kUnknown;
+  if (has_obj_vertex(text)) return MeshFormat::kObj;
+  // An OBJ file of comments has no vertices.
+  return word.empty() && content_suffix(path) == ".obj" ? MeshFormat::kObj : MeshFormat::kUnknown;
 }
 
 // The complete lines of a text that has not arrived in full.
@@ -197,7 +192,7 @@ MeshFormat detect_format(ContentSource& source, const std::string& path) {
   if (text) return detect_text(head, path);
   if (is_streaming_name(path)) return MeshFormat::kStreaming;
   // A size that is known is that of a binary STL file, unless it is cut; then the name must say what it is.
-  const bool may_be_stl = !source.size() || is_stl_name(path);
+  const bool may_be_stl = !source.size() || content_suffix(path) == ".stl";
   if (may_be_stl && looks_like_binary_stl(head)) return MeshFormat::kBinaryStl;
   const bool too_short_for_stl = head.size() < BinaryStlReader::kHeaderBytes;
   return too_short_for_stl && starts_like_stream(head) ? MeshFormat::kStreaming : MeshFormat::kUnknown;

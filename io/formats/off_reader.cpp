@@ -101,7 +101,8 @@ class OffReader : public BatchReader {
   std::int64_t corners_left_ = 0;
 };
 
-// One vertex or face per line; the rest of a line (normals, colours) is skipped.
+// Usually one vertex or face a line; either may also run over several lines. The rest of its last line (normals,
+// colours) is skipped.
 class AsciiOffReader final : public OffReader {
  public:
   AsciiOffReader(TextCursor text, OffHeader header, ReadOptions options)
@@ -137,27 +138,26 @@ class AsciiOffReader final : public OffReader {
     return static_cast<std::uint64_t>(value);
   }
   void require_more(const char* otherwise) {
-    if (text_.more()) return;
+    if (text_.more_on_line() || text_.more()) return;
     text_.mark();
     text_.fail(otherwise, kCutHint);
   }
 
   void read_vertex(MeshBatch& batch) override {
-    require_more("the file ends before its last vertex");
-    for (auto& column : batch.coordinates) column.push_back(text_.finite_number<double>("coordinate"));
+    for (auto& column : batch.coordinates) {
+      require_more("the file ends before its last vertex");
+      column.push_back(text_.finite_number<double>("coordinate"));
+    }
     while (text_.more_on_line()) odd_values_ += spells_non_finite(text_.token()) ? 1u : 0u;
     text_.skip_line();
   }
-  std::int64_t begin_face() override {
-    require_more("the file ends before its last face");
-    return number("number of corners");
-  }
+  std::int64_t begin_face() override { return number("number of corners"); }
   std::int64_t read_corner() override { return number("vertex index"); }
   void end_face() override { text_.skip_line(); }
   void fail(const std::string& what, const std::string& hint) const override { text_.fail(what, hint); }
 
   std::int64_t number(const char* what) {
-    text_.more_on_line();
+    require_more("the file ends before its last face");
     text_.mark();
     std::uint64_t value = 0;
     if (!text_.digits(value)) return text_.integer(what);

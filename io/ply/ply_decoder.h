@@ -14,7 +14,8 @@
 
 namespace reeb::io {
 
-// One record per line.
+// Usually one record a line. A record may also run over several lines; what follows it on its last line is ignored, and
+// counted.
 class AsciiPlyDecoder {
  public:
   static constexpr bool kBinary = false;
@@ -28,19 +29,20 @@ class AsciiPlyDecoder {
     text_.fail("the file ends inside the element " + element.name, "the file is cut; get a whole copy");
   }
   void end_record(const PlyElement&) {
-    if (text_.more_on_line()) {
-      text_.token();
-      text_.fail("the line has more values than the header declares", "the file may be damaged here");
-    }
+    for (; text_.more_on_line(); ++surplus_values_) text_.token();
     text_.skip_line();
   }
+  // Values after the end of a record.
+  std::uint64_t surplus_values() const { return surplus_values_; }
+
   double finite_value(ScalarType type, const char* what) {
+    move_to_value(what);
     if (type == ScalarType::kFloat32) return static_cast<double>(text_.finite_number<float>(what));
     if (type == ScalarType::kFloat64) return text_.finite_number<double>(what);
     return static_cast<double>(checked_integer(type, what));
   }
   std::int64_t integer(ScalarType type, const char* what) {
-    text_.more_on_line();
+    move_to_value(what);
     text_.mark();
     std::uint64_t value = 0;
     const char first = text_.peek();
@@ -51,10 +53,8 @@ class AsciiPlyDecoder {
   }
   // Returns true if the skipped value is not finite.
   bool skip(ScalarType, const char* what) {
-    const auto word = text_.token();
-    if (word.empty())
-      text_.fail(std::string("the line ends where a ") + what + " should be", "the file may be cut or damaged here");
-    return spells_non_finite(word);
+    move_to_value(what);
+    return spells_non_finite(text_.token());
   }
   void move_to_body() { text_.move_to_line(body_, body_line_); }
   [[noreturn]] void fail(const std::string& what, const std::string& hint) const { text_.fail(what, hint); }
@@ -64,6 +64,12 @@ class AsciiPlyDecoder {
   Cursor& bytes() { return text_.bytes(); }
 
  private:
+  void move_to_value(const char* what) {
+    if (text_.more_on_line() || text_.more()) return;
+    text_.mark();
+    text_.fail(std::string("the file ends where a ") + what + " should be", "the file is cut; get a whole copy");
+  }
+
   std::int64_t checked_integer(ScalarType type, const char* what) { return within(type, text_.integer(what), what); }
 
   std::int64_t within(ScalarType type, std::int64_t value, const char* what) const {
@@ -79,6 +85,7 @@ class AsciiPlyDecoder {
 
   TextCursor text_;
   std::uint64_t body_, body_line_;
+  std::uint64_t surplus_values_ = 0;
 };
 
 // Records without separators.
@@ -93,6 +100,7 @@ class BinaryPlyDecoder {
 
   void begin_record(const PlyElement&) {}
   void end_record(const PlyElement&) {}
+  std::uint64_t surplus_values() const { return 0; }
   double finite_value(ScalarType type, const char* what) {
     const double value = load_double(type, take(byte_size(type)), swap_);
     if (!std::isfinite(value)) fail(std::string("a ") + what + " is not finite", "fix this value in the file");

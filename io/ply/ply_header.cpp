@@ -71,8 +71,24 @@ class HeaderParser {
     else if (keyword == "property")
       parse_property();
     else if (keyword != "comment" && keyword != "obj_info")
-      text_.fail("\"" + keyword.substr(0, 40) + "\" is not a PLY header line", kHeaderHint);
+      pass_unknown_line(keyword);
     return true;
+  }
+
+  // Some writers forget the word comment. But a line with a damaged keyword must not be lost.
+  void pass_unknown_line(const std::string& keyword) {
+    const std::string position = text_.position();
+    const std::string second(text_.token()), third(text_.token());
+    const bool whole = !second.empty() && !text_.more_on_line();
+    const bool type = std::ranges::find(kTypeNames, second, &TypeName::name) != kTypeNames.end();
+    const bool number = !third.empty() && third.find_first_not_of("0123456789") == std::string::npos;
+    const bool encoding = second == "ascii" || second.starts_with("binary_");
+    const bool is_text = std::ranges::none_of(
+        keyword, [](char c) { return static_cast<unsigned char>(c) < 32 || static_cast<unsigned char>(c) == 127; });
+    if (!is_text || encoding || second == "list" || (whole && !third.empty() && (type || number)) || !saw_format_)
+      throw Error(ErrorKind::kBadInput, '"' + keyword.substr(0, 40) + "\" is not a PLY header line", kHeaderHint)
+          .at(text_.source().name(), position);
+    ++header_.unknown_lines;
   }
 
   void parse_format() {

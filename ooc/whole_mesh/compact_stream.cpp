@@ -26,8 +26,7 @@ class CompactStream {
         writer_(writer),
         space_(space),
         places_("finalization", space.temp, space.budget, 3 * space.share(), Place{}),
-        columns_(mesh.column_count()),
-        dimension_(dimension) {
+        columns_(mesh.column_count()) {
     std::iota(columns_.begin(), columns_.end(), 0u);
     batch_.coordinates.resize(dimension);
     batch_.properties.resize(columns_.size() - dimension);
@@ -142,7 +141,6 @@ class CompactStream {
   Workspace& space_;
   PagedTable<Place> places_;
   std::vector<unsigned> columns_;
-  unsigned dimension_;
   std::uint64_t numbered_ = 0, sent_ = 0;  // vertices that have a number, and vertices that were written
   std::vector<Place> here_;                // of the vertices of the current stretch
   std::vector<VertexId> new_ids_;

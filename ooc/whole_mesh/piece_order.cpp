@@ -43,7 +43,8 @@ class Cells {
     while (length_[axes_[0]] > 0 && counts_[0] < kMostCells / 2) {
       std::ranges::transform(pieces, ranks.begin(), [this](const MeshPiece& piece) { return rank(piece); });
       std::ranges::sort(ranks);
-      if (ranks.size() - std::ranges::unique(ranks).size() >= cells) return;
+      const auto distinct = std::unique(ranks.begin(), ranks.end()) - ranks.begin();
+      if (static_cast<std::uint64_t>(distinct) >= cells) return;
       set_side(side_ * step);
     }
   }

@@ -167,6 +167,64 @@ TEST(Readers, SmallOddities) {
   EXPECT_EQ(read_mesh(write_file("n.off", off("nOFF 3\n4 4 0\n"))), kTetrahedron);
 }
 
+// Files that others read, although they are not as they should be.
+TEST(Readers, RecordsOverSeveralLines) {
+  const auto broken = [](std::string text, std::size_t from) {
+    for (std::size_t i = from; i < text.size(); ++i)
+      if (text[i] == ' ' && i % 3 == 0) text[i] = '\n';
+    return text;
+  };
+  const std::string header = ply_header("ascii");
+  EXPECT_EQ(read_mesh(write_file("lines.ply", broken(ascii_ply(), header.size()))), kTetrahedron);
+  EXPECT_EQ(read_mesh(write_file("lines.off", broken(off(), 8))), kTetrahedron);
+  const std::string strip =
+      "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nelement tristrips 1\n"
+      "property list int int vertex_indices\nend_header\n0 \n\n1\n2\n3\n6\n0 1 2\n3 -1\n0\n";
+  EXPECT_THROW(read_mesh(write_file("cut.ply", strip.substr(0, strip.size() - 2))), Error);
+}
+
+TEST(Readers, SurplusValuesAtTheEndOfALineAreCounted) {
+  std::string text = ascii_ply();
+  for (const char* const line : {"3 1 2 3", "3 2 0 3"}) text.insert(text.find(line) + 7, " 9 nan 1e");
+  const std::string path = write_file("surplus.ply", text);
+  EXPECT_EQ(read_mesh(path), kTetrahedron);
+  const auto reader = open_mesh(path);
+  read_all(*reader);
+  EXPECT_EQ(reader->warnings(),
+            std::vector<std::string>{"6 values at the end of lines were ignored: the header does not declare them"});
+}
+
+TEST(Ply, AHeaderLineThatLacksTheWordComment) {
+  for (std::string text : {ascii_ply(), binary_ply(false)}) {
+    text.insert(text.find("element vertex"), "Created by a scanner, 7 int\nproduced with care\n");
+    const std::string path = write_file("created.ply", text);
+    EXPECT_EQ(read_mesh(path), kTetrahedron);
+    const auto reader = open_mesh(path);
+    read_all(*reader);
+    EXPECT_EQ(reader->warnings(), std::vector<std::string>{"2 lines of the header are no PLY and were ignored"});
+  }
+  for (const auto& [from, to] : {std::pair{"format", "fromat"},
+                                 {"element vertex", "elment vertex"},
+                                 {"property list", "proprty list"},
+                                 {"property float z", "prop float z"}}) {
+    std::string text = ascii_ply();
+    text.replace(text.find(from), std::strlen(from), to);
+    EXPECT_THROW(open_mesh(write_file("damaged.ply", text)), Error) << to;
+  }
+}
+
+TEST(Off, BlanksBeforeTheKeyword) {
+  EXPECT_EQ(read_mesh(write_file("blank.off", off(" \n\t OFF\n4 4 6\n"))), kTetrahedron);
+  EXPECT_EQ(read_mesh(write_file("counts.off", off("  OFF  4 4 6 # counts\n"))), kTetrahedron);
+}
+
+TEST(Obj, OfCommentsOnlyIsToldByItsName) {
+  const std::string text = "# an empty scene\n\n# o nothing\n";
+  EXPECT_EQ(read_mesh(write_file("comments.obj", text)), Mesh());
+  expect_bad(write_file("comments.txt", text), "0", "unknown file format");
+  expect_bad(write_file("words.obj", "an empty scene\n"), "0", "unknown file format");
+}
+
 TEST(Ply, TypesOrderExtrasAndStrips) {
   const std::string bytes =
       "ply\nformat ascii 1.0\nelement edge 1\nproperty int a\nproperty list uint8 double b\n"
@@ -331,8 +389,9 @@ TEST(Errors, HavePositionAndHint) {
   expect_bad(write_file("p1.ply", with(ply, "1 0\t0", "1 nan\t0")), "12:3", "cannot be \"nan\"");
   expect_bad(write_file("p2.ply", with(ply, "1 0\t0", "1 1e39\t0")), "12:3", "1e39");
   expect_bad(write_file("p3.ply", with(ply, "3 2 0 3", "3 2 0 4")), "18:7", "names vertex 4");
-  expect_bad(write_file("p4.ply", with(ply, "3 2 0 3", "3 2 0")), "18:6", "line ends");
-  expect_bad(write_file("p5.ply", with(ply, "3 2 0 3", "3 2 0 3 1")), "18:9", "more values");
+  expect_bad(write_file("p4.ply", with(ply, "3 2 0 3", "3 2 0")), "19:1", "the file ends where a vertex index");
+  expect_bad(write_file("p5.ply", with(ply, "element face", "elment face")), "8:1", "not a PLY header line");
+  expect_bad(write_file("p8.ply", with(ply, "1 0\t0", "1 0")), "19:1", "ends inside");
   expect_bad(write_file("p6.ply", with(ply, "face 4", "face 5")), "19:1", "ends inside");
   expect_bad(write_file("p7.ply", with(ply, "face 4", "face 9000000000000")), "10:1", "announces 9,000,000,000,000");
   const std::string binary = binary_ply(false);
