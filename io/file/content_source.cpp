@@ -210,7 +210,9 @@ std::unique_ptr<RawInput> open_pipe(const std::string& path) {
 std::unique_ptr<ContentSource> open_content(std::shared_ptr<const InputFile> file) {
   auto plain = std::make_unique<FileSource>(file);
   if (detect_compression(plain->view(0)) == Compression::kNone) return plain;
-  return stream_source(file->path(), std::make_unique<FileInput>(file), file->size());
+  const std::string path = file->path();
+  const std::uint64_t size = file->size();
+  return stream_source(path, std::make_unique<FileInput>(std::move(file)), size);
 }
 
 std::unique_ptr<ContentSource> open_for_seeking(std::shared_ptr<const InputFile> file) {

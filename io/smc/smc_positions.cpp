@@ -189,7 +189,7 @@ Grid::Grid(const StreamBox& box, std::uint32_t precision) {
   const double steps = static_cast<double>((1u << precision) - 1);
   places_per_unit = steps / longest;
   units_per_place = longest / steps;
-  for (std::size_t k = 0; k < 3; ++k) top[k] = static_cast<std::int32_t>(extent[k] * places_per_unit + 0.5);
+  for (std::size_t k = 0; k < 3; ++k) top[k] = static_cast<std::int32_t>(std::floor(extent[k] * places_per_unit + 0.5));
 }
 
 std::int32_t Grid::place(std::size_t axis, float x) const {

@@ -8,7 +8,7 @@ SmcModels::SmcModels(unsigned version)
       start_cache(3, AdaptiveModel(kStartEscape + 1, kSmallModel)),
       edge_cache(kSmcOperations, AdaptiveModel(kEdgeEscape + 1, kSmallModel)),
       pair_cache(kSmcOperations, AdaptiveModel(kPairEscape + 1, kSmallModel)),
-      finals_(4 * kMaxUses, AdaptiveModel(2, kSmallModel)) {}
+      finals_(std::size_t{4} * kMaxUses, AdaptiveModel(2, kSmallModel)) {}
 
 std::uint32_t NumberLists::take(std::uint32_t log_capacity) {
   auto& free = free_[log_capacity];

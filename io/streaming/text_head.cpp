@@ -34,9 +34,7 @@ bool TextHead::read_keyword(std::string_view line, std::string_view word, std::s
   if (volume_word) header_.volume = true;
   if (word == "nverts")
     read_count(after, header_.vertex_count);
-  else if (word == "nfaces" && !header_.volume)
-    read_count(after, header_.cell_count);
-  else if (word == "ncells")
+  else if (word == "ncells" || (word == "nfaces" && !header_.volume))
     read_count(after, header_.cell_count);
   else if (word == "v_pnum_f")
     read_width(after, header_.vertex_floats, 3);

@@ -48,7 +48,7 @@ bool GuessedChunks::read_chunk(Chunk& chunk) {
 
 // A small batch at a time, so that corners are numbered while they are in the first-level cache.
 bool GuessedChunks::read_triangles(Chunk& chunk) {
-  constexpr std::size_t kCornersInCache = 3 * 1024;
+  constexpr std::size_t kCornersInCache = std::size_t{3} * 1024;
   const std::size_t most = 3 * size_.size();
   std::size_t count = 0;
   numbers_.start(chunk.ids, size_.size());

@@ -50,7 +50,7 @@ struct Header {
   std::uint64_t triangles_digest;
   std::uint64_t samples;
 };
-static_assert(sizeof(Header) == 14 * 8);
+static_assert(sizeof(Header) == std::size_t{14} * 8);
 
 struct BlockHeader {
   std::uint64_t packed_bytes;

@@ -21,11 +21,11 @@ class PipelineOrder {
 
   // To call once the filters are made, before the pipeline starts: make_filter copies the captures of a filter, and the
   // threads of the pipeline read these copies.
-  static void filters_are_made() { publish(&begin_); }
+  static void filters_are_made() { publish(&beginning); }
 
   // A filter calls this first, before it reads anything that it captured. One place for all pipelines, since the place
   // must be known without reading a capture.
-  static void begin_filter() { observe(&begin_); }
+  static void begin_filter() { observe(&beginning); }
 
   // Exists while a filter works on an item. `serial` names a filter that runs once at a time.
   class Filter {
@@ -59,7 +59,7 @@ class PipelineOrder {
   static void observe(const void*) {}
 #endif
 
-  inline static char begin_ = 0;
+  inline static char beginning = 0;
   char end_ = 0;
 };
 
