@@ -1,6 +1,7 @@
 #include "io/smc/smc_positions.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace reeb::io {
 namespace {
