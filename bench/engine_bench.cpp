@@ -48,7 +48,7 @@ Mesh read_mesh(Layout layout) {
   for (MeshBatch batch; reader->read(batch);) {
     for (std::size_t k = 0; k < 3; ++k)
       mesh.coordinates[k].insert(mesh.coordinates[k].end(), batch.coordinates[k].begin(), batch.coordinates[k].end());
-    for (const VertexId v : batch.triangles) mesh.corners.push_back(v.value());
+    for (const VertexId v : batch.triangles()) mesh.corners.push_back(v.value());
   }
   const std::size_t vertices = mesh.coordinates[0].size();
   mesh.first_use.assign(vertices, std::numeric_limits<std::size_t>::max());

@@ -38,6 +38,7 @@ class GridMesh : public IndexedMesh {
         values[k * ids.size() + i] = static_cast<double>(columns[k] == 0 ? x : columns[k] == 1 ? y : (x * y) % 17);
       }
   }
+  SimplexCounts simplex_counts() const override { return {0, 0, triangle_count()}; }
   void rewind() override { x_ = y_ = 0; }
   bool read(std::vector<VertexId>& corners, std::size_t limit) override {
     corners.clear();

@@ -3,6 +3,7 @@
 #include <array>
 #include <charconv>
 
+#include "io/mesh/written_records.h"
 #include "io/text/output_buffer.h"
 
 namespace reeb::io {
@@ -53,13 +54,11 @@ void append_batch_vertex(std::string& out, const MeshBatch& batch, std::size_t i
   out += '\n';
 }
 
-void append_batch_cells(Lines& lines, char letter, const std::vector<VertexId>& corners, std::size_t size) {
-  for (std::size_t i = 0; i + size <= corners.size(); i += size) {
-    std::string& out = lines.text();
-    out += letter;
-    for (std::size_t k = 0; k < size; ++k) append_integer(out, corners[i + k].value());
-    out += '\n';
-  }
+void append_line(Lines& lines, char letter, std::span<const VertexId> vertices) {
+  std::string& out = lines.text();
+  out += letter;
+  for (const VertexId v : vertices) append_integer(out, v.value());
+  out += '\n';
 }
 
 }  // namespace
@@ -97,9 +96,13 @@ void write_events(MeshReader& reader, std::ostream& out) {
   MeshBatch batch;
   while (reader.read(batch)) {
     for (std::size_t i = 0; i < batch.vertex_count; ++i) append_batch_vertex(lines.text(), batch, i);
-    append_batch_cells(lines, 't', batch.triangles, 3);
-    append_batch_cells(lines, 'c', batch.tetrahedra, 4);
-    append_batch_cells(lines, 'f', batch.finalized, 1);
+    for_each_face(batch, 4, [&lines](std::span<const VertexId> corners) {
+      if (corners.size() == 4)
+        append_line(lines, 'c', corners);
+      else
+        append_line(lines, 't', as_triangle(corners));
+    });
+    for (const VertexId v : batch.finalized) append_line(lines, 'f', {&v, 1});
   }
 }
 

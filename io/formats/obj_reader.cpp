@@ -12,10 +12,10 @@ constexpr std::string_view kTruncatedHint = "the file may be cut or damaged here
 
 // Sorted. Lines without simplices: free-form geometry, groups, materials and rendering state.
 constexpr auto kSkippedKeywords = std::to_array<std::string_view>(
-    {"bevel",  "bmat",      "bsp",   "bzp",      "c_interp", "call", "cdc",  "cdp",        "con", "csh",    "cstype",
-     "ctech",  "curv",      "curv2", "d_interp", "deg",      "end",  "g",    "hole",       "lod", "maplib", "mg",
-     "mtllib", "o",         "p",     "parm",     "res",      "s",    "scrv", "shadow_obj", "sp",  "stech",  "step",
-     "surf",   "trace_obj", "trim",  "usemap",   "usemtl",   "vn",   "vp",   "vt"});
+    {"bevel",  "bmat",  "bsp",    "bzp",       "c_interp", "call",   "cdc",    "cdp",  "con",        "csh",
+     "cstype", "ctech", "curv",   "curv2",     "d_interp", "deg",    "end",    "g",    "hole",       "lod",
+     "maplib", "mg",    "mtllib", "o",         "parm",     "res",    "s",      "scrv", "shadow_obj", "sp",
+     "stech",  "step",  "surf",   "trace_obj", "trim",     "usemap", "usemtl", "vn",   "vp",         "vt"});
 static_assert(std::ranges::is_sorted(kSkippedKeywords));
 
 bool is_skipped(std::string_view word) { return std::ranges::binary_search(kSkippedKeywords, word); }
@@ -23,7 +23,7 @@ bool is_skipped(std::string_view word) { return std::ranges::binary_search(kSkip
 }  // namespace
 
 bool is_obj_keyword(std::string_view word) {
-  return word == "v" || word == "f" || word == "fo" || word == "l" || is_skipped(word);
+  return word == "v" || word == "f" || word == "fo" || word == "l" || word == "p" || is_skipped(word);
 }
 
 ObjReader::ObjReader(std::unique_ptr<ContentSource> source, ReadOptions options)
@@ -48,8 +48,8 @@ void ObjReader::begin_line(MeshBatch& batch) {
   const std::string_view keyword = text_.token();
   if (keyword == "v") {
     read_vertex(batch);
-  } else if (keyword == "f" || keyword == "l" || keyword == "fo") {
-    face_.begin(keyword == "l" ? FaceShape::kPolyline : FaceShape::kPolygon);
+  } else if (keyword == "f" || keyword == "l" || keyword == "fo" || keyword == "p") {
+    face_.begin(keyword == "l" ? FaceShape::kPolyline : keyword == "p" ? FaceShape::kPoints : FaceShape::kPolygon);
     in_face_ = true;
   } else {
     if (!is_skipped(keyword) && unknown_lines_++ == 0) first_unknown_line_ = text_.line();
@@ -73,10 +73,10 @@ void ObjReader::read_vertex(MeshBatch& batch) {
 
 void ObjReader::read_corner(MeshBatch& batch) {
   if (text_.more_on_line()) {
-    face_.add(corner(), batch.triangles);
+    face_.add(corner(), batch);
     return;
   }
-  face_.end(batch.triangles);
+  face_.end(batch);
   in_face_ = false;
   text_.skip_line();
 }

@@ -1,4 +1,4 @@
-// Wavefront OBJ: v, f and l; everything else is skipped. Numbers are float64.
+// Wavefront OBJ: v, f, l and p; everything else is skipped. Numbers are float64.
 #pragma once
 
 #include <memory>

@@ -22,10 +22,10 @@ class ObjWriter : public MeshWriter {
       }
       line.put('\n');
     }
-    for_each_face(batch, [this](VertexId a, VertexId b, VertexId c) {
+    for_each_face(batch, 3, [this](std::span<const VertexId> corners) {
       TextRecord line(file_.out());
-      line.put('f');
-      for (const VertexId v : {a, b, c}) {
+      line.put("plf"[corners.size() - 1]);
+      for (const VertexId v : corners) {
         line.put(' ');
         line.put(v.value() + 1);
       }

@@ -86,10 +86,10 @@ class OffReader : public BatchReader {
         fail("a face names vertex " + std::to_string(corner) + ", but the mesh has only " +
                  count_of(header_.vertices, "vertex"),
              "vertices are numbered from 0; the file may be damaged here");
-      face_.add(VertexId(static_cast<std::uint64_t>(corner)), batch.triangles);
+      face_.add(VertexId(static_cast<std::uint64_t>(corner)), batch);
       return;
     }
-    face_.end(batch.triangles);
+    face_.end(batch);
     end_face();
     in_face_ = false;
     ++faces_read_;

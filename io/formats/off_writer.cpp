@@ -26,7 +26,7 @@ class OffWriter : public MeshWriter {
         line.put(k + 1 < dimension_ ? ' ' : '\n');
       }
     }
-    if (!batch.triangles.empty() || !batch.tetrahedra.empty()) write_faces(batch);
+    if (const std::uint64_t faces = face_count(batch); faces != 0) write_faces(batch, faces);
   }
 
   void close() override {
@@ -42,12 +42,12 @@ class OffWriter : public MeshWriter {
     return magic + std::to_string(vertices) + " " + std::to_string(faces) + " 0\n";
   }
 
-  void write_faces(const MeshBatch& batch) {
-    BufferedWriter& out = file_.faces(batch.triangle_count() + 4 * batch.tetrahedron_count());
-    for_each_face(batch, [&out](VertexId a, VertexId b, VertexId c) {
+  void write_faces(const MeshBatch& batch, std::uint64_t count) {
+    BufferedWriter& out = file_.faces(count);
+    for_each_face(batch, 3, [&out](std::span<const VertexId> corners) {
       TextRecord line(out);
-      line.put('3');
-      for (const VertexId v : {a, b, c}) {
+      line.put(corners.size());
+      for (const VertexId v : corners) {
         line.put(' ');
         line.put(v.value());
       }

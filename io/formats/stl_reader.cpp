@@ -40,7 +40,7 @@ void StlReader::add_corner(const VertexWeld::Coordinates& point, MeshBatch& batc
 void StlReader::fill(MeshBatch& batch) {
   while (room(batch) != 0) {
     if (pending_) {
-      facet_.add(*pending_, batch.triangles);
+      facet_.add(*pending_, batch);
       pending_.reset();
     } else if (!advance(batch)) {
       return;
@@ -84,7 +84,7 @@ bool AsciiStlReader::advance(MeshBatch& batch) {
 
 void AsciiStlReader::end_facet(MeshBatch& batch) {
   if (facet_corners_ < 3) text_.fail("a facet of " + std::to_string(facet_corners_) + " corners", kDamagedHint);
-  facet_.end(batch.triangles);
+  facet_.end(batch);
 }
 
 BinaryStlReader::BinaryStlReader(std::unique_ptr<ContentSource> source, ReadOptions options)

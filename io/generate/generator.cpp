@@ -100,21 +100,21 @@ class ShapeReader : public GeneratedMesh {
 
   void read_random_triangles(MeshBatch& batch) {
     for (; batch.triangle_count() < batch_events_ && next_ < topology_.triangles; ++next_)
-      shape_->append_triangle(permutation_(next_), batch.triangles);
+      shape_->append_triangle(permutation_(next_), batch.triangles());
   }
 
   // A cell can have more triangles than the batch has room for; the rest waits for the next batch.
   void read_cells(MeshBatch& batch) {
-    batch.triangles.swap(waiting_);
+    batch.triangles().swap(waiting_);
     while (batch.triangle_count() < batch_events_ && find_cell()) {
       const bool seams_come_last = order_ == MeshOrder::kSeamsLast;
-      if (!seams_come_last || shape_->is_seam(next_) == at_seams_) shape_->append_cell(next_, batch.triangles);
+      if (!seams_come_last || shape_->is_seam(next_) == at_seams_) shape_->append_cell(next_, batch.triangles());
       ++next_;
     }
-    const std::size_t end = std::min(batch.triangles.size(), 3 * batch_events_);
-    const auto rest = batch.triangles.begin() + static_cast<std::ptrdiff_t>(end);
-    waiting_.assign(rest, batch.triangles.end());
-    batch.triangles.erase(rest, batch.triangles.end());
+    const std::size_t end = std::min(batch.triangles().size(), 3 * batch_events_);
+    const auto rest = batch.triangles().begin() + static_cast<std::ptrdiff_t>(end);
+    waiting_.assign(rest, batch.triangles().end());
+    batch.triangles().erase(rest, batch.triangles().end());
   }
 
   // Moves next_ to the first cell of the next tile at the end of a tile. False after the last one.

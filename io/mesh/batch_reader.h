@@ -36,8 +36,10 @@ class BatchReader : public MeshReader {
   // Adds events in the order of the file while room() is left. Adds none only at the end.
   virtual void fill(MeshBatch& batch) = 0;
 
+  // For a reader that adds simplices up to dimension kMost.
+  template <std::size_t kMost = 2>
   std::size_t room(const MeshBatch& batch) const {
-    const std::size_t used = batch.vertex_count + batch.triangle_count();
+    const std::size_t used = batch.vertex_count + batch.simplex_count<kMost>();
     return options_.batch_events - std::min(used, options_.batch_events);
   }
 

@@ -1,26 +1,39 @@
 // What the writers of several formats share: the faces of a batch, and lines of text.
 #pragma once
 
+#include <array>
 #include <charconv>
 #include <concepts>
+#include <cstdint>
+#include <span>
 
 #include "io/file/buffered_writer.h"
 #include "libreeb/port/mesh_reader.h"
 
 namespace reeb::io {
 
-// Calls visit(a, b, c) for every triangle of the batch, then for every face of its tetrahedra.
+// Calls visit(corners) for every simplex of the batch with up to `most` corners, then for every triangle of the others.
 template <class Visit>
-void for_each_face(const MeshBatch& batch, Visit visit) {
-  for (std::size_t i = 0; i + 2 < batch.triangles.size(); i += 3)
-    visit(batch.triangles[i], batch.triangles[i + 1], batch.triangles[i + 2]);
-  for (std::size_t i = 0; i + 3 < batch.tetrahedra.size(); i += 4) {
-    const VertexId* v = &batch.tetrahedra[i];
-    visit(v[0], v[1], v[2]);
-    visit(v[0], v[1], v[3]);
-    visit(v[0], v[2], v[3]);
-    visit(v[1], v[2], v[3]);
-  }
+void for_each_face(const MeshBatch& batch, std::size_t most, const Visit& visit) {
+  batch.for_each_simplex([&](std::span<const VertexId> v) {
+    if (v.size() <= most) return visit(v);
+    for (std::size_t i = 0; i < v.size(); ++i)
+      for (std::size_t j = i + 1; j < v.size(); ++j)
+        for (std::size_t k = j + 1; k < v.size(); ++k) visit(std::span<const VertexId>(std::array{v[i], v[j], v[k]}));
+  });
+}
+
+// How many that are with up to three corners.
+inline std::uint64_t face_count(const MeshBatch& batch) {
+  std::uint64_t faces = batch.simplex_count<2>();
+  for (std::size_t k = 3; k < batch.simplices.size(); ++k)
+    faces += batch.simplices[k].size() / (k + 1) * ((k + 1) * k * (k - 1) / 6);
+  return faces;
+}
+
+// A face of up to three corners as a triangle, with its last corner repeated.
+inline std::array<VertexId, 3> as_triangle(std::span<const VertexId> face) {
+  return {face[0], face[face.size() == 1 ? 0 : 1], face.back()};
 }
 
 // One line of a text format, built in the buffer of its file: no allocation per record.

@@ -71,16 +71,19 @@ class IndexedPly final : public IndexedMesh {
   void rewind() override {
     faces_->move_to_faces();
     reading_ = faces_.get();
+    triangles_read_ = 0;
   }
 
   bool read(std::vector<VertexId>& corners, std::size_t limit) override {
     corners.clear();
-    batch_.triangles.swap(corners);
+    batch_.triangles().swap(corners);
     reading_->set_batch_events(limit);
     const bool more = reading_->read(batch_);
-    batch_.triangles.swap(corners);
+    batch_.triangles().swap(corners);
+    if (reading_ == faces_.get()) count(corners.size() / 3, !more);
     return more;
   }
+  SimplexCounts simplex_counts() const override { return counts_; }
 
   std::optional<MeshPlace> place() const override { return reading_->place(); }
   void seek(const MeshPlace& place) override {
@@ -94,6 +97,13 @@ class IndexedPly final : public IndexedMesh {
   std::vector<std::string> warnings() const override { return reading_->warnings(); }
 
  private:
+  void count(std::uint64_t triangles, bool at_end) {
+    triangles_read_ += triangles;
+    if (!at_end) return;
+    const auto [points, edges] = faces_->points_and_edges();
+    counts_ = {points, edges, triangles_read_ - points - edges};
+  }
+
   const char* record(VertexId id) { return windows_.at(vertices_begin_ + id.value() * stride_); }
 
   // For little-endian float32 and a number of columns that is known at compile time.
@@ -143,6 +153,8 @@ class IndexedPly final : public IndexedMesh {
   std::unique_ptr<PlyBodyReader> pieces_;  // from places on; null before the first seek()
   PlyBodyReader* reading_ = faces_.get();
   MeshBatch batch_;
+  std::uint64_t triangles_read_ = 0;  // of `faces_`
+  SimplexCounts counts_{};
 };
 
 }  // namespace

@@ -102,7 +102,10 @@ class PlyReader final : public PlyBodyReader {
           .at(decoder_.source().name());
   }
 
+  void deliver_triangles_only() { triangles_only_ = true; }
+
   void move_to_faces() override {
+    turned_ = {};
     std::uint64_t offset = header_.body_offset;
     for (step_ = 0; step_ <= header_.vertex_element; ++step_)
       offset += header_.elements[step_].count * header_.elements[step_].fixed_bytes();
@@ -110,6 +113,8 @@ class PlyReader final : public PlyBodyReader {
     record_ = odd_values_ = 0;
     in_record_ = trailing_ = false;
   }
+
+  std::array<std::uint64_t, 2> points_and_edges() const override { return turned_; }
 
   std::optional<MeshPlace> place() const override {
     if constexpr (Decoder::kBinary) {
@@ -342,16 +347,30 @@ class PlyReader final : public PlyBodyReader {
     for (; corners_left_ != 0 && room(batch) != 0; --corners_left_) {
       const std::int64_t corner = decoder_.integer(list.type, "vertex index");
       if (strip && corner == -1) {
-        face_.end(batch.triangles);
+        end_face(batch);
         face_.begin(FaceShape::kStrip);
       } else {
         check_corner(corner);
-        face_.add(VertexId(static_cast<std::uint64_t>(corner)), batch.triangles);
+        face_.add(VertexId(static_cast<std::uint64_t>(corner)), batch);
       }
     }
     if (corners_left_ != 0 || room(batch) == 0) return false;
-    face_.end(batch.triangles);
+    end_face(batch);
     return true;
+  }
+
+  // Triangles alone keep the order of the file: that of a batch goes by dimension, and batches are of any size.
+  void end_face(MeshBatch& batch) {
+    face_.end(batch);
+    if (!triangles_only_ || (batch.points().empty() && batch.edges().empty())) return;
+    turned_[0] += batch.points().size();
+    turned_[1] += batch.edges().size() / 2;
+    const auto turn = [&batch](std::vector<VertexId>& face) {
+      if (!face.empty()) batch.triangles().insert(batch.triangles().end(), {face.front(), face.back(), face.back()});
+      face.clear();
+    };
+    turn(batch.points());
+    turn(batch.edges());
   }
 
   void check_corner(std::int64_t corner) const {
@@ -381,7 +400,8 @@ class PlyReader final : public PlyBodyReader {
     const std::uint64_t limit = std::min(vertex_limit_, std::uint64_t{1} << (is_signed ? 31 : 32));
     const std::size_t count = decoder_.swaps() ? copy_triangles<true>(bytes.data(), most, limit, run_.data())
                                                : copy_triangles<false>(bytes.data(), most, limit, run_.data());
-    batch.triangles.insert(batch.triangles.end(), run_.begin(), run_.begin() + static_cast<std::ptrdiff_t>(3 * count));
+    batch.triangles().insert(batch.triangles().end(), run_.begin(),
+                             run_.begin() + static_cast<std::ptrdiff_t>(3 * count));
     bytes.advance(count * kRecordBytes);
     record_ += count;
     return count != 0;
@@ -430,6 +450,8 @@ class PlyReader final : public PlyBodyReader {
   SimplexAssembler face_;
   std::uint64_t odd_values_ = 0;
   bool trailing_ = false;
+  bool triangles_only_ = false;
+  std::array<std::uint64_t, 2> turned_{};  // points and edges that became triangles
 };
 
 }  // namespace
@@ -444,6 +466,7 @@ std::unique_ptr<MeshReader> open_ply(std::unique_ptr<ContentSource> source, cons
 
 std::unique_ptr<PlyBodyReader> open_ply_faces(std::unique_ptr<ContentSource> source, const PlyHeader& header) {
   auto reader = std::make_unique<PlyReader<BinaryPlyDecoder>>(TextCursor(std::move(source)), header, ReadOptions{});
+  reader->deliver_triangles_only();
   reader->move_to_faces();
   return reader;
 }

@@ -1,6 +1,8 @@
 // PLY: ASCII and binary of either byte order, any order of elements and properties.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <memory>
 #include <optional>
 
@@ -15,12 +17,15 @@ namespace reeb::io {
 // THROWS: Error{kBadInput} as open_mesh.
 std::unique_ptr<MeshReader> open_ply(std::unique_ptr<ContentSource> source, const ReadOptions& options);
 
-// A reader of a PLY file that can return to the faces.
+// A reader of the faces of a PLY file that can return to them. It delivers triangles only: an edge is (a, b, b), a
+// point (a, a, a). So the order is that of the file, in batches of any size.
 class PlyBodyReader : public BatchReader {
  public:
   // Moves to the first element after the vertices, to read the faces from there.
   // REQUIRES: a binary file that allows seeking, with records of fixed size up to the last vertex.
   virtual void move_to_faces() = 0;
+  // How many triangles since then were points, and how many edges.
+  virtual std::array<std::uint64_t, 2> points_and_edges() const = 0;
 
   // Where the next face is read, between two triangles; and to go on there. Nothing within a strip or a polygon of very
   // many corners, since a face is read again up to the place.

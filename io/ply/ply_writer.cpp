@@ -16,7 +16,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "records are copied as they lie in memory");
 
 constexpr std::uint64_t kMaxVertices = std::uint64_t{1} << 32;
-constexpr std::size_t kFaceBytes = 1 + 3 * sizeof(std::uint32_t);
+constexpr std::size_t kMaxFaceBytes = 1 + 3 * sizeof(std::uint32_t);
 
 template <class Number>
 class PlyWriter : public MeshWriter {
@@ -29,7 +29,7 @@ class PlyWriter : public MeshWriter {
 
   void write(const MeshBatch& batch) override {
     write_vertices(batch);
-    if (!batch.triangles.empty() || !batch.tetrahedra.empty()) write_faces(batch);
+    if (const std::uint64_t faces = face_count(batch); faces != 0) write_faces(batch, faces);
   }
 
   void close() override {
@@ -94,15 +94,17 @@ class PlyWriter : public MeshWriter {
     throw Error(ErrorKind::kBadInput, text + " does not fit a float", "write double numbers, or OBJ");
   }
 
-  void write_faces(const MeshBatch& batch) {
-    BufferedWriter& out = file_.faces(batch.triangle_count() + 4 * batch.tetrahedron_count());
-    for_each_face(batch, [&out](VertexId a, VertexId b, VertexId c) {
-      char* record = out.reserve_record(kFaceBytes);
-      const std::uint32_t corners[3] = {static_cast<std::uint32_t>(a.value()), static_cast<std::uint32_t>(b.value()),
-                                        static_cast<std::uint32_t>(c.value())};
-      *record = 3;
-      std::memcpy(record + 1, corners, sizeof corners);
-      out.commit_record(kFaceBytes);
+  void write_faces(const MeshBatch& batch, std::uint64_t count) {
+    BufferedWriter& out = file_.faces(count);
+    for_each_face(batch, 3, [&out](std::span<const VertexId> corners) {
+      char* record = out.reserve_record(kMaxFaceBytes);
+      *record++ = static_cast<char>(corners.size());
+      for (const VertexId v : corners) {
+        const auto corner = static_cast<std::uint32_t>(v.value());
+        std::memcpy(record, &corner, sizeof corner);
+        record += sizeof corner;
+      }
+      out.commit_record(1 + corners.size() * sizeof(std::uint32_t));
     });
   }
 

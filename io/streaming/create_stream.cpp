@@ -74,18 +74,17 @@ class StreamMeshWriter : public MeshWriter {
  public:
   StreamMeshWriter(const std::string& path, const MeshWriterOptions& options)
       : header_(header_of(path, options)),
-        tetrahedra_(header_.volume || stream_format(path) == StreamFormat::kEvents),
+        most_corners_(header_.volume || stream_format(path) == StreamFormat::kEvents ? 4 : 3),
         writer_(create_stream(path, header_, options.existing)) {}
 
   void write(const MeshBatch& batch) override {
     for (std::size_t i = 0; i < batch.vertex_count; ++i) write_vertex(batch, i);
-    if (tetrahedra_)
-      write_cells(batch);
-    else
-      for_each_face(batch, [this](VertexId a, VertexId b, VertexId c) {
-        const VertexId corners[] = {a, b, c};
-        write_cell(EventKind::kTriangle, corners);
-      });
+    for_each_face(batch, most_corners_, [this](std::span<const VertexId> corners) {
+      if (corners.size() == 4)
+        write_cell(EventKind::kTetrahedron, corners);
+      else
+        write_cell(EventKind::kTriangle, as_triangle(corners));
+    });
     event_.kind = EventKind::kFinalized;
     for (const VertexId v : batch.finalized) {
       event_.vertex = static_cast<std::uint32_t>(v.value());
@@ -145,13 +144,6 @@ class StreamMeshWriter : public MeshWriter {
     return k < batch.coordinates.size() ? batch.coordinates[k][i] : 0.0;
   }
 
-  void write_cells(const MeshBatch& batch) {
-    const std::span<const VertexId> triangles(batch.triangles), tetrahedra(batch.tetrahedra);
-    for (std::size_t t = 0; t < triangles.size(); t += 3) write_cell(EventKind::kTriangle, triangles.subspan(t, 3));
-    for (std::size_t t = 0; t < tetrahedra.size(); t += 4)
-      write_cell(EventKind::kTetrahedron, tetrahedra.subspan(t, 4));
-  }
-
   void write_cell(EventKind kind, std::span<const VertexId> corners) {
     event_.kind = kind;
     for (std::size_t k = 0; k < corners.size(); ++k) event_.corners[k] = static_cast<std::uint32_t>(corners[k].value());
@@ -159,7 +151,7 @@ class StreamMeshWriter : public MeshWriter {
   }
 
   StreamHeader header_;
-  bool tetrahedra_;
+  std::size_t most_corners_;  // of a cell that is written whole
   std::unique_ptr<StreamWriter> writer_;
   StreamEvent event_{};
   std::uint64_t rounded_ = 0;

@@ -101,10 +101,10 @@ class StreamMeshReader : public MeshReader {
         ++vertices_;
         return;
       case EventKind::kTriangle:
-        for (std::size_t k = 0; k < 3; ++k) batch.triangles.emplace_back(event.corners[k]);
+        for (std::size_t k = 0; k < 3; ++k) batch.triangles().emplace_back(event.corners[k]);
         return;
       case EventKind::kTetrahedron:
-        for (std::size_t k = 0; k < 4; ++k) batch.tetrahedra.emplace_back(event.corners[k]);
+        for (std::size_t k = 0; k < 4; ++k) batch.tetrahedra().emplace_back(event.corners[k]);
         return;
       case EventKind::kFinalized:
         batch.finalized.emplace_back(event.vertex);

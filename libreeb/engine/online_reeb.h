@@ -54,8 +54,8 @@ class OnlineReeb {
   // THROWS: Error{kBadInput} if the value is not finite, or after finish().
   VertexId add_vertex(double value, const Point& position = {});
 
-  // Adds the simplex with this set of corners (repeats are ignored), of any dimension; it counts
-  // through its 2-skeleton.
+  // Adds the simplex with this set of corners (repeats are ignored), of any dimension; the
+  // triangles through its vertex of lowest index decide.
   // THROWS: Error{kBadInput} if a corner was not added or was finalized, or after finish().
   void add_simplex(std::span<const VertexId> corners);
 

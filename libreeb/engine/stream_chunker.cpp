@@ -68,11 +68,8 @@ void StreamChunker::add_simplex(std::span<const VertexId> corners) {
   std::sort(corners_.begin(), corners_.end());
   corners_.erase(std::unique(corners_.begin(), corners_.end()), corners_.end());
   for (const VertexId v : corners_) slot_of(v, "a simplex names");
-  const std::size_t n = corners_.size();
-  if (n == 2) add_triangle(corners_[0], corners_[1], corners_[1]);
-  for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t j = i + 1; j < n; ++j)
-      for (std::size_t k = j + 1; k < n; ++k) add_triangle(corners_[i], corners_[j], corners_[k]);
+  if (corners_.size() < 2) return;  // a vertex needs no simplex
+  deciding_.of_simplex(corners_, [this](VertexId a, VertexId b, VertexId c) { add_triangle(a, b, c); });
 }
 
 void StreamChunker::add_triangle(VertexId a, VertexId b, VertexId c) {
@@ -167,7 +164,7 @@ void StreamChunker::take_final(Chunk& chunk, std::vector<std::vector<double>>& v
 std::size_t StreamChunker::memory_bytes() const {
   return slot_of_.memory_bytes() + state_.capacity() + 8 * slot_vertices_.capacity() +
          4 * (local_.capacity() + free_slots_.capacity()) + 8 * slot_values_.capacity() +
-         slot_positions_.capacity() * sizeof(Point);
+         slot_positions_.capacity() * sizeof(Point) + deciding_.memory_bytes();
 }
 
 }  // namespace reeb

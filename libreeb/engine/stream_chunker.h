@@ -12,6 +12,7 @@
 #include "libreeb/base/flat_map.h"
 #include "libreeb/base/ids.h"
 #include "libreeb/engine/chunk.h"
+#include "libreeb/port/deciding_triangles.h"
 
 namespace reeb {
 
@@ -25,7 +26,7 @@ class StreamChunker {
   // THROWS: Error{kBadInput} if a value is not finite.
   VertexId add_vertex(std::span<const double> values, const Point& position);
 
-  // Adds the 2-skeleton of the simplex with this set of corners (repeats are ignored), of any dimension.
+  // Adds the triangles that decide of the simplex with this set of corners (repeats are ignored), of any dimension.
   // THROWS: Error{kBadInput} if a corner was not added or was finalized.
   void add_simplex(std::span<const VertexId> corners);
 
@@ -94,6 +95,7 @@ class StreamChunker {
   std::vector<std::vector<double>> values_;
   std::vector<std::uint32_t> slot_of_local_;  // kNone once the vertex is final
   std::size_t final_in_chunk_ = 0;
+  DecidingTriangles deciding_;
   std::vector<VertexId> corners_;
 };
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "libreeb/base/ids.h"
+#include "libreeb/port/simplex_counts.h"
 
 namespace reeb {
 
@@ -44,10 +45,13 @@ class IndexedMesh {
 
   // read() starts again at the first simplex.
   virtual void rewind() = 0;
-  // Replaces `corners` by the next triangles, three corners each, as in MeshBatch::triangles; a
-  // tetrahedron is delivered as its four faces. At most `limit` triangles. False at the end.
-  // All corners are below vertex_count().
+  // Replaces `corners` by the next triangles that decide the Reeb graph, three corners each: an edge is (a, b, b) in
+  // this form, a point is (a, a, a), and of a simplex with more than three corners come the triangles through its
+  // vertex of lowest index (libreeb/port/deciding_triangles.h). Their order does not depend on `limit`, which is the
+  // most triangles at a time. False at the end. All corners are below vertex_count().
   virtual bool read(std::vector<VertexId>& corners, std::size_t limit) = 0;
+  // What the mesh lists. Final once everything was read from the first simplex to the last.
+  virtual SimplexCounts simplex_counts() const = 0;
 
   // Where read() goes on. Nothing if the mesh cannot return there: not at all, or not at a small cost.
   virtual std::optional<MeshPlace> place() const { return std::nullopt; }

@@ -9,15 +9,19 @@
 //         it has to keep.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "libreeb/base/ids.h"
 #include "libreeb/port/indexed_mesh.h"
+#include "libreeb/port/simplex_counts.h"
 
 namespace reeb {
 
@@ -38,17 +42,40 @@ struct MeshBatch {
     return k < coordinates.size() ? coordinates[k] : properties[k - coordinates.size()];
   }
 
-  // Three corners each. Repeated corners are legal: (a, b, b) is an edge, (a, a, a) a vertex.
-  // Polygons arrive as fans from their first corner.
-  std::vector<VertexId> triangles;
-  // Four corners each.
-  std::vector<VertexId> tetrahedra;
+  // simplices[k]: those of dimension k, k + 1 corners each. A simplex counts as the set of its corners, so repeated
+  // corners are legal. Polygons arrive as fans of triangles from their first corner.
+  std::array<std::vector<VertexId>, kMaxSimplexDimension + 1> simplices;
   // No later event names these vertices.
   std::vector<VertexId> finalized;
 
-  std::size_t triangle_count() const { return triangles.size() / 3; }
-  std::size_t tetrahedron_count() const { return tetrahedra.size() / 4; }
-  bool empty() const { return vertex_count == 0 && triangles.empty() && tetrahedra.empty() && finalized.empty(); }
+  std::vector<VertexId>& points() { return simplices[0]; }
+  std::vector<VertexId>& edges() { return simplices[1]; }
+  std::vector<VertexId>& triangles() { return simplices[2]; }
+  std::vector<VertexId>& tetrahedra() { return simplices[3]; }
+  const std::vector<VertexId>& points() const { return simplices[0]; }
+  const std::vector<VertexId>& edges() const { return simplices[1]; }
+  const std::vector<VertexId>& triangles() const { return simplices[2]; }
+  const std::vector<VertexId>& tetrahedra() const { return simplices[3]; }
+
+  std::size_t triangle_count() const { return triangles().size() / 3; }
+  // The number of simplices of dimension kMost or less.
+  template <std::size_t kMost = kMaxSimplexDimension>
+  std::size_t simplex_count() const {
+    return [this]<std::size_t... kDimensions>(std::index_sequence<kDimensions...>) {
+      return (... + (simplices[kDimensions].size() / (kDimensions + 1)));
+    }
+    (std::make_index_sequence<kMost + 1>());
+  }
+  // Whether there is a simplex of more than three corners.
+  bool has_cells() const;
+  // Calls visit(corners) for every simplex, by dimension.
+  template <class Visit>
+  void for_each_simplex(const Visit& visit) const {
+    for (std::size_t k = 0; k < simplices.size(); ++k)
+      for (std::size_t i = 0; i < simplices[k].size(); i += k + 1) visit(std::span(simplices[k]).subspan(i, k + 1));
+  }
+  void add_counts(SimplexCounts& counts) const;
+  bool empty() const;
   void clear();  // keeps the columns and their capacity
 };
 

@@ -14,8 +14,8 @@ class BatchDigest {
   void add(const MeshBatch& batch) {
     for (const auto& column : batch.coordinates) digest_.add(std::as_bytes(std::span(column)));
     for (const auto& column : batch.properties) digest_.add(std::as_bytes(std::span(column)));
-    for (const auto* ids : {&batch.triangles, &batch.tetrahedra, &batch.finalized})
-      digest_.add(std::as_bytes(std::span(*ids)));
+    for (const auto& corners : batch.simplices) digest_.add(std::as_bytes(std::span(corners)));
+    digest_.add(std::as_bytes(std::span(batch.finalized)));
   }
   std::uint64_t value() const { return digest_.value(); }
 

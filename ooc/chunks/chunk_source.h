@@ -64,7 +64,9 @@ class ChunkSource {
   // Bytes of input consumed so far, and in all (0: unknown).
   virtual std::uint64_t bytes_read() const = 0;
   virtual std::uint64_t bytes_total() const = 0;
-  virtual std::uint64_t triangles_read() const = 0;
+  virtual std::uint64_t triangles_read() const = 0;  // of a stream that finalizes: simplices
+  // What the mesh lists. Final once next() has returned false.
+  virtual SimplexCounts simplices_listed() const = 0;
   // Of the whole mesh; for a stream, so far.
   virtual std::uint64_t vertex_count() const = 0;
 };

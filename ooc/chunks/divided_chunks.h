@@ -30,6 +30,7 @@ class DividedChunks : public ChunkSource {
   std::uint64_t bytes_read() const override { return stretches_.bytes_read(); }
   std::uint64_t bytes_total() const override { return stretches_.bytes_total(); }
   std::uint64_t triangles_read() const override { return stretches_.triangles_read(); }
+  SimplexCounts simplices_listed() const override { return stretches_.simplices_listed(); }
   std::uint64_t vertex_count() const override { return stretches_.vertex_count(); }
 
  private:

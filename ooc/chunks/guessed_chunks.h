@@ -38,6 +38,7 @@ class GuessedChunks : public ChunkSource {
   std::uint64_t bytes_read() const override { return spooler_.reader().bytes_read(); }
   std::uint64_t bytes_total() const override { return spooler_.reader().info().file_bytes; }
   std::uint64_t triangles_read() const override { return triangles_read_; }
+  SimplexCounts simplices_listed() const override { return spooler_.mesh().simplex_counts(); }
   std::uint64_t vertex_count() const override { return spooler_.mesh().vertex_count(); }
 
   bool given_up() const override { return given_up_; }

@@ -28,6 +28,7 @@ class IndexedChunks : public ChunkSource {
   std::uint64_t bytes_read() const override { return mesh_.bytes_read(); }
   std::uint64_t bytes_total() const override { return mesh_.bytes_total(); }
   std::uint64_t triangles_read() const override { return triangles_read_; }
+  SimplexCounts simplices_listed() const override { return mesh_.simplex_counts(); }
   std::uint64_t vertex_count() const override { return mesh_.vertex_count(); }
 
  private:

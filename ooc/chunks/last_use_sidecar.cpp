@@ -29,7 +29,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "files are little-endian");
 
 constexpr std::array<char, 8> kMagic = {'R', 'E', 'E', 'B', 'F', 'I', 'N', '\n'};
-constexpr std::uint64_t kVersion = 2;
+constexpr std::uint64_t kVersion = 3;
 constexpr std::size_t kBlockEntries = 16 << 10;
 constexpr std::uint64_t kSamplesLimit = 4096;
 constexpr int kLevel = 1;

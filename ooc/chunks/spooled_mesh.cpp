@@ -8,33 +8,21 @@
 
 namespace reeb::ooc {
 
-namespace {
-
-void append_faces(const std::vector<VertexId>& tetrahedra, std::vector<VertexId>& triangles) {
-  for (std::size_t t = 0; t + 4 <= tetrahedra.size(); t += 4)
-    for (std::size_t left_out = 0; left_out < 4; ++left_out)
-      for (std::size_t c = 0; c < 4; ++c)
-        if (c != left_out) triangles.push_back(tetrahedra[t + c]);
-}
-
-}  // namespace
-
-SpooledMesh::SpooledMesh(unsigned columns, const io::TempDir& temp, MemoryBudget& budget, std::uint64_t allowance_bytes)
-    : triangles_(temp, budget, allowance_bytes / 2) {
+SpooledMesh::SpooledMesh(unsigned columns, const io::TempDir& temp, MemoryBudget& budget, std::uint64_t allowance_bytes,
+                         CellTriangles cells)
+    : triangles_(temp, budget, allowance_bytes / 2), deciding_(cells) {
   columns_.reserve(columns);
   for (unsigned k = 0; k < columns; ++k) columns_.emplace_back(temp, budget, allowance_bytes / 2 / columns);
 }
 
-void SpooledMesh::append(const MeshBatch& batch) {
+void SpooledMesh::append(MeshBatch& batch) {
   std::vector<std::span<const double>> values;
   for (const auto& column : batch.coordinates) values.emplace_back(column);
   for (const auto& column : batch.properties) values.emplace_back(column);
   append_vertices(values);
-  append_triangles(batch.triangles);
-  if (batch.tetrahedra.empty()) return;
-  std::vector<VertexId> faces;
-  append_faces(batch.tetrahedra, faces);
-  append_triangles(faces);
+  batch.add_counts(counts_);
+  deciding_.reduce(batch);
+  append_triangles(batch.triangles());
 }
 
 void SpooledMesh::append_vertices(std::span<const std::span<const double>> values) {
@@ -63,8 +51,8 @@ std::uint64_t SpooledMesh::spilled_bytes() const {
   return bytes;
 }
 
-Spooler::Spooler(MeshReader& reader, const io::TempDir& temp, MemoryBudget& budget, std::uint64_t allowance_bytes)
-    : reader_(reader), temp_(temp), budget_(budget), allowance_bytes_(allowance_bytes), reader_memory_(budget) {}
+Spooler::Spooler(MeshReader& reader, const io::TempDir& temp, MemoryBudget& budget, const SpoolOptions& options)
+    : reader_(reader), temp_(temp), budget_(budget), options_(options), reader_memory_(budget) {}
 
 bool Spooler::read() {
   if (ended_) return false;
@@ -72,26 +60,25 @@ bool Spooler::read() {
   ended_ = !some;
   if (mesh_ == nullptr) {
     const std::size_t columns = some ? batch_.coordinates.size() + batch_.properties.size() : reader_.info().dimension;
-    mesh_ = std::make_unique<SpooledMesh>(static_cast<unsigned>(columns), temp_, budget_, allowance_bytes_);
+    mesh_ = std::make_unique<SpooledMesh>(static_cast<unsigned>(columns), temp_, budget_, options_.allowance_bytes,
+                                          options_.cells);
   }
   if (!some) return false;
   digest_.add(batch_);
   reader_memory_.update(reader_);
-  append_faces(batch_.tetrahedra, batch_.triangles);
-  batch_.tetrahedra.clear();
   mesh_->append(batch_);
   return true;
 }
 
-std::unique_ptr<SpooledMesh> Spooler::finish(const SpoolProgress& progress) {
+std::unique_ptr<SpooledMesh> Spooler::finish() {
   while (read())
-    if (progress) progress(reader_);
+    if (options_.progress) options_.progress(reader_);
   return std::move(mesh_);
 }
 
 std::unique_ptr<SpooledMesh> spool(MeshReader& reader, const io::TempDir& temp, MemoryBudget& budget,
                                    const SpoolOptions& options) {
-  return Spooler(reader, temp, budget, options.allowance_bytes).finish(options.progress);
+  return Spooler(reader, temp, budget, options).finish();
 }
 
 }  // namespace reeb::ooc

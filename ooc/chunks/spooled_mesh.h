@@ -8,6 +8,7 @@
 
 #include "io/file/temp_dir.h"
 #include "libreeb/base/memory_budget.h"
+#include "libreeb/port/deciding_triangles.h"
 #include "libreeb/port/indexed_mesh.h"
 #include "libreeb/port/mesh_reader.h"
 #include "ooc/chunks/batch_digest.h"
@@ -22,7 +23,8 @@ using SpoolProgress = std::function<void(const MeshReader&)>;
 
 struct SpoolOptions {
   std::uint64_t allowance_bytes = 32 << 20;  // of the budget, for vertices and triangles
-  SpoolProgress progress = {};
+  SpoolProgress progress = {};               // of finish()
+  CellTriangles cells = CellTriangles::kDeciding;
 };
 
 // Coordinates, then the properties that the reader delivers, in one column each; triangles in a log. All are in memory
@@ -31,10 +33,12 @@ struct SpoolOptions {
 // THREADS: one at a time.
 class SpooledMesh : public IndexedMesh {
  public:
-  SpooledMesh(unsigned columns, const io::TempDir& temp, MemoryBudget& budget, std::uint64_t allowance_bytes);
+  SpooledMesh(unsigned columns, const io::TempDir& temp, MemoryBudget& budget, std::uint64_t allowance_bytes,
+              CellTriangles cells = CellTriangles::kDeciding);
 
-  // Takes over the vertices and simplices of a batch. REQUIRES: no triangle was read yet.
-  void append(const MeshBatch& batch);
+  // Takes over the vertices and simplices of a batch. What read() is to deliver of its simplices is then
+  // batch.triangles(), and the batch has no others. REQUIRES: no triangle was read yet.
+  void append(MeshBatch& batch);
   // Appends vertices: values[k] is column k, all of one length.
   void append_vertices(std::span<const std::span<const double>> values);
   // The same for one column. In the end, all columns must have the same length.
@@ -49,6 +53,9 @@ class SpooledMesh : public IndexedMesh {
   bool read(std::vector<VertexId>& corners, std::size_t limit) override { return triangles_.read(corners, limit); }
   std::optional<MeshPlace> place() const override { return triangles_.place(); }
   void seek(const MeshPlace& place) override { triangles_.seek(place); }
+  SimplexCounts simplex_counts() const override { return counts_; }
+  // For triangles that were appended alone.
+  void set_simplex_counts(const SimplexCounts& counts) { counts_ = counts; }
   std::uint64_t bytes_read() const override { return triangles_.bytes_read(); }
   std::uint64_t bytes_total() const override { return triangles_.bytes_total(); }
 
@@ -58,34 +65,36 @@ class SpooledMesh : public IndexedMesh {
  private:
   std::vector<VertexColumn> columns_;
   TriangleLog triangles_;
+  DecidingTriangles deciding_;
+  SimplexCounts counts_{};
 };
 
-// Reads a mesh into that form. Tetrahedra become their four faces; finalizations are ignored.
+// Reads a mesh into that form. Finalizations are ignored.
 //
 // THROWS: what the reader throws; Error{kResource} of the budget or the disk.
 // THREADS: one at a time.
 class Spooler {
  public:
   // `reader`, `temp` and `budget` must outlive this.
-  Spooler(MeshReader& reader, const io::TempDir& temp, MemoryBudget& budget, std::uint64_t allowance_bytes);
+  Spooler(MeshReader& reader, const io::TempDir& temp, MemoryBudget& budget, const SpoolOptions& options);
 
   // Takes over the next batch. False at the end, however often it is called.
   bool read();
-  // Three corners per triangle, of the batch that was read last.
-  const std::vector<VertexId>& triangles() const { return batch_.triangles; }
+  // What the mesh delivers of the batch that was read last: three corners per triangle.
+  const std::vector<VertexId>& triangles() const { return batch_.triangles(); }
   const MeshReader& reader() const { return reader_; }
   std::uint64_t digest() const { return digest_.value(); }  // of all that was read so far
   // The mesh as far as it was read. REQUIRES: something was read.
   SpooledMesh& mesh() { return *mesh_; }
 
   // Reads the rest and returns the whole mesh.
-  std::unique_ptr<SpooledMesh> finish(const SpoolProgress& progress = {});
+  std::unique_ptr<SpooledMesh> finish();
 
  private:
   MeshReader& reader_;
   const io::TempDir& temp_;
   MemoryBudget& budget_;
-  std::uint64_t allowance_bytes_;
+  SpoolOptions options_;
   ReaderMemory reader_memory_;
   MeshBatch batch_;
   BatchDigest digest_;

@@ -24,7 +24,8 @@ class StreamChunks : public ChunkSource {
   bool given_up() const override { return given_up_; }
   std::uint64_t bytes_read() const override { return reader_.bytes_read(); }
   std::uint64_t bytes_total() const override { return reader_.info().file_bytes; }
-  std::uint64_t triangles_read() const override { return triangles_read_; }
+  std::uint64_t triangles_read() const override { return simplices_read_; }
+  SimplexCounts simplices_listed() const override { return simplices_; }
   std::uint64_t vertex_count() const override { return chunker_.vertex_count(); }
 
  private:
@@ -32,7 +33,6 @@ class StreamChunks : public ChunkSource {
   bool is_hopeless() const;
   void read_batch();
   void add_vertices();
-  void add_simplices(const std::vector<VertexId>& corners, std::size_t size);
 
   MeshReader& reader_;
   FunctionValues& functions_;
@@ -40,7 +40,8 @@ class StreamChunks : public ChunkSource {
   std::optional<std::uint64_t> most_active_vertices_;  // set if it may give up
   StreamChunker chunker_;
   ReaderMemory reader_memory_;
-  std::uint64_t triangles_read_ = 0;
+  std::uint64_t simplices_read_ = 0;
+  SimplexCounts simplices_{};
   std::uint64_t batches_ = 0;
   BatchDigest digest_;
   bool ended_ = false, given_up_ = false;
@@ -59,7 +60,7 @@ bool StreamChunks::next(WorkItem& item) {
   if (given_up_ || chunker_.chunk_size() == 0) return false;
   chunker_.take(item.chunk, item.values);
   size_.adapt(item.chunk);
-  item.end = {.triangles = triangles_read_,
+  item.end = {.triangles = simplices_read_,
               .next_vertex = chunker_.vertex_count(),
               .batches = batches_,
               .chunk_blocks = size_.size(),
@@ -84,7 +85,7 @@ void StreamChunks::pass_over(const ChunkPlace& start) {
     read_batch();
     if (chunker_.chunk_size() >= size_.size() || batches_ == start.batches) chunker_.take(chunk, values);
   }
-  if (batches_ != start.batches || triangles_read_ != start.triangles || chunker_.vertex_count() != start.next_vertex ||
+  if (batches_ != start.batches || simplices_read_ != start.triangles || chunker_.vertex_count() != start.next_vertex ||
       (batches_ != 0 && digest_.value() != start.digest))
     throw InputChanged();
   if (start.chunk_blocks != 0) size_.set_size(static_cast<std::size_t>(start.chunk_blocks));
@@ -101,9 +102,9 @@ void StreamChunks::read_batch() {
   digest_.add(batch_);
   reader_memory_.update(reader_);
   add_vertices();
-  add_simplices(batch_.triangles, 3);
-  add_simplices(batch_.tetrahedra, 4);
-  triangles_read_ += batch_.triangle_count() + 4 * batch_.tetrahedron_count();
+  batch_.for_each_simplex([this](std::span<const VertexId> corners) { chunker_.add_simplex(corners); });
+  batch_.add_counts(simplices_);
+  simplices_read_ += batch_.simplex_count();
   for (const VertexId v : batch_.finalized) chunker_.finalize(v);
 }
 
@@ -122,10 +123,6 @@ void StreamChunks::add_vertices() {
     for (std::size_t f = 0; f < values_.size(); ++f) row_[f] = values_[f][i];
     chunker_.add_vertex(row_, positions_[i]);
   }
-}
-
-void StreamChunks::add_simplices(const std::vector<VertexId>& corners, std::size_t size) {
-  for (std::size_t i = 0; i < corners.size(); i += size) chunker_.add_simplex({corners.data() + i, size});
 }
 
 }  // namespace

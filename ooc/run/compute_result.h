@@ -10,6 +10,7 @@
 #include "libreeb/base/value_range.h"
 #include "libreeb/graph/reeb_graph.h"
 #include "libreeb/hierarchy/hierarchy.h"
+#include "libreeb/port/simplex_counts.h"
 
 namespace reeb::ooc {
 
@@ -40,7 +41,9 @@ struct ComputeResult {
   std::string function, output;
   ValueRange range;  // of the function; min > max without vertices
   std::uint64_t vertices = 0, unused_vertices = 0;
-  std::uint64_t triangles = 0, degenerate_triangles = 0;
+  SimplexCounts simplices{};  // as the mesh lists them
+  std::uint64_t degenerate_triangles = 0;
+  std::uint64_t triangles() const { return simplices[2]; }
   std::uint64_t nodes = 0, arcs = 0;
   BettiNumbers betti;
   std::array<std::uint64_t, 4> pairs{};  // by PairType

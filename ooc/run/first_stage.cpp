@@ -42,7 +42,7 @@ class PolledReader : public MeshReader {
   const MeshInfo& info() const override { return reader_->info(); }
   bool read(MeshBatch& batch) override {
     const bool some = reader_->read(batch);
-    const bool may_end = batch.triangles.empty() && batch.tetrahedra.empty() && run_.is_interrupted();
+    const bool may_end = batch.simplex_count() == 0 && run_.is_interrupted();
     if (!may_end)
       waiting_.reset();
     else if (!waiting_)
@@ -92,13 +92,18 @@ FirstStageResult glue_chunks(RunContext& run, ChunkSource& stretches, const Memo
   PipelineResult done = run_pipeline(source, sinks, run.budget, options);
   result.live = done.live;
   result.removed_pairs = std::move(done.removed_pairs);
-  result.triangles = source.triangles_read();
+  result.simplices = source.simplices_listed();
   result.vertices = source.vertex_count();
   if (done.restored_vertex_bound > result.vertices) throw DamagedState();
   for (const auto& store : run.stores)
     if (store->restored_vertex_bound() > result.vertices) throw DamagedState();
   result.seconds.reeb += watch.seconds();
   return result;
+}
+
+// Points and edges are read as degenerate triangles.
+std::uint64_t listed_as_degenerate(std::uint64_t read, const SimplexCounts& listed) {
+  return read - std::min(read, listed[0] + listed[1]);
 }
 
 // ---- a stream that finalizes its vertices
@@ -164,19 +169,20 @@ SpooledRun run_guessing(RunContext& run, Spooler& spooler, const Checkpoint* sta
     return {std::move(result)};
   }
   result.unused_vertices = guesses.unused_vertices();
-  result.degenerate_triangles = guesses.degenerate_triangles();
+  result.degenerate_triangles = listed_as_degenerate(guesses.degenerate_triangles(), result.simplices);
   return {std::move(result), true};
 }
 
 // Runs in one pass if guesses hold; else the mesh is to be run from disk.
 SpooledRun run_spooled(RunContext& run, const MeshInput& input, const Checkpoint* start, FirstStageResult result) {
-  Spooler spooler(*input.reader, run.temp, run.budget, run.plan.table_bytes);
+  Spooler spooler(*input.reader, run.temp, run.budget,
+                  {.allowance_bytes = run.plan.table_bytes, .progress = [&](const MeshReader& reader) {
+                     run.tell({Phase::kSpool, reader.bytes_read(), reader.info().file_bytes});
+                   }});
   SpooledRun spooled{std::move(result)};
   if (may_guess(run, input, start)) spooled = run_guessing(run, spooler, start, std::move(spooled.result));
   const Stopwatch watch;
-  spooled.mesh = spooler.finish([&](const MeshReader& reader) {
-    run.tell({Phase::kSpool, reader.bytes_read(), reader.info().file_bytes});
-  });
+  spooled.mesh = spooler.finish();
   spooled.result.seconds.finalization += watch.seconds();
   spooled.result.spilled_bytes += spooled.mesh->spilled_bytes();
   append(spooled.result.notes, input.reader->warnings());
@@ -200,11 +206,11 @@ FirstStageResult run_once(RunContext& run, const MeshInput& input, std::unique_p
   result.seconds.reorder += ordered.seconds.reorder;
   const UseSummary& summary = ordered.uses.summary();
   result.unused_vertices = summary.unused_vertices;
-  result.degenerate_triangles = summary.degenerate_triangles;
   const Checkpoint here{.block_triangles = summary.block_triangles, .origin = ordered.origin};
   try {
     const auto source = chunks_of(*ordered.mesh, ordered.uses, run.values, ordered.plan.chunk, place_of(start));
     result = glue_chunks(run, *source, ordered.plan, here, std::move(result));
+    result.degenerate_triangles = listed_as_degenerate(summary.degenerate_triangles, result.simplices);
   } catch (const InputChanged&) {
     if (!ordered.of_sidecar) throw;
     mesh = std::move(ordered.mesh);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "libreeb/port/simplex_counts.h"
 #include "ooc/run/compute.h"
 #include "ooc/run/pipeline.h"
 #include "ooc/run/run_context.h"
@@ -14,7 +15,8 @@ namespace reeb::ooc {
 // The results that all functions of the run share, and how many pairs were removed for each.
 struct FirstStageResult {
   std::uint64_t vertices = 0, unused_vertices = 0;
-  std::uint64_t triangles = 0, degenerate_triangles = 0;
+  SimplexCounts simplices{};  // as listed
+  std::uint64_t degenerate_triangles = 0;
   std::uint64_t guessed_vertices = 0, revoked_guesses = 0;
   std::uint64_t spilled_bytes = 0;
   bool reordered = false;

@@ -240,7 +240,7 @@ ComputeResult result_of(const RunContext& run, const FirstStageResult& first, st
     result.range = {0, 0};
   result.vertices = first.vertices;
   result.unused_vertices = first.unused_vertices;
-  result.triangles = first.triangles;
+  result.simplices = first.simplices;
   result.degenerate_triangles = first.degenerate_triangles;
   result.denoised_pairs = first.removed_pairs[function];
   result.reordered = first.reordered;
@@ -259,7 +259,7 @@ FileMeta file_meta(const ComputeResult& result, const SweepOptions& sweep) {
   meta.function_min = result.range.min;
   meta.function_max = result.range.max;
   meta.mesh_vertices = result.vertices;
-  meta.mesh_triangles = result.triangles;
+  meta.mesh_triangles = result.triangles();
   meta.denoise_threshold = sweep.noise_below;
   meta.denoised_pairs = result.denoised_pairs;
   meta.bucket_exponent = sweep.bucket_exponent.value_or(0);

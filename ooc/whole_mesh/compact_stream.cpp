@@ -90,7 +90,7 @@ class CompactStream {
   void write_triangle(std::span<const std::uint32_t, 3> corners, std::uint64_t triangle) {
     for (const std::uint32_t n : corners) {
       if (here_[n].number == sent_) add_vertex();
-      batch_.triangles.emplace_back(here_[n].number);
+      batch_.triangles().emplace_back(here_[n].number);
     }
     if (!exact_) return;
     for (std::size_t c = 0; c < 3; ++c) {

@@ -44,15 +44,14 @@ class Simplices {
 
   void add(const MeshBatch& batch) {
     vertices_ += batch.vertex_count;
-    for (std::size_t t = 0; t < batch.triangles.size(); t += 3)
-      add_triangle(batch.triangles[t].value(), batch.triangles[t + 1].value(), batch.triangles[t + 2].value());
-    for (std::size_t t = 0; t < batch.tetrahedra.size(); t += 4)
-      for (std::size_t without = 0; without < 4; ++without) {
-        std::array<std::uint64_t, 3> face;
-        for (std::size_t k = 0, i = 0; k < 4; ++k)
-          if (k != without) face[i++] = batch.tetrahedra[t + k].value();
-        add_triangle(face[0], face[1], face[2]);
-      }
+    listed_ += batch.triangle_count();
+    batch.for_each_simplex([this](std::span<const VertexId> v) {
+      const std::size_t n = v.size();
+      if (n < 3) return add_triangle(v[0].value(), v[n - 1].value(), v[n - 1].value());
+      for (std::size_t i = 0; i < n; ++i)
+        for (std::size_t j = i + 1; j < n; ++j)
+          for (std::size_t k = j + 1; k < n; ++k) add_triangle(v[i].value(), v[j].value(), v[k].value());
+    });
   }
 
   MeshRecount finish() {
@@ -70,7 +69,6 @@ class Simplices {
 
  private:
   void add_triangle(std::uint64_t a, std::uint64_t b, std::uint64_t c) {
-    ++listed_;
     components_.unite(a, b);
     components_.unite(a, c);
     if (a == b || b == c || a == c) {

@@ -12,7 +12,7 @@ namespace reeb::ooc {
 
 struct MeshRecount {
   std::uint64_t vertices = 0;
-  std::uint64_t triangles = 0;   // as the mesh lists them; a tetrahedron is four
+  std::uint64_t triangles = 0;   // as the mesh lists them, without edges and the faces of cells
   std::uint64_t components = 0;  // of the mesh, by union-find over its vertices
   std::int64_t euler = 0;        // vertices - edges + triangles, of distinct ones with distinct corners
 

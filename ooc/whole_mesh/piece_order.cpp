@@ -95,7 +95,7 @@ void order_pieces(MeshPieces& mesh) {
 }
 
 PiecewiseMesh::PiecewiseMesh(std::unique_ptr<IndexedMesh> mesh, MeshPieces pieces)
-    : mesh_(std::move(mesh)), pieces_(std::move(pieces)) {
+    : mesh_(std::move(mesh)), pieces_(std::move(pieces)), counts_(mesh_->simplex_counts()) {
   for (const MeshPiece& piece : pieces_.pieces) triangle_count_ += piece.triangles;
 }
 

@@ -21,7 +21,7 @@ void order_pieces(MeshPieces& pieces);
 // A mesh with its triangles piece by piece, read from the mesh itself. Vertices keep their indices.
 class PiecewiseMesh : public IndexedMesh {
  public:
-  // In the order of `pieces`, which are all pieces of the mesh.
+  // In the order of `pieces`, which are all pieces of the mesh. REQUIRES: the mesh was read to its end.
   PiecewiseMesh(std::unique_ptr<IndexedMesh> mesh, MeshPieces pieces);
 
   // The mesh as it was. Nothing else may be called afterwards.
@@ -35,6 +35,7 @@ class PiecewiseMesh : public IndexedMesh {
     mesh_->gather(ids, columns, values);
   }
   void to_original(std::span<VertexId> ids) override { mesh_->to_original(ids); }
+  SimplexCounts simplex_counts() const override { return counts_; }
   void rewind() override;
   bool read(std::vector<VertexId>& corners, std::size_t limit) override;
   std::uint64_t bytes_read() const override;
@@ -44,6 +45,7 @@ class PiecewiseMesh : public IndexedMesh {
  private:
   std::unique_ptr<IndexedMesh> mesh_;
   MeshPieces pieces_;
+  SimplexCounts counts_;
   std::uint64_t triangle_count_ = 0, triangles_read_ = 0;
   std::size_t next_ = 0;  // piece
   std::size_t left_ = 0;  // triangles of the piece before it

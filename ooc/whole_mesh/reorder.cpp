@@ -56,6 +56,7 @@ class Reorder {
       tell(kRanked + (kPlaced - kRanked) * (column + 1) / mesh_.column_count());
     }
     sort_triangles();
+    result_->set_simplex_counts(mesh_.simplex_counts());
     return std::move(result_);
   }
 

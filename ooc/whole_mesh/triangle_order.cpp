@@ -42,6 +42,7 @@ class OrderedMesh : public IndexedMesh {
   void gather(std::span<const VertexId> ids, std::span<const unsigned> columns, std::span<double> values) override {
     mesh_->gather(ids, columns, values);
   }
+  SimplexCounts simplex_counts() const override { return mesh_->simplex_counts(); }
   void rewind() override { triangles_.rewind(); }
   bool read(std::vector<VertexId>& corners, std::size_t limit) override { return triangles_.read(corners, limit); }
   std::uint64_t bytes_read() const override { return triangles_.bytes_read(); }

@@ -49,11 +49,10 @@ std::string written(const Complex& complex, const std::string& ending, bool fina
   batch.vertex_count = mesh.vertex_count();
   batch.coordinates.assign(mesh.columns.begin(), mesh.columns.begin() + 3);
   batch.properties = {mesh.columns[3]};
-  if (io::is_volume_name(path))
-    for (const auto& corners : mesh.tetrahedra)
-      batch.tetrahedra.insert(batch.tetrahedra.end(), corners.begin(), corners.end());
-  else
-    batch.triangles = mesh.triangles;
+  for (const auto& corners : mesh.simplices)
+    if (!io::is_volume_name(path) || corners.size() == 4)
+      batch.simplices[corners.size() - 1].insert(batch.simplices[corners.size() - 1].end(), corners.begin(),
+                                                 corners.end());
   for (std::uint64_t v = 0; finalize && v < mesh.vertex_count(); ++v) batch.finalized.emplace_back(v);
   io::MeshWriterOptions options;
   options.property_names = {"value"};

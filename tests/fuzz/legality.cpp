@@ -36,8 +36,7 @@ void BatchLegality::add(const MeshBatch& batch, const MeshInfo& info, std::size_
   expect(batch.coordinates.size() == info.dimension, "there is a column for each coordinate");
   expect(batch.properties.size() == properties, "there is a column for each property that was asked for");
   add_vertices(batch);
-  add_simplices(batch.triangles, 3);
-  add_simplices(batch.tetrahedra, 4);
+  for (std::size_t k = 0; k < batch.simplices.size(); ++k) add_simplices(batch.simplices[k], k + 1);
   for (const VertexId v : batch.finalized) {
     expect(v.value() < delivered_.vertices, "a final vertex has arrived");
     expect(!final_[v.value()], "a vertex becomes final once");

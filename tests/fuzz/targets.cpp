@@ -57,7 +57,7 @@ Delivered read_batches(MeshReader& reader, std::size_t properties) {
   bool more = true;
   for (std::uint64_t events = 0; events < kMaxEvents && (more = reader.read(batch));) {
     legality.add(batch, reader.info(), properties);
-    events += batch.vertex_count + batch.triangle_count() + batch.tetrahedron_count();
+    events += batch.vertex_count + batch.simplex_count();
   }
   if (!more) {
     expect(batch.empty(), "there is nothing after the end");

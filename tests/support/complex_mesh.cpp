@@ -5,16 +5,17 @@
 namespace reeb::test {
 namespace {
 
-// Every simplex as all triangles of its corners; a vertex or an edge as a triangle with its last corner repeated.
-void append_triangles(const std::vector<std::uint64_t>& simplex, std::vector<VertexId>& triangles) {
+void append_triangles(const std::vector<VertexId>& simplex, std::vector<VertexId>& triangles) {
   const std::size_t n = simplex.size();
-  const auto append = [&](std::size_t a, std::size_t b, std::size_t c) {
-    for (const std::size_t corner : {a, b, c}) triangles.push_back(VertexId(simplex[std::min(corner, n - 1)]));
-  };
-  if (n < 3) return append(0, 1, 2);
+  if (n <= 3) {
+    for (const std::size_t corner : {0u, 1u, 2u}) triangles.push_back(simplex[std::min(corner, n - 1)]);
+    return;
+  }
+  const VertexId lowest = *std::min_element(simplex.begin(), simplex.end());
   for (std::size_t a = 0; a < n; ++a)
-    for (std::size_t b = a + 1; b < n; ++b)
-      for (std::size_t c = b + 1; c < n; ++c) append(a, b, c);
+    for (std::size_t b = a; b < n; ++b)  // repeated corners leave an edge
+      if (simplex[a] != lowest && simplex[b] != lowest)
+        triangles.insert(triangles.end(), {simplex[b], lowest, simplex[a]});
 }
 
 // The ports require that there is no -0.0.
@@ -26,13 +27,11 @@ ComplexMesh::ComplexMesh(const Complex& complex) : columns(3) {
   for (std::size_t k = 0; k < 3; ++k)
     for (const auto& position : complex.positions) columns[k].push_back(plain(position[k]));
   add_function(complex.values);
-  triangle_begin.push_back(0);
-  for (const auto& simplex : complex.simplices) {
+  for (const auto& corners : complex.simplices) {
+    std::vector<VertexId>& simplex = simplices.emplace_back();
+    for (const std::uint64_t corner : corners) simplex.emplace_back(corner);
     append_triangles(simplex, triangles);
-    triangle_begin.push_back(triangles.size());
-    is_tetrahedron.push_back(simplex.size() == 4);
-    if (simplex.size() == 4)
-      tetrahedra.push_back({VertexId(simplex[0]), VertexId(simplex[1]), VertexId(simplex[2]), VertexId(simplex[3])});
+    ++counts.at(simplex.size() - 1);
   }
 }
 
@@ -75,8 +74,7 @@ ComplexStream::ComplexStream(const ComplexMesh& mesh, std::uint64_t seed)
   info_.format = "complex";
   info_.finalizes = true;
   for (std::size_t i = 0; i < simplex_count(); ++i)
-    for (std::size_t c = mesh.triangle_begin[i]; c < mesh.triangle_begin[i + 1]; ++c)
-      last_use_[mesh.triangles[c].value()] = i;
+    for (const VertexId v : mesh.simplices[i]) last_use_[v.value()] = i;
 }
 
 bool ComplexStream::read(MeshBatch& batch) {
@@ -93,15 +91,10 @@ bool ComplexStream::read(MeshBatch& batch) {
 void ComplexStream::take_simplices(MeshBatch& batch) {
   const std::size_t end = std::min(next_simplex_ + most_simplices_, simplex_count());
   for (; next_simplex_ < end; ++next_simplex_) {
-    const auto first = mesh_.triangles.begin() + static_cast<std::ptrdiff_t>(mesh_.triangle_begin[next_simplex_]);
-    const auto last = mesh_.triangles.begin() + static_cast<std::ptrdiff_t>(mesh_.triangle_begin[next_simplex_ + 1]);
-    take_vertices(batch, static_cast<std::size_t>(std::max_element(first, last)->value()) + 1);
-    if (mesh_.is_tetrahedron[next_simplex_]) {
-      const auto& corners = mesh_.tetrahedra[next_tetrahedron_++];
-      batch.tetrahedra.insert(batch.tetrahedra.end(), corners.begin(), corners.end());
-    } else {
-      batch.triangles.insert(batch.triangles.end(), first, last);
-    }
+    const std::vector<VertexId>& corners = mesh_.simplices[next_simplex_];
+    take_vertices(batch, static_cast<std::size_t>(std::max_element(corners.begin(), corners.end())->value()) + 1);
+    auto& batch_corners = batch.simplices[corners.size() - 1];
+    batch_corners.insert(batch_corners.end(), corners.begin(), corners.end());
   }
 }
 

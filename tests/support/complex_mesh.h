@@ -24,13 +24,11 @@ struct ComplexMesh {
   std::uint64_t vertex_count() const { return columns[0].size(); }
 
   std::vector<std::vector<double>> columns;
-  // All triangles of a simplex, three corners each; an edge and a vertex as degenerate ones.
+  std::vector<std::vector<VertexId>> simplices;
+  SimplexCounts counts{};
+  // What an indexed mesh delivers of them: an edge and a vertex as degenerate triangles, and of a simplex with more
+  // than three corners the triangles through its lowest one.
   std::vector<VertexId> triangles;
-  // triangle_begin[i]: the first corner in `triangles` of simplex i; one more entry than simplices.
-  std::vector<std::size_t> triangle_begin;
-  // The corners of simplex i if it has four: a stream delivers it as a tetrahedron.
-  std::vector<std::array<VertexId, 4>> tetrahedra;
-  std::vector<bool> is_tetrahedron;  // one per simplex
 };
 
 // The function that is one column of a ComplexMesh.
@@ -54,6 +52,7 @@ class IndexedComplex : public IndexedMesh {
   std::uint64_t vertex_count() const override { return mesh_.vertex_count(); }
   unsigned column_count() const override { return static_cast<unsigned>(mesh_.columns.size()); }
   void gather(std::span<const VertexId> ids, std::span<const unsigned> columns, std::span<double> values) override;
+  SimplexCounts simplex_counts() const override { return mesh_.counts; }
   void rewind() override { at_ = 0; }
   bool read(std::vector<VertexId>& corners, std::size_t limit) override;
   std::optional<MeshPlace> place() const override { return MeshPlace{at_, 0}; }
@@ -78,7 +77,7 @@ class ComplexStream : public MeshReader {
   std::uint64_t bytes_read() const override { return next_simplex_; }
 
  private:
-  std::size_t simplex_count() const { return mesh_.triangle_begin.size() - 1; }
+  std::size_t simplex_count() const { return mesh_.simplices.size(); }
   void take_simplices(MeshBatch& batch);
   void take_vertices(MeshBatch& batch, std::size_t count);
   void finalize_some(MeshBatch& batch);
@@ -91,7 +90,7 @@ class ComplexStream : public MeshReader {
   unsigned early_percent_ = 10;  // how many of the batches contain all remaining vertices
   std::vector<std::size_t> last_use_;
   std::vector<std::size_t> waiting_;  // introduced and not finalized
-  std::size_t next_simplex_ = 0, next_tetrahedron_ = 0, next_vertex_ = 0;
+  std::size_t next_simplex_ = 0, next_vertex_ = 0;
 };
 
 // The same without finalization.

@@ -111,15 +111,15 @@ void write_shuffled(const std::string& from, const std::string& to, std::uint64_
   mesh.coordinates.resize(reader->info().dimension);
   std::vector<std::array<VertexId, 3>> triangles;
   while (reader->read(batch)) {
-    ASSERT_TRUE(batch.tetrahedra.empty());
+    ASSERT_EQ(batch.simplex_count(), batch.triangle_count());
     mesh.vertex_count += batch.vertex_count;
     for (std::size_t k = 0; k < mesh.coordinates.size(); ++k)
       mesh.coordinates[k].insert(mesh.coordinates[k].end(), batch.coordinates[k].begin(), batch.coordinates[k].end());
-    for (std::size_t c = 0; c < batch.triangles.size(); c += 3)
-      triangles.push_back({batch.triangles[c], batch.triangles[c + 1], batch.triangles[c + 2]});
+    for (std::size_t c = 0; c < batch.triangles().size(); c += 3)
+      triangles.push_back({batch.triangles()[c], batch.triangles()[c + 1], batch.triangles()[c + 2]});
   }
   Random(seed).shuffle(triangles);
-  for (const auto& corners : triangles) mesh.triangles.insert(mesh.triangles.end(), corners.begin(), corners.end());
+  for (const auto& corners : triangles) mesh.triangles().insert(mesh.triangles().end(), corners.begin(), corners.end());
   io::MeshWriterOptions options;
   options.dimension = reader->info().dimension;
   options.float64 = true;

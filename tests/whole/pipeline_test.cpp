@@ -50,7 +50,7 @@ TEST(Pipeline, EqualsTheDefinitionOnRandomComplexes) {
 
     const ooc::ComputeResult& result = runner.results()[0];
     ASSERT_EQ(result.vertices, complex.vertex_count());
-    ASSERT_EQ(result.triangles, mesh.triangles.size() / 3);
+    ASSERT_EQ(result.simplices, mesh.counts);
     ASSERT_EQ(result.nodes, expected.node_count());
     ASSERT_EQ(result.arcs, expected.arc_count());
     ASSERT_EQ(result.betti.components, component_count(complex));
@@ -323,7 +323,7 @@ TEST(Pipeline, SortsAStreamOfWhichTooMuchIsLive) {
     EXPECT_TRUE(result.reordered);
     ASSERT_FALSE(result.notes.empty());
     EXPECT_NE(result.notes[0].find("read again"), std::string::npos) << result.notes[0];
-    EXPECT_EQ(result.triangles, mesh.triangles.size() / 3);
+    EXPECT_EQ(result.simplices, mesh.counts);
   }
   // If sorting is not allowed, the run ends with an error that says how much memory it needs.
   runner.options().may_reorder = false;

@@ -63,14 +63,10 @@ RealInput read_mesh(const std::string& path, const std::string& function_text) {
     for (const unsigned column : function.columns()) columns.emplace_back(batch.coordinates[column]);
     complex.values.resize(complex.vertex_count());
     function.evaluate(ids, columns, std::span(complex.values).last(ids.size()));
-    const auto add = [&](const std::vector<VertexId>& corners, std::size_t n) {
-      for (std::size_t i = 0; i < corners.size(); i += n) {
-        auto& simplex = complex.simplices.emplace_back();
-        for (std::size_t k = i; k < i + n; ++k) simplex.push_back(corners[k].value());
-      }
-    };
-    add(batch.triangles, 3);
-    add(batch.tetrahedra, 4);
+    batch.for_each_simplex([&complex](std::span<const VertexId> corners) {
+      auto& simplex = complex.simplices.emplace_back();
+      for (const VertexId v : corners) simplex.push_back(v.value());
+    });
   }
   return input;
 }

@@ -58,11 +58,11 @@ std::string compare_with_mesh(const ooc::ReebFile& file, const VerifyOptions& op
   const ooc::MeshRecount mesh = input.read([&] {
     const auto reader = io::open_mesh(input.open(), options.mesh, {.properties = nodes.properties()});
     nodes.start(reader->info());
-    std::uint64_t triangles = 0;
+    std::uint64_t simplices = 0;
     const ooc::MeshRecount recount = ooc::recount_mesh(*reader, space, [&](const MeshBatch& batch) {
       nodes.add(batch);
-      triangles += batch.triangle_count();
-      bar.update({"counting"}, reader->bytes_read(), reader->info().file_bytes, triangles);
+      simplices += batch.simplex_count();
+      bar.update({"counting"}, reader->bytes_read(), reader->info().file_bytes, simplices);
     });
     range = nodes.finish();
     return recount;

@@ -95,8 +95,7 @@ class SnapshotReader : public MeshReader {
     if (!reader_->read(batch)) return false;
     vertices_ += batch.vertex_count;
     for (LiveFunction& graph : graphs_) graph.add_vertices(batch);
-    add_simplices(batch.triangles, 3, 1);
-    add_simplices(batch.tetrahedra, 4, 4);
+    batch.for_each_simplex([this](std::span<const VertexId> corners) { add_simplex(corners); });
     for (const VertexId v : batch.finalized)
       for (LiveFunction& graph : graphs_) graph.finalize(v);
     count_memory();
@@ -111,12 +110,10 @@ class SnapshotReader : public MeshReader {
     if (bytes > graph_bytes_ || bytes < graph_bytes_ / 2) graph_bytes_ = bytes + bytes / 16;
   }
 
-  void add_simplices(std::span<const VertexId> corners, std::size_t size, std::uint64_t triangles) {
-    for (std::size_t at = 0; at < corners.size(); at += size) {
-      for (LiveFunction& graph : graphs_) graph.add_simplex(corners.subspan(at, size));
-      triangles_ += triangles;
-      if (triangles_ >= next_) write();
-    }
+  void add_simplex(std::span<const VertexId> corners) {
+    for (LiveFunction& graph : graphs_) graph.add_simplex(corners);
+    triangles_ += corners.size() == 3 ? 1u : 0u;
+    if (++simplices_ >= next_) write();
   }
 
   void write() {
@@ -128,7 +125,7 @@ class SnapshotReader : public MeshReader {
   std::unique_ptr<MeshReader> reader_;
   std::uint64_t every_, next_;
   std::vector<LiveFunction> graphs_;
-  std::uint64_t number_ = 0, vertices_ = 0, triangles_ = 0, graph_bytes_ = 0;
+  std::uint64_t number_ = 0, vertices_ = 0, triangles_ = 0, simplices_ = 0, graph_bytes_ = 0;
 };
 
 }  // namespace

@@ -53,7 +53,7 @@ std::string genus_line(const RunFacts& facts, const ooc::ComputeResult& r) {
 void print_result(const RunFacts& facts, const ooc::ComputeResult& r) {
   print_line(fmt::format("Reeb graph of {} for f = {} (from {:.6g} to {:.6g})", printable(facts.path),
                          printable(r.function), r.vertices == 0 ? 0 : r.range.min, r.vertices == 0 ? 0 : r.range.max));
-  print_line(fmt::format("  mesh: {}, {}", count_of(r.vertices, "vertex"), count_of(r.triangles, "triangle")));
+  print_line(fmt::format("  mesh: {}, {}", count_of(r.vertices, "vertex"), count_of(r.triangles(), "triangle")));
   print_line(genus_line(facts, r));
   print_line(fmt::format("  graph: {}, {}, {}, {}", count_of(r.nodes, "node"), count_of(r.arcs, "arc"),
                          count_of(r.betti.components, "component"), count_of(r.betti.loops, "loop")));
@@ -67,7 +67,7 @@ void print_result(const RunFacts& facts, const ooc::ComputeResult& r) {
                            with_commas(r.kept_loops), r.kept_loops == 1 ? "it stays" : "they stay"));
   const double seconds = r.seconds.wall;
   print_line(fmt::format("  {:.2f} s ({:.1f} M triangles/s), peak memory {}", seconds,
-                         seconds > 0 ? static_cast<double>(r.triangles) / seconds / 1e6 : 0,
+                         seconds > 0 ? static_cast<double>(r.triangles()) / seconds / 1e6 : 0,
                          format_bytes(peak_rss_bytes())));
   print_line("  wrote " + (r.output == io::kStandardOutput ? "standard output" : printable(r.output)));
 }
@@ -82,7 +82,7 @@ nlohmann::ordered_json to_json(const RunFacts& facts, const ooc::ComputeResult& 
        {{"path", facts.path},
         {"format", facts.format},
         {"vertices", r.vertices},
-        {"triangles", r.triangles},
+        {"triangles", r.triangles()},
         {"bytes", facts.input_bytes}}},
       {"function", {{"name", r.function}, {"min", r.range.min}, {"max", r.range.max}}},
       {"graph", {{"nodes", r.nodes}, {"arcs", r.arcs}, {"components", r.betti.components}, {"loops", r.betti.loops}}},

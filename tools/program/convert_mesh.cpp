@@ -42,10 +42,10 @@ class WatchedReader : public MeshReader {
   std::vector<std::string> warnings() const override { return reader_.warnings(); }
   bool read(MeshBatch& batch) override {
     const bool more = reader_.read(batch);
-    triangles_ += batch.triangle_count();
+    simplices_ += batch.simplex_count();
     constexpr std::uint64_t kBatchesBetweenUpdates = 1024;  // of one event
-    if (batch.vertex_count + batch.triangle_count() > 1 || ++batches_ % kBatchesBetweenUpdates == 0)
-      bar_.update(pass_, reader_.bytes_read(), reader_.info().file_bytes, triangles_);
+    if (batch.vertex_count + batch.simplex_count() > 1 || ++batches_ % kBatchesBetweenUpdates == 0)
+      bar_.update(pass_, reader_.bytes_read(), reader_.info().file_bytes, simplices_);
     return more;
   }
 
@@ -53,7 +53,7 @@ class WatchedReader : public MeshReader {
   MeshReader& reader_;
   const ProgressBar::Pass pass_;
   ProgressBar& bar_;
-  std::uint64_t triangles_ = 0, batches_ = 0;
+  std::uint64_t simplices_ = 0, batches_ = 0;
 };
 
 // The same for a mesh that is looked up.
@@ -67,6 +67,7 @@ class WatchedMesh : public IndexedMesh {
     mesh_.gather(ids, columns, values);
   }
   void to_original(std::span<VertexId> ids) override { mesh_.to_original(ids); }
+  SimplexCounts simplex_counts() const override { return mesh_.simplex_counts(); }
   void rewind() override { mesh_.rewind(); }
   bool read(std::vector<VertexId>& corners, std::size_t limit) override {
     bar_.update(pass_, mesh_.bytes_read(), mesh_.bytes_total());
@@ -227,6 +228,7 @@ std::unique_ptr<IndexedMesh> Conversion::index(ooc::Workspace& space, Lines& not
   if (auto mesh = reader_->indexed()) return mesh;
   ooc::SpoolOptions options;
   options.allowance_bytes = 2 * space.share();
+  options.cells = CellTriangles::kAll;
   options.progress = [&](const MeshReader& reader) {
     bar_.update({"reading", sorts_order() ? 2u : 1u}, reader.bytes_read(), reader.info().file_bytes);
   };

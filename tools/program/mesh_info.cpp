@@ -7,6 +7,7 @@
 #include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <span>
 #include <utility>
 #include <vector>
@@ -22,6 +23,7 @@
 #include "ooc/tables/paged_union_find.h"
 #include "ooc/whole_mesh/workspace.h"
 #include "tools/program/progress.h"
+#include "tools/program/simplex_text.h"
 
 namespace reeb::tools {
 namespace {
@@ -82,7 +84,8 @@ class MeshSurvey {
           std::make_unique<ooc::SpooledMesh>(reader_->info().dimension, space_.temp, space_.budget, 2 * space_.share());
     for (MeshBatch batch; reader_->read(batch);) {
       add(batch);
-      bar_.update({"reading", measures ? 0u : 1u}, reader_->bytes_read(), reader_->info().file_bytes, triangles_);
+      bar_.update({"reading", measures ? 0u : 1u}, reader_->bytes_read(), reader_->info().file_bytes,
+                  std::accumulate(simplices_.begin(), simplices_.end(), std::uint64_t{0}));
       if (spooled) spooled->append(batch);
     }
     if (spooled) mesh = std::move(spooled);
@@ -103,7 +106,8 @@ class MeshSurvey {
   std::unique_ptr<MeshReader> reader_;
   Connection connection_;
   std::vector<ValueRange> bounds_;
-  std::uint64_t vertices_ = 0, triangles_ = 0, tetrahedra_ = 0, degenerate_ = 0, finalized_ = 0;
+  SimplexCounts simplices_{};
+  std::uint64_t vertices_ = 0, degenerate_ = 0, finalized_ = 0;
   std::uint64_t front_ = 0;
   ProgressBar bar_{false};
 };
@@ -113,11 +117,8 @@ void MeshSurvey::add(const MeshBatch& batch) {
   connection_.add_vertices(batch.vertex_count);
   for (std::size_t k = 0; k < bounds_.size(); ++k)
     for (const double value : batch.coordinates[k]) bounds_[k].add(value);
-  const std::span<const VertexId> triangles(batch.triangles), tetrahedra(batch.tetrahedra);
-  triangles_ += batch.triangle_count();
-  tetrahedra_ += batch.tetrahedron_count();
-  for (std::size_t t = 0; t < triangles.size(); t += 3) add_simplex(triangles.subspan(t, 3));
-  for (std::size_t t = 0; t < tetrahedra.size(); t += 4) add_simplex(tetrahedra.subspan(t, 4));
+  batch.add_counts(simplices_);
+  batch.for_each_simplex([this](std::span<const VertexId> corners) { add_simplex(corners); });
   if (reader_->info().finalizes) front_ = std::max(front_, vertices_ - finalized_);
   finalized_ += batch.finalized.size();
 }
@@ -144,9 +145,10 @@ void MeshSurvey::print_text() const {
   fmt::print("{}: {}\n", printable(path_), printable(info.format));
   fmt::print("  vertices      {}, {}\n", with_commas(vertices_),
              unused == 0 ? "all used" : with_commas(unused) + " in no triangle");
-  if (tetrahedra_ != 0) fmt::print("  tetrahedra    {}\n", with_commas(tetrahedra_));
-  fmt::print("  triangles     {}{}\n", with_commas(triangles_ + 4 * tetrahedra_),
-             degenerate_ == 0 ? "" : fmt::format(", {} of them degenerate", with_commas(degenerate_)));
+  for (std::size_t k = simplices_.size(); k-- > 0;)
+    if (simplices_[k] != 0 || k == 2)
+      fmt::print("  {:<13} {}\n", simplices_of_dimension(k), with_commas(simplices_[k]));
+  if (degenerate_ != 0) fmt::print("  degenerate    {}\n", with_commas(degenerate_));
   fmt::print("  components    {}\n", with_commas(connection_.components()));
   fmt::print("  coordinates   {}\n", info.dimension);
   if (vertices_ != 0)
@@ -171,8 +173,9 @@ void MeshSurvey::print_json() const {
                                  {"format", info.format},
                                  {"bytes", info.file_bytes},
                                  {"vertices", vertices_},
-                                 {"triangles", triangles_ + 4 * tetrahedra_},
-                                 {"tetrahedra", tetrahedra_},
+                                 {"triangles", simplices_[2]},
+                                 {"tetrahedra", simplices_[3]},
+                                 {"simplices", simplices_},
                                  {"degenerate", degenerate_},
                                  {"unreferenced_vertices", vertices_ - connection_.used()},
                                  {"components", connection_.components()},

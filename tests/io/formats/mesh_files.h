@@ -45,6 +45,7 @@ std::string scalar_bytes(T value, bool big_endian = false) {
 struct Mesh {
   std::vector<std::vector<double>> vertices;  // coordinates, then properties
   std::vector<std::array<std::uint64_t, 3>> triangles;
+  std::vector<std::vector<std::uint64_t>> edges = {}, points = {};
   friend bool operator==(const Mesh&, const Mesh&) = default;
 };
 
@@ -55,20 +56,25 @@ inline void append(const MeshBatch& batch, Mesh& mesh) {
     for (const auto& column : batch.coordinates) vertex.push_back(column.at(i));
     for (const auto& column : batch.properties) vertex.push_back(column.at(i));
   }
-  for (std::size_t t = 0; t < batch.triangles.size(); t += 3) {
-    auto& triangle = mesh.triangles.emplace_back();
-    for (std::size_t k = 0; k < 3; ++k) {
-      triangle[k] = batch.triangles[t + k].value();
-      EXPECT_LT(triangle[k], mesh.vertices.size()) << "a corner before its vertex";
+  batch.for_each_simplex([&mesh](std::span<const VertexId> corners) {
+    std::vector<std::uint64_t> simplex;
+    for (const VertexId v : corners) {
+      EXPECT_LT(v.value(), mesh.vertices.size()) << "a corner before its vertex";
+      simplex.push_back(v.value());
     }
-  }
+    ASSERT_LE(simplex.size(), 3u);
+    if (simplex.size() == 3)
+      mesh.triangles.push_back({simplex[0], simplex[1], simplex[2]});
+    else
+      (simplex.size() == 2 ? mesh.edges : mesh.points).push_back(simplex);
+  });
 }
 
 inline Mesh read_all(MeshReader& reader, std::size_t batch_events = 65536) {
   Mesh mesh;
   MeshBatch batch;
   while (reader.read(batch)) {
-    EXPECT_LE(batch.vertex_count + batch.triangle_count(), batch_events);
+    EXPECT_LE(batch.vertex_count + batch.simplex_count(), batch_events);
     append(batch, mesh);
   }
   EXPECT_TRUE(batch.empty());

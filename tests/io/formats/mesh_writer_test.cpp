@@ -40,24 +40,26 @@ class Writers : public testing::Test {
   fs::path folder_;
 };
 
-// Vertices and faces alternate; with a property, a tetrahedron and an edge.
+// Vertices and faces alternate; with a property, a point, an edge, a degenerate triangle and a tetrahedron.
 std::vector<MeshBatch> interleaved() {
   MeshBatch first, second;
   first.vertex_count = 4;
   first.coordinates = {{0, 1, 0.1, -2.5}, {0, 0, 1e-3, 1}, {0, -0.0, 7, 1}};
   first.properties = {{4, 5, 6, 7}};
-  first.triangles = {VertexId(0), VertexId(1), VertexId(2), VertexId(1), VertexId(1), VertexId(3)};
+  first.points() = {VertexId(2)};
+  first.edges() = {VertexId(3), VertexId(1)};
+  first.triangles() = {VertexId(0), VertexId(1), VertexId(2), VertexId(1), VertexId(1), VertexId(3)};
   second.first_vertex = VertexId(4);
   second.vertex_count = 1;
   second.coordinates = {{9}, {8}, {16777216}};
   second.properties = {{-1}};
-  second.tetrahedra = {VertexId(1), VertexId(2), VertexId(3), VertexId(4)};
+  second.tetrahedra() = {VertexId(1), VertexId(2), VertexId(3), VertexId(4)};
   return {first, second};
 }
 
 Mesh expected_mesh(bool with_property, bool as_float) {
   Mesh mesh;
-  mesh.faces = {{0, 1, 2}, {1, 1, 3}, {1, 2, 3}, {1, 2, 4}, {1, 3, 4}, {2, 3, 4}};
+  mesh.faces = {{2}, {3, 1}, {0, 1, 2}, {1, 1, 3}, {1, 2, 3}, {1, 2, 4}, {1, 3, 4}, {2, 3, 4}};
   for (const MeshBatch& batch : interleaved())
     for (std::size_t i = 0; i < batch.vertex_count; ++i) {
       std::vector<double> row;

@@ -43,9 +43,9 @@ Mesh collect(const GeneratorOptions& options, std::size_t batch_events = 1000) {
       for (const auto& column : batch.coordinates) p.push_back(column[i]);
       mesh.positions.push_back(p);
     }
-    for (std::size_t i = 0; i < batch.triangles.size(); i += 3)
+    for (std::size_t i = 0; i < batch.triangles().size(); i += 3)
       mesh.triangles.push_back(
-          {batch.triangles[i].value(), batch.triangles[i + 1].value(), batch.triangles[i + 2].value()});
+          {batch.triangles()[i].value(), batch.triangles()[i + 1].value(), batch.triangles()[i + 2].value()});
   }
   return mesh;
 }

@@ -35,9 +35,9 @@ Scan read_scan(const std::string& path) {
       for (std::size_t k = 0; k < 3; ++k)
         position[k] = std::bit_cast<std::uint32_t>(static_cast<float>(batch.coordinates[k][i]));
     }
-    for (std::size_t t = 0; t < batch.triangles.size(); t += 3) {
+    for (std::size_t t = 0; t < batch.triangles().size(); t += 3) {
       Corners& corners = scan.triangles.emplace_back();
-      for (std::size_t k = 0; k < 3; ++k) corners[k] = static_cast<std::uint32_t>(batch.triangles[t + k].value());
+      for (std::size_t k = 0; k < 3; ++k) corners[k] = static_cast<std::uint32_t>(batch.triangles()[t + k].value());
     }
   }
   scan.first.assign(scan.positions.size(), kNone);

@@ -23,12 +23,12 @@ struct Checker {
   std::multiset<Cell> cells;
   std::map<std::uint64_t, std::array<double, 3>> positions;
 
-  void cell(const VertexId* corners, std::size_t size) {
+  void cell(std::span<const VertexId> corners) {
     Cell cell;
-    for (std::size_t k = 0; k < size; ++k) {
-      EXPECT_TRUE(arrived.contains(corners[k].value())) << "a cell before its vertex";
-      EXPECT_FALSE(final.contains(corners[k].value())) << "a cell after a finalization";
-      cell.push_back(corners[k].value());
+    for (const VertexId v : corners) {
+      EXPECT_TRUE(arrived.contains(v.value())) << "a cell before its vertex";
+      EXPECT_FALSE(final.contains(v.value())) << "a cell after a finalization";
+      cell.push_back(v.value());
     }
     cells.insert(cell);
   }
@@ -40,8 +40,7 @@ struct Checker {
       arrived.insert(vertex);
       positions[vertex] = {batch.coordinates[0][i], batch.coordinates[1][i], batch.coordinates[2][i]};
     }
-    for (std::size_t i = 0; i < batch.triangle_count(); ++i) cell(&batch.triangles[3 * i], 3);
-    for (std::size_t i = 0; i < batch.tetrahedron_count(); ++i) cell(&batch.tetrahedra[4 * i], 4);
+    batch.for_each_simplex([this](std::span<const VertexId> corners) { cell(corners); });
     for (const VertexId vertex : batch.finalized) {
       EXPECT_TRUE(arrived.contains(vertex.value())) << "finalized before it arrived";
       EXPECT_TRUE(final.insert(vertex.value()).second) << "finalized twice";
@@ -81,8 +80,7 @@ TEST(StreamMeshReader, EverySampleIsALegalStreamWithAllItsCells) {
       while (reader->read(batch)) {
         checker.batch(batch);
         if (batch_events == 1) {
-          EXPECT_EQ(batch.vertex_count + batch.triangle_count() + batch.tetrahedron_count() + batch.finalized.size(),
-                    1u);
+          EXPECT_EQ(batch.vertex_count + batch.simplex_count() + batch.finalized.size(), 1u);
         }
       }
       EXPECT_TRUE(batch.empty());
@@ -130,7 +128,7 @@ TEST(StreamMeshReader, ScalarsAreProperties) {
   ASSERT_TRUE(reader->read(batch));
   EXPECT_EQ(batch.properties[0], (std::vector<double>{8, 9, 1, 1}));
   EXPECT_EQ(batch.properties[1], (std::vector<double>{2.5, 3.5, 1, 1}));
-  EXPECT_EQ(batch.tetrahedron_count(), 1u);
+  EXPECT_EQ(batch.tetrahedra().size(), 4u);
   EXPECT_EQ(batch.finalized.size(), 4u);
   options.properties = {"pressure"};
   EXPECT_THROW(make_stream_mesh_reader(open_bytes(bytes), options), Error);

@@ -42,7 +42,7 @@ inline Mesh make_mesh(io::MeshKind kind, io::MeshOrder order, Function function)
       mesh.values.push_back(function == Function::kRandom ? static_cast<double>(mix(mesh.values.size()) >> 11)
                                                           : batch.coordinates[function == Function::kY ? 1 : 2][i]);
     }
-    mesh.corners.insert(mesh.corners.end(), batch.triangles.begin(), batch.triangles.end());
+    mesh.corners.insert(mesh.corners.end(), batch.triangles().begin(), batch.triangles().end());
   }
   mesh.last_use.assign(mesh.values.size(), 0);
   for (std::size_t i = 0; i < mesh.corners.size(); ++i) mesh.last_use[mesh.corners[i].value()] = i;

@@ -27,6 +27,7 @@ class Made : public ChunkSource {
   std::uint64_t bytes_read() const override { return 0; }
   std::uint64_t bytes_total() const override { return 0; }
   std::uint64_t triangles_read() const override { return 0; }
+  SimplexCounts simplices_listed() const override { return {}; }
   std::uint64_t vertex_count() const override { return 0; }
 
  private:

@@ -35,6 +35,7 @@ class ModelIndexedMesh : public IndexedMesh {
       for (std::size_t i = 0; i < ids.size(); ++i)
         values[k * ids.size() + i] = mesh_.columns[columns[k]][ids[i].value()];
   }
+  SimplexCounts simplex_counts() const override { return {0, 0, mesh_.corners.size() / 3}; }
   void rewind() override { at_ = 0; }
   bool read(std::vector<VertexId>& corners, std::size_t limit) override {
     const std::size_t count = std::min(3 * limit, mesh_.corners.size() - at_);

@@ -33,9 +33,9 @@ class ModelReader : public MeshReader {
     if (vertices == 0) {
       const std::size_t corners = std::min<std::size_t>(999, mesh_.corners.size() - corner_);
       const auto from = mesh_.corners.begin() + static_cast<std::ptrdiff_t>(corner_);
-      batch.triangles.assign(from, from + static_cast<std::ptrdiff_t>(corners));
+      batch.triangles().assign(from, from + static_cast<std::ptrdiff_t>(corners));
       corner_ += corners;
-      if (corners == 0) batch.tetrahedra = std::exchange(tetrahedra_, {});
+      if (corners == 0) batch.tetrahedra() = std::exchange(tetrahedra_, {});
     }
     return !batch.empty();
   }
@@ -145,19 +145,24 @@ TEST(SpooledMesh, AnEmptyMesh) {
   EXPECT_TRUE(all_corners(*mesh, 10).empty());
 }
 
-TEST(SpooledMesh, ATetrahedronIsItsFourFaces) {
+TEST(SpooledMesh, ATetrahedronIsTheFacesThatDecideOrAllFour) {
   const Scratch scratch;
   const io::TempDir temp(scratch.path());
   MemoryBudget budget;
   const ModelMesh model{std::vector<std::vector<double>>(3, {0, 1, 2, 3}), {}};
-  ModelReader reader(model, {VertexId(0), VertexId(1), VertexId(2), VertexId(3)});
-  const auto mesh = spool(reader, temp, budget);
-  std::vector<std::uint64_t> faces;  // as sets of bits
-  const auto corners = all_corners(*mesh, 10);
-  for (std::size_t t = 0; t < corners.size(); t += 3)
-    faces.push_back(1u << corners[t].value() | 1u << corners[t + 1].value() | 1u << corners[t + 2].value());
-  std::sort(faces.begin(), faces.end());
-  EXPECT_EQ(faces, (std::vector<std::uint64_t>{0b0111, 0b1011, 0b1101, 0b1110}));
+  const auto faces = [&](CellTriangles cells) {
+    ModelReader reader(model, {VertexId(3), VertexId(1), VertexId(0), VertexId(2)});
+    const auto mesh = spool(reader, temp, budget, {.cells = cells});
+    EXPECT_EQ(mesh->simplex_counts(), (SimplexCounts{0, 0, 0, 1}));
+    std::vector<std::uint64_t> sets;  // of bits
+    const auto corners = all_corners(*mesh, 10);
+    for (std::size_t t = 0; t < corners.size(); t += 3)
+      sets.push_back(1u << corners[t].value() | 1u << corners[t + 1].value() | 1u << corners[t + 2].value());
+    std::sort(sets.begin(), sets.end());
+    return sets;
+  };
+  EXPECT_EQ(faces(CellTriangles::kDeciding), (std::vector<std::uint64_t>{0b0111, 0b1011, 0b1101}));
+  EXPECT_EQ(faces(CellTriangles::kAll), (std::vector<std::uint64_t>{0b0111, 0b1011, 0b1101, 0b1110}));
 }
 
 TEST(SpooledMesh, SignedZerosAndOddValues) {

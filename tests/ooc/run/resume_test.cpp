@@ -68,10 +68,10 @@ void write_stream(const std::string& path, const ModelMesh& mesh) {
     MeshBatch batch;
     batch.first_vertex = VertexId(next);
     if (!at_end)
-      batch.triangles.assign(mesh.corners.begin() + 3 * static_cast<std::ptrdiff_t>(t),
-                             mesh.corners.begin() + 3 * static_cast<std::ptrdiff_t>(t + 1));
+      batch.triangles().assign(mesh.corners.begin() + 3 * static_cast<std::ptrdiff_t>(t),
+                               mesh.corners.begin() + 3 * static_cast<std::ptrdiff_t>(t + 1));
     std::uint64_t end = at_end ? mesh.vertex_count() : next;
-    for (const VertexId v : batch.triangles) {
+    for (const VertexId v : batch.triangles()) {
       end = std::max(end, v.value() + 1);
       if (last_use[v.value()] == t &&
           std::find(batch.finalized.begin(), batch.finalized.end(), v) == batch.finalized.end())
