@@ -161,6 +161,7 @@ class Ordering {
     std::optional<MeshPieces> pieces = cut_into_pieces(*mesh_, run_.budget, options);
     if (pieces) {
       order_pieces(*pieces);
+      count_simplices();
       notes_.push_back("the mesh consists of " + count_of(pieces->pieces.size(), "piece") + ", read in another order");
       order_bytes_ = pieces->memory.bytes();
       mesh_ = std::make_unique<PiecewiseMesh>(std::move(mesh_), std::move(*pieces));
@@ -170,6 +171,15 @@ class Ordering {
     }
     seconds_.finalization += watch.seconds();
     return pieces.has_value();
+  }
+
+  // Only a mesh that was read from the first simplex to the last knows how many it has. It was not if its last uses
+  // come from a sidecar, or if the run is resumed.
+  void count_simplices() {
+    constexpr std::size_t kTrianglesAtOnce = 16384;
+    if (mesh_->simplex_counts() != SimplexCounts{}) return;
+    mesh_->rewind();
+    for (std::vector<VertexId> corners; mesh_->read(corners, kTrianglesAtOnce);) tell(mesh_->bytes_read());
   }
 
   void leave_pieces() {
