@@ -151,6 +151,10 @@ class BucketLists {
     prefetch_sum(list.last);
   }
 
+  // What they take in addition for this many more buckets.
+  std::size_t growth_bytes(std::size_t buckets) const {
+    return (buckets - std::min(buckets, free_count_)) * (sizeof(BucketSum) + sizeof(Link) + sizeof(Index));
+  }
   std::size_t memory_bytes() const { return sums_.memory_bytes() + links_.memory_bytes() + free_.memory_bytes(); }
   void save(StateWriter& out) const;
   // THROWS: DamagedState, as check_restored(), which tells whether `lists` are lists of buckets that no other list and

@@ -31,6 +31,10 @@ class ChunkSweep {
   // Replaces `fragment` by that of `chunk`, where local vertex i has the value values[i].
   void run(const Chunk& chunk, std::span<const double> values, Fragment& fragment, const SweepOptions& options = {});
   std::size_t memory_bytes() const;
+  // At least this much is needed for a chunk.
+  static std::size_t least_memory_bytes(const Chunk& chunk) {
+    return 20 * chunk.triangle_count() + 100 * chunk.vertex_count();
+  }
 
  private:
   struct Scratch;

@@ -137,6 +137,11 @@ std::size_t Glue::memory_bytes() const {
          pending_.capacity() * sizeof(Pending);
 }
 
+std::size_t Glue::memory_bytes_with(const Fragment& fragment) const {
+  return memory_bytes() + graph_.growth_bytes(fragment.nodes.size(), fragment.arcs.size(), fragment.path_arcs.size(),
+                                              fragment.buckets.size());
+}
+
 // ---- saving and restoring, between two fragments; the two maps are rebuilt from the arrays
 
 void Glue::save(StateWriter& out) const {

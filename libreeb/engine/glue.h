@@ -55,6 +55,8 @@ class Glue {
   std::size_t live_vertices() const { return node_of_.size(); }
   std::size_t live_edges() const { return edge_of_.size(); }
   std::size_t memory_bytes() const;
+  // The most that adding this fragment can make of it, apart from arrays that are far smaller.
+  std::size_t memory_bytes_with(const Fragment& fragment) const;
 
  private:
   using Index = LiveGraph::Index;

@@ -256,8 +256,7 @@ void LiveGraph::tidy() {
       free_node(n);
     }
   }
-  constexpr std::size_t kNodesAndArcsPerFlush = 4096;
-  if (settled_.size() >= kNodesAndArcsPerFlush) flush();
+  flush_if_many();
 }
 
 // Whether a complete node that is not a (1, 1) node will never become one. Zips merge referenced arcs with each other
@@ -332,6 +331,12 @@ void LiveGraph::write_out(Index a) {
     nodes_[n].intact = false;
     if (nodes_[n].degree() == 0) queue(n);
   }
+  flush_if_many();  // a vertex can have any number of arcs that settle with it
+}
+
+void LiveGraph::flush_if_many() {
+  constexpr std::size_t kNodesAndArcsPerFlush = 4096;
+  if (settled_.size() >= kNodesAndArcsPerFlush) flush();
 }
 
 void LiveGraph::flush() { settled_.flush(*sink_, buckets_.exponent()); }
@@ -364,6 +369,16 @@ std::size_t LiveGraph::memory_bytes() const {
   return nodes_.memory_bytes() + positions_.memory_bytes() + arcs_.memory_bytes() + references_.memory_bytes() +
          changed_.capacity() * sizeof(Index) + settled_.memory_bytes() + buckets_.memory_bytes() +
          arc_buckets_.memory_bytes();
+}
+
+std::size_t LiveGraph::growth_bytes(std::size_t nodes, std::size_t arcs, std::size_t references,
+                                    std::size_t buckets) const {
+  const auto beyond_free = [](std::size_t count, const auto& array) {
+    return count - std::min(count, array.size() - array.used());
+  };
+  const std::size_t list = embeds_ ? sizeof(BucketLists::List) : 0, place = track_positions_ ? sizeof(Point) : 0;
+  return beyond_free(nodes, nodes_) * (sizeof(Node) + place) + beyond_free(arcs, arcs_) * (sizeof(Arc) + list) +
+         beyond_free(references, references_) * sizeof(Reference) + buckets_.growth_bytes(buckets);
 }
 
 void LiveGraph::validate() const {

@@ -41,7 +41,7 @@ class LiveGraph {
   // certain to be in the final graph, unless noise removal takes it away.
   enum class State : std::uint8_t { kIncomplete, kComplete, kSettled };
 
-  // Settled nodes and arcs go to `sink` when flush() is called.
+  // Settled nodes and arcs go to `sink` when flush() is called, or before if they are many.
   LiveGraph(GraphSink& sink, bool track_positions) : sink_(&sink), track_positions_(track_positions) {}
   // A copy of the graph alone: without positions, buckets and noise removal. REQUIRES: as save().
   LiveGraph(const LiveGraph& other, GraphSink& sink)
@@ -99,6 +99,8 @@ class LiveGraph {
   std::uint64_t zips() const { return zips_; }                    // so far
   std::uint64_t zip_steps() const { return zip_steps_; }          // arcs that zips went over
   std::size_t memory_bytes() const;
+  // What it takes in addition for this many more of each.
+  std::size_t growth_bytes(std::size_t nodes, std::size_t arcs, std::size_t references, std::size_t buckets) const;
 
   // THROWS: std::logic_error that names the first inconsistency. O(live).
   void validate() const;
@@ -183,6 +185,7 @@ class LiveGraph {
   void contract(Index node);
   void settle(Index node);
   void write_out(Index arc);
+  void flush_if_many();
 
   GraphSink* sink_;
   bool track_positions_;

@@ -1,5 +1,6 @@
 // GraphFileWriter: the streaming writer of graphs without hierarchy.
 #include <algorithm>
+#include <bit>
 #include <numeric>
 #include <stdexcept>
 #include <utility>
@@ -75,19 +76,25 @@ void GraphFileWriter::rank_by_search(std::span<const ArcKeys> arcs) {
   by_hi_.resize(arcs.size());
   std::iota(by_hi_.begin(), by_hi_.end(), 0u);
   std::sort(by_hi_.begin(), by_hi_.end(), [&](std::uint32_t a, std::uint32_t b) { return arcs[a].hi < arcs[b].hi; });
+  // The system maps a window around each page that is touched. Other look-ups might not need that window, so the pages
+  // are released regularly. A look-up that goes far touches some pages on the way, in steps that double.
+  constexpr std::uint64_t kWindowKeys = (64 << 10) / sizeof(SweepKey), kWindows = 32;
+  std::uint64_t windows = 0;
+  const auto look_up = [&](const SweepKey& key, std::uint64_t from) {
+    const std::uint64_t rank = keys_->rank(key, from);
+    windows += static_cast<std::uint64_t>(std::bit_width(rank / kWindowKeys - from / kWindowKeys));
+    if (windows >= kWindows) {
+      keys_->release_pages();
+      windows = 0;
+    }
+    return rank;
+  };
   for (std::size_t i = 0; i < arcs.size(); ++i) {
-    lo_rank_ = keys_->rank(arcs[i].lo, lo_rank_);
+    lo_rank_ = look_up(arcs[i].lo, lo_rank_);
     ranked_[i] = {lo_rank_, 0, 0, kNeverDies};
   }
-  // The system maps a window around each page that is touched. Other look-ups might not need that window, so the pages
-  // are released regularly.
-  constexpr std::uint64_t kWindowKeys = (64 << 10) / sizeof(SweepKey), kWindows = 16;
-  std::uint64_t hi_rank = 0, windows = 0;
-  for (const std::uint32_t arc : by_hi_) {
-    const std::uint64_t rank = keys_->rank(arcs[arc].hi, hi_rank);
-    if (rank / kWindowKeys != hi_rank / kWindowKeys && ++windows % kWindows == 0) keys_->release_pages();
-    ranked_[arc].hi = hi_rank = rank;
-  }
+  std::uint64_t hi_rank = 0;
+  for (const std::uint32_t arc : by_hi_) ranked_[arc].hi = hi_rank = look_up(arcs[arc].hi, hi_rank);
   keys_->release_pages();
 }
 

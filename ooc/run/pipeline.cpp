@@ -86,14 +86,23 @@ class Pipeline {
   }
 
   bool read(Slot& slot) {
+    // Before the memory is taken: the next chunk will hardly be smaller than the largest one so far.
+    reserve_at_least(slot.reservation, largest_item_);
     if (!source_.next(slot.item)) return false;
     slot.progress = {source_.bytes_read(), source_.bytes_total(), source_.triangles_read()};
-    slot.reservation.resize(slot.item.memory_bytes());
+    const std::uint64_t bytes = slot.item.memory_bytes();
+    slot.reservation.resize(bytes);
+    largest_item_ = std::max(largest_item_, bytes);
     return true;
+  }
+
+  static void reserve_at_least(Reservation& reservation, std::uint64_t bytes) {
+    if (bytes > reservation.bytes()) reservation.resize(bytes);
   }
 
   void sweep(Slot& slot, Sweeper& sweeper) {
     slot.item.fragments.resize(glues_.size());
+    reserve_at_least(sweeper.reservation, ChunkSweep::least_memory_bytes(slot.item.chunk));
     for (std::size_t f = 0; f < glues_.size(); ++f)
       sweeper.sweep.run(slot.item.chunk, slot.item.values[f], slot.item.fragments[f], sweep_options(slot.item, f));
     sweeper.reservation.resize(sweeper.sweep.memory_bytes());
@@ -111,6 +120,9 @@ class Pipeline {
   }
 
   void glue(Slot& slot) {
+    std::size_t most = 0;
+    for (std::size_t f = 0; f < glues_.size(); ++f) most += glues_[f]->memory_bytes_with(slot.item.fragments[f]);
+    reserve_at_least(live_, most);
     LiveMaximum now;
     std::size_t bytes = 0;
     for (std::size_t f = 0; f < glues_.size(); ++f) {
@@ -185,6 +197,7 @@ class Pipeline {
   const PipelineOptions& options_;
   std::vector<std::unique_ptr<Glue>> glues_;
   Reservation live_;
+  std::uint64_t largest_item_ = 0;  // bytes of a chunk when it was read
   LiveMaximum maximum_;
   std::uint64_t restored_vertex_bound_ = 0;
 };

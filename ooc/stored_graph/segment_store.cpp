@@ -155,9 +155,13 @@ SegmentStore::SegmentStore(const io::TempDir& temp, MemoryBudget& budget, const 
 
 void SegmentStore::add_arcs(const SettledArcs& settled) {
   if (settled.bucket_counts.empty()) {
-    plain_.clear();
-    for (const ArcKeys& arc : settled.arcs) plain_.push_back({arc});
-    arcs_.add(plain_);
+    constexpr std::size_t kArcsAtOnce = 1024;
+    for (std::size_t first = 0; first < settled.arcs.size(); first += kArcsAtOnce) {
+      plain_.clear();
+      for (const ArcKeys& arc : settled.arcs.subspan(first, std::min(kArcsAtOnce, settled.arcs.size() - first)))
+        plain_.push_back({arc});
+      arcs_.add(plain_);
+    }
     return;
   }
   std::size_t first = 0;
