@@ -34,7 +34,9 @@ FirstStageResult read_input(RunContext& run, MeshInput input) {
     check_unchanged(check_mesh, run.functions);
     changed.at(mesh);
     if (run.resumable.checkpoint() == nullptr) throw;
-    throw InputChanged("the mesh has changed since the interrupted run", "start again with --force").at(mesh);
+    throw InputChanged("the mesh has changed since the interrupted run",
+                       "start again with --force and without --resume")
+        .at(mesh);
   } catch (const std::exception&) {
     check_unchanged(check_mesh, run.functions);
     throw;

@@ -20,13 +20,19 @@ ResumableRun::ResumableRun(const std::string& output, const std::string& mesh,
   if (!io::is_regular_file(mesh) || io::is_device(output)) return;
   identity_ = identify_run(mesh, functions, settings);
   folder_.emplace(output);
-  if (!options_.resume && !options_.discard) refuse_to_discard();
+  if (!options_.discard) refuse_to_discard(mesh);
 }
 
 // A checkpoint of another run with this output is hours of work, too. One that no run can use is not.
-void ResumableRun::refuse_to_discard() {
-  const CheckpointLoad load = load_checkpoint(folder_->checkpoint(), identity_);
-  if (load.checkpoint)
+void ResumableRun::refuse_to_discard(const std::string& mesh) {
+  CheckpointLoad load;
+  try {
+    load = load_checkpoint(folder_->checkpoint(), identity_);
+  } catch (InputChanged& changed) {
+    changed.at(mesh);
+    throw;
+  }
+  if (load.checkpoint && !options_.resume)
     throw Error(ErrorKind::kBadInput, "an interrupted run left what is needed to resume it",
                 "continue it with --resume, or discard it with --force")
         .at(folder_->path());
@@ -47,6 +53,7 @@ const Checkpoint* ResumableRun::start(const std::function<void(StateReader&)>& r
     notes.push_back("the input is not a regular file, so the run cannot be resumed and starts from the beginning");
   if (!folder_) return nullptr;
   if (options_.resume) {
+    is_of_earlier_run_ = folder_->has_checkpoint();
     load_ = load_checkpoint(folder_->checkpoint(), identity_);
     if (!load_.checkpoint && load_.note.empty())
       load_.note = "there is nothing to resume, so the run starts from the beginning";
@@ -59,6 +66,7 @@ const Checkpoint* ResumableRun::start(const std::function<void(StateReader&)>& r
     notes.push_back(load_.note);
   }
   folder_->clear();
+  is_of_earlier_run_ = false;
   return nullptr;
 }
 
@@ -77,6 +85,7 @@ bool ResumableRun::restores(const std::function<void(StateReader&)>& restore) {
 
 void ResumableRun::start_over() {
   load_ = {};
+  is_of_earlier_run_ = false;
   if (folder_) folder_->clear();
 }
 
@@ -116,8 +125,11 @@ Error ResumableRun::explain(const Error& error) {
                                         : "make room in this folder, or choose another output with -o";
     kind = ErrorKind::kResource;
   }
-  if (kind == ErrorKind::kBadInput) folder_->clear();  // running again would fail in the same way
-  if (folder_->has_checkpoint()) {
+  if (kind == ErrorKind::kBadInput) {
+    // The mesh can be brought back. Otherwise running again would fail in the same way.
+    const bool keeps = is_of_earlier_run_ && dynamic_cast<const InputChanged*>(&error) != nullptr;
+    if (!keeps) folder_->clear();
+  } else if (folder_->has_checkpoint()) {
     const std::string go_on = "the same command with --resume continues the run";
     hint = kind == ErrorKind::kInterrupted ? go_on : hint + "; then " + go_on;
   } else if (kind == ErrorKind::kInterrupted) {

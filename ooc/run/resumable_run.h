@@ -30,7 +30,7 @@ class ResumableRun {
 
   // Pass "" as `mesh` if the mesh is not, or only partly, in files.
   // THROWS: Error{kResource} of the folder; Error{kBadInput} if a file cannot be opened, or if there is a checkpoint
-  //         that may be neither resumed nor discarded.
+  //         that may not be discarded, and that is of another run or is not to be resumed. It stays.
   ResumableRun(const std::string& output, const std::string& mesh, std::span<VertexFunction* const> functions,
                const RunSettings& settings, const ResumeOptions& options);
 
@@ -63,13 +63,14 @@ class ResumableRun {
   //         checkpoint is skipped.
   void between_chunks(const Checkpoint& here, const Save& save);
 
-  // Returns the same error with a hint that says whether the run can be resumed. If it can, the folder stays.
+  // Returns the same error with a hint that says whether the run can be resumed. If it can, the folder stays; also if
+  // the mesh has changed since an earlier run left it: only the user can discard that work.
   Error explain(const Error& error);
   // The outputs exist: removes the folder.
   void done();
 
  private:
-  void refuse_to_discard();
+  void refuse_to_discard(const std::string& mesh);
 
   using Clock = std::chrono::steady_clock;
   bool restores(const std::function<void(StateReader&)>& restore);
@@ -80,6 +81,7 @@ class ResumableRun {
   RunIdentity identity_;
   CheckpointLoad load_;
   bool was_resumed_ = false;
+  bool is_of_earlier_run_ = false;         // what is in the folder, or what it was resumed from
   Clock::time_point last_ = Clock::now();  // when the last checkpoint was made
   double cost_seconds_ = 0;                // of writing it
 };

@@ -462,6 +462,59 @@ TEST(Resume, RefusesAMeshThatWasChangedWithItsTimeKept) {
     EXPECT_NE(error.message().find("changed since the interrupted run"), std::string::npos) << error.what();
     EXPECT_NE(error.hint().find("--force"), std::string::npos);
   }
+  EXPECT_TRUE(PartialFolder::has_checkpoint(runs.output())) << "the mesh can be brought back";
+}
+
+// Only the time at which anything about the file changed shows it.
+TEST(Resume, KeepsTheCheckpointOfAMeshThatWasChanged) {
+  Runs runs(grid_mesh(20, 20));
+  runs.options.chunk_triangles = 100;
+  ASSERT_TRUE(runs.stop_after(2, false));
+  const std::string checkpoint = read_file(runs.partial() + "/checkpoint");
+  const auto time = fs::last_write_time(runs.mesh_path());
+  write_file(runs.mesh_path(), read_file(runs.mesh_path()));
+  fs::last_write_time(runs.mesh_path(), time);
+  for (const bool replace : {false, true}) {
+    runs.options.replace = replace;
+    try {
+      runs.finish(true);
+      ADD_FAILURE();
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::kBadInput);
+      EXPECT_EQ(error.file(), runs.mesh_path());
+      EXPECT_NE(error.message().find("changed since the interrupted run"), std::string::npos) << error.what();
+      EXPECT_EQ(error.hint(), "start again with --force and without --resume");
+    }
+    EXPECT_EQ(read_file(runs.partial() + "/checkpoint"), checkpoint);
+  }
+  runs.finish(false);
+}
+
+TEST(Resume, OfAnotherRunIsRefusedUnlessThatMayBeDiscarded) {
+  Runs runs(grid_mesh(20, 20));
+  runs.options.chunk_triangles = 100;
+  const std::string expected = runs.finish(false);
+  ASSERT_TRUE(runs.stop_after(2, false));
+  const std::string checkpoint = read_file(runs.partial() + "/checkpoint");
+  runs.options.replace = false;
+  const auto expect_refused = [&](const char* why) {
+    try {
+      runs.finish(true);
+      ADD_FAILURE() << "discarded: " << why;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::kBadInput) << why;
+      EXPECT_EQ(error.file(), runs.partial()) << why;
+      EXPECT_NE(error.hint().find("--force"), std::string::npos) << error.hint();
+    }
+    EXPECT_EQ(read_file(runs.partial() + "/checkpoint"), checkpoint) << why;
+  };
+  runs.set_function("x");
+  expect_refused("another function");
+  runs.set_function("z");
+  const auto denoise = std::exchange(runs.options.denoise, 0.5);
+  expect_refused("another option");
+  runs.options.denoise = denoise;
+  EXPECT_EQ(runs.finish(true), expected);
 }
 
 TEST(Resume, SaysThatThereIsNothingToResume) {
