@@ -161,10 +161,24 @@ void StreamChunker::take_final(Chunk& chunk, std::vector<std::vector<double>>& v
   });
 }
 
-std::size_t StreamChunker::memory_bytes() const {
+std::size_t StreamChunker::slot_bytes() const {
   return slot_of_.memory_bytes() + state_.capacity() + 8 * slot_vertices_.capacity() +
          4 * (local_.capacity() + free_slots_.capacity()) + 8 * slot_values_.capacity() +
          slot_positions_.capacity() * sizeof(Point) + deciding_.memory_bytes();
+}
+
+std::size_t StreamChunker::memory_bytes_with(std::size_t more_vertices) const {
+  const std::size_t room = local_.capacity() - local_.size() + free_slots_.size();
+  if (more_vertices <= room) return memory_bytes();
+  return memory_bytes() + slot_bytes() + slot_positions_.capacity() * sizeof(Point) / 2;
+}
+
+std::size_t StreamChunker::memory_bytes() const {
+  std::size_t bytes = slot_bytes();
+  bytes += 8 * chunk_.ids.capacity() + chunk_.uses.capacity() + sizeof(Point) * chunk_.positions.capacity() +
+           4 * (chunk_.corners.capacity() + slot_of_local_.capacity());
+  for (const auto& column : values_) bytes += 8 * column.capacity();
+  return bytes;
 }
 
 }  // namespace reeb

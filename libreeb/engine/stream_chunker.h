@@ -59,7 +59,9 @@ class StreamChunker {
 
   std::uint64_t vertex_count() const { return next_vertex_; }
   std::size_t active_vertices() const { return slot_of_.size(); }
-  std::size_t memory_bytes() const;
+  std::size_t memory_bytes() const;  // of both
+  // The most that they take while this many vertices are added: arrays that grow are copied.
+  std::size_t memory_bytes_with(std::size_t more_vertices) const;
 
  private:
   static constexpr std::uint32_t kNone = ~std::uint32_t{0};
@@ -77,6 +79,7 @@ class StreamChunker {
   void add_triangle(VertexId a, VertexId b, VertexId c);
   void finalize(VertexId v, std::uint32_t slot);
   void start_chunk();
+  std::size_t slot_bytes() const;
 
   std::size_t functions_;
   bool track_positions_;

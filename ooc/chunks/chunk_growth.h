@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <optional>
 
 #include "libreeb/engine/chunk.h"
 #include "ooc/chunks/chunk_source.h"
@@ -22,8 +23,8 @@ class ChunkGrowth {
   std::size_t size() const { return size_; }
   void set_size(std::size_t size) { size_ = std::min(size, most_); }
 
-  // Call this with each chunk once its uses are known.
-  void adapt(const Chunk& chunk) {
+  // Call this with each chunk once its uses are known. `size` is its size if it ended early, because of its vertices.
+  void adapt(const Chunk& chunk, std::optional<std::size_t> size = {}) {
     // A larger share of shared vertices makes the next chunk larger, less than a quarter of it makes it smaller. A
     // shared vertex brings about one shared edge, of three in all, so this is a tenth of the edges.
     constexpr double kShareToGrow = 0.30;
@@ -34,6 +35,7 @@ class ChunkGrowth {
       size_ = std::min(2 * size_, most_);
     else if (shared < many / 4)
       size_ = std::max(size_ / 2, least_);
+    if (size) size_ = std::min(size_, *size);
   }
 
  private:

@@ -40,13 +40,17 @@ struct WorkItem {
   std::size_t memory_bytes() const;
 };
 
-// How many triangles a chunk has.
+// How many triangles a chunk has, and how many vertices it may have.
 struct ChunkSize {
   std::size_t first = 32768;  // of the first chunk
   std::size_t most = 524288;  // the limit of growth; equal to `first`: fixed
   // A chunk of more than `first` triangles is a stretch. It is cut into patches of at most this many
   // (divided_chunks.h).
   std::size_t patch = 32768;
+  // Limits of vertices, for meshes with many vertices a triangle: a chunk of up to `first` triangles that has more than
+  // this is cut into patches, too; and any chunk ends when it has more than `most_vertices`.
+  std::size_t first_vertices = ~std::size_t{0};
+  std::size_t most_vertices = ~std::size_t{0};
 };
 
 class ChunkSource {
@@ -82,8 +86,9 @@ std::unique_ptr<ChunkSource> chunks_of(IndexedMesh& mesh, LastUse& last_use, Fun
 
 // Chunks of a stream that is read once. Vertices that the stream does not finalize are finalized at its end. The input
 // before `start` is read and skipped. If `most_active_vertices` is given, the source gives up as soon as more vertices
-// than that are active (not finalized yet), or a large part of the vertices of a large mesh.
-// What the reader holds is reserved from the budget.
+// than that are active (not finalized yet), or a large part of the vertices of a large mesh, or more than fit the
+// budget.
+// What the reader holds is reserved from the budget, and so are the active vertices.
 // THROWS, at once: InputChanged if the stream does not match `start`.
 std::unique_ptr<ChunkSource> chunks_of(MeshReader& reader, FunctionValues& functions, MemoryBudget& budget,
                                        ChunkSize size, const ChunkPlace& start = {},

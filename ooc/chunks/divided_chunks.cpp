@@ -1,5 +1,6 @@
 #include "ooc/chunks/divided_chunks.h"
 
+#include <algorithm>
 #include <limits>
 #include <utility>
 
@@ -13,7 +14,7 @@ constexpr std::uint16_t kNoPatch = std::numeric_limits<std::uint16_t>::max();
 bool DividedChunks::next(WorkItem& item) {
   if (next_patch_ == patches_.patch_count()) {
     if (!stretches_.next(stretch_)) return false;
-    if (stretch_.chunk.triangle_count() <= whole_) {
+    if (is_small(stretch_.chunk)) {
       take_whole(item);
       return true;
     }
@@ -21,6 +22,21 @@ bool DividedChunks::next(WorkItem& item) {
   }
   take_patch(item);
   return true;
+}
+
+bool DividedChunks::is_small(const Chunk& chunk) const {
+  const std::size_t most = size_.first + size_.first / 4;  // the last batch of a stretch can exceed its size
+  if (chunk.triangle_count() > most) return false;
+  return chunk.vertex_count() <= size_.first_vertices || chunk.triangle_count() <= size_.patch;
+}
+
+// Patches of a stretch with many vertices a triangle have about half of the vertices that a whole chunk may have.
+std::size_t DividedChunks::patch_size() const {
+  const auto triangles = static_cast<double>(stretch_.chunk.triangle_count());
+  const double most =
+      triangles / static_cast<double>(stretch_.chunk.vertex_count()) * (static_cast<double>(size_.first_vertices) / 2);
+  return most < static_cast<double>(size_.patch) ? std::max<std::size_t>(1, static_cast<std::size_t>(most))
+                                                 : size_.patch;
 }
 
 void DividedChunks::take_whole(WorkItem& item) {
@@ -36,7 +52,8 @@ void DividedChunks::take_whole(WorkItem& item) {
 }
 
 void DividedChunks::divide() {
-  patches_.divide(stretch_.chunk, patch_);
+  reservation_.resize(std::max<std::uint64_t>(reservation_.bytes(), stretch_.memory_bytes()));
+  patches_.divide(stretch_.chunk, patch_size());
   next_patch_ = 0;
   find_last_patches();
   local_.resize(stretch_.chunk.vertex_count());

@@ -20,11 +20,11 @@ namespace reeb::ooc {
 // MEMORY: reserved: the stretch and 9 bytes per triangle of it; nothing if chunks are small enough.
 class DividedChunks : public ChunkSource {
  public:
-  // `stretches` must outlive this. Chunks of at most `whole` triangles pass unchanged. Others are cut into patches of
-  // at most about `patch` triangles.
+  // `stretches` must outlive this. Chunks of at most about size.first triangles and size.first_vertices vertices pass
+  // unchanged. Others are cut into patches of at most about size.patch triangles, fewer if they have many vertices.
   // THROWS, in next(): Error{kResource} of the budget.
-  DividedChunks(ChunkSource& stretches, std::size_t whole, std::size_t patch, MemoryBudget& budget)
-      : stretches_(stretches), whole_(whole), patch_(patch), reservation_(budget.reserve("stretch of chunks", 0)) {}
+  DividedChunks(ChunkSource& stretches, const ChunkSize& size, MemoryBudget& budget)
+      : stretches_(stretches), size_(size), reservation_(budget.reserve("stretch of chunks", 0)) {}
 
   bool next(WorkItem& item) override;
   std::uint64_t bytes_read() const override { return stretches_.bytes_read(); }
@@ -34,6 +34,8 @@ class DividedChunks : public ChunkSource {
   std::uint64_t vertex_count() const override { return stretches_.vertex_count(); }
 
  private:
+  bool is_small(const Chunk& chunk) const;
+  std::size_t patch_size() const;
   void take_whole(WorkItem& item);
   void divide();
   void find_last_patches();
@@ -43,7 +45,7 @@ class DividedChunks : public ChunkSource {
   void take_vertices(WorkItem& item);
 
   ChunkSource& stretches_;
-  std::size_t whole_, patch_;
+  ChunkSize size_;
   Reservation reservation_;
   WorkItem stretch_;
   PatchPartition patches_;

@@ -53,7 +53,7 @@ bool GuessedChunks::read_triangles(Chunk& chunk) {
   std::size_t count = 0;
   numbers_.start(chunk.ids, size_.size());
   chunk.corners.resize(most);
-  while (count < most && has_corners()) {
+  while (count < most && chunk.vertex_count() <= options_.chunk.most_vertices && has_corners()) {
     const auto corners = std::span(spooler_.triangles()).subspan(taken_);
     const std::size_t piece = std::min({kCornersInCache, most - count, corners.size()});
     numbers_.number(corners.first(piece), std::span(chunk.corners).subspan(count, piece));
@@ -64,7 +64,10 @@ bool GuessedChunks::read_triangles(Chunk& chunk) {
   if (count == 0) return false;
   triangles_read_ += count / 3;
   given_up_ = guesses_.add(chunk, most_open()) != UseGuesses::Verdict::kHolds;
-  size_.adapt(chunk);
+  if (count < most)
+    size_.adapt(chunk, count / 3);
+  else
+    size_.adapt(chunk);
   return !given_up_;
 }
 

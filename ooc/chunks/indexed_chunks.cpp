@@ -19,7 +19,8 @@ class IndexedChunks : public ChunkSource {
         functions_(functions),
         lookup_(functions),
         block_triangles_(static_cast<std::size_t>(std::max<std::uint64_t>(1, last_use.summary().block_triangles))),
-        blocks_(size, block_triangles_) {
+        blocks_(size, block_triangles_),
+        most_vertices_(size.most_vertices) {
     mesh_.rewind();
     pass_over(start);
   }
@@ -36,7 +37,7 @@ class IndexedChunks : public ChunkSource {
   bool read_some(std::size_t most);
   bool read_triangles(Chunk& chunk);
   bool read_loose_vertices(Chunk& chunk);
-  void set_uses(Chunk& chunk);
+  void set_uses(Chunk& chunk, std::size_t blocks);
   void check_end();
 
   IndexedMesh& mesh_;
@@ -45,6 +46,7 @@ class IndexedChunks : public ChunkSource {
   VertexLookup lookup_;
   std::size_t block_triangles_;
   ChunkGrowth blocks_;
+  std::size_t most_vertices_;
   std::uint64_t first_block_ = 0;  // of the next chunk
   std::uint64_t triangles_read_ = 0;
   std::uint64_t next_vertex_ = 0;  // the search for unused vertices continues here
@@ -98,24 +100,32 @@ bool IndexedChunks::read_triangles(Chunk& chunk) {
   const auto most = static_cast<std::size_t>(std::min<std::uint64_t>(blocks_.size() * block_triangles_, left));
   numbers_.start(chunk.ids, most);
   chunk.corners.resize(3 * most);
-  std::size_t count = 0;
-  while (count < most && read_some(std::min(kTrianglesInCache, most - count))) {
+  std::size_t count = 0, end_of_block = 0, blocks = 0;
+  while (count < most && (count < end_of_block || chunk.vertex_count() <= most_vertices_)) {
+    if (count == end_of_block) {
+      end_of_block = std::min(most, end_of_block + block_triangles_);
+      ++blocks;
+    }
+    if (!read_some(std::min(kTrianglesInCache, end_of_block - count))) break;
     numbers_.number(corners_, std::span(chunk.corners).subspan(3 * count, corners_.size()));
     count += corners_.size() / 3;
   }
   if (count == 0) return false;
   chunk.corners.resize(3 * count);
   triangles_read_ += count;
-  set_uses(chunk);
-  first_block_ += blocks_.size();
-  blocks_.adapt(chunk);
+  set_uses(chunk, blocks);
+  first_block_ += blocks;
+  if (count < most)
+    blocks_.adapt(chunk, blocks);
+  else
+    blocks_.adapt(chunk);
   return true;
 }
 
-void IndexedChunks::set_uses(Chunk& chunk) {
+void IndexedChunks::set_uses(Chunk& chunk, std::size_t blocks) {
   entries_.resize(chunk.vertex_count());
   last_use_.lookup(chunk.ids, entries_);
-  const std::uint64_t last_block = first_block_ + blocks_.size() - 1;
+  const std::uint64_t last_block = first_block_ + blocks - 1;
   chunk.uses.resize(chunk.vertex_count());
   bool fits = true;
   std::uint64_t completed = 0;

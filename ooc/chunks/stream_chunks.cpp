@@ -16,7 +16,8 @@ class StreamChunks : public ChunkSource {
         size_(size),
         most_active_vertices_(most_active_vertices),
         chunker_(functions.function_count(), true),
-        reader_memory_(budget) {
+        reader_memory_(budget),
+        memory_(budget.reserve("vertices of the stream", 0)) {
     pass_over(start);
   }
 
@@ -32,6 +33,7 @@ class StreamChunks : public ChunkSource {
   void pass_over(const ChunkPlace& start);
   bool is_hopeless() const;
   void read_batch();
+  bool make_room();
   void add_vertices();
 
   MeshReader& reader_;
@@ -40,6 +42,7 @@ class StreamChunks : public ChunkSource {
   std::optional<std::uint64_t> most_active_vertices_;  // set if it may give up
   StreamChunker chunker_;
   ReaderMemory reader_memory_;
+  Reservation memory_;
   std::uint64_t simplices_read_ = 0;
   SimplexCounts simplices_{};
   std::uint64_t batches_ = 0;
@@ -55,8 +58,8 @@ class StreamChunks : public ChunkSource {
 };
 
 bool StreamChunks::next(WorkItem& item) {
-  while (!ended_ && chunker_.chunk_size() < size_.size()) read_batch();
-  given_up_ = is_hopeless();
+  while (!ended_ && !given_up_ && chunker_.chunk_size() < size_.size()) read_batch();
+  given_up_ = given_up_ || is_hopeless();
   if (given_up_ || chunker_.chunk_size() == 0) return false;
   chunker_.take(item.chunk, item.values);
   size_.adapt(item.chunk);
@@ -101,11 +104,22 @@ void StreamChunks::read_batch() {
   }
   digest_.add(batch_);
   reader_memory_.update(reader_);
+  given_up_ = !make_room();
+  if (given_up_) return;
   add_vertices();
   batch_.for_each_simplex([this](std::span<const VertexId> corners) { chunker_.add_simplex(corners); });
   batch_.add_counts(simplices_);
   simplices_read_ += batch_.simplex_count();
   for (const VertexId v : batch_.finalized) chunker_.finalize(v);
+  memory_.resize(chunker_.memory_bytes());
+}
+
+// Vertices that come long before their triangles are in no chunk yet. False if they are too many, and it may give up.
+bool StreamChunks::make_room() {
+  const std::uint64_t bytes = chunker_.memory_bytes_with(batch_.vertex_count);
+  if (bytes <= memory_.bytes() || memory_.try_resize(bytes)) return true;
+  if (!most_active_vertices_) memory_.resize(bytes);  // throws
+  return false;
 }
 
 void StreamChunks::add_vertices() {

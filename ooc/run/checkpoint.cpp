@@ -17,7 +17,7 @@ namespace reeb::ooc {
 namespace {
 
 constexpr std::array<char, 8> kMagic = {'R', 'E', 'E', 'B', 'C', 'K', 'P', '\n'};
-constexpr std::uint64_t kVersion = 10;
+constexpr std::uint64_t kVersion = 11;
 constexpr std::size_t kBufferBytes = 64 << 10;
 
 struct Header {
@@ -26,14 +26,14 @@ struct Header {
   std::uint64_t mesh, functions, settings, changed;  // RunIdentity
   std::uint64_t block_triangles;
   std::uint64_t origin;
-  std::uint64_t chunk_first, chunk_most;
+  std::uint64_t chunk_first, chunk_most, chunk_most_vertices;
   std::uint64_t triangles;
   std::uint64_t next_vertex;
   std::uint64_t batches;
   std::uint64_t chunk_blocks;
   std::uint64_t digest, completed;
 };
-static_assert(sizeof(Header) == 16 * 8);
+static_assert(sizeof(Header) == 17 * 8);
 
 template <class T>
 std::uint64_t digest_of(const T& object, std::uint64_t seed) {
@@ -124,7 +124,8 @@ void write_checkpoint(const std::string& path, const RunIdentity& run, const Che
   Writer out(path);
   out.put(Header{kMagic, kVersion, run.mesh, run.functions, run.settings, run.changed, checkpoint.block_triangles,
                  static_cast<std::uint64_t>(checkpoint.origin), checkpoint.chunk.first, checkpoint.chunk.most,
-                 place.triangles, place.next_vertex, place.batches, place.chunk_blocks, place.digest, place.completed});
+                 checkpoint.chunk.most_vertices, place.triangles, place.next_vertex, place.batches, place.chunk_blocks,
+                 place.digest, place.completed});
   out.put_array(place.ranges);
   save(out);
   io::sync_folder(io::folder_of(path));  // the names of the files that `save` has made
@@ -152,18 +153,20 @@ CheckpointLoad load_checkpoint(const std::string& path, const RunIdentity& run) 
     if (header.functions != run.functions) return of_another("is of other functions");
     if (header.settings != run.settings) return of_another("is of other options");
     if (header.changed != run.changed)
-      throw InputChanged("the mesh has changed since the interrupted run", "start again with --force");
+      throw InputChanged("the mesh has changed since the interrupted run",
+                         "start again with --force and without --resume");
     if (header.origin > static_cast<std::uint64_t>(ChunkOrigin::kSortedInSlabs)) return useless("is damaged");
-    Checkpoint checkpoint{.place = {.triangles = header.triangles,
-                                    .next_vertex = header.next_vertex,
-                                    .batches = header.batches,
-                                    .chunk_blocks = header.chunk_blocks,
-                                    .digest = header.digest,
-                                    .completed = header.completed,
-                                    .ranges = {}},
-                          .block_triangles = header.block_triangles,
-                          .origin = static_cast<ChunkOrigin>(header.origin),
-                          .chunk = {header.chunk_first, header.chunk_most}};
+    Checkpoint checkpoint{
+        .place = {.triangles = header.triangles,
+                  .next_vertex = header.next_vertex,
+                  .batches = header.batches,
+                  .chunk_blocks = header.chunk_blocks,
+                  .digest = header.digest,
+                  .completed = header.completed,
+                  .ranges = {}},
+        .block_triangles = header.block_triangles,
+        .origin = static_cast<ChunkOrigin>(header.origin),
+        .chunk = {.first = header.chunk_first, .most = header.chunk_most, .most_vertices = header.chunk_most_vertices}};
     in->get_array(checkpoint.place.ranges);
     return {std::move(checkpoint), std::move(in), {}};
   } catch (const DamagedState&) {

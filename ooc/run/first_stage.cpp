@@ -71,8 +71,7 @@ class PolledReader : public MeshReader {
 FirstStageResult glue_chunks(RunContext& run, ChunkSource& stretches, const MemoryPlan& plan, Checkpoint here,
                              FirstStageResult result) {
   const Stopwatch watch;
-  const std::size_t whole = plan.chunk.first + plan.chunk.first / 4;  // the last batch of a stream can exceed it
-  DividedChunks source(stretches, whole, plan.chunk.patch, run.budget);
+  DividedChunks source(stretches, plan.chunk, run.budget);
   std::vector<GraphSink*> sinks;
   for (const auto& store : run.stores) sinks.push_back(store.get());
   PipelineOptions options;

@@ -33,6 +33,9 @@ constexpr std::size_t kUsefulTriangles = 12288;
 // Measured bytes per triangle: scratch memory of a sweep; a chunk in flight with its fragment; what the source keeps;
 // and, for a stretch that is cut into chunks, its storage and what reading and cutting it takes.
 constexpr std::uint64_t kSweepBytes = 90, kFlightBytes = 55, kSourceBytes = 20, kStretchBytes = 50;
+// The same per vertex, where a triangle has three of its own: many per triangle, so that triangles count for little.
+constexpr std::uint64_t kSweepVertexBytes = 170, kFlightVertexBytes = 125, kSourceVertexBytes = 63,
+                        kStretchVertexBytes = 72;
 // More memory than this for chunks makes a run hardly faster.
 constexpr std::uint64_t kUsefulChunkBytes = 64 * kMiB;
 constexpr std::size_t kSmallestChunk = 512;
@@ -45,6 +48,12 @@ constexpr std::uint64_t kPlannedThreads = 2;
 // flight.
 std::uint64_t chunk_bytes(std::uint64_t threads, std::size_t functions) {
   return threads * kSweepBytes + (threads == 1 ? 1 : threads + 1) * functions * kFlightBytes + kSourceBytes;
+}
+
+// The same per vertex.
+std::uint64_t chunk_vertex_bytes(std::uint64_t threads, std::size_t functions) {
+  return threads * kSweepVertexBytes + (threads == 1 ? 1 : threads + 1) * functions * kFlightVertexBytes +
+         kSourceVertexBytes;
 }
 
 std::uint64_t machine_bytes() {
@@ -132,6 +141,7 @@ void MemoryPlan::share_out(const FrontNeeds& needs) {
 
 // The patches of a stretch take a quarter of the memory, so that the stretch can be long.
 void MemoryPlan::size_chunks(std::uint64_t bytes, std::size_t most_triangles) {
+  const std::uint64_t room = bytes;
   bytes = std::min(bytes, allows_threads() ? kUsefulChunkBytes : budget_bytes / 10);
   chunk = {};
   const auto fitting = [&](std::uint64_t part) {
@@ -143,6 +153,12 @@ void MemoryPlan::size_chunks(std::uint64_t bytes, std::size_t most_triangles) {
   const auto stretch =
       static_cast<std::size_t>(saturating_minus(bytes, chunk.patch * triangle_bytes()) / kStretchBytes);
   chunk.most = std::clamp(stretch, chunk.first, chunk.most);
+  // Usually a triangle has half a vertex, and these limits change nothing; nor do they where memory is free.
+  const std::uint64_t vertex = chunk_vertex_bytes(allows_threads() ? kPlannedThreads : 1, request_.functions);
+  chunk.first_vertices = std::max(chunk.first, static_cast<std::size_t>(room / vertex));
+  chunk.most_vertices =
+      std::max(chunk.most,
+               static_cast<std::size_t>(saturating_minus(room, chunk.patch * triangle_bytes()) / kStretchVertexBytes));
   threads = allows_threads() ? request_.threads : 1;
   const std::uint64_t parallel = std::max(bytes, budget_bytes / 4);
   while (threads > kPlannedThreads && chunk_bytes(threads, request_.functions) * chunk.first > parallel) --threads;

@@ -47,6 +47,28 @@ TEST(MemoryPlan, SharesAddUpToAtMostTheLimit) {
     }
 }
 
+// A triangle has at most three vertices of its own, usually half a vertex.
+TEST(MemoryPlan, LimitsOfVerticesActOnlyWhereMemoryIsTight) {
+  for (const MemoryRequest& request : requests())
+    for (const std::uint64_t limit : limits()) {
+      SCOPED_TRACE(testing::Message() << limit << " bytes, " << request.functions << " functions");
+      MemoryPlan p = plan(request, limit);
+      for (const bool front_is_known : {false, true}) {
+        if (front_is_known) p.share_out({});
+        const std::size_t whole = p.chunk.first + p.chunk.first / 4;
+        EXPECT_GE(p.chunk.first_vertices, p.chunk.first);
+        EXPECT_GE(p.chunk.most_vertices, p.chunk.most);
+        if (limit >= 2048 * kMiB) {
+          EXPECT_GE(p.chunk.first_vertices, 3 * whole);
+          EXPECT_GE(p.chunk.most_vertices, 3 * p.chunk.most);
+        } else if (limit >= 24 * kMiB && limit <= 48 * kMiB) {
+          EXPECT_LT(p.chunk.first_vertices, 3 * p.chunk.first);
+          EXPECT_LT(p.chunk.most_vertices, 3 * p.chunk.most);
+        }
+      }
+    }
+}
+
 TEST(MemoryPlan, MoreMemoryNeverGivesLess) {
   for (const MemoryRequest& request : requests()) {
     MemoryPlan before = plan(request, kSmallestLimit);

@@ -1,0 +1,153 @@
+// The memory of runs on meshes with many more vertices or arcs than a surface has.
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <cstring>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "tests/tools/program.h"
+
+namespace reeb::test {
+namespace {
+
+// Values in no order, from 0 to 1.
+float value_of(std::uint32_t vertex) {
+  return static_cast<float>((vertex * 2654435761u) >> 8) / static_cast<float>(1 << 24);
+}
+
+class PlyFile {
+ public:
+  PlyFile(const std::string& path, std::uint32_t vertices, std::uint32_t faces) : out_(path, std::ios::binary) {
+    out_ << "ply\nformat binary_little_endian 1.0\nelement vertex " << vertices
+         << "\nproperty float x\nproperty float y\nproperty float z\nelement face " << faces
+         << "\nproperty list uchar int vertex_indices\nend_header\n";
+  }
+  void vertex(float x, float y, float z) {
+    put(x);
+    put(y);
+    put(z);
+  }
+  void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    out_.put(3);
+    put(a);
+    put(b);
+    put(c);
+  }
+
+ private:
+  template <class T>
+  void put(T value) {
+    char bytes[sizeof(T)];
+    std::memcpy(bytes, &value, sizeof(T));
+    out_.write(bytes, sizeof(T));
+  }
+  std::ofstream out_;
+};
+
+// Each triangle is a component of its own, with three vertices.
+void write_separate_triangles(const std::string& path, std::uint32_t triangles) {
+  PlyFile ply(path, 3 * triangles, triangles);
+  for (std::uint32_t v = 0; v < 3 * triangles; ++v)
+    ply.vertex(static_cast<float>(v / 3 % 1000), static_cast<float>(v / 3000), value_of(v));
+  for (std::uint32_t v = 0; v < 3 * triangles; v += 3) ply.triangle(v, v + 1, v + 2);
+}
+
+// Vertices 0 and 2 are connected by arcs of two edges each, which are written as triangles with a repeated corner.
+// Vertices are numbered as triangles use them, so that all forms of the mesh have the same numbers.
+void write_parallel_arcs(const std::string& path, std::uint32_t arcs) {
+  PlyFile ply(path, arcs + 2, 2 * arcs);
+  const auto middle = [](std::uint32_t arc) { return arc == 0 ? 1 : arc + 2; };
+  ply.vertex(0, 0, -1);
+  ply.vertex(0, 0, value_of(1));
+  ply.vertex(0, 0, 2);
+  for (std::uint32_t v = 3; v < arcs + 2; ++v)
+    ply.vertex(static_cast<float>(v % 1000), static_cast<float>(v / 1000), value_of(v));
+  for (std::uint32_t arc = 0; arc < arcs; ++arc) {
+    ply.triangle(0, middle(arc), middle(arc));
+    ply.triangle(middle(arc), 2, 2);
+  }
+}
+
+struct Counts {
+  std::uint64_t nodes = 0, arcs = 0, components = 0, loops = 0;
+  friend bool operator==(const Counts&, const Counts&) = default;
+};
+
+class MemoryLimit : public ProgramTest {
+ protected:
+  static constexpr std::uint64_t kMiB = 1 << 20;
+
+  // The forms in which a run can get the mesh that is in mesh.ply. "-" reads that file from standard input.
+  std::vector<std::string> forms() {
+    expect_success(reeb({"convert", "mesh.ply", "final.smb", "--finalize", "--quiet"}));
+    expect_success(reeb({"convert", "mesh.ply", "mesh.sma", "--quiet"}));
+    expect_success(reeb({"convert", "mesh.ply", "mesh.obj", "--quiet"}));
+    return {"mesh.ply", "-", "final.smb", "mesh.sma", "mesh.obj"};
+  }
+
+  Outcome compute(const std::string& form, std::uint64_t megabytes, const std::string& threads,
+                  const std::vector<std::string>& more) {
+    std::vector<std::string> words = {"compute",   form,      "-o",       "out.reeb",
+                                      "--force",   "--quiet", "--memory", std::to_string(megabytes) + "M",
+                                      "--threads", threads,   "--report", "report.json"};
+    words.insert(words.end(), more.begin(), more.end());
+    Command command;
+    if (form == "-") command.input = in_folder("mesh.ply");
+    return reeb(words, command);
+  }
+
+  void expect_within(const Outcome& outcome, std::uint64_t megabytes) const {
+    if (!kSanitized) {
+      EXPECT_LE(outcome.peak_rss_bytes, megabytes * kMiB) << last_command() << '\n' << outcome.error;
+    }
+  }
+
+  // Every run of the graph alone is within the limit, has these counts and writes the same bytes.
+  void expect_graph(std::uint64_t megabytes, const Counts& expected) {
+    std::string bytes;
+    for (const std::string& form : forms())
+      for (const char* threads : {"1", "2"}) {
+        const Outcome outcome = compute(form, megabytes, threads, {"--graph-only", "--buckets", "0"});
+        expect_success(outcome);
+        expect_within(outcome, megabytes);
+        if (outcome.exit_code != 0) continue;
+        const auto graph = nlohmann::json::parse(file("report.json"))["graph"];
+        EXPECT_EQ((Counts{graph["nodes"], graph["arcs"], graph["components"], graph["loops"]}), expected)
+            << last_command();
+        if (bytes.empty()) bytes = file("out.reeb");
+        EXPECT_TRUE(bytes == file("out.reeb")) << last_command();
+      }
+  }
+
+  // What needs more memory ends with exit code 3 and says how much to allow, within the limit.
+  void expect_refused(std::uint64_t megabytes, const std::vector<std::string>& more) {
+    for (const char* form : {"mesh.ply", "-", "final.smb"})
+      for (const char* threads : {"1", "2"}) {
+        const Outcome outcome = compute(form, megabytes, threads, more);
+        expect_error(outcome, 3);
+        EXPECT_NE(outcome.error.find("--memory "), std::string::npos) << outcome.error;
+        expect_within(outcome, megabytes);
+      }
+  }
+};
+
+TEST_F(MemoryLimit, HoldsForTrianglesThatShareNoVertex) {
+  constexpr std::uint32_t kTriangles = 150'000;
+  write_separate_triangles(in_folder("mesh.ply"), kTriangles);
+  expect_graph(32, {2 * kTriangles, kTriangles, kTriangles, 0});
+  expect_refused(32, {});  // the hierarchy, after the graph was written with its buckets
+}
+
+TEST_F(MemoryLimit, HoldsForManyParallelArcs) {
+  constexpr std::uint32_t kArcs = 300'000;
+  write_parallel_arcs(in_folder("mesh.ply"), kArcs);
+  expect_graph(32, {2, kArcs, 1, kArcs - 1});
+  expect_refused(32, {});
+  expect_refused(20, {"--graph-only", "--buckets", "0"});
+}
+
+}  // namespace
+}  // namespace reeb::test
