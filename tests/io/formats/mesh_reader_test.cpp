@@ -243,9 +243,8 @@ TEST(Ply, TypesOrderExtrasAndStrips) {
   EXPECT_EQ(mesh.vertices, (std::vector<std::vector<double>>{
                                {tenth, 3, 0.1, 7}, {1, 4, 0, 8}, {2, 5, 3, 9}, {2, 6, 4, 1}, {3, 7, 5, 2}}));
   // A fan, an edge, a vertex, nothing, a degenerate triangle; then two strips.
-  EXPECT_EQ(mesh.triangles,
-            (std::vector<std::array<std::uint64_t, 3>>{
-                {0, 1, 2}, {0, 2, 3}, {0, 0, 1}, {0, 1, 2}, {2, 1, 3}, {4, 3, 2}}));
+  EXPECT_EQ(mesh.triangles, (std::vector<std::array<std::uint64_t, 3>>{
+                                {0, 1, 2}, {0, 2, 3}, {0, 0, 1}, {0, 1, 2}, {2, 1, 3}, {4, 3, 2}}));
   EXPECT_EQ(mesh.edges, (std::vector<std::vector<std::uint64_t>>{{4, 1}}));
   EXPECT_EQ(mesh.points, (std::vector<std::vector<std::uint64_t>>{{3}}));
   const auto reader = open_mesh(path);
@@ -361,8 +360,7 @@ TEST(Obj, FacesOfAllForms) {
                  "f 1/1 2/1 3/1 # c\nv 4 4 -0.0\ns 1\nusemtl b\nf -1//1 -2//1 1//1\nf 1/1/1 2/1/1 \\\n 3/1/1 4/1/1\r\n"
                  "l 1 2 3\nl 4\np 1 2\nf 2\nf 3 4\nodd line\nf"));
   EXPECT_EQ(mesh.vertices.size(), 4u);
-  EXPECT_EQ(mesh.triangles,
-            (std::vector<std::array<std::uint64_t, 3>>{{0, 1, 2}, {3, 2, 0}, {0, 1, 2}, {0, 2, 3}}));
+  EXPECT_EQ(mesh.triangles, (std::vector<std::array<std::uint64_t, 3>>{{0, 1, 2}, {3, 2, 0}, {0, 1, 2}, {0, 2, 3}}));
   EXPECT_EQ(mesh.edges, (std::vector<std::vector<std::uint64_t>>{{0, 1}, {1, 2}, {2, 3}}));
   EXPECT_EQ(mesh.points, (std::vector<std::vector<std::uint64_t>>{{3}, {0}, {1}, {1}}));
   const auto reader = open_mesh(write_file("odd.obj", "v 0 0 0\nodd line\nv 1 1 1\n"));
