@@ -1,6 +1,7 @@
 #include "io/formats/create_mesh.h"
 
 #include "io/file/file_name.h"
+#include "io/formats/cx_writer.h"
 #include "io/formats/obj_writer.h"
 #include "io/formats/off_writer.h"
 #include "io/ply/ply_writer.h"
@@ -11,9 +12,11 @@ namespace reeb::io {
 
 void check_mesh_name(const std::string& path) {
   const std::string suffix = name_suffix(path);
-  if (stream_format(path) != StreamFormat::kNone || suffix == ".ply" || suffix == ".obj" || suffix == ".off") return;
+  if (stream_format(path) != StreamFormat::kNone || suffix == ".ply" || suffix == ".obj" || suffix == ".off" ||
+      suffix == ".cx")
+    return;
   throw Error(ErrorKind::kUsage, "cannot tell the mesh format to write from this name",
-              "end the name of the output in .ply .obj .off .sma .smb .smc .sva .svb or .events.txt")
+              "end the name of the output in .ply .obj .off .cx .sma .smb .smc .sva .svb or .events.txt")
       .at(path);
 }
 
@@ -23,6 +26,7 @@ std::unique_ptr<MeshWriter> create_mesh(const std::string& path, const MeshWrite
   const std::string suffix = name_suffix(path);
   if (suffix == ".ply") return create_ply(path, options);
   if (suffix == ".obj") return create_obj(path, options);
+  if (suffix == ".cx") return create_cx(path, options);
   return create_off(path, options);
 }
 

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "io/file/file_name.h"
+#include "io/formats/cx_reader.h"
 #include "io/formats/foreign_format.h"
 #include "io/formats/obj_reader.h"
 #include "io/formats/off_reader.h"
@@ -177,6 +178,7 @@ bool starts_streaming(std::string_view head) {
 }  // namespace
 
 MeshFormat detect_format(ContentSource& source, const std::string& path) {
+  if (is_cx_name(path)) return MeshFormat::kCx;
   if (!source.size())
     for (const std::size_t min_bytes : {1u, 80u})
       if (starts_streaming(source.view(0, min_bytes))) return MeshFormat::kStreaming;
@@ -198,6 +200,11 @@ MeshFormat detect_format(ContentSource& source, const std::string& path) {
   return too_short_for_stl && starts_like_stream(head) ? MeshFormat::kStreaming : MeshFormat::kUnknown;
 }
 
+bool is_text_stl(ContentSource& source) {
+  const std::string_view head = source.view(0);
+  return !has_binary_stl_size(head, source.size()) && starts_with_solid(head) && is_text(head);
+}
+
 std::string_view format_name(MeshFormat format) {
   switch (format) {
     case MeshFormat::kPly:
@@ -211,6 +218,8 @@ std::string_view format_name(MeshFormat format) {
       return "OBJ";
     case MeshFormat::kStreaming:
       return "a streaming mesh";
+    case MeshFormat::kCx:
+      return "CX";
     case MeshFormat::kUnknown:
       break;
   }

@@ -1,7 +1,9 @@
 #include "io/formats/open_mesh.h"
 
+#include "io/formats/cx_reader.h"
 #include "io/formats/foreign_format.h"
 #include "io/formats/format_detection.h"
+#include "io/formats/format_names.h"
 #include "io/formats/obj_reader.h"
 #include "io/formats/off_reader.h"
 #include "io/formats/stl_reader.h"
@@ -14,18 +16,19 @@ namespace reeb::io {
 namespace {
 
 constexpr const char* kFormatsRead =
-    "PLY, OBJ, OFF, STL and streaming meshes (SMA, SMB, SMC, SVA, SVB) are read, plain or packed with gzip or zstd";
+    "PLY, OBJ, OFF, STL, CX (as NAME.cx) and streaming meshes (SMA, SMB, SMC, SVA, SVB) are read, plain or packed with "
+    "gzip or zstd";
 
 }  // namespace
 
-std::unique_ptr<MeshReader> open_mesh(const std::string& path, const ReadOptions& options) {
-  return open_mesh(open_content(path), path, options);
+std::unique_ptr<MeshReader> open_mesh(const std::string& path, const ReadOptions& options, const std::string& format) {
+  return open_mesh(open_content(path), path, options, format);
 }
 
 std::unique_ptr<MeshReader> open_mesh(std::unique_ptr<ContentSource> source, const std::string& path,
-                                      const ReadOptions& options) {
+                                      const ReadOptions& options, const std::string& format) {
   const std::string name = source->name();
-  switch (detect_format(*source, path)) {
+  switch (format.empty() ? detect_format(*source, path) : chosen_format(format, *source)) {
     case MeshFormat::kPly:
       return open_ply(std::move(source), options);
     case MeshFormat::kOff:
@@ -38,8 +41,10 @@ std::unique_ptr<MeshReader> open_mesh(std::unique_ptr<ContentSource> source, con
       return std::make_unique<BinaryStlReader>(std::move(source), options);
     case MeshFormat::kStreaming: {
       const std::uint64_t bytes = source->file_bytes();
-      return make_stream_mesh_reader(open_stream(std::move(source), path), options, bytes);
+      return make_stream_mesh_reader(open_stream(std::move(source), name_for_streams(path, format)), options, bytes);
     }
+    case MeshFormat::kCx:
+      return std::make_unique<CxReader>(std::move(source), options);
     case MeshFormat::kUnknown:
       break;
   }

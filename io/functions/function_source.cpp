@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "io/file/content_source.h"
@@ -25,6 +26,20 @@ std::optional<std::uint64_t> whole_number(std::string_view text) {
   return value;
 }
 
+// "X,Y,Z", finite numbers.
+std::optional<std::array<double, 3>> parse_point(std::string_view text) {
+  std::array<double, 3> point{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t end = k < 2 ? text.find(',') : text.size();
+    if (end == std::string_view::npos) return std::nullopt;
+    const auto number = parse_number<double>(text.substr(0, end));
+    if (!number.ok || !std::isfinite(number.value)) return std::nullopt;
+    point[k] = number.value;
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return point;
+}
+
 std::optional<FunctionSpec> try_parse(std::string_view text) {
   using Kind = FunctionSpec::Kind;
   const std::string whole(text);
@@ -41,6 +56,11 @@ std::optional<FunctionSpec> try_parse(std::string_view text) {
   const std::string_view name = text.substr(0, colon), argument = text.substr(colon + 1);
   if (name == "property") return FunctionSpec{Kind::kProperty, 0, std::string(argument), whole};
   if (name == "file") return FunctionSpec{Kind::kFile, 0, std::string(argument), whole};
+  if (name == "distance") {
+    if (const auto vertex = whole_number(argument)) return FunctionSpec{Kind::kDistanceToVertex, *vertex, {}, whole};
+    if (const auto point = parse_point(argument)) return FunctionSpec{Kind::kDistanceToPoint, 0, {}, whole, *point};
+    return std::nullopt;
+  }
   const auto seed = whole_number(argument);
   if (name == "random" && seed) return FunctionSpec{Kind::kRandom, *seed, {}, whole};
   return std::nullopt;
@@ -191,7 +211,12 @@ std::unique_ptr<ValueFile> open_values(const std::string& path, std::optional<st
 FunctionSpec parse_function(std::string_view text) {
   if (auto spec = try_parse(text)) return *std::move(spec);
   throw Error(ErrorKind::kUsage, "\"" + std::string(text) + "\" is not a function",
-              "functions are x, y, z, cK (a coordinate, from 0), index, random:SEED, property:NAME, file:PATH");
+              "functions are x, y, z, cK (a coordinate, from 0), index, random:SEED, property:NAME, file:PATH, "
+              "distance:VERTEX and distance:X,Y,Z");
+}
+
+FunctionSpec default_function(const MeshInfo& info) {
+  return parse_function(info.dimension == 1 ? "x" : info.dimension == 2 ? "y" : "z");
 }
 
 std::string file_name_part(const FunctionSpec& spec) {
@@ -223,16 +248,26 @@ FunctionSource::FunctionSource(const FunctionSpec& spec, const MeshInfo& info, s
                   "the mesh has no coordinate " + spec.text + "; its vertices have " + std::to_string(info.dimension),
                   "choose one of c0 to c" + std::to_string(info.dimension - 1))
           .at(mesh_name_);
-    column_ = static_cast<unsigned>(spec.number);
+    columns_ = {static_cast<unsigned>(spec.number)};
   } else if (spec.kind == Kind::kProperty) {
     const auto found = std::ranges::find(properties, spec.argument);
     if (found == properties.end())
       throw Error(ErrorKind::kBadInput, "the mesh has no vertex property \"" + spec.argument + "\"",
                   "choose a property that the mesh has, a coordinate, or file:PATH")
           .at(mesh_name_);
-    column_ = info.dimension + static_cast<unsigned>(found - properties.begin());
+    columns_ = {info.dimension + static_cast<unsigned>(found - properties.begin())};
   } else if (spec.kind == Kind::kFile) {
     file_ = open_values(spec.argument, info.vertex_count);
+  } else if (is_distance()) {
+    columns_.resize(info.dimension);
+    std::iota(columns_.begin(), columns_.end(), 0u);
+    if (needs_lookup()) return;
+    if (info.dimension != 3)
+      throw Error(ErrorKind::kBadInput,
+                  spec.text + " is a point with three coordinates; the vertices have " + std::to_string(info.dimension),
+                  "name a vertex instead: distance:VERTEX")
+          .at(mesh_name_);
+    center_.assign(spec.point.begin(), spec.point.end());
   }
 }
 
@@ -242,14 +277,15 @@ std::string FunctionSource::source_file() const {
   return spec_.kind == FunctionSpec::Kind::kFile ? spec_.argument : std::string();
 }
 
-std::span<const unsigned> FunctionSource::columns() const {
-  return column_ ? std::span<const unsigned>(&*column_, 1) : std::span<const unsigned>();
-}
+std::span<const unsigned> FunctionSource::columns() const { return columns_; }
 
 void FunctionSource::evaluate(const MeshBatch& batch, std::span<double> values) {
   const std::uint64_t first = batch.first_vertex.value();
-  if (column_) {
-    copy_finite(batch.column(*column_), values, {}, first);
+  if (is_distance()) {
+    measure_distances([&](std::size_t k) { return std::span<const double>(batch.coordinates[k]); }, values);
+    check_finite(values, {}, first);
+  } else if (!columns_.empty()) {
+    copy_finite(batch.column(columns_[0]), values, {}, first);
   } else if (file_) {
     for (double& value : values) value = file_->next();
   } else {
@@ -259,10 +295,53 @@ void FunctionSource::evaluate(const MeshBatch& batch, std::span<double> values) 
 
 void FunctionSource::evaluate(std::span<const VertexId> ids, std::span<const std::span<const double>> columns,
                               std::span<double> values) {
-  if (column_)
+  if (is_distance()) {
+    measure_distances([&](std::size_t k) { return columns[k]; }, values);
+    check_finite(values, ids, 0);
+  } else if (!columns_.empty()) {
     copy_finite(columns[0], values, ids, 0);
-  else
+  } else {
     for (std::size_t i = 0; i < values.size(); ++i) values[i] = value_of(ids[i].value());
+  }
+}
+
+template <class Column>
+void FunctionSource::measure_distances(const Column& column, std::span<double> values) const {
+  std::ranges::fill(values, 0.0);
+  for (std::size_t k = 0; k < center_.size(); ++k) {
+    const std::span<const double> coordinate = column(k);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const double difference = coordinate[i] - center_[k];
+      values[i] += difference * difference;
+    }
+  }
+  for (double& value : values) value = std::sqrt(value);
+}
+
+void FunctionSource::look_up(IndexedMesh& mesh) {
+  if (!needs_lookup()) return;
+  if (spec_.number >= mesh.vertex_count()) fail_no_vertex(mesh.vertex_count());
+  const VertexId vertex(spec_.number);
+  center_.resize(columns_.size());
+  mesh.gather({&vertex, 1}, columns_, center_);
+}
+
+void FunctionSource::look_up(MeshReader& reader) {
+  std::uint64_t vertices = 0;
+  for (MeshBatch batch; center_.empty() && needs_lookup();) {
+    if (!reader.read(batch)) fail_no_vertex(vertices);
+    vertices += batch.vertex_count;
+    if (spec_.number >= vertices) continue;
+    const auto at = static_cast<std::size_t>(spec_.number - batch.first_vertex.value());
+    for (const auto& coordinate : batch.coordinates) center_.push_back(coordinate[at] + 0.0);
+  }
+}
+
+void FunctionSource::fail_no_vertex(std::uint64_t vertex_count) const {
+  throw Error(ErrorKind::kBadInput,
+              spec_.text + " names a vertex that does not exist: the mesh has " + count_of(vertex_count, "vertex"),
+              "vertices are numbered from 0")
+      .at(mesh_name_);
 }
 
 void FunctionSource::check_count(std::uint64_t vertex_count) {
@@ -286,10 +365,15 @@ double FunctionSource::value_of(std::uint64_t vertex) {
 void FunctionSource::copy_finite(std::span<const double> from, std::span<double> to, std::span<const VertexId> ids,
                                  std::uint64_t first) const {
   for (std::size_t i = 0; i < to.size(); ++i) to[i] = from[i] + 0.0;
-  if (all_finite(to)) [[likely]]
+  check_finite(to, ids, first);
+}
+
+void FunctionSource::check_finite(std::span<const double> values, std::span<const VertexId> ids,
+                                  std::uint64_t first) const {
+  if (all_finite(values)) [[likely]]
     return;
-  const auto odd = std::ranges::find_if(to, [](double value) { return !std::isfinite(value); });
-  const auto index = static_cast<std::size_t>(odd - to.begin());
+  const auto odd = std::ranges::find_if(values, [](double value) { return !std::isfinite(value); });
+  const auto index = static_cast<std::size_t>(odd - values.begin());
   const std::uint64_t vertex = ids.empty() ? first + index : ids[index].value();
   throw Error(ErrorKind::kBadInput, spec_.text + " of vertex " + std::to_string(vertex) + " is not finite",
               "fix this vertex, or choose another function")

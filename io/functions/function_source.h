@@ -1,6 +1,7 @@
 // Functions on the vertices of a mesh, as a user names them.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -15,16 +16,20 @@
 namespace reeb::io {
 
 struct FunctionSpec {
-  enum class Kind { kCoordinate, kIndex, kRandom, kProperty, kFile };
+  enum class Kind { kCoordinate, kIndex, kRandom, kProperty, kFile, kDistanceToVertex, kDistanceToPoint };
 
   Kind kind = Kind::kCoordinate;
-  std::uint64_t number = 2;  // of the coordinate, or the seed
-  std::string argument;      // the property, or the path
-  std::string text = "z";    // as the user wrote it
+  std::uint64_t number = 2;       // of the coordinate or the vertex, or the seed
+  std::string argument;           // the property, or the path
+  std::string text = "z";         // as the user wrote it
+  std::array<double, 3> point{};  // of which the distance is measured
 };
 
 // THROWS: Error{kUsage} that lists the functions.
 FunctionSpec parse_function(std::string_view text);
+
+// What is computed where no function is named: z, or the last coordinate where there are fewer than three.
+FunctionSpec default_function(const MeshInfo& info);
 
 // The text of a function as part of a file name: ':' and '/' become '-'.
 std::string file_name_part(const FunctionSpec& spec);
@@ -52,6 +57,10 @@ class FunctionSource final : public VertexFunction {
   std::string name() const override { return spec_.text; }
   std::string source_file() const override;
   std::span<const unsigned> columns() const override;
+  bool needs_lookup() const override { return spec_.kind == FunctionSpec::Kind::kDistanceToVertex; }
+  void look_up(IndexedMesh& mesh) override;
+  // The same by reading the mesh from its beginning, as far as needed.
+  void look_up(MeshReader& reader);
   void check_count(std::uint64_t vertex_count) override;
   void check_unchanged() const override;
   std::uint64_t lookup_bytes(std::uint64_t vertex_count) const override;
@@ -66,12 +75,19 @@ class FunctionSource final : public VertexFunction {
 
  private:
   double value_of(std::uint64_t vertex);
+  [[noreturn]] void fail_no_vertex(std::uint64_t vertex_count) const;
+  bool is_distance() const { return needs_lookup() || spec_.kind == FunctionSpec::Kind::kDistanceToPoint; }
+  // `column(k)` is coordinate k, of as many vertices as there are values.
+  template <class Column>
+  void measure_distances(const Column& column, std::span<double> values) const;
   void copy_finite(std::span<const double> from, std::span<double> to, std::span<const VertexId> ids,
                    std::uint64_t first) const;
+  void check_finite(std::span<const double> values, std::span<const VertexId> ids, std::uint64_t first) const;
 
   FunctionSpec spec_;
   std::string mesh_name_;
-  std::optional<unsigned> column_;  // the column of the mesh that is the function
+  std::vector<unsigned> columns_;  // of the mesh: the function itself, or the coordinates of a distance
+  std::vector<double> center_;     // from which distances are measured
   std::unique_ptr<ValueFile> file_;
 };
 

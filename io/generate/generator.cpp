@@ -65,12 +65,12 @@ class ShapeReader : public GeneratedMesh {
       : shape_(std::move(shape)),
         topology_(shape_->topology()),
         order_(options.order),
-        permutation_(order_ == MeshOrder::kRandomTiles ? shape_->tile_count() : topology_.triangles, options.seed),
+        permutation_(permuted(), options.seed),
         batch_events_(std::max<std::size_t>(batch_events, 1)) {
     info_.format = "generated " + name_of(kKinds, options.kind);
     info_.dimension = shape_->dimension();
     info_.vertex_count = topology_.vertices;
-    info_.simplex_count = topology_.triangles;
+    info_.simplex_count = shape_->simplex_corners() != 0 ? shape_->cell_count() : topology_.triangles;
   }
 
   const MeshInfo& info() const override { return info_; }
@@ -82,6 +82,8 @@ class ShapeReader : public GeneratedMesh {
     batch.first_vertex = VertexId(next_vertex_);
     if (next_vertex_ < topology_.vertices)
       read_vertices(batch);
+    else if (shape_->simplex_corners() != 0)
+      read_simplices(batch);
     else if (order_ == MeshOrder::kRandom)
       read_random_triangles(batch);
     else
@@ -96,6 +98,18 @@ class ShapeReader : public GeneratedMesh {
     batch.coordinates.resize(info_.dimension);
     shape_->append_vertices(next_vertex_, batch.vertex_count, batch.coordinates);
     next_vertex_ += batch.vertex_count;
+  }
+
+  std::uint64_t permuted() const {
+    if (order_ == MeshOrder::kRandomTiles) return shape_->tile_count();
+    return shape_->simplex_corners() != 0 ? shape_->cell_count() : topology_.triangles;
+  }
+
+  void read_simplices(MeshBatch& batch) {
+    const std::uint64_t end = std::min<std::uint64_t>(shape_->cell_count(), next_ + batch_events_);
+    for (; next_ < end; ++next_)
+      shape_->append_cell(order_ == MeshOrder::kRandom ? permutation_(next_) : next_,
+                          batch.simplices[shape_->simplex_corners() - 1]);
   }
 
   void read_random_triangles(MeshBatch& batch) {
@@ -157,7 +171,7 @@ std::unique_ptr<Shape> make_shape(const GeneratorOptions& options) {
   if (options.dimension < SierpinskiSimplex::kMinDimension || options.dimension > SierpinskiSimplex::kMaxDimension)
     throw Error(ErrorKind::kUsage, "no Sierpinski simplex of dimension " + std::to_string(options.dimension),
                 "choose --dimension 2, 3, 4 or 5");
-  return std::make_unique<SierpinskiSimplex>(options.dimension, options.triangles);
+  return std::make_unique<SierpinskiSimplex>(options.dimension, options.triangles, options.whole_cells);
 }
 
 }  // namespace

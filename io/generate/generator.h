@@ -41,6 +41,9 @@ struct GeneratorOptions {
   std::uint64_t seed = 1;                // of noise, positions of handles, and random order
   std::optional<std::uint64_t> width{};  // cells in a row of the grid; default: about as many as rows
   unsigned dimension = 3;                // of the Sierpinski simplex
+  // Of a Sierpinski simplex: its simplices as they are, with as many coordinates as dimensions; else their triangles,
+  // with at least three coordinates.
+  bool whole_cells = false;
 };
 
 struct ExpectedTopology {

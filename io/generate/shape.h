@@ -21,6 +21,8 @@ class Shape {
 
   virtual unsigned dimension() const { return 3; }
   virtual std::uint64_t cell_count() const = 0;
+  // The number of corners of each cell, if a cell is one simplex that is delivered as it is; else 0.
+  virtual unsigned simplex_corners() const { return 0; }
   // Consecutive cells form tiles. Tile t begins with cell tile_begin(t), and the last one ends at tile_begin(tiles).
   virtual std::uint64_t tile_count() const { return 1; }
   virtual std::uint64_t tile_begin(std::uint64_t tile) const { return tile == 0 ? 0 : cell_count(); }
@@ -30,7 +32,8 @@ class Shape {
 
   // Appends the coordinates of vertices first, first + 1, ... first + count - 1 to `columns`.
   virtual void append_vertices(std::uint64_t first, std::size_t count, Columns& columns) const = 0;
-  // Appends the corners of all triangles of a cell, consistently oriented on orientable surfaces.
+  // Appends the corners of a cell that is one simplex, or of all its triangles, consistently oriented on orientable
+  // surfaces.
   virtual void append_cell(std::uint64_t cell, std::vector<VertexId>& corners) const = 0;
   // Appends the corners of one triangle. REQUIRES: triangle < topology().triangles.
   virtual void append_triangle(std::uint64_t triangle, std::vector<VertexId>& corners) const = 0;

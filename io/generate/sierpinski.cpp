@@ -22,11 +22,12 @@ std::pair<unsigned, unsigned> edge_corners(unsigned edge) {
 
 }  // namespace
 
-SierpinskiSimplex::SierpinskiSimplex(unsigned dimension, std::uint64_t triangles)
+SierpinskiSimplex::SierpinskiSimplex(unsigned dimension, std::uint64_t triangles, bool whole_cells)
     : dimension_(dimension),
       corners_(dimension + 1),
       edges_(corners_ * dimension / 2),
-      faces_(edges_ * (corners_ - 2) / 3) {
+      faces_(edges_ * (corners_ - 2) / 3),
+      whole_cells_(whole_cells) {
   while (distance(cells_ * corners_ * faces_, triangles) < distance(cells_ * faces_, triangles)) {
     cells_ *= corners_;
     ++levels_;
@@ -34,7 +35,7 @@ SierpinskiSimplex::SierpinskiSimplex(unsigned dimension, std::uint64_t triangles
   for (unsigned depth = levels_; depth-- > 0;) divided_[depth] = divided_[depth + 1] * corners_ + 1;
 }
 
-unsigned SierpinskiSimplex::dimension() const { return std::max(3u, dimension_); }
+unsigned SierpinskiSimplex::dimension() const { return whole_cells_ ? dimension_ : std::max(3u, dimension_); }
 
 ExpectedTopology SierpinskiSimplex::topology() const {
   ExpectedTopology t;
@@ -58,6 +59,10 @@ void SierpinskiSimplex::append_vertices(std::uint64_t first, std::size_t count, 
 
 void SierpinskiSimplex::append_cell(std::uint64_t cell, std::vector<VertexId>& corners) const {
   const auto at = corners_of(cell);
+  if (whole_cells_) {
+    corners.insert(corners.end(), at.begin(), at.begin() + corners_);
+    return;
+  }
   for (unsigned a = 0; a < corners_; ++a)
     for (unsigned b = a + 1; b < corners_; ++b)
       for (unsigned c = b + 1; c < corners_; ++c) corners.insert(corners.end(), {at[a], at[b], at[c]});

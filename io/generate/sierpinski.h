@@ -1,4 +1,4 @@
-// The 2-skeleton of the Sierpinski simplex: simplices that touch at corners only, full of loops.
+// The Sierpinski simplex, or its 2-skeleton: simplices that touch at corners only, full of loops.
 #pragma once
 
 #include <array>
@@ -18,10 +18,11 @@ class SierpinskiSimplex : public Shape {
   static constexpr unsigned kMinDimension = 2, kMaxDimension = 5;
 
   // Chooses the level with the number of triangles nearest to `triangles`. REQUIRES: a dimension within the limits.
-  SierpinskiSimplex(unsigned dimension, std::uint64_t triangles);
+  SierpinskiSimplex(unsigned dimension, std::uint64_t triangles, bool whole_cells = false);
 
   unsigned dimension() const override;
   std::uint64_t cell_count() const override { return cells_; }
+  unsigned simplex_corners() const override { return whole_cells_ ? corners_ : 0; }
   ExpectedTopology topology() const override;
   void append_vertices(std::uint64_t first, std::size_t count, Columns& columns) const override;
   void append_cell(std::uint64_t cell, std::vector<VertexId>& corners) const override;
@@ -38,6 +39,7 @@ class SierpinskiSimplex : public Shape {
   std::array<VertexId, kMaxCorners> corners_of(std::uint64_t cell) const;
 
   unsigned dimension_, corners_, edges_, faces_;  // of a simplex
+  bool whole_cells_;
   unsigned levels_ = 0;
   std::uint64_t cells_ = 1;
   // By depth: the number of divided simplices in the subtree of a simplex, itself included.

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "libreeb/base/ids.h"
+#include "libreeb/port/indexed_mesh.h"
 
 namespace reeb {
 
@@ -26,6 +27,11 @@ class VertexFunction {
   // The columns of the mesh that evaluate() needs, numbered as in IndexedMesh::gather: coordinates first, then the
   // requested properties.
   virtual std::span<const unsigned> columns() const = 0;
+
+  // Whether the function depends on single vertices, so that look_up() must come before the first evaluate().
+  virtual bool needs_lookup() const { return false; }
+  // THROWS: Error{kBadInput} if the mesh has no such vertex.
+  virtual void look_up(IndexedMesh& /*mesh*/) {}
 
   // Call this when the number of vertices is known: before the first evaluate() if vertices are looked up, after the
   // last one if they come in order.

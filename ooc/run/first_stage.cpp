@@ -130,13 +130,20 @@ StreamRun run_stream(RunContext& run, const MeshInput& input, const Checkpoint* 
   return {std::move(result), false};
 }
 
+bool needs_lookup(const RunContext& run) {
+  return std::any_of(run.functions.begin(), run.functions.end(),
+                     [](const VertexFunction* function) { return function->needs_lookup(); });
+}
+
 // ---- a mesh that is read once, and kept on disk for what cannot be done meanwhile
 
 // No guessing when last uses are known or must be kept, or when values come from a file: its count is
-// checked against the vertex count before the run. A run that is resumed does as it began.
+// checked against the vertex count before the run, and not when a function must look up a vertex first. A run that is
+// resumed does as it began.
 bool may_guess(const RunContext& run, const MeshInput& input, const Checkpoint* start) {
   if (start != nullptr) return start->origin == ChunkOrigin::kGuessed;
-  if (!run.options.may_guess || run.options.keep_sidecar || input.reader->info().finalizes) return false;
+  if (!run.options.may_guess || run.options.keep_sidecar || input.reader->info().finalizes || needs_lookup(run))
+    return false;
   if (const std::string sidecar = sidecar_path(run, input); !sidecar.empty() && io::is_regular_file(sidecar))
     return false;
   return std::all_of(run.functions.begin(), run.functions.end(),
@@ -223,6 +230,7 @@ FirstStageResult run_once(RunContext& run, const MeshInput& input, std::unique_p
 FirstStageResult run_indexed(RunContext& run, const MeshInput& input, std::unique_ptr<IndexedMesh> mesh,
                              const Checkpoint* start, FirstStageResult result) {
   const Reservation values = prepare_values(run, mesh->vertex_count());
+  for (VertexFunction* function : run.functions) function->look_up(*mesh);
   const FirstStageResult before = result;
   try {
     return run_once(run, input, mesh, start, true, std::move(result));
@@ -238,7 +246,8 @@ FirstStageResult run_indexed(RunContext& run, const MeshInput& input, std::uniqu
 }  // namespace
 
 // An indexed mesh can be looked up. A stream is glued as it comes, unless that takes too much memory. Any other mesh is
-// spooled. Guesses can suffice to glue it meanwhile; if not, it is then run as an indexed mesh.
+// spooled. Guesses can suffice to glue it meanwhile; if not, or if a function must look up a vertex first, it is then
+// run as an indexed mesh.
 FirstStageResult run_first_stage(RunContext& run, MeshInput input) {
   for (const std::string& output : run.outputs) io::remove_abandoned(output);
   FirstStageResult result;
@@ -253,7 +262,8 @@ FirstStageResult run_first_stage(RunContext& run, MeshInput input) {
   if (input.indexed) return run_indexed(run, input, std::move(input.indexed), start, std::move(result));
 
   input.reader = std::make_unique<PolledReader>(std::move(input.reader), run.resumable);
-  if (input.reader->info().finalizes && (start == nullptr || start->origin == ChunkOrigin::kStream)) {
+  const bool may_stream = input.reader->info().finalizes && !needs_lookup(run);
+  if (may_stream && (start == nullptr || start->origin == ChunkOrigin::kStream)) {
     StreamRun stream = run_stream(run, input, start, std::move(result));
     if (!stream.gave_up) return std::move(stream.result);
     input.reader = std::make_unique<PolledReader>(input.read_again(), run.resumable);

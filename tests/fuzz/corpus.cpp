@@ -146,6 +146,12 @@ std::vector<std::string> binary_ply_files(bool big_endian) {
   return files;
 }
 
+std::vector<std::string> cx_files() {
+  return {"# a tetrahedron in the plane\nv 0 0\nv 1 0\nv 0 1 # c\nv 0.25 0.25\ns 0 1 2 3\ns 1\ns 0 3\n",
+          "v 0 1 2 3 4 5 6 7 8\nv 1 1 1 1 1 1 1 1 1\ns 0 1 1 0 1 0 1 0 1\ns 0 1 0\nv -1e9 1 1 1 1 1 1 1 1\ns 2 0 1\n",
+          "v 1\nv 2\ns 0 1\nv 3\ns 1 2\r\n\n"};
+}
+
 std::vector<std::string> obj_files() {
   std::vector<std::string> files = {
       "# by hand\nmtllib a.mtl\no one\nv 0 0 0\nv 1 0 0 1.0\nv 0 1 0 0.5 0.5 0.5\nvt 0 0\nvn 0 0 1\ng part\nusemtl m\n"

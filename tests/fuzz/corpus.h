@@ -16,6 +16,7 @@ std::vector<std::string> written_meshes(const std::string& ending);
 std::vector<std::string> ascii_ply_files();
 std::vector<std::string> binary_ply_files(bool big_endian);
 std::vector<std::string> obj_files();
+std::vector<std::string> cx_files();
 std::vector<std::string> off_files();
 std::vector<std::string> ascii_stl_files();
 std::vector<std::string> binary_stl_files();

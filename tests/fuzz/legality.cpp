@@ -64,7 +64,7 @@ void BatchLegality::add_simplices(const std::vector<VertexId>& corners, std::siz
   for (const VertexId v : corners) {
     expect(v.value() < delivered_.vertices, "a corner has arrived");
     expect(!final_[v.value()], "a corner is not final");
-    mix(delivered_.simplex_digest, v.value());
+    mix(delivered_.simplex_digests[corners_each - 1], v.value());
   }
   delivered_.simplices += corners.size() / corners_each;
 }

@@ -4,6 +4,7 @@
 // the same.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -20,11 +21,13 @@ void expect(bool holds, const char* promise);
 // Expects that an error has a message and a hint, and that the user can fix its cause.
 void expect_helpful(const Error& error);
 
-// What was delivered, without the order between vertices, simplices and finalizations, which depends on the batch size.
+// What was delivered, without the order between vertices, simplices of each dimension and finalizations, which depends
+// on the batch size.
 struct Delivered {
   std::uint64_t vertices = 0, simplices = 0, finalized = 0;
-  std::uint64_t vertex_digest = 0, simplex_digest = 0, final_digest = 0;
-  bool whole = false;  // complete, up to the regular end of the mesh
+  std::uint64_t vertex_digest = 0, final_digest = 0;
+  std::array<std::uint64_t, kMaxSimplexDimension + 1> simplex_digests{};  // by dimension
+  bool whole = false;                                                     // complete, up to the regular end of the mesh
   friend bool operator==(const Delivered&, const Delivered&) = default;
 };
 

@@ -9,6 +9,7 @@
 
 #include "io/events/event_text.h"
 #include "io/file/content_source.h"
+#include "io/formats/cx_reader.h"
 #include "io/formats/obj_reader.h"
 #include "io/formats/off_reader.h"
 #include "io/formats/open_mesh.h"
@@ -244,12 +245,13 @@ constexpr std::string_view kPlyWords[] = {"element vertex",
 constexpr std::string_view kObjWords[] = {"v",      "f",    "l", "p",  "vn", "vt",   "g",  "o",
                                           "usemtl", "\\\n", "/", "//", "#",  "curv", "end"};
 constexpr std::string_view kOffWords[] = {"OFF", "STCN4nOFF", "nOFF", "COFF", "BINARY", "#"};
+constexpr std::string_view kCxWords[] = {"v", "s", "0", "1", "-0.5", "1e300", "#"};
 constexpr std::string_view kStlWords[] = {"solid",   "endsolid", "facet normal 0 0 1", "outer loop", "vertex",
                                           "endloop", "endfacet"};
 
 std::vector<std::string> everything() {
   auto all = streams(".sma", ".smb", ".smc", ".sva", ".svb");
-  for (auto* files : {&ascii_ply_files, &obj_files, &off_files, &ascii_stl_files, &binary_stl_files})
+  for (auto* files : {&ascii_ply_files, &obj_files, &off_files, &cx_files, &ascii_stl_files, &binary_stl_files})
     for (std::string& file : files()) all.push_back(std::move(file));
   for (const bool big : {false, true})
     for (std::string& file : binary_ply_files(big)) all.push_back(std::move(file));
@@ -262,7 +264,7 @@ std::vector<std::string> all_binary_ply_files() {
   return files;
 }
 
-const std::array<FuzzTarget, 16> kTargets = {{
+const std::array<FuzzTarget, 17> kTargets = {{
     {"sma", run_stream<false>, [] { return streams(".sma"); }, kStreamWords, nullptr},
     {"smb", run_stream<false>, [] { return streams(".smb"); }, {}, nullptr},
     {"smc", run_stream<false>, [] { return streams(".smc"); }, {}, nullptr},
@@ -273,6 +275,7 @@ const std::array<FuzzTarget, 16> kTargets = {{
     {"ply-indexed", run_indexed_ply, all_binary_ply_files, kPlyWords, nullptr},
     {"obj", run_mesh<make_reader<ObjReader>>, obj_files, kObjWords, nullptr},
     {"off", run_mesh<open_off>, off_files, kOffWords, nullptr},
+    {"cx", run_mesh<make_reader<CxReader>>, cx_files, kCxWords, nullptr},
     {"stl-ascii", run_mesh<make_reader<AsciiStlReader>>, ascii_stl_files, kStlWords, nullptr},
     {"stl-binary", run_mesh<make_reader<BinaryStlReader>>, binary_stl_files, {}, nullptr},
     {"gzip", run_packed, gzip_files, {}, nullptr},

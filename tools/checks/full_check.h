@@ -10,7 +10,7 @@
 namespace reeb::tools {
 
 struct FullCheckOptions {
-  std::string mesh, temp_folder;
+  std::string mesh, format, temp_folder;
   std::uint64_t memory_bytes = ~std::uint64_t{0};  // of the computation
   unsigned threads = 0;                            // 0: all
   std::function<bool()> interrupted = {};

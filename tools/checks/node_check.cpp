@@ -36,8 +36,19 @@ std::string NodeCheck::missing_file() const {
   return is_file && !std::filesystem::exists(spec_.argument) ? spec_.argument : "";
 }
 
-void NodeCheck::start(const MeshInfo& info) {
-  if (missing_file().empty()) source_.emplace(spec_, info, properties_, mesh_);
+void NodeCheck::start(const MeshInfo& info, const std::function<std::unique_ptr<MeshReader>()>& open_again) {
+  if (const std::string missing = missing_file(); !missing.empty()) {
+    unchecked_ = missing + " is gone, so the values were not checked";
+    return;
+  }
+  source_.emplace(spec_, info, properties_, mesh_);
+  if (!source_->needs_lookup()) return;
+  if (open_again) {
+    source_->look_up(*open_again());
+  } else {
+    source_.reset();
+    unchecked_ = "the mesh can be read only once, so the values of " + spec_.text + " were not checked";
+  }
 }
 
 void NodeCheck::add(const MeshBatch& batch) {

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,25 +19,27 @@ struct ValueRange {
 };
 
 // Compares each node with its vertex while the mesh is read: the position (if the graph has positions) and the value of
-// the function. Values are not compared if the file that they came from is gone.
-// THROWS: Error{kBadInput} at the first node that differs from its vertex.
+// the function. Values are not compared if the file that they came from is gone, or if they depend on a vertex of a
+// mesh that can be read only once. THROWS: Error{kBadInput} at the first node that differs from its vertex.
 class NodeCheck {
  public:
   // `mesh` and `graph` must outlive this; `file` is for messages.
   // THROWS: Error{kBadInput} if `function` is no function.
   NodeCheck(const std::string& file, const std::string& mesh, const std::string& function, const ReebGraph& graph);
 
-  // The file of values that is gone; else empty.
-  std::string missing_file() const;
+  // Why values are not compared; empty if they are. Known after start().
+  const std::string& unchecked() const { return unchecked_; }
   // The properties that the reader must deliver.
   const std::vector<std::string>& properties() const { return properties_; }
-  void start(const MeshInfo& info);
+  // `open_again` opens the mesh another time, for functions that depend on a vertex; empty: that is not possible.
+  void start(const MeshInfo& info, const std::function<std::unique_ptr<MeshReader>()>& open_again);
   void add(const MeshBatch& batch);
   // The range of the function over the mesh; null if it could not be evaluated.
   // THROWS: InputChanged if the file of values changed meanwhile.
   std::optional<ValueRange> finish();
 
  private:
+  std::string missing_file() const;
   [[noreturn]] void fail(std::size_t node, const char* why) const;
 
   const ReebGraph& graph_;
@@ -48,6 +52,7 @@ class NodeCheck {
   std::optional<io::FunctionSource> source_;
   std::vector<double> values_;
   ValueRange range_;
+  std::string unchecked_;
 };
 
 }  // namespace reeb::tools

@@ -62,7 +62,8 @@ std::vector<std::string> output_names(const ComputeArguments& arguments) {
 // With the report, which compute() does not know.
 void check_files(const ComputeArguments& arguments, const std::vector<std::string>& outputs) {
   std::vector<io::FunctionSpec> functions;
-  for (const std::string& function : arguments.functions) functions.push_back(io::parse_function(function));
+  for (const std::string& function : arguments.functions)
+    if (!function.empty()) functions.push_back(io::parse_function(function));
   RunFiles files = files_of_run(arguments.mesh, functions, outputs, arguments.options);
   if (!arguments.report.empty())
     files.add_output(arguments.report, "the report", existing_outputs(arguments.options.replace));
@@ -95,7 +96,7 @@ ProgressBar::Pass pass_of(ComputeProgress::Phase phase) {
 
 void run_compute(ComputeArguments arguments) {
   ComputeOptions& options = arguments.options;
-  if (arguments.functions.empty()) arguments.functions.push_back("z");
+  if (arguments.functions.empty()) arguments.functions.emplace_back();
   const std::vector<std::string> outputs = output_names(arguments);
   check_files(arguments, outputs);
   RunFacts facts;
@@ -135,7 +136,7 @@ void add_compute(CLI::App& program) {
   CLI::App* command = program.add_subcommand("compute", "Compute the Reeb graph of a mesh (the default)");
   command
       ->add_option("MESH", arguments->mesh,
-                   "PLY, OBJ, OFF, STL, SMA, SMB, SMC, SVA or SVB, also as .gz and .zst; - reads standard input")
+                   "PLY, OBJ, OFF, STL, CX, SMA, SMB, SMC, SVA or SVB, also as .gz and .zst; - reads standard input")
       ->required()
       ->type_name("");
   command
@@ -146,11 +147,12 @@ void add_compute(CLI::App& program) {
       ->type_name("FILE");
   command
       ->add_option("-f,--function", arguments->functions,
-                   "x, y, z, cK (the K-th coordinate, from 0), index, random:SEED, property:NAME or file:PATH "
-                   "(default: z; may be repeated)")
+                   "x, y, z, cK (the K-th coordinate, from 0), index, random:SEED, property:NAME, file:PATH, "
+                   "distance:VERTEX or distance:X,Y,Z (default: z; may be repeated)")
       ->allow_extra_args(false)
       ->option_text("FUNC");
   command->add_flag("--graph-only", options.graph_only, "Stop after the graph: no pairs, no levels");
+  add_format(*command, options.format);
   add_size(*command, "--memory", options.memory_bytes, "Memory that the run may use: 64M, 1.5GiB (default: no limit)");
   command
       ->add_option("--denoise", arguments->denoise,

@@ -57,9 +57,10 @@ void add_convert(CLI::App& program) {
   command
       ->add_option(
           "OUT", options.output,
-          "Mesh to write: .ply .obj .off .sma .smb .smc .sva .svb; .events.txt lists the events; not IN itself")
+          "Mesh to write: .ply .obj .off .cx .sma .smb .smc .sva .svb; .events.txt lists the events; not IN itself")
       ->required()
       ->type_name("");
+  add_format(*command, options.format);
   command
       ->add_option("--order", arguments->order,
                    "Order of the triangles: keep, hilbert, spectral or sweep:FUNC (default: keep)")

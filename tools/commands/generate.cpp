@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "io/file/file_name.h"
 #include "io/formats/create_mesh.h"
 #include "io/generate/generator.h"
 #include "libreeb/base/count_text.h"
@@ -67,6 +68,7 @@ void run_generate(GenerateArguments arguments) {
   if (arguments.seed) arguments.mesh.seed = *arguments.seed;
   if (arguments.dimension) arguments.mesh.dimension = static_cast<unsigned>(*arguments.dimension);
   io::check_mesh_name(arguments.output);
+  arguments.mesh.whole_cells = io::name_suffix(arguments.output) == ".cx";
   RunFiles files;
   files.add_output(arguments.output, "the output", existing_outputs(arguments.force));
   files.check();
@@ -78,12 +80,13 @@ void run_generate(GenerateArguments arguments) {
   options.existing = late_outputs(arguments.force);
   const auto writer = io::create_mesh(arguments.output, options);
   ProgressBar bar(false);
-  std::uint64_t vertices = 0, triangles = 0;
+  std::uint64_t vertices = 0, simplices = 0;
   for (MeshBatch batch; mesh->read(batch);) {
     writer->write(batch);
     vertices += batch.vertex_count;
-    triangles += batch.triangle_count();
-    bar.update({"writing"}, vertices + triangles, topology.vertices + topology.triangles, triangles);
+    simplices += batch.simplex_count();
+    bar.update({"writing"}, vertices + simplices, topology.vertices + mesh->info().simplex_count.value_or(0),
+               simplices);
   }
   writer->close();
   bar.clear();
@@ -100,7 +103,7 @@ void add_generate(CLI::App& program) {
       ->type_name("");
   command
       ->add_option("-o,--output", arguments->output,
-                   "Mesh to write: .ply .obj .off .sma .smb .smc .sva .svb; .events.txt lists the events")
+                   "Mesh to write: .ply .obj .off .cx .sma .smb .smc .sva .svb; .events.txt lists the events")
       ->required()
       ->type_name("FILE");
   add_count(*command, "--triangles", arguments->mesh.triangles,

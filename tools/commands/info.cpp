@@ -13,7 +13,7 @@ namespace reeb::tools {
 
 void add_info(CLI::App& app) {
   struct Options {
-    std::string file, temp_folder;
+    std::string file, format, temp_folder;
     std::uint64_t memory_bytes = MemoryBudget::kUnlimited;
     bool json = false;
   };
@@ -23,6 +23,7 @@ void add_info(CLI::App& app) {
       ->add_option("FILE", options->file, "A .reeb file, or a mesh of any format; - reads a mesh from standard input")
       ->required()
       ->type_name("");
+  add_format(*command, options->format);
   command->add_flag("--json", options->json, "Print JSON");
   add_size(*command, "--memory", options->memory_bytes, "Memory for the tables of a mesh: 64M (default: no limit)");
   command
@@ -31,10 +32,10 @@ void add_info(CLI::App& app) {
       ->type_name("DIR");
   command->footer("Example:\n  reeb info scan.reeb");
   command->callback([options] {
-    if (options->file != "-" && ooc::is_reeb_file(options->file))
+    if (options->file != "-" && options->format.empty() && ooc::is_reeb_file(options->file))
       print_reeb_info(options->file, options->json);
     else
-      print_mesh_info(options->file, options->memory_bytes, options->temp_folder, options->json);
+      print_mesh_info(options->file, options->format, options->memory_bytes, options->temp_folder, options->json);
   });
 }
 

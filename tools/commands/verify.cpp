@@ -1,11 +1,13 @@
 // `reeb verify`: whether a .reeb file is whole and contradicts neither itself nor its mesh.
 #include <fmt/core.h>
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 
 #include "io/file/content_source.h"
+#include "io/file/file.h"
 #include "io/formats/open_mesh.h"
 #include "libreeb/base/count_text.h"
 #include "libreeb/base/error.h"
@@ -26,7 +28,7 @@ namespace reeb::tools {
 namespace {
 
 struct VerifyOptions {
-  std::string file, mesh, temp_folder;
+  std::string file, mesh, format, temp_folder;
   std::uint64_t memory_bytes = MemoryBudget::kUnlimited;
   unsigned threads = 0;
   bool full = false;
@@ -56,8 +58,11 @@ std::string compare_with_mesh(const ooc::ReebFile& file, const VerifyOptions& op
   std::optional<ValueRange> range;
   ProgressBar bar(false);
   const ooc::MeshRecount mesh = input.read([&] {
-    const auto reader = io::open_mesh(input.open(), options.mesh, {.properties = nodes.properties()});
-    nodes.start(reader->info());
+    const auto reader = io::open_mesh(input.open(), options.mesh, {.properties = nodes.properties()}, options.format);
+    std::function<std::unique_ptr<MeshReader>()> open_again;
+    if (io::is_regular_file(options.mesh))
+      open_again = [&] { return io::open_mesh(input.open(), options.mesh, {}, options.format); };
+    nodes.start(reader->info(), open_again);
     std::uint64_t simplices = 0;
     const ooc::MeshRecount recount = ooc::recount_mesh(*reader, space, [&](const MeshBatch& batch) {
       nodes.add(batch);
@@ -82,7 +87,7 @@ std::string compare_with_mesh(const ooc::ReebFile& file, const VerifyOptions& op
         .at(options.file);
   fmt::print("{}: OK: {}, Euler characteristic {}, {}\n", options.mesh, count_of(mesh.components, "component"),
              mesh.euler, describe_surface(mesh));
-  if (!nodes.missing_file().empty()) return nodes.missing_file() + " is gone, so the values were not checked";
+  if (!nodes.unchecked().empty()) return nodes.unchecked();
   // A run without the memory for the last pass of noise removal leaves what the first stage has not removed.
   if (header.denoise_threshold == 0 && header.denoised_pairs != 0 && options.full)
     return "noise was removed in part, so the graph was not computed again";
@@ -91,6 +96,7 @@ std::string compare_with_mesh(const ooc::ReebFile& file, const VerifyOptions& op
 
 void compute_again(const ooc::ReebFile& file, const VerifyOptions& options) {
   check_fully(file, {.mesh = options.mesh,
+                     .format = options.format,
                      .temp_folder = options.temp_folder,
                      .memory_bytes = options.memory_bytes,
                      .threads = options.threads,
@@ -128,6 +134,7 @@ void add_verify(CLI::App& app) {
   command->add_option("FILE", options->file, "The .reeb file")->required()->type_name("");
   command->add_option("--mesh", options->mesh, "The mesh that it was computed from, to count again independently")
       ->type_name("MESH");
+  add_format(*command, options->format);
   command->add_flag("--full", options->full, "Compute the graph again from the mesh; compare nodes, arcs and pairs");
   add_size(*command, "--memory", options->memory_bytes,
            "Memory for the tables of the mesh and for --full: 64M (default: no limit)");

@@ -50,7 +50,8 @@ void require_an_output_each(std::span<const std::string> functions, std::span<co
 std::vector<ComputeResult> compute(const std::string& path, std::span<const std::string> functions,
                                    std::span<const std::string> outputs, const ComputeOptions& options) {
   std::vector<io::FunctionSpec> specs;
-  for (const std::string& function : functions) specs.push_back(io::parse_function(function));
+  for (const std::string& function : functions)
+    specs.push_back(function.empty() ? io::FunctionSpec() : io::parse_function(function));
   require_an_output_each(functions, outputs);
   files_of_run(path, specs, outputs, options).check();
 
@@ -69,22 +70,28 @@ std::vector<ComputeResult> compute(const std::string& path, std::span<const std:
   // What zstd holds with the window of its usual level, 2 MiB, is part of what any run takes.
   constexpr std::uint64_t kUsualWindow = std::uint64_t{3} << 20;
   input.reader_bytes = content->memory_bytes() - std::min(content->memory_bytes(), kUsualWindow);
-  input.reader = io::open_mesh(std::move(content), path, read_options);
+  input.reader = io::open_mesh(std::move(content), path, read_options, options.format);
   const MeshInfo info = input.reader->info();
   input.dimension = info.dimension;
   std::vector<std::unique_ptr<io::FunctionSource>> sources;
   std::vector<VertexFunction*> pointers;
+  for (std::size_t f = 0; f < specs.size(); ++f)
+    if (functions[f].empty()) specs[f] = io::default_function(info);
   for (const io::FunctionSpec& spec : specs) {
     sources.push_back(std::make_unique<io::FunctionSource>(spec, info, read_options.properties, path));
     pointers.push_back(sources.back().get());
   }
   if (options.opened) options.opened(info);
   if (snapshots) {
+    for (const VertexFunction* function : pointers)
+      if (function->needs_lookup())
+        throw Error(ErrorKind::kUsage, "no graph of a part of the mesh has values of " + function->name(),
+                    "name a point: distance:X,Y,Z; or leave snapshots out");
     input.reader = with_snapshots(std::move(input.reader), options.snapshot_every, pointers, outputs,
                                   options.replace ? io::Existing::kReplace : io::Existing::kKeep);
   } else {
     input.indexed = input.reader->indexed();
-    if (path != "-") input.read_again = [&] { return io::open_mesh(mesh.open(), path, read_options); };
+    if (path != "-") input.read_again = [&] { return io::open_mesh(mesh.open(), path, read_options, options.format); };
   }
   if (input.indexed) input.reader.reset();
   return ooc::compute(std::move(input), pointers, outputs, run_options(options));

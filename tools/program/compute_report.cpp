@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <utility>
 
 #include "io/file/file.h"
@@ -10,6 +11,7 @@
 #include "libreeb/base/memory_budget.h"
 #include "libreeb/base/printable.h"
 #include "tools/program/progress.h"
+#include "tools/program/simplex_text.h"
 #include "tools/program/wrapping.h"
 
 namespace reeb::tools {
@@ -50,10 +52,17 @@ std::string genus_line(const RunFacts& facts, const ooc::ComputeResult& r) {
                      printable(facts.path));
 }
 
+// Of the triangles; of all simplices, if there are others.
+std::string rate(const ooc::ComputeResult& r) {
+  const std::uint64_t all = std::accumulate(r.simplices.begin(), r.simplices.end(), std::uint64_t{0});
+  return fmt::format("{:.1f} M {}/s", r.seconds.wall > 0 ? static_cast<double>(all) / r.seconds.wall / 1e6 : 0,
+                     all == r.triangles() ? "triangles" : "simplices");
+}
+
 void print_result(const RunFacts& facts, const ooc::ComputeResult& r) {
   print_line(fmt::format("Reeb graph of {} for f = {} (from {:.6g} to {:.6g})", printable(facts.path),
                          printable(r.function), r.vertices == 0 ? 0 : r.range.min, r.vertices == 0 ? 0 : r.range.max));
-  print_line(fmt::format("  mesh: {}, {}", count_of(r.vertices, "vertex"), count_of(r.triangles(), "triangle")));
+  print_line(fmt::format("  mesh: {}, {}", count_of(r.vertices, "vertex"), count_simplices(r.simplices)));
   print_line(genus_line(facts, r));
   print_line(fmt::format("  graph: {}, {}, {}, {}", count_of(r.nodes, "node"), count_of(r.arcs, "arc"),
                          count_of(r.betti.components, "component"), count_of(r.betti.loops, "loop")));
@@ -66,9 +75,7 @@ void print_result(const RunFacts& facts, const ooc::ComputeResult& r) {
     print_line(fmt::format("  {} of the loops cannot be cancelled exactly; {} in every simplified level",
                            with_commas(r.kept_loops), r.kept_loops == 1 ? "it stays" : "they stay"));
   const double seconds = r.seconds.wall;
-  print_line(fmt::format("  {:.2f} s ({:.1f} M triangles/s), peak memory {}", seconds,
-                         seconds > 0 ? static_cast<double>(r.triangles()) / seconds / 1e6 : 0,
-                         format_bytes(peak_rss_bytes())));
+  print_line(fmt::format("  {:.2f} s ({}), peak memory {}", seconds, rate(r), format_bytes(peak_rss_bytes())));
   print_line("  wrote " + (r.output == io::kStandardOutput ? "standard output" : printable(r.output)));
 }
 
@@ -83,7 +90,8 @@ nlohmann::ordered_json to_json(const RunFacts& facts, const ooc::ComputeResult& 
         {"format", facts.format},
         {"vertices", r.vertices},
         {"triangles", r.triangles()},
-        {"bytes", facts.input_bytes}}},
+        {"bytes", facts.input_bytes},
+        {"simplices", r.simplices}}},
       {"function", {{"name", r.function}, {"min", r.range.min}, {"max", r.range.max}}},
       {"graph", {{"nodes", r.nodes}, {"arcs", r.arcs}, {"components", r.betti.components}, {"loops", r.betti.loops}}},
       {"pairs", pairs},

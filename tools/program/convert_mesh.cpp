@@ -10,6 +10,7 @@
 #include "io/file/file_ostream.h"
 #include "io/formats/create_mesh.h"
 #include "io/formats/format_detection.h"
+#include "io/formats/format_names.h"
 #include "io/formats/open_mesh.h"
 #include "io/functions/function_source.h"
 #include "io/streaming/create_stream.h"
@@ -99,13 +100,15 @@ class Conversion {
  private:
   Lines convert() {
     auto source = input_.open();
-    if (io::detect_format(*source, options_.input) == io::MeshFormat::kStreaming) {
+    const std::string& format = options_.format;
+    const auto kind = format.empty() ? io::detect_format(*source, options_.input) : io::chosen_format(format, *source);
+    if (kind == io::MeshFormat::kStreaming) {
       const std::uint64_t bytes = source->file_bytes();
-      auto events = io::open_stream(std::move(source), options_.input);
+      auto events = io::open_stream(std::move(source), io::name_for_streams(options_.input, format));
       if (can_copy_events(events->header())) return copy_events(std::move(events), bytes);
       reader_ = io::make_stream_mesh_reader(std::move(events), read_options(), bytes);
     } else {
-      reader_ = io::open_mesh(std::move(source), options_.input, read_options());
+      reader_ = io::open_mesh(std::move(source), options_.input, read_options(), format);
     }
     // Without finalization all vertices of the mesh would stay active in the writer.
     sorts_ |= format_ == io::StreamFormat::kCompressed && !reader_->info().finalizes;
@@ -254,6 +257,7 @@ std::unique_ptr<IndexedMesh> Conversion::sorted(std::unique_ptr<IndexedMesh> mes
       break;
   }
   io::FunctionSource function(*options_.order.function, reader_->info(), property_columns(), options_.input);
+  function.look_up(*mesh);
   auto sorted_mesh = ooc::sorted_by_function(std::move(mesh), function, space, progress);
   function.check_unchanged();
   return sorted_mesh;

@@ -24,6 +24,7 @@ TriangleOrder parse_order(const std::string& text);
 
 struct ConvertOptions {
   std::string input, output;  // "-": standard input
+  std::string format;         // of the input, as in open_mesh()
   TriangleOrder order;
   bool finalize = false;
   std::uint64_t memory_bytes = MemoryBudget::kUnlimited;

@@ -14,6 +14,7 @@
 
 #include "io/file/content_source.h"
 #include "io/formats/format_detection.h"
+#include "io/formats/format_names.h"
 #include "io/formats/open_mesh.h"
 #include "libreeb/base/count_text.h"
 #include "libreeb/base/printable.h"
@@ -52,11 +53,12 @@ class Connection {
 };
 
 // Opens streams for reading event by event, so that their front is measured exactly.
-std::unique_ptr<MeshReader> open(const io::Input& input) {
+std::unique_ptr<MeshReader> open(const io::Input& input, const std::string& format) {
   auto source = input.open();
   ReadOptions options;
-  if (io::detect_format(*source, input.path()) == io::MeshFormat::kStreaming) options.batch_events = 1;
-  return io::open_mesh(std::move(source), input.path(), options);
+  const auto kind = format.empty() ? io::detect_format(*source, input.path()) : io::chosen_format(format, *source);
+  if (kind == io::MeshFormat::kStreaming) options.batch_events = 1;
+  return io::open_mesh(std::move(source), input.path(), options, format);
 }
 
 std::uint64_t distinct(std::span<const VertexId> corners) {
@@ -69,8 +71,8 @@ std::uint64_t distinct(std::span<const VertexId> corners) {
 
 class MeshSurvey {
  public:
-  MeshSurvey(const io::Input& input, ooc::Workspace& space)
-      : path_(input.path()), space_(space), reader_(open(input)), connection_(space) {
+  MeshSurvey(const io::Input& input, const std::string& format, ooc::Workspace& space)
+      : path_(input.path()), space_(space), reader_(open(input, format)), connection_(space) {
     bounds_.resize(reader_->info().dimension);
   }
 
@@ -191,11 +193,12 @@ void MeshSurvey::print_json() const {
 
 }  // namespace
 
-void print_mesh_info(const std::string& path, std::uint64_t memory_bytes, const std::string& temp_folder, bool json) {
+void print_mesh_info(const std::string& path, const std::string& format, std::uint64_t memory_bytes,
+                     const std::string& temp_folder, bool json) {
   ooc::Workspace space(temp_folder, memory_bytes);
   const io::Input input(path);
   const auto survey = input.read([&] {
-    auto found = std::make_unique<MeshSurvey>(input, space);
+    auto found = std::make_unique<MeshSurvey>(input, format, space);
     found->run();
     return found;
   });

@@ -9,7 +9,9 @@ namespace reeb::tools {
 // Reads the mesh once, and the triangles of a mesh without finalization twice. The live front is the largest number of
 // vertices that were introduced (in a stream without finalization: used) and will be used again. It is measured in a
 // stream that finalizes its vertices; else it is the front that exact finalization would give in this order.
+// `format` as in open_mesh().
 // MEMORY: tables of 8 and 4 bytes per vertex, paged to disk within `memory_bytes`.
-void print_mesh_info(const std::string& path, std::uint64_t memory_bytes, const std::string& temp_folder, bool json);
+void print_mesh_info(const std::string& path, const std::string& format, std::uint64_t memory_bytes,
+                     const std::string& temp_folder, bool json);
 
 }  // namespace reeb::tools

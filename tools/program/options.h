@@ -1,4 +1,4 @@
-// Options of the command line that take sizes and counts.
+// Options of the command line that several commands have.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -7,6 +7,7 @@
 #include <functional>
 #include <string>
 
+#include "io/formats/format_names.h"
 #include "tools/program/quantity.h"
 
 namespace reeb::tools {
@@ -31,6 +32,19 @@ CLI::Option* add_size(CLI::App& command, const std::string& name, Target& target
       .add_option_function<std::string>(
           name, [name, &target](const std::string& text) { target = parse_size(name, text); }, description)
       ->type_name("SIZE");
+}
+
+// `--format NAME`, for commands that read a mesh.
+inline CLI::Option* add_format(CLI::App& command, std::string& target) {
+  return command
+      .add_option_function<std::string>(
+          "--format",
+          [&target](const std::string& name) {
+            io::check_format_name(name);
+            target = name;
+          },
+          "Format of the mesh, where its content does not tell: ply obj off stl sma smb smc sva svb cx")
+      ->type_name("NAME");
 }
 
 }  // namespace reeb::tools

@@ -1,0 +1,45 @@
+#include "io/formats/format_names.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "libreeb/base/error.h"
+
+namespace reeb::io {
+namespace {
+
+constexpr std::array<std::pair<std::string_view, MeshFormat>, 10> kNames = {{{"ply", MeshFormat::kPly},
+                                                                             {"obj", MeshFormat::kObj},
+                                                                             {"off", MeshFormat::kOff},
+                                                                             {"stl", MeshFormat::kBinaryStl},
+                                                                             {"sma", MeshFormat::kStreaming},
+                                                                             {"smb", MeshFormat::kStreaming},
+                                                                             {"smc", MeshFormat::kStreaming},
+                                                                             {"sva", MeshFormat::kStreaming},
+                                                                             {"svb", MeshFormat::kStreaming},
+                                                                             {"cx", MeshFormat::kCx}}};
+
+MeshFormat format_of(const std::string& name) {
+  std::string known;
+  for (const auto& [entry, format] : kNames) {
+    if (entry == name) return format;
+    known.append(known.empty() ? "" : ", ").append(entry);
+  }
+  throw Error(ErrorKind::kUsage, "'" + name + "' is not a format of meshes", "choose one of " + known);
+}
+
+}  // namespace
+
+void check_format_name(const std::string& name) { (void)format_of(name); }
+
+MeshFormat chosen_format(const std::string& name, ContentSource& source) {
+  const MeshFormat format = format_of(name);
+  return format == MeshFormat::kBinaryStl && is_text_stl(source) ? MeshFormat::kAsciiStl : format;
+}
+
+std::string name_for_streams(const std::string& path, const std::string& format) {
+  return format.empty() ? path : "mesh." + format;
+}
+
+}  // namespace reeb::io
