@@ -35,7 +35,8 @@ const Rooms kRooms = {
     {"io/streaming", {"libreeb", "io/file", "io/text", "io/mesh", "io/events", "io/smc"}},
     {"io/ply", {"libreeb", "io/file", "io/text", "io/mesh"}},
     {"io/formats", {"libreeb", "io/file", "io/text", "io/mesh", "io/events", "io/streaming", "io/ply"}},
-    {"io/functions", {"libreeb", "io/file", "io/text", "io/mesh", "io/formats"}},
+    {"io/fields", {"libreeb"}},
+    {"io/functions", {"libreeb", "io/file", "io/text", "io/mesh", "io/formats", "io/fields"}},
     {"io/export", {"libreeb", "io/file", "io/text"}},
     {"io/generate", {"libreeb"}},
 

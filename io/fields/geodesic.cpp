@@ -1,0 +1,129 @@
+#include "io/fields/geodesic.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <queue>
+#include <utility>
+
+namespace reeb::io {
+namespace {
+
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+
+// The distance of corner c of a triangle to the virtual source that has the distances da and db from the corners a and
+// b; infinite if the way would not cross the edge ab. `ab`, `ac` and `bc` are lengths.
+double across(double da, double db, double ab, double ac, double bc) {
+  if (!(ab > 0)) return kInfinite;
+  // a at the origin, b on the axis, c above it, the source below.
+  const double source_x = (da * da + ab * ab - db * db) / (2 * ab);
+  const double below = da * da - source_x * source_x;
+  if (below < 0) return kInfinite;
+  const double source_y = std::sqrt(below);
+  const double corner_x = (ac * ac + ab * ab - bc * bc) / (2 * ab);
+  const double corner_y = std::sqrt(std::max(0.0, ac * ac - corner_x * corner_x));
+  if (!(source_y + corner_y > 0)) return kInfinite;
+  const double crossing = source_x + (corner_x - source_x) * (source_y / (source_y + corner_y));
+  if (crossing < 0 || crossing > ab) return kInfinite;
+  return std::hypot(corner_x - source_x, corner_y + source_y);
+}
+
+// An update of a corner over an edge that need not be of the mesh.
+struct Crossing {
+  std::uint32_t corner = 0;
+  double to_first = 0, to_second = 0, between = 0;  // lengths
+};
+
+// At an obtuse corner a front may come first, before both ends of the edge opposite to it. So the triangle beyond that
+// edge is unfolded into the plane, and its far vertex divides the angle in two (R. Kimmel, J. Sethian: Computing
+// geodesic paths on manifolds, PNAS 1998).
+struct Unfolded {
+  std::vector<Crossing> crossings;
+  std::vector<std::array<std::uint32_t, 2>> ends;  // of the edge that is crossed
+};
+
+void unfold(const WholeComplex& complex, const Incidence& triangles, std::uint32_t c, std::uint32_t a, std::uint32_t b,
+            Unfolded& unfolded) {
+  const double ab = complex.length(a, b), ac = complex.length(a, c), bc = complex.length(b, c);
+  if (ac * ac + bc * bc >= ab * ab) return;
+  const double corner_x = (ac * ac + ab * ab - bc * bc) / (2 * ab);
+  const double corner_y = std::sqrt(std::max(0.0, ac * ac - corner_x * corner_x));
+  for (const std::uint32_t t : triangles.of(a)) {
+    const auto& other = complex.triangles[t];
+    const bool has_b = other[0] == b || other[1] == b || other[2] == b;
+    const std::uint32_t far = other[0] ^ other[1] ^ other[2] ^ a ^ b;
+    if (!has_b || far == c) continue;
+    const double to_a = complex.length(far, a), to_b = complex.length(far, b);
+    const double far_x = (to_a * to_a + ab * ab - to_b * to_b) / (2 * ab);
+    const double far_y = std::sqrt(std::max(0.0, to_a * to_a - far_x * far_x));
+    if (!(far_y + corner_y > 0)) continue;
+    const double crossing = far_x + (corner_x - far_x) * (far_y / (far_y + corner_y));
+    if (crossing < 0 || crossing > ab) continue;
+    const double across_edge = std::hypot(corner_x - far_x, corner_y + far_y);
+    unfolded.crossings.push_back({c, ac, across_edge, to_a});
+    unfolded.ends.push_back({a, far});
+    unfolded.crossings.push_back({c, bc, across_edge, to_b});
+    unfolded.ends.push_back({b, far});
+  }
+}
+
+}  // namespace
+
+std::vector<double> geodesic_distance(const WholeComplex& complex, std::span<const std::uint32_t> sources,
+                                      MemoryBudget& budget) {
+  const std::uint32_t count = complex.vertex_count();
+  // Distances, both incidences, and the queue, which rarely holds more than a few times the front.
+  Reservation memory =
+      budget.reserve("geodesic distance", std::uint64_t{30} * count + 20 * std::uint64_t{complex.triangles.size()} +
+                                              8 * std::uint64_t{complex.edges.size()});
+  const Incidence triangles = incidence_of(count, complex.triangles);
+  const Incidence edges = incidence_of(count, complex.edges);
+  Unfolded unfolded;
+  for (const auto& t : complex.triangles)
+    for (std::size_t i = 0; i < 3; ++i) unfold(complex, triangles, t[i], t[(i + 1) % 3], t[(i + 2) % 3], unfolded);
+  memory.resize(memory.bytes() + 56 * unfolded.ends.size());
+  const Incidence crossings = incidence_of(count, unfolded.ends);
+  std::vector<double> distance(count, kInfinite);
+  std::vector<bool> final(count);
+  using Entry = std::pair<double, std::uint32_t>;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+  const auto improve = [&](std::uint32_t v, double value) {
+    if (!(value < distance[v])) return;
+    distance[v] = value;
+    queue.emplace(value, v);
+  };
+  for (const std::uint32_t v : sources) improve(v, 0);
+  while (!queue.empty()) {
+    const auto [here, v] = queue.top();
+    queue.pop();
+    if (here > distance[v] || final[v]) continue;
+    final[v] = true;
+    for (const std::uint32_t e : edges.of(v)) {
+      const auto& edge = complex.edges[e];
+      const std::uint32_t other = edge[0] == v ? edge[1] : edge[0];
+      improve(other, here + complex.length(v, other));
+    }
+    for (const std::uint32_t t : triangles.of(v)) {
+      const auto& corners = complex.triangles[t];
+      const std::size_t at = corners[0] == v ? 0 : corners[1] == v ? 1 : 2;
+      const std::uint32_t p = corners[(at + 1) % 3], q = corners[(at + 2) % 3];
+      const double vp = complex.length(v, p), vq = complex.length(v, q), pq = complex.length(p, q);
+      improve(p, here + vp);
+      improve(q, here + vq);
+      if (final[q] && !final[p]) improve(p, across(here, distance[q], vq, vp, pq));
+      if (final[p] && !final[q]) improve(q, across(here, distance[p], vp, vq, pq));
+    }
+    for (const std::uint32_t i : crossings.of(v)) {
+      const Crossing& crossing = unfolded.crossings[i];
+      const auto [first, second] = unfolded.ends[i];
+      if (final[first] && final[second] && !final[crossing.corner])
+        improve(crossing.corner,
+                across(distance[first], distance[second], crossing.between, crossing.to_first, crossing.to_second));
+    }
+  }
+  return distance;
+}
+
+}  // namespace reeb::io

@@ -1,0 +1,121 @@
+// Eigenvectors against closed forms, and against a dense solution of the generalized problem.
+#include "io/fields/laplacian.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "libreeb/base/error.h"
+#include "tests/io/fields/made_surfaces.h"
+
+namespace reeb::io {
+namespace {
+
+Eigenvector eigenvector(const WholeComplex& complex, std::uint64_t k) {
+  MemoryBudget budget;
+  return laplacian_eigenvector(complex, k, budget);
+}
+
+WholeComplex path(std::uint32_t vertices) {
+  WholeComplex complex;
+  complex.is_surface = false;
+  for (std::uint32_t i = 0; i < vertices; ++i)
+    complex.coordinates.insert(complex.coordinates.end(), {1.0 * i * i, 0, 0});
+  for (std::uint32_t i = 1; i < vertices; ++i) complex.edges.push_back({i - 1, i});
+  return complex;
+}
+
+TEST(Laplacian, OfAPathIsCosines) {
+  for (const std::uint32_t vertices : {2u, 3u, 10u, 500u}) {
+    const WholeComplex line = path(vertices);
+    for (std::uint64_t k = 1; k < std::min(vertices, 6u); ++k) {
+      const auto u = eigenvector(line, k);
+      const double angle = std::numbers::pi * static_cast<double>(k) / vertices;
+      EXPECT_NEAR(u.eigenvalue, 2 - 2 * std::cos(angle), 1e-10);
+      for (std::uint32_t i = 0; i < vertices; ++i)
+        ASSERT_NEAR(std::abs(u.values[i]), std::abs(std::sqrt(2.0 / vertices) * std::cos(angle * (i + 0.5))), 1e-6);
+    }
+  }
+}
+
+TEST(Laplacian, OfASphereIsL_LPlus1) {
+  const WholeComplex sphere = testing::sphere(4);
+  for (std::uint64_t k = 1; k <= 15; ++k) {
+    const auto u = eigenvector(sphere, k);
+    const double exact = k <= 3 ? 2 : k <= 8 ? 6 : 12;
+    EXPECT_NEAR(u.eigenvalue, exact, 0.01 * exact) << k;
+    EXPECT_LT(u.residual, 1e-8) << k;
+  }
+}
+
+TEST(Laplacian, OfAFlatTorusIsSquares) {
+  const WholeComplex torus = testing::flat_torus(40);
+  const double exact[] = {1, 1, 1, 1, 2, 2, 2, 2, 4, 4, 4, 4};
+  for (std::uint64_t k = 1; k <= 12; ++k) {
+    const auto u = eigenvector(torus, k);
+    EXPECT_NEAR(u.eigenvalue, exact[k - 1], 0.02 * exact[k - 1]) << k;
+    EXPECT_LT(u.residual, 1e-8) << k;
+  }
+}
+
+// The matrices from the definition, dense: cotangents by angles, areas by cross products.
+TEST(Laplacian, IsThatOfTheDenseProblem) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    const WholeComplex plane = testing::random_plane(14, seed);
+    const auto n = static_cast<Eigen::Index>(plane.vertex_count());
+    Eigen::MatrixXd l = Eigen::MatrixXd::Zero(n, n), m = Eigen::MatrixXd::Zero(n, n);
+    const auto point = [&](std::uint32_t v) {
+      return Eigen::Vector3d(plane.coordinates[3 * v], plane.coordinates[3 * v + 1], plane.coordinates[3 * v + 2]);
+    };
+    for (const auto& t : plane.triangles)
+      for (std::size_t i = 0; i < 3; ++i) {
+        const std::uint32_t p = t[i], q = t[(i + 1) % 3], r = t[(i + 2) % 3];
+        const Eigen::Vector3d u = point(q) - point(p), w = point(r) - point(p);
+        const double half = 0.5 / std::tan(std::acos(u.dot(w) / u.norm() / w.norm()));
+        l(q, r) -= half, l(r, q) -= half, l(q, q) += half, l(r, r) += half;
+        m(p, p) += u.cross(w).norm() / 6;
+      }
+    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(l, m);
+    for (std::uint64_t k = 1; k <= 8; ++k) {
+      const auto u = eigenvector(plane, k);
+      const auto place = static_cast<Eigen::Index>(k);
+      EXPECT_NEAR(u.eigenvalue, solver.eigenvalues()[place], 1e-9);
+      const Eigen::VectorXd expected = solver.eigenvectors().col(place);
+      const Eigen::Map<const Eigen::VectorXd> values(u.values.data(), n);
+      EXPECT_LT(std::min((values - expected).norm(), (values + expected).norm()), 1e-5 * expected.norm()) << k;
+    }
+  }
+}
+
+TEST(Laplacian, OtherComponentsAreZeroAndCounted) {
+  WholeComplex two = path(200);
+  two.coordinates.insert(two.coordinates.end(), {0, 1, 0, 0, 2, 0, 0, 3, 0});
+  two.edges.push_back({200, 201});
+  const auto u = eigenvector(two, 1);
+  EXPECT_EQ(u.other_vertices, 3u);
+  for (std::size_t v = 200; v < 203; ++v) EXPECT_EQ(u.values[v], 0);
+  EXPECT_NE(u.values[0], 0);
+}
+
+TEST(Laplacian, RefusesWhatIsNotThere) {
+  MemoryBudget budget;
+  EXPECT_THROW(laplacian_eigenvector(path(5), 5, budget), Error);
+  EXPECT_NO_THROW(laplacian_eigenvector(path(5), 4, budget));
+  EXPECT_THROW(laplacian_eigenvector(WholeComplex(), 1, budget), Error);
+  WholeComplex flat = testing::random_plane(3, 1);
+  std::ranges::fill(flat.coordinates, 1.0);
+  EXPECT_THROW(laplacian_eigenvector(flat, 1, budget), Error);
+  MemoryBudget small(1 << 20);
+  try {
+    laplacian_eigenvector(testing::sphere(5), 1, small);
+    ADD_FAILURE() << "fits";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::kResource);
+  }
+}
+
+}  // namespace
+}  // namespace reeb::io
