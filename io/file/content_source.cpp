@@ -199,7 +199,7 @@ std::unique_ptr<ContentSource> stream_source(const std::string& name, std::uniqu
 }
 
 std::unique_ptr<RawInput> open_pipe(const std::string& path) {
-  if (path == "-") return std::make_unique<PipeInput>("standard input", STDIN_FILENO, false);
+  if (path == "-") return std::make_unique<PipeInput>(kStandardInputShown, STDIN_FILENO, false);
   const int descriptor = system::open(path, O_RDONLY);
   if (descriptor < 0) throw_input_error(errno, path);
   return std::make_unique<PipeInput>(path, descriptor, true);
@@ -225,7 +225,7 @@ Input::Input(std::string path) : path_(std::move(path)), file_(open_if_regular(p
 
 std::unique_ptr<ContentSource> Input::open() const {
   if (file_) return open_content(file_);
-  const std::string name = path_ == "-" ? "standard input" : path_;
+  const std::string name = path_ == "-" ? kStandardInputShown : path_;
   return stream_source(name, open_pipe(path_), 0);
 }
 

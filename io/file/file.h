@@ -16,6 +16,7 @@ bool is_regular_file(const std::string& path);
 inline constexpr const char* kStandardOutput = "-";
 // Its name in messages.
 inline constexpr const char* kStandardOutputShown = "standard output";
+inline constexpr const char* kStandardInputShown = "standard input";
 // Whether the output `path` is standard output, a device, a FIFO or a socket: something that is written to and not
 // replaced.
 bool is_device(const std::string& path);

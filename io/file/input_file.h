@@ -33,6 +33,8 @@ class InputFile {
  public:
   // THROWS: Error{kBadInput} if it is missing, a directory or another special file, unreadable, or empty.
   explicit InputFile(const std::string& path);
+  // A file that is open, such as one without a name.
+  explicit InputFile(File file);
 
   const std::string& path() const { return file_.path(); }
   std::uint64_t size() const { return state_.bytes; }

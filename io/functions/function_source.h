@@ -1,57 +1,35 @@
-// Functions on the vertices of a mesh, as a user names them.
+// The values of a function at the vertices of a mesh.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
+#include "io/functions/function_spec.h"
 #include "libreeb/port/mesh_reader.h"
 #include "libreeb/port/vertex_function.h"
 
 namespace reeb::io {
 
-struct FunctionSpec {
-  enum class Kind { kCoordinate, kIndex, kRandom, kProperty, kFile, kDistanceToVertex, kDistanceToPoint };
-
-  Kind kind = Kind::kCoordinate;
-  std::uint64_t number = 2;       // of the coordinate or the vertex, or the seed
-  std::string argument;           // the property, or the path
-  std::string text = "z";         // as the user wrote it
-  std::array<double, 3> point{};  // of which the distance is measured
-};
-
-// THROWS: Error{kUsage} that lists the functions.
-FunctionSpec parse_function(std::string_view text);
-
-// What is computed where no function is named: z, or the last coordinate where there are fewer than three.
-FunctionSpec default_function(const MeshInfo& info);
-
-// The text of a function as part of a file name: ':' and '/' become '-'.
-std::string file_name_part(const FunctionSpec& spec);
-
-// What ReadOptions::properties must contain for these functions; each name once.
-std::vector<std::string> needed_properties(std::span<const FunctionSpec> specs);
+class ValueFile;
+struct MeshField;
 
 // The value of `random:SEED` at a vertex, in [0, 1).
 double random_value(std::uint64_t seed, std::uint64_t vertex) noexcept;
-
-// One number per vertex, from a file: lines of text, or raw little-endian float64 (".f64").
-class ValueFile;
 
 // One function, for the vertices of a stream in order or for any vertices by index. Values are finite, and -0.0 becomes
 // 0.0.
 class FunctionSource final : public VertexFunction {
  public:
-  // `properties` is the ReadOptions::properties with which the mesh was opened.
+  // `properties` is the ReadOptions::properties with which the mesh was opened; `field` is what read_fields() found for
+  // this function (mesh_field.h).
+  // REQUIRES: a field, if spec.needs_field().
   // THROWS: Error{kBadInput}: the mesh (`mesh_name`) does not have the coordinate or property; the file cannot be read,
   //         or is known not to have one value per vertex.
   FunctionSource(const FunctionSpec& spec, const MeshInfo& info, std::span<const std::string> properties = {},
-                 std::string mesh_name = {});
+                 std::string mesh_name = {}, const MeshField* field = nullptr);
   ~FunctionSource() override;
 
   std::string name() const override { return spec_.text; }

@@ -19,9 +19,9 @@ namespace {
 
 using AddCommand = void (*)(CLI::App&);
 const std::map<std::string, AddCommand> kCommands = {
-    {"compute", tools::add_compute}, {"info", tools::add_info},     {"extract", tools::add_extract},
-    {"pairs", tools::add_pairs},     {"verify", tools::add_verify}, {"generate", tools::add_generate},
-    {"convert", tools::add_convert},
+    {"compute", tools::add_compute}, {"info", tools::add_info},         {"extract", tools::add_extract},
+    {"pairs", tools::add_pairs},     {"verify", tools::add_verify},     {"generate", tools::add_generate},
+    {"convert", tools::add_convert}, {"function", tools::add_function},
 };
 
 int checked(int result, const char* what) {

@@ -36,19 +36,20 @@ std::string NodeCheck::missing_file() const {
   return is_file && !std::filesystem::exists(spec_.argument) ? spec_.argument : "";
 }
 
-void NodeCheck::start(const MeshInfo& info, const std::function<std::unique_ptr<MeshReader>()>& open_again) {
+void NodeCheck::start(const MeshInfo& info, const io::OpenMesh& open_again, const std::string& temp_folder,
+                      std::uint64_t memory_bytes) {
   if (const std::string missing = missing_file(); !missing.empty()) {
     unchecked_ = missing + " is gone, so the values were not checked";
     return;
   }
-  source_.emplace(spec_, info, properties_, mesh_);
-  if (!source_->needs_lookup()) return;
-  if (open_again) {
-    source_->look_up(*open_again());
-  } else {
-    source_.reset();
+  const bool reads_twice = spec_.needs_field() || spec_.kind == io::FunctionSpec::Kind::kDistanceToVertex;
+  if (reads_twice && !open_again) {
     unchecked_ = "the mesh can be read only once, so the values of " + spec_.text + " were not checked";
+    return;
   }
+  const auto fields = io::read_fields(std::span(&spec_, 1), open_again, mesh_, temp_folder, memory_bytes);
+  source_.emplace(spec_, info, properties_, mesh_, &fields.front());
+  if (source_->needs_lookup()) source_->look_up(*open_again());
 }
 
 void NodeCheck::add(const MeshBatch& batch) {

@@ -2,13 +2,13 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "io/functions/function_source.h"
+#include "io/functions/mesh_field.h"
 #include "libreeb/graph/reeb_graph.h"
 #include "libreeb/port/mesh_reader.h"
 
@@ -32,7 +32,9 @@ class NodeCheck {
   // The properties that the reader must deliver.
   const std::vector<std::string>& properties() const { return properties_; }
   // `open_again` opens the mesh another time, for functions that depend on a vertex; empty: that is not possible.
-  void start(const MeshInfo& info, const std::function<std::unique_ptr<MeshReader>()>& open_again);
+  // Folder and memory are for functions that need all of the mesh (io/functions/mesh_field.h).
+  void start(const MeshInfo& info, const io::OpenMesh& open_again, const std::string& temp_folder,
+             std::uint64_t memory_bytes);
   void add(const MeshBatch& batch);
   // The range of the function over the mesh; null if it could not be evaluated.
   // THROWS: InputChanged if the file of values changed meanwhile.

@@ -146,9 +146,11 @@ void add_compute(CLI::App& program) {
           "mesh.reeb for standard input)")
       ->type_name("FILE");
   command
-      ->add_option("-f,--function", arguments->functions,
-                   "x, y, z, cK (the K-th coordinate, from 0), index, random:SEED, property:NAME, file:PATH, "
-                   "distance:VERTEX or distance:X,Y,Z (default: z; may be repeated)")
+      ->add_option(
+          "-f,--function", arguments->functions,
+          "x, y, z, cK (the K-th coordinate, from 0), index, random:SEED, property:NAME, file:PATH, "
+          "distance:VERTEX, distance:X,Y,Z, geodesic:VERTEX[,VERTEX...], laplacian:K or spectral (default: z; may be "
+          "repeated)")
       ->allow_extra_args(false)
       ->option_text("FUNC");
   command->add_flag("--graph-only", options.graph_only, "Stop after the graph: no pairs, no levels");

@@ -1,7 +1,6 @@
 // `reeb verify`: whether a .reeb file is whole and contradicts neither itself nor its mesh.
 #include <fmt/core.h>
 
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -59,10 +58,10 @@ std::string compare_with_mesh(const ooc::ReebFile& file, const VerifyOptions& op
   ProgressBar bar(false);
   const ooc::MeshRecount mesh = input.read([&] {
     const auto reader = io::open_mesh(input.open(), options.mesh, {.properties = nodes.properties()}, options.format);
-    std::function<std::unique_ptr<MeshReader>()> open_again;
+    io::OpenMesh open_again;
     if (io::is_regular_file(options.mesh))
       open_again = [&] { return io::open_mesh(input.open(), options.mesh, {}, options.format); };
-    nodes.start(reader->info(), open_again);
+    nodes.start(reader->info(), open_again, options.temp_folder, options.memory_bytes);
     std::uint64_t simplices = 0;
     const ooc::MeshRecount recount = ooc::recount_mesh(*reader, space, [&](const MeshBatch& batch) {
       nodes.add(batch);

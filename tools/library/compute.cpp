@@ -7,8 +7,10 @@
 
 #include "io/file/atomic_file.h"
 #include "io/file/content_source.h"
+#include "io/file/temp_dir.h"
 #include "io/formats/open_mesh.h"
 #include "io/functions/function_source.h"
+#include "io/functions/mesh_field.h"
 #include "libreeb/base/error.h"
 #include "ooc/run/compute.h"
 #include "tools/library/run_files.h"
@@ -77,8 +79,13 @@ std::vector<ComputeResult> compute(const std::string& path, std::span<const std:
   std::vector<VertexFunction*> pointers;
   for (std::size_t f = 0; f < specs.size(); ++f)
     if (functions[f].empty()) specs[f] = io::default_function(info);
-  for (const io::FunctionSpec& spec : specs) {
-    sources.push_back(std::make_unique<io::FunctionSource>(spec, info, read_options.properties, path));
+  io::OpenMesh open_again;
+  if (mesh.can_reopen()) open_again = [&] { return io::open_mesh(mesh.open(), path, {}, options.format); };
+  const std::string temp_folder =
+      options.temp_dir.empty() ? io::TempDir::default_folder(outputs.front()) : options.temp_dir;
+  const std::vector<io::MeshField> fields = io::read_fields(specs, open_again, path, temp_folder, options.memory_bytes);
+  for (std::size_t i = 0; i < specs.size(); ++i) {
+    sources.push_back(std::make_unique<io::FunctionSource>(specs[i], info, read_options.properties, path, &fields[i]));
     pointers.push_back(sources.back().get());
   }
   if (options.opened) options.opened(info);
@@ -94,7 +101,10 @@ std::vector<ComputeResult> compute(const std::string& path, std::span<const std:
     if (path != "-") input.read_again = [&] { return io::open_mesh(mesh.open(), path, read_options, options.format); };
   }
   if (input.indexed) input.reader.reset();
-  return ooc::compute(std::move(input), pointers, outputs, run_options(options));
+  auto results = ooc::compute(std::move(input), pointers, outputs, run_options(options));
+  for (std::size_t i = 0; i < results.size(); ++i)
+    results[i].notes.insert(results[i].notes.end(), fields[i].notes.begin(), fields[i].notes.end());
+  return results;
 }
 
 ComputeResult compute(const std::string& path, const std::string& function, const std::string& output,

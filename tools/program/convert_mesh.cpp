@@ -13,6 +13,7 @@
 #include "io/formats/format_names.h"
 #include "io/formats/open_mesh.h"
 #include "io/functions/function_source.h"
+#include "io/functions/mesh_field.h"
 #include "io/streaming/create_stream.h"
 #include "io/streaming/open_stream.h"
 #include "io/streaming/stream_mesh_reader.h"
@@ -256,7 +257,13 @@ std::unique_ptr<IndexedMesh> Conversion::sorted(std::unique_ptr<IndexedMesh> mes
     case TriangleOrder::Kind::kSweep:
       break;
   }
-  io::FunctionSource function(*options_.order.function, reader_->info(), property_columns(), options_.input);
+  io::OpenMesh open_again;
+  if (input_.can_reopen())
+    open_again = [&] { return io::open_mesh(input_.open(), options_.input, {}, options_.format); };
+  const auto fields = io::read_fields({&*options_.order.function, 1}, open_again, options_.input, options_.temp_folder,
+                                      options_.memory_bytes);
+  io::FunctionSource function(*options_.order.function, reader_->info(), property_columns(), options_.input,
+                              &fields.front());
   function.look_up(*mesh);
   auto sorted_mesh = ooc::sorted_by_function(std::move(mesh), function, space, progress);
   function.check_unchanged();

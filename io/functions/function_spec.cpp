@@ -1,0 +1,123 @@
+#include "io/functions/function_spec.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "io/text/text_cursor.h"
+#include "libreeb/base/error.h"
+
+namespace reeb::io {
+namespace {
+
+using Kind = FunctionSpec::Kind;
+
+std::optional<std::uint64_t> whole_number(std::string_view text) {
+  std::uint64_t value = 0;
+  const auto parsed = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (parsed.ec != std::errc{} || parsed.ptr != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+// "1,2,3": `read` reads each part. Nothing if one is not as it should be.
+template <class T, class Read>
+std::optional<std::vector<T>> list_of(std::string_view text, const Read& read) {
+  std::vector<T> items;
+  for (bool more = true; more;) {
+    const std::size_t comma = text.find(',');
+    const std::optional<T> item = read(text.substr(0, comma));
+    if (!item) return std::nullopt;
+    items.push_back(*item);
+    more = comma != std::string_view::npos;
+    if (more) text.remove_prefix(comma + 1);
+  }
+  return items;
+}
+
+std::optional<double> finite_number(std::string_view text) {
+  const auto parsed = parse_number<double>(text);
+  return parsed.ok && std::isfinite(parsed.value) ? std::optional(parsed.value + 0.0) : std::nullopt;
+}
+
+std::optional<FunctionSpec> parse_distance(std::string_view argument, FunctionSpec spec) {
+  if (const auto vertex = whole_number(argument)) {
+    spec.kind = Kind::kDistanceToVertex;
+    spec.number = *vertex;
+    return spec;
+  }
+  const auto point = list_of<double>(argument, finite_number);
+  if (!point || point->size() != 3) return std::nullopt;
+  spec.kind = Kind::kDistanceToPoint;
+  std::ranges::copy(*point, spec.point.begin());
+  return spec;
+}
+
+std::optional<FunctionSpec> try_parse(std::string_view text) {
+  FunctionSpec spec{.text = std::string(text)};
+  const auto numbered = [&spec](Kind kind, std::uint64_t number) {
+    spec.kind = kind;
+    spec.number = number;
+    return spec;
+  };
+  if (text == "x" || text == "y" || text == "z")
+    return numbered(Kind::kCoordinate, static_cast<std::uint64_t>(text[0] - 'x'));
+  if (text == "index") return numbered(Kind::kIndex, 0);
+  if (text == "spectral") return numbered(Kind::kLaplacian, 1);
+  if (text.starts_with('c')) {
+    const auto coordinate = whole_number(text.substr(1));
+    return coordinate ? std::optional(numbered(Kind::kCoordinate, *coordinate)) : std::nullopt;
+  }
+  const std::size_t colon = text.find(':');
+  if (colon == std::string_view::npos || colon + 1 == text.size()) return std::nullopt;
+  const std::string_view name = text.substr(0, colon), argument = text.substr(colon + 1);
+  spec.number = 0;
+  if (name == "property" || name == "file") {
+    spec.kind = name == "file" ? Kind::kFile : Kind::kProperty;
+    spec.argument = argument;
+    return spec;
+  }
+  if (name == "distance") return parse_distance(argument, std::move(spec));
+  if (name == "geodesic") {
+    const auto vertices = list_of<std::uint64_t>(argument, whole_number);
+    if (!vertices) return std::nullopt;
+    spec.kind = Kind::kGeodesic;
+    spec.vertices = *vertices;
+    return spec;
+  }
+  const auto number = whole_number(argument);
+  if (!number) return std::nullopt;
+  if (name == "random") return numbered(Kind::kRandom, *number);
+  if (name == "laplacian" && *number != 0) return numbered(Kind::kLaplacian, *number);
+  return std::nullopt;
+}
+
+}  // namespace
+
+FunctionSpec parse_function(std::string_view text) {
+  if (auto spec = try_parse(text)) return *std::move(spec);
+  throw Error(ErrorKind::kUsage, "\"" + std::string(text) + "\" is not a function",
+              "functions are x, y, z, cK (a coordinate, from 0), index, random:SEED, property:NAME, file:PATH, "
+              "distance:VERTEX, distance:X,Y,Z, geodesic:VERTEX[,VERTEX...], laplacian:K, spectral");
+}
+
+FunctionSpec default_function(const MeshInfo& info) {
+  return parse_function(info.dimension == 1 ? "x" : info.dimension == 2 ? "y" : "z");
+}
+
+std::string file_name_part(const FunctionSpec& spec) {
+  std::string name = spec.text;
+  for (const char c : {':', '/', ','}) std::ranges::replace(name, c, '-');
+  return name;
+}
+
+std::vector<std::string> needed_properties(std::span<const FunctionSpec> specs) {
+  std::vector<std::string> names;
+  for (const FunctionSpec& spec : specs)
+    if (spec.kind == Kind::kProperty && std::ranges::find(names, spec.argument) == names.end())
+      names.push_back(spec.argument);
+  return names;
+}
+
+}  // namespace reeb::io

@@ -1,0 +1,145 @@
+#include "io/functions/value_file.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "io/file/content_source.h"
+#include "io/file/file.h"
+#include "io/file/file_windows.h"
+#include "io/mesh/scalar_bytes.h"
+#include "io/text/text_cursor.h"
+#include "libreeb/base/count_text.h"
+#include "libreeb/base/error.h"
+
+namespace reeb::io {
+namespace {
+
+[[noreturn]] void throw_wrong_count(const std::string& path, const std::string& position, std::uint64_t values,
+                                    bool or_more, std::uint64_t vertices) {
+  throw Error(ErrorKind::kBadInput,
+              "has " + count_of(values, "value") + (or_more ? " or more" : "") + ", but the mesh has " +
+                  count_of(vertices, "vertex"),
+              "the file must have one value per vertex")
+      .at(path, position);
+}
+
+class RawValueFile final : public ValueFile {
+ public:
+  explicit RawValueFile(std::shared_ptr<const InputFile> file)
+      : path_(file->path()), windows_(std::move(file), {.window_bits = 14, .window_count = 64, .overlap_bytes = 8}) {
+    if (windows_.size() % 8 != 0)
+      throw Error(ErrorKind::kBadInput, "its size is not a multiple of 8 bytes",
+                  "a .f64 file has 8 bytes per vertex; the file may be cut")
+          .at(path_, std::to_string(windows_.size() / 8 * 8));
+  }
+  double next() override { return at(next_++); }
+  double at(std::uint64_t vertex) override {
+    if (vertex >= windows_.size() / 8)
+      throw_wrong_count(path_, std::to_string(windows_.size()), windows_.size() / 8, false, vertex + 1);
+    const double value = load_scalar<double>(windows_.at(8 * vertex), false);
+    if (std::isfinite(value)) [[likely]]
+      return value + 0.0;
+    throw Error(ErrorKind::kBadInput, "the value of vertex " + std::to_string(vertex) + " is not finite",
+                "give every vertex a finite value")
+        .at(path_, std::to_string(8 * vertex));
+  }
+  void check_unchanged() const override { windows_.file()->check_unchanged("the file"); }
+  void check_count(std::uint64_t vertex_count) override {
+    if (windows_.size() / 8 != vertex_count)
+      throw_wrong_count(path_, std::to_string(8 * std::min(vertex_count, windows_.size() / 8)), windows_.size() / 8,
+                        false, vertex_count);
+  }
+
+ private:
+  std::string path_;
+  FileWindows windows_;
+  std::uint64_t next_ = 0;
+};
+
+class TextValueFile final : public ValueFile {
+ public:
+  explicit TextValueFile(const std::string& path) : path_(path), input_(path) { open(); }
+
+  double next() override {
+    if (!text_->more()) {
+      text_->mark();
+      throw_wrong_count(path_, text_->position(), read_, false, read_ + 1);
+    }
+    const auto value = text_->finite_number<double>("value");
+    if (text_->more_on_line()) {
+      text_->token();
+      text_->fail("a line has more than one number", "write one number per line, in the order of vertices");
+    }
+    ++read_;
+    return value;
+  }
+  double at(std::uint64_t vertex) override {
+    if (values_.empty()) {
+      if (vertex == read_) return next();
+      open();
+    }
+    while (values_.size() <= vertex) values_.push_back(next());
+    return values_[vertex];
+  }
+  void check_unchanged() const override { input_.check_unchanged("the file"); }
+  void check_count(std::uint64_t vertex_count) override {
+    if (!values_.empty() || read_ == 0) {
+      values_.reserve(vertex_count);
+      while (values_.size() < vertex_count) values_.push_back(next());
+    }
+    const bool more = text_->more();
+    text_->mark();
+    if (more || read_ != vertex_count)
+      throw_wrong_count(path_, text_->position(), read_ + (more ? 1 : 0), more, vertex_count);
+  }
+  std::uint64_t lookup_bytes(std::uint64_t vertex_count) const override { return vertex_count * sizeof(double); }
+
+ private:
+  void open() {
+    text_.emplace(input_.open(), TextStyle{.comments = true});
+    read_ = 0;
+  }
+
+  std::string path_;
+  Input input_;
+  std::optional<TextCursor> text_;
+  std::uint64_t read_ = 0;
+  std::vector<double> values_;  // filled if vertices are looked up out of order or counted beforehand
+};
+
+// An empty file has the values of a mesh without vertices.
+class EmptyValueFile final : public ValueFile {
+ public:
+  explicit EmptyValueFile(const std::string& path) : path_(path) {}
+  double next() override { throw_empty(path_); }
+  double at(std::uint64_t) override { throw_empty(path_); }
+  void check_count(std::uint64_t vertex_count) override {
+    if (vertex_count != 0) throw_empty(path_);
+  }
+  void check_unchanged() const override {}
+
+ private:
+  std::string path_;
+};
+
+}  // namespace
+
+std::unique_ptr<ValueFile> raw_values(std::shared_ptr<const InputFile> file) {
+  return std::make_unique<RawValueFile>(std::move(file));
+}
+
+std::unique_ptr<ValueFile> open_values(const std::string& path, std::optional<std::uint64_t> vertex_count) {
+  check_input_file(path);
+  if (is_regular_file(path) && File::open_for_reading(path).size() == 0) {
+    if (vertex_count && *vertex_count != 0) throw_empty(path);
+    return std::make_unique<EmptyValueFile>(path);
+  }
+  if (!path.ends_with(".f64")) return std::make_unique<TextValueFile>(path);
+  auto values = raw_values(std::make_shared<const InputFile>(path));
+  if (vertex_count) values->check_count(*vertex_count);
+  return values;
+}
+
+}  // namespace reeb::io

@@ -1,0 +1,117 @@
+// `reeb function`, and the functions that read the mesh before the run.
+#include <cmath>
+#include <cstring>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "tests/tools/program.h"
+
+namespace reeb::test {
+namespace {
+
+// A strip of unit squares along x, each divided; vertex 2 i + j is (i, j, 0).
+std::string strip(int squares, const std::string& more_vertices = {}, int more = 0) {
+  std::ostringstream off;
+  off << "OFF\n" << 2 * squares + 2 + more << ' ' << 2 * squares << " 0\n";
+  for (int i = 0; i <= squares; ++i) off << i << " 0 0\n" << i << " 1 0\n";
+  off << more_vertices;
+  for (int i = 0; i < squares; ++i) {
+    const int a = 2 * i;
+    off << "3 " << a << ' ' << a + 1 << ' ' << a + 2 << "\n3 " << a + 1 << ' ' << a + 3 << ' ' << a + 2 << '\n';
+  }
+  return off.str();
+}
+
+class Function : public ProgramTest {
+ protected:
+  std::vector<double> values(const std::string& mesh, const std::string& function) {
+    expect_success(reeb({"function", mesh, "-f", function, "-o", "v.txt", "--force", "--quiet"}));
+    expect_success(reeb({"function", mesh, "-f", function, "-o", "v.f64", "--force", "--quiet"}));
+    std::istringstream text(file("v.txt"));
+    std::vector<double> result;
+    for (double value = 0; text >> value;) result.push_back(value);
+    const std::string raw = file("v.f64");
+    EXPECT_EQ(raw.size(), 8 * result.size());
+    EXPECT_EQ(std::memcmp(raw.data(), result.data(), std::min(raw.size(), 8 * result.size())), 0) << function;
+    return result;
+  }
+};
+
+TEST_F(Function, WritesValuesInTheOrderOfVertices) {
+  write("s.off", strip(3));
+  EXPECT_EQ(values("s.off", "x"), (std::vector<double>{0, 0, 1, 1, 2, 2, 3, 3}));
+  EXPECT_EQ(values("s.off", "index"), (std::vector<double>{0, 1, 2, 3, 4, 5, 6, 7}));
+  EXPECT_EQ(values("s.off", "distance:3,0,0")[7], 1);
+  EXPECT_EQ(values("s.off", "distance:6"), values("s.off", "distance:3,0,0"));
+  const auto far = values("s.off", "geodesic:0");
+  for (std::size_t v = 0; v < far.size(); ++v)
+    EXPECT_NEAR(far[v], std::hypot(static_cast<double>(v / 2), static_cast<double>(v % 2)), 1e-12) << v;
+  EXPECT_EQ(values("s.off", "geodesic:0,6")[7], 1);
+}
+
+TEST_F(Function, APropertyOfThePlyGivesTheSameGraph) {
+  write("s.off", strip(40));
+  for (const std::string function : {"geodesic:3", "laplacian:1", "spectral", "distance:3", "random:7"}) {
+    SCOPED_TRACE(function);
+    expect_success(reeb({"function", "s.off", "-f", function, "-o", "p.ply", "--force", "--quiet"}));
+    expect_success(reeb({"function", "s.off", "-f", function, "-o", "p.f64", "--force", "--quiet"}));
+    for (const auto& [mesh, name, out] : {std::tuple{std::string("s.off"), function, "a.reeb"},
+                                          {"p.ply", "property:" + function, "b.reeb"},
+                                          {"s.off", "file:p.f64", "c.reeb"}})
+      expect_success(reeb({"compute", mesh, "-f", name, "-o", out, "--quiet", "--force"}));
+    for (const char* out : {"a.reeb", "b.reeb", "c.reeb"})
+      expect_success(reeb({"pairs", out, "-o", std::string(out) + ".csv", "--force"}));
+    EXPECT_EQ(file("a.reeb.csv"), file("b.reeb.csv"));
+    EXPECT_EQ(file("a.reeb.csv"), file("c.reeb.csv"));
+    expect_success(reeb({"verify", "a.reeb", "--mesh", "s.off"}));
+  }
+}
+
+TEST_F(Function, TheLaplacianOfAStripChangesSignAlongIt) {
+  write("s.off", strip(30));
+  const auto first = values("s.off", "laplacian:1"), second = values("s.off", "laplacian:2");
+  int changes = 0, more = 0;
+  for (std::size_t v = 2; v < first.size(); v += 2) {
+    changes += (first[v] > 0) != (first[v - 2] > 0);
+    more += (second[v] > 0) != (second[v - 2] > 0);
+  }
+  EXPECT_EQ(changes, 1);
+  EXPECT_EQ(more, 2);
+}
+
+TEST_F(Function, BadOnesAreToldApart) {
+  write("s.off", strip(3));
+  write("far.off", strip(3, "9 9 9\n", 1));
+  write("flat.off", "nOFF 2\n3 1 0\n0 0\n1 0\n0 1\n3 0 1 2\n");
+  const auto run = [this](const std::string& mesh, const std::string& function) {
+    return reeb({"compute", mesh, "-f", function, "-o", "o.reeb", "--quiet"});
+  };
+  expect_error(run("s.off", "distance:8"), 1,
+               "s.off: distance:8 names a vertex that does not exist: the mesh has 8 vertices");
+  expect_error(run("s.off", "geodesic:2,99"), 1, "s.off: geodesic:2,99 names vertex 99");
+  expect_error(run("s.off", "laplacian:8"), 1, "s.off: the largest component has 8 vertices");
+  expect_error(run("far.off", "geodesic:0"), 1, "far.off: geodesic:0 does not reach vertex 8");
+  expect_error(run("flat.off", "distance:1,2,3"), 1, "flat.off: distance:1,2,3 is a point with three coordinates");
+  for (const char* function : {"distance:", "distance:1,2", "distance:-1", "distance:1,2,x", "distance:1,2,3,4",
+                               "geodesic:", "geodesic:1,", "geodesic:x", "laplacian:", "laplacian:x", "laplacian:-1"})
+    expect_error(run("s.off", function), 2, std::string("\"") + function + "\" is not a function");
+  expect_error(run("s.off", "laplacian:0"), 2, "\"laplacian:0\" is not a function");
+  expect_error(
+      reeb({"compute", "-", "-f", "geodesic:0", "-o", "o.reeb"}, {.arguments = {}, .input = in_folder("s.off")}), 1,
+      "standard input: geodesic:0 reads the mesh before the run does");
+  expect_error(reeb({"function", "s.off", "-f", "x", "-o", "o.csv"}), 2, "values are not written as \".csv\"");
+  expect_error(reeb({"function", "s.off", "-f", "x", "-o", "s.off"}), 2);
+  EXPECT_EQ(files(), (std::vector<std::string>{"far.off", "flat.off", "s.off"}));
+}
+
+TEST_F(Function, OtherComponentsAreCountedOnce) {
+  write("far.off", strip(3, "9 9 9\n", 1));
+  const Outcome outcome = reeb({"function", "far.off", "-f", "spectral", "-o", "o.txt"});
+  expect_success(outcome);
+  EXPECT_NE(outcome.error.find("note: spectral is 0 at 1 vertex outside the largest component"), std::string::npos)
+      << outcome.error;
+}
+
+}  // namespace
+}  // namespace reeb::test

@@ -1,0 +1,197 @@
+// `reeb function MESH -f FUNC -o OUT`: the values of a function at the vertices of a mesh.
+#include <fmt/core.h>
+
+#include <bit>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "io/file/content_source.h"
+#include "io/file/file_name.h"
+#include "io/file/file_ostream.h"
+#include "io/file/temp_dir.h"
+#include "io/formats/create_mesh.h"
+#include "io/formats/open_mesh.h"
+#include "io/functions/function_source.h"
+#include "io/functions/mesh_field.h"
+#include "io/text/output_buffer.h"
+#include "libreeb/base/count_text.h"
+#include "libreeb/base/error.h"
+#include "libreeb/base/memory_budget.h"
+#include "libreeb/base/printable.h"
+#include "tools/commands/commands.h"
+#include "tools/library/run_files.h"
+#include "tools/program/options.h"
+#include "tools/program/output.h"
+#include "tools/program/progress.h"
+#include "tools/program/wrapping.h"
+
+namespace reeb::tools {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "values are written as they are in memory");
+
+struct FunctionOptions {
+  std::string mesh, format, function, output, temp_folder;
+  std::uint64_t memory_bytes = MemoryBudget::kUnlimited;
+  bool force = false, quiet = false;
+};
+
+// "" is the default, which depends on the mesh.
+io::FunctionSpec parse(const std::string& function) {
+  return function.empty() ? io::FunctionSpec() : io::parse_function(function);
+}
+
+// The mesh with its function, batch by batch.
+class Values {
+ public:
+  explicit Values(const FunctionOptions& options)
+      : options_(options), spec_(parse(options.function)), input_(options.mesh), bar_(options.quiet) {}
+
+  void write() {
+    input_.read([this] {
+      open();
+      if (io::name_suffix(options_.output) == ".ply")
+        write_mesh();
+      else
+        write_values(io::name_suffix(options_.output) == ".f64");
+      return 0;
+    });
+    bar_.clear();
+    if (options_.quiet) return;
+    for (const std::string& line : reader_->warnings()) print_line("note: " + printable(line));
+    for (const std::string& line : field_.notes) print_line("note: " + printable(line));
+    fmt::print(stderr, "wrote {}: {} for {}\n", printable(options_.output), spec_.text, count_of(vertices_, "vertex"));
+  }
+
+ private:
+  void open() {
+    ReadOptions read_options;
+    read_options.all_properties = io::name_suffix(options_.output) == ".ply";
+    read_options.properties = io::needed_properties(std::span(&spec_, 1));
+    reader_ = io::open_mesh(input_.open(), options_.mesh, read_options, options_.format);
+    if (options_.function.empty()) spec_ = io::default_function(reader_->info());
+    io::OpenMesh open_again;
+    if (input_.can_reopen())
+      open_again = [this] { return io::open_mesh(input_.open(), options_.mesh, {}, options_.format); };
+    field_ = std::move(
+        io::read_fields(std::span(&spec_, 1), open_again, options_.mesh, options_.temp_folder, options_.memory_bytes)
+            .front());
+    const auto& properties = read_options.all_properties ? reader_->info().property_names : read_options.properties;
+    source_ = std::make_unique<io::FunctionSource>(spec_, reader_->info(), properties, options_.mesh, &field_);
+    if (!source_->needs_lookup()) return;
+    if (!open_again)
+      throw Error(ErrorKind::kBadInput, spec_.text + " needs a vertex first, and this input can be read only once",
+                  "write the mesh to a file first, or name a point: distance:X,Y,Z")
+          .at(io::kStandardInputShown);
+    source_->look_up(*open_again());
+  }
+
+  // Reads the next batch and its values. False at the end.
+  bool read() {
+    if (!reader_->read(batch_)) {
+      source_->check_count(vertices_);
+      source_->check_unchanged();
+      return false;
+    }
+    values_.resize(batch_.vertex_count);
+    source_->evaluate(batch_, values_);
+    vertices_ += batch_.vertex_count;
+    bar_.update({"writing"}, reader_->bytes_read(), reader_->info().file_bytes);
+    return true;
+  }
+
+  void write_mesh() {
+    const MeshInfo& info = reader_->info();
+    io::MeshWriterOptions writing;
+    writing.dimension = info.dimension;
+    writing.property_names = info.property_names;
+    std::erase(writing.property_names, spec_.text);
+    writing.property_names.push_back(spec_.text);
+    writing.float64 = true;  // a value read again is the same
+    writing.existing = late_outputs(options_.force);
+    writing.temp_folder = options_.temp_folder;
+    const auto writer = io::create_mesh(options_.output, writing);
+    while (read()) {
+      // A property of the same name is replaced.
+      for (std::size_t k = info.property_names.size(); k-- > 0;)
+        if (info.property_names[k] == spec_.text)
+          batch_.properties.erase(batch_.properties.begin() + static_cast<std::ptrdiff_t>(k));
+      batch_.properties.push_back(values_);
+      writer->write(batch_);
+    }
+    input_.check_unchanged();
+    writer->close();
+  }
+
+  void write_values(bool raw) {
+    io::AtomicFile file(options_.output, {.existing = late_outputs(options_.force)});
+    if (raw) {
+      while (read()) file.out().append(std::as_bytes(std::span(values_)));
+    } else {
+      io::FileOstream stream(file.out());
+      io::OutputBuffer out(stream);
+      while (read())
+        for (const double value : values_) out << value << '\n';
+      out.flush();
+    }
+    input_.check_unchanged();
+    file.commit();
+  }
+
+  const FunctionOptions& options_;
+  io::FunctionSpec spec_;
+  io::Input input_;
+  ProgressBar bar_;
+  std::unique_ptr<MeshReader> reader_;
+  io::MeshField field_;
+  std::unique_ptr<io::FunctionSource> source_;
+  MeshBatch batch_;
+  std::vector<double> values_;
+  std::uint64_t vertices_ = 0;
+};
+
+void run_function(FunctionOptions options) {
+  const std::string suffix = io::name_suffix(options.output);
+  if (suffix != ".f64" && suffix != ".txt" && suffix != ".ply")
+    throw Error(ErrorKind::kUsage, "values are not written as \"" + suffix + "\"",
+                "name an output that ends in .f64, .txt or .ply");
+  const io::FunctionSpec spec = parse(options.function);
+  if (options.temp_folder.empty()) options.temp_folder = io::TempDir::default_folder(options.output);
+  RunFiles files;
+  files.add_input(options.mesh, "the mesh");
+  if (spec.kind == io::FunctionSpec::Kind::kFile) files.add_input(spec.argument, "the file of values");
+  files.add_output(options.output, "the output", existing_outputs(options.force));
+  files.check();
+  Values(options).write();
+}
+
+}  // namespace
+
+void add_function(CLI::App& program) {
+  auto options = std::make_shared<FunctionOptions>();
+  CLI::App* command = program.add_subcommand("function", "Write the values of a function at the vertices of a mesh");
+  command->add_option("MESH", options->mesh, "Mesh of any format, also as .gz and .zst; - reads standard input")
+      ->required()
+      ->type_name("");
+  command->add_option("-f,--function", options->function, "The function, as for `reeb compute`")->type_name("FUNC");
+  command
+      ->add_option("-o,--output", options->output,
+                   "File to write: .f64 (raw float64, little endian), .txt (a number a line), or .ply (the mesh, with "
+                   "the function as a property of this name)")
+      ->required()
+      ->type_name("FILE");
+  add_format(*command, options->format);
+  add_size(*command, "--memory", options->memory_bytes, "Memory that the run may use: 64M, 1.5GiB (default: no limit)");
+  command
+      ->add_option("--temp-dir", options->temp_folder,
+                   "Folder for temporary files (default: $TMPDIR, or the folder of the output)")
+      ->type_name("DIR");
+  command->add_flag("--force", options->force, "Replace an existing output");
+  command->add_flag("--quiet", options->quiet, "Print no progress and no notes");
+  command->footer("Example:\n  reeb function scan.ply -f geodesic:0 -o scan-distance.ply");
+  command->callback([options] { run_function(*options); });
+}
+
+}  // namespace reeb::tools
