@@ -73,6 +73,7 @@ class Input {
   const std::string& path() const { return path_; }
   // Its content from the start. A pipe has it once.
   std::unique_ptr<ContentSource> open() const;
+  // Whether it is a file, and no pipe.
   bool can_reopen() const { return file_ != nullptr; }
   // As InputFile; a pipe cannot change.
   void check_unchanged(const char* content = "the mesh") const;

@@ -12,6 +12,7 @@ std::string count_of(std::uint64_t count, std::string_view noun) {
   std::string text = with_commas(count) + ' ';
   if (count == 1) return text.append(noun);
   if (noun.ends_with("ex")) return text.append(noun.substr(0, noun.size() - 2)).append("ices");
+  if (noun.ends_with("is")) return text.append(noun.substr(0, noun.size() - 2)).append("es");
   return text.append(noun).append("s");
 }
 

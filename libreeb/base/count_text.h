@@ -10,7 +10,8 @@ namespace reeb {
 // "1,234,567".
 std::string with_commas(std::uint64_t count);
 
-// "1 loop", "2 loops", "1,234 vertices": the noun follows the count. Nouns that end in "ex" get "ices", others an s.
+// "1 loop", "2 loops", "1,234 vertices": the noun follows the count. Nouns that end in "ex" get "ices", in "is" "es",
+// others an s.
 std::string count_of(std::uint64_t count, std::string_view noun);
 
 }  // namespace reeb

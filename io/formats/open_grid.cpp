@@ -1,0 +1,90 @@
+#include "io/formats/open_grid.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+#include "io/file/file_name.h"
+#include "io/images/image_reader.h"
+#include "io/images/nrrd.h"
+#include "libreeb/base/error.h"
+
+namespace reeb::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct NamedFormat {
+  std::string_view name;
+  ImageFormat format;
+};
+constexpr NamedFormat kFormats[] = {{"nrrd", ImageFormat::kNrrd}, {"raw", ImageFormat::kRaw}};
+
+Image parse(ImageFormat format, ContentSource& source, const GridOptions& options) {
+  switch (format) {
+    case ImageFormat::kNrrd:
+      return parse_nrrd(source);
+    case ImageFormat::kRaw:
+      break;
+  }
+  return raw_image(options.raw);
+}
+
+// A header of a stranger must not make the program read files elsewhere.
+std::string data_path(const std::string& header, const std::string& data_file) {
+  const fs::path name(data_file);
+  if (header == "-")
+    throw Error(ErrorKind::kBadInput, "the data are in another file, which standard input does not have",
+                "name the file of the header");
+  if (name.is_absolute() || std::ranges::find(name, fs::path("..")) != name.end())
+    throw Error(ErrorKind::kBadInput, "the data file \"" + data_file + "\" is not in the folder of the header",
+                "put both into one folder, and name the data file without its folder in the header");
+  return (fs::path(header).parent_path() / name).string();
+}
+
+}  // namespace
+
+std::optional<ImageFormat> image_format_named(const std::string& name) {
+  for (const NamedFormat& known : kFormats)
+    if (name == known.name) return known.format;
+  return std::nullopt;
+}
+
+std::optional<ImageFormat> detect_image(ContentSource& source, const std::string& path) {
+  const std::string_view head = source.view(0);
+  if (is_nrrd(head)) return ImageFormat::kNrrd;
+  std::string name = path;
+  if (const std::string suffix = name_suffix(name); suffix == ".gz" || suffix == ".zst")
+    name.resize(name.size() - suffix.size());
+  if (name_suffix(name) == ".raw") return ImageFormat::kRaw;
+  return std::nullopt;
+}
+
+std::unique_ptr<GridReader> open_grid(const Input& input, std::unique_ptr<ContentSource> source,
+                                      const GridOptions& options) {
+  const std::string name = source->name();
+  try {
+    const auto format = options.format ? options.format : detect_image(*source, input.path());
+    if (!format)
+      throw Error(ErrorKind::kBadInput, "this is no image of a known format", "NRRD images and raw files are read")
+          .at(name, "0");
+    Image image = parse(*format, *source, options);
+    if (image.data_file.empty()) return read_image(std::move(image), input, std::move(source));
+    Input data(data_path(input.path(), image.data_file));
+    source = data.open();
+    // A file that is packed as a whole is unpacked already.
+    const bool unpacked = data.can_reopen() && source->file() == nullptr;
+    if (unpacked && image.packing == Packing::kZlib) image.packing = Packing::kPlain;
+    return read_image(std::move(image), std::move(data), std::move(source));
+  } catch (Error& error) {
+    error.at(name);
+    throw;
+  }
+}
+
+std::unique_ptr<GridReader> open_grid(const std::string& path, const GridOptions& options) {
+  const Input input(path);
+  return open_grid(input, input.open(), options);
+}
+
+}  // namespace reeb::io

@@ -1,0 +1,39 @@
+// Opens an image or height field of any supported format as a regular grid.
+//
+// Formats, by their content or by name (GridOptions::format): nrrd; raw, which needs GridOptions::raw. Files packed
+// with gzip and zstd are unpacked.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "io/file/content_source.h"
+#include "io/images/raw_grid.h"
+#include "libreeb/port/grid_reader.h"
+
+namespace reeb::io {
+
+enum class ImageFormat { kNrrd, kRaw };
+
+// "nrrd", "raw"; nothing for another name.
+std::optional<ImageFormat> image_format_named(const std::string& name);
+
+// What the content is, or, where it says nothing, what `path` says; nothing if it is none of these. On a pipe it waits
+// for the first 64 KB.
+std::optional<ImageFormat> detect_image(ContentSource& source, const std::string& path);
+
+struct GridOptions {
+  std::optional<ImageFormat> format;  // nothing: detect it
+  RawGrid raw;                        // what a raw file holds
+};
+
+// Reads the header. `source` is the content of `input`; views of its beginning may have been taken. A data file that
+// the header names is opened, too: it must be in the folder of the header or below it. THROWS: Error{kBadInput} with
+// file, position and a hint: unknown or damaged, or the file is too short for what the
+//         header announces; Error{kUsage}: a raw file without its size.
+std::unique_ptr<GridReader> open_grid(const Input& input, std::unique_ptr<ContentSource> source,
+                                      const GridOptions& options = {});
+std::unique_ptr<GridReader> open_grid(const std::string& path, const GridOptions& options = {});
+
+}  // namespace reeb::io

@@ -1,0 +1,58 @@
+// An image as its header describes it: the grid, and how the values are stored.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "io/images/byte_input.h"
+#include "io/images/voxel_type.h"
+#include "libreeb/port/grid_reader.h"
+
+namespace reeb::io {
+
+enum class Packing {
+  kPlain,
+  kZlib,  // or gzip
+  kHex,   // two digits a byte
+  kText,  // numbers
+  kOwn    // Image::open_bytes
+};
+
+struct Image {
+  GridInfo info;
+
+  VoxelType type = VoxelType::kFloat64;
+  bool big_endian = false;
+  Packing packing = Packing::kPlain;
+  // Value = stored * slope + intercept, if it is scaled.
+  bool scaled = false;
+  double slope = 1, intercept = 0;
+
+  // The file of the data, as the header names it; empty: the data follow the header.
+  std::string data_file;
+  // Where the data are: after `offset` bytes of the content and then `skip_lines` lines, of which, unpacked,
+  // `skip_bytes` are skipped; or at the end of the content.
+  std::uint64_t offset = 0;
+  std::uint64_t skip_lines = 0, skip_bytes = 0;
+  bool ends_content = false;
+  std::uint64_t text_line = 1;  // the number of the line at `offset`
+  bool must_end = false;        // bytes after the last value are an error
+
+  // kOwn: from the content to the bytes of the values, and the least number of bytes that the content needs for them.
+  std::function<std::unique_ptr<ByteInput>(std::unique_ptr<ContentSource>)> open_bytes;
+  std::uint64_t least_bytes = 0;
+  bool own_text = false;  // those bytes are text
+
+  std::vector<std::string> warnings;
+};
+
+// Sets axes and sizes. THROWS: Error{kBadInput} without a place: not 2 or 3 axes, a size of 0, more than 2^56 values.
+// REQUIRES: info.components is set.
+void set_size(GridInfo& info, std::span<const std::uint64_t> sizes);
+
+}  // namespace reeb::io
