@@ -8,8 +8,8 @@
 # Needs apt-get, and root or sudo only if something is missing. Never asks a question.
 set -euo pipefail
 
-packages=(cmake ninja-build g++ pkg-config libtbb-dev libzstd-dev zlib1g-dev libboost-iostreams-dev
-          libcli11-dev libfmt-dev nlohmann-json3-dev libfast-float-dev libxxhash-dev
+packages=(cmake ninja-build g++ pkg-config libtbb-dev libzstd-dev liblz4-dev zlib1g-dev libexpat1-dev
+          libboost-iostreams-dev libcli11-dev libfmt-dev nlohmann-json3-dev libfast-float-dev libxxhash-dev
           libeigen3-dev libspectra-dev)
 test_packages=(libgtest-dev libbenchmark-dev zstd clang-format-14)
 

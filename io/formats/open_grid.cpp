@@ -5,8 +5,13 @@
 #include <utility>
 
 #include "io/file/file_name.h"
+#include "io/images/esri_grid.h"
 #include "io/images/image_reader.h"
+#include "io/images/meta_image.h"
+#include "io/images/nifti.h"
 #include "io/images/nrrd.h"
+#include "io/images/numpy.h"
+#include "io/images/vti.h"
 #include "libreeb/base/error.h"
 
 namespace reeb::io {
@@ -18,12 +23,25 @@ struct NamedFormat {
   std::string_view name;
   ImageFormat format;
 };
-constexpr NamedFormat kFormats[] = {{"nrrd", ImageFormat::kNrrd}, {"raw", ImageFormat::kRaw}};
+constexpr NamedFormat kFormats[] = {{"nrrd", ImageFormat::kNrrd},     {"nifti", ImageFormat::kNifti},
+                                    {"mha", ImageFormat::kMetaImage}, {"npy", ImageFormat::kNumpy},
+                                    {"vti", ImageFormat::kVti},       {"asc", ImageFormat::kEsriGrid},
+                                    {"raw", ImageFormat::kRaw}};
 
 Image parse(ImageFormat format, ContentSource& source, const GridOptions& options) {
   switch (format) {
     case ImageFormat::kNrrd:
       return parse_nrrd(source);
+    case ImageFormat::kNifti:
+      return parse_nifti(source);
+    case ImageFormat::kMetaImage:
+      return parse_meta_image(source);
+    case ImageFormat::kNumpy:
+      return parse_numpy(source);
+    case ImageFormat::kVti:
+      return parse_vti(source);
+    case ImageFormat::kEsriGrid:
+      return parse_esri_grid(source);
     case ImageFormat::kRaw:
       break;
   }
@@ -39,7 +57,10 @@ std::string data_path(const std::string& header, const std::string& data_file) {
   if (name.is_absolute() || std::ranges::find(name, fs::path("..")) != name.end())
     throw Error(ErrorKind::kBadInput, "the data file \"" + data_file + "\" is not in the folder of the header",
                 "put both into one folder, and name the data file without its folder in the header");
-  return (fs::path(header).parent_path() / name).string();
+  std::string path = (fs::path(header).parent_path() / name).string();
+  const std::string packed = path + ".gz";
+  if (!fs::exists(path) && fs::exists(packed)) path = packed;
+  return path;
 }
 
 }  // namespace
@@ -53,10 +74,16 @@ std::optional<ImageFormat> image_format_named(const std::string& name) {
 std::optional<ImageFormat> detect_image(ContentSource& source, const std::string& path) {
   const std::string_view head = source.view(0);
   if (is_nrrd(head)) return ImageFormat::kNrrd;
+  if (is_nifti(head)) return ImageFormat::kNifti;
+  if (is_meta_image(head)) return ImageFormat::kMetaImage;
+  if (is_numpy(head)) return ImageFormat::kNumpy;
+  if (is_vti(head)) return ImageFormat::kVti;
+  if (is_esri_grid(head)) return ImageFormat::kEsriGrid;
   std::string name = path;
   if (const std::string suffix = name_suffix(name); suffix == ".gz" || suffix == ".zst")
     name.resize(name.size() - suffix.size());
   if (name_suffix(name) == ".raw") return ImageFormat::kRaw;
+  if (name_suffix(name) == ".asc") return ImageFormat::kEsriGrid;
   return std::nullopt;
 }
 
@@ -66,9 +93,17 @@ std::unique_ptr<GridReader> open_grid(const Input& input, std::unique_ptr<Conten
   try {
     const auto format = options.format ? options.format : detect_image(*source, input.path());
     if (!format)
-      throw Error(ErrorKind::kBadInput, "this is no image of a known format", "NRRD images and raw files are read")
+      throw Error(ErrorKind::kBadInput, "this is no image of a known format",
+                  "NRRD, NIfTI-1, MetaImage, VTI, NumPy, ESRI ASCII and raw images are read")
           .at(name, "0");
     Image image = parse(*format, *source, options);
+    if (image.from_start) {
+      if (!input.can_reopen())
+        throw Error(ErrorKind::kBadInput, "the header is too long for an input that can be read only once",
+                    "write the image to a file, and name that")
+            .at(name);
+      source = input.open();
+    }
     if (image.data_file.empty()) return read_image(std::move(image), input, std::move(source));
     Input data(data_path(input.path(), image.data_file));
     source = data.open();

@@ -14,9 +14,9 @@
 
 namespace reeb::io {
 
-enum class ImageFormat { kNrrd, kRaw };
+enum class ImageFormat { kNrrd, kNifti, kMetaImage, kNumpy, kVti, kEsriGrid, kRaw };
 
-// "nrrd", "raw"; nothing for another name.
+// By one of these names: nrrd nifti mha npy vti asc raw.
 std::optional<ImageFormat> image_format_named(const std::string& name);
 
 // What the content is, or, where it says nothing, what `path` says; nothing if it is none of these. On a pipe it waits

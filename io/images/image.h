@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "io/images/byte_input.h"
+#include "io/decoding/byte_input.h"
 #include "io/images/voxel_type.h"
 #include "libreeb/port/grid_reader.h"
 
@@ -46,7 +46,8 @@ struct Image {
   // kOwn: from the content to the bytes of the values, and the least number of bytes that the content needs for them.
   std::function<std::unique_ptr<ByteInput>(std::unique_ptr<ContentSource>)> open_bytes;
   std::uint64_t least_bytes = 0;
-  bool own_text = false;  // those bytes are text
+  bool own_text = false;    // those bytes are text
+  bool from_start = false;  // the content must be opened again for them
 
   std::vector<std::string> warnings;
 };

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include "io/images/hex_input.h"
-#include "io/images/inflate_input.h"
+#include "io/decoding/hex_input.h"
+#include "io/decoding/inflate_input.h"
 #include "io/images/value_stream.h"
 #include "libreeb/base/count_text.h"
 #include "libreeb/base/error.h"

@@ -7,7 +7,7 @@
 #include <span>
 #include <string>
 
-#include "io/images/byte_input.h"
+#include "io/decoding/byte_input.h"
 #include "io/images/voxel_type.h"
 
 namespace reeb::io {

@@ -1,4 +1,4 @@
-#include "io/images/hex_input.h"
+#include "io/decoding/hex_input.h"
 
 #include <utility>
 #include <vector>

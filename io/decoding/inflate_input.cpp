@@ -1,4 +1,4 @@
-#include "io/images/inflate_input.h"
+#include "io/decoding/inflate_input.h"
 
 #include <zlib.h>
 

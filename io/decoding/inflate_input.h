@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "io/images/byte_input.h"
+#include "io/decoding/byte_input.h"
 
 namespace reeb::io {
 

@@ -1,0 +1,182 @@
+#include "io/images/meta_image.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "io/images/header_text.h"
+#include "libreeb/base/count_text.h"
+#include "libreeb/base/error.h"
+
+namespace reeb::io {
+namespace {
+
+constexpr const char* kHint = "fix the header, or write the file again";
+
+struct TypeName {
+  std::string_view name;
+  VoxelType type;
+};
+// MET_LONG has 4 bytes wherever it was written.
+constexpr TypeName kTypes[] = {
+    {"met_char", VoxelType::kInt8},         {"met_uchar", VoxelType::kUint8},   {"met_short", VoxelType::kInt16},
+    {"met_ushort", VoxelType::kUint16},     {"met_int", VoxelType::kInt32},     {"met_uint", VoxelType::kUint32},
+    {"met_long", VoxelType::kInt32},        {"met_ulong", VoxelType::kUint32},  {"met_long_long", VoxelType::kInt64},
+    {"met_ulong_long", VoxelType::kUint64}, {"met_float", VoxelType::kFloat32}, {"met_double", VoxelType::kFloat64}};
+
+class Header {
+ public:
+  Header(std::string_view head, const std::string& name) : text_(head, name), name_(name) {}
+
+  Image parse() {
+    while (!ended_) {
+      if (!text_.next_line()) fail_whole("the header has no ElementDataFile, which must be its last line");
+      if (!without_blanks(text_.line()).empty()) field();
+    }
+    if (!type_) fail_whole("the header has no ElementType");
+    if (sizes_.empty()) fail_whole("the header has no DimSize");
+    image_.type = *type_;
+    image_.info.format = std::string("MetaImage") + (compressed_ ? " zlib" : "");
+    if (channels_ == 0 || channels_ > 4096)
+      fail_whole("a vertex has " + count_of(channels_, "component") + "; 1 to 4,096 are read");
+    image_.info.components = static_cast<unsigned>(channels_);
+    set_size(image_.info, sizes_);
+    image_.packing = !binary_ ? Packing::kText : compressed_ ? Packing::kZlib : Packing::kPlain;
+    take_position();
+    take_header_size();
+    if (image_.data_file.empty()) {
+      image_.offset = text_.offset();
+      image_.text_line = text_.line_number() + 1;
+    }
+    return std::move(image_);
+  }
+
+ private:
+  [[noreturn]] void fail_whole(const std::string& what) const {
+    throw Error(ErrorKind::kBadInput, what, kHint).at(name_, std::to_string(text_.line_number()) + ":1");
+  }
+
+  void field() {
+    const std::size_t equal = text_.line().find('=');
+    if (equal == std::string_view::npos) text_.fail("this line is no field (\"Name = value\")", kHint);
+    const std::string name = lower_case(without_blanks(text_.line().substr(0, equal)));
+    const std::string_view value = without_blanks(text_.line().substr(equal + 1));
+    if (name == "objecttype") {
+      if (lower_case(value) != "image") text_.fail(value, "this is no image, but " + quoted(value), "name an image");
+    } else if (name == "ndims") {
+      dimensions_ = text_.count(value, "number of dimensions");
+      if (dimensions_ != 2 && dimensions_ != 3)
+        text_.fail(value, "the image has " + count_of(dimensions_, "axis"), "images with 2 and 3 axes are read");
+    } else if (name == "dimsize") {
+      for (const std::string_view word : words(value, 1)) sizes_.push_back(text_.count(word, "size"));
+    } else if (name == "elementtype") {
+      take_type(value);
+    } else if (name == "elementnumberofchannels") {
+      channels_ = text_.count(value, "number of components");
+    } else if (name == "elementspacing") {
+      spacing_ = numbers(value, 1);
+    } else if (name == "elementsize") {
+      element_size_ = numbers(value, 1);
+    } else if (name == "offset" || name == "position" || name == "origin") {
+      origin_ = numbers(value, 1);
+    } else if (name == "transformmatrix" || name == "rotation" || name == "orientation") {
+      rotation_ = numbers(value, dimensions_);
+    } else if (name == "binarydata") {
+      binary_ = flag(value);
+    } else if (name == "binarydatabyteordermsb" || name == "elementbyteordermsb") {
+      image_.big_endian = flag(value);
+    } else if (name == "compresseddata") {
+      compressed_ = flag(value);
+    } else if (name == "headersize") {
+      header_size_ = text_.integer(value, "size of the header of the data file");
+      if (header_size_ < -1) text_.fail(value, "a header size is not below -1", kHint);
+    } else if (name == "elementdatafile") {
+      take_data_file(value);
+    }
+  }
+
+  void take_type(std::string_view value) {
+    std::string name = lower_case(value);
+    if (name.ends_with("_array")) name.resize(name.size() - 6);
+    const auto* const found = std::ranges::find(kTypes, name, &TypeName::name);
+    if (found == std::end(kTypes))
+      text_.fail(value, "values of type " + quoted(value) + " are not read",
+                 "integers of 1, 2, 4 and 8 bytes, MET_FLOAT and MET_DOUBLE are read");
+    type_ = found->type;
+  }
+
+  void take_data_file(std::string_view value) {
+    const std::string lower = lower_case(value);
+    if (value.empty()) text_.fail(value, "the data file has no name", kHint);
+    if (lower.starts_with("list") || value.find('%') != std::string_view::npos)
+      text_.fail(value, "the data are spread over several files, which is not read", "write them into one file first");
+    if (lower != "local") image_.data_file = std::string(value);
+    ended_ = true;
+  }
+
+  // As many words as the image has dimensions, `times` over.
+  std::vector<std::string_view> words(std::string_view value, std::uint64_t times) const {
+    if (dimensions_ == 0) text_.fail("NDims must come before this", kHint);
+    auto all = split_words(value);
+    if (all.size() != dimensions_ * times)
+      text_.fail(value, count_of(all.size(), "value") + " for " + count_of(dimensions_, "axis"), kHint);
+    return all;
+  }
+
+  std::vector<double> numbers(std::string_view value, std::uint64_t times) const {
+    std::vector<double> all;
+    for (const std::string_view word : words(value, times)) all.push_back(text_.number(word, "number of an axis"));
+    return all;
+  }
+
+  bool flag(std::string_view value) const {
+    const std::string lower = lower_case(value);
+    if (lower == "true" || lower == "1") return true;
+    if (lower != "false" && lower != "0") text_.fail(value, quoted(value) + " is neither True nor False", kHint);
+    return false;
+  }
+
+  void take_position() {
+    GridInfo& info = image_.info;
+    const auto& spacing = spacing_.empty() ? element_size_ : spacing_;
+    for (std::size_t k = 0; k < dimensions_; ++k) {
+      const double length = spacing.empty() ? 1 : spacing[k];
+      if (!origin_.empty()) info.origin[k] = origin_[k];
+      // The matrix has the direction of an axis in each row.
+      for (std::size_t c = 0; c < dimensions_; ++c)
+        info.step[k][c] = length * (rotation_.empty() ? (k == c ? 1 : 0) : rotation_[k * dimensions_ + c]);
+    }
+  }
+
+  void take_header_size() {
+    image_.ends_content = header_size_ == -1;
+    if (header_size_ <= 0) return;
+    if (image_.packing == Packing::kPlain)
+      image_.skip_bytes = static_cast<std::uint64_t>(header_size_);
+    else
+      image_.offset = static_cast<std::uint64_t>(header_size_);
+  }
+
+  HeaderText text_;
+  std::string name_;
+  Image image_;
+  std::uint64_t dimensions_ = 0, channels_ = 1;
+  std::vector<std::uint64_t> sizes_;
+  std::optional<VoxelType> type_;
+  std::vector<double> spacing_, element_size_, origin_, rotation_;
+  bool binary_ = true, compressed_ = false, ended_ = false;
+  std::int64_t header_size_ = 0;
+};
+
+}  // namespace
+
+bool is_meta_image(std::string_view head) {
+  const std::string_view line = head.substr(0, head.find('\n'));
+  const std::size_t equal = line.find('=');
+  if (equal == std::string_view::npos) return false;
+  const std::string_view name = without_blanks(line.substr(0, equal));
+  return name == "ObjectType" || name == "NDims";
+}
+
+Image parse_meta_image(ContentSource& source) { return Header(source.view(0), source.name()).parse(); }
+
+}  // namespace reeb::io

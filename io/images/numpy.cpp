@@ -1,0 +1,117 @@
+#include "io/images/numpy.h"
+
+#include <algorithm>
+#include <charconv>
+#include <system_error>
+
+#include "io/images/header_text.h"
+#include "io/mesh/scalar_bytes.h"
+#include "libreeb/base/error.h"
+
+namespace reeb::io {
+namespace {
+
+constexpr std::string_view kMagic = "\x93NUMPY";
+
+class Header {
+ public:
+  Header(std::string_view head, std::string name) : name_(std::move(name)) {
+    const std::size_t length_bytes = head.size() > 6 && head[6] == 1 ? 2 : 4;
+    if (head.size() < 8 + length_bytes) fail(head.size(), "the file ends inside its header");
+    if (head[6] < 1 || head[6] > 3) fail(6, "version " + std::to_string(head[6]) + " of the format is not read");
+    const std::uint64_t length = length_bytes == 2 ? load_scalar<std::uint16_t>(head.data() + 8, false)
+                                                   : load_scalar<std::uint32_t>(head.data() + 8, false);
+    begin_ = 8 + length_bytes;
+    if (length > head.size() - begin_)
+      fail(8, head.size() < ContentSource::kLookahead ? "the file ends inside its header"
+                                                      : "the header is longer than that of an array of numbers");
+    text_ = head.substr(begin_, static_cast<std::size_t>(length));
+  }
+
+  Image parse() const {
+    Image image;
+    image.info.format = "NumPy array";
+    take_type(image);
+    take_shape(image.info);
+    image.offset = begin_ + text_.size();
+    return image;
+  }
+
+ private:
+  [[noreturn]] void fail(std::uint64_t offset, const std::string& what,
+                         const std::string& hint = "the file is cut or damaged; get a whole copy") const {
+    throw Error(ErrorKind::kBadInput, what, hint).at(name_, std::to_string(offset));
+  }
+  [[noreturn]] void fail(std::string_view part, const std::string& what, const std::string& hint) const {
+    fail(begin_ + static_cast<std::uint64_t>(part.data() - text_.data()), what, hint);
+  }
+
+  // The text after a key of the dictionary and its colon.
+  std::string_view value(std::string_view key) const {
+    for (const char quote : {'\'', '"'}) {
+      std::string quoted_key(1, quote);
+      quoted_key.append(key).push_back(quote);
+      const std::size_t at = text_.find(quoted_key);
+      if (at == std::string_view::npos) continue;
+      const std::string_view rest = without_blanks(text_.substr(at + quoted_key.size()));
+      if (rest.starts_with(':')) return without_blanks(rest.substr(1));
+    }
+    fail(begin_, "the header has no " + std::string(key));
+  }
+
+  void take_type(Image& image) const {
+    const std::string_view rest = value("descr");
+    const std::size_t end = rest.empty() ? 0 : rest.find(rest.front(), 1);
+    const bool is_quoted = !rest.empty() && (rest.front() == '\'' || rest.front() == '"');
+    if (!is_quoted || end == std::string_view::npos || end < 3)
+      fail(rest, "an array of records is not read", "save an array of numbers");
+    const std::string_view word = rest.substr(1, end - 1);
+    image.big_endian = word[0] == '>';
+    const std::string_view type = word.substr(1);
+    static constexpr std::pair<std::string_view, VoxelType> kTypes[] = {
+        {"i1", VoxelType::kInt8},   {"u1", VoxelType::kUint8},   {"b1", VoxelType::kUint8},  {"i2", VoxelType::kInt16},
+        {"u2", VoxelType::kUint16}, {"i4", VoxelType::kInt32},   {"u4", VoxelType::kUint32}, {"i8", VoxelType::kInt64},
+        {"u8", VoxelType::kUint64}, {"f4", VoxelType::kFloat32}, {"f8", VoxelType::kFloat64}};
+    const auto* const found = std::ranges::find(kTypes, type, [](const auto& known) { return known.first; });
+    if (found == std::end(kTypes) || std::string_view("<>|=").find(word[0]) == std::string_view::npos)
+      fail(word, "values of type " + quoted(word) + " are not read",
+           "save the array as integers of 1, 2, 4 or 8 bytes, float32 or float64");
+    image.type = found->second;
+  }
+
+  void take_shape(GridInfo& info) const {
+    const std::string_view rest = value("shape");
+    const std::size_t end = rest.find(')');
+    if (!rest.starts_with('(') || end == std::string_view::npos) fail(rest, "the shape is no list", kHint);
+    std::vector<std::uint64_t> sizes;
+    for (std::string_view left = rest.substr(1, end - 1); !without_blanks(left).empty();) {
+      const std::size_t comma = std::min(left.find(','), left.size());
+      std::string_view word = without_blanks(left.substr(0, comma));
+      left.remove_prefix(std::min(comma + 1, left.size()));
+      if (word.ends_with('L')) word.remove_suffix(1);  // of Python 2
+      std::uint64_t size = 0;
+      const auto parsed = std::from_chars(word.data(), word.data() + word.size(), size);
+      if (parsed.ec != std::errc{} || parsed.ptr != word.data() + word.size())
+        fail(word, "the shape has " + quoted(word) + ", which is no size", kHint);
+      sizes.push_back(size);
+    }
+    const std::string_view order = value("fortran_order");
+    if (!order.starts_with("True") && !order.starts_with("False")) fail(order, "neither True nor False", kHint);
+    if (order.starts_with("False")) std::ranges::reverse(sizes);
+    set_size(info, sizes);
+  }
+
+  static constexpr const char* kHint = "save the array again";
+
+  std::string name_;
+  std::string_view text_;
+  std::uint64_t begin_ = 0;
+};
+
+}  // namespace
+
+bool is_numpy(std::string_view head) { return head.starts_with(kMagic); }
+
+Image parse_numpy(ContentSource& source) { return Header(source.view(0), source.name()).parse(); }
+
+}  // namespace reeb::io

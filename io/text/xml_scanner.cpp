@@ -1,0 +1,118 @@
+#include "io/text/xml_scanner.h"
+
+#include <expat.h>
+
+#include <algorithm>
+#include <exception>
+#include <new>
+
+#include "libreeb/base/error.h"
+
+namespace reeb::io {
+
+std::string attribute(const XmlAttributes& attributes, std::string_view name) {
+  for (const auto& [key, value] : attributes)
+    if (key == name) return value;
+  return {};
+}
+
+struct XmlScanner::State {
+  // Expat holds a tag or a comment until it is whole.
+  static constexpr std::uint64_t kMostHeld = std::uint64_t{1} << 20;
+  static constexpr std::size_t kStepBytes = ContentSource::kLookahead;
+
+  ContentSource* source = nullptr;
+  Handler* handler = nullptr;
+  XML_Parser parser = nullptr;
+  std::uint64_t offset = 0, view_offset = 0;
+  bool ended = false;
+  std::exception_ptr failure;  // Expat is in C, so an exception must not pass through it
+  bool has_document_type = false;
+
+  template <class Call>
+  void guarded(const Call& call) {
+    if (ended) return;
+    try {
+      ended = !call();
+    } catch (...) {
+      failure = std::current_exception();
+      ended = true;
+    }
+    if (ended) XML_StopParser(parser, XML_FALSE);
+  }
+
+  static void on_start(void* user, const char* name, const char** list) {
+    auto* const state = static_cast<State*>(user);
+    state->guarded([&] {
+      XmlAttributes attributes;
+      for (; *list != nullptr; list += 2) attributes.emplace_back(list[0], list[1]);
+      return state->handler->start(name, attributes);
+    });
+  }
+  static void on_end(void* user, const char* name) {
+    auto* const state = static_cast<State*>(user);
+    state->guarded([&] { return state->handler->end(name); });
+  }
+  static void on_text(void* user, const char* text, int length) {
+    auto* const state = static_cast<State*>(user);
+    state->guarded([&] { return state->handler->text({text, static_cast<std::size_t>(length)}); });
+  }
+  // Entities can stand for very much text, and no image has them.
+  static void on_document_type(void* user, const char*, const char*, const char*, int) {
+    auto* const state = static_cast<State*>(user);
+    state->has_document_type = true;
+    state->guarded([] { return false; });
+  }
+};
+
+XmlScanner::XmlScanner(ContentSource& source, Handler& handler) : state_(std::make_unique<State>()) {
+  state_->source = &source;
+  state_->handler = &handler;
+  state_->parser = XML_ParserCreate(nullptr);
+  if (state_->parser == nullptr) throw std::bad_alloc();
+  XML_SetUserData(state_->parser, state_.get());
+  XML_SetElementHandler(state_->parser, &State::on_start, &State::on_end);
+  XML_SetCharacterDataHandler(state_->parser, &State::on_text);
+  XML_SetStartDoctypeDeclHandler(state_->parser, &State::on_document_type);
+}
+
+XmlScanner::~XmlScanner() { XML_ParserFree(state_->parser); }
+
+bool XmlScanner::advance() {
+  State& state = *state_;
+  if (state.ended) return false;
+  state.view_offset = state.offset;
+  const std::string_view view = state.source->view(state.offset).substr(0, State::kStepBytes);
+  state.offset += view.size();
+  const bool is_last = view.empty();
+  const auto status = XML_Parse(state.parser, view.data(), static_cast<int>(view.size()), is_last ? 1 : 0);
+  if (state.failure) std::rethrow_exception(state.failure);
+  if (state.has_document_type) fail("a document type is not read", "remove it from the file");
+  if (state.ended) return false;
+  if (status != XML_STATUS_OK) {
+    if (XML_GetErrorCode(state.parser) == XML_ERROR_NO_MEMORY) throw std::bad_alloc();
+    fail(std::string("this is no sound XML: ") + XML_ErrorString(XML_GetErrorCode(state.parser)),
+         "the file is cut or damaged; get a whole copy");
+  }
+  const auto done = static_cast<std::uint64_t>(std::max<XML_Index>(XML_GetCurrentByteIndex(state.parser), 0));
+  if (state.offset - std::min(done, state.offset) > State::kMostHeld + State::kStepBytes)
+    fail("a tag or a comment of more than 1 MB", "the file may be damaged here");
+  state.ended = is_last;
+  return !is_last;
+}
+
+std::uint64_t XmlScanner::offset() const { return state_->offset; }
+std::uint64_t XmlScanner::view_offset() const { return state_->view_offset; }
+std::uint64_t XmlScanner::line() const { return XML_GetCurrentLineNumber(state_->parser); }
+std::uint64_t XmlScanner::part_end() const {
+  return static_cast<std::uint64_t>(XML_GetCurrentByteIndex(state_->parser)) +
+         static_cast<std::uint64_t>(XML_GetCurrentByteCount(state_->parser));
+}
+
+void XmlScanner::fail(const std::string& what, const std::string& hint) const {
+  throw Error(ErrorKind::kBadInput, what, hint)
+      .at(state_->source->name(), std::to_string(XML_GetCurrentLineNumber(state_->parser)) + ":" +
+                                      std::to_string(XML_GetCurrentColumnNumber(state_->parser) + 1));
+}
+
+}  // namespace reeb::io
