@@ -11,7 +11,7 @@ struct ForeignFormat {
   std::string_view advice{};  // what makes it readable; or empty
 };
 
-// Never names a format that is read.
+// Never names a format that is read, but for images of VTK XML files (open_grid.h).
 ForeignFormat foreign_format(std::string_view head);
 
 }  // namespace reeb::io

@@ -11,6 +11,7 @@
 #include "io/formats/obj_reader.h"
 #include "io/formats/off_reader.h"
 #include "io/formats/stl_reader.h"
+#include "io/images/image_format.h"
 #include "io/mesh/scalar_bytes.h"
 #include "io/streaming/open_stream.h"
 
@@ -186,7 +187,7 @@ MeshFormat detect_format(ContentSource& source, const std::string& path) {
   if (head.starts_with("\xEF\xBB\xBF")) head.remove_prefix(3);
   if (head.starts_with("ply") && (head.size() == 3 || is_line_blank(head[3]))) return MeshFormat::kPly;
   if (has_binary_stl_size(head, source.size())) return MeshFormat::kBinaryStl;
-  if (!foreign_format(head).name.empty()) return MeshFormat::kUnknown;
+  if (image_format_of(head) || !foreign_format(head).name.empty()) return MeshFormat::kUnknown;
   if (parse_off_keyword(first_word(skip_comments(head)))) return MeshFormat::kOff;
   if (is_streaming_binary(head) || has_streaming_comment(head)) return MeshFormat::kStreaming;
   const bool text = is_text(head);

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "io/file/file_name.h"
+#include "io/formats/format_detection.h"
 #include "io/images/esri_grid.h"
 #include "io/images/image_reader.h"
 #include "io/images/meta_image.h"
@@ -18,15 +19,6 @@ namespace reeb::io {
 namespace {
 
 namespace fs = std::filesystem;
-
-struct NamedFormat {
-  std::string_view name;
-  ImageFormat format;
-};
-constexpr NamedFormat kFormats[] = {{"nrrd", ImageFormat::kNrrd},     {"nifti", ImageFormat::kNifti},
-                                    {"mha", ImageFormat::kMetaImage}, {"npy", ImageFormat::kNumpy},
-                                    {"vti", ImageFormat::kVti},       {"asc", ImageFormat::kEsriGrid},
-                                    {"raw", ImageFormat::kRaw}};
 
 Image parse(ImageFormat format, ContentSource& source, const GridOptions& options) {
   switch (format) {
@@ -65,26 +57,15 @@ std::string data_path(const std::string& header, const std::string& data_file) {
 
 }  // namespace
 
-std::optional<ImageFormat> image_format_named(const std::string& name) {
-  for (const NamedFormat& known : kFormats)
-    if (name == known.name) return known.format;
-  return std::nullopt;
-}
-
 std::optional<ImageFormat> detect_image(ContentSource& source, const std::string& path) {
-  const std::string_view head = source.view(0);
-  if (is_nrrd(head)) return ImageFormat::kNrrd;
-  if (is_nifti(head)) return ImageFormat::kNifti;
-  if (is_meta_image(head)) return ImageFormat::kMetaImage;
-  if (is_numpy(head)) return ImageFormat::kNumpy;
-  if (is_vti(head)) return ImageFormat::kVti;
-  if (is_esri_grid(head)) return ImageFormat::kEsriGrid;
+  if (const auto format = image_format_of(source.view(0))) return format;
   std::string name = path;
   if (const std::string suffix = name_suffix(name); suffix == ".gz" || suffix == ".zst")
     name.resize(name.size() - suffix.size());
-  if (name_suffix(name) == ".raw") return ImageFormat::kRaw;
-  if (name_suffix(name) == ".asc") return ImageFormat::kEsriGrid;
-  return std::nullopt;
+  const std::string suffix = name_suffix(name);
+  if (suffix != ".raw" && suffix != ".asc") return std::nullopt;
+  if (detect_format(source, path) != MeshFormat::kUnknown) return std::nullopt;
+  return suffix == ".raw" ? ImageFormat::kRaw : ImageFormat::kEsriGrid;
 }
 
 std::unique_ptr<GridReader> open_grid(const Input& input, std::unique_ptr<ContentSource> source,

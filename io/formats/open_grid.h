@@ -9,18 +9,14 @@
 #include <string>
 
 #include "io/file/content_source.h"
+#include "io/images/image_format.h"
 #include "io/images/raw_grid.h"
 #include "libreeb/port/grid_reader.h"
 
 namespace reeb::io {
 
-enum class ImageFormat { kNrrd, kNifti, kMetaImage, kNumpy, kVti, kEsriGrid, kRaw };
-
-// By one of these names: nrrd nifti mha npy vti asc raw.
-std::optional<ImageFormat> image_format_named(const std::string& name);
-
-// What the content is, or, where it says nothing, what `path` says; nothing if it is none of these. On a pipe it waits
-// for the first 64 KB.
+// What the content is, or, where that is no mesh either, what `path` says; nothing if it is none of these. On a pipe it
+// waits for the first 64 KB.
 std::optional<ImageFormat> detect_image(ContentSource& source, const std::string& path);
 
 struct GridOptions {

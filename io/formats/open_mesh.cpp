@@ -6,6 +6,7 @@
 #include "io/formats/format_names.h"
 #include "io/formats/obj_reader.h"
 #include "io/formats/off_reader.h"
+#include "io/formats/open_grid.h"
 #include "io/formats/stl_reader.h"
 #include "io/ply/ply_reader.h"
 #include "io/streaming/open_stream.h"
@@ -48,6 +49,10 @@ std::unique_ptr<MeshReader> open_mesh(std::unique_ptr<ContentSource> source, con
     case MeshFormat::kUnknown:
       break;
   }
+  if (const auto image = detect_image(*source, path))
+    throw Error(ErrorKind::kBadInput, "this is " + std::string(image_name(*image)) + ", a grid of values and no mesh",
+                kFormatsRead)
+        .at(name, "0");
   const ForeignFormat known = foreign_format(source->view(0));
   std::string what = "unknown file format";
   if (!known.name.empty())

@@ -283,12 +283,9 @@ TEST_F(BadInput, UnknownFormat) {
 }
 
 TEST_F(BadInput, FilesOfOtherKindsAreNamed) {
-  std::string nifti = std::string("\x5C\1\0\0", 4) + std::string(340, '\0') + std::string("n+1\0", 4);
-  nifti += std::string(4000, '\0');
   const std::vector<std::pair<std::string, std::string>> kinds = {
       {"# vtk DataFile Version 3.0\nimage\nBINARY\n" + std::string(300, '\x11'), "a VTK legacy file"},
       {"<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\">\n", "a VTK XML file"},
-      {nifti, "a NIfTI image"},
       {"$MeshFormat\n4.1 0 8\n", "a Gmsh mesh"},
       {"# by hand\n\nMeshVersionFormatted 2\nDimension 3\n", "a Medit mesh"},
       {std::string("\1\0\0\0\2\0\0\0\3\0\0\0", 12) + std::string(400, '\x22'), "a Medit mesh"},

@@ -5,6 +5,7 @@
 #include "io/file/content_source.h"
 #include "io/formats/foreign_format.h"
 #include "io/formats/format_detection.h"
+#include "io/formats/open_grid.h"
 #include "libreeb/base/error.h"
 #include "ooc/reeb_file/reeb_file.h"
 
@@ -16,14 +17,17 @@ void require_reeb_file(const std::string& path, const std::string& command) {
   if (ooc::is_reeb_file(path)) return;
   const auto source = io::open_content(path);
   const auto format = io::detect_format(*source, path);
-  if (format == io::MeshFormat::kUnknown) {
+  const auto image = io::detect_image(*source, path);
+  if (format == io::MeshFormat::kUnknown && !image) {
     const std::string known(io::foreign_format(source->view(0)).name);
     throw Error(ErrorKind::kBadInput, "this is not a Reeb graph" + (known.empty() ? known : ", but " + known),
                 "reeb MESH makes a Reeb graph, a .reeb file, from a mesh")
         .at(path);
   }
   const std::string graph = std::filesystem::path(path).stem().string() + ".reeb";
-  throw Error(ErrorKind::kBadInput, "this is a mesh (" + std::string(io::format_name(format)) + "), not a Reeb graph",
+  const std::string what =
+      image ? std::string(io::image_name(*image)) : "a mesh (" + std::string(io::format_name(format)) + ")";
+  throw Error(ErrorKind::kBadInput, "this is " + what + ", not a Reeb graph",
               "first `reeb " + path + "`, then `reeb " + command + " " + graph + "`")
       .at(path);
 }

@@ -1,6 +1,8 @@
 // NIfTI-1 files written by hand (the fields and their offsets are those of nifti1.h).
 #pragma once
 
+#include <algorithm>
+
 #include "tests/io/images/image_files.h"
 
 namespace reeb::io::testing {
@@ -21,7 +23,7 @@ inline std::string nifti(const NiftiHead& head, const std::string& data) {
   std::string bytes(352, '\0');
   const auto put = [&](std::size_t at, auto value) {
     const std::string field = scalar_bytes(value, head.big_endian);
-    bytes.replace(at, field.size(), field);
+    std::ranges::copy(field, bytes.begin() + static_cast<std::ptrdiff_t>(at));
   };
   put(0, std::int32_t{348});
   for (std::size_t k = 0; k < head.dim.size(); ++k) put(40 + 2 * k, head.dim[k]);
@@ -34,7 +36,7 @@ inline std::string nifti(const NiftiHead& head, const std::string& data) {
   put(254, std::int16_t{head.sform});
   for (std::size_t k = 0; k < 6; ++k) put(256 + 4 * k, head.quaternion[k]);
   for (std::size_t k = 0; k < 12; ++k) put(280 + 4 * k, head.srow[k]);
-  bytes.replace(344, head.magic.size(), head.magic);
+  std::ranges::copy(head.magic, bytes.begin() + 344);
   return bytes + data;
 }
 

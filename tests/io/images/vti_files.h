@@ -67,7 +67,7 @@ inline std::string vti_file(const std::string& image, const std::vector<VtiArray
   std::string file = "<?xml version=\"1.0\"?>\n<VTKFile type=\"ImageData\" version=\"1.0\" byte_order=\"";
   file += form.big_endian ? "BigEndian" : "LittleEndian";
   file += form.wide_head ? "\" header_type=\"UInt64\"" : "\"";
-  if (!form.packing.empty()) file += " compressor=\"vtk" + form.packing + "DataCompressor\"";
+  if (!form.packing.empty()) file.append(" compressor=\"vtk").append(form.packing).append("DataCompressor\"");
   file += ">\n<!-- a > b --><ImageData " + image +
           ">\n<FieldData><DataArray type=\"Float32\" Name=\"time\" "
           "format=\"ascii\">7</DataArray></FieldData>\n<Piece Extent=\"" +
