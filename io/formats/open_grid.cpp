@@ -87,10 +87,12 @@ std::unique_ptr<GridReader> open_grid(const Input& input, std::unique_ptr<Conten
     }
     if (image.data_file.empty()) return read_image(std::move(image), input, std::move(source));
     Input data(data_path(input.path(), image.data_file));
+    if (!data.can_reopen())
+      throw Error(ErrorKind::kBadInput, "the data file of a header is not a regular file", "copy the data into a file")
+          .at(data.path());
     source = data.open();
     // A file that is packed as a whole is unpacked already.
-    const bool unpacked = data.can_reopen() && source->file() == nullptr;
-    if (unpacked && image.packing == Packing::kZlib) image.packing = Packing::kPlain;
+    if (source->file() == nullptr && image.packing == Packing::kZlib) image.packing = Packing::kPlain;
     return read_image(std::move(image), std::move(data), std::move(source));
   } catch (Error& error) {
     error.at(name);

@@ -20,6 +20,7 @@
 #include "io/streaming/stream_mesh_reader.h"
 #include "ooc/reeb_file/reeb_file.h"
 #include "tests/fuzz/corpus.h"
+#include "tests/fuzz/image_targets.h"
 #include "tests/fuzz/inner_targets.h"
 #include "tests/fuzz/legality.h"
 #include "tests/fuzz/memory_file.h"
@@ -289,6 +290,7 @@ const std::array<FuzzTarget, 17> kTargets = {{
 std::span<const FuzzTarget> fuzz_targets() {
   static const std::vector<FuzzTarget> all = [] {
     std::vector<FuzzTarget> targets(kTargets.begin(), kTargets.end());
+    for (const FuzzTarget& target : image_fuzz_targets()) targets.push_back(target);
     for (const FuzzTarget& target : inner_fuzz_targets()) targets.push_back(target);
     return targets;
   }();
