@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "io/file/content_source.h"
+
 namespace reeb::io {
 
 std::string_view without_blanks(std::string_view text);
@@ -17,8 +19,11 @@ std::vector<std::string_view> split_words(std::string_view text);
 
 class HeaderText {
  public:
+  // Longer headers are not read.
+  static constexpr std::size_t kMostBytes = ContentSource::kLookahead;
+
   // `name` is that of the file, for messages. `head` must stay valid.
-  HeaderText(std::string_view head, std::string name) : head_(head), name_(std::move(name)) {}
+  HeaderText(std::string_view head, std::string name) : head_(head.substr(0, kMostBytes)), name_(std::move(name)) {}
 
   // Moves to the next line; false at the end of `head`.
   bool next_line();

@@ -53,8 +53,8 @@ class ImageReader final : public GridReader {
 
   GridPlace place_of(std::uint64_t vertex) const override {
     const std::uint64_t value = vertex * image_.info.components;
-    if (image_.packing == Packing::kPlain)
-      return {name_, std::to_string(image_.offset + value * byte_size(image_.type))};
+    const auto first = image_.packing == Packing::kPlain ? image_.offset : image_.first_value;
+    if (first) return {name_, std::to_string(*first + value * byte_size(image_.type))};
     // In packed data a place says nothing; in text it is a line.
     const bool text = image_.packing == Packing::kText || image_.own_text;
     if (!text || !data_.can_reopen()) return {name_, {}};

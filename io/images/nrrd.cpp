@@ -61,7 +61,13 @@ class Header {
 
   Image parse() {
     text_.next_line();  // the magic
-    while (text_.next_line() && !text_.line().empty()) field(text_.line());
+    bool ended = false;
+    while (!ended && text_.next_line()) {
+      ended = text_.line().empty();
+      if (!ended) field(text_.line());
+    }
+    if (!ended && (data_file_.empty() || text_.offset() == HeaderText::kMostBytes))
+      fail_whole("no empty line ends the header");
     if (!type_ || sizes_.empty() || encoding_.empty())
       fail_whole(std::string("the header has no ") + (!type_ ? "type" : sizes_.empty() ? "sizes" : "encoding"));
     Image image;

@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <cstring>
 #include <optional>
 #include <system_error>
 
@@ -11,7 +12,7 @@
 #include "io/decoding/vtk_data.h"
 #include "io/images/header_text.h"
 #include "io/text/text_cursor.h"
-#include "io/text/xml_scanner.h"
+#include "io/text/xml_parser.h"
 #include "libreeb/base/count_text.h"
 #include "libreeb/base/error.h"
 
@@ -56,7 +57,7 @@ class ArrayPath {
 };
 
 // Reads the document up to the array that is wanted, if it is in the document, else up to the appended data.
-class Header final : public XmlScanner::Handler {
+class Header final : public XmlParser::Handler {
  public:
   explicit Header(ContentSource& source) : source_(source), xml_(source, *this) {}
 
@@ -83,7 +84,7 @@ class Header final : public XmlScanner::Handler {
   std::array<std::int64_t, 6> extent(const std::string& text) const;
 
   ContentSource& source_;
-  XmlScanner xml_;
+  XmlParser xml_;
   ArrayPath path_;
   bool big_endian_ = false, wide_head_ = false;
   std::string compressor_;
@@ -99,7 +100,7 @@ class Header final : public XmlScanner::Handler {
 };
 
 // The text of the array of points with this number.
-class ArrayText final : public ByteInput, private XmlScanner::Handler {
+class ArrayText final : public ByteInput, private XmlParser::Handler {
  public:
   ArrayText(std::unique_ptr<ContentSource> source, std::size_t number)
       : source_(std::move(source)), xml_(*source_, *this), number_(number) {}
@@ -138,7 +139,7 @@ class ArrayText final : public ByteInput, private XmlScanner::Handler {
   }
 
   std::unique_ptr<ContentSource> source_;
-  XmlScanner xml_;
+  XmlParser xml_;
   ArrayPath path_;
   std::size_t number_, arrays_ = 0;
   bool inside_ = false, ended_ = false;
@@ -186,31 +187,31 @@ bool Header::start(const std::string& name, const XmlAttributes& attributes) {
   } else if (path_.path() == "/VTKFile/ImageData/Piece") {
     if (has_piece_) xml_.fail("the image is in several pieces", "write it in one piece");
     has_piece_ = true;
-    if (extent(attribute(attributes, "Extent")) != extent_)
+    if (extent(attribute_of(attributes, "Extent")) != extent_)
       xml_.fail("the piece has another extent than the image", "write the image in one piece");
   } else if (path_.path() == "/VTKFile/ImageData/Piece/PointData") {
-    active_ = attribute(attributes, "Scalars");
+    active_ = attribute_of(attributes, "Scalars");
   } else if (path_.at_point_array()) {
     return take_array(attributes);
   } else if (path_.in_cells()) {
     has_cells_ = true;
   } else if (path_.path() == "/VTKFile/AppendedData") {
     appended_ = xml_.part_end();
-    appended_base64_ = attribute(attributes, "encoding") == "base64";
+    appended_base64_ = attribute_of(attributes, "encoding") == "base64";
     return false;
   }
   return true;
 }
 
 void Header::take_file(const XmlAttributes& attributes) {
-  if (attribute(attributes, "type") != "ImageData")
-    xml_.fail("this is no image, but " + quoted(attribute(attributes, "type")), "name a file of type ImageData");
-  const std::string order = attribute(attributes, "byte_order"), head = attribute(attributes, "header_type");
+  if (attribute_of(attributes, "type") != "ImageData")
+    xml_.fail("this is no image, but " + quoted(attribute_of(attributes, "type")), "name a file of type ImageData");
+  const std::string order = attribute_of(attributes, "byte_order"), head = attribute_of(attributes, "header_type");
   big_endian_ = order == "BigEndian";
   if (!big_endian_ && !order.empty() && order != "LittleEndian") xml_.fail("an unknown byte order", kHint);
   wide_head_ = head == "UInt64";
   if (!wide_head_ && !head.empty() && head != "UInt32") xml_.fail("an unknown header type " + quoted(head), kHint);
-  compressor_ = attribute(attributes, "compressor");
+  compressor_ = attribute_of(attributes, "compressor");
   if (!compressor_.empty() && compressor_ != "vtkZLibDataCompressor" && compressor_ != "vtkLZ4DataCompressor")
     xml_.fail("data packed with " + quoted(compressor_) + " are not read", "write them with zlib, LZ4 or none");
 }
@@ -218,18 +219,18 @@ void Header::take_file(const XmlAttributes& attributes) {
 void Header::take_image(const XmlAttributes& attributes) {
   if (has_image_) xml_.fail("the file has two images", "write each into a file of its own");
   has_image_ = true;
-  extent_ = extent(attribute(attributes, "WholeExtent"));
+  extent_ = extent(attribute_of(attributes, "WholeExtent"));
   origin_ = numbers<3>(attributes, "Origin", origin_);
   spacing_ = numbers<3>(attributes, "Spacing", spacing_);
   direction_ = numbers<9>(attributes, "Direction", direction_);
 }
 
 bool Header::take_array(const XmlAttributes& attributes) {
-  PointArray array{attribute(attributes, "Name"),
-                   attribute(attributes, "type"),
-                   attribute(attributes, "format"),
-                   attribute(attributes, "offset"),
-                   attribute(attributes, "NumberOfComponents"),
+  PointArray array{attribute_of(attributes, "Name"),
+                   attribute_of(attributes, "type"),
+                   attribute_of(attributes, "format"),
+                   attribute_of(attributes, "offset"),
+                   attribute_of(attributes, "NumberOfComponents"),
                    xml_.line()};
   const bool in_document = array.format != "appended";
   const bool wanted = active_.empty() ? arrays_.empty() : array.name == active_;
@@ -240,7 +241,7 @@ bool Header::take_array(const XmlAttributes& attributes) {
 template <std::size_t count>
 std::array<double, count> Header::numbers(const XmlAttributes& attributes, const char* name,
                                           const std::array<double, count>& otherwise) const {
-  const std::string text = attribute(attributes, name);
+  const std::string text = attribute_of(attributes, name);
   if (text.empty()) return otherwise;
   const auto words = split_words(text);
   std::array<double, count> result{};
@@ -327,6 +328,7 @@ void Header::take_storage(Image& image, std::size_t number) {
     refuse("the array has no sound offset in the appended data");
   if (!appended_) refuse("the file has no appended data");
   image.offset = appended_data() + offset;
+  if (!base64 && kind.packing == VtkDataKind::Packing::kNone) image.first_value = image.offset + (wide_head_ ? 8 : 4);
   image.open_bytes = [begin = image.offset, base64, kind](std::unique_ptr<ContentSource> source) {
     std::unique_ptr<ByteInput> bytes = std::make_unique<ContentBytes>(std::move(source), begin);
     if (base64) bytes = from_base64(std::move(bytes));

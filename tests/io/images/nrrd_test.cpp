@@ -185,6 +185,12 @@ TEST(Nrrd, BadHeadersAndDataAreRefused) {
             "bad.nrrd: an axis of the image has size 0");
   EXPECT_EQ(error("type: uint8\nencoding: raw\ndimension: 2\nsizes: 1 2 3\n"), "bad.nrrd:6:8: 3 values for 2 axes");
   EXPECT_EQ(error("type: uint8\nsizes: 1 2\n"), "bad.nrrd:4:1: the dimension must come before this");
+  EXPECT_EQ(error_of(write_file("bad.nrrd", "NRRD0004\n" + sized("uint8", "raw"))),
+            "bad.nrrd:5:1: no empty line ends the header");
+  const std::string comment = "# " + std::string(70'000, 'x') + "\n";
+  EXPECT_EQ(error(sized("uint8", "raw", comment), "123456"), "bad.nrrd:7:1: no empty line ends the header");
+  EXPECT_EQ(error(sized("uint8", "raw", "data file: a.raw\n" + comment)),
+            "bad.nrrd:8:1: no empty line ends the header");
   EXPECT_EQ(error("type: block\n"), "bad.nrrd:3:7: values of type \"block\" are not read");
   EXPECT_EQ(error("dimension: 1\ntype: uint8\nencoding: raw\nsizes: 3\n", "123"), "bad.nrrd: the image has 1 axis");
   EXPECT_EQ(error("dimension: 4\ntype: uint8\nencoding: raw\nsizes: 1 1 2 3\n"), "bad.nrrd:1:1: the image has 4 axes");

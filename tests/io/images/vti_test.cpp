@@ -103,14 +103,19 @@ TEST(Vti, LongDocuments) {
     std::string file = vti_file(kImage, {array}, form);
     for (const std::size_t length : {65000u, 65536u, 200'000u}) {
       std::string longer = file;
-      longer.insert(longer.find("<Piece"), "<!--" + std::string(length, '-').replace(0, length, length, 'x') + "-->");
+      longer.insert(longer.find("<Piece"), "<!--" + std::string(length, 'x') + "-->");
       EXPECT_EQ(read_grid(write_file("l.vti", longer)).values, (Values{0, 1, 2, 3, 4, 5}));
       EXPECT_EQ(read_grid(write_file("l.vti.gz", gzip_packed(longer))).values, (Values{0, 1, 2, 3, 4, 5}));
     }
   }
 }
 
-TEST(Vti, PlacesOfVerticesInText) {
+TEST(Vti, PlacesOfVertices) {
+  const std::string file = vti_file(kImage, {array_of("a", {0, 1, 2, 3, 4, 5})});
+  EXPECT_EQ(open_grid(write_file("r.vti", file))->place_of(4).position,
+            std::to_string(file.find("   _") + 4 + 4 + 4 * sizeof(float)));
+  const auto packed = vti_file(kImage, {array_of("a", {0, 1, 2, 3, 4, 5})}, {.packing = "ZLib"});
+  EXPECT_EQ(open_grid(write_file("r.vti", packed))->place_of(4).position, "");
   const VtiArray array{"a", "Float32", 1, "", "0 1 2\n3 nan 5"};
   const auto reader = open_grid(write_file("t.vti", vti_file(kImage, {array}, {.format = "ascii"})));
   EXPECT_EQ(reader->place_of(4).position, "9:3");

@@ -1,4 +1,4 @@
-#include "io/text/xml_scanner.h"
+#include "io/text/xml_parser.h"
 
 #include <expat.h>
 
@@ -10,13 +10,13 @@
 
 namespace reeb::io {
 
-std::string attribute(const XmlAttributes& attributes, std::string_view name) {
+std::string attribute_of(const XmlAttributes& attributes, std::string_view name) {
   for (const auto& [key, value] : attributes)
     if (key == name) return value;
   return {};
 }
 
-struct XmlScanner::State {
+struct XmlParser::State {
   // Expat holds a tag or a comment until it is whole.
   static constexpr std::uint64_t kMostHeld = std::uint64_t{1} << 20;
   static constexpr std::size_t kStepBytes = ContentSource::kLookahead;
@@ -65,7 +65,7 @@ struct XmlScanner::State {
   }
 };
 
-XmlScanner::XmlScanner(ContentSource& source, Handler& handler) : state_(std::make_unique<State>()) {
+XmlParser::XmlParser(ContentSource& source, Handler& handler) : state_(std::make_unique<State>()) {
   state_->source = &source;
   state_->handler = &handler;
   state_->parser = XML_ParserCreate(nullptr);
@@ -76,9 +76,9 @@ XmlScanner::XmlScanner(ContentSource& source, Handler& handler) : state_(std::ma
   XML_SetStartDoctypeDeclHandler(state_->parser, &State::on_document_type);
 }
 
-XmlScanner::~XmlScanner() { XML_ParserFree(state_->parser); }
+XmlParser::~XmlParser() { XML_ParserFree(state_->parser); }
 
-bool XmlScanner::advance() {
+bool XmlParser::advance() {
   State& state = *state_;
   if (state.ended) return false;
   state.view_offset = state.offset;
@@ -101,15 +101,15 @@ bool XmlScanner::advance() {
   return !is_last;
 }
 
-std::uint64_t XmlScanner::offset() const { return state_->offset; }
-std::uint64_t XmlScanner::view_offset() const { return state_->view_offset; }
-std::uint64_t XmlScanner::line() const { return XML_GetCurrentLineNumber(state_->parser); }
-std::uint64_t XmlScanner::part_end() const {
+std::uint64_t XmlParser::offset() const { return state_->offset; }
+std::uint64_t XmlParser::view_offset() const { return state_->view_offset; }
+std::uint64_t XmlParser::line() const { return XML_GetCurrentLineNumber(state_->parser); }
+std::uint64_t XmlParser::part_end() const {
   return static_cast<std::uint64_t>(XML_GetCurrentByteIndex(state_->parser)) +
          static_cast<std::uint64_t>(XML_GetCurrentByteCount(state_->parser));
 }
 
-void XmlScanner::fail(const std::string& what, const std::string& hint) const {
+void XmlParser::fail(const std::string& what, const std::string& hint) const {
   throw Error(ErrorKind::kBadInput, what, hint)
       .at(state_->source->name(), std::to_string(XML_GetCurrentLineNumber(state_->parser)) + ":" +
                                       std::to_string(XML_GetCurrentColumnNumber(state_->parser) + 1));

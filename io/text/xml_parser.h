@@ -15,11 +15,11 @@ namespace reeb::io {
 using XmlAttributes = std::vector<std::pair<std::string, std::string>>;
 
 // The value of an attribute; empty if there is none.
-std::string attribute(const XmlAttributes& attributes, std::string_view name);
+std::string attribute_of(const XmlAttributes& attributes, std::string_view name);
 
-class XmlScanner {
+class XmlParser {
  public:
-  // What a user of the scanner does with the parts of a document. Each returns whether to read on.
+  // What a user of the parser does with the parts of a document. Each returns whether to read on.
   class Handler {
    public:
     virtual ~Handler() = default;
@@ -29,10 +29,10 @@ class XmlScanner {
   };
 
   // Starts at the beginning of the content. Both must stay valid.
-  XmlScanner(ContentSource& source, Handler& handler);
-  XmlScanner(const XmlScanner&) = delete;
-  XmlScanner& operator=(const XmlScanner&) = delete;
-  ~XmlScanner();
+  XmlParser(ContentSource& source, Handler& handler);
+  XmlParser(const XmlParser&) = delete;
+  XmlParser& operator=(const XmlParser&) = delete;
+  ~XmlParser();
 
   // Reads the next window. False if that was the last one, or the handler wants no more.
   // THROWS: Error{kBadInput} with line and column: no XML, a document type, a tag of more than 1 MB; what the handler
