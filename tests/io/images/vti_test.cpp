@@ -17,6 +17,8 @@ std::vector<VtiForm> forms() {
         all.push_back({"appended", true, packing, wide, big});
         all.push_back({"binary", false, packing, wide, big});
       }
+  // Blocks that are all whole.
+  for (const char* packing : {"ZLib", "LZ4"}) all.push_back({"appended", false, packing, false, false, 6});
   return all;
 }
 
