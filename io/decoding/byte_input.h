@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <memory>
 #include <string>
 #include <utility>
@@ -64,7 +63,7 @@ class ContentBytes final : public ByteInput {
 
   std::size_t read(char* out, std::size_t limit) override {
     const std::string_view bytes = source_->view(offset_, 1).substr(0, limit);
-    std::memcpy(out, bytes.data(), bytes.size());
+    std::ranges::copy(bytes, out);
     offset_ += bytes.size();
     return bytes.size();
   }
