@@ -16,6 +16,7 @@
 #include "io/file/file_windows.h"
 #include "io/file/input_file.h"
 #include "io/file/system.h"
+#include "io/file/temp_dir.h"
 #include "libreeb/base/error.h"
 
 namespace reeb::io {
@@ -36,6 +37,7 @@ class FileSource final : public ContentSource {
   std::uint64_t file_bytes_read() const override { return read_; }
   std::uint64_t file_bytes() const override { return windows_.size(); }
   std::shared_ptr<const InputFile> file() const override { return windows_.file(); }
+  std::unique_ptr<ContentSource> reopen() const override { return std::make_unique<FileSource>(windows_.file()); }
 
  private:
   FileWindows windows_;
@@ -89,6 +91,38 @@ class FileInput final : public RawInput {
   std::uint64_t offset_ = 0;
 };
 
+// Content that was copied to a temporary file.
+class CopiedSource final : public ContentSource {
+ public:
+  CopiedSource(const std::string& name, std::shared_ptr<const File> file)
+      : ContentSource(name), file_(std::move(file)), size_(file_->size()), buffer_(4 * kLookahead) {}
+  using ContentSource::view;
+
+  std::string_view view(std::uint64_t offset, std::size_t min_bytes) override {
+    const bool held = offset >= begin_ && offset <= begin_ + filled_;
+    const bool to_end = held && begin_ + filled_ == size_;
+    if (!to_end && !(held && begin_ + filled_ - offset >= min_bytes)) {
+      begin_ = std::min(offset, size_);
+      filled_ = static_cast<std::size_t>(std::min<std::uint64_t>(buffer_.size(), size_ - begin_));
+      if (filled_ != 0) file_->read_at(begin_, std::as_writable_bytes(std::span(buffer_).first(filled_)));
+    }
+    const auto skip = static_cast<std::size_t>(std::min(offset, begin_ + filled_) - begin_);
+    return {buffer_.data() + skip, filled_ - skip};
+  }
+  bool can_seek() const override { return true; }
+  std::optional<std::uint64_t> size() const override { return size_; }
+  std::uint64_t file_bytes_read() const override { return begin_ + filled_; }
+  std::uint64_t file_bytes() const override { return size_; }
+  std::unique_ptr<ContentSource> reopen() const override { return std::make_unique<CopiedSource>(name(), file_); }
+
+ private:
+  std::shared_ptr<const File> file_;
+  std::uint64_t size_;
+  std::vector<char> buffer_;
+  std::uint64_t begin_ = 0;  // content offset of the buffer
+  std::size_t filled_ = 0;
+};
+
 class PipeInput final : public RawInput {
  public:
   PipeInput(std::string name, int descriptor, bool owned)
@@ -118,8 +152,9 @@ class PipeInput final : public RawInput {
 // A stream without random access, through a sliding buffer.
 class StreamSource final : public ContentSource {
  public:
-  StreamSource(const std::string& name, std::unique_ptr<RawInput> input, std::uint64_t file_bytes)
-      : ContentSource(name), input_(std::move(input)), file_bytes_(file_bytes), buffer_(kBufferBytes) {}
+  // `file` is the packed file; null for a pipe.
+  StreamSource(const std::string& name, std::unique_ptr<RawInput> input, std::shared_ptr<const InputFile> file)
+      : ContentSource(name), input_(std::move(input)), file_(std::move(file)), buffer_(kBufferBytes) {}
 
   std::string_view view(std::uint64_t offset, std::size_t min_bytes) override {
     // The offset comes from the reader's own arithmetic, never from the file, and the reader has seen every byte before
@@ -139,7 +174,8 @@ class StreamSource final : public ContentSource {
   bool can_seek() const override { return false; }
   std::optional<std::uint64_t> size() const override { return std::nullopt; }
   std::uint64_t file_bytes_read() const override { return input_->consumed(); }
-  std::uint64_t file_bytes() const override { return file_bytes_; }
+  std::uint64_t file_bytes() const override { return file_ == nullptr ? 0 : file_->size(); }
+  std::unique_ptr<ContentSource> reopen() const override { return file_ == nullptr ? nullptr : open_content(file_); }
   std::uint64_t memory_bytes() const override { return input_->memory_bytes(); }
 
  private:
@@ -154,7 +190,7 @@ class StreamSource final : public ContentSource {
   }
 
   std::unique_ptr<RawInput> input_;
-  std::uint64_t file_bytes_;
+  std::shared_ptr<const InputFile> file_;
   std::vector<char> buffer_;
   std::uint64_t begin_ = 0;  // content offset of buffer_[start_]
   std::size_t start_ = 0, filled_ = 0;
@@ -190,10 +226,10 @@ class PeekedInput final : public RawInput {
 };
 
 std::unique_ptr<ContentSource> stream_source(const std::string& name, std::unique_ptr<RawInput> raw,
-                                             std::uint64_t file_bytes) {
+                                             std::shared_ptr<const InputFile> file = nullptr) {
   auto peeked = std::make_unique<PeekedInput>(std::move(raw));
   const auto compression = detect_compression(peeked->head());
-  auto source = std::make_unique<StreamSource>(name, decompress(name, std::move(peeked), compression), file_bytes);
+  auto source = std::make_unique<StreamSource>(name, decompress(name, std::move(peeked), compression), std::move(file));
   if (source->view(0, 1).empty()) throw_empty(name);
   return source;
 }
@@ -210,9 +246,17 @@ std::unique_ptr<RawInput> open_pipe(const std::string& path) {
 std::unique_ptr<ContentSource> open_content(std::shared_ptr<const InputFile> file) {
   auto plain = std::make_unique<FileSource>(file);
   if (detect_compression(plain->view(0)) == Compression::kNone) return plain;
-  const std::string path = file->path();
-  const std::uint64_t size = file->size();
-  return stream_source(path, std::make_unique<FileInput>(std::move(file)), size);
+  return stream_source(file->path(), std::make_unique<FileInput>(file), file);
+}
+
+std::unique_ptr<ContentSource> make_reopenable(std::unique_ptr<ContentSource> source, const std::string& temp_folder) {
+  if (source->reopen() != nullptr) return source;
+  auto copy = std::make_shared<File>(TempDir(temp_folder).create_unnamed("input"));
+  std::uint64_t offset = 0;
+  for (std::string_view bytes; !(bytes = source->view(offset, ContentSource::kLookahead)).empty();
+       offset += bytes.size())
+    copy->write_at(offset, std::as_bytes(std::span(bytes)));
+  return std::make_unique<CopiedSource>(source->name(), std::move(copy));
 }
 
 std::unique_ptr<ContentSource> open_for_seeking(std::shared_ptr<const InputFile> file) {
@@ -226,7 +270,7 @@ Input::Input(std::string path) : path_(std::move(path)), file_(open_if_regular(p
 std::unique_ptr<ContentSource> Input::open() const {
   if (file_) return open_content(file_);
   const std::string name = path_ == "-" ? kStandardInputShown : path_;
-  return stream_source(name, open_pipe(path_), 0);
+  return stream_source(name, open_pipe(path_));
 }
 
 void Input::check_unchanged(const char* content) const {

@@ -43,6 +43,10 @@ class ContentSource {
   // The file, if it is uncompressed: it can be read at any place without being opened again. Else null.
   virtual std::shared_ptr<const InputFile> file() const { return nullptr; }
 
+  // The same content from its beginning, read independently of this; it is unpacked again if it is packed. Null if the
+  // content can be read only once (a pipe).
+  virtual std::unique_ptr<ContentSource> reopen() const { return nullptr; }
+
   // What it holds to unpack its content, as far as is known from what was read.
   virtual std::uint64_t memory_bytes() const { return 0; }
 
@@ -63,6 +67,10 @@ std::unique_ptr<ContentSource> open_content(const std::string& path);
 std::unique_ptr<ContentSource> open_content(std::shared_ptr<const InputFile> file);
 // An uncompressed file that is read in small pieces here and there: reading some bytes costs less than a window.
 std::unique_ptr<ContentSource> open_for_seeking(std::shared_ptr<const InputFile> file);
+
+// The source itself if it can be reopened. Else a source of the same content, from its beginning, which was copied to a
+// temporary file without a name in `temp_folder` (temp_dir.h); views of at most kLookahead bytes may have been taken.
+std::unique_ptr<ContentSource> make_reopenable(std::unique_ptr<ContentSource> source, const std::string& temp_folder);
 
 // An input that can be opened repeatedly, the same file each time, even if its name is removed or replaced.
 class Input {

@@ -22,8 +22,6 @@ constexpr ForeignFormat other(std::string_view name, std::string_view advice = {
 constexpr ForeignFormat kUtf16 = other("text in UTF-16", "save it as UTF-8 or ASCII text first");
 
 constexpr Mark kMarks[] = {
-    {"# vtk DataFile"sv, {"a VTK legacy file"}},
-    {"$MeshFormat"sv, {"a Gmsh mesh"}},
     {"n+2\0"sv, {"a NIfTI-2 image"}, 4},
     {"ni2\0"sv, {"a NIfTI-2 header"}, 4},
     {"glTF"sv, {"a binary glTF scene"}},
@@ -53,17 +51,10 @@ std::string_view without_leading_blanks(std::string_view text) {
   return text;
 }
 
-// Comments can come before the first keyword of a Medit mesh.
-bool is_medit(std::string_view text) {
-  for (text = without_leading_blanks(text); text.starts_with('#'); text = without_leading_blanks(text))
-    text.remove_prefix(std::min(text.find('\n'), text.size()));
-  return text.starts_with("MeshVersionFormatted");
-}
-
 // XML says in its first element what it is.
 ForeignFormat xml_format(std::string_view text) {
   if (!text.starts_with('<')) return {};
-  if (text.find("<VTKFile") != std::string_view::npos) return {"a VTK XML file"};
+  if (text.find("<VTKFile") != std::string_view::npos) return {"a VTK XML file of another kind"};
   if (text.find("<COLLADA") != std::string_view::npos) return {"a COLLADA scene"};
   if (text.starts_with("<!DOCTYPE html") || text.starts_with("<html")) return other("a web page");
   return text.starts_with("<?xml") ? other("an XML file") : ForeignFormat{};
@@ -84,7 +75,7 @@ bool is_binary_medit(std::string_view head) {
 ForeignFormat foreign_format(std::string_view head) {
   for (const Mark& mark : kMarks)
     if (head.size() >= mark.offset && head.substr(mark.offset).starts_with(mark.bytes)) return mark.format;
-  if (is_medit(head) || is_binary_medit(head)) return {"a Medit mesh"};
+  if (is_binary_medit(head)) return {"a binary Medit mesh", true, "save it as text (.mesh)"};
   return xml_format(without_leading_blanks(head.substr(0, 4096)));
 }
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <string_view>
 
+#include "io/cells/medit_reader.h"
+#include "io/cells/tetgen_reader.h"
 #include "io/file/file_name.h"
 #include "io/formats/cx_reader.h"
 #include "io/formats/foreign_format.h"
@@ -158,7 +160,18 @@ bool has_obj_vertex(std::string_view text) {
   return false;
 }
 
+// Its first element says what it holds.
+bool is_vtk_xml_mesh(std::string_view head) {
+  if (!first_word(head).starts_with('<')) return false;
+  const std::size_t begin = head.find("<VTKFile");
+  if (begin == std::string_view::npos) return false;
+  const std::string_view element = head.substr(begin, head.find('>', begin) - begin);
+  return element.find("UnstructuredGrid") != std::string_view::npos ||
+         element.find("PolyData") != std::string_view::npos;
+}
+
 MeshFormat detect_text(std::string_view text, const std::string& path) {
+  if (is_tetgen_name(path)) return MeshFormat::kTetgen;
   if (is_streaming_name(path)) return MeshFormat::kStreaming;
   if (has_streaming_line(text)) return MeshFormat::kStreaming;
   const std::string_view word = first_word(skip_comments(text));
@@ -187,7 +200,12 @@ MeshFormat detect_format(ContentSource& source, const std::string& path) {
   if (head.starts_with("\xEF\xBB\xBF")) head.remove_prefix(3);
   if (head.starts_with("ply") && (head.size() == 3 || is_line_blank(head[3]))) return MeshFormat::kPly;
   if (has_binary_stl_size(head, source.size())) return MeshFormat::kBinaryStl;
-  if (image_format_of(head) || !foreign_format(head).name.empty()) return MeshFormat::kUnknown;
+  if (image_format_of(head)) return MeshFormat::kUnknown;
+  if (head.starts_with("# vtk DataFile")) return MeshFormat::kVtkLegacy;
+  if (is_vtk_xml_mesh(head)) return MeshFormat::kVtkXml;
+  if (head.starts_with("$MeshFormat")) return MeshFormat::kMsh;
+  if (is_medit(head)) return MeshFormat::kMedit;
+  if (!foreign_format(head).name.empty()) return MeshFormat::kUnknown;
   if (parse_off_keyword(first_word(skip_comments(head)))) return MeshFormat::kOff;
   if (is_streaming_binary(head) || has_streaming_comment(head)) return MeshFormat::kStreaming;
   const bool text = is_text(head);
@@ -221,6 +239,16 @@ std::string_view format_name(MeshFormat format) {
       return "a streaming mesh";
     case MeshFormat::kCx:
       return "CX";
+    case MeshFormat::kVtkLegacy:
+      return "VTK";
+    case MeshFormat::kVtkXml:
+      return "VTK XML";
+    case MeshFormat::kMsh:
+      return "MSH";
+    case MeshFormat::kMedit:
+      return "Medit";
+    case MeshFormat::kTetgen:
+      return "TetGen";
     case MeshFormat::kUnknown:
       break;
   }

@@ -8,16 +8,30 @@
 
 namespace reeb::io {
 
-enum class MeshFormat { kUnknown, kPly, kOff, kAsciiStl, kBinaryStl, kObj, kStreaming, kCx };
+enum class MeshFormat {
+  kUnknown,
+  kPly,
+  kOff,
+  kAsciiStl,
+  kBinaryStl,
+  kObj,
+  kStreaming,
+  kCx,
+  kVtkLegacy,
+  kVtkXml,
+  kMsh,
+  kMedit,
+  kTetgen
+};
 
 // "PLY", "streaming mesh"; "unknown" for kUnknown.
 std::string_view format_name(MeshFormat format);
 
-// `path` decides only where the content cannot: between OBJ and the text form of streaming meshes, which share their
-// lines v and f, and for damaged streaming meshes and binary STL files. A text stream is recognized by its head, by
-// post-order, by tetrahedra or by explicit finalizations. A stream with none of these is read as OBJ, which gives the
-// same mesh. CX is told by its name alone. On a pipe it waits only for the bytes that it needs: most streaming meshes
-// are recognized by their first 80 bytes.
+// `path` decides only where the content cannot: TetGen, whose files are numbers; between OBJ and the text form of
+// streaming meshes, which share their lines v and f, and for damaged streaming meshes and binary STL files. A text
+// stream is recognized by its head, by post-order, by tetrahedra or by explicit finalizations. A stream with none of
+// these is read as OBJ, which gives the same mesh. CX is told by its name alone. On a pipe it waits only for the bytes
+// that it needs: most streaming meshes are recognized by their first 80 bytes.
 MeshFormat detect_format(ContentSource& source, const std::string& path);
 
 // Whether content that is STL is text.

@@ -9,7 +9,7 @@
 namespace reeb::io {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, MeshFormat>, 10> kNames = {{{"ply", MeshFormat::kPly},
+constexpr std::array<std::pair<std::string_view, MeshFormat>, 16> kNames = {{{"ply", MeshFormat::kPly},
                                                                              {"obj", MeshFormat::kObj},
                                                                              {"off", MeshFormat::kOff},
                                                                              {"stl", MeshFormat::kBinaryStl},
@@ -18,7 +18,13 @@ constexpr std::array<std::pair<std::string_view, MeshFormat>, 10> kNames = {{{"p
                                                                              {"smc", MeshFormat::kStreaming},
                                                                              {"sva", MeshFormat::kStreaming},
                                                                              {"svb", MeshFormat::kStreaming},
-                                                                             {"cx", MeshFormat::kCx}}};
+                                                                             {"cx", MeshFormat::kCx},
+                                                                             {"vtk", MeshFormat::kVtkLegacy},
+                                                                             {"vtu", MeshFormat::kVtkXml},
+                                                                             {"vtp", MeshFormat::kVtkXml},
+                                                                             {"msh", MeshFormat::kMsh},
+                                                                             {"medit", MeshFormat::kMedit},
+                                                                             {"tetgen", MeshFormat::kTetgen}}};
 
 MeshFormat format_of(const std::string& name) {
   std::string known;

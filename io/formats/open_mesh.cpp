@@ -1,5 +1,9 @@
 #include "io/formats/open_mesh.h"
 
+#include "io/cells/medit_reader.h"
+#include "io/cells/msh_reader.h"
+#include "io/cells/tetgen_reader.h"
+#include "io/file/content_source.h"
 #include "io/formats/cx_reader.h"
 #include "io/formats/foreign_format.h"
 #include "io/formats/format_detection.h"
@@ -11,14 +15,16 @@
 #include "io/ply/ply_reader.h"
 #include "io/streaming/open_stream.h"
 #include "io/streaming/stream_mesh_reader.h"
+#include "io/vtk/vtk_reader.h"
 #include "libreeb/base/error.h"
 
 namespace reeb::io {
 namespace {
 
 constexpr const char* kFormatsRead =
-    "PLY, OBJ, OFF, STL, CX (as NAME.cx) and streaming meshes (SMA, SMB, SMC, SVA, SVB) are read, plain or packed with "
-    "gzip or zstd";
+    "PLY, OBJ, OFF, STL, VTK (.vtk, .vtu, .vtp), MSH, Medit, TetGen (as NAME.ele), CX (as NAME.cx) and streaming "
+    "meshes "
+    "(SMA, SMB, SMC, SVA, SVB) are read, plain or packed with gzip or zstd";
 
 }  // namespace
 
@@ -46,6 +52,16 @@ std::unique_ptr<MeshReader> open_mesh(std::unique_ptr<ContentSource> source, con
     }
     case MeshFormat::kCx:
       return std::make_unique<CxReader>(std::move(source), options);
+    case MeshFormat::kVtkLegacy:
+      return open_vtk_legacy(make_reopenable(std::move(source), options.temp_folder), options);
+    case MeshFormat::kVtkXml:
+      return open_vtk_xml(make_reopenable(std::move(source), options.temp_folder), options);
+    case MeshFormat::kMsh:
+      return open_msh(make_reopenable(std::move(source), options.temp_folder), options);
+    case MeshFormat::kMedit:
+      return open_medit(make_reopenable(std::move(source), options.temp_folder), options);
+    case MeshFormat::kTetgen:
+      return open_tetgen(make_reopenable(std::move(source), options.temp_folder), path, options);
     case MeshFormat::kUnknown:
       break;
   }

@@ -10,7 +10,7 @@
 
 namespace reeb::io {
 
-enum class ScalarType { kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kFloat32, kFloat64 };
+enum class ScalarType { kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kInt64, kUint64, kFloat32, kFloat64 };
 inline bool is_float(ScalarType type) { return type >= ScalarType::kFloat32; }
 
 static_assert(std::endian::native == std::endian::little, "byte orders are told against little endian");
@@ -44,6 +44,10 @@ decltype(auto) with_type(ScalarType type, Use&& use) {
       return use(std::int32_t{});
     case ScalarType::kUint32:
       return use(std::uint32_t{});
+    case ScalarType::kInt64:
+      return use(std::int64_t{});
+    case ScalarType::kUint64:
+      return use(std::uint64_t{});
     case ScalarType::kFloat32:
       return use(float{});
     case ScalarType::kFloat64:

@@ -94,6 +94,8 @@ struct ReadOptions {
   std::vector<std::string> properties;  // vertex properties to deliver, by name
   std::size_t batch_events = 65536;     // vertices or simplices per batch, roughly
   bool all_properties = false;          // deliver those of MeshInfo::property_names instead
+  // Where a pipe is copied to, if its format cannot be read in one go; empty: where temporary files are by default.
+  std::string temp_folder{};
 };
 
 // THREADS: one at a time; different readers share nothing.

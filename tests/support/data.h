@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <string>
@@ -30,12 +29,5 @@ inline std::string no_meshes() {
 
 #define REEB_REQUIRE_MESHES() \
   if (!reeb::test::has_meshes()) GTEST_SKIP() << reeb::test::no_meshes()
-
-// The real meshes of a format that the program does not read (VTK).
-inline constexpr const char* kUnreadableMeshes[] = {"bluntfin_tets.vtk.gz", "post_tets.vtk", "spx_tets.vtk"};
-
-inline bool is_readable_mesh(const std::string& name) {
-  return std::find(std::begin(kUnreadableMeshes), std::end(kUnreadableMeshes), name) == std::end(kUnreadableMeshes);
-}
 
 }  // namespace reeb::test

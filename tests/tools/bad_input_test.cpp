@@ -284,11 +284,8 @@ TEST_F(BadInput, UnknownFormat) {
 
 TEST_F(BadInput, FilesOfOtherKindsAreNamed) {
   const std::vector<std::pair<std::string, std::string>> kinds = {
-      {"# vtk DataFile Version 3.0\nimage\nBINARY\n" + std::string(300, '\x11'), "a VTK legacy file"},
-      {"<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\">\n", "a VTK XML file"},
-      {"$MeshFormat\n4.1 0 8\n", "a Gmsh mesh"},
-      {"# by hand\n\nMeshVersionFormatted 2\nDimension 3\n", "a Medit mesh"},
-      {std::string("\1\0\0\0\2\0\0\0\3\0\0\0", 12) + std::string(400, '\x22'), "a Medit mesh"},
+      {"<?xml version=\"1.0\"?>\n<VTKFile type=\"RectilinearGrid\">\n", "a VTK XML file of another kind"},
+      {std::string("\1\0\0\0\2\0\0\0\3\0\0\0", 12) + std::string(400, '\x22'), "a binary Medit mesh"},
       {"version https://git-lfs.github.com/spec/v1\noid sha256:00\nsize 9\n", "a Git LFS pointer"},
       {std::string("\xFF\xFEp\0l\0y\0", 8), "text in UTF-16"},
       {"\x89PNG\r\n\x1a\n" + std::string(2000, '\x07'), "a PNG picture"}};

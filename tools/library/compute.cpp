@@ -62,6 +62,7 @@ std::vector<ComputeResult> compute(const std::string& path, std::span<const std:
   read_options.batch_events = 8192;              // a few hundred KiB, beside chunks on their way
   if (snapshots) read_options.batch_events = 1;  // exactly as far as the stream came
   read_options.properties = io::needed_properties(specs);
+  read_options.temp_folder = options.temp_dir.empty() ? io::TempDir::default_folder(outputs.front()) : options.temp_dir;
 
   ooc::MeshInput input;
   input.path = path;

@@ -45,7 +45,7 @@ std::string scalar_bytes(T value, bool big_endian = false) {
 struct Mesh {
   std::vector<std::vector<double>> vertices;  // coordinates, then properties
   std::vector<std::array<std::uint64_t, 3>> triangles;
-  std::vector<std::vector<std::uint64_t>> edges = {}, points = {};
+  std::vector<std::vector<std::uint64_t>> edges = {}, points = {}, tetrahedra = {};
   friend bool operator==(const Mesh&, const Mesh&) = default;
 };
 
@@ -62,8 +62,10 @@ inline void append(const MeshBatch& batch, Mesh& mesh) {
       EXPECT_LT(v.value(), mesh.vertices.size()) << "a corner before its vertex";
       simplex.push_back(v.value());
     }
-    ASSERT_LE(simplex.size(), 3u);
-    if (simplex.size() == 3)
+    ASSERT_LE(simplex.size(), 4u);
+    if (simplex.size() == 4)
+      mesh.tetrahedra.push_back(simplex);
+    else if (simplex.size() == 3)
       mesh.triangles.push_back({simplex[0], simplex[1], simplex[2]});
     else
       (simplex.size() == 2 ? mesh.edges : mesh.points).push_back(simplex);
@@ -136,10 +138,10 @@ inline void expect_bad(const std::string& path, const std::string& position, con
   }
 }
 
-// Expects that every prefix of a file gives an error or a part of the mesh.
-inline void expect_prefixes_safe(const std::string& name, const std::string& bytes) {
+// Expects that every prefix of a file gives an error or a part of the mesh; of long files, every `step`-th.
+inline void expect_prefixes_safe(const std::string& name, const std::string& bytes, std::size_t step = 1) {
   const Mesh whole = read_mesh(write_file("whole_" + name, bytes));
-  for (std::size_t length = 0; length < bytes.size(); ++length) {
+  for (std::size_t length = 0; length < bytes.size(); length += step) {
     SCOPED_TRACE(length);
     const std::string path = write_file("prefix_" + name, bytes.substr(0, length));
     try {

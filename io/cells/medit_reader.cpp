@@ -1,0 +1,233 @@
+#include "io/cells/medit_reader.h"
+
+#include <algorithm>
+#include <iterator>
+#include <optional>
+#include <utility>
+
+#include "io/cells/cell_reader.h"
+#include "io/mesh/batch_reader.h"
+#include "io/text/text_cursor.h"
+#include "libreeb/base/count_text.h"
+#include "libreeb/base/error.h"
+
+namespace reeb::io {
+namespace {
+
+constexpr TextStyle kStyle = {.comments = true};
+constexpr const char* kDamagedHint = "the file may be cut or damaged here";
+
+struct MeditCells {
+  std::string_view keyword;
+  CellShape shape = CellShape::kPoint;
+  std::uint64_t nodes = 0;
+};
+constexpr MeditCells kCells[] = {
+    {"Edges", CellShape::kEdge, 2},
+    {"Triangles", CellShape::kTriangle, 3},
+    {"Quadrilaterals", CellShape::kQuadrilateral, 4},
+    {"Tetrahedra", CellShape::kTetrahedron, 4},
+    {"Hexahedra", CellShape::kHexahedron, 8},
+    {"Prisms", CellShape::kPrism, 6},
+    {"Pentahedra", CellShape::kPrism, 6},
+    {"Pyramids", CellShape::kPyramid, 5},
+    {"EdgesP2", CellShape::kEdge, 3},
+    {"TrianglesP2", CellShape::kTriangle, 6},
+    {"QuadrilateralsQ2", CellShape::kQuadrilateral, 9},
+    {"TetrahedraP2", CellShape::kTetrahedron, 10},
+    {"HexahedraQ2", CellShape::kHexahedron, 27},
+    {"PrismsP2", CellShape::kPrism, 18},
+    {"PyramidsP2", CellShape::kPyramid, 14},
+};
+
+// Where the records of a section begin.
+struct MeditSection {
+  const MeditCells* cells = nullptr;  // null: vertices
+  std::uint64_t count = 0, offset = 0, line = 1;
+};
+
+struct MeditIndex {
+  MeshInfo info;
+  bool has_inner_nodes = false;
+  std::vector<MeditSection> sections;  // vertices first
+};
+
+bool begins_word(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
+
+std::uint64_t read_count(TextCursor& text) {
+  if (!text.more()) {
+    text.mark();
+    text.fail("the file ends where a count should be", kDamagedHint);
+  }
+  const std::int64_t count = text.integer("count");
+  if (count < 0) text.fail("a count is negative", kDamagedHint);
+  return static_cast<std::uint64_t>(count);
+}
+
+// Numbers up to the next keyword.
+void skip_numbers(TextCursor& text) {
+  while (text.more() && !begins_word(text.peek())) text.skip_line();
+}
+
+void read_version(TextCursor& text, MeshInfo& info) {
+  const std::uint64_t version = read_count(text);
+  if (version < 1 || version > 4)
+    text.fail("the file is of Medit version " + std::to_string(version) + ", which is not read",
+              "versions 1 to 4 are read");
+  info.float32 = version == 1;
+}
+
+MeditIndex read_index(const ContentSource& content) {
+  MeditIndex index;
+  index.info.format = "Medit";
+  index.info.vertex_count = index.info.simplex_count = 0;
+  index.info.file_bytes = content.file_bytes();
+  TextCursor text(content.reopen(), kStyle);
+  bool vertices = false, dimension = false;
+  while (text.more()) {
+    const std::string keyword(text.token());
+    if (keyword == "End") break;
+    const auto* const cells = std::ranges::find(kCells, keyword, &MeditCells::keyword);
+    if (keyword == "MeshVersionFormatted") {
+      read_version(text, index.info);
+    } else if (keyword == "Dimension") {
+      index.info.dimension = static_cast<unsigned>(read_count(text));
+      if (index.info.dimension != 2 && index.info.dimension != 3)
+        text.fail("the file is of dimension " + std::to_string(index.info.dimension), "2 and 3 are read");
+      dimension = true;
+    } else if (keyword == "Vertices" || cells != std::end(kCells)) {
+      MeditSection section;
+      section.count = read_count(text);
+      const std::uint64_t numbers = keyword == "Vertices" ? index.info.dimension : cells->nodes;
+      const auto size = text.source().size();
+      if (size && section.count > (*size - std::min(*size, text.bytes().offset()) + 1) / (2 * numbers))
+        text.fail("the file announces " + count_of(section.count, "record") + " here, more than it has room for",
+                  "the file is cut or damaged; get a whole copy");
+      section.offset = text.bytes().offset();
+      section.line = text.line();
+      if (keyword == "Vertices") {
+        if (vertices) text.fail("the file has two sections of vertices", kDamagedHint);
+        if (!dimension) text.fail("the vertices come before the dimension", kDamagedHint);
+        vertices = true;
+        *index.info.vertex_count = section.count;
+        index.sections.insert(index.sections.begin(), section);
+      } else {
+        section.cells = cells;
+        *index.info.simplex_count += section.count;
+        index.has_inner_nodes |= cells->nodes != corner_count(cells->shape) && section.count != 0;
+        index.sections.push_back(section);
+      }
+    }
+    skip_numbers(text);
+  }
+  if (!vertices) {
+    text.mark();
+    text.fail("the file has no section of vertices", kDamagedHint);
+  }
+  return index;
+}
+
+class MeditInput final : public CellInput {
+ public:
+  MeditInput(std::shared_ptr<const ContentSource> content, std::shared_ptr<const MeditIndex> index)
+      : content_(std::move(content)), index_(std::move(index)) {
+    open_section();
+  }
+
+  const MeshInfo& info() const override { return index_->info; }
+  bool has_inner_nodes() const override { return index_->has_inner_nodes; }
+
+  Step next(CellHead& cell) override {
+    if (in_cell_) skip_reference();
+    while (left_ == 0) {
+      if (++section_ >= index_->sections.size()) return Step::kEnd;
+      open_section();
+    }
+    const MeditCells* const cells = index_->sections[section_].cells;
+    if (cells == nullptr) return Step::kVertices;
+    --left_;
+    in_cell_ = true;
+    const std::uint64_t corners = corner_count(cells->shape);
+    cell = {cells->shape, corners, cells->nodes - corners};
+    return Step::kCell;
+  }
+
+  std::size_t read_vertices(std::span<std::vector<double>* const> columns, std::size_t limit) override {
+    const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(limit, left_));
+    for (std::size_t i = 0; i < count; ++i) {
+      for (auto* column : columns) {
+        require_more();
+        column->push_back(index_->info.float32 ? static_cast<double>(text_->finite_number<float>("coordinate"))
+                                               : text_->finite_number<double>("coordinate"));
+      }
+      skip_reference();
+    }
+    left_ -= count;
+    return count;
+  }
+
+  VertexId read_node() override {
+    require_more();
+    const std::int64_t node = text_->integer("vertex number");
+    if (node < 1 || static_cast<std::uint64_t>(node) > *index_->info.vertex_count) [[unlikely]]
+      text_->fail("a cell names vertex " + std::to_string(node) + ", but there are only " +
+                      count_of(*index_->info.vertex_count, "vertex"),
+                  "vertices are numbered from 1; the file may be damaged here");
+    return VertexId(static_cast<std::uint64_t>(node) - 1);
+  }
+
+  std::uint64_t bytes_read() const override { return text_->bytes_read(); }
+
+ private:
+  void open_section() {
+    const MeditSection& section = index_->sections[section_];
+    left_ = section.count;
+    // Packed content moves forward only.
+    if (!text_ || section.offset < text_->bytes().offset()) text_.emplace(content_->reopen(), kStyle);
+    Cursor& bytes = text_->bytes();
+    if (!content_->can_seek())
+      while (bytes.offset() < section.offset && bytes.ensure(1))
+        bytes.advance(
+            static_cast<std::size_t>(std::min<std::uint64_t>(bytes.available(), section.offset - bytes.offset())));
+    text_->move_to_line(section.offset, section.line);
+  }
+
+  void require_more() {
+    if (text_->more()) return;
+    text_->mark();
+    text_->fail("the file ends before its last record", "the file is cut; get a whole copy");
+  }
+  // The number after each record that groups them.
+  void skip_reference() {
+    in_cell_ = false;
+    require_more();
+    (void)text_->integer("reference");
+  }
+
+  std::shared_ptr<const ContentSource> content_;
+  std::shared_ptr<const MeditIndex> index_;
+  std::optional<TextCursor> text_;
+  std::size_t section_ = 0;
+  std::uint64_t left_ = 0;
+  bool in_cell_ = false;  // its reference was not read
+};
+
+}  // namespace
+
+bool is_medit(std::string_view head) {
+  const auto skip_blanks = [&head] {
+    while (!head.empty() && (is_blank(head.front()) || head.front() == '\n')) head.remove_prefix(1);
+  };
+  for (skip_blanks(); head.starts_with('#'); skip_blanks()) head.remove_prefix(std::min(head.find('\n'), head.size()));
+  return head.starts_with("MeshVersionFormatted");
+}
+
+std::unique_ptr<MeshReader> open_medit(std::unique_ptr<ContentSource> content, const ReadOptions& options) {
+  refuse_properties(options, "Medit", content->name());
+  const std::shared_ptr<const ContentSource> shared = std::move(content);
+  const auto index = std::make_shared<const MeditIndex>(read_index(*shared));
+  return read_cells([shared, index](const ReadOptions&) { return std::make_unique<MeditInput>(shared, index); },
+                    options);
+}
+
+}  // namespace reeb::io

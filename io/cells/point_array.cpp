@@ -1,0 +1,45 @@
+#include "io/cells/point_array.h"
+
+#include <algorithm>
+#include <charconv>
+
+#include "libreeb/base/error.h"
+
+namespace reeb::io {
+namespace {
+
+constexpr std::uint64_t kMostNamed = 64;
+
+}  // namespace
+
+std::vector<std::string> property_names(std::span<const PointArray> arrays) {
+  std::vector<std::string> names;
+  for (const PointArray& array : arrays) {
+    if (array.components == 1) names.push_back(array.name);
+    for (std::uint64_t k = 0; array.components > 1 && k < std::min(array.components, kMostNamed); ++k)
+      names.push_back(array.name + ":" + std::to_string(k));
+  }
+  return names;
+}
+
+PointColumn find_point_column(std::span<const PointArray> arrays, const std::string& property,
+                              const std::string& file) {
+  for (std::size_t i = 0; i < arrays.size(); ++i)
+    if (arrays[i].name == property && arrays[i].components == 1) return {i, 0};
+  if (const std::size_t colon = property.rfind(':'); colon != std::string::npos) {
+    std::uint64_t component = 0;
+    const char* const end = property.data() + property.size();
+    const auto parsed = std::from_chars(property.data() + colon + 1, end, component);
+    const bool number = parsed.ec == std::errc{} && parsed.ptr == end;
+    for (std::size_t i = 0; number && i < arrays.size(); ++i)
+      if (arrays[i].name == property.substr(0, colon) && component < arrays[i].components) return {i, component};
+  }
+  std::string hint = "choose a property that the mesh has, a coordinate, or file:PATH";
+  for (const PointArray& array : arrays)
+    if (array.name == property)
+      hint =
+          "it has " + std::to_string(array.components) + " components; choose one, such as property:" + property + ":0";
+  throw Error(ErrorKind::kBadInput, "the mesh has no vertex property \"" + property + "\"", hint).at(file);
+}
+
+}  // namespace reeb::io

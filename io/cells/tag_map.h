@@ -1,0 +1,85 @@
+// The tags of nodes, which a file chooses freely, and their indices in the order of the file.
+//
+// MEMORY: 24 bytes for each run of consecutive tags, of which most files have few; twice that if runs do not ascend.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace reeb::io {
+
+class TagMap {
+ public:
+  // The tag of the next node.
+  void add(std::uint64_t tag) {
+    if (!runs_.empty() && tag == runs_.back().tag + runs_.back().count && tag != 0) {
+      ++runs_.back().count;
+    } else {
+      ascending_ = ascending_ && (runs_.empty() || tag > runs_.back().tag);
+      runs_.push_back({tag, size_, 1});
+    }
+    ++size_;
+    by_tag_.clear();
+  }
+  std::uint64_t size() const { return size_; }
+
+  // Nothing for an unknown tag; of nodes with equal tags one.
+  std::optional<std::uint64_t> find(std::uint64_t tag) {
+    if (!ascending_ && by_tag_.empty()) {
+      by_tag_ = runs_;
+      std::ranges::sort(by_tag_, {}, &Run::tag);
+    }
+    const std::vector<Run>& runs = ascending_ ? runs_ : by_tag_;
+    if (last_ >= runs.size() || tag - runs[last_].tag >= runs[last_].count) {
+      const auto next = std::ranges::upper_bound(runs, tag, {}, &Run::tag);
+      if (next == runs.begin()) return std::nullopt;
+      last_ = static_cast<std::size_t>(next - runs.begin()) - 1;
+    }
+    const Run& run = runs[last_];
+    if (tag < run.tag || tag - run.tag >= run.count) return std::nullopt;
+    return run.index + (tag - run.tag);
+  }
+
+  // Whether a tag stands for two nodes.
+  bool has_repetition() {
+    if (size_ == 0) return false;
+    (void)find(0);
+    const std::vector<Run>& runs = ascending_ ? runs_ : by_tag_;
+    return std::ranges::adjacent_find(runs, [](const Run& a, const Run& b) { return a.tag + a.count > b.tag; }) !=
+           runs.end();
+  }
+
+  // The tags by index, one after the other.
+  class Walk {
+   public:
+    std::uint64_t next(const TagMap& map) {
+      if (place_ == map.runs_[run_].count) {
+        ++run_;
+        place_ = 0;
+      }
+      return map.runs_[run_].tag + place_++;
+    }
+
+   private:
+    std::size_t run_ = 0;
+    std::uint64_t place_ = 0;
+  };
+
+  std::uint64_t memory_bytes() const { return sizeof(Run) * (runs_.capacity() + by_tag_.capacity()); }
+
+ private:
+  struct Run {
+    std::uint64_t tag = 0, index = 0, count = 0;
+  };
+
+  std::vector<Run> runs_;    // by index
+  std::vector<Run> by_tag_;  // the same, if runs_ is not sorted by tag and was searched
+  bool ascending_ = true;
+  std::uint64_t size_ = 0;
+  std::size_t last_ = 0;  // the run that was found last
+};
+
+}  // namespace reeb::io
