@@ -20,6 +20,13 @@ std::vector<std::string> cx_files();
 std::vector<std::string> off_files();
 std::vector<std::string> ascii_stl_files();
 std::vector<std::string> binary_stl_files();
+std::vector<std::string> vtk_files();
+std::vector<std::string> vtk_xml_files();
+std::vector<std::string> msh_files();
+std::vector<std::string> medit_files();
+std::vector<std::string> tetgen_files();
+// The name of such a file, beside which there is a file of vertices.
+std::string tetgen_path();
 std::vector<std::string> gzip_files();
 std::vector<std::string> zstd_files();
 std::vector<std::string> reeb_files();

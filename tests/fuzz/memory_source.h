@@ -34,6 +34,9 @@ class MemorySource final : public ContentSource {
   }
   std::uint64_t file_bytes_read() const override { return read_; }
   std::uint64_t file_bytes() const override { return can_seek() ? bytes_.size() : 0; }
+  std::unique_ptr<ContentSource> reopen() const override {
+    return can_seek() ? std::make_unique<MemorySource>(bytes_, kind_) : nullptr;
+  }
 
  private:
   std::string bytes_;

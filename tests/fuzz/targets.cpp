@@ -7,6 +7,9 @@
 #include <memory>
 #include <sstream>
 
+#include "io/cells/medit_reader.h"
+#include "io/cells/msh_reader.h"
+#include "io/cells/tetgen_reader.h"
 #include "io/events/event_text.h"
 #include "io/file/content_source.h"
 #include "io/formats/cx_reader.h"
@@ -18,6 +21,7 @@
 #include "io/ply/ply_reader.h"
 #include "io/streaming/open_stream.h"
 #include "io/streaming/stream_mesh_reader.h"
+#include "io/vtk/vtk_reader.h"
 #include "ooc/reeb_file/reeb_file.h"
 #include "tests/fuzz/corpus.h"
 #include "tests/fuzz/image_targets.h"
@@ -111,6 +115,11 @@ std::unique_ptr<MeshReader> make_reader(std::unique_ptr<ContentSource> source, c
 
 std::unique_ptr<MeshReader> open_any(std::unique_ptr<ContentSource> source, const ReadOptions& options) {
   return open_mesh(std::move(source), "input", options);
+}
+
+// The vertices are those of a file that stays; the input is the tetrahedra.
+std::unique_ptr<MeshReader> open_tetrahedra(std::unique_ptr<ContentSource> source, const ReadOptions& options) {
+  return open_tetgen(std::move(source), tetgen_path(), options);
 }
 
 const char* stream_name(bool volume) { return volume ? "input.sva" : "input.sma"; }
@@ -246,13 +255,43 @@ constexpr std::string_view kPlyWords[] = {"element vertex",
 constexpr std::string_view kObjWords[] = {"v",      "f",    "l", "p",  "vn", "vt",   "g",  "o",
                                           "usemtl", "\\\n", "/", "//", "#",  "curv", "end"};
 constexpr std::string_view kOffWords[] = {"OFF", "STCN4nOFF", "nOFF", "COFF", "BINARY", "#"};
+constexpr std::string_view kVtkWords[] = {"POINTS",    "CELLS",        "CELL_TYPES",        "POINT_DATA",
+                                          "CELL_DATA", "SCALARS",      "LOOKUP_TABLE",      "VECTORS",
+                                          "FIELD",     "OFFSETS",      "METADATA",          "float",
+                                          "double",    "vtktypeint64", "UNSTRUCTURED_GRID", "POLYDATA",
+                                          "POLYGONS",  "LINES",        "VERTICES",          "string",
+                                          "bit",       "CONNECTIVITY", "TRIANGLE_STRIPS",   "unsigned_char"};
+constexpr std::string_view kXmlWords[] = {"<Piece ",
+                                          "</Piece>",
+                                          "<DataArray ",
+                                          "</DataArray>",
+                                          "<Cells>",
+                                          "<Points>",
+                                          "<PointData>",
+                                          "<!--",
+                                          "-->",
+                                          "/>",
+                                          "format=\"binary\"",
+                                          "format=\"appended\" offset=\"",
+                                          "type=\"Int32\"",
+                                          "type=\"Float64\"",
+                                          "Name=\"offsets\"",
+                                          "NumberOfCells=\"",
+                                          "NumberOfPoints=\"",
+                                          "NumberOfComponents=\""};
+constexpr std::string_view kMshWords[] = {"$Nodes",    "$EndNodes",    "$Elements", "$EndElements",
+                                          "$NodeData", "$EndNodeData", "$Comments"};
+constexpr std::string_view kMeditWords[] = {"Vertices",    "Triangles", "Quadrilaterals", "Tetrahedra",
+                                            "Hexahedra",   "Prisms",    "Pyramids",       "Edges",
+                                            "TrianglesP2", "End",       "Dimension",      "Corners"};
 constexpr std::string_view kCxWords[] = {"v", "s", "0", "1", "-0.5", "1e300", "#"};
 constexpr std::string_view kStlWords[] = {"solid",   "endsolid", "facet normal 0 0 1", "outer loop", "vertex",
                                           "endloop", "endfacet"};
 
 std::vector<std::string> everything() {
   auto all = streams(".sma", ".smb", ".smc", ".sva", ".svb");
-  for (auto* files : {&ascii_ply_files, &obj_files, &off_files, &cx_files, &ascii_stl_files, &binary_stl_files})
+  for (auto* files : {&ascii_ply_files, &obj_files, &off_files, &cx_files, &ascii_stl_files, &binary_stl_files,
+                      &vtk_files, &vtk_xml_files, &msh_files, &medit_files})
     for (std::string& file : files()) all.push_back(std::move(file));
   for (const bool big : {false, true})
     for (std::string& file : binary_ply_files(big)) all.push_back(std::move(file));
@@ -265,7 +304,7 @@ std::vector<std::string> all_binary_ply_files() {
   return files;
 }
 
-const std::array<FuzzTarget, 17> kTargets = {{
+const std::array<FuzzTarget, 22> kTargets = {{
     {"sma", run_stream<false>, [] { return streams(".sma"); }, kStreamWords, nullptr},
     {"smb", run_stream<false>, [] { return streams(".smb"); }, {}, nullptr},
     {"smc", run_stream<false>, [] { return streams(".smc"); }, {}, nullptr},
@@ -279,6 +318,11 @@ const std::array<FuzzTarget, 17> kTargets = {{
     {"cx", run_mesh<make_reader<CxReader>>, cx_files, kCxWords, nullptr},
     {"stl-ascii", run_mesh<make_reader<AsciiStlReader>>, ascii_stl_files, kStlWords, nullptr},
     {"stl-binary", run_mesh<make_reader<BinaryStlReader>>, binary_stl_files, {}, nullptr},
+    {"vtk", run_mesh<open_vtk_legacy, MemorySource::Kind::kFile>, vtk_files, kVtkWords, nullptr},
+    {"vtk-xml", run_mesh<open_vtk_xml, MemorySource::Kind::kFile>, vtk_xml_files, kXmlWords, nullptr},
+    {"msh", run_mesh<open_msh, MemorySource::Kind::kFile>, msh_files, kMshWords, nullptr},
+    {"medit", run_mesh<open_medit, MemorySource::Kind::kFile>, medit_files, kMeditWords, nullptr},
+    {"tetgen", run_mesh<open_tetrahedra, MemorySource::Kind::kFile>, tetgen_files, {}, nullptr},
     {"gzip", run_packed, gzip_files, {}, nullptr},
     {"zstd", run_packed, zstd_files, {}, nullptr},
     {"any-mesh", run_mesh<open_any, MemorySource::Kind::kFile>, everything, kStreamWords, nullptr},
