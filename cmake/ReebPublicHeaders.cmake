@@ -14,7 +14,8 @@ set(reeb_public_online libreeb/port/graph_sink.h libreeb/engine/online_reeb.h)
 set(reeb_public_hierarchy
   libreeb/graph/arc_version.h libreeb/hierarchy/hierarchy.h libreeb/hierarchy/pairing.h libreeb/hierarchy/levels.h)
 set(reeb_public_mesh
-  libreeb/port/simplex_counts.h libreeb/port/indexed_mesh.h libreeb/port/mesh_reader.h io/formats/open_mesh.h)
+  libreeb/port/simplex_counts.h libreeb/port/grid_reader.h libreeb/port/indexed_mesh.h libreeb/port/mesh_reader.h
+  io/formats/open_mesh.h)
 set(reeb_public_function libreeb/port/vertex_function.h io/functions/function_spec.h io/functions/function_source.h)
 set(reeb_public_reeb_file libreeb/format/file_header.h ooc/reeb_file/reeb_file.h)
 set(reeb_public_progressive_graph ooc/reeb_file/progressive_graph.h)

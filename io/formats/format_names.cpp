@@ -4,6 +4,7 @@
 #include <array>
 #include <utility>
 
+#include "io/images/image_format.h"
 #include "libreeb/base/error.h"
 
 namespace reeb::io {
@@ -32,12 +33,15 @@ MeshFormat format_of(const std::string& name) {
     if (entry == name) return format;
     known.append(known.empty() ? "" : ", ").append(entry);
   }
+  known.append(", nrrd, nifti, mha, vti, npy, asc, raw");
   throw Error(ErrorKind::kUsage, "'" + name + "' is not a format of meshes", "choose one of " + known);
 }
 
 }  // namespace
 
-void check_format_name(const std::string& name) { (void)format_of(name); }
+void check_format_name(const std::string& name) {
+  if (!image_format_named(name)) (void)format_of(name);
+}
 
 MeshFormat chosen_format(const std::string& name, ContentSource& source) {
   const MeshFormat format = format_of(name);

@@ -4,6 +4,7 @@
 #include "io/cells/msh_reader.h"
 #include "io/cells/tetgen_reader.h"
 #include "io/file/content_source.h"
+#include "io/file/file_name.h"
 #include "io/formats/cx_reader.h"
 #include "io/formats/foreign_format.h"
 #include "io/formats/format_detection.h"
@@ -12,6 +13,7 @@
 #include "io/formats/off_reader.h"
 #include "io/formats/open_grid.h"
 #include "io/formats/stl_reader.h"
+#include "io/grids/grid_mesh.h"
 #include "io/ply/ply_reader.h"
 #include "io/streaming/open_stream.h"
 #include "io/streaming/stream_mesh_reader.h"
@@ -29,7 +31,33 @@ constexpr const char* kFormatsRead =
 }  // namespace
 
 std::unique_ptr<MeshReader> open_mesh(const std::string& path, const ReadOptions& options, const std::string& format) {
-  return open_mesh(open_content(path), path, options, format);
+  const Input input(path);
+  return open_mesh(input, input.open(), options, {}, format);
+}
+
+// On a pipe a streaming mesh is recognized from fewer bytes than an image.
+std::unique_ptr<MeshReader> open_mesh(const Input& input, std::unique_ptr<ContentSource> source,
+                                      const ReadOptions& options, const ImageOptions& image,
+                                      const std::string& format) {
+  GridOptions grid;
+  grid.format = image_format_named(format);
+  if (format.empty() && content_suffix(input.path()) == ".raw") grid.format = ImageFormat::kRaw;
+  if (image.is_raw() || grid.format == ImageFormat::kRaw) {
+    grid.raw = parse_raw_grid(image.grid, image.type, image.spacing, image.skip_bytes);
+    grid.format = ImageFormat::kRaw;
+  } else if (!grid.format) {
+    const bool may_be_image =
+        format.empty() && (input.can_reopen() || detect_format(*source, input.path()) == MeshFormat::kUnknown);
+    if (!may_be_image || !detect_image(*source, input.path()))
+      return open_mesh(std::move(source), input.path(), options, format);
+  }
+  try {
+    return make_grid_mesh(open_grid(input, std::move(source), grid), options,
+                          {.skip_nodata = image.skip_nodata, .renumber = image.renumber});
+  } catch (Error& error) {
+    error.at(input.path());
+    throw;
+  }
 }
 
 std::unique_ptr<MeshReader> open_mesh(std::unique_ptr<ContentSource> source, const std::string& path,

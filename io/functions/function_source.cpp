@@ -28,7 +28,11 @@ FunctionSource::FunctionSource(const FunctionSpec& spec, const MeshInfo& info, s
                   "choose one of c0 to c" + std::to_string(info.dimension - 1))
           .at(mesh_name_);
     columns_ = {static_cast<unsigned>(spec.number)};
-  } else if (spec.kind == Kind::kProperty) {
+  } else if (spec.kind == Kind::kValue && !info.grid) {
+    throw Error(ErrorKind::kBadInput, "the mesh is no image, so it has no " + spec.text,
+                "choose a coordinate, property:NAME or file:PATH")
+        .at(mesh_name_);
+  } else if (spec.kind == Kind::kProperty || spec.kind == Kind::kValue) {
     const auto found = std::ranges::find(properties, spec.argument);
     if (found == properties.end())
       throw Error(ErrorKind::kBadInput, "the mesh has no vertex property \"" + spec.argument + "\"",

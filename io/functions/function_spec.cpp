@@ -63,6 +63,12 @@ std::optional<FunctionSpec> try_parse(std::string_view text) {
   };
   if (text == "x" || text == "y" || text == "z")
     return numbered(Kind::kCoordinate, static_cast<std::uint64_t>(text[0] - 'x'));
+  if (text == "value") {
+    spec.kind = Kind::kValue;
+    spec.number = 0;
+    spec.argument = text;
+    return spec;
+  }
   if (text == "index") return numbered(Kind::kIndex, 0);
   if (text == "spectral") return numbered(Kind::kLaplacian, 1);
   if (text.starts_with('c')) {
@@ -88,6 +94,10 @@ std::optional<FunctionSpec> try_parse(std::string_view text) {
   }
   const auto number = whole_number(argument);
   if (!number) return std::nullopt;
+  if (name == "value") {
+    spec.argument = *number == 0 ? "value" : text;
+    return numbered(Kind::kValue, *number);
+  }
   if (name == "random") return numbered(Kind::kRandom, *number);
   if (name == "laplacian" && *number != 0) return numbered(Kind::kLaplacian, *number);
   return std::nullopt;
@@ -99,10 +109,12 @@ FunctionSpec parse_function(std::string_view text) {
   if (auto spec = try_parse(text)) return *std::move(spec);
   throw Error(ErrorKind::kUsage, "\"" + std::string(text) + "\" is not a function",
               "functions are x, y, z, cK (a coordinate, from 0), index, random:SEED, property:NAME, file:PATH, "
-              "distance:VERTEX, distance:X,Y,Z, geodesic:VERTEX[,VERTEX...], laplacian:K, spectral");
+              "value or value:K (of an image), distance:VERTEX, distance:X,Y,Z, geodesic:VERTEX[,VERTEX...], "
+              "laplacian:K, spectral");
 }
 
 FunctionSpec default_function(const MeshInfo& info) {
+  if (info.grid) return parse_function("value");
   return parse_function(info.dimension == 1 ? "x" : info.dimension == 2 ? "y" : "z");
 }
 
@@ -115,7 +127,8 @@ std::string file_name_part(const FunctionSpec& spec) {
 std::vector<std::string> needed_properties(std::span<const FunctionSpec> specs) {
   std::vector<std::string> names;
   for (const FunctionSpec& spec : specs)
-    if (spec.kind == Kind::kProperty && std::ranges::find(names, spec.argument) == names.end())
+    if ((spec.kind == Kind::kProperty || spec.kind == Kind::kValue) &&
+        std::ranges::find(names, spec.argument) == names.end())
       names.push_back(spec.argument);
   return names;
 }

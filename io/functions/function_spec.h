@@ -18,6 +18,7 @@ struct FunctionSpec {
     kIndex,
     kRandom,
     kProperty,
+    kValue,
     kFile,
     kDistanceToVertex,
     kDistanceToPoint,
@@ -27,7 +28,7 @@ struct FunctionSpec {
 
   Kind kind = Kind::kCoordinate;
   std::uint64_t number = 2;               // of the coordinate, the vertex or the eigenvector; or the seed
-  std::string argument{};                 // the property, or the path
+  std::string argument{};                 // the property, the value of an image, or the path
   std::string text = "z";                 // as the user wrote it
   std::array<double, 3> point{};          // to which the distance is measured
   std::vector<std::uint64_t> vertices{};  // from which a geodesic is measured
@@ -39,7 +40,8 @@ struct FunctionSpec {
 // THROWS: Error{kUsage} that lists the functions.
 FunctionSpec parse_function(std::string_view text);
 
-// What is computed where no function is named: z, or the last coordinate where there are fewer than three.
+// What is computed where no function is named: the value of an image, else z, or the last coordinate where there are
+// fewer than three.
 FunctionSpec default_function(const MeshInfo& info);
 
 // The text of a function as part of a file name: ':', '/' and ',' become '-'.

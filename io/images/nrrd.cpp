@@ -72,6 +72,7 @@ class Header {
       fail_whole(std::string("the header has no ") + (!type_ ? "type" : sizes_.empty() ? "sizes" : "encoding"));
     Image image;
     image.type = *type_;
+    image.info.nodata = nodata_;
     take_axes(image);
     take_storage(image);
     image.info.format = "NRRD " + encoding_;
@@ -96,7 +97,12 @@ class Header {
   void field(std::string_view line) {
     if (line.starts_with('#')) return;
     const std::size_t colon = line.find(": ");
-    if (line.find(":=") < colon) return;  // a key and its value, which mean nothing here
+    if (const std::size_t key_end = line.find(":="); key_end < colon) {
+      // Of keys with a value, only this one means something here.
+      if (without_blanks(line.substr(0, key_end)) == "nodata")
+        nodata_ = text_.number(without_blanks(line.substr(key_end + 2)), "nodata");
+      return;
+    }
     const std::size_t end = colon == std::string_view::npos ? line.find(':') : colon;
     if (end == std::string_view::npos)
       text_.fail("this line is no field (\"name: value\")", "an empty line must end the header");
@@ -302,6 +308,7 @@ class Header {
   std::optional<bool> big_endian_;
   std::string encoding_, sizes_, data_file_;
   Vector origin_;
+  std::optional<double> nodata_;
   bool has_directions_ = false;
   std::uint64_t line_skip_ = 0;
   std::int64_t byte_skip_ = 0;

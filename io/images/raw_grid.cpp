@@ -24,19 +24,6 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
   throw Error(ErrorKind::kUsage, what, hint);
 }
 
-std::vector<std::uint64_t> parse_size(const std::string& grid) {
-  std::vector<std::uint64_t> size;
-  for (const std::string_view word : split(grid, 'x')) {
-    std::uint64_t count = 0;
-    const auto parsed = std::from_chars(word.data(), word.data() + word.size(), count);
-    if (parsed.ec != std::errc{} || parsed.ptr != word.data() + word.size() || count == 0) size.resize(4);
-    size.push_back(count);
-  }
-  if (size.size() != 2 && size.size() != 3)
-    refuse("--grid \"" + grid + "\" is not the size of a grid", "for example --grid 512x512 or --grid 256x256x100");
-  return size;
-}
-
 std::string type_text(const RawGrid& raw) {
   std::string text(type_name(raw.type));
   if (byte_size(raw.type) > 1) text += raw.big_endian ? "be" : "le";
@@ -57,10 +44,23 @@ void parse_type(const std::string& text, RawGrid& raw) {
 
 }  // namespace
 
+std::vector<std::uint64_t> parse_grid_size(const std::string& grid) {
+  std::vector<std::uint64_t> size;
+  for (const std::string_view word : split(grid, 'x')) {
+    std::uint64_t count = 0;
+    const auto parsed = std::from_chars(word.data(), word.data() + word.size(), count);
+    if (parsed.ec != std::errc{} || parsed.ptr != word.data() + word.size() || count == 0) size.resize(4);
+    size.push_back(count);
+  }
+  if (size.size() != 2 && size.size() != 3)
+    refuse("--grid \"" + grid + "\" is not the size of a grid", "for example --grid 512x512 or --grid 256x256x100");
+  return size;
+}
+
 RawGrid parse_raw_grid(const std::string& grid, const std::string& type, const std::string& spacing,
                        std::uint64_t skip_bytes) {
   RawGrid raw;
-  raw.size = parse_size(grid);
+  raw.size = parse_grid_size(grid);
   parse_type(type, raw);
   raw.skip_bytes = skip_bytes;
   if (spacing.empty()) return raw;

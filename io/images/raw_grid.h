@@ -18,6 +18,9 @@ struct RawGrid {
   std::uint64_t skip_bytes = 0;
 };
 
+// "256x256x100" or "512x512". THROWS: Error{kUsage}.
+std::vector<std::uint64_t> parse_grid_size(const std::string& grid);
+
 // From what a user writes: "256x256x100", "u16le", "0.5,0.5,2" (or empty).
 // THROWS: Error{kUsage} that names the option.
 RawGrid parse_raw_grid(const std::string& grid, const std::string& type, const std::string& spacing,

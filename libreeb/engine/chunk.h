@@ -1,6 +1,7 @@
 // A part of the mesh with vertex numbers of its own: the unit that one sweep works on.
 #pragma once
 
+#include <array>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
@@ -38,6 +39,9 @@ enum VertexUse : std::uint8_t {
   kUsedLater = 2,
 };
 
+// Vertices along each axis of a box of grid vertices; vertex (i, j, k) has the number i + box[0] * (j + box[1] * k).
+using BoxSize = std::array<std::uint32_t, 3>;
+
 // Local vertex i is ids[i], uses[i]; each mesh vertex occurs once. Vertices without a simplex are isolated points of
 // the chunk. Function values are not part of it: they are in one array per function, finite, without -0.0.
 struct Chunk {
@@ -45,14 +49,22 @@ struct Chunk {
   std::vector<std::uint8_t> uses;
   std::vector<Point> positions;        // one per vertex, or empty when not tracked
   std::vector<std::uint32_t> corners;  // three local vertices per triangle, repeats legal
+  // Set instead of corners if the chunk is a box of a grid with all of its simplices (libreeb/grid/box_sweep.h).
+  BoxSize box{};
+  // The faces of the box that other boxes have, too: bit 2 * k for the low end of axis k, bit 2 * k + 1 for its high
+  // end.
+  std::uint8_t shared_faces = 0;
 
   std::size_t vertex_count() const { return ids.size(); }
   std::size_t triangle_count() const { return corners.size() / 3; }
+  bool is_box() const { return box[0] != 0; }
   void clear() {
     ids.clear();
     uses.clear();
     positions.clear();
     corners.clear();
+    box = {};
+    shared_faces = 0;
   }
 };
 

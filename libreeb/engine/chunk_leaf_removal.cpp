@@ -124,7 +124,7 @@ void ChunkLeafRemoval::contract(SweepNode node) {
   detach(top, kDown, upper);
   attach(top, kDown, lower);
   graph_->arcs[lower].hi = top;
-  graph_->arcs[upper].lo = SweepNode::none();
+  graph_->arcs[upper].join(lower);
   graph_->nodes[node].gone = true;
   candidates_.push_back(graph_->arcs[lower].lo);
   candidates_.push_back(top);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -147,15 +146,6 @@ class Labels {
   std::vector<Label> labels_;
 };
 
-// The rank of the first vertex above v that is not in the bucket of this index.
-std::uint32_t end_of_bucket(const SweptChunk& swept, std::uint32_t v, std::int64_t index, int exponent) {
-  const double end = std::ldexp(static_cast<double>(index + 1), exponent);
-  const auto rest = swept.order.subspan(v + 1);
-  const auto next =
-      std::partition_point(rest.begin(), rest.end(), [&](std::uint32_t i) { return swept.values[i] < end; });
-  return v + 1 + static_cast<std::uint32_t>(next - rest.begin());
-}
-
 // One group of upward edges during a walk: a queue whose triangles before `visited` were visited.
 struct Side {
   std::vector<std::uint32_t> queue;
@@ -247,14 +237,14 @@ void ChunkSweep::Scratch::run(const Chunk& chunk_in, std::span<const double> val
   ranks.sort(values, chunk->ids);
   stars.build(*chunk, ranks.order());
   reset(options);
-  const SweptChunk swept_chunk{*chunk, values, ranks.order(), stars};
+  const SweptChunk swept_chunk{*chunk, values, ranks.order(), &stars};
   swept = &swept_chunk;
   const auto n = static_cast<std::uint32_t>(chunk->vertex_count());
   // One bucket after the other if there is an embedding, else all vertices at once.
   for (std::uint32_t v = 0, end = n; v < n; end = n) {
     if (options.bucket_exponent) {
       const std::int64_t index = bucket_index(swept->value(VertexRank(v)), *options.bucket_exponent);
-      end = end_of_bucket(*swept, v, index, *options.bucket_exponent);
+      end = swept->end_of_bucket(v, index, *options.bucket_exponent);
       builder.start_bucket(index);
     }
     while (v < end) visit(v++);

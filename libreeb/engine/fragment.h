@@ -57,6 +57,16 @@ struct Fragment {
   };
   std::vector<Step> steps;
 
+  // Of a box of a grid: vertices that earlier boxes have, and no later ones, and that are regular here. `arc` passes
+  // them. They are complete after the steps.
+  struct Passed {
+    VertexId vertex;
+    FragmentArc arc;
+    double value;
+    Point position;
+  };
+  std::vector<Passed> passed;
+
   // Nodes and arcs that nothing can change any more.
   std::vector<SettledNode> settled_nodes;
   std::vector<ArcKeys> settled_arcs;
@@ -78,6 +88,7 @@ struct Fragment {
     path_begin.clear();
     path_arcs.clear();
     steps.clear();
+    passed.clear();
     settled_nodes.clear();
     settled_arcs.clear();
     settled_bucket_counts.clear();

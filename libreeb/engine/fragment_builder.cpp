@@ -55,7 +55,7 @@ void FragmentBuilder::sort_steps(const SweptChunk& swept, const SharedEdges& sha
   for (std::uint32_t e = 0; e < shared.size(); ++e) steps_.emplace_back(shared[e].place, e, false);
   for (SweepNode n; n < graph_.nodes.end_id(); ++n) {
     const VertexRank v = graph_.nodes[n].vertex;
-    if (swept.uses(v) == kUsedEarlier) steps_.emplace_back(swept.stars.last_place(v.value()), n.value(), true);
+    if (swept.uses(v) == kUsedEarlier) steps_.emplace_back(swept.last_place(v), n.value(), true);
   }
   std::sort(steps_.begin(), steps_.end());
 }

@@ -33,6 +33,11 @@ class FragmentBuilder {
   // Sets the arc up from `node` that a path takes unless another branch is noted for it.
   void set_main_branch(SweepNode node, SweepArc arc) { graph_.nodes[node].main_branch = arc; }
 
+  // What was recorded so far.
+  const SweepGraph& graph() const { return graph_; }
+  // After finish(): the open arc of the fragment that has this arc.
+  FragmentArc open_arc(SweepArc arc) const { return graph_.arcs[graph_.present(arc)].open; }
+
   // Replaces `fragment`. REQUIRES: every arc has both ends; `shared` has all shared edges of the chunk.
   void finish(const SweptChunk& swept, const SharedEdges& shared, Fragment& fragment);
   std::size_t memory_bytes() const;

@@ -78,6 +78,7 @@ class Glue {
   void add_paths(const Fragment& fragment);
   Index add_path(const Fragment& fragment, std::size_t edge);
   void run_steps(const Fragment& fragment);
+  void add_passed(const Fragment& fragment);
   void add_edge(Index lo, Index hi, Index top);
   void drop_edge(Index edge);
   void link(Index link, Index node);
@@ -103,6 +104,7 @@ class Glue {
     Index top = kNone;   // of the fragment's path
   };
   std::vector<Pending> pending_;  // by shared edge of the fragment
+  std::vector<Index> passed_;     // nodes of vertices that are regular in the fragment
 };
 
 }  // namespace reeb

@@ -156,6 +156,7 @@ VertexId OnlineReeb::add_vertex(double value, const Point& position) {
   impl_->advance();
   return v;
 }
+void OnlineReeb::skip_to(VertexId next) { impl_->chunker().skip_to(next); }
 void OnlineReeb::add_simplex(std::span<const VertexId> corners) {
   impl_->chunker().add_simplex(corners);
   impl_->advance();

@@ -53,6 +53,8 @@ class OnlineReeb {
   // Adds the next vertex and returns its index: 0, 1, 2, ...
   // THROWS: Error{kBadInput} if the value is not finite, or after finish().
   VertexId add_vertex(double value, const Point& position = {});
+  // Says that no vertex has an index below `next`, except those that were added: the next one has this index.
+  void skip_to(VertexId next);
 
   // Adds the simplex with this set of corners (repeats are ignored), of any dimension; the
   // triangles through its vertex of lowest index decide.

@@ -19,10 +19,14 @@ void SharedEdges::note_branch(VertexRank lo, VertexRank hi, SweepNode node, Swee
   const auto edge = std::lower_bound(first, last, hi, [](const Edge& e, VertexRank h) { return e.hi < h; });
   if (edge == last || edge->hi != hi) return;
   if (edge->last_note != kNone && notes_[edge->last_note].node == node) return;
+  append_note(*edge, node, arc);
+}
+
+void SharedEdges::append_note(Edge& edge, SweepNode node, SweepArc arc) {
   const auto note = static_cast<std::uint32_t>(notes_.size());
   notes_.push_back({node, arc, kNone});
-  (edge->first_note == kNone ? edge->first_note : notes_[edge->last_note].next) = note;
-  edge->last_note = note;
+  (edge.first_note == kNone ? edge.first_note : notes_[edge.last_note].next) = note;
+  edge.last_note = note;
 }
 
 }  // namespace reeb

@@ -31,6 +31,8 @@ class SharedEdges {
   void add(SweepNode lower_node, VertexRank hi, SweepArc arc, std::uint32_t place) {
     edges_.push_back({lower_node, hi, arc, place, kNone, kNone});
   }
+  // Notes that the path of the edge that was added last goes up from `node` by `arc`. To be called from below.
+  void note_branch(SweepNode node, SweepArc arc) { append_note(edges_.back(), node, arc); }
   // Says that all shared edges up from v were added.
   void finish_vertex(VertexRank v);
   // Notes that the path of lo-hi goes up from `node` by `arc`. Does nothing if lo-hi is not a shared edge.
@@ -56,6 +58,8 @@ class SharedEdges {
     SweepArc arc;
     std::uint32_t next;
   };
+
+  void append_note(Edge& edge, SweepNode node, SweepArc arc);
 
   std::vector<Edge> edges_;                    // by lower vertex; those of a vertex are sorted by hi
   IdVector<VertexRank, std::uint32_t> begin_;  // those of vertex v are begin_[v] .. begin_[v + 1]

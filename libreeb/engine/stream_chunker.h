@@ -26,6 +26,9 @@ class StreamChunker {
   // THROWS: Error{kBadInput} if a value is not finite.
   VertexId add_vertex(std::span<const double> values, const Point& position);
 
+  // Says that no vertex has an index below `next` which was not given yet.
+  void skip_to(VertexId next) { next_vertex_ = std::max(next_vertex_, next.value()); }
+
   // Adds the triangles that decide of the simplex with this set of corners (repeats are ignored), of any dimension.
   // THROWS: Error{kBadInput} if a corner was not added or was finalized.
   void add_simplex(std::span<const VertexId> corners);
@@ -57,7 +60,8 @@ class StreamChunker {
         visit(std::span(slot_values_).subspan(slot * functions_, functions_), slot_vertices_[slot]);
   }
 
-  std::uint64_t vertex_count() const { return next_vertex_; }
+  // The index of the next vertex.
+  std::uint64_t vertex_bound() const { return next_vertex_; }
   std::size_t active_vertices() const { return slot_of_.size(); }
   std::size_t memory_bytes() const;  // of both
   // The most that they take while this many vertices are added: arrays that grow are copied.

@@ -36,11 +36,17 @@ struct SweepGraph {
   };
   struct Arc {
     SweepNode lo, hi;  // lo == none(): gone
-    FragmentArc open;  // its id in the fragment, if it is open
-    bool referenced;   // by the path of a shared edge
+    FragmentArc
+        open;         // its id in the fragment, if it is open; if it is gone: the arc that it is now part of, or none()
+    bool referenced;  // by the path of a shared edge
 
     SweepNode end(Direction d) const { return d == kUp ? hi : lo; }
     bool gone() const { return lo == SweepNode::none(); }
+    // Says that this arc is now part of another.
+    void join(SweepArc other) {
+      lo = SweepNode::none();
+      open = FragmentArc(other.value());
+    }
   };
   // An extremum with one arc.
   struct Leaf {
@@ -54,6 +60,11 @@ struct SweepGraph {
   IdVector<SweepArc, BucketLists::List> arc_buckets;
   BucketLists buckets;
 
+  // The arc that `arc` is now part of.
+  SweepArc present(SweepArc arc) const {
+    while (arcs[arc].gone()) arc = SweepArc(arcs[arc].open.value());
+    return arc;
+  }
   double length(const Arc& arc) const { return nodes[arc.hi].key.value - nodes[arc.lo].key.value; }
 
   void clear() {
@@ -73,12 +84,18 @@ struct SweptChunk {
   const Chunk& chunk;
   std::span<const double> values;
   std::span<const std::uint32_t> order;
-  const ChunkStars& stars;
+  const ChunkStars* stars;  // null: of a box
 
   LocalVertex local(VertexRank v) const { return LocalVertex(order[v.value()]); }
   std::uint8_t uses(VertexRank v) const { return chunk.uses[local(v).value()]; }
   double value(VertexRank v) const { return values[local(v).value()]; }
   SweepKey key(VertexRank v) const { return {value(v), chunk.ids[local(v).value()]}; }
+  // The place of the last triangle that uses v. The vertices of a box are completed at its end.
+  std::uint32_t last_place(VertexRank v) const {
+    return stars != nullptr ? stars->last_place(v.value()) : static_cast<std::uint32_t>(order.size());
+  }
+  // The rank of the first vertex above v that is not in the bucket of this index.
+  std::uint32_t end_of_bucket(std::uint32_t v, std::int64_t index, int exponent) const;
   Point position(VertexRank v) const { return chunk.positions.empty() ? Point{} : chunk.positions[local(v).value()]; }
 };
 

@@ -29,6 +29,12 @@ struct GridInfo {
 
   // At most 2^56, and so are the values of all vertices.
   std::uint64_t vertex_count() const { return size[0] * size[1] * size[2]; }
+  // A coordinate of vertex (i, j, k).
+  double coordinate(std::size_t axis, const std::array<std::uint64_t, 3>& at) const {
+    double sum = origin[axis];
+    for (std::size_t k = 0; k < axes; ++k) sum += static_cast<double>(at[k]) * step[k][axis];
+    return sum + 0.0;  // -0.0 becomes 0.0
+  }
 };
 
 // A place in a file, as messages name it. An empty position means that only the file is known.

@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "libreeb/base/ids.h"
+#include "libreeb/port/grid_reader.h"
 #include "libreeb/port/indexed_mesh.h"
 #include "libreeb/port/simplex_counts.h"
 
@@ -27,7 +28,9 @@ namespace reeb {
 
 // Cleared and refilled by each read, so that its memory is reused.
 struct MeshBatch {
-  VertexId first_vertex;         // index of the first vertex of this batch
+  // Index of the first vertex of this batch; in a grid of which some vertices are skipped, no vertex has the indices
+  // between the last one of the batch before and this one.
+  VertexId first_vertex;
   std::size_t vertex_count = 0;  // vertices are numbered first_vertex, first_vertex + 1, ...
   // coordinates[k][i] is the k-th coordinate of the i-th vertex; MeshInfo::dimension columns.
   std::vector<std::vector<double>> coordinates;
@@ -88,6 +91,7 @@ struct MeshInfo {
   bool finalizes = false;                      // the stream contains finalization
   bool float32 = false;                        // every number is exactly a float32
   std::uint64_t file_bytes = 0;                // 0: unknown (a pipe)
+  std::optional<GridInfo> grid;                // set if the mesh is an image
 };
 
 struct ReadOptions {
@@ -96,6 +100,7 @@ struct ReadOptions {
   bool all_properties = false;          // deliver those of MeshInfo::property_names instead
   // Where a pipe is copied to, if its format cannot be read in one go; empty: where temporary files are by default.
   std::string temp_folder{};
+  bool value_of_image = false;  // if the mesh is an image, and no property is named: deliver "value"
 };
 
 // THREADS: one at a time; different readers share nothing.
@@ -117,6 +122,10 @@ class MeshReader {
   // The same mesh from its beginning, with random access to its vertices, if the format allows that on the input
   // itself; else null. The two are read independently of each other.
   virtual std::unique_ptr<IndexedMesh> indexed() const { return nullptr; }
+
+  // Leaves simplices and finalizations out of all batches, if the mesh is a grid of which no vertex is skipped: then
+  // they follow from its size. Returns whether it does. REQUIRES: nothing was read yet.
+  virtual bool leave_out_simplices() { return false; }
 
   // How much of the input was read so far, in bytes of the file as stored on disk.
   virtual std::uint64_t bytes_read() const = 0;

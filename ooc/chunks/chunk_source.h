@@ -73,6 +73,8 @@ class ChunkSource {
   virtual SimplexCounts simplices_listed() const = 0;
   // Of the whole mesh; for a stream, so far.
   virtual std::uint64_t vertex_count() const = 0;
+  // More than the index of any vertex: indices have gaps where vertices of a grid are skipped.
+  virtual std::uint64_t vertex_bound() const { return vertex_count(); }
 };
 
 // Chunks of an indexed mesh: whole blocks of its last-use table. Vertices that no triangle uses come last, as chunks of

@@ -48,7 +48,7 @@ void DividedChunks::take_whole(WorkItem& item) {
   std::swap(item.chunk, stretch_.chunk);
   std::swap(item.values, stretch_.values);
   std::swap(item.end, stretch_.end);
-  item.can_resume_after = true;
+  item.can_resume_after = stretch_.can_resume_after;
 }
 
 void DividedChunks::divide() {

@@ -32,6 +32,7 @@ class DividedChunks : public ChunkSource {
   std::uint64_t triangles_read() const override { return stretches_.triangles_read(); }
   SimplexCounts simplices_listed() const override { return stretches_.simplices_listed(); }
   std::uint64_t vertex_count() const override { return stretches_.vertex_count(); }
+  std::uint64_t vertex_bound() const override { return stretches_.vertex_bound(); }
 
  private:
   bool is_small(const Chunk& chunk) const;

@@ -27,7 +27,8 @@ class StreamChunks : public ChunkSource {
   std::uint64_t bytes_total() const override { return reader_.info().file_bytes; }
   std::uint64_t triangles_read() const override { return simplices_read_; }
   SimplexCounts simplices_listed() const override { return simplices_; }
-  std::uint64_t vertex_count() const override { return chunker_.vertex_count(); }
+  std::uint64_t vertex_count() const override { return vertices_; }
+  std::uint64_t vertex_bound() const override { return chunker_.vertex_bound(); }
 
  private:
   void pass_over(const ChunkPlace& start);
@@ -43,7 +44,7 @@ class StreamChunks : public ChunkSource {
   StreamChunker chunker_;
   ReaderMemory reader_memory_;
   Reservation memory_;
-  std::uint64_t simplices_read_ = 0;
+  std::uint64_t simplices_read_ = 0, vertices_ = 0;
   SimplexCounts simplices_{};
   std::uint64_t batches_ = 0;
   BatchDigest digest_;
@@ -64,7 +65,7 @@ bool StreamChunks::next(WorkItem& item) {
   chunker_.take(item.chunk, item.values);
   size_.adapt(item.chunk);
   item.end = {.triangles = simplices_read_,
-              .next_vertex = chunker_.vertex_count(),
+              .next_vertex = chunker_.vertex_bound(),
               .batches = batches_,
               .chunk_blocks = size_.size(),
               .digest = digest_.value(),
@@ -75,7 +76,7 @@ bool StreamChunks::next(WorkItem& item) {
 bool StreamChunks::is_hopeless() const {
   constexpr std::uint64_t kLargeMeshVertices = 1'000'000, kMeshShare = 8;
   if (!most_active_vertices_) return false;
-  const std::uint64_t active = chunker_.active_vertices(), all = chunker_.vertex_count();
+  const std::uint64_t active = chunker_.active_vertices(), all = vertices_;
   return active > *most_active_vertices_ || (all > kLargeMeshVertices && active > all / kMeshShare);
 }
 
@@ -88,7 +89,7 @@ void StreamChunks::pass_over(const ChunkPlace& start) {
     read_batch();
     if (chunker_.chunk_size() >= size_.size() || batches_ == start.batches) chunker_.take(chunk, values);
   }
-  if (batches_ != start.batches || simplices_read_ != start.triangles || chunker_.vertex_count() != start.next_vertex ||
+  if (batches_ != start.batches || simplices_read_ != start.triangles || chunker_.vertex_bound() != start.next_vertex ||
       (batches_ != 0 && digest_.value() != start.digest))
     throw InputChanged();
   if (start.chunk_blocks != 0) size_.set_size(static_cast<std::size_t>(start.chunk_blocks));
@@ -125,6 +126,8 @@ bool StreamChunks::make_room() {
 void StreamChunks::add_vertices() {
   const std::size_t n = batch_.vertex_count;
   if (n == 0) return;
+  vertices_ += n;
+  chunker_.skip_to(batch_.first_vertex);
   ids_.resize(n);
   for (std::size_t i = 0; i < n; ++i) ids_[i] = VertexId(batch_.first_vertex.value() + i);
   data_.clear();

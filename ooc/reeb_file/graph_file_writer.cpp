@@ -34,7 +34,8 @@ GraphFileWriter::GraphFileWriter(const std::string& path, FileMeta meta, const O
       background_(options.background),
       components_(options.nodes, options.temp, options.budget) {
   if (options.ends == ArcEnds::kKeys) keys_.emplace(*options.temp);
-  if (options.ends == ArcEnds::kKeysInMemory) rank_of_.assign(static_cast<std::size_t>(header_.mesh_vertices), kNoNode);
+  if (options.ends == ArcEnds::kKeysInMemory)
+    rank_of_.assign(static_cast<std::size_t>(std::max(options.vertex_bound, header_.mesh_vertices)), kNoNode);
 }
 
 void GraphFileWriter::add_nodes(std::span<const SettledNode> nodes) {

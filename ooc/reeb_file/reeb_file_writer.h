@@ -76,6 +76,7 @@ class GraphFileWriter {
     bool has_positions = true;
     bool has_embedding = false;
     ArcEnds ends = ArcEnds::kRanks;
+    std::uint64_t vertex_bound = 0;     // for kKeysInMemory: more than the index of any vertex; else their number is
     bool background = false;            // pack and write frames in a separate thread
     const io::TempDir* temp = nullptr;  // REQUIRED for kKeys
     MemoryBudget* budget = nullptr;     // requires `temp`; null: memory is not counted

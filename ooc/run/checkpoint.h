@@ -17,6 +17,7 @@ struct RunSettings {
   double denoise = 0;
   std::uint64_t denoise_is_share = 0;
   std::uint64_t buckets = 0;
+  std::uint64_t reading = 0;  // digest of the options by which the mesh is read
 };
 
 // The mesh, functions and settings of a run. It cannot use the checkpoint of a run with others.
@@ -39,6 +40,7 @@ enum class ChunkOrigin : std::uint64_t {
   kGuessed = 3,        // while the mesh is read for the first time, with guesses
   kPieces = 4,         // with known last uses, its pieces in another order
   kSortedInSlabs = 5,  // as kSorted, in an order with a shorter front
+  kGrid = 6,           // boxes of a grid
 };
 
 // The state of a run apart from its stores and engine.

@@ -29,7 +29,8 @@ struct MeshInput {
   std::string path;                // for the sidecar, checkpoints and messages; "-": none
   // Throws InputChanged if what was read so far does not fit together; empty: nothing can change.
   std::function<void()> check_unchanged = {};
-  bool may_resume = true;  // a later process can read the file at `path` in the same batches
+  std::uint64_t reading = 0;  // digest of the options by which it is read
+  bool may_resume = true;     // a later process can read the file at `path` in the same batches
 };
 
 struct ComputeOptions {

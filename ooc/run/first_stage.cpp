@@ -10,6 +10,7 @@
 #include "ooc/chunks/guessed_chunks.h"
 #include "ooc/chunks/last_use_sidecar.h"
 #include "ooc/chunks/spooled_mesh.h"
+#include "ooc/grids/grid_chunks.h"
 #include "ooc/run/mesh_order.h"
 #include "ooc/run/stopwatch.h"
 
@@ -52,6 +53,7 @@ class PolledReader : public MeshReader {
     return some;
   }
   std::unique_ptr<IndexedMesh> indexed() const override { return reader_->indexed(); }
+  bool leave_out_simplices() override { return reader_->leave_out_simplices(); }
   std::uint64_t bytes_read() const override { return reader_->bytes_read(); }
   std::uint64_t memory_bytes() const override { return reader_->memory_bytes(); }
   std::string memory_hint() const override { return reader_->memory_hint(); }
@@ -93,9 +95,10 @@ FirstStageResult glue_chunks(RunContext& run, ChunkSource& stretches, const Memo
   result.removed_pairs = std::move(done.removed_pairs);
   result.simplices = source.simplices_listed();
   result.vertices = source.vertex_count();
-  if (done.restored_vertex_bound > result.vertices) throw DamagedState();
+  result.vertex_bound = source.vertex_bound();
+  if (done.restored_vertex_bound > result.vertex_bound) throw DamagedState();
   for (const auto& store : run.stores)
-    if (store->restored_vertex_bound() > result.vertices) throw DamagedState();
+    if (store->restored_vertex_bound() > result.vertex_bound) throw DamagedState();
   result.seconds.reeb += watch.seconds();
   return result;
 }
@@ -125,7 +128,7 @@ StreamRun run_stream(RunContext& run, const MeshInput& input, const Checkpoint* 
     run.start_over();
     return {std::move(result), true};
   }
-  for (VertexFunction* function : run.functions) function->check_count(result.vertices);
+  for (VertexFunction* function : run.functions) function->check_count(result.vertex_bound);
   append(result.notes, input.reader->warnings());
   return {std::move(result), false};
 }
@@ -133,6 +136,16 @@ StreamRun run_stream(RunContext& run, const MeshInput& input, const Checkpoint* 
 bool needs_lookup(const RunContext& run) {
   return std::any_of(run.functions.begin(), run.functions.end(),
                      [](const VertexFunction* function) { return function->needs_lookup(); });
+}
+
+// ---- a grid without gaps
+
+FirstStageResult run_grid(RunContext& run, const MeshInput& input, const Checkpoint* start, FirstStageResult result) {
+  const auto source = chunks_of_grid(*input.reader, run.values, run.budget, run.plan.chunk.first, place_of(start));
+  result = glue_chunks(run, *source, run.plan, {.origin = ChunkOrigin::kGrid}, std::move(result));
+  for (VertexFunction* function : run.functions) function->check_count(result.vertex_bound);
+  append(result.notes, input.reader->warnings());
+  return result;
 }
 
 // ---- a mesh that is read once, and kept on disk for what cannot be done meanwhile
@@ -262,6 +275,9 @@ FirstStageResult run_first_stage(RunContext& run, MeshInput input) {
   if (input.indexed) return run_indexed(run, input, std::move(input.indexed), start, std::move(result));
 
   input.reader = std::make_unique<PolledReader>(std::move(input.reader), run.resumable);
+  if ((start == nullptr || start->origin == ChunkOrigin::kGrid) && !needs_lookup(run) &&
+      input.reader->leave_out_simplices())
+    return run_grid(run, input, start, std::move(result));
   const bool may_stream = input.reader->info().finalizes && !needs_lookup(run);
   if (may_stream && (start == nullptr || start->origin == ChunkOrigin::kStream)) {
     StreamRun stream = run_stream(run, input, start, std::move(result));

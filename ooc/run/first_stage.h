@@ -15,7 +15,8 @@ namespace reeb::ooc {
 // The results that all functions of the run share, and how many pairs were removed for each.
 struct FirstStageResult {
   std::uint64_t vertices = 0, unused_vertices = 0;
-  SimplexCounts simplices{};  // as listed
+  std::uint64_t vertex_bound = 0;  // more than the index of any vertex
+  SimplexCounts simplices{};       // as listed
   std::uint64_t degenerate_triangles = 0;
   std::uint64_t guessed_vertices = 0, revoked_guesses = 0;
   std::uint64_t spilled_bytes = 0;

@@ -10,6 +10,7 @@
 
 #include "libreeb/engine/chunk_sweep.h"
 #include "libreeb/engine/glue.h"
+#include "libreeb/grid/box_sweep.h"
 #include "ooc/threads/kept_arena.h"
 #include "ooc/threads/pipeline_order.h"
 
@@ -19,7 +20,16 @@ namespace {
 // Scratch memory for sweeping.
 struct Sweeper {
   explicit Sweeper(MemoryBudget& budget) : reservation(budget.reserve("chunk sweep", 0)) {}
-  ChunkSweep sweep;
+  void run(const Chunk& chunk, std::span<const double> values, Fragment& fragment, const SweepOptions& options) {
+    if (chunk.is_box())
+      boxes.run(chunk, values, fragment, options);
+    else
+      triangles.run(chunk, values, fragment, options);
+  }
+  std::size_t memory_bytes() const { return triangles.memory_bytes() + boxes.memory_bytes(); }
+
+  ChunkSweep triangles;
+  BoxSweep boxes;
   Reservation reservation;
 };
 
@@ -104,8 +114,8 @@ class Pipeline {
     slot.item.fragments.resize(glues_.size());
     reserve_at_least(sweeper.reservation, ChunkSweep::least_memory_bytes(slot.item.chunk));
     for (std::size_t f = 0; f < glues_.size(); ++f)
-      sweeper.sweep.run(slot.item.chunk, slot.item.values[f], slot.item.fragments[f], sweep_options(slot.item, f));
-    sweeper.reservation.resize(sweeper.sweep.memory_bytes());
+      sweeper.run(slot.item.chunk, slot.item.values[f], slot.item.fragments[f], sweep_options(slot.item, f));
+    sweeper.reservation.resize(sweeper.memory_bytes());
     slot.reservation.resize(slot.item.memory_bytes());
   }
 

@@ -39,7 +39,7 @@ RunContext::RunContext(const MeshInput& input, std::span<VertexFunction* const> 
       temp(options.temp_dir.empty() ? io::TempDir::default_folder(outputs[0]) : options.temp_dir),
       values(functions, input.dimension),
       resumable(outputs[0], readable_again(input), functions,
-                {options.denoise, options.denoise_is_share, options.buckets},
+                {options.denoise, options.denoise_is_share, options.buckets, input.reading},
                 {options.resume, options.replace, options.checkpoint_seconds, options.interrupted}) {
   make_stores();
 }

@@ -25,6 +25,7 @@ struct StoredGraph {
   std::string output;
   SweepOptions sweep;
   FileMeta meta;
+  std::uint64_t vertex_bound;  // more than the index of any vertex
 };
 
 // The share of the whole stage that its parts take, about: they are not alike for all graphs.
@@ -53,13 +54,14 @@ WrittenGraph write_graph(RunContext& run, const StoredGraph& graph, const FileMe
   GraphFileWriter::Options writing{.nodes = store.node_count(),
                                    .has_embedding = run.embeds(),
                                    .ends = GraphFileWriter::ArcEnds::kKeys,
+                                   .vertex_bound = graph.vertex_bound,
                                    .background = run.background(),
                                    .temp = &run.temp,
                                    .budget = &run.budget,
                                    .output = run.output_options()};
-  const std::uint64_t table_bytes = meta.mesh_vertices * sizeof(std::uint32_t);
+  const std::uint64_t table_bytes = graph.vertex_bound * sizeof(std::uint32_t);
   Reservation table;
-  if (meta.mesh_vertices / kVerticesPerNodeForTable <= store.node_count() &&
+  if (graph.vertex_bound / kVerticesPerNodeForTable <= store.node_count() &&
       table_bytes <= run.budget.free_bytes() / 4) {
     table = run.budget.reserve("ranks of nodes", table_bytes);
     writing.ends = GraphFileWriter::ArcEnds::kKeysInMemory;
@@ -119,7 +121,7 @@ LastNoise remove_last_noise(RunContext& run, StoredGraph& graph) {
   SegmentStore& store = *graph.store;
   LastNoisePass pass = run_last_noise_pass(store, {.threshold = graph.sweep.noise_below,
                                                    .bucket_exponent = graph.sweep.bucket_exponent,
-                                                   .vertices = graph.meta.mesh_vertices});
+                                                   .vertices = graph.vertex_bound});
   if (!pass.fits) {
     FileMeta meta = graph.meta;
     meta.denoise_threshold = 0;
@@ -271,7 +273,8 @@ FileMeta file_meta(const ComputeResult& result, const SweepOptions& sweep) {
 ComputeResult run_second_stage(RunContext& run, const FirstStageResult& first, std::size_t function) {
   ComputeResult result = result_of(run, first, function);
   const SweepOptions sweep = sweep_options(run.options, result.range);
-  StoredGraph graph{std::move(run.stores[function]), result.output, sweep, file_meta(result, sweep)};
+  StoredGraph graph{std::move(run.stores[function]), result.output, sweep, file_meta(result, sweep),
+                    first.vertex_bound};
   run.tell({ComputeProgress::Phase::kHierarchy});
   const Stopwatch watch;
   graph.store->finish();

@@ -7,6 +7,8 @@
 #include <cstdlib>
 #include <new>
 
+#include "tests/support/allocation_pause.h"
+
 namespace reeb::test {
 
 inline std::atomic<std::uint64_t> allocations{0}, failing_allocation{0};
@@ -27,8 +29,9 @@ class ScopedAllocationFault {
 
 // `alignment` 0: the usual one.
 inline void* allocate_or_fail(std::size_t size, std::size_t alignment) {
-  const std::uint64_t number = allocations.fetch_add(1, std::memory_order_relaxed) + 1;
-  if (number == failing_allocation.load(std::memory_order_relaxed)) throw std::bad_alloc();
+  const bool counts = !allocations_pass.load(std::memory_order_relaxed);
+  const std::uint64_t number = counts ? allocations.fetch_add(1, std::memory_order_relaxed) + 1 : 0;
+  if (counts && number == failing_allocation.load(std::memory_order_relaxed)) throw std::bad_alloc();
   void* const memory = alignment == 0 ? std::malloc(size == 0 ? 1 : size)
                                       : std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
   if (memory == nullptr) throw std::bad_alloc();

@@ -12,6 +12,7 @@
 #include <system_error>
 
 #include "libreeb/base/error.h"
+#include "tests/support/allocation_pause.h"
 #include "tools/commands/commands.h"
 
 namespace reeb::test {
@@ -72,6 +73,10 @@ CommandOutcome run_command(const std::vector<std::string>& words, const std::str
   flush_standard_streams();
   const Redirected in(STDIN_FILENO, opened(input, O_RDONLY)), out(STDOUT_FILENO, checked(::memfd_create("", 0), "")),
       messages(STDERR_FILENO, opened("/dev/null", O_WRONLY));
+  // CLI11 allocates in functions that may not throw, so faults begin when it has parsed the command line.
+  for (CLI::App* command : program.get_subcommands({}))
+    command->parse_complete_callback([] { allocations_pass = false; });
+  allocations_pass = true;
   try {
     around([&] { program.parse(std::vector<std::string>(reversed)); });
   } catch (const Error& error) {
@@ -79,6 +84,7 @@ CommandOutcome run_command(const std::vector<std::string>& words, const std::str
   } catch (const std::bad_alloc&) {  // as the program says it
     outcome = {static_cast<int>(ErrorKind::kResource), "out of memory", {}, "close other programs", {}};
   }
+  allocations_pass = false;
   flush_standard_streams();
   outcome.output = content_of(STDOUT_FILENO);
   return outcome;

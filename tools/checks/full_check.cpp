@@ -103,6 +103,7 @@ void check_fully(const ooc::ReebFile& file, const FullCheckOptions& options) {
   run.memory_bytes = options.memory_bytes;
   run.threads = options.threads;
   run.format = options.format;
+  run.image = options.image;
   run.temp_dir = folder.path();
   run.graph_only = header.flags.graph_only;
   run.buckets = 0;

@@ -5,6 +5,7 @@
 #include <functional>
 #include <string>
 
+#include "io/formats/open_mesh.h"
 #include "ooc/reeb_file/reeb_file.h"
 
 namespace reeb::tools {
@@ -13,6 +14,7 @@ struct FullCheckOptions {
   std::string mesh, format, temp_folder;
   std::uint64_t memory_bytes = ~std::uint64_t{0};  // of the computation
   unsigned threads = 0;                            // 0: all
+  io::ImageOptions image = {};
   std::function<bool()> interrupted = {};
 };
 

@@ -17,6 +17,7 @@
 #include "tools/library/compute.h"
 #include "tools/library/run_files.h"
 #include "tools/program/compute_report.h"
+#include "tools/program/image_options.h"
 #include "tools/program/options.h"
 #include "tools/program/output.h"
 #include "tools/program/progress.h"
@@ -135,8 +136,7 @@ void add_compute(CLI::App& program) {
   ComputeOptions& options = arguments->options;
   CLI::App* command = program.add_subcommand("compute", "Compute the Reeb graph of a mesh (the default)");
   command
-      ->add_option("MESH", arguments->mesh,
-                   "PLY, OBJ, OFF, STL, CX, SMA, SMB, SMC, SVA or SVB, also as .gz and .zst; - reads standard input")
+      ->add_option("MESH", arguments->mesh, "Mesh or image of any format, also as .gz and .zst; - reads standard input")
       ->required()
       ->type_name("");
   command
@@ -149,8 +149,8 @@ void add_compute(CLI::App& program) {
       ->add_option(
           "-f,--function", arguments->functions,
           "x, y, z, cK (the K-th coordinate, from 0), index, random:SEED, property:NAME, file:PATH, "
-          "distance:VERTEX, distance:X,Y,Z, geodesic:VERTEX[,VERTEX...], laplacian:K or spectral (default: z; may be "
-          "repeated)")
+          "distance:VERTEX, distance:X,Y,Z, geodesic:VERTEX[,VERTEX...], laplacian:K, spectral, or of an image value, "
+          "value:K (default: z, of an image value; may be repeated)")
       ->allow_extra_args(false)
       ->option_text("FUNC");
   command->add_flag("--graph-only", options.graph_only, "Stop after the graph: no pairs, no levels");
@@ -162,6 +162,7 @@ void add_compute(CLI::App& program) {
       ->type_name("T");
   add_count(*command, "--buckets", options.buckets,
             "Embed arcs in at least N buckets of value (default: 64; 0: no embedding)", {.most = 1u << 20});
+  add_image_options(*command, arguments->options.image);
   add_count(*command, "--threads", options.threads, "Number of threads, 1 to 1024 (default: all)",
             {.least = 1, .most = 1024});
   add_count(*command, "--chunk", options.chunk_triangles, "Triangles per chunk (default: adaptive)", {.least = 1});

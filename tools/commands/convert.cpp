@@ -10,6 +10,7 @@
 #include "tools/commands/commands.h"
 #include "tools/library/run_files.h"
 #include "tools/program/convert_mesh.h"
+#include "tools/program/image_options.h"
 #include "tools/program/options.h"
 #include "tools/program/output.h"
 #include "tools/program/progress.h"
@@ -67,6 +68,7 @@ void add_convert(CLI::App& program) {
       ->type_name("ORDER");
   command->add_flag("--finalize", options.finalize,
                     "Put each vertex before its first triangle, and finalize it after its last");
+  add_image_options(*command, arguments->options.image);
   add_size(*command, "--memory", options.memory_bytes, "Memory that the run may use: 64M, 1.5GiB (default: no limit)");
   command
       ->add_option("--temp-dir", options.temp_folder,

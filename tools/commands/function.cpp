@@ -22,6 +22,7 @@
 #include "libreeb/base/printable.h"
 #include "tools/commands/commands.h"
 #include "tools/library/run_files.h"
+#include "tools/program/image_options.h"
 #include "tools/program/options.h"
 #include "tools/program/output.h"
 #include "tools/program/progress.h"
@@ -35,6 +36,7 @@ static_assert(std::endian::native == std::endian::little, "values are written as
 struct FunctionOptions {
   std::string mesh, format, function, output, temp_folder;
   std::uint64_t memory_bytes = MemoryBudget::kUnlimited;
+  io::ImageOptions image;
   bool force = false, quiet = false;
 };
 
@@ -70,14 +72,16 @@ class Values {
     ReadOptions read_options;
     read_options.all_properties = io::name_suffix(options_.output) == ".ply";
     read_options.properties = io::needed_properties(std::span(&spec_, 1));
-    reader_ = io::open_mesh(input_.open(), options_.mesh, read_options, options_.format);
+    read_options.value_of_image = options_.function.empty();
+    reader_ = io::open_mesh(input_, input_.open(), read_options, options_.image, options_.format);
     if (options_.function.empty()) spec_ = io::default_function(reader_->info());
     io::OpenMesh open_again;
     if (input_.can_reopen())
-      open_again = [this] { return io::open_mesh(input_.open(), options_.mesh, {}, options_.format); };
+      open_again = [this] { return io::open_mesh(input_, input_.open(), {}, options_.image, options_.format); };
     field_ = std::move(
         io::read_fields(std::span(&spec_, 1), open_again, options_.mesh, options_.temp_folder, options_.memory_bytes)
             .front());
+    if (options_.function.empty()) read_options.properties = io::needed_properties(std::span(&spec_, 1));
     const auto& properties = read_options.all_properties ? reader_->info().property_names : read_options.properties;
     source_ = std::make_unique<io::FunctionSource>(spec_, reader_->info(), properties, options_.mesh, &field_);
     if (!source_->needs_lookup()) return;
@@ -171,7 +175,7 @@ void run_function(FunctionOptions options) {
 
 void add_function(CLI::App& program) {
   auto options = std::make_shared<FunctionOptions>();
-  CLI::App* command = program.add_subcommand("function", "Write the values of a function at the vertices of a mesh");
+  CLI::App* command = program.add_subcommand("function", "Write the values of a function on a mesh");
   command->add_option("MESH", options->mesh, "Mesh of any format, also as .gz and .zst; - reads standard input")
       ->required()
       ->type_name("");
@@ -183,6 +187,7 @@ void add_function(CLI::App& program) {
       ->required()
       ->type_name("FILE");
   add_format(*command, options->format);
+  add_image_options(*command, options->image);
   add_size(*command, "--memory", options->memory_bytes, "Memory that the run may use: 64M, 1.5GiB (default: no limit)");
   command
       ->add_option("--temp-dir", options->temp_folder,

@@ -4,11 +4,16 @@
 #include <algorithm>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
+#include "io/file/atomic_file.h"
 #include "io/file/file_name.h"
 #include "io/formats/create_mesh.h"
 #include "io/generate/generator.h"
+#include "io/generate/volume.h"
+#include "io/images/raw_grid.h"
 #include "libreeb/base/count_text.h"
 #include "libreeb/base/error.h"
 #include "libreeb/base/printable.h"
@@ -25,7 +30,8 @@ namespace {
 struct GenerateArguments {
   std::string kind, order = "patches", output;
   io::GeneratorOptions mesh;
-  std::optional<std::uint64_t> seed, dimension;
+  std::optional<std::uint64_t> seed, dimension, handles;
+  std::string grid;  // of a volume
   bool force = false;
 };
 
@@ -61,7 +67,47 @@ void check_options(const GenerateArguments& arguments) {
     print_line(fmt::format("note: nothing is random in a {} in this order, so --seed changes nothing", arguments.kind));
 }
 
+io::VolumeOptions volume_options(const GenerateArguments& arguments) {
+  if (arguments.grid.empty()) throw Error(ErrorKind::kUsage, "a volume needs its size", "for example --grid 64x64x64");
+  io::VolumeOptions options;
+  const auto size = io::parse_grid_size(arguments.grid);
+  std::copy(size.begin(), size.end(), options.size.begin());
+  if (size.size() == 2) options.size[2] = 1;
+  options.axes = static_cast<unsigned>(size.size());
+  options.handles = arguments.handles.value_or(1);
+  options.noise_seed = arguments.seed;
+  return options;
+}
+
+void generate_volume(const GenerateArguments& arguments) {
+  if (io::name_suffix(arguments.output) != ".nrrd")
+    throw Error(ErrorKind::kUsage, "a volume is written as NRRD", "choose an output that ends in .nrrd");
+  const io::VolumeOptions options = volume_options(arguments);
+  const io::Volume volume(options);
+  RunFiles files;
+  files.add_output(arguments.output, "the output", existing_outputs(arguments.force));
+  files.check();
+  io::AtomicFile file(arguments.output, {.existing = late_outputs(arguments.force)});
+  file.out().append(volume.nrrd_header());
+  std::vector<float> row(options.size[0]);
+  ProgressBar bar(false);
+  for (std::uint64_t k = 0; k < options.size[2]; ++k)
+    for (std::uint64_t j = 0; j < options.size[1]; ++j) {
+      volume.row(j, k, row);
+      file.out().append(std::as_bytes(std::span(row)));  // little endian
+      bar.update({"writing"}, j + options.size[1] * k, options.size[1] * options.size[2]);
+    }
+  file.commit();
+  bar.clear();
+  print_line(fmt::format("wrote {}: {}, {}; with --nodata skip, value and x have a graph of 1 component and {}",
+                         printable(arguments.output), count_of(volume.vertex_count(), "vertex"),
+                         count_of(options.handles, "handle"), count_of(options.handles, "loop")));
+}
+
 void run_generate(GenerateArguments arguments) {
+  if (arguments.kind == "volume") return generate_volume(arguments);
+  if (!arguments.grid.empty() || arguments.handles)
+    throw Error(ErrorKind::kUsage, "only a volume has --grid and --handles", "leave them out, or generate a volume");
   arguments.mesh.kind = io::mesh_kind(arguments.kind);
   io::set_order(arguments.mesh, arguments.order);
   check_options(arguments);
@@ -98,12 +144,13 @@ void run_generate(GenerateArguments arguments) {
 void add_generate(CLI::App& program) {
   auto arguments = std::make_shared<GenerateArguments>();
   CLI::App* command = program.add_subcommand("generate", "Write a test mesh of any size");
-  command->add_option("KIND", arguments->kind, "torus, terrain, grid, plate, scan or sierpinski")
+  command->add_option("KIND", arguments->kind, "torus, terrain, grid, plate, scan, sierpinski or volume")
       ->required()
       ->type_name("");
   command
-      ->add_option("-o,--output", arguments->output,
-                   "Mesh to write: .ply .obj .off .cx .sma .smb .smc .sva .svb; .events.txt lists the events")
+      ->add_option(
+          "-o,--output", arguments->output,
+          "Mesh to write: .ply .obj .off .cx .sma .smb .smc .sva .svb, a volume: .nrrd; .events.txt lists the events")
       ->required()
       ->type_name("FILE");
   add_count(*command, "--triangles", arguments->mesh.triangles,
@@ -113,11 +160,15 @@ void add_generate(CLI::App& program) {
                    "Order of the triangles: rows, patches, random, tiles:N, random-tiles:N or seams-last:N, with N "
                    "cells along a tile's side (default: patches)")
       ->type_name("ORDER");
-  add_count(*command, "--seed", arguments->seed, "Seed of noise, handles and random order (default: 1)");
+  add_count(*command, "--seed", arguments->seed,
+            "Seed of noise, handles and random order (default: 1; a volume without it has no noise)");
   add_count(*command, "--width", arguments->mesh.width,
             "Cells in a row of the grid (default: about as many as there are rows)", {.least = 1});
   add_count(*command, "--dimension", arguments->dimension, "Dimension of a sierpinski, 2 to 5 (default: 3)",
             {.least = 2, .most = 5});
+  command->add_option("--grid", arguments->grid, "Vertices of a volume along each axis: 256x256x100")
+      ->type_name("NXxNY[xNZ]");
+  add_count(*command, "--handles", arguments->handles, "Tunnels through a volume (default: 1)");
   command->add_flag("--force", arguments->force, "Replace an existing output");
   command->footer("Example:\n  reeb generate scan --triangles 12M --order patches --seed 7 -o scan.ply");
   command->callback([arguments] { run_generate(*arguments); });

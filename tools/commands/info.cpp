@@ -5,6 +5,7 @@
 #include "libreeb/base/memory_budget.h"
 #include "ooc/reeb_file/reeb_file.h"
 #include "tools/commands/commands.h"
+#include "tools/program/image_options.h"
 #include "tools/program/mesh_info.h"
 #include "tools/program/options.h"
 #include "tools/program/reeb_info.h"
@@ -15,6 +16,7 @@ void add_info(CLI::App& app) {
   struct Options {
     std::string file, format, temp_folder;
     std::uint64_t memory_bytes = MemoryBudget::kUnlimited;
+    io::ImageOptions image;
     bool json = false;
   };
   auto options = std::make_shared<Options>();
@@ -24,6 +26,7 @@ void add_info(CLI::App& app) {
       ->required()
       ->type_name("");
   add_format(*command, options->format);
+  add_image_options(*command, options->image);
   command->add_flag("--json", options->json, "Print JSON");
   add_size(*command, "--memory", options->memory_bytes, "Memory for the tables of a mesh: 64M (default: no limit)");
   command
@@ -35,7 +38,8 @@ void add_info(CLI::App& app) {
     if (options->file != "-" && options->format.empty() && ooc::is_reeb_file(options->file))
       print_reeb_info(options->file, options->json);
     else
-      print_mesh_info(options->file, options->format, options->memory_bytes, options->temp_folder, options->json);
+      print_mesh_info(options->file, options->format, options->memory_bytes, options->temp_folder, options->json,
+                      options->image);
   });
 }
 

@@ -18,6 +18,7 @@
 #include "tools/checks/full_check.h"
 #include "tools/checks/node_check.h"
 #include "tools/commands/commands.h"
+#include "tools/program/image_options.h"
 #include "tools/program/input_kind.h"
 #include "tools/program/options.h"
 #include "tools/program/progress.h"
@@ -30,6 +31,7 @@ struct VerifyOptions {
   std::string file, mesh, format, temp_folder;
   std::uint64_t memory_bytes = MemoryBudget::kUnlimited;
   unsigned threads = 0;
+  io::ImageOptions image;
   bool full = false;
 };
 
@@ -57,10 +59,11 @@ std::string compare_with_mesh(const ooc::ReebFile& file, const VerifyOptions& op
   std::optional<ValueRange> range;
   ProgressBar bar(false);
   const ooc::MeshRecount mesh = input.read([&] {
-    const auto reader = io::open_mesh(input.open(), options.mesh, {.properties = nodes.properties()}, options.format);
+    const auto reader =
+        io::open_mesh(input, input.open(), {.properties = nodes.properties()}, options.image, options.format);
     io::OpenMesh open_again;
     if (io::is_regular_file(options.mesh))
-      open_again = [&] { return io::open_mesh(input.open(), options.mesh, {}, options.format); };
+      open_again = [&] { return io::open_mesh(input, input.open(), {}, options.image, options.format); };
     nodes.start(reader->info(), open_again, options.temp_folder, options.memory_bytes);
     std::uint64_t simplices = 0;
     const ooc::MeshRecount recount = ooc::recount_mesh(*reader, space, [&](const MeshBatch& batch) {
@@ -99,6 +102,7 @@ void compute_again(const ooc::ReebFile& file, const VerifyOptions& options) {
                      .temp_folder = options.temp_folder,
                      .memory_bytes = options.memory_bytes,
                      .threads = options.threads,
+                     .image = options.image,
                      .interrupted = watch_signals()});
   const FileHeader& header = file.header();
   fmt::print("{}: OK: computed again, it has the same {}, {} and {}\n", printable(options.mesh),
@@ -135,6 +139,7 @@ void add_verify(CLI::App& app) {
       ->type_name("MESH");
   add_format(*command, options->format);
   command->add_flag("--full", options->full, "Compute the graph again from the mesh; compare nodes, arcs and pairs");
+  add_image_options(*command, options->image);
   add_size(*command, "--memory", options->memory_bytes,
            "Memory for the tables of the mesh and for --full: 64M (default: no limit)");
   add_count(*command, "--threads", options->threads, "Number of threads for --full, 1 to 1024 (default: all)",

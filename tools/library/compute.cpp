@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "io/file/atomic_file.h"
+#include "io/file/checksum.h"
 #include "io/file/content_source.h"
 #include "io/file/temp_dir.h"
 #include "io/formats/open_mesh.h"
@@ -39,6 +40,18 @@ ooc::ComputeOptions run_options(const ComputeOptions& options) {
   return run;
 }
 
+// What a run on an image depends on and its file does not say.
+std::uint64_t reading_digest(const MeshInfo& info, const io::ImageOptions& image) {
+  if (!info.grid) return 0;
+  std::uint64_t digest = image.skip_nodata ? 1 : 0;
+  const auto add = [&](const auto& numbers) { digest = io::checksum(std::as_bytes(std::span(numbers)), digest); };
+  add(info.grid->size);
+  add(info.grid->origin);
+  add(std::span(info.format));
+  for (const auto& step : info.grid->step) add(step);
+  return digest;
+}
+
 void require_an_output_each(std::span<const std::string> functions, std::span<const std::string> outputs) {
   if (functions.empty() || functions.size() != outputs.size())
     throw Error(ErrorKind::kUsage,
@@ -63,6 +76,7 @@ std::vector<ComputeResult> compute(const std::string& path, std::span<const std:
   if (snapshots) read_options.batch_events = 1;  // exactly as far as the stream came
   read_options.properties = io::needed_properties(specs);
   read_options.temp_folder = options.temp_dir.empty() ? io::TempDir::default_folder(outputs.front()) : options.temp_dir;
+  read_options.value_of_image = functions[0].empty();
 
   ooc::MeshInput input;
   input.path = path;
@@ -73,15 +87,20 @@ std::vector<ComputeResult> compute(const std::string& path, std::span<const std:
   // What zstd holds with the window of its usual level, 2 MiB, is part of what any run takes.
   constexpr std::uint64_t kUsualWindow = std::uint64_t{3} << 20;
   input.reader_bytes = content->memory_bytes() - std::min(content->memory_bytes(), kUsualWindow);
-  input.reader = io::open_mesh(std::move(content), path, read_options, options.format);
+  input.reader = io::open_mesh(mesh, std::move(content), read_options, options.image, options.format);
   const MeshInfo info = input.reader->info();
+  for (std::size_t f = 0; f < specs.size(); ++f)
+    if (functions[f].empty()) specs[f] = io::default_function(info);
+  if (read_options.properties.empty()) read_options.properties = io::needed_properties(specs);
+  input.reading = reading_digest(info, options.image);
   input.dimension = info.dimension;
   std::vector<std::unique_ptr<io::FunctionSource>> sources;
   std::vector<VertexFunction*> pointers;
   for (std::size_t f = 0; f < specs.size(); ++f)
     if (functions[f].empty()) specs[f] = io::default_function(info);
   io::OpenMesh open_again;
-  if (mesh.can_reopen()) open_again = [&] { return io::open_mesh(mesh.open(), path, {}, options.format); };
+  if (mesh.can_reopen())
+    open_again = [&] { return io::open_mesh(mesh, mesh.open(), {}, options.image, options.format); };
   const std::string temp_folder =
       options.temp_dir.empty() ? io::TempDir::default_folder(outputs.front()) : options.temp_dir;
   const std::vector<io::MeshField> fields = io::read_fields(specs, open_again, path, temp_folder, options.memory_bytes);
@@ -99,7 +118,8 @@ std::vector<ComputeResult> compute(const std::string& path, std::span<const std:
                                   options.replace ? io::Existing::kReplace : io::Existing::kKeep);
   } else {
     input.indexed = input.reader->indexed();
-    if (path != "-") input.read_again = [&] { return io::open_mesh(mesh.open(), path, read_options, options.format); };
+    if (path != "-")
+      input.read_again = [&] { return io::open_mesh(mesh, mesh.open(), read_options, options.image, options.format); };
   }
   if (input.indexed) input.reader.reset();
   auto results = ooc::compute(std::move(input), pointers, outputs, run_options(options));

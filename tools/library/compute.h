@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "io/formats/open_mesh.h"
 #include "libreeb/port/mesh_reader.h"
 #include "ooc/run/compute_result.h"
 
@@ -27,6 +28,7 @@ struct ComputeOptions {
   bool denoise_is_share = false;
   std::uint32_t buckets = 64;        // buckets of value over the range, at least; at most twice that; 0: none
   std::string format{};              // of the mesh, where its content does not tell: "cx", ...; empty: detected
+  io::ImageOptions image{};          // how an image is read
   std::string temp_dir{};            // for temporary files; empty: $TMPDIR, or the folder of the first output
   bool may_reorder = true;           // sort a mesh in no coherent order on disk first
   bool keep_sidecar = false;         // keep what the first pass learns in MESH.final, for the next run
@@ -42,10 +44,9 @@ struct ComputeOptions {
 };
 
 // Computes the Reeb graph of the mesh `path` ("-": standard input) for a function ("z", "c3", "index",
-// "random:1", "property:NAME", "file:PATH", ..., as the program's -f; "": z, or the last coordinate where there are
-// fewer than three) and writes it to `output` with all levels of detail; ReebFile reads that. The output "-" is
-// standard output. Format and compression are told by content. The bytes of the result do not depend on memory, threads
-// or chunks.
+// "random:1", "property:NAME", "file:PATH", ..., as the program's -f; "": the program's default) and writes it to
+// `output` with all levels of detail; ReebFile reads that. The output "-" is standard output. Format and compression
+// are told by content. The bytes of the result do not depend on memory, threads or chunks.
 //
 // THROWS:  Error: kUsage for a function that is none; kBadInput with file and position for a bad mesh, or an
 //          output that exists, is an input or is another output; kResource if memory or disk do not suffice, or an

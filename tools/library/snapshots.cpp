@@ -20,6 +20,7 @@ class LiveFunction {
 
   void add_vertices(const MeshBatch& batch) {
     if (batch.vertex_count == 0) return;
+    graph_.skip_to(batch.first_vertex);
     ids_.clear();
     for (std::size_t i = 0; i < batch.vertex_count; ++i) ids_.emplace_back(batch.first_vertex.value() + i);
     columns_.clear();

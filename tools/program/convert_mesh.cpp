@@ -14,6 +14,7 @@
 #include "io/formats/open_mesh.h"
 #include "io/functions/function_source.h"
 #include "io/functions/mesh_field.h"
+#include "io/images/image_format.h"
 #include "io/streaming/create_stream.h"
 #include "io/streaming/open_stream.h"
 #include "io/streaming/stream_mesh_reader.h"
@@ -99,17 +100,24 @@ class Conversion {
   }
 
  private:
+  io::MeshFormat kind_of(io::ContentSource& source) const {
+    const std::string& format = options_.format;
+    return format.empty() ? io::detect_format(source, options_.input) : io::chosen_format(format, source);
+  }
+
   Lines convert() {
     auto source = input_.open();
     const std::string& format = options_.format;
-    const auto kind = format.empty() ? io::detect_format(*source, options_.input) : io::chosen_format(format, *source);
-    if (kind == io::MeshFormat::kStreaming) {
+    const bool names_image = options_.image.is_raw() || io::image_format_named(format).has_value();
+    if (!names_image && kind_of(*source) == io::MeshFormat::kStreaming) {
       const std::uint64_t bytes = source->file_bytes();
       auto events = io::open_stream(std::move(source), io::name_for_streams(options_.input, format));
       if (can_copy_events(events->header())) return copy_events(std::move(events), bytes);
       reader_ = io::make_stream_mesh_reader(std::move(events), read_options(), bytes);
     } else {
-      reader_ = io::open_mesh(std::move(source), options_.input, read_options(), format);
+      io::ImageOptions image = options_.image;
+      image.renumber = true;  // mesh formats have no vertices to skip
+      reader_ = io::open_mesh(input_, std::move(source), read_options(), image, format);
     }
     // Without finalization all vertices of the mesh would stay active in the writer.
     sorts_ |= format_ == io::StreamFormat::kCompressed && !reader_->info().finalizes;
@@ -259,7 +267,7 @@ std::unique_ptr<IndexedMesh> Conversion::sorted(std::unique_ptr<IndexedMesh> mes
   }
   io::OpenMesh open_again;
   if (input_.can_reopen())
-    open_again = [&] { return io::open_mesh(input_.open(), options_.input, {}, options_.format); };
+    open_again = [&] { return io::open_mesh(input_, input_.open(), {}, options_.image, options_.format); };
   const auto fields = io::read_fields({&*options_.order.function, 1}, open_again, options_.input, options_.temp_folder,
                                       options_.memory_bytes);
   io::FunctionSource function(*options_.order.function, reader_->info(), property_columns(), options_.input,

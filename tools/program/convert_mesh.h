@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "io/file/atomic_file.h"
+#include "io/formats/open_mesh.h"
 #include "io/functions/function_source.h"
 #include "libreeb/base/memory_budget.h"
 #include "tools/program/progress.h"
@@ -29,6 +30,7 @@ struct ConvertOptions {
   bool finalize = false;
   std::uint64_t memory_bytes = MemoryBudget::kUnlimited;
   std::string temp_folder;
+  io::ImageOptions image = {};
   io::Existing existing = io::Existing::kRefuse;
 };
 

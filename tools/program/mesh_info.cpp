@@ -16,6 +16,7 @@
 #include "io/formats/format_detection.h"
 #include "io/formats/format_names.h"
 #include "io/formats/open_mesh.h"
+#include "io/images/image_format.h"
 #include "libreeb/base/count_text.h"
 #include "libreeb/base/printable.h"
 #include "libreeb/base/value_range.h"
@@ -53,12 +54,15 @@ class Connection {
 };
 
 // Opens streams for reading event by event, so that their front is measured exactly.
-std::unique_ptr<MeshReader> open(const io::Input& input, const std::string& format) {
+std::unique_ptr<MeshReader> open(const io::Input& input, const std::string& format, io::ImageOptions image) {
   auto source = input.open();
   ReadOptions options;
-  const auto kind = format.empty() ? io::detect_format(*source, input.path()) : io::chosen_format(format, *source);
-  if (kind == io::MeshFormat::kStreaming) options.batch_events = 1;
-  return io::open_mesh(std::move(source), input.path(), options, format);
+  if (!image.is_raw() && !io::image_format_named(format)) {
+    const auto kind = format.empty() ? io::detect_format(*source, input.path()) : io::chosen_format(format, *source);
+    if (kind == io::MeshFormat::kStreaming) options.batch_events = 1;
+  }
+  image.renumber = true;
+  return io::open_mesh(input, std::move(source), options, image, format);
 }
 
 std::uint64_t distinct(std::span<const VertexId> corners) {
@@ -71,8 +75,8 @@ std::uint64_t distinct(std::span<const VertexId> corners) {
 
 class MeshSurvey {
  public:
-  MeshSurvey(const io::Input& input, const std::string& format, ooc::Workspace& space)
-      : path_(input.path()), space_(space), reader_(open(input, format)), connection_(space) {
+  MeshSurvey(const io::Input& input, const std::string& format, ooc::Workspace& space, const io::ImageOptions& image)
+      : path_(input.path()), space_(space), reader_(open(input, format, image)), connection_(space) {
     bounds_.resize(reader_->info().dimension);
   }
 
@@ -194,11 +198,11 @@ void MeshSurvey::print_json() const {
 }  // namespace
 
 void print_mesh_info(const std::string& path, const std::string& format, std::uint64_t memory_bytes,
-                     const std::string& temp_folder, bool json) {
+                     const std::string& temp_folder, bool json, const io::ImageOptions& image) {
   ooc::Workspace space(temp_folder, memory_bytes);
   const io::Input input(path);
   const auto survey = input.read([&] {
-    auto found = std::make_unique<MeshSurvey>(input, format, space);
+    auto found = std::make_unique<MeshSurvey>(input, format, space, image);
     found->run();
     return found;
   });

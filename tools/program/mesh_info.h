@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <string>
 
+#include "io/formats/open_mesh.h"
+
 namespace reeb::tools {
 
 // Reads the mesh once, and the triangles of a mesh without finalization twice. The live front is the largest number of
@@ -12,6 +14,6 @@ namespace reeb::tools {
 // `format` as in open_mesh().
 // MEMORY: tables of 8 and 4 bytes per vertex, paged to disk within `memory_bytes`.
 void print_mesh_info(const std::string& path, const std::string& format, std::uint64_t memory_bytes,
-                     const std::string& temp_folder, bool json);
+                     const std::string& temp_folder, bool json, const io::ImageOptions& image);
 
 }  // namespace reeb::tools

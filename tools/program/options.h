@@ -43,7 +43,8 @@ inline CLI::Option* add_format(CLI::App& command, std::string& target) {
             io::check_format_name(name);
             target = name;
           },
-          "Format of the mesh, where its content does not tell: ply obj off stl sma smb smc sva svb cx")
+          "Format, where content and name do not tell: ply obj off stl sma smb smc sva svb cx vtk vtu vtp msh medit "
+          "tetgen nrrd nifti mha vti npy asc raw")
       ->type_name("NAME");
 }
 

@@ -43,12 +43,30 @@ Error error_of(Action action) {
 }
 
 TEST(FunctionText, IsParsedOrRefused) {
-  for (const char* good : {"x", "y", "z", "c0", "c12", "index", "random:18446744073709551615", "property:a b",
-                           "file:/a:b", "distance:0", "distance:18446744073709551615", "distance:1,-2e3,.5"})
+  for (const char* good : {"x", "y", "z", "c0", "c12", "index", "random:18446744073709551615", "property:a b", "value",
+                           "value:3", "file:/a:b", "distance:0", "distance:18446744073709551615", "distance:1,-2e3,.5"})
     EXPECT_EQ(parse_function(good).text, good);
-  for (const char* bad :
-       {"", "w", "c", "c-1", "cx", "random", "random:", "random:-1", "random:1x", "property:", "file:", "file", "z ",
-        "distance", "distance:", "distance:1,2", "distance:1,2,3,4", "distance:-1", "distance:1,2,inf"}) {
+  for (const char* bad : {"",
+                          "w",
+                          "c",
+                          "c-1",
+                          "cx",
+                          "random",
+                          "random:",
+                          "random:-1",
+                          "random:1x",
+                          "property:",
+                          "file:",
+                          "file",
+                          "z ",
+                          "value:",
+                          "value:x",
+                          "distance",
+                          "distance:",
+                          "distance:1,2",
+                          "distance:1,2,3,4",
+                          "distance:-1",
+                          "distance:1,2,inf"}) {
     const Error error = error_of([&] { parse_function(bad); });
     EXPECT_EQ(error.kind(), ErrorKind::kUsage) << bad;
     EXPECT_FALSE(error.hint().empty());

@@ -1,0 +1,63 @@
+#include "io/images/hex_input.h"
+
+#include <utility>
+#include <vector>
+
+#include "io/text/text_cursor.h"
+#include "libreeb/base/error.h"
+
+namespace reeb::io {
+namespace {
+
+int digit_of(char c) {
+  if (c >= '0' && c <= '9') return c - '0';
+  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
+  return c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1;
+}
+
+class HexInput final : public ByteFilter {
+ public:
+  explicit HexInput(std::unique_ptr<ByteInput> text) : ByteFilter(std::move(text)), buffer_(65536) {}
+
+  std::uint64_t offset() const override { return ByteFilter::offset() - (filled_ - next_); }
+
+  std::size_t read(char* out, std::size_t limit) override {
+    std::size_t done = 0;
+    while (done < limit) {
+      const int high = next_digit(), low = high < 0 ? -1 : next_digit();
+      if (low < 0) break;
+      out[done++] = static_cast<char>(high * 16 + low);
+    }
+    return done;
+  }
+
+ private:
+  // -1 at the end.
+  int next_digit() {
+    for (;;) {
+      if (next_ == filled_) {
+        next_ = 0;
+        filled_ = input().read(buffer_.data(), buffer_.size());
+        if (filled_ == 0) return -1;
+      }
+      const char c = buffer_[next_];
+      const int digit = digit_of(c);
+      if (digit < 0 && c != '\n' && !is_blank(c))
+        throw Error(ErrorKind::kBadInput, "not a hexadecimal digit", "the file may be cut or damaged here")
+            .at(name(), std::to_string(offset()));
+      ++next_;
+      if (digit >= 0) return digit;
+    }
+  }
+
+  std::vector<char> buffer_;
+  std::size_t next_ = 0, filled_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<ByteInput> from_hex(std::unique_ptr<ByteInput> text) {
+  return std::make_unique<HexInput>(std::move(text));
+}
+
+}  // namespace reeb::io

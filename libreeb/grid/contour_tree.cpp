@@ -1,0 +1,187 @@
+#include "libreeb/grid/contour_tree.h"
+
+#include <bit>
+#include <utility>
+
+namespace reeb {
+namespace {
+
+constexpr unsigned kNeighbours = 14;
+
+// Neighbour n < 7 is up the subset n + 1 of the axes, neighbour 7 + n is down it.
+constexpr std::array<int, 3> step_to(unsigned neighbour) {
+  const unsigned axes = neighbour % 7 + 1;
+  const int sign = neighbour < 7 ? 1 : -1;
+  return {sign * static_cast<int>(axes & 1), sign * static_cast<int>(axes >> 1 & 1),
+          sign * static_cast<int>(axes >> 2)};
+}
+
+// An edge of the division steps along a set of axes, all in the same direction.
+constexpr bool is_edge(const std::array<int, 3>& a, const std::array<int, 3>& b) {
+  bool up = true, down = true;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const int step = b[k] - a[k];
+    if (step < -1 || step > 1) return false;
+    up &= step >= 0;
+    down &= step <= 0;
+  }
+  return up || down;
+}
+
+using NeighbourSet = std::uint16_t;
+
+constexpr std::array<NeighbourSet, kNeighbours> make_adjacency() {
+  std::array<NeighbourSet, kNeighbours> adjacent{};
+  for (unsigned a = 0; a < kNeighbours; ++a)
+    for (unsigned b = 0; b < kNeighbours; ++b)
+      if (a != b && is_edge(step_to(a), step_to(b))) adjacent[a] = static_cast<NeighbourSet>(adjacent[a] | 1u << b);
+  return adjacent;
+}
+
+// For each set of neighbours: one of each group, where a group hangs together by edges within the set.
+std::vector<NeighbourSet> make_groups() {
+  constexpr auto kAdjacent = make_adjacency();
+  std::vector<NeighbourSet> groups(std::size_t{1} << kNeighbours);
+  for (unsigned set = 0; set < groups.size(); ++set) {
+    unsigned chosen = 0;
+    for (unsigned left = set; left != 0;) {
+      const unsigned first = left & (~left + 1);
+      chosen |= first;
+      for (unsigned pending = first; pending != 0;) {
+        const int next = std::countr_zero(pending);
+        left &= ~(1u << next);
+        pending = (pending & (pending - 1)) | (kAdjacent[static_cast<std::size_t>(next)] & left);
+      }
+    }
+    groups[set] = static_cast<NeighbourSet>(chosen);
+  }
+  return groups;
+}
+
+const std::vector<NeighbourSet>& groups_of_sets() {
+  static const std::vector<NeighbourSet> groups = make_groups();
+  return groups;
+}
+
+}  // namespace
+
+void ContourTree::build(const BoxSize& size, std::span<const std::uint32_t> order) {
+  count_ = static_cast<std::uint32_t>(order.size());
+  place(size, order);
+  find_groups();
+  sweep(true);
+  sweep(false);
+  merge();
+}
+
+void ContourTree::place(const BoxSize& size, std::span<const std::uint32_t> order) {
+  const std::uint32_t row = size[0] + 2, slice = row * (size[1] + 2);
+  for (unsigned n = 0; n < kNeighbours; ++n) {
+    const auto step = step_to(n);
+    offsets_[n] = step[0] + step[1] * static_cast<std::int32_t>(row) + step[2] * static_cast<std::int32_t>(slice);
+  }
+  padded_rank_.assign(std::size_t{slice} * (size[2] + 2), kNone);
+  place_.resize(count_);
+  const std::uint32_t first = 1 + row + slice, plane = size[0] * size[1];
+  for (std::uint32_t r = 0; r < count_; ++r) {
+    const std::uint32_t k = order[r] / plane, in_plane = order[r] % plane, j = in_plane / size[0];
+    place_[r] = first + in_plane - j * size[0] + j * row + k * slice;
+    padded_rank_[place_[r]] = r;
+  }
+}
+
+// In the order of memory.
+void ContourTree::find_groups() {
+  const NeighbourSet* const groups = groups_of_sets().data();
+  groups_.resize(count_);
+  const std::uint32_t* const ranks = padded_rank_.data();
+  for (std::size_t p = 0; p < padded_rank_.size(); ++p) {
+    const std::uint32_t r = ranks[p];
+    if (r == kNone) continue;
+    unsigned below = 0, there = 0;
+    for (unsigned n = 0; n < kNeighbours; ++n) {
+      const std::uint32_t other = ranks[static_cast<std::ptrdiff_t>(p) + offsets_[n]];
+      below |= static_cast<unsigned>(other < r) << n;
+      there |= static_cast<unsigned>(other != kNone) << n;
+    }
+    groups_[r] = {groups[below], groups[there & ~below]};
+  }
+}
+
+std::uint32_t ContourTree::find(std::uint32_t v) {
+  while (parent_[v] != v) v = parent_[v] = parent_[parent_[v]];
+  return v;
+}
+
+// Upward for the join tree, downward for the split tree. The representative of a component is the last vertex so far.
+void ContourTree::sweep(bool up) {
+  std::vector<Link>& links = up ? join_ : split_;
+  links.resize(count_);
+  parent_.resize(count_);
+  for (std::uint32_t i = 0; i < count_; ++i) {
+    const std::uint32_t v = up ? i : count_ - 1 - i;
+    parent_[v] = v;
+    links[v] = {kNone, 0, 0};
+    const std::uint32_t* const here = padded_rank_.data() + place_[v];
+    for (unsigned set = groups_[v][up ? 0 : 1]; set != 0; set &= set - 1) {
+      const std::uint32_t last = find(here[offsets_[static_cast<std::size_t>(std::countr_zero(set))]]);
+      if (last == v) continue;
+      parent_[last] = v;
+      links[last].onward = v;
+      links[v].others ^= last;
+      ++links[v].count;
+    }
+  }
+}
+
+// A vertex that is a leaf of one tree and passes through the other is a leaf of the contour tree. It is taken out of
+// both until one vertex is left.
+void ContourTree::merge() {
+  nodes_.assign(count_, {});
+  edges_.resize(count_);
+  leaves_.clear();
+  const auto is_leaf = [this](std::uint32_t v) { return join_[v].count + split_[v].count == 1; };
+  for (std::uint32_t v = 0; v < count_; ++v)
+    if (is_leaf(v)) leaves_.push_back(v);
+  for (std::uint32_t left = count_; left > 1; --left) {
+    const std::uint32_t v = leaves_.back();
+    leaves_.pop_back();
+    const bool upper = split_[v].count == 0;
+    std::uint32_t other;
+    if (upper) {
+      other = split_[v].onward;
+      remove_leaf(split_, join_, v);
+      add_edge(v, other, v);
+    } else {
+      other = join_[v].onward;
+      remove_leaf(join_, split_, v);
+      add_edge(v, v, other);
+    }
+    if (is_leaf(other)) leaves_.push_back(other);
+  }
+}
+
+// Takes a leaf of `own` out of both trees.
+void ContourTree::remove_leaf(std::vector<Link>& own, std::vector<Link>& other, std::uint32_t v) {
+  Link& at = own[own[v].onward];
+  at.others ^= v;
+  --at.count;
+  const std::uint32_t before = other[v].others, after = other[v].onward;
+  other[before].onward = after;
+  if (after != kNone) other[after].others ^= v ^ before;
+}
+
+void ContourTree::add_edge(std::uint32_t e, std::uint32_t lo, std::uint32_t hi) {
+  edges_[e].next = {std::exchange(nodes_[hi].first[0], e), std::exchange(nodes_[lo].first[1], e)};
+  ++nodes_[hi].degree[0];
+  ++nodes_[lo].degree[1];
+}
+
+std::size_t ContourTree::memory_bytes() const {
+  return 4 * (padded_rank_.capacity() + place_.capacity() + groups_.capacity() + parent_.capacity() +
+              leaves_.capacity()) +
+         (join_.capacity() + split_.capacity()) * sizeof(Link) + nodes_.capacity() * sizeof(Node) +
+         edges_.capacity() * sizeof(Edge);
+}
+
+}  // namespace reeb

@@ -1,0 +1,183 @@
+// Whole runs on grids: their results are those of the same simplices, written out.
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <memory>
+
+#include "io/functions/function_source.h"
+#include "io/grids/grid_mesh.h"
+#include "tests/model/reference_reeb.h"
+#include "tests/support/memory_grid.h"
+#include "tests/support/seed.h"
+#include "tests/support/whole_run.h"
+
+namespace reeb::test {
+namespace {
+
+struct GridRun {
+  ooc::ComputeOptions options = {};
+  std::string path = "-";  // of a file that stands for the grid
+  bool skips = false;
+  std::string function = "value";
+};
+
+// Computes into `folder`, and returns the output.
+std::string run_grid(const GridShape& shape, const std::vector<double>& values, const GridRun& run,
+                     const ooc::Scratch& folder, ooc::ComputeResult* result = nullptr) {
+  ReadOptions reading;
+  reading.batch_events = 1 + values.size() % 7;
+  const io::FunctionSpec spec = io::parse_function(run.function);
+  reading.properties = io::needed_properties({&spec, 1});
+  ooc::MeshInput input;
+  input.path = run.path;
+  input.reader = io::make_grid_mesh(std::make_unique<MemoryGrid>(shape, values), reading, {run.skips, false});
+  input.dimension = input.reader->info().dimension;
+  io::FunctionSource function(spec, input.reader->info(), reading.properties);
+  VertexFunction* const pointer = &function;
+  const std::string output = folder.path() + "/grid.reeb";
+  auto results = ooc::compute(std::move(input), {&pointer, 1}, {&output, 1}, run.options);
+  if (result != nullptr) *result = results.front();
+  return output;
+}
+
+GridRun random_run(Random& random) {
+  GridRun run;
+  const std::size_t sizes[] = {1, 8, 27, 100, 0};
+  run.options.chunk_triangles = sizes[random.below(5)];
+  run.options.threads = static_cast<unsigned>(random.between(1, 3));
+  return run;
+}
+
+TEST(GridRuns, HaveTheGraphOfTheSimplices) {
+  const std::uint64_t seed = base_seed();
+  const ooc::Scratch folder;
+  for (std::uint64_t i = 0; i < case_count(600); ++i) {
+    Random random(seed + i);
+    const GridShape shape = random_grid(random);
+    const Complex complex = complex_of_grid(shape, random_grid_values(shape, random));
+    const GridRun run = random_run(random);
+    ooc::ComputeResult result;
+    const std::string output = run_grid(shape, complex.values, run, folder, &result);
+    {
+      const ooc::ReebFile file(output);
+      ASSERT_EQ(describe(without_positions(file.load().graph)), describe(without_positions(reference_reeb(complex))))
+          << "seed " << seed + i << "\n"
+          << describe(complex);
+      expect_vertices_conserved(file);
+      file.verify();
+    }
+    SimplexCounts counts{};
+    for (const auto& simplex : complex.simplices) ++counts[simplex.size() - 1];
+    EXPECT_EQ(result.simplices, counts);
+    EXPECT_EQ(result.vertices, complex.vertex_count());
+    ASSERT_FALSE(HasFailure()) << "seed " << seed + i;
+    std::filesystem::remove(output);
+  }
+}
+
+// What is left is compared with its own vertices only, under their indices in the grid.
+TEST(GridRuns, SkipVerticesWithoutDataWithTheirSimplices) {
+  const std::uint64_t seed = base_seed();
+  const ooc::Scratch folder;
+  for (std::uint64_t i = 0; i < case_count(600); ++i) {
+    Random random(seed + i);
+    const GridShape shape = random_grid(random);
+    std::vector<double> values = random_grid_values(shape, random);
+    const auto missing = static_cast<unsigned>(random.below(70));
+    std::vector<bool> present(values.size(), true);
+    Complex left;
+    std::vector<std::uint64_t> number(values.size()), index;
+    for (std::size_t v = 0; v < values.size(); ++v) {
+      if (random.chance(missing)) {
+        present[v] = false;
+        values[v] = std::numeric_limits<double>::quiet_NaN();
+        continue;
+      }
+      number[v] = index.size();
+      index.push_back(v);
+      left.positions.push_back(position_in(shape, v));
+    }
+    for (auto simplex : simplices_of_grid(shape, present)) {
+      for (std::uint64_t& v : simplex) v = number[v];
+      left.simplices.push_back(simplex);
+    }
+    GridRun run = random_run(random);
+    run.skips = true;
+    run.function = random.chance(50) ? "value" : "x";
+    for (const std::uint64_t v : index)
+      left.values.push_back(run.function == "x" ? position_in(shape, v)[0] : values[v]);
+    const std::string output = run_grid(shape, values, run, folder);
+    {
+      const ooc::ReebFile file(output);
+      ReebGraph expected = without_positions(reference_reeb(left));
+      for (SweepKey& node : expected.nodes) node.vertex = VertexId(index[node.vertex.value()]);
+      ASSERT_EQ(describe(without_positions(file.load().graph)), describe(expected)) << "seed " << seed + i;
+      expect_vertices_conserved(file);
+      file.verify();
+    }
+    ASSERT_FALSE(HasFailure()) << "seed " << seed + i;
+    std::filesystem::remove(output);
+  }
+}
+
+// An interrupted run is resumed after a layer, not between the boxes of one.
+TEST(GridRuns, AreResumedAsIfNothingHadHappened) {
+  const std::uint64_t seed = base_seed();
+  const ooc::Scratch folder;
+  const std::string mesh = folder.path() + "/grid.raw";
+  write_file(mesh, "not read");
+  for (std::uint64_t i = 0; i < case_count(40); ++i) {
+    Random random(seed + i);
+    const GridShape shape{random.between(3, 7), random.between(3, 7), random.between(3, 9)};
+    const std::vector<double> values = random_grid_values(shape, random);
+    GridRun run;
+    run.path = mesh;
+    run.options.chunk_triangles = 8;
+    const std::string whole = take_bytes(run_grid(shape, values, run, folder));
+    run.options.checkpoint_seconds = 0;
+    run.options.replace = false;
+    std::uint64_t polls = 0;
+    const std::uint64_t last = random.between(3, 40);
+    run.options.interrupted = [&] { return ++polls > last; };
+    bool interrupted = false;
+    try {
+      run_grid(shape, values, run, folder);
+    } catch (const Error& error) {
+      interrupted = true;
+      ASSERT_EQ(error.kind(), ErrorKind::kInterrupted) << error.what();
+    }
+    run.options.interrupted = {};
+    run.options.resume = interrupted;
+    if (interrupted) run_grid(shape, values, run, folder);
+    ASSERT_EQ(take_bytes(folder.path() + "/grid.reeb"), whole) << "seed " << seed + i << ", " << interrupted;
+  }
+}
+
+// The same volume as tetrahedra, with noise removed.
+TEST(GridRuns, RemoveTheSameNoiseAsRunsOnTetrahedra) {
+  const std::uint64_t seed = base_seed();
+  const ooc::Scratch folder;
+  Runner runner;
+  for (std::uint64_t i = 0; i < case_count(60); ++i) {
+    Random random(seed + i);
+    const GridShape shape{random.between(2, 9), random.between(2, 9), random.between(2, 9)};
+    const Complex complex = complex_of_grid(shape, random_grid_values(shape, random));
+    GridRun run = random_run(random);
+    run.options.denoise = runner.options().denoise = 0.05 * static_cast<double>(random.between(1, 8));
+    run.options.denoise_is_share = runner.options().denoise_is_share = true;
+    const std::string output = run_grid(shape, complex.values, run, folder);
+    const ComplexMesh mesh(complex);
+    runner.run(mesh, {0, 1, Form::kIndexed});
+    const ooc::ReebFile file(output), other(runner.output(3));
+    ASSERT_EQ(describe(without_positions(file.load().graph)), describe(without_positions(other.load().graph)))
+        << "seed " << seed + i;
+    EXPECT_EQ(file.header().denoised_pairs, other.header().denoised_pairs);
+    expect_vertices_conserved(file);
+    ASSERT_FALSE(HasFailure()) << "seed " << seed + i;
+    std::filesystem::remove(output);
+    std::filesystem::remove(runner.output(3));
+  }
+}
+
+}  // namespace
+}  // namespace reeb::test

@@ -1,0 +1,124 @@
+// Images as a user meets them: as meshes that no file has.
+#include <bit>
+#include <cstdint>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "tests/support/random.h"
+#include "tests/tools/program.h"
+
+namespace reeb::test {
+namespace {
+
+class Image : public ProgramTest {
+ protected:
+  // Little-endian float32.
+  void write_raw(const std::string& name, const std::vector<float>& values) const {
+    std::string bytes;
+    for (const float value : values) {
+      const auto bits = std::bit_cast<std::uint32_t>(value);
+      for (unsigned k = 0; k < 4; ++k) bytes += static_cast<char>(bits >> (8 * k) & 255);
+    }
+    write(name, bytes);
+  }
+  // Computes with these options and returns the graph as text.
+  std::string graph_of(const std::string& mesh, std::vector<std::string> options) {
+    options.insert(options.begin(), {"compute", mesh, "-o", "out.reeb", "--force", "--quiet"});
+    expect_success(reeb(options));
+    const Outcome graph = reeb({"extract", "out.reeb", "--format", "rg", "-o", "out.rg", "--force"});
+    expect_success(graph);
+    return file("out.rg");
+  }
+  std::uint64_t loops(const std::string& mesh, std::vector<std::string> options) {
+    graph_of(mesh, std::move(options));
+    return nlohmann::json::parse(reeb({"info", "out.reeb", "--json"}).output)["graph"]["loops"];
+  }
+};
+
+const std::vector<std::string> kSmallGrid = {"--grid", "7x6x5", "--type", "f32le"};
+
+TEST_F(Image, HasTheGraphOfItsTetrahedra) {
+  Random random(1);
+  std::vector<float> values(7 * 6 * 5);
+  for (float& value : values) value = static_cast<float>(random.below(9));
+  write_raw("v.raw", values);
+  const std::string graph = graph_of("v.raw", kSmallGrid);
+  EXPECT_NE(graph.find("\na "), std::string::npos);
+  std::vector<std::string> convert = kSmallGrid;
+  convert.insert(convert.begin(), {"convert", "v.raw", "v.sva"});
+  expect_success(reeb(convert));
+  EXPECT_EQ(graph_of("v.sva", {"-f", "property:s0"}), graph);
+  for (const char* chunk : {"1", "30"}) {
+    std::vector<std::string> options = kSmallGrid;
+    options.insert(options.end(), {"--chunk", chunk, "--threads", "2", "-f", "property:value"});
+    EXPECT_EQ(graph_of("v.raw", options), graph);
+  }
+}
+
+TEST_F(Image, OfAGeneratedVolumeHasALoopForEachHandle) {
+  expect_success(reeb({"generate", "volume", "--grid", "20x18x6", "--handles", "5", "-o", "v.nrrd"}));
+  for (const char* function : {"value", "x"}) {
+    EXPECT_EQ(loops("v.nrrd", {"--nodata", "skip", "-f", function}), 5u);
+    expect_success(reeb({"verify", "out.reeb", "--mesh", "v.nrrd", "--nodata", "skip", "--full"}));
+    EXPECT_EQ(loops("v.nrrd", {"-f", function}), 0u);
+    expect_success(reeb({"verify", "out.reeb", "--mesh", "v.nrrd", "--full"}));
+  }
+  expect_success(reeb({"generate", "volume", "--grid", "20x18", "--handles", "3", "--seed", "4", "-o", "h.nrrd"}));
+  EXPECT_EQ(loops("h.nrrd", {"--nodata", "skip"}), 3u);
+  expect_error(reeb({"generate", "volume", "--grid", "9x9x9", "--handles", "10", "-o", "w.nrrd"}), 2);
+  expect_error(reeb({"generate", "volume", "--handles", "1", "-o", "w.nrrd"}), 2);
+  expect_error(reeb({"generate", "torus", "--handles", "1", "-o", "w.ply"}), 2);
+  expect_error(reeb({"generate", "volume", "--grid", "9x9x9", "-o", "w.ply"}), 2);
+}
+
+TEST_F(Image, MustHaveFiniteValuesWhereTheyAreUsed) {
+  std::vector<float> values(7 * 6 * 5, 1);
+  values[17] = std::numeric_limits<float>::quiet_NaN();
+  write_raw("v.raw", values);
+  const auto with = [](std::vector<std::string> more) {
+    std::vector<std::string> words{"compute", "v.raw", "-o", "out.reeb", "--force"};
+    words.insert(words.end(), kSmallGrid.begin(), kSmallGrid.end());
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+  };
+  expect_error(reeb(with({})), 1, "v.raw:68: value of vertex 17 is not finite");
+  const Outcome by_x = reeb(with({"-f", "x"}));
+  expect_success(by_x);
+  EXPECT_NE(by_x.error.find("1 value of the image is not finite"), std::string::npos) << by_x.error;
+  expect_success(reeb(with({"--nodata", "skip"})));
+}
+
+TEST_F(Image, IsDescribedByItsOptions) {
+  write_raw("v.raw", std::vector<float>(7 * 6 * 5, 1));
+  expect_error(reeb({"compute", "v.raw"}), 2);
+  expect_error(reeb({"compute", "v.raw", "--grid", "7x6x5", "--type", "f32"}), 2);
+  expect_error(reeb({"compute", "v.raw", "--grid", "7x6x5", "--type", "f32le", "--nodata", "keep"}), 2);
+  expect_error(reeb({"compute", "v.raw", "--grid", "7x6x4", "--type", "f32le"}), 1);
+  const auto info = [&](std::vector<std::string> options) {
+    options.insert(options.begin(), {"info", "v.raw", "--json"});
+    const Outcome outcome = reeb(options);
+    expect_success(outcome);
+    return nlohmann::json::parse(outcome.output);
+  };
+  const auto whole = info({"--grid", "7x6x5", "--type", "f32le", "--spacing", "1,2,0.5"});
+  EXPECT_EQ(whole["vertices"], 7 * 6 * 5);
+  EXPECT_EQ(whole["bounds"][1]["max"], 10);
+  EXPECT_EQ(whole["bounds"][2]["max"], 2);
+  EXPECT_EQ(whole["dimension"], 3);
+  const auto plane = info({"--grid", "7x6", "--type", "f32le", "--skip", "672"});
+  EXPECT_EQ(plane["vertices"], 7 * 6);
+  EXPECT_EQ(plane["dimension"], 2);
+}
+
+TEST_F(Image, AloneHasAValue) {
+  write("mesh.off", kSmallOff);
+  expect_error(reeb({"compute", "mesh.off", "-f", "value"}), 1);
+  write("mesh.ply",
+        "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
+        "property float value\nend_header\n0 0 0 1\n");
+  expect_error(reeb({"compute", "mesh.ply", "-f", "value"}), 1, "mesh.ply: the mesh is no image");
+  expect_success(reeb({"compute", "mesh.ply", "-f", "property:value"}));
+}
+
+}  // namespace
+}  // namespace reeb::test
