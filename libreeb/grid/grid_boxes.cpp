@@ -12,7 +12,7 @@ void GridBoxes::fill(const std::array<std::uint64_t, 3>& box, Chunk& chunk) cons
   }
   const auto& [ni, nj, nk] = chunk.box;
   const auto use = [&](std::size_t axis, std::uint32_t i) {
-    const unsigned shared = chunk.shared_faces >> (2 * axis) & 3u;
+    const unsigned shared = unsigned{chunk.shared_faces} >> (2 * axis) & 3u;
     return static_cast<std::uint8_t>((i == 0 && (shared & 1) != 0 ? kUsedEarlier : 0) |
                                      (i + 1 == chunk.box[axis] && (shared & 2) != 0 ? kUsedLater : 0));
   };

@@ -51,13 +51,18 @@ Table read_table() {
   return table;
 }
 
+// The front of a tetrahedral mesh is a surface: four functions at once exceed the least memory.
+bool fits_least_memory(const std::string& name) { return name.find("_tets.") == std::string::npos; }
+
 std::vector<std::string> meshes_to_run() {
   constexpr const char* kLargest[] = {"ct_head_iso60.ply.gz", "etopo20_terrain.ply.gz", "dragon_vrip.ply.gz"};
   std::vector<std::string> names;
-  for (const auto& [name, results] : read_table())
+  for (const auto& [name, results] : read_table()) {
+    if (memory_limit() && !fits_least_memory(name)) continue;
     if (std::getenv("REEB_TEST_ALL") != nullptr ||
         std::find(std::begin(kLargest), std::end(kLargest), name) == std::end(kLargest))
       names.push_back(name);
+  }
   return names;
 }
 
