@@ -279,7 +279,7 @@ class LegacyIndexer {
 
   void skip_metadata() {
     end_line();
-    for (std::string_view text = line(); !std::ranges::all_of(text, is_separator); text = line())
+    for (std::string text = line(); !std::ranges::all_of(text, is_separator); text = line())
       if (!cursor_.ensure(1)) return;
   }
 
