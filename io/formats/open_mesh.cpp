@@ -24,9 +24,9 @@ namespace reeb::io {
 namespace {
 
 constexpr const char* kFormatsRead =
-    "PLY, OBJ, OFF, STL, VTK (.vtk, .vtu, .vtp), MSH, Medit, TetGen (as NAME.ele), CX (as NAME.cx) and streaming "
-    "meshes "
-    "(SMA, SMB, SMC, SVA, SVB) are read, plain or packed with gzip or zstd";
+    "PLY, OBJ, OFF, STL, VTK (.vtk, .vtu, .vtp), MSH, Medit, TetGen (as NAME.ele), CX (as NAME.cx), streaming meshes "
+    "(SMA, SMB, SMC, SVA, SVB) and images (NRRD, NIfTI-1, MetaImage, VTI, NPY, ESRI ASCII as NAME.asc) are read, plain "
+    "or packed with gzip or zstd";
 
 }  // namespace
 

@@ -28,8 +28,7 @@ struct ImageOptions {
 // vertices of fixed size also has MeshReader::indexed(), which does not open the file again.
 // `format`: "ply", "cx", ... where the content does not tell, and the name has no suffix that does; empty: detected.
 // THROWS: Error{kUsage} for another format; Error{kBadInput} with file, position and a hint: unreadable, a directory,
-// empty, of an unknown format, a
-//         damaged header, a property that the mesh does not have.
+//         empty, of an unknown format, a damaged header, a property that the mesh does not have.
 // THREADS: any number of calls at the same time; "-" once.
 std::unique_ptr<MeshReader> open_mesh(const std::string& path, const ReadOptions& options = {},
                                       const std::string& format = {});

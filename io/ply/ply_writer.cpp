@@ -43,11 +43,17 @@ class PlyWriter : public MeshWriter {
  private:
   static constexpr std::size_t kMinPadding = std::size_t{8};  // "comment\n"
 
-  // A mesh with two coordinates gets a third one; coordinates after the third are further columns.
+  // A mesh with two coordinates gets a third one; coordinates after the third are further columns. Other formats have
+  // properties with blanks in their names, or with the name of a coordinate, with which the header would be damaged.
   static std::vector<std::string> column_names(const MeshWriterOptions& options) {
     std::vector<std::string> names = {"x", "y", "z"};
     for (unsigned k = 3; k < options.dimension; ++k) names.push_back(std::string("c").append(std::to_string(k)));
-    names.insert(names.end(), options.property_names.begin(), options.property_names.end());
+    for (std::string name : options.property_names) {
+      std::ranges::replace_if(
+          name, [](unsigned char c) { return c <= ' ' || c == 0x7f; }, '_');
+      while (name.empty() || std::ranges::find(names, name) != names.end()) name += '_';
+      names.push_back(std::move(name));
+    }
     return names;
   }
 

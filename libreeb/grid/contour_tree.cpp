@@ -38,7 +38,7 @@ constexpr std::array<NeighbourSet, kNeighbours> make_adjacency() {
   return adjacent;
 }
 
-// For each set of neighbours: one of each group, where a group hangs together by edges within the set.
+// For each set of neighbours: one of each group, where the edges within the set connect a group.
 std::vector<NeighbourSet> make_groups() {
   constexpr auto kAdjacent = make_adjacency();
   std::vector<NeighbourSet> groups(std::size_t{1} << kNeighbours);

@@ -2,8 +2,8 @@
 //
 // A box without holes is contractible, so its Reeb graph is a tree. That tree follows from two others (Carr, Snoeyink,
 // Axen 2003): the join tree says how components of sublevel sets merge, the split tree how those of superlevel sets do.
-// Each takes one union-find pass over the vertices. A table tells how the neighbours below (or above) a vertex hang
-// together, so a vertex costs one search for each group of them, not one for each neighbour.
+// Each takes one union-find pass over the vertices. A table tells how the neighbours below (or above) a vertex are
+// connected, so a vertex costs one search for each group of them, not one for each neighbour.
 #pragma once
 
 #include <array>

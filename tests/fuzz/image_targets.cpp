@@ -58,18 +58,6 @@ Values read_values(GridReader& reader, std::size_t vertices) {
   return all;
 }
 
-// The message of the error that ends the reading; empty if there is none.
-template <class Reading>
-std::string error_of(const Reading& reading) {
-  try {
-    reading();
-    return {};
-  } catch (const Error& error) {
-    expect_helpful(error);
-    return error.message();
-  }
-}
-
 // Reads as a file, the same again, and as a pipe.
 template <ImageFormat format>
 bool run_image(const std::string& bytes) {

@@ -21,6 +21,18 @@ void expect(bool holds, const char* promise);
 // Expects that an error has a message and a hint, and that the user can fix its cause.
 void expect_helpful(const Error& error);
 
+// The message of the error that ends the reading, which must have a hint; empty if there is none.
+template <class Reading>
+std::string error_of(const Reading& reading) {
+  try {
+    reading();
+    return {};
+  } catch (const Error& error) {
+    expect_helpful(error);
+    return error.message();
+  }
+}
+
 // What was delivered, without the order between vertices, simplices of each dimension and finalizations, which depends
 // on the batch size.
 struct Delivered {

@@ -40,18 +40,6 @@ constexpr std::uint64_t kMaxEvents = 20'000;
 constexpr std::uint64_t kMaxContentBytes = 32u << 20;
 constexpr std::size_t kMaxProperties = 3;
 
-// The message of the error that ends the reading, which must have a hint; empty if there is none.
-template <class Reading>
-std::string error_of(const Reading& reading) {
-  try {
-    reading();
-    return {};
-  } catch (const Error& error) {
-    expect_helpful(error);
-    return error.message();
-  }
-}
-
 template <class Reading>
 bool without_error(const Reading& reading) {
   return error_of(reading).empty();

@@ -1,6 +1,11 @@
 // `reeb function`, and the functions that read the mesh before the run.
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <cmath>
 #include <cstring>
+#include <fstream>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -66,6 +71,34 @@ TEST_F(Function, APropertyOfThePlyGivesTheSameGraph) {
     EXPECT_EQ(file("a.reeb.csv"), file("c.reeb.csv"));
     expect_success(reeb({"verify", "a.reeb", "--mesh", "s.off"}));
   }
+}
+
+TEST_F(Function, OfAnImageAsAPropertyOfItsDivision) {
+  expect_success(reeb({"generate", "volume", "--grid", "6x5x4", "-o", "v.nrrd"}));
+  expect_success(reeb({"function", "v.nrrd", "-o", "value.ply", "--quiet"}));
+  expect_success(reeb({"function", "v.nrrd", "-f", "y", "-o", "y.ply", "--quiet"}));
+  for (const auto& [mesh, name, out] : {std::tuple{"v.nrrd", "value", "a.csv"},
+                                        {"value.ply", "property:value", "b.csv"},
+                                        {"v.nrrd", "y", "c.csv"},
+                                        {"y.ply", "y", "d.csv"}}) {
+    expect_success(reeb({"compute", mesh, "-f", name, "-o", "o.reeb", "--quiet", "--force"}));
+    expect_success(reeb({"pairs", "o.reeb", "-o", out}));
+  }
+  EXPECT_EQ(file("a.csv"), file("b.csv"));
+  EXPECT_EQ(file("c.csv"), file("d.csv"));
+}
+
+TEST_F(Function, APipeCannotLookUpAVertex) {
+  write("s.off", strip(3));
+  ASSERT_EQ(::mkfifo(in_folder("pipe").c_str(), 0600), 0);
+  const pid_t writer = ::fork();
+  if (writer == 0) {
+    std::ofstream(in_folder("pipe")) << strip(3);
+    ::_exit(0);
+  }
+  expect_error(reeb({"function", "pipe", "-f", "distance:3", "-o", "o.txt"}), 1,
+               "pipe: distance:3 needs a vertex first");
+  ::waitpid(writer, nullptr, 0);
 }
 
 TEST_F(Function, TheLaplacianOfAStripChangesSignAlongIt) {

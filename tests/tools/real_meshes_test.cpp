@@ -14,7 +14,6 @@
 #include "io/formats/create_mesh.h"
 #include "io/formats/open_mesh.h"
 #include "libreeb/base/error.h"
-#include "libreeb/port/deciding_triangles.h"
 #include "tests/support/data.h"
 #include "tests/support/random.h"
 #include "tests/support/seed.h"
@@ -118,9 +117,7 @@ void write_shuffled(const std::string& from, const std::string& to, std::uint64_
   MeshBatch batch, mesh;
   mesh.coordinates.resize(reader->info().dimension);
   std::vector<std::array<VertexId, 3>> triangles;
-  DecidingTriangles cells(CellTriangles::kAll);
   while (reader->read(batch)) {
-    cells.reduce(batch);
     ASSERT_EQ(batch.simplex_count(), batch.triangle_count());
     mesh.vertex_count += batch.vertex_count;
     for (std::size_t k = 0; k < mesh.coordinates.size(); ++k)

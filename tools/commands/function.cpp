@@ -88,7 +88,7 @@ class Values {
     if (!open_again)
       throw Error(ErrorKind::kBadInput, spec_.text + " needs a vertex first, and this input can be read only once",
                   "write the mesh to a file first, or name a point: distance:X,Y,Z")
-          .at(io::kStandardInputShown);
+          .at(options_.mesh == "-" ? io::kStandardInputShown : options_.mesh);
     source_->look_up(*open_again());
   }
 
@@ -112,7 +112,10 @@ class Values {
     writing.dimension = info.dimension;
     writing.property_names = info.property_names;
     std::erase(writing.property_names, spec_.text);
-    writing.property_names.push_back(spec_.text);
+    // x, y, z and coordinates after them are in the file under these names already.
+    const bool adds_property =
+        spec_.kind != io::FunctionSpec::Kind::kCoordinate || (spec_.number < 3 && spec_.text.size() > 1);
+    if (adds_property) writing.property_names.push_back(spec_.text);
     writing.float64 = true;  // a value read again is the same
     writing.existing = late_outputs(options_.force);
     writing.temp_folder = options_.temp_folder;
@@ -122,7 +125,7 @@ class Values {
       for (std::size_t k = info.property_names.size(); k-- > 0;)
         if (info.property_names[k] == spec_.text)
           batch_.properties.erase(batch_.properties.begin() + static_cast<std::ptrdiff_t>(k));
-      batch_.properties.push_back(values_);
+      if (adds_property) batch_.properties.push_back(values_);
       writer->write(batch_);
     }
     input_.check_unchanged();

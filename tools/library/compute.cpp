@@ -96,14 +96,11 @@ std::vector<ComputeResult> compute(const std::string& path, std::span<const std:
   input.dimension = info.dimension;
   std::vector<std::unique_ptr<io::FunctionSource>> sources;
   std::vector<VertexFunction*> pointers;
-  for (std::size_t f = 0; f < specs.size(); ++f)
-    if (functions[f].empty()) specs[f] = io::default_function(info);
   io::OpenMesh open_again;
   if (mesh.can_reopen())
     open_again = [&] { return io::open_mesh(mesh, mesh.open(), {}, options.image, options.format); };
-  const std::string temp_folder =
-      options.temp_dir.empty() ? io::TempDir::default_folder(outputs.front()) : options.temp_dir;
-  const std::vector<io::MeshField> fields = io::read_fields(specs, open_again, path, temp_folder, options.memory_bytes);
+  const std::vector<io::MeshField> fields =
+      io::read_fields(specs, open_again, path, read_options.temp_folder, options.memory_bytes);
   for (std::size_t i = 0; i < specs.size(); ++i) {
     sources.push_back(std::make_unique<io::FunctionSource>(specs[i], info, read_options.properties, path, &fields[i]));
     pointers.push_back(sources.back().get());

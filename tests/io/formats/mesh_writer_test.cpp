@@ -1,5 +1,6 @@
 // Writers: a file gives back what was written, and failures leave nothing behind.
 #include "io/formats/create_mesh.h"
+#include "io/formats/open_mesh.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -169,6 +170,20 @@ TEST_F(Writers, PlyKeepsInterleavedMeshesAndProperties) {
     EXPECT_NE(header.find("property list uchar int vertex_indices\n"), header.npos);
   }
   EXPECT_EQ(files(), 2u) << "a temporary file was left";
+}
+
+TEST_F(Writers, PlyHasNoNameTwiceAndNoneWithABlank) {
+  MeshWriterOptions options;
+  options.property_names = {"x", "heat (K)", "heat_(K)", ""};
+  const auto writer = create_mesh(path("names.ply"), options);
+  MeshBatch batch;
+  batch.vertex_count = 1;
+  batch.coordinates.assign(3, {0});
+  batch.properties.assign(4, {7});
+  writer->write(batch);
+  writer->close();
+  const auto reader = open_mesh(path("names.ply"));
+  EXPECT_EQ(reader->info().property_names, (std::vector<std::string>{"x_", "heat_(K)", "heat_(K)_", "_"}));
 }
 
 TEST_F(Writers, ObjAndOffKeepInterleavedMeshesExactly) {

@@ -284,7 +284,7 @@ TEST(Resume, GoesOnBeforeAndAfterAGuessWasRevoked) {
     }
 }
 
-TEST(Resume, StartsAnewWithOtherSettings) {
+TEST(Resume, StartsFromTheBeginningWithOtherSettings) {
   Runs runs(grid_mesh(60, 60), Form::kBinary, "random:1");
   runs.options.chunk_triangles = 500;
   runs.options.buckets = 16;
@@ -337,7 +337,7 @@ TEST(Resume, KeepsToTheOrderOfPieces) {
   }
 }
 
-TEST(Resume, StartsAnewFromWhatIsDamaged) {
+TEST(Resume, StartsFromTheBeginningIfItIsDamaged) {
   Runs runs(grid_mesh(250, 250), Form::kBinary, "random:1");
   runs.options.graph_only = true;  // the least budget has no room for the second stage
   runs.options.memory_bytes = 16 << 20;
