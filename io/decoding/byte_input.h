@@ -1,4 +1,4 @@
-// The bytes of an image's values, one stage after the other: the content of the file, unpacked, decoded.
+// Bytes of a file, one stage after the other: the content, unpacked, decoded.
 #pragma once
 
 #include <algorithm>

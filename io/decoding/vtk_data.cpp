@@ -20,9 +20,9 @@ constexpr std::uint64_t kMostBlocks = std::uint64_t{1} << 24;
 constexpr std::uint64_t kMostBlockBytes = std::uint64_t{1} << 26;
 constexpr std::uint64_t kMostFromLz4 = 255;
 
-class VtkData : public ByteFilter {
+class HeadedData : public VtkData {
  public:
-  VtkData(std::unique_ptr<ByteInput> stored, const VtkDataKind& kind) : ByteFilter(std::move(stored)), kind_(kind) {}
+  HeadedData(std::unique_ptr<ByteInput> stored, const VtkDataKind& kind) : VtkData(std::move(stored)), kind_(kind) {}
 
  protected:
   // Reads until there are `size` bytes.
@@ -42,11 +42,9 @@ class VtkData : public ByteFilter {
                            : load_scalar<std::uint32_t>(bytes, kind_.big_endian);
   }
 
-  // The word is cut off if the head is too narrow for it.
   void check_size(std::uint64_t bytes) const {
-    const std::uint64_t expected = kind_.wide_head ? kind_.bytes : kind_.bytes & 0xFFFF'FFFFu;
-    if (bytes != expected)
-      fail("the array has " + count_of(bytes, "byte") + ", but the image needs " + with_commas(kind_.bytes));
+    if (kind_.bytes && bytes != *kind_.bytes)
+      fail("the array has " + count_of(bytes, "byte") + ", but " + with_commas(*kind_.bytes) + " are needed");
   }
 
   [[noreturn]] void fail(const std::string& what) const {
@@ -57,15 +55,18 @@ class VtkData : public ByteFilter {
   VtkDataKind kind_;
 };
 
-class PlainVtkData final : public VtkData {
+class PlainData final : public HeadedData {
  public:
-  using VtkData::VtkData;
+  // The size is cut off in a head that is too narrow for it.
+  PlainData(std::unique_ptr<ByteInput> stored, const VtkDataKind& kind) : HeadedData(std::move(stored), kind) {
+    size_ = head_word();
+    if (!kind.wide_head && kind.bytes && size_ == (*kind.bytes & 0xFFFF'FFFFu)) size_ = *kind.bytes;
+    check_size(size_);
+    left_ = size_;
+  }
+  std::uint64_t size() const override { return size_; }
 
   std::size_t read(char* out, std::size_t limit) override {
-    if (std::exchange(at_head_, false)) {
-      check_size(head_word());
-      left_ = kind_.bytes;
-    }
     if (left_ == 0) return 0;
     const std::size_t got = input().read(out, static_cast<std::size_t>(std::min<std::uint64_t>(limit, left_)));
     left_ -= got;
@@ -73,21 +74,22 @@ class PlainVtkData final : public VtkData {
   }
 
  private:
-  bool at_head_ = true;
-  std::uint64_t left_ = 0;
+  std::uint64_t size_, left_;
 };
 
-class PackedVtkData final : public VtkData {
+class PackedData final : public HeadedData {
  public:
-  using VtkData::VtkData;
+  PackedData(std::unique_ptr<ByteInput> stored, const VtkDataKind& kind) : HeadedData(std::move(stored), kind) {
+    read_head();
+  }
+  std::uint64_t size() const override { return size_; }
 
   std::uint64_t memory_bytes() const override {
-    return VtkData::memory_bytes() + packed_sizes_.capacity() * sizeof(std::uint32_t) + packed_.capacity() +
+    return HeadedData::memory_bytes() + packed_sizes_.capacity() * sizeof(std::uint32_t) + packed_.capacity() +
            block_.capacity();
   }
 
   std::size_t read(char* out, std::size_t limit) override {
-    if (std::exchange(at_head_, false)) read_head();
     while (next_ == block_.size()) {
       if (block_number_ == packed_sizes_.size()) return 0;
       unpack_block();
@@ -107,9 +109,8 @@ class PackedVtkData final : public VtkData {
       fail("the array has " + count_of(blocks, "block") + " of " + count_of(block_bytes_, "byte") +
            ", which is no sound head");
     last_bytes_ = last_bytes == 0 ? block_bytes_ : last_bytes;
-    const std::uint64_t total = blocks == 0 ? 0 : (blocks - 1) * block_bytes_ + last_bytes_;
-    if (total != kind_.bytes)
-      fail("the array has " + count_of(total, "byte") + ", but the image needs " + with_commas(kind_.bytes));
+    size_ = blocks == 0 ? 0 : (blocks - 1) * block_bytes_ + last_bytes_;
+    check_size(size_);
     for (std::uint64_t i = 0; i < blocks; ++i) {
       const std::uint64_t size = head_word();
       if (size > 2 * kMostBlockBytes) fail("a packed block has " + count_of(size, "byte"));
@@ -122,7 +123,7 @@ class PackedVtkData final : public VtkData {
     const bool is_last = block_number_ == packed_sizes_.size();
     const std::uint64_t bytes = is_last ? last_bytes_ : block_bytes_;
     take_packed(packed_bytes);
-    const bool zlib = kind_.packing == VtkDataKind::Packing::kZlib;
+    const bool zlib = kind_.packing == BlockPacking::kZlib;
     // What cannot be in these packed bytes is not made room for.
     if (bytes > (packed_bytes + 1) * (zlib ? kMostInflated : kMostFromLz4)) fail_block();
     block_.resize(static_cast<std::size_t>(bytes));
@@ -151,8 +152,7 @@ class PackedVtkData final : public VtkData {
 
   [[noreturn]] void fail_block() const { fail("block " + with_commas(block_number_) + " of the array is damaged"); }
 
-  bool at_head_ = true;
-  std::uint64_t block_bytes_ = 0, last_bytes_ = 0;
+  std::uint64_t size_ = 0, block_bytes_ = 0, last_bytes_ = 0;
   std::vector<std::uint32_t> packed_sizes_;
   std::size_t block_number_ = 0;  // of the next block
   std::vector<char> packed_, block_;
@@ -164,19 +164,19 @@ class PackedVtkData final : public VtkData {
 std::uint64_t least_stored_bytes(const VtkDataKind& kind) {
   const std::uint64_t head = kind.wide_head ? 8 : 4;
   switch (kind.packing) {
-    case VtkDataKind::Packing::kNone:
-      return head + kind.bytes;
-    case VtkDataKind::Packing::kZlib:
-      return kind.bytes / kMostInflated;
-    case VtkDataKind::Packing::kLz4:
+    case BlockPacking::kNone:
+      return head + *kind.bytes;
+    case BlockPacking::kZlib:
+      return *kind.bytes / kMostInflated;
+    case BlockPacking::kLz4:
       break;
   }
-  return kind.bytes / kMostFromLz4;
+  return *kind.bytes / kMostFromLz4;
 }
 
-std::unique_ptr<ByteInput> vtk_data(std::unique_ptr<ByteInput> stored, const VtkDataKind& kind) {
-  if (kind.packing == VtkDataKind::Packing::kNone) return std::make_unique<PlainVtkData>(std::move(stored), kind);
-  return std::make_unique<PackedVtkData>(std::move(stored), kind);
+std::unique_ptr<VtkData> vtk_data(std::unique_ptr<ByteInput> stored, const VtkDataKind& kind) {
+  if (kind.packing == BlockPacking::kNone) return std::make_unique<PlainData>(std::move(stored), kind);
+  return std::make_unique<PackedData>(std::move(stored), kind);
 }
 
 }  // namespace reeb::io

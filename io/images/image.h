@@ -27,7 +27,7 @@ enum class Packing {
 struct Image {
   GridInfo info;
 
-  VoxelType type = VoxelType::kFloat64;
+  ScalarType type = ScalarType::kFloat64;
   bool big_endian = false;
   Packing packing = Packing::kPlain;
   // Value = stored * slope + intercept, if it is scaled.

@@ -14,14 +14,14 @@ constexpr const char* kHint = "fix the header, or write the file again";
 
 struct TypeName {
   std::string_view name;
-  VoxelType type;
+  ScalarType type;
 };
 // MET_LONG has 4 bytes wherever it was written.
 constexpr TypeName kTypes[] = {
-    {"met_char", VoxelType::kInt8},         {"met_uchar", VoxelType::kUint8},   {"met_short", VoxelType::kInt16},
-    {"met_ushort", VoxelType::kUint16},     {"met_int", VoxelType::kInt32},     {"met_uint", VoxelType::kUint32},
-    {"met_long", VoxelType::kInt32},        {"met_ulong", VoxelType::kUint32},  {"met_long_long", VoxelType::kInt64},
-    {"met_ulong_long", VoxelType::kUint64}, {"met_float", VoxelType::kFloat32}, {"met_double", VoxelType::kFloat64}};
+    {"met_char", ScalarType::kInt8},         {"met_uchar", ScalarType::kUint8},   {"met_short", ScalarType::kInt16},
+    {"met_ushort", ScalarType::kUint16},     {"met_int", ScalarType::kInt32},     {"met_uint", ScalarType::kUint32},
+    {"met_long", ScalarType::kInt32},        {"met_ulong", ScalarType::kUint32},  {"met_long_long", ScalarType::kInt64},
+    {"met_ulong_long", ScalarType::kUint64}, {"met_float", ScalarType::kFloat32}, {"met_double", ScalarType::kFloat64}};
 
 class Header {
  public:
@@ -161,7 +161,7 @@ class Header {
   Image image_;
   std::uint64_t dimensions_ = 0, channels_ = 1;
   std::vector<std::uint64_t> sizes_;
-  std::optional<VoxelType> type_;
+  std::optional<ScalarType> type_;
   std::vector<double> spacing_, element_size_, origin_, rotation_;
   bool binary_ = true, compressed_ = false, ended_ = false;
   std::int64_t header_size_ = 0;

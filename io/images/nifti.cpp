@@ -21,15 +21,15 @@ constexpr std::size_t kDim = 40, kDatatype = 70, kPixdim = 76, kVoxOffset = 108,
 
 struct Datatype {
   int code;
-  VoxelType type;
+  ScalarType type;
   unsigned components;
 };
 constexpr Datatype kDatatypes[] = {
-    {2, VoxelType::kUint8, 1},      {4, VoxelType::kInt16, 1},    {8, VoxelType::kInt32, 1},
-    {16, VoxelType::kFloat32, 1},   {32, VoxelType::kFloat32, 2}, {64, VoxelType::kFloat64, 1},
-    {128, VoxelType::kUint8, 3},    {256, VoxelType::kInt8, 1},   {512, VoxelType::kUint16, 1},
-    {768, VoxelType::kUint32, 1},   {1024, VoxelType::kInt64, 1}, {1280, VoxelType::kUint64, 1},
-    {1792, VoxelType::kFloat64, 2}, {2304, VoxelType::kUint8, 4}};
+    {2, ScalarType::kUint8, 1},      {4, ScalarType::kInt16, 1},    {8, ScalarType::kInt32, 1},
+    {16, ScalarType::kFloat32, 1},   {32, ScalarType::kFloat32, 2}, {64, ScalarType::kFloat64, 1},
+    {128, ScalarType::kUint8, 3},    {256, ScalarType::kInt8, 1},   {512, ScalarType::kUint16, 1},
+    {768, ScalarType::kUint32, 1},   {1024, ScalarType::kInt64, 1}, {1280, ScalarType::kUint64, 1},
+    {1792, ScalarType::kFloat64, 2}, {2304, ScalarType::kUint8, 4}};
 
 class Header {
  public:
@@ -95,7 +95,7 @@ class Header {
   void take_scale(Image& image) const {
     image.slope = real(kSlope);
     image.intercept = real(kIntercept);
-    const bool colours = image.type == VoxelType::kUint8 && image.info.components > 1;
+    const bool colours = image.type == ScalarType::kUint8 && image.info.components > 1;
     image.scaled = image.slope != 0 && std::isfinite(image.slope) && std::isfinite(image.intercept) && !colours &&
                    (image.slope != 1 || image.intercept != 0);
     if (!image.scaled) image.slope = 1, image.intercept = 0;

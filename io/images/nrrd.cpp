@@ -30,22 +30,22 @@ constexpr std::array<std::string_view, 6> kTimeSpaces = {"rast",
 
 struct TypeName {
   std::string_view name;
-  VoxelType type;
+  ScalarType type;
 };
-constexpr TypeName kTypes[] = {{"signed char", VoxelType::kInt8},    {"char", VoxelType::kInt8},
-                               {"unsigned char", VoxelType::kUint8}, {"uchar", VoxelType::kUint8},
-                               {"short", VoxelType::kInt16},         {"unsigned short", VoxelType::kUint16},
-                               {"ushort", VoxelType::kUint16},       {"int", VoxelType::kInt32},
-                               {"unsigned", VoxelType::kUint32},     {"uint", VoxelType::kUint32},
-                               {"long long", VoxelType::kInt64},     {"longlong", VoxelType::kInt64},
-                               {"ulonglong", VoxelType::kUint64},    {"unsigned long long", VoxelType::kUint64},
-                               {"float", VoxelType::kFloat32},       {"double", VoxelType::kFloat64},
-                               {"int8", VoxelType::kInt8},           {"uint8", VoxelType::kUint8},
-                               {"int16", VoxelType::kInt16},         {"uint16", VoxelType::kUint16},
-                               {"int32", VoxelType::kInt32},         {"uint32", VoxelType::kUint32},
-                               {"int64", VoxelType::kInt64},         {"uint64", VoxelType::kUint64}};
+constexpr TypeName kTypes[] = {{"signed char", ScalarType::kInt8},    {"char", ScalarType::kInt8},
+                               {"unsigned char", ScalarType::kUint8}, {"uchar", ScalarType::kUint8},
+                               {"short", ScalarType::kInt16},         {"unsigned short", ScalarType::kUint16},
+                               {"ushort", ScalarType::kUint16},       {"int", ScalarType::kInt32},
+                               {"unsigned", ScalarType::kUint32},     {"uint", ScalarType::kUint32},
+                               {"long long", ScalarType::kInt64},     {"longlong", ScalarType::kInt64},
+                               {"ulonglong", ScalarType::kUint64},    {"unsigned long long", ScalarType::kUint64},
+                               {"float", ScalarType::kFloat32},       {"double", ScalarType::kFloat64},
+                               {"int8", ScalarType::kInt8},           {"uint8", ScalarType::kUint8},
+                               {"int16", ScalarType::kInt16},         {"uint16", ScalarType::kUint16},
+                               {"int32", ScalarType::kInt32},         {"uint32", ScalarType::kUint32},
+                               {"int64", ScalarType::kInt64},         {"uint64", ScalarType::kUint64}};
 
-std::optional<VoxelType> nrrd_type(std::string_view text) {
+std::optional<ScalarType> nrrd_type(std::string_view text) {
   std::string name = lower_case(text);
   if (name.ends_with("_t")) name.resize(name.size() - 2);
   if (name.starts_with("signed ") && name != "signed char") name.erase(0, 7);
@@ -304,7 +304,7 @@ class Header {
   std::string name_;
   std::uint64_t dimension_ = 0, space_ = 0;
   std::vector<Axis> axes_;
-  std::optional<VoxelType> type_;
+  std::optional<ScalarType> type_;
   std::optional<bool> big_endian_;
   std::string encoding_, sizes_, data_file_;
   Vector origin_;

@@ -68,10 +68,11 @@ class Header {
     const std::string_view word = rest.substr(1, end - 1);
     image.big_endian = word[0] == '>';
     const std::string_view type = word.substr(1);
-    static constexpr std::pair<std::string_view, VoxelType> kTypes[] = {
-        {"i1", VoxelType::kInt8},   {"u1", VoxelType::kUint8},   {"b1", VoxelType::kUint8},  {"i2", VoxelType::kInt16},
-        {"u2", VoxelType::kUint16}, {"i4", VoxelType::kInt32},   {"u4", VoxelType::kUint32}, {"i8", VoxelType::kInt64},
-        {"u8", VoxelType::kUint64}, {"f4", VoxelType::kFloat32}, {"f8", VoxelType::kFloat64}};
+    static constexpr std::pair<std::string_view, ScalarType> kTypes[] = {
+        {"i1", ScalarType::kInt8},    {"u1", ScalarType::kUint8},  {"b1", ScalarType::kUint8},
+        {"i2", ScalarType::kInt16},   {"u2", ScalarType::kUint16}, {"i4", ScalarType::kInt32},
+        {"u4", ScalarType::kUint32},  {"i8", ScalarType::kInt64},  {"u8", ScalarType::kUint64},
+        {"f4", ScalarType::kFloat32}, {"f8", ScalarType::kFloat64}};
     const auto* const found = std::ranges::find(kTypes, type, [](const auto& known) { return known.first; });
     if (found == std::end(kTypes) || std::string_view("<>|=").find(word[0]) == std::string_view::npos)
       fail(word, "values of type " + quoted(word) + " are not read",

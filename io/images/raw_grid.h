@@ -12,7 +12,7 @@ namespace reeb::io {
 
 struct RawGrid {
   std::vector<std::uint64_t> size;  // 2 or 3 axes, that which varies fastest first; empty: not given
-  VoxelType type = VoxelType::kUint8;
+  ScalarType type = ScalarType::kUint8;
   bool big_endian = false;
   std::vector<double> spacing;  // one number for each axis; empty: 1
   std::uint64_t skip_bytes = 0;

@@ -16,7 +16,7 @@ constexpr std::size_t kBufferBytes = 65536;
 
 class BinaryValues final : public ValueStream {
  public:
-  BinaryValues(std::unique_ptr<ByteInput> bytes, VoxelType type, bool big_endian)
+  BinaryValues(std::unique_ptr<ByteInput> bytes, ScalarType type, bool big_endian)
       : bytes_(std::move(bytes)), type_(type), big_endian_(big_endian), buffer_(kBufferBytes) {}
 
   std::size_t read(std::span<double> values) override {
@@ -48,7 +48,7 @@ class BinaryValues final : public ValueStream {
   }
 
   std::unique_ptr<ByteInput> bytes_;
-  VoxelType type_;
+  ScalarType type_;
   bool big_endian_;
   std::vector<char> buffer_;
   std::size_t filled_ = 0;
@@ -130,7 +130,7 @@ class TextValues final : public ValueStream {
 
 }  // namespace
 
-std::unique_ptr<ValueStream> binary_values(std::unique_ptr<ByteInput> bytes, VoxelType type, bool big_endian) {
+std::unique_ptr<ValueStream> binary_values(std::unique_ptr<ByteInput> bytes, ScalarType type, bool big_endian) {
   return std::make_unique<BinaryValues>(std::move(bytes), type, big_endian);
 }
 

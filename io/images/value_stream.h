@@ -31,7 +31,7 @@ class ValueStream {
   virtual const ByteInput& bytes() const = 0;
 };
 
-std::unique_ptr<ValueStream> binary_values(std::unique_ptr<ByteInput> bytes, VoxelType type, bool big_endian);
+std::unique_ptr<ValueStream> binary_values(std::unique_ptr<ByteInput> bytes, ScalarType type, bool big_endian);
 
 // Numbers between white space (or commas, as NRRD allows). The line and the column, from 1, are those of the first
 // byte.

@@ -10,6 +10,7 @@
 
 #include "io/decoding/base64_input.h"
 #include "io/decoding/vtk_data.h"
+#include "io/decoding/vtk_xml.h"
 #include "io/images/header_text.h"
 #include "io/text/text_cursor.h"
 #include "io/text/xml_parser.h"
@@ -20,16 +21,6 @@ namespace reeb::io {
 namespace {
 
 constexpr const char* kHint = "write the file again";
-
-struct TypeName {
-  std::string_view name;
-  VoxelType type;
-};
-constexpr TypeName kTypes[] = {{"Int8", VoxelType::kInt8},       {"UInt8", VoxelType::kUint8},
-                               {"Int16", VoxelType::kInt16},     {"UInt16", VoxelType::kUint16},
-                               {"Int32", VoxelType::kInt32},     {"UInt32", VoxelType::kUint32},
-                               {"Int64", VoxelType::kInt64},     {"UInt64", VoxelType::kUint64},
-                               {"Float32", VoxelType::kFloat32}, {"Float64", VoxelType::kFloat64}};
 
 struct PointArray {
   std::string name, type, format, offset, components;
@@ -75,7 +66,6 @@ class Header final : public XmlParser::Handler {
   void take_image(const XmlAttributes& attributes);
   bool take_array(const XmlAttributes& attributes);
   void take_storage(Image& image, std::size_t number);
-  std::uint64_t appended_data();
 
   // These numbers of an attribute.
   template <std::size_t count>
@@ -86,8 +76,7 @@ class Header final : public XmlParser::Handler {
   ContentSource& source_;
   XmlParser xml_;
   ArrayPath path_;
-  bool big_endian_ = false, wide_head_ = false;
-  std::string compressor_;
+  VtkXmlKind kind_;
   std::array<std::int64_t, 6> extent_{};
   std::array<double, 3> origin_{}, spacing_{1, 1, 1};
   std::array<double, 9> direction_{1, 0, 0, 0, 1, 0, 0, 0, 1};
@@ -206,14 +195,7 @@ bool Header::start(const std::string& name, const XmlAttributes& attributes) {
 void Header::take_file(const XmlAttributes& attributes) {
   if (attribute_of(attributes, "type") != "ImageData")
     xml_.fail("this is no image, but " + quoted(attribute_of(attributes, "type")), "name a file of type ImageData");
-  const std::string order = attribute_of(attributes, "byte_order"), head = attribute_of(attributes, "header_type");
-  big_endian_ = order == "BigEndian";
-  if (!big_endian_ && !order.empty() && order != "LittleEndian") xml_.fail("an unknown byte order", kHint);
-  wide_head_ = head == "UInt64";
-  if (!wide_head_ && !head.empty() && head != "UInt32") xml_.fail("an unknown header type " + quoted(head), kHint);
-  compressor_ = attribute_of(attributes, "compressor");
-  if (!compressor_.empty() && compressor_ != "vtkZLibDataCompressor" && compressor_ != "vtkLZ4DataCompressor")
-    xml_.fail("data packed with " + quoted(compressor_) + " are not read", "write them with zlib, LZ4 or none");
+  kind_ = read_vtk_xml_kind(attributes, xml_);
 }
 
 void Header::take_image(const XmlAttributes& attributes) {
@@ -273,11 +255,11 @@ std::array<std::int64_t, 6> Header::extent(const std::string& text) const {
 
 void Header::take_storage(Image& image, std::size_t number) {
   const PointArray& array = arrays_[number];
-  const auto* const type = std::ranges::find(kTypes, array.type, &TypeName::name);
+  const auto type = vtk_scalar_type(array.type);
   const auto refuse = [&](const std::string& what) {
     throw Error(ErrorKind::kBadInput, what, kHint).at(source_.name(), std::to_string(array.line) + ":1");
   };
-  if (type == std::end(kTypes)) refuse("values of type " + quoted(array.type) + " are not read");
+  if (!type) refuse("values of type " + quoted(array.type) + " are not read");
   unsigned components = 1;
   const char* const end = array.components.data() + array.components.size();
   const auto parsed = std::from_chars(array.components.data(), end, components);
@@ -287,8 +269,8 @@ void Header::take_storage(Image& image, std::size_t number) {
   std::array<std::uint64_t, 3> sizes{};
   for (std::size_t k = 0; k < 3; ++k) sizes[k] = static_cast<std::uint64_t>(extent_[2 * k + 1] - extent_[2 * k]) + 1;
   set_size(image.info, sizes);
-  image.type = type->type;
-  image.big_endian = big_endian_;
+  image.type = *type;
+  image.big_endian = kind_.big_endian;
   image.packing = Packing::kOwn;
 
   const std::uint64_t values = image.info.vertex_count() * components;
@@ -304,15 +286,8 @@ void Header::take_storage(Image& image, std::size_t number) {
     return;
   }
   if (!appended && array.format != "binary") refuse("data of the format " + quoted(array.format) + " are not read");
-  VtkDataKind kind;
-  kind.wide_head = wide_head_;
-  kind.big_endian = big_endian_;
-  kind.bytes = values * byte_size(image.type);
-  if (!compressor_.empty()) {
-    const bool zlib = compressor_ == "vtkZLibDataCompressor";
-    kind.packing = zlib ? VtkDataKind::Packing::kZlib : VtkDataKind::Packing::kLz4;
-    image.info.format += zlib ? " zlib" : " lz4";
-  }
+  const VtkDataKind kind{kind_.packing, kind_.wide_heads, kind_.big_endian, values * byte_size(image.type)};
+  if (kind.packing != BlockPacking::kNone) image.info.format += kind.packing == BlockPacking::kZlib ? " zlib" : " lz4";
   image.least_bytes = least_stored_bytes(kind);
   if (base64) image.least_bytes += image.least_bytes / 3;
   if (!appended) {
@@ -327,28 +302,15 @@ void Header::take_storage(Image& image, std::size_t number) {
   if (place.ec != std::errc{} || place.ptr != offset_end || offset >> 60 != 0)
     refuse("the array has no sound offset in the appended data");
   if (!appended_) refuse("the file has no appended data");
-  image.offset = appended_data() + offset;
-  if (!base64 && kind.packing == VtkDataKind::Packing::kNone) image.first_value = image.offset + (wide_head_ ? 8 : 4);
+  const AppendedData data = find_appended_data(source_, xml_, *appended_);
+  viewed_ = data.view_offset;
+  image.offset = data.offset + offset;
+  if (!base64 && kind.packing == BlockPacking::kNone) image.first_value = image.offset + (kind.wide_head ? 8 : 4);
   image.open_bytes = [begin = image.offset, base64, kind](std::unique_ptr<ContentSource> source) {
     std::unique_ptr<ByteInput> bytes = std::make_unique<ContentBytes>(std::move(source), begin);
     if (base64) bytes = from_base64(std::move(bytes));
     return vtk_data(std::move(bytes), kind);
   };
-}
-
-// They begin after the first underscore. It is looked for in the view that the tag ends in: a pipe has that still.
-std::uint64_t Header::appended_data() {
-  for (const std::uint64_t from : {xml_.view_offset(), *appended_}) {
-    const std::string_view rest = source_.view(from).substr(static_cast<std::size_t>(*appended_ - from));
-    const auto mark = std::ranges::find_if(rest, [](char c) { return c != '\n' && !is_blank(c); });
-    viewed_ = from;
-    if (mark == rest.end()) continue;
-    if (*mark != '_') break;
-    return *appended_ + static_cast<std::uint64_t>(mark - rest.begin()) + 1;
-  }
-  throw Error(ErrorKind::kBadInput, "the appended data do not begin with an underscore",
-              "the file is cut or damaged; get a whole copy")
-      .at(source_.name(), std::to_string(*appended_));
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 // On a pipe, nothing waits for more bytes than it was asked for.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -40,6 +41,12 @@ class Cursor {
 
   // REQUIRES: source().can_seek(), or `offset` is not before the current one and within view.
   void move_to(std::uint64_t offset) { view_at(offset, 1); }
+  // To an offset that is not before the cursor, or to the end; on content that cannot seek, through all before it.
+  void move_forward(std::uint64_t offset) {
+    if (source_->can_seek()) return move_to(offset);
+    while (this->offset() < offset && ensure(1))
+      advance(static_cast<std::size_t>(std::min<std::uint64_t>(available(), offset - this->offset())));
+  }
   bool at_end() { return !ensure(1); }
 
  private:

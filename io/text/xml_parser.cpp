@@ -57,7 +57,7 @@ struct XmlParser::State {
     auto* const state = static_cast<State*>(user);
     state->guarded([&] { return state->handler->text({text, static_cast<std::size_t>(length)}); });
   }
-  // Entities can stand for very much text, and no image has them.
+  // Entities can stand for very much text, and no file of VTK has them.
   static void on_document_type(void* user, const char*, const char*, const char*, int) {
     auto* const state = static_cast<State*>(user);
     state->has_document_type = true;

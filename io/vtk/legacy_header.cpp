@@ -10,7 +10,6 @@
 
 #include "io/text/text_cursor.h"
 #include "io/text/text_position.h"
-#include "io/vtk/encoded_bytes.h"
 #include "libreeb/base/count_text.h"
 #include "libreeb/base/error.h"
 
@@ -306,7 +305,7 @@ class LegacyIndexer {
     const std::uint64_t end = cursor_.offset() + count;
     if (content_.size().value_or(end) < end)
       fail("the file announces " + count_of(count, "byte") + " here, more than it has room for");
-    move_forward(cursor_, end);
+    cursor_.move_forward(end);
     if (cursor_.offset() < end) fail_end();
   }
 

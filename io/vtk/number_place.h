@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "io/decoding/vtk_data.h"
 #include "io/mesh/scalar_bytes.h"
 
 namespace reeb::io {
@@ -13,7 +14,6 @@ enum class NumberCoding : std::uint8_t {
   kBase64,
   kAppended  // raw or base64, at the end of the file: not yet known
 };
-enum class BlockPacking : std::uint8_t { kNone, kZlib, kLz4 };
 
 struct NumberPlace {
   ScalarType type = ScalarType::kFloat32;

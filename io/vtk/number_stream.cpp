@@ -4,6 +4,8 @@
 #include <charconv>
 #include <system_error>
 
+#include "io/decoding/base64_input.h"
+#include "io/decoding/vtk_data.h"
 #include "io/text/text_cursor.h"
 #include "io/text/text_position.h"
 #include "libreeb/base/count_text.h"
@@ -26,13 +28,17 @@ NumberStream::NumberStream(const ContentSource& content, const NumberPlace& plac
   check_room(count);
   if (place_.coding == NumberCoding::kText) {
     text_.emplace(content.reopen());
-    move_forward(*text_, place_.offset);
+    text_->move_forward(place_.offset);
     return;
   }
-  bytes_.emplace(content.reopen(), place_);
-  if (const auto size = bytes_->size(); size && *size / item_bytes_ < count)
-    fail("an array has only " + count_of(*size / item_bytes_, "number") + ", but " + with_commas(count) + " are needed",
-         kCutHint);
+  bytes_ = std::make_unique<ContentBytes>(content.reopen(), place_.offset);
+  if (place_.coding == NumberCoding::kBase64) bytes_ = from_base64(std::move(bytes_));
+  if (!place_.has_header) return;
+  auto data = vtk_data(std::move(bytes_), {place_.packing, place_.wide_header, place_.big_endian});
+  const std::uint64_t numbers = data->size() / item_bytes_;
+  bytes_ = std::move(data);
+  if (numbers < count)
+    fail("an array has only " + count_of(numbers, "number") + ", but " + with_commas(count) + " are needed", kCutHint);
 }
 
 void NumberStream::check_room(std::uint64_t count) const {

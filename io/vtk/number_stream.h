@@ -9,9 +9,9 @@
 #include <string_view>
 #include <vector>
 
+#include "io/decoding/byte_input.h"
 #include "io/file/content_source.h"
 #include "io/text/cursor.h"
-#include "io/vtk/array_bytes.h"
 #include "io/vtk/number_place.h"
 
 namespace reeb::io {
@@ -34,7 +34,7 @@ class NumberStream {
   // The error at the number that was read last.
   [[noreturn]] void fail(const std::string& what, const std::string& hint) const;
 
-  std::uint64_t bytes_read() const { return text_ ? text_->bytes_read() : bytes_->bytes_read(); }
+  std::uint64_t bytes_read() const { return text_ ? text_->bytes_read() : bytes_->file_bytes_read(); }
   std::uint64_t memory_bytes() const { return bytes_ ? bytes_->memory_bytes() : 0; }
 
  private:
@@ -47,7 +47,7 @@ class NumberStream {
   NumberPlace place_;
   const char* what_;
   std::optional<Cursor> text_;
-  std::optional<ArrayBytes> bytes_;
+  std::unique_ptr<ByteInput> bytes_;
   std::vector<char> buffer_;
   std::size_t item_bytes_ = 0, taken_ = 0;
   std::uint64_t item_offset_ = 0;  // of the number that was read last

@@ -1,12 +1,17 @@
 #include "io/vtk/xml_header.h"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <iterator>
+#include <memory>
 #include <optional>
+#include <system_error>
 #include <utility>
 
-#include "io/vtk/vtk_xml.h"
-#include "libreeb/base/error.h"
+#include "io/decoding/vtk_xml.h"
+#include "io/text/text_cursor.h"
+#include "io/text/xml_parser.h"
 
 namespace reeb::io {
 namespace {
@@ -35,73 +40,125 @@ bool is_section(std::string_view name) {
   return std::ranges::find(kSections, name) != std::end(kSections);
 }
 
-class XmlIndexer {
+class XmlIndexer final : private XmlParser::Handler {
  public:
-  explicit XmlIndexer(const ContentSource& content) : content_(content), scanner_(content.reopen()) {}
+  explicit XmlIndexer(const ContentSource& content) : source_(content.reopen()), xml_(*source_, *this) {}
 
   GridFile read() {
-    XmlTag tag;
-    while (scanner_.next(tag) && tag.name != "VTKFile") {
+    while (xml_.advance()) {
     }
-    if (tag.name != "VTKFile") scanner_.fail(0, "the file has no element VTKFile");
-    kind_ = read_vtk_xml_kind(tag, scanner_);
-    unstructured_ = kind_.type == "UnstructuredGrid";
-    if (!unstructured_ && kind_.type != "PolyData")
-      throw Error(ErrorKind::kBadInput, "a VTK XML file of type " + kind_.type.substr(0, 40) + " is not read",
-                  "a mesh is of type UnstructuredGrid (.vtu) or PolyData (.vtp); convert it to one of these")
-          .at(content_.name(), std::to_string(tag.begin));
-    file_.format = unstructured_ ? "VTU" : "VTP";
-    bool ended = false;
-    while (!ended && scanner_.next(tag)) {
-      if (tag.name == "AppendedData" && !tag.closes) {
-        const XmlAppendix appendix = read_xml_appendix(tag, scanner_);
-        for_each_place(file_, [&](NumberPlace& place) {
-          if (place.coding == NumberCoding::kAppended) append_to(appendix, place);
-        });
-        return std::move(file_);
-      }
-      ended = tag.closes && tag.name == "VTKFile";
-      read_tag(tag);
+    if (!has_file_) xml_.fail("the file has no element VTKFile", kHint);
+    if (!appended_) {
+      for_each_place(file_, [&](const NumberPlace& place) {
+        if (place.coding == NumberCoding::kAppended)
+          xml_.fail("an array is appended, but the file has no element AppendedData", kHint);
+      });
+      return std::move(file_);
     }
-    if (!ended) scanner_.fail(tag.end, "the file ends before the end of its element VTKFile");
-    for_each_place(file_, [&](const NumberPlace& place) {
-      if (place.coding == NumberCoding::kAppended)
-        scanner_.fail(tag.begin, "an array is appended, but the file has no element AppendedData");
+    const std::uint64_t begin = find_appended_data(*source_, xml_, *appended_).offset;
+    for_each_place(file_, [&](NumberPlace& place) {
+      if (place.coding != NumberCoding::kAppended) return;
+      place.coding = appended_coding_;
+      place.offset += begin;
     });
     return std::move(file_);
   }
 
  private:
-  void read_tag(const XmlTag& tag) {
-    if (tag.name == "Piece") {
-      if (!tag.closes) begin_piece(tag);
-      if (tag.closes || tag.is_empty) end_piece(tag);
-      return;
+  static constexpr const char* kHint = "the file is cut or damaged; get a whole copy";
+
+  bool start(const std::string& name, const XmlAttributes& attributes) override {
+    if (open_array_ != nullptr) {
+      ++nested_;
+    } else if (name == "VTKFile") {
+      take_file(attributes);
+    } else if (name == "AppendedData") {
+      take_appended(attributes);
+      return false;
+    } else if (name == "Piece") {
+      begin_piece(attributes);
+    } else if (in_piece_ && name == "DataArray") {
+      take_array(attributes);
+    } else if (in_piece_ && is_section(name)) {
+      section_ = name;
     }
-    if (!in_piece_) return;
-    if (tag.name == "DataArray" && !tag.closes) return read_array(tag);
-    if (!tag.is_empty && is_section(tag.name)) section_ = tag.closes ? std::string() : tag.name;
+    return true;
   }
 
-  void begin_piece(const XmlTag& tag) {
-    if (in_piece_) scanner_.fail(tag.begin, "a piece begins in a piece");
+  bool end(const std::string& name) override {
+    if (name == "Piece") {
+      end_piece();
+    } else if (name == "DataArray") {
+      open_array_ = nullptr;
+    } else if (open_array_ != nullptr) {
+      open_array_->offset = xml_.part_end();
+      --nested_;
+    } else if (is_section(name)) {
+      section_.clear();
+    }
+    return true;
+  }
+
+  // Elements can stand before the numbers of an array, and after them.
+  bool text(std::string_view text) override {
+    if (nested_ == 0 && !std::ranges::all_of(text, [](char c) { return c == '\n' || is_blank(c); }))
+      open_array_ = nullptr;
+    return true;
+  }
+
+  void take_file(const XmlAttributes& attributes) {
+    has_file_ = true;
+    kind_ = read_vtk_xml_kind(attributes, xml_);
+    unstructured_ = kind_.type == "UnstructuredGrid";
+    if (!unstructured_ && kind_.type != "PolyData")
+      xml_.fail("a VTK XML file of type " + kind_.type.substr(0, 40) + " is not read",
+                "a mesh is of type UnstructuredGrid (.vtu) or PolyData (.vtp); convert it to one of these");
+    file_.format = unstructured_ ? "VTU" : "VTP";
+  }
+
+  void take_appended(const XmlAttributes& attributes) {
+    const std::string encoding = attribute_of(attributes, "encoding");
+    if (!encoding.empty() && encoding != "raw" && encoding != "base64")
+      refuse_attribute(xml_, "AppendedData", "encoding", encoding);
+    appended_ = xml_.part_end();
+    appended_coding_ = encoding == "base64" ? NumberCoding::kBase64 : NumberCoding::kRaw;
+  }
+
+  // An attribute that is a count; nothing if there is none.
+  std::optional<std::uint64_t> count(const XmlAttributes& attributes, std::string_view name) const {
+    const std::string text = attribute_of(attributes, name);
+    if (text.empty()) return std::nullopt;
+    std::uint64_t value = 0;
+    const auto parsed = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (parsed.ec != std::errc{} || parsed.ptr != text.data() + text.size() || value >> 56 != 0)
+      xml_.fail(std::string(name) + " is no count, but \"" + text.substr(0, 40) + '"', kHint);
+    return value;
+  }
+  std::uint64_t needed_count(const XmlAttributes& attributes, const char* name) const {
+    const auto value = count(attributes, name);
+    if (!value) xml_.fail(std::string("an element has no attribute ") + name, kHint);
+    return *value;
+  }
+
+  void begin_piece(const XmlAttributes& attributes) {
+    if (in_piece_) xml_.fail("a piece begins in a piece", kHint);
     in_piece_ = true;
     section_.clear();
     has_coordinates_ = false;
     GridPiece& piece = file_.pieces.emplace_back();
-    piece.points = xml_count(tag, "NumberOfPoints", scanner_);
-    found_.assign(unstructured_ ? 1 : 4, {});
-    piece.cells.resize(found_.size());
+    piece.points = needed_count(attributes, "NumberOfPoints");
+    found_ = {};
+    piece.cells.resize(unstructured_ ? 1 : found_.size());
     if (unstructured_) {
-      piece.cells[0].count = xml_count(tag, "NumberOfCells", scanner_);
+      piece.cells[0].count = needed_count(attributes, "NumberOfCells");
       return;
     }
-    static constexpr std::pair<std::string_view, CellShape> kLists[] = {{"NumberOfVerts", CellShape::kPoints},
-                                                                        {"NumberOfLines", CellShape::kPolyline},
-                                                                        {"NumberOfStrips", CellShape::kStrip},
-                                                                        {"NumberOfPolys", CellShape::kPolygon}};
+    static constexpr std::pair<const char*, CellShape> kLists[] = {{"NumberOfVerts", CellShape::kPoints},
+                                                                   {"NumberOfLines", CellShape::kPolyline},
+                                                                   {"NumberOfStrips", CellShape::kStrip},
+                                                                   {"NumberOfPolys", CellShape::kPolygon}};
     for (std::size_t i = 0; i < 4; ++i) {
-      if (tag.find(kLists[i].first) != nullptr) piece.cells[i].count = xml_count(tag, kLists[i].first, scanner_);
+      piece.cells[i].count = count(attributes, kLists[i].first).value_or(0);
       piece.cells[i].shape = kLists[i].second;
     }
   }
@@ -115,67 +172,100 @@ class XmlIndexer {
     return found - std::begin(kSections);
   }
 
-  void read_array(const XmlTag& tag) {
+  // Where the numbers of an array are; if they are appended, until read() its offset counts from the first of these
+  // bytes. Nothing for an array of strings.
+  std::optional<NumberPlace> place_of(const XmlAttributes& attributes) const {
+    const std::string type = attribute_of(attributes, "type"), format = attribute_of(attributes, "format");
+    if (type == "String") return std::nullopt;
+    const auto known = vtk_scalar_type(type);
+    if (!known) refuse_attribute(xml_, "DataArray", "type", type);
+    NumberPlace place;
+    place.type = *known;
+    place.big_endian = kind_.big_endian;
+    place.offset = xml_.part_end();
+    if (format.empty() || format == "ascii") return place;
+    if (format == "appended") {
+      place.coding = NumberCoding::kAppended;
+      place.offset = needed_count(attributes, "offset");
+    } else if (format == "binary") {
+      place.coding = NumberCoding::kBase64;
+    } else {
+      refuse_attribute(xml_, "DataArray", "format", format);
+    }
+    place.has_header = true;
+    place.wide_header = kind_.wide_heads;
+    place.packing = kind_.packing;
+    return place;
+  }
+
+  void take_array(const XmlAttributes& attributes) {
     const bool points = section_ == "Points", values = section_ == "PointData";
     const auto list = list_of_section();
     if (!points && !values && !list) return;
-    const auto place = read_xml_array(tag, kind_, scanner_);
+    const auto place = place_of(attributes);
     if (!place) return;
-    const std::string name = tag.get("Name");
-    const std::uint64_t components =
-        tag.find("NumberOfComponents") == nullptr ? 1 : xml_count(tag, "NumberOfComponents", scanner_);
+    const std::string name = attribute_of(attributes, "Name");
+    const std::uint64_t components = count(attributes, "NumberOfComponents").value_or(1);
     GridPiece& piece = file_.pieces.back();
+    NumberPlace* here = nullptr;
     if (points) {
-      if (components != 3) scanner_.fail(tag.begin, "points have other than three coordinates");
-      piece.coordinates = *place;
+      if (components != 3) xml_.fail("points have other than three coordinates", kHint);
+      here = &piece.coordinates;
       has_coordinates_ = true;
     } else if (values) {
       if (components == 0 || components > kMostComponents) return;
       piece.arrays.emplace_back();
       piece.arrays.back().name = name;
       piece.arrays.back().components = components;
-      piece.arrays.back().place = *place;
+      here = &piece.arrays.back().place;
     } else {
-      add_cell_array(tag, name, *place, piece.cells[*list], found_[*list]);
+      here = cell_array(name, piece.cells[*list], found_[*list]);
+      if (here == nullptr) return;
+      if (is_float(place->type)) xml_.fail("the array " + name + " of cells has no integers", kHint);
     }
+    *here = *place;
+    if (place->coding == NumberCoding::kAppended) return;
+    open_array_ = here;
+    nested_ = 0;
   }
 
-  void add_cell_array(const XmlTag& tag, const std::string& name, const NumberPlace& place, CellList& list,
-                      FoundArrays& found) {
+  // Null if cells are not described by an array of this name.
+  NumberPlace* cell_array(const std::string& name, CellList& list, FoundArrays& found) const {
     const bool nodes = name == "connectivity", offsets = name == "offsets", types = unstructured_ && name == "types";
-    if (!nodes && !offsets && !types) return;
-    if (is_float(place.type)) scanner_.fail(tag.begin, "the array " + name + " of cells has no integers");
-    if (nodes) list.nodes = place;
-    if (offsets) list.offsets = place;
-    if (types) list.types = place;
     found.nodes |= nodes;
     found.offsets |= offsets;
     found.types |= types;
+    if (nodes) return &list.nodes;
+    if (offsets) return &list.offsets;
+    return types ? &list.types : nullptr;
   }
 
-  void end_piece(const XmlTag& tag) {
-    if (!in_piece_) scanner_.fail(tag.begin, "a piece ends that did not begin");
+  void end_piece() {
     GridPiece& piece = file_.pieces.back();
-    if (piece.points != 0 && !has_coordinates_) scanner_.fail(tag.begin, "a piece has no array of points");
+    if (piece.points != 0 && !has_coordinates_) xml_.fail("a piece has no array of points", kHint);
     for (std::size_t i = 0; i < piece.cells.size(); ++i) {
       CellList& list = piece.cells[i];
       list.layout = CellLayout::kOffsets;
       list.has_types = unstructured_;
       if (list.count != 0 && !(found_[i].nodes && found_[i].offsets && (found_[i].types || !unstructured_)))
-        scanner_.fail(tag.begin, "a piece has cells, but not all arrays that describe them");
+        xml_.fail("a piece has cells, but not all arrays that describe them", kHint);
     }
     in_piece_ = false;
   }
 
-  const ContentSource& content_;
-  XmlScanner scanner_;
+  std::unique_ptr<ContentSource> source_;
+  XmlParser xml_;
+  bool has_file_ = false, unstructured_ = false;
   VtkXmlKind kind_;
-  bool unstructured_ = false;
   GridFile file_;
+  std::optional<std::uint64_t> appended_;  // the offset after the tag
+  NumberCoding appended_coding_ = NumberCoding::kRaw;
   // Of the piece that is read:
   bool in_piece_ = false, has_coordinates_ = false;
-  std::string section_;  // the element around arrays
-  std::vector<FoundArrays> found_;
+  std::string section_;                // the element around arrays
+  NumberPlace* open_array_ = nullptr;  // of the array that is read, until its numbers begin
+  unsigned nested_ = 0;                // elements around the parser in that array
+  std::array<FoundArrays, 4> found_;   // of its lists of cells
 };
 
 }  // namespace

@@ -39,7 +39,7 @@ const Rooms kRooms = {
     {"io/images", {"libreeb", "io/file", "io/text", "io/mesh", "io/decoding"}},
     {"io/grids", {"libreeb"}},
     {"io/cells", {"libreeb", "io/file", "io/text", "io/mesh"}},
-    {"io/vtk", {"libreeb", "io/file", "io/text", "io/mesh", "io/cells"}},
+    {"io/vtk", {"libreeb", "io/file", "io/text", "io/mesh", "io/decoding", "io/cells"}},
     {"io/formats",
      {"libreeb", "io/file", "io/text", "io/mesh", "io/events", "io/streaming", "io/ply", "io/images", "io/grids",
       "io/cells", "io/vtk"}},

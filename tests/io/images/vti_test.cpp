@@ -178,7 +178,7 @@ TEST(Vti, DamagedDataAreRefused) {
   EXPECT_EQ(error(damaged), "block 1 of the array is damaged");
   damaged = file;
   damaged[file.find("   _") + 4] = 100;
-  EXPECT_EQ(error(damaged), "the array has 696 bytes, but the image needs 24");
+  EXPECT_EQ(error(damaged), "the array has 696 bytes, but 24 are needed");
   damaged[file.find("   _") + 4 + 3] = 100;
   EXPECT_EQ(error(damaged), "the array has 1,677,721,700 blocks of 7 bytes, which is no sound head");
   file = vti_file(kImage, {array}, {.packing = "LZ4"});
@@ -188,7 +188,7 @@ TEST(Vti, DamagedDataAreRefused) {
   file[file.find("\n  ", file.find("Name=\"a")) + 4] = '!';
   EXPECT_EQ(error(file), "this is no base64 text");
   file = vti_file(kImage, {array_of("a", {0, 1, 2, 3, 4})});
-  EXPECT_EQ(error(file), "the array has 20 bytes, but the image needs 24");
+  EXPECT_EQ(error(file), "the array has 20 bytes, but 24 are needed");
   file = vti_file(kImage, {array_of("a", {0, 1, 2, 3, 4})}, {.format = "ascii"});
   EXPECT_EQ(error(file), "the file ends after 5 of 6 values");
 }
