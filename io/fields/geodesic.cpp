@@ -44,8 +44,11 @@ struct Unfolded {
   std::vector<std::array<std::uint32_t, 2>> ends;  // of the edge that is crossed
 };
 
+// Calls found(crossing, end, far vertex) for both ends of the edge from a to b, if the corner c opposite to it is
+// obtuse.
+template <class Found>
 void unfold(const WholeComplex& complex, const Incidence& triangles, std::uint32_t c, std::uint32_t a, std::uint32_t b,
-            Unfolded& unfolded) {
+            const Found& found) {
   const double ab = complex.length(a, b), ac = complex.length(a, c), bc = complex.length(b, c);
   if (ac * ac + bc * bc >= ab * ab) return;
   const double corner_x = (ac * ac + ab * ab - bc * bc) / (2 * ab);
@@ -62,10 +65,8 @@ void unfold(const WholeComplex& complex, const Incidence& triangles, std::uint32
     const double crossing = far_x + (corner_x - far_x) * (far_y / (far_y + corner_y));
     if (crossing < 0 || crossing > ab) continue;
     const double across_edge = std::hypot(corner_x - far_x, corner_y + far_y);
-    unfolded.crossings.push_back({c, ac, across_edge, to_a});
-    unfolded.ends.push_back({a, far});
-    unfolded.crossings.push_back({c, bc, across_edge, to_b});
-    unfolded.ends.push_back({b, far});
+    found(Crossing{c, ac, across_edge, to_a}, a, far);
+    found(Crossing{c, bc, across_edge, to_b}, b, far);
   }
 }
 
@@ -80,10 +81,21 @@ std::vector<double> geodesic_distance(const WholeComplex& complex, std::span<con
                                               8 * std::uint64_t{complex.edges.size()});
   const Incidence triangles = incidence_of(count, complex.triangles);
   const Incidence edges = incidence_of(count, complex.edges);
+  const auto for_each_unfolded = [&](const auto& found) {
+    for (const auto& t : complex.triangles)
+      for (std::size_t i = 0; i < 3; ++i) unfold(complex, triangles, t[i], t[(i + 1) % 3], t[(i + 2) % 3], found);
+  };
+  // They are counted first, so that their memory is reserved before it is taken.
+  std::size_t crossing_count = 0;
+  for_each_unfolded([&](const Crossing&, std::uint32_t, std::uint32_t) { ++crossing_count; });
+  memory.resize(memory.bytes() + 56 * crossing_count);
   Unfolded unfolded;
-  for (const auto& t : complex.triangles)
-    for (std::size_t i = 0; i < 3; ++i) unfold(complex, triangles, t[i], t[(i + 1) % 3], t[(i + 2) % 3], unfolded);
-  memory.resize(memory.bytes() + 56 * unfolded.ends.size());
+  unfolded.crossings.reserve(crossing_count);
+  unfolded.ends.reserve(crossing_count);
+  for_each_unfolded([&](const Crossing& crossing, std::uint32_t end, std::uint32_t far) {
+    unfolded.crossings.push_back(crossing);
+    unfolded.ends.push_back({end, far});
+  });
   const Incidence crossings = incidence_of(count, unfolded.ends);
   std::vector<double> distance(count, kInfinite);
   std::vector<bool> final(count);

@@ -54,9 +54,10 @@ void compare(const ModelMesh& model, std::uint64_t allowance, std::uint64_t limi
   const Scratch scratch;
   const io::TempDir temp(scratch.path());
   MemoryBudget budget(limit);
-  {
+  for (const bool in_slabs : {false, true}) {
+    SCOPED_TRACE(in_slabs);
     ModelIndexedMesh indexed(model);
-    const auto mesh = reorder(indexed, temp, budget, {.allowance_bytes = allowance});
+    const auto mesh = reorder(indexed, temp, budget, {.allowance_bytes = allowance, .in_slabs = in_slabs});
     expect_same(model, *mesh);
   }
   EXPECT_EQ(budget.used_bytes(), 0u);
@@ -91,6 +92,21 @@ TEST(Reorder, MakesTheFrontSmall) {
   const auto live_after = scan_last_use(*mesh, temp, budget, blocks)->summary().max_live_vertices;
   EXPECT_GT(live_before, 50'000u);
   EXPECT_LT(live_after, 3000u) << "a square patch of n vertices has a border of about 4 sqrt(n)";
+}
+
+TEST(Reorder, SlabsOfALongMeshHaveAShorterFront) {
+  const Scratch scratch;
+  const io::TempDir temp(scratch.path());
+  MemoryBudget budget;
+  const ModelMesh model = shuffled(grid_mesh(2000, 100), 4);
+  const auto front = [&](bool in_slabs) {
+    ModelIndexedMesh indexed(model);
+    const auto mesh = reorder(indexed, temp, budget, {.in_slabs = in_slabs});
+    return scan_last_use(*mesh, temp, budget, {.block_triangles = 256})->summary().max_live_vertices;
+  };
+  const auto of_slabs = front(true), of_one_curve = front(false);
+  EXPECT_LT(of_slabs, of_one_curve);
+  EXPECT_LT(of_slabs, 1000u) << "the border of a slab is across the mesh, of about 100 vertices";
 }
 
 TEST(Reorder, EachFailingWriteIsReported) {
