@@ -1,7 +1,9 @@
 #include "io/functions/mesh_field.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <optional>
 #include <utility>
 
@@ -58,6 +60,10 @@ std::vector<double> laplacian_values(const FunctionSpec& spec, const WholeComple
                                      const std::string& mesh_name, std::vector<std::string>& notes) {
   try {
     Eigenvector vector = laplacian_eigenvector(complex, spec.number, budget);
+    std::array<char, 96> text{};
+    std::snprintf(text.data(), text.size(), " has the eigenvalue %.6g, with a residual of %.1e", vector.eigenvalue,
+                  vector.residual);
+    notes.push_back(spec.text + text.data());
     if (vector.other_vertices != 0)
       notes.push_back(spec.text + " is 0 at " + count_of(vector.other_vertices, "vertex") +
                       " outside the largest component");
