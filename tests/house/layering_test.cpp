@@ -54,6 +54,7 @@ const Rooms kRooms = {
     {"ooc/chunks", {"libreeb", "io/file", "ooc/threads", "ooc/sorting", "ooc/tables"}},
     {"ooc/grids", {"libreeb", "io/file", "ooc/chunks"}},
     {"ooc/whole_mesh", {"libreeb", "io/file", "ooc/threads", "ooc/sorting", "ooc/tables", "ooc/chunks"}},
+    {"ooc/census", {"libreeb", "io/file", "ooc/threads", "ooc/chunks", "ooc/whole_mesh"}},
     {"ooc/stored_graph", {"libreeb", "io/file", "ooc/threads", "ooc/sorting", "ooc/tables"}},
     {"ooc/reeb_file", {"libreeb", "io/file", "ooc/threads", "ooc/sorting", "ooc/tables"}},
     {"ooc/run", {"libreeb", "io/file", "ooc"}},

@@ -121,8 +121,12 @@ TEST_F(CliDocument, HasEveryFieldOfTheReport) {
 
 TEST_F(CliDocument, HasEveryFieldOfInfo) {
   expect_success(reeb({"compute", "mesh.off"}));
+  // With a place of each kind, two triangles as one that is folded, and three at an edge.
+  write("bad.off",
+        "OFF\n8 8 0\n0 0 0\n1 0 0\n0 1 0\n0 1 0.01\n5 0 0\n6 0 0\n5 1 0\n5 0 1\n3 0 1 2\n3 1 0 3\n3 0 1 1\n"
+        "3 4 5 6\n3 4 5 7\n3 4 5 0\n3 4 5 0\n3 2 2 3\n");
   const std::map<std::string, std::string> tables = {{"mesh.reeb", "### Fields for a `.reeb` file"},
-                                                     {"mesh.off", "### Fields for a mesh"}};
+                                                     {"bad.off", "### Fields for a mesh"}};
   for (const auto& [file, heading] : tables) {
     const Outcome outcome = reeb({"info", file, "--json"});
     expect_success(outcome);

@@ -305,9 +305,9 @@ TEST_F(Convert, InfoSaysWhatAMeshHolds) {
   const auto info = info_of("two.obj");
   EXPECT_EQ(info["vertices"], 7);
   EXPECT_EQ(info["triangles"], 3);
-  EXPECT_EQ(info["degenerate"], 1);
+  EXPECT_EQ(info["degenerate"]["count"], 1);
   EXPECT_EQ(info["unreferenced_vertices"], 1);
-  EXPECT_EQ(info["components"], 3);
+  EXPECT_EQ(info["components"]["count"], 3);
   EXPECT_EQ(info["finalization"], false);
   EXPECT_EQ(info["bounds"][0]["max"], 7.0);
   EXPECT_EQ(info["live_front"], 2) << "vertices 4 and 5 wait for the last triangle";

@@ -63,7 +63,9 @@ TEST_F(Simplices, AreCountedByDimensionHoweverTheyAreRead) {
   const json expected = {1, 2, 1, 1, 0, 0, 0, 0, 0};
   write("m.cx", mixed);
   EXPECT_EQ(info_of({"m.cx"})["simplices"], expected);
-  EXPECT_EQ(info_of({"m.cx"})["degenerate"], 1);
+  EXPECT_EQ(info_of({"m.cx"})["components"]["count"], 1);
+  EXPECT_TRUE(info_of({"m.cx"})["degenerate"].is_null());
+  EXPECT_EQ(info_of({"m.cx"})["genus_why"], "it is not a surface: it has cells");
   const json graph = report_of({"m.cx"})["graph"];
   EXPECT_EQ(graph["components"], 1);
   EXPECT_EQ(graph["loops"], 1);

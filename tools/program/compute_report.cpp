@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <utility>
@@ -45,11 +46,11 @@ void print_features(const ooc::ComputeResult& r, const std::string& title, bool 
   }
 }
 
-// The run does not count edges, so it does not know the genus.
-std::string genus_line(const RunFacts& facts, const ooc::ComputeResult& r) {
-  if (facts.path == "-" || r.output == io::kStandardOutput) return "  genus: not counted";
-  return fmt::format("  genus: not counted; `reeb verify {} --mesh {}` counts it", printable(r.output),
-                     printable(facts.path));
+// The run counts no edges, which all of these need. They are those of a surface.
+void print_not_counted(const RunFacts& facts, const ooc::ComputeResult& r) {
+  if (std::any_of(r.simplices.begin() + 3, r.simplices.end(), [](std::uint64_t count) { return count != 0; })) return;
+  const std::string text = "  boundaries, non-manifold places, genus: not counted";
+  print_line(facts.path == "-" ? text : text + "; reeb info " + printable(facts.path));
 }
 
 // Of the triangles; of all simplices, if there are others.
@@ -63,7 +64,7 @@ void print_result(const RunFacts& facts, const ooc::ComputeResult& r) {
   print_line(fmt::format("Reeb graph of {} for f = {} (from {:.6g} to {:.6g})", printable(facts.path),
                          printable(r.function), r.vertices == 0 ? 0 : r.range.min, r.vertices == 0 ? 0 : r.range.max));
   print_line(fmt::format("  mesh: {}, {}", count_of(r.vertices, "vertex"), count_simplices(r.simplices)));
-  print_line(genus_line(facts, r));
+  print_not_counted(facts, r);
   print_line(fmt::format("  graph: {}, {}, {}, {}", count_of(r.nodes, "node"), count_of(r.arcs, "arc"),
                          count_of(r.betti.components, "component"), count_of(r.betti.loops, "loop")));
   if (r.denoised_pairs != 0) print_line("  removed as noise: " + count_of(r.denoised_pairs, "pair"));
