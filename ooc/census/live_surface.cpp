@@ -240,14 +240,8 @@ void LiveSurface::examine_plain(Slot v) {
 
 // Whether the link of a vertex that is plain is one path or one cycle: whether a walk along it passes all triangles.
 bool LiveSurface::is_one_link() const {
-  std::uint32_t start = 0;
-  std::size_t ends = 0;
-  for (std::uint32_t i = 0; i < neighbours_.size(); ++i)
-    if (neighbours_[i].second == kNone) {
-      start = i;
-      ++ends;
-    }
-  if (ends > 2) return false;
+  const auto end = std::ranges::find(neighbours_, kNone, &Neighbour::second);
+  const auto start = static_cast<std::uint32_t>(end == neighbours_.end() ? 0 : end - neighbours_.begin());
   std::size_t passed = 0;
   std::uint32_t at = start, wing = neighbours_[start].first;
   do {

@@ -78,7 +78,7 @@ ChunkSize chunk_size(const MemoryBudget& budget, const CensusOptions& options) {
   const auto share = [&](std::uint64_t part, std::uint64_t most) {
     return static_cast<std::size_t>(std::clamp<std::uint64_t>(budget.limit_bytes() / part, 1024, most));
   };
-  return {.first = share(2048, 32768), .most = share(512, 131072)};
+  return {.first = share(2048, 8192), .most = share(512, 131072)};
 }
 
 // Brings chunks to a surface.

@@ -214,6 +214,26 @@ TEST(MeshCensus, AMeshWhoseFrontIsTooLargeForTheMemoryIsSortedFirst) {
     }
 }
 
+TEST(MeshCensus, TheMemoryIsThatOfTheFront) {
+  constexpr std::uint64_t kColumns = 10, kRows = 20000;
+  Complex complex;
+  for (std::uint64_t j = 0; j < kRows; ++j)
+    for (std::uint64_t i = 0; i < kColumns; ++i) {
+      const std::uint64_t v = complex.vertex_count();
+      complex.positions.push_back({static_cast<double>(i), static_cast<double>(j), 0});
+      if (i == 0 || j == 0) continue;
+      complex.simplices.push_back({v - 1 - kColumns, v - kColumns, v});
+      complex.simplices.push_back({v - 1 - kColumns, v, v - 1});
+    }
+  complex.values.assign(complex.vertex_count(), 0);
+  const test::ComplexMesh mesh(complex);
+  const MeshCensus census = census_of(mesh, Form::kIndexed, 1, 2 << 20, {.chunk_triangles = 2 * (kColumns - 1)});
+  EXPECT_EQ(census.boundaries, 1);
+  EXPECT_EQ(census.longest_boundaries.at(0).length, 2 * (kColumns - 1 + kRows - 1));
+  EXPECT_EQ(census.folded.count, 0);
+  EXPECT_EQ(census.genus, 0);
+}
+
 Complex one_simplex(std::size_t corners) {
   Complex complex;
   complex.simplices.emplace_back();
