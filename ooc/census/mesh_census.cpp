@@ -37,14 +37,16 @@ bool has_cells(const SimplexCounts& counts) {
 
 // How much of the budget the unfinished part may take before another order of the mesh is tried.
 std::uint64_t most_live_bytes(const MemoryBudget& budget) {
-  constexpr std::uint64_t kWithoutLimit = 1u << 30;
+  constexpr std::uint64_t kWithoutLimit = 256u << 20;
   return std::min(budget.free_bytes() / 2, kWithoutLimit);
 }
 
-// Whether the front is too large for the memory, and smaller along a curve.
+// Whether the front is too large for the memory, or for the cache, and smaller along a curve.
 bool should_sort(std::uint64_t front, std::uint64_t vertices, const MemoryBudget& budget) {
-  constexpr std::uint64_t kVertexBytes = 400;
-  return front > most_live_bytes(budget) / kVertexBytes && front > usual_front(vertices);
+  constexpr std::uint64_t kVertexBytes = 400, kMostInCache = 65536, kShareOfRandomOrder = 8;
+  if (front <= usual_front(vertices)) return false;
+  const bool is_slow = front > kMostInCache && front > vertices / kShareOfRandomOrder;
+  return is_slow || front > most_live_bytes(budget) / kVertexBytes;
 }
 
 std::optional<LastUse> find_last_uses(IndexedMesh& mesh, Workspace& space, const CensusOptions& options,
