@@ -1,6 +1,7 @@
 #include "ooc/census/mesh_census.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <span>
 #include <string>
@@ -52,10 +53,11 @@ bool should_sort(std::uint64_t front, std::uint64_t vertices, const MemoryBudget
 std::optional<LastUse> find_last_uses(IndexedMesh& mesh, Workspace& space, const CensusOptions& options,
                                       bool may_give_up) {
   LastUseOptions uses;
-  uses.allowance_bytes = space.share();
-  // Blocks of one triangle give the exact front; for large meshes, blocks are doubled.
-  uses.block_triangles = 1;
+  uses.allowance_bytes = 2 * space.share();
+  // Blocks of one triangle give the exact front; for large meshes, blocks are doubled. Each time, the whole table is
+  // read and written, so blocks begin at a size that they will reach: a mesh has more triangles than vertices.
   uses.most_blocks = 1u << 16;
+  uses.block_triangles = std::max<std::uint64_t>(1, std::bit_floor(mesh.vertex_count() / uses.most_blocks));
   uses.give_up_when_incoherent = may_give_up;
   uses.threads = options.background ? 2 : 1;
   uses.progress = [&](std::uint64_t bytes) { tell(options, {Phase::kFront, bytes, mesh.bytes_total(), 0}); };
