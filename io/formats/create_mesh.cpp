@@ -20,6 +20,10 @@ void check_mesh_name(const std::string& path) {
       .at(path);
 }
 
+bool has_tetrahedra(const std::string& path) {
+  return is_volume_name(path) || stream_format(path) == StreamFormat::kEvents || name_suffix(path) == ".cx";
+}
+
 std::unique_ptr<MeshWriter> create_mesh(const std::string& path, const MeshWriterOptions& options) {
   check_mesh_name(path);
   if (stream_format(path) != StreamFormat::kNone) return create_stream_mesh(path, options);

@@ -17,6 +17,8 @@ namespace reeb::io {
 
 // THROWS: Error{kUsage} if create_mesh() does not know the suffix of `path`.
 void check_mesh_name(const std::string& path);
+// Whether a format that create_mesh() knows holds tetrahedra as such.
+bool has_tetrahedra(const std::string& path);
 
 // The suffix of `path` determines the format: .ply .obj .off .cx .sma .smb .smc .sva .svb .events.txt.
 // THROWS: Error{kUsage} for another suffix; else as AtomicFile.

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <utility>
 
+#include "io/generate/ball.h"
 #include "io/generate/permutation.h"
 #include "io/generate/shape.h"
 #include "io/generate/sierpinski.h"
@@ -14,17 +15,19 @@
 namespace reeb::io {
 namespace {
 
-constexpr std::uint64_t kMaxTriangles = std::uint64_t{1} << 42;
+constexpr std::uint64_t kMaxTriangles = std::uint64_t{1} << 42;  // or tetrahedra
+constexpr std::uint64_t kMaxHandles = kMaxTriangles / 64;        // at least 48 tetrahedra each
 
 template <class Value>
 using Names = std::pair<std::string_view, Value>;
 
-constexpr std::array<Names<MeshKind>, 6> kKinds = {{{"torus", MeshKind::kTorus},
+constexpr std::array<Names<MeshKind>, 7> kKinds = {{{"torus", MeshKind::kTorus},
                                                     {"terrain", MeshKind::kTerrain},
                                                     {"grid", MeshKind::kGrid},
                                                     {"plate", MeshKind::kPlate},
                                                     {"scan", MeshKind::kScan},
-                                                    {"sierpinski", MeshKind::kSierpinski}}};
+                                                    {"sierpinski", MeshKind::kSierpinski},
+                                                    {"ball", MeshKind::kBall}}};
 constexpr std::array<Names<MeshOrder>, 6> kOrders = {{{"rows", MeshOrder::kRows},
                                                       {"patches", MeshOrder::kPatches},
                                                       {"random", MeshOrder::kRandom},
@@ -160,7 +163,20 @@ class ShapeReader : public GeneratedMesh {
   std::vector<VertexId> waiting_;
 };
 
+std::unique_ptr<Shape> make_ball(const GeneratorOptions& options) {
+  if (options.tetrahedra == 0 || options.tetrahedra > kMaxTriangles)
+    throw Error(ErrorKind::kUsage, "cannot generate " + std::to_string(options.tetrahedra) + " tetrahedra",
+                "choose --tetrahedra between 1 and " + std::to_string(kMaxTriangles));
+  if (options.handles > kMaxHandles)
+    throw Error(ErrorKind::kUsage, "cannot generate " + std::to_string(options.handles) + " handles",
+                "choose --handles up to " + std::to_string(kMaxHandles));
+  if (has_tiles(options.order))
+    throw Error(ErrorKind::kUsage, "a ball has no tiles", "choose --order rows, patches or random");
+  return std::make_unique<DrilledBall>(options.tetrahedra, options.handles);
+}
+
 std::unique_ptr<Shape> make_shape(const GeneratorOptions& options) {
+  if (options.kind == MeshKind::kBall) return make_ball(options);
   if (options.triangles == 0 || options.triangles > kMaxTriangles)
     throw Error(ErrorKind::kUsage, "cannot generate " + std::to_string(options.triangles) + " triangles",
                 "choose --triangles between 1 and " + std::to_string(kMaxTriangles));

@@ -21,6 +21,7 @@ enum class MeshKind {
   kPlate,       // closed: a flat plate with a through-hole in every 4 x 4 cells
   kScan,        // closed: a rough, noisy body of two close sheets with many small handles
   kSierpinski,  // the 2-skeleton of a Sierpinski simplex of dimension 2 to 5; not a manifold
+  kBall,        // tetrahedra: a ball with tunnels drilled through it; the function z has a loop for each
 };
 
 enum class MeshOrder {
@@ -35,7 +36,9 @@ enum class MeshOrder {
 
 struct GeneratorOptions {
   MeshKind kind = MeshKind::kScan;
-  std::uint64_t triangles = 1'000'000;  // the mesh has the nearest count that its kind and width allow
+  std::uint64_t triangles = 1'000'000;   // the mesh has the nearest count that its kind and width allow
+  std::uint64_t tetrahedra = 1'000'000;  // of a ball, instead
+  std::uint64_t handles = 1;             // of a ball
   MeshOrder order = MeshOrder::kPatches;
   std::uint64_t tile_cells = 32;         // along a side of a tile, for orders in tiles
   std::uint64_t seed = 1;                // of noise, positions of handles, and random order
@@ -47,10 +50,10 @@ struct GeneratorOptions {
 };
 
 struct ExpectedTopology {
-  std::uint64_t vertices = 0, triangles = 0;
+  std::uint64_t vertices = 0, triangles = 0, tetrahedra = 0;  // of a ball no triangles, otherwise no tetrahedra
   std::uint64_t components = 1;
-  std::int64_t euler_characteristic = 0;        // of the 2-skeleton
-  std::uint64_t first_betti = 0;                // of the 2-skeleton
+  std::int64_t euler_characteristic = 0;  // of the 2-skeleton; of a ball, of all
+  std::uint64_t first_betti = 0;
   std::optional<std::uint64_t> genus;           // orientable surfaces
   std::optional<std::uint64_t> boundary_loops;  // manifolds
   // No Reeb graph of the mesh has more loops. On a closed orientable surface, every function with simple saddles only
@@ -63,8 +66,8 @@ class GeneratedMesh : public MeshReader {
   virtual const ExpectedTopology& topology() const = 0;
 };
 
-// A reader of the mesh that the options describe. All numbers are exact in float32. The mesh depends on kind,
-// triangles, seed, width and dimension only; the order only renumbers vertices and permutes triangles.
+// A reader of the mesh that the options describe. All numbers are exact in float32. The mesh depends on kind, counts,
+// seed, width and dimension only; the order only renumbers vertices and permutes triangles or tetrahedra.
 // THROWS: Error{kUsage} for options that no mesh can have.
 std::unique_ptr<GeneratedMesh> generate_mesh(const GeneratorOptions& options, const ReadOptions& read_options = {});
 

@@ -35,8 +35,9 @@ class Shape {
   // Appends the corners of a cell that is one simplex, or of all its triangles, consistently oriented on orientable
   // surfaces.
   virtual void append_cell(std::uint64_t cell, std::vector<VertexId>& corners) const = 0;
-  // Appends the corners of one triangle. REQUIRES: triangle < topology().triangles.
-  virtual void append_triangle(std::uint64_t triangle, std::vector<VertexId>& corners) const = 0;
+  // Appends the corners of one triangle. REQUIRES: triangle < topology().triangles; simplex_corners() is 0.
+  virtual void append_triangle([[maybe_unused]] std::uint64_t triangle,
+                               [[maybe_unused]] std::vector<VertexId>& corners) const {}
 };
 
 }  // namespace reeb::io

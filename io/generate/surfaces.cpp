@@ -155,6 +155,7 @@ std::unique_ptr<Shape> make_grid_surface(const GeneratorOptions& options) {
       return std::make_unique<Scan>(layout);
     case MeshKind::kGrid:
     case MeshKind::kSierpinski:
+    case MeshKind::kBall:
       break;
   }
   return std::make_unique<FlatGrid>(layout);

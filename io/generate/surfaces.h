@@ -7,7 +7,7 @@
 
 namespace reeb::io {
 
-// REQUIRES: options.kind is not kSierpinski. THROWS: Error{kUsage} for a width that the kind cannot have.
+// REQUIRES: options.kind is neither kSierpinski nor kBall. THROWS: Error{kUsage} for a width that the kind cannot have.
 std::unique_ptr<Shape> make_grid_surface(const GeneratorOptions& options);
 
 }  // namespace reeb::io

@@ -57,6 +57,30 @@ TEST_F(Simplices, ASierpinskiSimplexHasItsLoopsForEveryCoordinate) {
     }
 }
 
+// The construction has N tunnels, each through all levels of its layer of z.
+TEST_F(Simplices, ABallHasALoopForEachHandle) {
+  for (const std::string name : {"b.sva", "b.svb", "b.cx"}) {
+    const Outcome made = reeb({"generate", "ball", "--tetrahedra", "3k", "--handles", "7", "--seed", "2", "-o", name});
+    expect_success(made);
+    EXPECT_NE(made.error.find("Euler characteristic -6, first"), std::string::npos) << made.error;
+    const json reports = report_of({name, "-f", "z", "-f", "x", "-f", "random:1"});
+    EXPECT_EQ(reports[0]["graph"]["loops"], 7) << name;
+    for (const json& report : reports) {
+      EXPECT_EQ(report["graph"]["components"], 1);
+      EXPECT_LE(report["graph"]["loops"], 7);
+      EXPECT_EQ(report["input"]["simplices"], info_of({name})["simplices"]);
+      EXPECT_EQ(report["input"]["triangles"], 0);
+    }
+    EXPECT_NEAR(reports[0]["input"]["simplices"][3].get<double>(), 3000, 300);
+  }
+  for (const std::string name : {"b.ply", "b.obj", "b.off", "b.sma", "b.smb", "b.smc"})
+    expect_error(reeb({"generate", "ball", "-o", name}), 2, name + ": a ball consists of tetrahedra");
+  expect_error(reeb({"generate", "ball", "--triangles", "9", "-o", "c.sva"}), 2, "a ball has no --triangles");
+  expect_error(reeb({"generate", "torus", "--tetrahedra", "9", "-o", "c.ply"}), 2, "a torus has no --tetrahedra");
+  expect_error(reeb({"generate", "torus", "--handles", "9", "-o", "c.ply"}), 2, "a torus has no --handles");
+  expect_error(reeb({"generate", "ball", "--order", "tiles:4", "-o", "c.sva"}), 2, "a ball has no tiles");
+}
+
 TEST_F(Simplices, AreCountedByDimensionHoweverTheyAreRead) {
   const std::string mixed =
       "# a comment\nv 0 0 0\nv 1 0 0 # c\nv 0 1 0\nv 0 0 1\nv 5 5 5\n\ns 0 1 2 3\ns 4\ns 0 4\ns 1 4\ns 0 1 1\n";

@@ -30,35 +30,41 @@ namespace {
 struct GenerateArguments {
   std::string kind, order = "patches", output;
   io::GeneratorOptions mesh;
-  std::optional<std::uint64_t> seed, dimension, handles;
+  std::optional<std::uint64_t> seed, dimension, handles, triangles, tetrahedra;
   std::string grid;  // of a volume
   bool force = false;
 };
 
 void print_summary(const GenerateArguments& arguments, const io::ExpectedTopology& t) {
-  std::string text =
-      fmt::format("wrote {}: {}, {}, Euler characteristic {}", printable(arguments.output),
-                  count_of(t.vertices, "vertex"), count_of(t.triangles, "triangle"), t.euler_characteristic);
+  const bool ball = arguments.mesh.kind == io::MeshKind::kBall;
+  const std::string of = ball ? "tetrahedra" : "triangles";
+  const std::uint64_t asked = ball ? arguments.mesh.tetrahedra : arguments.mesh.triangles,
+                      got = ball ? t.tetrahedra : t.triangles, more = std::max(asked, got) - std::min(asked, got);
+  std::string text = fmt::format(
+      "wrote {}: {}, {}, Euler characteristic {}", printable(arguments.output), count_of(t.vertices, "vertex"),
+      ball ? with_commas(got) + ' ' + of : count_of(got, "triangle"), t.euler_characteristic);
   if (t.genus) text += fmt::format(", genus {}", *t.genus);
   if (t.boundary_loops) text += ", " + count_of(*t.boundary_loops, "boundary loop");
   if (!t.genus) text += ", first Betti number " + with_commas(t.first_betti);
   print_line(text);
-  const std::uint64_t asked = arguments.mesh.triangles,
-                      more = std::max(asked, t.triangles) - std::min(asked, t.triangles);
   if (more > asked / 10)
-    print_line(fmt::format("note: {} triangles were asked for; a {} of {} is the nearest that there is",
-                           with_commas(asked), arguments.kind, with_commas(t.triangles)));
+    print_line(fmt::format("note: {} {} were asked for; a {} of {} is the nearest that there is", with_commas(asked),
+                           of, arguments.kind, with_commas(got)));
 }
 
 // An option that would be ignored is refused; a seed that changes nothing is harmless.
 void check_options(const GenerateArguments& arguments) {
   const io::MeshKind kind = arguments.mesh.kind;
-  const bool sierpinski = kind == io::MeshKind::kSierpinski;
+  const bool sierpinski = kind == io::MeshKind::kSierpinski, ball = kind == io::MeshKind::kBall;
   const auto refuse = [&](const char* option, const std::string& hint) {
     throw Error(ErrorKind::kUsage, fmt::format("a {} has no {}", arguments.kind, option), hint);
   };
   if (arguments.mesh.width && sierpinski)
     refuse("--width", "leave it out; --triangles and --dimension say how large it is");
+  if (arguments.mesh.width && ball) refuse("--width", "leave it out; --tetrahedra says how large it is");
+  if (arguments.triangles && ball) refuse("--triangles", "choose --tetrahedra");
+  if (arguments.tetrahedra && !ball) refuse("--tetrahedra", "choose --triangles");
+  if (arguments.handles && !ball) refuse("--handles", "leave it out; only a ball and a volume have them");
   if (arguments.dimension && !sierpinski) refuse("--dimension", "leave it out; only a sierpinski has one");
   const bool is_random = kind == io::MeshKind::kTerrain || kind == io::MeshKind::kScan ||
                          arguments.mesh.order == io::MeshOrder::kRandom ||
@@ -106,14 +112,21 @@ void generate_volume(const GenerateArguments& arguments) {
 
 void run_generate(GenerateArguments arguments) {
   if (arguments.kind == "volume") return generate_volume(arguments);
-  if (!arguments.grid.empty() || arguments.handles)
-    throw Error(ErrorKind::kUsage, "only a volume has --grid and --handles", "leave them out, or generate a volume");
+  if (!arguments.grid.empty())
+    throw Error(ErrorKind::kUsage, "only a volume has --grid", "leave it out, or generate a volume");
   arguments.mesh.kind = io::mesh_kind(arguments.kind);
   io::set_order(arguments.mesh, arguments.order);
   check_options(arguments);
   if (arguments.seed) arguments.mesh.seed = *arguments.seed;
+  if (arguments.triangles) arguments.mesh.triangles = *arguments.triangles;
+  if (arguments.tetrahedra) arguments.mesh.tetrahedra = *arguments.tetrahedra;
+  if (arguments.handles) arguments.mesh.handles = *arguments.handles;
   if (arguments.dimension) arguments.mesh.dimension = static_cast<unsigned>(*arguments.dimension);
   io::check_mesh_name(arguments.output);
+  if (arguments.mesh.kind == io::MeshKind::kBall && !io::has_tetrahedra(arguments.output))
+    throw Error(ErrorKind::kUsage, "a ball consists of tetrahedra, which this format cannot hold",
+                "end the name of the output in .sva, .svb, .cx or .events.txt")
+        .at(arguments.output);
   arguments.mesh.whole_cells = io::name_suffix(arguments.output) == ".cx";
   RunFiles files;
   files.add_output(arguments.output, "the output", existing_outputs(arguments.force));
@@ -144,17 +157,19 @@ void run_generate(GenerateArguments arguments) {
 void add_generate(CLI::App& program) {
   auto arguments = std::make_shared<GenerateArguments>();
   CLI::App* command = program.add_subcommand("generate", "Write a test mesh of any size");
-  command->add_option("KIND", arguments->kind, "torus, terrain, grid, plate, scan, sierpinski or volume")
+  command->add_option("KIND", arguments->kind, "torus, terrain, grid, plate, scan, sierpinski, ball or volume")
       ->required()
       ->type_name("");
   command
       ->add_option(
           "-o,--output", arguments->output,
-          "Mesh to write: .ply .obj .off .cx .sma .smb .smc .sva .svb, a volume: .nrrd; .events.txt lists the events")
+          "Mesh to write: .ply .obj .off .cx .sma .smb .smc .sva .svb, a ball: .cx .sva .svb, a volume: .nrrd; "
+          ".events.txt lists the events")
       ->required()
       ->type_name("FILE");
-  add_count(*command, "--triangles", arguments->mesh.triangles,
-            "About how many triangles: 10000, 12M, 372M (default: 1M)", {.least = 1});
+  add_count(*command, "--triangles", arguments->triangles, "About how many triangles: 10000, 12M, 372M (default: 1M)",
+            {.least = 1});
+  add_count(*command, "--tetrahedra", arguments->tetrahedra, "The same of a ball (default: 1M)", {.least = 1});
   command
       ->add_option("--order", arguments->order,
                    "Order of the triangles: rows, patches, random, tiles:N, random-tiles:N or seams-last:N, with N "
@@ -168,7 +183,7 @@ void add_generate(CLI::App& program) {
             {.least = 2, .most = 5});
   command->add_option("--grid", arguments->grid, "Vertices of a volume along each axis: 256x256x100")
       ->type_name("NXxNY[xNZ]");
-  add_count(*command, "--handles", arguments->handles, "Tunnels through a volume (default: 1)");
+  add_count(*command, "--handles", arguments->handles, "Tunnels through a ball or a volume (default: 1)");
   command->add_flag("--force", arguments->force, "Replace an existing output");
   command->footer("Example:\n  reeb generate scan --triangles 12M --order patches --seed 7 -o scan.ply");
   command->callback([arguments] { run_generate(*arguments); });
