@@ -115,8 +115,8 @@ void DrilledBall::append_vertices(std::uint64_t first, std::size_t count, Column
     return 2 * static_cast<double>(step) / static_cast<double>(steps) - 1;
   };
   for (std::uint64_t v = first; v < first + count; ++v) {
-    const GridPoint across = vertices_.at(v / (length_ + 1));
-    const double x = along(v % (length_ + 1), length_), y = along(across.i, size_), z = along(across.j, size_);
+    const GridPoint across = vertices_.at(v % vertices_.count());
+    const double x = along(v / vertices_.count(), length_), y = along(across.i, size_), z = along(across.j, size_);
     const double layer = radius * radius_at(z);
     const double place[3] = {layer * x * rounded(y), layer * y * rounded(x), static_cast<double>(across.j) - radius};
     for (std::size_t k = 0; k < 3; ++k) columns[k].push_back(static_cast<double>(static_cast<float>(place[k])));
@@ -127,9 +127,9 @@ void DrilledBall::append_vertices(std::uint64_t first, std::size_t count, Column
 void DrilledBall::append_cell(std::uint64_t cell, std::vector<VertexId>& corners) const {
   static constexpr unsigned kAxes[kTetrahedra][3] = {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}};
   const std::uint64_t path = cell % kTetrahedra, cube = cell / kTetrahedra;
-  const GridPoint across = cubes_.at(cube / length_);
-  std::array<std::uint64_t, 3> at = {cube % length_, across.i, across.j};
-  const auto corner = [&] { return VertexId(vertices_.number({at[1], at[2]}) * (length_ + 1) + at[0]); };
+  const GridPoint across = cubes_.at(cube % cubes_.count());
+  std::array<std::uint64_t, 3> at = {cube / cubes_.count(), across.i, across.j};
+  const auto corner = [&] { return VertexId(at[0] * vertices_.count() + vertices_.number({at[1], at[2]})); };
   std::array<VertexId, 4> path_corners;
   path_corners[0] = corner();
   for (unsigned step = 0; step < 3; ++step) {

@@ -40,6 +40,7 @@ class PerforatedSquare {
 };
 
 // A grid of cubes, of length x size x size, each divided into six tetrahedra along its diagonal, and rounded to a ball.
+// Vertices and cubes are numbered along z last but one and x last, so the front is a plane across x, which z divides.
 // A tunnel is a column of cubes that are left out, along the whole x axis; tunnels touch neither each other nor the
 // surface beside their ends. So the ball is a solid body with as many handles as there are tunnels.
 //

@@ -56,7 +56,10 @@ std::uint32_t StreamChunker::add_to_chunk(VertexId v, std::uint32_t slot) {
   local_[slot] = static_cast<std::uint32_t>(chunk_.vertex_count());
   chunk_.ids.push_back(v);
   chunk_.uses.push_back(state_[slot] == State::kTaken ? kUsedEarlier : kUsedHereOnly);
-  if (state_[slot] == State::kUnused) state_[slot] = State::kInChunk;
+  if (state_[slot] == State::kUnused) {
+    state_[slot] = State::kInChunk;
+    ++used_vertices_;
+  }
   if (track_positions_) chunk_.positions.push_back(slot_positions_[slot]);
   for (std::size_t k = 0; k < functions_; ++k) values_[k].push_back(slot_values_[slot * functions_ + k]);
   slot_of_local_.push_back(slot);
@@ -88,6 +91,7 @@ void StreamChunker::finalize(VertexId v, std::uint32_t slot) {
   const std::uint32_t local = bring_in(v, slot);
   slot_of_local_[local] = kNone;
   ++final_in_chunk_;
+  ++final_vertices_;
   state_[slot] = State::kFree;
   slot_of_.erase(v.value());
   free_slots_.push_back(slot);

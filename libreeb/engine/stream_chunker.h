@@ -63,6 +63,9 @@ class StreamChunker {
   // The index of the next vertex.
   std::uint64_t vertex_bound() const { return next_vertex_; }
   std::size_t active_vertices() const { return slot_of_.size(); }
+  // How many vertices came into a chunk so far, and how many were finalized.
+  std::uint64_t used_vertices() const { return used_vertices_; }
+  std::uint64_t final_vertices() const { return final_vertices_; }
   std::size_t memory_bytes() const;  // of both
   // The most that they take while this many vertices are added: arrays that grow are copied.
   std::size_t memory_bytes_with(std::size_t more_vertices) const;
@@ -102,6 +105,7 @@ class StreamChunker {
   std::vector<std::vector<double>> values_;
   std::vector<std::uint32_t> slot_of_local_;  // kNone once the vertex is final
   std::size_t final_in_chunk_ = 0;
+  std::uint64_t used_vertices_ = 0, final_vertices_ = 0;
   DecidingTriangles deciding_;
   std::vector<VertexId> corners_;
 };

@@ -88,10 +88,10 @@ std::unique_ptr<ChunkSource> chunks_of(IndexedMesh& mesh, LastUse& last_use, Fun
 
 // Chunks of a stream that is read once. Vertices that the stream does not finalize are finalized at its end. The input
 // before `start` is read and skipped. If `most_active_vertices` is given, the source gives up as soon as more vertices
-// than that are active (not finalized yet), or a large part of the vertices of a large mesh, or more than fit the
-// budget.
-// What the reader holds is reserved from the budget, and so are the active vertices.
-// THROWS, at once: InputChanged if the stream does not match `start`.
+// than that are active (not finalized yet), or a large part of the vertices of a large mesh, or nearly all vertices
+// that simplices used so far, if these are more than two layers of a volume, or more than fit the budget. What the
+// reader holds is reserved from the budget, and so are the active vertices. THROWS, at once: InputChanged if the stream
+// does not match `start`.
 std::unique_ptr<ChunkSource> chunks_of(MeshReader& reader, FunctionValues& functions, MemoryBudget& budget,
                                        ChunkSize size, const ChunkPlace& start = {},
                                        std::optional<std::uint64_t> most_active_vertices = {});

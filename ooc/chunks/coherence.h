@@ -21,4 +21,10 @@ inline std::uint64_t usual_front(std::uint64_t vertices, std::uint64_t stretch_t
   return std::max(usual_front(vertices), std::min(stretch_triangles / 6, vertices / kMeshShare));
 }
 
+// The same for a stream of which nothing is known but about how many vertices it has: a volume can come in layers.
+inline std::uint64_t usual_front_of_volume(std::uint64_t vertices) {
+  constexpr double kLayers = 2, kSmallFront = 4096;
+  return static_cast<std::uint64_t>(std::max(kSmallFront, kLayers * std::pow(static_cast<double>(vertices), 2. / 3)));
+}
+
 }  // namespace reeb::ooc

@@ -124,7 +124,8 @@ StreamRun run_stream(RunContext& run, const MeshInput& input, const Checkpoint* 
       chunks_of(*input.reader, run.values, run.budget, run.plan.chunk, place_of(start), most_active_vertices);
   result = glue_chunks(run, *source, run.plan, {.origin = ChunkOrigin::kStream}, std::move(result));
   if (source->given_up()) {
-    result.notes.push_back("too many vertices of the stream are live at once, so it was read again and sorted on disk");
+    result.notes.push_back(
+        "too many vertices of the stream are live at once, so it was read again, by way of a copy on disk");
     run.start_over();
     return {std::move(result), true};
   }
