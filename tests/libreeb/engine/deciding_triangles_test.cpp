@@ -50,7 +50,7 @@ ReebGraph graph_of(const Complex& complex, const MeshBatch& batch) {
 }
 
 TEST(DecidingTriangles, GiveTheGraphOfTheDefinition) {
-  const std::uint64_t seed = base_seed(), cases = case_count(1000);
+  const std::uint64_t seed = base_seed(), cases = case_count(2000);
   for (std::size_t dimension = 1; dimension <= 5; ++dimension)
     for (std::uint64_t i = 0; i < cases && !HasFailure(); ++i) {
       Random random(seed + 1000 * i + dimension);
