@@ -162,19 +162,21 @@ class TetgenInput final : public CellInput {
   std::uint64_t first_ = 1, nodes_read_ = 0, cells_read_ = 0;
 };
 
+std::string stem_of(const std::string& path) {
+  const std::string name = unpacked_name(path);
+  return name.substr(0, name.size() - name_suffix(name).size());
+}
+
 std::string node_path(const std::string& path, const ContentSource& cells) {
-  const std::string name = unpacked_name(path), suffix = name_suffix(name);
   if (path == "-")
     throw Error(ErrorKind::kBadInput, "the vertices of a TetGen mesh are in another file", "name the file X.ele")
         .at(cells.name());
-  if (suffix == ".node")
+  if (content_suffix(path) == ".node")
     throw Error(ErrorKind::kBadInput, "this file has only the vertices of a mesh",
                 "name the file of its tetrahedra, X.ele, or of its faces, X.face")
         .at(cells.name());
-  const std::string stem = name.substr(0, name.size() - suffix.size());
-  for (const char* ending : {".node", ".node.gz", ".node.zst"})
-    if (is_regular_file(stem + ending)) return stem + ending;
-  throw Error(ErrorKind::kBadInput, "there is no file " + stem + ".node with the vertices of this mesh",
+  if (std::string nodes = tetgen_nodes(path); !nodes.empty()) return nodes;
+  throw Error(ErrorKind::kBadInput, "there is no file " + stem_of(path) + ".node with the vertices of this mesh",
               "put it beside this file")
       .at(cells.name());
 }
@@ -184,6 +186,12 @@ std::string node_path(const std::string& path, const ContentSource& cells) {
 bool is_tetgen_name(const std::string& path) {
   const std::string suffix = content_suffix(path);
   return suffix == ".ele" || suffix == ".face" || suffix == ".node";
+}
+
+std::string tetgen_nodes(const std::string& path) {
+  for (const char* ending : {".node", ".node.gz", ".node.zst"})
+    if (std::string nodes = stem_of(path) + ending; is_regular_file(nodes)) return nodes;
+  return {};
 }
 
 std::unique_ptr<MeshReader> open_tetgen(std::unique_ptr<ContentSource> cells, const std::string& path,

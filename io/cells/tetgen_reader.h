@@ -15,6 +15,9 @@ class ContentSource;
 // Whether the name is that of such a file, packed or not.
 bool is_tetgen_name(const std::string& path);
 
+// X.node beside X.ele or X.face, packed or not; empty if there is none.
+std::string tetgen_nodes(const std::string& path);
+
 // `path` is that of `cells`, by which X.node is found, packed or not.
 // REQUIRES: cells->reopen() is not null.
 // THROWS: Error{kBadInput} as open_mesh: there is no X.node.

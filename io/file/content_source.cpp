@@ -265,7 +265,11 @@ std::unique_ptr<ContentSource> open_for_seeking(std::shared_ptr<const InputFile>
 
 std::unique_ptr<ContentSource> open_content(const std::string& path) { return Input(path).open(); }
 
-Input::Input(std::string path) : path_(std::move(path)), file_(open_if_regular(path_)) {}
+Input::Input(std::string path, const std::vector<std::string>& beside)
+    : path_(std::move(path)), file_(open_if_regular(path_)) {
+  for (const std::string& other : beside)
+    if (auto file = open_if_regular(other)) beside_.push_back(std::move(file));
+}
 
 std::unique_ptr<ContentSource> Input::open() const {
   if (file_) return open_content(file_);
@@ -275,6 +279,7 @@ std::unique_ptr<ContentSource> Input::open() const {
 
 void Input::check_unchanged(const char* content) const {
   if (file_) file_->check_unchanged(content);
+  for (const auto& file : beside_) file->check_unchanged(content);
 }
 
 }  // namespace reeb::io

@@ -11,6 +11,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace reeb::io {
 
@@ -75,8 +76,9 @@ std::unique_ptr<ContentSource> make_reopenable(std::unique_ptr<ContentSource> so
 // An input that can be opened repeatedly, the same file each time, even if its name is removed or replaced.
 class Input {
  public:
+  // `beside`: other files that are read with it, and must not change either.
   // THROWS: as open_content().
-  explicit Input(std::string path);
+  explicit Input(std::string path, const std::vector<std::string>& beside = {});
 
   const std::string& path() const { return path_; }
   // Its content from the start. A pipe has it once.
@@ -103,6 +105,7 @@ class Input {
  private:
   std::string path_;
   std::shared_ptr<const InputFile> file_;  // null if it is a pipe
+  std::vector<std::shared_ptr<const InputFile>> beside_;
 };
 
 }  // namespace reeb::io

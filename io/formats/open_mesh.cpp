@@ -30,6 +30,12 @@ constexpr const char* kFormatsRead =
 
 }  // namespace
 
+Input mesh_input(const std::string& path, const std::string& format) {
+  const bool tetgen = format == "tetgen" || (format.empty() && is_tetgen_name(path));
+  const std::string nodes = tetgen ? tetgen_nodes(path) : std::string();
+  return Input(path, nodes.empty() ? std::vector<std::string>{} : std::vector{nodes});
+}
+
 std::unique_ptr<MeshReader> open_mesh(const std::string& path, const ReadOptions& options, const std::string& format) {
   const Input input(path);
   return open_mesh(input, input.open(), options, {}, format);

@@ -33,7 +33,11 @@ struct ImageOptions {
 std::unique_ptr<MeshReader> open_mesh(const std::string& path, const ReadOptions& options = {},
                                       const std::string& format = {});
 
-// The same for the content of `input`, which is open already, and with images as meshes of their division.
+// The file `path`, and what belongs to its mesh: of TetGen, the file of vertices beside it.
+// THROWS: as open_content().
+Input mesh_input(const std::string& path, const std::string& format = {});
+
+// The same as the first for the content of `input`, which is open already, and with images as meshes of their division.
 // THROWS: also Error{kUsage} for options of a raw file that are missing or wrong.
 std::unique_ptr<MeshReader> open_mesh(const Input& input, std::unique_ptr<ContentSource> source,
                                       const ReadOptions& options, const ImageOptions& image,

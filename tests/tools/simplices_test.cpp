@@ -81,6 +81,16 @@ TEST_F(Simplices, ABallHasALoopForEachHandle) {
   expect_error(reeb({"generate", "ball", "--order", "tiles:4", "-o", "c.sva"}), 2, "a ball has no tiles");
 }
 
+TEST_F(Simplices, MessagesOfAVolumeAreTrue) {
+  write("t.cx", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\ns 0 1 2 3\n");
+  const Outcome computed = reeb({"t.cx"});
+  expect_success(computed);
+  EXPECT_EQ(computed.error.find("genus"), std::string::npos) << computed.error;
+  EXPECT_NE(reeb({"info", "t.reeb"}).output.find("4 vertices, none of its simplices are triangles"), std::string::npos);
+  const Outcome verified = reeb({"verify", "t.reeb", "--mesh", "t.cx"});
+  EXPECT_NE(verified.output.find("Euler characteristic of the 2-skeleton 2"), std::string::npos) << verified.output;
+}
+
 // Nothing is complete before the end of such a stream, so it is read by way of a copy on disk. In its own order, the
 // live graph of this one does not fit.
 TEST_F(Simplices, AStreamWithoutFinalizationTakesLittleMemory) {

@@ -49,7 +49,10 @@ io::FunctionSpec parse(const std::string& function) {
 class Values {
  public:
   explicit Values(const FunctionOptions& options)
-      : options_(options), spec_(parse(options.function)), input_(options.mesh), bar_(options.quiet) {}
+      : options_(options),
+        spec_(parse(options.function)),
+        input_(io::mesh_input(options.mesh, options.format)),
+        bar_(options.quiet) {}
 
   void write() {
     input_.read([this] {

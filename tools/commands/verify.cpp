@@ -55,8 +55,9 @@ std::string compare_with_mesh(const ooc::ReebFile& file, const VerifyOptions& op
   const FileHeader& header = file.header();
   const ReebGraph graph = file.load(0).graph;
   NodeCheck nodes(options.file, options.mesh, header.function, graph);
-  const io::Input input(options.mesh);
+  const io::Input input = io::mesh_input(options.mesh, options.format);
   std::optional<ValueRange> range;
+  bool has_cells = false;
   ProgressBar bar(false);
   const ooc::MeshRecount mesh = input.read([&] {
     const auto reader =
@@ -68,6 +69,7 @@ std::string compare_with_mesh(const ooc::ReebFile& file, const VerifyOptions& op
     std::uint64_t simplices = 0;
     const ooc::MeshRecount recount = ooc::recount_mesh(*reader, space, [&](const MeshBatch& batch) {
       nodes.add(batch);
+      has_cells = has_cells || batch.has_cells();
       simplices += batch.simplex_count();
       bar.update({"counting"}, reader->bytes_read(), reader->info().file_bytes, simplices);
     });
@@ -87,8 +89,8 @@ std::string compare_with_mesh(const ooc::ReebFile& file, const VerifyOptions& op
                 fmt::format("it has {}, but the mesh is {}", count_of(header.loops, "loop"), describe_surface(mesh)),
                 "name the mesh that the file was computed from")
         .at(options.file);
-  fmt::print("{}: OK: {}, Euler characteristic {}, {}\n", options.mesh, count_of(mesh.components, "component"),
-             mesh.euler, describe_surface(mesh));
+  fmt::print("{}: OK: {}, Euler characteristic {}{}, {}\n", options.mesh, count_of(mesh.components, "component"),
+             has_cells ? "of the 2-skeleton " : "", mesh.euler, describe_surface(mesh));
   if (!nodes.unchecked().empty()) return nodes.unchecked();
   // A run without the memory for the last pass of noise removal leaves what the first stage has not removed.
   if (header.denoise_threshold == 0 && header.denoised_pairs != 0 && options.full)

@@ -81,7 +81,7 @@ std::vector<ComputeResult> compute(const std::string& path, std::span<const std:
   ooc::MeshInput input;
   input.path = path;
   input.may_resume = !snapshots;
-  const io::Input mesh(path);
+  const io::Input mesh = io::mesh_input(path, options.format);
   input.check_unchanged = [&] { mesh.check_unchanged(); };
   auto content = mesh.open();
   // What zstd holds with the window of its usual level, 2 MiB, is part of what any run takes.

@@ -90,7 +90,7 @@ class Conversion {
  public:
   Conversion(const ConvertOptions& options, ProgressBar& bar)
       : options_(options),
-        input_(options.input),
+        input_(io::mesh_input(options.input, options.format)),
         bar_(bar),
         format_(io::stream_format(options.output)),
         sorts_(options.finalize || options.order.kind != TriangleOrder::Kind::kKeep) {}

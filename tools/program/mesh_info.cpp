@@ -143,7 +143,7 @@ void MeshSurvey::print_json() const {
 void print_mesh_info(const std::string& path, const std::string& format, std::uint64_t memory_bytes,
                      const std::string& temp_folder, bool json, const io::ImageOptions& image) {
   ooc::Workspace space(temp_folder, memory_bytes);
-  const io::Input input(path);
+  const io::Input input = io::mesh_input(path, format);
   const auto survey = input.read([&] { return std::make_unique<MeshSurvey>(input, format, space, image); });
   if (json)
     survey->print_json();

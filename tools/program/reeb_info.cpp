@@ -67,8 +67,10 @@ void print_text(const ooc::ReebFile& file) {
   fmt::print("{}: Reeb graph, {}\n", printable(file.path()), format_bytes(file.file_bytes()));
   fmt::print("  function   {} from {:.9g} to {:.9g}\n", printable(header.function), header.function_min,
              header.function_max);
-  fmt::print("  mesh       {}, {}\n", count_of(header.mesh_vertices, "vertex"),
-             count_of(header.mesh_triangles, "triangle"));
+  // The file counts triangles only.
+  fmt::print(
+      "  mesh       {}, {}\n", count_of(header.mesh_vertices, "vertex"),
+      header.mesh_triangles == 0 ? "none of its simplices are triangles" : count_of(header.mesh_triangles, "triangle"));
   fmt::print("  graph      {}, {}, {}, {}\n", count_of(header.nodes, "node"), count_of(header.arcs, "arc"),
              count_of(header.components, "component"), count_of(header.loops, "loop"));
   if (header.flags.has_embedding)

@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <filesystem>
 
+#include "io/file/content_source.h"
+#include "libreeb/base/error.h"
 #include "tests/io/cells/cell_files.h"
 
 namespace reeb::io::testing {
@@ -167,6 +170,27 @@ TEST(CellFiles, TetGen) {
   const Mesh high = read_mesh(write_file("high.ele", "1 10 0\n0 0 1 2 3 4 5 6 7 8 9\n"));
   EXPECT_EQ(high.vertices.size(), 5u);
   EXPECT_EQ(high.tetrahedra, (std::vector<std::vector<std::uint64_t>>{{0, 1, 2, 3}}));
+}
+
+// The vertices are in another file, which must not change either.
+TEST(CellFiles, AChangeOfTheVerticesOfTetGenIsNoticed) {
+  for (const std::string ending : {"ele", "face"}) {
+    const std::string nodes = write_file("w.node", tetgen_nodes());
+    const std::string cells = write_file("w." + ending, ending == "ele" ? tetgen_cells() : "1 1\n0 0 1 2 -1\n");
+    const Input input = mesh_input(cells), named = mesh_input(cells, "tetgen"), other = mesh_input(cells, "ply");
+    input.check_unchanged();
+    write_file("w.node", tetgen_nodes() + "# more\n");
+    EXPECT_THROW(input.check_unchanged(), Error) << "written to";
+    EXPECT_THROW(named.check_unchanged(), Error);
+    other.check_unchanged();
+    const Input replaced = mesh_input(cells);
+    replaced.check_unchanged();
+    std::filesystem::rename(write_file("w.new", tetgen_nodes()), nodes);
+    EXPECT_THROW(replaced.check_unchanged(), Error) << "replaced";
+    const Input same = mesh_input(cells);
+    std::filesystem::rename(write_file("w.new", ""), cells);
+    EXPECT_THROW(same.check_unchanged(), Error) << "the cells";
+  }
 }
 
 TEST(CellFiles, BadTetGen) {
