@@ -98,6 +98,7 @@ int run(int argc, char** argv) {
   reeb::tools::add_verify(program);
   reeb::tools::add_generate(program);
   reeb::tools::add_convert(program);
+  reeb::tools::add_defects(program);
   reeb::tools::add_function(program);
   for (CLI::App* command : program.get_subcommands({})) command->group("Commands");
   if (argc == 1) {

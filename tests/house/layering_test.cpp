@@ -26,6 +26,7 @@ const Rooms kRooms = {
     {"libreeb/engine", {"libreeb/base", "libreeb/graph", "libreeb/port"}},
     {"libreeb/grid", {"libreeb/base", "libreeb/graph", "libreeb/port", "libreeb/engine"}},
     {"libreeb/hierarchy", {"libreeb/base", "libreeb/graph", "libreeb/port"}},
+    {"libreeb/defects", {"libreeb/base", "libreeb/graph"}},
     {"libreeb/format", {"libreeb/base", "libreeb/graph", "libreeb/port", "libreeb/hierarchy"}},
 
     {"io/file", {"libreeb/base"}},
@@ -57,12 +58,14 @@ const Rooms kRooms = {
     {"ooc/census", {"libreeb", "io/file", "ooc/threads", "ooc/chunks", "ooc/whole_mesh"}},
     {"ooc/stored_graph", {"libreeb", "io/file", "ooc/threads", "ooc/sorting", "ooc/tables"}},
     {"ooc/reeb_file", {"libreeb", "io/file", "ooc/threads", "ooc/sorting", "ooc/tables"}},
+    {"ooc/patches", {"libreeb"}},
     {"ooc/run", {"libreeb", "io/file", "ooc"}},
 
     {"tools/library", {"libreeb", "io", "ooc"}},
     {"tools/program", {"libreeb", "io", "ooc", "tools/library"}},
     {"tools/checks", {"libreeb", "io", "ooc", "tools/library"}},
-    {"tools/commands", {"libreeb", "io", "ooc", "tools/library", "tools/program", "tools/checks"}},
+    {"tools/defects", {"libreeb", "io", "ooc", "tools/library", "tools/program"}},
+    {"tools/commands", {"libreeb", "io", "ooc", "tools/library", "tools/program", "tools/checks", "tools/defects"}},
     {"tools", {"libreeb", "io", "ooc", "tools"}},
     {"tests", {"libreeb", "io", "ooc", "tools", "tests"}},
     {"bench", {"libreeb", "io", "ooc", "tests/support", "bench"}},

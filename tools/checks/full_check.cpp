@@ -3,40 +3,13 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstdlib>
-#include <cstring>
-#include <filesystem>
-#include <system_error>
 
-#include "io/file/temp_dir.h"
 #include "libreeb/base/error.h"
 #include "tools/library/compute.h"
+#include "tools/library/temp_folder.h"
 
 namespace reeb::tools {
 namespace {
-
-// A folder that is removed with all that is in it.
-class TempFolder {
- public:
-  explicit TempFolder(const std::string& parent)
-      : path_((parent.empty() ? io::TempDir::default_folder("") : parent) + "/reeb-verify-XXXXXX") {
-    if (::mkdtemp(path_.data()) == nullptr)
-      throw Error(ErrorKind::kResource, std::string("cannot be created: ") + std::strerror(errno),
-                  "choose a folder that exists and is writable with --temp-dir DIR")
-          .at(path_);
-  }
-  TempFolder(const TempFolder&) = delete;
-  TempFolder& operator=(const TempFolder&) = delete;
-  ~TempFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  const std::string& path() const { return path_; }
-
- private:
-  std::string path_;
-};
 
 [[noreturn]] void fail(const ooc::ReebFile& file, const std::string& what) {
   throw Error(ErrorKind::kBadInput, what, "name the mesh that the file was computed from, or compute the file again")

@@ -13,6 +13,7 @@ void add_pairs(CLI::App& program);
 void add_verify(CLI::App& program);
 void add_generate(CLI::App& program);
 void add_convert(CLI::App& program);
+void add_defects(CLI::App& program);
 void add_function(CLI::App& program);
 
 }  // namespace reeb::tools

@@ -1,0 +1,47 @@
+// The two curves of a loop of the Reeb graph on the surface, and the kind of the defect that it may be.
+//
+// A loop stands for two classes of closed curves that cross an odd number of times, so that neither separates: contours
+// and cycles. Cutting the surface along a curve of either class and closing both rims lowers the genus by one.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "libreeb/defects/odd_cycle.h"
+#include "libreeb/defects/surface_patch.h"
+
+namespace reeb {
+
+enum class DefectKind : std::uint8_t { kHandle, kTunnel, kUnclear };
+const char* name_of(DefectKind kind);
+
+struct LoopCurve {
+  ClosedPath path;      // the shortest closed path along edges; none if it leaves the patch
+  Crossings crossings;  // the edges to its left; empty if it meets a boundary, or no oriented manifold
+  double length = std::numeric_limits<double>::infinity();  // that of the path, or of a shorter contour
+  std::uint32_t triangles = 0;                              // that the curve passes
+  bool found() const { return length < std::numeric_limits<double>::infinity(); }
+};
+
+struct LoopCurves {
+  LoopCurve contour, cycle;
+
+  // The curve of the defect: the shorter one of those that have a path.
+  const LoopCurve& shorter() const {
+    if (!contour.path.exists()) return cycle;
+    return !cycle.path.exists() || contour.length < cycle.length ? contour : cycle;
+  }
+};
+
+// REQUIRES: values has the function at each vertex of the patch; v is below y in the total order; both are whole.
+// TIME: O(n log n) for n triangles, for each edge that the contour crosses; mostly far less, since a search ends where
+//       its path would be longer than the best so far.
+LoopCurves loop_curves(const SurfacePatch& patch, std::span<const double> values, std::uint32_t v, std::uint32_t y);
+
+// A tunnel if the disc of the curve lies outside the solid, a handle if it lies inside. `inwards`: the oriented
+// triangles of the patch have their normals inside.
+DefectKind kind_of(const SurfacePatch& patch, const LoopCurve& curve, bool inwards);
+
+}  // namespace reeb

@@ -1,0 +1,176 @@
+#include "libreeb/defects/odd_cycle.h"
+
+#include <algorithm>
+#include <queue>
+#include <tuple>
+#include <utility>
+
+namespace reeb {
+namespace {
+
+// Searches in the double cover: state 2 * vertex + parity of crossings so far.
+class DoubleCover {
+ public:
+  DoubleCover(const SurfacePatch& patch, const Crossings& crossings)
+      : patch_(patch),
+        crossings_(crossings),
+        removed_(patch.vertex_count(), 0),
+        distance_(2 * std::size_t{patch.vertex_count()}, kFar),
+        from_(distance_.size(), SurfacePatch::kNone) {}
+
+  // The shortest odd path through the gate if it is shorter than `bound`.
+  ClosedPath search(std::uint32_t gate, double bound) {
+    const std::uint32_t start = 2 * gate, goal = start + 1;
+    for (const std::uint32_t state : touched_) distance_[state] = kFar;
+    touched_.clear();
+    Queue queue;
+    const auto reach = [&](std::uint32_t state, double length, std::uint32_t before) {
+      // The straight line is never longer than the rest of the path.
+      const double least = length + distance(patch_.position(state / 2), patch_.position(gate));
+      if (length >= distance_[state] || least >= bound) return;
+      if (distance_[state] == kFar) touched_.push_back(state);
+      distance_[state] = length;
+      from_[state] = before;
+      queue.emplace(least, length, state);
+    };
+    reach(start, 0, SurfacePatch::kNone);
+    while (!queue.empty()) {
+      const auto [least, length, state] = queue.top();
+      queue.pop();
+      if (length > distance_[state]) continue;
+      if (state == goal) return path_to(goal);
+      const std::uint32_t v = state / 2;
+      for (const std::uint32_t e : patch_.edges_at(v)) {
+        const auto& edge = patch_.edge(e);
+        const std::uint32_t other = edge.a == v ? edge.b : edge.a;
+        if (removed_[other] != 0 || !patch_.whole(other)) continue;
+        reach(2 * other + ((state & 1) ^ crossings_[e]), length + edge.length, state);
+      }
+    }
+    return {};
+  }
+
+  // Paths through this vertex are known.
+  void remove(std::uint32_t vertex) { removed_[vertex] = 1; }
+
+ private:
+  static constexpr double kFar = std::numeric_limits<double>::infinity();
+  using Entry = std::tuple<double, double, std::uint32_t>;
+  using Queue = std::priority_queue<Entry, std::vector<Entry>, std::greater<>>;
+
+  ClosedPath path_to(std::uint32_t goal) const {
+    ClosedPath path{{}, distance_[goal]};
+    for (std::uint32_t state = from_[goal]; state != SurfacePatch::kNone; state = from_[state])
+      path.vertices.push_back(state / 2);
+    std::reverse(path.vertices.begin(), path.vertices.end());
+    return path;
+  }
+
+  const SurfacePatch& patch_;
+  const Crossings& crossings_;
+  std::vector<std::uint8_t> removed_;
+  std::vector<double> distance_;
+  std::vector<std::uint32_t> from_, touched_;
+};
+
+// Turns around x from its neighbour `from` to its neighbour `to`, leaving out both; calls visit(edge) on the way.
+// Returns false where the fan ends or is not an oriented surface.
+template <class Visit>
+bool turn(const SurfacePatch& patch, std::uint32_t x, std::uint32_t from, std::uint32_t to, const Visit& visit) {
+  std::uint32_t at = from;
+  for (std::size_t steps = patch.edges_at(x).size() + 1; steps-- > 0;) {
+    const std::uint32_t e = patch.edge_between(x, at);
+    if (e == SurfacePatch::kNone || !patch.consistent(e)) return false;
+    if (at != from) visit(e);
+    std::uint32_t next = SurfacePatch::kNone;
+    for (const std::uint32_t t : patch.triangles_at_edge(e)) {
+      const auto c = patch.oriented(t);
+      for (std::size_t i = 0; i < 3; ++i)
+        if (c[i] == x && c[(i + 1) % 3] == at) next = c[(i + 2) % 3];
+    }
+    if (next == SurfacePatch::kNone) return false;
+    at = next;
+    if (at == to) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+ClosedPath shortest_odd_cycle(const SurfacePatch& patch, const Crossings& crossings,
+                              std::span<const std::uint32_t> gates) {
+  DoubleCover cover(patch, crossings);
+  ClosedPath best;
+  for (const std::uint32_t gate : gates) {
+    if (!patch.whole(gate)) continue;
+    if (ClosedPath path = cover.search(gate, best.length); path.exists()) best = std::move(path);
+    cover.remove(gate);
+  }
+  return best;
+}
+
+ClosedPath shortest_odd_arc(const SurfacePatch& patch, const Crossings& crossings) {
+  constexpr double kFar = std::numeric_limits<double>::infinity();
+  using Entry = std::pair<double, std::uint32_t>;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+  std::vector<double> length(2 * std::size_t{patch.vertex_count()}, kFar);
+  std::vector<std::uint32_t> from(length.size(), SurfacePatch::kNone);
+  for (std::uint32_t v = 0; v < patch.vertex_count(); ++v)
+    if (!patch.whole(v)) queue.emplace(length[2 * v] = 0, 2 * v);
+  while (!queue.empty()) {
+    const auto [so_far, state] = queue.top();
+    queue.pop();
+    const std::uint32_t v = state / 2;
+    if (so_far > length[state]) continue;
+    if (!patch.whole(v) && state % 2 != 0) {
+      ClosedPath arc{{}, so_far};
+      for (std::uint32_t s = state; s != SurfacePatch::kNone; s = from[s]) arc.vertices.push_back(s / 2);
+      return arc;
+    }
+    for (const std::uint32_t e : patch.edges_at(v)) {
+      const auto& edge = patch.edge(e);
+      const std::uint32_t other = edge.a == v ? edge.b : edge.a, next = 2 * other + ((state & 1) ^ crossings[e]);
+      if ((!patch.whole(v) && !patch.whole(other)) || so_far + edge.length >= length[next]) continue;
+      length[next] = so_far + edge.length;
+      from[next] = state;
+      queue.emplace(length[next], next);
+    }
+  }
+  return {};
+}
+
+namespace {
+
+// Marks the edges to the left of `x` on a path. False where the patch is not an oriented manifold.
+bool mark_left(const SurfacePatch& patch, std::uint32_t before, std::uint32_t x, std::uint32_t after, Crossings& left) {
+  std::size_t turned = 0;
+  const auto count = [&](std::uint32_t) { ++turned; };
+  const auto mark = [&](std::uint32_t e) {
+    ++turned;
+    left[e] ^= 1;
+  };
+  // Both sides together are the whole fan, or there is a second fan at x.
+  return turn(patch, x, after, before, mark) && turn(patch, x, before, after, count) &&
+         turned + 2 == patch.edges_at(x).size();
+}
+
+}  // namespace
+
+std::optional<Crossings> left_of(const SurfacePatch& patch, const ClosedPath& path) {
+  Crossings left(patch.edge_count(), 0);
+  const auto& x = path.vertices;
+  if (x.size() < 3) return std::nullopt;
+  for (std::size_t i = 0; i < x.size(); ++i)
+    if (!mark_left(patch, x[(i + x.size() - 1) % x.size()], x[i], x[(i + 1) % x.size()], left)) return std::nullopt;
+  return left;
+}
+
+std::optional<Crossings> left_of_arc(const SurfacePatch& patch, const ClosedPath& arc) {
+  Crossings left(patch.edge_count(), 0);
+  const auto& x = arc.vertices;
+  for (std::size_t i = 1; i + 1 < x.size(); ++i)
+    if (x[i - 1] == x[i + 1] || !mark_left(patch, x[i - 1], x[i], x[i + 1], left)) return std::nullopt;
+  return left;
+}
+
+}  // namespace reeb

@@ -1,0 +1,42 @@
+// The shortest closed path along edges that crosses a curve an odd number of times.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "libreeb/defects/surface_patch.h"
+
+namespace reeb {
+
+// A closed path along edges, by its vertices; each is joined with the next, and the last with the first.
+struct ClosedPath {
+  std::vector<std::uint32_t> vertices;
+  double length = std::numeric_limits<double>::infinity();
+  bool exists() const { return !vertices.empty(); }
+};
+
+// For each edge: 1 if it crosses the curve, an odd number of times. In each triangle an even number of edges does.
+using Crossings = std::vector<std::uint8_t>;
+
+// The shortest closed path through whole vertices that uses an odd number of crossing edges; no path if there is none.
+// It is simple, since an odd path that met itself would contain a shorter one. `gates` are vertices of which every such
+// path has one.
+// TIME: a search in the patch for each gate, which ends where a path would be longer than the best so far.
+ClosedPath shortest_odd_cycle(const SurfacePatch& patch, const Crossings& crossings,
+                              std::span<const std::uint32_t> gates);
+
+// The shortest path that crosses the curve an odd number of times and leaves the patch at both ends: all of its
+// vertices but the first and the last are whole. No path if there is none. TIME: one search.
+ClosedPath shortest_odd_arc(const SurfacePatch& patch, const Crossings& crossings);
+
+// The edges that leave the path to its left. Nothing if the path meets a boundary, or if the patch is not an oriented
+// manifold at one of its vertices.
+// REQUIRES: the path is simple, and its vertices are whole.
+std::optional<Crossings> left_of(const SurfacePatch& patch, const ClosedPath& path);
+// The same for a path that is not closed: the edges at its vertices but the first and the last.
+std::optional<Crossings> left_of_arc(const SurfacePatch& patch, const ClosedPath& arc);
+
+}  // namespace reeb

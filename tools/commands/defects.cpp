@@ -1,0 +1,143 @@
+// `reeb defects MESH [FILE.reeb ...]`: the small handles and tunnels of a surface, placed, measured and ranked.
+#include <fmt/core.h>
+
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "io/file/file_name.h"
+#include "io/file/temp_dir.h"
+#include "libreeb/base/error.h"
+#include "libreeb/base/memory_budget.h"
+#include "ooc/reeb_file/reeb_file.h"
+#include "tools/commands/commands.h"
+#include "tools/defects/defect_text.h"
+#include "tools/defects/find_defects.h"
+#include "tools/library/run_files.h"
+#include "tools/program/image_options.h"
+#include "tools/program/input_kind.h"
+#include "tools/program/options.h"
+#include "tools/program/output.h"
+#include "tools/program/progress.h"
+#include "tools/program/signals.h"
+
+namespace reeb::tools {
+namespace {
+
+struct DefectsOptions {
+  FindDefectsOptions find;
+  std::string below, longest, output, patches;
+  std::size_t limit = std::numeric_limits<std::size_t>::max();
+  bool force = false, quiet = false;
+};
+
+bool is_json(const std::string& output) { return io::name_suffix(output) == ".json"; }
+
+void check_files(const DefectsOptions& options) {
+  const std::string& mesh = options.find.mesh.path;
+  if (mesh == "-")
+    throw Error(ErrorKind::kUsage, "the mesh is read several times, so it cannot come from standard input",
+                "write it to a file first");
+  if (ooc::is_reeb_file(mesh))
+    throw Error(ErrorKind::kBadInput, "this is a Reeb graph, not a mesh",
+                "name the mesh first: reeb defects MESH FILE.reeb")
+        .at(mesh);
+  RunFiles files;
+  files.add_input(mesh, "the mesh");
+  for (const std::string& file : options.find.files) {
+    require_reeb_file(file, "defects");
+    files.add_input(file, "a .reeb file");
+  }
+  if (!options.output.empty()) files.add_output(options.output, "the output", existing_outputs(options.force));
+  files.check();
+}
+
+// Whether a row is in the list: --below compares persistences, --longest lengths.
+class Filter {
+ public:
+  explicit Filter(const DefectsOptions& options) {
+    if (!options.below.empty()) {
+      below_ = parse_threshold("--below", options.below, 100);
+      below_percent_ = options.below.ends_with('%');
+    }
+    if (!options.longest.empty()) longest_ = parse_threshold("--longest", options.longest, 1);
+    if (options.longest.ends_with('%'))
+      throw Error(ErrorKind::kUsage, "--longest: \"" + options.longest + "\" is not a length",
+                  "give it in the units of the mesh");
+  }
+  bool lists(const DefectRow& row) const {
+    return (below_percent_ ? row.percent : row.persistence) < below_ && row.length() <= longest_;
+  }
+
+ private:
+  double below_ = std::numeric_limits<double>::infinity(), longest_ = std::numeric_limits<double>::infinity();
+  bool below_percent_ = false;
+};
+
+void run_defects(DefectsOptions options) {
+  const Filter filter(options);
+  check_files(options);
+  if (options.find.mesh.temp_folder.empty())
+    options.find.mesh.temp_folder = io::TempDir::default_folder(options.output == "-" ? "" : options.output);
+  ProgressBar bar(options.quiet);
+  options.find.interrupted = watch_signals();
+  options.find.computing = [&](const ComputeProgress& p) {
+    bar.update({"Reeb graphs", 1}, p.done, p.total, p.triangles);
+  };
+  options.find.searching = [&](std::uint64_t done, std::uint64_t total, std::uint64_t triangles) {
+    bar.update({"curves"}, done, total, triangles);
+  };
+  const Defects defects = find_defects(options.find);
+  bar.clear();
+  std::vector<RankedRow> rows;
+  for (std::size_t i = 0; i < defects.table.rows.size() && rows.size() < options.limit; ++i)
+    if (filter.lists(defects.table.rows[i])) rows.push_back({i + 1, &defects.table.rows[i]});
+  if (options.output != "-") fmt::print("{}", defect_table(defects, rows));
+  if (options.output.empty()) return;
+  write_output(options.output, options.force, [&](std::ostream& out) {
+    if (is_json(options.output))
+      write_defect_json(defects, rows, out);
+    else
+      write_defect_csv(defects, rows, out);
+  });
+}
+
+}  // namespace
+
+void add_defects(CLI::App& program) {
+  auto options = std::make_shared<DefectsOptions>();
+  CLI::App* command = program.add_subcommand("defects", "List small handles and tunnels of a surface, ranked");
+  command->add_option("MESH", options->find.mesh.path, "Mesh of any format, also as .gz and .zst")
+      ->required()
+      ->type_name("");
+  command
+      ->add_option("FILE", options->find.files,
+                   "Reeb graphs of the mesh; the first one has the loops, the others offer shorter curves (default: "
+                   "those of x, y and z are computed)")
+      ->type_name("");
+  command->add_option("-o,--output", options->output, "File to write: .csv or .json; - is CSV at standard output")
+      ->type_name("FILE");
+  command
+      ->add_option("--below", options->below, "Only loops of less persistence: 0.01, or 0.1% of the function's range")
+      ->type_name("T");
+  command->add_option("--longest", options->longest, "Only loops with a curve of at most this length")
+      ->type_name("LENGTH");
+  add_count(*command, "--limit", options->limit, "At most N rows", {.least = 1});
+  add_format(*command, options->find.mesh.format);
+  add_image_options(*command, options->find.mesh.image);
+  add_size(*command, "--memory", options->find.mesh.memory_bytes,
+           "Memory that the run may use: 64M, 1.5GiB (default: no limit)");
+  add_count(*command, "--threads", options->find.threads, "Number of threads, 1 to 1024 (default: all)",
+            {.least = 1, .most = 1024});
+  command
+      ->add_option("--temp-dir", options->find.mesh.temp_folder,
+                   "Folder for temporary files (default: $TMPDIR, or the folder of the output)")
+      ->type_name("DIR");
+  command->add_flag("--force", options->force, "Replace an existing output");
+  command->add_flag("--quiet", options->quiet, "Print no progress");
+  command->footer("Example:\n  reeb defects scan.ply --limit 20 -o scan-defects.csv");
+  command->callback([options] { run_defects(*options); });
+}
+
+}  // namespace reeb::tools

@@ -1,0 +1,245 @@
+#include "tools/defects/curve_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "libreeb/base/error.h"
+#include "libreeb/base/flat_map.h"
+#include "ooc/patches/collected_surface.h"
+#include "ooc/threads/parallel.h"
+
+namespace reeb::tools {
+namespace {
+
+constexpr double kFirstEdges = 6;  // the radius of the first patches, in edges
+constexpr int kMostReadings = 14;
+constexpr std::uint64_t kBytesPerVertex = 220;
+
+FoundCurve in_mesh(const SurfacePatch& patch, const LoopCurve& curve) {
+  FoundCurve found;
+  found.length = curve.length;
+  found.triangles = curve.triangles;
+  found.closed = !curve.crossings.empty();
+  found.kind = kind_of(patch, curve, false);
+  if (!curve.path.exists()) return found;
+  found.box = {patch.position(curve.path.vertices[0]), patch.position(curve.path.vertices[0])};
+  for (const std::uint32_t v : curve.path.vertices) {
+    found.path.push_back(patch.vertex(v));
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double x = patch.position(v)[k];
+      found.box[0][k] = std::min(found.box[0][k], x);
+      found.box[1][k] = std::max(found.box[1][k], x);
+      found.center[k] += x / static_cast<double>(curve.path.vertices.size());
+    }
+  }
+  return found;
+}
+
+// Whether the oriented triangles at the vertex, the highest of its component along a coordinate, have their normals
+// inside. The edge that falls least is on the outer hull of its star, so its steeper triangle does not matter.
+std::optional<bool> is_inwards(const SurfacePatch& patch, std::uint32_t top, std::size_t axis) {
+  std::uint32_t flattest = SurfacePatch::kNone;
+  double least = std::numeric_limits<double>::infinity();
+  for (const std::uint32_t e : patch.edges_at(top)) {
+    const auto& edge = patch.edge(e);
+    const std::uint32_t other = edge.a == top ? edge.b : edge.a;
+    const double slope = (patch.position(top)[axis] - patch.position(other)[axis]) / edge.length;
+    if (slope < least) {
+      least = slope;
+      flattest = e;
+    }
+  }
+  if (flattest == SurfacePatch::kNone) return std::nullopt;
+  double best = 0, sign = 0;
+  for (const std::uint32_t t : patch.triangles_at_edge(flattest)) {
+    const Point normal = patch.normal(t);
+    const double upwards = normal[axis] / std::sqrt(dot(normal, normal));
+    if (std::abs(upwards) > best) {
+      best = std::abs(upwards);
+      sign = upwards;
+    }
+  }
+  if (best == 0) return std::nullopt;
+  return sign < 0;
+}
+
+std::optional<std::size_t> axis_of(const std::string& function) {
+  const io::FunctionSpec spec = io::parse_function(function);
+  if (spec.kind != io::FunctionSpec::Kind::kCoordinate || spec.number > 2) return std::nullopt;
+  return spec.number;
+}
+
+// What is looked for around two vertices: the curves of a loop, or the orientation at the top of a component.
+struct Search {
+  std::size_t function = 0, number = 0;  // the loop, or the component
+  bool is_top = false;
+  SettledNode lo, hi;
+  double radius = 0;
+  bool done = false;
+};
+
+class CurveSearch {
+ public:
+  CurveSearch(const ValuedMesh& mesh, const LoopList& list, const PatchScale& scale, const SearchOptions& options)
+      : mesh_(mesh), list_(list), scale_(scale), options_(options), found_(list.loops.size()) {
+    std::vector<std::vector<std::uint8_t>> with_loops;
+    for (const LoopFunction& function : list.functions) {
+      with_loops.emplace_back(function.tops.size(), 0);
+      inwards_.emplace_back(function.tops.size(), 0);
+    }
+    for (std::size_t i = 0; i < list.loops.size(); ++i) {
+      const Loop& loop = list.loops[i];
+      const double apart = distance(loop.lo.position, loop.hi.position);
+      add({loop.function, i, false, loop.lo, loop.hi, std::max(kFirstEdges * scale.edge, 0.6 * apart)});
+      with_loops[loop.function][loop.component] = 1;
+    }
+    for (std::size_t f = 0; f < list.functions.size(); ++f) {
+      if (!axis_of(list.functions[f].name)) continue;
+      for (std::size_t c = 0; c < with_loops[f].size(); ++c) {
+        const SettledNode& top = list.functions[f].tops[c];
+        if (with_loops[f][c] != 0) add({f, c, true, top, top, 2 * scale.edge});
+      }
+    }
+  }
+
+  std::vector<FoundCurves> run() {
+    for (int reading = 0; reading < kMostReadings; ++reading) {
+      std::vector<Search*> now = choose();
+      if (now.empty()) break;
+      read(now);
+    }
+    for (std::size_t i = 0; i < found_.size(); ++i) {
+      const Loop& loop = list_.loops[i];
+      if (inwards_[loop.function][loop.component] == 0) continue;
+      for (FoundCurve* curve : {&found_[i].contour, &found_[i].cycle})
+        if (curve->kind != DefectKind::kUnclear)
+          curve->kind = curve->kind == DefectKind::kHandle ? DefectKind::kTunnel : DefectKind::kHandle;
+    }
+    return std::move(found_);
+  }
+
+ private:
+  void add(Search search) {
+    search.done = scale_.too_large(search.radius);
+    searches_.push_back(search);
+  }
+
+  // The smallest ones, as many as the memory holds. Those of several functions at one place share vertices.
+  std::vector<Search*> choose() {
+    std::vector<Search*> open;
+    for (Search& search : searches_)
+      if (!search.done) open.push_back(&search);
+    std::stable_sort(open.begin(), open.end(), [](const Search* a, const Search* b) { return a->radius < b->radius; });
+    const double most = static_cast<double>(std::max<std::uint64_t>(options_.patch_bytes / kBytesPerVertex, 100'000));
+    double sum = 0;
+    FlatMap places;
+    std::size_t count = 0;
+    for (; count < open.size() && sum < most; ++count) {
+      const double radius = open[count]->radius;
+      for (const SettledNode* node : {&open[count]->lo, &open[count]->hi}) {
+        std::uint64_t key = static_cast<std::uint64_t>(std::ilogb(radius) + 2000);
+        for (const double x : node->position)
+          key = key * 0x9e3779b97f4a7c15u + static_cast<std::uint64_t>(static_cast<std::int64_t>(x / radius));
+        if (places.find(key) != FlatMap::kNone) continue;
+        places.find_or_insert(key, 0);
+        sum += scale_.vertices(radius);
+      }
+    }
+    open.resize(count);
+    return open;
+  }
+
+  void read(std::span<Search* const> now) {
+    std::vector<ooc::Ball> balls;
+    for (const Search* search : now)
+      for (const SettledNode* node : {&search->lo, &search->hi}) balls.push_back({node->position, search->radius});
+    MemoryBudget budget;
+    ooc::CollectedSurface surface(balls, list_.functions.size(), budget);
+    std::uint64_t vertices = 0, triangles = 0;
+    mesh_.read([&](const MeshBatch& batch, std::span<const std::vector<double>> values, std::uint64_t done,
+                   std::uint64_t total) {
+      surface.add(batch, values);
+      vertices += batch.vertex_count;
+      triangles += batch.triangle_count();
+      if (options_.progress) options_.progress(done, total, triangles);
+    });
+    if (vertices != list_.functions[0].mesh_vertices)
+      throw Error(ErrorKind::kBadInput, "the graph is of a mesh with another number of vertices",
+                  "name the mesh that the graph was computed from");
+    surface.finish();
+    ooc::in_parallel(options_.threads, now.size(), [&](std::size_t i) { search_in(surface, *now[i]); });
+  }
+
+  void search_in(const ooc::CollectedSurface& surface, Search& search) {
+    const std::array seeds = {search.lo.key.vertex, search.hi.key.vertex};
+    const std::array balls = {ooc::Ball{search.lo.position, search.radius},
+                              ooc::Ball{search.hi.position, search.radius}};
+    const ooc::CollectedSurface::Patch patch = surface.cut(seeds, balls, PatchScale::kMostVertices);
+    const std::uint32_t v = patch.surface.find(seeds[0]), y = patch.surface.find(seeds[1]);
+    if (v == SurfacePatch::kNone || y == SurfacePatch::kNone ||
+        patch.values[search.function][v] != search.lo.key.value ||
+        patch.values[search.function][y] != search.hi.key.value)
+      throw Error(ErrorKind::kBadInput, "a node of the graph is another vertex in the mesh",
+                  "name the mesh that the graph was computed from");
+    if (patch.surface.whole(v) && patch.surface.whole(y)) {
+      search.done = search.is_top ? orient(patch.surface, search, v) : measure(patch, search, v, y);
+      if (search.done) return;
+    }
+    double longest = 0;
+    for (const std::uint32_t x : {v, y})
+      for (const std::uint32_t e : patch.surface.edges_at(x)) longest = std::max(longest, patch.surface.edge(e).length);
+    search.radius = std::max(2 * search.radius, kFirstEdges * longest);
+    search.done = patch.limited || scale_.too_large(search.radius);
+  }
+
+  bool orient(const SurfacePatch& patch, const Search& search, std::uint32_t top) {
+    const auto inwards = is_inwards(patch, top, *axis_of(list_.functions[search.function].name));
+    inwards_[search.function][search.number] = inwards.value_or(false) ? 1 : 0;
+    return true;
+  }
+
+  // Whether the patch was large enough.
+  bool measure(const ooc::CollectedSurface::Patch& patch, const Search& search, std::uint32_t v, std::uint32_t y) {
+    const LoopCurves curves = loop_curves(patch.surface, patch.values[search.function], v, y);
+    FoundCurves& found = found_[search.number];
+    found = {in_mesh(patch.surface, curves.contour), in_mesh(patch.surface, curves.cycle)};
+    const double shorter = std::min(curves.contour.length, curves.cycle.length);
+    if (curves.contour.found() && curves.cycle.found()) return shorter <= 2 * search.radius;
+    return shorter <= search.radius;
+  }
+
+  const ValuedMesh& mesh_;
+  const LoopList& list_;
+  const PatchScale scale_;
+  const SearchOptions& options_;
+  std::vector<Search> searches_;
+  std::vector<FoundCurves> found_;
+  std::vector<std::vector<std::uint8_t>> inwards_;  // by function and component
+};
+
+}  // namespace
+
+double PatchScale::vertices(double radius) const {
+  const double edges = edge > 0 ? radius / edge : 0;
+  return 16 + 7 * edges * edges;
+}
+
+PatchScale scale_of(const LoopList& list) {
+  PatchScale scale;
+  const Point extent = list.box[1] - list.box[0];
+  if (!(extent[0] >= 0)) return scale;
+  scale.size = distance(list.box[0], list.box[1]);
+  const double area = 2 * (extent[0] * extent[1] + extent[1] * extent[2] + extent[2] * extent[0]);
+  const auto triangles = static_cast<double>(std::max<std::uint64_t>(1, list.functions[0].mesh_triangles));
+  scale.edge = std::max(std::sqrt(2.3 * area / triangles), 1e-6 * scale.size);
+  return scale;
+}
+
+std::vector<FoundCurves> find_curves(const ValuedMesh& mesh, const LoopList& list, const PatchScale& scale,
+                                     const SearchOptions& options) {
+  return CurveSearch(mesh, list, scale, options).run();
+}
+
+}  // namespace reeb::tools

@@ -1,0 +1,57 @@
+// The curves of loops, found in patches of the mesh around the nodes of their pairs.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "libreeb/base/memory_budget.h"
+#include "libreeb/defects/loop_curves.h"
+#include "ooc/patches/ball_grid.h"
+#include "tools/defects/loop_list.h"
+#include "tools/defects/valued_mesh.h"
+
+namespace reeb::tools {
+
+// A curve by vertices of the mesh.
+struct FoundCurve {
+  double length = std::numeric_limits<double>::infinity();
+  std::vector<VertexId> path;  // empty if the curve is a contour that is not along edges
+  std::array<Point, 2> box{};
+  Point center{};
+  std::uint32_t triangles = 0;
+  bool closed = false;  // on an oriented manifold, away from boundaries
+  DefectKind kind = DefectKind::kUnclear;
+};
+
+struct FoundCurves {
+  FoundCurve contour, cycle;
+};
+
+struct SearchOptions {
+  unsigned threads = 0;
+  std::uint64_t patch_bytes = std::uint64_t{512} << 20;  // of patches at the same time
+  std::function<void(std::uint64_t done, std::uint64_t total, std::uint64_t triangles)> progress{};
+};
+
+// How patches are measured. An edge of this mesh is `edge` long, roughly.
+struct PatchScale {
+  double edge = 0, size = 0;                            // of an edge, and of the whole mesh
+  static constexpr std::size_t kMostVertices = 40'000;  // of a patch
+  // Vertices in a ball, roughly: those of two sheets.
+  double vertices(double radius) const;
+  bool too_large(double radius) const { return vertices(radius) > kMostVertices || radius > 2 * size; }
+};
+PatchScale scale_of(const LoopList& list);
+
+// One entry a loop. Reads the mesh about as often as a small patch must be doubled until it holds the curves of the
+// largest loop whose patch is not too large; each reading collects the patches of as many loops as the memory holds,
+// and the next one those of the rest, too.
+// THROWS: Error{kBadInput} if the loops are not those of this mesh.
+std::vector<FoundCurves> find_curves(const ValuedMesh& mesh, const LoopList& list, const PatchScale& scale,
+                                     const SearchOptions& options);
+
+}  // namespace reeb::tools

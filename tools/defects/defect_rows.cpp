@@ -1,0 +1,231 @@
+#include "tools/defects/defect_rows.h"
+
+#include <algorithm>
+#include <numeric>
+#include <tuple>
+#include <utility>
+
+#include "libreeb/base/union_find.h"
+#include "libreeb/defects/curve_relations.h"
+#include "ooc/patches/collected_surface.h"
+#include "ooc/threads/parallel.h"
+
+namespace reeb::tools {
+namespace {
+
+struct Candidate {
+  std::uint32_t loop = 0;
+  const FoundCurve* curve = nullptr;
+  ooc::Ball ball;
+  bool first_function = false, testable = false, taken = false;
+};
+
+// By length; the rest settles ties.
+bool before(const Candidate& a, const Candidate& b) {
+  return std::tuple(a.curve->length, !a.first_function, a.loop, a.curve->path.size()) <
+         std::tuple(b.curve->length, !b.first_function, b.loop, b.curve->path.size());
+}
+
+std::vector<Candidate> candidates(const LoopList& list, const PatchScale& scale,
+                                  const std::vector<FoundCurves>& found) {
+  std::vector<Candidate> result;
+  for (std::uint32_t i = 0; i < found.size(); ++i)
+    for (const FoundCurve* curve : {&found[i].contour, &found[i].cycle}) {
+      const bool first = list.loops[i].function == 0;
+      if (curve->path.empty() || (!first && !curve->closed)) continue;
+      Candidate candidate{i, curve, {}, first, false, false};
+      for (std::size_t k = 0; k < 3; ++k) candidate.ball.center[k] = (curve->box[0][k] + curve->box[1][k]) / 2;
+      candidate.ball.radius =
+          0.75 * distance(curve->box[0], curve->box[1]) + 4 * curve->length / static_cast<double>(curve->path.size());
+      candidate.testable = !scale.too_large(candidate.ball.radius);
+      if (candidate.testable || first) result.push_back(candidate);
+    }
+  std::sort(result.begin(), result.end(), before);
+  return result;
+}
+
+// Groups of candidates whose balls meet, directly or through others; each in the order of candidates.
+std::vector<std::vector<std::uint32_t>> clusters(const std::vector<Candidate>& all) {
+  std::vector<std::uint32_t> order(all.size());
+  std::iota(order.begin(), order.end(), 0u);
+  const auto low = [&](std::uint32_t i) { return all[i].ball.center[0] - all[i].ball.radius; };
+  const auto high = [&](std::uint32_t i) { return all[i].ball.center[0] + all[i].ball.radius; };
+  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return low(a) < low(b); });
+  UnionFind cluster(static_cast<std::uint32_t>(all.size()));
+  std::vector<std::uint32_t> active;
+  for (const std::uint32_t i : order) {
+    std::erase_if(active, [&](std::uint32_t other) { return high(other) < low(i); });
+    for (const std::uint32_t other : active)
+      if (distance(all[i].ball.center, all[other].ball.center) <= all[i].ball.radius + all[other].ball.radius)
+        cluster.unite(i, other);
+    active.push_back(i);
+  }
+  std::vector<std::vector<std::uint32_t>> result;
+  std::vector<std::uint32_t> number(all.size(), 0);
+  for (std::uint32_t i = 0; i < all.size(); ++i) {
+    const std::uint32_t root = cluster.find(i);
+    if (root == i) {
+      number[i] = static_cast<std::uint32_t>(result.size());
+      result.emplace_back();
+    }
+    result[number[root]].push_back(i);
+  }
+  return result;
+}
+
+// The path in a patch; nothing if it is not all there.
+ClosedPath in_patch(const SurfacePatch& patch, const FoundCurve& curve) {
+  ClosedPath path;
+  for (const VertexId vertex : curve.path) {
+    const std::uint32_t v = patch.find(vertex);
+    if (v == SurfacePatch::kNone || !patch.whole(v)) return {};
+    path.vertices.push_back(v);
+  }
+  path.length = curve.length;
+  return path;
+}
+
+std::vector<std::uint32_t> edges_of(const SurfacePatch& patch, const ClosedPath& path) {
+  std::vector<std::uint32_t> edges;
+  for (std::size_t i = 0; i < path.vertices.size(); ++i)
+    edges.push_back(patch.edge_between(path.vertices[i], path.vertices[(i + 1) % path.vertices.size()]));
+  return edges;
+}
+
+bool adds_a_class(const SurfacePatch& patch, const Candidate& candidate, std::span<const Candidate* const> taken) {
+  const ClosedPath path = in_patch(patch, *candidate.curve);
+  if (!path.exists()) return candidate.first_function;
+  const std::vector<std::uint32_t> edges = edges_of(patch, path);
+  std::vector<std::vector<std::uint32_t>> others;
+  for (const Candidate* other : taken) {
+    const ClosedPath there = in_patch(patch, *other->curve);
+    if (!there.exists()) continue;
+    if (const auto left = left_of(patch, there)) {
+      std::size_t crossings = 0;
+      for (const std::uint32_t e : edges) crossings += (*left)[e];
+      if (crossings % 2 != 0) return false;
+    }
+    others.push_back(edges_of(patch, there));
+  }
+  return !bounds_with(patch, edges, others);
+}
+
+void choose_in_cluster(const ooc::CollectedSurface& surface, std::vector<Candidate>& all,
+                       std::span<const std::uint32_t> cluster) {
+  std::vector<const Candidate*> taken;
+  for (const std::uint32_t i : cluster) {
+    Candidate& candidate = all[i];
+    if (std::ranges::any_of(taken, [&](const Candidate* other) { return other->loop == candidate.loop; })) continue;
+    candidate.taken = candidate.first_function;
+    if (candidate.testable) {
+      const auto patch = surface.cut(candidate.curve->path, std::span(&candidate.ball, 1), PatchScale::kMostVertices);
+      std::vector<const Candidate*> near;
+      for (const Candidate* other : taken)
+        if (distance(other->ball.center, candidate.ball.center) <= other->ball.radius + candidate.ball.radius)
+          near.push_back(other);
+      candidate.taken = adds_a_class(patch.surface, candidate, near);
+    }
+    if (candidate.taken) taken.push_back(&candidate);
+  }
+}
+
+void choose(const ValuedMesh& mesh, const PatchScale& scale, std::vector<Candidate>& all,
+            const SearchOptions& options) {
+  const auto groups = clusters(all);
+  const double most = static_cast<double>(options.patch_bytes) / 220;
+  for (std::size_t begin = 0; begin < groups.size();) {
+    std::vector<ooc::Ball> balls;
+    double sum = 0;
+    std::size_t end = begin;
+    for (; end < groups.size() && (end == begin || sum < most); ++end)
+      for (const std::uint32_t i : groups[end]) {
+        if (!all[i].testable) continue;
+        balls.push_back(all[i].ball);
+        sum += scale.vertices(all[i].ball.radius) / 2;
+      }
+    MemoryBudget budget;
+    ooc::CollectedSurface surface(balls, 0, budget);
+    if (!balls.empty()) {
+      std::uint64_t triangles = 0;
+      mesh.read(
+          [&](const MeshBatch& batch, std::span<const std::vector<double>>, std::uint64_t done, std::uint64_t total) {
+            surface.add(batch, {});
+            triangles += batch.triangle_count();
+            if (options.progress) options.progress(done, total, triangles);
+          });
+    }
+    surface.finish();
+    ooc::in_parallel(options.threads, end - begin,
+                     [&](std::size_t i) { choose_in_cluster(surface, all, groups[begin + i]); });
+    begin = end;
+  }
+}
+
+DefectRow row_of(const LoopList& list, std::uint32_t number, const FoundCurves& found, const FoundCurve* curve) {
+  const Loop& loop = list.loops[number];
+  const ValueRange& range = list.functions[loop.function].range;
+  DefectRow row;
+  row.function = loop.function;
+  row.lo = loop.lo;
+  row.hi = loop.hi;
+  row.persistence = loop.hi.key.value - loop.lo.key.value;
+  row.percent = range.max > range.min ? 100 * (row.persistence / (range.max - range.min)) : 0;
+  if (curve != nullptr) {
+    row.curve = *curve;
+    row.kind = curve->kind;
+    row.length_contour = found.contour.length;
+    row.length_cycle = found.cycle.length;
+    return row;
+  }
+  for (std::size_t k = 0; k < 3; ++k) {
+    row.curve.box[0][k] = std::min(loop.lo.position[k], loop.hi.position[k]);
+    row.curve.box[1][k] = std::max(loop.lo.position[k], loop.hi.position[k]);
+    row.curve.center[k] = row.curve.box[0][k] / 2 + row.curve.box[1][k] / 2;
+  }
+  return row;
+}
+
+}  // namespace
+
+DefectTable make_rows(const ValuedMesh& mesh, const LoopList& list, const PatchScale& scale,
+                      const std::vector<FoundCurves>& found, const SearchOptions& options) {
+  std::vector<Candidate> all = candidates(list, scale, found);
+  choose(mesh, scale, all, options);
+
+  const auto wanted =
+      static_cast<std::size_t>(std::ranges::count_if(list.loops, [](const Loop& loop) { return loop.function == 0; }));
+  std::vector<const Candidate*> taken;
+  for (const Candidate& candidate : all)
+    if (candidate.taken) taken.push_back(&candidate);
+  // No more than there are loops of the first function; the longest of other functions are left out.
+  for (std::size_t i = taken.size(); i-- > 0 && taken.size() > wanted;)
+    if (!taken[i]->first_function) taken.erase(taken.begin() + static_cast<std::ptrdiff_t>(i));
+
+  DefectTable table;
+  std::vector<std::uint8_t> used(list.loops.size(), 0), had_curves(list.loops.size(), 0);
+  for (const Candidate& candidate : all) had_curves[candidate.loop] = 1;
+  for (const Candidate* candidate : taken) {
+    used[candidate->loop] = 1;
+    table.rows.push_back(row_of(list, candidate->loop, found[candidate->loop], candidate->curve));
+  }
+  // The other loops of the first function: first those whose curves left their patches. Curves of the rest stand for
+  // defects that are listed already.
+  for (const bool with_curves : {false, true})
+    for (std::uint32_t i = 0; i < list.loops.size() && table.rows.size() < wanted; ++i)
+      if (list.loops[i].function == 0 && used[i] == 0 && (had_curves[i] != 0) == with_curves)
+        table.rows.push_back(row_of(list, i, found[i], nullptr));
+
+  std::vector<double> lengths;
+  for (const DefectRow& row : table.rows) lengths.push_back(row.length());
+  table.suggestion = suggest_length(lengths, scale.edge, scale.size);
+  // Small and clear, small and unclear, then the rest by length; long ones that are small for the function first.
+  const double limit = table.suggestion.length.value_or(0);
+  const auto key = [&](const DefectRow& row) {
+    const int group = row.length() > limit ? 2 : row.kind == DefectKind::kUnclear ? 1 : 0;
+    return std::tuple(group, row.length(), row.percent, row.function, row.lo.key.vertex, row.hi.key.vertex);
+  };
+  std::sort(table.rows.begin(), table.rows.end(), [&](const auto& a, const auto& b) { return key(a) < key(b); });
+  return table;
+}
+
+}  // namespace reeb::tools

@@ -1,0 +1,36 @@
+// One row for each loop of the first function: which curves of which functions stand for different defects.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "libreeb/defects/defect_lengths.h"
+#include "tools/defects/curve_search.h"
+#include "tools/defects/loop_list.h"
+
+namespace reeb::tools {
+
+struct DefectRow {
+  std::size_t function = 0;  // of the list
+  SettledNode lo, hi;
+  double persistence = 0, percent = 0;
+  FoundCurve curve;  // the shorter one; its box and center are those of the nodes if none was found
+  DefectKind kind = DefectKind::kUnclear;
+  double length_contour = std::numeric_limits<double>::infinity();
+  double length_cycle = std::numeric_limits<double>::infinity();
+  double length() const { return std::min(length_contour, length_cycle); }
+};
+
+struct DefectTable {
+  std::vector<DefectRow> rows;  // the most likely defect first
+  SuggestedLength suggestion;
+};
+
+// Takes curves by length, each if it crosses none of those taken before an odd number of times, and bounds no part of
+// the surface together with them. Reads the mesh once more, if loops are near each other; or as often as the memory
+// requires.
+DefectTable make_rows(const ValuedMesh& mesh, const LoopList& list, const PatchScale& scale,
+                      const std::vector<FoundCurves>& found, const SearchOptions& options);
+
+}  // namespace reeb::tools

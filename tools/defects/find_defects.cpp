@@ -1,0 +1,71 @@
+#include "tools/defects/find_defects.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "libreeb/base/error.h"
+#include "tools/library/temp_folder.h"
+
+namespace reeb::tools {
+namespace {
+
+std::vector<std::string> coordinates(unsigned dimension) {
+  std::vector<std::string> names = {"x", "y", "z"};
+  names.resize(std::clamp<std::size_t>(dimension, 1, 3));
+  return names;
+}
+
+// Loops do not depend on noise removal, which leaves nearly nothing else of a rough graph.
+std::vector<std::string> compute_graphs(const FindDefectsOptions& options, const TempFolder& folder) {
+  const ValuedMesh mesh(options.mesh, {});
+  const std::vector<std::string> functions = coordinates(mesh.info().dimension);
+  std::vector<std::string> files;
+  for (const std::string& function : functions) files.push_back(folder.path() + "/" + function + ".reeb");
+  ComputeOptions run;
+  run.memory_bytes = options.mesh.memory_bytes;
+  run.threads = options.threads;
+  run.format = options.mesh.format;
+  run.image = options.mesh.image;
+  run.temp_dir = folder.path();
+  run.graph_only = true;
+  run.buckets = 0;
+  run.denoise = 1;
+  run.denoise_is_share = true;
+  run.checkpoint_seconds = 1e9;
+  run.progress = options.computing;
+  run.interrupted = options.interrupted;
+  compute(options.mesh.path, functions, files, run);
+  return files;
+}
+
+}  // namespace
+
+Defects find_defects(const FindDefectsOptions& options) {
+  LoopList list;
+  {
+    std::optional<TempFolder> folder;
+    std::vector<std::string> files = options.files;
+    if (files.empty()) {
+      folder.emplace(options.mesh.temp_folder);
+      files = compute_graphs(options, *folder);
+    }
+    list = read_loops(files);
+  }
+  Defects defects;
+  for (const LoopFunction& function : list.functions) defects.functions.push_back(function.name);
+  const ValuedMesh mesh(options.mesh, defects.functions);
+  SearchOptions search;
+  search.threads = options.threads;
+  if (options.mesh.memory_bytes != ~std::uint64_t{0}) search.patch_bytes = options.mesh.memory_bytes / 2;
+  search.progress = [&](std::uint64_t done, std::uint64_t total, std::uint64_t triangles) {
+    if (options.interrupted && options.interrupted())
+      throw Error(ErrorKind::kInterrupted, "interrupted", "run the same command again");
+    if (options.searching) options.searching(done, total, triangles);
+  };
+  const PatchScale scale = scale_of(list);
+  const std::vector<FoundCurves> found = find_curves(mesh, list, scale, search);
+  defects.table = make_rows(mesh, list, scale, found, search);
+  return defects;
+}
+
+}  // namespace reeb::tools

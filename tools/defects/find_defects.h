@@ -1,0 +1,32 @@
+// From a mesh to the table of its defects: what `reeb defects` does.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "tools/defects/defect_rows.h"
+#include "tools/library/compute.h"
+
+namespace reeb::tools {
+
+struct FindDefectsOptions {
+  MeshSource mesh;
+  std::vector<std::string> files;  // graphs of the mesh; none: those of its coordinates are computed
+  unsigned threads = 0;
+  std::function<void(const ComputeProgress&)> computing{};
+  std::function<void(std::uint64_t done, std::uint64_t total, std::uint64_t triangles)> searching{};
+  std::function<bool()> interrupted{};
+};
+
+struct Defects {
+  std::vector<std::string> functions;  // of the rows
+  DefectTable table;
+  std::vector<std::string> notes;
+};
+
+// THROWS: as compute(); Error{kBadInput} for a graph of another mesh.
+// MEMORY: that of computing the graphs; then of one graph and its pairs; then of patches.
+Defects find_defects(const FindDefectsOptions& options);
+
+}  // namespace reeb::tools

@@ -1,0 +1,54 @@
+#include "tools/defects/loop_list.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "libreeb/base/error.h"
+#include "libreeb/base/union_find.h"
+#include "libreeb/hierarchy/pairing.h"
+#include "ooc/reeb_file/reeb_file.h"
+
+namespace reeb::tools {
+
+LoopList read_loops(std::span<const std::string> files) {
+  LoopList list;
+  constexpr double kFar = std::numeric_limits<double>::infinity();
+  list.box = {Point{kFar, kFar, kFar}, Point{-kFar, -kFar, -kFar}};
+  for (const std::string& path : files) {
+    const ooc::ReebFile file(path);
+    const FileHeader& header = file.header();
+    LoopFunction function{
+        header.function, {header.function_min, header.function_max}, header.mesh_vertices, header.mesh_triangles, {}};
+    if (!list.functions.empty() && (list.functions[0].mesh_vertices != header.mesh_vertices ||
+                                    list.functions[0].mesh_triangles != header.mesh_triangles))
+      throw Error(ErrorKind::kBadInput, "it is of another mesh than " + files[0], "name files of the same mesh")
+          .at(path);
+    if (!header.flags.has_positions && header.nodes != 0)
+      throw Error(ErrorKind::kBadInput, "its nodes have no positions", "compute it again").at(path);
+    const ReebGraph graph = file.load(0).graph;
+    UnionFind component(static_cast<std::uint32_t>(graph.node_count()));
+    for (std::size_t i = 0; i < graph.arc_count(); ++i) component.unite(graph.lo[i].value(), graph.hi[i].value());
+    const auto node = [&](NodeId id) { return SettledNode{graph.nodes[id.value()], graph.positions[id.value()]}; };
+    std::vector<std::uint32_t> number(graph.node_count(), 0);
+    for (std::uint32_t i = 0; i < graph.node_count(); ++i) {
+      const std::uint32_t root = component.find(i);
+      if (root == i) {
+        number[i] = static_cast<std::uint32_t>(function.tops.size());
+        function.tops.emplace_back();
+      }
+      function.tops[number[root]] = node(NodeId(i));  // nodes ascend
+      for (std::size_t k = 0; k < 3; ++k) {
+        list.box[0][k] = std::min(list.box[0][k], graph.positions[i][k]);
+        list.box[1][k] = std::max(list.box[1][k], graph.positions[i][k]);
+      }
+    }
+    for (const PersistencePair& pair : persistence_pairs(graph))
+      if (pair.type == PairType::kExt1)
+        list.loops.push_back(
+            {list.functions.size(), node(pair.lo), node(pair.hi), number[component.find(pair.lo.value())]});
+    list.functions.push_back(std::move(function));
+  }
+  return list;
+}
+
+}  // namespace reeb::tools

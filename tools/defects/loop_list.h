@@ -1,0 +1,41 @@
+// The loops of Reeb graphs, with the places of their nodes.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "libreeb/base/sweep_key.h"
+#include "libreeb/base/value_range.h"
+#include "libreeb/graph/settled_node.h"
+
+namespace reeb::tools {
+
+struct Loop {
+  std::size_t function = 0;
+  SettledNode lo, hi;
+  std::uint32_t component = 0;  // of its function
+};
+
+struct LoopFunction {
+  std::string name;
+  ValueRange range;
+  std::uint64_t mesh_vertices = 0, mesh_triangles = 0;
+  std::vector<SettledNode> tops;  // the highest node of each component
+};
+
+struct LoopList {
+  std::vector<LoopFunction> functions;
+  std::vector<Loop> loops;     // by function
+  std::array<Point, 2> box{};  // of all nodes
+};
+
+// From `.reeb` files of one mesh, also without levels.
+// THROWS: Error{kBadInput} of a file, and if they are of different meshes.
+// MEMORY: that of one graph, and of its pairs.
+LoopList read_loops(std::span<const std::string> files);
+
+}  // namespace reeb::tools
