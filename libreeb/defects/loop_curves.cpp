@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "libreeb/defects/curve_length.h"
 #include "libreeb/defects/loop_contours.h"
 
 namespace reeb {
@@ -25,7 +26,7 @@ LoopCurve curve_along(const SurfacePatch& patch, ClosedPath path) {
   LoopCurve curve;
   if (auto left = left_of(patch, path)) curve.crossings = std::move(*left);
   curve.triangles = triangles_passed(patch, path, curve.crossings);
-  curve.length = path.length;
+  curve.length = curve.crossings.empty() ? path.length : tight_length(patch, path);
   curve.path = std::move(path);
   return curve;
 }

@@ -20,7 +20,7 @@ const char* name_of(DefectKind kind);
 struct LoopCurve {
   ClosedPath path;      // the shortest closed path along edges; none if it leaves the patch
   Crossings crossings;  // the edges to its left; empty if it meets a boundary, or no oriented manifold
-  double length = std::numeric_limits<double>::infinity();  // that of the path, or of a shorter contour
+  double length = std::numeric_limits<double>::infinity();  // that of the path pulled tight, or of a shorter contour
   std::uint32_t triangles = 0;                              // that the curve passes
   bool found() const { return length < std::numeric_limits<double>::infinity(); }
 };

@@ -8,6 +8,10 @@
 namespace reeb {
 namespace {
 
+// Gates that are nearer to each other than this share of the path are not all searched: those far from the best path,
+// and those near it.
+constexpr double kGateSpacing = 0.1, kLeastSpacing = 0.02;
+
 // Searches in the double cover: state 2 * vertex + parity of crossings so far.
 class DoubleCover {
  public:
@@ -52,6 +56,11 @@ class DoubleCover {
 
   // Paths through this vertex are known.
   void remove(std::uint32_t vertex) { removed_[vertex] = 1; }
+  // There is no odd path through what the last search reached.
+  void remove_reached() {
+    for (const std::uint32_t state : touched_) removed_[state / 2] = 1;
+  }
+  bool removed(std::uint32_t vertex) const { return removed_[vertex] != 0; }
 
  private:
   static constexpr double kFar = std::numeric_limits<double>::infinity();
@@ -101,10 +110,28 @@ ClosedPath shortest_odd_cycle(const SurfacePatch& patch, const Crossings& crossi
                               std::span<const std::uint32_t> gates) {
   DoubleCover cover(patch, crossings);
   ClosedPath best;
-  for (const std::uint32_t gate : gates) {
-    if (!patch.whole(gate)) continue;
-    if (ClosedPath path = cover.search(gate, best.length); path.exists()) best = std::move(path);
+  std::vector<std::uint32_t> searched;
+  const auto search = [&](std::uint32_t gate, double spacing) {
+    const auto is_near = [&](std::uint32_t other) {
+      return distance(patch.position(gate), patch.position(other)) < spacing * best.length;
+    };
+    if (!patch.whole(gate) || cover.removed(gate) || (best.exists() && std::ranges::any_of(searched, is_near))) return;
+    searched.push_back(gate);
+    ClosedPath path = cover.search(gate, best.length);
+    if (path.exists())
+      best = std::move(path);
+    else if (!best.exists())
+      cover.remove_reached();
     cover.remove(gate);
+  };
+  for (const std::uint32_t gate : gates) search(gate, kGateSpacing);
+  // Then all gates near the best path.
+  const ClosedPath rough = best;
+  for (const std::uint32_t gate : gates) {
+    const auto is_near = [&](std::uint32_t v) {
+      return distance(patch.position(gate), patch.position(v)) < kGateSpacing * rough.length;
+    };
+    if (std::ranges::any_of(rough.vertices, is_near)) search(gate, kLeastSpacing);
   }
   return best;
 }
@@ -155,6 +182,17 @@ bool mark_left(const SurfacePatch& patch, std::uint32_t before, std::uint32_t x,
 }
 
 }  // namespace
+
+std::vector<std::uint32_t> fan_of(const SurfacePatch& patch, std::uint32_t vertex) {
+  const auto at = patch.edges_at(vertex);
+  if (at.empty()) return {};
+  const auto& edge = patch.edge(at[0]);
+  const std::uint32_t other = edge.a == vertex ? edge.b : edge.a;
+  std::vector<std::uint32_t> fan = {at[0]};
+  if (!turn(patch, vertex, other, other, [&](std::uint32_t e) { fan.push_back(e); }) || fan.size() != at.size())
+    return {};
+  return fan;
+}
 
 std::optional<Crossings> left_of(const SurfacePatch& patch, const ClosedPath& path) {
   Crossings left(patch.edge_count(), 0);

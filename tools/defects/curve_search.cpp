@@ -34,6 +34,8 @@ FoundCurve in_mesh(const SurfacePatch& patch, const LoopCurve& curve) {
       found.center[k] += x / static_cast<double>(curve.path.vertices.size());
     }
   }
+  // Rounding must not move the centre out of a flat box.
+  for (std::size_t k = 0; k < 3; ++k) found.center[k] = std::clamp(found.center[k], found.box[0][k], found.box[1][k]);
   return found;
 }
 

@@ -40,7 +40,7 @@ struct SearchOptions {
 // How patches are measured. An edge of this mesh is `edge` long, roughly.
 struct PatchScale {
   double edge = 0, size = 0;                            // of an edge, and of the whole mesh
-  static constexpr std::size_t kMostVertices = 40'000;  // of a patch
+  static constexpr std::size_t kMostVertices = 10'000;  // of a patch
   // Vertices in a ball, roughly: those of two sheets.
   double vertices(double radius) const;
   bool too_large(double radius) const { return vertices(radius) > kMostVertices || radius > 2 * size; }

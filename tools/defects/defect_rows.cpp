@@ -118,11 +118,14 @@ void choose_in_cluster(const ooc::CollectedSurface& surface, std::vector<Candida
     if (std::ranges::any_of(taken, [&](const Candidate* other) { return other->loop == candidate.loop; })) continue;
     candidate.taken = candidate.first_function;
     if (candidate.testable) {
-      const auto patch = surface.cut(candidate.curve->path, std::span(&candidate.ball, 1), PatchScale::kMostVertices);
       std::vector<const Candidate*> near;
+      std::vector<ooc::Ball> balls = {candidate.ball};
       for (const Candidate* other : taken)
-        if (distance(other->ball.center, candidate.ball.center) <= other->ball.radius + candidate.ball.radius)
+        if (distance(other->ball.center, candidate.ball.center) <= other->ball.radius + candidate.ball.radius) {
           near.push_back(other);
+          balls.push_back(other->ball);
+        }
+      const auto patch = surface.cut(candidate.curve->path, balls, 8 * PatchScale::kMostVertices);
       candidate.taken = adds_a_class(patch.surface, candidate, near);
     }
     if (candidate.taken) taken.push_back(&candidate);
@@ -173,8 +176,13 @@ DefectRow row_of(const LoopList& list, std::uint32_t number, const FoundCurves& 
   if (curve != nullptr) {
     row.curve = *curve;
     row.kind = curve->kind;
-    row.length_contour = found.contour.length;
-    row.length_cycle = found.cycle.length;
+    // If the other curve of the loop is shorter, it was not taken: it is one of a defect that another row has.
+    const auto length = [&](const FoundCurve& c) {
+      return &c != curve && c.length < curve->length && !c.path.empty() ? std::numeric_limits<double>::infinity()
+                                                                        : c.length;
+    };
+    row.length_contour = length(found.contour);
+    row.length_cycle = length(found.cycle);
     return row;
   }
   for (std::size_t k = 0; k < 3; ++k) {

@@ -1,0 +1,121 @@
+// `reeb defects` on meshes with planted tunnels and bridges, whose place, length and kind are known.
+#include <cmath>
+#include <cstdlib>
+#include <map>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/support/planted_mesh.h"
+#include "tests/tools/program.h"
+
+namespace reeb::test {
+namespace {
+
+struct Score {
+  std::size_t planted = 0, listed = 0, right_kind = 0, right_length = 0, center_in_box = 0, meshes = 0, separated = 0;
+  std::ostringstream misses;
+};
+
+// How far a point is from the axis, if it is beside it.
+bool is_at(const Planted& defect, const Vector& p) {
+  Vector axis{}, d{};
+  double length = 0, along = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    axis[k] = defect.to[k] - defect.from[k];
+    d[k] = p[k] - defect.from[k];
+    length += axis[k] * axis[k];
+    along += axis[k] * d[k];
+  }
+  along /= length;
+  double side = 0;
+  for (std::size_t k = 0; k < 3; ++k) side += std::pow(d[k] - along * axis[k], 2);
+  return along > -0.1 && along < 1.1 && std::sqrt(side) < 0.6 * defect.radius + 1;
+}
+
+class PlantedDefects : public ProgramTest {
+ protected:
+  void look_at(const PlantedOptions& options, Score& score) {
+    const PlantedMesh mesh = planted_mesh(options);
+    write("m.off", to_off(mesh));
+    expect_success(reeb({"defects", "m.off", "-o", "d.json", "--force", "--quiet"}));
+    const auto json = nlohmann::json::parse(file("d.json"));
+    const auto& loops = json["loops"];
+    EXPECT_EQ(loops.size(), mesh.planted.size() + mesh.genuine) << options.seed;
+    ++score.meshes;
+    std::vector<bool> taken(mesh.planted.size(), false);
+    double longest_planted = 0, shortest_other = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < loops.size(); ++i) {
+      const auto& row = loops[i];
+      const double length = std::min(number(row["length_contour"]), number(row["length_cycle"]));
+      const Vector center = {row["center_x"], row["center_y"], row["center_z"]};
+      std::size_t found = taken.size();
+      for (std::size_t d = 0; d < taken.size() && found == taken.size(); ++d)
+        if (!taken[d] && is_at(mesh.planted[d], center)) found = d;
+      if (found == taken.size()) {
+        shortest_other = std::min(shortest_other, length);
+        if (i < taken.size()) score.misses << options.seed << ": row " << row.dump() << '\n';
+        continue;
+      }
+      taken[found] = true;
+      longest_planted = std::max(longest_planted, length);
+      if (i >= taken.size()) continue;
+      ++score.listed;
+      const Planted& defect = mesh.planted[found];
+      bool inside = true;
+      const char* axes[] = {"x", "y", "z"};
+      for (std::size_t k = 0; k < 3; ++k)
+        inside = inside && row[std::string("min_") + axes[k]] <= center[k] &&
+                 center[k] <= row[std::string("max_") + axes[k]];
+      score.center_in_box += inside ? 1 : 0;
+      const bool kind = row["kind"] == (defect.tunnel ? "tunnel" : "handle");
+      const bool close = std::abs(length - defect.length()) <= 0.2 * defect.length();
+      score.right_kind += kind ? 1 : 0;
+      score.right_length += close ? 1 : 0;
+      if (!kind || !close || !inside)
+        score.misses << options.seed << ": radius " << defect.radius << ", length " << defect.length() << " is "
+                     << row.dump() << '\n';
+    }
+    score.planted += taken.size();
+    for (std::size_t d = 0; d < taken.size(); ++d)
+      if (!taken[d]) score.misses << options.seed << ": not listed: radius " << mesh.planted[d].radius << '\n';
+    const auto& suggested = json["suggested_threshold"]["length"];
+    const bool separated =
+        suggested.is_number() && longest_planted <= double(suggested) && double(suggested) < shortest_other;
+    score.separated += separated ? 1 : 0;
+    if (!separated)
+      score.misses << options.seed << ": suggested " << json["suggested_threshold"].dump() << ", longest planted "
+                   << longest_planted << ", shortest other " << shortest_other << '\n';
+  }
+
+ private:
+  static double number(const nlohmann::json& value) {
+    return value.is_string() ? std::numeric_limits<double>::infinity() : double(value);
+  }
+};
+
+TEST_F(PlantedDefects, AreListedFirstWithTheirKindAndLength) {
+  const std::size_t meshes = std::getenv("REEB_TEST_ALL") != nullptr ? 200 : 10;
+  Score score;
+  for (std::size_t i = 0; i < meshes; ++i) {
+    PlantedOptions options;
+    options.seed = i + 1;
+    options.noise = i % 3 == 0 ? 0.05 : 0;
+    options.inwards = i % 4 == 1;
+    look_at(options, score);
+  }
+  SCOPED_TRACE(score.misses.str());
+  const auto share = [](std::size_t part, std::size_t of) {
+    return static_cast<double>(part) / static_cast<double>(of);
+  };
+  EXPECT_GE(share(score.listed, score.planted), 0.99);
+  EXPECT_GE(share(score.right_kind, score.listed), 0.99);
+  EXPECT_EQ(score.center_in_box, score.listed);
+  EXPECT_GE(share(score.right_length, score.listed), 0.99);
+  EXPECT_GE(share(score.separated, score.meshes), 0.95);
+}
+
+}  // namespace
+}  // namespace reeb::test
