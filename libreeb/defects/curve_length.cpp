@@ -16,8 +16,8 @@ struct Crossing {
 };
 using Sleeve = std::vector<Crossing>;
 
-constexpr int kSweeps = 60, kTurns = 24;
-constexpr double kLeastMove = 2e-3;  // of a crossing, as a share of its edge
+constexpr int kSweeps = 100, kTurns = 16;
+constexpr double kLeastMove = 1e-3;  // of a crossing, as a share of its edge
 
 class Tightening {
  public:
@@ -40,7 +40,7 @@ class Tightening {
     for (int turn = 0; turn < kTurns && !sleeve_.empty(); ++turn) {
       for (int sweep = 0; sweep < kSweeps && relax() > kLeastMove; ++sweep) continue;
       const double now = length();
-      if (turn > 0 && now > best * (1 - 1e-6)) return std::min(best, now);
+      if (turn > 0 && now > best * (1 - 1e-4)) return std::min(best, now);
       best = std::min(best, now);
       if (!turn_corners()) break;
     }
@@ -48,8 +48,9 @@ class Tightening {
   }
 
  private:
+  // Near the vertex, not at it: crossings that coincide hold each other.
   double place_of(std::uint32_t e, std::uint32_t vertex) const {
-    return patch_.edge(e).a == vertex ? 0 : patch_.edge(e).length;
+    return patch_.edge(e).length * (patch_.edge(e).a == vertex ? 0.2 : 0.8);
   }
 
   Point point(const Crossing& crossing) const {
@@ -110,8 +111,8 @@ class Tightening {
   // The vertex at which the curve crosses this edge; kNone if it is between both.
   std::uint32_t corner(const Crossing& crossing) const {
     const auto& edge = patch_.edge(crossing.edge);
-    if (crossing.place < 1e-3 * edge.length) return edge.a;
-    return crossing.place > (1 - 1e-3) * edge.length ? edge.b : SurfacePatch::kNone;
+    if (crossing.place < 0.02 * edge.length) return edge.a;
+    return crossing.place > 0.98 * edge.length ? edge.b : SurfacePatch::kNone;
   }
 
   // Where the curve is held by a vertex, it passes on the other side of it from now on. Returns whether there is one.

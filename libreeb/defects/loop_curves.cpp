@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "libreeb/base/union_find.h"
 #include "libreeb/defects/curve_length.h"
 #include "libreeb/defects/loop_contours.h"
 
@@ -22,9 +23,32 @@ std::uint32_t triangles_passed(const SurfacePatch& patch, const ClosedPath& path
   return static_cast<std::uint32_t>(std::unique(triangles.begin(), triangles.end()) - triangles.begin());
 }
 
+// Whether the curve cuts off a part that stays in the patch, with boundaries of the mesh: a curve around a hole.
+bool cuts_off(const SurfacePatch& patch, const ClosedPath& path) {
+  std::vector<std::uint8_t> on_path(patch.edge_count(), 0);
+  std::vector<std::uint32_t> edges;
+  for (std::size_t i = 0; i < path.vertices.size(); ++i) {
+    edges.push_back(patch.edge_between(path.vertices[i], path.vertices[(i + 1) % path.vertices.size()]));
+    on_path[edges.back()] = 1;
+  }
+  const std::uint32_t outside = patch.triangle_count();
+  UnionFind part(outside + 1);
+  for (std::uint32_t e = 0; e < patch.edge_count(); ++e) {
+    if (on_path[e] != 0) continue;
+    const auto at = patch.triangles_at_edge(e);
+    for (const std::uint32_t t : at) part.unite(at[0], t);
+    if (at.size() == 1 && patch.at_rim(e)) part.unite(at[0], outside);
+  }
+  return std::ranges::any_of(edges, [&](std::uint32_t e) {
+    const auto at = patch.triangles_at_edge(e);
+    return at.size() == 2 && part.find(at[0]) != part.find(at[1]) &&
+           (part.find(at[0]) != part.find(outside) || part.find(at[1]) != part.find(outside));
+  });
+}
+
 LoopCurve curve_along(const SurfacePatch& patch, ClosedPath path) {
   LoopCurve curve;
-  if (auto left = left_of(patch, path)) curve.crossings = std::move(*left);
+  if (auto left = left_of(patch, path); left && !cuts_off(patch, path)) curve.crossings = std::move(*left);
   curve.triangles = triangles_passed(patch, path, curve.crossings);
   curve.length = curve.crossings.empty() ? path.length : tight_length(patch, path);
   curve.path = std::move(path);
@@ -41,26 +65,39 @@ const char* name_of(DefectKind kind) {
 LoopCurves loop_curves(const SurfacePatch& patch, std::span<const double> values, std::uint32_t v, std::uint32_t y) {
   LoopCurves curves;
   const std::vector<LoopContour> contours = loop_contours(patch, values, v, y);
-  ClosedPath shortest;
-  for (const LoopContour& contour : contours)
-    if (ClosedPath path = shortest_odd_cycle(patch, contour.crossings, contour.gates); path.length < shortest.length)
-      shortest = std::move(path);
-  if (shortest.exists()) {
-    curves.cycle = curve_along(patch, std::move(shortest));
+  if (contours.empty()) return curves;
+  const LoopContour& first = contours[0];
+  const std::vector<std::uint8_t> inner = inner_vertices(patch);
+  const auto cycle_in = [&](std::span<const std::uint8_t> allowed) {
+    ClosedPath shortest;
+    for (const LoopContour& contour : contours)
+      if (ClosedPath path = shortest_odd_cycle(patch, contour.crossings, contour.gates, allowed);
+          path.length < shortest.length)
+        shortest = std::move(path);
+    return shortest;
+  };
+  // A curve away from boundaries shows what the defect is.
+  if (ClosedPath path = cycle_in(inner); path.exists()) {
+    curves.cycle = curve_along(patch, std::move(path));
     if (!curves.cycle.crossings.empty())
-      if (ClosedPath path = shortest_odd_cycle(patch, curves.cycle.crossings, curves.cycle.path.vertices);
-          path.exists())
-        curves.contour = curve_along(patch, std::move(path));
+      if (ClosedPath other = shortest_odd_cycle(patch, curves.cycle.crossings, curves.cycle.path.vertices, inner);
+          other.exists())
+        curves.contour = curve_along(patch, std::move(other));
+    // A curve around a boundary, which the contour meets: no closed curve crosses it once.
+    if (first.end == ContourEnd::kBoundary && !curves.contour.path.exists()) curves.cycle.crossings.clear();
+  } else if (ClosedPath any = cycle_in(whole_vertices(patch)); any.exists()) {
+    curves.cycle = curve_along(patch, std::move(any));
   }
+  if (first.end != ContourEnd::kCloses) return curves;
   // The contour closes here and the cycle elsewhere: then a part of the cycle will do.
-  if (!curves.cycle.path.exists() && !contours.empty() && contours[0].end == ContourEnd::kCloses)
-    if (const ClosedPath arc = shortest_odd_arc(patch, contours[0].crossings); arc.exists())
+  if (!curves.cycle.path.exists())
+    if (const ClosedPath arc = shortest_odd_arc(patch, first.crossings); arc.exists())
       if (const auto left = left_of_arc(patch, arc))
-        if (ClosedPath path = shortest_odd_cycle(patch, *left, arc.vertices); path.exists())
+        if (ClosedPath path = shortest_odd_cycle(patch, *left, arc.vertices, inner); path.exists())
           curves.contour = curve_along(patch, std::move(path));
-  if (!contours.empty() && contours[0].end != ContourEnd::kRim && contours[0].length < curves.contour.length) {
-    curves.contour.length = contours[0].length;
-    if (!curves.contour.path.exists()) curves.contour.triangles = contours[0].triangles;
+  if (first.length < curves.contour.length) {
+    curves.contour.length = first.length;
+    if (!curves.contour.path.exists()) curves.contour.triangles = first.triangles;
   }
   return curves;
 }

@@ -15,10 +15,10 @@ constexpr double kGateSpacing = 0.1, kLeastSpacing = 0.02;
 // Searches in the double cover: state 2 * vertex + parity of crossings so far.
 class DoubleCover {
  public:
-  DoubleCover(const SurfacePatch& patch, const Crossings& crossings)
+  DoubleCover(const SurfacePatch& patch, const Crossings& crossings, std::span<const std::uint8_t> allowed)
       : patch_(patch),
         crossings_(crossings),
-        removed_(patch.vertex_count(), 0),
+        allowed_(allowed.begin(), allowed.end()),
         distance_(2 * std::size_t{patch.vertex_count()}, kFar),
         from_(distance_.size(), SurfacePatch::kNone) {}
 
@@ -47,7 +47,7 @@ class DoubleCover {
       for (const std::uint32_t e : patch_.edges_at(v)) {
         const auto& edge = patch_.edge(e);
         const std::uint32_t other = edge.a == v ? edge.b : edge.a;
-        if (removed_[other] != 0 || !patch_.whole(other)) continue;
+        if (allowed_[other] == 0) continue;
         reach(2 * other + ((state & 1) ^ crossings_[e]), length + edge.length, state);
       }
     }
@@ -55,12 +55,12 @@ class DoubleCover {
   }
 
   // Paths through this vertex are known.
-  void remove(std::uint32_t vertex) { removed_[vertex] = 1; }
+  void remove(std::uint32_t vertex) { allowed_[vertex] = 0; }
   // There is no odd path through what the last search reached.
   void remove_reached() {
-    for (const std::uint32_t state : touched_) removed_[state / 2] = 1;
+    for (const std::uint32_t state : touched_) allowed_[state / 2] = 0;
   }
-  bool removed(std::uint32_t vertex) const { return removed_[vertex] != 0; }
+  bool allows(std::uint32_t vertex) const { return allowed_[vertex] != 0; }
 
  private:
   static constexpr double kFar = std::numeric_limits<double>::infinity();
@@ -77,7 +77,7 @@ class DoubleCover {
 
   const SurfacePatch& patch_;
   const Crossings& crossings_;
-  std::vector<std::uint8_t> removed_;
+  std::vector<std::uint8_t> allowed_;
   std::vector<double> distance_;
   std::vector<std::uint32_t> from_, touched_;
 };
@@ -106,16 +106,29 @@ bool turn(const SurfacePatch& patch, std::uint32_t x, std::uint32_t from, std::u
 
 }  // namespace
 
+std::vector<std::uint8_t> whole_vertices(const SurfacePatch& patch) {
+  std::vector<std::uint8_t> result(patch.vertex_count(), 0);
+  for (std::uint32_t v = 0; v < patch.vertex_count(); ++v) result[v] = patch.whole(v) ? 1 : 0;
+  return result;
+}
+
+std::vector<std::uint8_t> inner_vertices(const SurfacePatch& patch) {
+  std::vector<std::uint8_t> result = whole_vertices(patch);
+  for (std::uint32_t e = 0; e < patch.edge_count(); ++e)
+    if (!patch.consistent(e)) result[patch.edge(e).a] = result[patch.edge(e).b] = 0;
+  return result;
+}
+
 ClosedPath shortest_odd_cycle(const SurfacePatch& patch, const Crossings& crossings,
-                              std::span<const std::uint32_t> gates) {
-  DoubleCover cover(patch, crossings);
+                              std::span<const std::uint32_t> gates, std::span<const std::uint8_t> allowed) {
+  DoubleCover cover(patch, crossings, allowed);
   ClosedPath best;
   std::vector<std::uint32_t> searched;
   const auto search = [&](std::uint32_t gate, double spacing) {
     const auto is_near = [&](std::uint32_t other) {
       return distance(patch.position(gate), patch.position(other)) < spacing * best.length;
     };
-    if (!patch.whole(gate) || cover.removed(gate) || (best.exists() && std::ranges::any_of(searched, is_near))) return;
+    if (!cover.allows(gate) || (best.exists() && std::ranges::any_of(searched, is_near))) return;
     searched.push_back(gate);
     ClosedPath path = cover.search(gate, best.length);
     if (path.exists())

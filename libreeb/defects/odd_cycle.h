@@ -18,16 +18,20 @@ struct ClosedPath {
   bool exists() const { return !vertices.empty(); }
 };
 
+// For each vertex: 1 if it is whole, and each of its edges has two triangles, oriented alike.
+std::vector<std::uint8_t> inner_vertices(const SurfacePatch& patch);
+std::vector<std::uint8_t> whole_vertices(const SurfacePatch& patch);
+
 // For each edge: 1 if it crosses the curve, an odd number of times. In each triangle an even number of edges does.
 using Crossings = std::vector<std::uint8_t>;
 
-// The shortest closed path through whole vertices that uses an odd number of crossing edges; no path if there is none.
-// It is simple, since an odd path that met itself would contain a shorter one. `gates` are vertices of which every such
-// path has one. Of gates that are near each other, compared with the length of the path, not all are searched: it can
-// be a few per cent longer than the shortest. TIME: some 20 searches in the patch, each of which ends where a path
-// would be longer than the best so far.
+// The shortest closed path through these vertices (1: allowed) that uses an odd number of crossing edges; no path if
+// there is none. It is simple, since an odd path that met itself would contain a shorter one. `gates` are vertices of
+// which every such path has one. Of gates that are near each other, compared with the length of the path, not all are
+// searched: it can be a few per cent longer than the shortest. TIME: some 20 searches in the patch, each of which ends
+// where a path would be longer than the best so far.
 ClosedPath shortest_odd_cycle(const SurfacePatch& patch, const Crossings& crossings,
-                              std::span<const std::uint32_t> gates);
+                              std::span<const std::uint32_t> gates, std::span<const std::uint8_t> allowed);
 
 // The shortest path that crosses the curve an odd number of times and leaves the patch at both ends: all of its
 // vertices but the first and the last are whole. No path if there is none. TIME: one search.

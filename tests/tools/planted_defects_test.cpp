@@ -35,6 +35,9 @@ bool is_at(const Planted& defect, const Vector& p) {
   return along > -0.1 && along < 1.1 && std::sqrt(side) < 0.6 * defect.radius + 1;
 }
 
+// Of a closed surface of one component: each edge is in two triangles.
+std::size_t genus(const PlantedMesh& mesh) { return (2 + mesh.triangles.size() / 2 - mesh.vertices.size()) / 2; }
+
 class PlantedDefects : public ProgramTest {
  protected:
   void look_at(const PlantedOptions& options, Score& score) {
@@ -43,7 +46,7 @@ class PlantedDefects : public ProgramTest {
     expect_success(reeb({"defects", "m.off", "-o", "d.json", "--force", "--quiet"}));
     const auto json = nlohmann::json::parse(file("d.json"));
     const auto& loops = json["loops"];
-    EXPECT_EQ(loops.size(), mesh.planted.size() + mesh.genuine) << options.seed;
+    EXPECT_EQ(loops.size(), genus(mesh)) << options.seed;
     ++score.meshes;
     std::vector<bool> taken(mesh.planted.size(), false);
     double longest_planted = 0, shortest_other = std::numeric_limits<double>::infinity();
@@ -97,7 +100,7 @@ class PlantedDefects : public ProgramTest {
 };
 
 TEST_F(PlantedDefects, AreListedFirstWithTheirKindAndLength) {
-  const std::size_t meshes = std::getenv("REEB_TEST_ALL") != nullptr ? 200 : 10;
+  const std::size_t meshes = std::getenv("REEB_TEST_ALL") != nullptr ? 200 : 6;
   Score score;
   for (std::size_t i = 0; i < meshes; ++i) {
     PlantedOptions options;

@@ -1,8 +1,10 @@
 // `reeb defects MESH [FILE.reeb ...]`: the small handles and tunnels of a surface, placed, measured and ranked.
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <limits>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -14,6 +16,7 @@
 #include "tools/commands/commands.h"
 #include "tools/defects/defect_text.h"
 #include "tools/defects/find_defects.h"
+#include "tools/defects/patch_files.h"
 #include "tools/library/run_files.h"
 #include "tools/program/image_options.h"
 #include "tools/program/input_kind.h"
@@ -25,10 +28,13 @@
 namespace reeb::tools {
 namespace {
 
+constexpr std::size_t kNoLimit = std::numeric_limits<std::size_t>::max();
+constexpr std::size_t kMostPatches = 20;  // that are written if nothing else is said
+
 struct DefectsOptions {
   FindDefectsOptions find;
   std::string below, longest, output, patches;
-  std::size_t limit = std::numeric_limits<std::size_t>::max();
+  std::size_t limit = kNoLimit;
   bool force = false, quiet = false;
 };
 
@@ -94,6 +100,12 @@ void run_defects(DefectsOptions options) {
   for (std::size_t i = 0; i < defects.table.rows.size() && rows.size() < options.limit; ++i)
     if (filter.lists(defects.table.rows[i])) rows.push_back({i + 1, &defects.table.rows[i]});
   if (options.output != "-") fmt::print("{}", defect_table(defects, rows));
+  if (!options.patches.empty()) {
+    const std::size_t most = options.limit == kNoLimit ? kMostPatches : rows.size();
+    const ValuedMesh mesh(options.find.mesh, defects.functions);
+    write_patches(mesh, defects, std::span(rows).first(std::min(rows.size(), most)), options.patches,
+                  existing_outputs(options.force));
+  }
   if (options.output.empty()) return;
   write_output(options.output, options.force, [&](std::ostream& out) {
     if (is_json(options.output))
@@ -123,6 +135,10 @@ void add_defects(CLI::App& program) {
       ->type_name("T");
   command->add_option("--longest", options->longest, "Only loops with a curve of at most this length")
       ->type_name("LENGTH");
+  command
+      ->add_option("--patches", options->patches,
+                   "Folder for the surface around the rows (without --limit: the first 20) and their curves, as PLY")
+      ->type_name("DIR");
   add_count(*command, "--limit", options->limit, "At most N rows", {.least = 1});
   add_format(*command, options->find.mesh.format);
   add_image_options(*command, options->find.mesh.image);

@@ -110,6 +110,14 @@ bool adds_a_class(const SurfacePatch& patch, const Candidate& candidate, std::sp
   return !bounds_with(patch, edges, others);
 }
 
+bool same_path(const Candidate& a, const Candidate& b) {
+  const auto sorted = [](std::vector<VertexId> path) {
+    std::sort(path.begin(), path.end());
+    return path;
+  };
+  return a.curve->path.size() == b.curve->path.size() && sorted(a.curve->path) == sorted(b.curve->path);
+}
+
 void choose_in_cluster(const ooc::CollectedSurface& surface, std::vector<Candidate>& all,
                        std::span<const std::uint32_t> cluster) {
   std::vector<const Candidate*> taken;
@@ -125,8 +133,14 @@ void choose_in_cluster(const ooc::CollectedSurface& surface, std::vector<Candida
           near.push_back(other);
           balls.push_back(other->ball);
         }
-      const auto patch = surface.cut(candidate.curve->path, balls, 8 * PatchScale::kMostVertices);
-      candidate.taken = adds_a_class(patch.surface, candidate, near);
+      // Nothing near: it is no boundary by itself, since another curve crosses it once. Functions often find the same
+      // path.
+      const bool known =
+          std::ranges::any_of(near, [&](const Candidate* other) { return same_path(*other, candidate); });
+      candidate.taken = near.empty() || (!known && [&] {
+                          const auto patch = surface.cut(candidate.curve->path, balls, 8 * PatchScale::kMostVertices);
+                          return adds_a_class(patch.surface, candidate, near);
+                        }());
     }
     if (candidate.taken) taken.push_back(&candidate);
   }
@@ -183,6 +197,8 @@ DefectRow row_of(const LoopList& list, std::uint32_t number, const FoundCurves& 
     };
     row.length_contour = length(found.contour);
     row.length_cycle = length(found.cycle);
+    const FoundCurve& other = curve == &found.contour ? found.cycle : found.contour;
+    if (length(other) < std::numeric_limits<double>::infinity()) row.other_path = other.path;
     return row;
   }
   for (std::size_t k = 0; k < 3; ++k) {

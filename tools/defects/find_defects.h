@@ -22,7 +22,7 @@ struct FindDefectsOptions {
 struct Defects {
   std::vector<std::string> functions;  // of the rows
   DefectTable table;
-  std::vector<std::string> notes;
+  PatchScale scale;
 };
 
 // THROWS: as compute(); Error{kBadInput} for a graph of another mesh.

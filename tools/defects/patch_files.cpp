@@ -1,0 +1,139 @@
+#include "tools/defects/patch_files.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <system_error>
+
+#include "io/file/file_ostream.h"
+#include "io/text/output_buffer.h"
+#include "libreeb/base/error.h"
+#include "ooc/patches/collected_surface.h"
+
+namespace reeb::tools {
+namespace {
+
+constexpr std::size_t kMostVertices = 200'000;
+
+std::string name(const std::string& folder, std::size_t rank, const char* ending) {
+  return fmt::format("{}/defect-{}{}.ply", folder, rank, ending);
+}
+
+struct Place {
+  std::vector<VertexId> seeds;
+  std::vector<ooc::Ball> balls;
+};
+
+Place place_of(const DefectRow& row, const PatchScale& scale) {
+  Place place{row.curve.path, {}};
+  const double width = distance(row.curve.box[0], row.curve.box[1]);
+  if (place.seeds.empty()) place.seeds = {row.lo.key.vertex, row.hi.key.vertex};
+  if (!row.curve.path.empty()) {
+    place.balls.push_back({row.curve.center, 1.5 * width + 4 * scale.edge});
+  } else {
+    for (const SettledNode* node : {&row.lo, &row.hi}) place.balls.push_back({node->position, 12 * scale.edge});
+  }
+  return place;
+}
+
+// From blue by white to red.
+std::array<int, 3> color(double part) {
+  const auto level = [](double x) { return static_cast<int>(std::lround(255 * std::clamp(x, 0.0, 1.0))); };
+  return {level(2 * part), level(1 - std::abs(2 * part - 1)), level(2 - 2 * part)};
+}
+
+void write_file(const std::string& path, io::Existing existing, const std::string& text) {
+  io::AtomicFile file(path, {.existing = existing});
+  io::FileOstream stream(file.out());
+  stream << text;
+  stream.flush();
+  file.commit();
+}
+
+std::string surface_text(const SurfacePatch& patch, std::span<const double> values) {
+  const auto [least, most] = std::ranges::minmax(values);
+  std::string text = fmt::format(
+      "ply\nformat ascii 1.0\nelement vertex {}\nproperty double x\nproperty double y\nproperty double z\n"
+      "property uchar red\nproperty uchar green\nproperty uchar blue\nproperty double value\n"
+      "element face {}\nproperty list uchar int vertex_indices\nend_header\n",
+      patch.vertex_count(), patch.triangle_count());
+  for (std::uint32_t v = 0; v < patch.vertex_count(); ++v) {
+    const Point& p = patch.position(v);
+    const auto [r, g, b] = color(most > least ? (values[v] - least) / (most - least) : 0.5);
+    text += fmt::format("{} {} {} {} {} {} {}\n", p[0], p[1], p[2], r, g, b, values[v]);
+  }
+  for (std::uint32_t t = 0; t < patch.triangle_count(); ++t) {
+    const auto& c = patch.triangle(t);
+    text += fmt::format("3 {} {} {}\n", c[0], c[1], c[2]);
+  }
+  return text;
+}
+
+std::string curves_text(const SurfacePatch& patch, const DefectRow& row) {
+  std::string vertices, edges;
+  std::size_t vertex_count = 0, edge_count = 0;
+  for (const auto* path : {&row.curve.path, &row.other_path}) {
+    std::vector<std::uint32_t> local;
+    for (const VertexId vertex : *path) local.push_back(patch.find(vertex));
+    // A curve that leaves the file is not drawn in part.
+    if (local.empty() || std::ranges::find(local, SurfacePatch::kNone) != local.end()) continue;
+    const char* rgb = path == &row.curve.path ? "255 0 0" : "0 160 0";
+    for (std::size_t i = 0; i < local.size(); ++i) {
+      const Point& p = patch.position(local[i]);
+      vertices += fmt::format("{} {} {} {}\n", p[0], p[1], p[2], rgb);
+      edges += fmt::format("{} {} {}\n", vertex_count + i, vertex_count + (i + 1) % local.size(), rgb);
+    }
+    vertex_count += local.size();
+    edge_count += local.size();
+  }
+  return fmt::format(
+             "ply\nformat ascii 1.0\nelement vertex {}\nproperty double x\nproperty double y\nproperty double z\n"
+             "property uchar red\nproperty uchar green\nproperty uchar blue\nelement edge {}\n"
+             "property int vertex1\nproperty int vertex2\nproperty uchar red\nproperty uchar green\n"
+             "property uchar blue\nend_header\n",
+             vertex_count, edge_count) +
+         vertices + edges;
+}
+
+}  // namespace
+
+std::vector<std::string> patch_names(std::span<const RankedRow> rows, const std::string& folder) {
+  std::vector<std::string> names;
+  for (const RankedRow& ranked : rows)
+    for (const char* ending : {"", "-curves"}) names.push_back(name(folder, ranked.rank, ending));
+  return names;
+}
+
+void write_patches(const ValuedMesh& mesh, const Defects& defects, std::span<const RankedRow> rows,
+                   const std::string& folder, io::Existing existing) {
+  std::error_code failure;
+  std::filesystem::create_directories(folder, failure);
+  if (failure)
+    throw Error(ErrorKind::kResource, "the folder cannot be created: " + failure.message(),
+                "name a folder that can be written")
+        .at(folder);
+  for (const std::string& path : patch_names(rows, folder)) io::check_output_name(path, existing);
+  std::vector<Place> places;
+  std::vector<ooc::Ball> balls;
+  for (const RankedRow& ranked : rows) {
+    places.push_back(place_of(*ranked.row, defects.scale));
+    balls.insert(balls.end(), places.back().balls.begin(), places.back().balls.end());
+  }
+  MemoryBudget budget;
+  ooc::CollectedSurface surface(balls, defects.functions.size(), budget);
+  mesh.read([&](const MeshBatch& batch, std::span<const std::vector<double>> values, std::uint64_t, std::uint64_t) {
+    surface.add(batch, values);
+  });
+  surface.finish();
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const DefectRow& row = *rows[i].row;
+    const auto patch = surface.cut(places[i].seeds, places[i].balls, kMostVertices);
+    write_file(name(folder, rows[i].rank, ""), existing, surface_text(patch.surface, patch.values[row.function]));
+    write_file(name(folder, rows[i].rank, "-curves"), existing, curves_text(patch.surface, row));
+  }
+}
+
+}  // namespace reeb::tools
