@@ -74,6 +74,13 @@ void BucketLists::add_vertex(List& list, double value, const Point& position) {
   merge(list, vertex);
 }
 
+void BucketLists::add(List& list, const BucketSum& bucket) {
+  if (list.empty() || links_[list.last].index <= bucket.index) return append(list, bucket);
+  List one;
+  append(one, bucket);
+  merge(list, one);
+}
+
 void BucketLists::remove_first(List& list) {
   const Index first = links_[list.last].next;
   if (first == list.last)

@@ -112,6 +112,8 @@ class BucketLists {
 
   // Adds a vertex. O(1) at the list's ends.
   void add_vertex(List& list, double value, const Point& position);
+  // Adds vertices of one bucket. O(1) at the list's ends.
+  void add(List& list, const BucketSum& bucket);
   // REQUIRES: the list's last index <= this one.
   void append(List& list, const BucketSum& bucket);
   // Moves the buckets of `upper` to the end of `lower`. O(1).

@@ -39,11 +39,18 @@ enum VertexUse : std::uint8_t {
   kUsedLater = 2,
 };
 
+// Faces of a box of grid vertices, as a set of bits: 2 * k for the low end of axis k, 2 * k + 1 for its high end.
+using BoxFaces = std::uint8_t;
+constexpr BoxFaces low_face(std::size_t axis) { return static_cast<BoxFaces>(1u << (2 * axis)); }
+constexpr BoxFaces high_face(std::size_t axis) { return static_cast<BoxFaces>(2u << (2 * axis)); }
+inline constexpr BoxFaces kHighFaces = high_face(0) | high_face(1) | high_face(2);
+
 // Vertices along each axis of a box of grid vertices; vertex (i, j, k) has the number i + box[0] * (j + box[1] * k).
 using BoxSize = std::array<std::uint32_t, 3>;
 
 // Local vertex i is ids[i], uses[i]; each mesh vertex occurs once. Vertices without a simplex are isolated points of
-// the chunk. Function values are not part of it: they are in one array per function, finite, without -0.0.
+// the chunk. Of a box, uses[i] is the set of shared faces that the vertex is on. Function values are not part of it:
+// they are in one array per function, finite, without -0.0.
 struct Chunk {
   std::vector<VertexId> ids;
   std::vector<std::uint8_t> uses;
@@ -51,9 +58,7 @@ struct Chunk {
   std::vector<std::uint32_t> corners;  // three local vertices per triangle, repeats legal
   // Set instead of corners if the chunk is a box of a grid with all of its simplices (libreeb/grid/box_sweep.h).
   BoxSize box{};
-  // The faces of the box that other boxes have, too: bit 2 * k for the low end of axis k, bit 2 * k + 1 for its high
-  // end.
-  std::uint8_t shared_faces = 0;
+  BoxFaces shared_faces = 0;  // that other boxes have, too
 
   std::size_t vertex_count() const { return ids.size(); }
   std::size_t triangle_count() const { return corners.size() / 3; }

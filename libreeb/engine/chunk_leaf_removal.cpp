@@ -44,8 +44,11 @@ void ChunkLeafRemoval::choose_whole_nodes() {
   constexpr std::size_t kNodesPerLeaf = 32;  // with more, examining all nodes does not pay
   const bool all = candidates_.size() * kNodesPerLeaf >= graph_->nodes.size();
   whole_.assign(graph_->nodes.size(), all ? 1 : 0);
-  if (all) return;
-  for (const SweepArc a : arcs_) whole_[graph_->arcs[a].lo] = whole_[graph_->arcs[a].hi] = 1;
+  if (!all)
+    for (const SweepArc a : arcs_) whole_[graph_->arcs[a].lo] = whole_[graph_->arcs[a].hi] = 1;
+  if (swept_->stars != nullptr) return;
+  for (SweepNode n; n < graph_->nodes.end_id(); ++n)
+    if (graph_->nodes[n].lost_arcs) whole_[n] = 0;
 }
 
 // The reaches that are found here never change. A leaf is removed only if its saddle reaches beyond it, and joining
@@ -88,12 +91,17 @@ void ChunkLeafRemoval::try_leaf(SweepNode leaf, Direction d) {
   settle(saddle);
 }
 
-// The path leads to the farthest node that the saddle reaches.
+// The path leads to the farthest node that the saddle reaches. Where noise is dense, it passes thousands of arcs. When
+// it has passed a few and has come to the bucket of the leaf, the rest goes whole to the arc there.
 void ChunkLeafRemoval::move_buckets(SweepNode leaf, SweepArc arc, Direction d) {
+  constexpr std::size_t kArcsToDivideFor = 16;
   path_.clear();
   SweepNode node = graph_->arcs[arc].end(opposite(d));
   const double saddle_value = value(node);
+  const int exponent = graph_->buckets.exponent();
+  const std::int64_t last_bucket = bucket_index(value(leaf), exponent);
   while (along(d, node) < along(d, leaf)) {
+    if (path_.size() >= kArcsToDivideFor && bucket_index(value(node), exponent) == last_bucket) break;
     const SweepArc step = nodes_[node].via[d];
     node = graph_->arcs[step].end(d);
     path_.push_back({&graph_->arc_buckets[step], value(node)});

@@ -249,6 +249,7 @@ void ChunkSweep::Scratch::run(const Chunk& chunk_in, std::span<const double> val
     }
     while (v < end) visit(v++);
   }
+  builder.end_sweep(swept_chunk);
   builder.finish(swept_chunk, shared_edges, fragment);
 }
 

@@ -22,12 +22,15 @@ struct Fragment {
   SweepOptions options;
   std::size_t removed_pairs = 0;  // leaves that were removed as noise
 
-  // Open nodes. A node that is used here only is complete from the start. A settled node cannot change, and some of its
-  // arcs are already among the settled arcs; it is open because others are not.
+  // Of a box of a grid, or of several: the faces that other boxes have, too. There are no shared edges then.
+  BoxFaces shared_faces = 0;
+
+  // Open nodes; of boxes ascending. A node that is used here only is complete from the start. A settled node cannot
+  // change, and some of its arcs are already among the settled arcs; it is open because others are not.
   struct Node {
     SweepKey key;
-    std::uint8_t uses = 0;  // VertexUse
-    bool settled = false;
+    std::uint8_t uses = 0;  // VertexUse; of a box: the shared faces that it is on
+    bool settled : 1 = false;
   };
   std::vector<Node> nodes;
   std::vector<Point> positions;  // one per node, or empty
@@ -57,8 +60,8 @@ struct Fragment {
   };
   std::vector<Step> steps;
 
-  // Of a box of a grid: vertices that earlier boxes have, and no later ones, and that are regular here. `arc` passes
-  // them. They are complete after the steps.
+  // Of a box of a grid: vertices that earlier boxes have, and no later ones, and that are no nodes here. `arc` passes
+  // them.
   struct Passed {
     VertexId vertex;
     FragmentArc arc;
@@ -79,6 +82,7 @@ struct Fragment {
   void clear() {
     options = {};
     removed_pairs = 0;
+    shared_faces = 0;
     nodes.clear();
     positions.clear();
     arcs.clear();

@@ -24,19 +24,68 @@ SweepArc FragmentBuilder::add_arc(SweepNode lower_node) {
   return graph_.arcs.add({lower_node, SweepNode::none(), FragmentArc::none(), false});
 }
 
-void FragmentBuilder::finish(const SweptChunk& swept, const SharedEdges& shared, Fragment& fragment) {
+void FragmentBuilder::end_sweep(const SweptChunk& swept) {
+  for (SweepGraph::Node& node : graph_.nodes) node.key = swept.key(node.vertex);
+  if (options_.bucket_exponent) add_positions(swept.chunk);
+}
+
+void FragmentBuilder::start_fragment(const SweptChunk& swept, Fragment& fragment) {
   fragment.clear();
   fragment.options = options_;
   fragment.triangle_count = swept.chunk.triangle_count();
-  for (SweepGraph::Node& node : graph_.nodes) node.key = swept.key(node.vertex);
-  if (options_.bucket_exponent) add_positions(swept.chunk);
+  fragment.shared_faces = swept.chunk.shared_faces;
   if (options_.noise_below > 0) fragment.removed_pairs = leaf_removal_.run(graph_, swept, options_.noise_below);
+}
+
+void FragmentBuilder::finish(const SweptChunk& swept, const SharedEdges& shared, Fragment& fragment) {
+  start_fragment(swept, fragment);
   sort_steps(swept, shared);
   trace_paths(shared, fragment);
   division_.run(graph_, swept, options_, fragment);
   fragment.path_arcs.reserve(path_arcs_.size());
   for (const SweepArc arc : path_arcs_) fragment.path_arcs.push_back(graph_.arcs[arc].open);
   add_steps(shared, fragment);
+}
+
+void FragmentBuilder::finish_tree(const SweptChunk& swept, Fragment& fragment) {
+  start_fragment(swept, fragment);
+  mark_arcs_between_used(swept);
+  division_.run(graph_, swept, options_, fragment);
+}
+
+// Takes leaves away that no other chunk uses, until there are none.
+void FragmentBuilder::mark_arcs_between_used(const SweptChunk& swept) {
+  degrees_.assign(graph_.nodes.size(), 0);
+  arcs_xor_.assign(graph_.nodes.size(), 0);
+  const auto toggle = [&](SweepNode n, SweepArc arc, int change) {
+    degrees_[n.value()] += static_cast<std::uint32_t>(change);
+    arcs_xor_[n.value()] ^= arc.value();
+  };
+  for (SweepArc a; a < graph_.arcs.end_id(); ++a) {
+    SweepGraph::Arc& arc = graph_.arcs[a];
+    if (arc.gone()) continue;
+    arc.referenced = true;
+    toggle(arc.lo, a, 1);
+    toggle(arc.hi, a, 1);
+  }
+  const auto is_unused_leaf = [&](SweepNode n) {
+    return degrees_[n.value()] == 1 && swept.uses(graph_.nodes[n].vertex) == kUsedHereOnly;
+  };
+  leaves_.clear();
+  for (SweepNode n; n < graph_.nodes.end_id(); ++n)
+    if (is_unused_leaf(n)) leaves_.push_back(n);
+  while (!leaves_.empty()) {
+    const SweepNode leaf = leaves_.back();
+    leaves_.pop_back();
+    if (degrees_[leaf.value()] == 0) continue;  // the other end of the last arc
+    const SweepArc a(arcs_xor_[leaf.value()]);
+    SweepGraph::Arc& arc = graph_.arcs[a];
+    arc.referenced = false;
+    const SweepNode other = arc.lo == leaf ? arc.hi : arc.lo;
+    toggle(leaf, a, -1);
+    toggle(other, a, -1);
+    if (is_unused_leaf(other)) leaves_.push_back(other);
+  }
 }
 
 // Adds the positions in the order of memory, which is faster than that of the sweep.
@@ -89,7 +138,8 @@ void FragmentBuilder::add_steps(const SharedEdges& shared, Fragment& fragment) c
 
 std::size_t FragmentBuilder::memory_bytes() const {
   return graph_.memory_bytes() + leaf_removal_.memory_bytes() + division_.memory_bytes() + 8 * steps_.capacity() +
-         4 * (node_of_.capacity() + bucket_of_.capacity() + path_arcs_.capacity());
+         4 * (node_of_.capacity() + bucket_of_.capacity() + path_arcs_.capacity() + degrees_.capacity() +
+              arcs_xor_.capacity() + leaves_.capacity());
 }
 
 }  // namespace reeb

@@ -35,11 +35,23 @@ class FragmentBuilder {
 
   // What was recorded so far.
   const SweepGraph& graph() const { return graph_; }
+  // Notes that a node has settled arcs, too, which are not recorded.
+  void set_lost_arcs(SweepNode node) { graph_.nodes[node].lost_arcs = true; }
   // After finish(): the open arc of the fragment that has this arc.
   FragmentArc open_arc(SweepArc arc) const { return graph_.arcs[graph_.present(arc)].open; }
 
-  // Replaces `fragment`. REQUIRES: every arc has both ends; `shared` has all shared edges of the chunk.
+  // To be called when the sweep is over. REQUIRES: every arc has both ends.
+  void end_sweep(const SweptChunk& swept);
+  // After that, if there is an embedding: vertices of the arc that are not vertices of the chunk.
+  void add_bucket(SweepArc arc, const BucketSum& bucket) { graph_.buckets.add(graph_.arc_buckets[arc], bucket); }
+  void add_vertex(SweepArc arc, double value, const Point& position) {
+    graph_.buckets.add_vertex(graph_.arc_buckets[arc], value, position);
+  }
+  // Replaces `fragment`. REQUIRES: `shared` has all shared edges of the chunk.
   void finish(const SweptChunk& swept, const SharedEdges& shared, Fragment& fragment);
+  // The same where the graph is a tree, and other chunks can change the arcs between vertices that they use, and no
+  // others.
+  void finish_tree(const SweptChunk& swept, Fragment& fragment);
   std::size_t memory_bytes() const;
 
  private:
@@ -60,6 +72,8 @@ class FragmentBuilder {
   };
 
   void add_positions(const Chunk& chunk);
+  void start_fragment(const SweptChunk& swept, Fragment& fragment);
+  void mark_arcs_between_used(const SweptChunk& swept);
   void sort_steps(const SweptChunk& swept, const SharedEdges& shared);
   void trace_paths(const SharedEdges& shared, Fragment& fragment);
   void add_steps(const SharedEdges& shared, Fragment& fragment) const;
@@ -72,6 +86,8 @@ class FragmentBuilder {
   IdVector<LocalVertex, BucketLists::Index> bucket_of_;  // kNowhere for nodes
   std::vector<PackedStep> steps_;                        // sorted
   std::vector<SweepArc> path_arcs_;                      // as in the fragment
+  std::vector<std::uint32_t> degrees_, arcs_xor_;        // of a tree, by node
+  std::vector<SweepNode> leaves_;
 };
 
 }  // namespace reeb

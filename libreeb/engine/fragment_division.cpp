@@ -27,7 +27,7 @@ void find_changing_nodes(SweepGraph& graph, const SweptChunk& swept, double nois
   const auto lasts = [](const Side& side) { return !side.any || (side.several && side.loose); };
   for (SweepGraph::Node& node : nodes) {
     const bool stays = node.near_noise ? !node.up.tied && !node.down.tied : lasts(node.up) || lasts(node.down);
-    node.can_change = swept.uses(node.vertex) != kUsedHereOnly || !stays;
+    node.can_change = swept.uses(node.vertex) != kUsedHereOnly || !(stays || node.lost_arcs);
   }
 }
 
@@ -74,7 +74,7 @@ void FragmentDivision::divide_arcs(SweepGraph& graph, bool embeds, Fragment& fra
 }
 
 // Open nodes, arcs and edges are numbered in stream order, not in the order of the sweep. So what is glued together is
-// near each other in memory.
+// near each other in memory. Those of boxes stay in the order of the sweep.
 void FragmentDivision::add_nodes(SweepGraph& graph, const SweptChunk& swept, Fragment& fragment) {
   node_at_.assign(swept.order.size(), SweepNode::none());
   for (SweepNode n; n < graph.nodes.end_id(); ++n) {
@@ -83,7 +83,7 @@ void FragmentDivision::add_nodes(SweepGraph& graph, const SweptChunk& swept, Fra
     if (node.open == FragmentNode::none())
       fragment.settled_nodes.push_back({node.key, swept.position(node.vertex)});
     else
-      node_at_[swept.local(node.vertex)] = n;
+      node_at_[swept.stars != nullptr ? swept.local(node.vertex) : LocalVertex(node.vertex.value())] = n;
   }
   for (const SweepNode n : node_at_) {
     if (n == SweepNode::none()) continue;

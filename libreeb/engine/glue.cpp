@@ -16,10 +16,8 @@ void Glue::add(const Fragment& fragment) {
   add_nodes(fragment);
   add_arcs(fragment);
   add_paths(fragment);
-  add_passed(fragment);
   for (const Index a : arcs_) graph_.release(a);
   run_steps(fragment);
-  for (const Index n : passed_) complete_node(n);
   graph_.tidy();
   graph_.flush();
 }
@@ -72,17 +70,6 @@ LiveGraph::Index Glue::add_path(const Fragment& fragment, std::size_t edge) {
   for (std::size_t i = fragment.path_begin[edge + 1]; i-- > fragment.path_begin[edge];)
     top = graph_.add_reference(arcs_[fragment.path_arcs[i].value()], top);
   return top;
-}
-
-// A vertex that no box has as a node is regular: it is on the arc that passes it.
-void Glue::add_passed(const Fragment& fragment) {
-  passed_.clear();
-  for (const Fragment::Passed& passed : fragment.passed) {
-    if (const Index n = node_of_.find(passed.vertex.value()); n != kNone)
-      passed_.push_back(n);
-    else
-      graph_.add_vertex(arcs_[passed.arc.value()], passed.value, passed.position);
-  }
 }
 
 // Vertices are completed between zips, in stream order. That keeps short the paths that are still to be zipped.
@@ -147,7 +134,7 @@ void Glue::unlink(Index l, Index n) {
 std::size_t Glue::memory_bytes() const {
   return graph_.memory_bytes() + node_of_.memory_bytes() + edge_of_.memory_bytes() + edges_.memory_bytes() +
          links_.memory_bytes() + first_link_.memory_bytes() + (nodes_.capacity() + arcs_.capacity()) * sizeof(Index) +
-         pending_.capacity() * sizeof(Pending) + passed_.capacity() * sizeof(Index);
+         pending_.capacity() * sizeof(Pending);
 }
 
 std::size_t Glue::memory_bytes_with(const Fragment& fragment) const {

@@ -54,6 +54,8 @@ class Glue {
   const LiveGraph& graph() const { return graph_; }
   std::size_t live_vertices() const { return node_of_.size(); }
   std::size_t live_edges() const { return edge_of_.size(); }
+  std::size_t live_arcs() const { return graph_.arc_count(); }
+  std::uint64_t vertex_bound() const { return graph_.vertex_bound(); }  // more than the id of any node's vertex
   std::size_t memory_bytes() const;
   // The most that adding this fragment can make of it, apart from arrays that are far smaller.
   std::size_t memory_bytes_with(const Fragment& fragment) const;
@@ -78,7 +80,6 @@ class Glue {
   void add_paths(const Fragment& fragment);
   Index add_path(const Fragment& fragment, std::size_t edge);
   void run_steps(const Fragment& fragment);
-  void add_passed(const Fragment& fragment);
   void add_edge(Index lo, Index hi, Index top);
   void drop_edge(Index edge);
   void link(Index link, Index node);
@@ -104,7 +105,6 @@ class Glue {
     Index top = kNone;   // of the fragment's path
   };
   std::vector<Pending> pending_;  // by shared edge of the fragment
-  std::vector<Index> passed_;     // nodes of vertices that are regular in the fragment
 };
 
 }  // namespace reeb

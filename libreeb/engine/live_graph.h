@@ -60,10 +60,6 @@ class LiveGraph {
   void release(Index arc);
   // The embedding of an arc that was just added. REQUIRES: buckets of the exponent in the options.
   void add_buckets(Index arc, std::span<const BucketSum> buckets);
-  // Adds a regular vertex of the arc to its embedding, if there is one.
-  void add_vertex(Index arc, double value, const Point& position) {
-    if (embeds_) buckets_.add_vertex(arc_buckets_[arc], value, position);
-  }
   const SweepKey& key(Index node) const { return nodes_[node].key; }
   bool has_nodes(std::size_t count) const { return nodes_.size() == count; }  // free ones included
   bool is_incomplete(Index node) const { return nodes_[node].used && nodes_[node].state == State::kIncomplete; }

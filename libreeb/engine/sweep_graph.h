@@ -31,7 +31,7 @@ struct SweepGraph {
     Side up, down;
     bool near_noise;    // it has an arc that is short enough to be noise
     bool can_change;    // not certain to be a node of the final graph
-    bool lost_arcs;     // some of its arcs are settled
+    bool lost_arcs;     // some of its arcs are settled; of boxes, some may have been before the sweep
     FragmentNode open;  // its id in the fragment, or none()
   };
   struct Arc {
@@ -90,10 +90,8 @@ struct SweptChunk {
   std::uint8_t uses(VertexRank v) const { return chunk.uses[local(v).value()]; }
   double value(VertexRank v) const { return values[local(v).value()]; }
   SweepKey key(VertexRank v) const { return {value(v), chunk.ids[local(v).value()]}; }
-  // The place of the last triangle that uses v. The vertices of a box are completed at its end.
-  std::uint32_t last_place(VertexRank v) const {
-    return stars != nullptr ? stars->last_place(v.value()) : static_cast<std::uint32_t>(order.size());
-  }
+  // The place of the last triangle that uses v.
+  std::uint32_t last_place(VertexRank v) const { return stars->last_place(v.value()); }
   // The rank of the first vertex above v that is not in the bucket of this index.
   std::uint32_t end_of_bucket(std::uint32_t v, std::int64_t index, int exponent) const;
   Point position(VertexRank v) const { return chunk.positions.empty() ? Point{} : chunk.positions[local(v).value()]; }

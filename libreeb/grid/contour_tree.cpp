@@ -3,6 +3,8 @@
 #include <bit>
 #include <utility>
 
+#include "libreeb/base/state_stream.h"
+
 namespace reeb {
 namespace {
 
@@ -69,12 +71,37 @@ void ContourTree::build(const BoxSize& size, std::span<const std::uint32_t> orde
   count_ = static_cast<std::uint32_t>(order.size());
   place(size, order);
   find_groups();
-  sweep(true);
-  sweep(false);
+  for (const bool up : {true, false})
+    sweep(up, [this, up](std::uint32_t v, const auto& visit) {
+      const std::uint32_t* const here = padded_rank_.data() + place_[v];
+      for (unsigned set = groups_[v][up ? 0 : 1]; set != 0; set &= set - 1)
+        visit(here[offsets_[static_cast<std::size_t>(std::countr_zero(set))]]);
+    });
   merge();
 }
 
+void ContourTree::build(std::uint32_t count, std::span<const Arc> arcs) {
+  count_ = count;
+  for (const bool up : {true, false}) {
+    list_neighbours(arcs, up);
+    sweep(up, [this](std::uint32_t v, const auto& visit) {
+      for (std::uint32_t i = begin_[v]; i < begin_[v + 1]; ++i) visit(neighbours_[i]);
+    });
+  }
+  merge();
+}
+
+// By counting: those below each vertex, or those above.
+void ContourTree::list_neighbours(std::span<const Arc> arcs, bool below) {
+  begin_.assign(count_ + 2, 0);
+  neighbours_.resize(arcs.size());
+  for (const Arc& arc : arcs) ++begin_[(below ? arc.hi : arc.lo) + 2];
+  for (std::uint32_t v = 0; v < count_; ++v) begin_[v + 2] += begin_[v + 1];
+  for (const Arc& arc : arcs) neighbours_[begin_[(below ? arc.hi : arc.lo) + 1]++] = below ? arc.lo : arc.hi;
+}
+
 void ContourTree::place(const BoxSize& size, std::span<const std::uint32_t> order) {
+  size_ = size;
   const std::uint32_t row = size[0] + 2, slice = row * (size[1] + 2);
   for (unsigned n = 0; n < kNeighbours; ++n) {
     const auto step = step_to(n);
@@ -114,7 +141,8 @@ std::uint32_t ContourTree::find(std::uint32_t v) {
 }
 
 // Upward for the join tree, downward for the split tree. The representative of a component is the last vertex so far.
-void ContourTree::sweep(bool up) {
+template <class ForEachBefore>
+void ContourTree::sweep(bool up, const ForEachBefore& for_each_before) {
   std::vector<Link>& links = up ? join_ : split_;
   links.resize(count_);
   parent_.resize(count_);
@@ -122,20 +150,30 @@ void ContourTree::sweep(bool up) {
     const std::uint32_t v = up ? i : count_ - 1 - i;
     parent_[v] = v;
     links[v] = {kNone, 0, 0};
-    const std::uint32_t* const here = padded_rank_.data() + place_[v];
-    for (unsigned set = groups_[v][up ? 0 : 1]; set != 0; set &= set - 1) {
-      const std::uint32_t last = find(here[offsets_[static_cast<std::size_t>(std::countr_zero(set))]]);
-      if (last == v) continue;
+    for_each_before(v, [&](std::uint32_t neighbour) {
+      const std::uint32_t last = find(neighbour);
+      if (last == v) return;
       parent_[last] = v;
       links[last].onward = v;
       links[v].others ^= last;
       ++links[v].count;
-    }
+    });
   }
 }
 
+bool ContourTree::is_extremum_within(std::uint32_t place, unsigned neighbours) const {
+  const std::uint32_t* const here = padded_rank_.data() + place;
+  bool above = true, below = true;
+  for (; neighbours != 0 && (above || below); neighbours &= neighbours - 1) {
+    const std::uint32_t other = here[offsets_[static_cast<std::size_t>(std::countr_zero(neighbours))]];
+    if (other == kNone) continue;
+    (other < *here ? below : above) = false;
+  }
+  return above || below;
+}
+
 // A vertex that is a leaf of one tree and passes through the other is a leaf of the contour tree. It is taken out of
-// both until one vertex is left.
+// both until one vertex is left. If none is a leaf, there is no tree.
 void ContourTree::merge() {
   nodes_.assign(count_, {});
   edges_.resize(count_);
@@ -143,22 +181,27 @@ void ContourTree::merge() {
   const auto is_leaf = [this](std::uint32_t v) { return join_[v].count + split_[v].count == 1; };
   for (std::uint32_t v = 0; v < count_; ++v)
     if (is_leaf(v)) leaves_.push_back(v);
+  from_root_.resize(count_);
   for (std::uint32_t left = count_; left > 1; --left) {
-    const std::uint32_t v = leaves_.back();
+    if (leaves_.empty() || !is_leaf(leaves_.back())) throw DamagedState();
+    const std::uint32_t v = from_root_[left - 1] = leaves_.back();
     leaves_.pop_back();
     const bool upper = split_[v].count == 0;
-    std::uint32_t other;
+    const std::uint32_t other = upper ? split_[v].onward : join_[v].onward;
+    if (other == kNone) throw DamagedState();
+    parent_[v] = other;
     if (upper) {
-      other = split_[v].onward;
       remove_leaf(split_, join_, v);
       add_edge(v, other, v);
     } else {
-      other = join_[v].onward;
       remove_leaf(join_, split_, v);
       add_edge(v, v, other);
     }
     if (is_leaf(other)) leaves_.push_back(other);
+    from_root_[0] = other;
   }
+  if (count_ == 1) from_root_[0] = 0;
+  parent_[from_root_[0]] = kNone;
 }
 
 // Takes a leaf of `own` out of both trees.
@@ -179,7 +222,7 @@ void ContourTree::add_edge(std::uint32_t e, std::uint32_t lo, std::uint32_t hi) 
 
 std::size_t ContourTree::memory_bytes() const {
   return 4 * (padded_rank_.capacity() + place_.capacity() + groups_.capacity() + parent_.capacity() +
-              leaves_.capacity()) +
+              leaves_.capacity() + begin_.capacity() + neighbours_.capacity() + from_root_.capacity()) +
          (join_.capacity() + split_.capacity()) * sizeof(Link) + nodes_.capacity() * sizeof(Node) +
          edges_.capacity() * sizeof(Edge);
 }

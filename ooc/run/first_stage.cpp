@@ -78,6 +78,7 @@ FirstStageResult glue_chunks(RunContext& run, ChunkSource& stretches, const Memo
   for (const auto& store : run.stores) sinks.push_back(store.get());
   PipelineOptions options;
   options.threads = plan.threads;
+  options.are_boxes = here.origin == ChunkOrigin::kGrid;
   options.choose_sweep = [&](std::size_t, const FunctionRange& range) { return sweep_options(run.options, range); };
   options.progress = [&](const SourceProgress& at) {
     run.tell({Phase::kReeb, at.bytes_read, at.bytes_total, at.triangles_read});

@@ -10,6 +10,7 @@
 
 #include "libreeb/engine/chunk_sweep.h"
 #include "libreeb/engine/glue.h"
+#include "libreeb/grid/box_glue.h"
 #include "libreeb/grid/box_sweep.h"
 #include "ooc/threads/kept_arena.h"
 #include "ooc/threads/pipeline_order.h"
@@ -17,35 +18,41 @@
 namespace reeb::ooc {
 namespace {
 
+// What chunks are swept and glued with.
+struct Triangles {
+  using Sweep = ChunkSweep;
+  using Glue = reeb::Glue;
+  static std::unique_ptr<Glue> make_glue(GraphSink& sink) { return std::make_unique<Glue>(sink, true); }
+};
+struct Boxes {
+  using Sweep = BoxSweep;
+  using Glue = BoxGlue;
+  static std::unique_ptr<Glue> make_glue(GraphSink& sink) { return std::make_unique<Glue>(sink); }
+};
+
 // Scratch memory for sweeping.
+template <class Sweep>
 struct Sweeper {
   explicit Sweeper(MemoryBudget& budget) : reservation(budget.reserve("chunk sweep", 0)) {}
-  void run(const Chunk& chunk, std::span<const double> values, Fragment& fragment, const SweepOptions& options) {
-    if (chunk.is_box())
-      boxes.run(chunk, values, fragment, options);
-    else
-      triangles.run(chunk, values, fragment, options);
-  }
-  std::size_t memory_bytes() const { return triangles.memory_bytes() + boxes.memory_bytes(); }
 
-  ChunkSweep triangles;
-  BoxSweep boxes;
+  Sweep sweep;
   Reservation reservation;
 };
 
 // The sweepers. There is one for each chunk that is swept at the same time.
+template <class Sweep>
 class Sweepers {
  public:
   explicit Sweepers(MemoryBudget& budget) : budget_(budget) {}
 
-  std::unique_ptr<Sweeper> take() {
+  std::unique_ptr<Sweeper<Sweep>> take() {
     const std::lock_guard lock(mutex_);
-    if (free_.empty()) return std::make_unique<Sweeper>(budget_);
+    if (free_.empty()) return std::make_unique<Sweeper<Sweep>>(budget_);
     auto sweeper = std::move(free_.back());
     free_.pop_back();
     return sweeper;
   }
-  void give_back(std::unique_ptr<Sweeper> sweeper) {
+  void give_back(std::unique_ptr<Sweeper<Sweep>> sweeper) {
     const std::lock_guard lock(mutex_);
     free_.push_back(std::move(sweeper));
   }
@@ -53,7 +60,7 @@ class Sweepers {
  private:
   MemoryBudget& budget_;
   std::mutex mutex_;
-  std::vector<std::unique_ptr<Sweeper>> free_;
+  std::vector<std::unique_ptr<Sweeper<Sweep>>> free_;
 };
 
 struct Slot {
@@ -63,11 +70,12 @@ struct Slot {
   Reservation reservation;
 };
 
+template <class Kind>
 class Pipeline {
  public:
   Pipeline(ChunkSource& source, std::span<GraphSink* const> sinks, MemoryBudget& budget, const PipelineOptions& options)
       : source_(source), budget_(budget), options_(options), live_(budget.reserve("live graph", 0)) {
-    for (GraphSink* sink : sinks) glues_.emplace_back(std::make_unique<Glue>(*sink, true));
+    for (GraphSink* sink : sinks) glues_.push_back(Kind::make_glue(*sink));
     if (options.saved_engine != nullptr) restore(*options.saved_engine);
   }
 
@@ -82,6 +90,8 @@ class Pipeline {
   }
 
  private:
+  using Sweep = typename Kind::Sweep;
+
   void save(StateWriter& out) const {
     out.put(maximum_);
     for (const auto& glue : glues_) glue->save(out);
@@ -91,7 +101,7 @@ class Pipeline {
     in.get(maximum_);
     for (const auto& glue : glues_) {
       glue->restore(in);
-      restored_vertex_bound_ = std::max(restored_vertex_bound_, glue->graph().vertex_bound());
+      restored_vertex_bound_ = std::max(restored_vertex_bound_, glue->vertex_bound());
     }
   }
 
@@ -110,16 +120,16 @@ class Pipeline {
     if (bytes > reservation.bytes()) reservation.resize(bytes);
   }
 
-  void sweep(Slot& slot, Sweeper& sweeper) {
+  void sweep(Slot& slot, Sweeper<Sweep>& sweeper) {
     slot.item.fragments.resize(glues_.size());
     reserve_at_least(sweeper.reservation, ChunkSweep::least_memory_bytes(slot.item.chunk));
     for (std::size_t f = 0; f < glues_.size(); ++f)
-      sweeper.run(slot.item.chunk, slot.item.values[f], slot.item.fragments[f], sweep_options(slot.item, f));
-    sweeper.reservation.resize(sweeper.memory_bytes());
+      sweeper.sweep.run(slot.item.chunk, slot.item.values[f], slot.item.fragments[f], sweep_options(slot.item, f));
+    sweeper.reservation.resize(sweeper.sweep.memory_bytes());
     slot.reservation.resize(slot.item.memory_bytes());
   }
 
-  void sweep_in_parallel(Slot& slot, Sweepers& sweepers) {
+  void sweep_in_parallel(Slot& slot, Sweepers<Sweep>& sweepers) {
     auto sweeper = sweepers.take();
     sweep(slot, *sweeper);
     sweepers.give_back(std::move(sweeper));
@@ -139,7 +149,7 @@ class Pipeline {
       glues_[f]->add(slot.item.fragments[f]);
       now.vertices += glues_[f]->live_vertices();
       now.edges += glues_[f]->live_edges();
-      now.arcs += glues_[f]->graph().arc_count();
+      now.arcs += glues_[f]->live_arcs();
       bytes += glues_[f]->memory_bytes();
     }
     live_.resize(bytes);
@@ -152,7 +162,7 @@ class Pipeline {
   }
 
   void run_alone() {
-    Sweeper sweeper(budget_);
+    Sweeper<Sweep> sweeper(budget_);
     Slot slot(budget_);
     while (read(slot)) {
       sweep(slot, sweeper);
@@ -168,7 +178,7 @@ class Pipeline {
       slots.push_back(std::make_unique<Slot>(budget_));
       free_slots.push(slots.back().get());
     }
-    Sweepers sweepers(budget_);
+    Sweepers<Sweep> sweepers(budget_);
     const PipelineOrder order;
 
     const auto read_next = [&](tbb::flow_control& control_flow) -> Slot* {
@@ -205,7 +215,7 @@ class Pipeline {
   ChunkSource& source_;
   MemoryBudget& budget_;
   const PipelineOptions& options_;
-  std::vector<std::unique_ptr<Glue>> glues_;
+  std::vector<std::unique_ptr<typename Kind::Glue>> glues_;
   Reservation live_;
   std::uint64_t largest_item_ = 0;  // bytes of a chunk when it was read
   LiveMaximum maximum_;
@@ -216,7 +226,8 @@ class Pipeline {
 
 PipelineResult run_pipeline(ChunkSource& source, std::span<GraphSink* const> sinks, MemoryBudget& budget,
                             const PipelineOptions& options) {
-  return Pipeline(source, sinks, budget, options).run();
+  if (options.are_boxes) return Pipeline<Boxes>(source, sinks, budget, options).run();
+  return Pipeline<Triangles>(source, sinks, budget, options).run();
 }
 
 }  // namespace reeb::ooc

@@ -34,6 +34,7 @@ struct SourceProgress {
 
 struct PipelineOptions {
   unsigned threads = 1;
+  bool are_boxes = false;         // all chunks are boxes of a grid, in the order of GridBoxes
   ChooseSweep choose_sweep = {};  // empty: the graph alone
   // Called in order after each chunk was glued. May throw to stop the run.
   std::function<void(const SourceProgress&)> progress = {};

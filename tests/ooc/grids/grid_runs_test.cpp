@@ -7,6 +7,7 @@
 #include "io/functions/function_source.h"
 #include "io/grids/grid_mesh.h"
 #include "tests/model/reference_reeb.h"
+#include "tests/support/embedding_places.h"
 #include "tests/support/memory_grid.h"
 #include "tests/support/seed.h"
 #include "tests/support/whole_run.h"
@@ -150,6 +151,41 @@ TEST(GridRuns, AreResumedAsIfNothingHadHappened) {
     run.options.resume = interrupted;
     if (interrupted) run_grid(shape, values, run, folder);
     ASSERT_EQ(take_bytes(folder.path() + "/grid.reeb"), whole) << "seed " << seed + i << ", " << interrupted;
+  }
+}
+
+// Noise in many boxes, so that most arcs are cut when boxes are joined.
+TEST(GridRuns, EmbedWithinABucketFromBoxesToBoxes) {
+  const std::uint64_t seed = base_seed();
+  const ooc::Scratch folder;
+  for (std::uint64_t i = 0; i < case_count(60); ++i) {
+    Random random(seed + i);
+    GridShape shape{random.between(5, 20), random.between(5, 20), random.between(5, 20)};
+    if (i % 4 == 0) shape = {60, 50, 1};
+    std::vector<double> values(vertices_of(shape));
+    const double slope = random.chance(50) ? 0 : random.unit();
+    for (std::size_t v = 0; v < values.size(); ++v) values[v] = slope * position_in(shape, v)[1] + random.unit();
+    GridRun run;
+    run.options.graph_only = true;
+    run.options.buckets = static_cast<std::uint32_t>(1 + random.below(i % 2 == 0 ? 100 : 4));
+    const ooc::ComputeOptions whole_options = run.options;
+    ooc::Level expected, found;
+    int exponent = 0;
+    for (const std::size_t size : {std::size_t{1'000'000}, std::size_t{8 + random.below(100)}}) {
+      run.options = whole_options;
+      run.options.chunk_triangles = size;
+      run.options.threads = static_cast<unsigned>(random.between(1, 3));
+      const std::string output = run_grid(shape, values, run, folder);
+      {
+        const ooc::ReebFile file(output);
+        expect_vertices_conserved(file);
+        exponent = file.header().bucket_exponent;
+        (size == 1'000'000 ? expected : found) = file.load();
+      }
+      std::filesystem::remove(output);
+    }
+    SCOPED_TRACE(testing::Message() << "seed " << seed + i);
+    ASSERT_NO_FATAL_FAILURE(expect_same_places(expected, found, exponent, 100));
   }
 }
 
