@@ -44,9 +44,6 @@ class FragmentBuilder {
   void end_sweep(const SweptChunk& swept);
   // After that, if there is an embedding: vertices of the arc that are not vertices of the chunk.
   void add_bucket(SweepArc arc, const BucketSum& bucket) { graph_.buckets.add(graph_.arc_buckets[arc], bucket); }
-  void add_vertex(SweepArc arc, double value, const Point& position) {
-    graph_.buckets.add_vertex(graph_.arc_buckets[arc], value, position);
-  }
   // Replaces `fragment`. REQUIRES: `shared` has all shared edges of the chunk.
   void finish(const SweptChunk& swept, const SharedEdges& shared, Fragment& fragment);
   // The same where the graph is a tree, and other chunks can change the arcs between vertices that they use, and no

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "libreeb/base/union_find.h"
@@ -34,18 +35,25 @@ bool is_sound(const Fragment& tree) {
 
 bool has_sound_buckets(const Fragment& tree) {
   constexpr int kMostExponent = 2048;  // more than that of any double
+  constexpr std::int64_t kMostIndex = std::int64_t{1} << 62;
+  constexpr std::uint64_t kMostVertices = ~std::uint32_t{0};
   constexpr Int128 kMostPerVertex = Int128{1} << 94;
   const auto& begin = tree.bucket_begin;
   if (!tree.options.bucket_exponent) return begin.empty() && tree.buckets.empty();
-  if (std::abs(*tree.options.bucket_exponent) > kMostExponent) return false;
+  const int exponent = *tree.options.bucket_exponent;
+  if (exponent > kMostExponent || exponent < -kMostExponent) return false;
   if (begin.size() != tree.arcs.size() + 1 || begin.front() != 0 || begin.back() != tree.buckets.size()) return false;
-  return std::is_sorted(begin.begin(), begin.end()) &&
-         std::all_of(tree.buckets.begin(), tree.buckets.end(), [](const BucketSum& bucket) {
-           const Int128 most = kMostPerVertex * static_cast<Int128>(bucket.count);
-           return bucket.count != 0 && bucket.count <= ~std::uint32_t{0} &&
-                  std::all_of(bucket.sum.begin(), bucket.sum.end(),
-                              [&](Int128 sum) { return sum <= most && sum >= -most; });
-         });
+  if (!std::is_sorted(begin.begin(), begin.end())) return false;
+  std::uint64_t vertices = 0;
+  for (const BucketSum& bucket : tree.buckets) {
+    if (bucket.count == 0 || bucket.count > kMostVertices - vertices) return false;
+    if (bucket.index > kMostIndex || bucket.index < -kMostIndex) return false;
+    vertices += bucket.count;
+    const Int128 most = kMostPerVertex * static_cast<Int128>(bucket.count);
+    for (const Int128 sum : bucket.sum)
+      if (sum > most || sum < -most) return false;
+  }
+  return true;
 }
 
 void forget_settled(Fragment& fragment) {
@@ -85,9 +93,7 @@ void BoxGlue::add(const Fragment& fragment) {
   tree.fragment.nodes = fragment.nodes;
   tree.fragment.positions = fragment.positions;
   tree.fragment.arcs = fragment.arcs;
-  tree.fragment.bucket_begin = fragment.bucket_begin;
-  tree.fragment.buckets = fragment.buckets;
-  keep_passed(fragment, tree.fragment);
+  copy_buckets(fragment, tree.fragment);
   note_nodes(fragment);
   pass_on_settled(fragment);
   for_each_join(fragment.shared_faces, tree, [&](std::size_t i, std::size_t axis) {
@@ -109,10 +115,33 @@ void BoxGlue::pass_on_settled(const Fragment& fragment) {
                      fragment.options.bucket_exponent.value_or(0)});
 }
 
-// A vertex that is a node in no box is regular: it is on the arc that passes it in the last box that has it.
-void BoxGlue::keep_passed(const Fragment& fragment, Fragment& tree) const {
-  for (const Fragment::Passed& passed : fragment.passed)
-    if (nodes_ahead_.find(passed.vertex.value()) == FlatMap::kNone) tree.passed.push_back(passed);
+// With the vertices that are passed. One that is a node in no box is regular: it is on the arc that passes it in the
+// last box that has it. They come in ascending order.
+void BoxGlue::copy_buckets(const Fragment& fragment, Fragment& tree) {
+  if (!fragment.options.bucket_exponent) return;
+  const BucketIndexer index_of(*fragment.options.bucket_exponent);
+  first_passed_.assign(fragment.arcs.size(), FlatMap::kNone);
+  next_passed_.resize(fragment.passed.size());
+  for (auto p = static_cast<std::uint32_t>(fragment.passed.size()); p-- > 0;)
+    if (nodes_ahead_.find(fragment.passed[p].vertex.value()) == FlatMap::kNone)
+      next_passed_[p] = std::exchange(first_passed_[fragment.passed[p].arc.value()], p);
+  tree.bucket_begin.push_back(0);
+  for (std::size_t a = 0; a < fragment.arcs.size(); ++a) {
+    std::uint32_t at = fragment.bucket_begin[a];
+    const auto copy_up_to = [&](std::int64_t index) {
+      for (; at < fragment.bucket_begin[a + 1] && fragment.buckets[at].index <= index; ++at)
+        tree.buckets.push_back(fragment.buckets[at]);
+    };
+    for (std::uint32_t p = first_passed_[a]; p != FlatMap::kNone; p = next_passed_[p]) {
+      const std::int64_t index = index_of(fragment.passed[p].value);
+      copy_up_to(index);
+      if (tree.buckets.size() == tree.bucket_begin.back() || tree.buckets.back().index != index)
+        tree.buckets.push_back({index, 0, {}});
+      tree.buckets.back().add(fragment.passed[p].position);
+    }
+    copy_up_to(std::numeric_limits<std::int64_t>::max());
+    tree.bucket_begin.push_back(static_cast<std::uint32_t>(tree.buckets.size()));
+  }
 }
 
 void BoxGlue::note_nodes(const Fragment& fragment) {
@@ -139,7 +168,8 @@ std::uint64_t BoxGlue::vertex_bound() const {
 }
 
 std::size_t BoxGlue::memory_bytes() const {
-  std::size_t bytes = nodes_ahead_.memory_bytes() + union_.memory_bytes() + trees_.capacity() * sizeof(Tree);
+  std::size_t bytes = nodes_ahead_.memory_bytes() + union_.memory_bytes() + trees_.capacity() * sizeof(Tree) +
+                      4 * (first_passed_.capacity() + next_passed_.capacity());
   for (const Tree& tree : trees_) bytes += tree.fragment.memory_bytes();
   return bytes;
 }

@@ -55,12 +55,13 @@ class BoxGlue {
   void for_each_join(BoxFaces faces, Tree& tree, const Join& join) const;
   void pass_on_settled(const Fragment& fragment);
   void note_nodes(const Fragment& fragment);
-  void keep_passed(const Fragment& fragment, Fragment& tree) const;
+  void copy_buckets(const Fragment& fragment, Fragment& tree);
 
   GraphSink* sink_;
   std::uint64_t removed_pairs_ = 0;
   std::vector<Tree> trees_;  // none is next to the one before it in a run of the same length
   FlatMap nodes_ahead_;      // vertices that later boxes have, and that are nodes in an earlier one
+  std::vector<std::uint32_t> first_passed_, next_passed_;  // of a fragment: by arc, and after each
   BoxUnion union_;
   Fragment result_;
 };

@@ -21,8 +21,6 @@ void BoxUnion::run(const Fragment& before, const Fragment& after, std::size_t ax
     place_vertices();
     move_buckets(before, ranks_[0], *options.bucket_exponent);
     move_buckets(after, ranks_[1], *options.bucket_exponent);
-    move_passed(before, ranks_[0]);
-    move_passed(after, ranks_[1]);
   }
   sweep_.finish(swept, result);
 }
@@ -137,14 +135,6 @@ void BoxUnion::move_buckets(const Fragment& fragment, const std::vector<std::uin
       bucket.index >>= levels;
       move_bucket(path, bucket, exponent);
     }
-  }
-}
-
-void BoxUnion::move_passed(const Fragment& fragment, const std::vector<std::uint32_t>& ranks) {
-  for (const Fragment::Passed& passed : fragment.passed) {
-    const Fragment::Arc& arc = fragment.arcs[passed.arc.value()];
-    const Path path = path_between(ranks[arc.lo.value()], ranks[arc.hi.value()]);
-    sweep_.add_vertex(arc_at(path, passed.value), passed.value, passed.position);
   }
 }
 

@@ -51,7 +51,6 @@ class BoxUnion {
   void add_arcs(const Fragment& fragment, const std::vector<std::uint32_t>& ranks);
   void place_vertices();
   void move_buckets(const Fragment& fragment, const std::vector<std::uint32_t>& ranks, int exponent);
-  void move_passed(const Fragment& fragment, const std::vector<std::uint32_t>& ranks);
   void move_bucket(const Path& path, BucketSum bucket, int exponent);
   Path path_between(std::uint32_t lo, std::uint32_t hi) const;
   SweepArc arc_at(const Path& path, double value) const;

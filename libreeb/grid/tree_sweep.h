@@ -25,9 +25,8 @@ class TreeSweep {
   // After that: the arc that has an edge of the tree.
   SweepArc arc_of(std::uint32_t edge) const { return arc_of_[edge]; }
   const SweepGraph& graph() const { return builder_.graph(); }
-  // As those of the builder.
+  // As that of the builder.
   void add_bucket(SweepArc arc, const BucketSum& bucket) { builder_.add_bucket(arc, bucket); }
-  void add_vertex(SweepArc arc, double value, const Point& position) { builder_.add_vertex(arc, value, position); }
   // At the end: replaces `fragment`.
   void finish(const SweptChunk& swept, Fragment& fragment);
   std::size_t memory_bytes() const;
