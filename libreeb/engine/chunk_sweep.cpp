@@ -199,7 +199,7 @@ struct ChunkSweep::Scratch {
 
   const Chunk* chunk = nullptr;
   const SweptChunk* swept = nullptr;
-  bool embeds = false;
+  bool embeds = false, follows = false, notes_regular = false;
   VertexRanks ranks;
   ChunkStars stars;
   FragmentBuilder builder;
@@ -259,6 +259,8 @@ void ChunkSweep::Scratch::reset(const SweepOptions& options) {
   for (std::size_t r = 0; r < n; ++r) uses[r] = chunk->uses[ranks.order()[r]];
   crossings.reset(stars.triangle_count());
   embeds = options.bucket_exponent.has_value();
+  follows = options.follows_vertices;
+  notes_regular = embeds || follows;
   labels.clear();
   up.reset(n);
   builder.start(n, options);
@@ -281,7 +283,11 @@ void ChunkSweep::Scratch::visit(std::uint32_t v) {
   const bool shared = uses[v] != kUsedHereOnly;
   if (joined && below.size() == 1 && !shared) {  // a regular vertex
     label_lows(v, below[0]);
-    if (embeds) builder.add_regular(labels.arc(below[0]), swept->local(VertexRank(v)));
+    if (notes_regular) {
+      const LocalVertex local = swept->local(VertexRank(v));
+      if (embeds) builder.add_regular(labels.arc(below[0]), local);
+      if (follows) builder.follow(labels.arc(below[0]), local);
+    }
     return;
   }
   const SweepNode node = builder.add_node(VertexRank(v));

@@ -8,7 +8,8 @@ std::size_t Fragment::memory_bytes() const {
          steps.capacity() * sizeof(Step) + passed.capacity() * sizeof(Passed) +
          4 * (bucket_begin.capacity() + settled_bucket_counts.capacity()) + buckets.capacity() * sizeof(BucketSum) +
          settled_buckets.capacity() * sizeof(Bucket) + settled_nodes.capacity() * sizeof(SettledNode) +
-         settled_arcs.capacity() * sizeof(ArcKeys);
+         settled_arcs.capacity() * sizeof(ArcKeys) +
+         (on_open_arcs.capacity() + on_settled_arcs.capacity()) * sizeof(Regular);
 }
 
 }  // namespace reeb

@@ -76,6 +76,14 @@ struct Fragment {
   std::vector<std::uint32_t> settled_bucket_counts;  // one per arc, or empty
   std::vector<Bucket> settled_buckets;
 
+  // Regular vertices that only this chunk has, if SweepOptions asks for them, with their index in `arcs` or in
+  // `settled_arcs`; ascending.
+  struct Regular {
+    SweepKey vertex;
+    std::uint32_t arc;
+  };
+  std::vector<Regular> on_open_arcs, on_settled_arcs;
+
   std::size_t triangle_count = 0;  // of the chunk
 
   std::size_t memory_bytes() const;
@@ -97,6 +105,8 @@ struct Fragment {
     settled_arcs.clear();
     settled_bucket_counts.clear();
     settled_buckets.clear();
+    on_open_arcs.clear();
+    on_settled_arcs.clear();
     triangle_count = 0;
   }
 };

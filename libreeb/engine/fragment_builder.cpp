@@ -12,6 +12,7 @@ void FragmentBuilder::start(std::size_t vertices, const SweepOptions& options) {
     bucket_of_.assign(vertices, BucketLists::kNowhere);
   }
   node_of_.resize(vertices);
+  followed_.clear();
 }
 
 SweepNode FragmentBuilder::add_node(VertexRank v) {
@@ -45,6 +46,22 @@ void FragmentBuilder::finish(const SweptChunk& swept, const SharedEdges& shared,
   fragment.path_arcs.reserve(path_arcs_.size());
   for (const SweepArc arc : path_arcs_) fragment.path_arcs.push_back(graph_.arcs[arc].open);
   add_steps(shared, fragment);
+  if (options_.follows_vertices) add_followed(swept, fragment);
+}
+
+// Settled arcs are in the fragment in the order of the sweep.
+void FragmentBuilder::add_followed(const SweptChunk& swept, Fragment& fragment) {
+  settled_number_.clear();
+  std::uint32_t settled = 0;
+  for (const SweepGraph::Arc& arc : graph_.arcs)
+    settled_number_.push_back(arc.open == FragmentArc::none() ? settled++ : 0);
+  for (const auto& [arc, v] : followed_) {
+    const SweepKey vertex{swept.values[v.value()], swept.chunk.ids[v.value()]};
+    if (const FragmentArc open = graph_.arcs[arc].open; open != FragmentArc::none())
+      fragment.on_open_arcs.push_back({vertex, open.value()});
+    else
+      fragment.on_settled_arcs.push_back({vertex, settled_number_[arc.value()]});
+  }
 }
 
 void FragmentBuilder::finish_tree(const SweptChunk& swept, Fragment& fragment) {
@@ -138,6 +155,7 @@ void FragmentBuilder::add_steps(const SharedEdges& shared, Fragment& fragment) c
 
 std::size_t FragmentBuilder::memory_bytes() const {
   return graph_.memory_bytes() + leaf_removal_.memory_bytes() + division_.memory_bytes() + 8 * steps_.capacity() +
+         8 * followed_.capacity() + 4 * settled_number_.capacity() +
          4 * (node_of_.capacity() + bucket_of_.capacity() + path_arcs_.capacity() + degrees_.capacity() +
               arcs_xor_.capacity() + leaves_.capacity());
 }

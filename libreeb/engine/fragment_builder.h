@@ -30,6 +30,8 @@ class FragmentBuilder {
   void add_regular(SweepArc arc, LocalVertex v) {
     bucket_of_[v] = graph_.buckets.current_bucket(graph_.arc_buckets[arc]);
   }
+  // Says that a regular vertex, which no other chunk uses, lies on the arc.
+  void follow(SweepArc arc, LocalVertex v) { followed_.push_back({arc, v}); }
   // Sets the arc up from `node` that a path takes unless another branch is noted for it.
   void set_main_branch(SweepNode node, SweepArc arc) { graph_.nodes[node].main_branch = arc; }
 
@@ -71,6 +73,7 @@ class FragmentBuilder {
   void add_positions(const Chunk& chunk);
   void start_fragment(const SweptChunk& swept, Fragment& fragment);
   void mark_arcs_between_used(const SweptChunk& swept);
+  void add_followed(const SweptChunk& swept, Fragment& fragment);
   void sort_steps(const SweptChunk& swept, const SharedEdges& shared);
   void trace_paths(const SharedEdges& shared, Fragment& fragment);
   void add_steps(const SharedEdges& shared, Fragment& fragment) const;
@@ -85,6 +88,12 @@ class FragmentBuilder {
   std::vector<SweepArc> path_arcs_;                      // as in the fragment
   std::vector<std::uint32_t> degrees_, arcs_xor_;        // of a tree, by node
   std::vector<SweepNode> leaves_;
+  struct Followed {
+    SweepArc arc;
+    LocalVertex vertex;
+  };
+  std::vector<Followed> followed_;
+  std::vector<std::uint32_t> settled_number_;  // by arc of the sweep
 };
 
 }  // namespace reeb

@@ -15,6 +15,7 @@ void Glue::add(const Fragment& fragment) {
                      fragment.options.bucket_exponent.value_or(0)});
   add_nodes(fragment);
   add_arcs(fragment);
+  if (log_ != nullptr) place_regular(fragment);
   add_paths(fragment);
   for (const Index a : arcs_) graph_.release(a);
   run_steps(fragment);
@@ -49,6 +50,12 @@ void Glue::add_arcs(const Fragment& fragment) {
     graph_.add_buckets(arcs_[i],
                        std::span(fragment.buckets)
                            .subspan(fragment.bucket_begin[i], fragment.bucket_begin[i + 1] - fragment.bucket_begin[i]));
+}
+
+void Glue::place_regular(const Fragment& fragment) {
+  const std::uint32_t first = log_->settle_unnamed(static_cast<std::uint32_t>(fragment.settled_arcs.size()));
+  for (const auto& [vertex, arc] : fragment.on_settled_arcs) log_->place_on_settled(first + arc, vertex);
+  for (const auto& [vertex, arc] : fragment.on_open_arcs) log_->place(arcs_[arc], vertex);
 }
 
 // All paths are added before the first zip, since zips change the arcs that later paths of the fragment run on.

@@ -19,6 +19,7 @@
 #include "libreeb/engine/chunk.h"
 #include "libreeb/engine/fragment.h"
 #include "libreeb/engine/live_graph.h"
+#include "libreeb/port/arc_log.h"
 
 namespace reeb {
 
@@ -36,6 +37,13 @@ class Glue {
         links_(other.links_),
         first_free_edge_(other.first_free_edge_),
         first_link_(other.first_link_) {}
+
+  // From now on the history of arcs goes to `log`, and fragments list their regular vertices.
+  // REQUIRES: to be called before the first fragment; no noise is removed. `log` numbers arcs as the sink gets them.
+  void set_log(ArcLog& log) {
+    log_ = &log;
+    graph_.set_log(log);
+  }
 
   // Adds the next fragment of the stream.
   // REQUIRES: a vertex that it marks kUsedEarlier was marked kUsedLater in an earlier fragment; its options are not
@@ -80,6 +88,7 @@ class Glue {
   void add_paths(const Fragment& fragment);
   Index add_path(const Fragment& fragment, std::size_t edge);
   void run_steps(const Fragment& fragment);
+  void place_regular(const Fragment& fragment);
   void add_edge(Index lo, Index hi, Index top);
   void drop_edge(Index edge);
   void link(Index link, Index node);
@@ -90,6 +99,7 @@ class Glue {
   static std::uint64_t edge_key(Index lo, Index hi) { return std::uint64_t{hi} << 32 | lo; }
 
   GraphSink* sink_;
+  ArcLog* log_ = nullptr;
   LiveGraph graph_;
   std::uint64_t removed_in_fragments_ = 0;
   FlatMap node_of_;  // incomplete vertices

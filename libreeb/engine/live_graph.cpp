@@ -50,6 +50,7 @@ LiveGraph::Index LiveGraph::add_arc(Index lo, Index hi) {
   arcs_[a].references = 0;
   attach(a, kDown, lo);
   attach(a, kUp, hi);
+  if (log_ != nullptr) log_->add(a);
   return a;
 }
 
@@ -190,6 +191,7 @@ void LiveGraph::merge_parallel(Index keep, Index gone) {
   kept.references += arcs_[gone].references;
   queue(arcs_[gone].lo());
   queue(arcs_[gone].hi());
+  if (log_ != nullptr) log_->merge(gone, keep);
   detach(gone);
   notice_noise(keep);
   free_arc(gone);
@@ -214,6 +216,7 @@ void LiveGraph::cut(Index longer, Index shorter) {
     r = next;
   }
   attach(longer, kUp, bottom);
+  if (log_ != nullptr) log_->cut(longer, shorter, nodes_[bottom].key, kUp);
   notice_noise(longer);
   notice_noise_at(top);
   if (embeds_) {
@@ -288,6 +291,7 @@ void LiveGraph::contract(Index n) {
     references_[r].down = references_[skipped].down;
     references_.free(skipped);
   }
+  if (log_ != nullptr) log_->join(lower, upper, nodes_[n].key, kDown);
   const Index lo = arcs_[lower].lo(), hi = arcs_[upper].hi();
   detach(lower);
   free_arc(lower);
@@ -321,6 +325,7 @@ void LiveGraph::settle(Index n) {
 void LiveGraph::write_out(Index a) {
   const Index lo = arcs_[a].lo(), hi = arcs_[a].hi();
   settled_.add_arc({nodes_[lo].key, nodes_[hi].key});
+  if (log_ != nullptr) log_->settle(a);
   if (embeds_)
     settled_.add_buckets([&](const auto& add) {
       buckets_.drain(arc_buckets_[a], [&](const BucketSum& bucket) { add(bucket.mean()); });

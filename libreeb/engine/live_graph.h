@@ -27,6 +27,7 @@
 #include "libreeb/engine/bucket_sums.h"
 #include "libreeb/engine/sweep_options.h"
 #include "libreeb/graph/reeb_graph.h"
+#include "libreeb/port/arc_log.h"
 #include "libreeb/port/graph_sink.h"
 #include "libreeb/port/settled_batch.h"
 
@@ -51,6 +52,8 @@ class LiveGraph {
         arcs_(other.arcs_),
         references_(other.references_) {}
 
+  // As Glue::set_log().
+  void set_log(ArcLog& log) { log_ = &log; }
   // Sets the noise threshold and the width of buckets, for what follows.
   void set_options(const SweepOptions& options);
 
@@ -188,6 +191,7 @@ class LiveGraph {
   void flush_if_many();
 
   GraphSink* sink_;
+  ArcLog* log_ = nullptr;
   bool track_positions_;
   RecyclingArray<Node> nodes_;
   GrowingArray<Point> positions_;  // one per node, if tracked

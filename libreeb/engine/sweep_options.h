@@ -5,7 +5,7 @@
 
 namespace reeb {
 
-// Neither option may decrease along a stream: the glue uses those of the latest fragment.
+// The first two options may not decrease along a stream: the glue uses those of the latest fragment.
 struct SweepOptions {
   // Leaves of less persistence are removed as soon as they are certain to be noise (docs/SEMANTICS.md, Noise removal).
   // A last pass over the whole graph removes the others.
@@ -13,6 +13,8 @@ struct SweepOptions {
   // The exponent of the embedding's buckets; without it there is no embedding.
   // REQUIRES: at least bucket_exponent() of a range with all values so far.
   std::optional<int> bucket_exponent = {};
+  // The fragment lists its regular vertices, each with its arc. REQUIRES: no noise is removed.
+  bool follows_vertices = false;
 };
 
 }  // namespace reeb

@@ -18,6 +18,8 @@ namespace reeb {
 class BucketVersions {
  public:
   static constexpr bool kFollows = true;
+  // One in a hundred extrema of a scan, and one in six of a random function, have a longer path.
+  static constexpr std::uint32_t kMostArcsOfExtremum = 8;
 
   // REQUIRES: `graph` and `sink` outlive this; `lists` are those of the graph's arcs, of this exponent.
   BucketVersions(const ReebGraph& graph, PackedLists lists, int exponent, RecordSink& sink)
@@ -31,6 +33,7 @@ class BucketVersions {
   }
   bool merge(ArcId from, ArcId into) { return !lists_.empty(from) && lists_.merge(from, into); }
   void join(ArcId upper, ArcId lower, NodeId node);
+  void lay(ArcId arc, ArcId other, NodeId extremum, Direction /*direction*/) { join(arc, other, extremum); }
   void drop(ArcId arc, std::uint32_t nodes);
   std::span<const std::byte> before_step(ArcId arc) const { return lists_.closed(arc); }
   void commit();

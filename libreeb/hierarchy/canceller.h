@@ -31,6 +31,8 @@ struct ArcPart {
   NodeId start, end;
 };
 
+inline constexpr std::uint32_t kAnyNumberOfArcs = ~std::uint32_t{0};
+
 // Follows the content of arcs (an embedding, a count) while the rules move the arcs. Arcs are named by their numbers in
 // the full graph; when two arcs become one, it has the number of one of them. cut and merge return whether they changed
 // the content of `into`.
@@ -38,6 +40,9 @@ struct IgnoreContent {
   // Whether there is content. If so, the content of a removed arc is moved to another path where there is one, and an
   // arc whose content changes gets a new record.
   static constexpr bool kFollows = false;
+  // The content of the arc of an extremum is moved to at most this many arcs; the rest is dropped. The path is walked
+  // for this purpose only, and each arc on it gets a new record.
+  static constexpr std::uint32_t kMostArcsOfExtremum = kAnyNumberOfArcs;
   // The part of `from` between `start` and `node` goes to `into`, which has these ends. The rest
   // stays.
   bool cut(const ArcCut& /*cut*/) { return false; }
@@ -49,6 +54,8 @@ struct IgnoreContent {
   bool merge(ArcId /*from*/, ArcId /*into*/) { return false; }
   // `lower` ends where `upper` starts, at a node that is contracted; `lower` becomes both.
   void join(ArcId /*upper*/, ArcId /*lower*/, NodeId /*node*/) {}
+  // `arc`, which leads to an extremum in this direction, becomes part of `other`, which goes on beyond it.
+  void lay(ArcId /*arc*/, ArcId /*other*/, NodeId /*extremum*/, Direction /*direction*/) {}
   // The arc is removed, with this number of nodes; its content is dropped.
   void drop(ArcId /*arc*/, std::uint32_t /*nodes*/) {}
   // The content that the arc had before this step, in the form of a record.
@@ -114,15 +121,13 @@ class Canceller {
     }
   }
 
+  const WorkingGraph& graph() const { return graph_; }
   // Writes the records of the last version. REQUIRES: nothing is cancelled afterwards.
   void finish() { log_.finish(content_); }
 
  private:
   static constexpr ArcId kNone = WorkingGraph::kNone;
-  // The content of the arc of an extremum is moved to at most this many arcs; the rest is dropped. The path is walked
-  // for this purpose only, and each arc on it gets a new record. One in a hundred extrema of a scan, and one in six of
-  // a random function, have a longer path.
-  static constexpr std::uint32_t kMaxArcsWithContent = 8, kAny = ~std::uint32_t{0};
+  static constexpr std::uint32_t kAny = kAnyNumberOfArcs;
 
   // A pair of `fork` with the extremum that is its partner in direction d.
   void cancel_extremum(Direction d, NodeId fork, NodeId extremum) {
@@ -195,9 +200,9 @@ void Canceller<Content>::zip_onto(Direction d, ArcId arc, ArcId other, NodeId ex
     arc = next;
   }
   if constexpr (Content::kFollows) {
-    if (follow_in_parallel(d, arc, other, start, extremum, kMaxArcsWithContent)) {
+    if (follow_in_parallel(d, arc, other, start, extremum, Content::kMostArcsOfExtremum)) {
       log_.touch(other);
-      content_.join(arc, other, extremum);
+      content_.lay(arc, other, extremum, d);
     } else {
       content_.drop(arc, 1);
     }

@@ -17,10 +17,12 @@ namespace {
 // Removes leaves of a graph. It takes the arcs out of the graph; the nodes stay there.
 class GraphLeafRemoval {
  public:
-  // `whole`: which nodes have all their arcs; if null, all nodes do. `lists`, of the graph's arcs, may be null.
+  // `whole`: which nodes have all their arcs; if null, all nodes do. `lists`, of the graph's arcs, may be null, and so
+  // may `log`.
   // REQUIRES: all arguments outlive this.
-  GraphLeafRemoval(ReebGraph& full, const std::vector<bool>* whole, double threshold, ArcBucketLists* lists)
-      : full_(full), whole_(whole), threshold_(threshold), graph_(full), lists_(lists) {
+  GraphLeafRemoval(ReebGraph& full, const std::vector<bool>* whole, double threshold, ArcBucketLists* lists,
+                   ArcLog* log)
+      : full_(full), whole_(whole), threshold_(threshold), graph_(full), lists_(lists), log_(log) {
     find_reaches();
     full.lo = std::vector<NodeId>();
     full.hi = std::vector<NodeId>();
@@ -102,13 +104,13 @@ class GraphLeafRemoval {
     if (!(persistence_of(full_, pair) < threshold_)) return;
     removed_.push_back(pair);
     graph_.remove(arc);
-    if (lists_ != nullptr) move_buckets(arc, saddle, leaf, d);
+    if (lists_ != nullptr || log_ != nullptr) lay(arc, saddle, leaf, d);
     settle(saddle);
     if (lists_ != nullptr) lists_->close();
   }
 
-  // Moves the buckets of a removed arc, and its leaf, to the nearest path that reaches beyond the leaf.
-  void move_buckets(ArcId arc, NodeId saddle, NodeId leaf, Direction d) {
+  // Lays a removed arc, with its leaf, on the nearest path that reaches beyond the leaf.
+  void lay(ArcId arc, NodeId saddle, NodeId leaf, Direction d) {
     const auto next = [&](NodeId node) {
       return graph_.nearest_if(node, d, farthest(d),
                                [&](ArcId other) { return reaches_beyond(graph_.end(other, d), d, leaf); });
@@ -117,10 +119,13 @@ class GraphLeafRemoval {
     ArcId path_arc = next(saddle);
     for (NodeId end = graph_.end(path_arc, d); along(d, end) < along(d, leaf); end = graph_.end(path_arc, d)) {
       const auto [lo, hi] = std::minmax(start, leaf);
-      lists_->cut(opposite(d), arc, path_arc, {value(lo), value(end), value(hi)});
+      if (lists_ != nullptr) lists_->cut(opposite(d), arc, path_arc, {value(lo), value(end), value(hi)});
+      if (log_ != nullptr) log_->cut(arc.value(), path_arc.value(), key(end), opposite(d));
       start = end;
       path_arc = next(end);
     }
+    if (log_ != nullptr) log_->lay(arc.value(), path_arc.value(), key(leaf), opposite(d));
+    if (lists_ == nullptr) return;
     lists_->merge(arc, path_arc);
     add_vertex(path_arc, leaf);
   }
@@ -128,7 +133,8 @@ class GraphLeafRemoval {
   void add_vertex(ArcId arc, NodeId node) {
     lists_->add(arc, value(node), full_.positions.empty() ? std::array<double, 3>{} : full_.positions[node.value()]);
   }
-  double value(NodeId node) const { return full_.nodes[node.value()].value; }
+  const SweepKey& key(NodeId node) const { return full_.nodes[node.value()]; }
+  double value(NodeId node) const { return key(node).value; }
 
   // A saddle that lost an arc might become a leaf, or be contracted, which gives leaves beyond it another saddle.
   void settle(NodeId node) {
@@ -140,6 +146,7 @@ class GraphLeafRemoval {
     const NodeId bottom = graph_.end(lower, kDown), top = graph_.end(upper, kUp);
     graph_.remove(upper);
     graph_.move_end(lower, kUp, top);
+    if (log_ != nullptr) log_->join(upper.value(), lower.value(), key(node), kUp);
     if (lists_ != nullptr) {
       lists_->merge(upper, lower);
       add_vertex(lower, node);
@@ -153,6 +160,7 @@ class GraphLeafRemoval {
   const double threshold_;
   WorkingGraph graph_;
   ArcBucketLists* lists_;
+  ArcLog* log_;
   IdVector<NodeId, std::array<NodeId, 2>> reach_;  // the farthest nodes on monotone paths
   std::vector<NodeId> leaves_;                     // nodes to examine, which might be leaves
   std::vector<PersistencePair> removed_;
@@ -178,10 +186,11 @@ void drop_lone_nodes(ReebGraph& graph, const std::vector<NodeId>& isolated) {
     for (NodeId& node : *ends) node = NodeId(rank[node.value()]);
 }
 
-void remove_leaves(Denoised& result, const std::vector<bool>* whole, double threshold, ArcBucketLists* lists) {
+void remove_leaves(Denoised& result, const std::vector<bool>* whole, double threshold, ArcBucketLists* lists,
+                   ArcLog* log = nullptr) {
   const std::vector<NodeId> isolated = isolated_nodes(result.graph);
   {
-    GraphLeafRemoval removal(result.graph, whole, threshold, lists);
+    GraphLeafRemoval removal(result.graph, whole, threshold, lists, log);
     removal.run();
     result.removed = removal.take_removed();
     result.former = removal.remaining();
@@ -218,6 +227,13 @@ Denoised denoise_without_embedding(ReebGraph graph, const std::vector<bool>* who
 
 Denoised denoise(ReebGraph graph, double threshold) {
   return denoise_without_embedding(std::move(graph), nullptr, threshold);
+}
+
+Denoised denoise(ReebGraph graph, double threshold, ArcLog& log) {
+  Denoised result{std::move(graph), {}, {}};
+  remove_leaves(result, nullptr, threshold, nullptr, &log);
+  for (const ArcId arc : result.former) log.settle(arc.value());
+  return result;
 }
 
 Denoised denoise(ReebGraph graph, double threshold, ArcBuckets& buckets, int exponent) {

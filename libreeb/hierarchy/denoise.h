@@ -9,6 +9,7 @@
 #include "libreeb/graph/reeb_graph.h"
 #include "libreeb/hierarchy/hierarchy.h"
 #include "libreeb/hierarchy/packed_lists.h"
+#include "libreeb/port/arc_log.h"
 
 namespace reeb {
 
@@ -30,6 +31,10 @@ struct Denoised {
 //         of them the result).
 // REQUIRES: no node is of degree (1, 1).
 Denoised denoise(ReebGraph graph, double threshold);
+
+// The same, with the history of the arcs: arcs have their numbers in the given graph, and are settled in the order of
+// the result. A removed leaf and its arc are laid on the path that is described below.
+Denoised denoise(ReebGraph graph, double threshold, ArcLog& log);
 
 // The same with an embedding: `buckets`, of the graph's arcs, become those of the result's arcs. The vertices of a
 // removed leaf's arc, and the leaf, are moved to another path from its saddle that reaches beyond the leaf: at each

@@ -77,6 +77,11 @@ class ReebFile {
 
   // Version 0 is the full graph. Reads only the frames that the version needs.
   Level load(std::uint32_t version = 0) const;
+  // The graph alone, without positions and buckets.
+  // MEMORY: kGraphMemoryBytes for each node or arc, whichever are more, of the nodes and arcs in the frames that it
+  // reads.
+  ReebGraph load_graph(std::uint32_t version = 0) const;
+  static constexpr std::uint64_t kGraphMemoryBytes = 72;
 
   // In the order of cancelling, Ext0 last. Also THROWS for a file without a hierarchy.
   // MEMORY: 48 bytes per node, in addition to the rows.
@@ -90,6 +95,7 @@ class ReebFile {
  private:
   friend class ProgressiveGraph;
   void require_hierarchy(const char* what) const;
+  Level load(std::uint32_t version, bool embedded) const;
 
   std::unique_ptr<const FrameFile> frames_;
 };

@@ -20,7 +20,7 @@ struct LiveRecords {
 };
 
 // Adds the frame. Nodes that no arc of their own frame needs are isolated points.
-void add_frame(const GraphFrame& frame, std::uint32_t version, bool graph_only, LiveRecords& live) {
+void add_frame(const GraphFrame& frame, std::uint32_t version, bool graph_only, bool embeds, LiveRecords& live) {
   constexpr std::uint8_t kUnreferenced = 1, kAbsent = 0, kPresent = 2;
   const std::size_t first_node = live.nodes.size();
   live.nodes.insert(live.nodes.end(), frame.nodes.begin(), frame.nodes.end());
@@ -37,7 +37,7 @@ void add_frame(const GraphFrame& frame, std::uint32_t version, bool graph_only, 
         live.used[end] = kAbsent;
     if (alive) {
       live.arcs.push_back(arc);
-      if (!frame.bucket_counts.empty()) {
+      if (embeds && !frame.bucket_counts.empty()) {
         live.bucket_counts.push_back(frame.bucket_counts[i]);
         live.buckets.insert(live.buckets.end(), frame.buckets.begin() + static_cast<std::ptrdiff_t>(bucket),
                             frame.buckets.begin() + static_cast<std::ptrdiff_t>(bucket + count));
@@ -114,7 +114,11 @@ void arcs_by_rank(const LiveRecords& live, ReebGraph& graph, ArcBuckets& buckets
 
 }  // namespace
 
-Level ReebFile::load(std::uint32_t version) const {
+Level ReebFile::load(std::uint32_t version) const { return load(version, true); }
+
+ReebGraph ReebFile::load_graph(std::uint32_t version) const { return load(version, false).graph; }
+
+Level ReebFile::load(std::uint32_t version, bool embedded) const {
   if (version > header().steps)
     throw Error(ErrorKind::kBadInput, "there is no version " + std::to_string(version),
                 "the coarsest is " + std::to_string(header().steps))
@@ -127,19 +131,19 @@ Level ReebFile::load(std::uint32_t version) const {
   while (!cursor.covers(version)) {
     const std::uint32_t coarser = cursor.finest_complete();
     cursor.next(*frames_, frame, buffers);
-    add_frame(frame, version, header().flags.graph_only, live);
+    add_frame(frame, version, header().flags.graph_only, embedded, live);
     if (cursor.covers(version)) counts = frame.versions[coarser - 1 - version];
   }
   Level level;
   level.version = version;
   level.threshold = level_threshold(version, counts.persistence);
-  level.graph = nodes_by_rank(live, header().flags.has_positions);
+  level.graph = nodes_by_rank(live, embedded && header().flags.has_positions);
   const std::uint64_t end = frames_->end_of(cursor.frames_read());
   for (const FileArc& arc : live.arcs)
     if (arc.lo >= arc.hi) frames_->fail(end, "an arc does not go up");
   arcs_by_rank(live, level.graph, level.buckets);
   if (level.graph.node_count() != counts.nodes || level.graph.arc_count() != counts.arcs ||
-      level.buckets.buckets.size() != counts.buckets)
+      (embedded && level.buckets.buckets.size() != counts.buckets))
     frames_->fail(end, "version " + std::to_string(version) + " has other counts than the file says");
   return level;
 }

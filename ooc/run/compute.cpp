@@ -16,36 +16,9 @@
 namespace reeb::ooc {
 namespace {
 
-void check_unchanged(const std::function<void()>& check_mesh, std::span<VertexFunction* const> functions) {
-  if (check_mesh) check_mesh();
-  for (const VertexFunction* function : functions) function->check_unchanged();
-}
-
-// Whatever goes wrong with an input that changes is due to the change.
-FirstStageResult read_input(RunContext& run, MeshInput input) {
-  const std::function<void()> check_mesh = input.check_unchanged;
-  const std::string mesh = input.path;
-  check_unchanged(check_mesh, run.functions);  // the run was identified by the names of its files
-  try {
-    FirstStageResult first = run_first_stage(run, std::move(input));
-    check_unchanged(check_mesh, run.functions);
-    return first;
-  } catch (InputChanged& changed) {
-    check_unchanged(check_mesh, run.functions);
-    changed.at(mesh);
-    if (run.resumable.checkpoint() == nullptr) throw;
-    throw InputChanged("the mesh has changed since the interrupted run",
-                       "start again with --force and without --resume")
-        .at(mesh);
-  } catch (const std::exception&) {
-    check_unchanged(check_mesh, run.functions);
-    throw;
-  }
-}
-
 std::vector<ComputeResult> run_stages(RunContext& run, MeshInput input) {
   const Stopwatch watch;
-  FirstStageResult first = read_input(run, std::move(input));
+  FirstStageResult first = read_mesh(run, std::move(input));
   first.seconds.wall = watch.seconds();
   return_freed_memory();
   std::vector<ComputeResult> results;

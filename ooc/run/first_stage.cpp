@@ -76,10 +76,16 @@ FirstStageResult glue_chunks(RunContext& run, ChunkSource& stretches, const Memo
   DividedChunks source(stretches, plan.chunk, run.budget);
   std::vector<GraphSink*> sinks;
   for (const auto& store : run.stores) sinks.push_back(store.get());
+  if (run.follower) sinks.assign(1, run.follower.get());
   PipelineOptions options;
   options.threads = plan.threads;
   options.are_boxes = here.origin == ChunkOrigin::kGrid;
-  options.choose_sweep = [&](std::size_t, const FunctionRange& range) { return sweep_options(run.options, range); };
+  options.choose_sweep = [&](std::size_t, const FunctionRange& range) {
+    SweepOptions sweep = sweep_options(run.options, range);
+    sweep.follows_vertices = run.follower != nullptr;
+    return sweep;
+  };
+  if (run.follower) options.log = &run.follower->log();
   options.progress = [&](const SourceProgress& at) {
     run.tell({Phase::kReeb, at.bytes_read, at.bytes_total, at.triangles_read});
   };
@@ -258,8 +264,6 @@ FirstStageResult run_indexed(RunContext& run, const MeshInput& input, std::uniqu
   return run_once(run, input, mesh, nullptr, false, std::move(result));
 }
 
-}  // namespace
-
 // An indexed mesh can be looked up. A stream is glued as it comes, unless that takes too much memory. Any other mesh is
 // spooled. Guesses can suffice to glue it meanwhile; if not, or if a function must look up a vertex first, it is then
 // run as an indexed mesh.
@@ -277,7 +281,8 @@ FirstStageResult run_first_stage(RunContext& run, MeshInput input) {
   if (input.indexed) return run_indexed(run, input, std::move(input.indexed), start, std::move(result));
 
   input.reader = std::make_unique<PolledReader>(std::move(input.reader), run.resumable);
-  if ((start == nullptr || start->origin == ChunkOrigin::kGrid) && !needs_lookup(run) &&
+  // Vertices of boxes cannot be followed, those of their tetrahedra can.
+  if ((start == nullptr || start->origin == ChunkOrigin::kGrid) && !needs_lookup(run) && !run.follower &&
       input.reader->leave_out_simplices())
     return run_grid(run, input, start, std::move(result));
   const bool may_stream = input.reader->info().finalizes && !needs_lookup(run);
@@ -291,6 +296,35 @@ FirstStageResult run_first_stage(RunContext& run, MeshInput input) {
   if (spooled.done) return std::move(spooled.result);
   input.reader.reset();
   return run_indexed(run, input, std::move(spooled.mesh), run.resumable.checkpoint(), std::move(spooled.result));
+}
+
+void check_unchanged(const std::function<void()>& check_mesh, std::span<VertexFunction* const> functions) {
+  if (check_mesh) check_mesh();
+  for (const VertexFunction* function : functions) function->check_unchanged();
+}
+
+}  // namespace
+
+// Whatever goes wrong with an input that changes is due to the change.
+FirstStageResult read_mesh(RunContext& run, MeshInput input) {
+  const std::function<void()> check_mesh = input.check_unchanged;
+  const std::string mesh = input.path;
+  check_unchanged(check_mesh, run.functions);  // the run was identified by the names of its files
+  try {
+    FirstStageResult first = run_first_stage(run, std::move(input));
+    check_unchanged(check_mesh, run.functions);
+    return first;
+  } catch (InputChanged& changed) {
+    check_unchanged(check_mesh, run.functions);
+    changed.at(mesh);
+    if (run.resumable.checkpoint() == nullptr) throw;
+    throw InputChanged("the mesh has changed since the interrupted run",
+                       "start again with --force and without --resume")
+        .at(mesh);
+  } catch (const std::exception&) {
+    check_unchanged(check_mesh, run.functions);
+    throw;
+  }
 }
 
 }  // namespace reeb::ooc

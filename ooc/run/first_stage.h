@@ -28,7 +28,9 @@ struct FirstStageResult {
 };
 
 // Fills the stores of the run and the ranges of its values.
-// THROWS: Error, of the input, the budget or the disk, or because the run was interrupted.
-FirstStageResult run_first_stage(RunContext& run, MeshInput input);
+// THROWS: Error, of the input, the budget or the disk, or because the run was interrupted; InputChanged if the mesh or
+// a
+//         file of values changes meanwhile.
+FirstStageResult read_mesh(RunContext& run, MeshInput input);
 
 }  // namespace reeb::ooc

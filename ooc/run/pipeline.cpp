@@ -22,12 +22,16 @@ namespace {
 struct Triangles {
   using Sweep = ChunkSweep;
   using Glue = reeb::Glue;
-  static std::unique_ptr<Glue> make_glue(GraphSink& sink) { return std::make_unique<Glue>(sink, true); }
+  static std::unique_ptr<Glue> make_glue(GraphSink& sink, ArcLog* log) {
+    auto glue = std::make_unique<Glue>(sink, true);
+    if (log != nullptr) glue->set_log(*log);
+    return glue;
+  }
 };
 struct Boxes {
   using Sweep = BoxSweep;
   using Glue = BoxGlue;
-  static std::unique_ptr<Glue> make_glue(GraphSink& sink) { return std::make_unique<Glue>(sink); }
+  static std::unique_ptr<Glue> make_glue(GraphSink& sink, ArcLog*) { return std::make_unique<Glue>(sink); }
 };
 
 // Scratch memory for sweeping.
@@ -75,7 +79,7 @@ class Pipeline {
  public:
   Pipeline(ChunkSource& source, std::span<GraphSink* const> sinks, MemoryBudget& budget, const PipelineOptions& options)
       : source_(source), budget_(budget), options_(options), live_(budget.reserve("live graph", 0)) {
-    for (GraphSink* sink : sinks) glues_.push_back(Kind::make_glue(*sink));
+    for (GraphSink* sink : sinks) glues_.push_back(Kind::make_glue(*sink, options.log));
     if (options.saved_engine != nullptr) restore(*options.saved_engine);
   }
 

@@ -14,6 +14,7 @@
 #include "libreeb/base/memory_budget.h"
 #include "libreeb/base/state_stream.h"
 #include "libreeb/engine/sweep_options.h"
+#include "libreeb/port/arc_log.h"
 #include "libreeb/port/graph_sink.h"
 #include "ooc/chunks/chunk_source.h"
 #include "ooc/run/compute_result.h"
@@ -41,6 +42,8 @@ struct PipelineOptions {
   // Called after that if the run can be resumed after this chunk: with the place after the chunk, and a function that
   // saves what was glued up to there.
   std::function<void(const ChunkPlace&, const SaveEngine&)> between_chunks = {};
+  // Of a run with one function, whose chunks are no boxes: gets the history of arcs. Null: none.
+  ArcLog* log = nullptr;
   // The state that an earlier process saved; the source starts at its place.
   StateReader* saved_engine = nullptr;
 };

@@ -58,6 +58,7 @@ void RunContext::make_stores() {
 
 void RunContext::start_over() {
   make_stores();
+  if (follower) follower->start_over();
   resumable.start_over();
   values.set_ranges(std::vector<FunctionRange>(functions.size()));
 }

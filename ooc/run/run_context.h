@@ -16,6 +16,7 @@
 #include "ooc/run/compute.h"
 #include "ooc/run/memory_plan.h"
 #include "ooc/run/resumable_run.h"
+#include "ooc/segmentation/arc_follower.h"
 #include "ooc/stored_graph/segment_store.h"
 
 namespace reeb::ooc {
@@ -59,6 +60,8 @@ struct RunContext {
   FunctionValues values;
   ResumableRun resumable;
   std::vector<std::unique_ptr<SegmentStore>> stores;  // by function
+  // Of a segmentation: gets the graph of the only function, in place of its store. The run cannot be resumed.
+  std::unique_ptr<ArcFollower> follower;
 
  private:
   void make_stores();

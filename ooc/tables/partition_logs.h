@@ -15,7 +15,8 @@
 
 namespace reeb::ooc {
 
-// Call append() for all records; then next() delivers the records of each part in order. Parts can be read interleaved.
+// Call append() for all records; then next() delivers the records of each part in order. Parts can be read interleaved,
+// and more than once.
 //
 // THROWS: Error{kResource} of the budget or the disk.
 // MEMORY: 16 KiB per part, reserved, and 8 bytes for each 16 KiB written.   THREADS: one at a time.
@@ -46,6 +47,8 @@ class PartitionLogs {
   std::uint64_t count(std::size_t index) const { return parts_[index].count; }
   std::uint64_t spilled_bytes() const { return size_; }
 
+  // Starts over with the first record of a part. REQUIRES: nothing more is appended.
+  void rewind(std::size_t index) { parts_[index].taken = 0; }
   // The next record of a part. REQUIRES: the part has one left, and nothing more is appended.
   const Record& next(std::size_t index) {
     Part& part = parts_[index];
@@ -64,7 +67,7 @@ class PartitionLogs {
   // The last block was never written. Its records move to the end of the file when reading starts, so that a part needs
   // only one buffer.
   void fetch(Part& part) {
-    if (part.taken == 0 && !part.blocks.empty()) {
+    if (part.blocks.size() * kBlockRecords < part.count && !part.blocks.empty()) {
       file_.write_at(size_, std::as_bytes(std::span<const Record>(part.records)));
       part.blocks.push_back(size_);
       size_ += part.records.size() * sizeof(Record);

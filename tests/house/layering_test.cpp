@@ -27,6 +27,7 @@ const Rooms kRooms = {
     {"libreeb/grid", {"libreeb/base", "libreeb/graph", "libreeb/port", "libreeb/engine"}},
     {"libreeb/hierarchy", {"libreeb/base", "libreeb/graph", "libreeb/port"}},
     {"libreeb/defects", {"libreeb/base", "libreeb/graph"}},
+    {"libreeb/segmentation", {"libreeb/base", "libreeb/graph", "libreeb/port", "libreeb/hierarchy"}},
     {"libreeb/format", {"libreeb/base", "libreeb/graph", "libreeb/port", "libreeb/hierarchy"}},
 
     {"io/file", {"libreeb/base"}},
@@ -59,6 +60,7 @@ const Rooms kRooms = {
     {"ooc/stored_graph", {"libreeb", "io/file", "ooc/threads", "ooc/sorting", "ooc/tables"}},
     {"ooc/reeb_file", {"libreeb", "io/file", "ooc/threads", "ooc/sorting", "ooc/tables"}},
     {"ooc/patches", {"libreeb"}},
+    {"ooc/segmentation", {"libreeb", "io/file", "ooc/sorting", "ooc/tables", "ooc/stored_graph"}},
     {"ooc/run", {"libreeb", "io/file", "ooc"}},
 
     {"tools/library", {"libreeb", "io", "ooc"}},

@@ -70,6 +70,14 @@ bool cancel_loop(PlainGraph& graph, Node v, Node y) {
   // Removing the arc is the same as zipping it onto another path, since it has no inner nodes.
   if (graph.has_arc(v, y)) {
     graph.remove_arc(v, y);
+    const bool has_other = graph.leads_up(v, y);
+    const Path other = has_other ? lowest_path(graph, v, y) : Path{v, y};
+    graph.add_arc(v, y);
+    if (!has_other)
+      graph.drop_points(v, y);
+    else if (other.size() > 2)
+      graph.zip_points(other, {v, y});
+    graph.remove_arc(v, y);
     return true;
   }
   const std::vector<Path> paths = interlevel_paths(graph, v, y);
@@ -99,11 +107,14 @@ double persistence(const ReebGraph& graph, const PersistencePair& pair) {
   return graph.nodes[pair.hi.value()].value - graph.nodes[pair.lo.value()].value;
 }
 
-NaiveHierarchy naive_hierarchy(const ReebGraph& graph, std::vector<PersistencePair> pairs) {
+NaiveHierarchy naive_hierarchy(const ReebGraph& graph, std::vector<PersistencePair> pairs,
+                               std::vector<PlainGraph::Point> points) {
   sort_for_cancelling(graph, pairs);
   NaiveHierarchy result;
   result.versions.push_back(graph);
-  PlainGraph current(graph);
+  PlainGraph current(graph, std::move(points));
+  result.points.push_back(current.points());
+  result.ambiguous.push_back(false);
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     if (pairs[i].type == PairType::kExt0) continue;
     pairs[i].kept = !cancel(current, pairs[i], graph.node_count());
@@ -111,6 +122,8 @@ NaiveHierarchy naive_hierarchy(const ReebGraph& graph, std::vector<PersistencePa
     current.contract_regular_nodes();
     result.versions.push_back(current.graph());
     result.steps.push_back(i);
+    result.points.push_back(current.points());
+    result.ambiguous.push_back(current.is_ambiguous());
   }
   result.pairs = std::move(pairs);
   return result;

@@ -6,6 +6,7 @@
 
 #include "libreeb/graph/reeb_graph.h"
 #include "libreeb/hierarchy/hierarchy.h"
+#include "tests/model/plain_graph.h"
 
 namespace reeb::test {
 
@@ -16,6 +17,9 @@ struct NaiveHierarchy {
   std::vector<ReebGraph> versions;
   // steps[s - 1] is the index in `pairs` of the pair whose cancellation turned version s - 1 into version s.
   std::vector<std::size_t> steps;
+  // The given points in each version, and whether they are ambiguous there.
+  std::vector<std::vector<PlainGraph::Point>> points;
+  std::vector<bool> ambiguous;
 
   // The version in which every pair with persistence below t is cancelled or kept.
   std::size_t version_below(double t, const ReebGraph& full) const;
@@ -26,6 +30,7 @@ double persistence(const ReebGraph& graph, const PersistencePair& pair);
 
 // REQUIRES: `pairs` are the extended persistence pairs of `graph`.
 // THROWS: std::logic_error if a rule finds no path where there must be one.
-NaiveHierarchy naive_hierarchy(const ReebGraph& graph, std::vector<PersistencePair> pairs);
+NaiveHierarchy naive_hierarchy(const ReebGraph& graph, std::vector<PersistencePair> pairs,
+                               std::vector<PlainGraph::Point> points = {});
 
 }  // namespace reeb::test

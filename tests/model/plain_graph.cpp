@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace reeb::test {
 
-PlainGraph::PlainGraph(const ReebGraph& graph) : full_(&graph) {
+PlainGraph::PlainGraph(const ReebGraph& graph, std::vector<Point> points) : full_(&graph), points_(std::move(points)) {
   for (Node v = 0; v < graph.node_count(); ++v) nodes_.insert(v);
   for (std::size_t i = 0; i < graph.arc_count(); ++i) arcs_.emplace(graph.lo[i].value(), graph.hi[i].value());
 }
@@ -51,7 +52,30 @@ void PlainGraph::remove_arc(Node lo, Node hi) {
   arcs_.erase(it);
 }
 
+void PlainGraph::zip_points(const Path& first, const Path& second) {
+  std::set<Node> merged(first.begin(), first.end());
+  merged.insert(second.begin(), second.end());
+  for (Point& point : points_) {
+    if (point.is_node || point.is_dropped) continue;
+    for (const Path* path : {&first, &second}) {
+      const auto lo = std::find(path->begin(), path->end(), point.lo);
+      if (lo == path->end() || std::next(lo) == path->end() || *std::next(lo) != point.hi) continue;
+      if (arcs_.count({point.lo, point.hi}) > 1) ambiguous_ = true;
+      const auto above = std::find_if(merged.begin(), merged.end(), [&](Node node) { return node > point.place; });
+      point.hi = *above;
+      point.lo = *std::prev(above);
+      break;
+    }
+  }
+}
+
+void PlainGraph::drop_points(Node lo, Node hi) {
+  for (Point& point : points_)
+    if (!point.is_node && point.lo == lo && point.hi == hi) point.is_dropped = true;
+}
+
 void PlainGraph::zip(const Path& first, const Path& second) {
+  zip_points(first, second);
   std::set<Node> merged;
   for (const Path* path : {&first, &second}) {
     merged.insert(path->begin(), path->end());
@@ -72,6 +96,12 @@ void PlainGraph::contract_regular_nodes() {
     if (below.size() != 1 || above.size() != 1) continue;
     remove_node(node);
     arcs_.emplace(below.front(), above.front());
+    for (Point& point : points_) {
+      const bool is_this = point.is_node && point.place == node;
+      if (is_this || (!point.is_node && point.hi == node)) point.hi = above.front();
+      if (is_this || (!point.is_node && point.lo == node)) point.lo = below.front();
+      if (is_this) point.is_node = false;
+    }
   }
 }
 
@@ -84,6 +114,12 @@ PlainGraph PlainGraph::flipped() const {
   result.arcs_.clear();
   for (const Node node : nodes_) result.nodes_.insert(flip(node));
   for (const auto& [lo, hi] : arcs_) result.arcs_.emplace(flip(hi), flip(lo));
+  for (Point& point : result.points_) {
+    point.place = static_cast<double>(full_->node_count()) - 1 - point.place;
+    std::swap(point.lo, point.hi);
+    point.lo = flip(point.lo);
+    point.hi = flip(point.hi);
+  }
   return result;
 }
 

@@ -18,7 +18,18 @@ class PlainGraph {
   using Node = std::uint32_t;
   using Path = std::vector<Node>;
 
-  explicit PlainGraph(const ReebGraph& graph);
+  // A point that is followed while the graph changes: a node of the full graph, or a vertex between two of them.
+  struct Point {
+    double place = 0;  // of a node its number; of a vertex, more than that of the last node before it, by less than 1
+    Node lo = 0, hi = 0;  // the arc on which it lies, if it is no node
+    bool is_node = false, is_dropped = false;
+  };
+
+  explicit PlainGraph(const ReebGraph& graph, std::vector<Point> points = {});
+  const std::vector<Point>& points() const { return points_; }
+  // Whether a path took one of several parallel arcs with points on them. Then it is not known which of the points it
+  // took.
+  bool is_ambiguous() const { return ambiguous_; }
 
   // The other ends of the arcs up from, and down from, a node; ascending, parallel arcs repeat.
   std::vector<Node> up(Node node) const;
@@ -31,11 +42,16 @@ class PlainGraph {
   // The nodes among those `allowed` that are connected with `start` through allowed nodes.
   std::set<Node> component(Node start, const std::function<bool(Node)>& allowed) const;
 
+  void add_arc(Node lo, Node hi) { arcs_.emplace(lo, hi); }
   // Removes one of the arcs between the nodes. THROWS: std::logic_error if there is none.
   void remove_arc(Node lo, Node hi);
   // Zips two monotone paths that start in the same node: the nodes of both come in order, with arcs between neighbours.
   // The path that ends lower ends at a node of the zipped path.
   void zip(const Path& first, const Path& second);
+  // Moves the points on two such paths as zip() does, and leaves the graph as it is.
+  void zip_points(const Path& first, const Path& second);
+  // The points of the arc have no place any more.
+  void drop_points(Node lo, Node hi);
   // Removes a leaf with its arc, or a node without arcs.
   void remove_node(Node node);
   // Contracts all (1, 1) nodes.
@@ -51,6 +67,8 @@ class PlainGraph {
   bool upside_down_ = false;
   std::set<Node> nodes_;
   std::multiset<std::pair<Node, Node>> arcs_;
+  std::vector<Point> points_;
+  bool ambiguous_ = false;
 
   Node flip(Node node) const;
 };

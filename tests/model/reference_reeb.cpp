@@ -5,6 +5,7 @@
 #include <optional>
 #include <sstream>
 #include <stdexcept>
+#include <tuple>
 
 #include "tests/support/partition.h"
 
@@ -134,13 +135,14 @@ class Quotient {
 
 }  // namespace
 
-ReebGraph reference_reeb(const Complex& complex) {
+ReferenceArcs reference_arcs(const Complex& complex) {
   const std::vector<std::uint64_t> order = sweep_order(complex);
   const RankedComplex ranked = rank_vertices(complex, order);
   const Quotient quotient(ranked);
   const std::vector<Contour>& contours = quotient.contours();
 
-  ReebGraph graph;
+  ReferenceArcs result;
+  ReebGraph& graph = result.graph;
   std::map<std::size_t, NodeId> node_of;
   for (std::size_t c = 0; c < contours.size(); ++c) {
     if (contours[c].regular()) continue;
@@ -151,19 +153,34 @@ ReebGraph reference_reeb(const Complex& complex) {
     graph.nodes.push_back({value == 0 ? 0.0 : value, VertexId(vertex)});
     graph.positions.push_back(complex.positions[vertex]);
   }
-  std::vector<std::pair<NodeId, NodeId>> arcs;
+  struct Arc {
+    NodeId lo, hi;
+    std::vector<std::uint64_t> vertices;  // by index
+    // Parallel arcs by their first vertex, those without vertices last.
+    std::tuple<NodeId, NodeId, std::uint64_t> place() const {
+      return {lo, hi, vertices.empty() ? ~std::uint64_t{0} : vertices.front()};
+    }
+  };
+  std::vector<Arc> arcs;
   for (const auto& [contour, node] : node_of)
     for (std::size_t next : contours[contour].up) {
-      while (contours[next].regular()) next = contours[next].up.front();
-      arcs.emplace_back(node, node_of.at(next));
+      Arc arc{node, {}, {}};
+      for (; contours[next].regular(); next = contours[next].up.front())
+        if (contours[next].vertex) arc.vertices.push_back(order[*contours[next].vertex]);
+      arc.hi = node_of.at(next);
+      std::sort(arc.vertices.begin(), arc.vertices.end());
+      arcs.push_back(std::move(arc));
     }
-  std::sort(arcs.begin(), arcs.end());
-  for (const auto& [lo, hi] : arcs) {
-    graph.lo.push_back(lo);
-    graph.hi.push_back(hi);
+  std::sort(arcs.begin(), arcs.end(), [](const Arc& a, const Arc& b) { return a.place() < b.place(); });
+  for (Arc& arc : arcs) {
+    graph.lo.push_back(arc.lo);
+    graph.hi.push_back(arc.hi);
+    result.vertices.push_back(std::move(arc.vertices));
   }
-  return graph;
+  return result;
 }
+
+ReebGraph reference_reeb(const Complex& complex) { return reference_arcs(complex).graph; }
 
 ReebGraph without_positions(ReebGraph graph) {
   graph.positions.clear();

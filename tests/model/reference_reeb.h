@@ -2,6 +2,9 @@
 // which the engine is judged. It shares no code with the engine.
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "libreeb/graph/reeb_graph.h"
 #include "tests/support/complex.h"
 
@@ -9,6 +12,14 @@ namespace reeb::test {
 
 // The graph in canonical form, with the positions of its nodes. O(vertices * (edges + triangles)).
 ReebGraph reference_reeb(const Complex& complex);
+
+// The same with the vertices that lie on each arc, by index: those on the contours that make up the arc. Parallel arcs
+// are ordered by the smallest of them; arcs without vertices come last.
+struct ReferenceArcs {
+  ReebGraph graph;
+  std::vector<std::vector<std::uint64_t>> vertices;  // by arc
+};
+ReferenceArcs reference_arcs(const Complex& complex);
 
 // The same graph without positions, for comparing with a result that has none.
 ReebGraph without_positions(ReebGraph graph);

@@ -1,0 +1,278 @@
+#include "ooc/run/segment.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <new>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "io/file/atomic_file.h"
+#include "libreeb/base/count_text.h"
+#include "libreeb/base/error.h"
+#include "libreeb/hierarchy/cancel.h"
+#include "libreeb/hierarchy/denoise.h"
+#include "libreeb/segmentation/arc_history.h"
+#include "libreeb/segmentation/level_arcs.h"
+#include "libreeb/segmentation/parallel_arcs.h"
+#include "ooc/run/first_stage.h"
+#include "ooc/run/freed_memory.h"
+#include "ooc/run/run_context.h"
+#include "ooc/segmentation/arc_follower.h"
+
+namespace reeb::ooc {
+namespace {
+
+[[noreturn]] void refuse(const ReebFile& file, const std::string& what) {
+  throw Error(ErrorKind::kBadInput, what, "name the mesh that the file was computed from, or compute the file again")
+      .at(file.path());
+}
+
+template <class Count>
+void require_equal(const ReebFile& file, const char* what, Count in_file, Count in_mesh) {
+  if (in_file != in_mesh)
+    refuse(file, "it is not the graph of this mesh: it says " + with_commas(in_file) + " " + what + ", the mesh has " +
+                     with_commas(in_mesh));
+}
+
+constexpr std::size_t kEventsAtOnce = 8192;
+
+// THROWS: Error{kBadInput} unless the level of the file is this graph.
+void require_level(MemoryBudget& budget, const ReebFile& file, std::uint32_t version, const ReebGraph& graph) {
+  const std::uint64_t size = std::max<std::uint64_t>(graph.node_count(), graph.arc_count());
+  const Reservation memory = budget.reserve("graph of the file", ReebFile::kGraphMemoryBytes * size);
+  const ReebGraph stored = file.load_graph(version);
+  if (stored.nodes != graph.nodes || stored.lo != graph.lo || stored.hi != graph.hi)
+    refuse(file, "it is not the graph of this mesh: its nodes or arcs differ");
+}
+
+ComputeOptions run_options(ComputeOptions options) {
+  options.graph_only = true;
+  options.keep_sidecar = false;
+  options.buckets = 0;
+  options.denoise = 0;
+  options.denoise_is_share = false;
+  options.resume = false;
+  return options;
+}
+
+// One change of the whole graph: where its arcs and nodes are afterwards.
+struct Step {
+  ArcHistory history;                      // of the arcs before
+  std::vector<std::uint32_t> arc_of_node;  // by node before: the arc afterwards, if it is no node then; or kDropped
+  std::vector<NodeId> rank;                // by node before: the node afterwards, or none()
+  Reservation memory;
+
+  bool has(std::size_t node) const { return rank[node] != NodeId::none(); }
+};
+
+}  // namespace
+
+class Segmentation::Impl {
+ public:
+  Impl(MeshInput input, VertexFunction& function, std::uint64_t vertex_bound, const ReebFile& file,
+       std::uint32_t version, const std::string& output, ComputeOptions options)
+      : file_(file),
+        version_(version),
+        options_(run_options(std::move(options))),
+        output_(output),
+        functions_{&function},
+        run_((input.may_resume = false, input), functions_, std::span(&output_, 1), options_) {
+    run_.follower =
+        std::make_unique<ArcFollower>(run_.temp, run_.budget,
+                                      FollowOptions{.vertex_bound = vertex_bound,
+                                                    .allowance_bytes = run_.plan.segment_bytes,
+                                                    .most_bytes = run_.plan.most_segment_bytes,
+                                                    .background = run_.background(),
+                                                    .poll = [this] { run_.resumable.check_interruption(); }});
+    try {
+      follow(std::move(input));
+      take_steps();
+      order_parallel_arcs();
+    } catch (const std::bad_alloc&) {
+      throw Error(ErrorKind::kResource, "out of memory", "close other programs, or allow less with --memory SIZE");
+    }
+    rewind();
+  }
+
+  std::uint64_t vertex_bound() const { return run_.follower->places().bound(); }
+  const SegmentCounts& counts() const { return counts_; }
+  const ReebGraph& level() const { return level_; }
+
+  void read(std::span<ArcLabel> labels, std::span<double> values) {
+    for (std::size_t i = 0; i < labels.size(); ++i) {
+      if (next_ == places_.size()) fetch();
+      const VertexPlace& place = places_[next_++];
+      labels[i] = label(place, vertex_++);
+      values[i] = place.kind == VertexPlace::Kind::kNone ? std::numeric_limits<double>::quiet_NaN() : place.value;
+    }
+  }
+
+  void rewind() {
+    run_.follower->places().rewind();
+    places_ = {};
+    next_ = 0;
+    vertex_ = 0;
+  }
+
+ private:
+  void follow(MeshInput input) {
+    const FileHeader& header = file_.header();
+    // A run without the memory for the last pass of noise removal leaves what the first stage has not removed.
+    if (header.denoise_threshold == 0 && header.denoised_pairs != 0)
+      throw Error(ErrorKind::kBadInput, "its noise was removed in part, so it is not known where vertices went",
+                  "compute it again with more memory, or without --denoise")
+          .at(file_.path());
+    const FirstStageResult first = read_mesh(run_, std::move(input));
+    return_freed_memory();
+    require_equal(file_, "vertices", header.mesh_vertices, first.vertices);
+    require_equal(file_, "triangles", header.mesh_triangles, first.simplices[2]);
+    if (first.vertices != 0) {
+      const FunctionRange range = run_.values.range(0);
+      if (range.min != header.function_min || range.max != header.function_max)
+        refuse(file_, "it is not the graph of this mesh: the values of " + header.function + " have another range");
+    }
+    full_ = run_.follower->finish();
+    level_ = std::move(full_.graph);
+    if (run_.follower->places().size() != first.vertices) throw std::logic_error("not every vertex lies somewhere");
+  }
+
+  // From the graph of the mesh to that of the level.
+  void take_steps() {
+    const FileHeader& header = file_.header();
+    if (header.denoise_threshold != 0)
+      take_step([&](const ReebGraph& graph, ArcLog& log) {
+        return reeb::denoise(graph, header.denoise_threshold, log).graph;
+      });
+    require_level(run_.budget, file_, 0, level_);
+    if (version_ == 0) return;
+    take_step([&](const ReebGraph& graph, ArcLog& log) {
+      return cancel_to_version(graph, version_, log, [&](double) { run_.resumable.check_interruption(); });
+    });
+    require_level(run_.budget, file_, version_, level_);
+  }
+
+  // change(graph, log) returns the changed graph.
+  template <class Change>
+  void take_step(const Change& change) {
+    const Reservation working =
+        run_.budget.reserve("hierarchy", hierarchy_bytes(level_.node_count(), level_.arc_count(), {}));
+    EventLog log(run_.temp, run_.budget);
+    ReebGraph after = change(level_, log);
+    Step step;
+    const auto& nodes = level_.nodes;
+    step.arc_of_node.assign(nodes.size(), ArcHistory::kDropped);
+    step.memory = run_.budget.reserve("lists of arcs", 0);
+    std::size_t events = 0;
+    log.read_backwards([&](const ArcEvent& event) {
+      const std::uint32_t arc = step.history.undo(event);
+      if (events++ % kEventsAtOnce == 0) {
+        step.memory.resize(step.history.memory_bytes());
+        run_.resumable.check_interruption();
+      }
+      if (event.kind != ArcEvent::Kind::kJoin && event.kind != ArcEvent::Kind::kLay) return;
+      const auto node = std::lower_bound(nodes.begin(), nodes.end(), event.key);
+      step.arc_of_node[static_cast<std::size_t>(node - nodes.begin())] = arc;
+    });
+    step.rank.assign(nodes.size(), NodeId::none());
+    for (std::size_t n = 0, kept = 0; n < nodes.size() && kept < after.nodes.size(); ++n)
+      if (nodes[n] == after.nodes[kept]) step.rank[n] = NodeId(static_cast<std::uint32_t>(kept++));
+    step.memory.resize(step.history.memory_bytes() + 8 * nodes.size());
+    steps_.push_back(std::move(step));
+    level_ = std::move(after);
+  }
+
+  // A level has its own order of parallel arcs; that of the full graph is known.
+  void order_parallel_arcs() {
+    const PlacedVertices& all = run_.follower->places();
+    counts_.absent = all.bound() - all.size();
+    if (steps_.empty()) {
+      counts_.nodes = level_.node_count();
+      counts_.on_arcs = all.size() - counts_.nodes;
+      return;
+    }
+    order_memory_ = run_.budget.reserve("order of parallel arcs", ParallelArcs::kArcBytes * level_.arc_count());
+    ParallelArcs parallel(level_);
+    visit_labels([&](std::uint64_t vertex, ArcLabel label) {
+      ++(label >= 0 ? counts_.on_arcs : label == kDroppedVertex ? counts_.dropped : counts_.nodes);
+      if (parallel.any() && label >= 0) parallel.see(ArcId(static_cast<std::uint32_t>(label)), vertex);
+    });
+    counts_.dropped -= counts_.absent;
+    if (parallel.any()) position_ = parallel.order();
+    order_memory_.resize(position_.size() * sizeof(ArcId));
+  }
+
+  template <class Visit>
+  void visit_labels(const Visit& visit) {
+    PlacedVertices& all = run_.follower->places();
+    all.rewind();
+    std::uint64_t vertex = 0;
+    for (auto places = all.read(); !places.empty(); places = all.read()) {
+      run_.resumable.check_interruption();
+      for (const VertexPlace& place : places) {
+        visit(vertex, label(place, vertex));
+        ++vertex;
+      }
+    }
+  }
+
+  void fetch() {
+    places_ = run_.follower->places().read();
+    next_ = 0;
+  }
+
+  ArcLabel label(const VertexPlace& place, std::uint64_t vertex) const {
+    using enum VertexPlace::Kind;
+    if (place.kind == kNone) return kDroppedVertex;
+    bool is_node = place.kind == kNode;
+    std::uint32_t number = is_node ? place.number : full_.arc_of_number[place.number].value();
+    const SweepKey key{place.value, VertexId(vertex)};
+    for (const Step& step : steps_) {
+      if (!is_node) {
+        number = step.history.find(number, key);
+      } else if (step.has(number)) {
+        number = step.rank[number].value();
+        continue;
+      } else {
+        number = step.arc_of_node[number];
+        is_node = false;
+      }
+      if (number == ArcHistory::kDropped) return kDroppedVertex;
+    }
+    if (is_node) return -1 - ArcLabel{number};
+    return position_.empty() ? ArcLabel{number} : ArcLabel{position_[number].value()};
+  }
+
+  const ReebFile& file_;
+  const std::uint32_t version_;
+  const ComputeOptions options_;
+  const std::string output_;
+  const std::array<VertexFunction*, 1> functions_;
+  RunContext run_;
+  FollowedGraph full_;  // its graph is in level_
+  ReebGraph level_;     // after the steps so far
+  std::vector<Step> steps_;
+  Reservation order_memory_;
+  std::vector<ArcId> position_;  // by arc of the level, if they are not in order
+  SegmentCounts counts_;
+
+  std::span<const VertexPlace> places_;  // the present range
+  std::size_t next_ = 0;
+  std::uint64_t vertex_ = 0;
+};
+
+Segmentation::Segmentation(MeshInput input, VertexFunction& function, std::uint64_t vertex_bound, const ReebFile& file,
+                           std::uint32_t version, const std::string& output, ComputeOptions options)
+    : impl_(std::make_unique<Impl>(std::move(input), function, vertex_bound, file, version, output,
+                                   std::move(options))) {}
+Segmentation::~Segmentation() = default;
+
+std::uint64_t Segmentation::vertex_bound() const { return impl_->vertex_bound(); }
+const SegmentCounts& Segmentation::counts() const { return impl_->counts(); }
+std::uint64_t Segmentation::nodes() const { return impl_->level().node_count(); }
+std::uint64_t Segmentation::arcs() const { return impl_->level().arc_count(); }
+void Segmentation::read(std::span<ArcLabel> labels, std::span<double> values) { impl_->read(labels, values); }
+void Segmentation::rewind() { impl_->rewind(); }
+
+}  // namespace reeb::ooc
