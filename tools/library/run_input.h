@@ -1,0 +1,61 @@
+// A mesh and its functions, opened for a run.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "io/file/content_source.h"
+#include "io/formats/open_mesh.h"
+#include "io/functions/function_source.h"
+#include "io/functions/mesh_field.h"
+#include "ooc/run/compute.h"
+
+namespace reeb {
+
+struct InputOptions {
+  std::string format{};
+  io::ImageOptions image{};
+  std::string temp_dir;  // not empty
+  std::uint64_t memory_bytes = ~std::uint64_t{0};
+  std::size_t batch_events = 8192;  // a few hundred KiB, beside chunks on their way
+};
+
+// Must outlive the run.
+class RunInput {
+ public:
+  // `functions` as users name them; "" is the default of the mesh.
+  // THROWS: Error, of the mesh or of a function.
+  RunInput(const std::string& path, std::span<const std::string> functions, const InputOptions& options);
+
+  const MeshInfo& info() const { return info_; }
+  // The reader alone, for a run with snapshots; or the mesh in the form that suits a run best. To be taken once.
+  ooc::MeshInput take_reader() { return std::move(mesh_); }
+  ooc::MeshInput take_mesh();
+  const std::vector<VertexFunction*>& functions() const { return functions_; }
+  // What was noticed while the functions were prepared.
+  const std::vector<std::string>& notes(std::size_t function) const { return fields_[function].notes; }
+  // Opens the mesh another time, in the same way; or with vertices numbered 0, 1, 2, ... even if some vertices of an
+  // image are left out. REQUIRES: can_read_again().
+  bool can_read_again() const { return input_.can_reopen(); }
+  std::unique_ptr<MeshReader> read_again(const ReadOptions& options, bool renumber = false) const {
+    io::ImageOptions image = options_.image;
+    image.renumber = renumber;
+    return io::open_mesh(input_, input_.open(), options, image, options_.format);
+  }
+  const io::Input& input() const { return input_; }
+
+ private:
+  InputOptions options_;
+  io::Input input_;
+  ReadOptions reading_;
+  MeshInfo info_;
+  ooc::MeshInput mesh_;
+  std::vector<io::MeshField> fields_;
+  std::vector<std::unique_ptr<io::FunctionSource>> sources_;
+  std::vector<VertexFunction*> functions_;
+};
+
+}  // namespace reeb
