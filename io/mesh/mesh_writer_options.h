@@ -11,11 +11,12 @@
 namespace reeb::io {
 
 struct MeshWriterOptions {
-  unsigned dimension = 3;                        // coordinates per vertex
-  std::vector<std::string> property_names{};     // columns of MeshBatch::properties; PLY and volume meshes keep them
-  bool float64 = false;                          // PLY numbers: double instead of float
-  std::optional<std::uint64_t> vertex_count{};   // if known (more is an error); saves the temporary copy of the faces
-  std::optional<std::uint64_t> simplex_count{};  // if known; for headers
+  unsigned dimension = 3;                         // coordinates per vertex
+  std::vector<std::string> property_names{};      // columns of MeshBatch::properties; PLY and volume meshes keep them
+  std::vector<std::string> integer_properties{};  // the last ones of these that are whole numbers: PLY, VTK
+  bool float64 = false;                           // PLY numbers: double instead of float
+  std::optional<std::uint64_t> vertex_count{};    // if known (more is an error); saves the temporary copy of the faces
+  std::optional<std::uint64_t> simplex_count{};   // if known; for headers
   Existing existing = Existing::kRefuse;
   std::string temp_folder{};  // of that copy; empty: TempDir::default_folder of the output
 };

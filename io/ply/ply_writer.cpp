@@ -23,6 +23,7 @@ class PlyWriter : public MeshWriter {
  public:
   PlyWriter(const std::string& path, const MeshWriterOptions& options)
       : columns_(column_names(options)),
+        integers_(options.integer_properties),
         dimension_(options.dimension),
         header_bytes_(header(kMaxVertices, ~std::uint64_t{0}).size() + kMinPadding),
         file_(path, options, header_bytes_) {}
@@ -57,11 +58,19 @@ class PlyWriter : public MeshWriter {
     return names;
   }
 
+  bool is_integer(const std::string& column) const {
+    return std::find(integers_.begin(), integers_.end(), column) != integers_.end();
+  }
+
   std::string header(std::uint64_t vertices, std::uint64_t faces) const {
     std::string text = "ply\nformat binary_little_endian 1.0\n";
     text += "element vertex " + std::to_string(vertices) + "\n";
     for (const std::string& name : columns_)
-      text += std::string("property ") + (sizeof(Number) == 4 ? "float " : "double ") + name + "\n";
+      text += std::string("property ") +
+              (is_integer(name)      ? "int "
+               : sizeof(Number) == 4 ? "float "
+                                     : "double ") +
+              name + "\n";
     text += "element face " + std::to_string(faces) + "\n";
     const bool is_signed = vertices <= kMaxVertices / 2;  // the bytes are the same
     text += std::string("property list uchar ") + (is_signed ? "int" : "uint") + " vertex_indices\n";
@@ -77,14 +86,22 @@ class PlyWriter : public MeshWriter {
     for (unsigned k = 0; k < std::max(3u, dimension_); ++k)
       columns.push_back(k < dimension_ ? batch.coordinates[k].data() : nullptr);
     for (const auto& column : batch.properties) columns.push_back(column.data());
+    // Integers come last.
+    const std::size_t numbers = columns.size() - integers_.size();
+    const std::size_t bytes = numbers * sizeof(Number) + integers_.size() * sizeof(std::int32_t);
     for (std::size_t i = 0; i < batch.vertex_count; ++i) {
-      char* record = out.reserve_record(columns.size() * sizeof(Number));
-      for (const double* column : columns) {
-        const Number number = column == nullptr ? Number{0} : narrow(column[i]);
+      char* record = out.reserve_record(bytes);
+      for (std::size_t k = 0; k < numbers; ++k) {
+        const Number number = columns[k] == nullptr ? Number{0} : narrow(columns[k][i]);
         std::memcpy(record, &number, sizeof(Number));
         record += sizeof(Number);
       }
-      out.commit_record(columns.size() * sizeof(Number));
+      for (std::size_t k = numbers; k < columns.size(); ++k) {
+        const auto number = static_cast<std::int32_t>(columns[k][i]);
+        std::memcpy(record, &number, sizeof number);
+        record += sizeof number;
+      }
+      out.commit_record(bytes);
     }
   }
 
@@ -114,7 +131,7 @@ class PlyWriter : public MeshWriter {
     });
   }
 
-  std::vector<std::string> columns_;
+  std::vector<std::string> columns_, integers_;
   unsigned dimension_;
   std::size_t header_bytes_;
   SectionedFile file_;
