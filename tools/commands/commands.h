@@ -15,5 +15,6 @@ void add_generate(CLI::App& program);
 void add_convert(CLI::App& program);
 void add_defects(CLI::App& program);
 void add_function(CLI::App& program);
+void add_segment(CLI::App& program);
 
 }  // namespace reeb::tools

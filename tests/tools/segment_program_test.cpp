@@ -1,0 +1,119 @@
+// `reeb segment`: its outputs, its inputs, and what it refuses.
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "tests/tools/program.h"
+
+namespace reeb::test {
+namespace {
+
+class SegmentProgram : public ProgramTest {
+ protected:
+  template <class Number>
+  std::vector<Number> numbers(const std::string& path) {
+    const std::string bytes = file(path);
+    EXPECT_EQ(bytes.size() % sizeof(Number), 0u) << path;
+    std::vector<Number> result(bytes.size() / sizeof(Number));
+    std::memcpy(result.data(), bytes.data(), result.size() * sizeof(Number));
+    return result;
+  }
+  // The labels of a run with these further words.
+  std::vector<std::int64_t> labels(const std::string& mesh, const std::string& graph,
+                                   const std::vector<std::string>& more = {}) {
+    std::vector<std::string> words{"segment", mesh, graph, "-o", "l.i64", "--force", "--quiet"};
+    words.insert(words.end(), more.begin(), more.end());
+    expect_success(reeb(words));
+    return numbers<std::int64_t>("l.i64");
+  }
+  // A vertex property of a mesh, as whole numbers.
+  std::vector<std::int64_t> property(const std::string& mesh, const std::string& name) {
+    expect_success(reeb({"function", mesh, "-f", "property:" + name, "-o", "p.f64", "--force", "--quiet"}));
+    const std::vector<double> values = numbers<double>("p.f64");
+    return {values.begin(), values.end()};
+  }
+};
+
+TEST_F(SegmentProgram, WritesTheSameLabelsInEveryFormat) {
+  expect_success(reeb({"generate", "scan", "--triangles", "3k", "-o", "s.ply"}));
+  expect_success(reeb({"compute", "s.ply", "--quiet"}));
+  for (const std::vector<std::string>& level : {std::vector<std::string>{}, {"--threshold", "2%"}, {"--nodes", "30"}}) {
+    const std::vector<std::int64_t> expected = labels("s.ply", "s.reeb", level);
+    EXPECT_GT(std::ranges::max(expected), 10);
+    for (const std::string out : {"o.ply", "o.vtu", "o.vtp"}) {
+      std::vector<std::string> words{"segment", "s.ply", "s.reeb", "-o", out, "--force"};
+      words.insert(words.end(), level.begin(), level.end());
+      expect_success(reeb(words));
+      EXPECT_EQ(property(out, out == "o.ply" ? "arc" : "SegmentationId"), expected) << out;
+    }
+    EXPECT_EQ(labels("o.ply", "s.reeb", level), expected);
+    EXPECT_EQ(labels("o.vtu", "s.reeb", level), expected);
+    EXPECT_EQ(labels("s.ply", "s.reeb", {"--memory", "16M", "--threads", "1"}).size(), expected.size());
+  }
+  expect_success(reeb({"function", "s.ply", "-f", "z", "-o", "z.f64", "--quiet"}));
+  expect_success(reeb({"function", "o.vtp", "-f", "property:Value", "-o", "v.f64", "--quiet"}));
+  EXPECT_EQ(file("v.f64"), file("z.f64"));
+}
+
+TEST_F(SegmentProgram, ReadsImagesInBoxesAsTheirDivision) {
+  expect_success(reeb({"generate", "volume", "--grid", "40x36x35", "--handles", "3", "-o", "v.nrrd"}));
+  expect_success(reeb({"function", "v.nrrd", "-o", "v.ply", "--quiet"}));
+  expect_success(reeb({"compute", "v.nrrd", "--quiet"}));
+  const std::vector<std::int64_t> expected = labels("v.nrrd", "v.reeb");
+  EXPECT_EQ(expected.size(), 40u * 36 * 35);
+  expect_success(reeb({"compute", "v.ply", "-f", "property:value", "-o", "p.reeb", "--quiet"}));
+  EXPECT_EQ(labels("v.ply", "p.reeb"), expected);
+}
+
+TEST_F(SegmentProgram, LeavesOutVerticesWithoutData) {
+  write("g.asc", "ncols 4\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\nNODATA_value -1\n1 2 -1 4\n5 6 7 8\n");
+  expect_success(reeb({"compute", "g.asc", "--nodata", "skip", "--quiet"}));
+  const std::vector<std::int64_t> expected = labels("g.asc", "g.reeb", {"--nodata", "skip"});
+  const std::int64_t none = std::int64_t{-1} << 63;
+  ASSERT_EQ(expected.size(), 8u);
+  EXPECT_EQ(expected[2], none);
+  EXPECT_EQ(std::ranges::count(expected, none), 1);
+  expect_success(reeb({"segment", "g.asc", "g.reeb", "--nodata", "skip", "-o", "g.vtu"}));
+  std::vector<std::int64_t> present = expected;
+  std::erase(present, none);
+  EXPECT_EQ(property("g.vtu", "SegmentationId"), present);
+}
+
+TEST_F(SegmentProgram, RefusesWhatItCannotLabel) {
+  expect_success(reeb({"generate", "torus", "--triangles", "500", "-o", "t.ply"}));
+  expect_success(reeb({"generate", "torus", "--triangles", "700", "-o", "other.ply"}));
+  expect_success(reeb({"compute", "t.ply", "--quiet"}));
+  expect_success(reeb({"compute", "t.ply", "--graph-only", "-o", "g.reeb", "--quiet"}));
+  expect_error(reeb({"segment", "other.ply", "t.reeb", "-o", "a.i64"}), 1);
+  expect_error(reeb({"segment", "t.reeb", "t.reeb", "-o", "a.i64"}), 1);
+  expect_error(reeb({"segment", "t.ply", "t.ply", "-o", "a.i64"}), 1);
+  expect_error(reeb({"segment", "t.ply", "t.reeb", "-o", "t.ply", "--force"}), 1);
+  expect_error(reeb({"segment", "t.ply", "t.reeb", "-o", "a.txt"}), 2);
+  expect_error(reeb({"segment", "t.ply", "t.reeb", "-o", "a.i64", "--threshold", "x"}), 2);
+  expect_error(reeb({"segment", "t.ply", "g.reeb", "-o", "a.i64", "--threshold", "1%"}), 1);
+  expect_error(reeb({"segment", "t.ply", "g.reeb", "-o", "a.i64", "--nodes", "2"}), 1);
+  EXPECT_FALSE(std::filesystem::exists(folder() + "/a.i64"));
+  expect_success(reeb({"segment", "t.ply", "g.reeb", "-o", "a.i64"}));
+  expect_error(reeb({"segment", "t.ply", "t.reeb", "-o", "a.i64"}), 1);
+  EXPECT_EQ(numbers<std::int64_t>("a.i64"), labels("t.ply", "t.reeb"));
+}
+
+TEST_F(SegmentProgram, ReadsTheValuesOfAFileAgain) {
+  expect_success(reeb({"generate", "torus", "--triangles", "500", "-o", "t.ply"}));
+  expect_success(reeb({"function", "t.ply", "-f", "random:3", "-o", "v.f64", "--quiet"}));
+  expect_success(reeb({"compute", "t.ply", "-f", "random:3", "-o", "r.reeb", "--quiet"}));
+  expect_success(reeb({"compute", "t.ply", "-f", "file:v.f64", "-o", "f.reeb", "--quiet"}));
+  const std::vector<std::int64_t> expected = labels("t.ply", "r.reeb", {"--threshold", "10%"});
+  EXPECT_EQ(labels("t.ply", "f.reeb", {"--threshold", "10%"}), expected);
+  EXPECT_EQ(labels("t.ply", "f.reeb"), labels("t.ply", "r.reeb"));
+  expect_success(reeb({"function", "t.ply", "-f", "random:4", "-o", "v.f64", "--quiet", "--force"}));
+  expect_error(reeb({"segment", "t.ply", "f.reeb", "-o", "a.i64"}), 1);
+  std::filesystem::remove(folder() + "/v.f64");
+  expect_error(reeb({"segment", "t.ply", "f.reeb", "-o", "a.i64"}), 1);
+}
+
+}  // namespace
+}  // namespace reeb::test

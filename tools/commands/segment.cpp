@@ -1,0 +1,267 @@
+// `reeb segment`: which arc of a graph each vertex of its mesh lies on.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "io/file/atomic_file.h"
+#include "io/file/file_name.h"
+#include "io/file/temp_dir.h"
+#include "io/formats/create_mesh.h"
+#include "io/vtk/vtk_mesh_writer.h"
+#include "libreeb/base/count_text.h"
+#include "libreeb/base/error.h"
+#include "libreeb/base/memory_budget.h"
+#include "libreeb/base/printable.h"
+#include "ooc/run/segment.h"
+#include "tools/commands/commands.h"
+#include "tools/library/run_files.h"
+#include "tools/library/run_input.h"
+#include "tools/program/image_options.h"
+#include "tools/program/input_kind.h"
+#include "tools/program/options.h"
+#include "tools/program/output.h"
+#include "tools/program/progress.h"
+#include "tools/program/quantity.h"
+#include "tools/program/signals.h"
+#include "tools/program/wrapping.h"
+
+namespace reeb::tools {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "labels are written as they are in memory");
+
+struct SegmentOptions {
+  std::string mesh, file, output, format, threshold, temp_folder;
+  std::optional<std::uint64_t> nodes;
+  std::uint64_t memory_bytes = MemoryBudget::kUnlimited;
+  unsigned threads = 0;
+  io::ImageOptions image;
+  bool force = false, quiet = false;
+};
+
+std::uint32_t choose_version(const ooc::ReebFile& file, const SegmentOptions& options) {
+  if (!options.threshold.empty()) {
+    const double range = file.header().function_max - file.header().function_min;
+    return file.version_at(parse_threshold("--threshold", options.threshold, range));
+  }
+  return options.nodes ? file.finest_with_nodes(*options.nodes) : 0;
+}
+
+// THROWS: Error{kBadInput} if the file names no function.
+io::FunctionSpec function_of(const ooc::ReebFile& file) {
+  try {
+    return io::parse_function(file.header().function);
+  } catch (const Error& error) {
+    throw Error(ErrorKind::kBadInput, "its function is none: " + error.message(), "compute the file again")
+        .at(file.path());
+  }
+}
+
+// More than the index of any vertex: vertices of a grid that are left out have indices, too.
+std::uint64_t vertex_bound(const ooc::ReebFile& file, const MeshInfo& info) {
+  const std::uint64_t vertices = file.header().mesh_vertices;
+  return info.grid ? std::max(vertices, info.grid->vertex_count()) : vertices;
+}
+
+// The labels and values of vertices in the order of a reader, which leaves out the vertices of a grid without data.
+class LabelStream {
+ public:
+  explicit LabelStream(ooc::Segmentation& segmentation) : segmentation_(segmentation) {}
+
+  void read(std::vector<double>& labels, std::vector<double>& values, std::size_t count, ooc::ArcLabel dropped) {
+    labels.clear();
+    values.clear();
+    while (labels.size() < count) {
+      if (next_ == labels_.size()) fetch();
+      const std::size_t i = next_++;
+      if (std::isnan(values_[i])) continue;
+      labels.push_back(static_cast<double>(labels_[i] == ooc::kDroppedVertex ? dropped : labels_[i]));
+      values.push_back(values_[i]);
+    }
+  }
+
+ private:
+  void fetch() {
+    constexpr std::uint64_t kAtOnce = 8192;
+    labels_.resize(static_cast<std::size_t>(std::min(segmentation_.vertex_bound() - read_, kAtOnce)));
+    if (labels_.empty()) throw InputChanged();
+    values_.resize(labels_.size());
+    segmentation_.read(labels_, values_);
+    read_ += labels_.size();
+    next_ = 0;
+  }
+
+  ooc::Segmentation& segmentation_;
+  std::vector<ooc::ArcLabel> labels_;
+  std::vector<double> values_;
+  std::size_t next_ = 0;
+  std::uint64_t read_ = 0;
+};
+
+// The mesh with its labels: .ply with the property `arc`, .vtu and .vtp with `SegmentationId` and `Value`.
+void write_mesh(const RunInput& input, ooc::Segmentation& segmentation, const SegmentOptions& options) {
+  const bool is_ply = io::name_suffix(options.output) == ".ply";
+  constexpr std::uint64_t kMostOfPly = std::uint64_t{1} << 31;
+  if (is_ply && std::max(segmentation.arcs(), segmentation.nodes()) >= kMostOfPly)
+    throw Error(ErrorKind::kBadInput, "PLY has no room for the numbers of so many arcs", "write .vtu or .i64")
+        .at(options.output);
+  ReadOptions reading;
+  reading.all_properties = is_ply;
+  reading.temp_folder = options.temp_folder;
+  const auto reader = input.read_again(reading, /*renumber=*/true);
+  const MeshInfo& info = reader->info();
+  io::MeshWriterOptions writing;
+  writing.dimension = info.dimension;
+  writing.float64 = true;  // a coordinate read again is the same
+  writing.existing = late_outputs(options.force);
+  writing.temp_folder = options.temp_folder;
+  if (is_ply) {
+    writing.property_names = info.property_names;
+    std::erase(writing.property_names, "arc");
+    writing.property_names.push_back("arc");
+    writing.integer_properties = {"arc"};
+  } else {
+    writing.property_names = {"Value", "SegmentationId"};
+    writing.integer_properties = {"SegmentationId"};
+  }
+  const auto writer = is_ply ? io::create_mesh(options.output, writing) : io::create_vtk_mesh(options.output, writing);
+  LabelStream stream(segmentation);
+  std::vector<double> labels, values;
+  MeshBatch batch;
+  while (reader->read(batch)) {
+    stream.read(labels, values, batch.vertex_count,
+                is_ply ? std::numeric_limits<std::int32_t>::min() : ooc::kDroppedVertex);
+    if (is_ply) {
+      // A property of the same name is replaced.
+      for (std::size_t k = info.property_names.size(); k-- > 0;)
+        if (info.property_names[k] == "arc")
+          batch.properties.erase(batch.properties.begin() + static_cast<std::ptrdiff_t>(k));
+    } else {
+      batch.properties.assign(1, values);
+    }
+    batch.properties.push_back(labels);
+    writer->write(batch);
+  }
+  input.input().check_unchanged();
+  writer->close();
+}
+
+void write_labels(ooc::Segmentation& segmentation, const SegmentOptions& options) {
+  constexpr std::uint64_t kAtOnce = 8192;
+  io::AtomicFile file(options.output, {.existing = late_outputs(options.force)});
+  std::vector<ooc::ArcLabel> labels;
+  std::vector<double> values;
+  for (std::uint64_t left = segmentation.vertex_bound(); left != 0; left -= labels.size()) {
+    labels.resize(static_cast<std::size_t>(std::min(left, kAtOnce)));
+    values.resize(labels.size());
+    segmentation.read(labels, values);
+    file.out().append(std::as_bytes(std::span(labels)));
+  }
+  file.commit();
+}
+
+void segment(SegmentOptions options) {
+  const std::string suffix = io::name_suffix(options.output);
+  if (suffix != ".i64" && suffix != ".ply" && suffix != ".vtu" && suffix != ".vtp")
+    throw Error(ErrorKind::kUsage, "labels are not written as \"" + suffix + '"',
+                "name an output that ends in .i64, .ply, .vtu or .vtp");
+  if (!options.threshold.empty()) parse_threshold("--threshold", options.threshold, 1);
+  require_reeb_file(options.file, "segment");
+  if (options.mesh != "-" && ooc::is_reeb_file(options.mesh))
+    throw Error(ErrorKind::kBadInput, "this is a Reeb graph, not a mesh", "name the mesh first, then the .reeb file")
+        .at(options.mesh);
+  if (options.temp_folder.empty()) options.temp_folder = io::TempDir::default_folder(options.output);
+  const ooc::ReebFile file(options.file);
+  RunFiles files;
+  files.add_input(options.mesh, "the mesh");
+  files.add_input(options.file, "the .reeb file");
+  const io::FunctionSpec function = function_of(file);
+  if (function.kind == io::FunctionSpec::Kind::kFile) files.add_input(function.argument, "the file of values");
+  files.add_output(options.output, "the output", existing_outputs(options.force));
+  files.check();
+  const std::uint32_t version = choose_version(file, options);
+  const bool writes_mesh = suffix != ".i64";
+
+  RunInput input(options.mesh, std::span(&file.header().function, 1),
+                 {.format = options.format,
+                  .image = options.image,
+                  .temp_dir = options.temp_folder,
+                  .memory_bytes = options.memory_bytes});
+  if (writes_mesh && !input.can_read_again())
+    throw Error(ErrorKind::kBadInput, "the mesh must be read twice for this output, and this input can be read once",
+                "name an output that ends in .i64, or write the mesh to a file first")
+        .at(options.mesh);
+  ProgressBar bar(options.quiet);
+  ooc::ComputeOptions run;
+  run.memory_bytes = options.memory_bytes;
+  run.threads = options.threads != 0 ? options.threads : std::max(1u, std::thread::hardware_concurrency());
+  run.temp_dir = options.temp_folder;
+  run.replace = options.force;
+  run.interrupted = watch_signals();
+  run.progress = [&](const ooc::ComputeProgress& at) {
+    bar.update({"following vertices"}, at.done, at.total, at.triangles);
+  };
+  const std::uint64_t bound = vertex_bound(file, input.info());
+  ooc::Segmentation segmentation(input.take_mesh(), *input.functions().front(), bound, file, version, options.output,
+                                 std::move(run));
+  bar.clear();
+  if (writes_mesh)
+    write_mesh(input, segmentation, options);
+  else
+    write_labels(segmentation, options);
+  if (options.quiet) return;
+  const ooc::SegmentCounts& counts = segmentation.counts();
+  print_line(fmt::format("wrote {}: {} on {}, {} at nodes", printable(options.output),
+                         count_of(counts.on_arcs, "vertex"), count_of(segmentation.arcs(), "arc"),
+                         with_commas(counts.nodes)) +
+             (counts.dropped != 0 ? ", " + with_commas(counts.dropped) + " dropped" : ""));
+}
+
+}  // namespace
+
+void add_segment(CLI::App& program) {
+  auto options = std::make_shared<SegmentOptions>();
+  CLI::App* command = program.add_subcommand("segment", "Write the arc on which each vertex of a mesh lies");
+  command->add_option("MESH", options->mesh, "The mesh that the file was computed from; - reads standard input")
+      ->required()
+      ->type_name("");
+  command->add_option("FILE", options->file, "The .reeb file")->required()->type_name("");
+  command
+      ->add_option("-o,--output", options->output,
+                   "File to write: .i64 (for each vertex a little-endian int64: the position of its arc among the arcs "
+                   "of `reeb extract`, or -1 - the position of its node), .ply, .vtu or .vtp (the mesh with these "
+                   "numbers)")
+      ->required()
+      ->type_name("FILE");
+  auto* threshold = command
+                        ->add_option("--threshold", options->threshold,
+                                     "On the graph without features of less persistence: 0.01 (function units), or "
+                                     "0.1% (of the range)")
+                        ->option_text("T");
+  auto* nodes =
+      add_count(*command, "--nodes", options->nodes, "On the finest level with at most N nodes")->option_text("N");
+  threshold->excludes(nodes);
+  add_format(*command, options->format);
+  add_image_options(*command, options->image);
+  add_size(*command, "--memory", options->memory_bytes, "Memory that the run may use: 64M, 1.5GiB (default: no limit)");
+  add_count(*command, "--threads", options->threads, "Number of threads, 1 to 1024 (default: all)",
+            {.least = 1, .most = 1024});
+  command
+      ->add_option("--temp-dir", options->temp_folder,
+                   "Folder for temporary files (default: $TMPDIR, or the folder of the output)")
+      ->type_name("DIR");
+  command->add_flag("--force", options->force, "Replace an existing output");
+  command->add_flag("--quiet", options->quiet, "Print no progress and no notes");
+  command->footer("Example:\n  reeb segment scan.ply scan.reeb --threshold 1% -o scan.i64");
+  command->callback([options] { segment(*options); });
+}
+
+}  // namespace reeb::tools
