@@ -47,6 +47,8 @@ class PlantedDefects : public ProgramTest {
     const auto json = nlohmann::json::parse(file("d.json"));
     const auto& loops = json["loops"];
     EXPECT_EQ(loops.size(), genus(mesh)) << options.seed;
+    EXPECT_EQ(json["components"]["count"], 1);
+    EXPECT_EQ(json["boundaries"]["count"], 0);
     ++score.meshes;
     std::vector<bool> taken(mesh.planted.size(), false);
     double longest_planted = 0, shortest_other = std::numeric_limits<double>::infinity();

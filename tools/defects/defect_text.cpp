@@ -8,6 +8,7 @@
 #include "io/text/output_buffer.h"
 #include "libreeb/base/count_text.h"
 #include "libreeb/base/printable.h"
+#include "tools/program/census_text.h"
 
 namespace reeb::tools {
 namespace {
@@ -103,7 +104,8 @@ void write_defect_csv(const Defects& defects, std::span<const RankedRow> rows, s
   out.flush();
 }
 
-void write_defect_json(const Defects& defects, std::span<const RankedRow> rows, std::ostream& stream) {
+void write_defect_json(const Defects& defects, std::span<const RankedRow> rows, const ooc::MeshCensus& census,
+                       std::ostream& stream) {
   auto loops = nlohmann::ordered_json::array();
   for (const RankedRow& ranked : rows) loops.push_back(row_json(defects, ranked));
   const SuggestedLength& suggestion = defects.table.suggestion;
@@ -112,6 +114,7 @@ void write_defect_json(const Defects& defects, std::span<const RankedRow> rows, 
       {"length", suggestion.length ? nlohmann::ordered_json(*suggestion.length) : nlohmann::ordered_json()},
       {"confidence", suggestion.confidence},
       {"why", suggestion.why}};
+  add_defects(json, census);
   stream << json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "ooc/census/mesh_census.h"
 #include "tools/defects/find_defects.h"
 
 namespace reeb::tools {
@@ -19,6 +20,8 @@ struct RankedRow {
 
 std::string defect_table(const Defects& defects, std::span<const RankedRow> rows);
 void write_defect_csv(const Defects& defects, std::span<const RankedRow> rows, std::ostream& stream);
-void write_defect_json(const Defects& defects, std::span<const RankedRow> rows, std::ostream& stream);
+// With what else is wrong with the surface.
+void write_defect_json(const Defects& defects, std::span<const RankedRow> rows, const ooc::MeshCensus& census,
+                       std::ostream& stream);
 
 }  // namespace reeb::tools
