@@ -1,4 +1,5 @@
 // `reeb defects` on meshes with planted tunnels and bridges, whose place, length and kind are known.
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <map>
@@ -120,6 +121,36 @@ TEST_F(PlantedDefects, AreListedFirstWithTheirKindAndLength) {
   EXPECT_EQ(score.center_in_box, score.listed);
   EXPECT_GE(share(score.right_length, score.listed), 0.99);
   EXPECT_GE(share(score.separated, score.meshes), 0.95);
+}
+
+TEST_F(PlantedDefects, OptionsChooseRowsAndWritePatches) {
+  expect_success(reeb({"generate", "torus", "--triangles", "2000", "-o", "t.ply"}));
+  expect_success(reeb({"defects", "t.ply", "-o", "t.csv", "--patches", "near", "--quiet"}));
+  const std::string header =
+      "rank,lo,hi,persistence,persistence_percent,center_x,center_y,center_z,min_x,min_y,min_z,max_x,max_y,max_z,"
+      "kind,length_contour,length_cycle,triangles,function\n";
+  const std::string csv = file("t.csv");
+  EXPECT_EQ(csv.substr(0, header.size()), header);
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 2);
+  EXPECT_NE(csv.find(",handle,"), std::string::npos) << csv;
+  EXPECT_NE(file("near/defect-1.ply").find("element vertex"), std::string::npos);
+  EXPECT_NE(file("near/defect-1-curves.ply").find("element edge"), std::string::npos);
+  for (const std::vector<std::string>& filter :
+       {std::vector<std::string>{"--longest", "3"}, {"--below", "1%"}, {"--below", "0.5"}}) {
+    std::vector<std::string> words = {"defects", "t.ply", "-o", "-", "--quiet"};
+    words.insert(words.end(), filter.begin(), filter.end());
+    EXPECT_EQ(reeb(words).output, header) << filter[0] << ' ' << filter[1];
+  }
+}
+
+TEST_F(PlantedDefects, FilesOfAnotherMeshAreRefused) {
+  expect_success(reeb({"generate", "torus", "--triangles", "2000", "-o", "t.ply"}));
+  expect_success(reeb({"generate", "torus", "--triangles", "3000", "-o", "u.ply"}));
+  expect_success(reeb({"compute", "u.ply", "--quiet"}));
+  EXPECT_EQ(reeb({"defects", "t.ply", "u.reeb"}).exit_code, 1);
+  EXPECT_EQ(reeb({"defects", "u.reeb"}).exit_code, 1);
+  EXPECT_EQ(reeb({"defects", "-"}).exit_code, 2);
+  expect_success(reeb({"defects", "u.ply", "u.reeb", "--quiet"}));
 }
 
 }  // namespace
