@@ -91,17 +91,17 @@ void ChunkLeafRemoval::try_leaf(SweepNode leaf, Direction d) {
   settle(saddle);
 }
 
-// The path leads to the farthest node that the saddle reaches. Where noise is dense, it passes thousands of arcs. When
+// The path leads to the farthest node that the saddle reaches. In an image with noise it passes thousands of arcs. When
 // it has passed a few and has come to the bucket of the leaf, the rest goes whole to the arc there.
 void ChunkLeafRemoval::move_buckets(SweepNode leaf, SweepArc arc, Direction d) {
-  constexpr std::size_t kArcsToDivideFor = 16;
+  const std::size_t arcs_to_divide_for = swept_->stars == nullptr ? 16 : graph_->arcs.size();
   path_.clear();
   SweepNode node = graph_->arcs[arc].end(opposite(d));
   const double saddle_value = value(node);
   const int exponent = graph_->buckets.exponent();
   const std::int64_t last_bucket = bucket_index(value(leaf), exponent);
   while (along(d, node) < along(d, leaf)) {
-    if (path_.size() >= kArcsToDivideFor && bucket_index(value(node), exponent) == last_bucket) break;
+    if (path_.size() >= arcs_to_divide_for && bucket_index(value(node), exponent) == last_bucket) break;
     const SweepArc step = nodes_[node].via[d];
     node = graph_->arcs[step].end(d);
     path_.push_back({&graph_->arc_buckets[step], value(node)});

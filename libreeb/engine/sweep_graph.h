@@ -84,7 +84,7 @@ struct SweptChunk {
   const Chunk& chunk;
   std::span<const double> values;
   std::span<const std::uint32_t> order;
-  const ChunkStars* stars;  // null: of a box
+  const ChunkStars* stars;  // null: of a box, or of a union of boxes
 
   LocalVertex local(VertexRank v) const { return LocalVertex(order[v.value()]); }
   std::uint8_t uses(VertexRank v) const { return chunk.uses[local(v).value()]; }
