@@ -1,5 +1,6 @@
 // `reeb compute MESH`, the default command: from a mesh to its `.reeb` file.
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
@@ -74,7 +75,9 @@ void check_files(const ComputeArguments& arguments, const std::vector<std::strin
 std::string describe(const MeshInfo& info) {
   std::string text = info.format;
   if (info.vertex_count) text += ", " + count_of(*info.vertex_count, "vertex");
-  if (info.simplex_count) text += ", " + count_of(*info.simplex_count, "face");
+  const bool has_faces = std::ranges::any_of(std::array{"PLY", "OFF", "STL", "SM"},
+                                             [&](const char* format) { return info.format.starts_with(format); });
+  if (info.simplex_count) text += ", " + count_of(*info.simplex_count, has_faces ? "face" : "cell");
   return text;
 }
 
