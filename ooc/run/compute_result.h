@@ -53,6 +53,10 @@ struct ComputeResult {
   std::uint64_t revoked_guesses = 0;   // and how many of these guesses were wrong: then the mesh was run from disk
   // Up to five loops, and up to five minima and maxima, of positive persistence, largest first.
   std::vector<Feature> largest;
+  // Of a graph with a hierarchy: the number of loops that are likely defects of the mesh, since a gap divides their
+  // persistences from those of larger ones; and the largest persistence of them.
+  std::uint64_t likely_defects = 0;
+  double likely_defects_up_to = 0;
   std::uint64_t spilled_bytes = 0;
   LiveMaximum live;
   PhaseSeconds seconds;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "libreeb/base/error.h"
+#include "libreeb/defects/small_loops.h"
 #include "libreeb/hierarchy/cancel.h"
 #include "libreeb/hierarchy/pairing.h"
 #include "ooc/reeb_file/record_log.h"
@@ -155,6 +156,7 @@ struct WrittenHierarchy {
   std::array<std::uint64_t, 4> pairs{};  // by PairType
   std::uint64_t kept_loops = 0;
   std::vector<Feature> largest;
+  SmallLoops likely_defects{};
   std::uint64_t spilled_bytes = 0;
 };
 
@@ -172,6 +174,13 @@ std::vector<Feature> largest_features(const ReebGraph& graph, const std::vector<
     largest.push_back({it->type, graph.nodes[it->lo.value()], graph.nodes[it->hi.value()]});
   }
   return largest;
+}
+
+SmallLoops small_loops(const ReebGraph& graph, const std::vector<PersistencePair>& ascending, double range) {
+  LikelyDefects defects(range);
+  for (const PersistencePair& pair : ascending)
+    if (pair.type == PairType::kExt1) defects.add(persistence_of(graph, pair));
+  return defects.found();
 }
 
 struct GraphInMemory {
@@ -222,6 +231,7 @@ WrittenHierarchy write_hierarchy(RunContext& run, StoredGraph stored) {
     written.kept_loops += pair.kept ? 1u : 0u;
   }
   written.largest = largest_features(graph, hierarchy.pairs);
+  written.likely_defects = small_loops(graph, hierarchy.pairs, stored.meta.function_max - stored.meta.function_min);
   write_hierarchy_file(stored.output, stored.meta,
                        {graph, hierarchy, records, run.embeds(), run.background(), run.output_options()},
                        part_of(poll, kBuilt, 1));
@@ -298,6 +308,8 @@ ComputeResult run_second_stage(RunContext& run, const FirstStageResult& first, s
     result.pairs = written.pairs;
     result.kept_loops = written.kept_loops;
     result.largest = std::move(written.largest);
+    result.likely_defects = written.likely_defects.count;
+    result.likely_defects_up_to = written.likely_defects.persistence;
     result.spilled_bytes += written.spilled_bytes;
   }
   result.seconds.hierarchy += watch.seconds();

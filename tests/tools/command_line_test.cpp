@@ -208,6 +208,17 @@ TEST_F(CommandLine, TheSummaryListsLoopsAndExtremaAndFitsEightyColumns) {
   EXPECT_EQ(lines_after("  mesh: ", outcome.error).size(), 1u);
 }
 
+TEST_F(CommandLine, TheSummaryNamesLikelyDefects) {
+  const auto generated = reeb({"generate", "scan", "--triangles", "40k", "-o", "scan.ply"});
+  EXPECT_NE(generated.error.find("genus 36"), std::string::npos) << generated.error;
+  const Outcome scan = reeb({"compute", "scan.ply", "-f", "x", "-o", "scan.reeb"});
+  const auto lines = lines_after("  likely defects: 36 loops of at most ", scan.error);
+  ASSERT_EQ(lines.size(), 1u) << scan.error;
+  EXPECT_NE(scan.error.find("reeb defects scan.ply"), std::string::npos);
+  expect_success(reeb({"generate", "torus", "--triangles", "1k", "-o", "torus.ply"}));
+  EXPECT_EQ(reeb({"torus.ply"}).error.find("likely"), std::string::npos) << "its one loop is as long as it is";
+}
+
 // All values are equal, so all pairs have persistence zero.
 TEST_F(CommandLine, FeaturesWithoutPersistenceAreNotListed) {
   expect_success(reeb({"generate", "grid", "--triangles", "1k", "-o", "grid.ply"}));

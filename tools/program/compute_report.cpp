@@ -46,11 +46,24 @@ void print_features(const ooc::ComputeResult& r, const std::string& title, bool 
   }
 }
 
+bool has_cells(const ooc::ComputeResult& r) {
+  return std::any_of(r.simplices.begin() + 3, r.simplices.end(), [](std::uint64_t count) { return count != 0; });
+}
+
 // The run counts no edges, which all of these need. They are those of a surface.
 void print_not_counted(const RunFacts& facts, const ooc::ComputeResult& r) {
-  if (std::any_of(r.simplices.begin() + 3, r.simplices.end(), [](std::uint64_t count) { return count != 0; })) return;
+  if (has_cells(r)) return;
   const std::string text = "  boundaries, non-manifold places, genus: not counted";
   print_line(facts.path == "-" ? text : text + "; reeb info " + printable(facts.path));
+}
+
+// Only what `reeb defects` can measure.
+void print_likely_defects(const RunFacts& facts, const ooc::ComputeResult& r) {
+  if (r.likely_defects == 0 || has_cells(r)) return;
+  const std::string text =
+      fmt::format("  likely defects: {} of at most {:.2g} % of the range", count_of(r.likely_defects, "loop"),
+                  100 * (r.likely_defects_up_to / (r.range.max - r.range.min)));
+  print_line(facts.path == "-" ? text : text + "; reeb defects " + printable(facts.path));
 }
 
 // Of the triangles; of all simplices, if there are others.
@@ -71,6 +84,7 @@ void print_result(const RunFacts& facts, const ooc::ComputeResult& r) {
   const auto pairs = [&](PairType type) { return r.pairs[static_cast<std::size_t>(type)]; };
   const std::uint64_t loops = pairs(PairType::kExt1), others = pairs(PairType::kOrd0) + pairs(PairType::kRel1);
   print_features(r, fmt::format("largest loops ({} in all):", with_commas(loops)), true);
+  print_likely_defects(facts, r);
   print_features(r, fmt::format("largest minima and maxima ({} in all):", with_commas(others)), false);
   if (r.kept_loops != 0)
     print_line(fmt::format("  {} of the loops cannot be cancelled exactly; {} in every simplified level",
