@@ -12,11 +12,11 @@ namespace {
 
 // The number of each digit; -1 for other characters.
 constexpr auto kDigits = [] {
-  std::array<std::int8_t, 256> digits{};
+  std::array<int, 256> digits{};
   digits.fill(-1);
   constexpr std::string_view kAlphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   for (std::size_t i = 0; i < kAlphabet.size(); ++i)
-    digits[static_cast<unsigned char>(kAlphabet[i])] = static_cast<std::int8_t>(i);
+    digits[static_cast<unsigned char>(kAlphabet[i])] = static_cast<int>(i);
   return digits;
 }();
 

@@ -10,7 +10,7 @@
 namespace reeb::io {
 namespace {
 
-std::unique_ptr<MeshReader> open_grid_file(std::shared_ptr<const ContentSource> content, GridFile file,
+std::unique_ptr<MeshReader> open_grid_file(const std::shared_ptr<const ContentSource>& content, GridFile file,
                                            const ReadOptions& options) {
   file.has_inner_nodes = has_higher_order_cells(*content, file);
   auto shared = std::make_shared<const GridFile>(std::move(file));

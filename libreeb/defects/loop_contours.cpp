@@ -388,6 +388,7 @@ std::vector<LoopContour> loop_contours(const SurfacePatch& patch, std::span<cons
   const bool leaves = !cutting.empty() && contours[cutting[0]].end == ContourEnd::kRim;
   cutting.resize(std::min(cutting.size(), leaves ? kMostThatLeave : std::size_t{1}));
   std::vector<LoopContour> result;
+  result.reserve(cutting.size());
   for (const std::uint32_t i : cutting) result.push_back(slabs.trace(contours[i]));
   return result;
 }

@@ -156,7 +156,7 @@ ClosedPath shortest_odd_arc(const SurfacePatch& patch, const Crossings& crossing
   std::vector<double> length(2 * std::size_t{patch.vertex_count()}, kFar);
   std::vector<std::uint32_t> from(length.size(), SurfacePatch::kNone);
   for (std::uint32_t v = 0; v < patch.vertex_count(); ++v)
-    if (!patch.whole(v)) queue.emplace(length[2 * v] = 0, 2 * v);
+    if (!patch.whole(v)) queue.emplace(length[2 * std::size_t{v}] = 0, 2 * v);
   while (!queue.empty()) {
     const auto [so_far, state] = queue.top();
     queue.pop();
