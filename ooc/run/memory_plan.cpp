@@ -16,7 +16,7 @@ constexpr std::uint64_t kMiB = 1 << 20;
 constexpr std::uint64_t kProcess = 37 * kMiB / 4, kWindows = kMiB;
 constexpr std::uint64_t kSmallestBudget = 16 * kMiB;
 // In addition, memory that the allocator cannot use again. The smallest budget has nothing to spare for it.
-constexpr std::uint64_t kFragmentation = 2 * kMiB;
+constexpr std::uint64_t kFragmentation = 3 * kMiB;
 
 // Bytes per live vertex, with its share of edges, arcs and references and with room to grow. Scans of 4 to 372 million
 // triangles, f = z, took 290 to 640 bytes with noise removed and 470 to 690 with noise kept; a wider front took more.

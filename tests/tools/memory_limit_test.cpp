@@ -145,6 +145,8 @@ TEST_F(MemoryLimit, HoldsForManyParallelArcs) {
   constexpr std::uint32_t kArcs = 300'000;
   write_parallel_arcs(in_folder("mesh.ply"), kArcs);
   expect_graph(32, {2, kArcs, 1, kArcs - 1});
+  for (const std::uint64_t megabytes : {48u, 64u, 80u})
+    expect_within(compute("mesh.ply", megabytes, "2", {"--graph-only"}), megabytes);
   expect_refused(32, {});
   expect_refused(20, {"--graph-only", "--buckets", "0"});
 }

@@ -89,8 +89,9 @@ std::string compare_with_mesh(const ooc::ReebFile& file, const VerifyOptions& op
                 fmt::format("it has {}, but the mesh is {}", count_of(header.loops, "loop"), describe_surface(mesh)),
                 "name the mesh that the file was computed from")
         .at(options.file);
-  fmt::print("{}: OK: {}, Euler characteristic {}{}, {}\n", options.mesh, count_of(mesh.components, "component"),
-             has_cells ? "of the 2-skeleton " : "", mesh.euler, describe_surface(mesh));
+  fmt::print("{}: OK: {}, Euler characteristic {}{}, {}\n", printable(options.mesh),
+             count_of(mesh.components, "component"), has_cells ? "of the 2-skeleton " : "", mesh.euler,
+             describe_surface(mesh));
   if (!nodes.unchecked().empty()) return nodes.unchecked();
   // A run without the memory for the last pass of noise removal leaves what the first stage has not removed.
   if (header.denoise_threshold == 0 && header.denoised_pairs != 0 && options.full)

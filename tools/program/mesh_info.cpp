@@ -102,7 +102,7 @@ void MeshSurvey::print_text() const {
       fmt::print("  {:<13} {:.9g} to {:.9g}\n", k < 3 ? std::string(1, "xyz"[k]) : fmt::format("c{}", k),
                  bounds_[k].min, bounds_[k].max);
   fmt::print("  properties    {}\n",
-             info.property_names.empty() ? "none" : fmt::format("{}", fmt::join(info.property_names, ", ")));
+             info.property_names.empty() ? "none" : printable(fmt::format("{}", fmt::join(info.property_names, ", "))));
   fmt::print("  finalization  {}\n", finalized_ == 0 ? "none" : fmt::format("of {}", count_of(finalized_, "vertex")));
   if (census_.live_front)
     fmt::print("  live front    {} at once: {}\n", count_of(*census_.live_front, "vertex"),
