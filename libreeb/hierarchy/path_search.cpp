@@ -83,11 +83,13 @@ bool PathSearch::find_path_beside(ArcId arc, std::vector<ArcId>& path) {
 // Makes leads() true for the arcs that can be reached from v and from which a monotone path reaches y. Searches down
 // from y and up from v in turn, until one of the two searches is complete.
 void PathSearch::search_between(NodeId v, NodeId y) {
-  back_.start(y, kDown, v);
-  ahead_.start(v, kUp, y);
+  // Arcs from v to y are left out, since n of them would take n searches of n arcs.
+  const NodeId bottom(v.value() + 1), top(y.value() - 1);
+  back_.start(y, kDown, bottom);
+  ahead_.start(v, kUp, top);
   while (back_.step() != kNone)
     if (ahead_.step() == kNone) {
-      back_.start(y, kDown, v);
+      back_.start(y, kDown, bottom);
       while (back_.step([&](NodeId node) { return ahead_.reached(node); }) != kNone) {
       }
       return;

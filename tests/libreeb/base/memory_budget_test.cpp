@@ -11,13 +11,14 @@ namespace {
 bool no_memory = false;
 }
 
-void* operator new(std::size_t bytes) {
+// Not inlined: with sanitizers, GCC 12 would inline one of a pair only and warn that they do not match.
+[[gnu::noinline]] void* operator new(std::size_t bytes) {
   void* const memory = no_memory ? nullptr : std::malloc(bytes);
   if (memory == nullptr) throw std::bad_alloc();
   return memory;
 }
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
 namespace reeb {
 namespace {

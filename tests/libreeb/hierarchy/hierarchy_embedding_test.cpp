@@ -114,6 +114,20 @@ std::vector<Bucket> of(const ArcBuckets& buckets, std::size_t arc) {
   return {own.begin(), own.end()};
 }
 
+TEST(Embedding, ParallelArcsTakeTimeInProportionToTheirNumber) {
+  // One of 100,000 arcs has a vertex. Were each loop a search of all arcs, this would be 10^10 steps.
+  std::vector<std::pair<std::uint64_t, std::uint64_t>> arcs(100000, {0, 9});
+  arcs.push_back({0, 4});  // and one that ends below
+  std::vector<std::vector<Bucket>> of_arcs(arcs.size());
+  of_arcs[77] = {{5, 1, {5.5, 0, 0}}};
+  ArcBuckets buckets = embedding(of_arcs);
+  const Hierarchy h = build_hierarchy(graph_of(arcs), buckets, kUnit);
+  EXPECT_EQ(h.persistence.size(), arcs.size() - 1);
+  std::uint64_t vertices = 0;
+  for (const Bucket& bucket : buckets.view().of(0)) vertices += bucket.count;
+  EXPECT_GE(vertices, 1u) << "the last arc has the vertices of all";
+}
+
 TEST(Embedding, ALeafIsLaidBesideItselfAndEndsInsideItsBucket) {
   // Up-fork 4 with the maximum 6 and the arc to 9. Only the arc (0, 9) remains.
   const ReebGraph graph = graph_of({{0, 4}, {4, 6}, {4, 9}});
