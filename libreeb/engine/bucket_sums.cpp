@@ -236,7 +236,7 @@ void BucketLists::restore(StateReader& in) {
   in.get(free_count_);
   const int exponent = in.get<int>();
   if (links_.size() != sums_.size() || free_.size() != sums_.size() || free_count_ > free_.size() ||
-      std::abs(exponent) > kMostExponent)
+      exponent < -kMostExponent || exponent > kMostExponent)
     throw DamagedState();
   indexer_ = BucketIndexer(exponent);
 }

@@ -23,7 +23,7 @@ std::int64_t bucket_index(double value, int exponent) noexcept {
 }
 
 BucketIndexer::BucketIndexer(int exponent) noexcept
-    : exponent_(exponent), scale_(std::abs(exponent) < 1000 ? std::ldexp(1.0, -exponent) : 0) {}
+    : exponent_(exponent), scale_(-1000 < exponent && exponent < 1000 ? std::ldexp(1.0, -exponent) : 0) {}
 
 int bucket_exponent(double min, double max, std::uint32_t buckets) noexcept {
   // Beyond the exponents of all doubles, so that the narrowest range can still be divided.

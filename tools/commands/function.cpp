@@ -165,7 +165,9 @@ class Values {
 void run_function(FunctionOptions options) {
   const std::string suffix = io::name_suffix(options.output);
   if (suffix != ".f64" && suffix != ".txt" && suffix != ".ply")
-    throw Error(ErrorKind::kUsage, "values are not written as \"" + suffix + "\"",
+    throw Error(ErrorKind::kUsage,
+                suffix.empty() ? "the output has no suffix, so there is no format for the values"
+                               : "values are not written as \"" + suffix + '"',
                 "name an output that ends in .f64, .txt or .ply");
   const io::FunctionSpec spec = parse(options.function);
   if (options.temp_folder.empty()) options.temp_folder = io::TempDir::default_folder(options.output);

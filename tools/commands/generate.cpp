@@ -48,8 +48,8 @@ void print_summary(const GenerateArguments& arguments, const io::ExpectedTopolog
   if (!t.genus) text += ", first Betti number " + with_commas(t.first_betti);
   print_line(text);
   if (more > asked / 10)
-    print_line(fmt::format("note: {} {} were asked for; a {} of {} is the nearest that there is", with_commas(asked),
-                           of, arguments.kind, with_commas(got)));
+    print_line(fmt::format("note: asked for {} {}; a {} of {} is the nearest that there is", with_commas(asked), of,
+                           arguments.kind, with_commas(got)));
 }
 
 // An option that would be ignored is refused; a seed that changes nothing is harmless.

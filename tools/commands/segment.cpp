@@ -171,7 +171,9 @@ void write_labels(ooc::Segmentation& segmentation, const SegmentOptions& options
 void segment(SegmentOptions options) {
   const std::string suffix = io::name_suffix(options.output);
   if (suffix != ".i64" && suffix != ".ply" && suffix != ".vtu" && suffix != ".vtp")
-    throw Error(ErrorKind::kUsage, "labels are not written as \"" + suffix + '"',
+    throw Error(ErrorKind::kUsage,
+                suffix.empty() ? "the output has no suffix, so there is no format for the labels"
+                               : "labels are not written as \"" + suffix + '"',
                 "name an output that ends in .i64, .ply, .vtu or .vtp");
   if (!options.threshold.empty()) parse_threshold("--threshold", options.threshold, 1);
   require_reeb_file(options.file, "segment");
