@@ -32,6 +32,14 @@ std::size_t peak_of(Work work) {
   if (held > reeb::bench::peak_bytes) reeb::bench::peak_bytes = held;
   return memory;
 }
+// As std::stable_sort asks. A sanitizer's own would not match the operator delete below.
+[[gnu::noinline]] void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+  try {
+    return operator new(size);
+  } catch (const std::bad_alloc&) {
+    return nullptr;
+  }
+}
 [[gnu::noinline]] void operator delete(void* memory) noexcept {
   if (memory != nullptr) reeb::bench::held_bytes -= malloc_usable_size(memory);
   std::free(memory);
