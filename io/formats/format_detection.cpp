@@ -137,7 +137,7 @@ bool has_streaming_line(std::string_view text) {
 
 // The second byte of SMB and SVB is a byte order, that of SMC version 1 is 1. Older and other kinds are told by name.
 bool starts_like_stream(std::string_view head) {
-  if (!looks_like_binary_stream(head.front())) return false;
+  if (head.empty() || !looks_like_binary_stream(head.front())) return false;
   if (head.size() == 1 || head[0] == 3) return true;
   return head[0] == 1 ? head[1] == 1 : head[0] != 2 && (head[1] == 0 || head[1] == 1);
 }

@@ -74,6 +74,13 @@ TEST(FuzzFindings, APlyWithSurplusValuesIsTheSameFromAFileAndAPipe) {
     if (target.name == "ply-ascii") target.run(bytes);
 }
 
+// The byte after the last one was read.
+TEST(FuzzFindings, AFileOfNothingOrOfAByteOrderMark) {
+  for (const FuzzTarget& target : fuzz_targets())
+    if (target.name == "any-mesh")
+      for (const char* bytes : {"", "\xEF\xBB\xBF"}) EXPECT_FALSE(target.run(bytes));
+}
+
 std::vector<const FuzzTarget*> pointers() {
   std::vector<const FuzzTarget*> all;
   for (const FuzzTarget& target : fuzz_targets()) all.push_back(&target);

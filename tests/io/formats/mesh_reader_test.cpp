@@ -1,9 +1,9 @@
 // The readers against files written by hand, and against each other.
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -334,14 +334,14 @@ TEST(Ply, AHeaderMayHaveManyProperties) {
     head += "property uchar " + options.properties.back() + "\n";
     body += i % 2 == 0 ? " 0" : " 1";
   }
-  const auto begin = std::chrono::steady_clock::now();
+  const std::clock_t begin = std::clock();
   const Mesh mesh = read_all(*open_mesh(write_file("many.ply", head + "end_header\n" + body + "\n"), options));
   ASSERT_EQ(mesh.vertices.size(), 1u);
   ASSERT_EQ(mesh.vertices[0].size(), kCount + 1);
   EXPECT_EQ(mesh.vertices[0].back(), 1);
   expect_bad(write_file("twice.ply", head + "property uchar p7\nend_header\n" + body + " 0\n"),
              std::to_string(kCount + 5) + ":16", "the property \"p7\" is declared twice");
-  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(10));
+  EXPECT_LT(std::clock() - begin, 10 * CLOCKS_PER_SEC) << "of processor time";
 }
 
 // The same name in two elements is two properties.
