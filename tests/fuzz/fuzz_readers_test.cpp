@@ -77,8 +77,11 @@ TEST(FuzzFindings, APlyWithSurplusValuesIsTheSameFromAFileAndAPipe) {
 // The byte after the last one was read.
 TEST(FuzzFindings, AFileOfNothingOrOfAByteOrderMark) {
   for (const FuzzTarget& target : fuzz_targets())
-    if (target.name == "any-mesh")
-      for (const char* bytes : {"", "\xEF\xBB\xBF"}) EXPECT_FALSE(target.run(bytes));
+    if (target.name == "any-mesh") {
+      for (const char* bytes : {"", "\xEF\xBB\xBF"}) {
+        EXPECT_FALSE(target.run(bytes));
+      }
+    }
 }
 
 std::vector<const FuzzTarget*> pointers() {
