@@ -54,8 +54,9 @@ struct ComputeOptions {
   // A run on a mesh in a file keeps checkpoints in the folder OUT.partial. A later run with the same mesh, functions
   // and first output can resume from them; the result is the same.
   bool resume = false;
-  double checkpoint_seconds = 2;           // least time between checkpoints; 0: after every chunk
-  std::function<bool()> interrupted = {};  // called often: whether the run is to end
+  double checkpoint_seconds = 2;  // least time between checkpoints; 0: after every chunk
+  // Called often, by several threads, also at the same time: whether the run is to end.
+  std::function<bool()> interrupted = {};
 };
 
 // Computes the graph of functions[i] and writes it to outputs[i]. All functions share the pass over the mesh in which

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <mutex>
 #include <thread>
 #include <utility>
 
@@ -30,10 +31,20 @@ ooc::ComputeOptions run_options(const ComputeOptions& options) {
   run.buckets = options.buckets;
   run.denoise = options.denoise;
   run.denoise_is_share = options.denoise_is_share;
-  run.progress = options.progress;
   run.resume = options.resume;
   run.checkpoint_seconds = options.checkpoint_seconds;
-  run.interrupted = options.interrupted;
+  // The stages of a run are in several threads.
+  const auto one_at_a_time = std::make_shared<std::mutex>();
+  if (options.progress)
+    run.progress = [one_at_a_time, tell = options.progress](const ComputeProgress& progress) {
+      const std::lock_guard lock(*one_at_a_time);
+      tell(progress);
+    };
+  if (options.interrupted)
+    run.interrupted = [one_at_a_time, ask = options.interrupted] {
+      const std::lock_guard lock(*one_at_a_time);
+      return ask();
+    };
   return run;
 }
 

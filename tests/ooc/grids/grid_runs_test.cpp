@@ -1,6 +1,8 @@
 // Whole runs on grids: their results are those of the same simplices, written out.
 #include <gtest/gtest.h>
 
+#include <atomic>
+
 #include <limits>
 #include <memory>
 
@@ -137,7 +139,7 @@ TEST(GridRuns, AreResumedAsIfNothingHadHappened) {
     const std::string whole = take_bytes(run_grid(shape, values, run, folder));
     run.options.checkpoint_seconds = 0;
     run.options.replace = false;
-    std::uint64_t polls = 0;
+    std::atomic<std::uint64_t> polls = 0;  // of several threads
     const std::uint64_t last = random.between(3, 40);
     run.options.interrupted = [&] { return ++polls > last; };
     bool interrupted = false;

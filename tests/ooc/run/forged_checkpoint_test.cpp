@@ -1,6 +1,7 @@
 // A checkpoint with other bytes and a right checksum: the run ends with a graph or with an Error, whatever the bytes.
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cstring>
 #include <filesystem>
 #include <random>
@@ -86,7 +87,7 @@ class Forgery {
     input.indexed = input.reader->indexed();
     if (input.indexed) input.reader.reset();
     VertexFunction* functions[] = {&function};
-    std::uint64_t done = 0;
+    std::atomic<std::uint64_t> done = 0;  // other threads ask whether to end
     ComputeOptions options;
     options.chunk_triangles = 64;
     options.denoise = 0.05;

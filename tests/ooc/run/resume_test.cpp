@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -166,7 +167,7 @@ class Runs {
     if (input.indexed) input.reader.reset();
     VertexFunction* functions[] = {&function};
     const std::string outputs[] = {output()};
-    std::uint64_t done = 0;
+    std::atomic<std::uint64_t> done = 0;  // other threads ask whether to end
     ComputeOptions all = options;
     all.resume = resume;
     all.progress = [&](const ComputeProgress& p) {
