@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -39,6 +40,13 @@ struct Level {
 // A pair by its nodes.
 struct PairRow {
   SettledNode lo, hi;
+  PairType type = PairType::kExt0;
+  bool kept = false;
+};
+
+// The same without positions.
+struct PairKeys {
+  SweepKey lo, hi;
   PairType type = PairType::kExt0;
   bool kept = false;
 };
@@ -86,6 +94,8 @@ class ReebFile {
   // In the order of cancelling, Ext0 last. Also THROWS for a file without a hierarchy.
   // MEMORY: 48 bytes per node, in addition to the rows.
   std::vector<PairRow> pairs() const;
+  // The same one after the other, without positions. MEMORY: 24 bytes per node.
+  void for_each_pair(const std::function<void(const PairKeys&)>& visit) const;
 
   // Checks everything that can be checked: checksums and digest, order, counts of every version, level table, pairs
   // against Betti numbers. With an embedding it also checks that every vertex of the mesh is a node or in a bucket.

@@ -148,30 +148,59 @@ Level ReebFile::load(std::uint32_t version, bool embedded) const {
   return level;
 }
 
-std::vector<PairRow> ReebFile::pairs() const {
-  require_hierarchy("pairs");
-  std::vector<SettledNode> nodes;
+namespace {
+
+const SweepKey& key_of(const SettledNode& node) { return node.key; }
+const SweepKey& key_of(const SweepKey& node) { return node; }
+
+// Calls visit(lo, hi, pair) for each pair; make(node) is what is held of a node.
+template <class Make, class Visit>
+void read_pairs(const FrameFile& file, const Make& make, const Visit& visit) {
+  const FileHeader& header = file.header();
+  std::vector<decltype(make(SettledNode{}))> nodes;
   GraphFrame frame;
   FrameFile::Buffers buffers;
-  for (FrameCursor cursor(*frames_); cursor.frames_read() < header().graph_frames;) {
-    cursor.next(*frames_, frame, buffers);
-    nodes.insert(nodes.end(), frame.nodes.begin(), frame.nodes.end());
+  for (FrameCursor cursor(file); cursor.frames_read() < header.graph_frames;) {
+    cursor.next(file, frame, buffers);
+    for (const SettledNode& node : frame.nodes) nodes.push_back(make(node));
   }
-  std::vector<PairRow> rows;
+  std::uint64_t count = 0;
   std::vector<FilePair> pairs;
-  for (std::size_t i = header().graph_frames; i < std::size_t{header().graph_frames} + header().pair_frames; ++i) {
-    FrameHeader header;
-    const auto payload = frames_->read_frame(i, header, buffers);
-    const std::uint64_t offset = frames_->frame_offset(i);
-    if (const char* why = decode_pairs_frame(payload, header, pairs)) frames_->fail(offset, why);
+  for (std::size_t i = header.graph_frames; i < std::size_t{header.graph_frames} + header.pair_frames; ++i) {
+    FrameHeader frame_header;
+    const auto payload = file.read_frame(i, frame_header, buffers);
+    const std::uint64_t offset = file.frame_offset(i);
+    if (const char* why = decode_pairs_frame(payload, frame_header, pairs)) file.fail(offset, why);
     for (const FilePair& pair : pairs) {
-      if (pair.lo >= nodes.size() || pair.hi >= nodes.size() || nodes[pair.hi].key < nodes[pair.lo].key)
-        frames_->fail(offset, "a pair does not go up to a node");
-      rows.push_back({nodes[pair.lo], nodes[pair.hi], pair.type, pair.kept});
+      if (pair.lo >= nodes.size() || pair.hi >= nodes.size() || key_of(nodes[pair.hi]) < key_of(nodes[pair.lo]))
+        file.fail(offset, "a pair does not go up to a node");
+      visit(nodes[pair.lo], nodes[pair.hi], pair);
     }
+    count += pairs.size();
   }
-  if (rows.size() != header().pairs) frames_->fail(0, "there are not as many pairs as the header says");
+  if (count != header.pairs) file.fail(0, "there are not as many pairs as the header says");
+}
+
+}  // namespace
+
+std::vector<PairRow> ReebFile::pairs() const {
+  require_hierarchy("pairs");
+  std::vector<PairRow> rows;
+  read_pairs(
+      *frames_, [](const SettledNode& node) { return node; },
+      [&](const SettledNode& lo, const SettledNode& hi, const FilePair& pair) {
+        rows.push_back({lo, hi, pair.type, pair.kept});
+      });
   return rows;
+}
+
+void ReebFile::for_each_pair(const std::function<void(const PairKeys&)>& visit) const {
+  require_hierarchy("pairs");
+  read_pairs(
+      *frames_, [](const SettledNode& node) { return node.key; },
+      [&](const SweepKey& lo, const SweepKey& hi, const FilePair& pair) {
+        visit({lo, hi, pair.type, pair.kept});
+      });
 }
 
 }  // namespace reeb::ooc

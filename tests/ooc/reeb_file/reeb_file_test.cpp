@@ -140,6 +140,16 @@ TEST(ReebFile, PairsHeaderAndBucketsComeBack) {
     EXPECT_EQ(rows[i].type, pair.type);
     EXPECT_EQ(rows[i].kept, pair.kept);
   }
+  std::size_t next = 0;
+  file.for_each_pair([&](const PairKeys& pair) {
+    ASSERT_LT(next, rows.size());
+    EXPECT_EQ(pair.lo, rows[next].lo.key);
+    EXPECT_EQ(pair.hi, rows[next].hi.key);
+    EXPECT_EQ(pair.type, rows[next].type);
+    EXPECT_EQ(pair.kept, rows[next].kept);
+    ++next;
+  });
+  EXPECT_EQ(next, rows.size());
 }
 
 TEST(GraphFile, PiecesDoNotShowAndBucketsFollowTheirArcs) {
