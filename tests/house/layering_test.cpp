@@ -48,6 +48,7 @@ const Rooms kRooms = {
     {"io/fields", {"libreeb"}},
     {"io/functions", {"libreeb", "io/file", "io/text", "io/mesh", "io/formats", "io/fields"}},
     {"io/export", {"libreeb", "io/file", "io/text"}},
+    {"io/plot", {"libreeb", "io/text", "io/export"}},
     {"io/generate", {"libreeb"}},
 
     {"ooc/threads", {"libreeb"}},

@@ -1,0 +1,20 @@
+// What all charts by gnuplot share.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "io/plot/svg_text.h"
+
+namespace reeb::io {
+
+// A string of gnuplot in which nothing has a meaning of its own. It is made safe to show first.
+std::string gnuplot_quoted(std::string_view text);
+
+// The first commands of a chart of this size, which is written to standard output as SVG.
+std::string begin_chart(const Heading& heading, unsigned width, unsigned height);
+
+// "rgb '#0072b2'".
+std::string gnuplot_color(Rgb color);
+
+}  // namespace reeb::io

@@ -1,0 +1,114 @@
+#include "io/plot/graph_picture.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "io/plot/canvas.h"
+#include "io/plot/node_marks.h"
+#include "io/plot/value_axis.h"
+
+namespace reeb::io {
+namespace {
+
+constexpr double kWidth = 900, kHeight = 720;
+constexpr double kLeft = 96, kRight = 24, kTop = kHeadingHeight + 18, kBottom = 52;
+
+PicturePoint place(PicturePoint point) {
+  return {kLeft + 14 + point.x * (kWidth - kLeft - kRight - 28),
+          kHeight - kBottom - 8 - point.y * (kHeight - kTop - kBottom - 16)};
+}
+
+void append_axis(std::string& svg, const ReebGraph& graph, const std::string& function) {
+  const double low = graph.nodes.front().value, high = graph.nodes.back().value;
+  svg += "<g stroke=\"#dcdcdc\" stroke-width=\"0.7\">\n";
+  std::string labels;
+  for (const double value : round_values(low, high, 8)) {
+    const double height = high > low ? (value / 2 - low / 2) / (high / 2 - low / 2) : 0.5;
+    const double y = place({0, height}).y;
+    svg += "<path d=\"M";
+    append_point(svg, {kLeft - 5, y});
+    svg += 'H';
+    append_coordinate(svg, kWidth - kRight);
+    svg += "\"/>\n";
+    append_text(labels, {kLeft - 9, y + 4}, short_number(value), {.size = 12, .anchor = "end"});
+  }
+  svg += "</g>\n" + labels;
+  svg += "<g transform=\"rotate(-90 22 ";
+  append_coordinate(svg, kHeight / 2);
+  svg += ")\">";
+  append_text(svg, {22, kHeight / 2}, "f = " + function, {.size = 13, .anchor = "middle"});
+  svg += "</g>\n";
+}
+
+void append_lines(std::string& svg, const GraphLayout& layout, std::span<const NodeKind> kinds) {
+  const double crowd = static_cast<double>(kinds.size());
+  const double width = crowd > 2000 ? 0.5 : (crowd > 300 ? 0.9 : 1.5);
+  const double radius = crowd > 2000 ? 1.3 : (crowd > 300 ? 2.4 : 4.2);
+  svg += "<g fill=\"none\" stroke=\"#5a6b7b\" stroke-width=\"";
+  append_coordinate(svg, width);
+  svg += "\">\n";
+  for (const auto& curve : layout.arcs) {
+    svg += "<path class=\"arc\" d=\"M";
+    append_point(svg, place(curve.front()));
+    for (std::size_t i = 1; i < curve.size(); ++i) {
+      svg += i == 1 ? 'C' : ' ';
+      append_point(svg, place(curve[i]));
+    }
+    svg += "\"/>\n";
+  }
+  svg += "</g>\n<g stroke=\"#222\" stroke-width=\"";
+  append_coordinate(svg, std::min(1.0, radius / 3), 2);
+  svg += "\">\n";
+  for (std::size_t i = 0; i < kinds.size(); ++i) append_node(svg, place(layout.nodes[i]), kinds[i], radius);
+  svg += "</g>\n";
+}
+
+PicturePoint on_curve(std::span<const PicturePoint> controls, double t) {
+  const double s = 1 - t, a = s * s * s, b = 3 * s * s * t, c = 3 * s * t * t, d = t * t * t;
+  return {a * controls[0].x + b * controls[1].x + c * controls[2].x + d * controls[3].x,
+          a * controls[0].y + b * controls[1].y + c * controls[2].y + d * controls[3].y};
+}
+
+void append_raster(std::string& svg, const GraphLayout& layout, std::span<const NodeKind> kinds) {
+  constexpr double kScale = 2;
+  const PicturePoint corner{kLeft, kTop - 8};
+  const double width = kWidth - kLeft - kRight, height = kHeight - kTop - kBottom + 16;
+  Canvas canvas(width, height, kScale);
+  const auto inside = [&](PicturePoint point) {
+    const PicturePoint at = place(point);
+    return PicturePoint{at.x - corner.x, at.y - corner.y};
+  };
+  for (const auto& curve : layout.arcs)
+    for (std::size_t i = 0; i + 3 < curve.size(); i += 3) {
+      constexpr int kPieces = 12;
+      const auto controls = std::span(curve).subspan(i, 4);
+      PicturePoint last = inside(controls[0]);
+      for (int k = 1; k <= kPieces; ++k) {
+        const PicturePoint next = inside(on_curve(controls, static_cast<double>(k) / kPieces));
+        canvas.line(last, next, 0.35, {126, 141, 156});
+        last = next;
+      }
+    }
+  for (std::size_t i = 0; i < kinds.size(); ++i)
+    if (kinds[i] != NodeKind::kFork) canvas.disc(inside(layout.nodes[i]), 0.7, node_color(kinds[i]));
+  append_image(svg, canvas.image(), corner, width, height);
+}
+
+}  // namespace
+
+std::string graph_picture(const ReebGraph& graph, const GraphLayout& layout, const std::string& function,
+                          const Heading& heading) {
+  const std::vector<NodeKind> kinds = node_kinds(graph);
+  std::string svg = begin_svg(kWidth, kHeight);
+  append_heading(svg, heading);
+  std::string axis;
+  append_axis(axis, graph, function);
+  const bool as_lines = graph.arc_count() <= kMostArcsAsLines && graph.node_count() <= 2 * kMostArcsAsLines;
+  if (!as_lines) append_raster(svg, layout, kinds);  // it covers the grid
+  svg += axis;
+  if (as_lines) append_lines(svg, layout, kinds);
+  append_legend(svg, {kLeft + 14, kHeight - 16}, kinds);
+  return svg + "</svg>\n";
+}
+
+}  // namespace reeb::io

@@ -1,0 +1,45 @@
+// Pieces of SVG files, as text.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "io/plot/colors.h"
+
+namespace reeb::io {
+
+// A point of a picture, in pixels from its upper left corner.
+struct PicturePoint {
+  double x = 0, y = 0;
+};
+
+// `text` as XML text or as the value of an attribute. It is made safe to show first (libreeb/base/printable.h).
+std::string xml_escaped(std::string_view text);
+
+// Appends a coordinate with at most `decimals` digits after the point.
+void append_coordinate(std::string& svg, double value, int decimals = 1);
+// Appends "X,Y".
+void append_point(std::string& svg, PicturePoint point);
+
+// The first lines of a picture on white. It ends with "</svg>\n".
+std::string begin_svg(double width, double height);
+
+struct TextStyle {
+  double size = 13;
+  const char* anchor = "start";  // or "middle", "end"
+  bool bold = false;
+  Rgb color = kInk;
+};
+void append_text(std::string& svg, PicturePoint at, std::string_view text, const TextStyle& style = {});
+
+// The two lines above a picture.
+struct Heading {
+  std::string title, subtitle;
+};
+inline constexpr double kHeadingHeight = 56;  // pixels
+void append_heading(std::string& svg, const Heading& heading);
+
+// A picture that only says something.
+std::string message_picture(const Heading& heading, std::string_view message);
+
+}  // namespace reeb::io

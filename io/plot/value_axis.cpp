@@ -1,0 +1,27 @@
+#include "io/plot/value_axis.h"
+
+#include <charconv>
+#include <cmath>
+
+namespace reeb::io {
+
+std::vector<double> round_values(double low, double high, std::size_t count) {
+  const double rough = (high / 2 - low / 2) / static_cast<double>(count) * 2;
+  if (!(rough > 0) || !std::isfinite(rough)) return {low};
+  const double unit = std::pow(10, std::floor(std::log10(rough)));
+  double step = unit;
+  for (const double factor : {2.0, 5.0, 10.0})
+    if (step < rough * 0.999) step = factor * unit;
+  std::vector<double> values;
+  const double first = std::ceil(low / step), last = std::floor(high / step);
+  // Where the step is less than the distance of numbers near `low`, there would be no end.
+  for (double i = first; i <= last && values.size() < 4 * count; i += 1) values.push_back(i == 0 ? 0 : i * step);
+  return values;
+}
+
+std::string short_number(double value, int digits) {
+  char text[64];
+  return {text, std::to_chars(text, text + sizeof text, value, std::chars_format::general, digits).ptr};
+}
+
+}  // namespace reeb::io

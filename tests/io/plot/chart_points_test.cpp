@@ -1,0 +1,113 @@
+// What charts show, against plain counts; and names that mean something to gnuplot or XML.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "io/plot/diagram_chart.h"
+#include "io/plot/gnuplot_text.h"
+#include "io/plot/loop_chart.h"
+#include "io/plot/svg_text.h"
+#include "io/plot/value_axis.h"
+
+namespace reeb::io {
+namespace {
+
+TEST(LoopSteps, HaveACornerForEachOfAFewLoops) {
+  const std::vector<double> percents = {0.5, 0.5, 2, 30};
+  const std::vector<std::pair<double, std::size_t>> expected = {{0.5, 4}, {0.5, 3}, {2, 2}, {30, 1}};
+  EXPECT_EQ(loop_steps(percents), expected);
+  EXPECT_TRUE(loop_steps({}).empty());
+}
+
+// Each corner is a true count, and no loop is farther from a corner than a column of the picture.
+TEST(LoopSteps, OfManyLoopsKeepTheCurve) {
+  std::mt19937_64 random(5);
+  std::vector<double> percents;
+  for (int i = 0; i < 50000; ++i)
+    percents.push_back(std::pow(10, -6 + 8 * (static_cast<double>(random() >> 11) * 0x1p-53)));
+  std::sort(percents.begin(), percents.end());
+  const auto steps = loop_steps(percents);
+  EXPECT_LE(steps.size(), kMostCorners);
+  EXPECT_EQ(steps.front(), std::pair(percents.front(), percents.size()));
+  EXPECT_EQ(steps.back(), std::pair(percents.back(), std::size_t{1}));
+  for (const auto& [percent, count] : steps) EXPECT_EQ(percents[percents.size() - count], percent);
+  for (const double percent : percents) {
+    const auto near = std::lower_bound(steps.begin(), steps.end(), std::pair(percent, std::size_t{0}));
+    ASSERT_NE(near, steps.end());
+    EXPECT_LT(std::log10(near->first / percent), 8.0 / 400);
+  }
+}
+
+TEST(LoopSteps, OfEqualLoopsAreFew) { EXPECT_EQ(loop_steps(std::vector<double>(5000, 7.0)).size(), 2u); }
+
+TEST(DiagramPoints, PutMinimaAboveAndMaximaBelowTheDiagonal) {
+  DiagramPoints points(4, 0, 10);
+  points.add(PairType::kOrd0, 1, 2);
+  points.add(PairType::kRel1, 1, 2);
+  points.add(PairType::kExt0, 0, 10);
+  points.add(PairType::kExt1, 3, 4);
+  points.finish();
+  EXPECT_FALSE(points.is_thinned());
+  for (const PairType type : {PairType::kOrd0, PairType::kRel1, PairType::kExt0, PairType::kExt1}) {
+    ASSERT_EQ(points.of(type).size(), 1u);
+    const bool above = points.of(type)[0].y > points.of(type)[0].x;
+    EXPECT_EQ(above, type == PairType::kOrd0 || type == PairType::kExt0) << name_of(type);
+  }
+}
+
+// Of many pairs fewer points are drawn, but none is far from one of its type.
+TEST(DiagramPoints, OfManyPairsAreThinnedEvenly) {
+  constexpr std::size_t kPairs = 60000;
+  std::mt19937_64 random(9);
+  DiagramPoints points(kPairs, -2, 2);
+  std::vector<DiagramPoints::Point> minima;
+  for (std::size_t i = 0; i < kPairs; ++i) {
+    double lo = static_cast<double>(random() % 4000) / 1000 - 2, hi = static_cast<double>(random() % 4000) / 1000 - 2;
+    if (lo > hi) std::swap(lo, hi);
+    points.add(i % 2 == 0 ? PairType::kOrd0 : PairType::kRel1, lo, hi);
+    if (i % 2 == 0) minima.push_back({lo, hi});
+  }
+  points.finish();
+  EXPECT_TRUE(points.is_thinned());
+  EXPECT_EQ(points.count(PairType::kOrd0), kPairs / 2);
+  const auto& drawn = points.of(PairType::kOrd0);
+  EXPECT_LE(drawn.size() + points.of(PairType::kRel1).size(), DiagramPoints::kMostPoints);
+  EXPECT_GT(drawn.size(), 1000u);
+  for (std::size_t i = 0; i < minima.size(); i += 97)
+    EXPECT_TRUE(std::any_of(drawn.begin(), drawn.end(), [&](const auto& point) {
+      return std::hypot(point.x - minima[i].x, point.y - minima[i].y) < 4 * 0.03;
+    })) << i;
+}
+
+TEST(ChartText, QuotesWhatGnuplotWouldRead) {
+  EXPECT_EQ(gnuplot_quoted("it's `rm` \"x\" \\n $1 @y"), "'it''s `rm` \"x\" \\n $1 @y'");
+  EXPECT_EQ(gnuplot_quoted("a\nb"), "'a\\x0ab'");
+}
+
+TEST(ChartText, EscapesXml) {
+  EXPECT_EQ(xml_escaped("<a> & \"b\""), "&lt;a&gt; &amp; &quot;b&quot;");
+  EXPECT_EQ(xml_escaped(std::string("\0\xff", 2)), "\\x00\\xff");
+}
+
+TEST(ChartText, WritesShortCoordinates) {
+  for (const auto& [value, text] : {std::pair(1.0, "1"), {-0.04, "0"}, {12.345, "12.3"}, {0.0 / 0.0, "0"}}) {
+    std::string svg;
+    append_coordinate(svg, value);
+    EXPECT_EQ(svg, text);
+  }
+}
+
+TEST(ValueAxis, HasRoundValuesInTheRange) {
+  EXPECT_EQ(round_values(0, 1, 5), (std::vector<double>{0, 0.2, 0.4, 0.6000000000000001, 0.8, 1}));
+  EXPECT_EQ(round_values(3, 3, 5), (std::vector<double>{3}));
+  for (const auto& [low, high] : {std::pair(-1e300, 1e300), {1e-300, 2e-300}, {1.0, std::nextafter(1.0, 2.0)}}) {
+    const auto values = round_values(low, high, 8);
+    EXPECT_LE(values.size(), 32u);
+    for (const double value : values) EXPECT_TRUE(std::isfinite(value));
+  }
+}
+
+}  // namespace
+}  // namespace reeb::io
