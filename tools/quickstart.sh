@@ -10,7 +10,7 @@
 #
 #   NAME.reeb  the graph with all its levels of detail
 #   NAME.rg    the full graph as text, one node or arc per line
-#   NAME.svg   a picture of the coarsest levels, at most 60 nodes, drawn bottom to top
+#   NAME.svg   a picture of the finest level of at most 60 nodes, with the function upwards
 set -euo pipefail
 
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
@@ -59,16 +59,8 @@ fetch_motorbike() {
   rm -rf "$folder"
 }
 
-# Nodes show vertex and value; four digits of the value are enough.
 draw() {
-  "$reeb" extract "$out/$name.reeb" --nodes 60 --format dot |
-    awk '/^graph/ { print; print "  node [shape=box style=rounded fontsize=11 height=0.3]"; next }
-         match($0, /\\n[^"]*"/) {
-           value = substr($0, RSTART + 2, RLENGTH - 3)
-           $0 = substr($0, 1, RSTART + 1) sprintf("%.4g", value) substr($0, RSTART + RLENGTH - 1)
-         }
-         { print }' |
-    dot -Tsvg -o "$out/$name.svg"
+  "$reeb" plot "$out/$name.reeb" --kind graph --nodes 60 -o "$out/$name.svg" --force
 }
 
 mkdir -p "$out"

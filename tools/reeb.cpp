@@ -95,6 +95,7 @@ int run(int argc, char** argv) {
   reeb::tools::add_info(program);
   reeb::tools::add_extract(program);
   reeb::tools::add_pairs(program);
+  reeb::tools::add_plot(program);
   reeb::tools::add_verify(program);
   reeb::tools::add_generate(program);
   reeb::tools::add_convert(program);

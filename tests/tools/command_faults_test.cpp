@@ -68,6 +68,7 @@ std::vector<Command> make_commands() {
       {"InfoOfGraph", {"info", "scan.reeb"}},
       {"Pairs", {"pairs", "scan.reeb", "-o", "pairs.csv"}, {"pairs.csv"}},
       {"PairsToStandardOutput", {"pairs", "scan.reeb"}},
+      {"Plot", {"plot", "scan.reeb", "--kind", "skeleton", "--nodes", "9", "-o", "plot.svg"}, {"plot.svg"}},
       {"Generate", {"generate", "scan", "--triangles", "100", "-o", "made.smc"}, {"made.smc"}},
       {"GenerateAtRandom",
        {"generate", "torus", "--triangles", "100", "--order", "random", "-o", "made.ply"},

@@ -22,7 +22,7 @@ using AddCommand = void (*)(CLI::App&);
 const std::map<std::string, AddCommand> kCommands = {
     {"compute", tools::add_compute}, {"info", tools::add_info},         {"extract", tools::add_extract},
     {"pairs", tools::add_pairs},     {"verify", tools::add_verify},     {"generate", tools::add_generate},
-    {"convert", tools::add_convert}, {"function", tools::add_function},
+    {"convert", tools::add_convert}, {"function", tools::add_function}, {"plot", tools::add_plot},
 };
 
 int checked(int result, const char* what) {

@@ -16,5 +16,6 @@ void add_convert(CLI::App& program);
 void add_defects(CLI::App& program);
 void add_function(CLI::App& program);
 void add_segment(CLI::App& program);
+void add_plot(CLI::App& program);
 
 }  // namespace reeb::tools

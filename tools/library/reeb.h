@@ -21,6 +21,7 @@ using io::open_mesh;
 using io::write_graph;
 using ooc::GraphListener;
 using ooc::Level;
+using ooc::PairKeys;
 using ooc::PairRow;
 using ooc::ProgressiveGraph;
 using ooc::ReebFile;

@@ -13,12 +13,15 @@ namespace reeb::tools {
 namespace {
 
 std::atomic<bool> watched = false, interrupted = false, ending = false, on_terminal = false;
-static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may do nothing else");
+std::atomic<pid_t> companion = 0;
+static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<pid_t>::is_always_lock_free,
+              "a signal handler may do nothing else");
 
 // Does only what a signal handler may do.
 void end_now() {
   if (ending.exchange(true)) return;  // another thread is at it
   io::remove_temporary_names();
+  if (const pid_t child = companion) ::kill(child, SIGKILL);
   constexpr std::string_view kClearLine = "\r\033[K";
   const std::string_view text = watched ? "reeb: error: interrupted at once\nhint: run it again; with --resume, it "
                                           "continues from the last checkpoint, if there is one\n"
@@ -54,5 +57,7 @@ std::function<bool()> watch_signals() {
     return interrupted.load();
   };
 }
+
+void end_together_with(pid_t child) { companion = child; }
 
 }  // namespace reeb::tools

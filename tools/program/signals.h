@@ -1,6 +1,8 @@
 // How the program handles signals.
 #pragma once
 
+#include <sys/types.h>
+
 #include <functional>
 
 namespace reeb::tools {
@@ -13,5 +15,8 @@ void handle_signals();
 // From the first call of the returned function on, the first of these signals only makes it return true, so that the
 // run can be saved. The second ends the process at once.
 std::function<bool()> watch_signals();
+
+// A process that such a signal ends, too; 0: none.
+void end_together_with(pid_t child);
 
 }  // namespace reeb::tools

@@ -1,0 +1,171 @@
+// `reeb plot`: pictures of a .reeb file.
+#include <fmt/core.h>
+
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "io/file/temp_dir.h"
+#include "libreeb/base/error.h"
+#include "libreeb/base/printable.h"
+#include "tools/commands/commands.h"
+#include "tools/library/run_files.h"
+#include "tools/plot/charts.h"
+#include "tools/plot/picture_file.h"
+#include "tools/plot/skeleton.h"
+#include "tools/program/image_options.h"
+#include "tools/program/input_kind.h"
+#include "tools/program/options.h"
+#include "tools/program/output.h"
+#include "tools/program/progress.h"
+#include "tools/program/quantity.h"
+#include "tools/program/wrapping.h"
+
+namespace reeb::tools {
+namespace {
+
+struct PlotOptions {
+  std::vector<std::string> files;
+  std::string output, kind = "loops";
+  std::string view, surface = "solid", color = "value";
+  SkeletonOptions skeleton;
+  bool force = false, quiet = false;
+};
+
+// "X,Y,Z". THROWS: Error{kUsage}.
+Point parse_view(const std::string& text) {
+  Point direction{};
+  const char* at = text.data();
+  const char* const end = at + text.size();
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto [rest, error] = std::from_chars(at, end, direction[axis]);
+    const bool ends_well = axis == 2 ? rest == end : rest != end && *rest == ',';
+    if (error != std::errc() || !ends_well || !std::isfinite(direction[axis]))
+      throw Error(ErrorKind::kUsage, "--view: \"" + text + "\" is not a direction",
+                  "give three numbers like 1,-0.5,0.3, towards the eye");
+    at = rest + (axis == 2 ? 0 : 1);
+  }
+  if (direction == Point{})
+    throw Error(ErrorKind::kUsage, "--view: 0,0,0 is not a direction", "give three numbers like 1,-0.5,0.3");
+  return direction;
+}
+
+// What only some kinds of pictures have. THROWS: Error{kUsage}.
+void check_kind(const PlotOptions& options) {
+  if (options.files.size() > 1 && options.kind != "loops")
+    throw Error(ErrorKind::kUsage, "--kind " + options.kind + " draws one file", "name one file, or use --kind loops");
+  if (options.kind == "skeleton") return;
+  for (const auto& [name, is_given] :
+       {std::pair("--mesh", !options.skeleton.mesh.empty()), std::pair("--view", !options.view.empty()),
+        std::pair("--surface", options.surface != "solid"), std::pair("--color", options.color != "value")})
+    if (is_given) throw Error(ErrorKind::kUsage, std::string(name) + " is for --kind skeleton", "add --kind skeleton");
+}
+
+SkeletonOptions skeleton_options(const PlotOptions& options, const std::string& temp_folder, ProgressBar& bar) {
+  SkeletonOptions skeleton = options.skeleton;
+  skeleton.temp_folder = temp_folder;
+  if (!options.view.empty()) skeleton.view = parse_view(options.view);
+  using Style = io::SurfaceStyle;
+  skeleton.surface = options.surface == "glass"   ? Style::kGlass
+                     : options.surface == "value" ? Style::kValue
+                     : options.surface == "none"  ? Style::kNone
+                                                  : Style::kSolid;
+  if (options.color == "arcs") skeleton.colors = io::LineColors::kArcs;
+  skeleton.progress = [&bar](const char* pass, std::uint64_t done, std::uint64_t total) {
+    bar.update({pass}, done, total);
+  };
+  return skeleton;
+}
+
+std::string draw(const PlotOptions& options, std::span<const ooc::ReebFile> files, const std::string& temp_folder) {
+  if (options.kind == "loops") return draw_loops(files, options.skeleton.level, temp_folder);
+  if (options.kind == "diagram") return draw_diagram(files[0], options.skeleton.level, temp_folder);
+  if (options.kind == "graph") return draw_graph(files[0], options.skeleton.level, temp_folder);
+  ProgressBar bar(options.quiet);
+  return draw_skeleton(files[0], skeleton_options(options, temp_folder, bar));
+}
+
+void plot(PlotOptions options) {
+  if (options.output.empty()) options.output = std::filesystem::path(options.files[0]).stem().string() + ".svg";
+  const PictureFormat format = picture_format(options.output);
+  check_kind(options);
+  if (!options.view.empty()) parse_view(options.view);
+  if (!options.skeleton.level.threshold.empty()) parse_threshold("--threshold", options.skeleton.level.threshold, 1);
+  if (options.skeleton.mesh == "-")
+    throw Error(ErrorKind::kUsage, "the mesh must be read twice, and standard input can be read once",
+                "name a file with --mesh");
+  RunFiles names;
+  for (const std::string& file : options.files) {
+    require_reeb_file(file, "plot");
+    names.add_input(file, "the .reeb file");
+  }
+  if (!options.skeleton.mesh.empty()) {
+    names.add_input(options.skeleton.mesh, "the mesh");
+    if (ooc::is_reeb_file(options.skeleton.mesh))
+      throw Error(ErrorKind::kBadInput, "this is a Reeb graph, not a mesh", "name its mesh with --mesh")
+          .at(options.skeleton.mesh);
+  }
+  names.add_output(options.output, "the picture", existing_outputs(options.force));
+  names.check();
+  require_programs(format);
+  std::vector<ooc::ReebFile> files;
+  for (const std::string& file : options.files) {
+    files.emplace_back(file);
+    if (const Error* damage = files.back().damage()) fmt::print(stderr, "reeb: warning: {}\n", damage->what());
+  }
+  const std::string temp_folder = io::TempDir::default_folder(options.output);
+  const std::string bytes = picture_bytes(draw(options, files, temp_folder), format, temp_folder);
+  write_output(options.output, options.force, [&](std::ostream& out) { out << bytes; });
+  if (!options.quiet && options.output != "-") print_line("wrote " + printable(options.output));
+}
+
+}  // namespace
+
+void add_plot(CLI::App& program) {
+  auto options = std::make_shared<PlotOptions>();
+  CLI::App* command = program.add_subcommand("plot", "Draw loops, pairs, the graph, or the skeleton in its shape");
+  command->add_option("FILE", options->files, "The .reeb file; several with --kind loops")->required()->type_name("");
+  command
+      ->add_option("-o,--output", options->output,
+                   "Picture to write: .svg, .png or .pdf (default: the name of the file with .svg, in the current "
+                   "folder); - writes SVG to standard output")
+      ->type_name("FILE");
+  command->add_option("--kind", options->kind, "loops, diagram, graph or skeleton (default: loops)")
+      ->check(CLI::IsMember({"loops", "diagram", "graph", "skeleton"}))
+      ->type_name("KIND");
+  auto* threshold = command
+                        ->add_option("--threshold", options->skeleton.level.threshold,
+                                     "The level without features of less persistence: 0.01 (function units), or 0.1% "
+                                     "(of the range)")
+                        ->option_text("T");
+  auto* nodes = add_count(*command, "--nodes", options->skeleton.level.nodes, "The finest level with at most N nodes")
+                    ->option_text("N");
+  threshold->excludes(nodes);
+  command->add_option("--mesh", options->skeleton.mesh, "For a skeleton: its mesh, drawn behind it")->type_name("MESH");
+  add_format(*command, options->skeleton.format);
+  add_image_options(*command, options->skeleton.image);
+  command
+      ->add_option("--view", options->view,
+                   "For a skeleton: the direction from the shape to the eye (default: the best of several)")
+      ->option_text("X,Y,Z");
+  command
+      ->add_option("--surface", options->surface,
+                   "For a skeleton: solid, glass, value (coloured by the function) or none (default: solid)")
+      ->check(CLI::IsMember({"solid", "glass", "value", "none"}))
+      ->type_name("STYLE");
+  command
+      ->add_option("--color", options->color,
+                   "For a skeleton: by value, or a colour for each of the arcs (default: value)")
+      ->check(CLI::IsMember({"value", "arcs"}))
+      ->type_name("BY");
+  command->add_flag("--force", options->force, "Replace an existing output");
+  command->add_flag("--quiet", options->quiet, "Print no progress and no notes");
+  command->footer("Example:\n  reeb plot scan.reeb --kind skeleton --mesh scan.ply --threshold 1% -o scan.png");
+  command->callback([options] { plot(*options); });
+}
+
+}  // namespace reeb::tools

@@ -1,0 +1,38 @@
+#include "tools/plot/chosen_level.h"
+
+#include <filesystem>
+
+#include "io/plot/value_axis.h"
+#include "libreeb/base/count_text.h"
+#include "tools/program/quantity.h"
+
+namespace reeb::tools {
+
+ChosenLevel choose_level(const ooc::ReebFile& file, const LevelChoice& choice) {
+  ChosenLevel level{0, "full graph"};
+  if (!choice.threshold.empty()) {
+    const double range = file.header().function_max - file.header().function_min;
+    level.version = file.version_at(parse_threshold("--threshold", choice.threshold, range));
+    level.text = "level at threshold " + choice.threshold;
+  } else if (choice.nodes) {
+    level.version = file.finest_with_nodes(*choice.nodes);
+    if (level.version != 0) level.text = "finest level of at most " + count_of(*choice.nodes, "node");
+  }
+  return level;
+}
+
+void for_each_pair_of(const ooc::ReebFile& file, std::uint32_t version,
+                      const std::function<void(const ooc::PairKeys&)>& visit) {
+  std::uint32_t cancelled = 0;
+  file.for_each_pair([&](const ooc::PairKeys& pair) {
+    const bool is_ever_cancelled = !pair.kept && pair.type != PairType::kExt0;
+    if (is_ever_cancelled && cancelled < version)
+      ++cancelled;
+    else
+      visit(pair);
+  });
+}
+
+std::string graph_name(const ooc::ReebFile& file) { return std::filesystem::path(file.path()).stem().string(); }
+
+}  // namespace reeb::tools

@@ -1,0 +1,32 @@
+// The level of a .reeb file that a picture shows.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "io/plot/svg_text.h"
+#include "ooc/reeb_file/reeb_file.h"
+
+namespace reeb::tools {
+
+// As --threshold and --nodes; both empty: the full graph.
+struct LevelChoice {
+  std::string threshold;
+  std::optional<std::uint64_t> nodes;
+};
+
+struct ChosenLevel {
+  std::uint32_t version = 0;
+  std::string text;  // "full graph", "level at threshold 1%"
+};
+ChosenLevel choose_level(const ooc::ReebFile& file, const LevelChoice& choice);
+
+// Calls visit(pair) for each pair that the level still has, in the order of cancelling.
+void for_each_pair_of(const ooc::ReebFile& file, std::uint32_t version,
+                      const std::function<void(const ooc::PairKeys&)>& visit);
+
+// "dragon" for dirs/dragon.reeb.
+std::string graph_name(const ooc::ReebFile& file);
+
+}  // namespace reeb::tools

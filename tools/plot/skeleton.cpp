@@ -1,0 +1,192 @@
+#include "tools/plot/skeleton.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "io/file/temp_dir.h"
+#include "libreeb/base/count_text.h"
+#include "libreeb/base/error.h"
+#include "libreeb/base/memory_budget.h"
+#include "libreeb/port/mesh_reader.h"
+#include "ooc/tables/paged_table.h"
+#include "tools/defects/valued_mesh.h"
+#include "tools/plot/charts.h"
+
+namespace reeb::tools {
+namespace {
+
+Point position_of(const MeshBatch& batch, std::size_t vertex) {
+  Point position{};
+  for (std::size_t axis = 0; axis < std::min<std::size_t>(3, batch.coordinates.size()); ++axis)
+    position[axis] = batch.coordinates[axis][vertex];
+  return position;
+}
+
+// Some vertices of a mesh, evenly by their indices, and the corners that reach farthest along the axes.
+class VertexSample {
+ public:
+  void add(const MeshBatch& batch) {
+    for (std::size_t i = 0; i < batch.vertex_count; ++i) {
+      const Point position = position_of(batch, i);
+      if (count_ == 0) extremes_.fill(position);
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (position[axis] < extremes_[axis][axis]) extremes_[axis] = position;
+        if (position[axis] > extremes_[axis + 3][axis]) extremes_[axis + 3] = position;
+      }
+      if (count_++ % step_ != 0) continue;
+      points_.push_back(position);
+      if (points_.size() < 2 * kEnough) continue;
+      for (std::size_t k = 0; k < kEnough; ++k) points_[k] = points_[2 * k];
+      points_.resize(kEnough);
+      step_ *= 2;
+    }
+  }
+  std::uint64_t vertices() const { return count_; }
+  std::vector<Point> points() const {
+    std::vector<Point> all = points_;
+    if (count_ != 0) all.insert(all.end(), extremes_.begin(), extremes_.end());
+    return all;
+  }
+
+ private:
+  static constexpr std::size_t kEnough = 20000;
+
+  std::vector<Point> points_;
+  std::array<Point, 6> extremes_{};
+  std::uint64_t count_ = 0, step_ = 1;
+};
+
+// The axis that a function follows is upright.
+Point upright_of(const std::string& function) {
+  if (function == "x" || function == "c0") return {1, 0, 0};
+  if (function == "y" || function == "c1") return {0, 1, 0};
+  return {0, 0, 1};
+}
+
+// Draws the triangles of a mesh, and the sides of its cells.
+class SurfaceDrawing {
+ public:
+  SurfaceDrawing(const SkeletonOptions& options, const FileHeader& header, const io::Projection& projection,
+                 io::SurfaceRaster& raster)
+      : header_(header),
+        projection_(projection),
+        raster_(raster),
+        temp_(options.temp_folder),
+        corners_("corners of the picture", temp_, budget_, kTableBytes, io::SurfacePoint{}) {}
+
+  void add(const MeshBatch& batch, std::span<const std::vector<double>> values) {
+    const double low = header_.function_min / 2, range = header_.function_max / 2 - low;
+    placed_.clear();
+    for (std::size_t i = 0; i < batch.vertex_count; ++i) {
+      const Point position = position_of(batch, i);
+      const io::PicturePoint at = projection_.place(position);
+      const double share = values.empty() || !(range > 0) ? 0 : (values[0][i] / 2 - low) / range;
+      placed_.push_back({static_cast<float>(at.x - io::kSkeletonCorner.x),
+                         static_cast<float>(at.y - io::kSkeletonCorner.y),
+                         static_cast<float>(projection_.depth(position)), static_cast<float>(share)});
+    }
+    corners_.write(batch.first_vertex.value(), placed_);
+    batch.for_each_simplex([&](std::span<const VertexId> simplex) {
+      for (std::size_t i = 0; i < simplex.size(); ++i)
+        for (std::size_t j = i + 1; j < simplex.size(); ++j)
+          for (std::size_t k = j + 1; k < simplex.size(); ++k)
+            raster_.triangle({corner(simplex[i]), corner(simplex[j]), corner(simplex[k])}, simplex.size() == 3);
+    });
+  }
+
+ private:
+  static constexpr std::uint64_t kTableBytes = std::uint64_t{256} << 20;
+
+  io::SurfacePoint corner(VertexId vertex) { return corners_.get(vertex.value()); }
+
+  const FileHeader& header_;
+  const io::Projection& projection_;
+  io::SurfaceRaster& raster_;
+  MemoryBudget budget_;
+  io::TempDir temp_;
+  ooc::PagedTable<io::SurfacePoint> corners_;
+  std::vector<io::SurfacePoint> placed_;
+};
+
+void check_mesh(const SkeletonOptions& options, const FileHeader& header, std::uint64_t vertices) {
+  if (vertices == header.mesh_vertices) return;
+  throw Error(ErrorKind::kBadInput,
+              "this is not the mesh of the graph: it has " + count_of(vertices, "vertex") +
+                  ", and the graph was computed from " + with_commas(header.mesh_vertices),
+              "name the mesh that the .reeb file was computed from")
+      .at(options.mesh);
+}
+
+}  // namespace
+
+std::string draw_skeleton(const ooc::ReebFile& file, const SkeletonOptions& options) {
+  const FileHeader& header = file.header();
+  const ChosenLevel chosen = choose_level(file, options.level);
+  const ooc::Level level = file.load(chosen.version);
+  const io::GraphView view{level.graph, header.function, level.threshold, level.buckets.view(), header.bucket_exponent};
+  io::Heading heading{graph_name(file) + ", f = " + header.function + ": skeleton",
+                      chosen.text + ", " + counts_text(level.graph)};
+  const bool is_empty = level.graph.nodes.empty();
+  if (!is_empty && level.graph.positions.empty())
+    throw Error(ErrorKind::kBadInput, "the file has no positions of nodes",
+                "draw it with --kind graph, or compute it again with `reeb compute`")
+        .at(file.path());
+  const io::SkeletonLines lines = io::skeleton_lines(view);
+  const std::vector<Point> stops = io::all_points(lines);
+
+  std::optional<ValuedMesh> mesh;
+  VertexSample sample;
+  const MeshSource source{options.mesh, options.format, options.temp_folder, MemoryBudget::kUnlimited, options.image};
+  if (!options.mesh.empty()) {
+    std::vector<std::string> functions;
+    if (options.surface == io::SurfaceStyle::kValue) functions.push_back(header.function);
+    mesh.emplace(source, functions);
+    mesh->read([&](const MeshBatch& batch, auto, std::uint64_t done, std::uint64_t total) {
+      sample.add(batch);
+      if (options.progress) options.progress("measuring", done, total);
+    });
+    check_mesh(options, header, sample.vertices());
+  }
+  if (is_empty) return message_picture(heading, "The graph is empty.");
+
+  std::vector<Point> all = sample.points();
+  const Point upright = upright_of(header.function);
+  const io::View eye = options.view ? io::view_from(*options.view, upright) : io::best_view(all, stops, upright);
+  all.insert(all.end(), stops.begin(), stops.end());
+  all.insert(all.end(), lines.nodes.begin(), lines.nodes.end());
+  const io::Projection projection(eye, all, io::kSkeletonCorner, io::kSkeletonBoxWidth, io::kSkeletonMostHeight);
+  heading.subtitle += ", seen from " + io::direction_text(eye.toward);
+  io::SkeletonScene scene{projection, nullptr, options.surface, options.colors, {}};
+  if (!mesh || options.surface == io::SurfaceStyle::kNone) {
+    scene.style = io::SurfaceStyle::kNone;
+    return skeleton_picture(view, lines, scene, heading);
+  }
+
+  std::vector<io::Probe> probes;
+  for (const Point& stop : stops) {
+    const io::PicturePoint at = projection.place(stop);
+    // A line that touches the surface is not behind it.
+    constexpr double kTolerance = 0.5;
+    probes.push_back({static_cast<float>(at.x - io::kSkeletonCorner.x),
+                      static_cast<float>(at.y - io::kSkeletonCorner.y),
+                      static_cast<float>(projection.depth(stop) + kTolerance)});
+  }
+  constexpr double kScale = 1.6;
+  io::SurfaceRaster raster(io::kSkeletonBoxWidth, projection.height(), kScale, options.surface, probes);
+  {
+    SurfaceDrawing drawing(options, header, projection, raster);
+    mesh->read([&](const MeshBatch& batch, std::span<const std::vector<double>> values, std::uint64_t done,
+                   std::uint64_t total) {
+      drawing.add(batch, values);
+      if (options.progress) options.progress("drawing", done, total);
+    });
+  }
+  const io::Image image = raster.image();
+  scene.surface = &image;
+  scene.layers = raster.layers();
+  return skeleton_picture(view, lines, scene, heading);
+}
+
+}  // namespace reeb::tools
