@@ -1,0 +1,39 @@
+#include "ooc/reeb_file/level_history.h"
+
+#include <algorithm>
+
+#include "ooc/reeb_file/frame_file.h"
+
+namespace reeb::ooc {
+
+LevelHistory read_history(const std::string& path, std::uint32_t finest, const VisitRecord& visit) {
+  const FrameFile file(path);
+  LevelHistory history;
+  std::vector<bool> named;
+  GraphFrame frame;
+  FrameFile::Buffers buffers;
+  FrameCursor cursor(file);
+  while (!cursor.covers(finest)) {
+    cursor.next(file, frame, buffers);
+    history.nodes.insert(history.nodes.end(), frame.nodes.begin(), frame.nodes.end());
+    named.resize(history.nodes.size(), false);
+    std::size_t first = 0;
+    for (std::size_t i = 0; i < frame.arcs.size(); ++i) {
+      const FileArc& arc = frame.arcs[i];
+      const std::size_t count = frame.bucket_counts.empty() ? 0 : frame.bucket_counts[i];
+      named[arc.lo] = named[arc.hi] = true;
+      if (arc.died > finest)
+        visit(arc, history.nodes[arc.lo], history.nodes[arc.hi], std::span(frame.buckets).subspan(first, count));
+      first += count;
+    }
+    history.versions.insert(history.versions.end(), frame.versions.begin(), frame.versions.end());
+  }
+  for (std::uint32_t node = 0; node < named.size(); ++node)
+    if (!named[node]) history.isolated.push_back(node);
+  // A frame can complete finer versions than the one that was asked for.
+  history.versions.resize(std::size_t{file.header().steps} + 1 - finest);
+  std::ranges::reverse(history.versions);
+  return history;
+}
+
+}  // namespace reeb::ooc
