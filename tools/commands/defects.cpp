@@ -8,19 +8,16 @@
 #include <string>
 #include <vector>
 
-#include "io/file/content_source.h"
 #include "io/file/file_name.h"
 #include "io/file/temp_dir.h"
-#include "io/formats/open_mesh.h"
 #include "libreeb/base/error.h"
 #include "libreeb/base/memory_budget.h"
-#include "ooc/census/mesh_census.h"
 #include "ooc/reeb_file/reeb_file.h"
-#include "ooc/whole_mesh/workspace.h"
 #include "tools/commands/commands.h"
 #include "tools/defects/defect_text.h"
 #include "tools/defects/find_defects.h"
 #include "tools/defects/patch_files.h"
+#include "tools/defects/surface_census.h"
 #include "tools/library/run_files.h"
 #include "tools/program/image_options.h"
 #include "tools/program/input_kind.h"
@@ -84,19 +81,6 @@ class Filter {
   double below_ = std::numeric_limits<double>::infinity(), longest_ = std::numeric_limits<double>::infinity();
   bool below_percent_ = false;
 };
-
-ooc::MeshCensus census_of(const MeshSource& source) {
-  const io::Input input(source.path);
-  return input.read([&] {
-    ooc::Workspace space(source.temp_folder, source.memory_bytes);
-    const auto open = [&] { return io::open_mesh(input, input.open(), {}, source.image, source.format); };
-    const auto reader = open();
-    if (const auto mesh = reader->indexed()) return ooc::take_census(*mesh, reader->info().dimension, space);
-    ooc::CensusOptions census;
-    census.read_again = open;
-    return ooc::take_census(*reader, space, census);
-  });
-}
 
 void run_defects(DefectsOptions options) {
   const Filter filter(options);

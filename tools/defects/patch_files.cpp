@@ -11,7 +11,7 @@
 #include "io/file/file_ostream.h"
 #include "io/text/output_buffer.h"
 #include "libreeb/base/error.h"
-#include "ooc/patches/collected_surface.h"
+#include "tools/defects/cut_patches.h"
 
 namespace reeb::tools {
 namespace {
@@ -20,23 +20,6 @@ constexpr std::size_t kMostVertices = 200'000;
 
 std::string name(const std::string& folder, std::size_t rank, const char* ending) {
   return fmt::format("{}/defect-{}{}.ply", folder, rank, ending);
-}
-
-struct Place {
-  std::vector<VertexId> seeds;
-  std::vector<ooc::Ball> balls;
-};
-
-Place place_of(const DefectRow& row, const PatchScale& scale) {
-  Place place{row.curve.path, {}};
-  const double width = distance(row.curve.box[0], row.curve.box[1]);
-  if (place.seeds.empty()) place.seeds = {row.lo.key.vertex, row.hi.key.vertex};
-  if (!row.curve.path.empty()) {
-    place.balls.push_back({row.curve.center, 1.5 * width + 4 * scale.edge});
-  } else {
-    for (const SettledNode* node : {&row.lo, &row.hi}) place.balls.push_back({node->position, 12 * scale.edge});
-  }
-  return place;
 }
 
 // From blue by white to red.
@@ -116,24 +99,13 @@ void write_patches(const ValuedMesh& mesh, const Defects& defects, std::span<con
                 "name a folder that can be written")
         .at(folder);
   for (const std::string& path : patch_names(rows, folder)) io::check_output_name(path, existing);
-  std::vector<Place> places;
-  std::vector<ooc::Ball> balls;
-  for (const RankedRow& ranked : rows) {
-    places.push_back(place_of(*ranked.row, defects.scale));
-    balls.insert(balls.end(), places.back().balls.begin(), places.back().balls.end());
-  }
-  MemoryBudget budget;
-  ooc::CollectedSurface surface(balls, defects.functions.size(), budget);
-  mesh.read([&](const MeshBatch& batch, std::span<const std::vector<double>> values, std::uint64_t, std::uint64_t) {
-    surface.add(batch, values);
-  });
-  surface.finish();
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const DefectRow& row = *rows[i].row;
-    const auto patch = surface.cut(places[i].seeds, places[i].balls, kMostVertices);
+  std::vector<const DefectRow*> plain;
+  for (const RankedRow& ranked : rows) plain.push_back(ranked.row);
+  cut_patches(mesh, defects, plain, kMostVertices, [&](std::size_t i, const ooc::CollectedSurface::Patch& patch) {
+    const DefectRow& row = *plain[i];
     write_file(name(folder, rows[i].rank, ""), existing, surface_text(patch.surface, patch.values[row.function]));
     write_file(name(folder, rows[i].rank, "-curves"), existing, curves_text(patch.surface, row));
-  }
+  });
 }
 
 }  // namespace reeb::tools
