@@ -14,7 +14,7 @@ endif()
 foreach(name IN LISTS reeb_public_headers)
   install(FILES "${PROJECT_BINARY_DIR}/include/reeb/${name}.h" DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/reeb)
 endforeach()
-install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/reeb)
+install(FILES LICENSE NOTICE DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/reeb)
 
 install(EXPORT reebTargets NAMESPACE reeb:: DESTINATION ${package})
 configure_package_config_file(cmake/reebConfig.cmake.in reebConfig.cmake INSTALL_DESTINATION ${package})

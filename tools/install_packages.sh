@@ -11,6 +11,9 @@ set -euo pipefail
 packages=(cmake ninja-build g++ pkg-config libtbb-dev libzstd-dev liblz4-dev zlib1g-dev libexpat1-dev
           libboost-iostreams-dev libcli11-dev libfmt-dev nlohmann-json3-dev libfast-float-dev libxxhash-dev
           libeigen3-dev libspectra-dev)
+# Node.js often comes from elsewhere; then packages of Debian would be in its way.
+command -v node >/dev/null || command -v nodejs >/dev/null || packages+=(nodejs)
+command -v npm >/dev/null || packages+=(npm)
 test_packages=(libgtest-dev libbenchmark-dev zstd clang-format-14 python3-numpy gnuplot-nox graphviz librsvg2-bin
                libxml2-utils)
 

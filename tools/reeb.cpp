@@ -102,6 +102,7 @@ int run(int argc, char** argv) {
   reeb::tools::add_defects(program);
   reeb::tools::add_function(program);
   reeb::tools::add_segment(program);
+  reeb::tools::add_report(program);
   for (CLI::App* command : program.get_subcommands({})) command->group("Commands");
   if (argc == 1) {
     fmt::print("{}", program.help());

@@ -17,5 +17,6 @@ void add_defects(CLI::App& program);
 void add_function(CLI::App& program);
 void add_segment(CLI::App& program);
 void add_plot(CLI::App& program);
+void add_report(CLI::App& program);
 
 }  // namespace reeb::tools

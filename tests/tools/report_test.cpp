@@ -1,0 +1,203 @@
+// `reeb report`: what the page says, without a browser. tests/web has what it does in one.
+#include <algorithm>
+#include <cstdio>
+#include <regex>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/support/planted_mesh.h"
+#include "tests/tools/program.h"
+
+namespace reeb::test {
+namespace {
+
+using Json = nlohmann::json;
+
+bool built_with_pages() { return REEB_WEB != 0; }
+
+std::string exact(double value) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.17g", value);
+  return text;
+}
+
+class Report : public ProgramTest {
+ protected:
+  void SetUp() override {
+    if (!built_with_pages()) GTEST_SKIP() << "no data: built with REEB_WEB=OFF";
+  }
+  // Writes mesh.off, and the page about its graph.
+  std::string report(const std::string& mesh, std::vector<std::string> compute = {},
+                     std::vector<std::string> words = {}) {
+    write("mesh.off", mesh);
+    compute.insert(compute.begin(), {"compute", "mesh.off", "-o", "g.reeb", "--quiet", "--force"});
+    expect_success(reeb(compute));
+    words.insert(words.begin(), {"report", "g.reeb", "-o", "g.html", "--force"});
+    expect_success(reeb(words));
+    return file("g.html");
+  }
+  static Json data(const std::string& page) {
+    const std::string begin = "<script type=\"application/json\" id=\"data\">";
+    const auto at = page.find(begin) + begin.size();
+    return Json::parse(page.substr(at, page.find("</script>", at) - at));
+  }
+  // The cell beside the heading NAME of a summary.
+  static std::string cell(const std::string& page, const std::string& name) {
+    const std::regex row("<tr><th scope=\"row\">" + name + "</th><td>([^<]*)</td></tr>");
+    std::smatch found;
+    return std::regex_search(page, found, row) ? found[1].str() : "none";
+  }
+  std::string planted(std::uint64_t seed = 1) const {
+    PlantedOptions options;
+    options.seed = seed;
+    return to_off(planted_mesh(options));
+  }
+};
+
+constexpr const char* kPoint = "OFF\n1 0 0\n1 2 3\n";
+
+TEST_F(Report, SummaryIsThatOfTheFile) {
+  const std::string page = report(planted(), {"--buckets", "16"});
+  const auto info = Json::parse(reeb({"info", "g.reeb", "--json"}).output);
+  for (const char* name : {"nodes", "arcs", "components", "loops"})
+    EXPECT_EQ(cell(page, name), info["graph"][name].dump()) << name;
+  EXPECT_EQ(cell(page, "function"), "z");
+  EXPECT_EQ(cell(page, "mesh triangles"), info["input"]["triangles"].dump());
+  EXPECT_EQ(cell(page, "pairs of loops \\(Ext1\\)"), info["graph"]["loops"].dump());
+  EXPECT_NE(cell(page, "loops"), "0");
+}
+
+// At every threshold the records give as many nodes and arcs as `extract`.
+TEST_F(Report, LevelsAreThoseOfExtract) {
+  const Json skeleton = data(report(planted()))["skeleton"];
+  const auto& levels = skeleton["levels"];
+  const std::size_t count = levels["version"].size();
+  ASSERT_GT(count, 10u);
+  for (std::size_t i = 0; i < count; i += 1 + count / 12) {
+    const double threshold = levels["threshold"][i];
+    const auto graph =
+        Json::parse(reeb({"extract", "g.reeb", "--format", "json", "--threshold", exact(threshold)}).output);
+    EXPECT_EQ(levels["arcs"][i], graph["arcs"].size());
+    EXPECT_EQ(levels["nodes"][i], graph["nodes"].size());
+    std::size_t arcs = 0;
+    const auto& records = skeleton["arcs"];
+    const std::uint32_t version = levels["version"][i];
+    for (std::size_t k = 0; k < records["born"].size(); ++k)
+      arcs += records["born"][k] <= version && (records["died"][k].is_null() || records["died"][k] > version);
+    EXPECT_EQ(arcs, graph["arcs"].size()) << threshold;
+  }
+}
+
+TEST_F(Report, FewNodesMeanCoarserLevels) {
+  const std::string page = report(planted(), {}, {"--nodes", "10"});
+  const Json skeleton = data(page)["skeleton"];
+  EXPECT_LE(skeleton["levels"]["nodes"][0], 10);
+  EXPECT_NE(page.find("--nodes N sets another limit"), std::string::npos);
+  EXPECT_TRUE(data(report(planted(), {}, {"--nodes", "1"}))["skeleton"].is_null());
+}
+
+TEST_F(Report, FiveMegabytesAreEnoughForAThousandNodes) {
+  expect_success(reeb({"generate", "scan", "--triangles", "200k", "-o", "scan.ply"}));
+  expect_success(reeb({"compute", "scan.ply", "--quiet"}));
+  expect_success(reeb({"report", "scan.reeb", "--mesh", "scan.ply", "--nodes", "1000", "-o", "scan.html", "--quiet"}));
+  EXPECT_GT(data(file("scan.html"))["skeleton"]["levels"]["nodes"][0], 500);
+  EXPECT_LE(file("scan.html").size(), 5'000'000u);
+}
+
+TEST_F(Report, DefectsAreThoseOfTheMesh) {
+  const std::string page = report(planted(), {}, {"--mesh", "mesh.off"});
+  expect_success(reeb({"defects", "mesh.off", "g.reeb", "-o", "d.json", "--quiet"}));
+  const Json defects = Json::parse(file("d.json"));
+  const std::size_t rows = defects["loops"].size();
+  ASSERT_GT(rows, 0u);
+  EXPECT_EQ(cell(page, "boundary loops"), "0");
+  const Json closeups = data(page)["closeups"];
+  ASSERT_EQ(closeups.size(), std::min<std::size_t>(rows, 12));
+  for (std::size_t i = 0; i < closeups.size(); ++i) {
+    EXPECT_EQ(closeups[i]["kind"], defects["loops"][i]["kind"]);
+    EXPECT_GT(closeups[i]["triangles"].get<std::string>().size(), 100u);
+    EXPECT_TRUE(closeups[i]["kind"] == "unclear" || closeups[i]["curve"].size() > 2) << i;
+  }
+}
+
+TEST_F(Report, NamesCannotActAsMarkup) {
+  write("v.ply",
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nproperty "
+        "float <!--<script>\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0 1\n1 0 0 "
+        "2\n0 1 0 3\n3 0 1 2\n");
+  expect_success(reeb({"compute", "v.ply", "-f", "property:<!--<script>", "-o", "<b>&\"'.reeb", "--quiet"}));
+  expect_success(reeb({"report", "<b>&\"'.reeb", "-o", "g.html"}));
+  const std::string page = file("g.html");
+  EXPECT_EQ(page.find("<b>"), std::string::npos);
+  EXPECT_EQ(page.find("property:<"), std::string::npos);
+  EXPECT_EQ(data(page)["function"], "property:<!--<script>");
+  EXPECT_NE(page.find("&lt;b&gt;&amp;&quot;&#39;.reeb"), std::string::npos);
+}
+
+TEST_F(Report, DescribesGraphsWithoutLevels) {
+  const std::string page = report(planted(), {"--graph-only"});
+  EXPECT_NE(page.find("The file has the graph only"), std::string::npos);
+  const Json all = data(page);
+  EXPECT_TRUE(all["pairs"].empty());
+  EXPECT_EQ(all["skeleton"]["levels"]["version"].size(), 1u);
+  EXPECT_EQ(all["skeleton"]["levels"]["arcs"][0].dump(), cell(page, "arcs"));
+}
+
+TEST_F(Report, DescribesTheSmallestGraphs) {
+  const std::string empty = report("OFF\n0 0 0\n", {}, {"--mesh", "mesh.off"});
+  EXPECT_EQ(cell(empty, "loops"), "0");
+  EXPECT_NE(empty.find("The graph is empty"), std::string::npos);
+  const std::string point = report(kPoint, {}, {"--mesh", "mesh.off"});
+  EXPECT_EQ(cell(point, "nodes"), "1");
+  EXPECT_EQ(data(point)["skeleton"]["isolated"], Json({0}));
+}
+
+TEST_F(Report, IsTheSameEachTime) {
+  const std::string page = report(planted(), {}, {"--mesh", "mesh.off"});
+  expect_success(reeb({"report", "g.reeb", "--mesh", "mesh.off", "-o", "-", "--quiet"}));
+  EXPECT_EQ(reeb({"report", "g.reeb", "--mesh", "mesh.off", "-o", "-", "--quiet", "--threads", "1"}).output, page);
+}
+
+TEST_F(Report, RefusesWhatItCannotUse) {
+  report(planted());
+  expect_error(reeb({"report", "g.reeb"}), 2);
+  expect_error(reeb({"report", "g.reeb", "-o", "g.html"}), 1, "g.html: ");
+  expect_error(reeb({"report", "mesh.off", "-o", "x.html"}), 1, "mesh.off: this is a mesh");
+  expect_error(reeb({"report", "g.reeb", "--mesh", "g.reeb", "-o", "x.html"}), 1, "g.reeb: ");
+  expect_error(reeb({"report", "g.reeb", "--mesh", "-", "-o", "x.html"}), 2);
+  expect_error(reeb({"report", "g.reeb", "-o", "g.reeb", "--force"}), 1, "g.reeb: ");
+  write("other.off", kSmallOff);
+  expect_error(reeb({"report", "g.reeb", "--mesh", "other.off", "-o", "x.html"}), 1);
+  const auto names = files();
+  EXPECT_EQ(std::ranges::count(names, "x.html"), 0);
+}
+
+// A volume has no surface, so no curves, but its graph has a page.
+TEST_F(Report, DescribesVolumes) {
+  expect_success(reeb({"generate", "volume", "--grid", "12x12x12", "--handles", "1", "-o", "v.nrrd"}));
+  expect_success(reeb({"compute", "v.nrrd", "--quiet"}));
+  expect_success(reeb({"report", "v.reeb", "--mesh", "v.nrrd", "-o", "v.html", "--quiet"}));
+  EXPECT_NE(file("v.html").find("no surface"), std::string::npos);
+  EXPECT_EQ(cell(file("v.html"), "nodes"),
+            Json::parse(reeb({"info", "v.reeb", "--json"}).output)["graph"]["nodes"].dump());
+}
+
+TEST_F(Report, DescribesWhatIsLeftOfADamagedFile) {
+  report(planted());
+  const std::string bytes = file("g.reeb");
+  write("cut.reeb", bytes.substr(0, bytes.size() - 40));
+  expect_success(reeb({"report", "cut.reeb", "-o", "cut.html"}));
+  EXPECT_NE(file("cut.html").find("The file is damaged"), std::string::npos);
+}
+
+class ReportWithoutPages : public ProgramTest {};
+
+TEST_F(ReportWithoutPages, SaysSo) {
+  if (built_with_pages()) GTEST_SKIP() << "no data: built with pages";
+  expect_error(reeb({"report", "g.reeb", "-o", "g.html"}), 3, "this program was built without pages");
+}
+
+}  // namespace
+}  // namespace reeb::test

@@ -1,0 +1,234 @@
+// What the page of `reeb report` does in a browser: no complaints, tables that sort, a slider that draws the arcs that
+// `reeb extract` writes, pictures that are not empty.
+//
+//   node report_test.mjs REEB FOLDER     FOLDER has scan.reeb and scan.html, empty.html, point.html, bare.html
+import { execFileSync } from 'node:child_process'
+import { join } from 'node:path'
+import { Browser, pause } from './browser.mjs'
+
+const [reeb, folder] = process.argv.slice(2)
+let failures = 0
+
+function check(what, good, seen = '') {
+  if (good) return console.log(`ok: ${what}`)
+  console.log(`FAILED: ${what}: ${typeof seen === 'string' ? seen : JSON.stringify(seen)}`)
+  ++failures
+}
+
+const same = (what, seen, wanted) =>
+  check(what, JSON.stringify(seen) === JSON.stringify(wanted), `${JSON.stringify(seen)} instead of ${JSON.stringify(wanted)}`)
+
+function extracted(threshold) {
+  const text = execFileSync(reeb, ['extract', join(folder, 'scan.reeb'), '--threshold', threshold], { encoding: 'utf8' })
+  const count = (letter) => text.split('\n').filter((line) => line.startsWith(`${letter} `)).length
+  return { nodes: count('n'), arcs: count('a') }
+}
+
+// Colours in a picture: one if it is empty.
+const kColors = `(element) => {
+  const canvas = document.createElement('canvas')
+  canvas.width = element.width
+  canvas.height = element.height
+  const context = canvas.getContext('2d')
+  context.drawImage(element, 0, 0)
+  return new Set(new Uint32Array(context.getImageData(0, 0, canvas.width, canvas.height).data.buffer)).size
+}`
+const kDrawn = `new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => {
+  const { nodes, arcs, loops, threshold } = document.getElementById('drawn').dataset
+  done({ nodes: Number(nodes), arcs: Number(arcs), loops: Number(loops), threshold: Number(threshold) })
+})))`
+
+function unasked(browser, page) {
+  same(`${page}: no complaint in the console`, browser.complaints(), [])
+  same(`${page}: nothing asked of the network`, browser.requests(), [])
+}
+
+async function slider(browser) {
+  const last = await browser.evaluate(`Number(document.getElementById('level').max)`)
+  check('there are levels', last > 20, last)
+  for (const level of [0, 1, Math.floor(last / 3), Math.floor(last / 2), last - 1, last]) {
+    const drawn = await browser.evaluate(`(() => {
+      const slider = document.getElementById('level')
+      slider.value = ${level}
+      slider.dispatchEvent(new Event('input'))
+      return ${kDrawn}
+    })()`)
+    const { nodes, arcs } = extracted(String(drawn.threshold))
+    same(`level ${level} has the nodes and arcs of extract`, [drawn.nodes, drawn.arcs], [nodes, arcs])
+  }
+  for (const threshold of ['0', '0.5%', '2%', '0.01', '1e9']) {
+    const drawn = await browser.evaluate(`(() => {
+      const input = document.getElementById('threshold')
+      input.value = '${threshold}'
+      input.dispatchEvent(new Event('change'))
+      return ${kDrawn}
+    })()`)
+    const { nodes, arcs } = extracted(threshold)
+    same(`threshold ${threshold} has the nodes and arcs of extract`, [drawn.nodes, drawn.arcs], [nodes, arcs])
+  }
+  await browser.evaluate(`(() => { const level = document.getElementById('level'); level.value = 0; level.focus() })()`)
+  await browser.press('ArrowRight')
+  same('the arrow keys move the slider', await browser.evaluate(`document.getElementById('level').value`), '1')
+  check(
+    'what the slider says to a screen reader',
+    /per cent of the range: [\d,]+ nodes?, [\d,]+ arcs?, [\d,]+ loops?/.test(
+      await browser.evaluate(`document.getElementById('level').getAttribute('aria-valuetext')`),
+    ),
+  )
+  const before = await browser.evaluate(`document.querySelector('#canvas-place canvas').toDataURL()`)
+  await browser.evaluate(`document.getElementById('canvas-place').focus()`)
+  await browser.press('ArrowLeft')
+  let after = before
+  for (let i = 0; i < 40 && after === before; ++i) {
+    await pause(50)
+    after = await browser.evaluate(`document.querySelector('#canvas-place canvas').toDataURL()`)
+  }
+  check('the arrow keys rotate the skeleton', before !== after)
+}
+
+async function tables(browser) {
+  const column = (table, index) =>
+    `[...document.querySelector('${table} tbody').rows].map((row) => row.cells[${index}].textContent)`
+  for (const [section, name] of [['#features', 'persistence'], ['#features', 'rank'], ['#defects', 'kind'], ['#levels', 'nodes']]) {
+    const index = await browser.evaluate(
+      `[...document.querySelector('${section} thead').rows[0].cells].findIndex((cell) => cell.textContent === '${name}')`,
+    )
+    const before = await browser.evaluate(column(section, index))
+    const press = `[...document.querySelectorAll('${section} thead button')].find((b) => b.textContent === '${name}').click()`
+    const orders = {}
+    for (let i = 0; i < 2; ++i) {
+      await browser.evaluate(press)
+      const sort = await browser.evaluate(
+        `document.querySelector('${section} thead').rows[0].cells[${index}].getAttribute('aria-sort')`,
+      )
+      orders[sort] = await browser.evaluate(column(section, index))
+    }
+    const numeric = before.every((text) => !Number.isNaN(Number(text)))
+    const sorted = [...before].sort(numeric ? (a, b) => a - b : (a, b) => a.localeCompare(b))
+    same(`${section} sorts by ${name}, ascending`, orders.ascending?.map(String), sorted)
+    same(`${section} sorts by ${name}, descending`, orders.descending?.map(String), [...sorted].reverse())
+  }
+}
+
+async function structure(browser, what) {
+  const seen = await browser.evaluate(`({
+    headings: [...document.querySelectorAll('h2')].map((h) => h.textContent),
+    titles: [...document.querySelectorAll('.plot .title')].map((t) => t.textContent),
+    steps: document.querySelector('.plot .curve').getTotalLength() > 100,
+    marks: document.querySelectorAll('#plot-diagram title').length,
+    closeups: [...document.querySelectorAll('.closeup canvas')].map(${kColors}),
+    wide: document.documentElement.scrollWidth - innerWidth,
+    unnamed: [...document.querySelectorAll('button, input, canvas')].filter((element) => !(element.textContent ||
+      element.getAttribute('aria-label') || element.labels?.length || element.closest('[aria-label]'))).length,
+  })`)
+  same(`${what}: headings`, seen.headings, ['Summary', 'Skeleton', 'Plots', 'Features', 'Defects', 'Levels'])
+  same(`${what}: titles of plots`, seen.titles, ['Loops above a persistence', 'Persistence diagram'])
+  check(`${what}: the curve of loops`, seen.steps)
+  check(`${what}: marks in the diagram`, seen.marks > 20, seen.marks)
+  check(`${what}: close-ups are painted`, seen.closeups.length > 0 && seen.closeups.every((n) => n > 20), seen.closeups)
+  check(`${what}: as wide as the window`, seen.wide <= 0, seen.wide)
+  same(`${what}: everything has a name`, seen.unnamed, 0)
+}
+
+// Moves the pointer to a place that is drawn, near the middle of the skeleton, until something is said of it.
+async function hover(browser) {
+  const at = await browser.evaluate(`(() => {
+    const place = document.getElementById('canvas-place')
+    const drawn = place.querySelector('canvas')
+    const canvas = document.createElement('canvas')
+    canvas.width = drawn.width
+    canvas.height = drawn.height
+    const context = canvas.getContext('2d')
+    context.drawImage(drawn, 0, 0)
+    const { data } = context.getImageData(0, 0, canvas.width, canvas.height)
+    let best = { distance: Infinity }
+    for (let y = 0; y < canvas.height; ++y)
+      for (let x = 0; x < canvas.width; ++x) {
+        const distance = Math.hypot(x - canvas.width / 2, y - canvas.height / 2)
+        if (data[4 * (y * canvas.width + x) + 3] > 200 && distance < best.distance) best = { distance, x, y }
+      }
+    return { x: (best.x / canvas.width) * place.clientWidth, y: (best.y / canvas.height) * place.clientHeight }
+  })()`)
+  for (let i = 0; i < 40; ++i) {
+    // The page may still be scrolling.
+    const corner = await browser.evaluate(`(() => {
+      const place = document.getElementById('canvas-place')
+      place.scrollIntoView({ behavior: 'instant' })
+      const { left, top } = place.getBoundingClientRect()
+      return { left, top }
+    })()`)
+    const [x, y] = [corner.left + at.x + (i % 2), corner.top + at.y]
+    await browser.send('Input.dispatchMouseEvent', { type: 'mouseMoved', x, y })
+    await pause(50)
+    const text = await browser.evaluate(`(({ hidden, textContent }) => (hidden ? '' : textContent))(document.getElementById('tooltip'))`)
+    if (/vertex \d+/.test(text)) return true
+  }
+  return false
+}
+
+async function withWebgl() {
+  const browser = await Browser.start({ switches: ['--enable-unsafe-swiftshader'] })
+  const url = (name) => `file://${join(folder, name)}`
+  await browser.open(url('scan.html'))
+  const colors = await browser.evaluate(`(${kColors})(document.querySelector('#canvas-place canvas'))`)
+  check('the skeleton is drawn', colors > 20, colors)
+  await structure(browser, 'wide')
+  await slider(browser)
+  await tables(browser)
+  await browser.evaluate(`document.querySelector('[data-pair="1"]').click()`)
+  check('a feature is announced', /is marked in the skeleton/.test(await browser.evaluate(`document.getElementById('announcement').textContent`)))
+  await browser.evaluate(`document.querySelector('[data-closeup="0"]').click()`)
+  same('a close-up is chosen', await browser.evaluate(`document.activeElement.closest('figure').id`), 'closeup-0')
+  check('hovering says what is there', await hover(browser))
+  await browser.send('Emulation.setEmulatedMedia', { media: 'print' })
+  const printed = await browser.evaluate(`[...document.querySelectorAll('.scroll table')].map((table) => {
+    const shown = (row) => [...row.cells].filter((cell) => getComputedStyle(cell).display !== 'none').length
+    const columns = shown(table.tHead.rows[0])
+    return [columns, [...table.tBodies[0].rows].every((row) => shown(row) === columns)]
+  })`)
+  check('on paper all rows have the columns of the heading', printed.every(([columns, same]) => columns > 4 && same), printed)
+  await browser.send('Emulation.setEmulatedMedia', { media: '' })
+  check('it prints', (await browser.pdf()).length > 20000)
+  unasked(browser, 'scan.html')
+
+  await browser.open(url('scan.html'), { width: 360, dark: true })
+  await structure(browser, 'narrow and dark')
+  same('dark paper', await browser.evaluate(`getComputedStyle(document.body).backgroundColor`), 'rgb(20, 23, 27)')
+  unasked(browser, 'narrow')
+  for (const [page, message] of [['empty.html', 'The graph is empty'], ['point.html', ''], ['bare.html', '']]) {
+    await browser.open(url(page))
+    const seen = await browser.evaluate(`(({ hidden, textContent }) => (hidden ? '' : textContent))(document.getElementById('skeleton-message'))`)
+    check(`${page}: says what there is`, message === '' ? seen === '' : seen.startsWith(message), seen)
+    unasked(browser, page)
+  }
+  same('a point is one node', await (async () => {
+    await browser.open(url('point.html'))
+    return (await browser.evaluate(kDrawn)).nodes
+  })(), 1)
+  await browser.stop()
+}
+
+async function withoutWebgl() {
+  const browser = await Browser.start({ switches: ['--disable-gpu', '--disable-3d-apis'] })
+  await browser.open(`file://${join(folder, 'scan.html')}`)
+  const seen = await browser.evaluate(`({
+    message: document.getElementById('skeleton-message').textContent,
+    lines: document.querySelectorAll('#canvas-place svg path').length,
+  })`)
+  check('without WebGL: a message', seen.message.startsWith('This browser has no WebGL'), seen.message)
+  check('without WebGL: lines', seen.lines > 50, seen.lines)
+  await sliderWithoutWebgl(browser)
+  await browser.stop()
+}
+
+async function sliderWithoutWebgl(browser) {
+  const count = () => browser.evaluate(`new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() =>
+    done(document.querySelectorAll('#canvas-place svg path').length))))`)
+  const before = await count()
+  await browser.evaluate(`(() => { const slider = document.getElementById('level'); slider.value = slider.max; slider.dispatchEvent(new Event('input')) })()`)
+  check('without WebGL: the slider works', (await count()) < before)
+}
+
+await withWebgl()
+await withoutWebgl()
+process.exit(failures > 0 ? 1 : 0)

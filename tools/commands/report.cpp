@@ -1,0 +1,96 @@
+// `reeb report`: one page about a .reeb file, for people.
+#include <memory>
+#include <string>
+
+#include "io/file/temp_dir.h"
+#include "libreeb/base/error.h"
+#include "ooc/reeb_file/reeb_file.h"
+#include "tools/commands/commands.h"
+#include "tools/library/run_files.h"
+#include "tools/program/image_options.h"
+#include "tools/program/input_kind.h"
+#include "tools/program/options.h"
+#include "tools/program/output.h"
+#include "tools/program/progress.h"
+#include "tools/program/signals.h"
+#include "tools/report/report.h"
+
+namespace reeb::tools {
+namespace {
+
+struct PageOptions {
+  ReportOptions report;
+  std::string output;
+  bool force = false, quiet = false;
+};
+
+void check_files(const PageOptions& options) {
+  const std::string& mesh = options.report.defects.mesh.path;
+  require_reeb_file(options.report.file, "report");
+  RunFiles files;
+  files.add_input(options.report.file, "the .reeb file");
+  if (!mesh.empty()) {
+    if (mesh == "-")
+      throw Error(ErrorKind::kUsage, "the mesh is read several times, so it cannot come from standard input",
+                  "write it to a file first");
+    if (ooc::is_reeb_file(mesh))
+      throw Error(ErrorKind::kBadInput, "this is a Reeb graph, not a mesh",
+                  "name the mesh: reeb report FILE.reeb --mesh MESH -o OUT.html")
+          .at(mesh);
+    files.add_input(mesh, "the mesh");
+  }
+  files.add_output(options.output, "the output", existing_outputs(options.force));
+  files.check();
+}
+
+void run_report(PageOptions options) {
+  require_pages();
+  check_files(options);
+  FindDefectsOptions& defects = options.report.defects;
+  defects.files = {options.report.file};
+  if (defects.mesh.temp_folder.empty())
+    defects.mesh.temp_folder = io::TempDir::default_folder(options.output == "-" ? "" : options.output);
+  ProgressBar bar(options.quiet);
+  defects.interrupted = watch_signals();
+  defects.searching = [&](std::uint64_t done, std::uint64_t total, std::uint64_t triangles) {
+    bar.update({"curves"}, done, total, triangles);
+  };
+  options.report.counting = [&] { bar.update({"counting", 1}, 0, 0); };
+  const std::string page = make_report(options.report);
+  bar.clear();
+  write_output(options.output, options.force, [&](std::ostream& out) { out << page; });
+}
+
+}  // namespace
+
+void add_report(CLI::App& program) {
+  auto options = std::make_shared<PageOptions>();
+  CLI::App* command = program.add_subcommand("report", "Write one HTML page: summary, plots, defects, skeleton");
+  FindDefectsOptions& defects = options->report.defects;
+  command->add_option("FILE", options->report.file, "The .reeb file")->required()->type_name("");
+  command->add_option("-o,--output", options->output, "File to write, an HTML page; - is standard output")
+      ->required()
+      ->type_name("FILE");
+  command
+      ->add_option("--mesh", defects.mesh.path,
+                   "The mesh of the graph: adds what is wrong with it, and its defects with close-ups")
+      ->type_name("MESH");
+  add_count(*command, "--nodes", options->report.nodes, "The skeleton has levels with at most N nodes (default: 2000)",
+            {.least = 1, .most = 100'000});
+  add_format(*command, defects.mesh.format);
+  add_image_options(*command, defects.mesh.image);
+  add_size(*command, "--memory", defects.mesh.memory_bytes,
+           "Memory that reading the mesh may use: 64M, 1.5GiB (default: no limit)");
+  add_count(*command, "--threads", defects.threads, "Number of threads, 1 to 1024 (default: all)",
+            {.least = 1, .most = 1024});
+  command
+      ->add_option("--temp-dir", defects.mesh.temp_folder,
+                   "Folder for temporary files (default: $TMPDIR, or the folder of the output)")
+      ->type_name("DIR");
+  command->add_flag("--force", options->force, "Replace an existing output");
+  command->add_flag("--quiet", options->quiet, "Print no progress");
+  command->footer("Example:\n  reeb report scan.reeb --mesh scan.ply -o scan.html");
+  command->callback([options] { run_report(*options); });
+}
+
+}  // namespace reeb::tools

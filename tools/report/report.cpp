@@ -1,0 +1,314 @@
+#include "tools/report/report.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "libreeb/base/count_text.h"
+#include "libreeb/base/error.h"
+#include "ooc/reeb_file/largest_pairs.h"
+#include "ooc/reeb_file/reeb_file.h"
+#include "tools/defects/surface_census.h"
+#include "tools/report/closeups.h"
+#include "tools/report/page_template.h"
+#include "tools/report/page_text.h"
+#include "tools/report/skeleton.h"
+#include "tools/report/tables.h"
+
+namespace reeb::tools {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t kMostPairs = 2000;  // in the diagram
+constexpr std::size_t kMostRows = 500;    // of a table
+constexpr std::size_t kMostSteps = 1000;  // of the curve of loops
+
+// What was found before anything is written.
+struct Findings {
+  std::optional<ooc::LargestPairs> pairs;
+  std::optional<std::uint32_t> finest;  // the finest level in the page
+  Json skeleton;                        // null if there is none
+  std::optional<ooc::MeshCensus> census;
+  std::optional<Defects> defects;
+  Json closeups = Json::array();
+  std::vector<std::string> notes;  // what is odd, wrong or missing
+};
+
+std::string base_name(const std::string& path) { return std::filesystem::path(path).filename().string(); }
+
+double range_of(const FileHeader& header) { return header.function_max - header.function_min; }
+
+// The finest level with few enough nodes; none if even the coarsest has more.
+std::optional<std::uint32_t> finest_level(const ooc::ReebFile& file, std::size_t nodes, Findings& findings) {
+  const FileHeader& header = file.header();
+  if (header.nodes <= nodes) return 0;
+  if (!header.flags.graph_only && header.levels.front().nodes <= nodes) {
+    const std::uint32_t finest = file.finest_with_nodes(nodes);
+    findings.notes.push_back(fmt::format(
+        "The full graph has {}. The skeleton in this page shows the levels with at most {}; --nodes N sets another "
+        "limit.",
+        count_of(header.nodes, "node"), with_commas(nodes)));
+    return finest;
+  }
+  findings.notes.push_back(fmt::format(
+      "There is no skeleton in this page: {} has {}, more than {}. --nodes N sets another limit.",
+      header.flags.graph_only ? "the graph" : "even the coarsest level",
+      count_of(header.flags.graph_only ? header.nodes : header.levels.front().nodes, "node"), with_commas(nodes)));
+  return std::nullopt;
+}
+
+void note_file(const ooc::ReebFile& file, Findings& findings) {
+  const FileHeader& header = file.header();
+  auto& notes = findings.notes;
+  if (const Error* damage = file.damage())
+    notes.push_back(std::string("The file is damaged: ") + damage->what() + ". Some of it may be missing here.");
+  if (header.flags.graph_only)
+    notes.push_back(
+        "The file has the graph only (--graph-only): there are no pairs and no levels, so features and plots are "
+        "missing here.");
+  if (header.nodes > 0 && !header.flags.has_positions)
+    notes.push_back("The file has no positions: the skeleton shows values only, and no shape.");
+  else if (header.nodes > 0 && !header.flags.has_embedding)
+    notes.push_back("The file has no embedding (--buckets 0): arcs are straight lines.");
+  if (header.denoised_pairs > 0)
+    notes.push_back(
+        fmt::format("Noise was removed when the graph was computed: {}{}.", count_of(header.denoised_pairs, "pair"),
+                    header.denoise_threshold > 0 ? " of less persistence than " + short_number(header.denoise_threshold)
+                                                 : std::string()));
+  if (header.kept_loops > 0)
+    notes.push_back(fmt::format("{} cannot be cancelled exactly, so all levels have {}.",
+                                count_of(header.kept_loops, "loop"), header.kept_loops == 1 ? "it" : "them"));
+  if (header.nodes == 0) notes.push_back("The graph is empty: the mesh has no vertices.");
+}
+
+void note_census(const ooc::MeshCensus& census, Findings& findings) {
+  auto& notes = findings.notes;
+  if (!census.not_a_surface.empty()) {
+    notes.push_back("The mesh is no surface, so only its components were counted: " + census.not_a_surface + ".");
+    return;
+  }
+  const auto note = [&](std::uint64_t count, const char* noun) {
+    if (count > 0) notes.push_back(fmt::format("The mesh has {}.", count_of(count, noun)));
+  };
+  note(census.boundaries, "boundary loop");
+  note(census.nonmanifold_edges.count, "non-manifold edge");
+  note(census.nonmanifold_vertices.count, "non-manifold vertex");
+  note(census.degenerate.count, "degenerate triangle");
+  note(census.duplicates.count, "duplicate triangle");
+  note(census.folded.count, "folded edge");
+  note(census.loose_edges, "loose edge");
+  if (census.orientable && !*census.orientable)
+    notes.emplace_back("The surface cannot be oriented.");
+  else if (census.oriented && !*census.oriented)
+    notes.emplace_back("The triangles are not oriented consistently, but they can be.");
+}
+
+void search_mesh(const ReportOptions& options, Findings& findings) {
+  if (options.counting) options.counting();
+  findings.census = census_of(options.defects.mesh);
+  note_census(*findings.census, findings);
+  if (!findings.census->not_a_surface.empty()) return;  // curves are on surfaces
+  findings.defects = find_defects(options.defects);
+  const ValuedMesh mesh(options.defects.mesh, findings.defects->functions);
+  findings.closeups = closeups_json(mesh, *findings.defects);
+}
+
+Findings find(const ooc::ReebFile& file, const ReportOptions& options) {
+  Findings findings;
+  note_file(file, findings);
+  const FileHeader& header = file.header();
+  // The graph of a damaged file is as good as its whole frames; what cannot be read is named.
+  const auto as_far_as_readable = [&](const char* what, const auto& read) {
+    try {
+      read();
+    } catch (const Error& error) {
+      if (file.damage() == nullptr) throw;
+      findings.notes.push_back(fmt::format("{} cannot be read: {}.", what, error.what()));
+    }
+  };
+  if (!header.flags.graph_only)
+    as_far_as_readable("The pairs", [&] { findings.pairs = ooc::read_largest_pairs(file.path(), kMostPairs); });
+  as_far_as_readable("The skeleton", [&] {
+    findings.finest = finest_level(file, options.nodes, findings);
+    if (findings.finest) findings.skeleton = skeleton_json(file, *findings.finest);
+  });
+  if (!options.defects.mesh.path.empty()) search_mesh(options, findings);
+  return findings;
+}
+
+std::vector<NamedText> summary_rows(const ooc::ReebFile& file, const Findings& findings) {
+  const FileHeader& header = file.header();
+  std::vector<NamedText> rows{
+      {"file", base_name(file.path())},
+      {"function", header.function},
+      {"range", fmt::format("{:.9g} to {:.9g}", header.function_min, header.function_max)},
+      {"mesh vertices", std::to_string(header.mesh_vertices)},
+      {"mesh triangles", std::to_string(header.mesh_triangles)},
+      {"nodes", std::to_string(header.nodes)},
+      {"arcs", std::to_string(header.arcs)},
+      {"components", std::to_string(header.components)},
+      {"loops", std::to_string(header.loops)},
+  };
+  if (findings.pairs) {
+    const auto& counts = findings.pairs->counts;
+    const auto count = [&](PairType type) { return std::to_string(counts[static_cast<std::size_t>(type)]); };
+    rows.insert(rows.end(), {{"pairs of minima (Ord0)", count(PairType::kOrd0)},
+                             {"pairs of maxima (Rel1)", count(PairType::kRel1)},
+                             {"pairs of components (Ext0)", count(PairType::kExt0)},
+                             {"pairs of loops (Ext1)", count(PairType::kExt1)},
+                             {"loops that stay at all levels", std::to_string(header.kept_loops)}});
+  }
+  rows.emplace_back("pairs removed as noise", std::to_string(header.denoised_pairs));
+  rows.emplace_back("size of the file", format_bytes(file.file_bytes()));
+  return rows;
+}
+
+std::vector<NamedText> census_rows(const std::string& mesh, const ooc::MeshCensus& census) {
+  std::vector<NamedText> rows{{"mesh", base_name(mesh)}, {"connected components", std::to_string(census.components)}};
+  if (!census.not_a_surface.empty()) return rows;
+  rows.insert(rows.end(), {{"boundary loops", std::to_string(census.boundaries)},
+                           {"non-manifold edges", std::to_string(census.nonmanifold_edges.count)},
+                           {"non-manifold vertices", std::to_string(census.nonmanifold_vertices.count)},
+                           {"degenerate triangles", std::to_string(census.degenerate.count)},
+                           {"duplicate triangles", std::to_string(census.duplicates.count)},
+                           {"folded edges", std::to_string(census.folded.count)},
+                           {"Euler characteristic", std::to_string(census.euler)},
+                           {"genus", census.genus ? std::to_string(*census.genus) : "none: " + census.why_no_genus}});
+  return rows;
+}
+
+std::string notes_list(const std::vector<std::string>& notes) {
+  if (notes.empty()) return "<p class=\"fine\">Nothing is odd.</p>\n";
+  std::string out = "<ul class=\"notes\">\n";
+  for (const std::string& note : notes) out += "<li>" + html_text(note) + "</li>\n";
+  return out + "</ul>\n";
+}
+
+std::string features_section(const Findings& findings, double range) {
+  if (!findings.pairs) return "<p>The file has no pairs, so there is no list of features.</p>\n";
+  const auto& pairs = *findings.pairs;
+  std::uint64_t all = 0;
+  for (const std::uint64_t count : pairs.counts) all += count;
+  if (all == 0) return "<p>There are no features.</p>\n";
+  const auto rows = std::span(pairs.rows).first(std::min(pairs.rows.size(), kMostRows));
+  std::string out = "<p>" + count_of(all, "pair");
+  if (rows.size() < all)
+    out += fmt::format("; the {} of largest persistence are listed, <code>reeb pairs</code> lists all",
+                       with_commas(rows.size()));
+  return out + ".</p>\n<div class=\"scroll\" role=\"region\" aria-label=\"Features\" tabindex=\"0\">\n" +
+         pairs_table(rows, range, !findings.skeleton.is_null()) + "</div>\n";
+}
+
+std::string defects_section(const Findings& findings) {
+  if (!findings.census)
+    return "<p>Defects are placed and measured on the mesh: <code>reeb report FILE.reeb --mesh MESH -o "
+           "OUT.html</code>. Without it, the loops of least persistence in the list of features are the likely "
+           "ones.</p>\n";
+  if (!findings.defects) return "<p>The mesh is no surface, so it has no handles and tunnels to measure.</p>\n";
+  const DefectTable& table = findings.defects->table;
+  if (table.rows.empty()) return "<p>The surface has no loops, so it has no small handles or tunnels.</p>\n";
+  const SuggestedLength& suggestion = table.suggestion;
+  std::string out = "<p>" + count_of(table.rows.size(), "loop");
+  const std::size_t listed = std::min(table.rows.size(), kMostRows);
+  if (listed < table.rows.size())
+    out += fmt::format("; the first {} are listed, <code>reeb defects</code> lists all", with_commas(listed));
+  out += suggestion.length ? fmt::format(". Curves of at most {:.4g} are likely defects (confidence {:.0f} %): {}.",
+                                         *suggestion.length, 100 * suggestion.confidence, html_text(suggestion.why))
+                           : fmt::format(". No length divides defects from features (confidence {:.0f} %): {}.",
+                                         100 * suggestion.confidence, html_text(suggestion.why));
+  return out + "</p>\n<div id=\"closeups\" class=\"closeups\"></div>\n" +
+         "<div class=\"scroll\" role=\"region\" aria-label=\"Defects\" tabindex=\"0\">\n" +
+         defects_table(*findings.defects, kMostRows, findings.closeups.size()) + "</div>\n";
+}
+
+// The number of loops at least as persistent as each of these, [persistence, number]; of many loops not all.
+Json loop_steps(const std::vector<double>& loops) {
+  Json steps = Json::array();
+  double wanted = 1;
+  const double factor = std::pow(static_cast<double>(std::max<std::size_t>(loops.size(), 1)), 1.0 / kMostSteps);
+  for (std::size_t i = 0; i < loops.size(); ++i) {
+    if (i + 1 < loops.size() && loops[i + 1] == loops[i]) continue;
+    if (static_cast<double>(i + 1) < wanted && i + 1 < loops.size() && loops.size() > kMostSteps) continue;
+    wanted = static_cast<double>(i + 1) * factor;
+    steps.push_back({loops[i], i + 1});
+  }
+  return steps;
+}
+
+Json page_data(const ooc::ReebFile& file, Findings findings) {
+  const FileHeader& header = file.header();
+  Json data = {{"function", header.function}, {"min", header.function_min}, {"max", header.function_max}};
+  Json pairs = Json::array();
+  if (findings.pairs) {
+    for (const ooc::PairRow& row : findings.pairs->rows)
+      pairs.push_back({name_of(row.type), row.lo.key.value, row.hi.key.value, row.lo.key.vertex.value(),
+                       row.hi.key.vertex.value(), row.lo.position, row.hi.position});
+    data["loops"] = loop_steps(findings.pairs->loops);
+    data["pair_count"] = header.pairs;
+  }
+  data["pairs"] = std::move(pairs);
+  data["skeleton"] = std::move(findings.skeleton);
+  data["closeups"] = std::move(findings.closeups);
+  return data;
+}
+
+// Replaces each place `<!--reeb:NAME-->`.
+std::string fill(std::string_view page, const std::vector<NamedText>& parts) {
+  constexpr std::string_view kBegin = "<!--reeb:", kEnd = "-->";
+  std::string out;
+  for (;;) {
+    const std::size_t at = page.find(kBegin);
+    out += page.substr(0, at);
+    if (at == std::string_view::npos) return out;
+    page.remove_prefix(at + kBegin.size());
+    const std::size_t end = page.find(kEnd);
+    const auto part = std::ranges::find(parts, std::string(page.substr(0, end)), &NamedText::first);
+    if (part != parts.end()) out += part->second;
+    page.remove_prefix(end + kEnd.size());
+  }
+}
+
+}  // namespace
+
+void require_pages() {
+  if (report_template().empty())
+    throw Error(ErrorKind::kResource, "this program was built without pages",
+                "build it with -DREEB_WEB=ON, which needs Node.js and npm (tools/install_packages.sh)");
+}
+
+std::string make_report(const ReportOptions& options) {
+  const ooc::ReebFile file(options.file);
+  const FileHeader& header = file.header();
+  Findings findings = find(file, options);
+  const double range = range_of(header);
+  std::string summary = summary_table("Summary of the graph", summary_rows(file, findings));
+  if (findings.census)
+    summary += summary_table("Census of the mesh", census_rows(options.defects.mesh.path, *findings.census));
+  const std::string name = base_name(options.file);
+  std::vector<NamedText> parts{
+      {"title", html_text("Reeb graph report: " + name)},
+      {"file", html_text(name)},
+      {"subtitle", html_text(fmt::format("Reeb graph of {} on a mesh of {}", header.function,
+                                         header.mesh_triangles == 0 ? count_of(header.mesh_vertices, "vertex")
+                                                                    : count_of(header.mesh_triangles, "triangle")))},
+      {"summary", std::move(summary)},
+      {"notes", notes_list(findings.notes)},
+      {"features", features_section(findings, range)},
+      {"defects", defects_section(findings)},
+      {"levels", header.flags.graph_only ? "<p>The file has no levels.</p>\n"
+                                         : "<div class=\"scroll\" role=\"region\" aria-label=\"Levels\" "
+                                           "tabindex=\"0\">\n" +
+                                               levels_table(header) + "</div>\n"},
+  };
+  parts.emplace_back("data", script_json(page_data(file, std::move(findings))));
+  return fill(report_template(), parts);
+}
+
+}  // namespace reeb::tools

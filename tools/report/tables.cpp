@@ -1,0 +1,144 @@
+#include "tools/report/tables.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+#include <limits>
+
+#include "libreeb/base/count_text.h"
+#include "tools/report/page_text.h"
+
+namespace reeb::tools {
+namespace {
+
+struct Column {
+  const char* name;
+  bool number = true;
+};
+
+// `buttons`: the name of a first column with buttons, by which nobody sorts; null: there is none.
+std::string head(const std::string& caption, const char* buttons, std::initializer_list<Column> columns) {
+  std::string out = "<table class=\"sortable\">\n<caption>" + caption + "</caption>\n<thead><tr>";
+  if (buttons != nullptr) out += fmt::format("<th scope=\"col\" class=\"fixed\">{}</th>", buttons);
+  for (const Column& column : columns)
+    out += fmt::format("<th scope=\"col\"{}>{}</th>", column.number ? " class=\"number\"" : "", column.name);
+  return out + "</tr></thead>\n<tbody>\n";
+}
+
+constexpr const char* kEnd = "</tbody>\n</table>\n";
+
+std::string number(const std::string& text) { return "<td class=\"number\">" + text + "</td>"; }
+std::string number(double value) {
+  return std::isfinite(value) ? number(short_number(value))
+                              : "<td class=\"number\" data-value=\"Infinity\"><span class=\"quiet\">none</span></td>";
+}
+std::string text(const std::string& shown) { return "<td>" + shown + "</td>"; }
+
+std::string place(const Point& point) {
+  return fmt::format("<td class=\"place\">{:.5g}, {:.5g}, {:.5g}</td>", point[0], point[1], point[2]);
+}
+
+std::string percent(double value, double range) {
+  return number(fmt::format("{:.4g}", range > 0 ? 100 * (value / range) : 0.0));
+}
+
+// The types of pairs, in words that need no textbook.
+const char* meaning(PairType type) {
+  switch (type) {
+    case PairType::kExt0:
+      return "component";
+    case PairType::kExt1:
+      return "loop";
+    case PairType::kOrd0:
+      return "minimum";
+    case PairType::kRel1:
+      return "maximum";
+  }
+  return "";
+}
+
+std::string button(const char* what, std::size_t index, const std::string& label) {
+  return fmt::format("<td class=\"fixed\"><button type=\"button\" data-{}=\"{}\" aria-label=\"{}\">Show</button></td>",
+                     what, index, label);
+}
+
+}  // namespace
+
+std::string summary_table(const std::string& caption, std::span<const NamedText> rows) {
+  std::string out = "<table class=\"summary\">\n<caption>" + html_text(caption) + "</caption>\n<tbody>\n";
+  for (const auto& [name, value] : rows)
+    out += "<tr><th scope=\"row\">" + html_text(name) + "</th><td>" + html_text(value) + "</td></tr>\n";
+  return out + kEnd;
+}
+
+std::string pairs_table(std::span<const ooc::PairRow> rows, double range, bool with_buttons) {
+  std::string out = head("Features by persistence", with_buttons ? "in the skeleton" : nullptr,
+                         {{"rank"},
+                          {"feature", false},
+                          {"persistence"},
+                          {"% of range"},
+                          {"from value"},
+                          {"to value"},
+                          {"lower vertex"},
+                          {"upper vertex"},
+                          {"place of upper vertex", false}});
+  std::size_t rank = 0;
+  for (const ooc::PairRow& row : rows) {
+    const double persistence = row.hi.key.value - row.lo.key.value;
+    ++rank;
+    out += "<tr>";
+    if (with_buttons) out += button("pair", rank - 1, fmt::format("Show feature {} in the skeleton", rank));
+    out += number(std::to_string(rank)) +
+           text(fmt::format("{} ({}){}", meaning(row.type), name_of(row.type), row.kept ? ", kept" : "")) +
+           number(persistence) + percent(persistence, range) + number(row.lo.key.value) + number(row.hi.key.value) +
+           number(std::to_string(row.lo.key.vertex.value())) + number(std::to_string(row.hi.key.vertex.value())) +
+           place(row.hi.position) + "</tr>\n";
+  }
+  return out + kEnd;
+}
+
+std::string defects_table(const Defects& defects, std::size_t most, std::size_t closeups) {
+  std::string out = head("Loops of the surface, the most likely defect first", closeups > 0 ? "close-up" : nullptr,
+                         {{"rank"},
+                          {"kind", false},
+                          {"contour length"},
+                          {"cycle length"},
+                          {"persistence"},
+                          {"% of range"},
+                          {"triangles"},
+                          {"lower vertex"},
+                          {"upper vertex"},
+                          {"centre", false}});
+  const auto& rows = defects.table.rows;
+  for (std::size_t i = 0; i < std::min(rows.size(), most); ++i) {
+    const DefectRow& row = rows[i];
+    out += "<tr>";
+    if (i < closeups)
+      out += button("closeup", i, fmt::format("Show the close-up of defect {}", i + 1));
+    else if (closeups > 0)
+      out += "<td class=\"fixed\"></td>";
+    out += number(std::to_string(i + 1)) + text(name_of(row.kind)) + number(row.length_contour) +
+           number(row.length_cycle) + number(row.persistence) + percent(row.percent, 100) +
+           number(std::to_string(row.curve.triangles)) + number(std::to_string(row.lo.key.vertex.value())) +
+           number(std::to_string(row.hi.key.vertex.value())) + place(row.curve.center) + "</tr>\n";
+  }
+  return out + kEnd;
+}
+
+std::string levels_table(const FileHeader& header) {
+  const double range = header.function_max - header.function_min;
+  std::string out = head("Levels of detail, from coarse to fine", nullptr,
+                         {{"threshold"}, {"% of range"}, {"nodes"}, {"arcs"}, {"bytes read"}, {"bytes of memory"}});
+  for (const LevelLine& line : header.levels)
+    out += "<tr>" +
+           (line.threshold == std::numeric_limits<double>::denorm_min()
+                ? "<td class=\"number\" data-value=\"5e-324\">&gt; 0</td>"
+                : number(line.threshold)) +
+           percent(line.threshold, range) + number(std::to_string(line.nodes)) + number(std::to_string(line.arcs)) +
+           number(std::to_string(line.file_bytes)) + number(std::to_string(line.memory_bytes)) + "</tr>\n";
+  return out + kEnd;
+}
+
+}  // namespace reeb::tools

@@ -1,0 +1,141 @@
+// Plots as SVG: how many loops there are above a persistence, and the persistence diagram.
+import { count, shortNumber } from './data.js'
+
+const kWidth = 560
+const kHeight = 400
+const kFrame = { left: 64, right: 16, top: 36, bottom: 52 }
+
+const inner = { width: kWidth - kFrame.left - kFrame.right, height: kHeight - kFrame.top - kFrame.bottom }
+const xAt = (part) => kFrame.left + part * inner.width
+const yAt = (part) => kHeight - kFrame.bottom - part * inner.height
+
+function element(name, attributes, text = '') {
+  const list = Object.entries(attributes).map(([key, value]) => ` ${key}="${value}"`)
+  return `<${name}${list.join('')}>${text}</${name}>`
+}
+
+// Names can have any characters.
+function safe(text) {
+  return text.replace(/[&<>"]/g, (c) => `&#${c.charCodeAt(0)};`)
+}
+
+function axes(title, x, y) {
+  const parts = [
+    element('text', { class: 'title', x: kFrame.left, y: 20 }, title),
+    element('text', { x: xAt(0.5), y: kHeight - 10, 'text-anchor': 'middle' }, x.title),
+    element('text', { transform: `translate(16 ${yAt(0.5)}) rotate(-90)`, 'text-anchor': 'middle' }, y.title),
+  ]
+  for (const { at, text } of x.ticks) {
+    parts.push(element('path', { class: 'grid', d: `M${xAt(at)} ${yAt(0)}V${yAt(1)}` }))
+    parts.push(element('text', { class: 'quiet', x: xAt(at), y: yAt(0) + 18, 'text-anchor': 'middle' }, text))
+  }
+  for (const { at, text } of y.ticks) {
+    parts.push(element('path', { class: 'grid', d: `M${xAt(0)} ${yAt(at)}H${xAt(1)}` }))
+    parts.push(element('text', { class: 'quiet', x: xAt(0) - 8, y: yAt(at) + 4, 'text-anchor': 'end' }, text))
+  }
+  parts.push(element('path', { class: 'axis', d: `M${xAt(0)} ${yAt(1)}V${yAt(0)}H${xAt(1)}` }))
+  return parts.join('')
+}
+
+function figure(name, content, caption, description) {
+  const made = document.createElement('figure')
+  made.id = name
+  made.innerHTML =
+    `<svg class="plot" viewBox="0 0 ${kWidth} ${kHeight}" role="img" aria-label="${safe(description)}">${content}</svg>` +
+    element('figcaption', {}, safe(caption))
+  return made
+}
+
+function powerText(exponent) {
+  return exponent >= -3 && exponent <= 4 ? String(Number(`1e${exponent}`)) : `10<tspan dy="-5" font-size="9">${exponent}</tspan>`
+}
+
+function logScale(least, most) {
+  let low = Math.floor(Math.log10(least) + 1e-9)
+  let high = Math.ceil(Math.log10(most) - 1e-9)
+  if (high <= low) high = low + 1
+  const step = Math.ceil((high - low) / 8)
+  const ticks = []
+  for (let e = low; e <= high; e += step) ticks.push({ at: (e - low) / (high - low), text: powerText(e) })
+  // Few powers leave room for more.
+  if (high - low <= 2)
+    for (let e = low; e < high; ++e)
+      for (const digit of [2, 5])
+        ticks.push({ at: (e + Math.log10(digit) - low) / (high - low), text: String(Number(`${digit}e${e}`)) })
+  return { ticks, at: (value) => (Math.log10(value) - low) / (high - low) }
+}
+
+// `steps`: [persistence, number of loops of at least this persistence], the largest persistence first.
+export function loopsPlot(steps, range) {
+  const shown = steps.filter(([persistence]) => persistence > 0).map(([p, n]) => [(100 * p) / range, n])
+  if (shown.length === 0) return null
+  const x = logScale(Math.min(shown[shown.length - 1][0], 99), 100)
+  const y = logScale(1, shown[shown.length - 1][1])
+  let path = `M${xAt(x.at(shown[0][0]))} ${yAt(0)}`
+  for (const [percent, number] of shown) path += `H${xAt(x.at(percent)).toFixed(1)}V${yAt(y.at(number)).toFixed(1)}`
+  path += `H${xAt(0)}`
+  const dots = shown
+    .slice(0, 60)
+    .map(([percent, number]) =>
+      element('circle', { cx: xAt(x.at(percent)).toFixed(1), cy: yAt(y.at(number)).toFixed(1), r: 3, fill: 'var(--accent)' },
+        element('title', {}, `${count(number, 'loop')} of at least ${shortNumber(percent)} %`)),
+    )
+  const content =
+    axes('Loops above a persistence', { title: 'persistence, % of the range', ticks: x.ticks }, { title: 'number of loops', ticks: y.ticks }) +
+    element('path', { class: 'curve', d: path }) +
+    dots.join('')
+  const last = shown[shown.length - 1]
+  return figure(
+    'plot-loops',
+    content,
+    'How many loops are at least as persistent as the value on the axis below; both axes are logarithmic. A flat part is a gap: the loops left of it are noise or defects, those right of it are features.',
+    `Loops above a persistence, both axes logarithmic: from 1 loop at ${shortNumber(shown[0][0])} per cent of the range to ${count(last[1], 'loop')} at ${shortNumber(last[0])} per cent.`,
+  )
+}
+
+function niceTicks(least, most) {
+  const step = (() => {
+    const raw = (most - least) / 5
+    const power = 10 ** Math.floor(Math.log10(raw))
+    return power * [1, 2, 5, 10].find((factor) => factor * power >= raw * (1 - 1e-9))
+  })()
+  const ticks = []
+  for (let i = Math.ceil(least / step - 1e-9); i * step <= most + 1e-9 * step; ++i)
+    ticks.push({ at: (i * step - least) / (most - least), text: shortNumber(Number((i * step).toPrecision(12))) })
+  return ticks
+}
+
+const kTypes = [
+  ['Ord0', 'minima', 'M-4-3H4L0 4Z'],
+  ['Rel1', 'maxima', 'M-4 3H4L0-4Z'],
+  ['Ext1', 'loops', 'M-4 0a4 4 0 1 0 8 0a4 4 0 1 0-8 0Z'],
+  ['Ext0', 'components', 'M-4-4H4V4H-4Z'],
+]
+
+// `pairs`: [type, lower value, upper value, ...]. A loop and a maximum are born at their upper value in extended
+// persistence; here all pairs are above the diagonal, and their marks tell what they are.
+export function persistenceDiagram(pairs, min, max, total) {
+  if (pairs.length === 0 || !(max > min)) return null
+  const ticks = niceTicks(min, max).map(({ at, text }) => ({ at: 0.02 + 0.96 * at, text }))
+  const part = (value) => 0.02 + (0.96 * (value - min)) / (max - min)
+  const legend = kTypes.map(([type, name, shape], i) =>
+    `<g transform="translate(${xAt(0.66)} ${yAt(0.25) + 18 * i})"><path class="${type}" d="${shape}"/>` +
+    `<text x="10" y="4">${name} (${type})</text></g>`)
+  const marks = [...pairs].reverse().map(([type, low, high, lowVertex, highVertex]) => {
+    const shape = kTypes.find(([name]) => name === type)[2]
+    const title = `${type}: vertex ${lowVertex} (${shortNumber(low)}) to ${highVertex} (${shortNumber(high)}), persistence ${shortNumber(high - low)}`
+    return `<path class="${type}" d="${shape}" transform="translate(${xAt(part(low)).toFixed(1)} ${yAt(part(high)).toFixed(1)})"><title>${title}</title></path>`
+  })
+  const content =
+    axes('Persistence diagram', { title: 'lower value of the pair', ticks }, { title: 'upper value of the pair', ticks }) +
+    element('path', { class: 'diagonal', d: `M${xAt(0)} ${yAt(0)}L${xAt(1)} ${yAt(1)}` }) +
+    marks.join('') +
+    legend.join('')
+  const some = pairs.length < total ? ` The ${count(pairs.length, 'pair')} of largest persistence are drawn, of ${total.toLocaleString('en')}.` : ''
+  return figure(
+    'plot-diagram',
+    content,
+    `Each mark is a pair of nodes: what is born at one and ends at the other. The further from the dashed diagonal, the larger the feature.${some}`,
+    `Persistence diagram of ${count(pairs.length, 'pair')}; the list of features has the same values.`,
+  )
+}

@@ -1,0 +1,153 @@
+// The skeleton drawn by WebGL: lines of some width, and a marker for each node.
+import {
+  BufferAttribute,
+  BufferGeometry,
+  CanvasTexture,
+  Group,
+  OrthographicCamera,
+  Points,
+  PointsMaterial,
+  Scene,
+  WebGLRenderer,
+} from 'three'
+import { LineMaterial } from 'three/examples/jsm/lines/LineMaterial.js'
+import { LineSegments2 } from 'three/examples/jsm/lines/LineSegments2.js'
+import { LineSegmentsGeometry } from 'three/examples/jsm/lines/LineSegmentsGeometry.js'
+import { kindColors, valueColors } from './colors.js'
+
+const kShapes = {
+  min: [[4, 10], [60, 10], [32, 58]],
+  max: [[4, 54], [60, 54], [32, 6]],
+  isolated: [[10, 10], [54, 10], [54, 54], [10, 54]],
+  saddle: null, // a disc
+}
+
+function markerTexture(shape) {
+  const canvas = document.createElement('canvas')
+  canvas.width = canvas.height = 64
+  const context = canvas.getContext('2d')
+  context.fillStyle = '#fff'
+  context.beginPath()
+  if (shape) shape.forEach(([x, y], i) => (i === 0 ? context.moveTo(x, y) : context.lineTo(x, y)))
+  else context.arc(32, 32, 24, 0, 2 * Math.PI)
+  context.fill()
+  return new CanvasTexture(canvas)
+}
+
+function ringTexture() {
+  const canvas = document.createElement('canvas')
+  canvas.width = canvas.height = 64
+  const context = canvas.getContext('2d')
+  context.strokeStyle = '#fff'
+  context.lineWidth = 8
+  context.beginPath()
+  context.arc(32, 32, 26, 0, 2 * Math.PI)
+  context.stroke()
+  return new CanvasTexture(canvas)
+}
+
+// THROWS if there is no WebGL.
+export class WebglPicture {
+  constructor(place, skeleton) {
+    this.skeleton = skeleton
+    // What was drawn stays readable, also for the printer.
+    this.renderer = new WebGLRenderer({ antialias: true, alpha: true, preserveDrawingBuffer: true })
+    this.renderer.setPixelRatio(Math.min(2, window.devicePixelRatio))
+    this.camera = new OrthographicCamera(-1, 1, 1, -1, -100, 100)
+    this.camera.matrixAutoUpdate = false
+    this.scene = new Scene()
+    this.group = new Group()
+    this.scene.add(this.group)
+    this.lineMaterial = new LineMaterial({ linewidth: 2.5, vertexColors: true })
+    this.markers = {}
+    for (const kind of Object.keys(kShapes)) {
+      const material = new PointsMaterial({ size: 10, sizeAttenuation: false, map: markerTexture(kShapes[kind]) })
+      material.alphaTest = 0.5
+      this.markers[kind] = new Points(new BufferGeometry(), material)
+      this.markers[kind].renderOrder = 1
+    }
+    const ring = new PointsMaterial({ size: 26, sizeAttenuation: false, map: ringTexture(), depthTest: false })
+    ring.alphaTest = 0.4
+    this.chosen = new Points(new BufferGeometry(), ring)
+    this.chosen.renderOrder = 2
+    this.chosen.visible = false
+    this.group.add(...Object.values(this.markers), this.chosen)
+    this.element = this.renderer.domElement
+    place.append(this.element)
+    this.recolor()
+  }
+
+  recolor() {
+    this.color = valueColors()
+    const kinds = kindColors()
+    for (const [kind, marker] of Object.entries(this.markers)) marker.material.color.setRGB(...kinds[kind], 'srgb')
+    this.chosen.material.color.setRGB(...kinds.max, 'srgb')
+  }
+
+  show(content) {
+    const positions = []
+    const colors = []
+    for (const arc of content.arcs) {
+      const line = this.skeleton.line(arc)
+      for (let i = 1; i < line.length; ++i) {
+        positions.push(...line[i - 1].at, ...line[i].at)
+        for (const point of [line[i - 1], line[i]]) colors.push(...this.color(point.value).map(linear))
+      }
+    }
+    if (this.lines) {
+      this.group.remove(this.lines)
+      this.lines.geometry.dispose()
+    }
+    this.lines = null
+    if (positions.length > 0) {
+      const geometry = new LineSegmentsGeometry()
+      geometry.setPositions(positions)
+      geometry.setColors(colors)
+      this.lines = new LineSegments2(geometry, this.lineMaterial)
+      this.lines.frustumCulled = false
+      this.group.add(this.lines)
+    }
+    for (const [kind, marker] of Object.entries(this.markers)) {
+      const places = content.nodes.flatMap((node, i) => (content.kinds[i] === kind ? this.skeleton.place(node) : []))
+      setPoints(marker, places)
+    }
+  }
+
+  choose(places) {
+    setPoints(this.chosen, places.flat())
+  }
+
+  draw(camera, width, height) {
+    if (width !== this.width || height !== this.height) {
+      this.renderer.setSize(width, height, false)
+      ;[this.width, this.height] = [width, height]
+    }
+    const scale = (Math.min(width, height) / 2.4) * camera.zoom
+    Object.assign(this.camera, {
+      left: -width / 2 / scale,
+      right: width / 2 / scale,
+      top: height / 2 / scale,
+      bottom: -height / 2 / scale,
+    })
+    this.camera.updateProjectionMatrix()
+    const { right, up, back } = camera.axes()
+    const [x, y, z] = camera.target
+    this.camera.matrix.set(right[0], up[0], back[0], x, right[1], up[1], back[1], y, right[2], up[2], back[2], z, 0, 0, 0, 1)
+    this.camera.matrixWorldNeedsUpdate = true
+    this.lineMaterial.resolution.set(width, height)
+    this.renderer.render(this.scene, this.camera)
+  }
+}
+
+function setPoints(points, places) {
+  points.geometry.dispose()
+  points.geometry = new BufferGeometry()
+  points.geometry.setAttribute('position', new BufferAttribute(new Float32Array(places), 3))
+  points.frustumCulled = false
+  points.visible = places.length > 0
+}
+
+// Vertex colours are linear, those of the style are not.
+function linear(c) {
+  return c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4
+}
