@@ -102,6 +102,23 @@ class Slabs {
   const std::vector<Part>& parts() const { return parts_; }
   const std::vector<Contour>& contours() const { return contours_; }
 
+  std::size_t level_count() const { return levels_.size(); }
+
+  // What is of part `side` at a level, as one curve; the parts by side, where 0 is an unknown one.
+  LoopContour sides_at(std::size_t level, std::span<const std::uint8_t> side_of_part, std::uint8_t side) const {
+    LoopContour result;
+    result.crossings.assign(patch_.edge_count(), 0);
+    result.end = ContourEnd::kRim;
+    for (const auto& [e, part] : part_below_[level]) {
+      if (side_of_part[part] == 0) result.crossings[e] = kBarred;
+      if (side_of_part[part] != side) continue;
+      result.crossings[e] = 1;
+      result.gates.push_back(lower_end(e));
+    }
+    sort_unique(result.gates);
+    return result;
+  }
+
   LoopContour trace(const Contour& contour) {
     LoopContour result{Crossings(patch_.edge_count(), 0), {}, contour.length, contour.end, 0};
     join_level(contour.level);
@@ -109,8 +126,7 @@ class Slabs {
     for (const std::uint32_t e : slice_.used()) {
       if (slice_.find(e) != root) continue;
       result.crossings[e] = 1;
-      const auto& edge = patch_.edge(e);
-      result.gates.push_back(heights_.of_vertex[edge.a] < heights_.of_vertex[edge.b] ? edge.a : edge.b);
+      result.gates.push_back(lower_end(e));
     }
     for (const std::uint32_t t : triangles_at(contour.level))
       for (const std::uint32_t e : patch_.edges_of(t))
@@ -118,12 +134,26 @@ class Slabs {
           ++result.triangles;
           break;
         }
-    std::sort(result.gates.begin(), result.gates.end());
-    result.gates.erase(std::unique(result.gates.begin(), result.gates.end()), result.gates.end());
+    sort_unique(result.gates);
     return result;
   }
 
+  // How many edges at a level are in parts of each side.
+  std::array<std::size_t, 3> count_at(std::size_t level, std::span<const std::uint8_t> side_of_part) const {
+    std::array<std::size_t, 3> count{};
+    for (const auto& [e, part] : part_below_[level]) ++count[side_of_part[part]];
+    return count;
+  }
+
  private:
+  static void sort_unique(std::vector<std::uint32_t>& numbers) {
+    std::sort(numbers.begin(), numbers.end());
+    numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+  }
+  std::uint32_t lower_end(std::uint32_t e) const {
+    const auto& edge = patch_.edge(e);
+    return heights_.of_vertex[edge.a] < heights_.of_vertex[edge.b] ? edge.a : edge.b;
+  }
   std::pair<Place, Place> span_of(std::uint32_t e) const {
     return std::minmax(heights_.of_vertex[patch_.edge(e).a], heights_.of_vertex[patch_.edge(e).b]);
   }
@@ -331,40 +361,53 @@ class Bridges {
   std::vector<std::vector<Step>> at_;
 };
 
+// The parts of the interlevel set in the patch, each connected there.
+struct Components {
+  UnionFind of_part;
+  std::vector<std::uint8_t> at_v, at_y, at_rim;
+
+  explicit Components(const Slabs& slabs)
+      : of_part(static_cast<std::uint32_t>(slabs.parts().size())),
+        at_v(slabs.parts().size(), 0),
+        at_y(at_v),
+        at_rim(at_v) {
+    for (const Contour& contour : slabs.contours()) of_part.unite(contour.below, contour.above);
+    for (std::uint32_t p = 0; p < at_v.size(); ++p) {
+      const std::uint32_t c = of_part.find(p);
+      if (slabs.parts()[p].at_v) at_v[c] = 1;
+      if (slabs.parts()[p].at_y) at_y[c] = 1;
+      if (slabs.parts()[p].at_rim) at_rim[c] = 1;
+    }
+  }
+};
+
 // The contours that every way from v to y within one component crosses.
-std::vector<std::uint32_t> cutting_contours(const Slabs& slabs) {
+std::vector<std::uint32_t> cutting_contours(const Slabs& slabs, Components& components, const LoopNodes& nodes) {
   const auto& parts = slabs.parts();
   const auto& contours = slabs.contours();
   const auto count = static_cast<std::uint32_t>(parts.size());
-  UnionFind component(count);
-  for (const Contour& contour : contours) component.unite(contour.below, contour.above);
-  std::vector<std::uint8_t> at_v(count, 0), at_y(count, 0), at_rim(count, 0);
-  for (std::uint32_t p = 0; p < count; ++p) {
-    const std::uint32_t c = component.find(p);
-    if (parts[p].at_v) at_v[c] = 1;
-    if (parts[p].at_y) at_y[c] = 1;
-    if (parts[p].at_rim) at_rim[c] = 1;
-  }
+  const auto &at_v = components.at_v, &at_y = components.at_y, &at_rim = components.at_rim;
   std::vector<std::uint32_t> result;
   for (std::uint32_t c = 0; c < count; ++c) {
-    if (component.find(c) != c) continue;
+    if (components.of_part.find(c) != c) continue;
     const bool both = at_v[c] != 0 && at_y[c] != 0;
-    if (!both && !(at_rim[c] != 0 && (at_v[c] != 0 || at_y[c] != 0))) continue;
+    if (!both && at_rim[c] == 0) continue;
     // What is outside the patch can be joined with y (or v) there.
     const auto cut = [&](bool from_v, bool with_rim) {
       const std::uint32_t from = count, to = count + 1;
       Bridges graph(count + 2);
       for (std::uint32_t p = 0; p < count; ++p) {
-        if (component.find(p) != c) continue;
+        if (components.of_part.find(p) != c) continue;
         if (from_v ? parts[p].at_v : parts[p].at_y) graph.join(from, p, kNone);
         if ((from_v ? parts[p].at_y : parts[p].at_v) || (with_rim && parts[p].at_rim)) graph.join(p, to, kNone);
       }
       for (std::uint32_t i = 0; i < contours.size(); ++i)
-        if (component.find(contours[i].below) == c) graph.join(contours[i].below, contours[i].above, i);
+        if (components.of_part.find(contours[i].below) == c) graph.join(contours[i].below, contours[i].above, i);
       return graph.between(from, to);
     };
+    // A third arc at a node can lead anywhere: then the other node must be seen.
     for (const bool from_v : {true, false})
-      if (from_v ? at_v[c] != 0 : at_y[c] != 0)
+      if ((from_v ? at_v[c] : at_y[c]) != 0 && (both || (from_v ? nodes.lo_divides : nodes.hi_joins)))
         for (const std::uint32_t i : cut(from_v, true)) result.push_back(i);
     if (both && at_rim[c] != 0 && result.empty())
       for (const std::uint32_t i : cut(true, false)) result.push_back(i);
@@ -374,23 +417,66 @@ std::vector<std::uint32_t> cutting_contours(const Slabs& slabs) {
   return result;
 }
 
+// Which of the two components each part belongs to: 1 or 2, or 0 if the patch does not tell. By the two arcs at v, and
+// those at y if one of them is seen to be joined with v, or the other way round. Empty if neither node tells.
+std::vector<std::uint8_t> sides_of_parts(Components& components, const LoopNodes& nodes, bool from_v) {
+  const auto two_at = [&](const std::vector<std::uint8_t>& at, bool two_arcs) {
+    std::vector<std::uint32_t> result;
+    for (std::uint32_t c = 0; c < at.size(); ++c)
+      if (at[c] != 0) result.push_back(c);
+    if (!two_arcs || result.size() != 2) result.clear();
+    return result;
+  };
+  const auto near = from_v ? two_at(components.at_v, nodes.lo_divides) : two_at(components.at_y, nodes.hi_joins);
+  const auto far = from_v ? two_at(components.at_y, nodes.hi_joins) : two_at(components.at_v, nodes.lo_divides);
+  if (near.empty()) return {};
+  std::vector<std::uint8_t> of_root(components.at_v.size(), 0);
+  of_root[near[0]] = 1;
+  of_root[near[1]] = 2;
+  for (std::size_t i = 0; i < far.size(); ++i)
+    if (of_root[far[i]] != 0) of_root[far[1 - i]] = static_cast<std::uint8_t>(3 - of_root[far[i]]);
+  std::vector<std::uint8_t> result(of_root.size(), 0);
+  for (std::uint32_t p = 0; p < result.size(); ++p) result[p] = of_root[components.of_part.find(p)];
+  return result;
+}
+
+// All of one component at some level, at those levels where most is known.
+std::vector<LoopContour> component_cuts(const Slabs& slabs, Components& components, const LoopNodes& nodes) {
+  constexpr std::size_t kMostLevels = 2;
+  std::vector<LoopContour> result;
+  for (const bool from_v : {true, false}) {
+    const std::vector<std::uint8_t> side = sides_of_parts(components, nodes, from_v);
+    if (side.empty()) continue;
+    std::vector<std::tuple<std::size_t, std::size_t, std::size_t>> levels;
+    for (std::size_t level = 0; level < slabs.level_count(); ++level) {
+      const auto [unknown, one, two] = slabs.count_at(level, side);
+      if (one != 0 && two != 0) levels.emplace_back(unknown, std::min(one, two), level);
+    }
+    std::sort(levels.begin(), levels.end());
+    for (std::size_t i = 0; i < std::min(levels.size(), kMostLevels); ++i) {
+      const auto& [unknown, gates, level] = levels[i];
+      const auto count = slabs.count_at(level, side);
+      result.push_back(slabs.sides_at(level, side, count[1] <= count[2] ? 1 : 2));
+      // All other levels are as good.
+      if (unknown == 0) return {result.back()};
+    }
+  }
+  return result;
+}
+
 }  // namespace
 
-std::vector<LoopContour> loop_contours(const SurfacePatch& patch, std::span<const double> values, std::uint32_t v,
-                                       std::uint32_t y) {
-  Slabs slabs(patch, values, v, y);
-  std::vector<std::uint32_t> cutting = cutting_contours(slabs);
+std::vector<LoopContour> loop_contours(const SurfacePatch& patch, std::span<const double> values,
+                                       const LoopNodes& nodes) {
+  Slabs slabs(patch, values, nodes.lo, nodes.hi);
+  Components components(slabs);
+  const std::vector<std::uint32_t> cutting = cutting_contours(slabs, components, nodes);
   const auto& contours = slabs.contours();
-  std::sort(cutting.begin(), cutting.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return std::tuple(contours[a].end, contours[a].length, a) < std::tuple(contours[b].end, contours[b].length, b);
-  });
-  constexpr std::size_t kMostThatLeave = 3;
-  const bool leaves = !cutting.empty() && contours[cutting[0]].end == ContourEnd::kRim;
-  cutting.resize(std::min(cutting.size(), leaves ? kMostThatLeave : std::size_t{1}));
-  std::vector<LoopContour> result;
-  result.reserve(cutting.size());
-  for (const std::uint32_t i : cutting) result.push_back(slabs.trace(contours[i]));
-  return result;
+  const auto shortest = std::ranges::min_element(
+      cutting, {}, [&](std::uint32_t i) { return std::tuple(contours[i].end, contours[i].length, i); });
+  if (shortest != cutting.end() && contours[*shortest].end != ContourEnd::kRim)
+    return {slabs.trace(contours[*shortest])};
+  return component_cuts(slabs, components, nodes);
 }
 
 }  // namespace reeb

@@ -6,7 +6,6 @@
 
 #include "libreeb/base/union_find.h"
 #include "libreeb/defects/curve_length.h"
-#include "libreeb/defects/loop_contours.h"
 
 namespace reeb {
 namespace {
@@ -62,9 +61,9 @@ const char* name_of(DefectKind kind) {
   return kNames[static_cast<std::size_t>(kind)];
 }
 
-LoopCurves loop_curves(const SurfacePatch& patch, std::span<const double> values, std::uint32_t v, std::uint32_t y) {
+LoopCurves loop_curves(const SurfacePatch& patch, std::span<const double> values, const LoopNodes& nodes) {
   LoopCurves curves;
-  const std::vector<LoopContour> contours = loop_contours(patch, values, v, y);
+  const std::vector<LoopContour> contours = loop_contours(patch, values, nodes);
   if (contours.empty()) return curves;
   const LoopContour& first = contours[0];
   const std::vector<std::uint8_t> inner = inner_vertices(patch);
@@ -94,7 +93,9 @@ LoopCurves loop_curves(const SurfacePatch& patch, std::span<const double> values
     if (const ClosedPath arc = shortest_odd_arc(patch, first.crossings); arc.exists())
       if (const auto left = left_of_arc(patch, arc))
         if (ClosedPath path = shortest_odd_cycle(patch, *left, arc.vertices, inner); path.exists())
-          curves.contour = curve_along(patch, std::move(path));
+          if (LoopCurve curve = curve_along(patch, std::move(path));
+              !curve.crossings.empty() && bound_together(patch, curve.crossings, first.crossings))
+            curves.contour = std::move(curve);
   if (first.length < curves.contour.length) {
     curves.contour.length = first.length;
     if (!curves.contour.path.exists()) curves.contour.triangles = first.triangles;

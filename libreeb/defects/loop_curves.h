@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "libreeb/defects/loop_contours.h"
 #include "libreeb/defects/odd_cycle.h"
 #include "libreeb/defects/surface_patch.h"
 
@@ -35,10 +36,12 @@ struct LoopCurves {
   }
 };
 
-// REQUIRES: values has the function at each vertex of the patch; v is below y in the total order; both are whole.
+// What is found separates nothing: each curve crosses one that closes an odd number of times, in the patch or, as the
+// graph tells, outside it. At boundaries that is not so sure.
+// REQUIRES: values has the function at each vertex of the patch; lo is below hi in the total order; both are whole.
 // TIME: O(n log n) for n triangles, for each edge that the contour crosses; mostly far less, since a search ends where
 //       its path would be longer than the best so far.
-LoopCurves loop_curves(const SurfacePatch& patch, std::span<const double> values, std::uint32_t v, std::uint32_t y);
+LoopCurves loop_curves(const SurfacePatch& patch, std::span<const double> values, const LoopNodes& nodes);
 
 // A tunnel if the disc of the curve lies outside the solid, a handle if it lies inside. `inwards`: the oriented
 // triangles of the patch have their normals inside.

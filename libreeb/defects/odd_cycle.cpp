@@ -1,8 +1,8 @@
 #include "libreeb/defects/odd_cycle.h"
 
 #include <algorithm>
+#include <functional>
 #include <queue>
-#include <tuple>
 #include <utility>
 
 namespace reeb {
@@ -10,68 +10,102 @@ namespace {
 
 // Gates that are nearer to each other than this share of the path are not all searched: those far from the best path,
 // and those near it.
-constexpr double kGateSpacing = 0.1, kLeastSpacing = 0.02;
+constexpr double kGateSpacing = 0.15, kLeastSpacing = 0.05;
 
-// Searches in the double cover: state 2 * vertex + parity of crossings so far.
-class DoubleCover {
+// Shortest paths from one gate after the other, and the shortest closed path that an edge between two of them makes.
+// There is one: along the shortest odd path the tree's parities do not all agree, and at an edge where they differ, the
+// tree's paths to its two ends are no longer than the two parts of that path.
+class OddSearch {
  public:
-  DoubleCover(const SurfacePatch& patch, const Crossings& crossings, std::span<const std::uint8_t> allowed)
+  OddSearch(const SurfacePatch& patch, const Crossings& crossings, std::span<const std::uint8_t> allowed)
       : patch_(patch),
         crossings_(crossings),
         allowed_(allowed.begin(), allowed.end()),
-        distance_(2 * std::size_t{patch.vertex_count()}, kFar),
-        from_(distance_.size(), SurfacePatch::kNone) {}
+        distance_(patch.vertex_count(), kFar),
+        settled_(patch.vertex_count(), 0),
+        parity_(patch.vertex_count(), 0),
+        from_(patch.vertex_count(), SurfacePatch::kNone) {}
 
-  // The shortest odd path through the gate if it is shorter than `bound`.
+  // The shortest odd path through the gate if it is shorter than `bound`. Without the way from the gate and back that
+  // it may begin and end with.
   ClosedPath search(std::uint32_t gate, double bound) {
-    const std::uint32_t start = 2 * gate, goal = start + 1;
-    for (const std::uint32_t state : touched_) distance_[state] = kFar;
-    touched_.clear();
-    Queue queue;
-    const auto reach = [&](std::uint32_t state, double length, std::uint32_t before) {
-      // The straight line is never longer than the rest of the path.
-      const double least = length + distance(patch_.position(state / 2), patch_.position(gate));
-      if (length >= distance_[state] || least >= bound) return;
-      if (distance_[state] == kFar) touched_.push_back(state);
-      distance_[state] = length;
-      from_[state] = before;
-      queue.emplace(least, length, state);
-    };
-    reach(start, 0, SurfacePatch::kNone);
-    while (!queue.empty()) {
-      const auto [least, length, state] = queue.top();
-      queue.pop();
-      if (length > distance_[state]) continue;
-      if (state == goal) return path_to(goal);
-      const std::uint32_t v = state / 2;
+    for (const std::uint32_t v : touched_) {
+      distance_[v] = kFar;
+      settled_[v] = 0;
+    }
+    touched_.assign(1, gate);
+    queue_.clear();
+    push(0, gate);
+    distance_[gate] = 0;
+    parity_[gate] = 0;
+    from_[gate] = SurfacePatch::kNone;
+    std::uint32_t closing = SurfacePatch::kNone;
+    while (!queue_.empty()) {
+      const auto [length, v] = pop();
+      if (settled_[v] != 0) continue;
+      if (2 * length >= bound) break;
+      settled_[v] = 1;
       for (const std::uint32_t e : patch_.edges_at(v)) {
         const auto& edge = patch_.edge(e);
         const std::uint32_t other = edge.a == v ? edge.b : edge.a;
-        if (allowed_[other] == 0) continue;
-        reach(2 * other + ((state & 1) ^ crossings_[e]), length + edge.length, state);
+        if (allowed_[other] == 0 || crossings_[e] == kBarred) continue;
+        const auto parity = static_cast<std::uint8_t>(parity_[v] ^ crossings_[e]);
+        const double there = length + edge.length;
+        if (settled_[other] != 0) {
+          if (parity == parity_[other] || there + distance_[other] >= bound) continue;
+          bound = there + distance_[other];
+          closing = e;
+        } else if (there < distance_[other]) {
+          if (distance_[other] == kFar) touched_.push_back(other);
+          distance_[other] = there;
+          parity_[other] = parity;
+          from_[other] = v;
+          push(there, other);
+        }
       }
     }
-    return {};
+    return closing == SurfacePatch::kNone ? ClosedPath{} : path_through(closing);
   }
 
   // Paths through this vertex are known.
   void remove(std::uint32_t vertex) { allowed_[vertex] = 0; }
   // There is no odd path through what the last search reached.
   void remove_reached() {
-    for (const std::uint32_t state : touched_) allowed_[state / 2] = 0;
+    for (const std::uint32_t v : touched_) allowed_[v] = 0;
   }
   bool allows(std::uint32_t vertex) const { return allowed_[vertex] != 0; }
 
  private:
   static constexpr double kFar = std::numeric_limits<double>::infinity();
-  using Entry = std::tuple<double, double, std::uint32_t>;
-  using Queue = std::priority_queue<Entry, std::vector<Entry>, std::greater<>>;
+  using Entry = std::pair<double, std::uint32_t>;
 
-  ClosedPath path_to(std::uint32_t goal) const {
-    ClosedPath path{{}, distance_[goal]};
-    for (std::uint32_t state = from_[goal]; state != SurfacePatch::kNone; state = from_[state])
-      path.vertices.push_back(state / 2);
-    std::reverse(path.vertices.begin(), path.vertices.end());
+  void push(double length, std::uint32_t v) {
+    queue_.emplace_back(length, v);
+    std::push_heap(queue_.begin(), queue_.end(), std::greater<>());
+  }
+  Entry pop() {
+    std::pop_heap(queue_.begin(), queue_.end(), std::greater<>());
+    const Entry entry = queue_.back();
+    queue_.pop_back();
+    return entry;
+  }
+
+  std::vector<std::uint32_t> way_to(std::uint32_t v) const {
+    std::vector<std::uint32_t> way;
+    for (; v != SurfacePatch::kNone; v = from_[v]) way.push_back(v);
+    std::reverse(way.begin(), way.end());
+    return way;
+  }
+
+  ClosedPath path_through(std::uint32_t closing) const {
+    const auto& edge = patch_.edge(closing);
+    const std::vector<std::uint32_t> there = way_to(edge.a), back = way_to(edge.b);
+    std::size_t common = 1;
+    while (common < there.size() && common < back.size() && there[common] == back[common]) ++common;
+    ClosedPath path;
+    path.vertices.assign(there.begin() + static_cast<std::ptrdiff_t>(common) - 1, there.end());
+    path.vertices.insert(path.vertices.end(), back.rbegin(), back.rend() - static_cast<std::ptrdiff_t>(common));
+    path.length = distance_[edge.a] + edge.length + distance_[edge.b] - 2 * distance_[there[common - 1]];
     return path;
   }
 
@@ -79,7 +113,9 @@ class DoubleCover {
   const Crossings& crossings_;
   std::vector<std::uint8_t> allowed_;
   std::vector<double> distance_;
+  std::vector<std::uint8_t> settled_, parity_;
   std::vector<std::uint32_t> from_, touched_;
+  std::vector<Entry> queue_;
 };
 
 // Turns around x from its neighbour `from` to its neighbour `to`, leaving out both; calls visit(edge) on the way.
@@ -121,21 +157,21 @@ std::vector<std::uint8_t> inner_vertices(const SurfacePatch& patch) {
 
 ClosedPath shortest_odd_cycle(const SurfacePatch& patch, const Crossings& crossings,
                               std::span<const std::uint32_t> gates, std::span<const std::uint8_t> allowed) {
-  DoubleCover cover(patch, crossings, allowed);
+  OddSearch odd(patch, crossings, allowed);
   ClosedPath best;
   std::vector<std::uint32_t> searched;
   const auto search = [&](std::uint32_t gate, double spacing) {
     const auto is_near = [&](std::uint32_t other) {
       return distance(patch.position(gate), patch.position(other)) < spacing * best.length;
     };
-    if (!cover.allows(gate) || (best.exists() && std::ranges::any_of(searched, is_near))) return;
+    if (!odd.allows(gate) || (best.exists() && std::ranges::any_of(searched, is_near))) return;
     searched.push_back(gate);
-    ClosedPath path = cover.search(gate, best.length);
-    if (path.exists())
+    ClosedPath path = odd.search(gate, best.length);
+    if (path.length < best.length)
       best = std::move(path);
     else if (!best.exists())
-      cover.remove_reached();
-    cover.remove(gate);
+      odd.remove_reached();
+    odd.remove(gate);
   };
   for (const std::uint32_t gate : gates) search(gate, kGateSpacing);
   // Then all gates near the best path.
@@ -214,6 +250,41 @@ std::optional<Crossings> left_of(const SurfacePatch& patch, const ClosedPath& pa
   for (std::size_t i = 0; i < x.size(); ++i)
     if (!mark_left(patch, x[(i + x.size() - 1) % x.size()], x[i], x[(i + 1) % x.size()], left)) return std::nullopt;
   return left;
+}
+
+bool bound_together(const SurfacePatch& patch, const Crossings& one, const Crossings& other) {
+  // The part is on one side of both: its vertices are those reached from the rim across an odd number of curves.
+  constexpr std::uint8_t kUnknown = 2;
+  std::vector<std::uint8_t> side(patch.vertex_count(), kUnknown);
+  std::vector<std::uint32_t> reached;
+  const auto spread = [&] {
+    for (std::size_t i = 0; i < reached.size(); ++i)
+      for (const std::uint32_t e : patch.edges_at(reached[i])) {
+        const auto& edge = patch.edge(e);
+        const std::uint32_t next = edge.a == reached[i] ? edge.b : edge.a;
+        const auto expected = static_cast<std::uint8_t>(side[reached[i]] ^ one[e] ^ other[e]);
+        if (side[next] == kUnknown) {
+          side[next] = expected;
+          reached.push_back(next);
+        } else if (side[next] != expected) {
+          return false;
+        }
+      }
+    return true;
+  };
+  for (std::uint32_t v = 0; v < patch.vertex_count(); ++v)
+    if (!patch.whole(v)) {
+      side[v] = 0;
+      reached.push_back(v);
+    }
+  if (!spread()) return false;
+  for (std::uint32_t v = 0; v < patch.vertex_count(); ++v)
+    if (side[v] == kUnknown) {
+      side[v] = 0;
+      reached.assign(1, v);
+      if (!spread()) return false;
+    }
+  return true;
 }
 
 std::optional<Crossings> left_of_arc(const SurfacePatch& patch, const ClosedPath& arc) {

@@ -22,8 +22,10 @@ struct ClosedPath {
 std::vector<std::uint8_t> inner_vertices(const SurfacePatch& patch);
 std::vector<std::uint8_t> whole_vertices(const SurfacePatch& patch);
 
-// For each edge: 1 if it crosses the curve, an odd number of times. In each triangle an even number of edges does.
+// For each edge: 1 if it crosses the curve, an odd number of times. In each triangle an even number of edges does,
+// unless one is barred: no path may use that.
 using Crossings = std::vector<std::uint8_t>;
+inline constexpr std::uint8_t kBarred = 2;
 
 // The shortest closed path through these vertices (1: allowed) that uses an odd number of crossing edges; no path if
 // there is none. It is simple, since an odd path that met itself would contain a shorter one. `gates` are vertices of
@@ -45,6 +47,9 @@ std::vector<std::uint32_t> fan_of(const SurfacePatch& patch, std::uint32_t verte
 // manifold at one of its vertices.
 // REQUIRES: the path is simple, and its vertices are whole.
 std::optional<Crossings> left_of(const SurfacePatch& patch, const ClosedPath& path);
+// Whether two curves in the patch together bound a part of it.
+// REQUIRES: no edge is barred.
+bool bound_together(const SurfacePatch& patch, const Crossings& one, const Crossings& other);
 // The same for a path that is not closed: the edges at its vertices but the first and the last.
 std::optional<Crossings> left_of_arc(const SurfacePatch& patch, const ClosedPath& arc);
 

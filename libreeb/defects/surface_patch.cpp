@@ -1,7 +1,6 @@
 #include "libreeb/defects/surface_patch.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 namespace reeb {
@@ -16,11 +15,6 @@ bool runs_along(const std::array<std::uint32_t, 3>& t, std::uint32_t a, std::uin
 
 }  // namespace
 
-double distance(const Point& a, const Point& b) {
-  const Point d = a - b;
-  return std::sqrt(dot(d, d));
-}
-
 SurfacePatch::SurfacePatch(PatchContent content) : content_(std::move(content)) {
   make_edges();
   orient();
@@ -34,28 +28,36 @@ std::uint32_t SurfacePatch::find(VertexId vertex) const {
 
 void SurfacePatch::make_edges() {
   struct Side {
-    std::uint64_t ends;
-    std::uint32_t triangle, number;
+    std::uint32_t b, triangle, number;
+    bool operator<(const Side& other) const { return b != other.b ? b < other.b : triangle < other.triangle; }
   };
-  std::vector<Side> sides;
-  sides.reserve(3 * content_.triangles.size());
-  for (std::uint32_t t = 0; t < triangle_count(); ++t)
-    for (std::uint32_t i = 0; i < 3; ++i) {
-      const auto [a, b] = std::minmax(content_.triangles[t][i], content_.triangles[t][(i + 1) % 3]);
-      sides.push_back({std::uint64_t{a} << 32 | b, t, i});
-    }
-  std::sort(sides.begin(), sides.end(),
-            [](const Side& l, const Side& r) { return std::pair(l.ends, l.triangle) < std::pair(r.ends, r.triangle); });
+  // By the lower end; then those of each vertex by the upper one.
+  std::vector<std::uint32_t> first(content_.vertices.size() + 1, 0);
+  const auto for_each_side = [&](const auto& visit) {
+    for (std::uint32_t t = 0; t < triangle_count(); ++t)
+      for (std::uint32_t i = 0; i < 3; ++i) {
+        const auto [a, b] = std::minmax(content_.triangles[t][i], content_.triangles[t][(i + 1) % 3]);
+        visit(a, Side{b, t, i});
+      }
+  };
+  for_each_side([&](std::uint32_t a, const Side&) { ++first[a + 1]; });
+  for (std::size_t v = 0; v < content_.vertices.size(); ++v) first[v + 1] += first[v];
+  std::vector<Side> sides(3 * content_.triangles.size());
+  std::vector<std::uint32_t> end(first.begin(), first.end() - 1);
+  for_each_side([&](std::uint32_t a, const Side& side) { sides[end[a]++] = side; });
   triangle_edges_.resize(content_.triangles.size());
   edge_triangles_.reserve(sides.size());
-  for (std::size_t i = 0; i < sides.size(); ++i) {
-    if (i == 0 || sides[i].ends != sides[i - 1].ends) {
-      const auto a = static_cast<std::uint32_t>(sides[i].ends >> 32), b = static_cast<std::uint32_t>(sides[i].ends);
-      edge_first_.push_back(static_cast<std::uint32_t>(i));
-      edges_.push_back({a, b, distance(position(a), position(b))});
+  for (std::uint32_t a = 0; a < content_.vertices.size(); ++a) {
+    std::sort(sides.begin() + first[a], sides.begin() + first[a + 1]);
+    for (std::size_t i = first[a]; i < first[a + 1]; ++i) {
+      const auto& [b, triangle, number] = sides[i];
+      if (i == first[a] || b != sides[i - 1].b) {
+        edge_first_.push_back(static_cast<std::uint32_t>(i));
+        edges_.push_back({a, b, distance(position(a), position(b))});
+      }
+      triangle_edges_[triangle][number] = edge_count() - 1;
+      edge_triangles_.push_back(triangle);
     }
-    triangle_edges_[sides[i].triangle][sides[i].number] = edge_count() - 1;
-    edge_triangles_.push_back(sides[i].triangle);
   }
   edge_first_.push_back(static_cast<std::uint32_t>(sides.size()));
 
@@ -66,10 +68,10 @@ void SurfacePatch::make_edges() {
   }
   for (std::size_t v = 0; v < content_.vertices.size(); ++v) vertex_first_[v + 1] += vertex_first_[v];
   vertex_edges_.resize(2 * edges_.size());
-  std::vector<std::uint32_t> next(vertex_first_.begin(), vertex_first_.end() - 1);
+  end.assign(vertex_first_.begin(), vertex_first_.end() - 1);
   for (std::uint32_t e = 0; e < edge_count(); ++e) {
-    vertex_edges_[next[edges_[e].a]++] = e;
-    vertex_edges_[next[edges_[e].b]++] = e;
+    vertex_edges_[end[edges_[e].a]++] = e;
+    vertex_edges_[end[edges_[e].b]++] = e;
   }
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -81,6 +82,9 @@ class SurfacePatch {
 
 inline Point operator-(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 inline double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-double distance(const Point& a, const Point& b);
+inline double distance(const Point& a, const Point& b) {
+  const Point d = a - b;
+  return std::sqrt(dot(d, d));
+}
 
 }  // namespace reeb

@@ -58,23 +58,29 @@ void CollectedSurface::finish() {
 CollectedSurface::Patch CollectedSurface::cut(std::span<const VertexId> seeds, std::span<const Ball> balls,
                                               std::size_t most_vertices) const {
   FlatMap taken;
-  std::vector<std::uint32_t> members;
+  std::vector<std::uint32_t> members, cut_off;
   bool limited = false;
   const auto take = [&](std::uint32_t v) {
-    if (taken.find(v) != FlatMap::kNone) return;
+    if (taken.find(v) != FlatMap::kNone) return true;
+    if (std::ranges::none_of(balls, [&](const Ball& ball) { return ball.contains(positions_[v]); })) return false;
     if (members.size() >= most_vertices) {
       limited = true;
-      return;
+      return false;
     }
     taken.find_or_insert(v, 0);
     members.push_back(v);
+    return true;
   };
   for (const VertexId seed : seeds)
     if (const std::uint32_t v = set_.find(seed); v != VertexSet::kNone) take(v);
-  for (std::size_t i = 0; i < members.size(); ++i)
-    for (std::uint32_t k = first_[members[i]]; k < first_[members[i] + 1]; ++k)
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    const std::uint32_t member = members[i];
+    bool all = true;
+    for (std::uint32_t k = first_[member]; k < first_[member + 1]; ++k)
       for (const std::uint32_t v : triangles_[at_[k]])
-        if (std::ranges::any_of(balls, [&](const Ball& ball) { return ball.contains(positions_[v]); })) take(v);
+        if (v != member && !take(v)) all = false;
+    if (!all) cut_off.push_back(member);
+  }
   std::sort(members.begin(), members.end());
   taken.clear();
   for (std::uint32_t i = 0; i < members.size(); ++i) taken.find_or_insert(members[i], i);
@@ -87,30 +93,26 @@ CollectedSurface::Patch CollectedSurface::cut(std::span<const VertexId> seeds, s
     content.whole.push_back(whole_[v]);
     for (std::size_t f = 0; f < values_.size(); ++f) patch.values[f].push_back(values_[f][v]);
   }
-  for (std::uint32_t i = 0; i < members.size(); ++i)
-    for (std::uint32_t k = first_[members[i]]; k < first_[members[i] + 1]; ++k) {
-      const auto& corners = triangles_[at_[k]];
-      std::array<std::uint32_t, 3> local{};
-      bool inside = true;
-      for (std::size_t c = 0; c < 3; ++c) {
-        local[c] = taken.find(corners[c]);
-        inside = inside && local[c] != FlatMap::kNone;
-      }
-      if (!inside)
-        content.whole[i] = 0;
-      else if (std::ranges::min(local) == i)
-        content.triangles.push_back(local);
-    }
-  // A repeated triangle changes nothing.
+  for (const std::uint32_t v : cut_off) content.whole[taken.find(v)] = 0;
   const auto corner_set = [](std::array<std::uint32_t, 3> corners) {
     std::sort(corners.begin(), corners.end());
     return corners;
   };
-  std::stable_sort(content.triangles.begin(), content.triangles.end(),
-                   [&](const auto& a, const auto& b) { return corner_set(a) < corner_set(b); });
-  const auto same = [&](const auto& a, const auto& b) { return corner_set(a) == corner_set(b); };
-  content.triangles.erase(std::unique(content.triangles.begin(), content.triangles.end(), same),
-                          content.triangles.end());
+  // Each triangle at its lowest corner.
+  for (std::uint32_t i = 0; i < members.size(); ++i) {
+    const auto begin = static_cast<std::ptrdiff_t>(content.triangles.size());
+    for (std::uint32_t k = first_[members[i]]; k < first_[members[i] + 1]; ++k) {
+      const auto& corners = triangles_[at_[k]];
+      if (std::ranges::min(corners) != members[i]) continue;
+      std::array<std::uint32_t, 3> local{};
+      for (std::size_t c = 0; c < 3; ++c) local[c] = corners[c] == members[i] ? i : taken.find(corners[c]);
+      if (std::ranges::find(local, FlatMap::kNone) != local.end()) continue;
+      // A repeated triangle changes nothing.
+      if (std::none_of(content.triangles.begin() + begin, content.triangles.end(),
+                       [&](const auto& other) { return corner_set(other) == corner_set(local); }))
+        content.triangles.push_back(local);
+    }
+  }
   patch.surface = SurfacePatch(std::move(content));
   return patch;
 }

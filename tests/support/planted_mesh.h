@@ -28,16 +28,21 @@ struct PlantedMesh {
 
 struct PlantedOptions {
   std::uint64_t seed = 1;
-  double least_radius = 1, most_radius = 4;  // in cells
+  double least_radius = 0.5, most_radius = 4;  // in cells
   std::size_t most_planted = 4;
   double noise = 0;  // of the vertices, in cells
   bool inwards = false;
 };
 
 // Two plates, one above the other, joined by four pillars near their corners; holes in the plates, bars between them,
-// all turned at random, and sampled on a grid.
+// all turned at random, and sampled on a grid. Every one of them is there: the genus is `planted` and `genuine`
+// together.
 PlantedMesh planted_mesh(const PlantedOptions& options);
 
-std::string to_off(const PlantedMesh& mesh);
+// Of a closed surface of one component.
+std::size_t genus(const PlantedMesh& mesh);
+
+// A binary PLY file.
+std::string to_ply(const PlantedMesh& mesh);
 
 }  // namespace reeb::test

@@ -204,7 +204,9 @@ class CurveSearch {
 
   // Whether the patch was large enough.
   bool measure(const ooc::CollectedSurface::Patch& patch, const Search& search, std::uint32_t v, std::uint32_t y) {
-    const LoopCurves curves = loop_curves(patch.surface, patch.values[search.function], v, y);
+    const LoopCurves curves =
+        loop_curves(patch.surface, patch.values[search.function],
+                    {v, y, list_.loops[search.number].lo_divides, list_.loops[search.number].hi_joins});
     FoundCurves& found = found_[search.number];
     found = {in_mesh(patch.surface, curves.contour), in_mesh(patch.surface, curves.cycle)};
     const double shorter = std::min(curves.contour.length, curves.cycle.length);

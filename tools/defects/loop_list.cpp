@@ -27,7 +27,12 @@ LoopList read_loops(std::span<const std::string> files) {
       throw Error(ErrorKind::kBadInput, "its nodes have no positions", "compute it again").at(path);
     const ReebGraph graph = file.load(0).graph;
     UnionFind component(static_cast<std::uint32_t>(graph.node_count()));
-    for (std::size_t i = 0; i < graph.arc_count(); ++i) component.unite(graph.lo[i].value(), graph.hi[i].value());
+    std::vector<std::uint32_t> up(graph.node_count(), 0), down(graph.node_count(), 0);
+    for (std::size_t i = 0; i < graph.arc_count(); ++i) {
+      component.unite(graph.lo[i].value(), graph.hi[i].value());
+      ++up[graph.lo[i].value()];
+      ++down[graph.hi[i].value()];
+    }
     const auto node = [&](NodeId id) { return SettledNode{graph.nodes[id.value()], graph.positions[id.value()]}; };
     std::vector<std::uint32_t> number(graph.node_count(), 0);
     for (std::uint32_t i = 0; i < graph.node_count(); ++i) {
@@ -44,8 +49,9 @@ LoopList read_loops(std::span<const std::string> files) {
     }
     for (const PersistencePair& pair : persistence_pairs(graph))
       if (pair.type == PairType::kExt1)
-        list.loops.push_back(
-            {list.functions.size(), node(pair.lo), node(pair.hi), number[component.find(pair.lo.value())]});
+        list.loops.push_back({list.functions.size(), node(pair.lo), node(pair.hi),
+                              number[component.find(pair.lo.value())], up[pair.lo.value()] == 2,
+                              down[pair.hi.value()] == 2});
     list.functions.push_back(std::move(function));
   }
   return list;

@@ -17,7 +17,8 @@ namespace reeb::tools {
 struct Loop {
   std::size_t function = 0;
   SettledNode lo, hi;
-  std::uint32_t component = 0;  // of its function
+  std::uint32_t component = 0;                // of its function
+  bool lo_divides = false, hi_joins = false;  // exactly two arcs lead up from lo, and down from hi
 };
 
 struct LoopFunction {

@@ -60,7 +60,7 @@ TEST(LoopCurves, OfATorusAreItsCircles) {
     const auto values = heights(content);
     const auto [v, y] = loop_of(content, values);
     const SurfacePatch patch(content);
-    const LoopCurves curves = loop_curves(patch, values, v, y);
+    const LoopCurves curves = loop_curves(patch, values, {v, y, true, true});
     EXPECT_NEAR(curves.contour.length, 2 * kPi, 0.1);
     EXPECT_NEAR(curves.cycle.length, 4 * kPi, 0.3);
     // The short circle is inside the solid.
@@ -76,7 +76,7 @@ TEST(LoopCurves, OrientationIsMadeConsistentFirst) {
   const auto values = heights(content);
   const auto [v, y] = loop_of(content, values);
   const SurfacePatch patch(content);
-  const LoopCurves curves = loop_curves(patch, values, v, y);
+  const LoopCurves curves = loop_curves(patch, values, {v, y, true, true});
   EXPECT_EQ(kind_of(patch, curves.shorter(), false), DefectKind::kHandle);
 }
 
@@ -87,7 +87,7 @@ TEST(LoopCurves, AtABoundaryAreUnclear) {
   const auto values = heights(content);
   const auto [v, y] = loop_of(content, values);
   const SurfacePatch patch(content);
-  const LoopCurves curves = loop_curves(patch, values, v, y);
+  const LoopCurves curves = loop_curves(patch, values, {v, y, true, true});
   if (curves.shorter().path.exists()) {
     EXPECT_EQ(kind_of(patch, curves.shorter(), false), DefectKind::kUnclear);
   }
