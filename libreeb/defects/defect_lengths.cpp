@@ -9,16 +9,24 @@
 namespace reeb {
 namespace {
 
-// A defect of noise or of a merge spans a few dozen edges.
-constexpr double kMostEdges = 72;
-// A ratio of two neighbouring lengths that chance does not explain.
-constexpr double kLeastGap = 1.3;
+// Defects of noise and of merges are at most some 16 edges wide, so about 50 long; features are seen if they are longer
+// than that. What is known of where the two meet before any length is: near this many edges, within a factor of 1.6 or
+// so.
+constexpr double kBorder = 65, kSpread = 0.45;
+
+// How likely the border is below this length.
+double chance_below(double edges) { return 0.5 * std::erfc(-std::log(edges / kBorder) / kSpread / std::sqrt(2.0)); }
 
 // "0.123", "45.6": as messages print lengths.
 std::string text(double length) {
   char buffer[32];
   std::snprintf(buffer, sizeof buffer, "%.4g", length);
   return buffer;
+}
+
+std::string part_of(std::size_t part, std::size_t all) {
+  if (part == all) return all == 1 ? "the only loop is" : "all " + std::to_string(all) + " loops are";
+  return std::to_string(part) + " of " + std::to_string(all) + (part == 1 ? " loops is" : " loops are");
 }
 
 }  // namespace
@@ -28,39 +36,36 @@ SuggestedLength suggest_length(std::span<const double> lengths, double edge, dou
   std::erase_if(sorted, [](double length) { return !(length > 0); });
   std::sort(sorted.begin(), sorted.end());
   if (sorted.empty()) return {std::nullopt, 0, "there are no loops"};
-  const auto finite =
-      static_cast<std::size_t>(std::lower_bound(sorted.begin(), sorted.end(), std::max(size, edge)) - sorted.begin());
-  if (finite == 0) return {std::nullopt, 0.5, "no loop is short"};
-  // The gap above the last length is the one to the size of the mesh: nothing is known to be longer.
-  const auto above = [&](std::size_t i) { return i + 1 < finite ? sorted[i + 1] : std::max(size, edge); };
-  std::optional<std::size_t> best;
-  double best_score = 0;
-  for (std::size_t i = 0; i < finite && sorted[i] <= kMostEdges * edge; ++i) {
-    const double gap = std::log(above(i) / sorted[i]);
-    if (gap < std::log(kLeastGap)) continue;
-    // A gap among the shortest lengths says less than one of the same width above all that noise can be.
-    const double score = gap * std::sqrt(std::min(1.0, above(i) / (kMostEdges * edge)));
-    if (score > best_score) {
-      best_score = score;
-      best = i;
-    }
+  if (!(edge > 0)) return {std::nullopt, 0, "the mesh has no extent"};
+  const double most = std::max(size, edge);
+  const auto finite = static_cast<std::size_t>(std::lower_bound(sorted.begin(), sorted.end(), most) - sorted.begin());
+  if (finite == 0) return {std::nullopt, 0.9, "no loop is short"};
+  // Of the gaps between two lengths, the one in which the border is most likely; gap i is below length i.
+  const auto from = [&](std::size_t i) { return i == 0 ? 0 : sorted[i - 1]; };
+  const auto to = [&](std::size_t i) { return i < finite ? sorted[i] : most; };
+  const auto chance = [&](std::size_t i) {
+    const double above = i < finite ? chance_below(to(i) / edge) : 1;
+    return above - (i == 0 ? 0 : chance_below(from(i) / edge));
+  };
+  std::size_t best = 0;
+  for (std::size_t i = 1; i <= finite; ++i)
+    if (chance(i) > chance(best)) best = i;
+  if (best == 0)
+    return {std::nullopt, chance(0), "no loop is short: the shortest is " + text(sorted[0] / edge) + " edges long"};
+  const double low = from(best), high = to(best), ratio = high / low;
+  const double length = std::clamp(kBorder * edge, low * std::pow(ratio, 0.3), low * std::pow(ratio, 0.7));
+  double confidence = chance(best) * (1 - std::exp(-3 * std::log(ratio)));
+  std::string why = part_of(best, sorted.size()) + " at most " + text(low) + " long (" + text(low / edge) + " edges), ";
+  if (best < finite) {
+    why += "the others at least " + text(high);
+  } else if (best < sorted.size()) {
+    why += "the others longer than any that were found";
+  } else {
+    // Nothing shows where features begin.
+    confidence = std::min(confidence, 0.5);
+    why += "and there is no longer one to compare with";
   }
-  if (!best) {
-    const auto short_ones =
-        static_cast<std::size_t>(std::upper_bound(sorted.begin(), sorted.end(), kMostEdges * edge) - sorted.begin());
-    if (short_ones == 0) return {std::nullopt, 0.7, "all loops are longer than noise is: more than 72 edges"};
-    return {kMostEdges * edge, 0.2,
-            "no gap divides the lengths; " + std::to_string(short_ones) + " of " + std::to_string(sorted.size()) +
-                " loops are at most 72 edges long"};
-  }
-  const double from = sorted[*best], to = above(*best);
-  const double confidence = 1 - std::exp(-1.6 * std::log(to / from) * std::min(1.0, to / (kMostEdges * edge)));
-  const std::string below = std::to_string(*best + 1) + " of " + std::to_string(sorted.size()) + " loops are at most " +
-                            text(from) + " long, ";
-  return {std::sqrt(from * to), confidence,
-          below + (*best + 1 < finite          ? "the others at least " + text(to)
-                   : *best + 1 < sorted.size() ? "the others longer than the mesh is wide (" + text(to) + ')'
-                                               : "far less than the mesh is wide (" + text(to) + ')')};
+  return {length, confidence, why};
 }
 
 }  // namespace reeb

@@ -61,7 +61,8 @@ const char* name_of(DefectKind kind) {
   return kNames[static_cast<std::size_t>(kind)];
 }
 
-LoopCurves loop_curves(const SurfacePatch& patch, std::span<const double> values, const LoopNodes& nodes) {
+LoopCurves loop_curves(const SurfacePatch& patch, std::span<const double> values, const LoopNodes& nodes,
+                       double longest) {
   LoopCurves curves;
   const std::vector<LoopContour> contours = loop_contours(patch, values, nodes);
   if (contours.empty()) return curves;
@@ -70,7 +71,7 @@ LoopCurves loop_curves(const SurfacePatch& patch, std::span<const double> values
   const auto cycle_in = [&](std::span<const std::uint8_t> allowed) {
     ClosedPath shortest;
     for (const LoopContour& contour : contours)
-      if (ClosedPath path = shortest_odd_cycle(patch, contour.crossings, contour.gates, allowed);
+      if (ClosedPath path = shortest_odd_cycle(patch, contour.crossings, contour.gates, allowed, longest);
           path.length < shortest.length)
         shortest = std::move(path);
     return shortest;
@@ -79,7 +80,8 @@ LoopCurves loop_curves(const SurfacePatch& patch, std::span<const double> values
   if (ClosedPath path = cycle_in(inner); path.exists()) {
     curves.cycle = curve_along(patch, std::move(path));
     if (!curves.cycle.crossings.empty())
-      if (ClosedPath other = shortest_odd_cycle(patch, curves.cycle.crossings, curves.cycle.path.vertices, inner);
+      if (ClosedPath other =
+              shortest_odd_cycle(patch, curves.cycle.crossings, curves.cycle.path.vertices, inner, longest);
           other.exists())
         curves.contour = curve_along(patch, std::move(other));
     // A curve around a boundary, which the contour meets: no closed curve crosses it once.
@@ -92,7 +94,7 @@ LoopCurves loop_curves(const SurfacePatch& patch, std::span<const double> values
   if (!curves.cycle.path.exists())
     if (const ClosedPath arc = shortest_odd_arc(patch, first.crossings); arc.exists())
       if (const auto left = left_of_arc(patch, arc))
-        if (ClosedPath path = shortest_odd_cycle(patch, *left, arc.vertices, inner); path.exists())
+        if (ClosedPath path = shortest_odd_cycle(patch, *left, arc.vertices, inner, longest); path.exists())
           if (LoopCurve curve = curve_along(patch, std::move(path));
               !curve.crossings.empty() && bound_together(patch, curve.crossings, first.crossings))
             curves.contour = std::move(curve);
@@ -105,18 +107,33 @@ LoopCurves loop_curves(const SurfacePatch& patch, std::span<const double> values
 
 DefectKind kind_of(const SurfacePatch& patch, const LoopCurve& curve, bool inwards) {
   if (curve.crossings.empty()) return DefectKind::kUnclear;
-  Point center{};
+  Point center{}, axis{};
   const auto& vertices = curve.path.vertices;
   for (const std::uint32_t x : vertices)
     for (std::size_t k = 0; k < 3; ++k) center[k] += patch.position(x)[k] / static_cast<double>(vertices.size());
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    const Point a = patch.position(vertices[i]) - center,
+                b = patch.position(vertices[(i + 1) % vertices.size()]) - center;
+    for (std::size_t k = 0; k < 3; ++k) axis[k] += a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
+  }
+  // Only what points across the axis of the curve tells: at the rim of a tunnel the surface turns away along it.
+  const double area = dot(axis, axis);
+  const auto across = [&](Point p) {
+    const double along = area > 0 ? dot(p, axis) / area : 0;
+    for (std::size_t k = 0; k < 3; ++k) p[k] -= along * axis[k];
+    return p;
+  };
   double sum = 0;
   std::vector<std::uint32_t> around;
   for (const std::uint32_t x : vertices) {
     around.clear();
-    for (const std::uint32_t e : patch.edges_at(x)) {
-      const auto at = patch.triangles_at_edge(e);
-      around.insert(around.end(), at.begin(), at.end());
-    }
+    // Two rings, so that noise cancels out.
+    for (const std::uint32_t e : patch.edges_at(x))
+      for (const std::uint32_t end : {patch.edge(e).a, patch.edge(e).b})
+        for (const std::uint32_t beside : patch.edges_at(end)) {
+          const auto at = patch.triangles_at_edge(beside);
+          around.insert(around.end(), at.begin(), at.end());
+        }
     std::sort(around.begin(), around.end());
     around.erase(std::unique(around.begin(), around.end()), around.end());
     Point normal{};
@@ -125,7 +142,7 @@ DefectKind kind_of(const SurfacePatch& patch, const LoopCurve& curve, bool inwar
       for (std::size_t k = 0; k < 3; ++k) normal[k] += n[k];
     }
     const double size = std::sqrt(dot(normal, normal));
-    if (size > 0) sum += dot(normal, center - patch.position(x)) / size;
+    if (size > 0) sum += dot(across(normal), across(center - patch.position(x))) / size;
   }
   if (inwards) sum = -sum;
   return sum > 0 ? DefectKind::kTunnel : sum < 0 ? DefectKind::kHandle : DefectKind::kUnclear;

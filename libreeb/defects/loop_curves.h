@@ -38,10 +38,12 @@ struct LoopCurves {
 
 // What is found separates nothing: each curve crosses one that closes an odd number of times, in the patch or, as the
 // graph tells, outside it. At boundaries that is not so sure.
+// Paths longer than four fifths of `longest` may be missed.
 // REQUIRES: values has the function at each vertex of the patch; lo is below hi in the total order; both are whole.
 // TIME: O(n log n) for n triangles, for each edge that the contour crosses; mostly far less, since a search ends where
 //       its path would be longer than the best so far.
-LoopCurves loop_curves(const SurfacePatch& patch, std::span<const double> values, const LoopNodes& nodes);
+LoopCurves loop_curves(const SurfacePatch& patch, std::span<const double> values, const LoopNodes& nodes,
+                       double longest = std::numeric_limits<double>::infinity());
 
 // A tunnel if the disc of the curve lies outside the solid, a handle if it lies inside. `inwards`: the oriented
 // triangles of the patch have their normals inside.

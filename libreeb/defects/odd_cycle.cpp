@@ -1,6 +1,7 @@
 #include "libreeb/defects/odd_cycle.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <queue>
 #include <utility>
@@ -10,7 +11,7 @@ namespace {
 
 // Gates that are nearer to each other than this share of the path are not all searched: those far from the best path,
 // and those near it.
-constexpr double kGateSpacing = 0.15, kLeastSpacing = 0.05;
+constexpr double kGateSpacing = 0.1, kLeastSpacing = 0.04;
 
 // Shortest paths from one gate after the other, and the shortest closed path that an edge between two of them makes.
 // There is one: along the shortest odd path the tree's parities do not all agree, and at an edge where they differ, the
@@ -156,25 +157,28 @@ std::vector<std::uint8_t> inner_vertices(const SurfacePatch& patch) {
 }
 
 ClosedPath shortest_odd_cycle(const SurfacePatch& patch, const Crossings& crossings,
-                              std::span<const std::uint32_t> gates, std::span<const std::uint8_t> allowed) {
+                              std::span<const std::uint32_t> gates, std::span<const std::uint8_t> allowed,
+                              double longest) {
   OddSearch odd(patch, crossings, allowed);
   ClosedPath best;
   std::vector<std::uint32_t> searched;
   const auto search = [&](std::uint32_t gate, double spacing) {
+    const double bound = std::min(best.length, longest);
     const auto is_near = [&](std::uint32_t other) {
-      return distance(patch.position(gate), patch.position(other)) < spacing * best.length;
+      return distance(patch.position(gate), patch.position(other)) < spacing * bound;
     };
-    if (!odd.allows(gate) || (best.exists() && std::ranges::any_of(searched, is_near))) return;
+    if (!odd.allows(gate) || (std::isfinite(bound) && std::ranges::any_of(searched, is_near))) return;
     searched.push_back(gate);
-    ClosedPath path = odd.search(gate, best.length);
+    ClosedPath path = odd.search(gate, bound);
     if (path.length < best.length)
       best = std::move(path);
-    else if (!best.exists())
+    else if (!std::isfinite(bound))
       odd.remove_reached();
     odd.remove(gate);
   };
   for (const std::uint32_t gate : gates) search(gate, kGateSpacing);
   // Then all gates near the best path.
+  if (!best.exists()) return best;
   const ClosedPath rough = best;
   for (const std::uint32_t gate : gates) {
     const auto is_near = [&](std::uint32_t v) {

@@ -32,8 +32,10 @@ inline constexpr std::uint8_t kBarred = 2;
 // which every such path has one. Of gates that are near each other, compared with the length of the path, not all are
 // searched: it can be a few per cent longer than the shortest. TIME: some 20 searches in the patch, each of which ends
 // where a path would be longer than the best so far.
+// Those longer than four fifths of `longest` can be missed.
 ClosedPath shortest_odd_cycle(const SurfacePatch& patch, const Crossings& crossings,
-                              std::span<const std::uint32_t> gates, std::span<const std::uint8_t> allowed);
+                              std::span<const std::uint32_t> gates, std::span<const std::uint8_t> allowed,
+                              double longest);
 
 // The shortest path that crosses the curve an odd number of times and leaves the patch at both ends: all of its
 // vertices but the first and the last are whole. No path if there is none. TIME: one search.

@@ -55,6 +55,14 @@ void CollectedSurface::finish() {
     for (const std::uint32_t v : triangles_[t]) at_[next[v]++] = t;
 }
 
+double CollectedSurface::mean_edge() const {
+  double sum = 0;
+  for (const auto& [a, b, c] : triangles_)
+    sum += distance(positions_[a], positions_[b]) + distance(positions_[b], positions_[c]) +
+           distance(positions_[c], positions_[a]);
+  return triangles_.empty() ? 0 : sum / (3 * static_cast<double>(triangles_.size()));
+}
+
 CollectedSurface::Patch CollectedSurface::cut(std::span<const VertexId> seeds, std::span<const Ball> balls,
                                               std::size_t most_vertices) const {
   FlatMap taken;

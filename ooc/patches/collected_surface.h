@@ -30,6 +30,8 @@ class CollectedSurface {
   void finish();
 
   std::uint32_t vertex_count() const { return set_.size(); }
+  // Of the edges of all triangles; 0 if there are none.
+  double mean_edge() const;
 
   struct Patch {
     SurfacePatch surface;

@@ -7,6 +7,7 @@
 #include <map>
 #include <utility>
 
+#include "libreeb/base/union_find.h"
 #include "tests/support/random.h"
 
 namespace reeb::test {
@@ -211,6 +212,18 @@ class Sampler {
 
 }  // namespace
 
+std::size_t component_count(const PlantedMesh& mesh) {
+  UnionFind component(static_cast<std::uint32_t>(mesh.vertices.size()));
+  std::size_t count = mesh.vertices.size();
+  for (const auto& t : mesh.triangles)
+    for (std::size_t k = 1; k < 3; ++k)
+      if (component.find(t[0]) != component.find(t[k])) {
+        component.unite(t[0], t[k]);
+        --count;
+      }
+  return count;
+}
+
 std::size_t genus(const PlantedMesh& mesh) { return (2 + mesh.triangles.size() / 2 - mesh.vertices.size()) / 2; }
 
 PlantedMesh planted_mesh(const PlantedOptions& options) {
@@ -224,7 +237,7 @@ PlantedMesh planted_mesh(const PlantedOptions& options) {
     const int half = static_cast<int>(std::ceil(std::sqrt(2 * kHalf * kHalf + 16.0 * 16.0))) + 3;
     Sampler(rotation, shift, mesh.planted, half).run(mesh);
     // The grid can miss a thin defect, and make a tiny one at an edge of the solid.
-    if (genus(mesh) != mesh.planted.size() + mesh.genuine) continue;
+    if (component_count(mesh) != 1 || genus(mesh) != mesh.planted.size() + mesh.genuine) continue;
     for (Vector& p : mesh.vertices)
       for (double& c : p) c += options.noise * (2 * random.unit() - 1);
     for (Planted& defect : mesh.planted)

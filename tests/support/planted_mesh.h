@@ -39,6 +39,7 @@ struct PlantedOptions {
 // together.
 PlantedMesh planted_mesh(const PlantedOptions& options);
 
+std::size_t component_count(const PlantedMesh& mesh);
 // Of a closed surface of one component.
 std::size_t genus(const PlantedMesh& mesh);
 

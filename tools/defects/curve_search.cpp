@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <queue>
 #include <utility>
 
 #include "libreeb/base/error.h"
@@ -39,32 +40,31 @@ FoundCurve in_mesh(const SurfacePatch& patch, const LoopCurve& curve) {
   return found;
 }
 
-// Whether the oriented triangles at the vertex, the highest of its component along a coordinate, have their normals
-// inside. The edge that falls least is on the outer hull of its star, so its steeper triangle does not matter.
+bool same(const FoundCurve& a, const FoundCurve& b) { return a.found() && b.found() && a.path == b.path; }
+
+// Whether the oriented triangles near the vertex, the highest of its component along a coordinate, have their normals
+// inside. What is cut off by a level below the top is closed but for a flat disc, so its normals add up to that of the
+// disc. The cap is as large as the patch allows: noise can fold the triangles right at the top.
 std::optional<bool> is_inwards(const SurfacePatch& patch, std::uint32_t top, std::size_t axis) {
-  std::uint32_t flattest = SurfacePatch::kNone;
-  double least = std::numeric_limits<double>::infinity();
-  for (const std::uint32_t e : patch.edges_at(top)) {
-    const auto& edge = patch.edge(e);
-    const std::uint32_t other = edge.a == top ? edge.b : edge.a;
-    const double slope = (patch.position(top)[axis] - patch.position(other)[axis]) / edge.length;
-    if (slope < least) {
-      least = slope;
-      flattest = e;
-    }
+  std::vector<std::uint8_t> seen(patch.vertex_count(), 0), in_cap(patch.vertex_count(), 0);
+  std::priority_queue<std::pair<double, std::uint32_t>> highest;
+  const auto reach = [&](std::uint32_t v) {
+    if (seen[v] == 0) highest.emplace(patch.position(v)[axis], v);
+    seen[v] = 1;
+  };
+  reach(top);
+  for (; !highest.empty() && patch.whole(highest.top().second);) {
+    const std::uint32_t v = highest.top().second;
+    highest.pop();
+    in_cap[v] = 1;
+    for (const std::uint32_t e : patch.edges_at(v)) reach(patch.edge(e).a == v ? patch.edge(e).b : patch.edge(e).a);
   }
-  if (flattest == SurfacePatch::kNone) return std::nullopt;
-  double best = 0, sign = 0;
-  for (const std::uint32_t t : patch.triangles_at_edge(flattest)) {
-    const Point normal = patch.normal(t);
-    const double upwards = normal[axis] / std::sqrt(dot(normal, normal));
-    if (std::abs(upwards) > best) {
-      best = std::abs(upwards);
-      sign = upwards;
-    }
-  }
-  if (best == 0) return std::nullopt;
-  return sign < 0;
+  double upwards = 0;
+  for (std::uint32_t t = 0; t < patch.triangle_count(); ++t)
+    if (std::ranges::all_of(patch.triangle(t), [&](std::uint32_t v) { return in_cap[v] != 0; }))
+      upwards += patch.normal(t)[axis];
+  if (upwards == 0) return std::nullopt;
+  return upwards < 0;
 }
 
 std::optional<std::size_t> axis_of(const std::string& function) {
@@ -101,12 +101,12 @@ class CurveSearch {
       if (!axis_of(list.functions[f].name)) continue;
       for (std::size_t c = 0; c < with_loops[f].size(); ++c) {
         const SettledNode& top = list.functions[f].tops[c];
-        if (with_loops[f][c] != 0) add({f, c, true, top, top, 2 * scale.edge});
+        if (with_loops[f][c] != 0) add({f, c, true, top, top, kFirstEdges * scale.edge});
       }
     }
   }
 
-  std::vector<FoundCurves> run() {
+  LoopCurvesFound run() {
     for (int reading = 0; reading < kMostReadings; ++reading) {
       std::vector<Search*> now = choose();
       if (now.empty()) break;
@@ -115,11 +115,12 @@ class CurveSearch {
     for (std::size_t i = 0; i < found_.size(); ++i) {
       const Loop& loop = list_.loops[i];
       if (inwards_[loop.function][loop.component] == 0) continue;
-      for (FoundCurve* curve : {&found_[i].contour, &found_[i].cycle})
-        if (curve->kind != DefectKind::kUnclear)
-          curve->kind = curve->kind == DefectKind::kHandle ? DefectKind::kTunnel : DefectKind::kHandle;
+      for (FoundCurves& curves : found_[i])
+        for (FoundCurve* curve : {&curves.contour, &curves.cycle})
+          if (curve->kind != DefectKind::kUnclear)
+            curve->kind = curve->kind == DefectKind::kHandle ? DefectKind::kTunnel : DefectKind::kHandle;
     }
-    return std::move(found_);
+    return {std::move(found_), scale_};
   }
 
  private:
@@ -171,6 +172,10 @@ class CurveSearch {
       throw Error(ErrorKind::kBadInput, "the graph is of a mesh with another number of vertices",
                   "name the mesh that the graph was computed from");
     surface.finish();
+    if (const double edge = surface.mean_edge(); !measured_ && edge > 0) {
+      scale_.edge = edge;
+      measured_ = true;
+    }
     ooc::in_parallel(options_.threads, now.size(), [&](std::size_t i) { search_in(surface, *now[i]); });
   }
 
@@ -204,11 +209,16 @@ class CurveSearch {
 
   // Whether the patch was large enough.
   bool measure(const ooc::CollectedSurface::Patch& patch, const Search& search, std::uint32_t v, std::uint32_t y) {
-    const LoopCurves curves =
-        loop_curves(patch.surface, patch.values[search.function],
-                    {v, y, list_.loops[search.number].lo_divides, list_.loops[search.number].hi_joins});
-    FoundCurves& found = found_[search.number];
-    found = {in_mesh(patch.surface, curves.contour), in_mesh(patch.surface, curves.cycle)};
+    const LoopCurves curves = loop_curves(
+        patch.surface, patch.values[search.function],
+        {v, y, list_.loops[search.number].lo_divides, list_.loops[search.number].hi_joins}, scale_.longest());
+    FoundCurves found = {in_mesh(patch.surface, curves.contour), in_mesh(patch.surface, curves.cycle)};
+    std::vector<FoundCurves>& all = found_[search.number];
+    // The same again, with more known of the other curve.
+    if (!all.empty() && (same(all.back().contour, found.contour) || same(all.back().cycle, found.cycle)))
+      all.back() = std::move(found);
+    else if (found.contour.found() || found.cycle.found())
+      all.push_back(std::move(found));
     const double shorter = std::min(curves.contour.length, curves.cycle.length);
     if (curves.contour.found() && curves.cycle.found()) return shorter <= 2 * search.radius;
     return shorter <= search.radius;
@@ -216,10 +226,11 @@ class CurveSearch {
 
   const ValuedMesh& mesh_;
   const LoopList& list_;
-  const PatchScale scale_;
+  PatchScale scale_;
+  bool measured_ = false;
   const SearchOptions& options_;
   std::vector<Search> searches_;
-  std::vector<FoundCurves> found_;
+  std::vector<std::vector<FoundCurves>> found_;
   std::vector<std::vector<std::uint8_t>> inwards_;  // by function and component
 };
 
@@ -229,6 +240,8 @@ double PatchScale::vertices(double radius) const {
   const double edges = edge > 0 ? radius / edge : 0;
   return 16 + 7 * edges * edges;
 }
+
+double PatchScale::radius(double vertices) const { return edge * std::sqrt(std::max(0.0, vertices - 16) / 7); }
 
 PatchScale scale_of(const LoopList& list) {
   PatchScale scale;
@@ -241,8 +254,8 @@ PatchScale scale_of(const LoopList& list) {
   return scale;
 }
 
-std::vector<FoundCurves> find_curves(const ValuedMesh& mesh, const LoopList& list, const PatchScale& scale,
-                                     const SearchOptions& options) {
+LoopCurvesFound find_curves(const ValuedMesh& mesh, const LoopList& list, const PatchScale& scale,
+                            const SearchOptions& options) {
   return CurveSearch(mesh, list, scale, options).run();
 }
 

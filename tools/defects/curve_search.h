@@ -25,6 +25,7 @@ struct FoundCurve {
   std::uint32_t triangles = 0;
   bool closed = false;  // on an oriented manifold, away from boundaries
   DefectKind kind = DefectKind::kUnclear;
+  bool found() const { return length < std::numeric_limits<double>::infinity(); }
 };
 
 struct FoundCurves {
@@ -41,17 +42,28 @@ struct SearchOptions {
 struct PatchScale {
   double edge = 0, size = 0;                            // of an edge, and of the whole mesh
   static constexpr std::size_t kMostVertices = 10'000;  // of a patch
+  // Curves that are longer are no small defects: nothing looks for them.
+  double longest() const { return 100 * edge; }
   // Vertices in a ball, roughly: those of two sheets.
   double vertices(double radius) const;
+  // The ball that has so many.
+  double radius(double vertices) const;
   bool too_large(double radius) const { return vertices(radius) > kMostVertices || radius > 2 * size; }
 };
 PatchScale scale_of(const LoopList& list);
 
-// One entry a loop. Reads the mesh about as often as a small patch must be doubled until it holds the curves of the
-// largest loop whose patch is not too large; each reading collects the patches of as many loops as the memory holds,
-// and the next one those of the rest, too.
+struct LoopCurvesFound {
+  // Of each loop, those of its patches, the smaller ones first: in a larger patch, a curve of another defect that the
+  // loop runs through can be shorter.
+  std::vector<std::vector<FoundCurves>> curves;
+  PatchScale scale;  // with edges as measured near the loops
+};
+
+// Reads the mesh about as often as a small patch must be doubled until it holds the curves of the largest loop whose
+// patch is not too large; each reading collects the patches of as many loops as the memory holds, and the next one
+// those of the rest, too.
 // THROWS: Error{kBadInput} if the loops are not those of this mesh.
-std::vector<FoundCurves> find_curves(const ValuedMesh& mesh, const LoopList& list, const PatchScale& scale,
-                                     const SearchOptions& options);
+LoopCurvesFound find_curves(const ValuedMesh& mesh, const LoopList& list, const PatchScale& scale,
+                            const SearchOptions& options);
 
 }  // namespace reeb::tools

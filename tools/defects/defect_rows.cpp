@@ -1,7 +1,8 @@
 #include "tools/defects/defect_rows.h"
 
 #include <algorithm>
-#include <numeric>
+#include <optional>
+#include <set>
 #include <tuple>
 #include <utility>
 
@@ -9,6 +10,7 @@
 #include "libreeb/defects/curve_relations.h"
 #include "ooc/patches/collected_surface.h"
 #include "ooc/threads/parallel.h"
+#include "tools/defects/near_balls.h"
 
 namespace reeb::tools {
 namespace {
@@ -16,9 +18,13 @@ namespace {
 struct Candidate {
   std::uint32_t loop = 0;
   const FoundCurve* curve = nullptr;
+  const FoundCurves* both = nullptr;
   ooc::Ball ball;
+  double wide = 0;  // the radius of all that may be looked at around it
   bool first_function = false, testable = false, taken = false;
 };
+
+bool meet(const ooc::Ball& a, const ooc::Ball& b) { return distance(a.center, b.center) <= a.radius + b.radius; }
 
 // By length; the rest settles ties.
 bool before(const Candidate& a, const Candidate& b) {
@@ -27,38 +33,38 @@ bool before(const Candidate& a, const Candidate& b) {
 }
 
 std::vector<Candidate> candidates(const LoopList& list, const PatchScale& scale,
-                                  const std::vector<FoundCurves>& found) {
+                                  const std::vector<std::vector<FoundCurves>>& found) {
   std::vector<Candidate> result;
+  const auto add = [&](std::uint32_t loop, const FoundCurves& both, const FoundCurve& curve) {
+    const bool first = list.loops[loop].function == 0;
+    if (curve.path.empty() || (!first && !curve.closed)) return;
+    Candidate candidate{loop, &curve, &both, {}, 0, first, false, false};
+    for (std::size_t k = 0; k < 3; ++k) candidate.ball.center[k] = (curve.box[0][k] + curve.box[1][k]) / 2;
+    candidate.ball.radius =
+        0.75 * distance(curve.box[0], curve.box[1]) + 4 * curve.length / static_cast<double>(curve.path.size());
+    candidate.testable = !scale.too_large(candidate.ball.radius);
+    if (candidate.testable || first) result.push_back(candidate);
+  };
   for (std::uint32_t i = 0; i < found.size(); ++i)
-    for (const FoundCurve* curve : {&found[i].contour, &found[i].cycle}) {
-      const bool first = list.loops[i].function == 0;
-      if (curve->path.empty() || (!first && !curve->closed)) continue;
-      Candidate candidate{i, curve, {}, first, false, false};
-      for (std::size_t k = 0; k < 3; ++k) candidate.ball.center[k] = (curve->box[0][k] + curve->box[1][k]) / 2;
-      candidate.ball.radius =
-          0.75 * distance(curve->box[0], curve->box[1]) + 4 * curve->length / static_cast<double>(curve->path.size());
-      candidate.testable = !scale.too_large(candidate.ball.radius);
-      if (candidate.testable || first) result.push_back(candidate);
-    }
+    for (const FoundCurves& both : found[i])
+      for (const FoundCurve* curve : {&both.contour, &both.cycle}) add(i, both, *curve);
   std::sort(result.begin(), result.end(), before);
+  // Two curves around one long handle are far from each other. Where there are few, patches show that.
+  constexpr double kTogether = 1'000'000, kMost = 20'000;
+  const double wide =
+      scale.radius(std::min(kMost, kTogether / static_cast<double>(std::max<std::size_t>(1, result.size()))));
+  for (Candidate& candidate : result) candidate.wide = std::max(candidate.ball.radius, wide);
   return result;
 }
 
 // Groups of candidates whose balls meet, directly or through others; each in the order of candidates.
 std::vector<std::vector<std::uint32_t>> clusters(const std::vector<Candidate>& all) {
-  std::vector<std::uint32_t> order(all.size());
-  std::iota(order.begin(), order.end(), 0u);
-  const auto low = [&](std::uint32_t i) { return all[i].ball.center[0] - all[i].ball.radius; };
-  const auto high = [&](std::uint32_t i) { return all[i].ball.center[0] + all[i].ball.radius; };
-  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return low(a) < low(b); });
   UnionFind cluster(static_cast<std::uint32_t>(all.size()));
-  std::vector<std::uint32_t> active;
-  for (const std::uint32_t i : order) {
-    std::erase_if(active, [&](std::uint32_t other) { return high(other) < low(i); });
-    for (const std::uint32_t other : active)
-      if (distance(all[i].ball.center, all[other].ball.center) <= all[i].ball.radius + all[other].ball.radius)
-        cluster.unite(i, other);
-    active.push_back(i);
+  NearBalls balls;
+  for (std::uint32_t i = 0; i < all.size(); ++i) {
+    const ooc::Ball ball{all[i].ball.center, all[i].wide};
+    for (const std::uint32_t other : balls.meeting(ball)) cluster.unite(i, other);
+    balls.add(ball, i);
   }
   std::vector<std::vector<std::uint32_t>> result;
   std::vector<std::uint32_t> number(all.size(), 0);
@@ -92,9 +98,12 @@ std::vector<std::uint32_t> edges_of(const SurfacePatch& patch, const ClosedPath&
   return edges;
 }
 
-bool adds_a_class(const SurfacePatch& patch, const Candidate& candidate, std::span<const Candidate* const> taken) {
+// Whether the candidate crosses one of those taken an odd number of times, or bounds something together with them, in
+// the patch. Nothing if the patch does not have all of it.
+std::optional<bool> is_known(const SurfacePatch& patch, const Candidate& candidate,
+                             std::span<const Candidate* const> taken) {
   const ClosedPath path = in_patch(patch, *candidate.curve);
-  if (!path.exists()) return candidate.first_function;
+  if (!path.exists()) return std::nullopt;
   const std::vector<std::uint32_t> edges = edges_of(patch, path);
   std::vector<std::vector<std::uint32_t>> others;
   for (const Candidate* other : taken) {
@@ -103,11 +112,11 @@ bool adds_a_class(const SurfacePatch& patch, const Candidate& candidate, std::sp
     if (const auto left = left_of(patch, there)) {
       std::size_t crossings = 0;
       for (const std::uint32_t e : edges) crossings += (*left)[e];
-      if (crossings % 2 != 0) return false;
+      if (crossings % 2 != 0) return true;
     }
     others.push_back(edges_of(patch, there));
   }
-  return !bounds_with(patch, edges, others);
+  return bounds_with(patch, edges, others);
 }
 
 bool same_path(const Candidate& a, const Candidate& b) {
@@ -120,29 +129,48 @@ bool same_path(const Candidate& a, const Candidate& b) {
 
 void choose_in_cluster(const ooc::CollectedSurface& surface, std::vector<Candidate>& all,
                        std::span<const std::uint32_t> cluster) {
-  std::vector<const Candidate*> taken;
+  NearBalls taken;
+  std::set<std::uint32_t> loops;
   for (const std::uint32_t i : cluster) {
     Candidate& candidate = all[i];
-    if (std::ranges::any_of(taken, [&](const Candidate* other) { return other->loop == candidate.loop; })) continue;
+    if (loops.contains(candidate.loop)) continue;
     candidate.taken = candidate.first_function;
     if (candidate.testable) {
       std::vector<const Candidate*> near;
-      std::vector<ooc::Ball> balls = {candidate.ball};
-      for (const Candidate* other : taken)
-        if (distance(other->ball.center, candidate.ball.center) <= other->ball.radius + candidate.ball.radius) {
-          near.push_back(other);
-          balls.push_back(other->ball);
-        }
+      for (const std::uint32_t other : taken.meeting(candidate.ball)) near.push_back(&all[other]);
       // Nothing near: it is no boundary by itself, since another curve crosses it once. Functions often find the same
-      // path.
-      const bool known =
-          std::ranges::any_of(near, [&](const Candidate* other) { return same_path(*other, candidate); });
-      candidate.taken = near.empty() || (!known && [&] {
-                          const auto patch = surface.cut(candidate.curve->path, balls, 8 * PatchScale::kMostVertices);
-                          return adds_a_class(patch.surface, candidate, near);
-                        }());
+      // path, or one beside it, which a small patch shows.
+      const auto known_in = [&](double share) -> std::optional<bool> {
+        const auto smaller = [&](ooc::Ball ball) {
+          ball.radius *= share;
+          return ball;
+        };
+        std::vector<ooc::Ball> balls = {smaller(candidate.ball)};
+        for (const Candidate* other : near)
+          if (meet(balls[0], smaller(other->ball))) balls.push_back(smaller(other->ball));
+        const auto patch = surface.cut(candidate.curve->path, balls, 8 * PatchScale::kMostVertices);
+        return is_known(patch.surface, candidate, near);
+      };
+      const auto is_same = [&](const Candidate* other) { return same_path(*other, candidate); };
+      if (near.empty())
+        candidate.taken = true;
+      else if (std::ranges::any_of(near, is_same) || known_in(0.5).value_or(false))
+        candidate.taken = false;
+      else if (const auto known = known_in(1))
+        candidate.taken = !*known;
+      if (candidate.taken && candidate.wide > candidate.ball.radius) {
+        const ooc::Ball wide{candidate.ball.center, candidate.wide};
+        near.clear();
+        for (const std::uint32_t other : taken.meeting(wide)) near.push_back(&all[other]);
+        if (!near.empty()) {
+          const auto patch = surface.cut(candidate.curve->path, std::span(&wide, 1), 8 * PatchScale::kMostVertices);
+          candidate.taken = !is_known(patch.surface, candidate, near).value_or(false);
+        }
+      }
     }
-    if (candidate.taken) taken.push_back(&candidate);
+    if (!candidate.taken) continue;
+    taken.add(candidate.ball, i);
+    loops.insert(candidate.loop);
   }
 }
 
@@ -157,8 +185,8 @@ void choose(const ValuedMesh& mesh, const PatchScale& scale, std::vector<Candida
     for (; end < groups.size() && (end == begin || sum < most); ++end)
       for (const std::uint32_t i : groups[end]) {
         if (!all[i].testable) continue;
-        balls.push_back(all[i].ball);
-        sum += scale.vertices(all[i].ball.radius) / 2;
+        balls.push_back({all[i].ball.center, all[i].wide});
+        sum += scale.vertices(all[i].wide) / 2;
       }
     MemoryBudget budget;
     ooc::CollectedSurface surface(balls, 0, budget);
@@ -178,7 +206,7 @@ void choose(const ValuedMesh& mesh, const PatchScale& scale, std::vector<Candida
   }
 }
 
-DefectRow row_of(const LoopList& list, std::uint32_t number, const FoundCurves& found, const FoundCurve* curve) {
+DefectRow row_of(const LoopList& list, std::uint32_t number, const FoundCurves* found, const FoundCurve* curve) {
   const Loop& loop = list.loops[number];
   const ValueRange& range = list.functions[loop.function].range;
   DefectRow row;
@@ -195,9 +223,9 @@ DefectRow row_of(const LoopList& list, std::uint32_t number, const FoundCurves& 
       return &c != curve && c.length < curve->length && !c.path.empty() ? std::numeric_limits<double>::infinity()
                                                                         : c.length;
     };
-    row.length_contour = length(found.contour);
-    row.length_cycle = length(found.cycle);
-    const FoundCurve& other = curve == &found.contour ? found.cycle : found.contour;
+    row.length_contour = length(found->contour);
+    row.length_cycle = length(found->cycle);
+    const FoundCurve& other = curve == &found->contour ? found->cycle : found->contour;
     if (length(other) < std::numeric_limits<double>::infinity()) row.other_path = other.path;
     return row;
   }
@@ -211,8 +239,9 @@ DefectRow row_of(const LoopList& list, std::uint32_t number, const FoundCurves& 
 
 }  // namespace
 
-DefectTable make_rows(const ValuedMesh& mesh, const LoopList& list, const PatchScale& scale,
-                      const std::vector<FoundCurves>& found, const SearchOptions& options) {
+DefectTable make_rows(const ValuedMesh& mesh, const LoopList& list, const LoopCurvesFound& search,
+                      const SearchOptions& options) {
+  const auto& [found, scale] = search;
   std::vector<Candidate> all = candidates(list, scale, found);
   choose(mesh, scale, all, options);
 
@@ -230,14 +259,14 @@ DefectTable make_rows(const ValuedMesh& mesh, const LoopList& list, const PatchS
   for (const Candidate& candidate : all) had_curves[candidate.loop] = 1;
   for (const Candidate* candidate : taken) {
     used[candidate->loop] = 1;
-    table.rows.push_back(row_of(list, candidate->loop, found[candidate->loop], candidate->curve));
+    table.rows.push_back(row_of(list, candidate->loop, candidate->both, candidate->curve));
   }
   // The other loops of the first function: first those whose curves left their patches. Curves of the rest stand for
   // defects that are listed already.
   for (const bool with_curves : {false, true})
     for (std::uint32_t i = 0; i < list.loops.size() && table.rows.size() < wanted; ++i)
       if (list.loops[i].function == 0 && used[i] == 0 && (had_curves[i] != 0) == with_curves)
-        table.rows.push_back(row_of(list, i, found[i], nullptr));
+        table.rows.push_back(row_of(list, i, nullptr, nullptr));
 
   std::vector<double> lengths;
   for (const DefectRow& row : table.rows) lengths.push_back(row.length());

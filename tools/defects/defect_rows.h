@@ -31,7 +31,7 @@ struct DefectTable {
 // Takes curves by length, each if it crosses none of those taken before an odd number of times, and bounds no part of
 // the surface together with them. Reads the mesh once more, if loops are near each other; or as often as the memory
 // requires.
-DefectTable make_rows(const ValuedMesh& mesh, const LoopList& list, const PatchScale& scale,
-                      const std::vector<FoundCurves>& found, const SearchOptions& options);
+DefectTable make_rows(const ValuedMesh& mesh, const LoopList& list, const LoopCurvesFound& found,
+                      const SearchOptions& options);
 
 }  // namespace reeb::tools

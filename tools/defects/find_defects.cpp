@@ -62,9 +62,9 @@ Defects find_defects(const FindDefectsOptions& options) {
       throw Error(ErrorKind::kInterrupted, "interrupted", "run the same command again");
     if (options.searching) options.searching(done, total, triangles);
   };
-  defects.scale = scale_of(list);
-  const std::vector<FoundCurves> found = find_curves(mesh, list, defects.scale, search);
-  defects.table = make_rows(mesh, list, defects.scale, found, search);
+  const LoopCurvesFound found = find_curves(mesh, list, scale_of(list), search);
+  defects.scale = found.scale;
+  defects.table = make_rows(mesh, list, found, search);
   return defects;
 }
 

@@ -135,7 +135,7 @@ TEST(DefectLengths, AreDividedAtTheGap) {
   ASSERT_TRUE(suggested.length);
   EXPECT_GT(*suggested.length, 5);
   EXPECT_LT(*suggested.length, 40);
-  EXPECT_GT(suggested.confidence, 0.7);
+  EXPECT_GT(suggested.confidence, 0.6);
   EXPECT_FALSE(suggest_length({}, 1, 10).length);
   EXPECT_FALSE(suggest_length(std::vector{100.0, 150.0}, 1, 1000).length);
   EXPECT_FALSE(suggest_length(std::vector{kInfinity}, 1, 1000).length);
