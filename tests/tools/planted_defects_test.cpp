@@ -116,20 +116,36 @@ PlantedOptions planted_options(std::uint64_t seed) {
   return options;
 }
 
-Defects defects_of(const PlantedMesh& mesh, const std::string& folder, const std::vector<std::string>& files = {}) {
+// `functions`: whose graphs are computed first; none: those of the coordinates.
+Defects defects_of(const PlantedMesh& mesh, const std::string& folder, const std::vector<std::string>& functions = {}) {
   FindDefectsOptions options;
   options.mesh.path = folder + "/m.ply";
   options.mesh.temp_folder = folder;
   options.threads = 1;
-  options.files = files;
   write_file(options.mesh.path, to_ply(mesh));
+  for (std::size_t i = 0; i < functions.size(); ++i)
+    options.files.push_back(folder + "/" + std::to_string(i) + ".reeb");
+  if (!functions.empty()) compute(options.mesh.path, functions, options.files, {.threads = 1, .replace = true});
   return find_defects(options);
+}
+
+// How many of the planted defects have a row of their kind there.
+std::size_t right_kinds(const PlantedMesh& mesh, const Defects& defects) {
+  std::size_t right = 0;
+  for (const Planted& planted : mesh.planted)
+    for (const DefectRow& row : defects.table.rows)
+      if (row.kind == (planted.tunnel ? DefectKind::kTunnel : DefectKind::kHandle) &&
+          is_at(planted, row.curve.center) && std::abs(row.length() - planted.length()) <= 0.2 * planted.length()) {
+        ++right;
+        break;
+      }
+  return right;
 }
 
 using PlantedDefects = ProgramTest;
 
 TEST_F(PlantedDefects, AreListedFirstWithTheirKindAndLength) {
-  const std::uint64_t meshes = std::getenv("REEB_TEST_ALL") != nullptr ? 200 : 12;
+  const std::uint64_t meshes = std::getenv("REEB_TEST_ALL") != nullptr ? 200 : 9;
   Score score;
   std::atomic<std::uint64_t> next = 1;
   std::mutex one_at_a_time;
@@ -162,6 +178,104 @@ TEST_F(PlantedDefects, AreListedFirstWithTheirKindAndLength) {
   EXPECT_EQ(score.center_in_box, score.found);
   EXPECT_GE(share(score.right_length, score.found), 0.99);
   EXPECT_GE(share(score.separated, score.meshes), 0.95);
+}
+
+// Seven bars and holes in two components, of which the second one is oriented inwards.
+PlantedMesh two_components() {
+  PlantedOptions options;
+  options.seed = 5;
+  options.least_radius = 1;
+  PlantedMesh mesh = planted_mesh(options);
+  options.seed = 6;
+  options.inwards = true;
+  PlantedMesh other = planted_mesh(options);
+  const auto shift = static_cast<std::uint32_t>(mesh.vertices.size());
+  for (Vector& p : other.vertices) p[1] += 100;
+  for (auto& t : other.triangles)
+    for (std::uint32_t& corner : t) corner += shift;
+  for (Planted& planted : other.planted) {
+    planted.from[1] += 100;
+    planted.to[1] += 100;
+  }
+  mesh.vertices.insert(mesh.vertices.end(), other.vertices.begin(), other.vertices.end());
+  mesh.triangles.insert(mesh.triangles.end(), other.triangles.begin(), other.triangles.end());
+  mesh.planted.insert(mesh.planted.end(), other.planted.begin(), other.planted.end());
+  return mesh;
+}
+
+TEST_F(PlantedDefects, EachComponentHasItsOrientation) {
+  const PlantedMesh mesh = two_components();
+  ASSERT_GE(mesh.planted.size(), 3u);
+  // Without a coordinate among the functions, the tops of components must be found first.
+  for (const std::vector<std::string>& functions : {std::vector<std::string>{}, {"distance:3,4,5", "distance:9,-50,0"}})
+    EXPECT_EQ(right_kinds(mesh, defects_of(mesh, folder(), functions)), mesh.planted.size()) << functions.size();
+}
+
+TEST_F(PlantedDefects, KeepTheirKindFarFromBoundaries) {
+  PlantedOptions options;
+  options.seed = 4;
+  options.least_radius = 1;
+  PlantedMesh mesh = planted_mesh(options);
+  // The triangles of a vertex that is far from all defects.
+  const auto distance_to = [&](const Vector& p) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const Planted& planted : mesh.planted) least = std::min(least, distance(p, planted.from));
+    return least;
+  };
+  const auto far =
+      static_cast<std::uint32_t>(std::ranges::max_element(mesh.vertices, {}, distance_to) - mesh.vertices.begin());
+  ASSERT_GT(std::erase_if(mesh.triangles, [&](const auto& t) { return std::ranges::count(t, far) != 0; }), 2u);
+  EXPECT_EQ(right_kinds(mesh, defects_of(mesh, folder())), mesh.planted.size());
+}
+
+// A torus of radii 3 and 1; vertex (ring, side) is ring * 24 + side.
+PlantedMesh plain_torus() {
+  PlantedMesh mesh;
+  for (std::uint32_t i = 0; i < 60; ++i)
+    for (std::uint32_t j = 0; j < 24; ++j) {
+      const double a = 2 * 3.14159265358979 * i / 60, b = 2 * 3.14159265358979 * j / 24, r = 3 + std::cos(b);
+      mesh.vertices.push_back({r * std::cos(a), 0.3 * r * std::sin(a) + std::sin(b), r * std::sin(a)});
+      const std::uint32_t right = (i + 1) % 60 * 24, up = (j + 1) % 24, here = i * 24;
+      mesh.triangles.push_back({here + j, here + up, right + j});
+      mesh.triangles.push_back({right + j, here + up, right + up});
+    }
+  return mesh;
+}
+
+TEST_F(PlantedDefects, AreUnclearWhereCurvesMeetABoundary) {
+  // Without a strip all the way round, every circle around the tube ends, and the others are around a boundary.
+  PlantedMesh mesh = plain_torus();
+  std::erase_if(mesh.triangles, [](const auto& t) {
+    return std::ranges::all_of(t, [](std::uint32_t v) { return v % 24 == 5 || v % 24 == 6; });
+  });
+  const Defects defects = defects_of(mesh, folder());
+  for (const DefectRow& row : defects.table.rows) EXPECT_EQ(row.kind, DefectKind::kUnclear);
+}
+
+TEST_F(PlantedDefects, AreUnclearWhereTheSurfaceIsNoManifold) {
+  // A fin all the way round, outside: every circle around the tube meets it. The circle around the middle does not.
+  PlantedMesh mesh = plain_torus();
+  for (std::uint32_t i = 0; i < 60; ++i) {
+    const std::uint32_t a = i * 24, b = (i + 1) % 60 * 24;
+    Vector tip{};
+    for (std::size_t k = 0; k < 3; ++k) tip[k] = 0.6 * (mesh.vertices[a][k] + mesh.vertices[b][k]);
+    mesh.triangles.push_back({a, b, static_cast<std::uint32_t>(mesh.vertices.size())});
+    mesh.vertices.push_back(tip);
+  }
+  const Defects defects = defects_of(mesh, folder());
+  ASSERT_FALSE(defects.table.rows.empty());
+  for (const DefectRow& row : defects.table.rows) EXPECT_NE(row.kind, DefectKind::kHandle);
+}
+
+TEST_F(PlantedDefects, FoldersOfPatchesAreCheckedFirst) {
+  expect_success(reeb({"generate", "torus", "--triangles", "2000", "-o", "t.ply"}));
+  expect_error(reeb({"defects", "t.ply", "--patches", "no/near", "--quiet"}), 3);
+  EXPECT_EQ(files(), std::vector<std::string>{"t.ply"});
+  write("file", "");
+  expect_error(reeb({"defects", "t.ply", "--patches", "file", "--quiet"}), 3);
+  expect_success(reeb({"defects", "t.ply", "--patches", "near", "--quiet"}));
+  expect_error(reeb({"defects", "t.ply", "--patches", "near", "--quiet"}), 1);
+  expect_success(reeb({"defects", "t.ply", "--patches", "near", "--quiet", "--force"}));
 }
 
 TEST_F(PlantedDefects, OptionsChooseRowsAndWritePatches) {

@@ -58,6 +58,7 @@ void check_files(const DefectsOptions& options) {
   }
   if (!options.output.empty()) files.add_output(options.output, "the output", existing_outputs(options.force));
   files.check();
+  if (!options.patches.empty()) check_patch_folder(options.patches, existing_outputs(options.force));
 }
 
 // Whether a row is in the list: --below compares persistences, --longest lengths.

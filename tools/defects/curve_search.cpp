@@ -10,6 +10,7 @@
 #include "libreeb/base/flat_map.h"
 #include "ooc/patches/collected_surface.h"
 #include "ooc/threads/parallel.h"
+#include "tools/defects/component_tops.h"
 
 namespace reeb::tools {
 namespace {
@@ -85,7 +86,12 @@ struct Search {
 class CurveSearch {
  public:
   CurveSearch(const ValuedMesh& mesh, const LoopList& list, const PatchScale& scale, const SearchOptions& options)
-      : mesh_(mesh), list_(list), scale_(scale), options_(options), found_(list.loops.size()) {
+      : mesh_(mesh),
+        list_(list),
+        scale_(scale),
+        options_(options),
+        patch_bytes_(options.patch_bytes),
+        found_(list.loops.size()) {
     std::vector<std::vector<std::uint8_t>> with_loops;
     for (const LoopFunction& function : list.functions) {
       with_loops.emplace_back(function.tops.size(), 0);
@@ -98,11 +104,11 @@ class CurveSearch {
       with_loops[loop.function][loop.component] = 1;
     }
     for (std::size_t f = 0; f < list.functions.size(); ++f) {
-      if (!axis_of(list.functions[f].name)) continue;
-      for (std::size_t c = 0; c < with_loops[f].size(); ++c) {
-        const SettledNode& top = list.functions[f].tops[c];
-        if (with_loops[f][c] != 0) add({f, c, true, top, top, kFirstEdges * scale.edge});
-      }
+      std::vector<SettledNode> tops = list.functions[f].tops;
+      if (std::ranges::count(with_loops[f], 1) == 0) continue;
+      if (!axis_of(list.functions[f].name)) tops = component_tops(mesh, list.functions[f], f, *options.budget);
+      for (std::size_t c = 0; c < with_loops[f].size(); ++c)
+        if (with_loops[f][c] != 0) add({f, c, true, tops[c], tops[c], kFirstEdges * scale.edge});
     }
   }
 
@@ -110,7 +116,13 @@ class CurveSearch {
     for (int reading = 0; reading < kMostReadings; ++reading) {
       std::vector<Search*> now = choose();
       if (now.empty()) break;
-      read(now);
+      try {
+        read(now);
+      } catch (const Error& error) {
+        // More vertices than was thought are near the loops.
+        if (error.kind() != ErrorKind::kResource || now.size() == 1) throw;
+        patch_bytes_ /= 2;
+      }
     }
     for (std::size_t i = 0; i < found_.size(); ++i) {
       const Loop& loop = list_.loops[i];
@@ -135,7 +147,8 @@ class CurveSearch {
     for (Search& search : searches_)
       if (!search.done) open.push_back(&search);
     std::stable_sort(open.begin(), open.end(), [](const Search* a, const Search* b) { return a->radius < b->radius; });
-    const double most = static_cast<double>(std::max<std::uint64_t>(options_.patch_bytes / kBytesPerVertex, 100'000));
+    const double most =
+        static_cast<double>(std::max<std::uint64_t>(patch_bytes_ / kBytesPerVertex, PatchScale::kMostVertices));
     double sum = 0;
     FlatMap places;
     std::size_t count = 0;
@@ -158,8 +171,7 @@ class CurveSearch {
     std::vector<ooc::Ball> balls;
     for (const Search* search : now)
       for (const SettledNode* node : {&search->lo, &search->hi}) balls.push_back({node->position, search->radius});
-    MemoryBudget budget;
-    ooc::CollectedSurface surface(balls, list_.functions.size(), budget);
+    ooc::CollectedSurface surface(balls, list_.functions.size(), *options_.budget);
     std::uint64_t vertices = 0, triangles = 0;
     mesh_.read([&](const MeshBatch& batch, std::span<const std::vector<double>> values, std::uint64_t done,
                    std::uint64_t total) {
@@ -202,7 +214,7 @@ class CurveSearch {
   }
 
   bool orient(const SurfacePatch& patch, const Search& search, std::uint32_t top) {
-    const auto inwards = is_inwards(patch, top, *axis_of(list_.functions[search.function].name));
+    const auto inwards = is_inwards(patch, top, axis_of(list_.functions[search.function].name).value_or(0));
     inwards_[search.function][search.number] = inwards.value_or(false) ? 1 : 0;
     return true;
   }
@@ -229,6 +241,7 @@ class CurveSearch {
   PatchScale scale_;
   bool measured_ = false;
   const SearchOptions& options_;
+  std::uint64_t patch_bytes_;
   std::vector<Search> searches_;
   std::vector<std::vector<FoundCurves>> found_;
   std::vector<std::vector<std::uint8_t>> inwards_;  // by function and component

@@ -35,6 +35,7 @@ struct FoundCurves {
 struct SearchOptions {
   unsigned threads = 0;
   std::uint64_t patch_bytes = std::uint64_t{512} << 20;  // of patches at the same time
+  MemoryBudget* budget = nullptr;                        // what patches are reserved from
   std::function<void(std::uint64_t done, std::uint64_t total, std::uint64_t triangles)> progress{};
 };
 

@@ -35,7 +35,7 @@ void cut_patches(const ValuedMesh& mesh, const Defects& defects, std::span<const
     places.push_back(place_of(*row, defects.scale));
     balls.insert(balls.end(), places.back().balls.begin(), places.back().balls.end());
   }
-  MemoryBudget budget;
+  MemoryBudget budget(mesh.memory_bytes());
   ooc::CollectedSurface surface(balls, defects.functions.size(), budget);
   mesh.read([&](const MeshBatch& batch, std::span<const std::vector<double>> values, std::uint64_t, std::uint64_t) {
     surface.add(batch, values);

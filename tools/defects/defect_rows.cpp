@@ -188,8 +188,7 @@ void choose(const ValuedMesh& mesh, const PatchScale& scale, std::vector<Candida
         balls.push_back({all[i].ball.center, all[i].wide});
         sum += scale.vertices(all[i].wide) / 2;
       }
-    MemoryBudget budget;
-    ooc::CollectedSurface surface(balls, 0, budget);
+    ooc::CollectedSurface surface(balls, 0, *options.budget);
     if (!balls.empty()) {
       std::uint64_t triangles = 0;
       mesh.read(

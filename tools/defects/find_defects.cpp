@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "libreeb/base/error.h"
+#include "libreeb/base/memory_budget.h"
 #include "tools/library/temp_folder.h"
 
 namespace reeb::tools {
@@ -56,7 +57,10 @@ Defects find_defects(const FindDefectsOptions& options) {
   const ValuedMesh mesh(options.mesh, defects.functions);
   SearchOptions search;
   search.threads = options.threads;
-  if (options.mesh.memory_bytes != ~std::uint64_t{0}) search.patch_bytes = options.mesh.memory_bytes / 2;
+  MemoryBudget budget(options.mesh.memory_bytes);
+  search.budget = &budget;
+  if (options.mesh.memory_bytes != MemoryBudget::kUnlimited)
+    search.patch_bytes = std::min(search.patch_bytes, options.mesh.memory_bytes / 2);
   search.progress = [&](std::uint64_t done, std::uint64_t total, std::uint64_t triangles) {
     if (options.interrupted && options.interrupted())
       throw Error(ErrorKind::kInterrupted, "interrupted", "run the same command again");

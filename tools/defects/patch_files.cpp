@@ -83,22 +83,34 @@ std::string curves_text(const SurfacePatch& patch, const DefectRow& row) {
 
 }  // namespace
 
-std::vector<std::string> patch_names(std::span<const RankedRow> rows, const std::string& folder) {
-  std::vector<std::string> names;
-  for (const RankedRow& ranked : rows)
-    for (const char* ending : {"", "-curves"}) names.push_back(name(folder, ranked.rank, ending));
-  return names;
+void check_patch_folder(const std::string& folder, io::Existing existing) {
+  namespace fs = std::filesystem;
+  std::error_code failure;
+  if (!fs::exists(folder, failure)) {
+    io::require_output_folder(folder);
+    return;
+  }
+  if (!fs::is_directory(folder, failure))
+    throw Error(ErrorKind::kResource, "it is no folder", "name a folder for the patches").at(folder);
+  io::require_output_folder(name(folder, 1, ""));
+  std::vector<std::string> patches;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, failure)) {
+    const std::string file = entry.path().filename().string();
+    if (file.starts_with("defect-") && file.ends_with(".ply")) patches.push_back(folder + "/" + file);
+  }
+  std::sort(patches.begin(), patches.end());
+  for (const std::string& path : patches) io::check_output_name(path, existing);
 }
 
 void write_patches(const ValuedMesh& mesh, const Defects& defects, std::span<const RankedRow> rows,
                    const std::string& folder, io::Existing existing) {
+  check_patch_folder(folder, existing);
   std::error_code failure;
-  std::filesystem::create_directories(folder, failure);
+  std::filesystem::create_directory(folder, failure);
   if (failure)
     throw Error(ErrorKind::kResource, "the folder cannot be created: " + failure.message(),
                 "name a folder that can be written")
         .at(folder);
-  for (const std::string& path : patch_names(rows, folder)) io::check_output_name(path, existing);
   std::vector<const DefectRow*> plain;
   for (const RankedRow& ranked : rows) plain.push_back(ranked.row);
   cut_patches(mesh, defects, plain, kMostVertices, [&](std::size_t i, const ooc::CollectedSurface::Patch& patch) {

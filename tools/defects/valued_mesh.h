@@ -26,6 +26,7 @@ class ValuedMesh {
   ValuedMesh(const MeshSource& source, std::span<const std::string> functions);
 
   const MeshInfo& info() const { return info_; }
+  std::uint64_t memory_bytes() const { return source_.memory_bytes; }
 
   // Reads all of it. `values[k]` are those of function k at the vertices of the batch; `done` of `total` bytes.
   using Observe = std::function<void(const MeshBatch& batch, std::span<const std::vector<double>> values,

@@ -1,0 +1,54 @@
+#include "tools/defects/component_tops.h"
+
+#include <algorithm>
+#include <limits>
+#include <span>
+
+#include "libreeb/base/error.h"
+#include "libreeb/base/flat_map.h"
+#include "libreeb/base/union_find.h"
+
+namespace reeb::tools {
+
+std::vector<SettledNode> component_tops(const ValuedMesh& mesh, const LoopFunction& function, std::size_t number,
+                                        MemoryBudget& budget) {
+  const bool several = function.tops.size() > 1;
+  // Vertices beyond those of the graph have no place here.
+  const auto check = [&](const MeshBatch& batch) {
+    if (batch.first_vertex.value() + batch.vertex_count > function.mesh_vertices)
+      throw Error(ErrorKind::kBadInput, "the graph is of a mesh with another number of vertices",
+                  "name the mesh that the graph was computed from");
+  };
+  const Reservation memory = budget.reserve("components of the mesh", several ? 4 * function.mesh_vertices : 0);
+  UnionFind component(several ? static_cast<std::uint32_t>(function.mesh_vertices) : 0);
+  if (several)
+    mesh.read([&](const MeshBatch& batch, std::span<const std::vector<double>>, std::uint64_t, std::uint64_t) {
+      check(batch);
+      for (std::size_t k = 1; k < batch.simplices.size(); ++k)
+        for (std::size_t i = 0; i < batch.simplices[k].size(); ++i)
+          if (i % (k + 1) != 0)
+            component.unite(static_cast<std::uint32_t>(batch.simplices[k][i - 1].value()),
+                            static_cast<std::uint32_t>(batch.simplices[k][i].value()));
+    });
+  FlatMap number_of;  // by the root
+  for (std::uint32_t c = 0; several && c < function.tops.size(); ++c)
+    number_of.find_or_insert(component.find(static_cast<std::uint32_t>(function.tops[c].key.vertex.value())), c);
+  std::vector<SettledNode> tops = function.tops;
+  std::vector<double> most(tops.size(), -std::numeric_limits<double>::infinity());
+  mesh.read([&](const MeshBatch& batch, std::span<const std::vector<double>> values, std::uint64_t, std::uint64_t) {
+    check(batch);
+    for (std::size_t i = 0; i < batch.vertex_count; ++i) {
+      const VertexId vertex(batch.first_vertex.value() + i);
+      const std::uint32_t c =
+          several ? number_of.find(component.find(static_cast<std::uint32_t>(vertex.value()))) : std::uint32_t{0};
+      if (c == FlatMap::kNone || batch.coordinates[0][i] <= most[c]) continue;
+      most[c] = batch.coordinates[0][i];
+      tops[c].key = {values[number][i], vertex};
+      for (std::size_t k = 0; k < std::min<std::size_t>(3, batch.coordinates.size()); ++k)
+        tops[c].position[k] = batch.coordinates[k][i];
+    }
+  });
+  return tops;
+}
+
+}  // namespace reeb::tools
