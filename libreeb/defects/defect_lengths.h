@@ -14,8 +14,9 @@ struct SuggestedLength {
 };
 
 // `lengths`: of the curves of loops, in any order, infinite ones among them; `edge`: the typical length of an edge;
-// `size`: of the whole mesh. Looks for gaps in the lengths on a logarithmic axis; what is as long as the mesh is large
-// is no defect. Of gaps that are wide enough, the highest one counts above which nothing is as short as noise can be.
+// `size`: of the whole mesh, and no defect is so long. The length is in the gap in which the border between noise and
+// features is most likely, which is near 65 edges before any length is known. If there is nothing longer to compare
+// with, the confidence is at most 0.5.
 SuggestedLength suggest_length(std::span<const double> lengths, double edge, double size);
 
 }  // namespace reeb

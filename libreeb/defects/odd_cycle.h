@@ -49,10 +49,11 @@ std::vector<std::uint32_t> fan_of(const SurfacePatch& patch, std::uint32_t verte
 // manifold at one of its vertices.
 // REQUIRES: the path is simple, and its vertices are whole.
 std::optional<Crossings> left_of(const SurfacePatch& patch, const ClosedPath& path);
+// The same for a path that is not closed: the edges at its vertices but the first and the last.
+std::optional<Crossings> left_of_arc(const SurfacePatch& patch, const ClosedPath& arc);
+
 // Whether two curves in the patch together bound a part of it.
 // REQUIRES: no edge is barred.
 bool bound_together(const SurfacePatch& patch, const Crossings& one, const Crossings& other);
-// The same for a path that is not closed: the edges at its vertices but the first and the last.
-std::optional<Crossings> left_of_arc(const SurfacePatch& patch, const ClosedPath& arc);
 
 }  // namespace reeb

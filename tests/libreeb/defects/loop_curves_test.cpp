@@ -93,6 +93,22 @@ TEST(LoopCurves, AtABoundaryAreUnclear) {
   }
 }
 
+TEST(LoopCurves, BoundTogetherIfOneIsBesideTheOther) {
+  // Without a ring of triangles, which the patch does not have: vertices there are not whole.
+  PatchContent content = torus();
+  std::erase_if(content.triangles, [](const auto& t) { return t[0] / kSides == 7 || t[1] / kSides == 7; });
+  for (const std::uint32_t ring : {7u, 8u})
+    for (std::uint32_t j = 0; j < kSides; ++j) content.whole[ring * kSides + j] = 0;
+  const SurfacePatch patch(content);
+  const auto left_of_ring = [&](std::uint32_t ring) {
+    ClosedPath path;
+    for (std::uint32_t j = 0; j < kSides; ++j) path.vertices.push_back(ring * kSides + j);
+    return left_of(patch, path).value();
+  };
+  EXPECT_TRUE(bound_together(patch, left_of_ring(15), left_of_ring(30)));
+  EXPECT_FALSE(bound_together(patch, left_of_ring(15), Crossings(patch.edge_count(), 0)));
+}
+
 TEST(CurveLength, IsThatOfATightString) {
   const SurfacePatch patch(torus());
   // A circle around the tube that steps to the next ring and back.
@@ -136,6 +152,17 @@ TEST(DefectLengths, AreDividedAtTheGap) {
   EXPECT_GT(*suggested.length, 5);
   EXPECT_LT(*suggested.length, 40);
   EXPECT_GT(suggested.confidence, 0.6);
+  // Sizes of defects differ more than the border is from the longest of them.
+  const std::vector<double> wide = {4.5, 25, 58, 59};
+  const auto border = suggest_length(wide, 0.6, 120);
+  ASSERT_TRUE(border.length);
+  EXPECT_GT(*border.length, 25);
+  EXPECT_LT(*border.length, 58);
+  // Nothing longer shows where features begin.
+  const auto alone = suggest_length(std::vector{3.0}, 1, 1000);
+  ASSERT_TRUE(alone.length);
+  EXPECT_LE(alone.confidence, 0.5);
+  EXPECT_TRUE(alone.why.starts_with("the only loop is")) << alone.why;
   EXPECT_FALSE(suggest_length({}, 1, 10).length);
   EXPECT_FALSE(suggest_length(std::vector{100.0, 150.0}, 1, 1000).length);
   EXPECT_FALSE(suggest_length(std::vector{kInfinity}, 1, 1000).length);
