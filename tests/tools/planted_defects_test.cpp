@@ -180,7 +180,7 @@ TEST_F(PlantedDefects, AreListedFirstWithTheirKindAndLength) {
   EXPECT_GE(share(score.separated, score.meshes), 0.95);
 }
 
-// Seven bars and holes in two components, of which the second one is oriented inwards.
+// Bars and holes in two components, of which the second one is oriented inwards.
 PlantedMesh two_components() {
   PlantedOptions options;
   options.seed = 5;
