@@ -9,7 +9,7 @@ set(reeb_public_headers error graph online hierarchy mesh function reeb_file pro
 set(reeb_public_error libreeb/base/error.h)
 set(reeb_public_graph
   libreeb/base/ids.h libreeb/base/sweep_key.h libreeb/graph/settled_node.h libreeb/graph/reeb_graph.h
-  libreeb/graph/bucket.h libreeb/graph/arc_buckets.h)
+  libreeb/graph/bucket.h libreeb/graph/arc_buckets.h libreeb/graph/arc_measures.h)
 set(reeb_public_online libreeb/port/graph_sink.h libreeb/engine/online_reeb.h)
 set(reeb_public_hierarchy
   libreeb/graph/arc_version.h libreeb/hierarchy/hierarchy.h libreeb/hierarchy/pairing.h libreeb/hierarchy/levels.h)

@@ -82,6 +82,15 @@ void write_rg(const GraphView& view, OutputBuffer& out) {
     out << "a " << vertex_of(graph, graph.lo[i]) << ' ' << vertex_of(graph, graph.hi[i]) << '\n';
 }
 
+void write_json_measures(const ArcMeasures& arc, OutputBuffer& out) {
+  out << ", \"segment_vertices\": " << arc.vertices << ", \"mean\": ";
+  write_json_number(arc.mean, out);
+  out << ", \"area\": ";
+  write_json_number(arc.area, out);
+  out << ", \"shortest_contour\": ";
+  write_json_number(arc.shortest_contour, out);
+}
+
 void write_json(const GraphView& view, OutputBuffer& out) {
   const ReebGraph& graph = view.graph;
   const Degrees degree = degrees(graph);
@@ -102,8 +111,9 @@ void write_json(const GraphView& view, OutputBuffer& out) {
   out << "],\n\"arcs\": [";
   for (std::size_t i = 0; i < graph.arc_count(); ++i) {
     out << (i == 0 ? "\n" : ",\n") << "{\"lo\": " << vertex_of(graph, graph.lo[i])
-        << ", \"hi\": " << vertex_of(graph, graph.hi[i]) << ", \"vertices\": " << vertices_of(view, i)
-        << ", \"path\": [";
+        << ", \"hi\": " << vertex_of(graph, graph.hi[i]) << ", \"vertices\": " << vertices_of(view, i);
+    if (!view.measures.empty()) write_json_measures(view.measures[i], out);
+    out << ", \"path\": [";
     bool first = true;
     if (!view.buckets.empty())
       for (const Bucket& bucket : view.buckets.of(i)) {

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "libreeb/graph/arc_buckets.h"
+#include "libreeb/graph/arc_measures.h"
 #include "libreeb/graph/reeb_graph.h"
 
 namespace reeb::io {
@@ -19,6 +20,7 @@ struct GraphView {
   double threshold = 0;
   ArcBucketsView buckets;  // of graph's arcs, or empty
   int bucket_exponent = 0;
+  std::span<const ArcMeasures> measures = {};  // of graph's arcs, or empty; json, vtp and vtu have them
 };
 
 enum class GraphFormat { kRg, kJson, kCsv, kDot, kGraphml, kVtp, kVtu, kPly, kObj };

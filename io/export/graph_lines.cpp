@@ -97,6 +97,25 @@ void write_vtk_point_data(const GraphView& view, OutputBuffer& out) {
   out << "</DataArray>\n</PointData>\n";
 }
 
+// VTK reads no NaN in text: what is not known is -1.
+void write_vtk_measures(const GraphView& view, OutputBuffer& out) {
+  if (view.measures.empty()) return;
+  const auto known = [](double value) { return std::isnan(value) ? -1 : value; };
+  out << "<CellData>\n";
+  begin_array("Int64", "SegmentVertices", out);
+  for (const ArcMeasures& arc : view.measures) out << arc.vertices << '\n';
+  out << "</DataArray>\n";
+  begin_array("Float64", "Mean", out);
+  for (const ArcMeasures& arc : view.measures) out << arc.mean << '\n';
+  out << "</DataArray>\n";
+  begin_array("Float64", "Area", out);
+  for (const ArcMeasures& arc : view.measures) out << known(arc.area) << '\n';
+  out << "</DataArray>\n";
+  begin_array("Float64", "ShortestContour", out);
+  for (const ArcMeasures& arc : view.measures) out << known(arc.shortest_contour) << '\n';
+  out << "</DataArray>\n</CellData>\n";
+}
+
 void write_vtk_cells(const GraphView& view, VtkKind kind, OutputBuffer& out) {
   const char* element = kind == VtkKind::kPolyData ? "Lines" : "Cells";
   const auto nothing = [](auto...) {};
@@ -128,6 +147,7 @@ void write_vtk_lines(const GraphView& view, VtkKind kind, OutputBuffer& out) {
       << type << ">\n<Piece NumberOfPoints=\"" << all_points(view) << "\" " << cells << "=\"" << view.graph.arc_count()
       << "\">\n";
   write_vtk_point_data(view, out);
+  write_vtk_measures(view, out);
   out << "<Points>\n<DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">\n";
   for_each_point(view, [&](const auto& point) { write_point(point, out); });
   out << "</DataArray>\n</Points>\n";

@@ -37,6 +37,14 @@ void require_equal(const ReebFile& file, const char* what, Count in_file, Count 
 }
 
 constexpr std::size_t kEventsAtOnce = 8192;
+constexpr std::uint64_t kVerticesAtOnce = 8192;
+
+// Of cells, only the triangles that are listed would count.
+void forget_surface(MeasuredArcs& measured) {
+  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+  for (ArcMeasures& arc : measured.arcs) arc.area = arc.shortest_contour = kUnknown;
+  measured.area = measured.doubtful_area = measured.dropped_area = kUnknown;
+}
 
 // THROWS: Error{kBadInput} unless the level of the file is this graph.
 void require_level(MemoryBudget& budget, const ReebFile& file, std::uint32_t version, const ReebGraph& graph) {
@@ -107,6 +115,43 @@ class Segmentation::Impl {
       labels[i] = label(place, vertex_++);
       values[i] = place.kind == VertexPlace::Kind::kNone ? std::numeric_limits<double>::quiet_NaN() : place.value;
     }
+  }
+
+  MeasuredArcs measure(MeshReader& mesh) {
+    constexpr std::uint64_t kMostTableBytes = 256 << 20, kMostSortBytes = 16 << 20;
+    const std::uint64_t free = run_.budget.free_bytes();
+    SurfaceMeasures measures(level_, run_.temp, run_.budget,
+                             {.table_bytes = std::min(free / 2, kMostTableBytes),
+                              .sort_bytes = std::min(free / 8, kMostSortBytes),
+                              .background = run_.background(),
+                              .poll = [this] { run_.resumable.check_interruption(); }});
+    std::vector<ArcLabel> labels;
+    std::vector<double> values;
+    bool has_cells = false;
+    rewind();
+    for (MeshBatch batch; mesh.read(batch);) {
+      run_.resumable.check_interruption();
+      if (batch.vertex_count != 0) {
+        for (std::uint64_t skipped = batch.first_vertex.value() - vertex_; skipped != 0; skipped -= labels.size()) {
+          labels.resize(static_cast<std::size_t>(std::min<std::uint64_t>(skipped, kVerticesAtOnce)));
+          values.resize(labels.size());
+          read(labels, values);
+          measures.add_vertices(labels, values, {});
+        }
+        if (vertex_ + batch.vertex_count > vertex_bound()) throw InputChanged();
+        labels.resize(batch.vertex_count);
+        values.resize(batch.vertex_count);
+        read(labels, values);
+        measures.add_vertices(labels, values, batch.coordinates);
+      }
+      has_cells = has_cells || batch.has_cells();
+      const std::vector<VertexId>& corners = batch.triangles();
+      for (std::size_t i = 0; i < corners.size(); i += 3)
+        measures.add_triangle({corners[i], corners[i + 1], corners[i + 2]});
+    }
+    MeasuredArcs measured = measures.finish();
+    if (has_cells) forget_surface(measured);
+    return measured;
   }
 
   void rewind() {
@@ -274,5 +319,7 @@ std::uint64_t Segmentation::nodes() const { return impl_->level().node_count(); 
 std::uint64_t Segmentation::arcs() const { return impl_->level().arc_count(); }
 void Segmentation::read(std::span<ArcLabel> labels, std::span<double> values) { impl_->read(labels, values); }
 void Segmentation::rewind() { impl_->rewind(); }
+MeasuredArcs Segmentation::measure(MeshReader& mesh) { return impl_->measure(mesh); }
+const ReebGraph& Segmentation::level() const { return impl_->level(); }
 
 }  // namespace reeb::ooc

@@ -6,9 +6,11 @@
 #include <span>
 #include <string>
 
+#include "libreeb/port/mesh_reader.h"
 #include "libreeb/port/vertex_function.h"
 #include "ooc/reeb_file/reeb_file.h"
 #include "ooc/run/compute.h"
+#include "ooc/segmentation/surface_measures.h"
 
 namespace reeb::ooc {
 
@@ -45,6 +47,12 @@ class Segmentation {
   // REQUIRES: not beyond vertex_bound().
   void read(std::span<ArcLabel> labels, std::span<double> values);
   void rewind();
+
+  // Measures the parts of the surface on the arcs. `mesh` delivers the mesh again, from its beginning. If it has cells,
+  // areas and lengths are NaN.
+  // THROWS: Error of the mesh, the budget or the disk; InputChanged if the mesh has other vertices.
+  MeasuredArcs measure(MeshReader& mesh);
+  const ReebGraph& level() const;
 
  private:
   class Impl;

@@ -76,6 +76,7 @@ class LevelSet {
 struct Contour {
   std::optional<std::size_t> vertex;  // the rank of the vertex on it
   std::vector<std::size_t> down, up;  // the contours to which it is joined, one level below and one level above
+  std::vector<std::size_t> strips;    // that lead up, by number
   bool regular() const { return down.size() == 1 && up.size() == 1; }
 };
 
@@ -96,6 +97,12 @@ class Quotient {
   }
 
   const std::vector<Contour>& contours() const { return contours_; }
+  // What leads from a contour of one level up to one of the next: the edges that cross, as ranks.
+  struct Strip {
+    std::size_t below;
+    std::vector<std::array<std::size_t, 2>> edges;
+  };
+  const std::vector<Strip>& strips() const { return strips_; }
 
  private:
   using Numbers = std::map<std::size_t, std::size_t>;  // component of the level set -> contour
@@ -104,7 +111,7 @@ class Quotient {
     lower_ = std::move(upper_);
     upper_.clear();
     upper_[level.component_of_vertex()] = contours_.size();
-    contours_.push_back({rank, {}, {}});
+    contours_.push_back({rank, {}, {}, {}});
     for (std::size_t e = 0; e < complex_.edges.size(); ++e) {
       if (!level.crosses(e)) continue;
       if (upper_.try_emplace(level.component_of_edge(e), contours_.size()).second) contours_.push_back({});
@@ -114,6 +121,7 @@ class Quotient {
   // Each contour between the levels r and r + 1 leads to one contour at each of the two levels.
   void join(LevelSet& below, LevelSet& between, LevelSet& above, std::size_t r) {
     std::map<std::size_t, std::pair<std::size_t, std::size_t>> ends;
+    Numbers strip;
     for (std::size_t e = 0; e < complex_.edges.size(); ++e) {
       if (!between.crosses(e)) continue;
       const auto [a, b] = complex_.edges[e];
@@ -122,7 +130,11 @@ class Quotient {
       const std::pair<std::size_t, std::size_t> end{lower_.at(low), upper_.at(high)};
       const auto [it, is_new] = ends.try_emplace(between.component_of_edge(e), end);
       if (it->second != end) throw std::logic_error("a contour continues in two");
+      const std::size_t number = strip.try_emplace(it->first, strips_.size()).first->second;
+      if (is_new) strips_.push_back({r, {}});
+      strips_[number].edges.push_back(complex_.edges[e]);
       if (!is_new) continue;
+      contours_[end.first].strips.push_back(number);
       contours_[end.first].up.push_back(end.second);
       contours_[end.second].down.push_back(end.first);
     }
@@ -130,6 +142,7 @@ class Quotient {
 
   const RankedComplex& complex_;
   std::vector<Contour> contours_;
+  std::vector<Strip> strips_;
   Numbers lower_, upper_;
 };
 
@@ -156,6 +169,7 @@ ReferenceArcs reference_arcs(const Complex& complex) {
   struct Arc {
     NodeId lo, hi;
     std::vector<std::uint64_t> vertices;  // by index
+    std::vector<ReferenceArcs::Strip> strips;
     // Parallel arcs by their first vertex, those without vertices last.
     std::tuple<NodeId, NodeId, std::uint64_t> place() const {
       return {lo, hi, vertices.empty() ? ~std::uint64_t{0} : vertices.front()};
@@ -163,10 +177,21 @@ ReferenceArcs reference_arcs(const Complex& complex) {
   };
   std::vector<Arc> arcs;
   for (const auto& [contour, node] : node_of)
-    for (std::size_t next : contours[contour].up) {
-      Arc arc{node, {}, {}};
-      for (; contours[next].regular(); next = contours[next].up.front())
+    for (std::size_t i = 0; i < contours[contour].up.size(); ++i) {
+      Arc arc{node, {}, {}, {}};
+      const auto add_strip = [&](std::size_t number) {
+        const Quotient::Strip& strip = quotient.strips()[number];
+        ReferenceArcs::Strip& added = arc.strips.emplace_back();
+        added.below = order[strip.below];
+        added.above = order[strip.below + 1];
+        for (const auto& [a, b] : strip.edges) added.edges.push_back({order[a], order[b]});
+      };
+      std::size_t next = contours[contour].up[i];
+      add_strip(contours[contour].strips[i]);
+      for (; contours[next].regular(); next = contours[next].up.front()) {
         if (contours[next].vertex) arc.vertices.push_back(order[*contours[next].vertex]);
+        add_strip(contours[next].strips.front());
+      }
       arc.hi = node_of.at(next);
       std::sort(arc.vertices.begin(), arc.vertices.end());
       arcs.push_back(std::move(arc));
@@ -176,6 +201,7 @@ ReferenceArcs reference_arcs(const Complex& complex) {
     graph.lo.push_back(arc.lo);
     graph.hi.push_back(arc.hi);
     result.vertices.push_back(std::move(arc.vertices));
+    result.strips.push_back(std::move(arc.strips));
   }
   return result;
 }

@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
+#include <nlohmann/json.hpp>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -113,6 +115,48 @@ TEST_F(SegmentProgram, ReadsTheValuesOfAFileAgain) {
   expect_error(reeb({"segment", "t.ply", "f.reeb", "-o", "a.i64"}), 1);
   std::filesystem::remove(folder() + "/v.f64");
   expect_error(reeb({"segment", "t.ply", "f.reeb", "-o", "a.i64"}), 1);
+}
+
+// A torus of radii 1 and 0.5 that stands on its side. Its contours at the level 0 are circles of radius 0.5.
+TEST_F(SegmentProgram, ExtractMeasuresArcsOnTheMesh) {
+  expect_success(reeb({"generate", "torus", "--triangles", "20k", "-o", "t.ply"}));
+  expect_success(reeb({"compute", "t.ply", "--quiet"}));
+  expect_success(reeb({"extract", "t.reeb", "--mesh", "t.ply", "-o", "t.json"}));
+  const auto graph = nlohmann::json::parse(file("t.json"));
+  const std::vector<std::int64_t> expected = labels("t.ply", "t.reeb");
+  ASSERT_EQ(graph["arcs"].size(), 4u);
+  constexpr double kPi = std::numbers::pi;
+  double area = 0;
+  for (std::size_t a = 0; a < 4; ++a) {
+    const auto& arc = graph["arcs"][a];
+    EXPECT_EQ(arc["segment_vertices"], arc["vertices"]);
+    EXPECT_EQ(arc["segment_vertices"], std::ranges::count(expected, static_cast<std::int64_t>(a)));
+    area += arc["area"].get<double>();
+    EXPECT_NEAR(arc["shortest_contour"].get<double>(), a == 1 || a == 2 ? kPi : 0, 0.01);
+    EXPECT_NEAR(arc["mean"].get<double>(), a == 0 ? -0.9 : a == 3 ? 0.9 : 0, 0.05);
+  }
+  EXPECT_NEAR(area, 2 * kPi * kPi, 0.05);
+
+  expect_success(reeb({"extract", "t.reeb", "--mesh", "t.ply", "-o", "t.vtu"}));
+  const std::string text = file("t.vtu");
+  for (const std::string name : {"SegmentVertices", "Mean", "Area", "ShortestContour"})
+    EXPECT_NE(text.find("Name=\"" + name + '"'), std::string::npos) << name;
+  // A file without buckets says nothing of parallel arcs, and has the same measures.
+  expect_success(reeb({"compute", "t.ply", "--buckets", "0", "-o", "b.reeb", "--quiet"}));
+  expect_success(reeb({"extract", "b.reeb", "--mesh", "t.ply", "-o", "b.json"}));
+  EXPECT_EQ(nlohmann::json::parse(file("b.json"))["arcs"][0]["area"], graph["arcs"][0]["area"]);
+}
+
+TEST_F(SegmentProgram, ExtractRefusesToMeasureWhatItCannot) {
+  expect_success(reeb({"generate", "torus", "--triangles", "500", "-o", "t.ply"}));
+  expect_success(reeb({"generate", "torus", "--triangles", "700", "-o", "other.ply"}));
+  expect_success(reeb({"compute", "t.ply", "--quiet"}));
+  expect_error(reeb({"extract", "t.reeb", "--mesh", "t.ply", "-o", "t.csv"}), 2);
+  expect_error(reeb({"extract", "t.reeb", "--mesh", "other.ply", "-o", "t.json"}), 1);
+  expect_error(reeb({"extract", "t.reeb", "--mesh", "t.ply", "-o", "t.ply", "--format", "json", "--force"}), 1);
+  expect_error(reeb({"extract", "t.reeb", "--mesh", "none.ply", "-o", "t.json"}), 1);
+  expect_error(reeb({"extract", "t.reeb", "--threads", "2"}), 2);
+  EXPECT_FALSE(std::filesystem::exists(folder() + "/t.json"));
 }
 
 }  // namespace

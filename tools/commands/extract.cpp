@@ -7,9 +7,12 @@
 
 #include "io/export/graph_export.h"
 #include "io/file/file_name.h"
+#include "io/file/temp_dir.h"
 #include "libreeb/base/error.h"
 #include "ooc/reeb_file/reeb_file.h"
 #include "tools/commands/commands.h"
+#include "tools/commands/measured_level.h"
+#include "tools/commands/open_segmentation.h"
 #include "tools/library/run_files.h"
 #include "tools/program/input_kind.h"
 #include "tools/program/options.h"
@@ -20,9 +23,10 @@ namespace reeb::tools {
 namespace {
 
 struct ExtractOptions {
-  std::string file, output, format, threshold;
+  std::string file, output, format, threshold, mesh, temp_folder;
   std::optional<std::uint64_t> nodes, memory_bytes;
-  bool force = false;
+  unsigned threads = 0;
+  bool force = false, quiet = false;
 };
 
 // Chooses by --format, or else by the ending of the output's name; rg on standard output.
@@ -50,23 +54,43 @@ std::uint32_t choose_version(const ooc::ReebFile& file, const ExtractOptions& op
   return options.nodes ? file.finest_with_nodes(*options.nodes) : 0;
 }
 
+// THROWS: Error{kUsage} for a format that has no room for the measures.
+void require_measured_format(io::GraphFormat format) {
+  using enum io::GraphFormat;
+  if (format != kJson && format != kVtp && format != kVtu)
+    throw Error(ErrorKind::kUsage, "--mesh: only json, vtp and vtu say what is measured on a mesh",
+                "use --format json, or leave --mesh out");
+}
+
 void extract(const ExtractOptions& options) {
   const io::GraphFormat format = choose_format(options);
+  if (!options.mesh.empty()) require_measured_format(format);
   // Errors in the command line are reported before the file is read.
   if (!options.threshold.empty()) parse_threshold("--threshold", options.threshold, 1);
   require_reeb_file(options.file, "extract");
   RunFiles files;
-  files.add_input(options.file, "the .reeb file");
+  const ooc::ReebFile file(options.file);
+  if (options.mesh.empty())
+    files.add_input(options.file, "the .reeb file");
+  else
+    add_segmentation_inputs(options.mesh, file, files);
   if (!options.output.empty()) files.add_output(options.output, "the output", existing_outputs(options.force));
   files.check();
-  const ooc::ReebFile file(options.file);
   if (const Error* damage = file.damage()) fmt::print(stderr, "reeb: warning: {}\n", damage->what());
   const ooc::Level level = file.load(choose_version(file, options));
+  ooc::MeasuredArcs measured;
+  if (!options.mesh.empty())
+    measured = measure_level(
+        file, level,
+        {.mesh = options.mesh,
+         .temp_folder = options.temp_folder.empty() ? io::TempDir::default_folder(options.output) : options.temp_folder,
+         .threads = options.threads,
+         .quiet = options.quiet});
   write_output(options.output, options.force, [&](std::ostream& out) {
-    io::write_graph(
-        format,
-        {level.graph, file.header().function, level.threshold, level.buckets.view(), file.header().bucket_exponent},
-        out);
+    io::write_graph(format,
+                    {level.graph, file.header().function, level.threshold, level.buckets.view(),
+                     file.header().bucket_exponent, measured.arcs},
+                    out);
   });
 }
 
@@ -94,6 +118,20 @@ void add_extract(CLI::App& app) {
                      ->option_text("SIZE");
   threshold->excludes(memory)->excludes(nodes);
   memory->excludes(nodes);
+  auto* mesh = command
+                   ->add_option("--mesh", options->mesh,
+                                "The mesh that the file was computed from. Measures the part of it on each arc: "
+                                "vertices, mean of the function, area, shortest contour (json, vtp, vtu)")
+                   ->type_name("MESH");
+  add_count(*command, "--threads", options->threads, "With --mesh: number of threads, 1 to 1024 (default: all)",
+            {.least = 1, .most = 1024})
+      ->needs(mesh);
+  command
+      ->add_option("--temp-dir", options->temp_folder,
+                   "With --mesh: folder for temporary files (default: $TMPDIR, or the folder of the output)")
+      ->type_name("DIR")
+      ->needs(mesh);
+  command->add_flag("--quiet", options->quiet, "With --mesh: print no progress and no notes")->needs(mesh);
   command->add_flag("--force", options->force, "Replace an existing output");
   command->footer("Example:\n  reeb extract scan.reeb --threshold 0.1% -o coarse.json");
   command->callback([options] { extract(*options); });

@@ -8,7 +8,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "io/file/atomic_file.h"
@@ -22,6 +21,7 @@
 #include "libreeb/base/printable.h"
 #include "ooc/run/segment.h"
 #include "tools/commands/commands.h"
+#include "tools/commands/open_segmentation.h"
 #include "tools/library/run_files.h"
 #include "tools/library/run_input.h"
 #include "tools/program/image_options.h"
@@ -30,7 +30,6 @@
 #include "tools/program/output.h"
 #include "tools/program/progress.h"
 #include "tools/program/quantity.h"
-#include "tools/program/signals.h"
 #include "tools/program/wrapping.h"
 
 namespace reeb::tools {
@@ -53,22 +52,6 @@ std::uint32_t choose_version(const ooc::ReebFile& file, const SegmentOptions& op
     return file.version_at(parse_threshold("--threshold", options.threshold, range));
   }
   return options.nodes ? file.finest_with_nodes(*options.nodes) : 0;
-}
-
-// THROWS: Error{kBadInput} if the file names no function.
-io::FunctionSpec function_of(const ooc::ReebFile& file) {
-  try {
-    return io::parse_function(file.header().function);
-  } catch (const Error& error) {
-    throw Error(ErrorKind::kBadInput, "its function is none: " + error.message(), "compute the file again")
-        .at(file.path());
-  }
-}
-
-// More than the index of any vertex: vertices of a grid that are left out have indices, too.
-std::uint64_t vertex_bound(const ooc::ReebFile& file, const MeshInfo& info) {
-  const std::uint64_t vertices = file.header().mesh_vertices;
-  return info.grid ? std::max(vertices, info.grid->vertex_count()) : vertices;
 }
 
 // The labels and values of vertices in the order of a reader, which leaves out the vertices of a grid without data.
@@ -177,16 +160,10 @@ void segment(SegmentOptions options) {
                 "name an output that ends in .i64, .ply, .vtu or .vtp");
   if (!options.threshold.empty()) parse_threshold("--threshold", options.threshold, 1);
   require_reeb_file(options.file, "segment");
-  if (options.mesh != "-" && ooc::is_reeb_file(options.mesh))
-    throw Error(ErrorKind::kBadInput, "this is a Reeb graph, not a mesh", "name the mesh first, then the .reeb file")
-        .at(options.mesh);
   if (options.temp_folder.empty()) options.temp_folder = io::TempDir::default_folder(options.output);
   const ooc::ReebFile file(options.file);
   RunFiles files;
-  files.add_input(options.mesh, "the mesh");
-  files.add_input(options.file, "the .reeb file");
-  const io::FunctionSpec function = function_of(file);
-  if (function.kind == io::FunctionSpec::Kind::kFile) files.add_input(function.argument, "the file of values");
+  add_segmentation_inputs(options.mesh, file, files);
   files.add_output(options.output, "the output", existing_outputs(options.force));
   files.check();
   const std::uint32_t version = choose_version(file, options);
@@ -202,12 +179,9 @@ void segment(SegmentOptions options) {
                 "name an output that ends in .i64, or write the mesh to a file first")
         .at(options.mesh);
   ProgressBar bar(options.quiet);
-  ooc::ComputeOptions run;
+  ooc::ComputeOptions run = segmentation_run(options.threads, options.temp_folder);
   run.memory_bytes = options.memory_bytes;
-  run.threads = options.threads != 0 ? options.threads : std::max(1u, std::thread::hardware_concurrency());
-  run.temp_dir = options.temp_folder;
   run.replace = options.force;
-  run.interrupted = watch_signals();
   run.progress = [&](const ooc::ComputeProgress& at) {
     bar.update({"following vertices"}, at.done, at.total, at.triangles);
   };

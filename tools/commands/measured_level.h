@@ -1,0 +1,25 @@
+// A level of a .reeb file together with what is measured on its mesh.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "libreeb/graph/arc_measures.h"
+#include "ooc/reeb_file/reeb_file.h"
+#include "ooc/run/segment.h"
+
+namespace reeb::tools {
+
+struct MeasureRequest {
+  std::string mesh;
+  std::string temp_folder;  // not empty
+  unsigned threads = 0;     // 0: all
+  bool quiet = false;
+};
+
+// The measures are in the order of the level's arcs.
+// THROWS: as ooc::Segmentation and its measure(); Error{kBadInput} if the mesh cannot be read twice.
+ooc::MeasuredArcs measure_level(const ooc::ReebFile& file, const ooc::Level& level, const MeasureRequest& request);
+
+}  // namespace reeb::tools

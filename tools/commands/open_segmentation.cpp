@@ -1,0 +1,48 @@
+#include "tools/commands/open_segmentation.h"
+
+#include <algorithm>
+#include <string>
+#include <thread>
+
+#include "libreeb/base/error.h"
+#include "tools/program/signals.h"
+
+namespace reeb::tools {
+namespace {
+
+// THROWS: Error{kBadInput} if the file names no function.
+io::FunctionSpec function_of(const ooc::ReebFile& file) {
+  try {
+    return io::parse_function(file.header().function);
+  } catch (const Error& error) {
+    throw Error(ErrorKind::kBadInput, "its function is none: " + error.message(), "compute the file again")
+        .at(file.path());
+  }
+}
+
+}  // namespace
+
+void add_segmentation_inputs(const std::string& mesh, const ooc::ReebFile& file, RunFiles& files) {
+  if (mesh != "-" && ooc::is_reeb_file(mesh))
+    throw Error(ErrorKind::kBadInput, "this is a Reeb graph, not a mesh", "name the mesh that it was computed from")
+        .at(mesh);
+  files.add_input(mesh, "the mesh");
+  files.add_input(file.path(), "the .reeb file");
+  const io::FunctionSpec function = function_of(file);
+  if (function.kind == io::FunctionSpec::Kind::kFile) files.add_input(function.argument, "the file of values");
+}
+
+std::uint64_t vertex_bound(const ooc::ReebFile& file, const MeshInfo& info) {
+  const std::uint64_t vertices = file.header().mesh_vertices;
+  return info.grid ? std::max(vertices, info.grid->vertex_count()) : vertices;
+}
+
+ooc::ComputeOptions segmentation_run(unsigned threads, const std::string& temp_folder) {
+  ooc::ComputeOptions run;
+  run.threads = threads != 0 ? threads : std::max(1u, std::thread::hardware_concurrency());
+  run.temp_dir = temp_folder;
+  run.interrupted = watch_signals();
+  return run;
+}
+
+}  // namespace reeb::tools

@@ -1,0 +1,25 @@
+// The segmentation of a mesh by a level of a .reeb file, as commands ask for it.
+#pragma once
+
+#include <cstdint>
+
+#include "io/functions/function_spec.h"
+#include "ooc/reeb_file/reeb_file.h"
+#include "ooc/run/compute.h"
+#include "ooc/run/segment.h"
+#include "tools/library/run_files.h"
+#include "tools/library/run_input.h"
+
+namespace reeb::tools {
+
+// The mesh and the .reeb file as inputs, and the file of values if the function has one.
+// THROWS: Error{kBadInput} if the mesh is a Reeb graph, or the file names no function.
+void add_segmentation_inputs(const std::string& mesh, const ooc::ReebFile& file, RunFiles& files);
+
+// More than the index of any vertex: vertices of a grid that are left out have indices, too.
+std::uint64_t vertex_bound(const ooc::ReebFile& file, const MeshInfo& info);
+
+// How to run, without progress.
+ooc::ComputeOptions segmentation_run(unsigned threads, const std::string& temp_folder);
+
+}  // namespace reeb::tools
