@@ -275,7 +275,9 @@ void LiveSurface::list_faces(Slot v) {
     }
     faces_.back().both_ways = faces_.back().both_ways || faces_.back().forward != forward;
     if (lo == hi || vertices_[lo].finished || vertices_[hi].finished) continue;
-    const std::array<Slot, 3> corners{v, lo, hi};
+    // The last digit of a mean depends on the order of the corners, and slots depend on how the mesh is read.
+    std::array<Slot, 3> corners{v, lo, hi};
+    std::ranges::sort(corners, {}, [&](Slot corner) { return vertices_[corner].id; });
     duplicates_.add(FirstPlaces::ascending(vertices_[v].id, vertices_[lo].id, vertices_[hi].id), mean(corners));
   }
 }

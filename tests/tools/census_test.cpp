@@ -117,7 +117,7 @@ TEST_F(Census, OfRealMeshes) {
     const std::string path = mesh_folder() + "/" + fact["file"];
     const json whole = info({path});
     expect_as_known(whole, fact);
-    constexpr std::uint64_t kMostForModel = 30'000;
+    constexpr std::uint64_t kMostForModel = 120'000;
     if (fact.number("triangles") > kMostForModel || fact["manifold"] == "tets") continue;
     expect_as_defined(whole, reference_census(read_complex(path)));
     EXPECT_EQ(info({path, "--memory", "4M"}), whole);
