@@ -100,6 +100,7 @@ int run(int argc, char** argv) {
   reeb::tools::add_generate(program);
   reeb::tools::add_convert(program);
   reeb::tools::add_defects(program);
+  reeb::tools::add_repair(program);
   reeb::tools::add_function(program);
   reeb::tools::add_segment(program);
   reeb::tools::add_report(program);

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <type_traits>
 
 #include "io/mesh/sectioned_file.h"
 #include "io/mesh/written_records.h"
@@ -24,6 +25,7 @@ class PlyWriter : public MeshWriter {
   PlyWriter(const std::string& path, const MeshWriterOptions& options)
       : columns_(column_names(options)),
         integers_(options.integer_properties),
+        types_(options.column_types),
         dimension_(options.dimension),
         header_bytes_(header(kMaxVertices, ~std::uint64_t{0}).size() + kMinPadding),
         file_(path, options, header_bytes_) {}
@@ -62,15 +64,18 @@ class PlyWriter : public MeshWriter {
     return std::find(integers_.begin(), integers_.end(), column) != integers_.end();
   }
 
+  const char* type_name(std::size_t column) const {
+    constexpr const char* kNames[] = {"char ", "uchar ", "short ",  "ushort ", "int ",
+                                      "uint ", "int64 ", "uint64 ", "float ",  "double "};
+    if (!types_.empty()) return kNames[static_cast<std::size_t>(types_[column])];
+    return is_integer(columns_[column]) ? "int " : sizeof(Number) == 4 ? "float " : "double ";
+  }
+
   std::string header(std::uint64_t vertices, std::uint64_t faces) const {
     std::string text = "ply\nformat binary_little_endian 1.0\n";
     text += "element vertex " + std::to_string(vertices) + "\n";
-    for (const std::string& name : columns_)
-      text += std::string("property ") +
-              (is_integer(name)      ? "int "
-               : sizeof(Number) == 4 ? "float "
-                                     : "double ") +
-              name + "\n";
+    for (std::size_t k = 0; k < columns_.size(); ++k)
+      text += std::string("property ") + type_name(k) + columns_[k] + "\n";
     text += "element face " + std::to_string(faces) + "\n";
     const bool is_signed = vertices <= kMaxVertices / 2;  // the bytes are the same
     text += std::string("property list uchar ") + (is_signed ? "int" : "uint") + " vertex_indices\n";
@@ -86,6 +91,7 @@ class PlyWriter : public MeshWriter {
     for (unsigned k = 0; k < std::max(3u, dimension_); ++k)
       columns.push_back(k < dimension_ ? batch.coordinates[k].data() : nullptr);
     for (const auto& column : batch.properties) columns.push_back(column.data());
+    if (!types_.empty()) return write_typed(columns, batch.vertex_count, out);
     // Integers come last.
     const std::size_t numbers = columns.size() - integers_.size();
     const std::size_t bytes = numbers * sizeof(Number) + integers_.size() * sizeof(std::int32_t);
@@ -105,9 +111,27 @@ class PlyWriter : public MeshWriter {
     }
   }
 
-  static Number narrow(double value) {
-    const auto number = static_cast<Number>(value);
-    if (std::isfinite(value) && !std::isfinite(number)) throw_out_of_range(value);
+  void write_typed(const std::vector<const double*>& columns, std::size_t count, BufferedWriter& out) const {
+    std::size_t bytes = 0;
+    for (const ScalarType type : types_) bytes += byte_size(type);
+    for (std::size_t i = 0; i < count; ++i) {
+      char* record = out.reserve_record(bytes);
+      for (std::size_t k = 0; k < columns.size(); ++k)
+        with_type(types_[k], [&](auto zero) {
+          const double value = columns[k] == nullptr ? 0 : columns[k][i];
+          const auto number = narrow<decltype(zero)>(std::is_integral_v<decltype(zero)> ? std::round(value) : value);
+          std::memcpy(record, &number, sizeof number);
+          record += sizeof number;
+        });
+      out.commit_record(bytes);
+    }
+  }
+
+  template <class To = Number>
+  static To narrow(double value) {
+    const auto number = static_cast<To>(value);
+    if constexpr (std::is_floating_point_v<To>)
+      if (std::isfinite(value) && !std::isfinite(number)) throw_out_of_range(value);
     return number;
   }
 
@@ -132,6 +156,7 @@ class PlyWriter : public MeshWriter {
   }
 
   std::vector<std::string> columns_, integers_;
+  std::vector<ScalarType> types_;  // of all columns, if the options have them
   unsigned dimension_;
   std::size_t header_bytes_;
   SectionedFile file_;

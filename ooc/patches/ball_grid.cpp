@@ -44,14 +44,14 @@ BallGrid::BallGrid(std::span<const Ball> balls) : balls_(balls.begin(), balls.en
   }
 }
 
-bool BallGrid::contains(const Point& point) const {
+std::uint32_t BallGrid::find(const Point& point) const {
   for (const Grid& grid : grids_) {
     std::uint32_t entry = grid.first.find(
         cell_key(cell_of(point[0], grid.exponent), cell_of(point[1], grid.exponent), cell_of(point[2], grid.exponent)));
     for (; entry != FlatMap::kNone; entry = entries_[entry].next)
-      if (balls_[entries_[entry].ball].contains(point)) return true;
+      if (balls_[entries_[entry].ball].contains(point)) return entries_[entry].ball;
   }
-  return false;
+  return kNone;
 }
 
 }  // namespace reeb::ooc

@@ -26,7 +26,10 @@ struct Ball {
 class BallGrid {
  public:
   explicit BallGrid(std::span<const Ball> balls);
-  bool contains(const Point& point) const;
+  static constexpr std::uint32_t kNone = ~std::uint32_t{0};
+  // The number of a ball that contains the point; kNone if there is none.
+  std::uint32_t find(const Point& point) const;
+  bool contains(const Point& point) const { return find(point) != kNone; }
 
  private:
   struct Entry {

@@ -14,6 +14,7 @@ void add_verify(CLI::App& program);
 void add_generate(CLI::App& program);
 void add_convert(CLI::App& program);
 void add_defects(CLI::App& program);
+void add_repair(CLI::App& program);
 void add_function(CLI::App& program);
 void add_segment(CLI::App& program);
 void add_plot(CLI::App& program);

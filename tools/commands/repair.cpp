@@ -1,0 +1,185 @@
+// `reeb repair MESH -o OUT`: cuts handles and fills tunnels; and takes that back.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <limits>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/file/file_name.h"
+#include "io/file/temp_dir.h"
+#include "io/formats/create_mesh.h"
+#include "libreeb/base/count_text.h"
+#include "libreeb/base/error.h"
+#include "libreeb/base/printable.h"
+#include "ooc/reeb_file/reeb_file.h"
+#include "tools/commands/commands.h"
+#include "tools/library/run_files.h"
+#include "tools/program/image_options.h"
+#include "tools/program/options.h"
+#include "tools/program/output.h"
+#include "tools/program/progress.h"
+#include "tools/program/signals.h"
+#include "tools/program/wrapping.h"
+#include "tools/repair/repair_mesh.h"
+#include "tools/repair/write_repaired.h"
+
+namespace reeb::tools {
+namespace {
+
+struct RepairArguments {
+  RepairOptions options;
+  std::string below, longest, log, undo, apply_undo, drop_components, fill_boundaries;
+  bool force = false, quiet = false;
+};
+
+double parse_length(const std::string& option, const std::string& text) {
+  const double length = text.ends_with('%') ? -1 : parse_threshold(option, text, 1);
+  if (!(length >= 0))
+    throw Error(ErrorKind::kUsage, option + ": \"" + text + "\" is not a length", "give it in the units of the mesh");
+  return length;
+}
+
+void parse(RepairArguments& arguments) {
+  RowFilter& filter = arguments.options.filter;
+  if (!arguments.below.empty()) {
+    filter.below = parse_threshold("--below", arguments.below, 100);
+    filter.below_is_percent = arguments.below.ends_with('%');
+  }
+  if (!arguments.longest.empty()) filter.longest = parse_length("--longest", arguments.longest);
+}
+
+void check_files(const RepairArguments& arguments) {
+  const RepairOptions& options = arguments.options;
+  if (options.mesh.path == "-")
+    throw Error(ErrorKind::kUsage, "the mesh is read several times, so it cannot come from standard input",
+                "write it to a file first");
+  if (!arguments.apply_undo.empty() && (!arguments.log.empty() || !arguments.undo.empty()))
+    throw Error(ErrorKind::kUsage, "--apply-undo goes with neither --log nor --undo", "leave them out");
+  if (ooc::is_reeb_file(options.mesh.path))
+    throw Error(ErrorKind::kBadInput, "this is a Reeb graph, not a mesh", "name the mesh").at(options.mesh.path);
+  io::check_mesh_name(options.output);
+  RunFiles files;
+  files.add_input(options.mesh.path, "the mesh");
+  if (!options.filter.loops.empty()) files.add_input(options.filter.loops, "the table of loops");
+  if (!arguments.apply_undo.empty()) files.add_input(arguments.apply_undo, "the undo file");
+  const io::Existing existing = existing_outputs(arguments.force);
+  files.add_output(options.output, "the output", existing);
+  if (!arguments.log.empty()) files.add_output(arguments.log, "the log", existing);
+  if (!arguments.undo.empty()) files.add_output(arguments.undo, "the undo file", existing);
+  files.check();
+}
+
+nlohmann::ordered_json log_of(const Repair& repair) {
+  nlohmann::ordered_json json = {{"schema", "reeb.repair.v1"}, {"repaired", repair.repaired}};
+  auto loops = nlohmann::ordered_json::array(), left = nlohmann::ordered_json::array();
+  for (const RepairedRow& row : repair.rows) {
+    if (row.done)
+      loops.push_back({{"rank", row.rank},
+                       {"kind", name_of(row.kind)},
+                       {"length", row.length},
+                       {"triangles_removed", row.removed},
+                       {"triangles_added", row.added},
+                       {"volume", row.volume}});
+    else
+      left.push_back({{"rank", row.rank}, {"why", row.why}});
+  }
+  json["loops"] = std::move(loops);
+  json["left"] = std::move(left);
+  return json;
+}
+
+void apply_undo(const RepairArguments& arguments) {
+  const RepairOptions& options = arguments.options;
+  const UndoRecord undo = read_undo(arguments.apply_undo);
+  ProgressBar bar(arguments.quiet);
+  WriteOptions write{options.output, late_outputs(arguments.force), false, {}};
+  write.progress = [&](std::uint64_t done, std::uint64_t total, std::uint64_t triangles) {
+    bar.update({"writing"}, done, total, triangles);
+  };
+  const Written written = write_undone(options.mesh, undo, write);
+  bar.clear();
+  if (arguments.quiet) return;
+  for (const std::string& warning : written.warnings) print_line("note: " + printable(warning));
+  print_line(fmt::format("{} put back, {} removed", count_of(undo.removed.size(), "triangle"),
+                         count_of(undo.new_triangles, "new triangle")));
+  fmt::print(stderr, "wrote {}\n", printable(options.output));
+}
+
+void run_repair(RepairArguments arguments) {
+  RepairOptions& options = arguments.options;
+  parse(arguments);
+  check_files(arguments);
+  if (options.mesh.temp_folder.empty()) options.mesh.temp_folder = io::TempDir::default_folder(options.output);
+  if (!arguments.apply_undo.empty()) return apply_undo(arguments);
+  ProgressBar bar(arguments.quiet);
+  options.interrupted = watch_signals();
+  options.progress = [&](const char* pass, std::uint64_t done, std::uint64_t total, std::uint64_t triangles) {
+    bar.update({pass}, done, total, triangles);
+  };
+  const Repair repair = plan_repair(options);
+  WriteOptions write{options.output, late_outputs(arguments.force), !arguments.undo.empty(), {}};
+  write.progress = [&](std::uint64_t done, std::uint64_t total, std::uint64_t triangles) {
+    bar.update({"writing"}, done, total, triangles);
+    if (options.interrupted()) throw Error(ErrorKind::kInterrupted, "interrupted", "run the same command again");
+  };
+  // The output is the last to appear: whoever has it has what belongs to it.
+  const Written written = write_repaired(
+      options.mesh, repair.edits, repair.mesh_vertices, repair.mesh_triangles, write, [&](const Written& whole) {
+        if (!arguments.undo.empty()) write_undo(whole.undo, arguments.undo, late_outputs(arguments.force));
+        if (arguments.log.empty()) return;
+        write_output(arguments.log, arguments.force, [&](std::ostream& out) {
+          out << log_of(repair).dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
+        });
+      });
+  bar.clear();
+  if (arguments.quiet) return;
+  for (const std::string& warning : repair.warnings) print_line("note: " + printable(warning));
+  for (const std::string& warning : written.warnings) print_line("note: " + printable(warning));
+  for (const std::string& line : summary_of(repair)) print_line(printable(line));
+  fmt::print(stderr, "wrote {}\n", printable(options.output));
+}
+
+}  // namespace
+
+void add_repair(CLI::App& program) {
+  auto arguments = std::make_shared<RepairArguments>();
+  RepairOptions& options = arguments->options;
+  CLI::App* command = program.add_subcommand("repair", "Cut small handles and fill tunnels of a surface");
+  command->add_option("MESH", options.mesh.path, "Mesh of any format, also as .gz and .zst")->required()->type_name("");
+  command->add_option("-o,--output", options.output, "Mesh to write: .ply .obj .off")->required()->type_name("OUT");
+  command->add_option("--below", arguments->below, "Loops of less persistence: 0.01, or 0.1% of the function's range")
+      ->type_name("T");
+  command->add_option("--longest", arguments->longest, "Loops with a curve of at most this length")
+      ->type_name("LENGTH");
+  command->add_option("--loops", options.filter.loops, "Only loops in a table of reeb defects, or in rows of it")
+      ->type_name("FILE.csv");
+  command->add_flag("--all", options.filter.all, "All loops that can be repaired, however long");
+  add_count(*command, "--limit", options.limit, "The first N loops that can be repaired", {.least = 1});
+  command->add_option("--log", arguments->log, "File for what was done, and what was left and why, as JSON")
+      ->type_name("FILE");
+  command->add_option("--undo", arguments->undo, "File to write with what is needed to go back")->type_name("FILE");
+  command
+      ->add_option("--apply-undo", arguments->apply_undo,
+                   "Undo file of a repair whose output is MESH: writes the mesh before it")
+      ->type_name("FILE");
+  add_format(*command, options.mesh.format);
+  add_image_options(*command, options.mesh.image);
+  add_size(*command, "--memory", options.mesh.memory_bytes,
+           "Memory that the run may use: 64M, 1.5GiB (default: no limit)");
+  add_count(*command, "--threads", options.threads, "Number of threads, 1 to 1024 (default: all)",
+            {.least = 1, .most = 1024});
+  command
+      ->add_option("--temp-dir", options.mesh.temp_folder,
+                   "Folder for temporary files (default: $TMPDIR, or the folder of the output)")
+      ->type_name("DIR");
+  command->add_flag("--force", arguments->force, "Replace an existing output");
+  command->add_flag("--quiet", arguments->quiet, "Print no progress and no summary");
+  command->footer("Example:\n  reeb repair scan.ply -o clean.ply --log clean.json --undo clean.undo");
+  command->callback([arguments] { run_repair(*arguments); });
+}
+
+}  // namespace reeb::tools

@@ -1,0 +1,31 @@
+// Which of many cuts divide a surface.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tools/defects/valued_mesh.h"
+#include "tools/repair/mesh_edits.h"
+
+namespace reeb::tools {
+
+// A vertex on either side of a cut; nothing if none is left.
+struct RimPair {
+  std::uint32_t job = 0;
+  std::optional<VertexRef> first, second;
+};
+
+// The jobs that should not be done, the last ones first, with the reason: without them, no two sides of a cut lie in
+// different components of the edited mesh. Reads the mesh once.
+// MEMORY: 4 bytes per vertex of the mesh; if that is more than `most_bytes`, it is unknown what divides, so all
+// pairs are returned.
+// REQUIRES: pairs ascend by their jobs.
+std::vector<std::pair<std::uint32_t, std::string>> dividing_curves(
+    const ValuedMesh& mesh, const MeshEdits& edits, std::uint64_t mesh_vertices, const std::vector<RimPair>& pairs,
+    std::uint64_t most_bytes, const std::function<void(std::uint64_t done, std::uint64_t total)>& progress);
+
+}  // namespace reeb::tools

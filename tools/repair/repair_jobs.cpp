@@ -1,0 +1,264 @@
+#include "tools/repair/repair_jobs.h"
+
+#include <algorithm>
+#include <optional>
+#include <span>
+#include <utility>
+
+#include "libreeb/base/error.h"
+#include "libreeb/repair/curve_cut.h"
+#include "ooc/patches/ball_clusters.h"
+#include "ooc/patches/collected_patches.h"
+#include "ooc/threads/parallel.h"
+#include "tools/repair/divided_parts.h"
+
+namespace reeb::tools {
+namespace {
+
+// Jobs that are done in one patch.
+struct Cluster {
+  std::vector<std::uint32_t> jobs;
+  std::vector<ooc::Ball> balls;
+  bool done = false;
+  MeshEdits edits;
+  std::vector<RimPair> open;  // by the job: rims between which no way is in the patch
+};
+
+std::optional<std::vector<std::uint32_t>> numbers_in(const EditablePatch& patch, std::size_t vertices,
+                                                     const std::vector<VertexId>& curve) {
+  std::vector<std::uint32_t> numbers;
+  for (const VertexId id : curve) {
+    std::size_t low = 0, high = vertices;
+    while (low < high) {
+      const std::size_t middle = (low + high) / 2;
+      if (patch.vertex(static_cast<std::uint32_t>(middle)).id < id)
+        low = middle + 1;
+      else
+        high = middle;
+    }
+    if (low == vertices || patch.vertex(static_cast<std::uint32_t>(low)).id != id) return std::nullopt;
+    numbers.push_back(static_cast<std::uint32_t>(low));
+  }
+  return numbers;
+}
+
+// What is different in the patch. `number[v]` becomes what each vertex is in the edits.
+MeshEdits edits_of(const EditablePatch& patch, std::vector<VertexRef>& number) {
+  MeshEdits edits;
+  number.clear();
+  for (std::uint32_t v = 0; v < patch.vertex_count(); ++v) {
+    const EditablePatch::Vertex& vertex = patch.vertex(v);
+    const bool is_new = vertex.id == VertexId::none();
+    number.push_back({is_new ? 0 : vertex.id.value(), is_new});
+    if (is_new) {
+      if (!patch.is_used(v)) {  // a later cut removed it
+        number[v] = number[vertex.parents[0]];
+        continue;
+      }
+      NewVertex added{vertex.position, {}};
+      for (std::size_t k = 0; k < 3; ++k) added.parents[k] = number[vertex.parents[k]];
+      number[v].number = edits.vertices.size();
+      edits.vertices.push_back(added);
+      continue;
+    }
+    if (vertex.whole && !vertex.used_elsewhere && !patch.all_at(v).empty() && !patch.is_used(v))
+      edits.dropped.push_back(vertex.id.value());
+  }
+  for (std::uint32_t t = 0; t < patch.triangle_count(); ++t) {
+    const EditablePatch::Triangle& triangle = patch.triangle(t);
+    if (triangle.id != EditablePatch::kAdded) {
+      if (!triangle.there) edits.removed.push_back(triangle.id);
+    } else if (triangle.there) {
+      const auto& c = triangle.corners;
+      edits.triangles.push_back({number[c[0]], number[c[1]], number[c[2]]});
+    }
+  }
+  for (const auto& [t, id] : patch.repetitions())
+    if (!patch.triangle(t).there) edits.removed.push_back(id);
+  return edits;
+}
+
+class Jobs {
+ public:
+  Jobs(const ValuedMesh& mesh, const std::vector<RepairJob>& jobs, const PatchScale& scale, const JobOptions& options)
+      : mesh_(mesh),
+        jobs_(jobs),
+        scale_(scale),
+        options_(options),
+        left_out_(jobs.size(), 0),
+        too_small_(jobs.size(), 0) {
+    done_.results.resize(jobs.size());
+    for (const RepairJob& job : jobs) {
+      ooc::Ball ball;
+      for (std::size_t k = 0; k < 3; ++k) ball.center[k] = (job.box[0][k] + job.box[1][k]) / 2;
+      ball.radius = distance(job.box[0], job.box[1]) / 2 +
+                    kReach * std::max(job.length / static_cast<double>(job.curve.size()), kLeastEdge * scale.edge);
+      balls_.push_back(ball);
+    }
+  }
+
+  JobsDone run() {
+    make_clusters();
+    for (int round = 0; round < kMostRounds; ++round) {
+      read_patches();
+      if (round < kMostDoublings && enlarge()) continue;
+      if (!leave_out_dividing()) break;
+    }
+    for (Cluster& cluster : clusters_) done_.edits.add(cluster.edits);
+    done_.edits.sort();
+    return std::move(done_);
+  }
+
+ private:
+  static constexpr double kReach = 6, kLeastEdge = 0.25;  // of a patch beyond its curve, in edges
+  static constexpr int kMostDoublings = 3, kMostRounds = 20;
+
+  void make_clusters() {
+    std::vector<Cluster> clusters;
+    for (const auto& members : ooc::clusters_of(balls_)) {
+      Cluster cluster;
+      cluster.jobs = members;
+      for (const std::uint32_t j : members) cluster.balls.push_back(balls_[j]);
+      // What was done stays done as long as the same jobs are together.
+      for (Cluster& old : clusters_)
+        if (old.done && old.jobs == cluster.jobs) cluster = std::move(old);
+      clusters.push_back(std::move(cluster));
+    }
+    clusters_ = std::move(clusters);
+  }
+
+  void read_patches() {
+    const double most = static_cast<double>(options_.patch_bytes) / kBytesPerVertex;
+    for (std::size_t begin = 0; begin < clusters_.size();) {
+      std::vector<Cluster*> now;
+      double sum = 0;
+      for (; begin < clusters_.size() && (now.empty() || sum < most); ++begin) {
+        Cluster& cluster = clusters_[begin];
+        if (cluster.done) continue;
+        now.push_back(&cluster);
+        for (const ooc::Ball& ball : cluster.balls) sum += scale_.vertices(ball.radius);
+      }
+      if (!now.empty()) read(now);
+    }
+  }
+
+  void read(const std::vector<Cluster*>& now) {
+    std::vector<ooc::Ball> balls;
+    std::vector<std::uint32_t> patch_of;
+    for (std::uint32_t i = 0; i < now.size(); ++i)
+      for (const ooc::Ball& ball : now[i]->balls) {
+        balls.push_back(ball);
+        patch_of.push_back(i);
+      }
+    MemoryBudget budget;
+    ooc::CollectedPatches patches(balls, patch_of, now.size(), budget);
+    mesh_.read(
+        [&](const MeshBatch& batch, std::span<const std::vector<double>>, std::uint64_t done, std::uint64_t total) {
+          patches.add(batch);
+          if (options_.progress) options_.progress(done, total);
+        });
+    patches.finish();
+    done_.mesh_vertices = patches.mesh_vertices();
+    done_.mesh_triangles = patches.mesh_triangles();
+    ooc::in_parallel(options_.threads, now.size(), [&](std::size_t i) { work(patches.patch(i), *now[i]); });
+  }
+
+  void work(EditablePatch patch, Cluster& cluster) {
+    const std::size_t vertices = patch.vertex_count();
+    struct Open {
+      std::uint32_t job;
+      std::vector<std::uint32_t> first, second;
+    };
+    std::vector<Open> open;
+    for (const std::uint32_t j : cluster.jobs) {
+      JobResult& result = done_.results[j];
+      if (left_out_[j] != 0) continue;
+      const auto curve = numbers_in(patch, vertices, jobs_[j].curve);
+      Cut cut;
+      if (curve)
+        cut = jobs_[j].is_boundary ? close_boundary(patch, *curve, {options_.float32})
+                                   : cut_along(patch, *curve, {options_.float32});
+      else
+        cut.why = "its curve is not on the surface";
+      result = {cut.done, std::move(cut.why), cut.removed, cut.added, cut.volume};
+      too_small_[j] = cut.too_small ? 1 : 0;
+      if (cut.done && !cut.connected) open.push_back({j, std::move(cut.first_side), std::move(cut.second_side)});
+    }
+    std::vector<VertexRef> number;
+    cluster.edits = edits_of(patch, number);
+    cluster.open.clear();
+    for (const Open& rims : open) {
+      const auto left = [&](const std::vector<std::uint32_t>& rim) {
+        const auto it = std::ranges::find_if(rim, [&](std::uint32_t v) { return patch.is_used(v); });
+        return it == rim.end() ? std::optional<VertexRef>{} : number[*it];
+      };
+      cluster.open.push_back({rims.job, left(rims.first), left(rims.second)});
+    }
+    cluster.done = true;
+  }
+
+  // Doubles the balls of jobs whose patches were too small. Returns whether there was one.
+  bool enlarge() {
+    bool any = false;
+    for (std::uint32_t j = 0; j < jobs_.size(); ++j) {
+      if (done_.results[j].done || too_small_[j] == 0 || scale_.too_large(2 * balls_[j].radius)) continue;
+      balls_[j].radius *= 2;
+      any = true;
+      for (Cluster& cluster : clusters_)
+        if (std::ranges::binary_search(cluster.jobs, j)) cluster.done = false;
+    }
+    if (any) make_clusters();
+    return any;
+  }
+
+  // Returns whether there was one.
+  bool leave_out_dividing() {
+    std::vector<RimPair> open;
+    for (const Cluster& cluster : clusters_) open.insert(open.end(), cluster.open.begin(), cluster.open.end());
+    if (open.empty()) return false;
+    std::sort(open.begin(), open.end(), [](const RimPair& a, const RimPair& b) { return a.job < b.job; });
+    MeshEdits edits;
+    std::vector<std::uint64_t> base;
+    for (Cluster& cluster : clusters_) {
+      for (const RimPair& pair : cluster.open)
+        for (RimPair& other : open)
+          if (other.job == pair.job)
+            for (std::optional<VertexRef>* side : {&other.first, &other.second})
+              if (*side && (*side)->is_new) (*side)->number += edits.vertices.size();
+      edits.add(cluster.edits);
+    }
+    edits.sort();
+    const auto dividing = dividing_curves(mesh_, edits, done_.mesh_vertices, open, options_.most_bytes,
+                                          [&](std::uint64_t done, std::uint64_t total) {
+                                            if (options_.progress) options_.progress(done, total);
+                                          });
+    for (const auto& [job, why] : dividing) {
+      left_out_[job] = 1;
+      done_.results[job] = {};
+      done_.results[job].why = why;
+      for (Cluster& cluster : clusters_)
+        if (std::ranges::binary_search(cluster.jobs, job)) cluster.done = false;
+    }
+    return !dividing.empty();
+  }
+
+  static constexpr double kBytesPerVertex = 220;
+
+  const ValuedMesh& mesh_;
+  const std::vector<RepairJob>& jobs_;
+  const PatchScale& scale_;
+  const JobOptions& options_;
+  std::vector<std::uint8_t> left_out_, too_small_;
+  std::vector<ooc::Ball> balls_;
+  std::vector<Cluster> clusters_;
+  JobsDone done_;
+};
+
+}  // namespace
+
+JobsDone run_jobs(const ValuedMesh& mesh, const std::vector<RepairJob>& jobs, const PatchScale& scale,
+                  const JobOptions& options) {
+  return Jobs(mesh, jobs, scale, options).run();
+}
+
+}  // namespace reeb::tools

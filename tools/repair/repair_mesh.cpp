@@ -1,0 +1,133 @@
+#include "tools/repair/repair_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+#include "io/file/content_source.h"
+#include "libreeb/base/count_text.h"
+#include "libreeb/base/error.h"
+#include "tools/repair/mesh_output.h"
+#include "tools/repair/repair_jobs.h"
+
+namespace reeb::tools {
+namespace {
+
+class Plan {
+ public:
+  explicit Plan(const RepairOptions& options) : options_(options) {
+    const io::Input input(options.mesh.path);
+    const MeshInfo info = open_for_copy(input, options.mesh, options.output)->info();
+    jobs_.float32 = has_float32_positions(input, info);
+    jobs_.threads = options.threads;
+    jobs_.most_bytes = options.mesh.memory_bytes;
+    if (options.mesh.memory_bytes != MemoryBudget::kUnlimited)
+      jobs_.patch_bytes = std::min(jobs_.patch_bytes, options.mesh.memory_bytes / 2);
+    jobs_.progress = [this](std::uint64_t done, std::uint64_t total) {
+      if (options_.interrupted && options_.interrupted())
+        throw Error(ErrorKind::kInterrupted, "interrupted", "run the same command again");
+      if (options_.progress) options_.progress("repairing", done, total, 0);
+    };
+    repair_.warnings = lost_properties(input, info, options.output);
+  }
+
+  Repair run() {
+    const Defects defects = find();
+    const std::vector<ChosenRow> rows = choose_rows(defects, options_.filter);
+    for (const ChosenRow& row : rows)
+      repair_.rows.push_back({row.rank, row.row->kind, row.row->length(), false, row.why_not, 0, 0, 0});
+    const ValuedMesh mesh(options_.mesh, {});
+    // Rows that cannot be repaired make room for later ones, so the choice may have to be made again.
+    std::vector<std::uint8_t> failed(rows.size(), 0);
+    for (bool again = true; again;) {
+      again = false;
+      std::vector<std::size_t> chosen;
+      for (std::size_t i = 0; i < rows.size() && chosen.size() < options_.limit; ++i)
+        if (rows[i].why_not.empty() && failed[i] == 0) chosen.push_back(i);
+      std::stable_sort(chosen.begin(), chosen.end(),
+                       [&](std::size_t a, std::size_t b) { return rows[a].row->length() < rows[b].row->length(); });
+      const JobsDone done = run_jobs(mesh, jobs_of(rows, chosen), defects.scale, jobs_);
+      for (RepairedRow& row : repair_.rows) row.done = false;
+      for (std::size_t k = 0; k < chosen.size(); ++k) {
+        note(repair_.rows[chosen[k]], done.results[k]);
+        if (done.results[k].done) continue;
+        failed[chosen[k]] = 1;
+        again = again || chosen.size() == options_.limit;
+      }
+      repair_.edits = done.edits;
+      repair_.mesh_vertices = done.mesh_vertices;
+      repair_.mesh_triangles = done.mesh_triangles;
+    }
+    for (std::size_t i = 0; i < repair_.rows.size(); ++i) {
+      RepairedRow& row = repair_.rows[i];
+      repair_.repaired += row.done ? 1 : 0;
+      if (!row.done && row.why.empty()) row.why = "it is beyond --limit";
+    }
+    if (repair_.mesh_triangles == 0) count(mesh);
+    return std::move(repair_);
+  }
+
+ private:
+  Defects find() {
+    FindDefectsOptions find;
+    find.mesh = options_.mesh;
+    find.threads = options_.threads;
+    find.interrupted = options_.interrupted;
+    find.computing = [&](const ComputeProgress& p) {
+      if (options_.progress) options_.progress("Reeb graphs", p.done, p.total, p.triangles);
+    };
+    find.searching = [&](std::uint64_t done, std::uint64_t total, std::uint64_t triangles) {
+      if (options_.progress) options_.progress("curves", done, total, triangles);
+    };
+    return find_defects(find);
+  }
+
+  static std::vector<RepairJob> jobs_of(const std::vector<ChosenRow>& rows, const std::vector<std::size_t>& chosen) {
+    std::vector<RepairJob> jobs;
+    for (const std::size_t i : chosen) {
+      const DefectRow& row = *rows[i].row;
+      jobs.push_back({row.curve.path, row.length(), row.curve.box, false});
+    }
+    return jobs;
+  }
+
+  static void note(RepairedRow& row, const JobResult& result) {
+    row.done = result.done;
+    row.why = result.why;
+    row.removed = result.removed;
+    row.added = result.added;
+    // A filled tunnel adds to the solid, a cut handle takes away, however the triangles are turned.
+    row.volume = row.kind == DefectKind::kTunnel ? std::abs(result.volume) : -std::abs(result.volume);
+  }
+
+  // Nothing is to be repaired, so the mesh was not read yet.
+  void count(const ValuedMesh& mesh) {
+    mesh.read(
+        [&](const MeshBatch& batch, std::span<const std::vector<double>>, std::uint64_t done, std::uint64_t total) {
+          repair_.mesh_vertices += batch.vertex_count;
+          repair_.mesh_triangles += batch.triangle_count();
+          jobs_.progress(done, total);
+        });
+  }
+
+  const RepairOptions& options_;
+  JobOptions jobs_;
+  Repair repair_;
+};
+
+}  // namespace
+
+Repair plan_repair(const RepairOptions& options) { return Plan(options).run(); }
+
+std::vector<std::string> summary_of(const Repair& repair) {
+  std::vector<std::string> lines = {std::to_string(repair.repaired) + " of " + count_of(repair.rows.size(), "loop") +
+                                    " repaired"};
+  std::map<std::string, std::size_t> reasons;
+  for (const RepairedRow& row : repair.rows)
+    if (!row.done) ++reasons[row.why];
+  for (const auto& [why, count] : reasons) lines.push_back(std::to_string(count) + " left: " + why);
+  return lines;
+}
+
+}  // namespace reeb::tools

@@ -1,0 +1,51 @@
+// From a mesh to what is to be changed in it: what `reeb repair` does, except for writing.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "tools/defects/valued_mesh.h"
+#include "tools/repair/mesh_edits.h"
+#include "tools/repair/row_choice.h"
+
+namespace reeb::tools {
+
+struct RepairOptions {
+  MeshSource mesh;
+  std::string output;  // its format decides what can be kept
+  RowFilter filter;
+  std::size_t limit = std::numeric_limits<std::size_t>::max();
+  unsigned threads = 0;
+  std::function<bool()> interrupted{};
+  std::function<void(const char* pass, std::uint64_t done, std::uint64_t total, std::uint64_t triangles)> progress{};
+};
+
+struct RepairedRow {
+  std::size_t rank = 0;
+  DefectKind kind = DefectKind::kUnclear;
+  double length = 0;
+  bool done = false;
+  std::string why;  // it was not
+  std::uint64_t removed = 0, added = 0;
+  double volume = 0;  // that the solid gained: positive at a tunnel
+};
+
+struct Repair {
+  std::uint64_t mesh_vertices = 0, mesh_triangles = 0;
+  MeshEdits edits;
+  std::vector<RepairedRow> rows;  // by rank
+  std::size_t repaired = 0;       // of them
+  std::vector<std::string> warnings;
+};
+
+// THROWS: as find_defects(); Error{kBadInput} for a mesh of cells.
+Repair plan_repair(const RepairOptions& options);
+
+// What was done and what was left, in a few lines.
+std::vector<std::string> summary_of(const Repair& repair);
+
+}  // namespace reeb::tools

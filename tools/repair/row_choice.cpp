@@ -1,0 +1,123 @@
+#include "tools/repair/row_choice.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cstdint>
+#include <map>
+#include <tuple>
+
+#include "io/file/content_source.h"
+#include "io/text/text_cursor.h"
+#include "libreeb/base/error.h"
+
+namespace reeb::tools {
+namespace {
+
+// A loop by its nodes and its function.
+using LoopName = std::tuple<std::uint64_t, std::uint64_t, std::string>;
+
+// The fields of a line of CSV.
+std::vector<std::string> fields_of(const std::string& line) {
+  std::vector<std::string> fields(1);
+  bool quoted = false;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    if (line[i] == '"' && quoted && i + 1 < line.size() && line[i + 1] == '"')
+      fields.back() += line[i++];
+    else if (line[i] == '"')
+      quoted = !quoted;
+    else if (line[i] == ',' && !quoted)
+      fields.emplace_back();
+    else if (line[i] != '\r')
+      fields.back() += line[i];
+  }
+  return fields;
+}
+
+std::vector<std::string> lines_of(const std::string& path) {
+  const auto source = io::open_content(path);
+  std::vector<std::string> lines(1);
+  for (std::uint64_t at = 0;;) {
+    const std::string_view view = source->view(at);
+    if (view.empty()) break;
+    for (const char c : view) {
+      if (c == '\n')
+        lines.emplace_back();
+      else
+        lines.back() += c;
+    }
+    at += view.size();
+  }
+  return lines;
+}
+
+// The rows of the file, with the line of each.
+std::map<LoopName, std::size_t> read_names(const std::string& path) {
+  const std::vector<std::string> lines = lines_of(path);
+  const std::vector<std::string> header = fields_of(lines[0]);
+  const auto column = [&](const char* name) {
+    const auto it = std::ranges::find(header, name);
+    if (it == header.end())
+      throw Error(ErrorKind::kBadInput, std::string("it has no column ") + name,
+                  "name a table that reeb defects -o FILE.csv wrote, or rows of it below its first line")
+          .at(path, "1");
+    return static_cast<std::size_t>(it - header.begin());
+  };
+  const std::size_t lo = column("lo"), hi = column("hi"), function = column("function");
+  std::map<LoopName, std::size_t> names;
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    if (lines[i].find_first_not_of(" \t\r") == std::string::npos) continue;
+    const std::vector<std::string> fields = fields_of(lines[i]);
+    const auto number = [&](std::size_t k) {
+      std::uint64_t value = 0;
+      const char* const end = k < fields.size() ? fields[k].data() + fields[k].size() : nullptr;
+      if (end == nullptr || fields[k].empty() || std::from_chars(fields[k].data(), end, value).ptr != end)
+        throw Error(ErrorKind::kBadInput, "this is no row of a table of defects", "write rows as reeb defects does")
+            .at(path, std::to_string(i + 1));
+      return value;
+    };
+    names.emplace(LoopName(number(lo), number(hi), function < fields.size() ? fields[function] : ""), i + 1);
+  }
+  return names;
+}
+
+std::string why_filtered(const DefectRow& row, const Defects& defects, const RowFilter& filter) {
+  if (filter.longest && !(row.length() <= *filter.longest))
+    return fmt::format("its curve is longer than --longest {:.6g}", *filter.longest);
+  if (filter.below && !((filter.below_is_percent ? row.percent : row.persistence) < *filter.below))
+    return fmt::format("its persistence is not below {:.6g}{}", *filter.below, filter.below_is_percent ? "%" : "");
+  if (filter.all || filter.longest || filter.below || !filter.loops.empty()) return {};
+  const auto& suggested = defects.table.suggestion.length;
+  if (!suggested) return "no length is suggested that divides defects from features";
+  if (!(row.length() <= *suggested)) return fmt::format("its curve is longer than the suggested {:.6g}", *suggested);
+  return {};
+}
+
+std::string why_not(const DefectRow& row, const Defects& defects, const RowFilter& filter) {
+  if (std::string why = why_filtered(row, defects, filter); !why.empty()) return why;
+  if (row.curve.path.empty()) return "no closed curve along edges was found near it";
+  if (row.kind == DefectKind::kUnclear) return "its kind is unclear: a boundary, or no oriented manifold";
+  return {};
+}
+
+}  // namespace
+
+std::vector<ChosenRow> choose_rows(const Defects& defects, const RowFilter& filter) {
+  std::map<LoopName, std::size_t> names;
+  if (!filter.loops.empty()) names = read_names(filter.loops);
+  std::vector<ChosenRow> chosen;
+  for (std::size_t i = 0; i < defects.table.rows.size(); ++i) {
+    const DefectRow& row = defects.table.rows[i];
+    const LoopName name(row.lo.key.vertex.value(), row.hi.key.vertex.value(), defects.functions[row.function]);
+    if (!filter.loops.empty() && names.erase(name) == 0) continue;
+    chosen.push_back({i + 1, &row, why_not(row, defects, filter)});
+  }
+  if (!names.empty())
+    throw Error(ErrorKind::kBadInput, "this row is no defect of the mesh",
+                "run reeb defects on this mesh again; functions must be x, y and z")
+        .at(filter.loops, std::to_string(names.begin()->second));
+  return chosen;
+}
+
+}  // namespace reeb::tools

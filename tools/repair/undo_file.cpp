@@ -1,0 +1,107 @@
+#include "tools/repair/undo_file.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstring>
+#include <span>
+#include <string_view>
+
+#include "io/file/checksum.h"
+#include "io/file/file.h"
+#include "libreeb/base/error.h"
+#include "libreeb/base/state_stream.h"
+
+namespace reeb::tools {
+namespace {
+
+constexpr std::string_view kMagic = "reebundo";
+constexpr std::uint32_t kVersion = 1;
+
+class BytesWriter : public StateWriter {
+ public:
+  void write(std::span<const std::byte> more) override { bytes.insert(bytes.end(), more.begin(), more.end()); }
+  std::vector<std::byte> bytes;
+};
+
+class BytesReader : public StateReader {
+ public:
+  explicit BytesReader(std::span<const std::byte> bytes) : bytes_(bytes) {}
+  void read(std::span<std::byte> out) override {
+    if (out.size() > bytes_.size()) throw DamagedState();
+    std::copy_n(bytes_.begin(), out.size(), out.begin());
+    bytes_ = bytes_.subspan(out.size());
+  }
+  std::uint64_t left() const override { return bytes_.size(); }
+
+ private:
+  std::span<const std::byte> bytes_;
+};
+
+bool ascends(const std::vector<std::uint64_t>& list) {
+  return std::ranges::adjacent_find(list, std::greater_equal<>()) == list.end();
+}
+
+[[noreturn]] void refuse(const std::string& path, const char* what) {
+  throw Error(ErrorKind::kBadInput, what, "name a file that reeb repair --undo wrote").at(path);
+}
+
+}  // namespace
+
+void write_undo(const UndoRecord& undo, const std::string& path, io::Existing existing) {
+  BytesWriter out;
+  out.write(std::as_bytes(std::span(kMagic)));
+  out.put(kVersion);
+  out.put(undo.columns);
+  for (const std::uint64_t count : {undo.vertices, undo.triangles, undo.new_vertices, undo.new_triangles})
+    out.put(count);
+  out.put(undo.digest);
+  out.put_array(undo.dropped);
+  out.put_array(undo.values);
+  out.put_array(undo.removed);
+  out.put_array(undo.corners);
+  const std::uint64_t sum = io::checksum(out.bytes);
+  out.put(sum);
+  io::AtomicFile file(path, {.existing = existing});
+  file.out().append(out.bytes);
+  file.commit();
+}
+
+UndoRecord read_undo(const std::string& path) {
+  const io::File file = io::File::open_for_reading(path);
+  if (file.size() < kMagic.size() + sizeof kVersion + 8) refuse(path, "this is no undo file");
+  std::vector<std::byte> bytes(file.size());
+  file.read_at(0, bytes);
+  if (std::memcmp(bytes.data(), kMagic.data(), kMagic.size()) != 0) refuse(path, "this is no undo file");
+  BytesReader in(std::span<const std::byte>(bytes).subspan(kMagic.size()));
+  if (in.get<std::uint32_t>() != kVersion) refuse(path, "this undo file is of another version of the program");
+  std::uint64_t sum = 0;
+  std::memcpy(&sum, bytes.data() + bytes.size() - 8, 8);
+  if (io::checksum(std::span<const std::byte>(bytes).first(bytes.size() - 8)) != sum)
+    refuse(path, "the file is damaged");
+  UndoRecord undo;
+  try {
+    in.get(undo.columns);
+    for (std::uint64_t* count : {&undo.vertices, &undo.triangles, &undo.new_vertices, &undo.new_triangles})
+      in.get(*count);
+    in.get(undo.digest);
+    in.get_array(undo.dropped);
+    in.get_array(undo.values);
+    in.get_array(undo.removed);
+    in.get_array(undo.corners);
+  } catch (const DamagedState&) {
+    refuse(path, "the file is damaged");
+  }
+  const std::uint64_t vertices = undo.vertices - undo.new_vertices + undo.dropped.size();
+  const std::uint64_t triangles = undo.triangles - undo.new_triangles + undo.removed.size();
+  const auto below = [](const std::vector<std::uint64_t>& list, std::uint64_t end) {
+    return std::ranges::all_of(list, [&](std::uint64_t x) { return x < end; });
+  };
+  if (undo.new_vertices > undo.vertices || undo.new_triangles > undo.triangles ||
+      undo.values.size() != undo.columns * undo.dropped.size() || undo.corners.size() != 3 * undo.removed.size() ||
+      !ascends(undo.dropped) || !ascends(undo.removed) || !below(undo.dropped, vertices) ||
+      !below(undo.removed, triangles) || !below(undo.corners, vertices))
+    refuse(path, "the file is damaged");
+  return undo;
+}
+
+}  // namespace reeb::tools
