@@ -50,6 +50,14 @@ void parse(RepairArguments& arguments) {
     filter.below_is_percent = arguments.below.ends_with('%');
   }
   if (!arguments.longest.empty()) filter.longest = parse_length("--longest", arguments.longest);
+  CleaningOptions& cleaning = arguments.options.cleaning;
+  if (!arguments.fill_boundaries.empty())
+    cleaning.boundary_length = parse_length("--fill-boundaries", arguments.fill_boundaries);
+  if (arguments.drop_components.empty()) return;
+  cleaning.components_percent = parse_threshold("--drop-components", arguments.drop_components, 100);
+  if (!arguments.drop_components.ends_with('%') || !(*cleaning.components_percent <= 100))
+    throw Error(ErrorKind::kUsage, "--drop-components: \"" + arguments.drop_components + "\" is not a share",
+                "give it as 1%, of the triangles of the largest component");
 }
 
 void check_files(const RepairArguments& arguments) {
@@ -89,6 +97,14 @@ nlohmann::ordered_json log_of(const Repair& repair) {
   }
   json["loops"] = std::move(loops);
   json["left"] = std::move(left);
+  const CleaningOptions& cleaning = repair.cleaning;
+  if (cleaning.degenerate) json["degenerate_dropped"] = repair.degenerate;
+  if (cleaning.duplicates) json["duplicates_dropped"] = repair.duplicates;
+  if (cleaning.components_percent) json["components_dropped"] = repair.components;
+  if (cleaning.boundary_length) {
+    json["boundaries_filled"] = repair.boundaries_filled;
+    json["boundaries_left"] = repair.boundaries_left;
+  }
   return json;
 }
 
@@ -159,6 +175,14 @@ void add_repair(CLI::App& program) {
       ->type_name("FILE.csv");
   command->add_flag("--all", options.filter.all, "All loops that can be repaired, however long");
   add_count(*command, "--limit", options.limit, "The first N loops that can be repaired", {.least = 1});
+  command
+      ->add_option("--drop-components", arguments->drop_components,
+                   "Drop components of fewer triangles than N% of the largest one")
+      ->type_name("N%");
+  command->add_option("--fill-boundaries", arguments->fill_boundaries, "Fill boundaries of at most this length")
+      ->type_name("LENGTH");
+  command->add_flag("--drop-degenerate", options.cleaning.degenerate, "Drop triangles that repeat a corner");
+  command->add_flag("--drop-duplicates", options.cleaning.duplicates, "Drop repetitions of triangles");
   command->add_option("--log", arguments->log, "File for what was done, and what was left and why, as JSON")
       ->type_name("FILE");
   command->add_option("--undo", arguments->undo, "File to write with what is needed to go back")->type_name("FILE");

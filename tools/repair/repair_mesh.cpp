@@ -38,22 +38,42 @@ class Plan {
     for (const ChosenRow& row : rows)
       repair_.rows.push_back({row.rank, row.row->kind, row.row->length(), false, row.why_not, 0, 0, 0});
     const ValuedMesh mesh(options_.mesh, {});
+    ooc::Workspace space(options_.mesh.temp_folder, options_.mesh.memory_bytes);
+    const Cleaning cleaning = plan_cleaning(mesh, options_.cleaning, space, jobs_.progress);
     // Rows that cannot be repaired make room for later ones, so the choice may have to be made again.
     std::vector<std::uint8_t> failed(rows.size(), 0);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      if (!rows[i].why_not.empty() || !is_dropped(cleaning, *rows[i].row)) continue;
+      failed[i] = 1;
+      repair_.rows[i].why = "its component is dropped";
+    }
     for (bool again = true; again;) {
       again = false;
       std::vector<std::size_t> chosen;
       for (std::size_t i = 0; i < rows.size() && chosen.size() < options_.limit; ++i)
         if (rows[i].why_not.empty() && failed[i] == 0) chosen.push_back(i);
+      const std::size_t chosen_count = chosen.size();
+      for (std::size_t i = 0; i < cleaning.boundaries.size(); ++i) chosen.push_back(rows.size() + i);
+      const auto length = [&](std::size_t i) {
+        return i < rows.size() ? rows[i].row->length() : cleaning.boundaries[i - rows.size()].length;
+      };
       std::stable_sort(chosen.begin(), chosen.end(),
-                       [&](std::size_t a, std::size_t b) { return rows[a].row->length() < rows[b].row->length(); });
-      const JobsDone done = run_jobs(mesh, jobs_of(rows, chosen), defects.scale, jobs_);
+                       [&](std::size_t a, std::size_t b) { return length(a) < length(b); });
+      const JobsDone done = run_jobs(mesh, jobs_of(rows, cleaning.boundaries, chosen), defects.scale, jobs_);
       for (RepairedRow& row : repair_.rows) row.done = false;
+      repair_.boundaries_filled = 0;
+      repair_.boundaries_left.assign(cleaning.pinched_boundaries, "it is not one simple path");
       for (std::size_t k = 0; k < chosen.size(); ++k) {
-        note(repair_.rows[chosen[k]], done.results[k]);
-        if (done.results[k].done) continue;
+        const JobResult& result = done.results[k];
+        if (chosen[k] >= rows.size()) {
+          repair_.boundaries_filled += result.done ? 1u : 0u;
+          if (!result.done) repair_.boundaries_left.push_back(result.why);
+          continue;
+        }
+        note(repair_.rows[chosen[k]], result);
+        if (result.done) continue;
         failed[chosen[k]] = 1;
-        again = again || chosen.size() == options_.limit;
+        again = again || chosen_count == options_.limit;
       }
       repair_.edits = done.edits;
       repair_.mesh_vertices = done.mesh_vertices;
@@ -61,10 +81,11 @@ class Plan {
     }
     for (std::size_t i = 0; i < repair_.rows.size(); ++i) {
       RepairedRow& row = repair_.rows[i];
-      repair_.repaired += row.done ? 1 : 0;
+      repair_.repaired += row.done ? 1u : 0u;
       if (!row.done && row.why.empty()) row.why = "it is beyond --limit";
     }
     if (repair_.mesh_triangles == 0) count(mesh);
+    add_drops(cleaning, mesh);
     return std::move(repair_);
   }
 
@@ -83,9 +104,33 @@ class Plan {
     return find_defects(find);
   }
 
-  static std::vector<RepairJob> jobs_of(const std::vector<ChosenRow>& rows, const std::vector<std::size_t>& chosen) {
+  static bool is_dropped(const Cleaning& cleaning, const DefectRow& row) {
+    const std::uint64_t v = row.lo.key.vertex.value();
+    return v < cleaning.in_dropped.size() && cleaning.in_dropped[v];
+  }
+
+  void add_drops(const Cleaning& cleaning, const ValuedMesh& mesh) {
+    repair_.cleaning = options_.cleaning;
+    repair_.degenerate = cleaning.degenerate;
+    repair_.duplicates = cleaning.duplicates;
+    repair_.components = cleaning.components;
+    repair_.component_triangles = cleaning.component_triangles;
+    if (cleaning.removed.empty()) return;
+    MeshEdits& edits = repair_.edits;
+    edits.removed.insert(edits.removed.end(), cleaning.removed.begin(), cleaning.removed.end());
+    edits.sort();
+    edits.dropped = unused_after(mesh, edits, jobs_.progress);
+  }
+
+  // Rows by their places, then boundaries.
+  static std::vector<RepairJob> jobs_of(const std::vector<ChosenRow>& rows, const std::vector<RepairJob>& boundaries,
+                                        const std::vector<std::size_t>& chosen) {
     std::vector<RepairJob> jobs;
     for (const std::size_t i : chosen) {
+      if (i >= rows.size()) {
+        jobs.push_back(boundaries[i - rows.size()]);
+        continue;
+      }
       const DefectRow& row = *rows[i].row;
       jobs.push_back({row.curve.path, row.length(), row.curve.box, false});
     }
@@ -127,6 +172,18 @@ std::vector<std::string> summary_of(const Repair& repair) {
   for (const RepairedRow& row : repair.rows)
     if (!row.done) ++reasons[row.why];
   for (const auto& [why, count] : reasons) lines.push_back(std::to_string(count) + " left: " + why);
+  if (repair.cleaning.degenerate) lines.push_back(count_of(repair.degenerate, "degenerate triangle") + " dropped");
+  if (repair.cleaning.duplicates) lines.push_back(count_of(repair.duplicates, "repeated triangle") + " dropped");
+  if (repair.cleaning.components_percent)
+    lines.push_back(count_of(repair.components, "component") + " of " +
+                    count_of(repair.component_triangles, "triangle") + " dropped");
+  if (!repair.cleaning.boundary_length) return lines;
+  lines.push_back(
+      (repair.boundaries_filled == 1 ? "1 boundary" : std::to_string(repair.boundaries_filled) + " boundaries") +
+      " filled");
+  reasons.clear();
+  for (const std::string& why : repair.boundaries_left) ++reasons[why];
+  for (const auto& [why, count] : reasons) lines.push_back(std::to_string(count) + " not filled: " + why);
   return lines;
 }
 

@@ -11,6 +11,7 @@
 #include "tools/defects/valued_mesh.h"
 #include "tools/repair/mesh_edits.h"
 #include "tools/repair/row_choice.h"
+#include "tools/repair/surface_cleaning.h"
 
 namespace reeb::tools {
 
@@ -18,6 +19,7 @@ struct RepairOptions {
   MeshSource mesh;
   std::string output;  // its format decides what can be kept
   RowFilter filter;
+  CleaningOptions cleaning;
   std::size_t limit = std::numeric_limits<std::size_t>::max();
   unsigned threads = 0;
   std::function<bool()> interrupted{};
@@ -37,8 +39,12 @@ struct RepairedRow {
 struct Repair {
   std::uint64_t mesh_vertices = 0, mesh_triangles = 0;
   MeshEdits edits;
-  std::vector<RepairedRow> rows;  // by rank
-  std::size_t repaired = 0;       // of them
+  std::vector<RepairedRow> rows;                                                          // by rank
+  std::size_t repaired = 0;                                                               // of them
+  CleaningOptions cleaning;                                                               // as asked for
+  std::uint64_t degenerate = 0, duplicates = 0, components = 0, component_triangles = 0;  // that are dropped
+  std::size_t boundaries_filled = 0;
+  std::vector<std::string> boundaries_left;  // why
   std::vector<std::string> warnings;
 };
 
