@@ -18,6 +18,12 @@ Point cross(const Point& u, const Point& w) {
   return {u[1] * w[2] - u[2] * w[1], u[2] * w[0] - u[0] * w[2], u[0] * w[1] - u[1] * w[0]};
 }
 
+// GCC 12.2 drops this rounding from some places where it vectorizes it; so each number goes through memory.
+double nearest_float32(double x) {
+  const volatile float rounded = static_cast<float>(x);
+  return rounded;
+}
+
 bool joined(const Rim& rim, std::uint32_t a, std::uint32_t b) {
   return std::ranges::binary_search(rim.joined, std::pair(std::min(a, b), std::max(a, b)));
 }
@@ -118,7 +124,7 @@ class Refinement {
     turn_edges();
     if (!float32) return;
     for (Filling::Vertex& vertex : filling_.vertices)
-      for (double& x : vertex.position) x = static_cast<float>(x);
+      for (double& x : vertex.position) x = nearest_float32(x);
   }
 
  private:
