@@ -341,6 +341,21 @@ class Edit {
     return sum / 6;
   }
 
+  // Whether a new triangle lies nearly on its neighbour.
+  bool folds() const {
+    constexpr double kMostCosine = -0.98;
+    for (auto t = static_cast<std::uint32_t>(triangles_); t < patch_.triangle_count(); ++t) {
+      const auto& c = patch_.triangle(t).corners;
+      for (std::size_t i = 0; i < 3; ++i) {
+        const std::uint32_t other = patch_.across(t, c[i], c[(i + 1) % 3]);
+        if (other == kNone) continue;
+        const Point n = normal(t), m = normal(other);
+        if (dot(n, m) < kMostCosine * std::sqrt(dot(n, n) * dot(m, m))) return true;
+      }
+    }
+    return false;
+  }
+
   bool crosses() const {
     struct Box {
       Point low, high;
@@ -388,6 +403,12 @@ class Edit {
   }
 
  private:
+  Point normal(std::uint32_t t) const {
+    const auto& c = patch_.triangle(t).corners;
+    const Point u = patch_.position(c[1]) - patch_.position(c[0]), w = patch_.position(c[2]) - patch_.position(c[0]);
+    return {u[1] * w[2] - u[2] * w[1], u[2] * w[0] - u[0] * w[2], u[0] * w[1] - u[1] * w[0]};
+  }
+
   // The triangle at an edge that has no other.
   std::uint32_t only_at(std::uint32_t a, std::uint32_t b) const {
     std::uint32_t only = kNone;
@@ -424,15 +445,17 @@ bool are_connected(const EditablePatch& patch, const Vertices& from, const Verti
 }
 
 // What speaks against the edit; empty: nothing.
-std::string fault_of(const EditablePatch& patch, const Edit& edit, const Vertices& touched, std::int64_t euler) {
+std::string fault_of(const EditablePatch& patch, const Edit& edit, const Vertices& touched, std::int64_t euler,
+                     bool may_fold) {
   for (const std::uint32_t v : touched)
     if (patch.is_used(v) && !patch.is_closed_fan(v)) return "the filling would not be a manifold";
   if (euler_among(patch, edit.touched()) != euler) return "the filling would not be a manifold";
-  if (edit.crosses()) return "every filling would cross the surface";
+  if ((!may_fold && edit.folds()) || edit.crosses()) return "every filling would cross the surface";
   return {};
 }
 
 struct Attempt {
+  bool may_fold;
   int growth;
   std::size_t side;
   FillWeight weight;
@@ -441,11 +464,12 @@ struct Attempt {
 
 std::vector<Attempt> attempts_for(std::size_t size) {
   std::vector<Attempt> attempts;
-  for (int growth = 0; growth <= kMostGrowth; ++growth)
-    for (const bool refine : {true, false})
-      for (const FillWeight weight : {FillWeight::kArea, FillWeight::kAngle})
-        for (const std::size_t side : {std::size_t{0}, std::size_t{1}})
-          if (refine || size > kWideRim - 4) attempts.push_back({growth, side, weight, refine});
+  for (const bool may_fold : {false, true})
+    for (int growth = 0; growth <= kMostGrowth; ++growth)
+      for (const bool refine : {true, false})
+        for (const FillWeight weight : {FillWeight::kArea, FillWeight::kAngle})
+          for (const std::size_t side : {std::size_t{0}, std::size_t{1}})
+            if (refine || size > kWideRim - 4) attempts.push_back({may_fold, growth, side, weight, refine});
   return attempts;
 }
 
@@ -489,7 +513,7 @@ Cut cut_along(EditablePatch& patch, std::span<const std::uint32_t> curve, const 
     std::string fault = "every filling would repeat an edge of the surface";
     if (edit.fill(cut.first_side, attempt.weight, attempt.refine) &&
         edit.fill(cut.second_side, attempt.weight, attempt.refine))
-      fault = fault_of(patch, edit, before, euler + 2);
+      fault = fault_of(patch, edit, before, euler + 2, attempt.may_fold);
     if (!fault.empty()) {
       why = fault;
       edit.undo();
@@ -525,7 +549,7 @@ Cut close_boundary(EditablePatch& patch, std::span<const std::uint32_t> rim, con
       make_set(touched);
       const std::int64_t euler = euler_among(patch, touched);
       if (edit.fill(path, weight, refine)) {
-        why = fault_of(patch, edit, touched, euler + 1);
+        why = fault_of(patch, edit, touched, euler + 1, true);
         if (why.empty()) {
           Cut cut;
           cut.done = cut.connected = true;
