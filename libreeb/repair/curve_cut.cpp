@@ -482,8 +482,9 @@ Cut not_done(std::string why) {
 }  // namespace
 
 Cut cut_along(EditablePatch& patch, std::span<const std::uint32_t> curve, const CutOptions& options) {
+  if (curve.size() < 3) return not_done("an earlier repair changed the surface at its curve");
   for (std::size_t i = 0; i < curve.size(); ++i)
-    if (curve.size() < 3 || !patch.has_edge(curve[i], curve[(i + 1) % curve.size()]))
+    if (!patch.has_edge(curve[i], curve[(i + 1) % curve.size()]))
       return not_done("an earlier repair changed the surface at its curve");
   if (curve.size() > kMostRimVertices)
     return not_done("its curve has more than " + std::to_string(kMostRimVertices) + " edges");

@@ -7,6 +7,7 @@
 
 #include "libreeb/base/error.h"
 #include "libreeb/repair/curve_cut.h"
+#include "libreeb/repair/curve_detour.h"
 #include "ooc/patches/ball_clusters.h"
 #include "ooc/patches/collected_patches.h"
 #include "ooc/threads/parallel.h"
@@ -177,7 +178,7 @@ class Jobs {
       Cut cut;
       if (curve)
         cut = jobs_[j].is_boundary ? close_boundary(patch, *curve, {options_.float32})
-                                   : cut_along(patch, *curve, {options_.float32});
+                                   : cut_along(patch, with_detours(patch, *curve), {options_.float32});
       else
         cut.why = "its curve is not on the surface";
       result = {cut.done, std::move(cut.why), cut.removed, cut.added, cut.volume};
