@@ -181,8 +181,10 @@ class Jobs {
                                    : cut_along(patch, with_detours(patch, *curve), {options_.float32});
       else
         cut.why = "its curve is not on the surface";
+      // Where edges seem to be missing, the patch may end.
+      const bool whole = curve && std::ranges::all_of(*curve, [&](std::uint32_t v) { return patch.vertex(v).whole; });
+      too_small_[j] = !cut.done && (cut.too_small || !whole) ? 1 : 0;
       result = {cut.done, std::move(cut.why), cut.removed, cut.added, cut.volume};
-      too_small_[j] = cut.too_small ? 1 : 0;
       if (cut.done && !cut.connected) open.push_back({j, std::move(cut.first_side), std::move(cut.second_side)});
     }
     std::vector<VertexRef> number;
