@@ -23,7 +23,7 @@ struct GraphView {
   std::span<const ArcMeasures> measures = {};  // of graph's arcs, or empty; json, vtp and vtu have them
 };
 
-enum class GraphFormat { kRg, kJson, kCsv, kDot, kGraphml, kVtp, kVtu, kPly, kObj };
+enum class GraphFormat { kRg, kJson, kCsv, kDot, kGraphml, kVtp, kVtu, kPly, kObj, kSwc, kGltf };
 
 // The format with this name ("rg", "json", ...), if there is one.
 std::optional<GraphFormat> graph_format(std::string_view name);
@@ -32,18 +32,22 @@ std::string graph_format_names();
 
 // Numbers restore every double. Formats with lines in space draw an arc along its buckets, if it has any, and put nodes
 // without known positions at (0, 0, value).
-// MEMORY: of the whole graph, only the degrees of its nodes; items are written one by one.
 //
-// TIME:    O(nodes + arcs + buckets), and that of `out`.
+// TIME:    O((nodes + arcs) log(nodes) + buckets), and that of `out`.
+// MEMORY:  of the whole graph, what find_features() takes; items are written one by one.
 // THREADS: any number of calls at the same time, each with a stream of its own.
 //
 //   rg       the project's own: sorted lines `n VERTEX DOWN UP VALUE` and `a LO HI`
 //   json     schema reeb.graph.v1
-//   csv      one table: `item,vertex,down,up,value,x,y,z,lo,hi,vertices`; node rows leave the last
-//            three empty, arc rows fill these alone
+//   csv      two tables with an empty line between them: nodes, arcs
 //   dot, graphml      a graph; nodes are named by their vertices
-//   vtp, vtu          VTK XML, lines with the point data `value`, `vertex`
+//   vtp, vtu          VTK XML, lines and data with TTK's names
 //   ply, obj          vertices and edges or lines
+//   swc      samples of trees (swc_samples.h)
+//   gltf     lines, and nodes as points; one file
 void write_graph(GraphFormat format, const GraphView& view, std::ostream& out);
+
+// The two tables of csv, each to a stream of its own.
+void write_csv_tables(const GraphView& view, std::ostream& nodes, std::ostream& arcs);
 
 }  // namespace reeb::io

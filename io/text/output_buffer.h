@@ -15,6 +15,11 @@
 
 namespace reeb::io {
 
+// A number to be written with as few digits as restore it.
+struct Shortest {
+  double value;
+};
+
 class OutputBuffer {
  public:
   explicit OutputBuffer(std::ostream& out) : out_(out) { text_.reserve(kFlushBytes + 4096); }
@@ -29,6 +34,10 @@ class OutputBuffer {
   OutputBuffer& operator<<(char c) { return *this << std::string_view(&c, 1); }
   OutputBuffer& operator<<(double value) {
     append_double(text_, value);
+    return *this;
+  }
+  OutputBuffer& operator<<(Shortest number) {
+    append_shortest(text_, number.value);
     return *this;
   }
   OutputBuffer& operator<<(std::integral auto value) {

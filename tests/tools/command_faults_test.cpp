@@ -90,8 +90,13 @@ std::vector<Command> make_commands() {
     const std::string made = std::string("made.") + suffix;
     commands.push_back({std::string("ConvertTetrahedra_") + suffix, {"convert", "solid.sva", made}, {made}});
   }
-  for (const char* format : {"rg", "json", "csv", "dot", "graphml", "vtp", "vtu", "ply", "obj"}) {
+  for (const char* format : {"rg", "json", "csv", "dot", "graphml", "vtp", "vtu", "ply", "obj", "swc", "gltf"}) {
     const std::string made = std::string("level.") + format;
+    if (made == "level.csv") {
+      commands.push_back(
+          {"Extract_csv", {"extract", "scan.reeb", "--nodes", "9", "-o", made}, {"level.nodes.csv", "level.arcs.csv"}});
+      continue;
+    }
     commands.push_back(
         {std::string("Extract_") + format, {"extract", "scan.reeb", "--nodes", "9", "-o", made}, {made}});
   }

@@ -82,6 +82,19 @@ TEST_F(Outputs, AGraphThatIsReadIsNeverAnOutput) {
   expect_refused({"pairs", "g.reeb", "-o", "./g.reeb"}, "./g.reeb: the output is the .reeb file itself");
 }
 
+TEST_F(Outputs, TablesAppearBothOrNot) {
+  make_graph();
+  expect_success(reeb({"extract", "g.reeb", "-o", "t.CSV"}));
+  const std::string nodes = file("t.nodes.csv"), arcs = file("t.arcs.csv");
+  EXPECT_EQ(nodes + "\n" + arcs, reeb({"extract", "g.reeb", "--format", "csv"}).output);
+  fs::remove(in_folder("t.nodes.csv"));
+  expect_error(reeb({"extract", "g.reeb", "-o", "t.csv"}), 1, "t.arcs.csv: ");
+  EXPECT_FALSE(fs::exists(in_folder("t.nodes.csv")));
+  expect_success(reeb({"extract", "g.reeb", "-o", "t", "--format", "csv", "--force"}));
+  EXPECT_EQ(file("t.nodes.csv"), nodes);
+  expect_error(reeb({"extract", "g.reeb", "-o", "none/t.csv"}), 3);
+}
+
 TEST_F(Outputs, NoTwoOutputsAreOneFile) {
   expect_refused({"compute", "mesh.off", "-o", "x.out", "--report", "./x.out"},
                  "./x.out: the report and the output are the same file");

@@ -1,12 +1,17 @@
 // `reeb extract`: one level of a .reeb file, as text or lines in space.
 #include <fmt/core.h>
 
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
+#include <system_error>
+#include <vector>
 
 #include "io/export/graph_export.h"
+#include "io/file/atomic_file.h"
 #include "io/file/file_name.h"
+#include "io/file/file_ostream.h"
 #include "io/file/temp_dir.h"
 #include "libreeb/base/error.h"
 #include "ooc/reeb_file/reeb_file.h"
@@ -62,6 +67,36 @@ void require_measured_format(io::GraphFormat format) {
                 "use --format json, or leave --mesh out");
 }
 
+// Standard output and devices get the tables of CSV one after the other, a file g.csv becomes two files.
+std::vector<std::string> output_files(io::GraphFormat format, const std::string& output) {
+  if (output.empty()) return {};
+  std::error_code ignored;
+  const auto kind = std::filesystem::status(output, ignored).type();
+  using Type = std::filesystem::file_type;
+  const bool is_device = kind == Type::character || kind == Type::fifo || kind == Type::socket;
+  if (format != io::GraphFormat::kCsv || output == io::kStandardOutput || is_device) return {output};
+  const std::size_t suffix = io::name_suffix(output) == ".csv" ? 4 : 0;
+  const std::string stem = output.substr(0, output.size() - suffix);
+  return {stem + ".nodes.csv", stem + ".arcs.csv"};
+}
+
+// Neither file gets its name before both are whole.
+void write_tables(const io::GraphView& view, const std::string& nodes, const std::string& arcs, bool force) {
+  io::AtomicFile node_file(nodes, {.existing = late_outputs(force)});
+  io::AtomicFile arc_file(arcs, {.existing = late_outputs(force)});
+  io::FileOstream node_table(node_file.out()), arc_table(arc_file.out());
+  io::write_csv_tables(view, node_table, arc_table);
+  const bool is_new = !std::filesystem::exists(nodes);
+  node_file.commit();
+  try {
+    arc_file.commit();
+  } catch (...) {
+    std::error_code ignored;
+    if (is_new) std::filesystem::remove(nodes, ignored);
+    throw;
+  }
+}
+
 void extract(const ExtractOptions& options) {
   const io::GraphFormat format = choose_format(options);
   if (!options.mesh.empty()) require_measured_format(format);
@@ -74,7 +109,9 @@ void extract(const ExtractOptions& options) {
     files.add_input(options.file, "the .reeb file");
   else
     add_segmentation_inputs(options.mesh, file, files);
-  if (!options.output.empty()) files.add_output(options.output, "the output", existing_outputs(options.force));
+  const std::vector<std::string> outputs = output_files(format, options.output);
+  for (const std::string& output : outputs)
+    files.add_output(output, outputs.size() > 1 ? "an output" : "the output", existing_outputs(options.force));
   files.check();
   if (const Error* damage = file.damage()) fmt::print(stderr, "reeb: warning: {}\n", damage->what());
   const ooc::Level level = file.load(choose_version(file, options));
@@ -86,12 +123,12 @@ void extract(const ExtractOptions& options) {
          .temp_folder = options.temp_folder.empty() ? io::TempDir::default_folder(options.output) : options.temp_folder,
          .threads = options.threads,
          .quiet = options.quiet});
-  write_output(options.output, options.force, [&](std::ostream& out) {
-    io::write_graph(format,
-                    {level.graph, file.header().function, level.threshold, level.buckets.view(),
-                     file.header().bucket_exponent, measured.arcs},
-                    out);
-  });
+  const io::GraphView view{level.graph,          file.header().function,        level.threshold,
+                           level.buckets.view(), file.header().bucket_exponent, measured.arcs};
+  if (outputs.size() == 2)
+    write_tables(view, outputs[0], outputs[1], options.force);
+  else
+    write_output(options.output, options.force, [&](std::ostream& out) { io::write_graph(format, view, out); });
 }
 
 }  // namespace
@@ -100,7 +137,10 @@ void add_extract(CLI::App& app) {
   auto options = std::make_shared<ExtractOptions>();
   CLI::App* command = app.add_subcommand("extract", "Write the graph, or a coarser level of it");
   command->add_option("FILE", options->file, "The .reeb file")->required()->type_name("");
-  command->add_option("-o,--output", options->output, "File to write (default, and -: standard output)")
+  command
+      ->add_option("-o,--output", options->output,
+                   "File to write (default, and -: standard output); csv: g.csv becomes g.nodes.csv and "
+                   "g.arcs.csv")
       ->type_name("FILE");
   command
       ->add_option(

@@ -40,29 +40,37 @@ TEST(GraphExport, Json) {
   EXPECT_EQ(Circle().text("json"),
             "{\"schema\": \"reeb.graph.v1\", \"function\": \"a \\\"b\\\"\", \"threshold\": 0.25,\n"
             "\"nodes\": [\n"
-            "{\"vertex\": 7, \"value\": 0, \"position\": [0, 0, 0], \"down\": 0, \"up\": 2},\n"
-            "{\"vertex\": 9, \"value\": 0.10000000000000001, \"position\": [4, 4, 4], \"down\": 0, \"up\": 0},\n"
-            "{\"vertex\": 3, \"value\": 1.5, \"position\": [0, 0, 1.5], \"down\": 2, \"up\": 0}],\n"
+            "{\"vertex\": 7, \"value\": 0, \"position\": [0, 0, 0], \"down\": 0, \"up\": 2, "
+            "\"type\": 0, \"component\": 0, \"persistence\": 1.5},\n"
+            "{\"vertex\": 9, \"value\": 0.1, \"position\": [4, 4, 4], \"down\": 0, \"up\": 0, "
+            "\"type\": 0, \"component\": 1, \"persistence\": 0},\n"
+            "{\"vertex\": 3, \"value\": 1.5, \"position\": [0, 0, 1.5], \"down\": 2, \"up\": 0, "
+            "\"type\": 3, \"component\": 0, \"persistence\": 1.5}],\n"
             "\"arcs\": [\n"
-            "{\"lo\": 7, \"hi\": 3, \"vertices\": 3, \"path\": [[1, 0.5, 0, 3]]},\n"
-            "{\"lo\": 7, \"hi\": 3, \"vertices\": 0, \"path\": []}]}\n");
+            "{\"arc\": 0, \"lo\": 7, \"hi\": 3, \"vertices\": 3, \"loop\": 1.5, \"path\": [[1, 0.5, 0, 3]]},\n"
+            "{\"arc\": 1, \"lo\": 7, \"hi\": 3, \"vertices\": 0, \"loop\": 1.5, \"path\": []}]}\n");
 }
 
 TEST(GraphExport, Csv) {
   EXPECT_EQ(Circle().text("csv"),
-            "item,vertex,down,up,value,x,y,z,lo,hi,vertices\n"
-            "node,7,0,2,0,0,0,0,,,\n"
-            "node,9,0,0,0.10000000000000001,4,4,4,,,\n"
-            "node,3,2,0,1.5,0,0,1.5,,,\n"
-            "arc,,,,,,,,7,3,3\n"
-            "arc,,,,,,,,7,3,0\n");
+            "node,vertex,value,x,y,z,down,up,type,component,persistence\n"
+            "0,7,0,0,0,0,0,2,0,0,1.5\n"
+            "1,9,0.1,4,4,4,0,0,0,1,0\n"
+            "2,3,1.5,0,0,1.5,2,0,3,0,1.5\n"
+            "\n"
+            "arc,lo,hi,lo_node,hi_node,vertices,loop\n"
+            "0,7,3,0,2,3,1.5\n"
+            "1,7,3,0,2,0,1.5\n");
 }
 
 TEST(GraphExport, DotAndObjAndPly) {
   EXPECT_EQ(Circle().text("dot"),
-            "graph reeb {\n  rankdir=BT;\n"
-            "  7 [label=\"7\\n0\"];\n  9 [label=\"9\\n0.10000000000000001\"];\n  3 [label=\"3\\n1.5\"];\n"
-            "  7 -- 3;\n  7 -- 3;\n}\n");
+            "graph reeb {\n  rankdir=BT;\n  ranksep=0.2;\n"
+            "  node [fontsize=10, height=0.2, margin=\"0.02,0.02\"];\n"
+            "  7 [label=\"0\", shape=invtriangle, tooltip=\"vertex 7\"];\n"
+            "  9 [label=\"0.1\", shape=invtriangle, tooltip=\"vertex 9\"];\n"
+            "  3 [label=\"1.5\", shape=triangle, tooltip=\"vertex 3\"];\n"
+            "  7 -- 3 [minlen=2];\n  7 -- 3 [minlen=2];\n  7 -- 9 [minlen=1, style=invis];\n}\n");
   EXPECT_EQ(Circle().text("obj"), "v 0 0 0\nv 4 4 4\nv 0 0 1.5\nv 1 0.5 0\nl 1 4 3\nl 1 3\n");
   EXPECT_EQ(Circle().text("ply"),
             "ply\nformat ascii 1.0\nelement vertex 4\nproperty double x\nproperty double y\nproperty double z\n"
@@ -70,17 +78,34 @@ TEST(GraphExport, DotAndObjAndPly) {
             "0 0 0\n4 4 4\n0 0 1.5\n1 0.5 0\n0 3\n3 2\n0 2\n");
 }
 
+// Nodes of one value share a rank, unless an arc is between them.
+TEST(GraphExport, DotHasARankForEachValue) {
+  const SweepKey a{0, VertexId(0)}, b{0, VertexId(1)}, c{0, VertexId(2)}, d{1, VertexId(3)};
+  std::ostringstream out;
+  write_graph(GraphFormat::kDot, {make_graph({{a, c}, {b, c}, {c, d}}, {}), "z", 0, {}, 0}, out);
+  for (const char* line : {"0 -- 2 [minlen=1];", "1 -- 2 [minlen=1];", "2 -- 3 [minlen=1];"})
+    EXPECT_NE(out.str().find(line), std::string::npos) << line;
+}
+
 TEST(GraphExport, XmlFormatsHaveTheirLines) {
-  EXPECT_NE(Circle().text("graphml").find("<edge source=\"7\" target=\"3\"/>\n<edge source=\"7\" target=\"3\"/>"),
-            std::string::npos);
+  EXPECT_NE(Circle().text("graphml").find("<edge id=\"1\" source=\"7\" target=\"3\">"), std::string::npos);
   EXPECT_NE(Circle().text("graphml").find("a &quot;b&quot;"), std::string::npos);
   for (const char* format : {"vtp", "vtu"}) {
     EXPECT_NE(Circle().text(format).find("NumberOfPoints=\"4\""), std::string::npos);
     EXPECT_NE(Circle().text(format).find("0 3 2 \n0 2 \n"), std::string::npos);
-    EXPECT_NE(Circle().text(format).find("\n3\n5\n</DataArray>"), std::string::npos) << "offsets";
-    EXPECT_NE(Circle().text(format).find("\n0\n0.10000000000000001\n1.5\n0.125\n</DataArray>"), std::string::npos)
+    EXPECT_NE(Circle().text(format).find("\n0\n0.1\n1.5\n0.125\n</DataArray>"), std::string::npos)
         << "values: the nodes', and the middle of the bucket";
   }
+  EXPECT_NE(Circle().text("vtp").find("NumberOfVerts=\"1\" NumberOfLines=\"2\""), std::string::npos);
+  EXPECT_NE(Circle().text("vtu").find("\n1\n4\n6\n</DataArray>"), std::string::npos) << "offsets";
+  EXPECT_NE(Circle().text("vtu").find("\n1\n4\n4\n</DataArray>"), std::string::npos) << "types";
+}
+
+// A loop is cut at a second sample of the node at its top.
+TEST(GraphExport, SwcHasATreeForEachComponent) {
+  EXPECT_EQ(Circle().text("swc"),
+            "# the Reeb graph of a \"b\"\n# id type x y z radius parent\n"
+            "1 0 0 0 0 0 -1\n2 0 1 0.5 0 0 1\n3 0 0 0 1.5 0 2\n4 0 0 0 1.5 0 1\n5 0 4 4 4 0 -1\n");
 }
 
 TEST(GraphExport, EmptyGraphAndUnknownFormat) {

@@ -1,0 +1,16 @@
+// A Reeb graph as samples of trees, for programs that read neurons (SWC).
+//
+// A sample is a line `id type x y z radius parent`; ids count from 1, a parent comes before its children, and the
+// parent of a root is -1. Each component is a tree, whose root is its lowest node. An arc that closes a loop ends in a
+// sample at the place of its node, which that node's own samples do not continue.
+#pragma once
+
+#include "io/export/graph_export.h"
+#include "io/text/output_buffer.h"
+
+namespace reeb::io {
+
+// MEMORY: 20 bytes per node and 8 per arc, and one arc.
+void write_swc(const GraphView& view, OutputBuffer& out);
+
+}  // namespace reeb::io
