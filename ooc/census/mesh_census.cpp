@@ -1,6 +1,7 @@
 #include "ooc/census/mesh_census.h"
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <cmath>
 #include <span>
@@ -132,7 +133,7 @@ std::optional<MeshCensus> count_chunks(IndexedMesh& mesh, unsigned dimension, La
   LiveSurface surface;
   if (cells) surface.count_components_only();
   ChunkFeed feed(surface, space.budget);
-  bool fits = true;
+  std::atomic<bool> fits = true;  // the thread that reads asks for it
   struct Piece {
     WorkItem item;
     CensusProgress at{Phase::kCount};
