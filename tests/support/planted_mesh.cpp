@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstring>
 #include <map>
+#include <sstream>
 #include <utility>
 
 #include "libreeb/base/union_find.h"
@@ -246,6 +247,15 @@ PlantedMesh planted_mesh(const PlantedOptions& options) {
       for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
     return mesh;
   }
+}
+
+std::string to_off(const PlantedMesh& mesh) {
+  std::ostringstream out;
+  out.precision(9);
+  out << "OFF\n" << mesh.vertices.size() << ' ' << mesh.triangles.size() << " 0\n";
+  for (const Vector& p : mesh.vertices) out << p[0] << ' ' << p[1] << ' ' << p[2] << '\n';
+  for (const auto& t : mesh.triangles) out << "3 " << t[0] << ' ' << t[1] << ' ' << t[2] << '\n';
+  return out.str();
 }
 
 std::string to_ply(const PlantedMesh& mesh) {

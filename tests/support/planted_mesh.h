@@ -43,7 +43,8 @@ std::size_t component_count(const PlantedMesh& mesh);
 // Of a closed surface of one component.
 std::size_t genus(const PlantedMesh& mesh);
 
-// A binary PLY file.
+// A text with nine digits, and a binary PLY file.
+std::string to_off(const PlantedMesh& mesh);
 std::string to_ply(const PlantedMesh& mesh);
 
 }  // namespace reeb::test

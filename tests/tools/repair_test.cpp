@@ -57,6 +57,7 @@ TEST_F(RepairTest, CutsPlantedDefectsAndNothingElse) {
   for (std::size_t seed = 1; seed <= meshes; ++seed) {
     PlantedOptions options;
     options.seed = seed;
+    options.least_radius = 1;
     options.noise = seed % 3 == 0 ? 0.05 : 0;
     options.inwards = seed % 4 == 1;
     const PlantedMesh mesh = planted_mesh(options);
