@@ -127,7 +127,7 @@ void plot(PlotOptions options) {
 
 void add_plot(CLI::App& program) {
   auto options = std::make_shared<PlotOptions>();
-  CLI::App* command = program.add_subcommand("plot", "Draw loops, pairs, the graph, or the skeleton in its shape");
+  CLI::App* command = program.add_subcommand("plot", "Draw loops, pairs, the graph, or its skeleton");
   command->add_option("FILE", options->files, "The .reeb file; several with --kind loops")->required()->type_name("");
   command
       ->add_option("-o,--output", options->output,

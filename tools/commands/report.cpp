@@ -65,7 +65,7 @@ void run_report(PageOptions options) {
 
 void add_report(CLI::App& program) {
   auto options = std::make_shared<PageOptions>();
-  CLI::App* command = program.add_subcommand("report", "Write one HTML page: summary, plots, defects, skeleton");
+  CLI::App* command = program.add_subcommand("report", "Write one HTML page: plots, defects, skeleton");
   FindDefectsOptions& defects = options->report.defects;
   command->add_option("FILE", options->report.file, "The .reeb file")->required()->type_name("");
   command->add_option("-o,--output", options->output, "File to write, an HTML page; - is standard output")

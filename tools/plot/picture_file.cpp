@@ -26,7 +26,7 @@ std::string picture_bytes(std::string svg, PictureFormat format, const std::stri
     case PictureFormat::kSvg:
       return svg;
     case PictureFormat::kPng:
-      return run_program(kRsvgConvert, {"--format=png", "--zoom=" + std::to_string(kPngScale)}, svg, temp_folder);
+      return run_program(kRsvgConvert, {"-f", "png", "-z", std::to_string(kPngScale)}, svg, temp_folder);
     case PictureFormat::kPdf:
       return run_program(kRsvgConvert, {"--format=pdf"}, svg, temp_folder);
   }
