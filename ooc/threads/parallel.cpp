@@ -7,12 +7,23 @@
 #include <thread>
 
 #include "ooc/threads/kept_arena.h"
+#include "ooc/threads/pipeline_order.h"
 
 namespace reeb::ooc {
 
 void in_parallel(unsigned threads, std::size_t count, const std::function<void(std::size_t)>& work) {
   if (threads == 0) threads = std::max(1u, std::thread::hardware_concurrency());
-  kept_arena(threads).execute([&] { tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) { work(i); }); });
+  const PipelineOrder order;
+  const auto body = [&](std::size_t i) {
+    PipelineOrder::begin_filter();
+    const char own = 0;
+    const PipelineOrder::Filter filter(order, &own);
+    work(i);
+  };
+  kept_arena(threads).execute([&] {
+    PipelineOrder::filters_are_made();
+    tbb::parallel_for(std::size_t{0}, count, body);
+  });
 }
 
 }  // namespace reeb::ooc

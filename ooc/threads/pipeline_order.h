@@ -1,4 +1,4 @@
-// Tells the thread sanitizer the order in which the filters of a TBB pipeline run.
+// Tells the thread sanitizer the order in which the filters of a TBB pipeline, or the calls of a parallel loop, run.
 #pragma once
 
 #ifdef __SANITIZE_THREAD__
