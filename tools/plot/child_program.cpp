@@ -60,16 +60,23 @@ int run_to_its_end(const std::string& path, const std::vector<std::string>& argu
   sigemptyset(&usual);
   for (const int signal : {SIGPIPE, SIGXFSZ}) sigaddset(&usual, signal);
   posix_spawnattr_setsigdefault(&attributes, &usual);
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
+  // A signal between the start and end_together_with() would leave the child alone.
+  sigset_t ending, before;
+  sigemptyset(&ending);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&ending, signal);
+  ::pthread_sigmask(SIG_BLOCK, &ending, &before);
+  posix_spawnattr_setsigmask(&attributes, &before);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETSIGMASK);
   pid_t child = 0;
   const int error = ::posix_spawn(&child, path.c_str(), &actions, &attributes, pointers.data(), environ);
   posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&actions);
+  if (error == 0) end_together_with(child);
+  ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
   if (error != 0)
     throw Error(ErrorKind::kResource, "cannot be started: " + std::generic_category().message(error),
                 "check that this file can be run, and that memory and processes are left")
         .at(path);
-  end_together_with(child);
   int status = 0;
   while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
