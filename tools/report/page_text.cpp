@@ -49,7 +49,7 @@ std::string base64(std::span<const std::uint16_t> numbers) {
   constexpr const char* kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   const std::size_t size = 2 * numbers.size();
   const auto byte = [&](std::size_t i) -> std::uint32_t {
-    return i < size ? (numbers[i / 2] >> (8 * (i % 2))) & 0xffu : 0u;
+    return i < size ? (std::uint32_t{numbers[i / 2]} >> (8 * (i % 2))) & 0xffu : 0u;
   };
   std::string out;
   out.reserve((size + 2) / 3 * 4);
