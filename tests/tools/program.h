@@ -21,6 +21,11 @@ inline constexpr bool kSanitized = true;  // memory figures are meaningless
 #else
 inline constexpr bool kSanitized = false;
 #endif
+#ifdef __SANITIZE_THREAD__
+inline constexpr bool kThreadsSanitized = true;  // signals wait until a call of the system returns
+#else
+inline constexpr bool kThreadsSanitized = false;
+#endif
 
 class ProgramTest : public testing::Test {
  protected:
