@@ -130,36 +130,31 @@ async function structure(browser, what) {
   same(`${what}: everything has a name`, seen.unnamed, 0)
 }
 
-// Moves the pointer to a place that is drawn, near the middle of the skeleton, until something is said of it.
+// Moves the pointer to a place that is drawn, near the middle of the skeleton, until something is said of it. The page
+// may still be scrolling, and a frame may take long where a processor draws it: the place is sought each time.
 async function hover(browser) {
-  const at = await browser.evaluate(`(() => {
-    const place = document.getElementById('canvas-place')
-    const drawn = place.querySelector('canvas')
-    const canvas = document.createElement('canvas')
-    canvas.width = drawn.width
-    canvas.height = drawn.height
-    const context = canvas.getContext('2d')
-    context.drawImage(drawn, 0, 0)
-    const { data } = context.getImageData(0, 0, canvas.width, canvas.height)
-    let best = { distance: Infinity }
-    for (let y = 0; y < canvas.height; ++y)
-      for (let x = 0; x < canvas.width; ++x) {
-        const distance = Math.hypot(x - canvas.width / 2, y - canvas.height / 2)
-        if (data[4 * (y * canvas.width + x) + 3] > 200 && distance < best.distance) best = { distance, x, y }
-      }
-    return { x: (best.x / canvas.width) * place.clientWidth, y: (best.y / canvas.height) * place.clientHeight }
-  })()`)
   for (let i = 0; i < 40; ++i) {
-    // The page may still be scrolling.
-    const corner = await browser.evaluate(`(() => {
+    const [x, y] = await browser.evaluate(`(() => {
       const place = document.getElementById('canvas-place')
       place.scrollIntoView({ behavior: 'instant' })
+      const drawn = place.querySelector('canvas')
+      const canvas = document.createElement('canvas')
+      canvas.width = drawn.width
+      canvas.height = drawn.height
+      const context = canvas.getContext('2d')
+      context.drawImage(drawn, 0, 0)
+      const { data } = context.getImageData(0, 0, canvas.width, canvas.height)
+      let best = { distance: Infinity, x: 0, y: 0 }
+      for (let y = 0; y < canvas.height; ++y)
+        for (let x = 0; x < canvas.width; ++x) {
+          const distance = Math.hypot(x - canvas.width / 2, y - canvas.height / 2)
+          if (data[4 * (y * canvas.width + x) + 3] > 200 && distance < best.distance) best = { distance, x, y }
+        }
       const { left, top } = place.getBoundingClientRect()
-      return { left, top }
+      return [left + (best.x / canvas.width) * place.clientWidth, top + (best.y / canvas.height) * place.clientHeight]
     })()`)
-    const [x, y] = [corner.left + at.x + (i % 2), corner.top + at.y]
-    await browser.send('Input.dispatchMouseEvent', { type: 'mouseMoved', x, y })
-    await pause(50)
+    await browser.send('Input.dispatchMouseEvent', { type: 'mouseMoved', x: x + (i % 2), y })
+    await pause(50 + 10 * i)
     const text = await browser.evaluate(`(({ hidden, textContent }) => (hidden ? '' : textContent))(document.getElementById('tooltip'))`)
     if (/vertex \d+/.test(text)) return true
   }

@@ -165,9 +165,13 @@ export class SkeletonView {
     return best
   }
 
-  hover(at) {
-    cancelAnimationFrame(this.hovering)
+  // A frame that waits is never cancelled: where frames are slow, a moving pointer would put it off for ever.
+  hover(pointer) {
+    this.pointer = pointer
+    if (this.hovering) return
     this.hovering = requestAnimationFrame(() => {
+      this.hovering = 0
+      const at = this.pointer
       const found = at ? this.nearest(at) : {}
       this.tooltip.hidden = found.node === undefined && found.arc === undefined
       if (this.tooltip.hidden) return
