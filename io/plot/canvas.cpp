@@ -11,7 +11,7 @@ Canvas::Canvas(double width, double height, double scale)
       height_(static_cast<std::size_t>(std::ceil(height * scale)) * kSamples),
       samples_(width_ * height_, kPaper) {}
 
-Canvas::Canvas(const Image& below, double scale)
+Canvas::Canvas(const Raster& below, double scale)
     : scale_(scale * kSamples), width_(below.width * kSamples), height_(below.height * kSamples) {
   samples_.reserve(width_ * height_);
   for (std::size_t y = 0; y < height_; ++y)
@@ -43,8 +43,8 @@ void Canvas::line(PicturePoint from, PicturePoint to, double width, Rgb color) {
   }
 }
 
-Image Canvas::image() const {
-  Image image{width_ / kSamples, height_ / kSamples, {}};
+Raster Canvas::image() const {
+  Raster image{width_ / kSamples, height_ / kSamples, {}};
   image.pixels.reserve(image.width * image.height);
   for (std::size_t y = 0; y < height_; y += kSamples)
     for (std::size_t x = 0; x < width_; x += kSamples) {

@@ -17,13 +17,13 @@ class Canvas {
   // Pixels of the image for each pixel of the picture: `scale`.
   Canvas(double width, double height, double scale);
   // The same on top of an image of that size.
-  Canvas(const Image& below, double scale);
+  Canvas(const Raster& below, double scale);
 
   // In pixels of the picture.
   void line(PicturePoint from, PicturePoint to, double width, Rgb color);
   void disc(PicturePoint center, double radius, Rgb color);
 
-  Image image() const;
+  Raster image() const;
 
  private:
   double scale_;  // samples for each pixel of the picture

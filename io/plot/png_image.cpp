@@ -32,7 +32,7 @@ std::uint8_t paeth(std::uint8_t left, std::uint8_t above, std::uint8_t corner) {
 }
 
 // Each row as differences from its neighbours to the left and above, which are small in shaded surfaces.
-std::string filtered_rows(const Image& image) {
+std::string filtered_rows(const Raster& image) {
   const std::size_t row_bytes = 3 * image.width;
   std::string rows;
   rows.reserve((row_bytes + 1) * image.height);
@@ -67,8 +67,8 @@ void append_base64(std::string& text, std::string_view bytes) {
 }
 
 // Half as wide and high.
-Image halved(const Image& image) {
-  Image half{image.width / 2, image.height / 2, {}};
+Raster halved(const Raster& image) {
+  Raster half{image.width / 2, image.height / 2, {}};
   for (std::size_t y = 0; y < half.height; ++y)
     for (std::size_t x = 0; x < half.width; ++x) {
       std::array<unsigned, 3> sum{};
@@ -86,7 +86,7 @@ Image halved(const Image& image) {
 
 }  // namespace
 
-std::string encode_png(const Image& image) {
+std::string encode_png(const Raster& image) {
   std::string png("\x89PNG\r\n\x1a\n", 8);
   std::string head;
   append_word(head, static_cast<std::uint32_t>(image.width));
@@ -105,9 +105,9 @@ std::string encode_png(const Image& image) {
   return png;
 }
 
-void append_image(std::string& svg, const Image& image, PicturePoint at, double width, double height) {
+void append_image(std::string& svg, const Raster& image, PicturePoint at, double width, double height) {
   std::string png = encode_png(image);
-  for (Image smaller = image; png.size() > kMostPngBytes; png = encode_png(smaller)) smaller = halved(smaller);
+  for (Raster smaller = image; png.size() > kMostPngBytes; png = encode_png(smaller)) smaller = halved(smaller);
   svg += "<image x=\"";
   append_coordinate(svg, at.x);
   svg += "\" y=\"";

@@ -276,7 +276,7 @@ std::string skeleton_picture(const GraphView& view, const SkeletonLines& lines, 
         canvas[0].line(inside(stops[i - 1].at), inside(stops[i].at), 0.8, stops[i].color);
   }
   if (!canvas.empty()) {
-    const Image image = canvas[0].image();
+    const Raster image = canvas[0].image();
     append_image(svg, image, kSkeletonCorner, kSkeletonBoxWidth, scene.projection.height());
   } else {
     if (scene.surface != nullptr)

@@ -37,7 +37,7 @@ inline constexpr double kSkeletonWidth = 800, kSkeletonBoxWidth = 760, kSkeleton
 inline constexpr PicturePoint kSkeletonCorner{20, kHeadingHeight + 12};
 struct SkeletonScene {
   const Projection& projection;
-  const Image* surface = nullptr;  // of the box
+  const Raster* surface = nullptr;  // of the box
   SurfaceStyle style = SurfaceStyle::kNone;
   LineColors colors = LineColors::kValue;
   std::span<const std::uint16_t> layers;  // of the surface, in front of all_points(); empty: none

@@ -127,8 +127,8 @@ Rgb SurfaceRaster::color(std::size_t sample) const {
   return {lit(full.red), lit(full.green), lit(full.blue)};
 }
 
-Image SurfaceRaster::image() const {
-  Image image{width_ / kSamples, height_ / kSamples, {}};
+Raster SurfaceRaster::image() const {
+  Raster image{width_ / kSamples, height_ / kSamples, {}};
   image.pixels.reserve(image.width * image.height);
   for (std::size_t y = 0; y < height_; y += kSamples)
     for (std::size_t x = 0; x < width_; x += kSamples) {

@@ -38,7 +38,7 @@ class SurfaceRaster {
 
   // Of each probe, once all triangles are drawn.
   const std::vector<std::uint16_t>& layers() const { return layers_; }
-  Image image() const;
+  Raster image() const;
 
  private:
   struct PlacedProbe {

@@ -57,7 +57,7 @@ std::string begin_svg(double width, double height) {
   return svg;
 }
 
-void append_text(std::string& svg, PicturePoint at, std::string_view text, const TextStyle& style) {
+void append_text(std::string& svg, PicturePoint at, std::string_view text, const LabelStyle& style) {
   svg += "<text x=\"";
   append_coordinate(svg, at.x);
   svg += "\" y=\"";

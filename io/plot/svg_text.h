@@ -24,13 +24,13 @@ void append_point(std::string& svg, PicturePoint point);
 // The first lines of a picture on white. It ends with "</svg>\n".
 std::string begin_svg(double width, double height);
 
-struct TextStyle {
+struct LabelStyle {
   double size = 13;
   const char* anchor = "start";  // or "middle", "end"
   bool bold = false;
   Rgb color = kInk;
 };
-void append_text(std::string& svg, PicturePoint at, std::string_view text, const TextStyle& style = {});
+void append_text(std::string& svg, PicturePoint at, std::string_view text, const LabelStyle& style = {});
 
 // The two lines above a picture.
 struct Heading {

@@ -8,6 +8,7 @@
 #include <map>
 #include <regex>
 #include <set>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -178,6 +179,47 @@ TEST(Layering, RoomsAreSmall) {
                                        [](const fs::directory_entry& entry) { return entry.is_directory(); });
     EXPECT_LE(static_cast<std::size_t>(loose - folders), kMaxLooseFiles) << layer;
   }
+}
+
+// Two types of one name in one namespace are undefined behaviour, even in headers that no source includes together: the
+// linker keeps one destructor of both. Types of an unnamed namespace do not count.
+std::map<std::string, std::set<std::string>> type_definitions(const std::string& file, const std::string& text) {
+  static const std::regex opens(R"(^namespace ([\w:]*) ?\{)"), closes(R"(^\}  // namespace)"),
+      defines(R"(^(?:template <.*> )?(?:struct|class|enum class|enum) (\w+)(?: final)?(?: : [^;]*| :)? ?\{)");
+  std::map<std::string, std::set<std::string>> found;
+  std::vector<std::string> spaces;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    std::smatch match;
+    if (std::regex_search(line, match, opens))
+      spaces.push_back(match[1]);
+    else if (std::regex_search(line, closes) && !spaces.empty())
+      spaces.pop_back();
+    else if (std::ranges::count(spaces, "") == 0 && std::regex_search(line, match, defines)) {
+      std::string name;
+      for (const std::string& space : spaces) name += space + "::";
+      found[name + match[1].str()].insert(file);
+    }
+  }
+  return found;
+}
+
+TEST(Layering, ATypeIsDefinedOnce) {
+  const fs::path root = REEB_SOURCE_DIR;
+  std::map<std::string, std::set<std::string>> definitions;
+  for (const char* layer : {"libreeb", "io", "ooc", "tools"})
+    for (const std::string& file : source_files(root, layer)) {
+      std::ifstream stream(root / file);
+      const std::string text{std::istreambuf_iterator<char>(stream), {}};
+      for (const auto& [type, files] : type_definitions(file, text))
+        definitions[type].insert(files.begin(), files.end());
+    }
+  EXPECT_GT(definitions.size(), 300u);
+  for (const auto& [type, files] : definitions)
+    EXPECT_EQ(files.size(), 1u) << type << " is defined in " << testing::PrintToString(files);
+  EXPECT_EQ(type_definitions("a.h", "namespace reeb::io {\nstruct Image {\n}\n}  // namespace reeb::io\nclass B : A {"),
+            (std::map<std::string, std::set<std::string>>{{"reeb::io::Image", {"a.h"}}, {"B", {"a.h"}}}));
+  EXPECT_TRUE(type_definitions("a.cpp", "namespace reeb {\nnamespace {\nstruct Image {").empty());
 }
 
 TEST(Layering, AViolationIsSeen) {

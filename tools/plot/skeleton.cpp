@@ -183,7 +183,7 @@ std::string draw_skeleton(const ooc::ReebFile& file, const SkeletonOptions& opti
       if (options.progress) options.progress("drawing", done, total);
     });
   }
-  const io::Image image = raster.image();
+  const io::Raster image = raster.image();
   scene.surface = &image;
   scene.layers = raster.layers();
   return skeleton_picture(view, lines, scene, heading);

@@ -18,9 +18,9 @@ std::uint32_t word_at(const std::string& bytes, std::size_t at) {
 }
 
 // The rows of an 8-bit RGB image; checks every chunk's sum.
-Image decoded(const std::string& png) {
+Raster decoded(const std::string& png) {
   EXPECT_EQ(png.substr(0, 8), std::string("\x89PNG\r\n\x1a\n", 8));
-  Image image;
+  Raster image;
   std::string packed;
   for (std::size_t at = 8; at < png.size();) {
     const std::uint32_t size = word_at(png, at);
@@ -63,11 +63,11 @@ Image decoded(const std::string& png) {
 TEST(PngImage, KeepsEveryPixel) {
   std::mt19937 random(3);
   for (const auto& [width, height] : {std::array<std::size_t, 2>{1, 1}, {7, 3}, {64, 20}}) {
-    Image image{width, height, {}};
+    Raster image{width, height, {}};
     for (std::size_t i = 0; i < width * height; ++i)
       image.pixels.push_back(
           {static_cast<std::uint8_t>(random()), static_cast<std::uint8_t>(random() % 3), static_cast<std::uint8_t>(i)});
-    const Image back = decoded(encode_png(image));
+    const Raster back = decoded(encode_png(image));
     EXPECT_EQ(back.width, width);
     EXPECT_EQ(back.height, height);
     EXPECT_EQ(back.pixels, image.pixels);
@@ -75,7 +75,7 @@ TEST(PngImage, KeepsEveryPixel) {
 }
 
 TEST(PngImage, IsInTheSvgAsBase64) {
-  const Image image{2, 1, {{1, 2, 3}, {4, 5, 6}}};
+  const Raster image{2, 1, {{1, 2, 3}, {4, 5, 6}}};
   std::string svg;
   append_image(svg, image, {0, 0}, 2, 1);
   const std::string begin = "base64,";
@@ -98,7 +98,7 @@ TEST(PngImage, IsInTheSvgAsBase64) {
 // Noise does not pack, so less of it is shown.
 TEST(PngImage, IsMadeSmallerInTheSvg) {
   std::mt19937 random(4);
-  Image image{1001, 999, {}};
+  Raster image{1001, 999, {}};
   for (std::size_t i = 0; i < image.width * image.height; ++i)
     image.pixels.push_back({static_cast<std::uint8_t>(random()), static_cast<std::uint8_t>(random()),
                             static_cast<std::uint8_t>(random())});
