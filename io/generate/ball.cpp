@@ -7,7 +7,7 @@
 namespace reeb::io {
 namespace {
 
-constexpr std::uint64_t kLeastPitch = 3;  // a tunnel of one cube, and one on each side
+constexpr std::uint64_t kLeastTile = 3;  // a tunnel of one cube, and one on each side
 
 // The least number from 0 to `end` for which `is_beyond` holds; `end` if there is none.
 template <class Predicate>
@@ -51,7 +51,7 @@ PerforatedSquare::Holes holes_of_vertices(std::uint64_t size, std::uint64_t hand
 std::uint64_t size_for(std::uint64_t cells, std::uint64_t handles) {
   const double share = handles == 0 ? 1 : 9. / 8;  // a tunnel takes a ninth of its tile
   const auto side = static_cast<std::uint64_t>(std::lround(std::cbrt(share * static_cast<double>(cells))));
-  return std::max<std::uint64_t>({side, handles == 0 ? 1 : kLeastPitch * tiles_in_row(handles), 1});
+  return std::max<std::uint64_t>({side, handles == 0 ? 1 : kLeastTile * tiles_in_row(handles), 1});
 }
 
 // The layer with this height from -1 to 1 is so large. Its last ones are not points.

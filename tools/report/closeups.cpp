@@ -1,7 +1,6 @@
 #include "tools/report/closeups.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <vector>
@@ -15,10 +14,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kMostVertices = 2000;  // some 50 KB of the page
-
-std::uint16_t rounded(double value, double min, double size) {
-  return size > 0 ? static_cast<std::uint16_t>(std::lround(65535 * std::clamp((value - min) / size, 0.0, 1.0))) : 0;
-}
 
 Json curve_json(const SurfacePatch& patch, const std::vector<VertexId>& path) {
   std::vector<std::uint32_t> local;
@@ -40,8 +35,8 @@ Json closeup_json(const SurfacePatch& patch, const std::vector<double>& values, 
   std::vector<std::uint16_t> places, triangles;
   const auto [lowest, highest] = std::minmax_element(values.begin(), values.end());
   for (std::uint32_t v = 0; v < patch.vertex_count(); ++v) {
-    for (std::size_t k = 0; k < 3; ++k) places.push_back(rounded(patch.position(v)[k], min[k], size));
-    places.push_back(rounded(values[v], *lowest, *highest - *lowest));
+    for (std::size_t k = 0; k < 3; ++k) places.push_back(in_65535ths(patch.position(v)[k], min[k], size));
+    places.push_back(in_65535ths(values[v], *lowest, *highest - *lowest));
   }
   for (std::uint32_t t = 0; t < patch.triangle_count(); ++t)
     for (const std::uint32_t corner : patch.oriented(t)) triangles.push_back(static_cast<std::uint16_t>(corner));

@@ -1,6 +1,8 @@
 #include "tools/report/page_text.h"
 
 #include <fmt/core.h>
+#include <algorithm>
+#include <cmath>
 
 #include <nlohmann/json.hpp>
 
@@ -43,6 +45,10 @@ std::string script_json(const nlohmann::ordered_json& json) {
     else
       out += c;
   return out;
+}
+
+std::uint16_t in_65535ths(double value, double min, double size) {
+  return size > 0 ? static_cast<std::uint16_t>(std::lround(65535 * std::clamp((value - min) / size, 0.0, 1.0))) : 0;
 }
 
 std::string base64(std::span<const std::uint16_t> numbers) {

@@ -139,10 +139,6 @@ Box box_of(const std::vector<SettledNode>& nodes, const std::vector<Record>& rec
   return box;
 }
 
-std::uint16_t rounded(double value, double min, double size) {
-  return size > 0 ? static_cast<std::uint16_t>(std::lround(65535 * std::clamp((value - min) / size, 0.0, 1.0))) : 0;
-}
-
 // The tolerance grows until few enough points are left: lines of a thousand nodes keep all that can be seen.
 void simplify_all(std::vector<Record>& records, double size) {
   for (double tolerance = kFirstTolerance; tolerance < 1; tolerance *= 2) {
@@ -163,7 +159,7 @@ Json nodes_json(const std::vector<SettledNode>& nodes, const Box& box, bool posi
     vertices.push_back(node.key.vertex.value());
     values.push_back(node.key.value);
     const Point place = place_of(node, positions);
-    for (std::size_t k = 0; k < 3; ++k) places.push_back(rounded(place[k], box.min[k], box.size));
+    for (std::size_t k = 0; k < 3; ++k) places.push_back(in_65535ths(place[k], box.min[k], box.size));
   }
   return {{"vertex", std::move(vertices)}, {"value", std::move(values)}, {"place", base64(places)}};
 }
@@ -178,8 +174,8 @@ Json arcs_json(const std::vector<Record>& records, const Box& box, double least,
     died.push_back(arc.died == kNeverDies ? Json() : Json(arc.died));
     points.push_back(stops.size() - 2);
     for (std::size_t i = 1; i + 1 < stops.size(); ++i) {
-      for (std::size_t k = 0; k < 3; ++k) line.push_back(rounded(stops[i].position[k], box.min[k], box.size));
-      line.push_back(rounded(stops[i].value, least, range));
+      for (std::size_t k = 0; k < 3; ++k) line.push_back(in_65535ths(stops[i].position[k], box.min[k], box.size));
+      line.push_back(in_65535ths(stops[i].value, least, range));
     }
   }
   return {{"lo", std::move(lo)},     {"hi", std::move(hi)},         {"born", std::move(born)},
