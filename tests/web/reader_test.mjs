@@ -1,0 +1,211 @@
+// The reader of the viewer, which knows docs/FORMAT.md only: its levels are those that `reeb extract` writes, and it
+// refuses what is damaged.
+//
+//   node reader_test.mjs SOURCE_FOLDER REEB PACKAGES WORK     WORK has scan.reeb
+import { execFileSync } from 'node:child_process'
+import { readFileSync, writeFileSync } from 'node:fs'
+import { join } from 'node:path'
+import { bundled } from './bundled.mjs'
+
+const [source, reeb, packages, work] = process.argv.slice(2)
+const { BlobSource, FormatError, Reader } = await bundled(source, 'library', packages, work)
+let failures = 0
+
+function check(what, good, seen = '') {
+  if (good) return
+  console.log(`FAILED: ${what}: ${typeof seen === 'string' ? seen : JSON.stringify(seen)}`)
+  ++failures
+}
+
+const open = (bytes) => Reader.open(new BlobSource(new Blob([bytes]), 'file'))
+const run = (...words) => execFileSync(reeb, words, { cwd: work, encoding: 'utf8', maxBuffer: 2 ** 28 })
+
+// The same random numbers in each run.
+let state = 1
+function random(below) {
+  state = (Math.imul(state, 1664525) + 1013904223) >>> 0
+  return Math.floor((state / 2 ** 32) * below)
+}
+
+// A level as `reeb extract` writes it.
+function level(reader, version) {
+  const { graph } = reader
+  const content = graph.contentOf(version)
+  const compare = (a, b) => graph.value[a] - graph.value[b] || graph.vertex[a] - graph.vertex[b]
+  const nodes = []
+  for (let i = 0; i < graph.nodes; ++i) if (content.isIn(i)) nodes.push(i)
+  nodes.sort(compare)
+  const arcs = []
+  for (let i = 0; i < graph.records; ++i) if (graph.isIn(i, version)) arcs.push(i)
+  arcs.sort((a, b) => compare(graph.lo[a], graph.lo[b]) || compare(graph.hi[a], graph.hi[b]) || a - b)
+  const point = (list, i) => [...list.subarray(3 * i, 3 * i + 3)]
+  return {
+    nodes: nodes.map((i) => ({
+      vertex: graph.vertex[i],
+      value: graph.value[i],
+      ...(reader.header.positions ? { position: point(graph.position, i) } : {}),
+      down: content.down[i],
+      up: content.up[i],
+    })),
+    arcs: arcs.map((i) => {
+      const path = []
+      for (let b = graph.firstBucket[i]; b < graph.firstBucket[i + 1]; ++b)
+        path.push([...point(graph.bucketMean, b), graph.bucketCount[b]])
+      return { lo: graph.vertex[graph.lo[i]], hi: graph.vertex[graph.hi[i]], path }
+    }),
+  }
+}
+
+function extracted(file, threshold) {
+  const { nodes, arcs } = JSON.parse(run('extract', file, '--format', 'json', '--threshold', String(threshold)))
+  return {
+    nodes: nodes.map(({ vertex, value, position, down, up }) => ({ vertex, value, ...(position ? { position } : {}), down, up })),
+    arcs: arcs.map(({ lo, hi, path }) => ({ lo, hi, path: path ?? [] })),
+  }
+}
+
+// Parallel arcs can come in another order.
+function same(what, seen, wanted) {
+  const text = ({ nodes, arcs }) => JSON.stringify({ nodes, arcs: arcs.map((arc) => JSON.stringify(arc)).sort() })
+  const [a, b] = [text(seen), text(wanted)]
+  if (a === b) return
+  let at = 0
+  while (a[at] === b[at]) ++at
+  check(what, false, `${a.slice(Math.max(0, at - 60), at + 60)} instead of ${b.slice(Math.max(0, at - 60), at + 60)}`)
+}
+
+async function compare(file, thresholds) {
+  const reader = await open(readFileSync(file))
+  for (const threshold of thresholds(reader.header)) {
+    // As far as the threshold needs, and no further.
+    let version = reader.graph.versionAt(threshold)
+    while (!reader.isComplete && (reader.graph.finest > reader.header.steps || !(threshold > reader.graph.persistenceOf(version)))) {
+      if (await reader.readFrame()) break
+      version = reader.graph.versionAt(threshold)
+    }
+    check(`${file}: no damage`, reader.damage === null, reader.damage?.message)
+    if (reader.header.nodes > 0 || reader.isComplete) same(`${file} at ${threshold}`, level(reader, version), extracted(file, threshold))
+  }
+  return reader
+}
+
+async function comparePairs(file, reader) {
+  const { type, lo, hi } = await reader.readPairs()
+  const names = ['Ext0', 'Ext1', 'Ord0', 'Rel1']
+  const { value, vertex } = reader.graph
+  const rows = [...type].map((t, i) => [names[t & 3], vertex[lo[i]], vertex[hi[i]], value[hi[i]] - value[lo[i]], t >> 2].join())
+  const lines = run('pairs', file).trim().split('\n')
+  const columns = lines[0].split(',')
+  const at = ['type', 'lo', 'hi', 'persistence', 'kept'].map((name) => columns.indexOf(name))
+  const wanted = lines.slice(1).map((line) => {
+    const cells = line.split(',')
+    return at.map((i, k) => (k === 0 ? cells[i] : String(Number(cells[i])))).join()
+  })
+  check(`${file}: pairs`, JSON.stringify(rows.sort()) === JSON.stringify(wanted.sort()), [rows.slice(0, 2), wanted.slice(0, 2)])
+}
+
+// Triangles between random vertices of a few values, so that there are loops, plateaus and isolated points.
+function randomMesh(name) {
+  const vertices = 3 + random(60)
+  const levels = 2 + random(30)
+  const lines = Array.from({ length: vertices }, () => [0, 0, 0].map(() => (random(levels) - levels / 2) / 7).join(' '))
+  const triangles = Array.from({ length: random(2 * vertices) }, () => {
+    const a = random(vertices)
+    return `3 ${a} ${(a + 1 + random(3)) % vertices} ${(a + 1 + random(vertices - 1)) % vertices}`
+  })
+  writeFileSync(name, ['OFF', `${vertices} ${triangles.length} 0`, ...lines, ...triangles, ''].join('\n'))
+}
+
+async function generated() {
+  let files = 0
+  for (let i = 0; i < 67; ++i) {
+    const mesh = join(work, 'random.off')
+    randomMesh(mesh)
+    const options = [[], ['--buckets', '0'], ['--graph-only'], ['--buckets', '3']][i % 4]
+    run('compute', mesh, '-f', 'x', '-f', 'y', '-f', 'z', '--quiet', '--force', '--threads', '1', ...options)
+    for (const name of ['x', 'y', 'z']) {
+      const file = join(work, `random-${name}.reeb`)
+      const reader = await compare(file, ({ levels }) => {
+        const chosen = [levels[random(levels.length)].threshold]
+        return i % 8 === 0 ? [...chosen, 0] : [i % 2 ? 0 : chosen[0]]
+      })
+      if (i % 8 === 0) await comparePairs(file, reader)
+      ++files
+    }
+  }
+  return files
+}
+
+// The example at the end of docs/FORMAT.md.
+function example() {
+  const text = readFileSync(join(source, 'docs/FORMAT.md'), 'utf8')
+  const hex = /```hex\n([^]*?)```/.exec(text)[1]
+  const bytes = hex.split('\n').flatMap((line) => line.slice(4).replace(/#.*/, '').trim().split(/\s+/).filter(Boolean))
+  return Uint8Array.from(bytes, (byte) => parseInt(byte, 16))
+}
+
+async function refusal(bytes) {
+  try {
+    const reader = await open(bytes)
+    await reader.readTo(0)
+    if (reader.damage) return { text: reader.damage.message, finest: reader.graph.finest }
+    await reader.readPairs()
+    return { text: '', finest: reader.graph.finest }
+  } catch (error) {
+    if (!(error instanceof FormatError)) throw error
+    return { text: error.message, finest: null }
+  }
+}
+
+async function damaged(name, bytes, places) {
+  for (const at of places) {
+    const flipped = bytes.slice()
+    flipped[at] ^= 1 << random(8)
+    check(`${name}: a flipped bit at byte ${at} is found`, (await refusal(flipped)).text !== '')
+    check(`${name}: a file that was cut at byte ${at} is refused`, (await refusal(bytes.slice(0, at))).text !== '')
+  }
+}
+
+const whole = example()
+const file = join(work, 'example.reeb')
+writeFileSync(file, whole)
+await comparePairs(file, await compare(file, () => [0, 1, 2]))
+await damaged('example', whole, whole.keys())
+
+const scan = new Uint8Array(readFileSync(join(work, 'scan.reeb')))
+const reader = await compare(join(work, 'scan.reeb'), ({ levels }) => levels.map(({ threshold }) => threshold))
+check('the large file has several frames', reader.header.graphFrames > 2, reader.header.graphFrames)
+await comparePairs(join(work, 'scan.reeb'), reader)
+await damaged('scan', scan, Array.from({ length: 60 }, () => random(scan.length)))
+
+// What was complete before the damage stays.
+{
+  const bytes = scan.slice(0, reader.header.levels.find(({ frames }) => frames > 1).fileBytes + 1000)
+  const { text, finest } = await refusal(bytes)
+  check('a cut file says where it ends', /was cut.*at byte/.test(text), text)
+  check('a cut file has its coarse versions', finest > 0 && finest < reader.header.steps, finest)
+}
+// The budget holds, and pairs of the coarse part come without the rest.
+{
+  const coarse = await open(scan)
+  check('the budget ends reading', (await coarse.readTo(0, 2000)) === 'budget')
+  check('no more than the budget', coarse.graph.records <= 2000 && coarse.graph.records > 0, coarse.graph.records)
+  const { lo, hi } = await coarse.readPairs()
+  check('pairs of nodes that were read', lo.length > 0 && [...lo, ...hi].every((node) => node < coarse.graph.nodes), lo.length)
+}
+
+const refused = async (what, change, text) => {
+  const bytes = whole.slice()
+  change(bytes)
+  const seen = await refusal(bytes)
+  check(`${what}: what is said`, text.test(seen.text), seen.text)
+}
+await refused('another magic', (bytes) => (bytes[0] = 0x50), /not a \.reeb file/)
+await refused('another version', (bytes) => (bytes[8] = 9), /version 9/)
+await refused('a huge header', (bytes) => (bytes[20] = 1), /larger than the file/)
+await refused('a wrong checksum', (bytes) => (bytes[60] ^= 1), /checksum/)
+await refused('a damaged frame', (bytes) => (bytes[0x170] ^= 1), /frame is damaged/)
+
+const files = await generated()
+console.log(failures === 0 ? `ok: ${files} generated files, the example and a scan` : `${failures} failures`)
+process.exit(failures > 0 ? 1 : 0)
