@@ -1,4 +1,4 @@
-# The pages of the program, made of tools/web with packages from npm and put into the program as text.
+# The pages of the program, made of tools/web and tools/viewer with packages from npm and put into the program as text.
 #
 # Packages are installed into the build folder, in the versions of tools/web/package-lock.json. With REEB_WEB=OFF
 # nothing of this is needed, and commands that need a page say that they have none.
@@ -10,7 +10,7 @@ function(reeb_web_pages)
     find_program(REEB_NPM NAMES npm DOC "npm, for REEB_WEB")
     mark_as_advanced(REEB_NODE REEB_NPM)
     if(NOT REEB_NODE OR NOT REEB_NPM)
-      message(FATAL_ERROR "Node.js or npm is missing, with which the pages of `reeb report` are made. "
+      message(FATAL_ERROR "Node.js or npm is missing, with which the pages of `reeb report` and `reeb view` are made. "
         "tools/install_packages.sh installs them; -DREEB_WEB=OFF builds the program without pages.")
     endif()
     set(source "${PROJECT_SOURCE_DIR}/tools/web")
@@ -20,7 +20,8 @@ function(reeb_web_pages)
       DEPENDS "${source}/package.json" "${source}/package-lock.json"
         "${PROJECT_SOURCE_DIR}/cmake/install_web_packages.cmake"
       COMMENT "Installing the npm packages of tools/web" VERBATIM)
-    file(GLOB parts CONFIGURE_DEPENDS "${source}/*.js" "${source}/*.mjs" "${source}/*.html" "${source}/*.css")
+    file(GLOB parts CONFIGURE_DEPENDS "${source}/*.js" "${source}/*.mjs" "${source}/*.html" "${source}/*.css"
+      "${PROJECT_SOURCE_DIR}/tools/viewer/*")
     add_custom_command(OUTPUT "${pages}"
       COMMAND "${REEB_NODE}" "${source}/build.mjs" "${folder}" "${pages}"
       DEPENDS "${folder}/packages.stamp" ${parts}
@@ -29,7 +30,9 @@ function(reeb_web_pages)
     set(pages "${folder}/no_pages.cpp")  # another name, so that switching REEB_WEB back makes the pages again
     file(CONFIGURE OUTPUT "${pages}" @ONLY CONTENT [=[// Built with REEB_WEB=OFF: there are no pages.
 #include "tools/report/page_template.h"
+#include "tools/view/viewer_page.h"
 std::string_view reeb::tools::report_template() { return {}; }
+std::string_view reeb::tools::viewer_page() { return {}; }
 ]=])
   endif()
   # Without the flags of the project: its warnings are about sources of people.

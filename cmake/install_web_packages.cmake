@@ -7,6 +7,6 @@ execute_process(
 if(failed)
   message(FATAL_ERROR "The npm packages of the pages could not be installed:\n${log}\n"
     "This needs the network once, or packages in npm's cache. "
-    "-DREEB_WEB=OFF builds the program without pages (`reeb report`).")
+    "-DREEB_WEB=OFF builds the program without pages (`reeb report`, `reeb view`).")
 endif()
 file(TOUCH "${FOLDER}/packages.stamp")

@@ -104,6 +104,7 @@ int run(int argc, char** argv) {
   reeb::tools::add_function(program);
   reeb::tools::add_segment(program);
   reeb::tools::add_report(program);
+  reeb::tools::add_view(program);
   for (CLI::App* command : program.get_subcommands({})) command->group("Commands");
   if (argc == 1) {
     fmt::print("{}", program.help());

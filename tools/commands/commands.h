@@ -19,5 +19,6 @@ void add_function(CLI::App& program);
 void add_segment(CLI::App& program);
 void add_plot(CLI::App& program);
 void add_report(CLI::App& program);
+void add_view(CLI::App& program);
 
 }  // namespace reeb::tools

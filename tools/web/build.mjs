@@ -1,4 +1,4 @@
-// Bundles a page with its style and script into one text, and writes it as C++.
+// Bundles pages, each with its style and script, into one text, and writes them as C++.
 //
 //   node build.mjs FOLDER OUT.cpp     FOLDER has node_modules
 import { createRequire } from 'node:module'
@@ -28,10 +28,19 @@ function bundle(name) {
 }
 
 // The terms of what is bundled, in full.
-function notice() {
-  const licence = readFileSync(join(folder, 'node_modules/three/LICENSE'), 'utf8')
-  const { version } = JSON.parse(readFileSync(join(folder, 'node_modules/three/package.json'), 'utf8'))
-  return `The script of this page contains parts of three.js ${version} (https://threejs.org).\n\n${licence.trim()}`
+const kSoftware = {
+  three: ['three.js', 'https://threejs.org', 'LICENSE'],
+  fzstd: ['fzstd', 'https://github.com/101arrowz/fzstd', 'LICENSE'],
+  'xxhash-wasm': ['xxhash-wasm', 'https://github.com/jungomi/xxhash-wasm', 'LICENSE.md'],
+}
+function notice(packages) {
+  const parts = packages.map((name) => {
+    const [title, address, file] = kSoftware[name]
+    const licence = readFileSync(join(folder, 'node_modules', name, file), 'utf8')
+    const { version } = JSON.parse(readFileSync(join(folder, 'node_modules', name, 'package.json'), 'utf8'))
+    return `The script of this page contains parts of ${title} ${version} (${address}).\n\n${licence.trim()}`
+  })
+  return parts.join('\n\n')
 }
 
 function insert(page, place, text) {
@@ -40,27 +49,46 @@ function insert(page, place, text) {
   return parts.join(text)
 }
 
-const script = bundle('report.js')
-if (/<\/script|<!--/i.test(script)) throw new Error('the script would end early inside of a page')
-let page = readFileSync(join(source, 'report.html'), 'utf8')
-page = insert(page, '/*reeb-style*/', bundle('report.css'))
-page = insert(page, '/*reeb-script*/', script)
-page = insert(page, 'reeb-notice', notice().replaceAll('&', '&amp;').replaceAll('<', '&lt;'))
+// `name`: of the page, its style and its script, without endings.
+function makePage(name, scriptName, packages) {
+  const script = bundle(scriptName)
+  if (/<\/script|<!--/i.test(script)) throw new Error('the script would end early inside of a page')
+  let page = readFileSync(join(source, `${name}.html`), 'utf8')
+  page = insert(page, '/*reeb-style*/', bundle(`${name}.css`))
+  page = insert(page, '/*reeb-script*/', script)
+  return insert(page, 'reeb-notice', notice(packages).replaceAll('&', '&amp;').replaceAll('<', '&lt;'))
+}
 
 // Pieces, since some compilers limit the length of a literal.
-const delimiter = 'reeb_page'
-if (page.includes(`)${delimiter}"`)) throw new Error('the page contains the end of a literal')
-const pieces = page.match(/[^]{1,16000}/gu).map((piece) => `R"${delimiter}(${piece})${delimiter}"`)
+function literal(page) {
+  const delimiter = 'reeb_page'
+  if (page.includes(`)${delimiter}"`)) throw new Error('the page contains the end of a literal')
+  return page
+    .match(/[^]{1,16000}/gu)
+    .map((piece) => `R"${delimiter}(${piece})${delimiter}"`)
+    .join('\n')
+}
+
+const report = makePage('report', 'report.js', ['three'])
+const viewer = makePage('../viewer/viewer', '../viewer/viewer.ts', ['three', 'fzstd', 'xxhash-wasm'])
+writeFileSync(join(dirname(output), 'viewer.html'), viewer)
 writeFileSync(
   output,
   `// Made by tools/web/build.mjs.
 #include "tools/report/page_template.h"
+#include "tools/view/viewer_page.h"
 
 namespace reeb::tools {
 
 std::string_view report_template() {
   static constexpr char kPage[] =
-${pieces.join('\n')};
+${literal(report)};
+  return {kPage, sizeof kPage - 1};
+}
+
+std::string_view viewer_page() {
+  static constexpr char kPage[] =
+${literal(viewer)};
   return {kPage, sizeof kPage - 1};
 }
 

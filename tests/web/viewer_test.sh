@@ -1,0 +1,24 @@
+#!/usr/bin/env bash
+# The viewer: its reader (reader_test.mjs), the server of `reeb view` and the page in a browser (viewer_test.mjs).
+#
+#   viewer_test.sh SOURCE_FOLDER REEB PACKAGES     PACKAGES has node_modules and viewer.html
+set -euo pipefail
+source=$1 reeb=$2 packages=$3
+node=$(command -v node || command -v nodejs)
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+"$reeb" generate scan --triangles 200k -o "$work/scan.ply" >/dev/null
+"$reeb" "$work/scan.ply" --quiet -o "$work/scan.reeb"
+cp "$packages/viewer.html" "$work"
+
+failures=0
+"$node" "$source/tests/web/reader_test.mjs" "$source" "$reeb" "$packages" "$work" || failures=1
+"$node" "$source/tests/web/view_server_test.mjs" "$reeb" "$work" || failures=1
+if "$source/tools/install_packages.sh" chromium tidy >/dev/null; then
+  if tidy -quiet -errors "$work/viewer.html"; then echo "ok: tidy finds nothing in viewer.html"; else failures=1; fi
+  "$node" "$source/tests/web/viewer_test.mjs" "$reeb" "$work" || failures=1
+else
+  echo "skipped: no data: chromium and tidy cannot be installed"
+fi
+exit $failures

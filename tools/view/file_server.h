@@ -1,0 +1,44 @@
+// A web server for one page and one file, for programs of this computer only.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <string_view>
+
+#include "io/file/file.h"
+
+namespace reeb::tools {
+
+// Listens on 127.0.0.1 from the constructor on. It answers only requests that name this computer as their host and
+// whose path begins with a random word, so neither other pages nor other users can read the file: not even its name.
+class FileServer {
+ public:
+  // `page` must outlive the server. The file stays open, so it can be replaced or removed meanwhile. Port 0: any free
+  // one.
+  // THROWS: Error{kBadInput} if the file cannot be opened, Error{kResource} if the port cannot be used.
+  FileServer(std::string_view page, const std::string& file, std::uint16_t port);
+  FileServer(const FileServer&) = delete;
+  FileServer& operator=(const FileServer&) = delete;
+  ~FileServer();
+
+  // Of the page, which opens the file.
+  const std::string& address() const { return address_; }
+
+  // Answers requests, several at a time, until `stop` returns true; it is asked a few times a second.
+  void serve(const std::function<bool()>& stop);
+
+ private:
+  class Connections;
+
+  void answer(int socket) const;
+  void send_file(int socket, std::uint64_t begin, std::uint64_t end) const;
+
+  std::string_view page_;
+  io::File file_;
+  std::uint64_t file_bytes_ = 0;
+  int socket_ = -1;
+  std::string port_, token_, name_, address_;
+};
+
+}  // namespace reeb::tools

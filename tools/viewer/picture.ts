@@ -1,0 +1,257 @@
+// A shape drawn by WebGL. All arcs that were read are on the graphics card; a number says which version is drawn, so
+// the slider costs no work per arc.
+import {
+  BufferAttribute, BufferGeometry, Color, InstancedBufferAttribute, InstancedBufferGeometry, Mesh, OrthographicCamera,
+  Points, Scene, ShaderMaterial, Vector2, WebGLRenderer,
+} from 'three'
+import type { Camera } from '../web/camera.js'
+import { css, kindColors, valueColors } from '../web/colors.js'
+import type { Shape } from './shapes'
+
+export type Coloring = 'value' | 'arc' | 'type'
+export const kColorings: Coloring[] = ['value', 'arc', 'type']
+export const kNoArc = 2 ** 32 - 1
+
+// Kinds of nodes in buffers; 0 is not drawn.
+export const kKinds = ['none', 'min', 'max', 'saddle', 'isolated'] as const
+
+const kLineVertex = `
+  attribute vec2 corner;
+  attribute vec3 start;
+  attribute vec3 end;
+  attribute vec2 part;
+  attribute uvec2 life;
+  attribute uint arc;
+  attribute float type;
+  uniform uint version, chosen;
+  uniform vec2 size;
+  uniform float width;
+  uniform int coloring;
+  uniform vec3 stops[3];
+  uniform vec3 kinds[5];
+  uniform vec3 mark;
+  varying vec3 tint;
+  vec3 ofArc(uint number) {
+    float hue = fract(float(number % 4096u) * 0.61803398875) * 6.0;
+    return 0.25 + 0.6 * clamp(abs(mod(hue + vec3(0.0, 4.0, 2.0), 6.0) - 3.0) - 1.0, 0.0, 1.0);
+  }
+  void main() {
+    gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
+    if (version < life.x || version >= life.y) return;
+    mat4 all = projectionMatrix * modelViewMatrix;
+    vec4 a = all * vec4(start, 1.0), b = all * vec4(end, 1.0);
+    vec2 along = (b.xy - a.xy) * size;
+    along = length(along) > 1e-6 ? normalize(along) : vec2(1.0, 0.0);
+    float wide = arc == chosen ? 3.0 * width : width;
+    vec4 at = mix(a, b, corner.x);
+    at.xy += (vec2(-along.y, along.x) * corner.y + along * (corner.x - 0.5)) * wide / size;
+    if (arc == chosen) at.z -= 0.001;
+    gl_Position = at;
+    float p = clamp(mix(part.x, part.y, corner.x), 0.0, 1.0) * 2.0;
+    tint = p < 1.0 ? mix(stops[0], stops[1], p) : mix(stops[1], stops[2], p - 1.0);
+    if (coloring == 1) tint = ofArc(arc);
+    if (coloring == 2) tint = kinds[int(type)];
+    if (arc == chosen) tint = mark;
+  }`
+const kPointVertex = `
+  attribute float kind;
+  uniform vec3 kinds[5];
+  uniform float width;
+  varying vec3 tint;
+  varying float shape;
+  void main() {
+    gl_Position = kind < 0.5 ? vec4(2.0, 2.0, 2.0, 1.0) : projectionMatrix * modelViewMatrix * vec4(position, 1.0);
+    gl_Position.z -= 0.0005;
+    gl_PointSize = width;
+    shape = kind;
+    tint = kinds[int(kind + 0.5)];
+  }`
+const kPointFragment = `
+  varying vec3 tint;
+  varying float shape;
+  void main() {
+    vec2 p = gl_PointCoord * 2.0 - 1.0;
+    bool inside = shape < 1.5 ? abs(p.x) < (0.9 - p.y) * 0.5 && p.y > -0.7
+      : shape < 2.5 ? abs(p.x) < (0.9 + p.y) * 0.5 && p.y < 0.7
+      : shape < 3.5 ? dot(p, p) < 0.55 : shape < 4.5 ? max(abs(p.x), abs(p.y)) < 0.7
+      : dot(p, p) < 1.0 && dot(p, p) > 0.6;
+    if (!inside) discard;
+    gl_FragColor = vec4(tint, 1.0);
+  }`
+const kRing = 5
+
+export interface Found {
+  node?: number
+  arc?: number
+}
+
+// THROWS if there is no WebGL.
+export class Picture {
+  readonly element: HTMLCanvasElement
+  private readonly renderer: WebGLRenderer
+  private readonly camera = new OrthographicCamera(-1, 1, 1, -1, -100, 100)
+  private readonly scene = new Scene()
+  private readonly lineMaterial: ShaderMaterial
+  private readonly pointMaterial: ShaderMaterial
+  private readonly ringMaterial: ShaderMaterial
+  private lines: Mesh | null = null
+  private points: Points | null = null
+  private rings: Points | null = null
+  private shape: Shape | null = null
+  private kinds = new Uint8Array(0)
+  private version = 0
+  private size = [0, 0]
+
+  constructor(place: HTMLElement) {
+    this.renderer = new WebGLRenderer({ antialias: true, alpha: true, preserveDrawingBuffer: true })
+    this.renderer.setPixelRatio(Math.min(2, devicePixelRatio))
+    this.camera.matrixAutoUpdate = false
+    const kinds = { value: kKinds.map(() => new Color()) }
+    this.lineMaterial = new ShaderMaterial({
+      vertexShader: kLineVertex,
+      fragmentShader: 'varying vec3 tint; void main() { gl_FragColor = vec4(tint, 1.0); }',
+      uniforms: {
+        version: { value: 0 }, chosen: { value: kNoArc }, size: { value: new Vector2(1, 1) }, width: { value: 2.2 },
+        coloring: { value: 0 }, stops: { value: [new Color(), new Color(), new Color()] }, kinds,
+        mark: { value: new Color() },
+      },
+      side: 2,
+    })
+    const points = (width: number, colors: object, depthTest: boolean) =>
+      new ShaderMaterial({
+        vertexShader: kPointVertex, fragmentShader: kPointFragment, depthTest,
+        uniforms: { kinds: colors, width: { value: width * this.renderer.getPixelRatio() } } as never,
+      })
+    this.pointMaterial = points(11, kinds, true)
+    this.ringMaterial = points(30, { value: [...kKinds, 'ring'].map(() => new Color()) }, false)
+    this.ringMaterial.vertexShader = kPointVertex.replace('kinds[5]', 'kinds[6]')
+    this.element = this.renderer.domElement
+    place.append(this.element)
+    this.recolor()
+  }
+
+  recolor() {
+    const { uniforms } = this.lineMaterial
+    const color = valueColors()
+    uniforms.stops.value.forEach((stop: Color, i: number) => stop.fromArray(color(i / 2)))
+    const kinds: Record<string, number[]> = kindColors()
+    kKinds.forEach((kind, i) => kind !== 'none' && uniforms.kinds.value[i].fromArray(kinds[kind]))
+    const mark = css('--accent')
+    const channels = [1, 3, 5].map((i) => parseInt(mark.slice(i, i + 2), 16) / 255)
+    uniforms.mark.value.fromArray(channels)
+    this.ringMaterial.uniforms.kinds.value[kRing].fromArray(channels)
+  }
+
+  setShape(shape: Shape) {
+    this.shape = shape
+    this.remove(this.lines)
+    this.remove(this.points)
+    const geometry = new InstancedBufferGeometry()
+    const corners = new Float32Array([0, -1, 1, -1, 1, 1, 0, 1])
+    geometry.setAttribute('corner', new BufferAttribute(corners, 2))
+    geometry.setIndex([0, 1, 2, 0, 2, 3])
+    for (const [name, size] of [['start', 3], ['end', 3], ['part', 2], ['life', 2], ['arc', 1]] as const)
+      geometry.setAttribute(name, new InstancedBufferAttribute(shape[name], size))
+    geometry.setAttribute('type', new InstancedBufferAttribute(new Uint8Array(shape.arc.length), 1))
+    geometry.instanceCount = shape.arc.length
+    this.lines = new Mesh(geometry, this.lineMaterial)
+    this.lines.frustumCulled = false
+    this.kinds = new Uint8Array(shape.nodes.length / 3)
+    const nodes = new BufferGeometry()
+    nodes.setAttribute('position', new BufferAttribute(shape.nodes, 3))
+    nodes.setAttribute('kind', new BufferAttribute(this.kinds, 1))
+    this.points = new Points(nodes, this.pointMaterial)
+    this.points.frustumCulled = false
+    this.points.renderOrder = 1
+    this.scene.add(this.lines, this.points)
+  }
+
+  // `kinds`: of each node, as in kKinds. `types`: of each arc, in the same numbers; null where they are not shown.
+  show(version: number, kinds: Uint8Array, types: Uint8Array | null) {
+    this.version = version
+    this.lineMaterial.uniforms.version.value = version
+    if (!this.shape || !this.points || !this.lines) return
+    this.kinds.set(kinds)
+    this.points.geometry.attributes.kind.needsUpdate = true
+    if (!types) return
+    const attribute = this.lines.geometry.attributes.type
+    for (let i = 0; i < this.shape.arc.length; ++i) attribute.array[i] = types[this.shape.arc[i]]
+    attribute.needsUpdate = true
+  }
+
+  setColoring(coloring: Coloring) {
+    this.lineMaterial.uniforms.coloring.value = kColorings.indexOf(coloring)
+  }
+
+  choose(arc: number, nodes: number[]) {
+    this.lineMaterial.uniforms.chosen.value = arc
+    this.remove(this.rings)
+    this.rings = null
+    if (!this.shape || nodes.length === 0) return
+    const geometry = new BufferGeometry()
+    const places = nodes.flatMap((node) => [...this.shape!.nodes.subarray(3 * node, 3 * node + 3)])
+    geometry.setAttribute('position', new BufferAttribute(new Float32Array(places), 3))
+    geometry.setAttribute('kind', new BufferAttribute(new Uint8Array(nodes.length).fill(kRing), 1))
+    this.rings = new Points(geometry, this.ringMaterial)
+    this.rings.frustumCulled = false
+    this.rings.renderOrder = 2
+    this.scene.add(this.rings)
+  }
+
+  draw(camera: Camera, width: number, height: number) {
+    if (width !== this.size[0] || height !== this.size[1]) {
+      this.renderer.setSize(width, height, false)
+      this.size = [width, height]
+    }
+    const scale = (Math.min(width, height) / 2.4) * camera.zoom
+    Object.assign(this.camera, {
+      left: -width / 2 / scale, right: width / 2 / scale, top: height / 2 / scale, bottom: -height / 2 / scale,
+    })
+    this.camera.updateProjectionMatrix()
+    const { right, up, back } = camera.axes()
+    const [x, y, z] = camera.target
+    this.camera.matrix.set(right[0], up[0], back[0], x, right[1], up[1], back[1], y, right[2], up[2], back[2], z, 0, 0, 0, 1)
+    this.camera.matrixWorldNeedsUpdate = true
+    this.lineMaterial.uniforms.size.value.set(width, height)
+    this.renderer.render(this.scene, this.camera)
+  }
+
+  // What is nearest to a place of the picture, within some pixels; nodes come before arcs.
+  find(camera: Camera, [px, py]: number[], reach = 9): Found {
+    const { shape } = this
+    if (!shape) return {}
+    const [width, height] = this.size
+    const { right, up } = camera.axes()
+    const [tx, ty, tz] = camera.target
+    const scale = (Math.min(width, height) / 2.4) * camera.zoom
+    const xOf = (p: Float32Array, i: number) =>
+      width / 2 + scale * ((p[i] - tx) * right[0] + (p[i + 1] - ty) * right[1] + (p[i + 2] - tz) * right[2])
+    const yOf = (p: Float32Array, i: number) =>
+      height / 2 - scale * ((p[i] - tx) * up[0] + (p[i + 1] - ty) * up[1] + (p[i + 2] - tz) * up[2])
+    let least = reach + 3
+    let found: Found = {}
+    for (let i = 0; i < this.kinds.length; ++i) {
+      if (this.kinds[i] === 0) continue
+      const distance = Math.hypot(xOf(shape.nodes, 3 * i) - px, yOf(shape.nodes, 3 * i) - py)
+      if (distance < least) [least, found] = [distance, { node: i }]
+    }
+    if (found.node !== undefined) return found
+    least = reach
+    for (let i = 0; i < shape.arc.length; ++i) {
+      if (this.version < shape.life[2 * i] || this.version >= shape.life[2 * i + 1]) continue
+      const [ax, ay] = [xOf(shape.start, 3 * i), yOf(shape.start, 3 * i)]
+      const [dx, dy] = [xOf(shape.end, 3 * i) - ax, yOf(shape.end, 3 * i) - ay]
+      const length = dx * dx + dy * dy
+      const t = length > 0 ? Math.min(1, Math.max(0, ((px - ax) * dx + (py - ay) * dy) / length)) : 0
+      const distance = Math.hypot(ax + t * dx - px, ay + t * dy - py)
+      if (distance < least) [least, found] = [distance, { arc: shape.arc[i] }]
+    }
+    return found
+  }
+
+  private remove(object: Mesh | Points | null) {
+    if (!object) return
+    this.scene.remove(object)
+    object.geometry.dispose()
+  }
+}

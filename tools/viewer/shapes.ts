@@ -1,0 +1,167 @@
+// Where nodes and arcs are drawn: in the shape of the mesh, and laid out by value. Both fill the cube from -1 to 1.
+import type { LoadedGraph, VersionContent } from './loaded_graph'
+
+// Segments of all arcs that were read; which of them are drawn depends on the version.
+export interface Shape {
+  nodes: Float32Array // x, y, z
+  start: Float32Array // of each segment
+  end: Float32Array
+  part: Float32Array // value at start and end, from 0 to 1 of the range
+  life: Uint32Array // born, died
+  arc: Uint32Array
+}
+
+export function shapeBytes(shape: Shape): number {
+  return Object.values(shape).reduce((sum, list) => sum + list.byteLength, 0)
+}
+
+// Maps positions into the cube: chosen once, so that pictures do not jump while more is read.
+export interface Frame {
+  middle: number[]
+  scale: number
+}
+
+export function frameOf(graph: LoadedGraph): Frame {
+  const least = [Infinity, Infinity, Infinity]
+  const most = [-Infinity, -Infinity, -Infinity]
+  for (const [list, size] of [[graph.position, 3 * graph.nodes], [graph.bucketMean, 3 * graph.buckets]] as const)
+    for (let i = 0; i < size; ++i) {
+      least[i % 3] = Math.min(least[i % 3], list[i])
+      most[i % 3] = Math.max(most[i % 3], list[i])
+    }
+  if (!least.every(Number.isFinite) || !most.every(Number.isFinite)) return { middle: [0, 0, 0], scale: 1 }
+  const size = Math.hypot(...most.map((x, k) => x - least[k]))
+  return { middle: most.map((x, k) => x / 2 + least[k] / 2), scale: size > 0 ? 2 / size : 1 }
+}
+
+function partOf(graph: LoadedGraph): (value: number) => number {
+  const { min, max } = graph.header
+  return (value) => (max > min ? (value - min) / (max - min) : 0.5)
+}
+
+function makeShape(graph: LoadedGraph, nodes: Float32Array, segments: number): Shape {
+  return {
+    nodes,
+    start: new Float32Array(3 * segments),
+    end: new Float32Array(3 * segments),
+    part: new Float32Array(2 * segments),
+    life: new Uint32Array(2 * segments),
+    arc: new Uint32Array(segments),
+  }
+}
+
+// Through the means of the buckets of each arc.
+export function skeletonShape(graph: LoadedGraph, { middle, scale }: Frame): Shape {
+  const nodes = new Float32Array(3 * graph.nodes)
+  for (let i = 0; i < nodes.length; ++i) nodes[i] = (graph.position[i] - middle[i % 3]) * scale
+  const { lo, hi, value, firstBucket, bucketMean, bucketIndex, born, died } = graph
+  const part = partOf(graph)
+  const width = 2 ** graph.header.bucketExponent
+  const shape = makeShape(graph, nodes, graph.records + graph.buckets)
+  let at = 0
+  const point = [0, 0, 0, 0]
+  const before = [0, 0, 0, 0]
+  for (let arc = 0; arc < graph.records; ++arc) {
+    const [low, high] = [part(value[lo[arc]]), part(value[hi[arc]])]
+    const [first, last] = [firstBucket[arc], firstBucket[arc + 1]]
+    for (let k = 0; k < 3; ++k) before[k] = nodes[3 * lo[arc] + k]
+    before[3] = low
+    for (let i = first; i <= last; ++i) {
+      for (let k = 0; k < 3; ++k)
+        point[k] = i < last ? (bucketMean[3 * i + k] - middle[k]) * scale : nodes[3 * hi[arc] + k]
+      point[3] = i < last ? Math.min(high, Math.max(low, part((bucketIndex[i] + 0.5) * width))) : high
+      put(shape, at++, before, point, arc, born[arc], died[arc])
+      for (let k = 0; k < 4; ++k) before[k] = point[k]
+    }
+  }
+  return shape
+}
+
+function put(shape: Shape, at: number, from: number[], to: number[], arc: number, born: number, died: number) {
+  for (let k = 0; k < 3; ++k) {
+    shape.start[3 * at + k] = from[k]
+    shape.end[3 * at + k] = to[k]
+  }
+  shape.part[2 * at] = from[3]
+  shape.part[2 * at + 1] = to[3]
+  shape.life[2 * at] = born
+  shape.life[2 * at + 1] = died
+  shape.arc[at] = arc
+}
+
+// A place from 0 to 1 across for each node of a version, NaN for others: the ends of a spanning tree one after the
+// other, every other node in the middle of what follows it in the tree.
+export function acrossOf(graph: LoadedGraph, content: VersionContent): Float64Array {
+  const { nodes, lo, hi } = graph
+  const degree = new Uint32Array(nodes + 1)
+  for (let i = 0; i < nodes; ++i) degree[i + 1] = degree[i] + content.down[i] + content.up[i]
+  const fill = degree.slice()
+  const others = new Uint32Array(degree[nodes])
+  for (let arc = 0; arc < graph.records; ++arc) {
+    if (!graph.isIn(arc, content.version)) continue
+    others[fill[lo[arc]]++] = hi[arc]
+    others[fill[hi[arc]]++] = lo[arc]
+  }
+  const across = new Float64Array(nodes).fill(NaN)
+  const order = [...Array(nodes).keys()].filter(content.isIn).sort((a, b) => graph.value[a] - graph.value[b])
+  const seen = new Uint8Array(nodes)
+  const sum = new Float64Array(nodes)
+  const children = new Uint32Array(nodes)
+  let places = 0
+  for (const root of order) {
+    if (seen[root]) continue
+    seen[root] = 1
+    const path = [root]
+    const next = [degree[root]]
+    while (path.length > 0) {
+      const node = path[path.length - 1]
+      let at = next[next.length - 1]
+      while (at < degree[node + 1] && seen[others[at]]) ++at
+      next[next.length - 1] = at + 1
+      if (at < degree[node + 1]) {
+        seen[others[at]] = 1
+        path.push(others[at])
+        next.push(degree[others[at]])
+        continue
+      }
+      path.pop()
+      next.pop()
+      across[node] = children[node] > 0 ? sum[node] / children[node] : places++
+      const parent = path[path.length - 1]
+      if (parent === undefined) continue
+      sum[parent] += across[node]
+      ++children[parent]
+    }
+  }
+  for (let i = 0; i < nodes; ++i) across[i] = places > 1 ? across[i] / (places - 1) : across[i] + 0.5
+  return across
+}
+
+// By value upwards. Nodes that `across` does not place are where `spare` has them.
+export function flatShape(graph: LoadedGraph, across: Float64Array, spare: Float64Array): Shape {
+  const { lo, hi, value, born, died } = graph
+  const part = partOf(graph)
+  const nodes = new Float32Array(3 * graph.nodes)
+  for (let i = 0; i < graph.nodes; ++i) {
+    const x = Number.isNaN(across[i]) ? spare[i] : across[i]
+    nodes[3 * i] = Number.isNaN(x) ? 0 : 2 * x - 1
+    nodes[3 * i + 1] = 2 * part(value[i]) - 1
+  }
+  // Arcs between the same nodes bend, so that each is seen.
+  const shape = makeShape(graph, nodes, 2 * graph.records)
+  const same = new Map<number, number>()
+  for (let arc = 0; arc < graph.records; ++arc) {
+    const [a, b] = [3 * lo[arc], 3 * hi[arc]]
+    const key = lo[arc] * graph.nodes + hi[arc]
+    const rank = same.get(key) ?? 0
+    same.set(key, rank + 1)
+    const [low, high] = [part(value[lo[arc]]), part(value[hi[arc]])]
+    const bend = (rank % 2 === 1 ? 1 : -1) * Math.ceil(rank / 2) * Math.min(0.08, 0.3 * (high - low) + 0.01)
+    const from = [nodes[a], nodes[a + 1], 0, low]
+    const to = [nodes[b], nodes[b + 1], 0, high]
+    const middle = from.map((x, k) => (x + to[k]) / 2 + (k === 0 ? bend : 0))
+    put(shape, 2 * arc, from, middle, arc, born[arc], died[arc])
+    put(shape, 2 * arc + 1, middle, to, arc, born[arc], died[arc])
+  }
+  return shape
+}

@@ -1,0 +1,41 @@
+// What is shown, in the address of the page after #: so an address can be kept or passed on.
+
+export interface State {
+  threshold?: number
+  coloring?: string
+  budget?: number
+  camera?: { turn: number; tilt: number; zoom: number; target: number[] }
+  chosen?: number[] // vertices
+}
+
+const numbers = (text: string | null, size: number): number[] | undefined => {
+  const list = text?.split(',').map(Number)
+  return list && list.length === size && list.every(Number.isFinite) ? list : undefined
+}
+
+// What is not valid is left out.
+export function readState(): State {
+  const words = new URLSearchParams(location.hash.slice(1))
+  const [threshold] = numbers(words.get('t'), 1) ?? []
+  const [budget] = numbers(words.get('arcs'), 1) ?? []
+  const camera = numbers(words.get('view'), 6)
+  const chosen = numbers(words.get('at'), 2) ?? numbers(words.get('at'), 1)
+  const coloring = words.get('colour') ?? undefined
+  return {
+    threshold: threshold !== undefined && threshold >= 0 ? threshold : undefined,
+    coloring: coloring && ['value', 'arc', 'type'].includes(coloring) ? coloring : undefined,
+    budget: budget !== undefined && Number.isInteger(budget) && budget > 0 ? budget : undefined,
+    camera: camera && camera[2] > 0 ? { turn: camera[0], tilt: camera[1], zoom: camera[2], target: camera.slice(3) } : undefined,
+    chosen,
+  }
+}
+
+export function writeState({ threshold, coloring, budget, camera, chosen }: State) {
+  const words = new URLSearchParams()
+  if (threshold !== undefined) words.set('t', String(threshold))
+  if (coloring && coloring !== 'value') words.set('colour', coloring)
+  if (budget !== undefined) words.set('arcs', String(budget))
+  if (camera) words.set('view', [camera.turn, camera.tilt, camera.zoom, ...camera.target].map((x) => Number(x.toFixed(4))).join())
+  if (chosen && chosen.length > 0) words.set('at', chosen.join())
+  history.replaceState(null, '', `#${words.toString().replaceAll('%2C', ',')}`)
+}
