@@ -35,7 +35,7 @@ export async function serve(folder) {
     if (begin >= end) return response.writeHead(416, headers).end()
     const part = bytes.subarray(begin, end)
     response.writeHead(206, { ...headers, 'Content-Length': part.length, 'Content-Range': `bytes ${begin}-${end - 1}/${bytes.length}` })
-    if (kind === 'cuts' && part.length > 20_000) return response.write(part.subarray(0, 20_000), () => request.socket.destroy())
+    if (kind === 'cuts' && part.length > 20_000) return response.write(part.subarray(0, 20_000), () => request.socket.end())
     if (kind !== 'slow') return response.end(part)
     for (let at = 0; at < part.length; at += 16_384) {
       await new Promise((done) => setTimeout(done, 16.384))

@@ -39,6 +39,7 @@ export class BlobSource implements Source {
 }
 
 const kTries = 4
+const kLeastBytes = 4096
 const kDownload = 'Download the file, and drop it onto this page.'
 
 export class HttpSource implements Source {
@@ -48,6 +49,7 @@ export class HttpSource implements Source {
   private readonly url: URL
   private readonly abort = new AbortController()
   private tag: string | null = null
+  private most = Infinity // bytes of a request: fewer where connections are cut
 
   // `progress` is called while bytes come in, `retrying` before each further try.
   constructor(
@@ -65,7 +67,7 @@ export class HttpSource implements Source {
     let at = begin
     for (let tries = 1; ; ++tries) {
       try {
-        await this.request(at, end, (part) => {
+        await this.request(at, Math.min(end, at + this.most), (part) => {
           parts.push(part)
           at += part.length
           this.loaded += part.length
@@ -73,9 +75,9 @@ export class HttpSource implements Source {
           this.report.progress?.()
         })
         if (at >= Math.min(end, this.size)) break
-        throw new Interrupted('The connection ended early.')
       } catch (error) {
         if (!(error instanceof Interrupted)) throw error
+        this.most = Math.max(kLeastBytes, Math.min(this.most, end - at) / 2) | 0
         if (tries >= kTries) throw new SourceError(`${error.message} ${kTries} tries failed.`, 'Check the network, and try again.')
         this.report.retrying?.(error.message)
         await new Promise((done) => setTimeout(done, this.waitMilliseconds * 2 ** (tries - 1)))
@@ -112,7 +114,7 @@ export class HttpSource implements Source {
           if (this.abort.signal.aborted) throw error
           throw new Interrupted('The connection was cut.')
         })
-        if (done) break
+        if (done) throw new Interrupted('The connection ended early.')
         take(value.subarray(0, left))
         left -= value.length
       }

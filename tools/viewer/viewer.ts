@@ -92,6 +92,8 @@ async function open(source: Source) {
   content = box = choice = null
   shapeRecords = pairsAt = -1
   marks = []
+  element('figures').replaceChildren()
+  element('plots-message').textContent = element('chosen').textContent = ''
   element('view').hidden = true
   element('name').textContent = source.name
   element('subtitle').textContent = 'Loading ...'
@@ -277,27 +279,11 @@ function thresholdOf(version: number): number {
   return version === 0 ? 0 : session!.reader.graph.persistenceOf(version)
 }
 
-function loopsOf({ arcs, nodes, isIn }: VersionContent): number {
-  const { graph } = session!.reader
-  const parent = new Uint32Array(graph.nodes).map((_, i) => i)
-  const find = (node: number) => {
-    while (parent[node] !== node) node = parent[node] = parent[parent[node]]
-    return node
-  }
-  let components = nodes
-  for (let i = 0; i < graph.records; ++i) {
-    if (!graph.isIn(i, content!.version)) continue
-    const [a, b] = [find(graph.lo[i]), find(graph.hi[i])]
-    if (a !== b) --components
-    parent[a] = b
-  }
-  return arcs - nodes + components
-}
-
 function showCounts() {
-  const { reader, source, end, isReading, wanted, budget } = session!
+  const { reader, source, end, isReading, budget } = session!
   const { graph, header } = reader
-  const loops = loopsOf(content!)
+  // Cancelling keeps components.
+  const loops = content!.arcs - content!.nodes + header.components
   const texts = [count(content!.nodes, 'node'), count(content!.arcs, 'arc'), count(loops, 'loop')].join(', ')
   const threshold = thresholdOf(content!.version)
   const percent = range() > 0 ? (100 * threshold) / range() : 0
@@ -570,7 +556,11 @@ function openUrl(text: string) {
 }
 
 // Controls.
-slider.addEventListener('input', () => setThreshold(thresholdAt(Number(slider.value))))
+slider.addEventListener('input', () => {
+  const begin = performance.now()
+  setThreshold(thresholdAt(Number(slider.value)))
+  drawn.dataset.script = (performance.now() - begin).toFixed(2)
+})
 input.addEventListener('change', () => readThreshold(input.value))
 coloringInput.addEventListener('change', () => {
   setColoring()
