@@ -311,13 +311,11 @@ function setThreshold(threshold: number) {
   slider.value = String(placeOf(threshold))
   input.value = threshold > 0 && threshold < 1e-300 ? 'above 0' : shortNumber(threshold)
   input.removeAttribute('aria-invalid')
-  let shown = performance.now()
   const step = () => {
     if (session !== current) return
-    // Pictures of what was read so far, but not after each frame.
-    if (performance.now() - shown < 300) return showCounts()
-    shown = performance.now()
-    refresh()
+    // Pictures are made again when there is twice as much to see, not after each frame.
+    if (current.reader.graph.records < 2 * shapeRecords) showCounts()
+    else refresh()
   }
   current
     .want(threshold, step)
