@@ -35,7 +35,7 @@ const kIdle = `document.getElementById('drawn').dataset.reading === 'false'`
 const message = () => browser.evaluate(`(({ hidden, textContent }) => (hidden ? '' : textContent))(document.getElementById('message'))`)
 
 let visits = 0
-async function visit(query, options) {
+async function visit(query, options = { width: 640, height: 480 }) {
   await browser.open(server.url(`good/viewer.html?visit=${++visits}&file=${query}`), options)
 }
 
@@ -46,7 +46,7 @@ async function refused(what, address, text) {
 }
 
 const { levels, graph } = JSON.parse(execFileSync(reeb, ['info', join(work, 'scan.reeb'), '--json'], { encoding: 'utf8' }))
-await visit('/good/scan.reeb', { width: 640, height: 480 })
+await visit('/good/scan.reeb')
 check('a picture comes', await until(kIdle), await message())
 const colors = (id) => `(() => {
   const drawn = document.querySelector('#${id} canvas')

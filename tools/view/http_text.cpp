@@ -1,7 +1,6 @@
 #include "tools/view/http_text.h"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 
 namespace reeb::tools {
