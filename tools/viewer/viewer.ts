@@ -297,8 +297,8 @@ function showCounts() {
   for (const { place } of views()) place.setAttribute('aria-label', `${place.id === 'space' ? 'The skeleton in space' : 'The graph by value'}: ${texts}`)
   const memory = graph.memoryBytes + shapesBytes
   let text =
-    `${bytesText(source.loaded)} of ${bytesText(source.size)} loaded; ${graph.records.toLocaleString('en')} of ` +
-    `${header.records.toLocaleString('en')} arcs read, at most ${budget.toLocaleString('en')}; ${bytesText(memory)} of memory.`
+    `${bytesText(source.loaded)} read, of a file of ${bytesText(source.size)}; ${graph.records.toLocaleString('en')} of ` +
+    `${header.records.toLocaleString('en')} arcs, at most ${budget.toLocaleString('en')}; ${bytesText(memory)} of memory.`
   if (isReading) text += ' Loading finer levels ...'
   else if (end === 'budget') text += ' The budget is reached: this is the finest level within it.'
   else if (end === 'damage') text += ` No finer level can be read: ${reader.damage!.message}.`
