@@ -76,6 +76,7 @@ const Rooms kRooms = {
     {"tools/report", {"libreeb", "io", "ooc", "tools/library", "tools/program", "tools/defects"}},
     {"tools/repair", {"libreeb", "io", "ooc", "tools/library", "tools/program", "tools/defects"}},
     {"tools/runs", {"libreeb", "io", "ooc", "tools/library", "tools/program"}},
+    {"tools/mpi", {"libreeb", "io", "ooc", "tools/library", "tools/program", "tools/runs"}},
     {"tools/commands",
      {"libreeb", "io", "ooc", "tools/library", "tools/program", "tools/checks", "tools/defects", "tools/plot",
       "tools/report", "tools/repair", "tools/runs"}},
