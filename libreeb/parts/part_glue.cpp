@@ -14,7 +14,12 @@ void PartGlue::add(OpenPart& part, const std::vector<PartSpan>& runs) {
   merge_spans(part);
   mark_uses(part);
   sort_steps(part.live);
-  if (options_.bucket_exponent) coarsen_buckets(part.live, *options_.bucket_exponent);
+  if (options_.bucket_exponent) {
+    coarsen_buckets(part.live, *options_.bucket_exponent);
+  } else {
+    part.live.bucket_begin.clear();
+    part.live.buckets.clear();
+  }
   part.live.options = options_;
   glue_.add(part.live);
   remember(part);

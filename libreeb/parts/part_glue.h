@@ -19,7 +19,8 @@ namespace reeb {
 
 class PartGlue {
  public:
-  // `options` are those of all that is added: no share may have used a larger threshold or exponent.
+  // `options` are those of all that is added: no share may have used a larger threshold or exponent. Without an
+  // exponent, buckets are left out.
   PartGlue(GraphSink& sink, std::uint32_t parts, const SweepOptions& options)
       : glue_(sink, true), options_(options), have_(parts) {}
 

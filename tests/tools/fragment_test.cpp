@@ -80,7 +80,7 @@ TEST_F(FragmentTest, TakesOrdersAndFormatsOfAllKinds) {
   // More parts than triangles; vertices without a triangle, and no triangle at all.
   write("small.off", kSmallOff);
   write("points.cx", "v 1\nv 0\nv 2\nv 2\n");
-  write("none.cx", "");
+  write("none.cx", "# nothing\n");
   for (const char* mesh : {"small.off", "points.cx", "none.cx"}) expect_same(mesh, plain, 5);
 }
 

@@ -17,6 +17,7 @@
 #include "tests/support/random_complex.h"
 #include "tests/support/scratch.h"
 #include "tests/support/seed.h"
+#include "tests/support/whole_run.h"  // scratch folders in memory
 
 namespace reeb::test {
 namespace {
@@ -84,8 +85,6 @@ Group glue(std::vector<Group>& groups, std::uint32_t parts, Collected& settled) 
   PartGlue glue(settled, parts, {});
   Group all;
   for (Group& group : groups) {
-    group.open.live.bucket_begin.clear();
-    group.open.live.buckets.clear();
     glue.add(group.open, group.runs);
     glue.glue().graph().validate();
     all.runs.insert(all.runs.end(), group.runs.begin(), group.runs.end());
