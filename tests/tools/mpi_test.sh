@@ -62,4 +62,4 @@ mpi 3 scan.ply --buckets 0 -o killed.reeb --quiet --threads 1 --resume --force
 mv killed.reeb all.reeb
 expect_same "resumed"
 expect_clean "resumed"
-echo "1 to 8 ranks, failures, a killed rank: as it should be"
+echo "1 to 8 ranks, failures, ${pid:+a killed rank, }a resumed run: as they should be"
