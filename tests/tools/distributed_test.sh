@@ -25,7 +25,7 @@ test "$(make -n | grep -c "reeb fragment")" = 1 || { echo "make: a lost part is 
 
 python=/usr/bin/python3
 if ! $python -c "import distributed" 2> /dev/null; then
-  echo "skipped: there is no python3-distributed"
+  echo "skipped: no data: there is no python3-distributed"
   exit 0
 fi
 block python > tree.py

@@ -4,7 +4,7 @@
 set -eu
 reeb=$1 reeb_mpi=${2:-}
 if [ ! -x "$reeb_mpi" ] || ! command -v mpirun > /dev/null; then
-  echo "skipped: there is no MPI"
+  echo "skipped: no data: there is no MPI"
   exit 0
 fi
 work=$(mktemp -d)
