@@ -6,7 +6,7 @@
 import math
 
 RUN, COUNT = 110e-9, 4e-9  # seconds of a core for each triangle: a share is run, the whole mesh is counted
-EDGE, NETWORK = 350, 1e9  # bytes for each root of the number of vertices; bytes per second, glued as well
+EDGE, NETWORK = 770, 1e9  # bytes for each root of the number of vertices; bytes per second, glued as well
 WIDTH, HEIGHT, LEFT, TOP, PANEL_WIDTH, PANEL_HEIGHT = 760, 380, 70, 20, 560, 300
 INK, GREY = "#222", "#ccc"
 COLOURS = ("#1f6f8b", "#c8553d", "#7a9e3b", "#8a5fa8")
