@@ -20,6 +20,7 @@
 #include "tools/program/standard_streams.h"
 #include "tools/program/usage_error.h"
 #include "tools/program/wrapping.h"
+#include "tools/runs/fragment_commands.h"
 
 namespace {
 
@@ -105,6 +106,8 @@ int run(int argc, char** argv) {
   reeb::tools::add_segment(program);
   reeb::tools::add_report(program);
   reeb::tools::add_view(program);
+  reeb::tools::add_fragment(program);
+  reeb::tools::add_glue(program);
   for (CLI::App* command : program.get_subcommands({})) command->group("Commands");
   if (argc == 1) {
     fmt::print("{}", program.help());

@@ -142,6 +142,15 @@ class BucketLists {
     list.last = kNone;
   }
 
+  // The same, and the list stays.
+  template <class Visit>
+  void visit(const List& list, const Visit& visit) const {
+    if (list.empty()) return;
+    Index b = list.last;
+    do visit(sums_[b = links_[b].next]);
+    while (b != list.last);
+  }
+
   // Prefetches a bucket, or the last one of a list, which mostly is its only one.
   void prefetch_sum(Index bucket) const {
     __builtin_prefetch(&sums_[bucket]);

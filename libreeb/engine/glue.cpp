@@ -100,6 +100,55 @@ void Glue::complete_node(Index n) {
   graph_.tidy();
 }
 
+// ---- for other fragments than those of the stream
+
+void Glue::complete(VertexId vertex) {
+  const Index n = node_of_.find(vertex.value());
+  if (n == kNone) return;
+  complete_node(n);
+  graph_.flush();
+}
+
+void Glue::copy_live(Fragment& fragment) const {
+  using State = LiveGraph::State;
+  fragment.clear();
+  std::vector<FragmentNode> node_numbers(first_link_.size());
+  std::vector<FragmentArc> arc_numbers;
+  std::vector<Index> arcs;
+  fragment.nodes.reserve(graph_.node_count());
+  fragment.positions.reserve(graph_.node_count());
+  fragment.arcs.reserve(graph_.arc_count());
+  graph_.visit(
+      [&](Index n) {
+        node_numbers[n] = FragmentNode(static_cast<std::uint32_t>(fragment.nodes.size()));
+        const auto uses = graph_.state(n) == State::kIncomplete ? kUsedLater : kUsedHereOnly;
+        fragment.nodes.push_back({graph_.key(n), uses, graph_.state(n) == State::kSettled});
+        fragment.positions.push_back(graph_.position(n));
+      },
+      [&](Index a, Index lo, Index hi) {
+        if (a >= arc_numbers.size()) arc_numbers.resize(a + 1);
+        arc_numbers[a] = FragmentArc(static_cast<std::uint32_t>(fragment.arcs.size()));
+        fragment.arcs.push_back({node_numbers[lo], node_numbers[hi]});
+        arcs.push_back(a);
+      });
+  fragment.bucket_begin.push_back(0);
+  for (const Index a : arcs) {
+    graph_.visit_buckets(a, [&](const BucketSum& bucket) { fragment.buckets.push_back(bucket); });
+    fragment.bucket_begin.push_back(static_cast<std::uint32_t>(fragment.buckets.size()));
+  }
+  fragment.path_begin.push_back(0);
+  for (Index n = 0; n < first_link_.size(); ++n) {
+    if (!graph_.is_incomplete(n)) continue;
+    for (Index l = first_link_[n]; l != kNone; l = links_[l].next) {
+      if (l % 2 != 0) continue;  // the upper end's link of the same edge
+      const Edge& edge = edges_[l / 2];
+      fragment.edges.push_back({node_numbers[edge.lo], node_numbers[edge.hi]});
+      graph_.visit_path(edge.top, [&](Index a) { fragment.path_arcs.push_back(arc_numbers[a]); });
+      fragment.path_begin.push_back(static_cast<std::uint32_t>(fragment.path_arcs.size()));
+    }
+  }
+}
+
 // ---- kept edges
 
 void Glue::add_edge(Index lo, Index hi, Index top) {

@@ -46,11 +46,18 @@ class Glue {
   }
 
   // Adds the next fragment of the stream.
-  // REQUIRES: a vertex that it marks kUsedEarlier was marked kUsedLater in an earlier fragment; its options are not
-  // less than those of earlier fragments.
-  // THROWS: InputChanged if a vertex has another value than in an earlier fragment. Paths are monotone only if values
+  // REQUIRES: a vertex that it marks kUsedEarlier was marked kUsedLater in an earlier fragment, unless it is also
+  // marked kUsedLater, or the fragment completes it; its options are not less than those of earlier fragments. THROWS:
+  // InputChanged if a vertex has another value than in an earlier fragment. Paths are monotone only if values
   //         stay the same.
   void add(const Fragment& fragment);
+
+  // Replaces `fragment` by all that is live: it can be added to another Glue, on its own terms. Incomplete vertices are
+  // marked kUsedLater, shared edges are those between them; there are no steps and no options.
+  // REQUIRES: no log is kept, and the fragments were no boxes.
+  void copy_live(Fragment& fragment) const;
+  // Says that no further fragment has this vertex. Does nothing if it is complete, or unknown.
+  void complete(VertexId vertex);
 
   // The state so far, from which another process can continue. What was passed to the sink is not part of it.
   void save(StateWriter& out) const;

@@ -90,6 +90,27 @@ class LiveGraph {
   void check_restored_path(Index top, Index lo, Index hi);
   void check_restored_paths_end();
 
+  // Calls visit_node(node) for each node, and then visit_arc(arc, lo, hi) for each arc. REQUIRES: as save().
+  template <class VisitNode, class VisitArc>
+  void visit(const VisitNode& visit_node, const VisitArc& visit_arc) const {
+    for (Index n = 0; n < nodes_.size(); ++n)
+      if (nodes_[n].used) visit_node(n);
+    for (Index a = 0; a < arcs_.size(); ++a)
+      if (!arcs_[a].is_free()) visit_arc(a, arcs_[a].lo(), arcs_[a].hi());
+  }
+  // Calls visit(arc) for the arcs of the path that starts with `top`, from above.
+  template <class Visit>
+  void visit_path(Index top, const Visit& visit) const {
+    for (; top != kNone; top = references_[top].down) visit(references_[top].arc);
+  }
+  // Calls visit(bucket) for the buckets of an arc, ascending.
+  template <class Visit>
+  void visit_buckets(Index arc, const Visit& visit) const {
+    if (embeds_) buckets_.visit(arc_buckets_[arc], visit);
+  }
+  State state(Index node) const { return nodes_[node].state; }
+  Point position(Index node) const { return track_positions_ ? positions_[node] : Point{}; }
+
   // Appends the arcs and isolated nodes of the present graph, without its (1, 1) nodes and without removed noise.
   void snapshot(std::vector<ArcKeys>& arcs, std::vector<SweepKey>& isolated) const;
 

@@ -8,6 +8,7 @@
 #include <functional>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "io/file/temp_dir.h"
@@ -83,6 +84,8 @@ class LastUse {
       : summary_(std::move(summary)), table_(std::move(table)) {}
 
   const UseSummary& summary() const { return summary_; }
+  // Counts only the vertices that triangles use: for a mesh that is a share of a larger one.
+  void leave_out_unused() { summary_.vertex_count -= std::exchange(summary_.unused_vertices, 0); }
   std::uint64_t spilled_bytes() const { return table_.pages().spilled_bytes(); }
 
   // entries[i] = UseEntry::packed of ids[i]. Fast if ids are near each other.

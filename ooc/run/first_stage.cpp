@@ -6,11 +6,11 @@
 
 #include "io/file/atomic_file.h"
 #include "libreeb/base/error.h"
-#include "ooc/chunks/divided_chunks.h"
 #include "ooc/chunks/guessed_chunks.h"
 #include "ooc/chunks/last_use_sidecar.h"
 #include "ooc/chunks/spooled_mesh.h"
 #include "ooc/grids/grid_chunks.h"
+#include "ooc/run/glued_chunks.h"
 #include "ooc/run/mesh_order.h"
 #include "ooc/run/stopwatch.h"
 
@@ -66,54 +66,6 @@ class PolledReader : public MeshReader {
   const ResumableRun& run_;
   std::optional<Stopwatch> waiting_;  // since the interruption was seen, with no triangle since then
 };
-
-// ---- from chunks to the stores
-
-// `here` is the content of a checkpoint apart from its place.
-FirstStageResult glue_chunks(RunContext& run, ChunkSource& stretches, const MemoryPlan& plan, Checkpoint here,
-                             FirstStageResult result) {
-  const Stopwatch watch;
-  DividedChunks source(stretches, plan.chunk, run.budget);
-  std::vector<GraphSink*> sinks;
-  for (const auto& store : run.stores) sinks.push_back(store.get());
-  if (run.follower) sinks.assign(1, run.follower.get());
-  PipelineOptions options;
-  options.threads = plan.threads;
-  options.are_boxes = here.origin == ChunkOrigin::kGrid;
-  options.choose_sweep = [&](std::size_t, const FunctionRange& range) {
-    SweepOptions sweep = sweep_options(run.options, range);
-    sweep.follows_vertices = run.follower != nullptr;
-    return sweep;
-  };
-  if (run.follower) options.log = &run.follower->log();
-  options.progress = [&](const SourceProgress& at) {
-    run.tell({Phase::kReeb, at.bytes_read, at.bytes_total, at.triangles_read});
-  };
-  options.between_chunks = [&](const ChunkPlace& place, const SaveEngine& save_engine) {
-    here.place = place;
-    run.resumable.between_chunks(here, [&](StateWriter& out) {
-      for (const auto& store : run.stores) store->save(out);
-      save_engine(out);
-    });
-  };
-  options.saved_engine = run.resumable.saved_engine();
-  PipelineResult done = run_pipeline(source, sinks, run.budget, options);
-  result.live = done.live;
-  result.removed_pairs = std::move(done.removed_pairs);
-  result.simplices = source.simplices_listed();
-  result.vertices = source.vertex_count();
-  result.vertex_bound = source.vertex_bound();
-  if (done.restored_vertex_bound > result.vertex_bound) throw DamagedState();
-  for (const auto& store : run.stores)
-    if (store->restored_vertex_bound() > result.vertex_bound) throw DamagedState();
-  result.seconds.reeb += watch.seconds();
-  return result;
-}
-
-// Points and edges are read as degenerate triangles.
-std::uint64_t listed_as_degenerate(std::uint64_t read, const SimplexCounts& listed) {
-  return read - std::min(read, listed[0] + listed[1]);
-}
 
 // ---- a stream that finalizes its vertices
 
@@ -268,16 +220,8 @@ FirstStageResult run_indexed(RunContext& run, const MeshInput& input, std::uniqu
 // spooled. Guesses can suffice to glue it meanwhile; if not, or if a function must look up a vertex first, it is then
 // run as an indexed mesh.
 FirstStageResult run_first_stage(RunContext& run, MeshInput input) {
-  for (const std::string& output : run.outputs) io::remove_abandoned(output);
   FirstStageResult result;
-  const auto restore = [&run](StateReader& in) {
-    check_ranges(run.resumable.checkpoint()->place.ranges, run.functions.size());
-    run.restore_stores(in);
-  };
-  const Checkpoint* start = run.resumable.start(restore, result.notes);
-  // An earlier run may have written outputs only if this one continues it.
-  if (!run.options.replace && !run.resumable.was_resumed())
-    for (const std::string& output : run.outputs) io::check_output_name(output, io::Existing::kRefuse);
+  const Checkpoint* start = start_run(run, result.notes);
   if (input.indexed) return run_indexed(run, input, std::move(input.indexed), start, std::move(result));
 
   input.reader = std::make_unique<PolledReader>(std::move(input.reader), run.resumable);
@@ -304,6 +248,19 @@ void check_unchanged(const std::function<void()>& check_mesh, std::span<VertexFu
 }
 
 }  // namespace
+
+const Checkpoint* start_run(RunContext& run, std::vector<std::string>& notes) {
+  for (const std::string& output : run.outputs) io::remove_abandoned(output);
+  const auto restore = [&run](StateReader& in) {
+    check_ranges(run.resumable.checkpoint()->place.ranges, run.functions.size());
+    run.restore_stores(in);
+  };
+  const Checkpoint* start = run.resumable.start(restore, notes);
+  // An earlier run may have written outputs only if this one continues it.
+  if (!run.options.replace && !run.resumable.was_resumed())
+    for (const std::string& output : run.outputs) io::check_output_name(output, io::Existing::kRefuse);
+  return start;
+}
 
 // Whatever goes wrong with an input that changes is due to the change.
 FirstStageResult read_mesh(RunContext& run, MeshInput input) {

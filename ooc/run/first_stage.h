@@ -27,6 +27,10 @@ struct FirstStageResult {
   std::vector<std::string> notes;
 };
 
+// Restores the stores if the run resumes an earlier one, and returns where it goes on; else null. Removes what killed
+// writers of its outputs left. THROWS: Error{kBadInput} if an output exists that may not be replaced.
+const Checkpoint* start_run(RunContext& run, std::vector<std::string>& notes);
+
 // Fills the stores of the run and the ranges of its values.
 // THROWS: Error, of the input, the budget or the disk, or because the run was interrupted; InputChanged if the mesh or
 // a

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <memory>
 #include <mutex>
+#include <type_traits>
 #include <vector>
 
 #include "libreeb/engine/chunk_sweep.h"
@@ -90,6 +91,8 @@ class Pipeline {
       run_in_parallel();
     PipelineResult result{maximum_, {}, restored_vertex_bound_};
     for (const auto& glue : glues_) result.removed_pairs.push_back(glue->removed_pairs());
+    if constexpr (std::is_same_v<Kind, Triangles>)
+      for (std::size_t f = 0; options_.at_end && f < glues_.size(); ++f) options_.at_end(f, *glues_[f]);
     return result;
   }
 

@@ -13,6 +13,7 @@
 
 #include "libreeb/base/memory_budget.h"
 #include "libreeb/base/state_stream.h"
+#include "libreeb/engine/glue.h"
 #include "libreeb/engine/sweep_options.h"
 #include "libreeb/port/arc_log.h"
 #include "libreeb/port/graph_sink.h"
@@ -46,6 +47,8 @@ struct PipelineOptions {
   ArcLog* log = nullptr;
   // The state that an earlier process saved; the source starts at its place.
   StateReader* saved_engine = nullptr;
+  // Of a run whose chunks are no boxes: called at the end for each function, with all that was glued.
+  std::function<void(std::size_t function, const Glue&)> at_end = {};
 };
 
 struct PipelineResult {

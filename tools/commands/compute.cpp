@@ -25,26 +25,16 @@
 #include "tools/program/quantity.h"
 #include "tools/program/signals.h"
 #include "tools/program/wrapping.h"
+#include "tools/runs/run_options.h"
 
 namespace reeb::tools {
 namespace {
 
 namespace fs = std::filesystem;
 
-struct ComputeArguments {
-  std::string mesh, output, report, denoise;
-  std::vector<std::string> functions;
-  ComputeOptions options;
-  bool quiet = false;
+struct ComputeArguments : RunArguments {
+  std::string output, report;
 };
-
-// scan.ply.gz -> scan, - -> mesh
-std::string stem_of(const std::string& mesh) {
-  if (mesh == "-") return "mesh";
-  fs::path name = fs::path(mesh).filename();
-  if (name.extension() == ".gz" || name.extension() == ".zst") name = name.stem();
-  return name.stem().string();
-}
 
 std::vector<std::string> output_names(const ComputeArguments& arguments) {
   if (arguments.output == io::kStandardOutput) {
@@ -72,32 +62,6 @@ void check_files(const ComputeArguments& arguments, const std::vector<std::strin
   files.check();
 }
 
-std::string describe(const MeshInfo& info) {
-  std::string text = info.format;
-  if (info.vertex_count) text += ", " + count_of(*info.vertex_count, "vertex");
-  const bool has_faces = std::ranges::any_of(std::array{"PLY", "OFF", "STL", "SM"},
-                                             [&](const char* format) { return info.format.starts_with(format); });
-  if (info.simplex_count) text += ", " + count_of(*info.simplex_count, has_faces ? "face" : "cell");
-  return text;
-}
-
-ProgressBar::Pass pass_of(ComputeProgress::Phase phase) {
-  using Phase = ComputeProgress::Phase;
-  switch (phase) {
-    case Phase::kSpool:
-      return {"reading", 3};
-    case Phase::kFinalization:
-      return {"reading", 2};
-    case Phase::kReorder:
-      return {"sorting on disk", 2};
-    case Phase::kReeb:
-      return {"Reeb graph", 1};
-    case Phase::kHierarchy:
-      break;
-  }
-  return {"simplification", 0};
-}
-
 void run_compute(ComputeArguments arguments) {
   ComputeOptions& options = arguments.options;
   if (arguments.functions.empty()) arguments.functions.emplace_back();
@@ -107,10 +71,7 @@ void run_compute(ComputeArguments arguments) {
   facts.path = arguments.mesh;
   facts.threads = options.threads;
   if (options.memory_bytes != MemoryBudget::kUnlimited) facts.memory_budget_bytes = options.memory_bytes;
-  if (!arguments.denoise.empty()) {
-    options.denoise_is_share = arguments.denoise.ends_with('%');
-    options.denoise = parse_threshold("--denoise", arguments.denoise, 1.0);
-  }
+  take_denoise(arguments);
 
   options.opened = [&](const MeshInfo& info) {
     facts.format = info.format;
@@ -132,10 +93,6 @@ void run_compute(ComputeArguments arguments) {
 
 void add_compute(CLI::App& program) {
   auto arguments = std::make_shared<ComputeArguments>();
-  arguments->options.threads = std::max(1u, std::thread::hardware_concurrency());
-  // For tests: short runs otherwise end before their first checkpoint.
-  if (const char* seconds = std::getenv("REEB_CHECKPOINT_SECONDS"))
-    arguments->options.checkpoint_seconds = std::atof(seconds);
   ComputeOptions& options = arguments->options;
   CLI::App* command = program.add_subcommand("compute", "Compute the Reeb graph of a mesh (the default)");
   command
@@ -148,41 +105,12 @@ void add_compute(CLI::App& program) {
           "File to write; - is standard output (default: the name of the mesh with .reeb, in the current folder; "
           "mesh.reeb for standard input)")
       ->type_name("FILE");
-  command
-      ->add_option(
-          "-f,--function", arguments->functions,
-          "x, y, z, cK (the K-th coordinate, from 0), index, random:SEED, property:NAME, file:PATH, "
-          "distance:VERTEX, distance:X,Y,Z, geodesic:VERTEX[,VERTEX...], laplacian:K, spectral, or of an image value, "
-          "value:K (default: z, of an image value; may be repeated)")
-      ->allow_extra_args(false)
-      ->option_text("FUNC");
-  command->add_flag("--graph-only", options.graph_only, "Stop after the graph: no pairs, no levels");
-  add_format(*command, options.format);
-  add_size(*command, "--memory", options.memory_bytes, "Memory that the run may use: 64M, 1.5GiB (default: no limit)");
-  command
-      ->add_option("--denoise", arguments->denoise,
-                   "Remove minima and maxima of less persistence: 0.01 (function units), or 0.1% (of the range)")
-      ->type_name("T");
-  add_count(*command, "--buckets", options.buckets,
-            "Embed arcs in at least N buckets of value (default: 64; 0: no embedding)", {.most = 1u << 20});
-  add_image_options(*command, arguments->options.image);
-  add_count(*command, "--threads", options.threads, "Number of threads, 1 to 1024 (default: all)",
-            {.least = 1, .most = 1024});
-  add_count(*command, "--chunk", options.chunk_triangles, "Triangles per chunk (default: adaptive)", {.least = 1});
-  command
-      ->add_option("--temp-dir", options.temp_dir,
-                   "Folder for temporary files (default: $TMPDIR, or the folder of the output)")
-      ->type_name("DIR");
-  command->add_flag_callback(
-      "--no-reorder", [&options] { options.may_reorder = false; }, "Do not sort incoherent meshes on disk first");
+  add_run_options(*command, *arguments);
   command->add_flag("--sidecar", options.keep_sidecar, "Keep what the first pass finds in MESH.final, for later runs");
-  command->add_flag("--resume", options.resume, "Continue an interrupted run from its folder OUT.partial");
   add_count(*command, "--snapshot-every", options.snapshot_every,
             "Write the graph so far every N triangles, as OUT-000001.reeb, OUT-000002.reeb, ...", {.least = 1});
   command->add_option("--report", arguments->report, "Write figures of the run as JSON; - is standard output")
       ->type_name("FILE");
-  command->add_flag("--quiet", arguments->quiet, "Print no progress and no summary");
-  command->add_flag("--force", options.replace, "Replace existing outputs, and discard an interrupted run");
   command->footer("Example:\n  reeb compute scan.ply -f z --memory 64M --report report.json");
   command->callback([arguments] { run_compute(*arguments); });
 }

@@ -1,9 +1,6 @@
 #include "tools/library/compute.h"
 
-#include <algorithm>
 #include <memory>
-#include <mutex>
-#include <thread>
 #include <utility>
 
 #include "io/file/atomic_file.h"
@@ -13,40 +10,11 @@
 #include "ooc/run/compute.h"
 #include "tools/library/run_files.h"
 #include "tools/library/run_input.h"
+#include "tools/library/run_options.h"
 #include "tools/library/snapshots.h"
 
 namespace reeb {
 namespace {
-
-ooc::ComputeOptions run_options(const ComputeOptions& options) {
-  ooc::ComputeOptions run;
-  run.memory_bytes = options.memory_bytes;
-  run.threads = options.threads != 0 ? options.threads : std::max(1u, std::thread::hardware_concurrency());
-  run.chunk_triangles = options.chunk_triangles;
-  run.temp_dir = options.temp_dir;
-  run.replace = options.replace;
-  run.graph_only = options.graph_only;
-  run.keep_sidecar = options.keep_sidecar;
-  run.may_reorder = options.may_reorder;
-  run.buckets = options.buckets;
-  run.denoise = options.denoise;
-  run.denoise_is_share = options.denoise_is_share;
-  run.resume = options.resume;
-  run.checkpoint_seconds = options.checkpoint_seconds;
-  // The stages of a run are in several threads.
-  const auto one_at_a_time = std::make_shared<std::mutex>();
-  if (options.progress)
-    run.progress = [one_at_a_time, tell = options.progress](const ComputeProgress& progress) {
-      const std::lock_guard lock(*one_at_a_time);
-      tell(progress);
-    };
-  if (options.interrupted)
-    run.interrupted = [one_at_a_time, ask = options.interrupted] {
-      const std::lock_guard lock(*one_at_a_time);
-      return ask();
-    };
-  return run;
-}
 
 void require_an_output_each(std::span<const std::string> functions, std::span<const std::string> outputs) {
   if (functions.empty() || functions.size() != outputs.size())

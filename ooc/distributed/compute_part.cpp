@@ -1,0 +1,97 @@
+#include "ooc/distributed/compute_part.h"
+
+#include <array>
+#include <functional>
+#include <new>
+#include <utility>
+
+#include "io/file/atomic_file.h"
+#include "io/file/checksum.h"
+#include "libreeb/base/error.h"
+#include "ooc/distributed/fragment_file.h"
+#include "ooc/distributed/names_file.h"
+
+namespace reeb::ooc {
+namespace {
+
+// The run of another share cannot be resumed by this one.
+std::uint64_t reading_of_share(std::uint64_t reading, const PartChoice& choice) {
+  const std::array<std::uint64_t, 3> numbers = {reading, choice.part, choice.parts};
+  return io::checksum(std::as_bytes(std::span(numbers)));
+}
+
+template <class Work>
+auto with_explained_errors(RunContext& run, const std::string& mesh, const std::function<void()>& check_unchanged,
+                           const Work& work) {
+  const auto check = [&] {
+    if (check_unchanged) check_unchanged();
+    for (const VertexFunction* function : run.functions) function->check_unchanged();
+  };
+  try {
+    auto result = work();
+    check();
+    return result;
+  } catch (InputChanged& changed) {
+    check();
+    changed.at(mesh);
+    throw run.resumable.explain(changed);
+  } catch (const Error& error) {
+    throw run.resumable.explain(error);
+  } catch (const std::bad_alloc&) {
+    throw run.resumable.explain(
+        Error(ErrorKind::kResource, "out of memory", "close other programs, or allow less with --memory SIZE"));
+  } catch (const std::exception&) {
+    // What the program found impossible was in the state that it was given.
+    if (run.resumable.checkpoint() == nullptr) throw;
+    throw run.resumable.explain(
+        Error(ErrorKind::kBadInput, "the checkpoint of the interrupted run is damaged", "run it again without --resume")
+            .at(run.outputs[0]));
+  }
+}
+
+}  // namespace
+
+std::vector<FragmentResult> compute_part(MeshInput input, std::span<VertexFunction* const> functions,
+                                         std::span<const std::string> outputs, const ComputeOptions& options,
+                                         const PartChoice& choice) {
+  for (const std::string& output : outputs) io::require_output_folder(output);
+  const std::uint64_t reading = input.reading;
+  input.reading = reading_of_share(reading, choice);
+  const ComputeOptions run_options = options_of_share(options);
+  RunContext run(input, functions, outputs, run_options);
+  input.reading = reading;
+  const std::string path = input.path;
+  const auto check_unchanged = input.check_unchanged;
+  return with_explained_errors(run, path, check_unchanged, [&] {
+    WholeMesh mesh = open_whole_mesh(run, input, choice.parts);
+    PartUses uses = choice.shared.empty() ? find_part_uses(run, input, mesh) : read_names(choice.shared, run, mesh);
+    PartResult done = run_part(run, input, mesh, uses, choice.part, options);
+    if (check_unchanged) check_unchanged();
+    std::vector<FragmentResult> results;
+    for (std::size_t f = 0; f < functions.size(); ++f) {
+      const auto& [info, open, memory] = done.parts[f];
+      write_fragment(outputs[f], run.output_options(), info, open, *run.stores[f]);
+      FragmentResult result{info, outputs[f], 0, done.seconds, done.notes};
+      for (const Fragment::Node& node : open.live.nodes) result.open_vertices += node.uses != kUsedHereOnly ? 1u : 0u;
+      results.push_back(std::move(result));
+    }
+    run.resumable.done();
+    return results;
+  });
+}
+
+std::uint64_t scan_part(MeshInput input, std::span<VertexFunction* const> functions, const std::string& output,
+                        const ComputeOptions& options, const PartChoice& choice) {
+  io::require_output_folder(output);
+  const std::string path = input.path;
+  input.may_resume = false;
+  const ComputeOptions run_options = options_of_share(options);
+  RunContext run(input, functions, std::span(&output, 1), run_options);
+  return with_explained_errors(run, path, input.check_unchanged, [&] {
+    io::remove_abandoned(output);
+    WholeMesh mesh = open_whole_mesh(run, input, choice.parts);
+    return write_names(output, run.output_options(), run, mesh, choice.part);
+  });
+}
+
+}  // namespace reeb::ooc

@@ -1,0 +1,276 @@
+#include "ooc/distributed/fragment_file.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <span>
+
+#include "io/file/atomic_file.h"
+#include "io/file/checksum.h"
+#include "libreeb/base/error.h"
+#include "libreeb/graph/packed_buckets.h"
+#include "ooc/distributed/open_part_state.h"
+
+namespace reeb::ooc {
+namespace {
+
+constexpr std::array<char, 8> kMagic = {'R', 'E', 'E', 'B', 'F', 'R', 'G', '\n'};
+constexpr std::uint64_t kVersion = 1;
+constexpr std::size_t kRecordsPerBlock = 4096;
+constexpr std::uint64_t kNodes = 1, kArcs = 2;  // kinds of blocks
+
+struct Header {
+  std::array<char, 8> magic;
+  std::uint64_t version;
+  std::uint64_t state_bytes;
+  std::uint64_t state_checksum;
+  std::uint64_t checksum;  // of the header before
+};
+static_assert(sizeof(Header) == 40);
+
+struct BlockHeader {
+  std::uint64_t kind, count, bytes;
+  std::uint64_t checksum;  // of the header before, then of the bytes
+};
+static_assert(sizeof(BlockHeader) == 32);
+
+template <class T>
+std::span<const std::byte> object_bytes(const T& object) {
+  return std::as_bytes(std::span(&object, 1));
+}
+
+template <class T>
+std::uint64_t header_checksum(const T& header) {
+  return io::checksum(object_bytes(header).first(sizeof(T) - sizeof(std::uint64_t)));
+}
+
+class Writer : public StateWriter {
+ public:
+  explicit Writer(io::BufferedWriter& out) : out_(out) {}
+  void write(std::span<const std::byte> bytes) override {
+    out_.append(bytes);
+    checksum_.add(bytes);
+    bytes_ += bytes.size();
+  }
+  std::uint64_t bytes() const { return bytes_; }
+  std::uint64_t checksum() const { return checksum_.value(); }
+
+ private:
+  io::BufferedWriter& out_;
+  io::RunningChecksum checksum_;
+  std::uint64_t bytes_ = 0;
+};
+
+class Reader : public StateReader {
+ public:
+  Reader(const io::File& file, std::uint64_t begin, std::uint64_t end) : file_(file), at_(begin), end_(end) {}
+  void read(std::span<std::byte> bytes) override {
+    if (bytes.size() > left()) throw DamagedState();
+    // Fields are small, arrays are not.
+    while (!bytes.empty()) {
+      if (window_.size() == used_) {
+        if (bytes.size() >= kWindowBytes) {
+          file_.read_at(at_, bytes);
+          at_ += bytes.size();
+          return;
+        }
+        window_.resize(static_cast<std::size_t>(std::min<std::uint64_t>(kWindowBytes, end_ - at_)));
+        file_.read_at(at_, window_);
+        at_ += window_.size();
+        used_ = 0;
+      }
+      const std::size_t count = std::min(bytes.size(), window_.size() - used_);
+      std::copy_n(window_.begin() + static_cast<std::ptrdiff_t>(used_), count, bytes.begin());
+      used_ += count;
+      bytes = bytes.subspan(count);
+    }
+  }
+  std::uint64_t left() const override { return end_ - at_ + (window_.size() - used_); }
+
+ private:
+  static constexpr std::size_t kWindowBytes = 64 << 10;
+
+  const io::File& file_;
+  std::uint64_t at_, end_;
+  std::vector<std::byte> window_;
+  std::size_t used_ = 0;
+};
+
+void add_block(io::BufferedWriter& out, std::uint64_t kind, std::size_t count, std::span<const std::byte> packed) {
+  BlockHeader header{kind, count, packed.size(), 0};
+  header.checksum = io::checksum(packed, header_checksum(header));
+  out.append(object_bytes(header));
+  out.append(packed);
+}
+
+void add_settled(io::BufferedWriter& out, const PartInfo& info, SegmentStore& store) {
+  std::vector<std::byte> packed;
+  store.rewind_nodes();
+  for (std::vector<SettledNode> nodes; store.read_nodes(nodes, kRecordsPerBlock);) {
+    packed.clear();
+    NodeCodec::encode(nodes, packed);
+    add_block(out, kNodes, nodes.size(), packed);
+  }
+  store.rewind_arcs();
+  for (PackedArcPiece piece; store.read_arcs(piece, kRecordsPerBlock, info.sweep().bucket_exponent);) {
+    packed.clear();
+    ArcCodec::encode(piece.records, piece.pool, packed);
+    add_block(out, kArcs, piece.records.size(), packed);
+  }
+}
+
+std::uint64_t checksum_of(const io::File& file, std::uint64_t begin, std::uint64_t bytes) {
+  std::vector<std::byte> piece(1 << 20);
+  io::RunningChecksum checksum;
+  for (const std::uint64_t end = begin + bytes; begin < end; begin += piece.size()) {
+    piece.resize(static_cast<std::size_t>(std::min<std::uint64_t>(piece.size(), end - begin)));
+    file.read_at(begin, piece);
+    checksum.add(piece);
+  }
+  return checksum.value();
+}
+
+}  // namespace
+
+void write_fragment(const std::string& path, const OutputOptions& output, const PartInfo& info, const OpenPart& open,
+                    SegmentStore& store) {
+  io::AtomicFile file(path, {.existing = output.existing, .overwrites = true, .temp_folder = output.temp_folder});
+  Header header{kMagic, kVersion, 0, 0, 0};
+  file.out().append(object_bytes(header));
+  Writer state(file.out());
+  write_info(state, info);
+  write_open_part(state, open);
+  header.state_bytes = state.bytes();
+  header.state_checksum = state.checksum();
+  header.checksum = header_checksum(header);
+  add_settled(file.out(), info, store);
+  file.out().overwrite(0, object_bytes(header));
+  file.commit();
+}
+
+bool is_fragment(const std::string& path) {
+  if (!io::is_regular_file(path)) return false;
+  const io::File file = io::File::open_for_reading(path);
+  std::array<char, 8> magic{};
+  if (file.size() < magic.size()) return false;
+  file.read_at(0, std::as_writable_bytes(std::span(magic)));
+  return magic == kMagic;
+}
+
+void FragmentFile::fail(const std::string& why, std::uint64_t offset) const {
+  throw Error(ErrorKind::kBadInput, "this fragment " + why, "make its part again with `reeb fragment`")
+      .at(file_.path(), std::to_string(offset));
+}
+
+FragmentFile::FragmentFile(const std::string& path) : file_(io::File::open_for_reading(path)) {
+  Header header{};
+  if (file_.size() < sizeof(header) + 0) {
+    if (!is_fragment(path))
+      throw Error(ErrorKind::kBadInput, "this is not a fragment", "fragments are made with `reeb fragment`").at(path);
+    fail("was cut off", file_.size());
+  }
+  file_.read_at(0, std::as_writable_bytes(std::span(&header, 1)));
+  if (header.magic != kMagic)
+    throw Error(ErrorKind::kBadInput, "this is not a fragment", "fragments are made with `reeb fragment`").at(path);
+  if (header.version != kVersion)
+    throw Error(ErrorKind::kBadInput, "this fragment is of another version of this program",
+                "make its part again with `reeb fragment`")
+        .at(path);
+  if (header.checksum != header_checksum(header)) fail("is damaged", 0);
+  state_begin_ = sizeof(header);
+  state_bytes_ = header.state_bytes;
+  if (state_bytes_ > file_.size() - state_begin_) fail("was cut off", file_.size());
+  if (checksum_of(file_, state_begin_, state_bytes_) != header.state_checksum) fail("is damaged", state_begin_);
+  at_ = state_begin_ + state_bytes_;
+  try {
+    Reader in(file_, state_begin_, at_);
+    info_ = read_info(in);
+    info_bytes_ = state_bytes_ - in.left();
+  } catch (const DamagedState&) {
+    fail("is damaged", state_begin_);
+  }
+}
+
+OpenPart FragmentFile::read_open() {
+  OpenPart open;
+  try {
+    Reader in(file_, state_begin_ + info_bytes_, state_begin_ + state_bytes_);
+    read_open_part(in, info_.mesh.shares.parts, open);
+    if (in.left() != 0 || open.live.options.bucket_exponent != info_.sweep().bucket_exponent) throw DamagedState();
+    for (const Fragment::Node& node : open.live.nodes) check_keys(node.key);
+  } catch (const DamagedState&) {
+    fail("is damaged", state_begin_ + info_bytes_);
+  }
+  open.live.removed_pairs = static_cast<std::size_t>(info_.removed_pairs);
+  return open;
+}
+
+void FragmentFile::check_keys(const SweepKey& key) const {
+  if (!std::isfinite(key.value) || key.vertex.value() >= info_.mesh.shares.vertices) throw DamagedState();
+}
+
+void FragmentFile::read_block(std::uint64_t kind, std::uint64_t& count, std::vector<std::byte>& packed) {
+  constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 32;
+  BlockHeader header{};
+  if (file_.size() - at_ < sizeof(header)) fail("was cut off", file_.size());
+  file_.read_at(at_, std::as_writable_bytes(std::span(&header, 1)));
+  if (header.kind != kind || header.count == 0 || header.count > kRecordsPerBlock || header.bytes > kMostBytes)
+    fail("is damaged", at_);
+  if (header.bytes > file_.size() - at_ - sizeof(header)) fail("was cut off", file_.size());
+  packed.resize(static_cast<std::size_t>(header.bytes));
+  file_.read_at(at_ + sizeof(header), packed);
+  if (io::checksum(packed, header_checksum(header)) != header.checksum) fail("is damaged", at_);
+  at_ += sizeof(header) + header.bytes;
+  count = header.count;
+}
+
+void FragmentFile::copy_nodes(SegmentStore& store) {
+  std::vector<std::byte> packed;
+  std::vector<SettledNode> nodes;
+  for (std::uint64_t left = info_.settled_nodes, count = 0; left != 0; left -= count) {
+    const std::uint64_t block = at_;
+    read_block(kNodes, count, packed);
+    nodes.resize(static_cast<std::size_t>(count));
+    if (count > left || !NodeCodec::decode(packed, nodes)) fail("is damaged", block);
+    for (const SettledNode& node : nodes) check_keys(node.key);
+    store.add_nodes(nodes);
+  }
+}
+
+void FragmentFile::copy_arcs(SegmentStore& store, bool with_buckets) {
+  std::vector<std::byte> packed;
+  std::vector<Bucket> buckets;
+  PackedArcPiece piece;
+  const std::optional<int> exponent = with_buckets ? info_.sweep().bucket_exponent : std::nullopt;
+  for (std::uint64_t left = info_.settled_arcs, count = 0; left != 0; left -= count) {
+    const std::uint64_t block = at_;
+    read_block(kArcs, count, packed);
+    piece.records.resize(static_cast<std::size_t>(count));
+    if (count > left || !ArcCodec::decode(packed, piece.records, piece.pool)) fail("is damaged", block);
+    for (const StoredArc& arc : piece.records) {
+      check_keys(arc.keys.lo);
+      check_keys(arc.keys.hi);
+      buckets.clear();
+      if (!(arc.keys.lo < arc.keys.hi) || !unpack_buckets(piece.payload(arc), buckets)) fail("is damaged", block);
+    }
+    if (exponent) {
+      store.add_arcs(piece, exponent);
+    } else {
+      for (StoredArc& arc : piece.records) arc.payload.size = 0;
+      store.add_arcs(piece, {});
+    }
+  }
+}
+
+void FragmentFile::copy_settled(SegmentStore& store, bool with_buckets) {
+  try {
+    copy_nodes(store);
+    copy_arcs(store, with_buckets);
+  } catch (const DamagedState&) {
+    fail("is damaged", at_);
+  }
+  if (at_ != file_.size()) fail("is damaged: it is too long", at_);
+}
+
+}  // namespace reeb::ooc

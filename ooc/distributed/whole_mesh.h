@@ -1,0 +1,35 @@
+// A mesh of which a run computes a share, and which shares name its vertices.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "libreeb/port/indexed_mesh.h"
+#include "ooc/distributed/part_info.h"
+#include "ooc/distributed/part_uses.h"
+#include "ooc/run/compute.h"
+#include "ooc/run/run_context.h"
+
+namespace reeb::ooc {
+
+struct WholeMesh {
+  std::unique_ptr<IndexedMesh> mesh;
+  WholeMeshInfo info;
+  std::uint64_t spilled_bytes = 0;
+  std::vector<std::string> notes;
+};
+
+// Counts the triangles of the mesh: reads it once. One that is not indexed is spooled.
+WholeMesh open_whole_mesh(RunContext& run, MeshInput& input, std::uint32_t parts);
+
+// From the sidecar of the mesh, if there is one that fits; else reads the whole mesh once more.
+PartUses find_part_uses(RunContext& run, const MeshInput& input, WholeMesh& mesh);
+
+// An empty table of uses by shares, to be filled with PartUses::entry_of().
+PagedTable<std::uint32_t> empty_uses(RunContext& run);
+// A table that was filled.
+PartUses uses_of_table(PagedTable<std::uint32_t> table, const Shares& shares);
+
+}  // namespace reeb::ooc

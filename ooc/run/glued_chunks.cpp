@@ -1,0 +1,56 @@
+#include "ooc/run/glued_chunks.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "ooc/chunks/divided_chunks.h"
+#include "ooc/run/stopwatch.h"
+
+namespace reeb::ooc {
+
+FirstStageResult glue_chunks(RunContext& run, ChunkSource& stretches, const MemoryPlan& plan, Checkpoint here,
+                             FirstStageResult result, const std::function<void(std::size_t, const Glue&)>& at_end) {
+  const Stopwatch watch;
+  DividedChunks source(stretches, plan.chunk, run.budget);
+  std::vector<GraphSink*> sinks;
+  for (const auto& store : run.stores) sinks.push_back(store.get());
+  if (run.follower) sinks.assign(1, run.follower.get());
+  PipelineOptions options;
+  options.threads = plan.threads;
+  options.are_boxes = here.origin == ChunkOrigin::kGrid;
+  options.choose_sweep = [&](std::size_t, const FunctionRange& range) {
+    SweepOptions sweep = sweep_options(run.options, range);
+    sweep.follows_vertices = run.follower != nullptr;
+    return sweep;
+  };
+  if (run.follower) options.log = &run.follower->log();
+  options.progress = [&](const SourceProgress& at) {
+    run.tell({ComputeProgress::Phase::kReeb, at.bytes_read, at.bytes_total, at.triangles_read});
+  };
+  options.between_chunks = [&](const ChunkPlace& place, const SaveEngine& save_engine) {
+    here.place = place;
+    run.resumable.between_chunks(here, [&](StateWriter& out) {
+      for (const auto& store : run.stores) store->save(out);
+      save_engine(out);
+    });
+  };
+  options.saved_engine = run.resumable.saved_engine();
+  options.at_end = at_end;
+  PipelineResult done = run_pipeline(source, sinks, run.budget, options);
+  result.live = done.live;
+  result.removed_pairs = std::move(done.removed_pairs);
+  result.simplices = source.simplices_listed();
+  result.vertices = source.vertex_count();
+  result.vertex_bound = source.vertex_bound();
+  if (done.restored_vertex_bound > result.vertex_bound) throw DamagedState();
+  for (const auto& store : run.stores)
+    if (store->restored_vertex_bound() > result.vertex_bound) throw DamagedState();
+  result.seconds.reeb += watch.seconds();
+  return result;
+}
+
+std::uint64_t listed_as_degenerate(std::uint64_t read, const SimplexCounts& listed) {
+  return read - std::min(read, listed[0] + listed[1]);
+}
+
+}  // namespace reeb::ooc

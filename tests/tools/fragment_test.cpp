@@ -1,0 +1,191 @@
+// `reeb fragment` and `reeb glue`: the same bytes as one run, and what is said of fragments that do not fit.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "tests/support/data.h"
+#include "tests/support/same.h"
+#include "tests/tools/program.h"
+
+namespace reeb::test {
+namespace {
+
+class FragmentTest : public ProgramTest {
+ protected:
+  using Words = std::vector<std::string>;
+
+  static Words with(Words words, const Words& more) {
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+  }
+
+  // The fragments of all parts, in order.
+  Words fragments(const std::string& mesh, unsigned parts, const Words& options = {}) {
+    Words names;
+    for (unsigned part = 1; part <= parts; ++part) {
+      names.push_back(name_of(std::to_string(part), ".fragment"));
+      const std::string which = std::to_string(part) + "/" + std::to_string(parts);
+      expect_success(
+          reeb(with({"fragment", mesh, "--part", which, "-o", names.back(), "--quiet", "--force"}, options)));
+    }
+    return names;
+  }
+
+  void expect_same(const std::string& mesh, const Words& options, unsigned parts) {
+    SCOPED_TRACE(mesh + " in " + std::to_string(parts));
+    expect_success(reeb(with({"compute", mesh, "-o", "one.reeb", "--quiet", "--force"}, options)));
+    const Words names = fragments(mesh, parts, options);
+    expect_success(reeb(with({"glue", "-o", "all.reeb", "--quiet", "--force"}, names)));
+    EXPECT_TRUE(same(file("all.reeb"), file("one.reeb"))) << "as a list";
+    // Two of the last, then the rest in reverse order.
+    if (parts < 3) return;
+    expect_success(reeb({"glue", names[parts - 1], names[0], "-o", "some.fragment", "--quiet", "--force"}));
+    Words rest{"glue", "some.fragment", "-o", "all.reeb", "--quiet", "--force"};
+    for (unsigned part = parts - 1; part-- > 1;) rest.push_back(names[part]);
+    expect_success(reeb(rest));
+    EXPECT_TRUE(same(file("all.reeb"), file("one.reeb"))) << "in groups";
+  }
+
+  // "2/3" -> "p2.fragment"
+  static std::string name_of(const std::string& part, const char* suffix) {
+    return std::string{'p', part[0]}.append(suffix);
+  }
+
+  void make_scan(const std::string& name, const std::string& triangles, const std::string& order = "patches") {
+    expect_success(reeb({"generate", "scan", "--triangles", triangles, "--order", order, "-o", name}));
+  }
+};
+
+TEST_F(FragmentTest, GivesTheSameBytesAsOneRun) {
+  make_scan("scan.ply", "8k");
+  const Words plain{"--buckets", "0"};
+  for (const unsigned parts : {1u, 2u, 3u, 8u}) expect_same("scan.ply", plain, parts);
+  expect_same("scan.ply", with(plain, {"--denoise", "1%"}), 3);
+  expect_same("scan.ply", with(plain, {"--denoise", "0.01"}), 3);
+  expect_same("scan.ply", with(plain, {"--graph-only", "-f", "random:1"}), 3);
+}
+
+TEST_F(FragmentTest, TakesOrdersAndFormatsOfAllKinds) {
+  const Words plain{"--buckets", "0"};
+  make_scan("random.ply", "4k", "random");
+  make_scan("rows.ply", "4k", "rows");
+  make_scan("scan.obj", "2k");
+  make_scan("scan.smc", "2k");
+  expect_success(reeb({"generate", "ball", "--tetrahedra", "500", "-o", "ball.cx"}));
+  expect_success(reeb({"generate", "volume", "--grid", "6x5x4", "-o", "volume.nrrd"}));
+  for (const char* mesh : {"random.ply", "rows.ply", "scan.obj", "scan.smc", "ball.cx", "volume.nrrd"})
+    expect_same(mesh, plain, 3);
+  // More parts than triangles; vertices without a triangle, and no triangle at all.
+  write("small.off", kSmallOff);
+  write("points.cx", "v 1\nv 0\nv 2\nv 2\n");
+  write("none.cx", "# nothing\n");
+  for (const char* mesh : {"small.off", "points.cx", "none.cx"}) expect_same(mesh, plain, 5);
+}
+
+TEST_F(FragmentTest, TakesRealMeshes) {
+  REEB_REQUIRE_MESHES();
+  for (const char* mesh : {"cow.obj", "post_tets.vtk"}) expect_same(mesh_folder() + "/" + mesh, {"--buckets", "0"}, 3);
+}
+
+TEST_F(FragmentTest, KeepsEveryVertexOfTheEmbedding) {
+  make_scan("scan.ply", "4k");
+  const Words names = fragments("scan.ply", 3);
+  expect_success(reeb(with({"glue", "-o", "all.reeb", "--quiet"}, names)));
+  expect_success(reeb({"verify", "all.reeb", "--mesh", "scan.ply"}));
+  expect_success(reeb(with({"glue", "-o", "bare.reeb", "--buckets", "0", "--quiet"}, names)));
+  expect_success(reeb({"compute", "scan.ply", "-o", "one.reeb", "--buckets", "0", "--quiet"}));
+  EXPECT_TRUE(same(file("bare.reeb"), file("one.reeb")));
+}
+
+TEST_F(FragmentTest, ComputesSeveralFunctionsInOneReading) {
+  make_scan("scan.ply", "2k");
+  for (const char* part : {"1/2", "2/2"})
+    expect_success(reeb({"fragment", "scan.ply", "--part", part, "-f", "x", "-f", "y", "--buckets", "0", "--quiet",
+                         "-o", name_of(part, ".fragment")}));
+  for (const char* function : {"x", "y"}) {
+    const std::string f = function;
+    expect_success(reeb({"glue", "p2-" + f + ".fragment", "p1-" + f + ".fragment", "-o", f + ".reeb", "--quiet"}));
+    expect_success(reeb({"compute", "scan.ply", "-f", f, "--buckets", "0", "-o", "one.reeb", "--quiet", "--force"}));
+    EXPECT_TRUE(same(file(f + ".reeb"), file("one.reeb"))) << f;
+  }
+}
+
+TEST_F(FragmentTest, LearnsFromNamesAndFromTheSidecar) {
+  make_scan("scan.ply", "20k");
+  for (const char* part : {"1/3", "2/3", "3/3"})
+    expect_success(reeb({"fragment", "scan.ply", "--scan", "--part", part, "--quiet", "-o", name_of(part, ".names")}));
+  const Words names{"--buckets", "0", "--shared", "p3.names", "p1.names", "p2.names"};
+  const Words parts = fragments("scan.ply", 3, names);
+  expect_success(reeb({"compute", "scan.ply", "--buckets", "0", "--sidecar", "-o", "one.reeb", "--quiet"}));
+  expect_success(reeb(with({"glue", "-o", "all.reeb", "--quiet"}, parts)));
+  EXPECT_TRUE(same(file("all.reeb"), file("one.reeb")));
+  // One part of the sidecar, the others of the names.
+  expect_success(
+      reeb({"fragment", "scan.ply", "--part", "2/3", "--buckets", "0", "-o", parts[1], "--quiet", "--force"}));
+  expect_success(reeb(with({"glue", "-o", "all.reeb", "--quiet", "--force"}, parts)));
+  EXPECT_TRUE(same(file("all.reeb"), file("one.reeb")));
+  expect_error(reeb({"fragment", "scan.ply", "--part", "1/3", "--shared", "p1.names", "p3.names", "-o", "x.fragment"}),
+               1, "p1.names: the names of part 2 of 3 are missing");
+  write("p2.names", file("p2.names").substr(0, 100));
+  expect_error(
+      reeb(with({"fragment", "scan.ply", "--part", "1/3", "-o", "x.fragment"}, {names.begin() + 2, names.end()})), 1,
+      "p2.names:100: this file of names was cut off");
+}
+
+TEST_F(FragmentTest, SaysWhichFragmentDoesNotFitAndWhy) {
+  make_scan("scan.ply", "2k");
+  const Words names = fragments("scan.ply", 3, {"--buckets", "0"});
+  const Words glue{"glue", "-o", "all.reeb", "--quiet"};
+  expect_error(reeb(with(glue, {names[0], names[2]})), 1, "p1.fragment: part 2 of 3 is missing");
+  std::filesystem::copy_file(in_folder("p2.fragment"), in_folder("again.fragment"));
+  expect_error(reeb(with(glue, with(names, {"again.fragment"}))), 1,
+               "again.fragment: part 2 of 3 is here a second time");
+  make_scan("other.ply", "3k");
+  const auto other = [&](const std::string& mesh, const std::string& part, const Words& options,
+                         const std::string& why) {
+    expect_success(reeb(with({"fragment", mesh, "--part", part, "-o", "o.fragment", "--quiet", "--force"}, options)));
+    expect_error(reeb(with(glue, {names[0], "o.fragment", names[2]})), 1, "o.fragment: this fragment " + why);
+  };
+  other("other.ply", "2/3", {"--buckets", "0"}, "is of another mesh");
+  other("scan.ply", "2/3", {"--buckets", "0", "-f", "x"}, "is of another function, x");
+  other("scan.ply", "2/4", {"--buckets", "0"}, "is of 4 parts, not of 3");
+  other("scan.ply", "2/3", {}, "was made with another number of --buckets");
+  other("scan.ply", "2/3", {"--buckets", "0", "--denoise", "1%"}, "was made with another --denoise");
+  other("scan.ply", "2/3", {"--buckets", "0", "--graph-only"}, "was made with --graph-only");
+  EXPECT_FALSE(std::filesystem::exists(in_folder("all.reeb")));
+}
+
+// Every length and every byte, in steps.
+TEST_F(FragmentTest, RefusesEveryCutAndEveryFlippedBit) {
+  write("small.off", kSmallOff);
+  fragments("small.off", 2);
+  const std::string whole = file("p2.fragment");
+  const std::size_t step = whole.size() / 12 + 1;
+  for (std::size_t at = 0; at < whole.size(); at += step) {
+    std::string flipped = whole;
+    flipped[at] = static_cast<char>(flipped[at] ^ 4);
+    write("p2.fragment", flipped);
+    expect_error(reeb({"glue", "p1.fragment", "p2.fragment", "-o", "all.reeb"}), 1, "p2.fragment");
+    write("p2.fragment", whole.substr(0, at));
+    expect_error(reeb({"glue", "p1.fragment", "p2.fragment", "-o", "all.reeb"}), 1, "p2.fragment");
+  }
+  write("p2.fragment", whole + "x");
+  expect_error(reeb({"glue", "p1.fragment", "p2.fragment", "-o", "all.reeb"}), 1, "p2.fragment");
+  write("p2.fragment", "hello");
+  expect_error(reeb({"glue", "p1.fragment", "p2.fragment", "-o", "all.reeb"}), 1,
+               "p2.fragment: this is not a fragment");
+}
+
+TEST_F(FragmentTest, RefusesWhatIsNoPartOfAWhole) {
+  write("small.off", kSmallOff);
+  for (const char* part : {"0/3", "4/3", "1", "1/", "/2", "a/b", "-1/2", "1/2/3"})
+    expect_error(reeb({"fragment", "small.off", "--part", part}), 2, std::string{"--part "}.append(part));
+  expect_error(reeb({"fragment", "-", "--part", "1/2"}), 2, "a part of standard input cannot be computed");
+  fragments("small.off", 1);
+  expect_error(reeb({"glue", "p1.fragment", "-o", "all.ply"}), 2, "all.ply: the name of the output must end in");
+}
+
+}  // namespace
+}  // namespace reeb::test

@@ -1,0 +1,40 @@
+#include "tools/library/run_options.h"
+
+#include <algorithm>
+#include <memory>
+#include <mutex>
+#include <thread>
+
+namespace reeb {
+
+ooc::ComputeOptions run_options(const ComputeOptions& options) {
+  ooc::ComputeOptions run;
+  run.memory_bytes = options.memory_bytes;
+  run.threads = options.threads != 0 ? options.threads : std::max(1u, std::thread::hardware_concurrency());
+  run.chunk_triangles = options.chunk_triangles;
+  run.temp_dir = options.temp_dir;
+  run.replace = options.replace;
+  run.graph_only = options.graph_only;
+  run.keep_sidecar = options.keep_sidecar;
+  run.may_reorder = options.may_reorder;
+  run.buckets = options.buckets;
+  run.denoise = options.denoise;
+  run.denoise_is_share = options.denoise_is_share;
+  run.resume = options.resume;
+  run.checkpoint_seconds = options.checkpoint_seconds;
+  // The stages of a run are in several threads.
+  const auto one_at_a_time = std::make_shared<std::mutex>();
+  if (options.progress)
+    run.progress = [one_at_a_time, tell = options.progress](const ComputeProgress& progress) {
+      const std::lock_guard lock(*one_at_a_time);
+      tell(progress);
+    };
+  if (options.interrupted)
+    run.interrupted = [one_at_a_time, ask = options.interrupted] {
+      const std::lock_guard lock(*one_at_a_time);
+      return ask();
+    };
+  return run;
+}
+
+}  // namespace reeb

@@ -1,0 +1,79 @@
+#include "tools/mpi/shared_names.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "ooc/distributed/names_file.h"
+
+namespace reeb::tools {
+namespace {
+
+using Numbers = std::vector<std::uint64_t>;
+using Table = ooc::PagedTable<std::uint32_t>;
+
+// Of each rank: first vertex and count, in turn.
+std::vector<Numbers> runs_by_owner(World& world, ooc::RunContext& run, ooc::WholeMesh& mesh) {
+  const ooc::Shares& shares = mesh.info.shares;
+  const std::uint64_t owned = std::max<std::uint64_t>(1, shares.first_vertex(1));
+  std::vector<Numbers> runs(world.size());
+  ooc::visit_names(run, mesh, world.rank(), [&](std::uint64_t first, std::uint64_t count) {
+    while (count != 0) {
+      const auto owner = static_cast<std::uint32_t>(first / owned);
+      const std::uint64_t here = std::min(count, shares.first_vertex(owner + 1) - first);
+      runs[owner].insert(runs[owner].end(), {first, here});
+      first += here;
+      count -= here;
+    }
+  });
+  return runs;
+}
+
+template <class Visit>
+void for_each_vertex(const Numbers& runs, const Visit& visit) {
+  for (std::size_t i = 0; i < runs.size(); i += 2)
+    for (std::uint64_t v = runs[i]; v < runs[i] + runs[i + 1]; ++v) visit(v);
+}
+
+// Of each rank: first vertex, count and entry, in turn.
+std::vector<Numbers> answers(const std::vector<Numbers>& named, Table& table) {
+  std::vector<Numbers> out(named.size());
+  for (std::uint32_t r = 0; r < named.size(); ++r)
+    for_each_vertex(named[r], [&](std::uint64_t v) {
+      const ooc::UseEntry entry(table.get(v));
+      if (entry.last_block() == r && entry.span() == 0) return;
+      Numbers& runs = out[r];
+      const bool extends =
+          !runs.empty() && runs[runs.size() - 3] + runs[runs.size() - 2] == v && runs.back() == entry.packed();
+      if (extends)
+        ++runs[runs.size() - 2];
+      else
+        runs.insert(runs.end(), {v, 1, entry.packed()});
+    });
+  return out;
+}
+
+}  // namespace
+
+ooc::PartUses exchange_names(World& world, ooc::RunContext& run, ooc::WholeMesh& mesh) {
+  const std::vector<Numbers> own = runs_by_owner(world, run, mesh);
+  Table table = ooc::empty_uses(run);
+  const std::vector<Numbers> named = world.exchange(own);
+  for (std::uint32_t r = 0; r < world.size(); ++r)
+    for_each_vertex(named[r], [&](std::uint64_t v) {
+      std::uint32_t& entry = table.change(v);
+      entry = ooc::PartUses::with_part(ooc::UseEntry(entry), r).packed();
+    });
+  const std::vector<Numbers> shared = world.exchange(answers(named, table));
+  for (std::uint32_t owner = 0; owner < world.size(); ++owner) {
+    if (owner == world.rank()) continue;
+    for_each_vertex(own[owner], [&](std::uint64_t v) { table.set(v, ooc::UseEntry(world.rank(), 0).packed()); });
+    for (std::size_t i = 0; i < shared[owner].size(); i += 3)
+      for (std::uint64_t k = 0; k < shared[owner][i + 1]; ++k)
+        table.set(shared[owner][i] + k, static_cast<std::uint32_t>(shared[owner][i + 2]));
+  }
+  return ooc::uses_of_table(std::move(table), mesh.info.shares);
+}
+
+}  // namespace reeb::tools

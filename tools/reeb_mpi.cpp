@@ -1,0 +1,169 @@
+// The program `reeb-mpi`: `reeb compute` by many processes (docs/DISTRIBUTED.md).
+#include <fmt/core.h>
+#include <malloc.h>
+#include <mpi.h>
+#include <sys/resource.h>
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <exception>
+#include <filesystem>
+#include <new>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "io/functions/function_source.h"
+#include "libreeb/base/error.h"
+#include "libreeb/base/memory_budget.h"
+#include "libreeb/base/printable.h"
+#include "tools/library/run_files.h"
+#include "tools/mpi/distributed_run.h"
+#include "tools/mpi/world.h"
+#include "tools/program/compute_report.h"
+#include "tools/program/output.h"
+#include "tools/program/signals.h"
+#include "tools/program/standard_streams.h"
+#include "tools/program/wrapping.h"
+#include "tools/runs/run_options.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using reeb::Error;
+using reeb::ErrorKind;
+
+struct Arguments : reeb::tools::RunArguments {
+  std::string output, report;
+};
+
+std::vector<std::string> output_names(const Arguments& arguments) {
+  fs::path output = arguments.output;
+  if (arguments.functions.size() == 1) return {output.string()};
+  if (output.extension() == ".reeb") output.replace_extension();
+  std::vector<std::string> names;
+  for (const std::string& function : arguments.functions)
+    names.push_back(output.string() + "-" + reeb::io::file_name_part(reeb::io::parse_function(function)) + ".reeb");
+  return names;
+}
+
+void check_files(const Arguments& arguments, const std::vector<std::string>& outputs) {
+  if (arguments.mesh == "-" || arguments.output == "-")
+    throw Error(ErrorKind::kUsage, "many processes cannot share standard input or standard output",
+                "name files for the mesh and the output");
+  std::vector<reeb::io::FunctionSpec> functions;
+  for (const std::string& function : arguments.functions)
+    if (!function.empty()) functions.push_back(reeb::io::parse_function(function));
+  reeb::RunFiles files = reeb::files_of_run(arguments.mesh, functions, outputs, arguments.options);
+  if (!arguments.report.empty())
+    files.add_output(arguments.report, "the report", reeb::tools::existing_outputs(arguments.options.replace));
+  files.check();
+}
+
+std::uint64_t peak_bytes() {
+  struct rusage usage {};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+}
+
+void compute(reeb::tools::World& world, Arguments arguments) {
+  using reeb::tools::print_line;
+  if (arguments.functions.empty()) arguments.functions.emplace_back();
+  if (arguments.options.threads == 0)
+    arguments.options.threads = std::max(1u, std::thread::hardware_concurrency() / world.ranks_here());
+  const std::vector<std::string> outputs = output_names(arguments);
+  reeb::tools::take_denoise(arguments);
+  if (world.is_root()) check_files(arguments, outputs);
+  world.wait_for_all();  // the root says what is wrong with files
+  const bool speaks = world.is_root() && !arguments.quiet;
+  reeb::tools::RunFacts facts;
+  facts.path = arguments.mesh;
+  facts.threads = arguments.options.threads;
+  arguments.options.opened = [&](const reeb::MeshInfo& info) {
+    facts.format = info.format;
+    facts.input_bytes = info.file_bytes;
+    if (speaks) print_line(reeb::printable(arguments.mesh + ": " + reeb::tools::describe(info)));
+  };
+  arguments.options.interrupted = reeb::tools::watch_signals();
+  const auto done =
+      reeb::tools::compute_distributed(world, arguments.mesh, arguments.functions, outputs, arguments.options);
+  const std::uint64_t names = world.sum(done.names_bytes), tree = world.sum(done.tree_bytes);
+  const std::uint64_t peak = world.greatest(peak_bytes());
+  const auto share_ms = world.greatest(static_cast<std::uint64_t>(1000 * done.share_seconds));
+  if (speaks) {
+    reeb::tools::print_summary(facts, done.results);
+    print_line(
+        fmt::format("  {} ranks: shares {:.2f} s, tree {:.2f} s; sent {} of names and {} up the tree; a rank took "
+                    "at most {}",
+                    world.size(), static_cast<double>(share_ms) / 1000, done.tree_seconds, reeb::format_bytes(names),
+                    reeb::format_bytes(tree), reeb::format_bytes(peak)));
+  }
+  if (world.is_root() && !arguments.report.empty())
+    reeb::tools::write_output(arguments.report, arguments.options.replace,
+                              [&](std::ostream& out) { out << reeb::tools::report_json(facts, done.results); });
+}
+
+void run(reeb::tools::World& world, int argc, char** argv) {
+  Arguments arguments;
+  arguments.options.threads = 0;  // the cores of a machine are divided
+  CLI::App program("Exact Reeb graphs of meshes of any size, by many processes", "reeb-mpi");
+  program.set_help_flag("-h,--help", "Print this help");
+  program.require_subcommand(1);
+  CLI::App* command = program.add_subcommand("compute", "Compute the Reeb graph of a mesh");
+  command->add_option("MESH", arguments.mesh, "Mesh or image of any format, which every rank can read")
+      ->required()
+      ->type_name("");
+  command->add_option("-o,--output", arguments.output, "File to write, where every rank can write")
+      ->required()
+      ->type_name("FILE");
+  reeb::tools::add_run_options(*command, arguments);
+  command->add_option("--report", arguments.report, "Write figures of the run as JSON")->type_name("FILE");
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::ParseError& refusal) {
+    if (refusal.get_exit_code() == 0) {
+      if (world.is_root()) program.exit(refusal);  // --help
+      return;
+    }
+    throw Error(ErrorKind::kUsage, refusal.what(), "see reeb-mpi compute --help");
+  }
+  compute(world, std::move(arguments));
+}
+
+// Ends all ranks.
+[[noreturn]] void end_all(const Error& error) {
+  fmt::print(stderr, "reeb-mpi: error: {}\nhint: {}\n", reeb::printable(error.what()), reeb::printable(error.hint()));
+  std::fflush(stderr);
+  MPI_Abort(MPI_COMM_WORLD, static_cast<int>(error.kind()));
+  std::abort();  // not reached
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  mallopt(M_MMAP_THRESHOLD, 128 * 1024);  // as in reeb.cpp
+  mallopt(M_TRIM_THRESHOLD, 256 * 1024);
+  mallopt(M_ARENA_MAX, 2);
+  int provided = 0;
+  MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);
+  reeb::tools::handle_signals();
+  try {
+    reeb::tools::World world;
+    try {
+      run(world, argc, argv);
+    } catch (const Error& error) {
+      // What is wrong with the command line is wrong for all: one says it, and ends the others.
+      if (error.kind() == ErrorKind::kUsage && !world.is_root()) world.wait_for_all();
+      throw;
+    }
+    reeb::tools::finish_standard_output();
+  } catch (const Error& error) {
+    end_all(error);
+  } catch (const std::bad_alloc&) {
+    end_all(Error(ErrorKind::kResource, "out of memory", "use more ranks, or more machines"));
+  } catch (const std::exception& error) {
+    end_all(Error(ErrorKind::kResource, error.what(), "please report this as a bug"));
+  }
+  MPI_Finalize();
+  return 0;
+}
