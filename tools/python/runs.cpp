@@ -160,7 +160,6 @@ ComputeOptions compute_options(const py::dict& given, WatchedRun& run) {
 py::dict to_dict(const ComputeResult& result) {
   py::dict dict;
   dict["function"] = result.function;
-  dict["output"] = result.output;
   dict["min"] = result.range.min;
   dict["max"] = result.range.max;
   dict["vertices"] = result.vertices;

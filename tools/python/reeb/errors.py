@@ -68,7 +68,7 @@ def _make(kind, path, position, message, hint):
         type_ = OutOfMemory if "memory" in message else SystemFailure
     elif path and name == "input" and message.startswith("the output exists"):
         type_ = OutputExists
-    elif path and name == "input" and message == "there is no such file":
+    elif path and name == "input" and (message == "there is no such file" or "No such file" in message):
         type_ = MissingFile
     if position and "/" not in path and not os.path.lexists(path) and _is_array(path):
         path, position = "", f"{path}[{position}]"

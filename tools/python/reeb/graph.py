@@ -56,7 +56,7 @@ class _Store:
         if self.content is not None:
             return _reeb.File.from_bytes(self.content)
         if self._file is None:
-            self._file = _reeb.File(self.path)
+            self._file = _reeb.File(os.fsencode(self.path))
         return self._file
 
     def bytes(self):
@@ -330,7 +330,7 @@ class Graph:
         from .pictures import Picture
 
         file, version = self._need_file()
-        text = _reeb.plot(file, version, kind, "" if mesh is None else os.fspath(mesh), view)
+        text = _reeb.plot(file, version, kind, "" if mesh is None else os.fsencode(mesh), view)
         picture = Picture(text)
         if output is not None:
             picture.save(output, force=force)

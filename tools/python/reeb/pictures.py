@@ -29,6 +29,6 @@ class Picture:
         output = os.fspath(output)
         if not force and os.path.lexists(output):
             raise _exists(output)
-        content = _reeb.picture(self.svg, output)
+        content = _reeb.picture(self.svg, os.fsencode(output))
         with open(output, "wb") as file:
             file.write(content)

@@ -105,7 +105,7 @@ def compute(
             raise Error(
                 "a mesh in a file takes no arrays", 'name a file of values: f="file:PATH.npy"', kind="usage"
             )
-        held = os.fspath(mesh)
+        held = os.fsencode(mesh)
         _add_image(options, spacing, origin, nodata, grid, type, skip)
     else:
         held, functions = _held(mesh, faces, values, functions, spacing, origin, nodata)
@@ -125,18 +125,25 @@ def is_path(mesh):
 
 def _run(held, names, outputs, options, report):
     if outputs is not None:
-        results = _reeb.compute(held, names, outputs, options, report)
-        return [_open_result(result, os.path.abspath(path), None) for result, path in zip(results, outputs)]
+        results = _reeb.compute(held, names, [os.fsencode(path) for path in outputs], options, report)
+        paths = [os.path.abspath(path) for path in outputs]
+        return [_open_result({**result, "output": path}, path, None) for result, path in zip(results, paths)]
     folder = tempfile.mkdtemp(prefix="reeb-", dir=options.get("temp_dir"))
     try:
         outputs = [os.path.join(folder, f"{i}.reeb") for i in range(len(names))]
-        results = _reeb.compute(held, names, outputs, {**options, "temp_dir": options.get("temp_dir") or folder}, report)
+        # Temporary files are beside the output.
+        results = _reeb.compute(held, names, outputs, {**options, "temp_dir": folder}, report)
         graphs = []
         for result, path in zip(results, outputs):
             with open(path, "rb") as file:
                 graphs.append(_open_result({**result, "output": None}, None, file.read()))
             os.remove(path)
         return graphs
+    except Error as error:
+        if error.path is None or not error.path.startswith(folder):
+            raise
+        message = error.message.removesuffix("; the graph itself was written")
+        raise type(error)(message, error.hint, position=error.position, kind=error.kind) from None
     finally:
         shutil.rmtree(folder, ignore_errors=True)
 
@@ -198,6 +205,8 @@ def _add_common(options, memory, threads, format, temp_dir):
         options["format"] = str(format)
     if temp_dir is not None:
         options["temp_dir"] = os.fspath(temp_dir)
+        if not os.path.isdir(options["temp_dir"]):
+            raise Error("the folder for temporary files does not exist", "create it", path=options["temp_dir"])
 
 
 def _add_image(options, spacing, origin, nodata, grid, type_, skip):
@@ -343,7 +352,7 @@ def segment(
     options = {}
     _add_common(options, memory, threads, format, temp_dir)
     if is_path(mesh):
-        held = os.fspath(mesh)
+        held = os.fsencode(mesh)
         _add_image(options, spacing, origin, nodata, grid, type, skip)
     else:
         held, _ = _held(mesh, faces, values, [None if values is not None else graph.function], spacing, origin, nodata)
@@ -401,10 +410,10 @@ def defects(
     """
     options = {}
     _add_common(options, memory, threads, format, temp_dir)
-    files = [os.fspath(path) for path in ([graphs] if is_path(graphs) else graphs)]
+    files = [os.fsencode(path) for path in ([graphs] if is_path(graphs) else graphs)]
     with _Bar(progress) as report, tempfile.TemporaryDirectory(prefix="reeb-", dir=temp_dir) as folder:
         if is_path(mesh):
-            path = os.fspath(mesh)
+            path = os.fsencode(mesh)
         else:
             if _arrays.is_mesh_object(mesh) and faces is None:
                 mesh, faces, _ = _arrays.parts_of_object(mesh)
