@@ -2,6 +2,7 @@
 
 import os
 import re
+import shlex
 import subprocess
 import sys
 from pathlib import Path
@@ -21,6 +22,7 @@ class CMakeBuild(build_ext):
             "-DREEB_PYTHON=ON",
             f"-DPython3_EXECUTABLE={sys.executable}",
             *(f"-DREEB_{part}=OFF" for part in ("WEB", "TESTS", "BENCH", "INSTALL")),
+            *shlex.split(os.environ.get("CMAKE_ARGS", "")),
         ]
         subprocess.run(["cmake", "-S", source, "-B", build, *options], check=True)
         jobs = os.environ.get("CMAKE_BUILD_PARALLEL_LEVEL", str(os.cpu_count() or 1))

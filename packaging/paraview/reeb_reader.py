@@ -1,7 +1,7 @@
 """Opens .reeb files in ParaView, with a slider for the threshold, and in VTK programs.
 
 ParaView: Tools, Manage Plugins, Load New, this file. It needs the Python package reeb, for the Python of ParaView.
-VTK: ReebReader().SetFileName(...), SetThreshold(per cent), Update(), GetOutput().
+VTK: ReebReader() has SetFileName(name), SetThreshold(per cent), Update(), GetOutputDataObject(0).
 """
 
 import reeb

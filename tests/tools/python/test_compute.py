@@ -227,8 +227,8 @@ def test_nothing_is_left_on_disk(tmp_path):
 def test_no_leak_and_no_open_files():
     import resource
 
-    vertices, faces = torus(8, 6)
-    image = np.random.default_rng(2).random((5, 6))
+    vertices, faces = torus(6, 4)
+    image = np.random.default_rng(2).random((4, 5))
 
     def calls(count):
         for _ in range(count):

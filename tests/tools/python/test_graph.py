@@ -260,5 +260,5 @@ def test_the_reader_for_paraview(noisy):
         reader.SetThreshold(percent)
         reader.Update()
         points, edges, _, _ = graph.level(f"{percent}%").skeleton()
-        output = reader.GetOutput()
+        output = reader.GetOutputDataObject(0)
         assert output.GetNumberOfPoints() == len(points) and output.GetNumberOfCells() == len(edges)
