@@ -2,6 +2,7 @@
 
 import os
 import subprocess
+import sys
 
 import numpy as np
 import pytest
@@ -262,3 +263,14 @@ def test_the_reader_for_paraview(noisy):
         points, edges, _, _ = graph.level(f"{percent}%").skeleton()
         output = reader.GetOutputDataObject(0)
         assert output.GetNumberOfPoints() == len(points) and output.GetNumberOfCells() == len(edges)
+
+
+def test_the_tutorial_prints_what_it_says(tmp_path):
+    from pathlib import Path
+
+    docs = Path(__file__).parents[3] / "docs"
+    command = [sys.executable, docs / "render_tutorial.py", tmp_path / "TUTORIAL.md"]
+    subprocess.run(command, check=True)
+    assert (tmp_path / "TUTORIAL.md").read_text() == (docs / "TUTORIAL.md").read_text()
+    # Pictures depend on the version of Graphviz.
+    assert {path.name for path in tmp_path.glob("*.svg")} == {path.name for path in docs.glob("tutorial-*.svg")}

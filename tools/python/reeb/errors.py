@@ -72,6 +72,8 @@ def _make(kind, path, position, message, hint):
         type_ = MissingFile
     if position and "/" not in path and not os.path.lexists(path) and _is_array(path):
         path, position = "", f"{path}[{position}]"
+    if path.startswith("/proc/self/fd/"):  # a graph without a file on disk
+        path = ""
     for word, here in _NAMES:
         hint = word.sub(here, hint)
     return type_(message, hint, path=path or None, position=position or None, kind=name)

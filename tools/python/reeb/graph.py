@@ -1,5 +1,6 @@
 """Reeb graphs, at any level of detail."""
 
+import contextlib
 import io
 import math
 import os
@@ -58,6 +59,18 @@ class _Store:
         if self._file is None:
             self._file = _reeb.File(os.fsencode(self.path))
         return self._file
+
+    @contextlib.contextmanager
+    def named(self):
+        """The file under a name that a title can show."""
+        if self.path is not None:
+            yield self.file()
+            return
+        with tempfile.TemporaryDirectory(prefix="reeb-") as folder:
+            path = os.path.join(folder, "graph.reeb")
+            with io.open(path, "wb") as file:
+                file.write(self.content)
+            yield _reeb.File(os.fsencode(path))
 
     def bytes(self):
         if self.content is not None:
@@ -329,8 +342,9 @@ class Graph:
         """
         from .pictures import Picture
 
-        file, version = self._need_file()
-        text = _reeb.plot(file, version, kind, "" if mesh is None else os.fsencode(mesh), view)
+        self._need_file()
+        with self._store.named() as file:
+            text = _reeb.plot(file, self._version, kind, "" if mesh is None else os.fsencode(mesh), view)
         picture = Picture(text)
         if output is not None:
             picture.save(output, force=force)
