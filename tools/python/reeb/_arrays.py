@@ -68,7 +68,9 @@ def simplex_array(name, simplices):
         width = array.shape[1] if array.ndim == 2 and 1 <= array.shape[1] <= _MOST_COLUMNS else 3
         return np.empty((0, width), np.int64)
     if not 1 <= array.shape[1] <= _MOST_COLUMNS:
-        raise Error(f"{name} have {array.shape[1]} columns", "a simplex has 1 to 9 corners; triangles have shape (m, 3)")
+        raise Error(
+            f"{name} have {array.shape[1]} columns", "a simplex has 1 to 9 corners; triangles have shape (m, 3)"
+        )
     if array.dtype.kind == "f":
         if not np.array_equal(array, np.floor(array)):
             raise Error(f"{name} has numbers that are no integers", "a row has the indices of vertices, from 0")
@@ -140,7 +142,8 @@ def image_of_array(image, spacing, origin, nodata):
     def vector(name, given, default):
         values = [default] * image.ndim if given is None else [float(x) for x in np.ravel(given)]
         if len(values) != image.ndim or not np.all(np.isfinite(values)):
-            raise Error(f"{name} has {len(values)} numbers", f"one finite number for each axis: x, y{', z'[:3 * (image.ndim - 2)]}", kind="usage")
+            axes = "x, y" if image.ndim == 2 else "x, y, z"
+            raise Error(f"{name} has {len(values)} numbers", f"one finite number for each of {axes}", kind="usage")
         return values
 
     skip = nodata is not None

@@ -86,8 +86,8 @@ class Graph:
 
     Attributes:
         function: the name of the function, as "z".
-        result: dict of what the run said: counts of the mesh and of the full graph, seconds, notes; empty if the graph
-            comes from a file.
+        result: dict of what the run said: counts of the mesh and of the full graph, seconds, notes; empty if the
+            graph comes from a file.
     """
 
     def __init__(self):
@@ -192,7 +192,8 @@ class Graph:
 
     @property
     def levels(self):
-        """Structured array of levels, from coarse to fine, whose size is known: threshold, nodes, arcs, memory (bytes)."""
+        """Structured array of levels, from coarse to fine, whose size is known: threshold, nodes, arcs, memory
+        (bytes)."""
         rows = self._level_lines()
         table = np.zeros(len(rows), [("threshold", "f8"), ("nodes", "i8"), ("arcs", "i8"), ("memory", "i8")])
         for i, row in enumerate(rows):
@@ -217,11 +218,12 @@ class Graph:
         return Graph._make(self._store, version, function=self.function, result=self.result)
 
     def refine(self, threshold=None, *, nodes=None, memory=None):
-        """Moves this graph to a finer level: that of level(); or, without arguments, to the next of `levels`. A level that
-        is coarser changes nothing. Returns the graph.
+        """Moves this graph to a finer level: that of level(); or, without arguments, to the next of `levels`. A level
+        that is coarser changes nothing. Returns the graph.
 
-        With a listener (reeb.open), its methods are called for each change: node_added(node, vertex, value, position),
-        node_removed(node), arc_added(arc, lo, hi), arc_removed(arc). Nodes and arcs are named by numbers that they keep.
+        With a listener (reeb.open), its methods are called for each change: node_added(node, vertex, value,
+        position), node_removed(node), arc_added(arc, lo, hi), arc_removed(arc). Nodes and arcs are named by numbers
+        that they keep.
         """
         lines = [line[0] for line in self._level_lines()]
         if (threshold, nodes, memory) == (None, None, None):
@@ -245,8 +247,8 @@ class Graph:
         """The graph as lines through the shape of the mesh.
 
         Args:
-            mesh, faces, values: the mesh of this graph, as in reeb.compute; then `radius` is known. A mesh in a file is
-                read by segment() only, and has no radius.
+            mesh, faces, values: the mesh of this graph, as in reeb.compute; then `radius` is known. A mesh in a file
+                is read by segment() only, and has no radius.
 
         Returns:
             A Skeleton: points (n, 3), edges (m, 2), radius (n,), arc (m,).
@@ -278,8 +280,8 @@ class Graph:
         return Skeleton(points, edges, radius, arc)
 
     def to_networkx(self):
-        """A networkx.MultiGraph, since parallel arcs are real. Nodes are positions in `nodes`, with the columns of a node
-        as attributes; an edge has the attribute `arc`, its position in `arcs`."""
+        """A networkx.MultiGraph, since parallel arcs are real. Nodes are positions in `nodes`, with the columns of a
+        node as attributes; an edge has the attribute `arc`, its position in `arcs`."""
         import networkx
 
         graph = networkx.MultiGraph(function=self.function)
@@ -289,8 +291,8 @@ class Graph:
         return graph
 
     def to_polydata(self):
-        """The skeleton as pyvista.PolyData, or as vtkPolyData if there is only VTK. Point data: Value, VertexId (-1 between
-        nodes). Cell data: SegmentationId (the position of the arc)."""
+        """The skeleton as pyvista.PolyData, or as vtkPolyData if there is only VTK. Point data: Value, VertexId (-1
+        between nodes). Cell data: SegmentationId (the position of the arc)."""
         points, edges, _, arc = self.skeleton()
         between = len(points) - len(self.nodes)
         vertex = np.concatenate([self.nodes["vertex"], np.full(between, -1)])
@@ -308,8 +310,8 @@ class Graph:
         return data
 
     def to_gudhi(self):
-        """The four lists that extended_persistence() of GUDHI returns: Ordinary, Relative, Extended+, Extended-. An item
-        is (dimension, (birth, death)); of Relative and Extended- the birth is above the death."""
+        """The four lists that extended_persistence() of GUDHI returns: Ordinary, Relative, Extended+, Extended-. An
+        item is (dimension, (birth, death)); of Relative and Extended- the birth is above the death."""
         lists = []
         for type_, dimension, falls in (("Ord0", 0, False), ("Rel1", 1, True), ("Ext0", 0, False), ("Ext1", 1, True)):
             rows = self.pairs[self.pairs["type"] == type_]
@@ -318,8 +320,8 @@ class Graph:
         return lists
 
     def to_persim(self):
-        """Persistence diagrams by dimension, as persim and ripser have them: two arrays (k, 2) of birth and death, lower
-        value first. Dimension 0 has Ord0 and Ext0, dimension 1 Rel1 and Ext1."""
+        """Persistence diagrams by dimension, as persim and ripser have them: two arrays (k, 2) of birth and death,
+        lower value first. Dimension 0 has Ord0 and Ext0, dimension 1 Rel1 and Ext1."""
 
         def diagram(*types):
             rows = self.pairs[np.isin(self.pairs["type"], types)]
@@ -332,8 +334,8 @@ class Graph:
 
         Args:
             output: a file to write: .svg, .png or .pdf. Default: none.
-            kind: "graph" (laid out by value), "skeleton" (in space), "diagram" (of pairs), "loops" (their number above a
-                persistence). The first needs Graphviz, the last two gnuplot.
+            kind: "graph" (laid out by value), "skeleton" (in space), "diagram" (of pairs), "loops" (their number
+                above a persistence). The first needs Graphviz, the last two gnuplot.
             mesh: for a skeleton, the path of the mesh that it is drawn into.
             view: for a skeleton, (x, y, z) towards the eye.
 
@@ -430,7 +432,8 @@ class Graph:
         return self._levels
 
     def _choose(self, threshold, nodes, memory):
-        given = [name for name, x in (("threshold", threshold), ("nodes", nodes), ("memory", memory)) if x is not None]
+        choices = {"threshold": threshold, "nodes": nodes, "memory": memory}
+        given = [name for name, choice in choices.items() if choice is not None]
         if len(given) != 1:
             what = " and ".join(given) if given else "nothing"
             raise Error(f"{what} given", "give one of threshold, nodes, memory", kind="usage")
@@ -497,13 +500,14 @@ class Graph:
 
 
 def open(path, *, threshold=None, nodes=None, memory=None, listener=None):
-    """Opens a .reeb file. Nothing but its header is read before it is needed, and a level needs a part of the file only.
+    """Opens a .reeb file. Nothing but its header is read before it is needed, and a level needs a part of the file
+    only.
 
     Args:
         path: the file.
         threshold, nodes, memory: the level to begin with, as Graph.level(); default: the full graph.
-        listener: an object with any of the methods node_added, node_removed, arc_added, arc_removed (see Graph.refine). It
-            is told of the first level, too.
+        listener: an object with any of the methods node_added, node_removed, arc_added, arc_removed (see
+            Graph.refine). It is told of the first level, too.
 
     Returns:
         A Graph.

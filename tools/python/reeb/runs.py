@@ -54,12 +54,13 @@ def compute(
               .points/.cells_dict;
             - an image or volume, an array (ny, nx) or (nz, ny, nx), without `faces`. Its vertices are numbered as
               numpy.ravel does.
-        faces: simplices, an array (m, k), k from 1 to 9: triangles (m, 3), tetrahedra (m, 4), edges (m, 2). Any type of
-            integer, any layout; nothing is copied. A dict of such arrays by meshio's names of cells is possible.
+        faces: simplices, an array (m, k), k from 1 to 9: triangles (m, 3), tetrahedra (m, 4), edges (m, 2). Any type
+            of integer, any layout; nothing is copied. A dict of such arrays by meshio's names of cells is possible.
         values: the function, an array (n,); or a dict of arrays, of which f="property:NAME" chooses one.
-        f: the function: "x", "y", "z", "cK", "index", "random:SEED", "property:NAME", "file:PATH" (.npy, .f64 or text),
-            "distance:VERTEX", "distance:X,Y,Z", "geodesic:VERTEX", "laplacian:K", "spectral", "value" (of an image).
-            Or an array (n,). Default: "z", of an image "value". A list gives a list of graphs, from one reading.
+        f: the function: "x", "y", "z", "cK", "index", "random:SEED", "property:NAME", "file:PATH" (.npy, .f64 or
+            text), "distance:VERTEX", "distance:X,Y,Z", "geodesic:VERTEX", "laplacian:K", "spectral", "value" (of an
+            image). Or an array (n,). Default: "z", of an image "value". A list gives a list of graphs, from one
+            reading.
         output: the .reeb file to write; for several functions a list. Default: nothing is left on disk.
         memory: what the run may use: bytes, or "64M", "1.5GiB". Arrays of the caller and Python are not counted.
         denoise: minima and maxima of less persistence are removed: 0.01 in units of the function, or "0.1%" of its
@@ -74,8 +75,8 @@ def compute(
         grid, type, skip: of a raw file, as the program's options: "256x256x100", "u16le", bytes.
         reorder, sidecar, snapshot_every, chunk, temp_dir, resume: as the program's options of these names.
         force: replaces an existing output.
-        progress: True for a bar (of tqdm, if that is installed), or a callable (phase, done, total, triangles), called
-            by the calling thread a few times a second.
+        progress: True for a bar (of tqdm, if that is installed), or a callable (phase, done, total, triangles),
+            called by the calling thread a few times a second.
 
     Returns:
         A Graph, or a list of them if `f` is a list.
@@ -152,7 +153,7 @@ def _functions(f):
     if isinstance(f, (list, tuple)) and f and all(g is None or isinstance(g, str) for g in f):
         return list(f), True
     if isinstance(f, (list, tuple)) and any(isinstance(g, str) for g in f):
-        raise Error("f mixes names and numbers", 'a list of names, as ["x", "y"], or an array of values', kind="usage")
+        raise Error("f mixes names and numbers", 'a list of names, as ["x", "y"], or an array', kind="usage")
     return [f], False
 
 
@@ -307,7 +308,8 @@ class Segmentation(NamedTuple):
     """Where each vertex of a mesh lies.
 
     Attributes:
-        labels: (n,) int64. Of a vertex on an arc the position of the arc in `graph.arcs`; of a node -1 - its position in
+        labels: (n,) int64. Of a vertex on an arc the position of the arc in `graph.arcs`; of a node -1 - its position
+        in
             `graph.nodes`; DROPPED for a vertex of an arc that was dropped. Parallel arcs have an order of their own.
         values: (n,) float64, the function. NaN for a vertex of an image that is left out.
     """
@@ -355,7 +357,8 @@ def segment(
         held = os.fsencode(mesh)
         _add_image(options, spacing, origin, nodata, grid, type, skip)
     else:
-        held, _ = _held(mesh, faces, values, [None if values is not None else graph.function], spacing, origin, nodata)
+        held, _ = _held(mesh, faces, values, [None if values is not None else graph.function], spacing, origin,
+        nodata)
     file, version = graph._need_file()
     with _Bar(progress) as report:
         return Segmentation(*_reeb.segment(held, file, version, options, report))
