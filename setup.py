@@ -3,6 +3,7 @@
 import os
 import re
 import shlex
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -18,6 +19,7 @@ class CMakeBuild(build_ext):
         build = Path(self.build_temp).resolve()
         build.mkdir(parents=True, exist_ok=True)
         options = [
+            *(["-GNinja"] if shutil.which("ninja") else []),
             "-DCMAKE_BUILD_TYPE=Release",
             "-DREEB_PYTHON=ON",
             f"-DPython3_EXECUTABLE={sys.executable}",
