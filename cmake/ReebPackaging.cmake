@@ -5,6 +5,7 @@
 set(reeb_pc_private "-lreeb_io -lreeb_ooc -lreeb_file -lreeb")
 set(reeb_pc_requires "libzstd liblz4 zlib expat tbb")
 file(RELATIVE_PATH reeb_pc_prefix "${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig" "${CMAKE_INSTALL_PREFIX}")
+string(REGEX REPLACE "/$" "" reeb_pc_prefix "${reeb_pc_prefix}")
 configure_file(packaging/reeb.pc.in reeb.pc @ONLY)
 install(FILES "${PROJECT_BINARY_DIR}/reeb.pc" DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT dev)
 
