@@ -211,6 +211,7 @@ def test_defects_are_those_of_the_program(noisy, tmp_path):
 
 
 def test_online_is_exact_at_any_moment():
+    networkx = pytest.importorskip("networkx")
     random_ = np.random.default_rng(6)
     for _ in range(30):
         n = int(random_.integers(1, 9))
@@ -225,6 +226,7 @@ def test_online_is_exact_at_any_moment():
             nodes = list(zip(vertex.tolist(), graph.nodes["down"].tolist(), graph.nodes["up"].tolist()))
             arcs = [(int(vertex[lo]), int(vertex[hi])) for lo, hi in graph.arcs]
             assert (nodes, arcs) == reeb_graph(values.tolist(), triangles[: k + 5].tolist())
+            assert graph.components == networkx.number_connected_components(graph.to_networkx())
         online.finalize([0])
         with pytest.raises(reeb.Error) as caught:
             online.add_simplices([[0, 0]])
