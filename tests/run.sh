@@ -89,7 +89,10 @@ run() {  # PRESET LABEL
   fi
   step "configure, preset $1"
   mkdir -p "$folder"
-  cmake --preset "$1" -DREEB_WERROR=ON >"$folder/configure-log.txt" 2>&1 ||
+  # Debian's Python is the one for which the packages are installed.
+  local python=OFF
+  if [[ $1 == release ]]; then python=ON; fi
+  cmake --preset "$1" -DREEB_WERROR=ON -DREEB_PYTHON="$python" -DPython3_EXECUTABLE=/usr/bin/python3 >"$folder/configure-log.txt" 2>&1 ||
     { cat "$folder/configure-log.txt"; exit 1; }
   step "build ${targets[*]} of preset $1 with $jobs jobs"
   NINJA_STATUS='[%f/%t] ' cmake --build --preset "$1" --target "${targets[@]}" -j "$jobs"

@@ -8,6 +8,7 @@
 #include "io/file/content_source.h"
 #include "io/file/file.h"
 #include "io/file/file_windows.h"
+#include "io/images/numpy.h"
 #include "io/mesh/scalar_bytes.h"
 #include "io/text/text_cursor.h"
 #include "libreeb/base/count_text.h"
@@ -23,6 +24,12 @@ namespace {
                   count_of(vertices, "vertex"),
               "the file must have one value per vertex")
       .at(path, position);
+}
+
+[[noreturn]] void throw_not_finite(const std::string& path, std::uint64_t vertex, std::uint64_t offset) {
+  throw Error(ErrorKind::kBadInput, "the value of vertex " + std::to_string(vertex) + " is not finite",
+              "give every vertex a finite value")
+      .at(path, std::to_string(offset));
 }
 
 class RawValueFile final : public ValueFile {
@@ -41,9 +48,7 @@ class RawValueFile final : public ValueFile {
     const double value = load_scalar<double>(windows_.at(8 * vertex), false);
     if (std::isfinite(value)) [[likely]]
       return value + 0.0;
-    throw Error(ErrorKind::kBadInput, "the value of vertex " + std::to_string(vertex) + " is not finite",
-                "give every vertex a finite value")
-        .at(path_, std::to_string(8 * vertex));
+    throw_not_finite(path_, vertex, 8 * vertex);
   }
   void check_unchanged() const override { windows_.file()->check_unchanged("the file"); }
   void check_count(std::uint64_t vertex_count) override {
@@ -56,6 +61,55 @@ class RawValueFile final : public ValueFile {
   std::string path_;
   FileWindows windows_;
   std::uint64_t next_ = 0;
+};
+
+// An array of NumPy, of any type of number, with one axis; others of size 1 do not count.
+class NumpyValueFile final : public ValueFile {
+ public:
+  explicit NumpyValueFile(const std::string& path)
+      : path_(path), windows_(path, {.window_bits = 14, .window_count = 64, .overlap_bytes = 8}) {
+    std::string head(static_cast<std::size_t>(std::min<std::uint64_t>(windows_.size(), ContentSource::kLookahead)), 0);
+    windows_.file()->read_at(0, std::as_writable_bytes(std::span(head)));
+    if (!is_numpy(head))
+      throw Error(ErrorKind::kBadInput, "this is no NumPy array", "write it with numpy.save").at(path, "0");
+    header_ = parse_numpy_header(head, path);
+    bytes_ = byte_size(header_.type);
+    for (const std::uint64_t size : header_.shape) {
+      if (count_ > 1 && size > 1)
+        throw Error(ErrorKind::kBadInput, "an array of several axes is no list of values",
+                    "save one column of it, an array of shape (n,)")
+            .at(path, "0");
+      count_ *= size;
+    }
+    const std::uint64_t body = windows_.size() - header_.body_offset;
+    if (body / bytes_ < count_)
+      throw Error(
+          ErrorKind::kBadInput,
+          "has room for " + count_of(body / bytes_, "value") + ", but its header announces " + with_commas(count_),
+          "the file is cut or damaged; get a whole copy")
+          .at(path, std::to_string(windows_.size()));
+  }
+  double next() override { return at(next_++); }
+  double at(std::uint64_t vertex) override {
+    if (vertex >= count_) throw_wrong_count(path_, std::to_string(place(count_)), count_, false, vertex + 1);
+    const double value = load_double(header_.type, windows_.at(place(vertex)), header_.big_endian);
+    if (std::isfinite(value)) [[likely]]
+      return value;
+    throw_not_finite(path_, vertex, place(vertex));
+  }
+  void check_unchanged() const override { windows_.file()->check_unchanged("the file"); }
+  void check_count(std::uint64_t vertex_count) override {
+    if (count_ != vertex_count)
+      throw_wrong_count(path_, std::to_string(place(std::min(vertex_count, count_))), count_, false, vertex_count);
+  }
+
+ private:
+  std::uint64_t place(std::uint64_t vertex) const { return header_.body_offset + bytes_ * vertex; }
+
+  std::string path_;
+  FileWindows windows_;
+  NumpyHeader header_;
+  std::uint64_t bytes_ = 0, count_ = 1, next_ = 0;
 };
 
 class TextValueFile final : public ValueFile {
@@ -136,8 +190,13 @@ std::unique_ptr<ValueFile> open_values(const std::string& path, std::optional<st
     if (vertex_count && *vertex_count != 0) throw_empty(path);
     return std::make_unique<EmptyValueFile>(path);
   }
-  if (!path.ends_with(".f64")) return std::make_unique<TextValueFile>(path);
-  auto values = raw_values(std::make_shared<const InputFile>(path));
+  const bool is_numpy_name = path.ends_with(".npy");
+  if (!is_numpy_name && !path.ends_with(".f64")) return std::make_unique<TextValueFile>(path);
+  std::unique_ptr<ValueFile> values;
+  if (is_numpy_name)
+    values = std::make_unique<NumpyValueFile>(path);
+  else
+    values = raw_values(std::make_shared<const InputFile>(path));
   if (vertex_count) values->check_count(*vertex_count);
   return values;
 }

@@ -1,4 +1,4 @@
-// One number per vertex, from a file: lines of text, or raw little-endian float64 (".f64").
+// One number per vertex, from a file: lines of text, raw little-endian float64 (".f64"), or an array of NumPy (".npy").
 #pragma once
 
 #include <cstdint>

@@ -28,13 +28,12 @@ class Header {
     text_ = head.substr(begin_, static_cast<std::size_t>(length));
   }
 
-  Image parse() const {
-    Image image;
-    image.info.format = "NumPy array";
-    take_type(image);
-    take_shape(image.info);
-    image.offset = begin_ + text_.size();
-    return image;
+  NumpyHeader parse() const {
+    NumpyHeader header;
+    take_type(header);
+    take_shape(header);
+    header.body_offset = begin_ + text_.size();
+    return header;
   }
 
  private:
@@ -59,14 +58,14 @@ class Header {
     fail(begin_, "the header has no " + std::string(key));
   }
 
-  void take_type(Image& image) const {
+  void take_type(NumpyHeader& header) const {
     const std::string_view rest = value("descr");
     const std::size_t end = rest.empty() ? 0 : rest.find(rest.front(), 1);
     const bool is_quoted = !rest.empty() && (rest.front() == '\'' || rest.front() == '"');
     if (!is_quoted || end == std::string_view::npos || end < 3)
       fail(rest, "an array of records is not read", "save an array of numbers");
     const std::string_view word = rest.substr(1, end - 1);
-    image.big_endian = word[0] == '>';
+    header.big_endian = word[0] == '>';
     const std::string_view type = word.substr(1);
     static constexpr std::pair<std::string_view, ScalarType> kTypes[] = {
         {"i1", ScalarType::kInt8},    {"u1", ScalarType::kUint8},  {"b1", ScalarType::kUint8},
@@ -77,14 +76,13 @@ class Header {
     if (found == std::end(kTypes) || std::string_view("<>|=").find(word[0]) == std::string_view::npos)
       fail(word, "values of type " + quoted(word) + " are not read",
            "save the array as integers of 1, 2, 4 or 8 bytes, float32 or float64");
-    image.type = found->second;
+    header.type = found->second;
   }
 
-  void take_shape(GridInfo& info) const {
+  void take_shape(NumpyHeader& header) const {
     const std::string_view rest = value("shape");
     const std::size_t end = rest.find(')');
     if (!rest.starts_with('(') || end == std::string_view::npos) fail(rest, "the shape is no list", kHint);
-    std::vector<std::uint64_t> sizes;
     for (std::string_view left = rest.substr(1, end - 1); !without_blanks(left).empty();) {
       const std::size_t comma = std::min(left.find(','), left.size());
       std::string_view word = without_blanks(left.substr(0, comma));
@@ -94,12 +92,11 @@ class Header {
       const auto parsed = std::from_chars(word.data(), word.data() + word.size(), size);
       if (parsed.ec != std::errc{} || parsed.ptr != word.data() + word.size())
         fail(word, "the shape has " + quoted(word) + ", which is no size", kHint);
-      sizes.push_back(size);
+      header.shape.push_back(size);
     }
     const std::string_view order = value("fortran_order");
     if (!order.starts_with("True") && !order.starts_with("False")) fail(order, "neither True nor False", kHint);
-    if (order.starts_with("False")) std::ranges::reverse(sizes);
-    set_size(info, sizes);
+    header.fortran_order = order.starts_with("True");
   }
 
   static constexpr const char* kHint = "save the array again";
@@ -113,6 +110,18 @@ class Header {
 
 bool is_numpy(std::string_view head) { return head.starts_with(kMagic); }
 
-Image parse_numpy(ContentSource& source) { return Header(source.view(0), source.name()).parse(); }
+NumpyHeader parse_numpy_header(std::string_view head, const std::string& name) { return Header(head, name).parse(); }
+
+Image parse_numpy(ContentSource& source) {
+  NumpyHeader header = parse_numpy_header(source.view(0), source.name());
+  Image image;
+  image.info.format = "NumPy array";
+  image.type = header.type;
+  image.big_endian = header.big_endian;
+  image.offset = header.body_offset;
+  if (!header.fortran_order) std::ranges::reverse(header.shape);
+  set_size(image.info, header.shape);
+  return image;
+}
 
 }  // namespace reeb::io

@@ -53,7 +53,9 @@ void order_as_in(const ooc::Level& level, ooc::MeasuredArcs& measured) {
 }  // namespace
 
 ooc::MeasuredArcs measure_level(const ooc::ReebFile& file, const ooc::Level& level, const MeasureRequest& request) {
-  RunInput input(request.mesh, std::span(&file.header().function, 1), {.temp_dir = request.temp_folder});
+  InputOptions opening;
+  opening.temp_dir = request.temp_folder;
+  RunInput input(request.mesh, std::span(&file.header().function, 1), opening);
   if (!input.can_read_again())
     throw Error(ErrorKind::kBadInput, "the mesh must be read twice, and this input can be read once",
                 "write the mesh to a file first")

@@ -24,10 +24,11 @@ void require_an_output_each(std::span<const std::string> functions, std::span<co
                 "name one output for each function, and at least one function");
 }
 
-}  // namespace
-
-std::vector<ComputeResult> compute(const std::string& path, std::span<const std::string> functions,
-                                   std::span<const std::string> outputs, const ComputeOptions& options) {
+// `mesh_source` is the path, or opens a mesh that the caller holds; `path` is "-" then.
+template <class Mesh>
+std::vector<ComputeResult> compute_all(const Mesh& mesh_source, const std::string& path,
+                                       std::span<const std::string> functions, std::span<const std::string> outputs,
+                                       const ComputeOptions& options) {
   std::vector<io::FunctionSpec> specs;
   for (const std::string& function : functions)
     specs.push_back(function.empty() ? io::FunctionSpec() : io::parse_function(function));
@@ -41,7 +42,7 @@ std::vector<ComputeResult> compute(const std::string& path, std::span<const std:
       .temp_dir = options.temp_dir.empty() ? io::TempDir::default_folder(outputs.front()) : options.temp_dir,
       .memory_bytes = options.memory_bytes};
   if (snapshots) input_options.batch_events = 1;  // exactly as far as the stream came
-  RunInput input(path, functions, input_options);
+  RunInput input(mesh_source, functions, input_options);
   const std::span<VertexFunction* const> pointers = input.functions();
   if (options.opened) options.opened(input.info());
   ooc::MeshInput mesh;
@@ -61,6 +62,18 @@ std::vector<ComputeResult> compute(const std::string& path, std::span<const std:
   for (std::size_t i = 0; i < results.size(); ++i)
     results[i].notes.insert(results[i].notes.end(), input.notes(i).begin(), input.notes(i).end());
   return results;
+}
+
+}  // namespace
+
+std::vector<ComputeResult> compute(const std::string& path, std::span<const std::string> functions,
+                                   std::span<const std::string> outputs, const ComputeOptions& options) {
+  return compute_all(path, path, functions, outputs, options);
+}
+
+std::vector<ComputeResult> compute(const MeshOpener& mesh, std::span<const std::string> functions,
+                                   std::span<const std::string> outputs, const ComputeOptions& options) {
+  return compute_all(mesh, "-", functions, outputs, options);
 }
 
 ComputeResult compute(const std::string& path, const std::string& function, const std::string& output,

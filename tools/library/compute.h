@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -64,6 +65,15 @@ ComputeResult compute(const std::string& path, const std::string& function, cons
 // Several functions in one reading of the mesh: the graph of functions[i] goes to outputs[i].
 // REQUIRES: one output a function, and at least one; else Error{kUsage}.
 std::vector<ComputeResult> compute(const std::string& path, std::span<const std::string> functions,
+                                   std::span<const std::string> outputs, const ComputeOptions& options = {});
+
+// Opens a mesh that the caller holds, at its beginning, as often as it is called. A reader that it returned earlier can
+// still be in use.
+using MeshOpener = std::function<std::unique_ptr<MeshReader>(const ReadOptions&)>;
+
+// The same for a mesh that is in no file, as in arrays of the caller. Such a run keeps no sidecar and cannot be
+// resumed. options.format and options.image have no effect.
+std::vector<ComputeResult> compute(const MeshOpener& mesh, std::span<const std::string> functions,
                                    std::span<const std::string> outputs, const ComputeOptions& options = {});
 
 }  // namespace reeb

@@ -29,39 +29,58 @@ std::vector<io::FunctionSpec> parse(std::span<const std::string> functions) {
 }  // namespace
 
 RunInput::RunInput(const std::string& path, std::span<const std::string> functions, const InputOptions& options)
-    : options_(options), input_(io::mesh_input(path, options.format)) {
-  std::vector<io::FunctionSpec> specs = parse(functions);
-  reading_.batch_events = options.batch_events;
-  reading_.properties = io::needed_properties(specs);
-  reading_.temp_folder = options.temp_dir;
-  reading_.value_of_image = functions[0].empty();
-
+    : options_(options), file_(io::mesh_input(path, options.format)) {
   mesh_.path = path;
-  mesh_.check_unchanged = [this] { input_.check_unchanged(); };
-  auto content = input_.open();
+  mesh_.check_unchanged = [this] { file_->check_unchanged(); };
+  auto content = file_->open();
   // What zstd holds with the window of its usual level, 2 MiB, is part of what any run takes.
   constexpr std::uint64_t kUsualWindow = std::uint64_t{3} << 20;
   mesh_.reader_bytes = content->memory_bytes() - std::min(content->memory_bytes(), kUsualWindow);
-  mesh_.reader = io::open_mesh(input_, std::move(content), reading_, options.image, options.format);
+  open(functions, std::move(content));
+}
+
+RunInput::RunInput(MeshOpener open_held, std::span<const std::string> functions, const InputOptions& options)
+    : options_(options), held_(std::move(open_held)) {
+  mesh_.path = std::string(1, '-');
+  mesh_.may_resume = false;
+  open(functions, nullptr);
+}
+
+void RunInput::open(std::span<const std::string> functions, std::unique_ptr<io::ContentSource> content) {
+  std::vector<io::FunctionSpec> specs = parse(functions);
+  reading_.batch_events = options_.batch_events;
+  reading_.properties = io::needed_properties(specs);
+  reading_.temp_folder = options_.temp_dir;
+  reading_.value_of_image = functions[0].empty();
+  mesh_.reader =
+      held_ ? held_(reading_) : io::open_mesh(*file_, std::move(content), reading_, options_.image, options_.format);
   info_ = mesh_.reader->info();
   for (std::size_t f = 0; f < specs.size(); ++f)
     if (functions[f].empty()) specs[f] = io::default_function(info_);
   if (reading_.properties.empty()) reading_.properties = io::needed_properties(specs);
-  mesh_.reading = reading_digest(info_, options.image);
+  mesh_.reading = reading_digest(info_, options_.image);
   mesh_.dimension = info_.dimension;
 
   io::OpenMesh open_again;
   if (can_read_again()) open_again = [this] { return read_again({}); };
-  fields_ = io::read_fields(specs, open_again, path, options.temp_dir, options.memory_bytes);
+  const std::string name = held_ ? std::string() : mesh_.path;
+  fields_ = io::read_fields(specs, open_again, name, options_.temp_dir, options_.memory_bytes);
   for (std::size_t i = 0; i < specs.size(); ++i) {
-    sources_.push_back(std::make_unique<io::FunctionSource>(specs[i], info_, reading_.properties, path, &fields_[i]));
+    sources_.push_back(std::make_unique<io::FunctionSource>(specs[i], info_, reading_.properties, name, &fields_[i]));
     functions_.push_back(sources_.back().get());
   }
 }
 
+std::unique_ptr<MeshReader> RunInput::read_again(const ReadOptions& options, bool renumber) const {
+  if (held_) return held_(options);
+  io::ImageOptions image = options_.image;
+  image.renumber = renumber;
+  return io::open_mesh(*file_, file_->open(), options, image, options_.format);
+}
+
 ooc::MeshInput RunInput::take_mesh() {
   mesh_.indexed = mesh_.reader->indexed();
-  if (mesh_.path != "-") mesh_.read_again = [this] { return read_again(reading_); };
+  if (held_ || mesh_.path != "-") mesh_.read_again = [this] { return read_again(reading_); };
   if (mesh_.indexed) mesh_.reader.reset();
   return std::move(mesh_);
 }

@@ -1,7 +1,9 @@
 // A mesh and its functions, opened for a run.
 #pragma once
 
+#include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -12,6 +14,7 @@
 #include "io/functions/function_source.h"
 #include "io/functions/mesh_field.h"
 #include "ooc/run/compute.h"
+#include "tools/library/compute.h"
 
 namespace reeb {
 
@@ -29,6 +32,8 @@ class RunInput {
   // `functions` as users name them; "" is the default of the mesh.
   // THROWS: Error, of the mesh or of a function.
   RunInput(const std::string& path, std::span<const std::string> functions, const InputOptions& options);
+  // A mesh that the caller holds. Of the options, format and image have no effect.
+  RunInput(MeshOpener open, std::span<const std::string> functions, const InputOptions& options);
 
   const MeshInfo& info() const { return info_; }
   // The reader alone, for a run with snapshots; or the mesh in the form that suits a run best. To be taken once.
@@ -39,17 +44,17 @@ class RunInput {
   const std::vector<std::string>& notes(std::size_t function) const { return fields_[function].notes; }
   // Opens the mesh another time, in the same way; or with vertices numbered 0, 1, 2, ... even if some vertices of an
   // image are left out. REQUIRES: can_read_again().
-  bool can_read_again() const { return input_.can_reopen(); }
-  std::unique_ptr<MeshReader> read_again(const ReadOptions& options, bool renumber = false) const {
-    io::ImageOptions image = options_.image;
-    image.renumber = renumber;
-    return io::open_mesh(input_, input_.open(), options, image, options_.format);
-  }
-  const io::Input& input() const { return input_; }
+  bool can_read_again() const { return !file_ || file_->can_reopen(); }
+  std::unique_ptr<MeshReader> read_again(const ReadOptions& options, bool renumber = false) const;
+  // REQUIRES: the mesh is in a file.
+  const io::Input& input() const { return *file_; }
 
  private:
+  void open(std::span<const std::string> functions, std::unique_ptr<io::ContentSource> content);
+
   InputOptions options_;
-  io::Input input_;
+  std::optional<io::Input> file_;
+  MeshOpener held_;  // empty if the mesh is in a file
   ReadOptions reading_;
   MeshInfo info_;
   ooc::MeshInput mesh_;

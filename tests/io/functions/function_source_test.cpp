@@ -77,6 +77,11 @@ TEST(FunctionText, IsParsedOrRefused) {
   EXPECT_EQ(needed_properties(specs), (std::vector<std::string>{"b", "a"}));
 }
 
+std::string npy(const std::string& type, const std::string& shape, const std::string& data) {
+  std::string header = "{'descr': '" + type + "', 'fortran_order': False, 'shape': " + shape + ", }";
+  return "\x93NUMPY" + std::string("\1\0", 2) + scalar_bytes(static_cast<std::uint16_t>(header.size())) + header + data;
+}
+
 TEST(FunctionValues, OfEveryKind) {
   EXPECT_EQ(values_of(source("x")), (std::vector<double>{1, 2}));
   EXPECT_FALSE(std::signbit(values_of(source("z"))[0]));
@@ -93,7 +98,10 @@ TEST(FunctionValues, ByIndexAreTheSame) {
   const std::vector<VertexId> ids = {VertexId(1), VertexId(0), VertexId(1)};
   std::vector<double> values(3);
   for (const std::string& path :
-       {write_file("v.txt", "10\n20\n"), write_file("w.f64", scalar_bytes(10.0) + scalar_bytes(20.0))}) {
+       {write_file("v.txt", "10\n20\n"), write_file("w.f64", scalar_bytes(10.0) + scalar_bytes(20.0)),
+        write_file("a.npy", npy("<f8", "(2,)", scalar_bytes(10.0) + scalar_bytes(20.0))),
+        write_file("b.npy", npy(">i2", "(2, 1)", std::string("\0\12\0\24", 4))),
+        write_file("c.npy", npy("|u1", "(1, 2)", "\12\24"))}) {
     auto function = source("file:" + path);
     EXPECT_TRUE(function.columns().empty());
     function.evaluate(ids, {}, values);
@@ -131,6 +139,15 @@ TEST(FunctionErrors, SayWhere) {
   const std::string nan = write_file("n.f64", scalar_bytes(1.0) + scalar_bytes(kInfinity));
   EXPECT_EQ(error_of([&] { values_of(source("file:" + nan)); }).position(), "8");
   EXPECT_EQ(error_of([] { source("file:" + write_file("c.f64", "123456789")); }).position(), "8");
+  const auto npy_error = [](const std::string& bytes) {
+    return error_of([path = write_file("e.npy", bytes)] { values_of(source("file:" + path)); });
+  };
+  EXPECT_EQ(npy_error("1\n2\n").position(), "0");
+  EXPECT_NE(npy_error(npy("<f4", "(2, 2)", std::string(16, '\0'))).message().find("several axes"), std::string::npos);
+  EXPECT_NE(npy_error(npy("<f4", "(2,)", "1234567")).message().find("announces 2"), std::string::npos);
+  EXPECT_NE(npy_error(npy("<f4", "(1,)", "1234")).message().find("has 1 value, but"), std::string::npos);
+  const std::string body = npy("<f4", "(2,)", scalar_bytes(1.0f) + scalar_bytes(static_cast<float>(kInfinity)));
+  EXPECT_EQ(npy_error(body).position(), std::to_string(body.size() - 4));
 }
 
 TEST(FileWindows, SeeEveryByteWithOverlapInAnyOrder) {

@@ -1,0 +1,172 @@
+"""Bad input, interruptions, progress."""
+
+import os
+import pickle
+import signal
+import subprocess
+import threading
+import time
+
+import numpy as np
+import pytest
+from meshes import torus, write_ply
+
+import reeb
+
+
+def error_of(*arguments, **options):
+    with pytest.raises(reeb.Error) as caught:
+        reeb.compute(*arguments, **options)
+    error = caught.value
+    again = pickle.loads(pickle.dumps(error))
+    assert (type(again), str(again), vars(again)) == (type(error), str(error), vars(error))
+    return error
+
+
+VERTICES, FACES = torus(8, 6)
+NAN = VERTICES.copy()
+NAN[5, 1] = np.nan
+
+
+@pytest.mark.parametrize(
+    "arguments, options, words, position, kind",
+    [
+        ((VERTICES, FACES + 1), {}, "names vertex 48, but there are 48 vertices", "faces[40, 2]", "input"),
+        ((VERTICES, FACES - 1), {}, "names vertex -1", "faces[0, 0]", "input"),
+        ((VERTICES, FACES + 0.5), {}, "no integers", None, "input"),
+        ((VERTICES, FACES.ravel()), {}, "1 axes", None, "input"),
+        ((VERTICES, np.zeros((1, 10), int)), {}, "10 columns", None, "input"),
+        ((VERTICES, [[0, 1, 2], [0, 1]]), {}, "faces is no array", None, "input"),
+        ((VERTICES, "abc"), {}, "0 axes", None, "input"),
+        ((VERTICES.ravel(), FACES), {}, "1 axes", None, "input"),
+        ((np.zeros((48, 10)), FACES), {}, "10 coordinates", None, "input"),
+        ((VERTICES.astype(str), FACES), {}, "not numbers", None, "input"),
+        ((VERTICES.astype(complex), FACES), {}, "not numbers", None, "input"),
+        ((NAN, FACES), {"f": "y"}, "not finite", "vertices[5, 1]", "input"),
+        ((VERTICES, FACES, NAN[:, 1]), {}, "not finite", "values[5]", "input"),
+        ((VERTICES, FACES, [1, 2]), {}, "2 values, but there are 48", None, "input"),
+        ((VERTICES, FACES, VERTICES), {}, "3 columns", None, "input"),
+        ((VERTICES, FACES), {"f": "height"}, "is not a function", None, "usage"),
+        ((VERTICES, FACES), {"f": "property:a"}, 'no values of the name "a"', None, "input"),
+        ((VERTICES, FACES), {"f": "c3"}, "no coordinate c3", None, "input"),
+        ((VERTICES, FACES), {"f": "distance:48"}, "48", None, "input"),
+        ((VERTICES, FACES), {"f": "value"}, "no values of the name", None, "input"),
+        ((VERTICES, FACES, VERTICES[:, 0]), {"f": "x"}, "both values and f", None, "usage"),
+        ((VERTICES, {"tetra10": np.zeros((1, 10), int)}), {}, "tetra10", None, "input"),
+        ((VERTICES, FACES), {"memory": "much"}, "much", None, "usage"),
+        ((VERTICES, FACES), {"denoise": "-1"}, "-1", None, "usage"),
+        ((VERTICES, FACES), {"threads": 0}, "out of range", None, "usage"),
+        ((VERTICES, FACES), {"buckets": 1.5}, "no whole number", None, "usage"),
+        ((VERTICES, FACES), {"f": ["x", "y"], "output": ["a.reeb"]}, "2 functions and 1 outputs", None, "usage"),
+        ((np.zeros((0, 3)),), {}, "no values", None, "input"),
+        ((np.zeros((2, 2, 2, 2)),), {}, "4 axes", None, "input"),
+        ((np.zeros((2, 2)),), {"spacing": [1, 2, 3]}, "3 numbers", None, "usage"),
+        ((np.zeros((2, 2)),), {"f": "property:a"}, "the image has no", None, "input"),
+        ((3,), {}, "0 axes", None, "input"),
+        ((None,), {}, "0 axes", None, "input"),
+        (("x.ply", FACES), {}, "takes no arrays", None, "usage"),
+    ],
+)
+def test_bad_arguments_say_what_and_where(arguments, options, words, position, kind):
+    error = error_of(*arguments, **options)
+    assert words in str(error)
+    assert (error.position, error.kind) == (position, kind)
+    assert error.hint or "whole number" in words
+    assert "--" not in str(error)
+
+
+def test_files_say_what_and_where(tmp_path):
+    assert isinstance(error_of(tmp_path / "none.ply"), FileNotFoundError)
+    (tmp_path / "cut.ply").write_bytes(write_ply(tmp_path / "t.ply", VERTICES, FACES).read_bytes()[:-5])
+    cut = error_of(tmp_path / "cut.ply")
+    assert cut.path == str(tmp_path / "cut.ply") and int(cut.position) > 0 and cut.hint
+    (tmp_path / "old.reeb").write_text("mine")
+    exists = error_of(tmp_path / "t.ply", output=tmp_path / "old.reeb")
+    assert isinstance(exists, FileExistsError) and "force=True" in exists.hint
+    assert (tmp_path / "old.reeb").read_text() == "mine"
+    reeb.compute(tmp_path / "t.ply", output=tmp_path / "old.reeb", force=True)
+    assert isinstance(error_of(VERTICES, FACES, output=tmp_path / "no" / "a.reeb"), OSError)
+    with pytest.raises(FileNotFoundError):
+        reeb.open(tmp_path / "none.reeb")
+    with pytest.raises(reeb.Error, match="not a .reeb file"):
+        reeb.open(tmp_path / "t.ply")
+    with pytest.raises(reeb.Error):
+        reeb.open(tmp_path / "old.reeb").level(nodes=1)
+
+
+def test_too_little_memory_is_a_memory_error():
+    assert isinstance(error_of(VERTICES, FACES, memory=1000), MemoryError)
+    assert error_of(VERTICES, FACES, memory=1000).kind == "resource"
+
+
+def long_work():
+    return np.random.default_rng(1).random((220, 220, 220), dtype=np.float32)
+
+
+def test_ctrl_c_ends_a_run_within_a_fifth_of_a_second(tmp_path):
+    mesh = tmp_path / "scan.ply"
+    generate = [os.environ["REEB_PROGRAM"], "generate", "scan", "--triangles", "4M", "-o", mesh]
+    subprocess.run(generate, check=True, capture_output=True)
+    sent = []
+
+    def interrupt():
+        sent.append((time.monotonic(), time.process_time()))
+        os.kill(os.getpid(), signal.SIGINT)
+
+    for delay in (0.1, 0.3):
+        timer = threading.Timer(delay, interrupt)
+        timer.start()
+        with pytest.raises(KeyboardInterrupt):
+            reeb.compute(mesh, f="random:1", temp_dir=tmp_path)
+            timer.join()  # if it was faster, this is interrupted
+        wall, cpu = (now - then for now, then in zip((time.monotonic(), time.process_time()), sent[-1]))
+        # By the clock it is that on a machine that is not busy with other things.
+        assert cpu < 0.2 and wall < 2
+        timer.join()
+    assert list(tmp_path.iterdir()) == [mesh]
+
+
+def test_other_threads_run_and_progress_is_told():
+    image = long_work()[:40]
+    ticks, told = [], []
+    stop = threading.Event()
+
+    def tick():
+        while not stop.wait(0.005):
+            ticks.append(time.monotonic())
+
+    thread = threading.Thread(target=tick)
+    thread.start()
+    reeb.compute(image, progress=lambda *step: told.append((threading.get_ident(), step)))
+    stop.set()
+    thread.join()
+    assert len(ticks) > 10
+    assert {ident for ident, _ in told} == {threading.get_ident()}
+    assert {step[0] for _, step in told} <= {"copy", "finalization", "reorder", "reeb", "hierarchy"}
+    assert all(0 <= done <= total or total == 0 for _, (_, done, total, _) in told)
+
+
+def test_what_a_callback_raises_ends_the_run():
+    def fail(*_):
+        raise ZeroDivisionError
+
+    with pytest.raises(ZeroDivisionError):
+        reeb.compute(long_work()[:40], progress=fail)
+
+
+def test_bars(capsys):
+    reeb.compute(long_work()[:40], progress=True)
+    assert "reeb" in capsys.readouterr().err
+
+
+def test_several_threads_compute_at_once():
+    expected = reeb.compute(VERTICES, FACES, f="x")
+    results = []
+    threads = [
+        threading.Thread(target=lambda: results.append(reeb.compute(VERTICES, FACES, f="x"))) for _ in range(4)
+    ]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert results == [expected] * 4

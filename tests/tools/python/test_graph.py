@@ -1,0 +1,278 @@
+"""What a graph has: levels, skeletons, other forms; streams, segmentation, defects."""
+
+import os
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from meshes import torus, write_ply
+from reference import reeb_graph
+
+import reeb
+
+PROGRAM = os.environ["REEB_PROGRAM"]
+
+
+def run(*words):
+    return subprocess.run([PROGRAM, *map(str, words)], check=True, capture_output=True, text=True).stdout
+
+
+@pytest.fixture(scope="module")
+def noisy(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("noisy")
+    vertices, faces = torus(40, 30)
+    vertices += np.random.default_rng(4).normal(0, 0.05, vertices.shape)
+    mesh = write_ply(folder / "n.ply", vertices, faces)
+    graph = reeb.compute(mesh, f="x", output=folder / "n.reeb")
+    return mesh, vertices, faces, graph
+
+
+def rg(text):
+    return [line.split() for line in text.splitlines() if not line.startswith("#")]
+
+
+def test_levels_are_those_of_the_program(noisy):
+    _, _, _, graph = noisy
+    for option, key in (("--threshold", "threshold"), ("--nodes", "nodes"), ("--memory", "memory")):
+        for value in {"threshold": ["1%", "10%", 0.05, 99], "nodes": [2, 10, 50], "memory": ["4K", 20000]}[key]:
+            level = graph.level(**{key: value})
+            rows = rg(run("extract", graph.path, option, value, "--format", "rg"))
+            vertex = level.nodes["vertex"]
+            assert [int(row[1]) for row in rows if row[0] == "n"] == vertex.tolist()
+            arcs = [(str(vertex[lo]), str(vertex[hi])) for lo, hi in level.arcs]
+            assert [tuple(row[1:]) for row in rows if row[0] == "a"] == arcs
+            kinds = level.pairs["type"].tolist()
+            assert (kinds.count("Ext0"), kinds.count("Ext1")) == (level.components, level.loop_count)
+    assert graph.level("10%").threshold < 0.1 * (graph.range[1] - graph.range[0])
+    assert graph.levels["nodes"].max() == len(graph.nodes)
+
+
+def test_refine_and_coarsen_tell_a_listener(noisy):
+    _, _, _, graph = noisy
+
+    class Mirror:
+        def __init__(self):
+            self.nodes, self.arcs = {}, {}
+
+        def node_added(self, node, vertex, value, position):
+            self.nodes[node] = vertex
+
+        def node_removed(self, node):
+            assert not any(node in arc for arc in self.arcs.values())
+            del self.nodes[node]
+
+        def arc_added(self, arc, lo, hi):
+            assert lo in self.nodes and hi in self.nodes
+            self.arcs[arc] = (lo, hi)
+
+        def arc_removed(self, arc):
+            del self.arcs[arc]
+
+    mirror = Mirror()
+    view = reeb.open(graph.path, nodes=10, listener=mirror)
+
+    def check():
+        assert sorted(mirror.nodes.values()) == sorted(view.nodes["vertex"].tolist())
+        named = sorted((mirror.nodes[lo], mirror.nodes[hi]) for lo, hi in mirror.arcs.values())
+        vertex = view.nodes["vertex"]
+        assert named == sorted((vertex[lo], vertex[hi]) for lo, hi in view.arcs)
+
+    check()
+    assert len(view.nodes) <= 10
+    coarse = len(view.nodes)
+    view.refine(nodes=60)
+    check()
+    assert coarse < len(view.nodes) <= 60
+    view.coarsen(nodes=100)  # is finer: changes nothing
+    assert coarse < len(view.nodes) <= 60
+    view.coarsen("99%")
+    check()
+    for _ in range(len(view.levels) + 1):
+        view.refine()
+    check()
+    assert view == graph
+    for _ in range(len(view.levels) + 1):
+        view.coarsen()
+    check()
+    assert len(view.nodes) == graph.levels["nodes"].min()
+
+
+def test_skeletons(noisy):
+    _, vertices, faces, graph = noisy
+    level = graph.level("20%")
+    points, edges, radius, arc = level.skeleton(vertices, faces)
+    assert len(points) == len(radius) and len(edges) == len(arc) and edges.max() < len(points)
+    assert np.array_equal(points[: len(level.nodes), 0], level.nodes["x"])
+    assert np.array_equal(np.unique(arc), np.arange(len(level.arcs)))
+    for i, (lo, hi) in enumerate(level.arcs):
+        line = edges[arc == i]
+        assert (line[0, 0], line[-1, 1]) == (lo, hi)
+        assert (line[1:, 0] == line[:-1, 1]).all()
+    # Lines run inside the tube of the torus, or where it is cut across.
+    known = radius[~np.isnan(radius)]
+    assert len(known) > len(points) // 2 and 0.3 < np.median(known) < 2
+    assert np.isnan(level.skeleton().radius).all()
+    lines = run("extract", graph.path, "--threshold", "20%", "--format", "obj").splitlines()
+    exported = np.array([line.split()[1:4] for line in lines if line.startswith("v ")], float)
+    assert np.allclose(exported, points)
+
+
+def test_networkx_and_diagrams(noisy):
+    _, _, _, graph = noisy
+    network = graph.to_networkx()
+    assert network.number_of_nodes() == len(graph.nodes) and network.number_of_edges() == len(graph.arcs)
+    assert [network.nodes[i]["vertex"] for i in network] == graph.nodes["vertex"].tolist()
+    lists = graph.to_gudhi()
+    import json
+
+    assert [[[d, list(p)] for d, p in part] for part in lists] == json.loads(
+        run("pairs", graph.path, "--format", "gudhi")
+    )
+    zero, one = graph.to_persim()
+    assert len(zero) + len(one) == len(graph.pairs) and (zero[:, 0] <= zero[:, 1]).all()
+
+
+def test_polydata(noisy):
+    pytest.importorskip("vtkmodules")
+    _, _, _, graph = noisy
+    data = graph.to_polydata()
+    points, edges, _, _ = graph.skeleton()
+    assert data.GetNumberOfPoints() == len(points) and data.GetNumberOfCells() == len(edges)
+    values = data.GetPointData().GetArray("Value")
+    assert values.GetRange()[0] == graph.nodes["value"][0]
+
+
+def test_pictures(noisy, tmp_path):
+    mesh, _, _, graph = noisy
+    for kind in ("graph", "diagram", "loops", "skeleton"):
+        picture = graph.level("10%").plot(tmp_path / f"{kind}.svg", kind=kind)
+        assert picture.svg.startswith("<") and (tmp_path / f"{kind}.svg").read_text() == picture.svg
+    assert graph.plot(kind="skeleton", mesh=mesh, view=(1, 1, 1)).svg != picture.svg
+    with pytest.raises(FileExistsError):
+        graph.plot(tmp_path / "graph.svg")
+    with pytest.raises(reeb.Error, match="no picture of kind"):
+        graph.plot(kind="pie")
+
+
+def test_save(noisy, tmp_path):
+    _, vertices, faces, graph = noisy
+    again = reeb.compute(vertices, faces, f="x")
+    again.save(tmp_path / "s.reeb")
+    assert (tmp_path / "s.reeb").read_bytes()[:4] == open(graph.path, "rb").read(4)
+    assert reeb.open(tmp_path / "s.reeb") == graph
+    with pytest.raises(FileExistsError) as caught:
+        again.save(tmp_path / "s.reeb")
+    assert isinstance(caught.value, reeb.Error) and caught.value.path == str(tmp_path / "s.reeb")
+    again.save(tmp_path / "s.reeb", force=True)
+    assert [path.name for path in tmp_path.iterdir()] == ["s.reeb"]
+
+
+def test_graph_only(noisy, tmp_path):
+    _, vertices, faces, graph = noisy
+    only = reeb.compute(vertices, faces, f="x", graph_only=True)
+    assert only == graph
+    for action in (lambda: only.pairs, lambda: only.level("1%"), lambda: only.loops()):
+        with pytest.raises(reeb.Error):
+            action()
+
+
+def test_segments_are_those_of_the_program(noisy, tmp_path):
+    mesh, vertices, faces, graph = noisy
+    for threshold in (0, "5%"):
+        run("segment", mesh, graph.path, "--threshold", threshold, "-o", tmp_path / "s.i64", "--force")
+        expected = np.fromfile(tmp_path / "s.i64", "<i8")
+        level = graph.level(threshold)
+        by_path, by_arrays = reeb.segment(level, mesh), reeb.segment(level, vertices, faces)
+        assert np.array_equal(by_path.labels, expected) and np.array_equal(by_arrays.labels, expected)
+        assert np.array_equal(by_arrays.values, vertices[:, 0])
+        nodes = np.flatnonzero(expected < 0)
+        assert level.nodes["vertex"][-1 - expected[nodes]].tolist() == nodes.tolist()
+    values = vertices[:, 1].copy()
+    own = reeb.compute(vertices, faces, values)
+    assert np.array_equal(reeb.segment(own, vertices, faces, values).values, values)
+    image = np.random.default_rng(8).random((6, 7))
+    assert len(reeb.segment(reeb.compute(image), image).labels) == 42
+    with pytest.raises(reeb.Error):
+        reeb.segment(graph, vertices, faces[:-1])
+
+
+def test_defects_are_those_of_the_program(noisy, tmp_path):
+    mesh, vertices, faces, _ = noisy
+    run("defects", mesh, "-o", tmp_path / "d.csv")
+    lines = (tmp_path / "d.csv").read_text().splitlines()
+    for found in (reeb.defects(mesh), reeb.defects(vertices, faces)):
+        assert len(found.loops) == len(lines) - 1
+        for row, line in zip(found.loops, lines[1:]):
+            cells = line.split(",")
+            assert [str(row["rank"]), str(row["lo"]), str(row["hi"]), row["kind"]] == [*cells[:3], cells[14]]
+            assert float(cells[15]) == row["length_contour"] and float(cells[5]) == row["center"][0]
+        assert found.others["components"]["count"] == 1 and "length" in found.suggested_threshold
+
+
+def test_online_is_exact_at_any_moment():
+    networkx = pytest.importorskip("networkx")
+    random_ = np.random.default_rng(6)
+    for _ in range(30):
+        n = int(random_.integers(1, 9))
+        values = random_.integers(0, 5, n).astype(float)
+        triangles = random_.integers(0, n, (10, 3))
+        online = reeb.Online()
+        assert online.add_vertices(values, np.zeros((n, 3))).tolist() == list(range(n))
+        for k in range(0, 10, 5):
+            online.add_simplices(triangles[k : k + 5])
+            graph = online.snapshot()
+            vertex = graph.nodes["vertex"]
+            nodes = list(zip(vertex.tolist(), graph.nodes["down"].tolist(), graph.nodes["up"].tolist()))
+            arcs = [(int(vertex[lo]), int(vertex[hi])) for lo, hi in graph.arcs]
+            assert (nodes, arcs) == reeb_graph(values.tolist(), triangles[: k + 5].tolist())
+            assert graph.components == networkx.number_connected_components(graph.to_networkx())
+        online.finalize([0])
+        with pytest.raises(reeb.Error) as caught:
+            online.add_simplices([[0, 0]])
+        assert caught.value.position == "simplices[0]"
+        assert online.snapshot() == graph and online.memory_bytes > 0
+        with pytest.raises(reeb.Error):
+            graph.pairs
+    assert online.add_vertices([1]).tolist() == [n]
+
+
+def test_a_picture_of_itself():
+    vertices, faces = torus()
+    graph = reeb.compute(vertices, faces, f="x")
+    assert repr(graph) == "<reeb.Graph of x: 4 nodes, 4 arcs>" and "4 nodes" in graph._repr_html_()
+    with pytest.raises(ValueError):
+        graph.nodes["value"][0] = 1
+    with pytest.raises(TypeError):
+        reeb.Graph()
+
+
+def test_the_reader_for_paraview(noisy):
+    pytest.importorskip("vtkmodules")
+    import importlib.util
+    from pathlib import Path
+
+    _, _, _, graph = noisy
+    source = Path(__file__).parents[3] / "packaging/paraview/reeb_reader.py"
+    spec = importlib.util.spec_from_file_location("reeb_reader", source)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    reader = module.ReebReader()
+    reader.SetFileName(graph.path)
+    for percent in (0, 10, 50):
+        reader.SetThreshold(percent)
+        reader.Update()
+        points, edges, _, _ = graph.level(f"{percent}%").skeleton()
+        output = reader.GetOutputDataObject(0)
+        assert output.GetNumberOfPoints() == len(points) and output.GetNumberOfCells() == len(edges)
+
+
+def test_the_tutorial_prints_what_it_says(tmp_path):
+    from pathlib import Path
+
+    docs = Path(__file__).parents[3] / "docs"
+    command = [sys.executable, docs / "render_tutorial.py", tmp_path / "TUTORIAL.md"]
+    subprocess.run(command, check=True)
+    assert (tmp_path / "TUTORIAL.md").read_text() == (docs / "TUTORIAL.md").read_text()
+    # Pictures depend on the version of Graphviz.
+    assert {path.name for path in tmp_path.glob("*.svg")} == {path.name for path in docs.glob("tutorial-*.svg")}

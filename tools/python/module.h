@@ -1,0 +1,19 @@
+// The parts of the extension module.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include "libreeb/base/error.h"
+
+namespace reeb::python {
+
+// compute(), segment(), defects(), and the meshes in memory that they take.
+void add_runs(pybind11::module_& module);
+// The classes File and Progressive: a .reeb file, and a level of it that is moved.
+void add_files(pybind11::module_& module);
+// Pictures of graphs.
+void add_plots(pybind11::module_& module);
+// The class Online.
+void add_online(pybind11::module_& module);
+
+}  // namespace reeb::python

@@ -1,0 +1,78 @@
+// The on-line graph, in batches.
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "libreeb/base/error.h"
+#include "libreeb/engine/online_reeb.h"
+#include "tools/python/graph_arrays.h"
+#include "tools/python/module.h"
+
+namespace reeb::python {
+
+namespace py = pybind11;
+
+namespace {
+
+using Numbers = py::array_t<double, py::array::c_style>;
+using Ids = py::array_t<std::int64_t, py::array::c_style>;
+
+// The place of an item is said; those before it were added.
+template <class Work>
+void at_item(const char* array, std::size_t item, const Work& work) {
+  try {
+    work();
+  } catch (Error& error) {
+    error.at(array, std::to_string(item));
+    throw;
+  }
+}
+
+void add_vertices(OnlineReeb& graph, const Numbers& values, const Numbers& positions) {
+  const auto count = static_cast<std::size_t>(values.size());
+  const double* const value = values.data();
+  const double* const position = positions.size() == 0 ? nullptr : positions.data();
+  for (std::size_t i = 0; i < count; ++i)
+    at_item("values", i, [&] {
+      graph.add_vertex(
+          value[i], position == nullptr ? Point{} : Point{position[3 * i], position[3 * i + 1], position[3 * i + 2]});
+    });
+}
+
+void add_simplices(OnlineReeb& graph, const Ids& simplices) {
+  const auto rows = static_cast<std::size_t>(simplices.shape(0)), width = static_cast<std::size_t>(simplices.shape(1));
+  const std::int64_t* corner = simplices.data();
+  std::vector<VertexId> corners(width);
+  for (std::size_t i = 0; i < rows; ++i) {
+    for (VertexId& id : corners) id = VertexId(static_cast<std::uint64_t>(*corner++));
+    at_item("simplices", i, [&] { graph.add_simplex(corners); });
+  }
+}
+
+void finalize(OnlineReeb& graph, const Ids& ids) {
+  const std::int64_t* const id = ids.data();
+  for (std::size_t i = 0; i < static_cast<std::size_t>(ids.size()); ++i)
+    at_item("ids", i, [&] { graph.finalize(VertexId(static_cast<std::uint64_t>(id[i]))); });
+}
+
+ReebGraph snapshot(OnlineReeb& graph) {
+  const py::gil_scoped_release released;
+  return graph.snapshot();
+}
+
+}  // namespace
+
+void add_online(py::module_& module) {
+  py::class_<OnlineReeb>(module, "Online")
+      .def(py::init<>())
+      .def("add_vertices", &add_vertices)
+      .def("add_simplices", &add_simplices)
+      .def("finalize", &finalize)
+      .def("snapshot", [](OnlineReeb& graph) { return graph_arrays(snapshot(graph)); })
+      .def("memory_bytes", &OnlineReeb::memory_bytes);
+}
+
+}  // namespace reeb::python

@@ -1,0 +1,612 @@
+"""Reeb graphs, at any level of detail."""
+
+import contextlib
+import io
+import math
+import os
+import tempfile
+from typing import NamedTuple
+
+import numpy as np
+
+from . import _reeb
+from .errors import Error
+
+_TYPES = np.array(["Ext0", "Ext1", "Ord0", "Rel1"])
+_PAIR_COLUMNS = [
+    ("type", "U4"),
+    ("lo", "i8"),
+    ("hi", "i8"),
+    ("lo_value", "f8"),
+    ("hi_value", "f8"),
+    ("persistence", "f8"),
+    ("lo_x", "f8"),
+    ("lo_y", "f8"),
+    ("lo_z", "f8"),
+    ("hi_x", "f8"),
+    ("hi_y", "f8"),
+    ("hi_z", "f8"),
+    ("kept", "i1"),
+]
+
+
+class Skeleton(NamedTuple):
+    """A graph as lines in space.
+
+    Attributes:
+        points: (n, 3) float64; first the nodes, in their order, then the points of arcs, from below.
+        edges: (m, 2) int64, positions in `points`.
+        radius: (n,) float64, the mean distance of the vertices of the mesh around a point; NaN where it is not known.
+        arc: (m,) int64, of each edge the position of its arc in `graph.arcs`.
+    """
+
+    points: np.ndarray
+    edges: np.ndarray
+    radius: np.ndarray
+    arc: np.ndarray
+
+
+class _Store:
+    """The .reeb file of a graph: at a path, or as bytes."""
+
+    def __init__(self, path, content):
+        self.path, self.content = path, content
+        self._file = None
+
+    def file(self):
+        if self.content is not None:
+            return _reeb.File.from_bytes(self.content)
+        if self._file is None:
+            self._file = _reeb.File(os.fsencode(self.path))
+        return self._file
+
+    @contextlib.contextmanager
+    def named(self):
+        """The file under a name that a title can show."""
+        if self.path is not None:
+            yield self.file()
+            return
+        with tempfile.TemporaryDirectory(prefix="reeb-") as folder:
+            path = os.path.join(folder, "graph.reeb")
+            with io.open(path, "wb") as file:
+                file.write(self.content)
+            yield _reeb.File(os.fsencode(path))
+
+    def bytes(self):
+        if self.content is not None:
+            return self.content
+        with io.open(self.path, "rb") as file:
+            return file.read()
+
+
+class Graph:
+    """A Reeb graph at one level of detail. What it has is loaded when it is asked for.
+
+    Two graphs are equal if their nodes and arcs are. A graph can be pickled. Its arrays cannot be written to.
+
+    Attributes:
+        function: the name of the function, as "z".
+        result: dict of what the run said: counts of the mesh and of the full graph, seconds, notes; empty if the
+            graph comes from a file.
+    """
+
+    def __init__(self):
+        raise TypeError("graphs come from reeb.compute, reeb.open and reeb.Online")
+
+    @classmethod
+    def _make(cls, store, version=0, *, arrays=None, function="", result=None, listener=None):
+        graph = cls.__new__(cls)
+        graph._store, graph._version, graph._arrays = store, version, arrays
+        graph._pairs = graph._header = graph._levels = None
+        graph._listener, graph._progressive = listener, None
+        graph.result = result or {}
+        graph.function = function or (graph.header["function"] if store is not None else "")
+        return graph
+
+    # -- what it has
+
+    @property
+    def nodes(self):
+        """Structured array (n,), in the order of the function: vertex (int64, its index in the mesh), value, x, y, z
+        (float64; NaN if not known), down, up (int32, the numbers of arcs)."""
+        return self._load()["nodes"]
+
+    @property
+    def arcs(self):
+        """(m, 2) int64: the lower and the upper node of each arc, as positions in `nodes`. Parallel arcs repeat."""
+        return self._load()["arcs"]
+
+    @property
+    def pairs(self):
+        """The persistence pairs of this level, by falling persistence: a structured array with the columns of
+        `reeb pairs`; `type` is "Ord0", "Rel1", "Ext0" or "Ext1".
+
+        Raises:
+            reeb.Error: the graph was computed with graph_only.
+        """
+        if self._pairs is None:
+            self._pairs = self._load_pairs()
+        return self._pairs
+
+    def loops(self):
+        """The rows of `pairs` that are loops (of type "Ext1"), the largest first."""
+        return self.pairs[self.pairs["type"] == "Ext1"]
+
+    @property
+    def components(self):
+        """The number of connected components (b0)."""
+        if self._store is not None:
+            return self.header["components"]  # no level cancels one
+        parent = _union(len(self.nodes), self.arcs)
+        return int(np.count_nonzero(parent == np.arange(len(parent))))
+
+    @property
+    def loop_count(self):
+        """The number of independent loops (b1)."""
+        return len(self.arcs) - len(self.nodes) + self.components
+
+    @property
+    def header(self):
+        """dict: what the .reeb file says of the mesh, the function and the full graph."""
+        if self._header is None:
+            self._header = self._need_file()[0].header()
+        return self._header
+
+    @property
+    def range(self):
+        """(least, greatest) value of the function on the mesh."""
+        return self.header["min"], self.header["max"]
+
+    @property
+    def path(self):
+        """The .reeb file, or None if there is none on disk."""
+        return self._store.path if self._store is not None else None
+
+    @property
+    def threshold(self):
+        """The least threshold that yields this level, in units of the function; 0 for the full graph."""
+        return self._load().get("threshold", 0.0)
+
+    def save(self, path, *, force=False):
+        """Writes the .reeb file, with all levels.
+
+        Raises:
+            FileExistsError: it exists, and `force` is not given (a reeb.Error, too).
+        """
+        if self._store is None:
+            self._need_file()
+        path = os.fspath(path)
+        if not force and os.path.lexists(path):
+            raise _exists(path)
+        descriptor, name = tempfile.mkstemp(prefix=".reeb-", dir=os.path.dirname(path) or ".")
+        try:
+            with io.open(descriptor, "wb") as file:
+                file.write(self._store.bytes())
+            mask = os.umask(0)
+            os.umask(mask)
+            os.chmod(name, 0o666 & ~mask)
+            os.replace(name, path)
+        except BaseException:
+            os.unlink(name)
+            raise
+
+    # -- levels
+
+    @property
+    def levels(self):
+        """Structured array of levels, from coarse to fine, whose size is known: threshold, nodes, arcs, memory
+        (bytes)."""
+        rows = self._level_lines()
+        table = np.zeros(len(rows), [("threshold", "f8"), ("nodes", "i8"), ("arcs", "i8"), ("memory", "i8")])
+        for i, row in enumerate(rows):
+            table[i] = row[1:]
+        return table
+
+    def level(self, threshold=None, *, nodes=None, memory=None):
+        """The graph after all features of less persistence were cancelled.
+
+        Args: (one of them)
+            threshold: in units of the function, or as "0.1%" of its range.
+            nodes: the finest level with at most this many nodes.
+            memory: the finest level that takes at most this: bytes, or "64M".
+
+        Returns:
+            Another Graph, which shares the file.
+
+        Raises:
+            reeb.Error: even the coarsest level is larger, or the graph has no levels.
+        """
+        version = self._choose(threshold, nodes, memory)
+        return Graph._make(self._store, version, function=self.function, result=self.result)
+
+    def refine(self, threshold=None, *, nodes=None, memory=None):
+        """Moves this graph to a finer level: that of level(); or, without arguments, to the next of `levels`. A level
+        that is coarser changes nothing. Returns the graph.
+
+        With a listener (reeb.open), its methods are called for each change: node_added(node, vertex, value,
+        position), node_removed(node), arc_added(arc, lo, hi), arc_removed(arc). Nodes and arcs are named by numbers
+        that they keep.
+        """
+        lines = [line[0] for line in self._level_lines()]
+        if (threshold, nodes, memory) == (None, None, None):
+            version = next((v for v in lines if v < self._version), self._version)
+        else:
+            version = min(self._version, self._choose(threshold, nodes, memory))
+        return self._go_to(version)
+
+    def coarsen(self, threshold=None, *, nodes=None, memory=None):
+        """Moves this graph to a coarser level, as refine() does to a finer one."""
+        lines = [line[0] for line in self._level_lines()]
+        if (threshold, nodes, memory) == (None, None, None):
+            version = next((v for v in reversed(lines) if v > self._version), self._version)
+        else:
+            version = max(self._version, self._choose(threshold, nodes, memory))
+        return self._go_to(version)
+
+    # -- other forms
+
+    def skeleton(self, mesh=None, faces=None, values=None):
+        """The graph as lines through the shape of the mesh.
+
+        Args:
+            mesh, faces, values: the mesh of this graph, as in reeb.compute; then `radius` is known. A mesh in a file
+                is read by segment() only, and has no radius.
+
+        Returns:
+            A Skeleton: points (n, 3), edges (m, 2), radius (n,), arc (m,).
+        """
+        arrays = self._load()
+        nodes, arcs = arrays["nodes"], arrays["arcs"]
+        offsets, inner = arrays.get("offsets"), arrays.get("points")
+        if offsets is None:
+            offsets, inner = np.zeros(len(arcs) + 1, np.int64), np.empty((0, 3))
+        offsets = offsets.astype(np.int64)
+        points = np.concatenate([_positions(nodes), inner])
+        # The lines of all arcs, one after the other: lower node, points, upper node.
+        lengths = np.diff(offsets)
+        starts = np.concatenate([[0], np.cumsum(lengths + 2)]).astype(np.int64)
+        line = np.empty(starts[-1], np.int64)
+        line[starts[:-1]] = arcs[:, 0]
+        line[starts[1:] - 1] = arcs[:, 1]
+        is_inner = np.ones(len(line), bool)
+        is_inner[starts[:-1]] = is_inner[starts[1:] - 1] = False
+        line[is_inner] = len(nodes) + np.arange(len(inner))
+        is_edge = np.ones(len(line), bool)
+        is_edge[starts[1:] - 1] = False
+        begin = np.flatnonzero(is_edge)
+        edges = np.stack([line[begin], line[begin + 1]], axis=1)
+        arc = np.repeat(np.arange(len(arcs)), lengths + 1)
+        radius = np.full(len(points), np.nan)
+        if mesh is not None:
+            self._measure(radius, points, offsets, mesh, faces, values)
+        return Skeleton(points, edges, radius, arc)
+
+    def to_networkx(self):
+        """A networkx.MultiGraph, since parallel arcs are real. Nodes are positions in `nodes`, with the columns of a
+        node as attributes; an edge has the attribute `arc`, its position in `arcs`."""
+        import networkx
+
+        graph = networkx.MultiGraph(function=self.function)
+        names = self.nodes.dtype.names
+        graph.add_nodes_from((i, dict(zip(names, row))) for i, row in enumerate(self.nodes.tolist()))
+        graph.add_edges_from((lo, hi, {"arc": i}) for i, (lo, hi) in enumerate(self.arcs.tolist()))
+        return graph
+
+    def to_polydata(self):
+        """The skeleton as pyvista.PolyData, or as vtkPolyData if there is only VTK. Point data: Value, VertexId (-1
+        between nodes). Cell data: SegmentationId (the position of the arc)."""
+        points, edges, _, arc = self.skeleton()
+        between = len(points) - len(self.nodes)
+        vertex = np.concatenate([self.nodes["vertex"], np.full(between, -1)])
+        value = np.concatenate([self.nodes["value"], np.full(between, np.nan)])
+        # Between nodes the function rises along the line.
+        value = _fill_values(value, edges, arc)
+        points = np.nan_to_num(points)
+        try:
+            import pyvista
+        except ImportError:
+            return _vtk_lines(points, edges, {"Value": value, "VertexId": vertex}, {"SegmentationId": arc})
+        data = pyvista.PolyData(points, lines=np.insert(edges, 0, 2, axis=1).ravel())
+        data.point_data["Value"], data.point_data["VertexId"] = value, vertex
+        data.cell_data["SegmentationId"] = arc
+        return data
+
+    def to_gudhi(self):
+        """The four lists that extended_persistence() of GUDHI returns: Ordinary, Relative, Extended+, Extended-. An
+        item is (dimension, (birth, death)); of Relative and Extended- the birth is above the death."""
+        lists = []
+        for type_, dimension, falls in (("Ord0", 0, False), ("Rel1", 1, True), ("Ext0", 0, False), ("Ext1", 1, True)):
+            rows = self.pairs[self.pairs["type"] == type_]
+            birth, death = ("hi_value", "lo_value") if falls else ("lo_value", "hi_value")
+            lists.append([(dimension, (b, d)) for b, d in zip(rows[birth].tolist(), rows[death].tolist())])
+        return lists
+
+    def to_persim(self):
+        """Persistence diagrams by dimension, as persim and ripser have them: two arrays (k, 2) of birth and death,
+        lower value first. Dimension 0 has Ord0 and Ext0, dimension 1 Rel1 and Ext1."""
+
+        def diagram(*types):
+            rows = self.pairs[np.isin(self.pairs["type"], types)]
+            return np.stack([rows["lo_value"], rows["hi_value"]], axis=1)
+
+        return [diagram("Ord0", "Ext0"), diagram("Rel1", "Ext1")]
+
+    def plot(self, output=None, *, kind="graph", mesh=None, view=None, force=False):
+        """A picture of this level.
+
+        Args:
+            output: a file to write: .svg, .png or .pdf. Default: none.
+            kind: "graph" (laid out by value), "skeleton" (in space), "diagram" (of pairs), "loops" (their number
+                above a persistence). The first needs Graphviz, the last two gnuplot.
+            mesh: for a skeleton, the path of the mesh that it is drawn into.
+            view: for a skeleton, (x, y, z) towards the eye.
+
+        Returns:
+            A Picture, which notebooks show; `.svg` is its text.
+        """
+        from .pictures import Picture
+
+        self._need_file()
+        with self._store.named() as file:
+            text = _reeb.plot(file, self._version, kind, "" if mesh is None else os.fsencode(mesh), view)
+        picture = Picture(text)
+        if output is not None:
+            picture.save(output, force=force)
+        return picture
+
+    # -- Python
+
+    def __eq__(self, other):
+        if not isinstance(other, Graph):
+            return NotImplemented
+        # NaN is a position that is not known.
+        return np.array_equal(self.arcs, other.arcs) and _same_rows(self.nodes, other.nodes)
+
+    __hash__ = None
+
+    def __repr__(self):
+        arrays = self._arrays
+        if arrays is None and self._store is not None and self._version == 0:
+            nodes, arcs = self.header["nodes"], self.header["arcs"]
+        else:
+            nodes, arcs = len(self.nodes), len(self.arcs)
+        level = f", level of threshold {self.threshold:g}" if self._version else ""
+        return f"<reeb.Graph of {self.function or 'a stream'}: {nodes} nodes, {arcs} arcs{level}>"
+
+    def _repr_html_(self):
+        from html import escape
+
+        return f"<pre>{escape(repr(self))}</pre>"
+
+    def __getstate__(self):
+        content = self._store.bytes() if self._store is not None else None
+        arrays = None if self._store is not None else self._arrays
+        return (content, self._version, arrays, self.function, self.result)
+
+    def __setstate__(self, state):
+        content, version, arrays, function, result = state
+        store = _Store(None, content) if content is not None else None
+        self.__dict__.update(
+            Graph._make(store, version, arrays=arrays, function=function, result=result).__dict__
+        )
+
+    # -- within
+
+    def _need_file(self):
+        if self._store is None:
+            raise Error(
+                "a snapshot has the nodes and arcs only",
+                "compute the graph with reeb.compute for pairs and levels",
+                kind="usage",
+            )
+        return self._store.file(), self._version
+
+    def _load(self):
+        if self._arrays is None:
+            file, version = self._need_file()
+            self._arrays = file.load(version)
+            for array in self._arrays.values():
+                if isinstance(array, np.ndarray):
+                    array.flags.writeable = False
+        return self._arrays
+
+    def _load_pairs(self):
+        file, version = self._need_file()
+        columns = file.pairs()
+        # The first pairs were cancelled; those that cannot be are in every level.
+        cancellable = (columns["kept"] == 0) & (columns["type"] != 0)
+        stays = ~cancellable | (np.cumsum(cancellable) > version)
+        rows = np.zeros(int(np.count_nonzero(stays)), _PAIR_COLUMNS)
+        for name, _ in _PAIR_COLUMNS:
+            if name == "type":
+                rows["type"] = _TYPES[columns["type"][stays]]
+            elif name != "persistence":
+                rows[name] = columns[name][stays]
+        rows["persistence"] = rows["hi_value"] - rows["lo_value"]
+        order = np.lexsort((rows["hi"], rows["lo"], columns["type"][stays], -rows["persistence"]))
+        rows = rows[order]
+        rows.flags.writeable = False
+        return rows
+
+    def _level_lines(self):
+        if self._levels is None:
+            self._levels = self._need_file()[0].levels()
+        return self._levels
+
+    def _choose(self, threshold, nodes, memory):
+        choices = {"threshold": threshold, "nodes": nodes, "memory": memory}
+        given = [name for name, choice in choices.items() if choice is not None]
+        if len(given) != 1:
+            what = " and ".join(given) if given else "nothing"
+            raise Error(f"{what} given", "give one of threshold, nodes, memory", kind="usage")
+        file = self._need_file()[0]
+        if nodes is not None:
+            return file.finest_with_nodes(_whole("nodes", nodes))
+        if memory is not None:
+            return file.finest_with_memory(
+                _reeb.parse_size(memory) if isinstance(memory, str) else _whole("memory", memory)
+            )
+        if isinstance(threshold, str):
+            least, greatest = self.range
+            return file.version_at(_reeb.parse_threshold("threshold", threshold, greatest - least))
+        if math.isnan(threshold) or threshold < 0:
+            raise Error(f"threshold={threshold!r} is no threshold", 'as 0.01, or "0.1%"', kind="usage")
+        return file.version_at(float(threshold))
+
+    def _go_to(self, version):
+        if self._listener is not None:
+            self._listen(version)
+        if version != self._version:
+            self._version, self._arrays, self._pairs = version, None, None
+        return self
+
+    def _listen(self, version):
+        if self._progressive is None:
+            self._progressive = _reeb.Progressive(self._need_file()[0])
+        for name, *change in self._progressive.go_to_version(version):
+            method = getattr(self._listener, name, None)
+            if method is not None:
+                method(*change)
+
+    # The mean distance of the vertices of an arc to its points, each vertex to the nearest one.
+    def _measure(self, radius, points, offsets, mesh, faces, values):
+        from . import _arrays, runs
+
+        labels = runs.segment(self, mesh, faces, values).labels
+        if runs.is_path(mesh):
+            return
+        if _arrays.is_mesh_object(mesh) and faces is None:
+            mesh = _arrays.parts_of_object(mesh)[0]
+        elif faces is None:
+            return
+        vertices = np.zeros((len(labels), 3))
+        given = np.asarray(mesh, float)[:, :3]
+        vertices[:, : given.shape[1]] = given
+        order = np.argsort(labels, kind="stable")
+        first = np.searchsorted(labels[order], np.arange(len(self.arcs) + 1))
+        total, count = np.zeros(len(points)), np.zeros(len(points))
+        begin = 0
+        while begin < len(self.arcs):  # parallel arcs together: their labels have an order of their own
+            end = begin + 1
+            while end < len(self.arcs) and (self.arcs[end] == self.arcs[begin]).all():
+                end += 1
+            near = len(self.nodes) + np.arange(offsets[begin], offsets[end])
+            members = order[first[begin] : first[end]]
+            for part in np.array_split(members, len(members) // 4096 + 1) if len(near) else ():
+                distance = np.linalg.norm(vertices[part, None, :] - points[None, near, :], axis=2)
+                nearest = distance.argmin(axis=1)
+                np.add.at(total, near[nearest], distance[np.arange(len(part)), nearest])
+                np.add.at(count, near[nearest], 1)
+            begin = end
+        radius[count > 0] = total[count > 0] / count[count > 0]
+
+
+def open(path, *, threshold=None, nodes=None, memory=None, listener=None):
+    """Opens a .reeb file. Nothing but its header is read before it is needed, and a level needs a part of the file
+    only.
+
+    Args:
+        path: the file.
+        threshold, nodes, memory: the level to begin with, as Graph.level(); default: the full graph.
+        listener: an object with any of the methods node_added, node_removed, arc_added, arc_removed (see
+            Graph.refine). It is told of the first level, too.
+
+    Returns:
+        A Graph.
+
+    Raises:
+        reeb.Error: the file is damaged, or none (also a FileNotFoundError if there is no file).
+    """
+    path = os.path.abspath(os.fspath(path))
+    graph = Graph._make(_Store(path, None), listener=listener)
+    version = 0
+    if (threshold, nodes, memory) != (None, None, None):
+        version = graph._choose(threshold, nodes, memory)
+    graph._version = version
+    if listener is not None:
+        graph._listen(version)
+    return graph
+
+
+def _open_result(result, path, content):
+    graph = Graph._make(_Store(path, content), function=result["function"], result=result)
+    return graph
+
+
+def _snapshot(arrays):
+    for array in arrays.values():
+        array.flags.writeable = False
+    return Graph._make(None, arrays=arrays)
+
+
+def _exists(path):
+    from .errors import OutputExists
+
+    return OutputExists("the output exists already", "choose another name, or force=True", path=path)
+
+
+def _whole(name, value):
+    from .runs import _integer
+
+    return _integer(name, value, 0)
+
+
+def _positions(nodes):
+    return np.stack([nodes["x"], nodes["y"], nodes["z"]], axis=1)
+
+
+def _same_rows(a, b):
+    if a.shape != b.shape:
+        return False
+    return all(np.array_equal(a[name], b[name], equal_nan=name in "xyz") for name in a.dtype.names)
+
+
+def _union(count, arcs):
+    parent = np.arange(count)
+
+    def root(i):
+        while parent[i] != i:
+            parent[i] = parent[parent[i]]
+            i = parent[i]
+        return i
+
+    for lo, hi in arcs.tolist():
+        parent[root(lo)] = root(hi)
+    return np.array([root(i) for i in range(count)], int) if count else parent
+
+
+# Linear along each arc by the number of points, where there is no value.
+def _fill_values(value, edges, arc):
+    value = value.copy()
+    if len(edges) == 0:
+        return value
+    starts = np.flatnonzero(np.concatenate([[True], arc[1:] != arc[:-1]]))
+    for begin, end in zip(starts, np.concatenate([starts[1:], [len(arc)]])):
+        lo, hi = value[edges[begin, 0]], value[edges[end - 1, 1]]
+        inner = edges[begin : end - 1, 1]
+        value[inner] = lo + (hi - lo) * np.arange(1, len(inner) + 1) / (len(inner) + 1)
+    return value
+
+
+def _vtk_lines(points, edges, point_data, cell_data):
+    from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
+    from vtkmodules.vtkCommonCore import vtkPoints
+    from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
+
+    data = vtkPolyData()
+    places = vtkPoints()
+    places.SetData(numpy_to_vtk(np.ascontiguousarray(points), deep=True))
+    data.SetPoints(places)
+    lines = vtkCellArray()
+    lines.SetData(
+        numpy_to_vtkIdTypeArray(2 * np.arange(len(edges) + 1), deep=True),
+        numpy_to_vtkIdTypeArray(np.ascontiguousarray(edges.ravel()), deep=True),
+    )
+    data.SetLines(lines)
+    for target, arrays in ((data.GetPointData(), point_data), (data.GetCellData(), cell_data)):
+        for name, values in arrays.items():
+            array = numpy_to_vtk(np.ascontiguousarray(values), deep=True)
+            array.SetName(name)
+            target.AddArray(array)
+    data.GetPointData().SetActiveScalars("Value")
+    return data

@@ -1,0 +1,461 @@
+"""What reads a mesh: compute, segment, defects."""
+
+import json
+import os
+import shutil
+import sys
+import tempfile
+from typing import NamedTuple
+
+import numpy as np
+
+from . import _arrays, _reeb
+from .errors import Error
+from .graph import Graph, _open_result
+
+_VALUES = "values"
+
+
+def compute(
+    mesh,
+    faces=None,
+    values=None,
+    f=None,
+    *,
+    output=None,
+    memory=None,
+    denoise=None,
+    threads=None,
+    graph_only=False,
+    buckets=64,
+    format=None,
+    spacing=None,
+    origin=None,
+    nodata=None,
+    grid=None,
+    type=None,
+    skip=None,
+    reorder=True,
+    sidecar=False,
+    snapshot_every=None,
+    chunk=None,
+    temp_dir=None,
+    resume=False,
+    force=False,
+    progress=None,
+):
+    """Computes the Reeb graph of a mesh.
+
+    Args:
+        mesh: one of
+            - a path: the file is read as a stream, and Python never holds the mesh;
+            - vertices, an array (n, 3) (or of 1 to 9 columns), together with `faces`;
+            - an object of trimesh, PyVista, meshio, or anything with .vertices/.faces, .points/.regular_faces or
+              .points/.cells_dict;
+            - an image or volume, an array (ny, nx) or (nz, ny, nx), without `faces`. Its vertices are numbered as
+              numpy.ravel does.
+        faces: simplices, an array (m, k), k from 1 to 9: triangles (m, 3), tetrahedra (m, 4), edges (m, 2). Any type
+            of integer, any layout; nothing is copied. A dict of such arrays by meshio's names of cells is possible.
+        values: the function, an array (n,); or a dict of arrays, of which f="property:NAME" chooses one.
+        f: the function: "x", "y", "z", "cK", "index", "random:SEED", "property:NAME", "file:PATH" (.npy, .f64 or
+            text), "distance:VERTEX", "distance:X,Y,Z", "geodesic:VERTEX", "laplacian:K", "spectral", "value" (of an
+            image). Or an array (n,). Default: "z", of an image "value". A list gives a list of graphs, from one
+            reading.
+        output: the .reeb file to write; for several functions a list. Default: nothing is left on disk.
+        memory: what the run may use: bytes, or "64M", "1.5GiB". Arrays of the caller and Python are not counted.
+        denoise: minima and maxima of less persistence are removed: 0.01 in units of the function, or "0.1%" of its
+            range.
+        threads: how many; default: all.
+        graph_only: the graph alone, without pairs and levels.
+        buckets: of the embedding of arcs, in function values; 0: none.
+        format: of the file, where its content does not tell: "cx", "raw", ...
+        spacing, origin: of an image, in the order x, y, z. Default: 1 and 0.
+        nodata: "skip" leaves out vertices of an image whose value is NaN (of a file, also the value that its header
+            declares); a number leaves out those of this value, too.
+        grid, type, skip: of a raw file, as the program's options: "256x256x100", "u16le", bytes.
+        reorder, sidecar, snapshot_every, chunk, temp_dir, resume: as the program's options of these names.
+        force: replaces an existing output.
+        progress: True for a bar (of tqdm, if that is installed), or a callable (phase, done, total, triangles),
+            called by the calling thread a few times a second.
+
+    Returns:
+        A Graph, or a list of them if `f` is a list.
+
+    Raises:
+        reeb.Error: a bad mesh, array or function, or an output that exists. It is also a FileNotFoundError, a
+            FileExistsError, a MemoryError (of `memory`, too) or an OSError (a full disk) where these fit.
+        KeyboardInterrupt: Ctrl-C; with an output and a path, `resume=True` can continue.
+    """
+    functions, several = _functions(f)
+    options = {
+        "graph_only": bool(graph_only),
+        "buckets": _integer("buckets", buckets, 0, 1 << 20),
+        "reorder": bool(reorder),
+        "sidecar": bool(sidecar),
+        "resume": bool(resume),
+        "replace": bool(force),
+    }
+    _add_common(options, memory, threads, format, temp_dir)
+    _add_denoise(options, denoise)
+    if chunk is not None:
+        options["chunk"] = _integer("chunk", chunk, 1)
+    if snapshot_every is not None:
+        options["snapshot_every"] = _integer("snapshot_every", snapshot_every, 1)
+    if is_path(mesh):
+        if faces is not None or values is not None or any(not isinstance(g, (str, type_none)) for g in functions):
+            raise Error(
+                "a mesh in a file takes no arrays", 'name a file of values: f="file:PATH.npy"', kind="usage"
+            )
+        held = os.fsencode(mesh)
+        _add_image(options, spacing, origin, nodata, grid, type, skip)
+    else:
+        held, functions = _held(mesh, faces, values, functions, spacing, origin, nodata)
+    names = ["" if g is None else g for g in functions]
+    outputs = _outputs(output, len(names), several)
+    with _Bar(progress) as report:
+        graphs = _run(held, names, outputs, options, report)
+    return graphs if several else graphs[0]
+
+
+type_none = type(None)
+
+
+def is_path(mesh):
+    return isinstance(mesh, (str, os.PathLike))
+
+
+def _run(held, names, outputs, options, report):
+    if outputs is not None:
+        results = _reeb.compute(held, names, [os.fsencode(path) for path in outputs], options, report)
+        paths = [os.path.abspath(path) for path in outputs]
+        return [_open_result({**result, "output": path}, path, None) for result, path in zip(results, paths)]
+    folder = tempfile.mkdtemp(prefix="reeb-", dir=options.get("temp_dir"))
+    try:
+        outputs = [os.path.join(folder, f"{i}.reeb") for i in range(len(names))]
+        # Temporary files are beside the output.
+        results = _reeb.compute(held, names, outputs, {**options, "temp_dir": folder}, report)
+        graphs = []
+        for result, path in zip(results, outputs):
+            with open(path, "rb") as file:
+                graphs.append(_open_result({**result, "output": None}, None, file.read()))
+            os.remove(path)
+        return graphs
+    except Error as error:
+        if error.path is None or not error.path.startswith(folder):
+            raise
+        message = error.message.removesuffix("; the graph itself was written")
+        raise type(error)(message, error.hint, position=error.position, kind=error.kind) from None
+    finally:
+        shutil.rmtree(folder, ignore_errors=True)
+
+
+def _functions(f):
+    if isinstance(f, (list, tuple)) and f and all(g is None or isinstance(g, str) for g in f):
+        return list(f), True
+    if isinstance(f, (list, tuple)) and any(isinstance(g, str) for g in f):
+        raise Error("f mixes names and numbers", 'a list of names, as ["x", "y"], or an array', kind="usage")
+    return [f], False
+
+
+def _held(mesh, faces, values, functions, spacing, origin, nodata):
+    """The mesh for the compiled part, and the functions by name."""
+    data = {}
+    if _arrays.is_mesh_object(mesh) and faces is None:
+        mesh, faces, data = _arrays.parts_of_object(mesh)
+    f = functions[0]
+    if f is not None and not isinstance(f, str):
+        if values is not None:
+            raise Error("both values and f are arrays", "pass one of them", kind="usage")
+        values, functions = f, [None]
+    if faces is None:
+        if values is not None:
+            raise Error(
+                "an image takes no other values", "pass the values as the image, or faces for a mesh", kind="usage"
+            )
+        return _arrays.image_of_array(mesh, spacing, origin, nodata), functions
+    if isinstance(values, dict):
+        data = {**data, **{str(name): array for name, array in values.items()}}
+        if len(values) == 1 and functions == [None]:
+            functions = [f"property:{next(iter(data if len(data) == 1 else values))}"]
+    elif values is not None:
+        if any(g not in (None, "z", _VALUES, f"property:{_VALUES}") for g in functions):
+            raise Error("both values and f name a function", "pass one of them", kind="usage")
+        data[_VALUES] = values
+        functions = [f"property:{_VALUES}"] * len(functions)
+    functions = [f"property:{_VALUES}" if g == _VALUES else g for g in functions]
+    # Only what is used is checked.
+    used = {g.split(":", 1)[1] for g in functions if g is not None and g.startswith("property:")}
+    return _arrays.mesh_of_arrays(mesh, faces, {name: data[name] for name in data if name in used}), functions
+
+
+def _outputs(output, count, several):
+    if output is None:
+        return None
+    outputs = [output] if is_path(output) else list(output)
+    if len(outputs) != count:
+        raise Error(f"there are {count} functions and {len(outputs)} outputs", "one output for each", kind="usage")
+    return [os.fspath(path) for path in outputs]
+
+
+def _add_common(options, memory, threads, format, temp_dir):
+    if memory is not None:
+        options["memory"] = _reeb.parse_size(memory) if isinstance(memory, str) else _integer("memory", memory, 0)
+    if threads is not None:
+        options["threads"] = _integer("threads", threads, 1, 1024)
+    if format is not None:
+        options["format"] = str(format)
+    if temp_dir is not None:
+        options["temp_dir"] = os.fspath(temp_dir)
+        if not os.path.isdir(options["temp_dir"]):
+            raise Error("the folder for temporary files does not exist", "create it", path=options["temp_dir"])
+
+
+def _add_image(options, spacing, origin, nodata, grid, type_, skip):
+    if origin is not None:
+        raise Error("origin is of an image in memory", "a file says its own", kind="usage")
+    if spacing is not None:
+        options["spacing"] = spacing if isinstance(spacing, str) else ",".join(repr(float(x)) for x in spacing)
+    if grid is not None:
+        options["grid"] = grid if isinstance(grid, str) else "x".join(str(int(n)) for n in grid)
+    if type_ is not None:
+        options["type"] = str(type_)
+    if skip is not None:
+        options["skip"] = _integer("skip", skip, 0)
+    if nodata is not None:
+        if nodata != "skip":
+            raise Error(f"nodata={nodata!r} is not possible with a file", 'nodata="skip"', kind="usage")
+        options["skip_nodata"] = True
+
+
+def _add_denoise(options, denoise):
+    if denoise is None:
+        return
+    if isinstance(denoise, str):
+        options["denoise_is_share"] = denoise.strip().endswith("%")
+        options["denoise"] = _reeb.parse_threshold("denoise", denoise, 1)
+    else:
+        options["denoise"] = _reeb.parse_threshold("denoise", repr(float(denoise)), 1)
+
+
+def _integer(name, value, least, most=None):
+    try:
+        number = int(value)
+        if number != value:
+            raise ValueError
+    except (TypeError, ValueError):
+        raise Error(f"{name}={value!r} is no whole number", "", kind="usage") from None
+    if number < least or (most is not None and number > most):
+        upper = f" to {most}" if most is not None else " or more"
+        raise Error(f"{name}={value!r} is out of range", f"{least}{upper}", kind="usage")
+    return number
+
+
+class _Bar:
+    """The callback of a progress bar, if one is wanted."""
+
+    def __init__(self, progress):
+        self._bar = None
+        self._callback = progress if callable(progress) else self._show if progress else None
+
+    def __enter__(self):
+        return self._callback
+
+    def __exit__(self, *_):
+        if self._bar is not None:
+            self._bar.close()
+
+    def _show(self, phase, done, total, triangles):
+        if self._bar is None:
+            self._bar = _make_bar()
+        self._bar.show(phase, done, total)
+
+
+def _make_bar():
+    try:
+        import tqdm
+    except ImportError:
+        return _PlainBar()
+    return _TqdmBar(tqdm.tqdm)
+
+
+class _TqdmBar:
+    def __init__(self, make):
+        self._bar = make(unit="B", unit_scale=True, leave=False)
+
+    def show(self, phase, done, total):
+        if self._bar.desc != f"{phase}: ":
+            self._bar.reset(total=total or None)
+            self._bar.set_description(phase, refresh=False)
+        self._bar.total = total or None
+        self._bar.update(done - self._bar.n)
+
+    def close(self):
+        self._bar.close()
+
+
+class _PlainBar:
+    def show(self, phase, done, total):
+        share = f"{100 * done // total} %" if total else ""
+        sys.stderr.write(f"\r{phase} {share}\x1b[K")
+        sys.stderr.flush()
+
+    def close(self):
+        sys.stderr.write("\r\x1b[K")
+        sys.stderr.flush()
+
+
+class Segmentation(NamedTuple):
+    """Where each vertex of a mesh lies.
+
+    Attributes:
+        labels: (n,) int64. Of a vertex on an arc the position of the arc in `graph.arcs`; of a node -1 - its position
+        in
+            `graph.nodes`; DROPPED for a vertex of an arc that was dropped. Parallel arcs have an order of their own.
+        values: (n,) float64, the function. NaN for a vertex of an image that is left out.
+    """
+
+    labels: np.ndarray
+    values: np.ndarray
+
+
+Segmentation.DROPPED = -(1 << 63)
+
+
+def segment(
+    graph,
+    mesh,
+    faces=None,
+    values=None,
+    *,
+    memory=None,
+    threads=None,
+    format=None,
+    spacing=None,
+    origin=None,
+    nodata=None,
+    grid=None,
+    type=None,
+    skip=None,
+    temp_dir=None,
+    progress=None,
+):
+    """The arc of `graph`, at its level, on which each vertex of its mesh lies.
+
+    Args:
+        graph: of this very mesh, from reeb.compute or reeb.open; a level of it is possible.
+        mesh, faces, values: as in reeb.compute; `values` if the graph was computed from them.
+
+    Returns:
+        A Segmentation: labels (n,) int64, values (n,) float64.
+
+    Raises:
+        reeb.Error: the graph is that of another mesh, or as reeb.compute.
+    """
+    options = {}
+    _add_common(options, memory, threads, format, temp_dir)
+    if is_path(mesh):
+        held = os.fsencode(mesh)
+        _add_image(options, spacing, origin, nodata, grid, type, skip)
+    else:
+        held, _ = _held(mesh, faces, values, [None if values is not None else graph.function], spacing, origin,
+        nodata)
+    file, version = graph._need_file()
+    with _Bar(progress) as report:
+        return Segmentation(*_reeb.segment(held, file, version, options, report))
+
+
+_DEFECT_COLUMNS = [
+    ("rank", "i8"),
+    ("lo", "i8"),
+    ("hi", "i8"),
+    ("persistence", "f8"),
+    ("persistence_percent", "f8"),
+    ("center", "f8", (3,)),
+    ("min", "f8", (3,)),
+    ("max", "f8", (3,)),
+    ("kind", "U7"),
+    ("length_contour", "f8"),
+    ("length_cycle", "f8"),
+    ("triangles", "i8"),
+    ("function", "U64"),
+]
+
+
+class Defects(NamedTuple):
+    """Small loops and other defects of a surface.
+
+    Attributes:
+        loops: structured array, the most likely defect first, with the columns of the program's CSV.
+        suggested_threshold: dict with length (or None), confidence (0 to 1), why.
+        others: dict of {"count", "places"} by "components", "boundaries", "nonmanifold_edges",
+            "nonmanifold_vertices", "degenerate", "duplicates", "folded".
+    """
+
+    loops: np.ndarray
+    suggested_threshold: dict
+    others: dict
+
+
+def defects(
+    mesh, faces=None, *, graphs=(), memory=None, threads=None, format=None, temp_dir=None, progress=None
+):
+    """Finds, measures and ranks the small handles and tunnels of a surface, and counts its other defects.
+
+    Args:
+        mesh, faces: as in reeb.compute. Arrays are written to a temporary file, since they are read several times.
+        graphs: paths of .reeb files of the mesh; default: the graphs of x, y and z are computed.
+
+    Returns:
+        Defects.
+
+    Raises:
+        reeb.Error: as reeb.compute; a graph of another mesh.
+    """
+    options = {}
+    _add_common(options, memory, threads, format, temp_dir)
+    files = [os.fsencode(path) for path in ([graphs] if is_path(graphs) else graphs)]
+    with _Bar(progress) as report, tempfile.TemporaryDirectory(prefix="reeb-", dir=temp_dir) as folder:
+        if is_path(mesh):
+            path = os.fsencode(mesh)
+        else:
+            if _arrays.is_mesh_object(mesh) and faces is None:
+                mesh, faces, _ = _arrays.parts_of_object(mesh)
+            path = os.path.join(folder, "mesh.ply")
+            _write_ply(path, mesh, faces)
+        found = json.loads(_reeb.defects(path, files, options, report))
+    rows = found.pop("loops")
+    threshold = found.pop("suggested_threshold")
+    found.pop("schema")
+    loops = np.zeros(len(rows), _DEFECT_COLUMNS)
+    for i, row in enumerate(rows):
+        loops[i] = tuple(_defect_cell(row, column[0]) for column in _DEFECT_COLUMNS)
+    return Defects(loops, threshold, found)
+
+
+def _defect_cell(row, name):
+    if name in row:
+        return float("inf") if row[name] is None else row[name]
+    return tuple(row[f"{name}_{axis}"] for axis in "xyz")
+
+
+def _write_ply(path, vertices, faces):
+    vertices = _arrays.vertex_array(vertices)
+    if isinstance(faces, dict):
+        parts = _arrays._simplices_of_cells(faces)
+        faces = np.concatenate([array for _, array in parts]) if parts else np.empty((0, 3), int)
+    faces = _arrays.simplex_array("faces", faces)
+    if vertices.shape[1] != 3 or faces.shape[1] != 3:
+        raise Error("only surfaces have such defects", "vertices of shape (n, 3) and triangles of shape (m, 3)")
+    if faces.size and (faces.min() < 0 or faces.max() >= len(vertices)):
+        raise Error("faces name vertices that are not there", "vertices are numbered from 0")
+    rows = np.empty(len(faces), [("count", "u1"), ("corners", "<i4", (3,))])
+    rows["count"] = 3
+    rows["corners"] = faces
+    with open(path, "wb") as file:
+        file.write(
+            f"ply\nformat binary_little_endian 1.0\nelement vertex {len(vertices)}\nproperty double x\n"
+            f"property double y\nproperty double z\nelement face {len(faces)}\n"
+            "property list uchar int vertex_indices\nend_header\n".encode()
+        )
+        np.ascontiguousarray(vertices, "<f8").tofile(file)
+        rows.tofile(file)

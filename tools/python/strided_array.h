@@ -1,0 +1,24 @@
+// An array of numbers that someone else holds: any type, any distance between its items.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "io/mesh/scalar_bytes.h"
+
+namespace reeb::python {
+
+// Of two axes; an array of one axis has one column. Refers to memory of the caller, in the byte order of the machine.
+struct StridedArray {
+  const char* data = nullptr;
+  io::ScalarType type = io::ScalarType::kFloat64;
+  std::array<std::uint64_t, 2> size{0, 1};
+  std::array<std::int64_t, 2> stride{};  // in bytes; of either sign
+
+  const char* at(std::uint64_t row, std::uint64_t column) const {
+    return data + static_cast<std::int64_t>(row) * stride[0] + static_cast<std::int64_t>(column) * stride[1];
+  }
+};
+
+}  // namespace reeb::python
