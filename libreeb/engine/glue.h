@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "libreeb/base/error.h"
 #include "libreeb/base/flat_map.h"
 #include "libreeb/base/growing_array.h"
 #include "libreeb/base/state_stream.h"
@@ -49,7 +50,7 @@ class Glue {
   // REQUIRES: a vertex that it marks kUsedEarlier was marked kUsedLater in an earlier fragment; its options are not
   // less than those of earlier fragments.
   // THROWS: InputChanged if a vertex has another value than in an earlier fragment. Paths are monotone only if values
-  //         stay the same.
+  //         stay the same. NotManifold, if it was said to be one.
   void add(const Fragment& fragment);
 
   // The state so far, from which another process can continue. What was passed to the sink is not part of it.
@@ -76,7 +77,7 @@ class Glue {
   // upper end.
   struct Edge {
     Index lo, hi;
-    Index top;  // of its path; while free, the next free edge
+    Index top;  // of its path; kNone if it has both triangles of a manifold; while free, the next free edge
   };
   struct Link {
     Index next, prev;
@@ -86,7 +87,9 @@ class Glue {
   void add_nodes(const Fragment& fragment);
   void add_arcs(const Fragment& fragment);
   void add_paths(const Fragment& fragment);
+  void add_closed_edges(const Fragment& fragment);
   Index add_path(const Fragment& fragment, std::size_t edge);
+  NotManifold third_triangle(Index lo, Index hi) const;
   void run_steps(const Fragment& fragment);
   void place_regular(const Fragment& fragment);
   void add_edge(Index lo, Index hi, Index top);

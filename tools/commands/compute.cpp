@@ -173,6 +173,7 @@ void add_compute(CLI::App& program) {
       ->add_option("--temp-dir", options.temp_dir,
                    "Folder for temporary files (default: $TMPDIR, or the folder of the output)")
       ->type_name("DIR");
+  command->add_flag("--manifold", options.manifold, "Drop each edge after two triangles; a third one is an error");
   command->add_flag_callback(
       "--no-reorder", [&options] { options.may_reorder = false; }, "Do not sort incoherent meshes on disk first");
   command->add_flag("--sidecar", options.keep_sidecar, "Keep what the first pass finds in MESH.final, for later runs");
