@@ -15,7 +15,7 @@ packages=(cmake ninja-build g++ pkg-config libtbb-dev libzstd-dev liblz4-dev zli
 command -v node >/dev/null || command -v nodejs >/dev/null || packages+=(nodejs)
 command -v npm >/dev/null || packages+=(npm)
 test_packages=(libgtest-dev libbenchmark-dev zstd clang-format-14 python3-numpy gnuplot-nox graphviz librsvg2-bin
-               libxml2-utils)
+               libxml2-utils valgrind time)
 
 for word in "$@"; do
   case $word in
