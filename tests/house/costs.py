@@ -37,7 +37,7 @@ def environment_of(compiler):
     with open("/proc/cpuinfo", encoding="utf-8") as file:
         flags = set(next((line for line in file if line.startswith("flags")), "").split())
     versions = {name: text_of(["dpkg-query", "-W", "-f=${Version}", name]) for name in LIBRARIES}
-    return {"compiler": text_of([compiler, "--version"]).split("\n")[0], **versions,
+    return {"compiler": text_of([compiler, "--version"]).split("\n")[0].partition(" ")[2], **versions,
             "processor": " ".join([os.uname().machine] + sorted(flags & {"avx2", "avx512f", "bmi2", "erms"}))}
 
 
