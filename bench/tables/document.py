@@ -28,6 +28,8 @@ def seconds(value):
 
 
 def size(value):
+    if value < 1000:
+        return f"{value:.0f} B"
     if value < 1e6:
         return f"{value / 1e3:.0f} KB"
     return f"{value / 1e6:.1f} MB" if value < 1e7 else f"{value / 1e6:.0f} MB"
@@ -278,16 +280,18 @@ def page(result, cells, figures, has_picture):
               "## Manifold\n",
               paragraph("`--manifold` promises that no edge has more than two triangles, so the path of an edge is dropped "
                         "after the second one. Runs with and without it, in turns; the graphs must be the same, byte for "
-                        "byte. Edges stay known until one end is complete, so that a third triangle is always noticed."),
+                        "byte. Edges stay known until one end is complete, so that a third triangle is always noticed. "
+                        "Little is saved here, since only edges at the borders of chunks have paths, and these are "
+                        "dropped when one end is complete, which is soon."),
               manifold_table(figures),
               "## Peers\n",
               paragraph("VTK's `vtkReebGraph` implements the paper's algorithm; its time is quadratic on these meshes, so "
-                        "they are small. " + (f"Version {version} of Debian, from Python; " if version else "") +
-                        "the graph alone is the time of `Build()`. The arcs are compared by their vertices."),
+                        "they are small. " + (f"It is version {version} of Debian, from Python. " if version else "") +
+                        "The graph alone is the time of `Build()`. The arcs are compared by their vertices."),
               peers,
               "## Targets\n",
               paragraph("What the project aims at, and what this run found."),
-              table(["what", "target", "here", "reached", "why not"], goal_rows(figures)),
+              table(["what", "target", "here", "reached", "why not"], goal_rows(figures, bool(busy))),
               "## Small parts\n",
               paragraph("The programs `bench/*_bench.cpp` time single parts in a process of their own: readers, the sweep, "
                         "gluing, the second stage, codecs, loading of levels. `bench/growth.sh`, `bench/overhead.sh` and "

@@ -75,7 +75,7 @@ def goals(figures):
                lambda f: f <= 10, WHY["random function"])
     for buckets, most, what in (("0", 1.0, "without embedding"), ("64", 1.6, "with embedding")):
         name = f"targets/12M/hierarchy-buckets-{buckets}"
-        yield Goal(f"hierarchy {what}, random function, 12M triangles", f"at most {most} µs an arc",
+        yield Goal(f"hierarchy {what}, random function, 12M triangles", f"at most {most:g} µs an arc",
                    ratio(get(name, "hierarchy"), get(name, "arcs")), lambda f: f"{1e6 * f:.2f} µs",
                    lambda f, most=most: f <= 1e-6 * most, WHY["hierarchy"])
     yield Goal("growth from 7.2M triangles to the largest mesh: ns a triangle", "within 15 %", growth(figures),
@@ -127,5 +127,7 @@ def worst_default(figures):
     return worst
 
 
-def goal_rows(figures):
-    return [goal.row() for goal in goals(figures)]
+def goal_rows(figures, busy=False):
+    """A row for each target. On a busy machine a missed target says nothing of the program."""
+    rows = [goal.row() for goal in goals(figures)]
+    return [row[:4] + ["the machine was busy"] if busy and row[3] == "no" else row for row in rows]

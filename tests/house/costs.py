@@ -114,8 +114,8 @@ def main():
         print(f"recorded with another environment ({', '.join(differing)}): reported only")
         return 0
     if too_much:
-        print(f"{too_much} of these figures are more than {ALLOWED:.0%} above what was recorded. If that is worth it, "
-              "record them again and say why in the commit:\n"
+        print(f"Figures more than {ALLOWED:.0%} above what was recorded: {too_much}. If that is worth it, record them "
+              "again and say why in the commit:\n"
               "  cmake --build --preset release --target reeb_program\n"
               "  python3 tests/house/costs.py build/release/tools/reeb --record")
         return 1
