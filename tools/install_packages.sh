@@ -16,7 +16,7 @@ command -v node >/dev/null || command -v nodejs >/dev/null || packages+=(nodejs)
 command -v npm >/dev/null || packages+=(npm)
 test_packages=(libgtest-dev libbenchmark-dev zstd clang-format-14 python3-numpy gnuplot-nox graphviz librsvg2-bin
                libxml2-utils libopenmpi-dev openmpi-bin python3-distributed python3-dev pybind11-dev
-               python3-pytest python3-networkx)
+               python3-pytest python3-networkx valgrind time)
 
 for word in "$@"; do
   case $word in

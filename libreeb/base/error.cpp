@@ -1,5 +1,6 @@
 #include "libreeb/base/error.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "libreeb/base/printable.h"
@@ -27,5 +28,11 @@ void Error::compose() {
 
 InputChanged::InputChanged(const std::string& what, const std::string& hint)
     : Error(ErrorKind::kBadInput, what, hint) {}
+
+NotManifold::NotManifold(std::uint64_t a, std::uint64_t b)
+    : Error(ErrorKind::kBadInput,
+            "the edge between vertices " + std::to_string(std::min(a, b)) + " and " + std::to_string(std::max(a, b)) +
+                " has a third triangle",
+            "leave --manifold out; reeb info counts the edges that are not manifold") {}
 
 }  // namespace reeb

@@ -50,4 +50,10 @@ class InputChanged : public Error {
                         const std::string& hint = "run it again while no other program writes to the file");
 };
 
+// A surface that was said to be a manifold has a third triangle at the edge between two vertices.
+class NotManifold : public Error {
+ public:
+  NotManifold(std::uint64_t a, std::uint64_t b);
+};
+
 }  // namespace reeb

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "libreeb/base/error.h"
 #include "libreeb/engine/chunk_stars.h"
 #include "libreeb/engine/fragment_builder.h"
 #include "libreeb/engine/shared_edges.h"
@@ -183,6 +184,7 @@ struct ChunkSweep::Scratch {
   void separate(std::uint32_t v, SweepNode node);
   void note_branches(std::uint32_t v, const Side& side, SweepNode node, SweepArc arc);
   void add_shared_edges(std::uint32_t v, SweepNode node);
+  void check_edges(std::uint32_t v) const;
 
   std::size_t walk(std::uint32_t v);
   void seed_sides(std::uint32_t v);
@@ -199,7 +201,7 @@ struct ChunkSweep::Scratch {
 
   const Chunk* chunk = nullptr;
   const SweptChunk* swept = nullptr;
-  bool embeds = false, follows = false, notes_regular = false;
+  bool embeds = false, follows = false, notes_regular = false, manifold = false;
   VertexRanks ranks;
   ChunkStars stars;
   FragmentBuilder builder;
@@ -261,6 +263,7 @@ void ChunkSweep::Scratch::reset(const SweepOptions& options) {
   embeds = options.bucket_exponent.has_value();
   follows = options.follows_vertices;
   notes_regular = embeds || follows;
+  manifold = options.manifold;
   labels.clear();
   up.reset(n);
   builder.start(n, options);
@@ -278,6 +281,7 @@ void ChunkSweep::Scratch::visit(std::uint32_t v) {
   shared_edges.reach(VertexRank(v));
   collect_below(v);
   up.collect(v, stars, crossings);
+  if (manifold) check_edges(v);
   const bool walks = up.groups() > 1 && !below.empty();
   const bool joined = up.groups() == 1 || (walks && walk(v) == 1);
   const bool shared = uses[v] != kUsedHereOnly;
@@ -384,6 +388,10 @@ void ChunkSweep::Scratch::note_branches(std::uint32_t v, const Side& side, Sweep
 void ChunkSweep::Scratch::add_shared_edges(std::uint32_t v, SweepNode node) {
   for (std::uint32_t e = 0; e < up.count(); ++e) {
     if ((uses[v] & uses[up.hi(e)]) == 0) continue;
+    if (manifold && crossings.next(up.head(e)) != up.head(e)) {
+      shared_edges.add_closed(node, VertexRank(up.hi(e)));
+      continue;
+    }
     std::uint32_t place = 0, half = up.head(e);
     do {
       place = std::max(place, stars[half / 2].place);
@@ -392,6 +400,15 @@ void ChunkSweep::Scratch::add_shared_edges(std::uint32_t v, SweepNode node) {
     shared_edges.add(node, VertexRank(up.hi(e)), group_arc[up.group(e)], place);
   }
   shared_edges.finish_vertex(VertexRank(v));
+}
+
+// No ring of an edge up from v has more than two triangles.
+void ChunkSweep::Scratch::check_edges(std::uint32_t v) const {
+  for (std::uint32_t e = 0; e < up.count(); ++e) {
+    const std::uint32_t head = up.head(e);
+    if (crossings.next(crossings.next(head)) != head)
+      throw NotManifold(swept->key(VertexRank(v)).vertex.value(), swept->key(VertexRank(up.hi(e))).vertex.value());
+  }
 }
 
 // Walks the level set just above v from all groups in lockstep until all but one are exhausted or have met another.

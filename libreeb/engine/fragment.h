@@ -50,6 +50,9 @@ struct Fragment {
   std::vector<SharedEdge> edges;
   std::vector<std::uint32_t> path_begin;
   std::vector<FragmentArc> path_arcs;
+  // Of a manifold: edges with two triangles in the chunk whose ends other chunks use. They need no path; a third
+  // triangle is noticed by them.
+  std::vector<SharedEdge> closed_edges;
 
   // The order of gluing: an edge is zipped after all its triangles, a vertex is completed after all its simplices.
   // Sorted by place.
@@ -99,6 +102,7 @@ struct Fragment {
     edges.clear();
     path_begin.clear();
     path_arcs.clear();
+    closed_edges.clear();
     steps.clear();
     passed.clear();
     settled_nodes.clear();

@@ -45,6 +45,8 @@ void FragmentBuilder::finish(const SweptChunk& swept, const SharedEdges& shared,
   division_.run(graph_, swept, options_, fragment);
   fragment.path_arcs.reserve(path_arcs_.size());
   for (const SweepArc arc : path_arcs_) fragment.path_arcs.push_back(graph_.arcs[arc].open);
+  for (const auto& [lo, hi] : shared.closed())
+    fragment.closed_edges.push_back({graph_.nodes[lo].open, graph_.nodes[node_of_[hi]].open});
   add_steps(shared, fragment);
   if (options_.follows_vertices) add_followed(swept, fragment);
 }

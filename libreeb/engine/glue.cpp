@@ -17,6 +17,7 @@ void Glue::add(const Fragment& fragment) {
   add_arcs(fragment);
   if (log_ != nullptr) place_regular(fragment);
   add_paths(fragment);
+  add_closed_edges(fragment);
   for (const Index a : arcs_) graph_.release(a);
   run_steps(fragment);
   graph_.tidy();
@@ -65,11 +66,25 @@ void Glue::add_paths(const Fragment& fragment) {
     const auto [lo, hi] = fragment.edges[i];
     const Index known = edge_of_.find(edge_key(node(lo), node(hi)));
     const bool needed_later = (fragment.nodes[lo.value()].uses & fragment.nodes[hi.value()].uses & kUsedLater) != 0;
+    if (known != kNone && edges_[known].top == kNone) throw third_triangle(node(lo), node(hi));
     if (known != kNone)
       pending_[i] = {known, add_path(fragment, i)};
     else if (needed_later)
       add_edge(node(lo), node(hi), add_path(fragment, i));
   }
+}
+
+// Closed edges stay known as long as another triangle can come, so none goes unnoticed.
+void Glue::add_closed_edges(const Fragment& fragment) {
+  for (const auto& [lo, hi] : fragment.closed_edges) {
+    if (edge_of_.find(edge_key(node(lo), node(hi))) != kNone) throw third_triangle(node(lo), node(hi));
+    if ((fragment.nodes[lo.value()].uses & fragment.nodes[hi.value()].uses & kUsedLater) != 0)
+      add_edge(node(lo), node(hi), kNone);
+  }
+}
+
+NotManifold Glue::third_triangle(Index lo, Index hi) const {
+  return {graph_.key(lo).vertex.value(), graph_.key(hi).vertex.value()};
 }
 
 LiveGraph::Index Glue::add_path(const Fragment& fragment, std::size_t edge) {
@@ -87,7 +102,10 @@ void Glue::run_steps(const Fragment& fragment) {
     } else if (const auto [edge, top] = pending_[step.index]; edge != kNone) {
       graph_.zip(edges_[edge].top, top);
       const auto [lo, hi] = fragment.edges[step.index];
-      if ((fragment.nodes[lo.value()].uses & fragment.nodes[hi.value()].uses & kUsedLater) == 0) drop_edge(edge);
+      if ((fragment.nodes[lo.value()].uses & fragment.nodes[hi.value()].uses & kUsedLater) == 0)
+        drop_edge(edge);
+      else if (fragment.options.manifold)
+        graph_.drop_path(std::exchange(edges_[edge].top, kNone));
       graph_.tidy();
     }
   }
@@ -251,7 +269,7 @@ void Glue::restore_edges() {
     if (is_free[e]) continue;
     const Edge& edge = edges_[e];
     require(edge_of_.find_or_insert(edge_key(edge.lo, edge.hi), e) == e);
-    graph_.check_restored_path(edge.top, edge.lo, edge.hi);
+    if (edge.top != kNone) graph_.check_restored_path(edge.top, edge.lo, edge.hi);
   }
   require(links == 2 * edge_of_.size());
   graph_.check_restored_paths_end();

@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "libreeb/base/error.h"
 #include "libreeb/base/flat_map.h"
 #include "libreeb/base/growing_array.h"
 #include "libreeb/base/state_stream.h"
@@ -47,9 +48,9 @@ class Glue {
 
   // Adds the next fragment of the stream.
   // REQUIRES: a vertex that it marks kUsedEarlier was marked kUsedLater in an earlier fragment, unless it is also
-  // marked kUsedLater, or the fragment completes it; its options are not less than those of earlier fragments. THROWS:
-  // InputChanged if a vertex has another value than in an earlier fragment. Paths are monotone only if values
-  //         stay the same.
+  // marked kUsedLater, or the fragment completes it; its options are not less than those of earlier fragments.
+  // THROWS: InputChanged if a vertex has another value than in an earlier fragment. Paths are monotone only if values
+  //         stay the same. NotManifold, if it was said to be one.
   void add(const Fragment& fragment);
 
   // Replaces `fragment` by all that is live: it can be added to another Glue, on its own terms. Incomplete vertices are
@@ -83,7 +84,7 @@ class Glue {
   // upper end.
   struct Edge {
     Index lo, hi;
-    Index top;  // of its path; while free, the next free edge
+    Index top;  // of its path; kNone if it has both triangles of a manifold; while free, the next free edge
   };
   struct Link {
     Index next, prev;
@@ -93,7 +94,9 @@ class Glue {
   void add_nodes(const Fragment& fragment);
   void add_arcs(const Fragment& fragment);
   void add_paths(const Fragment& fragment);
+  void add_closed_edges(const Fragment& fragment);
   Index add_path(const Fragment& fragment, std::size_t edge);
+  NotManifold third_triangle(Index lo, Index hi) const;
   void run_steps(const Fragment& fragment);
   void place_regular(const Fragment& fragment);
   void add_edge(Index lo, Index hi, Index top);

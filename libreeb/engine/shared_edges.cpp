@@ -7,6 +7,7 @@ namespace reeb {
 void SharedEdges::start(std::size_t vertices) {
   edges_.clear();
   notes_.clear();
+  closed_.clear();
   begin_.resize(vertices + 1);
 }
 

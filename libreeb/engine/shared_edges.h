@@ -31,6 +31,8 @@ class SharedEdges {
   void add(SweepNode lower_node, VertexRank hi, SweepArc arc, std::uint32_t place) {
     edges_.push_back({lower_node, hi, arc, place, kNone, kNone});
   }
+  // An edge that no other chunk has, though its ends could be those of one.
+  void add_closed(SweepNode lower_node, VertexRank hi) { closed_.push_back({lower_node, hi}); }
   // Notes that the path of the edge that was added last goes up from `node` by `arc`. To be called from below.
   void note_branch(SweepNode node, SweepArc arc) { append_note(edges_.back(), node, arc); }
   // Says that all shared edges up from v were added.
@@ -40,13 +42,19 @@ class SharedEdges {
 
   std::uint32_t size() const { return static_cast<std::uint32_t>(edges_.size()); }
   const Edge& operator[](std::uint32_t e) const { return edges_[e]; }
+  struct ClosedEdge {
+    SweepNode lo;
+    VertexRank hi;
+  };
+  const std::vector<ClosedEdge>& closed() const { return closed_; }
 
   // Calls visit(arc) for each arc on the path of an edge, from below.
   template <class Visit>
   void trace(const Edge& edge, const SweepGraph& graph, const Visit& visit) const;
 
   std::size_t memory_bytes() const {
-    return edges_.capacity() * sizeof(Edge) + notes_.capacity() * sizeof(Note) + 4 * begin_.capacity();
+    return edges_.capacity() * sizeof(Edge) + notes_.capacity() * sizeof(Note) + 4 * begin_.capacity() +
+           closed_.capacity() * sizeof(ClosedEdge);
   }
 
  private:
@@ -64,6 +72,7 @@ class SharedEdges {
   std::vector<Edge> edges_;                    // by lower vertex; those of a vertex are sorted by hi
   IdVector<VertexRank, std::uint32_t> begin_;  // those of vertex v are begin_[v] .. begin_[v + 1]
   std::vector<Note> notes_;
+  std::vector<ClosedEdge> closed_;
 };
 
 template <class Visit>

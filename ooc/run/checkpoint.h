@@ -18,6 +18,7 @@ struct RunSettings {
   std::uint64_t denoise_is_share = 0;
   std::uint64_t buckets = 0;
   std::uint64_t reading = 0;  // digest of the options by which the mesh is read
+  std::uint64_t manifold = 0;
 };
 
 // The mesh, functions and settings of a run. It cannot use the checkpoint of a run with others.

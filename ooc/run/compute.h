@@ -48,6 +48,7 @@ struct ComputeOptions {
   bool may_reorder = true;        // may sort a mesh on disk that has no coherent pieces
   bool may_guess = true;          // may guess complete vertices of a reader without finalization
   std::uint32_t buckets = 64;     // K: K to 2K buckets span the range of a function; 0: no embedding
+  bool manifold = false;          // no edge has more than two triangles; else NotManifold
   double denoise = 0;             // remove noise below this persistence; 0: keep all
   bool denoise_is_share = false;  // `denoise` is a share of the function's range
   std::function<void(const ComputeProgress&)> progress = {};

@@ -21,9 +21,10 @@ struct ComputeProgress {
   std::uint64_t triangles = 0;        // so far
 };
 
-// The largest numbers of live vertices, edges and arcs at the end of a chunk, over all functions.
+// The largest numbers of live vertices, edges and arcs at the end of a chunk, over all functions; and the most memory
+// that the live graphs took.
 struct LiveMaximum {
-  std::uint64_t vertices = 0, edges = 0, arcs = 0;
+  std::uint64_t vertices = 0, edges = 0, arcs = 0, bytes = 0;
 };
 
 struct PhaseSeconds {

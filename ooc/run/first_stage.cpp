@@ -225,8 +225,9 @@ FirstStageResult run_first_stage(RunContext& run, MeshInput input) {
   if (input.indexed) return run_indexed(run, input, std::move(input.indexed), start, std::move(result));
 
   input.reader = std::make_unique<PolledReader>(std::move(input.reader), run.resumable);
-  // Vertices of boxes cannot be followed, those of their tetrahedra can.
-  if ((start == nullptr || start->origin == ChunkOrigin::kGrid) && !needs_lookup(run) && !run.follower &&
+  // Vertices and edges of boxes cannot be followed, those of their tetrahedra can.
+  const bool may_take_boxes = !needs_lookup(run) && !run.follower && !run.options.manifold;
+  if ((start == nullptr || start->origin == ChunkOrigin::kGrid) && may_take_boxes &&
       input.reader->leave_out_simplices())
     return run_grid(run, input, start, std::move(result));
   const bool may_stream = input.reader->info().finalizes && !needs_lookup(run);
@@ -278,6 +279,10 @@ FirstStageResult read_mesh(RunContext& run, MeshInput input) {
     throw InputChanged("the mesh has changed since the interrupted run",
                        "start again with --force and without --resume")
         .at(mesh);
+  } catch (NotManifold& third) {
+    check_unchanged(check_mesh, run.functions);
+    third.at(mesh);
+    throw;
   } catch (const std::exception&) {
     check_unchanged(check_mesh, run.functions);
     throw;

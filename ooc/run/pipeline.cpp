@@ -163,6 +163,7 @@ class Pipeline {
     maximum_.vertices = std::max(maximum_.vertices, now.vertices);
     maximum_.edges = std::max(maximum_.edges, now.edges);
     maximum_.arcs = std::max(maximum_.arcs, now.arcs);
+    maximum_.bytes = std::max<std::uint64_t>(maximum_.bytes, bytes);
     if (options_.progress) options_.progress(slot.progress);
     if (options_.between_chunks && slot.item.can_resume_after)
       options_.between_chunks(slot.item.end, [this](StateWriter& out) { save(out); });

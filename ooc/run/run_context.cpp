@@ -26,6 +26,7 @@ SweepOptions sweep_options(const ComputeOptions& options, const FunctionRange& r
   SweepOptions sweep;
   sweep.noise_below = options.denoise_is_share ? range.part(options.denoise) : options.denoise;
   if (options.buckets != 0) sweep.bucket_exponent = bucket_exponent(range.min, range.max, options.buckets);
+  sweep.manifold = options.manifold;
   return sweep;
 }
 
@@ -39,7 +40,7 @@ RunContext::RunContext(const MeshInput& input, std::span<VertexFunction* const> 
       temp(options.temp_dir.empty() ? io::TempDir::default_folder(outputs[0]) : options.temp_dir),
       values(functions, input.dimension),
       resumable(outputs[0], readable_again(input), functions,
-                {options.denoise, options.denoise_is_share, options.buckets, input.reading},
+                {options.denoise, options.denoise_is_share, options.buckets, input.reading, options.manifold},
                 {options.resume, options.replace, options.checkpoint_seconds, options.interrupted}) {
   make_stores();
 }

@@ -57,6 +57,32 @@ TEST_F(Simplices, ASierpinskiSimplexHasItsLoopsForEveryCoordinate) {
     }
 }
 
+TEST_F(Simplices, AManifoldHasTheSameGraphAndNoThirdTriangle) {
+  expect_success(reeb({"generate", "scan", "--triangles", "20k", "--order", "random", "-o", "scan.ply"}));
+  std::vector<std::string> words = {"compute", "scan.ply", "--buckets", "0", "--quiet", "--force", "--chunk", "500"};
+  std::vector<std::string> bytes;
+  for (const bool manifold : {false, true}) {
+    if (manifold) words.emplace_back("--manifold");
+    expect_success(reeb(words));
+    bytes.push_back(file("scan.reeb"));
+  }
+  EXPECT_TRUE(bytes[0] == bytes[1]);
+
+  write("fan.off", "OFF\n5 3 0\n0 0 0\n0 0 1\n1 0 0\n0 1 0\n1 1 1\n3 0 1 2\n3 3 1 0\n3 4 0 1\n");
+  const Outcome third = reeb({"compute", "fan.off", "--manifold"});
+  EXPECT_EQ(third.exit_code, 1);
+  EXPECT_NE(third.error.find("reeb: error: fan.off: the edge between vertices 0 and 1 has a third triangle\nhint: "),
+            std::string::npos)
+      << third.error;
+  EXPECT_EQ(std::filesystem::exists(in_folder("fan.reeb")), false);
+
+  // The diagonals of squares are in two triangles, those of cubes in more.
+  expect_success(reeb({"generate", "volume", "--grid", "9x9x9", "-o", "cube.nrrd"}));
+  EXPECT_EQ(reeb({"compute", "cube.nrrd", "--manifold", "--quiet"}).exit_code, 1);
+  write("plane.asc", "ncols 3\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 5 2\n0 3 4\n");
+  expect_success(reeb({"compute", "plane.asc", "--manifold", "--quiet"}));
+}
+
 // The construction has N tunnels, each through all levels of its layer of z.
 TEST_F(Simplices, ABallHasALoopForEachHandle) {
   for (const std::string name : {"b.sva", "b.svb", "b.cx"}) {

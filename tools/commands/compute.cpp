@@ -106,6 +106,7 @@ void add_compute(CLI::App& program) {
           "mesh.reeb for standard input)")
       ->type_name("FILE");
   add_run_options(*command, *arguments);
+  command->add_flag("--manifold", options.manifold, "Drop each edge after two triangles; a third one is an error");
   command->add_flag("--sidecar", options.keep_sidecar, "Keep what the first pass finds in MESH.final, for later runs");
   add_count(*command, "--snapshot-every", options.snapshot_every,
             "Write the graph so far every N triangles, as OUT-000001.reeb, OUT-000002.reeb, ...", {.least = 1});

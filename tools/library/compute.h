@@ -27,6 +27,8 @@ struct ComputeOptions {
   // is 0.1%), or in units of the function. 0: all stay.
   double denoise = 0;
   bool denoise_is_share = false;
+  // Promises that no edge has more than two triangles, which saves work; a third one is an Error{kBadInput}.
+  bool manifold = false;
   std::uint32_t buckets = 64;        // buckets of value over the range, at least; at most twice that; 0: none
   std::string format{};              // of the mesh, where its content does not tell: "cx", ...; empty: detected
   io::ImageOptions image{};          // how an image is read

@@ -18,6 +18,7 @@ ooc::ComputeOptions run_options(const ComputeOptions& options) {
   run.keep_sidecar = options.keep_sidecar;
   run.may_reorder = options.may_reorder;
   run.buckets = options.buckets;
+  run.manifold = options.manifold;
   run.denoise = options.denoise;
   run.denoise_is_share = options.denoise_is_share;
   run.resume = options.resume;
