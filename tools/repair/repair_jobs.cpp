@@ -8,6 +8,7 @@
 #include "libreeb/base/error.h"
 #include "libreeb/repair/curve_cut.h"
 #include "libreeb/repair/curve_detour.h"
+#include "libreeb/repair/nearby_loop.h"
 #include "ooc/patches/ball_clusters.h"
 #include "ooc/patches/collected_patches.h"
 #include "ooc/threads/parallel.h"
@@ -173,14 +174,18 @@ class Jobs {
     std::vector<Open> open;
     for (const std::uint32_t j : cluster.jobs) {
       JobResult& result = done_.results[j];
-      if (left_out_[j] != 0) continue;
       const auto curve = numbers_in(patch, vertices, jobs_[j].curve);
       Cut cut;
-      if (curve)
-        cut = jobs_[j].is_boundary ? close_boundary(patch, *curve, {options_.float32})
-                                   : cut_along(patch, with_detours(patch, *curve), {options_.float32});
-      else
+      if (!curve)
         cut.why = "its curve is not on the surface";
+      else if (jobs_[j].is_boundary)
+        cut = close_boundary(patch, *curve, {options_.float32});
+      else if (left_out_[j] != 0)
+        cut.why = "cutting along it would divide the surface";
+      else
+        cut = cut_along(patch, with_detours(patch, *curve), {options_.float32});
+      if (curve && !jobs_[j].is_boundary && !cut.done && !cut.too_small)
+        cut_nearby(patch, *curve, jobs_[j].length, cut);
       // Where edges seem to be missing, the patch may end.
       const bool whole = curve && std::ranges::all_of(*curve, [&](std::uint32_t v) { return patch.vertex(v).whole; });
       too_small_[j] = !cut.done && (cut.too_small || !whole) ? 1 : 0;
@@ -198,6 +203,24 @@ class Jobs {
       cluster.open.push_back({rims.job, left(rims.first), left(rims.second)});
     }
     cluster.done = true;
+  }
+
+  // Earlier repairs changed the surface at the curve, or another one is as good: cuts along a loop that divides
+  // nothing.
+  void cut_nearby(EditablePatch& patch, const std::vector<std::uint32_t>& curve, double length, Cut& cut) const {
+    constexpr double kMostLonger = 1.5;
+    std::vector<std::uint32_t> near;
+    for (const std::uint32_t v : curve)
+      if (patch.is_used(v)) near.push_back(v);
+    if (near.empty())
+      for (const std::uint32_t v : curve)
+        for (const std::uint32_t t : patch.all_at(v))
+          for (const std::uint32_t w : patch.triangle(t).corners) near.push_back(w);
+    std::sort(near.begin(), near.end());
+    near.erase(std::unique(near.begin(), near.end()), near.end());
+    const auto loop = nearby_loop(patch, near, kMostLonger * length);
+    if (loop.empty()) return;
+    if (Cut other = cut_along(patch, loop, {options_.float32}); other.done) cut = std::move(other);
   }
 
   // Doubles the balls of jobs whose patches were too small. Returns whether there was one.
