@@ -9,6 +9,7 @@
 
 #include "libreeb/defects/surface_patch.h"
 #include "libreeb/repair/rim_filling.h"
+#include "libreeb/repair/tight_curve.h"
 #include "libreeb/repair/triangle_crossing.h"
 #include "libreeb/repair/triangle_split.h"
 
@@ -503,6 +504,20 @@ Cut not_done(std::string why) {
   return cut;
 }
 
+// Whether the curve could be much shorter: it has some edges, and every second vertex is much nearer than along them.
+bool is_crooked(const EditablePatch& patch, std::span<const std::uint32_t> curve) {
+  constexpr std::size_t kSomeEdges = 8;
+  constexpr double kMostStraight = 0.9;  // a circle of eight edges has 0.92
+  if (curve.size() < kSomeEdges) return false;
+  double edges = 0, chords = 0;
+  const std::size_t n = curve.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    edges += distance(patch.position(curve[i]), patch.position(curve[(i + 1) % n]));
+    chords += distance(patch.position(curve[i]), patch.position(curve[(i + 2) % n])) / 2;
+  }
+  return chords < kMostStraight * edges;
+}
+
 bool is_on_surface(const EditablePatch& patch, std::span<const std::uint32_t> curve) {
   for (std::size_t i = 0; i < curve.size(); ++i)
     if (!patch.has_edge(curve[i], curve[(i + 1) % curve.size()])) return false;
@@ -563,15 +578,27 @@ Cut try_cut(EditablePatch& patch, std::span<const std::uint32_t> curve, const Cu
 }  // namespace
 
 Cut cut_along(EditablePatch& patch, std::span<const std::uint32_t> curve, const CutOptions& options) {
-  Cut cut = try_cut(patch, curve, options, nullptr);
+  constexpr double kMuchShorter = 0.85;
   const bool whole = std::ranges::all_of(curve, [&](std::uint32_t v) { return patch.vertex(v).whole; });
-  if (cut.done || cut.too_small || !whole || !is_on_surface(patch, curve) || !sides_of(patch, curve)) return cut;
+  const bool can_divide = whole && is_on_surface(patch, curve) && sides_of(patch, curve);
+  const auto cut_tight = [&](double most) {
+    const auto tight = pull_tight(patch, curve, most, options.float32);
+    if (!tight) return Cut{};
+    Cut cut = try_cut(patch, tight->curve, options, &tight->split);
+    if (!cut.done) undo_split(patch, tight->split);
+    return cut;
+  };
+  if (can_divide && is_crooked(patch, curve))
+    if (Cut cut = cut_tight(kMuchShorter); cut.done) return cut;
+  Cut plain = try_cut(patch, curve, options, nullptr);
+  if (plain.done || plain.too_small || !can_divide) return plain;
   const PatchSplit split = make_room(patch, {curve.begin(), curve.end()}, options.float32);
   Cut roomy = try_cut(patch, curve, options, &split);
   if (roomy.done) return roomy;
   undo_split(patch, split);
-  cut.too_small = roomy.too_small;
-  return cut;
+  plain.too_small = roomy.too_small;
+  if (Cut cut = cut_tight(1); cut.done) return cut;
+  return plain;
 }
 
 Cut close_boundary(EditablePatch& patch, std::span<const std::uint32_t> rim, const CutOptions& options) {

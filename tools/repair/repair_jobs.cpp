@@ -87,6 +87,7 @@ class Jobs {
         jobs_(jobs),
         scale_(scale),
         options_(options),
+        budget_(options.most_bytes),
         left_out_(jobs.size(), 0),
         too_small_(jobs.size(), 0) {
     done_.results.resize(jobs.size());
@@ -152,8 +153,7 @@ class Jobs {
         balls.push_back(ball);
         patch_of.push_back(i);
       }
-    MemoryBudget budget;
-    ooc::CollectedPatches patches(balls, patch_of, now.size(), budget);
+    ooc::CollectedPatches patches(balls, patch_of, now.size(), budget_);
     mesh_.read(
         [&](const MeshBatch& batch, std::span<const std::vector<double>>, std::uint64_t done, std::uint64_t total) {
           patches.add(batch);
@@ -254,10 +254,10 @@ class Jobs {
       edits.add(cluster.edits);
     }
     edits.sort();
-    const auto dividing = dividing_curves(mesh_, edits, done_.mesh_vertices, open, options_.most_bytes,
-                                          [&](std::uint64_t done, std::uint64_t total) {
-                                            if (options_.progress) options_.progress(done, total);
-                                          });
+    const auto dividing =
+        dividing_curves(mesh_, edits, done_.mesh_vertices, open, budget_, [&](std::uint64_t done, std::uint64_t total) {
+          if (options_.progress) options_.progress(done, total);
+        });
     for (const auto& [job, why] : dividing) {
       left_out_[job] = 1;
       done_.results[job] = {};
@@ -274,6 +274,7 @@ class Jobs {
   const std::vector<RepairJob>& jobs_;
   const PatchScale& scale_;
   const JobOptions& options_;
+  MemoryBudget budget_;
   std::vector<std::uint8_t> left_out_, too_small_;
   std::vector<ooc::Ball> balls_;
   std::vector<Cluster> clusters_;
