@@ -8,6 +8,9 @@
 #include <set>
 #include <vector>
 
+#include "libreeb/repair/curve_cut.h"
+#include "libreeb/repair/triangle_crossing.h"
+
 namespace reeb::test {
 namespace {
 
@@ -115,6 +118,60 @@ TEST(TriangleSplit, MakesRoomOnTheSmallestTorus) {
       undo_split(patch, split);
       EXPECT_EQ(count_there(patch), 14u);
     }
+}
+
+// Császár's polyhedron: the smallest torus with flat triangles that do not cross. Every triangle that is not at a curve
+// of three edges has corners on both sides of it, so there is no band without new vertices.
+TEST(TriangleSplit, LetsTheSmallestTorusBeCut) {
+  const std::array<Point, 7> places = {
+      {{3, -3, 0}, {3, 3, 1}, {1, 2, 3}, {-1, -2, 3}, {-3, -3, 1}, {-3, 3, 0}, {0, 0, 15}}};
+  const auto faces = [](const std::array<std::uint32_t, 7>& name) {
+    std::vector<EditablePatch::Corners> list;
+    for (std::uint32_t v = 0; v < 7; ++v) {
+      list.push_back({name[v], name[(v + 1) % 7], name[(v + 3) % 7]});
+      list.push_back({name[v], name[(v + 3) % 7], name[(v + 2) % 7]});
+    }
+    return list;
+  };
+  const auto crosses = [&](const std::vector<EditablePatch::Corners>& list) {
+    const auto placed = [&](const EditablePatch::Corners& c) {
+      return PlacedTriangle{c, {places[c[0]], places[c[1]], places[c[2]]}};
+    };
+    for (std::size_t i = 0; i < list.size(); ++i)
+      for (std::size_t j = 0; j < i; ++j)
+        if (triangles_cross(placed(list[i]), placed(list[j]))) return true;
+    return false;
+  };
+  std::array<std::uint32_t, 7> name = {0, 1, 2, 3, 4, 5, 6};
+  while (crosses(faces(name))) ASSERT_TRUE(std::next_permutation(name.begin(), name.end()));
+  std::size_t cut = 0;
+  for (std::uint32_t a = 0; a < 7; ++a)
+    for (std::uint32_t b = 0; b < a; ++b)
+      for (std::uint32_t c = 0; c < b; ++c) {
+        EditablePatch patch;
+        for (std::uint32_t v = 0; v < 7; ++v) patch.add_vertex({VertexId(v), places[v], true, false, {}});
+        std::uint64_t id = 0;
+        for (const auto& corners : faces(name)) patch.add_triangle(corners, id++);
+        const Cut result = cut_along(patch, Vertices{a, b, c}, {});
+        if (!result.done) {
+          EXPECT_EQ(count_there(patch), 14u);
+          continue;
+        }
+        ++cut;
+        EXPECT_TRUE(result.connected);
+        std::set<std::pair<std::uint32_t, std::uint32_t>> edges;
+        std::set<std::uint32_t> used;
+        for (std::uint32_t t = 0; t < patch.triangle_count(); ++t)
+          if (patch.triangle(t).there)
+            for (std::size_t i = 0; i < 3; ++i) {
+              const auto& corners = patch.triangle(t).corners;
+              EXPECT_TRUE(edges.emplace(corners[i], corners[(i + 1) % 3]).second);
+              used.insert(corners[i]);
+            }
+        for (const auto& [p, q] : edges) EXPECT_TRUE(edges.contains({q, p}));
+        EXPECT_EQ(used.size() + count_there(patch), edges.size() / 2 + 2);
+      }
+  EXPECT_GT(cut, 0u);
 }
 
 }  // namespace
