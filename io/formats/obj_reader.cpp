@@ -29,6 +29,7 @@ bool is_obj_keyword(std::string_view word) {
 ObjReader::ObjReader(std::unique_ptr<ContentSource> source, ReadOptions options)
     : BatchReader(std::move(options)), text_(std::move(source), {.comments = true, .continuation = true}) {
   refuse_properties(this->options(), "OBJ", text_.source().name());
+  if (this->options().signed_zeros) text_.keep_signed_zeros();
   info_.format = "OBJ";
   info_.file_bytes = text_.source().file_bytes();
 }

@@ -10,7 +10,9 @@ namespace {
 class ObjWriter : public MeshWriter {
  public:
   ObjWriter(const std::string& path, const MeshWriterOptions& options)
-      : dimension_(options.dimension), file_(path, {.existing = options.existing}) {}
+      : dimension_(options.dimension),
+        zero_(options.signed_zeros ? -0.0 : 0.0),
+        file_(path, {.existing = options.existing}) {}
 
   void write(const MeshBatch& batch) override {
     for (std::size_t i = 0; i < batch.vertex_count; ++i) {
@@ -18,7 +20,7 @@ class ObjWriter : public MeshWriter {
       line.put('v');
       for (unsigned k = 0; k < 3; ++k) {
         line.put(' ');
-        line.put(k < dimension_ ? batch.coordinates[k][i] : 0.0);
+        line.put_signed(k < dimension_ ? batch.coordinates[k][i] + zero_ : 0.0);
       }
       line.put('\n');
     }
@@ -37,6 +39,7 @@ class ObjWriter : public MeshWriter {
 
  private:
   unsigned dimension_;
+  double zero_;  // is added to each number: 0.0 makes 0.0 of -0.0, and -0.0 changes nothing
   AtomicFile file_;
 };
 

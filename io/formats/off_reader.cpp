@@ -119,6 +119,7 @@ class AsciiOffReader final : public OffReader {
     check_counts(header, text_.source(), text_.bytes().offset(), std::uint64_t{2} * header.dimension, 2,
                  text_.position());
     describe(header, text_.source());
+    if (this->options().signed_zeros) text_.keep_signed_zeros();
   }
 
   std::uint64_t bytes_read() const override { return text_.bytes_read(); }
@@ -217,7 +218,7 @@ class BinaryOffReader final : public OffReader {
         taken_ += 4 * k;
         fail("a coordinate is not finite", "fix this vertex, or remove it");
       }
-      batch.coordinates[k].push_back(static_cast<double>(value) + 0.0);
+      batch.coordinates[k].push_back(static_cast<double>(value) + zero());
     }
   }
   std::int64_t begin_face() override { return integer(); }

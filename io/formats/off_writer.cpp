@@ -14,6 +14,7 @@ class OffWriter : public MeshWriter {
  public:
   OffWriter(const std::string& path, const MeshWriterOptions& options)
       : dimension_(options.dimension),
+        zero_(options.signed_zeros ? -0.0 : 0.0),
         header_bytes_(header(~std::uint64_t{0}, ~std::uint64_t{0}).size()),
         file_(path, options, header_bytes_) {}
 
@@ -22,7 +23,7 @@ class OffWriter : public MeshWriter {
     for (std::size_t i = 0; i < batch.vertex_count; ++i) {
       TextRecord line(out);
       for (unsigned k = 0; k < dimension_; ++k) {
-        line.put(batch.coordinates[k][i]);
+        line.put_signed(batch.coordinates[k][i] + zero_);
         line.put(k + 1 < dimension_ ? ' ' : '\n');
       }
     }
@@ -56,6 +57,7 @@ class OffWriter : public MeshWriter {
   }
 
   unsigned dimension_;
+  double zero_;  // is added to each number: 0.0 makes 0.0 of -0.0, and -0.0 changes nothing
   std::size_t header_bytes_;
   SectionedFile file_;
 };

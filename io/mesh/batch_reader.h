@@ -51,6 +51,8 @@ class BatchReader : public MeshReader {
   std::uint64_t vertices_read() const { return vertices_read_; }
 
   const ReadOptions& options() const { return options_; }
+  // What is added to each number: 0.0 makes 0.0 of -0.0, and -0.0 changes nothing.
+  double zero() const { return options_.signed_zeros ? -0.0 : 0.0; }
 
   MeshInfo info_;
 

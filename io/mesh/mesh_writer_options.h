@@ -19,6 +19,7 @@ struct MeshWriterOptions {
   std::vector<ScalarType> column_types{};         // PLY: of the coordinates, then of the properties; empty: as above
   std::optional<std::uint64_t> vertex_count{};    // if known (more is an error); saves the temporary copy of the faces
   std::optional<std::uint64_t> simplex_count{};   // if known; for headers
+  bool signed_zeros = false;                      // OBJ and OFF: write -0 where it is; PLY always does
   Existing existing = Existing::kRefuse;
   std::string temp_folder{};  // of that copy; empty: TempDir::default_folder of the output
 };

@@ -60,9 +60,10 @@ inline std::size_t byte_size(ScalarType type) {
   return with_type(type, [](auto zero) { return sizeof zero; });
 }
 
-inline double load_double(ScalarType type, const char* bytes, bool swap) {
+// `zero` is added: 0.0 makes 0.0 of -0.0, and -0.0 changes nothing.
+inline double load_double(ScalarType type, const char* bytes, bool swap, double zero = 0.0) {
   return with_type(type,
-                   [&](auto zero) { return static_cast<double>(load_scalar<decltype(zero)>(bytes, swap)) + 0.0; });
+                   [&](auto none) { return static_cast<double>(load_scalar<decltype(none)>(bytes, swap)) + zero; });
 }
 
 // Tests the exponents without branches, since this runs over every value that is read.

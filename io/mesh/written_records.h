@@ -49,7 +49,9 @@ class TextRecord {
   void put(char c) { *end_++ = c; }
   void put(std::integral auto number) { end_ = std::to_chars(end_, begin_ + kMaxBytes, number).ptr; }
   // Appends the shortest text that restores the number exactly; -0 becomes 0.
-  void put(double number) { end_ = std::to_chars(end_, begin_ + kMaxBytes, number + 0.0).ptr; }
+  void put(double number) { put_signed(number + 0.0); }
+  // The same, but -0 stays.
+  void put_signed(double number) { end_ = std::to_chars(end_, begin_ + kMaxBytes, number).ptr; }
 
  private:
   BufferedWriter& out_;

@@ -23,6 +23,8 @@ class AsciiPlyDecoder {
   AsciiPlyDecoder(TextCursor text, const PlyHeader& header)
       : text_(std::move(text)), body_(header.body_offset), body_line_(text_.line()) {}
 
+  void keep_signed_zeros() { text_.keep_signed_zeros(); }
+
   void begin_record(const PlyElement& element) {
     if (text_.more()) return;
     text_.mark();
@@ -98,11 +100,13 @@ class BinaryPlyDecoder {
         body_(header.body_offset),
         swap_(header.encoding == PlyEncoding::kBigEndian) {}
 
+  void keep_signed_zeros() { zero_ = -0.0; }
+
   void begin_record(const PlyElement&) {}
   void end_record(const PlyElement&) {}
   std::uint64_t surplus_values() const { return 0; }
   double finite_value(ScalarType type, const char* what) {
-    const double value = load_double(type, take(byte_size(type)), swap_);
+    const double value = load_double(type, take(byte_size(type)), swap_, zero_);
     if (!std::isfinite(value)) fail(std::string("a ") + what + " is not finite", "fix this value in the file");
     return value;
   }
@@ -141,6 +145,7 @@ class BinaryPlyDecoder {
   std::uint64_t body_;
   std::uint64_t taken_ = 0;
   bool swap_;
+  double zero_ = 0.0;  // is added to each number
 };
 
 }  // namespace reeb::io

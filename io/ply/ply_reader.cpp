@@ -58,16 +58,16 @@ MeshInfo describe(const PlyHeader& header, const ContentSource& source) {
   return info;
 }
 
-// Appends one column of `count` records of fixed size to `column`; its first value is at `bytes`. Returns whether all
-// values are finite.
-bool append_column(ScalarType type, bool swap, const char* bytes, std::size_t stride, std::size_t count,
+// Appends one column of `count` records of fixed size to `column`; its first value is at `bytes`. `zero` is added to
+// each. Returns whether all values are finite.
+bool append_column(ScalarType type, bool swap, const char* bytes, std::size_t stride, std::size_t count, double zero,
                    std::vector<double>& column) {
   const std::size_t before = column.size();
   column.resize(before + count);
   double* const out = column.data() + before;
-  with_type(type, [&](auto zero) {
+  with_type(type, [&](auto none) {
     for (std::size_t i = 0; i < count; ++i)
-      out[i] = static_cast<double>(load_scalar<decltype(zero)>(bytes + i * stride, swap)) + 0.0;
+      out[i] = static_cast<double>(load_scalar<decltype(none)>(bytes + i * stride, swap)) + zero;
   });
   return all_finite({out, count});
 }
@@ -96,6 +96,7 @@ class PlyReader final : public PlyBodyReader {
     info_ = describe(header_, decoder_.source());
     name_all_properties();
     choose_columns();
+    if (this->options().signed_zeros) decoder_.keep_signed_zeros();
     if (std::ranges::any_of(steps_, &Step::from_body) && !decoder_.source().can_seek())
       throw Error(ErrorKind::kBadInput, "the faces stand before their vertices, and the input can be read only once",
                   "unpack it to a file, or write the element vertex before the element face")
@@ -272,7 +273,7 @@ class PlyReader final : public PlyBodyReader {
       const char* const first = bytes.data() + place;
       if (column_of_[p] == kNoColumn)
         count_odd_values(type, first, stride, count);
-      else if (!append_column(type, decoder_.swaps(), first, stride, count, *columns_[column_of_[p]]))
+      else if (!append_column(type, decoder_.swaps(), first, stride, count, zero(), *columns_[column_of_[p]]))
         fail_not_finite(p, place, stride, count);
       place += byte_size(type);
     }
@@ -287,7 +288,7 @@ class PlyReader final : public PlyBodyReader {
   void count_odd_values(ScalarType type, const char* first, std::size_t stride, std::size_t count) {
     if (!is_float(type)) return;
     scratch_.clear();
-    if (append_column(type, decoder_.swaps(), first, stride, count, scratch_)) return;
+    if (append_column(type, decoder_.swaps(), first, stride, count, zero(), scratch_)) return;
     odd_values_ +=
         static_cast<std::uint64_t>(std::ranges::count_if(scratch_, [](double value) { return !std::isfinite(value); }));
   }

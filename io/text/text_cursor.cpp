@@ -119,7 +119,7 @@ Float TextCursor::finite_number(const char* what) {
     return slow_number<Float>(what);
   mark();
   cursor_.advance(static_cast<std::size_t>(parsed.ptr - begin));
-  return value + Float{0};
+  return value + static_cast<Float>(zero_);
 }
 template float TextCursor::finite_number<float>(const char*);
 template double TextCursor::finite_number<double>(const char*);
@@ -131,7 +131,7 @@ Float TextCursor::slow_number(const char* what) {
   const auto parsed = parse_number<Float>(word);
   if (!parsed.ok || !std::isfinite(parsed.value)) [[unlikely]]
     fail_number(word, what);
-  return parsed.value + Float{0};
+  return parsed.value + static_cast<Float>(zero_);
 }
 
 std::int64_t TextCursor::integer(const char* what) {

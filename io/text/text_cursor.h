@@ -68,6 +68,8 @@ class TextCursor {
   // THROWS: Error{kBadInput} with its position if it is missing or not a finite number; `what` names it ("coordinate").
   template <class Float>
   Float finite_number(const char* what);
+  // From now on, -0 is delivered as -0.0; else as 0.0.
+  void keep_signed_zeros() { zero_ = -0.0; }
   // The same for an integer. The whole token must be one.
   std::int64_t integer(const char* what);
   // Reads the digits at the cursor, without a sign; blanks are not skipped. If there are none or more than 18, returns
@@ -113,6 +115,7 @@ class TextCursor {
 
   Cursor cursor_;
   TextStyle style_;
+  double zero_ = 0.0;  // is added to each number
   std::uint64_t line_ = 1, line_begin_ = 0;
   std::uint64_t marked_line_ = 1, marked_column_ = 1;
 };

@@ -101,6 +101,7 @@ struct ReadOptions {
   // Where a pipe is copied to, if its format cannot be read in one go; empty: where temporary files are by default.
   std::string temp_folder{};
   bool value_of_image = false;  // if the mesh is an image, and no property is named: deliver "value"
+  bool signed_zeros = false;    // PLY, OBJ, OFF: deliver -0.0 where the file has it; else it becomes 0.0
 };
 
 // THREADS: one at a time; different readers share nothing.

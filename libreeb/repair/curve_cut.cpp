@@ -9,7 +9,9 @@
 
 #include "libreeb/defects/surface_patch.h"
 #include "libreeb/repair/rim_filling.h"
+#include "libreeb/repair/tight_curve.h"
 #include "libreeb/repair/triangle_crossing.h"
+#include "libreeb/repair/triangle_split.h"
 
 namespace reeb {
 namespace {
@@ -249,8 +251,13 @@ std::int64_t euler_among(const EditablePatch& patch, const Vertices& sorted) {
 // What one attempt does to the patch, to be undone if it is no good.
 class Edit {
  public:
-  Edit(EditablePatch& patch, const CutOptions& options)
-      : patch_(patch), options_(options), vertices_(patch.vertex_count()), triangles_(patch.triangle_count()) {}
+  // `split`: what was done to the patch for this attempt before; it is not undone.
+  Edit(EditablePatch& patch, const CutOptions& options, const PatchSplit* split = nullptr)
+      : patch_(patch),
+        options_(options),
+        split_(split),
+        vertices_(patch.vertex_count()),
+        triangles_(patch.triangle_count()) {}
 
   void remove(const Vertices& triangles) {
     for (const std::uint32_t t : triangles) {
@@ -309,8 +316,15 @@ class Edit {
     return true;
   }
 
-  std::uint64_t removed() const { return removed_.size(); }
-  std::uint64_t added() const { return patch_.triangle_count() - triangles_; }
+  // Of divided triangles, those count that were there before, and the parts that are there now.
+  void count(Cut& cut) const {
+    const std::size_t first = first_new();
+    cut.removed = split_ != nullptr ? split_->removed.size() : 0;
+    for (const std::uint32_t t : removed_) cut.removed += t < first ? 1u : 0u;
+    cut.added = 0;
+    for (auto t = static_cast<std::uint32_t>(first); t < patch_.triangle_count(); ++t)
+      cut.added += patch_.triangle(t).there ? 1u : 0u;
+  }
 
   // All vertices of triangles that were removed or added.
   Vertices touched() const {
@@ -319,7 +333,9 @@ class Edit {
       for (const std::uint32_t v : patch_.triangle(t).corners) result.push_back(v);
     };
     for (const std::uint32_t t : removed_) take(t);
-    for (auto t = static_cast<std::uint32_t>(triangles_); t < patch_.triangle_count(); ++t) take(t);
+    if (split_ != nullptr)
+      for (const std::uint32_t t : split_->removed) take(t);
+    for (auto t = static_cast<std::uint32_t>(first_new()); t < patch_.triangle_count(); ++t) take(t);
     make_set(result);
     return result;
   }
@@ -379,12 +395,16 @@ class Edit {
       const auto& c = patch_.triangle(t).corners;
       return PlacedTriangle{c, {patch_.position(c[0]), patch_.position(c[1]), patch_.position(c[2])}};
     };
-    const auto first = static_cast<std::uint32_t>(triangles_),
+    const auto first = static_cast<std::uint32_t>(first_new()),
                end = static_cast<std::uint32_t>(patch_.triangle_count());
     if (first == end) return false;
-    Box all = box_of(first);
+    Box all = box_of(end - 1);
     std::vector<Box> boxes;
     for (std::uint32_t t = first; t < end; ++t) {
+      if (!patch_.triangle(t).there) {
+        boxes.emplace_back();
+        continue;
+      }
       if (is_flat(placed(t))) return true;
       boxes.push_back(box_of(t));
       for (std::size_t k = 0; k < 3; ++k) {
@@ -397,12 +417,16 @@ class Edit {
       const Box box = u < first ? box_of(u) : boxes[u - first];
       if (!box.meets(all)) continue;
       for (std::uint32_t t = std::max(first, u + 1); t < end; ++t)
-        if (box.meets(boxes[t - first]) && triangles_cross(placed(u), placed(t))) return true;
+        if (patch_.triangle(t).there && box.meets(boxes[t - first]) && triangles_cross(placed(u), placed(t)))
+          return true;
     }
     return false;
   }
 
  private:
+  // The parts of divided triangles are new, too.
+  std::size_t first_new() const { return split_ != nullptr ? split_->triangles : triangles_; }
+
   Point normal(std::uint32_t t) const {
     const auto& c = patch_.triangle(t).corners;
     const Point u = patch_.position(c[1]) - patch_.position(c[0]), w = patch_.position(c[2]) - patch_.position(c[0]);
@@ -422,6 +446,7 @@ class Edit {
 
   EditablePatch& patch_;
   const CutOptions& options_;
+  const PatchSplit* split_;
   std::size_t vertices_, triangles_;  // before
   Vertices removed_;
 };
@@ -479,13 +504,30 @@ Cut not_done(std::string why) {
   return cut;
 }
 
-}  // namespace
+// Whether the curve could be much shorter: it has some edges, and every second vertex is much nearer than along them.
+bool is_crooked(const EditablePatch& patch, std::span<const std::uint32_t> curve) {
+  constexpr std::size_t kSomeEdges = 8;
+  constexpr double kMostStraight = 0.9;  // a circle of eight edges has 0.92
+  if (curve.size() < kSomeEdges) return false;
+  double edges = 0, chords = 0;
+  const std::size_t n = curve.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    edges += distance(patch.position(curve[i]), patch.position(curve[(i + 1) % n]));
+    chords += distance(patch.position(curve[i]), patch.position(curve[(i + 2) % n])) / 2;
+  }
+  return chords < kMostStraight * edges;
+}
 
-Cut cut_along(EditablePatch& patch, std::span<const std::uint32_t> curve, const CutOptions& options) {
-  if (curve.size() < 3) return not_done("an earlier repair changed the surface at its curve");
+bool is_on_surface(const EditablePatch& patch, std::span<const std::uint32_t> curve) {
   for (std::size_t i = 0; i < curve.size(); ++i)
-    if (!patch.has_edge(curve[i], curve[(i + 1) % curve.size()]))
-      return not_done("an earlier repair changed the surface at its curve");
+    if (!patch.has_edge(curve[i], curve[(i + 1) % curve.size()])) return false;
+  return curve.size() >= 3;
+}
+
+// `split`: what was done for this.
+Cut try_cut(EditablePatch& patch, std::span<const std::uint32_t> curve, const CutOptions& options,
+            const PatchSplit* split) {
+  if (!is_on_surface(patch, curve)) return not_done("an earlier repair changed the surface at its curve");
   if (curve.size() > kMostRimVertices)
     return not_done("its curve has more than " + std::to_string(kMostRimVertices) + " edges");
   const auto sides = sides_of(patch, curve);
@@ -503,13 +545,15 @@ Cut cut_along(EditablePatch& patch, std::span<const std::uint32_t> curve, const 
     cut.first_side.assign(curve.begin(), curve.end());
     cut.second_side = band.close_rim();
     if (cut.second_side.empty()) continue;
-    const Vertices before = corners_of(patch, band.triangles());
+    Edit edit(patch, options, split);
+    Vertices before = edit.touched();
+    for (const std::uint32_t v : corners_of(patch, band.triangles())) before.push_back(v);
+    make_set(before);
     if (!std::ranges::all_of(before, [&](std::uint32_t v) { return patch.vertex(v).whole; })) {
       too_small = true;
       continue;
     }
     const std::int64_t euler = euler_among(patch, before);
-    Edit edit(patch, options);
     edit.remove(band.triangles());
     std::string fault = "every filling would repeat an edge of the surface";
     if (edit.fill(cut.first_side, attempt.weight, attempt.refine) &&
@@ -521,8 +565,7 @@ Cut cut_along(EditablePatch& patch, std::span<const std::uint32_t> curve, const 
       continue;
     }
     cut.done = true;
-    cut.removed = edit.removed();
-    cut.added = edit.added();
+    edit.count(cut);
     cut.volume = edit.volume();
     cut.connected = are_connected(patch, cut.first_side, cut.second_side);
     return cut;
@@ -530,6 +573,32 @@ Cut cut_along(EditablePatch& patch, std::span<const std::uint32_t> curve, const 
   Cut cut = not_done(why);
   cut.too_small = too_small;
   return cut;
+}
+
+}  // namespace
+
+Cut cut_along(EditablePatch& patch, std::span<const std::uint32_t> curve, const CutOptions& options) {
+  constexpr double kMuchShorter = 0.85;
+  const bool whole = std::ranges::all_of(curve, [&](std::uint32_t v) { return patch.vertex(v).whole; });
+  const bool can_divide = whole && is_on_surface(patch, curve) && sides_of(patch, curve);
+  const auto cut_tight = [&](double most) {
+    const auto tight = pull_tight(patch, curve, most, options.float32);
+    if (!tight) return Cut{};
+    Cut cut = try_cut(patch, tight->curve, options, &tight->split);
+    if (!cut.done) undo_split(patch, tight->split);
+    return cut;
+  };
+  if (can_divide && is_crooked(patch, curve))
+    if (Cut cut = cut_tight(kMuchShorter); cut.done) return cut;
+  Cut plain = try_cut(patch, curve, options, nullptr);
+  if (plain.done || plain.too_small || !can_divide) return plain;
+  const PatchSplit split = make_room(patch, {curve.begin(), curve.end()}, options.float32);
+  Cut roomy = try_cut(patch, curve, options, &split);
+  if (roomy.done) return roomy;
+  undo_split(patch, split);
+  plain.too_small = roomy.too_small;
+  if (Cut cut = cut_tight(1); cut.done) return cut;
+  return plain;
 }
 
 Cut close_boundary(EditablePatch& patch, std::span<const std::uint32_t> rim, const CutOptions& options) {
@@ -554,7 +623,7 @@ Cut close_boundary(EditablePatch& patch, std::span<const std::uint32_t> rim, con
         if (why.empty()) {
           Cut cut;
           cut.done = cut.connected = true;
-          cut.added = edit.added();
+          edit.count(cut);
           cut.volume = edit.volume();
           return cut;
         }

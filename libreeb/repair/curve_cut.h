@@ -28,9 +28,9 @@ struct Cut {
 
 // `curve`: vertices of the patch, each joined with the next by an edge, and the last with the first. The patch stays as
 // it was if nothing is done: if the curve is not on the surface any more, has no two sides, has not enough room, or if
-// every filling would cross the surface. Several bands and fillings are tried. The result is checked: it is a manifold
-// there, its Euler characteristic is greater by two, and no new triangle meets another one but at common corners and
-// edges.
+// every filling would cross the surface. Several bands and fillings are tried; then the triangles at the curve are
+// divided and they are tried again. The result is checked: it is a manifold there, its Euler characteristic is greater
+// by two, and no new triangle meets another one but at common corners and edges.
 Cut cut_along(EditablePatch& patch, std::span<const std::uint32_t> curve, const CutOptions& options);
 
 // `rim`: the vertices of one boundary, in order.

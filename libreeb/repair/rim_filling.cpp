@@ -6,6 +6,7 @@
 #include <unordered_map>
 
 #include "libreeb/defects/surface_patch.h"
+#include "libreeb/repair/nearest_float32.h"
 
 namespace reeb {
 namespace {
@@ -16,12 +17,6 @@ using Triangle = std::array<std::uint32_t, 3>;
 
 Point cross(const Point& u, const Point& w) {
   return {u[1] * w[2] - u[2] * w[1], u[2] * w[0] - u[0] * w[2], u[0] * w[1] - u[1] * w[0]};
-}
-
-// GCC 12.2 drops this rounding from some places where it vectorizes it; so each number goes through memory.
-double nearest_float32(double x) {
-  const volatile float rounded = static_cast<float>(x);
-  return rounded;
 }
 
 bool joined(const Rim& rim, std::uint32_t a, std::uint32_t b) {

@@ -12,10 +12,11 @@ namespace reeb::tools {
 
 std::vector<std::pair<std::uint32_t, std::string>> dividing_curves(
     const ValuedMesh& mesh, const MeshEdits& edits, std::uint64_t mesh_vertices, const std::vector<RimPair>& pairs,
-    std::uint64_t most_bytes, const std::function<void(std::uint64_t done, std::uint64_t total)>& progress) {
+    MemoryBudget& budget, const std::function<void(std::uint64_t done, std::uint64_t total)>& progress) {
   std::vector<std::pair<std::uint32_t, std::string>> result;
   const std::uint64_t all = mesh_vertices + edits.vertices.size();
-  if (all > std::numeric_limits<std::uint32_t>::max() / 2 || 4 * all > most_bytes) {
+  const Reservation memory = budget.try_reserve("parts of the repaired surface", sizeof(std::uint32_t) * all);
+  if (all > std::numeric_limits<std::uint32_t>::max() / 2 || memory.bytes() == 0) {
     for (const RimPair& pair : pairs)
       result.emplace_back(pair.job, "whether cutting along it divides the surface cannot be told in this memory");
     return result;

@@ -40,6 +40,7 @@ std::vector<io::ScalarType> ply_types(const io::Input& input, const std::vector<
 std::unique_ptr<MeshReader> open_for_copy(const io::Input& input, const MeshSource& source, const std::string& output) {
   ReadOptions options;
   options.all_properties = keeps_properties(output);
+  options.signed_zeros = true;
   options.temp_folder = source.temp_folder;
   return io::open_mesh(input, input.open(), options, source.image, source.format);
 }
@@ -75,6 +76,7 @@ std::unique_ptr<MeshWriter> create_like(const io::Input& input, const MeshReader
   io::MeshWriterOptions options;
   options.dimension = info.dimension;
   options.float64 = !info.float32;
+  options.signed_zeros = true;
   options.vertex_count = vertices;
   options.existing = existing;
   options.temp_folder = temp_folder;

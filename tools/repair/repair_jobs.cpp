@@ -8,6 +8,7 @@
 #include "libreeb/base/error.h"
 #include "libreeb/repair/curve_cut.h"
 #include "libreeb/repair/curve_detour.h"
+#include "libreeb/repair/nearby_loop.h"
 #include "ooc/patches/ball_clusters.h"
 #include "ooc/patches/collected_patches.h"
 #include "ooc/threads/parallel.h"
@@ -86,6 +87,7 @@ class Jobs {
         jobs_(jobs),
         scale_(scale),
         options_(options),
+        budget_(options.most_bytes),
         left_out_(jobs.size(), 0),
         too_small_(jobs.size(), 0) {
     done_.results.resize(jobs.size());
@@ -151,8 +153,7 @@ class Jobs {
         balls.push_back(ball);
         patch_of.push_back(i);
       }
-    MemoryBudget budget;
-    ooc::CollectedPatches patches(balls, patch_of, now.size(), budget);
+    ooc::CollectedPatches patches(balls, patch_of, now.size(), budget_);
     mesh_.read(
         [&](const MeshBatch& batch, std::span<const std::vector<double>>, std::uint64_t done, std::uint64_t total) {
           patches.add(batch);
@@ -173,14 +174,18 @@ class Jobs {
     std::vector<Open> open;
     for (const std::uint32_t j : cluster.jobs) {
       JobResult& result = done_.results[j];
-      if (left_out_[j] != 0) continue;
       const auto curve = numbers_in(patch, vertices, jobs_[j].curve);
       Cut cut;
-      if (curve)
-        cut = jobs_[j].is_boundary ? close_boundary(patch, *curve, {options_.float32})
-                                   : cut_along(patch, with_detours(patch, *curve), {options_.float32});
-      else
+      if (!curve)
         cut.why = "its curve is not on the surface";
+      else if (jobs_[j].is_boundary)
+        cut = close_boundary(patch, *curve, {options_.float32});
+      else if (left_out_[j] != 0)
+        cut.why = "cutting along it would divide the surface";
+      else
+        cut = cut_along(patch, with_detours(patch, *curve), {options_.float32});
+      if (curve && !jobs_[j].is_boundary && !cut.done && !cut.too_small)
+        cut_nearby(patch, *curve, jobs_[j].length, cut);
       // Where edges seem to be missing, the patch may end.
       const bool whole = curve && std::ranges::all_of(*curve, [&](std::uint32_t v) { return patch.vertex(v).whole; });
       too_small_[j] = !cut.done && (cut.too_small || !whole) ? 1 : 0;
@@ -198,6 +203,24 @@ class Jobs {
       cluster.open.push_back({rims.job, left(rims.first), left(rims.second)});
     }
     cluster.done = true;
+  }
+
+  // Earlier repairs changed the surface at the curve, or another one is as good: cuts along a loop that divides
+  // nothing.
+  void cut_nearby(EditablePatch& patch, const std::vector<std::uint32_t>& curve, double length, Cut& cut) const {
+    constexpr double kMostLonger = 1.5;
+    std::vector<std::uint32_t> near;
+    for (const std::uint32_t v : curve)
+      if (patch.is_used(v)) near.push_back(v);
+    if (near.empty())
+      for (const std::uint32_t v : curve)
+        for (const std::uint32_t t : patch.all_at(v))
+          for (const std::uint32_t w : patch.triangle(t).corners) near.push_back(w);
+    std::sort(near.begin(), near.end());
+    near.erase(std::unique(near.begin(), near.end()), near.end());
+    const auto loop = nearby_loop(patch, near, kMostLonger * length);
+    if (loop.empty()) return;
+    if (Cut other = cut_along(patch, loop, {options_.float32}); other.done) cut = std::move(other);
   }
 
   // Doubles the balls of jobs whose patches were too small. Returns whether there was one.
@@ -231,10 +254,10 @@ class Jobs {
       edits.add(cluster.edits);
     }
     edits.sort();
-    const auto dividing = dividing_curves(mesh_, edits, done_.mesh_vertices, open, options_.most_bytes,
-                                          [&](std::uint64_t done, std::uint64_t total) {
-                                            if (options_.progress) options_.progress(done, total);
-                                          });
+    const auto dividing =
+        dividing_curves(mesh_, edits, done_.mesh_vertices, open, budget_, [&](std::uint64_t done, std::uint64_t total) {
+          if (options_.progress) options_.progress(done, total);
+        });
     for (const auto& [job, why] : dividing) {
       left_out_[job] = 1;
       done_.results[job] = {};
@@ -251,6 +274,7 @@ class Jobs {
   const std::vector<RepairJob>& jobs_;
   const PatchScale& scale_;
   const JobOptions& options_;
+  MemoryBudget budget_;
   std::vector<std::uint8_t> left_out_, too_small_;
   std::vector<ooc::Ball> balls_;
   std::vector<Cluster> clusters_;

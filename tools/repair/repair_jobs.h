@@ -31,7 +31,7 @@ struct JobResult {
 struct JobOptions {
   unsigned threads = 0;
   std::uint64_t patch_bytes = std::uint64_t{128} << 20;  // of patches at the same time, roughly
-  std::uint64_t most_bytes = MemoryBudget::kUnlimited;   // for the parts of the whole mesh
+  std::uint64_t most_bytes = MemoryBudget::kUnlimited;   // of patches, and of the parts of the mesh
   bool float32 = false;                                  // positions of new vertices
   std::function<void(std::uint64_t done, std::uint64_t total)> progress{};
 };
