@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "io/file/temp_dir.h"
 #include "libreeb/base/error.h"
 #include "libreeb/base/memory_budget.h"
 #include "tools/library/temp_folder.h"
@@ -58,9 +59,10 @@ Defects find_defects(const FindDefectsOptions& options) {
   SearchOptions search;
   search.threads = options.threads;
   MemoryBudget budget(options.mesh.memory_bytes);
+  const io::TempDir temp(options.mesh.temp_folder);
+  search.temp = &temp;
   search.budget = &budget;
-  if (options.mesh.memory_bytes != MemoryBudget::kUnlimited)
-    search.patch_bytes = std::min(search.patch_bytes, options.mesh.memory_bytes / 2);
+  search.patch_bytes = std::min(search.patch_bytes, options.mesh.memory_bytes / 8);
   search.progress = [&](std::uint64_t done, std::uint64_t total, std::uint64_t triangles) {
     if (options.interrupted && options.interrupted())
       throw Error(ErrorKind::kInterrupted, "interrupted", "run the same command again");
