@@ -85,19 +85,23 @@ void DividedSurface::add_triangle(VertexId a, VertexId b, VertexId c) {
   const auto& [x, y, z] = triangle.corners;
   // Most triangles of a large mesh are in no ball.
   if ((x & y & z) == VertexSet::kNone || a == b || b == c || a == c) return;
-  Groups groups;
-  std::uint32_t last = BallGrid::kNone;
+  std::uint32_t first = BallGrid::kNone;
+  bool all_alike = true;
   for (const std::uint32_t v : triangle.corners) {
-    if (v == VertexSet::kNone || groups_of_[v] == last) continue;
-    const bool is_first = last == BallGrid::kNone;
-    last = groups_of_[v];
-    if (is_first) {
-      groups = sets_[last];
-      continue;
-    }
-    Groups both;
-    std::ranges::set_union(groups, sets_[last], std::back_inserter(both));
-    groups = std::move(both);
+    if (v == VertexSet::kNone) continue;
+    if (first == BallGrid::kNone) first = groups_of_[v];
+    all_alike = all_alike && groups_of_[v] == first;
+  }
+  if (all_alike) {
+    for (const std::uint32_t group : sets_[first]) triangles_.append(group, triangle);
+    return;
+  }
+  Groups groups, more;
+  for (const std::uint32_t v : triangle.corners) {
+    if (v == VertexSet::kNone) continue;
+    more.clear();
+    std::ranges::set_union(groups, sets_[groups_of_[v]], std::back_inserter(more));
+    groups.swap(more);
   }
   for (const std::uint32_t group : groups) triangles_.append(group, triangle);
 }
