@@ -28,27 +28,32 @@ DividedSurface::DividedSurface(std::span<const GroupedBall> balls, std::size_t g
       memory_(budget.reserve(kOwner, 100 * balls.size())) {
   grid_.emplace(plain(balls));
   group_of_ball_.reserve(balls.size());
-  for (const GroupedBall& grouped : balls) group_of_ball_.push_back(grouped.group);
+  ball_is_measured_.reserve(balls.size());
+  for (const GroupedBall& grouped : balls) {
+    group_of_ball_.push_back(grouped.group);
+    ball_is_measured_.push_back(grouped.measured ? 1 : 0);
+  }
   for (std::uint32_t g = 0; g < groups; ++g) sets_.push_back({g});
 }
 
-// The number of the set of groups of a point; kNone if it is in no ball.
-std::uint32_t DividedSurface::groups_at(const Point& point) {
-  std::uint32_t first = BallGrid::kNone;
+DividedSurface::Place DividedSurface::place_of(const Point& point) {
+  Place place;
   at_point_.clear();
   grid_->visit(point, [&](std::uint32_t ball) {
     const std::uint32_t group = group_of_ball_[ball];
-    if (first == BallGrid::kNone) first = group;
-    if (group != first) at_point_.push_back(group);
+    place.measured = place.measured || ball_is_measured_[ball] != 0;
+    if (place.groups == BallGrid::kNone) place.groups = group;
+    if (group != place.groups) at_point_.push_back(group);
     return true;
   });
-  if (at_point_.empty()) return first;
-  at_point_.push_back(first);
+  if (at_point_.empty()) return place;
+  at_point_.push_back(place.groups);
   std::sort(at_point_.begin(), at_point_.end());
   at_point_.erase(std::unique(at_point_.begin(), at_point_.end()), at_point_.end());
   const auto [it, is_new] = several_.try_emplace(at_point_, static_cast<std::uint32_t>(sets_.size()));
   if (is_new) sets_.push_back(at_point_);
-  return it->second;
+  place.groups = it->second;
+  return place;
 }
 
 void DividedSurface::add(const MeshBatch& batch, std::span<const std::vector<double>> values) {
@@ -56,7 +61,7 @@ void DividedSurface::add(const MeshBatch& batch, std::span<const std::vector<dou
     Point point{};
     for (std::size_t k = 0; k < std::min<std::size_t>(3, batch.coordinates.size()); ++k)
       point[k] = batch.coordinates[k][i];
-    const std::uint32_t groups = groups_at(point);
+    const auto [groups, is_measured] = place_of(point);
     if (groups == BallGrid::kNone) continue;
     const VertexId vertex(batch.first_vertex.value() + i);
     for (const std::uint32_t group : sets_[groups]) {
@@ -64,6 +69,10 @@ void DividedSurface::add(const MeshBatch& batch, std::span<const std::vector<dou
       vertices_.append(group, vertex.value());
       for (const double x : point) vertices_.append(group, std::bit_cast<std::uint64_t>(x));
       for (std::size_t f = 0; f < functions_; ++f) vertices_.append(group, std::bit_cast<std::uint64_t>(values[f][i]));
+    }
+    if (is_measured) {
+      measured_.add(VertexId(set_.size()));
+      measured_positions_.push_back(point);
     }
     set_.add(vertex);
     groups_of_.push_back(groups);
@@ -76,8 +85,8 @@ void DividedSurface::add(const MeshBatch& batch, std::span<const std::vector<dou
           for (std::size_t c = b + 1; c <= k; ++c) add_triangle(corners[s + a], corners[s + b], corners[s + c]);
   }
   const std::uint64_t sets = 200 * several_.size();
-  memory_.resize(grid_->memory_bytes() + 4 * group_of_ball_.size() + set_.memory_bytes() + 4 * groups_of_.capacity() +
-                 sets);
+  memory_.resize(grid_->memory_bytes() + 5 * group_of_ball_.size() + set_.memory_bytes() + measured_.memory_bytes() +
+                 4 * groups_of_.capacity() + sizeof(Point) * measured_positions_.capacity() + sets);
 }
 
 void DividedSurface::add_triangle(VertexId a, VertexId b, VertexId c) {
@@ -85,6 +94,7 @@ void DividedSurface::add_triangle(VertexId a, VertexId b, VertexId c) {
   const auto& [x, y, z] = triangle.corners;
   // Most triangles of a large mesh are in no ball.
   if ((x & y & z) == VertexSet::kNone || a == b || b == c || a == c) return;
+  measure(triangle);
   std::uint32_t first = BallGrid::kNone;
   bool all_alike = true;
   for (const std::uint32_t v : triangle.corners) {
@@ -106,13 +116,28 @@ void DividedSurface::add_triangle(VertexId a, VertexId b, VertexId c) {
   for (const std::uint32_t group : groups) triangles_.append(group, triangle);
 }
 
+void DividedSurface::measure(const Triangle& triangle) {
+  std::array<Point, 3> at{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (triangle.corners[k] == VertexSet::kNone) return;
+    const std::uint32_t i = measured_.find(VertexId(triangle.corners[k]));
+    if (i == VertexSet::kNone) return;
+    at[k] = measured_positions_[i];
+  }
+  measured_length_ += distance(at[0], at[1]) + distance(at[1], at[2]) + distance(at[2], at[0]);
+  measured_edges_ += 3;
+}
+
 void DividedSurface::finish() {
   grid_.reset();
   std::vector<std::uint32_t>().swap(group_of_ball_);
   std::vector<std::uint32_t>().swap(groups_of_);
   std::vector<Groups>().swap(sets_);
   several_.clear();
+  std::vector<std::uint8_t>().swap(ball_is_measured_);
+  std::vector<Point>().swap(measured_positions_);
   set_ = {};
+  measured_ = {};
   memory_.resize(0);
 }
 

@@ -21,14 +21,15 @@ namespace reeb::ooc {
 struct GroupedBall {
   Ball ball;
   std::uint32_t group = 0;
+  bool measured = false;  // its triangles count for mean_edge()
 };
 
 // Use: add() every batch of the mesh, finish(), then take the surface of each group. What is in the balls of several
 // groups is in the surface of each.
 //
 // MEMORY:  while the mesh is read, 100 bytes for each ball, 4 for each vertex in one, a bit per vertex of the mesh, and
-//          32 KiB for each group, from the budget; then a surface at a time. The rest is in a temporary file: some 110
-//          bytes for each vertex in the balls.
+//          32 KiB for each group, and 24 for each vertex in a measured ball, from the budget; then a surface at a time.
+//          The rest is in a temporary file: some 110 bytes for each vertex in the balls.
 // THREADS: one at a time.
 class DividedSurface {
  public:
@@ -41,6 +42,11 @@ class DividedSurface {
   void add(const MeshBatch& batch, std::span<const std::vector<double>> values);
   void finish();
 
+  // Of the triangles whose corners are all in measured balls; 0 if there are none. The groups do not matter.
+  double mean_edge() const {
+    return measured_edges_ == 0 ? 0 : measured_length_ / static_cast<double>(measured_edges_);
+  }
+
   // THROWS: Error{kResource} if the memory does not suffice.
   CollectedSurface surface(std::uint32_t group);
 
@@ -51,13 +57,23 @@ class DividedSurface {
   };
 
   void add_triangle(VertexId a, VertexId b, VertexId c);
-  std::uint32_t groups_at(const Point& point);
+  void measure(const Triangle& triangle);
+  // Of a point: the number of its set of groups, kNone if it is in no ball; whether it is in a measured one.
+  struct Place {
+    std::uint32_t groups = BallGrid::kNone;
+    bool measured = false;
+  };
+  Place place_of(const Point& point);
 
   MemoryBudget* budget_;
   std::size_t functions_;
   std::optional<BallGrid> grid_;
   std::vector<std::uint32_t> group_of_ball_;
-  VertexSet set_;
+  std::vector<std::uint8_t> ball_is_measured_;
+  VertexSet set_, measured_;  // the second one by numbers of the first
+  std::vector<Point> measured_positions_;
+  double measured_length_ = 0;
+  std::uint64_t measured_edges_ = 0;
   std::vector<std::uint32_t> groups_of_;  // by number of the vertex: of sets_
   std::vector<Groups> sets_;              // first, each group alone
   std::map<Groups, std::uint32_t> several_;

@@ -85,19 +85,6 @@ struct Search {
   double radius = 0;
 };
 
-// Of edges, each as often as a triangle has it.
-struct EdgeSum {
-  double length = 0;
-  std::size_t count = 0;
-};
-
-EdgeSum edge_sum(const SurfacePatch& patch) {
-  EdgeSum sum{0, 3 * std::size_t{patch.triangle_count()}};
-  for (std::uint32_t e = 0; e < patch.edge_count(); ++e)
-    sum.length += patch.edge(e).length * static_cast<double>(patch.triangles_at_edge(e).size());
-  return sum;
-}
-
 std::uint64_t bytes_of(const FoundCurves& curves) {
   return sizeof(FoundCurves) + 32 + 8 * (curves.contour.path.capacity() + curves.cycle.path.capacity());
 }
@@ -204,24 +191,40 @@ class CurveSearch {
         sum = 0;
         seen.clear();
       }
-      const Search& search = searches_[now[i]];
-      for (const SettledNode* node : {&lo(search), &hi(search)}) {
-        auto key = static_cast<std::uint64_t>(std::ilogb(search.radius) + 2000);
-        for (const double x : node->position)
-          key = key * 0x9e3779b97f4a7c15u + static_cast<std::uint64_t>(static_cast<std::int64_t>(x / search.radius));
-        const auto entry = static_cast<std::uint32_t>(seen.size());
-        if (seen.find_or_insert(key, entry) == entry) sum += scale_.vertices(search.radius);
-      }
+      sum += new_vertices(searches_[now[i]], seen);
     }
     ends.push_back(now.size());
     return ends;
   }
 
+  // Vertices in the balls of the search, roughly, but for balls like those seen before.
+  double new_vertices(const Search& search, FlatMap& seen) const {
+    double sum = 0;
+    for (const SettledNode* node : {&lo(search), &hi(search)}) {
+      auto key = static_cast<std::uint64_t>(std::ilogb(search.radius) + 2000);
+      for (const double x : node->position)
+        key = key * 0x9e3779b97f4a7c15u + static_cast<std::uint64_t>(static_cast<std::int64_t>(x / search.radius));
+      const auto entry = static_cast<std::uint32_t>(seen.size());
+      if (seen.find_or_insert(key, entry) == entry) sum += scale_.vertices(search.radius);
+    }
+    return sum;
+  }
+
+  // Edges are measured near every search, or every second, third, ... one where there are many.
+  std::uint32_t measured_step(std::span<const std::uint32_t> now) const {
+    constexpr double kMostMeasured = 400'000;  // vertices
+    double sum = 0;
+    FlatMap seen;
+    for (const std::uint32_t i : now) sum += new_vertices(searches_[i], seen);
+    return 1 + static_cast<std::uint32_t>(sum / kMostMeasured);
+  }
+
   void read(std::vector<std::uint32_t>& now) {
-    const std::vector<std::uint32_t> sample = is_measured_ ? std::vector<std::uint32_t>() : sample_of(now);
+    const std::uint32_t step = is_measured_ ? 0 : measured_step(now);
     const std::vector<std::size_t> ends = divide(now);
-    ooc::DividedSurface surfaces = collect(now, ends);
-    if (!is_measured_) measure_edges(surfaces, now, ends, sample);
+    ooc::DividedSurface surfaces = collect(now, ends, step);
+    if (const double edge = surfaces.mean_edge(); edge > 0) scale_.edge = edge;
+    is_measured_ = true;
     for (std::uint32_t group = 0, i = 0; group < ends.size(); ++group) {
       const ooc::CollectedSurface surface = surfaces.surface(group);
       const std::span<const std::uint32_t> here(now.data() + i, ends[group] - i);
@@ -232,13 +235,15 @@ class CurveSearch {
     }
   }
 
-  ooc::DividedSurface collect(std::span<const std::uint32_t> now, std::span<const std::size_t> ends) const {
+  ooc::DividedSurface collect(std::span<const std::uint32_t> now, std::span<const std::size_t> ends,
+                              std::uint32_t measured_step) const {
     std::vector<ooc::GroupedBall> balls;
     balls.reserve(2 * now.size());
     for (std::uint32_t group = 0, i = 0; group < ends.size(); ++group)
       for (; i < ends[group]; ++i)
         for (const SettledNode* node : {&lo(searches_[now[i]]), &hi(searches_[now[i]])})
-          balls.push_back({{node->position, searches_[now[i]].radius}, group});
+          balls.push_back(
+              {{node->position, searches_[now[i]].radius}, group, measured_step != 0 && now[i] % measured_step == 0});
     ooc::DividedSurface surfaces(balls, ends.size(), list_.functions.size(), *options_.temp, *options_.budget);
     std::vector<ooc::GroupedBall>().swap(balls);
     std::uint64_t vertices = 0, triangles = 0;
@@ -254,32 +259,6 @@ class CurveSearch {
                   "name the mesh that the graph was computed from");
     surfaces.finish();
     return surfaces;
-  }
-
-  static std::vector<std::uint32_t> sample_of(std::span<const std::uint32_t> now) {
-    constexpr std::size_t kSample = 1024;
-    std::vector<std::uint32_t> sample;
-    for (std::size_t i = 0; i < now.size(); i += now.size() / kSample + 1) sample.push_back(now[i]);
-    return sample;
-  }
-
-  // Of the first patches of the sample, which ascends. The order of the sum does not depend on groups.
-  void measure_edges(ooc::DividedSurface& surfaces, std::span<const std::uint32_t> now,
-                     std::span<const std::size_t> ends, std::span<const std::uint32_t> sample) {
-    std::vector<EdgeSum> of_sample(sample.size());
-    for (std::uint32_t group = 0, i = 0; group < ends.size(); ++group) {
-      const ooc::CollectedSurface surface = surfaces.surface(group);
-      for (; i < ends[group]; ++i)
-        if (const auto it = std::ranges::lower_bound(sample, now[i]); it != sample.end() && *it == now[i])
-          of_sample[static_cast<std::size_t>(it - sample.begin())] = edge_sum(cut(surface, searches_[now[i]]).surface);
-    }
-    EdgeSum sum;
-    for (const EdgeSum& edges : of_sample) {
-      sum.length += edges.length;
-      sum.count += edges.count;
-    }
-    if (sum.length > 0) scale_.edge = sum.length / static_cast<double>(sum.count);
-    is_measured_ = true;
   }
 
   ooc::CollectedSurface::Patch cut(const ooc::CollectedSurface& surface, const Search& search) const {

@@ -133,15 +133,31 @@ TEST(DividedSurface, PatchesFollowFromTheirBallsInAnyGroups) {
     place.balls.push_back({beside, 2.5});
     places.push_back(place);
   }
+  // Every third place is measured.
+  double length = 0;
+  std::size_t edges = 0;
+  for (const auto& t : mesh.triangles) {
+    if (!std::ranges::all_of(t, [&](std::uint32_t v) {
+          for (std::size_t i = 0; i < places.size(); i += 3)
+            for (const Ball& ball : places[i].balls)
+              if (ball.contains(mesh.points[v])) return true;
+          return false;
+        }))
+      continue;
+    for (std::size_t k = 0; k < 3; ++k) length += distance(mesh.points[t[k]], mesh.points[t[(k + 1) % 3]]);
+    edges += 3;
+  }
+  ASSERT_GT(edges, 300u);
   for (const std::uint32_t groups : {1u, 2u, 7u, 60u}) {
     std::vector<ooc::GroupedBall> balls;
     for (std::uint32_t i = 0; i < places.size(); ++i)
-      for (const Ball& ball : places[i].balls) balls.push_back({ball, i % groups});
+      for (const Ball& ball : places[i].balls) balls.push_back({ball, i % groups, i % 3 == 0});
     const io::TempDir temp(testing::TempDir());
     MemoryBudget budget;
     ooc::DividedSurface surfaces(balls, groups, 2, temp, budget);
     read(mesh, [&](const MeshBatch& batch, const auto& values) { surfaces.add(batch, values); });
     surfaces.finish();
+    EXPECT_NEAR(surfaces.mean_edge(), length / static_cast<double>(edges), 1e-12);
     for (std::uint32_t group = 0; group < groups; ++group) {
       const ooc::CollectedSurface surface = surfaces.surface(group);
       for (std::uint32_t i = group; i < places.size(); i += groups) {
