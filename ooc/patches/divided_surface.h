@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <map>
 #include <optional>
 #include <span>
@@ -74,8 +75,8 @@ class DividedSurface {
   std::vector<Point> measured_positions_;
   double measured_length_ = 0;
   std::uint64_t measured_edges_ = 0;
-  std::vector<std::uint32_t> groups_of_;  // by number of the vertex: of sets_
-  std::vector<Groups> sets_;              // first, each group alone
+  std::deque<std::uint32_t> groups_of_;  // by number of the vertex: of sets_; grows without a copy
+  std::vector<Groups> sets_;             // first, each group alone
   std::map<Groups, std::uint32_t> several_;
   Groups at_point_;
   // Of each vertex: its number, its index in the mesh, the bits of its coordinates and values.

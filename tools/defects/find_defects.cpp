@@ -6,6 +6,7 @@
 #include "io/file/temp_dir.h"
 #include "libreeb/base/error.h"
 #include "libreeb/base/memory_budget.h"
+#include "ooc/run/freed_memory.h"
 #include "tools/library/temp_folder.h"
 
 namespace reeb::tools {
@@ -53,12 +54,14 @@ Defects find_defects(const FindDefectsOptions& options) {
     }
     list = read_loops(files);
   }
+  ooc::return_freed_memory();
   Defects defects;
   for (const LoopFunction& function : list.functions) defects.functions.push_back(function.name);
   const ValuedMesh mesh(options.mesh, defects.functions);
   SearchOptions search;
   search.threads = options.threads;
   MemoryBudget budget(options.mesh.memory_bytes);
+  const Reservation loops = budget.reserve("loops", list.loops.capacity() * sizeof(Loop));
   const io::TempDir temp(options.mesh.temp_folder);
   search.temp = &temp;
   search.budget = &budget;
