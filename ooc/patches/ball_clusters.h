@@ -10,7 +10,7 @@
 namespace reeb::ooc {
 
 // Each ball is in one group; groups, and the balls of each, ascend.
-// TIME: O(n log n) for n balls, and their number along the first axis for each of them.
+// TIME: proportional to the pairs of balls that are near each other.
 std::vector<std::vector<std::uint32_t>> clusters_of(std::span<const Ball> balls);
 
 }  // namespace reeb::ooc

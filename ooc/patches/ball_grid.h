@@ -1,13 +1,13 @@
-// Balls in space, and whether a point is in one of them.
+// Balls in space, and which of them contain a point.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include "libreeb/base/flat_map.h"
 #include "libreeb/graph/settled_node.h"
 
 namespace reeb::ooc {
@@ -21,28 +21,62 @@ struct Ball {
   }
 };
 
-// A grid for each power of two of the radius. A question looks into one cell of each.
-// MEMORY: about 200 bytes per ball.
+// A grid for each power of two of the radius, all in one hash table of balls. A question looks into one cell of each.
+// MEMORY: about 100 bytes per ball.
 class BallGrid {
  public:
   explicit BallGrid(std::span<const Ball> balls);
   static constexpr std::uint32_t kNone = ~std::uint32_t{0};
   // The number of a ball that contains the point; kNone if there is none.
-  std::uint32_t find(const Point& point) const;
-  bool contains(const Point& point) const { return find(point) != kNone; }
+  std::uint32_t find(const Point& point) const {
+    std::uint32_t found = kNone;
+    visit(point, [&](std::uint32_t ball) {
+      found = ball;
+      return false;
+    });
+    return found;
+  }
+  // Calls look(ball) for the balls that contain the point, in no order; for some of them perhaps repeatedly. Ends when
+  // look() returns false.
+  template <class Look>
+  void visit(const Point& point, const Look& look) const {
+    for (const Grid& grid : grids_) {
+      const std::size_t slot = slot_of(grid, cell_at(grid, point));
+      for (std::uint32_t i = first_[slot]; i < first_[slot + 1]; ++i)
+        if (balls_[entries_[i]].contains(point) && !look(entries_[i])) return;
+    }
+  }
+  std::uint64_t memory_bytes() const {
+    return balls_.capacity() * sizeof(Ball) + (first_.capacity() + entries_.capacity()) * 4;
+  }
 
  private:
-  struct Entry {
-    std::uint32_t ball, next;
-  };
+  using Cell = std::array<std::int64_t, 3>;
   struct Grid {
     int exponent;
-    FlatMap first;  // the entry of each cell
+    double cells_per_unit;
   };
+
+  static std::int64_t cell_of(const Grid& grid, double coordinate) {
+    const double place = std::min(std::max(-0x1p60, coordinate * grid.cells_per_unit), 0x1p60);
+    const auto cell = static_cast<std::int64_t>(place);
+    return cell - (static_cast<double>(cell) > place ? 1 : 0);
+  }
+  static Cell cell_at(const Grid& grid, const Point& point) {
+    return {cell_of(grid, point[0]), cell_of(grid, point[1]), cell_of(grid, point[2])};
+  }
+  std::size_t slot_of(const Grid& grid, const Cell& cell) const {
+    auto key = static_cast<std::uint64_t>(grid.exponent);
+    for (const std::int64_t c : cell) key = (key ^ static_cast<std::uint64_t>(c)) * 0x9e3779b97f4a7c15u;
+    return static_cast<std::size_t>((key ^ key >> 32) & mask_);
+  }
+  template <class Visit>
+  void for_each_cell(const Ball& ball, const Visit& visit) const;
 
   std::vector<Ball> balls_;
   std::vector<Grid> grids_;
-  std::vector<Entry> entries_;
+  std::size_t mask_ = 0;
+  std::vector<std::uint32_t> first_, entries_;  // of each slot; cells that share one are told apart by their balls
 };
 
 }  // namespace reeb::ooc

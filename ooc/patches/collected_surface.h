@@ -1,6 +1,7 @@
-// The parts of a mesh that are in some balls, collected in one reading, and patches cut out of them.
+// A part of a mesh in memory, and patches cut out of it.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -8,30 +9,27 @@
 
 #include "libreeb/base/memory_budget.h"
 #include "libreeb/defects/surface_patch.h"
-#include "libreeb/port/mesh_reader.h"
 #include "ooc/patches/ball_grid.h"
-#include "ooc/patches/vertex_set.h"
 
 namespace reeb::ooc {
 
-// Use: add() every batch of the mesh, finish(), then cut patches.
-//
-// MEMORY:  about 130 bytes and 8 per function for each vertex in the balls, and a bit per vertex of the mesh, from the
-//          budget.
-// THREADS: any number may call const members at the same time.
+struct SurfaceContent {
+  std::vector<VertexId> vertices;  // ascending
+  std::vector<Point> positions;
+  std::vector<std::vector<double>> values;              // by function
+  std::vector<std::uint8_t> whole;                      // all triangles of the mesh at this vertex are here
+  std::vector<std::array<std::uint32_t, 3>> triangles;  // with three different corners; perhaps repeated
+  Reservation memory;                                   // memory_bytes() of it all
+};
+
+// THREADS: any number may read one at the same time.
 class CollectedSurface {
  public:
-  // `functions`: values that come with each vertex.
-  CollectedSurface(std::span<const Ball> balls, std::size_t functions, MemoryBudget& budget);
+  explicit CollectedSurface(SurfaceContent content);
 
-  // `values[k]` are those of function k at the vertices of the batch.
-  // THROWS: Error{kResource} if the memory does not suffice.
-  void add(const MeshBatch& batch, std::span<const std::vector<double>> values);
-  void finish();
-
-  std::uint32_t vertex_count() const { return set_.size(); }
-  // Of the edges of all triangles; 0 if there are none.
-  double mean_edge() const;
+  static std::uint64_t memory_bytes(std::size_t vertices, std::size_t triangles, std::size_t functions) {
+    return vertices * (8 + 24 + 1 + 8 * functions + 8) + triangles * (12 + 12);
+  }
 
   struct Patch {
     SurfacePatch surface;
@@ -39,22 +37,17 @@ class CollectedSurface {
     bool limited = false;                     // it has as many vertices as it may
   };
 
-  // What is connected with the seeds in the balls, up to a number of vertices. Seeds that were not collected are
-  // ignored.
+  // What is connected with the seeds by triangles whose corners are all in the balls, up to a number of vertices. It
+  // does not depend on what else is here. Seeds that are not here are ignored.
   Patch cut(std::span<const VertexId> seeds, std::span<const Ball> balls, std::size_t most_vertices) const;
 
  private:
-  void add_triangle(VertexId a, VertexId b, VertexId c);
+  std::span<const std::uint32_t> triangles_at(std::uint32_t v) const {
+    return std::span(at_).subspan(first_[v], first_[v + 1] - first_[v]);
+  }
 
-  BallGrid grid_;
-  VertexSet set_;
-  std::vector<VertexId> vertices_;
-  std::vector<Point> positions_;
-  std::vector<std::vector<double>> values_;
-  std::vector<std::uint8_t> whole_;
-  std::vector<std::array<std::uint32_t, 3>> triangles_;
+  SurfaceContent content_;
   std::vector<std::uint32_t> first_, at_;  // triangles at each vertex
-  Reservation memory_;
 };
 
 }  // namespace reeb::ooc

@@ -63,7 +63,7 @@ const Rooms kRooms = {
     {"ooc/census", {"libreeb", "io/file", "ooc/threads", "ooc/chunks", "ooc/whole_mesh"}},
     {"ooc/stored_graph", {"libreeb", "io/file", "ooc/threads", "ooc/sorting", "ooc/tables"}},
     {"ooc/reeb_file", {"libreeb", "io/file", "ooc/threads", "ooc/sorting", "ooc/tables"}},
-    {"ooc/patches", {"libreeb"}},
+    {"ooc/patches", {"libreeb", "io/file", "ooc/threads", "ooc/sorting", "ooc/tables", "ooc/whole_mesh"}},
     {"ooc/segmentation", {"libreeb", "io/file", "ooc/sorting", "ooc/tables", "ooc/stored_graph"}},
     {"ooc/run", {"libreeb", "io/file", "ooc"}},
     {"ooc/distributed", {"libreeb", "io/file", "ooc"}},

@@ -308,5 +308,19 @@ TEST_F(PlantedDefects, FilesOfAnotherMeshAreRefused) {
   expect_success(reeb({"defects", "u.ply", "u.reeb", "--quiet"}));
 }
 
+// A plate has so many holes that their patches meet.
+TEST_F(PlantedDefects, RowsDoNotDependOnMemoryNorThreads) {
+  expect_success(reeb({"generate", "plate", "--triangles", "20k", "-o", "p.ply"}));
+  const auto rows = [&](const char* memory, const char* threads) {
+    const Outcome outcome = reeb({"defects", "p.ply", "-o", "-", "--quiet", "--memory", memory, "--threads", threads});
+    expect_success(outcome);
+    return outcome.output;
+  };
+  const std::string expected = rows("1G", "1");
+  EXPECT_GT(std::count(expected.begin(), expected.end(), '\n'), 200);
+  EXPECT_EQ(rows("20M", "1"), expected);
+  EXPECT_EQ(rows("20M", "3"), expected);
+}
+
 }  // namespace
 }  // namespace reeb::test

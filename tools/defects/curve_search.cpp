@@ -1,6 +1,7 @@
 #include "tools/defects/curve_search.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <optional>
 #include <queue>
@@ -8,7 +9,8 @@
 
 #include "libreeb/base/error.h"
 #include "libreeb/base/flat_map.h"
-#include "ooc/patches/collected_surface.h"
+#include "ooc/patches/divided_surface.h"
+#include "ooc/patches/space_order.h"
 #include "ooc/threads/parallel.h"
 #include "tools/defects/component_tops.h"
 
@@ -17,7 +19,7 @@ namespace {
 
 constexpr double kFirstEdges = 6;  // the radius of the first patches, in edges
 constexpr int kMostReadings = 14;
-constexpr std::uint64_t kBytesPerVertex = 220;
+constexpr std::uint64_t kSearchBytesPerVertex = 700;  // of a patch, with what a search in it needs
 
 FoundCurve in_mesh(const SurfacePatch& patch, const LoopCurve& curve) {
   FoundCurve found;
@@ -26,6 +28,7 @@ FoundCurve in_mesh(const SurfacePatch& patch, const LoopCurve& curve) {
   found.closed = !curve.crossings.empty();
   found.kind = kind_of(patch, curve, false);
   if (!curve.path.exists()) return found;
+  found.path.reserve(curve.path.vertices.size());
   found.box = {patch.position(curve.path.vertices[0]), patch.position(curve.path.vertices[0])};
   for (const std::uint32_t v : curve.path.vertices) {
     found.path.push_back(patch.vertex(v));
@@ -76,12 +79,15 @@ std::optional<std::size_t> axis_of(const std::string& function) {
 
 // What is looked for around two vertices: the curves of a loop, or the orientation at the top of a component.
 struct Search {
-  std::size_t function = 0, number = 0;  // the loop, or the component
-  bool is_top = false;
-  SettledNode lo, hi;
+  std::uint32_t function = 0, number = 0;  // the loop, or the component
+  bool is_top = false, done = false;
+  int tried = 0;  // how many patches
   double radius = 0;
-  bool done = false;
 };
+
+std::uint64_t bytes_of(const FoundCurves& curves) {
+  return sizeof(FoundCurves) + 32 + 8 * (curves.contour.path.capacity() + curves.cycle.path.capacity());
+}
 
 class CurveSearch {
  public:
@@ -91,37 +97,44 @@ class CurveSearch {
         scale_(scale),
         options_(options),
         patch_bytes_(options.patch_bytes),
+        memory_(options.budget->reserve("curves of loops", 0)),
+        search_memory_(
+            options.budget->reserve("curves of loops", list.loops.size() * (sizeof(Search) + sizeof(found_[0])))),
         found_(list.loops.size()) {
     std::vector<std::vector<std::uint8_t>> with_loops;
     for (const LoopFunction& function : list.functions) {
       with_loops.emplace_back(function.tops.size(), 0);
       inwards_.emplace_back(function.tops.size(), 0);
+      tops_.push_back(function.tops);
     }
-    for (std::size_t i = 0; i < list.loops.size(); ++i) {
+    searches_.reserve(list.loops.size());
+    for (std::uint32_t i = 0; i < list.loops.size(); ++i) {
       const Loop& loop = list.loops[i];
       const double apart = distance(loop.lo.position, loop.hi.position);
-      add({loop.function, i, false, loop.lo, loop.hi, std::max(kFirstEdges * scale.edge, 0.6 * apart)});
+      add({static_cast<std::uint32_t>(loop.function), i, false, false, 0,
+           std::max(kFirstEdges * scale.edge, 0.6 * apart)});
       with_loops[loop.function][loop.component] = 1;
     }
-    for (std::size_t f = 0; f < list.functions.size(); ++f) {
-      std::vector<SettledNode> tops = list.functions[f].tops;
+    for (std::uint32_t f = 0; f < list.functions.size(); ++f) {
       if (std::ranges::count(with_loops[f], 1) == 0) continue;
-      if (!axis_of(list.functions[f].name)) tops = component_tops(mesh, list.functions[f], f, *options.budget);
-      for (std::size_t c = 0; c < with_loops[f].size(); ++c)
-        if (with_loops[f][c] != 0) add({f, c, true, tops[c], tops[c], kFirstEdges * scale.edge});
+      if (!axis_of(list.functions[f].name)) tops_[f] = component_tops(mesh, list.functions[f], f, *options.budget);
+      for (std::uint32_t c = 0; c < with_loops[f].size(); ++c)
+        if (with_loops[f][c] != 0) add({f, c, true, false, 0, kFirstEdges * scale.edge});
     }
   }
 
   LoopCurvesFound run() {
-    for (int reading = 0; reading < kMostReadings; ++reading) {
-      std::vector<Search*> now = choose();
-      if (now.empty()) break;
-      try {
-        read(now);
-      } catch (const Error& error) {
-        // More vertices than was thought are near the loops.
-        if (error.kind() != ErrorKind::kResource || now.size() == 1) throw;
-        patch_bytes_ /= 2;
+    for (int turn = 0; turn < kMostReadings; ++turn) {
+      std::vector<std::uint32_t> now = open(turn);
+      while (!now.empty()) {
+        try {
+          read(now);
+        } catch (const Error& error) {
+          // More vertices than was thought are near the loops.
+          if (error.kind() != ErrorKind::kResource || patch_bytes_ < kLeastBytes) throw;
+          patch_bytes_ /= 2;
+        }
+        now = open(turn);
       }
     }
     for (std::size_t i = 0; i < found_.size(); ++i) {
@@ -132,50 +145,111 @@ class CurveSearch {
           if (curve->kind != DefectKind::kUnclear)
             curve->kind = curve->kind == DefectKind::kHandle ? DefectKind::kTunnel : DefectKind::kHandle;
     }
-    return {std::move(found_), scale_};
+    return {std::move(found_), scale_, std::move(memory_)};
   }
 
  private:
+  static constexpr std::uint64_t kLeastBytes = PatchScale::kMostVertices * PatchScale::kBytesPerVertex;
+
   void add(Search search) {
     search.done = scale_.too_large(search.radius);
     searches_.push_back(search);
   }
 
-  // The smallest ones, as many as the memory holds. Those of several functions at one place share vertices.
-  std::vector<Search*> choose() {
-    std::vector<Search*> open;
-    for (Search& search : searches_)
-      if (!search.done) open.push_back(&search);
-    std::stable_sort(open.begin(), open.end(), [](const Search* a, const Search* b) { return a->radius < b->radius; });
-    const double most =
-        static_cast<double>(std::max<std::uint64_t>(patch_bytes_ / kBytesPerVertex, PatchScale::kMostVertices));
-    double sum = 0;
-    FlatMap places;
-    std::size_t count = 0;
-    for (; count < open.size() && sum < most; ++count) {
-      const double radius = open[count]->radius;
-      for (const SettledNode* node : {&open[count]->lo, &open[count]->hi}) {
-        std::uint64_t key = static_cast<std::uint64_t>(std::ilogb(radius) + 2000);
-        for (const double x : node->position)
-          key = key * 0x9e3779b97f4a7c15u + static_cast<std::uint64_t>(static_cast<std::int64_t>(x / radius));
-        if (places.find(key) != FlatMap::kNone) continue;
-        places.find_or_insert(key, 0);
-        sum += scale_.vertices(radius);
-      }
-    }
-    open.resize(count);
-    return open;
+  const SettledNode& lo(const Search& search) const {
+    return search.is_top ? tops_[search.function][search.number] : list_.loops[search.number].lo;
+  }
+  const SettledNode& hi(const Search& search) const {
+    return search.is_top ? tops_[search.function][search.number] : list_.loops[search.number].hi;
   }
 
-  void read(std::span<Search* const> now) {
-    std::vector<ooc::Ball> balls;
-    for (const Search* search : now)
-      for (const SettledNode* node : {&search->lo, &search->hi}) balls.push_back({node->position, search->radius});
-    ooc::CollectedSurface surface(balls, list_.functions.size(), *options_.budget);
+  // Those that need a further patch in this turn.
+  std::vector<std::uint32_t> open(int turn) const {
+    std::vector<std::uint32_t> result;
+    for (std::uint32_t i = 0; i < searches_.size(); ++i)
+      if (!searches_[i].done && searches_[i].tried <= turn) result.push_back(i);
+    return result;
+  }
+
+  // Groups of searches near each other, as large as patch_bytes_ allows; each but the last begins where the one before
+  // it ends. Patches of several functions at one place share vertices. Changes the order of the searches.
+  std::vector<std::size_t> divide(std::vector<std::uint32_t>& now) const {
+    std::vector<Point> places;
+    places.reserve(now.size());
+    for (const std::uint32_t i : now) places.push_back(lo(searches_[i]).position);
+    std::vector<std::uint32_t> sorted;
+    sorted.reserve(now.size());
+    for (const std::uint32_t i : ooc::order_in_space(places)) sorted.push_back(now[i]);
+    now = std::move(sorted);
+    const double most = static_cast<double>(std::max(patch_bytes_, kLeastBytes) / PatchScale::kBytesPerVertex);
+    std::vector<std::size_t> ends;
+    double sum = 0;
+    FlatMap seen;
+    for (std::size_t i = 0; i < now.size(); ++i) {
+      if (sum >= most) {
+        ends.push_back(i);
+        sum = 0;
+        seen.clear();
+      }
+      sum += new_vertices(searches_[now[i]], seen);
+    }
+    ends.push_back(now.size());
+    return ends;
+  }
+
+  // Vertices in the balls of the search, roughly, but for balls like those seen before.
+  double new_vertices(const Search& search, FlatMap& seen) const {
+    double sum = 0;
+    for (const SettledNode* node : {&lo(search), &hi(search)}) {
+      auto key = static_cast<std::uint64_t>(std::ilogb(search.radius) + 2000);
+      for (const double x : node->position)
+        key = key * 0x9e3779b97f4a7c15u + static_cast<std::uint64_t>(static_cast<std::int64_t>(x / search.radius));
+      const auto entry = static_cast<std::uint32_t>(seen.size());
+      if (seen.find_or_insert(key, entry) == entry) sum += scale_.vertices(search.radius);
+    }
+    return sum;
+  }
+
+  // Edges are measured near every search, or every second, third, ... one where there are many.
+  std::uint32_t measured_step(std::span<const std::uint32_t> now) const {
+    constexpr double kMostMeasured = 400'000;  // vertices
+    double sum = 0;
+    FlatMap seen;
+    for (const std::uint32_t i : now) sum += new_vertices(searches_[i], seen);
+    return 1 + static_cast<std::uint32_t>(sum / kMostMeasured);
+  }
+
+  void read(std::vector<std::uint32_t>& now) {
+    const std::uint32_t step = is_measured_ ? 0 : measured_step(now);
+    const std::vector<std::size_t> ends = divide(now);
+    ooc::DividedSurface surfaces = collect(now, ends, step);
+    if (const double edge = surfaces.mean_edge(); edge > 0) scale_.edge = edge;
+    is_measured_ = true;
+    for (std::uint32_t group = 0, i = 0; group < ends.size(); ++group) {
+      const ooc::CollectedSurface surface = surfaces.surface(group);
+      const std::span<const std::uint32_t> here(now.data() + i, ends[group] - i);
+      ooc::in_parallel(options_.threads, here.size(), [&](std::size_t k) { search_in(surface, searches_[here[k]]); });
+      i = static_cast<std::uint32_t>(ends[group]);
+      memory_.resize(found_bytes_);
+      if (options_.progress) options_.progress(i, now.size(), list_.functions[0].mesh_triangles);
+    }
+  }
+
+  ooc::DividedSurface collect(std::span<const std::uint32_t> now, std::span<const std::size_t> ends,
+                              std::uint32_t measured_step) const {
+    std::vector<ooc::GroupedBall> balls;
+    balls.reserve(2 * now.size());
+    for (std::uint32_t group = 0, i = 0; group < ends.size(); ++group)
+      for (; i < ends[group]; ++i)
+        for (const SettledNode* node : {&lo(searches_[now[i]]), &hi(searches_[now[i]])})
+          balls.push_back(
+              {{node->position, searches_[now[i]].radius}, group, measured_step != 0 && now[i] % measured_step == 0});
+    ooc::DividedSurface surfaces(balls, ends.size(), list_.functions.size(), *options_.temp, *options_.budget);
+    std::vector<ooc::GroupedBall>().swap(balls);
     std::uint64_t vertices = 0, triangles = 0;
     mesh_.read([&](const MeshBatch& batch, std::span<const std::vector<double>> values, std::uint64_t done,
                    std::uint64_t total) {
-      surface.add(batch, values);
+      surfaces.add(batch, values);
       vertices += batch.vertex_count;
       triangles += batch.triangle_count();
       if (options_.progress) options_.progress(done, total, triangles);
@@ -183,25 +257,28 @@ class CurveSearch {
     if (vertices != list_.functions[0].mesh_vertices)
       throw Error(ErrorKind::kBadInput, "the graph is of a mesh with another number of vertices",
                   "name the mesh that the graph was computed from");
-    surface.finish();
-    if (const double edge = surface.mean_edge(); !measured_ && edge > 0) {
-      scale_.edge = edge;
-      measured_ = true;
-    }
-    ooc::in_parallel(options_.threads, now.size(), [&](std::size_t i) { search_in(surface, *now[i]); });
+    surfaces.finish();
+    return surfaces;
+  }
+
+  ooc::CollectedSurface::Patch cut(const ooc::CollectedSurface& surface, const Search& search) const {
+    const SettledNode &low = lo(search), &high = hi(search);
+    const std::array seeds = {low.key.vertex, high.key.vertex};
+    const std::array balls = {ooc::Ball{low.position, search.radius}, ooc::Ball{high.position, search.radius}};
+    return surface.cut(seeds, balls, PatchScale::kMostVertices);
   }
 
   void search_in(const ooc::CollectedSurface& surface, Search& search) {
-    const std::array seeds = {search.lo.key.vertex, search.hi.key.vertex};
-    const std::array balls = {ooc::Ball{search.lo.position, search.radius},
-                              ooc::Ball{search.hi.position, search.radius}};
-    const ooc::CollectedSurface::Patch patch = surface.cut(seeds, balls, PatchScale::kMostVertices);
-    const std::uint32_t v = patch.surface.find(seeds[0]), y = patch.surface.find(seeds[1]);
-    if (v == SurfacePatch::kNone || y == SurfacePatch::kNone ||
-        patch.values[search.function][v] != search.lo.key.value ||
-        patch.values[search.function][y] != search.hi.key.value)
+    const SettledNode &low = lo(search), &high = hi(search);
+    const ooc::CollectedSurface::Patch patch = cut(surface, search);
+    const Reservation own =
+        options_.budget->reserve("patches of loops", kSearchBytesPerVertex * patch.surface.vertex_count());
+    const std::uint32_t v = patch.surface.find(low.key.vertex), y = patch.surface.find(high.key.vertex);
+    if (v == SurfacePatch::kNone || y == SurfacePatch::kNone || patch.values[search.function][v] != low.key.value ||
+        patch.values[search.function][y] != high.key.value)
       throw Error(ErrorKind::kBadInput, "a node of the graph is another vertex in the mesh",
                   "name the mesh that the graph was computed from");
+    ++search.tried;
     if (patch.surface.whole(v) && patch.surface.whole(y)) {
       search.done = search.is_top ? orient(patch.surface, search, v) : measure(patch, search, v, y);
       if (search.done) return;
@@ -226,6 +303,7 @@ class CurveSearch {
         {v, y, list_.loops[search.number].lo_divides, list_.loops[search.number].hi_joins}, scale_.longest());
     FoundCurves found = {in_mesh(patch.surface, curves.contour), in_mesh(patch.surface, curves.cycle)};
     std::vector<FoundCurves>& all = found_[search.number];
+    found_bytes_ += bytes_of(found);
     // The same again, with more known of the other curve.
     if (!all.empty() && (same(all.back().contour, found.contour) || same(all.back().cycle, found.cycle)))
       all.back() = std::move(found);
@@ -239,10 +317,13 @@ class CurveSearch {
   const ValuedMesh& mesh_;
   const LoopList& list_;
   PatchScale scale_;
-  bool measured_ = false;
+  bool is_measured_ = false;
   const SearchOptions& options_;
   std::uint64_t patch_bytes_;
+  Reservation memory_, search_memory_;
+  std::atomic<std::uint64_t> found_bytes_ = 0;
   std::vector<Search> searches_;
+  std::vector<std::vector<SettledNode>> tops_;
   std::vector<std::vector<FoundCurves>> found_;
   std::vector<std::vector<std::uint8_t>> inwards_;  // by function and component
 };

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "io/file/temp_dir.h"
 #include "libreeb/base/memory_budget.h"
 #include "libreeb/defects/loop_curves.h"
 #include "ooc/patches/ball_grid.h"
@@ -34,8 +35,9 @@ struct FoundCurves {
 
 struct SearchOptions {
   unsigned threads = 0;
-  std::uint64_t patch_bytes = std::uint64_t{512} << 20;  // of patches at the same time
-  MemoryBudget* budget = nullptr;                        // what patches are reserved from
+  const io::TempDir* temp = nullptr;
+  MemoryBudget* budget = nullptr;                       // what patches are reserved from
+  std::uint64_t patch_bytes = std::uint64_t{24} << 20;  // of the surface that is in memory at a time, roughly
   std::function<void(std::uint64_t done, std::uint64_t total, std::uint64_t triangles)> progress{};
 };
 
@@ -49,6 +51,8 @@ struct PatchScale {
   double vertices(double radius) const;
   // The ball that has so many.
   double radius(double vertices) const;
+  // Of a mesh that is in memory, for searches and comparisons.
+  static constexpr std::uint64_t kBytesPerVertex = 120;
   bool too_large(double radius) const { return vertices(radius) > kMostVertices || radius > 2 * size; }
 };
 PatchScale scale_of(const LoopList& list);
@@ -57,13 +61,15 @@ struct LoopCurvesFound {
   // Of each loop, those of its patches, the smaller ones first: in a larger patch, a curve of another defect that the
   // loop runs through can be shorter.
   std::vector<std::vector<FoundCurves>> curves;
-  PatchScale scale;  // with edges as measured near the loops
+  PatchScale scale;    // with edges as measured near the loops
+  Reservation memory;  // of the curves
 };
 
 // Reads the mesh about as often as a small patch must be doubled until it holds the curves of the largest loop whose
-// patch is not too large; each reading collects the patches of as many loops as the memory holds, and the next one
-// those of the rest, too.
-// THROWS: Error{kBadInput} if the loops are not those of this mesh.
+// patch is not too large. Each reading collects the patches of all loops that need one, in a temporary file; loops near
+// each other are searched together. What is found does not depend on how many these are.
+// MEMORY: options.patch_bytes, what ooc::DividedSurface says, and the patch that a thread searches: all from the
+// budget. THROWS: Error{kBadInput} if the loops are not those of this mesh.
 LoopCurvesFound find_curves(const ValuedMesh& mesh, const LoopList& list, const PatchScale& scale,
                             const SearchOptions& options);
 

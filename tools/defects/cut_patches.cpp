@@ -3,9 +3,12 @@
 #include <vector>
 
 #include "libreeb/base/memory_budget.h"
+#include "ooc/patches/divided_surface.h"
 
 namespace reeb::tools {
 namespace {
+
+constexpr double kMostTogether = 200'000;  // vertices of patches in memory, roughly
 
 struct Place {
   std::vector<VertexId> seeds;
@@ -30,18 +33,35 @@ void cut_patches(const ValuedMesh& mesh, const Defects& defects, std::span<const
                  std::size_t most_vertices,
                  const std::function<void(std::size_t, const ooc::CollectedSurface::Patch&)>& visit) {
   std::vector<Place> places;
-  std::vector<ooc::Ball> balls;
+  std::vector<ooc::GroupedBall> balls;
+  std::vector<std::uint32_t> group_of;
+  double sum = 0;
+  std::uint32_t group = 0;
   for (const DefectRow* row : rows) {
     places.push_back(place_of(*row, defects.scale));
-    balls.insert(balls.end(), places.back().balls.begin(), places.back().balls.end());
+    if (sum >= kMostTogether) {
+      ++group;
+      sum = 0;
+    }
+    group_of.push_back(group);
+    for (const ooc::Ball& ball : places.back().balls) {
+      balls.push_back({ball, group});
+      sum += defects.scale.vertices(ball.radius);
+    }
   }
   MemoryBudget budget(mesh.memory_bytes());
-  ooc::CollectedSurface surface(balls, defects.functions.size(), budget);
+  const io::TempDir temp(mesh.temp_folder());
+  ooc::DividedSurface surfaces(balls, group + 1, defects.functions.size(), temp, budget);
   mesh.read([&](const MeshBatch& batch, std::span<const std::vector<double>> values, std::uint64_t, std::uint64_t) {
-    surface.add(batch, values);
+    surfaces.add(batch, values);
   });
-  surface.finish();
-  for (std::size_t i = 0; i < rows.size(); ++i) visit(i, surface.cut(places[i].seeds, places[i].balls, most_vertices));
+  surfaces.finish();
+  for (std::size_t i = 0; i < rows.size();) {
+    const std::uint32_t now = group_of[i];
+    const ooc::CollectedSurface surface = surfaces.surface(now);
+    for (; i < rows.size() && group_of[i] == now; ++i)
+      visit(i, surface.cut(places[i].seeds, places[i].balls, most_vertices));
+  }
 }
 
 }  // namespace reeb::tools

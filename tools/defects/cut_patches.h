@@ -13,8 +13,8 @@ namespace reeb::tools {
 
 // Calls `visit` with the patch of each row, in their order: the surface around its curve, or around both vertices of a
 // row without curves, with at most `most_vertices` vertices, those nearest to the curve along edges.
-// MEMORY: that of ooc::CollectedSurface for all rows together, within the memory of the mesh's source. THROWS:
-// Error{kResource} if that does not suffice.
+// MEMORY: that of ooc::DividedSurface, with the surface around a few rows at a time, within the memory of the mesh's
+// source. THROWS: Error{kResource} if that does not suffice.
 void cut_patches(const ValuedMesh& mesh, const Defects& defects, std::span<const DefectRow* const> rows,
                  std::size_t most_vertices,
                  const std::function<void(std::size_t row, const ooc::CollectedSurface::Patch& patch)>& visit);

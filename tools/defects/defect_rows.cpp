@@ -6,11 +6,12 @@
 #include <tuple>
 #include <utility>
 
-#include "libreeb/base/union_find.h"
 #include "libreeb/defects/curve_relations.h"
-#include "ooc/patches/collected_surface.h"
+#include "ooc/patches/ball_clusters.h"
+#include "ooc/patches/divided_surface.h"
+#include "ooc/patches/near_balls.h"
+#include "ooc/patches/space_order.h"
 #include "ooc/threads/parallel.h"
-#include "tools/defects/near_balls.h"
 
 namespace reeb::tools {
 namespace {
@@ -54,28 +55,6 @@ std::vector<Candidate> candidates(const LoopList& list, const PatchScale& scale,
   const double wide =
       scale.radius(std::min(kMost, kTogether / static_cast<double>(std::max<std::size_t>(1, result.size()))));
   for (Candidate& candidate : result) candidate.wide = std::max(candidate.ball.radius, wide);
-  return result;
-}
-
-// Groups of candidates whose balls meet, directly or through others; each in the order of candidates.
-std::vector<std::vector<std::uint32_t>> clusters(const std::vector<Candidate>& all) {
-  UnionFind cluster(static_cast<std::uint32_t>(all.size()));
-  NearBalls balls;
-  for (std::uint32_t i = 0; i < all.size(); ++i) {
-    const ooc::Ball ball{all[i].ball.center, all[i].wide};
-    for (const std::uint32_t other : balls.meeting(ball)) cluster.unite(i, other);
-    balls.add(ball, i);
-  }
-  std::vector<std::vector<std::uint32_t>> result;
-  std::vector<std::uint32_t> number(all.size(), 0);
-  for (std::uint32_t i = 0; i < all.size(); ++i) {
-    const std::uint32_t root = cluster.find(i);
-    if (root == i) {
-      number[i] = static_cast<std::uint32_t>(result.size());
-      result.emplace_back();
-    }
-    result[number[root]].push_back(i);
-  }
   return result;
 }
 
@@ -129,7 +108,7 @@ bool same_path(const Candidate& a, const Candidate& b) {
 
 void choose_in_cluster(const ooc::CollectedSurface& surface, std::vector<Candidate>& all,
                        std::span<const std::uint32_t> cluster) {
-  NearBalls taken;
+  ooc::NearBalls taken;
   std::set<std::uint32_t> loops;
   for (const std::uint32_t i : cluster) {
     Candidate& candidate = all[i];
@@ -174,34 +153,63 @@ void choose_in_cluster(const ooc::CollectedSurface& surface, std::vector<Candida
   }
 }
 
+// Groups of candidates whose balls meet, directly or through others, each in the order of candidates. Groups near each
+// other follow each other.
+std::vector<std::vector<std::uint32_t>> clusters(const std::vector<Candidate>& all) {
+  std::vector<ooc::Ball> balls;
+  for (const Candidate& candidate : all) balls.push_back({candidate.ball.center, candidate.wide});
+  std::vector<std::vector<std::uint32_t>> groups = ooc::clusters_of(balls), sorted;
+  std::vector<Point> places;
+  for (const auto& group : groups) places.push_back(all[group[0]].ball.center);
+  for (const std::uint32_t i : ooc::order_in_space(places)) sorted.push_back(std::move(groups[i]));
+  return sorted;
+}
+
+// Clusters that are compared together, as many as the memory allows: where each such stretch ends.
+std::vector<std::size_t> stretches(const std::vector<Candidate>& all,
+                                   const std::vector<std::vector<std::uint32_t>>& clusters, const PatchScale& scale,
+                                   std::uint64_t patch_bytes) {
+  const double most = static_cast<double>(patch_bytes / PatchScale::kBytesPerVertex);
+  std::vector<std::size_t> ends;
+  double sum = 0;
+  for (std::size_t i = 0; i < clusters.size(); ++i) {
+    if (sum >= most) {
+      ends.push_back(i);
+      sum = 0;
+    }
+    for (const std::uint32_t c : clusters[i])
+      if (all[c].testable) sum += scale.vertices(all[c].wide) / 2;
+  }
+  ends.push_back(clusters.size());
+  return ends;
+}
+
 void choose(const ValuedMesh& mesh, const PatchScale& scale, std::vector<Candidate>& all,
             const SearchOptions& options) {
   const auto groups = clusters(all);
-  const double most = static_cast<double>(options.patch_bytes) / 220;
-  for (std::size_t begin = 0; begin < groups.size();) {
-    std::vector<ooc::Ball> balls;
-    double sum = 0;
-    std::size_t end = begin;
-    for (; end < groups.size() && (end == begin || sum < most); ++end)
-      for (const std::uint32_t i : groups[end]) {
-        if (!all[i].testable) continue;
-        balls.push_back({all[i].ball.center, all[i].wide});
-        sum += scale.vertices(all[i].wide) / 2;
-      }
-    ooc::CollectedSurface surface(balls, 0, *options.budget);
-    if (!balls.empty()) {
-      std::uint64_t triangles = 0;
-      mesh.read(
-          [&](const MeshBatch& batch, std::span<const std::vector<double>>, std::uint64_t done, std::uint64_t total) {
-            surface.add(batch, {});
-            triangles += batch.triangle_count();
-            if (options.progress) options.progress(done, total, triangles);
-          });
-    }
-    surface.finish();
-    ooc::in_parallel(options.threads, end - begin,
+  const std::vector<std::size_t> ends = stretches(all, groups, scale, options.patch_bytes);
+  std::vector<ooc::GroupedBall> balls;
+  for (std::uint32_t stretch = 0, i = 0; stretch < ends.size(); ++stretch)
+    for (; i < ends[stretch]; ++i)
+      for (const std::uint32_t c : groups[i])
+        if (all[c].testable) balls.push_back({{all[c].ball.center, all[c].wide}, stretch});
+  ooc::DividedSurface surfaces(balls, ends.size(), 0, *options.temp, *options.budget);
+  if (!balls.empty()) {
+    std::uint64_t triangles = 0;
+    mesh.read(
+        [&](const MeshBatch& batch, std::span<const std::vector<double>>, std::uint64_t done, std::uint64_t total) {
+          surfaces.add(batch, {});
+          triangles += batch.triangle_count();
+          if (options.progress) options.progress(done, total, triangles);
+        });
+  }
+  surfaces.finish();
+  std::size_t begin = 0;
+  for (std::uint32_t stretch = 0; stretch < ends.size(); ++stretch) {
+    const ooc::CollectedSurface surface = surfaces.surface(stretch);
+    ooc::in_parallel(options.threads, ends[stretch] - begin,
                      [&](std::size_t i) { choose_in_cluster(surface, all, groups[begin + i]); });
-    begin = end;
+    begin = ends[stretch];
   }
 }
 
@@ -240,7 +248,7 @@ DefectRow row_of(const LoopList& list, std::uint32_t number, const FoundCurves* 
 
 DefectTable make_rows(const ValuedMesh& mesh, const LoopList& list, const LoopCurvesFound& search,
                       const SearchOptions& options) {
-  const auto& [found, scale] = search;
+  const auto& [found, scale, memory] = search;
   std::vector<Candidate> all = candidates(list, scale, found);
   choose(mesh, scale, all, options);
 

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <optional>
 
+#include "io/file/temp_dir.h"
 #include "libreeb/base/error.h"
 #include "libreeb/base/memory_budget.h"
+#include "ooc/run/freed_memory.h"
 #include "tools/library/temp_folder.h"
 
 namespace reeb::tools {
@@ -52,15 +54,18 @@ Defects find_defects(const FindDefectsOptions& options) {
     }
     list = read_loops(files);
   }
+  ooc::return_freed_memory();
   Defects defects;
   for (const LoopFunction& function : list.functions) defects.functions.push_back(function.name);
   const ValuedMesh mesh(options.mesh, defects.functions);
   SearchOptions search;
   search.threads = options.threads;
   MemoryBudget budget(options.mesh.memory_bytes);
+  const Reservation loops = budget.reserve("loops", list.loops.capacity() * sizeof(Loop));
+  const io::TempDir temp(options.mesh.temp_folder);
+  search.temp = &temp;
   search.budget = &budget;
-  if (options.mesh.memory_bytes != MemoryBudget::kUnlimited)
-    search.patch_bytes = std::min(search.patch_bytes, options.mesh.memory_bytes / 2);
+  search.patch_bytes = std::min(search.patch_bytes, options.mesh.memory_bytes / 8);
   search.progress = [&](std::uint64_t done, std::uint64_t total, std::uint64_t triangles) {
     if (options.interrupted && options.interrupted())
       throw Error(ErrorKind::kInterrupted, "interrupted", "run the same command again");

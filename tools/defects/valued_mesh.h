@@ -27,6 +27,7 @@ class ValuedMesh {
 
   const MeshInfo& info() const { return info_; }
   std::uint64_t memory_bytes() const { return source_.memory_bytes; }
+  const std::string& temp_folder() const { return source_.temp_folder; }
 
   // Reads all of it. `values[k]` are those of function k at the vertices of the batch; `done` of `total` bytes.
   using Observe = std::function<void(const MeshBatch& batch, std::span<const std::vector<double>> values,

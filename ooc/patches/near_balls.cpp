@@ -1,4 +1,4 @@
-#include "tools/defects/near_balls.h"
+#include "ooc/patches/near_balls.h"
 
 #include <algorithm>
 #include <array>
@@ -6,7 +6,7 @@
 
 #include "libreeb/defects/surface_patch.h"
 
-namespace reeb::tools {
+namespace reeb::ooc {
 namespace {
 
 std::int64_t cell_of(double coordinate, int exponent) {
@@ -22,7 +22,7 @@ std::uint64_t key_of(std::int64_t x, std::int64_t y, std::int64_t z) {
 
 }  // namespace
 
-void NearBalls::add(const ooc::Ball& ball, std::uint32_t number) {
+void NearBalls::add(const Ball& ball, std::uint32_t number) {
   const int exponent = ball.radius > 0 ? std::ilogb(ball.radius) + 1 : -1000;  // a cell is one to two radii wide
   auto grid = std::ranges::find(grids_, exponent, &Grid::exponent);
   if (grid == grids_.end()) grid = grids_.insert(grids_.end(), {exponent, {}});
@@ -36,7 +36,7 @@ void NearBalls::add(const ooc::Ball& ball, std::uint32_t number) {
   entries_[first].next = entry;
 }
 
-std::vector<std::uint32_t> NearBalls::meeting(const ooc::Ball& ball) const {
+std::vector<std::uint32_t> NearBalls::meeting(const Ball& ball) const {
   std::vector<std::uint32_t> result;
   const auto look_at = [&](const Entry& entry) {
     if (distance(entry.ball.center, ball.center) <= entry.ball.radius + ball.radius) result.push_back(entry.number);
@@ -63,4 +63,4 @@ std::vector<std::uint32_t> NearBalls::meeting(const ooc::Ball& ball) const {
   return result;
 }
 
-}  // namespace reeb::tools
+}  // namespace reeb::ooc

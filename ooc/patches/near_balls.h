@@ -8,19 +8,19 @@
 #include "libreeb/base/flat_map.h"
 #include "ooc/patches/ball_grid.h"
 
-namespace reeb::tools {
+namespace reeb::ooc {
 
 // A grid for each power of two of the radius; each ball is in the cell of its center. MEMORY: about 100 bytes a ball.
 class NearBalls {
  public:
-  void add(const ooc::Ball& ball, std::uint32_t number);
+  void add(const Ball& ball, std::uint32_t number);
 
   // The numbers of those that meet the ball, ascending. TIME: proportional to those near it.
-  std::vector<std::uint32_t> meeting(const ooc::Ball& ball) const;
+  std::vector<std::uint32_t> meeting(const Ball& ball) const;
 
  private:
   struct Entry {
-    ooc::Ball ball;
+    Ball ball;
     std::uint32_t number, next;
   };
   struct Grid {
@@ -33,4 +33,4 @@ class NearBalls {
   std::vector<Entry> entries_;
 };
 
-}  // namespace reeb::tools
+}  // namespace reeb::ooc
