@@ -28,4 +28,18 @@ inline constexpr std::size_t kLineReach = 7;
 void draw_arc(const std::array<double, 3>& lo, std::span<const Bucket> buckets, const std::array<double, 3>& hi,
               std::vector<std::array<double, 3>>& line);
 
+// Replaces `radii` by the radius of the contour for each non-empty bucket, from below: the root of the mean squared
+// distance of its vertices from its centre. For a circle with even vertices that is its radius.
+//
+// A bucket may have vertices of a part of the contour only, where rows of them cross it at an angle. So two buckets on
+// either side are used with it, more if there are few vertices, and the centre is on the straight line that fits their
+// means best. The vertices of these buckets also spread along the arc, since the centre moves and the radius grows or
+// falls while the value passes them. What that adds is taken off.
+// REQUIRES: buckets with spreads. TIME: O(buckets).
+void find_radii(std::span<const Bucket> buckets, std::vector<double>& radii);
+
+// The same at the points of the line. Near nodes, these are moved along the arc; the radius is that of the place to
+// which they are moved. `lo` and `hi` are the values of the nodes divided by the width of a bucket.
+void find_line_radii(double lo, std::span<const Bucket> buckets, double hi, std::vector<double>& radii);
+
 }  // namespace reeb::io

@@ -27,6 +27,20 @@ constexpr std::array<std::pair<std::string_view, GraphFormat>, 11> kFormats = {{
 
 }  // namespace
 
+bool has_lines(GraphFormat format) {
+  switch (format) {
+    case GraphFormat::kVtp:
+    case GraphFormat::kVtu:
+    case GraphFormat::kPly:
+    case GraphFormat::kObj:
+    case GraphFormat::kSwc:
+    case GraphFormat::kGltf:
+      return true;
+    default:
+      return false;
+  }
+}
+
 std::optional<GraphFormat> graph_format(std::string_view name) {
   for (const auto& [known, format] : kFormats)
     if (known == name) return format;

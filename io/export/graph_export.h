@@ -21,9 +21,14 @@ struct GraphView {
   ArcBucketsView buckets;  // of graph's arcs, or empty
   int bucket_exponent = 0;
   std::span<const ArcMeasures> measures = {};  // of graph's arcs, or empty; json, vtp and vtu have them
+  bool has_spreads = false;                    // the buckets have spreads and rims
+  bool on_surface = false;                     // lines pass through rims; needs them
 };
 
 enum class GraphFormat { kRg, kJson, kCsv, kDot, kGraphml, kVtp, kVtu, kPly, kObj, kSwc, kGltf };
+
+// Whether the format draws arcs as lines in space.
+bool has_lines(GraphFormat format);
 
 // The format with this name ("rg", "json", ...), if there is one.
 std::optional<GraphFormat> graph_format(std::string_view name);

@@ -68,6 +68,11 @@ void write_vtk_point_data(const GraphView& view, const GraphFeatures& features, 
   write_point_array(
       view, "Float64", "Persistence", [&](std::size_t node) { return Shortest{features.persistence[node]}; }, always(0),
       out);
+  if (view.has_spreads) {
+    begin_array("Float64", "Radius", out);
+    for (const double radius : all_radii(view)) out << Shortest{radius} << '\n';
+    out << "</DataArray>\n";
+  }
   out << "</PointData>\n";
 }
 

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "io/export/arc_line.h"
 #include "io/export/graph_features.h"
 #include "io/text/json_text.h"
 #include "io/text/number_text.h"
@@ -100,6 +101,7 @@ void write_json(const GraphView& view, OutputBuffer& out) {
         << ", \"persistence\": " << Shortest{features.persistence[i]} << '}';
   }
   out << "],\n\"arcs\": [";
+  std::vector<double> radii;
   for (std::size_t i = 0; i < graph.arc_count(); ++i) {
     out << (i == 0 ? "\n" : ",\n") << "{\"arc\": " << i << ", \"lo\": " << vertex_of(graph, graph.lo[i])
         << ", \"hi\": " << vertex_of(graph, graph.hi[i]) << ", \"vertices\": " << vertices_of(view, i)
@@ -117,7 +119,14 @@ void write_json(const GraphView& view, OutputBuffer& out) {
         out << (std::exchange(first, false) ? "" : ", ") << '[' << Shortest{bucket.mean[0]} << ", "
             << Shortest{bucket.mean[1]} << ", " << Shortest{bucket.mean[2]} << ", " << bucket.count << ']';
       }
-    out << "]}";
+    out << ']';
+    if (view.has_spreads) {
+      out << ", \"radii\": [";
+      find_radii(view.buckets.of(i), radii);
+      for (std::size_t k = 0; k < radii.size(); ++k) out << (k == 0 ? "" : ", ") << Shortest{radii[k]};
+      out << ']';
+    }
+    out << '}';
   }
   out << "]}\n";
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -37,8 +38,23 @@ inline std::uint64_t all_points(const GraphView& view) {
   return count;
 }
 
+// Replaces `radii` by those of the points between the nodes of an arc. REQUIRES: view.has_spreads.
+inline void find_radii(const GraphView& view, std::size_t arc, std::vector<double>& radii) {
+  if (view.on_surface) return find_radii(view.buckets.of(arc), radii);
+  const auto end = [&](NodeId node) { return std::ldexp(view.graph.nodes[node.value()].value, -view.bucket_exponent); };
+  find_line_radii(end(view.graph.lo[arc]), view.buckets.of(arc), end(view.graph.hi[arc]), radii);
+}
+
 // Replaces `line` by the points between the nodes of an arc.
 inline void draw_arc(const GraphView& view, std::size_t arc, std::vector<std::array<double, 3>>& line) {
+  if (view.on_surface) {
+    line.clear();
+    for_each_inner_point(view, arc, [&](const Bucket& bucket) {
+      const RimPoint rim = rim_of(bucket);
+      line.push_back(bucket.count == 1 ? bucket.mean : std::array<double, 3>{rim[0], rim[1], rim[2]});
+    });
+    return;
+  }
   draw_arc(node_position(view.graph, view.graph.lo[arc].value()), view.buckets.of(arc),
            node_position(view.graph, view.graph.hi[arc].value()), line);
 }
@@ -86,6 +102,30 @@ void for_each_segment(const GraphView& view, const Visit& visit) {
         before = i;
       },
       [] {});
+}
+
+// The radii of all points: of a node the mean of those of the buckets next to it. Zeros if they are not known.
+// MEMORY: 12 bytes per node, 8 per point.
+inline std::vector<double> all_radii(const GraphView& view) {
+  std::vector<double> radii(view.graph.node_count()), of_arc;
+  if (!view.has_spreads) {
+    radii.resize(all_points(view));
+    return radii;
+  }
+  std::vector<std::uint32_t> neighbours(radii.size());
+  for (std::size_t arc = 0; arc < view.graph.arc_count(); ++arc) {
+    find_radii(view.buckets.of(arc), of_arc);
+    if (of_arc.empty()) continue;
+    const auto add = [&](NodeId node, double radius) {
+      double& mean = radii[node.value()];
+      mean += (radius - mean) / ++neighbours[node.value()];
+    };
+    add(view.graph.lo[arc], of_arc.front());
+    add(view.graph.hi[arc], of_arc.back());
+    find_radii(view, arc, of_arc);
+    radii.insert(radii.end(), of_arc.begin(), of_arc.end());
+  }
+  return radii;
 }
 
 }  // namespace reeb::io

@@ -1,6 +1,5 @@
 #include "io/export/swc_samples.h"
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
@@ -31,12 +30,25 @@ ArcsAtNodes arcs_at_nodes(const ReebGraph& graph) {
   return at;
 }
 
+// The number of the first point of each arc between its nodes.
+std::vector<std::uint64_t> first_inner_points(const GraphView& view) {
+  std::vector<std::uint64_t> first(view.graph.arc_count());
+  std::uint64_t next = view.graph.node_count();
+  for (std::size_t arc = 0; arc < first.size(); ++arc) {
+    first[arc] = next;
+    next += inner_points(view, arc);
+  }
+  return first;
+}
+
 class SwcWriter {
  public:
   SwcWriter(const GraphView& view, OutputBuffer& out)
       : view_(view),
         out_(out),
+        radii_(all_radii(view)),
         at_(arcs_at_nodes(view.graph)),
+        first_inner_(first_inner_points(view)),
         sample_(view.graph.node_count()),
         done_(view.graph.arc_count()) {}
 
@@ -72,14 +84,16 @@ class SwcWriter {
     const std::size_t lo = view_.graph.lo[arc].value(), hi = view_.graph.hi[arc].value();
     line_.clear();
     if (!view_.buckets.empty()) draw_arc(view_, arc, line_);
-    if (from == hi) std::ranges::reverse(line_);
     last_ = sample_[from];
-    for (const auto& point : line_) last_ = write_sample(point, 0, last_);
+    for (std::size_t i = 0; i < line_.size(); ++i) {
+      const std::size_t at = from == lo ? i : line_.size() - 1 - i;
+      last_ = write_sample(line_[at], radii_[first_inner_[arc] + at], last_);
+    }
     return from == lo ? hi : lo;
   }
 
   std::int64_t write_node(std::size_t node, std::int64_t parent) {
-    return write_sample(node_position(view_.graph, node), 0, parent);
+    return write_sample(node_position(view_.graph, node), radii_[node], parent);
   }
 
   std::int64_t write_sample(const std::array<double, 3>& point, double radius, std::int64_t parent) {
@@ -90,7 +104,9 @@ class SwcWriter {
 
   const GraphView& view_;
   OutputBuffer& out_;
+  std::vector<double> radii_;  // of all points
   ArcsAtNodes at_;
+  std::vector<std::uint64_t> first_inner_;
   std::vector<std::int64_t> sample_;  // of each node; 0: none yet
   std::vector<bool> done_;            // arcs
   std::vector<std::array<double, 3>> line_;

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "io/export/arc_line.h"
+#include "io/export/line_points.h"
 #include "io/plot/canvas.h"
 #include "io/plot/graph_layout.h"
 #include "io/plot/node_marks.h"
@@ -202,20 +202,24 @@ SkeletonLines skeleton_lines(const GraphView& view) {
   const double range = high / 2 - low / 2;
   std::vector<double> sizes;
   std::vector<Point> line;
+  std::vector<double> arc_sizes;
   for (std::size_t arc = 0; arc < graph.arc_count(); ++arc) {
     const std::size_t lo = graph.lo[arc].value(), hi = graph.hi[arc].value();
     std::vector<Stop> stops{{lines.nodes[lo], height[lo], 0}};
     if (!view.buckets.empty()) {
       const auto buckets = view.buckets.of(arc);
-      const std::vector<double> counts = smoothed_counts(buckets);
-      draw_arc(lines.nodes[lo], buckets, lines.nodes[hi], line);
+      if (view.has_spreads)
+        find_radii(view, arc, arc_sizes);
+      else
+        arc_sizes = smoothed_counts(buckets);
+      draw_arc(view, arc, line);
       std::size_t next = 0;
       for (const Bucket& bucket : buckets) {
         if (bucket.count == 0) continue;
         const double value = std::ldexp(static_cast<double>(bucket.index) + 0.5, view.bucket_exponent);
         const double share = range > 0 ? (value / 2 - low / 2) / range : 0.5;
-        stops.push_back({line[next], std::clamp(share, height[lo], height[hi]), counts[next]});
-        sizes.push_back(counts[next]);
+        stops.push_back({line[next], std::clamp(share, height[lo], height[hi]), arc_sizes[next]});
+        sizes.push_back(arc_sizes[next]);
         ++next;
       }
     }
@@ -229,7 +233,7 @@ SkeletonLines skeleton_lines(const GraphView& view) {
   const auto large = sizes.begin() + static_cast<std::ptrdiff_t>((sizes.size() - 1) * 97 / 100);
   std::nth_element(sizes.begin(), large, sizes.end());
   for (auto& arc : lines.arcs)
-    for (Stop& stop : arc) stop.size = std::min(stop.size / *large, 1.0);
+    for (Stop& stop : arc) stop.size = *large > 0 ? std::min(stop.size / *large, 1.0) : 0;
   return lines;
 }
 

@@ -18,12 +18,13 @@ struct SkeletonLines {
   struct Stop {
     Point at{};
     double height = 0;  // share of the range of the function below it
-    double size = 0;    // of the contour, from 0 to 1: as its number of vertices says
+    double size = 0;    // of the contour, from 0 to 1: as its radius says, or its number of vertices
   };
   std::vector<std::vector<Stop>> arcs;
   std::vector<Point> nodes;
 };
-// Along the buckets of arcs, or straight without them. REQUIRES: nodes have positions.
+// Along the buckets of arcs, or straight without them. Sizes are radii if they are known. REQUIRES: nodes have
+// positions.
 SkeletonLines skeleton_lines(const GraphView& view);
 
 // All points of the lines.

@@ -123,7 +123,9 @@ Rgb SurfaceRaster::color(std::size_t sample) const {
   if (style_ == SurfaceStyle::kSolid) return grey((158 + 84 * light) * (edge ? 0.75 : 1));
   const Rgb full = surface_color(tone_[sample] / 255.0);
   const double strength = (0.55 + 0.45 * light) * (edge ? 0.75 : 1);
-  const auto lit = [&](std::uint8_t part) { return static_cast<std::uint8_t>(part * strength + 12 * light); };
+  const auto lit = [&](std::uint8_t part) {
+    return static_cast<std::uint8_t>(std::min(255.0, part * strength + 12 * light));
+  };
   return {lit(full.red), lit(full.green), lit(full.blue)};
 }
 

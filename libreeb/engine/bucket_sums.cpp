@@ -8,6 +8,18 @@
 
 namespace reeb {
 
+// A NaN counts as the least coordinate, as in fixed_point().
+void BucketSum::add_large(const Point& position) {
+  constexpr double kMost = 0x1p50;
+  Point clamped;
+  for (std::size_t k = 0; k < 3; ++k) {
+    sum[k] += fixed_point(position[k]);
+    clamped[k] = position[k] > -kMost ? std::min(position[k], kMost) : -kMost;
+    moment += clamped[k] * clamped[k];
+  }
+  raise_rim(rim_of(clamped));
+}
+
 void BucketSum::keep(std::uint64_t kept, BucketSum& other) {
   const double share = static_cast<double>(kept) / static_cast<double>(count);
   for (std::size_t k = 0; k < 3; ++k) {
@@ -15,8 +27,12 @@ void BucketSum::keep(std::uint64_t kept, BucketSum& other) {
     other.sum[k] += sum[k] - part;
     sum[k] = part;
   }
-  other.count += count - kept;
-  count = kept;
+  const double part = moment * share;
+  other.moment += moment - part;
+  moment = part;
+  other.raise_rim(rim);
+  other.count += count - static_cast<std::uint32_t>(kept);
+  count = static_cast<std::uint32_t>(kept);
 }
 
 void BucketLists::start(int exponent) {
@@ -69,7 +85,7 @@ void BucketLists::add_vertex(List& list, double value, const Point& position) {
   const std::int64_t index = indexer_(value);
   if (!list.empty() && links_[list.last].index == index) return sums_[list.last].add(position);
   List vertex;
-  link_last(vertex, new_bucket({index, 0, {}}));
+  link_last(vertex, new_bucket({.index = index}));
   sums_[vertex.last].add(position);
   merge(list, vertex);
 }
@@ -143,7 +159,7 @@ BucketLists::List BucketLists::take_above(List& list, double lo, double at, doub
     if (above == 0) {
       below = b;
     } else if (above < count) {
-      const Index part = new_bucket(std::exchange(sums_[b], {divided, 0, {}}));
+      const Index part = new_bucket(std::exchange(sums_[b], {.index = divided}));
       sums_[part].keep(count - above, sums_[b]);
       links_[below == kNone ? list.last : below].next = part;
       links_[part].next = b;
@@ -250,7 +266,8 @@ void BucketLists::check_restored(std::span<const List> lists) const {
   };
   const auto check_sum = [&](Index b) {
     const BucketSum& bucket = sums_[b];
-    if (bucket.count == 0 || bucket.count > ~std::uint32_t{0} || bucket.index != links_[b].index) throw DamagedState();
+    if (bucket.count == 0 || !(bucket.moment >= 0 && bucket.moment < HUGE_VAL) || bucket.index != links_[b].index)
+      throw DamagedState();
     const Int128 most = kMostPerVertex * static_cast<Int128>(bucket.count);
     for (const Int128 sum : bucket.sum)
       if (sum > most || sum < -most) throw DamagedState();

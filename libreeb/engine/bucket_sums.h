@@ -40,31 +40,54 @@ inline double to_double(Int128 whole) {
 }
 inline Int128 cut_off(double x) { return std::abs(x) < 0x1p63 ? static_cast<std::int64_t>(x) : static_cast<Int128>(x); }
 
+// The moment, the sum of the squared positions, is rounded: whole numbers of a fixed unit would need more than 128
+// bits, or be too coarse for small meshes. So its last digits depend on where chunks end.
+//
+// Adding to a bucket mostly waits for its memory. So the fields are in the order that leaves no gaps: 80 bytes.
 struct BucketSum {
   std::int64_t index = 0;
-  std::uint64_t count = 0;
+  std::uint32_t count = 0;
+  RimPoint rim = kNoRim;
+  double moment = 0;
   std::array<Int128, 3> sum{};
+
+  static constexpr RimPoint kNoRim = {-HUGE_VALF, -HUGE_VALF, -HUGE_VALF};
 
   void add(const Point& position) {
     ++count;
     const auto& [x, y, z] = position;
-    if (std::abs(x) + std::abs(y) + std::abs(z) < kSmallCoordinate) [[likely]]
+    if (std::abs(x) + std::abs(y) + std::abs(z) < kSmallCoordinate) [[likely]] {
       for (std::size_t k = 0; k < 3; ++k) sum[k] += static_cast<std::int64_t>(position[k] * 0x1p44);
-    else
-      for (std::size_t k = 0; k < 3; ++k) sum[k] += fixed_point(position[k]);
+      moment += x * x + y * y + z * z;
+      raise_rim(rim_of(position));
+    } else {
+      add_large(position);
+    }
   }
   void add(const BucketSum& other) {
     count += other.count;
     for (std::size_t k = 0; k < 3; ++k) sum[k] += other.sum[k];
+    moment += other.moment;
+    raise_rim(other.rim);
   }
+  // Without branches: which vertex is next cannot be predicted.
+  void raise_rim(const RimPoint& other) {
+    const bool is_higher_rest = (other[1] > rim[1]) | ((other[1] == rim[1]) & (other[2] > rim[2]));
+    const bool is_higher = (other[0] > rim[0]) | ((other[0] == rim[0]) & is_higher_rest);
+    for (std::size_t k = 0; k < 3; ++k) rim[k] = is_higher ? other[k] : rim[k];
+  }
+  void add_large(const Point& position);
   // Keeps this number of the vertices, with their share of the sum (rounded), and adds the rest to `other`. The totals
-  // of both stay exact.
+  // of both stay exact. Both get the rim.
   void keep(std::uint64_t kept, BucketSum& other);
   Bucket mean() const {  // REQUIRES: count != 0
     Bucket bucket{index, count, {}};
     for (std::size_t k = 0; k < 3; ++k) bucket.mean[k] = to_double(sum[k]) * 0x1p-44;
     if (count == 1) return bucket;  // the most frequent case where values are random
     for (double& x : bucket.mean) x /= static_cast<double>(count);
+    const auto& [x, y, z] = bucket.mean;
+    bucket.spread = to_spread(moment / static_cast<double>(count) - (x * x + y * y + z * z));
+    bucket.rim = rim;
     return bucket;
   }
 };
@@ -105,7 +128,7 @@ class BucketLists {
   }
   // The bucket of that index in the list. Vertices can be added to it at any later time.
   Index current_bucket(List& list) {
-    if (list.last + 1 <= first_current_) link_last(list, new_bucket({current_index_, 0, {}}));  // none + 1 == 0
+    if (list.last + 1 <= first_current_) link_last(list, new_bucket({.index = current_index_}));  // none + 1 == 0
     return list.last;
   }
   void add_to_bucket(Index bucket, const Point& position) { sums_[bucket].add(position); }

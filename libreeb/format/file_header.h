@@ -10,7 +10,7 @@ namespace reeb {
 // Memory of a loaded level, as announced in the level table.
 inline constexpr std::uint64_t kNodeMemoryBytes = 48;
 inline constexpr std::uint64_t kArcMemoryBytes = 24;
-inline constexpr std::uint64_t kBucketMemoryBytes = 40;
+inline constexpr std::uint64_t kBucketMemoryBytes = 56;
 
 // Bytes of memory that a loaded level holds, by the constants above.
 std::uint64_t level_memory(std::uint64_t nodes, std::uint64_t arcs, std::uint64_t buckets) noexcept;
@@ -19,8 +19,14 @@ struct FileFlags {
   bool graph_only = false;     // one version, no pairs
   bool has_positions = false;  // nodes have positions
   bool has_embedding = false;  // arcs have buckets
+  bool has_spreads = false;    // buckets have spreads and rims; not so in embedded files of version 1
   friend bool operator==(const FileFlags&, const FileFlags&) = default;
 };
+
+// The flags of files that are written now.
+constexpr FileFlags file_flags(bool graph_only, bool has_positions, bool has_embedding) {
+  return {graph_only, has_positions, has_embedding, has_embedding};
+}
 
 // A version that can be loaded, and its size. Lines go from coarse to fine.
 struct LevelLine {

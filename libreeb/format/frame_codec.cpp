@@ -1,5 +1,7 @@
 #include "libreeb/format/frame_codec.h"
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 
@@ -130,7 +132,68 @@ const char* decode_versions(ByteReader& in, std::size_t count, bool embedding, s
   return nullptr;
 }
 
-void encode_buckets(const GraphFrame& frame, ByteWriter& out) {
+std::uint64_t joined(std::uint32_t low, std::uint32_t high) { return low | std::uint64_t{high} << 32; }
+std::uint32_t low_half(std::uint64_t bits) { return static_cast<std::uint32_t>(bits); }
+std::uint32_t high_half(std::uint64_t bits) { return static_cast<std::uint32_t>(bits >> 32); }
+
+// Whole numbers in the order of the floats.
+std::uint32_t ordered_of(float x) {
+  const auto bits = std::bit_cast<std::uint32_t>(x);
+  return (bits >> 31) != 0 ? ~bits : bits | std::uint32_t{1} << 31;
+}
+float float_of(std::uint32_t ordered) {
+  return std::bit_cast<float>((ordered >> 31) != 0 ? ordered & ~(std::uint32_t{1} << 31) : ~ordered);
+}
+
+// A rim is near the mean: the difference has few digits. Signs are in the lowest bit.
+std::uint32_t rim_code(float rim, double mean) {
+  const std::uint32_t difference = ordered_of(rim) - ordered_of(static_cast<float>(mean));
+  return difference << 1 ^ (0 - (difference >> 31));
+}
+float rim_from(std::uint32_t code, double mean) {
+  return float_of(ordered_of(static_cast<float>(mean)) + (code >> 1 ^ (0 - (code & 1))));
+}
+
+// A spread says how wide a contour is, for which 8 binary digits are enough: the file has the upper half of its bits.
+std::uint32_t rounded_bits(float spread) {
+  constexpr std::uint32_t kLowerHalf = 0xffff, kLargest = 0x7f7f0000;
+  const auto bits = std::bit_cast<std::uint32_t>(spread);
+  return std::min((bits + kLowerHalf / 2 + 1) & ~kLowerHalf, kLargest);
+}
+
+// Of buckets of several vertices: spread and the rim's x, then its y and z.
+void encode_spreads(std::span<const Bucket> buckets, ByteWriter& out) {
+  Column first, second;
+  for (const Bucket& bucket : buckets) {
+    if (bucket.count <= 1) continue;
+    first.push_back(joined(rounded_bits(bucket.spread), rim_code(bucket.rim[0], bucket.mean[0])));
+    second.push_back(joined(rim_code(bucket.rim[1], bucket.mean[1]), rim_code(bucket.rim[2], bucket.mean[2])));
+  }
+  out.planes(first);
+  out.planes(second);
+}
+
+const char* decode_spreads(ByteReader& in, std::span<Bucket> buckets) {
+  const auto count = std::ranges::count_if(buckets, [](const Bucket& bucket) { return bucket.count > 1; });
+  if (!in.may_hold(static_cast<std::uint64_t>(count), 16)) return "a frame is too short for its buckets";
+  Column first(static_cast<std::size_t>(count)), second(first.size());
+  in.planes(first);
+  in.planes(second);
+  std::size_t i = 0;
+  for (Bucket& bucket : buckets) {
+    if (bucket.count <= 1) continue;
+    bucket.spread = std::bit_cast<float>(low_half(first[i]));
+    const std::array<std::uint32_t, 3> codes = {high_half(first[i]), low_half(second[i]), high_half(second[i])};
+    for (std::size_t axis = 0; axis < 3; ++axis) bucket.rim[axis] = rim_from(codes[axis], bucket.mean[axis]);
+    ++i;
+    if (!(bucket.spread >= 0 && std::isfinite(bucket.spread))) return "a bucket's spread is not one";
+    for (const float x : bucket.rim)
+      if (!std::isfinite(x)) return "a bucket's rim is not finite";
+  }
+  return nullptr;
+}
+
+void encode_buckets(const GraphFrame& frame, bool has_spreads, ByteWriter& out) {
   for (const std::uint32_t count : frame.bucket_counts) out.varint(count);
   std::uint64_t before = 0;
   for (const Bucket& bucket : frame.buckets) {
@@ -144,9 +207,10 @@ void encode_buckets(const GraphFrame& frame, ByteWriter& out) {
     for (std::size_t i = 0; i < column.size(); ++i) column[i] = bits_of(frame.buckets[i].mean[axis]);
     out.planes(column);
   }
+  if (has_spreads) encode_spreads(frame.buckets, out);
 }
 
-const char* decode_buckets(ByteReader& in, GraphFrame& frame) {
+const char* decode_buckets(ByteReader& in, bool has_spreads, GraphFrame& frame) {
   frame.bucket_counts.resize(frame.arcs.size());
   std::uint64_t total = 0;
   for (std::uint32_t& count : frame.bucket_counts) total += count = in.varint32();
@@ -163,7 +227,7 @@ const char* decode_buckets(ByteReader& in, GraphFrame& frame) {
     in.planes(column);
     for (std::size_t i = 0; i < column.size(); ++i) frame.buckets[i].mean[axis] = double_of(column[i]);
   }
-  return nullptr;
+  return has_spreads ? decode_spreads(in, frame.buckets) : nullptr;
 }
 
 }  // namespace
@@ -191,7 +255,7 @@ void encode_graph_frame(const GraphFrame& frame, const FileFlags& flags, std::ve
   encode_versions(frame.versions, flags.has_embedding, out);
   encode_nodes(frame.nodes, flags.has_positions, out);
   encode_arcs(frame.arcs, out);
-  if (flags.has_embedding) encode_buckets(frame, out);
+  if (flags.has_embedding) encode_buckets(frame, flags.has_spreads, out);
 }
 
 const char* decode_graph_frame(std::span<const std::byte> payload, const FrameHeader& header, const FileFlags& flags,
@@ -202,7 +266,7 @@ const char* decode_graph_frame(std::span<const std::byte> payload, const FrameHe
   if (const char* why = decode_nodes(in, header.nodes, flags.has_positions, frame.nodes)) return why;
   if (const char* why = decode_arcs(in, header.records, frame.arcs)) return why;
   if (flags.has_embedding)
-    if (const char* why = decode_buckets(in, frame)) return why;
+    if (const char* why = decode_buckets(in, flags.has_spreads, frame)) return why;
   return in.done() ? nullptr : "a frame's payload does not end where its counts say";
 }
 

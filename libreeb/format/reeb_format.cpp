@@ -16,8 +16,8 @@ std::uint32_t pack(const FileFlags& flags) {
          (flags.has_embedding ? kEmbeddingBit : 0);
 }
 
-FileFlags unpack(std::uint32_t bits) {
-  return {(bits & kGraphOnlyBit) != 0, (bits & kPositionsBit) != 0, (bits & kEmbeddingBit) != 0};
+FileFlags unpack(std::uint32_t bits, bool has_spreads) {
+  return {(bits & kGraphOnlyBit) != 0, (bits & kPositionsBit) != 0, (bits & kEmbeddingBit) != 0, has_spreads};
 }
 
 bool starts_with(ByteReader& reader, std::span<const std::uint8_t> magic) {
@@ -35,7 +35,9 @@ void encode_level(const LevelLine& level, ByteWriter& out) {
   out.u64(level.memory_bytes);
 }
 
-LevelLine decode_level(ByteReader& in) {
+// A bucket takes more memory now than when files of version 1 were written.
+LevelLine decode_level(ByteReader& in, const FileFlags& flags) {
+  constexpr std::uint64_t kFormerBucketMemoryBytes = 40;
   LevelLine level;
   level.version = in.u32();
   level.frames = in.u32();
@@ -45,6 +47,7 @@ LevelLine decode_level(ByteReader& in) {
   level.buckets = in.u64();
   level.file_bytes = in.u64();
   level.memory_bytes = in.u64();
+  if (!flags.has_spreads) level.memory_bytes += (kBucketMemoryBytes - kFormerBucketMemoryBytes) * level.buckets;
   return level;
 }
 
@@ -85,7 +88,7 @@ std::uint64_t FileHeader::region_bytes() const {
 void encode_header(const FileHeader& header, std::vector<std::byte>& bytes) {
   ByteWriter out(bytes);
   for (const std::uint8_t byte : kReebMagic) out.u8(byte);
-  out.u32(kReebVersion);
+  out.u32(header.flags.has_spreads ? kReebVersionWithSpreads : kReebVersion);
   out.u32(pack(header.flags));
   out.u64(header.region_bytes());
   out.f64(header.function_min);
@@ -114,10 +117,19 @@ void encode_header(const FileHeader& header, std::vector<std::byte>& bytes) {
   for (const LevelLine& level : header.levels) encode_level(level, out);
 }
 
+std::optional<std::uint32_t> unknown_version(std::span<const std::byte> fixed_part) {
+  ByteReader in(fixed_part);
+  if (!starts_with(in, kReebMagic)) return std::nullopt;
+  const std::uint32_t version = in.u32();
+  if (!in.ok() || version == kReebVersion || version == kReebVersionWithSpreads) return std::nullopt;
+  return version;
+}
+
 const char* decode_region_bytes(std::span<const std::byte> fixed_part, std::uint64_t& region_bytes) {
   ByteReader in(fixed_part);
   if (!starts_with(in, kReebMagic)) return "this is not a .reeb file";
-  if (in.u32() != kReebVersion) return "the format version is not 1";
+  if (unknown_version(fixed_part)) return "the format version is neither 1 nor 2";
+  in.u32();
   in.u32();
   region_bytes = in.u64();
   if (!in.ok()) return "the file ends within its header";
@@ -130,10 +142,11 @@ const char* decode_header(std::span<const std::byte> region, FileHeader& header)
   if (const char* why = decode_region_bytes(region, region_bytes)) return why;
   ByteReader in(region);
   in.u64();
-  in.u32();
+  const std::uint32_t version = in.u32();
   const std::uint32_t flags = in.u32();
   if (flags > (kGraphOnlyBit | kPositionsBit | kEmbeddingBit)) return "a flag is unknown";
-  header.flags = unpack(flags);
+  header.flags = unpack(flags, version == kReebVersionWithSpreads);
+  if (header.flags.has_spreads && !header.flags.has_embedding) return "a file of version 2 has no embedding";
   in.u64();
   header.function_min = in.f64();
   header.function_max = in.f64();
@@ -161,7 +174,7 @@ const char* decode_header(std::span<const std::byte> region, FileHeader& header)
   if (!in.may_hold(levels, kLevelBytes)) return "the level table does not fit the header";
   header.levels.clear();
   header.levels.reserve(levels);
-  for (std::uint32_t i = 0; i < levels; ++i) header.levels.push_back(decode_level(in));
+  for (std::uint32_t i = 0; i < levels; ++i) header.levels.push_back(decode_level(in, header.flags));
   if (!in.done() || header.region_bytes() != region_bytes) return "the header's size is wrong";
   return check_header(header);
 }

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -18,7 +19,8 @@ namespace reeb {
 // the high bit or converts line ends.
 inline constexpr std::array<std::uint8_t, 8> kReebMagic = {0x89, 'R', 'E', 'E', 'B', '\r', '\n', 0x1a};
 inline constexpr std::array<std::uint8_t, 8> kReebEndMagic = {'R', 'E', 'E', 'B', 'E', 'N', 'D', '\n'};
-inline constexpr std::uint32_t kReebVersion = 1;
+// Files with spreads have the newer version, all others, also if they are written now, the older one.
+inline constexpr std::uint32_t kReebVersion = 1, kReebVersionWithSpreads = 2;
 
 inline constexpr std::size_t kFixedHeaderBytes = 176;
 inline constexpr std::size_t kLevelBytes = 56;
@@ -30,6 +32,9 @@ inline constexpr std::uint32_t kMaxFrameBytes = 16u << 20;  // uncompressed
 
 // The header region without its checksum.
 void encode_header(const FileHeader& header, std::vector<std::byte>& out);
+
+// The version of a file that begins like a `.reeb` file, if it is none of those above.
+std::optional<std::uint32_t> unknown_version(std::span<const std::byte> fixed_part);
 
 // Reads the size of the whole region from its first kFixedHeaderBytes bytes.
 const char* decode_region_bytes(std::span<const std::byte> fixed_part, std::uint64_t& region_bytes);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 
 namespace reeb {
 namespace {
@@ -17,6 +18,11 @@ bool fits(double min, double max, std::uint32_t buckets, int exponent) noexcept 
 }
 
 }  // namespace
+
+float to_spread(double spread) noexcept {
+  constexpr double kMost = std::numeric_limits<float>::max();
+  return static_cast<float>(spread > 0 ? std::min(spread, kMost) : 0.0);
+}
 
 std::int64_t bucket_index(double value, int exponent) noexcept {
   return static_cast<std::int64_t>(scaled(value, exponent));
@@ -41,9 +47,18 @@ int bucket_exponent(double min, double max, std::uint32_t buckets) noexcept {
 void merge_into(Bucket& bucket, const Bucket& other) noexcept {
   if (other.count == 0) return;
   const double all = static_cast<double>(bucket.count + other.count), share = static_cast<double>(other.count) / all;
+  const RimPoint rim = bucket.count == 0 ? rim_of(other) : std::max(rim_of(bucket), rim_of(other));
+  double distance = 0;  // of the means, squared
   // The first of two equal means stays as it is.
-  for (std::size_t k = 0; k < bucket.mean.size(); ++k) bucket.mean[k] += (other.mean[k] - bucket.mean[k]) * share;
+  for (std::size_t k = 0; k < bucket.mean.size(); ++k) {
+    const double step = other.mean[k] - bucket.mean[k];
+    distance += step * step;
+    bucket.mean[k] += step * share;
+  }
+  const double spread = bucket.spread + (other.spread - static_cast<double>(bucket.spread)) * share;
+  bucket.spread = to_spread(spread + distance * share * (1 - share));
   bucket.count += other.count;
+  bucket.rim = bucket.count == 1 ? RimPoint{} : rim;
 }
 
 void coarsen(std::vector<Bucket>& buckets, std::size_t first, unsigned levels) {

@@ -12,12 +12,38 @@
 
 namespace reeb {
 
+// The vertex of a bucket that is the greatest by x, then y, then z, in single precision: a point of the surface that
+// moves little from one bucket to the next.
+using RimPoint = std::array<float, 3>;
+
 struct Bucket {
   std::int64_t index = 0;
   std::uint64_t count = 0;       // vertices
   std::array<double, 3> mean{};  // of their positions
+  // Of a single vertex, both are zeros: see rim_of().
+  float spread = 0;  // the mean squared distance of the positions from their mean
+  RimPoint rim{};
   friend bool operator==(const Bucket&, const Bucket&) = default;
 };
+
+// What is stored of a mean squared distance, which rounding may have made negative.
+float to_spread(double spread) noexcept;
+
+inline RimPoint rim_of(const std::array<double, 3>& position) {
+  return {static_cast<float>(position[0]), static_cast<float>(position[1]), static_cast<float>(position[2])};
+}
+// REQUIRES: count != 0.
+inline RimPoint rim_of(const Bucket& bucket) { return bucket.count == 1 ? rim_of(bucket.mean) : bucket.rim; }
+
+// The bucket with this number of its vertices, 1 at least, for a bucket that is divided.
+inline Bucket part_of(Bucket bucket, std::uint64_t count) {
+  bucket.count = count;
+  if (count == 1) {
+    bucket.spread = 0;
+    bucket.rim = {};
+  }
+  return bucket;
+}
 
 // The bucket of this value: floor(value / 2^exponent).
 // REQUIRES: the exponent is at least bucket_exponent() of a range with the value.

@@ -11,7 +11,8 @@ namespace {
 
 using Single = std::array<float, 3>;
 
-constexpr std::size_t kMaxVarintBytes = 10, kMaxBucketBytes = 2 * kMaxVarintBytes + sizeof(Bucket::mean);
+constexpr std::size_t kMaxVarintBytes = 10, kMaxBucketBytes = 2 * kMaxVarintBytes + sizeof(Bucket::mean) +
+                                                              sizeof(Bucket::spread) + sizeof(Bucket::rim);
 
 bool is_single(const std::array<double, 3>& mean) {
   return std::ranges::all_of(mean, [](double x) { return static_cast<double>(static_cast<float>(x)) == x; });
@@ -51,6 +52,7 @@ void pack_buckets(std::span<const Bucket> buckets, std::vector<std::byte>& packe
     const auto& [x, y, z] = bucket.mean;
     to = single ? put_raw(to, Single{static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)})
                 : put_raw(to, bucket.mean);
+    if (bucket.count > 1) to = put_raw(put_raw(to, bucket.spread), bucket.rim);
     packed.insert(packed.end(), bytes.data(), to);
     to = bytes.data();
     last = bucket.index;
@@ -73,6 +75,10 @@ bool unpack_buckets(std::span<const std::byte> packed, std::vector<Bucket>& buck
       bucket.mean = get_raw<std::array<double, 3>>(in);
     else
       std::ranges::copy(get_raw<Single>(in), bucket.mean.begin());
+    if (bucket.count > 1) {
+      bucket.spread = get_raw<float>(in);
+      bucket.rim = get_raw<RimPoint>(in);
+    }
     buckets.push_back(bucket);
   }
   return in.done();

@@ -1,9 +1,9 @@
 // Lists of buckets as bytes, for places that hold many of them.
 //
 // A list is its length, then for each bucket: the difference between its index and the index before (0 at first), its
-// count with a mark, and its mean. The mark says whether the mean is in single precision. It is if that loses nothing,
-// as for single vertices of most meshes. Most buckets take 14 or 26 bytes, and at most 28 unless the count is beyond
-// 2^13. A list without buckets has no bytes.
+// count with a mark, its mean, and, of several vertices, its spread and rim. The mark says whether the mean is in
+// single precision. It is if that loses nothing, as for single vertices of most meshes. Most buckets take 14 bytes (one
+// vertex) or 42, and at most kPackedBucketBytes unless the count is beyond 2^13. A list without buckets has no bytes.
 #pragma once
 
 #include <cstddef>
@@ -14,6 +14,8 @@
 #include "libreeb/graph/bucket.h"
 
 namespace reeb {
+
+inline constexpr std::uint64_t kPackedBucketBytes = 44;
 
 // Appends the list, without loss: unpack_buckets() yields equal buckets.
 void pack_buckets(std::span<const Bucket> buckets, std::vector<std::byte>& packed);

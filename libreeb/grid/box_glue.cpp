@@ -47,6 +47,7 @@ bool has_sound_buckets(const Fragment& tree) {
   std::uint64_t vertices = 0;
   for (const BucketSum& bucket : tree.buckets) {
     if (bucket.count == 0 || bucket.count > kMostVertices - vertices) return false;
+    if (!(bucket.moment >= 0 && bucket.moment < HUGE_VAL)) return false;
     if (bucket.index > kMostIndex || bucket.index < -kMostIndex) return false;
     vertices += bucket.count;
     const Int128 most = kMostPerVertex * static_cast<Int128>(bucket.count);
@@ -136,7 +137,7 @@ void BoxGlue::copy_buckets(const Fragment& fragment, Fragment& tree) {
       const std::int64_t index = index_of(fragment.passed[p].value);
       copy_up_to(index);
       if (tree.buckets.size() == tree.bucket_begin.back() || tree.buckets.back().index != index)
-        tree.buckets.push_back({index, 0, {}});
+        tree.buckets.push_back({.index = index});
       tree.buckets.back().add(fragment.passed[p].position);
     }
     copy_up_to(std::numeric_limits<std::int64_t>::max());

@@ -168,7 +168,7 @@ void BoxUnion::move_bucket(const Path& path, BucketSum bucket, int exponent) {
     begin = ends[i];
     if (kept == 0) continue;
     if (kept >= bucket.count) return sweep_.add_bucket(passed[i], bucket);
-    BucketSum rest{bucket.index, 0, {}};
+    BucketSum rest{.index = bucket.index};
     bucket.keep(kept, rest);
     sweep_.add_bucket(passed[i], bucket);
     bucket = rest;

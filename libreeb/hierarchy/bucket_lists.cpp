@@ -113,13 +113,12 @@ std::uint32_t ArcBucketLists::last_below(ArcId arc, const CutValues& values) {
   }
   if (item == kNone || items_[item].bucket.index != middle) return before;
 
-  Bucket upper = items_[item].bucket;
+  const Bucket upper = items_[item].bucket;
   const std::uint64_t below = count_below(upper, values, exponent_);
   if (below == 0) return before;
   if (below == upper.count) return item;
-  upper.count -= below;
-  const std::uint32_t above = make(upper, items_[item].next);
-  items_[item].bucket.count = below;
+  const std::uint32_t above = make(part_of(upper, upper.count - below), items_[item].next);
+  items_[item].bucket = part_of(upper, below);
   items_[item].next = above;
   return item;
 }

@@ -32,8 +32,8 @@ std::uint64_t PackedLists::memory_bytes() const {
 }
 
 std::uint64_t PackedLists::most_bytes(std::uint64_t arcs, std::uint64_t buckets) {
-  constexpr std::uint64_t kBucketBytes = 28, kListBytes = kArcBytes + 2 + 3;  // arc, size in bytes, length
-  const std::uint64_t bytes = kBucketBytes * buckets + kListBytes * std::min(arcs, buckets);
+  constexpr std::uint64_t kListBytes = kArcBytes + 2 + 3;  // arc, size in bytes, length
+  const std::uint64_t bytes = kPackedBucketBytes * buckets + kListBytes * std::min(arcs, buckets);
   return sizeof(std::uint64_t) * arcs + bytes + bytes / (kListsPerChunk - 1) + 2 * kChunkBytes;
 }
 

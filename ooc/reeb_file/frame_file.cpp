@@ -33,6 +33,8 @@ void FrameFile::read_header() {
   std::vector<std::byte> region(std::min<std::uint64_t>(file_.size(), kFixedHeaderBytes));
   file_.read_at(0, region);
   std::uint64_t region_bytes = 0;
+  if (const auto version = unknown_version(region))
+    fail(8, "the format version is " + std::to_string(*version) + ", and this program reads 1 and 2");
   if (const char* why = decode_region_bytes(region, region_bytes)) fail(0, why);
   if (region_bytes > file_.size()) fail(file_.size(), "the file ends within its header");
   region.resize(region_bytes);

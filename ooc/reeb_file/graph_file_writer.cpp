@@ -18,7 +18,7 @@ constexpr std::uint32_t kNoNode = ~std::uint32_t{0};
 
 FileHeader first_header(FileMeta meta, const GraphFileWriter::Options& options) {
   FileHeader header = header_of(std::move(meta));
-  header.flags = {true, options.has_positions, options.has_embedding};
+  header.flags = file_flags(true, options.has_positions, options.has_embedding);
   header.levels.resize(1);
   return header;
 }

@@ -53,7 +53,7 @@ class HierarchyFileWriter {
           std::ranges::count(hierarchy_.pairs, type, [](const PersistencePair& pair) { return pair.type; }));
     };
     FileHeader header = header_of(meta);
-    header.flags = {false, !graph_.positions.empty(), content.has_embedding};
+    header.flags = file_flags(false, !graph_.positions.empty(), content.has_embedding);
     header.nodes = graph_.node_count();
     header.arcs = layout_.versions[0].arcs;
     header.components = pairs_of(PairType::kExt0);

@@ -20,10 +20,10 @@ constexpr std::uint64_t kFragmentation = 3 * kMiB;
 
 // Bytes per live vertex, with its share of edges, arcs and references and with room to grow. Scans of 4 to 372 million
 // triangles, f = z, took 290 to 640 bytes with noise removed and 470 to 690 with noise kept; a wider front took more.
-// Buckets added 70 to 300. A random function takes up to 1,350: if a run on one does not fit, it ends with what
+// Buckets added 85 to 340. A random function takes up to 1,390: if a run on one does not fit, it ends with what
 // --resume needs.
 constexpr std::uint64_t kSmooth = 290, kNoiseRemoved = 640, kNoiseKept = 700;
-constexpr std::uint64_t kBucketsSmooth = 70, kBucketsRemoved = 160, kBucketsKept = 300;
+constexpr std::uint64_t kBucketsSmooth = 85, kBucketsRemoved = 185, kBucketsKept = 340;
 
 // What live graphs and chunks take together where memory is free. Chunks of a wide front are smaller, down to
 // kUsefulTriangles, which costs a few per cent of the time.

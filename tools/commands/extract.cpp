@@ -19,6 +19,7 @@
 #include "tools/commands/measured_level.h"
 #include "tools/commands/open_segmentation.h"
 #include "tools/library/run_files.h"
+#include "tools/plot/skeleton.h"
 #include "tools/program/input_kind.h"
 #include "tools/program/options.h"
 #include "tools/program/output.h"
@@ -31,7 +32,7 @@ struct ExtractOptions {
   std::string file, output, format, threshold, mesh, temp_folder;
   std::optional<std::uint64_t> nodes, memory_bytes;
   unsigned threads = 0;
-  bool force = false, quiet = false;
+  bool on_surface = false, force = false, quiet = false;
 };
 
 // Chooses by --format, or else by the ending of the output's name; rg on standard output.
@@ -101,6 +102,9 @@ void extract(const ExtractOptions& options) {
   const io::GraphFormat format = choose_format(options);
   if (!options.mesh.empty()) require_measured_format(format);
   // Errors in the command line are reported before the file is read.
+  if (options.on_surface && !io::has_lines(format))
+    throw Error(ErrorKind::kUsage, "--on-surface is for formats with lines in space",
+                "choose one of: vtp vtu ply obj swc gltf");
   if (!options.threshold.empty()) parse_threshold("--threshold", options.threshold, 1);
   require_reeb_file(options.file, "extract");
   RunFiles files;
@@ -114,6 +118,13 @@ void extract(const ExtractOptions& options) {
     files.add_output(output, outputs.size() > 1 ? "an output" : "the output", existing_outputs(options.force));
   files.check();
   if (const Error* damage = file.damage()) fmt::print(stderr, "reeb: warning: {}\n", damage->what());
+  const FileFlags& flags = file.header().flags;
+  if (options.on_surface) require_surface_points(file);
+  if (flags.has_embedding && !flags.has_spreads && format == io::GraphFormat::kSwc)
+    fmt::print(stderr,
+               "reeb: warning: {}: this file was written by an earlier version, which did not record radii, so "
+               "they are 0; compute the graph of the mesh again\n",
+               options.file);
   const ooc::Level level = file.load(choose_version(file, options));
   ooc::MeasuredArcs measured;
   if (!options.mesh.empty())
@@ -123,8 +134,9 @@ void extract(const ExtractOptions& options) {
          .temp_folder = options.temp_folder.empty() ? io::TempDir::default_folder(options.output) : options.temp_folder,
          .threads = options.threads,
          .quiet = options.quiet});
-  const io::GraphView view{level.graph,          file.header().function,        level.threshold,
-                           level.buckets.view(), file.header().bucket_exponent, measured.arcs};
+  const io::GraphView view{
+      level.graph,   file.header().function, level.threshold,   level.buckets.view(), file.header().bucket_exponent,
+      measured.arcs, flags.has_spreads,      options.on_surface};
   if (outputs.size() == 2)
     write_tables(view, outputs[0], outputs[1], options.force);
   else
@@ -172,6 +184,8 @@ void add_extract(CLI::App& app) {
       ->type_name("DIR")
       ->needs(mesh);
   command->add_flag("--quiet", options->quiet, "With --mesh: print no progress and no notes")->needs(mesh);
+  command->add_flag("--on-surface", options->on_surface,
+                    "Lines pass through vertices of the mesh, not through the centres of contours");
   command->add_flag("--force", options->force, "Replace an existing output");
   command->footer("Example:\n  reeb extract scan.reeb --threshold 0.1% -o coarse.json");
   command->callback([options] { extract(*options); });

@@ -61,7 +61,8 @@ void check_kind(const PlotOptions& options) {
   if (options.kind == "skeleton") return;
   for (const auto& [name, is_given] :
        {std::pair("--mesh", !options.skeleton.mesh.empty()), std::pair("--view", !options.view.empty()),
-        std::pair("--surface", options.surface != "solid"), std::pair("--color", options.color != "value")})
+        std::pair("--surface", options.surface != "solid"), std::pair("--color", options.color != "value"),
+        std::pair("--on-surface", options.skeleton.on_surface)})
     if (is_given) throw Error(ErrorKind::kUsage, std::string(name) + " is for --kind skeleton", "add --kind skeleton");
 }
 
@@ -162,6 +163,8 @@ void add_plot(CLI::App& program) {
                    "For a skeleton: by value, or a colour for each of the arcs (default: value)")
       ->check(CLI::IsMember({"value", "arcs"}))
       ->type_name("BY");
+  command->add_flag("--on-surface", options->skeleton.on_surface,
+                    "For a skeleton: lines pass through vertices of the mesh");
   command->add_flag("--force", options->force, "Replace an existing output");
   command->add_flag("--quiet", options->quiet, "Print no progress and no notes");
   command->footer("Example:\n  reeb plot scan.reeb --kind skeleton --mesh scan.ply --threshold 1% -o scan.png");

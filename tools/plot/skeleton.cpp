@@ -121,11 +121,27 @@ void check_mesh(const SkeletonOptions& options, const FileHeader& header, std::u
 
 }  // namespace
 
+void require_surface_points(const ooc::ReebFile& file) {
+  const FileFlags& flags = file.header().flags;
+  if (!flags.has_embedding)
+    throw Error(ErrorKind::kBadInput, "this file has no points of the surface: it was computed with --buckets 0",
+                "leave --on-surface out, or compute the graph with buckets")
+        .at(file.path());
+  if (!flags.has_spreads)
+    throw Error(ErrorKind::kBadInput,
+                "this file was written by an earlier version, which did not record points of the surface",
+                "leave --on-surface out, or compute the graph of the mesh again")
+        .at(file.path());
+}
+
 std::string draw_skeleton(const ooc::ReebFile& file, const SkeletonOptions& options) {
   const FileHeader& header = file.header();
+  if (options.on_surface) require_surface_points(file);
   const ChosenLevel chosen = choose_level(file, options.level);
   const ooc::Level level = file.load(chosen.version);
-  const io::GraphView view{level.graph, header.function, level.threshold, level.buckets.view(), header.bucket_exponent};
+  const io::GraphView view{
+      level.graph, header.function,          level.threshold,   level.buckets.view(), header.bucket_exponent,
+      {},          header.flags.has_spreads, options.on_surface};
   io::Heading heading{graph_name(file) + ", f = " + header.function + ": skeleton",
                       chosen.text + ", " + counts_text(level.graph)};
   const bool is_empty = level.graph.nodes.empty();

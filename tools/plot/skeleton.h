@@ -21,10 +21,14 @@ struct SkeletonOptions {
   std::optional<Point> view{};  // towards the eye; empty: the best of several
   io::SurfaceStyle surface = io::SurfaceStyle::kSolid;
   io::LineColors colors = io::LineColors::kValue;
+  bool on_surface = false;  // lines pass through vertices of the mesh
   std::string temp_folder{};
   // Called while the mesh is read; `pass` is "measuring" or "drawing".
   std::function<void(const char* pass, std::uint64_t done, std::uint64_t total)> progress{};
 };
+
+// THROWS: Error{kBadInput} if the buckets of the file have no vertices of the surface.
+void require_surface_points(const ooc::ReebFile& file);
 
 // As SVG. Reads the mesh twice.
 // THROWS: Error of the file and of the mesh; Error{kBadInput} if the file was computed from another mesh.

@@ -83,5 +83,37 @@ TEST(ArcLine, BendsIntoItsNodes) {
   EXPECT_DOUBLE_EQ(line[kLineReach][0], 10);
 }
 
+// In a slab of a cone from k to k + 1, of radius k at k, the mean squared distance from the axis is (k + 1/2)^2 + 1/12,
+// and that along the axis from its middle 1/12.
+TEST(ArcLine, RadiiOfAConeAreThoseOfThePlacesOfThePoints) {
+  std::vector<Bucket> buckets;
+  for (int k = 0; k < 60; ++k) {
+    buckets.push_back(bucket(k, 100, {0, 0, k + 0.5}));
+    buckets.back().spread = static_cast<float>((k + 0.5) * (k + 0.5) + 2.0 / 12);
+  }
+  std::vector<double> radii;
+  find_radii(buckets, radii);
+  ASSERT_EQ(radii.size(), buckets.size());
+  // The growth is known less well at the tip.
+  for (std::size_t k = 0; k < radii.size(); ++k)
+    EXPECT_NEAR(radii[k], static_cast<double>(k) + 0.5, (k == 0 ? 0.03 : 0.02) * radii[k]);
+  const std::vector<Point> line = drawn({0, 0, 0}, buckets, {0, 0, 60});
+  find_line_radii(0, buckets, 60, radii);
+  ASSERT_EQ(radii.size(), line.size());
+  for (std::size_t k = 0; k < radii.size(); ++k) EXPECT_NEAR(radii[k], line[k][2], 0.02 * line[k][2]) << k;
+}
+
+TEST(ArcLine, RadiiOfATubeDoNotGrowWithItsSlope) {
+  std::vector<Bucket> buckets;
+  for (int k = 0; k < 30; ++k) {  // the centre moves by 3 in a bucket
+    buckets.push_back(bucket(k, 30, {3.0 * k, 1, 2}));
+    buckets.back().spread = 4 + 9.0f / 12;
+  }
+  std::vector<double> radii;
+  find_line_radii(0, buckets, 30, radii);
+  ASSERT_EQ(radii.size(), buckets.size());
+  for (const double radius : radii) EXPECT_NEAR(radius, 2, 1e-6);
+}
+
 }  // namespace
 }  // namespace reeb::io

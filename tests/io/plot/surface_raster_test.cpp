@@ -126,5 +126,20 @@ TEST(SurfaceRaster, IgnoresTrianglesThatAreNowhere) {
   for (const Rgb& pixel : raster.image().pixels) EXPECT_EQ(pixel, kPaper);
 }
 
+// At some angle to the light the brightest colour is as bright as it can be.
+TEST(SurfaceRaster, TheGreatestValueIsYellowAtAnyAngle) {
+  for (float right = -40; right <= 40; right += 5)
+    for (float down = -40; down <= 40; down += 5) {
+      SurfaceRaster raster(20, 20, 1, SurfaceStyle::kValue, {});
+      raster.triangle({{{-20, -10, -right - down, 1}, {60, -10, 3 * right - down, 1}, {-20, 70, 3 * down - right, 1}}},
+                      true);
+      const Raster image = raster.image();
+      const Rgb middle = image.pixels[10 * image.width + 10];
+      EXPECT_GT(middle.red, 90) << right << ' ' << down;
+      EXPECT_GT(middle.red, middle.green);
+      EXPECT_GT(middle.green, 2 * middle.blue);
+    }
+}
+
 }  // namespace
 }  // namespace reeb::io

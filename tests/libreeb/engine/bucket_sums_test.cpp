@@ -48,6 +48,24 @@ TEST(BucketSum, DoesNotDependOnTheOrderOfAdding) {
   }
 }
 
+TEST(BucketSum, KnowsTheSpreadAndTheRim) {
+  Random random(base_seed());
+  for (int i = 0; i < 200; ++i) {
+    std::vector<Point> points(2 + random.below(60));
+    const double far = i % 2 == 0 ? 0 : 1e6;  // beyond the small coordinates
+    for (Point& point : points) point = {random.unit() + far, 2 * random.unit(), 3 * random.unit() - far};
+    BucketSum parts[2];
+    for (const Point& point : points) parts[random.below(2)].add(point);
+    parts[0].add(parts[1]);
+    const Bucket bucket = parts[0].mean();
+    double squares = 0;
+    for (const Point& point : points)
+      for (std::size_t k = 0; k < 3; ++k) squares += (point[k] - bucket.mean[k]) * (point[k] - bucket.mean[k]);
+    EXPECT_NEAR(bucket.spread, squares / static_cast<double>(points.size()), far == 0 ? 1e-6 : 1e-2);
+    EXPECT_EQ(bucket.rim, rim_of(*std::ranges::max_element(points, {}, [](const Point& p) { return rim_of(p); })));
+  }
+}
+
 TEST(BucketSum, RoundsToItsUnitAndCutsOffWhatItCannotHold) {
   const double unit = 0x1p-44, most = 0x1p50;
   const auto mean = [](double x) {
@@ -67,10 +85,13 @@ TEST(BucketSum, RoundsToItsUnitAndCutsOffWhatItCannotHold) {
 }
 
 TEST(BucketSum, HoldsAsManyOfTheGreatestAsThereAreVertices) {
-  BucketSum sum;
-  sum.add(Point{0x1p50, -0x1p50, 0});
-  for (int doublings = 0; doublings < 32; ++doublings) sum.add(BucketSum(sum));
-  EXPECT_EQ(sum.count, std::uint64_t{1} << 32);
+  BucketSum one, sum;
+  one.add(Point{0x1p50, -0x1p50, 0});
+  for (int bit = 0; bit < 32; ++bit) {
+    sum.add(BucketSum(sum));
+    sum.add(one);
+  }
+  EXPECT_EQ(sum.count, ~std::uint32_t{0});
   EXPECT_EQ(sum.mean().mean, (std::array<double, 3>{0x1p50, -0x1p50, 0}));
 }
 
@@ -79,7 +100,7 @@ struct Model {
   std::map<std::int64_t, BucketSum> buckets;
 
   void add(const BucketSum& bucket) {
-    const auto at = buckets.try_emplace(bucket.index, BucketSum{bucket.index, 0, {}}).first;
+    const auto at = buckets.try_emplace(bucket.index, BucketSum{.index = bucket.index}).first;
     at->second.add(bucket);
   }
   void add_all(Model& other) {
@@ -134,7 +155,7 @@ class ManyLists {
     pool_.start_bucket(index);
     for (std::uint64_t n = random_.below(6); n > 0; --n) {
       const std::size_t i = random_.below(kLists);
-      BucketSum vertex{index, 0, {}};
+      BucketSum vertex{.index = index};
       const Point position = random_point(random_);
       vertex.add(position);
       pool_.add_to_bucket(pool_.current_bucket(lists_[i]), position);
@@ -164,7 +185,7 @@ class ManyLists {
   }
 
   BucketSum vertex(double at, const Point& position) const {
-    BucketSum sum{bucket_index(at, exponent_), 0, {}};
+    BucketSum sum{.index = bucket_index(at, exponent_)};
     sum.add(position);
     return sum;
   }
@@ -230,8 +251,8 @@ class ManyLists {
       bucket.sum[k] = static_cast<Int128>(static_cast<double>(bucket.sum[k]) * share);
       rest.sum[k] -= bucket.sum[k];
     }
-    bucket.count = left;
-    rest.count -= left;
+    bucket.count = static_cast<std::uint32_t>(left);
+    rest.count -= static_cast<std::uint32_t>(left);
     return rest;
   }
 

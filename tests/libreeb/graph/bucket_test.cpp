@@ -3,8 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <random>
+#include <vector>
 
 namespace reeb {
 namespace {
@@ -49,14 +53,53 @@ TEST(Bucket, TheExponentNeverFallsWhenTheRangeGrows) {
   }
 }
 
+// The bucket of these vertices, from the definition. Coordinates are small integers, so that sums are exact.
+Bucket bucket_of(const std::vector<std::array<double, 3>>& points) {
+  Bucket bucket{0, points.size(), {}};
+  const auto n = static_cast<double>(points.size());
+  for (std::size_t k = 0; k < 3; ++k) {
+    for (const auto& point : points) bucket.mean[k] += point[k];
+    bucket.mean[k] /= n;
+  }
+  if (points.size() == 1) return bucket;
+  double squares = 0;
+  for (const auto& point : points)
+    for (std::size_t k = 0; k < 3; ++k) squares += (point[k] - bucket.mean[k]) * (point[k] - bucket.mean[k]);
+  bucket.spread = static_cast<float>(squares / n);
+  bucket.rim = rim_of(*std::ranges::max_element(points));
+  return bucket;
+}
+
+TEST(Bucket, MergingYieldsTheSpreadAndTheRimOfAllVertices) {
+  std::mt19937 random(5);
+  for (int round = 0; round < 500; ++round) {
+    std::vector<std::array<double, 3>> all;
+    Bucket merged;
+    for (int part = 1 + static_cast<int>(random() % 4); part > 0; --part) {
+      std::vector<std::array<double, 3>> points(1 + random() % 5);
+      for (auto& point : points)
+        for (double& x : point) x = static_cast<double>(random() % 9) - 4;
+      all.insert(all.end(), points.begin(), points.end());
+      merge_into(merged, bucket_of(points));
+    }
+    const Bucket expected = bucket_of(all);
+    ASSERT_EQ(merged.count, expected.count);
+    ASSERT_EQ(merged.rim, expected.rim);
+    ASSERT_NEAR(merged.spread, expected.spread, 1e-5 * (1 + expected.spread));
+  }
+}
+
 TEST(Bucket, CoarseningJoinsNeighboursAndKeepsCountsAndCentres) {
   const std::vector<Bucket> fine = {{9, 7, {1, 1, 1}},  {-3, 2, {0, 0, 0}}, {-2, 6, {4, 8, -4}},
                                     {-1, 2, {5, 0, 0}}, {0, 3, {1, 2, 3}},  {3, 5, {2, 2, 2}}};
   std::vector<Bucket> buckets = fine;
   coarsen(buckets, 1, 1);  // the first is another arc's
-  EXPECT_EQ(buckets,
-            (std::vector<Bucket>{
-                {9, 7, {1, 1, 1}}, {-2, 2, {0, 0, 0}}, {-1, 8, {4.25, 6, -3}}, {0, 3, {1, 2, 3}}, {1, 5, {2, 2, 2}}}));
+  // Of (4, 8, -4) six times and (5, 0, 0) twice: 3/16 of the squared distance, 81.
+  EXPECT_EQ(buckets, (std::vector<Bucket>{{9, 7, {1, 1, 1}},
+                                          {-2, 2, {0, 0, 0}},
+                                          {-1, 8, {4.25, 6, -3}, 81 * 0.1875f, {}},
+                                          {0, 3, {1, 2, 3}},
+                                          {1, 5, {2, 2, 2}}}));
   buckets = fine;
   coarsen(buckets, 1, 2000);
   EXPECT_EQ(buckets.size(), 3u);

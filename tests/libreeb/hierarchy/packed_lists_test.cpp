@@ -20,6 +20,9 @@ std::vector<Bucket> random_list(test::Random& random, std::uint32_t most) {
     index += 1 + test::below(random, 3);
     const double x = static_cast<double>(test::below(random, 1000));
     list.push_back({index, 1 + test::below(random, 300), {x / (test::below(random, 2) == 0 ? 1 : 3), -x, 0.5}});
+    if (list.back().count == 1) continue;
+    list.back().spread = static_cast<float>(x);
+    list.back().rim = {static_cast<float>(x), 1, -2};
   }
   return list;
 }
@@ -35,7 +38,7 @@ TEST(PackedBuckets, ExtremeNumbersComeBack) {
   constexpr double kHuge = std::numeric_limits<double>::max(), kTiny = std::numeric_limits<double>::denorm_min();
   const std::vector<Bucket> list{
       {std::numeric_limits<std::int64_t>::min(), 1, {kHuge, -kHuge, kTiny}},
-      {-1, std::uint64_t{1} << 62, {0.1, 0.2, 0.3}},
+      {-1, std::uint64_t{1} << 62, {0.1, 0.2, 0.3}, 1e30f, {-1e30f, 1e-30f, 0.5f}},
       {0, 1, {1.5, -0.25, 1e30f}},
       {std::numeric_limits<std::int64_t>::max(), 8191, {0, 0, 0}},
   };
