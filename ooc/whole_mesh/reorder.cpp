@@ -40,8 +40,7 @@ class Reorder {
         budget_(budget),
         options_(options),
         vertex_count_(mesh.vertex_count()),
-        slice_bits_(static_cast<unsigned>(
-            std::bit_width(std::max<std::uint64_t>(kItemsAtOnce, options.allowance_bytes / 4 / sizeof(Rank))) - 1)),
+        slice_bits_(slice_bits(vertex_count_, options.allowance_bytes / 4 / sizeof(Rank))),
         slices_(static_cast<std::size_t>((vertex_count_ + slice_entries() - 1) >> slice_bits_)),
         ranks_(temp.create_unnamed("ranks")),
         result_(std::make_unique<ReorderedMesh>(mesh.column_count(), temp, budget, options.allowance_bytes / 4)) {}
@@ -269,6 +268,13 @@ class Reorder {
     return result;
   }
 
+  // The entries of a slice fit the cache, unless there would be too many slices, of which each takes 16 KiB. A power of
+  // two, so that a look-up does not divide; at most `most`.
+  static unsigned slice_bits(std::uint64_t vertices, std::uint64_t most) {
+    constexpr std::uint64_t kInCache = 1u << 17, kManySlices = 64;
+    const std::uint64_t wanted = std::max(kInCache, vertices / kManySlices);
+    return static_cast<unsigned>(std::bit_width(std::min(wanted, std::max<std::uint64_t>(kItemsAtOnce, most))) - 1);
+  }
   SortOptions sorting() const { return {.allowance_bytes = options_.allowance_bytes / 2, .threads = options_.threads}; }
   std::uint64_t slice_entries() const { return std::uint64_t{1} << slice_bits_; }
   std::size_t slice_of(std::uint64_t id) const { return static_cast<std::size_t>(id >> slice_bits_); }
