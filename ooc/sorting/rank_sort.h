@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "ooc/threads/kept_arena.h"
 #include "ooc/threads/parallel.h"
 
 namespace reeb::ooc {
@@ -36,7 +37,9 @@ class RankSort {
       return;
     }
     const std::vector<std::size_t> ends = divide(records);
-    in_parallel(threads, ends.size(), [&](std::size_t part) { sort(part_of(records, ends, part)); });
+    run_in_kept_arena(threads, [&] {
+      in_parallel(threads, ends.size(), [&](std::size_t part) { sort(part_of(records, ends, part)); });
+    });
   }
 
  private:
