@@ -18,6 +18,7 @@
 #include "io/file/temp_dir.h"
 #include "libreeb/base/memory_budget.h"
 #include "libreeb/base/state_stream.h"
+#include "ooc/sorting/rank_sort.h"
 #include "ooc/sorting/record_batch.h"
 #include "ooc/sorting/sort_buffer.h"
 #include "ooc/sorting/sorted_run_file.h"
@@ -306,6 +307,11 @@ class ExternalSort {
 
   void sort(std::vector<Record>& records) const {
     const auto less = [](const Record& a, const Record& b) { return in_order(a, b); };
+    if constexpr (HasRank<Less, Record>) {
+      sort_by_rank(
+          std::span(records), [](const Record& r) { return Less::rank(r); }, less, options_.threads);
+      return;
+    }
 #ifdef __SANITIZE_THREAD__
     constexpr bool kVisibleToSanitizer = false;  // the sanitizer does not see TBB pass records between threads
 #else

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "ooc/sorting/rank_sort.h"
 #include "ooc/sorting/record_batch.h"
 #include "ooc/sorting/sorted_run_file.h"
 
@@ -86,11 +87,10 @@ void read_block(const SortedRunFile& file, RunPlace& run, std::vector<std::byte>
   if (!decode_block<Record, Codec>(packed, block)) file.refuse(offset);
 }
 
-// A number that rises with the record. Unequal numbers order most records without a branch that the processor cannot
-// predict.
+// 0 if there is no rank. Unequal ranks order most records without a branch that the processor cannot predict.
 template <class Less, class Record>
 std::uint64_t rank_of(const Record& record) {
-  if constexpr (requires { Less::rank(record); })
+  if constexpr (HasRank<Less, Record>)
     return Less::rank(record);
   else
     return 0;

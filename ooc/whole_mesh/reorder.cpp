@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <compare>
+#include <functional>
 #include <limits>
 #include <numeric>
 #include <vector>
@@ -22,20 +24,14 @@ struct KeyedVertex {
   std::uint64_t key, vertex;
   friend auto operator<=>(const KeyedVertex&, const KeyedVertex&) = default;
 };
-struct RankedTriangle {
-  std::array<std::uint64_t, 3> corners;  // rotated so that the lowest is first, not flipped
-  friend auto operator<=>(const RankedTriangle&, const RankedTriangle&) = default;
-};
-struct PlacedNumber {
-  std::uint64_t place;
-  double number;
-};
-struct PlacedRank {
-  std::uint64_t place, rank;
+struct KeyLess : std::less<KeyedVertex> {
+  static std::uint64_t rank(const KeyedVertex& keyed) { return keyed.key; }
 };
 
 // The vertices are divided into slices of consecutive ids (or ranks) whose entries fit in memory. A join by vertex then
-// partitions the records by slice, and looks up each slice in memory.
+// partitions the records by slice, and looks up each slice in memory. Ranks have 32 bits where that suffices: what is
+// written to disk is most of the time.
+template <class Rank>
 class Reorder {
  public:
   Reorder(IndexedMesh& mesh, const io::TempDir& temp, MemoryBudget& budget, const ReorderOptions& options)
@@ -44,8 +40,8 @@ class Reorder {
         budget_(budget),
         options_(options),
         vertex_count_(mesh.vertex_count()),
-        slice_entries_(std::max<std::uint64_t>(kItemsAtOnce, options.allowance_bytes / 4 / 8)),
-        slices_(static_cast<std::size_t>((vertex_count_ + slice_entries_ - 1) / slice_entries_)),
+        slice_bits_(slice_bits(vertex_count_, options.allowance_bytes / 4 / sizeof(Rank))),
+        slices_(static_cast<std::size_t>((vertex_count_ + slice_entries() - 1) >> slice_bits_)),
         ranks_(temp.create_unnamed("ranks")),
         result_(std::make_unique<ReorderedMesh>(mesh.column_count(), temp, budget, options.allowance_bytes / 4)) {}
 
@@ -61,6 +57,27 @@ class Reorder {
   }
 
  private:
+  struct RankedTriangle {
+    std::array<Rank, 3> corners;  // rotated so that the lowest is first, not flipped
+    friend auto operator<=>(const RankedTriangle&, const RankedTriangle&) = default;
+  };
+  struct RankLess : std::less<RankedTriangle> {
+    static std::uint64_t rank(const RankedTriangle& triangle) {
+      if constexpr (sizeof(Rank) == 8) return triangle.corners[0];
+      return std::uint64_t{triangle.corners[0]} << 32 | triangle.corners[1];
+    }
+  };
+  // The double is in two parts, so that it needs no space before it.
+  struct PlacedNumber {
+    Rank place;  // in its slice
+    std::array<std::uint32_t, 2> number;
+  };
+  struct PlacedRank {
+    Rank place, rank;
+  };
+  using KeySort = ExternalSort<KeyedVertex, PlainCodec<KeyedVertex>, KeyLess>;
+  using TriangleSort = ExternalSort<RankedTriangle, PlainCodec<RankedTriangle>, RankLess>;
+
   // The parts of the time after which a step is done, about.
   static constexpr double kKeyed = 0.05, kRanked = 0.15, kPlaced = 0.25, kLooked = 0.5, kSorted = 0.75;
 
@@ -95,7 +112,7 @@ class Reorder {
 
   // The rank of a vertex is its place along the curve.
   void rank_vertices() {
-    ExternalSort<KeyedVertex> by_key("reorder", temp_, budget_, sorting());
+    KeySort by_key("reorder", temp_, budget_, sorting());
     add_keys(by_key);
     by_key.finish(0, [this] { poll(); });
     tell(kKeyed);
@@ -104,23 +121,23 @@ class Reorder {
     for (std::vector<KeyedVertex> some; by_key.read(some, kItemsAtOnce);)
       for (const KeyedVertex& keyed : some) {
         result_->set_original(VertexId(rank), VertexId(keyed.vertex));
-        by_slice.append(slice_of(keyed.vertex), {keyed.vertex, rank++});
+        by_slice.append(slice_of(keyed.vertex), {place_of(keyed.vertex), static_cast<Rank>(rank++)});
       }
     tell(kRanked);
-    const Reservation charge = budget_.reserve("reorder", slice_entries_ * 8);
-    std::vector<std::uint64_t> slice;
+    const Reservation charge = budget_.reserve("reorder", slice_entries() * sizeof(Rank));
+    std::vector<Rank> slice;
     for (std::size_t s = 0; s < slices_; ++s) {
       poll();
       slice.resize(slice_size(s));
       for (std::uint64_t i = by_slice.count(s); i-- > 0;) {
         const PlacedRank& placed = by_slice.next(s);
-        slice[placed.place % slice_entries_] = placed.rank;
+        slice[placed.place] = placed.rank;
       }
-      ranks_.write_at(s * slice_entries_ * 8, std::as_bytes(std::span(slice)));
+      ranks_.write_at(s * slice_entries() * sizeof(Rank), std::as_bytes(std::span(slice)));
     }
   }
 
-  void add_keys(ExternalSort<KeyedVertex>& by_key) {
+  void add_keys(KeySort& by_key) {
     std::vector<unsigned> axes(std::min({options_.coordinates, mesh_.column_count(), 3u}));
     std::iota(axes.begin(), axes.end(), 0u);
     std::array<double, 3> low, high;
@@ -166,27 +183,29 @@ class Reorder {
   // Reorders a column from the order of ids to that of ranks.
   void place_column(unsigned column) {
     PartitionLogs<PlacedNumber> by_slice("reorder", temp_, budget_, slices_);
-    std::vector<std::uint64_t> ranks;
+    std::vector<Rank> ranks;
     for_each_range(std::array{column}, [&](std::uint64_t first, std::size_t count, std::span<const double> values) {
       ranks.resize(count);
-      ranks_.read_at(first * 8, std::as_writable_bytes(std::span(ranks)));
-      for (std::size_t i = 0; i < count; ++i) by_slice.append(slice_of(ranks[i]), {ranks[i], values[i]});
+      ranks_.read_at(first * sizeof(Rank), std::as_writable_bytes(std::span(ranks)));
+      for (std::size_t i = 0; i < count; ++i)
+        by_slice.append(slice_of(ranks[i]),
+                        {place_of(ranks[i]), std::bit_cast<std::array<std::uint32_t, 2>>(values[i])});
     });
-    const Reservation charge = budget_.reserve("reorder", slice_entries_ * 8);
+    const Reservation charge = budget_.reserve("reorder", slice_entries() * 8);
     std::vector<double> slice;
     for (std::size_t s = 0; s < slices_; ++s) {
       poll();
       slice.resize(slice_size(s));
       for (std::uint64_t i = by_slice.count(s); i-- > 0;) {
         const PlacedNumber& placed = by_slice.next(s);
-        slice[placed.place % slice_entries_] = placed.number;
+        slice[placed.place] = std::bit_cast<double>(placed.number);
       }
       result_->append_column(column, slice);
     }
   }
 
   void sort_triangles() {
-    ExternalSort<RankedTriangle> by_rank("reorder", temp_, budget_, sorting());
+    TriangleSort by_rank("reorder", temp_, budget_, sorting());
     add_ranked_triangles(by_rank);
     by_rank.finish(0, [this] { poll(); });
     std::vector<VertexId> corners;
@@ -196,55 +215,72 @@ class Reorder {
       tell(kSorted + (1 - kSorted) * static_cast<double>(appended) / static_cast<double>(triangle_count_));
       corners.clear();
       for (const RankedTriangle& triangle : some)
-        for (const std::uint64_t corner : triangle.corners) corners.emplace_back(corner);
+        for (const Rank corner : triangle.corners) corners.emplace_back(corner);
       result_->append_triangles(corners);
     }
   }
 
-  void add_ranked_triangles(ExternalSort<RankedTriangle>& by_rank) {
-    PartitionLogs<std::uint64_t> corner_ranks = ranks_by_slice();
+  void add_ranked_triangles(TriangleSort& by_rank) {
+    PartitionLogs<Rank> corner_ranks = ranks_by_slice();
     // The corners are read again. The rank of each is the next one in the log of its slice.
     std::vector<VertexId> corners;
+    std::vector<RankedTriangle> triangles;
     mesh_.rewind();
     while (mesh_.read(corners, kItemsAtOnce)) {
       triangle_count_ += corners.size() / 3;
       tell_reading(kLooked, kSorted);
+      triangles.clear();
       for (std::size_t t = 0; t < corners.size(); t += 3) {
-        RankedTriangle triangle;
-        for (std::size_t c = 0; c < 3; ++c) triangle.corners[c] = corner_ranks.next(slice_of(corners[t + c].value()));
-        auto& ranks = triangle.corners;
-        std::rotate(ranks.begin(), std::min_element(ranks.begin(), ranks.end()), ranks.end());
-        by_rank.add(triangle);
+        std::array<Rank, 3> ranks;
+        for (std::size_t c = 0; c < 3; ++c) ranks[c] = corner_ranks.next(slice_of(corners[t + c].value()));
+        triangles.push_back(rotated(ranks));
       }
+      by_rank.add(triangles);
     }
   }
 
+  // Without branches, since they could not be predicted.
+  static RankedTriangle rotated(const std::array<Rank, 3>& ranks) {
+    const std::size_t of_two = ranks[1] < ranks[0] ? 1 : 0;
+    const std::size_t lowest = ranks[2] < ranks[of_two] ? 2 : of_two;
+    return {{ranks[lowest], ranks[(lowest + 1) % 3], ranks[(lowest + 2) % 3]}};
+  }
+
   // The ranks of all corners, in the order of the mesh within each slice.
-  PartitionLogs<std::uint64_t> ranks_by_slice() {
+  PartitionLogs<Rank> ranks_by_slice() {
     PartitionLogs<std::uint32_t> places("reorder", temp_, budget_, slices_);
     std::vector<VertexId> corners;
     mesh_.rewind();
     while (mesh_.read(corners, kItemsAtOnce)) {
       tell_reading(kPlaced, kLooked);
       for (const VertexId v : corners)
-        places.append(slice_of(v.value()), static_cast<std::uint32_t>(v.value() % slice_entries_));
+        places.append(slice_of(v.value()), static_cast<std::uint32_t>(place_of(v.value())));
     }
-    PartitionLogs<std::uint64_t> result("reorder", temp_, budget_, slices_);
-    const Reservation charge = budget_.reserve("reorder", slice_entries_ * 8);
-    std::vector<std::uint64_t> slice;
+    PartitionLogs<Rank> result("reorder", temp_, budget_, slices_);
+    const Reservation charge = budget_.reserve("reorder", slice_entries() * sizeof(Rank));
+    std::vector<Rank> slice;
     for (std::size_t s = 0; s < slices_; ++s) {
       poll();
       slice.resize(slice_size(s));
-      ranks_.read_at(s * slice_entries_ * 8, std::as_writable_bytes(std::span(slice)));
+      ranks_.read_at(s * slice_entries() * sizeof(Rank), std::as_writable_bytes(std::span(slice)));
       for (std::uint64_t i = places.count(s); i-- > 0;) result.append(s, slice[places.next(s)]);
     }
     return result;
   }
 
+  // The entries of a slice fit the cache, unless there would be too many slices, of which each takes 16 KiB. A power of
+  // two, so that a look-up does not divide; at most `most`.
+  static unsigned slice_bits(std::uint64_t vertices, std::uint64_t most) {
+    constexpr std::uint64_t kInCache = 1u << 17, kManySlices = 64;
+    const std::uint64_t wanted = std::max(kInCache, vertices / kManySlices);
+    return static_cast<unsigned>(std::bit_width(std::min(wanted, std::max<std::uint64_t>(kItemsAtOnce, most))) - 1);
+  }
   SortOptions sorting() const { return {.allowance_bytes = options_.allowance_bytes / 2, .threads = options_.threads}; }
-  std::size_t slice_of(std::uint64_t id) const { return static_cast<std::size_t>(id / slice_entries_); }
+  std::uint64_t slice_entries() const { return std::uint64_t{1} << slice_bits_; }
+  std::size_t slice_of(std::uint64_t id) const { return static_cast<std::size_t>(id >> slice_bits_); }
+  Rank place_of(std::uint64_t id) const { return static_cast<Rank>(id & (slice_entries() - 1)); }
   std::size_t slice_size(std::size_t s) const {
-    return static_cast<std::size_t>(std::min(slice_entries_, vertex_count_ - s * slice_entries_));
+    return static_cast<std::size_t>(std::min(slice_entries(), vertex_count_ - s * slice_entries()));
   }
 
   IndexedMesh& mesh_;
@@ -253,9 +289,9 @@ class Reorder {
   const ReorderOptions& options_;
   mutable double done_ = 0;  // as told last
   std::uint64_t vertex_count_, triangle_count_ = 0;
-  std::uint64_t slice_entries_;
+  unsigned slice_bits_;
   std::size_t slices_;
-  io::File ranks_;  // by vertex, 8 bytes each
+  io::File ranks_;  // by vertex
   std::unique_ptr<ReorderedMesh> result_;
 };
 
@@ -263,7 +299,9 @@ class Reorder {
 
 std::unique_ptr<ReorderedMesh> reorder(IndexedMesh& mesh, const io::TempDir& temp, MemoryBudget& budget,
                                        const ReorderOptions& options) {
-  return Reorder(mesh, temp, budget, options).run();
+  if (mesh.vertex_count() <= std::numeric_limits<std::uint32_t>::max())
+    return Reorder<std::uint32_t>(mesh, temp, budget, options).run();
+  return Reorder<std::uint64_t>(mesh, temp, budget, options).run();
 }
 
 }  // namespace reeb::ooc

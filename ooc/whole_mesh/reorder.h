@@ -44,7 +44,7 @@ struct ReorderOptions {
 // random access.
 //
 // THROWS: what reading the mesh throws; Error{kResource} of the budget or the disk.
-// MEMORY: the allowance; the result keeps a quarter of it. About 60 bytes of disk per triangle.   TIME: O(n log n).
+// MEMORY: the allowance; the result keeps a quarter of it. About 40 bytes of disk per triangle.   TIME: O(n log n).
 std::unique_ptr<ReorderedMesh> reorder(IndexedMesh& mesh, const io::TempDir& temp, MemoryBudget& budget,
                                        const ReorderOptions& options = {});
 

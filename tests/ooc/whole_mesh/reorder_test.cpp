@@ -117,14 +117,14 @@ TEST(Reorder, EachFailingWriteIsReported) {
   });
 }
 
-// Cells of the coarsest levels: the curve's start on the fine grid visits neighbours in turn.
-TEST(Hilbert, NeighboursOnTheCurveShareAFace) {
+// Cells of 2^shift to a side: the curve visits neighbours in turn.
+void expect_curve_of_neighbours(unsigned shift) {
   constexpr std::uint32_t kSide = 16;
   std::vector<std::array<std::uint32_t, 3>> by_index(kSide * kSide * kSide);
   for (std::uint32_t x = 0; x < kSide; ++x)
     for (std::uint32_t y = 0; y < kSide; ++y)
       for (std::uint32_t z = 0; z < kSide; ++z) {
-        const std::uint64_t index = hilbert_index({x, y, z});
+        const std::uint64_t index = hilbert_index({x << shift, y << shift, z << shift}) >> (3 * shift);
         ASSERT_LT(index, by_index.size());
         by_index[index] = {x, y, z};
       }
@@ -133,6 +133,13 @@ TEST(Hilbert, NeighboursOnTheCurveShareAFace) {
     for (std::size_t a = 0; a < 3; ++a)
       distance += std::abs(static_cast<int>(by_index[i][a]) - static_cast<int>(by_index[i - 1][a]));
     ASSERT_EQ(distance, 1) << "at " << i;
+  }
+}
+
+TEST(Hilbert, NeighboursOnTheCurveShareAFace) {
+  for (const unsigned shift : {0u, 9u, kHilbertBits - 4}) {
+    SCOPED_TRACE(shift);
+    expect_curve_of_neighbours(shift);
   }
 }
 
