@@ -14,7 +14,7 @@ namespace {
 using Vertices = std::vector<std::uint32_t>;
 using Edge = std::pair<std::uint32_t, std::uint32_t>;  // the smaller number first
 
-constexpr std::uint32_t kNone = EditablePatch::kNone;
+constexpr std::uint32_t kNowhere = EditablePatch::kNone;
 constexpr int kCoarse = 6, kFine = 2;  // twelfths of an edge between two places on it
 
 // The triangles around a closed curve, if they are a band with two rims. Its places are the corners of the triangles,
@@ -43,7 +43,7 @@ class RingBand {
   bool is_closed_band() { return is_manifold() && find_way(); }
 
   struct Place {
-    std::uint32_t a = kNone, b = kNone;  // on this edge, or the vertex a
+    std::uint32_t a = kNowhere, b = kNowhere;  // on this edge, or the vertex a
     int twelfths = 0;
     Point point{};
   };
@@ -60,7 +60,7 @@ class RingBand {
   Vertices loop_through(std::uint32_t from, double& most) const {
     const auto count = static_cast<std::uint32_t>(places_.size());
     std::vector<double> length(2 * count, kFar);
-    Vertices before(2 * count, kNone);
+    Vertices before(2 * count, kNowhere);
     using Entry = std::pair<double, std::uint32_t>;
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
     length[from] = 0;
@@ -90,7 +90,7 @@ class RingBand {
     if (!(length[goal] < most)) return {};
     most = length[goal];
     Vertices loop;
-    for (std::uint32_t state = before[goal]; state != kNone; state = before[state]) loop.push_back(state % count);
+    for (std::uint32_t state = before[goal]; state != kNowhere; state = before[state]) loop.push_back(state % count);
     return loop;
   }
 
@@ -98,7 +98,7 @@ class RingBand {
   std::uint32_t triangle_with(std::uint32_t p, std::uint32_t q) const {
     for (const std::uint32_t t : at_[p])
       if (std::ranges::find(of_[t], q) != of_[t].end()) return triangles_[t];
-    return kNone;
+    return kNowhere;
   }
 
  private:
@@ -111,7 +111,7 @@ class RingBand {
       Vertices of;
       for (std::size_t k = 0; k < 3; ++k) {
         const auto [vertex, fresh] = vertex_place_.try_emplace(c[k], static_cast<std::uint32_t>(places_.size()));
-        if (fresh) places_.push_back({c[k], kNone, 0, patch_.position(c[k])});
+        if (fresh) places_.push_back({c[k], kNowhere, 0, patch_.position(c[k])});
         of.push_back(vertex->second);
         const Edge edge = std::minmax(c[k], c[(k + 1) % 3]);
         const auto [first, fresh_edge] = edge_place_.try_emplace(edge, static_cast<std::uint32_t>(places_.size()));
@@ -174,18 +174,18 @@ class RingBand {
     Vertices open;
     for (const auto& [v, rim] : rim_of_)
       if (rim == 1) {
-        before.emplace(v, kNone);
+        before.emplace(v, kNowhere);
         open.push_back(v);
       }
-    std::uint32_t end = kNone;
-    for (std::size_t i = 0; i < open.size() && end == kNone; ++i)
+    std::uint32_t end = kNowhere;
+    for (std::size_t i = 0; i < open.size() && end == kNowhere; ++i)
       for (const std::uint32_t t : at_[place_of(open[i])])
         for (const std::uint32_t w : patch_.triangle(triangles_[t]).corners) {
           if (!before.emplace(w, open[i]).second) continue;
           open.push_back(w);
-          if (const auto it = rim_of_.find(w); end == kNone && it != rim_of_.end()) end = w;
+          if (const auto it = rim_of_.find(w); end == kNowhere && it != rim_of_.end()) end = w;
         }
-    for (; end != kNone; end = before[end]) way_.push_back(end);
+    for (; end != kNowhere; end = before[end]) way_.push_back(end);
     on_way_.assign(places_.size(), 0);
     side_.assign(triangles_.size(), Side::kNeither);
     for (const std::uint32_t v : way_) on_way_[place_of(v)] = 1;
@@ -236,7 +236,7 @@ class RingBand {
 // The place where the way across the band crosses the curve.
 std::uint32_t crossing_of(const RingBand& band, std::span<const std::uint32_t> curve) {
   const auto it = std::ranges::find_if(band.way(), [&](std::uint32_t v) { return std::ranges::count(curve, v) != 0; });
-  return it == band.way().end() ? kNone : band.place_of(*it);
+  return it == band.way().end() ? kNowhere : band.place_of(*it);
 }
 
 // The shortest closed curve through a place on the way across the band; none if it is not shorter than `most`.
@@ -270,7 +270,7 @@ std::optional<TightCurve> pull_tight(EditablePatch& patch, std::span<const std::
     if (!coarse.is_closed_band()) continue;
     const std::uint32_t crossing = crossing_of(coarse, curve);
     double first = kPromising * most * length;
-    if (crossing == kNone || coarse.loop_through(crossing, first).empty()) return std::nullopt;
+    if (crossing == kNowhere || coarse.loop_through(crossing, first).empty()) return std::nullopt;
     RingBand band(patch, curve, rings, kFine);
     if (!band.is_closed_band()) return std::nullopt;
     TightCurve tight;
