@@ -136,6 +136,23 @@ async function generated() {
   return files
 }
 
+// The rims of the buckets of the full graph are the points of its lines on the surface.
+async function compareRims(file) {
+  const reader = await open(readFileSync(file))
+  await reader.readTo(0)
+  const { graph } = reader
+  check(`${file}: buckets have rims`, graph.buckets > 20 && graph.bucketRim.length >= 3 * graph.buckets, graph.buckets)
+  const points = new Set(
+    run('extract', file, '--format', 'obj', '--on-surface').split('\n').filter((line) => line.startsWith('v '))
+      .map((line) => line.split(' ').slice(1, 4).map(Number).join()),
+  )
+  let missing = 0
+  for (let arc = 0; arc < graph.records; ++arc)
+    for (let b = graph.firstBucket[arc]; graph.isIn(arc, 0) && b < graph.firstBucket[arc + 1]; ++b)
+      if (!points.has([...graph.bucketRim.subarray(3 * b, 3 * b + 3)].join())) ++missing
+  check(`${file}: rims`, missing === 0, `${missing} of ${graph.buckets} are not in the output of extract`)
+}
+
 // The example at the end of docs/FORMAT.md.
 function example() {
   const text = readFileSync(join(source, 'docs/FORMAT.md'), 'utf8')
@@ -176,6 +193,8 @@ const scan = new Uint8Array(readFileSync(join(work, 'scan.reeb')))
 const reader = await compare(join(work, 'scan.reeb'), ({ levels }) => levels.map(({ threshold }) => threshold))
 check('the large file has several frames', reader.header.graphFrames > 2, reader.header.graphFrames)
 await comparePairs(join(work, 'scan.reeb'), reader)
+await compareRims(join(work, 'scan.reeb'))
+for (const golden of ['reeb/version-1.reeb', 'reeb/version-2.reeb']) await compare(join(source, 'tests/golden', golden), () => [0, 1])
 await damaged('scan', scan, Array.from({ length: 60 }, () => random(scan.length)))
 
 // What was complete before the damage stays.

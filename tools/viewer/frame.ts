@@ -35,6 +35,7 @@ export interface GraphFrame {
   bucketIndex: Float64Array
   bucketCount: Float64Array
   bucketMean: Float64Array // x, y, z of each bucket
+  bucketRim: Float64Array // the same; empty in version 1
 }
 
 export interface Pairs {
@@ -83,9 +84,41 @@ function payload(frame: FrameHeader, bytes: Uint8Array, digest: Digest): Cursor 
   return new Cursor(raw, frame.offset + kFrameHeaderBytes)
 }
 
+// The vertex of each bucket that is on its rim: from codes, as singles next to the mean. One vertex is its own rim.
+// THROWS: FormatError.
+function rims(cursor: Cursor, count: Float64Array, mean: Float64Array): Float64Array {
+  const several = count.reduce((sum, n) => sum + (n > 1 ? 1 : 0), 0)
+  if (16 * several > cursor.left) cursor.fail('a frame has no room for its buckets')
+  const [first, second] = [cursor.planes(several), cursor.planes(several)]
+  const spreads = new Float32Array(first.buffer)
+  const single = new Float32Array(1)
+  const bits = new Uint32Array(single.buffer)
+  const rim = (code: number, middle: number) => {
+    single[0] = middle
+    const place = bits[0] >>> 31 ? ~bits[0] : bits[0] | 0x80000000
+    const moved = (place + (code & 1 ? -((code >>> 1) + 1) : code >>> 1)) >>> 0
+    bits[0] = moved >>> 31 ? moved & 0x7fffffff : ~moved
+    return single[0]
+  }
+  const found = mean.slice()
+  let at = 0
+  for (let i = 0; i < count.length; ++i) {
+    if (count[i] <= 1) continue
+    if (!(spreads[2 * at] >= 0) || spreads[2 * at] === Infinity) cursor.fail('the spread of a bucket is not a number from 0')
+    const codes = [first[2 * at + 1], second[2 * at], second[2 * at + 1]]
+    for (let k = 0; k < 3; ++k) {
+      found[3 * i + k] = rim(codes[k], mean[3 * i + k])
+      if (!Number.isFinite(found[3 * i + k])) cursor.fail('the rim of a bucket is not finite')
+    }
+    ++at
+  }
+  return found
+}
+
 // `bytes`: the whole frame, its header included. THROWS: FormatError.
 export function decodeGraphFrame(header: Header, frame: FrameHeader, bytes: Uint8Array, digest: Digest): GraphFrame {
   const cursor = payload(frame, bytes, digest)
+  const hasRims = header.embedding && header.fileVersion === 2
   const { versions, nodes, records } = frame
   // The least that these numbers take, before anything is reserved for them.
   const least =
@@ -135,10 +168,11 @@ export function decodeGraphFrame(header: Header, frame: FrameHeader, bytes: Uint
   for (let i = 0; i < total; ++i) bucketIndex[i] = cursor.delta(i > 0 ? bucketIndex[i - 1] : 0)
   for (let i = 0; i < total; ++i) bucketCount[i] = cursor.varint()
   const bucketMean = triples(total)
+  const bucketRim = hasRims ? rims(cursor, bucketCount, bucketMean) : new Float64Array(0)
   if (cursor.left > 0) cursor.fail('a frame has bytes left over')
   return {
     persistence, nodesOf, arcsOf, bucketsOf, value, vertex, position,
-    died, born, lo, hi, buckets, bucketIndex, bucketCount, bucketMean,
+    died, born, lo, hi, buckets, bucketIndex, bucketCount, bucketMean, bucketRim,
   }
 }
 

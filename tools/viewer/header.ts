@@ -19,6 +19,7 @@ export interface Level {
 }
 
 export interface Header {
+  fileVersion: number
   graphOnly: boolean
   positions: boolean
   embedding: boolean
@@ -51,7 +52,8 @@ export function headerBytes(fixed: Uint8Array, fileBytes: number): number {
     throw new FormatError('this is not a .reeb file: it starts with other bytes', 0)
   cursor.take(8)
   const version = cursor.u32()
-  if (version !== 1) throw new FormatError(`the file has version ${version}; this page reads version 1`, 8)
+  if (version !== 1 && version !== 2)
+    throw new FormatError(`the file has version ${version}; this page reads versions 1 and 2`, 8)
   if (fixed.length < kFixedBytes) throw new FormatError('the file ends in its header', fixed.length)
   cursor.u32()
   const size = cursor.u64()
@@ -69,10 +71,12 @@ export function readHeader(bytes: Uint8Array, digest: Digest): Header {
   }
   const sum = new Cursor(bytes.subarray(bytes.length - 8), bytes.length - 8).digest()
   rule(digest([bytes.subarray(0, -8)]) === sum, 'the header is damaged: its checksum is wrong', bytes.length - 8)
-  cursor.take(12)
+  cursor.take(8)
+  const fileVersion = cursor.u32()
   const flags = cursor.u32()
   rule(flags < 8, 'the header has unknown flags', 12)
   const header: Header = {
+    fileVersion,
     graphOnly: (flags & 1) !== 0,
     positions: (flags & 2) !== 0,
     embedding: (flags & 4) !== 0,

@@ -44,7 +44,7 @@ export class LoadedGraph {
   private readonly columns = {
     value: floats(), vertex: floats(), position: floats(),
     lo: integers(), hi: integers(), born: integers(), died: integers(), firstBucket: integers(),
-    bucketIndex: floats(), bucketCount: floats(), bucketMean: floats(),
+    bucketIndex: floats(), bucketCount: floats(), bucketMean: floats(), bucketRim: floats(),
     persistence: floats(), nodesOf: floats(), arcsOf: floats(), bucketsOf: floats(),
   }
   // 1 for each node that a record names; the others are isolated points.
@@ -70,6 +70,7 @@ export class LoadedGraph {
   get bucketIndex() { return this.columns.bucketIndex.list }
   get bucketCount() { return this.columns.bucketCount.list }
   get bucketMean() { return this.columns.bucketMean.list }
+  get bucketRim() { return this.columns.bucketRim.list } // empty in files of version 1
 
   // Bytes that the columns take.
   get memoryBytes() {
@@ -145,6 +146,7 @@ export class LoadedGraph {
     columns.bucketIndex.append(read.bucketIndex)
     columns.bucketCount.append(read.bucketCount)
     columns.bucketMean.append(read.bucketMean)
+    columns.bucketRim.append(read.bucketRim)
     let end = columns.firstBucket.list[columns.firstBucket.size - 1]
     columns.firstBucket.append(Uint32Array.from(read.lo, (_, i) => (end += read.buckets.length > 0 ? read.buckets[i] : 0)))
     for (const name of ['persistence', 'nodesOf', 'arcsOf', 'bucketsOf'] as const) columns[name].append(read[name])
