@@ -14,7 +14,7 @@ struct NodeState {
   std::uint64_t kind;  // 0: can be contracted, 1: settled, 2: other shares name it
 };
 static_assert(sizeof(NodeState) == 56);
-static_assert(sizeof(BucketSum) == 64 && sizeof(Fragment::Arc) == 8 && sizeof(Fragment::SharedEdge) == 8);
+static_assert(sizeof(BucketSum) == 80 && sizeof(Fragment::Arc) == 8 && sizeof(Fragment::SharedEdge) == 8);
 
 enum Kind : std::uint64_t { kContractible = 0, kSettled = 1, kOpen = 2 };
 
