@@ -35,7 +35,7 @@ def rg(text):
 def test_levels_are_those_of_the_program(noisy):
     _, _, _, graph = noisy
     for option, key in (("--threshold", "threshold"), ("--nodes", "nodes"), ("--memory", "memory")):
-        for value in {"threshold": ["1%", "10%", 0.05, 99], "nodes": [2, 10, 50], "memory": ["4K", 20000]}[key]:
+        for value in {"threshold": ["1%", "10%", 0.05, 99], "nodes": [2, 10, 50], "memory": ["8K", 20000]}[key]:
             level = graph.level(**{key: value})
             rows = rg(run("extract", graph.path, option, value, "--format", "rg"))
             vertex = level.nodes["vertex"]
