@@ -43,7 +43,7 @@ ooc::PartChoice parse_part(const std::string& text) {
   }
   if (!is_part || part < 1 || part > parts || parts > kMostParts)
     throw Error(ErrorKind::kUsage, "--part " + text + " is no part of a whole",
-                "for instance --part 2/3 is the second of three; there can be 1000000");
+                "for instance --part 2/3, the second of three; there can be up to 1000000 parts");
   return {.part = part - 1, .parts = parts, .shared = {}};
 }
 
