@@ -125,7 +125,7 @@ void add_fragment(CLI::App& program) {
   command
       ->add_option("--shared", arguments->shared,
                    "Files that --scan wrote, of all parts, so that the whole mesh need not be read")
-      ->type_name("FILE...");
+      ->type_name("FILE");
   add_run_options(*command, *arguments);
   command->footer("Example:\n  reeb fragment scan.ply --part 1/2 -o p1.fragment");
   command->callback([arguments] { run_fragment(*arguments); });
