@@ -5,7 +5,7 @@
     docs/figures/defects.py rows.json patches docs/defects-NAME.png
 
 Blue-grey is the outer side of a triangle, sand the inner side. The shorter curve is red, the other one green; what is
-hidden is dotted. The bar is so many median edges long as it says. Needs numpy.
+hidden is dotted. The bar is as many median edges long as it says. Needs numpy.
 """
 import json
 import math

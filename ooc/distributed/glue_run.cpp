@@ -67,6 +67,7 @@ GlueResult glue_in(RunContext& run, const std::vector<NamedPart>& parts, PartInf
       run.resumable.check_interruption();
       add_fragment(run, parts[i], glue, live);
       united.live.vertices = std::max(united.live.vertices, std::uint64_t{glue.glue().live_vertices()});
+      united.live.bytes = std::max(united.live.bytes, std::uint64_t{glue.memory_bytes()});
     }
     united.removed_pairs = glue.removed_pairs();
     glued.open_vertices = glue.glue().live_vertices();

@@ -1,5 +1,5 @@
-// Which vertices a share of a mesh names, in a file (docs/FORMAT.md, Names). From those of all shares, each share knows
-// what others name without reading the whole mesh.
+// Which vertices a share of a mesh names, in a file (docs/FORMAT.md, Fragments). From those of all shares, each share
+// knows what others name without reading the whole mesh.
 #pragma once
 
 #include <cstdint>

@@ -157,6 +157,18 @@ TEST_F(FragmentTest, SaysWhichFragmentDoesNotFitAndWhy) {
   EXPECT_FALSE(std::filesystem::exists(in_folder("all.reeb")));
 }
 
+TEST_F(FragmentTest, ReportsTheMemoryOfTheLiveGraphAndOffersNoCommandOnAFragment) {
+  make_scan("scan.ply", "2k");
+  const Outcome glued = reeb(with({"glue", "-o", "all.reeb", "--report", "all.json"}, fragments("scan.ply", 2)));
+  expect_success(glued);
+  EXPECT_NE((glued.output + glued.error).find("genus: not counted\n"), std::string::npos)
+      << glued.output << glued.error;
+  const std::string report = file("all.json"), word = "\"bytes\": ";
+  const std::size_t at = report.find(word, report.find("\"live_max\""));
+  ASSERT_NE(at, std::string::npos);
+  EXPECT_GT(std::stoull(report.substr(at + word.size())), 0u) << report;
+}
+
 // Every length and every byte, in steps.
 TEST_F(FragmentTest, RefusesEveryCutAndEveryFlippedBit) {
   write("small.off", kSmallOff);

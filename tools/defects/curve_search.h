@@ -49,7 +49,7 @@ struct PatchScale {
   double longest() const { return 100 * edge; }
   // Vertices in a ball, roughly: those of two sheets.
   double vertices(double radius) const;
-  // The ball that has so many.
+  // Of the ball that has this number.
   double radius(double vertices) const;
   // Of a mesh that is in memory, for searches and comparisons.
   static constexpr std::uint64_t kBytesPerVertex = 120;

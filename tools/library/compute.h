@@ -55,7 +55,7 @@ struct ComputeOptions {
 //          output that exists, is an input or is another output; kResource if memory or disk do not suffice, or an
 //          output cannot be created; kInterrupted. All of outputs is checked before any work. No output is ever written
 //          in part, but those of earlier functions may be there, and the graph alone if its levels did not fit the
-//          memory. Of the last two kinds the hint says whether options.resume can go on.
+//          memory. Of the last two kinds the hint says whether options.resume can continue.
 // TIME:    about 60 ns a triangle where the order of the mesh is coherent; one or two readings of the file.
 // MEMORY:  tens of MiB for the chunks, and the front of the sweep; with levels also about 115 bytes an arc of
 //          the graph. options.memory_bytes bounds it.

@@ -50,11 +50,16 @@ bool has_cells(const ooc::ComputeResult& r) {
   return std::any_of(r.simplices.begin() + 3, r.simplices.end(), [](std::uint64_t count) { return count != 0; });
 }
 
+// Prints the text, and a command that says more of the mesh if that can be read again.
+void print_with_command(const RunFacts& facts, const std::string& text, const std::string& command) {
+  const bool can_read = facts.is_mesh && facts.path != "-";
+  print_line(can_read ? text + "; " + command + " " + printable(facts.path) : text);
+}
+
 // The run counts no edges, which all of these need. They are those of a surface.
 void print_not_counted(const RunFacts& facts, const ooc::ComputeResult& r) {
   if (has_cells(r)) return;
-  const std::string text = "  boundaries, non-manifold places, genus: not counted";
-  print_line(facts.path == "-" ? text : text + "; reeb info " + printable(facts.path));
+  print_with_command(facts, "  boundaries, non-manifold places, genus: not counted", "reeb info");
 }
 
 // Only what `reeb defects` can measure.
@@ -63,7 +68,7 @@ void print_likely_defects(const RunFacts& facts, const ooc::ComputeResult& r) {
   const std::string text =
       fmt::format("  likely defects: {} of at most {:.2g} % of the range", count_of(r.likely_defects, "loop"),
                   100 * (r.likely_defects_up_to / (r.range.max - r.range.min)));
-  print_line(facts.path == "-" ? text : text + "; reeb defects " + printable(facts.path));
+  print_with_command(facts, text, "reeb defects");
 }
 
 // Of the triangles; of all simplices, if there are others.

@@ -11,6 +11,7 @@ namespace reeb::tools {
 
 struct RunFacts {
   std::string path, format;
+  bool is_mesh = true;  // at `path`, which other commands can read unless it is "-"
   std::uint64_t input_bytes = 0;
   std::uint64_t memory_budget_bytes = 0;  // 0: no limit was given
   unsigned threads = 1;

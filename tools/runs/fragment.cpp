@@ -43,7 +43,7 @@ ooc::PartChoice parse_part(const std::string& text) {
   }
   if (!is_part || part < 1 || part > parts || parts > kMostParts)
     throw Error(ErrorKind::kUsage, "--part " + text + " is no part of a whole",
-                "for instance --part 2/3 is the second of three; there can be 1000000");
+                "for instance --part 2/3, the second of three; there can be up to 1000000 parts");
   return {.part = part - 1, .parts = parts, .shared = {}};
 }
 
@@ -125,7 +125,7 @@ void add_fragment(CLI::App& program) {
   command
       ->add_option("--shared", arguments->shared,
                    "Files that --scan wrote, of all parts, so that the whole mesh need not be read")
-      ->type_name("FILE...");
+      ->type_name("FILE");
   add_run_options(*command, *arguments);
   command->footer("Example:\n  reeb fragment scan.ply --part 1/2 -o p1.fragment");
   command->callback([arguments] { run_fragment(*arguments); });

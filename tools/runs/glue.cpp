@@ -64,6 +64,7 @@ void run_glue(GlueArguments arguments) {
   RunFacts facts;
   facts.path = arguments.fragments[0];
   facts.format = "fragments";
+  facts.is_mesh = false;
   facts.threads = options.threads;
   if (options.memory_bytes != MemoryBudget::kUnlimited) facts.memory_budget_bytes = options.memory_bytes;
   if (!arguments.quiet && glued.result) print_summary(facts, {*glued.result});

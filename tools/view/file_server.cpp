@@ -166,7 +166,8 @@ FileServer::FileServer(std::string_view page, const std::string& file, std::uint
       port_(fmt::format("{}", port_of(socket_))),
       token_(random_word()),
       name_(std::filesystem::path(file).filename().string()) {
-  address_ = fmt::format("http://127.0.0.1:{}/{}/?file={}", port_, token_, path_part(name_));
+  // What the page takes from its address is an address, too, so the name is escaped twice.
+  address_ = fmt::format("http://127.0.0.1:{}/{}/?file={}", port_, token_, path_part(path_part(name_)));
 }
 
 FileServer::~FileServer() { ::close(socket_); }

@@ -59,7 +59,7 @@ export class HttpSource implements Source {
     private readonly waitMilliseconds = 500,
   ) {
     this.url = new URL(url, globalThis.location?.href)
-    this.name = decodeURIComponent(this.url.pathname.split('/').pop() ?? '') || url
+    this.name = decoded(this.url.pathname.split('/').pop() ?? '') || url
   }
 
   async read(begin: number, end: number): Promise<Uint8Array> {
@@ -172,6 +172,15 @@ export class HttpSource implements Source {
         'The server must send "Access-Control-Allow-Origin: *" and allow the headers Range and those that you set. Or download the file, and drop it onto this page.',
       )
     throw new Interrupted('The server does not answer.')
+  }
+}
+
+// A name in which % begins no escape stays as it is.
+function decoded(name: string): string {
+  try {
+    return decodeURIComponent(name)
+  } catch {
+    return name
   }
 }
 

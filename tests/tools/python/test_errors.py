@@ -52,6 +52,7 @@ NAN[5, 1] = np.nan
         ((VERTICES, FACES), {"f": "distance:48"}, "48", None, "input"),
         ((VERTICES, FACES), {"f": "value"}, "no values of the name", None, "input"),
         ((VERTICES, FACES, VERTICES[:, 0]), {"f": "x"}, "both values and f", None, "usage"),
+        ((VERTICES, FACES, VERTICES[:, 0]), {"f": "z"}, "both values and f", None, "usage"),
         ((VERTICES, {"tetra10": np.zeros((1, 10), int)}), {}, "tetra10", None, "input"),
         ((VERTICES, FACES), {"memory": "much"}, "much", None, "usage"),
         ((VERTICES, FACES), {"denoise": "-1"}, "-1", None, "usage"),
@@ -73,6 +74,11 @@ def test_bad_arguments_say_what_and_where(arguments, options, words, position, k
     assert (error.position, error.kind) == (position, kind)
     assert error.hint or "whole number" in words
     assert "--" not in str(error)
+
+
+def test_defects_of_lines_and_triangles_are_refused():
+    with pytest.raises(reeb.Error, match="only surfaces"):
+        reeb.defects(VERTICES, {"triangle": FACES, "line": FACES[:, :2]})
 
 
 def test_files_say_what_and_where(tmp_path):

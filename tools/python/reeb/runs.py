@@ -178,7 +178,7 @@ def _held(mesh, faces, values, functions, spacing, origin, nodata):
         if len(values) == 1 and functions == [None]:
             functions = [f"property:{next(iter(data if len(data) == 1 else values))}"]
     elif values is not None:
-        if any(g not in (None, "z", _VALUES, f"property:{_VALUES}") for g in functions):
+        if any(g not in (None, _VALUES, f"property:{_VALUES}") for g in functions):
             raise Error("both values and f name a function", "pass one of them", kind="usage")
         data[_VALUES] = values
         functions = [f"property:{_VALUES}"] * len(functions)
@@ -309,8 +309,8 @@ class Segmentation(NamedTuple):
 
     Attributes:
         labels: (n,) int64. Of a vertex on an arc the position of the arc in `graph.arcs`; of a node -1 - its position
-        in
-            `graph.nodes`; DROPPED for a vertex of an arc that was dropped. Parallel arcs have an order of their own.
+            in `graph.nodes`; DROPPED for a vertex of an arc that was dropped. Parallel arcs have an order of their
+            own.
         values: (n,) float64, the function. NaN for a vertex of an image that is left out.
     """
 
@@ -357,8 +357,8 @@ def segment(
         held = os.fsencode(mesh)
         _add_image(options, spacing, origin, nodata, grid, type, skip)
     else:
-        held, _ = _held(mesh, faces, values, [None if values is not None else graph.function], spacing, origin,
-        nodata)
+        functions = [None if values is not None else graph.function]
+        held, _ = _held(mesh, faces, values, functions, spacing, origin, nodata)
     file, version = graph._need_file()
     with _Bar(progress) as report:
         return Segmentation(*_reeb.segment(held, file, version, options, report))
@@ -438,14 +438,20 @@ def _defect_cell(row, name):
     return tuple(row[f"{name}_{axis}"] for axis in "xyz")
 
 
+def _no_surface():
+    return Error("only surfaces have such defects", "vertices of shape (n, 3) and triangles of shape (m, 3)")
+
+
 def _write_ply(path, vertices, faces):
     vertices = _arrays.vertex_array(vertices)
     if isinstance(faces, dict):
         parts = _arrays._simplices_of_cells(faces)
+        if any(np.ndim(array) != 2 or array.shape[1] != 3 for _, array in parts):
+            raise _no_surface()
         faces = np.concatenate([array for _, array in parts]) if parts else np.empty((0, 3), int)
     faces = _arrays.simplex_array("faces", faces)
     if vertices.shape[1] != 3 or faces.shape[1] != 3:
-        raise Error("only surfaces have such defects", "vertices of shape (n, 3) and triangles of shape (m, 3)")
+        raise _no_surface()
     if faces.size and (faces.min() < 0 or faces.max() >= len(vertices)):
         raise Error("faces name vertices that are not there", "vertices are numbered from 0")
     rows = np.empty(len(faces), [("count", "u1"), ("corners", "<i4", (3,))])
