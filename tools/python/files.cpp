@@ -107,7 +107,7 @@ py::dict load(const ooc::ReebFile& file, std::uint32_t version) {
                              .function = header.function,
                              .buckets = level.graph.positions.empty() ? ArcBucketsView{} : level.buckets.view(),
                              .bucket_exponent = header.bucket_exponent,
-                             .has_spreads = header.has_spreads};
+                             .has_spreads = header.flags.has_spreads};
     for (std::size_t arc = 0; arc < level.graph.arc_count(); ++arc) {
       if (!view.buckets.empty()) {
         io::draw_arc(view, arc, line);

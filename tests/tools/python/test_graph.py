@@ -35,7 +35,7 @@ def rg(text):
 def test_levels_are_those_of_the_program(noisy):
     _, _, _, graph = noisy
     for option, key in (("--threshold", "threshold"), ("--nodes", "nodes"), ("--memory", "memory")):
-        for value in {"threshold": ["1%", "10%", 0.05, 99], "nodes": [2, 10, 50], "memory": ["4K", 20000]}[key]:
+        for value in {"threshold": ["1%", "10%", 0.05, 99], "nodes": [2, 10, 50], "memory": ["8K", 20000]}[key]:
             level = graph.level(**{key: value})
             rows = rg(run("extract", graph.path, option, value, "--format", "rg"))
             vertex = level.nodes["vertex"]
@@ -138,7 +138,8 @@ def test_radii_are_those_of_a_cylinder(tmp_path):
     graph = reeb.compute(vertices, faces, f="x", output=tmp_path / "tube.reeb")
     for skeleton in (graph.skeleton(), reeb.open(tmp_path / "tube.reeb").skeleton()):
         inside = (skeleton.points[:, 0] > 1) & (skeleton.points[:, 0] < 9)
-        assert inside.sum() > 50 and np.allclose(skeleton.radius[inside], true_radius, rtol=1e-3)
+        # A file keeps 7 bits behind the point of the squared radius.
+        assert inside.sum() > 50 and np.allclose(skeleton.radius[inside], true_radius, rtol=2**-8)
         assert len(skeleton.radius) == len(skeleton.points) and not np.isnan(skeleton.radius).any()
     without = reeb.compute(vertices, faces, f="x", buckets=0).skeleton()
     assert len(without.points) == len(without.radius) and np.isnan(without.radius).all()
