@@ -1,5 +1,5 @@
 # What comes with an installation besides program and library: man pages and completions, made from --help; the file for
-# pkg-config; the Python package; Debian packages (`cpack`); the pages about the public headers (target docs).
+# pkg-config; the Python package; Debian packages (ReebDebian.cmake); the pages about the public headers (target docs).
 
 # A library that is not needed by the compiler of a user is private.
 set(reeb_pc_private "-lreeb_io -lreeb_ooc -lreeb_file -lreeb")

@@ -55,11 +55,11 @@ print(level.arcs)
 level.plot()
 
 # %% [markdown]
-# Each arc runs through the middle of its part of the surface. `skeleton()` has these lines as arrays; with the mesh, also
-# how far the surface is from them:
+# Each arc runs through the middle of its part of the surface. `skeleton()` has these lines as arrays, and how far the
+# surface is from them:
 
 # %%
-points, edges, radius, arc = level.skeleton(vertices, faces)
+points, edges, radius, arc = level.skeleton()
 print(points.shape, edges.shape, f"median radius {np.nanmedian(radius):.2f}")
 
 # %%

@@ -26,6 +26,8 @@ FirstStageResult glue_chunks(RunContext& run, ChunkSource& stretches, const Memo
   if (run.follower) options.log = &run.follower->log();
   options.progress = [&](const SourceProgress& at) {
     run.tell({ComputeProgress::Phase::kReeb, at.bytes_read, at.bytes_total, at.triangles_read});
+    // A layer of a grid has many chunks, and a run can be saved after the last of them only.
+    if (options.are_boxes && !run.resumable.can_be_saved()) run.resumable.check_interruption();
   };
   options.between_chunks = [&](const ChunkPlace& place, const SaveEngine& save_engine) {
     here.place = place;

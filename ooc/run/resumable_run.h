@@ -54,6 +54,8 @@ class ResumableRun {
   // Whether the run is to end.
   bool is_interrupted() const { return options_.interrupted && options_.interrupted(); }
 
+  // Whether checkpoints are written.
+  bool can_be_saved() const { return folder_.has_value(); }
   // For places where nothing can be saved.
   // THROWS: Error{kInterrupted} if the run is to end.
   void check_interruption() const;

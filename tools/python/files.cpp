@@ -4,12 +4,14 @@
 #include <sys/mman.h>
 
 #include <array>
+#include <limits>
 #include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "io/export/arc_line.h"
+#include "io/export/graph_export.h"
+#include "io/export/line_points.h"
 #include "io/file/file.h"
 #include "ooc/reeb_file/progressive_graph.h"
 #include "ooc/reeb_file/reeb_file.h"
@@ -76,32 +78,51 @@ py::list levels_of(const ooc::ReebFile& file) {
   return levels;
 }
 
+// Of all points of the lines. NaN where the file knows none: it has no spreads, or no arc at a node has a bucket.
+std::vector<double> radii_of(const io::GraphView& view) {
+  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+  if (!view.has_spreads || view.buckets.empty()) return std::vector<double>(io::all_points(view), kUnknown);
+  std::vector<double> radii = io::all_radii(view);
+  std::vector<bool> has_bucket(view.graph.node_count());
+  for (std::size_t arc = 0; arc < view.graph.arc_count(); ++arc)
+    if (io::inner_points(view, arc) != 0)
+      has_bucket[view.graph.lo[arc].value()] = has_bucket[view.graph.hi[arc].value()] = true;
+  for (std::size_t node = 0; node < has_bucket.size(); ++node)
+    if (!has_bucket[node]) radii[node] = kUnknown;
+  return radii;
+}
+
 // The graph, and the line of each arc: arc i has the points offsets[i] to offsets[i + 1], one for a bucket, with the
-// number of its vertices.
+// number of its vertices. Radii are of the nodes, then of these points.
 py::dict load(const ooc::ReebFile& file, std::uint32_t version) {
   ooc::Level level;
   std::vector<std::uint64_t> offsets{0}, counts;
   std::vector<std::array<double, 3>> points, line;
+  std::vector<double> radii;
   {
     const py::gil_scoped_release released;
     level = file.load(version);
-    const ReebGraph& graph = level.graph;
-    const ArcBucketsView view = level.buckets.view();
-    for (std::size_t arc = 0; arc < graph.arc_count(); ++arc) {
-      if (!view.empty() && !graph.positions.empty()) {
-        io::draw_arc(graph.positions[graph.lo[arc].value()], view.of(arc), graph.positions[graph.hi[arc].value()],
-                     line);
+    const FileHeader& header = file.header();
+    const io::GraphView view{.graph = level.graph,
+                             .function = header.function,
+                             .buckets = level.graph.positions.empty() ? ArcBucketsView{} : level.buckets.view(),
+                             .bucket_exponent = header.bucket_exponent,
+                             .has_spreads = header.flags.has_spreads};
+    for (std::size_t arc = 0; arc < level.graph.arc_count(); ++arc) {
+      if (!view.buckets.empty()) {
+        io::draw_arc(view, arc, line);
         points.insert(points.end(), line.begin(), line.end());
-        for (const Bucket& bucket : view.of(arc))
-          if (bucket.count != 0) counts.push_back(bucket.count);
+        io::for_each_inner_point(view, arc, [&](const Bucket& bucket) { counts.push_back(bucket.count); });
       }
       offsets.push_back(points.size());
     }
+    radii = radii_of(view);
   }
   py::dict arrays = graph_arrays(level.graph);
   arrays["threshold"] = level.threshold;
   arrays["offsets"] = to_array<std::uint64_t>(offsets);
   arrays["counts"] = to_array<std::uint64_t>(counts);
+  arrays["radii"] = to_array<double>(radii);
   arrays["points"] = py::array_t<double>({static_cast<py::ssize_t>(points.size()), py::ssize_t{3}},
                                          points.empty() ? nullptr : points.front().data());
   return arrays;

@@ -132,6 +132,25 @@ def test_ctrl_c_ends_a_run_within_a_fifth_of_a_second(tmp_path):
     assert list(tmp_path.iterdir()) == [mesh]
 
 
+def test_ctrl_c_ends_a_run_on_a_volume_as_fast():
+    volume = long_work()
+    sent = []
+
+    def interrupt():
+        sent.append((time.monotonic(), time.process_time()))
+        os.kill(os.getpid(), signal.SIGINT)
+
+    for delay in (0.3, 0.5, 0.7):
+        timer = threading.Timer(delay, interrupt)
+        timer.start()
+        with pytest.raises(KeyboardInterrupt):
+            reeb.compute(volume)
+            timer.join()
+        wall, cpu = (now - then for now, then in zip((time.monotonic(), time.process_time()), sent[-1]))
+        assert cpu < 0.2 and wall < 2
+        timer.join()
+
+
 def test_other_threads_run_and_progress_is_told():
     image = long_work()[:40]
     ticks, told = [], []

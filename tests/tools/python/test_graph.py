@@ -101,7 +101,7 @@ def test_refine_and_coarsen_tell_a_listener(noisy):
 def test_skeletons(noisy):
     _, vertices, faces, graph = noisy
     level = graph.level("20%")
-    points, edges, radius, arc = level.skeleton(vertices, faces)
+    points, edges, radius, arc = level.skeleton()
     assert len(points) == len(radius) and len(edges) == len(arc) and edges.max() < len(points)
     assert np.array_equal(points[: len(level.nodes), 0], level.nodes["x"])
     assert np.array_equal(np.unique(arc), np.arange(len(level.arcs)))
@@ -110,12 +110,39 @@ def test_skeletons(noisy):
         assert (line[0, 0], line[-1, 1]) == (lo, hi)
         assert (line[1:, 0] == line[:-1, 1]).all()
     # Lines run inside the tube of the torus, or where it is cut across.
-    known = radius[~np.isnan(radius)]
-    assert len(known) > len(points) // 2 and 0.3 < np.median(known) < 2
-    assert np.isnan(level.skeleton().radius).all()
+    assert not np.isnan(radius).any() and 0.3 < np.median(radius) < 2
     lines = run("extract", graph.path, "--threshold", "20%", "--format", "obj").splitlines()
     exported = np.array([line.split()[1:4] for line in lines if line.startswith("v ")], float)
     assert np.allclose(exported, points)
+
+
+# A closed tube around the x axis; f is x.
+def test_radii_are_those_of_a_cylinder(tmp_path):
+    around, along, true_radius = 64, 400, 0.75
+    i, j = np.meshgrid(np.arange(along + 1), np.arange(around), indexing="ij")
+    angle = 2 * np.pi * j / around
+    tube = np.stack([i * 10 / along, true_radius * np.cos(angle), true_radius * np.sin(angle)], axis=-1).reshape(-1, 3)
+    vertices = np.concatenate([tube, [[-0.1, 0, 0], [10.1, 0, 0]]])
+    a = (np.arange(along)[:, None] * around + np.arange(around)).ravel()
+    b = (np.arange(along)[:, None] * around + (np.arange(around) + 1) % around).ravel()
+    rim, next_rim = np.arange(around), (np.arange(around) + 1) % around
+    top = along * around
+    faces = np.concatenate(
+        [
+            np.stack([a, b, a + around], axis=1),
+            np.stack([b, b + around, a + around], axis=1),
+            np.stack([next_rim, rim, np.full(around, len(tube))], axis=1),
+            np.stack([top + rim, top + next_rim, np.full(around, len(tube) + 1)], axis=1),
+        ]
+    )
+    graph = reeb.compute(vertices, faces, f="x", output=tmp_path / "tube.reeb")
+    for skeleton in (graph.skeleton(), reeb.open(tmp_path / "tube.reeb").skeleton()):
+        inside = (skeleton.points[:, 0] > 1) & (skeleton.points[:, 0] < 9)
+        # A file keeps 7 bits behind the point of the squared radius.
+        assert inside.sum() > 50 and np.allclose(skeleton.radius[inside], true_radius, rtol=2**-8)
+        assert len(skeleton.radius) == len(skeleton.points) and not np.isnan(skeleton.radius).any()
+    without = reeb.compute(vertices, faces, f="x", buckets=0).skeleton()
+    assert len(without.points) == len(without.radius) and np.isnan(without.radius).all()
 
 
 def test_networkx_and_diagrams(noisy):

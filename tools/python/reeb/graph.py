@@ -36,7 +36,8 @@ class Skeleton(NamedTuple):
     Attributes:
         points: (n, 3) float64; first the nodes, in their order, then the points of arcs, from below.
         edges: (m, 2) int64, positions in `points`.
-        radius: (n,) float64, the mean distance of the vertices of the mesh around a point; NaN where it is not known.
+        radius: (n,) float64, that of the contour around a point; of a node the mean of those next to it. NaN where the
+            file knows none: without buckets, and in files of version 1.
         arc: (m,) int64, of each edge the position of its arc in `graph.arcs`.
     """
 
@@ -245,12 +246,8 @@ class Graph:
 
     # -- other forms
 
-    def skeleton(self, mesh=None, faces=None, values=None):
+    def skeleton(self):
         """The graph as lines through the shape of the mesh.
-
-        Args:
-            mesh, faces, values: the mesh of this graph, as in reeb.compute; then `radius` is known. A mesh in a file
-                is read by segment() only, and has no radius.
 
         Returns:
             A Skeleton: points (n, 3), edges (m, 2), radius (n,), arc (m,).
@@ -276,10 +273,10 @@ class Graph:
         begin = np.flatnonzero(is_edge)
         edges = np.stack([line[begin], line[begin + 1]], axis=1)
         arc = np.repeat(np.arange(len(arcs)), lengths + 1)
-        radius = np.full(len(points), np.nan)
-        if mesh is not None:
-            self._measure(radius, points, offsets, mesh, faces, values)
-        return Skeleton(points, edges, radius, arc)
+        radius = arrays.get("radii")
+        if radius is None:
+            radius = np.full(len(points), np.nan)
+        return Skeleton(points, edges, radius.copy(), arc)
 
     def to_networkx(self):
         """A networkx.MultiGraph, since parallel arcs are real. Nodes are positions in `nodes`, with the columns of a
@@ -467,38 +464,6 @@ class Graph:
             method = getattr(self._listener, name, None)
             if method is not None:
                 method(*change)
-
-    # The mean distance of the vertices of an arc to its points, each vertex to the nearest one.
-    def _measure(self, radius, points, offsets, mesh, faces, values):
-        from . import _arrays, runs
-
-        labels = runs.segment(self, mesh, faces, values).labels
-        if runs.is_path(mesh):
-            return
-        if _arrays.is_mesh_object(mesh) and faces is None:
-            mesh = _arrays.parts_of_object(mesh)[0]
-        elif faces is None:
-            return
-        vertices = np.zeros((len(labels), 3))
-        given = np.asarray(mesh, float)[:, :3]
-        vertices[:, : given.shape[1]] = given
-        order = np.argsort(labels, kind="stable")
-        first = np.searchsorted(labels[order], np.arange(len(self.arcs) + 1))
-        total, count = np.zeros(len(points)), np.zeros(len(points))
-        begin = 0
-        while begin < len(self.arcs):  # parallel arcs together: their labels have an order of their own
-            end = begin + 1
-            while end < len(self.arcs) and (self.arcs[end] == self.arcs[begin]).all():
-                end += 1
-            near = len(self.nodes) + np.arange(offsets[begin], offsets[end])
-            members = order[first[begin] : first[end]]
-            for part in np.array_split(members, len(members) // 4096 + 1) if len(near) else ():
-                distance = np.linalg.norm(vertices[part, None, :] - points[None, near, :], axis=2)
-                nearest = distance.argmin(axis=1)
-                np.add.at(total, near[nearest], distance[np.arange(len(part)), nearest])
-                np.add.at(count, near[nearest], 1)
-            begin = end
-        radius[count > 0] = total[count > 0] / count[count > 0]
 
 
 def open(path, *, threshold=None, nodes=None, memory=None, listener=None):

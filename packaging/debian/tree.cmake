@@ -1,0 +1,43 @@
+# What Debian asks of the files of a package, beyond what an installation has: a copyright and a changelog, compressed
+# pages, nothing that only debuggers need. CPack runs it when a package's files are in place, before it packs them.
+file(GLOB folders "${CPACK_TEMPORARY_DIRECTORY}/*")
+set(names program reeb dev libreeb-dev python python3-reeb)
+
+function(run)
+  execute_process(COMMAND ${ARGV} COMMAND_ERROR_IS_FATAL ANY)
+endfunction()
+
+foreach(folder IN LISTS folders)
+  get_filename_component(component "${folder}" NAME)
+  list(FIND names "${component}" at)
+  math(EXPR at "${at} + 1")
+  if(at EQUAL 0 OR NOT IS_DIRECTORY "${folder}/usr")
+    continue()
+  endif()
+  list(GET names ${at} package)
+  set(doc "${folder}/usr/share/doc/${package}")
+  file(MAKE_DIRECTORY "${doc}")
+  file(READ "${CPACK_REEB_SOURCE}/LICENSE" licence)
+  file(READ "${CPACK_REEB_SOURCE}/NOTICE" notice)
+  file(WRITE "${doc}/copyright" "${licence}\n${notice}")
+  file(REMOVE "${doc}/LICENSE" "${doc}/NOTICE")
+  file(TIMESTAMP "${CPACK_REEB_SOURCE}/CHANGELOG.md" date "%a, %d %b %Y %H:%M:%S +0000" UTC)
+  file(WRITE "${doc}/changelog" "reeb (${CPACK_PACKAGE_VERSION}) unstable; urgency=medium\n\n"
+    "  * This version of reeb; CHANGELOG.md of its sources has all changes.\n\n"
+    " -- ${CPACK_PACKAGE_CONTACT}  ${date}\n")
+  run(gzip -9nf "${doc}/changelog")
+
+  file(GLOB pages "${folder}/usr/share/man/man1/*.1")
+  foreach(page IN LISTS pages)
+    run(gzip -9nf "${page}")
+  endforeach()
+  file(GLOB_RECURSE archives "${folder}/usr/*.a")
+  foreach(archive IN LISTS archives)
+    run("${CPACK_REEB_STRIP}" --strip-debug --remove-section=.comment --enable-deterministic-archives "${archive}")
+  endforeach()
+  file(GLOB_RECURSE modules "${folder}/usr/*.so")
+  file(GLOB programs "${folder}/usr/bin/*")
+  foreach(file IN LISTS modules programs)
+    run("${CPACK_REEB_STRIP}" --strip-unneeded --remove-section=.comment --remove-section=.note "${file}")
+  endforeach()
+endforeach()
