@@ -9,7 +9,7 @@
 namespace reeb::ooc {
 namespace {
 
-constexpr std::size_t kTrianglesAtOnce = 512;
+constexpr std::size_t kTrianglesInBatch = 512;
 constexpr std::size_t kTrianglesPerEdge = 32;  // of which one is looked up
 // In edges. Tiles that are nearer than this are as good as one piece.
 constexpr double kFar = 16, kLarge = 256;
@@ -66,7 +66,7 @@ class Cutter {
     mesh_.rewind();
     while (const auto place = mesh_.place()) {
       const std::size_t room = options_.most_triangles - piece_.triangles;
-      if (!mesh_.read(corners_, std::min(kTrianglesAtOnce, room))) return finish();
+      if (!mesh_.read(corners_, std::min(kTrianglesInBatch, room))) return finish();
       look_up();
       if (!take(*place)) return std::nullopt;
     }

@@ -17,7 +17,7 @@
 namespace reeb::ooc {
 namespace {
 
-constexpr std::size_t kTrianglesAtOnce = 4096;
+constexpr std::size_t kKeyedAtOnce = 4096;
 
 struct KeyedTriangle {
   double value;
@@ -137,7 +137,7 @@ std::unique_ptr<IndexedMesh> sorted_by_function(std::unique_ptr<IndexedMesh> mes
   }
   sort.finish();
   std::vector<VertexId> corners;
-  for (std::vector<KeyedTriangle> some; sort.read(some, kTrianglesAtOnce);) {
+  for (std::vector<KeyedTriangle> some; sort.read(some, kKeyedAtOnce);) {
     corners.clear();
     for (const KeyedTriangle& triangle : some)
       for (const std::uint64_t corner : triangle.corners) corners.emplace_back(corner);
