@@ -8,7 +8,7 @@
 # programs of these names (soak_test). --all runs the release tests, and with sanitizers those that find
 # something there: the labels asan and tsan with their presets. --sanitize runs every test with both
 # presets, asan (with undefined behaviour) and tsan, in an hour or more. REEB_CASES=N sets how many
-# random cases the model tests try; with --sanitize 100 if it is not set.
+# random cases the model tests try, REEB_MOST_CASES=N the most that any does: with --sanitize 100.
 #
 # What is skipped is printed with its reason. The last line is `N passed, N failed, N skipped`. It counts
 # test cases (TEST and TEST_P of GoogleTest; a script is one case), each as often as ctest runs it.
@@ -26,7 +26,7 @@ while [[ $# -gt 0 ]]; do
       [[ $# -ge 2 ]] || { echo "error: $1 needs a value" >&2; exit 2; }
       case $1 in --preset) preset=$2 ;; --label) label=$2 ;; --only) names=$2 ;; esac
       shift 2 ;;
-    --sanitize) runs=(asan: tsan:); export REEB_CASES=${REEB_CASES:-100}; shift ;;
+    --sanitize) runs=(asan: tsan:); export REEB_MOST_CASES=${REEB_MOST_CASES:-100}; shift ;;
     --all) runs=(release: asan:asan tsan:tsan); shift ;;
     --no-skips) no_skips=1; shift ;;
     -h | --help) usage; exit 0 ;;

@@ -1,5 +1,6 @@
 #include "tests/support/seed.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <iostream>
 
@@ -19,6 +20,8 @@ std::uint64_t base_seed() {
   return seed;
 }
 
-std::uint64_t case_count(std::uint64_t ordinary) { return from_environment("REEB_CASES", ordinary); }
+std::uint64_t case_count(std::uint64_t ordinary) {
+  return std::min(from_environment("REEB_CASES", ordinary), from_environment("REEB_MOST_CASES", UINT64_MAX));
+}
 
 }  // namespace reeb::test
