@@ -9,7 +9,9 @@
 namespace reeb::ooc {
 namespace {
 
-constexpr std::size_t kTrianglesInBatch = 512;
+// Of a piece, a batch at a time is read and looked up, each twice as long as the one before. So a mesh in random order,
+// whose pieces have a triangle or two, costs a few look-ups a piece: each of them reads a window of the file.
+constexpr std::size_t kFirstBatch = 8, kLongestBatch = 512;
 constexpr std::size_t kTrianglesPerEdge = 32;  // of which one is looked up
 // In edges. Tiles that are nearer than this are as good as one piece.
 constexpr double kFar = 16, kLarge = 256;
@@ -66,7 +68,8 @@ class Cutter {
     mesh_.rewind();
     while (const auto place = mesh_.place()) {
       const std::size_t room = options_.most_triangles - piece_.triangles;
-      if (!mesh_.read(corners_, std::min(kTrianglesInBatch, room))) return finish();
+      const std::size_t batch = std::clamp<std::size_t>(piece_.triangles, kFirstBatch, kLongestBatch);
+      if (!mesh_.read(corners_, std::min(batch, room))) return finish();
       look_up();
       if (!take(*place)) return std::nullopt;
     }

@@ -31,6 +31,7 @@ class ModelIndexedMesh : public IndexedMesh {
   std::uint64_t vertex_count() const override { return mesh_.vertex_count(); }
   unsigned column_count() const override { return static_cast<unsigned>(mesh_.columns.size()); }
   void gather(std::span<const VertexId> ids, std::span<const unsigned> columns, std::span<double> values) override {
+    looked_up_ += ids.size();
     for (std::size_t k = 0; k < columns.size(); ++k)
       for (std::size_t i = 0; i < ids.size(); ++i)
         values[k * ids.size() + i] = mesh_.columns[columns[k]][ids[i].value()];
@@ -48,10 +49,12 @@ class ModelIndexedMesh : public IndexedMesh {
   void seek(const MeshPlace& place) override { at_ = static_cast<std::size_t>(place.first); }
   std::uint64_t bytes_read() const override { return at_ * sizeof(VertexId); }
   std::uint64_t bytes_total() const override { return mesh_.corners.size() * sizeof(VertexId); }
+  std::uint64_t looked_up() const { return looked_up_; }  // vertices, by gather()
 
  private:
   const ModelMesh& mesh_;
   std::size_t at_ = 0;
+  std::uint64_t looked_up_ = 0;
 };
 
 // A grid of columns x rows vertices, triangles row by row; coordinates are exact as float32.

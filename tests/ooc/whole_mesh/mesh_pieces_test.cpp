@@ -95,6 +95,7 @@ TEST(MeshPieces, ThereAreNoneInARandomOrder) {
   MemoryBudget budget;
   EXPECT_FALSE(cut_into_pieces(mesh, budget).has_value());
   EXPECT_LT(mesh.bytes_read(), mesh.bytes_total() / 10);
+  EXPECT_LT(mesh.looked_up(), 2000u) << "each can cost a read of the file";
   const ModelMesh tiles = in_random_tiles(flat_grid(400, 400), 400, 20, 1);
   ModelIndexedMesh many(tiles);
   EXPECT_TRUE(cut_into_pieces(many, budget).has_value());
