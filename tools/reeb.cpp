@@ -1,12 +1,11 @@
 // The program `reeb`: finds the subcommand, and turns every error into one line, a hint and an exit code (docs/CLI.md).
-#include <fmt/core.h>
+#include <fmt/format.h>
 #include <malloc.h>
 
 #include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
-#include <memory>
 #include <new>
 #include <string>
 #include <system_error>
@@ -15,11 +14,11 @@
 #include "io/file/file.h"
 #include "libreeb/base/error.h"
 #include "libreeb/base/printable.h"
+#include "tools/arguments/arguments.h"
+#include "tools/arguments/nearest_name.h"
 #include "tools/commands/commands.h"
 #include "tools/program/signals.h"
 #include "tools/program/standard_streams.h"
-#include "tools/program/usage_error.h"
-#include "tools/program/wrapping.h"
 #include "tools/runs/fragment_commands.h"
 
 namespace {
@@ -53,44 +52,37 @@ constexpr const char* kExamples = R"(Examples:
 
 Every command has --help.)";
 
+// For a first word that is neither a command nor a file.
+reeb::Error no_such_command(const reeb::tools::Program& program, const std::string& word) {
+  const std::vector<std::string> names = program.command_names();
+  const std::string near = reeb::tools::nearest(word, names);
+  return {reeb::ErrorKind::kUsage,
+          "there is no command '" + word + "', and no file of that name" +
+              (near.empty() ? "" : " (did you mean " + near + "?)"),
+          fmt::format("the commands are {}", fmt::join(names, ", "))};
+}
+
 // `reeb scan.ply` means `reeb compute scan.ply`: a first word that is not a command is the name of a mesh.
 // THROWS: Error{kUsage} if it is neither.
-std::vector<std::string> with_default_command(const CLI::App& program, std::vector<std::string> words) {
+std::vector<std::string> with_default_command(const reeb::tools::Program& program, std::vector<std::string> words) {
   const std::string& first = words[0];
   if (first == "-h" || first == "--help" || first == "--version") return words;
   if (first == "help") {
     if (words.size() == 1) return {"--help"};
-    if (reeb::tools::find_command(program, words[1]) == nullptr) throw reeb::tools::no_such_command(program, words[1]);
+    if (!program.has_command(words[1])) throw no_such_command(program, words[1]);
     return {words[1], "--help"};
   }
-  if (reeb::tools::find_command(program, first) != nullptr) return words;
+  if (program.has_command(first)) return words;
   const bool is_name = first.starts_with('-') || first.find_first_of("./") != std::string::npos;
   if (std::error_code ignored; !is_name && !std::filesystem::exists(first, ignored))
-    throw reeb::tools::no_such_command(program, first);
+    throw no_such_command(program, first);
   words.insert(words.begin(), "compute");
   return words;
 }
 
-// Helps in 80 columns.
-class HelpFormatter : public CLI::Formatter {
- public:
-  HelpFormatter() {
-    label("REQUIRED", "(required)");
-    label("Positionals", "Arguments");
-    label("SUBCOMMAND", "COMMAND");
-    column_width(27);
-  }
-  std::string make_option_desc(const CLI::Option* option) const override {
-    return reeb::tools::wrapped(option->get_description(), 0, reeb::tools::kTextColumns - get_column_width());
-  }
-};
-
 int run(int argc, char** argv) {
-  CLI::App program("Exact Reeb graphs of meshes of any size", "reeb");
-  program.formatter(std::make_shared<HelpFormatter>());
-  program.set_help_flag("-h,--help", "Print this help");
-  program.require_subcommand(0, 1);
-  program.set_version_flag("--version", "reeb " REEB_VERSION, "Print the version");
+  reeb::tools::Program program("reeb", "Exact Reeb graphs of meshes of any size");
+  program.set_version("reeb " REEB_VERSION);
   program.footer(kExamples);
   reeb::tools::add_compute(program);
   reeb::tools::add_info(program);
@@ -108,18 +100,12 @@ int run(int argc, char** argv) {
   reeb::tools::add_view(program);
   reeb::tools::add_fragment(program);
   reeb::tools::add_glue(program);
-  for (CLI::App* command : program.get_subcommands({})) command->group("Commands");
   if (argc == 1) {
     fmt::print("{}", program.help());
     return 0;
   }
   const std::vector<std::string> words = with_default_command(program, std::vector<std::string>(argv + 1, argv + argc));
-  try {
-    program.parse(std::vector<std::string>(words.rbegin(), words.rend()));  // CLI11 takes them in reverse order
-  } catch (const CLI::ParseError& refusal) {
-    if (refusal.get_exit_code() == 0) return program.exit(refusal);  // --help
-    throw reeb::tools::usage_error(program, words, refusal);
-  }
+  if (const auto text = program.run(words)) fmt::print("{}", *text);
   return 0;
 }
 

@@ -3,8 +3,6 @@
 #include <malloc.h>
 #include <mpi.h>
 #include <sys/resource.h>
-#include <CLI/CLI.hpp>
-
 #include <algorithm>
 #include <exception>
 #include <filesystem>
@@ -17,6 +15,7 @@
 #include "libreeb/base/error.h"
 #include "libreeb/base/memory_budget.h"
 #include "libreeb/base/printable.h"
+#include "tools/arguments/arguments.h"
 #include "tools/library/run_files.h"
 #include "tools/mpi/distributed_run.h"
 #include "tools/mpi/world.h"
@@ -106,26 +105,20 @@ void compute(reeb::tools::World& world, Arguments arguments) {
 void run(reeb::tools::World& world, int argc, char** argv) {
   Arguments arguments;
   arguments.options.threads = 0;  // the cores of a machine are divided
-  CLI::App program("Exact Reeb graphs of meshes of any size, by many processes", "reeb-mpi");
-  program.set_help_flag("-h,--help", "Print this help");
-  program.require_subcommand(1);
-  CLI::App* command = program.add_subcommand("compute", "Compute the Reeb graph of a mesh");
-  command->add_option("MESH", arguments.mesh, "Mesh or image of any format, which every rank can read")
-      ->required()
-      ->type_name("");
-  command->add_option("-o,--output", arguments.output, "File to write, where every rank can write")
-      ->required()
-      ->type_name("FILE");
-  reeb::tools::add_run_options(*command, arguments);
-  command->add_option("--report", arguments.report, "Write figures of the run as JSON")->type_name("FILE");
-  try {
-    program.parse(argc, argv);
-  } catch (const CLI::ParseError& refusal) {
-    if (refusal.get_exit_code() == 0) {
-      if (world.is_root()) program.exit(refusal);  // --help
-      return;
-    }
-    throw Error(ErrorKind::kUsage, refusal.what(), "see reeb-mpi compute --help");
+  reeb::tools::Program program("reeb-mpi", "Exact Reeb graphs of meshes of any size, by many processes");
+  reeb::tools::Command command = program.add_command("compute", "Compute the Reeb graph of a mesh");
+  command.add_option("MESH", arguments.mesh, "Mesh or image of any format, which every rank can read")
+      .required()
+      .type_name("");
+  command.add_option("-o,--output", arguments.output, "File to write, where every rank can write")
+      .required()
+      .type_name("FILE");
+  reeb::tools::add_run_options(command, arguments);
+  command.add_option("--report", arguments.report, "Write figures of the run as JSON").type_name("FILE");
+  const std::vector<std::string> words(argv + 1, argv + argc);
+  if (const auto text = program.run(words.empty() ? std::vector<std::string>{"--help"} : words)) {
+    if (world.is_root()) fmt::print("{}", *text);
+    return;
   }
   compute(world, std::move(arguments));
 }

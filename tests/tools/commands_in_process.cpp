@@ -18,7 +18,7 @@
 namespace reeb::test {
 namespace {
 
-using AddCommand = void (*)(CLI::App&);
+using AddCommand = void (*)(tools::Program&);
 const std::map<std::string, AddCommand> kCommands = {
     {"compute", tools::add_compute}, {"info", tools::add_info},         {"extract", tools::add_extract},
     {"pairs", tools::add_pairs},     {"verify", tools::add_verify},     {"generate", tools::add_generate},
@@ -66,19 +66,17 @@ std::string content_of(int descriptor) {
 
 CommandOutcome run_command(const std::vector<std::string>& words, const std::string& input,
                            const std::function<void(const std::function<void()>&)>& around) {
-  CLI::App program;
+  tools::Program program("reeb", "");
   kCommands.at(words[0])(program);
-  const std::vector<std::string> reversed(words.rbegin(), words.rend());  // as CLI11 takes them
   CommandOutcome outcome;
   flush_standard_streams();
   const Redirected in(STDIN_FILENO, opened(input, O_RDONLY)), out(STDOUT_FILENO, checked(::memfd_create("", 0), "")),
       messages(STDERR_FILENO, opened("/dev/null", O_WRONLY));
   // CLI11 allocates in functions that may not throw, so faults begin when it has parsed the command line.
-  for (CLI::App* command : program.get_subcommands({}))
-    command->parse_complete_callback([] { allocations_pass = false; });
+  program.before_commands([] { allocations_pass = false; });
   allocations_pass = true;
   try {
-    around([&] { program.parse(std::vector<std::string>(reversed)); });
+    around([&] { program.run(words); });
   } catch (const Error& error) {
     outcome = {static_cast<int>(error.kind()), error.message(), error.file(), error.hint(), {}};
   } catch (const std::bad_alloc&) {  // as the program says it

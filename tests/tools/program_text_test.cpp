@@ -3,9 +3,9 @@
 
 #include "libreeb/base/count_text.h"
 #include "libreeb/base/error.h"
+#include "tools/arguments/nearest_name.h"
 #include "tools/program/bar_line.h"
 #include "tools/program/quantity.h"
-#include "tools/program/usage_error.h"
 #include "tools/program/wrapping.h"
 
 namespace reeb::tools {

@@ -2,23 +2,23 @@
 // callback does the work. Errors are thrown as reeb::Error.
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include "tools/arguments/arguments.h"
 
 namespace reeb::tools {
 
-void add_compute(CLI::App& program);
-void add_info(CLI::App& program);
-void add_extract(CLI::App& program);
-void add_pairs(CLI::App& program);
-void add_verify(CLI::App& program);
-void add_generate(CLI::App& program);
-void add_convert(CLI::App& program);
-void add_defects(CLI::App& program);
-void add_repair(CLI::App& program);
-void add_function(CLI::App& program);
-void add_segment(CLI::App& program);
-void add_plot(CLI::App& program);
-void add_report(CLI::App& program);
-void add_view(CLI::App& program);
+void add_compute(Program& program);
+void add_info(Program& program);
+void add_extract(Program& program);
+void add_pairs(Program& program);
+void add_verify(Program& program);
+void add_generate(Program& program);
+void add_convert(Program& program);
+void add_defects(Program& program);
+void add_repair(Program& program);
+void add_function(Program& program);
+void add_segment(Program& program);
+void add_plot(Program& program);
+void add_report(Program& program);
+void add_view(Program& program);
 
 }  // namespace reeb::tools

@@ -14,12 +14,12 @@
 #include "libreeb/base/error.h"
 #include "libreeb/base/memory_budget.h"
 #include "libreeb/base/printable.h"
+#include "tools/arguments/image_options.h"
+#include "tools/arguments/options.h"
 #include "tools/commands/commands.h"
 #include "tools/library/compute.h"
 #include "tools/library/run_files.h"
 #include "tools/program/compute_report.h"
-#include "tools/program/image_options.h"
-#include "tools/program/options.h"
 #include "tools/program/output.h"
 #include "tools/program/progress.h"
 #include "tools/program/quantity.h"
@@ -91,29 +91,29 @@ void run_compute(ComputeArguments arguments) {
 
 }  // namespace
 
-void add_compute(CLI::App& program) {
+void add_compute(Program& program) {
   auto arguments = std::make_shared<ComputeArguments>();
   ComputeOptions& options = arguments->options;
-  CLI::App* command = program.add_subcommand("compute", "Compute the Reeb graph of a mesh (the default)");
+  Command command = program.add_command("compute", "Compute the Reeb graph of a mesh (the default)");
   command
-      ->add_option("MESH", arguments->mesh, "Mesh or image of any format, also as .gz and .zst; - reads standard input")
-      ->required()
-      ->type_name("");
+      .add_option("MESH", arguments->mesh, "Mesh or image of any format, also as .gz and .zst; - reads standard input")
+      .required()
+      .type_name("");
   command
-      ->add_option(
+      .add_option(
           "-o,--output", arguments->output,
           "File to write; - is standard output (default: the name of the mesh with .reeb, in the current folder; "
           "mesh.reeb for standard input)")
-      ->type_name("FILE");
-  add_run_options(*command, *arguments);
-  command->add_flag("--manifold", options.manifold, "Drop each edge after two triangles; a third one is an error");
-  command->add_flag("--sidecar", options.keep_sidecar, "Keep what the first pass finds in MESH.final, for later runs");
-  add_count(*command, "--snapshot-every", options.snapshot_every,
+      .type_name("FILE");
+  add_run_options(command, *arguments);
+  command.add_flag("--manifold", options.manifold, "Drop each edge after two triangles; a third one is an error");
+  command.add_flag("--sidecar", options.keep_sidecar, "Keep what the first pass finds in MESH.final, for later runs");
+  add_count(command, "--snapshot-every", options.snapshot_every,
             "Write the graph so far every N triangles, as OUT-000001.reeb, OUT-000002.reeb, ...", {.least = 1});
-  command->add_option("--report", arguments->report, "Write figures of the run as JSON; - is standard output")
-      ->type_name("FILE");
-  command->footer("Example:\n  reeb compute scan.ply -f z --memory 64M --report report.json");
-  command->callback([arguments] { run_compute(*arguments); });
+  command.add_option("--report", arguments->report, "Write figures of the run as JSON; - is standard output")
+      .type_name("FILE");
+  command.footer("Example:\n  reeb compute scan.ply -f z --memory 64M --report report.json");
+  command.callback([arguments] { run_compute(*arguments); });
 }
 
 }  // namespace reeb::tools

@@ -7,11 +7,11 @@
 #include "io/file/temp_dir.h"
 #include "io/formats/create_mesh.h"
 #include "libreeb/base/printable.h"
+#include "tools/arguments/image_options.h"
+#include "tools/arguments/options.h"
 #include "tools/commands/commands.h"
 #include "tools/library/run_files.h"
 #include "tools/program/convert_mesh.h"
-#include "tools/program/image_options.h"
-#include "tools/program/options.h"
 #include "tools/program/output.h"
 #include "tools/program/progress.h"
 #include "tools/program/quantity.h"
@@ -48,36 +48,36 @@ void run_convert(ConvertArguments arguments) {
 
 }  // namespace
 
-void add_convert(CLI::App& program) {
+void add_convert(Program& program) {
   auto arguments = std::make_shared<ConvertArguments>();
   ConvertOptions& options = arguments->options;
-  CLI::App* command = program.add_subcommand("convert", "Convert a mesh into another format or order");
-  command->add_option("IN", options.input, "Mesh of any format, also as .gz and .zst; - reads standard input")
-      ->required()
-      ->type_name("");
+  Command command = program.add_command("convert", "Convert a mesh into another format or order");
+  command.add_option("IN", options.input, "Mesh of any format, also as .gz and .zst; - reads standard input")
+      .required()
+      .type_name("");
   command
-      ->add_option(
+      .add_option(
           "OUT", options.output,
           "Mesh to write: .ply .obj .off .cx .sma .smb .smc .sva .svb; .events.txt lists the events; not IN itself")
-      ->required()
-      ->type_name("");
-  add_format(*command, options.format);
+      .required()
+      .type_name("");
+  add_format(command, options.format);
   command
-      ->add_option("--order", arguments->order,
-                   "Order of the triangles: keep, hilbert, spectral or sweep:FUNC (default: keep)")
-      ->type_name("ORDER");
-  command->add_flag("--finalize", options.finalize,
-                    "Put each vertex before its first triangle, and finalize it after its last");
-  add_image_options(*command, arguments->options.image);
-  add_size(*command, "--memory", options.memory_bytes, "Memory that the run may use: 64M, 1.5GiB (default: no limit)");
+      .add_option("--order", arguments->order,
+                  "Order of the triangles: keep, hilbert, spectral or sweep:FUNC (default: keep)")
+      .type_name("ORDER");
+  command.add_flag("--finalize", options.finalize,
+                   "Put each vertex before its first triangle, and finalize it after its last");
+  add_image_options(command, arguments->options.image);
+  add_size(command, "--memory", options.memory_bytes, "Memory that the run may use: 64M, 1.5GiB (default: no limit)");
   command
-      ->add_option("--temp-dir", options.temp_folder,
-                   "Folder for temporary files (default: $TMPDIR, or the folder of the output)")
-      ->type_name("DIR");
-  command->add_flag("--force", arguments->force, "Replace an existing output");
-  command->add_flag("--quiet", arguments->quiet, "Print no progress and no notes");
-  command->footer("Example:\n  reeb convert scan.ply scan.smc --order spectral --memory 256M");
-  command->callback([arguments] { run_convert(*arguments); });
+      .add_option("--temp-dir", options.temp_folder,
+                  "Folder for temporary files (default: $TMPDIR, or the folder of the output)")
+      .type_name("DIR");
+  command.add_flag("--force", arguments->force, "Replace an existing output");
+  command.add_flag("--quiet", arguments->quiet, "Print no progress and no notes");
+  command.footer("Example:\n  reeb convert scan.ply scan.smc --order spectral --memory 256M");
+  command.callback([arguments] { run_convert(*arguments); });
 }
 
 }  // namespace reeb::tools

@@ -13,15 +13,15 @@
 #include "libreeb/base/error.h"
 #include "libreeb/base/memory_budget.h"
 #include "ooc/reeb_file/reeb_file.h"
+#include "tools/arguments/image_options.h"
+#include "tools/arguments/options.h"
 #include "tools/commands/commands.h"
 #include "tools/defects/defect_text.h"
 #include "tools/defects/find_defects.h"
 #include "tools/defects/patch_files.h"
 #include "tools/defects/surface_census.h"
 #include "tools/library/run_files.h"
-#include "tools/program/image_options.h"
 #include "tools/program/input_kind.h"
-#include "tools/program/options.h"
 #include "tools/program/output.h"
 #include "tools/program/progress.h"
 #include "tools/program/signals.h"
@@ -119,43 +119,42 @@ void run_defects(DefectsOptions options) {
 
 }  // namespace
 
-void add_defects(CLI::App& program) {
+void add_defects(Program& program) {
   auto options = std::make_shared<DefectsOptions>();
-  CLI::App* command = program.add_subcommand("defects", "List small handles and tunnels of a surface, ranked");
-  command->add_option("MESH", options->find.mesh.path, "Mesh of any format, also as .gz and .zst")
-      ->required()
-      ->type_name("");
+  Command command = program.add_command("defects", "List small handles and tunnels of a surface, ranked");
+  command.add_option("MESH", options->find.mesh.path, "Mesh of any format, also as .gz and .zst")
+      .required()
+      .type_name("");
   command
-      ->add_option("FILE", options->find.files,
-                   "Reeb graphs of the mesh; the first one has the loops, the others offer shorter curves (default: "
-                   "those of x, y and z are computed)")
-      ->type_name("");
-  command->add_option("-o,--output", options->output, "File to write: .csv or .json; - is CSV at standard output")
-      ->type_name("FILE");
+      .add_option("FILE", options->find.files,
+                  "Reeb graphs of the mesh; the first one has the loops, the others offer shorter curves (default: "
+                  "those of x, y and z are computed)")
+      .type_name("");
+  command.add_option("-o,--output", options->output, "File to write: .csv or .json; - is CSV at standard output")
+      .type_name("FILE");
+  command.add_option("--below", options->below, "Only loops of less persistence: 0.01, or 0.1% of the function's range")
+      .type_name("T");
+  command.add_option("--longest", options->longest, "Only loops with a curve of at most this length")
+      .type_name("LENGTH");
   command
-      ->add_option("--below", options->below, "Only loops of less persistence: 0.01, or 0.1% of the function's range")
-      ->type_name("T");
-  command->add_option("--longest", options->longest, "Only loops with a curve of at most this length")
-      ->type_name("LENGTH");
-  command
-      ->add_option("--patches", options->patches,
-                   "Folder for the surface around the rows (without --limit: the first 20) and their curves, as PLY")
-      ->type_name("DIR");
-  add_count(*command, "--limit", options->limit, "At most N rows", {.least = 1});
-  add_format(*command, options->find.mesh.format);
-  add_image_options(*command, options->find.mesh.image);
-  add_size(*command, "--memory", options->find.mesh.memory_bytes,
+      .add_option("--patches", options->patches,
+                  "Folder for the surface around the rows (without --limit: the first 20) and their curves, as PLY")
+      .type_name("DIR");
+  add_count(command, "--limit", options->limit, "At most N rows", {.least = 1});
+  add_format(command, options->find.mesh.format);
+  add_image_options(command, options->find.mesh.image);
+  add_size(command, "--memory", options->find.mesh.memory_bytes,
            "Memory that the run may use: 64M, 1.5GiB (default: no limit)");
-  add_count(*command, "--threads", options->find.threads, "Number of threads, 1 to 1024 (default: all)",
+  add_count(command, "--threads", options->find.threads, "Number of threads, 1 to 1024 (default: all)",
             {.least = 1, .most = 1024});
   command
-      ->add_option("--temp-dir", options->find.mesh.temp_folder,
-                   "Folder for temporary files (default: $TMPDIR, or the folder of the output)")
-      ->type_name("DIR");
-  command->add_flag("--force", options->force, "Replace an existing output");
-  command->add_flag("--quiet", options->quiet, "Print no progress");
-  command->footer("Example:\n  reeb defects scan.ply --limit 20 -o scan-defects.csv");
-  command->callback([options] { run_defects(*options); });
+      .add_option("--temp-dir", options->find.mesh.temp_folder,
+                  "Folder for temporary files (default: $TMPDIR, or the folder of the output)")
+      .type_name("DIR");
+  command.add_flag("--force", options->force, "Replace an existing output");
+  command.add_flag("--quiet", options->quiet, "Print no progress");
+  command.footer("Example:\n  reeb defects scan.ply --limit 20 -o scan-defects.csv");
+  command.callback([options] { run_defects(*options); });
 }
 
 }  // namespace reeb::tools

@@ -15,13 +15,13 @@
 #include "io/file/temp_dir.h"
 #include "libreeb/base/error.h"
 #include "ooc/reeb_file/reeb_file.h"
+#include "tools/arguments/options.h"
 #include "tools/commands/commands.h"
 #include "tools/commands/measured_level.h"
 #include "tools/commands/open_segmentation.h"
 #include "tools/library/run_files.h"
 #include "tools/plot/skeleton.h"
 #include "tools/program/input_kind.h"
-#include "tools/program/options.h"
 #include "tools/program/output.h"
 #include "tools/program/quantity.h"
 
@@ -145,50 +145,50 @@ void extract(const ExtractOptions& options) {
 
 }  // namespace
 
-void add_extract(CLI::App& app) {
+void add_extract(Program& app) {
   auto options = std::make_shared<ExtractOptions>();
-  CLI::App* command = app.add_subcommand("extract", "Write the graph, or a coarser level of it");
-  command->add_option("FILE", options->file, "The .reeb file")->required()->type_name("");
+  Command command = app.add_command("extract", "Write the graph, or a coarser level of it");
+  command.add_option("FILE", options->file, "The .reeb file").required().type_name("");
   command
-      ->add_option("-o,--output", options->output,
-                   "File to write (default, and -: standard output); csv: g.csv becomes g.nodes.csv and "
-                   "g.arcs.csv")
-      ->type_name("FILE");
+      .add_option("-o,--output", options->output,
+                  "File to write (default, and -: standard output); csv: g.csv becomes g.nodes.csv and "
+                  "g.arcs.csv")
+      .type_name("FILE");
   command
-      ->add_option(
+      .add_option(
           "--format", options->format,
           "One of " + io::graph_format_names() + " (default: by the suffix of the output; rg on standard output)")
-      ->type_name("NAME");
-  auto* threshold = command
-                        ->add_option("--threshold", options->threshold,
+      .type_name("NAME");
+  Option threshold = command
+                         .add_option("--threshold", options->threshold,
                                      "Without features of less persistence: 0.01 (function units), or 0.1% (of the "
                                      "range)")
-                        ->option_text("T");
-  auto* nodes =
-      add_count(*command, "--nodes", options->nodes, "The finest level with at most N nodes")->option_text("N");
-  auto* memory = add_size(*command, "--memory", options->memory_bytes, "The finest level that fits in this memory: 64M")
-                     ->option_text("SIZE");
-  threshold->excludes(memory)->excludes(nodes);
-  memory->excludes(nodes);
-  auto* mesh = command
-                   ->add_option("--mesh", options->mesh,
+                         .option_text("T");
+  Option nodes =
+      add_count(command, "--nodes", options->nodes, "The finest level with at most N nodes").option_text("N");
+  Option memory = add_size(command, "--memory", options->memory_bytes, "The finest level that fits in this memory: 64M")
+                      .option_text("SIZE");
+  threshold.excludes(memory).excludes(nodes);
+  memory.excludes(nodes);
+  Option mesh = command
+                    .add_option("--mesh", options->mesh,
                                 "The mesh that the file was computed from. Measures the part of it on each arc: "
                                 "vertices, mean of the function, area, shortest contour (json, vtp, vtu)")
-                   ->type_name("MESH");
-  add_count(*command, "--threads", options->threads, "With --mesh: number of threads, 1 to 1024 (default: all)",
+                    .type_name("MESH");
+  add_count(command, "--threads", options->threads, "With --mesh: number of threads, 1 to 1024 (default: all)",
             {.least = 1, .most = 1024})
-      ->needs(mesh);
+      .needs(mesh);
   command
-      ->add_option("--temp-dir", options->temp_folder,
-                   "With --mesh: folder for temporary files (default: $TMPDIR, or the folder of the output)")
-      ->type_name("DIR")
-      ->needs(mesh);
-  command->add_flag("--quiet", options->quiet, "With --mesh: print no progress and no notes")->needs(mesh);
-  command->add_flag("--on-surface", options->on_surface,
-                    "Lines pass through vertices of the mesh, not through the centres of contours");
-  command->add_flag("--force", options->force, "Replace an existing output");
-  command->footer("Example:\n  reeb extract scan.reeb --threshold 0.1% -o coarse.json");
-  command->callback([options] { extract(*options); });
+      .add_option("--temp-dir", options->temp_folder,
+                  "With --mesh: folder for temporary files (default: $TMPDIR, or the folder of the output)")
+      .type_name("DIR")
+      .needs(mesh);
+  command.add_flag("--quiet", options->quiet, "With --mesh: print no progress and no notes").needs(mesh);
+  command.add_flag("--on-surface", options->on_surface,
+                   "Lines pass through vertices of the mesh, not through the centres of contours");
+  command.add_flag("--force", options->force, "Replace an existing output");
+  command.footer("Example:\n  reeb extract scan.reeb --threshold 0.1% -o coarse.json");
+  command.callback([options] { extract(*options); });
 }
 
 }  // namespace reeb::tools

@@ -20,10 +20,10 @@
 #include "libreeb/base/error.h"
 #include "libreeb/base/memory_budget.h"
 #include "libreeb/base/printable.h"
+#include "tools/arguments/image_options.h"
+#include "tools/arguments/options.h"
 #include "tools/commands/commands.h"
 #include "tools/library/run_files.h"
-#include "tools/program/image_options.h"
-#include "tools/program/options.h"
 #include "tools/program/output.h"
 #include "tools/program/progress.h"
 #include "tools/program/wrapping.h"
@@ -181,30 +181,30 @@ void run_function(FunctionOptions options) {
 
 }  // namespace
 
-void add_function(CLI::App& program) {
+void add_function(Program& program) {
   auto options = std::make_shared<FunctionOptions>();
-  CLI::App* command = program.add_subcommand("function", "Write the values of a function on a mesh");
-  command->add_option("MESH", options->mesh, "Mesh of any format, also as .gz and .zst; - reads standard input")
-      ->required()
-      ->type_name("");
-  command->add_option("-f,--function", options->function, "The function, as for `reeb compute`")->type_name("FUNC");
+  Command command = program.add_command("function", "Write the values of a function on a mesh");
+  command.add_option("MESH", options->mesh, "Mesh of any format, also as .gz and .zst; - reads standard input")
+      .required()
+      .type_name("");
+  command.add_option("-f,--function", options->function, "The function, as for `reeb compute`").type_name("FUNC");
   command
-      ->add_option("-o,--output", options->output,
-                   "File to write: .f64 (raw float64, little endian), .txt (a number a line), or .ply (the mesh, with "
-                   "the function as a property of this name)")
-      ->required()
-      ->type_name("FILE");
-  add_format(*command, options->format);
-  add_image_options(*command, options->image);
-  add_size(*command, "--memory", options->memory_bytes, "Memory that the run may use: 64M, 1.5GiB (default: no limit)");
+      .add_option("-o,--output", options->output,
+                  "File to write: .f64 (raw float64, little endian), .txt (a number a line), or .ply (the mesh, with "
+                  "the function as a property of this name)")
+      .required()
+      .type_name("FILE");
+  add_format(command, options->format);
+  add_image_options(command, options->image);
+  add_size(command, "--memory", options->memory_bytes, "Memory that the run may use: 64M, 1.5GiB (default: no limit)");
   command
-      ->add_option("--temp-dir", options->temp_folder,
-                   "Folder for temporary files (default: $TMPDIR, or the folder of the output)")
-      ->type_name("DIR");
-  command->add_flag("--force", options->force, "Replace an existing output");
-  command->add_flag("--quiet", options->quiet, "Print no progress and no notes");
-  command->footer("Example:\n  reeb function scan.ply -f geodesic:0 -o scan-distance.ply");
-  command->callback([options] { run_function(*options); });
+      .add_option("--temp-dir", options->temp_folder,
+                  "Folder for temporary files (default: $TMPDIR, or the folder of the output)")
+      .type_name("DIR");
+  command.add_flag("--force", options->force, "Replace an existing output");
+  command.add_flag("--quiet", options->quiet, "Print no progress and no notes");
+  command.footer("Example:\n  reeb function scan.ply -f geodesic:0 -o scan-distance.ply");
+  command.callback([options] { run_function(*options); });
 }
 
 }  // namespace reeb::tools

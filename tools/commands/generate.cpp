@@ -17,9 +17,9 @@
 #include "libreeb/base/count_text.h"
 #include "libreeb/base/error.h"
 #include "libreeb/base/printable.h"
+#include "tools/arguments/options.h"
 #include "tools/commands/commands.h"
 #include "tools/library/run_files.h"
-#include "tools/program/options.h"
 #include "tools/program/output.h"
 #include "tools/program/progress.h"
 #include "tools/program/wrapping.h"
@@ -154,39 +154,38 @@ void run_generate(GenerateArguments arguments) {
 
 }  // namespace
 
-void add_generate(CLI::App& program) {
+void add_generate(Program& program) {
   auto arguments = std::make_shared<GenerateArguments>();
-  CLI::App* command = program.add_subcommand("generate", "Write a test mesh of any size");
-  command->add_option("KIND", arguments->kind, "torus, terrain, grid, plate, scan, sierpinski, ball or volume")
-      ->required()
-      ->type_name("");
+  Command command = program.add_command("generate", "Write a test mesh of any size");
+  command.add_option("KIND", arguments->kind, "torus, terrain, grid, plate, scan, sierpinski, ball or volume")
+      .required()
+      .type_name("");
   command
-      ->add_option(
-          "-o,--output", arguments->output,
-          "Mesh to write: .ply .obj .off .cx .sma .smb .smc .sva .svb, a ball: .cx .sva .svb, a volume: .nrrd; "
-          ".events.txt lists the events")
-      ->required()
-      ->type_name("FILE");
-  add_count(*command, "--triangles", arguments->triangles, "About how many triangles: 10000, 12M, 372M (default: 1M)",
+      .add_option("-o,--output", arguments->output,
+                  "Mesh to write: .ply .obj .off .cx .sma .smb .smc .sva .svb, a ball: .cx .sva .svb, a volume: .nrrd; "
+                  ".events.txt lists the events")
+      .required()
+      .type_name("FILE");
+  add_count(command, "--triangles", arguments->triangles, "About how many triangles: 10000, 12M, 372M (default: 1M)",
             {.least = 1});
-  add_count(*command, "--tetrahedra", arguments->tetrahedra, "The same of a ball (default: 1M)", {.least = 1});
+  add_count(command, "--tetrahedra", arguments->tetrahedra, "The same of a ball (default: 1M)", {.least = 1});
   command
-      ->add_option("--order", arguments->order,
-                   "Order of the triangles: rows, patches, random, tiles:N, random-tiles:N or seams-last:N, with N "
-                   "cells along a tile's side (default: patches)")
-      ->type_name("ORDER");
-  add_count(*command, "--seed", arguments->seed,
+      .add_option("--order", arguments->order,
+                  "Order of the triangles: rows, patches, random, tiles:N, random-tiles:N or seams-last:N, with N "
+                  "cells along a tile's side (default: patches)")
+      .type_name("ORDER");
+  add_count(command, "--seed", arguments->seed,
             "Seed of noise, handles and random order (default: 1; a volume without it has no noise)");
-  add_count(*command, "--width", arguments->mesh.width,
+  add_count(command, "--width", arguments->mesh.width,
             "Cells in a row of the grid (default: about as many as there are rows)", {.least = 1});
-  add_count(*command, "--dimension", arguments->dimension, "Dimension of a sierpinski, 2 to 5 (default: 3)",
+  add_count(command, "--dimension", arguments->dimension, "Dimension of a sierpinski, 2 to 5 (default: 3)",
             {.least = 2, .most = 5});
-  command->add_option("--grid", arguments->grid, "Vertices of a volume along each axis: 256x256x100")
-      ->type_name("NXxNY[xNZ]");
-  add_count(*command, "--handles", arguments->handles, "Tunnels through a ball or a volume (default: 1)");
-  command->add_flag("--force", arguments->force, "Replace an existing output");
-  command->footer("Example:\n  reeb generate scan --triangles 12M --order patches --seed 7 -o scan.ply");
-  command->callback([arguments] { run_generate(*arguments); });
+  command.add_option("--grid", arguments->grid, "Vertices of a volume along each axis: 256x256x100")
+      .type_name("NXxNY[xNZ]");
+  add_count(command, "--handles", arguments->handles, "Tunnels through a ball or a volume (default: 1)");
+  command.add_flag("--force", arguments->force, "Replace an existing output");
+  command.footer("Example:\n  reeb generate scan --triangles 12M --order patches --seed 7 -o scan.ply");
+  command.callback([arguments] { run_generate(*arguments); });
 }
 
 }  // namespace reeb::tools

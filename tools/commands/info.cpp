@@ -4,15 +4,15 @@
 
 #include "libreeb/base/memory_budget.h"
 #include "ooc/reeb_file/reeb_file.h"
+#include "tools/arguments/image_options.h"
+#include "tools/arguments/options.h"
 #include "tools/commands/commands.h"
-#include "tools/program/image_options.h"
 #include "tools/program/mesh_info.h"
-#include "tools/program/options.h"
 #include "tools/program/reeb_info.h"
 
 namespace reeb::tools {
 
-void add_info(CLI::App& app) {
+void add_info(Program& app) {
   struct Options {
     std::string file, format, temp_folder;
     std::uint64_t memory_bytes = MemoryBudget::kUnlimited;
@@ -20,21 +20,20 @@ void add_info(CLI::App& app) {
     bool json = false;
   };
   auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand("info", "Describe a mesh or a .reeb file");
+  Command command = app.add_command("info", "Describe a mesh or a .reeb file");
+  command.add_option("FILE", options->file, "A .reeb file, or a mesh of any format; - reads a mesh from standard input")
+      .required()
+      .type_name("");
+  add_format(command, options->format);
+  add_image_options(command, options->image);
+  command.add_flag("--json", options->json, "Print JSON");
+  add_size(command, "--memory", options->memory_bytes, "Memory for the tables of a mesh: 64M (default: no limit)");
   command
-      ->add_option("FILE", options->file, "A .reeb file, or a mesh of any format; - reads a mesh from standard input")
-      ->required()
-      ->type_name("");
-  add_format(*command, options->format);
-  add_image_options(*command, options->image);
-  command->add_flag("--json", options->json, "Print JSON");
-  add_size(*command, "--memory", options->memory_bytes, "Memory for the tables of a mesh: 64M (default: no limit)");
-  command
-      ->add_option("--temp-dir", options->temp_folder,
-                   "Folder for temporary files (default: $TMPDIR, or the current folder)")
-      ->type_name("DIR");
-  command->footer("Example:\n  reeb info scan.reeb");
-  command->callback([options] {
+      .add_option("--temp-dir", options->temp_folder,
+                  "Folder for temporary files (default: $TMPDIR, or the current folder)")
+      .type_name("DIR");
+  command.footer("Example:\n  reeb info scan.reeb");
+  command.callback([options] {
     if (options->file != "-" && options->format.empty() && ooc::is_reeb_file(options->file))
       print_reeb_info(options->file, options->json);
     else

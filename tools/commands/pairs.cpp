@@ -129,21 +129,21 @@ void list_pairs(const PairsOptions& options) {
 
 }  // namespace
 
-void add_pairs(CLI::App& app) {
+void add_pairs(Program& app) {
   auto options = std::make_shared<PairsOptions>();
-  CLI::App* command = app.add_subcommand("pairs", "List the persistence pairs as CSV or JSON");
-  command->add_option("FILE", options->file, "The .reeb file")->required()->type_name("");
-  command->add_option("-o,--output", options->output, "File to write (default, and -: standard output)")
-      ->type_name("FILE");
+  Command command = app.add_command("pairs", "List the persistence pairs as CSV or JSON");
+  command.add_option("FILE", options->file, "The .reeb file").required().type_name("");
+  command.add_option("-o,--output", options->output, "File to write (default, and -: standard output)")
+      .type_name("FILE");
   command
-      ->add_option(
+      .add_option(
           "--format", options->format,
           "One of csv json gudhi (lists as GUDHI's extended persistence has them, in JSON); default: json if the "
           "output ends in .json, else csv")
-      ->type_name("NAME");
-  command->add_flag("--force", options->force, "Replace an existing output");
-  command->footer("Example:\n  reeb pairs scan.reeb -o scan-pairs.csv");
-  command->callback([options] { list_pairs(*options); });
+      .type_name("NAME");
+  command.add_flag("--force", options->force, "Replace an existing output");
+  command.footer("Example:\n  reeb pairs scan.reeb -o scan-pairs.csv");
+  command.callback([options] { list_pairs(*options); });
 }
 
 }  // namespace reeb::tools

@@ -12,14 +12,14 @@
 #include "io/file/temp_dir.h"
 #include "libreeb/base/error.h"
 #include "libreeb/base/printable.h"
+#include "tools/arguments/image_options.h"
+#include "tools/arguments/options.h"
 #include "tools/commands/commands.h"
 #include "tools/library/run_files.h"
 #include "tools/plot/charts.h"
 #include "tools/plot/picture_file.h"
 #include "tools/plot/skeleton.h"
-#include "tools/program/image_options.h"
 #include "tools/program/input_kind.h"
-#include "tools/program/options.h"
 #include "tools/program/output.h"
 #include "tools/program/progress.h"
 #include "tools/program/quantity.h"
@@ -126,49 +126,49 @@ void plot(PlotOptions options) {
 
 }  // namespace
 
-void add_plot(CLI::App& program) {
+void add_plot(Program& program) {
   auto options = std::make_shared<PlotOptions>();
-  CLI::App* command = program.add_subcommand("plot", "Draw loops, pairs, the graph, or its skeleton");
-  command->add_option("FILE", options->files, "The .reeb file; several with --kind loops")->required()->type_name("");
+  Command command = program.add_command("plot", "Draw loops, pairs, the graph, or its skeleton");
+  command.add_option("FILE", options->files, "The .reeb file; several with --kind loops").required().type_name("");
   command
-      ->add_option("-o,--output", options->output,
-                   "Picture to write: .svg, .png or .pdf (default: the name of the file with .svg, in the current "
-                   "folder); - writes SVG to standard output")
-      ->type_name("FILE");
-  command->add_option("--kind", options->kind, "loops, diagram, graph or skeleton (default: loops)")
-      ->check(CLI::IsMember({"loops", "diagram", "graph", "skeleton"}))
-      ->type_name("KIND");
-  auto* threshold = command
-                        ->add_option("--threshold", options->skeleton.level.threshold,
+      .add_option("-o,--output", options->output,
+                  "Picture to write: .svg, .png or .pdf (default: the name of the file with .svg, in the current "
+                  "folder); - writes SVG to standard output")
+      .type_name("FILE");
+  command.add_option("--kind", options->kind, "loops, diagram, graph or skeleton (default: loops)")
+      .one_of({"loops", "diagram", "graph", "skeleton"})
+      .type_name("KIND");
+  Option threshold = command
+                         .add_option("--threshold", options->skeleton.level.threshold,
                                      "The level without features of less persistence: 0.01 (function units), or 0.1% "
                                      "(of the range)")
-                        ->option_text("T");
-  auto* nodes = add_count(*command, "--nodes", options->skeleton.level.nodes, "The finest level with at most N nodes")
-                    ->option_text("N");
-  threshold->excludes(nodes);
-  command->add_option("--mesh", options->skeleton.mesh, "For a skeleton: its mesh, drawn behind it")->type_name("MESH");
-  add_format(*command, options->skeleton.format);
-  add_image_options(*command, options->skeleton.image);
+                         .option_text("T");
+  Option nodes = add_count(command, "--nodes", options->skeleton.level.nodes, "The finest level with at most N nodes")
+                     .option_text("N");
+  threshold.excludes(nodes);
+  command.add_option("--mesh", options->skeleton.mesh, "For a skeleton: its mesh, drawn behind it").type_name("MESH");
+  add_format(command, options->skeleton.format);
+  add_image_options(command, options->skeleton.image);
   command
-      ->add_option("--view", options->view,
-                   "For a skeleton: the direction from the shape to the eye (default: the best of several)")
-      ->option_text("X,Y,Z");
+      .add_option("--view", options->view,
+                  "For a skeleton: the direction from the shape to the eye (default: the best of several)")
+      .option_text("X,Y,Z");
   command
-      ->add_option("--surface", options->surface,
-                   "For a skeleton: solid, glass, value (coloured by the function) or none (default: solid)")
-      ->check(CLI::IsMember({"solid", "glass", "value", "none"}))
-      ->type_name("STYLE");
+      .add_option("--surface", options->surface,
+                  "For a skeleton: solid, glass, value (coloured by the function) or none (default: solid)")
+      .one_of({"solid", "glass", "value", "none"})
+      .type_name("STYLE");
   command
-      ->add_option("--color", options->color,
-                   "For a skeleton: by value, or a colour for each of the arcs (default: value)")
-      ->check(CLI::IsMember({"value", "arcs"}))
-      ->type_name("BY");
-  command->add_flag("--on-surface", options->skeleton.on_surface,
-                    "For a skeleton: lines pass through vertices of the mesh");
-  command->add_flag("--force", options->force, "Replace an existing output");
-  command->add_flag("--quiet", options->quiet, "Print no progress and no notes");
-  command->footer("Example:\n  reeb plot scan.reeb --kind skeleton --mesh scan.ply --threshold 1% -o scan.png");
-  command->callback([options] { plot(*options); });
+      .add_option("--color", options->color,
+                  "For a skeleton: by value, or a colour for each of the arcs (default: value)")
+      .one_of({"value", "arcs"})
+      .type_name("BY");
+  command.add_flag("--on-surface", options->skeleton.on_surface,
+                   "For a skeleton: lines pass through vertices of the mesh");
+  command.add_flag("--force", options->force, "Replace an existing output");
+  command.add_flag("--quiet", options->quiet, "Print no progress and no notes");
+  command.footer("Example:\n  reeb plot scan.reeb --kind skeleton --mesh scan.ply --threshold 1% -o scan.png");
+  command.callback([options] { plot(*options); });
 }
 
 }  // namespace reeb::tools

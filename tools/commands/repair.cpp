@@ -16,10 +16,10 @@
 #include "libreeb/base/error.h"
 #include "libreeb/base/printable.h"
 #include "ooc/reeb_file/reeb_file.h"
+#include "tools/arguments/image_options.h"
+#include "tools/arguments/options.h"
 #include "tools/commands/commands.h"
 #include "tools/library/run_files.h"
-#include "tools/program/image_options.h"
-#include "tools/program/options.h"
 #include "tools/program/output.h"
 #include "tools/program/progress.h"
 #include "tools/program/signals.h"
@@ -161,49 +161,48 @@ void run_repair(RepairArguments arguments) {
 
 }  // namespace
 
-void add_repair(CLI::App& program) {
+void add_repair(Program& program) {
   auto arguments = std::make_shared<RepairArguments>();
   RepairOptions& options = arguments->options;
-  CLI::App* command = program.add_subcommand("repair", "Cut small handles and fill tunnels of a surface");
-  command->add_option("MESH", options.mesh.path, "Mesh of any format, also as .gz and .zst")->required()->type_name("");
-  command->add_option("-o,--output", options.output, "Mesh to write: .ply .obj .off")->required()->type_name("OUT");
-  command->add_option("--below", arguments->below, "Loops of less persistence: 0.01, or 0.1% of the function's range")
-      ->type_name("T");
-  command->add_option("--longest", arguments->longest, "Loops with a curve of at most this length")
-      ->type_name("LENGTH");
-  command->add_option("--loops", options.filter.loops, "Only loops in a table of reeb defects, or in rows of it")
-      ->type_name("FILE.csv");
-  command->add_flag("--all", options.filter.all, "All loops that can be repaired, however long");
-  add_count(*command, "--limit", options.limit, "The first N loops that can be repaired", {.least = 1});
+  Command command = program.add_command("repair", "Cut small handles and fill tunnels of a surface");
+  command.add_option("MESH", options.mesh.path, "Mesh of any format, also as .gz and .zst").required().type_name("");
+  command.add_option("-o,--output", options.output, "Mesh to write: .ply .obj .off").required().type_name("OUT");
+  command.add_option("--below", arguments->below, "Loops of less persistence: 0.01, or 0.1% of the function's range")
+      .type_name("T");
+  command.add_option("--longest", arguments->longest, "Loops with a curve of at most this length").type_name("LENGTH");
+  command.add_option("--loops", options.filter.loops, "Only loops in a table of reeb defects, or in rows of it")
+      .type_name("FILE.csv");
+  command.add_flag("--all", options.filter.all, "All loops that can be repaired, however long");
+  add_count(command, "--limit", options.limit, "The first N loops that can be repaired", {.least = 1});
   command
-      ->add_option("--drop-components", arguments->drop_components,
-                   "Drop components of fewer triangles than N% of the largest one")
-      ->type_name("N%");
-  command->add_option("--fill-boundaries", arguments->fill_boundaries, "Fill boundaries of at most this length")
-      ->type_name("LENGTH");
-  command->add_flag("--drop-degenerate", options.cleaning.degenerate, "Drop triangles that repeat a corner");
-  command->add_flag("--drop-duplicates", options.cleaning.duplicates, "Drop repetitions of triangles");
-  command->add_option("--log", arguments->log, "File for what was done, and what was left and why, as JSON")
-      ->type_name("FILE");
-  command->add_option("--undo", arguments->undo, "File to write with what is needed to go back")->type_name("FILE");
+      .add_option("--drop-components", arguments->drop_components,
+                  "Drop components of fewer triangles than N% of the largest one")
+      .type_name("N%");
+  command.add_option("--fill-boundaries", arguments->fill_boundaries, "Fill boundaries of at most this length")
+      .type_name("LENGTH");
+  command.add_flag("--drop-degenerate", options.cleaning.degenerate, "Drop triangles that repeat a corner");
+  command.add_flag("--drop-duplicates", options.cleaning.duplicates, "Drop repetitions of triangles");
+  command.add_option("--log", arguments->log, "File for what was done, and what was left and why, as JSON")
+      .type_name("FILE");
+  command.add_option("--undo", arguments->undo, "File to write with what is needed to go back").type_name("FILE");
   command
-      ->add_option("--apply-undo", arguments->apply_undo,
-                   "Undo file of a repair whose output is MESH: writes the mesh before it")
-      ->type_name("FILE");
-  add_format(*command, options.mesh.format);
-  add_image_options(*command, options.mesh.image);
-  add_size(*command, "--memory", options.mesh.memory_bytes,
+      .add_option("--apply-undo", arguments->apply_undo,
+                  "Undo file of a repair whose output is MESH: writes the mesh before it")
+      .type_name("FILE");
+  add_format(command, options.mesh.format);
+  add_image_options(command, options.mesh.image);
+  add_size(command, "--memory", options.mesh.memory_bytes,
            "Memory that the run may use: 64M, 1.5GiB (default: no limit)");
-  add_count(*command, "--threads", options.threads, "Number of threads, 1 to 1024 (default: all)",
+  add_count(command, "--threads", options.threads, "Number of threads, 1 to 1024 (default: all)",
             {.least = 1, .most = 1024});
   command
-      ->add_option("--temp-dir", options.mesh.temp_folder,
-                   "Folder for temporary files (default: $TMPDIR, or the folder of the output)")
-      ->type_name("DIR");
-  command->add_flag("--force", arguments->force, "Replace an existing output");
-  command->add_flag("--quiet", arguments->quiet, "Print no progress and no summary");
-  command->footer("Example:\n  reeb repair scan.ply -o clean.ply --log clean.json --undo clean.undo");
-  command->callback([arguments] { run_repair(*arguments); });
+      .add_option("--temp-dir", options.mesh.temp_folder,
+                  "Folder for temporary files (default: $TMPDIR, or the folder of the output)")
+      .type_name("DIR");
+  command.add_flag("--force", arguments->force, "Replace an existing output");
+  command.add_flag("--quiet", arguments->quiet, "Print no progress and no summary");
+  command.footer("Example:\n  reeb repair scan.ply -o clean.ply --log clean.json --undo clean.undo");
+  command.callback([arguments] { run_repair(*arguments); });
 }
 
 }  // namespace reeb::tools

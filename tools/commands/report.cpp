@@ -5,11 +5,11 @@
 #include "io/file/temp_dir.h"
 #include "libreeb/base/error.h"
 #include "ooc/reeb_file/reeb_file.h"
+#include "tools/arguments/image_options.h"
+#include "tools/arguments/options.h"
 #include "tools/commands/commands.h"
 #include "tools/library/run_files.h"
-#include "tools/program/image_options.h"
 #include "tools/program/input_kind.h"
-#include "tools/program/options.h"
 #include "tools/program/output.h"
 #include "tools/program/progress.h"
 #include "tools/program/signals.h"
@@ -63,34 +63,34 @@ void run_report(PageOptions options) {
 
 }  // namespace
 
-void add_report(CLI::App& program) {
+void add_report(Program& program) {
   auto options = std::make_shared<PageOptions>();
-  CLI::App* command = program.add_subcommand("report", "Write one HTML page: plots, defects, skeleton");
+  Command command = program.add_command("report", "Write one HTML page: plots, defects, skeleton");
   FindDefectsOptions& defects = options->report.defects;
-  command->add_option("FILE", options->report.file, "The .reeb file")->required()->type_name("");
-  command->add_option("-o,--output", options->output, "File to write, an HTML page; - is standard output")
-      ->required()
-      ->type_name("FILE");
+  command.add_option("FILE", options->report.file, "The .reeb file").required().type_name("");
+  command.add_option("-o,--output", options->output, "File to write, an HTML page; - is standard output")
+      .required()
+      .type_name("FILE");
   command
-      ->add_option("--mesh", defects.mesh.path,
-                   "The mesh of the graph: adds what is wrong with it, and its defects with close-ups")
-      ->type_name("MESH");
-  add_count(*command, "--nodes", options->report.nodes, "The skeleton has levels with at most N nodes (default: 2000)",
+      .add_option("--mesh", defects.mesh.path,
+                  "The mesh of the graph: adds what is wrong with it, and its defects with close-ups")
+      .type_name("MESH");
+  add_count(command, "--nodes", options->report.nodes, "The skeleton has levels with at most N nodes (default: 2000)",
             {.least = 1, .most = 100'000});
-  add_format(*command, defects.mesh.format);
-  add_image_options(*command, defects.mesh.image);
-  add_size(*command, "--memory", defects.mesh.memory_bytes,
+  add_format(command, defects.mesh.format);
+  add_image_options(command, defects.mesh.image);
+  add_size(command, "--memory", defects.mesh.memory_bytes,
            "Memory that reading the mesh may use: 64M, 1.5GiB (default: no limit)");
-  add_count(*command, "--threads", defects.threads, "Number of threads, 1 to 1024 (default: all)",
+  add_count(command, "--threads", defects.threads, "Number of threads, 1 to 1024 (default: all)",
             {.least = 1, .most = 1024});
   command
-      ->add_option("--temp-dir", defects.mesh.temp_folder,
-                   "Folder for temporary files (default: $TMPDIR, or the folder of the output)")
-      ->type_name("DIR");
-  command->add_flag("--force", options->force, "Replace an existing output");
-  command->add_flag("--quiet", options->quiet, "Print no progress");
-  command->footer("Example:\n  reeb report scan.reeb --mesh scan.ply -o scan.html");
-  command->callback([options] { run_report(*options); });
+      .add_option("--temp-dir", defects.mesh.temp_folder,
+                  "Folder for temporary files (default: $TMPDIR, or the folder of the output)")
+      .type_name("DIR");
+  command.add_flag("--force", options->force, "Replace an existing output");
+  command.add_flag("--quiet", options->quiet, "Print no progress");
+  command.footer("Example:\n  reeb report scan.reeb --mesh scan.ply -o scan.html");
+  command.callback([options] { run_report(*options); });
 }
 
 }  // namespace reeb::tools

@@ -20,13 +20,13 @@
 #include "libreeb/base/memory_budget.h"
 #include "libreeb/base/printable.h"
 #include "ooc/run/segment.h"
+#include "tools/arguments/image_options.h"
+#include "tools/arguments/options.h"
 #include "tools/commands/commands.h"
 #include "tools/commands/open_segmentation.h"
 #include "tools/library/run_files.h"
 #include "tools/library/run_input.h"
-#include "tools/program/image_options.h"
 #include "tools/program/input_kind.h"
-#include "tools/program/options.h"
 #include "tools/program/output.h"
 #include "tools/program/progress.h"
 #include "tools/program/quantity.h"
@@ -203,41 +203,41 @@ void segment(SegmentOptions options) {
 
 }  // namespace
 
-void add_segment(CLI::App& program) {
+void add_segment(Program& program) {
   auto options = std::make_shared<SegmentOptions>();
-  CLI::App* command = program.add_subcommand("segment", "Write the arc on which each vertex of a mesh lies");
-  command->add_option("MESH", options->mesh, "The mesh that the file was computed from; - reads standard input")
-      ->required()
-      ->type_name("");
-  command->add_option("FILE", options->file, "The .reeb file")->required()->type_name("");
+  Command command = program.add_command("segment", "Write the arc on which each vertex of a mesh lies");
+  command.add_option("MESH", options->mesh, "The mesh that the file was computed from; - reads standard input")
+      .required()
+      .type_name("");
+  command.add_option("FILE", options->file, "The .reeb file").required().type_name("");
   command
-      ->add_option("-o,--output", options->output,
-                   "File to write: .i64 (for each vertex a little-endian int64: the position of its arc among the arcs "
-                   "of `reeb extract`, or -1 - the position of its node), .ply, .vtu or .vtp (the mesh with these "
-                   "numbers)")
-      ->required()
-      ->type_name("FILE");
-  auto* threshold = command
-                        ->add_option("--threshold", options->threshold,
+      .add_option("-o,--output", options->output,
+                  "File to write: .i64 (for each vertex a little-endian int64: the position of its arc among the arcs "
+                  "of `reeb extract`, or -1 - the position of its node), .ply, .vtu or .vtp (the mesh with these "
+                  "numbers)")
+      .required()
+      .type_name("FILE");
+  Option threshold = command
+                         .add_option("--threshold", options->threshold,
                                      "On the graph without features of less persistence: 0.01 (function units), or "
                                      "0.1% (of the range)")
-                        ->option_text("T");
-  auto* nodes =
-      add_count(*command, "--nodes", options->nodes, "On the finest level with at most N nodes")->option_text("N");
-  threshold->excludes(nodes);
-  add_format(*command, options->format);
-  add_image_options(*command, options->image);
-  add_size(*command, "--memory", options->memory_bytes, "Memory that the run may use: 64M, 1.5GiB (default: no limit)");
-  add_count(*command, "--threads", options->threads, "Number of threads, 1 to 1024 (default: all)",
+                         .option_text("T");
+  Option nodes =
+      add_count(command, "--nodes", options->nodes, "On the finest level with at most N nodes").option_text("N");
+  threshold.excludes(nodes);
+  add_format(command, options->format);
+  add_image_options(command, options->image);
+  add_size(command, "--memory", options->memory_bytes, "Memory that the run may use: 64M, 1.5GiB (default: no limit)");
+  add_count(command, "--threads", options->threads, "Number of threads, 1 to 1024 (default: all)",
             {.least = 1, .most = 1024});
   command
-      ->add_option("--temp-dir", options->temp_folder,
-                   "Folder for temporary files (default: $TMPDIR, or the folder of the output)")
-      ->type_name("DIR");
-  command->add_flag("--force", options->force, "Replace an existing output");
-  command->add_flag("--quiet", options->quiet, "Print no progress and no notes");
-  command->footer("Example:\n  reeb segment scan.ply scan.reeb --threshold 1% -o scan.i64");
-  command->callback([options] { segment(*options); });
+      .add_option("--temp-dir", options->temp_folder,
+                  "Folder for temporary files (default: $TMPDIR, or the folder of the output)")
+      .type_name("DIR");
+  command.add_flag("--force", options->force, "Replace an existing output");
+  command.add_flag("--quiet", options->quiet, "Print no progress and no notes");
+  command.footer("Example:\n  reeb segment scan.ply scan.reeb --threshold 1% -o scan.i64");
+  command.callback([options] { segment(*options); });
 }
 
 }  // namespace reeb::tools

@@ -15,12 +15,12 @@
 #include "ooc/reeb_file/reeb_file.h"
 #include "ooc/whole_mesh/mesh_recount.h"
 #include "ooc/whole_mesh/workspace.h"
+#include "tools/arguments/image_options.h"
+#include "tools/arguments/options.h"
 #include "tools/checks/full_check.h"
 #include "tools/checks/node_check.h"
 #include "tools/commands/commands.h"
-#include "tools/program/image_options.h"
 #include "tools/program/input_kind.h"
-#include "tools/program/options.h"
 #include "tools/program/progress.h"
 #include "tools/program/signals.h"
 
@@ -134,25 +134,25 @@ void verify(const VerifyOptions& options) {
 
 }  // namespace
 
-void add_verify(CLI::App& app) {
+void add_verify(Program& app) {
   auto options = std::make_shared<VerifyOptions>();
-  CLI::App* command = app.add_subcommand("verify", "Check a .reeb file: checksums, structure, counts");
-  command->add_option("FILE", options->file, "The .reeb file")->required()->type_name("");
-  command->add_option("--mesh", options->mesh, "The mesh that it was computed from, to count again independently")
-      ->type_name("MESH");
-  add_format(*command, options->format);
-  command->add_flag("--full", options->full, "Compute the graph again from the mesh; compare nodes, arcs and pairs");
-  add_image_options(*command, options->image);
-  add_size(*command, "--memory", options->memory_bytes,
+  Command command = app.add_command("verify", "Check a .reeb file: checksums, structure, counts");
+  command.add_option("FILE", options->file, "The .reeb file").required().type_name("");
+  command.add_option("--mesh", options->mesh, "The mesh that it was computed from, to count again independently")
+      .type_name("MESH");
+  add_format(command, options->format);
+  command.add_flag("--full", options->full, "Compute the graph again from the mesh; compare nodes, arcs and pairs");
+  add_image_options(command, options->image);
+  add_size(command, "--memory", options->memory_bytes,
            "Memory for the tables of the mesh and for --full: 64M (default: no limit)");
-  add_count(*command, "--threads", options->threads, "Number of threads for --full, 1 to 1024 (default: all)",
+  add_count(command, "--threads", options->threads, "Number of threads for --full, 1 to 1024 (default: all)",
             {.least = 1, .most = 1024});
   command
-      ->add_option("--temp-dir", options->temp_folder,
-                   "Folder for temporary files (default: $TMPDIR, or the current folder)")
-      ->type_name("DIR");
-  command->footer("Example:\n  reeb verify scan.reeb --mesh scan.ply");
-  command->callback([options] { verify(*options); });
+      .add_option("--temp-dir", options->temp_folder,
+                  "Folder for temporary files (default: $TMPDIR, or the current folder)")
+      .type_name("DIR");
+  command.footer("Example:\n  reeb verify scan.reeb --mesh scan.ply");
+  command.callback([options] { verify(*options); });
 }
 
 }  // namespace reeb::tools

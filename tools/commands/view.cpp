@@ -6,9 +6,9 @@
 #include <string>
 
 #include "libreeb/base/error.h"
+#include "tools/arguments/options.h"
 #include "tools/commands/commands.h"
 #include "tools/program/input_kind.h"
-#include "tools/program/options.h"
 #include "tools/program/signals.h"
 #include "tools/report/report.h"
 #include "tools/view/file_server.h"
@@ -38,13 +38,13 @@ void view(const ViewOptions& options) {
 
 }  // namespace
 
-void add_view(CLI::App& program) {
+void add_view(Program& program) {
   auto options = std::make_shared<ViewOptions>();
-  CLI::App* command = program.add_subcommand("view", "Show a .reeb file in a browser, coarse levels first");
-  command->add_option("FILE", options->file, "The .reeb file")->required()->type_name("");
-  add_count(*command, "--port", options->port, "Port on 127.0.0.1 (default: a free one)", {.least = 1, .most = 65535});
-  command->footer("Example:\n  reeb view scan.reeb");
-  command->callback([options] { view(*options); });
+  Command command = program.add_command("view", "Show a .reeb file in a browser, coarse levels first");
+  command.add_option("FILE", options->file, "The .reeb file").required().type_name("");
+  add_count(command, "--port", options->port, "Port on 127.0.0.1 (default: a free one)", {.least = 1, .most = 65535});
+  command.footer("Example:\n  reeb view scan.reeb");
+  command.callback([options] { view(*options); });
 }
 
 }  // namespace reeb::tools

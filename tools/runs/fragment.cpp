@@ -106,29 +106,28 @@ void run_fragment(FragmentArguments arguments) {
 
 }  // namespace
 
-void add_fragment(CLI::App& program) {
+void add_fragment(Program& program) {
   auto arguments = std::make_shared<FragmentArguments>();
-  CLI::App* command = program.add_subcommand("fragment", "Compute a part of a mesh, for `reeb glue`");
-  command->add_option("MESH", arguments->mesh, "Mesh or image of any format, also as .gz and .zst")
-      ->required()
-      ->type_name("");
-  command->add_option("--part", arguments->part, "The K-th of N parts with the same number of triangles, from 1")
-      ->required()
-      ->type_name("K/N");
+  Command command = program.add_command("fragment", "Compute a part of a mesh, for `reeb glue`");
+  command.add_option("MESH", arguments->mesh, "Mesh or image of any format, also as .gz and .zst")
+      .required()
+      .type_name("");
+  command.add_option("--part", arguments->part, "The K-th of N parts with the same number of triangles, from 1")
+      .required()
+      .type_name("K/N");
   command
-      ->add_option("-o,--output", arguments->output,
-                   "File to write; with several functions OUT-FUNC.fragment (default: the name of the mesh with "
-                   "-K-of-N.fragment, in the current folder)")
-      ->type_name("FILE");
-  command->add_flag("--scan", arguments->scan,
-                    "Write only which vertices the part names (default name: -K-of-N.names)");
+      .add_option("-o,--output", arguments->output,
+                  "File to write; with several functions OUT-FUNC.fragment (default: the name of the mesh with "
+                  "-K-of-N.fragment, in the current folder)")
+      .type_name("FILE");
+  command.add_flag("--scan", arguments->scan, "Write only which vertices the part names (default name: -K-of-N.names)");
   command
-      ->add_option("--shared", arguments->shared,
-                   "Files that --scan wrote, of all parts, so that the whole mesh need not be read")
-      ->type_name("FILE");
-  add_run_options(*command, *arguments);
-  command->footer("Example:\n  reeb fragment scan.ply --part 1/2 -o p1.fragment");
-  command->callback([arguments] { run_fragment(*arguments); });
+      .add_option("--shared", arguments->shared,
+                  "Files that --scan wrote, of all parts, so that the whole mesh need not be read")
+      .type_name("FILE");
+  add_run_options(command, *arguments);
+  command.footer("Example:\n  reeb fragment scan.ply --part 1/2 -o p1.fragment");
+  command.callback([arguments] { run_fragment(*arguments); });
 }
 
 }  // namespace reeb::tools

@@ -14,9 +14,9 @@
 #include "libreeb/base/memory_budget.h"
 #include "libreeb/base/printable.h"
 #include "ooc/distributed/glue_run.h"
+#include "tools/arguments/options.h"
 #include "tools/library/run_files.h"
 #include "tools/program/compute_report.h"
-#include "tools/program/options.h"
 #include "tools/program/output.h"
 #include "tools/program/progress.h"
 #include "tools/program/signals.h"
@@ -30,8 +30,7 @@ namespace {
 struct GlueArguments {
   std::vector<std::string> fragments;
   std::string output, report;
-  std::uint32_t buckets = 0;
-  bool has_buckets = false, quiet = false;
+  bool quiet = false;
   ooc::GlueOptions options;
 };
 
@@ -82,42 +81,38 @@ void run_glue(GlueArguments arguments) {
 
 }  // namespace
 
-void add_glue(CLI::App& program) {
+void add_glue(Program& program) {
   auto arguments = std::make_shared<GlueArguments>();
   ooc::GlueOptions& options = arguments->options;
   options.threads = std::max(1u, std::thread::hardware_concurrency());
   options.replace = false;
-  CLI::App* command = program.add_subcommand("glue", "Join fragments of a mesh to its graph");
-  command->add_option("FRAGMENT", arguments->fragments, "Files that `reeb fragment` or `reeb glue` wrote, in any order")
-      ->required()
-      ->type_name("");
+  Command command = program.add_command("glue", "Join fragments of a mesh to its graph");
+  command.add_option("FRAGMENT", arguments->fragments, "Files that `reeb fragment` or `reeb glue` wrote, in any order")
+      .required()
+      .type_name("");
   command
-      ->add_option("-o,--output", arguments->output,
-                   "File to write: OUT.reeb, the graph, for which all parts must be there; or OUT.fragment, to be "
-                   "glued again")
-      ->required()
-      ->type_name("FILE");
-  command->add_flag("--graph-only", options.graph_only,
-                    "Stop after the graph: no pairs, no levels (default: as in the fragments)");
-  add_count(*command, "--buckets", arguments->buckets,
-            "0: leave the embedding out; else as in the fragments (default: as in the fragments)", {.most = 1u << 20})
-      ->each([arguments](const std::string&) { arguments->has_buckets = true; });
-  add_size(*command, "--memory", options.memory_bytes, "Memory that the run may use: 64M, 1.5GiB (default: no limit)");
-  add_count(*command, "--threads", options.threads, "Number of threads, 1 to 1024 (default: all)",
+      .add_option("-o,--output", arguments->output,
+                  "File to write: OUT.reeb, the graph, for which all parts must be there; or OUT.fragment, to be "
+                  "glued again")
+      .required()
+      .type_name("FILE");
+  command.add_flag("--graph-only", options.graph_only,
+                   "Stop after the graph: no pairs, no levels (default: as in the fragments)");
+  add_count(command, "--buckets", options.buckets,
+            "0: leave the embedding out; else as in the fragments (default: as in the fragments)", {.most = 1u << 20});
+  add_size(command, "--memory", options.memory_bytes, "Memory that the run may use: 64M, 1.5GiB (default: no limit)");
+  add_count(command, "--threads", options.threads, "Number of threads, 1 to 1024 (default: all)",
             {.least = 1, .most = 1024});
   command
-      ->add_option("--temp-dir", options.temp_dir,
-                   "Folder for temporary files (default: $TMPDIR, or the folder of the output)")
-      ->type_name("DIR");
-  command->add_option("--report", arguments->report, "Write figures of the run as JSON; - is standard output")
-      ->type_name("FILE");
-  command->add_flag("--quiet", arguments->quiet, "Print no progress and no summary");
-  command->add_flag("--force", options.replace, "Replace an existing output");
-  command->footer("Example:\n  reeb glue p1.fragment p2.fragment -o scan.reeb");
-  command->callback([arguments] {
-    if (arguments->has_buckets) arguments->options.buckets = arguments->buckets;
-    run_glue(*arguments);
-  });
+      .add_option("--temp-dir", options.temp_dir,
+                  "Folder for temporary files (default: $TMPDIR, or the folder of the output)")
+      .type_name("DIR");
+  command.add_option("--report", arguments->report, "Write figures of the run as JSON; - is standard output")
+      .type_name("FILE");
+  command.add_flag("--quiet", arguments->quiet, "Print no progress and no summary");
+  command.add_flag("--force", options.replace, "Replace an existing output");
+  command.footer("Example:\n  reeb glue p1.fragment p2.fragment -o scan.reeb");
+  command.callback([arguments] { run_glue(*arguments); });
 }
 
 }  // namespace reeb::tools

@@ -7,8 +7,8 @@
 #include <thread>
 
 #include "libreeb/base/count_text.h"
-#include "tools/program/image_options.h"
-#include "tools/program/options.h"
+#include "tools/arguments/image_options.h"
+#include "tools/arguments/options.h"
 #include "tools/program/quantity.h"
 
 namespace reeb::tools {
@@ -21,7 +21,7 @@ RunArguments::RunArguments() {
   if (const char* seconds = std::getenv("REEB_CHECKPOINT_SECONDS")) options.checkpoint_seconds = std::atof(seconds);
 }
 
-void add_run_options(CLI::App& command, RunArguments& arguments) {
+void add_run_options(Command command, RunArguments& arguments) {
   ComputeOptions& options = arguments.options;
   command
       .add_option(
@@ -29,15 +29,15 @@ void add_run_options(CLI::App& command, RunArguments& arguments) {
           "x, y, z, cK (the K-th coordinate, from 0), index, random:SEED, property:NAME, file:PATH, "
           "distance:VERTEX, distance:X,Y,Z, geodesic:VERTEX[,VERTEX...], laplacian:K, spectral, or of an image value, "
           "value:K (default: z, of an image value; may be repeated)")
-      ->allow_extra_args(false)
-      ->option_text("FUNC");
+      .one_value_each_time()
+      .option_text("FUNC");
   command.add_flag("--graph-only", options.graph_only, "Stop after the graph: no pairs, no levels");
   add_format(command, options.format);
   add_size(command, "--memory", options.memory_bytes, "Memory that the run may use: 64M, 1.5GiB (default: no limit)");
   command
       .add_option("--denoise", arguments.denoise,
                   "Remove minima and maxima of less persistence: 0.01 (function units), or 0.1% (of the range)")
-      ->type_name("T");
+      .type_name("T");
   add_count(command, "--buckets", options.buckets,
             "Embed arcs in at least N buckets of value (default: 64; 0: no embedding)", {.most = 1u << 20});
   add_image_options(command, arguments.options.image);
@@ -47,8 +47,8 @@ void add_run_options(CLI::App& command, RunArguments& arguments) {
   command
       .add_option("--temp-dir", options.temp_dir,
                   "Folder for temporary files (default: $TMPDIR, or the folder of the output)")
-      ->type_name("DIR");
-  command.add_flag_callback(
+      .type_name("DIR");
+  command.add_flag(
       "--no-reorder", [&options] { options.may_reorder = false; }, "Do not sort incoherent meshes on disk first");
   command.add_flag("--resume", options.resume, "Continue an interrupted run from its folder OUT.partial");
   command.add_flag("--quiet", arguments.quiet, "Print no progress and no summary");

@@ -1,12 +1,11 @@
 // What the commands share that run a mesh: options, and what they print meanwhile.
 #pragma once
 
-#include <CLI/CLI.hpp>
-
 #include <string>
 #include <vector>
 
 #include "libreeb/port/mesh_reader.h"
+#include "tools/arguments/arguments.h"
 #include "tools/library/compute.h"
 #include "tools/program/progress.h"
 
@@ -22,7 +21,7 @@ struct RunArguments {
 };
 
 // `arguments` must outlive the parsing.
-void add_run_options(CLI::App& command, RunArguments& arguments);
+void add_run_options(Command command, RunArguments& arguments);
 // Turns the text of --denoise into options. THROWS: Error{kUsage}.
 void take_denoise(RunArguments& arguments);
 

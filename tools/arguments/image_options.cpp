@@ -1,24 +1,24 @@
-#include "tools/program/image_options.h"
+#include "tools/arguments/image_options.h"
 
 #include <string>
 
 #include "libreeb/base/error.h"
-#include "tools/program/options.h"
+#include "tools/arguments/options.h"
 
 namespace reeb::tools {
 
-void add_image_options(CLI::App& command, io::ImageOptions& image) {
+void add_image_options(Command command, io::ImageOptions& image) {
   command.add_option("--grid", image.grid, "Vertices of a raw image along each axis: 512x512x300")
-      ->type_name("NXxNY[xNZ]");
+      .type_name("NXxNY[xNZ]");
   command
       .add_option("--type", image.type,
                   "Values of a raw image: u8, i8, or u16, i16, u32, i32, u64, i64, f32 or f64 followed by le or be")
-      ->type_name("TYPE");
+      .type_name("TYPE");
   command.add_option("--spacing", image.spacing, "Distances of vertices of a raw image: 1,1,2.5 (default: 1)")
-      ->type_name("A,B[,C]");
+      .type_name("A,B[,C]");
   add_count(command, "--skip", image.skip_bytes, "Bytes before the values of a raw image (default: 0)");
   command
-      .add_option_function<std::string>(
+      .add_option(
           "--nodata",
           [&image](const std::string& text) {
             if (text != "skip")
@@ -27,7 +27,7 @@ void add_image_options(CLI::App& command, io::ImageOptions& image) {
             image.skip_nodata = true;
           },
           "Leave out vertices of an image without data (NaN, or what the header says)")
-      ->type_name("skip");
+      .type_name("skip");
 }
 
 }  // namespace reeb::tools

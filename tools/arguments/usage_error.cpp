@@ -1,27 +1,12 @@
-#include "tools/program/usage_error.h"
+#include "tools/arguments/usage_error.h"
 
-#include <algorithm>
 #include <cctype>
-#include <numeric>
 #include <optional>
+
+#include "tools/arguments/nearest_name.h"
 
 namespace reeb::tools {
 namespace {
-
-// Of insertions, deletions and changes of a letter.
-std::size_t edit_distance(const std::string& a, const std::string& b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    std::size_t diagonal = row[0]++;
-    for (std::size_t j = 0; j < b.size(); ++j) {
-      const std::size_t changed = diagonal + (a[i] == b[j] ? 0 : 1);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({changed, row[j] + 1, row[j + 1] + 1});
-    }
-  }
-  return row.back();
-}
 
 // Short names are not near to anything.
 std::vector<std::string> long_names(const CLI::App& command) {
@@ -92,37 +77,11 @@ const CLI::App* find_command(const CLI::App& program, const std::string& name) {
   return found.empty() ? nullptr : found.front();
 }
 
-std::string command_names(const CLI::App& program) {
-  std::string names;
-  for (const CLI::App* command : program.get_subcommands({}))
-    names += (names.empty() ? "" : ", ") + command->get_name();
-  return names;
-}
-
-std::string nearest(const std::string& word, const std::vector<std::string>& names) {
-  const auto best =
-      std::ranges::min_element(names, {}, [&](const std::string& name) { return edit_distance(word, name); });
-  if (best == names.end()) return {};
-  const std::size_t dashes = std::min(word.find_first_not_of('-'), word.size());
-  const std::size_t letters = std::max(word.size(), best->size()) - dashes;
-  // About half of the letters must agree.
-  return 2 * edit_distance(word, *best) <= letters + 1 ? *best : std::string();
-}
-
-Error no_such_command(const CLI::App& program, const std::string& word) {
-  std::vector<std::string> names;
-  for (const CLI::App* command : program.get_subcommands({})) names.push_back(command->get_name());
-  const std::string near = nearest(word, names);
-  return {ErrorKind::kUsage,
-          "there is no command '" + word + "', and no file of that name" +
-              (near.empty() ? "" : " (did you mean " + near + "?)"),
-          "the commands are " + command_names(program)};
-}
-
 Error usage_error(const CLI::App& program, const std::vector<std::string>& words, const CLI::ParseError& refusal) {
   const CLI::App* command = words.empty() ? nullptr : find_command(program, words[0]);
-  if (command == nullptr) return {ErrorKind::kUsage, in_plain_words(refusal), "see `reeb --help`"};
-  const std::string hint = "see `reeb " + command->get_name() + " --help`";
+  if (command == nullptr)
+    return {ErrorKind::kUsage, in_plain_words(refusal), "see `" + program.get_name() + " --help`"};
+  const std::string hint = "see `" + program.get_name() + " " + words[0] + " --help`";
   if (const auto option = unknown_option(*command, words)) {
     std::vector<std::string> names = long_names(*command);
     for (const std::string& name : long_names(program)) names.push_back(name);

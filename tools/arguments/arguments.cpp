@@ -1,0 +1,135 @@
+#include "tools/arguments/arguments.h"
+
+#include <CLI/CLI.hpp>
+
+#include <sstream>
+#include <utility>
+
+#include "tools/arguments/usage_error.h"
+#include "tools/program/wrapping.h"
+
+namespace reeb::tools {
+namespace {
+
+// Helps in 80 columns.
+class HelpFormatter : public CLI::Formatter {
+ public:
+  HelpFormatter() {
+    label("REQUIRED", "(required)");
+    label("Positionals", "Arguments");
+    label("SUBCOMMAND", "COMMAND");
+    column_width(27);
+  }
+  std::string make_option_desc(const CLI::Option* option) const override {
+    return wrapped(option->get_description(), 0, kTextColumns - get_column_width());
+  }
+};
+
+}  // namespace
+
+Option Option::required() {
+  option_->required();
+  return *this;
+}
+
+Option Option::type_name(const std::string& text) {
+  option_->type_name(text);
+  return *this;
+}
+
+Option Option::option_text(const std::string& text) {
+  option_->option_text(text);
+  return *this;
+}
+
+Option Option::one_of(const std::vector<std::string>& values) {
+  option_->check(CLI::IsMember(values));
+  return *this;
+}
+
+Option Option::needs(Option other) {
+  option_->needs(other.option_);
+  return *this;
+}
+
+Option Option::excludes(Option other) {
+  option_->excludes(other.option_);
+  return *this;
+}
+
+Option Option::one_value_each_time() {
+  option_->allow_extra_args(false);
+  return *this;
+}
+
+Option Command::add_option(const std::string& names, std::string& target, const std::string& description) {
+  return Option(*command_->add_option(names, target, description));
+}
+
+Option Command::add_option(const std::string& names, std::vector<std::string>& target, const std::string& description) {
+  return Option(*command_->add_option(names, target, description));
+}
+
+Option Command::add_option(const std::string& names, std::function<void(const std::string&)> take,
+                           const std::string& description) {
+  return Option(*command_->add_option_function<std::string>(names, std::move(take), description));
+}
+
+Option Command::add_flag(const std::string& names, bool& target, const std::string& description) {
+  return Option(*command_->add_flag(names, target, description));
+}
+
+Option Command::add_flag(const std::string& names, std::function<void()> set, const std::string& description) {
+  return Option(*command_->add_flag_callback(names, std::move(set), description));
+}
+
+void Command::footer(const std::string& text) { command_->footer(text); }
+
+void Command::callback(std::function<void()> run) { command_->callback(std::move(run)); }
+
+Program::Program(const std::string& name, const std::string& description)
+    : program_(std::make_unique<CLI::App>(description, name)) {
+  program_->formatter(std::make_shared<HelpFormatter>());
+  program_->set_help_flag("-h,--help", "Print this help");
+  program_->require_subcommand(0, 1);
+}
+
+Program::~Program() = default;
+
+Command Program::add_command(const std::string& name, const std::string& description) {
+  return Command(*program_->add_subcommand(name, description)->group("Commands"));
+}
+
+void Program::set_version(const std::string& text) {
+  program_->set_version_flag("--version", text, "Print the version");
+}
+
+void Program::footer(const std::string& text) { program_->footer(text); }
+
+void Program::before_commands(const std::function<void()>& call) {
+  for (CLI::App* command : program_->get_subcommands({})) command->parse_complete_callback(call);
+}
+
+bool Program::has_command(const std::string& name) const { return find_command(*program_, name) != nullptr; }
+
+std::vector<std::string> Program::command_names() const {
+  std::vector<std::string> names;
+  for (const CLI::App* command : program_->get_subcommands({})) names.push_back(command->get_name());
+  return names;
+}
+
+std::string Program::help() const { return program_->help(); }
+
+std::optional<std::string> Program::run(const std::vector<std::string>& words) {
+  try {
+    program_->parse(std::vector<std::string>(words.rbegin(), words.rend()));  // CLI11 takes them in reverse order
+  } catch (const CLI::ParseError& refusal) {
+    if (refusal.get_exit_code() != 0) throw usage_error(*program_, words, refusal);
+    std::ostringstream text;
+    program_->exit(refusal, text);
+    return text.str();
+  }
+  return {};
+}
+
+}  // namespace reeb::tools
