@@ -8,9 +8,9 @@
 #include <cstdlib>
 
 #include "libreeb/hierarchy/cancel.h"
-#include "libreeb/hierarchy/denoise.h"
 #include "libreeb/hierarchy/levels.h"
 #include "libreeb/hierarchy/pairing.h"
+#include "libreeb/noise/denoise.h"
 #include "tests/support/held_memory.h"
 #include "tests/support/made_graph.h"
 

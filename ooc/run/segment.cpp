@@ -12,7 +12,7 @@
 #include "libreeb/base/count_text.h"
 #include "libreeb/base/error.h"
 #include "libreeb/hierarchy/cancel.h"
-#include "libreeb/hierarchy/denoise.h"
+#include "libreeb/noise/denoise.h"
 #include "libreeb/segmentation/arc_history.h"
 #include "libreeb/segmentation/level_arcs.h"
 #include "libreeb/segmentation/parallel_arcs.h"

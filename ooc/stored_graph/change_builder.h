@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "libreeb/hierarchy/denoise.h"
 #include "libreeb/hierarchy/packed_lists.h"
+#include "libreeb/noise/denoise.h"
 #include "ooc/stored_graph/graph_change.h"
 #include "ooc/stored_graph/pass_room.h"
 

@@ -5,8 +5,8 @@
 #include <span>
 #include <utility>
 
-#include "libreeb/hierarchy/denoise.h"
 #include "libreeb/hierarchy/packed_lists.h"
+#include "libreeb/noise/denoise.h"
 #include "ooc/stored_graph/arc_payload.h"
 #include "ooc/stored_graph/change_builder.h"
 #include "ooc/stored_graph/noise_places.h"

@@ -5,7 +5,7 @@
 #include "libreeb/base/union_find.h"
 #include "libreeb/graph/packed_buckets.h"
 #include "libreeb/graph/reeb_graph.h"
-#include "libreeb/hierarchy/noise_scope.h"
+#include "libreeb/noise/noise_scope.h"
 #include "ooc/stored_graph/arc_payload.h"
 
 namespace reeb::ooc {

@@ -14,7 +14,7 @@
 #include "io/file/checksum.h"
 #include "io/functions/function_source.h"
 #include "libreeb/engine/online_reeb.h"
-#include "libreeb/hierarchy/denoise.h"
+#include "libreeb/noise/denoise.h"
 #include "ooc/chunks/last_use_sidecar.h"
 #include "ooc/reeb_file/reeb_file.h"
 #include "ooc/run/checkpoint.h"

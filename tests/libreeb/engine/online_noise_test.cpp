@@ -6,7 +6,7 @@
 #include <iostream>
 #include <limits>
 
-#include "libreeb/hierarchy/denoise.h"
+#include "libreeb/noise/denoise.h"
 #include "tests/libreeb/engine/player.h"
 #include "tests/libreeb/engine/streamed_mesh.h"
 #include "tests/model/naive_denoise.h"

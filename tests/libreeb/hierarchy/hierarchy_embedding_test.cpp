@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "libreeb/hierarchy/cancel.h"
-#include "libreeb/hierarchy/denoise.h"
 #include "libreeb/hierarchy/levels.h"
+#include "libreeb/noise/denoise.h"
 #include "tests/libreeb/hierarchy/random_buckets.h"
 
 namespace reeb {

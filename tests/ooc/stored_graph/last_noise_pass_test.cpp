@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "libreeb/graph/packed_buckets.h"
-#include "libreeb/hierarchy/denoise.h"
+#include "libreeb/noise/denoise.h"
 #include "tests/libreeb/hierarchy/random_buckets.h"
 #include "tests/support/scratch.h"
 #include "tests/support/seed.h"

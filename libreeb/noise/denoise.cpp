@@ -1,4 +1,4 @@
-#include "libreeb/hierarchy/denoise.h"
+#include "libreeb/noise/denoise.h"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 // The scope of noise removal in graphs drawn by hand. tests/ooc/stored_graph/last_noise_pass_test.cpp tests that the
 // scope misses nothing.
-#include "libreeb/hierarchy/noise_scope.h"
+#include "libreeb/noise/noise_scope.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "tools/commands/open_segmentation.h"
+#include "tools/measures/open_segmentation.h"
 
 #include <algorithm>
 #include <string>

@@ -1,4 +1,4 @@
-#include "libreeb/hierarchy/noise_scope.h"
+#include "libreeb/noise/noise_scope.h"
 
 #include <algorithm>
 #include <array>

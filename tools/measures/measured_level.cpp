@@ -1,4 +1,4 @@
-#include "tools/commands/measured_level.h"
+#include "tools/measures/measured_level.h"
 
 #include <fmt/core.h>
 
@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "libreeb/base/error.h"
-#include "tools/commands/open_segmentation.h"
 #include "tools/library/run_input.h"
+#include "tools/measures/open_segmentation.h"
 #include "tools/program/progress.h"
 
 namespace reeb::tools {

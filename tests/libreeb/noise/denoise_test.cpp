@@ -1,5 +1,5 @@
 // Noise removal against a naive repetition of its definition, in any order of leaves.
-#include "libreeb/hierarchy/denoise.h"
+#include "libreeb/noise/denoise.h"
 
 #include <gtest/gtest.h>
 
