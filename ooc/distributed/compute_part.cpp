@@ -2,7 +2,6 @@
 
 #include <array>
 #include <functional>
-#include <new>
 #include <utility>
 
 #include "io/file/atomic_file.h"
@@ -10,6 +9,7 @@
 #include "libreeb/base/error.h"
 #include "ooc/distributed/fragment_file.h"
 #include "ooc/distributed/names_file.h"
+#include "ooc/run/explained_error.h"
 
 namespace reeb::ooc {
 namespace {
@@ -35,17 +35,8 @@ auto with_explained_errors(RunContext& run, const std::string& mesh, const std::
     check();
     changed.at(mesh);
     throw run.resumable.explain(changed);
-  } catch (const Error& error) {
-    throw run.resumable.explain(error);
-  } catch (const std::bad_alloc&) {
-    throw run.resumable.explain(
-        Error(ErrorKind::kResource, "out of memory", "close other programs, or allow less with --memory SIZE"));
-  } catch (const std::exception&) {
-    // What the program found impossible was in the state that it was given.
-    if (run.resumable.checkpoint() == nullptr) throw;
-    throw run.resumable.explain(
-        Error(ErrorKind::kBadInput, "the checkpoint of the interrupted run is damaged", "run it again without --resume")
-            .at(run.outputs[0]));
+  } catch (...) {
+    throw_explained(run);
   }
 }
 

@@ -1,12 +1,11 @@
 #include "ooc/run/compute.h"
 
-#include <exception>
 #include <functional>
-#include <new>
 #include <utility>
 
 #include "io/file/atomic_file.h"
 #include "libreeb/base/error.h"
+#include "ooc/run/explained_error.h"
 #include "ooc/run/first_stage.h"
 #include "ooc/run/freed_memory.h"
 #include "ooc/run/run_context.h"
@@ -37,17 +36,8 @@ std::vector<ComputeResult> compute(MeshInput input, std::span<VertexFunction* co
   RunContext run(input, functions, outputs, options);
   try {
     return run_stages(run, std::move(input));
-  } catch (const Error& error) {
-    throw run.resumable.explain(error);
-  } catch (const std::bad_alloc&) {
-    throw run.resumable.explain(
-        Error(ErrorKind::kResource, "out of memory", "close other programs, or allow less with --memory SIZE"));
-  } catch (const std::exception&) {
-    // What the program found impossible was in the state that it was given.
-    if (run.resumable.checkpoint() == nullptr) throw;
-    throw run.resumable.explain(
-        Error(ErrorKind::kBadInput, "the checkpoint of the interrupted run is damaged", "run it again without --resume")
-            .at(outputs[0]));
+  } catch (...) {
+    throw_explained(run);
   }
 }
 
