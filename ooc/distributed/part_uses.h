@@ -19,9 +19,8 @@ class PartUses {
  public:
   PartUses(LastUse uses, const Shares& shares) : uses_(std::move(uses)), shares_(shares) {}
 
-  // The entry of a vertex that the shares in `span` name, for a table whose blocks are shares.
-  static UseEntry entry_of(const PartSpan& span) { return {span.last, span.last - span.first}; }
-  // The same for a vertex that `part` names, too. REQUIRES: parts come in ascending order.
+  // The entry of a vertex that `part` names, too, in a table whose blocks are shares. REQUIRES: parts come in ascending
+  // order.
   static UseEntry with_part(UseEntry before, std::uint32_t part);
 
   const Shares& shares() const { return shares_; }

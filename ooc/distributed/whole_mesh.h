@@ -27,7 +27,7 @@ WholeMesh open_whole_mesh(RunContext& run, MeshInput& input, std::uint32_t parts
 // From the sidecar of the mesh, if there is one that fits; else reads the whole mesh once more.
 PartUses find_part_uses(RunContext& run, const MeshInput& input, WholeMesh& mesh);
 
-// An empty table of uses by shares, to be filled with PartUses::entry_of().
+// An empty table of uses by shares, to be filled with PartUses::with_part().
 PagedTable<std::uint32_t> empty_uses(RunContext& run);
 // A table that was filled.
 PartUses uses_of_table(PagedTable<std::uint32_t> table, const Shares& shares);

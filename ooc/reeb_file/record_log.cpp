@@ -23,9 +23,9 @@ void RecordLog::add(const ArcVersion& record, std::span<const std::byte> buckets
   if (in_open_ != 0 && open_.size() + bytes > block_bytes_) seal_block();
   const Trailer trailer{record.lo.value(), record.hi.value(), record.born, record.died,
                         static_cast<std::uint32_t>(buckets.size())};
-  const auto behind = std::as_bytes(std::span(&trailer, 1));
+  const auto trailing = std::as_bytes(std::span(&trailer, 1));
   open_.insert(open_.end(), buckets.begin(), buckets.end());
-  open_.insert(open_.end(), behind.begin(), behind.end());
+  open_.insert(open_.end(), trailing.begin(), trailing.end());
   ++in_open_;
   ++count_;
 }

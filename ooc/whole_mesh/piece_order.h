@@ -26,7 +26,6 @@ class PiecewiseMesh : public IndexedMesh {
 
   // The mesh as it was. Nothing else may be called afterwards.
   std::unique_ptr<IndexedMesh> release() { return std::move(mesh_); }
-  std::size_t piece_count() const { return pieces_.pieces.size(); }
   std::uint64_t memory_bytes() const { return pieces_.memory.bytes(); }
 
   std::uint64_t vertex_count() const override { return mesh_->vertex_count(); }

@@ -33,11 +33,11 @@ struct ComputeOptions {
   std::string format{};              // of the mesh, where its content does not tell: "cx", ...; empty: detected
   io::ImageOptions image{};          // how an image is read
   std::string temp_dir{};            // for temporary files; empty: $TMPDIR, or the folder of the first output
-  bool may_reorder = true;           // sort a mesh in no coherent order on disk first
+  bool may_reorder = true;           // sort an incoherent mesh on disk first
   bool keep_sidecar = false;         // keep what the first pass learns in MESH.final, for the next run
   std::size_t chunk_triangles = 0;   // 0: adaptive
   std::uint64_t snapshot_every = 0;  // write the graph so far after every N triangles; 0: never
-  // Go on from where an interrupted run with the same mesh, functions and first output was.
+  // Continue an interrupted run with the same mesh, functions and first output.
   bool resume = false;
   double checkpoint_seconds = 2;  // between two checkpoints, at least; 0: after every chunk
   // Called by one thread at a time, not always the same. They may throw: that ends the run.
@@ -49,7 +49,8 @@ struct ComputeOptions {
 // Computes the Reeb graph of the mesh `path` ("-": standard input) for a function ("z", "c3", "index",
 // "random:1", "property:NAME", "file:PATH", ..., as the program's -f; "": the program's default) and writes it to
 // `output` with all levels of detail; ReebFile reads that. The output "-" is standard output. Format and compression
-// are told by content. The bytes of the result do not depend on memory, threads or chunks.
+// are told by content. Threads do not change the bytes of the result; with buckets = 0, memory and chunks do not
+// either.
 //
 // THROWS:  Error: kUsage for a function that is none; kBadInput with file and position for a bad mesh, or an
 //          output that exists, is an input or is another output; kResource if memory or disk do not suffice, or an

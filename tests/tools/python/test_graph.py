@@ -138,7 +138,7 @@ def test_radii_are_those_of_a_cylinder(tmp_path):
     graph = reeb.compute(vertices, faces, f="x", output=tmp_path / "tube.reeb")
     for skeleton in (graph.skeleton(), reeb.open(tmp_path / "tube.reeb").skeleton()):
         inside = (skeleton.points[:, 0] > 1) & (skeleton.points[:, 0] < 9)
-        # A file keeps 7 bits behind the point of the squared radius.
+        # A file keeps 7 bits after the point of the squared radius.
         assert inside.sum() > 50 and np.allclose(skeleton.radius[inside], true_radius, rtol=2**-8)
         assert len(skeleton.radius) == len(skeleton.points) and not np.isnan(skeleton.radius).any()
     without = reeb.compute(vertices, faces, f="x", buckets=0).skeleton()
