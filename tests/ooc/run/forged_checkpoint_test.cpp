@@ -1,6 +1,7 @@
 // A checkpoint with other bytes and a right checksum: the run ends with a graph or with an Error, whatever the bytes.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cstring>
 #include <filesystem>
@@ -77,6 +78,9 @@ class Forgery {
   }
   int errors() const { return errors_; }
   const std::string& last_error() const { return last_error_; }
+  // Of the last run that ended with a graph.
+  const std::vector<std::string>& notes() const { return notes_; }
+  std::string graph() const { return read_file(output_); }
 
  private:
   void run(bool resume, std::uint64_t chunks) {
@@ -95,13 +99,14 @@ class Forgery {
     options.checkpoint_seconds = 1e9;
     options.progress = [&](const ComputeProgress& p) { done += p.phase == ComputeProgress::Phase::kReeb ? 1 : 0; };
     options.interrupted = [&] { return done >= chunks; };
-    compute(std::move(input), functions, std::span(&output_, 1), options);
+    notes_ = compute(std::move(input), functions, std::span(&output_, 1), options).at(0).notes;
   }
 
   const Scratch scratch_;
   const std::string mesh_ = scratch_.path() + "/mesh.ply", output_ = scratch_.path() + "/OUT.reeb";
   const std::string partial_ = PartialFolder::path_for(output_), kept_ = scratch_.path() + "/kept";
   std::string good_, last_error_;
+  std::vector<std::string> notes_;
   int errors_ = 0;
 };
 
@@ -133,6 +138,25 @@ TEST_P(ForgedCheckpoint, NeverCrashesOrHangs) {
     forgery.resume(bad);
   }
   EXPECT_GT(forgery.errors(), 0);
+}
+
+TEST_P(ForgedCheckpoint, OfAnotherVersionIsIgnoredAndTheRunSaysSo) {
+  Forgery forgery(GetParam());
+  forgery.resume(forgery.good());
+  const std::string graph = forgery.graph();
+  EXPECT_TRUE(
+      std::ranges::none_of(forgery.notes(), [](const auto& note) { return note.find("checkpoint") != note.npos; }));
+  constexpr std::size_t kVersion = 8;
+  for (const int change : {-1, 1}) {
+    std::string other = forgery.good();
+    other[kVersion] = static_cast<char>(other[kVersion] + change);
+    forgery.resume(other);
+    EXPECT_EQ(forgery.errors(), 0) << forgery.last_error();
+    EXPECT_NE(std::ranges::find(forgery.notes(),
+                                "the checkpoint is of another version, so the run starts from the beginning"),
+              forgery.notes().end());
+    EXPECT_EQ(forgery.graph(), graph);
+  }
 }
 
 // What is read again up to the place of the checkpoint has another digest.
