@@ -1,6 +1,8 @@
 """Opens .reeb files in ParaView, with a slider for the threshold, and in VTK programs.
 
 ParaView: Tools, Manage Plugins, Load New, this file. It needs the Python package reeb, for the Python of ParaView.
+The ParaView of Debian 12 loads no plugin in Python before its Python shell, or script, was told:
+    import inspect; inspect.getargspec = inspect.getfullargspec
 VTK: ReebReader() has SetFileName(name), SetThreshold(per cent), Update(), GetOutputDataObject(0).
 """
 
@@ -38,7 +40,7 @@ class ReebReader(VTKPythonAlgorithmBase):
             self._name, self._graph = name, None
             self.Modified()
 
-    @smproperty.doublevector(name="Threshold (% of range)", default_values=0.0)
+    @smproperty.doublevector(name="Threshold", label="Threshold (%)", default_values=0.0)
     @smdomain.doublerange(min=0, max=100)
     def SetThreshold(self, percent):
         if percent != self._threshold:

@@ -50,6 +50,29 @@ check "bash: files" bash_says "mesh.ply" info mesh
 check "bash: a mesh without a command" bash_says "--denoise" mesh.ply --den
 check "bash: values that are no files" bash_says "" compute --memory m
 check "bash: values that are files" bash_says "mesh.ply" compute -o m
+# A bash at a terminal, where tab is typed.
+cat >type.py <<'END'
+import os, pty, select, sys, time
+
+words, expected = sys.argv[1:]
+child, terminal = pty.fork()
+if child == 0:
+    os.environ.update(TERM="dumb", PS1="$ ", INPUTRC="/dev/null", HISTFILE="")
+    os.execvp("bash", ["bash", "--norc", "--noprofile", "-i"])
+os.write(terminal, b"source help/reeb.bash; echo set-$((6 * 7))\n")
+said, asked, end = b"", False, time.monotonic() + 20
+while time.monotonic() < end:
+    if select.select([terminal], [], [], 0.1)[0]:
+        said += os.read(terminal, 4096)
+    if not asked and b"set-42" in said:
+        os.write(terminal, words.encode() + b"\t")
+        said, asked = b"", True
+    if asked and expected.encode() in said:
+        sys.exit(0)
+sys.exit(f"said: {said!r}")
+END
+check "bash at a terminal: commands" /usr/bin/python3 type.py "reeb ext" "reeb extract "
+check "bash at a terminal: options" /usr/bin/python3 type.py "reeb extract --thres" "--threshold "
 if have zsh; then
   cat >type.zsh <<'END'
 zmodload zsh/zpty

@@ -15,6 +15,7 @@
 #include "tests/support/scratch.h"
 #include "tests/tools/program.h"
 #include "tools/defects/find_defects.h"
+#include "tools/defects/surface_census.h"
 
 namespace reeb::test {
 namespace {
@@ -306,6 +307,27 @@ TEST_F(PlantedDefects, FilesOfAnotherMeshAreRefused) {
   EXPECT_EQ(reeb({"defects", "u.reeb"}).exit_code, 1);
   EXPECT_EQ(reeb({"defects", "-"}).exit_code, 2);
   expect_success(reeb({"defects", "u.ply", "u.reeb", "--quiet"}));
+}
+
+// On a mesh that is looked up, and on one that is read as a stream.
+TEST_F(PlantedDefects, TheirCensusIsInterruptedAtAnyTime) {
+  expect_success(reeb({"generate", "torus", "--triangles", "200k", "-o", "t.ply"}));
+  expect_success(reeb({"convert", "t.ply", "t.obj", "--quiet"}));
+  for (const char* name : {"t.ply", "t.obj"}) {
+    const tools::MeshSource mesh{.path = in_folder(name), .format = "", .temp_folder = folder()};
+    int asked = 0;
+    EXPECT_EQ(tools::census_of(mesh, [&] { return ++asked < 0; }).components, 1u);
+    EXPECT_GT(asked, 4) << name;
+    for (const int when : {1, asked / 2, asked}) {
+      int at = 0;
+      try {
+        tools::census_of(mesh, [&] { return ++at == when; });
+        ADD_FAILURE() << name << ' ' << when;
+      } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), ErrorKind::kInterrupted);
+      }
+    }
+  }
 }
 
 // A plate has so many holes that their patches meet.

@@ -111,7 +111,7 @@ void run_defects(DefectsOptions options) {
   if (options.output.empty()) return;
   write_output(options.output, options.force, [&](std::ostream& out) {
     if (is_json(options.output))
-      write_defect_json(defects, rows, census_of(options.find.mesh), out);
+      write_defect_json(defects, rows, census_of(options.find.mesh, options.find.interrupted), out);
     else
       write_defect_csv(defects, rows, out);
   });

@@ -2,18 +2,23 @@
 
 #include "io/file/content_source.h"
 #include "io/formats/open_mesh.h"
+#include "libreeb/base/error.h"
 #include "ooc/whole_mesh/workspace.h"
 
 namespace reeb::tools {
 
-ooc::MeshCensus census_of(const MeshSource& source) {
+ooc::MeshCensus census_of(const MeshSource& source, const std::function<bool()>& interrupted) {
   const io::Input input(source.path);
   return input.read([&] {
     ooc::Workspace space(source.temp_folder, source.memory_bytes);
     const auto open = [&] { return io::open_mesh(input, input.open(), {}, source.image, source.format); };
     const auto reader = open();
-    if (const auto mesh = reader->indexed()) return ooc::take_census(*mesh, reader->info().dimension, space);
     ooc::CensusOptions census;
+    census.progress = [&](const ooc::CensusProgress&) {
+      if (interrupted && interrupted())
+        throw Error(ErrorKind::kInterrupted, "interrupted", "run the same command again");
+    };
+    if (const auto mesh = reader->indexed()) return ooc::take_census(*mesh, reader->info().dimension, space, census);
     census.read_again = open;
     return ooc::take_census(*reader, space, census);
   });

@@ -117,9 +117,10 @@ class SimplexRows {
     const std::uint64_t vertices = mesh_.vertices.size[0], width = array().corners.size[1];
     const auto bad = std::ranges::find_if(corners, [&](VertexId id) { return id.value() >= vertices; });
     const auto index = static_cast<std::uint64_t>(bad - corners.begin());
-    throw Error(ErrorKind::kBadInput,
-                "names vertex " + std::to_string(static_cast<std::int64_t>(bad->value())) + ", but there are " +
-                    count_of(vertices, "vertex"),
+    const std::string name = array().corners.type == io::ScalarType::kUint64
+                                 ? std::to_string(bad->value())
+                                 : std::to_string(static_cast<std::int64_t>(bad->value()));
+    throw Error(ErrorKind::kBadInput, "names vertex " + name + ", but there are " + count_of(vertices, "vertex"),
                 "vertices are numbered from 0")
         .at(array().name, std::to_string(row_ + index / width) + ", " + std::to_string(index % width));
   }

@@ -31,6 +31,11 @@ void at_item(const char* array, std::size_t item, const Work& work) {
   }
 }
 
+VertexId vertex_of(std::int64_t id) {
+  if (id < 0) throw Error(ErrorKind::kBadInput, "names vertex " + std::to_string(id), "vertices are numbered from 0");
+  return VertexId(static_cast<std::uint64_t>(id));
+}
+
 void add_vertices(OnlineReeb& graph, const Numbers& values, const Numbers& positions) {
   const auto count = static_cast<std::size_t>(values.size());
   const double* const value = values.data();
@@ -47,15 +52,17 @@ void add_simplices(OnlineReeb& graph, const Ids& simplices) {
   const std::int64_t* corner = simplices.data();
   std::vector<VertexId> corners(width);
   for (std::size_t i = 0; i < rows; ++i) {
-    for (VertexId& id : corners) id = VertexId(static_cast<std::uint64_t>(*corner++));
-    at_item("simplices", i, [&] { graph.add_simplex(corners); });
+    at_item("simplices", i, [&] {
+      for (VertexId& id : corners) id = vertex_of(*corner++);
+      graph.add_simplex(corners);
+    });
   }
 }
 
 void finalize(OnlineReeb& graph, const Ids& ids) {
   const std::int64_t* const id = ids.data();
   for (std::size_t i = 0; i < static_cast<std::size_t>(ids.size()); ++i)
-    at_item("ids", i, [&] { graph.finalize(VertexId(static_cast<std::uint64_t>(id[i]))); });
+    at_item("ids", i, [&] { graph.finalize(vertex_of(id[i])); });
 }
 
 ReebGraph snapshot(OnlineReeb& graph) {

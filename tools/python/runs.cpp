@@ -272,7 +272,7 @@ std::string defects(const std::string& mesh, const std::vector<std::string>& fil
     const tools::Defects found = tools::find_defects(find);
     std::vector<tools::RankedRow> rows;
     for (std::size_t i = 0; i < found.table.rows.size(); ++i) rows.push_back({i + 1, &found.table.rows[i]});
-    tools::write_defect_json(found, rows, tools::census_of(find.mesh), text);
+    tools::write_defect_json(found, rows, tools::census_of(find.mesh, find.interrupted), text);
   });
   return text.str();
 }

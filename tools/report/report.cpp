@@ -112,7 +112,7 @@ void note_census(const ooc::MeshCensus& census, Findings& findings) {
 
 void search_mesh(const ReportOptions& options, Findings& findings) {
   if (options.counting) options.counting();
-  findings.census = census_of(options.defects.mesh);
+  findings.census = census_of(options.defects.mesh, options.defects.interrupted);
   note_census(*findings.census, findings);
   if (!findings.census->not_a_surface.empty()) return;  // curves are on surfaces
   findings.defects = find_defects(options.defects);

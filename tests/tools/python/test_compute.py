@@ -224,6 +224,10 @@ def test_nothing_is_left_on_disk(tmp_path):
     assert list(tmp_path.iterdir()) == []
 
 
+def test_empty_lists_are_a_mesh_of_nothing():
+    assert len(reeb.compute([], []).nodes) == 0
+
+
 def test_no_leak_and_no_open_files():
     import resource
 

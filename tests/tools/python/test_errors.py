@@ -33,7 +33,13 @@ NAN[5, 1] = np.nan
     [
         ((VERTICES, FACES + 1), {}, "names vertex 48, but there are 48 vertices", "faces[40, 2]", "input"),
         ((VERTICES, FACES - 1), {}, "names vertex -1", "faces[0, 0]", "input"),
-        ((VERTICES, FACES + 0.5), {}, "no integers", None, "input"),
+        ((VERTICES, FACES + 0.5), {}, "0.5 is no index", "faces[0, 0]", "input"),
+        ((VERTICES, [[0, 1, np.inf]]), {}, "inf is no index", "faces[0, 2]", "input"),
+        ((VERTICES, [[0, 1, 1e300]]), {}, "1e+300 is no index", "faces[0, 2]", "input"),
+        ((VERTICES, np.array([[2**64 - 1]], "u8")), {}, f"names vertex {2**64 - 1}", "faces[0, 0]", "input"),
+        ((VERTICES, FACES.astype(object)), {}, "astype(int)", None, "input"),
+        ((np.ma.masked_less(VERTICES, 0), FACES), {}, "masked", None, "input"),
+        ((np.ma.masked_less(VERTICES, 0),), {}, 'nodata="skip"', None, "input"),
         ((VERTICES, FACES.ravel()), {}, "1 axes", None, "input"),
         ((VERTICES, np.zeros((1, 10), int)), {}, "10 columns", None, "input"),
         ((VERTICES, [[0, 1, 2], [0, 1]]), {}, "faces is no array", None, "input"),
@@ -66,6 +72,21 @@ NAN[5, 1] = np.nan
         ((3,), {}, "0 axes", None, "input"),
         ((None,), {}, "0 axes", None, "input"),
         (("x.ply", FACES), {}, "takes no arrays", None, "usage"),
+        (("x.ply",), {"resume": True}, "resume needs an output", None, "usage"),
+        (("x.ply",), {"snapshot_every": 9}, "snapshot_every needs an output", None, "usage"),
+        ((VERTICES, FACES), {"resume": True, "output": "a.reeb"}, "for a mesh in a file", None, "usage"),
+        ((VERTICES, FACES), {"sidecar": True}, "for a mesh in a file", None, "usage"),
+        ((VERTICES, FACES), {"format": "ply"}, "format is of a file", None, "usage"),
+        ((VERTICES, FACES), {"spacing": (1, 1, 1)}, "spacing is of an image", None, "usage"),
+        ((VERTICES,), {"type": "u8"}, "type is of a file", None, "usage"),
+        ((VERTICES, FACES), {"f": ""}, "names no function", None, "usage"),
+        ((VERTICES, FACES), {"f": len}, "names no function", None, "usage"),
+        ((VERTICES, FACES), {"output": "-"}, "is no path", None, "usage"),
+        ((VERTICES, FACES), {"output": 3}, "is no path", None, "usage"),
+        ((VERTICES, FACES), {"temp_dir": 3}, "is no path", None, "usage"),
+        ((VERTICES, FACES), {"denoise": [1]}, "is no threshold", None, "usage"),
+        ((VERTICES, FACES), {"memory": 10**30}, "out of range", None, "usage"),
+        ((VERTICES, FACES), {"chunk": 10**30}, "out of range", None, "usage"),
     ],
 )
 def test_bad_arguments_say_what_and_where(arguments, options, words, position, kind):
@@ -79,6 +100,30 @@ def test_bad_arguments_say_what_and_where(arguments, options, words, position, k
 def test_defects_of_lines_and_triangles_are_refused():
     with pytest.raises(reeb.Error, match="only surfaces"):
         reeb.defects(VERTICES, {"triangle": FACES, "line": FACES[:, :2]})
+
+
+def test_defects_of_a_bad_vertex_name_the_array():
+    with pytest.raises(reeb.Error) as caught:
+        reeb.defects(NAN, FACES)
+    assert (caught.value.path, caught.value.position) == (None, "vertices[5, 1]")
+
+
+def test_arguments_of_a_graph_are_checked(tmp_path):
+    graph = reeb.compute(VERTICES, FACES, f="x")
+    for action, words in (
+        (lambda: graph.level([1]), "is no threshold"),
+        (lambda: graph.plot(kind="skeleton", view=(1, 2)), "2 numbers"),
+        (lambda: graph.plot(kind="skeleton", mesh=VERTICES), "in a file only"),
+        (lambda: reeb.segment(3, VERTICES, FACES), "is no graph"),
+    ):
+        with pytest.raises(reeb.Error, match=words) as caught:
+            action()
+        assert caught.value.kind == "usage" and caught.value.hint
+    for path in (tmp_path / "no" / "g.reeb", tmp_path):
+        with pytest.raises(OSError) as caught:
+            graph.save(path, force=True)
+        assert isinstance(caught.value, reeb.Error) and caught.value.path == str(path) and caught.value.hint
+    assert list(tmp_path.iterdir()) == []
 
 
 def test_files_say_what_and_where(tmp_path):

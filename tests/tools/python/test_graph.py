@@ -182,6 +182,15 @@ def test_pictures(noisy, tmp_path):
         graph.plot(kind="pie")
 
 
+def test_names_of_functions_are_whole(tmp_path):
+    vertices, faces = torus()
+    values = tmp_path / ("a" * 90 + ".npy")
+    np.save(values, vertices[:, 0])
+    mesh = write_ply(tmp_path / "t.ply", vertices, faces)
+    reeb.compute(mesh, f=f"file:{values}", output=tmp_path / "t.reeb")
+    assert reeb.defects(mesh, graphs=tmp_path / "t.reeb").loops["function"].tolist() == [f"file:{values}"]
+
+
 def test_save(noisy, tmp_path):
     _, vertices, faces, graph = noisy
     again = reeb.compute(vertices, faces, f="x")

@@ -1,8 +1,9 @@
 from os import PathLike
-from typing import Any, Callable, Literal, Mapping, NamedTuple, Sequence, overload
+from typing import Any, Callable, Literal, Mapping, NamedTuple, Sequence, TypedDict, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+from typing_extensions import Unpack
 
 from .errors import Error as Error
 from .pictures import Picture
@@ -12,6 +13,28 @@ __version__: str
 _Path = str | PathLike[str]
 _Progress = bool | None | Callable[[str, int, int, int], object]
 _Values = ArrayLike | Mapping[str, ArrayLike]
+
+class _Options(TypedDict, total=False):
+    memory: int | str | None
+    denoise: float | str | None
+    threads: int | None
+    graph_only: bool
+    buckets: int
+    format: str | None
+    spacing: Sequence[float] | str | None
+    origin: Sequence[float] | None
+    nodata: float | Literal["skip"] | None
+    grid: Sequence[int] | str | None
+    type: str | None
+    skip: int | None
+    reorder: bool
+    sidecar: bool
+    snapshot_every: int | None
+    chunk: int | None
+    temp_dir: _Path | None
+    resume: bool
+    force: bool
+    progress: _Progress
 
 class Skeleton(NamedTuple):
     points: NDArray[np.float64]
@@ -97,14 +120,34 @@ def open(
 ) -> Graph: ...
 @overload
 def compute(
-    mesh: Any, faces: Any = ..., values: _Values | None = ..., f: str | None = ..., **options: Any
+    mesh: Any,
+    faces: Any = ...,
+    values: _Values | None = ...,
+    f: str | None = ...,
+    *,
+    output: _Path | None = ...,
+    **options: Unpack[_Options],
 ) -> Graph: ...
 @overload
 def compute(
-    mesh: Any, faces: Any = ..., values: _Values | None = ..., *, f: list[str], **options: Any
+    mesh: Any,
+    faces: Any = ...,
+    values: _Values | None = ...,
+    *,
+    f: list[str] | tuple[str, ...],
+    output: Sequence[_Path] | None = ...,
+    **options: Unpack[_Options],
 ) -> list[Graph]: ...
 @overload
-def compute(mesh: Any, faces: Any = ..., values: _Values | None = ..., f: ArrayLike = ..., **options: Any) -> Graph: ...
+def compute(
+    mesh: Any,
+    faces: Any = ...,
+    values: _Values | None = ...,
+    f: NDArray[Any] | list[float] = ...,
+    *,
+    output: _Path | None = ...,
+    **options: Unpack[_Options],
+) -> Graph: ...
 def segment(
     graph: Graph,
     mesh: Any,

@@ -3,6 +3,7 @@
 import numpy as np
 
 from . import _reeb
+from ._networks import is_network, parts_of_network, values_of_network
 from .errors import Error
 
 _MOST_COLUMNS = 9
@@ -27,6 +28,9 @@ _BINARY = {"pixel": ("quad", [0, 1, 3, 2]), "voxel": ("hexahedron", [0, 1, 3, 2,
 
 def numbers(name, array, axes):
     """An array of numbers, copied only if the compiled part has no such type."""
+    if np.ma.is_masked(array):
+        hint = "array.filled(numpy.nan) of floats, with nodata=\"skip\"" if name == "image" else "leave them out"
+        raise Error(f"{name} has masked items", hint)
     try:
         array = np.asarray(array)
     except ValueError as error:  # rows of different lengths
@@ -37,7 +41,7 @@ def numbers(name, array, axes):
     if array.dtype.kind == "b":
         array = array.view(np.uint8)
     if array.dtype.kind not in "iuf":
-        raise Error(f"{name} has items of type {array.dtype}, not numbers", "convert it: array.astype(float)")
+        raise Error(f"{name} has items of type {array.dtype}, not numbers", f"convert it: array.astype({'int' if _is_of_simplices(name) else 'float'})")
     if array.dtype.kind == "f" and array.dtype.itemsize not in (4, 8):
         array = array.astype(np.float32 if array.dtype.itemsize == 2 else np.float64)
     if not array.dtype.isnative:
@@ -45,10 +49,14 @@ def numbers(name, array, axes):
     return array
 
 
+def _is_of_simplices(name):
+    return name.startswith(("faces", "simplices"))
+
+
 def _shape_hint(name):
     if name == "vertices":
         return "one row for each vertex: an array of shape (n, 3)"
-    if name.startswith(("faces", "simplices")):
+    if _is_of_simplices(name):
         return "one row of corners for each simplex: an array of shape (m, 3)"
     if name == "image":
         return "a 2-D or 3-D array of values, or pass faces as well"
@@ -56,7 +64,7 @@ def _shape_hint(name):
 
 
 def vertex_array(vertices):
-    array = numbers("vertices", vertices, (2,))
+    array = np.empty((0, 3)) if _is_empty_list(vertices) else numbers("vertices", vertices, (2,))
     if not 1 <= array.shape[1] <= _MOST_COLUMNS:
         raise Error(f"vertices have {array.shape[1]} coordinates", "1 to 9 are possible; an array of shape (n, 3)")
     return array
@@ -72,10 +80,20 @@ def simplex_array(name, simplices):
             f"{name} have {array.shape[1]} columns", "a simplex has 1 to 9 corners; triangles have shape (m, 3)"
         )
     if array.dtype.kind == "f":
-        if not np.array_equal(array, np.floor(array)):
-            raise Error(f"{name} has numbers that are no integers", "a row has the indices of vertices, from 0")
+        bad = (array != np.floor(array)) | ~(np.abs(array) < 2.0**63)
+        if bad.any():
+            row, column = np.argwhere(bad)[0]
+            raise Error(
+                f"{array[row, column]} is no index of a vertex",
+                "a row has the indices of vertices, whole numbers from 0",
+                position=f"{name}[{row}, {column}]",
+            )
         array = array.astype(np.int64)
     return array
+
+
+def _is_empty_list(array):
+    return isinstance(array, (list, tuple)) and len(array) == 0
 
 
 def _is_empty(array):
@@ -152,7 +170,7 @@ def image_of_array(image, spacing, origin, nodata):
 
 
 def is_mesh_object(thing):
-    return _parts_of(thing) is not None
+    return is_network(thing) or _parts_of(thing) is not None
 
 
 def _parts_of(thing):
@@ -195,6 +213,9 @@ def _is_column(array):
 
 
 def parts_of_object(thing):
-    """(vertices, faces, values) of a mesh of trimesh, PyVista, meshio, Open3D, or anything with such parts."""
+    """(vertices, faces, values) of a mesh of trimesh, PyVista, meshio, Open3D, or anything with such parts; of a graph
+    of networkx, where `vertices` is None if its nodes have no positions."""
+    if is_network(thing):
+        return *parts_of_network(thing), values_of_network(thing)
     vertices, faces = _parts_of(thing)
     return vertices, faces, _point_data(thing)

@@ -53,6 +53,10 @@ class OutputExists(Error, FileExistsError):
     """An output exists, and `force` is not given."""
 
 
+class MissingPackage(Error, ImportError):
+    """Another package is needed, and is not installed."""
+
+
 def _again(type_, message, hint, state):
     return type_(message, hint, **state)
 
@@ -76,6 +80,8 @@ def _make(kind, path, position, message, hint):
         path = ""
     for word, here in _NAMES:
         hint = word.sub(here, hint)
+        if name == "usage":
+            message = word.sub(here, message)
     return type_(message, hint, path=path or None, position=position or None, kind=name)
 
 

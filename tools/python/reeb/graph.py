@@ -2,7 +2,6 @@
 
 import contextlib
 import io
-import math
 import os
 import tempfile
 from typing import NamedTuple
@@ -10,7 +9,8 @@ from typing import NamedTuple
 import numpy as np
 
 from . import _reeb
-from .errors import Error
+from ._files import write_whole
+from .errors import Error, MissingPackage
 
 _TYPES = np.array(["Ext0", "Ext1", "Ord0", "Rel1"])
 _PAIR_COLUMNS = [
@@ -172,24 +172,12 @@ class Graph:
         """Writes the .reeb file, with all levels.
 
         Raises:
-            FileExistsError: it exists, and `force` is not given (a reeb.Error, too).
+            reeb.Error: it exists, and `force` is not given (also a FileExistsError), or it cannot be written (also an
+                OSError).
         """
         if self._store is None:
             self._need_file()
-        path = os.fspath(path)
-        if not force and os.path.lexists(path):
-            raise _exists(path)
-        descriptor, name = tempfile.mkstemp(prefix=".reeb-", dir=os.path.dirname(path) or ".")
-        try:
-            with io.open(descriptor, "wb") as file:
-                file.write(self._store.bytes())
-            mask = os.umask(0)
-            os.umask(mask)
-            os.chmod(name, 0o666 & ~mask)
-            os.replace(name, path)
-        except BaseException:
-            os.unlink(name)
-            raise
+        write_whole(path, self._store.bytes(), force)
 
     # -- levels
 
@@ -281,8 +269,10 @@ class Graph:
     def to_networkx(self):
         """A networkx.MultiGraph, since parallel arcs are real. Nodes are positions in `nodes`, with the columns of a
         node as attributes; an edge has the attribute `arc`, its position in `arcs`."""
-        import networkx
-
+        try:
+            import networkx
+        except ImportError as error:
+            raise _missing("to_networkx()", "networkx", "python3-networkx") from error
         graph = networkx.MultiGraph(function=self.function)
         names = self.nodes.dtype.names
         graph.add_nodes_from((i, dict(zip(names, row))) for i, row in enumerate(self.nodes.tolist()))
@@ -344,6 +334,12 @@ class Graph:
         from .pictures import Picture
 
         self._need_file()
+        if mesh is not None and not isinstance(mesh, (str, os.PathLike)):
+            raise Error("a skeleton is drawn into a mesh in a file only", "mesh=PATH", kind="usage")
+        if view is not None:
+            view = [float(x) for x in np.ravel(view)]
+            if len(view) != 3:
+                raise Error(f"view has {len(view)} numbers", "(x, y, z), towards the eye", kind="usage")
         with self._store.named() as file:
             text = _reeb.plot(file, self._version, kind, "" if mesh is None else os.fsencode(mesh), view)
         picture = Picture(text)
@@ -446,7 +442,7 @@ class Graph:
         if isinstance(threshold, str):
             least, greatest = self.range
             return file.version_at(_reeb.parse_threshold("threshold", threshold, greatest - least))
-        if math.isnan(threshold) or threshold < 0:
+        if not isinstance(threshold, (int, float, np.number)) or not threshold >= 0:
             raise Error(f"threshold={threshold!r} is no threshold", 'as 0.01, or "0.1%"', kind="usage")
         return file.version_at(float(threshold))
 
@@ -504,10 +500,12 @@ def _snapshot(arrays):
     return Graph._make(None, arrays=arrays)
 
 
-def _exists(path):
-    from .errors import OutputExists
-
-    return OutputExists("the output exists already", "choose another name, or force=True", path=path)
+def _missing(method, packages, of_debian):
+    return MissingPackage(
+        f"{method} needs the Python package {packages}, which is not installed",
+        f"install it, on Debian as {of_debian}",
+        kind="resource",
+    )
 
 
 def _whole(name, value):
@@ -554,10 +552,12 @@ def _fill_values(value, edges, arc):
 
 
 def _vtk_lines(points, edges, point_data, cell_data):
-    from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
-    from vtkmodules.vtkCommonCore import vtkPoints
-    from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
-
+    try:
+        from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
+        from vtkmodules.vtkCommonCore import vtkPoints
+        from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
+    except ImportError as error:
+        raise _missing("to_polydata()", "pyvista or vtk", "python3-vtk9") from error
     data = vtkPolyData()
     places = vtkPoints()
     places.SetData(numpy_to_vtk(np.ascontiguousarray(points), deep=True))

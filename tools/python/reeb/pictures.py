@@ -3,6 +3,7 @@
 import os
 
 from . import _reeb
+from ._files import write_whole
 
 
 class Picture:
@@ -22,13 +23,6 @@ class Picture:
         """Writes a file: .svg, .png or .pdf (these two need rsvg-convert).
 
         Raises:
-            reeb.Error: the file exists, and `force` is not given.
+            reeb.Error: the file exists, and `force` is not given; it cannot be written; a program is not installed.
         """
-        from .graph import _exists
-
-        output = os.fspath(output)
-        if not force and os.path.lexists(output):
-            raise _exists(output)
-        content = _reeb.picture(self.svg, os.fsencode(output))
-        with open(output, "wb") as file:
-            file.write(content)
+        write_whole(output, _reeb.picture(self.svg, os.fsencode(output)), force)

@@ -14,6 +14,8 @@ from .errors import Error
 from .graph import Graph, _open_result
 
 _VALUES = "values"
+_MOST = (1 << 63) - 1
+_WITHOUT_PLACES = ("property:", "file:", "index", "random:", _VALUES)
 
 
 def compute(
@@ -52,6 +54,8 @@ def compute(
             - vertices, an array (n, 3) (or of 1 to 9 columns), together with `faces`;
             - an object of trimesh, PyVista, meshio, or anything with .vertices/.faces, .points/.regular_faces or
               .points/.cells_dict;
+            - a networkx.Graph: its nodes in their order, with the attribute `pos`, or x, y and z, as positions, and
+              other attributes for f="property:NAME";
             - an image or volume, an array (ny, nx) or (nz, ny, nx), without `faces`. Its vertices are numbered as
               numpy.ravel does.
         faces: simplices, an array (m, k), k from 1 to 9: triangles (m, 3), tetrahedra (m, 4), edges (m, 2). Any type
@@ -73,7 +77,9 @@ def compute(
         nodata: "skip" leaves out vertices of an image whose value is NaN (of a file, also the value that its header
             declares); a number leaves out those of this value, too.
         grid, type, skip: of a raw file, as the program's options: "256x256x100", "u16le", bytes.
-        reorder, sidecar, snapshot_every, chunk, temp_dir, resume: as the program's options of these names.
+        reorder, chunk, temp_dir: as the program's options of these names.
+        sidecar, resume: as the program's options; of a path only, and resume needs an output.
+        snapshot_every: triangles after which the graph so far is written beside the output.
         force: replaces an existing output.
         progress: True for a bar (of tqdm, if that is installed), or a callable (phase, done, total, triangles),
             called by the calling thread a few times a second.
@@ -98,9 +104,10 @@ def compute(
     _add_common(options, memory, threads, format, temp_dir)
     _add_denoise(options, denoise)
     if chunk is not None:
-        options["chunk"] = _integer("chunk", chunk, 1)
+        options["chunk"] = _integer("chunk", chunk, 1, _MOST)
     if snapshot_every is not None:
-        options["snapshot_every"] = _integer("snapshot_every", snapshot_every, 1)
+        options["snapshot_every"] = _integer("snapshot_every", snapshot_every, 1, _MOST)
+    _check_uses(options, output, is_path(mesh))
     if is_path(mesh):
         if faces is not None or values is not None or any(not isinstance(g, (str, type_none)) for g in functions):
             raise Error(
@@ -109,6 +116,7 @@ def compute(
         held = os.fsencode(mesh)
         _add_image(options, spacing, origin, nodata, grid, type, skip)
     else:
+        _refuse_of_files(format=format, grid=grid, type=type, skip=skip)
         held, functions = _held(mesh, faces, values, functions, spacing, origin, nodata)
     names = ["" if g is None else g for g in functions]
     outputs = _outputs(output, len(names), several)
@@ -118,6 +126,23 @@ def compute(
 
 
 type_none = type(None)
+
+
+# What would have no effect is an error.
+def _check_uses(options, output, is_file):
+    for name, of_files_only in (("resume", True), ("sidecar", True), ("snapshot_every", False)):
+        if not options.get(name):
+            continue
+        if of_files_only and not is_file:
+            raise Error(f"{name} is for a mesh in a file", f"leave out {name}, or pass a path", kind="usage")
+        if output is None and name != "sidecar":
+            raise Error(f"{name} needs an output", 'output="NAME.reeb"', kind="usage")
+
+
+def _refuse_of_files(**options):
+    for name, value in options.items():
+        if value is not None:
+            raise Error(f"{name} is of a file, not of arrays", f"leave out {name}, or pass a path", kind="usage")
 
 
 def is_path(mesh):
@@ -150,6 +175,9 @@ def _run(held, names, outputs, options, report):
 
 
 def _functions(f):
+    names = f if isinstance(f, (list, tuple)) else [f]
+    if any(isinstance(g, str) and not g for g in names) or callable(f):
+        raise Error("f names no function", 'as f="x"; or an array (n,) of values', kind="usage")
     if isinstance(f, (list, tuple)) and f and all(g is None or isinstance(g, str) for g in f):
         return list(f), True
     if isinstance(f, (list, tuple)) and any(isinstance(g, str) for g in f):
@@ -161,7 +189,8 @@ def _held(mesh, faces, values, functions, spacing, origin, nodata):
     """The mesh for the compiled part, and the functions by name."""
     data = {}
     if _arrays.is_mesh_object(mesh) and faces is None:
-        mesh, faces, data = _arrays.parts_of_object(mesh)
+        vertices, faces, data = _arrays.parts_of_object(mesh)
+        mesh = vertices if vertices is not None else _without_positions(len(mesh), values, functions)
     f = functions[0]
     if f is not None and not isinstance(f, str):
         if values is not None:
@@ -173,6 +202,9 @@ def _held(mesh, faces, values, functions, spacing, origin, nodata):
                 "an image takes no other values", "pass the values as the image, or faces for a mesh", kind="usage"
             )
         return _arrays.image_of_array(mesh, spacing, origin, nodata), functions
+    for name, value in (("spacing", spacing), ("origin", origin), ("nodata", nodata)):
+        if value is not None:
+            raise Error(f"{name} is of an image, not of a mesh", f"leave out {name}", kind="usage")
     if isinstance(values, dict):
         data = {**data, **{str(name): array for name, array in values.items()}}
         if len(values) == 1 and functions == [None]:
@@ -188,10 +220,24 @@ def _held(mesh, faces, values, functions, spacing, origin, nodata):
     return _arrays.mesh_of_arrays(mesh, faces, {name: data[name] for name in data if name in used}), functions
 
 
+# Of a network whose nodes have no positions.
+def _without_positions(count, values, functions):
+    of_places = [g for g in functions if g is None or isinstance(g, str) and not g.startswith(_WITHOUT_PLACES)]
+    if of_places and values is None:
+        raise Error(
+            f"{of_places[0] or 'z'} is a function of positions, which the nodes of the network do not have",
+            'f="property:NAME" of an attribute of the nodes; or give them an attribute pos, as (x, y, z)',
+        )
+    return np.zeros((count, 3))
+
+
 def _outputs(output, count, several):
     if output is None:
         return None
-    outputs = [output] if is_path(output) else list(output)
+    outputs = [output] if is_path(output) or not isinstance(output, (list, tuple)) else list(output)
+    for path in outputs:
+        if not is_path(path) or os.fspath(path) == "-":
+            raise Error(f"output={path!r} is no path", "the name of a .reeb file to write", kind="usage")
     if len(outputs) != count:
         raise Error(f"there are {count} functions and {len(outputs)} outputs", "one output for each", kind="usage")
     return [os.fspath(path) for path in outputs]
@@ -199,12 +245,16 @@ def _outputs(output, count, several):
 
 def _add_common(options, memory, threads, format, temp_dir):
     if memory is not None:
-        options["memory"] = _reeb.parse_size(memory) if isinstance(memory, str) else _integer("memory", memory, 0)
+        options["memory"] = (
+            _reeb.parse_size(memory) if isinstance(memory, str) else _integer("memory", memory, 0, _MOST)
+        )
     if threads is not None:
         options["threads"] = _integer("threads", threads, 1, 1024)
     if format is not None:
         options["format"] = str(format)
     if temp_dir is not None:
+        if not is_path(temp_dir):
+            raise Error(f"temp_dir={temp_dir!r} is no path", "the name of a folder", kind="usage")
         options["temp_dir"] = os.fspath(temp_dir)
         if not os.path.isdir(options["temp_dir"]):
             raise Error("the folder for temporary files does not exist", "create it", path=options["temp_dir"])
@@ -220,7 +270,7 @@ def _add_image(options, spacing, origin, nodata, grid, type_, skip):
     if type_ is not None:
         options["type"] = str(type_)
     if skip is not None:
-        options["skip"] = _integer("skip", skip, 0)
+        options["skip"] = _integer("skip", skip, 0, _MOST)
     if nodata is not None:
         if nodata != "skip":
             raise Error(f"nodata={nodata!r} is not possible with a file", 'nodata="skip"', kind="usage")
@@ -233,8 +283,10 @@ def _add_denoise(options, denoise):
     if isinstance(denoise, str):
         options["denoise_is_share"] = denoise.strip().endswith("%")
         options["denoise"] = _reeb.parse_threshold("denoise", denoise, 1)
-    else:
+    elif isinstance(denoise, (int, float, np.number)):
         options["denoise"] = _reeb.parse_threshold("denoise", repr(float(denoise)), 1)
+    else:
+        raise Error(f"denoise={denoise!r} is no threshold", 'as 0.01, or "0.1%"', kind="usage")
 
 
 def _integer(name, value, least, most=None):
@@ -351,12 +403,15 @@ def segment(
     Raises:
         reeb.Error: the graph is that of another mesh, or as reeb.compute.
     """
+    if not isinstance(graph, Graph):
+        raise Error(f"{graph!r} is no graph", "reeb.segment(graph, mesh)", kind="usage")
     options = {}
     _add_common(options, memory, threads, format, temp_dir)
     if is_path(mesh):
         held = os.fsencode(mesh)
         _add_image(options, spacing, origin, nodata, grid, type, skip)
     else:
+        _refuse_of_files(format=format, grid=grid, type=type, skip=skip)
         functions = [None if values is not None else graph.function]
         held, _ = _held(mesh, faces, values, functions, spacing, origin, nodata)
     file, version = graph._need_file()
@@ -377,7 +432,6 @@ _DEFECT_COLUMNS = [
     ("length_contour", "f8"),
     ("length_cycle", "f8"),
     ("triangles", "i8"),
-    ("function", "U64"),
 ]
 
 
@@ -418,6 +472,7 @@ def defects(
         if is_path(mesh):
             path = os.fsencode(mesh)
         else:
+            _refuse_of_files(format=format)
             if _arrays.is_mesh_object(mesh) and faces is None:
                 mesh, faces, _ = _arrays.parts_of_object(mesh)
             path = os.path.join(folder, "mesh.ply")
@@ -426,9 +481,11 @@ def defects(
     rows = found.pop("loops")
     threshold = found.pop("suggested_threshold")
     found.pop("schema")
-    loops = np.zeros(len(rows), _DEFECT_COLUMNS)
+    longest = max((len(row["function"]) for row in rows), default=1)
+    columns = [*_DEFECT_COLUMNS, ("function", f"U{longest}")]
+    loops = np.zeros(len(rows), columns)
     for i, row in enumerate(rows):
-        loops[i] = tuple(_defect_cell(row, column[0]) for column in _DEFECT_COLUMNS)
+        loops[i] = tuple(_defect_cell(row, column[0]) for column in columns)
     return Defects(loops, threshold, found)
 
 
@@ -454,6 +511,11 @@ def _write_ply(path, vertices, faces):
         raise _no_surface()
     if faces.size and (faces.min() < 0 or faces.max() >= len(vertices)):
         raise Error("faces name vertices that are not there", "vertices are numbered from 0")
+    if not np.isfinite(vertices).all():
+        row, column = np.argwhere(~np.isfinite(vertices))[0]
+        raise Error(
+            "a coordinate is not finite", "give every vertex finite numbers", position=f"vertices[{row}, {column}]"
+        )
     rows = np.empty(len(faces), [("count", "u1"), ("corners", "<i4", (3,))])
     rows["count"] = 3
     rows["corners"] = faces
