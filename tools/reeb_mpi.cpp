@@ -2,11 +2,15 @@
 #include <fmt/core.h>
 #include <malloc.h>
 #include <mpi.h>
-#include <sys/resource.h>
+
 #include <algorithm>
+#include <chrono>
+#include <cstdint>
 #include <exception>
 #include <filesystem>
 #include <new>
+#include <nlohmann/json.hpp>
+#include <numeric>
 #include <string>
 #include <thread>
 #include <vector>
@@ -31,6 +35,8 @@ namespace {
 namespace fs = std::filesystem;
 using reeb::Error;
 using reeb::ErrorKind;
+using reeb::tools::RankFigures;
+using reeb::tools::RunFacts;
 
 struct Arguments : reeb::tools::RunArguments {
   std::string output, report;
@@ -59,10 +65,61 @@ void check_files(const Arguments& arguments, const std::vector<std::string>& out
   files.check();
 }
 
-std::uint64_t peak_bytes() {
-  struct rusage usage {};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+std::uint64_t sum(const std::vector<RankFigures>& ranks, std::uint64_t RankFigures::*figure) {
+  return std::accumulate(ranks.begin(), ranks.end(), std::uint64_t{0},
+                         [&](std::uint64_t all, const RankFigures& rank) { return all + rank.*figure; });
+}
+
+std::uint64_t greatest(const std::vector<RankFigures>& ranks, std::uint64_t RankFigures::*figure) {
+  return std::ranges::max(ranks, {}, figure).*figure;
+}
+
+std::string seconds(std::uint64_t ms) { return fmt::format("{:.2f} s", static_cast<double>(ms) / 1000); }
+
+void print_ranks(const std::vector<RankFigures>& ranks) {
+  reeb::tools::print_line(
+      fmt::format("  {} ranks: shares {}, tree {}; sent {} of names and {} up the tree; a rank took at most {}",
+                  ranks.size(), seconds(greatest(ranks, &RankFigures::share_ms)), seconds(ranks[0].tree_ms),
+                  reeb::format_bytes(sum(ranks, &RankFigures::names_bytes)),
+                  reeb::format_bytes(sum(ranks, &RankFigures::tree_bytes)),
+                  reeb::format_bytes(greatest(ranks, &RankFigures::peak_bytes))));
+}
+
+// That of `reeb compute`, with the figures of all ranks.
+std::string report_of(const RunFacts& facts, const reeb::tools::DistributedResult& done) {
+  using Json = nlohmann::ordered_json;
+  struct Column {
+    const char* name;
+    std::uint64_t RankFigures::*figure;
+    bool is_sum;
+  };
+  static constexpr Column kColumns[] = {
+      {"triangles", &RankFigures::triangles, true},
+      {"share_ms", &RankFigures::share_ms, false},
+      {"tree_ms", &RankFigures::tree_ms, false},
+      {"cpu_ms", &RankFigures::cpu_ms, true},
+      {"names_bytes", &RankFigures::names_bytes, true},
+      {"tree_bytes", &RankFigures::tree_bytes, true},
+      {"live_vertices", &RankFigures::live_vertices, false},
+      {"peak_bytes", &RankFigures::peak_bytes, false},
+  };
+  Json sums = Json::object(), maxima = Json::object(), list = Json::array();
+  for (const auto& [name, figure, is_sum] : kColumns) {
+    if (is_sum) sums[name] = sum(done.ranks, figure);
+    maxima[name] = greatest(done.ranks, figure);
+  }
+  for (const RankFigures& rank : done.ranks) {
+    Json one = Json::object();
+    for (const auto& [name, figure, is_sum] : kColumns) one[name] = rank.*figure;
+    list.push_back(std::move(one));
+  }
+  const Json ranks = {{"count", done.ranks.size()}, {"sum", sums}, {"max", maxima}, {"each", list}};
+  Json report = Json::parse(reeb::tools::report_json(facts, done.results));
+  if (report.is_array())
+    for (Json& of_function : report) of_function["ranks"] = ranks;
+  else
+    report["ranks"] = ranks;
+  return report.dump(2) + "\n";
 }
 
 void compute(reeb::tools::World& world, Arguments arguments) {
@@ -75,7 +132,7 @@ void compute(reeb::tools::World& world, Arguments arguments) {
   if (world.is_root()) check_files(arguments, outputs);
   world.wait_for_all();  // the root says what is wrong with files
   const bool speaks = world.is_root() && !arguments.quiet;
-  reeb::tools::RunFacts facts;
+  RunFacts facts;
   facts.path = arguments.mesh;
   facts.threads = arguments.options.threads;
   arguments.options.opened = [&](const reeb::MeshInfo& info) {
@@ -86,20 +143,13 @@ void compute(reeb::tools::World& world, Arguments arguments) {
   arguments.options.interrupted = reeb::tools::watch_signals();
   const auto done =
       reeb::tools::compute_distributed(world, arguments.mesh, arguments.functions, outputs, arguments.options);
-  const std::uint64_t names = world.sum(done.names_bytes), tree = world.sum(done.tree_bytes);
-  const std::uint64_t peak = world.greatest(peak_bytes());
-  const auto share_ms = world.greatest(static_cast<std::uint64_t>(1000 * done.share_seconds));
   if (speaks) {
     reeb::tools::print_summary(facts, done.results);
-    print_line(
-        fmt::format("  {} ranks: shares {:.2f} s, tree {:.2f} s; sent {} of names and {} up the tree; a rank took "
-                    "at most {}",
-                    world.size(), static_cast<double>(share_ms) / 1000, done.tree_seconds, reeb::format_bytes(names),
-                    reeb::format_bytes(tree), reeb::format_bytes(peak)));
+    print_ranks(done.ranks);
   }
   if (world.is_root() && !arguments.report.empty())
     reeb::tools::write_output(arguments.report, arguments.options.replace,
-                              [&](std::ostream& out) { out << reeb::tools::report_json(facts, done.results); });
+                              [&](std::ostream& out) { out << report_of(facts, done); });
 }
 
 void run(reeb::tools::World& world, int argc, char** argv) {
@@ -121,8 +171,14 @@ void run(reeb::tools::World& world, int argc, char** argv) {
   if (text && world.is_root()) fmt::print("{}", *text);
 }
 
-// Ends all ranks.
+// Ends all ranks. Where several fail for the same reason, one text suffices: that of the first is out, and the others
+// are ended, before they speak.
 [[noreturn]] void end_all(const Error& error) {
+  int rank = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  constexpr int kMostTurns = 100;
+  constexpr std::chrono::milliseconds kFirst(400), kTurn(50);
+  if (rank != 0) std::this_thread::sleep_for(kFirst + std::min(rank, kMostTurns) * kTurn);
   fmt::print(stderr, "reeb-mpi: error: {}\nhint: {}\n", reeb::printable(error.what()), reeb::printable(error.hint()));
   std::fflush(stderr);
   MPI_Abort(MPI_COMM_WORLD, static_cast<int>(error.kind()));

@@ -5,7 +5,8 @@
 """
 import math
 
-RUN, COUNT = 110e-9, 4e-9  # seconds of a core for each triangle: a share is run, the whole mesh is counted
+RUN = 110e-9  # seconds of a core for each triangle of a share
+READ, FILES = 45, 100e9  # bytes of the file for each triangle, in three readings; bytes per second for all ranks
 EDGE, NETWORK = 770, 1e9  # bytes for each root of the number of vertices; bytes per second, glued as well
 WIDTH, HEIGHT, LEFT, TOP, PANEL_WIDTH, PANEL_HEIGHT = 760, 380, 70, 20, 560, 300
 INK, GREY = "#222", "#ccc"
@@ -14,11 +15,11 @@ COLOURS = ("#1f6f8b", "#c8553d", "#7a9e3b", "#8a5fa8")
 
 def seconds(triangles, ranks):
     edge = EDGE * math.sqrt(triangles / 2)
-    return COUNT * triangles + RUN * triangles / ranks + 2 * math.log2(ranks) * edge / NETWORK
+    return RUN * triangles / ranks + READ * triangles / FILES + 2 * math.log2(ranks) * edge / NETWORK
 
 
 def main():
-    most, least = 6, 0  # powers of ten of seconds
+    most, least = 6, -1  # powers of ten of seconds
 
     def at(ranks, time):
         x = LEFT + math.log2(ranks) / 12 * PANEL_WIDTH

@@ -28,6 +28,8 @@ constexpr Mark kMarks[] = {
     {"Kaydara FBX Binary"sv, {"an FBX scene"}},
     {"\x89HDF\r\n"sv, {"an HDF5 file"}},
     {"\x89REEB\r\n"sv, other("a Reeb graph", "name the mesh; `reeb info` and `reeb extract` read Reeb graphs")},
+    {"REEBFRG\n"sv, other("a fragment", "`reeb glue` makes a Reeb graph of the fragments of all parts")},
+    {"REEBNAM\n"sv, other("a file of names of `reeb fragment --scan`", "`reeb fragment --shared` reads it")},
     {"version https://git-lfs.github.com/"sv,
      other("a Git LFS pointer, without the content of the file", "fetch the content with `git lfs pull`")},
     {"\xFF\xFE"sv, kUtf16},

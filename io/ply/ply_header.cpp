@@ -221,6 +221,26 @@ bool PlyElement::has_lists() const {
   return std::ranges::any_of(properties, [](const PlyProperty& p) { return p.list_count.has_value(); });
 }
 
+std::optional<PlyTriangles> PlyHeader::triangles_by_size(std::uint64_t file_bytes) const {
+  std::optional<PlyTriangles> triangles;
+  std::uint64_t offset = body_offset;
+  for (std::size_t i = 0; i < elements.size(); ++i) {
+    const PlyElement& element = elements[i];
+    const auto lists =
+        std::ranges::count_if(element.properties, [](const PlyProperty& p) { return p.list_count.has_value(); });
+    const bool is_faces = element.role == PlyRole::kFaces && lists == 1 && !triangles;
+    if (lists != 0 && !is_faces) return std::nullopt;
+    std::size_t bytes = element.fixed_bytes();
+    if (is_faces) {
+      bytes += 3 * byte_size(element.properties[element.corners].type);
+      triangles = {i, offset, bytes, element.count};
+    }
+    if (element.count > (file_bytes - offset) / bytes) return std::nullopt;
+    offset += element.count * bytes;
+  }
+  return offset == file_bytes ? triangles : std::nullopt;
+}
+
 std::string PlyHeader::format() const {
   static constexpr std::array<const char*, 3> kNames = {"ASCII", "binary little endian", "binary big endian"};
   return std::string("PLY ") + kNames[static_cast<std::size_t>(encoding)];

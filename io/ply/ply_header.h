@@ -34,6 +34,14 @@ struct PlyElement {
   bool has_lists() const;
 };
 
+// Where faces are if all of them are triangles.
+struct PlyTriangles {
+  std::size_t element = 0;
+  std::uint64_t offset = 0;  // of the first
+  std::size_t bytes = 0;     // of each
+  std::uint64_t count = 0;
+};
+
 struct PlyHeader {
   PlyEncoding encoding = PlyEncoding::kAscii;
   std::vector<PlyElement> elements;  // without those that have no properties
@@ -48,6 +56,8 @@ struct PlyHeader {
   // The index of each name among the vertex properties.
   // THROWS: Error{kBadInput} naming the scalar properties that exist.
   std::vector<std::size_t> find_properties(const std::vector<std::string>& names, const std::string& file) const;
+  // If a binary file of `file_bytes` has the size of one in which all faces are triangles.
+  std::optional<PlyTriangles> triangles_by_size(std::uint64_t file_bytes) const;
   // The indices of the coordinates among the vertex properties.
   std::vector<std::size_t> coordinate_properties() const;
 };

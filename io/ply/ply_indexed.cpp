@@ -86,17 +86,24 @@ class IndexedPly final : public IndexedMesh {
   SimplexCounts simplex_counts() const override { return counts_; }
 
   std::optional<MeshPlace> place() const override { return reading_->place(); }
-  void seek(const MeshPlace& place) override {
-    if (pieces_ == nullptr) pieces_ = open_ply_faces(open_for_seeking(windows_.file()), header_);
-    pieces_->seek(place);
-    reading_ = pieces_.get();
+  void seek(const MeshPlace& place) override { pieces().seek(place); }
+
+  std::optional<std::uint64_t> triangles_by_size() const override {
+    return triangles_ ? std::optional(triangles_->count) : std::nullopt;
   }
+  void seek_triangle(std::uint64_t number) override { pieces().seek_triangle(*triangles_, number); }
 
   std::uint64_t bytes_read() const override { return reading_->bytes_read(); }
   std::uint64_t bytes_total() const override { return windows_.size(); }
   std::vector<std::string> warnings() const override { return reading_->warnings(); }
 
  private:
+  PlyBodyReader& pieces() {
+    if (pieces_ == nullptr) pieces_ = open_ply_faces(open_for_seeking(windows_.file()), header_);
+    reading_ = pieces_.get();
+    return *pieces_;
+  }
+
   void count(std::uint64_t triangles, bool at_end) {
     triangles_read_ += triangles;
     if (!at_end) return;
@@ -149,6 +156,7 @@ class IndexedPly final : public IndexedMesh {
   std::size_t stride_;
   std::uint64_t vertices_begin_;
   FileWindows windows_;
+  std::optional<PlyTriangles> triangles_ = header_.triangles_by_size(windows_.size());
   std::unique_ptr<PlyBodyReader> faces_;   // from the first to the last
   std::unique_ptr<PlyBodyReader> pieces_;  // from places on; null before the first seek()
   PlyBodyReader* reading_ = faces_.get();

@@ -130,11 +130,19 @@ class PlyReader final : public PlyBodyReader {
     decoder_.bytes().move_to(place.first);
     step_ = within.step;
     record_ = within.record;
-    in_record_ = false;
+    in_record_ = expects_triangles_ = false;
     if (within.triangles == 0) return;
     MeshBatch passed;
     set_batch_events(within.triangles);
     read(passed);
+  }
+
+  void seek_triangle(const PlyTriangles& triangles, std::uint64_t number) override {
+    decoder_.bytes().move_to(triangles.offset + number * triangles.bytes);
+    step_ = triangles.element;
+    record_ = number;
+    in_record_ = false;
+    expects_triangles_ = true;
   }
 
   std::unique_ptr<IndexedMesh> indexed() const override {
@@ -343,6 +351,7 @@ class PlyReader final : public PlyBodyReader {
     const bool strip = element.role == PlyRole::kStrips;
     if (!std::exchange(in_list_, true)) {
       corners_left_ = list_length(list);
+      if (expects_triangles_ && corners_left_ != 3) throw InputChanged();
       face_.begin(strip ? FaceShape::kStrip : FaceShape::kPolygon);
     }
     for (; corners_left_ != 0 && room(batch) != 0; --corners_left_) {
@@ -451,7 +460,7 @@ class PlyReader final : public PlyBodyReader {
   SimplexAssembler face_;
   std::uint64_t odd_values_ = 0;
   bool trailing_ = false;
-  bool triangles_only_ = false;
+  bool triangles_only_ = false, expects_triangles_ = false;
   std::array<std::uint64_t, 2> turned_{};  // points and edges that became triangles
 };
 

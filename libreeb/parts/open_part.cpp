@@ -67,6 +67,10 @@ void check_paths(const Fragment& live) {
 
 }  // namespace
 
+std::uint64_t open_vertices_of(const OpenPart& part) {
+  return static_cast<std::uint64_t>(std::ranges::count_if(part.live.nodes, is_open));
+}
+
 void check_open_part(const OpenPart& part, std::uint32_t parts) {
   check_nodes(part, parts);
   check_arcs(part.live);

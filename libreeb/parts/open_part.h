@@ -2,6 +2,7 @@
 // (docs/ARCHITECTURE.md, Shares of a mesh).
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "libreeb/engine/fragment.h"
@@ -14,6 +15,9 @@ struct OpenPart {
   Fragment live;
   std::vector<PartSpan> spans;  // by node; of one that no share outside names: without meaning
 };
+
+// The vertices that other shares name.
+std::uint64_t open_vertices_of(const OpenPart& part);
 
 // THROWS: DamagedState unless this can be glued: no index is out of range, and every path is one.
 void check_open_part(const OpenPart& part, std::uint32_t parts);

@@ -58,6 +58,13 @@ class IndexedMesh {
   // read() goes on there. REQUIRES: place() of this mesh returned it.
   virtual void seek([[maybe_unused]] const MeshPlace& place) {}
 
+  // How many triangles there are, as far as sizes tell: all records together have the size of so many triangles. That
+  // is a guess until read() went through all of them from seek_triangle() on.
+  virtual std::optional<std::uint64_t> triangles_by_size() const { return std::nullopt; }
+  // read() goes on at the triangle with this number, and throws InputChanged at a record that is no triangle.
+  // REQUIRES: it is at most triangles_by_size().
+  virtual void seek_triangle([[maybe_unused]] std::uint64_t number) {}
+
   // Bytes of input read since rewind(), and in total, for progress.
   virtual std::uint64_t bytes_read() const = 0;
   virtual std::uint64_t bytes_total() const = 0;

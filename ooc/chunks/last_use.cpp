@@ -14,11 +14,11 @@ namespace {
 constexpr std::size_t kEntriesAtOnce = 16 << 10;
 constexpr std::size_t kProfileSamples = 256;
 
-// Calls visit(first, entries) for ranges of the table that together cover 0..count-1.
+// Calls visit(first, entries) for ranges of the table that together cover all used vertices below `count`.
 template <class Visit>
 void for_each_range(PagedTable<std::uint32_t>& table, std::uint64_t count, const Visit& visit) {
   std::vector<std::uint32_t> entries(kEntriesAtOnce);
-  for (std::uint64_t first = 0; first < count; first += kEntriesAtOnce) {
+  for (std::uint64_t first = 0; (first = table.next_set(first, count)) < count; first += kEntriesAtOnce) {
     const auto size = static_cast<std::size_t>(std::min<std::uint64_t>(kEntriesAtOnce, count - first));
     table.read(first, std::span(entries).first(size));
     visit(first, std::span(entries).first(size));
@@ -47,15 +47,16 @@ class Scan {
   }
 
   LastUse finish() {
-    for_each_range(table_, summary_.vertex_count, [this](std::uint64_t, std::span<const std::uint32_t> entries) {
+    std::uint64_t used = 0;
+    for_each_range(table_, summary_.vertex_count, [&](std::uint64_t, std::span<const std::uint32_t> entries) {
       for (const std::uint32_t packed : entries) {
         const UseEntry entry(packed);
-        if (entry.unused())
-          ++summary_.unused_vertices;
-        else
-          --live_change_[entry.last_block()];
+        if (entry.unused()) continue;
+        ++used;
+        --live_change_[entry.last_block()];
       }
     });
+    summary_.unused_vertices = summary_.vertex_count - used;
     summary_.block_triangles = block_triangles_;
     summary_.block_count = live_change_.size();
     summary_.digest = digest_.value();

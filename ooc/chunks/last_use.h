@@ -94,6 +94,8 @@ class LastUse {
     for (std::size_t i = 0; i < ids.size(); ++i) entries[i] = table_.get(ids[i].value());
   }
 
+  // The first vertex from `first` on that may be used; vertex_count if there is none.
+  std::uint64_t next_used(std::uint64_t first) const { return table_.next_set(first, summary_.vertex_count); }
   // The packed entries of consecutive vertices, starting at `first`.
   void read(VertexId first, std::span<std::uint32_t> entries) { table_.read(first.value(), entries); }
 

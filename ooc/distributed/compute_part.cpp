@@ -40,6 +40,22 @@ auto with_explained_errors(RunContext& run, const std::string& mesh, const std::
   }
 }
 
+// Other parts take their triangles from where sizes tell, so this one cannot count them instead.
+std::uint64_t write_names_of(WholeMesh& mesh, const std::string& output, RunContext& run, std::uint32_t part,
+                             const std::string& path) {
+  try {
+    return write_names(output, run.output_options(), run, mesh, part);
+  } catch (const Error& error) {
+    if (!mesh.by_size || error.kind() != ErrorKind::kBadInput) throw;
+    const std::uint64_t by_size = mesh.info.shares.triangles;
+    count_triangles(run, mesh);
+    if (mesh.info.shares.triangles == by_size) throw;
+    throw Error(ErrorKind::kBadInput, "its faces are no triangles, although their size is that of triangles",
+                "compute the parts without --scan and --shared")
+        .at(path);
+  }
+}
+
 }  // namespace
 
 std::vector<FragmentResult> compute_part(MeshInput input, std::span<VertexFunction* const> functions,
@@ -62,9 +78,7 @@ std::vector<FragmentResult> compute_part(MeshInput input, std::span<VertexFuncti
     for (std::size_t f = 0; f < functions.size(); ++f) {
       const auto& [info, open, memory] = done.parts[f];
       write_fragment(outputs[f], run.output_options(), info, open, *run.stores[f]);
-      FragmentResult result{info, outputs[f], 0, done.seconds, done.notes};
-      for (const Fragment::Node& node : open.live.nodes) result.open_vertices += node.uses != kUsedHereOnly ? 1u : 0u;
-      results.push_back(std::move(result));
+      results.push_back({info, outputs[f], open_vertices_of(open), done.seconds, done.notes});
     }
     run.resumable.done();
     return results;
@@ -81,7 +95,7 @@ std::uint64_t scan_part(MeshInput input, std::span<VertexFunction* const> functi
   return with_explained_errors(run, path, input.check_unchanged, [&] {
     io::remove_abandoned(output);
     WholeMesh mesh = open_whole_mesh(run, input, choice.parts);
-    return write_names(output, run.output_options(), run, mesh, choice.part);
+    return write_names_of(mesh, output, run, choice.part, path);
   });
 }
 

@@ -8,6 +8,7 @@
 
 #include "io/file/atomic_file.h"
 #include "io/file/checksum.h"
+#include "io/file/input_file.h"
 #include "libreeb/base/error.h"
 #include "libreeb/graph/packed_buckets.h"
 #include "ooc/distributed/open_part_state.h"
@@ -120,6 +121,11 @@ void add_settled(io::BufferedWriter& out, const PartInfo& info, SegmentStore& st
   }
 }
 
+io::File open_input(const std::string& path) {
+  io::check_input_file(path);
+  return io::File::open_for_reading(path);
+}
+
 std::uint64_t checksum_of(const io::File& file, std::uint64_t begin, std::uint64_t bytes) {
   std::vector<std::byte> piece(1 << 20);
   io::RunningChecksum checksum;
@@ -163,9 +169,9 @@ void FragmentFile::fail(const std::string& why, std::uint64_t offset) const {
       .at(file_.path(), std::to_string(offset));
 }
 
-FragmentFile::FragmentFile(const std::string& path) : file_(io::File::open_for_reading(path)) {
+FragmentFile::FragmentFile(const std::string& path) : file_(open_input(path)) {
   Header header{};
-  if (file_.size() < sizeof(header) + 0) {
+  if (file_.size() < sizeof(header)) {
     if (!is_fragment(path))
       throw Error(ErrorKind::kBadInput, "this is not a fragment", "fragments are made with `reeb fragment`").at(path);
     fail("was cut off", file_.size());

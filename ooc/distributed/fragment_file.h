@@ -28,6 +28,8 @@ class FragmentFile {
  public:
   explicit FragmentFile(const std::string& path);
 
+  const std::string& path() const { return file_.path(); }
+  std::uint64_t bytes() const { return file_.size(); }
   const PartInfo& info() const { return info_; }
   // The bytes that read_open() needs in memory, at most.
   std::uint64_t open_bytes() const { return state_bytes_; }

@@ -7,6 +7,7 @@ namespace reeb::ooc {
 void MeshShare::rewind() {
   constexpr std::uint64_t kTrianglesAtOnce = 65536;
   at_ = begin_;
+  if (by_size_) return mesh_.seek_triangle(begin_);
   if (first_) return mesh_.seek(*first_);
   mesh_.rewind();
   std::vector<VertexId> corners;

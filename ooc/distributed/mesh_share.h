@@ -30,10 +30,12 @@ struct Shares {
   }
 };
 
-// The triangles from `begin` to `end` of `mesh`, which must outlive it. Vertices keep their numbers.
+// The triangles from `begin` to `end` of `mesh`, which must outlive it. Vertices keep their numbers. If `by_size`,
+// triangles are where sizes tell: IndexedMesh::seek_triangle().
 class MeshShare : public IndexedMesh {
  public:
-  MeshShare(IndexedMesh& mesh, std::uint64_t begin, std::uint64_t end) : mesh_(mesh), begin_(begin), end_(end) {}
+  MeshShare(IndexedMesh& mesh, std::uint64_t begin, std::uint64_t end, bool by_size)
+      : mesh_(mesh), begin_(begin), end_(end), by_size_(by_size) {}
 
   std::uint64_t vertex_count() const override { return mesh_.vertex_count(); }
   unsigned column_count() const override { return mesh_.column_count(); }
@@ -44,7 +46,9 @@ class MeshShare : public IndexedMesh {
   // THROWS: InputChanged if the mesh has fewer triangles.
   void rewind() override;
   bool read(std::vector<VertexId>& corners, std::size_t limit) override;
-  SimplexCounts simplex_counts() const override { return mesh_.simplex_counts(); }
+  SimplexCounts simplex_counts() const override {
+    return by_size_ ? SimplexCounts{0, 0, end_ - begin_} : mesh_.simplex_counts();
+  }
   std::uint64_t bytes_read() const override { return (at_ - begin_) * kTriangleBytes; }
   std::uint64_t bytes_total() const override { return (end_ - begin_) * kTriangleBytes; }
   std::vector<std::string> warnings() const override { return mesh_.warnings(); }
@@ -54,6 +58,7 @@ class MeshShare : public IndexedMesh {
 
   IndexedMesh& mesh_;
   std::uint64_t begin_, end_;
+  bool by_size_;
   std::uint64_t at_ = 0;
   std::optional<MeshPlace> first_;  // of the triangle begin_, once it is known and if the mesh can return there
 };

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <memory>
 #include <vector>
 
 #include "io/file/atomic_file.h"
 #include "io/file/checksum.h"
 #include "io/file/file.h"
+#include "io/file/input_file.h"
 #include "libreeb/base/error.h"
 
 namespace reeb::ooc {
@@ -111,17 +113,17 @@ void merge_names(const io::File& file, const Header& header, PagedTable<std::uin
 void visit_names(RunContext& run, WholeMesh& mesh, std::uint32_t part,
                  const std::function<void(std::uint64_t first, std::uint64_t count)>& visit) {
   const Shares& shares = mesh.info.shares;
-  MeshShare share(*mesh.mesh, shares.begin(part), shares.end(part));
+  const std::unique_ptr<MeshShare> share = mesh.share(part);
   LastUseOptions options;
   options.block_triangles = shares.size();
   options.allowance_bytes = run.plan.table_bytes;
   options.progress = [&](std::uint64_t read) {
-    run.tell({ComputeProgress::Phase::kFinalization, read, share.bytes_total()});
+    run.tell({ComputeProgress::Phase::kFinalization, read, share->bytes_total()});
   };
-  LastUse uses = *scan_last_use(share, run.temp, run.budget, options);
+  LastUse uses = *scan_last_use(*share, run.temp, run.budget, options);
   std::vector<std::uint32_t> entries(kRunsAtOnce);
   Run run_now{0, 0};
-  for (std::uint64_t first = 0; first < shares.vertices; first += entries.size()) {
+  for (std::uint64_t first = 0; (first = uses.next_used(first)) < shares.vertices; first += entries.size()) {
     entries.resize(static_cast<std::size_t>(std::min<std::uint64_t>(kRunsAtOnce, shares.vertices - first)));
     uses.read(VertexId(first), entries);
     for (std::size_t i = 0; i < entries.size(); ++i) {
@@ -160,6 +162,7 @@ std::uint64_t write_names(const std::string& path, const OutputOptions& output, 
 PartUses read_names(std::span<const std::string> files, RunContext& run, const WholeMesh& mesh) {
   std::map<std::uint64_t, std::string> by_part;
   for (const std::string& path : files) {
+    io::check_input_file(path);
     const io::File file = io::File::open_for_reading(path);
     const Header header = read_header(file, mesh.info);
     if (!by_part.emplace(header.part, path).second)

@@ -67,8 +67,7 @@ PartResult run_part(RunContext& run, const MeshInput& input, WholeMesh& mesh, Pa
   MeshInput share;  // without a sidecar: that of the mesh is of all of it
   share.dimension = input.dimension;
   share.path = "-";
-  OrderedMesh ordered = order_mesh(
-      run, share, std::make_unique<MeshShare>(*mesh.mesh, shares.begin(part), shares.end(part)), start, false);
+  OrderedMesh ordered = order_mesh(run, share, mesh.share(part), start, false);
   ordered.uses.leave_out_unused();
   result.notes.insert(result.notes.end(), ordered.notes.begin(), ordered.notes.end());
   const UseSummary& summary = ordered.uses.summary();

@@ -12,15 +12,6 @@ namespace {
 
 using Phase = ComputeProgress::Phase;
 
-std::uint64_t count_triangles(RunContext& run, IndexedMesh& mesh) {
-  constexpr std::size_t kTrianglesAtOnce = 16384;
-  std::uint64_t triangles = 0;
-  mesh.rewind();
-  for (std::vector<VertexId> corners; mesh.read(corners, kTrianglesAtOnce); triangles += corners.size() / 3)
-    run.tell({Phase::kSpool, mesh.bytes_read(), mesh.bytes_total()});
-  return triangles;
-}
-
 }  // namespace
 
 WholeMesh open_whole_mesh(RunContext& run, MeshInput& input, std::uint32_t parts) {
@@ -38,25 +29,58 @@ WholeMesh open_whole_mesh(RunContext& run, MeshInput& input, std::uint32_t parts
     whole.mesh = std::move(spooled);
     input.reader.reset();
   }
-  whole.info.shares = {count_triangles(run, *whole.mesh), whole.mesh->vertex_count(), parts};
-  whole.info.simplices = whole.mesh->simplex_counts();
+  whole.info.shares = {0, whole.mesh->vertex_count(), parts};
+  if (const auto triangles = whole.mesh->triangles_by_size()) {
+    whole.by_size = true;
+    whole.info.shares.triangles = whole.info.simplices[2] = *triangles;
+  } else {
+    count_triangles(run, whole);
+  }
   return whole;
+}
+
+void count_triangles(RunContext& run, WholeMesh& whole) {
+  constexpr std::size_t kTrianglesAtOnce = 16384;
+  IndexedMesh& mesh = *whole.mesh;
+  std::uint64_t triangles = 0;
+  mesh.rewind();
+  for (std::vector<VertexId> corners; mesh.read(corners, kTrianglesAtOnce); triangles += corners.size() / 3)
+    run.tell({Phase::kSpool, mesh.bytes_read(), mesh.bytes_total()});
+  whole.info.shares.triangles = triangles;
+  whole.info.simplices = mesh.simplex_counts();
+  whole.by_size = false;
 }
 
 PartUses find_part_uses(RunContext& run, const MeshInput& input, WholeMesh& mesh) {
   const Shares& shares = mesh.info.shares;
+  // Simplices of other sizes never make up for each other: a polygon of k corners counts as k - 2 triangles, but an
+  // edge or a point counts as one. So where the size is that of triangles, and their number, too, all are triangles.
+  const auto is_counted = [&](const LastUse& uses) {
+    if (uses.summary().triangle_count == shares.triangles) return true;
+    if (mesh.by_size) count_triangles(run, mesh);
+    return false;
+  };
   if (const std::string sidecar = sidecar_path(run, input); !sidecar.empty()) {
     SidecarLoad known =
         load_sidecar(sidecar, identify_mesh(input.path), shares.vertices, run.temp, run.budget, run.plan.table_bytes);
-    if (known.uses && known.uses->summary().triangle_count == shares.triangles) return {std::move(*known.uses), shares};
+    if (known.uses && (is_counted(*known.uses) || known.uses->summary().triangle_count == shares.triangles))
+      return {std::move(*known.uses), shares};
     if (!known.note.empty()) mesh.notes.push_back(known.note);
   }
-  LastUseOptions options;
-  options.block_triangles = shares.size();
-  options.allowance_bytes = run.plan.table_bytes;
-  options.threads = run.plan.threads;
-  options.progress = [&](std::uint64_t read) { run.tell({Phase::kFinalization, read, mesh.mesh->bytes_total()}); };
-  return {*scan_last_use(*mesh.mesh, run.temp, run.budget, options), shares};
+  const auto scan = [&] {
+    LastUseOptions options;
+    options.block_triangles = shares.size();
+    options.allowance_bytes = run.plan.table_bytes;
+    options.threads = run.plan.threads;
+    options.progress = [&](std::uint64_t read) { run.tell({Phase::kFinalization, read, mesh.mesh->bytes_total()}); };
+    return scan_last_use(*mesh.mesh, run.temp, run.budget, options);
+  };
+  std::optional<LastUse> uses = scan();
+  if (!is_counted(*uses)) {
+    uses.reset();
+    uses = scan();
+  }
+  return {std::move(*uses), shares};
 }
 
 PagedTable<std::uint32_t> empty_uses(RunContext& run) {

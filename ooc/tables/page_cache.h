@@ -47,6 +47,9 @@ class PageCache {
     return fault(page, writing);
   }
 
+  // Whether the page was never changed.
+  bool is_fresh(std::size_t page) const { return page >= places_.size() || places_[page] == kFresh; }
+
   std::uint64_t resident_bytes() const { return frames_.size() * kPageBytes; }
   // Bytes written to the file so far.
   std::uint64_t spilled_bytes() const { return spilled_; }

@@ -56,6 +56,13 @@ class PagedTable {
     }
   }
 
+  // The first entry from `index` to before `end` that may have been set; `end` if there is none.
+  std::uint64_t next_set(std::uint64_t index, std::uint64_t end) const {
+    while (index < end && cache_.is_fresh(static_cast<std::size_t>(index >> kShift)))
+      index = ((index >> kShift) + 1) << kShift;
+    return std::min(index, end);
+  }
+
   const PageCache& pages() const { return cache_; }
 
  private:

@@ -23,6 +23,23 @@ expect_same graph.reeb make
 rm part-3.fragment
 test "$(make -n | grep -c "reeb fragment")" = 1 || { echo "make: a lost part is not made alone"; exit 1; }
 
+# A part of a file of triangles reads its share, and not what is before or after. It reads the names of all parts.
+bytes_read() {
+  bash -c '"$@" > /dev/null; while read -r key value; do test "$key" != rchar: || echo "$value"; done < /proc/self/io' - "$@"
+}
+if [ -r /proc/self/io ]; then
+  reeb generate scan --triangles 2M -o large.ply > /dev/null
+  for part in 1 2 3 4 5 6 7 8; do
+    reeb fragment large.ply --scan --part $part/8 -o large-$part.names --quiet
+  done
+  size=$(stat -c %s large.ply)
+  names=$(bytes_read reeb fragment large.ply --scan --part 7/8 -o large-7.names --quiet --force)
+  share=$(bytes_read reeb fragment large.ply --part 7/8 --shared large-*.names -o large.fragment --quiet)
+  test "$names" -lt $((size / 4)) || { echo "names of an eighth: $names bytes of $size were read"; exit 1; }
+  test "$share" -lt $((size / 2)) || { echo "an eighth: $share bytes of $size were read"; exit 1; }
+  rm large*
+fi
+
 python=/usr/bin/python3
 if ! $python -c "import distributed" 2> /dev/null; then
   echo "skipped: no data: there is no python3-distributed"

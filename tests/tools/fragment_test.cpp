@@ -1,7 +1,11 @@
 // `reeb fragment` and `reeb glue`: the same bytes as one run, and what is said of fragments that do not fit.
 #include <gtest/gtest.h>
 
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
 #include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -46,6 +50,19 @@ class FragmentTest : public ProgramTest {
     for (unsigned part = parts - 1; part-- > 1;) rest.push_back(names[part]);
     expect_success(reeb(rest));
     EXPECT_TRUE(same(file("all.reeb"), file("one.reeb"))) << "in groups";
+    // Neighbours in pairs, then these in pairs.
+    Words row = names;
+    for (unsigned level = 0; row.size() > 2; ++level) {
+      Words above;
+      for (std::size_t i = 0; i < row.size(); i += 2) {
+        above.push_back(i + 1 == row.size() ? row[i] : std::to_string(level) + "-" + std::to_string(i) + ".fragment");
+        if (i + 1 < row.size())
+          expect_success(reeb({"glue", row[i], row[i + 1], "-o", above.back(), "--quiet", "--force"}));
+      }
+      row = above;
+    }
+    expect_success(reeb(with({"glue", "-o", "all.reeb", "--quiet", "--force"}, row)));
+    EXPECT_TRUE(same(file("all.reeb"), file("one.reeb"))) << "as a tree";
   }
 
   // "2/3" -> "p2.fragment"
@@ -84,9 +101,78 @@ TEST_F(FragmentTest, TakesOrdersAndFormatsOfAllKinds) {
   for (const char* mesh : {"small.off", "points.cx", "none.cx"}) expect_same(mesh, plain, 5);
 }
 
+// With REEB_TEST_ALL=1, all of them, in as many ways as there are: minutes.
 TEST_F(FragmentTest, TakesRealMeshes) {
   REEB_REQUIRE_MESHES();
-  for (const char* mesh : {"cow.obj", "post_tets.vtk"}) expect_same(mesh_folder() + "/" + mesh, {"--buckets", "0"}, 3);
+  const bool all = std::getenv("REEB_TEST_ALL") != nullptr;
+  const std::set<std::string> some{"cow.obj", "post_tets.vtk"}, beside{".md", ".tsv"};
+  for (const auto& entry : std::filesystem::directory_iterator(mesh_folder())) {
+    if (!all && !some.contains(entry.path().filename().string())) continue;
+    if (beside.contains(entry.path().extension().string())) continue;
+    for (const unsigned parts : {1u, 2u, 3u, 5u, 8u})
+      if (all || parts == 3) expect_same(entry.path().string(), {"--buckets", "0"}, parts);
+  }
+}
+
+// Fronts of thousands of vertices: long rows, and no order at all.
+TEST_F(FragmentTest, TakesWideFronts) {
+  expect_success(reeb({"generate", "grid", "--triangles", "40k", "--width", "4000", "-o", "rows.ply"}));
+  make_scan("random.ply", "20k", "random");
+  for (const char* mesh : {"rows.ply", "random.ply"})
+    for (const unsigned parts : {2u, 5u}) expect_same(mesh, {"--buckets", "0", "--graph-only"}, parts);
+  expect_same("rows.ply", {"--buckets", "0", "--graph-only", "-f", "random:2"}, 3);
+}
+
+// Where a file has the size of one of triangles, a part goes to its share without reading what is before. An edge and
+// a quadrilateral have that size, too.
+TEST_F(FragmentTest, CountsWhatOnlyHasTheSizeOfTriangles) {
+  std::string mesh =
+      "ply\nformat binary_little_endian 1.0\nelement vertex 6\nproperty float x\nproperty float y\n"
+      "property float z\nelement face 4\nproperty list uchar int vertex_indices\nend_header\n";
+  const auto add = [&](const auto& value) { mesh.append(reinterpret_cast<const char*>(&value), sizeof value); };
+  for (const float z : {0.f, 2.f, 1.f, 4.f, 3.f, 5.f})
+    for (const float coordinate : {z * z, 1.f, z}) add(coordinate);
+  const std::vector<std::vector<std::int32_t>> faces = {{0, 1, 2}, {1, 2, 3, 4}, {4, 5}, {2, 3, 5}};
+  for (const auto& face : faces) {
+    add(static_cast<std::uint8_t>(face.size()));
+    for (const std::int32_t corner : face) add(corner);
+  }
+  write("odd.ply", mesh);
+  for (const unsigned parts : {1u, 2u, 3u, 5u}) expect_same("odd.ply", {"--buckets", "0"}, parts);
+  expect_error(reeb({"fragment", "odd.ply", "--scan", "--part", "1/2", "-o", "p1.names"}), 1,
+               "odd.ply: its faces are no triangles, although their size is that of triangles");
+  // Damage is named as by other commands, whatever part it is in.
+  make_scan("scan.ply", "2k");
+  std::string damaged = file("scan.ply");
+  damaged[damaged.size() - 5] = '\x7f';  // a corner of the last triangle
+  write("scan.ply", damaged);
+  const Outcome computed = reeb({"compute", "scan.ply", "-o", "x.reeb"});
+  expect_error(computed, 1);
+  for (const char* part : {"1/2", "2/2"}) {
+    const Outcome fragment = reeb({"fragment", "scan.ply", "--part", part, "-o", "p.fragment"});
+    expect_error(fragment, 1);
+    EXPECT_EQ(lines_after("reeb: error: ", fragment.error), lines_after("reeb: error: ", computed.error));
+  }
+}
+
+TEST_F(FragmentTest, IsNamedByOtherCommands) {
+  make_scan("scan.ply", "2k");
+  fragments("scan.ply", 3);
+  const Outcome text = reeb({"info", "p2.fragment"});
+  expect_success(text);
+  EXPECT_TRUE(text.output.starts_with("p2.fragment: fragment, part 2 of 3, ")) << text.output;
+  expect_success(reeb({"glue", "p1.fragment", "p3.fragment", "-o", "some.fragment", "--quiet"}));
+  const Outcome json = reeb({"info", "some.fragment", "--json"});
+  expect_success(json);
+  for (const char* field : {"\"format\": \"fragment\"", "\"of_parts\": 3", "\"name\": \"z\"", "\"open_vertices\": "})
+    EXPECT_NE(json.output.find(field), std::string::npos) << field << json.output;
+  expect_error(reeb({"compute", "p2.fragment", "-o", "x.reeb"}), 1, "p2.fragment:0: this is a fragment, not a mesh");
+  for (const char* command : {"extract", "pairs"})
+    expect_error(reeb({command, "p2.fragment", "-o", "x.csv"}), 1, "p2.fragment: this is a fragment, not a Reeb graph");
+  expect_success(reeb({"fragment", "scan.ply", "--scan", "--part", "1/2", "-o", "p1.names", "--quiet"}));
+  expect_error(reeb({"compute", "p1.names", "-o", "x.reeb"}), 1, "p1.names:0: this is a file of names");
+  expect_error(reeb({"glue", "p1.fragment", "none.fragment", "-o", "x.reeb"}), 1,
+               "none.fragment: there is no such file");
 }
 
 TEST_F(FragmentTest, KeepsEveryVertexOfTheEmbedding) {
@@ -167,6 +253,33 @@ TEST_F(FragmentTest, ReportsTheMemoryOfTheLiveGraphAndOffersNoCommandOnAFragment
   const std::size_t at = report.find(word, report.find("\"live_max\""));
   ASSERT_NE(at, std::string::npos);
   EXPECT_GT(std::stoull(report.substr(at + word.size())), 0u) << report;
+}
+
+// The header, the counts, the open part, and each block of nodes and arcs: a flipped bit in each of them.
+TEST_F(FragmentTest, NamesTheFragmentOfWhichASectionIsDamaged) {
+  make_scan("scan.ply", "6k");
+  const Words names = fragments("scan.ply", 2);
+  const std::string whole = file("p2.fragment");
+  std::vector<std::size_t> sections{0, 9, 17, 25, 33, 40};  // of the header; where the state begins
+  const auto number = [&](std::size_t at) {
+    std::uint64_t value = 0;
+    std::memcpy(&value, whole.data() + at, sizeof value);
+    return static_cast<std::size_t>(value);
+  };
+  const std::size_t state = number(16);
+  for (std::size_t part = 1; part <= 4; ++part) sections.push_back(40 + part * state / 4 - 1);
+  std::size_t blocks = 0;
+  for (std::size_t at = 40 + state; at < whole.size(); at += 32 + number(at + 16), ++blocks)
+    sections.insert(sections.end(), {at, at + 8, at + 16, at + 24, at + 32});
+  ASSERT_GE(blocks, 2u);
+  for (const std::size_t at : sections) {
+    SCOPED_TRACE(at);
+    std::string flipped = whole;
+    flipped[at] = static_cast<char>(flipped[at] ^ 1);
+    write("p2.fragment", flipped);
+    expect_error(reeb({"glue", "p1.fragment", "p2.fragment", "-o", "all.reeb"}), 1, "p2.fragment:");
+    EXPECT_FALSE(std::filesystem::exists(in_folder("all.reeb")));
+  }
 }
 
 // Every length and every byte, in steps.

@@ -1,8 +1,9 @@
 #!/bin/bash
 # reeb-mpi: the same bytes as one process, and what it leaves when a rank fails or is killed.
-# Usage: mpi_test.sh REEB REEB_MPI
+# With REEB_TEST_ALL=1 also of every real mesh.
+# Usage: mpi_test.sh REEB REEB_MPI SOURCE_DIR
 set -eu
-reeb=$1 reeb_mpi=${2:-}
+reeb=$1 reeb_mpi=${2:-} meshes=${REEB_DATA:-${3:-}/../shared/data}/meshes
 if [ ! -x "$reeb_mpi" ] || ! command -v mpirun > /dev/null; then
   echo "skipped: no data: there is no MPI"
   exit 0
@@ -28,39 +29,108 @@ done
 "$reeb" compute random.ply --buckets 0 --denoise 1% -f x -o one.reeb --quiet --force
 mpi 3 random.ply --buckets 0 --denoise 1% -f x -o all.reeb --quiet --force
 expect_same "random order, noise removed"
+"$reeb" generate grid --triangles 20k --width 3000 -o wide.ply > /dev/null
+"$reeb" compute wide.ply --graph-only --buckets 0 -f random:1 -o one.reeb --quiet --force
+mpi 5 wide.ply --graph-only --buckets 0 -f random:1 -o all.reeb --quiet --force --threads 1
+expect_same "long rows"
+
+
+# Several functions; the figures of all ranks.
+"$reeb" compute scan.ply --buckets 0 -f x -f y -o one.reeb --quiet --force
+mpi 3 scan.ply --buckets 0 -f x -f y -o all.reeb --report all.json --quiet
+for f in x y; do cmp "one-$f.reeb" "all-$f.reeb" || fail "several functions: not the bytes of one process"; done
+expect_clean "several functions"
+grep -q '"names_bytes"' all.json || fail "the report has no figures of ranks"
+test "$(grep -c '"share_ms"' all.json)" = 8 || fail "the report has not the figures of each rank: $(cat all.json)"
+
+# A quadrilateral and an edge together have the size of two triangles, by which a rank finds its share.
+{
+  printf 'ply\nformat binary_little_endian 1.0\nelement vertex 6\nproperty float x\nproperty float y\n'
+  printf 'element face 4\nproperty list uchar uchar vertex_indices\nend_header\n'
+  printf '\0\0\0\0\0\0\0\0' && printf '\0\0\0\0\0\0\0\100' && printf '\0\0\0\0\0\0\200\077'
+  printf '\0\0\0\0\0\0\200\100' && printf '\0\0\0\0\0\0\100\100' && printf '\0\0\0\0\0\0\240\100'
+  printf '\3\0\1\2\4\1\2\3\4\2\4\5\3\2\3\5'
+} > odd.ply
+"$reeb" compute odd.ply -f y --buckets 0 -o one.reeb --quiet --force
+for ranks in 1 2 3; do
+  mpi $ranks odd.ply -f y --buckets 0 -o all.reeb --quiet --force --threads 1
+  expect_same "polygons and edges, $ranks ranks"
+done
+
+if [ -n "${REEB_TEST_ALL:-}" ] && [ -d "$meshes" ]; then
+  for mesh in "$meshes"/*.{obj,ply,stl,off,vtk,gz}; do
+    "$reeb" compute "$mesh" --buckets 0 -o one.reeb --quiet --force
+    for ranks in 1 2 3 5 8; do
+      mpi $ranks "$mesh" --buckets 0 -o all.reeb --quiet --force --threads 1
+      expect_same "$mesh, $ranks ranks"
+    done
+  done
+fi
 
 # One text, the exit code, no output.
+expect_failure() {
+  test $code = "$2" || fail "$1: exit code $code: $(cat error.txt)"
+  test "$(grep -c '^reeb-mpi: error: ' error.txt)" = 1 || fail "$1: not one text: $(cat error.txt)"
+  test ! -e none.reeb || fail "$1: there is an output"
+}
 code=0
 mpi 2 nothing.ply -o none.reeb 2> error.txt || code=$?
-test $code = 1 || fail "a missing mesh: exit code $code"
+expect_failure "a missing mesh" 1
 grep -q "reeb-mpi: error: nothing.ply" error.txt || fail "a missing mesh: no error: $(cat error.txt)"
 code=0
-mpi 2 scan.ply -o none.reeb --memory 1M 2> error.txt || code=$?
-test $code = 3 || fail "too little memory: exit code $code"
-test ! -e none.reeb || fail "an output of a run that failed"
-
-# A rank is killed; --resume goes on.
-"$reeb" generate scan --triangles 3M -o scan.ply --force > /dev/null
-"$reeb" compute scan.ply --buckets 0 -o one.reeb --quiet --force
+mpi 3 scan.ply -o none.reeb --memory 1M 2> error.txt || code=$?
+expect_failure "too little memory" 3
+# Only one of the ranks has too little.
 code=0
-REEB_CHECKPOINT_SECONDS=0 mpi 3 scan.ply --buckets 0 -o killed.reeb --quiet --threads 1 2> error.txt &
-run=$!
-victim=
-for _ in $(seq 500); do
-  victim=$(ls -d killed.reeb.rank-1-share.fragment.partial/checkpoint 2> /dev/null || true)
-  if [ -n "$victim" ]; then break; fi
-  sleep 0.02
-done
-pid=$(pgrep -P "$(pgrep -P $run mpirun || echo $run)" reeb-mpi | sed -n 2p || true)
-if [ -n "$pid" ]; then kill -KILL "$pid"; fi
-wait $run || code=$?
-if [ -n "$pid" ]; then
-  test $code != 0 || fail "a killed rank: exit code 0"
+mpirun --oversubscribe -n 2 "$reeb_mpi" compute scan.ply -o none.reeb --quiet : \
+  -n 1 "$reeb_mpi" compute scan.ply -o none.reeb --quiet --memory 1M < /dev/null 2> error.txt || code=$?
+expect_failure "too little memory in one rank" 3
+mpi 3 scan.ply -o none.reeb --quiet --resume
+expect_clean "a run after one that failed"
+
+# A rank is killed, sooner or later; --resume continues, also after a second kill. Another number of ranks begins
+# again, and leaves nothing.
+"$reeb" generate scan --triangles 400k -o scan.ply --force > /dev/null
+"$reeb" compute scan.ply --buckets 0 -o one.reeb --quiet --force
+start() {
+  REEB_CHECKPOINT_SECONDS=0 mpirun --oversubscribe -n 3 "$reeb_mpi" compute scan.ply --buckets 0 -o killed.reeb \
+    --quiet --threads 1 "$@" < /dev/null 2> error.txt &
+  run=$!
+}
+# kill_rank K PATTERN: once a file of this name exists.
+kill_rank() {
+  local file= pid= code=0
+  for _ in $(seq 1000); do
+    file=$(compgen -G "$2" || true)
+    if [ -n "$file" ] || ! kill -0 $run 2> /dev/null; then break; fi
+    sleep 0.01
+  done
+  pid=$(pgrep -P $run -x reeb-mpi | sed -n "$1p" || true)
+  if [ -n "$pid" ]; then kill -KILL "$pid" && killed=$((killed + 1)); fi
+  wait $run || code=$?
   # It may have been whole already.
-  test ! -e killed.reeb || cmp one.reeb killed.reeb || fail "a killed rank: there is an output"
-fi
-mpi 3 scan.ply --buckets 0 -o killed.reeb --quiet --threads 1 --resume --force
+  if [ -e killed.reeb ]; then
+    cmp one.reeb killed.reeb || fail "a killed rank: there is an output"
+    rm killed.reeb
+  elif [ $code = 0 ]; then
+    fail "a killed rank: exit code 0"
+  fi
+}
+killed=0
+start
+kill_rank 2 "killed.reeb.rank-1-share.fragment.partial/checkpoint"
+start --resume
+kill_rank 1 "killed.reeb.rank-2-share.fragment"
+start --resume
+kill_rank 3 "killed.reeb.rank-*-tree.fragment"
+mpi 3 scan.ply --buckets 0 -o killed.reeb --quiet --threads 1 --resume
 mv killed.reeb all.reeb
 expect_same "resumed"
 expect_clean "resumed"
-echo "1 to 8 ranks, failures, ${pid:+a killed rank, }a resumed run: as they should be"
+start --force
+kill_rank 2 "killed.reeb.rank-*-share.fragment"
+mpi 2 scan.ply --buckets 0 -o killed.reeb --quiet --threads 1 --force
+mv killed.reeb all.reeb
+expect_same "after a killed run of more ranks"
+expect_clean "after a killed run of more ranks"
+echo "1 to 8 ranks, failures, $killed killed ranks, resumed runs: as they should be"

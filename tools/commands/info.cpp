@@ -3,12 +3,14 @@
 #include <string>
 
 #include "libreeb/base/memory_budget.h"
+#include "ooc/distributed/fragment_file.h"
 #include "ooc/reeb_file/reeb_file.h"
 #include "tools/arguments/image_options.h"
 #include "tools/arguments/options.h"
 #include "tools/commands/commands.h"
 #include "tools/program/mesh_info.h"
 #include "tools/program/reeb_info.h"
+#include "tools/runs/fragment_info.h"
 
 namespace reeb::tools {
 
@@ -20,8 +22,10 @@ void add_info(Program& app) {
     bool json = false;
   };
   auto options = std::make_shared<Options>();
-  Command command = app.add_command("info", "Describe a mesh or a .reeb file");
-  command.add_option("FILE", options->file, "A .reeb file, or a mesh of any format; - reads a mesh from standard input")
+  Command command = app.add_command("info", "Describe a mesh, a .reeb file or a fragment");
+  command
+      .add_option("FILE", options->file,
+                  "A .reeb file, a fragment, or a mesh of any format; - reads a mesh from standard input")
       .required()
       .type_name("");
   add_format(command, options->format);
@@ -36,6 +40,8 @@ void add_info(Program& app) {
   command.callback([options] {
     if (options->file != "-" && options->format.empty() && ooc::is_reeb_file(options->file))
       print_reeb_info(options->file, options->json);
+    else if (options->file != "-" && options->format.empty() && ooc::is_fragment(options->file))
+      print_fragment_info(options->file, options->json);
     else
       print_mesh_info(options->file, options->format, options->memory_bytes, options->temp_folder, options->json,
                       options->image);

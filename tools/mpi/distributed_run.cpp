@@ -1,7 +1,10 @@
 #include "tools/mpi/distributed_run.h"
 
+#include <sys/resource.h>
+
 #include <algorithm>
-#include <cstdio>
+#include <array>
+#include <bit>
 #include <memory>
 #include <utility>
 
@@ -18,6 +21,7 @@
 #include "tools/library/run_files.h"
 #include "tools/library/run_input.h"
 #include "tools/library/run_options.h"
+#include "tools/mpi/rank_files.h"
 #include "tools/mpi/shared_names.h"
 
 namespace reeb::tools {
@@ -35,17 +39,12 @@ class Message : public StateWriter, public StateReader {
   }
   std::uint64_t left() const override { return bytes_.size() - at_; }
   const std::vector<std::byte>& bytes() const { return bytes_; }
+  void reserve(std::uint64_t bytes) { bytes_.reserve(static_cast<std::size_t>(bytes)); }
 
  private:
   std::vector<std::byte> bytes_;
   std::size_t at_ = 0;
 };
-
-// The files of a rank: what settled in its share, and what settled while it glued.
-std::string rank_file(const std::string& output, std::uint32_t rank, const char* what) {
-  return output + ".rank-" + std::to_string(rank) + "-" + what + ".fragment";
-}
-constexpr const char *kOfShare = "share", *kOfTree = "tree";
 
 void write_settled(const std::string& path, ooc::PartInfo info, ooc::SegmentStore& store, const std::string& temp) {
   OpenPart none;
@@ -62,6 +61,13 @@ ooc::PartInfo united(const ooc::PartInfo& here, const ooc::PartInfo& there) {
   return ooc::united_info({{"", here}, {"", there}});
 }
 
+// More than its message takes: what is stored of a node or an arc is no longer than what is held.
+std::uint64_t message_bytes(const ooc::PartInfo& info, const OpenPart& open) {
+  constexpr std::uint64_t kInfoBytes = 1024;
+  return kInfoBytes + info.function.size() + info.runs.size() * sizeof(PartSpan) + open.live.memory_bytes() +
+         open.live.nodes.size() * sizeof(PartSpan);
+}
+
 struct Glued {
   ooc::PartInfo info;
   std::uint64_t sent_bytes = 0;
@@ -72,7 +78,7 @@ Glued glue_in_tree(World& world, ooc::RunContext& run, ooc::FinishedPart part, c
   const std::uint32_t parts = part.info.mesh.shares.parts;
   Glued glued{part.info, 0};
   OpenPart open = std::move(part.open);
-  Reservation memory = run.budget.reserve("live graph", 0);
+  Reservation memory = run.budget.reserve("live graph", 0), passing = run.budget.reserve("messages", 0);
   ooc::SegmentStore settled(run.temp, run.budget,
                             {.allowance_bytes = run.plan.segment_bytes, .most_bytes = run.plan.most_segment_bytes});
   const std::uint64_t before = world.sent_bytes();
@@ -81,6 +87,8 @@ Glued glue_in_tree(World& world, ooc::RunContext& run, ooc::FinishedPart part, c
     if (!is_last && world.rank() % (2 * step) == 0 && world.rank() + step >= world.size()) continue;
     if (!is_last && world.rank() % (2 * step) != 0) {
       Message message;
+      passing.resize(message_bytes(glued.info, open));
+      message.reserve(passing.bytes());
       ooc::write_info(message, glued.info);
       ooc::write_open_part(message, open);
       world.send(world.rank() - step, message.bytes());
@@ -90,8 +98,9 @@ Glued glue_in_tree(World& world, ooc::RunContext& run, ooc::FinishedPart part, c
     OpenPart other;
     std::vector<PartSpan> other_runs;
     if (!is_last) {
-      Message message(world.receive(world.rank() + step));
+      Message message(world.receive(world.rank() + step, passing));
       const ooc::PartInfo there = ooc::read_info(message);
+      passing.resize(2 * message.bytes().size());
       ooc::read_open_part(message, parts, other);
       other.live.removed_pairs = static_cast<std::size_t>(there.removed_pairs);
       other_runs = there.runs;
@@ -105,6 +114,8 @@ Glued glue_in_tree(World& world, ooc::RunContext& run, ooc::FinishedPart part, c
       memory.resize(std::max<std::uint64_t>(memory.bytes(), glue.memory_bytes_with(other)));
       glue.add(other, other_runs);
     }
+    other = {};
+    passing.resize(0);
     glue.copy_open(open);
     if (!info.sweep().bucket_exponent) open.live.bucket_begin.clear();
     info.removed_pairs = glue.removed_pairs();
@@ -117,6 +128,29 @@ Glued glue_in_tree(World& world, ooc::RunContext& run, ooc::FinishedPart part, c
   return glued;
 }
 
+// Of this process, as the system counts it.
+void add_usage(RankFigures& figures) {
+  struct rusage usage {};
+  getrusage(RUSAGE_SELF, &usage);
+  figures.peak_bytes = static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+  for (const timeval& time : {usage.ru_utime, usage.ru_stime})
+    figures.cpu_ms += static_cast<std::uint64_t>(time.tv_sec) * 1000 + static_cast<std::uint64_t>(time.tv_usec) / 1000;
+}
+
+// At the root: the figures of each rank.
+std::vector<RankFigures> gather(World& world, const RankFigures& own) {
+  constexpr std::size_t kFields = sizeof(RankFigures) / sizeof(std::uint64_t);
+  const auto numbers = std::bit_cast<std::array<std::uint64_t, kFields>>(own);
+  const std::vector<std::uint64_t> all = world.gather(numbers);
+  std::vector<RankFigures> ranks(all.size() / kFields);
+  for (std::size_t r = 0; r < ranks.size(); ++r) {
+    std::array<std::uint64_t, kFields> one{};
+    std::copy_n(all.begin() + static_cast<std::ptrdiff_t>(r * kFields), kFields, one.begin());
+    ranks[r] = std::bit_cast<RankFigures>(one);
+  }
+  return ranks;
+}
+
 // The second stage, at the root.
 ComputeResult finish_at_root(std::uint32_t ranks, const ooc::PartInfo& info, const std::string& output,
                              const ooc::ComputeOptions& options) {
@@ -126,8 +160,8 @@ ComputeResult finish_at_root(std::uint32_t ranks, const ooc::PartInfo& info, con
   none.path = "-";
   ooc::RunContext run(none, functions, std::span(&output, 1), options);
   for (std::uint32_t rank = 0; rank < ranks; ++rank)
-    for (const char* what : {kOfShare, kOfTree})
-      ooc::FragmentFile(rank_file(output, rank, what)).copy_settled(*run.stores[0], run.embeds());
+    for (const RankFile which : {RankFile::kShare, RankFile::kTree})
+      ooc::FragmentFile(rank_file(output, rank, which)).copy_settled(*run.stores[0], run.embeds());
   if (info.range.min <= info.range.max) run.values.set_ranges(std::span(&info.range, 1));
   return ooc::run_second_stage(run, ooc::first_stage_of(info), 0);
 }
@@ -146,9 +180,14 @@ DistributedResult compute_distributed(World& world, const std::string& path, std
   if (options.opened && world.is_root()) options.opened(source.info());
   ooc::MeshInput input = source.take_mesh();
   std::vector<std::string> rank_outputs;
-  for (const std::string& output : outputs) rank_outputs.push_back(rank_file(output, world.rank(), kOfShare));
+  for (const std::string& output : outputs) rank_outputs.push_back(rank_file(output, world.rank(), RankFile::kShare));
+
+  if (world.is_root())
+    for (const std::string& output : outputs) remove_rank_files(output, false);
+  world.wait_for_all();
 
   DistributedResult result;
+  RankFigures figures;
   std::vector<ooc::PartInfo> infos;
   const ooc::Stopwatch watch;
   {
@@ -156,29 +195,35 @@ DistributedResult compute_distributed(World& world, const std::string& path, std
     ooc::WholeMesh mesh = ooc::open_whole_mesh(run, input, world.size());
     const std::uint64_t before = world.sent_bytes();
     ooc::PartUses uses = exchange_names(world, run, mesh);
-    result.names_bytes = world.sent_bytes() - before;
+    figures.names_bytes = world.sent_bytes() - before;
     ooc::PartResult done = ooc::run_part(run, input, mesh, uses, world.rank(), wanted);
-    result.share_seconds = watch.seconds();
+    const ooc::Shares& shares = mesh.info.shares;
+    figures.triangles = shares.end(world.rank()) - shares.begin(world.rank());
+    figures.live_vertices = done.parts[0].info.live.vertices;
+    figures.share_ms = static_cast<std::uint64_t>(1000 * watch.seconds());
     for (std::size_t f = 0; f < outputs.size(); ++f) {
       write_settled(rank_outputs[f], done.parts[f].info, *run.stores[f], run.temp.folder());
       run.stores[f].reset();
-      Glued glued = glue_in_tree(world, run, std::move(done.parts[f]), rank_file(outputs[f], world.rank(), kOfTree));
-      result.tree_bytes += glued.sent_bytes;
+      Glued glued =
+          glue_in_tree(world, run, std::move(done.parts[f]), rank_file(outputs[f], world.rank(), RankFile::kTree));
+      figures.tree_bytes += glued.sent_bytes;
       infos.push_back(std::move(glued.info));
     }
     world.wait_for_all();
     run.resumable.done();
   }
-  result.tree_seconds = watch.seconds() - result.share_seconds;
+  figures.tree_ms = static_cast<std::uint64_t>(1000 * watch.seconds()) - figures.share_ms;
   for (std::size_t f = 0; f < outputs.size(); ++f) {
     if (world.is_root()) {
       ComputeResult written = finish_at_root(world.size(), infos[f], outputs[f], wanted);
       written.seconds.wall += watch.seconds();
       result.results.push_back(std::move(written));
+      remove_rank_files(outputs[f], true);
     }
     world.wait_for_all();
-    for (const char* what : {kOfShare, kOfTree}) std::remove(rank_file(outputs[f], world.rank(), what).c_str());
   }
+  add_usage(figures);
+  result.ranks = gather(world, figures);
   return result;
 }
 

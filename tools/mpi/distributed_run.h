@@ -10,11 +10,20 @@
 
 namespace reeb::tools {
 
+// What a rank did.
+struct RankFigures {
+  std::uint64_t triangles = 0;              // of its share
+  std::uint64_t share_ms = 0, tree_ms = 0;  // on the clock
+  std::uint64_t cpu_ms = 0;                 // of processors, all in all
+  std::uint64_t names_bytes = 0;            // that it sent
+  std::uint64_t tree_bytes = 0;             // that it sent
+  std::uint64_t live_vertices = 0;          // at most
+  std::uint64_t peak_bytes = 0;             // of memory, as the system counts it
+};
+
 struct DistributedResult {
   std::vector<ComputeResult> results;  // at the root: by function
-  double share_seconds = 0, tree_seconds = 0;
-  std::uint64_t names_bytes = 0;  // that this rank sent
-  std::uint64_t tree_bytes = 0;
+  std::vector<RankFigures> ranks;      // at the root
 };
 
 // As compute(); all ranks call it with the same arguments. What settles in a rank goes to files next to the output,

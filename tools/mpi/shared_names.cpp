@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <initializer_list>
 #include <utility>
 #include <vector>
 
+#include "libreeb/base/error.h"
 #include "ooc/distributed/names_file.h"
 
 namespace reeb::tools {
@@ -13,8 +15,18 @@ namespace {
 using Numbers = std::vector<std::uint64_t>;
 using Table = ooc::PagedTable<std::uint32_t>;
 
+// Memory is reserved before it is needed.
+void add(Numbers& numbers, std::initializer_list<std::uint64_t> more, Reservation& memory) {
+  if (numbers.capacity() - numbers.size() < more.size()) {
+    const std::size_t capacity = std::max<std::size_t>(48, 2 * numbers.capacity());
+    memory.resize(memory.bytes() + (capacity - numbers.capacity()) * sizeof(std::uint64_t));
+    numbers.reserve(capacity);
+  }
+  numbers.insert(numbers.end(), more);
+}
+
 // Of each rank: first vertex and count, in turn.
-std::vector<Numbers> runs_by_owner(World& world, ooc::RunContext& run, ooc::WholeMesh& mesh) {
+std::vector<Numbers> runs_by_owner(World& world, ooc::RunContext& run, ooc::WholeMesh& mesh, Reservation& memory) {
   const ooc::Shares& shares = mesh.info.shares;
   const std::uint64_t owned = std::max<std::uint64_t>(1, shares.first_vertex(1));
   std::vector<Numbers> runs(world.size());
@@ -22,12 +34,29 @@ std::vector<Numbers> runs_by_owner(World& world, ooc::RunContext& run, ooc::Whol
     while (count != 0) {
       const auto owner = static_cast<std::uint32_t>(first / owned);
       const std::uint64_t here = std::min(count, shares.first_vertex(owner + 1) - first);
-      runs[owner].insert(runs[owner].end(), {first, here});
+      add(runs[owner], {first, here}, memory);
       first += here;
       count -= here;
     }
   });
   return runs;
+}
+
+// Whether triangles are where sizes tell is known when each rank has read its own.
+std::vector<Numbers> own_runs(World& world, ooc::RunContext& run, ooc::WholeMesh& mesh, Reservation& memory) {
+  if (mesh.by_size) {
+    std::vector<Numbers> runs;
+    bool fits = true;
+    try {
+      runs = runs_by_owner(world, run, mesh, memory);
+    } catch (const Error& error) {
+      if (error.kind() != ErrorKind::kBadInput) throw;
+      fits = false;
+    }
+    if (world.sum(fits ? 0 : 1) == 0) return runs;
+    ooc::count_triangles(run, mesh);
+  }
+  return runs_by_owner(world, run, mesh, memory);
 }
 
 template <class Visit>
@@ -37,7 +66,7 @@ void for_each_vertex(const Numbers& runs, const Visit& visit) {
 }
 
 // Of each rank: first vertex, count and entry, in turn.
-std::vector<Numbers> answers(const std::vector<Numbers>& named, Table& table) {
+std::vector<Numbers> answers(const std::vector<Numbers>& named, Table& table, Reservation& memory) {
   std::vector<Numbers> out(named.size());
   for (std::uint32_t r = 0; r < named.size(); ++r)
     for_each_vertex(named[r], [&](std::uint64_t v) {
@@ -49,7 +78,7 @@ std::vector<Numbers> answers(const std::vector<Numbers>& named, Table& table) {
       if (extends)
         ++runs[runs.size() - 2];
       else
-        runs.insert(runs.end(), {v, 1, entry.packed()});
+        add(runs, {v, 1, entry.packed()}, memory);
     });
   return out;
 }
@@ -57,15 +86,16 @@ std::vector<Numbers> answers(const std::vector<Numbers>& named, Table& table) {
 }  // namespace
 
 ooc::PartUses exchange_names(World& world, ooc::RunContext& run, ooc::WholeMesh& mesh) {
-  const std::vector<Numbers> own = runs_by_owner(world, run, mesh);
+  Reservation memory = run.budget.reserve("messages", 0);
+  const std::vector<Numbers> own = own_runs(world, run, mesh, memory);
   Table table = ooc::empty_uses(run);
-  const std::vector<Numbers> named = world.exchange(own);
+  const std::vector<Numbers> named = world.exchange(own, memory);
   for (std::uint32_t r = 0; r < world.size(); ++r)
     for_each_vertex(named[r], [&](std::uint64_t v) {
       std::uint32_t& entry = table.change(v);
       entry = ooc::PartUses::with_part(ooc::UseEntry(entry), r).packed();
     });
-  const std::vector<Numbers> shared = world.exchange(answers(named, table));
+  const std::vector<Numbers> shared = world.exchange(answers(named, table, memory), memory);
   for (std::uint32_t owner = 0; owner < world.size(); ++owner) {
     if (owner == world.rank()) continue;
     for_each_vertex(own[owner], [&](std::uint64_t v) { table.set(v, ooc::UseEntry(world.rank(), 0).packed()); });

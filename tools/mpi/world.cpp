@@ -1,6 +1,7 @@
 #include "tools/mpi/world.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace reeb::tools {
 namespace {
@@ -39,9 +40,10 @@ void World::send(std::uint32_t to, std::span<const std::byte> bytes) {
              all_);
 }
 
-std::vector<std::byte> World::receive(std::uint32_t from) {
+std::vector<std::byte> World::receive(std::uint32_t from, Reservation& memory) {
   std::uint64_t size = 0;
   MPI_Recv(&size, 1, MPI_UINT64_T, static_cast<int>(from), kTag, all_, MPI_STATUS_IGNORE);
+  memory.resize(memory.bytes() + size);
   std::vector<std::byte> bytes(static_cast<std::size_t>(size));
   for (std::size_t at = 0; at < bytes.size(); at += kMostBytes)
     MPI_Recv(bytes.data() + at, static_cast<int>(std::min(kMostBytes, bytes.size() - at)), MPI_BYTE,
@@ -50,11 +52,14 @@ std::vector<std::byte> World::receive(std::uint32_t from) {
 }
 
 // Most pairs of ranks have nothing to say, so only those that have are sent a message.
-std::vector<std::vector<std::uint64_t>> World::exchange(const std::vector<std::vector<std::uint64_t>>& out) {
+std::vector<std::vector<std::uint64_t>> World::exchange(const std::vector<std::vector<std::uint64_t>>& out,
+                                                        Reservation& memory) {
   constexpr std::size_t kMostNumbers = kMostBytes / sizeof(std::uint64_t);
   std::vector<std::uint64_t> sizes(size_), coming(size_);
   for (std::uint32_t r = 0; r < size_; ++r) sizes[r] = out[r].size();
   MPI_Alltoall(sizes.data(), 1, MPI_UINT64_T, coming.data(), 1, MPI_UINT64_T, all_);
+  memory.resize(memory.bytes() +
+                std::accumulate(coming.begin(), coming.end(), std::uint64_t{0}) * sizeof(std::uint64_t));
   std::vector<std::vector<std::uint64_t>> in(size_);
   std::vector<MPI_Request> requests;
   const auto pieces = [&](std::size_t size, const auto& start) {
@@ -79,15 +84,16 @@ std::vector<std::vector<std::uint64_t>> World::exchange(const std::vector<std::v
   return in;
 }
 
-std::uint64_t World::sum(std::uint64_t value) {
-  std::uint64_t all = 0;
-  MPI_Allreduce(&value, &all, 1, MPI_UINT64_T, MPI_SUM, all_);
+std::vector<std::uint64_t> World::gather(std::span<const std::uint64_t> numbers) {
+  std::vector<std::uint64_t> all(is_root() ? size_ * numbers.size() : 0);
+  const int count = static_cast<int>(numbers.size());
+  MPI_Gather(numbers.data(), count, MPI_UINT64_T, all.data(), count, MPI_UINT64_T, 0, all_);
   return all;
 }
 
-std::uint64_t World::greatest(std::uint64_t value) {
+std::uint64_t World::sum(std::uint64_t value) {
   std::uint64_t all = 0;
-  MPI_Allreduce(&value, &all, 1, MPI_UINT64_T, MPI_MAX, all_);
+  MPI_Allreduce(&value, &all, 1, MPI_UINT64_T, MPI_SUM, all_);
   return all;
 }
 

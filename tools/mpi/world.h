@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "libreeb/base/memory_budget.h"
+
 namespace reeb::tools {
 
 // A communicator of its own, so that no message of others is taken for one of ours.
@@ -28,11 +30,14 @@ class World {
   std::uint32_t ranks_here() const;
 
   void send(std::uint32_t to, std::span<const std::byte> bytes);
-  std::vector<std::byte> receive(std::uint32_t from);
+  // The next two add what they receive to `memory` before they allocate it.
+  std::vector<std::byte> receive(std::uint32_t from, Reservation& memory);
   // Sends out[r] to each rank r, and returns what each has sent.
-  std::vector<std::vector<std::uint64_t>> exchange(const std::vector<std::vector<std::uint64_t>>& out);
+  std::vector<std::vector<std::uint64_t>> exchange(const std::vector<std::vector<std::uint64_t>>& out,
+                                                   Reservation& memory);
+  // At the root: the numbers of each rank, in turn. REQUIRES: all ranks give the same count.
+  std::vector<std::uint64_t> gather(std::span<const std::uint64_t> numbers);
   std::uint64_t sum(std::uint64_t value);
-  std::uint64_t greatest(std::uint64_t value);
   void wait_for_all();
 
   // Bytes sent so far to other ranks.

@@ -7,6 +7,7 @@
 #include "io/formats/format_detection.h"
 #include "io/formats/open_grid.h"
 #include "libreeb/base/error.h"
+#include "ooc/distributed/fragment_file.h"
 #include "ooc/reeb_file/reeb_file.h"
 
 namespace reeb::tools {
@@ -15,6 +16,10 @@ void require_reeb_file(const std::string& path, const std::string& command) {
   if (path == "-")
     throw Error(ErrorKind::kUsage, "a Reeb graph cannot be read from standard input", "name a .reeb file");
   if (ooc::is_reeb_file(path)) return;
+  if (ooc::is_fragment(path))
+    throw Error(ErrorKind::kBadInput, "this is a fragment, not a Reeb graph",
+                "`reeb glue` makes a Reeb graph of the fragments of all parts")
+        .at(path);
   const auto source = io::open_content(path);
   const auto format = io::detect_format(*source, path);
   const auto image = io::detect_image(*source, path);
