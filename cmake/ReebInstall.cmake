@@ -12,6 +12,10 @@ if(REEB_PROGRAM)
     set_target_properties(reeb_program PROPERTIES INSTALL_RPATH "$ORIGIN/${libraries}")
   endif()
   install(TARGETS reeb_program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
+  if(REEB_WEB)
+    install(FILES "${PROJECT_BINARY_DIR}/web/viewer.html" DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/reeb
+      COMPONENT program)
+  endif()
 endif()
 foreach(name IN LISTS reeb_public_headers)
   install(FILES "${PROJECT_BINARY_DIR}/include/reeb/${name}.h" DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/reeb

@@ -22,7 +22,7 @@ function(reeb_web_pages)
       COMMENT "Installing the npm packages of tools/web" VERBATIM)
     file(GLOB parts CONFIGURE_DEPENDS "${source}/*.js" "${source}/*.mjs" "${source}/*.html" "${source}/*.css"
       "${PROJECT_SOURCE_DIR}/tools/viewer/*")
-    add_custom_command(OUTPUT "${pages}"
+    add_custom_command(OUTPUT "${pages}" BYPRODUCTS "${folder}/viewer.html"
       COMMAND "${REEB_NODE}" "${source}/build.mjs" "${folder}" "${pages}"
       DEPENDS "${folder}/packages.stamp" ${parts}
       COMMENT "Making the pages of tools/web" VERBATIM)

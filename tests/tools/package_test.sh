@@ -22,6 +22,9 @@ headers=("$work"/prefix/include/reeb/*.h)
 check "6 to 20 headers, and no other file" test "${#headers[@]}" -ge 6 -a "${#headers[@]}" -le 20 \
   -a "$(find prefix/include -type f | wc -l)" -eq "${#headers[@]}"
 check "the licence is installed" cmp "$source/LICENSE" prefix/share/doc/reeb/LICENSE
+if [[ -e $build/web/viewer.html ]]; then
+  check "the viewer is installed" cmp "$build/web/viewer.html" prefix/share/reeb/viewer.html
+fi
 
 # Alone, twice, without warnings, and with no header that is neither ours nor the compiler's and the system's.
 compile() {

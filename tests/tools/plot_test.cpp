@@ -266,5 +266,19 @@ TEST_F(Plot, OfManyNodesIsAnImage) {
   expect_valid("d.svg");
 }
 
+// A zigzag of edges, in which every vertex is a node. An end is cancelled with the fork next to it, which stays as
+// a minimum, so a level can have an odd number of nodes.
+TEST_F(Plot, OfTooManyNodesIsALevel) {
+  std::string zigzag;
+  for (int i = 0; i < 100'002; ++i) zigzag += "v " + std::to_string(i % 2 == 0 ? i + 2 : i) + "\n";
+  for (int i = 0; i + 1 < 100'002; ++i) zigzag += "s " + std::to_string(i) + " " + std::to_string(i + 1) + "\n";
+  write("zigzag.cx", zigzag);
+  expect_success(reeb({"compute", "zigzag.cx", "-f", "x", "-o", "zigzag.reeb", "--buckets", "0"}));
+  expect_success(reeb({"plot", "zigzag.reeb", "--kind", "graph", "-o", "level.svg"}));
+  EXPECT_EQ(count_of("finest level of at most 100,000 nodes, 99,999 nodes, 99,998 arcs", file("level.svg")), 1u);
+  expect_success(reeb({"plot", "zigzag.reeb", "--kind", "graph", "--threshold", "0", "-o", "all.svg"}));
+  EXPECT_EQ(count_of("level at threshold 0, 100,002 nodes, 100,001 arcs", file("all.svg")), 1u);
+}
+
 }  // namespace
 }  // namespace reeb::test

@@ -1,8 +1,10 @@
 // `reeb report`: what the page says, without a browser. tests/web has what it does in one.
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <regex>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -88,6 +90,59 @@ TEST_F(Report, LevelsAreThoseOfExtract) {
       arcs += records["born"][k] <= version && (records["died"][k].is_null() || records["died"][k] > version);
     EXPECT_EQ(arcs, graph["arcs"].size()) << threshold;
   }
+}
+
+// A funnel whose radius grows evenly from 1 to 3.
+std::string funnel() {
+  constexpr int kRings = 64, kSides = 48;
+  std::string text =
+      "OFF\n" + std::to_string(kRings * kSides) + " " + std::to_string(2 * (kRings - 1) * kSides) + " 0\n";
+  for (int ring = 0; ring < kRings; ++ring)
+    for (int side = 0; side < kSides; ++side) {
+      const double radius = 1 + 2.0 * ring / (kRings - 1), angle = 2 * 3.141592653589793 * side / kSides;
+      text += exact(radius * std::cos(angle)) + " " + exact(radius * std::sin(angle)) + " " +
+              exact(ring + 0.01 * side) + "\n";
+    }
+  for (int ring = 0; ring + 1 < kRings; ++ring)
+    for (int side = 0; side < kSides; ++side) {
+      const int a = ring * kSides + side, b = ring * kSides + (side + 1) % kSides;
+      for (const auto& [p, q, r] : {std::tuple(a, b, b + kSides), std::tuple(a, b + kSides, a + kSides)})
+        text += "3 " + std::to_string(p) + " " + std::to_string(q) + " " + std::to_string(r) + "\n";
+    }
+  return text;
+}
+
+std::vector<int> numbers16(const std::string& base64) {
+  const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::vector<int> bytes, numbers;
+  int bits = 0, value = 0;
+  for (const char digit : base64) {
+    if (digit == '=') break;
+    value = (value << 6 | static_cast<int>(digits.find(digit))) & 0xffff;
+    if ((bits += 6) < 8) continue;
+    bits -= 8;
+    bytes.push_back(value >> bits & 0xff);
+  }
+  for (std::size_t i = 0; i + 1 < bytes.size(); i += 2) numbers.push_back(bytes[i] | bytes[i + 1] << 8);
+  return numbers;
+}
+
+TEST_F(Report, WidthsFollowTheRadius) {
+  const Json arcs = data(report(funnel()))["skeleton"]["arcs"];
+  std::size_t longest = 0, first = 0, at = 0, points = 0;
+  for (std::size_t i = 0; i < arcs["points"].size(); ++i) {
+    const std::size_t here = arcs["points"][i];
+    if (here >= points) {
+      longest = i;
+      first = at;
+      points = here;
+    }
+    at += here + 2;
+  }
+  const std::vector<int> widths = numbers16(arcs["width"]);
+  ASSERT_EQ(widths.size(), at) << longest;
+  EXPECT_NEAR(widths[first], 65535 / 3, 3000);
+  EXPECT_GT(widths[first + points + 1], 60000);
 }
 
 TEST_F(Report, FewNodesMeanCoarserLevels) {

@@ -3,6 +3,7 @@
 //
 //   node reader_test.mjs SOURCE_FOLDER REEB PACKAGES WORK     WORK has scan.reeb
 import { execFileSync } from 'node:child_process'
+import { createRequire } from 'node:module'
 import { readFileSync, writeFileSync } from 'node:fs'
 import { join } from 'node:path'
 import { bundled } from './bundled.mjs'
@@ -166,6 +167,7 @@ async function refusal(bytes) {
     const reader = await open(bytes)
     await reader.readTo(0)
     if (reader.damage) return { text: reader.damage.message, finest: reader.graph.finest }
+    for (let version = reader.graph.finest; version <= Math.min(1, reader.header.steps); ++version) reader.graph.contentOf(version)
     await reader.readPairs()
     return { text: '', finest: reader.graph.finest }
   } catch (error) {
@@ -224,6 +226,68 @@ await refused('another version', (bytes) => (bytes[8] = 9), /version 9/)
 await refused('a huge header', (bytes) => (bytes[20] = 1), /larger than the file/)
 await refused('a wrong checksum', (bytes) => (bytes[60] ^= 1), /checksum/)
 await refused('a damaged frame', (bytes) => (bytes[0x170] ^= 1), /frame is damaged/)
+
+// Each rule, broken in the example, whose checksums are made right again.
+{
+  const { h64Raw } = await createRequire(join(packages, 'package.json'))('xxhash-wasm')()
+  const sign = (bytes, at, ...parts) =>
+    new DataView(bytes.buffer).setBigUint64(at, h64Raw(Uint8Array.from(parts.flatMap(([begin, end]) => [...bytes.subarray(begin, end)]))), true)
+  const broken = (text, edits) =>
+    refused(text, (bytes) => {
+      for (const [at, ...written] of edits) bytes.set(written, at)
+      sign(bytes, 0x121, [0, 0x121])
+      sign(bytes, 0x149, [0x129, 0x149], [0x151, 0x1a1])
+      sign(bytes, 0x1c1, [0x1a1, 0x1c1], [0x1c9, 0x1cf])
+      sign(bytes, 0x1e7, [0x1cf, 0x1e7])
+    }, new RegExp(`^${text}.* \\(at byte `))
+  await broken('the header cannot have this size', [[0x10, 0x50, 0]])
+  await broken('a file of version 2 has no embedding', [[8, 2]])
+  await broken('the header has unknown flags', [[0x0c, 8]])
+  await broken('a graph-only file has levels or pairs', [[0x0c, 1]])
+  await broken('the range of the function is not finite', [[0x26, 0xf0, 0x7f]])
+  await broken('the range of the function is empty', [[0x27, 0xc0]])
+  await broken('a count is 2\\^53 or more', [[0x3f, 1]])
+  await broken('the number of loops is wrong', [[0x50, 2]])
+  await broken('there are too many cancellations', [[0x8c, 255, 255, 255, 255]])
+  await broken('there are no frames', [[0x90, 0, 0, 0, 0, 0]])
+  await broken('there are no levels', [[0x98, 0]])
+  await broken('the name of the function is too long', [[0x9d, 0x11]])
+  await broken('reserved bytes are not 0', [[0xa0, 1]])
+  await broken('the sizes in the header do not add up', [[0x9c, 2]])
+  await broken('a level is out of range', [[0xb1, 2]])
+  await broken('a threshold is no number', [[0xbf, 0xf8, 0x7f]])
+  await broken('the levels are out of order', [[0xf8, 0x40]])
+  await broken('the last level is not the full graph', [[0xb5, 0], [0xed, 0]])
+  await broken('the last level has other counts than the graph', [[0xf9, 5]])
+  await broken('the level table contradicts the frames', [[0xd9, 0xa2]])
+  await broken('there are more nodes or arc records than the header says', [[0x58, 4]])
+  await broken('the graph has other counts than the header says', [[0x58, 6]])
+  await broken('there is no graph frame', [[0x129, 2]])
+  await broken('a frame cannot have this size', [[0x12d, 0x51]])
+  await broken('the file was cut: it ends in a frame', [[0x12d, 0, 255, 255, 0, 0, 255, 255]])
+  await broken('a frame cannot be uncompressed', [[0x131, 0x60]])
+  await broken('a frame has no room for what it says', [[0x139, 255, 255, 255, 127]])
+  await broken('the versions of a frame do not continue those before', [[0x141, 1]])
+  await broken('reserved bytes of a frame are not 0', [[0x145, 1]])
+  await broken('the persistence of a version rises', [[0x160, 0x40]])
+  await broken('version 0 has other counts than its frame says', [[0x162, 4]])
+  await broken('the value of a node is not finite', [[0x17d, 0xf0], [0x181, 0xff]])
+  await broken('a node is not above the one before it', [[0x17f, 0], [0x187, 1]])
+  await broken('a node has a negative vertex', [[0x185, 1]])
+  await broken('an arc dies before version 0', [[0x18f, 0x7f]])
+  await broken('an arc dies after the last version', [[0x18a, 0xfd]])
+  await broken('an arc is not born before it dies', [[0x193, 1]])
+  await broken('an arc names a node that was not introduced', [[0x1a0, 4]])
+  await broken('an arc does not go up', [[0x19d, 0]])
+  await broken('arcs are out of order', [[0x198, 2, 1, 2]])
+  await broken('a pairs frame has records or versions', [[0x1b1, 1]])
+  await broken('a frame has bytes left over', [[0x1ad, 1]])
+  await broken('a pair has an unknown type', [[0x1c9, 6]])
+  await broken('a pair names a node that does not exist', [[0x1cb, 0x10]])
+  await broken('the upper node of a pair is below its lower one', [[0x1cd, 1]])
+  await broken('the number of pairs is not that of the header', [[0x60, 3]])
+  await broken('the file was cut or is damaged: its end is missing', [[0x1d7, 0]])
+}
 
 const files = await generated()
 console.log(failures === 0 ? `ok: ${files} generated files, the example and a scan` : `${failures} failures`)

@@ -10,10 +10,16 @@ trap 'rm -rf "$work"' EXIT
 
 "$reeb" generate scan --triangles 200k -o "$work/scan.ply" >/dev/null
 "$reeb" "$work/scan.ply" --quiet -o "$work/scan.reeb"
+"$reeb" generate torus --triangles 230k -o "$work/many.ply" >/dev/null
+"$reeb" "$work/many.ply" -f random:1 --quiet -o "$work/many.reeb"
 cp "$packages/viewer.html" "$work"
 
+# The reader's test has a folder of its own, and runs beside the others.
 failures=0
-"$node" "$source/tests/web/reader_test.mjs" "$source" "$reeb" "$packages" "$work" || failures=1
+mkdir "$work/reader"
+cp "$work/scan.reeb" "$work/reader"
+"$node" "$source/tests/web/reader_test.mjs" "$source" "$reeb" "$packages" "$work/reader" &
+reader=$!
 "$node" "$source/tests/web/view_server_test.mjs" "$reeb" "$work" || failures=1
 if "$source/tools/install_packages.sh" chromium tidy >/dev/null; then
   if tidy -quiet -errors "$work/viewer.html"; then echo "ok: tidy finds nothing in viewer.html"; else failures=1; fi
@@ -21,4 +27,5 @@ if "$source/tools/install_packages.sh" chromium tidy >/dev/null; then
 else
   echo "skipped: no data: chromium and tidy cannot be installed"
 fi
+wait $reader || failures=1
 exit $failures

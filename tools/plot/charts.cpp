@@ -92,7 +92,10 @@ std::string draw_diagram(const ooc::ReebFile& file, const LevelChoice& choice, c
 }
 
 std::string draw_graph(const ooc::ReebFile& file, const LevelChoice& choice, const std::string& temp_folder) {
-  const ChosenLevel level = choose_level(file, choice);
+  const FileHeader& header = file.header();
+  const bool is_too_large = choice.threshold.empty() && !choice.nodes && header.nodes > kMostNodesUnasked &&
+                            !header.flags.graph_only && header.levels.front().nodes <= kMostNodesUnasked;
+  const ChosenLevel level = choose_level(file, is_too_large ? LevelChoice{{}, kMostNodesUnasked} : choice);
   const ReebGraph graph = file.load_graph(level.version);
   const io::Heading heading{graph_name(file) + ", f = " + file.header().function + ": Reeb graph",
                             level.text + ", " + counts_text(graph)};

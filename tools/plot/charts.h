@@ -20,6 +20,8 @@ std::string draw_diagram(const ooc::ReebFile& file, const LevelChoice& choice, c
 
 // Laid out by value: by dot up to kMostNodesOfDot nodes.
 inline constexpr std::size_t kMostNodesOfDot = 400;
+// Without a choice, a graph of more nodes is drawn at a level with at most these: a picture shows no more.
+inline constexpr std::uint64_t kMostNodesUnasked = 100'000;
 std::string draw_graph(const ooc::ReebFile& file, const LevelChoice& choice, const std::string& temp_folder);
 
 // "35 nodes, 37 arcs, 3 loops".

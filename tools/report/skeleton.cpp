@@ -24,6 +24,7 @@ constexpr double kFirstTolerance = 1.0 / 2000;  // of the box
 struct Stop {
   Point position{};
   double value = 0;
+  double radius = 0;  // of the contour; 0 where the file has none
 };
 
 struct Record {
@@ -43,14 +44,20 @@ std::vector<Stop> full_line(const SettledNode& lo, const SettledNode& hi, std::s
   if (positions && !buckets.empty()) {
     std::vector<Point> points;
     io::draw_arc(lo.position, buckets, hi.position, points);
+    std::vector<double> radii(points.size(), 0);
+    const auto in_buckets = [&](double value) { return std::ldexp(value, -header.bucket_exponent); };
+    if (header.flags.has_spreads)
+      io::find_line_radii(in_buckets(lo.key.value), buckets, in_buckets(hi.key.value), radii);
     std::size_t next = 0;
     for (const Bucket& bucket : buckets)
       if (bucket.count != 0) {
         const double middle = std::ldexp(static_cast<double>(bucket.index) + 0.5, header.bucket_exponent);
-        line.push_back({points[next++], std::clamp(middle, lo.key.value, hi.key.value)});
+        line.push_back({points[next], std::clamp(middle, lo.key.value, hi.key.value), radii[next]});
+        ++next;
       }
   }
-  line.push_back({place_of(hi, positions), hi.key.value});
+  line.push_back({place_of(hi, positions), hi.key.value, line.back().radius});
+  if (line.size() > 1) line.front().radius = line[1].radius;
   return line;
 }
 
@@ -152,6 +159,17 @@ void simplify_all(std::vector<Record>& records, double size) {
   for (Record& record : records) simplify(record.line, std::numeric_limits<double>::infinity());
 }
 
+// The radius that few points exceed: a few large contours, as of the faces of a box, do not make all lines thin.
+double widest_radius(const std::vector<Record>& records) {
+  std::vector<double> radii;
+  for (const Record& record : records)
+    for (const Stop& stop : record.line) radii.push_back(stop.radius);
+  if (radii.empty()) return 0;
+  const auto large = radii.begin() + static_cast<std::ptrdiff_t>((radii.size() - 1) * 97 / 100);
+  std::nth_element(radii.begin(), large, radii.end());
+  return *large;
+}
+
 Json nodes_json(const std::vector<SettledNode>& nodes, const Box& box, bool positions) {
   Json vertices = Json::array(), values = Json::array();
   std::vector<std::uint16_t> places;
@@ -166,7 +184,8 @@ Json nodes_json(const std::vector<SettledNode>& nodes, const Box& box, bool posi
 
 Json arcs_json(const std::vector<Record>& records, const Box& box, double least, double range) {
   Json lo = Json::array(), hi = Json::array(), born = Json::array(), died = Json::array(), points = Json::array();
-  std::vector<std::uint16_t> line;
+  std::vector<std::uint16_t> line, widths;
+  const double widest = widest_radius(records);
   for (const auto& [arc, stops] : records) {
     lo.push_back(arc.lo);
     hi.push_back(arc.hi);
@@ -177,9 +196,10 @@ Json arcs_json(const std::vector<Record>& records, const Box& box, double least,
       for (std::size_t k = 0; k < 3; ++k) line.push_back(in_65535ths(stops[i].position[k], box.min[k], box.size));
       line.push_back(in_65535ths(stops[i].value, least, range));
     }
+    for (const Stop& stop : stops) widths.push_back(in_65535ths(stop.radius, 0, widest));
   }
-  return {{"lo", std::move(lo)},     {"hi", std::move(hi)},         {"born", std::move(born)},
-          {"died", std::move(died)}, {"points", std::move(points)}, {"line", base64(line)}};
+  return {{"lo", std::move(lo)},         {"hi", std::move(hi)},  {"born", std::move(born)}, {"died", std::move(died)},
+          {"points", std::move(points)}, {"line", base64(line)}, {"width", base64(widths)}};
 }
 
 // A version is a level if the next cancellation is larger, since no threshold divides equal ones.

@@ -75,6 +75,7 @@ export function readHeader(bytes: Uint8Array, digest: Digest): Header {
   const fileVersion = cursor.u32()
   const flags = cursor.u32()
   rule(flags < 8, 'the header has unknown flags', 12)
+  rule(fileVersion === 1 || (flags & 4) !== 0, 'a file of version 2 has no embedding', 8)
   const header: Header = {
     fileVersion,
     graphOnly: (flags & 1) !== 0,

@@ -4,7 +4,7 @@ import { kNever } from './frame'
 import type { FrameHeader, GraphFrame } from './frame'
 import type { Header } from './header'
 
-type Numbers = Float64Array | Uint32Array
+type Numbers = Float64Array<ArrayBufferLike> | Uint32Array<ArrayBufferLike>
 
 // A list of numbers that grows, a quarter more than needed.
 class Column<T extends Numbers> {
@@ -24,8 +24,8 @@ class Column<T extends Numbers> {
   }
 }
 
-const floats = () => new Column(new Float64Array(0))
-const integers = () => new Column(new Uint32Array(0))
+const floats = () => new Column<Float64Array>(new Float64Array(0))
+const integers = () => new Column<Uint32Array>(new Uint32Array(0))
 
 // A version: its arcs in the order of the file, and how many arcs go down and up from each node.
 export interface VersionContent {

@@ -6,6 +6,7 @@ import {
 } from 'three'
 import type { Camera } from '../web/camera.js'
 import { css, kindColors, valueColors } from '../web/colors.js'
+import { makeShape } from './shapes'
 import type { Shape } from './shapes'
 
 export type Coloring = 'value' | 'arc' | 'type'
@@ -128,6 +129,11 @@ export class Picture {
     this.element = this.renderer.domElement
     place.append(this.element)
     this.recolor()
+    // Shaders are compiled now, while the first bytes of a file are on their way.
+    this.setShape(makeShape(new Float32Array(3), 1))
+    this.choose(0, [0])
+    this.renderer.compile(this.scene, this.camera)
+    this.choose(kNoArc, [])
   }
 
   recolor() {
@@ -171,7 +177,7 @@ export class Picture {
     this.version = version
     this.lineMaterial.uniforms.version.value = version
     if (!this.shape || !this.points || !this.lines) return
-    this.kinds.set(kinds)
+    this.kinds.set(kinds.subarray(0, this.kinds.length)) // more nodes can have been read than the shape has
     this.points.geometry.attributes.kind.needsUpdate = true
     if (!types) return
     const attribute = this.lines.geometry.attributes.type
@@ -221,30 +227,36 @@ export class Picture {
     const { shape } = this
     if (!shape) return {}
     const [width, height] = this.size
-    const { right, up } = camera.axes()
-    const [tx, ty, tz] = camera.target
     const scale = (Math.min(width, height) / 2.4) * camera.zoom
-    const xOf = (p: Float32Array, i: number) =>
-      width / 2 + scale * ((p[i] - tx) * right[0] + (p[i + 1] - ty) * right[1] + (p[i + 2] - tz) * right[2])
-    const yOf = (p: Float32Array, i: number) =>
-      height / 2 - scale * ((p[i] - tx) * up[0] + (p[i + 1] - ty) * up[1] + (p[i + 2] - tz) * up[2])
-    let least = reach + 3
+    const { right, up } = camera.axes()
+    const [rx, ry, rz] = right.map((x) => x * scale)
+    const [ux, uy, uz] = up.map((x) => -x * scale)
+    // Relative to the place.
+    const [tx, ty, tz] = camera.target
+    const x0 = width / 2 - px - (tx * rx + ty * ry + tz * rz)
+    const y0 = height / 2 - py - (tx * ux + ty * uy + tz * uz)
+    const xOf = (p: Float32Array, i: number) => x0 + p[i] * rx + p[i + 1] * ry + p[i + 2] * rz
+    const yOf = (p: Float32Array, i: number) => y0 + p[i] * ux + p[i + 1] * uy + p[i + 2] * uz
+    const { nodes, start, end, life, arc } = shape
+    let least = (reach + 3) ** 2
     let found: Found = {}
     for (let i = 0; i < this.kinds.length; ++i) {
       if (this.kinds[i] === 0) continue
-      const distance = Math.hypot(xOf(shape.nodes, 3 * i) - px, yOf(shape.nodes, 3 * i) - py)
+      const [x, y] = [xOf(nodes, 3 * i), yOf(nodes, 3 * i)]
+      const distance = x * x + y * y
       if (distance < least) [least, found] = [distance, { node: i }]
     }
     if (found.node !== undefined) return found
-    least = reach
-    for (let i = 0; i < shape.arc.length; ++i) {
-      if (this.version < shape.life[2 * i] || this.version >= shape.life[2 * i + 1]) continue
-      const [ax, ay] = [xOf(shape.start, 3 * i), yOf(shape.start, 3 * i)]
-      const [dx, dy] = [xOf(shape.end, 3 * i) - ax, yOf(shape.end, 3 * i) - ay]
+    least = reach ** 2
+    for (let i = 0; i < arc.length; ++i) {
+      if (this.version < life[2 * i] || this.version >= life[2 * i + 1]) continue
+      const [ax, ay] = [xOf(start, 3 * i), yOf(start, 3 * i)]
+      const [dx, dy] = [xOf(end, 3 * i) - ax, yOf(end, 3 * i) - ay]
       const length = dx * dx + dy * dy
-      const t = length > 0 ? Math.min(1, Math.max(0, ((px - ax) * dx + (py - ay) * dy) / length)) : 0
-      const distance = Math.hypot(ax + t * dx - px, ay + t * dy - py)
-      if (distance < least) [least, found] = [distance, { arc: shape.arc[i] }]
+      const t = length > 0 ? Math.min(1, Math.max(0, -(ax * dx + ay * dy) / length)) : 0
+      const [x, y] = [ax + t * dx, ay + t * dy]
+      const distance = x * x + y * y
+      if (distance < least) [least, found] = [distance, { arc: arc[i] }]
     }
     return found
   }

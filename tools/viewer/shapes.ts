@@ -1,5 +1,8 @@
 // Where nodes and arcs are drawn: in the shape of the mesh, and laid out by value. Both fill the cube from -1 to 1.
+// Shapes take long where there are many arcs, so they are made step by step.
 import type { LoadedGraph, VersionContent } from './loaded_graph'
+
+const kStep = 2048 // nodes or arcs
 
 // Segments of all arcs that were read; which of them are drawn depends on the version.
 export interface Shape {
@@ -39,7 +42,8 @@ function partOf(graph: LoadedGraph): (value: number) => number {
   return (value) => (max > min ? (value - min) / (max - min) : 0.5)
 }
 
-function makeShape(graph: LoadedGraph, nodes: Float32Array, segments: number): Shape {
+// All zeros.
+export function makeShape(nodes: Float32Array, segments: number): Shape {
   return {
     nodes,
     start: new Float32Array(3 * segments),
@@ -51,17 +55,19 @@ function makeShape(graph: LoadedGraph, nodes: Float32Array, segments: number): S
 }
 
 // Through the means of the buckets of each arc.
-export function skeletonShape(graph: LoadedGraph, { middle, scale }: Frame): Shape {
+export function* skeletonShape(graph: LoadedGraph, { middle, scale }: Frame): Generator<void, Shape> {
   const nodes = new Float32Array(3 * graph.nodes)
   for (let i = 0; i < nodes.length; ++i) nodes[i] = (graph.position[i] - middle[i % 3]) * scale
   const { lo, hi, value, firstBucket, bucketMean, bucketIndex, born, died } = graph
   const part = partOf(graph)
   const width = 2 ** graph.header.bucketExponent
-  const shape = makeShape(graph, nodes, graph.records + graph.buckets)
+  const shape = makeShape(nodes, graph.records + graph.buckets)
+  const records = graph.records // more may be read meanwhile
   let at = 0
   const point = [0, 0, 0, 0]
   const before = [0, 0, 0, 0]
-  for (let arc = 0; arc < graph.records; ++arc) {
+  for (let arc = 0; arc < records; ++arc) {
+    if (arc % kStep === 0) yield
     const [low, high] = [part(value[lo[arc]]), part(value[hi[arc]])]
     const [first, last] = [firstBucket[arc], firstBucket[arc + 1]]
     for (let k = 0; k < 3; ++k) before[k] = nodes[3 * lo[arc] + k]
@@ -91,29 +97,33 @@ function put(shape: Shape, at: number, from: number[], to: number[], arc: number
 
 // A place from 0 to 1 across for each node of a version, NaN for others: the ends of a spanning tree one after the
 // other, every other node in the middle of what follows it in the tree.
-export function acrossOf(graph: LoadedGraph, content: VersionContent): Float64Array {
-  const { nodes, lo, hi } = graph
+function* acrossOf(graph: LoadedGraph, content: VersionContent): Generator<void, Float64Array> {
+  const { lo, hi, records } = graph
+  const nodes = content.down.length
   const degree = new Uint32Array(nodes + 1)
   for (let i = 0; i < nodes; ++i) degree[i + 1] = degree[i] + content.down[i] + content.up[i]
   const fill = degree.slice()
   const others = new Uint32Array(degree[nodes])
-  for (let arc = 0; arc < graph.records; ++arc) {
+  for (let arc = 0; arc < records; ++arc) {
+    if (arc % kStep === 0) yield
     if (!graph.isIn(arc, content.version)) continue
     others[fill[lo[arc]]++] = hi[arc]
     others[fill[hi[arc]]++] = lo[arc]
   }
   const across = new Float64Array(nodes).fill(NaN)
-  const order = [...Array(nodes).keys()].filter(content.isIn).sort((a, b) => graph.value[a] - graph.value[b])
+  const order = yield* upwards(graph, content)
   const seen = new Uint8Array(nodes)
   const sum = new Float64Array(nodes)
   const children = new Uint32Array(nodes)
   let places = 0
+  let steps = 0
   for (const root of order) {
     if (seen[root]) continue
     seen[root] = 1
     const path = [root]
     const next = [degree[root]]
     while (path.length > 0) {
+      if (++steps % kStep === 0) yield
       const node = path[path.length - 1]
       let at = next[next.length - 1]
       while (at < degree[node + 1] && seen[others[at]]) ++at
@@ -137,22 +147,48 @@ export function acrossOf(graph: LoadedGraph, content: VersionContent): Float64Ar
   return across
 }
 
-// By value upwards. Nodes that `across` does not place are where `spare` has them.
-export function flatShape(graph: LoadedGraph, across: Float64Array, spare: Float64Array): Shape {
-  const { lo, hi, value, born, died } = graph
+// The nodes of a version by their values; the order of those within 1/4096 of the range does not matter.
+function* upwards(graph: LoadedGraph, content: VersionContent): Generator<void, Uint32Array> {
+  const kBins = 4096
   const part = partOf(graph)
-  const nodes = new Float32Array(3 * graph.nodes)
-  for (let i = 0; i < graph.nodes; ++i) {
+  const nodes = content.down.length
+  const bin = new Uint16Array(nodes)
+  const first = new Uint32Array(kBins + 1)
+  for (let i = 0; i < nodes; ++i) {
+    if (i % kStep === 0) yield
+    bin[i] = Math.min(kBins - 1, Math.floor(part(graph.value[i]) * kBins))
+    if (content.isIn(i)) ++first[bin[i] + 1]
+  }
+  for (let k = 0; k < kBins; ++k) first[k + 1] += first[k]
+  const order = new Uint32Array(content.nodes)
+  for (let i = 0; i < nodes; ++i) {
+    if (i % kStep === 0) yield
+    if (content.isIn(i)) order[first[bin[i]]++] = i
+  }
+  return order
+}
+
+// By value upwards. The nodes of `content` spread over the whole picture; others are where they are in `finest`.
+export function* flatShape(graph: LoadedGraph, content: VersionContent, finest: VersionContent): Generator<void, Shape> {
+  const { lo, hi, value, born, died, records } = graph
+  const count = content.down.length
+  const part = partOf(graph)
+  const spare = yield* acrossOf(graph, finest)
+  const across = finest === content ? spare : yield* acrossOf(graph, content)
+  const nodes = new Float32Array(3 * count)
+  for (let i = 0; i < count; ++i) {
+    if (i % kStep === 0) yield
     const x = Number.isNaN(across[i]) ? spare[i] : across[i]
     nodes[3 * i] = Number.isNaN(x) ? 0 : 2 * x - 1
     nodes[3 * i + 1] = 2 * part(value[i]) - 1
   }
   // Arcs between the same nodes bend, so that each is seen.
-  const shape = makeShape(graph, nodes, 2 * graph.records)
+  const shape = makeShape(nodes, 2 * records)
   const same = new Map<number, number>()
-  for (let arc = 0; arc < graph.records; ++arc) {
+  for (let arc = 0; arc < records; ++arc) {
+    if (arc % kStep === 0) yield
     const [a, b] = [3 * lo[arc], 3 * hi[arc]]
-    const key = lo[arc] * graph.nodes + hi[arc]
+    const key = lo[arc] * count + hi[arc]
     const rank = same.get(key) ?? 0
     same.set(key, rank + 1)
     const [low, high] = [part(value[lo[arc]]), part(value[hi[arc]])]

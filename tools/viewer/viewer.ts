@@ -10,8 +10,9 @@ import type { VersionContent } from './loaded_graph'
 import { kColorings, kKinds, kNoArc, Picture } from './picture'
 import type { Coloring, Found } from './picture'
 import { Session } from './session'
-import { acrossOf, flatShape, frameOf, shapeBytes, skeletonShape } from './shapes'
-import type { Frame } from './shapes'
+import { flatShape, frameOf, shapeBytes, skeletonShape } from './shapes'
+import type { Frame, Shape } from './shapes'
+import { atOnce, inSlices } from './slices'
 import { BlobSource, HttpSource, SourceError } from './source'
 import type { Source } from './source'
 import { readState, writeState } from './url_state'
@@ -47,13 +48,16 @@ interface View {
 let session: Session | null = null
 let content: VersionContent | null = null
 let box: Frame | null = null
-let shapeRecords = -1
-let shapesBytes = 0
+let shapeRecords = -1 // of the pictures, also while they are being made
+let drawnRecords = -1 // of the pictures that are there
+let spaceBytes = 0
+let flatBytes = 0
 let marks: { mark: Mark; lo: number; hi: number }[] = []
 let choice: Choice | null = null
 let space: View | null = null
 let flat: View | null = null
 let layoutTimer = 0
+let stopShapes = () => {}
 let pairsAt = -1
 let opened = performance.now()
 
@@ -88,9 +92,10 @@ const placeOf = (threshold: number) =>
 
 async function open(source: Source) {
   session?.close()
+  stopShapes()
   session = null
   content = box = choice = null
-  shapeRecords = pairsAt = -1
+  shapeRecords = drawnRecords = pairsAt = -1
   marks = []
   element('figures').replaceChildren()
   element('plots-message').textContent = element('chosen').textContent = ''
@@ -103,7 +108,10 @@ async function open(source: Source) {
   const again = () => void (source instanceof HttpSource ? openUrl(element<HTMLInputElement>('url').value) : open(source))
   try {
     const state = readState()
-    const made = await Session.open(source, state.budget ?? kDefaultBudget)
+    const opening = Session.open(source, state.budget ?? kDefaultBudget)
+    opening.catch(() => {}) // is waited for below
+    makeViews()
+    const made = await opening
     session = made
     const { header } = made.reader
     element('subtitle').textContent =
@@ -113,26 +121,29 @@ async function open(source: Source) {
     element('scale-min').textContent = shortNumber(header.min)
     element('scale-max').textContent = shortNumber(header.max)
     element<HTMLDetailsElement>('open').open = false
-    const legible = header.levels.filter(({ nodes, version }, i) => i === 0 || nodes <= kLegibleNodes).pop()!
+    const legible = header.levels.filter(({ nodes }, i) => i === 0 || nodes <= kLegibleNodes).pop()!
     // First what one frame has, whatever it is.
     made.wanted = Infinity
     await made.want(Infinity, () => {})
+    performance.mark('reeb-bytes')
     if (session !== made) return
     if (made.reader.graph.finest > header.steps) {
       if (made.reader.damage) throw made.reader.damage
       throw new FormatError('the file has no complete version', made.source.size)
     }
     element('view').hidden = false
-    makeViews()
-    showLevels()
+    space?.camera.setUp(upOf(header.name))
     coloringInput.value = state.coloring ?? 'value'
     setColoring()
-    refresh()
+    refresh(state.threshold ?? legible.threshold)
     fit()
-    drawn.dataset.first = String(Math.round(performance.now() - opened))
-    setThreshold(state.threshold ?? legible.threshold)
     if (state.camera && space) Object.assign(space.camera, state.camera)
-    redraw()
+    await picture()
+    performance.mark('reeb-picture')
+    drawn.dataset.first = String(Math.round(performance.now() - opened))
+    if (session !== made) return
+    showLevels()
+    setThreshold(state.threshold ?? legible.threshold)
     await readPairs()
     if (state.chosen) chooseVertices(state.chosen)
   } catch (error) {
@@ -180,14 +191,16 @@ function makeViews() {
     return made
   }
   try {
-    const up = ['x', 'y', 'z'].indexOf(session!.reader.header.name)
-    space = view('space', new Camera(up < 0 ? 2 : up))
+    space = view('space', new Camera())
     flat = view('flat', new FlatCamera())
   } catch {
     space = flat = null
     say(new Error('This browser has no WebGL, so there are no pictures of the graph. Plots and levels work.'))
   }
 }
+
+// The axis that points upwards.
+const upOf = (name: string) => (['x', 'y', 'z'].includes(name) ? ['x', 'y', 'z'].indexOf(name) : 2)
 
 const views = () => [space, flat].filter((view) => view !== null)
 
@@ -197,8 +210,8 @@ const placeIn = ({ place }: View, event: PointerEvent) => {
 }
 
 // Shows the version of the wanted threshold, as far as it was read.
-function refresh() {
-  const { reader, wanted } = session!
+function refresh(wanted = session!.wanted) {
+  const { reader } = session!
   const { graph, header } = reader
   if (graph.finest > header.steps) return
   const version = graph.versionAt(wanted)
@@ -209,41 +222,79 @@ function refresh() {
   } catch (error) {
     return say(error)
   }
-  if (grown) {
-    shapeRecords = graph.records
-    box ??= frameOf(graph)
-    if (header.positions && space) {
-      const shape = skeletonShape(graph, box)
-      shapesBytes = shapeBytes(shape)
-      space.picture.setShape(shape)
-    }
-    layout()
-  } else {
+  if (!grown) {
     clearTimeout(layoutTimer)
-    layoutTimer = window.setTimeout(() => {
-      layout()
-      showContent()
-    }, kLayoutMilliseconds)
+    layoutTimer = window.setTimeout(layout, kLayoutMilliseconds)
+    return showContent()
   }
-  showContent()
+  const isFirst = shapeRecords < 0
+  shapeRecords = graph.records
+  box ??= frameOf(graph)
+  if (!space || !flat) return showContent()
+  stopShapes()
+  if (isFirst) {
+    showShapes(atOnce(shapesOf(content)))
+    return showContent()
+  }
+  // The pictures stay as they are until those of more arcs are made.
+  stopShapes = inSlices(shapesOf(content), (shapes) => {
+    showShapes(shapes)
+    refresh()
+    showContent()
+  })
+  showCounts()
+}
+
+interface Shapes {
+  space: Shape | null
+  flat: Shape
+}
+
+function* shapesOf(shown: VersionContent): Generator<void, Shapes> {
+  const { graph, header } = session!.reader
+  const finest = shown.version === graph.finestOffered ? shown : graph.contentOf(graph.finestOffered)
+  return {
+    space: header.positions ? yield* skeletonShape(graph, box!) : null,
+    flat: yield* flatShape(graph, shown, finest),
+  }
+}
+
+function showShapes(shapes: Shapes) {
+  drawnRecords = shapeRecords
+  if (shapes.space) {
+    spaceBytes = shapeBytes(shapes.space)
+    space!.picture.setShape(shapes.space)
+  }
+  showFlat(shapes.flat)
+}
+
+function showFlat(shape: Shape) {
+  flatBytes = shapeBytes(shape)
+  flat!.picture.setShape(shape)
 }
 
 // The nodes of the version that is shown spread over the whole picture.
 function layout() {
   if (!flat || !content || !session) return
   const { graph } = session.reader
+  if (drawnRecords !== shapeRecords) return // others are being made
   const finest = content.version === graph.finestOffered ? content : graph.contentOf(graph.finestOffered)
-  const spare = acrossOf(graph, finest)
-  const across = finest === content ? spare : acrossOf(graph, content)
-  flat.picture.setShape(flatShape(graph, across, spare))
+  stopShapes()
+  stopShapes = inSlices(flatShape(graph, content, finest), (shape) => {
+    showFlat(shape)
+    showContent()
+  })
 }
 
-function kindsOf({ up, down, isIn }: VersionContent): Uint8Array {
-  const kinds = new Uint8Array(up.length)
-  for (let i = 0; i < kinds.length; ++i) {
-    if (up[i] + down[i] === 0) kinds[i] = isIn(i) ? 4 : 0
-    else kinds[i] = down[i] === 0 ? 1 : up[i] === 0 ? 2 : 3
-  }
+// As in kKinds.
+function kindOf({ up, down, isIn }: VersionContent, node: number): number {
+  if (up[node] + down[node] === 0) return isIn(node) ? 4 : 0
+  return down[node] === 0 ? 1 : up[node] === 0 ? 2 : 3
+}
+
+function kindsOf(version: VersionContent): Uint8Array {
+  const kinds = new Uint8Array(version.up.length)
+  for (let i = 0; i < kinds.length; ++i) kinds[i] = kindOf(version, i)
   return kinds
 }
 
@@ -295,7 +346,7 @@ function showCounts() {
   })
   slider.setAttribute('aria-valuetext', `${Number(percent.toPrecision(3))} per cent of the range: ${texts}`)
   for (const { place } of views()) place.setAttribute('aria-label', `${place.id === 'space' ? 'The skeleton in space' : 'The graph by value'}: ${texts}`)
-  const memory = graph.memoryBytes + shapesBytes
+  const memory = graph.memoryBytes + spaceBytes + flatBytes
   let text =
     `${bytesText(source.loaded)} read, of a file of ${bytesText(source.size)}; ${graph.records.toLocaleString('en')} of ` +
     `${header.records.toLocaleString('en')} arcs, at most ${budget.toLocaleString('en')}; ${bytesText(memory)} of memory.`
@@ -365,6 +416,13 @@ function* nodePlaces() {
     yield [0, 1, 2].map((k) => (graph.position[3 * i + k] - box!.middle[k]) * box!.scale)
 }
 
+// After the next frame is drawn; a page that is hidden draws none.
+const picture = () =>
+  new Promise<void>((done) => {
+    requestAnimationFrame(() => done())
+    setTimeout(done, 200)
+  })
+
 let waiting = 0
 function redraw() {
   if (waiting) return
@@ -386,10 +444,15 @@ function found(view: View, at: number[]): Found {
   return view.picture.find(view.camera, at)
 }
 
+// A frame that waits is never cancelled: where frames are slow, a moving pointer would put it off for ever.
 let hovering = 0
-function hover(view: View, at: number[] | null) {
-  cancelAnimationFrame(hovering)
+let pointer: { view: View; at: number[] | null } | null = null
+function hover(hovered: View, place: number[] | null) {
+  pointer = { view: hovered, at: place }
+  if (hovering) return
   hovering = requestAnimationFrame(() => {
+    hovering = 0
+    const { view, at } = pointer!
     const seen = at && session ? found(view, at) : {}
     tooltip.hidden = seen.node === undefined && seen.arc === undefined
     if (tooltip.hidden || !at) return
@@ -405,7 +468,7 @@ function describe({ node, arc }: Found): string {
   const { graph, header } = session!.reader
   if (node !== undefined) {
     const names = { none: '', min: 'Minimum', max: 'Maximum', saddle: 'Saddle', isolated: 'Isolated point' }
-    const kind = names[kKinds[kindsOf(content!)[node]]]
+    const kind = names[kKinds[kindOf(content!, node)]]
     return `${kind} at vertex ${graph.vertex[node]}\nvalue ${shortNumber(graph.value[node])}\n${content!.down[node]} down, ${content!.up[node]} up`
   }
   const [lo, hi] = [graph.lo[arc!], graph.hi[arc!]]
@@ -522,7 +585,7 @@ function saveState() {
   clearTimeout(saving)
   saving = window.setTimeout(() => {
     if (!session || !space) return
-    const { turn, tilt, zoom, target } = space.camera
+    const { turn = 0, tilt = 0, zoom, target } = space.camera
     writeState({
       threshold: Number.isFinite(session.wanted) ? session.wanted : undefined,
       coloring: coloringInput.value,

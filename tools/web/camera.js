@@ -3,8 +3,12 @@
 export class Camera {
   // `up`: the axis that points upwards, 0 to 2.
   constructor(up = 2) {
-    this.order = [(up + 1) % 3, (up + 2) % 3, up]
+    this.setUp(up)
     this.reset()
+  }
+
+  setUp(axis) {
+    this.order = [(axis + 1) % 3, (axis + 2) % 3, axis]
   }
 
   // From the side, or along an axis.
@@ -82,7 +86,7 @@ export class Camera {
 
 // Connects the camera with an element. `changed` is called after each move, `hovered` with the place of the pointer in
 // the element, or null, `reset` for the first view.
-export function control(element, camera, { changed, hovered = () => {}, reset }) {
+export function control(element, camera, { changed, hovered = (_place) => {}, reset }) {
   const pointers = new Map()
   let spread = 0
   element.addEventListener('pointerdown', (event) => {

@@ -32,20 +32,23 @@ export class SvgPicture {
     // Neighbours of nearly equal colour are one path, and what is far is drawn first.
     const paths = []
     for (const arc of this.content.arcs) {
-      const line = this.skeleton.line(arc).map(({ at, value }) => ({ at: project(at), value }))
+      const line = this.skeleton.line(arc).map(({ at, value, width }) => ({ at: project(at), value, width }))
       for (let i = 0; i + 1 < line.length; ) {
         let text = `M${number(line[i].at[0])} ${number(line[i].at[1])}`
         const begin = i
         do {
           ++i
           text += `L${number(line[i].at[0])} ${number(line[i].at[1])}`
-        } while (i + 1 < line.length && Math.abs(line[i].value - line[begin].value) < 0.04)
+        } while (
+          i + 1 < line.length && Math.abs(line[i].value - line[begin].value) < 0.04 && Math.abs(line[i].width - line[begin].width) < 0.5
+        )
         const value = (line[begin].value + line[i].value) / 2
-        paths.push({ depth: (line[begin].at[2] + line[i].at[2]) / 2, text, color: rgb(this.color(value)) })
+        const wide = (line[begin].width + line[i].width) / 2
+        paths.push({ depth: (line[begin].at[2] + line[i].at[2]) / 2, text, color: rgb(this.color(value)), wide })
       }
     }
     paths.sort((a, b) => a.depth - b.depth)
-    const lines = paths.map(({ text, color }) => `<path d="${text}" stroke="${color}"/>`)
+    const lines = paths.map(({ text, color, wide }) => `<path d="${text}" stroke="${color}" stroke-width="${number(wide)}"/>`)
     const marks = this.content.nodes.map((node, i) => {
       const [x, y] = project(this.skeleton.place(node))
       const kind = this.content.kinds[i]
@@ -56,6 +59,6 @@ export class SvgPicture {
       return `<circle cx="${number(x)}" cy="${number(y)}" r="11" fill="none" stroke="${rgb(this.kinds.max)}" stroke-width="3"/>`
     })
     this.element.setAttribute('viewBox', `0 0 ${width} ${height}`)
-    this.element.innerHTML = `<g fill="none" stroke-width="2.2" stroke-linecap="round">${lines.join('')}</g>${marks.join('')}${rings.join('')}`
+    this.element.innerHTML = `<g fill="none" stroke-linecap="round">${lines.join('')}</g>${marks.join('')}${rings.join('')}`
   }
 }

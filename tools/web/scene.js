@@ -22,6 +22,8 @@ const kShapes = {
   saddle: null, // a disc
 }
 
+const kWidths = [2, 3, 4, 5, 6] // of lines, in pixels
+
 function markerTexture(shape) {
   const canvas = document.createElement('canvas')
   canvas.width = canvas.height = 64
@@ -58,7 +60,8 @@ export class WebglPicture {
     this.scene = new Scene()
     this.group = new Group()
     this.scene.add(this.group)
-    this.lineMaterial = new LineMaterial({ linewidth: 2.5, vertexColors: true })
+    this.lineMaterials = kWidths.map((linewidth) => new LineMaterial({ linewidth, vertexColors: true }))
+    this.lines = []
     this.markers = {}
     for (const kind of Object.keys(kShapes)) {
       const material = new PointsMaterial({ size: 10, sizeAttenuation: false, map: markerTexture(kShapes[kind]) })
@@ -85,28 +88,30 @@ export class WebglPicture {
   }
 
   show(content) {
-    const positions = []
-    const colors = []
+    const parts = kWidths.map(() => ({ positions: [], colors: [] }))
     for (const arc of content.arcs) {
       const line = this.skeleton.line(arc)
       for (let i = 1; i < line.length; ++i) {
+        const width = Math.round((line[i - 1].width + line[i].width) / 2)
+        const { positions, colors } = parts[Math.max(0, kWidths.indexOf(width))]
         positions.push(...line[i - 1].at, ...line[i].at)
         for (const point of [line[i - 1], line[i]]) colors.push(...this.color(point.value).map(linear))
       }
     }
-    if (this.lines) {
-      this.group.remove(this.lines)
-      this.lines.geometry.dispose()
+    for (const lines of this.lines) {
+      this.group.remove(lines)
+      lines.geometry.dispose()
     }
-    this.lines = null
-    if (positions.length > 0) {
+    this.lines = parts.flatMap(({ positions, colors }, i) => {
+      if (positions.length === 0) return []
       const geometry = new LineSegmentsGeometry()
       geometry.setPositions(positions)
       geometry.setColors(colors)
-      this.lines = new LineSegments2(geometry, this.lineMaterial)
-      this.lines.frustumCulled = false
-      this.group.add(this.lines)
-    }
+      const lines = new LineSegments2(geometry, this.lineMaterials[i])
+      lines.frustumCulled = false
+      this.group.add(lines)
+      return [lines]
+    })
     for (const [kind, marker] of Object.entries(this.markers)) {
       const places = content.nodes.flatMap((node, i) => (content.kinds[i] === kind ? this.skeleton.place(node) : []))
       setPoints(marker, places)
@@ -134,7 +139,7 @@ export class WebglPicture {
     const [x, y, z] = camera.target
     this.camera.matrix.set(right[0], up[0], back[0], x, right[1], up[1], back[1], y, right[2], up[2], back[2], z, 0, 0, 0, 1)
     this.camera.matrixWorldNeedsUpdate = true
-    this.lineMaterial.resolution.set(width, height)
+    for (const material of this.lineMaterials) material.resolution.set(width, height)
     this.renderer.render(this.scene, this.camera)
   }
 }

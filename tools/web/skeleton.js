@@ -12,7 +12,7 @@ export class Skeleton {
     this.levels = json.levels
     this.isolated = json.isolated
     this.nodes = { vertex: json.nodes.vertex, value: json.nodes.value, place: unit(numbers16(json.nodes.place)) }
-    this.arcs = { ...json.arcs, line: unit(numbers16(json.arcs.line)) }
+    this.arcs = { ...json.arcs, line: unit(numbers16(json.arcs.line)), width: unit(numbers16(json.arcs.width)) }
     this.first = new Uint32Array(this.arcs.points.length + 1) // of the inner points of each arc
     this.arcs.points.forEach((points, i) => (this.first[i + 1] = this.first[i] + points))
     // The box is scaled to the cube from -1 to 1, with its middle at the origin.
@@ -80,12 +80,14 @@ export class Skeleton {
     return this.centered(scaled, 0)
   }
 
-  // The points of an arc in the scene, from its lower node to its upper one, with values from 0 to 1 of the range.
+  // The points of an arc in the scene, from its lower node to its upper one, with values from 0 to 1 of the range, and
+  // widths in pixels, which grow with the radius of the contour.
   line(arc) {
     const points = [{ at: this.place(this.arcs.lo[arc]), value: this.part(this.nodes.value[this.arcs.lo[arc]]) }]
     for (let i = this.first[arc]; i < this.first[arc + 1]; ++i)
       points.push({ at: this.centered(this.arcs.line, 4 * i), value: this.arcs.line[4 * i + 3] })
     points.push({ at: this.place(this.arcs.hi[arc]), value: this.part(this.nodes.value[this.arcs.hi[arc]]) })
+    points.forEach((point, i) => (point.width = 2 + 4 * this.arcs.width[this.first[arc] + 2 * arc + i]))
     return points
   }
 
