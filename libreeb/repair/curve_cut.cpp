@@ -381,20 +381,20 @@ class Edit {
         return true;
       }
     };
-    const auto box_of = [&](std::uint32_t t) {
-      constexpr double kFar = std::numeric_limits<double>::infinity();
-      Box box{{kFar, kFar, kFar}, {-kFar, -kFar, -kFar}};
-      for (const std::uint32_t v : patch_.triangle(t).corners)
-        for (std::size_t k = 0; k < 3; ++k) {
-          box.low[k] = std::min(box.low[k], patch_.position(v)[k]);
-          box.high[k] = std::max(box.high[k], patch_.position(v)[k]);
-        }
-      return box;
-    };
     const auto placed = [&](std::uint32_t t) {
       const auto& c = patch_.triangle(t).corners;
       return PlacedTriangle{c, {patch_.position(c[0]), patch_.position(c[1]), patch_.position(c[2])}};
     };
+    const auto box_around = [](const std::array<Point, 3>& points) {
+      Box box{points[0], points[0]};
+      for (const Point& point : points)
+        for (std::size_t k = 0; k < 3; ++k) {
+          box.low[k] = std::min(box.low[k], point[k]);
+          box.high[k] = std::max(box.high[k], point[k]);
+        }
+      return box;
+    };
+    const auto box_of = [&](std::uint32_t t) { return box_around(placed(t).points); };
     const auto first = static_cast<std::uint32_t>(first_new()),
                end = static_cast<std::uint32_t>(patch_.triangle_count());
     if (first == end) return false;
@@ -418,6 +418,13 @@ class Edit {
       if (!box.meets(all)) continue;
       for (std::uint32_t t = std::max(first, u + 1); t < end; ++t)
         if (patch_.triangle(t).there && box.meets(boxes[t - first]) && triangles_cross(placed(u), placed(t)))
+          return true;
+    }
+    for (const PlacedTriangle& obstacle : patch_.obstacles()) {
+      const Box box = box_around(obstacle.points);
+      if (!box.meets(all)) continue;
+      for (std::uint32_t t = first; t < end; ++t)
+        if (patch_.triangle(t).there && box.meets(boxes[t - first]) && triangles_cross(obstacle, placed(t)))
           return true;
     }
     return false;
@@ -469,18 +476,17 @@ bool are_connected(const EditablePatch& patch, const Vertices& from, const Verti
   return false;
 }
 
-// What speaks against the edit; empty: nothing.
-std::string fault_of(const EditablePatch& patch, const Edit& edit, const Vertices& touched, std::int64_t euler,
-                     bool may_fold) {
+bool is_manifold(const EditablePatch& patch, const Edit& edit, const Vertices& touched, std::int64_t euler) {
   for (const std::uint32_t v : touched)
-    if (patch.is_used(v) && !patch.is_closed_fan(v)) return "the filling would not be a manifold";
-  if (euler_among(patch, edit.touched()) != euler) return "the filling would not be a manifold";
-  if ((!may_fold && edit.folds()) || edit.crosses()) return "every filling would cross the surface";
-  return {};
+    if (patch.is_used(v) && !patch.is_closed_fan(v)) return false;
+  return euler_among(patch, edit.touched()) == euler;
 }
 
+constexpr const char* kRepeats = "every filling would repeat an edge of the surface";
+constexpr const char* kNoManifold = "the filling would not be a manifold";
+constexpr const char* kCrosses = "every filling would cross the surface";
+
 struct Attempt {
-  bool may_fold;
   int growth;
   std::size_t side;
   FillWeight weight;
@@ -489,12 +495,11 @@ struct Attempt {
 
 std::vector<Attempt> attempts_for(std::size_t size) {
   std::vector<Attempt> attempts;
-  for (const bool may_fold : {false, true})
-    for (int growth = 0; growth <= kMostGrowth; ++growth)
-      for (const bool refine : {true, false})
-        for (const FillWeight weight : {FillWeight::kArea, FillWeight::kAngle})
-          for (const std::size_t side : {std::size_t{0}, std::size_t{1}})
-            if (refine || size > kWideRim - 4) attempts.push_back({may_fold, growth, side, weight, refine});
+  for (int growth = 0; growth <= kMostGrowth; ++growth)
+    for (const bool refine : {true, false})
+      for (const FillWeight weight : {FillWeight::kArea, FillWeight::kAngle})
+        for (const std::size_t side : {std::size_t{0}, std::size_t{1}})
+          if (refine || size > kWideRim - 4) attempts.push_back({growth, side, weight, refine});
   return attempts;
 }
 
@@ -538,38 +543,48 @@ Cut try_cut(EditablePatch& patch, std::span<const std::uint32_t> curve, const Cu
   }
   std::string why = "there is no room for a band beside its curve";
   bool too_small = false;
-  for (const Attempt& attempt : attempts_for(curve.size())) {
+  std::optional<Attempt> folded;  // the first one whose only fault is that
+  const auto succeeds = [&](const Attempt& attempt, bool may_fold, Cut& cut) {
     Band band(patch, curve, (*sides)[attempt.side], (*sides)[1 - attempt.side]);
     for (int ring = 0; ring < attempt.growth; ++ring) band.grow();
-    Cut cut;
     cut.first_side.assign(curve.begin(), curve.end());
     cut.second_side = band.close_rim();
-    if (cut.second_side.empty()) continue;
+    if (cut.second_side.empty()) return false;
     Edit edit(patch, options, split);
     Vertices before = edit.touched();
     for (const std::uint32_t v : corners_of(patch, band.triangles())) before.push_back(v);
     make_set(before);
     if (!std::ranges::all_of(before, [&](std::uint32_t v) { return patch.vertex(v).whole; })) {
       too_small = true;
-      continue;
+      return false;
     }
     const std::int64_t euler = euler_among(patch, before);
     edit.remove(band.triangles());
-    std::string fault = "every filling would repeat an edge of the surface";
-    if (edit.fill(cut.first_side, attempt.weight, attempt.refine) &&
-        edit.fill(cut.second_side, attempt.weight, attempt.refine))
-      fault = fault_of(patch, edit, before, euler + 2, attempt.may_fold);
-    if (!fault.empty()) {
+    const auto fails = [&](const char* fault) {
       why = fault;
       edit.undo();
-      continue;
+      return false;
+    };
+    if (!edit.fill(cut.first_side, attempt.weight, attempt.refine) ||
+        !edit.fill(cut.second_side, attempt.weight, attempt.refine))
+      return fails(kRepeats);
+    if (!is_manifold(patch, edit, before, euler + 2)) return fails(kNoManifold);
+    const bool folds = !may_fold && edit.folds();
+    if ((folds && folded) || edit.crosses()) return fails(kCrosses);
+    if (folds) {
+      folded = attempt;
+      return fails(kCrosses);
     }
     cut.done = true;
     edit.count(cut);
     cut.volume = edit.volume();
     cut.connected = are_connected(patch, cut.first_side, cut.second_side);
-    return cut;
-  }
+    return true;
+  };
+  for (const Attempt& attempt : attempts_for(curve.size()))
+    if (Cut cut; succeeds(attempt, false, cut)) return cut;
+  if (folded)
+    if (Cut cut; succeeds(*folded, true, cut)) return cut;
   Cut cut = not_done(why);
   cut.too_small = too_small;
   return cut;
@@ -610,7 +625,7 @@ Cut close_boundary(EditablePatch& patch, std::span<const std::uint32_t> rim, con
     cut.too_small = true;
     return cut;
   }
-  std::string why = "every filling would repeat an edge of the surface";
+  std::string why = kRepeats;
   for (const bool refine : {true, false})
     for (const FillWeight weight : {FillWeight::kArea, FillWeight::kAngle}) {
       if (!refine && path.size() <= kWideRim) continue;
@@ -619,8 +634,11 @@ Cut close_boundary(EditablePatch& patch, std::span<const std::uint32_t> rim, con
       make_set(touched);
       const std::int64_t euler = euler_among(patch, touched);
       if (edit.fill(path, weight, refine)) {
-        why = fault_of(patch, edit, touched, euler + 1, true);
-        if (why.empty()) {
+        if (!is_manifold(patch, edit, touched, euler + 1)) {
+          why = kNoManifold;
+        } else if (edit.crosses()) {
+          why = kCrosses;
+        } else {
           Cut cut;
           cut.done = cut.connected = true;
           edit.count(cut);

@@ -10,6 +10,7 @@
 
 #include "libreeb/base/ids.h"
 #include "libreeb/graph/settled_node.h"
+#include "libreeb/repair/triangle_crossing.h"
 
 namespace reeb {
 
@@ -36,6 +37,11 @@ class EditablePatch {
   std::uint32_t add_vertex(const Vertex& vertex);
   // Three different corners. A repetition is kept with the first one: both are there, or none.
   void add_triangle(const Corners& corners, std::uint64_t id);
+  // A triangle that is not in the patch, but that nothing new may cross. Corners outside the patch have numbers from
+  // kOutside on.
+  static constexpr std::uint32_t kOutside = kNone - 3;
+  void add_obstacle(const PlacedTriangle& triangle) { obstacles_.push_back(triangle); }
+  const std::vector<PlacedTriangle>& obstacles() const { return obstacles_; }
   // Returns its number.
   std::uint32_t add_new(const Corners& corners);
   void remove(std::uint32_t t) { triangles_[t].there = false; }
@@ -86,6 +92,7 @@ class EditablePatch {
   std::vector<Triangle> triangles_;
   std::vector<std::vector<std::uint32_t>> at_;
   std::vector<std::pair<std::uint32_t, std::uint64_t>> repetitions_;
+  std::vector<PlacedTriangle> obstacles_;
 };
 
 }  // namespace reeb
