@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <optional>
 #include <utility>
 
+#include "libreeb/base/flat_map.h"
 #include "libreeb/defects/surface_patch.h"
 #include "libreeb/repair/rim_filling.h"
 #include "libreeb/repair/tight_curve.h"
@@ -30,18 +30,17 @@ void make_set(Vertices& list) {
 // Sets of triangles or vertices, by number.
 class Marks {
  public:
-  explicit Marks(std::size_t size) : marked_(size, 0) {}
-  bool has(std::uint32_t x) const { return marked_[x] != 0; }
+  bool has(std::uint32_t x) const { return place_.find(x) != FlatMap::kNone; }
   bool add(std::uint32_t x) {
-    if (has(x)) return false;
-    marked_[x] = 1;
+    const auto place = static_cast<std::uint32_t>(list_.size());
+    if (place_.find_or_insert(x, place) != place) return false;
     list_.push_back(x);
     return true;
   }
   const Vertices& list() const { return list_; }
 
  private:
-  std::vector<std::uint8_t> marked_;
+  FlatMap place_;
   Vertices list_;
 };
 
@@ -78,11 +77,7 @@ std::optional<std::array<Vertices, 2>> sides_of(const EditablePatch& patch, std:
 class Band {
  public:
   Band(const EditablePatch& patch, std::span<const std::uint32_t> curve, const Vertices& side, const Vertices& other)
-      : patch_(patch),
-        curve_(curve),
-        on_curve_(patch.vertex_count()),
-        inside_(patch.triangle_count()),
-        forbidden_(patch.triangle_count()) {
+      : patch_(patch), curve_(curve) {
     for (const std::uint32_t v : curve) on_curve_.add(v);
     for (const std::uint32_t t : other) forbidden_.add(t);
     for (const std::uint32_t t : side) ok_ = ok_ && !forbidden_.has(t) && inside_.add(t);
@@ -190,7 +185,7 @@ class Band {
     constexpr std::size_t kMostEnclosed = 200;
     bool any = false;
     for (const Vertices& rim : rims) {
-      Marks part(patch_.triangle_count());
+      Marks part;
       patch_.for_each_at_edge(rim[0], rim[1], [&](std::uint32_t t) {
         if (!inside_.has(t)) part.add(t);
       });
@@ -373,61 +368,37 @@ class Edit {
   }
 
   bool crosses() const {
-    struct Box {
-      Point low, high;
-      bool meets(const Box& other) const {
-        for (std::size_t k = 0; k < 3; ++k)
-          if (high[k] < other.low[k] || other.high[k] < low[k]) return false;
-        return true;
-      }
-    };
-    const auto placed = [&](std::uint32_t t) {
-      const auto& c = patch_.triangle(t).corners;
-      return PlacedTriangle{c, {patch_.position(c[0]), patch_.position(c[1]), patch_.position(c[2])}};
-    };
-    const auto box_around = [](const std::array<Point, 3>& points) {
-      Box box{points[0], points[0]};
-      for (const Point& point : points)
-        for (std::size_t k = 0; k < 3; ++k) {
-          box.low[k] = std::min(box.low[k], point[k]);
-          box.high[k] = std::max(box.high[k], point[k]);
-        }
-      return box;
-    };
-    const auto box_of = [&](std::uint32_t t) { return box_around(placed(t).points); };
     const auto first = static_cast<std::uint32_t>(first_new()),
                end = static_cast<std::uint32_t>(patch_.triangle_count());
     if (first == end) return false;
-    Box all = box_of(end - 1);
-    std::vector<Box> boxes;
+    PointBox all = PointBox::around(patch_.placed(end - 1).points);
+    std::vector<PointBox> boxes;
     for (std::uint32_t t = first; t < end; ++t) {
-      if (!patch_.triangle(t).there) {
-        boxes.emplace_back();
-        continue;
-      }
-      if (is_flat(placed(t))) return true;
-      boxes.push_back(box_of(t));
-      for (std::size_t k = 0; k < 3; ++k) {
-        all.low[k] = std::min(all.low[k], boxes.back().low[k]);
-        all.high[k] = std::max(all.high[k], boxes.back().high[k]);
-      }
+      const PlacedTriangle placed = patch_.placed(t);
+      boxes.push_back(PointBox::around(placed.points));
+      if (!patch_.triangle(t).there) continue;
+      if (is_flat(placed)) return true;
+      all.add(boxes.back());
     }
-    for (std::uint32_t u = 0; u < end; ++u) {
-      if (!patch_.triangle(u).there) continue;
-      const Box box = u < first ? box_of(u) : boxes[u - first];
-      if (!box.meets(all)) continue;
-      for (std::uint32_t t = std::max(first, u + 1); t < end; ++t)
-        if (patch_.triangle(t).there && box.meets(boxes[t - first]) && triangles_cross(placed(u), placed(t)))
+    // With new triangles from number `from` on.
+    const auto crosses_new = [&](const PlacedTriangle& triangle, const PointBox& box, std::uint32_t from) {
+      for (std::uint32_t t = from; t < end; ++t)
+        if (patch_.triangle(t).there && box.meets(boxes[t - first]) && triangles_cross(triangle, patch_.placed(t)))
           return true;
-    }
-    for (const PlacedTriangle& obstacle : patch_.obstacles()) {
-      const Box box = box_around(obstacle.points);
-      if (!box.meets(all)) continue;
-      for (std::uint32_t t = first; t < end; ++t)
-        if (patch_.triangle(t).there && box.meets(boxes[t - first]) && triangles_cross(obstacle, placed(t)))
-          return true;
-    }
-    return false;
+      return false;
+    };
+    for (const PlacedTriangle& obstacle : patch_.obstacles())
+      if (const PointBox box = PointBox::around(obstacle.points); box.meets(all) && crosses_new(obstacle, box, first))
+        return true;
+    bool found = false;
+    patch_.cells().visit(all, [&](std::uint32_t u) {
+      if (!patch_.triangle(u).there) return true;
+      const PlacedTriangle placed = patch_.placed(u);
+      const PointBox box = PointBox::around(placed.points);
+      found = box.meets(all) && crosses_new(placed, box, std::max(first, u + 1));
+      return !found;
+    });
+    return found;
   }
 
  private:
@@ -460,7 +431,7 @@ class Edit {
 
 // Whether a way along triangles leads from one rim to the other.
 bool are_connected(const EditablePatch& patch, const Vertices& from, const Vertices& to) {
-  Marks goal(patch.vertex_count()), reached(patch.vertex_count());
+  Marks goal, reached;
   for (const std::uint32_t v : to) goal.add(v);
   reached.add(from[0]);
   for (std::size_t i = 0; i < reached.list().size(); ++i) {

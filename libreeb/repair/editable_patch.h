@@ -10,6 +10,7 @@
 
 #include "libreeb/base/ids.h"
 #include "libreeb/graph/settled_node.h"
+#include "libreeb/repair/triangle_cells.h"
 #include "libreeb/repair/triangle_crossing.h"
 
 namespace reeb {
@@ -48,6 +49,13 @@ class EditablePatch {
   void restore(std::uint32_t t) { triangles_[t].there = true; }
   // Removes the last ones that were added, down to these numbers of them.
   void take_back(std::size_t vertices, std::size_t triangles);
+
+  PlacedTriangle placed(std::uint32_t t) const {
+    const Corners& c = triangles_[t].corners;
+    return {c, {position(c[0]), position(c[1]), position(c[2])}};
+  }
+  // Where triangles are, also those that are not there. TIME: that of the ones added since the last call.
+  const TriangleCells& cells();
 
   std::size_t vertex_count() const { return vertices_.size(); }
   std::size_t triangle_count() const { return triangles_.size(); }
@@ -93,6 +101,7 @@ class EditablePatch {
   std::vector<std::vector<std::uint32_t>> at_;
   std::vector<std::pair<std::uint32_t, std::uint64_t>> repetitions_;
   std::vector<PlacedTriangle> obstacles_;
+  TriangleCells cells_;  // of the first triangles
 };
 
 }  // namespace reeb
