@@ -111,7 +111,10 @@ class Jobs {
       if (round < kMostDoublings && enlarge()) continue;
       if (!leave_out_dividing()) break;
     }
-    for (Cluster& cluster : clusters_) done_.edits.add(cluster.edits);
+    for (Cluster& cluster : clusters_) {
+      done_.edits.add(cluster.edits);
+      cluster = {};
+    }
     done_.edits.sort();
     return std::move(done_);
   }
@@ -175,30 +178,30 @@ class Jobs {
     }
   }
 
+  // All in one reading, then as many at a time as the memory holds.
   void read_patches() {
     const double most = static_cast<double>(options_.patch_bytes) / kBytesPerVertex;
-    for (std::size_t begin = 0; begin < clusters_.size();) {
-      std::vector<Cluster*> now;
-      double sum = 0;
-      for (; begin < clusters_.size() && (now.empty() || sum < most); ++begin) {
-        Cluster& cluster = clusters_[begin];
-        if (cluster.done) continue;
-        now.push_back(&cluster);
-        for (const ooc::Ball& ball : cluster.balls) sum += scale_.vertices(ball.radius);
-      }
-      if (!now.empty()) read(now);
-    }
-  }
-
-  void read(const std::vector<Cluster*>& now) {
+    std::vector<Cluster*> now;
+    std::vector<std::uint32_t> first_of_group, patch_of;
     std::vector<ooc::Ball> balls;
-    std::vector<std::uint32_t> patch_of;
-    for (std::uint32_t i = 0; i < now.size(); ++i)
-      for (const ooc::Ball& ball : now[i]->balls) {
-        balls.push_back(ball);
-        patch_of.push_back(i);
+    double sum = most;
+    for (Cluster& cluster : clusters_) {
+      if (cluster.done) continue;
+      const auto patch = static_cast<std::uint32_t>(now.size());
+      if (sum >= most) {
+        first_of_group.push_back(patch);
+        sum = 0;
       }
-    ooc::CollectedPatches patches(balls, patch_of, now.size(), space_.budget);
+      for (const ooc::Ball& ball : cluster.balls) {
+        sum += scale_.vertices(ball.radius);
+        balls.push_back(ball);
+        patch_of.push_back(patch);
+      }
+      now.push_back(&cluster);
+    }
+    if (now.empty()) return;
+    first_of_group.push_back(static_cast<std::uint32_t>(now.size()));
+    ooc::CollectedPatches patches(balls, patch_of, first_of_group, space_.temp, space_.budget);
     mesh_.read(
         [&](const MeshBatch& batch, std::span<const std::vector<double>>, std::uint64_t done, std::uint64_t total) {
           patches.add(batch);
@@ -207,7 +210,12 @@ class Jobs {
     patches.finish();
     done_.mesh_vertices = patches.mesh_vertices();
     done_.mesh_triangles = patches.mesh_triangles();
-    ooc::in_parallel(options_.threads, now.size(), [&](std::size_t i) { work(patches.patch(i), *now[i]); });
+    for (std::size_t g = 0; g + 1 < first_of_group.size(); ++g) {
+      const ooc::PatchGroup group = patches.group(g);
+      const std::uint32_t first = first_of_group[g];
+      ooc::in_parallel(options_.threads, first_of_group[g + 1] - first,
+                       [&](std::size_t i) { work(group.patch(i), *now[first + i]); });
+    }
   }
 
   void work(EditablePatch patch, Cluster& cluster) {

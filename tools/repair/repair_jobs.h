@@ -30,8 +30,8 @@ struct JobResult {
 
 struct JobOptions {
   unsigned threads = 0;
-  std::uint64_t patch_bytes = std::uint64_t{128} << 20;  // of patches at the same time, roughly
-  bool float32 = false;                                  // positions of new vertices
+  std::uint64_t patch_bytes = std::uint64_t{24} << 20;  // of patches at the same time, roughly
+  bool float32 = false;                                 // positions of new vertices
   std::function<void(std::uint64_t done, std::uint64_t total)> progress{};
 };
 
@@ -42,10 +42,10 @@ struct JobsDone {
 };
 
 // Jobs whose patches meet are done by length, each on the surface as the ones before left it. A curve that would divide
-// a component of what is left then is not cut. Reads the mesh once for the patches, or as often as the memory requires;
-// again where patches turn out to be too small; once for large triangles that reach into them; and once to see whether
-// something was divided, where that is not known from the patches. REQUIRES: jobs are in the order of their lengths.
-// What it holds is from the budget of `space`.
+// a component of what is left then is not cut. Reads the mesh once for the patches; again where patches turn out to be
+// too small; once for large triangles that reach into them; and once to see whether something was divided, where that
+// is not known from the patches. REQUIRES: jobs are in the order of their lengths. What it holds is from the budget of
+// `space`.
 JobsDone run_jobs(const ValuedMesh& mesh, const std::vector<RepairJob>& jobs, const PatchScale& scale,
                   ooc::Workspace& space, const JobOptions& options);
 

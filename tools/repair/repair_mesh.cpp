@@ -22,7 +22,7 @@ class Plan {
     jobs_.float32 = has_float32_positions(input, info);
     jobs_.threads = options.threads;
     if (options.mesh.memory_bytes != MemoryBudget::kUnlimited)
-      jobs_.patch_bytes = std::min(jobs_.patch_bytes, options.mesh.memory_bytes / 2);
+      jobs_.patch_bytes = std::min(jobs_.patch_bytes, options.mesh.memory_bytes / 8);
     jobs_.progress = [this](std::uint64_t done, std::uint64_t total) {
       if (options_.interrupted && options_.interrupted())
         throw Error(ErrorKind::kInterrupted, "interrupted", "run the same command again");
