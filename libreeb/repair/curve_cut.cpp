@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <optional>
 #include <utility>
 
+#include "libreeb/base/flat_map.h"
 #include "libreeb/defects/surface_patch.h"
 #include "libreeb/repair/rim_filling.h"
 #include "libreeb/repair/tight_curve.h"
@@ -30,18 +30,17 @@ void make_set(Vertices& list) {
 // Sets of triangles or vertices, by number.
 class Marks {
  public:
-  explicit Marks(std::size_t size) : marked_(size, 0) {}
-  bool has(std::uint32_t x) const { return marked_[x] != 0; }
+  bool has(std::uint32_t x) const { return place_.find(x) != FlatMap::kNone; }
   bool add(std::uint32_t x) {
-    if (has(x)) return false;
-    marked_[x] = 1;
+    const auto place = static_cast<std::uint32_t>(list_.size());
+    if (place_.find_or_insert(x, place) != place) return false;
     list_.push_back(x);
     return true;
   }
   const Vertices& list() const { return list_; }
 
  private:
-  std::vector<std::uint8_t> marked_;
+  FlatMap place_;
   Vertices list_;
 };
 
@@ -78,11 +77,7 @@ std::optional<std::array<Vertices, 2>> sides_of(const EditablePatch& patch, std:
 class Band {
  public:
   Band(const EditablePatch& patch, std::span<const std::uint32_t> curve, const Vertices& side, const Vertices& other)
-      : patch_(patch),
-        curve_(curve),
-        on_curve_(patch.vertex_count()),
-        inside_(patch.triangle_count()),
-        forbidden_(patch.triangle_count()) {
+      : patch_(patch), curve_(curve) {
     for (const std::uint32_t v : curve) on_curve_.add(v);
     for (const std::uint32_t t : other) forbidden_.add(t);
     for (const std::uint32_t t : side) ok_ = ok_ && !forbidden_.has(t) && inside_.add(t);
@@ -190,7 +185,7 @@ class Band {
     constexpr std::size_t kMostEnclosed = 200;
     bool any = false;
     for (const Vertices& rim : rims) {
-      Marks part(patch_.triangle_count());
+      Marks part;
       patch_.for_each_at_edge(rim[0], rim[1], [&](std::uint32_t t) {
         if (!inside_.has(t)) part.add(t);
       });
@@ -373,54 +368,37 @@ class Edit {
   }
 
   bool crosses() const {
-    struct Box {
-      Point low, high;
-      bool meets(const Box& other) const {
-        for (std::size_t k = 0; k < 3; ++k)
-          if (high[k] < other.low[k] || other.high[k] < low[k]) return false;
-        return true;
-      }
-    };
-    const auto box_of = [&](std::uint32_t t) {
-      constexpr double kFar = std::numeric_limits<double>::infinity();
-      Box box{{kFar, kFar, kFar}, {-kFar, -kFar, -kFar}};
-      for (const std::uint32_t v : patch_.triangle(t).corners)
-        for (std::size_t k = 0; k < 3; ++k) {
-          box.low[k] = std::min(box.low[k], patch_.position(v)[k]);
-          box.high[k] = std::max(box.high[k], patch_.position(v)[k]);
-        }
-      return box;
-    };
-    const auto placed = [&](std::uint32_t t) {
-      const auto& c = patch_.triangle(t).corners;
-      return PlacedTriangle{c, {patch_.position(c[0]), patch_.position(c[1]), patch_.position(c[2])}};
-    };
     const auto first = static_cast<std::uint32_t>(first_new()),
                end = static_cast<std::uint32_t>(patch_.triangle_count());
     if (first == end) return false;
-    Box all = box_of(end - 1);
-    std::vector<Box> boxes;
+    PointBox all = PointBox::around(patch_.placed(end - 1).points);
+    std::vector<PointBox> boxes;
     for (std::uint32_t t = first; t < end; ++t) {
-      if (!patch_.triangle(t).there) {
-        boxes.emplace_back();
-        continue;
-      }
-      if (is_flat(placed(t))) return true;
-      boxes.push_back(box_of(t));
-      for (std::size_t k = 0; k < 3; ++k) {
-        all.low[k] = std::min(all.low[k], boxes.back().low[k]);
-        all.high[k] = std::max(all.high[k], boxes.back().high[k]);
-      }
+      const PlacedTriangle placed = patch_.placed(t);
+      boxes.push_back(PointBox::around(placed.points));
+      if (!patch_.triangle(t).there) continue;
+      if (is_flat(placed)) return true;
+      all.add(boxes.back());
     }
-    for (std::uint32_t u = 0; u < end; ++u) {
-      if (!patch_.triangle(u).there) continue;
-      const Box box = u < first ? box_of(u) : boxes[u - first];
-      if (!box.meets(all)) continue;
-      for (std::uint32_t t = std::max(first, u + 1); t < end; ++t)
-        if (patch_.triangle(t).there && box.meets(boxes[t - first]) && triangles_cross(placed(u), placed(t)))
+    // With new triangles from number `from` on.
+    const auto crosses_new = [&](const PlacedTriangle& triangle, const PointBox& box, std::uint32_t from) {
+      for (std::uint32_t t = from; t < end; ++t)
+        if (patch_.triangle(t).there && box.meets(boxes[t - first]) && triangles_cross(triangle, patch_.placed(t)))
           return true;
-    }
-    return false;
+      return false;
+    };
+    for (const PlacedTriangle& obstacle : patch_.obstacles())
+      if (const PointBox box = PointBox::around(obstacle.points); box.meets(all) && crosses_new(obstacle, box, first))
+        return true;
+    bool found = false;
+    patch_.cells().visit(all, [&](std::uint32_t u) {
+      if (!patch_.triangle(u).there) return true;
+      const PlacedTriangle placed = patch_.placed(u);
+      const PointBox box = PointBox::around(placed.points);
+      found = box.meets(all) && crosses_new(placed, box, std::max(first, u + 1));
+      return !found;
+    });
+    return found;
   }
 
  private:
@@ -453,7 +431,7 @@ class Edit {
 
 // Whether a way along triangles leads from one rim to the other.
 bool are_connected(const EditablePatch& patch, const Vertices& from, const Vertices& to) {
-  Marks goal(patch.vertex_count()), reached(patch.vertex_count());
+  Marks goal, reached;
   for (const std::uint32_t v : to) goal.add(v);
   reached.add(from[0]);
   for (std::size_t i = 0; i < reached.list().size(); ++i) {
@@ -469,18 +447,17 @@ bool are_connected(const EditablePatch& patch, const Vertices& from, const Verti
   return false;
 }
 
-// What speaks against the edit; empty: nothing.
-std::string fault_of(const EditablePatch& patch, const Edit& edit, const Vertices& touched, std::int64_t euler,
-                     bool may_fold) {
+bool is_manifold(const EditablePatch& patch, const Edit& edit, const Vertices& touched, std::int64_t euler) {
   for (const std::uint32_t v : touched)
-    if (patch.is_used(v) && !patch.is_closed_fan(v)) return "the filling would not be a manifold";
-  if (euler_among(patch, edit.touched()) != euler) return "the filling would not be a manifold";
-  if ((!may_fold && edit.folds()) || edit.crosses()) return "every filling would cross the surface";
-  return {};
+    if (patch.is_used(v) && !patch.is_closed_fan(v)) return false;
+  return euler_among(patch, edit.touched()) == euler;
 }
 
+constexpr const char* kRepeats = "every filling would repeat an edge of the surface";
+constexpr const char* kNoManifold = "the filling would not be a manifold";
+constexpr const char* kCrosses = "every filling would cross the surface";
+
 struct Attempt {
-  bool may_fold;
   int growth;
   std::size_t side;
   FillWeight weight;
@@ -489,12 +466,11 @@ struct Attempt {
 
 std::vector<Attempt> attempts_for(std::size_t size) {
   std::vector<Attempt> attempts;
-  for (const bool may_fold : {false, true})
-    for (int growth = 0; growth <= kMostGrowth; ++growth)
-      for (const bool refine : {true, false})
-        for (const FillWeight weight : {FillWeight::kArea, FillWeight::kAngle})
-          for (const std::size_t side : {std::size_t{0}, std::size_t{1}})
-            if (refine || size > kWideRim - 4) attempts.push_back({may_fold, growth, side, weight, refine});
+  for (int growth = 0; growth <= kMostGrowth; ++growth)
+    for (const bool refine : {true, false})
+      for (const FillWeight weight : {FillWeight::kArea, FillWeight::kAngle})
+        for (const std::size_t side : {std::size_t{0}, std::size_t{1}})
+          if (refine || size > kWideRim - 4) attempts.push_back({growth, side, weight, refine});
   return attempts;
 }
 
@@ -538,38 +514,48 @@ Cut try_cut(EditablePatch& patch, std::span<const std::uint32_t> curve, const Cu
   }
   std::string why = "there is no room for a band beside its curve";
   bool too_small = false;
-  for (const Attempt& attempt : attempts_for(curve.size())) {
+  std::optional<Attempt> folded;  // the first one whose only fault is that
+  const auto succeeds = [&](const Attempt& attempt, bool may_fold, Cut& cut) {
     Band band(patch, curve, (*sides)[attempt.side], (*sides)[1 - attempt.side]);
     for (int ring = 0; ring < attempt.growth; ++ring) band.grow();
-    Cut cut;
     cut.first_side.assign(curve.begin(), curve.end());
     cut.second_side = band.close_rim();
-    if (cut.second_side.empty()) continue;
+    if (cut.second_side.empty()) return false;
     Edit edit(patch, options, split);
     Vertices before = edit.touched();
     for (const std::uint32_t v : corners_of(patch, band.triangles())) before.push_back(v);
     make_set(before);
     if (!std::ranges::all_of(before, [&](std::uint32_t v) { return patch.vertex(v).whole; })) {
       too_small = true;
-      continue;
+      return false;
     }
     const std::int64_t euler = euler_among(patch, before);
     edit.remove(band.triangles());
-    std::string fault = "every filling would repeat an edge of the surface";
-    if (edit.fill(cut.first_side, attempt.weight, attempt.refine) &&
-        edit.fill(cut.second_side, attempt.weight, attempt.refine))
-      fault = fault_of(patch, edit, before, euler + 2, attempt.may_fold);
-    if (!fault.empty()) {
+    const auto fails = [&](const char* fault) {
       why = fault;
       edit.undo();
-      continue;
+      return false;
+    };
+    if (!edit.fill(cut.first_side, attempt.weight, attempt.refine) ||
+        !edit.fill(cut.second_side, attempt.weight, attempt.refine))
+      return fails(kRepeats);
+    if (!is_manifold(patch, edit, before, euler + 2)) return fails(kNoManifold);
+    const bool folds = !may_fold && edit.folds();
+    if ((folds && folded) || edit.crosses()) return fails(kCrosses);
+    if (folds) {
+      folded = attempt;
+      return fails(kCrosses);
     }
     cut.done = true;
     edit.count(cut);
     cut.volume = edit.volume();
     cut.connected = are_connected(patch, cut.first_side, cut.second_side);
-    return cut;
-  }
+    return true;
+  };
+  for (const Attempt& attempt : attempts_for(curve.size()))
+    if (Cut cut; succeeds(attempt, false, cut)) return cut;
+  if (folded)
+    if (Cut cut; succeeds(*folded, true, cut)) return cut;
   Cut cut = not_done(why);
   cut.too_small = too_small;
   return cut;
@@ -610,7 +596,7 @@ Cut close_boundary(EditablePatch& patch, std::span<const std::uint32_t> rim, con
     cut.too_small = true;
     return cut;
   }
-  std::string why = "every filling would repeat an edge of the surface";
+  std::string why = kRepeats;
   for (const bool refine : {true, false})
     for (const FillWeight weight : {FillWeight::kArea, FillWeight::kAngle}) {
       if (!refine && path.size() <= kWideRim) continue;
@@ -619,8 +605,11 @@ Cut close_boundary(EditablePatch& patch, std::span<const std::uint32_t> rim, con
       make_set(touched);
       const std::int64_t euler = euler_among(patch, touched);
       if (edit.fill(path, weight, refine)) {
-        why = fault_of(patch, edit, touched, euler + 1, true);
-        if (why.empty()) {
+        if (!is_manifold(patch, edit, touched, euler + 1)) {
+          why = kNoManifold;
+        } else if (edit.crosses()) {
+          why = kCrosses;
+        } else {
           Cut cut;
           cut.done = cut.connected = true;
           edit.count(cut);

@@ -35,6 +35,22 @@ void EditablePatch::take_back(std::size_t vertices, std::size_t triangles) {
   }
   vertices_.resize(vertices);
   at_.resize(vertices);
+  cells_.take_back(triangles);
+}
+
+const TriangleCells& EditablePatch::cells() {
+  constexpr double kTrianglesWide = 2;
+  if (cells_.size() == 0 && !triangles_.empty()) {
+    double sum = 0;
+    for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
+      const PointBox box = PointBox::around(placed(t).points);
+      sum += std::max({box.high[0] - box.low[0], box.high[1] - box.low[1], box.high[2] - box.low[2]});
+    }
+    cells_.set_width(kTrianglesWide * sum / static_cast<double>(triangles_.size()));
+  }
+  while (cells_.size() < triangles_.size())
+    cells_.add(PointBox::around(placed(static_cast<std::uint32_t>(cells_.size())).points));
+  return cells_;
 }
 
 bool EditablePatch::is_used(std::uint32_t v) const {

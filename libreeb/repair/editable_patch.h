@@ -10,6 +10,8 @@
 
 #include "libreeb/base/ids.h"
 #include "libreeb/graph/settled_node.h"
+#include "libreeb/repair/triangle_cells.h"
+#include "libreeb/repair/triangle_crossing.h"
 
 namespace reeb {
 
@@ -36,12 +38,24 @@ class EditablePatch {
   std::uint32_t add_vertex(const Vertex& vertex);
   // Three different corners. A repetition is kept with the first one: both are there, or none.
   void add_triangle(const Corners& corners, std::uint64_t id);
+  // A triangle that is not in the patch, but that nothing new may cross. Corners outside the patch have numbers from
+  // kOutside on.
+  static constexpr std::uint32_t kOutside = kNone - 3;
+  void add_obstacle(const PlacedTriangle& triangle) { obstacles_.push_back(triangle); }
+  const std::vector<PlacedTriangle>& obstacles() const { return obstacles_; }
   // Returns its number.
   std::uint32_t add_new(const Corners& corners);
   void remove(std::uint32_t t) { triangles_[t].there = false; }
   void restore(std::uint32_t t) { triangles_[t].there = true; }
   // Removes the last ones that were added, down to these numbers of them.
   void take_back(std::size_t vertices, std::size_t triangles);
+
+  PlacedTriangle placed(std::uint32_t t) const {
+    const Corners& c = triangles_[t].corners;
+    return {c, {position(c[0]), position(c[1]), position(c[2])}};
+  }
+  // Where triangles are, also those that are not there. TIME: that of the ones added since the last call.
+  const TriangleCells& cells();
 
   std::size_t vertex_count() const { return vertices_.size(); }
   std::size_t triangle_count() const { return triangles_.size(); }
@@ -86,6 +100,8 @@ class EditablePatch {
   std::vector<Triangle> triangles_;
   std::vector<std::vector<std::uint32_t>> at_;
   std::vector<std::pair<std::uint32_t, std::uint64_t>> repetitions_;
+  std::vector<PlacedTriangle> obstacles_;
+  TriangleCells cells_;  // of the first triangles
 };
 
 }  // namespace reeb

@@ -1,87 +1,139 @@
 #include "ooc/patches/collected_patches.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace reeb::ooc {
+namespace {
+
+constexpr const char* kPatchOwner = "patches that are repaired";
+
+}  // namespace
 
 CollectedPatches::CollectedPatches(std::span<const Ball> balls, std::span<const std::uint32_t> patch_of,
-                                   std::size_t patches, MemoryBudget& budget)
-    : grid_(balls),
-      patch_of_(patch_of.begin(), patch_of.end()),
-      vertex_first_(patches + 1, 0),
-      triangle_first_(patches + 1, 0),
-      memory_(budget.reserve("patches that are repaired", 0)) {}
+                                   std::vector<std::uint32_t> first_of_group, const io::TempDir& temp,
+                                   MemoryBudget& budget)
+    : budget_(&budget),
+      grid_(balls),
+      patch_of_ball_(patch_of.begin(), patch_of.end()),
+      first_of_group_(std::move(first_of_group)),
+      vertices_(kPatchOwner, temp, budget, first_of_group_.size() - 1),
+      triangles_(kPatchOwner, temp, budget, first_of_group_.size() - 1),
+      memory_(budget.reserve(kPatchOwner, 100 * balls.size())) {
+  for (std::size_t g = 0; g + 1 < first_of_group_.size(); ++g)
+    group_of_patch_.resize(first_of_group_[g + 1], static_cast<std::uint16_t>(g));
+}
 
 void CollectedPatches::add(const MeshBatch& batch) {
   for (std::size_t i = 0; i < batch.vertex_count; ++i) {
     Point point{};
     for (std::size_t k = 0; k < std::min<std::size_t>(3, batch.coordinates.size()); ++k)
       point[k] = batch.coordinates[k][i];
-    const std::uint32_t ball = grid_.find(point);
+    const std::uint32_t ball = grid_->find(point);
     if (ball == BallGrid::kNone) continue;
-    const VertexId vertex(batch.first_vertex.value() + i);
-    set_.add(vertex);
-    vertices_.push_back(vertex);
-    positions_.push_back(point);
-    patch_.push_back(patch_of_[ball]);
-    whole_.push_back(1);
-    used_elsewhere_.push_back(0);
+    const std::uint64_t vertex = batch.first_vertex.value() + i;
+    const std::uint32_t patch = patch_of_ball_[ball];
+    vertices_.append(group_of_patch_[patch], {vertex, point, set_.size(), patch});
+    group_of_.push_back(group_of_patch_[patch]);
+    set_.add(VertexId(vertex));
   }
   mesh_vertices_ += batch.vertex_count;
-  for (const VertexId v : batch.points()) use(v);
-  for (const VertexId v : batch.edges()) use(v);
+  for (std::size_t k = 0; k < 2; ++k)
+    for (std::size_t i = 0; i < batch.simplices[k].size(); i += k + 1)
+      add_use(std::span(batch.simplices[k]).subspan(i, k + 1));
   const auto& corners = batch.triangles();
-  for (std::size_t i = 0; i < corners.size(); i += 3) {
-    add_triangle(corners[i], corners[i + 1], corners[i + 2]);
-    ++mesh_triangles_;
-  }
-  memory_.resize(set_.memory_bytes() + vertices_.capacity() * (8 + 24 + 4 + 2) +
-                 triangles_.capacity() * sizeof(Triangle) + triangles_.size() * 4 + vertices_.size() * 4);
+  for (std::size_t i = 0; i < corners.size(); i += 3, ++mesh_triangles_) add_use(std::span(corners).subspan(i, 3));
+  memory_.resize(100 * patch_of_ball_.size() + set_.memory_bytes() + 2 * group_of_.capacity());
 }
 
-void CollectedPatches::use(VertexId v) {
-  if (const std::uint32_t x = set_.find(v); x != VertexSet::kNone) used_elsewhere_[x] = 1;
-}
-
-void CollectedPatches::add_triangle(VertexId a, VertexId b, VertexId c) {
-  const std::array corners = {set_.find(a), set_.find(b), set_.find(c)};
-  const auto is_absent = [](std::uint32_t v) { return v == VertexSet::kNone; };
-  if (std::ranges::all_of(corners, is_absent)) return;
-  if (a == b || b == c || a == c) {
-    for (const VertexId v : {a, b, c}) use(v);
-    return;
+void CollectedPatches::add_use(std::span<const VertexId> corners) {
+  Triangle triangle{{VertexSet::kNone, VertexSet::kNone, VertexSet::kNone}, 1, mesh_triangles_};
+  for (std::size_t k = 0; k < corners.size(); ++k) triangle.corners[k] = set_.find(corners[k]);
+  const auto& [x, y, z] = triangle.corners;
+  // Most triangles of a large mesh are in no ball.
+  if ((x & y & z) == VertexSet::kNone) return;
+  if (corners.size() == 3 && corners[0] != corners[1] && corners[1] != corners[2] && corners[0] != corners[2])
+    triangle.is_other = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (triangle.corners[k] == VertexSet::kNone) continue;
+    const std::uint16_t group = group_of_[triangle.corners[k]];
+    bool has_it = false;
+    for (std::size_t j = 0; j < k; ++j)
+      has_it = has_it || (triangle.corners[j] != VertexSet::kNone && group_of_[triangle.corners[j]] == group);
+    if (!has_it) triangles_.append(group, triangle);
   }
-  if (std::ranges::none_of(corners, is_absent) && patch_[corners[0]] == patch_[corners[1]] &&
-      patch_[corners[0]] == patch_[corners[2]]) {
-    triangles_.push_back({corners, mesh_triangles_});
-    return;
-  }
-  for (const std::uint32_t v : corners)
-    if (!is_absent(v)) whole_[v] = 0;
 }
 
 void CollectedPatches::finish() {
-  const auto group = [](std::size_t count, auto patch_of, std::vector<std::uint32_t>& first,
-                        std::vector<std::uint32_t>& order) {
-    for (std::uint32_t i = 0; i < count; ++i) ++first[patch_of(i) + 1];
-    for (std::size_t p = 0; p + 1 < first.size(); ++p) first[p + 1] += first[p];
-    order.resize(count);
-    std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
-    for (std::uint32_t i = 0; i < count; ++i) order[next[patch_of(i)]++] = i;
-  };
-  group(
-      vertices_.size(), [&](std::uint32_t v) { return patch_[v]; }, vertex_first_, vertex_order_);
-  group(
-      triangles_.size(), [&](std::uint32_t t) { return patch_[triangles_[t].corners[0]]; }, triangle_first_,
-      triangle_order_);
+  grid_.reset();
+  std::vector<std::uint32_t>().swap(patch_of_ball_);
+  std::vector<std::uint16_t>().swap(group_of_);
+  std::vector<std::uint16_t>().swap(group_of_patch_);
+  set_ = {};
+  memory_.resize(0);
 }
 
-EditablePatch CollectedPatches::patch(std::size_t number) const {
+PatchGroup CollectedPatches::group(std::size_t number) {
+  const auto vertex_count = static_cast<std::size_t>(vertices_.count(number)),
+             triangle_count = static_cast<std::size_t>(triangles_.count(number));
+  const std::uint32_t first = first_of_group_[number], patches = first_of_group_[number + 1] - first;
+  PatchGroup group;
+  group.memory_ = budget_->reserve(kPatchOwner, vertex_count * (sizeof(PatchGroup::Vertex) + 12) +
+                                                    triangle_count * (sizeof(PatchGroup::Triangle) + 4));
+  group.vertices_.reserve(vertex_count);
+  group.triangles_.reserve(triangle_count);
+  std::vector<std::uint32_t> patch_of, triangle_patch;
+  VertexSet numbers;  // of all groups
+  vertices_.rewind(number);
+  for (std::size_t i = 0; i < vertex_count; ++i) {
+    const Vertex& vertex = vertices_.next(number);
+    numbers.add(VertexId(vertex.number));
+    group.vertices_.push_back({VertexId(vertex.id), vertex.position});
+    patch_of.push_back(vertex.patch - first);
+  }
+  triangles_.rewind(number);
+  for (std::size_t i = 0; i < triangle_count; ++i) {
+    Triangle triangle = triangles_.next(number);
+    bool inside = triangle.is_other == 0;
+    for (std::uint32_t& v : triangle.corners) {
+      if (v != VertexSet::kNone) v = numbers.find(VertexId(v));
+      inside = inside && v != VertexSet::kNone && patch_of[v] == patch_of[triangle.corners[0]];
+    }
+    if (inside) {
+      group.triangles_.push_back({triangle.corners, triangle.id});
+      triangle_patch.push_back(patch_of[triangle.corners[0]]);
+      continue;
+    }
+    for (const std::uint32_t v : triangle.corners) {
+      if (v == VertexSet::kNone) continue;
+      if (triangle.is_other != 0)
+        group.vertices_[v].used_elsewhere = true;
+      else
+        group.vertices_[v].whole = false;
+    }
+  }
+  const auto sort = [&](const std::vector<std::uint32_t>& of, std::vector<std::uint32_t>& begins,
+                        std::vector<std::uint32_t>& order) {
+    begins.assign(patches + 1, 0);
+    for (const std::uint32_t patch : of) ++begins[patch + 1];
+    for (std::size_t p = 0; p < patches; ++p) begins[p + 1] += begins[p];
+    order.resize(of.size());
+    std::vector<std::uint32_t> next(begins.begin(), begins.end() - 1);
+    for (std::uint32_t i = 0; i < of.size(); ++i) order[next[of[i]]++] = i;
+  };
+  sort(patch_of, group.vertex_first_, group.vertex_order_);
+  sort(triangle_patch, group.triangle_first_, group.triangle_order_);
+  return group;
+}
+
+EditablePatch PatchGroup::patch(std::size_t number) const {
   EditablePatch patch;
   const auto first = vertex_order_.begin() + vertex_first_[number],
              end = vertex_order_.begin() + vertex_first_[number + 1];
-  for (auto it = first; it != end; ++it)
-    patch.add_vertex({vertices_[*it], positions_[*it], whole_[*it] != 0, used_elsewhere_[*it] != 0, {}});
+  for (auto it = first; it != end; ++it) {
+    const Vertex& vertex = vertices_[*it];
+    patch.add_vertex({vertex.id, vertex.position, vertex.whole, vertex.used_elsewhere, {}});
+  }
   for (std::uint32_t i = triangle_first_[number]; i < triangle_first_[number + 1]; ++i) {
     const Triangle& triangle = triangles_[triangle_order_[i]];
     EditablePatch::Corners local{};

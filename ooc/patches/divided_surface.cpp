@@ -86,7 +86,7 @@ void DividedSurface::add(const MeshBatch& batch, std::span<const std::vector<dou
   }
   const std::uint64_t sets = 200 * several_.size();
   memory_.resize(grid_->memory_bytes() + 5 * group_of_ball_.size() + set_.memory_bytes() + measured_.memory_bytes() +
-                 4 * groups_of_.size() + sizeof(Point) * measured_positions_.capacity() + sets);
+                 groups_of_.memory_bytes() + sizeof(Point) * measured_positions_.capacity() + sets);
 }
 
 void DividedSurface::add_triangle(VertexId a, VertexId b, VertexId c) {
@@ -131,7 +131,7 @@ void DividedSurface::measure(const Triangle& triangle) {
 void DividedSurface::finish() {
   grid_.reset();
   std::vector<std::uint32_t>().swap(group_of_ball_);
-  std::deque<std::uint32_t>().swap(groups_of_);
+  groups_of_ = {};
   std::vector<Groups>().swap(sets_);
   several_.clear();
   std::vector<std::uint8_t>().swap(ball_is_measured_);

@@ -1,6 +1,7 @@
 // The parts of a mesh that are in some balls, collected in one reading and taken up one group of balls after the other.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
@@ -28,7 +29,7 @@ struct GroupedBall {
 // Use: add() every batch of the mesh, finish(), then take the surface of each group. What is in the balls of several
 // groups is in the surface of each.
 //
-// MEMORY:  while the mesh is read, 100 bytes for each ball, 4 for each vertex in one, a bit per vertex of the mesh, and
+// MEMORY:  while the mesh is read, 100 bytes for each ball, 2 for each vertex in one, a bit per vertex of the mesh, and
 //          32 KiB for each group, and 24 for each vertex in a measured ball, from the budget; then a surface at a time.
 //          The rest is in a temporary file: some 110 bytes for each vertex in the balls.
 // THREADS: one at a time.
@@ -75,8 +76,23 @@ class DividedSurface {
   std::vector<Point> measured_positions_;
   double measured_length_ = 0;
   std::uint64_t measured_edges_ = 0;
-  std::deque<std::uint32_t> groups_of_;  // by number of the vertex: of sets_; grows without a copy
-  std::vector<Groups> sets_;             // first, each group alone
+  // Numbers by the vertex, nearly all of them small.
+  class SetNumbers {
+   public:
+    void push_back(std::uint32_t x) {
+      if (x >= kLarge) large_.emplace(low_.size(), x);
+      low_.push_back(static_cast<std::uint16_t>(std::min(x, kLarge)));
+    }
+    std::uint32_t operator[](std::uint32_t i) const { return low_[i] < kLarge ? low_[i] : large_.at(i); }
+    std::uint64_t memory_bytes() const { return 2 * low_.size() + 64 * large_.size(); }
+
+   private:
+    static constexpr std::uint32_t kLarge = 0xffff;
+    std::deque<std::uint16_t> low_;  // grows without a copy
+    std::map<std::size_t, std::uint32_t> large_;
+  };
+  SetNumbers groups_of_;      // of sets_
+  std::vector<Groups> sets_;  // first, each group alone
   std::map<Groups, std::uint32_t> several_;
   Groups at_point_;
   // Of each vertex: its number, its index in the mesh, the bits of its coordinates and values.

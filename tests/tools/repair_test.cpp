@@ -285,6 +285,46 @@ TEST_F(RepairTest, LooksAgainWhereAPatchEndsAtItsCurve) {
   EXPECT_TRUE(count.is_closed_manifold());
 }
 
+// The hole of a thick ring, and a needle whose four corners are far away from it: through the hole, or beside the ring.
+TEST_F(RepairTest, LeavesAHoleThatAHugeTrianglePassesThrough) {
+  constexpr std::uint32_t kAround = 48, kAcross = 40;
+  PlainSurface ring;
+  for (std::uint32_t i = 0; i < kAround; ++i)
+    for (std::uint32_t j = 0; j < kAcross; ++j) {
+      const double u = 2 * 3.14159265358979 * i / kAround, w = 2 * 3.14159265358979 * j / kAcross;
+      const double r = 3 + 2.4 * std::cos(w);
+      ring.vertices.push_back({r * std::cos(u), r * std::sin(u), 2.4 * std::sin(w)});
+    }
+  for (std::uint32_t i = 0; i < kAround; ++i)
+    for (std::uint32_t j = 0; j < kAcross; ++j) {
+      const auto at = [&](std::uint32_t k, std::uint32_t l) { return k % kAround * kAcross + l % kAcross; };
+      ring.triangles.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
+      ring.triangles.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
+    }
+  const std::uint32_t base = kAround * kAcross;
+  for (const double away : {0.0, 12.0}) {
+    PlainSurface both = ring;
+    for (const auto& p : std::vector<std::array<double, 3>>{{0.1, 0, -90}, {-0.1, 0.1, -90}, {-0.1, -0.1, -90}})
+      both.vertices.push_back({p[0] + away, p[1], p[2]});
+    both.vertices.push_back({away, 0, 90});
+    for (const auto& t : std::vector<std::array<std::uint32_t, 3>>{{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}})
+      both.triangles.push_back({base + t[0], base + t[1], base + t[2]});
+    ASSERT_TRUE(recount(both).is_closed_manifold());
+    // One format that can be looked up, and one that cannot.
+    write("n.off", to_off(both));
+    expect_success(reeb({"convert", "n.off", "n.ply", "--force", "--quiet"}));
+    for (const std::string name : {"n.off", "n.ply"}) {
+      expect_success(reeb({"repair", name, "-o", "r.ply", "--all", "--quiet", "--log", "r.json", "--force"}));
+      const auto log = json("r.json");
+      EXPECT_EQ(log["repaired"], away > 0 ? 1 : 0) << name;
+      EXPECT_EQ(recount(ply("r.ply")).genus(), away > 0 ? 0 : 1) << name;
+      if (away == 0) {
+        EXPECT_EQ(log["left"][0]["why"], "every filling would cross the surface");
+      }
+    }
+  }
+}
+
 TEST_F(RepairTest, KeepsTheSignOfZeros) {
   expect_success(reeb({"generate", "torus", "--triangles", "2000", "-o", "t.ply"}));
   PlainSurface torus = read_plain_ply(file("t.ply"));

@@ -36,6 +36,9 @@ bool before(const Candidate& a, const Candidate& b) {
 std::vector<Candidate> candidates(const LoopList& list, const PatchScale& scale,
                                   const std::vector<std::vector<FoundCurves>>& found) {
   std::vector<Candidate> result;
+  std::size_t most = 0;
+  for (const auto& patches : found) most += 2 * patches.size();
+  result.reserve(most);
   const auto add = [&](std::uint32_t loop, const FoundCurves& both, const FoundCurve& curve) {
     const bool first = list.loops[loop].function == 0;
     if (curve.path.empty() || (!first && !curve.closed)) return;

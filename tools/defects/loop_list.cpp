@@ -54,6 +54,7 @@ LoopList read_loops(std::span<const std::string> files) {
                               down[pair.hi.value()] == 2});
     list.functions.push_back(std::move(function));
   }
+  list.loops.shrink_to_fit();
   return list;
 }
 

@@ -1,6 +1,7 @@
 #include "tools/defects/valued_mesh.h"
 
 #include "io/functions/function_source.h"
+#include "ooc/chunks/spooled_mesh.h"
 
 namespace reeb::tools {
 
@@ -36,6 +37,16 @@ void ValuedMesh::read(const Observe& observe) const {
       }
       observe(batch, values, reader->bytes_read(), reader->info().file_bytes);
     }
+    return 0;
+  });
+}
+
+void ValuedMesh::look_up(ooc::Workspace& space, const std::function<void(IndexedMesh&)>& use) const {
+  input_.read([&] {
+    const auto reader = open();
+    auto mesh = reader->indexed();
+    if (!mesh) mesh = ooc::spool(*reader, space.temp, space.budget);
+    use(*mesh);
     return 0;
   });
 }

@@ -11,6 +11,8 @@
 #include "io/formats/open_mesh.h"
 #include "io/functions/function_spec.h"
 #include "io/functions/mesh_field.h"
+#include "libreeb/port/indexed_mesh.h"
+#include "ooc/whole_mesh/workspace.h"
 
 namespace reeb::tools {
 
@@ -33,6 +35,8 @@ class ValuedMesh {
   using Observe = std::function<void(const MeshBatch& batch, std::span<const std::vector<double>> values,
                                      std::uint64_t done, std::uint64_t total)>;
   void read(const Observe& observe) const;
+  // Gives its triangles, with random access to its vertices; a format without that is copied to the disk first.
+  void look_up(ooc::Workspace& space, const std::function<void(IndexedMesh&)>& use) const;
 
  private:
   std::unique_ptr<MeshReader> open() const;

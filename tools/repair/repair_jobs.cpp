@@ -11,6 +11,7 @@
 #include "libreeb/repair/nearby_loop.h"
 #include "ooc/patches/ball_clusters.h"
 #include "ooc/patches/collected_patches.h"
+#include "ooc/patches/far_triangles.h"
 #include "ooc/threads/parallel.h"
 #include "tools/repair/divided_parts.h"
 
@@ -21,6 +22,8 @@ namespace {
 struct Cluster {
   std::vector<std::uint32_t> jobs;
   std::vector<ooc::Ball> balls;
+  bool far_known = false;
+  std::vector<ooc::FarTriangle> far;
   bool done = false;
   MeshEdits edits;
   std::vector<RimPair> open;  // by the job: rims between which no way is in the patch
@@ -82,20 +85,20 @@ MeshEdits edits_of(const EditablePatch& patch, std::vector<VertexRef>& number) {
 
 class Jobs {
  public:
-  Jobs(const ValuedMesh& mesh, const std::vector<RepairJob>& jobs, const PatchScale& scale, const JobOptions& options)
+  Jobs(const ValuedMesh& mesh, const std::vector<RepairJob>& jobs, const PatchScale& scale, ooc::Workspace& space,
+       const JobOptions& options)
       : mesh_(mesh),
         jobs_(jobs),
         scale_(scale),
+        space_(space),
         options_(options),
-        budget_(options.most_bytes),
         left_out_(jobs.size(), 0),
         too_small_(jobs.size(), 0) {
     done_.results.resize(jobs.size());
     for (const RepairJob& job : jobs) {
       ooc::Ball ball;
       for (std::size_t k = 0; k < 3; ++k) ball.center[k] = (job.box[0][k] + job.box[1][k]) / 2;
-      ball.radius = distance(job.box[0], job.box[1]) / 2 +
-                    kReach * std::max(job.length / static_cast<double>(job.curve.size()), kLeastEdge * scale.edge);
+      ball.radius = distance(job.box[0], job.box[1]) / 2 + kReach * edge_of(job);
       balls_.push_back(ball);
     }
   }
@@ -103,11 +106,15 @@ class Jobs {
   JobsDone run() {
     make_clusters();
     for (int round = 0; round < kMostRounds; ++round) {
+      find_far();
       read_patches();
       if (round < kMostDoublings && enlarge()) continue;
       if (!leave_out_dividing()) break;
     }
-    for (Cluster& cluster : clusters_) done_.edits.add(cluster.edits);
+    for (Cluster& cluster : clusters_) {
+      done_.edits.add(cluster.edits);
+      cluster = {};
+    }
     done_.edits.sort();
     return std::move(done_);
   }
@@ -115,6 +122,10 @@ class Jobs {
  private:
   static constexpr double kReach = 6, kLeastEdge = 0.25;  // of a patch beyond its curve, in edges
   static constexpr int kMostDoublings = 3, kMostRounds = 20;
+
+  double edge_of(const RepairJob& job) const {
+    return std::max(job.length / static_cast<double>(job.curve.size()), kLeastEdge * scale_.edge);
+  }
 
   void make_clusters() {
     std::vector<Cluster> clusters;
@@ -130,30 +141,67 @@ class Jobs {
     clusters_ = std::move(clusters);
   }
 
-  void read_patches() {
-    const double most = static_cast<double>(options_.patch_bytes) / kBytesPerVertex;
-    for (std::size_t begin = 0; begin < clusters_.size();) {
-      std::vector<Cluster*> now;
-      double sum = 0;
-      for (; begin < clusters_.size() && (now.empty() || sum < most); ++begin) {
-        Cluster& cluster = clusters_[begin];
-        if (cluster.done) continue;
-        now.push_back(&cluster);
-        for (const ooc::Ball& ball : cluster.balls) sum += scale_.vertices(ball.radius);
+  // A triangle with a corner outside its patch is not in it. A small one stays near its rim.
+  void find_far() {
+    constexpr double kSmall = kReach / 2;  // in edges
+    std::vector<ooc::PatchBall> places;
+    std::vector<Cluster*> now;
+    for (Cluster& cluster : clusters_) {
+      if (cluster.far_known) continue;
+      for (const std::uint32_t j : cluster.jobs)
+        places.push_back({balls_[j], static_cast<std::uint32_t>(now.size()), kSmall * edge_of(jobs_[j])});
+      now.push_back(&cluster);
+    }
+    if (now.empty()) return;
+    mesh_.look_up(space_, [&](IndexedMesh& mesh) {
+      ooc::FarTriangles found =
+          ooc::find_far_triangles(mesh, places, now.size(), space_.budget, [&](const IndexedMesh& read) {
+            if (options_.progress) options_.progress(read.bytes_read(), read.bytes_total());
+          });
+      for (std::size_t i = 0; i < now.size(); ++i) {
+        now[i]->far = std::move(found.of_patch[i]);
+        now[i]->far_known = true;
       }
-      if (!now.empty()) read(now);
+      far_memory_.push_back(std::move(found.memory));
+    });
+  }
+
+  // Its corners that are in the patch have numbers there.
+  static void add_obstacles(EditablePatch& patch, std::size_t vertices, const std::vector<ooc::FarTriangle>& far) {
+    for (const ooc::FarTriangle& triangle : far) {
+      PlacedTriangle placed{{}, triangle.points};
+      for (std::uint32_t k = 0; k < 3; ++k) {
+        const auto number = numbers_in(patch, vertices, {triangle.corners[k]});
+        placed.corners[k] = number ? number->front() : EditablePatch::kOutside + k;
+      }
+      patch.add_obstacle(placed);
     }
   }
 
-  void read(const std::vector<Cluster*>& now) {
+  // All in one reading, then as many at a time as the memory holds.
+  void read_patches() {
+    const double most = static_cast<double>(options_.patch_bytes) / kBytesPerVertex;
+    std::vector<Cluster*> now;
+    std::vector<std::uint32_t> first_of_group, patch_of;
     std::vector<ooc::Ball> balls;
-    std::vector<std::uint32_t> patch_of;
-    for (std::uint32_t i = 0; i < now.size(); ++i)
-      for (const ooc::Ball& ball : now[i]->balls) {
-        balls.push_back(ball);
-        patch_of.push_back(i);
+    double sum = most;
+    for (Cluster& cluster : clusters_) {
+      if (cluster.done) continue;
+      const auto patch = static_cast<std::uint32_t>(now.size());
+      if (sum >= most) {
+        first_of_group.push_back(patch);
+        sum = 0;
       }
-    ooc::CollectedPatches patches(balls, patch_of, now.size(), budget_);
+      for (const ooc::Ball& ball : cluster.balls) {
+        sum += scale_.vertices(ball.radius);
+        balls.push_back(ball);
+        patch_of.push_back(patch);
+      }
+      now.push_back(&cluster);
+    }
+    if (now.empty()) return;
+    first_of_group.push_back(static_cast<std::uint32_t>(now.size()));
+    ooc::CollectedPatches patches(balls, patch_of, first_of_group, space_.temp, space_.budget);
     mesh_.read(
         [&](const MeshBatch& batch, std::span<const std::vector<double>>, std::uint64_t done, std::uint64_t total) {
           patches.add(batch);
@@ -162,11 +210,17 @@ class Jobs {
     patches.finish();
     done_.mesh_vertices = patches.mesh_vertices();
     done_.mesh_triangles = patches.mesh_triangles();
-    ooc::in_parallel(options_.threads, now.size(), [&](std::size_t i) { work(patches.patch(i), *now[i]); });
+    for (std::size_t g = 0; g + 1 < first_of_group.size(); ++g) {
+      const ooc::PatchGroup group = patches.group(g);
+      const std::uint32_t first = first_of_group[g];
+      ooc::in_parallel(options_.threads, first_of_group[g + 1] - first,
+                       [&](std::size_t i) { work(group.patch(i), *now[first + i]); });
+    }
   }
 
   void work(EditablePatch patch, Cluster& cluster) {
     const std::size_t vertices = patch.vertex_count();
+    add_obstacles(patch, vertices, cluster.far);
     struct Open {
       std::uint32_t job;
       std::vector<std::uint32_t> first, second;
@@ -254,10 +308,10 @@ class Jobs {
       edits.add(cluster.edits);
     }
     edits.sort();
-    const auto dividing =
-        dividing_curves(mesh_, edits, done_.mesh_vertices, open, budget_, [&](std::uint64_t done, std::uint64_t total) {
-          if (options_.progress) options_.progress(done, total);
-        });
+    const auto dividing = dividing_curves(mesh_, edits, done_.mesh_vertices, open, space_.budget,
+                                          [&](std::uint64_t done, std::uint64_t total) {
+                                            if (options_.progress) options_.progress(done, total);
+                                          });
     for (const auto& [job, why] : dividing) {
       left_out_[job] = 1;
       done_.results[job] = {};
@@ -273,8 +327,9 @@ class Jobs {
   const ValuedMesh& mesh_;
   const std::vector<RepairJob>& jobs_;
   const PatchScale& scale_;
+  ooc::Workspace& space_;
   const JobOptions& options_;
-  MemoryBudget budget_;
+  std::vector<Reservation> far_memory_;
   std::vector<std::uint8_t> left_out_, too_small_;
   std::vector<ooc::Ball> balls_;
   std::vector<Cluster> clusters_;
@@ -284,8 +339,8 @@ class Jobs {
 }  // namespace
 
 JobsDone run_jobs(const ValuedMesh& mesh, const std::vector<RepairJob>& jobs, const PatchScale& scale,
-                  const JobOptions& options) {
-  return Jobs(mesh, jobs, scale, options).run();
+                  ooc::Workspace& space, const JobOptions& options) {
+  return Jobs(mesh, jobs, scale, space, options).run();
 }
 
 }  // namespace reeb::tools

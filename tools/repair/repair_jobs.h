@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "libreeb/base/memory_budget.h"
+#include "ooc/whole_mesh/workspace.h"
 #include "tools/defects/curve_search.h"
 #include "tools/defects/valued_mesh.h"
 #include "tools/repair/mesh_edits.h"
@@ -30,9 +30,8 @@ struct JobResult {
 
 struct JobOptions {
   unsigned threads = 0;
-  std::uint64_t patch_bytes = std::uint64_t{128} << 20;  // of patches at the same time, roughly
-  std::uint64_t most_bytes = MemoryBudget::kUnlimited;   // of patches, and of the parts of the mesh
-  bool float32 = false;                                  // positions of new vertices
+  std::uint64_t patch_bytes = std::uint64_t{24} << 20;  // of patches at the same time, roughly
+  bool float32 = false;                                 // positions of new vertices
   std::function<void(std::uint64_t done, std::uint64_t total)> progress{};
 };
 
@@ -43,10 +42,11 @@ struct JobsDone {
 };
 
 // Jobs whose patches meet are done by length, each on the surface as the ones before left it. A curve that would divide
-// a component of what is left then is not cut. Reads the mesh once for the patches, or as often as the memory requires;
-// again where patches turn out to be too small; and once to see whether something was divided, where that is not known
-// from the patches. REQUIRES: jobs are in the order of their lengths.
+// a component of what is left then is not cut. Reads the mesh once for the patches; again where patches turn out to be
+// too small; once for large triangles that reach into them; and once to see whether something was divided, where that
+// is not known from the patches. REQUIRES: jobs are in the order of their lengths. What it holds is from the budget of
+// `space`.
 JobsDone run_jobs(const ValuedMesh& mesh, const std::vector<RepairJob>& jobs, const PatchScale& scale,
-                  const JobOptions& options);
+                  ooc::Workspace& space, const JobOptions& options);
 
 }  // namespace reeb::tools

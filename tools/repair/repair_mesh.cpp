@@ -21,9 +21,8 @@ class Plan {
     const MeshInfo info = open_for_copy(input, options.mesh, options.output)->info();
     jobs_.float32 = has_float32_positions(input, info);
     jobs_.threads = options.threads;
-    jobs_.most_bytes = options.mesh.memory_bytes;
     if (options.mesh.memory_bytes != MemoryBudget::kUnlimited)
-      jobs_.patch_bytes = std::min(jobs_.patch_bytes, options.mesh.memory_bytes / 2);
+      jobs_.patch_bytes = std::min(jobs_.patch_bytes, options.mesh.memory_bytes / 8);
     jobs_.progress = [this](std::uint64_t done, std::uint64_t total) {
       if (options_.interrupted && options_.interrupted())
         throw Error(ErrorKind::kInterrupted, "interrupted", "run the same command again");
@@ -59,7 +58,7 @@ class Plan {
       };
       std::stable_sort(chosen.begin(), chosen.end(),
                        [&](std::size_t a, std::size_t b) { return length(a) < length(b); });
-      const JobsDone done = run_jobs(mesh, jobs_of(rows, cleaning.boundaries, chosen), defects.scale, jobs_);
+      const JobsDone done = run_jobs(mesh, jobs_of(rows, cleaning.boundaries, chosen), defects.scale, space, jobs_);
       for (RepairedRow& row : repair_.rows) row.done = false;
       repair_.boundaries_filled = 0;
       repair_.boundaries_left.assign(cleaning.pinched_boundaries, "it is not one simple path");
