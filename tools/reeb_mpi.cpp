@@ -115,12 +115,10 @@ void run(reeb::tools::World& world, int argc, char** argv) {
       .type_name("FILE");
   reeb::tools::add_run_options(command, arguments);
   command.add_option("--report", arguments.report, "Write figures of the run as JSON").type_name("FILE");
+  command.callback([&] { compute(world, std::move(arguments)); });
   const std::vector<std::string> words(argv + 1, argv + argc);
-  if (const auto text = program.run(words.empty() ? std::vector<std::string>{"--help"} : words)) {
-    if (world.is_root()) fmt::print("{}", *text);
-    return;
-  }
-  compute(world, std::move(arguments));
+  const auto text = program.run(words.empty() ? std::vector<std::string>{"--help"} : words);
+  if (text && world.is_root()) fmt::print("{}", *text);
 }
 
 // Ends all ranks.
