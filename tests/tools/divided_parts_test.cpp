@@ -46,8 +46,7 @@ class DividedPartsTest : public ProgramTest {
     return {static_cast<std::uint32_t>(ring), old(ring * kAcross + 2), old((ring + 1) % kAround * kAcross + 3)};
   }
 
-  std::vector<std::uint32_t> dividing(const std::vector<std::uint64_t>& rings, std::uint64_t memory,
-                                      const std::string& why) const {
+  std::vector<std::uint32_t> dividing(const std::vector<std::uint64_t>& rings, std::uint64_t memory) const {
     tools::MeshEdits edits;
     std::vector<tools::RimPair> pairs;
     for (const std::uint64_t ring : rings) pairs.push_back(cut(ring, edits));
@@ -55,12 +54,12 @@ class DividedPartsTest : public ProgramTest {
     tools::MeshSource source;
     source.path = in_folder("torus.off");
     const tools::ValuedMesh mesh(source, {});
-    MemoryBudget budget(memory);
+    ooc::Workspace space(in_folder("."), memory);
     std::vector<std::uint32_t> jobs;
     for (const auto& [job, reason] :
-         tools::dividing_curves(mesh, edits, kAround * kAcross, pairs, budget, [](std::uint64_t, std::uint64_t) {})) {
+         tools::dividing_curves(mesh, edits, kAround * kAcross, pairs, space, [](std::uint64_t, std::uint64_t) {})) {
       jobs.push_back(job);
-      EXPECT_EQ(reason, why);
+      EXPECT_EQ(reason, "cutting along it would divide the surface");
     }
     std::sort(jobs.begin(), jobs.end());
     return jobs;
@@ -68,13 +67,13 @@ class DividedPartsTest : public ProgramTest {
 };
 
 TEST_F(DividedPartsTest, AreFoundFromTheLastCurveOn) {
-  const std::string why = "cutting along it would divide the surface";
   using Jobs = std::vector<std::uint32_t>;
-  EXPECT_EQ(dividing({5}, MemoryBudget::kUnlimited, why), Jobs{});
-  EXPECT_EQ(dividing({0, 12}, MemoryBudget::kUnlimited, why), Jobs{12});
-  EXPECT_EQ(dividing({3, 9, 15, 23}, MemoryBudget::kUnlimited, why), (Jobs{9, 15, 23}));
-  EXPECT_EQ(dividing({0, 12}, 100, "whether cutting along it divides the surface cannot be told in this memory"),
-            (Jobs{0, 12}));
+  for (const std::uint64_t memory : {MemoryBudget::kUnlimited, std::uint64_t{4} << 20}) {
+    EXPECT_EQ(dividing({5}, memory), Jobs{});
+    EXPECT_EQ(dividing({0, 12}, memory), Jobs{12});
+    EXPECT_EQ(dividing({3, 9, 15, 23}, memory), (Jobs{9, 15, 23}));
+  }
+  EXPECT_THROW(dividing({0, 12}, 100), Error);
 }
 
 }  // namespace

@@ -2,29 +2,25 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <limits>
-#include <numeric>
 #include <span>
 
-#include "libreeb/base/union_find.h"
+#include "ooc/tables/paged_union_find.h"
 
 namespace reeb::tools {
+namespace {
+
+// For 3 million vertices, which are more than a coherent order of triangles has in use at a time.
+constexpr std::uint64_t kMostResidentBytes = 24u << 20;
+
+}  // namespace
 
 std::vector<std::pair<std::uint32_t, std::string>> dividing_curves(
     const ValuedMesh& mesh, const MeshEdits& edits, std::uint64_t mesh_vertices, const std::vector<RimPair>& pairs,
-    MemoryBudget& budget, const std::function<void(std::uint64_t done, std::uint64_t total)>& progress) {
+    ooc::Workspace& space, const std::function<void(std::uint64_t done, std::uint64_t total)>& progress) {
   std::vector<std::pair<std::uint32_t, std::string>> result;
-  const std::uint64_t all = mesh_vertices + edits.vertices.size();
-  const Reservation memory = budget.try_reserve("parts of the repaired surface", sizeof(std::uint32_t) * all);
-  if (all > std::numeric_limits<std::uint32_t>::max() / 2 || memory.bytes() == 0) {
-    for (const RimPair& pair : pairs)
-      result.emplace_back(pair.job, "whether cutting along it divides the surface cannot be told in this memory");
-    return result;
-  }
-  UnionFind part(static_cast<std::uint32_t>(all));
-  const auto number = [&](const VertexRef& ref) {
-    return static_cast<std::uint32_t>(ref.is_new ? mesh_vertices + ref.number : ref.number);
-  };
+  ooc::PagedUnionFind part("parts of the repaired surface", space.temp, space.budget,
+                           std::min(space.share(), kMostResidentBytes));
+  const auto number = [&](const VertexRef& ref) { return ref.is_new ? mesh_vertices + ref.number : ref.number; };
   std::uint64_t triangle = 0;
   auto removed = edits.removed.begin();
   mesh.read([&](const MeshBatch& batch, std::span<const std::vector<double>>, std::uint64_t done, std::uint64_t total) {
@@ -34,9 +30,8 @@ std::vector<std::pair<std::uint32_t, std::string>> dividing_curves(
         ++removed;
         continue;
       }
-      const auto a = static_cast<std::uint32_t>(corners[i].value());
-      part.unite(a, static_cast<std::uint32_t>(corners[i + 1].value()));
-      part.unite(a, static_cast<std::uint32_t>(corners[i + 2].value()));
+      part.unite(corners[i].value(), corners[i + 1].value());
+      part.unite(corners[i].value(), corners[i + 2].value());
     }
     progress(done, total);
   });

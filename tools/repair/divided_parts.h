@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "libreeb/base/memory_budget.h"
+#include "ooc/whole_mesh/workspace.h"
 #include "tools/defects/valued_mesh.h"
 #include "tools/repair/mesh_edits.h"
 
@@ -22,11 +22,11 @@ struct RimPair {
 
 // The jobs that should not be done, the last ones first, with the reason: without them, no two sides of a cut lie in
 // different components of the edited mesh. Reads the mesh once.
-// MEMORY: 4 bytes per vertex of the mesh, from the budget; if it does not have them, it is unknown what divides, so all
-// pairs are returned.
+// MEMORY: at most 24 MiB and an eighth of the budget, reserved; the rest of 8 bytes per vertex is in a temporary file.
+// THROWS: Error{kResource} of the budget or the disk.
 // REQUIRES: pairs ascend by their jobs.
 std::vector<std::pair<std::uint32_t, std::string>> dividing_curves(
     const ValuedMesh& mesh, const MeshEdits& edits, std::uint64_t mesh_vertices, const std::vector<RimPair>& pairs,
-    MemoryBudget& budget, const std::function<void(std::uint64_t done, std::uint64_t total)>& progress);
+    ooc::Workspace& space, const std::function<void(std::uint64_t done, std::uint64_t total)>& progress);
 
 }  // namespace reeb::tools

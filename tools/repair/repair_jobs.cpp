@@ -308,7 +308,7 @@ class Jobs {
       edits.add(cluster.edits);
     }
     edits.sort();
-    const auto dividing = dividing_curves(mesh_, edits, done_.mesh_vertices, open, space_.budget,
+    const auto dividing = dividing_curves(mesh_, edits, done_.mesh_vertices, open, space_,
                                           [&](std::uint64_t done, std::uint64_t total) {
                                             if (options_.progress) options_.progress(done, total);
                                           });
