@@ -81,7 +81,8 @@ Done run(const Given& given, const std::string& path) {
   ReebGraph graph = given.graph;
   ooc::RecordLog records(temp(), budget);
   const Hierarchy hierarchy = build_hierarchy(graph, pack_lists(given.buckets.view()), given.exponent, records);
-  ooc::write_hierarchy_file(path, given.meta(), {graph, hierarchy, records, !given.buckets.offsets.empty(), true});
+  ooc::HierarchyInMemory in_memory(graph, hierarchy);
+  ooc::write_hierarchy_file(path, given.meta(), {in_memory, records, !given.buckets.offsets.empty(), true});
   return {records.record_count(), records.spilled_bytes(), hierarchy.persistence.size()};
 }
 

@@ -14,9 +14,11 @@ namespace reeb {
 // before they are read.
 //
 // MEMORY: 4 bytes per node of the graph, kept between searches, and up to 16 bytes per arc in the queue.
+template <class Graph = WorkingGraph>
 class BoundedSearch {
  public:
-  explicit BoundedSearch(const WorkingGraph& graph) : graph_(graph) { reached_.assign(graph.end_node().value(), 0); }
+  explicit BoundedSearch(const Graph& graph)
+      : graph_(graph), reached_(graph.tables().template table<NodeId>(graph.end_node().value(), std::uint32_t{0})) {}
 
   // Begins a search at `node` that follows arcs in direction d to nodes not beyond `limit`, and
   // forgets what was reached before.
@@ -48,17 +50,17 @@ class BoundedSearch {
       if (!reached(node) && enter(node)) reach(node);
       return arc;
     }
-    return WorkingGraph::kNone;
+    return Graph::kNone;
   }
   ArcId step() {
     return step([](NodeId) { return true; });
   }
   void finish() {
-    while (step() != WorkingGraph::kNone) {
+    while (step() != Graph::kNone) {
     }
   }
 
-  void prefetch(NodeId node) const { __builtin_prefetch(&reached_[node]); }
+  void prefetch(NodeId node) const { graph_.tables().prefetch(reached_, node); }
   bool reached(NodeId node) const { return reached_[node] == search_; }
 
  private:
@@ -69,7 +71,7 @@ class BoundedSearch {
 
   void begin(NodeId node) {
     if (++search_ == 0) {
-      reached_.assign(reached_.size(), 0);
+      for (NodeId other; other < graph_.end_node(); ++other) reached_[other] = 0;
       search_ = 1;
     }
     queue_.clear();
@@ -99,8 +101,8 @@ class BoundedSearch {
     graph_.prefetch_node(node);
   }
 
-  const WorkingGraph& graph_;
-  IdVector<NodeId, std::uint32_t> reached_;  // the last search that reached each node
+  const Graph& graph_;
+  typename Graph::Tables::template Table<NodeId, std::uint32_t> reached_;  // the last search that reached each node
   std::uint32_t search_ = 0;
   std::array<NodeId, 2> limit_{};
   std::array<bool, 2> follows_{};

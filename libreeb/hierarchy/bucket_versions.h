@@ -1,8 +1,11 @@
 // The embedding as the content of a Canceller: it yields the buckets of every arc record.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <utility>
 
@@ -12,18 +15,37 @@
 
 namespace reeb {
 
+// What buckets need to know of the nodes of a graph.
+class NodesInMemory {
+ public:
+  // REQUIRES: `graph` outlives this.
+  explicit NodesInMemory(const ReebGraph& graph) : graph_(graph) {}
+  double value(NodeId node) const { return graph_.nodes[node.value()].value; }
+  std::array<double, 3> position(NodeId node) const {
+    return graph_.positions.empty() ? std::array<double, 3>{} : graph_.positions[node.value()];
+  }
+  void prefetch(NodeId node) const {
+    __builtin_prefetch(&graph_.nodes[node.value()]);
+    if (!graph_.positions.empty()) __builtin_prefetch(&graph_.positions[node.value()]);
+  }
+
+ private:
+  const ReebGraph& graph_;
+};
+
 // A node that is contracted enters a bucket of the arc that contains it then.
 //
 // MEMORY: ArcBucketLists. The lists that a step changes are open until the step ends.
+template <class Nodes = NodesInMemory, class Lists = PackedLists>
 class BucketVersions {
  public:
   static constexpr bool kFollows = true;
   // One in a hundred extrema of a scan, and one in six of a random function, have a longer path.
   static constexpr std::uint32_t kMostArcsOfExtremum = 8;
 
-  // REQUIRES: `graph` and `sink` outlive this; `lists` are those of the graph's arcs, of this exponent.
-  BucketVersions(const ReebGraph& graph, PackedLists lists, int exponent, RecordSink& sink)
-      : graph_(graph), sink_(sink), lists_(std::move(lists), exponent) {}
+  // REQUIRES: what `nodes` refers to and `sink` outlive this; `lists` are those of the graph's arcs, of this exponent.
+  BucketVersions(Nodes nodes, Lists lists, int exponent, RecordSink& sink)
+      : nodes_(std::move(nodes)), sink_(sink), lists_(std::move(lists), exponent) {}
 
   // The content of the Canceller.
   bool cut(const ArcCut& arc);
@@ -37,20 +59,50 @@ class BucketVersions {
   void drop(ArcId arc, std::uint32_t nodes);
   std::span<const std::byte> before_step(ArcId arc) const { return lists_.closed(arc); }
   void commit();
-  void prefetch_node(NodeId node) const {
-    __builtin_prefetch(&graph_.nodes[node.value()]);
-    if (!graph_.positions.empty()) __builtin_prefetch(&graph_.positions[node.value()]);
-  }
+  void prefetch_node(NodeId node) const { nodes_.prefetch(node); }
   void prefetch_place(ArcId arc) const { lists_.prefetch_place(arc); }
   void prefetch(ArcId arc) const { lists_.prefetch(arc); }
 
  private:
-  double value(NodeId node) const { return graph_.nodes[node.value()].value; }
+  static constexpr double kNever = std::numeric_limits<double>::infinity();
 
-  const ReebGraph& graph_;
+  double value(NodeId node) const { return nodes_.value(node); }
+
+  Nodes nodes_;
   RecordSink& sink_;
-  ArcBucketLists lists_;
+  BasicArcBucketLists<Lists> lists_;
   std::uint32_t step_ = 1;
 };
+
+template <class Nodes, class Lists>
+bool BucketVersions<Nodes, Lists>::cut(const ArcCut& arc) {
+  if (lists_.empty(arc.from)) return false;
+  const auto [lo, hi] = std::minmax(arc.start, arc.end);
+  return lists_.cut(opposite(arc.direction), arc.from, arc.into, {value(lo), value(arc.node), value(hi)});
+}
+
+template <class Nodes, class Lists>
+double BucketVersions<Nodes, Lists>::first_value(const ArcPart& part) {
+  if (lists_.empty(part.arc)) return part.direction == kUp ? kNever : -kNever;
+  const auto [lo, hi] = std::minmax(part.start, part.end);
+  return lists_.first_value(part.direction, part.arc, value(lo), value(hi));
+}
+
+template <class Nodes, class Lists>
+void BucketVersions<Nodes, Lists>::join(ArcId upper, ArcId lower, NodeId node) {
+  lists_.merge(upper, lower);
+  lists_.add(lower, value(node), nodes_.position(node));
+}
+
+template <class Nodes, class Lists>
+void BucketVersions<Nodes, Lists>::drop(ArcId arc, std::uint32_t nodes) {
+  if (const std::uint64_t count = lists_.drop(arc) + nodes; count != 0) sink_.drop({step_, count});
+}
+
+template <class Nodes, class Lists>
+void BucketVersions<Nodes, Lists>::commit() {
+  lists_.close();
+  ++step_;
+}
 
 }  // namespace reeb

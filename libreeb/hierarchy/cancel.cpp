@@ -96,11 +96,12 @@ Hierarchy build_hierarchy(ReebGraph& graph, PackedLists buckets, int exponent, R
   hierarchy.pairs = persistence_pairs(graph, pairing);
   hierarchy.isolated = isolated_nodes(graph);
   if (buckets.size() == 0) {
-    Canceller<> canceller(graph, sink);
+    Canceller<> canceller(WorkingGraph(graph), sink);
     release_arcs(graph);
     cancel_all(graph, canceller, hierarchy, cancelling);
   } else {
-    Canceller canceller(graph, sink, BucketVersions(graph, std::move(buckets), exponent, sink));
+    Canceller canceller(WorkingGraph(graph), sink,
+                        BucketVersions(NodesInMemory(graph), std::move(buckets), exponent, sink));
     release_arcs(graph);
     cancel_all(graph, canceller, hierarchy, cancelling);
   }

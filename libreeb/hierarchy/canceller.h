@@ -69,12 +69,12 @@ struct IgnoreContent {
 };
 
 // MEMORY: 40 bytes per arc and 25 bytes per node.
-template <class Content = IgnoreContent>
+template <class Content = IgnoreContent, class Graph = WorkingGraph>
 class Canceller {
  public:
-  // Copies the arcs of `graph`, whose own are not needed afterwards. REQUIRES: `sink` outlives this.
-  Canceller(const ReebGraph& graph, RecordSink& sink, Content content = {})
-      : graph_(graph), log_(graph_, sink), search_(graph_), ways_(graph_), content_(std::move(content)) {}
+  // REQUIRES: `sink` outlives this.
+  Canceller(Graph graph, RecordSink& sink, Content content = {})
+      : graph_(std::move(graph)), log_(graph_, sink), search_(graph_), ways_(graph_), content_(std::move(content)) {}
   Canceller(const Canceller&) = delete;
   Canceller& operator=(const Canceller&) = delete;
 
@@ -121,12 +121,12 @@ class Canceller {
     }
   }
 
-  const WorkingGraph& graph() const { return graph_; }
+  const Graph& graph() const { return graph_; }
   // Writes the records of the last version. REQUIRES: nothing is cancelled afterwards.
   void finish() { log_.finish(content_); }
 
  private:
-  static constexpr ArcId kNone = WorkingGraph::kNone;
+  static constexpr ArcId kNone = Graph::kNone;
   static constexpr std::uint32_t kAny = kAnyNumberOfArcs;
 
   // A pair of `fork` with the extremum that is its partner in direction d.
@@ -172,10 +172,10 @@ class Canceller {
   }
   void contract(NodeId node);
 
-  WorkingGraph graph_;
-  VersionLog log_;
-  PathSearch search_;
-  PathFollower ways_;
+  Graph graph_;
+  VersionLog<Graph> log_;
+  PathSearch<Graph> search_;
+  PathFollower<Graph> ways_;
   TwoPaths paths_;  // to be zipped
   Content content_;
 };
@@ -185,8 +185,8 @@ class Canceller {
 // Zips the path that starts with `arc` and ends in the extremum onto the path that starts with `other`, which is in
 // another component and reaches beyond. An arc of the second path is cut only where a node of the first path comes
 // between its ends. An extremum with a single arc does not count as such a node: it is removed with its arc.
-template <class Content>
-void Canceller<Content>::zip_onto(Direction d, ArcId arc, ArcId other, NodeId extremum) {
+template <class Content, class Graph>
+void Canceller<Content, Graph>::zip_onto(Direction d, ArcId arc, ArcId other, NodeId extremum) {
   NodeId start = graph_.end(arc, opposite(d));  // before it the two paths are already one
   while (true) {
     const NodeId end = graph_.end(arc, d);
@@ -212,9 +212,9 @@ void Canceller<Content>::zip_onto(Direction d, ArcId arc, ArcId other, NodeId ex
 
 // Follows the second path from `start` until its arc `other` reaches `end` or beyond, and moves the content of `arc` to
 // the arcs that are passed. False if there are more than `most` of them.
-template <class Content>
-bool Canceller<Content>::follow_in_parallel(Direction d, ArcId arc, ArcId& other, NodeId& start, NodeId end,
-                                            std::uint32_t most) {
+template <class Content, class Graph>
+bool Canceller<Content, Graph>::follow_in_parallel(Direction d, ArcId arc, ArcId& other, NodeId& start, NodeId end,
+                                                   std::uint32_t most) {
   ArcPart left{d, arc, start, end};  // the part whose content was not moved yet
   double first = content_.first_value(left);
   for (NodeId node = graph_.end(other, d); along(d, node) < along(d, end); node = graph_.end(other, d)) {
@@ -234,8 +234,8 @@ bool Canceller<Content>::follow_in_parallel(Direction d, ArcId arc, ArcId& other
 
 // ---- loops
 
-template <class Content>
-bool Canceller<Content>::cancel_loop(NodeId v, NodeId y) {
+template <class Content, class Graph>
+bool Canceller<Content, Graph>::cancel_loop(NodeId v, NodeId y) {
   if (const ArcId arc = search_.find_arc(v, y); arc != kNone) {
     take_away(arc);
     return true;
@@ -245,8 +245,8 @@ bool Canceller<Content>::cancel_loop(NodeId v, NodeId y) {
   return true;
 }
 
-template <class Content>
-void Canceller<Content>::take_away(ArcId arc) {
+template <class Content, class Graph>
+void Canceller<Content, Graph>::take_away(ArcId arc) {
   if constexpr (Content::kFollows) {
     if (search_.find_path_beside(arc, paths_.first)) {
       paths_.second.assign(1, arc);
@@ -259,8 +259,8 @@ void Canceller<Content>::take_away(ArcId arc) {
 
 // ---- moving arcs
 
-template <class Content>
-void Canceller<Content>::zip(Direction d) {
+template <class Content, class Graph>
+void Canceller<Content, Graph>::zip(Direction d) {
   for (std::size_t i = 0, j = 0; i < paths_.first.size() && j < paths_.second.size();) {
     const ArcId a = paths_.first[i], b = paths_.second[j];
     const NodeId end_a = graph_.end(a, d), end_b = graph_.end(b, d);
@@ -277,8 +277,8 @@ void Canceller<Content>::zip(Direction d) {
   }
 }
 
-template <class Content>
-void Canceller<Content>::contract(NodeId node) {
+template <class Content, class Graph>
+void Canceller<Content, Graph>::contract(NodeId node) {
   if (!graph_.is_regular(node)) return;
   const ArcId lower = graph_.nearest(node, kDown), upper = graph_.nearest(node, kUp);
   const NodeId end = graph_.end(upper, kUp);

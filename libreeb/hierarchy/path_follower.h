@@ -19,9 +19,14 @@
 namespace reeb {
 
 // MEMORY: 8.5 bytes per node of the graph.
+template <class Graph = WorkingGraph>
 class PathFollower {
  public:
-  explicit PathFollower(const WorkingGraph& graph);
+  explicit PathFollower(const Graph& graph)
+      : graph_(graph),
+        section_of_(
+            graph.tables().template table<NodeId>(graph.end_node().value(), std::array{kNoSection, kNoSection})),
+        exits_{kNone} {}
 
   // To be called when the nearest arc of a node in direction d has changed, or its end has. Other changes may follow;
   // follow() and apply_changes() then use the final state.
@@ -32,7 +37,7 @@ class PathFollower {
   // until then.
   void apply_changes();
 
-  void prefetch(NodeId node) const { __builtin_prefetch(&section_of_[node]); }
+  void prefetch(NodeId node) const { graph_.tables().prefetch(section_of_, node); }
 
   // The last node of the path from `node` in direction d for which `passes` is true, or `node` itself.
   // REQUIRES: the node has arcs; on the path, `passes` is false for all nodes after the first for which it is false.
@@ -58,15 +63,16 @@ class PathFollower {
   void keep_followed(NodeId exit, Direction d);
   bool still_leads_to_exit(NodeId node, Direction d);
 
-  const WorkingGraph& graph_;
-  IdVector<NodeId, std::array<std::uint32_t, 2>> section_of_;  // by direction
-  std::vector<NodeId> exits_;                                  // by section; kNone if it broke
-  std::vector<Change> changed_;                                // nodes of sections, not yet taken into account
-  std::vector<NodeId> followed_;                               // nodes that were followed one by one, in no section
+  const Graph& graph_;
+  typename Graph::Tables::template Table<NodeId, std::array<std::uint32_t, 2>> section_of_;  // by direction
+  std::vector<NodeId> exits_;     // by section; kNone if it broke
+  std::vector<Change> changed_;   // nodes of sections, not yet taken into account
+  std::vector<NodeId> followed_;  // nodes that were followed one by one, in no section
 };
 
+template <class Graph>
 template <class Passes>
-NodeId PathFollower::follow(NodeId node, Direction d, Passes passes) {
+NodeId PathFollower<Graph>::follow(NodeId node, Direction d, Passes passes) {
   apply_changes();
   followed_.clear();
   while (true) {
@@ -87,6 +93,54 @@ NodeId PathFollower::follow(NodeId node, Direction d, Passes passes) {
   }
   keep_followed(node, d);
   return node;
+}
+
+// Makes a section of the nodes that were followed before `exit`, if there are enough of them.
+template <class Graph>
+void PathFollower<Graph>::keep_followed(NodeId exit, Direction d) {
+  if (!followed_.empty() && followed_.back() == exit) followed_.pop_back();
+  if (followed_.size() >= kMinNodes) {
+    if (exits_.size() > graph_.end_node().value() / kMinNodes) {
+      for (NodeId node; node < graph_.end_node(); ++node) section_of_[node] = {kNoSection, kNoSection};
+      exits_.resize(1);
+    }
+    for (const NodeId node : followed_) section_of_[node][d] = static_cast<std::uint32_t>(exits_.size());
+    exits_.push_back(exit);
+  }
+  followed_.clear();
+}
+
+template <class Graph>
+void PathFollower<Graph>::apply_changes() {
+  for (const auto [node, d] : changed_) {
+    NodeId& exit = exits_[std::as_const(section_of_)[node][d]];
+    if (exit != kNone && !still_leads_to_exit(node, d)) exit = kNone;
+  }
+  changed_.clear();
+}
+
+// Whether the path from a node of a section still leads to another node of the section, or to its exit. Nodes that were
+// inserted on the way become part of the section. A node that was removed leaves it.
+template <class Graph>
+bool PathFollower<Graph>::still_leads_to_exit(NodeId node, Direction d) {
+  const std::uint32_t section = std::as_const(section_of_)[node][d];
+  const auto is_in = [&](NodeId other) {
+    return other == exits_[section] || std::as_const(section_of_)[other][d] == section;
+  };
+  std::array<NodeId, kMaxInserted> inserted{};
+  std::size_t count = 0;
+  NodeId to = next(node, d);
+  if (to == kNone) {
+    if (graph_.nearest(node, opposite(d)) != ArcId::none()) return false;
+    section_of_[node][d] = kNoSection;
+    return true;
+  }
+  for (; !is_in(to); to = next(to, d)) {
+    if (count == inserted.size() || exit_of(to, d) != kNone || next(to, d) == kNone) return false;
+    inserted[count++] = to;
+  }
+  for (std::size_t i = 0; i < count; ++i) section_of_[inserted[i]][d] = section;
+  return true;
 }
 
 }  // namespace reeb

@@ -17,18 +17,20 @@ namespace reeb {
 // even if the step cut it and joined it again. With content, every touched arc starts a new record.
 //
 // MEMORY: 4 bytes per arc; 28 per arc that a step changes, until the step ends.
+template <class Graph = WorkingGraph>
 class VersionLog {
  public:
   // Both must outlive this.
-  VersionLog(const WorkingGraph& graph, RecordSink& sink) : graph_(graph), sink_(sink) {
-    born_.assign(graph.end_arc().value(), 0);
-  }
+  VersionLog(const Graph& graph, RecordSink& sink)
+      : graph_(graph),
+        sink_(sink),
+        born_(graph.tables().template table<ArcId>(graph.end_arc().value(), std::uint32_t{0})) {}
 
-  void prefetch(ArcId arc) const { __builtin_prefetch(&born_[arc]); }
+  void prefetch(ArcId arc) const { graph_.tables().prefetch(born_, arc); }
 
   // To be called before an arc is moved or removed.
   void touch(ArcId arc) {
-    if (born_[arc] == step_) return;
+    if (std::as_const(born_)[arc] == step_) return;
     ended_.push_back({record(arc), arc});
     born_[arc] = step_;
   }
@@ -85,10 +87,10 @@ class VersionLog {
   }
   static std::tuple<NodeId, NodeId> ends(const ArcVersion& v) { return {v.lo, v.hi}; }
 
-  const WorkingGraph& graph_;
+  const Graph& graph_;
   RecordSink& sink_;
   std::uint32_t step_ = 1;
-  IdVector<ArcId, std::uint32_t> born_;  // of each arc's present version
+  typename Graph::Tables::template Table<ArcId, std::uint32_t> born_;  // of each arc's present version
   std::vector<Ended> ended_;
   std::vector<ArcId> changed_;  // arcs of ended_ that still exist
 };

@@ -12,21 +12,33 @@
 #include <vector>
 
 #include "libreeb/base/direction.h"
-#include "libreeb/base/id_vector.h"
 #include "libreeb/graph/reeb_graph.h"
+#include "libreeb/graph/tables_in_memory.h"
 
 namespace reeb {
 
 // A limit that no node is beyond.
 constexpr NodeId farthest(Direction d) { return d == kUp ? NodeId::none() : NodeId(0); }
 
+// `TableKind` says where its entries are (libreeb/graph/tables_in_memory.h).
+//
 // MEMORY: 36 bytes per arc, 8 bytes per node. Only the constructor and nearest_if() allocate.
-class WorkingGraph {
+template <class TableKind = TablesInMemory>
+class BasicWorkingGraph {
  public:
+  using Tables = TableKind;
   static constexpr ArcId kNone = ArcId::none();
 
   // Arc i of the graph is arc i here. O(m log m).
-  explicit WorkingGraph(const ReebGraph& graph);
+  explicit BasicWorkingGraph(const ReebGraph& graph);
+  // A graph without arcs: put() makes each of them, once.
+  BasicWorkingGraph(std::uint32_t nodes, std::uint32_t arcs, const Tables& tables)
+      : tables_(tables),
+        arcs_(tables_.template table<ArcId>(arcs, Arc{})),
+        top_(tables_.template table<NodeId>(nodes, std::array{kNone, kNone})) {}
+  // The arcs of a node are put in the order of their numbers. Else the graph is the same, but parallel arcs may take
+  // each other's place later.
+  void put(ArcId arc, NodeId lo, NodeId hi);
 
   NodeId end_node() const { return top_.end_id(); }
   ArcId end_arc() const { return arcs_.end_id(); }
@@ -36,7 +48,8 @@ class WorkingGraph {
   // The arc of `node` in direction d whose far end is nearest, or kNone.
   ArcId nearest(NodeId node, Direction d) const { return top_[node][d]; }
   // The two arcs below `arc` in the heap that it is in as an arc of direction d; kNone if fewer.
-  const std::array<ArcId, 2>& below_in_heap(ArcId arc, Direction d) const { return arcs_[arc].heap[d].child; }
+  std::array<ArcId, 2> below_in_heap(ArcId arc, Direction d) const { return arcs_[arc].heap[d].child; }
+  const Tables& tables() const { return tables_; }
   // True if the node has exactly one arc in direction d.
   bool has_one(NodeId node, Direction d) const {
     const ArcId arc = top_[node][d];
@@ -51,8 +64,8 @@ class WorkingGraph {
 
   // Prefetch a node; its nearest arcs; the far ends of these and the arcs below them in their heaps. Each call reads
   // what the one before has fetched.
-  void prefetch_node(NodeId node) const { __builtin_prefetch(&top_[node]); }
-  void prefetch_arc(ArcId arc) const { __builtin_prefetch(&arcs_[arc]); }
+  void prefetch_node(NodeId node) const { tables_.prefetch(top_, node); }
+  void prefetch_arc(ArcId arc) const { tables_.prefetch(arcs_, arc); }
   void prefetch_arcs(NodeId node) const {
     for (const ArcId arc : top_[node])
       if (arc != kNone) prefetch_arc(arc);
@@ -78,13 +91,17 @@ class WorkingGraph {
   void insert(ArcId arc, Direction d);
   void erase(ArcId arc, Direction d);
 
-  IdVector<ArcId, Arc> arcs_;
-  IdVector<NodeId, std::array<ArcId, 2>> top_;  // of the heaps, by direction
-  std::vector<ArcId> stack_;                    // of nearest_if
+  Tables tables_;
+  typename Tables::template Table<ArcId, Arc> arcs_;
+  typename Tables::template Table<NodeId, std::array<ArcId, 2>> top_;  // of the heaps, by direction
+  std::vector<ArcId> stack_;                                           // of nearest_if
 };
 
+using WorkingGraph = BasicWorkingGraph<>;
+
+template <class TableKind>
 template <class Accept>
-ArcId WorkingGraph::nearest_if(NodeId node, Direction d, NodeId limit, Accept accept) {
+ArcId BasicWorkingGraph<TableKind>::nearest_if(NodeId node, Direction d, NodeId limit, Accept accept) {
   ArcId best = kNone;
   stack_.assign(1, top_[node][d]);
   while (!stack_.empty()) {
@@ -98,6 +115,94 @@ ArcId WorkingGraph::nearest_if(NodeId node, Direction d, NodeId limit, Accept ac
       for (const ArcId child : below_in_heap(arc, d)) stack_.push_back(child);
   }
   return best;
+}
+
+template <class TableKind>
+BasicWorkingGraph<TableKind>::BasicWorkingGraph(const ReebGraph& graph)
+    : BasicWorkingGraph(static_cast<std::uint32_t>(graph.node_count()), static_cast<std::uint32_t>(graph.arc_count()),
+                        {}) {
+  for (ArcId arc; arc < end_arc(); ++arc) put(arc, graph.lo[arc.value()], graph.hi[arc.value()]);
+}
+
+template <class TableKind>
+void BasicWorkingGraph<TableKind>::put(ArcId arc, NodeId lo, NodeId hi) {
+  arcs_[arc].end = {lo, hi};
+  insert(arc, kUp);
+  insert(arc, kDown);
+}
+
+template <class TableKind>
+void BasicWorkingGraph<TableKind>::prefetch_neighbours(NodeId node) const {
+  for (const Direction d : {kDown, kUp}) {
+    if (top_[node][d] == kNone) continue;
+    const Arc& arc = arcs_[top_[node][d]];
+    prefetch_node(arc.end[d]);
+    for (const ArcId child : arc.heap[d].child)
+      if (child != kNone) prefetch_arc(child);
+  }
+}
+
+template <class TableKind>
+void BasicWorkingGraph<TableKind>::move_end(ArcId arc, Direction d, NodeId node) {
+  // The end is the arc's key in the heap at its other end, and names the heap at this one.
+  erase(arc, d);
+  erase(arc, opposite(d));
+  arcs_[arc].end[d] = node;
+  insert(arc, d);
+  insert(arc, opposite(d));
+}
+
+template <class TableKind>
+void BasicWorkingGraph<TableKind>::remove(ArcId arc) {
+  erase(arc, kUp);
+  erase(arc, kDown);
+  arcs_[arc].end = {NodeId::none(), NodeId::none()};
+}
+
+// Melds two heaps of arcs of direction d. Walks down their right spines, and swaps the children of each arc on the way.
+// O(log n) amortized.
+template <class TableKind>
+ArcId BasicWorkingGraph<TableKind>::meld(ArcId a, ArcId b, Direction d) {
+  if (a == kNone) return b;
+  if (b == kNone) return a;
+  ArcId root = kNone, parent = kNone;
+  while (a != kNone && b != kNone) {
+    if (key(b, d) < key(a, d)) std::swap(a, b);
+    if (parent == kNone)
+      root = a;
+    else
+      arcs_[parent].heap[d].child[0] = a;
+    HeapLinks& links = arcs_[a].heap[d];
+    links.parent = parent;
+    parent = a;
+    a = std::exchange(links.child[1], links.child[0]);
+  }
+  const ArcId rest = a != kNone ? a : b;
+  arcs_[parent].heap[d].child[0] = rest;
+  arcs_[rest].heap[d].parent = parent;
+  return root;
+}
+
+template <class TableKind>
+void BasicWorkingGraph<TableKind>::insert(ArcId arc, Direction d) {
+  arcs_[arc].heap[d] = {};
+  const NodeId node = end(arc, opposite(d));
+  const ArcId top = meld(nearest(node, d), arc, d);
+  top_[node][d] = top;
+  arcs_[top].heap[d].parent = kNone;
+}
+
+template <class TableKind>
+void BasicWorkingGraph<TableKind>::erase(ArcId arc, Direction d) {
+  const HeapLinks links = std::as_const(arcs_)[arc].heap[d];
+  const ArcId rest = meld(links.child[0], links.child[1], d);
+  if (rest != kNone) arcs_[rest].heap[d].parent = links.parent;
+  if (links.parent == kNone) {
+    top_[end(arc, opposite(d))][d] = rest;
+  } else {
+    auto& siblings = arcs_[links.parent].heap[d].child;
+    siblings[siblings[0] == arc ? 0 : 1] = rest;
+  }
 }
 
 }  // namespace reeb

@@ -88,7 +88,7 @@ ReebGraph cancel_to_version(const ReebGraph& graph, std::uint32_t version, ArcLo
   constexpr std::size_t kPairsBetweenPolls = 1024;
   const std::vector<PersistencePair> pairs = persistence_pairs(graph, poll);
   NoRecords records;
-  Canceller canceller(graph, records, LoggedArcs(graph, log));
+  Canceller canceller(WorkingGraph(graph), records, LoggedArcs(graph, log));
   for (std::size_t i = 0, done = 0; done < version; ++i) {
     if (poll && i % kPairsBetweenPolls == 0) poll(static_cast<double>(done) / version);
     if (canceller.cancel(pairs.at(i))) ++done;

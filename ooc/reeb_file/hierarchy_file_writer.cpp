@@ -16,14 +16,13 @@ constexpr std::uint32_t kNotIntroduced = ~std::uint32_t{0};
 class HierarchyFileWriter {
  public:
   HierarchyFileWriter(const std::string& path, const FileMeta& meta, const HierarchyContent& content)
-      : graph_(content.nodes),
-        hierarchy_(content.hierarchy),
+      : hierarchy_(content.hierarchy),
         records_(content.records),
-        layout_(lay_out(graph_.node_count(), hierarchy_, records_)),
+        layout_(lay_out(hierarchy_, records_)),
         header_(make_header(meta, content)),
         writer_(path, header_.region_bytes(), content.output),
         background_(content.background),
-        file_index_(graph_.node_count(), kNotIntroduced) {}
+        file_index_(hierarchy_.node_count(), kNotIntroduced) {}
 
   void run(const Poll& poll) {
     std::vector<std::uint64_t> frame_ends;
@@ -47,24 +46,21 @@ class HierarchyFileWriter {
     std::uint32_t finest = 0;  // version
   };
 
-  FileHeader make_header(const FileMeta& meta, const HierarchyContent& content) const {
-    const auto pairs_of = [&](PairType type) {
-      return static_cast<std::uint64_t>(
-          std::ranges::count(hierarchy_.pairs, type, [](const PersistencePair& pair) { return pair.type; }));
-    };
+  FileHeader make_header(const FileMeta& meta, const HierarchyContent& content) {
     FileHeader header = header_of(meta);
-    header.flags = file_flags(false, !graph_.positions.empty(), content.has_embedding);
-    header.nodes = graph_.node_count();
+    header.flags = file_flags(false, hierarchy_.has_positions(), content.has_embedding);
+    header.nodes = hierarchy_.node_count();
     header.arcs = layout_.versions[0].arcs;
-    header.components = pairs_of(PairType::kExt0);
-    header.loops = pairs_of(PairType::kExt1);
     header.records = layout_.records;
-    header.pairs = hierarchy_.pairs.size();
-    header.kept_loops = static_cast<std::uint64_t>(
-        std::ranges::count_if(hierarchy_.pairs, [](const PersistencePair& pair) { return pair.kept; }));
-    header.steps = static_cast<std::uint32_t>(hierarchy_.persistence.size());
+    hierarchy_.rewind_pairs();
+    for (PersistencePair pair; hierarchy_.next_pair(pair); ++header.pairs) {
+      header.components += pair.type == PairType::kExt0 ? 1 : 0;
+      header.loops += pair.type == PairType::kExt1 ? 1 : 0;
+      header.kept_loops += pair.kept ? 1 : 0;
+    }
+    header.steps = static_cast<std::uint32_t>(hierarchy_.persistence().size());
     header.graph_frames = static_cast<std::uint32_t>(layout_.cuts.size());
-    header.pair_frames = static_cast<std::uint32_t>((hierarchy_.pairs.size() + kPairsPerFrame - 1) / kPairsPerFrame);
+    header.pair_frames = static_cast<std::uint32_t>((header.pairs + kPairsPerFrame - 1) / kPairsPerFrame);
     header.levels = layout_.levels;
     return header;
   }
@@ -110,7 +106,7 @@ class HierarchyFileWriter {
   void introduce_nodes(const FrameCut& before, const FrameCut& cut, GraphFrame& frame) {
     new_nodes_.clear();
     for (std::size_t i = before.isolated_end; i < cut.isolated_end; ++i)
-      new_nodes_.push_back(hierarchy_.isolated[i].value());
+      new_nodes_.push_back(hierarchy_.isolated()[i].value());
     for (const ArcVersion& arc : arcs_)
       for (const NodeId end : {arc.lo, arc.hi})
         if (file_index_[end.value()] == kNotIntroduced) new_nodes_.push_back(end.value());
@@ -118,25 +114,27 @@ class HierarchyFileWriter {
     new_nodes_.erase(std::unique(new_nodes_.begin(), new_nodes_.end()), new_nodes_.end());
     for (const std::uint32_t node : new_nodes_) {
       file_index_[node] = introduced_++;
-      frame.nodes.push_back({graph_.nodes[node], graph_.positions.empty() ? Point{} : graph_.positions[node]});
+      frame.nodes.push_back(hierarchy_.node(NodeId(node)));
     }
   }
 
   void write_pairs() {
     std::vector<FilePair> pairs;
-    for (std::size_t i = 0; i < hierarchy_.pairs.size(); ++i) {
-      const PersistencePair& pair = hierarchy_.pairs[i];
-      pairs.push_back({file_index_[pair.lo.value()], file_index_[pair.hi.value()], pair.type, pair.kept});
-      if (pairs.size() < kPairsPerFrame && i + 1 < hierarchy_.pairs.size()) continue;
+    const auto write = [&] {
       payload_.clear();
       encode_pairs_frame(pairs, payload_);
       writer_.add({.kind = FrameKind::kPairs, .nodes = static_cast<std::uint32_t>(pairs.size())}, payload_);
       pairs.clear();
+    };
+    hierarchy_.rewind_pairs();
+    for (PersistencePair pair; hierarchy_.next_pair(pair);) {
+      pairs.push_back({file_index_[pair.lo.value()], file_index_[pair.hi.value()], pair.type, pair.kept});
+      if (pairs.size() == kPairsPerFrame) write();
     }
+    if (!pairs.empty()) write();
   }
 
-  const ReebGraph& graph_;
-  const Hierarchy& hierarchy_;
+  HierarchySource& hierarchy_;
   RecordSource& records_;
   const HierarchyLayout layout_;
   FileHeader header_;
@@ -156,10 +154,16 @@ void write_hierarchy_file(const std::string& path, const FileMeta& meta, const H
   HierarchyFileWriter(path, meta, content).run(poll);
 }
 
+std::uint64_t hierarchy_file_bytes(std::uint64_t nodes, std::uint64_t versions) {
+  constexpr std::uint64_t kFrames = 2 << 20;
+  return sizeof(VersionCounts) * versions + sizeof(std::uint32_t) * nodes + kFrames;
+}
+
 void write_hierarchy_file(const std::string& path, const FileMeta& meta, const ReebGraph& graph,
                           const Hierarchy& hierarchy, const ArcBucketsView& buckets) {
   SortedRecords records(hierarchy.arcs, buckets);
-  write_hierarchy_file(path, meta, {graph, hierarchy, records, !buckets.empty()});
+  HierarchyInMemory in_memory(graph, hierarchy);
+  write_hierarchy_file(path, meta, {in_memory, records, !buckets.empty()});
 }
 
 }  // namespace reeb::ooc

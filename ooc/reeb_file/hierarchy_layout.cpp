@@ -156,7 +156,7 @@ std::vector<LevelLine> level_table(const HierarchyLayout& layout, std::uint32_t 
   return levels;
 }
 
-void check_steps(const std::vector<double>& persistence) {
+void check_steps(std::span<const double> persistence) {
   if (persistence.size() >= kNeverDies - 1) fail("step", persistence.size(), "is one too many");
   for (std::size_t i = 0; i < persistence.size(); ++i)
     if (!(persistence[i] >= (i == 0 ? 0.0 : persistence[i - 1])))
@@ -169,22 +169,24 @@ void check_record(const ArcVersion& arc, std::uint64_t i, std::size_t nodes, std
     fail("arc", i, "does not live between two versions");
 }
 
-void check_pairs(const std::vector<PersistencePair>& pairs, std::size_t nodes) {
-  for (std::size_t i = 0; i < pairs.size(); ++i)
-    if (pairs[i].hi < pairs[i].lo || pairs[i].hi.value() >= nodes) fail("pair", i, "does not go up to a node");
+void check_pairs(HierarchySource& hierarchy) {
+  hierarchy.rewind_pairs();
+  PersistencePair pair;
+  for (std::uint64_t i = 0; hierarchy.next_pair(pair); ++i)
+    if (pair.hi < pair.lo || pair.hi.value() >= hierarchy.node_count()) fail("pair", i, "does not go up to a node");
 }
 
 }  // namespace
 
-HierarchyLayout lay_out(std::size_t node_count, const Hierarchy& hierarchy, RecordSource& records) {
-  const std::size_t steps = hierarchy.persistence.size();
-  check_steps(hierarchy.persistence);
-  check_pairs(hierarchy.pairs, node_count);
+HierarchyLayout lay_out(HierarchySource& hierarchy, RecordSource& records) {
+  const std::size_t node_count = hierarchy.node_count(), steps = hierarchy.persistence().size();
+  check_steps(hierarchy.persistence());
+  check_pairs(hierarchy);
   HierarchyLayout layout;
   {
     VersionCounter counter(node_count, steps + 1);
     FrameCutter cutter(static_cast<std::uint32_t>(steps), layout.cuts);
-    const auto& isolated = hierarchy.isolated;
+    const std::span<const NodeId> isolated = hierarchy.isolated();
     for (std::size_t i = 0; i < isolated.size(); ++i) {
       if (isolated[i].value() >= node_count || (i > 0 && !(isolated[i - 1] < isolated[i])))
         fail("isolated node", i, "is not above the one before it");
@@ -204,7 +206,7 @@ HierarchyLayout lay_out(std::size_t node_count, const Hierarchy& hierarchy, Reco
     for (std::uint32_t node = 0; node < node_count; ++node)
       if (!counter.was_named(NodeId(node))) fail("node", node, "is neither isolated nor named by an arc");
     cutter.finish();
-    layout.versions = counter.take(hierarchy.persistence);
+    layout.versions = counter.take(hierarchy.persistence());
   }
   layout.levels = level_table(layout, static_cast<std::uint32_t>(steps));
   return layout;

@@ -6,7 +6,7 @@
 
 #include "libreeb/format/frame_codec.h"
 #include "libreeb/format/reeb_format.h"
-#include "libreeb/hierarchy/hierarchy.h"
+#include "ooc/reeb_file/hierarchy_source.h"
 #include "ooc/reeb_file/record_source.h"
 
 namespace reeb::ooc {
@@ -24,9 +24,9 @@ struct HierarchyLayout {
   std::vector<LevelLine> levels;        // without file_bytes
 };
 
-// Reads all records, once. Hierarchy::arcs is not read.
+// Reads all records and pairs, once.
 // MEMORY: 32 bytes per version; until it returns, 4 per node.
 // THROWS: std::logic_error that names the first impossible record, pair or step.
-HierarchyLayout lay_out(std::size_t node_count, const Hierarchy& hierarchy, RecordSource& records);
+HierarchyLayout lay_out(HierarchySource& hierarchy, RecordSource& records);
 
 }  // namespace reeb::ooc

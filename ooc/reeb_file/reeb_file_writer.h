@@ -17,6 +17,7 @@
 #include "libreeb/hierarchy/hierarchy.h"
 #include "libreeb/port/graph_sink.h"
 #include "ooc/reeb_file/frame_writer.h"
+#include "ooc/reeb_file/hierarchy_source.h"
 #include "ooc/reeb_file/record_source.h"
 #include "ooc/tables/component_count.h"
 #include "ooc/tables/key_table.h"
@@ -36,8 +37,7 @@ struct FileMeta {
 
 // A graph with all its levels.
 struct HierarchyContent {
-  const ReebGraph& nodes;      // its arcs are not read
-  const Hierarchy& hierarchy;  // nor are its records
+  HierarchySource& hierarchy;
   RecordSource& records;
   bool has_embedding = false;  // records come with buckets
   bool background = false;     // pack and write frames in a separate thread
@@ -45,11 +45,13 @@ struct HierarchyContent {
 };
 
 // Reads the records twice. `poll` is called before every frame; it may throw to stop writing.
-// MEMORY: 32 bytes per version, 4 per node, and three frames.
+// MEMORY: hierarchy_file_bytes().
 // THROWS: Error{kResource}; then no file is left. std::logic_error if graph, hierarchy and records contradict each
 //         other.
 void write_hierarchy_file(const std::string& path, const FileMeta& meta, const HierarchyContent& content,
                           const Poll& poll = {});
+// The most memory that it holds: 32 bytes per version, 4 per node, and frames.
+std::uint64_t hierarchy_file_bytes(std::uint64_t nodes, std::uint64_t versions);
 
 // The same from memory: hierarchy.arcs in any order, with their buckets or none. It needs 4 more bytes per record.
 void write_hierarchy_file(const std::string& path, const FileMeta& meta, const ReebGraph& graph,

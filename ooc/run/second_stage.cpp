@@ -2,19 +2,21 @@
 
 #include <algorithm>
 #include <array>
+#include <deque>
+#include <functional>
 #include <optional>
 #include <utility>
 
 #include "libreeb/base/error.h"
 #include "libreeb/defects/small_loops.h"
 #include "libreeb/hierarchy/cancel.h"
-#include "libreeb/hierarchy/pairing.h"
 #include "ooc/reeb_file/record_log.h"
 #include "ooc/reeb_file/reeb_file_writer.h"
 #include "ooc/run/freed_memory.h"
 #include "ooc/run/stopwatch.h"
 #include "ooc/stored_graph/last_noise_pass.h"
 #include "ooc/stored_graph/segment_store.h"
+#include "ooc/stored_hierarchy/stored_hierarchy.h"
 #include "ooc/threads/read_ahead.h"
 
 namespace reeb::ooc {
@@ -160,27 +162,37 @@ struct WrittenHierarchy {
   std::uint64_t spilled_bytes = 0;
 };
 
-// The largest loops, and the largest minima and maxima, of each at most kLargest.
-std::vector<Feature> largest_features(const ReebGraph& graph, const std::vector<PersistencePair>& ascending) {
+// What is reported of the pairs: their numbers, and the largest loops, and the largest minima and maxima, of each at
+// most kLargest.
+void look_at_pairs(HierarchySource& hierarchy, double range, WrittenHierarchy& written) {
   constexpr std::size_t kLargest = 5;
-  std::size_t loops = 0, others = 0;
-  std::vector<Feature> largest;
-  for (auto it = ascending.rbegin(); it != ascending.rend() && loops + others < 2 * kLargest; ++it) {
-    if (it->type == PairType::kExt0) continue;
-    if (!(persistence_of(graph, *it) > 0)) break;
-    std::size_t& count = it->type == PairType::kExt1 ? loops : others;
-    if (count == kLargest) continue;
-    ++count;
-    largest.push_back({it->type, graph.nodes[it->lo.value()], graph.nodes[it->hi.value()]});
-  }
-  return largest;
-}
-
-SmallLoops small_loops(const ReebGraph& graph, const std::vector<PersistencePair>& ascending, double range) {
+  struct Last {
+    std::uint64_t number;
+    PersistencePair pair;
+  };
+  std::array<std::deque<Last>, 2> last;  // loops, and others
   LikelyDefects defects(range);
-  for (const PersistencePair& pair : ascending)
-    if (pair.type == PairType::kExt1) defects.add(persistence_of(graph, pair));
-  return defects.found();
+  const auto persistence = [&](const PersistencePair& pair) {
+    return hierarchy.node(pair.hi).key.value - hierarchy.node(pair.lo).key.value;
+  };
+  hierarchy.rewind_pairs();
+  std::uint64_t number = 0;
+  for (PersistencePair pair; hierarchy.next_pair(pair); ++number) {
+    ++written.pairs[static_cast<std::size_t>(pair.type)];
+    written.kept_loops += pair.kept ? 1u : 0u;
+    if (pair.type == PairType::kExt1) defects.add(persistence(pair));
+    if (pair.type == PairType::kExt0) continue;
+    std::deque<Last>& largest = last[pair.type == PairType::kExt1 ? 0 : 1];
+    largest.push_back({number, pair});
+    if (largest.size() > kLargest) largest.pop_front();
+  }
+  written.likely_defects = defects.found();
+  std::vector<Last> largest(last[0].begin(), last[0].end());
+  largest.insert(largest.end(), last[1].begin(), last[1].end());
+  std::ranges::sort(largest, std::greater<>(), &Last::number);
+  for (const Last& one : largest)
+    if (persistence(one.pair) > 0)
+      written.largest.push_back({one.pair.type, hierarchy.node(one.pair.lo).key, hierarchy.node(one.pair.hi).key});
 }
 
 struct GraphInMemory {
@@ -188,54 +200,101 @@ struct GraphInMemory {
   std::uint64_t more_bytes = 0;  // that pairing and cancelling take in addition
 };
 
-// Pairing and cancelling hold the graph in memory, but not their results. If the graph does not fit, it is written as
-// it is and the user is told, before the work starts.
-GraphInMemory load_for_hierarchy(RunContext& run, const StoredGraph& graph) {
+// The hierarchy cannot be made: writes the graph as it is, and tells the user.
+[[noreturn]] void refuse_hierarchy(RunContext& run, const StoredGraph& graph, std::uint64_t needed) {
+  write_graph(run, graph, graph.meta);
+  throw no_memory_for(run, "the hierarchy", graph.output, graph.store->arc_count(), needed,
+                      "remove noise with --denoise, or compute the graph alone with --graph-only");
+}
+
+// The most memory that a hierarchy in memory takes.
+std::uint64_t bytes_in_memory(const StoredGraph& graph) {
+  const std::uint64_t arcs = graph.store->arc_count();
+  std::optional<std::uint64_t> lists;
+  if (graph.sweep.bucket_exponent) lists = PackedLists::most_bytes(arcs, graph.store->bucket_count());
+  return hierarchy_bytes(graph.store->node_count(), arcs, lists) + RecordLog::memory_bytes();
+}
+
+// Pairing and cancelling hold the graph in memory, but not their results. Nothing if it does not fit.
+std::optional<GraphInMemory> load_for_hierarchy(RunContext& run, const StoredGraph& graph) {
   SegmentStore& store = *graph.store;
   const std::uint64_t nodes = store.node_count(), arcs = store.arc_count();
-  const auto refuse = [&](std::uint64_t needed) {
-    write_graph(run, graph, graph.meta);
-    throw no_memory_for(run, "the hierarchy", graph.output, arcs, needed,
-                        "remove noise with --denoise, or compute the graph alone with --graph-only");
-  };
   const LoadOptions loading{.bucket_exponent = graph.sweep.bucket_exponent};
-  if (loading_bytes(store, loading) > run.budget.free_bytes())
-    refuse(hierarchy_bytes(nodes, arcs, PackedLists::most_bytes(arcs, store.bucket_count())));
+  // Most of what is needed is known before anything is read.
+  const std::uint64_t room = run.budget.free_bytes() + store.reserved_bytes();
+  if (loading_bytes(store, loading) > run.budget.free_bytes() || hierarchy_bytes(nodes, arcs, 0) > room) return {};
   const Poll poll = stage_poll(run);
   LoadedGraph loaded = read_graph(store, loading, part_of(poll, 0, kLoaded));
   std::optional<std::uint64_t> lists;
   if (run.embeds()) lists = loaded.buckets.memory_bytes();
   const std::uint64_t needed = hierarchy_bytes(nodes, arcs, lists) + RecordLog::memory_bytes();
   const std::uint64_t more = needed - loaded.memory.bytes();
-  if (more > run.budget.free_bytes() + store.reserved_bytes()) {
-    loaded = {};
-    refuse(needed);
+  if (more > run.budget.free_bytes() + store.reserved_bytes()) return {};
+  return GraphInMemory{std::move(loaded), more};
+}
+
+// What a run records of a hierarchy, and its file.
+void write_file(RunContext& run, const StoredGraph& stored, HierarchySource& hierarchy, RecordLog& records,
+                WrittenHierarchy& written) {
+  look_at_pairs(hierarchy, stored.meta.function_max - stored.meta.function_min, written);
+  written.betti = {written.pairs[static_cast<std::size_t>(PairType::kExt0)],
+                   written.pairs[static_cast<std::size_t>(PairType::kExt1)]};
+  const Poll poll = stage_poll(run);
+  write_hierarchy_file(stored.output, stored.meta,
+                       {hierarchy, records, run.embeds(), run.background(), run.output_options()},
+                       part_of(poll, kBuilt, 1));
+  written.spilled_bytes = records.spilled_bytes();
+}
+
+// Pairing and cancelling on disk. If even that does not fit, or the graph has no locality, the graph is written as it
+// is and the user is told.
+WrittenHierarchy write_stored_hierarchy(RunContext& run, const StoredGraph& stored) {
+  return_freed_memory();
+  SegmentStore& store = *stored.store;
+  const std::uint64_t least =
+      StoredHierarchy::least_bytes(store.node_count(), store.arc_count()) + RecordLog::memory_bytes();
+  if (least > run.budget.free_bytes()) refuse_hierarchy(run, stored, std::min(least, bytes_in_memory(stored)));
+  WrittenHierarchy written;
+  std::optional<std::uint64_t> needed;  // set if it cannot be done
+  {
+    RecordLog records(run.temp, run.budget);
+    StoredHierarchy hierarchy(store, run.temp, run.budget,
+                              {.bucket_exponent = stored.sweep.bucket_exponent, .background = run.background()});
+    const Poll poll = stage_poll(run);
+    const double paired = (kLoaded + kBuilt) / 2;
+    hierarchy.pair_nodes(part_of(poll, 0, paired));
+    const std::uint64_t writing = hierarchy_file_bytes(store.node_count(), hierarchy.pair_count());
+    const std::uint64_t steps = sizeof(double) * hierarchy.pair_count();
+    if (writing + steps > run.budget.free_bytes() + hierarchy.table_bytes())
+      needed = std::min(least + writing + steps, bytes_in_memory(stored));
+    else if (!hierarchy.cancel(records, part_of(poll, paired, kBuilt)))
+      needed = bytes_in_memory(stored);
+    if (!needed) {
+      const Reservation memory = run.budget.reserve("layout of the file", writing);
+      write_file(run, stored, hierarchy, records, written);
+      written.spilled_bytes += hierarchy.spilled_bytes();
+    }
   }
-  return {std::move(loaded), more};
+  if (needed) refuse_hierarchy(run, stored, *needed);
+  return written;
 }
 
 WrittenHierarchy write_hierarchy(RunContext& run, StoredGraph stored) {
-  GraphInMemory in_memory = load_for_hierarchy(run, stored);
+  std::optional<GraphInMemory> loaded = load_for_hierarchy(run, stored);
+  if (!loaded) return write_stored_hierarchy(run, stored);
+  GraphInMemory in_memory = std::move(*loaded);
+  loaded.reset();
   stored.store.reset();
   RecordLog records(run.temp, run.budget);
   const Reservation memory = run.budget.reserve("hierarchy", in_memory.more_bytes - RecordLog::memory_bytes());
 
   ReebGraph& graph = in_memory.loaded.graph;
   WrittenHierarchy written;
-  written.betti = betti_numbers(graph);
   const Poll poll = stage_poll(run);
   const Hierarchy hierarchy = build_hierarchy(graph, std::move(in_memory.loaded.buckets), stored.meta.bucket_exponent,
                                               records, part_of(poll, kLoaded, kBuilt));
-  for (const PersistencePair& pair : hierarchy.pairs) {
-    ++written.pairs[static_cast<std::size_t>(pair.type)];
-    written.kept_loops += pair.kept ? 1u : 0u;
-  }
-  written.largest = largest_features(graph, hierarchy.pairs);
-  written.likely_defects = small_loops(graph, hierarchy.pairs, stored.meta.function_max - stored.meta.function_min);
-  write_hierarchy_file(stored.output, stored.meta,
-                       {graph, hierarchy, records, run.embeds(), run.background(), run.output_options()},
-                       part_of(poll, kBuilt, 1));
-  written.spilled_bytes = records.spilled_bytes();
+  HierarchyInMemory source(graph, hierarchy);
+  write_file(run, stored, source, records, written);
   return written;
 }
 

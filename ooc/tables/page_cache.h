@@ -51,6 +51,8 @@ class PageCache {
   bool is_fresh(std::size_t page) const { return page >= places_.size() || places_[page] == kFresh; }
 
   std::uint64_t resident_bytes() const { return frames_.size() * kPageBytes; }
+  // How often a page was read again.
+  std::uint64_t refetches() const { return refetches_; }
   // Bytes written to the file so far.
   std::uint64_t spilled_bytes() const { return spilled_; }
   // Whether access is too scattered for the memory. Fetching a page again costs about 30 us; a coherent mesh needs each

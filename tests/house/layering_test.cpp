@@ -64,6 +64,8 @@ const Rooms kRooms = {
     {"ooc/census", {"libreeb", "io/file", "ooc/threads", "ooc/chunks", "ooc/whole_mesh"}},
     {"ooc/stored_graph", {"libreeb", "io/file", "ooc/threads", "ooc/sorting", "ooc/tables"}},
     {"ooc/reeb_file", {"libreeb", "io/file", "ooc/threads", "ooc/sorting", "ooc/tables"}},
+    {"ooc/stored_hierarchy",
+     {"libreeb", "io/file", "ooc/threads", "ooc/sorting", "ooc/tables", "ooc/stored_graph", "ooc/reeb_file"}},
     {"ooc/patches", {"libreeb", "io/file", "ooc/threads", "ooc/sorting", "ooc/tables", "ooc/whole_mesh"}},
     {"ooc/segmentation", {"libreeb", "io/file", "ooc/sorting", "ooc/tables", "ooc/stored_graph"}},
     {"ooc/run", {"libreeb", "io/file", "ooc"}},

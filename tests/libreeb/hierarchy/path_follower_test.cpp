@@ -105,7 +105,7 @@ class Fixture {
   Random random_;
   const ReebGraph full_;
   WorkingGraph graph_;
-  PathFollower follower_;
+  PathFollower<> follower_;
   ArcId spare_;
   std::size_t steps_ = 0, looks_ = 0;
 };

@@ -1,0 +1,100 @@
+// The two sweeps that pair the nodes of a graph, arc by arc (docs/SEMANTICS.md, Pairs), and the order of cancelling.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <tuple>
+
+#include "libreeb/base/union_find.h"
+#include "libreeb/graph/bottleneck_forest.h"
+#include "libreeb/hierarchy/hierarchy.h"
+
+namespace reeb {
+
+// Upward sweep. An arc down from y either joins two components of the sublevel set, and the one whose minimum is higher
+// ends (elder rule), or it closes a cycle. Why y is then paired with the lower end of the arc that a maximum spanning
+// forest, by lower end, loses: the number of independent cycles within [a, b] is the number of Ext1 pairs there. Of the
+// arcs with hi <= b, those that the forest keeps and whose lower end is at least a are a spanning forest of [a, b], for
+// every a.
+//
+// MEMORY: 12 bytes per node.
+class UpSweep {
+ public:
+  explicit UpSweep(std::uint32_t nodes) : sublevel_(nodes), forest_(nodes) {}
+
+  // The next arc, in an order in which upper ends do not fall. Calls pair(PersistencePair) if there is one.
+  template <class Pair>
+  void add(std::uint32_t x, std::uint32_t y, const Pair& pair) {
+    const std::uint32_t lost = forest_.insert(x, y, x);
+    if (lost != BottleneckForest::kNone) {
+      pair(PersistencePair{NodeId(lost), NodeId(y), PairType::kExt1});
+      return;
+    }
+    const std::uint32_t younger = std::max(sublevel_.find(x), sublevel_.find(y));
+    if (younger != y) pair(PersistencePair{NodeId(younger), NodeId(y), PairType::kOrd0});
+    sublevel_.unite(x, y);
+  }
+  // The minimum of a component of what was added.
+  std::uint32_t minimum(std::uint32_t node) { return sublevel_.find(node); }
+
+ private:
+  UnionFind sublevel_;
+  BottleneckForest forest_;
+};
+
+// Downward sweep, in ranks counted from the top, so that a superlevel component is named by its maximum.
+//
+// MEMORY: 4 bytes per node.
+class DownSweep {
+ public:
+  explicit DownSweep(std::uint32_t nodes) : nodes_(nodes), superlevel_(nodes) {}
+
+  // The next arc, in an order in which lower ends do not rise.
+  template <class Pair>
+  void add(NodeId lo, NodeId hi, const Pair& pair) {
+    const std::uint32_t v = flip(lo.value());
+    const std::uint32_t x = superlevel_.find(flip(hi.value()));
+    const std::uint32_t own = superlevel_.find(v);
+    if (x == own) return;
+    const std::uint32_t younger = std::max(x, own);
+    if (younger != v) pair(PersistencePair{lo, NodeId(flip(younger)), PairType::kRel1});
+    superlevel_.unite(x, own);
+  }
+  // The maximum of a component of what was added.
+  std::uint32_t maximum(std::uint32_t node) { return flip(superlevel_.find(flip(node))); }
+
+ private:
+  std::uint32_t flip(std::uint32_t node) const { return nodes_ - 1 - node; }
+
+  std::uint32_t nodes_;
+  UnionFind superlevel_;
+};
+
+// Calls pair(PersistencePair) for each component, when all arcs were added to both sweeps.
+template <class Pair>
+void pair_components(std::uint32_t nodes, UpSweep& up, DownSweep& down, const Pair& pair) {
+  for (std::uint32_t x = 0; x < nodes; ++x)
+    if (up.minimum(x) == x) pair(PersistencePair{NodeId(x), NodeId(down.maximum(x)), PairType::kExt0});
+}
+
+struct RankedPair {
+  double persistence;
+  PersistencePair pair;
+};
+
+// The order of cancelling, Ext0 last.
+inline bool is_cancelled_before(const RankedPair& a, const RankedPair& b) {
+  const auto rank_of = [](PairType type) {
+    constexpr int kRanks[] = {3, 0, 1, 2};  // of Ext0, Ext1, Ord0, Rel1
+    return kRanks[static_cast<std::size_t>(type)];
+  };
+  const auto key = [](const RankedPair& k) {
+    return std::tuple(k.pair.type == PairType::kExt0, k.persistence, k.pair.hi);
+  };
+  const auto ka = key(a), kb = key(b);
+  if (ka != kb) return ka < kb;
+  if (a.pair.lo != b.pair.lo) return b.pair.lo < a.pair.lo;
+  return rank_of(a.pair.type) < rank_of(b.pair.type);
+}
+
+}  // namespace reeb

@@ -1,0 +1,50 @@
+#include "ooc/stored_hierarchy/stored_lists.h"
+
+#include <utility>
+
+namespace reeb::ooc {
+
+StoredLists::StoredLists(const io::TempDir& temp, const PagedTables& tables, std::uint32_t arcs)
+    : temp_(&temp), places_(tables.table<ArcId>(arcs, Place{})), slots_(kSlots) {
+  buffer_.reserve(kBufferBytes);
+}
+
+std::span<const std::byte> StoredLists::of(std::size_t arc) const {
+  const Place place = std::as_const(places_)[ArcId(static_cast<std::uint32_t>(arc))];
+  if (place.bytes == 0) return {};
+  const std::uint64_t begin = place.begin();
+  if (begin >= written_) return std::span(buffer_).subspan(static_cast<std::size_t>(begin - written_), place.bytes);
+  if (place.bytes > kSlotBytes) {
+    long_list_.resize(place.bytes);
+    file_.read_at(begin, long_list_);
+    return long_list_;
+  }
+  Slot& slot = slots_[arc % kSlots];
+  const std::span<std::byte> bytes = std::span(slot.bytes).first(place.bytes);
+  if (slot.begin != begin) {
+    slot.begin = ~std::uint64_t{0};
+    file_.read_at(begin, bytes);
+    slot.begin = begin;
+  }
+  return bytes;
+}
+
+void StoredLists::replace(std::size_t arc, std::span<const std::byte> packed) {
+  const ArcId id(static_cast<std::uint32_t>(arc));
+  if (packed.empty()) {
+    places_[id] = {};
+    return;
+  }
+  if (!buffer_.empty() && buffer_.size() + packed.size() > kBufferBytes) {
+    if (!file_.is_open()) file_ = temp_->create_unnamed("lists of buckets");
+    file_.write_at(written_, buffer_);
+    written_ += buffer_.size();
+    buffer_.clear();
+  }
+  const std::uint64_t begin = written_ + buffer_.size();
+  buffer_.insert(buffer_.end(), packed.begin(), packed.end());
+  places_[id] = {static_cast<std::uint32_t>(packed.size()),
+                 {static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(begin >> 32)}};
+}
+
+}  // namespace reeb::ooc
