@@ -308,10 +308,10 @@ class Jobs {
       edits.add(cluster.edits);
     }
     edits.sort();
-    const auto dividing = dividing_curves(mesh_, edits, done_.mesh_vertices, open, space_,
-                                          [&](std::uint64_t done, std::uint64_t total) {
-                                            if (options_.progress) options_.progress(done, total);
-                                          });
+    const auto dividing =
+        dividing_curves(mesh_, edits, done_.mesh_vertices, open, space_, [&](std::uint64_t done, std::uint64_t total) {
+          if (options_.progress) options_.progress(done, total);
+        });
     for (const auto& [job, why] : dividing) {
       left_out_[job] = 1;
       done_.results[job] = {};
