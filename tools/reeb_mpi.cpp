@@ -193,7 +193,7 @@ int main(int argc, char** argv) {
   mallopt(M_ARENA_MAX, 2);
   int provided = 0;
   MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);
-  reeb::tools::handle_signals();
+  reeb::tools::handle_signals(false);  // mpirun ends all ranks after one failed, whose text is the one to read
   try {
     reeb::tools::World world;
     try {

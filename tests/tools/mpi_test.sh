@@ -70,13 +70,16 @@ fi
 # One text, the exit code, no output.
 expect_failure() {
   test $code = "$2" || fail "$1: exit code $code: $(cat error.txt)"
-  test "$(grep -c '^reeb-mpi: error: ' error.txt)" = 1 || fail "$1: not one text: $(cat error.txt)"
+  test "$(grep -c 'error: ' error.txt)" = 1 || fail "$1: not one text: $(cat error.txt)"
   test ! -e none.reeb || fail "$1: there is an output"
 }
 code=0
 mpi 2 nothing.ply -o none.reeb 2> error.txt || code=$?
 expect_failure "a missing mesh" 1
 grep -q "reeb-mpi: error: nothing.ply" error.txt || fail "a missing mesh: no error: $(cat error.txt)"
+code=0
+mpi 3 scan.ply --bogus 2> error.txt || code=$?
+expect_failure "an unknown option" 2
 code=0
 mpi 3 scan.ply -o none.reeb --memory 1M 2> error.txt || code=$?
 expect_failure "too little memory" 3

@@ -12,7 +12,7 @@
 namespace reeb::tools {
 namespace {
 
-std::atomic<bool> watched = false, interrupted = false, ending = false, on_terminal = false;
+std::atomic<bool> watched = false, interrupted = false, ending = false, silent = false, on_terminal = false;
 std::atomic<pid_t> companion = 0;
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<pid_t>::is_always_lock_free,
               "a signal handler may do nothing else");
@@ -27,7 +27,7 @@ void end_now() {
                                           "continues from the last checkpoint, if there is one\n"
                                         : "reeb: error: interrupted\nhint: run it again\n";
   if (on_terminal) (void)!::write(STDERR_FILENO, kClearLine.data(), kClearLine.size());
-  (void)!::write(STDERR_FILENO, text.data(), text.size());
+  if (!silent) (void)!::write(STDERR_FILENO, text.data(), text.size());
   ::_exit(static_cast<int>(ErrorKind::kInterrupted));
 }
 
@@ -38,7 +38,8 @@ void on_interruption(int) {
 
 }  // namespace
 
-void handle_signals() {
+void handle_signals(bool speaks) {
+  silent = !speaks;
   for (const int signal : {SIGPIPE, SIGXFSZ}) std::signal(signal, SIG_IGN);
   on_terminal = ::isatty(STDERR_FILENO) == 1;
   struct sigaction action {

@@ -9,8 +9,8 @@ namespace reeb::tools {
 
 // Writing to a pipe without a reader, or to a file that may not grow, becomes an error of the write instead of ending
 // the process. SIGINT, SIGTERM and SIGHUP (unless it is ignored, as by nohup) end the process at once, with a message
-// and the exit code of an interruption; no temporary file is left.
-void handle_signals();
+// (if `speaks`) and the exit code of an interruption; no temporary file is left.
+void handle_signals(bool speaks = true);
 
 // From the first call of the returned function on, the first of these signals only makes it return true, so that the
 // run can be saved. The second ends the process at once.
