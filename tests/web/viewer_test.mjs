@@ -1,7 +1,7 @@
 // What the viewer's page does in a browser: levels as the file's table has them, selection, and what it says of servers
 // and files that are not as they should be.
 //
-//   node viewer_test.mjs REEB WORK     WORK has scan.reeb, many.reeb and viewer.html
+//   node viewer_test.mjs REEB WORK     WORK has scan.reeb, its scan.ply, many.reeb and viewer.html
 import { readFileSync, writeFileSync } from 'node:fs'
 import { execFileSync } from 'node:child_process'
 import { join } from 'node:path'
@@ -131,6 +131,34 @@ const saved = JSON.parse(await browser.evaluate(`(() => {
 check('pictures are saved', saved.length === 2 && saved.every(([name, head, size], i) =>
   name === `scan.reeb.${['space', 'flat'][i]}.png` && head === 'data:image/png;base64,' && size > 2000), saved)
 
+// A mesh behind the skeleton.
+const drop = (name, address, part = 'bytes') => browser.evaluate(`(async () => {
+  const bytes = await (await fetch('${server.url(address)}')).arrayBuffer()
+  const data = new DataTransfer()
+  data.items.add(new File([${part}], '${name}'))
+  dispatchEvent(new DragEvent('drop', { dataTransfer: data, bubbles: true, cancelable: true }))
+})()`)
+const dark = `(() => {
+  const canvas = document.createElement('canvas')
+  const drawn = document.querySelector('#space canvas')
+  ;[canvas.width, canvas.height] = [drawn.width, drawn.height]
+  const context = canvas.getContext('2d')
+  context.drawImage(drawn, 0, 0)
+  return context.getImageData(0, 0, canvas.width, canvas.height).data.filter((x, i) => i % 4 === 3 && x > 0).length
+})()`
+const pixels = await browser.evaluate(dark)
+const backdropName = `document.getElementById('backdrop-name').textContent`
+await drop('torus.PLY', 'good/scan.ply')
+check('a mesh that is dropped is named', await until(`/^torus.PLY, \\d[\\d,]* triangles$/.test(${backdropName})`), await message())
+check('and drawn', await until(`${dark} > ${1.2 * pixels}`), [pixels, await browser.evaluate(dark)])
+for (const [part, text] of [[`'ply, but not more'`, /damaged|no triangles/], ['bytes.slice(0, 9000)', /damaged|not there|no triangles/], [`'OFF'`, /not a PLY file/]]) {
+  await drop('bad.ply', 'good/scan.ply', part)
+  check(`a mesh like ${part} is refused`, await until(`${text}.test(document.getElementById('message').textContent)`), await message())
+}
+check('the mesh before stays', /^torus/.test(await browser.evaluate(backdropName)))
+await browser.evaluate(`document.getElementById('no-backdrop').click()`)
+check('it can be removed', (await browser.evaluate(backdropName)) === '' && (await until(`${dark} < ${1.1 * pixels}`)))
+
 // Each mark chooses the feature that it describes.
 for (const i of [0, 5]) {
   const said = await browser.evaluate(`(() => {
@@ -205,12 +233,7 @@ for (const kind of ['input', 'keydown', 'pointermove', 'frame', 'timeout']) {
 }
 
 // Files of the user.
-const dropped = (bytes) => browser.evaluate(`(async () => {
-  const bytes = await (await fetch('${server.url('good/scan.reeb')}')).arrayBuffer()
-  const data = new DataTransfer()
-  data.items.add(new File([${bytes}], 'dropped.reeb'))
-  dispatchEvent(new DragEvent('drop', { dataTransfer: data, bubbles: true, cancelable: true }))
-})()`)
+const dropped = (part) => drop('dropped.reeb', 'good/scan.reeb', part)
 await dropped('bytes')
 check('a file that is dropped is shown', await until(`document.getElementById('name').textContent === 'dropped.reeb' && ${kIdle}`))
 await dropped(`bytes.slice(0, 120000)`)

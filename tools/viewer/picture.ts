@@ -1,7 +1,7 @@
 // A shape drawn by WebGL. All arcs that were read are on the graphics card; a number says which version is drawn, so
 // the slider costs no work per arc.
 import {
-  BufferAttribute, BufferGeometry, Color, InstancedBufferAttribute, InstancedBufferGeometry, Mesh, OrthographicCamera,
+  BufferAttribute, BufferGeometry, Color, DoubleSide, InstancedBufferAttribute, InstancedBufferGeometry, Mesh, OrthographicCamera,
   Points, Scene, ShaderMaterial, Vector2, WebGLRenderer,
 } from 'three'
 import type { Camera } from '../web/camera.js'
@@ -79,6 +79,22 @@ const kPointFragment = `
     if (!inside) discard;
     gl_FragColor = vec4(tint, 1.0);
   }`
+// As if by X-rays: a surface is denser where it is seen from the side.
+const kBackdropVertex = `
+  varying vec3 place;
+  void main() {
+    vec4 seen = modelViewMatrix * vec4(position, 1.0);
+    place = seen.xyz;
+    gl_Position = projectionMatrix * seen;
+  }`
+const kBackdropFragment = `
+  uniform vec3 tint;
+  varying vec3 place;
+  void main() {
+    vec3 across = cross(dFdx(place), dFdy(place));
+    float facing = length(across) > 0.0 ? abs(normalize(across).z) : 1.0;
+    gl_FragColor = vec4(tint, mix(0.5, 0.07, facing));
+  }`
 const kRing = 5
 
 export interface Found {
@@ -98,6 +114,8 @@ export class Picture {
   private lines: Mesh | null = null
   private points: Points | null = null
   private rings: Points | null = null
+  private readonly backdropMaterial: ShaderMaterial
+  private backdrop: Mesh | null = null
   private shape: Shape | null = null
   private kinds = new Uint8Array(0)
   private version = 0
@@ -126,6 +144,10 @@ export class Picture {
     this.pointMaterial = points(11, kinds, true)
     this.ringMaterial = points(30, { value: [...kKinds, 'ring'].map(() => new Color()) }, false)
     this.ringMaterial.vertexShader = kPointVertex.replace('kinds[5]', 'kinds[6]')
+    this.backdropMaterial = new ShaderMaterial({
+      vertexShader: kBackdropVertex, fragmentShader: kBackdropFragment, uniforms: { tint: { value: new Color() } },
+      side: DoubleSide, transparent: true, depthWrite: false,
+    })
     this.element = this.renderer.domElement
     place.append(this.element)
     this.recolor()
@@ -142,10 +164,10 @@ export class Picture {
     uniforms.stops.value.forEach((stop: Color, i: number) => stop.fromArray(color(i / 2)))
     const kinds: Record<string, number[]> = kindColors()
     kKinds.forEach((kind, i) => kind !== 'none' && uniforms.kinds.value[i].fromArray(kinds[kind]))
-    const mark = css('--accent')
-    const channels = [1, 3, 5].map((i) => parseInt(mark.slice(i, i + 2), 16) / 255)
-    uniforms.mark.value.fromArray(channels)
-    this.ringMaterial.uniforms.kinds.value[kRing].fromArray(channels)
+    const channels = (name: string) => [1, 3, 5].map((i) => parseInt(css(name).slice(i, i + 2), 16) / 255)
+    uniforms.mark.value.fromArray(channels('--accent'))
+    this.ringMaterial.uniforms.kinds.value[kRing].fromArray(channels('--accent'))
+    this.backdropMaterial.uniforms.tint.value.fromArray(channels('--quiet'))
   }
 
   setShape(shape: Shape) {
@@ -183,6 +205,13 @@ export class Picture {
     const attribute = this.lines.geometry.attributes.type
     for (let i = 0; i < this.shape.arc.length; ++i) attribute.array[i] = types[this.shape.arc[i]]
     attribute.needsUpdate = true
+  }
+
+  // Null: none.
+  setBackdrop(geometry: BufferGeometry | null) {
+    this.remove(this.backdrop)
+    this.backdrop = geometry && new Mesh(geometry, this.backdropMaterial)
+    if (this.backdrop) this.scene.add(this.backdrop)
   }
 
   setColoring(coloring: Coloring) {

@@ -4,6 +4,8 @@ import { onThemeChange } from '../web/colors.js'
 import { count, shortNumber } from '../web/data.js'
 import { loopsPlot, persistenceDiagram } from '../web/plots.js'
 import { makeTable } from '../web/table.js'
+import { backdropBytes, placed, readBackdrop } from './backdrop'
+import type { Backdrop } from './backdrop'
 import { FormatError } from './bytes'
 import { FlatCamera } from './flat_camera'
 import type { VersionContent } from './loaded_graph'
@@ -56,6 +58,7 @@ let marks: { mark: Mark; lo: number; hi: number }[] = []
 let choice: Choice | null = null
 let space: View | null = null
 let flat: View | null = null
+let backdrop: Backdrop | null = null
 let layoutTimer = 0
 let stopShapes = () => {}
 let pairsAt = -1
@@ -94,7 +97,8 @@ async function open(source: Source) {
   session?.close()
   stopShapes()
   session = null
-  content = box = choice = null
+  content = box = choice = backdrop = null
+  showBackdrop()
   shapeRecords = drawnRecords = pairsAt = -1
   marks = []
   element('figures').replaceChildren()
@@ -346,9 +350,9 @@ function showCounts() {
   })
   slider.setAttribute('aria-valuetext', `${Number(percent.toPrecision(3))} per cent of the range: ${texts}`)
   for (const { place } of views()) place.setAttribute('aria-label', `${place.id === 'space' ? 'The skeleton in space' : 'The graph by value'}: ${texts}`)
-  const memory = graph.memoryBytes + spaceBytes + flatBytes
+  const memory = graph.memoryBytes + spaceBytes + flatBytes + (backdrop ? backdropBytes(backdrop) : 0)
   let text =
-    `${bytesText(source.loaded)} read, of a file of ${bytesText(source.size)}; ${graph.records.toLocaleString('en')} of ` +
+    `${bytesText(Math.min(source.loaded, source.size))} read, of a file of ${bytesText(source.size)}; ${graph.records.toLocaleString('en')} of ` +
     `${header.records.toLocaleString('en')} arcs, at most ${budget.toLocaleString('en')}; ${bytesText(memory)} of memory.`
   if (isReading) text += ' Loading finer levels ...'
   else if (end === 'budget') text += ' The budget is reached: this is the finest level within it.'
@@ -580,6 +584,29 @@ function showLevels() {
   element('levels').replaceChildren(table)
 }
 
+async function takeBackdrop(file: File) {
+  try {
+    if (!session || !content) throw new Error('Open a .reeb file first; then a mesh can be shown behind its skeleton.')
+    if (!space || !session.reader.header.positions) throw new Error('There is no skeleton, so no mesh can be shown behind it.')
+    const current = session
+    const read = await readBackdrop(file)
+    if (session !== current) return
+    say(null)
+    backdrop = read
+    showBackdrop()
+    showCounts()
+  } catch (error) {
+    say(error)
+  }
+}
+
+function showBackdrop() {
+  space?.picture.setBackdrop(backdrop && placed(backdrop, box!.middle, box!.scale))
+  element('backdrop-name').textContent = backdrop ? `${backdrop.name}, ${count(backdrop.triangles.length / 3, 'triangle')}` : ''
+  element('no-backdrop').hidden = backdrop === null
+  redraw()
+}
+
 let saving = 0
 function saveState() {
   clearTimeout(saving)
@@ -659,18 +686,26 @@ element('fetch').addEventListener('submit', (event) => {
   event.preventDefault()
   openUrl(element<HTMLInputElement>('url').value.trim())
 })
-element<HTMLInputElement>('pick').addEventListener('change', () => {
-  const file = element<HTMLInputElement>('pick').files?.[0]
-  if (file) void open(new BlobSource(file, file.name))
+const take = (file: File | undefined) => {
+  if (file && /\.ply$/i.test(file.name)) void takeBackdrop(file)
+  else if (file) void open(new BlobSource(file, file.name))
+}
+element<HTMLInputElement>('pick').addEventListener('change', () => take(element<HTMLInputElement>('pick').files?.[0]))
+element<HTMLInputElement>('backdrop').addEventListener('change', () => {
+  const file = element<HTMLInputElement>('backdrop').files?.[0]
+  if (file) void takeBackdrop(file)
+})
+element('no-backdrop').addEventListener('click', () => {
+  backdrop = null
+  element<HTMLInputElement>('backdrop').value = ''
+  showBackdrop()
+  showCounts()
 })
 for (const name of ['dragenter', 'dragover', 'dragleave', 'drop'])
   addEventListener(name, (event) => {
     event.preventDefault()
     document.body.classList.toggle('dropping', name === 'dragenter' || name === 'dragover')
   })
-addEventListener('drop', (event) => {
-  const file = event.dataTransfer?.files[0]
-  if (file) void open(new BlobSource(file, file.name))
-})
+addEventListener('drop', (event) => take(event.dataTransfer?.files[0]))
 const asked = new URLSearchParams(location.search).get('file')
 if (asked) openUrl(asked)
