@@ -10,9 +10,6 @@
 
 namespace reeb::io {
 
-// Whether not every value is exactly a double.
-inline bool is_wide(ScalarType type) { return type == ScalarType::kInt64 || type == ScalarType::kUint64; }
-
 // The name without a byte order: "u8", "i16", "f32".
 std::string_view type_name(ScalarType type);
 std::optional<ScalarType> type_named(std::string_view name);
