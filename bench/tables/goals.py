@@ -3,7 +3,7 @@
 # Why a target is not reached where it is not; what profiles and runs have shown.
 WHY = {
     "threads": "reading and numbering are in one thread, gluing in another; only the sweep is divided",
-    "speed": "a run spends about 100 ns of processor time a triangle",
+    "speed": "a run spends about 80 ns of processor time a triangle",
     "random function": "every fourth vertex is a node, so paths are long and most of the graph is written out",
     "tiles": "pieces that come in no order are sorted on disk, or glued with long borders",
     "random order": "the mesh is sorted on disk by position before it is run, and read twice for that",
