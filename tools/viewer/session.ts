@@ -4,6 +4,8 @@ import type { End } from './reader'
 import { Reader } from './reader'
 import type { Source } from './source'
 
+const kSliceMilliseconds = 8
+
 export class Session {
   wanted = Infinity // threshold
   end: End | null = null // why reading stopped, null while it goes on or if no more is wanted
@@ -50,13 +52,17 @@ export class Session {
 
   private async readOn(changed: () => void) {
     this.end = null
+    let pauseAt = 0
     while (!this.stopped && this.needsMore()) {
       const { header, graph } = this.reader
       // The first version is shown whatever the budget.
       this.end = await this.reader.readFrame(graph.finest > header.steps ? Infinity : this.budget)
       if (this.end) break
       changed()
+      // Browsers make a pause last 4 ms, so a file of many small frames must not pause after each.
+      if (performance.now() < pauseAt) continue
       await new Promise((done) => setTimeout(done))
+      pauseAt = performance.now() + kSliceMilliseconds
     }
     if (!this.stopped) changed()
   }

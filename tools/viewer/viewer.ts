@@ -23,6 +23,7 @@ const kDefaultBudget = 200_000
 const kLegibleNodes = 200 // of the level that is shown first
 const kMostMarks = 1000
 const kLayoutMilliseconds = 200 // after the last move of the slider
+const kCountMilliseconds = 100 // between two texts about what was read
 const kTypes = ['Ext0', 'Ext1', 'Ord0', 'Rel1']
 
 const element = <T extends HTMLElement>(id: string) => document.getElementById(id) as T
@@ -366,11 +367,14 @@ function setThreshold(threshold: number) {
   slider.value = String(placeOf(threshold))
   input.value = threshold > 0 && threshold < 1e-300 ? 'above 0' : shortNumber(threshold)
   input.removeAttribute('aria-invalid')
+  let shown = 0
   const step = () => {
     if (session !== current) return
-    // Pictures are made again when there is twice as much to see, not after each frame.
-    if (current.reader.graph.records < 2 * shapeRecords) showCounts()
-    else refresh()
+    // Pictures are made again when there is twice as much to see, not after each frame of the file.
+    if (current.reader.graph.records >= 2 * shapeRecords) return refresh()
+    if (performance.now() < shown + kCountMilliseconds) return
+    shown = performance.now()
+    showCounts()
   }
   current
     .want(threshold, step)
