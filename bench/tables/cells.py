@@ -192,6 +192,19 @@ def sizes(bench):
             bench.checked(f"sizes/{size}/{function}/in-core", mesh, "-f", function, *GRAPH, "--temp-dir", bench.in_core,
                           genus=genus, runs=runs)
         bench.checked(f"sizes/{size}/hierarchy", mesh, "--denoise", "0.1%", genus=genus, runs=runs)
+        bench.cell(f"sizes/{size}/load", lambda mesh=mesh: loaded(bench, mesh), runs)
+
+
+def loaded(bench, mesh):
+    """A run that reads all triangles for their last uses first, since it is to keep what it finds."""
+    sidecar = mesh + ".final"
+    if os.path.exists(sidecar):
+        os.remove(sidecar)
+    try:
+        return bench.compute(mesh, *GRAPH, "--sidecar")
+    finally:
+        if os.path.exists(sidecar):
+            os.remove(sidecar)
 
 
 def converted(bench, mesh, size, order):

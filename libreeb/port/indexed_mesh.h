@@ -1,8 +1,8 @@
 // Port: a mesh whose vertices can be looked up and whose simplices can be read repeatedly.
 //
-// The first pass over such a mesh reads the simplices for their last uses; the second reads them again and looks up
-// the vertices of each chunk. Formats with fixed vertex records implement it on the file itself; other formats are
-// spooled into such a form.
+// A pass over such a mesh reads the simplices and looks up the vertices of each chunk. Unless the run can guess when a
+// vertex is complete, a pass before reads the simplices for their last uses. Formats with fixed vertex records
+// implement it on the file itself; other formats are spooled into such a form.
 #pragma once
 
 #include <cstdint>

@@ -8,9 +8,9 @@
 
 namespace reeb::ooc {
 
-GuessedChunks::GuessedChunks(Spooler& spooler, FunctionValues& functions, const io::TempDir& temp, MemoryBudget& budget,
-                             const GuessOptions& options, const ChunkPlace& start)
-    : spooler_(spooler),
+GuessedChunks::GuessedChunks(FirstReading& reading, FunctionValues& functions, const io::TempDir& temp,
+                             MemoryBudget& budget, const GuessOptions& options, const ChunkPlace& start)
+    : reading_(reading),
       functions_(functions),
       lookup_(functions),
       options_(options),
@@ -21,10 +21,10 @@ GuessedChunks::GuessedChunks(Spooler& spooler, FunctionValues& functions, const 
 
 bool GuessedChunks::next(WorkItem& item) {
   if (!read_chunk(item.chunk)) return false;
-  lookup_.look_up(spooler_.mesh(), item);
+  lookup_.look_up(reading_.mesh(), item);
   item.end = {.triangles = triangles_read_,
               .next_vertex = next_vertex_,
-              .digest = spooler_.digest(),
+              .digest = reading_.digest(),
               .ranges = functions_.ranges()};
   return true;
 }
@@ -35,7 +35,7 @@ void GuessedChunks::pass_over(const ChunkPlace& start) {
   while ((triangles_read_ < start.triangles || next_vertex_ < start.next_vertex) && read_chunk(chunk)) continue;
   passing_over_ = false;
   if (triangles_read_ != start.triangles || next_vertex_ != start.next_vertex ||
-      (triangles_read_ + next_vertex_ != 0 && spooler_.digest() != start.digest))
+      (triangles_read_ + next_vertex_ != 0 && reading_.digest() != start.digest))
     throw InputChanged();
   if (!start.ranges.empty()) functions_.set_ranges(start.ranges);
 }
@@ -48,17 +48,16 @@ bool GuessedChunks::read_chunk(Chunk& chunk) {
 
 // A small batch at a time, so that corners are numbered while they are in the first-level cache.
 bool GuessedChunks::read_triangles(Chunk& chunk) {
-  constexpr std::size_t kCornersInCache = std::size_t{3} * 1024;
+  constexpr std::size_t kTrianglesInCache = 1024;
   const std::size_t most = 3 * size_.size();
   std::size_t count = 0;
   numbers_.start(chunk.ids, size_.size());
   chunk.corners.resize(most);
-  while (count < most && chunk.vertex_count() <= options_.chunk.most_vertices && has_corners()) {
-    const auto corners = std::span(spooler_.triangles()).subspan(taken_);
-    const std::size_t piece = std::min({kCornersInCache, most - count, corners.size()});
-    numbers_.number(corners.first(piece), std::span(chunk.corners).subspan(count, piece));
-    count += piece;
-    taken_ += piece;
+  while (count < most && chunk.vertex_count() <= options_.chunk.most_vertices) {
+    const auto corners = reading_.next(std::min(kTrianglesInCache, (most - count) / 3));
+    if (corners.empty()) break;
+    numbers_.number(corners, std::span(chunk.corners).subspan(count, corners.size()));
+    count += corners.size();
   }
   chunk.corners.resize(count);
   if (count == 0) return false;
@@ -71,25 +70,16 @@ bool GuessedChunks::read_triangles(Chunk& chunk) {
   return !given_up_;
 }
 
-// Whether there are corners that are in no chunk yet. Reads more of the mesh if needed.
-bool GuessedChunks::has_corners() {
-  while (!ended_ && taken_ == spooler_.triangles().size()) {
-    taken_ = 0;
-    ended_ = !spooler_.read();
-  }
-  return !ended_;
-}
-
 bool GuessedChunks::read_rest(Chunk& chunk) {
   constexpr std::size_t kRestVertices = 16384;
-  next_vertex_ = guesses_.take_rest(next_vertex_, spooler_.mesh().vertex_count(), kRestVertices, chunk);
+  next_vertex_ = guesses_.take_rest(next_vertex_, reading_.mesh().vertex_count(), kRestVertices, chunk);
   return chunk.vertex_count() != 0;
 }
 
 // An earlier run found guessing worthwhile up to there, so the limit does not apply again.
 std::uint64_t GuessedChunks::most_open() const {
   if (passing_over_) return std::numeric_limits<std::uint64_t>::max();
-  return std::min(options_.most_open_vertices, usual_front(spooler_.mesh().vertex_count()));
+  return std::min(options_.most_open_vertices, usual_front(reading_.mesh().vertex_count()));
 }
 
 }  // namespace reeb::ooc

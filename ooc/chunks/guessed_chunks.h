@@ -6,7 +6,7 @@
 
 #include "ooc/chunks/chunk_growth.h"
 #include "ooc/chunks/chunk_source.h"
-#include "ooc/chunks/spooled_mesh.h"
+#include "ooc/chunks/first_reading.h"
 #include "ooc/chunks/use_guesses.h"
 #include "ooc/chunks/vertex_lookup.h"
 #include "ooc/tables/local_numbers.h"
@@ -20,26 +20,25 @@ struct GuessOptions {
   std::uint64_t most_open_vertices = ~std::uint64_t{0};
 };
 
-// Cuts chunks from the mesh that a Spooler reads, and guesses which vertices are complete (use_guesses.h).
+// Cuts chunks from a mesh and guesses which vertices are complete (use_guesses.h).
 //
 // A wrong guess or an incoherent mesh ends the chunks early. Then given_up() is true, and the caller discards the
-// results of the chunks. The spooler has what was read and can read the rest, and the mesh is run from there with known
-// last uses. So the result is exact in either case, and a guess affects the time only. Where chunks are cut, and so
-// whether a guess fails, does not depend on threads.
+// results of the chunks and runs the mesh again, with known last uses. So the result is exact in either case, and a
+// guess affects the time only. Where chunks are cut, and so whether a guess fails, does not depend on threads.
 class GuessedChunks : public ChunkSource {
  public:
   // All must outlive this. The chunks before `start` are skipped: read, but not looked up.
   // REQUIRES: nothing was read yet; `start` was made with the same options.
   // THROWS: InputChanged if the mesh is not the one that `start` was made of.
-  GuessedChunks(Spooler& spooler, FunctionValues& functions, const io::TempDir& temp, MemoryBudget& budget,
+  GuessedChunks(FirstReading& reading, FunctionValues& functions, const io::TempDir& temp, MemoryBudget& budget,
                 const GuessOptions& options, const ChunkPlace& start = {});
 
   bool next(WorkItem& item) override;
-  std::uint64_t bytes_read() const override { return spooler_.reader().bytes_read(); }
-  std::uint64_t bytes_total() const override { return spooler_.reader().info().file_bytes; }
+  std::uint64_t bytes_read() const override { return reading_.bytes_read(); }
+  std::uint64_t bytes_total() const override { return reading_.bytes_total(); }
   std::uint64_t triangles_read() const override { return triangles_read_; }
-  SimplexCounts simplices_listed() const override { return spooler_.mesh().simplex_counts(); }
-  std::uint64_t vertex_count() const override { return spooler_.mesh().vertex_count(); }
+  SimplexCounts simplices_listed() const override { return reading_.mesh().simplex_counts(); }
+  std::uint64_t vertex_count() const override { return reading_.mesh().vertex_count(); }
 
   bool given_up() const override { return given_up_; }
   const UseGuesses& guesses() const { return guesses_; }
@@ -48,21 +47,19 @@ class GuessedChunks : public ChunkSource {
   void pass_over(const ChunkPlace& start);
   bool read_chunk(Chunk& chunk);
   bool read_triangles(Chunk& chunk);
-  bool has_corners();
   bool read_rest(Chunk& chunk);
   std::uint64_t most_open() const;
 
-  Spooler& spooler_;
+  FirstReading& reading_;
   FunctionValues& functions_;
   VertexLookup lookup_;
   GuessOptions options_;
   ChunkGrowth size_;  // in triangles
   UseGuesses guesses_;
   LocalNumbers numbers_;
-  std::size_t taken_ = 0;  // corners of the spooler's batch that are in a chunk
   std::uint64_t triangles_read_ = 0;
   std::uint64_t next_vertex_ = 0;  // the search for vertices that no guess completed continues here
-  bool passing_over_ = false, ended_ = false, given_up_ = false;
+  bool passing_over_ = false, given_up_ = false;
 };
 
 }  // namespace reeb::ooc

@@ -16,10 +16,10 @@
 
 namespace reeb::ooc {
 
-// A mesh in one of two forms. An indexed mesh is read twice. A reader is read once: as a stream if it finalizes its
-// vertices; else finalization is guessed, and a copy of the mesh is kept on disk, from which it is run again if a guess
-// was wrong. If too many vertices of a stream are live at once, it is read again, if that is possible, and sorted on
-// disk.
+// A mesh in one of two forms. An indexed mesh is read twice, or once if it seems to be closed and guesses of what is
+// complete hold. A reader is read once: as a stream if it finalizes its vertices; else finalization is guessed, and a
+// copy of the mesh is kept on disk, from which it is run again if a guess was wrong. If too many vertices of a stream
+// are live at once, it is read again, if that is possible, and sorted on disk.
 struct MeshInput {
   std::unique_ptr<IndexedMesh> indexed;
   std::unique_ptr<MeshReader> reader;

@@ -1,6 +1,7 @@
 #include "ooc/run/first_stage.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -110,35 +111,37 @@ FirstStageResult run_grid(RunContext& run, const MeshInput& input, const Checkpo
 
 // ---- a mesh that is read once, and kept on disk for what cannot be done meanwhile
 
-// No guessing when last uses are known or must be kept, or when values come from a file: its count is
-// checked against the vertex count before the run, and not when a function must look up a vertex first. A run that is
+// No guessing when last uses are known or must be kept, or when a function must look up a vertex first. A run that is
 // resumed does as it began.
 bool may_guess(const RunContext& run, const MeshInput& input, const Checkpoint* start) {
   if (start != nullptr) return start->origin == ChunkOrigin::kGuessed;
-  if (!run.options.may_guess || run.options.keep_sidecar || input.reader->info().finalizes || needs_lookup(run))
-    return false;
-  if (const std::string sidecar = sidecar_path(run, input); !sidecar.empty() && io::is_regular_file(sidecar))
-    return false;
-  return std::all_of(run.functions.begin(), run.functions.end(),
-                     [](const VertexFunction* function) { return function->source_file().empty(); });
+  if (!run.options.may_guess || run.options.keep_sidecar || needs_lookup(run)) return false;
+  const std::string sidecar = sidecar_path(run, input);
+  return sidecar.empty() || !io::is_regular_file(sidecar);
 }
 
-struct SpooledRun {
+// Values from a file: their count is checked against the vertex count before the run.
+bool has_values_of_file(const RunContext& run) {
+  return std::any_of(run.functions.begin(), run.functions.end(),
+                     [](const VertexFunction* function) { return !function->source_file().empty(); });
+}
+
+struct GuessedRun {
   FirstStageResult result;
   bool done = false;  // guesses held: the stores are filled
-  std::unique_ptr<SpooledMesh> mesh = {};
 };
 
-// Glues chunks while the mesh is spooled. If guesses do not hold, the stores are empty afterwards.
-SpooledRun run_guessing(RunContext& run, Spooler& spooler, const Checkpoint* start, FirstStageResult result) {
-  const ChunkSize chunk = start != nullptr ? start->chunk : run.plan.chunk;
-  const std::uint64_t most = std::max<std::uint64_t>(run.plan.chunk.most, spooler.reader().info().file_bytes);
+// Glues chunks while the mesh is read for the first time. If guesses do not hold, the stores are empty afterwards.
+GuessedRun run_guessing(RunContext& run, FirstReading& reading, const MemoryPlan& plan, const Checkpoint* start,
+                        FirstStageResult result) {
+  const ChunkSize chunk = start != nullptr ? start->chunk : plan.chunk;
+  const std::uint64_t most = std::max<std::uint64_t>(plan.chunk.most, reading.bytes_total());
   if (chunk.first == 0 || chunk.first > chunk.most || chunk.most > most) throw DamagedState();
   GuessedChunks source(
-      spooler, run.values, run.temp, run.budget,
-      {.chunk = chunk, .allowance_bytes = run.plan.table_bytes, .most_open_vertices = run.plan.most_live_vertices()},
+      reading, run.values, run.temp, run.budget,
+      {.chunk = chunk, .allowance_bytes = plan.table_bytes, .most_open_vertices = plan.most_live_vertices()},
       place_of(start));
-  result = glue_chunks(run, source, run.plan, {.origin = ChunkOrigin::kGuessed, .chunk = chunk}, std::move(result));
+  result = glue_chunks(run, source, plan, {.origin = ChunkOrigin::kGuessed, .chunk = chunk}, std::move(result));
   const UseGuesses& guesses = source.guesses();
   result.guessed_vertices = guesses.guessed_vertices();
   result.revoked_guesses = guesses.revoked_guesses();
@@ -152,6 +155,12 @@ SpooledRun run_guessing(RunContext& run, Spooler& spooler, const Checkpoint* sta
   return {std::move(result), true};
 }
 
+struct SpooledRun {
+  FirstStageResult result;
+  bool done = false;  // guesses held: the stores are filled
+  std::unique_ptr<SpooledMesh> mesh = {};
+};
+
 // Runs in one pass if guesses hold; else the mesh is to be run from disk.
 SpooledRun run_spooled(RunContext& run, const MeshInput& input, const Checkpoint* start, FirstStageResult result) {
   Spooler spooler(*input.reader, run.temp, run.budget,
@@ -159,7 +168,12 @@ SpooledRun run_spooled(RunContext& run, const MeshInput& input, const Checkpoint
                      run.tell({Phase::kSpool, reader.bytes_read(), reader.info().file_bytes});
                    }});
   SpooledRun spooled{std::move(result)};
-  if (may_guess(run, input, start)) spooled = run_guessing(run, spooler, start, std::move(spooled.result));
+  if (!input.reader->info().finalizes && !has_values_of_file(run) && may_guess(run, input, start)) {
+    SpooledReading reading(spooler);
+    GuessedRun guessed = run_guessing(run, reading, run.plan, start, std::move(spooled.result));
+    spooled.result = std::move(guessed.result);
+    spooled.done = guessed.done;
+  }
   const Stopwatch watch;
   spooled.mesh = spooler.finish();
   spooled.result.seconds.finalization += watch.seconds();
@@ -199,6 +213,27 @@ FirstStageResult run_once(RunContext& run, const MeshInput& input, std::unique_p
   return result;
 }
 
+// Whether a mesh has hardly any boundary, where vertices would stay open until the end. A closed surface has about
+// twice as many triangles as vertices. Each edge of its boundary, and each unused vertex, is one triangle less.
+bool seems_closed(const IndexedMesh& mesh) {
+  const std::optional<std::uint64_t> triangles = mesh.triangles_by_size();
+  const double vertices = static_cast<double>(mesh.vertex_count());
+  return triangles && 2 * vertices - static_cast<double>(*triangles) < std::sqrt(vertices);
+}
+
+// One reading instead of two, if guesses hold.
+GuessedRun run_guessing_in_place(RunContext& run, IndexedMesh& mesh, const Checkpoint* start, FirstStageResult result) {
+  constexpr double kFront = 1.5;  // of a coherent surface, in square roots of its vertices
+  const std::uint64_t vertices = mesh.vertex_count();
+  MemoryPlan plan = run.plan;
+  plan.share_out({.vertices = vertices,
+                  .live_vertices = static_cast<std::uint64_t>(kFront * std::sqrt(static_cast<double>(vertices)))});
+  ReadingInPlace reading(mesh);
+  GuessedRun guessed = run_guessing(run, reading, plan, start, std::move(result));
+  if (guessed.done) append(guessed.result.notes, mesh.warnings());
+  return guessed;
+}
+
 // `mesh` is the mesh of the input, or was spooled from it.
 FirstStageResult run_indexed(RunContext& run, const MeshInput& input, std::unique_ptr<IndexedMesh> mesh,
                              const Checkpoint* start, FirstStageResult result) {
@@ -216,13 +251,25 @@ FirstStageResult run_indexed(RunContext& run, const MeshInput& input, std::uniqu
   return run_once(run, input, mesh, nullptr, false, std::move(result));
 }
 
+// A mesh that is indexed as it is stored.
+FirstStageResult run_in_place(RunContext& run, MeshInput& input, const Checkpoint* start, FirstStageResult result) {
+  if (may_guess(run, input, start) && (start != nullptr || seems_closed(*input.indexed))) {
+    for (VertexFunction* function : run.functions) function->check_count(input.indexed->vertex_count());
+    GuessedRun guessed = run_guessing_in_place(run, *input.indexed, start, std::move(result));
+    if (guessed.done) return std::move(guessed.result);
+    result = std::move(guessed.result);
+    start = nullptr;
+  }
+  return run_indexed(run, input, std::move(input.indexed), start, std::move(result));
+}
+
 // An indexed mesh can be looked up. A stream is glued as it comes, unless that takes too much memory. Any other mesh is
 // spooled. Guesses can suffice to glue it meanwhile; if not, or if a function must look up a vertex first, it is then
 // run as an indexed mesh.
 FirstStageResult run_first_stage(RunContext& run, MeshInput input) {
   FirstStageResult result;
   const Checkpoint* start = start_run(run, result.notes);
-  if (input.indexed) return run_indexed(run, input, std::move(input.indexed), start, std::move(result));
+  if (input.indexed) return run_in_place(run, input, start, std::move(result));
 
   input.reader = std::make_unique<PolledReader>(std::move(input.reader), run.resumable);
   // Vertices and edges of boxes cannot be followed, those of their tetrahedra can.

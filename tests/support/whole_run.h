@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <ostream>
 #include <string>
 #include <utility>
@@ -26,13 +27,20 @@
 
 namespace reeb::test {
 
-enum class Form { kIndexed, kStream, kUnfinalized, kPieces };
-constexpr Form kForms[] = {Form::kIndexed, Form::kStream, Form::kUnfinalized};
+enum class Form { kIndexed, kSeeminglyClosed, kStream, kUnfinalized, kPieces };
+constexpr Form kForms[] = {Form::kIndexed, Form::kSeeminglyClosed, Form::kStream, Form::kUnfinalized};
 
 inline const char* name_of(Form form) {
-  constexpr const char* kNames[] = {"Indexed", "Stream", "Unfinalized", "Pieces"};
+  constexpr const char* kNames[] = {"Indexed", "SeeminglyClosed", "Stream", "Unfinalized", "Pieces"};
   return kNames[static_cast<std::size_t>(form)];
 }
+
+// Indexed, and said to have as many triangles as a closed surface. So guesses are made while it is read in place.
+class SeeminglyClosed : public IndexedComplex {
+ public:
+  using IndexedComplex::IndexedComplex;
+  std::optional<std::uint64_t> triangles_by_size() const override { return 2 * vertex_count(); }
+};
 
 // Cut into pieces of random lengths, in random order.
 inline std::unique_ptr<IndexedMesh> in_random_pieces(const ComplexMesh& mesh, std::uint64_t seed) {
@@ -112,6 +120,8 @@ class Runner {
       input.reader = std::make_unique<UnfinalizedComplex>(mesh, seed);
     } else if (shape.form == Form::kPieces) {
       input.indexed = in_random_pieces(mesh, seed);
+    } else if (shape.form == Form::kSeeminglyClosed) {
+      input.indexed = std::make_unique<SeeminglyClosed>(mesh);
     } else {
       input.indexed = std::make_unique<IndexedComplex>(mesh);
     }

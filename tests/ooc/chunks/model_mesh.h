@@ -75,6 +75,20 @@ inline ModelMesh grid_mesh(std::uint64_t columns, std::uint64_t rows) {
   return mesh;
 }
 
+// The same, with its last row and column joined to the first.
+inline ModelMesh torus_mesh(std::uint64_t columns, std::uint64_t rows) {
+  ModelMesh mesh = grid_mesh(columns, rows);
+  mesh.corners.clear();
+  for (std::uint64_t y = 0; y < rows; ++y)
+    for (std::uint64_t x = 0; x < columns; ++x) {
+      const std::uint64_t row = y * columns, row_above = (y + 1) % rows * columns, right = (x + 1) % columns;
+      for (const std::uint64_t corner :
+           {row + x, row + right, row_above + x, row + right, row_above + right, row_above + x})
+        mesh.corners.push_back(VertexId(corner));
+    }
+  return mesh;
+}
+
 // A grid mesh of that many columns of vertices, with its triangles tile by tile: tiles of side x side cells, in random
 // order.
 inline ModelMesh in_random_tiles(const ModelMesh& mesh, std::uint64_t columns, std::uint64_t side, std::uint64_t seed) {

@@ -103,9 +103,13 @@ ModelMesh mesh_of(const test::Complex& complex) {
   return mesh;
 }
 
-// Read in place; spooled, with guesses; with finalization of its own.
-enum class Form { kBinary, kText, kStream };
-constexpr Form kForms[] = {Form::kBinary, Form::kText, Form::kStream};
+// Read in place; spooled, with guesses; with finalization of its own; a closed surface, in place with guesses.
+enum class Form { kBinary, kText, kStream, kClosed };
+constexpr Form kForms[] = {Form::kBinary, Form::kText, Form::kStream, Form::kClosed};
+const char* name_of(Form form) {
+  constexpr const char* kNames[] = {"InPlace", "Guessed", "Stream", "GuessedInPlace"};
+  return kNames[static_cast<std::size_t>(form)];
+}
 
 // One mesh file and runs on it; the output is OUT.reeb in the same folder.
 class Runs {
@@ -119,7 +123,7 @@ class Runs {
     if (form_ == Form::kStream)
       write_stream(mesh_path(), mesh);
     else
-      write_ply(mesh_path(), mesh, form_ == Form::kBinary);
+      write_ply(mesh_path(), mesh, form_ != Form::kText);
   }
   std::string mesh_path() const { return scratch_.path() + (form_ == Form::kStream ? "/mesh.sma" : "/mesh.ply"); }
   std::string output() const { return scratch_.path() + "/OUT.reeb"; }
@@ -213,12 +217,12 @@ TEST(Resume, GoesOnAsOftenAsItIsInterrupted) {
 
 // Enough nodes for segments on disk. The run is resumed in another way than it began.
 class ResumeForm : public testing::TestWithParam<Form> {};
-INSTANTIATE_TEST_SUITE_P(Forms, ResumeForm, testing::ValuesIn(kForms), [](const auto& form) {
-  return std::string(form.param == Form::kBinary ? "InPlace" : form.param == Form::kText ? "Guessed" : "Stream");
-});
+INSTANTIATE_TEST_SUITE_P(Forms, ResumeForm, testing::ValuesIn(kForms),
+                         [](const auto& form) { return std::string(name_of(form.param)); });
+ModelMesh square_mesh(Form form) { return form == Form::kClosed ? torus_mesh(250, 250) : grid_mesh(250, 250); }
 
 TEST_P(ResumeForm, TakesOverSegmentsWhateverTheThreadsChunksAndMemory) {
-  Runs runs(grid_mesh(250, 250), GetParam(), "random:1");
+  Runs runs(square_mesh(GetParam()), GetParam(), "random:1");
   runs.reading.batch_events = 100;
   runs.options.graph_only = true;  // the least budget has no room for the second stage
   runs.options.buckets = 0;        // an embedding shows where chunks were cut
@@ -242,7 +246,7 @@ TEST_P(ResumeForm, TakesOverSegmentsWhateverTheThreadsChunksAndMemory) {
 
 // Chunks with adaptive sizes are cut in the same places, and segments return the buckets that were stored.
 TEST_P(ResumeForm, GivesTheSameEmbeddingWhateverTheThreads) {
-  Runs runs(grid_mesh(250, 250), GetParam(), "random:1");
+  Runs runs(square_mesh(GetParam()), GetParam(), "random:1");
   runs.reading.batch_events = 100;
   runs.options.graph_only = true;
   runs.options.memory_bytes = 24 << 20;
