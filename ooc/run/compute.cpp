@@ -17,9 +17,11 @@ namespace {
 
 std::vector<ComputeResult> run_stages(RunContext& run, MeshInput input) {
   const Stopwatch watch;
+  return_code();
   FirstStageResult first = read_mesh(run, std::move(input));
   first.seconds.wall = watch.seconds();
   return_freed_memory();
+  return_code();
   std::vector<ComputeResult> results;
   for (std::size_t f = 0; f < run.functions.size(); ++f) results.push_back(run_second_stage(run, first, f));
   run.resumable.done();

@@ -213,21 +213,24 @@ FirstStageResult run_once(RunContext& run, const MeshInput& input, std::unique_p
   return result;
 }
 
+// The front of a coherent surface is hardly larger.
+std::uint64_t surface_front(std::uint64_t vertices) {
+  return static_cast<std::uint64_t>(1.5 * std::sqrt(static_cast<double>(vertices)));
+}
+
 // Whether a mesh has hardly any boundary, where vertices would stay open until the end. A closed surface has about
 // twice as many triangles as vertices. Each edge of its boundary, and each unused vertex, is one triangle less.
 bool seems_closed(const IndexedMesh& mesh) {
   const std::optional<std::uint64_t> triangles = mesh.triangles_by_size();
-  const double vertices = static_cast<double>(mesh.vertex_count());
+  const auto vertices = static_cast<double>(mesh.vertex_count());
   return triangles && 2 * vertices - static_cast<double>(*triangles) < std::sqrt(vertices);
 }
 
 // One reading instead of two, if guesses hold.
 GuessedRun run_guessing_in_place(RunContext& run, IndexedMesh& mesh, const Checkpoint* start, FirstStageResult result) {
-  constexpr double kFront = 1.5;  // of a coherent surface, in square roots of its vertices
   const std::uint64_t vertices = mesh.vertex_count();
   MemoryPlan plan = run.plan;
-  plan.share_out({.vertices = vertices,
-                  .live_vertices = static_cast<std::uint64_t>(kFront * std::sqrt(static_cast<double>(vertices)))});
+  plan.share_out({.vertices = vertices, .live_vertices = surface_front(vertices)});
   ReadingInPlace reading(mesh);
   GuessedRun guessed = run_guessing(run, reading, plan, start, std::move(result));
   if (guessed.done) append(guessed.result.notes, mesh.warnings());
@@ -253,7 +256,10 @@ FirstStageResult run_indexed(RunContext& run, const MeshInput& input, std::uniqu
 
 // A mesh that is indexed as it is stored.
 FirstStageResult run_in_place(RunContext& run, MeshInput& input, const Checkpoint* start, FirstStageResult result) {
-  if (may_guess(run, input, start) && (start != nullptr || seems_closed(*input.indexed))) {
+  const bool is_suitable =
+      start != nullptr ||
+      (seems_closed(*input.indexed) && surface_front(input.indexed->vertex_count()) <= run.plan.most_live_vertices());
+  if (is_suitable && may_guess(run, input, start)) {
     for (VertexFunction* function : run.functions) function->check_count(input.indexed->vertex_count());
     GuessedRun guessed = run_guessing_in_place(run, *input.indexed, start, std::move(result));
     if (guessed.done) return std::move(guessed.result);
