@@ -50,6 +50,8 @@ class UseGuesses {
   static bool is_closed(std::uint32_t entry) { return (entry & ~kUsed) == kFan; }
 
   void sum_links(const Chunk& chunk);
+  bool sum_of_triangles(const Chunk& chunk);
+  void sum_of_all(const Chunk& chunk);
 
   PagedTable<std::uint32_t> table_;
   std::uint64_t open_ = 0, guessed_ = 0, revoked_ = 0, unused_ = 0, degenerate_ = 0;

@@ -32,20 +32,17 @@ class LocalNumbers {
   // Sets numbers[i] to the number of vertices[i]. REQUIRES: both have the same length.
   void number(std::span<const VertexId> vertices, std::span<std::uint32_t> numbers) {
     const std::size_t mask = place_.size() - 1;
+    std::uint32_t* const place = place_.data();
     const VertexId* ids = ids_->data();
-    auto fresh = static_cast<std::uint32_t>(ids_->size());
+    std::size_t known = ids_->size();
     for (std::size_t i = 0; i < vertices.size(); ++i) {
       const VertexId vertex = vertices[i];
-      std::uint32_t& here = place_[vertex.value() & mask];
+      std::uint32_t& here = place[vertex.value() & mask];
       std::uint32_t number = here;
-      if (number >= fresh || ((ids[number].value() ^ vertex.value()) & mask) != 0)
-        number = here = fresh;
-      else if (ids[number] != vertex)
-        number = elsewhere_.find_or_insert(vertex.value(), fresh);
-      if (number == fresh) {
-        ids_->push_back(vertex);
+      if (number >= known || ids[number] != vertex) {
+        number = number_other(vertex, here, mask);
         ids = ids_->data();
-        ++fresh;
+        known = ids_->size();
       }
       numbers[i] = number;
     }
@@ -54,6 +51,15 @@ class LocalNumbers {
   std::size_t memory_bytes() const { return place_.capacity() * 4 + elsewhere_.memory_bytes(); }
 
  private:
+  // Of a vertex that is not the one at its place.
+  std::uint32_t number_other(VertexId vertex, std::uint32_t& here, std::size_t mask) {
+    const auto fresh = static_cast<std::uint32_t>(ids_->size());
+    const bool is_taken = here < fresh && (((*ids_)[here].value() ^ vertex.value()) & mask) == 0;
+    const std::uint32_t number = is_taken ? elsewhere_.find_or_insert(vertex.value(), fresh) : here = fresh;
+    if (number == fresh) ids_->push_back(vertex);
+    return number;
+  }
+
   std::vector<VertexId>* ids_ = nullptr;
   std::vector<std::uint32_t> place_;  // a power of two of them
   FlatMap elsewhere_;

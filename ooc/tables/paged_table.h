@@ -36,6 +36,22 @@ class PagedTable {
   // The entry to change in place; valid until the next call.
   T& change(std::uint64_t index) { return entry(index, true); }
 
+  // Calls visit(k, entry) for the entry of each id, to change it in place. Faster than change() if many ids in a row
+  // are near each other.
+  template <class Id, class Visit>
+  void change_each(std::span<const Id> ids, const Visit& visit) {
+    std::uint64_t page = ~std::uint64_t{0};
+    T* entries = nullptr;
+    for (std::size_t k = 0; k < ids.size(); ++k) {
+      const std::uint64_t index = ids[k].value();
+      if (index >> kShift != page) {
+        page = index >> kShift;
+        entries = &entry(page << kShift, true);
+      }
+      visit(k, entries[index & (kPageEntries - 1)]);
+    }
+  }
+
   // out[k] = entry first + k.
   void read(std::uint64_t first, std::span<T> out) {
     while (!out.empty()) {

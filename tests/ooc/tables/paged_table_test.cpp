@@ -7,6 +7,7 @@
 #include <random>
 
 #include "libreeb/base/error.h"
+#include "libreeb/base/ids.h"
 #include "tests/support/scratch.h"
 
 namespace reeb::ooc {
@@ -43,7 +44,7 @@ void compare_with_map(std::uint64_t allowance, std::uint64_t seed) {
       if (step % 20 == 0) near = random() % 500'000;
       const std::uint64_t i = near + random() % 3000;
       const T value = value_of<T>(random());
-      switch (random() % 5) {
+      switch (random() % 6) {
         case 0:
           table.set(i, value), model[i] = value;
           break;
@@ -60,6 +61,18 @@ void compare_with_map(std::uint64_t allowance, std::uint64_t seed) {
           std::array<T, 300> values;
           table.read(i, values);
           for (std::size_t k = 0; k < values.size(); ++k) ASSERT_EQ(values[k], expected(i + k));
+          break;
+        }
+        case 4: {  // some twice, and some on another page
+          std::array<VertexId, 40> ids;
+          for (VertexId& id : ids) id = VertexId(near + random() % 3000);
+          std::size_t next = 0;
+          table.change_each(std::span<const VertexId>(ids), [&](std::size_t k, T& entry) {
+            ASSERT_EQ(k, next++);
+            ASSERT_EQ(entry, expected(ids[k].value()));
+            entry = model[ids[k].value()] = value_of<T>(random());
+          });
+          ASSERT_EQ(next, ids.size());
           break;
         }
         default:
