@@ -121,7 +121,7 @@ TEST_F(CommandLine, HelpsFitEightyColumnsAndAreOfOneStyle) {
   for (const std::string& name : subcommands()) helps.push_back(reeb({name, "--help"}).output);
   for (const std::string& help : helps) {
     for (const std::string& line : lines_after("", help)) EXPECT_LE(line.size(), 80u) << line;
-    for (const char* of_the_library : {"REQUIRED", "UINT", "TEXT", "{false}", "Excludes", "INT in"})
+    for (const char* of_the_library : {"REQUIRED", "UINT", "TEXT", "{false}", "Excludes", "Needs:", ":{", "INT in"})
       EXPECT_EQ(help.find(of_the_library), std::string::npos) << help;
     // Descriptions begin with a capital letter.
     for (const std::string& line : lines_after("  --", help)) {
@@ -146,6 +146,9 @@ TEST_F(CommandLine, UnknownOptionsAreNamedWithTheNearest) {
   expect_error(reeb({"generate", "torus"}), 2, "--output is missing");
   expect_error(reeb({"mesh.off", "-o"}), 2, "--output needs one value");
   expect_error(reeb({"extract", "mesh.reeb", "--nodes", "3", "--threshold", "1"}), 2);
+  expect_error(reeb({"plot", "mesh.reeb", "--kind", "foo"}), 2,
+               "--kind takes loops, diagram, graph or skeleton, not 'foo'");
+  expect_error(reeb({"plot", "mesh.reeb", "--color", "red"}), 2, "--color takes value or arcs, not 'red'");
 }
 
 TEST_F(CommandLine, NegativeHugeAndEmptyNumbersAreRefused) {
