@@ -98,7 +98,7 @@ for (let i = 0; i < 100 && !label; ++i) {
     done(hidden ? '' : textContent)
   })))`)
 }
-check('hovering labels a node or an arc', /^(Minimum|Maximum|Saddle) at vertex \d+\nvalue|^Arc from vertex \d+ to \d+\nvalues/.test(label), label)
+check('hovering labels a node or an arc', /^(Minimum|Maximum|Fork) at vertex \d+\nvalue|^Arc from vertex \d+ to \d+\nvalues/.test(label), label)
 const camera = () => until(`/[#&]view=([^&]*)/.exec(location.hash)?.[1]`).then((text) => text.split(',').map(Number))
 const touch = (type, ...places) => browser.send('Input.dispatchTouchEvent', { type, touchPoints: places.map(([x, y], id) => ({ ...inPicture(x, y), id })) })
 const untouched = await camera()
