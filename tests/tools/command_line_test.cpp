@@ -223,6 +223,34 @@ TEST_F(CommandLine, TheSummaryNamesLikelyDefects) {
   EXPECT_EQ(reeb({"torus.ply"}).error.find("likely"), std::string::npos) << "its one loop is as long as it is";
 }
 
+TEST_F(CommandLine, TheSummarySaysThatTrianglesShareNoVertices) {
+  const std::string text = "  most triangles share no vertex with others";
+  std::string apart = "OFF\n300 100 0\n", joined = "OFF\n102 100 0\n", points = "OFF\n302 100 0\n";
+  const auto vertex = [](int i) {
+    return std::to_string(i % 2) + " " + std::to_string(i) + " " + std::to_string(i) + "\n";
+  };
+  for (int i = 0; i < 300; ++i) apart += vertex(i);
+  for (int i = 0; i < 102; ++i) joined += vertex(i);
+  for (int i = 0; i < 302; ++i) points += vertex(i);
+  for (int i = 0; i < 100; ++i) {
+    const auto corners = [](int a) {
+      return "3 " + std::to_string(a) + " " + std::to_string(a + 1) + " " + std::to_string(a + 2) + "\n";
+    };
+    apart += corners(3 * i);
+    joined += corners(i);
+    points += corners(i);
+  }
+  write("apart.off", apart);
+  write("joined.off", joined);
+  write("points.off", points);  // 200 vertices of no triangle
+  EXPECT_EQ(lines_after(text, reeb({"apart.off"}).error).size(), 1u);
+  for (const char* mesh : {"joined.off", "points.off"}) {
+    const Outcome outcome = reeb({mesh});
+    expect_success(outcome);
+    EXPECT_EQ(lines_after(text, outcome.error).size(), 0u) << outcome.error;
+  }
+}
+
 // All values are equal, so all pairs have persistence zero.
 TEST_F(CommandLine, FeaturesWithoutPersistenceAreNotListed) {
   expect_success(reeb({"generate", "grid", "--triangles", "1k", "-o", "grid.ply"}));
