@@ -210,6 +210,7 @@ TEST_F(CommandLine, TheSummaryListsLoopsAndExtremaAndFitsEightyColumns) {
       << outcome.error;
   EXPECT_EQ(lines_after("    m", outcome.error).size(), 5u) << outcome.error;
   EXPECT_EQ(lines_after("  mesh: ", outcome.error).size(), 1u);
+  EXPECT_EQ(lines_after("  wrote to standard output", reeb({"scan.ply", "-o", "-"}).error).size(), 1u);
 }
 
 TEST_F(CommandLine, TheSummaryNamesLikelyDefects) {

@@ -107,7 +107,7 @@ void print_result(const RunFacts& facts, const ooc::ComputeResult& r) {
                            with_commas(r.kept_loops), r.kept_loops == 1 ? "it stays" : "they stay"));
   const double seconds = r.seconds.wall;
   print_line(fmt::format("  {:.2f} s ({}), peak memory {}", seconds, rate(r), format_bytes(peak_rss_bytes())));
-  print_line("  wrote " + (r.output == io::kStandardOutput ? "standard output" : printable(r.output)));
+  print_line("  wrote " + (r.output == io::kStandardOutput ? "to standard output" : printable(r.output)));
 }
 
 nlohmann::ordered_json to_json(const RunFacts& facts, const ooc::ComputeResult& r) {
