@@ -4,7 +4,7 @@
 WHY = {
     "threads": "reading and numbering are in one thread, gluing in another; only the sweep is divided",
     "speed": "a run spends about 80 ns of processor time a triangle",
-    "random function": "every fourth vertex is a node, so paths are long and most of the graph is written out",
+    "random function": "more than half of the vertices are nodes, so paths are long and most of the graph is written out",
     "tiles": "pieces that come in no order are sorted on disk, or glued with long borders",
     "random order": "the mesh is sorted on disk by position before it is run, and read twice for that",
     "hierarchy": "each cancellation touches nodes and arcs all over memory",

@@ -78,7 +78,7 @@ std::shared_ptr<const InputFile> open_if_regular(const std::string& path) {
 
 void throw_empty(const std::string& path) {
   const std::string fault = is_streaming_name(path) ? "TRUNCATED: " : "";
-  throw Error(ErrorKind::kBadInput, fault + "is empty", "check how the file was written").at(path, "0");
+  throw Error(ErrorKind::kBadInput, fault + "the file is empty", "check how the file was written").at(path, "0");
 }
 
 }  // namespace reeb::io

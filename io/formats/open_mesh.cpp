@@ -49,7 +49,7 @@ std::unique_ptr<MeshReader> open_mesh(const Input& input, std::unique_ptr<Conten
   grid.format = image_format_named(format);
   if (format.empty() && content_suffix(input.path()) == ".raw") grid.format = ImageFormat::kRaw;
   if (image.is_raw() || grid.format == ImageFormat::kRaw) {
-    grid.raw = parse_raw_grid(image.grid, image.type, image.spacing, image.skip_bytes);
+    if (image.is_raw()) grid.raw = parse_raw_grid(image.grid, image.type, image.spacing, image.skip_bytes);
     grid.format = ImageFormat::kRaw;
   } else if (!grid.format) {
     const bool may_be_image =

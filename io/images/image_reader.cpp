@@ -156,8 +156,9 @@ class ImageReader final : public GridReader {
   [[noreturn]] void fail_short(std::uint64_t left, std::uint64_t least) const {
     const bool exact = image_.packing == Packing::kPlain;
     throw Error(ErrorKind::kBadInput,
-                "the header announces " + count_of(values_, "value") + " (" + (exact ? "" : "at least ") +
-                    count_of(least, "byte") + "), but the file holds " + count_of(left, "byte") + " of data",
+                (image_.must_end ? "the grid has " : "the header announces ") + count_of(values_, "value") + " (" +
+                    (exact ? "" : "at least ") + count_of(least, "byte") + "), but the file holds " +
+                    count_of(left, "byte") + " of data",
                 image_.must_end ? "check the size and the type of the grid" : kCutHint)
         .at(name_, std::to_string(image_.offset));
   }

@@ -59,6 +59,9 @@ std::vector<std::uint64_t> parse_grid_size(const std::string& grid) {
 
 RawGrid parse_raw_grid(const std::string& grid, const std::string& type, const std::string& spacing,
                        std::uint64_t skip_bytes) {
+  const std::string hint = "say what the file holds, for example --grid 256x256x100 --type u16le";
+  if (grid.empty()) refuse("--grid is missing: --type, --spacing and --skip are for raw images", hint);
+  if (type.empty()) refuse("--type is missing: --grid is for raw images", hint);
   RawGrid raw;
   raw.size = parse_grid_size(grid);
   parse_type(type, raw);

@@ -25,8 +25,9 @@ std::string text(double length) {
 }
 
 std::string part_of(std::size_t part, std::size_t all) {
-  if (part == all) return all == 1 ? "the only loop is" : "all " + std::to_string(all) + " loops are";
-  return std::to_string(part) + " of " + std::to_string(all) + (part == 1 ? " loops is" : " loops are");
+  if (all == 1) return "the only loop is";
+  if (part == all) return "all " + std::to_string(all) + " loops are at most";
+  return std::to_string(part) + " of " + std::to_string(all) + (part == 1 ? " loops is" : " loops are at most");
 }
 
 }  // namespace
@@ -55,7 +56,7 @@ SuggestedLength suggest_length(std::span<const double> lengths, double edge, dou
   const double low = from(best), high = to(best), ratio = high / low;
   const double length = std::clamp(kBorder * edge, low * std::pow(ratio, 0.3), low * std::pow(ratio, 0.7));
   double confidence = chance(best) * (1 - std::exp(-3 * std::log(ratio)));
-  std::string why = part_of(best, sorted.size()) + " at most " + text(low) + " long (" + text(low / edge) + " edges), ";
+  std::string why = part_of(best, sorted.size()) + " " + text(low) + " long (" + text(low / edge) + " edges), ";
   if (best < finite) {
     why += "the others at least " + text(high);
   } else if (best < sorted.size()) {

@@ -124,8 +124,7 @@ std::uint32_t SurfacePatch::edge_between(std::uint32_t a, std::uint32_t b) const
 
 Point SurfacePatch::normal(std::uint32_t t) const {
   const auto [a, b, c] = oriented(t);
-  const Point u = position(b) - position(a), w = position(c) - position(a);
-  return {u[1] * w[2] - u[2] * w[1], u[2] * w[0] - u[0] * w[2], u[0] * w[1] - u[1] * w[0]};
+  return cross(position(b) - position(a), position(c) - position(a));
 }
 
 }  // namespace reeb

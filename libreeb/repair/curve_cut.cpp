@@ -407,8 +407,8 @@ class Edit {
 
   Point normal(std::uint32_t t) const {
     const auto& c = patch_.triangle(t).corners;
-    const Point u = patch_.position(c[1]) - patch_.position(c[0]), w = patch_.position(c[2]) - patch_.position(c[0]);
-    return {u[1] * w[2] - u[2] * w[1], u[2] * w[0] - u[0] * w[2], u[0] * w[1] - u[1] * w[0]};
+    const Point& apex = patch_.position(c[0]);
+    return cross(patch_.position(c[1]) - apex, patch_.position(c[2]) - apex);
   }
 
   // The triangle at an edge that has no other.
@@ -514,7 +514,7 @@ Cut try_cut(EditablePatch& patch, std::span<const std::uint32_t> curve, const Cu
   }
   std::string why = "there is no room for a band beside its curve";
   bool too_small = false;
-  std::optional<Attempt> folded;  // the first one whose only fault is that
+  std::optional<Attempt> folded;  // the first attempt whose only fault is that it folds
   const auto succeeds = [&](const Attempt& attempt, bool may_fold, Cut& cut) {
     Band band(patch, curve, (*sides)[attempt.side], (*sides)[1 - attempt.side]);
     for (int ring = 0; ring < attempt.growth; ++ring) band.grow();

@@ -42,10 +42,7 @@ const TriangleCells& EditablePatch::cells() {
   constexpr double kTrianglesWide = 2;
   if (cells_.size() == 0 && !triangles_.empty()) {
     double sum = 0;
-    for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
-      const PointBox box = PointBox::around(placed(t).points);
-      sum += std::max({box.high[0] - box.low[0], box.high[1] - box.low[1], box.high[2] - box.low[2]});
-    }
+    for (std::uint32_t t = 0; t < triangles_.size(); ++t) sum += PointBox::around(placed(t).points).longest_side();
     cells_.set_width(kTrianglesWide * sum / static_cast<double>(triangles_.size()));
   }
   while (cells_.size() < triangles_.size())

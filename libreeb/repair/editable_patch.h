@@ -54,7 +54,7 @@ class EditablePatch {
     const Corners& c = triangles_[t].corners;
     return {c, {position(c[0]), position(c[1]), position(c[2])}};
   }
-  // Where triangles are, also those that are not there. TIME: that of the ones added since the last call.
+  // Where all triangles are, with those that were removed. TIME: proportional to those added since the last call.
   const TriangleCells& cells();
 
   std::size_t vertex_count() const { return vertices_.size(); }

@@ -15,10 +15,6 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 using Triangle = std::array<std::uint32_t, 3>;
 
-Point cross(const Point& u, const Point& w) {
-  return {u[1] * w[2] - u[2] * w[1], u[2] * w[0] - u[0] * w[2], u[0] * w[1] - u[1] * w[0]};
-}
-
 bool joined(const Rim& rim, std::uint32_t a, std::uint32_t b) {
   return std::ranges::binary_search(rim.joined, std::pair(std::min(a, b), std::max(a, b)));
 }

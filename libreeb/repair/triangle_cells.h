@@ -31,6 +31,7 @@ struct PointBox {
       if (high[k] < other.low[k] || other.high[k] < low[k]) return false;
     return true;
   }
+  double longest_side() const { return std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2]}); }
 };
 
 // Each triangle is in the cells that its box touches, or on a list of large ones. MEMORY: about 50 bytes per triangle.
@@ -55,7 +56,8 @@ class TriangleCells {
     const std::size_t end = count == 0 ? 0 : ends_.back();
     for (; entries_.size() > end; entries_.pop_back()) heads_[entries_.back().list] = entries_.back().next;
   }
-  // Calls look(triangle) for all whose boxes meet this one, and for others, also repeatedly, while it returns true.
+  // Calls look(triangle) for all triangles whose boxes meet this one, and perhaps for others, some of them repeatedly.
+  // Ends when look() returns false.
   template <class Look>
   void visit(const PointBox& box, const Look& look) const {
     Cells cells{};

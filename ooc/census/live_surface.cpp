@@ -9,21 +9,16 @@
 #include "libreeb/base/count_text.h"
 #include "libreeb/base/error.h"
 #include "libreeb/base/union_find.h"
+#include "libreeb/defects/surface_patch.h"
 
 namespace reeb::ooc {
 namespace {
-
-Point minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Point cross(const Point& a, const Point& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
 
 // Whether the triangles (v, w, x) and (w, v, y) have normals that are more than 170 degrees apart. A triangle without
 // area has no normal.
 bool is_folded(const Point& v, const Point& w, const Point& x, const Point& y) {
   constexpr double kCosineSquared = 0.96984631039295419;  // of 10 degrees
-  const Point edge = minus(w, v), a = cross(edge, minus(x, v)), b = cross(edge, minus(y, v));
+  const Point edge = w - v, a = cross(edge, x - v), b = cross(edge, y - v);
   const double both = dot(a, b);
   return both > 0 && both * both > kCosineSquared * dot(a, a) * dot(b, b);
 }
@@ -328,8 +323,7 @@ void LiveSurface::examine_faces(Slot v) {
 void LiveSurface::count_boundary_edge(Slot v, Slot w) {
   Vertex &a = vertices_[v], &b = vertices_[w];
   Boundary edge{.edges = 1, .length = {}, .min = {}, .max = {}, .lowest = a.id, .position = a.position};
-  const Point between = minus(b.position, a.position);
-  edge.length = Length::of(std::sqrt(dot(between, between)));
+  edge.length = Length::of(distance(a.position, b.position));
   for (std::size_t k = 0; k < 3; ++k) {
     edge.min[k] = std::min(a.position[k], b.position[k]);
     edge.max[k] = std::max(a.position[k], b.position[k]);

@@ -50,7 +50,8 @@ std::uint64_t write_names_of(WholeMesh& mesh, const std::string& output, RunCont
     const std::uint64_t by_size = mesh.info.shares.triangles;
     count_triangles(run, mesh);
     if (mesh.info.shares.triangles == by_size) throw;
-    throw Error(ErrorKind::kBadInput, "its faces are no triangles, although their size is that of triangles",
+    throw Error(ErrorKind::kBadInput,
+                "not all of its faces are triangles, although together they have the size of triangles",
                 "compute the parts without --scan and --shared")
         .at(path);
   }

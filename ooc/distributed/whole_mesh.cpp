@@ -53,18 +53,17 @@ void count_triangles(RunContext& run, WholeMesh& whole) {
 
 PartUses find_part_uses(RunContext& run, const MeshInput& input, WholeMesh& mesh) {
   const Shares& shares = mesh.info.shares;
-  // Simplices of other sizes never make up for each other: a polygon of k corners counts as k - 2 triangles, but an
+  // Faces of other sizes never make up for each other: a polygon of k corners counts as k - 2 triangles, but an
   // edge or a point counts as one. So where the size is that of triangles, and their number, too, all are triangles.
-  const auto is_counted = [&](const LastUse& uses) {
-    if (uses.summary().triangle_count == shares.triangles) return true;
+  const auto fits = [&](const LastUse& uses) { return uses.summary().triangle_count == shares.triangles; };
+  const auto count_if_guessed = [&] {
     if (mesh.by_size) count_triangles(run, mesh);
-    return false;
   };
   if (const std::string sidecar = sidecar_path(run, input); !sidecar.empty()) {
     SidecarLoad known =
         load_sidecar(sidecar, identify_mesh(input.path), shares.vertices, run.temp, run.budget, run.plan.table_bytes);
-    if (known.uses && (is_counted(*known.uses) || known.uses->summary().triangle_count == shares.triangles))
-      return {std::move(*known.uses), shares};
+    if (known.uses && !fits(*known.uses)) count_if_guessed();
+    if (known.uses && fits(*known.uses)) return {std::move(*known.uses), shares};
     if (!known.note.empty()) mesh.notes.push_back(known.note);
   }
   const auto scan = [&] {
@@ -76,7 +75,8 @@ PartUses find_part_uses(RunContext& run, const MeshInput& input, WholeMesh& mesh
     return scan_last_use(*mesh.mesh, run.temp, run.budget, options);
   };
   std::optional<LastUse> uses = scan();
-  if (!is_counted(*uses)) {
+  if (!fits(*uses)) {
+    count_if_guessed();
     uses.reset();
     uses = scan();
   }

@@ -74,7 +74,7 @@ class CollectedPatches {
   };
   struct Triangle {
     std::array<std::uint32_t, 3> corners;  // numbers; kNone: in no ball
-    std::uint32_t is_other;                // not a triangle with three corners, but it uses these
+    std::uint32_t is_other;  // 1: a point, an edge or a triangle with equal corners, which only uses these vertices
     std::uint64_t id;
   };
 

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "libreeb/defects/surface_patch.h"
+#include "libreeb/repair/triangle_cells.h"
 #include "ooc/patches/near_balls.h"
 
 namespace reeb::ooc {
@@ -12,36 +14,20 @@ namespace {
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
-struct Box {
-  Point low{kFar, kFar, kFar}, high{-kFar, -kFar, -kFar};
-  void add(const Point& point) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      low[k] = std::min(low[k], point[k]);
-      high[k] = std::max(high[k], point[k]);
-    }
-  }
-  double longest_side() const { return std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2]}); }
-};
-
 // Cells of a coarse grid that balls touch: most triangles touch none of them.
 class TouchedCells {
  public:
   explicit TouchedCells(std::span<const PatchBall> balls) : touched_(kSide * kSide * kSide, false) {
-    for (const PatchBall& place : balls) all_.add(low_of(place.ball)), all_.add(high_of(place.ball));
-    for (const PatchBall& place : balls) {
-      Box box;
-      box.add(low_of(place.ball));
-      box.add(high_of(place.ball));
-      visit(box, [&](std::size_t cell) {
+    for (const PatchBall& place : balls) all_.add(box_of(place.ball));
+    for (const PatchBall& place : balls)
+      visit(box_of(place.ball), [&](std::size_t cell) {
         touched_[cell] = true;
         return true;
       });
-    }
   }
 
-  bool meet(const Box& box) const {
-    for (std::size_t k = 0; k < 3; ++k)
-      if (!(box.low[k] <= all_.high[k] && box.high[k] >= all_.low[k])) return false;
+  bool meet(const PointBox& box) const {
+    if (!all_.meets(box)) return false;
     bool found = false;
     visit(box, [&](std::size_t cell) {
       found = touched_[cell];
@@ -53,11 +39,10 @@ class TouchedCells {
  private:
   static constexpr std::size_t kSide = 64;
 
-  static Point low_of(const Ball& ball) {
-    return {ball.center[0] - ball.radius, ball.center[1] - ball.radius, ball.center[2] - ball.radius};
-  }
-  static Point high_of(const Ball& ball) {
-    return {ball.center[0] + ball.radius, ball.center[1] + ball.radius, ball.center[2] + ball.radius};
+  static PointBox box_of(const Ball& ball) {
+    const Point& c = ball.center;
+    const double r = ball.radius;
+    return {{c[0] - r, c[1] - r, c[2] - r}, {c[0] + r, c[1] + r, c[2] + r}};
   }
   std::size_t place(double x, std::size_t k) const {
     const double share = (x - all_.low[k]) / (all_.high[k] - all_.low[k]) * kSide;
@@ -65,7 +50,7 @@ class TouchedCells {
   }
   // While look(cell) returns true.
   template <class Look>
-  void visit(const Box& box, const Look& look) const {
+  void visit(const PointBox& box, const Look& look) const {
     std::array<std::size_t, 3> from{}, to{};
     for (std::size_t k = 0; k < 3; ++k) {
       from[k] = place(box.low[k], k);
@@ -77,7 +62,7 @@ class TouchedCells {
           if (!look((z * kSide + y) * kSide + x)) return;
   }
 
-  Box all_;
+  PointBox all_{{kFar, kFar, kFar}, {-kFar, -kFar, -kFar}};
   std::vector<bool> touched_;
 };
 
@@ -91,13 +76,12 @@ class Finder {
       near_.add(balls[i].ball, i);
       least_ = std::min(least_, balls[i].least);
     }
-    grid_.emplace_back(plain);
+    grid_.emplace(plain);
     found_.resize(patches);
   }
 
   void look_at(const std::array<VertexId, 3>& corners, const std::array<Point, 3>& points) {
-    Box box;
-    for (const Point& point : points) box.add(point);
+    const PointBox box = PointBox::around(points);
     const double side = box.longest_side();
     if (!(side > least_) || !cells_.meet(box)) return;
     Ball around;
@@ -130,7 +114,7 @@ class Finder {
   std::uint32_t patch_with(const std::array<Point, 3>& points) const {
     std::uint32_t patch = BallGrid::kNone;
     for (const Point& point : points) {
-      const std::uint32_t ball = grid_[0].find(point);
+      const std::uint32_t ball = grid_->find(point);
       if (ball == BallGrid::kNone || (patch != BallGrid::kNone && balls_[ball].patch != patch)) return BallGrid::kNone;
       patch = balls_[ball].patch;
     }
@@ -138,15 +122,14 @@ class Finder {
   }
 
   // Whether the ball meets the box and the plane of the triangle.
-  static bool comes_near(const Ball& ball, const Box& box, const std::array<Point, 3>& points) {
+  static bool comes_near(const Ball& ball, const PointBox& box, const std::array<Point, 3>& points) {
     double sum = 0;
     for (std::size_t k = 0; k < 3; ++k) {
       const double off = std::max({0.0, box.low[k] - ball.center[k], ball.center[k] - box.high[k]});
       sum += off * off;
     }
     if (sum > ball.radius * ball.radius) return false;
-    const Point u = points[1] - points[0], w = points[2] - points[0];
-    const Point normal = {u[1] * w[2] - u[2] * w[1], u[2] * w[0] - u[0] * w[2], u[0] * w[1] - u[1] * w[0]};
+    const Point normal = cross(points[1] - points[0], points[2] - points[0]);
     constexpr double kRoundedOff = 1.001;
     return std::abs(dot(normal, ball.center - points[0])) <= kRoundedOff * ball.radius * std::sqrt(dot(normal, normal));
   }
@@ -155,7 +138,7 @@ class Finder {
   Reservation memory_;
   TouchedCells cells_;
   NearBalls near_;
-  std::vector<BallGrid> grid_;
+  std::optional<BallGrid> grid_;
   double least_ = kFar;
   std::vector<std::vector<FarTriangle>> found_;
   std::uint64_t count_ = 0;

@@ -5,8 +5,8 @@
 
 namespace reeb::ooc {
 
-// Throws the exception that is being handled, with what it means for this run: whether --resume can continue, and in
-// words what is no Error. REQUIRES: called in a handler.
+// Throws the exception that is being handled again, as an Error that says whether --resume can continue. One that
+// cannot be explained is thrown as it is. REQUIRES: called in a handler.
 [[noreturn]] void throw_explained(RunContext& run);
 
 }  // namespace reeb::ooc

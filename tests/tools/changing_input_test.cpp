@@ -301,7 +301,7 @@ TEST_F(ProgramTest, AnEmptyFileOfValuesIsThatOfAMeshWithoutVertices) {
     expect_success(reeb({"compute", "empty.off", "-f", std::string("file:") + name, "-o", "out.reeb", "--force"}));
     expect_error(
         reeb({"compute", "mesh.off", "-f", std::string("file:") + name, "-o", "out.reeb", "--force", "--quiet"}), 1,
-        std::string(name) + ":0: is empty");
+        std::string(name) + ":0: the file is empty");
   }
 }
 

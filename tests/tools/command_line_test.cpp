@@ -121,7 +121,7 @@ TEST_F(CommandLine, HelpsFitEightyColumnsAndAreOfOneStyle) {
   for (const std::string& name : subcommands()) helps.push_back(reeb({name, "--help"}).output);
   for (const std::string& help : helps) {
     for (const std::string& line : lines_after("", help)) EXPECT_LE(line.size(), 80u) << line;
-    for (const char* of_the_library : {"REQUIRED", "UINT", "TEXT", "{false}", "Excludes", "INT in"})
+    for (const char* of_the_library : {"REQUIRED", "UINT", "TEXT", "{false}", "Excludes", "Needs:", ":{", "INT in"})
       EXPECT_EQ(help.find(of_the_library), std::string::npos) << help;
     // Descriptions begin with a capital letter.
     for (const std::string& line : lines_after("  --", help)) {
@@ -146,6 +146,9 @@ TEST_F(CommandLine, UnknownOptionsAreNamedWithTheNearest) {
   expect_error(reeb({"generate", "torus"}), 2, "--output is missing");
   expect_error(reeb({"mesh.off", "-o"}), 2, "--output needs one value");
   expect_error(reeb({"extract", "mesh.reeb", "--nodes", "3", "--threshold", "1"}), 2);
+  expect_error(reeb({"plot", "mesh.reeb", "--kind", "foo"}), 2,
+               "--kind takes loops, diagram, graph or skeleton, not 'foo'");
+  expect_error(reeb({"plot", "mesh.reeb", "--color", "red"}), 2, "--color takes value or arcs, not 'red'");
 }
 
 TEST_F(CommandLine, NegativeHugeAndEmptyNumbersAreRefused) {
@@ -207,6 +210,7 @@ TEST_F(CommandLine, TheSummaryListsLoopsAndExtremaAndFitsEightyColumns) {
       << outcome.error;
   EXPECT_EQ(lines_after("    m", outcome.error).size(), 5u) << outcome.error;
   EXPECT_EQ(lines_after("  mesh: ", outcome.error).size(), 1u);
+  EXPECT_EQ(lines_after("  wrote to standard output", reeb({"scan.ply", "-o", "-"}).error).size(), 1u);
 }
 
 TEST_F(CommandLine, TheSummaryNamesLikelyDefects) {
@@ -218,6 +222,34 @@ TEST_F(CommandLine, TheSummaryNamesLikelyDefects) {
   EXPECT_NE(scan.error.find("reeb defects scan.ply"), std::string::npos);
   expect_success(reeb({"generate", "torus", "--triangles", "1k", "-o", "torus.ply"}));
   EXPECT_EQ(reeb({"torus.ply"}).error.find("likely"), std::string::npos) << "its one loop is as long as it is";
+}
+
+TEST_F(CommandLine, TheSummarySaysThatTrianglesShareNoVertices) {
+  const std::string text = "  most triangles share no vertex with others";
+  std::string apart = "OFF\n300 100 0\n", joined = "OFF\n102 100 0\n", points = "OFF\n302 100 0\n";
+  const auto vertex = [](int i) {
+    return std::to_string(i % 2) + " " + std::to_string(i) + " " + std::to_string(i) + "\n";
+  };
+  for (int i = 0; i < 300; ++i) apart += vertex(i);
+  for (int i = 0; i < 102; ++i) joined += vertex(i);
+  for (int i = 0; i < 302; ++i) points += vertex(i);
+  for (int i = 0; i < 100; ++i) {
+    const auto corners = [](int a) {
+      return "3 " + std::to_string(a) + " " + std::to_string(a + 1) + " " + std::to_string(a + 2) + "\n";
+    };
+    apart += corners(3 * i);
+    joined += corners(i);
+    points += corners(i);
+  }
+  write("apart.off", apart);
+  write("joined.off", joined);
+  write("points.off", points);  // 200 vertices of no triangle
+  EXPECT_EQ(lines_after(text, reeb({"apart.off"}).error).size(), 1u);
+  for (const char* mesh : {"joined.off", "points.off"}) {
+    const Outcome outcome = reeb({mesh});
+    expect_success(outcome);
+    EXPECT_EQ(lines_after(text, outcome.error).size(), 0u) << outcome.error;
+  }
 }
 
 // All values are equal, so all pairs have persistence zero.

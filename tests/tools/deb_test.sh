@@ -10,16 +10,8 @@ build=$1 more=${2:-}
 for tool in cpack dpkg-deb dpkg-shlibdeps; do
   command -v "$tool" >/dev/null || { echo "skipped: no data: $tool is not installed"; exit 0; }
 done
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
+source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
 chmod 755 "$work"
-cd "$work"
-failures=0
-check() {  # check WHAT COMMAND...: the command succeeds
-  local what=$1
-  shift
-  if "$@" >log 2>&1; then echo "ok: $what"; else echo "FAILED: $what"; cat log; failures=$((failures + 1)); fi
-}
 
 # Packed fast: how small they are is not tested. The folder names what is in it, so each test has its own.
 pack=()

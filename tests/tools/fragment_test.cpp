@@ -140,7 +140,7 @@ TEST_F(FragmentTest, CountsWhatOnlyHasTheSizeOfTriangles) {
   write("odd.ply", mesh);
   for (const unsigned parts : {1u, 2u, 3u, 5u}) expect_same("odd.ply", {"--buckets", "0"}, parts);
   expect_error(reeb({"fragment", "odd.ply", "--scan", "--part", "1/2", "-o", "p1.names"}), 1,
-               "odd.ply: its faces are no triangles, although their size is that of triangles");
+               "odd.ply: not all of its faces are triangles, although together they have the size of triangles");
   // Damage is named as by other commands, whatever part it is in.
   make_scan("scan.ply", "2k");
   std::string damaged = file("scan.ply");

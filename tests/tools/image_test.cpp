@@ -90,7 +90,9 @@ TEST_F(Image, MustHaveFiniteValuesWhereTheyAreUsed) {
 
 TEST_F(Image, IsDescribedByItsOptions) {
   write_raw("v.raw", std::vector<float>(7 * 6 * 5, 1));
-  expect_error(reeb({"compute", "v.raw"}), 2);
+  expect_error(reeb({"compute", "v.raw"}), 2, "v.raw: a raw file does not say what it holds");
+  expect_error(reeb({"compute", "v.raw", "--grid", "7x6x5"}), 2, "--type is missing");
+  expect_error(reeb({"compute", "v.raw", "--spacing", "1,1,2"}), 2, "--grid is missing");
   expect_error(reeb({"compute", "v.raw", "--grid", "7x6x5", "--type", "f32"}), 2);
   expect_error(reeb({"compute", "v.raw", "--grid", "7x6x5", "--type", "f32le", "--nodata", "keep"}), 2);
   expect_error(reeb({"compute", "v.raw", "--grid", "7x6x4", "--type", "f32le"}), 1);

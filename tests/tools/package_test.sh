@@ -6,15 +6,7 @@
 set -uo pipefail
 source=$1 build=$2 cxx=$3
 
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work"
-failures=0
-check() {  # check WHAT COMMAND...: the command succeeds
-  local what=$1
-  shift
-  if "$@" >log 2>&1; then echo "ok: $what"; else echo "FAILED: $what"; cat log; failures=$((failures + 1)); fi
-}
+source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
 quietly() { ! "$@"; }
 
 cmake --install "$build" --prefix "$work/prefix" >/dev/null || exit 1

@@ -4,15 +4,7 @@
 #   packaging_test.sh SOURCE_FOLDER REEB
 set -uo pipefail
 source=$1 reeb=$2
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work"
-failures=0
-check() {  # check WHAT COMMAND...: the command succeeds
-  local what=$1
-  shift
-  if "$@" >log 2>&1; then echo "ok: $what"; else echo "FAILED: $what"; cat log; failures=$((failures + 1)); fi
-}
+source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
 have() { command -v "$1" >/dev/null || { echo "skipped: no data: $1 is not installed"; false; }; }
 
 bash "$source/packaging/from_help.sh" "$reeb" 1.2.3 "$work/help" || exit 1

@@ -6,15 +6,7 @@
 set -uo pipefail
 source=$1 reeb=$2 python=$3
 "$python" -c 'import numpy, setuptools, wheel, venv, ensurepip' 2>/dev/null || { echo "skipped: no data: python3-venv or python3-setuptools is not installed"; exit 0; }
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work"
-failures=0
-check() {  # check WHAT COMMAND...: the command succeeds
-  local what=$1
-  shift
-  if "$@" >log 2>&1; then echo "ok: $what"; else echo "FAILED: $what"; cat log; failures=$((failures + 1)); fi
-}
+source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
 unset PYTHONPATH
 export PIP_NO_INDEX=1 PIP_DISABLE_PIP_VERSION_CHECK=1
 mkdir copy

@@ -7,6 +7,7 @@
 #include "tools/program/bar_line.h"
 #include "tools/program/quantity.h"
 #include "tools/program/wrapping.h"
+#include "tools/repair/repair_mesh.h"
 
 namespace reeb::tools {
 namespace {
@@ -20,6 +21,16 @@ TEST(CountText, OneIsSingularAndThousandsAreSeparated) {
   EXPECT_EQ(with_commas(999), "999");
   EXPECT_EQ(with_commas(372001196), "372,001,196");
   EXPECT_EQ(with_commas(18446744073709551615u), "18,446,744,073,709,551,615");
+}
+
+TEST(RepairSummary, CountsHaveCommas) {
+  Repair repair;
+  repair.rows.resize(7216);
+  for (RepairedRow& row : repair.rows) row.why = "it is too long";
+  for (std::size_t i = 0; i < 6000; ++i) repair.rows[i].done = true;
+  repair.repaired = 6000;
+  EXPECT_EQ(summary_of(repair),
+            (std::vector<std::string>{"6,000 of 7,216 loops repaired", "1,216 left: it is too long"}));
 }
 
 TEST(Quantity, CountsTakeUnitsFractionsAndExponents) {

@@ -209,6 +209,13 @@ TEST_F(Report, DescribesTheSmallestGraphs) {
   EXPECT_EQ(data(point)["skeleton"]["isolated"], Json({0}));
 }
 
+TEST_F(Report, SaysWhatItWrote) {
+  report(planted());
+  EXPECT_EQ(reeb({"report", "g.reeb", "-o", "a.html"}).error, "wrote a.html\n");
+  EXPECT_EQ(reeb({"report", "g.reeb", "-o", "b.html", "--quiet"}).error, "");
+  EXPECT_EQ(reeb({"report", "g.reeb", "-o", "-"}).error, "");
+}
+
 TEST_F(Report, IsTheSameEachTime) {
   const std::string page = report(planted(), {}, {"--mesh", "mesh.off"});
   expect_success(reeb({"report", "g.reeb", "--mesh", "mesh.off", "-o", "-", "--quiet"}));
@@ -224,7 +231,8 @@ TEST_F(Report, RefusesWhatItCannotUse) {
   expect_error(reeb({"report", "g.reeb", "--mesh", "-", "-o", "x.html"}), 2);
   expect_error(reeb({"report", "g.reeb", "-o", "g.reeb", "--force"}), 1, "g.reeb: ");
   write("other.off", kSmallOff);
-  expect_error(reeb({"report", "g.reeb", "--mesh", "other.off", "-o", "x.html"}), 1);
+  expect_error(reeb({"report", "g.reeb", "--mesh", "other.off", "-o", "x.html"}), 1,
+               "other.off: this is not the mesh of the graph: it has another number of vertices");
   const auto names = files();
   EXPECT_EQ(std::ranges::count(names, "x.html"), 0);
 }

@@ -109,3 +109,13 @@ export class Browser {
 export function pause(milliseconds) {
   return new Promise((done) => setTimeout(done, milliseconds))
 }
+
+// Functions for the page. What a canvas shows: its pixels, four bytes each; how many colours, which is one if it is empty.
+export const kPixels = `(canvas) => {
+  const copy = document.createElement('canvas')
+  ;[copy.width, copy.height] = [canvas.width, canvas.height]
+  const context = copy.getContext('2d')
+  context.drawImage(canvas, 0, 0)
+  return context.getImageData(0, 0, copy.width, copy.height).data
+}`
+export const kColors = `(canvas) => new Set(new Uint32Array((${kPixels})(canvas).buffer)).size`

@@ -4,7 +4,7 @@
 //   node report_test.mjs REEB FOLDER     FOLDER has scan.reeb and scan.html, empty.html, point.html, bare.html
 import { execFileSync } from 'node:child_process'
 import { join } from 'node:path'
-import { Browser, pause } from './browser.mjs'
+import { Browser, kColors, pause } from './browser.mjs'
 
 const [reeb, folder] = process.argv.slice(2)
 let failures = 0
@@ -24,15 +24,6 @@ function extracted(threshold) {
   return { nodes: count('n'), arcs: count('a') }
 }
 
-// Colours in a picture: one if it is empty.
-const kColors = `(element) => {
-  const canvas = document.createElement('canvas')
-  canvas.width = element.width
-  canvas.height = element.height
-  const context = canvas.getContext('2d')
-  context.drawImage(element, 0, 0)
-  return new Set(new Uint32Array(context.getImageData(0, 0, canvas.width, canvas.height).data.buffer)).size
-}`
 const kDrawn = `new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => {
   const { nodes, arcs, loops, threshold } = document.getElementById('drawn').dataset
   done({ nodes: Number(nodes), arcs: Number(arcs), loops: Number(loops), threshold: Number(threshold) })

@@ -5,7 +5,7 @@
 import { readFileSync, writeFileSync } from 'node:fs'
 import { execFileSync } from 'node:child_process'
 import { join } from 'node:path'
-import { Browser, pause } from './browser.mjs'
+import { Browser, kColors, kPixels, pause } from './browser.mjs'
 import { serve } from './file_server.mjs'
 
 const [reeb, work] = process.argv.slice(2)
@@ -67,15 +67,7 @@ async function refused(what, address, text) {
 const { levels, graph } = JSON.parse(execFileSync(reeb, ['info', join(work, 'scan.reeb'), '--json'], { encoding: 'utf8' }))
 await visit('/good/scan.reeb')
 check('a picture comes', await until(kIdle), await message())
-const colors = (id) => `(() => {
-  const drawn = document.querySelector('#${id} canvas')
-  const canvas = document.createElement('canvas')
-  canvas.width = drawn.width
-  canvas.height = drawn.height
-  const context = canvas.getContext('2d')
-  context.drawImage(drawn, 0, 0)
-  return new Set(new Uint32Array(context.getImageData(0, 0, canvas.width, canvas.height).data.buffer)).size
-})()`
+const colors = (id) => `(${kColors})(document.querySelector('#${id} canvas'))`
 for (const id of ['space', 'flat']) check(`${id} is drawn`, await until(`${colors(id)} > 20`))
 // A processor draws here, and others may use it: the limit of 300 ms is for people's machines.
 const first = await browser.evaluate(`(([bytes, picture]) => picture.startTime - bytes.startTime)(['reeb-bytes', 'reeb-picture'].map((name) => performance.getEntriesByName(name)[0]))`)
@@ -106,7 +98,7 @@ for (let i = 0; i < 100 && !label; ++i) {
     done(hidden ? '' : textContent)
   })))`)
 }
-check('hovering labels a node or an arc', /^(Minimum|Maximum|Saddle) at vertex \d+\nvalue|^Arc from vertex \d+ to \d+\nvalues/.test(label), label)
+check('hovering labels a node or an arc', /^(Minimum|Maximum|Fork) at vertex \d+\nvalue|^Arc from vertex \d+ to \d+\nvalues/.test(label), label)
 const camera = () => until(`/[#&]view=([^&]*)/.exec(location.hash)?.[1]`).then((text) => text.split(',').map(Number))
 const touch = (type, ...places) => browser.send('Input.dispatchTouchEvent', { type, touchPoints: places.map(([x, y], id) => ({ ...inPicture(x, y), id })) })
 const untouched = await camera()
@@ -139,26 +131,19 @@ const drop = (name, address, part = 'bytes') => browser.evaluate(`(async () => {
   data.items.add(new File([${part}], '${name}'))
   dispatchEvent(new DragEvent('drop', { dataTransfer: data, bubbles: true, cancelable: true }))
 })()`)
-const dark = `(() => {
-  const canvas = document.createElement('canvas')
-  const drawn = document.querySelector('#space canvas')
-  ;[canvas.width, canvas.height] = [drawn.width, drawn.height]
-  const context = canvas.getContext('2d')
-  context.drawImage(drawn, 0, 0)
-  return context.getImageData(0, 0, canvas.width, canvas.height).data.filter((x, i) => i % 4 === 3 && x > 0).length
-})()`
-const pixels = await browser.evaluate(dark)
+const painted = `(${kPixels})(document.querySelector('#space canvas')).filter((x, i) => i % 4 === 3 && x > 0).length`
+const pixels = await browser.evaluate(painted)
 const backdropName = `document.getElementById('backdrop-name').textContent`
 await drop('torus.PLY', 'good/scan.ply')
 check('a mesh that is dropped is named', await until(`/^torus.PLY, \\d[\\d,]* triangles$/.test(${backdropName})`), await message())
-check('and drawn', await until(`${dark} > ${1.2 * pixels}`), [pixels, await browser.evaluate(dark)])
+check('and drawn', await until(`${painted} > ${1.2 * pixels}`), [pixels, await browser.evaluate(painted)])
 for (const [part, text] of [[`'ply, but not more'`, /damaged|no triangles/], ['bytes.slice(0, 9000)', /damaged|not there|no triangles/], [`'OFF'`, /not a PLY file/]]) {
   await drop('bad.ply', 'good/scan.ply', part)
   check(`a mesh like ${part} is refused`, await until(`${text}.test(document.getElementById('message').textContent)`), await message())
 }
 check('the mesh before stays', /^torus/.test(await browser.evaluate(backdropName)))
 await browser.evaluate(`document.getElementById('no-backdrop').click()`)
-check('it can be removed', (await browser.evaluate(backdropName)) === '' && (await until(`${dark} < ${1.1 * pixels}`)))
+check('it can be removed', (await browser.evaluate(backdropName)) === '' && (await until(`${painted} < ${1.1 * pixels}`)))
 
 // Each mark chooses the feature that it describes.
 for (const i of [0, 5]) {

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <sstream>
 #include <utility>
 
@@ -23,6 +24,11 @@ class HelpFormatter : public CLI::Formatter {
   std::string make_option_desc(const CLI::Option* option) const override {
     return wrapped(option->get_description(), 0, kTextColumns - get_column_width());
   }
+  // The descriptions say what an option needs.
+  std::string make_option_opts(const CLI::Option* option) const override {
+    const std::string text = CLI::Formatter::make_option_opts(option);
+    return text.substr(0, text.find(" Needs:"));
+  }
 };
 
 }  // namespace
@@ -43,7 +49,13 @@ Option Option::option_text(const std::string& text) {
 }
 
 Option Option::one_of(const std::vector<std::string>& values) {
-  option_->check(CLI::IsMember(values));
+  const auto check = [values](const std::string& word) {
+    if (std::ranges::find(values, word) != values.end()) return std::string();
+    std::string names = values[0];
+    for (std::size_t i = 1; i < values.size(); ++i) names += (i + 1 < values.size() ? ", " : " or ") + values[i];
+    return "takes " + names + ", not '" + word + "'";
+  };
+  option_->check(CLI::Validator(check, ""));
   return *this;
 }
 

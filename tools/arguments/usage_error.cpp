@@ -67,6 +67,9 @@ std::string in_plain_words(const CLI::ParseError& refusal) {
     return without(text, ": ") + " needs one value";
   if (dynamic_cast<const CLI::ExtrasError*>(&refusal) != nullptr && text.find(": ") != std::string::npos)
     return "more words than expected: " + text.substr(text.find(": ") + 2);
+  const auto colon = text.find(": ");
+  if (dynamic_cast<const CLI::ValidationError*>(&refusal) != nullptr && colon != std::string::npos)
+    return text.substr(0, colon) + text.substr(colon + 1);
   return text;
 }
 

@@ -135,7 +135,7 @@ void add_plot(Program& program) {
                   "Picture to write: .svg, .png or .pdf (default: the name of the file with .svg, in the current "
                   "folder); - writes SVG to standard output")
       .type_name("FILE");
-  command.add_option("--kind", options->kind, "loops, diagram, graph or skeleton (default: loops)")
+  command.add_option("--kind", options->kind, "What to draw: loops, diagram, graph or skeleton (default: loops)")
       .one_of({"loops", "diagram", "graph", "skeleton"})
       .type_name("KIND");
   Option threshold = command

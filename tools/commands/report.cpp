@@ -4,6 +4,7 @@
 
 #include "io/file/temp_dir.h"
 #include "libreeb/base/error.h"
+#include "libreeb/base/printable.h"
 #include "ooc/reeb_file/reeb_file.h"
 #include "tools/arguments/image_options.h"
 #include "tools/arguments/options.h"
@@ -13,6 +14,7 @@
 #include "tools/program/output.h"
 #include "tools/program/progress.h"
 #include "tools/program/signals.h"
+#include "tools/program/wrapping.h"
 #include "tools/report/report.h"
 
 namespace reeb::tools {
@@ -59,6 +61,7 @@ void run_report(PageOptions options) {
   const std::string page = make_report(options.report);
   bar.clear();
   write_output(options.output, options.force, [&](std::ostream& out) { out << page; });
+  if (!options.quiet && options.output != "-") print_line("wrote " + printable(options.output));
 }
 
 }  // namespace
@@ -88,7 +91,7 @@ void add_report(Program& program) {
                   "Folder for temporary files (default: $TMPDIR, or the folder of the output)")
       .type_name("DIR");
   command.add_flag("--force", options->force, "Replace an existing output");
-  command.add_flag("--quiet", options->quiet, "Print no progress");
+  command.add_flag("--quiet", options->quiet, "Print no progress and no summary");
   command.footer("Example:\n  reeb report scan.reeb --mesh scan.ply -o scan.html");
   command.callback([options] { run_report(*options); });
 }

@@ -16,8 +16,9 @@ std::vector<SettledNode> component_tops(const ValuedMesh& mesh, const LoopFuncti
   // Vertices beyond those of the graph have no place here.
   const auto check = [&](const MeshBatch& batch) {
     if (batch.first_vertex.value() + batch.vertex_count > function.mesh_vertices)
-      throw Error(ErrorKind::kBadInput, "the graph is of a mesh with another number of vertices",
-                  "name the mesh that the graph was computed from");
+      throw Error(ErrorKind::kBadInput, "this is not the mesh of the graph: it has another number of vertices",
+                  "name the mesh that the .reeb file was computed from")
+          .at(mesh.path());
   };
   const Reservation memory = budget.reserve("components of the mesh", several ? 4 * function.mesh_vertices : 0);
   UnionFind component(several ? static_cast<std::uint32_t>(function.mesh_vertices) : 0);

@@ -255,8 +255,9 @@ class CurveSearch {
       if (options_.progress) options_.progress(done, total, triangles);
     });
     if (vertices != list_.functions[0].mesh_vertices)
-      throw Error(ErrorKind::kBadInput, "the graph is of a mesh with another number of vertices",
-                  "name the mesh that the graph was computed from");
+      throw Error(ErrorKind::kBadInput, "this is not the mesh of the graph: it has another number of vertices",
+                  "name the mesh that the .reeb file was computed from")
+          .at(mesh_.path());
     surfaces.finish();
     return surfaces;
   }

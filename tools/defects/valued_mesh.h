@@ -28,6 +28,7 @@ class ValuedMesh {
   ValuedMesh(const MeshSource& source, std::span<const std::string> functions);
 
   const MeshInfo& info() const { return info_; }
+  const std::string& path() const { return source_.path; }
   std::uint64_t memory_bytes() const { return source_.memory_bytes; }
   const std::string& temp_folder() const { return source_.temp_folder; }
 

@@ -23,6 +23,7 @@
 #include "tools/library/run_options.h"
 #include "tools/mpi/rank_files.h"
 #include "tools/mpi/shared_names.h"
+#include "tools/program/progress.h"
 
 namespace reeb::tools {
 namespace {
@@ -132,7 +133,7 @@ Glued glue_in_tree(World& world, ooc::RunContext& run, ooc::FinishedPart part, c
 void add_usage(RankFigures& figures) {
   struct rusage usage {};
   getrusage(RUSAGE_SELF, &usage);
-  figures.peak_bytes = static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+  figures.peak_bytes = peak_rss_bytes();
   for (const timeval& time : {usage.ru_utime, usage.ru_stime})
     figures.cpu_ms += static_cast<std::uint64_t>(time.tv_sec) * 1000 + static_cast<std::uint64_t>(time.tv_usec) / 1000;
 }

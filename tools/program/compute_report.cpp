@@ -62,6 +62,16 @@ void print_not_counted(const RunFacts& facts, const ooc::ComputeResult& r) {
   print_with_command(facts, "  boundaries, non-manifold places, genus: not counted", "reeb info");
 }
 
+// Many programs write each triangle with vertices of its own. Isolated vertices have no arcs.
+void print_if_apart(const ooc::ComputeResult& r) {
+  constexpr std::uint64_t kFew = 100;
+  if (r.triangles() < kFew || has_cells(r) || 2 * std::min<std::uint64_t>(r.betti.components, r.arcs) <= r.triangles())
+    return;
+  print_line(
+      "  most triangles share no vertex with others: vertices in the same place are not joined (except in STL); if they"
+      " should be, join them with another program first");
+}
+
 // Only what `reeb defects` can measure.
 void print_likely_defects(const RunFacts& facts, const ooc::ComputeResult& r) {
   if (r.likely_defects == 0 || has_cells(r)) return;
@@ -85,6 +95,7 @@ void print_result(const RunFacts& facts, const ooc::ComputeResult& r) {
   print_not_counted(facts, r);
   print_line(fmt::format("  graph: {}, {}, {}, {}", count_of(r.nodes, "node"), count_of(r.arcs, "arc"),
                          count_of(r.betti.components, "component"), count_of(r.betti.loops, "loop")));
+  print_if_apart(r);
   if (r.denoised_pairs != 0) print_line("  removed as noise: " + count_of(r.denoised_pairs, "pair"));
   const auto pairs = [&](PairType type) { return r.pairs[static_cast<std::size_t>(type)]; };
   const std::uint64_t loops = pairs(PairType::kExt1), others = pairs(PairType::kOrd0) + pairs(PairType::kRel1);
@@ -96,7 +107,7 @@ void print_result(const RunFacts& facts, const ooc::ComputeResult& r) {
                            with_commas(r.kept_loops), r.kept_loops == 1 ? "it stays" : "they stay"));
   const double seconds = r.seconds.wall;
   print_line(fmt::format("  {:.2f} s ({}), peak memory {}", seconds, rate(r), format_bytes(peak_rss_bytes())));
-  print_line("  wrote " + (r.output == io::kStandardOutput ? "standard output" : printable(r.output)));
+  print_line("  wrote " + (r.output == io::kStandardOutput ? "to standard output" : printable(r.output)));
 }
 
 nlohmann::ordered_json to_json(const RunFacts& facts, const ooc::ComputeResult& r) {

@@ -74,8 +74,8 @@ void print_text(const ooc::ReebFile& file) {
   fmt::print("  graph      {}, {}, {}, {}\n", count_of(header.nodes, "node"), count_of(header.arcs, "arc"),
              count_of(header.components, "component"), count_of(header.loops, "loop"));
   if (header.flags.has_embedding)
-    fmt::print("  embedding  {} of width {:.9g}\n", count_of(buckets_of_graph(file), "bucket"),
-               std::ldexp(1.0, header.bucket_exponent));
+    fmt::print("  embedding  {} along the arcs, in buckets of width {:.9g}\n",
+               count_of(buckets_of_graph(file), "point"), std::ldexp(1.0, header.bucket_exponent));
   if (header.denoised_pairs != 0)
     fmt::print(
         "  denoised   {}{}\n", count_of(header.denoised_pairs, "pair"),

@@ -165,12 +165,12 @@ class Plan {
 Repair plan_repair(const RepairOptions& options) { return Plan(options).run(); }
 
 std::vector<std::string> summary_of(const Repair& repair) {
-  std::vector<std::string> lines = {std::to_string(repair.repaired) + " of " + count_of(repair.rows.size(), "loop") +
+  std::vector<std::string> lines = {with_commas(repair.repaired) + " of " + count_of(repair.rows.size(), "loop") +
                                     " repaired"};
   std::map<std::string, std::size_t> reasons;
   for (const RepairedRow& row : repair.rows)
     if (!row.done) ++reasons[row.why];
-  for (const auto& [why, count] : reasons) lines.push_back(std::to_string(count) + " left: " + why);
+  for (const auto& [why, count] : reasons) lines.push_back(with_commas(count) + " left: " + why);
   if (repair.cleaning.degenerate) lines.push_back(count_of(repair.degenerate, "degenerate triangle") + " dropped");
   if (repair.cleaning.duplicates) lines.push_back(count_of(repair.duplicates, "repeated triangle") + " dropped");
   if (repair.cleaning.components_percent)
@@ -178,11 +178,11 @@ std::vector<std::string> summary_of(const Repair& repair) {
                     count_of(repair.component_triangles, "triangle") + " dropped");
   if (!repair.cleaning.boundary_length) return lines;
   lines.push_back(
-      (repair.boundaries_filled == 1 ? "1 boundary" : std::to_string(repair.boundaries_filled) + " boundaries") +
+      (repair.boundaries_filled == 1 ? "1 boundary" : with_commas(repair.boundaries_filled) + " boundaries") +
       " filled");
   reasons.clear();
   for (const std::string& why : repair.boundaries_left) ++reasons[why];
-  for (const auto& [why, count] : reasons) lines.push_back(std::to_string(count) + " not filled: " + why);
+  for (const auto& [why, count] : reasons) lines.push_back(with_commas(count) + " not filled: " + why);
   return lines;
 }
 

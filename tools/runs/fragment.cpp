@@ -71,7 +71,7 @@ void print_fragment(const ooc::FragmentResult& r, const ooc::PartChoice& choice)
                          count_of(r.info.settled_arcs, "arc"), count_of(r.open_vertices, "vertex")));
   for (const std::string& note : r.notes) print_line("  note: " + printable(note));
   print_line(fmt::format("  {:.2f} s", r.seconds.wall));
-  if (!io::is_device(r.output)) print_line("  written to " + printable(r.output));
+  if (!io::is_device(r.output)) print_line("  wrote " + printable(r.output));
 }
 
 void run_fragment(FragmentArguments arguments) {
@@ -94,7 +94,7 @@ void run_fragment(FragmentArguments arguments) {
     const std::uint64_t names = scan_names(arguments.mesh, outputs[0], options, choice);
     bar.clear();
     if (!arguments.quiet)
-      print_line(printable(fmt::format("part {} of {} names {}; written to {}", choice.part + 1, choice.parts,
+      print_line(printable(fmt::format("part {} of {} names {}; wrote {}", choice.part + 1, choice.parts,
                                        count_of(names, "vertex"), outputs[0])));
     return;
   }

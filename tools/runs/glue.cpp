@@ -72,7 +72,7 @@ void run_glue(GlueArguments arguments) {
                                      glued.info.function)));
     print_line(fmt::format("  {} and {} have settled; {} open", count_of(glued.info.settled_nodes, "node"),
                            count_of(glued.info.settled_arcs, "arc"), count_of(glued.open_vertices, "vertex")));
-    print_line("  written to " + printable(arguments.output));
+    print_line("  wrote " + printable(arguments.output));
   }
   if (!arguments.report.empty())
     write_output(arguments.report, options.replace,

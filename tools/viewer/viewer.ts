@@ -475,7 +475,7 @@ function hover(hovered: View, place: number[] | null) {
 function describe({ node, arc }: Found): string {
   const { graph, header } = session!.reader
   if (node !== undefined) {
-    const names = { none: '', min: 'Minimum', max: 'Maximum', saddle: 'Saddle', isolated: 'Isolated point' }
+    const names = { none: '', min: 'Minimum', max: 'Maximum', saddle: 'Fork', isolated: 'Isolated point' }
     const kind = names[kKinds[kindOf(content!, node)]]
     return `${kind} at vertex ${graph.vertex[node]}\nvalue ${shortNumber(graph.value[node])}\n${content!.down[node]} down, ${content!.up[node]} up`
   }

@@ -183,7 +183,7 @@ export class SkeletonView {
   }
 
   describeNode({ node, kind }) {
-    const names = { min: 'Minimum', max: 'Maximum', saddle: 'Saddle', isolated: 'Isolated point' }
+    const names = { min: 'Minimum', max: 'Maximum', saddle: 'Fork', isolated: 'Isolated point' }
     const { vertex, value } = this.skeleton.nodes
     return `${names[kind]} at vertex ${vertex[node]}\nvalue ${shortNumber(value[node])}\n${this.content.down.get(node) ?? 0} down, ${this.content.up.get(node) ?? 0} up`
   }

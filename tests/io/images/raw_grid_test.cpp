@@ -54,7 +54,7 @@ TEST(RawGrid, SizeAndSpacing) {
 TEST(RawGrid, TheFileHoldsTheGridAndNoMore) {
   const std::string path = write_file("a.raw", std::string(24, '1'));
   EXPECT_EQ(error_of(path, raw("5x5", "u8")),
-            "a.raw:0: the header announces 25 values (25 bytes), but the file holds 24 bytes of data");
+            "a.raw:0: the grid has 25 values (25 bytes), but the file holds 24 bytes of data");
   EXPECT_EQ(error_of(path, raw("2x5", "u16le", "", 2)),
             "a.raw:22: the grid has 10 values (20 bytes), but the file holds 22 bytes");
   const std::string packed = write_file("a.raw.gz", gzip_packed(std::string(24, '1')));
@@ -74,10 +74,13 @@ TEST(RawGrid, WhatAUserWritesIsChecked) {
     }
     return std::string();
   };
-  for (const char* grid : {"", "5", "5x", "x5", "5x5x5x5", "0x5", "-1x5", "5X5", "5x5 ", "99999999999999999999x2"})
+  for (const char* grid : {"5", "5x", "x5", "5x5x5x5", "0x5", "-1x5", "5X5", "5x5 ", "99999999999999999999x2"})
     EXPECT_EQ(error(grid, "u8"), "--grid \"" + std::string(grid) + "\" is not the size of a grid");
-  for (const char* type : {"", "u16", "u8le", "f16le", "float", "U8"})
+  for (const char* type : {"u16", "u8le", "f16le", "float", "U8"})
     EXPECT_EQ(error("5x5", type), "--type \"" + std::string(type) + "\" is not a type of values");
+  EXPECT_EQ(error("", "u8"), "--grid is missing: --type, --spacing and --skip are for raw images");
+  EXPECT_EQ(error("", "", "1,1"), "--grid is missing: --type, --spacing and --skip are for raw images");
+  EXPECT_EQ(error("5x5", ""), "--type is missing: --grid is for raw images");
   EXPECT_EQ(error("5x5", "u8", "1,x"), "--spacing \"1,x\" is not a list of numbers");
   EXPECT_EQ(error("5x5", "u8", "1,nan"), "--spacing \"1,nan\" is not a list of numbers");
   EXPECT_EQ(error("5x5", "u8", "1,1,1"), "--spacing \"1,1,1\" does not have one number for each axis of --grid 5x5");

@@ -163,6 +163,7 @@ TEST(DefectLengths, AreDividedAtTheGap) {
   ASSERT_TRUE(alone.length);
   EXPECT_LE(alone.confidence, 0.5);
   EXPECT_TRUE(alone.why.starts_with("the only loop is")) << alone.why;
+  EXPECT_EQ(alone.why.find("at most"), std::string::npos) << alone.why;
   EXPECT_FALSE(suggest_length({}, 1, 10).length);
   EXPECT_FALSE(suggest_length(std::vector{100.0, 150.0}, 1, 1000).length);
   EXPECT_FALSE(suggest_length(std::vector{kInfinity}, 1, 1000).length);

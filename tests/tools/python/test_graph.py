@@ -277,6 +277,8 @@ def test_a_picture_of_itself():
     vertices, faces = torus()
     graph = reeb.compute(vertices, faces, f="x")
     assert repr(graph) == "<reeb.Graph of x: 4 nodes, 4 arcs>" and "4 nodes" in graph._repr_html_()
+    edge = reeb.compute([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]], [[0, 1]], f="x")
+    assert repr(edge) == "<reeb.Graph of x: 2 nodes, 1 arc>"
     with pytest.raises(ValueError):
         graph.nodes["value"][0] = 1
     with pytest.raises(TypeError):

@@ -364,7 +364,8 @@ class Graph:
         else:
             nodes, arcs = len(self.nodes), len(self.arcs)
         level = f", level of threshold {self.threshold:g}" if self._version else ""
-        return f"<reeb.Graph of {self.function or 'a stream'}: {nodes} nodes, {arcs} arcs{level}>"
+        size = f"{nodes} node{'s' * (nodes != 1)}, {arcs} arc{'s' * (arcs != 1)}"
+        return f"<reeb.Graph of {self.function or 'a stream'}: {size}{level}>"
 
     def _repr_html_(self):
         from html import escape
