@@ -10,13 +10,21 @@ namespace {
 struct SortedCorners {
   SortedCorners(const std::uint32_t* rank, const std::uint32_t* corners) {
     const std::uint32_t a = rank[corners[0]], b = rank[corners[1]], c = rank[corners[2]];
-    // Without branches, since they could not be predicted.
-    lo = std::min(std::min(a, b), c);
-    hi = std::max(std::max(a, b), c);
-    const std::uint32_t rest = a ^ b ^ c ^ lo ^ hi;
+    const std::uint32_t less = least(a, b), greater = a + b - less;
+    lo = least(less, c);
+    const std::uint32_t not_least = less + c - lo;
+    const std::uint32_t rest = least(greater, not_least);
+    hi = greater + not_least - rest;
     mid = rest == lo ? hi : rest;
   }
   std::uint32_t lo, mid, hi;
+
+ private:
+  // Without a branch, since it could not be predicted; compilers make one of std::min. Ranks are less than 2^31.
+  static std::uint32_t least(std::uint32_t a, std::uint32_t b) {
+    const std::uint32_t difference = a - b;
+    return b + (difference & (0 - (difference >> 31)));
+  }
 };
 
 }  // namespace
@@ -47,13 +55,13 @@ void ChunkStars::count(const Chunk& chunk) {
     listed += std::exchange(begin.mid, listed);
     listed += std::exchange(begin.high, listed);
   }
-  triangles_.resize(triangles);
+  stored_.resize(triangles);
   lists_.resize(listed);
 }
 
 void ChunkStars::fill(const Chunk& chunk) {
   Ends* const next = ends_.data() + 1;
-  Triangle* const triangles = triangles_.data();
+  Stored* const stored = stored_.data();
   std::uint32_t* const lists = lists_.data();
   const std::uint32_t* const rank = rank_.data();
   const std::uint32_t* corners = chunk.corners.data();
@@ -62,7 +70,7 @@ void ChunkStars::fill(const Chunk& chunk) {
     const SortedCorners sorted(rank, corners);
     if (sorted.lo == sorted.hi) continue;
     const std::uint32_t t = next[sorted.lo].low++;
-    triangles[t] = {sorted.lo, sorted.mid, sorted.hi, place};
+    stored[t] = {std::uint64_t{sorted.hi} << 32 | sorted.mid, sorted.lo, place};
     if (sorted.mid != sorted.hi) lists[next[sorted.mid].mid++] = t;
     lists[next[sorted.hi].high++] = t;
   }
@@ -70,8 +78,8 @@ void ChunkStars::fill(const Chunk& chunk) {
 
 std::uint32_t ChunkStars::last_place(std::uint32_t v) const {
   std::uint32_t last = 0;
-  for (std::uint32_t t = low_first(v); t < low_last(v); ++t) last = std::max(last, triangles_[t].place);
-  for (const std::uint32_t t : middles_and_highs(v)) last = std::max(last, triangles_[t].place);
+  for (std::uint32_t t = low_first(v); t < low_last(v); ++t) last = std::max(last, stored_[t].place);
+  for (const std::uint32_t t : middles_and_highs(v)) last = std::max(last, stored_[t].place);
   return last;
 }
 

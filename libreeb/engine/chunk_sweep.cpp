@@ -18,10 +18,19 @@ constexpr std::uint32_t kNone = ~std::uint32_t{0};
 
 // The triangles that cross the level. Two edges of a triangle t cross it: lo-hi always; lo-mid below its middle vertex
 // and mid-hi above it. They are its half-edges 2 * t and 2 * t + 1. Each is in a ring with the half-edges of the other
-// triangles at the same mesh edge.
+// triangles at the same mesh edge, if the vertex at its lower end has linked it. Most vertices are regular, and do that
+// only when a walk comes to one of their edges.
 class Crossings {
  public:
   void reset(std::size_t triangles) { halves_.resize(2 * triangles); }
+  // Begins triangle t, neither of whose half-edges is linked.
+  void start(std::uint32_t t, std::uint32_t label) {
+    halves_[2 * t] = {2 * t + 1, label};
+    halves_[2 * t + 1].next = 2 * t;
+  }
+  // No ring goes from one half-edge of a triangle to the other, so that says: not linked.
+  void set_unlinked(std::uint32_t half) { next(half) = half ^ 1; }
+  bool is_linked(std::uint32_t half) const { return next(half) != (half ^ 1); }
   std::uint32_t& next(std::uint32_t half) { return halves_[half].next; }
   std::uint32_t next(std::uint32_t half) const { return halves_[half].next; }
   std::uint32_t& label(std::uint32_t t) { return halves_[2 * std::size_t{t}].label; }
@@ -48,7 +57,7 @@ class UpwardEdges {
   void reset(std::size_t vertices) {
     edge_of_.assign(vertices, 0);
     first_ = 1;
-    count_ = 0;
+    count_ = linked_ = 0;
   }
   // Finds the edges up from v, links their half-edges into rings, and unites the edges of each triangle.
   void collect(std::uint32_t v, const ChunkStars& stars, Crossings& crossings) {
@@ -56,7 +65,7 @@ class UpwardEdges {
     const auto middles = stars.middles(v);
     const std::size_t most = middles.size() + 2 * std::size_t{low_last - low_first};
     if (edges_.size() < most) edges_.resize(most);
-    const std::uint32_t first = first_ + count_;
+    const std::uint32_t first = first_ + count_ + linked_;
     std::uint32_t count = 0, groups = 0;  // locals stay in registers: no write through a pointer can change them
 
     // Enters a half-edge up to `hi` and links it into the ring of its edge; returns the edge.
@@ -74,17 +83,44 @@ class UpwardEdges {
       ++groups;
       return e;
     };
-    for (const std::uint32_t t : middles) touch(stars[t].hi, 2 * t + 1);
+    for (const std::uint32_t t : middles) touch(stars.hi(t), 2 * t + 1);
     for (std::uint32_t t = low_first; t < low_last; ++t) {
-      const std::uint32_t to_hi = touch(stars[t].hi, 2 * t);
-      if (stars[t].mid == stars[t].hi)
+      const std::uint32_t to_hi = touch(stars.hi(t), 2 * t);
+      if (stars.mid(t) == stars.hi(t))
         crossings.next(2 * t + 1) = 2 * t + 1;
-      else if (unite(to_hi, touch(stars[t].mid, 2 * t + 1)))
+      else if (unite(to_hi, touch(stars.mid(t), 2 * t + 1)))
         --groups;
     }
     first_ = first;
     count_ = count;
     groups_ = groups;
+    linked_ = 0;
+  }
+
+  // Links the half-edges up from w that cross the level just above v, in the same order as collect(w). REQUIRES: w was
+  // passed without collect(w). Edges of v cannot be found by their upper ends any more.
+  void link_late(std::uint32_t w, std::uint32_t v, const ChunkStars& stars, Crossings& crossings) {
+    const auto touch = [&](std::uint32_t hi, std::uint32_t half) {
+      std::uint32_t& number = edge_of_[hi];
+      const std::uint32_t first_of_w = first_ + count_ + linked_ - static_cast<std::uint32_t>(late_heads_.size());
+      if (number >= first_of_w) {
+        crossings.next(half) = std::exchange(crossings.next(late_heads_[number - first_of_w]), half);
+        return;
+      }
+      number = first_ + count_ + linked_++;
+      late_heads_.push_back(half);
+      crossings.next(half) = half;
+    };
+    late_heads_.clear();
+    for (const std::uint32_t t : stars.middles(w)) touch(stars.hi(t), 2 * t + 1);
+    for (std::uint32_t t = stars.low_first(w); t < stars.low_last(w); ++t) {
+      const std::uint32_t mid = stars.mid(t), hi = stars.hi(t);
+      touch(hi, 2 * t);
+      if (mid == hi)
+        crossings.next(2 * t + 1) = 2 * t + 1;
+      else if (mid > v)  // else the half-edge is that from mid to hi
+        touch(mid, 2 * t + 1);
+    }
   }
 
   std::uint32_t count() const { return count_; }
@@ -97,7 +133,9 @@ class UpwardEdges {
     return e;
   }
   std::uint32_t group_of_neighbour(std::uint32_t hi) { return group(edge_of_[hi] - first_); }
-  std::size_t memory_bytes() const { return 4 * edge_of_.capacity() + edges_.capacity() * sizeof(Edge); }
+  std::size_t memory_bytes() const {
+    return 4 * (edge_of_.capacity() + late_heads_.capacity()) + edges_.capacity() * sizeof(Edge);
+  }
 
  private:
   struct Edge {
@@ -112,10 +150,13 @@ class UpwardEdges {
     return a != b;
   }
 
-  std::vector<std::uint32_t> edge_of_;  // by rank: first_ + edge; less than first_: of an earlier vertex
+  // By rank: first_ + edge; less than first_: of an earlier vertex; more than that: of a vertex that was linked late.
+  std::vector<std::uint32_t> edge_of_;
   std::uint32_t first_ = 1;
   std::vector<Edge> edges_;  // count_ of them
   std::uint32_t count_ = 0, groups_ = 0;
+  std::uint32_t linked_ = 0;               // edges that were linked late since then
+  std::vector<std::uint32_t> late_heads_;  // of their last vertex
 };
 
 // Labels of crossing triangles, and the arc of each set of labels.
@@ -175,6 +216,8 @@ struct ChunkSweep::Scratch {
  private:
   void reset(const SweepOptions& options);
   void visit(std::uint32_t v);
+  bool pass_regular(std::uint32_t v);
+  void note_regular(std::uint32_t v, SweepArc arc);
   void collect_below(std::uint32_t v);
   void end_arcs_below(SweepNode node);
   void label_lows(std::uint32_t v, std::uint32_t label);
@@ -189,6 +232,7 @@ struct ChunkSweep::Scratch {
   std::size_t walk(std::uint32_t v);
   void seed_sides(std::uint32_t v);
   void step(std::uint32_t side);
+  void link(std::uint32_t half);
   void enter(std::uint32_t t, std::uint32_t side) {
     crossings.label(t) = first_side + side;
     crossings.prefetch_beyond(t);
@@ -200,6 +244,7 @@ struct ChunkSweep::Scratch {
   }
 
   const Chunk* chunk = nullptr;
+  std::uint32_t current = 0;  // the last vertex for which pass_regular() was false
   const SweptChunk* swept = nullptr;
   bool embeds = false, follows = false, notes_regular = false, manifold = false;
   VertexRanks ranks;
@@ -279,6 +324,8 @@ std::size_t ChunkSweep::Scratch::memory_bytes() const {
 
 void ChunkSweep::Scratch::visit(std::uint32_t v) {
   shared_edges.reach(VertexRank(v));
+  if (pass_regular(v)) return;
+  current = v;
   collect_below(v);
   up.collect(v, stars, crossings);
   if (manifold) check_edges(v);
@@ -287,11 +334,7 @@ void ChunkSweep::Scratch::visit(std::uint32_t v) {
   const bool shared = uses[v] != kUsedHereOnly;
   if (joined && below.size() == 1 && !shared) {  // a regular vertex
     label_lows(v, below[0]);
-    if (notes_regular) {
-      const LocalVertex local = swept->local(VertexRank(v));
-      if (embeds) builder.add_regular(labels.arc(below[0]), local);
-      if (follows) builder.follow(labels.arc(below[0]), local);
-    }
+    if (notes_regular) note_regular(v, labels.arc(below[0]));
     return;
   }
   const SweepNode node = builder.add_node(VertexRank(v));
@@ -305,6 +348,39 @@ void ChunkSweep::Scratch::visit(std::uint32_t v) {
   else if (below.size() == 1)
     builder.note_leaf(node, labels.arc(below[0]));
   if (shared) add_shared_edges(v, node);
+}
+
+// If v is a regular vertex with a small star, as most vertices of a smooth function are, does all that is to be done
+// for it, and returns true. The loops have a fixed length, since another could not be predicted. Where the star is
+// smaller, they do something twice.
+bool ChunkSweep::Scratch::pass_regular(std::uint32_t v) {
+  constexpr std::size_t kMostBelow = 5;
+  constexpr std::uint32_t kMostLows = 3;
+  const auto triangles_below = stars.middles_and_highs(v);
+  const std::size_t last_below = triangles_below.size() - 1;
+  if (uses[v] != kUsedHereOnly || manifold || last_below >= kMostBelow || !stars.is_small_and_connected_above(v))
+    return false;
+  const std::uint32_t label = crossings.label(triangles_below[0]);
+  std::uint32_t differs = 0;
+  for (std::size_t i = 1; i < kMostBelow; ++i)
+    differs |= label ^ crossings.label(triangles_below[std::min(i, last_below)]);
+  const std::uint32_t root = labels.find(label);
+  if (differs != 0)
+    for (const std::uint32_t t : triangles_below)
+      if (labels.find(crossings.label(t)) != root) return false;
+  const auto middles = stars.middles(v);
+  crossings.set_unlinked(2 * middles.front() + 1);
+  crossings.set_unlinked(2 * middles.back() + 1);
+  const std::uint32_t low_first = stars.low_first(v), last_low = stars.low_last(v) - 1;
+  for (std::uint32_t i = 0; i < kMostLows; ++i) crossings.start(std::min(low_first + i, last_low), root);
+  if (notes_regular) note_regular(v, labels.arc(root));
+  return true;
+}
+
+void ChunkSweep::Scratch::note_regular(std::uint32_t v, SweepArc arc) {
+  const LocalVertex local = swept->local(VertexRank(v));
+  if (embeds) builder.add_regular(arc, local);
+  if (follows) builder.follow(arc, local);
 }
 
 // The distinct arcs of the triangles in which v is middle or highest all end or meet in v.
@@ -338,7 +414,7 @@ void ChunkSweep::Scratch::start_arcs(std::uint32_t v, SweepNode node) {
     side_of[e] = labels.add(group_arc[e]);
   }
   for (std::uint32_t t = stars.low_first(v); t < stars.low_last(v); ++t)
-    crossings.label(t) = side_of[up.group_of_neighbour(stars[t].hi)];
+    crossings.label(t) = side_of[up.group_of_neighbour(stars.hi(t))];
 }
 
 // All arcs from below continue as one new arc, which is returned.
@@ -449,9 +525,9 @@ void ChunkSweep::Scratch::seed_sides(std::uint32_t v) {
     active.push_back(side_of[e]);
     sides[side_of[e]].start();
   }
-  for (const std::uint32_t t : stars.middles(v)) enter(t, side_of[up.group_of_neighbour(stars[t].hi)]);
+  for (const std::uint32_t t : stars.middles(v)) enter(t, side_of[up.group_of_neighbour(stars.hi(t))]);
   for (std::uint32_t t = stars.low_first(v); t < stars.low_last(v); ++t)
-    enter(t, side_of[up.group_of_neighbour(stars[t].hi)]);
+    enter(t, side_of[up.group_of_neighbour(stars.hi(t))]);
 }
 
 // Visits one triangle. Of the other triangles at a crossing edge, only the next one in the ring is examined. Since that
@@ -461,6 +537,8 @@ void ChunkSweep::Scratch::step(std::uint32_t s) {
   Side& side = sides[s];
   const std::uint32_t t = side.queue[side.visited++];
   for (const std::uint32_t half : {2 * t, 2 * t + 1}) {
+    if (!crossings.is_linked(half)) [[unlikely]]
+      link(half);
     const std::uint32_t beyond = crossings.next(half) / 2;
     const std::uint32_t label = crossings.label(beyond);
     if (label < first_side) {
@@ -473,6 +551,13 @@ void ChunkSweep::Scratch::step(std::uint32_t s) {
     labels.merge_into(first_side + s, first_side + there);
     side.take_pending(sides[there]);
   }
+}
+
+// Links the half-edges of a vertex that was passed without that: of the lower end of this one.
+void ChunkSweep::Scratch::link(std::uint32_t half) {
+  const auto [lo, mid, hi, place] = stars[half / 2];
+  const bool from_mid = half % 2 != 0 && mid <= current;
+  up.link_late(from_mid ? mid : lo, current, stars, crossings);
 }
 
 }  // namespace reeb

@@ -1,10 +1,16 @@
 #include "libreeb/engine/glue.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "libreeb/base/error.h"
 
 namespace reeb {
+namespace {
+
+constexpr std::size_t kLookAhead = 8;  // entries of hash maps
+
+}  // namespace
 
 void Glue::add(const Fragment& fragment) {
   graph_.set_options(fragment.options);
@@ -28,6 +34,7 @@ void Glue::add_nodes(const Fragment& fragment) {
   nodes_.clear();
   for (std::size_t i = 0; i < fragment.nodes.size(); ++i) {
     const Fragment::Node& node = fragment.nodes[i];
+    if (i + kLookAhead < fragment.nodes.size()) node_of_.prefetch(fragment.nodes[i + kLookAhead].key.vertex.value());
     const std::uint64_t vertex = node.key.vertex.value();
     Index n = (node.uses & kUsedEarlier) != 0 ? node_of_.find(vertex) : kNone;
     if (n != kNone && graph_.key(n).value != node.key.value) throw InputChanged();
@@ -63,6 +70,10 @@ void Glue::place_regular(const Fragment& fragment) {
 void Glue::add_paths(const Fragment& fragment) {
   pending_.assign(fragment.edges.size(), {});
   for (std::size_t i = 0; i < fragment.edges.size(); ++i) {
+    if (i + kLookAhead < fragment.edges.size()) {
+      const auto [lo, hi] = fragment.edges[i + kLookAhead];
+      edge_of_.prefetch(edge_key(node(lo), node(hi)));
+    }
     const auto [lo, hi] = fragment.edges[i];
     const Index known = edge_of_.find(edge_key(node(lo), node(hi)));
     const bool needed_later = (fragment.nodes[lo.value()].uses & fragment.nodes[hi.value()].uses & kUsedLater) != 0;
@@ -96,7 +107,11 @@ LiveGraph::Index Glue::add_path(const Fragment& fragment, std::size_t edge) {
 
 // Vertices are completed between zips, in stream order. That keeps short the paths that are still to be zipped.
 void Glue::run_steps(const Fragment& fragment) {
-  for (const Fragment::Step& step : fragment.steps) {
+  constexpr std::size_t kStepsAtOnce = 64;
+  for (std::size_t i = 0; i < fragment.steps.size(); ++i) {
+    if (i % kStepsAtOnce == 0)
+      prefetch(std::span(fragment.steps).subspan(i, std::min(kStepsAtOnce, fragment.steps.size() - i)));
+    const Fragment::Step& step = fragment.steps[i];
     if (step.completes) {
       complete_node(nodes_[step.index]);
     } else if (const auto [edge, top] = pending_[step.index]; edge != kNone) {
@@ -108,6 +123,27 @@ void Glue::run_steps(const Fragment& fragment) {
         graph_.drop_path(std::exchange(edges_[edge].top, kNone));
       graph_.tidy();
     }
+  }
+}
+
+// Each arc of a path is somewhere else in memory, and a zip follows the path from one to the next. So the paths of many
+// steps are followed at the same time before, up to the length that most of them have.
+void Glue::prefetch(std::span<const Fragment::Step> steps) {
+  constexpr int kLength = 24;
+  ahead_.clear();
+  for (const Fragment::Step& step : steps) {
+    if (step.completes) {
+      node_of_.prefetch(graph_.key(nodes_[step.index]).vertex.value());
+    } else if (const Index edge = pending_[step.index].edge; edge != kNone) {
+      ahead_.push_back(edges_[edge].top);
+      edge_of_.prefetch(edge_key(edges_[edge].lo, edges_[edge].hi));
+    }
+  }
+  for (int i = 0; i < kLength && !ahead_.empty(); ++i) {
+    std::size_t left = 0;
+    for (const Index top : ahead_)
+      if (const Index below = graph_.prefetch(top); below != kNone) ahead_[left++] = below;
+    ahead_.resize(left);
   }
 }
 

@@ -11,6 +11,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "libreeb/base/error.h"
@@ -98,6 +99,7 @@ class Glue {
   Index add_path(const Fragment& fragment, std::size_t edge);
   NotManifold third_triangle(Index lo, Index hi) const;
   void run_steps(const Fragment& fragment);
+  void prefetch(std::span<const Fragment::Step> steps);
   void place_regular(const Fragment& fragment);
   void add_edge(Index lo, Index hi, Index top);
   void drop_edge(Index edge);
@@ -125,6 +127,7 @@ class Glue {
     Index top = kNone;   // of the fragment's path
   };
   std::vector<Pending> pending_;  // by shared edge of the fragment
+  std::vector<Index> ahead_;      // where the paths are that prefetch() follows
 };
 
 }  // namespace reeb

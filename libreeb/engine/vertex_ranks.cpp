@@ -12,9 +12,13 @@ namespace {
 class Buckets {
  public:
   Buckets(std::span<const double> values, std::size_t count) : last_(static_cast<double>(count - 1)) {
-    const auto [least, greatest] = std::minmax_element(values.begin(), values.end());
-    least_ = *least / 2;  // halved, so that no difference overflows
-    const double scale = last_ / (*greatest / 2 - least_);
+    double least = values.front(), greatest = least;
+    for (const double value : values) {
+      least = std::min(least, value);
+      greatest = std::max(greatest, value);
+    }
+    least_ = least / 2;  // halved, so that no difference overflows
+    const double scale = last_ / (greatest / 2 - least_);
     scale_ = std::isfinite(scale) ? scale : 0;
   }
   std::size_t operator()(double value) const {
@@ -25,12 +29,11 @@ class Buckets {
   double last_, least_, scale_;
 };
 
-// Most buckets have a few vertices. A large one is a tie, whose vertices are often in order already.
 template <class Iterator, class Before>
 void sort_bucket(Iterator first, Iterator last, const Before& before) {
   constexpr std::ptrdiff_t kInsertionSortsUpTo = 8;
   if (last - first > kInsertionSortsUpTo) {
-    if (!std::is_sorted(first, last, before)) std::sort(first, last, before);
+    std::sort(first, last, before);
     return;
   }
   for (auto end = first + 1; end != last; ++end) {
@@ -54,14 +57,16 @@ void VertexRanks::sort(std::span<const double> values, std::span<const VertexId>
   for (std::uint32_t& end : bucket_end_) sum += std::exchange(end, sum);
   for (std::uint32_t i = 0; i < n; ++i) order_[bucket_end_[bucket(values[i])]++] = i;
 
+  // Only vertices of the same bucket can be in the wrong order.
   const auto before = [&](std::uint32_t a, std::uint32_t b) {
     return values[a] != values[b] ? values[a] < values[b] : ids[a] < ids[b];
   };
-  auto first = order_.begin();
-  for (const std::uint32_t end : bucket_end_) {
-    const auto last = order_.begin() + end;
-    if (last - first > 1) sort_bucket(first, last, before);
-    first = last;
+  for (std::size_t i = 1; i < n; ++i) {
+    if (!before(order_[i], order_[i - 1])) continue;
+    const std::size_t b = bucket(values[order_[i]]);
+    const std::uint32_t first = b == 0 ? 0 : bucket_end_[b - 1], last = bucket_end_[b];
+    sort_bucket(order_.begin() + first, order_.begin() + last, before);
+    i = last;
   }
 }
 

@@ -9,8 +9,8 @@
 
 namespace reeb {
 
-// A counting pass distributes n vertices over n buckets of equal width; each bucket is sorted by comparison. O(n) if
-// values are distributed about evenly, and for ties in order of id; O(n log n) at worst.
+// A counting pass distributes n vertices over n buckets of equal width; a bucket is sorted by comparison if it is not
+// in order already. O(n) if values are distributed about evenly, and for ties in order of id; O(n log n) at worst.
 class VertexRanks {
  public:
   // Afterwards order()[r] is the local vertex of rank r.
