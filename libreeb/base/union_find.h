@@ -20,6 +20,8 @@ class UnionFind {
     return x;
   }
 
+  void prefetch(std::uint32_t x) const { __builtin_prefetch(&parent_[x]); }
+
   // True if x and y were in different sets.
   bool unite(std::uint32_t x, std::uint32_t y) {
     x = find(x);

@@ -35,10 +35,8 @@ class Crossings {
   std::uint32_t next(std::uint32_t half) const { return halves_[half].next; }
   std::uint32_t& label(std::uint32_t t) { return halves_[2 * std::size_t{t}].label; }
   std::uint32_t label(std::uint32_t t) const { return halves_[2 * std::size_t{t}].label; }
-  // Prefetches what a step from triangle t reads.
-  void prefetch_beyond(std::uint32_t t) const {
-    for (const std::uint32_t half : {2 * t, 2 * t + 1}) __builtin_prefetch(&halves_[halves_[half].next & ~1u]);
-  }
+  // Prefetches label and rings of the triangle of a half-edge.
+  void prefetch(std::uint32_t half) const { __builtin_prefetch(&halves_[half & ~1u]); }
   std::size_t memory_bytes() const { return halves_.capacity() * sizeof(Half); }
 
  private:
@@ -188,22 +186,24 @@ class Labels {
   std::vector<Label> labels_;
 };
 
-// One group of upward edges during a walk: a queue whose triangles before `visited` were visited.
+// One group of upward edges during a walk. It enters triangles through half-edges: those of the queue, from `visited`
+// on, are still to be entered.
 struct Side {
   std::vector<std::uint32_t> queue;
   std::size_t visited = 0;
-  bool exhausted = false;
+  std::vector<std::uint32_t> shared;  // the triangles entered that have a shared edge
+  bool exhausted = false, met = false;
 
   void start() {
     queue.clear();
     visited = 0;
-    exhausted = false;
+    shared.clear();
+    exhausted = met = false;
   }
   bool has_pending() const { return visited < queue.size(); }
   void take_pending(Side& other) {
     const auto first = other.queue.begin() + static_cast<std::ptrdiff_t>(other.visited);
     queue.insert(queue.end(), first, other.queue.end());
-    other.queue.erase(first, other.queue.end());
   }
 };
 
@@ -215,6 +215,7 @@ struct ChunkSweep::Scratch {
 
  private:
   void reset(const SweepOptions& options);
+  void find_uses();
   void visit(std::uint32_t v);
   bool pass_regular(std::uint32_t v);
   void note_regular(std::uint32_t v, SweepArc arc);
@@ -233,10 +234,19 @@ struct ChunkSweep::Scratch {
   void seed_sides(std::uint32_t v);
   void step(std::uint32_t side);
   void link(std::uint32_t half);
+  void meet(std::uint32_t side, std::uint32_t label);
   void enter(std::uint32_t t, std::uint32_t side) {
     crossings.label(t) = first_side + side;
-    crossings.prefetch_beyond(t);
-    sides[side].queue.push_back(t);
+    if (has_shared_edge[t]) sides[side].shared.push_back(t);
+  }
+  // Goes on to the next triangle at the edge of this half-edge.
+  void leave(std::uint32_t half, Side& side) {
+    if (!crossings.is_linked(half)) [[unlikely]]
+      link(half);
+    const std::uint32_t beyond = crossings.next(half);
+    if (beyond == half) return;
+    crossings.prefetch(beyond);
+    side.queue.push_back(beyond);
   }
 
   void note_if_shared(std::uint32_t lo, std::uint32_t hi, SweepNode node, SweepArc arc) {
@@ -252,8 +262,9 @@ struct ChunkSweep::Scratch {
   FragmentBuilder builder;
   SharedEdges shared_edges;
 
-  std::vector<std::uint8_t> uses;  // by rank
-  Crossings crossings;             // by triangle
+  std::vector<std::uint8_t> uses;     // by rank
+  std::vector<bool> has_shared_edge;  // by triangle
+  Crossings crossings;                // by triangle
   Labels labels;
   UpwardEdges up;
   std::vector<std::uint32_t> below;    // label roots of the arcs that reach v
@@ -302,8 +313,7 @@ void ChunkSweep::Scratch::run(const Chunk& chunk_in, std::span<const double> val
 
 void ChunkSweep::Scratch::reset(const SweepOptions& options) {
   const std::size_t n = chunk->vertex_count();
-  uses.resize(n);
-  for (std::size_t r = 0; r < n; ++r) uses[r] = chunk->uses[ranks.order()[r]];
+  find_uses();
   crossings.reset(stars.triangle_count());
   embeds = options.bucket_exponent.has_value();
   follows = options.follows_vertices;
@@ -315,9 +325,23 @@ void ChunkSweep::Scratch::reset(const SweepOptions& options) {
   shared_edges.start(n);
 }
 
+void ChunkSweep::Scratch::find_uses() {
+  const auto n = static_cast<std::uint32_t>(chunk->vertex_count());
+  uses.resize(n);
+  for (std::uint32_t r = 0; r < n; ++r) uses[r] = chunk->uses[ranks.order()[r]];
+  has_shared_edge.assign(stars.triangle_count(), false);
+  for (std::uint32_t r = 0; r < n; ++r) {
+    if (uses[r] == kUsedHereOnly) continue;
+    for (std::uint32_t t = stars.low_first(r); t < stars.low_last(r); ++t)
+      if ((uses[r] & (uses[stars[t].mid] | uses[stars[t].hi])) != 0) has_shared_edge[t] = true;
+    for (const std::uint32_t t : stars.middles(r))
+      if ((uses[r] & uses[stars[t].hi]) != 0) has_shared_edge[t] = true;
+  }
+}
+
 std::size_t ChunkSweep::Scratch::memory_bytes() const {
-  std::size_t walked = sides.capacity() * sizeof(Side);
-  for (const Side& side : sides) walked += 4 * side.queue.capacity();
+  std::size_t walked = sides.capacity() * sizeof(Side) + has_shared_edge.capacity() / 8;
+  for (const Side& side : sides) walked += 4 * (side.queue.capacity() + side.shared.capacity());
   return ranks.memory_bytes() + stars.memory_bytes() + builder.memory_bytes() + shared_edges.memory_bytes() +
          uses.capacity() + crossings.memory_bytes() + labels.memory_bytes() + up.memory_bytes() + walked;
 }
@@ -450,7 +474,7 @@ void ChunkSweep::Scratch::separate(std::uint32_t v, SweepNode node) {
 
 // The paths of shared edges that cross the level on this side do not take the main branch.
 void ChunkSweep::Scratch::note_branches(std::uint32_t v, const Side& side, SweepNode node, SweepArc arc) {
-  for (const std::uint32_t t : side.queue) {
+  for (const std::uint32_t t : side.shared) {
     const auto& [lo, mid, hi, place] = stars[t];
     if (lo == v) continue;
     note_if_shared(lo, hi, node, arc);
@@ -496,14 +520,14 @@ std::size_t ChunkSweep::Scratch::walk(std::uint32_t v) {
   while (active.size() > 1) {
     for (std::size_t i = 0; i < active.size() && active.size() > 1;) {
       const std::uint32_t s = active[i];
-      const bool met = !labels.is_root(first_side + s);
-      if (!met && sides[s].has_pending()) {
+      Side& side = sides[s];
+      if (!side.met && side.has_pending()) {
         step(s);
         ++i;
         continue;
       }
-      if (!met) {
-        sides[s].exhausted = true;
+      if (!side.met) {
+        side.exhausted = true;
         ++exhausted;
       }
       active[i] = active.back();
@@ -528,29 +552,32 @@ void ChunkSweep::Scratch::seed_sides(std::uint32_t v) {
   for (const std::uint32_t t : stars.middles(v)) enter(t, side_of[up.group_of_neighbour(stars.hi(t))]);
   for (std::uint32_t t = stars.low_first(v); t < stars.low_last(v); ++t)
     enter(t, side_of[up.group_of_neighbour(stars.hi(t))]);
+  // The other triangles at an edge up from v are in the same group. Now that edges can be linked late: no edge of v is
+  // looked up any more.
+  for (const std::uint32_t t : stars.middles(v)) leave(2 * t, sides[crossings.label(t) - first_side]);
 }
 
-// Visits one triangle. Of the other triangles at a crossing edge, only the next one in the ring is examined. Since that
-// is done from every visited triangle, the walk reaches all of them. The cost per triangle is constant, however many
-// share an edge.
+// Enters one triangle. Of the other triangles at a crossing edge, only the next one in the ring is examined. Since that
+// is done from every triangle, the walk reaches all of them. The cost per triangle is constant, however many share an
+// edge. Mostly an edge has two triangles, and the next one at the edge of entry is where the walk came from.
 void ChunkSweep::Scratch::step(std::uint32_t s) {
   Side& side = sides[s];
-  const std::uint32_t t = side.queue[side.visited++];
-  for (const std::uint32_t half : {2 * t, 2 * t + 1}) {
-    if (!crossings.is_linked(half)) [[unlikely]]
-      link(half);
-    const std::uint32_t beyond = crossings.next(half) / 2;
-    const std::uint32_t label = crossings.label(beyond);
-    if (label < first_side) {
-      enter(beyond, s);
-      continue;
-    }
-    const std::uint32_t there = labels.find(label) - first_side;
-    if (there == s) continue;
-    // Both sides are active: no step leads from an exhausted side to another one. The current side stays.
-    labels.merge_into(first_side + s, first_side + there);
-    side.take_pending(sides[there]);
-  }
+  const std::uint32_t half = side.queue[side.visited++];
+  const std::uint32_t label = crossings.label(half / 2);
+  if (label >= first_side) return meet(s, label);
+  enter(half / 2, s);
+  leave(half ^ 1, side);
+  if (crossings.next(crossings.next(half)) != half) leave(half, side);
+}
+
+// Side s arrives at a triangle with this label of the walk. Both sides are active: no step leads from an exhausted side
+// to another one. The current side stays.
+void ChunkSweep::Scratch::meet(std::uint32_t s, std::uint32_t label) {
+  const std::uint32_t there = labels.find(label) - first_side;
+  if (there == s) return;
+  labels.merge_into(first_side + s, first_side + there);
+  sides[there].met = true;
+  sides[s].take_pending(sides[there]);
 }
 
 // Links the half-edges of a vertex that was passed without that: of the lower end of this one.

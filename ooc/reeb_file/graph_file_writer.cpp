@@ -16,6 +16,9 @@ constexpr std::size_t kItemsAtOnce = 4096;
 
 constexpr std::uint32_t kNoNode = ~std::uint32_t{0};
 
+// How many items ahead their entries in tables are prefetched: these are anywhere in the tables.
+constexpr std::size_t kAhead = 16;
+
 FileHeader first_header(FileMeta meta, const GraphFileWriter::Options& options) {
   FileHeader header = header_of(std::move(meta));
   header.flags = file_flags(true, options.has_positions, options.has_embedding);
@@ -39,7 +42,9 @@ GraphFileWriter::GraphFileWriter(const std::string& path, FileMeta meta, const O
 }
 
 void GraphFileWriter::add_nodes(std::span<const SettledNode> nodes) {
-  for (const SettledNode& node : nodes) {
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const SettledNode& node = nodes[i];
+    if (i + kAhead < nodes.size()) prefetch_rank(nodes[i + kAhead].key);
     if (last_node_ && !(*last_node_ < node.key)) throw std::logic_error("GraphFileWriter: nodes are not ascending");
     last_node_ = node.key;
     if (keys_) keys_->append(node.key);
@@ -67,7 +72,15 @@ void GraphFileWriter::rank_by_vertex(std::span<const ArcKeys> arcs) {
       throw std::logic_error("GraphFileWriter: no node is vertex " + std::to_string(vertex));
     return rank_of_[vertex];
   };
-  for (std::size_t i = 0; i < arcs.size(); ++i) ranked_[i] = {rank(arcs[i].lo), rank(arcs[i].hi), 0, kNeverDies};
+  for (std::size_t i = 0; i < arcs.size(); ++i) {
+    if (i + kAhead < arcs.size()) prefetch_rank(arcs[i + kAhead].hi);
+    if (i + kAhead < arcs.size()) prefetch_rank(arcs[i + kAhead].lo);
+    ranked_[i] = {rank(arcs[i].lo), rank(arcs[i].hi), 0, kNeverDies};
+  }
+}
+
+void GraphFileWriter::prefetch_rank(const SweepKey& key) const {
+  if (key.vertex.value() < rank_of_.size()) __builtin_prefetch(&rank_of_[key.vertex.value()]);
 }
 
 // Upper ends are looked up in their own order: a large batch then touches each page of the table once, and each search
@@ -152,7 +165,10 @@ void GraphFileWriter::flush() {
 }
 
 void GraphFileWriter::write(const GraphFrame& frame) {
-  for (const FileArc& arc : frame.arcs) components_.add(arc.lo, arc.hi);
+  for (std::size_t i = 0; i < frame.arcs.size(); ++i) {
+    if (i + kAhead < frame.arcs.size()) components_.prefetch(frame.arcs[i + kAhead].hi);
+    components_.add(frame.arcs[i].lo, frame.arcs[i].hi);
+  }
   payload_.clear();
   encode_graph_frame(frame, header_.flags, payload_);
   writer_.add({.kind = FrameKind::kGraph,

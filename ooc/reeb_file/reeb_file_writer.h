@@ -105,6 +105,7 @@ class GraphFileWriter {
 
  private:
   void rank_by_vertex(std::span<const ArcKeys> arcs);
+  void prefetch_rank(const SweepKey& key) const;
   void rank_by_search(std::span<const ArcKeys> arcs);
   void flush_if_full();
   void flush();

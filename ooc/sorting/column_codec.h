@@ -10,7 +10,7 @@
 namespace reeb::ooc {
 
 // The zstd level of temporary segments; bench/ooc_bench.cpp compares levels.
-inline constexpr int kSegmentLevel = -1;
+inline constexpr int kSegmentLevel = -5;
 
 // Gathers the columns of one block, all of one length, and packs them together.
 class ColumnEncoder {

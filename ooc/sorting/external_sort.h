@@ -46,7 +46,7 @@ struct SortOptions {
 // THROWS: Error{kResource} of the budget or the disk. An error in the background is thrown by the next call and by
 //         every later one, since records are lost.
 // MEMORY: the allowance, reserved as it is needed, and a few blocks of 64 KiB. A payload that is larger than the
-//         allowance gets the memory it needs. An allowance that grows is a sixteenth of the bytes on disk, so that a
+//         allowance gets the memory it needs. An allowance that grows is a sixth of the bytes on disk, so that a
 //         large file does not have too many runs: merging holds a block of each.
 // THREADS: one at a time.
 template <class Record, class Codec = PlainCodec<Record>, class Less = std::less<Record>>
@@ -291,7 +291,7 @@ class ExternalSort {
   }
 
   void grow_allowance() {
-    constexpr std::uint64_t kShare = 16;
+    constexpr std::uint64_t kShare = 6;
     const std::uint64_t bytes = std::min(spilled_bytes() / kShare, options_.most_bytes);
     most_bytes_ = std::max(most_bytes_, bytes / (options_.background ? 2 : 1));
   }

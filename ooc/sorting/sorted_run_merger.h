@@ -103,27 +103,26 @@ template <class Record, class Codec, class Less>
 class SortedRunMerger {
  public:
   SortedRunMerger(const SortedRunFile& file, std::span<const RunPlace> runs)
-      : file_(&file), cursors_(runs.size()), heads_(runs.size()), ranks_(runs.size()), losers_(runs.size()) {
-    for (std::size_t i = 0; i < runs.size(); ++i) {
-      cursors_[i].rest = runs[i];
-      refill(i);
-    }
+      : file_(&file), cursors_(runs.size()), heads_(runs.size()), losers_(runs.size()) {
+    for (std::size_t i = 0; i < runs.size(); ++i) cursors_[i].rest = runs[i];
     play_all();
   }
 
-  bool empty() const { return heads_[winner_].place == nullptr; }
+  bool empty() const { return heads_[winner_.run].place == nullptr; }
 
   // Moves the first record to the end of `out`. REQUIRES: !empty().
   void take(RecordBatch<Record>& out) {
-    const Cursor& top = cursors_[winner_];
-    Head& head = heads_[winner_];
+    const std::size_t i = winner_.run;
+    const Cursor& top = cursors_[i];
+    Head& head = heads_[i];
     out.add(head.record, top.block.payload(head.record));
-    if (++head.place == top.end) {
-      refill(winner_);
+    if (head.place + 1 == top.end) {
+      winner_.rank = refill(i);
     } else {
+      ++head.place;
       head.record = *head.place;
-      prefetch_payload(top.block, head.record);
-      ranks_[winner_] = rank_of<Less>(head.record);
+      prefetch_after(top.block, head);
+      winner_.rank = rank_of<Less>(head.record);
     }
     replay();
   }
@@ -140,28 +139,34 @@ class SortedRunMerger {
     Record record{};
     const Record* place = nullptr;
   };
+  // A run, and the rank of its head; the greatest value at the run's end.
+  struct Player {
+    std::uint64_t rank, run;
+  };
 
-  void refill(std::size_t i) {
+  // Replaces the head of run i by the first record of its next block; returns the rank.
+  std::uint64_t refill(std::size_t i) {
     Cursor& cursor = cursors_[i];
     heads_[i].place = nullptr;
-    ranks_[i] = std::numeric_limits<std::uint64_t>::max();
-    if (cursor.rest.blocks == 0) return;
+    if (cursor.rest.blocks == 0) return std::numeric_limits<std::uint64_t>::max();
     read_block<Record, Codec>(*file_, cursor.rest, packed_, cursor.block);
     const std::vector<Record>& records = cursor.block.records;
     cursor.end = records.data() + records.size();
     heads_[i] = {records[0], records.data()};
-    ranks_[i] = rank_of<Less>(records[0]);
+    return rank_of<Less>(records[0]);
   }
 
-  // The payload is read when the record wins; it was not touched since its block was unpacked.
-  static void prefetch_payload([[maybe_unused]] const RecordBatch<Record>& block,
-                               [[maybe_unused]] const Record& record) {
-    if constexpr (CarriesPayload<Record>) __builtin_prefetch(block.pool.data() + record.payload.first);
+  // The next record of the run is read when this one wins, and so is the payload of this one. Neither was touched since
+  // the block was unpacked, and the blocks of all runs together do not fit the caches.
+  static void prefetch_after([[maybe_unused]] const RecordBatch<Record>& block, const Head& head) {
+    __builtin_prefetch(reinterpret_cast<const std::byte*>(head.place + 2) - 1);
+    if constexpr (CarriesPayload<Record>)
+      if (head.record.payload.size != 0) __builtin_prefetch(block.pool.data() + head.record.payload.first);
   }
 
   // A total order of the runs that have records left; exhausted runs come after them.
-  bool beats(std::size_t a, std::size_t b) const {
-    return ranks_[a] != ranks_[b] ? ranks_[a] < ranks_[b] : beats_of_equal_rank(a, b);
+  bool beats(const Player& a, const Player& b) const {
+    return a.rank < b.rank || (a.rank == b.rank && beats_of_equal_rank(a.run, b.run));
   }
   bool beats_of_equal_rank(std::size_t a, std::size_t b) const {
     const Head &x = heads_[a], &y = heads_[b];
@@ -172,35 +177,38 @@ class SortedRunMerger {
   // Run i is leaf n + i of a tree with the inner nodes 1 .. n - 1; node i has the children 2i, 2i + 1.
   void play_all() {
     const std::size_t n = heads_.size();
-    std::vector<std::size_t> winners(2 * n);
-    for (std::size_t i = 0; i < n; ++i) winners[n + i] = i;
+    std::vector<Player> winners(2 * n);
+    for (std::size_t i = 0; i < n; ++i) winners[n + i] = {refill(i), i};
     for (std::size_t node = n; node-- > 1;) {
-      std::size_t winner = winners[2 * node], loser = winners[2 * node + 1];
-      if (beats(loser, winner)) std::swap(winner, loser);
-      winners[node] = winner;
-      losers_[node] = loser;
+      winners[node] = winners[2 * node];
+      losers_[node] = winners[2 * node + 1];
+      if (beats(losers_[node], winners[node])) std::swap(losers_[node], winners[node]);
     }
     winner_ = winners[1];
   }
 
+  // Who wins cannot be predicted, so the processor must not have to: no branch depends on it.
   void replay() {
-    std::size_t winner = winner_;
-    for (std::size_t node = (winner + heads_.size()) / 2; node != 0; node /= 2) {
-      const std::size_t other = losers_[node];
-      const bool loses = beats(other, winner);
-      losers_[node] = loses ? winner : other;
-      winner = loses ? other : winner;
+    auto [rank, run] = winner_;
+    for (std::size_t node = (run + heads_.size()) / 2; node != 0; node /= 2) {
+      const Player other = losers_[node];
+      bool loses = other.rank < rank;
+      if (other.rank == rank) [[unlikely]]
+        loses = beats_of_equal_rank(other.run, run);
+      losers_[node].rank = loses ? rank : other.rank;
+      losers_[node].run = loses ? run : other.run;
+      rank = loses ? other.rank : rank;
+      run = loses ? other.run : run;
     }
-    winner_ = winner;
+    winner_ = {rank, run};
   }
 
   const SortedRunFile* file_;
   std::vector<std::byte> packed_;
   std::vector<Cursor> cursors_;
-  std::vector<Head> heads_;           // by run
-  std::vector<std::uint64_t> ranks_;  // of the heads; the greatest value at a run's end
-  std::vector<std::size_t> losers_;   // by inner node: who lost there
-  std::size_t winner_ = 0;
+  std::vector<Head> heads_;     // by run
+  std::vector<Player> losers_;  // by inner node: who lost there
+  Player winner_{};
 };
 
 }  // namespace reeb::ooc

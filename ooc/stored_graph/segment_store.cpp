@@ -1,6 +1,7 @@
 #include "ooc/stored_graph/segment_store.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -41,7 +42,7 @@ void NodeCodec::encode(std::span<const SettledNode> nodes, std::vector<std::byte
   add_differences(columns, nodes, [](const SettledNode& n) { return id(n.key); });
   columns.pack(packed);
   for (std::size_t k = 0; k < 3; ++k)
-    add_differences(columns, nodes, [k](const SettledNode& n) { return ordered_bits(n.position[k]); });
+    columns.add(nodes.size(), [&](std::size_t i) { return std::bit_cast<std::uint64_t>(nodes[i].position[k]); });
   columns.pack(packed);
 }
 
@@ -67,9 +68,10 @@ bool NodeCodec::decode(std::span<const std::byte> packed, std::span<SettledNode>
   if (!keys.ok()) return false;
   ColumnDecoder columns(keys.tail(), 3, nodes.size());
   if (!columns.ok() || !columns.tail().empty()) return false;
-  for (std::size_t k = 0; k < 3; ++k)
-    for_sums(columns.column(k),
-             [&](std::size_t i, std::uint64_t sum) { nodes[i].position[k] = from_ordered_bits(sum); });
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto column = columns.column(k);
+    for (std::size_t i = 0; i < nodes.size(); ++i) nodes[i].position[k] = std::bit_cast<double>(column[i]);
+  }
   return true;
 }
 

@@ -28,9 +28,10 @@ struct StoredArc {
   PayloadPlace payload{};
 };
 
-// Columns of a block: the bits of values as differences (they rise), vertex ids as differences of either sign, the rest
-// relative to these; then byte planes; then zstd. Positions are packed apart from keys, so that keys can be read
-// without them. The payloads follow uncompressed: means of positions hardly become smaller.
+// Columns of a block: the bits of values as differences (they rise), vertex ids as differences of either sign, upper
+// ends relative to lower ones; then byte planes; then zstd. Positions are packed apart from keys, so that keys can be
+// read without them, and as they are: one says little of the next, and the lowest planes of a float are zeros. The
+// payloads follow uncompressed: means of positions hardly become smaller.
 struct NodeCodec {
   static void encode(std::span<const SettledNode> nodes, std::vector<std::byte>& packed);
   static bool decode_keys(std::span<const std::byte> packed, std::span<SettledNode> nodes);
