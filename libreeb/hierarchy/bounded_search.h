@@ -84,7 +84,7 @@ class BoundedSearch {
       if (follows_[d]) push(graph_.nearest(node, d), d);
   }
   void push(ArcId arc, Direction d) {
-    if (arc == WorkingGraph::kNone) return;
+    if (arc == Graph::kNone) return;
     graph_.prefetch_arc(arc);
     if (queue_.size() == queue_.capacity() && 2 * first_ > queue_.size()) {
       queue_.erase(queue_.begin(), queue_.begin() + static_cast<std::ptrdiff_t>(first_));

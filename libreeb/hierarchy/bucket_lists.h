@@ -79,6 +79,8 @@ class BasicArcBucketLists {
   // The list of the arc at the last close(), packed.
   std::span<const std::byte> closed(ArcId arc) const { return packed_.of(arc.value()); }
 
+  const Lists& packed() const { return packed_; }
+
  private:
   static constexpr std::uint32_t kNone = ~std::uint32_t{0};
   struct Item {

@@ -63,6 +63,8 @@ class BucketVersions {
   void prefetch_place(ArcId arc) const { lists_.prefetch_place(arc); }
   void prefetch(ArcId arc) const { lists_.prefetch(arc); }
 
+  const BasicArcBucketLists<Lists>& lists() const { return lists_; }
+
  private:
   static constexpr double kNever = std::numeric_limits<double>::infinity();
 

@@ -122,6 +122,7 @@ class Canceller {
   }
 
   const Graph& graph() const { return graph_; }
+  const Content& content() const { return content_; }
   // Writes the records of the last version. REQUIRES: nothing is cancelled afterwards.
   void finish() { log_.finish(content_); }
 

@@ -70,7 +70,7 @@ class DownSweep {
   UnionFind superlevel_;
 };
 
-// Calls pair(PersistencePair) for each component, when all arcs were added to both sweeps.
+// Calls pair(PersistencePair) for each component. REQUIRES: all arcs were added to both sweeps.
 template <class Pair>
 void pair_components(std::uint32_t nodes, UpSweep& up, DownSweep& down, const Pair& pair) {
   for (std::uint32_t x = 0; x < nodes; ++x)

@@ -103,7 +103,7 @@ template <class TableKind>
 template <class Accept>
 ArcId BasicWorkingGraph<TableKind>::nearest_if(NodeId node, Direction d, NodeId limit, Accept accept) {
   ArcId best = kNone;
-  stack_.assign(1, top_[node][d]);
+  stack_.assign(1, nearest(node, d));
   while (!stack_.empty()) {
     const ArcId arc = stack_.back();
     stack_.pop_back();

@@ -20,6 +20,7 @@ class HierarchySource {
 
   virtual std::size_t node_count() const = 0;
   virtual bool has_positions() const = 0;
+  virtual SweepKey key(NodeId id) = 0;
   // The node of this rank; without positions, zeros.
   virtual SettledNode node(NodeId id) = 0;
 
@@ -40,6 +41,7 @@ class HierarchyInMemory : public HierarchySource {
 
   std::size_t node_count() const override { return graph_.node_count(); }
   bool has_positions() const override { return !graph_.positions.empty(); }
+  SweepKey key(NodeId id) override { return graph_.nodes[id.value()]; }
   SettledNode node(NodeId id) override {
     return {graph_.nodes[id.value()], has_positions() ? graph_.positions[id.value()] : Point{}};
   }

@@ -173,7 +173,7 @@ void look_at_pairs(HierarchySource& hierarchy, double range, WrittenHierarchy& w
   std::array<std::deque<Last>, 2> last;  // loops, and others
   LikelyDefects defects(range);
   const auto persistence = [&](const PersistencePair& pair) {
-    return hierarchy.node(pair.hi).key.value - hierarchy.node(pair.lo).key.value;
+    return hierarchy.key(pair.hi).value - hierarchy.key(pair.lo).value;
   };
   hierarchy.rewind_pairs();
   std::uint64_t number = 0;
@@ -192,7 +192,7 @@ void look_at_pairs(HierarchySource& hierarchy, double range, WrittenHierarchy& w
   std::ranges::sort(largest, std::greater<>(), &Last::number);
   for (const Last& one : largest)
     if (persistence(one.pair) > 0)
-      written.largest.push_back({one.pair.type, hierarchy.node(one.pair.lo).key, hierarchy.node(one.pair.hi).key});
+      written.largest.push_back({one.pair.type, hierarchy.key(one.pair.lo), hierarchy.key(one.pair.hi)});
 }
 
 struct GraphInMemory {
@@ -251,8 +251,7 @@ void write_file(RunContext& run, const StoredGraph& stored, HierarchySource& hie
 WrittenHierarchy write_stored_hierarchy(RunContext& run, const StoredGraph& stored) {
   return_freed_memory();
   SegmentStore& store = *stored.store;
-  const std::uint64_t least =
-      StoredHierarchy::least_bytes(store.node_count(), store.arc_count()) + RecordLog::memory_bytes();
+  const std::uint64_t least = StoredHierarchy::least_bytes(store.node_count()) + RecordLog::memory_bytes();
   if (least > run.budget.free_bytes()) refuse_hierarchy(run, stored, std::min(least, bytes_in_memory(stored)));
   WrittenHierarchy written;
   std::optional<std::uint64_t> needed;  // set if it cannot be done
@@ -282,8 +281,7 @@ WrittenHierarchy write_stored_hierarchy(RunContext& run, const StoredGraph& stor
 WrittenHierarchy write_hierarchy(RunContext& run, StoredGraph stored) {
   std::optional<GraphInMemory> loaded = load_for_hierarchy(run, stored);
   if (!loaded) return write_stored_hierarchy(run, stored);
-  GraphInMemory in_memory = std::move(*loaded);
-  loaded.reset();
+  GraphInMemory& in_memory = *loaded;
   stored.store.reset();
   RecordLog records(run.temp, run.budget);
   const Reservation memory = run.budget.reserve("hierarchy", in_memory.more_bytes - RecordLog::memory_bytes());

@@ -54,19 +54,19 @@ class PagedTables {
   template <class Entries, class Id>
   void prefetch(const Entries& /*entries*/, Id /*id*/) const {}
 
-  // REQUIRES, for both: all tables exist. How often a page of any table was read again; the memory of all pages.
-  std::uint64_t refetches() const {
+  // REQUIRES, for all three: all tables exist. How often a page of any table was read again; the memory of all pages;
+  // bytes written to their files.
+  std::uint64_t refetches() const { return sum(&PageCache::refetches); }
+  std::uint64_t resident_bytes() const { return sum(&PageCache::resident_bytes); }
+  std::uint64_t spilled_bytes() const { return sum(&PageCache::spilled_bytes); }
+
+ private:
+  std::uint64_t sum(std::uint64_t (PageCache::*figure)() const) const {
     std::uint64_t sum = 0;
-    for (const PageCache* pages : *pages_) sum += pages->refetches();
-    return sum;
-  }
-  std::uint64_t resident_bytes() const {
-    std::uint64_t sum = 0;
-    for (const PageCache* pages : *pages_) sum += pages->resident_bytes();
+    for (const PageCache* pages : *pages_) sum += (pages->*figure)();
     return sum;
   }
 
- private:
   const io::TempDir* temp_;
   MemoryBudget* budget_;
   double share_;

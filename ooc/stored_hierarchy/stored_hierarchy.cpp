@@ -35,7 +35,7 @@ class PagedNodes {
 
 }  // namespace
 
-std::uint64_t StoredHierarchy::least_bytes(std::uint64_t nodes, std::uint64_t /*arcs*/) {
+std::uint64_t StoredHierarchy::least_bytes(std::uint64_t nodes) {
   return 4 * kLeastSort + kTables * kLeastTable + (kPairingBytes + kCancellingBytes) * nodes;
 }
 
@@ -182,7 +182,9 @@ bool StoredHierarchy::cancel(RecordSink& records, const Poll& poll) {
   Canceller canceller(std::move(*graph_), records, std::move(content));
   graph_.reset();
   lists_.reset();
-  return cancel_all(canceller, poll);
+  const bool done = cancel_all(canceller, poll);
+  spilled_ += canceller.content().lists().packed().spilled_bytes();
+  return done;
 }
 
 template <class Canceller>
@@ -202,6 +204,7 @@ bool StoredHierarchy::cancel_all(Canceller& canceller, const Poll& poll) {
   }
   canceller.finish();
   refetches_ = tables_.refetches();
+  spilled_ += tables_.spilled_bytes();
   return true;
 }
 

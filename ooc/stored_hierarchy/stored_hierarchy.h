@@ -41,15 +41,15 @@ class StoredHierarchy : public HierarchySource {
   };
 
   // The memory that it needs at least. With several times as much, it is faster.
-  static std::uint64_t least_bytes(std::uint64_t nodes, std::uint64_t arcs);
+  static std::uint64_t least_bytes(std::uint64_t nodes);
 
   // REQUIRES: all of them outlive this; free_bytes() of the budget is at least least_bytes(). `store` is finished.
   StoredHierarchy(SegmentStore& store, const io::TempDir& temp, MemoryBudget& budget, const Options& options);
 
   // Reads the graph and pairs its nodes. The store is not needed afterwards.
   void pair_nodes(const Poll& poll);
-  // Cancels all pairs but Ext0. False if the pages of the tables are asked for at random; then nothing below may be
-  // called. REQUIRES: pair_nodes() was called.
+  // Cancels all pairs but Ext0. False if it gave up because pages of the tables are asked for at random; then there is
+  // no hierarchy to write. REQUIRES: pair_nodes() was called.
   bool cancel(RecordSink& records, const Poll& poll);
 
   // The memory of the tables, which cancel() gives back.
@@ -60,6 +60,7 @@ class StoredHierarchy : public HierarchySource {
   std::uint64_t spilled_bytes() const;
 
   std::size_t node_count() const override { return nodes_; }
+  SweepKey key(NodeId id) override { return keys_.get(id.value()); }
   bool has_positions() const override { return nodes_ != 0; }
   SettledNode node(NodeId id) override { return {keys_.get(id.value()), positions_.get(id.value())}; }
   void rewind_pairs() override;

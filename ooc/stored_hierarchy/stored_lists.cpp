@@ -12,19 +12,19 @@ StoredLists::StoredLists(const io::TempDir& temp, const PagedTables& tables, std
 std::span<const std::byte> StoredLists::of(std::size_t arc) const {
   const Place place = std::as_const(places_)[ArcId(static_cast<std::uint32_t>(arc))];
   if (place.bytes == 0) return {};
-  const std::uint64_t begin = place.begin();
-  if (begin >= written_) return std::span(buffer_).subspan(static_cast<std::size_t>(begin - written_), place.bytes);
+  if (place.begin >= written_)
+    return std::span(buffer_).subspan(static_cast<std::size_t>(place.begin - written_), place.bytes);
   if (place.bytes > kSlotBytes) {
     long_list_.resize(place.bytes);
-    file_.read_at(begin, long_list_);
+    file_.read_at(place.begin, long_list_);
     return long_list_;
   }
   Slot& slot = slots_[arc % kSlots];
   const std::span<std::byte> bytes = std::span(slot.bytes).first(place.bytes);
-  if (slot.begin != begin) {
+  if (slot.begin != place.begin) {
     slot.begin = ~std::uint64_t{0};
-    file_.read_at(begin, bytes);
-    slot.begin = begin;
+    file_.read_at(place.begin, bytes);
+    slot.begin = place.begin;
   }
   return bytes;
 }
@@ -41,10 +41,8 @@ void StoredLists::replace(std::size_t arc, std::span<const std::byte> packed) {
     written_ += buffer_.size();
     buffer_.clear();
   }
-  const std::uint64_t begin = written_ + buffer_.size();
+  places_[id] = {written_ + buffer_.size(), packed.size()};
   buffer_.insert(buffer_.end(), packed.begin(), packed.end());
-  places_[id] = {static_cast<std::uint32_t>(packed.size()),
-                 {static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(begin >> 32)}};
 }
 
 }  // namespace reeb::ooc

@@ -37,10 +37,7 @@ class StoredLists {
  private:
   static constexpr std::size_t kBufferBytes = 64 << 10, kSlots = 512, kSlotBytes = 256;
   struct Place {
-    std::uint32_t bytes = 0;
-    std::array<std::uint32_t, 2> offset{};  // in halves, lower first: entries of a table are packed tightly
-
-    std::uint64_t begin() const { return std::uint64_t{offset[1]} << 32 | offset[0]; }
+    std::uint64_t begin = 0, bytes = 0;
   };
   struct Slot {
     std::uint64_t begin = ~std::uint64_t{0};

@@ -47,7 +47,7 @@ class PageCache {
     return fault(page, writing);
   }
 
-  // Whether the page was never changed.
+  // True only if the page was never changed; false for every page that is in memory.
   bool is_fresh(std::size_t page) const { return page >= places_.size() || places_[page] == kFresh; }
 
   std::uint64_t resident_bytes() const { return frames_.size() * kPageBytes; }

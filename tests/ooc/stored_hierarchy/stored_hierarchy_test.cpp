@@ -9,6 +9,7 @@
 #include <string>
 
 #include "libreeb/base/error.h"
+#include "libreeb/graph/packed_buckets.h"
 #include "libreeb/hierarchy/cancel.h"
 #include "ooc/reeb_file/record_log.h"
 #include "ooc/reeb_file/reeb_file_writer.h"
@@ -43,6 +44,12 @@ Given with_positions(ReebGraph graph, bool embeds) {
   given.buckets = bench::make_buckets(given.graph, given.exponent);
   return given;
 }
+
+// Takes them, and writes nothing.
+class NoRecords : public RecordSink {
+ public:
+  void add(const ArcVersion& /*record*/, std::span<const std::byte> /*buckets*/) override {}
+};
 
 class StoredHierarchyTest : public testing::Test {
  protected:
@@ -88,11 +95,12 @@ class StoredHierarchyTest : public testing::Test {
     hierarchy.pair_nodes(poll);
     const bool done = hierarchy.cancel(records, poll);
     pages_read_again_ = hierarchy.refetches();
+    spilled_ = hierarchy.spilled_bytes();
     return done ? written(given, hierarchy, records) : std::string();
   }
 
   static std::uint64_t least_bytes(const Given& given) {
-    return StoredHierarchy::least_bytes(given.graph.node_count(), given.graph.arc_count());
+    return StoredHierarchy::least_bytes(given.graph.node_count());
   }
 
   void expect_same(const Given& given, std::uint64_t bytes) {
@@ -115,7 +123,7 @@ class StoredHierarchyTest : public testing::Test {
 
   const Scratch folder_;
   const io::TempDir temp_{folder_.path()};
-  std::uint64_t pages_read_again_ = 0;
+  std::uint64_t pages_read_again_ = 0, spilled_ = 0;
 };
 
 TEST_F(StoredHierarchyTest, SmallGraphs) {
@@ -144,6 +152,32 @@ TEST_F(StoredHierarchyTest, LargeGraphsWithLittleMemoryReadPagesAgain) {
     ASSERT_NO_FATAL_FAILURE(expect_same(given, least_bytes(given)));
     EXPECT_GT(pages_read_again_, 1000u);
   }
+}
+
+// Pages are written one by one, and all else in larger pieces.
+TEST_F(StoredHierarchyTest, AllThatIsWrittenCountsAsSpilled) {
+  for (const bool embeds : {false, true}) {
+    const Given given = with_positions(bench::GraphMaker(bench::kNoise, 20'000).make(), embeds);
+    std::vector<std::byte> lists;
+    for (std::size_t arc = 0; embeds && arc < given.graph.arc_count(); ++arc)
+      pack_buckets(given.buckets.view().of(arc), lists);
+    const FaultAtCall writes(io::FileCall::kWrite);
+    const io::ScopedFileFaults faults(writes);
+    MemoryBudget much, small(least_bytes(given));
+    SegmentStore store(temp_, much, {.allowance_bytes = kMuch});
+    fill(given, store);
+    NoRecords records;
+    StoredHierarchy hierarchy(store, temp_, small,
+                              {.bucket_exponent = given.bucket_exponent(), .background = false, .most_pages = kMuch});
+    hierarchy.pair_nodes({});
+    ASSERT_TRUE(hierarchy.cancel(records, {}));
+    EXPECT_GE(hierarchy.spilled_bytes(), PageCache::kPageBytes * writes.count() + lists.size() / 2);
+  }
+}
+
+TEST_F(StoredHierarchyTest, AGraphThatMemoryHoldsSpillsNothing) {
+  made_on_disk(with_positions(bench::GraphMaker(bench::kNoise, 8'000).make(), false), kMuch);
+  EXPECT_EQ(spilled_, 0u);
 }
 
 TEST_F(StoredHierarchyTest, GivesUpWhereStepsNeedTooManyPages) {
