@@ -401,49 +401,39 @@ class PlyReader final : public PlyBodyReader {
   // Reads consecutive triangles, at most kRunRecords. Returns false if the next record is not a complete, valid
   // triangle: advance_face() then finds out why.
   bool read_triangle_run(const PlyElement& element, MeshBatch& batch) {
+    static constexpr std::size_t kRecordBytes = 13;
     Cursor& bytes = decoder_.bytes();
-    if (!bytes.ensure(kTriangleBytes)) return false;
+    if (!bytes.ensure(kRecordBytes)) return false;
     const auto left = static_cast<std::size_t>(std::min<std::uint64_t>(element.count - record_, room(batch)));
-    const std::size_t most = std::min({left, bytes.available() / kTriangleBytes, kRunRecords});
+    const std::size_t most = std::min({left, bytes.available() / kRecordBytes, kRunRecords});
     const bool is_signed = element.properties.front().type == ScalarType::kInt32;
     const std::uint64_t limit = std::min(vertex_limit_, std::uint64_t{1} << (is_signed ? 31 : 32));
     const std::size_t count = decoder_.swaps() ? copy_triangles<true>(bytes.data(), most, limit, run_.data())
                                                : copy_triangles<false>(bytes.data(), most, limit, run_.data());
     batch.triangles().insert(batch.triangles().end(), run_.begin(),
                              run_.begin() + static_cast<std::ptrdiff_t>(3 * count));
-    bytes.advance(count * kTriangleBytes);
+    bytes.advance(count * kRecordBytes);
     record_ += count;
     return count != 0;
   }
 
   // Copies triangles up to the first face that is not a triangle or has a corner not below `limit`. Returns their
-  // number. Looks at several faces before it asks whether all of them are triangles.
+  // number.
   template <bool kSwap>
   static std::size_t copy_triangles(const char* record, std::size_t most, std::uint64_t limit, VertexId* out) {
-    constexpr std::size_t kAtOnce = 8;
-    std::size_t count = 0;
-    for (; most - count >= kAtOnce; count += kAtOnce) {
-      bool all = true;
-      for (std::size_t i = 0; i < kAtOnce; ++i)
-        all &= copy_triangle<kSwap>(record + (count + i) * kTriangleBytes, limit, out + 3 * (count + i));
-      if (!all) break;
+    for (std::size_t i = 0; i < most; ++i, record += 13, out += 3) {
+      const std::uint64_t a = load_scalar<std::uint32_t>(record + 1, kSwap);
+      const std::uint64_t b = load_scalar<std::uint32_t>(record + 5, kSwap);
+      const std::uint64_t c = load_scalar<std::uint32_t>(record + 9, kSwap);
+      if (record[0] != 3 || std::max({a, b, c}) >= limit) [[unlikely]]
+        return i;
+      out[0] = VertexId(a);
+      out[1] = VertexId(b);
+      out[2] = VertexId(c);
     }
-    while (count != most && copy_triangle<kSwap>(record + count * kTriangleBytes, limit, out + 3 * count)) ++count;
-    return count;
+    return most;
   }
 
-  template <bool kSwap>
-  static bool copy_triangle(const char* record, std::uint64_t limit, VertexId* out) {
-    bool valid = record[0] == 3;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint64_t corner = load_scalar<std::uint32_t>(record + 1 + 4 * k, kSwap);
-      valid &= corner < limit;
-      out[k] = VertexId(corner);
-    }
-    return valid;
-  }
-
-  static constexpr std::size_t kTriangleBytes = 13;
   // Few enough for the output of one call to stay in the first-level cache.
   static constexpr std::size_t kRunRecords = 512;
 
