@@ -9,6 +9,17 @@
 #include "libreeb/base/error.h"
 
 namespace reeb {
+namespace {
+
+const ScopedBudgetFault::Refuses* budget_fault = nullptr;
+
+bool refused_by_test(const char* owner) { return budget_fault != nullptr && (*budget_fault)(owner); }
+
+}  // namespace
+
+ScopedBudgetFault::ScopedBudgetFault(Refuses refuses) : refuses_(std::move(refuses)) { budget_fault = &refuses_; }
+
+ScopedBudgetFault::~ScopedBudgetFault() { budget_fault = nullptr; }
 
 Reservation::Reservation(Reservation&& other) noexcept
     : budget_(std::exchange(other.budget_, nullptr)), owner_(other.owner_), bytes_(std::exchange(other.bytes_, 0)) {}
@@ -31,7 +42,8 @@ bool Reservation::try_resize(std::uint64_t bytes) noexcept {
 }
 
 void Reservation::resize(std::uint64_t bytes) {
-  if (!try_resize(bytes)) budget_->refuse(owner_, bytes_, bytes);
+  const bool refused = bytes > bytes_ && budget_ != nullptr && refused_by_test(owner_);
+  if (refused || !try_resize(bytes)) budget_->refuse(owner_, bytes_, bytes);
 }
 
 void Reservation::release() noexcept {
@@ -48,6 +60,7 @@ Reservation MemoryBudget::try_reserve(const char* owner, std::uint64_t bytes) no
 }
 
 Reservation MemoryBudget::reserve(const char* owner, std::uint64_t bytes) {
+  if (refused_by_test(owner)) refuse(owner, 0, bytes);
   Reservation reservation = try_reserve(owner, bytes);
   if (reservation.bytes() != bytes) refuse(owner, 0, bytes);
   return reservation;
@@ -68,6 +81,11 @@ std::uint64_t MemoryBudget::free_bytes() const {
   return limit_ - std::min(used_, limit_);
 }
 
+std::uint64_t MemoryBudget::refusals() const {
+  const std::lock_guard lock(mutex_);
+  return refusals_;
+}
+
 bool MemoryBudget::change(const char* owner, std::uint64_t from, std::uint64_t to) noexcept {
   const std::lock_guard lock(mutex_);
   if (to > from && to - from > limit_ - std::min(used_, limit_)) return false;
@@ -85,9 +103,10 @@ bool MemoryBudget::change(const char* owner, std::uint64_t from, std::uint64_t t
   return true;
 }
 
-void MemoryBudget::refuse(const char* owner, std::uint64_t from, std::uint64_t to) const {
+void MemoryBudget::refuse(const char* owner, std::uint64_t from, std::uint64_t to) {
   std::string in_use;
   const std::lock_guard lock(mutex_);
+  ++refusals_;
   for (const auto& [name, bytes] : owners_)
     if (bytes != 0) in_use += (in_use.empty() ? "" : ", ") + name + " " + format_bytes(bytes);
   throw Error(

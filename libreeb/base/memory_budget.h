@@ -8,6 +8,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <mutex>
 #include <string>
@@ -57,16 +58,33 @@ class MemoryBudget {
   std::uint64_t used_bytes() const;
   std::uint64_t peak_bytes() const;
   std::uint64_t free_bytes() const;
+  // How often reserve() and resize() refused memory.
+  std::uint64_t refusals() const;
 
  private:
   friend class Reservation;
   bool change(const char* owner, std::uint64_t from, std::uint64_t to) noexcept;
-  [[noreturn]] void refuse(const char* owner, std::uint64_t from, std::uint64_t to) const;
+  [[noreturn]] void refuse(const char* owner, std::uint64_t from, std::uint64_t to);
 
   const std::uint64_t limit_, set_aside_;
   mutable std::mutex mutex_;
-  std::uint64_t used_ = 0, peak_ = 0;
+  std::uint64_t used_ = 0, peak_ = 0, refusals_ = 0;
   std::map<std::string, std::uint64_t, std::less<>> owners_;
+};
+
+// For tests: during its lifetime every budget asks `refuses(owner)` before it grants a request of reserve() or resize()
+// for more memory. REQUIRES: one at a time; no budget is in use when it begins or ends; `refuses` may be called by any
+// number of threads at once.
+class ScopedBudgetFault {
+ public:
+  using Refuses = std::function<bool(const char* owner)>;
+  explicit ScopedBudgetFault(Refuses refuses);
+  ScopedBudgetFault(const ScopedBudgetFault&) = delete;
+  ScopedBudgetFault& operator=(const ScopedBudgetFault&) = delete;
+  ~ScopedBudgetFault();
+
+ private:
+  Refuses refuses_;
 };
 
 // "64.0 MiB", "512 bytes": sizes as messages print them.

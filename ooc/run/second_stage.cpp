@@ -246,33 +246,42 @@ void write_file(RunContext& run, const StoredGraph& stored, HierarchySource& hie
   written.spilled_bytes = records.spilled_bytes();
 }
 
-// Pairing and cancelling on disk. If even that does not fit, or the graph has no locality, the graph is written as it
-// is and the user is told.
+// Pairs and cancels on disk, and writes the file. Returns the memory that is needed if it cannot be done.
+std::optional<std::uint64_t> make_on_disk(RunContext& run, const StoredGraph& stored, std::uint64_t least,
+                                          WrittenHierarchy& written) {
+  SegmentStore& store = *stored.store;
+  RecordLog records(run.temp, run.budget);
+  StoredHierarchy hierarchy(store, run.temp, run.budget,
+                            {.bucket_exponent = stored.sweep.bucket_exponent, .background = run.background()});
+  const Poll poll = stage_poll(run);
+  const double paired = (kLoaded + kBuilt) / 2;
+  hierarchy.pair_nodes(part_of(poll, 0, paired));
+  const std::uint64_t writing = hierarchy_file_bytes(store.node_count(), hierarchy.pair_count());
+  const std::uint64_t steps = sizeof(double) * hierarchy.pair_count();
+  if (writing + steps > run.budget.free_bytes() + hierarchy.table_bytes())
+    return std::min(least + writing + steps, bytes_in_memory(stored));
+  if (!hierarchy.cancel(records, part_of(poll, paired, kBuilt))) return bytes_in_memory(stored);
+  const Reservation memory = run.budget.reserve("layout of the file", writing);
+  write_file(run, stored, hierarchy, records, written);
+  written.spilled_bytes += hierarchy.spilled_bytes();
+  return {};
+}
+
+// The same. If it does not fit, from the start or in the middle, or the graph has no locality, the graph is written as
+// it is and the user is told.
 WrittenHierarchy write_stored_hierarchy(RunContext& run, const StoredGraph& stored) {
   return_freed_memory();
-  SegmentStore& store = *stored.store;
-  const std::uint64_t least = StoredHierarchy::least_bytes(store.node_count()) + RecordLog::memory_bytes();
+  const std::uint64_t least = StoredHierarchy::least_bytes(stored.store->node_count()) + RecordLog::memory_bytes();
   if (least > run.budget.free_bytes()) refuse_hierarchy(run, stored, std::min(least, bytes_in_memory(stored)));
   WrittenHierarchy written;
-  std::optional<std::uint64_t> needed;  // set if it cannot be done
-  {
-    RecordLog records(run.temp, run.budget);
-    StoredHierarchy hierarchy(store, run.temp, run.budget,
-                              {.bucket_exponent = stored.sweep.bucket_exponent, .background = run.background()});
-    const Poll poll = stage_poll(run);
-    const double paired = (kLoaded + kBuilt) / 2;
-    hierarchy.pair_nodes(part_of(poll, 0, paired));
-    const std::uint64_t writing = hierarchy_file_bytes(store.node_count(), hierarchy.pair_count());
-    const std::uint64_t steps = sizeof(double) * hierarchy.pair_count();
-    if (writing + steps > run.budget.free_bytes() + hierarchy.table_bytes())
-      needed = std::min(least + writing + steps, bytes_in_memory(stored));
-    else if (!hierarchy.cancel(records, part_of(poll, paired, kBuilt)))
-      needed = bytes_in_memory(stored);
-    if (!needed) {
-      const Reservation memory = run.budget.reserve("layout of the file", writing);
-      write_file(run, stored, hierarchy, records, written);
-      written.spilled_bytes += hierarchy.spilled_bytes();
-    }
+  std::optional<std::uint64_t> needed;
+  const std::uint64_t refusals = run.budget.refusals();
+  try {
+    needed = make_on_disk(run, stored, least, written);
+  } catch (const Error& error) {
+    // If it was the disk, there is no use in trying again.
+    if (error.kind() != ErrorKind::kResource || run.budget.refusals() == refusals) throw;
+    needed = bytes_in_memory(stored);
   }
   if (needed) refuse_hierarchy(run, stored, *needed);
   return written;

@@ -10,8 +10,9 @@
 namespace reeb::ooc {
 
 // Takes the store of this function and writes its output.
-// THROWS: Error. Whether noise removal and the hierarchy fit in memory is known before their work starts. If they do
-//         not, the output is the graph alone, and the error says so.
+// A graph that memory does not hold is paired and cancelled on disk.
+// THROWS: Error. If memory does not suffice for the end of noise removal or for the hierarchy, or runs out while the
+//         hierarchy is made on disk, the output is the graph alone, and the error says so.
 ComputeResult run_second_stage(RunContext& run, const FirstStageResult& first, std::size_t function);
 
 }  // namespace reeb::ooc
