@@ -33,7 +33,7 @@ if [[ -n $build ]]; then
   mkdir -p build
   cmake --preset release >build/bench-build.txt 2>&1 || { cat build/bench-build.txt >&2; exit 1; }
   echo "building" >&2
-  cmake --build --preset release --target reeb_program >build/bench-build.txt 2>&1 ||
+  cmake --build --preset release --target reeb_program reader_bench >build/bench-build.txt 2>&1 ||
     { tail -40 build/bench-build.txt >&2; exit 1; }
 fi
 # The system's Python sees VTK of Debian.

@@ -262,6 +262,16 @@ def extras(bench):
     image = bench.mesh(f"volume-{side}.nrrd", "volume", "--grid", f"{side}x{side}x{side}")
     bench.checked(f"extras/image/{side}", image, *GRAPH)
     bench.cell("extras/level/1000", lambda: level(bench, 1000))
+    program = os.path.join(os.path.dirname(bench.program), "..", "bench", "reader_bench")
+    if os.path.exists(program):  # of the same build
+        bench.cell("extras/readers", lambda: readers(program))
+
+
+def readers(program):
+    """Bytes of text read in a second of processor time, by the reader alone."""
+    _, text = run_once([program, "--benchmark_filter=Stream", "--benchmark_format=json"])
+    rates = {row["name"]: row["bytes_per_second"] for row in json.loads(text[text.index("{"):])["benchmarks"]}
+    return {"ascii_ply": rates["BM_Stream/ascii_obj_binary:0/process_time"], "obj": rates["BM_Stream/ascii_obj_binary:1/process_time"]}, {}
 
 
 def level(bench, nodes):
