@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uint64_t kMiB = 1 << 20;
 // The largest measured values: code, allocator and stacks; and windows of a mesh that is looked up in place.
-constexpr std::uint64_t kProcess = 39 * kMiB / 4, kWindows = kMiB;
+constexpr std::uint64_t kProcess = 31 * kMiB / 4, kWindows = kMiB;
 constexpr std::uint64_t kSmallestBudget = 16 * kMiB;
 // In addition, memory that the allocator cannot use again. The smallest budget has nothing to spare for it.
 constexpr std::uint64_t kFragmentation = 3 * kMiB;

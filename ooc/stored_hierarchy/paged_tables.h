@@ -36,8 +36,9 @@ class PagedTables {
   PagedTables(const io::TempDir& temp, MemoryBudget& budget, std::uint64_t memory_bytes, std::uint64_t all_bytes)
       : temp_(&temp),
         budget_(&budget),
-        share_(static_cast<double>(memory_bytes) / static_cast<double>(std::max<std::uint64_t>(1, all_bytes))),
-        pages_(std::make_shared<std::vector<const PageCache*>>()) {}
+        all_bytes_(static_cast<double>(std::max<std::uint64_t>(1, all_bytes))),
+        share_(static_cast<double>(memory_bytes) / all_bytes_),
+        made_(std::make_shared<std::vector<Made>>()) {}
 
   template <class Id, class T>
   using Table = PagedIdTable<Id, T>;
@@ -48,29 +49,40 @@ class PagedTables {
     const std::uint64_t bytes = (std::uint64_t{size} / PagedTable<T>::kPageEntries + 1) * PageCache::kPageBytes;
     const auto allowance = static_cast<std::uint64_t>(share_ * static_cast<double>(bytes));
     auto made = std::make_unique<PagedTable<T>>("hierarchy", *temp_, *budget_, allowance, fill);
-    pages_->push_back(&made->pages());
+    made_->push_back({&made->pages(), bytes});
     return {std::move(made), size};
   }
   template <class Entries, class Id>
   void prefetch(const Entries& /*entries*/, Id /*id*/) const {}
 
-  // REQUIRES, for all three: all tables exist. How often a page of any table was read again; the memory of all pages;
-  // bytes written to their files.
+  // From now on the tables share this much memory, if it is more. REQUIRES, as the next three: all tables exist.
+  void allow(std::uint64_t memory_bytes) {
+    share_ = static_cast<double>(memory_bytes) / all_bytes_;
+    for (const Made& table : *made_)
+      table.pages->allow(static_cast<std::uint64_t>(share_ * static_cast<double>(table.bytes)));
+  }
+
+  // How often a page of any table was read again; the memory of all pages; bytes written to their files.
   std::uint64_t refetches() const { return sum(&PageCache::refetches); }
   std::uint64_t resident_bytes() const { return sum(&PageCache::resident_bytes); }
   std::uint64_t spilled_bytes() const { return sum(&PageCache::spilled_bytes); }
 
  private:
+  struct Made {
+    PageCache* pages;
+    std::uint64_t bytes;  // of the whole table
+  };
+
   std::uint64_t sum(std::uint64_t (PageCache::*figure)() const) const {
     std::uint64_t sum = 0;
-    for (const PageCache* pages : *pages_) sum += (pages->*figure)();
+    for (const Made& table : *made_) sum += (table.pages->*figure)();
     return sum;
   }
 
   const io::TempDir* temp_;
   MemoryBudget* budget_;
-  double share_;
-  std::shared_ptr<std::vector<const PageCache*>> pages_;  // of all tables
+  double all_bytes_, share_;
+  std::shared_ptr<std::vector<Made>> made_;  // all tables
 };
 
 }  // namespace reeb::ooc

@@ -84,6 +84,10 @@ void StoredHierarchy::pair_nodes(const Poll& poll) {
   spilled_ += arcs.spilled_bytes();
   pairs_.finish();
   kept_.resize(pairs_.size());
+  // What pairing took goes to the tables, but for what cancelling takes.
+  const std::uint64_t free = budget_.free_bytes();
+  const std::uint64_t taken = sizeof(double) * pairs_.size() + kCancellingBytes * nodes_ + (kTables + 1) * kLeastTable;
+  tables_.allow(tables_.resident_bytes() + free - std::min(free, taken));
 }
 
 void StoredHierarchy::read_nodes() {

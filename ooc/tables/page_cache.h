@@ -50,6 +50,9 @@ class PageCache {
   // True only if the page was never changed; false for every page that is in memory.
   bool is_fresh(std::size_t page) const { return page >= places_.size() || places_[page] == kFresh; }
 
+  // Raises the allowance to this, if it is less.
+  void allow(std::uint64_t bytes) { allowance_ = std::max(allowance_, bytes); }
+
   std::uint64_t resident_bytes() const { return frames_.size() * kPageBytes; }
   // How often a page was read again.
   std::uint64_t refetches() const { return refetches_; }

@@ -80,6 +80,7 @@ class PagedTable {
   }
 
   const PageCache& pages() const { return cache_; }
+  PageCache& pages() { return cache_; }
 
  private:
   // Entries from `index` to the end of its page.
