@@ -19,7 +19,7 @@ using reeb::VertexId;
 constexpr std::uint64_t kSide = 600;
 constexpr std::uint64_t kVertices = kSide * kSide, kTriangles = 2 * (kSide - 1) * (kSide - 1);
 
-enum class Kind { kAsciiPly, kBinaryPly, kObj };
+enum class Kind { kAsciiPly, kObj, kBinaryPly };
 
 void append(std::string& out, const auto& value) {
   char bytes[sizeof value];

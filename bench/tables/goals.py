@@ -3,21 +3,27 @@
 # Why a target is not reached where it is not; what profiles and runs have shown.
 WHY = {
     "threads": "reading and numbering are in one thread, gluing in another; only the sweep is divided",
-    "speed": "a run spends about 80 ns of processor time a triangle",
+    "speed": "a run spends about 65 ns of processor time a triangle, in many places",
+    "huge": "the last pass of noise removal holds what it changes, some 5 MB more than the live graph took before",
     "random function": "more than half of the vertices are nodes, so paths are long and most of the graph is written out",
     "tiles": "pieces that come in no order are sorted on disk, or glued with long borders",
-    "random order": "the mesh is sorted on disk by position before it is run, and read twice for that",
+    "noise": "exit code 3: the noise at the borders of tiles stays in memory until the tiles beside them come, 52 MB of it",
+    "random order": "sorting the mesh on disk by position takes three quarters of the time, in hardly more than one "
+                    "thread",
+    "buckets": "each vertex enters a bucket, and each arc has at least one: a third more is sorted, packed and written",
     "hierarchy": "each cancellation touches nodes and arcs all over memory",
     "wide": "half of the time is gluing of the long border",
 }
 
 
 class Goal:
-    def __init__(self, what, target, figure, shown, reached, why=""):
+    def __init__(self, what, target, figure, shown, reached, why="", failed=False):
         self.what, self.target, self.figure = what, target, figure
-        self.shown, self.reached, self.why = shown, reached, why
+        self.shown, self.reached, self.why, self.failed = shown, reached, why, failed
 
     def row(self):
+        if self.failed:
+            return [self.what, self.target, "it failed", "no", self.why]
         if self.figure is None:
             return [self.what, self.target, "–", "not measured", ""]
         reached = self.reached(self.figure)
@@ -52,7 +58,7 @@ def goals(figures):
     huge = "sizes/372M/hierarchy"
     yield Goal("372M triangles in patches to the stored hierarchy, `--denoise 0.1%`", "at most 18 s and 32 MB",
                both(get(huge), get(huge, "peak_bytes")), lambda f: f"{f[0]:.1f} s, {f[1] / 1e6:.0f} MB",
-               lambda f: f[0] <= 18 and f[1] <= 32e6, WHY["speed"])
+               lambda f: f[0] <= 18 and f[1] <= 32e6, WHY["huge"])
     rows = "targets/372M/rows"
     yield Goal("the same in rows, front of 20,000 vertices", "at most 30 s and 64 MB",
                both(get(rows), get(rows, "peak_bytes")), lambda f: f"{f[0]:.1f} s, {f[1] / 1e6:.0f} MB",
@@ -63,7 +69,10 @@ def goals(figures):
     tiles = "targets/372M/random-tiles"
     yield Goal("372M triangles in random tiles, `--memory 64M`, graph only", "at most 60 s and 64 MB",
                both(get(tiles), get(tiles, "peak_bytes")), lambda f: f"{f[0]:.0f} s, {f[1] / 1e6:.0f} MB",
-               lambda f: f[0] <= 60 and f[1] <= 64e6, WHY["tiles"])
+               lambda f: f[0] <= 60 and f[1] <= 64e6, WHY["noise"], "unsuited" in figures.cells.get(tiles, {}))
+    yield Goal("the same with `--memory 128M`", "at most 60 s and 128 MB",
+               both(get(tiles + "-128M"), get(tiles + "-128M", "peak_bytes")),
+               lambda f: f"{f[0]:.0f} s, {f[1] / 1e6:.0f} MB", lambda f: f[0] <= 60 and f[1] <= 128e6, WHY["tiles"])
     yield Goal("12M triangles in random order, `--memory 64M`, with hierarchy, against patches", "at most 3.5 times",
                ratio(get("targets/12M/random-order-64M"), get("targets/12M/coherent-64M")), lambda f: f"{f:.1f} times",
                lambda f: f <= 3.5, WHY["random order"])
@@ -72,7 +81,7 @@ def goals(figures):
                lambda f: f <= 1.05, WHY["speed"])
     yield Goal("embedding and noise removal, random function, processor time", "at most 10 ns a triangle more",
                added(figures, "targets/12M/random:1/embedding-and-noise"), lambda f: f"{f:+.1f} ns",
-               lambda f: f <= 10, WHY["random function"])
+               lambda f: f <= 10, WHY["buckets"])
     for buckets, most, what in (("0", 1.0, "without embedding"), ("64", 1.6, "with embedding")):
         name = f"targets/12M/hierarchy-buckets-{buckets}"
         yield Goal(f"hierarchy {what}, random function, 12M triangles", f"at most {most:g} µs an arc",
