@@ -48,7 +48,7 @@ struct PlyHeader {
   std::size_t vertex_element = 0;
   unsigned dimension = 3;  // how many of x, y, z exist, from the first
   std::uint64_t body_offset = 0;
-  std::uint64_t unknown_lines = 0;  // lines that are no PLY, such as a comment without the word comment
+  std::uint64_t unknown_lines = 0;  // lines that are not PLY, such as a comment without the word comment
 
   const PlyElement& vertices() const { return elements[vertex_element]; }
   std::string format() const;

@@ -159,7 +159,7 @@ class PlyReader final : public PlyBodyReader {
                       (odd_values_ == 1 ? "is" : "are") + " not finite");
     if (header_.unknown_lines != 0)
       lines.push_back(count_of(header_.unknown_lines, "line") + " of the header " +
-                      (header_.unknown_lines == 1 ? "is" : "are") + " no PLY and " +
+                      (header_.unknown_lines == 1 ? "is" : "are") + " not PLY and " +
                       (header_.unknown_lines == 1 ? "was" : "were") + " ignored");
     if (const std::uint64_t surplus = decoder_.surplus_values(); surplus != 0)
       lines.push_back(count_of(surplus, "value") + " at the end of lines " + (surplus == 1 ? "was" : "were") +

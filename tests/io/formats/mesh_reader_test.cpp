@@ -201,7 +201,7 @@ TEST(Ply, AHeaderLineThatLacksTheWordComment) {
     EXPECT_EQ(read_mesh(path), kTetrahedron);
     const auto reader = open_mesh(path);
     read_all(*reader);
-    EXPECT_EQ(reader->warnings(), std::vector<std::string>{"2 lines of the header are no PLY and were ignored"});
+    EXPECT_EQ(reader->warnings(), std::vector<std::string>{"2 lines of the header are not PLY and were ignored"});
   }
   for (const auto& [from, to] : {std::pair{"format", "fromat"},
                                  {"element vertex", "elment vertex"},
