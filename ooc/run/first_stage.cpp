@@ -111,19 +111,16 @@ FirstStageResult run_grid(RunContext& run, const MeshInput& input, const Checkpo
 
 // ---- a mesh that is read once, and kept on disk for what cannot be done meanwhile
 
-// No guessing when last uses are known or must be kept, or when a function must look up a vertex first. A run that is
-// resumed does as it began.
+// No guessing when last uses are known or must be kept, or when a function must look up a vertex first; nor when values
+// come from a file, whose count is checked against the vertex count before the run, and which may take memory. A run
+// that is resumed does as it began.
 bool may_guess(const RunContext& run, const MeshInput& input, const Checkpoint* start) {
   if (start != nullptr) return start->origin == ChunkOrigin::kGuessed;
   if (!run.options.may_guess || run.options.keep_sidecar || needs_lookup(run)) return false;
-  const std::string sidecar = sidecar_path(run, input);
-  return sidecar.empty() || !io::is_regular_file(sidecar);
-}
-
-// Values from a file: their count is checked against the vertex count before the run.
-bool has_values_of_file(const RunContext& run) {
-  return std::any_of(run.functions.begin(), run.functions.end(),
-                     [](const VertexFunction* function) { return !function->source_file().empty(); });
+  if (const std::string sidecar = sidecar_path(run, input); !sidecar.empty() && io::is_regular_file(sidecar))
+    return false;
+  return std::all_of(run.functions.begin(), run.functions.end(),
+                     [](const VertexFunction* function) { return function->source_file().empty(); });
 }
 
 struct GuessedRun {
@@ -168,7 +165,7 @@ SpooledRun run_spooled(RunContext& run, const MeshInput& input, const Checkpoint
                      run.tell({Phase::kSpool, reader.bytes_read(), reader.info().file_bytes});
                    }});
   SpooledRun spooled{std::move(result)};
-  if (!input.reader->info().finalizes && !has_values_of_file(run) && may_guess(run, input, start)) {
+  if (!input.reader->info().finalizes && may_guess(run, input, start)) {
     SpooledReading reading(spooler);
     GuessedRun guessed = run_guessing(run, reading, run.plan, start, std::move(spooled.result));
     spooled.result = std::move(guessed.result);
@@ -260,7 +257,6 @@ FirstStageResult run_in_place(RunContext& run, MeshInput& input, const Checkpoin
       start != nullptr ||
       (seems_closed(*input.indexed) && surface_front(input.indexed->vertex_count()) <= run.plan.most_live_vertices());
   if (is_suitable && may_guess(run, input, start)) {
-    for (VertexFunction* function : run.functions) function->check_count(input.indexed->vertex_count());
     GuessedRun guessed = run_guessing_in_place(run, *input.indexed, start, std::move(result));
     if (guessed.done) return std::move(guessed.result);
     result = std::move(guessed.result);

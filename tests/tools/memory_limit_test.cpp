@@ -167,5 +167,27 @@ TEST_F(MemoryLimit, HoldsForManyParallelArcs) {
   expect_refused(20, {"--graph-only", "--buckets", "0"});
 }
 
+// Values in a text file take memory, which a run reserves before it reads the mesh. It does not guess then, though the
+// surface is closed.
+TEST_F(MemoryLimit, HoldsForValuesOfATextFile) {
+  constexpr int kVertices = 1'499'400;
+  expect_success(reeb({"generate", "torus", "--triangles", "3M", "-o", "mesh.ply"}));
+  std::string values;
+  for (int v = 0; v < kVertices; ++v) values += std::to_string(v % 977) + '\n';
+  write("values.txt", values);
+
+  const auto guessed = [&]() -> std::uint64_t {
+    return nlohmann::json::parse(file("report.json"))["guessed_vertices"];
+  };
+  expect_success(compute("mesh.ply", 64, "2", {"--graph-only"}));
+  EXPECT_GT(guessed(), 0u);
+  const std::vector<std::string> more = {"-f", "file:values.txt", "--graph-only", "--buckets", "0"};
+  const Outcome outcome = compute("mesh.ply", 40, "2", more);
+  expect_success(outcome);
+  expect_within(outcome, 40);
+  EXPECT_EQ(guessed(), 0u);
+  expect_error(compute("mesh.ply", 20, "2", more), 3);  // the values need 11.4 MiB
+}
+
 }  // namespace
 }  // namespace reeb::test
