@@ -276,7 +276,8 @@ def readers(program):
     """Bytes of text read in a second of processor time, by the reader alone."""
     _, text = run_once([program, "--benchmark_filter=Stream", "--benchmark_format=json"])
     rates = {row["name"]: row["bytes_per_second"] for row in json.loads(text[text.index("{"):])["benchmarks"]}
-    return {"ascii_ply": rates["BM_Stream/ascii_obj_binary:0/process_time"], "obj": rates["BM_Stream/ascii_obj_binary:1/process_time"]}, {}
+    rate = lambda kind: rates[f"BM_Stream/ascii_obj_binary:{kind}/process_time"]
+    return {"ascii_ply": rate(0), "obj": rate(1)}, {}
 
 
 def level(bench, nodes):

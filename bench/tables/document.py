@@ -258,9 +258,9 @@ def page(result, cells, figures, has_picture):
                        f"{MACHINE}, of scans of about the same sizes, and its memory is that of the algorithm's own "
                        f"structures; the live graph below is the nearest to that."),
              "## Sizes and functions\n",
-             paragraph("`--graph-only --buckets 0`, triangles in patches (table 2 of the paper). *Load* is the first pass of "
-                       "a run with `--sidecar`, which reads every triangle. *In core* has its temporary files in memory (`--temp-dir` on tmpfs); "
-                       "everything else has them where the temporary folder is. *Live graph* is `live_max.bytes` of the "
+             paragraph("`--graph-only --buckets 0`, triangles in patches (table 2 of the paper). *Load* is the first pass "
+                       "of a run with `--sidecar`, which reads every triangle. *In core* has its temporary files in "
+                       "memory (`--temp-dir` on tmpfs); everything else has them where the temporary folder is. *Live graph* is `live_max.bytes` of the "
                        "report, *spilled* its `spilled_bytes`."),
              size_table(figures)]
     if has_picture:

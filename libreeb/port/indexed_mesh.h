@@ -58,8 +58,8 @@ class IndexedMesh {
   // read() goes on there. REQUIRES: place() of this mesh returned it.
   virtual void seek([[maybe_unused]] const MeshPlace& place) {}
 
-  // How many triangles there are, judged by size: all records together are as large as so many triangles. That is a
-  // guess until read() has gone through all of them after seek_triangle(0).
+  // The number of triangles, judged by size: the bytes of all records, divided by those of a triangle. It is a guess
+  // until read() has gone through all records after seek_triangle(0).
   virtual std::optional<std::uint64_t> triangles_by_size() const { return std::nullopt; }
   // read() goes on at the triangle with this number, and throws InputChanged at a record that is no triangle.
   // REQUIRES: it is at most triangles_by_size().
