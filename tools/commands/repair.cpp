@@ -166,7 +166,11 @@ void add_repair(Program& program) {
   RepairOptions& options = arguments->options;
   Command command = program.add_command("repair", "Cut small handles and fill tunnels of a surface");
   command.add_option("MESH", options.mesh.path, "Mesh of any format, also as .gz and .zst").required().type_name("");
-  command.add_option("-o,--output", options.output, "Mesh to write: .ply .obj .off").required().type_name("OUT");
+  command
+      .add_option("-o,--output", options.output,
+                  "Mesh to write: .ply .obj .off .cx .sma .smb .smc .sva .svb; .events.txt lists the events")
+      .required()
+      .type_name("OUT");
   command.add_option("--below", arguments->below, "Loops of less persistence: 0.01, or 0.1% of the function's range")
       .type_name("T");
   command.add_option("--longest", arguments->longest, "Loops with a curve of at most this length").type_name("LENGTH");
