@@ -38,8 +38,9 @@ class ChunkStars {
     return {lists_.data() + ends_[v].high, ends_[v + 1].high - ends_[v].high};
   }
   // True if the triangles in which rank v is lowest are 1 to 3, those in which it is middle 1 or 2, and the former
-  // connect all edges up from v. Decided without branches, since they could not be predicted.
-  bool is_small_and_connected_above(std::uint32_t v) const;
+  // connect all edges up from v. With `manifold`, also only if no edge up from v has a third triangle; there may be
+  // none where it is false. Decided without branches, since they could not be predicted.
+  bool is_small_and_connected_above(std::uint32_t v, bool manifold) const;
   // The place of the last triangle that uses rank v; 0 if there is none.
   std::uint32_t last_place(std::uint32_t v) const;
 
@@ -70,7 +71,7 @@ class ChunkStars {
   std::vector<std::uint32_t> lists_;
 };
 
-inline bool ChunkStars::is_small_and_connected_above(std::uint32_t v) const {
+inline bool ChunkStars::is_small_and_connected_above(std::uint32_t v, bool manifold) const {
   constexpr std::uint64_t kOnes = 0x0000000100000001, kTops = 0x8000000080000000;
   // Its top bits are not all 0 iff one half of `pair` is 0. Ranks are less than 2^31.
   const auto zero_half = [](std::uint64_t pair) { return (pair - kOnes) & kTops; };
@@ -89,6 +90,17 @@ inline bool ChunkStars::is_small_and_connected_above(std::uint32_t v) const {
   };
   const std::uint64_t ab = meet(a, b), ac = meet(a, c), bc = meet(b, c);
   const std::uint64_t lows_connected = (ab & ac) | (ab & bc) | (ac & bc);
+  if (manifold) {
+    // The path of the former triangles neither closes nor branches, and each of the latter meets one of them, at
+    // another end.
+    const std::uint64_t is_second = 0 - std::uint64_t{lows >= 2}, is_third = 0 - std::uint64_t{lows == 3};
+    const auto hits = [&](std::uint64_t other) {
+      return int{zero_half(a ^ other) != 0} + int{(zero_half(b ^ other) & is_second) != 0} +
+             int{(zero_half(c ^ other) & is_third) != 0};
+    };
+    const bool closed = (ab & ac & bc & is_third) != 0, together = x == y && middles == 2;
+    if (closed || together || hits(x) > 1 || hits(y) > 1) return false;
+  }
   const std::uint64_t x_met = zero_half(a ^ x) | zero_half(b ^ x) | zero_half(c ^ x);
   const std::uint64_t y_met = zero_half(a ^ y) | zero_half(b ^ y) | zero_half(c ^ y);
   return (static_cast<int>(lows_connected >> 63) & static_cast<int>(x_met != 0) & static_cast<int>(y_met != 0)) != 0;

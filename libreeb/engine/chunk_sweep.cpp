@@ -382,7 +382,7 @@ bool ChunkSweep::Scratch::pass_regular(std::uint32_t v) {
   constexpr std::uint32_t kMostLows = 3;
   const auto triangles_below = stars.middles_and_highs(v);
   const std::size_t last_below = triangles_below.size() - 1;
-  if (uses[v] != kUsedHereOnly || manifold || last_below >= kMostBelow || !stars.is_small_and_connected_above(v))
+  if (uses[v] != kUsedHereOnly || last_below >= kMostBelow || !stars.is_small_and_connected_above(v, manifold))
     return false;
   const std::uint32_t label = crossings.label(triangles_below[0]);
   std::uint32_t differs = 0;

@@ -36,10 +36,21 @@ std::size_t groups_above(const ChunkStars& stars, std::uint32_t v) {
   return groups.size();
 }
 
+// Whether an edge up from v has three triangles or more.
+bool has_third_triangle_above(const ChunkStars& stars, std::uint32_t v) {
+  std::vector<std::uint32_t> ends;
+  for (std::uint32_t t = 0; t < stars.triangle_count(); ++t) {
+    const auto [lo, mid, hi, place] = stars[t];
+    if (lo == v && mid != hi) ends.push_back(mid);
+    if (lo == v || (mid == v && hi != v)) ends.push_back(hi);
+  }
+  return std::ranges::any_of(ends, [&](std::uint32_t end) { return std::ranges::count(ends, end) > 2; });
+}
+
 TEST(ChunkStars, RecognizeSmallStarsWhoseUpperEdgesAreConnected) {
   test::Random random(test::base_seed());
-  std::size_t recognized = 0, small = 0;
-  for (int round = 0; round < 2000; ++round) {
+  std::size_t recognized = 0, small = 0, with_third = 0;
+  for (int round = 0; round < 10000; ++round) {
     Chunk chunk;
     const auto vertices = 4 + static_cast<std::uint32_t>(random.below(5));
     for (std::uint64_t v = 0; v < vertices; ++v) chunk.ids.emplace_back(v);
@@ -54,13 +65,18 @@ TEST(ChunkStars, RecognizeSmallStarsWhoseUpperEdgesAreConnected) {
     for (std::uint32_t v = 0; v < vertices; ++v) {
       const std::size_t lows = stars.low_last(v) - stars.low_first(v), middles = stars.middles(v).size();
       const bool is_small = lows >= 1 && lows <= 3 && middles >= 1 && middles <= 2;
-      ASSERT_EQ(stars.is_small_and_connected_above(v), is_small && groups_above(stars, v) == 1) << "round " << round;
+      const bool expected = is_small && groups_above(stars, v) == 1, has_third = has_third_triangle_above(stars, v);
+      ASSERT_EQ(stars.is_small_and_connected_above(v, false), expected) << "round " << round;
+      ASSERT_EQ(stars.is_small_and_connected_above(v, true), expected && !has_third) << "round " << round;
       small += is_small ? 1u : 0u;
-      recognized += stars.is_small_and_connected_above(v) ? 1u : 0u;
+      recognized += expected ? 1u : 0u;
+      with_third += expected && has_third ? 1u : 0u;
     }
   }
   EXPECT_GT(recognized, 500u);
   EXPECT_GT(small - recognized, 500u);
+  EXPECT_GT(with_third, 500u);
+  EXPECT_GT(recognized - with_third, 500u);
 }
 
 }  // namespace
