@@ -122,9 +122,11 @@ struct LastNoise {
 // told.
 LastNoise remove_last_noise(RunContext& run, StoredGraph& graph) {
   SegmentStore& store = *graph.store;
-  LastNoisePass pass = run_last_noise_pass(store, {.threshold = graph.sweep.noise_below,
-                                                   .bucket_exponent = graph.sweep.bucket_exponent,
-                                                   .vertices = graph.vertex_bound});
+  LastNoisePass pass = run_last_noise_pass(store, run.temp,
+                                           {.threshold = graph.sweep.noise_below,
+                                            .bucket_exponent = graph.sweep.bucket_exponent,
+                                            .vertices = graph.vertex_bound,
+                                            .change_bytes = run.plan.segment_bytes});
   if (!pass.fits) {
     FileMeta meta = graph.meta;
     meta.denoise_threshold = 0;
@@ -133,13 +135,14 @@ LastNoise remove_last_noise(RunContext& run, StoredGraph& graph) {
                         "leave out --denoise");
   }
   if (!pass.change) return {pass.removed_pairs};
-  const std::uint64_t change_bytes = pass.change->memory.bytes(), changed_arcs = pass.change->arcs.records.size();
+  const std::uint64_t change_bytes = pass.change->reserved_bytes(), changed_arcs = pass.change->arcs->size(),
+                      spilled_bytes = pass.change->arcs->spilled_bytes();
   store.apply(std::move(*pass.change));
   // A change of more than this share of the graph, or of memory, takes more memory than reading the changed graph.
   constexpr std::uint64_t kSmallShare = 8;
   const bool is_small =
       kSmallShare * changed_arcs <= store.arc_count() && kSmallShare * change_bytes <= run.budget.free_bytes();
-  if (change_bytes <= run.plan.segment_bytes || is_small) return {pass.removed_pairs};
+  if (change_bytes <= run.plan.segment_bytes || is_small) return {pass.removed_pairs, spilled_bytes};
   auto changed = std::make_unique<SegmentStore>(run.temp, run.budget,
                                                 SegmentOptions{.allowance_bytes = run.plan.segment_bytes,
                                                                .most_bytes = run.plan.most_segment_bytes,
@@ -148,7 +151,7 @@ LastNoise remove_last_noise(RunContext& run, StoredGraph& graph) {
   copy_graph(store, *changed, graph.sweep.bucket_exponent);
   changed->finish();
   graph.store = std::move(changed);
-  return {pass.removed_pairs, graph.store->spilled_bytes()};
+  return {pass.removed_pairs, spilled_bytes + graph.store->spilled_bytes()};
 }
 
 // ---- the hierarchy

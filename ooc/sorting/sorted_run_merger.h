@@ -21,7 +21,6 @@ namespace reeb::ooc {
 // pool, and decode() fills one.
 template <class Record>
 struct PlainCodec {
-  static_assert(!CarriesPayload<Record>);
   static void encode(std::span<const Record> records, std::vector<std::byte>& packed) {
     const auto bytes = std::as_bytes(records);
     packed.assign(bytes.begin(), bytes.end());
@@ -30,6 +29,31 @@ struct PlainCodec {
     if (packed.size() != records.size_bytes()) return false;
     std::memcpy(records.data(), packed.data(), packed.size());
     return true;
+  }
+};
+
+// The payloads follow the records.
+template <CarriesPayload Record>
+struct PlainCodec<Record> {
+  static void encode(std::span<const Record> records, std::span<const std::byte> pool, std::vector<std::byte>& packed) {
+    const auto bytes = std::as_bytes(records);
+    packed.assign(bytes.begin(), bytes.end());
+    for (const Record& record : records) {
+      const auto payload = pool.subspan(record.payload.first, record.payload.size);
+      packed.insert(packed.end(), payload.begin(), payload.end());
+    }
+  }
+  static bool decode(std::span<const std::byte> packed, std::span<Record> records, std::vector<std::byte>& pool) {
+    if (packed.size() < records.size_bytes()) return false;
+    std::memcpy(records.data(), packed.data(), records.size_bytes());
+    const auto payloads = packed.subspan(records.size_bytes());
+    pool.assign(payloads.begin(), payloads.end());
+    std::size_t first = 0;
+    for (Record& record : records) {
+      record.payload.first = static_cast<std::uint32_t>(first);
+      first += record.payload.size;
+    }
+    return first == pool.size();
   }
 };
 

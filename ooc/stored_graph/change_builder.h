@@ -7,17 +7,20 @@
 #include <span>
 #include <vector>
 
+#include "io/file/temp_dir.h"
 #include "libreeb/hierarchy/packed_lists.h"
 #include "libreeb/noise/denoise.h"
 #include "ooc/stored_graph/graph_change.h"
+#include "ooc/stored_graph/last_noise_pass.h"
 #include "ooc/stored_graph/pass_room.h"
+#include "ooc/stored_graph/segment_store.h"
 
 namespace reeb::ooc {
 
 class ChangeBuilder {
  public:
-  // REQUIRES: `room` outlives this. Without an exponent arcs have no buckets.
-  ChangeBuilder(MemoryBudget& budget, PassRoom& room, std::optional<int> exponent);
+  // REQUIRES: `store`, `temp` and `room` outlive this, and `store` and `temp` also the change.
+  ChangeBuilder(SegmentStore& store, const io::TempDir& temp, PassRoom& room, const LastNoiseOptions& options);
 
   // Arcs with these buckets will be replaced.
   void count_replaced(std::size_t arcs, const PackedLists& buckets);
@@ -29,12 +32,14 @@ class ChangeBuilder {
   std::optional<GraphChange> finish(std::vector<SweepKey> redone, std::uint64_t enough);
 
  private:
-  void reserve(std::size_t arc_count, const PackedLists& buckets, std::uint64_t enough);
-  void add_arc(const ChangedArc& arc, std::span<const std::byte> packed_buckets, std::uint64_t enough);
-  bool grow(std::uint64_t bytes, std::uint64_t enough);
+  void add_arc(const ChangedArc& arc, std::span<const std::byte> packed_buckets);
+  void add_gone(const ReebGraph& part, const std::vector<SweepKey>& places, std::uint64_t enough);
+  bool make_sorting_room(std::uint64_t enough);
 
+  MemoryBudget& budget_;
   PassRoom& room_;
   const std::optional<int> exponent_;
+  std::uint64_t largest_payload_ = 0;
   std::vector<std::byte> payload_;
   GraphChange change_;
 };

@@ -155,10 +155,10 @@ void NoiseRemoval::remove_in(const std::vector<SweepKey>& nodes, std::uint64_t b
 
 }  // namespace
 
-LastNoisePass run_last_noise_pass(SegmentStore& store, const LastNoiseOptions& options) {
+LastNoisePass run_last_noise_pass(SegmentStore& store, const io::TempDir& temp, const LastNoiseOptions& options) {
   PassRoom room(store.budget());
   const NoisyGraph graph{store, options, room};
-  ChangeBuilder change(store.budget(), room, options.bucket_exponent);
+  ChangeBuilder change(store, temp, room, options);
   NoiseRemoval removal(graph, change);
   NoisePlaces places = find_noise_places(graph);
   if (places.size() != 0) removal.run(places);

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "io/file/temp_dir.h"
 #include "ooc/stored_graph/graph_change.h"
 #include "ooc/stored_graph/segment_store.h"
 
@@ -14,6 +15,7 @@ struct LastNoiseOptions {
   std::optional<int> bucket_exponent = {};  // without one there is no embedding
   std::uint64_t vertices = 0;               // all vertices of the graph are below this; 0: unknown
   std::uint64_t part_bytes = 2 << 20;       // least memory for the work on one part, if there is that much
+  std::uint64_t change_bytes = 1 << 20;     // of the budget, to collect the arcs of the change
 };
 
 struct LastNoisePass {
@@ -35,8 +37,10 @@ struct LastNoisePass {
 // TIME: O(n), and O(k log k) for the k short arcs.
 // MEMORY: reserved: three bits per vertex, if that is little compared with the graph; up to 112 bytes per short arc and
 //         75 per end of one; then part_bytes, or a sixteenth of what all parts take, or the largest set of nodes in the
-//         scope that arcs connect; and the change: 70 bytes per arc and 52 per node, and payloads.
+//         scope that arcs connect; and the change: 52 bytes per node, and change_bytes for its arcs, the rest of which
+//         is on disk.
+// REQUIRES: `store` and `temp` outlive the change.
 // THROWS: Error{kResource} of the disk. If the budget does not suffice, the result says so.
-LastNoisePass run_last_noise_pass(SegmentStore& store, const LastNoiseOptions& options);
+LastNoisePass run_last_noise_pass(SegmentStore& store, const io::TempDir& temp, const LastNoiseOptions& options);
 
 }  // namespace reeb::ooc

@@ -36,9 +36,9 @@ std::uint64_t most_bytes(const NoisyGraph& graph) {
   const SegmentStore& store = graph.store;
   const std::uint64_t of_buckets =
       graph.is_embedded() ? kPackedByte * store.payload_bytes() + kBucketBytes * store.bucket_count() : 0;
-  constexpr std::uint64_t kGoneNode = 2 * sizeof(SweepKey) + 20;
-  const std::uint64_t of_change = sizeof(ChangedArc) * store.arc_count() +
-                                  (graph.is_embedded() ? store.payload_bytes() : 0) + kGoneNode * store.node_count();
+  constexpr std::uint64_t kGoneNode = 2 * sizeof(SweepKey) + 20, kMergedBlocks = 6;
+  const std::uint64_t of_change = kGoneNode * store.node_count() + kMergedBlocks * kRunBlockBytes +
+                                  (graph.is_embedded() ? store.payload_bytes() : 0);
   return kNodeBytes * store.node_count() + kInnerArcBytes * store.arc_count() + of_buckets + of_change;
 }
 

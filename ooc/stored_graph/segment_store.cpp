@@ -232,7 +232,7 @@ void decode_buckets_of(const ArcKeys& arc, std::span<const std::byte> payload, i
 }
 
 std::uint64_t SegmentStore::reserved_bytes() const {
-  return nodes_.reserved_bytes() + arcs_.reserved_bytes() + (change_ ? change_->change().memory.bytes() : 0);
+  return nodes_.reserved_bytes() + arcs_.reserved_bytes() + (change_ ? change_->change().reserved_bytes() : 0);
 }
 
 void SegmentStore::rewind_nodes() {
@@ -320,7 +320,7 @@ std::uint64_t SegmentStore::node_count() const { return nodes_.size() - (change_
 
 std::uint64_t SegmentStore::arc_count() const {
   if (!change_) return arcs_.size();
-  return arcs_.size() - change_->change().replaced_arcs + change_->change().arcs.records.size();
+  return arcs_.size() - change_->change().replaced_arcs + change_->change().arcs->size();
 }
 
 std::uint64_t SegmentStore::bucket_count() const {

@@ -103,12 +103,15 @@ std::uint64_t check(const EmbeddedGraph& made, double threshold, bool embeds, Ra
   Stored stored(made, embeds, random);
   SegmentStore& store = stored.store;
   const std::uint64_t part_bytes = test::below(random, 2) == 0 ? 0 : 4 << 20;
+  // Collected in memory, or on disk: if arcs have buckets, each in a run of its own.
+  const std::uint64_t change_bytes = test::below(random, 2) == 0 ? 0 : 1 << 20;
   const std::uint64_t vertices = test::below(random, 2) == 0 ? 0 : vertices_of(made.graph);
   const std::optional<int> exponent = embeds ? std::optional(made.exponent) : std::nullopt;
   ArcBuckets buckets = embeds ? made.buckets : ArcBuckets();
   const Denoised expected = denoise(made.graph, threshold, buckets, made.exponent);
 
-  LastNoisePass pass = run_last_noise_pass(store, {threshold, exponent, vertices, part_bytes});
+  LastNoisePass pass =
+      run_last_noise_pass(store, stored.temp, {threshold, exponent, vertices, part_bytes, change_bytes});
   EXPECT_TRUE(pass.fits);
   EXPECT_EQ(pass.removed_pairs, expected.removed.size());
   EXPECT_EQ(pass.change.has_value(), pass.removed_pairs != 0);
@@ -216,11 +219,26 @@ TEST(LastNoisePass, HoldsWhatNoiseCanTouchAndNotTheGraph) {
   EmbeddedGraph made = trunk(700, random);
   Stored stored(made, true, random);
   // A twig of 1 can be removed; the loops of 9 all around it stay as they are.
-  const LastNoisePass pass = run_last_noise_pass(stored.store, {10, made.exponent});
+  const LastNoisePass pass = run_last_noise_pass(stored.store, stored.temp, {10, made.exponent});
   ASSERT_TRUE(pass.change);
   const std::size_t touched = pass.change->replaced_arcs;
   EXPECT_LT(touched, 8 * pass.removed_pairs);
   EXPECT_LT(touched, made.graph.arc_count() / 2);
+}
+
+TEST(LastNoisePass, ArcsOfALargeChangeAreOnDisk) {
+  Random random(13);
+  const EmbeddedGraph made = trunk(700, random);
+  Stored stored(made, true, random);
+  const auto arcs_with = [&](std::uint64_t change_bytes) {
+    LastNoisePass pass = run_last_noise_pass(
+        stored.store, stored.temp, {.threshold = 30, .bucket_exponent = made.exponent, .change_bytes = change_bytes});
+    return std::move(pass.change->arcs);
+  };
+  const auto in_memory = arcs_with(1 << 20), on_disk = arcs_with(64 << 10);
+  EXPECT_EQ(in_memory->spilled_bytes(), 0u);
+  EXPECT_GT(on_disk->spilled_bytes(), 0u);
+  EXPECT_EQ(on_disk->size(), in_memory->size());
 }
 
 TEST(LastNoisePass, WhatItSaysThatItNeedsIsEnough) {
@@ -232,7 +250,7 @@ TEST(LastNoisePass, WhatItSaysThatItNeedsIsEnough) {
   const std::uint64_t used = budget.used_bytes();
   const auto pass_with = [&](std::uint64_t room) {
     const Reservation others = budget.reserve("others", budget.free_bytes() - room);
-    return run_last_noise_pass(stored.store, {30, made.exponent, vertices_of(made.graph)});
+    return run_last_noise_pass(stored.store, stored.temp, {30, made.exponent, vertices_of(made.graph)});
   };
   std::size_t refusals = 0;
   for (std::uint64_t room = 1024; room < kBudget / 2; room += room / 4) {
