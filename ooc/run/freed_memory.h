@@ -1,4 +1,4 @@
-// Returns memory to the system between two stages.
+// Returns memory to the system, between two stages or now and then.
 #pragma once
 
 namespace reeb::ooc {

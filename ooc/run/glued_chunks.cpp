@@ -1,12 +1,21 @@
 #include "ooc/run/glued_chunks.h"
 
 #include <algorithm>
+#include <bit>
 #include <utility>
 
 #include "ooc/chunks/divided_chunks.h"
+#include "ooc/run/freed_memory.h"
 #include "ooc/run/stopwatch.h"
 
 namespace reeb::ooc {
+namespace {
+
+// The first chunks need code that later ones do not need, and buffers that grow. Each time the number of chunks has
+// doubled, what was not needed since then is returned.
+constexpr std::uint64_t kChunksOfStart = 64;
+
+}  // namespace
 
 FirstStageResult glue_chunks(RunContext& run, ChunkSource& stretches, const MemoryPlan& plan, Checkpoint here,
                              FirstStageResult result, const std::function<void(std::size_t, const Glue&)>& at_end) {
@@ -24,7 +33,12 @@ FirstStageResult glue_chunks(RunContext& run, ChunkSource& stretches, const Memo
     return sweep;
   };
   if (run.follower) options.log = &run.follower->log();
+  std::uint64_t chunks = 0;
   options.progress = [&](const SourceProgress& at) {
+    if (++chunks >= kChunksOfStart && std::has_single_bit(chunks)) {
+      return_freed_memory();
+      return_code();
+    }
     run.tell({ComputeProgress::Phase::kReeb, at.bytes_read, at.bytes_total, at.triangles_read});
     // A layer of a grid has many chunks, and a run can be saved after the last of them only.
     if (options.are_boxes && !run.resumable.can_be_saved()) run.resumable.check_interruption();
