@@ -158,16 +158,22 @@ class Reorder {
       if (high[a] / 2 - low[a] / 2 == half_size) longest = a;
     const std::uint64_t slabs = options_.in_slabs ? slab_count() : 1;
     constexpr double kCells = (1u << kHilbertBits) - 1;
+    constexpr std::size_t kCellsAtOnce = 64;
     for_each_range(axes, [&](std::uint64_t first, std::size_t count, std::span<const double> values) {
-      for (std::size_t i = 0; i < count; ++i) {
-        std::array<std::uint32_t, 3> cell{};
-        for (std::size_t a = 0; a < axes.size() && half_size > 0; ++a) {
-          const double part = (values[a * count + i] / 2 - low[a] / 2) / half_size;
-          cell[a] = static_cast<std::uint32_t>(std::clamp(part, 0.0, 1.0) * kCells);
+      for (std::size_t begin = 0; begin < count; begin += kCellsAtOnce) {
+        std::array<std::array<std::uint32_t, kCellsAtOnce>, 3> cells{};
+        const std::size_t some = std::min(kCellsAtOnce, count - begin);
+        for (std::size_t a = 0; a < axes.size() && half_size > 0; ++a)
+          for (std::size_t i = 0; i < some; ++i) {
+            const double part = (values[a * count + begin + i] / 2 - low[a] / 2) / half_size;
+            cells[a][i] = static_cast<std::uint32_t>(std::clamp(part, 0.0, 1.0) * kCells);
+          }
+        const auto indices = hilbert_indices<kCellsAtOnce>(cells);
+        for (std::size_t i = 0; i < some; ++i) {
+          const std::uint64_t slab = slabs * cells[longest][i] >> kHilbertBits;
+          by_key.add(
+              {slab << (3 * kHilbertBits - kSlabBits) | indices[i] >> (slabs == 1 ? 0 : kSlabBits), first + begin + i});
         }
-        const std::uint64_t slab = slabs * cell[longest] >> kHilbertBits;
-        by_key.add(
-            {slab << (3 * kHilbertBits - kSlabBits) | hilbert_index(cell) >> (slabs == 1 ? 0 : kSlabBits), first + i});
       }
     });
   }

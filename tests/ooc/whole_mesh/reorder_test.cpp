@@ -136,6 +136,15 @@ void expect_curve_of_neighbours(unsigned shift) {
   }
 }
 
+TEST(Hilbert, ManyCellsAtATime) {
+  std::array<std::array<std::uint32_t, 64>, 3> cells;
+  for (std::uint32_t i = 0; i < 64; ++i)
+    for (std::uint32_t a = 0; a < 3; ++a) cells[a][i] = (i * 3 + a + 1) * 2654435761u >> (32 - kHilbertBits);
+  const auto indices = hilbert_indices<64>(cells);
+  for (std::size_t i = 0; i < 64; ++i)
+    EXPECT_EQ(indices[i], hilbert_index({cells[0][i], cells[1][i], cells[2][i]})) << i;
+}
+
 TEST(Hilbert, NeighboursOnTheCurveShareAFace) {
   for (const unsigned shift : {0u, 9u, kHilbertBits - 4}) {
     SCOPED_TRACE(shift);
