@@ -22,7 +22,8 @@ struct MeshPlace {
   friend bool operator==(const MeshPlace&, const MeshPlace&) = default;
 };
 
-// THREADS: one at a time; different meshes share nothing.
+// THREADS: one at a time, but gather() may be called while another thread reads triangles. Different meshes share
+// nothing.
 class IndexedMesh {
  public:
   IndexedMesh() = default;

@@ -30,7 +30,7 @@ struct SpoolOptions {
 // Coordinates, then the properties that the reader delivers, in one column each; triangles in a log. All are in memory
 // while they fit the allowance and the budget, else in unnamed files.
 //
-// THREADS: one at a time.
+// THREADS: one at a time, but one may append or gather columns while another appends or reads triangles.
 class SpooledMesh : public IndexedMesh {
  public:
   SpooledMesh(unsigned columns, const io::TempDir& temp, MemoryBudget& budget, std::uint64_t allowance_bytes,

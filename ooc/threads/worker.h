@@ -1,6 +1,7 @@
 // A thread that runs one task after the other, in parallel to its owner.
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <exception>
 #include <functional>
@@ -49,6 +50,17 @@ class Worker {
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [&] { return !busy_; });
     if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
+  }
+  // The same, but calls poll() every few hundredths of a second. THROWS: what poll throws, too; the task goes on.
+  template <class Poll>
+  void wait(const Poll& poll) {
+    constexpr auto kBetweenPolls = std::chrono::milliseconds(20);
+    for (std::unique_lock lock(mutex_); !changed_.wait_for(lock, kBetweenPolls, [&] { return !busy_; });) {
+      lock.unlock();
+      poll();
+      lock.lock();
+    }
+    wait();
   }
 
  private:

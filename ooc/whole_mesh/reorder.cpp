@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <bit>
 #include <cmath>
 #include <compare>
@@ -12,6 +13,8 @@
 
 #include "ooc/sorting/external_sort.h"
 #include "ooc/tables/partition_logs.h"
+#include "ooc/threads/read_ahead.h"
+#include "ooc/threads/worker.h"
 #include "ooc/whole_mesh/hilbert.h"
 
 namespace reeb::ooc {
@@ -19,6 +22,13 @@ namespace reeb::ooc {
 namespace {
 
 constexpr std::size_t kItemsAtOnce = 4096;  // vertices or triangles
+
+// Ends the thread of the vertices when the other thread has failed.
+struct Stopped {};
+struct StopAtEnd {
+  std::atomic<bool>& stops;
+  ~StopAtEnd() { stops = true; }
+};
 
 struct KeyedVertex {
   std::uint64_t key, vertex;
@@ -42,16 +52,18 @@ class Reorder {
         vertex_count_(mesh.vertex_count()),
         slice_bits_(slice_bits(vertex_count_, options.allowance_bytes / 4 / sizeof(Rank))),
         slices_(static_cast<std::size_t>((vertex_count_ + slice_entries() - 1) >> slice_bits_)),
+        has_two_threads_(options.threads > 1 && slices_bytes() <= options.allowance_bytes / 4),
         ranks_(temp.create_unnamed("ranks")),
         result_(std::make_unique<ReorderedMesh>(mesh.column_count(), temp, budget, options.allowance_bytes / 4)) {}
 
   std::unique_ptr<ReorderedMesh> run() {
-    rank_vertices();
-    for (unsigned column = 0; column < mesh_.column_count(); ++column) {
-      place_column(column);
-      tell(kRanked + (kPlaced - kRanked) * (column + 1) / mesh_.column_count());
+    if (has_two_threads_) {
+      run_in_two_threads();
+    } else {
+      rank_vertices();
+      place_columns();
+      sort_triangles(places_by_slice(kPlaced, kLooked));
     }
-    sort_triangles();
     result_->set_simplex_counts(mesh_.simplex_counts());
     return std::move(result_);
   }
@@ -78,6 +90,20 @@ class Reorder {
   using KeySort = ExternalSort<KeyedVertex, PlainCodec<KeyedVertex>, KeyLess>;
   using TriangleSort = ExternalSort<RankedTriangle, PlainCodec<RankedTriangle>, RankLess>;
 
+  using Places = PartitionLogs<std::uint32_t>;
+
+  // One thread looks up vertices, another reads triangles.
+  void run_in_two_threads() {
+    Worker vertices;
+    const StopAtEnd stop{stops_};  // before the worker ends
+    vertices.start([this] { rank_vertices(); });
+    Places places = places_by_slice(0, kPlaced);
+    vertices.wait([this] { poll(); });
+    vertices.start([this] { place_columns(); });
+    sort_triangles(std::move(places));
+    vertices.wait([this] { poll(); });
+  }
+
   // The parts of the time after which a step is done, about.
   static constexpr double kKeyed = 0.05, kRanked = 0.15, kPlaced = 0.25, kLooked = 0.5, kSorted = 0.75;
 
@@ -88,6 +114,15 @@ class Reorder {
   // Where little is done at a time.
   void poll() const {
     if (options_.progress) options_.progress(done_);
+  }
+  // For the steps that look up vertices. In a thread of their own they tell nothing.
+  void tell_vertices(double done) const {
+    if (!has_two_threads_) done_ = done;
+    poll_vertices();
+  }
+  void poll_vertices() const {
+    if (!has_two_threads_) return poll();
+    if (stops_) throw Stopped();
   }
   // For a step that reads the mesh, and lasts from `from` to `to`.
   void tell_reading(double from, double to) const {
@@ -104,7 +139,7 @@ class Reorder {
       ids.clear();
       for (std::uint64_t v = first; v < std::min(first + kItemsAtOnce, vertex_count_); ++v) ids.emplace_back(v);
       values.resize(columns.size() * ids.size());
-      poll();
+      poll_vertices();
       mesh_.gather(ids, columns, values);
       visit(first, ids.size(), std::span<const double>(values));
     }
@@ -112,22 +147,26 @@ class Reorder {
 
   // The rank of a vertex is its place along the curve.
   void rank_vertices() {
-    KeySort by_key("reorder", temp_, budget_, sorting());
+    SortOptions options = sorting();
+    options.background = has_two_threads_;  // the other thread has less to do meanwhile
+    KeySort by_key("reorder", temp_, budget_, options);
     add_keys(by_key);
-    by_key.finish(0, [this] { poll(); });
-    tell(kKeyed);
+    by_key.finish(0, [this] { poll_vertices(); });
+    tell_vertices(kKeyed);
     PartitionLogs<PlacedRank> by_slice("reorder", temp_, budget_, slices_);
     std::uint64_t rank = 0;
-    for (std::vector<KeyedVertex> some; by_key.read(some, kItemsAtOnce);)
+    for (std::vector<KeyedVertex> some; by_key.read(some, kItemsAtOnce);) {
+      poll_vertices();
       for (const KeyedVertex& keyed : some) {
         result_->set_original(VertexId(rank), VertexId(keyed.vertex));
         by_slice.append(slice_of(keyed.vertex), {place_of(keyed.vertex), static_cast<Rank>(rank++)});
       }
-    tell(kRanked);
+    }
+    tell_vertices(kRanked);
     const Reservation charge = budget_.reserve("reorder", slice_entries() * sizeof(Rank));
     std::vector<Rank> slice;
     for (std::size_t s = 0; s < slices_; ++s) {
-      poll();
+      poll_vertices();
       slice.resize(slice_size(s));
       for (std::uint64_t i = by_slice.count(s); i-- > 0;) {
         const PlacedRank& placed = by_slice.next(s);
@@ -186,6 +225,13 @@ class Reorder {
     return static_cast<std::uint64_t>(std::clamp(edges / 128, 1.0, double{1u << kSlabBits}));
   }
 
+  void place_columns() {
+    for (unsigned column = 0; column < mesh_.column_count(); ++column) {
+      place_column(column);
+      tell_vertices(kRanked + (kPlaced - kRanked) * (column + 1) / mesh_.column_count());
+    }
+  }
+
   // Reorders a column from the order of ids to that of ranks.
   void place_column(unsigned column) {
     PartitionLogs<PlacedNumber> by_slice("reorder", temp_, budget_, slices_);
@@ -200,7 +246,7 @@ class Reorder {
     const Reservation charge = budget_.reserve("reorder", slice_entries() * 8);
     std::vector<double> slice;
     for (std::size_t s = 0; s < slices_; ++s) {
-      poll();
+      poll_vertices();
       slice.resize(slice_size(s));
       for (std::uint64_t i = by_slice.count(s); i-- > 0;) {
         const PlacedNumber& placed = by_slice.next(s);
@@ -210,24 +256,25 @@ class Reorder {
     }
   }
 
-  void sort_triangles() {
+  void sort_triangles(Places places) {
     TriangleSort by_rank("reorder", temp_, budget_, sorting());
-    add_ranked_triangles(by_rank);
+    PartitionLogs<Rank> corner_ranks = ranks_by_slice(std::move(places));  // the places are gone afterwards
+    add_ranked_triangles(by_rank, std::move(corner_ranks));
     by_rank.finish(0, [this] { poll(); });
     std::vector<VertexId> corners;
     std::uint64_t appended = 0;
-    for (std::vector<RankedTriangle> some; by_rank.read(some, kItemsAtOnce);) {
+    const auto read = [&](std::vector<RankedTriangle>& some) { return by_rank.read(some, kItemsAtOnce); };
+    read_ahead<std::vector<RankedTriangle>>(has_two_threads_, read, [&](const std::vector<RankedTriangle>& some) {
       appended += some.size();
       tell(kSorted + (1 - kSorted) * static_cast<double>(appended) / static_cast<double>(triangle_count_));
       corners.clear();
       for (const RankedTriangle& triangle : some)
         for (const Rank corner : triangle.corners) corners.emplace_back(corner);
       result_->append_triangles(corners);
-    }
+    });
   }
 
-  void add_ranked_triangles(TriangleSort& by_rank) {
-    PartitionLogs<Rank> corner_ranks = ranks_by_slice();
+  void add_ranked_triangles(TriangleSort& by_rank, PartitionLogs<Rank> corner_ranks) {
     // The corners are read again. The rank of each is the next one in the log of its slice.
     std::vector<VertexId> corners;
     std::vector<RankedTriangle> triangles;
@@ -252,16 +299,21 @@ class Reorder {
     return {{ranks[lowest], ranks[(lowest + 1) % 3], ranks[(lowest + 2) % 3]}};
   }
 
-  // The ranks of all corners, in the order of the mesh within each slice.
-  PartitionLogs<Rank> ranks_by_slice() {
-    PartitionLogs<std::uint32_t> places("reorder", temp_, budget_, slices_);
+  // The places of all corners in their slices, in the order of the mesh within each slice. Needs no ranks.
+  Places places_by_slice(double from, double to) {
+    Places places("reorder", temp_, budget_, slices_);
     std::vector<VertexId> corners;
     mesh_.rewind();
     while (mesh_.read(corners, kItemsAtOnce)) {
-      tell_reading(kPlaced, kLooked);
+      tell_reading(from, to);
       for (const VertexId v : corners)
         places.append(slice_of(v.value()), static_cast<std::uint32_t>(place_of(v.value())));
     }
+    return places;
+  }
+
+  // The ranks of all corners, in the order of the places.
+  PartitionLogs<Rank> ranks_by_slice(Places places) {
     PartitionLogs<Rank> result("reorder", temp_, budget_, slices_);
     const Reservation charge = budget_.reserve("reorder", slice_entries() * sizeof(Rank));
     std::vector<Rank> slice;
@@ -282,6 +334,10 @@ class Reorder {
     return static_cast<unsigned>(std::bit_width(std::min(wanted, std::max<std::uint64_t>(kItemsAtOnce, most))) - 1);
   }
   SortOptions sorting() const { return {.allowance_bytes = options_.allowance_bytes / 2, .threads = options_.threads}; }
+  // What both threads hold at most beside the sorted runs: three partitions, and a slice of numbers and of ranks.
+  std::uint64_t slices_bytes() const {
+    return 3 * slices_ * PartitionLogs<Rank>::kBlockBytes + slice_entries() * (8 + sizeof(Rank));
+  }
   std::uint64_t slice_entries() const { return std::uint64_t{1} << slice_bits_; }
   std::size_t slice_of(std::uint64_t id) const { return static_cast<std::size_t>(id >> slice_bits_); }
   Rank place_of(std::uint64_t id) const { return static_cast<Rank>(id & (slice_entries() - 1)); }
@@ -294,9 +350,11 @@ class Reorder {
   MemoryBudget& budget_;
   const ReorderOptions& options_;
   mutable double done_ = 0;  // as told last
+  std::atomic<bool> stops_ = false;
   std::uint64_t vertex_count_, triangle_count_ = 0;
   unsigned slice_bits_;
   std::size_t slices_;
+  bool has_two_threads_;
   io::File ranks_;  // by vertex
   std::unique_ptr<ReorderedMesh> result_;
 };

@@ -34,10 +34,11 @@ class ReorderedMesh : public SpooledMesh {
 struct ReorderOptions {
   std::uint64_t allowance_bytes = 32 << 20;  // of the budget, while reorder() runs
   unsigned coordinates = 3;                  // the number of leading columns that are coordinates; at most 3 are used
-  unsigned threads = 1;                      // that sort
+  unsigned threads = 1;                      // that sort; with two or more, one looks up vertices meanwhile
   // Along one curve for each of some slabs across the longest axis: the front is shorter, but triangles are less near.
   bool in_slabs = false;
-  std::function<void(double)> progress = {};  // the part that is done, from 0 to 1; called often
+  // The part that is done, from 0 to 1. Called often, by one thread at a time. It may throw to stop.
+  std::function<void(double)> progress = {};
 };
 
 // Reads the triangles of `mesh` twice, and its vertices in order a few times. Partitioning and sorting replace all

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <chrono>
 #include <stdexcept>
 #include <thread>
@@ -50,6 +51,22 @@ TEST(Worker, EndsItsTaskBeforeItGoes) {
     });
   }
   EXPECT_TRUE(ended);
+}
+
+TEST(Worker, PollsWhileItWaits) {
+  std::atomic<bool> may_end = false, ended = false;
+  Worker worker;
+  worker.start([&] {
+    while (!may_end) std::this_thread::yield();
+    ended = true;
+  });
+  const auto stop = [] { throw std::runtime_error("stop"); };
+  EXPECT_THROW(worker.wait(stop), std::runtime_error);
+  EXPECT_FALSE(ended) << "the task goes on";
+  worker.wait([&] { may_end = true; });
+  EXPECT_TRUE(ended);
+  worker.start([] { throw std::runtime_error("full"); });
+  EXPECT_THROW(worker.wait([] {}), std::runtime_error);
 }
 
 class ReadAhead : public testing::TestWithParam<bool> {};

@@ -50,15 +50,29 @@ void expect_same(const ModelMesh& model, ReorderedMesh& mesh) {
   EXPECT_EQ(triangles_of(corners), triangles_of(model.corners));
 }
 
+// The triangles of a mesh, as it delivers them, under their original ids.
+std::vector<VertexId> corners_of(ReorderedMesh& mesh) {
+  std::vector<VertexId> corners = all_corners(mesh, 1000);
+  mesh.to_original(corners);
+  return corners;
+}
+
 void compare(const ModelMesh& model, std::uint64_t allowance, std::uint64_t limit) {
   const Scratch scratch;
   const io::TempDir temp(scratch.path());
   MemoryBudget budget(limit);
   for (const bool in_slabs : {false, true}) {
     SCOPED_TRACE(in_slabs);
-    ModelIndexedMesh indexed(model);
-    const auto mesh = reorder(indexed, temp, budget, {.allowance_bytes = allowance, .in_slabs = in_slabs});
-    expect_same(model, *mesh);
+    std::vector<VertexId> of_one_thread;
+    for (const unsigned threads : {1u, 2u}) {
+      SCOPED_TRACE(threads);
+      ModelIndexedMesh indexed(model);
+      const auto mesh =
+          reorder(indexed, temp, budget, {.allowance_bytes = allowance, .threads = threads, .in_slabs = in_slabs});
+      expect_same(model, *mesh);
+      if (threads == 1) of_one_thread = corners_of(*mesh);
+      EXPECT_EQ(corners_of(*mesh), of_one_thread);
+    }
   }
   EXPECT_EQ(budget.used_bytes(), 0u);
   EXPECT_TRUE(scratch.empty());
@@ -67,6 +81,7 @@ void compare(const ModelMesh& model, std::uint64_t allowance, std::uint64_t limi
 TEST(Reorder, KeepsTheMeshUnderItsOriginalIds) {
   compare(shuffled(grid_mesh(60, 50), 1), 32 << 20, 64 << 20);
   compare(shuffled(grid_mesh(250, 200), 2), 256 << 10, 8 << 20);  // many slices, many runs
+  compare(shuffled(grid_mesh(500, 400), 3), 8 << 20, 16 << 20);   // a few, which two threads can hold
 }
 
 TEST(Reorder, OddMeshes) {
@@ -115,6 +130,56 @@ TEST(Reorder, EachFailingWriteIsReported) {
     ModelIndexedMesh indexed(model);
     reorder(indexed, temp, budget, {.allowance_bytes = 64 << 10});
   });
+  expect_failing_writes_are_reported([&](const io::TempDir& temp, MemoryBudget& budget) {
+    ModelIndexedMesh indexed(model);
+    reorder(indexed, temp, budget, {.allowance_bytes = 8 << 20, .threads = 2});
+  });
+}
+
+// Fails in one of the two threads that reorder it.
+class FailingMesh : public ModelIndexedMesh {
+ public:
+  FailingMesh(const ModelMesh& model, int gathers, int reads)
+      : ModelIndexedMesh(model), gathers_(gathers), reads_(reads) {}
+  void gather(std::span<const VertexId> ids, std::span<const unsigned> columns, std::span<double> values) override {
+    if (gathers_-- == 0) throw Error(ErrorKind::kBadInput, "a vertex", "");
+    ModelIndexedMesh::gather(ids, columns, values);
+  }
+  bool read(std::vector<VertexId>& corners, std::size_t limit) override {
+    if (reads_-- == 0) throw Error(ErrorKind::kBadInput, "a triangle", "");
+    return ModelIndexedMesh::read(corners, limit);
+  }
+
+ private:
+  int gathers_, reads_;
+};
+
+TEST(Reorder, AnErrorInEitherThreadEndsBoth) {
+  const ModelMesh model = shuffled(grid_mesh(200, 200), 6);
+  const Scratch scratch;
+  const io::TempDir temp(scratch.path());
+  MemoryBudget budget;
+  const auto error_of = [&](int gathers, int reads, int polls) -> std::string {
+    FailingMesh mesh(model, gathers, reads);
+    const auto progress = [&](double) {
+      if (polls-- == 0) throw Error(ErrorKind::kBadInput, "a stop", "");
+    };
+    try {
+      reorder(mesh, temp, budget, {.threads = 2, .progress = progress});
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(error_of(-1, -1, -1), "");
+  for (int n = 0; n < 30; ++n) {
+    SCOPED_TRACE(n);
+    EXPECT_NE(error_of(n, -1, -1).find("a vertex"), std::string::npos);
+    EXPECT_NE(error_of(-1, n, -1).find("a triangle"), std::string::npos);
+    EXPECT_NE(error_of(-1, -1, n).find("a stop"), std::string::npos);
+    EXPECT_EQ(budget.used_bytes(), 0u);
+  }
+  EXPECT_TRUE(scratch.empty());
 }
 
 // Cells of 2^shift to a side: the curve visits neighbours in turn.
