@@ -11,7 +11,8 @@
 namespace reeb::ooc {
 
 // Chunks grow while too many of their vertices are shared with other chunks, since gluing a chunk costs its shared
-// vertices. The sizes depend on the chunks only.
+// vertices. They double, and large ones grow in smaller steps, since these take memory. The sizes depend on the chunks
+// only.
 class ChunkGrowth {
  public:
   // `limits` count triangles; size() counts units of `unit` triangles each.
@@ -25,15 +26,14 @@ class ChunkGrowth {
 
   // Call this with each chunk once its uses are known. `size` is its size if it ended early, because of its vertices.
   void adapt(const Chunk& chunk, std::optional<std::size_t> size = {}) {
-    // A larger share of shared vertices makes the next chunk larger, less than a quarter of it makes it smaller. A
-    // shared vertex brings about one shared edge, of three in all, so this is a tenth of the edges.
-    constexpr double kShareToGrow = 0.30;
+    // Of the vertices. A strip of twice the height has half the share, so its size settles between the two.
+    constexpr double kShareToGrow = 0.185, kShareToShrink = 0.075;
     const auto shared = static_cast<double>(
         std::count_if(chunk.uses.begin(), chunk.uses.end(), [](std::uint8_t u) { return u != kUsedHereOnly; }));
-    const double many = kShareToGrow * static_cast<double>(chunk.vertex_count());
-    if (shared > many)
-      size_ = std::min(2 * size_, most_);
-    else if (shared < many / 4)
+    const auto all = static_cast<double>(chunk.vertex_count());
+    if (shared > kShareToGrow * all)
+      size_ = std::min(size_ + std::min(size_, std::max<std::size_t>(1, most_ / 4)), most_);
+    else if (shared < kShareToShrink * all)
       size_ = std::max(size_ / 2, least_);
     if (size) size_ = std::min(size_, *size);
   }
