@@ -139,7 +139,8 @@ void MemoryPlan::share_out(const FrontNeeds& needs) {
   size_chunks(std::max(budget_bytes / 8, room / 2), std::max<std::size_t>(usual, kUsefulTriangles));
 }
 
-// The patches of a stretch take a quarter of the memory, so that the stretch can be long.
+// The patches of a stretch take a quarter of the memory at most, so that the stretch can be long. Larger ones would
+// make nothing faster: the border that they save is within the stretch.
 void MemoryPlan::size_chunks(std::uint64_t bytes, std::size_t most_triangles) {
   const std::uint64_t room = bytes;
   bytes = std::min(bytes, allows_threads() ? kUsefulChunkBytes : budget_bytes / 10);
@@ -149,7 +150,7 @@ void MemoryPlan::size_chunks(std::uint64_t bytes, std::size_t most_triangles) {
                       std::min(ChunkSize{}.first, most_triangles));
   };
   chunk.first = fitting(bytes);
-  chunk.patch = fitting(bytes / 4);
+  chunk.patch = std::min(fitting(bytes / 4), kUsefulTriangles);
   const auto stretch =
       static_cast<std::size_t>(saturating_minus(bytes, chunk.patch * triangle_bytes()) / kStretchBytes);
   chunk.most = std::clamp(stretch, chunk.first, chunk.most);
