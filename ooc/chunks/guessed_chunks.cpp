@@ -51,7 +51,7 @@ bool GuessedChunks::read_triangles(Chunk& chunk) {
   constexpr std::size_t kTrianglesInCache = 1024;
   const std::size_t most = 3 * size_.size();
   std::size_t count = 0;
-  numbers_.start(chunk.ids, size_.size());
+  numbers_.start(chunk.ids, size_.size() / 2);  // of a surface, whose triangles have half a vertex each
   chunk.corners.resize(most);
   while (count < most && chunk.vertex_count() <= options_.chunk.most_vertices) {
     const auto corners = reading_.next(std::min(kTrianglesInCache, (most - count) / 3));
