@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "libreeb/graph/reeb_graph.h"
+#include "libreeb/graph/tables_in_memory.h"
 #include "libreeb/hierarchy/bucket_lists.h"
 #include "libreeb/hierarchy/canceller.h"
 
@@ -25,8 +26,8 @@ class NodesInMemory {
     return graph_.positions.empty() ? std::array<double, 3>{} : graph_.positions[node.value()];
   }
   void prefetch(NodeId node) const {
-    __builtin_prefetch(&graph_.nodes[node.value()]);
-    if (!graph_.positions.empty()) __builtin_prefetch(&graph_.positions[node.value()]);
+    reeb::prefetch(&graph_.nodes[node.value()]);
+    if (!graph_.positions.empty()) reeb::prefetch(&graph_.positions[node.value()]);
   }
 
  private:

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "libreeb/graph/packed_buckets.h"
+#include "libreeb/graph/tables_in_memory.h"
 #include "libreeb/hierarchy/bucket_versions.h"
 #include "libreeb/hierarchy/canceller.h"
 #include "libreeb/hierarchy/pairing.h"
@@ -21,12 +22,16 @@ void release_arcs(ReebGraph& graph) {
 // Pairs that are near in persistence can be anywhere in memory. Without prefetching, each would wait for memory many
 // times.
 template <class Content>
-void prefetch(const Canceller<Content>& canceller, const std::vector<PersistencePair>& pairs, std::size_t at) {
-  constexpr std::size_t kNodesAhead = 12, kArcsAhead = 8, kNeighboursAhead = 4;  // counted in pairs
-  if (at + kNodesAhead >= pairs.size()) return;
-  canceller.prefetch_nodes(pairs[at + kNodesAhead]);
-  canceller.prefetch_arcs(pairs[at + kArcsAhead]);
-  canceller.prefetch_neighbours(pairs[at + kNeighboursAhead]);
+void prefetch(const ReebGraph& graph, const Canceller<Content>& canceller, const std::vector<PersistencePair>& pairs,
+              std::size_t at) {
+  constexpr std::size_t kTurns = 4, kStages = 5;  // pairs from one stage to the next
+  if (at + kStages * kTurns >= pairs.size()) return;
+  for (const NodeId node : {pairs[at + kTurns].lo, pairs[at + kTurns].hi}) reeb::prefetch(&graph.nodes[node.value()]);
+  canceller.prefetch_nodes(pairs[at + 5 * kTurns]);
+  canceller.prefetch_arcs(pairs[at + 4 * kTurns]);
+  canceller.prefetch_neighbours(pairs[at + 3 * kTurns]);
+  canceller.prefetch_next(pairs[at + 2 * kTurns]);
+  canceller.prefetch_beyond(pairs[at + kTurns]);
 }
 
 template <class Content>
@@ -37,7 +42,7 @@ void cancel_all(const ReebGraph& graph, Canceller<Content>& canceller, Hierarchy
     PersistencePair& pair = hierarchy.pairs[i];
     if (pair.type == PairType::kExt0) break;
     if (poll && i % kPairsBetweenPolls == 0) poll(static_cast<double>(i) / static_cast<double>(hierarchy.pairs.size()));
-    prefetch(canceller, hierarchy.pairs, i);
+    prefetch(graph, canceller, hierarchy.pairs, i);
     pair.kept = !canceller.cancel(pair);
     if (!pair.kept) hierarchy.persistence.push_back(persistence_of(graph, pair));
   }

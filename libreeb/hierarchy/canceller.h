@@ -95,30 +95,34 @@ class Canceller {
     return true;
   }
 
-  // Prefetch what cancelling a pair reads first. Call them in this order, each for a pair some turns before the next
-  // call for it: each reads what the one before has fetched.
+  // Prefetch what cancelling a pair reads: its nodes; their nearest arcs; the far ends of these, and the arcs below
+  // them in their heaps; the arcs at these far ends, and the far ends of the arcs below; the arcs there. Call them in
+  // this order, each for a pair some turns before the next call for it: each reads what the one before has fetched.
   void prefetch_nodes(const PersistencePair& pair) const {
     for (const NodeId id : {pair.lo, pair.hi}) {
-      graph_.prefetch_node(id);
+      prefetch_node(id);
       search_.prefetch(id);
-      ways_.prefetch(id);
-      content_.prefetch_node(id);
     }
   }
   void prefetch_arcs(const PersistencePair& pair) const {
-    for (const NodeId id : {pair.lo, pair.hi}) {
-      graph_.prefetch_arcs(id);
-      for_nearest(id, [&](ArcId arc) {
-        log_.prefetch(arc);
-        content_.prefetch_place(arc);
-      });
-    }
+    for_nearest(pair, [&](ArcId arc, Direction /*d*/) { prefetch_arc(arc); });
   }
   void prefetch_neighbours(const PersistencePair& pair) const {
-    for (const NodeId id : {pair.lo, pair.hi}) {
-      graph_.prefetch_neighbours(id);
-      for_nearest(id, [&](ArcId arc) { content_.prefetch(arc); });
-    }
+    for_nearest(pair, [&](ArcId arc, Direction d) {
+      prefetch_node(graph_.end(arc, d));
+      content_.prefetch(arc);
+    });
+    for_next(pair, [&](ArcId arc, Direction /*d*/) { prefetch_arc(arc); });
+  }
+  void prefetch_next(const PersistencePair& pair) const {
+    for_nearest(pair, [&](ArcId arc, Direction d) { graph_.prefetch_arcs(graph_.end(arc, d)); });
+    for_next(pair, [&](ArcId arc, Direction d) {
+      prefetch_node(graph_.end(arc, d));
+      content_.prefetch(arc);
+    });
+  }
+  void prefetch_beyond(const PersistencePair& pair) const {
+    for_next(pair, [&](ArcId arc, Direction d) { graph_.prefetch_arcs(graph_.end(arc, d)); });
   }
 
   const Graph& graph() const { return graph_; }
@@ -140,10 +144,30 @@ class Canceller {
   bool cancel_loop(NodeId v, NodeId y);
   void take_away(ArcId arc);
 
+  void prefetch_node(NodeId node) const {
+    graph_.prefetch_node(node);
+    ways_.prefetch(node);
+    content_.prefetch_node(node);
+  }
+  void prefetch_arc(ArcId arc) const {
+    graph_.prefetch_arc(arc);
+    log_.prefetch(arc);
+    content_.prefetch_place(arc);
+  }
+  // Calls visit(arc, d) for the nearest arc of each node of the pair in each direction.
   template <class Visit>
-  void for_nearest(NodeId node, const Visit& visit) const {
-    for (const Direction d : {kDown, kUp})
-      if (const ArcId arc = graph_.nearest(node, d); arc != kNone) visit(arc);
+  void for_nearest(const PersistencePair& pair, const Visit& visit) const {
+    for (const NodeId node : {pair.lo, pair.hi})
+      for (const Direction d : {kDown, kUp})
+        if (const ArcId arc = graph_.nearest(node, d); arc != kNone) visit(arc, d);
+  }
+  // The same for the arcs below these in their heaps. A node of three arcs has no others.
+  template <class Visit>
+  void for_next(const PersistencePair& pair, const Visit& visit) const {
+    for_nearest(pair, [&](ArcId nearest, Direction d) {
+      for (const ArcId arc : graph_.below_in_heap(nearest, d))
+        if (arc != kNone) visit(arc, d);
+    });
   }
 
   // Zips the two paths, which go in direction d.

@@ -125,6 +125,12 @@ void PackedLists::collect() {
 }
 
 void PackedLists::abandon(std::uint32_t index) {
+  // Their arcs can be anywhere in places_.
+  for (std::uint32_t offset = 0; offset < chunks_[index].used;) {
+    const Block block = block_at(chunks_[index], offset);
+    prefetch_place(block.arc);
+    offset = block.end;
+  }
   for (std::uint32_t offset = 0; chunks_[index].live != 0 && offset < chunks_[index].used;) {
     const Block block = block_at(chunks_[index], offset);
     if (places_[block.arc] == place(index, offset)) {

@@ -2,6 +2,7 @@
 // replaced.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -10,6 +11,7 @@
 
 #include "libreeb/graph/arc_buckets.h"
 #include "libreeb/graph/bucket.h"
+#include "libreeb/graph/tables_in_memory.h"
 
 namespace reeb {
 
@@ -34,10 +36,14 @@ class PackedLists {
   std::span<const std::byte> of(std::size_t arc) const;
 
   // Prefetches where the list is stored; when that has arrived, prefetch() fetches the list.
-  void prefetch_place(std::size_t arc) const { __builtin_prefetch(&places_[arc]); }
+  void prefetch_place(std::size_t arc) const { reeb::prefetch(&places_[arc]); }
   void prefetch(std::size_t arc) const {
+    constexpr std::uint32_t kLineBytes = 64, kBytes = 128;  // most lists are no longer
     const std::uint64_t place = places_[arc];
-    if (place != kNowhere) __builtin_prefetch(chunks_[place >> 32].bytes.get() + static_cast<std::uint32_t>(place));
+    if (place == kNowhere) return;
+    const Chunk& chunk = chunks_[place >> 32];
+    const auto first = static_cast<std::uint32_t>(place), end = std::min(chunk.used, first + kBytes);
+    for (std::uint32_t at = first; at < end; at += kLineBytes) reeb::prefetch(chunk.bytes.get() + at);
   }
 
   void replace(std::size_t arc, std::span<const std::byte> packed);

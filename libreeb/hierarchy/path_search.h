@@ -93,6 +93,9 @@ typename PathSearch<Graph>::ForkArcs PathSearch<Graph>::arcs_of_fork(Direction d
 template <class Graph>
 ArcId PathSearch<Graph>::arc_to_extremum(Direction d, NodeId fork, NodeId extremum) {
   const bool searched = kept_[d][fork.value()];
+  if (const ArcId arc = graph_.nearest(extremum, opposite(d));
+      !searched && arc != kNone && graph_.end(arc, opposite(d)) == fork)
+    return arc;
   back_.start(extremum, opposite(d), fork);
   if (searched) {
     back_.finish();

@@ -62,15 +62,13 @@ class BasicWorkingGraph {
   template <class Accept>
   ArcId nearest_if(NodeId node, Direction d, NodeId limit, Accept accept);
 
-  // Prefetch a node; its nearest arcs; the far ends of these and the arcs below them in their heaps. Each call reads
-  // what the one before has fetched.
+  // Prefetch a node; its nearest arcs, when the node has arrived.
   void prefetch_node(NodeId node) const { tables_.prefetch(top_, node); }
   void prefetch_arc(ArcId arc) const { tables_.prefetch(arcs_, arc); }
   void prefetch_arcs(NodeId node) const {
     for (const ArcId arc : top_[node])
       if (arc != kNone) prefetch_arc(arc);
   }
-  void prefetch_neighbours(NodeId node) const;
 
   // Moves the end of `arc` on side d to `node`. REQUIRES: its lower end stays below its upper end.
   void move_end(ArcId arc, Direction d, NodeId node);
@@ -129,17 +127,6 @@ void BasicWorkingGraph<TableKind>::put(ArcId arc, NodeId lo, NodeId hi) {
   arcs_[arc].end = {lo, hi};
   insert(arc, kUp);
   insert(arc, kDown);
-}
-
-template <class TableKind>
-void BasicWorkingGraph<TableKind>::prefetch_neighbours(NodeId node) const {
-  for (const Direction d : {kDown, kUp}) {
-    if (top_[node][d] == kNone) continue;
-    const Arc& arc = arcs_[top_[node][d]];
-    prefetch_node(arc.end[d]);
-    for (const ArcId child : arc.heap[d].child)
-      if (child != kNone) prefetch_arc(child);
-  }
 }
 
 template <class TableKind>
