@@ -147,9 +147,7 @@ class Reorder {
 
   // The rank of a vertex is its place along the curve.
   void rank_vertices() {
-    SortOptions options = sorting();
-    options.background = has_two_threads_;  // the other thread has less to do meanwhile
-    KeySort by_key("reorder", temp_, budget_, options);
+    KeySort by_key("reorder", temp_, budget_, sorting());
     add_keys(by_key);
     by_key.finish(0, [this] { poll_vertices(); });
     tell_vertices(kKeyed);
@@ -333,7 +331,10 @@ class Reorder {
     const std::uint64_t wanted = std::max(kInCache, vertices / kManySlices);
     return static_cast<unsigned>(std::bit_width(std::min(wanted, std::max<std::uint64_t>(kItemsAtOnce, most))) - 1);
   }
-  SortOptions sorting() const { return {.allowance_bytes = options_.allowance_bytes / 2, .threads = options_.threads}; }
+  SortOptions sorting() const {
+    return {
+        .allowance_bytes = options_.allowance_bytes / 2, .threads = options_.threads, .background = has_two_threads_};
+  }
   // What both threads hold at most beside the sorted runs: three partitions, and a slice of numbers and of ranks.
   std::uint64_t slices_bytes() const {
     return 3 * slices_ * PartitionLogs<Rank>::kBlockBytes + slice_entries() * (8 + sizeof(Rank));
