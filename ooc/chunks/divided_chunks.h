@@ -22,9 +22,10 @@ class DividedChunks : public ChunkSource {
  public:
   // `stretches` must outlive this. Chunks of at most about size.first triangles and size.first_vertices vertices pass
   // unchanged. Others are cut into patches of at most about size.patch triangles, fewer if they have many vertices.
+  // `threads` threads divide.
   // THROWS, in next(): Error{kResource} of the budget.
-  DividedChunks(ChunkSource& stretches, const ChunkSize& size, MemoryBudget& budget)
-      : stretches_(stretches), size_(size), reservation_(budget.reserve("stretch of chunks", 0)) {}
+  DividedChunks(ChunkSource& stretches, const ChunkSize& size, MemoryBudget& budget, unsigned threads)
+      : stretches_(stretches), size_(size), reservation_(budget.reserve("stretch of chunks", 0)), patches_(threads) {}
 
   bool next(WorkItem& item) override;
   std::uint64_t bytes_read() const override { return stretches_.bytes_read(); }

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 
+#include "ooc/threads/parallel.h"
+
 namespace reeb::ooc {
 
 void PatchPartition::divide(const Chunk& chunk, std::size_t most) {
-  constexpr std::size_t kSamplesAPatch = 1024;
+  constexpr std::size_t kSamplesAPatch = 256;
   const std::size_t n = chunk.triangle_count(), stride = std::max<std::size_t>(1, most / kSamplesAPatch);
   cuts_.clear();
   patches_ = 0;
@@ -13,9 +15,19 @@ void PatchPartition::divide(const Chunk& chunk, std::size_t most) {
   triangles_.reserve(n);
   for (std::size_t i = 0; i < n; i += stride) triangles_.push_back(static_cast<std::uint32_t>(i));
   const std::uint32_t root = cut(chunk, triangles_, most / stride);
-  patch_of_.resize(n);
-  for (std::uint32_t i = 0; i < n; ++i) patch_of_[i] = patch_of(chunk, i, root);
+  find_patches(chunk, root);
   collect();
+}
+
+// The chunks that follow wait until a stretch is divided, so all threads help.
+void PatchPartition::find_patches(const Chunk& chunk, std::uint32_t root) {
+  constexpr std::size_t kAtOnce = 16384;
+  const std::size_t n = chunk.triangle_count();
+  patch_of_.resize(n);
+  in_parallel(threads_, (n + kAtOnce - 1) / kAtOnce, [&](std::size_t part) {
+    for (std::size_t i = part * kAtOnce; i < std::min((part + 1) * kAtOnce, n); ++i)
+      patch_of_[i] = patch_of(chunk, static_cast<std::uint32_t>(i), root);
+  });
 }
 
 // Returns the index of the cut that divides the sample, or its patch.

@@ -14,11 +14,13 @@ namespace reeb::ooc {
 // cut in the same way. Triangles that are all, or nearly all, at one point, or have no positions, are cut in the middle
 // of the stream. The position of a triangle is that of its first corner.
 //
-// TIME: O(n log(n / most)), about 10 ns per triangle.   MEMORY: 6 bytes per triangle.
+// TIME: O(n log(n / most)), about 8 ns per triangle, half of which `threads` threads share.
+// MEMORY: 6 bytes per triangle.
 class PatchPartition {
  public:
-  // Cuts patches of at most about `most` triangles, none of them empty. The limit is exact if `most` is less than
-  // 1,024.
+  explicit PatchPartition(unsigned threads) : threads_(threads) {}
+
+  // Cuts patches of at most about `most` triangles, none of them empty. The limit is exact if `most` is less than 256.
   // REQUIRES: most >= 1; the chunk has triangles, at most 65,536 times `most`.
   void divide(const Chunk& chunk, std::size_t most);
 
@@ -45,8 +47,10 @@ class PatchPartition {
   std::uint32_t cut(const Chunk& chunk, std::span<std::uint32_t> sample, std::size_t most);
   std::size_t divide_sample(const Chunk& chunk, std::span<std::uint32_t> sample, Cut& cut) const;
   std::uint16_t patch_of(const Chunk& chunk, std::uint32_t triangle, std::uint32_t root) const;
+  void find_patches(const Chunk& chunk, std::uint32_t root);
   void collect();
 
+  unsigned threads_;
   std::vector<Cut> cuts_;
   std::uint32_t patches_ = 0;
   std::vector<std::uint16_t> patch_of_;  // by triangle

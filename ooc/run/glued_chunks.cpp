@@ -20,7 +20,7 @@ constexpr std::uint64_t kChunksOfStart = 64;
 FirstStageResult glue_chunks(RunContext& run, ChunkSource& stretches, const MemoryPlan& plan, Checkpoint here,
                              FirstStageResult result, const std::function<void(std::size_t, const Glue&)>& at_end) {
   const Stopwatch watch;
-  DividedChunks source(stretches, plan.chunk, run.budget);
+  DividedChunks source(stretches, plan.chunk, run.budget, plan.threads);
   std::vector<GraphSink*> sinks;
   for (const auto& store : run.stores) sinks.push_back(store.get());
   if (run.follower) sinks.assign(1, run.follower.get());

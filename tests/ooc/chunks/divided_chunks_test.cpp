@@ -131,7 +131,7 @@ TEST(DividedChunks, HaveWhatTheStretchHas) {
     Made made(stretches);
     MemoryBudget budget;
     const std::size_t patch = random.between(1, 50), whole = patch + random.below(2) * random.below(30);
-    DividedChunks source(made, {.first = whole, .patch = patch}, budget);
+    DividedChunks source(made, {.first = whole, .patch = patch}, budget, 2);
     const std::vector<WorkItem> chunks = all_of(source);
     auto chunk = chunks.begin();
     for (const WorkItem& stretch : stretches) {
@@ -151,7 +151,7 @@ TEST(DividedChunks, HaveWhatTheStretchHas) {
 TEST(DividedChunks, HaveShortBorders) {
   Made made({strip(4000, 25)});
   MemoryBudget budget;
-  DividedChunks source(made, {.first = 200'000 / 16, .patch = 200'000 / 16}, budget);
+  DividedChunks source(made, {.first = 200'000 / 16, .patch = 200'000 / 16}, budget, 2);
   std::size_t shared = 0, chunks = 0;
   for (WorkItem item; source.next(item); ++chunks) {
     EXPECT_LE(item.chunk.triangle_count(), 200'000 / 16 * 1.1);
