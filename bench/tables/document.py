@@ -282,7 +282,7 @@ def page(result, cells, figures, has_picture):
                         "after the second one. Runs with and without it, in turns; the graphs must be the same, byte for "
                         "byte. Edges stay known until one end is complete, so that a third triangle is always noticed. "
                         "Little is saved here, since only edges at the borders of chunks have paths, and these are "
-                        "dropped when one end is complete, which is soon."),
+                        "dropped when one end is complete, which is soon. That every edge is checked takes more than that."),
               manifold_table(figures),
               "## Peers\n",
               paragraph("VTK's `vtkReebGraph` implements the paper's algorithm; its time is quadratic on these meshes, so "

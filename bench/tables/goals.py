@@ -4,16 +4,15 @@
 WHY = {
     "threads": "reading and numbering are in one thread, gluing in another; only the sweep is divided",
     "speed": "a run spends about 65 ns of processor time a triangle, in many places",
-    "huge": "the last pass of noise removal holds what it changes, some 5 MB more than the live graph took before",
+    "huge": "the last pass of noise removal holds the noise that was left, when the live graph is gone",
     "random function": "more than half of the vertices are nodes, so paths are long and most of the graph is written out",
     "tiles": "pieces that come in no order are sorted on disk, or glued with long borders",
     "noise": "exit code 3: the noise at the borders of tiles, 52 MB of it, stays in memory until the tiles beside them "
              "come",
-    "random order": "sorting the mesh on disk by position takes three quarters of the time, in hardly more than one "
-                    "thread",
+    "random order": "sorting the mesh on disk by position takes two thirds of the time",
     "buckets": "each vertex enters a bucket, and each arc has at least one: a third more is sorted, packed and written",
     "hierarchy": "each cancellation touches nodes and arcs all over memory",
-    "wide": "half of the time is gluing of the long border",
+    "wide": "a quarter of the time is gluing of long borders, and little else can go on while a stretch is read",
 }
 
 
