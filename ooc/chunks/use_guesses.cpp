@@ -93,7 +93,7 @@ void UseGuesses::sum_of_all(const Chunk& chunk) {
 
 std::uint64_t UseGuesses::take_rest(std::uint64_t first, std::uint64_t end, std::size_t most, Chunk& chunk) {
   constexpr std::uint64_t kEntriesAtOnce = 16 << 10;
-  while (first < end && chunk.vertex_count() < most) {
+  while (chunk.vertex_count() < most && (first = table_.next_unusual(first, end)) < end) {
     entries_.resize(static_cast<std::size_t>(std::min(kEntriesAtOnce, end - first)));
     table_.read(first, entries_);
     // Of a closed surface, all.

@@ -19,11 +19,12 @@ namespace reeb::ooc {
 // A wrong guess is detected as soon as a simplex uses the vertex again.
 //
 // TIME: O(1) per triangle, and one look-up in the table per vertex of a chunk.
-// MEMORY: the allowance, for a table of 4 bytes per vertex that is paged to disk.
+// MEMORY: the allowance, for a table of 4 bytes per vertex that is paged to disk, apart from pages whose vertices are
+// all taken for complete.
 class UseGuesses {
  public:
   UseGuesses(const io::TempDir& temp, MemoryBudget& budget, std::uint64_t allowance_bytes)
-      : table_("guessed uses", temp, budget, allowance_bytes, 0) {}
+      : table_("guessed uses", temp, budget, allowance_bytes, 0, kGuessed) {}
 
   enum class Verdict {
     kHolds,

@@ -5,13 +5,27 @@
 #include <utility>
 
 namespace reeb::ooc {
+namespace {
+
+void fill_page(std::byte* bytes, std::span<const std::byte> pattern) {
+  std::size_t filled = std::min(pattern.size(), PageCache::kPageBytes);
+  std::memcpy(bytes, pattern.data(), filled);
+  while (filled < PageCache::kPageBytes) {  // doubling keeps the pattern in step
+    const std::size_t more = std::min(filled, PageCache::kPageBytes - filled);
+    std::memcpy(bytes + filled, bytes, more);
+    filled += more;
+  }
+}
+
+}  // namespace
 
 PageCache::PageCache(const char* owner, const io::TempDir& temp, MemoryBudget& budget, std::uint64_t allowance_bytes,
-                     std::span<const std::byte> fill)
+                     std::span<const std::byte> fill, std::span<const std::byte> usual)
     : owner_(owner),
       temp_(&temp),
       allowance_(std::max<std::uint64_t>(allowance_bytes, kRequiredFrames * kPageBytes)),
       fill_(fill.begin(), fill.end()),
+      usual_(usual.begin(), usual.end()),
       pages_charge_(budget.reserve(owner, 0)),
       directory_charge_(budget.reserve(owner, 0)) {}
 
@@ -19,15 +33,16 @@ std::byte* PageCache::fault(std::size_t page, bool writing) {
   if (page >= places_.size()) grow_directory(page + 1);
   const std::uint32_t number = take_frame();
   Frame& frame = frames_[number];
-  const bool stored = places_[page] == kOnDisk;
+  const bool stored = places_[page] == kOnDisk, usual = places_[page] == kUsual;
   if (stored) {
     file_.read_at(page * kPageBytes, {frame.bytes, kPageBytes});
     ++refetches_;
   } else {
-    fill_fresh(frame.bytes);
+    fill_page(frame.bytes, usual ? usual_ : fill_);
   }
   frame.page = page;
-  frame.marks = kTouched | (stored ? kStored : 0) | (writing ? kDirty : 0);
+  // A page of the second pattern is nowhere else, so it counts as changed.
+  frame.marks = kTouched | (stored ? kStored : 0) | (writing || usual ? kDirty : 0);
   places_[page] = number;
   return frame.bytes;
 }
@@ -73,6 +88,11 @@ std::uint32_t PageCache::evict_one() {
   Frame& frame = frames_[victim];
   if (frame.page == kNoPage) return victim;  // left so by a read that failed
   if ((frame.marks & kDirty) != 0) {
+    if (consists_of_usual(frame.bytes)) {
+      places_[frame.page] = kUsual;
+      frame.page = kNoPage;
+      return victim;
+    }
     if (!file_.is_open()) file_ = temp_->create_unnamed(owner_);
     file_.write_at(frame.page * kPageBytes, {frame.bytes, kPageBytes});
     spilled_ += kPageBytes;
@@ -83,14 +103,11 @@ std::uint32_t PageCache::evict_one() {
   return victim;
 }
 
-void PageCache::fill_fresh(std::byte* bytes) const {
-  std::size_t filled = std::min(fill_.size(), kPageBytes);
-  std::memcpy(bytes, fill_.data(), filled);
-  while (filled < kPageBytes) {  // doubling keeps the pattern in step
-    const std::size_t more = std::min(filled, kPageBytes - filled);
-    std::memcpy(bytes + filled, bytes, more);
-    filled += more;
-  }
+// Each pattern after the first is compared with the one before it.
+bool PageCache::consists_of_usual(const std::byte* bytes) const {
+  const std::size_t size = usual_.size();
+  return size != 0 && std::memcmp(bytes, usual_.data(), size) == 0 &&
+         std::memcmp(bytes, bytes + size, kPageBytes - size) == 0;
 }
 
 }  // namespace reeb::ooc

@@ -16,7 +16,8 @@ namespace reeb::ooc {
 
 // Page k is kPageBytes bytes, at first repetitions of a fill pattern. Pages stay in memory while the allowance and the
 // budget permit. After that, the clock algorithm (second chance) picks a page that was not touched recently, and writes
-// it if it was changed. While all pages fit, nothing is written and no file is made.
+// it if it was changed. While all pages fit, nothing is written and no file is made. A page that consists of
+// repetitions of a second pattern when its turn comes is not written either; the directory says what it is.
 //
 // Pages are small, since most of what is needed again is a line of vertices here and there: the border of each patch,
 // the last row. The system collects writes, so small pages cost it little more time than large ones.
@@ -29,9 +30,10 @@ class PageCache {
   // The budget must grant at least this many frames; with fewer, nearly every access would be a miss.
   static constexpr std::size_t kRequiredFrames = 64;
 
-  // `owner` is a string literal for the budget's texts. `temp` must outlive this.
+  // `owner` is a string literal for the budget's texts. `temp` must outlive this. `usual` is the second pattern; empty:
+  // none.
   PageCache(const char* owner, const io::TempDir& temp, MemoryBudget& budget, std::uint64_t allowance_bytes,
-            std::span<const std::byte> fill);
+            std::span<const std::byte> fill, std::span<const std::byte> usual = {});
   PageCache(PageCache&&) noexcept = default;
   PageCache& operator=(PageCache&&) noexcept = default;
 
@@ -39,7 +41,7 @@ class PageCache {
   // `writing`.
   std::byte* page(std::size_t page, bool writing) {
     const std::uint32_t place = page < places_.size() ? places_[page] : kFresh;
-    if (place < kOnDisk) [[likely]] {
+    if (place < kUsual) [[likely]] {
       Frame& frame = frames_[place];
       frame.marks |= writing ? kTouched | kDirty : kTouched;
       return frame.bytes;
@@ -49,6 +51,9 @@ class PageCache {
 
   // True only if the page was never changed; false for every page that is in memory.
   bool is_fresh(std::size_t page) const { return page >= places_.size() || places_[page] == kFresh; }
+
+  // True only if the page is repetitions of the second pattern; false for every page that is in memory.
+  bool is_usual(std::size_t page) const { return page < places_.size() && places_[page] == kUsual; }
 
   // Raises the allowance to this, if it is less.
   void allow(std::uint64_t bytes) { allowance_ = std::max(allowance_, bytes); }
@@ -64,7 +69,7 @@ class PageCache {
 
  private:
   // Where a page is: in the frame with this number, or one of these values.
-  static constexpr std::uint32_t kFresh = ~std::uint32_t{0}, kOnDisk = kFresh - 1;
+  static constexpr std::uint32_t kFresh = ~std::uint32_t{0}, kOnDisk = kFresh - 1, kUsual = kFresh - 2;
   static constexpr std::uint32_t kTouched = 1, kDirty = 2, kStored = 4;  // kStored: in the file, too
   static constexpr std::size_t kNoPage = ~std::size_t{0};
   struct Frame {
@@ -79,12 +84,12 @@ class PageCache {
   std::uint32_t take_frame();
   bool may_grow();
   std::uint32_t evict_one();
-  void fill_fresh(std::byte* bytes) const;
+  bool consists_of_usual(const std::byte* bytes) const;
 
   const char* owner_;
   const io::TempDir* temp_;
   std::uint64_t allowance_;
-  std::vector<std::byte> fill_;
+  std::vector<std::byte> fill_, usual_;
   Reservation pages_charge_, directory_charge_;
   std::vector<std::uint32_t> places_;                 // by page
   std::vector<Frame> frames_;                         // in the order of the clock

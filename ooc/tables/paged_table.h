@@ -13,8 +13,9 @@
 namespace reeb::ooc {
 
 // A table of T, indexed from 0 without an upper limit. An entry that was never set has the fill value and costs
-// nothing. A hit is a shift, three loads and a mark, about 2 ns. A miss reads a page, and might write one. Made for
-// accesses that are mostly near each other.
+// nothing. Where nearly all entries get the same value in the end, that can be given as `usual`: pages of nothing else
+// cost nothing on disk. A hit is a shift, three loads and a mark, about 2 ns. A miss reads a page, and might write one.
+// Made for accesses that are mostly near each other.
 //
 // THROWS: Error{kResource} if the disk is full, or the budget lacks the smallest working set.
 // MEMORY: as PageCache.   THREADS: one at a time.
@@ -30,6 +31,13 @@ class PagedTable {
   PagedTable(const char* owner, const io::TempDir& temp, MemoryBudget& budget, std::uint64_t allowance_bytes,
              const T& fill)
       : cache_(owner, temp, budget, allowance_bytes, std::as_bytes(std::span(&fill, 1))) {}
+  // REQUIRES: the size of T is a power of two.
+  PagedTable(const char* owner, const io::TempDir& temp, MemoryBudget& budget, std::uint64_t allowance_bytes,
+             const T& fill, const T& usual)
+      : cache_(owner, temp, budget, allowance_bytes, std::as_bytes(std::span(&fill, 1)),
+               std::as_bytes(std::span(&usual, 1))) {
+    static_assert(std::has_single_bit(sizeof(T)), "else a page ends with a part of an entry");
+  }
 
   T get(std::uint64_t index) { return entry(index, false); }
   void set(std::uint64_t index, const T& value) { entry(index, true) = value; }
@@ -75,6 +83,13 @@ class PagedTable {
   // The first entry from `index` to before `end` that may have been set; `end` if there is none.
   std::uint64_t next_set(std::uint64_t index, std::uint64_t end) const {
     while (index < end && cache_.is_fresh(static_cast<std::size_t>(index >> kShift)))
+      index = ((index >> kShift) + 1) << kShift;
+    return std::min(index, end);
+  }
+
+  // The first entry from `index` to before `end` that may differ from `usual`; `end` if there is none.
+  std::uint64_t next_unusual(std::uint64_t index, std::uint64_t end) const {
+    while (index < end && cache_.is_usual(static_cast<std::size_t>(index >> kShift)))
       index = ((index >> kShift) + 1) << kShift;
     return std::min(index, end);
   }

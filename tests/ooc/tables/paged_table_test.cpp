@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <bit>
 #include <map>
+#include <optional>
 #include <random>
 
 #include "libreeb/base/error.h"
@@ -28,7 +30,7 @@ T value_of(std::uint64_t number) {
 
 // Random operations compared with a map, at indices that jump between near and far.
 template <class T>
-void compare_with_map(std::uint64_t allowance, std::uint64_t seed) {
+void compare_with_map(std::uint64_t allowance, std::uint64_t seed, std::optional<T> usual = {}) {
   SCOPED_TRACE(testing::Message() << "allowance " << allowance << " seed " << seed);
   const Scratch scratch;
   const io::TempDir temp(scratch.path());
@@ -36,6 +38,8 @@ void compare_with_map(std::uint64_t allowance, std::uint64_t seed) {
   {
     const T fill = value_of<T>(77);
     PagedTable<T> table("table", temp, budget, allowance, fill);
+    if constexpr (std::has_single_bit(sizeof(T)))
+      if (usual) table = PagedTable<T>("table", temp, budget, allowance, fill, *usual);
     std::map<std::uint64_t, T> model;
     const auto expected = [&](std::uint64_t i) { return model.contains(i) ? model[i] : fill; };
     std::mt19937_64 random(seed);
@@ -43,7 +47,7 @@ void compare_with_map(std::uint64_t allowance, std::uint64_t seed) {
     for (int step = 0; step < 20'000; ++step) {
       if (step % 20 == 0) near = random() % 500'000;
       const std::uint64_t i = near + random() % 3000;
-      const T value = value_of<T>(random());
+      const T value = usual && step % 3 == 0 ? *usual : value_of<T>(random());
       switch (random() % 6) {
         case 0:
           table.set(i, value), model[i] = value;
@@ -93,6 +97,8 @@ TEST(PagedTable, AgreesWithAMapWhileItSpills) {
     compare_with_map<std::uint32_t>(0, seed);
     compare_with_map<double>(512 << 10, seed);
     compare_with_map<Point3f>(5 * 65536, seed);
+    compare_with_map<std::uint32_t>(0, seed, 77);
+    compare_with_map<double>(512 << 10, seed, 0.0);
   }
 }
 
@@ -107,6 +113,38 @@ TEST(PagedTable, IsPlainMemoryWhileItFits) {
   for (std::uint32_t i = 0; i < 1'000'000; ++i) ASSERT_EQ(table.get(i), i * 3);
   EXPECT_EQ(writes.count(), 0u);
   EXPECT_EQ(table.pages().spilled_bytes(), 0u);
+}
+
+// A page that was never in the file, and one that was.
+// order.
+TEST(PagedTable, PagesOfTheUsualValueAreNotWritten) {
+  constexpr std::uint64_t kEntries = 500 * 1024;
+  const Scratch scratch;
+  const FaultAtCall writes(io::FileCall::kWrite);
+  const io::ScopedFileFaults faults(writes);
+  const io::TempDir temp(scratch.path());
+  MemoryBudget budget;
+  PagedTable<std::uint32_t> table("table", temp, budget, 0, 0u, 7u);
+  for (std::uint64_t i = 0; i < kEntries; ++i) table.set(i, 7);
+  EXPECT_EQ(writes.count(), 0u);
+  EXPECT_GT(table.next_unusual(0, kEntries), 100'000u);
+  EXPECT_LT(table.next_unusual(0, kEntries), kEntries) << "what is in memory may differ";
+  for (std::uint64_t i = 0; i < kEntries; ++i) ASSERT_EQ(table.get(i), 7u);
+  EXPECT_EQ(writes.count(), 0u) << "a usual page was read, and is still usual";
+
+  const auto pass_over_all = [&] {
+    for (std::uint64_t i = 0; i < kEntries; i += 500) table.get(i);
+  };
+  table.set(5000, 8);
+  pass_over_all();
+  EXPECT_EQ(table.pages().spilled_bytes(), PageCache::kPageBytes);
+  EXPECT_EQ(table.next_unusual(0, kEntries), 5000u / 1024 * 1024);
+  ASSERT_EQ(table.get(5000), 8u);
+  table.set(5000, 7);
+  pass_over_all();
+  EXPECT_EQ(table.pages().spilled_bytes(), PageCache::kPageBytes);
+  EXPECT_GT(table.next_unusual(0, kEntries), 100'000u);
+  for (std::uint64_t i = 0; i < kEntries; ++i) ASSERT_EQ(table.get(i), 7u);
 }
 
 TEST(PagedTable, ReadingWhatWasNeverSetWritesNothing) {
