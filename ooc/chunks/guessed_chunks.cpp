@@ -5,6 +5,7 @@
 
 #include "libreeb/base/error.h"
 #include "ooc/chunks/coherence.h"
+#include "ooc/threads/parallel.h"
 
 namespace reeb::ooc {
 
@@ -20,8 +21,7 @@ GuessedChunks::GuessedChunks(FirstReading& reading, FunctionValues& functions, c
 }
 
 bool GuessedChunks::next(WorkItem& item) {
-  if (!read_chunk(item.chunk)) return false;
-  lookup_.look_up(reading_.mesh(), item);
+  if (!read_chunk(item.chunk, [&] { lookup_.look_up(reading_.mesh(), item); })) return false;
   item.end = {.triangles = triangles_read_,
               .next_vertex = next_vertex_,
               .digest = reading_.digest(),
@@ -32,7 +32,7 @@ bool GuessedChunks::next(WorkItem& item) {
 void GuessedChunks::pass_over(const ChunkPlace& start) {
   passing_over_ = true;
   Chunk chunk;
-  while ((triangles_read_ < start.triangles || next_vertex_ < start.next_vertex) && read_chunk(chunk)) continue;
+  while ((triangles_read_ < start.triangles || next_vertex_ < start.next_vertex) && read_chunk(chunk, [] {})) continue;
   passing_over_ = false;
   if (triangles_read_ != start.triangles || next_vertex_ != start.next_vertex ||
       (triangles_read_ + next_vertex_ != 0 && reading_.digest() != start.digest))
@@ -40,14 +40,17 @@ void GuessedChunks::pass_over(const ChunkPlace& start) {
   if (!start.ranges.empty()) functions_.set_ranges(start.ranges);
 }
 
-bool GuessedChunks::read_chunk(Chunk& chunk) {
+bool GuessedChunks::read_chunk(Chunk& chunk, const LookUp& look_up) {
   chunk.clear();
   if (given_up_) return false;
-  return read_triangles(chunk) || (!given_up_ && read_rest(chunk));
+  if (read_triangles(chunk, look_up)) return true;
+  if (given_up_ || !read_rest(chunk)) return false;
+  look_up();
+  return true;
 }
 
 // A small batch at a time, so that corners are numbered while they are in the first-level cache.
-bool GuessedChunks::read_triangles(Chunk& chunk) {
+bool GuessedChunks::read_triangles(Chunk& chunk, const LookUp& look_up) {
   constexpr std::size_t kTrianglesInCache = 1024;
   const std::size_t most = 3 * size_.size();
   std::size_t count = 0;
@@ -62,7 +65,14 @@ bool GuessedChunks::read_triangles(Chunk& chunk) {
   chunk.corners.resize(count);
   if (count == 0) return false;
   triangles_read_ += count / 3;
-  given_up_ = guesses_.add(chunk, most_open()) != UseGuesses::Verdict::kHolds;
+  // Where other threads have swept all that was read, they wait for this. The mesh keeps the ids of the input, so
+  // looking up does not change them.
+  in_parallel(options_.threads, 2, [&](std::size_t part) {
+    if (part == 0)
+      given_up_ = guesses_.add(chunk, most_open()) != UseGuesses::Verdict::kHolds;
+    else
+      look_up();
+  });
   if (count < most)
     size_.adapt(chunk, count / 3);
   else

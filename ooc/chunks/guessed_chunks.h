@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 
 #include "ooc/chunks/chunk_growth.h"
 #include "ooc/chunks/chunk_source.h"
@@ -18,6 +19,7 @@ struct GuessOptions {
   std::uint64_t allowance_bytes = 16 << 20;  // of the budget, for the table of guesses
   // With more open vertices than this, or than a coherent mesh of its size has, guessing is not worthwhile.
   std::uint64_t most_open_vertices = ~std::uint64_t{0};
+  unsigned threads = 1;  // with more, vertices of a chunk are looked up while their uses are guessed
 };
 
 // Cuts chunks from a mesh and guesses which vertices are complete (use_guesses.h).
@@ -44,9 +46,11 @@ class GuessedChunks : public ChunkSource {
   const UseGuesses& guesses() const { return guesses_; }
 
  private:
+  using LookUp = std::function<void()>;  // of the vertices of a chunk
+
   void pass_over(const ChunkPlace& start);
-  bool read_chunk(Chunk& chunk);
-  bool read_triangles(Chunk& chunk);
+  bool read_chunk(Chunk& chunk, const LookUp& look_up);
+  bool read_triangles(Chunk& chunk, const LookUp& look_up);
   bool read_rest(Chunk& chunk);
   std::uint64_t most_open() const;
 

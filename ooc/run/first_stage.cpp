@@ -136,7 +136,10 @@ GuessedRun run_guessing(RunContext& run, FirstReading& reading, const MemoryPlan
   if (chunk.first == 0 || chunk.first > chunk.most || chunk.most > most) throw DamagedState();
   GuessedChunks source(
       reading, run.values, run.temp, run.budget,
-      {.chunk = chunk, .allowance_bytes = plan.table_bytes, .most_open_vertices = plan.most_live_vertices()},
+      {.chunk = chunk,
+       .allowance_bytes = plan.table_bytes,
+       .most_open_vertices = plan.most_live_vertices(),
+       .threads = plan.threads},
       place_of(start));
   result = glue_chunks(run, source, plan, {.origin = ChunkOrigin::kGuessed, .chunk = chunk}, std::move(result));
   const UseGuesses& guesses = source.guesses();

@@ -13,6 +13,10 @@ namespace reeb::ooc {
 
 void in_parallel(unsigned threads, std::size_t count, const std::function<void(std::size_t)>& work) {
   if (threads == 0) threads = std::max(1u, std::thread::hardware_concurrency());
+  if (threads == 1) {
+    for (std::size_t i = 0; i < count; ++i) work(i);
+    return;
+  }
   const PipelineOrder order;
   const auto body = [&](std::size_t i) {
     PipelineOrder::begin_filter();
@@ -22,7 +26,8 @@ void in_parallel(unsigned threads, std::size_t count, const std::function<void(s
   };
   kept_arena(threads).execute([&] {
     PipelineOrder::filters_are_made();
-    tbb::parallel_for(std::size_t{0}, count, body);
+    // A thread that waits here must not begin other work, which can take longer.
+    tbb::this_task_arena::isolate([&] { tbb::parallel_for(std::size_t{0}, count, body); });
   });
 }
 
