@@ -57,15 +57,24 @@ void GraphFileWriter::add_nodes(std::span<const SettledNode> nodes) {
 }
 
 void GraphFileWriter::add_arcs(std::span<const ArcKeys> arcs, const ArcBucketsView& buckets) {
-  ranked_.resize(arcs.size());
-  if (keys_)
-    rank_by_search(arcs);
-  else
-    rank_by_vertex(arcs);
-  add_arcs(std::span<const FileArc>(ranked_), buckets);
+  end_nodes();
+  rank(arcs, ranked_);
+  add_arcs(std::span<const FileArc>(ranked_.arcs), buckets);
 }
 
-void GraphFileWriter::rank_by_vertex(std::span<const ArcKeys> arcs) {
+void GraphFileWriter::end_nodes() {
+  if (!std::exchange(sealed_, true) && keys_) keys_->seal();
+}
+
+void GraphFileWriter::rank(std::span<const ArcKeys> arcs, RankedArcs& ranked) const {
+  ranked.arcs.resize(arcs.size());
+  if (keys_)
+    rank_by_search(arcs, ranked);
+  else
+    rank_by_vertex(arcs, ranked.arcs);
+}
+
+void GraphFileWriter::rank_by_vertex(std::span<const ArcKeys> arcs, std::vector<FileArc>& ranked) const {
   const auto rank = [&](const SweepKey& key) {
     const std::uint64_t vertex = key.vertex.value();
     if (vertex >= rank_of_.size() || rank_of_[vertex] == kNoNode)
@@ -75,7 +84,7 @@ void GraphFileWriter::rank_by_vertex(std::span<const ArcKeys> arcs) {
   for (std::size_t i = 0; i < arcs.size(); ++i) {
     if (i + kAhead < arcs.size()) prefetch_rank(arcs[i + kAhead].hi);
     if (i + kAhead < arcs.size()) prefetch_rank(arcs[i + kAhead].lo);
-    ranked_[i] = {rank(arcs[i].lo), rank(arcs[i].hi), 0, kNeverDies};
+    ranked[i] = {rank(arcs[i].lo), rank(arcs[i].hi), 0, kNeverDies};
   }
 }
 
@@ -85,11 +94,11 @@ void GraphFileWriter::prefetch_rank(const SweepKey& key) const {
 
 // Upper ends are looked up in their own order: a large batch then touches each page of the table once, and each search
 // starts near the result of the last one.
-void GraphFileWriter::rank_by_search(std::span<const ArcKeys> arcs) {
-  if (!std::exchange(sealed_, true)) keys_->seal();
-  by_hi_.resize(arcs.size());
-  std::iota(by_hi_.begin(), by_hi_.end(), 0u);
-  std::sort(by_hi_.begin(), by_hi_.end(), [&](std::uint32_t a, std::uint32_t b) { return arcs[a].hi < arcs[b].hi; });
+void GraphFileWriter::rank_by_search(std::span<const ArcKeys> arcs, RankedArcs& ranked) const {
+  std::vector<std::uint32_t>& by_hi = ranked.by_hi;
+  by_hi.resize(arcs.size());
+  std::iota(by_hi.begin(), by_hi.end(), 0u);
+  std::sort(by_hi.begin(), by_hi.end(), [&](std::uint32_t a, std::uint32_t b) { return arcs[a].hi < arcs[b].hi; });
   // The system maps a window around each page that is touched. Other look-ups might not need that window, so the pages
   // are released regularly. A look-up that goes far touches some pages on the way, in steps that double.
   constexpr std::uint64_t kWindowKeys = (64 << 10) / sizeof(SweepKey), kWindows = 32;
@@ -103,12 +112,13 @@ void GraphFileWriter::rank_by_search(std::span<const ArcKeys> arcs) {
     }
     return rank;
   };
+  std::uint64_t lo_rank = 0;
   for (std::size_t i = 0; i < arcs.size(); ++i) {
-    lo_rank_ = look_up(arcs[i].lo, lo_rank_);
-    ranked_[i] = {lo_rank_, 0, 0, kNeverDies};
+    lo_rank = look_up(arcs[i].lo, lo_rank);
+    ranked.arcs[i] = {lo_rank, 0, 0, kNeverDies};
   }
-  std::uint64_t hi_rank = 0;
-  for (const std::uint32_t arc : by_hi_) ranked_[arc].hi = hi_rank = look_up(arcs[arc].hi, hi_rank);
+  std::uint64_t hi_rank = arcs.empty() ? 0 : ranked.arcs[0].lo;
+  for (const std::uint32_t arc : by_hi) ranked.arcs[arc].hi = hi_rank = look_up(arcs[arc].hi, hi_rank);
   keys_->release_pages();
 }
 

@@ -84,13 +84,24 @@ class GraphFileWriter {
     MemoryBudget* budget = nullptr;     // requires `temp`; null: memory is not counted
     OutputOptions output = {};
   };
+  // Arcs whose ends are ranks of nodes, with memory to find these.
+  struct RankedArcs {
+    std::vector<FileArc> arcs;
+    std::vector<std::uint32_t> by_hi;
+  };
 
   GraphFileWriter(const std::string& path, FileMeta meta, const Options& options);
 
   // REQUIRES: ascending, over all calls.
   void add_nodes(std::span<const SettledNode> nodes);
 
-  // Faster in large batches (40 bytes per arc of the batch).
+  // No nodes follow. Needed before rank() only.
+  void end_nodes();
+  // Looks up the ends of arcs. Faster in large batches that are ascending (28 bytes per arc of the batch).
+  // REQUIRES: end_nodes() was called; kKeys or kKeysInMemory.   THREADS: any number at a time.
+  void rank(std::span<const ArcKeys> arcs, RankedArcs& ranked) const;
+
+  // Looks up, too.
   // REQUIRES: after all nodes; ascending by (lo, hi), over all calls; lo below hi. With an embedding, `buckets` has
   //           those of this batch.
   void add_arcs(std::span<const ArcKeys> arcs, const ArcBucketsView& buckets = {});
@@ -104,9 +115,9 @@ class GraphFileWriter {
   std::uint64_t spilled_bytes() const { return components_.spilled_bytes() + (keys_ ? keys_->spilled_bytes() : 0); }
 
  private:
-  void rank_by_vertex(std::span<const ArcKeys> arcs);
+  void rank_by_vertex(std::span<const ArcKeys> arcs, std::vector<FileArc>& ranked) const;
   void prefetch_rank(const SweepKey& key) const;
-  void rank_by_search(std::span<const ArcKeys> arcs);
+  void rank_by_search(std::span<const ArcKeys> arcs, RankedArcs& ranked) const;
   void flush_if_full();
   void flush();
   void write(const GraphFrame& frame);
@@ -119,12 +130,11 @@ class GraphFileWriter {
   std::vector<std::uint32_t> rank_of_;  // by vertex
   GraphFrame frame_, writing_;
   std::vector<std::byte> payload_;
-  std::vector<FileArc> ranked_;
-  std::vector<std::uint32_t> by_hi_;
+  RankedArcs ranked_;
   std::optional<SweepKey> last_node_;
   std::optional<FileArc> last_arc_;
   ComponentCount components_;
-  std::uint64_t lo_rank_ = 0, buckets_ = 0;
+  std::uint64_t buckets_ = 0;
   bool sealed_ = false;
   Worker worker_;  // writes writing_; the last member, so that it is destroyed first
 };

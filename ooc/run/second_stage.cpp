@@ -70,9 +70,12 @@ WrittenGraph write_graph(RunContext& run, const StoredGraph& graph, const FileMe
     writing.ends = GraphFileWriter::ArcEnds::kKeysInMemory;
   }
   GraphFileWriter writer(graph.output, meta, writing);
-  // Only the look-up in a file gains from large batches.
+  // Only the look-up in a file gains from large batches. There must be several, so that threads share the work.
+  constexpr std::size_t kFewestArcs = 4096, kBatches = 16;
+  const std::size_t most_arcs = std::clamp<std::size_t>(run.budget.free_bytes() / kBytesPerArc, kFewestArcs, 65536);
   const std::size_t batch_arcs =
-      table.bytes() != 0 ? 8192 : std::clamp<std::size_t>(run.budget.free_bytes() / kBytesPerArc, 4096, 65536);
+      table.bytes() != 0 ? 8192
+                         : std::clamp(static_cast<std::size_t>(store.arc_count() / kBatches), kFewestArcs, most_arcs);
   std::uint64_t written = 0;
   const Poll poll = stage_poll(run);
   const auto tell = [&](std::uint64_t more) {
@@ -86,13 +89,19 @@ WrittenGraph write_graph(RunContext& run, const StoredGraph& graph, const FileMe
         writer.add_nodes(nodes);
         tell(nodes.size());
       });
+  writer.end_nodes();
   store.rewind_arcs();
-  read_ahead<ArcPiece>(
+  struct Arcs {
+    ArcPiece piece;
+    GraphFileWriter::RankedArcs ranked;
+  };
+  read_ahead<Arcs>(
       writing.background,
-      [&](ArcPiece& piece) { return store.read_arcs(piece, batch_arcs, graph.sweep.bucket_exponent); },
-      [&](const ArcPiece& piece) {
-        writer.add_arcs(piece.arcs, piece.buckets.view());
-        tell(piece.arcs.size());
+      [&](Arcs& arcs) { return store.read_arcs(arcs.piece, batch_arcs, graph.sweep.bucket_exponent); },
+      [&](Arcs& arcs) { writer.rank(arcs.piece.arcs, arcs.ranked); },
+      [&](const Arcs& arcs) {
+        writer.add_arcs(std::span<const FileArc>(arcs.ranked.arcs), arcs.piece.buckets.view());
+        tell(arcs.piece.arcs.size());
       });
   writer.finish();
   return {{writer.header().components, writer.header().loops}, writer.spilled_bytes()};
