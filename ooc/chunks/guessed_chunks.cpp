@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
+#include <vector>
 
 #include "libreeb/base/error.h"
 #include "ooc/chunks/coherence.h"
@@ -41,7 +43,10 @@ void GuessedChunks::pass_over(const ChunkPlace& start) {
 }
 
 bool GuessedChunks::read_chunk(Chunk& chunk, const LookUp& look_up) {
+  // Corners are overwritten. Room for them that was used before need not be filled with zeros again.
+  std::vector<std::uint32_t> corners = std::move(chunk.corners);
   chunk.clear();
+  chunk.corners = std::move(corners);
   if (given_up_) return false;
   if (read_triangles(chunk, look_up)) return true;
   if (given_up_ || !read_rest(chunk)) return false;
