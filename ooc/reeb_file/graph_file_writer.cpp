@@ -2,12 +2,15 @@
 #include <algorithm>
 #include <bit>
 #include <numeric>
+#include <span>
 #include <stdexcept>
 #include <utility>
 
+#include "libreeb/base/sweep_key.h"
 #include "ooc/reeb_file/file_header.h"
 #include "ooc/reeb_file/frame_size.h"
 #include "ooc/reeb_file/reeb_file_writer.h"
+#include "ooc/sorting/rank_sort.h"
 
 namespace reeb::ooc {
 namespace {
@@ -98,7 +101,9 @@ void GraphFileWriter::rank_by_search(std::span<const ArcKeys> arcs, RankedArcs& 
   std::vector<std::uint32_t>& by_hi = ranked.by_hi;
   by_hi.resize(arcs.size());
   std::iota(by_hi.begin(), by_hi.end(), 0u);
-  std::sort(by_hi.begin(), by_hi.end(), [&](std::uint32_t a, std::uint32_t b) { return arcs[a].hi < arcs[b].hi; });
+  sort_by_rank(
+      std::span(by_hi), [&](std::uint32_t arc) { return ordered_bits(arcs[arc].hi.value); },
+      [&](std::uint32_t a, std::uint32_t b) { return arcs[a].hi < arcs[b].hi; });
   // The system maps a window around each page that is touched. Other look-ups might not need that window, so the pages
   // are released regularly. A look-up that goes far touches some pages on the way, in steps that double.
   constexpr std::uint64_t kWindowKeys = (64 << 10) / sizeof(SweepKey), kWindows = 32;
