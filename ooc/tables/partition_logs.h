@@ -55,6 +55,15 @@ class PartitionLogs {
     if (part.taken % kBlockRecords == 0) fetch(part);
     return part.records[part.taken++ % kBlockRecords];
   }
+  // The same for all that is left of a block, until the next call for this part. Empty at the end.
+  std::span<const Record> next_block(std::size_t index) {
+    Part& part = parts_[index];
+    if (part.taken == part.count) return {};
+    if (part.taken % kBlockRecords == 0) fetch(part);
+    const auto rest = std::span<const Record>(part.records).subspan(part.taken % kBlockRecords);
+    part.taken += rest.size();
+    return rest;
+  }
 
  private:
   static constexpr std::size_t kBlockRecords = kBlockBytes / sizeof(Record);

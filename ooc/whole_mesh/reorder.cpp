@@ -22,20 +22,13 @@ namespace reeb::ooc {
 namespace {
 
 constexpr std::size_t kItemsAtOnce = 4096;  // vertices or triangles
+constexpr std::size_t kCarried = 3;         // columns, at most
 
 // Ends the thread of the vertices when the other thread has failed.
 struct Stopped {};
 struct StopAtEnd {
   std::atomic<bool>& stops;
   ~StopAtEnd() { stops = true; }
-};
-
-struct KeyedVertex {
-  std::uint64_t key, vertex;
-  friend auto operator<=>(const KeyedVertex&, const KeyedVertex&) = default;
-};
-struct KeyLess : std::less<KeyedVertex> {
-  static std::uint64_t rank(const KeyedVertex& keyed) { return keyed.key; }
 };
 
 // The vertices are divided into slices of consecutive ids (or ranks) whose entries fit in memory. A join by vertex then
@@ -86,6 +79,18 @@ class Reorder {
   };
   struct PlacedRank {
     Rank place, rank;
+  };
+  // With the first columns, which then need no partitioning. Most columns have values that are float32.
+  struct KeyedVertex {
+    std::uint64_t key;
+    Rank vertex;
+    std::array<float, kCarried> values;
+    friend bool operator<(const KeyedVertex& a, const KeyedVertex& b) {
+      return a.key < b.key || (a.key == b.key && a.vertex < b.vertex);
+    }
+  };
+  struct KeyLess : std::less<KeyedVertex> {
+    static std::uint64_t rank(const KeyedVertex& keyed) { return keyed.key; }
   };
   using KeySort = ExternalSort<KeyedVertex, PlainCodec<KeyedVertex>, KeyLess>;
   using TriangleSort = ExternalSort<RankedTriangle, PlainCodec<RankedTriangle>, RankLess>;
@@ -153,23 +158,31 @@ class Reorder {
     tell_vertices(kKeyed);
     PartitionLogs<PlacedRank> by_slice("reorder", temp_, budget_, slices_);
     std::uint64_t rank = 0;
-    for (std::vector<KeyedVertex> some; by_key.read(some, kItemsAtOnce);) {
+    std::vector<std::uint64_t> originals;
+    std::vector<double> values;
+    const auto read = [&](std::vector<KeyedVertex>& some) { return by_key.read(some, kItemsAtOnce); };
+    read_ahead<std::vector<KeyedVertex>>(has_two_threads_, read, [&](const std::vector<KeyedVertex>& some) {
       poll_vertices();
-      for (const KeyedVertex& keyed : some) {
-        result_->set_original(VertexId(rank), VertexId(keyed.vertex));
-        by_slice.append(slice_of(keyed.vertex), {place_of(keyed.vertex), static_cast<Rank>(rank++)});
+      originals.clear();
+      for (const KeyedVertex& keyed : some) originals.push_back(keyed.vertex);
+      result_->set_originals(rank, originals);
+      for (unsigned column = 0; column < kCarried; ++column) {
+        if (!is_carried(column)) continue;
+        values.clear();
+        for (const KeyedVertex& keyed : some) values.push_back(double{keyed.values[column]});
+        result_->append_column(column, values);
       }
-    }
+      for (const KeyedVertex& keyed : some)
+        by_slice.append(slice_of(keyed.vertex), {place_of(keyed.vertex), static_cast<Rank>(rank++)});
+    });
     tell_vertices(kRanked);
     const Reservation charge = budget_.reserve("reorder", slice_entries() * sizeof(Rank));
     std::vector<Rank> slice;
     for (std::size_t s = 0; s < slices_; ++s) {
       poll_vertices();
       slice.resize(slice_size(s));
-      for (std::uint64_t i = by_slice.count(s); i-- > 0;) {
-        const PlacedRank& placed = by_slice.next(s);
-        slice[placed.place] = placed.rank;
-      }
+      for (auto some = by_slice.next_block(s); !some.empty(); some = by_slice.next_block(s))
+        for (const PlacedRank& placed : some) slice[placed.place] = placed.rank;
       ranks_.write_at(s * slice_entries() * sizeof(Rank), std::as_bytes(std::span(slice)));
     }
   }
@@ -196,7 +209,13 @@ class Reorder {
     const std::uint64_t slabs = options_.in_slabs ? slab_count() : 1;
     constexpr double kCells = (1u << kHilbertBits) - 1;
     constexpr std::size_t kCellsAtOnce = 64;
-    for_each_range(axes, [&](std::uint64_t first, std::size_t count, std::span<const double> values) {
+    std::vector<unsigned> columns(std::min<std::size_t>(mesh_.column_count(), kCarried));
+    std::iota(columns.begin(), columns.end(), 0u);
+    std::vector<KeyedVertex> keyed;
+    for_each_range(columns, [&](std::uint64_t first, std::size_t count, std::span<const double> values) {
+      keyed.assign(count, {});
+      for (std::size_t k = 0; k < columns.size(); ++k)
+        if (!carry(values.subspan(k * count, count), k, keyed)) is_wide_[k] = true;
       for (std::size_t begin = 0; begin < count; begin += kCellsAtOnce) {
         std::array<std::array<std::uint32_t, kCellsAtOnce>, 3> cells{};
         const std::size_t some = std::min(kCellsAtOnce, count - begin);
@@ -208,11 +227,29 @@ class Reorder {
         const auto indices = hilbert_indices<kCellsAtOnce>(cells);
         for (std::size_t i = 0; i < some; ++i) {
           const std::uint64_t slab = slabs * cells[longest][i] >> kHilbertBits;
-          by_key.add(
-              {slab << (3 * kHilbertBits - kSlabBits) | indices[i] >> (slabs == 1 ? 0 : kSlabBits), first + begin + i});
+          keyed[begin + i].key = slab << (3 * kHilbertBits - kSlabBits) | indices[i] >> (slabs == 1 ? 0 : kSlabBits);
+          keyed[begin + i].vertex = static_cast<Rank>(first + begin + i);
         }
       }
+      by_key.add(keyed);
     });
+  }
+
+  // Notes the values of a column. False if one of them is not a float32.
+  static bool carry(std::span<const double> values, std::size_t column, std::span<KeyedVertex> keyed) {
+    constexpr double kMost = std::numeric_limits<float>::max();
+    bool fits = true;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const auto value = static_cast<float>(std::clamp(values[i], -kMost, kMost));
+      keyed[i].values[column] = value;
+      fits &= double{value} == values[i];
+    }
+    return fits;
+  }
+
+  // Whether a column came with the keys.
+  bool is_carried(unsigned column) const {
+    return column < std::min<std::size_t>(mesh_.column_count(), kCarried) && !is_wide_[column];
   }
 
   static constexpr unsigned kSlabBits = 12;
@@ -225,7 +262,7 @@ class Reorder {
 
   void place_columns() {
     for (unsigned column = 0; column < mesh_.column_count(); ++column) {
-      place_column(column);
+      if (!is_carried(column)) place_column(column);
       tell_vertices(kRanked + (kPlaced - kRanked) * (column + 1) / mesh_.column_count());
     }
   }
@@ -246,10 +283,8 @@ class Reorder {
     for (std::size_t s = 0; s < slices_; ++s) {
       poll_vertices();
       slice.resize(slice_size(s));
-      for (std::uint64_t i = by_slice.count(s); i-- > 0;) {
-        const PlacedNumber& placed = by_slice.next(s);
-        slice[placed.place] = std::bit_cast<double>(placed.number);
-      }
+      for (auto some = by_slice.next_block(s); !some.empty(); some = by_slice.next_block(s))
+        for (const PlacedNumber& placed : some) slice[placed.place] = std::bit_cast<double>(placed.number);
       result_->append_column(column, slice);
     }
   }
@@ -356,7 +391,8 @@ class Reorder {
   unsigned slice_bits_;
   std::size_t slices_;
   bool has_two_threads_;
-  io::File ranks_;  // by vertex
+  std::array<bool, kCarried> is_wide_{};  // by column: not all of its values are float32
+  io::File ranks_;                        // by vertex
   std::unique_ptr<ReorderedMesh> result_;
 };
 

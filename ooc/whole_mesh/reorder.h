@@ -25,7 +25,10 @@ class ReorderedMesh : public SpooledMesh {
   void to_original(std::span<VertexId> ids) override {
     for (VertexId& id : ids) id = VertexId(originals_.get(id.value()));
   }
-  void set_original(VertexId id, VertexId original) { originals_.set(id.value(), original.value()); }
+  // Of consecutive vertices.
+  void set_originals(std::uint64_t first, std::span<const std::uint64_t> originals) {
+    originals_.write(first, originals);
+  }
 
  private:
   PagedTable<std::uint64_t> originals_;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <limits>
 #include <set>
 
 #include "libreeb/base/error.h"
@@ -95,6 +96,21 @@ TEST(Reorder, OddMeshes) {
           8 << 20);
 }
 
+// Columns of float32 values take another way than others, and so do columns after the third.
+TEST(Reorder, ColumnsOfAnyKind) {
+  for (std::size_t columns = 1; columns <= 4; ++columns)
+    for (std::size_t wide = 0; wide <= columns; ++wide) {
+      SCOPED_TRACE(testing::Message() << columns << " columns, number " << wide << " is wide");
+      ModelMesh mesh = shuffled(grid_mesh(100, 90), columns);
+      mesh.columns.resize(columns, mesh.columns[0]);
+      for (auto& column : mesh.columns)
+        for (double& value : column) value = double{static_cast<float>(value)};
+      mesh.columns[0][5] = std::numeric_limits<float>::max();
+      if (wide < columns) mesh.columns[wide][7777] = columns % 2 == 0 ? 0.1 : -1e300;
+      compare(mesh, 8 << 20, 16 << 20);
+    }
+}
+
 TEST(Reorder, MakesTheFrontSmall) {
   const Scratch scratch;
   const io::TempDir temp(scratch.path());
@@ -155,7 +171,8 @@ class FailingMesh : public ModelIndexedMesh {
 };
 
 TEST(Reorder, AnErrorInEitherThreadEndsBoth) {
-  const ModelMesh model = shuffled(grid_mesh(200, 200), 6);
+  ModelMesh model = shuffled(grid_mesh(200, 200), 6);
+  model.columns[0][9] = 0.1;  // not a float32: the column is looked up once more
   const Scratch scratch;
   const io::TempDir temp(scratch.path());
   MemoryBudget budget;
