@@ -9,6 +9,7 @@
 #include <functional>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <vector>
 
 #include "ooc/sorting/external_sort.h"
@@ -16,6 +17,7 @@
 #include "ooc/threads/read_ahead.h"
 #include "ooc/threads/worker.h"
 #include "ooc/whole_mesh/hilbert.h"
+#include "ooc/whole_mesh/ranked_triangles.h"
 
 namespace reeb::ooc {
 
@@ -46,6 +48,7 @@ class Reorder {
         slice_bits_(slice_bits(vertex_count_, options.allowance_bytes / 4 / sizeof(Rank))),
         slices_(static_cast<std::size_t>((vertex_count_ + slice_entries() - 1) >> slice_bits_)),
         has_two_threads_(options.threads > 1 && slices_bytes() <= options.allowance_bytes / 4),
+        lanes_(make_lanes()),
         ranks_(temp.create_unnamed("ranks")),
         result_(std::make_unique<ReorderedMesh>(mesh.column_count(), temp, budget, options.allowance_bytes / 4)) {}
 
@@ -54,24 +57,26 @@ class Reorder {
       run_in_two_threads();
     } else {
       rank_vertices();
+      read_places(0.15, kPlaced);
       place_columns();
-      sort_triangles(places_by_slice(kPlaced, kLooked));
+      Triangles triangles(temp_, budget_, vertex_count_, lanes_.size(), sorting());
+      look_up(0, triangles, Teller::kOwner);
+      append_sorted(triangles);
     }
     result_->set_simplex_counts(mesh_.simplex_counts());
     return std::move(result_);
   }
 
  private:
-  struct RankedTriangle {
-    std::array<Rank, 3> corners;  // rotated so that the lowest is first, not flipped
-    friend auto operator<=>(const RankedTriangle&, const RankedTriangle&) = default;
+  using Triangles = RankedTriangles<Rank>;
+  using Triangle = RankedTriangle<Rank>;
+  // The corners of every other batch of triangles, or of all.
+  struct Lane {
+    PartitionLogs<std::uint32_t> places;                 // in their slices, by slice
+    PartitionLogs<std::array<std::uint16_t, 3>> slices;  // of each triangle
   };
-  struct RankLess : std::less<RankedTriangle> {
-    static std::uint64_t rank(const RankedTriangle& triangle) {
-      if constexpr (sizeof(Rank) == 8) return triangle.corners[0];
-      return std::uint64_t{triangle.corners[0]} << 32 | triangle.corners[1];
-    }
-  };
+  enum class Teller { kOwner, kWorker };
+
   // The double is in two parts, so that it needs no space before it.
   struct PlacedNumber {
     Rank place;  // in its slice
@@ -93,27 +98,30 @@ class Reorder {
     static std::uint64_t rank(const KeyedVertex& keyed) { return keyed.key; }
   };
   using KeySort = ExternalSort<KeyedVertex, PlainCodec<KeyedVertex>, KeyLess>;
-  using TriangleSort = ExternalSort<RankedTriangle, PlainCodec<RankedTriangle>, RankLess>;
 
-  using Places = PartitionLogs<std::uint32_t>;
-
-  // One thread looks up vertices, another reads triangles.
+  // One thread looks up vertices, another reads triangles. Then both look up corners.
   void run_in_two_threads() {
+    std::optional<Triangles> triangles;
     Worker vertices;
     const StopAtEnd stop{stops_};  // before the worker ends
     vertices.start([this] { rank_vertices(); });
-    Places places = places_by_slice(0, kPlaced);
+    read_places(0, kPlaced);
     vertices.wait([this] { poll(); });
-    vertices.start([this] { place_columns(); });
-    sort_triangles(std::move(places));
+    triangles.emplace(temp_, budget_, vertex_count_, lanes_.size(), sorting());
+    vertices.start([&] {
+      place_columns();
+      look_up_some(*triangles, Teller::kWorker);
+    });
+    look_up_some(*triangles, Teller::kOwner);
     vertices.wait([this] { poll(); });
+    append_sorted(*triangles);
   }
 
   // The parts of the time after which a step is done, about.
   static constexpr double kKeyed = 0.05, kRanked = 0.15, kPlaced = 0.25, kLooked = 0.5, kSorted = 0.75;
 
   void tell(double done) const {
-    done_ = done;
+    done_ = std::max(done_, done);
     poll();
   }
   // Where little is done at a time.
@@ -127,6 +135,11 @@ class Reorder {
   }
   void poll_vertices() const {
     if (!has_two_threads_) return poll();
+    if (stops_) throw Stopped();
+  }
+  // For a step of either thread.
+  void step(Teller teller, double done) const {
+    if (teller == Teller::kOwner) return tell(done);
     if (stops_) throw Stopped();
   }
   // For a step that reads the mesh, and lasts from `from` to `to`.
@@ -289,90 +302,100 @@ class Reorder {
     }
   }
 
-  void sort_triangles(Places places) {
-    TriangleSort by_rank("reorder", temp_, budget_, sorting());
-    PartitionLogs<Rank> corner_ranks = ranks_by_slice(std::move(places));  // the places are gone afterwards
-    add_ranked_triangles(by_rank, std::move(corner_ranks));
-    by_rank.finish(0, [this] { poll(); });
-    std::vector<VertexId> corners;
-    std::uint64_t appended = 0;
-    const auto read = [&](std::vector<RankedTriangle>& some) { return by_rank.read(some, kItemsAtOnce); };
-    read_ahead<std::vector<RankedTriangle>>(has_two_threads_, read, [&](const std::vector<RankedTriangle>& some) {
-      appended += some.size();
-      tell(kSorted + (1 - kSorted) * static_cast<double>(appended) / static_cast<double>(triangle_count_));
-      corners.clear();
-      for (const RankedTriangle& triangle : some)
-        for (const Rank corner : triangle.corners) corners.emplace_back(corner);
-      result_->append_triangles(corners);
-    });
+  std::vector<Lane> make_lanes() {
+    std::vector<Lane> lanes;
+    for (std::size_t lane = 0; lane < (has_two_threads_ ? 2 : 1); ++lane)
+      lanes.push_back({{"reorder", temp_, budget_, slices_}, {"reorder", temp_, budget_, 1}});
+    return lanes;
   }
 
-  void add_ranked_triangles(TriangleSort& by_rank, PartitionLogs<Rank> corner_ranks) {
-    // The corners are read again. The rank of each is the next one in the log of its slice.
-    std::vector<VertexId> corners;
-    std::vector<RankedTriangle> triangles;
-    mesh_.rewind();
-    while (mesh_.read(corners, kItemsAtOnce)) {
-      triangle_count_ += corners.size() / 3;
-      tell_reading(kLooked, kSorted);
-      triangles.clear();
-      for (std::size_t t = 0; t < corners.size(); t += 3) {
-        std::array<Rank, 3> ranks;
-        for (std::size_t c = 0; c < 3; ++c) ranks[c] = corner_ranks.next(slice_of(corners[t + c].value()));
-        triangles.push_back(rotated(ranks));
-      }
-      by_rank.add(triangles);
-    }
-  }
-
-  // Without branches, since they could not be predicted.
-  static RankedTriangle rotated(const std::array<Rank, 3>& ranks) {
-    const std::size_t of_two = ranks[1] < ranks[0] ? 1 : 0;
-    const std::size_t lowest = ranks[2] < ranks[of_two] ? 2 : of_two;
-    return {{ranks[lowest], ranks[(lowest + 1) % 3], ranks[(lowest + 2) % 3]}};
-  }
-
-  // The places of all corners in their slices, in the order of the mesh within each slice. Needs no ranks.
-  Places places_by_slice(double from, double to) {
-    Places places("reorder", temp_, budget_, slices_);
+  // Divides the corners of all triangles by slice. Needs no ranks.
+  void read_places(double from, double to) {
     std::vector<VertexId> corners;
     mesh_.rewind();
-    while (mesh_.read(corners, kItemsAtOnce)) {
+    for (std::size_t batch = 0; mesh_.read(corners, kItemsAtOnce); ++batch) {
       tell_reading(from, to);
-      for (const VertexId v : corners)
-        places.append(slice_of(v.value()), static_cast<std::uint32_t>(place_of(v.value())));
+      Lane& lane = lanes_[batch % lanes_.size()];
+      for (std::size_t t = 0; t < corners.size(); t += 3) {
+        std::array<std::uint16_t, 3> slices;
+        for (std::size_t c = 0; c < 3; ++c) {
+          const std::uint64_t vertex = corners[t + c].value();
+          slices[c] = static_cast<std::uint16_t>(slice_of(vertex));
+          lane.places.append(slices[c], static_cast<std::uint32_t>(place_of(vertex)));
+        }
+        lane.slices.append(0, slices);
+      }
+      triangle_count_ += corners.size() / 3;
     }
-    return places;
   }
 
-  // The ranks of all corners, in the order of the places.
-  PartitionLogs<Rank> ranks_by_slice(Places places) {
+  void look_up_some(Triangles& triangles, Teller teller) {
+    for (std::size_t lane; (lane = next_lane_++) < lanes_.size();) look_up(lane, triangles, teller);
+  }
+
+  // Adds the triangles of a lane, with ranks for corners.
+  void look_up(std::size_t lane, Triangles& triangles, Teller teller) {
+    PartitionLogs<Rank> ranks = ranks_by_slice(lanes_[lane], teller);
+    auto& slices = lanes_[lane].slices;
+    // The rank of each corner is the next one in the log of its slice.
+    std::vector<Triangle> found;
+    std::uint64_t done = 0;
+    for (auto some = slices.next_block(0); !some.empty(); some = slices.next_block(0)) {
+      step(teller, kLooked + (kSorted - kLooked) * static_cast<double>(done) / static_cast<double>(slices.count(0)));
+      done += some.size();
+      found.clear();
+      for (const auto& triangle : some)
+        found.push_back(Triangle::of({ranks.next(triangle[0]), ranks.next(triangle[1]), ranks.next(triangle[2])}));
+      triangles.add(lane, found);
+    }
+  }
+
+  // The ranks of the corners of a lane, in the order of their places, which are gone afterwards.
+  PartitionLogs<Rank> ranks_by_slice(Lane& lane, Teller teller) {
+    auto places = std::move(lane.places);
     PartitionLogs<Rank> result("reorder", temp_, budget_, slices_);
     const Reservation charge = budget_.reserve("reorder", slice_entries() * sizeof(Rank));
     std::vector<Rank> slice;
     for (std::size_t s = 0; s < slices_; ++s) {
-      poll();
+      step(teller, kPlaced + (kLooked - kPlaced) * static_cast<double>(s) / static_cast<double>(slices_));
       slice.resize(slice_size(s));
       ranks_.read_at(s * slice_entries() * sizeof(Rank), std::as_writable_bytes(std::span(slice)));
-      for (std::uint64_t i = places.count(s); i-- > 0;) result.append(s, slice[places.next(s)]);
+      for (auto some = places.next_block(s); !some.empty(); some = places.next_block(s))
+        for (const std::uint32_t place : some) result.append(s, slice[place]);
     }
     return result;
+  }
+
+  void append_sorted(Triangles& triangles) {
+    std::vector<VertexId> corners;
+    std::uint64_t appended = 0;
+    triangles.for_each(
+        [&](std::span<const Triangle> some) {
+          appended += some.size();
+          tell(kSorted + (1 - kSorted) * static_cast<double>(appended) / static_cast<double>(triangle_count_));
+          corners.clear();
+          for (const Triangle& triangle : some)
+            for (const Rank corner : triangle.corners) corners.emplace_back(corner);
+          result_->append_triangles(corners);
+        },
+        [this] { poll(); });
   }
 
   // The entries of a slice fit the cache, unless there would be too many slices, of which each takes 16 KiB. A power of
   // two, so that a look-up does not divide; at most `most`.
   static unsigned slice_bits(std::uint64_t vertices, std::uint64_t most) {
-    constexpr std::uint64_t kInCache = 1u << 17, kManySlices = 64;
+    constexpr std::uint64_t kInCache = 1u << 17, kManySlices = 64, kMostSlices = 1u << 16;
     const std::uint64_t wanted = std::max(kInCache, vertices / kManySlices);
-    return static_cast<unsigned>(std::bit_width(std::min(wanted, std::max<std::uint64_t>(kItemsAtOnce, most))) - 1);
+    const std::uint64_t least = std::max<std::uint64_t>(kItemsAtOnce, 2 * (vertices / kMostSlices));
+    return static_cast<unsigned>(std::bit_width(std::min(wanted, std::max(least, most))) - 1);
   }
   SortOptions sorting() const {
     return {
         .allowance_bytes = options_.allowance_bytes / 2, .threads = options_.threads, .background = has_two_threads_};
   }
-  // What both threads hold at most beside the sorted runs: three partitions, and a slice of numbers and of ranks.
+  // What both threads hold at most beside what is sorted: four partitions, and a slice of numbers and one of ranks.
   std::uint64_t slices_bytes() const {
-    return 3 * slices_ * PartitionLogs<Rank>::kBlockBytes + slice_entries() * (8 + sizeof(Rank));
+    return 4 * slices_ * PartitionLogs<Rank>::kBlockBytes + slice_entries() * (8 + sizeof(Rank));
   }
   std::uint64_t slice_entries() const { return std::uint64_t{1} << slice_bits_; }
   std::size_t slice_of(std::uint64_t id) const { return static_cast<std::size_t>(id >> slice_bits_); }
@@ -391,6 +414,8 @@ class Reorder {
   unsigned slice_bits_;
   std::size_t slices_;
   bool has_two_threads_;
+  std::vector<Lane> lanes_;
+  std::atomic<std::size_t> next_lane_ = 0;
   std::array<bool, kCarried> is_wide_{};  // by column: not all of its values are float32
   io::File ranks_;                        // by vertex
   std::unique_ptr<ReorderedMesh> result_;
