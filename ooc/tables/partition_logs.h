@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "io/file/file.h"
@@ -29,62 +31,97 @@ class PartitionLogs {
 
   PartitionLogs(const char* owner, const io::TempDir& temp, MemoryBudget& budget, std::size_t parts)
       : charge_(budget.reserve(owner, parts * kBlockBytes)), file_(temp.create_unnamed(owner)), parts_(parts) {
-    for (Part& part : parts_) part.records.reserve(kBlockRecords);
+    for (Part& part : parts_) {
+      part.block = std::make_unique_for_overwrite<Record[]>(kBlockRecords);
+      part.at = part.block.get();
+    }
   }
 
   void append(std::size_t index, const Record& record) {
     Part& part = parts_[index];
-    if (part.records.size() == kBlockRecords) {
-      file_.write_at(size_, std::as_bytes(std::span<const Record>(part.records)));
-      part.blocks.push_back(size_);
-      size_ += kBlockRecords * sizeof(Record);
-      part.records.clear();
+    if (part.at == part.block.get() + kBlockRecords) [[unlikely]] {
+      write_block(part);
+      part.written += kBlockRecords;
+      part.at = part.block.get();
     }
-    part.records.push_back(record);
-    ++part.count;
+    *part.at++ = record;
   }
 
-  std::uint64_t count(std::size_t index) const { return parts_[index].count; }
+  std::uint64_t count(std::size_t index) const { return count(parts_[index]); }
   std::uint64_t spilled_bytes() const { return size_; }
 
   // Starts over with the first record of a part. REQUIRES: nothing more is appended.
-  void rewind(std::size_t index) { parts_[index].taken = 0; }
-  // The next record of a part. REQUIRES: the part has one left, and nothing more is appended.
+  void rewind(std::size_t index) {
+    Part& part = parts_[index];
+    part.fetched = 0;
+    part.next = part.end = nullptr;
+  }
+  // The next record of a part, until the next call for this part. REQUIRES: the part has one left, and nothing more is
+  // appended.
   const Record& next(std::size_t index) {
     Part& part = parts_[index];
-    if (part.taken % kBlockRecords == 0) fetch(part);
-    return part.records[part.taken++ % kBlockRecords];
+    if (part.next == part.end) [[unlikely]]
+      fetch(part);
+    return *part.next++;
   }
-  // The same for all that is left of a block, until the next call for this part. Empty at the end.
+  // The same for all that is left of a block. Empty at the end.
   std::span<const Record> next_block(std::size_t index) {
     Part& part = parts_[index];
-    if (part.taken == part.count) return {};
-    if (part.taken % kBlockRecords == 0) fetch(part);
-    const auto rest = std::span<const Record>(part.records).subspan(part.taken % kBlockRecords);
-    part.taken += rest.size();
-    return rest;
+    if (part.next == part.end && part.fetched != count(part)) fetch(part);
+    return {std::exchange(part.next, part.end), part.end};
+  }
+
+  // Calls visit(records) for all records of a part, some at a time, to change them where they are. Reading starts over.
+  // REQUIRES: nothing more is appended.
+  template <class Visit>
+  void change(std::size_t index, const Visit& visit) {
+    Part& part = parts_[index];
+    rewind(index);
+    while (part.fetched != count(part)) {
+      const std::uint64_t first = part.fetched;
+      fetch(part);
+      const std::span<Record> records(part.block.get(), static_cast<std::size_t>(part.fetched - first));
+      visit(records);
+      if (!part.blocks.empty())
+        file_.write_at(part.blocks[static_cast<std::size_t>(first / kBlockRecords)], std::as_bytes(records));
+    }
+    rewind(index);
   }
 
  private:
   static constexpr std::size_t kBlockRecords = kBlockBytes / sizeof(Record);
   struct Part {
-    std::vector<Record> records;  // the current block
-    std::vector<std::uint64_t> blocks;
-    std::uint64_t count = 0, taken = 0;
+    std::unique_ptr<Record[]> block;  // the current one
+    Record* at = nullptr;             // in it, where the next record is appended; stays when reading starts
+    const Record* next = nullptr;     // in it, to be read; up to `end`
+    const Record* end = nullptr;
+    std::uint64_t written = 0, fetched = 0;  // records in full blocks of the file, and up to `end`
+    std::vector<std::uint64_t> blocks;       // where they are
   };
+
+  static std::uint64_t count(const Part& part) {
+    return part.written + static_cast<std::uint64_t>(part.at - part.block.get());
+  }
+
+  void write_block(Part& part) {
+    const std::span<const Record> records(part.block.get(), part.at);
+    file_.write_at(size_, std::as_bytes(records));
+    part.blocks.push_back(size_);
+    size_ += records.size_bytes();
+  }
 
   // The last block was never written. Its records move to the end of the file when reading starts, so that a part needs
   // only one buffer.
   void fetch(Part& part) {
-    if (part.blocks.size() * kBlockRecords < part.count && !part.blocks.empty()) {
-      file_.write_at(size_, std::as_bytes(std::span<const Record>(part.records)));
-      part.blocks.push_back(size_);
-      size_ += part.records.size() * sizeof(Record);
-    }
-    if (part.blocks.empty()) return;
-    part.records.resize(static_cast<std::size_t>(std::min<std::uint64_t>(kBlockRecords, part.count - part.taken)));
-    file_.read_at(part.blocks[static_cast<std::size_t>(part.taken / kBlockRecords)],
-                  std::as_writable_bytes(std::span(part.records)));
+    const std::uint64_t all = count(part);
+    if (part.blocks.size() * kBlockRecords < all && !part.blocks.empty()) write_block(part);
+    const auto records = static_cast<std::size_t>(std::min<std::uint64_t>(kBlockRecords, all - part.fetched));
+    if (!part.blocks.empty())
+      file_.read_at(part.blocks[static_cast<std::size_t>(part.fetched / kBlockRecords)],
+                    std::as_writable_bytes(std::span(part.block.get(), records)));
+    part.next = part.block.get();
+    part.end = part.next + records;
+    part.fetched += records;
   }
 
   Reservation charge_;

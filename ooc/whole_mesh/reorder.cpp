@@ -72,7 +72,7 @@ class Reorder {
   using Triangle = RankedTriangle<Rank>;
   // The corners of every other batch of triangles, or of all.
   struct Lane {
-    PartitionLogs<std::uint32_t> places;                 // in their slices, by slice
+    PartitionLogs<Rank> ranks;                           // by slice; first, their places in it
     PartitionLogs<std::array<std::uint16_t, 3>> slices;  // of each triangle
   };
   enum class Teller { kOwner, kWorker };
@@ -207,11 +207,15 @@ class Reorder {
     low.fill(std::numeric_limits<double>::infinity());
     high.fill(-std::numeric_limits<double>::infinity());
     for_each_range(axes, [&](std::uint64_t, std::size_t count, std::span<const double> values) {
-      for (std::size_t a = 0; a < axes.size(); ++a)
-        for (std::size_t i = 0; i < count; ++i) {
-          low[a] = std::min(low[a], values[a * count + i]);
-          high[a] = std::max(high[a], values[a * count + i]);
+      for (std::size_t a = 0; a < axes.size(); ++a) {
+        double least = low[a], most = high[a];
+        for (const double value : values.subspan(a * count, count)) {
+          least = value < least ? value : least;
+          most = value > most ? value : most;
         }
+        low[a] = least;
+        high[a] = most;
+      }
     });
     // One scale for all axes, so that the curve's cells are cubes. Halves cannot overflow.
     double half_size = 0;
@@ -235,7 +239,8 @@ class Reorder {
         for (std::size_t a = 0; a < axes.size() && half_size > 0; ++a)
           for (std::size_t i = 0; i < some; ++i) {
             const double part = (values[a * count + begin + i] / 2 - low[a] / 2) / half_size;
-            cells[a][i] = static_cast<std::uint32_t>(std::clamp(part, 0.0, 1.0) * kCells);
+            // Vector instructions convert to signed numbers only.
+            cells[a][i] = static_cast<std::uint32_t>(static_cast<std::int32_t>(std::clamp(part, 0.0, 1.0) * kCells));
           }
         const auto indices = hilbert_indices<kCellsAtOnce>(cells);
         for (std::size_t i = 0; i < some; ++i) {
@@ -316,15 +321,13 @@ class Reorder {
     for (std::size_t batch = 0; mesh_.read(corners, kItemsAtOnce); ++batch) {
       tell_reading(from, to);
       Lane& lane = lanes_[batch % lanes_.size()];
-      for (std::size_t t = 0; t < corners.size(); t += 3) {
-        std::array<std::uint16_t, 3> slices;
-        for (std::size_t c = 0; c < 3; ++c) {
-          const std::uint64_t vertex = corners[t + c].value();
-          slices[c] = static_cast<std::uint16_t>(slice_of(vertex));
-          lane.places.append(slices[c], static_cast<std::uint32_t>(place_of(vertex)));
-        }
-        lane.slices.append(0, slices);
-      }
+      const auto place = [&](VertexId corner) {
+        const std::size_t slice = slice_of(corner.value());
+        lane.ranks.append(slice, place_of(corner.value()));
+        return static_cast<std::uint16_t>(slice);
+      };
+      for (std::size_t t = 0; t < corners.size(); t += 3)
+        lane.slices.append(0, {place(corners[t]), place(corners[t + 1]), place(corners[t + 2])});
       triangle_count_ += corners.size() / 3;
     }
   }
@@ -335,8 +338,8 @@ class Reorder {
 
   // Adds the triangles of a lane, with ranks for corners.
   void look_up(std::size_t lane, Triangles& triangles, Teller teller) {
-    PartitionLogs<Rank> ranks = ranks_by_slice(lanes_[lane], teller);
-    auto& slices = lanes_[lane].slices;
+    auto [ranks, slices] = std::move(lanes_[lane]);  // gone afterwards
+    rank_places(ranks, teller);
     // The rank of each corner is the next one in the log of its slice.
     std::vector<Triangle> found;
     std::uint64_t done = 0;
@@ -350,20 +353,18 @@ class Reorder {
     }
   }
 
-  // The ranks of the corners of a lane, in the order of their places, which are gone afterwards.
-  PartitionLogs<Rank> ranks_by_slice(Lane& lane, Teller teller) {
-    auto places = std::move(lane.places);
-    PartitionLogs<Rank> result("reorder", temp_, budget_, slices_);
+  // Replaces the places of corners in their slices by ranks.
+  void rank_places(PartitionLogs<Rank>& corners, Teller teller) {
     const Reservation charge = budget_.reserve("reorder", slice_entries() * sizeof(Rank));
     std::vector<Rank> slice;
     for (std::size_t s = 0; s < slices_; ++s) {
       step(teller, kPlaced + (kLooked - kPlaced) * static_cast<double>(s) / static_cast<double>(slices_));
       slice.resize(slice_size(s));
       ranks_.read_at(s * slice_entries() * sizeof(Rank), std::as_writable_bytes(std::span(slice)));
-      for (auto some = places.next_block(s); !some.empty(); some = places.next_block(s))
-        for (const std::uint32_t place : some) result.append(s, slice[place]);
+      corners.change(s, [&](std::span<Rank> some) {
+        for (Rank& corner : some) corner = slice[corner];
+      });
     }
-    return result;
   }
 
   void append_sorted(Triangles& triangles) {
@@ -393,9 +394,9 @@ class Reorder {
     return {
         .allowance_bytes = options_.allowance_bytes / 2, .threads = options_.threads, .background = has_two_threads_};
   }
-  // What both threads hold at most beside what is sorted: four partitions, and a slice of numbers and one of ranks.
+  // What both threads hold at most beside what is sorted: three partitions, and a slice of numbers and one of ranks.
   std::uint64_t slices_bytes() const {
-    return 4 * slices_ * PartitionLogs<Rank>::kBlockBytes + slice_entries() * (8 + sizeof(Rank));
+    return 3 * slices_ * PartitionLogs<Rank>::kBlockBytes + slice_entries() * (8 + sizeof(Rank));
   }
   std::uint64_t slice_entries() const { return std::uint64_t{1} << slice_bits_; }
   std::size_t slice_of(std::uint64_t id) const { return static_cast<std::size_t>(id >> slice_bits_); }
