@@ -35,6 +35,7 @@ class Scan {
         block_triangles_(std::max<std::uint64_t>(1, options.block_triangles)),
         change_charge_(budget.reserve("last uses", 0)) {
     summary_.vertex_count = mesh.vertex_count();
+    triangles_by_size_ = mesh.triangles_by_size().value_or(0);
   }
 
   // False if it gave up.
@@ -101,8 +102,15 @@ class Scan {
   void close_block(const TriangleBatch& batch) {
     in_block_ = 0;
     gave_up_ = (options_.give_up_when_incoherent && table_.pages().is_thrashing()) ||
-               carried_ / live_change_.size() > options_.most_live_vertices;
+               carried_ / live_change_.size() > options_.most_live_vertices || is_scattered();
     if (!gave_up_ && options_.progress) options_.progress(batch.bytes_read);
+  }
+
+  // Whether most corners so far were the first uses of their vertices, although a vertex has three uses or more on
+  // average. So most of these vertices will be used again.
+  bool is_scattered() const {
+    return triangles_by_size_ >= summary_.vertex_count && introduced_ > 2 * summary_.triangle_count &&
+           introduced_ / 2 > options_.most_live_vertices;
   }
 
   void open_block() {
@@ -129,6 +137,7 @@ class Scan {
         carried_ += block - before.last_block();
     }
     live_change_.back() += introduced;
+    introduced_ += static_cast<std::uint64_t>(introduced);
   }
 
   static UseEntry next_use(UseEntry before, std::uint32_t block) {
@@ -183,6 +192,8 @@ class Scan {
   std::vector<std::int32_t> live_change_;
   // Over the blocks so far, the sum of the vertices known to be live at their ends.
   std::uint64_t carried_ = 0;
+  std::uint64_t introduced_ = 0;         // vertices used so far
+  std::uint64_t triangles_by_size_ = 0;  // of the mesh; 0 if it does not tell
   UseSummary summary_;
 };
 

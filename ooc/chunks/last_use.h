@@ -46,7 +46,7 @@ struct LastUseOptions {
   std::uint64_t allowance_bytes = 16 << 20;  // of the budget, for the table
   // Give up early on a mesh so incoherent that pages of the table would be read and written all the time.
   bool give_up_when_incoherent = false;
-  // Give up as soon as it is certain that more vertices than this are live at once.
+  // Give up as soon as it is certain, or nearly (last_use.cpp), that more vertices than this are live at once.
   std::uint64_t most_live_vertices = ~std::uint64_t{0};
   std::uint32_t most_blocks = UseEntry::kMostBlocks;
   unsigned threads = 1;  // with two or more, one reads the mesh while another fills the table

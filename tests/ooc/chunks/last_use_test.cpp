@@ -155,6 +155,36 @@ TEST(LastUse, GivesUpOnAnIncoherentMeshOnly) {
   }
 }
 
+// A mesh that tells how many triangles it has.
+class CountedMesh : public ModelIndexedMesh {
+ public:
+  explicit CountedMesh(const ModelMesh& mesh) : ModelIndexedMesh(mesh), triangles_(mesh.corners.size() / 3) {}
+  std::optional<std::uint64_t> triangles_by_size() const override { return triangles_; }
+
+ private:
+  std::uint64_t triangles_;
+};
+
+// The share of a mesh after which it is known that more than 2000 vertices are live; 1 if they are not.
+double read_until_too_many(const ModelMesh& mesh) {
+  const Scratch scratch;
+  const io::TempDir temp(scratch.path());
+  MemoryBudget budget;
+  CountedMesh indexed(mesh);
+  const auto uses = scan_last_use(indexed, temp, budget, {.block_triangles = 256, .most_live_vertices = 2000});
+  EXPECT_EQ(uses.has_value(), indexed.bytes_read() == indexed.bytes_total());
+  return static_cast<double>(indexed.bytes_read()) / static_cast<double>(indexed.bytes_total());
+}
+
+TEST(LastUse, SeesEarlyThatTrianglesAreScattered) {
+  EXPECT_LT(read_until_too_many(shuffled(grid_mesh(300, 300), 5)), 0.05);
+  EXPECT_EQ(read_until_too_many(grid_mesh(300, 300)), 1);
+  // Triangles without common vertices, of which none is live.
+  ModelMesh loose{std::vector<std::vector<double>>(3, std::vector<double>(90'000)), {}};
+  for (std::uint64_t v = 0; v < loose.vertex_count(); ++v) loose.corners.emplace_back(v);
+  EXPECT_EQ(read_until_too_many(loose), 1);
+}
+
 TEST(LastUse, EachFailingWriteIsReported) {
   const ModelMesh mesh = random_mesh(200'000, 1000, 2);
   expect_failing_writes_are_reported([&](const io::TempDir& temp, MemoryBudget& budget) {
