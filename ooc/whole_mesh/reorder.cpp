@@ -48,7 +48,6 @@ class Reorder {
         slice_bits_(slice_bits(vertex_count_, options.allowance_bytes / 4 / sizeof(Rank))),
         slices_(static_cast<std::size_t>((vertex_count_ + slice_entries() - 1) >> slice_bits_)),
         has_two_threads_(options.threads > 1 && slices_bytes() <= options.allowance_bytes / 4),
-        lanes_(make_lanes()),
         ranks_(temp.create_unnamed("ranks")),
         result_(std::make_unique<ReorderedMesh>(mesh.column_count(), temp, budget, options.allowance_bytes / 4)) {}
 
@@ -57,8 +56,8 @@ class Reorder {
       run_in_two_threads();
     } else {
       rank_vertices();
-      read_places(0.15, kPlaced);
       place_columns();
+      read_places(kPlaced, kLooked);
       Triangles triangles(temp_, budget_, vertex_count_, lanes_.size(), sorting());
       look_up(0, triangles, Teller::kOwner);
       append_sorted(triangles);
@@ -307,15 +306,10 @@ class Reorder {
     }
   }
 
-  std::vector<Lane> make_lanes() {
-    std::vector<Lane> lanes;
-    for (std::size_t lane = 0; lane < (has_two_threads_ ? 2 : 1); ++lane)
-      lanes.push_back({{"reorder", temp_, budget_, slices_}, {"reorder", temp_, budget_, 1}});
-    return lanes;
-  }
-
   // Divides the corners of all triangles by slice. Needs no ranks.
   void read_places(double from, double to) {
+    for (int lane = 0; lane < (has_two_threads_ ? 2 : 1); ++lane)
+      lanes_.push_back({{"reorder", temp_, budget_, slices_}, {"reorder", temp_, budget_, 1}});
     std::vector<VertexId> corners;
     mesh_.rewind();
     for (std::size_t batch = 0; mesh_.read(corners, kItemsAtOnce); ++batch) {

@@ -37,18 +37,18 @@ class ReorderedMesh : public SpooledMesh {
 struct ReorderOptions {
   std::uint64_t allowance_bytes = 32 << 20;  // of the budget, while reorder() runs
   unsigned coordinates = 3;                  // the number of leading columns that are coordinates; at most 3 are used
-  unsigned threads = 1;                      // that sort; with two or more, one looks up vertices meanwhile
+  unsigned threads = 1;                      // that sort; with two or more, two look up vertices
   // Along one curve for each of some slabs across the longest axis: the front is shorter, but triangles are less near.
   bool in_slabs = false;
   // The part that is done, from 0 to 1. Called often, by one thread at a time. It may throw to stop.
   std::function<void(double)> progress = {};
 };
 
-// Reads the triangles of `mesh` twice, and its vertices in order a few times. Partitioning and sorting replace all
-// random access.
+// Reads the triangles of `mesh` once, and its vertices in order twice; once more for each column with values that are
+// not float32, and for each after the third. Partitioning and sorting replace all random access.
 //
 // THROWS: what reading the mesh throws; Error{kResource} of the budget or the disk.
-// MEMORY: the allowance; the result keeps a quarter of it. About 40 bytes of disk per triangle.   TIME: O(n log n).
+// MEMORY: the allowance; the result keeps a quarter of it. About 45 bytes of disk per triangle.   TIME: O(n log n).
 std::unique_ptr<ReorderedMesh> reorder(IndexedMesh& mesh, const io::TempDir& temp, MemoryBudget& budget,
                                        const ReorderOptions& options = {});
 
