@@ -1,6 +1,7 @@
 #include "ooc/reeb_file/record_log.h"
 
 #include <cstring>
+#include <utility>
 
 namespace reeb::ooc {
 namespace {
@@ -13,8 +14,11 @@ struct Trailer {
 
 }  // namespace
 
-RecordLog::RecordLog(const io::TempDir& temp, MemoryBudget& budget, std::size_t block_bytes)
-    : temp_(&temp), block_bytes_(block_bytes), charge_(budget.reserve("arc records", 2 * block_bytes)) {
+RecordLog::RecordLog(const io::TempDir& temp, MemoryBudget& budget, std::size_t block_bytes, bool background)
+    : temp_(&temp),
+      block_bytes_(block_bytes),
+      background_(background),
+      charge_(budget.reserve("arc records", 2 * block_bytes)) {
   open_.reserve(block_bytes);
 }
 
@@ -31,14 +35,22 @@ void RecordLog::add(const ArcVersion& record, std::span<const std::byte> buckets
 }
 
 void RecordLog::seal_block() {
+  writer_.wait();
   if (!file_) file_.emplace(temp_->create_unnamed("arc records"));
   offsets_.push_back(file_->size());
-  file_->append(open_, in_open_);
+  std::swap(open_, fetched_);
+  const auto write = [this, records = in_open_] { file_->append(fetched_, records); };
+  if (background_)
+    writer_.start(write);
+  else
+    write();
   open_.clear();
+  open_.reserve(block_bytes_);
   in_open_ = 0;
 }
 
 void RecordLog::rewind() {
+  writer_.wait();
   blocks_left_ = offsets_.size();
   unread_ = open_;
 }

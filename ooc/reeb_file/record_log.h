@@ -12,6 +12,7 @@
 #include "libreeb/port/record_sink.h"
 #include "ooc/reeb_file/record_source.h"
 #include "ooc/sorting/sorted_run_file.h"
+#include "ooc/threads/worker.h"
 
 namespace reeb::ooc {
 
@@ -21,7 +22,7 @@ namespace reeb::ooc {
 //
 // MEMORY: two blocks, and 8 bytes per block of the file.
 // THROWS: Error{kResource} if the disk is full, or returns other bytes than were written, or the budget lacks two
-//         blocks.
+//         blocks. An error in the background is thrown by a later call.
 class RecordLog : public RecordSink, public RecordSource {
  public:
   static constexpr std::size_t kBlockBytes = 64 << 10;
@@ -29,8 +30,10 @@ class RecordLog : public RecordSink, public RecordSource {
   // The memory of one log.
   static constexpr std::uint64_t memory_bytes() { return 2 * kBlockBytes; }
 
-  // `temp` must outlive this. A block holds at least one record, however large.
-  RecordLog(const io::TempDir& temp, MemoryBudget& budget, std::size_t block_bytes = kBlockBytes);
+  // `temp` must outlive this. A block holds at least one record, however large. With `background`, a thread writes each
+  // block while the next is filled.
+  RecordLog(const io::TempDir& temp, MemoryBudget& budget, std::size_t block_bytes = kBlockBytes,
+            bool background = false);
 
   void add(const ArcVersion& record, std::span<const std::byte> buckets) override;
 
@@ -39,6 +42,7 @@ class RecordLog : public RecordSink, public RecordSource {
   bool next(ArcVersion& record, std::span<const std::byte>& buckets) override;
 
   std::uint64_t record_count() const { return count_; }
+  // REQUIRES: rewind() was called.
   std::uint64_t spilled_bytes() const { return file_ ? file_->size() : 0; }
 
  private:
@@ -47,6 +51,7 @@ class RecordLog : public RecordSink, public RecordSource {
 
   const io::TempDir* temp_;
   const std::size_t block_bytes_;
+  const bool background_;
   Reservation charge_;
   std::optional<SortedRunFile> file_;
   std::vector<std::uint64_t> offsets_;  // of the blocks in the file
@@ -55,8 +60,9 @@ class RecordLog : public RecordSink, public RecordSource {
   std::uint64_t count_ = 0;
 
   std::size_t blocks_left_ = 0;        // in the file, to be read
-  std::vector<std::byte> fetched_;     // a block of the file
+  std::vector<std::byte> fetched_;     // a block of the file: that which is being written, or was read
   std::span<const std::byte> unread_;  // of the current block
+  Worker writer_;                      // of fetched_; the last member, so that it is destroyed first
 };
 
 }  // namespace reeb::ooc

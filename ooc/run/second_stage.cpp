@@ -262,7 +262,7 @@ void write_file(RunContext& run, const StoredGraph& stored, HierarchySource& hie
 std::optional<std::uint64_t> make_on_disk(RunContext& run, const StoredGraph& stored, std::uint64_t least,
                                           WrittenHierarchy& written) {
   SegmentStore& store = *stored.store;
-  RecordLog records(run.temp, run.budget);
+  RecordLog records(run.temp, run.budget, RecordLog::kBlockBytes, run.background());
   StoredHierarchy hierarchy(store, run.temp, run.budget,
                             {.bucket_exponent = stored.sweep.bucket_exponent, .background = run.background()});
   const Poll poll = stage_poll(run);
@@ -304,7 +304,7 @@ WrittenHierarchy write_hierarchy(RunContext& run, StoredGraph stored) {
   if (!loaded) return write_stored_hierarchy(run, stored);
   GraphInMemory& in_memory = *loaded;
   stored.store.reset();
-  RecordLog records(run.temp, run.budget);
+  RecordLog records(run.temp, run.budget, RecordLog::kBlockBytes, run.background());
   const Reservation memory = run.budget.reserve("hierarchy", in_memory.more_bytes - RecordLog::memory_bytes());
 
   ReebGraph& graph = in_memory.loaded.graph;

@@ -53,17 +53,19 @@ TEST_P(Blocks, RecordsComeBackFromTheLastToTheFirstAsOftenAsAsked) {
   const io::TempDir temp(scratch.path());
   for (const std::size_t count : {0u, 1u, 2u, 2000u}) {
     SCOPED_TRACE(testing::Message() << count << " records");
-    MemoryBudget budget;
-    RecordLog log(temp, budget, GetParam());
-    const auto records = random_records(count, 4000, count + GetParam());
-    for (const Logged& record : records) log.add(record.arc, record.buckets);
-    EXPECT_EQ(log.record_count(), count);
-    expect_backwards(log, records);
-    ArcVersion arc;
-    std::span<const std::byte> buckets;
-    log.rewind();
-    for (std::size_t i = 0; i < count / 2; ++i) ASSERT_TRUE(log.next(arc, buckets));
-    expect_backwards(log, records);
+    for (const bool background : {false, true}) {
+      MemoryBudget budget;
+      RecordLog log(temp, budget, GetParam(), background);
+      const auto records = random_records(count, 4000, count + GetParam());
+      for (const Logged& record : records) log.add(record.arc, record.buckets);
+      EXPECT_EQ(log.record_count(), count);
+      expect_backwards(log, records);
+      ArcVersion arc;
+      std::span<const std::byte> buckets;
+      log.rewind();
+      for (std::size_t i = 0; i < count / 2; ++i) ASSERT_TRUE(log.next(arc, buckets));
+      expect_backwards(log, records);
+    }
   }
 }
 
@@ -81,11 +83,13 @@ TEST(RecordLog, NoFileIsMadeWhileABlockIsEnough) {
 }
 
 TEST(RecordLog, AFullDiskIsReported) {
-  expect_failing_writes_are_reported([](const io::TempDir& temp, MemoryBudget& budget) {
-    RecordLog log(temp, budget, 500);
-    for (const Logged& record : random_records(1000, 100, 2)) log.add(record.arc, record.buckets);
-    EXPECT_GT(log.spilled_bytes(), 0u);
-  });
+  for (const bool background : {false, true})
+    expect_failing_writes_are_reported([background](const io::TempDir& temp, MemoryBudget& budget) {
+      RecordLog log(temp, budget, 500, background);
+      for (const Logged& record : random_records(1000, 100, 2)) log.add(record.arc, record.buckets);
+      log.rewind();
+      EXPECT_GT(log.spilled_bytes(), 0u);
+    });
 }
 
 TEST(RecordLog, ABudgetWithoutRoomIsAResourceError) {
