@@ -20,7 +20,13 @@ class UnionFind {
     return x;
   }
 
-  void prefetch(std::uint32_t x) const { __builtin_prefetch(&parent_[x]); }
+  // The empty statement keeps GCC from removing the calls, as of a function without effect.
+  void prefetch(std::uint32_t x) const {
+    __builtin_prefetch(&parent_[x]);
+    asm volatile("" ::);
+  }
+  // Whether x is the least element of its set.
+  bool is_least(std::uint32_t x) const { return parent_[x] == x; }
 
   // True if x and y were in different sets.
   bool unite(std::uint32_t x, std::uint32_t y) {

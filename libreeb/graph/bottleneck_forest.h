@@ -11,6 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "libreeb/graph/tables_in_memory.h"
+
 namespace reeb {
 
 // Priorities are a fixed bijective hash of the points. So the expected depth is O(log n) for every order of insertion
@@ -20,6 +22,8 @@ class BottleneckForest {
   static constexpr std::uint32_t kNone = ~std::uint32_t{0};
 
   explicit BottleneckForest(std::uint32_t points) : links_(points) {}
+
+  void prefetch(std::uint32_t x) const { reeb::prefetch(&links_[x]); }
 
   // Adds the edge (x, y). Returns kNone if it joins two trees, else the least weight on the cycle
   // it closes; that edge leaves the forest.

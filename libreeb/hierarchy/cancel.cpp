@@ -1,6 +1,7 @@
 #include "libreeb/hierarchy/cancel.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "libreeb/graph/packed_buckets.h"
@@ -94,20 +95,32 @@ std::uint64_t hierarchy_bytes(std::uint64_t nodes, std::uint64_t arcs, std::opti
   return bytes + *lists + *lists / 2 + kNewBucketBytes * nodes;
 }
 
-Hierarchy build_hierarchy(ReebGraph& graph, PackedLists buckets, int exponent, RecordSink& sink, const Poll& poll) {
-  constexpr double kPairing = 0.4;  // of the time, about
+Hierarchy build_hierarchy(ReebGraph& graph, PackedLists buckets, int exponent, RecordSink& sink, const Poll& poll,
+                          const DoBoth& both) {
+  constexpr double kPairing = 0.3;  // of the time, about
   const Poll pairing = part_of(poll, 0, kPairing), cancelling = part_of(poll, kPairing, 1);
   Hierarchy hierarchy;
-  hierarchy.pairs = persistence_pairs(graph, pairing);
-  hierarchy.isolated = isolated_nodes(graph);
+  // The sweeps and the working graph together would hold more than cancelling does; sorting holds less.
+  UnsortedPairs pairs = unsorted_pairs(graph, pairing, both);
+  std::optional<WorkingGraph> working;
+  const auto sort = [&] {
+    hierarchy.pairs = sorted_pairs(graph, std::move(pairs));
+    hierarchy.isolated = isolated_nodes(graph);
+  };
+  const auto make_working_graph = [&] { working.emplace(graph); };
+  if (both) {
+    both(sort, make_working_graph);
+  } else {
+    sort();
+    make_working_graph();
+  }
+  release_arcs(graph);
   if (buckets.size() == 0) {
-    Canceller<> canceller(WorkingGraph(graph), sink);
-    release_arcs(graph);
+    Canceller<> canceller(std::move(*working), sink);
     cancel_all(graph, canceller, hierarchy, cancelling);
   } else {
-    Canceller canceller(WorkingGraph(graph), sink,
+    Canceller canceller(std::move(*working), sink,
                         BucketVersions(NodesInMemory(graph), std::move(buckets), exponent, sink));
-    release_arcs(graph);
     cancel_all(graph, canceller, hierarchy, cancelling);
   }
   return hierarchy;

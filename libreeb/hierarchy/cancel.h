@@ -31,7 +31,9 @@ std::uint64_t hierarchy_bytes(std::uint64_t nodes, std::uint64_t arcs, std::opti
 //         smaller of two parts of the graph within the pair's interval: that above the lower node, and that below the
 //         upper node.
 // MEMORY: hierarchy_bytes().
+// THREADS: `poll` and `sink` are called in this thread; `both` may use another one for parts of the work.
 // REQUIRES: no node is of degree (1, 1).
-Hierarchy build_hierarchy(ReebGraph& graph, PackedLists buckets, int exponent, RecordSink& sink, const Poll& poll = {});
+Hierarchy build_hierarchy(ReebGraph& graph, PackedLists buckets, int exponent, RecordSink& sink, const Poll& poll = {},
+                          const DoBoth& both = {});
 
 }  // namespace reeb

@@ -55,6 +55,10 @@ inline Poll part_of(const Poll& poll, double from, double to) {
   return [&poll, from, to](double done) { poll(from + done * (to - from)); };
 }
 
+// Calls both functions and returns when both have returned: one after the other, or the second in another thread. It
+// throws what they throw.
+using DoBoth = std::function<void(const std::function<void()>& here, const std::function<void()>& elsewhere)>;
+
 // Pairs the nodes, and cancels all pairs but Ext0 in the order of cancelling.
 //
 // TIME:    O(m log m) for the pairs; a cancellation costs its two paths and a search that stays within the

@@ -34,8 +34,13 @@ class UpSweep {
     if (younger != y) pair(PersistencePair{NodeId(younger), NodeId(y), PairType::kOrd0});
     sublevel_.unite(x, y);
   }
-  // The minimum of a component of what was added.
-  std::uint32_t minimum(std::uint32_t node) { return sublevel_.find(node); }
+  // To be called some time before an arc from x up is added.
+  void prefetch(std::uint32_t x) const {
+    forest_.prefetch(x);
+    sublevel_.prefetch(x);
+  }
+  // Whether the node is the minimum of a component of what was added.
+  bool is_minimum(std::uint32_t node) const { return sublevel_.is_least(node); }
 
  private:
   UnionFind sublevel_;
@@ -60,6 +65,8 @@ class DownSweep {
     if (younger != v) pair(PersistencePair{lo, NodeId(flip(younger)), PairType::kRel1});
     superlevel_.unite(x, own);
   }
+  // To be called some time before an arc up to `hi` is added.
+  void prefetch(NodeId hi) const { superlevel_.prefetch(flip(hi.value())); }
   // The maximum of a component of what was added.
   std::uint32_t maximum(std::uint32_t node) { return flip(superlevel_.find(flip(node))); }
 
@@ -72,9 +79,9 @@ class DownSweep {
 
 // Calls pair(PersistencePair) for each component. REQUIRES: all arcs were added to both sweeps.
 template <class Pair>
-void pair_components(std::uint32_t nodes, UpSweep& up, DownSweep& down, const Pair& pair) {
+void pair_components(std::uint32_t nodes, const UpSweep& up, DownSweep& down, const Pair& pair) {
   for (std::uint32_t x = 0; x < nodes; ++x)
-    if (up.minimum(x) == x) pair(PersistencePair{NodeId(x), NodeId(down.maximum(x)), PairType::kExt0});
+    if (up.is_minimum(x)) pair(PersistencePair{NodeId(x), NodeId(down.maximum(x)), PairType::kExt0});
 }
 
 struct RankedPair {

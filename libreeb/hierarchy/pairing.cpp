@@ -8,9 +8,12 @@
 namespace reeb {
 namespace {
 
-// The arcs grouped by upper end: the arcs down from node y are order[first[y]] .. order[first[y + 1] - 1].
+// Sweeps follow arcs to nodes that can be anywhere in memory. These are fetched so many arcs ahead.
+constexpr std::size_t kArcsAhead = 16;
+
+// The arcs grouped by upper end: the arcs down from node y lead to lower[first[y]] .. lower[first[y + 1] - 1].
 struct ArcsBelow {
-  std::vector<std::uint32_t> first, order;
+  std::vector<std::uint32_t> first, lower;
 };
 
 ArcsBelow arcs_below(const ReebGraph& graph) {
@@ -18,7 +21,8 @@ ArcsBelow arcs_below(const ReebGraph& graph) {
   for (const NodeId hi : graph.hi) ++below.first[hi.value()];
   std::uint32_t sum = 0;
   for (std::uint32_t& entry : below.first) sum += std::exchange(entry, sum);
-  for (std::uint32_t arc = 0; arc < graph.arc_count(); ++arc) below.order[below.first[graph.hi[arc].value()]++] = arc;
+  for (std::size_t arc = 0; arc < graph.arc_count(); ++arc)
+    below.lower[below.first[graph.hi[arc].value()]++] = graph.lo[arc].value();
   std::rotate(below.first.begin(), below.first.end() - 1, below.first.end());
   below.first[0] = 0;
   return below;
@@ -31,8 +35,20 @@ UpSweep sweep_up(const ReebGraph& graph, std::vector<PersistencePair>& pairs, co
   UpSweep sweep(nodes);
   for (std::uint32_t y = 0; y < nodes; ++y) {
     if (poll && y % kNodesBetweenPolls == 0) poll(static_cast<double>(y) / nodes);
-    for (std::uint32_t i = below.first[y]; i < below.first[y + 1]; ++i)
-      sweep.add(graph.lo[below.order[i]].value(), y, [&](const PersistencePair& pair) { pairs.push_back(pair); });
+    for (std::size_t i = below.first[y]; i < below.first[y + 1]; ++i) {
+      if (i + kArcsAhead < below.lower.size()) sweep.prefetch(below.lower[i + kArcsAhead]);
+      sweep.add(below.lower[i], y, [&](const PersistencePair& pair) { pairs.push_back(pair); });
+    }
+  }
+  return sweep;
+}
+
+DownSweep sweep_down(const ReebGraph& graph, std::vector<PersistencePair>& pairs) {
+  DownSweep sweep(static_cast<std::uint32_t>(graph.node_count()));
+  // Arcs are sorted by lower end.
+  for (std::size_t arc = graph.arc_count(); arc-- > 0;) {
+    if (arc >= kArcsAhead) sweep.prefetch(graph.hi[arc - kArcsAhead]);
+    sweep.add(graph.lo[arc], graph.hi[arc], [&](const PersistencePair& pair) { pairs.push_back(pair); });
   }
   return sweep;
 }
@@ -47,19 +63,36 @@ void sort_for_cancelling(const ReebGraph& graph, std::vector<PersistencePair>& p
   std::transform(ranked.begin(), ranked.end(), pairs.begin(), [](const RankedPair& k) { return k.pair; });
 }
 
-std::vector<PersistencePair> persistence_pairs(const ReebGraph& graph, const Poll& poll) {
-  std::vector<PersistencePair> pairs;
-  const auto take = [&](const PersistencePair& pair) { pairs.push_back(pair); };
-  {
-    const auto nodes = static_cast<std::uint32_t>(graph.node_count());
-    UpSweep up = sweep_up(graph, pairs, poll);
-    DownSweep down(nodes);
-    // Arcs are sorted by lower end.
-    for (std::size_t arc = graph.arc_count(); arc-- > 0;) down.add(graph.lo[arc], graph.hi[arc], take);
-    pair_components(nodes, up, down, take);
+UnsortedPairs unsorted_pairs(const ReebGraph& graph, const Poll& poll, const DoBoth& both) {
+  UnsortedPairs pairs;
+  const auto nodes = static_cast<std::uint32_t>(graph.node_count());
+  UpSweep up(0);
+  DownSweep down(0);
+  const auto sweep_upwards = [&] { up = sweep_up(graph, pairs.rising, poll); };
+  const auto sweep_downwards = [&] { down = sweep_down(graph, pairs.falling); };
+  if (both) {
+    both(sweep_upwards, sweep_downwards);
+  } else {
+    sweep_upwards();
+    sweep_downwards();
   }
-  sort_for_cancelling(graph, pairs);
+  pair_components(nodes, up, down, [&](const PersistencePair& pair) { pairs.components.push_back(pair); });
   return pairs;
+}
+
+std::vector<PersistencePair> sorted_pairs(const ReebGraph& graph, UnsortedPairs pairs) {
+  std::vector<PersistencePair> all = std::move(pairs.rising);
+  all.reserve(all.size() + pairs.falling.size() + pairs.components.size());
+  for (std::vector<PersistencePair>* some : {&pairs.falling, &pairs.components}) {
+    all.insert(all.end(), some->begin(), some->end());
+    *some = {};
+  }
+  sort_for_cancelling(graph, all);
+  return all;
+}
+
+std::vector<PersistencePair> persistence_pairs(const ReebGraph& graph, const Poll& poll) {
+  return sorted_pairs(graph, unsorted_pairs(graph, poll, {}));
 }
 
 }  // namespace reeb

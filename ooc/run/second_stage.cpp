@@ -18,6 +18,7 @@
 #include "ooc/stored_graph/segment_store.h"
 #include "ooc/stored_hierarchy/stored_hierarchy.h"
 #include "ooc/threads/read_ahead.h"
+#include "ooc/threads/worker.h"
 
 namespace reeb::ooc {
 namespace {
@@ -39,6 +40,17 @@ Poll stage_poll(const RunContext& run) {
   return [&run](double done) {
     constexpr std::uint64_t kSteps = 10000;
     run.tell({ComputeProgress::Phase::kHierarchy, static_cast<std::uint64_t>(done * kSteps), kSteps});
+  };
+}
+
+// Nothing without a second thread.
+DoBoth in_two_threads(const RunContext& run) {
+  if (!run.background()) return {};
+  return [](const std::function<void()>& here, const std::function<void()>& elsewhere) {
+    Worker worker;
+    worker.start(elsewhere);
+    here();
+    worker.wait();
   };
 }
 
@@ -311,7 +323,7 @@ WrittenHierarchy write_hierarchy(RunContext& run, StoredGraph stored) {
   WrittenHierarchy written;
   const Poll poll = stage_poll(run);
   const Hierarchy hierarchy = build_hierarchy(graph, std::move(in_memory.loaded.buckets), stored.meta.bucket_exponent,
-                                              records, part_of(poll, kLoaded, kBuilt));
+                                              records, part_of(poll, kLoaded, kBuilt), in_two_threads(run));
   HierarchyInMemory source(graph, hierarchy);
   write_file(run, stored, source, records, written);
   return written;

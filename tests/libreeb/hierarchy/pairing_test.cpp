@@ -107,6 +107,19 @@ TEST(Pairing, IsSortedForCancelling) {
   }
 }
 
+TEST(Pairing, TheSweepsCanTakePlaceInAnyOrder) {
+  const DoBoth other_order = [](const std::function<void()>& here, const std::function<void()>& elsewhere) {
+    elsewhere();
+    here();
+  };
+  for (std::uint64_t seed = 0; seed < 500; ++seed) {
+    SCOPED_TRACE(testing::Message() << "seed " << seed);
+    test::Random random(seed);
+    const ReebGraph graph = test::random_graph(random, 14);
+    ASSERT_EQ(sorted_pairs(graph, unsorted_pairs(graph, {}, other_order)), persistence_pairs(graph));
+  }
+}
+
 TEST(Pairing, DoesNotDependOnTheOrderOfArcsWithinANode) {
   for (std::uint64_t seed = 0; seed < 500; ++seed) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
