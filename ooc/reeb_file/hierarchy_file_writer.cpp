@@ -1,7 +1,7 @@
 // write_hierarchy_file: frames as HierarchyLayout planned them.
 #include <algorithm>
 
-#include "libreeb/graph/packed_buckets.h"
+#include "libreeb/graph/tables_in_memory.h"
 #include "ooc/reeb_file/file_header.h"
 #include "ooc/reeb_file/frame_size.h"
 #include "ooc/reeb_file/hierarchy_layout.h"
@@ -18,7 +18,7 @@ class HierarchyFileWriter {
   HierarchyFileWriter(const std::string& path, const FileMeta& meta, const HierarchyContent& content)
       : hierarchy_(content.hierarchy),
         records_(content.records),
-        layout_(lay_out(hierarchy_, records_)),
+        layout_(lay_out(hierarchy_, records_, content.background)),
         header_(make_header(meta, content)),
         writer_(path, header_.region_bytes(), content.output),
         background_(content.background),
@@ -98,6 +98,7 @@ class HierarchyFileWriter {
     std::span<const std::byte> packed;
     while (arcs_.size() < count && records_.next(arc, packed)) {
       arcs_.push_back(arc);
+      for (const NodeId end : {arc.lo, arc.hi}) prefetch(&file_index_[end.value()]);
       if (header_.flags.has_embedding) frame.add_buckets(packed);
     }
   }
@@ -109,7 +110,10 @@ class HierarchyFileWriter {
       new_nodes_.push_back(hierarchy_.isolated()[i].value());
     for (const ArcVersion& arc : arcs_)
       for (const NodeId end : {arc.lo, arc.hi})
-        if (file_index_[end.value()] == kNotIntroduced) new_nodes_.push_back(end.value());
+        if (file_index_[end.value()] == kNotIntroduced) {
+          new_nodes_.push_back(end.value());
+          hierarchy_.prefetch(end);
+        }
     std::sort(new_nodes_.begin(), new_nodes_.end());
     new_nodes_.erase(std::unique(new_nodes_.begin(), new_nodes_.end()), new_nodes_.end());
     for (const std::uint32_t node : new_nodes_) {
@@ -119,19 +123,20 @@ class HierarchyFileWriter {
   }
 
   void write_pairs() {
-    std::vector<FilePair> pairs;
-    const auto write = [&] {
-      payload_.clear();
-      encode_pairs_frame(pairs, payload_);
-      writer_.add({.kind = FrameKind::kPairs, .nodes = static_cast<std::uint32_t>(pairs.size())}, payload_);
-      pairs.clear();
-    };
     hierarchy_.rewind_pairs();
-    for (PersistencePair pair; hierarchy_.next_pair(pair);) {
-      pairs.push_back({file_index_[pair.lo.value()], file_index_[pair.hi.value()], pair.type, pair.kept});
-      if (pairs.size() == kPairsPerFrame) write();
-    }
-    if (!pairs.empty()) write();
+    read_ahead<std::vector<FilePair>>(
+        background_,
+        [&](std::vector<FilePair>& pairs) {
+          pairs.clear();
+          for (PersistencePair pair; pairs.size() < kPairsPerFrame && hierarchy_.next_pair(pair);)
+            pairs.push_back({file_index_[pair.lo.value()], file_index_[pair.hi.value()], pair.type, pair.kept});
+          return !pairs.empty();
+        },
+        [&](const std::vector<FilePair>& pairs) {
+          payload_.clear();
+          encode_pairs_frame(pairs, payload_);
+          writer_.add({.kind = FrameKind::kPairs, .nodes = static_cast<std::uint32_t>(pairs.size())}, payload_);
+        });
   }
 
   HierarchySource& hierarchy_;

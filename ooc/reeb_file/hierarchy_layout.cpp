@@ -7,7 +7,9 @@
 #include <utility>
 
 #include "libreeb/graph/packed_buckets.h"
+#include "libreeb/graph/tables_in_memory.h"
 #include "ooc/reeb_file/frame_size.h"
+#include "ooc/threads/read_ahead.h"
 
 namespace reeb::ooc {
 namespace {
@@ -22,6 +24,17 @@ class VersionCounter {
   VersionCounter(std::size_t node_count, std::size_t versions) : present_from_(node_count, kNever), change_(versions) {}
 
   bool was_named(NodeId node) const { return present_from_[node.value()] != kNever; }
+
+  // Prefetch what add() accesses: nodes and versions; when these have arrived, the versions that the nodes name.
+  void prefetch(const ArcVersion& arc) const {
+    reeb::prefetch(&change_[arc.born]);
+    for (const NodeId end : {arc.lo, arc.hi}) reeb::prefetch(&present_from_[end.value()]);
+  }
+  void prefetch_next(const ArcVersion& arc) const {
+    for (const NodeId end : {arc.lo, arc.hi})
+      if (const std::uint32_t from = present_from_[end.value()]; arc.born < from && from < change_.size())
+        reeb::prefetch(&change_[from]);
+  }
 
   void add(const ArcVersion& arc, std::uint64_t buckets) {
     arrives(arc.born, arc.died, {.arcs = 1, .buckets = buckets});
@@ -178,7 +191,7 @@ void check_pairs(HierarchySource& hierarchy) {
 
 }  // namespace
 
-HierarchyLayout lay_out(HierarchySource& hierarchy, RecordSource& records) {
+HierarchyLayout lay_out(HierarchySource& hierarchy, RecordSource& records, bool background) {
   const std::size_t node_count = hierarchy.node_count(), steps = hierarchy.persistence().size();
   check_steps(hierarchy.persistence());
   check_pairs(hierarchy);
@@ -193,16 +206,37 @@ HierarchyLayout lay_out(HierarchySource& hierarchy, RecordSource& records) {
       counter.add_isolated(isolated[i]);
       cutter.add_isolated();
     }
-    ArcVersion arc, before;
-    std::span<const std::byte> packed;
-    for (records.rewind(); records.next(arc, packed); ++layout.records) {
-      check_record(arc, layout.records, node_count, steps);
-      if (arc.died > std::exchange(before, arc).died) fail("arc", layout.records, "lives longer than the one before");
-      const std::uint64_t buckets = packed_count(packed);
-      const std::uint64_t new_nodes = (counter.was_named(arc.lo) ? 0u : 1u) + (counter.was_named(arc.hi) ? 0u : 1u);
-      counter.add(arc, buckets);
-      cutter.add_record(arc.died, new_nodes, buckets);
-    }
+    struct Record {
+      ArcVersion arc;
+      std::uint64_t buckets;
+    };
+    constexpr std::size_t kRecordsAtOnce = 512, kAhead = 8;
+    records.rewind();
+    ArcVersion before;
+    std::uint64_t read = 0;
+    const auto read_some = [&](std::vector<Record>& some) {
+      some.clear();
+      ArcVersion arc;
+      for (std::span<const std::byte> packed; some.size() < kRecordsAtOnce && records.next(arc, packed); ++read) {
+        check_record(arc, read, node_count, steps);
+        if (arc.died > std::exchange(before, arc).died) fail("arc", read, "lives longer than the one before");
+        some.push_back({arc, packed_count(packed)});
+      }
+      return !some.empty();
+    };
+    // The nodes of records can be anywhere in memory.
+    const auto count_some = [&](const std::vector<Record>& some) {
+      for (const Record& record : some) counter.prefetch(record.arc);
+      for (std::size_t i = 0; i < some.size(); ++i) {
+        if (i + kAhead < some.size()) counter.prefetch_next(some[i + kAhead].arc);
+        const auto& [arc, buckets] = some[i];
+        const std::uint64_t new_nodes = (counter.was_named(arc.lo) ? 0u : 1u) + (counter.was_named(arc.hi) ? 0u : 1u);
+        counter.add(arc, buckets);
+        cutter.add_record(arc.died, new_nodes, buckets);
+      }
+      layout.records += some.size();
+    };
+    read_ahead<std::vector<Record>>(background, read_some, count_some);
     for (std::uint32_t node = 0; node < node_count; ++node)
       if (!counter.was_named(NodeId(node))) fail("node", node, "is neither isolated nor named by an arc");
     cutter.finish();

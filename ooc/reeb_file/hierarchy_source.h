@@ -6,6 +6,7 @@
 
 #include "libreeb/graph/reeb_graph.h"
 #include "libreeb/graph/settled_node.h"
+#include "libreeb/graph/tables_in_memory.h"
 #include "libreeb/hierarchy/hierarchy.h"
 
 namespace reeb::ooc {
@@ -23,6 +24,8 @@ class HierarchySource {
   virtual SweepKey key(NodeId id) = 0;
   // The node of this rank; without positions, zeros.
   virtual SettledNode node(NodeId id) = 0;
+  // To be called some time before node().
+  virtual void prefetch(NodeId /*id*/) const {}
 
   // Pairs in the order of cancelling. rewind_pairs() starts over; next_pair() is false at the end.
   virtual void rewind_pairs() = 0;
@@ -44,6 +47,10 @@ class HierarchyInMemory : public HierarchySource {
   SweepKey key(NodeId id) override { return graph_.nodes[id.value()]; }
   SettledNode node(NodeId id) override {
     return {graph_.nodes[id.value()], has_positions() ? graph_.positions[id.value()] : Point{}};
+  }
+  void prefetch(NodeId id) const override {
+    reeb::prefetch(&graph_.nodes[id.value()]);
+    if (has_positions()) reeb::prefetch(&graph_.positions[id.value()]);
   }
   void rewind_pairs() override { next_ = 0; }
   bool next_pair(PersistencePair& pair) override {
