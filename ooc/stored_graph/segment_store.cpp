@@ -339,6 +339,24 @@ NodeId node_of(const SweepKey& key, const NodeTable& table) {
   return NodeId(node);
 }
 
+// The ends of arcs as nodes. Arcs come by lower end, so each is found soon after the one before.
+void find_ends(std::span<const StoredArc> arcs, const std::vector<SweepKey>& nodes, const NodeTable& table,
+               std::vector<NodeId>& lo, std::vector<NodeId>& hi) {
+  constexpr std::size_t kAhead = 16;  // from one stage of fetching an upper end to the next
+  lo.clear();
+  hi.clear();
+  std::size_t last = arcs.empty() ? 0 : node_of(arcs[0].keys.lo, table).value();
+  for (std::size_t i = 0; i < arcs.size(); ++i) {
+    if (i + 2 * kAhead < arcs.size()) table.prefetch_slot(arcs[i + 2 * kAhead].keys.hi);
+    if (i + kAhead < arcs.size()) table.prefetch_node(arcs[i + kAhead].keys.hi);
+    const auto& [low, high] = arcs[i].keys;
+    while (last < nodes.size() && nodes[last] < low) ++last;
+    const bool is_node = last < nodes.size() && nodes[last] == low;
+    lo.push_back(is_node ? NodeId(static_cast<std::uint32_t>(last)) : node_of(low, table));
+    hi.push_back(node_of(high, table));
+  }
+}
+
 std::uint64_t graph_bytes(const SegmentStore& store, const LoadOptions& options) {
   const std::uint64_t nodes = store.node_count(), arcs = store.arc_count();
   std::uint64_t bytes = nodes * sizeof(SweepKey) + arcs * 2 * sizeof(NodeId);
@@ -385,15 +403,19 @@ LoadedGraph read_graph(SegmentStore& store, const LoadOptions& options, const Po
   const Reservation table_memory = store.budget().reserve("ends of arcs", NodeTable::bytes(node_count));
   const NodeTable table(graph.nodes);
   store.rewind_arcs();
-  read_ahead<PackedArcPiece>(
+  struct Piece {
+    PackedArcPiece arcs;
+    std::vector<NodeId> lo, hi;
+  };
+  read_ahead<Piece>(
       store.background(),
-      [&](PackedArcPiece& piece) { return store.read_arcs(piece, kRecordsAtOnce, options.bucket_exponent); },
-      [&](const PackedArcPiece& piece) {
-        for (const StoredArc& arc : piece.records) {
-          graph.lo.push_back(node_of(arc.keys.lo, table));
-          graph.hi.push_back(node_of(arc.keys.hi, table));
-          if (options.bucket_exponent) loaded.buckets.add_packed(piece.payload(arc));
-        }
+      [&](Piece& piece) { return store.read_arcs(piece.arcs, kRecordsAtOnce, options.bucket_exponent); },
+      [&](Piece& piece) { find_ends(piece.arcs.records, graph.nodes, table, piece.lo, piece.hi); },
+      [&](const Piece& piece) {
+        graph.lo.insert(graph.lo.end(), piece.lo.begin(), piece.lo.end());
+        graph.hi.insert(graph.hi.end(), piece.hi.begin(), piece.hi.end());
+        if (options.bucket_exponent)
+          for (const StoredArc& arc : piece.arcs.records) loaded.buckets.add_packed(piece.arcs.payload(arc));
         tell();
       });
   if (options.bucket_exponent)

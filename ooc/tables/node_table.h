@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "libreeb/base/sweep_key.h"
+#include "libreeb/graph/tables_in_memory.h"
 
 namespace reeb::ooc {
 
@@ -29,6 +30,12 @@ class NodeTable {
   }
 
   static std::uint64_t bytes(std::uint64_t nodes) { return std::bit_ceil(2 * nodes + 1) * sizeof(std::uint32_t); }
+
+  // To be called some time before find(), in this order, so that what it reads arrives in the cache meanwhile.
+  void prefetch_slot(const SweepKey& key) const { prefetch(&slots_[home(key)]); }
+  void prefetch_node(const SweepKey& key) const {
+    if (const std::uint32_t node = slots_[home(key)]; node != kNone) prefetch(&nodes_[node]);
+  }
 
   // The index of the key among the nodes, or kNone.
   std::uint32_t find(const SweepKey& key) const {
