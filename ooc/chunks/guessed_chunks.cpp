@@ -70,14 +70,16 @@ bool GuessedChunks::read_triangles(Chunk& chunk, const LookUp& look_up) {
   chunk.corners.resize(count);
   if (count == 0) return false;
   triangles_read_ += count / 3;
+  const auto guess = [&] { given_up_ = guesses_.add(chunk, most_open()) != UseGuesses::Verdict::kHolds; };
   // Where other threads have swept all that was read, they wait for this. The mesh keeps the ids of the input, so
-  // looking up does not change them.
-  in_parallel(options_.threads, 2, [&](std::size_t part) {
-    if (part == 0)
-      given_up_ = guesses_.add(chunk, most_open()) != UseGuesses::Verdict::kHolds;
-    else
-      look_up();
-  });
+  // looking up does not change them. Triangles that share few vertices are likely to be given up, and looking up would
+  // read all over the file.
+  if (chunk.vertex_count() <= chunk.triangle_count()) {
+    in_parallel(options_.threads, 2, [&](std::size_t part) { part == 0 ? guess() : look_up(); });
+  } else {
+    guess();
+    if (!given_up_) look_up();
+  }
   if (count < most)
     size_.adapt(chunk, count / 3);
   else
