@@ -9,7 +9,7 @@ WHY = {
     "tiles": "pieces that come in no order are sorted on disk, or glued with long borders",
     "noise": "exit code 3: the noise at the borders of tiles, 52 MB of it, stays in memory until the tiles beside them "
              "come",
-    "random order": "sorting the mesh on disk by position takes two thirds of the time",
+    "random order": "sorting the mesh on disk by position takes half of the time",
     "buckets": "each vertex enters a bucket, and each arc has at least one: a third more is sorted, packed and written",
     "hierarchy": "each cancellation touches nodes and arcs all over memory",
     "wide": "a quarter of the time is gluing of long borders, and little else can go on while a stretch is read",
