@@ -134,13 +134,12 @@ GuessedRun run_guessing(RunContext& run, FirstReading& reading, const MemoryPlan
   const ChunkSize chunk = start != nullptr ? start->chunk : plan.chunk;
   const std::uint64_t most = std::max<std::uint64_t>(plan.chunk.most, reading.bytes_total());
   if (chunk.first == 0 || chunk.first > chunk.most || chunk.most > most) throw DamagedState();
-  GuessedChunks source(
-      reading, run.values, run.temp, run.budget,
-      {.chunk = chunk,
-       .allowance_bytes = plan.table_bytes,
-       .most_open_vertices = plan.most_live_vertices(),
-       .threads = plan.threads},
-      place_of(start));
+  GuessedChunks source(reading, run.values, run.temp, run.budget,
+                       {.chunk = chunk,
+                        .allowance_bytes = plan.table_bytes,
+                        .most_open_vertices = plan.most_live_vertices(),
+                        .threads = plan.threads},
+                       place_of(start));
   result = glue_chunks(run, source, plan, {.origin = ChunkOrigin::kGuessed, .chunk = chunk}, std::move(result));
   const UseGuesses& guesses = source.guesses();
   result.guessed_vertices = guesses.guessed_vertices();
