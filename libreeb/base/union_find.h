@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "libreeb/base/prefetch.h"
+
 namespace reeb {
 
 // The smaller index always becomes the root, so a set is named by its least element, and the result does not depend on
@@ -20,11 +22,7 @@ class UnionFind {
     return x;
   }
 
-  // The empty statement keeps GCC from removing the calls, as of a function without effect.
-  void prefetch(std::uint32_t x) const {
-    __builtin_prefetch(&parent_[x]);
-    asm volatile("" ::);
-  }
+  void prefetch(std::uint32_t x) const { reeb::prefetch(&parent_[x]); }
   // Whether x is the least element of its set.
   bool is_least(std::uint32_t x) const { return parent_[x] == x; }
 

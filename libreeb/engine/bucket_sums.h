@@ -10,10 +10,10 @@
 #include <cstdint>
 #include <span>
 
-#include "libreeb/base/direction.h"
 #include "libreeb/base/growing_array.h"
 #include "libreeb/base/state_stream.h"
 #include "libreeb/graph/bucket.h"
+#include "libreeb/graph/direction.h"
 #include "libreeb/port/graph_sink.h"
 
 namespace reeb {

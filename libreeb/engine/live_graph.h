@@ -19,13 +19,13 @@
 #include <cstdint>
 #include <vector>
 
-#include "libreeb/base/direction.h"
 #include "libreeb/base/growing_array.h"
 #include "libreeb/base/recycling_array.h"
 #include "libreeb/base/state_stream.h"
 #include "libreeb/base/sweep_key.h"
 #include "libreeb/engine/bucket_sums.h"
 #include "libreeb/engine/sweep_options.h"
+#include "libreeb/graph/direction.h"
 #include "libreeb/graph/reeb_graph.h"
 #include "libreeb/port/arc_log.h"
 #include "libreeb/port/graph_sink.h"

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "libreeb/graph/tables_in_memory.h"
+#include "libreeb/base/prefetch.h"
 
 namespace reeb {
 

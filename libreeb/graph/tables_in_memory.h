@@ -4,15 +4,9 @@
 #include <cstdint>
 
 #include "libreeb/base/id_vector.h"
+#include "libreeb/base/prefetch.h"
 
 namespace reeb {
-
-// Prefetches the cache line of `address`. GCC takes a function that only prefetches for one without effect, and removes
-// the calls to it. The empty statement prevents that.
-inline void prefetch(const void* address) {
-  __builtin_prefetch(address);
-  asm volatile("" ::);
-}
 
 // What the classes of the canceller ask for when they make a table. Another kind of tables has the same functions and
 // may hold its entries elsewhere. Then a reference to an entry is valid until the next access to the same table, so no

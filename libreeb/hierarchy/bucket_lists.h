@@ -9,10 +9,10 @@
 #include <utility>
 #include <vector>
 
-#include "libreeb/base/direction.h"
 #include "libreeb/base/flat_map.h"
 #include "libreeb/base/ids.h"
 #include "libreeb/graph/bucket.h"
+#include "libreeb/graph/direction.h"
 #include "libreeb/graph/packed_buckets.h"
 #include "libreeb/hierarchy/packed_lists.h"
 

@@ -9,6 +9,7 @@
 #include <span>
 #include <utility>
 
+#include "libreeb/base/prefetch.h"
 #include "libreeb/graph/reeb_graph.h"
 #include "libreeb/graph/tables_in_memory.h"
 #include "libreeb/hierarchy/bucket_lists.h"

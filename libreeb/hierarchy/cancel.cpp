@@ -4,8 +4,8 @@
 #include <optional>
 #include <utility>
 
+#include "libreeb/base/prefetch.h"
 #include "libreeb/graph/packed_buckets.h"
-#include "libreeb/graph/tables_in_memory.h"
 #include "libreeb/hierarchy/bucket_versions.h"
 #include "libreeb/hierarchy/canceller.h"
 #include "libreeb/hierarchy/pairing.h"
@@ -108,12 +108,7 @@ Hierarchy build_hierarchy(ReebGraph& graph, PackedLists buckets, int exponent, R
     hierarchy.isolated = isolated_nodes(graph);
   };
   const auto make_working_graph = [&] { working.emplace(graph); };
-  if (both) {
-    both(sort, make_working_graph);
-  } else {
-    sort();
-    make_working_graph();
-  }
+  both(sort, make_working_graph);
   release_arcs(graph);
   if (buckets.size() == 0) {
     Canceller<> canceller(std::move(*working), sink);

@@ -34,6 +34,6 @@ std::uint64_t hierarchy_bytes(std::uint64_t nodes, std::uint64_t arcs, std::opti
 // THREADS: `poll` and `sink` are called in this thread; `both` may use another one for parts of the work.
 // REQUIRES: no node is of degree (1, 1).
 Hierarchy build_hierarchy(ReebGraph& graph, PackedLists buckets, int exponent, RecordSink& sink, const Poll& poll = {},
-                          const DoBoth& both = {});
+                          const DoBoth& both = one_after_the_other);
 
 }  // namespace reeb

@@ -59,6 +59,11 @@ inline Poll part_of(const Poll& poll, double from, double to) {
 // throws what they throw.
 using DoBoth = std::function<void(const std::function<void()>& here, const std::function<void()>& elsewhere)>;
 
+inline void one_after_the_other(const std::function<void()>& first, const std::function<void()>& second) {
+  first();
+  second();
+}
+
 // Pairs the nodes, and cancels all pairs but Ext0 in the order of cancelling.
 //
 // TIME:    O(m log m) for the pairs; a cancellation costs its two paths and a search that stays within the

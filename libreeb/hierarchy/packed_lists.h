@@ -9,9 +9,9 @@
 #include <span>
 #include <vector>
 
+#include "libreeb/base/prefetch.h"
 #include "libreeb/graph/arc_buckets.h"
 #include "libreeb/graph/bucket.h"
-#include "libreeb/graph/tables_in_memory.h"
 
 namespace reeb {
 

@@ -8,7 +8,7 @@
 namespace reeb {
 namespace {
 
-// Sweeps follow arcs to nodes that can be anywhere in memory. These are fetched so many arcs ahead.
+// The ends of an arc can be anywhere in memory. So the sweeps prefetch what the arc this many places later needs.
 constexpr std::size_t kArcsAhead = 16;
 
 // The arcs grouped by upper end: the arcs down from node y lead to lower[first[y]] .. lower[first[y + 1] - 1].
@@ -70,12 +70,7 @@ UnsortedPairs unsorted_pairs(const ReebGraph& graph, const Poll& poll, const DoB
   DownSweep down(0);
   const auto sweep_upwards = [&] { up = sweep_up(graph, pairs.rising, poll); };
   const auto sweep_downwards = [&] { down = sweep_down(graph, pairs.falling); };
-  if (both) {
-    both(sweep_upwards, sweep_downwards);
-  } else {
-    sweep_upwards();
-    sweep_downwards();
-  }
+  both(sweep_upwards, sweep_downwards);
   pair_components(nodes, up, down, [&](const PersistencePair& pair) { pairs.components.push_back(pair); });
   return pairs;
 }
@@ -92,7 +87,7 @@ std::vector<PersistencePair> sorted_pairs(const ReebGraph& graph, UnsortedPairs 
 }
 
 std::vector<PersistencePair> persistence_pairs(const ReebGraph& graph, const Poll& poll) {
-  return sorted_pairs(graph, unsorted_pairs(graph, poll, {}));
+  return sorted_pairs(graph, unsorted_pairs(graph, poll, one_after_the_other));
 }
 
 }  // namespace reeb

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "libreeb/base/direction.h"
+#include "libreeb/graph/direction.h"
 #include "libreeb/graph/reeb_graph.h"
 #include "libreeb/graph/tables_in_memory.h"
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <span>
 
-#include "libreeb/base/direction.h"
+#include "libreeb/graph/direction.h"
 
 namespace reeb {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <cstdint>
 
-#include "libreeb/base/direction.h"
 #include "libreeb/base/sweep_key.h"
+#include "libreeb/graph/direction.h"
 
 namespace reeb {
 

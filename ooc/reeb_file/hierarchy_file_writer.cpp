@@ -1,7 +1,7 @@
 // write_hierarchy_file: frames as HierarchyLayout planned them.
 #include <algorithm>
 
-#include "libreeb/graph/tables_in_memory.h"
+#include "libreeb/base/prefetch.h"
 #include "ooc/reeb_file/file_header.h"
 #include "ooc/reeb_file/frame_size.h"
 #include "ooc/reeb_file/hierarchy_layout.h"

@@ -6,8 +6,8 @@
 #include <string>
 #include <utility>
 
+#include "libreeb/base/prefetch.h"
 #include "libreeb/graph/packed_buckets.h"
-#include "libreeb/graph/tables_in_memory.h"
 #include "ooc/reeb_file/frame_size.h"
 #include "ooc/threads/read_ahead.h"
 

@@ -4,9 +4,9 @@
 #include <cstddef>
 #include <span>
 
+#include "libreeb/base/prefetch.h"
 #include "libreeb/graph/reeb_graph.h"
 #include "libreeb/graph/settled_node.h"
-#include "libreeb/graph/tables_in_memory.h"
 #include "libreeb/hierarchy/hierarchy.h"
 
 namespace reeb::ooc {

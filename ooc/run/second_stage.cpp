@@ -43,9 +43,9 @@ Poll stage_poll(const RunContext& run) {
   };
 }
 
-// Nothing without a second thread.
+// If the run has a second thread.
 DoBoth in_two_threads(const RunContext& run) {
-  if (!run.background()) return {};
+  if (!run.background()) return one_after_the_other;
   return [](const std::function<void()>& here, const std::function<void()>& elsewhere) {
     Worker worker;
     worker.start(elsewhere);

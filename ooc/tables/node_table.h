@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "libreeb/base/prefetch.h"
 #include "libreeb/base/sweep_key.h"
-#include "libreeb/graph/tables_in_memory.h"
 
 namespace reeb::ooc {
 

@@ -42,7 +42,7 @@ struct RankedTriangle {
 // triangles, is sorted on disk; and so are all, if memory is too small for the parts.
 //
 // THROWS: Error{kResource} of the budget or the disk.
-// MEMORY: the allowance of the sort, reserved as it is needed.
+// MEMORY: the allowance of the sort, reserved as it is needed, and as much again for each of up to two large parts.
 // THREADS: each lane is for one thread at a time; else one at a time.
 template <class Rank>
 class RankedTriangles {

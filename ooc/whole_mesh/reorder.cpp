@@ -59,7 +59,7 @@ class Reorder {
       place_columns();
       read_places(kPlaced, kLooked);
       Triangles triangles(temp_, budget_, vertex_count_, lanes_.size(), sorting());
-      look_up(0, triangles, Teller::kOwner);
+      look_up(0, triangles, Thread::kOwner);
       append_sorted(triangles);
     }
     result_->set_simplex_counts(mesh_.simplex_counts());
@@ -74,7 +74,7 @@ class Reorder {
     PartitionLogs<Rank> ranks;                           // by slice; first, their places in it
     PartitionLogs<std::array<std::uint16_t, 3>> slices;  // of each triangle
   };
-  enum class Teller { kOwner, kWorker };
+  enum class Thread { kOwner, kWorker };
 
   // The double is in two parts, so that it needs no space before it.
   struct PlacedNumber {
@@ -109,9 +109,9 @@ class Reorder {
     triangles.emplace(temp_, budget_, vertex_count_, lanes_.size(), sorting());
     vertices.start([&] {
       place_columns();
-      look_up_some(*triangles, Teller::kWorker);
+      look_up_some(*triangles, Thread::kWorker);
     });
-    look_up_some(*triangles, Teller::kOwner);
+    look_up_some(*triangles, Thread::kOwner);
     vertices.wait([this] { poll(); });
     append_sorted(*triangles);
   }
@@ -136,9 +136,9 @@ class Reorder {
     if (!has_two_threads_) return poll();
     if (stops_) throw Stopped();
   }
-  // For a step of either thread.
-  void step(Teller teller, double done) const {
-    if (teller == Teller::kOwner) return tell(done);
+  // For the steps that both threads do.
+  void tell(Thread thread, double done) const {
+    if (thread == Thread::kOwner) return tell(done);
     if (stops_) throw Stopped();
   }
   // For a step that reads the mesh, and lasts from `from` to `to`.
@@ -326,19 +326,19 @@ class Reorder {
     }
   }
 
-  void look_up_some(Triangles& triangles, Teller teller) {
-    for (std::size_t lane; (lane = next_lane_++) < lanes_.size();) look_up(lane, triangles, teller);
+  void look_up_some(Triangles& triangles, Thread thread) {
+    for (std::size_t lane; (lane = next_lane_++) < lanes_.size();) look_up(lane, triangles, thread);
   }
 
   // Adds the triangles of a lane, with ranks for corners.
-  void look_up(std::size_t lane, Triangles& triangles, Teller teller) {
+  void look_up(std::size_t lane, Triangles& triangles, Thread thread) {
     auto [ranks, slices] = std::move(lanes_[lane]);  // gone afterwards
-    rank_places(ranks, teller);
+    rank_places(ranks, thread);
     // The rank of each corner is the next one in the log of its slice.
     std::vector<Triangle> found;
     std::uint64_t done = 0;
     for (auto some = slices.next_block(0); !some.empty(); some = slices.next_block(0)) {
-      step(teller, kLooked + (kSorted - kLooked) * static_cast<double>(done) / static_cast<double>(slices.count(0)));
+      tell(thread, kLooked + (kSorted - kLooked) * static_cast<double>(done) / static_cast<double>(slices.count(0)));
       done += some.size();
       found.clear();
       for (const auto& triangle : some)
@@ -348,11 +348,11 @@ class Reorder {
   }
 
   // Replaces the places of corners in their slices by ranks.
-  void rank_places(PartitionLogs<Rank>& corners, Teller teller) {
+  void rank_places(PartitionLogs<Rank>& corners, Thread thread) {
     const Reservation charge = budget_.reserve("reorder", slice_entries() * sizeof(Rank));
     std::vector<Rank> slice;
     for (std::size_t s = 0; s < slices_; ++s) {
-      step(teller, kPlaced + (kLooked - kPlaced) * static_cast<double>(s) / static_cast<double>(slices_));
+      tell(thread, kPlaced + (kLooked - kPlaced) * static_cast<double>(s) / static_cast<double>(slices_));
       slice.resize(slice_size(s));
       ranks_.read_at(s * slice_entries() * sizeof(Rank), std::as_writable_bytes(std::span(slice)));
       corners.change(s, [&](std::span<Rank> some) {
