@@ -8,6 +8,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "libreeb/base/prefetch.h"
+
 namespace reeb {
 
 class FlatMap {
@@ -20,8 +22,8 @@ class FlatMap {
   // To be called some time before another function with this key, so that its entry arrives in the cache meanwhile.
   void prefetch(std::uint64_t key) const {
     if (values_.empty()) return;
-    __builtin_prefetch(&values_[home(key)]);
-    __builtin_prefetch(&keys_[home(key)]);
+    reeb::prefetch(&values_[home(key)]);
+    reeb::prefetch(&keys_[home(key)]);
   }
 
   // The value of `key`, or kNone.

@@ -11,6 +11,7 @@
 #include <span>
 
 #include "libreeb/base/growing_array.h"
+#include "libreeb/base/prefetch.h"
 #include "libreeb/base/state_stream.h"
 #include "libreeb/graph/bucket.h"
 #include "libreeb/graph/direction.h"
@@ -176,12 +177,12 @@ class BucketLists {
 
   // Prefetches a bucket, or the last one of a list, which mostly is its only one.
   void prefetch_sum(Index bucket) const {
-    __builtin_prefetch(&sums_[bucket]);
-    __builtin_prefetch(&sums_[bucket].sum[2]);
+    reeb::prefetch(&sums_[bucket]);
+    reeb::prefetch(&sums_[bucket].sum[2]);
   }
   void prefetch(const List& list) const {
     if (list.empty()) return;
-    __builtin_prefetch(&links_[list.last]);
+    reeb::prefetch(&links_[list.last]);
     prefetch_sum(list.last);
   }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "libreeb/base/error.h"
+#include "libreeb/base/prefetch.h"
 #include "libreeb/engine/chunk_stars.h"
 #include "libreeb/engine/fragment_builder.h"
 #include "libreeb/engine/shared_edges.h"
@@ -36,7 +37,7 @@ class Crossings {
   std::uint32_t& label(std::uint32_t t) { return halves_[2 * std::size_t{t}].label; }
   std::uint32_t label(std::uint32_t t) const { return halves_[2 * std::size_t{t}].label; }
   // Prefetches label and rings of the triangle of a half-edge.
-  void prefetch(std::uint32_t half) const { __builtin_prefetch(&halves_[half & ~1u]); }
+  void prefetch(std::uint32_t half) const { reeb::prefetch(&halves_[half & ~1u]); }
   std::size_t memory_bytes() const { return halves_.capacity() * sizeof(Half); }
 
  private:

@@ -285,7 +285,7 @@ bool LiveGraph::can_leave(Index a) const {
 void LiveGraph::contract(Index n) {
   const Index upper = nodes_[n].first(kUp), lower = nodes_[n].first(kDown);
   prefetch_buckets(lower, upper);
-  if (embeds_ && track_positions_) __builtin_prefetch(&positions_[n]);
+  if (embeds_ && track_positions_) reeb::prefetch(&positions_[n]);
   for (Index r = arcs_[upper].first_reference; r != kNone; r = references_[r].next) {
     const Index skipped = references_[r].down;
     references_[r].down = references_[skipped].down;

@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "libreeb/base/growing_array.h"
+#include "libreeb/base/prefetch.h"
 #include "libreeb/base/recycling_array.h"
 #include "libreeb/base/state_stream.h"
 #include "libreeb/base/sweep_key.h"
@@ -74,8 +75,8 @@ class LiveGraph {
   // the path.
   Index prefetch(Index reference) const {
     const Node& node = nodes_[arcs_[references_[reference].arc].lo()];
-    __builtin_prefetch(&node.key);
-    __builtin_prefetch(&node.state);
+    reeb::prefetch(&node.key);
+    reeb::prefetch(&node.state);
     return references_[reference].down;
   }
   // Merges two paths with the same ends into one. `a` stays a valid top, `b` does not.

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "libreeb/base/prefetch.h"
 #include "libreeb/base/sweep_key.h"
 #include "ooc/reeb_file/file_header.h"
 #include "ooc/reeb_file/frame_size.h"
@@ -92,7 +93,7 @@ void GraphFileWriter::rank_by_vertex(std::span<const ArcKeys> arcs, std::vector<
 }
 
 void GraphFileWriter::prefetch_rank(const SweepKey& key) const {
-  if (key.vertex.value() < rank_of_.size()) __builtin_prefetch(&rank_of_[key.vertex.value()]);
+  if (key.vertex.value() < rank_of_.size()) reeb::prefetch(&rank_of_[key.vertex.value()]);
 }
 
 // Upper ends are looked up in their own order: a large batch then touches each page of the table once, and each search
