@@ -13,6 +13,24 @@ constexpr std::size_t kBufferBytes = 64 << 10;
 
 }  // namespace
 
+void PackedFrame::pack(FrameHeader header) {
+  packed_.clear();
+  if (payload.size() >= kCompressFromBytes) compressor_.compress(payload, kZstdLevel, packed_);
+  const bool pays = !packed_.empty() && packed_.size() < payload.size();
+  const std::vector<std::byte>& content = pays ? packed_ : payload;
+  header.raw_bytes = static_cast<std::uint32_t>(payload.size());
+  header.stored_bytes = static_cast<std::uint32_t>(content.size());
+
+  stored_.clear();
+  encode_frame_header(header, stored_);
+  io::RunningChecksum sum;
+  sum.add(stored_);
+  sum.add(content);
+  ByteWriter out(stored_);
+  out.u64(sum.value());
+  out.bytes(content);
+}
+
 FrameWriter::FrameWriter(const std::string& path, std::uint64_t region_bytes, const OutputOptions& options)
     : output_(path, {.existing = options.existing,
                      .overwrites = true,
@@ -22,25 +40,10 @@ FrameWriter::FrameWriter(const std::string& path, std::uint64_t region_bytes, co
   file_.append(std::vector<std::byte>(region_bytes));
 }
 
-void FrameWriter::add(FrameHeader header, std::span<const std::byte> payload) {
-  digest_.add(payload);
-  packed_.clear();
-  if (payload.size() >= kCompressFromBytes) compressor_.compress(payload, kZstdLevel, packed_);
-  const bool pays = !packed_.empty() && packed_.size() < payload.size();
-  const std::span<const std::byte> stored = pays ? packed_ : payload;
-  header.raw_bytes = static_cast<std::uint32_t>(payload.size());
-  header.stored_bytes = static_cast<std::uint32_t>(stored.size());
-
-  frame_.clear();
-  encode_frame_header(header, frame_);
-  io::RunningChecksum sum;
-  sum.add(frame_);
-  sum.add(stored);
-  ByteWriter out(frame_);
-  out.u64(sum.value());
-  out.bytes(stored);
+void FrameWriter::add(const PackedFrame& frame) {
+  digest_.add(frame.payload);
   offsets_.push_back(file_.size());
-  file_.append(frame_);
+  file_.append(frame.stored());
 }
 
 void FrameWriter::finish(FileHeader& header) {

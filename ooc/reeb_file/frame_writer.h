@@ -20,14 +20,31 @@ struct OutputOptions {
   std::string temp_folder = {};  // for a device, whose bytes are collected first; empty: as AtomicFile
 };
 
+// A frame as it is stored. One object is used for one frame after the other, so that its memory is reused.
+//
+// MEMORY: the payload, the stored bytes twice, and a compressor.
+class PackedFrame {
+ public:
+  std::vector<std::byte> payload;  // to be filled before pack()
+
+  // Packs the payload. The sizes in `header` are filled in here.
+  void pack(FrameHeader header);
+  // REQUIRES: pack() was called since the payload has changed.
+  std::span<const std::byte> stored() const { return stored_; }
+
+ private:
+  io::ZstdCompressor compressor_;
+  std::vector<std::byte> stored_, packed_;
+};
+
 // THROWS: as AtomicFile, from every call.
 class FrameWriter {
  public:
   // Leaves room for a header region of this size.
   FrameWriter(const std::string& path, std::uint64_t region_bytes, const OutputOptions& options);
 
-  // Appends a frame. The sizes in `header` are filled in here.
-  void add(FrameHeader header, std::span<const std::byte> payload);
+  // Appends a frame that was packed.
+  void add(const PackedFrame& frame);
 
   std::uint64_t size() const { return file_.size(); }
 
@@ -39,9 +56,7 @@ class FrameWriter {
   io::AtomicFile output_;
   io::BufferedWriter& file_;
   io::RunningChecksum digest_;
-  io::ZstdCompressor compressor_;
   std::vector<std::uint64_t> offsets_;  // of the frames
-  std::vector<std::byte> frame_, packed_;
 };
 
 }  // namespace reeb::ooc

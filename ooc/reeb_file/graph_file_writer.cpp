@@ -185,14 +185,14 @@ void GraphFileWriter::write(const GraphFrame& frame) {
     if (i + kAhead < frame.arcs.size()) components_.prefetch(frame.arcs[i + kAhead].hi);
     components_.add(frame.arcs[i].lo, frame.arcs[i].hi);
   }
-  payload_.clear();
-  encode_graph_frame(frame, header_.flags, payload_);
-  writer_.add({.kind = FrameKind::kGraph,
-               .nodes = static_cast<std::uint32_t>(frame.nodes.size()),
-               .records = static_cast<std::uint32_t>(frame.arcs.size()),
-               .versions = static_cast<std::uint32_t>(frame.versions.size()),
-               .finest = frame.versions.empty() ? 1u : 0u},
-              payload_);
+  packed_.payload.clear();
+  encode_graph_frame(frame, header_.flags, packed_.payload);
+  packed_.pack({.kind = FrameKind::kGraph,
+                .nodes = static_cast<std::uint32_t>(frame.nodes.size()),
+                .records = static_cast<std::uint32_t>(frame.arcs.size()),
+                .versions = static_cast<std::uint32_t>(frame.versions.size()),
+                .finest = frame.versions.empty() ? 1u : 0u});
+  writer_.add(packed_);
 }
 
 void write_graph_file(const std::string& path, const FileMeta& meta, const ReebGraph& graph,

@@ -30,9 +30,10 @@ class HierarchyFileWriter {
     std::size_t next = 0;
     read_ahead<PlannedFrame>(
         background_, [&](PlannedFrame& frame) { return next < layout_.cuts.size() && (make(next++, frame), true); },
+        [&](PlannedFrame& frame) { pack(frame); },
         [&](const PlannedFrame& frame) {
           if (poll) poll(static_cast<double>(frame_ends.size()) / static_cast<double>(layout_.cuts.size()));
-          write(frame);
+          writer_.add(frame.packed);
           frame_ends.push_back(writer_.size());
         });
     for (LevelLine& level : header_.levels) level.file_bytes = frame_ends[level.frames - 1];
@@ -44,6 +45,7 @@ class HierarchyFileWriter {
   struct PlannedFrame {
     GraphFrame frame;
     std::uint32_t finest = 0;  // version
+    PackedFrame packed;
   };
 
   FileHeader make_header(const FileMeta& meta, const HierarchyContent& content) {
@@ -79,16 +81,15 @@ class HierarchyFileWriter {
     planned.finest = cut.finest;
   }
 
-  void write(const PlannedFrame& planned) {
+  void pack(PlannedFrame& planned) const {
     const GraphFrame& frame = planned.frame;
-    payload_.clear();
-    encode_graph_frame(frame, header_.flags, payload_);
-    writer_.add({.kind = FrameKind::kGraph,
-                 .nodes = static_cast<std::uint32_t>(frame.nodes.size()),
-                 .records = static_cast<std::uint32_t>(frame.arcs.size()),
-                 .versions = static_cast<std::uint32_t>(frame.versions.size()),
-                 .finest = planned.finest},
-                payload_);
+    planned.packed.payload.clear();
+    encode_graph_frame(frame, header_.flags, planned.packed.payload);
+    planned.packed.pack({.kind = FrameKind::kGraph,
+                         .nodes = static_cast<std::uint32_t>(frame.nodes.size()),
+                         .records = static_cast<std::uint32_t>(frame.arcs.size()),
+                         .versions = static_cast<std::uint32_t>(frame.versions.size()),
+                         .finest = planned.finest});
   }
 
   // The next records with their buckets.
@@ -124,19 +125,24 @@ class HierarchyFileWriter {
 
   void write_pairs() {
     hierarchy_.rewind_pairs();
-    read_ahead<std::vector<FilePair>>(
+    struct PlannedPairs {
+      std::vector<FilePair> pairs;
+      PackedFrame packed;
+    };
+    read_ahead<PlannedPairs>(
         background_,
-        [&](std::vector<FilePair>& pairs) {
-          pairs.clear();
-          for (PersistencePair pair; pairs.size() < kPairsPerFrame && hierarchy_.next_pair(pair);)
-            pairs.push_back({file_index_[pair.lo.value()], file_index_[pair.hi.value()], pair.type, pair.kept});
-          return !pairs.empty();
+        [&](PlannedPairs& planned) {
+          planned.pairs.clear();
+          for (PersistencePair pair; planned.pairs.size() < kPairsPerFrame && hierarchy_.next_pair(pair);)
+            planned.pairs.push_back({file_index_[pair.lo.value()], file_index_[pair.hi.value()], pair.type, pair.kept});
+          return !planned.pairs.empty();
         },
-        [&](const std::vector<FilePair>& pairs) {
-          payload_.clear();
-          encode_pairs_frame(pairs, payload_);
-          writer_.add({.kind = FrameKind::kPairs, .nodes = static_cast<std::uint32_t>(pairs.size())}, payload_);
-        });
+        [&](PlannedPairs& planned) {
+          planned.packed.payload.clear();
+          encode_pairs_frame(planned.pairs, planned.packed.payload);
+          planned.packed.pack({.kind = FrameKind::kPairs, .nodes = static_cast<std::uint32_t>(planned.pairs.size())});
+        },
+        [&](const PlannedPairs& planned) { writer_.add(planned.packed); });
   }
 
   HierarchySource& hierarchy_;
@@ -149,7 +155,6 @@ class HierarchyFileWriter {
   std::uint32_t introduced_ = 0;
   std::vector<ArcVersion> arcs_;  // of the current frame
   std::vector<std::uint32_t> new_nodes_;
-  std::vector<std::byte> payload_;
 };
 
 }  // namespace
@@ -160,7 +165,7 @@ void write_hierarchy_file(const std::string& path, const FileMeta& meta, const H
 }
 
 std::uint64_t hierarchy_file_bytes(std::uint64_t nodes, std::uint64_t versions) {
-  constexpr std::uint64_t kFrames = 2 << 20;
+  constexpr std::uint64_t kFrames = 3 << 20;
   return sizeof(VersionCounts) * versions + sizeof(std::uint32_t) * nodes + kFrames;
 }
 

@@ -40,7 +40,7 @@ struct HierarchyContent {
   HierarchySource& hierarchy;
   RecordSource& records;
   bool has_embedding = false;  // records come with buckets
-  bool background = false;     // pack and write frames in a separate thread
+  bool background = false;     // two threads make, pack and write frames
   OutputOptions output = {};
 };
 
@@ -129,7 +129,7 @@ class GraphFileWriter {
   std::optional<KeyTable> keys_;
   std::vector<std::uint32_t> rank_of_;  // by vertex
   GraphFrame frame_, writing_;
-  std::vector<std::byte> payload_;
+  PackedFrame packed_;
   RankedArcs ranked_;
   std::optional<SweepKey> last_node_;
   std::optional<FileArc> last_arc_;
