@@ -32,7 +32,7 @@ class NodeSelection {
       if (i % kBlockWords == 0) kept_before_.push_back(kept);
       kept += static_cast<std::uint64_t>(std::popcount(~dropped_[i]));
     }
-    corners_ = {};
+    std::vector<std::uint64_t>().swap(corners_);
   }
 
   bool is_dropped(std::uint64_t node) const { return (dropped_[node / 64] >> node % 64 & 1) != 0; }

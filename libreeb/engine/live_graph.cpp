@@ -544,7 +544,7 @@ void LiveGraph::check_restored_path(Index top, Index lo, Index hi) {
 
 void LiveGraph::check_restored_paths_end() {
   if (std::find(path_tops_.begin(), path_tops_.end(), true) != path_tops_.end()) throw DamagedState();
-  path_tops_ = {};
+  std::vector<bool>().swap(path_tops_);
 }
 
 }  // namespace reeb

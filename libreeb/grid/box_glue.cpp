@@ -58,10 +58,10 @@ bool has_sound_buckets(const Fragment& tree) {
 }
 
 void forget_settled(Fragment& fragment) {
-  fragment.settled_nodes = {};
-  fragment.settled_arcs = {};
-  fragment.settled_bucket_counts = {};
-  fragment.settled_buckets = {};
+  std::vector<SettledNode>().swap(fragment.settled_nodes);
+  std::vector<ArcKeys>().swap(fragment.settled_arcs);
+  std::vector<std::uint32_t>().swap(fragment.settled_bucket_counts);
+  std::vector<Bucket>().swap(fragment.settled_buckets);
 }
 
 }  // namespace

@@ -86,8 +86,8 @@ ReebGraph nodes_by_rank(LiveRecords& live, bool positions) {
     arc.lo = rank[arc.lo];
     arc.hi = rank[arc.hi];
   }
-  live.nodes = {};
-  live.used = {};
+  std::vector<SettledNode>().swap(live.nodes);
+  std::vector<std::uint8_t>().swap(live.used);
   return graph;
 }
 

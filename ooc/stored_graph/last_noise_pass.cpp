@@ -53,6 +53,7 @@ PackedLists buckets_of(const RecordBatch<StoredArc>& arcs, std::optional<int> ex
 }
 
 ReebGraph graph_of(RecordBatch<StoredArc> arcs) {
+  std::vector<std::byte>().swap(arcs.pool);  // before more memory is taken
   std::vector<ArcKeys> keys;
   keys.reserve(arcs.records.size());
   for (const StoredArc& arc : arcs.records) keys.push_back(arc.keys);

@@ -25,8 +25,8 @@ struct NoisePlaces {
   static std::uint64_t bytes(std::uint64_t nodes) { return 28 * nodes; }
   // The rest is only needed to divide the nodes into parts.
   void keep_nodes() {
-    arcs = {};
-    bucket_bytes = {};
+    std::vector<std::uint32_t>().swap(arcs);
+    std::vector<std::uint64_t>().swap(bucket_bytes);
   }
   // The memory for removing noise at a node if no arc joins it to another of these nodes.
   std::uint64_t weight(std::size_t node) const;

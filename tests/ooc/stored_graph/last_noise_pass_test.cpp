@@ -10,6 +10,7 @@
 
 #include "libreeb/graph/packed_buckets.h"
 #include "libreeb/noise/denoise.h"
+#include "ooc/stored_graph/noise_places.h"
 #include "tests/libreeb/hierarchy/random_buckets.h"
 #include "tests/support/scratch.h"
 #include "tests/support/seed.h"
@@ -267,6 +268,15 @@ TEST(LastNoisePass, WhatItSaysThatItNeedsIsEnough) {
     ASSERT_TRUE(pass_with(pass.needed_bytes).fits) << pass.needed_bytes << " with " << room;
   }
   FAIL() << "never had room";
+}
+
+// The nodes stay until the end of the pass, beside the largest part. Memory that is no longer needed must be free then.
+TEST(NoisePlaces, KeepingTheNodesFreesTheRest) {
+  NoisePlaces places{.nodes = std::vector<SweepKey>(3), .arcs = {1, 2, 3}, .bucket_bytes = {1, 2, 3}};
+  places.keep_nodes();
+  EXPECT_EQ(places.size(), 3u);
+  EXPECT_EQ(places.arcs.capacity(), 0u);
+  EXPECT_EQ(places.bucket_bytes.capacity(), 0u);
 }
 
 }  // namespace
