@@ -93,7 +93,7 @@ class BoundedSearch {
     queue_.push_back({arc, d});
   }
   void prefetch_ahead() const {
-    constexpr std::size_t kPrefetchDistance = 4;
+    constexpr std::size_t kPrefetchDistance = 12;
     if (first_ + kPrefetchDistance >= queue_.size()) return;
     const auto [arc, d] = queue_[first_ + kPrefetchDistance];
     const NodeId node = graph_.end(arc, d);
