@@ -4,8 +4,6 @@
 #include <array>
 #include <atomic>
 #include <bit>
-#include <cmath>
-#include <compare>
 #include <functional>
 #include <limits>
 #include <numeric>
@@ -16,8 +14,9 @@
 #include "ooc/tables/partition_logs.h"
 #include "ooc/threads/read_ahead.h"
 #include "ooc/threads/worker.h"
-#include "ooc/whole_mesh/hilbert.h"
 #include "ooc/whole_mesh/ranked_triangles.h"
+#include "ooc/whole_mesh/vertex_curve.h"
+#include "ooc/whole_mesh/vertex_slices.h"
 
 namespace reeb::ooc {
 
@@ -33,9 +32,7 @@ struct StopAtEnd {
   ~StopAtEnd() { stops = true; }
 };
 
-// The vertices are divided into slices of consecutive ids (or ranks) whose entries fit in memory. A join by vertex then
-// partitions the records by slice, and looks up each slice in memory. Ranks have 32 bits where that suffices: what is
-// written to disk is most of the time.
+// Ranks have 32 bits where that suffices: what is written to disk is most of the time.
 template <class Rank>
 class Reorder {
  public:
@@ -45,8 +42,7 @@ class Reorder {
         budget_(budget),
         options_(options),
         vertex_count_(mesh.vertex_count()),
-        slice_bits_(slice_bits(vertex_count_, options.allowance_bytes / 4 / sizeof(Rank))),
-        slices_(static_cast<std::size_t>((vertex_count_ + slice_entries() - 1) >> slice_bits_)),
+        slices_(vertex_count_, options.allowance_bytes / 4 / sizeof(Rank)),
         has_two_threads_(options.threads > 1 && slices_bytes() <= options.allowance_bytes / 4),
         ranks_(temp.create_unnamed("ranks")),
         result_(std::make_unique<ReorderedMesh>(mesh.column_count(), temp, budget, options.allowance_bytes / 4)) {}
@@ -168,7 +164,7 @@ class Reorder {
     add_keys(by_key);
     by_key.finish(0, [this] { poll_vertices(); });
     tell_vertices(kKeyed);
-    PartitionLogs<PlacedRank> by_slice("reorder", temp_, budget_, slices_);
+    PartitionLogs<PlacedRank> by_slice("reorder", temp_, budget_, slices_.count());
     std::uint64_t rank = 0;
     std::vector<std::uint64_t> originals;
     std::vector<double> values;
@@ -185,71 +181,48 @@ class Reorder {
         result_->append_column(column, values);
       }
       for (const KeyedVertex& keyed : some)
-        by_slice.append(slice_of(keyed.vertex), {place_of(keyed.vertex), static_cast<Rank>(rank++)});
+        by_slice.append(slices_.slice_of(keyed.vertex), {place_of(keyed.vertex), static_cast<Rank>(rank++)});
     });
     tell_vertices(kRanked);
-    const Reservation charge = budget_.reserve("reorder", slice_entries() * sizeof(Rank));
+    const Reservation charge = budget_.reserve("reorder", slices_.entries() * sizeof(Rank));
     std::vector<Rank> slice;
-    for (std::size_t s = 0; s < slices_; ++s) {
+    for (std::size_t s = 0; s < slices_.count(); ++s) {
       poll_vertices();
-      slice.resize(slice_size(s));
+      slice.resize(slices_.size(s));
       for (auto some = by_slice.next_block(s); !some.empty(); some = by_slice.next_block(s))
         for (const PlacedRank& placed : some) slice[placed.place] = placed.rank;
-      ranks_.write_at(s * slice_entries() * sizeof(Rank), std::as_bytes(std::span(slice)));
+      ranks_.write_at(s * slices_.entries() * sizeof(Rank), std::as_bytes(std::span(slice)));
     }
   }
 
   void add_keys(KeySort& by_key) {
-    std::vector<unsigned> axes(std::min({options_.coordinates, mesh_.column_count(), 3u}));
-    std::iota(axes.begin(), axes.end(), 0u);
-    std::array<double, 3> low, high;
-    low.fill(std::numeric_limits<double>::infinity());
-    high.fill(-std::numeric_limits<double>::infinity());
-    for_each_range(axes, [&](std::uint64_t, std::size_t count, std::span<const double> values) {
-      for (std::size_t a = 0; a < axes.size(); ++a) {
-        double least = low[a], most = high[a];
-        for (const double value : values.subspan(a * count, count)) {
-          least = value < least ? value : least;
-          most = value > most ? value : most;
-        }
-        low[a] = least;
-        high[a] = most;
-      }
-    });
-    // One scale for all axes, so that the curve's cells are cubes. Halves cannot overflow.
-    double half_size = 0;
-    for (std::size_t a = 0; a < axes.size(); ++a) half_size = std::max(half_size, high[a] / 2 - low[a] / 2);
-    std::size_t longest = 0;
-    for (std::size_t a = 0; a < axes.size(); ++a)
-      if (high[a] / 2 - low[a] / 2 == half_size) longest = a;
-    const std::uint64_t slabs = options_.in_slabs ? slab_count() : 1;
-    constexpr double kCells = (1u << kHilbertBits) - 1;
-    constexpr std::size_t kCellsAtOnce = 64;
+    const VertexCurve curve(box(), options_.in_slabs ? VertexCurve::slab_count(vertex_count_) : 1);
     std::vector<unsigned> columns(std::min<std::size_t>(mesh_.column_count(), kCarried));
     std::iota(columns.begin(), columns.end(), 0u);
     std::vector<KeyedVertex> keyed;
+    std::vector<std::uint64_t> places;
     for_each_range(columns, [&](std::uint64_t first, std::size_t count, std::span<const double> values) {
       keyed.assign(count, {});
       for (std::size_t k = 0; k < columns.size(); ++k)
         if (!carry(values.subspan(k * count, count), k, keyed)) is_wide_[k] = true;
-      for (std::size_t begin = 0; begin < count; begin += kCellsAtOnce) {
-        std::array<std::array<std::uint32_t, kCellsAtOnce>, 3> cells{};
-        const std::size_t some = std::min(kCellsAtOnce, count - begin);
-        for (std::size_t a = 0; a < axes.size() && half_size > 0; ++a)
-          for (std::size_t i = 0; i < some; ++i) {
-            const double part = (values[a * count + begin + i] / 2 - low[a] / 2) / half_size;
-            // Vector instructions convert to signed numbers only.
-            cells[a][i] = static_cast<std::uint32_t>(static_cast<std::int32_t>(std::clamp(part, 0.0, 1.0) * kCells));
-          }
-        const auto indices = hilbert_indices<kCellsAtOnce>(cells);
-        for (std::size_t i = 0; i < some; ++i) {
-          const std::uint64_t slab = slabs * cells[longest][i] >> kHilbertBits;
-          keyed[begin + i].key = slab << (3 * kHilbertBits - kSlabBits) | indices[i] >> (slabs == 1 ? 0 : kSlabBits);
-          keyed[begin + i].vertex = static_cast<Rank>(first + begin + i);
-        }
+      places.resize(count);
+      curve.places(values, places);
+      for (std::size_t i = 0; i < count; ++i) {
+        keyed[i].key = places[i];
+        keyed[i].vertex = static_cast<Rank>(first + i);
       }
       by_key.add(keyed);
     });
+  }
+
+  CurveBox box() {
+    std::vector<unsigned> axes(std::min({options_.coordinates, mesh_.column_count(), 3u}));
+    std::iota(axes.begin(), axes.end(), 0u);
+    CurveBox box(axes.size());
+    for_each_range(axes, [&](std::uint64_t, std::size_t count, std::span<const double> values) {
+      for (std::size_t a = 0; a < axes.size(); ++a) box.add(a, values.subspan(a * count, count));
+    });
+    return box;
   }
 
   // Notes the values of a column. False if one of them is not a float32.
@@ -269,14 +242,6 @@ class Reorder {
     return column < std::min<std::size_t>(mesh_.column_count(), kCarried) && !is_wide_[column];
   }
 
-  static constexpr unsigned kSlabBits = 12;
-
-  // A slab of a surface is about as thick as a hundred edges.
-  std::uint64_t slab_count() const {
-    const double edges = std::sqrt(static_cast<double>(vertex_count_));
-    return static_cast<std::uint64_t>(std::clamp(edges / 128, 1.0, double{1u << kSlabBits}));
-  }
-
   void place_columns() {
     for (unsigned column = 0; column < mesh_.column_count(); ++column) {
       if (!is_carried(column)) place_column(column);
@@ -286,20 +251,20 @@ class Reorder {
 
   // Reorders a column from the order of ids to that of ranks.
   void place_column(unsigned column) {
-    PartitionLogs<PlacedNumber> by_slice("reorder", temp_, budget_, slices_);
+    PartitionLogs<PlacedNumber> by_slice("reorder", temp_, budget_, slices_.count());
     std::vector<Rank> ranks;
     for_each_range(std::array{column}, [&](std::uint64_t first, std::size_t count, std::span<const double> values) {
       ranks.resize(count);
       ranks_.read_at(first * sizeof(Rank), std::as_writable_bytes(std::span(ranks)));
       for (std::size_t i = 0; i < count; ++i)
-        by_slice.append(slice_of(ranks[i]),
+        by_slice.append(slices_.slice_of(ranks[i]),
                         {place_of(ranks[i]), std::bit_cast<std::array<std::uint32_t, 2>>(values[i])});
     });
-    const Reservation charge = budget_.reserve("reorder", slice_entries() * 8);
+    const Reservation charge = budget_.reserve("reorder", slices_.entries() * 8);
     std::vector<double> slice;
-    for (std::size_t s = 0; s < slices_; ++s) {
+    for (std::size_t s = 0; s < slices_.count(); ++s) {
       poll_vertices();
-      slice.resize(slice_size(s));
+      slice.resize(slices_.size(s));
       for (auto some = by_slice.next_block(s); !some.empty(); some = by_slice.next_block(s))
         for (const PlacedNumber& placed : some) slice[placed.place] = std::bit_cast<double>(placed.number);
       result_->append_column(column, slice);
@@ -309,14 +274,14 @@ class Reorder {
   // Divides the corners of all triangles by slice. Needs no ranks.
   void read_places(double from, double to) {
     for (int lane = 0; lane < (has_two_threads_ ? 2 : 1); ++lane)
-      lanes_.push_back({{"reorder", temp_, budget_, slices_}, {"reorder", temp_, budget_, 1}});
+      lanes_.push_back({{"reorder", temp_, budget_, slices_.count()}, {"reorder", temp_, budget_, 1}});
     std::vector<VertexId> corners;
     mesh_.rewind();
     for (std::size_t batch = 0; mesh_.read(corners, kItemsAtOnce); ++batch) {
       tell_reading(from, to);
       Lane& lane = lanes_[batch % lanes_.size()];
       const auto place = [&](VertexId corner) {
-        const std::size_t slice = slice_of(corner.value());
+        const std::size_t slice = slices_.slice_of(corner.value());
         lane.ranks.append(slice, place_of(corner.value()));
         return static_cast<std::uint16_t>(slice);
       };
@@ -349,12 +314,12 @@ class Reorder {
 
   // Replaces the places of corners in their slices by ranks.
   void rank_places(PartitionLogs<Rank>& corners, Thread thread) {
-    const Reservation charge = budget_.reserve("reorder", slice_entries() * sizeof(Rank));
+    const Reservation charge = budget_.reserve("reorder", slices_.entries() * sizeof(Rank));
     std::vector<Rank> slice;
-    for (std::size_t s = 0; s < slices_; ++s) {
-      tell(thread, kPlaced + (kLooked - kPlaced) * static_cast<double>(s) / static_cast<double>(slices_));
-      slice.resize(slice_size(s));
-      ranks_.read_at(s * slice_entries() * sizeof(Rank), std::as_writable_bytes(std::span(slice)));
+    for (std::size_t s = 0; s < slices_.count(); ++s) {
+      tell(thread, kPlaced + (kLooked - kPlaced) * static_cast<double>(s) / static_cast<double>(slices_.count()));
+      slice.resize(slices_.size(s));
+      ranks_.read_at(s * slices_.entries() * sizeof(Rank), std::as_writable_bytes(std::span(slice)));
       corners.change(s, [&](std::span<Rank> some) {
         for (Rank& corner : some) corner = slice[corner];
       });
@@ -376,28 +341,15 @@ class Reorder {
         [this] { poll(); });
   }
 
-  // The entries of a slice fit the cache, unless there would be too many slices, of which each takes 16 KiB. A power of
-  // two, so that a look-up does not divide; at most `most`.
-  static unsigned slice_bits(std::uint64_t vertices, std::uint64_t most) {
-    constexpr std::uint64_t kInCache = 1u << 17, kManySlices = 64, kMostSlices = 1u << 16;
-    const std::uint64_t wanted = std::max(kInCache, vertices / kManySlices);
-    const std::uint64_t least = std::max<std::uint64_t>(kItemsAtOnce, 2 * (vertices / kMostSlices));
-    return static_cast<unsigned>(std::bit_width(std::min(wanted, std::max(least, most))) - 1);
-  }
   SortOptions sorting() const {
     return {
         .allowance_bytes = options_.allowance_bytes / 2, .threads = options_.threads, .background = has_two_threads_};
   }
   // What both threads hold at most beside what is sorted: three partitions, and a slice of numbers and one of ranks.
   std::uint64_t slices_bytes() const {
-    return 3 * slices_ * PartitionLogs<Rank>::kBlockBytes + slice_entries() * (8 + sizeof(Rank));
+    return 3 * slices_.count() * PartitionLogs<Rank>::kBlockBytes + slices_.entries() * (8 + sizeof(Rank));
   }
-  std::uint64_t slice_entries() const { return std::uint64_t{1} << slice_bits_; }
-  std::size_t slice_of(std::uint64_t id) const { return static_cast<std::size_t>(id >> slice_bits_); }
-  Rank place_of(std::uint64_t id) const { return static_cast<Rank>(id & (slice_entries() - 1)); }
-  std::size_t slice_size(std::size_t s) const {
-    return static_cast<std::size_t>(std::min(slice_entries(), vertex_count_ - s * slice_entries()));
-  }
+  Rank place_of(std::uint64_t id) const { return static_cast<Rank>(slices_.place_of(id)); }
 
   IndexedMesh& mesh_;
   const io::TempDir& temp_;
@@ -406,8 +358,7 @@ class Reorder {
   mutable double done_ = 0;  // as told last
   std::atomic<bool> stops_ = false;
   std::uint64_t vertex_count_, triangle_count_ = 0;
-  unsigned slice_bits_;
-  std::size_t slices_;
+  VertexSlices slices_;
   bool has_two_threads_;
   std::vector<Lane> lanes_;
   std::atomic<std::size_t> next_lane_ = 0;
