@@ -86,7 +86,7 @@ class RecordsInMemory : public RecordSink {
 
 std::uint64_t hierarchy_bytes(std::uint64_t nodes, std::uint64_t arcs, std::optional<std::uint64_t> lists) {
   // Per node: key, position, heaps, searches and sections. Per arc: ends, heaps and the log.
-  constexpr std::uint64_t kNodeBytes = 16 + 24 + 8 + 9 + 9, kArcBytes = 8 + 36 + 4,
+  constexpr std::uint64_t kNodeBytes = 16 + 24 + 16 + 9 + 9, kArcBytes = 8 + 36 + 4,
                           kPairBytes = sizeof(PersistencePair) + sizeof(double);
   const std::uint64_t bytes = kNodeBytes * nodes + kArcBytes * arcs + kPairBytes * std::max(nodes, arcs);
   if (!lists) return bytes;

@@ -68,7 +68,7 @@ inline void one_after_the_other(const std::function<void()>& first, const std::f
 //
 // TIME:    O(m log m) for the pairs; a cancellation costs its two paths and a search that stays within the
 //          pair's interval.
-// MEMORY:  about 115 bytes per arc; for the result, 16 per record.
+// MEMORY:  about 120 bytes per arc; for the result, 16 per record.
 // THREADS: any number of calls at the same time.
 // REQUIRES: no node is of degree (1, 1). (Graphs from OnlineReeb and ReebFile have none.)
 Hierarchy build_hierarchy(ReebGraph graph, const Poll& poll = {});

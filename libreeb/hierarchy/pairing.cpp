@@ -80,7 +80,7 @@ std::vector<PersistencePair> sorted_pairs(const ReebGraph& graph, UnsortedPairs 
   all.reserve(all.size() + pairs.falling.size() + pairs.components.size());
   for (std::vector<PersistencePair>* some : {&pairs.falling, &pairs.components}) {
     all.insert(all.end(), some->begin(), some->end());
-    *some = {};
+    *some = std::vector<PersistencePair>();
   }
   sort_for_cancelling(graph, all);
   return all;

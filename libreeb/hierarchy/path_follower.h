@@ -56,10 +56,6 @@ class PathFollower {
   };
 
   NodeId exit_of(NodeId node, Direction d) const { return exits_[section_of_[node][d]]; }
-  NodeId next(NodeId node, Direction d) const {
-    const ArcId arc = graph_.nearest(node, d);
-    return arc == ArcId::none() ? kNone : graph_.end(arc, d);
-  }
   void keep_followed(NodeId exit, Direction d);
   bool still_leads_to_exit(NodeId node, Direction d);
 
@@ -87,7 +83,7 @@ NodeId PathFollower<Graph>::follow(NodeId node, Direction d, Passes passes) {
         continue;
       }
     }
-    const NodeId to = next(node, d);
+    const NodeId to = graph_.next(node, d);
     if (to == kNone || !passes(to)) break;
     node = to;
   }
@@ -129,14 +125,14 @@ bool PathFollower<Graph>::still_leads_to_exit(NodeId node, Direction d) {
   };
   std::array<NodeId, kMaxInserted> inserted{};
   std::size_t count = 0;
-  NodeId to = next(node, d);
+  NodeId to = graph_.next(node, d);
   if (to == kNone) {
     if (graph_.nearest(node, opposite(d)) != ArcId::none()) return false;
     section_of_[node][d] = kNoSection;
     return true;
   }
-  for (; !is_in(to); to = next(to, d)) {
-    if (count == inserted.size() || exit_of(to, d) != kNone || next(to, d) == kNone) return false;
+  for (; !is_in(to); to = graph_.next(to, d)) {
+    if (count == inserted.size() || exit_of(to, d) != kNone || graph_.next(to, d) == kNone) return false;
     inserted[count++] = to;
   }
   for (std::size_t i = 0; i < count; ++i) section_of_[inserted[i]][d] = section;

@@ -22,7 +22,7 @@ constexpr NodeId farthest(Direction d) { return d == kUp ? NodeId::none() : Node
 
 // `TableKind` says where its entries are (libreeb/graph/tables_in_memory.h).
 //
-// MEMORY: 36 bytes per arc, 8 bytes per node. Only the constructor and nearest_if() allocate.
+// MEMORY: 36 bytes per arc, 16 bytes per node. Only the constructor and nearest_if() allocate.
 template <class TableKind = TablesInMemory>
 class BasicWorkingGraph {
  public:
@@ -35,7 +35,7 @@ class BasicWorkingGraph {
   BasicWorkingGraph(std::uint32_t nodes, std::uint32_t arcs, const Tables& tables)
       : tables_(tables),
         arcs_(tables_.template table<ArcId>(arcs, Arc{})),
-        top_(tables_.template table<NodeId>(nodes, std::array{kNone, kNone})) {}
+        top_(tables_.template table<NodeId>(nodes, std::array<Nearest, 2>{})) {}
   // The arcs of a node are put in the order of their numbers. Else the graph is the same, but parallel arcs may take
   // each other's place later.
   void put(ArcId arc, NodeId lo, NodeId hi);
@@ -46,13 +46,15 @@ class BasicWorkingGraph {
   NodeId end(ArcId arc, Direction d) const { return arcs_[arc].end[d]; }
 
   // The arc of `node` in direction d whose far end is nearest, or kNone.
-  ArcId nearest(NodeId node, Direction d) const { return top_[node][d]; }
+  ArcId nearest(NodeId node, Direction d) const { return top_[node][d].arc; }
+  // The far end of this arc; NodeId::none() if there is none.
+  NodeId next(NodeId node, Direction d) const { return top_[node][d].end; }
   // The two arcs below `arc` in the heap that it is in as an arc of direction d; kNone if fewer.
   std::array<ArcId, 2> below_in_heap(ArcId arc, Direction d) const { return arcs_[arc].heap[d].child; }
   const Tables& tables() const { return tables_; }
   // True if the node has exactly one arc in direction d.
   bool has_one(NodeId node, Direction d) const {
-    const ArcId arc = top_[node][d];
+    const ArcId arc = nearest(node, d);
     return arc != kNone && below_in_heap(arc, d) == std::array{kNone, kNone};
   }
   bool is_regular(NodeId node) const { return has_one(node, kUp) && has_one(node, kDown); }
@@ -66,8 +68,8 @@ class BasicWorkingGraph {
   void prefetch_node(NodeId node) const { tables_.prefetch(top_, node); }
   void prefetch_arc(ArcId arc) const { tables_.prefetch(arcs_, arc); }
   void prefetch_arcs(NodeId node) const {
-    for (const ArcId arc : top_[node])
-      if (arc != kNone) prefetch_arc(arc);
+    for (const Direction d : {kDown, kUp})
+      if (const ArcId arc = nearest(node, d); arc != kNone) prefetch_arc(arc);
   }
 
   // Moves the end of `arc` on side d to `node`. REQUIRES: its lower end stays below its upper end.
@@ -84,6 +86,12 @@ class BasicWorkingGraph {
     std::array<HeapLinks, 2> heap;
   };
 
+  // The top of a heap. Its far end is here, too, so that a path is followed without reading its arcs.
+  struct Nearest {
+    ArcId arc = kNone;
+    NodeId end = NodeId::none();
+  };
+
   std::uint32_t key(ArcId arc, Direction d) const { return along(d, arcs_[arc].end[d]); }
   ArcId meld(ArcId a, ArcId b, Direction d);
   void insert(ArcId arc, Direction d);
@@ -91,8 +99,8 @@ class BasicWorkingGraph {
 
   Tables tables_;
   typename Tables::template Table<ArcId, Arc> arcs_;
-  typename Tables::template Table<NodeId, std::array<ArcId, 2>> top_;  // of the heaps, by direction
-  std::vector<ArcId> stack_;                                           // of nearest_if
+  typename Tables::template Table<NodeId, std::array<Nearest, 2>> top_;  // by direction
+  std::vector<ArcId> stack_;                                             // of nearest_if
 };
 
 using WorkingGraph = BasicWorkingGraph<>;
@@ -175,7 +183,7 @@ void BasicWorkingGraph<TableKind>::insert(ArcId arc, Direction d) {
   arcs_[arc].heap[d] = {};
   const NodeId node = end(arc, opposite(d));
   const ArcId top = meld(nearest(node, d), arc, d);
-  top_[node][d] = top;
+  top_[node][d] = {top, end(top, d)};
   arcs_[top].heap[d].parent = kNone;
 }
 
@@ -185,7 +193,7 @@ void BasicWorkingGraph<TableKind>::erase(ArcId arc, Direction d) {
   const ArcId rest = meld(links.child[0], links.child[1], d);
   if (rest != kNone) arcs_[rest].heap[d].parent = links.parent;
   if (links.parent == kNone) {
-    top_[end(arc, opposite(d))][d] = rest;
+    top_[end(arc, opposite(d))][d] = {rest, rest == kNone ? NodeId::none() : end(rest, d)};
   } else {
     auto& siblings = arcs_[links.parent].heap[d].child;
     siblings[siblings[0] == arc ? 0 : 1] = rest;

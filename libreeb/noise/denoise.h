@@ -27,7 +27,7 @@ struct Denoised {
 // saddle if it is a (1, 1) node. The result does not depend on the order of the steps.
 //
 // TIME:   O(m log m).
-// MEMORY: in addition to the graph, which becomes the result, 32 bytes per arc and 20 per node; 36 per removed pair (12
+// MEMORY: in addition to the graph, which becomes the result, 32 bytes per arc and 28 per node; 36 per removed pair (12
 //         of them the result).
 // REQUIRES: no node is of degree (1, 1).
 Denoised denoise(ReebGraph graph, double threshold);

@@ -13,7 +13,7 @@ namespace {
 
 // Memory to remove leaves in a part of the graph: per node; per arc with two ends in the part, and with one; and per
 // byte of packed buckets, and per unpacked bucket.
-constexpr std::uint64_t kNodeBytes = 72, kInnerArcBytes = 64, kArcBytes = kInnerArcBytes + kNodeBytes;
+constexpr std::uint64_t kNodeBytes = 80, kInnerArcBytes = 64, kArcBytes = kInnerArcBytes + kNodeBytes;
 constexpr std::uint64_t kPackedByte = 1, kBucketBytes = 58;
 
 // Memory to find the scope in a graph of short arcs: the graph, the degrees of its nodes and the size of their buckets,

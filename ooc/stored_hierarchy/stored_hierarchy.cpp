@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t kAtOnce = 4096;  // records that are read
 
 // Per node and per arc in the tables of a Canceller, and per arc in StoredLists.
-constexpr std::uint64_t kNodeBytes = 8 + 8 + 4 + 4, kArcBytes = 32 + 4, kListBytes = 16;
+constexpr std::uint64_t kNodeBytes = 16 + 8 + 4 + 4, kArcBytes = 32 + 4, kListBytes = 16;
 // While nodes are paired; and after that, for the canceller's bits and exits.
 constexpr std::uint64_t kPairingBytes = 16, kCancellingBytes = 2;
 constexpr std::uint64_t kLeastSort = 512 << 10, kLeastTable = PageCache::kRequiredFrames * PageCache::kPageBytes;
