@@ -66,7 +66,8 @@ bool unpack_buckets(std::span<const std::byte> packed, std::vector<Bucket>& buck
   if (!in.may_hold(count, 2 + sizeof(Single))) return false;
   std::uint64_t index = 0;
   for (std::uint64_t i = 0; i < count; ++i) {
-    Bucket bucket;
+    // In place: a bucket that is put together elsewhere and copied waits until all its parts are stored.
+    Bucket& bucket = buckets.emplace_back();
     index = in.delta(index);
     bucket.index = static_cast<std::int64_t>(index);
     const std::uint64_t count_and_form = in.varint();
@@ -79,7 +80,6 @@ bool unpack_buckets(std::span<const std::byte> packed, std::vector<Bucket>& buck
       bucket.spread = get_raw<float>(in);
       bucket.rim = get_raw<RimPoint>(in);
     }
-    buckets.push_back(bucket);
   }
   return in.done();
 }
