@@ -99,6 +99,7 @@ class BasicArcBucketLists {
   void open(ArcId arc);
   std::span<const Bucket> unpacked(ArcId arc);
   const Bucket& first_bucket(Direction d, ArcId arc);
+  bool has_any_beyond(Direction d, ArcId arc, const CutValues& values);
   std::uint32_t make(const Bucket& bucket, std::uint32_t next);
   void free(std::uint32_t item);
   void insert(std::uint32_t chain, ArcId into);
@@ -240,25 +241,39 @@ const Bucket& BasicArcBucketLists<Lists>::first_bucket(Direction d, ArcId arc) {
 
 template <class Lists>
 bool BasicArcBucketLists<Lists>::cut(Direction d, ArcId from, ArcId into, const CutValues& values) {
+  // Half of all cuts move nothing. A list that is not opened need not be packed and stored again.
+  if (!is_open(from) && !has_any_beyond(d, from, values)) return false;
   open(from);
-  open(into);
-  if (first(from) == kNone) return false;
   const std::uint32_t last = last_below(from, values);
   const std::uint32_t above = std::exchange(after(last, from), kNone);
   const std::uint32_t below = first(from);
   first(from) = d == kUp ? below : above;
   const std::uint32_t chain = d == kUp ? above : below;
+  if (chain == kNone) return false;
+  open(into);
   insert(chain, into);
-  return chain != kNone;
+  return true;
+}
+
+// Whether a cut finds vertices on side d. REQUIRES: the arc is not open.
+template <class Lists>
+bool BasicArcBucketLists<Lists>::has_any_beyond(Direction d, ArcId arc, const CutValues& values) {
+  const auto own = unpacked(arc);
+  if (own.empty()) return false;
+  const Bucket& farthest = d == kUp ? own.back() : own.front();
+  const std::int64_t middle = bucket_index(values.at, exponent_);
+  if (farthest.index != middle) return (farthest.index > middle) == (d == kUp);
+  const std::uint64_t below = vertices_below(farthest, values, exponent_);
+  return d == kUp ? below != farthest.count : below != 0;
 }
 
 template <class Lists>
 bool BasicArcBucketLists<Lists>::merge(ArcId from, ArcId into) {
+  if (empty(from)) return false;
   open(from);
   open(into);
-  const std::uint32_t chain = std::exchange(first(from), kNone);
-  insert(chain, into);
-  return chain != kNone;
+  insert(std::exchange(first(from), kNone), into);
+  return true;
 }
 
 template <class Lists>
