@@ -8,6 +8,7 @@
 #include "libreeb/graph/packed_buckets.h"
 #include "libreeb/hierarchy/bucket_versions.h"
 #include "libreeb/hierarchy/canceller.h"
+#include "libreeb/hierarchy/deferred_changes.h"
 #include "libreeb/hierarchy/pairing.h"
 #include "libreeb/hierarchy/subgraph.h"
 
@@ -22,8 +23,8 @@ void release_arcs(ReebGraph& graph) {
 
 // Pairs that are near in persistence can be anywhere in memory. Without prefetching, each would wait for memory many
 // times.
-template <class Content>
-void prefetch(const ReebGraph& graph, const Canceller<Content>& canceller, const std::vector<PersistencePair>& pairs,
+template <class Canceller>
+void prefetch(const ReebGraph& graph, const Canceller& canceller, const std::vector<PersistencePair>& pairs,
               std::size_t at) {
   constexpr std::size_t kTurns = 4, kStages = 5;  // pairs from one stage to the next
   if (at + kStages * kTurns >= pairs.size()) return;
@@ -35,18 +36,70 @@ void prefetch(const ReebGraph& graph, const Canceller<Content>& canceller, const
   canceller.prefetch_beyond(pairs[at + kTurns]);
 }
 
-template <class Content>
-void cancel_all(const ReebGraph& graph, Canceller<Content>& canceller, Hierarchy& hierarchy, const Poll& poll) {
-  constexpr std::size_t kPairsBetweenPolls = 1024;
-  hierarchy.persistence.reserve(hierarchy.pairs.size());
-  for (std::size_t i = 0; i < hierarchy.pairs.size(); ++i) {
-    PersistencePair& pair = hierarchy.pairs[i];
-    if (pair.type == PairType::kExt0) break;
-    if (poll && i % kPairsBetweenPolls == 0) poll(static_cast<double>(i) / static_cast<double>(hierarchy.pairs.size()));
-    prefetch(graph, canceller, hierarchy.pairs, i);
-    pair.kept = !canceller.cancel(pair);
-    if (!pair.kept) hierarchy.persistence.push_back(persistence_of(graph, pair));
+// Cancels the pairs of a hierarchy one by one.
+template <class Canceller>
+class Cancelling {
+ public:
+  Cancelling(const ReebGraph& graph, Canceller& canceller, Hierarchy& hierarchy)
+      : graph_(graph), canceller_(canceller), hierarchy_(hierarchy) {
+    hierarchy.persistence.reserve(hierarchy.pairs.size());
   }
+
+  bool is_over() const { return next_ == hierarchy_.pairs.size() || hierarchy_.pairs[next_].type == PairType::kExt0; }
+  double done() const { return static_cast<double>(next_) / static_cast<double>(hierarchy_.pairs.size()); }
+  // The pair may pause (canceller.h).
+  void cancel_next() {
+    PersistencePair& pair = hierarchy_.pairs[next_];
+    prefetch(graph_, canceller_, hierarchy_.pairs, next_++);
+    pair.kept = !canceller_.cancel(pair);
+    if (!pair.kept) hierarchy_.persistence.push_back(persistence_of(graph_, pair));
+  }
+  const PersistencePair& last() const { return hierarchy_.pairs[next_ - 1]; }
+
+ private:
+  const ReebGraph& graph_;
+  Canceller& canceller_;
+  Hierarchy& hierarchy_;
+  std::size_t next_ = 0;
+};
+
+template <class Canceller>
+void cancel_all(const ReebGraph& graph, Canceller& canceller, Hierarchy& hierarchy, const Poll& poll) {
+  constexpr std::size_t kPairsBetweenPolls = 1024;
+  Cancelling pairs(graph, canceller, hierarchy);
+  for (std::size_t i = 0; !pairs.is_over(); ++i) {
+    if (poll && i % kPairsBetweenPolls == 0) poll(pairs.done());
+    pairs.cancel_next();
+  }
+  canceller.finish();
+}
+
+// The same in two threads: the rules run ahead in the other one.
+template <class Canceller>
+void cancel_ahead(const ReebGraph& graph, Canceller& canceller, Hierarchy& hierarchy, const Poll& poll,
+                  const DoBoth& both, const RunAhead& limits) {
+  auto& changes = canceller.changes();
+  Cancelling pairs(graph, canceller, hierarchy);
+  changes.set_limits(limits);
+  std::vector<ArcNote> notes;
+  notes.reserve(limits.most_notes());
+  const auto apply = [&] { changes.apply(notes); };
+  const auto run_ahead = [&] {
+    while (!pairs.is_over() && !canceller.is_paused() && !changes.is_full()) pairs.cancel_next();
+  };
+  while (!pairs.is_over()) {
+    if (poll) poll(pairs.done());
+    changes.set_defers(true);
+    both(apply, run_ahead);
+    changes.take_notes(notes);
+    if (!canceller.is_paused()) continue;
+    apply();
+    notes.clear();
+    changes.set_defers(false);
+    canceller.resume(pairs.last());
+    for (std::size_t i = 0; i < limits.pairs_in_turn && !pairs.is_over(); ++i) pairs.cancel_next();
+  }
+  apply();
   canceller.finish();
 }
 
@@ -92,11 +145,12 @@ std::uint64_t hierarchy_bytes(std::uint64_t nodes, std::uint64_t arcs, std::opti
   if (!lists) return bytes;
   // Lists that change leave holes, and a node that is contracted might get a bucket of its own.
   constexpr std::uint64_t kNewBucketBytes = 32;
-  return bytes + *lists + *lists / 2 + kNewBucketBytes * nodes;
+  return bytes + *lists + *lists / 2 + kNewBucketBytes * nodes +
+         2 * sizeof(ArcNote) * RunAhead::for_arcs(arcs).most_notes();
 }
 
 Hierarchy build_hierarchy(ReebGraph& graph, PackedLists buckets, int exponent, RecordSink& sink, const Poll& poll,
-                          const DoBoth& both) {
+                          const DoBoth& both, const std::optional<RunAhead>& ahead) {
   constexpr double kPairing = 0.3;  // of the time, about
   const Poll pairing = part_of(poll, 0, kPairing), cancelling = part_of(poll, kPairing, 1);
   Hierarchy hierarchy;
@@ -108,16 +162,22 @@ Hierarchy build_hierarchy(ReebGraph& graph, PackedLists buckets, int exponent, R
     hierarchy.isolated = isolated_nodes(graph);
   };
   const auto make_working_graph = [&] { working.emplace(graph); };
-  both(sort, make_working_graph);
+  do_both(both, sort, make_working_graph);
+  const RunAhead limits = ahead.value_or(RunAhead::for_arcs(graph.arc_count()));
   release_arcs(graph);
   if (buckets.size() == 0) {
     Canceller<> canceller(std::move(*working), sink);
     cancel_all(graph, canceller, hierarchy, cancelling);
-  } else {
-    Canceller canceller(std::move(*working), sink,
-                        BucketVersions(NodesInMemory(graph), std::move(buckets), exponent, sink));
-    cancel_all(graph, canceller, hierarchy, cancelling);
+    return hierarchy;
   }
+  BucketVersions versions(NodesInMemory(graph), std::move(buckets), exponent, sink);
+  if (!both) {
+    Canceller canceller(std::move(*working), sink, std::move(versions));
+    cancel_all(graph, canceller, hierarchy, cancelling);
+    return hierarchy;
+  }
+  Canceller<BucketVersions<>, WorkingGraph, DeferredChanges> canceller(std::move(*working), sink, std::move(versions));
+  cancel_ahead(graph, canceller, hierarchy, cancelling, both, limits);
   return hierarchy;
 }
 

@@ -6,6 +6,7 @@
 
 #include "libreeb/graph/arc_buckets.h"
 #include "libreeb/graph/reeb_graph.h"
+#include "libreeb/hierarchy/deferred_changes.h"
 #include "libreeb/hierarchy/hierarchy.h"
 #include "libreeb/hierarchy/packed_lists.h"
 #include "libreeb/port/record_sink.h"
@@ -31,9 +32,10 @@ std::uint64_t hierarchy_bytes(std::uint64_t nodes, std::uint64_t arcs, std::opti
 //         smaller of two parts of the graph within the pair's interval: that above the lower node, and that below the
 //         upper node.
 // MEMORY: hierarchy_bytes().
-// THREADS: `poll` and `sink` are called in this thread; `both` may use another one for parts of the work.
+// THREADS: `poll` and `sink` are called in this thread. In the other one, if there is one, the rules of cancelling run
+//          `ahead` (as far as for_arcs() says), while the buckets and records of earlier pairs are made here.
 // REQUIRES: no node is of degree (1, 1).
 Hierarchy build_hierarchy(ReebGraph& graph, PackedLists buckets, int exponent, RecordSink& sink, const Poll& poll = {},
-                          const DoBoth& both = one_after_the_other);
+                          const DoBoth& both = {}, const std::optional<RunAhead>& ahead = {});
 
 }  // namespace reeb

@@ -55,13 +55,15 @@ inline Poll part_of(const Poll& poll, double from, double to) {
   return [&poll, from, to](double done) { poll(from + done * (to - from)); };
 }
 
-// Calls both functions and returns when both have returned: one after the other, or the second in another thread. It
-// throws what they throw.
+// Calls both functions and returns when both have returned: the first in this thread, the second in another one. It
+// throws what they throw. Empty if there is no other thread.
 using DoBoth = std::function<void(const std::function<void()>& here, const std::function<void()>& elsewhere)>;
 
-inline void one_after_the_other(const std::function<void()>& first, const std::function<void()>& second) {
-  first();
-  second();
+// In two threads if there are two, else one after the other.
+inline void do_both(const DoBoth& both, const std::function<void()>& here, const std::function<void()>& elsewhere) {
+  if (both) return both(here, elsewhere);
+  here();
+  elsewhere();
 }
 
 // Pairs the nodes, and cancels all pairs but Ext0 in the order of cancelling.

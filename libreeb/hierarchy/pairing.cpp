@@ -70,7 +70,7 @@ UnsortedPairs unsorted_pairs(const ReebGraph& graph, const Poll& poll, const DoB
   DownSweep down(0);
   const auto sweep_upwards = [&] { up = sweep_up(graph, pairs.rising, poll); };
   const auto sweep_downwards = [&] { down = sweep_down(graph, pairs.falling); };
-  both(sweep_upwards, sweep_downwards);
+  do_both(both, sweep_upwards, sweep_downwards);
   pair_components(nodes, up, down, [&](const PersistencePair& pair) { pairs.components.push_back(pair); });
   return pairs;
 }
@@ -87,7 +87,7 @@ std::vector<PersistencePair> sorted_pairs(const ReebGraph& graph, UnsortedPairs 
 }
 
 std::vector<PersistencePair> persistence_pairs(const ReebGraph& graph, const Poll& poll) {
-  return sorted_pairs(graph, unsorted_pairs(graph, poll, one_after_the_other));
+  return sorted_pairs(graph, unsorted_pairs(graph, poll, {}));
 }
 
 }  // namespace reeb

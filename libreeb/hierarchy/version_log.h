@@ -12,6 +12,10 @@
 
 namespace reeb {
 
+struct ArcEnds {
+  NodeId lo, hi;
+};
+
 // Collects the arcs that a step changes. When a record ends, it goes to a sink, with the content that the arc had
 // before the step. Without content (canceller.h), an arc with the same ends before and after a step keeps its record,
 // even if the step cut it and joined it again. With content, every touched arc starts a new record.
@@ -28,10 +32,11 @@ class VersionLog {
 
   void prefetch(ArcId arc) const { graph_.tables().prefetch(born_, arc); }
 
-  // To be called before an arc is moved or removed.
-  void touch(ArcId arc) {
-    if (std::as_const(born_)[arc] == step_) return;
-    ended_.push_back({record(arc), arc});
+  // To be called before an arc is moved or removed, with its ends.
+  void touch(ArcId arc, const ArcEnds& ends) {
+    const std::uint32_t born = std::as_const(born_)[arc];
+    if (born == step_) return;
+    ended_.push_back({{ends.lo, ends.hi, born}, arc});
     born_[arc] = step_;
   }
 

@@ -43,14 +43,11 @@ Poll stage_poll(const RunContext& run) {
   };
 }
 
-// If the run has a second thread.
+// Empty if the run has no second thread.
 DoBoth in_two_threads(const RunContext& run) {
-  if (!run.background()) return one_after_the_other;
-  return [](const std::function<void()>& here, const std::function<void()>& elsewhere) {
-    Worker worker;
-    worker.start(elsewhere);
-    here();
-    worker.wait();
+  if (!run.background()) return {};
+  return [worker = std::make_shared<Worker>()](const auto& here, const auto& elsewhere) {
+    worker->do_both(here, elsewhere);
   };
 }
 

@@ -62,6 +62,18 @@ class Worker {
     }
     wait();
   }
+  // Runs the second function in the thread while it calls the first. THROWS: what they throw, when both have ended.
+  void do_both(const std::function<void()>& here, const std::function<void()>& elsewhere) {
+    std::exception_ptr failure;
+    start(elsewhere);
+    try {
+      here();
+    } catch (...) {
+      failure = std::current_exception();
+    }
+    wait();
+    if (failure) std::rethrow_exception(failure);
+  }
 
  private:
   void run() {

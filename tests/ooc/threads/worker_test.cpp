@@ -41,6 +41,23 @@ TEST(Worker, ThrowsOnceWhatATaskThrew) {
   EXPECT_TRUE(ran);
 }
 
+TEST(Worker, DoesTwoThingsAtATimeAndWaitsForBoth) {
+  Worker worker;
+  std::thread::id first, second;
+  worker.do_both([&] { first = std::this_thread::get_id(); }, [&] { second = std::this_thread::get_id(); });
+  EXPECT_EQ(first, std::this_thread::get_id());
+  EXPECT_NE(second, first);
+
+  bool ended = false;
+  const auto slow = [&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    ended = true;
+  };
+  EXPECT_THROW(worker.do_both([] { throw std::runtime_error("here"); }, slow), std::runtime_error);
+  EXPECT_TRUE(ended);
+  EXPECT_THROW(worker.do_both([] {}, [] { throw std::logic_error("elsewhere"); }), std::logic_error);
+}
+
 TEST(Worker, EndsItsTaskBeforeItGoes) {
   bool ended = false;
   {

@@ -1,0 +1,130 @@
+// Cancelling with the rules ahead of the buckets and records: the same records, however far they run ahead, and
+// whichever thread is faster.
+#include <gtest/gtest.h>
+
+#include <thread>
+
+#include "libreeb/hierarchy/cancel.h"
+#include "ooc/threads/worker.h"
+#include "tests/libreeb/hierarchy/random_buckets.h"
+#include "tests/support/made_graph.h"
+
+namespace reeb {
+namespace {
+
+struct Result {
+  Hierarchy hierarchy;
+  std::vector<ArcVersion> arcs;
+  std::vector<std::vector<std::byte>> packed;
+  std::vector<DroppedVertices> dropped;
+  std::vector<std::thread::id> threads;
+};
+
+class Recorder : public RecordSink {
+ public:
+  explicit Recorder(Result& result) : result_(result) {}
+  void add(const ArcVersion& record, std::span<const std::byte> buckets) override {
+    result_.arcs.push_back(record);
+    result_.packed.emplace_back(buckets.begin(), buckets.end());
+    result_.threads.push_back(std::this_thread::get_id());
+  }
+  void drop(const DroppedVertices& some) override { result_.dropped.push_back(some); }
+
+ private:
+  Result& result_;
+};
+
+Result build(const test::EmbeddedGraph& made, const DoBoth& both, const RunAhead& ahead) {
+  ReebGraph graph = made.graph;
+  Result result;
+  Recorder recorder(result);
+  result.hierarchy = build_hierarchy(graph, pack_lists(made.buckets.view()), made.exponent, recorder, {}, both, ahead);
+  return result;
+}
+
+void expect_same(const Result& a, const Result& b) {
+  ASSERT_EQ(a.hierarchy.pairs, b.hierarchy.pairs);
+  ASSERT_EQ(a.hierarchy.persistence, b.hierarchy.persistence);
+  ASSERT_EQ(a.arcs, b.arcs);
+  ASSERT_EQ(a.packed, b.packed);
+  ASSERT_EQ(a.dropped, b.dropped);
+}
+
+void rules_last(const std::function<void()>& here, const std::function<void()>& elsewhere) {
+  here();
+  elsewhere();
+}
+void rules_first(const std::function<void()>& here, const std::function<void()>& elsewhere) {
+  elsewhere();
+  here();
+}
+
+// From "each pair waits" to "no pair waits".
+const RunAhead kAhead[] = {{.notes = 1, .arcs_of_path = 0, .pairs_in_turn = 0},
+                           {.notes = 6, .arcs_of_path = 1, .pairs_in_turn = 1},
+                           {.notes = 40, .arcs_of_path = 2, .pairs_in_turn = 3},
+                           {.notes = 8192, .arcs_of_path = 3, .pairs_in_turn = 0},
+                           {}};
+
+class RunsAhead : public testing::TestWithParam<std::uint32_t> {};
+INSTANTIATE_TEST_SUITE_P(Nodes, RunsAhead, testing::Values(6, 12, 24));
+
+TEST_P(RunsAhead, WithTheSameRecords) {
+  for (std::uint64_t seed = 0; seed < 240000 / GetParam(); ++seed) {
+    test::Random random(seed);
+    const test::EmbeddedGraph made = test::random_embedded_graph(random, GetParam());
+    const Result expected = build(made, {}, {});
+    for (const RunAhead& ahead : kAhead)
+      for (const auto& both : {rules_last, rules_first}) {
+        SCOPED_TRACE(testing::Message() << "seed " << seed << ", notes " << ahead.notes);
+        expect_same(build(made, both, ahead), expected);
+      }
+  }
+}
+
+// Long paths, many loops, and lists that change often.
+test::EmbeddedGraph large_graph(bench::GraphKind kind, std::size_t arcs) {
+  test::EmbeddedGraph made{.graph = bench::GraphMaker(kind, arcs).make(), .buckets = {}};
+  for (std::size_t node = 0; node < made.graph.node_count(); ++node)
+    made.graph.positions.push_back({static_cast<double>(node % 400), static_cast<double>(node / 400), 0});
+  made.exponent = bucket_exponent(made.graph.nodes.front().value, made.graph.nodes.back().value, 64);
+  made.buckets = bench::make_buckets(made.graph, made.exponent);
+  return made;
+}
+
+TEST(RunAhead, LargeGraphsInTwoThreads) {
+  ooc::Worker worker;
+  const DoBoth both = [&](const auto& here, const auto& elsewhere) { worker.do_both(here, elsewhere); };
+  for (const bench::GraphKind kind : {bench::kPlate, bench::kNoise, bench::kExpander}) {
+    SCOPED_TRACE(testing::Message() << "kind " << static_cast<int>(kind));
+    const test::EmbeddedGraph made = large_graph(kind, 20000);
+    const Result expected = build(made, {}, {});
+    for (const RunAhead& ahead : kAhead) {
+      SCOPED_TRACE(testing::Message() << "notes " << ahead.notes);
+      const Result result = build(made, both, ahead);
+      expect_same(result, expected);
+      for (const std::thread::id thread : result.threads) ASSERT_EQ(thread, std::this_thread::get_id());
+    }
+  }
+}
+
+// A sink that fails, as a full disk does, while the other thread is at work.
+TEST(RunAhead, AnErrorEndsBothThreads) {
+  struct Full : RecordSink {
+    void add(const ArcVersion&, std::span<const std::byte>) override {
+      if (++records == 5000) throw std::length_error("full");
+    }
+    int records = 0;
+  };
+  ooc::Worker worker;
+  const DoBoth both = [&](const auto& here, const auto& elsewhere) { worker.do_both(here, elsewhere); };
+  const test::EmbeddedGraph made = large_graph(bench::kPlate, 20000);
+  ReebGraph graph = made.graph;
+  Full sink;
+  EXPECT_THROW(build_hierarchy(graph, pack_lists(made.buckets.view()), made.exponent, sink, {}, both),
+               std::length_error);
+  EXPECT_EQ(sink.records, 5000);
+}
+
+}  // namespace
+}  // namespace reeb
