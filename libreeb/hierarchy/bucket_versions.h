@@ -53,6 +53,7 @@ class BucketVersions {
   bool cut(const ArcCut& arc);
   double first_value(const ArcPart& part);
   bool is_reached(double first, Direction d, NodeId node) const {
+    if (first == kNever || first == -kNever) return false;  // without a look at the node
     return d == kUp ? value(node) >= first : value(node) <= first;
   }
   bool merge(ArcId from, ArcId into) { return !lists_.empty(from) && lists_.merge(from, into); }

@@ -257,7 +257,7 @@ bool Canceller<Content, Graph, ChangesKind>::note_in_parallel(Direction d, ArcId
       changes_.forget_path();
       return false;
     }
-    changes_.pass(passed, d == kUp ? ArcEnds{from, node} : ArcEnds{node, from});
+    changes_.pass(d, passed, d == kUp ? ArcEnds{from, node} : ArcEnds{node, from});
     from = node;
     passed = graph_.nearest(from, d);
   }

@@ -120,7 +120,10 @@ class DeferredChanges {
     path_ = notes_.size();
     notes_.push_back({.kind = Kind::kPath, .direction = part.direction, .arc = part.arc, .nodes{part.start, part.end}});
   }
-  void pass(ArcId arc, const ArcEnds& ends) { notes_.push_back({.kind = Kind::kPass, .other = arc, .ends = ends}); }
+  void pass(Direction d, ArcId arc, const ArcEnds& ends) {
+    const NodeId end = d == kUp ? ends.hi : ends.lo;
+    notes_.push_back({.kind = Kind::kPass, .direction = d, .other = arc, .nodes = {end}, .ends = ends});
+  }
   // Forgets the path that was begun last.
   void forget_path() { notes_.resize(path_); }
 
@@ -183,10 +186,9 @@ void DeferredChanges<Content, Graph>::apply(const std::vector<ArcNote>& notes) {
         first = now_.first_value(part);
         break;
       case Kind::kPass:
-        const NodeId end = part.direction == kUp ? note.ends.hi : note.ends.lo;
-        if (!now_.is_reached(first, part.direction, end)) break;
-        now_.cut({part.direction, part.arc, note.other, part.start, end, part.end}, note.ends);
-        part.start = end;
+        if (!now_.is_reached(first, d, a)) break;
+        now_.cut({d, part.arc, note.other, part.start, a, part.end}, note.ends);
+        part.start = a;
         first = now_.first_value(part);
         break;
     }
@@ -202,7 +204,7 @@ void DeferredChanges<Content, Graph>::prefetch(const std::vector<ArcNote>& notes
       if (arc != ArcId::none()) now_.prefetch_place(arc);
     if (note.kind == Kind::kCut || note.kind == Kind::kJoin || note.kind == Kind::kLay)
       for (const NodeId node : note.nodes) now_.prefetch_node(node);
-    if (note.kind == Kind::kPass) now_.prefetch_node(note.ends.hi);
+    if (note.kind == Kind::kPass) now_.prefetch_node(note.nodes[0]);
   }
   if (at + kContent < notes.size()) {
     const ArcNote& note = notes[at + kContent];

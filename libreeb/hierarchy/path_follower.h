@@ -47,7 +47,7 @@ class PathFollower {
  private:
   static constexpr NodeId kNone = NodeId::none();
   static constexpr std::uint32_t kNoSection = 0;
-  static constexpr std::size_t kMinNodes = 8, kMaxNodes = 32;  // of a section when it is made
+  static constexpr std::size_t kMinNodes = 8, kMaxNodes = 16;  // of a section when it is made
   static constexpr std::size_t kMaxInserted = 4;
 
   struct Change {
