@@ -40,8 +40,7 @@ struct IgnoreContent {
   // The content of the arc of an extremum is moved to at most this many arcs; the rest is dropped. The path is walked
   // for this purpose only, and each arc on it gets a new record.
   static constexpr std::uint32_t kMostArcsOfExtremum = kAnyNumberOfArcs;
-  // The part of `from` between `start` and `node` goes to `into`, which has these ends. The rest
-  // stays.
+  // The part of `from` between `start` and `node` goes to `into`. The rest stays.
   bool cut(const ArcCut& /*cut*/) { return false; }
   // The first value, in the direction of the part, at which cut() has anything to move; and whether a node is at that
   // value or beyond.
@@ -59,7 +58,7 @@ struct IgnoreContent {
   std::span<const std::byte> before_step(ArcId /*arc*/) const { return {}; }
   // Ends the step.
   void commit() {}
-  // For the prefetches of the Canceller: a node; where the content of an arc is stored; the content.
+  // Prefetch a node; where the content of an arc is stored; the content.
   void prefetch_node(NodeId /*node*/) const {}
   void prefetch_place(ArcId /*arc*/) const {}
   void prefetch(ArcId /*arc*/) const {}

@@ -97,9 +97,10 @@ class BasicArcBucketLists {
   // The link from the item to the next one, or from the arc to its first item.
   std::uint32_t& after(std::uint32_t item, ArcId arc) { return item == kNone ? first(arc) : items_[item].next; }
   void open(ArcId arc);
+  void open(ArcId arc, std::span<const Bucket> own);
   std::span<const Bucket> unpacked(ArcId arc);
   const Bucket& first_bucket(Direction d, ArcId arc);
-  bool has_any_beyond(Direction d, ArcId arc, const CutValues& values);
+  bool has_any_beyond(Direction d, std::span<const Bucket> own, const CutValues& values) const;
   std::uint32_t make(const Bucket& bucket, std::uint32_t next);
   void free(std::uint32_t item);
   void insert(std::uint32_t chain, ArcId into);
@@ -119,10 +120,14 @@ using ArcBucketLists = BasicArcBucketLists<>;
 
 template <class Lists>
 void BasicArcBucketLists<Lists>::open(ArcId arc) {
-  if (is_open(arc)) return;
+  if (!is_open(arc)) open(arc, unpacked(arc));
+}
+
+// REQUIRES: the arc is not open, and this is its list.
+template <class Lists>
+void BasicArcBucketLists<Lists>::open(ArcId arc, std::span<const Bucket> own) {
   open_.find_or_insert(arc.value(), static_cast<std::uint32_t>(opened_.size()));
   opened_.push_back({arc, kNone});
-  const auto own = unpacked(arc);
   for (auto bucket = own.rbegin(); bucket != own.rend(); ++bucket) first(arc) = make(*bucket, first(arc));
 }
 
@@ -242,8 +247,11 @@ const Bucket& BasicArcBucketLists<Lists>::first_bucket(Direction d, ArcId arc) {
 template <class Lists>
 bool BasicArcBucketLists<Lists>::cut(Direction d, ArcId from, ArcId into, const CutValues& values) {
   // Half of all cuts move nothing. A list that is not opened need not be packed and stored again.
-  if (!is_open(from) && !has_any_beyond(d, from, values)) return false;
-  open(from);
+  if (!is_open(from)) {
+    const auto own = unpacked(from);
+    if (!has_any_beyond(d, own, values)) return false;
+    open(from, own);
+  }
   const std::uint32_t last = last_below(from, values);
   const std::uint32_t above = std::exchange(after(last, from), kNone);
   const std::uint32_t below = first(from);
@@ -255,10 +263,10 @@ bool BasicArcBucketLists<Lists>::cut(Direction d, ArcId from, ArcId into, const 
   return true;
 }
 
-// Whether a cut finds vertices on side d. REQUIRES: the arc is not open.
+// Whether a cut of this list finds vertices on side d.
 template <class Lists>
-bool BasicArcBucketLists<Lists>::has_any_beyond(Direction d, ArcId arc, const CutValues& values) {
-  const auto own = unpacked(arc);
+bool BasicArcBucketLists<Lists>::has_any_beyond(Direction d, std::span<const Bucket> own,
+                                                const CutValues& values) const {
   if (own.empty()) return false;
   const Bucket& farthest = d == kUp ? own.back() : own.front();
   const std::int64_t middle = bucket_index(values.at, exponent_);

@@ -56,7 +56,7 @@ class BucketVersions {
     if (first == kNever || first == -kNever) return false;  // without a look at the node
     return d == kUp ? value(node) >= first : value(node) <= first;
   }
-  bool merge(ArcId from, ArcId into) { return !lists_.empty(from) && lists_.merge(from, into); }
+  bool merge(ArcId from, ArcId into) { return lists_.merge(from, into); }
   void join(ArcId upper, ArcId lower, NodeId node);
   void lay(ArcId arc, ArcId other, NodeId extremum, Direction /*direction*/) { join(arc, other, extremum); }
   void drop(ArcId arc, std::uint32_t nodes);

@@ -87,9 +87,9 @@ void cancel_ahead(const ReebGraph& graph, Canceller& canceller, Hierarchy& hiera
   const auto run_ahead = [&] {
     while (!pairs.is_over() && !canceller.is_paused() && !changes.is_full()) pairs.cancel_next();
   };
+  changes.set_defers(true);
   while (!pairs.is_over()) {
     if (poll) poll(pairs.done());
-    changes.set_defers(true);
     both(apply, run_ahead);
     changes.take_notes(notes);
     if (!canceller.is_paused()) continue;
@@ -98,8 +98,10 @@ void cancel_ahead(const ReebGraph& graph, Canceller& canceller, Hierarchy& hiera
     changes.set_defers(false);
     canceller.resume(pairs.last());
     for (std::size_t i = 0; i < limits.pairs_in_turn && !pairs.is_over(); ++i) pairs.cancel_next();
+    changes.set_defers(true);
   }
   apply();
+  changes.set_defers(false);
   canceller.finish();
 }
 

@@ -31,9 +31,9 @@ std::uint64_t hierarchy_bytes(std::uint64_t nodes, std::uint64_t arcs, std::opti
 // TIME:   O(m log m) for the pairs. A cancellation costs its two paths and a search. The search costs no more than the
 //         smaller of two parts of the graph within the pair's interval: that above the lower node, and that below the
 //         upper node.
-// MEMORY: hierarchy_bytes().
-// THREADS: `poll` and `sink` are called in this thread. In the other one, if there is one, the rules of cancelling run
-//          `ahead` (as far as for_arcs() says), while the buckets and records of earlier pairs are made here.
+// MEMORY: hierarchy_bytes(), unless `ahead` is more than the default, RunAhead::for_arcs().
+// THREADS: `poll` and `sink` are called in this thread. The other one, if there is one, does a sweep, makes the working
+//          graph, and follows the rules of cancelling, which run `ahead` of the buckets and records.
 // REQUIRES: no node is of degree (1, 1).
 Hierarchy build_hierarchy(ReebGraph& graph, PackedLists buckets, int exponent, RecordSink& sink, const Poll& poll = {},
                           const DoBoth& both = {}, const std::optional<RunAhead>& ahead = {});

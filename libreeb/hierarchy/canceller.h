@@ -5,7 +5,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <utility>
 
 #include "libreeb/hierarchy/arc_changes.h"
@@ -241,8 +240,8 @@ bool Canceller<Content, Graph, ChangesKind>::follow_in_parallel(Direction d, Arc
   return true;
 }
 
-// The same if changes are deferred. If any number of arcs may be passed and there are too many to be noted, it notes
-// none, and returns false with `other` and `start` as they were.
+// Notes the path instead, for changes that are deferred. If any number of arcs may be passed and there are too many to
+// be noted, it notes none, and returns false with `other` and `start` as they were.
 template <class Content, class Graph, template <class, class> class ChangesKind>
 bool Canceller<Content, Graph, ChangesKind>::note_in_parallel(Direction d, ArcId arc, ArcId& other, NodeId& start,
                                                               NodeId end, std::uint32_t most) {

@@ -1,4 +1,4 @@
-// An ArcChanges that is written later, by another thread, while the rules of cancelling run ahead.
+// Changes of arcs that are made later, by another thread, while the rules of cancelling run ahead.
 //
 // WHY. With an embedding, about half of the time of cancelling goes into lists of buckets and into records. The rules
 // do not need them, but for one thing: how far a long path next to an arc can be followed at once depends on the
@@ -16,11 +16,12 @@
 
 namespace reeb {
 
-// How far the rules run ahead. The results do not depend on it.
+// How far the rules run ahead. The results do not depend on it. REQUIRES: notes > 0.
 struct RunAhead {
-  std::size_t notes = 8192;        // in a list of notes, about; a loop of a quarter as many arcs waits
+  std::size_t notes = 8192;        // in a list, about; a loop with more than a quarter as many arcs waits
   std::size_t arcs_of_path = 256;  // a longer path waits
-  std::size_t pairs_in_turn = 64;  // are cancelled without running ahead after one that waited: they often would, too
+  // After a pair that waited, so many are cancelled without running ahead, since they would often wait, too.
+  std::size_t pairs_in_turn = 64;
 
   // The lists of a small graph are small.
   static RunAhead for_arcs(std::uint64_t arcs) {
@@ -29,18 +30,19 @@ struct RunAhead {
     return ahead;
   }
 
-  // A list is full before it has this many notes.
-  std::size_t most_notes() const { return 2 * notes + arcs_of_path; }
+  // No list gets longer than this.
+  std::size_t most_notes() const { return 2 * notes + arcs_of_path + 32; }
 };
 
-// What was done to an arc: a function of ArcChanges and its arguments.
+// What was done to an arc: a function of ArcChanges and its arguments, or a part of a path.
 struct ArcNote {
+  static constexpr NodeId kNoNode = NodeId::none();
   enum class Kind : std::uint8_t { kTouch, kCut, kMerge, kJoin, kLay, kDrop, kPath, kPass, kCommit };
 
   Kind kind = Kind::kCommit;
   Direction direction = kUp;
   ArcId arc = ArcId::none(), other = ArcId::none();
-  std::array<NodeId, 3> nodes{};
+  std::array<NodeId, 3> nodes{kNoNode, kNoNode, kNoNode};
   ArcEnds ends{};
   std::uint32_t count = 0;
 };
@@ -48,7 +50,7 @@ struct ArcNote {
 // While it defers, its functions only note what they were called for.
 //
 // MEMORY: ArcChanges, and a list of notes.
-// THREADS: while it defers, apply() may run in one thread and everything else in another.
+// THREADS: while it defers, one thread may call apply() and another one note changes.
 template <class ContentKind, class Graph>
 class DeferredChanges {
  public:
@@ -67,7 +69,7 @@ class DeferredChanges {
     limits_ = limits;
     notes_.reserve(limits.most_notes());
   }
-  // Whether there are as many notes as there may be; and whether a path or a loop of this many arcs is to wait.
+  // Whether the rules should stop for now; and whether a path or a loop of this many arcs waits.
   bool is_full() const { return notes_.size() >= limits_.notes; }
   bool is_long_path(std::size_t arcs) const { return arcs > limits_.arcs_of_path; }
   bool is_long_loop(std::size_t arcs) const { return arcs > limits_.notes / 4; }
@@ -95,11 +97,11 @@ class DeferredChanges {
   }
   void join(ArcId upper, ArcId lower, NodeId node) {
     if (!defers_) return now_.join(upper, lower, node);
-    notes_.push_back({.kind = Kind::kJoin, .arc = upper, .other = lower, .nodes = {node}});
+    notes_.push_back({.kind = Kind::kJoin, .arc = upper, .other = lower, .nodes = {node, kNoNode, kNoNode}});
   }
   void lay(ArcId arc, ArcId other, NodeId extremum, Direction d, const ArcEnds& ends_of_other) {
     if (!defers_) return now_.lay(arc, other, extremum, d, ends_of_other);
-    notes_.push_back({Kind::kLay, d, arc, other, {extremum}, ends_of_other});
+    notes_.push_back({Kind::kLay, d, arc, other, {extremum, kNoNode, kNoNode}, ends_of_other});
   }
   void drop(ArcId arc, std::uint32_t nodes) {
     if (!defers_) return now_.drop(arc, nodes);
@@ -114,15 +116,17 @@ class DeferredChanges {
   bool is_reached(double value, Direction d, NodeId node) const { return now_.is_reached(value, d, node); }
   void finish() { now_.finish(); }
 
-  // Notes a path next to a part of an arc: first the part, and then each arc that is passed. It takes what it can of
-  // the content of the part. REQUIRES, as the next two: it defers.
+  // Notes a path next to a part of an arc: first the part, and then each arc that is passed. Each of these takes what
+  // it can of the content of the part. REQUIRES, as the next two: it defers.
   void begin_path(const ArcPart& part) {
     path_ = notes_.size();
-    notes_.push_back({.kind = Kind::kPath, .direction = part.direction, .arc = part.arc, .nodes{part.start, part.end}});
+    notes_.push_back(
+        {.kind = Kind::kPath, .direction = part.direction, .arc = part.arc, .nodes = {part.start, part.end, kNoNode}});
   }
   void pass(Direction d, ArcId arc, const ArcEnds& ends) {
     const NodeId end = d == kUp ? ends.hi : ends.lo;
-    notes_.push_back({.kind = Kind::kPass, .direction = d, .other = arc, .nodes = {end}, .ends = ends});
+    notes_.push_back(
+        {.kind = Kind::kPass, .direction = d, .other = arc, .nodes = {end, kNoNode, kNoNode}, .ends = ends});
   }
   // Forgets the path that was begun last.
   void forget_path() { notes_.resize(path_); }
@@ -140,12 +144,13 @@ class DeferredChanges {
 
  private:
   using Kind = ArcNote::Kind;
+  static constexpr NodeId kNoNode = ArcNote::kNoNode;
 
   void prefetch(const std::vector<ArcNote>& notes, std::size_t at) const;
 
   ArcChanges<Content, Graph> now_;
-  std::vector<ArcNote> notes_;
-  std::size_t path_ = 0;  // the first note of the last path
+  alignas(64) std::vector<ArcNote> notes_;  // not next to what the other thread changes
+  std::size_t path_ = 0;                    // the first note of the last path
   RunAhead limits_;
   bool defers_ = false;
 };
@@ -202,9 +207,8 @@ void DeferredChanges<Content, Graph>::prefetch(const std::vector<ArcNote>& notes
     const ArcNote& note = notes[at + kPlace];
     for (const ArcId arc : {note.arc, note.other})
       if (arc != ArcId::none()) now_.prefetch_place(arc);
-    if (note.kind == Kind::kCut || note.kind == Kind::kJoin || note.kind == Kind::kLay)
-      for (const NodeId node : note.nodes) now_.prefetch_node(node);
-    if (note.kind == Kind::kPass) now_.prefetch_node(note.nodes[0]);
+    for (const NodeId node : note.nodes)
+      if (node != NodeId::none()) now_.prefetch_node(node);
   }
   if (at + kContent < notes.size()) {
     const ArcNote& note = notes[at + kContent];

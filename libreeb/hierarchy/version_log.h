@@ -17,7 +17,7 @@ struct ArcEnds {
 };
 
 // Collects the arcs that a step changes. When a record ends, it goes to a sink, with the content that the arc had
-// before the step. Without content (canceller.h), an arc with the same ends before and after a step keeps its record,
+// before the step. Without content (arc_changes.h), an arc with the same ends before and after a step keeps its record,
 // even if the step cut it and joined it again. With content, every touched arc starts a new record.
 //
 // MEMORY: 4 bytes per arc; 28 per arc that a step changes, until the step ends.

@@ -4,6 +4,7 @@
 #include <array>
 #include <deque>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -243,10 +244,11 @@ std::optional<GraphInMemory> load_for_hierarchy(RunContext& run, const StoredGra
   const LoadOptions loading{.bucket_exponent = graph.sweep.bucket_exponent};
   // Most of what is needed is known before anything is read.
   const std::uint64_t room = run.budget.free_bytes() + store.reserved_bytes();
-  if (loading_bytes(store, loading) > run.budget.free_bytes() || hierarchy_bytes(nodes, arcs, 0) > room) return {};
+  std::optional<std::uint64_t> lists;
+  if (run.embeds()) lists = 0;
+  if (loading_bytes(store, loading) > run.budget.free_bytes() || hierarchy_bytes(nodes, arcs, lists) > room) return {};
   const Poll poll = stage_poll(run);
   LoadedGraph loaded = read_graph(store, loading, part_of(poll, 0, kLoaded));
-  std::optional<std::uint64_t> lists;
   if (run.embeds()) lists = loaded.buckets.memory_bytes();
   const std::uint64_t needed = hierarchy_bytes(nodes, arcs, lists) + RecordLog::memory_bytes();
   const std::uint64_t more = needed - loaded.memory.bytes();

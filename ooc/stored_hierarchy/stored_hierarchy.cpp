@@ -49,7 +49,7 @@ StoredHierarchy::Shares StoredHierarchy::share_out(std::uint64_t free, std::uint
   const std::uint64_t fixed =
       2 * shares.sort + shares.keys + shares.positions + kTables * kLeastTable + kCancellingBytes * nodes;
   const auto room = [&](std::uint64_t taken) { return free - std::min(free, taken); };
-  // Two thirds of the tables are filled while nodes are paired.
+  // Two thirds of the tables are filled while nodes are paired, or a little more.
   shares.tables = std::min(room(fixed), room(fixed + kPairingBytes * nodes) / 2 * 3);
   return shares;
 }

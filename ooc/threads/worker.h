@@ -62,7 +62,9 @@ class Worker {
     }
     wait();
   }
-  // Runs the second function in the thread while it calls the first. THROWS: what they throw, when both have ended.
+
+  // Runs the second function in the thread while it calls the first. THROWS: what they throw, when both have ended; if
+  // both throw, what the second does.
   void do_both(const std::function<void()>& here, const std::function<void()>& elsewhere) {
     std::exception_ptr failure;
     start(elsewhere);

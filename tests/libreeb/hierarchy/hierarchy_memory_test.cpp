@@ -1,5 +1,7 @@
-// Building a hierarchy holds no more memory than hierarchy_bytes() says, and at most 170 bytes per arc.
+// Building a hierarchy holds no more memory than hierarchy_bytes() says, and at most 180 bytes per arc.
 #include <gtest/gtest.h>
+
+#include <functional>
 
 #include "libreeb/hierarchy/cancel.h"
 #include "tests/support/held_memory.h"
@@ -21,9 +23,15 @@ class Nowhere : public RecordSink {
   std::uint64_t records_ = 0;
 };
 
+// What two threads do, one after the other: the notes of one are held while the other works.
+void as_two_threads(const std::function<void()>& here, const std::function<void()>& elsewhere) {
+  elsewhere();
+  here();
+}
+
 // `make` returns a graph, with buckets of this exponent or without.
 template <class Make>
-void expect_within_promise(Make make, int exponent) {
+void expect_within_promise(Make make, int exponent, const DoBoth& both) {
   std::uint64_t promised = 0, records = 0;
   std::size_t arcs = 0;
   const std::size_t peak = bench::peak_of([&] {
@@ -34,14 +42,14 @@ void expect_within_promise(Make make, int exponent) {
     promised = hierarchy_bytes(graph.node_count(), arcs, lists);
     Nowhere nowhere;
     bench::peak_bytes = bench::held_bytes.load();  // memory for making the graph does not count
-    const Hierarchy hierarchy = build_hierarchy(graph, std::move(buckets), exponent, nowhere);
+    const Hierarchy hierarchy = build_hierarchy(graph, std::move(buckets), exponent, nowhere, {}, both);
     records = nowhere.records();
     ASSERT_GT(hierarchy.persistence.size(), arcs / 50);
   });
   EXPECT_GT(records, arcs);
   EXPECT_LE(peak, promised);
   EXPECT_GE(peak, promised / 2) << "a promise that keeps others waiting";
-  EXPECT_LE(peak, 170 * arcs);
+  EXPECT_LE(peak, 180 * arcs);
   std::printf("held %.1f bytes an arc of %.1f\n", static_cast<double>(peak) / static_cast<double>(arcs),
               static_cast<double>(promised) / static_cast<double>(arcs));
 }
@@ -51,13 +59,13 @@ struct GraphAndLists {
   PackedLists buckets;
 };
 
-class MadeGraphs : public testing::TestWithParam<std::tuple<bench::GraphKind, bool>> {};
+class MadeGraphs : public testing::TestWithParam<std::tuple<bench::GraphKind, bool, bool>> {};
 INSTANTIATE_TEST_SUITE_P(Kinds, MadeGraphs,
                          testing::Combine(testing::Values(bench::kPlate, bench::kNoise, bench::kExpander),
-                                          testing::Bool()));
+                                          testing::Bool(), testing::Bool()));
 
 TEST_P(MadeGraphs, HoldNoMoreThanPromised) {
-  const auto [kind, embeds] = GetParam();
+  const auto [kind, embeds, in_two_threads] = GetParam();
   int exponent = 0;
   ReebGraph made = bench::GraphMaker(kind, kArcs).make();
   for (std::size_t node = 0; node < made.node_count(); ++node)
@@ -67,7 +75,7 @@ TEST_P(MadeGraphs, HoldNoMoreThanPromised) {
       [&] {
         return GraphAndLists{made, embeds ? pack_lists(bench::make_buckets(made, exponent).view()) : PackedLists{}};
       },
-      exponent);
+      exponent, in_two_threads ? DoBoth(as_two_threads) : DoBoth());
 }
 
 TEST(RandomFunction, HoldsNoMoreThanPromised) {
@@ -79,7 +87,7 @@ TEST(RandomFunction, HoldsNoMoreThanPromised) {
         ooc::LoadedGraph loaded = bench::make_random_function_graph(kArcs, 64, exponent, temp, budget);
         return GraphAndLists{std::move(loaded.graph), std::move(loaded.buckets)};
       },
-      bucket_exponent(0, 1, 64));
+      bucket_exponent(0, 1, 64), as_two_threads);
 }
 
 }  // namespace
