@@ -8,6 +8,7 @@
 #include "ooc/threads/worker.h"
 #include "tests/libreeb/hierarchy/random_buckets.h"
 #include "tests/support/made_graph.h"
+#include "tests/support/seed.h"
 
 namespace reeb {
 namespace {
@@ -70,7 +71,7 @@ class RunsAhead : public testing::TestWithParam<std::uint32_t> {};
 INSTANTIATE_TEST_SUITE_P(Nodes, RunsAhead, testing::Values(6, 12, 24));
 
 TEST_P(RunsAhead, WithTheSameRecords) {
-  for (std::uint64_t seed = 0; seed < 240000 / GetParam(); ++seed) {
+  for (std::uint64_t seed = 0; seed < test::case_count(240000 / GetParam()); ++seed) {
     test::Random random(seed);
     const test::EmbeddedGraph made = test::random_embedded_graph(random, GetParam());
     const Result expected = build(made, {}, {});
