@@ -66,7 +66,7 @@ bool unpack_buckets(std::span<const std::byte> packed, std::vector<Bucket>& buck
   if (!in.may_hold(count, 2 + sizeof(Single))) return false;
   std::uint64_t index = 0;
   for (std::uint64_t i = 0; i < count; ++i) {
-    // In place: a bucket that is put together elsewhere and copied waits until all its parts are stored.
+    // In place, since copying a bucket whose parts were just stored waits for these stores.
     Bucket& bucket = buckets.emplace_back();
     index = in.delta(index);
     bucket.index = static_cast<std::int64_t>(index);

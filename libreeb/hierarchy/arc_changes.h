@@ -2,6 +2,7 @@
 // end.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <utility>

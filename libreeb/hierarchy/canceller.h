@@ -15,7 +15,7 @@
 
 namespace reeb {
 
-// MEMORY: 40 bytes per arc and 33 bytes per node.
+// MEMORY: 36 bytes per arc and 33 bytes per node.
 template <class Content = IgnoreContent, class Graph = WorkingGraph,
           template <class, class> class ChangesKind = ArcChanges>
 class Canceller {

@@ -26,7 +26,7 @@ struct RunAhead {
   // The lists of a small graph are small.
   static RunAhead for_arcs(std::uint64_t arcs) {
     RunAhead ahead;
-    ahead.notes = std::min<std::size_t>(ahead.notes, 64 + arcs / 16);
+    ahead.notes = std::min<std::size_t>(ahead.notes, 64 + arcs / 64);
     return ahead;
   }
 

@@ -22,7 +22,7 @@ constexpr NodeId farthest(Direction d) { return d == kUp ? NodeId::none() : Node
 
 // `TableKind` says where its entries are (libreeb/graph/tables_in_memory.h).
 //
-// MEMORY: 36 bytes per arc, 16 bytes per node. Only the constructor and nearest_if() allocate.
+// MEMORY: 32 bytes per arc, 16 bytes per node. Only the constructor and nearest_if() allocate.
 template <class TableKind = TablesInMemory>
 class BasicWorkingGraph {
  public:

@@ -109,6 +109,12 @@ class GraphMaker {
   std::vector<ArcKeys> arcs_;
 };
 
+// Gives the nodes positions, in rows.
+inline void place_nodes(ReebGraph& graph) {
+  for (std::size_t node = 0; node < graph.node_count(); ++node)
+    graph.positions.push_back({static_cast<double>(node % 400), static_cast<double>(node / 400), 0});
+}
+
 // An embedding of the graph in which an arc has a vertex in every bucket that it crosses.
 inline ArcBuckets make_buckets(const ReebGraph& graph, int exponent) {
   ArcBuckets buckets{.offsets = {0}, .buckets = {}};

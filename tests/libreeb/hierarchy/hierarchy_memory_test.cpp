@@ -1,9 +1,8 @@
-// Building a hierarchy holds no more memory than hierarchy_bytes() says, and at most 180 bytes per arc.
+// Building a hierarchy holds no more memory than hierarchy_bytes() says, and at most 170 bytes per arc.
 #include <gtest/gtest.h>
 
-#include <functional>
-
 #include "libreeb/hierarchy/cancel.h"
+#include "tests/libreeb/hierarchy/elsewhere_first.h"
 #include "tests/support/held_memory.h"
 #include "tests/support/made_graph.h"
 #include "tests/support/random_function_graph.h"
@@ -22,12 +21,6 @@ class Nowhere : public RecordSink {
  private:
   std::uint64_t records_ = 0;
 };
-
-// What two threads do, one after the other: the notes of one are held while the other works.
-void as_two_threads(const std::function<void()>& here, const std::function<void()>& elsewhere) {
-  elsewhere();
-  here();
-}
 
 // `make` returns a graph, with buckets of this exponent or without.
 template <class Make>
@@ -49,7 +42,7 @@ void expect_within_promise(Make make, int exponent, const DoBoth& both) {
   EXPECT_GT(records, arcs);
   EXPECT_LE(peak, promised);
   EXPECT_GE(peak, promised / 2) << "a promise that keeps others waiting";
-  EXPECT_LE(peak, 180 * arcs);
+  EXPECT_LE(peak, 170 * arcs);
   std::printf("held %.1f bytes an arc of %.1f\n", static_cast<double>(peak) / static_cast<double>(arcs),
               static_cast<double>(promised) / static_cast<double>(arcs));
 }
@@ -68,14 +61,13 @@ TEST_P(MadeGraphs, HoldNoMoreThanPromised) {
   const auto [kind, embeds, in_two_threads] = GetParam();
   int exponent = 0;
   ReebGraph made = bench::GraphMaker(kind, kArcs).make();
-  for (std::size_t node = 0; node < made.node_count(); ++node)
-    made.positions.push_back({static_cast<double>(node % 400), static_cast<double>(node / 400), 0});
+  bench::place_nodes(made);
   exponent = bucket_exponent(made.nodes.front().value, made.nodes.back().value, 64);
   expect_within_promise(
       [&] {
         return GraphAndLists{made, embeds ? pack_lists(bench::make_buckets(made, exponent).view()) : PackedLists{}};
       },
-      exponent, in_two_threads ? DoBoth(as_two_threads) : DoBoth());
+      exponent, in_two_threads ? DoBoth(test::elsewhere_first) : DoBoth());
 }
 
 TEST(RandomFunction, HoldsNoMoreThanPromised) {
@@ -87,7 +79,7 @@ TEST(RandomFunction, HoldsNoMoreThanPromised) {
         ooc::LoadedGraph loaded = bench::make_random_function_graph(kArcs, 64, exponent, temp, budget);
         return GraphAndLists{std::move(loaded.graph), std::move(loaded.buckets)};
       },
-      bucket_exponent(0, 1, 64), as_two_threads);
+      bucket_exponent(0, 1, 64), test::elsewhere_first);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/libreeb/hierarchy/elsewhere_first.h"
 #include "tests/libreeb/hierarchy/random_graphs.h"
 #include "tests/model/reference_pairs.h"
 #include "tests/model/reference_reeb.h"
@@ -108,15 +109,11 @@ TEST(Pairing, IsSortedForCancelling) {
 }
 
 TEST(Pairing, TheSweepsCanTakePlaceInAnyOrder) {
-  const DoBoth other_order = [](const std::function<void()>& here, const std::function<void()>& elsewhere) {
-    elsewhere();
-    here();
-  };
   for (std::uint64_t seed = 0; seed < 500; ++seed) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
     test::Random random(seed);
     const ReebGraph graph = test::random_graph(random, 14);
-    ASSERT_EQ(sorted_pairs(graph, unsorted_pairs(graph, {}, other_order)), persistence_pairs(graph));
+    ASSERT_EQ(sorted_pairs(graph, unsorted_pairs(graph, {}, test::elsewhere_first)), persistence_pairs(graph));
   }
 }
 

@@ -6,6 +6,7 @@
 
 #include "libreeb/hierarchy/cancel.h"
 #include "ooc/threads/worker.h"
+#include "tests/libreeb/hierarchy/elsewhere_first.h"
 #include "tests/libreeb/hierarchy/random_buckets.h"
 #include "tests/support/made_graph.h"
 #include "tests/support/seed.h"
@@ -55,10 +56,6 @@ void rules_last(const std::function<void()>& here, const std::function<void()>& 
   here();
   elsewhere();
 }
-void rules_first(const std::function<void()>& here, const std::function<void()>& elsewhere) {
-  elsewhere();
-  here();
-}
 
 // From "each pair waits" to "no pair waits".
 const RunAhead kAhead[] = {{.notes = 1, .arcs_of_path = 0, .pairs_in_turn = 0},
@@ -76,7 +73,7 @@ TEST_P(RunsAhead, WithTheSameRecords) {
     const test::EmbeddedGraph made = test::random_embedded_graph(random, GetParam());
     const Result expected = build(made, {}, {});
     for (const RunAhead& ahead : kAhead)
-      for (const auto& both : {rules_last, rules_first}) {
+      for (const auto& both : {rules_last, test::elsewhere_first}) {
         SCOPED_TRACE(testing::Message() << "seed " << seed << ", notes " << ahead.notes);
         expect_same(build(made, both, ahead), expected);
       }
@@ -86,8 +83,7 @@ TEST_P(RunsAhead, WithTheSameRecords) {
 // Long paths, many loops, and lists that change often.
 test::EmbeddedGraph large_graph(bench::GraphKind kind, std::size_t arcs) {
   test::EmbeddedGraph made{.graph = bench::GraphMaker(kind, arcs).make(), .buckets = {}};
-  for (std::size_t node = 0; node < made.graph.node_count(); ++node)
-    made.graph.positions.push_back({static_cast<double>(node % 400), static_cast<double>(node / 400), 0});
+  bench::place_nodes(made.graph);
   made.exponent = bucket_exponent(made.graph.nodes.front().value, made.graph.nodes.back().value, 64);
   made.buckets = bench::make_buckets(made.graph, made.exponent);
   return made;

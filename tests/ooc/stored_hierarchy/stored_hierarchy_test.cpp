@@ -37,8 +37,7 @@ struct Given {
 Given with_positions(ReebGraph graph, bool embeds) {
   Given given{std::move(graph), {}, 0};
   given.graph.positions.clear();
-  for (std::size_t node = 0; node < given.graph.node_count(); ++node)
-    given.graph.positions.push_back({static_cast<double>(node % 400), static_cast<double>(node / 400), 0});
+  bench::place_nodes(given.graph);
   if (!embeds || given.graph.arc_count() == 0) return given;
   given.exponent = reeb::bucket_exponent(given.graph.nodes.front().value, given.graph.nodes.back().value, 64);
   given.buckets = bench::make_buckets(given.graph, given.exponent);
