@@ -14,6 +14,8 @@
 #include "io/file/file.h"
 #include "libreeb/base/error.h"
 #include "libreeb/base/printable.h"
+#include "ooc/run/explained_error.h"
+#include "ooc/run/freed_memory.h"
 #include "tools/arguments/arguments.h"
 #include "tools/arguments/nearest_name.h"
 #include "tools/commands/commands.h"
@@ -23,25 +25,23 @@
 
 namespace {
 
-constexpr const char* kLimitHint = "allow more memory and processes (ulimit -v, ulimit -u), or use fewer --threads";
-
 int report(reeb::ErrorKind kind, const std::string& what, const std::string& hint) {
   fmt::print(stderr, "reeb: error: {}\nhint: {}\n", reeb::printable(what), reeb::printable(hint));
   return static_cast<int>(kind);
 }
 
-// An error of the system that no part of the program explains: stdio and fmt throw for standard output only.
+// An error that no part of the program explains.
+int report(const std::exception& error) {
+  const auto limit = reeb::ooc::error_of_limit(error);
+  return report(reeb::ErrorKind::kResource, error.what(), limit ? limit->hint() : "please report this as a bug");
+}
+
+// Of the system: stdio and fmt throw for standard output only.
 int report(const std::system_error& error) {
   if (std::ferror(stdout) != 0)
     return report(reeb::ErrorKind::kResource, "standard output: cannot be written: " + error.code().message(),
                   reeb::io::hint_for(error.code().value(), "check what standard output leads to"));
-  return report(reeb::ErrorKind::kResource, error.what(), kLimitHint);
-}
-
-int report(const std::exception& error) {
-  const std::string what = error.what();
-  return report(reeb::ErrorKind::kResource, what,
-                what.starts_with("pthread_") ? kLimitHint : "please report this as a bug");  // from TBB
+  return report(static_cast<const std::exception&>(error));
 }
 
 constexpr const char* kExamples = R"(Examples:
@@ -118,6 +118,7 @@ int main(int argc, char** argv) {
   mallopt(M_MMAP_THRESHOLD, 128 * 1024);
   mallopt(M_TRIM_THRESHOLD, 256 * 1024);
   mallopt(M_ARENA_MAX, 2);
+  reeb::ooc::own_process();
   reeb::tools::handle_signals();
   try {
     const int code = run(argc, argv);

@@ -19,6 +19,7 @@
 #include "libreeb/base/error.h"
 #include "libreeb/base/memory_budget.h"
 #include "libreeb/base/printable.h"
+#include "ooc/run/explained_error.h"
 #include "tools/arguments/arguments.h"
 #include "tools/library/run_files.h"
 #include "tools/mpi/distributed_run.h"
@@ -209,7 +210,8 @@ int main(int argc, char** argv) {
   } catch (const std::bad_alloc&) {
     end_all(Error(ErrorKind::kResource, "out of memory", "use more ranks, or more machines"));
   } catch (const std::exception& error) {
-    end_all(Error(ErrorKind::kResource, error.what(), "please report this as a bug"));
+    end_all(reeb::ooc::error_of_limit(error).value_or(
+        Error(ErrorKind::kResource, error.what(), "please report this as a bug")));
   }
   MPI_Finalize();
   return 0;

@@ -137,12 +137,12 @@ class TetgenInput final : public CellInput {
 
   VertexId read_node() override {
     require_more(cells_, "vertex number");
-    const std::int64_t node = cells_.integer("vertex number") - static_cast<std::int64_t>(first_);
-    if (node < 0 || static_cast<std::uint64_t>(node) >= node_head_.nodes) [[unlikely]]
-      cells_.fail("a cell names vertex " + std::to_string(node + static_cast<std::int64_t>(first_)) +
-                      ", but there are only " + count_of(node_head_.nodes, "vertex"),
+    const std::int64_t number = cells_.integer("vertex number"), first = static_cast<std::int64_t>(first_);
+    if (number < first || static_cast<std::uint64_t>(number - first) >= node_head_.nodes) [[unlikely]]
+      cells_.fail("a cell names vertex " + std::to_string(number) + ", but there are only " +
+                      count_of(node_head_.nodes, "vertex"),
                   "vertices are numbered from " + std::to_string(first_) + "; the file may be damaged here");
-    return VertexId(static_cast<std::uint64_t>(node));
+    return VertexId(static_cast<std::uint64_t>(number - first));
   }
 
   std::uint64_t bytes_read() const override { return nodes_.bytes_read() + cells_.bytes_read(); }

@@ -1,12 +1,14 @@
 #include "io/file/decompressor.h"
 
 #include <zstd.h>
+#include <zstd_errors.h>
 
 #include <boost/iostreams/categories.hpp>
 #include <boost/iostreams/filter/gzip.hpp>
 #include <boost/iostreams/filtering_streambuf.hpp>
 #include <boost/iostreams/read.hpp>
 #include <exception>
+#include <new>
 #include <utility>
 #include <vector>
 
@@ -36,6 +38,24 @@ class RawDevice {
   RawInput* raw_;
 };
 
+// THROWS: std::bad_alloc.
+std::shared_ptr<ZSTD_DStream> make_zstd_stream() {
+  std::shared_ptr<ZSTD_DStream> stream(ZSTD_createDStream(), &ZSTD_freeDStream);
+  if (!stream) throw std::bad_alloc();
+  return stream;
+}
+
+// THROWS: an Error without a file, or std::bad_alloc, if that is what zstd returned.
+void check_zstd(std::size_t result) {
+  if (ZSTD_isError(result) == 0) return;
+  const ZSTD_ErrorCode code = ZSTD_getErrorCode(result);
+  if (code == ZSTD_error_memory_allocation) throw std::bad_alloc();
+  if (code == ZSTD_error_frameParameter_windowTooLarge)
+    throw Error(ErrorKind::kResource, "unpacking it takes a larger window than zstd allows",
+                "unpack it first, with zstd -d --long=31");
+  throw Error(ErrorKind::kBadInput, ZSTD_getErrorName(result), "");
+}
+
 // bio::zstd_decompressor accepts a truncated stream as complete, so this filter follows the frames itself.
 class ZstdFilter {
  public:
@@ -57,7 +77,7 @@ class ZstdFilter {
         given_ = {chunk_.data(), static_cast<std::size_t>(got), 0};
       }
       const std::size_t wanted = ZSTD_decompressStream(stream_.get(), &produced, &given_);
-      if (ZSTD_isError(wanted) != 0) throw Error(ErrorKind::kBadInput, ZSTD_getErrorName(wanted), "");
+      check_zstd(wanted);
       inside_frame_ = wanted != 0;
       flushing_ = inside_frame_ && produced.pos == produced.size;
     }
@@ -75,11 +95,13 @@ class ZstdFilter {
 class DecompressedInput final : public RawInput {
  public:
   DecompressedInput(std::string name, std::unique_ptr<RawInput> raw, Compression compression)
-      : name_(std::move(name)), raw_(std::move(raw)), zstd_(ZSTD_createDStream(), &ZSTD_freeDStream) {
-    if (compression == Compression::kGzip)
+      : name_(std::move(name)), raw_(std::move(raw)) {
+    if (compression == Compression::kGzip) {
       chain_.push(bio::gzip_decompressor(bio::zlib::default_window_bits, kChunkBytes), kChunkBytes);
-    else
+    } else {
+      zstd_ = make_zstd_stream();
       chain_.push(ZstdFilter(zstd_), kChunkBytes);
+    }
     chain_.push(RawDevice(raw_.get()), kChunkBytes);
   }
 
@@ -89,14 +111,17 @@ class DecompressedInput final : public RawInput {
       return got < 0 ? 0 : static_cast<std::size_t>(got);
     } catch (const Error& failure) {
       if (!failure.file().empty()) throw;
-      throw_damaged(failure.message());
+      if (failure.kind() == ErrorKind::kBadInput) throw_damaged(failure.message());
+      throw Error(failure.kind(), failure.message(), failure.hint()).at(name_);
+    } catch (const std::bad_alloc&) {
+      throw;
     } catch (const std::exception&) {
       throw_damaged("is not a whole gzip stream");
     }
   }
 
   std::uint64_t consumed() const override { return raw_->consumed(); }
-  std::uint64_t memory_bytes() const override { return ZSTD_sizeof_DStream(zstd_.get()); }
+  std::uint64_t memory_bytes() const override { return zstd_ ? ZSTD_sizeof_DStream(zstd_.get()) : 0; }
 
  private:
   [[noreturn]] void throw_damaged(const std::string& reason) const {
@@ -107,7 +132,7 @@ class DecompressedInput final : public RawInput {
 
   std::string name_;
   std::unique_ptr<RawInput> raw_;
-  std::shared_ptr<ZSTD_DStream> zstd_;  // idle if the input is packed with gzip
+  std::shared_ptr<ZSTD_DStream> zstd_;  // null if the input is packed with gzip
   bio::filtering_streambuf<bio::input> chain_;
 };
 

@@ -51,7 +51,8 @@ std::string data_path(const std::string& header, const std::string& data_file) {
                 "put both into one folder, and name the data file without its folder in the header");
   std::string path = (fs::path(header).parent_path() / name).string();
   const std::string packed = path + ".gz";
-  if (!fs::exists(path) && fs::exists(packed)) path = packed;
+  std::error_code error;  // of a name that cannot be one; reading the file says so
+  if (!fs::exists(path, error) && fs::exists(packed, error)) path = packed;
   return path;
 }
 

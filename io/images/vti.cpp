@@ -245,7 +245,7 @@ std::array<std::int64_t, 6> Header::extent(const std::string& text) const {
     const char* const end = words[i].data() + words[i].size();
     const auto parsed = std::from_chars(words[i].data(), end, result[i]);
     constexpr std::int64_t kLargest = std::int64_t{1} << 60;
-    good = parsed.ec == std::errc{} && parsed.ptr == end && std::abs(result[i]) < kLargest;
+    good = parsed.ec == std::errc{} && parsed.ptr == end && -kLargest < result[i] && result[i] < kLargest;
   }
   if (!good) xml_.fail("an extent is not 6 integers", kHint);
   for (std::size_t k = 0; k < 6; k += 2)

@@ -173,7 +173,8 @@ CheckpointLoad load_checkpoint(const std::string& path, const RunIdentity& run) 
     return useless("is damaged");
   } catch (const InputChanged&) {
     throw;
-  } catch (const Error&) {
+  } catch (const Error& error) {
+    if (error.kind() == ErrorKind::kResource) throw;  // it may be readable the next time
     return useless("cannot be read");
   }
 }

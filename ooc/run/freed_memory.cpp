@@ -1,5 +1,6 @@
 #include "ooc/run/freed_memory.h"
 
+#include <atomic>
 #include <cstdint>
 #include <cstdlib>  // says which library it is
 
@@ -14,6 +15,13 @@
 #endif
 
 namespace reeb::ooc {
+namespace {
+
+std::atomic<bool> owns_process = false;
+
+}  // namespace
+
+void own_process() { owns_process = true; }
 
 #ifdef __GLIBC__
 
@@ -44,7 +52,7 @@ int return_read_only_pages(dl_phdr_info* object, std::size_t, void*) {
 void return_freed_memory() { malloc_trim(0); }
 
 void return_code() {
-  if (!is_traced()) dl_iterate_phdr(return_read_only_pages, nullptr);
+  if (owns_process && !is_traced()) dl_iterate_phdr(return_read_only_pages, nullptr);
 }
 
 #else

@@ -9,7 +9,11 @@ void return_freed_memory();
 
 // Returns the pages of the program and its libraries, since a start and each stage need others of them. Those that are
 // needed again are mapped again from their files, which takes some microseconds for 64 KiB. Does nothing under a
-// debugger, which writes its breakpoints into these pages.
+// debugger, which writes its breakpoints into these pages, nor before own_process().
 void return_code();
+
+// To be called by a program that has the process for itself. Other programs that use the library may have changed pages
+// of code, and would lose the changes.
+void own_process();
 
 }  // namespace reeb::ooc

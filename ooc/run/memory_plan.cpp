@@ -66,20 +66,20 @@ std::uint64_t saturating_minus(std::uint64_t a, std::uint64_t b) { return a - st
 }  // namespace
 
 MemoryPlan plan_memory(const MemoryRequest& request) {
-  if (request.limit_bytes < kSmallestBudget)
+  const std::uint64_t limit =
+      request.limit_bytes == MemoryBudget::kUnlimited ? machine_bytes() / 2 : request.limit_bytes;
+  if (limit < kSmallestBudget)
     throw Error(ErrorKind::kResource,
                 "a run needs at least " + format_bytes(kSmallestBudget) + " of memory, but only " +
-                    format_bytes(request.limit_bytes) + " is allowed",
+                    format_bytes(limit) + " is allowed",
                 "allow more, for instance --memory 32M");
-  if (request.limit_bytes < kSmallestBudget + request.reader_bytes) {
+  if (limit < kSmallestBudget + request.reader_bytes) {
     const std::string megabytes = std::to_string(((kSmallestBudget + request.reader_bytes) >> 20) + 1) + "M";
     throw Error(ErrorKind::kResource,
                 "unpacking the input takes " + format_bytes(request.reader_bytes) + ", and the run at least " +
-                    format_bytes(kSmallestBudget) + ", but only " + format_bytes(request.limit_bytes) + " is allowed",
+                    format_bytes(kSmallestBudget) + ", but only " + format_bytes(limit) + " is allowed",
                 "allow --memory " + megabytes + ", or unpack the input first");
   }
-  const std::uint64_t limit =
-      request.limit_bytes == MemoryBudget::kUnlimited ? machine_bytes() / 2 : request.limit_bytes;
   MemoryPlan plan;
   plan.request_ = request;
   plan.set_aside_bytes = kProcess + (request.in_place ? kWindows : 0) + request.reader_bytes +

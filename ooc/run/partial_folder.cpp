@@ -91,7 +91,8 @@ void PartialFolder::open() {
   const char* elsewhere = "write the output to a folder that exists and is writable";
   is_new_ = ::mkdir(path_.c_str(), 0700) == 0;
   if (!is_new_ && errno != EEXIST) fail("cannot be created", elsewhere);
-  if (fs::is_symlink(path_)) refuse("is a symbolic link, not a folder that a run has made");
+  std::error_code unknown;  // then it cannot be opened
+  if (fs::is_symlink(path_, unknown)) refuse("is a symbolic link, not a folder that a run has made");
   folder_ = io::system::open(path_, O_RDONLY | O_DIRECTORY | O_NOFOLLOW);
   if (folder_ < 0) fail("cannot be opened", elsewhere);
   if (::access(path_.c_str(), W_OK | X_OK) != 0) fail("cannot be written", elsewhere);

@@ -132,13 +132,14 @@ class Segmentation::Impl {
     for (MeshBatch batch; mesh.read(batch);) {
       run_.resumable.check_interruption();
       if (batch.vertex_count != 0) {
-        for (std::uint64_t skipped = batch.first_vertex.value() - vertex_; skipped != 0; skipped -= labels.size()) {
+        const std::uint64_t first = batch.first_vertex.value(), bound = vertex_bound();
+        if (first < vertex_ || first > bound || batch.vertex_count > bound - first) throw InputChanged();
+        for (std::uint64_t skipped = first - vertex_; skipped != 0; skipped -= labels.size()) {
           labels.resize(static_cast<std::size_t>(std::min<std::uint64_t>(skipped, kVerticesAtOnce)));
           values.resize(labels.size());
           read(labels, values);
           measures.add_vertices(labels, values, {});
         }
-        if (vertex_ + batch.vertex_count > vertex_bound()) throw InputChanged();
         labels.resize(batch.vertex_count);
         values.resize(batch.vertex_count);
         read(labels, values);

@@ -130,8 +130,10 @@ bool ArcCodec::decode(std::span<const std::byte> packed, std::span<StoredArc> ar
   if (!columns.ok()) return false;
   const auto column = columns.column(4);
   std::uint64_t first = 0;
-  for (std::size_t i = 0; i < arcs.size(); first += column[i++])
+  for (std::size_t i = 0; i < arcs.size(); first += column[i++]) {
+    if (column[i] > columns.tail().size() - first) return false;
     arcs[i].payload = {static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(column[i])};
+  }
   pool.assign(columns.tail().begin(), columns.tail().end());
   return first == pool.size();
 }

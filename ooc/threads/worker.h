@@ -31,18 +31,17 @@ class Worker {
     thread_.join();
   }
 
-  // Waits for the previous task, then starts this one. THROWS: as wait(); then this one is not started.
+  // Waits for the previous task, then starts this one. THROWS: as wait(), or that no thread can be started; then this
+  // one is not started.
   void start(std::function<void()> task) {
     wait();
+    if (!thread_.joinable()) thread_ = std::thread([this] { run(); });
     {
       const std::lock_guard lock(mutex_);
       task_ = std::move(task);
       busy_ = true;
     }
-    if (thread_.joinable())
-      changed_.notify_all();
-    else
-      thread_ = std::thread([this] { run(); });
+    changed_.notify_all();
   }
 
   // Returns once there is no task. THROWS: what the last task threw, once.

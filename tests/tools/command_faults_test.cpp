@@ -60,6 +60,7 @@ std::vector<Command> make_commands() {
       {"ComputeStream", compute({"scan.smb", "-f", "file:values.f64"}), {"out.reeb"}},
       {"ComputeStandardInput", compute({"-", "--graph-only"}), {"out.reeb"}, "scan.obj"},
       {"ComputeCompressed", compute({"scan.ply.zst"}), {"out.reeb"}},
+      {"ComputeGzip", compute({"scan.ply.gz"}), {"out.reeb"}},
       {"ComputeSnapshots",
        compute({"scan.smb", "--snapshot-every", "60"}),
        {"out.reeb", "out-000001.reeb", "out-000002.reeb"}},
@@ -214,6 +215,7 @@ class CommandFaults : public testing::TestWithParam<std::size_t> {
     std::vector<std::byte> packed;
     io::zstd_compress(std::as_bytes(std::span(mesh)), 1, packed);
     write_file("scan.ply.zst", {reinterpret_cast<const char*>(packed.data()), packed.size()});
+    ASSERT_EQ(std::system("gzip -k scan.ply"), 0);
     std::string text, raw;
     const std::string json = run_command({"info", "scan.ply", "--json"}).output;
     const auto at = json.find("\"vertices\": ");
@@ -286,6 +288,7 @@ class CommandFaults : public testing::TestWithParam<std::size_t> {
     const bool names_input = inputs_.contains(outcome.file) || outcome.file == "standard input";
     EXPECT_TRUE(outcome.exit_code == 3 || (outcome.exit_code == 1 && names_input)) << outcome.exit_code;
     EXPECT_TRUE(is_allocation || !outcome.file.empty());
+    EXPECT_TRUE(!is_allocation || outcome.exit_code == 3) << "the input is not what failed";
     EXPECT_FALSE(outcome.message.empty());
     EXPECT_GT(outcome.hint.size(), 10u);
     const bool resumable = outcome.hint.find("--resume") != std::string::npos;

@@ -196,6 +196,8 @@ TEST(CellFiles, AChangeOfTheVerticesOfTetGenIsNoticed) {
 TEST(CellFiles, BadTetGen) {
   write_file("b.node", tetgen_nodes());
   expect_bad(write_file("b.ele", with(tetgen_cells(), "1 1 2 3 4", "1 1 2 3 5")), "3:9", "names vertex 5");
+  expect_bad(write_file("b.ele", with(tetgen_cells(), "1 1 2 3 4", "1 1 2 3 -9223372036854775808")), "3:9",
+             "names vertex -9223372036854775808");
   expect_bad(write_file("b.ele", with(tetgen_cells(), "2 4 1", "3 4 1")), "5:1", "file ends");
   expect_bad(write_file("b.ele", with(tetgen_cells(), "2 4 1", "2 5 1")), "1:3", "cells of 5 nodes");
   expect_bad(write_file("b.ele", with(tetgen_cells(), "2 4 1", "20000 4 1")), "1:7", "more than it has room for");

@@ -133,6 +133,10 @@ TEST(Vti, BadFilesAreRefused) {
     return error(file.replace(at, from.size(), to));
   };
   EXPECT_EQ(changed("0 2 0 1 0 0", "0 9999 0 9999 0 9999"), "bad.vti:5:1: the piece has another extent than the image");
+  for (const char* extent : {"0 2 0 1 0 -9223372036854775808", "-9223372036854775808 2 0 1 0 0"})
+    EXPECT_EQ(error(vti_file("WholeExtent=\"" + std::string(extent) + "\"", {array})).substr(0, 36),
+              "bad.vti:3:15: an extent is not 6 int")
+        << extent;
   const std::size_t data = vti_file(kImage, {array}).find("   _") + 4;
   std::string giant = vti_file("WholeExtent=\"0 9999 0 9999 0 9999\"", {array});
   EXPECT_EQ(error(giant), "bad.vti:" + std::to_string(giant.find("   _") + 4) +

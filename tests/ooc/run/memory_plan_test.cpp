@@ -140,6 +140,8 @@ TEST(MemoryPlan, LessThanTheLeastIsRefused) {
       EXPECT_NE(error.hint().find("--memory"), std::string::npos);
     }
   EXPECT_GT(plan({}, MemoryBudget::kUnlimited).budget_bytes, kMiB);
+  // Without a limit, it is the machine's.
+  EXPECT_THROW(plan({.reader_bytes = std::uint64_t{1} << 50}, MemoryBudget::kUnlimited), Error);
 }
 
 }  // namespace

@@ -3,13 +3,16 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cerrno>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <functional>
 #include <random>
 #include <sstream>
+#include <stdexcept>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -520,6 +523,55 @@ TEST(Resume, OfAnotherRunIsRefusedUnlessThatMayBeDiscarded) {
   expect_refused("another option");
   runs.options.denoise = denoise;
   EXPECT_EQ(runs.finish(true), expected);
+}
+
+// The checkpoint is not what failed.
+TEST(Resume, KeepsTheCheckpointWhereALimitOfTheSystemEndsIt) {
+  const std::system_error no_thread(std::make_error_code(std::errc::resource_unavailable_try_again));
+  const std::runtime_error of_tbb("pthread_create has failed");
+  for (const std::exception* failure :
+       {static_cast<const std::exception*>(&no_thread), static_cast<const std::exception*>(&of_tbb)}) {
+    Runs runs(grid_mesh(60, 60));
+    runs.options.chunk_triangles = 500;
+    const std::string expected = runs.finish(false);
+    ASSERT_TRUE(runs.stop_after(3, false));
+    runs.watch = [&] {
+      if (failure == &no_thread) throw no_thread;
+      throw of_tbb;
+    };
+    try {
+      runs.finish(true);
+      ADD_FAILURE();
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::kResource) << error.what();
+      EXPECT_NE(error.hint().find("ulimit"), std::string::npos) << error.hint();
+      EXPECT_NE(error.hint().find("--resume"), std::string::npos) << error.hint();
+    }
+    EXPECT_TRUE(PartialFolder::has_checkpoint(runs.output()));
+    runs.watch = {};
+    EXPECT_EQ(runs.finish(true), expected);
+  }
+}
+
+TEST(Resume, KeepsTheCheckpointWhereNoMoreFilesCanBeOpened) {
+  Runs runs(grid_mesh(60, 60));
+  runs.options.chunk_triangles = 500;
+  const std::string expected = runs.finish(false);
+  ASSERT_TRUE(runs.stop_after(3, false));
+  const std::string checkpoint = read_file(runs.partial() + "/checkpoint");
+  for (std::uint64_t n = 1;; ++n) {
+    const FaultAtCall fault(io::FileCall::kOpen, n, {.error = EMFILE});
+    {
+      const io::ScopedFileFaults faults(fault);
+      try {
+        runs.finish(true);
+      } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), ErrorKind::kResource) << error.what();
+      }
+    }
+    if (fault.count() < n) break;
+    ASSERT_EQ(read_file(runs.partial() + "/checkpoint"), checkpoint) << "after a fault in call " << n;
+  }
 }
 
 TEST(Resume, SaysThatThereIsNothingToResume) {

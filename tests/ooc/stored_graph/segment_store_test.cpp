@@ -8,6 +8,7 @@
 
 #include "libreeb/base/error.h"
 #include "libreeb/graph/packed_buckets.h"
+#include "ooc/sorting/column_codec.h"
 #include "tests/support/scratch.h"
 
 namespace reeb::ooc {
@@ -380,6 +381,22 @@ TEST(SegmentCodecs, RefuseDamagedBlocks) {
   packed.pop_back();
   back.pop_back();
   EXPECT_FALSE(ArcCodec::decode(packed, back, own));
+}
+
+// The sum of the sizes is right only because it wraps.
+TEST(SegmentCodecs, RefuseForgedSizesOfPayloads) {
+  const std::vector<ArcKeys> keys(2);
+  for (const std::uint64_t size : {~std::uint64_t{0}, std::uint64_t{1} << 32, std::uint64_t{1} << 63}) {
+    ColumnEncoder columns;
+    for (int column = 0; column < 4; ++column) columns.add(keys.size(), [](std::size_t) { return std::uint64_t{0}; });
+    columns.add(keys.size(), [&](std::size_t i) { return i == 0 ? size : 3 - size; });
+    std::vector<std::byte> packed;
+    columns.pack(packed);
+    packed.resize(packed.size() + 3);
+    std::vector<StoredArc> arcs(keys.size());
+    std::vector<std::byte> pool;
+    EXPECT_FALSE(ArcCodec::decode(packed, arcs, pool)) << size;
+  }
 }
 
 }  // namespace
