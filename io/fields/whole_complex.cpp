@@ -32,15 +32,23 @@ class Growth {
   Reservation& memory_;
 };
 
-std::uint32_t small_id(VertexId v) { return static_cast<std::uint32_t>(v.value()); }
+// The index of the vertex in the complex.
+std::uint32_t index_of(const VertexNumbering& numbers, VertexId v) {
+  if (!numbers.has_gaps()) return static_cast<std::uint32_t>(v.value());
+  const auto index = numbers.index_of(v.value());
+  if (!index) throw InputChanged();
+  return static_cast<std::uint32_t>(*index);
+}
 
-void append_edges(std::span<const VertexId> simplex, std::vector<std::array<std::uint32_t, 2>>& edges) {
+void append_edges(std::span<const VertexId> simplex, WholeComplex& complex) {
   for (std::size_t i = 0; i < simplex.size(); ++i)
     for (std::size_t j = i + 1; j < simplex.size(); ++j)
-      if (simplex[i] != simplex[j]) edges.push_back({small_id(simplex[i]), small_id(simplex[j])});
+      if (simplex[i] != simplex[j])
+        complex.edges.push_back({index_of(complex.numbers, simplex[i]), index_of(complex.numbers, simplex[j])});
 }
 
 void append(const MeshBatch& batch, WholeComplex& complex, Growth& growth) {
+  complex.numbers.append(batch.first_vertex.value(), batch.vertex_count);
   growth.make_room(complex.coordinates, batch.vertex_count * complex.dimension);
   for (std::size_t i = 0; i < batch.vertex_count; ++i)
     for (const auto& column : batch.coordinates) complex.coordinates.push_back(column[i]);
@@ -54,11 +62,12 @@ void append(const MeshBatch& batch, WholeComplex& complex, Growth& growth) {
     for (std::size_t s = 0; s < count; ++s) {
       const auto simplex = corners.subspan(s * (k + 1), k + 1);
       if (k == 2 && simplex[0] != simplex[1] && simplex[1] != simplex[2] && simplex[2] != simplex[0]) {
-        complex.triangles.push_back({small_id(simplex[0]), small_id(simplex[1]), small_id(simplex[2])});
+        complex.triangles.push_back({index_of(complex.numbers, simplex[0]), index_of(complex.numbers, simplex[1]),
+                                     index_of(complex.numbers, simplex[2])});
         continue;
       }
       if (k == 2) growth.make_room(complex.edges, 2);  // a degenerate triangle is at most an edge, twice
-      append_edges(simplex, complex.edges);
+      append_edges(simplex, complex);
     }
   };
   for (std::size_t k = 1; k < batch.simplices.size(); ++k) append_simplices(batch.simplices[k], k);
@@ -92,6 +101,7 @@ WholeComplex read_whole(MeshReader& reader, MemoryBudget& budget) {
       throw Error(ErrorKind::kResource, "the mesh has too many vertices for a function that needs all of it",
                   "choose a function of single vertices, or give the values with file:PATH");
   }
+  complex.number_count = reader.info().number_count.value_or(complex.vertex_count());
   return complex;
 }
 

@@ -8,6 +8,7 @@
 
 #include "libreeb/base/memory_budget.h"
 #include "libreeb/port/mesh_reader.h"
+#include "libreeb/port/vertex_numbering.h"
 
 namespace reeb::io {
 
@@ -18,6 +19,8 @@ struct WholeComplex {
   std::vector<std::array<std::uint32_t, 3>> triangles;  // three different corners each
   std::vector<std::array<std::uint32_t, 2>> edges;      // of all other simplices, each perhaps more than once
   bool is_surface = true;                               // no simplex but triangles
+  VertexNumbering numbers;                              // in the mesh
+  std::uint64_t number_count = 0;                       // of vertices in the mesh, also of those that it leaves out
   Reservation memory;
 
   std::uint32_t vertex_count() const { return static_cast<std::uint32_t>(coordinates.size() / dimension); }

@@ -52,7 +52,7 @@ void check_zstd(std::size_t result) {
   if (code == ZSTD_error_memory_allocation) throw std::bad_alloc();
   if (code == ZSTD_error_frameParameter_windowTooLarge)
     throw Error(ErrorKind::kResource, "unpacking it takes a larger window than zstd allows",
-                "unpack it first, with zstd -d --long=31");
+                "unpack it first, with zstd -d and its option for long windows");
   throw Error(ErrorKind::kBadInput, ZSTD_getErrorName(result), "");
 }
 

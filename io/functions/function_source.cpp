@@ -19,7 +19,7 @@ double random_value(std::uint64_t seed, std::uint64_t vertex) noexcept {
 
 FunctionSource::FunctionSource(const FunctionSpec& spec, const MeshInfo& info, std::span<const std::string> properties,
                                std::string mesh_name, const MeshField* field)
-    : spec_(spec), mesh_name_(std::move(mesh_name)) {
+    : spec_(spec), mesh_name_(std::move(mesh_name)), number_count_(info.number_count) {
   using Kind = FunctionSpec::Kind;
   if (spec.kind == Kind::kCoordinate) {
     if (spec.number >= info.dimension)
@@ -40,7 +40,7 @@ FunctionSource::FunctionSource(const FunctionSpec& spec, const MeshInfo& info, s
           .at(mesh_name_);
     columns_ = {info.dimension + static_cast<unsigned>(found - properties.begin())};
   } else if (spec.kind == Kind::kFile) {
-    file_ = open_values(spec.argument, info.vertex_count);
+    file_ = open_values(spec.argument, number_count_ ? number_count_ : info.vertex_count, number_count_.has_value());
   } else if (spec.needs_field()) {
     file_ = raw_values(field->values);
   } else if (is_distance()) {
@@ -72,6 +72,7 @@ void FunctionSource::evaluate(const MeshBatch& batch, std::span<double> values) 
   } else if (!columns_.empty()) {
     copy_finite(batch.column(columns_[0]), values, {}, first);
   } else if (file_) {
+    if (number_count_ && !values.empty()) file_->skip_to(first);
     for (double& value : values) value = file_->next();
   } else {
     for (std::size_t i = 0; i < values.size(); ++i) values[i] = value_of(first + i);
@@ -105,8 +106,9 @@ void FunctionSource::measure_distances(const Column& column, std::span<double> v
 
 void FunctionSource::look_up(IndexedMesh& mesh) {
   if (!needs_lookup()) return;
-  if (spec_.number >= mesh.vertex_count()) fail_no_vertex(mesh.vertex_count());
-  const VertexId vertex(spec_.number);
+  VertexId vertex(spec_.number);
+  mesh.from_original({&vertex, 1});
+  if (vertex == VertexId::none()) fail_no_vertex(mesh.vertex_count());
   center_.resize(columns_.size());
   mesh.gather({&vertex, 1}, columns_, center_);
 }
@@ -116,13 +118,19 @@ void FunctionSource::look_up(MeshReader& reader) {
   for (MeshBatch batch; center_.empty() && needs_lookup();) {
     if (!reader.read(batch)) fail_no_vertex(vertices);
     vertices += batch.vertex_count;
-    if (spec_.number >= vertices) continue;
-    const auto at = static_cast<std::size_t>(spec_.number - batch.first_vertex.value());
+    const std::uint64_t first = batch.first_vertex.value();
+    if (batch.vertex_count != 0 && spec_.number < first) fail_no_vertex(vertices);
+    if (spec_.number < first || spec_.number - first >= batch.vertex_count) continue;
+    const auto at = static_cast<std::size_t>(spec_.number - first);
     for (const auto& coordinate : batch.coordinates) center_.push_back(coordinate[at] + 0.0);
   }
 }
 
 void FunctionSource::fail_no_vertex(std::uint64_t vertex_count) const {
+  if (number_count_ && spec_.number < *number_count_)
+    throw Error(ErrorKind::kBadInput, spec_.text + " names a vertex without data, which is skipped",
+                "name a vertex that has data")
+        .at(mesh_name_);
   throw Error(ErrorKind::kBadInput,
               spec_.text + " names a vertex that does not exist: the mesh has " + count_of(vertex_count, "vertex"),
               "vertices are numbered from 0")
@@ -130,7 +138,7 @@ void FunctionSource::fail_no_vertex(std::uint64_t vertex_count) const {
 }
 
 void FunctionSource::check_count(std::uint64_t vertex_count) {
-  if (file_) file_->check_count(vertex_count);
+  if (file_) file_->check_count(value_count(vertex_count));
 }
 
 void FunctionSource::check_unchanged() const {
@@ -138,7 +146,7 @@ void FunctionSource::check_unchanged() const {
 }
 
 std::uint64_t FunctionSource::lookup_bytes(std::uint64_t vertex_count) const {
-  return file_ ? file_->lookup_bytes(vertex_count) : 0;
+  return file_ ? file_->lookup_bytes(value_count(vertex_count)) : 0;
 }
 
 double FunctionSource::value_of(std::uint64_t vertex) {

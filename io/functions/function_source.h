@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -54,6 +55,8 @@ class FunctionSource final : public VertexFunction {
  private:
   double value_of(std::uint64_t vertex);
   [[noreturn]] void fail_no_vertex(std::uint64_t vertex_count) const;
+  // What a file of values has: also for vertices that are left out.
+  std::uint64_t value_count(std::uint64_t vertex_count) const { return number_count_.value_or(vertex_count); }
   bool is_distance() const { return needs_lookup() || spec_.kind == FunctionSpec::Kind::kDistanceToPoint; }
   // `column(k)` is coordinate k, of as many vertices as there are values.
   template <class Column>
@@ -64,8 +67,9 @@ class FunctionSource final : public VertexFunction {
 
   FunctionSpec spec_;
   std::string mesh_name_;
-  std::vector<unsigned> columns_;  // of the mesh: the function itself, or the coordinates of a distance
-  std::vector<double> center_;     // from which distances are measured
+  std::optional<std::uint64_t> number_count_;  // as in MeshInfo
+  std::vector<unsigned> columns_;              // of the mesh: the function itself, or the coordinates of a distance
+  std::vector<double> center_;                 // from which distances are measured
   std::unique_ptr<ValueFile> file_;
 };
 

@@ -20,18 +20,31 @@ namespace {
 
 using Kind = FunctionSpec::Kind;
 
-[[noreturn]] void fail_vertex(const std::string& function, std::uint64_t vertex, std::uint64_t vertices,
+[[noreturn]] void fail_vertex(const std::string& function, std::uint64_t vertex, const WholeComplex& complex,
                               const std::string& mesh_name) {
-  throw Error(
-      ErrorKind::kBadInput,
-      function + " names vertex " + std::to_string(vertex) + ", but the mesh has " + count_of(vertices, "vertex"),
-      "vertices are numbered from 0")
+  const std::string names = function + " names vertex " + std::to_string(vertex) + ", ";
+  if (vertex < complex.number_count)
+    throw Error(ErrorKind::kBadInput, names + "which has no data and is skipped", "name a vertex that has data")
+        .at(mesh_name);
+  throw Error(ErrorKind::kBadInput, names + "but the mesh has " + count_of(complex.vertex_count(), "vertex"),
+              "vertices are numbered from 0")
       .at(mesh_name);
 }
 
-std::shared_ptr<const InputFile> to_file(const std::vector<double>& values, const TempDir& temp) {
+// By the numbers of the vertices; those that are left out have 0.
+std::shared_ptr<const InputFile> to_file(const std::vector<double>& values, const WholeComplex& complex,
+                                         const TempDir& temp) {
   File file = temp.create_unnamed("values");
-  file.write_at(0, std::as_bytes(std::span(values)));
+  const VertexNumbering& numbers = complex.numbers;
+  const auto all = std::span(values);
+  for (std::size_t first = 0, count = 0; first < all.size(); first += count) {
+    const std::uint64_t number = numbers.number_of(first);
+    count = static_cast<std::size_t>(numbers.run_from(first));
+    file.write_at(8 * number, std::as_bytes(all.subspan(first, count)));
+  }
+  const double none = 0;
+  if (numbers.end() < complex.number_count)
+    file.write_at(8 * (complex.number_count - 1), std::as_bytes(std::span(&none, 1)));
   return std::make_shared<const InputFile>(std::move(file));
 }
 
@@ -39,8 +52,9 @@ std::vector<double> geodesic_values(const FunctionSpec& spec, const WholeComplex
                                     MemoryBudget& budget) {
   std::vector<std::uint32_t> sources;
   for (const std::uint64_t vertex : spec.vertices) {
-    if (vertex >= complex.vertex_count()) fail_vertex(spec.text, vertex, complex.vertex_count(), mesh_name);
-    sources.push_back(static_cast<std::uint32_t>(vertex));
+    const auto index = complex.numbers.index_of(vertex);
+    if (!index) fail_vertex(spec.text, vertex, complex, mesh_name);
+    sources.push_back(static_cast<std::uint32_t>(*index));
   }
   std::vector<double> values = geodesic_distance(complex, sources, budget);
   const auto unreached = std::ranges::find_if(values, [](double value) { return std::isinf(value); });
@@ -48,7 +62,8 @@ std::vector<double> geodesic_values(const FunctionSpec& spec, const WholeComplex
     const auto count = static_cast<std::uint64_t>(
         std::count_if(unreached, values.end(), [](double value) { return std::isinf(value); }));
     throw Error(ErrorKind::kBadInput,
-                spec.text + " does not reach vertex " + std::to_string(unreached - values.begin()) +
+                spec.text + " does not reach vertex " +
+                    std::to_string(complex.numbers.number_of(static_cast<std::uint64_t>(unreached - values.begin()))) +
                     (count == 1 ? "" : " and " + count_of(count - 1, "other vertex")),
                 "name a vertex of each connected component, or choose another function")
         .at(mesh_name);
@@ -101,9 +116,9 @@ std::vector<MeshField> read_fields(std::span<const FunctionSpec> specs, const Op
     if (spec.kind == Kind::kGeodesic) {
       if (!complex->is_surface)
         field.notes.push_back(spec.text + " follows edges where there are other simplices than triangles");
-      field.values = to_file(geodesic_values(spec, *complex, mesh_name, budget), temp);
+      field.values = to_file(geodesic_values(spec, *complex, mesh_name, budget), *complex, temp);
     } else {
-      field.values = to_file(laplacian_values(spec, *complex, budget, mesh_name, field.notes), temp);
+      field.values = to_file(laplacian_values(spec, *complex, budget, mesh_name, field.notes), *complex, temp);
     }
   }
   return fields;

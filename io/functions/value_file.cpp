@@ -26,10 +26,10 @@ namespace {
       .at(path, position);
 }
 
-[[noreturn]] void throw_not_finite(const std::string& path, std::uint64_t vertex, std::uint64_t offset) {
+[[noreturn]] void throw_not_finite(const std::string& path, std::uint64_t vertex, const std::string& position) {
   throw Error(ErrorKind::kBadInput, "the value of vertex " + std::to_string(vertex) + " is not finite",
               "give every vertex a finite value")
-      .at(path, std::to_string(offset));
+      .at(path, position);
 }
 
 class RawValueFile final : public ValueFile {
@@ -42,13 +42,14 @@ class RawValueFile final : public ValueFile {
           .at(path_, std::to_string(windows_.size() / 8 * 8));
   }
   double next() override { return at(next_++); }
+  void skip_to(std::uint64_t vertex) override { next_ = vertex; }
   double at(std::uint64_t vertex) override {
     if (vertex >= windows_.size() / 8)
       throw_wrong_count(path_, std::to_string(windows_.size()), windows_.size() / 8, false, vertex + 1);
     const double value = load_scalar<double>(windows_.at(8 * vertex), false);
     if (std::isfinite(value)) [[likely]]
       return value + 0.0;
-    throw_not_finite(path_, vertex, 8 * vertex);
+    throw_not_finite(path_, vertex, std::to_string(8 * vertex));
   }
   void check_unchanged() const override { windows_.file()->check_unchanged("the file"); }
   void check_count(std::uint64_t vertex_count) override {
@@ -90,12 +91,13 @@ class NumpyValueFile final : public ValueFile {
           .at(path, std::to_string(windows_.size()));
   }
   double next() override { return at(next_++); }
+  void skip_to(std::uint64_t vertex) override { next_ = vertex; }
   double at(std::uint64_t vertex) override {
     if (vertex >= count_) throw_wrong_count(path_, std::to_string(place(count_)), count_, false, vertex + 1);
     const double value = load_double(header_.type, windows_.at(place(vertex)), header_.big_endian);
     if (std::isfinite(value)) [[likely]]
       return value;
-    throw_not_finite(path_, vertex, place(vertex));
+    throw_not_finite(path_, vertex, std::to_string(place(vertex)));
   }
   void check_unchanged() const override { windows_.file()->check_unchanged("the file"); }
   void check_count(std::uint64_t vertex_count) override {
@@ -114,35 +116,35 @@ class NumpyValueFile final : public ValueFile {
 
 class TextValueFile final : public ValueFile {
  public:
-  explicit TextValueFile(const std::string& path) : path_(path), input_(path) { open(); }
+  TextValueFile(const std::string& path, bool has_gaps) : path_(path), input_(path), has_gaps_(has_gaps) { open(); }
 
   double next() override {
-    if (!text_->more()) {
-      text_->mark();
-      throw_wrong_count(path_, text_->position(), read_, false, read_ + 1);
-    }
+    require_more();
     const auto value = text_->finite_number<double>("value");
-    if (text_->more_on_line()) {
-      text_->token();
-      text_->fail("a line has more than one number", "write one number per line, in the order of vertices");
-    }
-    ++read_;
+    end_line();
     return value;
+  }
+  void skip_to(std::uint64_t vertex) override {
+    while (read_ < vertex) (void)next_of_any();
   }
   double at(std::uint64_t vertex) override {
     if (values_.empty()) {
+      if (has_gaps_ && vertex > read_) skip_to(vertex);
       if (vertex == read_) return next();
       open();
     }
-    while (values_.size() <= vertex) values_.push_back(next());
-    return values_[vertex];
+    load(vertex + 1);
+    if (std::isfinite(values_[vertex])) [[likely]]
+      return values_[vertex];
+    throw_not_finite(path_, vertex, "");
   }
   void check_unchanged() const override { input_.check_unchanged("the file"); }
   void check_count(std::uint64_t vertex_count) override {
     if (!values_.empty() || read_ == 0) {
       values_.reserve(vertex_count);
-      while (values_.size() < vertex_count) values_.push_back(next());
+      load(vertex_count);
     }
+    if (has_gaps_ && read_ < vertex_count) skip_to(vertex_count);
     const bool more = text_->more();
     text_->mark();
     if (more || read_ != vertex_count)
@@ -156,8 +158,33 @@ class TextValueFile final : public ValueFile {
     read_ = 0;
   }
 
+  void require_more() {
+    if (text_->more()) return;
+    text_->mark();
+    throw_wrong_count(path_, text_->position(), read_, false, read_ + 1);
+  }
+  void end_line() {
+    if (text_->more_on_line()) {
+      text_->token();
+      text_->fail("a line has more than one number", "write one number per line, in the order of vertices");
+    }
+    ++read_;
+  }
+  // Perhaps not finite.
+  double next_of_any() {
+    require_more();
+    const ParsedNumber<double> number = parse_number<double>(text_->token());
+    if (!number.ok) text_->fail("value is not a number", "write one number per line, in the order of vertices");
+    end_line();
+    return number.value + 0.0;
+  }
+  void load(std::uint64_t count) {
+    while (values_.size() < count) values_.push_back(has_gaps_ ? next_of_any() : next());
+  }
+
   std::string path_;
   Input input_;
+  bool has_gaps_;
   std::optional<TextCursor> text_;
   std::uint64_t read_ = 0;
   std::vector<double> values_;  // filled if vertices are looked up out of order or counted beforehand
@@ -168,6 +195,7 @@ class EmptyValueFile final : public ValueFile {
  public:
   explicit EmptyValueFile(const std::string& path) : path_(path) {}
   double next() override { throw_empty(path_); }
+  void skip_to(std::uint64_t) override {}
   double at(std::uint64_t) override { throw_empty(path_); }
   void check_count(std::uint64_t vertex_count) override {
     if (vertex_count != 0) throw_empty(path_);
@@ -184,14 +212,15 @@ std::unique_ptr<ValueFile> raw_values(std::shared_ptr<const InputFile> file) {
   return std::make_unique<RawValueFile>(std::move(file));
 }
 
-std::unique_ptr<ValueFile> open_values(const std::string& path, std::optional<std::uint64_t> vertex_count) {
+std::unique_ptr<ValueFile> open_values(const std::string& path, std::optional<std::uint64_t> vertex_count,
+                                       bool has_gaps) {
   check_input_file(path);
   if (is_regular_file(path) && File::open_for_reading(path).size() == 0) {
     if (vertex_count && *vertex_count != 0) throw_empty(path);
     return std::make_unique<EmptyValueFile>(path);
   }
   const bool is_numpy_name = path.ends_with(".npy");
-  if (!is_numpy_name && !path.ends_with(".f64")) return std::make_unique<TextValueFile>(path);
+  if (!is_numpy_name && !path.ends_with(".f64")) return std::make_unique<TextValueFile>(path, has_gaps);
   std::unique_ptr<ValueFile> values;
   if (is_numpy_name)
     values = std::make_unique<NumpyValueFile>(path);

@@ -19,6 +19,8 @@ class ValueFile {
 
   // The values of vertices 0, 1, 2, ... in turn.
   virtual double next() = 0;
+  // next() continues with this vertex. Values that are passed are not looked at. REQUIRES: it is none before.
+  virtual void skip_to(std::uint64_t vertex) = 0;
   virtual double at(std::uint64_t vertex) = 0;
   virtual void check_count(std::uint64_t vertex_count) = 0;
   virtual void check_unchanged() const = 0;
@@ -26,8 +28,10 @@ class ValueFile {
   virtual std::uint64_t lookup_bytes(std::uint64_t) const { return 0; }
 };
 
+// `has_gaps`: some vertices are left out, and their values need not be finite.
 // THROWS: Error{kBadInput} if the file cannot be read, or is known not to have one value per vertex.
-std::unique_ptr<ValueFile> open_values(const std::string& path, std::optional<std::uint64_t> vertex_count);
+std::unique_ptr<ValueFile> open_values(const std::string& path, std::optional<std::uint64_t> vertex_count,
+                                       bool has_gaps = false);
 
 // Raw float64 values in an open file.
 std::unique_ptr<ValueFile> raw_values(std::shared_ptr<const InputFile> file);

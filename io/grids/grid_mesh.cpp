@@ -144,6 +144,7 @@ void GridMesh::describe() {
   info_.dimension = grid.axes;
   for (unsigned c = 0; c < grid.components; ++c) info_.property_names.push_back(component_name(c));
   if (!skips_) info_.vertex_count = grid.vertex_count();
+  if (skips_ && !renumbers_) info_.number_count = grid.vertex_count();
   info_.finalizes = true;
   info_.file_bytes = grid.file_bytes;
   info_.grid = grid;

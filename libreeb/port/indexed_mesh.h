@@ -43,6 +43,13 @@ class IndexedMesh {
 
   // Replaces vertices by their indices in the input, if this mesh was renumbered.
   virtual void to_original([[maybe_unused]] std::span<VertexId> ids) {}
+  // More than any of these indices.
+  virtual std::uint64_t number_count() const { return vertex_count(); }
+  // The inverse, for a mesh with vertices in the order of the input. What the mesh does not have becomes none().
+  virtual void from_original(std::span<VertexId> ids) const {
+    for (VertexId& id : ids)
+      if (id.value() >= vertex_count()) id = VertexId::none();
+  }
 
   // read() starts again at the first simplex.
   virtual void rewind() = 0;

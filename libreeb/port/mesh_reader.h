@@ -83,10 +83,11 @@ struct MeshBatch {
 };
 
 struct MeshInfo {
-  std::string format;                          // "PLY binary little endian", "OBJ", "SMC version 3"
-  unsigned dimension = 3;                      // coordinates per vertex
-  std::vector<std::string> property_names;     // scalar vertex properties a function can use
-  std::optional<std::uint64_t> vertex_count;   // if the header announces it, or it is known otherwise
+  std::string format;                         // "PLY binary little endian", "OBJ", "SMC version 3"
+  unsigned dimension = 3;                     // coordinates per vertex
+  std::vector<std::string> property_names;    // scalar vertex properties a function can use
+  std::optional<std::uint64_t> vertex_count;  // if the header announces it, or it is known otherwise
+  std::optional<std::uint64_t> number_count;  // of all vertices, if some are left out but the others keep their numbers
   std::optional<std::uint64_t> simplex_count;  // faces or cells, before polygons become fans
   bool finalizes = false;                      // the stream contains finalization
   bool float32 = false;                        // every number is exactly a float32

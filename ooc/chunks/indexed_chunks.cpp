@@ -31,6 +31,7 @@ class IndexedChunks : public ChunkSource {
   std::uint64_t triangles_read() const override { return triangles_read_; }
   SimplexCounts simplices_listed() const override { return mesh_.simplex_counts(); }
   std::uint64_t vertex_count() const override { return mesh_.vertex_count(); }
+  std::uint64_t vertex_bound() const override { return mesh_.number_count(); }
 
  private:
   void pass_over(const ChunkPlace& start);

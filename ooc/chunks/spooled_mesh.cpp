@@ -1,5 +1,6 @@
 #include "ooc/chunks/spooled_mesh.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -10,12 +11,39 @@ namespace reeb::ooc {
 
 SpooledMesh::SpooledMesh(unsigned columns, const io::TempDir& temp, MemoryBudget& budget, std::uint64_t allowance_bytes,
                          CellTriangles cells)
-    : triangles_(temp, budget, allowance_bytes / 2), deciding_(cells) {
+    : gap_memory_(budget.reserve("gaps of a grid", 0)),
+      triangles_(temp, budget, allowance_bytes / 2),
+      deciding_(cells) {
   columns_.reserve(columns);
   for (unsigned k = 0; k < columns; ++k) columns_.emplace_back(temp, budget, allowance_bytes / 2 / columns);
 }
 
+// Notes the numbers of the new vertices, and replaces them by indices in the simplices.
+void SpooledMesh::number(MeshBatch& batch) {
+  numbers_.append(batch.first_vertex.value(), batch.vertex_count);
+  if (!numbers_.has_gaps()) return;
+  gap_memory_.resize(numbers_.memory_bytes());
+  for (auto& corners : batch.simplices) {
+    from_original(corners);
+    if (std::ranges::find(corners, VertexId::none()) != corners.end()) throw InputChanged();
+  }
+}
+
+void SpooledMesh::to_original(std::span<VertexId> ids) {
+  if (!numbers_.has_gaps()) return;
+  for (VertexId& id : ids) id = VertexId(numbers_.number_of(id.value()));
+}
+
+void SpooledMesh::from_original(std::span<VertexId> ids) const {
+  if (!numbers_.has_gaps()) return IndexedMesh::from_original(ids);
+  for (VertexId& id : ids) {
+    const auto index = numbers_.index_of(id.value());
+    id = index ? VertexId(*index) : VertexId::none();
+  }
+}
+
 void SpooledMesh::append(MeshBatch& batch) {
+  number(batch);
   std::vector<std::span<const double>> values;
   for (const auto& column : batch.coordinates) values.emplace_back(column);
   for (const auto& column : batch.properties) values.emplace_back(column);

@@ -1,6 +1,7 @@
 // Any mesh, read once and stored in a form that can be looked up and read again.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -11,6 +12,7 @@
 #include "libreeb/port/deciding_triangles.h"
 #include "libreeb/port/indexed_mesh.h"
 #include "libreeb/port/mesh_reader.h"
+#include "libreeb/port/vertex_numbering.h"
 #include "ooc/chunks/batch_digest.h"
 #include "ooc/chunks/reader_memory.h"
 #include "ooc/tables/triangle_log.h"
@@ -28,7 +30,8 @@ struct SpoolOptions {
 };
 
 // Coordinates, then the properties that the reader delivers, in one column each; triangles in a log. All are in memory
-// while they fit the allowance and the budget, else in unnamed files.
+// while they fit the allowance and the budget, else in unnamed files. Where the reader leaves out vertices of a grid,
+// the others are numbered 0, 1, 2, ... here; to_original() returns the numbers of the grid. MEMORY: 16 bytes a gap.
 //
 // THREADS: one at a time, but one may append or gather columns while another appends or reads triangles.
 class SpooledMesh : public IndexedMesh {
@@ -47,6 +50,9 @@ class SpooledMesh : public IndexedMesh {
   void append_triangles(std::span<const VertexId> corners) { triangles_.append(corners); }
 
   std::uint64_t vertex_count() const override;
+  void to_original(std::span<VertexId> ids) override;
+  std::uint64_t number_count() const override { return std::max(vertex_count(), numbers_.end()); }
+  void from_original(std::span<VertexId> ids) const override;
   unsigned column_count() const override { return static_cast<unsigned>(columns_.size()); }
   void gather(std::span<const VertexId> ids, std::span<const unsigned> columns, std::span<double> values) override;
   void rewind() override { triangles_.rewind(); }
@@ -63,6 +69,10 @@ class SpooledMesh : public IndexedMesh {
   std::uint64_t spilled_bytes() const;
 
  private:
+  void number(MeshBatch& batch);
+
+  Reservation gap_memory_;
+  VertexNumbering numbers_;
   std::vector<VertexColumn> columns_;
   TriangleLog triangles_;
   DecidingTriangles deciding_;

@@ -17,7 +17,7 @@ namespace reeb::ooc {
 namespace {
 
 constexpr std::array<char, 8> kMagic = {'R', 'E', 'E', 'B', 'F', 'R', 'G', '\n'};
-constexpr std::uint64_t kVersion = 1;
+constexpr std::uint64_t kVersion = 2;
 constexpr std::size_t kRecordsPerBlock = 4096;
 constexpr std::uint64_t kNodes = 1, kArcs = 2;  // kinds of blocks
 
@@ -213,7 +213,7 @@ OpenPart FragmentFile::read_open() {
 }
 
 void FragmentFile::check_keys(const SweepKey& key) const {
-  if (!std::isfinite(key.value) || key.vertex.value() >= info_.mesh.shares.vertices) throw DamagedState();
+  if (!std::isfinite(key.value) || key.vertex.value() >= info_.mesh.numbers) throw DamagedState();
 }
 
 void FragmentFile::read_block(std::uint64_t kind, std::uint64_t& count, std::vector<std::byte>& packed) {

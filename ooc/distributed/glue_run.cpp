@@ -114,7 +114,8 @@ ComputeOptions options_of_glue(const PartInfo& united, const GlueOptions& option
 
 FirstStageResult first_stage_of(const PartInfo& united) {
   FirstStageResult first;
-  first.vertices = first.vertex_bound = united.mesh.shares.vertices;
+  first.vertices = united.mesh.shares.vertices;
+  first.vertex_bound = united.mesh.numbers;
   first.unused_vertices = united.unused_vertices;
   first.simplices = united.mesh.simplices;
   first.degenerate_triangles = listed_as_degenerate(united.degenerate_triangles, first.simplices);

@@ -27,7 +27,9 @@ bool PartChunks::next_triangles(WorkItem& item) {
     return false;
   }
   Chunk& chunk = item.chunk;
-  uses_.find(chunk.ids, spans_);
+  ids_.assign(chunk.ids.begin(), chunk.ids.end());
+  mesh_.from_original(ids_);
+  uses_.find(ids_, spans_);
   for (std::size_t i = 0; i < spans_.size(); ++i)
     if (spans_[i].reaches_beyond(part_)) chunk.uses[i] = kUsedEarlier | kUsedLater;
   end_ = item.end;

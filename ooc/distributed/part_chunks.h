@@ -23,6 +23,7 @@ class PartChunks : public ChunkSource {
   std::uint64_t triangles_read() const override { return triangles_.triangles_read(); }
   SimplexCounts simplices_listed() const override { return triangles_.simplices_listed(); }
   std::uint64_t vertex_count() const override { return uses_.shares().vertices; }
+  std::uint64_t vertex_bound() const override { return mesh_.number_count(); }
 
   std::uint64_t unused_vertices() const { return unused_; }  // so far
 
@@ -39,6 +40,7 @@ class PartChunks : public ChunkSource {
   ChunkPlace end_;  // of the chunk before
   std::uint64_t next_vertex_, unused_ = 0;
   bool triangles_ended_ = false;
+  std::vector<VertexId> ids_;
   std::vector<PartSpan> spans_;
 };
 

@@ -16,7 +16,7 @@ void require(bool sound) {
 
 bool is_same(const WholeMeshInfo& a, const WholeMeshInfo& b) {
   return a.bytes == b.bytes && a.digest == b.digest && a.reading == b.reading &&
-         a.shares.triangles == b.shares.triangles && a.shares.vertices == b.shares.vertices &&
+         a.shares.triangles == b.shares.triangles && a.shares.vertices == b.shares.vertices && a.numbers == b.numbers &&
          a.simplices == b.simplices;
 }
 
@@ -57,7 +57,7 @@ std::string difference(const PartInfo& part, const PartInfo& first) {
 void write_info(StateWriter& out, const PartInfo& info) {
   const WholeMeshInfo& mesh = info.mesh;
   for (const std::uint64_t number : {mesh.bytes, mesh.digest, mesh.reading, mesh.shares.triangles, mesh.shares.vertices,
-                                     std::uint64_t{mesh.shares.parts}})
+                                     mesh.numbers, std::uint64_t{mesh.shares.parts}})
     out.put(number);
   out.put(mesh.simplices);
   out.put_array(std::span<const char>(info.function));
@@ -85,6 +85,7 @@ PartInfo read_info(StateReader& in) {
   mesh.reading = number();
   mesh.shares.triangles = number();
   mesh.shares.vertices = number();
+  mesh.numbers = number();
   const std::uint64_t parts = number();
   require(parts != 0 && parts <= UseEntry::kMostBlocks);
   mesh.shares.parts = static_cast<std::uint32_t>(parts);

@@ -21,6 +21,7 @@ struct WholeMeshInfo {
   std::uint64_t bytes = 0, digest = 0;  // of its file
   std::uint64_t reading = 0;            // digest of the options by which it is read
   Shares shares;
+  std::uint64_t numbers = 0;  // of its vertices, also of those that are left out of a grid
   SimplexCounts simplices{};  // as listed
 };
 

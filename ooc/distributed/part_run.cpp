@@ -30,13 +30,14 @@ PartInfo info_of(const WholeMesh& mesh, const VertexFunction& function, std::uin
 }
 
 // The live graph is held as well while it is copied. The copy has no links, and so takes half of it or less.
-void copy_open(RunContext& run, const Glue& glue, PartUses& uses, FinishedPart& finished) {
+void copy_open(RunContext& run, const Glue& glue, const IndexedMesh& mesh, PartUses& uses, FinishedPart& finished) {
   finished.memory = run.budget.reserve("open part", glue.memory_bytes() / 2);
   OpenPart& open = finished.open;
   glue.copy_live(open.live);
   std::vector<VertexId> ids;
   for (const Fragment::Node& node : open.live.nodes)
     if (node.uses != kUsedHereOnly) ids.push_back(node.key.vertex);
+  mesh.from_original(ids);
   std::vector<PartSpan> spans;
   uses.find(ids, spans);
   open.spans.assign(open.live.nodes.size(), {});
@@ -78,7 +79,7 @@ PartResult run_part(RunContext& run, const MeshInput& input, WholeMesh& mesh, Pa
 
   for (const VertexFunction* function : run.functions)
     result.parts.push_back({info_of(mesh, *function, part, wanted), {}, {}});
-  const auto at_end = [&](std::size_t f, const Glue& glue) { copy_open(run, glue, uses, result.parts[f]); };
+  const auto at_end = [&](std::size_t f, const Glue& glue) { copy_open(run, glue, *mesh.mesh, uses, result.parts[f]); };
   const FirstStageResult first = glue_chunks(run, chunks, ordered.plan, here, {}, at_end);
   for (std::size_t f = 0; f < run.functions.size(); ++f) {
     FinishedPart& finished = result.parts[f];

@@ -30,6 +30,7 @@ WholeMesh open_whole_mesh(RunContext& run, MeshInput& input, std::uint32_t parts
     input.reader.reset();
   }
   whole.info.shares = {0, whole.mesh->vertex_count(), parts};
+  whole.info.numbers = whole.mesh->number_count();
   if (const auto triangles = whole.mesh->triangles_by_size()) {
     whole.by_size = true;
     whole.info.shares.triangles = whole.info.simplices[2] = *triangles;

@@ -45,7 +45,7 @@ class Reorder {
         slices_(vertex_count_, options.allowance_bytes / 4 / sizeof(Rank)),
         has_two_threads_(options.threads > 1 && slices_bytes() <= options.allowance_bytes / 4),
         ranks_(temp.create_unnamed("ranks")),
-        result_(std::make_unique<ReorderedMesh>(mesh.column_count(), temp, budget, options.allowance_bytes / 4)) {}
+        result_(std::make_unique<ReorderedMesh>(mesh, temp, budget, options.allowance_bytes / 4)) {}
 
   std::unique_ptr<ReorderedMesh> run() {
     if (has_two_threads_) {
@@ -166,13 +166,17 @@ class Reorder {
     tell_vertices(kKeyed);
     PartitionLogs<PlacedRank> by_slice("reorder", temp_, budget_, slices_.count());
     std::uint64_t rank = 0;
+    std::vector<VertexId> ids;
     std::vector<std::uint64_t> originals;
     std::vector<double> values;
     const auto read = [&](std::vector<KeyedVertex>& some) { return by_key.read(some, kItemsAtOnce); };
     read_ahead<std::vector<KeyedVertex>>(has_two_threads_, read, [&](const std::vector<KeyedVertex>& some) {
       poll_vertices();
       originals.clear();
-      for (const KeyedVertex& keyed : some) originals.push_back(keyed.vertex);
+      ids.clear();
+      for (const KeyedVertex& keyed : some) ids.emplace_back(keyed.vertex);
+      mesh_.to_original(ids);
+      for (const VertexId id : ids) originals.push_back(id.value());
       result_->set_originals(rank, originals);
       for (unsigned column = 0; column < kCarried; ++column) {
         if (!is_carried(column)) continue;

@@ -18,13 +18,15 @@ namespace reeb::ooc {
 // results are those of the original mesh.
 class ReorderedMesh : public SpooledMesh {
  public:
-  ReorderedMesh(unsigned columns, const io::TempDir& temp, MemoryBudget& budget, std::uint64_t allowance_bytes)
-      : SpooledMesh(columns, temp, budget, allowance_bytes / 4 * 3),
-        originals_("original ids", temp, budget, allowance_bytes / 4, 0) {}
+  ReorderedMesh(const IndexedMesh& mesh, const io::TempDir& temp, MemoryBudget& budget, std::uint64_t allowance_bytes)
+      : SpooledMesh(mesh.column_count(), temp, budget, allowance_bytes / 4 * 3),
+        originals_("original ids", temp, budget, allowance_bytes / 4, 0),
+        number_count_(mesh.number_count()) {}
 
   void to_original(std::span<VertexId> ids) override {
     for (VertexId& id : ids) id = VertexId(originals_.get(id.value()));
   }
+  std::uint64_t number_count() const override { return number_count_; }
   // Of consecutive vertices.
   void set_originals(std::uint64_t first, std::span<const std::uint64_t> originals) {
     originals_.write(first, originals);
@@ -32,6 +34,7 @@ class ReorderedMesh : public SpooledMesh {
 
  private:
   PagedTable<std::uint64_t> originals_;
+  std::uint64_t number_count_;
 };
 
 struct ReorderOptions {

@@ -1,8 +1,11 @@
 // Images as a user meets them: as meshes that no file has.
+#include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "tests/support/random.h"
 #include "tests/tools/program.h"
@@ -69,6 +72,107 @@ TEST_F(Image, OfAGeneratedVolumeHasALoopForEachHandle) {
   expect_error(reeb({"generate", "volume", "--handles", "1", "-o", "w.nrrd"}), 2);
   expect_error(reeb({"generate", "torus", "--handles", "1", "-o", "w.ply"}), 2);
   expect_error(reeb({"generate", "volume", "--grid", "9x9x9", "-o", "w.ply"}), 2);
+}
+
+// A small image with some vertices without data. Returns the numbers of those that have data.
+class ImageWithGaps : public Image {
+ protected:
+  std::vector<std::uint64_t> write_image(std::uint64_t seed) const {
+    Random random(seed);
+    const std::uint64_t x = 1 + random.below(6), y = 2 + random.below(5), z = 1 + random.below(4);
+    std::string text = "NRRD0005\ntype: int\ndimension: 3\nsizes: " + std::to_string(x) + " " + std::to_string(y) +
+                       " " + std::to_string(z) + "\nencoding: ascii\nnodata:=-9\n\n";
+    std::vector<std::uint64_t> present;
+    for (std::uint64_t v = 0; v < x * y * z; ++v) {
+      const bool is_left_out = v != 1 && random.below(4) == 0;  // one is always there
+      if (!is_left_out) present.push_back(v);
+      text += is_left_out ? "-9\n" : std::to_string(random.below(7)) + "\n";
+    }
+    write("v.nrrd", text);
+    return present;
+  }
+  std::string graph_of_image(const std::string& function) {
+    return graph_of("v.nrrd", {"--nodata", "skip", "-f", function, "--buckets", "0"});
+  }
+  static std::vector<std::string> values_of(const std::string& text) {
+    std::istringstream in(text);
+    return {std::istream_iterator<std::string>(in), {}};
+  }
+};
+
+// In the converted mesh, the vertices that stay have other numbers.
+TEST_F(ImageWithGaps, HasTheValuesOfItsMesh) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    SCOPED_TRACE(testing::Message() << "seed " << seed);
+    const std::vector<std::uint64_t> present = write_image(seed);
+    expect_success(reeb({"convert", "v.nrrd", "v.cx", "--nodata", "skip", "--force"}));
+    const std::uint64_t at = seed % present.size();
+    for (const std::string function : {"geodesic", "distance"}) {
+      const std::string of_image = function + ":" + std::to_string(present[at]);
+      const Outcome values = reeb({"function", "v.nrrd", "--nodata", "skip", "-f", of_image, "-o", "a.txt", "--force"});
+      const Outcome expected =
+          reeb({"function", "v.cx", "-f", function + ":" + std::to_string(at), "-o", "b.txt", "--force"});
+      ASSERT_EQ(values.exit_code, expected.exit_code) << values.error << expected.error;
+      if (expected.exit_code != 0) continue;  // a component is not reached
+      const auto all = values_of(file("a.txt")), some = values_of(file("b.txt"));
+      ASSERT_EQ(some.size(), present.size());
+      for (std::size_t i = 0; i < present.size(); ++i) EXPECT_EQ(all.at(present[i]), some[i]) << function << " " << i;
+      EXPECT_EQ(std::ranges::count(all, "nan"), static_cast<std::ptrdiff_t>(all.size() - present.size()));
+    }
+  }
+}
+
+TEST_F(ImageWithGaps, IsGluedFromPartsAndReadsItsOwnValues) {
+  for (std::uint64_t seed = 0; seed < 30; ++seed) {
+    SCOPED_TRACE(testing::Message() << "seed " << seed);
+    const std::vector<std::uint64_t> present = write_image(seed);
+    const std::string functions[] = {"value", "index", "random:3", "x", "distance:" + std::to_string(present.back())};
+    const std::string& function = functions[seed % std::size(functions)];
+    const std::string graph = graph_of_image(function);
+    expect_success(reeb({"verify", "out.reeb", "--mesh", "v.nrrd", "--nodata", "skip", "--full"}));
+    const std::string whole = file("out.reeb");
+    std::vector<std::string> glue{"glue"};
+    const std::uint64_t parts = 1 + seed % 4;
+    for (std::uint64_t k = 1; k <= parts; ++k) {
+      const std::string name = "p" + std::to_string(k) + ".fragment";
+      expect_success(reeb({"fragment", "v.nrrd", "--nodata", "skip", "-f", function, "--buckets", "0", "--part",
+                           std::to_string(k) + "/" + std::to_string(parts), "-o", name, "--force"}));
+      glue.push_back(name);
+    }
+    glue.insert(glue.end(), {"--buckets", "0", "-o", "glued.reeb", "--force"});
+    expect_success(reeb(glue));
+    EXPECT_EQ(file("glued.reeb"), whole) << function;
+
+    for (const std::string values : {"f.txt", "f.f64"}) {
+      expect_success(reeb({"function", "v.nrrd", "--nodata", "skip", "-f", function, "-o", values, "--force"}));
+      const std::string again = graph_of_image("file:" + values);
+      EXPECT_EQ(again.substr(again.find("\nn ")), graph.substr(graph.find("\nn "))) << function;
+    }
+  }
+}
+
+// With little memory, it is read again from a copy on disk.
+TEST_F(ImageWithGaps, HasTheSameGraphWithLittleMemory) {
+  expect_success(reeb({"generate", "volume", "--grid", "12000x12", "--handles", "9", "-o", "v.nrrd"}));
+  const std::vector<std::string> options = {"--nodata", "skip", "-f", "random:1", "--buckets", "0", "--graph-only"};
+  const auto bytes_with = [&](std::vector<std::string> more, bool is_copied) {
+    more.insert(more.begin(), {"compute", "v.nrrd", "-o", "out.reeb", "--force"});
+    more.insert(more.end(), options.begin(), options.end());
+    const Outcome outcome = reeb(more);
+    expect_success(outcome);
+    EXPECT_EQ(outcome.error.find("too many vertices of the stream") != std::string::npos, is_copied) << outcome.error;
+    return file("out.reeb");
+  };
+  EXPECT_EQ(bytes_with({"--memory", "16M"}, true), bytes_with({"--no-reorder"}, false));
+}
+
+TEST_F(ImageWithGaps, HasNoVertexWithoutData) {
+  write("v.nrrd", "NRRD0005\ntype: int\ndimension: 2\nsizes: 3 1\nencoding: ascii\nnodata:=-9\n\n1 -9 2\n");
+  for (const std::string function : {"distance:1", "geodesic:1"})
+    expect_error(reeb({"compute", "v.nrrd", "--nodata", "skip", "-f", function, "-o", "out.reeb"}), 1,
+                 "v.nrrd: " + function + " names");
+  expect_error(reeb({"compute", "v.nrrd", "--nodata", "skip", "-f", "distance:3", "-o", "out.reeb"}), 1,
+               "v.nrrd: distance:3 names a vertex that does not exist");
 }
 
 TEST_F(Image, MustHaveFiniteValuesWhereTheyAreUsed) {

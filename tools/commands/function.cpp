@@ -1,7 +1,9 @@
 // `reeb function MESH -f FUNC -o OUT`: the values of a function at the vertices of a mesh.
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <bit>
+#include <limits>
 #include <memory>
 #include <span>
 #include <string>
@@ -20,6 +22,7 @@
 #include "libreeb/base/error.h"
 #include "libreeb/base/memory_budget.h"
 #include "libreeb/base/printable.h"
+#include "libreeb/port/vertex_numbering.h"
 #include "tools/arguments/image_options.h"
 #include "tools/arguments/options.h"
 #include "tools/commands/commands.h"
@@ -67,7 +70,8 @@ class Values {
     if (options_.quiet) return;
     for (const std::string& line : reader_->warnings()) print_line("note: " + printable(line));
     for (const std::string& line : field_.notes) print_line("note: " + printable(line));
-    fmt::print(stderr, "wrote {}: {} for {}\n", printable(options_.output), spec_.text, count_of(vertices_, "vertex"));
+    fmt::print(stderr, "wrote {}: {} for {}\n", printable(options_.output), spec_.text,
+               count_of(numbers_.count(), "vertex"));
   }
 
  private:
@@ -98,13 +102,13 @@ class Values {
   // Reads the next batch and its values. False at the end.
   bool read() {
     if (!reader_->read(batch_)) {
-      source_->check_count(vertices_);
+      source_->check_count(numbers_.count());
       source_->check_unchanged();
       return false;
     }
     values_.resize(batch_.vertex_count);
     source_->evaluate(batch_, values_);
-    vertices_ += batch_.vertex_count;
+    numbers_.append(batch_.first_vertex.value(), batch_.vertex_count);
     bar_.update({"writing"}, reader_->bytes_read(), reader_->info().file_bytes);
     return true;
   }
@@ -124,6 +128,7 @@ class Values {
     writing.temp_folder = options_.temp_folder;
     const auto writer = io::create_mesh(options_.output, writing);
     while (read()) {
+      renumber();
       // A property of the same name is replaced.
       for (std::size_t k = info.property_names.size(); k-- > 0;)
         if (info.property_names[k] == spec_.text)
@@ -135,19 +140,46 @@ class Values {
     writer->close();
   }
 
+  // Files of meshes have no vertices that are left out.
+  void renumber() {
+    if (!numbers_.has_gaps()) return;
+    const auto to_index = [this](VertexId& id) { id = VertexId(numbers_.index_of(id.value()).value()); };
+    batch_.first_vertex = VertexId(numbers_.count() - batch_.vertex_count);
+    for (auto& corners : batch_.simplices) std::ranges::for_each(corners, to_index);
+    std::ranges::for_each(batch_.finalized, to_index);
+  }
+
+  // A value for each number; NaN for a vertex that is left out.
   void write_values(bool raw) {
     io::AtomicFile file(options_.output, {.existing = late_outputs(options_.force)});
     if (raw) {
-      while (read()) file.out().append(std::as_bytes(std::span(values_)));
+      write_values([&](std::span<const double> values) { file.out().append(std::as_bytes(values)); });
     } else {
       io::FileOstream stream(file.out());
       io::OutputBuffer out(stream);
-      while (read())
-        for (const double value : values_) out << value << '\n';
+      write_values([&](std::span<const double> values) {
+        for (const double value : values) out << value << '\n';
+      });
       out.flush();
     }
     input_.check_unchanged();
     file.commit();
+  }
+
+  template <class Put>
+  void write_values(const Put& put) {
+    const double none = std::numeric_limits<double>::quiet_NaN();
+    std::uint64_t written = 0;
+    const auto fill_to = [&](std::uint64_t number) {
+      for (; written < number; ++written) put(std::span(&none, 1));
+    };
+    while (read()) {
+      if (values_.empty()) continue;
+      fill_to(batch_.first_vertex.value());
+      put(values_);
+      written += values_.size();
+    }
+    fill_to(reader_->info().number_count.value_or(written));
   }
 
   const FunctionOptions& options_;
@@ -159,7 +191,7 @@ class Values {
   std::unique_ptr<io::FunctionSource> source_;
   MeshBatch batch_;
   std::vector<double> values_;
-  std::uint64_t vertices_ = 0;
+  VertexNumbering numbers_;
 };
 
 void run_function(FunctionOptions options) {

@@ -70,6 +70,8 @@ class WatchedMesh : public IndexedMesh {
     mesh_.gather(ids, columns, values);
   }
   void to_original(std::span<VertexId> ids) override { mesh_.to_original(ids); }
+  std::uint64_t number_count() const override { return mesh_.number_count(); }
+  void from_original(std::span<VertexId> ids) const override { mesh_.from_original(ids); }
   SimplexCounts simplex_counts() const override { return mesh_.simplex_counts(); }
   void rewind() override { mesh_.rewind(); }
   bool read(std::vector<VertexId>& corners, std::size_t limit) override {
@@ -265,9 +267,11 @@ std::unique_ptr<IndexedMesh> Conversion::sorted(std::unique_ptr<IndexedMesh> mes
     case TriangleOrder::Kind::kSweep:
       break;
   }
+  io::ImageOptions image = options_.image;
+  image.renumber = true;
   io::OpenMesh open_again;
   if (input_.can_reopen())
-    open_again = [&] { return io::open_mesh(input_, input_.open(), {}, options_.image, options_.format); };
+    open_again = [&] { return io::open_mesh(input_, input_.open(), {}, image, options_.format); };
   const auto fields = io::read_fields({&*options_.order.function, 1}, open_again, options_.input, options_.temp_folder,
                                       options_.memory_bytes);
   io::FunctionSource function(*options_.order.function, reader_->info(), property_columns(), options_.input,
