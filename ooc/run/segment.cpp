@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "io/file/atomic_file.h"
-#include "libreeb/base/count_text.h"
 #include "libreeb/base/error.h"
+#include "libreeb/format/mesh_match.h"
 #include "libreeb/hierarchy/cancel.h"
 #include "libreeb/noise/denoise.h"
 #include "libreeb/segmentation/arc_history.h"
@@ -27,13 +27,6 @@ namespace {
 [[noreturn]] void refuse(const ReebFile& file, const std::string& what) {
   throw Error(ErrorKind::kBadInput, what, "name the mesh that the file was computed from, or compute the file again")
       .at(file.path());
-}
-
-template <class Count>
-void require_equal(const ReebFile& file, const char* what, Count in_file, Count in_mesh) {
-  if (in_file != in_mesh)
-    refuse(file, "it is not the graph of this mesh: it says " + with_commas(in_file) + " " + what + ", the mesh has " +
-                     with_commas(in_mesh));
 }
 
 constexpr std::size_t kEventsAtOnce = 8192;
@@ -172,8 +165,8 @@ class Segmentation::Impl {
           .at(file_.path());
     const FirstStageResult first = read_mesh(run_, std::move(input));
     return_freed_memory();
-    require_equal(file_, "vertices", header.mesh_vertices, first.vertices);
-    require_equal(file_, "triangles", header.mesh_triangles, first.simplices[2]);
+    require_same_mesh(file_.path(), {header.mesh_vertices, header.mesh_triangles},
+                      {first.vertices, first.simplices[2]});
     if (first.vertices != 0) {
       const FunctionRange range = run_.values.range(0);
       if (range.min != header.function_min || range.max != header.function_max)

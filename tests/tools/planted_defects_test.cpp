@@ -307,6 +307,22 @@ TEST_F(PlantedDefects, FilesOfAnotherMeshAreRefused) {
   EXPECT_EQ(reeb({"defects", "u.reeb"}).exit_code, 1);
   EXPECT_EQ(reeb({"defects", "-"}).exit_code, 2);
   expect_success(reeb({"defects", "u.ply", "u.reeb", "--quiet"}));
+  // A triangle of the same vertices is missing, and no loop makes anyone look.
+  const std::string whole = kSmallOff;
+  write("whole.off", whole);
+  write("open.off", "OFF\n4 3 0\n" + whole.substr(10, whole.rfind("3 0 3 2") - 10));
+  expect_success(reeb({"compute", "whole.off", "--quiet"}));
+  expect_error(reeb({"defects", "open.off", "whole.reeb"}), 1,
+               "whole.reeb: it is not the graph of this mesh: it says 4 triangles, the mesh has 3");
+}
+
+TEST_F(PlantedDefects, OfCellsAreRefused) {
+  expect_success(reeb({"generate", "ball", "--tetrahedra", "300", "-o", "b.svb"}));
+  expect_success(reeb({"compute", "b.svb", "--quiet"}));
+  expect_error(reeb({"defects", "b.svb"}), 1, "b.svb: the mesh has cells, so it is no surface");
+  expect_error(reeb({"defects", "b.svb", "b.reeb"}), 1, "b.svb: the mesh has cells, so it is no surface");
+  expect_success(reeb({"generate", "volume", "--grid", "9x9x9", "--handles", "1", "-o", "v.nrrd"}));
+  expect_error(reeb({"defects", "v.nrrd"}), 1, "v.nrrd: the mesh has cells, so it is no surface");
 }
 
 // On a mesh that is looked up, and on one that is read as a stream.

@@ -57,17 +57,22 @@ TEST_F(VerifyMesh, ATorusHasGenusOneForEveryFunction) {
 TEST_F(VerifyMesh, AnotherMeshIsNoticed) {
   write("mesh.off", kSmallOff);
   expect_success(reeb({"compute", "mesh.off", "--quiet"}));
-  const auto expect_refused = [&](const std::string& mesh) {
+  const auto expect_refused = [&](const std::string& mesh, const std::string& error = {}) {
     write("other.off", mesh);
     const Outcome outcome = reeb({"verify", "mesh.reeb", "--mesh", "other.off"});
     EXPECT_EQ(outcome.exit_code, 1) << mesh;
-    EXPECT_EQ(lines_after("reeb: error: ", outcome.error).size(), 1u) << outcome.error;
+    const auto errors = lines_after("reeb: error: ", outcome.error);
+    ASSERT_EQ(errors.size(), 1u) << outcome.error;
+    EXPECT_TRUE(errors[0].starts_with(error)) << errors[0];
   };
   expect_refused("OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 2\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n");    // a value
   expect_refused("OFF\n4 4 0\n0 0.5 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n");  // a position
   expect_refused("OFF\n4 3 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n");             // a triangle
   expect_refused("OFF\n5 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n0 0 .5\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n");
   expect_refused("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 2 1\n");
+  // Counts tell more than the first node that differs.
+  expect_refused("OFF\n5 1 0\n1 0 0\n1 0 2\n0 1 0\n0 0 1\n2 2 2\n3 0 2 1\n",
+                 "mesh.reeb: it is not the graph of this mesh: it says 4 vertices, the mesh has 5");
   write("broken.off", "OFF\n4 4");
   EXPECT_EQ(reeb({"verify", "mesh.reeb", "--mesh", "broken.off"}).exit_code, 1);
 }

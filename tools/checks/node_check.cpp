@@ -8,8 +8,6 @@
 #include <numeric>
 #include <span>
 
-#include "libreeb/base/error.h"
-
 namespace reeb::tools {
 
 NodeCheck::NodeCheck(const std::string& file, const std::string& mesh, const std::string& function,
@@ -75,6 +73,7 @@ void NodeCheck::add(const MeshBatch& batch) {
 
 std::optional<ValueRange> NodeCheck::finish() {
   if (next_ != by_vertex_.size()) fail(by_vertex_[next_], "is not in the mesh");
+  if (failure_) throw *failure_;
   if (source_) {
     source_->check_count(read_);
     source_->check_unchanged();
@@ -83,10 +82,12 @@ std::optional<ValueRange> NodeCheck::finish() {
   return range_;
 }
 
-void NodeCheck::fail(std::size_t node, const char* why) const {
-  throw Error(ErrorKind::kBadInput, fmt::format("the node of vertex {} {}", graph_.nodes[node].vertex.value(), why),
-              "name the mesh that the file was computed from")
-      .at(mesh_);
+void NodeCheck::fail(std::size_t node, const char* why) {
+  if (failure_) return;
+  failure_ =
+      Error(ErrorKind::kBadInput, fmt::format("the node of vertex {} {}", graph_.nodes[node].vertex.value(), why),
+            "name the mesh that the file was computed from")
+          .at(mesh_);
 }
 
 }  // namespace reeb::tools

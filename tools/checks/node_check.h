@@ -9,6 +9,7 @@
 
 #include "io/functions/function_source.h"
 #include "io/functions/mesh_field.h"
+#include "libreeb/base/error.h"
 #include "libreeb/graph/reeb_graph.h"
 #include "libreeb/port/mesh_reader.h"
 
@@ -37,12 +38,13 @@ class NodeCheck {
              std::uint64_t memory_bytes);
   void add(const MeshBatch& batch);
   // The range of the function over the mesh; null if it could not be evaluated.
-  // THROWS: InputChanged if the file of values changed meanwhile.
+  // THROWS: Error{kBadInput} for the first node that is not in the mesh as it is in the graph, after the whole mesh is
+  // read: it may be another one, which its counts tell better; InputChanged if the file of values changed meanwhile.
   std::optional<ValueRange> finish();
 
  private:
   std::string missing_file() const;
-  [[noreturn]] void fail(std::size_t node, const char* why) const;
+  void fail(std::size_t node, const char* why);
 
   const ReebGraph& graph_;
   const std::string& mesh_;
@@ -55,6 +57,7 @@ class NodeCheck {
   std::vector<double> values_;
   ValueRange range_;
   std::string unchecked_;
+  std::optional<Error> failure_;
 };
 
 }  // namespace reeb::tools

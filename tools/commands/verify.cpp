@@ -12,6 +12,7 @@
 #include "libreeb/base/error.h"
 #include "libreeb/base/memory_budget.h"
 #include "libreeb/base/printable.h"
+#include "libreeb/format/mesh_match.h"
 #include "ooc/reeb_file/reeb_file.h"
 #include "ooc/whole_mesh/mesh_recount.h"
 #include "ooc/whole_mesh/workspace.h"
@@ -56,7 +57,6 @@ std::string compare_with_mesh(const ooc::ReebFile& file, const VerifyOptions& op
   const ReebGraph graph = file.load(0).graph;
   NodeCheck nodes(options.file, options.mesh, header.function, graph);
   const io::Input input = io::mesh_input(options.mesh, options.format);
-  std::optional<ValueRange> range;
   bool has_cells = false;
   ProgressBar bar(false);
   const ooc::MeshRecount mesh = input.read([&] {
@@ -67,19 +67,17 @@ std::string compare_with_mesh(const ooc::ReebFile& file, const VerifyOptions& op
       open_again = [&] { return io::open_mesh(input, input.open(), {}, options.image, options.format); };
     nodes.start(reader->info(), open_again, options.temp_folder, options.memory_bytes);
     std::uint64_t simplices = 0;
-    const ooc::MeshRecount recount = ooc::recount_mesh(*reader, space, [&](const MeshBatch& batch) {
+    return ooc::recount_mesh(*reader, space, [&](const MeshBatch& batch) {
       nodes.add(batch);
       has_cells = has_cells || batch.has_cells();
       simplices += batch.simplex_count();
       bar.update({"counting"}, reader->bytes_read(), reader->info().file_bytes, simplices);
     });
-    range = nodes.finish();
-    return recount;
   });
   bar.clear();
-  compare(options.file, "vertices", header.mesh_vertices, mesh.vertices);
-  compare(options.file, "triangles", header.mesh_triangles, mesh.triangles);
-  compare(options.file, "components", header.components, mesh.components);
+  require_same_mesh(options.file, {header.mesh_vertices, header.mesh_triangles}, {mesh.vertices, mesh.triangles});
+  const std::optional<ValueRange> range = nodes.finish();
+  compare(options.file, "components", with_commas(header.components), with_commas(mesh.components));
   if (range) {
     compare(options.file, "as the least value", header.function_min, range->min);
     compare(options.file, "as the greatest value", header.function_max, range->max);

@@ -13,18 +13,13 @@ namespace reeb::tools {
 std::vector<SettledNode> component_tops(const ValuedMesh& mesh, const LoopFunction& function, std::size_t number,
                                         MemoryBudget& budget) {
   const bool several = function.tops.size() > 1;
-  // Vertices beyond those of the graph have no place here.
-  const auto check = [&](const MeshBatch& batch) {
-    if (batch.first_vertex.value() + batch.vertex_count > function.mesh_vertices)
-      throw Error(ErrorKind::kBadInput, "this is not the mesh of the graph: it has another number of vertices",
-                  "name the mesh that the .reeb file was computed from")
-          .at(mesh.path());
-  };
-  const Reservation memory = budget.reserve("components of the mesh", several ? 4 * function.mesh_vertices : 0);
-  UnionFind component(several ? static_cast<std::uint32_t>(function.mesh_vertices) : 0);
+  // Vertices of an image may be left out, so indices are not below their number.
+  const std::uint64_t bound = mesh.info().grid ? mesh.info().grid->vertex_count() : function.mesh.vertices;
+  const Reservation memory = budget.reserve("components of the mesh", several ? 4 * bound : 0);
+  UnionFind component(several ? static_cast<std::uint32_t>(bound) : 0);
   if (several)
     mesh.read([&](const MeshBatch& batch, std::span<const std::vector<double>>, std::uint64_t, std::uint64_t) {
-      check(batch);
+      if (batch.first_vertex.value() + batch.vertex_count > bound) throw InputChanged();
       for (std::size_t k = 1; k < batch.simplices.size(); ++k)
         for (std::size_t i = 0; i < batch.simplices[k].size(); ++i)
           if (i % (k + 1) != 0)
@@ -37,7 +32,6 @@ std::vector<SettledNode> component_tops(const ValuedMesh& mesh, const LoopFuncti
   std::vector<SettledNode> tops = function.tops;
   std::vector<double> most(tops.size(), -std::numeric_limits<double>::infinity());
   mesh.read([&](const MeshBatch& batch, std::span<const std::vector<double>> values, std::uint64_t, std::uint64_t) {
-    check(batch);
     for (std::size_t i = 0; i < batch.vertex_count; ++i) {
       const VertexId vertex(batch.first_vertex.value() + i);
       const std::uint32_t c =

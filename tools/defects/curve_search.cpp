@@ -231,7 +231,7 @@ class CurveSearch {
       ooc::in_parallel(options_.threads, here.size(), [&](std::size_t k) { search_in(surface, searches_[here[k]]); });
       i = static_cast<std::uint32_t>(ends[group]);
       memory_.resize(found_bytes_);
-      if (options_.progress) options_.progress(i, now.size(), list_.functions[0].mesh_triangles);
+      if (options_.progress) options_.progress(i, now.size(), list_.functions[0].mesh.triangles);
     }
   }
 
@@ -246,18 +246,13 @@ class CurveSearch {
               {{node->position, searches_[now[i]].radius}, group, measured_step != 0 && now[i] % measured_step == 0});
     ooc::DividedSurface surfaces(balls, ends.size(), list_.functions.size(), *options_.temp, *options_.budget);
     std::vector<ooc::GroupedBall>().swap(balls);
-    std::uint64_t vertices = 0, triangles = 0;
+    std::uint64_t triangles = 0;
     mesh_.read([&](const MeshBatch& batch, std::span<const std::vector<double>> values, std::uint64_t done,
                    std::uint64_t total) {
       surfaces.add(batch, values);
-      vertices += batch.vertex_count;
       triangles += batch.triangle_count();
       if (options_.progress) options_.progress(done, total, triangles);
     });
-    if (vertices != list_.functions[0].mesh_vertices)
-      throw Error(ErrorKind::kBadInput, "this is not the mesh of the graph: it has another number of vertices",
-                  "name the mesh that the .reeb file was computed from")
-          .at(mesh_.path());
     surfaces.finish();
     return surfaces;
   }
@@ -344,7 +339,7 @@ PatchScale scale_of(const LoopList& list) {
   if (!(extent[0] >= 0)) return scale;
   scale.size = distance(list.box[0], list.box[1]);
   const double area = 2 * (extent[0] * extent[1] + extent[1] * extent[2] + extent[2] * extent[0]);
-  const auto triangles = static_cast<double>(std::max<std::uint64_t>(1, list.functions[0].mesh_triangles));
+  const auto triangles = static_cast<double>(std::max<std::uint64_t>(1, list.functions[0].mesh.triangles));
   scale.edge = std::max(std::sqrt(2.3 * area / triangles), 1e-6 * scale.size);
   return scale;
 }

@@ -37,8 +37,23 @@ std::vector<std::string> compute_graphs(const FindDefectsOptions& options, const
   run.checkpoint_seconds = 1e9;
   run.progress = options.computing;
   run.interrupted = options.interrupted;
-  compute(options.mesh.path, functions, files, run);
+  const std::vector<ComputeResult> results = compute(options.mesh.path, functions, files, run);
+  const std::span<const std::uint64_t> cells = std::span(results[0].simplices).subspan(3);
+  if (std::ranges::any_of(cells, [](std::uint64_t count) { return count != 0; })) refuse_cells(options.mesh.path);
   return files;
+}
+
+// Graphs of another mesh would give other places, and their loops no curves.
+void check_graphs(const FindDefectsOptions& options, const LoopFunction& graph, const SearchOptions& search) {
+  const ValuedMesh mesh(options.mesh, {});
+  MeshCounts counts;
+  mesh.read([&](const MeshBatch& batch, std::span<const std::vector<double>>, std::uint64_t done, std::uint64_t total) {
+    if (batch.has_cells()) refuse_cells(options.mesh.path);
+    counts.vertices += batch.vertex_count;
+    counts.triangles += batch.triangle_count();
+    search.progress(done, total, counts.triangles);
+  });
+  require_same_mesh(graph.file, graph.mesh, counts);
 }
 
 }  // namespace
@@ -55,9 +70,6 @@ Defects find_defects(const FindDefectsOptions& options) {
     list = read_loops(files);
   }
   ooc::return_freed_memory();
-  Defects defects;
-  for (const LoopFunction& function : list.functions) defects.functions.push_back(function.name);
-  const ValuedMesh mesh(options.mesh, defects.functions);
   SearchOptions search;
   search.threads = options.threads;
   MemoryBudget budget(options.mesh.memory_bytes);
@@ -71,6 +83,10 @@ Defects find_defects(const FindDefectsOptions& options) {
       throw Error(ErrorKind::kInterrupted, "interrupted", "run the same command again");
     if (options.searching) options.searching(done, total, triangles);
   };
+  if (!options.files.empty()) check_graphs(options, list.functions[0], search);
+  Defects defects;
+  for (const LoopFunction& function : list.functions) defects.functions.push_back(function.name);
+  const ValuedMesh mesh(options.mesh, defects.functions);
   const LoopCurvesFound found = find_curves(mesh, list, scale_of(list), search);
   defects.scale = found.scale;
   defects.table = make_rows(mesh, list, found, search);

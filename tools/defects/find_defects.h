@@ -25,7 +25,7 @@ struct Defects {
   PatchScale scale;
 };
 
-// THROWS: as compute(); Error{kBadInput} for a graph of another mesh.
+// THROWS: as compute(); Error{kBadInput} for a graph of another mesh, and for a mesh with cells.
 // MEMORY: that of computing the graphs; then of one graph and its pairs; then of patches.
 Defects find_defects(const FindDefectsOptions& options);
 

@@ -17,10 +17,12 @@ LoopList read_loops(std::span<const std::string> files) {
   for (const std::string& path : files) {
     const ooc::ReebFile file(path);
     const FileHeader& header = file.header();
-    LoopFunction function{
-        header.function, {header.function_min, header.function_max}, header.mesh_vertices, header.mesh_triangles, {}};
-    if (!list.functions.empty() && (list.functions[0].mesh_vertices != header.mesh_vertices ||
-                                    list.functions[0].mesh_triangles != header.mesh_triangles))
+    LoopFunction function{path,
+                          header.function,
+                          {header.function_min, header.function_max},
+                          {header.mesh_vertices, header.mesh_triangles},
+                          {}};
+    if (!list.functions.empty() && list.functions[0].mesh != function.mesh)
       throw Error(ErrorKind::kBadInput, "it is of another mesh than " + files[0], "name files of the same mesh")
           .at(path);
     if (!header.flags.has_positions && header.nodes != 0)

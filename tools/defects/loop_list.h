@@ -10,6 +10,7 @@
 
 #include "libreeb/base/sweep_key.h"
 #include "libreeb/base/value_range.h"
+#include "libreeb/format/mesh_match.h"
 #include "libreeb/graph/settled_node.h"
 
 namespace reeb::tools {
@@ -22,9 +23,9 @@ struct Loop {
 };
 
 struct LoopFunction {
-  std::string name;
+  std::string file, name;
   ValueRange range;
-  std::uint64_t mesh_vertices = 0, mesh_triangles = 0;
+  MeshCounts mesh;
   std::vector<SettledNode> tops;  // the highest node of each component
 };
 

@@ -1,6 +1,7 @@
 #include "tools/defects/valued_mesh.h"
 
 #include "io/functions/function_source.h"
+#include "libreeb/base/error.h"
 #include "ooc/chunks/spooled_mesh.h"
 
 namespace reeb::tools {
@@ -49,6 +50,12 @@ void ValuedMesh::look_up(ooc::Workspace& space, const std::function<void(Indexed
     use(*mesh);
     return 0;
   });
+}
+
+void refuse_cells(const std::string& mesh) {
+  throw Error(ErrorKind::kBadInput, "the mesh has cells, so it is no surface",
+              "extract its boundary with another program first")
+      .at(mesh);
 }
 
 }  // namespace reeb::tools

@@ -50,4 +50,7 @@ class ValuedMesh {
   MeshInfo info_;
 };
 
+// THROWS: Error{kBadInput}.
+[[noreturn]] void refuse_cells(const std::string& mesh);
+
 }  // namespace reeb::tools

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "io/file/temp_dir.h"
-#include "libreeb/base/count_text.h"
 #include "libreeb/base/error.h"
 #include "libreeb/base/memory_budget.h"
+#include "libreeb/format/mesh_match.h"
 #include "libreeb/port/mesh_reader.h"
 #include "ooc/tables/paged_table.h"
 #include "tools/defects/valued_mesh.h"
@@ -110,15 +110,6 @@ class SurfaceDrawing {
   std::vector<io::SurfacePoint> placed_;
 };
 
-void check_mesh(const SkeletonOptions& options, const FileHeader& header, std::uint64_t vertices) {
-  if (vertices == header.mesh_vertices) return;
-  throw Error(ErrorKind::kBadInput,
-              "this is not the mesh of the graph: it has " + count_of(vertices, "vertex") +
-                  ", and the graph was computed from " + with_commas(header.mesh_vertices),
-              "name the mesh that the .reeb file was computed from")
-      .at(options.mesh);
-}
-
 }  // namespace
 
 void require_surface_points(const ooc::ReebFile& file) {
@@ -159,11 +150,13 @@ std::string draw_skeleton(const ooc::ReebFile& file, const SkeletonOptions& opti
     std::vector<std::string> functions;
     if (options.surface == io::SurfaceStyle::kValue) functions.push_back(header.function);
     mesh.emplace(source, functions);
+    std::uint64_t triangles = 0;
     mesh->read([&](const MeshBatch& batch, auto, std::uint64_t done, std::uint64_t total) {
       sample.add(batch);
+      triangles += batch.triangle_count();
       if (options.progress) options.progress("measuring", done, total);
     });
-    check_mesh(options, header, sample.vertices());
+    require_same_mesh(file.path(), {header.mesh_vertices, header.mesh_triangles}, {sample.vertices(), triangles});
   }
   if (is_empty) return message_picture(heading, "The graph is empty.");
 

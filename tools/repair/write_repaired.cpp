@@ -22,11 +22,6 @@ void clear(MeshBatch& batch, std::size_t coordinates, std::size_t properties) {
     for (auto& column : *columns) column.clear();
 }
 
-void refuse_cells(const MeshBatch& batch, const std::string& path) {
-  if (batch.has_cells())
-    throw Error(ErrorKind::kBadInput, "the mesh has cells, so it is no surface", "extract its boundary first").at(path);
-}
-
 class RepairedCopy {
  public:
   RepairedCopy(const MeshSource& source, const MeshEdits& edits, std::uint64_t mesh_vertices,
@@ -54,7 +49,7 @@ class RepairedCopy {
     input_.read([&] {
       MeshBatch batch;
       while (reader->read(batch)) {
-        refuse_cells(batch, source_.path);
+        if (batch.has_cells()) refuse_cells(source_.path);
         copy(batch);
         if (vertex_ == mesh_vertices_ && !new_written_) write_new_vertices(reader->info().dimension);
         if (options_.progress) options_.progress(reader->bytes_read(), reader->info().file_bytes, triangle_);
@@ -243,7 +238,7 @@ Written write_undone(const MeshSource& source, const UndoRecord& undo, const Wri
     while (true) {
       const bool more = reader->read(batch);
       if (more) {
-        refuse_cells(batch, source.path);
+        if (batch.has_cells()) refuse_cells(source.path);
         digest.add(batch);
       }
       const std::size_t properties = batch.properties.size();
