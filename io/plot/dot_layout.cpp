@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <map>
 #include <span>
 #include <utility>
@@ -67,6 +68,8 @@ std::vector<std::uint32_t> specks_of(const ReebGraph& graph) {
   return specks;
 }
 
+double distance(const PicturePoint& a, const PicturePoint& b) { return std::hypot(a.x - b.x, a.y - b.y); }
+
 // To the right of the nodes that have places, in as few columns as they fit.
 void place_specks(std::span<const std::uint32_t> specks, std::span<const double> height, GraphLayout& layout) {
   constexpr double kDistance = 0.03;  // from one to the next above it
@@ -123,6 +126,7 @@ std::optional<GraphLayout> read_dot_layout(const ReebGraph& graph, std::string_v
   const std::vector<std::uint32_t> specks = specks_of(graph);
   GraphLayout layout;
   layout.nodes.assign(graph.node_count(), {-1, 0});
+  std::vector<PicturePoint> placed(graph.node_count());  // by dot
   std::multimap<Ends, std::vector<PicturePoint>> curves;
   double lowest = 0, highest = 1;  // in inches
   PlainText text(plain);
@@ -138,8 +142,9 @@ std::optional<GraphLayout> read_dot_layout(const ReebGraph& graph, std::string_v
       if (name.starts_with('r')) continue;
       std::size_t node = 0;
       std::from_chars(name.data(), name.data() + name.size(), node);
-      const auto x = text.number<double>();
-      if (node >= layout.nodes.size() || !x) return std::nullopt;
+      const auto x = text.number<double>(), y = text.number<double>();
+      if (node >= layout.nodes.size() || !x || !y) return std::nullopt;
+      placed[node] = {*x, *y};
       layout.nodes[node] = {*x, height[node]};
     } else if (item == "edge") {
       const auto tail = text.number<std::size_t>();
@@ -182,7 +187,11 @@ std::optional<GraphLayout> read_dot_layout(const ReebGraph& graph, std::string_v
     if (found == curves.end()) return std::nullopt;
     std::vector<PicturePoint> curve = std::move(found->second);
     curves.erase(found);
-    if (curve.front().y > curve.back().y) std::reverse(curve.begin(), curve.end());
+    // Dot has both ends of a nearly level arc in one row, so heights do not tell which is which.
+    const PicturePoint &low = placed[graph.lo[arc].value()], &high = placed[graph.hi[arc].value()];
+    if (distance(curve.front(), high) + distance(curve.back(), low) <
+        distance(curve.front(), low) + distance(curve.back(), high))
+      std::reverse(curve.begin(), curve.end());
     // An arc rises all the way.
     for (PicturePoint& point : curve)
       point = {across(point.x), std::clamp((point.y - lowest) / (highest - lowest), lo.y, hi.y)};

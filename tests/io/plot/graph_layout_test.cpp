@@ -107,6 +107,22 @@ TEST(DotLayout, ReadsWhatDotWrites) {
   EXPECT_LT(layout->arcs[0][1].x, layout->arcs[1][1].x);
 }
 
+// Both ends of a nearly level arc are in one row, and dot lists the points of its curve from either end.
+TEST(DotLayout, TurnsLevelArcs) {
+  const ReebGraph graph =
+      make_graph({{{0, VertexId(0)}, {0.1, VertexId(1)}}, {{0, VertexId(0)}, {10, VertexId(2)}}}, {});
+  const std::string begin =
+      "graph 1 4 10\nnode 0 3 0 0.1 0.1 \"\" solid circle black lightgrey\nnode 1 1 0 0.1 0.1 \"\" solid circle black "
+      "lightgrey\nnode 2 3 10 0.1 0.1 \"\" solid circle black lightgrey\nnode r0 4 0 0.1 0.1 r0 solid circle black "
+      "lightgrey\nnode r35 4 10 0.1 0.1 r35 solid circle black lightgrey\nedge 0 2 4 3 0 3 3 3 6 3 10 solid black\n";
+  for (const char* curve : {"4 3 0 2.5 0.1 1.5 0.1 1 0", "4 1 0 1.5 0.1 2.5 0.1 3 0"}) {
+    const auto layout = read_dot_layout(graph, begin + "edge 0 1 " + curve + " solid black\nstop\n");
+    ASSERT_TRUE(layout);
+    check(graph, *layout);
+    EXPECT_GT(layout->arcs[0][1].x, layout->arcs[0][2].x) << curve;
+  }
+}
+
 TEST(DotLayout, RefusesWhatIsNoLayout) {
   const ReebGraph graph = make_graph({{{0, VertexId(0)}, {1, VertexId(1)}}, {{0, VertexId(0)}, {2, VertexId(2)}}}, {});
   for (const char* plain : {"", "nonsense", "node 0 1 2\n", "node 9 1 2 3\n", "node 0 x y\nedge 0 1\n",
