@@ -14,6 +14,10 @@ namespace {
 // so.
 constexpr double kBorder = 65, kSpread = 0.45;
 
+// The confidence if nothing shows where features begin.
+constexpr double kMostUnsure = 0.5;
+constexpr const char* kOtherFunctions = "; graphs of other functions may have one";
+
 // How likely the border is below this length.
 double chance_below(double edges) { return 0.5 * std::erfc(-std::log(edges / kBorder) / kSpread / std::sqrt(2.0)); }
 
@@ -32,7 +36,7 @@ std::string part_of(std::size_t part, std::size_t all) {
 
 }  // namespace
 
-SuggestedLength suggest_length(std::span<const double> lengths, double edge, double size) {
+SuggestedLength suggest_length(std::span<const double> lengths, double edge, double size, bool looked_well) {
   std::vector<double> sorted(lengths.begin(), lengths.end());
   std::erase_if(sorted, [](double length) { return !(length > 0); });
   std::sort(sorted.begin(), sorted.end());
@@ -40,6 +44,8 @@ SuggestedLength suggest_length(std::span<const double> lengths, double edge, dou
   if (!(edge > 0)) return {std::nullopt, 0, "the mesh has no extent"};
   const double most = std::max(size, edge);
   const auto finite = static_cast<std::size_t>(std::lower_bound(sorted.begin(), sorted.end(), most) - sorted.begin());
+  if (finite == 0 && !looked_well)
+    return {std::nullopt, kMostUnsure, "no curve was found" + std::string(kOtherFunctions)};
   if (finite == 0) return {std::nullopt, 0.9, "no loop is short"};
   // Of the gaps between two lengths, the one in which the border is most likely; gap i is below length i.
   const auto from = [&](std::size_t i) { return i == 0 ? 0 : sorted[i - 1]; };
@@ -56,15 +62,20 @@ SuggestedLength suggest_length(std::span<const double> lengths, double edge, dou
   const double low = from(best), high = to(best), ratio = high / low;
   const double length = std::clamp(kBorder * edge, low * std::pow(ratio, 0.3), low * std::pow(ratio, 0.7));
   double confidence = chance(best) * (1 - std::exp(-3 * std::log(ratio)));
-  std::string why = part_of(best, sorted.size()) + " " + text(low) + " long (" + text(low / edge) + " edges), ";
+  std::string why = part_of(best, sorted.size()) + " " + text(low) + " long (" + text(low / edge) + " edges)";
   if (best < finite) {
-    why += "the others at least " + text(high);
+    why += ", the others at least " + text(high);
+  } else if (best < sorted.size() && !looked_well) {
+    confidence = std::min(confidence, kMostUnsure);
+    const std::size_t others = sorted.size() - best;
+    why += "; for the " + (others == 1 ? "other" : std::to_string(others) + " others") + " no curve was found" +
+           kOtherFunctions;
   } else if (best < sorted.size()) {
-    why += "the others longer than any that were found";
+    why += ", the others longer than any that were found";
   } else {
     // Nothing shows where features begin.
-    confidence = std::min(confidence, 0.5);
-    why += "and there is no longer one to compare with";
+    confidence = std::min(confidence, kMostUnsure);
+    why += ", and there is no longer one to compare with";
   }
   return {length, confidence, why};
 }

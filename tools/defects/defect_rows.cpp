@@ -280,7 +280,9 @@ DefectTable make_rows(const ValuedMesh& mesh, const LoopList& list, const LoopCu
 
   std::vector<double> lengths;
   for (const DefectRow& row : table.rows) lengths.push_back(row.length());
-  table.suggestion = suggest_length(lengths, scale.edge, scale.size);
+  // A defect that lies badly for one coordinate has a short curve for another.
+  const bool looked_well = list.functions.size() >= std::min(3u, mesh.info().dimension);
+  table.suggestion = suggest_length(lengths, scale.edge, scale.size, looked_well);
   // Small and clear, small and unclear, then the rest by length; long ones that are small for the function first.
   const double limit = table.suggestion.length.value_or(0);
   const auto key = [&](const DefectRow& row) {

@@ -167,6 +167,16 @@ TEST(DefectLengths, AreDividedAtTheGap) {
   EXPECT_FALSE(suggest_length({}, 1, 10).length);
   EXPECT_FALSE(suggest_length(std::vector{100.0, 150.0}, 1, 1000).length);
   EXPECT_FALSE(suggest_length(std::vector{kInfinity}, 1, 1000).length);
+  // Loops without a curve are long ones only if curves were looked for along several functions.
+  const std::vector<double> unknown = {3, 4, kInfinity, kInfinity};
+  EXPECT_GT(suggest_length(unknown, 1, 1000).confidence, 0.9);
+  const auto unsure = suggest_length(unknown, 1, 1000, false);
+  ASSERT_TRUE(unsure.length);
+  EXPECT_LE(unsure.confidence, 0.5);
+  EXPECT_EQ(unsure.why,
+            "2 of 4 loops are at most 4 long (4 edges); for the 2 others no curve was found; graphs of other functions "
+            "may have one");
+  EXPECT_LE(suggest_length(std::vector{kInfinity}, 1, 1000, false).confidence, 0.5);
 }
 
 }  // namespace
