@@ -38,9 +38,11 @@ constexpr std::array<Names<MeshOrder>, 6> kOrders = {{{"rows", MeshOrder::kRows}
 bool has_tiles(MeshOrder order) { return order >= MeshOrder::kTiles; }
 
 template <class Table>
-[[noreturn]] void fail_unknown(const Table& table, std::string_view what, std::string_view name) {
+[[noreturn]] void fail_unknown(const Table& table, std::string_view what, std::string_view name,
+                               std::string_view also = "") {
   std::string known;
   for (const auto& [entry, value] : table) known += (known.empty() ? "" : ", ") + std::string(entry);
+  known += also;
   throw Error(ErrorKind::kUsage, "unknown " + std::string(what) + " '" + std::string(name) + "'",
               "choose one of " + known);
 }
@@ -202,7 +204,7 @@ std::unique_ptr<GeneratedMesh> generate_mesh(const GeneratorOptions& options, co
 MeshKind mesh_kind(std::string_view name) {
   for (const auto& [known, kind] : kKinds)
     if (known == name) return kind;
-  fail_unknown(kKinds, "kind of mesh", name);
+  fail_unknown(kKinds, "kind of mesh", name, ", volume");  // which is an image (volume.h)
 }
 
 void set_order(GeneratorOptions& options, std::string_view name) {

@@ -144,6 +144,9 @@ TEST_F(CommandLine, UnknownOptionsAreNamedWithTheNearest) {
   EXPECT_NE(outcome.error.find("hint: see `reeb extract --help`"), std::string::npos) << outcome.error;
   expect_error(reeb({"extract"}), 2, "FILE is missing");
   expect_error(reeb({"generate", "torus"}), 2, "--output is missing");
+  const Outcome tree = reeb({"generate", "tree", "-o", "t.ply"});
+  expect_error(tree, 2, "unknown kind of mesh 'tree'");
+  EXPECT_TRUE(lines_after("hint: ", tree.error).at(0).ends_with(", ball, volume")) << tree.error;
   expect_error(reeb({"mesh.off", "-o"}), 2, "--output needs one value");
   expect_error(reeb({"extract", "mesh.reeb", "--nodes", "3", "--threshold", "1"}), 2);
   expect_error(reeb({"plot", "mesh.reeb", "--kind", "foo"}), 2,

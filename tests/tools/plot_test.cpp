@@ -237,6 +237,10 @@ TEST_F(Plot, RefusesBeforeAnyWork) {
   for (const std::string view : {"0,0,0", "1,2", "1,2,3,4", "a,b,c", "1,2,inf", ""})
     expect_error(reeb({"plot", "scan.reeb", "--kind", "skeleton", "--view=" + view}), 2);
   expect_error(reeb({"plot", "scan.ply"}), 1, "scan.ply: this is a mesh");
+  std::filesystem::copy(in_folder("scan.ply"), in_folder("packed.ply.gz"));  // the name says so
+  const Outcome packed = reeb({"plot", "packed.ply.gz"});
+  expect_error(packed, 1, "packed.ply.gz: this is a mesh");
+  EXPECT_EQ(lines_after("hint: ", packed.error).at(0), "first `reeb packed.ply.gz`, then `reeb plot packed.reeb`");
   expect_error(reeb({"plot", "scan.reeb", "--kind", "skeleton", "--mesh", "scan.reeb", "-o", "a.svg"}), 1,
                "scan.reeb: this is a Reeb graph, not a mesh");
   expect_error(reeb({"plot", "scan.reeb", "--kind", "skeleton", "--mesh", "-", "-o", "a.svg"}), 2);

@@ -20,6 +20,7 @@
 #include "tools/library/compute.h"
 #include "tools/library/run_files.h"
 #include "tools/program/compute_report.h"
+#include "tools/program/input_kind.h"
 #include "tools/program/output.h"
 #include "tools/program/progress.h"
 #include "tools/program/quantity.h"

@@ -12,6 +12,13 @@
 
 namespace reeb::tools {
 
+std::string stem_of(const std::string& mesh) {
+  if (mesh == "-") return "mesh";
+  std::filesystem::path name = std::filesystem::path(mesh).filename();
+  if (name.extension() == ".gz" || name.extension() == ".zst") name = name.stem();
+  return name.stem().string();
+}
+
 void require_reeb_file(const std::string& path, const std::string& command) {
   if (path == "-")
     throw Error(ErrorKind::kUsage, "a Reeb graph cannot be read from standard input", "name a .reeb file");
@@ -29,7 +36,7 @@ void require_reeb_file(const std::string& path, const std::string& command) {
                 "reeb MESH makes a Reeb graph, a .reeb file, from a mesh")
         .at(path);
   }
-  const std::string graph = std::filesystem::path(path).stem().string() + ".reeb";
+  const std::string graph = stem_of(path) + ".reeb";
   const std::string what =
       image ? std::string(io::image_name(*image)) : "a mesh (" + std::string(io::format_name(format)) + ")";
   throw Error(ErrorKind::kBadInput, "this is " + what + ", not a Reeb graph",

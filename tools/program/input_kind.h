@@ -5,6 +5,9 @@
 
 namespace reeb::tools {
 
+// What outputs are named by default: scan.ply.gz -> scan, - -> mesh
+std::string stem_of(const std::string& mesh);
+
 // For `reeb COMMAND FILE`, where FILE must be a Reeb graph.
 // THROWS: Error{kBadInput} that says what the file is instead, and what to do.
 void require_reeb_file(const std::string& path, const std::string& command);

@@ -13,6 +13,7 @@
 #include "libreeb/base/error.h"
 #include "libreeb/base/printable.h"
 #include "tools/library/fragment.h"
+#include "tools/program/input_kind.h"
 #include "tools/program/progress.h"
 #include "tools/program/signals.h"
 #include "tools/program/wrapping.h"

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
-#include <filesystem>
 #include <thread>
 
 #include "libreeb/base/count_text.h"
@@ -12,8 +11,6 @@
 #include "tools/program/quantity.h"
 
 namespace reeb::tools {
-
-namespace fs = std::filesystem;
 
 RunArguments::RunArguments() {
   options.threads = std::max(1u, std::thread::hardware_concurrency());
@@ -59,14 +56,6 @@ void take_denoise(RunArguments& arguments) {
   if (arguments.denoise.empty()) return;
   arguments.options.denoise_is_share = arguments.denoise.ends_with('%');
   arguments.options.denoise = parse_threshold("--denoise", arguments.denoise, 1.0);
-}
-
-// scan.ply.gz -> scan, - -> mesh
-std::string stem_of(const std::string& mesh) {
-  if (mesh == "-") return "mesh";
-  fs::path name = fs::path(mesh).filename();
-  if (name.extension() == ".gz" || name.extension() == ".zst") name = name.stem();
-  return name.stem().string();
 }
 
 std::string describe(const MeshInfo& info) {

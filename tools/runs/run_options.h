@@ -25,8 +25,6 @@ void add_run_options(Command command, RunArguments& arguments);
 // Turns the text of --denoise into options. THROWS: Error{kUsage}.
 void take_denoise(RunArguments& arguments);
 
-// scan.ply.gz -> scan, - -> mesh
-std::string stem_of(const std::string& mesh);
 // "PLY binary little endian, 5 vertices, 6 faces"
 std::string describe(const MeshInfo& info);
 ProgressBar::Pass pass_of(ComputeProgress::Phase phase);
