@@ -404,6 +404,14 @@ TEST_F(RepairTest, RefusesWhatItCannotDo) {
   EXPECT_EQ(reeb({"repair", "t.ply", "-o", "p.ply", "--drop-components", "5"}).exit_code, 2);
   EXPECT_EQ(reeb({"repair", "t.ply", "-o", "p.ply", "--fill-boundaries", "x"}).exit_code, 2);
   EXPECT_EQ(reeb({"repair", "t.ply", "-o", "p.ply", "--longest", "1%"}).exit_code, 2);
+  for (const char* length : {"-1", "x", "3%"}) {
+    const Outcome outcome = reeb({"repair", "t.ply", "-o", "p.ply", "--longest", length});
+    expect_error(outcome, 2, "--longest: \"" + std::string(length) + "\" is not a length");
+    EXPECT_EQ(lines_after("hint: ", outcome.error).at(0), "give it in the units of the mesh");
+  }
+  // They number vertices in another way, or hold float32 only.
+  for (const char* output : {"p.sma", "p.events.txt", "p.cx"})
+    expect_error(reeb({"repair", "t.ply", "-o", output}), 2, output);
   EXPECT_EQ(reeb({"repair", "-", "-o", "p.ply"}).exit_code, 2);
   // An undo file of another mesh, or damaged.
   EXPECT_EQ(reeb({"repair", "t.ply", "--apply-undo", "o.undo", "-o", "p.ply"}).exit_code, 1);

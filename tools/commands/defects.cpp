@@ -69,10 +69,7 @@ class Filter {
       below_ = parse_threshold("--below", options.below, 100);
       below_percent_ = options.below.ends_with('%');
     }
-    if (!options.longest.empty()) longest_ = parse_threshold("--longest", options.longest, 1);
-    if (options.longest.ends_with('%'))
-      throw Error(ErrorKind::kUsage, "--longest: \"" + options.longest + "\" is not a length",
-                  "give it in the units of the mesh");
+    if (!options.longest.empty()) longest_ = parse_length("--longest", options.longest);
   }
   bool lists(const DefectRow& row) const {
     return (below_percent_ ? row.percent : row.persistence) < below_ && row.length() <= longest_;

@@ -11,7 +11,6 @@
 
 #include "io/file/file_name.h"
 #include "io/file/temp_dir.h"
-#include "io/formats/create_mesh.h"
 #include "libreeb/base/count_text.h"
 #include "libreeb/base/error.h"
 #include "libreeb/base/printable.h"
@@ -35,13 +34,6 @@ struct RepairArguments {
   std::string below, longest, log, undo, apply_undo, drop_components, fill_boundaries;
   bool force = false, quiet = false;
 };
-
-double parse_length(const std::string& option, const std::string& text) {
-  const double length = text.ends_with('%') ? -1 : parse_threshold(option, text, 1);
-  if (!(length >= 0))
-    throw Error(ErrorKind::kUsage, option + ": \"" + text + "\" is not a length", "give it in the units of the mesh");
-  return length;
-}
 
 void parse(RepairArguments& arguments) {
   RowFilter& filter = arguments.options.filter;
@@ -69,7 +61,12 @@ void check_files(const RepairArguments& arguments) {
     throw Error(ErrorKind::kUsage, "--apply-undo goes with neither --log nor --undo", "leave them out");
   if (ooc::is_reeb_file(options.mesh.path))
     throw Error(ErrorKind::kBadInput, "this is a Reeb graph, not a mesh", "name the mesh").at(options.mesh.path);
-  io::check_mesh_name(options.output);
+  const std::string suffix = io::name_suffix(options.output);
+  // Other formats number vertices in another way, or hold float32 only.
+  if (suffix != ".ply" && suffix != ".obj" && suffix != ".off")
+    throw Error(ErrorKind::kUsage, "a repaired mesh is written as PLY, OBJ or OFF",
+                "end the name of the output in .ply, .obj or .off")
+        .at(options.output);
   RunFiles files;
   files.add_input(options.mesh.path, "the mesh");
   if (!options.filter.loops.empty()) files.add_input(options.filter.loops, "the table of loops");
@@ -166,11 +163,7 @@ void add_repair(Program& program) {
   RepairOptions& options = arguments->options;
   Command command = program.add_command("repair", "Cut small handles and fill tunnels of a surface");
   command.add_option("MESH", options.mesh.path, "Mesh of any format, also as .gz and .zst").required().type_name("");
-  command
-      .add_option("-o,--output", options.output,
-                  "Mesh to write: .ply .obj .off .cx .sma .smb .smc .sva .svb; .events.txt lists the events")
-      .required()
-      .type_name("OUT");
+  command.add_option("-o,--output", options.output, "Mesh to write: .ply, .obj or .off").required().type_name("OUT");
   command.add_option("--below", arguments->below, "Loops of less persistence: 0.01, or 0.1% of the function's range")
       .type_name("T");
   command.add_option("--longest", arguments->longest, "Loops with a curve of at most this length").type_name("LENGTH");

@@ -83,4 +83,11 @@ double parse_threshold(const std::string& option, const std::string& text, doubl
   return rest.empty() ? value : value / 100 * range;
 }
 
+double parse_length(const std::string& option, const std::string& text) {
+  std::string_view rest = text;
+  const double length = take_number(rest);
+  if (!(length >= 0) || !rest.empty()) refuse(option, text, "a length", "give it in the units of the mesh");
+  return length;
+}
+
 }  // namespace reeb::tools

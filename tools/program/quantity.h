@@ -23,4 +23,7 @@ std::uint64_t parse_count(const std::string& option, const std::string& text, Co
 // "0.01" in units of the function, or "0.1%" of `range`. THROWS: Error{kUsage}.
 double parse_threshold(const std::string& option, const std::string& text, double range);
 
+// "2.5" in units of the mesh. THROWS: Error{kUsage}.
+double parse_length(const std::string& option, const std::string& text);
+
 }  // namespace reeb::tools
