@@ -6,6 +6,7 @@
 #include "io/file/checksum.h"
 #include "io/file/zstd_codec.h"
 #include "libreeb/base/byte_coding.h"
+#include "ooc/reeb_file/reeb_file.h"
 
 namespace reeb::ooc {
 namespace {
@@ -35,6 +36,10 @@ void FrameFile::read_header() {
   std::uint64_t region_bytes = 0;
   if (const auto version = unknown_version(region))
     fail(8, "the format version is " + std::to_string(*version) + ", and this program reads 1 and 2");
+  if (!is_reeb_file(region))
+    throw Error(ErrorKind::kBadInput, "this is not a .reeb file",
+                "name a .reeb file; `reeb MESH` makes one from a mesh, and so does reeb.compute in Python")
+        .at(file_.path(), "0");
   if (const char* why = decode_region_bytes(region, region_bytes)) fail(0, why);
   if (region_bytes > file_.size()) fail(file_.size(), "the file ends within its header");
   region.resize(region_bytes);
