@@ -4,6 +4,7 @@ import os
 import pickle
 import signal
 import subprocess
+import sys
 import threading
 import time
 
@@ -39,7 +40,9 @@ NAN[5, 1] = np.nan
         ((VERTICES, np.array([[2**64 - 1]], "u8")), {}, f"names vertex {2**64 - 1}", "faces[0, 0]", "input"),
         ((VERTICES, FACES.astype(object)), {}, "astype(int)", None, "input"),
         ((np.ma.masked_less(VERTICES, 0), FACES), {}, "masked", None, "input"),
-        ((np.ma.masked_less(VERTICES, 0),), {}, 'nodata="skip"', None, "input"),
+        ((np.ma.masked_less(VERTICES, 0),), {"f": "value"}, 'nodata="skip"', None, "input"),
+        ((VERTICES,), {}, "faces are missing", None, "usage"),
+        ((VERTICES[:, :2].tolist(),), {"f": "y"}, "faces are missing", None, "usage"),
         ((VERTICES, FACES.ravel()), {}, "1 axes", None, "input"),
         ((VERTICES, np.zeros((1, 10), int)), {}, "10 columns", None, "input"),
         ((VERTICES, [[0, 1, 2], [0, 1]]), {}, "faces is no array", None, "input"),
@@ -68,7 +71,7 @@ NAN[5, 1] = np.nan
         ((np.zeros((0, 3)),), {}, "no values", None, "input"),
         ((np.zeros((2, 2, 2, 2)),), {}, "4 axes", None, "input"),
         ((np.zeros((2, 2)),), {"spacing": [1, 2, 3]}, "3 numbers", None, "usage"),
-        ((np.zeros((2, 2)),), {"f": "property:a"}, "the image has no", None, "input"),
+        ((np.zeros((2, 4)),), {"f": "property:a"}, "the image has no", None, "input"),
         ((3,), {}, "0 axes", None, "input"),
         ((None,), {}, "0 axes", None, "input"),
         (("x.ply", FACES), {}, "takes no arrays", None, "usage"),
@@ -100,6 +103,33 @@ def test_bad_arguments_say_what_and_where(arguments, options, words, position, k
 def test_defects_of_lines_and_triangles_are_refused():
     with pytest.raises(reeb.Error, match="only surfaces"):
         reeb.defects(VERTICES, {"triangle": FACES, "line": FACES[:, :2]})
+
+
+def test_images_two_or_three_wide_are_named_as_such():
+    image = np.arange(12.0).reshape(4, 3)
+    assert reeb.compute(image, f="value").function == "value"
+    assert reeb.compute(image, spacing=(1, 1)) == reeb.compute(image, f="value")
+
+
+def test_a_mesh_in_a_file_takes_no_arrays(tmp_path):
+    path = write_ply(tmp_path / "t.ply", VERTICES, FACES)
+    graph = reeb.compute(path, output=tmp_path / "t.reeb")
+    for action in (
+        lambda: reeb.defects(path, graph),
+        lambda: reeb.segment(graph, path, FACES),
+        lambda: reeb.segment(graph, path, values=VERTICES[:, 2]),
+    ):
+        with pytest.raises(reeb.Error, match="takes no arrays") as caught:
+            action()
+        assert caught.value.kind == "usage" and caught.value.hint
+
+
+def test_defects_of_cells_are_refused(tmp_path):
+    program = os.environ["REEB_PROGRAM"]
+    ball = tmp_path / "ball.svb"
+    subprocess.run([program, "generate", "ball", "--tetrahedra", "300", "-o", ball], check=True, capture_output=True)
+    with pytest.raises(reeb.Error, match="has cells"):
+        reeb.defects(ball)
 
 
 def test_defects_of_a_bad_vertex_name_the_array():
@@ -139,8 +169,9 @@ def test_files_say_what_and_where(tmp_path):
     assert isinstance(error_of(VERTICES, FACES, output=tmp_path / "no" / "a.reeb"), OSError)
     with pytest.raises(FileNotFoundError):
         reeb.open(tmp_path / "none.reeb")
-    with pytest.raises(reeb.Error, match="not a .reeb file"):
+    with pytest.raises(reeb.Error, match="not a .reeb file") as caught:
         reeb.open(tmp_path / "t.ply")
+    assert "damaged" not in caught.value.hint
     with pytest.raises(reeb.Error):
         reeb.open(tmp_path / "old.reeb").level(nodes=1)
 
@@ -227,6 +258,13 @@ def test_what_a_callback_raises_ends_the_run():
 def test_bars(capsys):
     reeb.compute(long_work()[:40], progress=True)
     assert "reeb" in capsys.readouterr().err
+
+
+def test_a_bar_in_a_file_has_no_codes_of_terminals(capsys, monkeypatch):
+    monkeypatch.setitem(sys.modules, "tqdm", None)
+    reeb.compute(long_work()[:40], progress=True)
+    shown = capsys.readouterr().err
+    assert "reeb\n" in shown and "\x1b" not in shown and "\r" not in shown
 
 
 def test_several_threads_compute_at_once():

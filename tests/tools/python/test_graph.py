@@ -174,6 +174,7 @@ def test_pictures(noisy, tmp_path):
     mesh, _, _, graph = noisy
     for kind in ("graph", "diagram", "loops", "skeleton"):
         picture = graph.level("10%").plot(tmp_path / f"{kind}.svg", kind=kind)
+        assert "level at threshold 10%" in picture.svg
         assert picture.svg.startswith("<") and (tmp_path / f"{kind}.svg").read_text() == picture.svg
     assert graph.plot(kind="skeleton", mesh=mesh, view=(1, 1, 1)).svg != picture.svg
     with pytest.raises(FileExistsError):

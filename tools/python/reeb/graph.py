@@ -95,9 +95,9 @@ class Graph:
         raise TypeError("graphs come from reeb.compute, reeb.open and reeb.Online")
 
     @classmethod
-    def _make(cls, store, version=0, *, arrays=None, function="", result=None, listener=None):
+    def _make(cls, store, version=0, *, arrays=None, function="", result=None, listener=None, asked=""):
         graph = cls.__new__(cls)
-        graph._store, graph._version, graph._arrays = store, version, arrays
+        graph._store, graph._version, graph._arrays, graph._asked = store, version, arrays, asked
         graph._pairs = graph._header = graph._levels = None
         graph._listener, graph._progressive = listener, None
         graph.result = result or {}
@@ -206,7 +206,8 @@ class Graph:
             reeb.Error: even the coarsest level is larger, or the graph has no levels.
         """
         version = self._choose(threshold, nodes, memory)
-        return Graph._make(self._store, version, function=self.function, result=self.result)
+        asked = _threshold_text(threshold)
+        return Graph._make(self._store, version, function=self.function, result=self.result, asked=asked)
 
     def refine(self, threshold=None, *, nodes=None, memory=None):
         """Moves this graph to a finer level: that of level(); or, without arguments, to the next of `levels`. A level
@@ -341,7 +342,8 @@ class Graph:
             if len(view) != 3:
                 raise Error(f"view has {len(view)} numbers", "(x, y, z), towards the eye", kind="usage")
         with self._store.named() as file:
-            text = _reeb.plot(file, self._version, kind, "" if mesh is None else os.fsencode(mesh), view)
+            path = "" if mesh is None else os.fsencode(mesh)
+            text = _reeb.plot(file, self._version, self._asked, kind, path, view)
         picture = Picture(text)
         if output is not None:
             picture.save(output, force=force)
@@ -375,13 +377,13 @@ class Graph:
     def __getstate__(self):
         content = self._store.bytes() if self._store is not None else None
         arrays = None if self._store is not None else self._arrays
-        return (content, self._version, arrays, self.function, self.result)
+        return (content, self._version, arrays, self.function, self.result, self._asked)
 
     def __setstate__(self, state):
-        content, version, arrays, function, result = state
+        content, version, arrays, function, result, asked = state
         store = _Store(None, content) if content is not None else None
         self.__dict__.update(
-            Graph._make(store, version, arrays=arrays, function=function, result=result).__dict__
+            Graph._make(store, version, arrays=arrays, function=function, result=result, asked=asked).__dict__
         )
 
     # -- within
@@ -451,7 +453,7 @@ class Graph:
         if self._listener is not None:
             self._listen(version)
         if version != self._version:
-            self._version, self._arrays, self._pairs = version, None, None
+            self._version, self._arrays, self._pairs, self._asked = version, None, None, ""
         return self
 
     def _listen(self, version):
@@ -484,7 +486,7 @@ def open(path, *, threshold=None, nodes=None, memory=None, listener=None):
     version = 0
     if (threshold, nodes, memory) != (None, None, None):
         version = graph._choose(threshold, nodes, memory)
-    graph._version = version
+    graph._version, graph._asked = version, _threshold_text(threshold)
     if listener is not None:
         graph._listen(version)
     return graph
@@ -507,6 +509,11 @@ def _missing(method, packages, of_debian):
         f"install it, on Debian as {of_debian}",
         kind="resource",
     )
+
+
+def _threshold_text(threshold):
+    """As titles say it, and as the compiled part reads it."""
+    return "" if threshold is None else threshold if isinstance(threshold, str) else repr(float(threshold))
 
 
 def _whole(name, value):

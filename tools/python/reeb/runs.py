@@ -57,14 +57,14 @@ def compute(
             - a networkx.Graph: its nodes in their order, with the attribute `pos`, or x, y and z, as positions, and
               other attributes for f="property:NAME";
             - an image or volume, an array (ny, nx) or (nz, ny, nx), without `faces`. Its vertices are numbered as
-              numpy.ravel does.
+              numpy.ravel does. An image 2 or 3 wide needs f="value": else it is taken for vertices without faces.
         faces: simplices, an array (m, k), k from 1 to 9: triangles (m, 3), tetrahedra (m, 4), edges (m, 2). Any type
             of integer, any layout; nothing is copied. A dict of such arrays by meshio's names of cells is possible.
         values: the function, an array (n,); or a dict of arrays, of which f="property:NAME" chooses one.
         f: the function: "x", "y", "z", "cK", "index", "random:SEED", "property:NAME", "file:PATH" (.npy, .f64 or
             text), "distance:VERTEX", "distance:X,Y,Z", "geodesic:VERTEX", "laplacian:K", "spectral", "value" (of an
-            image). Or an array (n,). Default: "z", of an image "value". A list gives a list of graphs, from one
-            reading.
+            image). Or an array (n,). Default: "z", or the last coordinate if there are fewer than three; of an image
+            "value". A list gives a list of graphs, from one reading.
         output: the .reeb file to write; for several functions a list. Default: nothing is left on disk.
         memory: what the run may use: bytes, or "64M", "1.5GiB". Arrays of the caller and Python are not counted.
         denoise: minima and maxima of less persistence are removed: 0.01 in units of the function, or "0.1%" of its
@@ -109,10 +109,8 @@ def compute(
         options["snapshot_every"] = _integer("snapshot_every", snapshot_every, 1, _MOST)
     _check_uses(options, output, is_path(mesh))
     if is_path(mesh):
-        if faces is not None or values is not None or any(not isinstance(g, (str, type_none)) for g in functions):
-            raise Error(
-                "a mesh in a file takes no arrays", 'name a file of values: f="file:PATH.npy"', kind="usage"
-            )
+        arrays = [g for g in functions if not isinstance(g, (str, type_none))]
+        _refuse_arrays('name a file of values: f="file:PATH.npy"', faces, values, *arrays)
         held = os.fsencode(mesh)
         _add_image(options, spacing, origin, nodata, grid, type, skip)
     else:
@@ -137,6 +135,11 @@ def _check_uses(options, output, is_file):
             raise Error(f"{name} is for a mesh in a file", f"leave out {name}, or pass a path", kind="usage")
         if output is None and name != "sidecar":
             raise Error(f"{name} needs an output", 'output="NAME.reeb"', kind="usage")
+
+
+def _refuse_arrays(hint, *arrays):
+    if any(array is not None for array in arrays):
+        raise Error("a mesh in a file takes no arrays", hint, kind="usage")
 
 
 def _refuse_of_files(**options):
@@ -201,6 +204,8 @@ def _held(mesh, faces, values, functions, spacing, origin, nodata):
             raise Error(
                 "an image takes no other values", "pass the values as the image, or faces for a mesh", kind="usage"
             )
+        if not any(g is not None and g.startswith("value") for g in functions):
+            _refuse_vertices(mesh, (spacing, origin, nodata))
         return _arrays.image_of_array(mesh, spacing, origin, nodata), functions
     for name, value in (("spacing", spacing), ("origin", origin), ("nodata", nodata)):
         if value is not None:
@@ -218,6 +223,13 @@ def _held(mesh, faces, values, functions, spacing, origin, nodata):
     # Only what is used is checked.
     used = {g.split(":", 1)[1] for g in functions if g is not None and g.startswith("property:")}
     return _arrays.mesh_of_arrays(mesh, faces, {name: data[name] for name in data if name in used}), functions
+
+
+# Vertices of a mesh are an array like an image that is 2 or 3 wide, of which hardly anyone has one.
+def _refuse_vertices(array, of_image):
+    shape = array.shape if hasattr(array, "shape") else np.shape(np.asarray(array, dtype=object))
+    if len(shape) == 2 and shape[0] and shape[1] in (2, 3) and all(option is None for option in of_image):
+        raise Error("faces are missing", f'for an image {shape[1]} wide, say f="value"', kind="usage")
 
 
 # Of a network whose nodes have no positions.
@@ -346,13 +358,24 @@ class _TqdmBar:
 
 
 class _PlainBar:
+    """A line that is written again and again on a terminal; elsewhere a line for each phase."""
+
+    def __init__(self):
+        self._phase = None
+        self._is_terminal = sys.stderr.isatty()
+
     def show(self, phase, done, total):
-        share = f"{100 * done // total} %" if total else ""
-        sys.stderr.write(f"\r{phase} {share}\x1b[K")
+        if self._is_terminal:
+            share = f"{100 * done // total} %" if total else ""
+            sys.stderr.write(f"\r{phase} {share}\x1b[K")
+        elif phase != self._phase:
+            sys.stderr.write(f"{phase}\n")
+        self._phase = phase
         sys.stderr.flush()
 
     def close(self):
-        sys.stderr.write("\r\x1b[K")
+        if self._is_terminal:
+            sys.stderr.write("\r\x1b[K")
         sys.stderr.flush()
 
 
@@ -408,6 +431,7 @@ def segment(
     options = {}
     _add_common(options, memory, threads, format, temp_dir)
     if is_path(mesh):
+        _refuse_arrays("leave them out; the graph says its function", faces, values)
         held = os.fsencode(mesh)
         _add_image(options, spacing, origin, nodata, grid, type, skip)
     else:
@@ -470,6 +494,7 @@ def defects(
     files = [os.fsencode(path) for path in ([graphs] if is_path(graphs) else graphs)]
     with _Bar(progress) as report, tempfile.TemporaryDirectory(prefix="reeb-", dir=temp_dir) as folder:
         if is_path(mesh):
+            _refuse_arrays('name its graphs: graphs=["scan.reeb"]', faces)
             path = os.fsencode(mesh)
         else:
             _refuse_of_files(format=format)
