@@ -118,6 +118,7 @@ void MemoryBudget::refuse(const char* owner, std::uint64_t from, std::uint64_t t
 }
 
 std::string format_bytes(std::uint64_t bytes) {
+  if (bytes == 1) return "1 byte";
   static constexpr std::array<const char*, 5> kUnits = {"bytes", "KiB", "MiB", "GiB", "TiB"};
   double size = static_cast<double>(bytes);
   std::size_t unit = 0;

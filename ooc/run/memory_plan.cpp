@@ -69,15 +69,15 @@ MemoryPlan plan_memory(const MemoryRequest& request) {
   const std::uint64_t limit =
       request.limit_bytes == MemoryBudget::kUnlimited ? machine_bytes() / 2 : request.limit_bytes;
   if (limit < kSmallestBudget)
-    throw Error(ErrorKind::kResource,
-                "a run needs at least " + format_bytes(kSmallestBudget) + " of memory, but only " +
-                    format_bytes(limit) + " is allowed",
-                "allow more, for instance --memory 32M");
+    throw Error(
+        ErrorKind::kResource,
+        "a run needs at least " + format_bytes(kSmallestBudget) + " of memory, but may use only " + format_bytes(limit),
+        "allow more, for instance --memory 32M");
   if (limit < kSmallestBudget + request.reader_bytes) {
     const std::string megabytes = std::to_string(((kSmallestBudget + request.reader_bytes) >> 20) + 1) + "M";
     throw Error(ErrorKind::kResource,
                 "unpacking the input takes " + format_bytes(request.reader_bytes) + ", and the run at least " +
-                    format_bytes(kSmallestBudget) + ", but only " + format_bytes(limit) + " is allowed",
+                    format_bytes(kSmallestBudget) + ", but they may use only " + format_bytes(limit),
                 "allow --memory " + megabytes + ", or unpack the input first");
   }
   MemoryPlan plan;

@@ -38,6 +38,12 @@ TEST(MemoryBudget, RefusesANewOwnerWhenTheSystemHasNoMemoryForTheEntry) {
   EXPECT_EQ(budget.peak_bytes(), 20u);
 }
 
+TEST(MemoryBudget, SizesAreTextWithAPlural) {
+  EXPECT_EQ(format_bytes(0), "0 bytes");
+  EXPECT_EQ(format_bytes(1), "1 byte");
+  EXPECT_EQ(format_bytes(1536), "1.5 KiB");
+}
+
 TEST(MemoryBudget, NamesTheOwnersWhenItRefuses) {
   MemoryBudget budget(1000, 24);
   const Reservation held = budget.reserve("chunks", 900);
