@@ -157,6 +157,7 @@ void run(reeb::tools::World& world, int argc, char** argv) {
   Arguments arguments;
   arguments.options.threads = 0;  // the cores of a machine are divided
   reeb::tools::Program program("reeb-mpi", "Exact Reeb graphs of meshes of any size, by many processes");
+  program.set_version("reeb-mpi " REEB_VERSION);
   reeb::tools::Command command = program.add_command("compute", "Compute the Reeb graph of a mesh");
   command.add_option("MESH", arguments.mesh, "Mesh or image of any format, which every rank can read")
       .required()
@@ -164,10 +165,18 @@ void run(reeb::tools::World& world, int argc, char** argv) {
   command.add_option("-o,--output", arguments.output, "File to write, where every rank can write")
       .required()
       .type_name("FILE");
-  reeb::tools::add_run_options(command, arguments);
+  reeb::tools::add_run_options(
+      command, arguments,
+      {.memory = "Memory that each rank may use: 64M, 1.5GiB (default: no limit)",
+       .threads = "Number of threads of each rank, 1 to 1024 (default: the cores of a machine, divided by the ranks on "
+                  "it)"});
   command.add_option("--report", arguments.report, "Write figures of the run as JSON").type_name("FILE");
   command.callback([&] { compute(world, std::move(arguments)); });
   const std::vector<std::string> words(argv + 1, argv + argc);
+  if (!words.empty() && !words[0].starts_with('-') && !program.has_command(words[0]))
+    throw Error(ErrorKind::kUsage, "there is no command '" + words[0] + "'",
+                fs::exists(words[0]) ? "write reeb-mpi compute " + words[0] + " -o OUT.reeb"
+                                     : "the only command is compute: reeb-mpi compute MESH -o OUT.reeb");
   const auto text = program.run(words.empty() ? std::vector<std::string>{"--help"} : words);
   if (text && world.is_root()) fmt::print("{}", *text);
 }

@@ -73,6 +73,11 @@ expect_failure() {
   test "$(grep -c 'error: ' error.txt)" = 1 || fail "$1: not one text: $(cat error.txt)"
   test ! -e none.reeb || fail "$1: there is an output"
 }
+"$reeb_mpi" --version | grep -q '^reeb-mpi [0-9]' || fail "--version: no version"
+code=0
+"$reeb_mpi" scan.ply 2> error.txt || code=$?
+expect_failure "a mesh without a command" 2
+grep -q "^hint: write reeb-mpi compute scan.ply -o OUT.reeb" error.txt || fail "no hint: $(cat error.txt)"
 code=0
 mpi 2 nothing.ply -o none.reeb 2> error.txt || code=$?
 expect_failure "a missing mesh" 1

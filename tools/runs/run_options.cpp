@@ -18,7 +18,7 @@ RunArguments::RunArguments() {
   if (const char* seconds = std::getenv("REEB_CHECKPOINT_SECONDS")) options.checkpoint_seconds = std::atof(seconds);
 }
 
-void add_run_options(Command command, RunArguments& arguments) {
+void add_run_options(Command command, RunArguments& arguments, const RunTexts& texts) {
   ComputeOptions& options = arguments.options;
   command
       .add_option(
@@ -30,7 +30,7 @@ void add_run_options(Command command, RunArguments& arguments) {
       .option_text("FUNC");
   command.add_flag("--graph-only", options.graph_only, "Stop after the graph: no pairs, no levels");
   add_format(command, options.format);
-  add_size(command, "--memory", options.memory_bytes, "Memory that the run may use: 64M, 1.5GiB (default: no limit)");
+  add_size(command, "--memory", options.memory_bytes, texts.memory);
   command
       .add_option("--denoise", arguments.denoise,
                   "Remove minima and maxima of less persistence: 0.01 (function units), or 0.1% (of the range)")
@@ -38,8 +38,7 @@ void add_run_options(Command command, RunArguments& arguments) {
   add_count(command, "--buckets", options.buckets,
             "Embed arcs in at least N buckets of value (default: 64; 0: no embedding)", {.most = 1u << 20});
   add_image_options(command, arguments.options.image);
-  add_count(command, "--threads", options.threads, "Number of threads, 1 to 1024 (default: all)",
-            {.least = 1, .most = 1024});
+  add_count(command, "--threads", options.threads, texts.threads, {.least = 1, .most = 1024});
   add_count(command, "--chunk", options.chunk_triangles, "Triangles per chunk (default: adaptive)", {.least = 1});
   command
       .add_option("--temp-dir", options.temp_dir,

@@ -20,8 +20,14 @@ struct RunArguments {
   bool quiet = false;
 };
 
+// What the help says of --memory and --threads.
+struct RunTexts {
+  const char* memory = "Memory that the run may use: 64M, 1.5GiB (default: no limit)";
+  const char* threads = "Number of threads, 1 to 1024 (default: all)";
+};
+
 // `arguments` must outlive the parsing.
-void add_run_options(Command command, RunArguments& arguments);
+void add_run_options(Command command, RunArguments& arguments, const RunTexts& texts = {});
 // Turns the text of --denoise into options. THROWS: Error{kUsage}.
 void take_denoise(RunArguments& arguments);
 
