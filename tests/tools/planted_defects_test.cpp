@@ -277,6 +277,10 @@ TEST_F(PlantedDefects, FoldersOfPatchesAreCheckedFirst) {
   expect_success(reeb({"defects", "t.ply", "--patches", "near", "--quiet"}));
   expect_error(reeb({"defects", "t.ply", "--patches", "near", "--quiet"}), 1);
   expect_success(reeb({"defects", "t.ply", "--patches", "near", "--quiet", "--force"}));
+  const Outcome said = reeb({"defects", "t.ply", "--patches", "near", "-o", "t.csv", "--force"});
+  expect_success(said);
+  EXPECT_EQ(lines_after("wrote ", said.error),
+            (std::vector<std::string>{"near: surfaces and curves of 1 loop", "t.csv"}));
 }
 
 TEST_F(PlantedDefects, OptionsChooseRowsAndWritePatches) {

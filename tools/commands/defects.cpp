@@ -10,8 +10,10 @@
 
 #include "io/file/file_name.h"
 #include "io/file/temp_dir.h"
+#include "libreeb/base/count_text.h"
 #include "libreeb/base/error.h"
 #include "libreeb/base/memory_budget.h"
+#include "libreeb/base/printable.h"
 #include "ooc/reeb_file/reeb_file.h"
 #include "tools/arguments/image_options.h"
 #include "tools/arguments/options.h"
@@ -25,6 +27,7 @@
 #include "tools/program/output.h"
 #include "tools/program/progress.h"
 #include "tools/program/signals.h"
+#include "tools/program/wrapping.h"
 
 namespace reeb::tools {
 namespace {
@@ -102,8 +105,11 @@ void run_defects(DefectsOptions options) {
   if (!options.patches.empty()) {
     const std::size_t most = options.limit == kNoLimit ? kMostPatches : rows.size();
     const ValuedMesh mesh(options.find.mesh, defects.functions);
-    write_patches(mesh, defects, std::span(rows).first(std::min(rows.size(), most)), options.patches,
-                  existing_outputs(options.force));
+    const auto drawn = std::span(rows).first(std::min(rows.size(), most));
+    write_patches(mesh, defects, drawn, options.patches, existing_outputs(options.force));
+    if (!options.quiet)
+      print_line(fmt::format("wrote {}: surfaces and curves of {}", printable(options.patches),
+                             count_of(drawn.size(), "loop")));
   }
   if (options.output.empty()) return;
   write_output(options.output, options.force, [&](std::ostream& out) {
@@ -112,6 +118,7 @@ void run_defects(DefectsOptions options) {
     else
       write_defect_csv(defects, rows, out);
   });
+  if (!options.quiet && options.output != "-") print_line("wrote " + printable(options.output));
 }
 
 }  // namespace
