@@ -394,6 +394,16 @@ TEST_F(RepairTest, LeavesNothingHalfWrittenWhenItIsKilled) {
   for (std::size_t i = 0; i < names.size(); ++i) EXPECT_TRUE(file(names[i]) == bytes[i]) << names[i];
 }
 
+TEST_F(RepairTest, SaysWhyLoopsAreLeft) {
+  expect_success(reeb({"generate", "plate", "--triangles", "10k", "-o", "p.ply"}));
+  const Outcome limited = reeb({"repair", "p.ply", "-o", "a.ply", "--all", "--limit", "1"});
+  expect_success(limited);
+  EXPECT_NE(limited.error.find(" left: beyond --limit\n"), std::string::npos) << limited.error;
+  const Outcome none = reeb({"repair", "p.ply", "-o", "b.ply", "--below", "0%"});
+  expect_success(none);
+  EXPECT_NE(none.error.find(" left: persistence not below 0%\n"), std::string::npos) << none.error;
+}
+
 TEST_F(RepairTest, RefusesWhatItCannotDo) {
   expect_success(reeb({"generate", "torus", "--triangles", "2000", "-o", "t.ply"}));
   expect_success(reeb({"repair", "t.ply", "-o", "o.ply", "--all", "--undo", "o.undo", "--log", "o.json", "--quiet"}));

@@ -12,6 +12,7 @@
 #include "tools/library/run_input.h"
 #include "tools/measures/open_segmentation.h"
 #include "tools/program/progress.h"
+#include "tools/program/wrapping.h"
 
 namespace reeb::tools {
 namespace {
@@ -76,12 +77,11 @@ ooc::MeasuredArcs measure_level(const ooc::ReebFile& file, const ooc::Level& lev
   input.input().check_unchanged();
   order_as_in(level, measured);
   if (!request.quiet && measured.doubtful_area + measured.dropped_area > 0)
-    fmt::print(
-        stderr,
-        "reeb: note: {:.2g} % of the area is on no arc: {:.2g} % where an edge of the mesh is as high as a loop, "
-        "{:.2g} % with dropped vertices\n",
-        100 * (measured.doubtful_area + measured.dropped_area) / measured.area,
-        100 * measured.doubtful_area / measured.area, 100 * measured.dropped_area / measured.area);
+    print_line(
+        fmt::format("note: {:.2g} % of the area is on no arc: {:.2g} % where an edge of the mesh is as high as a loop, "
+                    "{:.2g} % with dropped vertices",
+                    100 * (measured.doubtful_area + measured.dropped_area) / measured.area,
+                    100 * measured.doubtful_area / measured.area, 100 * measured.dropped_area / measured.area));
   return measured;
 }
 

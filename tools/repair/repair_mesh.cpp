@@ -44,7 +44,7 @@ class Plan {
     for (std::size_t i = 0; i < rows.size(); ++i) {
       if (!rows[i].why_not.empty() || !is_dropped(cleaning, *rows[i].row)) continue;
       failed[i] = 1;
-      repair_.rows[i].why = "its component is dropped";
+      repair_.rows[i].why = "component dropped";
     }
     for (bool again = true; again;) {
       again = false;
@@ -81,7 +81,7 @@ class Plan {
     for (std::size_t i = 0; i < repair_.rows.size(); ++i) {
       RepairedRow& row = repair_.rows[i];
       repair_.repaired += row.done ? 1u : 0u;
-      if (!row.done && row.why.empty()) row.why = "it is beyond --limit";
+      if (!row.done && row.why.empty()) row.why = "beyond --limit";
     }
     if (repair_.mesh_triangles == 0) count(mesh);
     add_drops(cleaning, mesh);

@@ -84,20 +84,20 @@ std::map<LoopName, std::size_t> read_names(const std::string& path) {
 
 std::string why_filtered(const DefectRow& row, const Defects& defects, const RowFilter& filter) {
   if (filter.longest && !(row.length() <= *filter.longest))
-    return fmt::format("its curve is longer than --longest {:.6g}", *filter.longest);
+    return fmt::format("curve longer than --longest {:.6g}", *filter.longest);
   if (filter.below && !((filter.below_is_percent ? row.percent : row.persistence) < *filter.below))
-    return fmt::format("its persistence is not below {:.6g}{}", *filter.below, filter.below_is_percent ? "%" : "");
+    return fmt::format("persistence not below {:.6g}{}", *filter.below, filter.below_is_percent ? "%" : "");
   if (filter.all || filter.longest || filter.below || !filter.loops.empty()) return {};
   const auto& suggested = defects.table.suggestion.length;
   if (!suggested) return "no length is suggested that divides defects from features";
-  if (!(row.length() <= *suggested)) return fmt::format("its curve is longer than the suggested {:.6g}", *suggested);
+  if (!(row.length() <= *suggested)) return fmt::format("curve longer than the suggested {:.6g}", *suggested);
   return {};
 }
 
 std::string why_not(const DefectRow& row, const Defects& defects, const RowFilter& filter) {
   if (std::string why = why_filtered(row, defects, filter); !why.empty()) return why;
   if (row.curve.path.empty()) return "no closed curve along edges was found near it";
-  if (row.kind == DefectKind::kUnclear) return "its kind is unclear: a boundary, or no oriented manifold";
+  if (row.kind == DefectKind::kUnclear) return "kind unclear: a boundary, or no oriented manifold";
   return {};
 }
 
