@@ -107,6 +107,9 @@ std::optional<FunctionSpec> try_parse(std::string_view text) {
 
 FunctionSpec parse_function(std::string_view text) {
   if (auto spec = try_parse(text)) return *std::move(spec);
+  if (text == "laplacian:0")
+    throw Error(ErrorKind::kUsage, "\"laplacian:0\" is not a function: K of laplacian:K is at least 1",
+                "laplacian:1, or spectral, is the first eigenvector that is not constant");
   throw Error(ErrorKind::kUsage, "\"" + std::string(text) + "\" is not a function",
               "functions are x, y, z, cK (a coordinate, from 0), index, random:SEED, property:NAME, file:PATH, "
               "value or value:K (of an image), distance:VERTEX, distance:X,Y,Z, geodesic:VERTEX[,VERTEX...], "

@@ -185,6 +185,9 @@ TEST_F(CommandLine, OptionsThatAKindOfMeshDoesNotHaveAreRefused) {
   const Outcome far = reeb({"generate", "sierpinski", "--triangles", "2k", "-o", "s.ply"});
   expect_success(far);
   EXPECT_NE(far.error.find("note: asked for 2,000 triangles;"), std::string::npos) << far.error;
+  const Outcome whole = reeb({"generate", "sierpinski", "--triangles", "1k", "-o", "s.cx"});
+  expect_success(whole);
+  EXPECT_NE(whole.error.find("wrote s.cx: 514 vertices, 256 tetrahedra"), std::string::npos) << whole.error;
   const Outcome near = reeb({"generate", "torus", "--triangles", "2k", "-o", "u.ply"});
   EXPECT_EQ(lines_after("note: ", near.error).size(), 0u) << near.error;
 }

@@ -129,7 +129,7 @@ TEST_F(Function, BadOnesAreToldApart) {
   for (const char* function : {"distance:", "distance:1,2", "distance:-1", "distance:1,2,x", "distance:1,2,3,4",
                                "geodesic:", "geodesic:1,", "geodesic:x", "laplacian:", "laplacian:x", "laplacian:-1"})
     expect_error(run("s.off", function), 2, std::string("\"") + function + "\" is not a function");
-  expect_error(run("s.off", "laplacian:0"), 2, "\"laplacian:0\" is not a function");
+  expect_error(run("s.off", "laplacian:0"), 2, "\"laplacian:0\" is not a function: K of laplacian:K is at least 1");
   expect_error(
       reeb({"compute", "-", "-f", "geodesic:0", "-o", "o.reeb"}, {.arguments = {}, .input = in_folder("s.off")}), 1,
       "standard input: geodesic:0 reads the mesh before the run does");

@@ -22,6 +22,7 @@
 #include "tools/library/run_files.h"
 #include "tools/program/output.h"
 #include "tools/program/progress.h"
+#include "tools/program/simplex_text.h"
 #include "tools/program/wrapping.h"
 
 namespace reeb::tools {
@@ -35,14 +36,19 @@ struct GenerateArguments {
   bool force = false;
 };
 
-void print_summary(const GenerateArguments& arguments, const io::ExpectedTopology& t) {
+// `cells` are those of a mesh of whole simplices.
+void print_summary(const GenerateArguments& arguments, const io::ExpectedTopology& t, std::uint64_t cells) {
   const bool ball = arguments.mesh.kind == io::MeshKind::kBall;
+  const bool whole = arguments.mesh.kind == io::MeshKind::kSierpinski && arguments.mesh.whole_cells;
   const std::string of = ball ? "tetrahedra" : "triangles";
   const std::uint64_t asked = ball ? arguments.mesh.tetrahedra : arguments.mesh.triangles,
                       got = ball ? t.tetrahedra : t.triangles, more = std::max(asked, got) - std::min(asked, got);
-  std::string text = fmt::format(
-      "wrote {}: {}, {}, Euler characteristic {}", printable(arguments.output), count_of(t.vertices, "vertex"),
-      ball ? with_commas(got) + ' ' + of : count_of(got, "triangle"), t.euler_characteristic);
+  SimplexCounts simplices{};
+  simplices[whole ? arguments.mesh.dimension : ball ? 3 : 2] = whole ? cells : got;
+  std::string text =
+      fmt::format("wrote {}: {}, {}, Euler characteristic {}{}", printable(arguments.output),
+                  count_of(t.vertices, "vertex"), count_simplices(simplices),
+                  whole && arguments.mesh.dimension > 2 ? "of the 2-skeleton " : "", t.euler_characteristic);
   if (t.genus) text += fmt::format(", genus {}", *t.genus);
   if (t.boundary_loops) text += ", " + count_of(*t.boundary_loops, "boundary loop");
   if (!t.genus) text += ", first Betti number " + with_commas(t.first_betti);
@@ -149,7 +155,7 @@ void run_generate(GenerateArguments arguments) {
   }
   writer->close();
   bar.clear();
-  print_summary(arguments, topology);
+  print_summary(arguments, topology, mesh->info().simplex_count.value_or(0));
 }
 
 }  // namespace
