@@ -9,6 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "libreeb/base/count_text.h"
 #include "tests/support/planted_mesh.h"
 #include "tests/tools/program.h"
 
@@ -45,11 +46,12 @@ class Report : public ProgramTest {
     const auto at = page.find(begin) + begin.size();
     return Json::parse(page.substr(at, page.find("</script>", at) - at));
   }
-  // The cell beside the heading NAME of a summary.
+  // The cell beside the heading NAME of a summary, without the commas of numbers.
   static std::string cell(const std::string& page, const std::string& name) {
     const std::regex row("<tr><th scope=\"row\">" + name + "</th><td>([^<]*)</td></tr>");
     std::smatch found;
-    return std::regex_search(page, found, row) ? found[1].str() : "none";
+    if (!std::regex_search(page, found, row)) return "none";
+    return std::regex_replace(found[1].str(), std::regex(",(?=\\d{3})"), "");
   }
   std::string planted(std::uint64_t seed = 1) const {
     PlantedOptions options;
@@ -69,6 +71,7 @@ TEST_F(Report, SummaryIsThatOfTheFile) {
   EXPECT_EQ(cell(page, "mesh triangles"), info["input"]["triangles"].dump());
   EXPECT_EQ(cell(page, "pairs of loops \\(Ext1\\)"), info["graph"]["loops"].dump());
   EXPECT_NE(cell(page, "loops"), "0");
+  EXPECT_NE(page.find("mesh triangles</th><td>" + with_commas(info["input"]["triangles"])), std::string::npos);
 }
 
 // At every threshold the records give as many nodes and arcs as `extract`.

@@ -79,7 +79,7 @@ async function slider(browser) {
 
 async function tables(browser) {
   const column = (table, index) =>
-    `[...document.querySelector('${table} tbody').rows].map((row) => row.cells[${index}].textContent)`
+    `[...document.querySelector('${table} tbody').rows].map((row) => row.cells[${index}].dataset.value ?? row.cells[${index}].textContent)`
   for (const [section, name] of [['#features', 'persistence'], ['#features', 'rank'], ['#defects', 'kind'], ['#levels', 'nodes']]) {
     const index = await browser.evaluate(
       `[...document.querySelector('${section} thead').rows[0].cells].findIndex((cell) => cell.textContent === '${name}')`,

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -149,38 +150,40 @@ std::vector<NamedText> summary_rows(const ooc::ReebFile& file, const Findings& f
       {"file", base_name(file.path())},
       {"function", header.function},
       {"range", fmt::format("{:.9g} to {:.9g}", header.function_min, header.function_max)},
-      {"mesh vertices", std::to_string(header.mesh_vertices)},
-      {"mesh triangles", std::to_string(header.mesh_triangles)},
-      {"nodes", std::to_string(header.nodes)},
-      {"arcs", std::to_string(header.arcs)},
-      {"components", std::to_string(header.components)},
-      {"loops", std::to_string(header.loops)},
+      {"mesh vertices", with_commas(header.mesh_vertices)},
+      {"mesh triangles", with_commas(header.mesh_triangles)},
+      {"nodes", with_commas(header.nodes)},
+      {"arcs", with_commas(header.arcs)},
+      {"components", with_commas(header.components)},
+      {"loops", with_commas(header.loops)},
   };
   if (findings.pairs) {
     const auto& counts = findings.pairs->counts;
-    const auto count = [&](PairType type) { return std::to_string(counts[static_cast<std::size_t>(type)]); };
+    const auto count = [&](PairType type) { return with_commas(counts[static_cast<std::size_t>(type)]); };
     rows.insert(rows.end(), {{"pairs of minima (Ord0)", count(PairType::kOrd0)},
                              {"pairs of maxima (Rel1)", count(PairType::kRel1)},
                              {"pairs of components (Ext0)", count(PairType::kExt0)},
                              {"pairs of loops (Ext1)", count(PairType::kExt1)},
-                             {"loops that stay at all levels", std::to_string(header.kept_loops)}});
+                             {"loops that stay at all levels", with_commas(header.kept_loops)}});
   }
-  rows.emplace_back("pairs removed as noise", std::to_string(header.denoised_pairs));
+  rows.emplace_back("pairs removed as noise", with_commas(header.denoised_pairs));
   rows.emplace_back("size of the file", format_bytes(file.file_bytes()));
   return rows;
 }
 
 std::vector<NamedText> census_rows(const std::string& mesh, const ooc::MeshCensus& census) {
-  std::vector<NamedText> rows{{"mesh", base_name(mesh)}, {"connected components", std::to_string(census.components)}};
+  std::vector<NamedText> rows{{"mesh", base_name(mesh)}, {"connected components", with_commas(census.components)}};
   if (!census.not_a_surface.empty()) return rows;
-  rows.insert(rows.end(), {{"boundary loops", std::to_string(census.boundaries)},
-                           {"non-manifold edges", std::to_string(census.nonmanifold_edges.count)},
-                           {"non-manifold vertices", std::to_string(census.nonmanifold_vertices.count)},
-                           {"degenerate triangles", std::to_string(census.degenerate.count)},
-                           {"duplicate triangles", std::to_string(census.duplicates.count)},
-                           {"folded edges", std::to_string(census.folded.count)},
-                           {"Euler characteristic", std::to_string(census.euler)},
-                           {"genus", census.genus ? std::to_string(*census.genus) : "none: " + census.why_no_genus}});
+  rows.insert(rows.end(),
+              {{"boundary loops", with_commas(census.boundaries)},
+               {"non-manifold edges", with_commas(census.nonmanifold_edges.count)},
+               {"non-manifold vertices", with_commas(census.nonmanifold_vertices.count)},
+               {"degenerate triangles", with_commas(census.degenerate.count)},
+               {"duplicate triangles", with_commas(census.duplicates.count)},
+               {"folded edges", with_commas(census.folded.count)},
+               {"Euler characteristic", fmt::format("{}{}", census.euler < 0 ? "-" : "",
+                                                    with_commas(static_cast<std::uint64_t>(std::abs(census.euler))))},
+               {"genus", census.genus ? with_commas(*census.genus) : "none: " + census.why_no_genus}});
   return rows;
 }
 

@@ -34,6 +34,10 @@ std::string number(double value) {
   return std::isfinite(value) ? number(short_number(value))
                               : "<td class=\"number\" data-value=\"Infinity\"><span class=\"quiet\">none</span></td>";
 }
+// A count, which sorts as the number that it is.
+std::string count(std::uint64_t value) {
+  return fmt::format("<td class=\"number\" data-value=\"{}\">{}</td>", value, with_commas(value));
+}
 std::string text(const std::string& shown) { return "<td>" + shown + "</td>"; }
 
 std::string place(const Point& point) {
@@ -120,9 +124,9 @@ std::string defects_table(const Defects& defects, std::size_t most, std::size_t 
     else if (closeups > 0)
       out += "<td class=\"fixed\"></td>";
     out += number(std::to_string(i + 1)) + text(name_of(row.kind)) + number(row.length_contour) +
-           number(row.length_cycle) + number(row.persistence) + percent(row.percent, 100) +
-           number(std::to_string(row.curve.triangles)) + number(std::to_string(row.lo.key.vertex.value())) +
-           number(std::to_string(row.hi.key.vertex.value())) + place(row.curve.center) + "</tr>\n";
+           number(row.length_cycle) + number(row.persistence) + percent(row.percent, 100) + count(row.curve.triangles) +
+           number(std::to_string(row.lo.key.vertex.value())) + number(std::to_string(row.hi.key.vertex.value())) +
+           place(row.curve.center) + "</tr>\n";
   }
   return out + kEnd;
 }
@@ -136,8 +140,8 @@ std::string levels_table(const FileHeader& header) {
            (line.threshold == std::numeric_limits<double>::denorm_min()
                 ? "<td class=\"number\" data-value=\"5e-324\">&gt; 0</td>"
                 : number(line.threshold)) +
-           percent(line.threshold, range) + number(std::to_string(line.nodes)) + number(std::to_string(line.arcs)) +
-           number(std::to_string(line.file_bytes)) + number(std::to_string(line.memory_bytes)) + "</tr>\n";
+           percent(line.threshold, range) + count(line.nodes) + count(line.arcs) + count(line.file_bytes) +
+           count(line.memory_bytes) + "</tr>\n";
   return out + kEnd;
 }
 

@@ -354,7 +354,7 @@ function showCounts() {
   const memory = graph.memoryBytes + spaceBytes + flatBytes + (backdrop ? backdropBytes(backdrop) : 0)
   let text =
     `${bytesText(Math.min(source.loaded, source.size))} read, of a file of ${bytesText(source.size)}; ${graph.records.toLocaleString('en')} of ` +
-    `${header.records.toLocaleString('en')} arcs, at most ${budget.toLocaleString('en')}; ${bytesText(memory)} of memory.`
+    `${header.records.toLocaleString('en')} arc records, at most ${budget.toLocaleString('en')}; ${bytesText(memory)} of memory.`
   if (isReading) text += ' Loading finer levels ...'
   else if (end === 'budget') text += ' The budget is reached: this is the finest level within it.'
   else if (end === 'damage') text += ` No finer level can be read: ${reader.damage!.message}.`
@@ -662,7 +662,7 @@ budgetInput.addEventListener('change', () => {
   const budget = Number(budgetInput.value.replace(/[ ,_]/g, ''))
   const valid = Number.isInteger(budget) && budget >= 1
   budgetInput.toggleAttribute('aria-invalid', !valid)
-  if (!valid) return announce('Give a number of arcs from 1 on.')
+  if (!valid) return announce('Give a number of arc records from 1 on.')
   session!.budget = budget
   setThreshold(Number.isFinite(session!.wanted) ? session!.wanted : 0)
 })
