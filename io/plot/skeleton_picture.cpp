@@ -298,7 +298,7 @@ std::string skeleton_picture(const GraphView& view, const SkeletonLines& lines, 
   const bool has_colors =
       !lines.arcs.empty() && (scene.colors == LineColors::kValue || scene.style == SurfaceStyle::kValue);
   if (has_colors) append_color_bar(svg, {20, bottom + 12}, view, scene);
-  append_legend(svg, {has_colors ? 252.0 : 26.0, bottom + 22}, kinds);
+  if (canvas.empty()) append_legend(svg, {has_colors ? 252.0 : 26.0, bottom + 22}, kinds);
   append_scale(svg, {kSkeletonWidth - 24, bottom + 10}, scene.projection.pixels_per_unit());
   return svg + "</svg>\n";
 }
