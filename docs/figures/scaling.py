@@ -43,7 +43,7 @@ def main():
         out.append(f'<polyline points="{line}" fill="none" stroke="{colour}" stroke-width="1.5"/>')
         x, y = line.split()[-1].split(",")
         out.append(f'<text x="{float(x) + 8}" y="{float(y) + 4}" fill="{colour}">10<tspan font-size="9" dy="-4">{power}</tspan>'
-                   '<tspan dy="4"> triangles</tspan></text>')
+                   '<tspan dx="4" dy="4">triangles</tspan></text>')
     out.append("</svg>")
     print("\n".join(out))
 
