@@ -404,6 +404,19 @@ TEST_F(RepairTest, SaysWhyLoopsAreLeft) {
   EXPECT_NE(none.error.find(" left: persistence not below 0%\n"), std::string::npos) << none.error;
 }
 
+TEST_F(RepairTest, BoundariesAreChargedToTheMemory) {
+  std::ostringstream vertices, triangles;
+  constexpr int kTriangles = 100'000;
+  for (int i = 0; i < kTriangles; ++i) {
+    vertices << i << " 0 0\n" << i << " 0.5 0\n" << i << " 0 0.5\n";
+    triangles << "3 " << 3 * i << ' ' << 3 * i + 1 << ' ' << 3 * i + 2 << '\n';
+  }
+  write("apart.off", "OFF\n" + std::to_string(3 * kTriangles) + ' ' + std::to_string(kTriangles) + " 0\n" +
+                         vertices.str() + triangles.str());
+  expect_error(reeb({"repair", "apart.off", "-o", "o.ply", "--fill-boundaries", "0.001", "--memory", "32M", "--quiet"}),
+               3, "paths of boundaries needs ");
+}
+
 TEST_F(RepairTest, RefusesWhatItCannotDo) {
   expect_success(reeb({"generate", "torus", "--triangles", "2000", "-o", "t.ply"}));
   expect_success(reeb({"repair", "t.ply", "-o", "o.ply", "--all", "--undo", "o.undo", "--log", "o.json", "--quiet"}));
@@ -436,6 +449,10 @@ TEST_F(RepairTest, RefusesWhatItCannotDo) {
   EXPECT_EQ(reeb({"repair", "o.ply", "--apply-undo", "bad.undo", "-o", "p.ply"}).exit_code, 1);
   write("rows.csv", "rank,lo,hi,function\n1,0,1,x\n");
   EXPECT_EQ(reeb({"repair", "t.ply", "-o", "p.ply", "--loops", "rows.csv"}).exit_code, 1);
+  write("rows.csv", "rank,lo,hi,function\n1,0,99999999999999999999,x\n");
+  const Outcome too_large = reeb({"repair", "t.ply", "-o", "p.ply", "--loops", "rows.csv"});
+  EXPECT_NE(too_large.error.find("rows.csv:2: this is no row of a table of defects"), std::string::npos)
+      << too_large.error;
   write("rows.csv", "rank,lo,hi\n");
   EXPECT_EQ(reeb({"repair", "t.ply", "-o", "p.ply", "--loops", "rows.csv"}).exit_code, 1);
   EXPECT_FALSE(std::filesystem::exists(in_folder("p.ply")));

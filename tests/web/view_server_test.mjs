@@ -17,8 +17,8 @@ function check(what, good, seen = '') {
 
 const environment = { ...process.env, DISPLAY: '', WAYLAND_DISPLAY: '' }
 
-async function start(file, words = []) {
-  const process = spawn(reeb, ['view', file, ...words], { cwd: work, env: environment, stdio: ['ignore', 'pipe', 'ignore'] })
+async function start(file, words = [], program = [reeb]) {
+  const process = spawn(program[0], [...program.slice(1), 'view', file, ...words], { cwd: work, env: environment, stdio: ['ignore', 'pipe', 'ignore'] })
   let text = ''
   for await (const piece of process.stdout) {
     text += piece
@@ -26,7 +26,7 @@ async function start(file, words = []) {
   }
   const url = new URL(text.trim())
   const ended = new Promise((done) => process.once('exit', done))
-  return { url, stop: (signal = 'SIGINT') => (process.kill(signal), ended) }
+  return { url, pid: process.pid, stop: (signal = 'SIGINT') => (process.kill(signal), ended) }
 }
 
 // What comes back for these bytes: the clients of Node.js would tidy up paths and headers.
@@ -127,6 +127,15 @@ const cut = await get(short.url.port, `${short.url.pathname}short.reeb`)
 check('a file that becomes shorter: the connection ends early', cut.status === 200 && cut.body.length < bytes.length)
 check('and the server goes on', (await get(short.url.port, short.url.pathname)).status === 200)
 await short.stop()
+
+// With 20 descriptors, most of these clients cannot be answered. They wait, and so does the server.
+const few = await start('scan.reeb', [], ['bash', '-c', 'ulimit -n 20; exec "$@"', 'few', reeb])
+const many = Array.from({ length: 30 }, () => connect(few.url.port, '127.0.0.1').on('error', () => {}))
+await new Promise((done) => setTimeout(done, 1500))
+const ticks = readFileSync(`/proc/${few.pid}/stat`, 'utf8').split(') ')[1].split(' ').slice(11, 13).map(Number)
+check('a server without descriptors takes no processor time', ticks[0] + ticks[1] < 50, `${ticks} ticks of 10 ms`)
+for (const socket of many) socket.destroy()
+await few.stop()
 
 const run = (...words) => spawnSync(reeb, ['view', ...words], { cwd: work, env: environment, encoding: 'utf8' })
 check('no such file', run('none.reeb').status === 1 && /none\.reeb/.test(run('none.reeb').stderr), run('none.reeb').stderr)

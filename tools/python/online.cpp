@@ -65,11 +65,6 @@ void finalize(OnlineReeb& graph, const Ids& ids) {
     at_item("ids", i, [&] { graph.finalize(vertex_of(id[i])); });
 }
 
-ReebGraph snapshot(OnlineReeb& graph) {
-  const py::gil_scoped_release released;
-  return graph.snapshot();
-}
-
 }  // namespace
 
 void add_online(py::module_& module) {
@@ -78,7 +73,8 @@ void add_online(py::module_& module) {
       .def("add_vertices", &add_vertices)
       .def("add_simplices", &add_simplices)
       .def("finalize", &finalize)
-      .def("snapshot", [](OnlineReeb& graph) { return graph_arrays(snapshot(graph)); })
+      // The GIL is held: another thread of Python may add to the same graph.
+      .def("snapshot", [](OnlineReeb& graph) { return graph_arrays(graph.snapshot()); })
       .def("memory_bytes", &OnlineReeb::memory_bytes);
 }
 

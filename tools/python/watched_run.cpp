@@ -2,7 +2,6 @@
 
 #include <chrono>
 #include <exception>
-#include <optional>
 #include <thread>
 #include <utility>
 
@@ -51,8 +50,7 @@ void WatchedRun::pass_on() {
 }
 
 void WatchedRun::run(const std::function<void()>& work) {
-  std::exception_ptr failure;
-  std::optional<pybind11::error_already_set> raised;
+  std::exception_ptr failure, raised;
   {
     const pybind11::gil_scoped_release released;
     std::thread worker([&] {
@@ -74,14 +72,14 @@ void WatchedRun::run(const std::function<void()>& work) {
       const pybind11::gil_scoped_acquire held;
       try {
         pass_on();
-      } catch (pybind11::error_already_set& error) {
-        raised.emplace(std::move(error));
+      } catch (...) {
+        raised = std::current_exception();
         stop_.store(true, std::memory_order_relaxed);
       }
     }
     worker.join();
   }
-  if (raised) throw std::move(*raised);
+  if (raised) std::rethrow_exception(raised);
   if (failure) std::rethrow_exception(failure);
   pass_on();
 }

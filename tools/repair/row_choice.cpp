@@ -6,6 +6,8 @@
 #include <charconv>
 #include <cstdint>
 #include <map>
+#include <string_view>
+#include <system_error>
 #include <tuple>
 
 #include "io/file/content_source.h"
@@ -71,8 +73,9 @@ std::map<LoopName, std::size_t> read_names(const std::string& path) {
     const std::vector<std::string> fields = fields_of(lines[i]);
     const auto number = [&](std::size_t k) {
       std::uint64_t value = 0;
-      const char* const end = k < fields.size() ? fields[k].data() + fields[k].size() : nullptr;
-      if (end == nullptr || fields[k].empty() || std::from_chars(fields[k].data(), end, value).ptr != end)
+      const std::string_view field = k < fields.size() ? std::string_view(fields[k]) : std::string_view();
+      const char* const end = field.data() + field.size();
+      if (const auto [stop, error] = std::from_chars(field.data(), end, value); error != std::errc() || stop != end)
         throw Error(ErrorKind::kBadInput, "this is no row of a table of defects", "write rows as reeb defects does")
             .at(path, std::to_string(i + 1));
       return value;

@@ -36,7 +36,8 @@ class Cleaner {
         progress_(progress),
         corner_sets_("repeated triangles", space.temp, space.budget, sorting()),
         sides_("sides of edges", space.temp, space.budget, sorting()),
-        part_memory_(space.budget.reserve("components", 0)) {}
+        part_memory_(space.budget.reserve("components", 0)),
+        end_memory_(space.budget.reserve("positions of boundaries", 0)) {}
 
   Cleaning run() {
     read();
@@ -50,6 +51,10 @@ class Cleaner {
 
  private:
   using Edge = std::pair<std::uint64_t, std::uint64_t>;
+  struct End {
+    std::uint64_t vertex;
+    Point position;
+  };
 
   ooc::SortOptions sorting() const {
     ooc::SortOptions options;
@@ -153,12 +158,18 @@ class Cleaner {
 
   void list_boundaries() {
     std::vector<Edge> edges;
+    Reservation memory = space_.budget.reserve("edges of boundaries", 0);
     sides_.finish();
     std::vector<EdgeSide> block;
     EdgeSide last{};
     bool any = false, alone = false;
     const auto end_edge = [&] {
       if (!any || !alone || is_dropped(last.a)) return;
+      if (edges.size() == edges.capacity()) {
+        const std::size_t larger = std::max<std::size_t>(2 * edges.size(), 1024);
+        memory.resize((edges.size() + larger) * sizeof(Edge));
+        edges.reserve(larger);
+      }
       edges.emplace_back(last.a, last.b);
       edges.emplace_back(last.b, last.a);
     };
@@ -173,30 +184,40 @@ class Cleaner {
         any = alone = true;
       }
     end_edge();
+    memory.resize(edges.capacity() * sizeof(Edge));
     std::sort(edges.begin(), edges.end());
-    find_paths(edges, positions_of(edges));
+    list_ends(edges);
+    find_paths(edges);
   }
 
-  // Of the first ends of all edges.
-  std::map<std::uint64_t, Point> positions_of(const std::vector<Edge>& edges) {
-    std::map<std::uint64_t, Point> positions;
+  // The first ends of all edges.
+  void list_ends(const std::vector<Edge>& edges) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < edges.size(); ++i) count += i == 0 || edges[i].first != edges[i - 1].first ? 1u : 0u;
+    end_memory_.resize(count * sizeof(End));
+    ends_.reserve(count);
     auto next = edges.begin();
     if (!edges.empty())
       mesh_.read(
           [&](const MeshBatch& batch, std::span<const std::vector<double>>, std::uint64_t done, std::uint64_t total) {
             const std::uint64_t first = batch.first_vertex.value();
             for (; next != edges.end() && next->first < first + batch.vertex_count; ++next) {
+              if (!ends_.empty() && ends_.back().vertex == next->first) continue;
               Point point{};
               for (std::size_t k = 0; k < std::min<std::size_t>(3, batch.coordinates.size()); ++k)
                 point[k] = batch.coordinates[k][next->first - first];
-              positions.emplace(next->first, point);
+              ends_.push_back({next->first, point});
             }
             progress_(done, total);
           });
-    return positions;
   }
 
-  void find_paths(const std::vector<Edge>& edges, const std::map<std::uint64_t, Point>& positions) {
+  const Point& position(std::uint64_t v) const {
+    return std::ranges::lower_bound(ends_, v, {}, &End::vertex)->position;
+  }
+
+  void find_paths(const std::vector<Edge>& edges) {
+    const Reservation memory = space_.budget.reserve("paths of boundaries", kPathBytes * edges.size());
     std::vector<bool> seen(edges.size(), false);
     const auto first_of = [&](std::uint64_t v) {
       return static_cast<std::size_t>(std::lower_bound(edges.begin(), edges.end(), Edge(v, 0)) - edges.begin());
@@ -217,7 +238,7 @@ class Cleaner {
         for (; i < edges.size() && edges[i].first == v; ++i, ++count) {
           seen[i] = true;
           open.push_back(edges[i].second);
-          sum += distance(positions.at(v), positions.at(edges[i].second)) / 2;
+          sum += distance(position(v), position(edges[i].second)) / 2;
         }
         simple = simple && count == 2;
       }
@@ -229,13 +250,13 @@ class Cleaner {
       RepairJob job;
       job.length = sum;
       job.is_boundary = true;
-      job.box = {positions.at(members[0]), positions.at(members[0])};
+      job.box = {position(members[0]), position(members[0])};
       std::uint64_t v = members[0], before = edges[first_of(v)].second;
       for (std::size_t i = 0; i < members.size(); ++i) {
         job.curve.emplace_back(v);
         for (std::size_t k = 0; k < 3; ++k) {
-          job.box[0][k] = std::min(job.box[0][k], positions.at(v)[k]);
-          job.box[1][k] = std::max(job.box[1][k], positions.at(v)[k]);
+          job.box[0][k] = std::min(job.box[0][k], position(v)[k]);
+          job.box[1][k] = std::max(job.box[1][k], position(v)[k]);
         }
         const std::size_t at = first_of(v);
         const std::uint64_t next = edges[at].second == before ? edges[at + 1].second : edges[at].second;
@@ -247,6 +268,8 @@ class Cleaner {
   }
 
   static constexpr std::size_t kBlock = 4096;
+  // Of an edge in one direction: the vertices that are open and those that were seen, in vectors that grow by doubling.
+  static constexpr std::size_t kPathBytes = 32;
 
   const ValuedMesh& mesh_;
   const CleaningOptions& options_;
@@ -256,6 +279,8 @@ class Cleaner {
   ooc::ExternalSort<EdgeSide> sides_;
   Reservation part_memory_;
   UnionFind part_;
+  Reservation end_memory_;
+  std::vector<End> ends_;  // by vertex
   std::uint64_t vertices_ = 0;
   Cleaning result_;
 };

@@ -12,6 +12,7 @@
 #include <array>
 #include <atomic>
 #include <cerrno>
+#include <chrono>
 #include <cstring>
 #include <filesystem>
 #include <list>
@@ -178,7 +179,11 @@ void FileServer::serve(const std::function<bool()>& stop) {
     pollfd waiting{.fd = connections.has_room() ? socket_ : -1, .events = POLLIN, .revents = 0};
     if (::poll(&waiting, 1, kMillisecondsBetweenStops) <= 0) continue;
     const int client = ::accept4(socket_, nullptr, nullptr, SOCK_CLOEXEC);
-    if (client < 0) continue;
+    if (client < 0) {
+      // Without a free descriptor the client keeps waiting, and poll() would return at once.
+      std::this_thread::sleep_for(std::chrono::milliseconds(kMillisecondsBetweenStops));
+      continue;
+    }
     const timeval patience{.tv_sec = kPatienceSeconds, .tv_usec = 0};
     ::setsockopt(client, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
     ::setsockopt(client, SOL_SOCKET, SO_SNDTIMEO, &patience, sizeof patience);

@@ -3,6 +3,7 @@
 import os
 import subprocess
 import sys
+import threading
 
 import numpy as np
 import pytest
@@ -272,6 +273,24 @@ def test_online_is_exact_at_any_moment():
         with pytest.raises(reeb.Error):
             graph.pairs
     assert online.add_vertices([1]).tolist() == [n]
+
+
+def test_a_snapshot_while_another_thread_adds():
+    online = reeb.Online()
+    done = threading.Event()
+
+    def add():
+        for i in range(3000):
+            online.add_vertices(np.arange(3.0) + i)
+            online.add_simplices([[3 * i, 3 * i + 1, 3 * i + 2]])
+        done.set()
+
+    thread = threading.Thread(target=add)
+    thread.start()
+    while not done.is_set():
+        online.snapshot()
+    thread.join()
+    assert online.snapshot().components == 3000
 
 
 def test_a_picture_of_itself():
