@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <system_error>
 
+#include "io/file/file.h"
 #include "io/file/file_ostream.h"
 #include "io/text/output_buffer.h"
 #include "libreeb/base/error.h"
@@ -94,10 +95,9 @@ void check_patch_folder(const std::string& folder, io::Existing existing) {
     throw Error(ErrorKind::kResource, "it is no folder", "name a folder for the patches").at(folder);
   io::require_output_folder(name(folder, 1, ""));
   std::vector<std::string> patches;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder, failure)) {
-    const std::string file = entry.path().filename().string();
+  io::for_each_name(folder, [&](const std::string& file) {
     if (file.starts_with("defect-") && file.ends_with(".ply")) patches.push_back(folder + "/" + file);
-  }
+  });
   std::sort(patches.begin(), patches.end());
   for (const std::string& path : patches) io::check_output_name(path, existing);
 }

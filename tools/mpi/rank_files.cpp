@@ -37,11 +37,11 @@ std::string rank_file(const std::string& output, std::uint32_t rank, RankFile wh
 void remove_rank_files(const std::string& output, bool with_states) {
   std::vector<fs::path> found;
   std::error_code ignored;
-  for (const auto& entry : fs::directory_iterator(io::folder_of(output), ignored)) {
-    const std::string name = entry.path().filename().string();
-    if (const auto file = rank_file_of(name, fs::path(output).filename().string()); !file.empty())
-      found.push_back(entry.path().parent_path() / file);
-  }
+  const fs::path folder = io::folder_of(output);
+  const std::string own = fs::path(output).filename().string();
+  io::for_each_name(folder.string(), [&](std::string_view name) {
+    if (const auto file = rank_file_of(name, own); !file.empty()) found.push_back(folder / file);
+  });
   for (const fs::path& file : found) {
     fs::remove(file, ignored);
     io::remove_abandoned(file.string());
