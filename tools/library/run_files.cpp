@@ -80,11 +80,11 @@ std::optional<std::uint64_t> snapshot_number(std::string_view name, std::string_
 void RunFiles::add_input(std::string path, std::string what) { inputs_.push_back({std::move(path), std::move(what)}); }
 
 void RunFiles::add_output(std::string path, std::string what, io::Existing existing) {
-  outputs_.push_back({std::move(path), std::move(what), existing, true});
+  outputs_.push_back({std::move(path), std::move(what), existing});
 }
 
 void RunFiles::add_snapshots(std::string stem, io::Existing existing) {
-  snapshots_.push_back({std::move(stem), "a snapshot", existing, true});
+  snapshots_.push_back({std::move(stem), "a snapshot", existing});
 }
 
 // With the snapshots that exist.
@@ -92,7 +92,7 @@ std::vector<RunFiles::File> RunFiles::outputs() const {
   std::vector<File> all = outputs_;
   for (const File& stem : snapshots_)
     for (const std::uint64_t number : existing_snapshots(stem.path))
-      all.push_back({snapshot_name(stem.path, number), stem.what, stem.existing, true});
+      all.push_back({snapshot_name(stem.path, number), stem.what, stem.existing});
   return all;
 }
 

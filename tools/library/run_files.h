@@ -30,7 +30,6 @@ class RunFiles {
   struct File {
     std::string path, what;
     io::Existing existing = io::Existing::kReplace;  // of an output
-    bool is_output = false;
   };
 
   std::vector<File> outputs() const;
