@@ -93,7 +93,8 @@ class Jobs {
         space_(space),
         options_(options),
         left_out_(jobs.size(), 0),
-        too_small_(jobs.size(), 0) {
+        too_small_(jobs.size(), 0),
+        cluster_of_(jobs.size(), 0) {
     done_.results.resize(jobs.size());
     for (const RepairJob& job : jobs) {
       ooc::Ball ball;
@@ -134,12 +135,16 @@ class Jobs {
       cluster.jobs = members;
       for (const std::uint32_t j : members) cluster.balls.push_back(balls_[j]);
       // What was done stays done as long as the same jobs are together.
-      for (Cluster& old : clusters_)
-        if (old.done && old.jobs == cluster.jobs) cluster = std::move(old);
+      if (!clusters_.empty())
+        if (Cluster& old = cluster_of(members.front()); old.done && old.jobs == cluster.jobs) cluster = std::move(old);
       clusters.push_back(std::move(cluster));
     }
     clusters_ = std::move(clusters);
+    for (std::uint32_t i = 0; i < clusters_.size(); ++i)
+      for (const std::uint32_t j : clusters_[i].jobs) cluster_of_[j] = i;
   }
+
+  Cluster& cluster_of(std::uint32_t job) { return clusters_[cluster_of_[job]]; }
 
   // A triangle with a corner outside its patch is not in it. A small one stays near its rim.
   void find_far() {
@@ -284,8 +289,7 @@ class Jobs {
       if (done_.results[j].done || too_small_[j] == 0 || scale_.too_large(2 * balls_[j].radius)) continue;
       balls_[j].radius *= 2;
       any = true;
-      for (Cluster& cluster : clusters_)
-        if (std::ranges::binary_search(cluster.jobs, j)) cluster.done = false;
+      cluster_of(j).done = false;
     }
     if (any) make_clusters();
     return any;
@@ -293,20 +297,18 @@ class Jobs {
 
   // Returns whether there was one.
   bool leave_out_dividing() {
+    if (std::ranges::all_of(clusters_, [](const Cluster& cluster) { return cluster.open.empty(); })) return false;
     std::vector<RimPair> open;
-    for (const Cluster& cluster : clusters_) open.insert(open.end(), cluster.open.begin(), cluster.open.end());
-    if (open.empty()) return false;
-    std::sort(open.begin(), open.end(), [](const RimPair& a, const RimPair& b) { return a.job < b.job; });
     MeshEdits edits;
-    std::vector<std::uint64_t> base;
-    for (Cluster& cluster : clusters_) {
-      for (const RimPair& pair : cluster.open)
-        for (RimPair& other : open)
-          if (other.job == pair.job)
-            for (std::optional<VertexRef>* side : {&other.first, &other.second})
-              if (*side && (*side)->is_new) (*side)->number += edits.vertices.size();
+    for (const Cluster& cluster : clusters_) {
+      for (RimPair pair : cluster.open) {
+        for (std::optional<VertexRef>* side : {&pair.first, &pair.second})
+          if (*side && (*side)->is_new) (*side)->number += edits.vertices.size();
+        open.push_back(pair);
+      }
       edits.add(cluster.edits);
     }
+    std::sort(open.begin(), open.end(), [](const RimPair& a, const RimPair& b) { return a.job < b.job; });
     edits.sort();
     const auto dividing =
         dividing_curves(mesh_, edits, done_.mesh_vertices, open, space_, [&](std::uint64_t done, std::uint64_t total) {
@@ -316,8 +318,7 @@ class Jobs {
       left_out_[job] = 1;
       done_.results[job] = {};
       done_.results[job].why = why;
-      for (Cluster& cluster : clusters_)
-        if (std::ranges::binary_search(cluster.jobs, job)) cluster.done = false;
+      cluster_of(job).done = false;
     }
     return !dividing.empty();
   }
@@ -331,6 +332,7 @@ class Jobs {
   const JobOptions& options_;
   std::vector<Reservation> far_memory_;
   std::vector<std::uint8_t> left_out_, too_small_;
+  std::vector<std::uint32_t> cluster_of_;  // by job: its place in clusters_
   std::vector<ooc::Ball> balls_;
   std::vector<Cluster> clusters_;
   JobsDone done_;
