@@ -6,7 +6,7 @@
 namespace reeb::io {
 
 struct ForeignFormat {
-  std::string_view name;      // "a VTK legacy file"; empty: the format is not known
+  std::string_view name;      // "a COLLADA scene"; empty: the format is not known
   bool may_be_mesh = true;    // it can hold a mesh or an image, but is not read yet
   std::string_view advice{};  // what makes it readable; or empty
 };

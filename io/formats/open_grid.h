@@ -1,7 +1,7 @@
 // Opens an image or height field of any supported format as a regular grid.
 //
-// Formats, by their content or by name (GridOptions::format): nrrd; raw, which needs GridOptions::raw. Files packed
-// with gzip and zstd are unpacked.
+// The formats are those of ImageFormat, by their content or by name (GridOptions::format); raw needs GridOptions::raw.
+// Files packed with gzip and zstd are unpacked.
 #pragma once
 
 #include <memory>
@@ -25,8 +25,8 @@ struct GridOptions {
 };
 
 // Reads the header. `source` is the content of `input`; views of its beginning may have been taken. A data file that
-// the header names is opened, too: it must be in the folder of the header or below it. THROWS: Error{kBadInput} with
-// file, position and a hint: unknown or damaged, or the file is too short for what the
+// the header names is opened, too: it must be in the folder of the header or below it.
+// THROWS: Error{kBadInput} with file, position and a hint: unknown or damaged, or the file is too short for what the
 //         header announces; Error{kUsage}: a raw file without its size.
 std::unique_ptr<GridReader> open_grid(const Input& input, std::unique_ptr<ContentSource> source,
                                       const GridOptions& options = {});

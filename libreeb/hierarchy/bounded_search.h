@@ -20,8 +20,8 @@ class BoundedSearch {
   explicit BoundedSearch(const Graph& graph)
       : graph_(graph), reached_(graph.tables().template table<NodeId>(graph.end_node().value(), std::uint32_t{0})) {}
 
-  // Begins a search at `node` that follows arcs in direction d to nodes not beyond `limit`, and
-  // forgets what was reached before.
+  // Begins a search at `node` that follows arcs in direction d to nodes not beyond `limit`, and forgets what was
+  // reached before.
   void start(NodeId node, Direction d, NodeId limit) {
     limit_[d] = limit;
     follows_[d] = true;

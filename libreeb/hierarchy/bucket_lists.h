@@ -39,7 +39,7 @@ std::uint64_t vertices_below(const Bucket& bucket, const CutValues& values, int 
 // lists until close() packs them again. Until then closed() still returns the former list.
 //
 // TIME:   an operation walks the lists of its arcs once; close() walks the open lists once.
-// MEMORY: PackedLists; 48 bytes per open bucket.
+// MEMORY: PackedLists; 64 bytes per open bucket.
 template <class Lists = PackedLists>
 class BasicArcBucketLists {
  public:
@@ -87,6 +87,7 @@ class BasicArcBucketLists {
     Bucket bucket;
     std::uint32_t next = kNone;
   };
+  static_assert(sizeof(Item) == 64);  // as promised above
   struct Opened {
     ArcId arc;
     std::uint32_t first;

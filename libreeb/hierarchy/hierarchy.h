@@ -70,13 +70,14 @@ inline void do_both(const DoBoth& both, const std::function<void()>& here, const
 //
 // TIME:    O(m log m) for the pairs; a cancellation costs its two paths and a search that stays within the
 //          pair's interval.
-// MEMORY:  about 120 bytes per arc; for the result, 16 per record.
-// THREADS: any number of calls at the same time.
-// REQUIRES: no node is of degree (1, 1). (Graphs from OnlineReeb and ReebFile have none.)
+// MEMORY:  hierarchy_bytes() (cancel.h): 142 bytes per arc where there are as many nodes; for the result, 16 per
+// record. THREADS: any number of calls at the same time. REQUIRES: no node is of degree (1, 1). (Graphs from OnlineReeb
+// and ReebFile have none.)
 Hierarchy build_hierarchy(ReebGraph graph, const Poll& poll = {});
 
-// The same with an embedding, of this exponent: `buckets` becomes that of Hierarchy::arcs, 40 bytes per bucket of all
-// records. With empty `buckets` there is no embedding. Pairs and graphs are the same with an embedding and without.
+// The same with an embedding, of this exponent: `buckets` becomes that of Hierarchy::arcs, sizeof(Bucket) bytes per
+// bucket of all records. With empty `buckets` there is no embedding. Pairs and graphs are the same with an embedding
+// and without.
 Hierarchy build_hierarchy(ReebGraph graph, ArcBuckets& buckets, int exponent, const Poll& poll = {});
 
 }  // namespace reeb

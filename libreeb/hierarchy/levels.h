@@ -35,8 +35,8 @@ struct LevelSize {
 // One entry per version, starting with version 0. Neither nodes nor arcs ever become more. O(records + pairs).
 std::vector<LevelSize> level_sizes(const Hierarchy& hierarchy);
 
-// The finest version with at most `nodes` nodes; the number of versions if even the coarsest is
-// larger. `sizes` is level_sizes of the hierarchy. O(log n).
+// The finest version with at most `nodes` nodes; the number of versions if even the coarsest is larger. `sizes` is
+// level_sizes of the hierarchy. O(log n).
 std::uint32_t finest_with_nodes(const std::vector<LevelSize>& sizes, std::uint64_t nodes);
 
 // The graph of a version. It reads only the records that died after the version: O(r + k log k) for r such records and

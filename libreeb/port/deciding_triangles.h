@@ -15,9 +15,9 @@
 namespace reeb {
 
 enum class CellTriangles {
-  kDeciding,  // neighbouring cells have some in common: one that came not long ago is in the complex already, and left
-              // out
-  kAll,       // for a mesh that is to be written
+  // Neighbouring cells have some in common: one that came not long ago is in the complex already, and left out.
+  kDeciding,
+  kAll,  // for a mesh that is to be written
 };
 
 // MEMORY: 96 KB, from the first cell on.   THREADS: one at a time.

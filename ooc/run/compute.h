@@ -64,9 +64,9 @@ struct ComputeOptions {
 // it is glued. If last uses must be found or the mesh must be sorted first, the mesh is also read before that pass.
 //
 // THROWS: Error; InputChanged if the mesh or a file of values changes meanwhile. No output is ever partly written, but
-// some outputs may exist: those of earlier functions; and the
-//         graph alone, if kResource says that memory did not suffice for a function's hierarchy or the end of its
-//         noise removal. For kResource and kInterrupted the hint says whether a later run can resume this one.
+//         some outputs may exist: those of earlier functions; and the graph alone, if kResource says that memory did
+//         not suffice for a function's hierarchy or the end of its noise removal. For kResource and kInterrupted the
+//         hint says whether a later run can resume this one.
 std::vector<ComputeResult> compute(MeshInput input, std::span<VertexFunction* const> functions,
                                    std::span<const std::string> outputs, const ComputeOptions& options);
 

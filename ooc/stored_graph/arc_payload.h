@@ -21,13 +21,14 @@ void encode_packed_buckets(std::span<const std::byte> packed, int exponent, std:
 // that.
 bool decode_buckets(std::span<const std::byte> payload, int exponent, std::vector<Bucket>& buckets);
 
-// The packed list of a payload, coarsened to `exponent`. Empty if the bytes are not a payload, or are coarser than
-// that. Nearly every list already has this exponent. It is not unpacked, and the result points into the payload. Else
-// the result points into `coarsened` and is valid until the next call.
+// Room for a list that packed_list() coarsens.
 struct CoarsenedList {
   std::vector<Bucket> buckets;
   std::vector<std::byte> packed;
 };
+// The packed list of a payload, coarsened to `exponent`; empty without buckets, nothing if the bytes are not a payload,
+// or are coarser than that. Nearly every list already has this exponent. It is not unpacked, and the result points into
+// the payload. Else the result points into `coarsened` and is valid until the next call.
 std::optional<std::span<const std::byte>> packed_list(std::span<const std::byte> payload, int exponent,
                                                       CoarsenedList& coarsened);
 

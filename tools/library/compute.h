@@ -36,7 +36,7 @@ struct ComputeOptions {
   bool may_reorder = true;           // sort an incoherent mesh on disk first
   bool keep_sidecar = false;         // keep what the first pass learns in MESH.final, for the next run
   std::size_t chunk_triangles = 0;   // 0: adaptive
-  std::uint64_t snapshot_every = 0;  // write the graph so far after every N triangles; 0: never
+  std::uint64_t snapshot_every = 0;  // write the graph so far after every N simplices; 0: never
   // Continue an interrupted run with the same mesh, functions and first output.
   bool resume = false;
   double checkpoint_seconds = 2;  // between two checkpoints, at least; 0: after every chunk
@@ -58,8 +58,8 @@ struct ComputeOptions {
 //          in part, but those of earlier functions may be there, and the graph alone if its levels did not fit the
 //          memory. Of the last two kinds the hint says whether options.resume can continue.
 // TIME:    about 60 ns a triangle where the order of the mesh is coherent; one or two readings of the file.
-// MEMORY:  tens of MiB for the chunks, and the front of the sweep; with levels also about 115 bytes an arc of
-//          the graph. options.memory_bytes bounds it.
+// MEMORY:  tens of MiB for the chunks, and the front of the sweep; with levels also the graph, 95 to 164 bytes an arc.
+//          options.memory_bytes bounds it.
 // THREADS: starts options.threads of its own, and may be called by several threads at once for different
 //          outputs.
 ComputeResult compute(const std::string& path, const std::string& function, const std::string& output,
