@@ -5,11 +5,13 @@
 // bytes is an error.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <exception>
 #include <span>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace reeb {
@@ -88,6 +90,27 @@ class StateReader {
     if (get<std::uint64_t>() != sizeof(T) || count > left() / sizeof(T)) throw DamagedState();
     return static_cast<std::size_t>(count);
   }
+};
+
+// A state in memory: read from its beginning, in the order in which it was written.
+class StateBytes : public StateWriter, public StateReader {
+ public:
+  explicit StateBytes(std::vector<std::byte> bytes = {}) : bytes_(std::move(bytes)) {}
+  void reserve(std::size_t bytes) { bytes_.reserve(bytes); }
+
+  void write(std::span<const std::byte> more) override { bytes_.insert(bytes_.end(), more.begin(), more.end()); }
+  void read(std::span<std::byte> out) override {
+    if (out.size() > left()) throw DamagedState();
+    std::copy_n(bytes_.begin() + static_cast<std::ptrdiff_t>(at_), out.size(), out.begin());
+    at_ += out.size();
+  }
+  std::uint64_t left() const override { return bytes_.size() - at_; }
+  // With those that were read.
+  const std::vector<std::byte>& bytes() const { return bytes_; }
+
+ private:
+  std::vector<std::byte> bytes_;
+  std::size_t at_ = 0;
 };
 
 }  // namespace reeb

@@ -28,25 +28,6 @@
 namespace reeb::tools {
 namespace {
 
-// What travels up the tree.
-class Message : public StateWriter, public StateReader {
- public:
-  explicit Message(std::vector<std::byte> bytes = {}) : bytes_(std::move(bytes)) {}
-  void write(std::span<const std::byte> more) override { bytes_.insert(bytes_.end(), more.begin(), more.end()); }
-  void read(std::span<std::byte> out) override {
-    if (out.size() > left()) throw DamagedState();
-    std::copy_n(bytes_.begin() + static_cast<std::ptrdiff_t>(at_), out.size(), out.begin());
-    at_ += out.size();
-  }
-  std::uint64_t left() const override { return bytes_.size() - at_; }
-  const std::vector<std::byte>& bytes() const { return bytes_; }
-  void reserve(std::uint64_t bytes) { bytes_.reserve(static_cast<std::size_t>(bytes)); }
-
- private:
-  std::vector<std::byte> bytes_;
-  std::size_t at_ = 0;
-};
-
 void write_settled(const std::string& path, ooc::PartInfo info, ooc::SegmentStore& store, const std::string& temp) {
   OpenPart none;
   none.live.path_begin = {0};
@@ -87,9 +68,9 @@ Glued glue_in_tree(World& world, ooc::RunContext& run, ooc::FinishedPart part, c
     const bool is_last = step >= world.size();
     if (!is_last && world.rank() % (2 * step) == 0 && world.rank() + step >= world.size()) continue;
     if (!is_last && world.rank() % (2 * step) != 0) {
-      Message message;
+      StateBytes message;
       passing.resize(message_bytes(glued.info, open));
-      message.reserve(passing.bytes());
+      message.reserve(static_cast<std::size_t>(passing.bytes()));
       ooc::write_info(message, glued.info);
       ooc::write_open_part(message, open);
       world.send(world.rank() - step, message.bytes());
@@ -99,7 +80,7 @@ Glued glue_in_tree(World& world, ooc::RunContext& run, ooc::FinishedPart part, c
     OpenPart other;
     std::vector<PartSpan> other_runs;
     if (!is_last) {
-      Message message(world.receive(world.rank() + step, passing));
+      StateBytes message(world.receive(world.rank() + step, passing));
       const ooc::PartInfo there = ooc::read_info(message);
       passing.resize(2 * message.bytes().size());
       ooc::read_open_part(message, parts, other);

@@ -1,10 +1,12 @@
 #include "tools/repair/undo_file.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstring>
 #include <span>
 #include <string_view>
+#include <utility>
 
 #include "io/file/checksum.h"
 #include "io/file/file.h"
@@ -17,26 +19,6 @@ namespace {
 constexpr std::string_view kMagic = "reebundo";
 constexpr std::uint32_t kVersion = 1;
 
-class BytesWriter : public StateWriter {
- public:
-  void write(std::span<const std::byte> more) override { bytes.insert(bytes.end(), more.begin(), more.end()); }
-  std::vector<std::byte> bytes;
-};
-
-class BytesReader : public StateReader {
- public:
-  explicit BytesReader(std::span<const std::byte> bytes) : bytes_(bytes) {}
-  void read(std::span<std::byte> out) override {
-    if (out.size() > bytes_.size()) throw DamagedState();
-    std::copy_n(bytes_.begin(), out.size(), out.begin());
-    bytes_ = bytes_.subspan(out.size());
-  }
-  std::uint64_t left() const override { return bytes_.size(); }
-
- private:
-  std::span<const std::byte> bytes_;
-};
-
 bool ascends(const std::vector<std::uint64_t>& list) {
   return std::ranges::adjacent_find(list, std::greater_equal<>()) == list.end();
 }
@@ -48,7 +30,7 @@ bool ascends(const std::vector<std::uint64_t>& list) {
 }  // namespace
 
 void write_undo(const UndoRecord& undo, const std::string& path, io::Existing existing) {
-  BytesWriter out;
+  StateBytes out;
   out.write(std::as_bytes(std::span(kMagic)));
   out.put(kVersion);
   out.put(undo.columns);
@@ -59,10 +41,10 @@ void write_undo(const UndoRecord& undo, const std::string& path, io::Existing ex
   out.put_array(undo.values);
   out.put_array(undo.removed);
   out.put_array(undo.corners);
-  const std::uint64_t sum = io::checksum(out.bytes);
+  const std::uint64_t sum = io::checksum(out.bytes());
   out.put(sum);
   io::AtomicFile file(path, {.existing = existing});
-  file.out().append(out.bytes);
+  file.out().append(out.bytes());
   file.commit();
 }
 
@@ -71,13 +53,15 @@ UndoRecord read_undo(const std::string& path) {
   if (file.size() < kMagic.size() + sizeof kVersion + 8) refuse(path, "this is no undo file");
   std::vector<std::byte> bytes(file.size());
   file.read_at(0, bytes);
-  if (std::memcmp(bytes.data(), kMagic.data(), kMagic.size()) != 0) refuse(path, "this is no undo file");
-  BytesReader in(std::span<const std::byte>(bytes).subspan(kMagic.size()));
+  StateBytes in(std::move(bytes));
+  std::array<char, kMagic.size()> magic{};
+  in.get(magic);
+  if (std::string_view(magic.data(), magic.size()) != kMagic) refuse(path, "this is no undo file");
   if (in.get<std::uint32_t>() != kVersion) refuse(path, "this undo file is of another version of the program");
   std::uint64_t sum = 0;
-  std::memcpy(&sum, bytes.data() + bytes.size() - 8, 8);
-  if (io::checksum(std::span<const std::byte>(bytes).first(bytes.size() - 8)) != sum)
-    refuse(path, "the file is damaged");
+  const auto content = std::span(in.bytes()).first(in.bytes().size() - sizeof sum);
+  std::memcpy(&sum, content.data() + content.size(), sizeof sum);
+  if (io::checksum(content) != sum) refuse(path, "the file is damaged");
   UndoRecord undo;
   try {
     in.get(undo.columns);

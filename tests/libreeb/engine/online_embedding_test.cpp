@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstring>
 #include <iostream>
 #include <limits>
 #include <map>
@@ -231,19 +230,6 @@ TEST(Embedding, IsTheSameEachTimeAndConservesWithNoiseRemoval) {
     }
 }
 
-struct StateInMemory : StateWriter, StateReader {
-  void write(std::span<const std::byte> more) override { bytes.insert(bytes.end(), more.begin(), more.end()); }
-  void read(std::span<std::byte> wanted) override {
-    if (wanted.size() > left()) throw DamagedState();
-    if (!wanted.empty()) std::memcpy(wanted.data(), bytes.data() + at, wanted.size());
-    at += wanted.size();
-  }
-  std::uint64_t left() const override { return bytes.size() - at; }
-
-  std::vector<std::byte> bytes;
-  std::size_t at = 0;
-};
-
 TEST(Embedding, GoesOnFromASavedState) {
   const Mesh mesh = make_mesh(io::MeshKind::kScan, io::MeshOrder::kPatches, Function::kZ);
   const auto options = [](double min, double max) {
@@ -252,7 +238,7 @@ TEST(Embedding, GoesOnFromASavedState) {
   EmbeddingSink without, with;
   const std::uint64_t removed = stream(mesh, 1000, without, options);
   const std::uint64_t removed_again = stream(mesh, 1000, with, options, [&](Glue& glue) {
-    StateInMemory state;
+    StateBytes state;
     glue.save(state);
     Glue next(with, true);
     next.restore(state);

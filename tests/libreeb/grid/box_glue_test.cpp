@@ -121,18 +121,6 @@ TEST(BoxGlue, TakesNoMoreMemoryThanItSays) {
 
 // ---- saving and restoring
 
-struct Bytes : StateWriter, StateReader {
-  void write(std::span<const std::byte> more) override { bytes.insert(bytes.end(), more.begin(), more.end()); }
-  void read(std::span<std::byte> into) override {
-    if (into.size() > left()) throw DamagedState();
-    if (!into.empty()) std::memcpy(into.data(), bytes.data() + at, into.size());
-    at += into.size();
-  }
-  std::uint64_t left() const override { return bytes.size() - at; }
-  std::vector<std::byte> bytes;
-  std::size_t at = 0;
-};
-
 std::size_t boxes_of_a_layer(const NoiseCase& noise) {
   const GridBoxes boxes(noise.shape, noise.cut.cells);
   return boxes.count(0) * (noise.shape[2] == 1 ? 1 : boxes.count(1));
@@ -151,7 +139,7 @@ TEST(BoxGlue, ContinuesFromASavedState) {
     for (const Fragment& fragment : fragments_of_boxes(noise.shape, noise.values, noise.cut)) {
       glue->add(fragment);
       if (++done % layer != 0) continue;
-      Bytes state;
+      StateBytes state;
       glue->save(state);
       const std::size_t live = glue->live_vertices();
       glue = std::make_unique<BoxGlue>(sink);
@@ -175,7 +163,7 @@ TEST(BoxGlue, NeverCrashesOnAForgedState) {
   const std::vector<Fragment> fragments = fragments_of_boxes(noise.shape, noise.values, noise.cut);
   const std::size_t done = boxes_of_a_layer(noise);
   GluedBoxesSink sink;
-  Bytes good;
+  StateBytes good;
   {
     BoxGlue glue(sink);
     for (std::size_t i = 0; i < done; ++i) glue.add(fragments[i]);
@@ -183,19 +171,19 @@ TEST(BoxGlue, NeverCrashesOnAForgedState) {
   }
   std::uint64_t damaged = 0;
   for (std::uint64_t n = 0; n < case_count(2000); ++n) {
-    Bytes bad;
-    bad.bytes = good.bytes;
+    std::vector<std::byte> bytes = good.bytes();
     for (std::uint64_t change = 0; change <= n % 3; ++change) {
-      const std::size_t end = random() % 2 == 0 ? std::min<std::size_t>(bad.bytes.size(), 200) : bad.bytes.size();
+      const std::size_t end = random() % 2 == 0 ? std::min<std::size_t>(bytes.size(), 200) : bytes.size();
       const std::size_t at = random() % (end - 8) & ~std::size_t{3};
       const std::uint64_t word = random() % 2 == 0 ? random() : random() % 500;
       if (random() % 3 == 0)
-        bad.bytes[at] ^= static_cast<std::byte>(1u << random() % 8);
+        bytes[at] ^= static_cast<std::byte>(1u << random() % 8);
       else
-        std::memcpy(bad.bytes.data() + at, &word, random() % 3 == 0 ? 8 : 4);
+        std::memcpy(bytes.data() + at, &word, random() % 3 == 0 ? 8 : 4);
     }
     try {
       BoxGlue glue(sink);
+      StateBytes bad(std::move(bytes));
       glue.restore(bad);
       for (std::size_t i = done; i < fragments.size(); ++i) glue.add(fragments[i]);
     } catch (const DamagedState&) {

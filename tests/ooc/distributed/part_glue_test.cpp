@@ -41,22 +41,6 @@ struct Group {
   std::vector<PartSpan> runs;
 };
 
-// What was written is read again.
-class Bytes : public StateWriter, public StateReader {
- public:
-  void write(std::span<const std::byte> more) override { bytes_.insert(bytes_.end(), more.begin(), more.end()); }
-  void read(std::span<std::byte> out) override {
-    if (out.size() > left()) throw DamagedState();
-    std::copy_n(bytes_.begin() + static_cast<std::ptrdiff_t>(at_), out.size(), out.begin());
-    at_ += out.size();
-  }
-  std::uint64_t left() const override { return bytes_.size() - at_; }
-
- private:
-  std::vector<std::byte> bytes_;
-  std::size_t at_ = 0;
-};
-
 Group run_share(const Complex& complex, std::uint32_t part, std::uint32_t parts, Random& random, Collected& settled) {
   const ComplexMesh data(complex);
   ColumnFunction function(3);
@@ -92,7 +76,7 @@ Group glue(std::vector<Group>& groups, std::uint32_t parts, Collected& settled) 
   OpenPart open;
   glue.copy_open(open);
   open.live.bucket_begin.clear();
-  Bytes bytes;
+  StateBytes bytes;
   ooc::write_open_part(bytes, open);
   ooc::read_open_part(bytes, parts, all.open);
   return all;

@@ -298,21 +298,6 @@ TEST(ArcPayload, AListIsUnpackedOnlyToCoarsenIt) {
   EXPECT_TRUE(packed_list({}, 5, coarsened)->empty());
 }
 
-class StateBytes : public StateWriter, public StateReader {
- public:
-  void write(std::span<const std::byte> bytes) override { bytes_.insert(bytes_.end(), bytes.begin(), bytes.end()); }
-  void read(std::span<std::byte> bytes) override {
-    if (bytes.size() > left()) throw DamagedState();
-    std::copy_n(bytes_.begin() + static_cast<std::ptrdiff_t>(at_), bytes.size(), bytes.begin());
-    at_ += bytes.size();
-  }
-  std::uint64_t left() const override { return bytes_.size() - at_; }
-
- private:
-  std::vector<std::byte> bytes_;
-  std::size_t at_ = 0;
-};
-
 TEST_P(Segments, AnotherProcessGoesOnWithTheBuckets) {
   const Pieces pieces = random_pieces(20'000, 29);
   const EmbeddedArcs all = random_embedded_arcs(pieces, 7, 12);
