@@ -3,6 +3,11 @@
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
+#include <algorithm>
+#include <vector>
+
+#include "io/file/file.h"
+
 namespace reeb::io {
 
 struct RunningChecksum::State {
@@ -11,6 +16,17 @@ struct RunningChecksum::State {
 
 std::uint64_t checksum(std::span<const std::byte> bytes, std::uint64_t seed) {
   return XXH64(bytes.data(), bytes.size(), seed);
+}
+
+std::uint64_t checksum_of(const File& file, std::uint64_t begin, std::uint64_t bytes) {
+  std::vector<std::byte> piece(1 << 20);
+  RunningChecksum checksum;
+  for (const std::uint64_t end = begin + bytes; begin < end; begin += piece.size()) {
+    piece.resize(static_cast<std::size_t>(std::min<std::uint64_t>(piece.size(), end - begin)));
+    file.read_at(begin, piece);
+    checksum.add(piece);
+  }
+  return checksum.value();
 }
 
 RunningChecksum::RunningChecksum() : state_(std::make_unique<State>()) { XXH64_reset(&state_->hash, 0); }

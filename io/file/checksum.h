@@ -5,10 +5,29 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <type_traits>
 
 namespace reeb::io {
 
+class File;
+
 std::uint64_t checksum(std::span<const std::byte> bytes, std::uint64_t seed = 0);
+
+// THROWS: Error, of reading the file.
+std::uint64_t checksum_of(const File& file, std::uint64_t begin, std::uint64_t bytes);
+
+// An object as it is stored.
+template <class T>
+std::span<const std::byte> object_bytes(const T& object) {
+  static_assert(std::is_trivially_copyable_v<T>);
+  return std::as_bytes(std::span(&object, 1));
+}
+
+// Of a header that ends with its checksum: that of the bytes before.
+template <class Header>
+std::uint64_t header_checksum(const Header& header) {
+  return checksum(object_bytes(header).first(sizeof(Header) - sizeof(std::uint64_t)));
+}
 
 // The checksum of bytes that arrive in parts. It does not depend on where they were cut.
 class RunningChecksum {

@@ -57,11 +57,6 @@ struct BlockHeader {
   std::uint64_t checksum;  // XXH64 of the packed bytes
 };
 
-template <class T>
-std::span<const std::byte> object_bytes(const T& object) {
-  return std::as_bytes(std::span(&object, 1));
-}
-
 void to_planes(std::span<const std::uint32_t> entries, std::vector<std::byte>& planes) {
   const std::size_t count = entries.size();
   planes.resize(4 * count);
@@ -100,9 +95,9 @@ void write_sidecar(io::BufferedWriter& out, const MeshIdentity& mesh, LastUse& u
                       s.digest,
                       s.live_profile.size()};
   const auto profile = std::as_bytes(std::span(s.live_profile));
-  out.append(object_bytes(header));
+  out.append(io::object_bytes(header));
   out.append(profile);
-  out.append(object_bytes(io::checksum(profile, io::checksum(object_bytes(header)))));
+  out.append(io::object_bytes(io::checksum(profile, io::checksum(io::object_bytes(header)))));
   std::vector<std::uint32_t> entries(kBlockEntries);
   std::vector<std::byte> planes, packed;
   for (std::uint64_t first = 0; first < s.vertex_count; first += kBlockEntries) {
@@ -111,7 +106,7 @@ void write_sidecar(io::BufferedWriter& out, const MeshIdentity& mesh, LastUse& u
     to_planes(entries, planes);
     packed.clear();
     io::zstd_compress(planes, kLevel, packed);
-    out.append(object_bytes(BlockHeader{packed.size(), io::checksum(packed)}));
+    out.append(io::object_bytes(BlockHeader{packed.size(), io::checksum(packed)}));
     out.append(packed);
   }
 }
@@ -150,7 +145,7 @@ UseSummary read_summary(Reader& in, const Header& header) {
   s.live_profile.resize(static_cast<std::size_t>(header.samples));
   const auto profile = std::as_writable_bytes(std::span(s.live_profile));
   in.take(profile);
-  if (in.take<std::uint64_t>() != io::checksum(profile, io::checksum(object_bytes(header)))) throw Damaged();
+  if (in.take<std::uint64_t>() != io::checksum(profile, io::checksum(io::object_bytes(header)))) throw Damaged();
   s.vertex_count = header.vertex_count;
   s.unused_vertices = header.unused_vertices;
   s.triangle_count = header.triangle_count;

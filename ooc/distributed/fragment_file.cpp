@@ -36,16 +36,6 @@ struct BlockHeader {
 };
 static_assert(sizeof(BlockHeader) == 32);
 
-template <class T>
-std::span<const std::byte> object_bytes(const T& object) {
-  return std::as_bytes(std::span(&object, 1));
-}
-
-template <class T>
-std::uint64_t header_checksum(const T& header) {
-  return io::checksum(object_bytes(header).first(sizeof(T) - sizeof(std::uint64_t)));
-}
-
 class Writer : public StateWriter {
  public:
   explicit Writer(io::BufferedWriter& out) : out_(out) {}
@@ -100,8 +90,8 @@ class Reader : public StateReader {
 
 void add_block(io::BufferedWriter& out, std::uint64_t kind, std::size_t count, std::span<const std::byte> packed) {
   BlockHeader header{kind, count, packed.size(), 0};
-  header.checksum = io::checksum(packed, header_checksum(header));
-  out.append(object_bytes(header));
+  header.checksum = io::checksum(packed, io::header_checksum(header));
+  out.append(io::object_bytes(header));
   out.append(packed);
 }
 
@@ -126,32 +116,21 @@ io::File open_input(const std::string& path) {
   return io::File::open_for_reading(path);
 }
 
-std::uint64_t checksum_of(const io::File& file, std::uint64_t begin, std::uint64_t bytes) {
-  std::vector<std::byte> piece(1 << 20);
-  io::RunningChecksum checksum;
-  for (const std::uint64_t end = begin + bytes; begin < end; begin += piece.size()) {
-    piece.resize(static_cast<std::size_t>(std::min<std::uint64_t>(piece.size(), end - begin)));
-    file.read_at(begin, piece);
-    checksum.add(piece);
-  }
-  return checksum.value();
-}
-
 }  // namespace
 
 void write_fragment(const std::string& path, const OutputOptions& output, const PartInfo& info, const OpenPart& open,
                     SegmentStore& store) {
   io::AtomicFile file(path, {.existing = output.existing, .overwrites = true, .temp_folder = output.temp_folder});
   Header header{kMagic, kVersion, 0, 0, 0};
-  file.out().append(object_bytes(header));
+  file.out().append(io::object_bytes(header));
   Writer state(file.out());
   write_info(state, info);
   write_open_part(state, open);
   header.state_bytes = state.bytes();
   header.state_checksum = state.checksum();
-  header.checksum = header_checksum(header);
+  header.checksum = io::header_checksum(header);
   add_settled(file.out(), info, store);
-  file.out().overwrite(0, object_bytes(header));
+  file.out().overwrite(0, io::object_bytes(header));
   file.commit();
 }
 
@@ -183,11 +162,11 @@ FragmentFile::FragmentFile(const std::string& path) : file_(open_input(path)) {
     throw Error(ErrorKind::kBadInput, "this fragment is of another version of this program",
                 "make its part again with `reeb fragment`")
         .at(path);
-  if (header.checksum != header_checksum(header)) fail("is damaged", 0);
+  if (header.checksum != io::header_checksum(header)) fail("is damaged", 0);
   state_begin_ = sizeof(header);
   state_bytes_ = header.state_bytes;
   if (state_bytes_ > file_.size() - state_begin_) fail("was cut off", file_.size());
-  if (checksum_of(file_, state_begin_, state_bytes_) != header.state_checksum) fail("is damaged", state_begin_);
+  if (io::checksum_of(file_, state_begin_, state_bytes_) != header.state_checksum) fail("is damaged", state_begin_);
   at_ = state_begin_ + state_bytes_;
   try {
     Reader in(file_, state_begin_, at_);
@@ -226,7 +205,7 @@ void FragmentFile::read_block(std::uint64_t kind, std::uint64_t& count, std::vec
   if (header.bytes > file_.size() - at_ - sizeof(header)) fail("was cut off", file_.size());
   packed.resize(static_cast<std::size_t>(header.bytes));
   file_.read_at(at_ + sizeof(header), packed);
-  if (io::checksum(packed, header_checksum(header)) != header.checksum) fail("is damaged", at_);
+  if (io::checksum(packed, io::header_checksum(header)) != header.checksum) fail("is damaged", at_);
   at_ += sizeof(header) + header.bytes;
   count = header.count;
 }

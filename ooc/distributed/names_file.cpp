@@ -34,15 +34,6 @@ struct Run {
   std::uint64_t first, count;
 };
 
-template <class T>
-std::span<const std::byte> object_bytes(const T& object) {
-  return std::as_bytes(std::span(&object, 1));
-}
-
-std::uint64_t header_checksum(const Header& header) {
-  return io::checksum(object_bytes(header).first(sizeof(Header) - sizeof(std::uint64_t)));
-}
-
 Header header_of(const WholeMeshInfo& mesh, std::uint32_t part) {
   return {kMagic,
           kVersion,
@@ -69,7 +60,7 @@ Header read_header(const io::File& file, const WholeMeshInfo& mesh) {
   file.read_at(0, std::as_writable_bytes(std::span(&header, 1)));
   if (header.magic != kMagic) fail(file, "this is not a file of names", 0);
   if (header.version != kVersion) fail(file, "this file of names is of another version of this program", 0);
-  if (header.checksum != header_checksum(header)) fail(file, "this file of names is damaged", 0);
+  if (header.checksum != io::header_checksum(header)) fail(file, "this file of names is damaged", 0);
   const Header own = header_of(mesh, 0);
   if (header.mesh_bytes != own.mesh_bytes || header.mesh_digest != own.mesh_digest || header.reading != own.reading ||
       header.vertices != own.vertices || header.triangles != own.triangles)
@@ -142,19 +133,19 @@ std::uint64_t write_names(const std::string& path, const OutputOptions& output, 
                           std::uint32_t part) {
   io::AtomicFile file(path, {.existing = output.existing, .overwrites = true, .temp_folder = output.temp_folder});
   Header header = header_of(mesh.info, part);
-  file.out().append(object_bytes(header));
+  file.out().append(io::object_bytes(header));
   io::RunningChecksum checksum;
   std::uint64_t names = 0;
   visit_names(run, mesh, part, [&](std::uint64_t first, std::uint64_t count) {
     const Run one{first, count};
-    file.out().append(object_bytes(one));
-    checksum.add(object_bytes(one));
+    file.out().append(io::object_bytes(one));
+    checksum.add(io::object_bytes(one));
     ++header.runs;
     names += count;
   });
   header.runs_checksum = checksum.value();
-  header.checksum = header_checksum(header);
-  file.out().overwrite(0, object_bytes(header));
+  header.checksum = io::header_checksum(header);
+  file.out().overwrite(0, io::object_bytes(header));
   file.commit();
   return names;
 }

@@ -37,7 +37,7 @@ static_assert(sizeof(Header) == 17 * 8);
 
 template <class T>
 std::uint64_t digest_of(const T& object, std::uint64_t seed) {
-  return io::checksum(std::as_bytes(std::span(&object, 1)), seed);
+  return io::checksum(io::object_bytes(object), seed);
 }
 
 std::uint64_t digest_of_file(const std::string& path, std::uint64_t seed) {
@@ -80,17 +80,10 @@ class Reader : public StateReader {
   std::uint64_t left() const override { return end_ - at_; }
 
   bool is_whole() const {
-    std::vector<std::byte> piece(1 << 20);
-    io::RunningChecksum checksum;
-    for (std::uint64_t at = 0; at < end_; at += piece.size()) {
-      piece.resize(static_cast<std::size_t>(std::min<std::uint64_t>(piece.size(), end_ - at)));
-      file_.read_at(at, piece);
-      checksum.add(piece);
-    }
     std::uint64_t expected = 0;
     if (file_.size() < sizeof(expected)) return false;
     file_.read_at(end_, std::as_writable_bytes(std::span(&expected, 1)));
-    return checksum.value() == expected;
+    return io::checksum_of(file_, 0, end_) == expected;
   }
 
  private:
