@@ -4,8 +4,6 @@
 #include <utility>
 
 #include "io/file/atomic_file.h"
-#include "io/file/temp_dir.h"
-#include "io/functions/function_source.h"
 #include "libreeb/base/error.h"
 #include "ooc/run/compute.h"
 #include "tools/library/run_files.h"
@@ -29,20 +27,14 @@ template <class Mesh>
 std::vector<ComputeResult> compute_all(const Mesh& mesh_source, const std::string& path,
                                        std::span<const std::string> functions, std::span<const std::string> outputs,
                                        const ComputeOptions& options) {
-  std::vector<io::FunctionSpec> specs;
-  for (const std::string& function : functions)
-    specs.push_back(function.empty() ? io::FunctionSpec() : io::parse_function(function));
+  const std::vector<io::FunctionSpec> specs = parse_functions(functions);
   require_an_output_each(functions, outputs);
   files_of_run(path, specs, outputs, options).check();
 
   const bool snapshots = options.snapshot_every != 0;
-  InputOptions input_options{
-      .format = options.format,
-      .image = options.image,
-      .temp_dir = options.temp_dir.empty() ? io::TempDir::default_folder(outputs.front()) : options.temp_dir,
-      .memory_bytes = options.memory_bytes};
-  if (snapshots) input_options.batch_events = 1;  // exactly as far as the stream came
-  RunInput input(mesh_source, functions, input_options);
+  InputOptions reading = input_options(options, outputs.front());
+  if (snapshots) reading.batch_events = 1;  // exactly as far as the stream came
+  RunInput input(mesh_source, functions, reading);
   const std::span<VertexFunction* const> pointers = input.functions();
   if (options.opened) options.opened(input.info());
   ooc::MeshInput mesh;

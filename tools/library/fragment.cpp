@@ -2,7 +2,6 @@
 
 #include <utility>
 
-#include "io/file/temp_dir.h"
 #include "libreeb/base/error.h"
 #include "tools/library/run_files.h"
 #include "tools/library/run_input.h"
@@ -11,22 +10,12 @@
 namespace reeb {
 namespace {
 
-InputOptions input_options(const ComputeOptions& options, const std::string& output) {
-  return {.format = options.format,
-          .image = options.image,
-          .temp_dir = options.temp_dir.empty() ? io::TempDir::default_folder(output) : options.temp_dir,
-          .memory_bytes = options.memory_bytes};
-}
-
 void check_files(const std::string& path, std::span<const std::string> functions, std::span<const std::string> outputs,
                  const ComputeOptions& options, const ooc::PartChoice& choice) {
   if (path == "-")
     throw Error(ErrorKind::kUsage, "a part of standard input cannot be computed, since other parts need the mesh, too",
                 "name the file of the mesh");
-  std::vector<io::FunctionSpec> specs;
-  for (const std::string& function : functions)
-    specs.push_back(function.empty() ? io::FunctionSpec() : io::parse_function(function));
-  RunFiles files = files_of_run(path, specs, outputs, options);
+  RunFiles files = files_of_run(path, parse_functions(functions), outputs, options);
   for (const std::string& names : choice.shared) files.add_input(names, "a file of names");
   files.check();
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "io/file/checksum.h"
+#include "io/file/temp_dir.h"
 
 namespace reeb {
 namespace {
@@ -19,14 +20,21 @@ std::uint64_t reading_digest(const MeshInfo& info, const io::ImageOptions& image
   return digest;
 }
 
-std::vector<io::FunctionSpec> parse(std::span<const std::string> functions) {
+}  // namespace
+
+InputOptions input_options(const ComputeOptions& options, const std::string& output) {
+  return {.format = options.format,
+          .image = options.image,
+          .temp_dir = options.temp_dir.empty() ? io::TempDir::default_folder(output) : options.temp_dir,
+          .memory_bytes = options.memory_bytes};
+}
+
+std::vector<io::FunctionSpec> parse_functions(std::span<const std::string> functions) {
   std::vector<io::FunctionSpec> specs;
   for (const std::string& function : functions)
     specs.push_back(function.empty() ? io::FunctionSpec() : io::parse_function(function));
   return specs;
 }
-
-}  // namespace
 
 RunInput::RunInput(const std::string& path, std::span<const std::string> functions, const InputOptions& options)
     : options_(options), file_(io::mesh_input(path, options.format)) {
@@ -47,7 +55,7 @@ RunInput::RunInput(MeshOpener open_held, std::span<const std::string> functions,
 }
 
 void RunInput::open(std::span<const std::string> functions, std::unique_ptr<io::ContentSource> content) {
-  std::vector<io::FunctionSpec> specs = parse(functions);
+  std::vector<io::FunctionSpec> specs = parse_functions(functions);
   reading_.batch_events = options_.batch_events;
   reading_.properties = io::needed_properties(specs);
   reading_.temp_folder = options_.temp_dir;

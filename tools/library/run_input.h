@@ -26,6 +26,13 @@ struct InputOptions {
   std::size_t batch_events = 8192;  // a few hundred KiB, beside chunks on their way
 };
 
+// Temporary files go to `temp_dir` of the options; if that is empty, to the default folder for `output`.
+InputOptions input_options(const ComputeOptions& options, const std::string& output);
+
+// Functions as users name them; "" is the default of the mesh.
+// THROWS: Error{kUsage} for a function that is none.
+std::vector<io::FunctionSpec> parse_functions(std::span<const std::string> functions);
+
 // Must outlive the run.
 class RunInput {
  public:

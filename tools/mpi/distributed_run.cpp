@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "io/file/atomic_file.h"
-#include "io/file/temp_dir.h"
 #include "libreeb/base/error.h"
 #include "libreeb/parts/part_glue.h"
 #include "ooc/distributed/fragment_file.h"
@@ -154,11 +153,7 @@ DistributedResult compute_distributed(World& world, const std::string& path, std
                                       std::span<const std::string> outputs, const ComputeOptions& options) {
   const ooc::ComputeOptions wanted = run_options(options);
   const ooc::ComputeOptions of_share = ooc::options_of_share(wanted);
-  RunInput source(path, functions,
-                  {.format = options.format,
-                   .image = options.image,
-                   .temp_dir = options.temp_dir.empty() ? io::TempDir::default_folder(outputs[0]) : options.temp_dir,
-                   .memory_bytes = options.memory_bytes});
+  RunInput source(path, functions, input_options(options, outputs[0]));
   if (options.opened && world.is_root()) options.opened(source.info());
   ooc::MeshInput input = source.take_mesh();
   std::vector<std::string> rank_outputs;
