@@ -216,7 +216,7 @@ class MeditInput final : public CellInput {
 
 bool is_medit(std::string_view head) {
   const auto skip_blanks = [&head] {
-    while (!head.empty() && (is_blank(head.front()) || head.front() == '\n')) head.remove_prefix(1);
+    while (!head.empty() && is_blank_or_line_end(head.front())) head.remove_prefix(1);
   };
   for (skip_blanks(); head.starts_with('#'); skip_blanks()) head.remove_prefix(std::min(head.find('\n'), head.size()));
   return head.starts_with("MeshVersionFormatted");

@@ -20,13 +20,6 @@ constexpr TextStyle kStyle = {.comments = true};
 constexpr const char* kDamagedHint = "the file may be cut or damaged here";
 constexpr std::uint64_t kMostAttributes = 65536;
 
-// A path without .gz or .zst.
-std::string unpacked_name(std::string path) {
-  if (const std::string suffix = name_suffix(path); suffix == ".gz" || suffix == ".zst")
-    path.resize(path.size() - suffix.size());
-  return path;
-}
-
 void require_more(TextCursor& text, const char* what) {
   if (text.more()) return;
   text.mark();
@@ -163,7 +156,7 @@ class TetgenInput final : public CellInput {
 };
 
 std::string stem_of(const std::string& path) {
-  const std::string name = unpacked_name(path);
+  const std::string name = content_name(path);
   return name.substr(0, name.size() - name_suffix(name).size());
 }
 

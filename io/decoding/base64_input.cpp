@@ -50,7 +50,7 @@ class Base64Input final : public ByteFilter {
         bits = bits << 6 | static_cast<std::uint32_t>(digit);
       else if (pad)
         bits <<= 6, ++pads;
-      else if (c != '\n' && !is_blank(c))
+      else if (!is_blank_or_line_end(c))
         throw Error(ErrorKind::kBadInput, "this is no base64 text", "the file may be cut or damaged here")
             .at(name(), std::to_string(offset()));
       ++next_;

@@ -42,7 +42,7 @@ class HexInput final : public ByteFilter {
       }
       const char c = buffer_[next_];
       const int digit = digit_of(c);
-      if (digit < 0 && c != '\n' && !is_blank(c))
+      if (digit < 0 && !is_blank_or_line_end(c))
         throw Error(ErrorKind::kBadInput, "not a hexadecimal digit", "the file may be cut or damaged here")
             .at(name(), std::to_string(offset()));
       ++next_;

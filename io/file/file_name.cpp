@@ -4,6 +4,7 @@
 #include <array>
 #include <cctype>
 #include <filesystem>
+#include <string_view>
 
 namespace reeb::io {
 
@@ -14,17 +15,16 @@ std::string name_suffix(const std::string& path) {
   return suffix;
 }
 
-std::string content_suffix(const std::string& path) {
+std::string content_name(const std::string& path) {
   const std::string suffix = name_suffix(path);
-  if (suffix != ".gz" && suffix != ".zst") return suffix;
-  return name_suffix(path.substr(0, path.size() - suffix.size()));
+  return suffix == ".gz" || suffix == ".zst" ? path.substr(0, path.size() - suffix.size()) : path;
 }
 
-bool is_streaming_name(std::string_view path) {
-  for (const std::string_view ending : {".gz", ".zst"})
-    if (path.ends_with(ending)) path.remove_suffix(ending.size());
-  return std::ranges::any_of(std::array<std::string_view, 7>{".sma", ".smb", ".smc", ".smd", ".sva", ".svb", ".svc"},
-                             [path](std::string_view ending) { return path.ends_with(ending); });
+std::string content_suffix(const std::string& path) { return name_suffix(content_name(path)); }
+
+bool is_streaming_name(const std::string& path) {
+  constexpr std::array<std::string_view, 7> kSuffixes = {".sma", ".smb", ".smc", ".smd", ".sva", ".svb", ".svc"};
+  return std::ranges::find(kSuffixes, content_suffix(path)) != kSuffixes.end();
 }
 
 }  // namespace reeb::io

@@ -13,11 +13,7 @@ constexpr const char* kItemHint = "a line is `v x1 ... xd` or `s i j ...`; the f
 
 }  // namespace
 
-bool is_cx_name(const std::string& path) {
-  const std::string suffix = name_suffix(path);
-  if (suffix != ".gz" && suffix != ".zst") return suffix == ".cx";
-  return name_suffix(path.substr(0, path.size() - suffix.size())) == ".cx";
-}
+bool is_cx_name(const std::string& path) { return content_suffix(path) == ".cx"; }
 
 CxReader::CxReader(std::unique_ptr<ContentSource> source, ReadOptions options)
     : BatchReader(std::move(options)), text_(std::move(source), {.comments = true}) {

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "io/mesh/scalar_bytes.h"
+#include "io/text/text_cursor.h"
 
 namespace reeb::io {
 namespace {
@@ -46,10 +47,8 @@ constexpr Mark kMarks[] = {
     {"ustar"sv, other("a tar archive", "unpack it first"), 257},
 };
 
-bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
-
 std::string_view without_leading_blanks(std::string_view text) {
-  while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && is_blank_or_line_end(text.front())) text.remove_prefix(1);
   return text;
 }
 

@@ -20,11 +20,9 @@
 namespace reeb::io {
 namespace {
 
-bool is_line_blank(char c) { return c == '\n' || is_blank(c); }
-
 std::string_view first_word(std::string_view text) {
-  const auto begin = std::ranges::find_if_not(text, is_line_blank);
-  return {begin, std::find_if(begin, text.end(), is_line_blank)};
+  const auto begin = std::ranges::find_if_not(text, is_blank_or_line_end);
+  return {begin, std::find_if(begin, text.end(), is_blank_or_line_end)};
 }
 
 std::string_view take_line(std::string_view& text) {
@@ -46,7 +44,7 @@ std::string_view skip_comments(std::string_view text) {
 }
 
 // A byte that no text has: UTF-8 and the Latin alphabets have no control characters but white space.
-bool is_control(char c) { return static_cast<unsigned char>(c) < 32 && !is_line_blank(c); }
+bool is_control(char c) { return static_cast<unsigned char>(c) < 32 && !is_blank_or_line_end(c); }
 
 bool is_text(std::string_view head) { return std::ranges::none_of(head.substr(0, 4096), is_control); }
 
@@ -198,7 +196,7 @@ MeshFormat detect_format(ContentSource& source, const std::string& path) {
       if (starts_streaming(source.view(0, min_bytes))) return MeshFormat::kStreaming;
   std::string_view head = source.view(0);
   if (head.starts_with("\xEF\xBB\xBF")) head.remove_prefix(3);
-  if (head.starts_with("ply") && (head.size() == 3 || is_line_blank(head[3]))) return MeshFormat::kPly;
+  if (head.starts_with("ply") && (head.size() == 3 || is_blank_or_line_end(head[3]))) return MeshFormat::kPly;
   if (has_binary_stl_size(head, source.size())) return MeshFormat::kBinaryStl;
   if (image_format_of(head)) return MeshFormat::kUnknown;
   if (head.starts_with("# vtk DataFile")) return MeshFormat::kVtkLegacy;

@@ -60,10 +60,7 @@ std::string data_path(const std::string& header, const std::string& data_file) {
 
 std::optional<ImageFormat> detect_image(ContentSource& source, const std::string& path) {
   if (const auto format = image_format_of(source.view(0))) return format;
-  std::string name = path;
-  if (const std::string suffix = name_suffix(name); suffix == ".gz" || suffix == ".zst")
-    name.resize(name.size() - suffix.size());
-  const std::string suffix = name_suffix(name);
+  const std::string suffix = content_suffix(path);
   if (suffix != ".raw" && suffix != ".asc") return std::nullopt;
   if (detect_format(source, path) != MeshFormat::kUnknown) return std::nullopt;
   return suffix == ".raw" ? ImageFormat::kRaw : ImageFormat::kEsriGrid;

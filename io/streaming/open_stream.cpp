@@ -1,8 +1,7 @@
 #include "io/streaming/open_stream.h"
 
-#include <cstring>
-
 #include "io/events/stream_fault.h"
+#include "io/file/file_name.h"
 #include "io/smc/smc_reader.h"
 #include "io/streaming/block_reader.h"
 #include "io/streaming/text_reader.h"
@@ -11,13 +10,6 @@
 
 namespace reeb::io {
 namespace {
-
-// The suffix before .gz or .zst.
-bool has_suffix(std::string name, const std::string& suffix) {
-  for (const char* wrapper : {".gz", ".zst"})
-    if (name.ends_with(wrapper)) name.resize(name.size() - std::strlen(wrapper));
-  return name.ends_with(suffix);
-}
 
 bool is_text(unsigned byte) { return byte == '\t' || byte == '\n' || byte == '\r' || (byte >= 0x20 && byte < 0x7F); }
 
@@ -36,9 +28,9 @@ std::unique_ptr<EventReader> open_any(Cursor cursor, const std::string& path) {
   const unsigned first = static_cast<unsigned char>(cursor.data()[0]);
   const unsigned second = has_second ? static_cast<unsigned char>(cursor.data()[1]) : 0;
 
-  if (has_suffix(path, ".svc")) refuse("a compressed volume mesh (SVC)");
+  if (content_suffix(path) == ".svc") refuse("a compressed volume mesh (SVC)");
   if (first == 0x1F && second == 0x8B) refuse("gzip-compressed");
-  if (is_text(first)) return std::make_unique<TextEventReader>(std::move(cursor), has_suffix(path, ".sva"));
+  if (is_text(first)) return std::make_unique<TextEventReader>(std::move(cursor), content_suffix(path) == ".sva");
   switch (first) {
     case 0:
       return std::make_unique<SmbEventReader>(std::move(cursor));

@@ -11,8 +11,6 @@
 namespace reeb::io {
 namespace {
 
-bool ends_token(char c) { return c == '\n' || is_blank(c); }
-
 std::string quoted(std::string_view token) {
   static constexpr std::size_t kShown = 40;
   std::string text = "\"";
@@ -99,7 +97,7 @@ std::string_view TextCursor::token() {
   const char* const begin = cursor_.data();
   const std::size_t limit = std::min(cursor_.available(), kTokenBytes);
   std::size_t length = 0;
-  while (length < limit && !ends_token(begin[length])) ++length;
+  while (length < limit && !is_blank_or_line_end(begin[length])) ++length;
   if (length == kTokenBytes) fail("a word of more than 4096 characters", "check that this is a text file");
   if (style_.continuation && length > 1 && begin[length - 1] == '\\') --length;
   cursor_.advance(length);
@@ -114,7 +112,7 @@ Float TextCursor::finite_number(const char* what) {
   const char* const end = begin + std::min(cursor_.available(), kTokenBytes);
   Float value = 0;
   const auto parsed = fast_float::from_chars(begin, end, value);
-  const bool whole = parsed.ec == std::errc{} && (parsed.ptr == end || ends_token(*parsed.ptr));
+  const bool whole = parsed.ec == std::errc{} && (parsed.ptr == end || is_blank_or_line_end(*parsed.ptr));
   if (!whole || !std::isfinite(value)) [[unlikely]]
     return slow_number<Float>(what);
   mark();

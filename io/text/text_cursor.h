@@ -28,6 +28,7 @@ extern template ParsedNumber<float> parse_number<float>(std::string_view);
 extern template ParsedNumber<double> parse_number<double>(std::string_view);
 
 inline bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }
+inline bool is_blank_or_line_end(char c) { return c == '\n' || is_blank(c); }
 
 // Whether the token spells NaN or an infinity ("nan", "-inf", "Infinity", ...).
 bool spells_non_finite(std::string_view token);

@@ -20,8 +20,6 @@ constexpr std::uint64_t kMostNumbers = std::uint64_t{1} << 56;
 constexpr std::size_t kLineBytes = 4096;
 constexpr const char* kDamagedHint = "the file may be cut or damaged here";
 
-bool is_separator(char c) { return c == '\n' || is_blank(c); }
-
 std::string upper_case(std::string_view word) {
   std::string upper(word);
   for (char& c : upper)
@@ -278,7 +276,7 @@ class LegacyIndexer {
 
   void skip_metadata() {
     end_line();
-    for (std::string text = line(); !std::ranges::all_of(text, is_separator); text = line())
+    for (std::string text = line(); !std::ranges::all_of(text, is_blank_or_line_end); text = line())
       if (!cursor_.ensure(1)) return;
   }
 
@@ -322,7 +320,7 @@ class LegacyIndexer {
       const char* const end = begin + cursor_.available();
       const char* next = begin;
       for (; next != end; ++next) {
-        const bool separator = is_separator(*next);
+        const bool separator = is_blank_or_line_end(*next);
         if (in_word && separator && --count == 0) break;
         if (count == 0) break;
         in_word = !separator;
@@ -335,7 +333,7 @@ class LegacyIndexer {
   // --- words and lines
 
   std::string word() {
-    while (cursor_.ensure(1) && is_separator(*cursor_.data())) cursor_.advance(1);
+    while (cursor_.ensure(1) && is_blank_or_line_end(*cursor_.data())) cursor_.advance(1);
     mark_ = cursor_.offset();
     return peek_text();
   }
@@ -343,7 +341,7 @@ class LegacyIndexer {
   std::string peek_text() {
     cursor_.ensure(kLineBytes);
     const std::string_view text(cursor_.data(), std::min(cursor_.available(), kLineBytes));
-    const auto length = static_cast<std::size_t>(std::ranges::find_if(text, is_separator) - text.begin());
+    const auto length = static_cast<std::size_t>(std::ranges::find_if(text, is_blank_or_line_end) - text.begin());
     if (length == kLineBytes) fail("a word of more than 4096 characters");
     std::string found(text.substr(0, length));
     cursor_.advance(length);
@@ -354,7 +352,7 @@ class LegacyIndexer {
     cursor_.ensure(32);
     const std::string_view text(cursor_.data(), std::min<std::size_t>(cursor_.available(), 32));
     return upper_case(
-        text.substr(0, static_cast<std::size_t>(std::ranges::find_if(text, is_separator) - text.begin())));
+        text.substr(0, static_cast<std::size_t>(std::ranges::find_if(text, is_blank_or_line_end) - text.begin())));
   }
   bool more_on_line() {
     while (cursor_.ensure(1) && is_blank(*cursor_.data())) cursor_.advance(1);

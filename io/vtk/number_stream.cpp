@@ -18,8 +18,6 @@ constexpr std::size_t kBufferBytes = 16384;
 constexpr std::size_t kTokenBytes = 512;
 constexpr const char* kCutHint = "the file is cut or damaged; get a whole copy";
 
-bool is_separator(char c) { return c == '\n' || is_blank(c); }
-
 }  // namespace
 
 NumberStream::NumberStream(const ContentSource& content, const NumberPlace& place, std::uint64_t count,
@@ -53,13 +51,13 @@ void NumberStream::check_room(std::uint64_t count) const {
 }
 
 std::string_view NumberStream::token() {
-  while (text_->ensure(1) && is_separator(*text_->data())) text_->advance(1);
+  while (text_->ensure(1) && is_blank_or_line_end(*text_->data())) text_->advance(1);
   item_offset_ = text_->offset();
   text_->ensure(kTokenBytes);
   const char* const begin = text_->data();
   const std::size_t limit = std::min(text_->available(), kTokenBytes);
   std::size_t length = 0;
-  while (length < limit && !is_separator(begin[length]) && begin[length] != '<') ++length;
+  while (length < limit && !is_blank_or_line_end(begin[length]) && begin[length] != '<') ++length;
   if (length != 0) text_->advance(length);
   return {begin, length};
 }

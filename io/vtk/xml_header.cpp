@@ -101,8 +101,7 @@ class XmlIndexer final : private XmlParser::Handler {
 
   // Elements can stand before the numbers of an array, and after them.
   bool text(std::string_view text) override {
-    if (nested_ == 0 && !std::ranges::all_of(text, [](char c) { return c == '\n' || is_blank(c); }))
-      open_array_ = nullptr;
+    if (nested_ == 0 && !std::ranges::all_of(text, is_blank_or_line_end)) open_array_ = nullptr;
     return true;
   }
 
