@@ -26,15 +26,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // PATH.partial-PID-N
-constexpr const char* kSuffix = ".partial-";
-
-bool is_number_pair(std::string_view text) {
-  const auto dash = text.find('-');
-  const auto is_number = [](std::string_view t) {
-    return !t.empty() && t.find_first_not_of("0123456789") == std::string_view::npos;
-  };
-  return dash != std::string_view::npos && is_number(text.substr(0, dash)) && is_number(text.substr(dash + 1));
-}
+constexpr std::string_view kSuffix = ".partial-";
 
 [[noreturn]] void throw_name_is_taken(const std::string& path) {
   throw Error(ErrorKind::kBadInput, "the output exists already",
@@ -103,12 +95,24 @@ void require_output_folder(const std::string& path) {
   ::close(probe);
 }
 
+bool is_partial_name(std::string_view name, std::string_view of) {
+  for (const std::string_view start : {of, kSuffix}) {
+    if (!name.starts_with(start)) return false;
+    name.remove_prefix(start.size());
+  }
+  const auto is_number = [](std::string_view text) {
+    return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos;
+  };
+  const auto dash = name.find('-');
+  return dash != std::string_view::npos && is_number(name.substr(0, dash)) && is_number(name.substr(dash + 1));
+}
+
 void remove_abandoned(const std::string& path) {
   if (is_device(path)) return;
   const std::string target = follow_links(path), folder = folder_of(target);
-  const std::string prefix = fs::path(target).filename().string() + kSuffix;
+  const std::string own = fs::path(target).filename().string();
   for_each_name(folder, [&](std::string_view name) {
-    if (!name.starts_with(prefix) || !is_number_pair(name.substr(prefix.size()))) return;
+    if (!is_partial_name(name, own)) return;
     const std::string place = folder + "/" + std::string(name);
     const int file = system::open(place, O_RDONLY | O_NOFOLLOW | O_NONBLOCK);
     if (file < 0) return;
@@ -131,7 +135,7 @@ AtomicFile::AtomicFile(const std::string& path, const AtomicOptions& options) : 
 void AtomicFile::open_temporary() {
   File file;
   for (unsigned attempt = 0; !file.is_open(); ++attempt) {
-    std::string name = target_ + kSuffix + std::to_string(::getpid()) + "-" + std::to_string(attempt);
+    std::string name = target_ + std::string(kSuffix) + std::to_string(::getpid()) + "-" + std::to_string(attempt);
     const int descriptor = system::open(name, O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW, 0600);
     if (descriptor < 0 && errno == EEXIST) continue;
     if (descriptor < 0) throw_output_error(errno, path_);

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "io/file/buffered_writer.h"
 #include "io/file/temporary_name.h"
@@ -33,6 +34,9 @@ void require_output_folder(const std::string& path);
 // The end of the chain of links that starts at `path`. There need not be a file yet.
 // THROWS: Error{kBadInput} if the chain has no end.
 std::string follow_links(const std::string& path);
+
+// Whether `name` is that of a temporary file for the output `of`, both without a folder: NAME.partial-PID-N.
+bool is_partial_name(std::string_view name, std::string_view of);
 
 // Removes the temporary files that killed writers of `path` left. A living writer holds a lock on its file, which
 // stays. AtomicFile calls this itself.

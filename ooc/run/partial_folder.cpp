@@ -11,6 +11,7 @@
 #include <string_view>
 #include <utility>
 
+#include "io/file/atomic_file.h"
 #include "io/file/file.h"
 #include "io/file/system.h"
 #include "libreeb/base/error.h"
@@ -29,18 +30,10 @@ bool is_number(std::string_view text) {
 
 // Whether runs give their files such a name: checkpoint, checkpoint.partial-PID-N, function-N.nodes, function-N.arcs.
 bool is_name_of_a_run(std::string_view name) {
-  const auto take = [&name](std::string_view start) {
-    if (!name.starts_with(start)) return false;
-    name.remove_prefix(start.size());
-    return true;
-  };
-  if (take("checkpoint")) {
-    if (name.empty()) return true;
-    if (!take(".partial-")) return false;
-    const auto dash = name.find('-');
-    return dash != std::string_view::npos && is_number(name.substr(0, dash)) && is_number(name.substr(dash + 1));
-  }
-  if (!take("function-")) return false;
+  constexpr std::string_view kCheckpoint = "checkpoint", kFunction = "function-";
+  if (name == kCheckpoint || io::is_partial_name(name, kCheckpoint)) return true;
+  if (!name.starts_with(kFunction)) return false;
+  name.remove_prefix(kFunction.size());
   const auto dot = name.find('.');
   if (dot == std::string_view::npos || !is_number(name.substr(0, dot))) return false;
   return name.substr(dot) == ".nodes" || name.substr(dot) == ".arcs";
