@@ -10,7 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include "ooc/threads/kept_arena.h"
 #include "ooc/threads/parallel.h"
 
 namespace reeb::ooc {
@@ -37,9 +36,7 @@ class RankSort {
       return;
     }
     const std::vector<std::size_t> ends = divide(records);
-    run_in_kept_arena(threads, [&] {
-      in_parallel(threads, ends.size(), [&](std::size_t part) { sort(part_of(records, ends, part)); });
-    });
+    in_parallel(threads, ends.size(), [&](std::size_t part) { sort(part_of(records, ends, part)); });
   }
 
  private:

@@ -24,7 +24,7 @@ void in_parallel(unsigned threads, std::size_t count, const std::function<void(s
     const PipelineOrder::Filter filter(order, &own);
     work(i);
   };
-  kept_arena(threads).execute([&] {
+  run_in_kept_arena(threads, [&] {
     PipelineOrder::filters_are_made();
     // A thread that waits here must not begin other work, which can take longer.
     tbb::this_task_arena::isolate([&] { tbb::parallel_for(std::size_t{0}, count, body); });
