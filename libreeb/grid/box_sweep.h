@@ -17,13 +17,15 @@
 
 namespace reeb {
 
-// TIME: O(sort) plus about 100 ns per vertex. MEMORY: scratch of about 100 bytes per vertex, kept for the next box.
+// TIME: O(sort) plus about 100 ns per vertex. MEMORY: memory_bytes(), kept for the next box.
 class BoxSweep {
  public:
   // Replaces `fragment` by that of `chunk`, where local vertex i has the value values[i].
   // REQUIRES: chunk.is_box().
   void run(const Chunk& chunk, std::span<const double> values, Fragment& fragment, const SweepOptions& options = {});
   std::size_t memory_bytes() const;
+  // About this much is needed for a box.
+  static std::size_t least_memory_bytes(const Chunk& chunk) { return 100 * chunk.vertex_count(); }
 
  private:
   VertexRanks ranks_;

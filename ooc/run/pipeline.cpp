@@ -129,7 +129,7 @@ class Pipeline {
 
   void sweep(Slot& slot, Sweeper<Sweep>& sweeper) {
     slot.item.fragments.resize(glues_.size());
-    reserve_at_least(sweeper.reservation, ChunkSweep::least_memory_bytes(slot.item.chunk));
+    reserve_at_least(sweeper.reservation, Sweep::least_memory_bytes(slot.item.chunk));
     for (std::size_t f = 0; f < glues_.size(); ++f)
       sweeper.sweep.run(slot.item.chunk, slot.item.values[f], slot.item.fragments[f], sweep_options(slot.item, f));
     sweeper.reservation.resize(sweeper.sweep.memory_bytes());
