@@ -125,7 +125,8 @@ class AsciiOffReader final : public OffReader {
   std::uint64_t bytes_read() const override { return text_.bytes_read(); }
   std::vector<std::string> warnings() const override {
     if (odd_values_ == 0) return {};
-    return {std::to_string(odd_values_) + " normals or colours are not finite (they are not used)"};
+    return {count_of(odd_values_, "value") + " of normals or colours " + (odd_values_ == 1 ? "is" : "are") +
+            " not finite (they are not used)"};
   }
 
  private:

@@ -13,6 +13,12 @@ std::int64_t cell_of(double coordinate, int exponent) {
   return static_cast<std::int64_t>(std::floor(std::clamp(std::ldexp(coordinate, -exponent), -0x1p60, 0x1p60)));
 }
 
+// Of the grid of a ball: a cell is one to two radii wide. Balls without extent have the finest one.
+int exponent_of(const Ball& ball) {
+  constexpr int kFinest = -1000;
+  return ball.radius > 0 ? std::ilogb(ball.radius) + 1 : kFinest;
+}
+
 // Cells that are far from each other may share a key; then a question looks at more balls.
 std::uint64_t key_of(std::int64_t x, std::int64_t y, std::int64_t z) {
   constexpr std::uint64_t kMask = (std::uint64_t{1} << 21) - 1;
@@ -23,7 +29,7 @@ std::uint64_t key_of(std::int64_t x, std::int64_t y, std::int64_t z) {
 }  // namespace
 
 void NearBalls::add(const Ball& ball, std::uint32_t number) {
-  const int exponent = ball.radius > 0 ? std::ilogb(ball.radius) + 1 : -1000;  // a cell is one to two radii wide
+  const int exponent = exponent_of(ball);
   auto grid = std::ranges::find(grids_, exponent, &Grid::exponent);
   if (grid == grids_.end()) grid = grids_.insert(grids_.end(), {exponent, {}});
   const std::uint64_t key =
@@ -46,7 +52,7 @@ std::vector<std::uint32_t> NearBalls::meeting(const Ball& ball) const {
     // Among balls far smaller than this one: all of them.
     if (std::ldexp(reach, -grid.exponent) > 8) {
       for (const Entry& entry : entries_)
-        if ((entry.ball.radius > 0 ? std::ilogb(entry.ball.radius) + 1 : -1000) == grid.exponent) look_at(entry);
+        if (exponent_of(entry.ball) == grid.exponent) look_at(entry);
       continue;
     }
     std::array<std::array<std::int64_t, 2>, 3> range{};

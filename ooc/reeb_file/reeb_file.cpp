@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "io/file/file.h"
+#include "libreeb/base/count_text.h"
 #include "ooc/reeb_file/frame_file.h"
 
 namespace reeb::ooc {
@@ -50,8 +51,8 @@ std::uint32_t finest_within(const FrameFile& file, std::uint64_t limit, const Me
   if (*too_large < file.header().steps) return *too_large + 1;
   const LevelLine& coarsest = file.header().levels.front();
   throw Error(ErrorKind::kBadInput,
-              "even the coarsest level is larger: it has " + std::to_string(coarsest.nodes) + " nodes and takes " +
-                  std::to_string(coarsest.memory_bytes) + " bytes",
+              "even the coarsest level is larger: it has " + count_of(coarsest.nodes, "node") + " and takes " +
+                  count_of(coarsest.memory_bytes, "byte"),
               "allow at least " + std::to_string(measure(coarsest.nodes, coarsest.memory_bytes)) + " " + unit)
       .at(file.path());
 }

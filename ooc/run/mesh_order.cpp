@@ -270,7 +270,7 @@ class Ordering {
     if (plan.exceeds(front)) {
       const std::string megabytes = std::to_string((plan.needed_bytes(front) >> 20) + 1) + "M";
       throw Error(ErrorKind::kResource,
-                  std::to_string(front.live_vertices) + " vertices are live at once, and their graph will not fit " +
+                  count_of(front.live_vertices, "vertex") + " are live at once, and their graph will not fit " +
                       format_bytes(plan.set_aside_bytes + plan.budget_bytes) + " of memory",
                   "allow --memory " + megabytes +
                       (run_.options.may_reorder ? "" : ", or let the triangles be sorted (without --no-reorder)"));

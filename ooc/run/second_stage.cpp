@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "libreeb/base/count_text.h"
 #include "libreeb/base/error.h"
 #include "libreeb/defects/small_loops.h"
 #include "libreeb/hierarchy/cancel.h"
@@ -123,9 +124,8 @@ Error no_memory_for(const RunContext& run, const std::string& what, const std::s
   // Reading what is stored takes up to a quarter of the budget.
   const std::uint64_t enough = run.plan.set_aside_bytes + (run.budget.used_bytes() + needed) / 3 * 4;
   Error error(ErrorKind::kResource,
-              what + " of " + std::to_string(arcs) + " arcs needs up to " + format_bytes(needed) +
-                  " of memory, but only " + format_bytes(run.budget.free_bytes()) +
-                  " is left; the graph itself was written",
+              what + " of " + count_of(arcs, "arc") + " needs up to " + format_bytes(needed) + " of memory, but only " +
+                  format_bytes(run.budget.free_bytes()) + " is left; the graph itself was written",
               "allow --memory " + std::to_string(enough / (1 << 20) + 1) + "M, or " + otherwise);
   error.at(output);
   return error;
