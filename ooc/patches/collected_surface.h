@@ -42,6 +42,10 @@ class CollectedSurface {
   Patch cut(std::span<const VertexId> seeds, std::span<const Ball> balls, std::size_t most_vertices) const;
 
  private:
+  struct Chosen;
+  Chosen choose(std::span<const VertexId> seeds, std::span<const Ball> balls, std::size_t most_vertices) const;
+  Patch copy(const Chosen& chosen) const;
+
   std::span<const std::uint32_t> triangles_at(std::uint32_t v) const {
     return std::span(at_).subspan(first_[v], first_[v + 1] - first_[v]);
   }
