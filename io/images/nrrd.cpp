@@ -106,8 +106,10 @@ class Header {
     const std::size_t end = colon == std::string_view::npos ? line.find(':') : colon;
     if (end == std::string_view::npos)
       text_.fail("this line is no field (\"name: value\")", "an empty line must end the header");
-    const std::string name = lower_case(without_blanks(line.substr(0, end)));
-    const std::string_view value = without_blanks(line.substr(end + 1));
+    set_field(lower_case(without_blanks(line.substr(0, end))), without_blanks(line.substr(end + 1)));
+  }
+
+  void set_field(const std::string& name, std::string_view value) {
     if (name == "dimension") {
       dimension_ = text_.count(value, "dimension");
       if (dimension_ == 0 || dimension_ > kMaxAxes) text_.fail(value, "an image has 1 to 16 axes", kHint);
