@@ -8,42 +8,25 @@
 #include <optional>
 #include <utility>
 
-#include "libreeb/base/count_text.h"
 #include "libreeb/base/error.h"
 #include "libreeb/defects/small_loops.h"
 #include "libreeb/hierarchy/cancel.h"
 #include "ooc/reeb_file/record_log.h"
 #include "ooc/reeb_file/reeb_file_writer.h"
 #include "ooc/run/freed_memory.h"
+#include "ooc/run/graph_file.h"
 #include "ooc/run/stopwatch.h"
 #include "ooc/stored_graph/last_noise_pass.h"
+#include "ooc/stored_graph/load_graph.h"
 #include "ooc/stored_graph/segment_store.h"
 #include "ooc/stored_hierarchy/stored_hierarchy.h"
-#include "ooc/threads/read_ahead.h"
 #include "ooc/threads/worker.h"
 
 namespace reeb::ooc {
 namespace {
 
-// A finished store and how to write it.
-struct StoredGraph {
-  std::unique_ptr<SegmentStore> store;
-  std::string output;
-  SweepOptions sweep;
-  FileMeta meta;
-  std::uint64_t vertex_bound;  // more than the index of any vertex
-};
-
 // The share of the whole stage that its parts take, about: they are not alike for all graphs.
 constexpr double kLoaded = 0.15, kBuilt = 0.8;
-
-// Tells the progress of the second stage.
-Poll stage_poll(const RunContext& run) {
-  return [&run](double done) {
-    constexpr std::uint64_t kSteps = 10000;
-    run.tell({ComputeProgress::Phase::kHierarchy, static_cast<std::uint64_t>(done * kSteps), kSteps});
-  };
-}
 
 // Empty if the run has no second thread.
 DoBoth in_two_threads(const RunContext& run) {
@@ -51,84 +34,6 @@ DoBoth in_two_threads(const RunContext& run) {
   return [worker = std::make_shared<Worker>()](const auto& here, const auto& elsewhere) {
     worker->do_both(here, elsewhere);
   };
-}
-
-// ---- the graph alone
-
-struct WrittenGraph {
-  BettiNumbers betti;
-  std::uint64_t spilled_bytes = 0;
-};
-
-// Writes the graph as it was stored; the memory need not grow with the graph. If there is memory to spare, it uses 4
-// bytes per node, and 4 bytes per vertex if there are many look-ups.
-WrittenGraph write_graph(RunContext& run, const StoredGraph& graph, const FileMeta& meta) {
-  constexpr std::size_t kNodesAtOnce = 16384, kBytesPerArc = 1000, kVerticesPerNodeForTable = 16;
-  SegmentStore& store = *graph.store;
-  GraphFileWriter::Options writing{.nodes = store.node_count(),
-                                   .has_embedding = run.embeds(),
-                                   .ends = GraphFileWriter::ArcEnds::kKeys,
-                                   .vertex_bound = graph.vertex_bound,
-                                   .background = run.background(),
-                                   .temp = &run.temp,
-                                   .budget = &run.budget,
-                                   .output = run.output_options()};
-  const std::uint64_t table_bytes = graph.vertex_bound * sizeof(std::uint32_t);
-  Reservation table;
-  if (graph.vertex_bound / kVerticesPerNodeForTable <= store.node_count() &&
-      table_bytes <= run.budget.free_bytes() / 4) {
-    table = run.budget.reserve("ranks of nodes", table_bytes);
-    writing.ends = GraphFileWriter::ArcEnds::kKeysInMemory;
-  }
-  GraphFileWriter writer(graph.output, meta, writing);
-  // Only the look-up in a file gains from large batches. There must be several, so that threads share the work.
-  constexpr std::size_t kFewestArcs = 4096, kBatches = 16;
-  const std::size_t most_arcs = std::clamp<std::size_t>(run.budget.free_bytes() / kBytesPerArc, kFewestArcs, 65536);
-  const std::size_t batch_arcs =
-      table.bytes() != 0 ? 8192
-                         : std::clamp(static_cast<std::size_t>(store.arc_count() / kBatches), kFewestArcs, most_arcs);
-  std::uint64_t written = 0;
-  const Poll poll = stage_poll(run);
-  const auto tell = [&](std::uint64_t more) {
-    written += more;
-    poll(static_cast<double>(written) / static_cast<double>(store.node_count() + store.arc_count()));
-  };
-  store.rewind_nodes();
-  read_ahead<std::vector<SettledNode>>(
-      writing.background, [&](auto& nodes) { return store.read_nodes(nodes, kNodesAtOnce); },
-      [&](const auto& nodes) {
-        writer.add_nodes(nodes);
-        tell(nodes.size());
-      });
-  writer.end_nodes();
-  store.rewind_arcs();
-  struct Arcs {
-    ArcPiece piece;
-    GraphFileWriter::RankedArcs ranked;
-  };
-  read_ahead<Arcs>(
-      writing.background,
-      [&](Arcs& arcs) { return store.read_arcs(arcs.piece, batch_arcs, graph.sweep.bucket_exponent); },
-      [&](Arcs& arcs) { writer.rank(arcs.piece.arcs, arcs.ranked); },
-      [&](const Arcs& arcs) {
-        writer.add_arcs(std::span<const FileArc>(arcs.ranked.arcs), arcs.piece.buckets.view());
-        tell(arcs.piece.arcs.size());
-      });
-  writer.finish();
-  return {{writer.header().components, writer.header().loops}, writer.spilled_bytes()};
-}
-
-// The error for a graph that was written although its next step did not fit.
-Error no_memory_for(const RunContext& run, const std::string& what, const std::string& output, std::uint64_t arcs,
-                    std::uint64_t needed, const std::string& otherwise) {
-  // Reading what is stored takes up to a quarter of the budget.
-  const std::uint64_t enough = run.plan.set_aside_bytes + (run.budget.used_bytes() + needed) / 3 * 4;
-  Error error(ErrorKind::kResource,
-              what + " of " + count_of(arcs, "arc") + " needs up to " + format_bytes(needed) + " of memory, but only " +
-                  format_bytes(run.budget.free_bytes()) + " is left; the graph itself was written",
-              "allow --memory " + std::to_string(enough / (1 << 20) + 1) + "M, or " + otherwise);
-  error.at(output);
-  return error;
 }
 
 // ---- noise

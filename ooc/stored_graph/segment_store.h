@@ -12,8 +12,6 @@
 #include "libreeb/base/memory_budget.h"
 #include "libreeb/graph/arc_buckets.h"
 #include "libreeb/graph/reeb_graph.h"
-#include "libreeb/hierarchy/hierarchy.h"
-#include "libreeb/hierarchy/packed_lists.h"
 #include "libreeb/port/graph_sink.h"
 #include "ooc/sorting/external_sort.h"
 #include "ooc/sorting/record_batch.h"
@@ -175,26 +173,5 @@ void SegmentStore::scan_nodes(const Predicate& wanted, const Visit& visit) const
 
 // Copies a finished store to another. If an exponent is given, buckets are copied, coarsened to it.
 void copy_graph(SegmentStore& from, SegmentStore& to, std::optional<int> bucket_exponent);
-
-// A graph in memory with its reservation.
-struct LoadedGraph {
-  Reservation memory;
-  ReebGraph graph;
-  PackedLists buckets;  // empty unless wanted
-};
-
-struct LoadOptions {
-  bool positions = true;
-  std::optional<int> bucket_exponent = {};  // set: read buckets, coarsened to this
-};
-
-// The most that read_graph() reserves.
-std::uint64_t loading_bytes(const SegmentStore& store, const LoadOptions& options);
-
-// Reads all of a finished store, for a second stage in memory.
-//
-// THROWS: Error{kResource} if the graph does not fit the budget, before anything is read;
-//         std::logic_error if an arc ends in no node.
-LoadedGraph read_graph(SegmentStore& store, const LoadOptions& options = {}, const Poll& poll = {});
 
 }  // namespace reeb::ooc

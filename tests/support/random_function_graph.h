@@ -10,6 +10,7 @@
 #include "io/file/temp_dir.h"
 #include "libreeb/base/memory_budget.h"
 #include "libreeb/engine/online_reeb.h"
+#include "ooc/stored_graph/load_graph.h"
 #include "ooc/stored_graph/segment_store.h"
 
 namespace reeb::bench {

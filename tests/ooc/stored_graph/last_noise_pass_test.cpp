@@ -1,6 +1,7 @@
 // The last pass on a stored graph is compared with noise removal on the whole graph in memory: the same nodes, arcs and
 // buckets, to the bit, however the graph is stored and read.
 #include "ooc/stored_graph/last_noise_pass.h"
+#include "ooc/stored_graph/load_graph.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,5 @@
 #include "ooc/stored_graph/segment_store.h"
+#include "ooc/stored_graph/load_graph.h"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,36 @@
+// From a finished store to a graph in memory.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "libreeb/base/memory_budget.h"
+#include "libreeb/graph/reeb_graph.h"
+#include "libreeb/hierarchy/hierarchy.h"
+#include "libreeb/hierarchy/packed_lists.h"
+#include "ooc/stored_graph/segment_store.h"
+
+namespace reeb::ooc {
+
+// A graph in memory with its reservation.
+struct LoadedGraph {
+  Reservation memory;
+  ReebGraph graph;
+  PackedLists buckets;  // empty unless wanted
+};
+
+struct LoadOptions {
+  bool positions = true;
+  std::optional<int> bucket_exponent = {};  // set: read buckets, coarsened to this
+};
+
+// The most that read_graph() reserves.
+std::uint64_t loading_bytes(const SegmentStore& store, const LoadOptions& options);
+
+// Reads all of a finished store, for a second stage in memory.
+//
+// THROWS: Error{kResource} if the graph does not fit the budget, before anything is read;
+//         std::logic_error if an arc ends in no node.
+LoadedGraph read_graph(SegmentStore& store, const LoadOptions& options = {}, const Poll& poll = {});
+
+}  // namespace reeb::ooc
