@@ -207,6 +207,62 @@ class RepairedCopy {
   Written written_;
 };
 
+// Makes the mesh before a repair of the mesh after it.
+class Restoration {
+ public:
+  Restoration(const UndoRecord& undo, unsigned dimension)
+      : undo_(undo), dimension_(dimension), renumbering_(undo.dropped) {}
+
+  // Adds to `out` what `batch` has of the former mesh, and what comes before, between and after that. `written` counts
+  // what came before. REQUIRES: `out` is empty.
+  void restore(const MeshBatch& batch, const Written& written, MeshBatch& out) {
+    add_dropped(written, out);
+    add_removed(written, out);
+    const std::uint64_t kept = undo_.vertices - undo_.new_vertices;
+    for (std::size_t i = 0; i < batch.vertex_count; ++i, ++vertex_) {
+      if (vertex_ >= kept) continue;
+      for (std::size_t k = 0; k < dimension_ + batch.properties.size(); ++k)
+        out.column(k).push_back(batch.column(k)[i]);
+      ++out.vertex_count;
+      add_dropped(written, out);
+    }
+    for (const std::size_t k : {std::size_t{0}, std::size_t{1}})
+      for (const VertexId v : batch.simplices[k]) out.simplices[k].emplace_back(renumbering_.before(v.value()));
+    const auto& corners = batch.triangles();
+    const std::uint64_t kept_triangles = undo_.triangles - undo_.new_triangles;
+    for (std::size_t i = 0; i < corners.size(); i += 3, ++triangle_) {
+      if (triangle_ >= kept_triangles) continue;
+      for (std::size_t k = 0; k < 3; ++k) out.triangles().emplace_back(renumbering_.before(corners[i + k].value()));
+      add_removed(written, out);
+    }
+  }
+
+  // Whether there was more, or as much, as the repaired mesh has.
+  bool is_beyond() const { return vertex_ > undo_.vertices || triangle_ > undo_.triangles; }
+  bool is_complete() const { return vertex_ == undo_.vertices && triangle_ == undo_.triangles; }
+
+ private:
+  // The vertices, and the triangles, that come next.
+  void add_dropped(const Written& written, MeshBatch& out) {
+    const std::size_t columns = dimension_ + out.properties.size();
+    for (; dropped_ < undo_.dropped.size() && undo_.dropped[dropped_] == written.vertices + out.vertex_count;
+         ++dropped_, ++out.vertex_count)
+      for (std::size_t k = 0; k < columns; ++k)
+        out.column(k).push_back(k < undo_.columns ? undo_.values[dropped_ * undo_.columns + k] : 0);
+  }
+  void add_removed(const Written& written, MeshBatch& out) {
+    for (; removed_ < undo_.removed.size() && undo_.removed[removed_] == written.triangles + out.triangles().size() / 3;
+         ++removed_)
+      for (std::size_t k = 0; k < 3; ++k) out.triangles().emplace_back(undo_.corners[3 * removed_ + k]);
+  }
+
+  const UndoRecord& undo_;
+  const unsigned dimension_;
+  const Renumbering renumbering_;
+  std::uint64_t vertex_ = 0, triangle_ = 0;  // of the repaired mesh, so far
+  std::size_t dropped_ = 0, removed_ = 0;    // put back so far
+};
+
 [[noreturn]] void refuse_other_mesh(const std::string& path) {
   throw Error(ErrorKind::kBadInput, "this is not the mesh that was written with the undo file",
               "name the output of that repair, unchanged")
@@ -224,15 +280,13 @@ Written write_repaired(const MeshSource& source, const MeshEdits& edits, std::ui
 Written write_undone(const MeshSource& source, const UndoRecord& undo, const WriteOptions& options) {
   const io::Input input(source.path);
   const auto reader = open_for_copy(input, source, options.output);
-  const std::uint64_t kept = undo.vertices - undo.new_vertices, kept_triangles = undo.triangles - undo.new_triangles;
   const unsigned dimension = reader->info().dimension;
   const auto writer =
-      create_like(input, *reader, options.output, kept + undo.dropped.size(), source.temp_folder, options.existing);
-  const Renumbering renumbering(undo.dropped);
+      create_like(input, *reader, options.output, undo.vertices - undo.new_vertices + undo.dropped.size(),
+                  source.temp_folder, options.existing);
+  Restoration restoration(undo, dimension);
   Written written;
   MeshDigest digest;
-  std::uint64_t vertex = 0, triangle = 0;  // of the repaired mesh, so far
-  std::size_t dropped = 0, removed = 0;
   MeshBatch batch, out;
   input.read([&] {
     while (true) {
@@ -244,38 +298,8 @@ Written write_undone(const MeshSource& source, const UndoRecord& undo, const Wri
       const std::size_t properties = batch.properties.size();
       clear(out, dimension, properties);
       out.first_vertex = VertexId(written.vertices);
-      const auto restore_vertices = [&] {
-        while (dropped < undo.dropped.size() && undo.dropped[dropped] == written.vertices + out.vertex_count) {
-          for (std::size_t k = 0; k < dimension + properties; ++k)
-            out.column(k).push_back(k < undo.columns ? undo.values[dropped * undo.columns + k] : 0);
-          ++out.vertex_count;
-          ++dropped;
-        }
-      };
-      const auto restore_triangles = [&] {
-        while (removed < undo.removed.size() &&
-               undo.removed[removed] == written.triangles + out.triangles().size() / 3) {
-          for (std::size_t k = 0; k < 3; ++k) out.triangles().emplace_back(undo.corners[3 * removed + k]);
-          ++removed;
-        }
-      };
-      restore_vertices();
-      restore_triangles();
-      for (std::size_t i = 0; i < batch.vertex_count; ++i, ++vertex) {
-        if (vertex >= kept) continue;
-        for (std::size_t k = 0; k < dimension + properties; ++k) out.column(k).push_back(batch.column(k)[i]);
-        ++out.vertex_count;
-        restore_vertices();
-      }
-      for (const std::size_t k : {std::size_t{0}, std::size_t{1}})
-        for (const VertexId v : batch.simplices[k]) out.simplices[k].emplace_back(renumbering.before(v.value()));
-      const auto& corners = batch.triangles();
-      for (std::size_t i = 0; i < corners.size(); i += 3, ++triangle) {
-        if (triangle >= kept_triangles) continue;
-        for (std::size_t k = 0; k < 3; ++k) out.triangles().emplace_back(renumbering.before(corners[i + k].value()));
-        restore_triangles();
-      }
-      if (vertex > undo.vertices || triangle > undo.triangles) refuse_other_mesh(source.path);
+      restoration.restore(batch, written, out);
+      if (restoration.is_beyond()) refuse_other_mesh(source.path);
       written.vertices += out.vertex_count;
       written.triangles += out.triangle_count();
       if (!out.empty()) writer->write(out);
@@ -283,8 +307,7 @@ Written write_undone(const MeshSource& source, const UndoRecord& undo, const Wri
       if (!more) return 0;
     }
   });
-  if (vertex != undo.vertices || triangle != undo.triangles || digest.value() != undo.digest)
-    refuse_other_mesh(source.path);
+  if (!restoration.is_complete() || digest.value() != undo.digest) refuse_other_mesh(source.path);
   writer->close();
   written.warnings = reader->warnings();
   for (std::string& warning : writer->warnings()) written.warnings.push_back(std::move(warning));
