@@ -30,6 +30,7 @@ TEST(FormatDetection, StreamingTextAgainstObj) {
   const std::string body = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 -1\n";
   EXPECT_EQ(detect(body), MeshFormat::kObj);
   EXPECT_EQ(detect(body, "mesh.sma"), MeshFormat::kStreaming);
+  EXPECT_EQ(detect(body, "MESH.SMA"), MeshFormat::kStreaming);
   EXPECT_EQ(detect("# a\n# nverts 3\n" + body), MeshFormat::kStreaming);
   EXPECT_EQ(detect(body + "# nverts 3\n"), MeshFormat::kObj);
   EXPECT_EQ(detect(std::string("\0\1\2\3", 4)), MeshFormat::kStreaming);
