@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace reeb::io {
 namespace {
@@ -29,22 +30,42 @@ std::vector<Stop> stops_of(const Place& lo, std::span<const Bucket> buckets, con
   return stops;
 }
 
+// The weighted mean of places whose sum may be beyond the doubles.
+class PlaceMean {
+ public:
+  void add(const Place& place, double weight) {
+    for (std::size_t axis = 0; axis < sum_.size(); ++axis) {
+      sum_[axis] += weight * place[axis];
+      // Weights are small: so this sum is finite.
+      scaled_[axis] += weight * (place[axis] * kScale);
+    }
+    weight_ += weight;
+  }
+  Place mean() const {
+    Place mean;
+    for (std::size_t axis = 0; axis < sum_.size(); ++axis)
+      mean[axis] = std::isfinite(sum_[axis]) ? sum_[axis] / weight_ : scaled_[axis] / weight_ / kScale;
+    return mean;
+  }
+
+ private:
+  static constexpr double kScale = 0x1p-64;
+  Place sum_{}, scaled_{};
+  double weight_ = 0;
+};
+
 // Calls visit(place) for each stop between the ends.
 template <class Visit>
 void smooth(std::span<const Stop> stops, const Visit& visit) {
   const auto last = static_cast<std::ptrdiff_t>(stops.size()) - 1;
   const auto reach = std::min(static_cast<std::ptrdiff_t>(kLineReach), last / 3);
   for (std::ptrdiff_t i = 1; i < last; ++i) {
-    Place sum{};
-    double weights = 0;
+    PlaceMean mean;
     for (std::ptrdiff_t j = -reach; j <= reach; ++j) {
       const Stop& stop = stops[static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(i + j, 0, last))];
-      const double weight = stop.weight * static_cast<double>(reach + 1 - std::abs(j));
-      for (std::size_t axis = 0; axis < sum.size(); ++axis) sum[axis] += weight * stop.place[axis];
-      weights += weight;
+      mean.add(stop.place, stop.weight * static_cast<double>(reach + 1 - std::abs(j)));
     }
-    for (double& x : sum) x /= weights;
-    visit(sum);
+    visit(mean.mean());
   }
 }
 
@@ -125,8 +146,9 @@ void find_radii(std::span<const Bucket> buckets, std::vector<double>& radii) {
     }
     const Fit fit(window(reach)), trend = reach > 0 ? fit : Fit(window(1));
     const double growth = trend.radius_slope * trend.radius_slope;
-    radii.push_back(
-        std::sqrt(std::max(0.0, fit.spread - trend.drift() / 12 - growth * (fit.places_spread + 1.0 / 12))));
+    // Squares of huge coordinates are beyond the doubles, and so may be what is left of them, or no number.
+    const double left = fit.spread - trend.drift() / 12 - growth * (fit.places_spread + 1.0 / 12);
+    radii.push_back(std::sqrt(std::min(std::max(0.0, left), std::numeric_limits<double>::max())));
   }
 }
 

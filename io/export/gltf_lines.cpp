@@ -29,10 +29,12 @@ Box box_of(const VisitPoints& visit_points) {
   return box;
 }
 
-// The point as it is written.
+// The point as it is written. A coordinate beyond the floats is the largest of them: JSON has no infinities.
 std::array<float, 3> relative(const std::array<double, 3>& point, const std::array<double, 3>& origin) {
   std::array<float, 3> result;
-  for (std::size_t axis = 0; axis < 3; ++axis) result[axis] = static_cast<float>(point[axis] - origin[axis]);
+  constexpr double kMost = std::numeric_limits<float>::max();
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    result[axis] = static_cast<float>(std::clamp(point[axis] - origin[axis], -kMost, kMost));
   return result;
 }
 
@@ -54,7 +56,7 @@ void write_gltf_lines(const GraphView& view, OutputBuffer& out) {
   for_each_segment(view, [&](std::uint64_t, std::uint64_t) { ++segments; });
   const Box box = box_of([&](const auto& visit) { for_each_point(view, visit); });
   std::array<double, 3> origin;
-  for (std::size_t axis = 0; axis < 3; ++axis) origin[axis] = box.min[axis] + (box.max[axis] - box.min[axis]) / 2;
+  for (std::size_t axis = 0; axis < 3; ++axis) origin[axis] = box.min[axis] + (box.max[axis] / 2 - box.min[axis] / 2);
 
   const std::uint64_t point_bytes = 12 * points, segment_bytes = 8 * segments;
   out << "\"nodes\": [0]}],\n\"nodes\": [{\"name\": \"Reeb graph\", \"mesh\": 0, \"translation\": ";

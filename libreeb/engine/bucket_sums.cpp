@@ -17,7 +17,7 @@ void BucketSum::add_large(const Point& position) {
     clamped[k] = position[k] > -kMost ? std::min(position[k], kMost) : -kMost;
     moment += clamped[k] * clamped[k];
   }
-  raise_rim(rim_of(clamped));
+  raise_rim(near_rim_of(clamped));
 }
 
 void BucketSum::keep(std::uint64_t kept, BucketSum& other) {

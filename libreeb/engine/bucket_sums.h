@@ -60,7 +60,7 @@ struct BucketSum {
     if (std::abs(x) + std::abs(y) + std::abs(z) < kSmallCoordinate) [[likely]] {
       for (std::size_t k = 0; k < 3; ++k) sum[k] += static_cast<std::int64_t>(position[k] * 0x1p44);
       moment += x * x + y * y + z * z;
-      raise_rim(rim_of(position));
+      raise_rim(near_rim_of(position));
     } else {
       add_large(position);
     }

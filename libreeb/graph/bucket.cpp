@@ -53,7 +53,9 @@ void merge_into(Bucket& bucket, const Bucket& other) noexcept {
   for (std::size_t k = 0; k < bucket.mean.size(); ++k) {
     const double step = other.mean[k] - bucket.mean[k];
     distance += step * step;
-    bucket.mean[k] += step * share;
+    // A step may be beyond the doubles, the mean is not.
+    bucket.mean[k] =
+        std::isfinite(step) ? bucket.mean[k] + step * share : bucket.mean[k] * (1 - share) + other.mean[k] * share;
   }
   const double spread = bucket.spread + (other.spread - static_cast<double>(bucket.spread)) * share;
   bucket.spread = to_spread(spread + distance * share * (1 - share));

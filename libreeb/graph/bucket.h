@@ -5,9 +5,11 @@
 // bucket i of exponent h + 1.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace reeb {
@@ -29,8 +31,15 @@ struct Bucket {
 // What is stored of a mean squared distance, which rounding may have made negative.
 float to_spread(double spread) noexcept;
 
-inline RimPoint rim_of(const std::array<double, 3>& position) {
+// The position in single precision. REQUIRES: its coordinates are at most 2^50, which need no care.
+inline RimPoint near_rim_of(const std::array<double, 3>& position) {
   return {static_cast<float>(position[0]), static_cast<float>(position[1]), static_cast<float>(position[2])};
+}
+// The same for any finite position: a coordinate beyond the floats is the largest of them.
+inline RimPoint rim_of(const std::array<double, 3>& position) {
+  constexpr double kMost = std::numeric_limits<float>::max();
+  return near_rim_of({std::clamp(position[0], -kMost, kMost), std::clamp(position[1], -kMost, kMost),
+                      std::clamp(position[2], -kMost, kMost)});
 }
 // REQUIRES: count != 0.
 inline RimPoint rim_of(const Bucket& bucket) { return bucket.count == 1 ? rim_of(bucket.mean) : bucket.rim; }

@@ -139,6 +139,34 @@ TEST_F(Skeleton, AStandingTorusHasTheRadiusOfItsTube) {
   EXPECT_GT(count, 3);
 }
 
+// Radii and rims are single precision there.
+TEST_F(Skeleton, IsFiniteForAllFiniteCoordinates) {
+  for (const double scale : {1e38, 1e39, 1e160, 1.5e307, 1.6e308}) {
+    const double height = std::min(scale, 8e307);  // the range of f is a number
+    vertices_.clear();
+    write_rings(24, 16, true, [&](double row, double angle) {
+      const double around = 2 * std::numbers::pi * row / 24, radius = 0.75 + 0.25 * std::cos(angle);
+      return Point{scale * radius * std::cos(around), std::sin(angle), height * radius * std::sin(around)};
+    });
+    for (const Sample& sample : samples()) {
+      for (const double x : sample.place) EXPECT_TRUE(std::isfinite(x)) << scale;
+      EXPECT_TRUE(std::isfinite(sample.radius)) << scale;
+    }
+    expect_success(reeb({"verify", "g.reeb", "--mesh", "mesh.obj", "--full"}));
+    for (const char* format : {"json", "gltf"})
+      for (const char* threshold : {"0", "60%"}) {
+        const Outcome outcome = reeb({"extract", "g.reeb", "--threshold", threshold, "--format", format});
+        expect_success(outcome);
+        EXPECT_TRUE(nlohmann::json::accept(outcome.output)) << scale << ' ' << last_command();
+      }
+    for (const char* part : {"1/2", "2/2"})
+      expect_success(reeb({"fragment", "mesh.obj", "--part", part, "--quiet", "--force", "-o",
+                           std::string("part") + part[0] + ".fragment"}));
+    expect_success(reeb({"glue", "part1.fragment", "part2.fragment", "-o", "glued.reeb", "--force"}));
+    expect_success(reeb({"verify", "glued.reeb"}));
+  }
+}
+
 TEST_F(Skeleton, OnTheSurfaceEverySampleIsAVertex) {
   write_rings(64, 96, true, [](double row, double angle) {
     const double around = 2 * std::numbers::pi * row / 64, radius = 4 + std::cos(angle);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 
 namespace reeb::io {
@@ -113,6 +114,21 @@ TEST(ArcLine, RadiiOfATubeDoNotGrowWithItsSlope) {
   find_line_radii(0, buckets, 30, radii);
   ASSERT_EQ(radii.size(), buckets.size());
   for (const double radius : radii) EXPECT_NEAR(radius, 2, 1e-6);
+}
+
+TEST(ArcLine, IsFiniteForAllFiniteCoordinates) {
+  for (const double x : {1e39, 1e160, 1.7e308}) {
+    std::vector<Bucket> buckets = {bucket(0, 9, {x, -x, 1}), bucket(1, 9, {-x, -x, 1}), bucket(2, 9, {x, -x, 1})};
+    for (Bucket& one : buckets) one.spread = std::numeric_limits<float>::max();
+    for (const Point& point : drawn({x, -x, 0}, buckets, {x, -x, 0})) {
+      EXPECT_LE(std::abs(point[0]), x);
+      EXPECT_NEAR(point[1], -x, x * 1e-12);
+    }
+    std::vector<double> radii;
+    find_radii(buckets, radii);
+    EXPECT_EQ(radii.size(), 3u);
+    for (const double radius : radii) EXPECT_TRUE(std::isfinite(radius));
+  }
 }
 
 }  // namespace

@@ -89,6 +89,19 @@ TEST(Bucket, MergingYieldsTheSpreadAndTheRimOfAllVertices) {
   }
 }
 
+TEST(Bucket, MergingFarFromTheOriginStaysFinite) {
+  constexpr float kMost = std::numeric_limits<float>::max();
+  for (const double x : {1e39, 1e160, 1.7e308}) {
+    Bucket merged;
+    merge_into(merged, {0, 1, {x, -x, 1}});
+    merge_into(merged, {0, 1, {-x, -x, 2}});
+    EXPECT_EQ(merged.count, 2u);
+    EXPECT_EQ(merged.mean, (std::array{0.0, -x, 1.5}));
+    EXPECT_EQ(merged.spread, kMost);
+    EXPECT_EQ(merged.rim, (RimPoint{kMost, -kMost, 1}));
+  }
+}
+
 TEST(Bucket, CoarseningJoinsNeighboursAndKeepsCountsAndCentres) {
   const std::vector<Bucket> fine = {{9, 7, {1, 1, 1}},  {-3, 2, {0, 0, 0}}, {-2, 6, {4, 8, -4}},
                                     {-1, 2, {5, 0, 0}}, {0, 3, {1, 2, 3}},  {3, 5, {2, 2, 2}}};
