@@ -69,6 +69,31 @@ TEST_F(CommandLine, OptionsThatMessagesNameExist) {
   for (const std::string& name : named) EXPECT_TRUE(existing.contains(name)) << name << " is in a message only";
 }
 
+// An unset variable of a shell gives one.
+TEST_F(CommandLine, AnEmptyValueIsExitCode2AndNamesTheOption) {
+  expect_success(reeb({"compute", "mesh.off"}));
+  const std::vector<std::string> before = files();
+  const std::vector<std::pair<std::vector<std::string>, std::vector<std::string>>> commands = {
+      {{"compute", "mesh.off", "--force"},
+       {"--function", "--output", "--denoise", "--report", "--temp-dir", "--grid", "--type", "--spacing", "--memory"}},
+      {{"extract", "mesh.reeb"}, {"--format", "--output", "--threshold"}},
+      {{"plot", "mesh.reeb"}, {"--threshold", "--view", "--mesh", "--kind"}},
+      {{"defects", "mesh.off"}, {"--below", "--longest", "--output", "--patches"}},
+      {{"repair", "mesh.off", "-o", "r.off"},
+       {"--apply-undo", "--undo", "--below", "--longest", "--loops", "--log", "--drop-components",
+        "--fill-boundaries"}}};
+  for (const auto& [words, options] : commands)
+    for (const std::string& option : options)
+      for (const std::vector<std::string>& given : {std::vector<std::string>{option, ""}, {option + "="}}) {
+        std::vector<std::string> all = words;
+        all.insert(all.begin() + 1, given.begin(), given.end());
+        const Outcome outcome = reeb(all);
+        EXPECT_EQ(outcome.exit_code, 2) << last_command() << outcome.error;
+        EXPECT_NE(outcome.error.find("error: " + option + ": the value is empty"), std::string::npos) << outcome.error;
+        EXPECT_EQ(files(), before) << last_command();
+      }
+}
+
 TEST_F(CommandLine, WhatItDoesNotKnowIsExitCode2) {
   const std::vector<std::string> before = files();
   for (const std::vector<std::string>& words :
@@ -158,7 +183,7 @@ TEST_F(CommandLine, NegativeHugeAndEmptyNumbersAreRefused) {
   expect_success(reeb({"mesh.off"}));
   const std::vector<std::string> before = files();
   expect_error(reeb({"extract", "mesh.reeb", "--nodes", "-1"}), 2, "--nodes: \"-1\" is not a whole number");
-  expect_error(reeb({"extract", "mesh.reeb", "--memory", ""}), 2, "--memory: \"\" is not a size");
+  expect_error(reeb({"extract", "mesh.reeb", "--memory", ""}), 2, "--memory: the value is empty");
   expect_error(reeb({"generate", "torus", "--triangles", "-5", "-o", "t.ply"}), 2, "--triangles: \"-5\"");
   expect_error(reeb({"generate", "torus", "--triangles", "99999999999999999999", "-o", "t.ply"}), 2, "--triangles: ");
   expect_error(reeb({"generate", "torus", "--seed", "x", "-o", "t.ply"}), 2, "--seed: \"x\" is not a whole number");

@@ -6,6 +6,7 @@
 #include <sstream>
 #include <utility>
 
+#include "libreeb/base/error.h"
 #include "tools/arguments/usage_error.h"
 #include "tools/program/wrapping.h"
 
@@ -30,6 +31,35 @@ class HelpFormatter : public CLI::Formatter {
     return text.substr(0, text.find(" Needs:"));
   }
 };
+
+// An unset variable of a shell is an empty value: taken for no value, it would change what a command does.
+CLI::Option* refuse_empty(CLI::Option* option) {
+  const auto check = [name = option->get_name()](const std::string& word) {
+    if (word.empty())
+      throw Error(ErrorKind::kUsage, name + ": the value is empty", "give one, or leave the option out");
+    return std::string();
+  };
+  return option->nonpositional() ? option->check(CLI::Validator(check, "")) : option;
+}
+
+// Splits `--name=`, for which CLI11 would take the next word.
+std::vector<std::string> with_empty_values(const CLI::App& program, const std::vector<std::string>& words) {
+  const CLI::App* command = words.empty() ? nullptr : find_command(program, words[0]);
+  if (command == nullptr) return words;
+  std::vector<std::string> split;
+  for (auto word = words.begin(); word != words.end(); ++word) {
+    if (*word == "--") {
+      split.insert(split.end(), word, words.end());
+      break;
+    }
+    const bool is_empty = word->starts_with("--") && word->ends_with('=');
+    const std::string name = is_empty ? word->substr(0, word->size() - 1) : *word;
+    const CLI::Option* option = is_empty ? command->get_option_no_throw(name) : nullptr;
+    split.push_back(option == nullptr ? *word : name);
+    if (option != nullptr) split.emplace_back();
+  }
+  return split;
+}
 
 }  // namespace
 
@@ -75,16 +105,16 @@ Option Option::one_value_each_time() {
 }
 
 Option Command::add_option(const std::string& names, std::string& target, const std::string& description) {
-  return Option(*command_->add_option(names, target, description));
+  return Option(*refuse_empty(command_->add_option(names, target, description)));
 }
 
 Option Command::add_option(const std::string& names, std::vector<std::string>& target, const std::string& description) {
-  return Option(*command_->add_option(names, target, description));
+  return Option(*refuse_empty(command_->add_option(names, target, description)));
 }
 
 Option Command::add_option(const std::string& names, std::function<void(const std::string&)> take,
                            const std::string& description) {
-  return Option(*command_->add_option_function<std::string>(names, std::move(take), description));
+  return Option(*refuse_empty(command_->add_option_function<std::string>(names, std::move(take), description)));
 }
 
 Option Command::add_flag(const std::string& names, bool& target, const std::string& description) {
@@ -134,7 +164,9 @@ std::string Program::help() const { return program_->help(); }
 
 std::optional<std::string> Program::run(const std::vector<std::string>& words) {
   try {
-    program_->parse(std::vector<std::string>(words.rbegin(), words.rend()));  // CLI11 takes them in reverse order
+    std::vector<std::string> all = with_empty_values(*program_, words);
+    std::ranges::reverse(all);  // as CLI11 takes them
+    program_->parse(all);
   } catch (const CLI::ParseError& refusal) {
     if (refusal.get_exit_code() != 0) throw usage_error(*program_, words, refusal);
     std::ostringstream text;
