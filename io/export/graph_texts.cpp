@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -98,7 +99,9 @@ void write_json(const GraphView& view, OutputBuffer& out) {
       write_json_point(graph.positions[i], out);
     out << ", \"down\": " << features.degree.down[i] << ", \"up\": " << features.degree.up[i]
         << ", \"type\": " << number_of(features.type(i)) << ", \"component\": " << features.component[i]
-        << ", \"persistence\": " << Shortest{features.persistence[i]} << '}';
+        << ", \"persistence\": ";
+    write_json_number(features.persistence[i], out);
+    out << '}';
   }
   out << "],\n\"arcs\": [";
   std::vector<double> radii;
@@ -108,8 +111,8 @@ void write_json(const GraphView& view, OutputBuffer& out) {
         << ", \"loop\": ";
     if (features.loop[i] == kNoLoop)
       out << "null";
-    else
-      out << Shortest{features.loop[i]};
+    else  // a loop beyond the doubles is one nevertheless
+      out << Shortest{std::min(features.loop[i], std::numeric_limits<double>::max())};
     if (!view.measures.empty()) write_json_measures(view.measures[i], out);
     out << ", \"path\": [";
     bool first = true;

@@ -4,6 +4,7 @@
 #include <array>
 #include <deque>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -164,7 +165,10 @@ std::optional<GraphInMemory> load_for_hierarchy(RunContext& run, const StoredGra
 // What a run records of a hierarchy, and its file.
 void write_file(RunContext& run, const StoredGraph& stored, HierarchySource& hierarchy, RecordLog& records,
                 WrittenHierarchy& written) {
-  look_at_pairs(hierarchy, stored.meta.function_max - stored.meta.function_min, written);
+  // The range may be beyond the doubles.
+  look_at_pairs(hierarchy,
+                std::min(stored.meta.function_max - stored.meta.function_min, std::numeric_limits<double>::max()),
+                written);
   written.betti = {written.pairs[static_cast<std::size_t>(PairType::kExt0)],
                    written.pairs[static_cast<std::size_t>(PairType::kExt1)]};
   const Poll poll = stage_poll(run);

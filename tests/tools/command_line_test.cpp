@@ -352,6 +352,23 @@ void expect_report(const nlohmann::json& report) {
   EXPECT_TRUE(report.at("output").is_string());
 }
 
+// The range is 2e308, and the loop has 35 % of it.
+TEST_F(CommandLine, ARangeBeyondTheDoublesHasShares) {
+  write("loop.obj",
+        "v 0 0 -1e308\nv 0 0 -2e307\nv 1 0 0\nv -1 0 0\nv 0 0 5e307\nv 0 0 1e308\n"
+        "l 1 2\nl 2 3\nl 2 4\nl 3 5\nl 4 5\nl 5 6\n");
+  const Outcome outcome = reeb({"compute", "loop.obj"});
+  expect_success(outcome);
+  EXPECT_NE(outcome.error.find("35.00 %"), std::string::npos) << outcome.error;
+  EXPECT_NE(reeb({"info", "loop.reeb"}).output.find("35 %"), std::string::npos);
+  EXPECT_EQ(lines_after("n ", reeb({"extract", "loop.reeb", "--threshold", "34%"}).output).size(), 4u);
+  EXPECT_EQ(lines_after("n ", reeb({"extract", "loop.reeb", "--threshold", "36%"}).output).size(), 2u);
+  for (const char* format : {"json", "gltf"}) {
+    const Outcome graph = reeb({"extract", "loop.reeb", "--format", format});
+    EXPECT_TRUE(nlohmann::json::accept(graph.output)) << graph.output;
+  }
+}
+
 TEST_F(CommandLine, TheReportHasEveryField) {
   const Outcome one = reeb({"compute", "mesh.off", "--report", "-"});
   expect_success(one);

@@ -128,5 +128,13 @@ TEST(UsageError, FindsNamesThatAreNear) {
   EXPECT_EQ(nearest("x", {}), "");
 }
 
+TEST(Quantity, SharesOfARangeBeyondTheDoubles) {
+  const ValueRange range{-1e308, 1e308};
+  EXPECT_DOUBLE_EQ(parse_threshold("--threshold", "0.1%", range), 2e305);
+  EXPECT_DOUBLE_EQ(percent_of(range, -2e307, 5e307), 35);
+  EXPECT_DOUBLE_EQ(percent_of(range, -1e308, 1e308), 100);
+  EXPECT_DOUBLE_EQ(percent_of({0, 5e-324}, 0, 5e-324), 100);
+}
+
 }  // namespace
 }  // namespace reeb::tools

@@ -69,7 +69,7 @@ class Filter {
  public:
   explicit Filter(const DefectsOptions& options) {
     if (!options.below.empty()) {
-      below_ = parse_threshold("--below", options.below, 100);
+      below_ = parse_threshold("--below", options.below, {0, 100});
       below_percent_ = options.below.ends_with('%');
     }
     if (!options.longest.empty()) longest_ = parse_length("--longest", options.longest);

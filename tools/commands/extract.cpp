@@ -53,7 +53,7 @@ io::GraphFormat choose_format(const ExtractOptions& options) {
 
 std::uint32_t choose_version(const ooc::ReebFile& file, const ExtractOptions& options) {
   if (!options.threshold.empty()) {
-    const double range = file.header().function_max - file.header().function_min;
+    const ValueRange range{file.header().function_min, file.header().function_max};
     return file.version_at(parse_threshold("--threshold", options.threshold, range));
   }
   if (options.memory_bytes) return file.finest_with_memory(*options.memory_bytes);
@@ -105,7 +105,7 @@ void extract(const ExtractOptions& options) {
   if (options.on_surface && !io::has_lines(format))
     throw Error(ErrorKind::kUsage, "--on-surface is for formats with lines in space",
                 "choose one of: vtp vtu ply obj swc gltf");
-  if (!options.threshold.empty()) parse_threshold("--threshold", options.threshold, 1);
+  if (!options.threshold.empty()) parse_threshold("--threshold", options.threshold, {0, 1});
   require_reeb_file(options.file, "extract");
   RunFiles files;
   const ooc::ReebFile file(options.file);

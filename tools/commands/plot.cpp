@@ -95,7 +95,8 @@ void plot(PlotOptions options) {
   const PictureFormat format = picture_format(options.output);
   check_kind(options);
   if (!options.view.empty()) parse_view(options.view);
-  if (!options.skeleton.level.threshold.empty()) parse_threshold("--threshold", options.skeleton.level.threshold, 1);
+  if (!options.skeleton.level.threshold.empty())
+    parse_threshold("--threshold", options.skeleton.level.threshold, {0, 1});
   if (options.skeleton.mesh == "-")
     throw Error(ErrorKind::kUsage, "the mesh must be read twice, and standard input can be read once",
                 "name a file with --mesh");

@@ -38,7 +38,7 @@ struct RepairArguments {
 void parse(RepairArguments& arguments) {
   RowFilter& filter = arguments.options.filter;
   if (!arguments.below.empty()) {
-    filter.below = parse_threshold("--below", arguments.below, 100);
+    filter.below = parse_threshold("--below", arguments.below, {0, 100});
     filter.below_is_percent = arguments.below.ends_with('%');
   }
   if (!arguments.longest.empty()) filter.longest = parse_length("--longest", arguments.longest);
@@ -46,7 +46,7 @@ void parse(RepairArguments& arguments) {
   if (!arguments.fill_boundaries.empty())
     cleaning.boundary_length = parse_length("--fill-boundaries", arguments.fill_boundaries);
   if (arguments.drop_components.empty()) return;
-  cleaning.components_percent = parse_threshold("--drop-components", arguments.drop_components, 100);
+  cleaning.components_percent = parse_threshold("--drop-components", arguments.drop_components, {0, 100});
   if (!arguments.drop_components.ends_with('%') || !(*cleaning.components_percent <= 100))
     throw Error(ErrorKind::kUsage, "--drop-components: \"" + arguments.drop_components + "\" is not a share",
                 "give it as 1%, of the triangles of the largest component");

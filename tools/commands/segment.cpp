@@ -48,7 +48,7 @@ struct SegmentOptions {
 
 std::uint32_t choose_version(const ooc::ReebFile& file, const SegmentOptions& options) {
   if (!options.threshold.empty()) {
-    const double range = file.header().function_max - file.header().function_min;
+    const ValueRange range{file.header().function_min, file.header().function_max};
     return file.version_at(parse_threshold("--threshold", options.threshold, range));
   }
   return options.nodes ? file.finest_with_nodes(*options.nodes) : 0;
@@ -158,7 +158,7 @@ void segment(SegmentOptions options) {
                 suffix.empty() ? "the output has no suffix, so there is no format for the labels"
                                : "labels are not written as \"" + suffix + '"',
                 "name an output that ends in .i64, .ply, .vtu or .vtp");
-  if (!options.threshold.empty()) parse_threshold("--threshold", options.threshold, 1);
+  if (!options.threshold.empty()) parse_threshold("--threshold", options.threshold, {0, 1});
   require_reeb_file(options.file, "segment");
   if (options.temp_folder.empty()) options.temp_folder = io::TempDir::default_folder(options.output);
   const ooc::ReebFile file(options.file);

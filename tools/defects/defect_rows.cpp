@@ -12,6 +12,7 @@
 #include "ooc/patches/near_balls.h"
 #include "ooc/patches/space_order.h"
 #include "ooc/threads/parallel.h"
+#include "tools/program/quantity.h"
 
 namespace reeb::tools {
 namespace {
@@ -224,7 +225,7 @@ DefectRow row_of(const LoopList& list, std::uint32_t number, const FoundCurves* 
   row.lo = loop.lo;
   row.hi = loop.hi;
   row.persistence = loop.hi.key.value - loop.lo.key.value;
-  row.percent = range.max > range.min ? 100 * (row.persistence / (range.max - range.min)) : 0;
+  row.percent = range.max > range.min ? percent_of(range, loop.lo.key.value, loop.hi.key.value) : 0;
   if (curve != nullptr) {
     row.curve = *curve;
     row.kind = curve->kind;

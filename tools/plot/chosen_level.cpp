@@ -11,7 +11,7 @@ namespace reeb::tools {
 ChosenLevel choose_level(const ooc::ReebFile& file, const LevelChoice& choice) {
   ChosenLevel level{0, "full graph"};
   if (!choice.threshold.empty()) {
-    const double range = file.header().function_max - file.header().function_min;
+    const ValueRange range{file.header().function_min, file.header().function_max};
     level.version = file.version_at(parse_threshold("--threshold", choice.threshold, range));
     level.text = "level at threshold " + choice.threshold;
   } else if (choice.nodes) {

@@ -12,6 +12,7 @@
 #include "libreeb/base/memory_budget.h"
 #include "libreeb/base/printable.h"
 #include "tools/program/progress.h"
+#include "tools/program/quantity.h"
 #include "tools/program/simplex_text.h"
 #include "tools/program/wrapping.h"
 
@@ -33,14 +34,13 @@ const char* feature_name(PairType type) {
 }
 
 void print_features(const ooc::ComputeResult& r, const std::string& title, bool loops) {
-  const double range = r.range.max - r.range.min;
   bool first = true;
   for (const ooc::Feature& f : r.largest) {
     if ((f.type == PairType::kExt1) != loops) continue;
     if (std::exchange(first, false)) print_line("  " + title);
     const double persistence = f.hi.value - f.lo.value;
     print_line(fmt::format("    {:<7} {:>11.6g} {:>7.2f} %  vertex {} ({:.6g}) to {} ({:.6g})", feature_name(f.type),
-                           persistence, 100 * (persistence / range), f.lo.vertex.value(), f.lo.value,
+                           persistence, percent_of(r.range, f.lo.value, f.hi.value), f.lo.vertex.value(), f.lo.value,
                            f.hi.vertex.value(), f.hi.value),
                35);
   }
@@ -77,7 +77,7 @@ void print_likely_defects(const RunFacts& facts, const ooc::ComputeResult& r) {
   if (r.likely_defects == 0 || has_cells(r)) return;
   const std::string text =
       fmt::format("  likely defects: {} of at most {:.2g} % of the range", count_of(r.likely_defects, "loop"),
-                  100 * (r.likely_defects_up_to / (r.range.max - r.range.min)));
+                  percent_of(r.range, 0, r.likely_defects_up_to));
   print_with_command(facts, text, "reeb defects");
 }
 

@@ -75,12 +75,17 @@ std::uint64_t parse_count(const std::string& option, const std::string& text, Co
   return *count;
 }
 
-double parse_threshold(const std::string& option, const std::string& text, double range) {
+double parse_threshold(const std::string& option, const std::string& text, const ValueRange& range) {
   std::string_view rest = text;
   const double value = take_number(rest);
   if (value < 0 || (!rest.empty() && rest != "%"))
     refuse(option, text, "a threshold", "give a number from 0 on, like 0.01, or a share of the range, like 0.1%");
-  return rest.empty() ? value : value / 100 * range;
+  return rest.empty() ? value : range.part(value / 100);
+}
+
+double percent_of(const ValueRange& range, double lo, double hi) {
+  const double width = range.max - range.min;
+  return 100 * (std::isfinite(width) ? (hi - lo) / width : (hi / 2 - lo / 2) / (range.max / 2 - range.min / 2));
 }
 
 double parse_length(const std::string& option, const std::string& text) {

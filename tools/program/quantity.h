@@ -5,6 +5,8 @@
 #include <limits>
 #include <string>
 
+#include "libreeb/base/value_range.h"
+
 namespace reeb::tools {
 
 // Bytes: "4096", "64M", "1.5GiB" (K M G T count in 1024s, in either case, with or without "iB" or "B"). Here and below,
@@ -21,7 +23,10 @@ struct CountLimits {
 std::uint64_t parse_count(const std::string& option, const std::string& text, CountLimits limits = {});
 
 // "0.01" in units of the function, or "0.1%" of `range`. THROWS: Error{kUsage}.
-double parse_threshold(const std::string& option, const std::string& text, double range);
+double parse_threshold(const std::string& option, const std::string& text, const ValueRange& range);
+
+// The difference of two values of the range in per cent of it, without overflow. REQUIRES: range.min < range.max.
+double percent_of(const ValueRange& range, double lo, double hi);
 
 // "2.5" in units of the mesh. THROWS: Error{kUsage}.
 double parse_length(const std::string& option, const std::string& text);

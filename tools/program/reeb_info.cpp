@@ -11,6 +11,7 @@
 #include "libreeb/base/memory_budget.h"
 #include "libreeb/base/printable.h"
 #include "ooc/reeb_file/reeb_file.h"
+#include "tools/program/quantity.h"
 
 namespace reeb::tools {
 namespace {
@@ -63,7 +64,7 @@ std::string short_threshold(double threshold) {
 
 void print_text(const ooc::ReebFile& file) {
   const FileHeader& header = file.header();
-  const double range = header.function_max - header.function_min;
+  const ValueRange range{header.function_min, header.function_max};
   fmt::print("{}: Reeb graph, {}\n", printable(file.path()), format_bytes(file.file_bytes()));
   fmt::print("  function   {} from {:.9g} to {:.9g}\n", printable(header.function), header.function_min,
              header.function_max);
@@ -89,8 +90,9 @@ void print_text(const ooc::ReebFile& file) {
              "memory");
   for (const LevelLine& line : file.levels())
     fmt::print("  {:>12} {:>9} {:>12} {:>12} {:>11} {:>11}\n", short_threshold(line.threshold),
-               range > 0 ? fmt::format("{:.3g} %", 100 * (line.threshold / range)) : "", with_commas(line.nodes),
-               with_commas(line.arcs), format_bytes(line.file_bytes), format_bytes(line.memory_bytes));
+               range.max > range.min ? fmt::format("{:.3g} %", percent_of(range, 0, line.threshold)) : "",
+               with_commas(line.nodes), with_commas(line.arcs), format_bytes(line.file_bytes),
+               format_bytes(line.memory_bytes));
 }
 
 }  // namespace

@@ -288,8 +288,8 @@ void add_runs(py::module_& module) {
   module.def("defects", &defects);
   module.def("divide", &divide);
   module.def("parse_size", [](const std::string& text) { return tools::parse_size("memory", text); });
-  module.def("parse_threshold", [](const std::string& name, const std::string& text, double range) {
-    return tools::parse_threshold(name, text, range);
+  module.def("parse_threshold", [](const std::string& name, const std::string& text, double least, double greatest) {
+    return tools::parse_threshold(name, text, {least, greatest});
   });
 }
 

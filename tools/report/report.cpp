@@ -44,8 +44,6 @@ struct Findings {
 
 std::string base_name(const std::string& path) { return std::filesystem::path(path).filename().string(); }
 
-double range_of(const FileHeader& header) { return header.function_max - header.function_min; }
-
 // The finest level with few enough nodes; none if even the coarsest has more.
 std::optional<std::uint32_t> finest_level(const ooc::ReebFile& file, std::size_t nodes, Findings& findings) {
   const FileHeader& header = file.header();
@@ -194,7 +192,7 @@ std::string notes_list(const std::vector<std::string>& notes) {
   return out + "</ul>\n";
 }
 
-std::string features_section(const Findings& findings, double range) {
+std::string features_section(const Findings& findings, const ValueRange& range) {
   if (!findings.pairs) return "<p>The file has no pairs, so there is no list of features.</p>\n";
   const auto& pairs = *findings.pairs;
   std::uint64_t all = 0;
@@ -290,7 +288,7 @@ std::string make_report(const ReportOptions& options) {
   const ooc::ReebFile file(options.file);
   const FileHeader& header = file.header();
   Findings findings = find(file, options);
-  const double range = range_of(header);
+  const ValueRange range{header.function_min, header.function_max};
   std::string summary = summary_table("Summary of the graph", summary_rows(file, findings));
   if (findings.census)
     summary += summary_table("Census of the mesh", census_rows(options.defects.mesh.path, *findings.census));

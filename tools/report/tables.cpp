@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "libreeb/base/count_text.h"
+#include "tools/program/quantity.h"
 #include "tools/report/page_text.h"
 
 namespace reeb::tools {
@@ -44,8 +45,9 @@ std::string place(const Point& point) {
   return fmt::format("<td class=\"place\">{:.5g}, {:.5g}, {:.5g}</td>", point[0], point[1], point[2]);
 }
 
-std::string percent(double value, double range) {
-  return number(fmt::format("{:.4g}", range > 0 ? 100 * (value / range) : 0.0));
+std::string percent(double percent) { return number(fmt::format("{:.4g}", percent)); }
+std::string percent(const ValueRange& range, double lo, double hi) {
+  return percent(range.max > range.min ? percent_of(range, lo, hi) : 0.0);
 }
 
 // The types of pairs, in words that need no textbook.
@@ -77,7 +79,7 @@ std::string summary_table(const std::string& caption, std::span<const NamedText>
   return out + kEnd;
 }
 
-std::string pairs_table(std::span<const ooc::PairRow> rows, double range, bool with_buttons) {
+std::string pairs_table(std::span<const ooc::PairRow> rows, const ValueRange& range, bool with_buttons) {
   std::string out = head("Features by persistence", with_buttons ? "in the skeleton" : nullptr,
                          {{"rank"},
                           {"feature", false},
@@ -96,9 +98,9 @@ std::string pairs_table(std::span<const ooc::PairRow> rows, double range, bool w
     if (with_buttons) out += button("pair", rank - 1, fmt::format("Show feature {} in the skeleton", rank));
     out += number(std::to_string(rank)) +
            text(fmt::format("{} ({}){}", meaning(row.type), name_of(row.type), row.kept ? ", kept" : "")) +
-           number(persistence) + percent(persistence, range) + number(row.lo.key.value) + number(row.hi.key.value) +
-           number(std::to_string(row.lo.key.vertex.value())) + number(std::to_string(row.hi.key.vertex.value())) +
-           place(row.hi.position) + "</tr>\n";
+           number(persistence) + percent(range, row.lo.key.value, row.hi.key.value) + number(row.lo.key.value) +
+           number(row.hi.key.value) + number(std::to_string(row.lo.key.vertex.value())) +
+           number(std::to_string(row.hi.key.vertex.value())) + place(row.hi.position) + "</tr>\n";
   }
   return out + kEnd;
 }
@@ -124,7 +126,7 @@ std::string defects_table(const Defects& defects, std::size_t most, std::size_t 
     else if (closeups > 0)
       out += "<td class=\"fixed\"></td>";
     out += number(std::to_string(i + 1)) + text(name_of(row.kind)) + number(row.length_contour) +
-           number(row.length_cycle) + number(row.persistence) + percent(row.percent, 100) + count(row.curve.triangles) +
+           number(row.length_cycle) + number(row.persistence) + percent(row.percent) + count(row.curve.triangles) +
            number(std::to_string(row.lo.key.vertex.value())) + number(std::to_string(row.hi.key.vertex.value())) +
            place(row.curve.center) + "</tr>\n";
   }
@@ -132,7 +134,7 @@ std::string defects_table(const Defects& defects, std::size_t most, std::size_t 
 }
 
 std::string levels_table(const FileHeader& header) {
-  const double range = header.function_max - header.function_min;
+  const ValueRange range{header.function_min, header.function_max};
   std::string out = head("Levels of detail, from coarse to fine", nullptr,
                          {{"threshold"}, {"% of range"}, {"nodes"}, {"arcs"}, {"bytes read"}, {"bytes of memory"}});
   for (const LevelLine& line : header.levels)
@@ -140,7 +142,7 @@ std::string levels_table(const FileHeader& header) {
            (line.threshold == std::numeric_limits<double>::denorm_min()
                 ? "<td class=\"number\" data-value=\"5e-324\">&gt; 0</td>"
                 : number(line.threshold)) +
-           percent(line.threshold, range) + count(line.nodes) + count(line.arcs) + count(line.file_bytes) +
+           percent(range, 0, line.threshold) + count(line.nodes) + count(line.arcs) + count(line.file_bytes) +
            count(line.memory_bytes) + "</tr>\n";
   return out + kEnd;
 }

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "libreeb/base/value_range.h"
 #include "libreeb/format/file_header.h"
 #include "ooc/reeb_file/reeb_file.h"
 #include "tools/defects/find_defects.h"
@@ -17,7 +18,7 @@ using NamedText = std::pair<std::string, std::string>;
 std::string summary_table(const std::string& caption, std::span<const NamedText> rows);
 
 // A row has a button that shows the pair in the skeleton, if there is one.
-std::string pairs_table(std::span<const ooc::PairRow> rows, double range, bool with_buttons);
+std::string pairs_table(std::span<const ooc::PairRow> rows, const ValueRange& range, bool with_buttons);
 
 // The first `closeups` rows have a button that shows the surface there.
 std::string defects_table(const Defects& defects, std::size_t most, std::size_t closeups);

@@ -54,7 +54,7 @@ void add_run_options(Command command, RunArguments& arguments, const RunTexts& t
 void take_denoise(RunArguments& arguments) {
   if (arguments.denoise.empty()) return;
   arguments.options.denoise_is_share = arguments.denoise.ends_with('%');
-  arguments.options.denoise = parse_threshold("--denoise", arguments.denoise, 1.0);
+  arguments.options.denoise = parse_threshold("--denoise", arguments.denoise, {0, 1});
 }
 
 std::string describe(const MeshInfo& info) {

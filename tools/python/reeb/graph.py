@@ -444,7 +444,7 @@ class Graph:
             )
         if isinstance(threshold, str):
             least, greatest = self.range
-            return file.version_at(_reeb.parse_threshold("threshold", threshold, greatest - least))
+            return file.version_at(_reeb.parse_threshold("threshold", threshold, least, greatest))
         if not isinstance(threshold, (int, float, np.number)) or not threshold >= 0:
             raise Error(f"threshold={threshold!r} is no threshold", 'as 0.01, or "0.1%"', kind="usage")
         return file.version_at(float(threshold))

@@ -294,9 +294,9 @@ def _add_denoise(options, denoise):
         return
     if isinstance(denoise, str):
         options["denoise_is_share"] = denoise.strip().endswith("%")
-        options["denoise"] = _reeb.parse_threshold("denoise", denoise, 1)
+        options["denoise"] = _reeb.parse_threshold("denoise", denoise, 0, 1)
     elif isinstance(denoise, (int, float, np.number)):
-        options["denoise"] = _reeb.parse_threshold("denoise", repr(float(denoise)), 1)
+        options["denoise"] = _reeb.parse_threshold("denoise", repr(float(denoise)), 0, 1)
     else:
         raise Error(f"denoise={denoise!r} is no threshold", 'as 0.01, or "0.1%"', kind="usage")
 
