@@ -303,6 +303,15 @@ TEST_F(PlantedDefects, OptionsChooseRowsAndWritePatches) {
   }
 }
 
+// Squares of such lengths are beyond the doubles.
+TEST_F(PlantedDefects, AreUnclearWhereLengthsCannotBeMeasured) {
+  write("huge.obj", "v 0 0 0\nv 0 0 1e155\nv 1 0 1e154\nl 1 2\nl 2 3\nl 1 3\n");
+  expect_success(reeb({"defects", "huge.obj", "-o", "huge.csv", "--patches", "patches"}));
+  const std::string rows = file("huge.csv");
+  EXPECT_NE(rows.find(",unclear,inf,inf,"), std::string::npos) << rows;
+  expect_success(reeb({"repair", "huge.obj", "--all", "-o", "repaired.obj"}));
+}
+
 TEST_F(PlantedDefects, FilesOfAnotherMeshAreRefused) {
   expect_success(reeb({"generate", "torus", "--triangles", "2000", "-o", "t.ply"}));
   expect_success(reeb({"generate", "torus", "--triangles", "3000", "-o", "u.ply"}));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -53,7 +54,10 @@ struct PatchScale {
   double radius(double vertices) const;
   // Of a mesh that is in memory, for searches and comparisons.
   static constexpr std::uint64_t kBytesPerVertex = 120;
-  bool too_large(double radius) const { return vertices(radius) > kMostVertices || radius > 2 * size; }
+  // Also if the square of the radius is beyond the doubles: then no distance can be compared with it.
+  bool too_large(double radius) const {
+    return vertices(radius) > kMostVertices || radius > 2 * size || !std::isfinite(radius * radius);
+  }
 };
 PatchScale scale_of(const LoopList& list);
 

@@ -9,6 +9,7 @@ namespace reeb::tools {
 namespace {
 
 constexpr double kMostTogether = 200'000;  // vertices of patches in memory, roughly
+constexpr double kMostRadius = 1e154;      // its square is a double, so that a ball has its center
 
 struct Place {
   std::vector<VertexId> seeds;
@@ -24,6 +25,7 @@ Place place_of(const DefectRow& row, const PatchScale& scale) {
   } else {
     for (const SettledNode* node : {&row.lo, &row.hi}) place.balls.push_back({node->position, 12 * scale.edge});
   }
+  for (ooc::Ball& ball : place.balls) ball.radius = ball.radius < kMostRadius ? ball.radius : kMostRadius;
   return place;
 }
 
