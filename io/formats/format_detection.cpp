@@ -182,6 +182,10 @@ MeshFormat detect_text(std::string_view text, const std::string& path) {
 // The complete lines of a text that has not arrived in full.
 std::string_view whole_lines(std::string_view text) { return text.substr(0, text.rfind('\n') + 1); }
 
+// Its size, 348, comes first, and its magic word in bytes 344 to 347. No streaming mesh that can be read begins so: the
+// third byte would be a compression that is not known.
+bool may_be_big_endian_nifti(std::string_view head) { return head.starts_with(std::string_view("\0\0\1", 3)); }
+
 // Whether these first bytes of a pipe are enough to recognize a streaming mesh.
 bool starts_streaming(std::string_view head) {
   return is_streaming_binary(head) || has_streaming_comment(whole_lines(head)) || has_streaming_line(whole_lines(head));
@@ -192,8 +196,11 @@ bool starts_streaming(std::string_view head) {
 MeshFormat detect_format(ContentSource& source, const std::string& path) {
   if (is_cx_name(path)) return MeshFormat::kCx;
   if (!source.size())
-    for (const std::size_t min_bytes : {1u, 80u})
-      if (starts_streaming(source.view(0, min_bytes))) return MeshFormat::kStreaming;
+    for (const std::size_t min_bytes : {1u, 80u}) {
+      const std::string_view head = source.view(0, min_bytes);
+      if (may_be_big_endian_nifti(head)) break;
+      if (starts_streaming(head)) return MeshFormat::kStreaming;
+    }
   std::string_view head = source.view(0);
   if (head.starts_with("\xEF\xBB\xBF")) head.remove_prefix(3);
   if (head.starts_with("ply") && (head.size() == 3 || is_blank_or_line_end(head[3]))) return MeshFormat::kPly;

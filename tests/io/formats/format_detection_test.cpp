@@ -3,7 +3,9 @@
 
 #include <unistd.h>
 
+#include "io/images/image_format.h"
 #include "tests/io/formats/mesh_files.h"
+#include "tests/io/images/nifti_files.h"
 
 namespace reeb::io::testing {
 namespace {
@@ -64,6 +66,19 @@ TEST(FormatDetection, APostOrderStreamIsKnownBeforeThePipeEnds) {
   EXPECT_EQ(detect_format(*source, "-"), MeshFormat::kStreaming);
   ::close(ends[0]);
   ::close(ends[1]);
+}
+
+// The first bytes are those of a streaming mesh, too.
+TEST(FormatDetection, ABigEndianNiftiImageIsNoStreamingMeshOnAPipe) {
+  const std::string bytes = nifti({.dim = {3, 2, 2, 2}, .big_endian = true}, "12345678");
+  int ends[2];
+  ASSERT_EQ(::pipe(ends), 0);
+  ASSERT_EQ(::write(ends[1], bytes.data(), bytes.size()), static_cast<ssize_t>(bytes.size()));
+  ::close(ends[1]);
+  const auto source = open_content("/proc/self/fd/" + std::to_string(ends[0]));
+  EXPECT_EQ(detect_format(*source, "-"), MeshFormat::kUnknown);
+  EXPECT_EQ(image_format_of(source->view(0)), ImageFormat::kNifti);
+  ::close(ends[0]);
 }
 
 }  // namespace
