@@ -123,7 +123,7 @@ FunctionSpec default_function(const MeshInfo& info) {
 
 std::string file_name_part(const FunctionSpec& spec) {
   std::string name = spec.text;
-  for (const char c : {':', '/', ','}) std::ranges::replace(name, c, '-');
+  for (const char c : {':', '/'}) std::ranges::replace(name, c, '-');
   return name;
 }
 

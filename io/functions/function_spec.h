@@ -44,7 +44,7 @@ FunctionSpec parse_function(std::string_view text);
 // fewer than three.
 FunctionSpec default_function(const MeshInfo& info);
 
-// The text of a function as part of a file name: ':', '/' and ',' become '-'.
+// The text of a function as part of a file name: ':' and '/' become '-'.
 std::string file_name_part(const FunctionSpec& spec);
 
 // What ReadOptions::properties must contain for these functions; each name once.

@@ -72,6 +72,7 @@ TEST(FunctionText, IsParsedOrRefused) {
     EXPECT_FALSE(error.hint().empty());
   }
   EXPECT_EQ(file_name_part(parse_function("file:a/b.f64")), "file-a-b.f64");
+  EXPECT_EQ(file_name_part(parse_function("distance:0,1,2")), "distance-0,1,2");
   const std::vector<FunctionSpec> specs = {parse_function("property:b"), parse_function("z"),
                                            parse_function("property:a"), parse_function("property:b")};
   EXPECT_EQ(needed_properties(specs), (std::vector<std::string>{"b", "a"}));
