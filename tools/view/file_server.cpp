@@ -109,6 +109,17 @@ void send_text(int socket, std::string_view status, bool with_body, std::string_
   send_all(socket, head(status, "text/plain", body.size(), more) + (with_body ? body : ""));
 }
 
+// The page takes the name of its file from its own address. What it takes is an address, too, so the name is escaped
+// twice: nothing in it can end the text in the script.
+std::string page_of_file(std::string_view page, const std::string& name) {
+  constexpr std::string_view kHead = "<head>";
+  std::string text(page);
+  text.insert(text.find(kHead) + kHead.size(),
+              fmt::format("<script>history.replaceState(null, '', '?file={}' + location.hash)</script>",
+                          path_part(path_part(name))));
+  return text;
+}
+
 }  // namespace
 
 // Each has its thread. All end with the destructor.
@@ -160,15 +171,14 @@ class FileServer::Connections {
 };
 
 FileServer::FileServer(std::string_view page, const std::string& file, std::uint16_t port)
-    : page_(page),
-      file_(io::File::open_for_reading(file)),
+    : file_(io::File::open_for_reading(file)),
       file_bytes_(file_.size()),
       socket_(listen_on(port)),
       port_(fmt::format("{}", port_of(socket_))),
       token_(random_word()),
       name_(std::filesystem::path(file).filename().string()) {
-  // What the page takes from its address is an address, too, so the name is escaped twice.
-  address_ = fmt::format("http://127.0.0.1:{}/{}/?file={}", port_, token_, path_part(path_part(name_)));
+  address_ = fmt::format("http://127.0.0.1:{}/{}/", port_, token_);
+  page_ = page_of_file(page, name_);
 }
 
 FileServer::~FileServer() { ::close(socket_); }

@@ -14,7 +14,7 @@ namespace reeb::tools {
 // whose path begins with a random word, so neither other pages nor other users can read the file: not even its name.
 class FileServer {
  public:
-  // `page` must outlive the server. The file stays open, so it can be replaced or removed meanwhile. Port 0: any free
+  // REQUIRES: the page has a <head>. The file stays open, so it can be replaced or removed meanwhile. Port 0: any free
   // one.
   // THROWS: Error{kBadInput} if the file cannot be opened, Error{kResource} if the port cannot be used.
   FileServer(std::string_view page, const std::string& file, std::uint16_t port);
@@ -34,11 +34,10 @@ class FileServer {
   void answer(int socket) const;
   void send_file(int socket, std::uint64_t begin, std::uint64_t end) const;
 
-  std::string_view page_;
   io::File file_;
   std::uint64_t file_bytes_ = 0;
   int socket_ = -1;
-  std::string port_, token_, name_, address_;
+  std::string port_, token_, name_, address_, page_;
 };
 
 }  // namespace reeb::tools
