@@ -12,6 +12,7 @@ class CxWriter : public MeshWriter {
   CxWriter(const std::string& path, const MeshWriterOptions& options) : file_(path, {.existing = options.existing}) {}
 
   void write(const MeshBatch& batch) override {
+    has_vertices_ |= batch.vertex_count != 0;
     for (std::size_t i = 0; i < batch.vertex_count; ++i) {
       TextRecord line(file_.out());
       line.put('v');
@@ -32,10 +33,15 @@ class CxWriter : public MeshWriter {
     });
   }
 
-  void close() override { file_.commit(); }
+  // An empty file is taken for a damaged one.
+  void close() override {
+    if (!has_vertices_) file_.out().append("# no vertices\n");
+    file_.commit();
+  }
 
  private:
   AtomicFile file_;
+  bool has_vertices_ = false;
 };
 
 }  // namespace

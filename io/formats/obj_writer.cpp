@@ -15,6 +15,7 @@ class ObjWriter : public MeshWriter {
         file_(path, {.existing = options.existing}) {}
 
   void write(const MeshBatch& batch) override {
+    has_vertices_ |= batch.vertex_count != 0;
     for (std::size_t i = 0; i < batch.vertex_count; ++i) {
       TextRecord line(file_.out());
       line.put('v');
@@ -35,12 +36,17 @@ class ObjWriter : public MeshWriter {
     });
   }
 
-  void close() override { file_.commit(); }
+  // An empty file is taken for a damaged one.
+  void close() override {
+    if (!has_vertices_) file_.out().append("# no vertices\n");
+    file_.commit();
+  }
 
  private:
   unsigned dimension_;
   double zero_;  // is added to each number: 0.0 makes 0.0 of -0.0, and -0.0 changes nothing
   AtomicFile file_;
+  bool has_vertices_ = false;
 };
 
 }  // namespace

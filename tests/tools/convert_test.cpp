@@ -174,6 +174,14 @@ TEST_F(Convert, EveryFormatIntoEveryOther) {
       }
 }
 
+TEST_F(Convert, AMeshWithoutVerticesCanBeReadBack) {
+  write("none.off", "OFF\n0 0 0\n");
+  for (const char* suffix : {"ply", "obj", "off", "cx", "sma", "smb", "smc", "sva", "svb"}) {
+    expect_success(std::string("convert none.off none-back.") + suffix);
+    EXPECT_EQ(info_of(std::string("none-back.") + suffix)["vertices"], 0) << suffix;
+  }
+}
+
 // A surface format gets the four faces of a tetrahedron, in any order. Values are kept where the format can store them.
 TEST_F(Convert, VolumesKeepTheirGraphsAndTheValuesOfTheirVertices) {
   const std::string volume = sample("tetcube.s4.pre.sva");

@@ -113,6 +113,7 @@ Mesh parse_obj(const std::string& path) {
   std::ifstream in(path);
   Mesh mesh;
   for (std::string line; std::getline(in, line);) {
+    if (line[0] == '#') continue;
     std::istringstream words(line.substr(1));
     if (line[0] == 'v')
       mesh.vertices.emplace_back(std::istream_iterator<double>(words), std::istream_iterator<double>());
