@@ -62,12 +62,19 @@ class OffReader : public BatchReader {
       count_vertices(batch, 1);
     }
     while (room(batch) != 0 && faces_read_ != header_.faces) advance_face(batch);
+    if (vertices_read() == header_.vertices && faces_read_ == header_.faces) trailing_ = has_more();
+  }
+
+  std::vector<std::string> warnings() const override {
+    if (!trailing_) return {};
+    return {"what follows the last face was ignored: the header does not announce it"};
   }
 
   virtual void read_vertex(MeshBatch& batch) = 0;
   virtual std::int64_t begin_face() = 0;  // returns the number of corners
   virtual std::int64_t read_corner() = 0;
   virtual void end_face() = 0;
+  virtual bool has_more() = 0;
   [[noreturn]] virtual void fail(const std::string& what, const std::string& hint) const = 0;
 
   OffHeader header_;
@@ -97,7 +104,7 @@ class OffReader : public BatchReader {
 
   SimplexAssembler face_;
   std::uint64_t faces_read_ = 0;
-  bool in_face_ = false;
+  bool in_face_ = false, trailing_ = false;
   std::int64_t corners_left_ = 0;
 };
 
@@ -124,9 +131,11 @@ class AsciiOffReader final : public OffReader {
 
   std::uint64_t bytes_read() const override { return text_.bytes_read(); }
   std::vector<std::string> warnings() const override {
-    if (odd_values_ == 0) return {};
-    return {count_of(odd_values_, "value") + " of normals or colours " + (odd_values_ == 1 ? "is" : "are") +
-            " not finite (they are not used)"};
+    std::vector<std::string> lines = OffReader::warnings();
+    if (odd_values_ != 0)
+      lines.push_back(count_of(odd_values_, "value") + " of normals or colours " + (odd_values_ == 1 ? "is" : "are") +
+                      " not finite (they are not used)");
+    return lines;
   }
 
  private:
@@ -156,6 +165,7 @@ class AsciiOffReader final : public OffReader {
   std::int64_t begin_face() override { return number("number of corners"); }
   std::int64_t read_corner() override { return number("vertex index"); }
   void end_face() override { text_.skip_line(); }
+  bool has_more() override { return text_.more(); }
   void fail(const std::string& what, const std::string& hint) const override { text_.fail(what, hint); }
 
   std::int64_t number(const char* what) {
@@ -227,6 +237,7 @@ class BinaryOffReader final : public OffReader {
   void end_face() override {
     for (std::uint64_t components = count(); components != 0; --components) take(4);
   }
+  bool has_more() override { return !cursor_.at_end(); }
   void fail(const std::string& what, const std::string& hint) const override {
     throw Error(ErrorKind::kBadInput, what, hint).at(cursor_.source().name(), std::to_string(taken_));
   }

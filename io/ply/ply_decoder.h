@@ -36,6 +36,7 @@ class AsciiPlyDecoder {
   }
   // Values after the end of a record.
   std::uint64_t surplus_values() const { return surplus_values_; }
+  bool has_more() { return text_.more(); }
 
   double finite_value(ScalarType type, const char* what) {
     move_to_value(what);
@@ -105,6 +106,7 @@ class BinaryPlyDecoder {
   void begin_record(const PlyElement&) {}
   void end_record(const PlyElement&) {}
   std::uint64_t surplus_values() const { return 0; }
+  bool has_more() { return !cursor_.at_end(); }
   double finite_value(ScalarType type, const char* what) {
     const double value = load_double(type, take(byte_size(type)), swap_, zero_);
     if (!std::isfinite(value)) fail(std::string("a ") + what + " is not finite", "fix this value in the file");

@@ -164,7 +164,9 @@ class PlyReader final : public PlyBodyReader {
     if (const std::uint64_t surplus = decoder_.surplus_values(); surplus != 0)
       lines.push_back(count_of(surplus, "value") + " at the end of lines " + (surplus == 1 ? "was" : "were") +
                       " ignored: the header does not declare " + (surplus == 1 ? "it" : "them"));
-    if (trailing_) lines.push_back("bytes after the last element were ignored");
+    if (trailing_)
+      lines.push_back(std::string(Decoder::kBinary ? "bytes" : "lines") +
+                      " after the last element were ignored: the header does not announce them");
     return lines;
   }
 
@@ -202,7 +204,7 @@ class PlyReader final : public PlyBodyReader {
   void next_step() {
     ++step_;
     record_ = 0;
-    if (step_ == steps_.size()) trailing_ = Decoder::kBinary && !decoder_.bytes().at_end();
+    if (step_ == steps_.size()) trailing_ = decoder_.has_more();
   }
 
   void pass_element(const PlyElement& element) {

@@ -327,7 +327,13 @@ TEST_F(BadInput, ABinaryStlHasTheSizeThatItAnnouncesOrIsNamedSo) {
 TEST_F(BadInput, TrailingDataIsNoted) {
   write("long.ply", ply_binary({.triangles_said = 3}));
   write("long.ply.gz", gzipped("long.ply"));
-  for (const std::string mesh : {"long.ply", "long.ply.gz"}) {
+  const std::string corners = "0 0 0\n1 0 0\n0 1 0\n";
+  write("text.ply",
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+        "element face 1\nproperty list uchar int vertex_indices\nend_header\n" +
+            corners + "3 0 1 2\n3 2 1 0\n");
+  write("text.off", "OFF\n3 1 0\n" + corners + "3 0 1 2\n3 2 1 0\n");
+  for (const std::string mesh : {"long.ply", "long.ply.gz", "text.ply", "text.off"}) {
     const Outcome outcome = reeb({"compute", mesh, "--force"});
     expect_success(outcome);
     EXPECT_EQ(lines_after("note: ", outcome.error).size(), 1u) << mesh << '\n' << outcome.error;
