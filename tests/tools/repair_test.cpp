@@ -438,6 +438,10 @@ TEST_F(RepairTest, RefusesWhatItCannotDo) {
   EXPECT_EQ(reeb({"repair", "-", "-o", "p.ply"}).exit_code, 2);
   // An undo file of another mesh, or damaged.
   EXPECT_EQ(reeb({"repair", "t.ply", "--apply-undo", "o.undo", "-o", "p.ply"}).exit_code, 1);
+  for (const std::string choice :
+       {"--all", "--limit=3", "--drop-degenerate", "--drop-duplicates", "--below=1%", "--longest=1", "--loops=o.csv",
+        "--drop-components=1%", "--fill-boundaries=1", "--log=l.json", "--undo=u"})
+    expect_error(reeb({"repair", "o.ply", "--apply-undo", "o.undo", "-o", "p.ply", choice}), 2);
   std::string bytes = file("o.undo");
   for (std::size_t i = 0; i < bytes.size(); i += 1 + bytes.size() / 19) {
     std::string damaged = bytes;

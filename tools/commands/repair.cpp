@@ -57,8 +57,6 @@ void check_files(const RepairArguments& arguments) {
   if (options.mesh.path == "-")
     throw Error(ErrorKind::kUsage, "the mesh is read several times, so it cannot come from standard input",
                 "write it to a file first");
-  if (!arguments.apply_undo.empty() && (!arguments.log.empty() || !arguments.undo.empty()))
-    throw Error(ErrorKind::kUsage, "--apply-undo goes with neither --log nor --undo", "leave them out");
   if (ooc::is_reeb_file(options.mesh.path))
     throw Error(ErrorKind::kBadInput, "this is a Reeb graph, not a mesh", "name the mesh").at(options.mesh.path);
   const std::string suffix = io::name_suffix(options.output);
@@ -164,28 +162,32 @@ void add_repair(Program& program) {
   Command command = program.add_command("repair", "Cut small handles and fill tunnels of a surface");
   command.add_option("MESH", options.mesh.path, "Mesh of any format, also as .gz and .zst").required().type_name("");
   command.add_option("-o,--output", options.output, "Mesh to write: .ply, .obj or .off").required().type_name("OUT");
-  command.add_option("--below", arguments->below, "Loops of less persistence: 0.01, or 0.1% of the function's range")
-      .type_name("T");
-  command.add_option("--longest", arguments->longest, "Loops with a curve of at most this length").type_name("LENGTH");
-  command.add_option("--loops", options.filter.loops, "Only loops in a table of reeb defects, or in rows of it")
-      .type_name("FILE.csv");
-  command.add_flag("--all", options.filter.all, "All loops that can be repaired, however long");
-  add_count(command, "--limit", options.limit, "The first N loops that can be repaired", {.least = 1});
-  command
-      .add_option("--drop-components", arguments->drop_components,
-                  "Drop components of fewer triangles than N% of the largest one")
-      .type_name("N%");
-  command.add_option("--fill-boundaries", arguments->fill_boundaries, "Fill boundaries of at most this length")
-      .type_name("LENGTH");
-  command.add_flag("--drop-degenerate", options.cleaning.degenerate, "Drop triangles that repeat a corner");
-  command.add_flag("--drop-duplicates", options.cleaning.duplicates, "Drop repetitions of triangles");
-  command.add_option("--log", arguments->log, "File for what was done, and what was left and why, as JSON")
-      .type_name("FILE");
-  command.add_option("--undo", arguments->undo, "File to write with what is needed to go back").type_name("FILE");
-  command
-      .add_option("--apply-undo", arguments->apply_undo,
-                  "Undo file of a repair whose output is MESH: writes the mesh before it")
-      .type_name("FILE");
+  const Option choices[] = {
+      command
+          .add_option("--below", arguments->below, "Loops of less persistence: 0.01, or 0.1% of the function's range")
+          .type_name("T"),
+      command.add_option("--longest", arguments->longest, "Loops with a curve of at most this length")
+          .type_name("LENGTH"),
+      command.add_option("--loops", options.filter.loops, "Only loops in a table of reeb defects, or in rows of it")
+          .type_name("FILE.csv"),
+      command.add_flag("--all", options.filter.all, "All loops that can be repaired, however long"),
+      add_count(command, "--limit", options.limit, "The first N loops that can be repaired", {.least = 1}),
+      command
+          .add_option("--drop-components", arguments->drop_components,
+                      "Drop components of fewer triangles than N% of the largest one")
+          .type_name("N%"),
+      command.add_option("--fill-boundaries", arguments->fill_boundaries, "Fill boundaries of at most this length")
+          .type_name("LENGTH"),
+      command.add_flag("--drop-degenerate", options.cleaning.degenerate, "Drop triangles that repeat a corner"),
+      command.add_flag("--drop-duplicates", options.cleaning.duplicates, "Drop repetitions of triangles"),
+      command.add_option("--log", arguments->log, "File for what was done, and what was left and why, as JSON")
+          .type_name("FILE"),
+      command.add_option("--undo", arguments->undo, "File to write with what is needed to go back").type_name("FILE")};
+  Option undo = command
+                    .add_option("--apply-undo", arguments->apply_undo,
+                                "Undo file of a repair whose output is MESH: writes the mesh before it")
+                    .type_name("FILE");
+  for (const Option& choice : choices) undo.excludes(choice);
   add_format(command, options.mesh.format);
   add_image_options(command, options.mesh.image);
   add_size(command, "--memory", options.mesh.memory_bytes,
