@@ -54,8 +54,12 @@ std::unique_ptr<MeshReader> open_mesh(const Input& input, std::unique_ptr<Conten
   } else if (!grid.format) {
     const bool may_be_image =
         format.empty() && (input.can_reopen() || detect_format(*source, input.path()) == MeshFormat::kUnknown);
-    if (!may_be_image || !detect_image(*source, input.path()))
-      return open_mesh(std::move(source), input.path(), options, format);
+    if (!may_be_image || !detect_image(*source, input.path())) {
+      auto mesh = open_mesh(std::move(source), input.path(), options, format);
+      if (image.skip_nodata)
+        throw Error(ErrorKind::kUsage, "--nodata is for images, and this is a mesh", "leave it out").at(input.path());
+      return mesh;
+    }
   }
   try {
     return make_grid_mesh(open_grid(input, std::move(source), grid), options,

@@ -199,6 +199,8 @@ TEST_F(Image, IsDescribedByItsOptions) {
   expect_error(reeb({"compute", "v.raw", "--spacing", "1,1,2"}), 2, "--grid is missing");
   expect_error(reeb({"compute", "v.raw", "--grid", "7x6x5", "--type", "f32"}), 2);
   expect_error(reeb({"compute", "v.raw", "--grid", "7x6x5", "--type", "f32le", "--nodata", "keep"}), 2);
+  write("mesh.off", kSmallOff);
+  expect_error(reeb({"compute", "mesh.off", "--nodata", "skip"}), 2, "mesh.off: --nodata is for images");
   expect_error(reeb({"compute", "v.raw", "--grid", "7x6x4", "--type", "f32le"}), 1);
   const auto info = [&](std::vector<std::string> options) {
     options.insert(options.begin(), {"info", "v.raw", "--json"});
