@@ -25,10 +25,10 @@ class HelpFormatter : public CLI::Formatter {
   std::string make_option_desc(const CLI::Option* option) const override {
     return wrapped(option->get_description(), 0, kTextColumns - get_column_width());
   }
-  // The descriptions say what an option needs.
+  // The descriptions say what an option needs, and the errors what it excludes.
   std::string make_option_opts(const CLI::Option* option) const override {
     const std::string text = CLI::Formatter::make_option_opts(option);
-    return text.substr(0, text.find(" Needs:"));
+    return text.substr(0, std::min(text.find(" Needs:"), text.find(" Excludes:")));
   }
 };
 
