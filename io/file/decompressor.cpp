@@ -45,13 +45,13 @@ std::shared_ptr<ZSTD_DStream> make_zstd_stream() {
   return stream;
 }
 
-// THROWS: an Error without a file, or std::bad_alloc, if that is what zstd returned.
+// THROWS: an Error without a file, and without a hint if the data are damaged; or std::bad_alloc.
 void check_zstd(std::size_t result) {
   if (ZSTD_isError(result) == 0) return;
   const ZSTD_ErrorCode code = ZSTD_getErrorCode(result);
   if (code == ZSTD_error_memory_allocation) throw std::bad_alloc();
   if (code == ZSTD_error_frameParameter_windowTooLarge)
-    throw Error(ErrorKind::kResource, "unpacking it takes a larger window than zstd allows",
+    throw Error(ErrorKind::kBadInput, "unpacking it takes a larger window than zstd allows",
                 "unpack it first, with zstd -d and its option for long windows");
   throw Error(ErrorKind::kBadInput, ZSTD_getErrorName(result), "");
 }
@@ -111,7 +111,7 @@ class DecompressedInput final : public RawInput {
       return got < 0 ? 0 : static_cast<std::size_t>(got);
     } catch (const Error& failure) {
       if (!failure.file().empty()) throw;
-      if (failure.kind() == ErrorKind::kBadInput) throw_damaged(failure.message());
+      if (failure.hint().empty()) throw_damaged(failure.message());
       throw Error(failure.kind(), failure.message(), failure.hint()).at(name_);
     } catch (const std::bad_alloc&) {
       throw;

@@ -134,7 +134,7 @@ TEST_F(ImageWithGaps, IsGluedFromPartsAndReadsItsOwnValues) {
     std::vector<std::string> glue{"glue"};
     const std::uint64_t parts = 1 + seed % 4;
     for (std::uint64_t k = 1; k <= parts; ++k) {
-      const std::string name = "p" + std::to_string(k) + ".fragment";
+      const std::string name = std::to_string(k) + ".fragment";
       expect_success(reeb({"fragment", "v.nrrd", "--nodata", "skip", "-f", function, "--buckets", "0", "--part",
                            std::to_string(k) + "/" + std::to_string(parts), "-o", name, "--force"}));
       glue.push_back(name);

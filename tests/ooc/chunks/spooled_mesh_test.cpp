@@ -28,6 +28,7 @@ class ModelReader : public MeshReader {
       const auto from = mesh_.columns[k].begin() + static_cast<std::ptrdiff_t>(vertex_);
       batch.column(k).assign(from, from + static_cast<std::ptrdiff_t>(vertices));
     }
+    batch.first_vertex = VertexId(vertex_);
     batch.vertex_count = vertices;
     vertex_ += vertices;
     if (vertices == 0) {
