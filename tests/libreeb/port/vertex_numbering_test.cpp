@@ -3,6 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
 #include "tests/support/random.h"
 
 namespace reeb {
@@ -34,7 +38,7 @@ TEST(VertexNumbering, AreThoseOfAPlainList) {
       const auto at = std::ranges::find(plain, number);
       const auto index = numbers.index_of(number);
       ASSERT_EQ(index.has_value(), at != plain.end()) << number;
-      if (index) EXPECT_EQ(*index, static_cast<std::uint64_t>(at - plain.begin()));
+      EXPECT_EQ(index.value_or(0), index ? static_cast<std::uint64_t>(at - plain.begin()) : 0);
     }
   }
 }
