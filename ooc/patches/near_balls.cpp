@@ -13,8 +13,8 @@ std::int64_t cell_of(double coordinate, int exponent) {
   return static_cast<std::int64_t>(std::floor(std::clamp(std::ldexp(coordinate, -exponent), -0x1p60, 0x1p60)));
 }
 
-// Of the grid of a ball: a cell is one to two radii wide. Balls without extent have the finest one.
-int exponent_of(const Ball& ball) {
+// A cell is one to two radii wide. Balls without extent have the finest one.
+int grid_exponent(const Ball& ball) {
   constexpr int kFinest = -1000;
   return ball.radius > 0 ? std::ilogb(ball.radius) + 1 : kFinest;
 }
@@ -29,7 +29,7 @@ std::uint64_t key_of(std::int64_t x, std::int64_t y, std::int64_t z) {
 }  // namespace
 
 void NearBalls::add(const Ball& ball, std::uint32_t number) {
-  const int exponent = exponent_of(ball);
+  const int exponent = grid_exponent(ball);
   auto grid = std::ranges::find(grids_, exponent, &Grid::exponent);
   if (grid == grids_.end()) grid = grids_.insert(grids_.end(), {exponent, {}});
   const std::uint64_t key =
@@ -52,7 +52,7 @@ std::vector<std::uint32_t> NearBalls::meeting(const Ball& ball) const {
     // Among balls far smaller than this one: all of them.
     if (std::ldexp(reach, -grid.exponent) > 8) {
       for (const Entry& entry : entries_)
-        if (exponent_of(entry.ball) == grid.exponent) look_at(entry);
+        if (grid_exponent(entry.ball) == grid.exponent) look_at(entry);
       continue;
     }
     std::array<std::array<std::int64_t, 2>, 3> range{};
