@@ -10,9 +10,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "libreeb/engine/bucket_sums.h"
 #include "libreeb/engine/chunk.h"
 #include "libreeb/engine/sweep_options.h"
+#include "libreeb/graph/bucket_sums.h"
 #include "libreeb/graph/reeb_graph.h"
 #include "libreeb/port/graph_sink.h"
 

@@ -10,6 +10,11 @@ namespace {
 
 constexpr std::size_t kLookAhead = 8;  // entries of hash maps
 
+// Of a copy: those that an arc with its beads becomes.
+struct FragmentArcs {
+  std::uint32_t first, end;
+};
+
 }  // namespace
 
 void Glue::add(const Fragment& fragment) {
@@ -43,12 +48,19 @@ void Glue::add_nodes(const Fragment& fragment) {
                          : node.uses == kUsedHereOnly ? LiveGraph::State::kComplete
                                                       : LiveGraph::State::kIncomplete;
       n = graph_.add_node(node.key, fragment.positions.empty() ? Point{} : fragment.positions[i], state);
-      if (n >= first_link_.size()) first_link_.grow_by(n + 1 - first_link_.size());
+      grow_first_link(n + 1);
       first_link_[n] = kNone;
       if ((node.uses & kUsedLater) != 0) node_of_.find_or_insert(vertex, n);
     }
     nodes_.push_back(n);
   }
+}
+
+void Glue::grow_first_link(std::size_t nodes) {
+  const std::size_t before = first_link_.size();
+  if (nodes <= before) return;
+  first_link_.grow_by(nodes - before);
+  for (std::size_t n = before; n < nodes; ++n) first_link_[n] = kNone;
 }
 
 void Glue::add_arcs(const Fragment& fragment) {
@@ -166,30 +178,44 @@ void Glue::complete(VertexId vertex) {
 void Glue::copy_live(Fragment& fragment) const {
   using State = LiveGraph::State;
   fragment.clear();
-  std::vector<FragmentNode> node_numbers(first_link_.size());
-  std::vector<FragmentArc> arc_numbers;
-  std::vector<Index> arcs;
+  std::vector<FragmentNode> node_numbers(graph_.node_slots());
+  std::vector<FragmentArcs> arcs_of(graph_.arc_slots());
   fragment.nodes.reserve(graph_.node_count());
   fragment.positions.reserve(graph_.node_count());
   fragment.arcs.reserve(graph_.arc_count());
+  fragment.bucket_begin.reserve(graph_.arc_count() + 1);
+  fragment.buckets.reserve(graph_.bucket_count());
+  fragment.edges.reserve(edge_of_.size());
+  fragment.path_begin.reserve(edge_of_.size() + 1);
+  fragment.path_arcs.reserve(graph_.path_arc_count());
+  fragment.bucket_begin.push_back(0);
+  const auto add_node = [&](const Fragment::Node& node, const Point& position) {
+    fragment.nodes.push_back(node);
+    fragment.positions.push_back(position);
+    return FragmentNode(static_cast<std::uint32_t>(fragment.nodes.size() - 1));
+  };
+  const auto add_arc = [&](FragmentNode lo, FragmentNode hi) {
+    fragment.arcs.push_back({lo, hi});
+    fragment.bucket_begin.push_back(static_cast<std::uint32_t>(fragment.buckets.size()));
+  };
   graph_.visit(
       [&](Index n) {
-        node_numbers[n] = FragmentNode(static_cast<std::uint32_t>(fragment.nodes.size()));
         const auto uses = graph_.state(n) == State::kIncomplete ? kUsedLater : kUsedHereOnly;
-        fragment.nodes.push_back({graph_.key(n), uses, graph_.state(n) == State::kSettled});
-        fragment.positions.push_back(graph_.position(n));
+        node_numbers[n] = add_node({graph_.key(n), uses, graph_.state(n) == State::kSettled}, graph_.position(n));
       },
       [&](Index a, Index lo, Index hi) {
-        if (a >= arc_numbers.size()) arc_numbers.resize(a + 1);
-        arc_numbers[a] = FragmentArc(static_cast<std::uint32_t>(fragment.arcs.size()));
-        fragment.arcs.push_back({node_numbers[lo], node_numbers[hi]});
-        arcs.push_back(a);
+        arcs_of[a].first = static_cast<std::uint32_t>(fragment.arcs.size());
+        FragmentNode above = node_numbers[hi];
+        graph_.visit_chain(
+            a,
+            [&](const SweepKey& key, const Point& position) {
+              const FragmentNode bead = add_node({key, kUsedHereOnly, true}, position);
+              add_arc(bead, std::exchange(above, bead));
+            },
+            [&](const BucketSum& bucket) { fragment.buckets.push_back(bucket); });
+        add_arc(node_numbers[lo], above);
+        arcs_of[a].end = static_cast<std::uint32_t>(fragment.arcs.size());
       });
-  fragment.bucket_begin.push_back(0);
-  for (const Index a : arcs) {
-    graph_.visit_buckets(a, [&](const BucketSum& bucket) { fragment.buckets.push_back(bucket); });
-    fragment.bucket_begin.push_back(static_cast<std::uint32_t>(fragment.buckets.size()));
-  }
   fragment.path_begin.push_back(0);
   for (Index n = 0; n < first_link_.size(); ++n) {
     if (!graph_.is_incomplete(n)) continue;
@@ -197,10 +223,19 @@ void Glue::copy_live(Fragment& fragment) const {
       if (l % 2 != 0) continue;  // the upper end's link of the same edge
       const Edge& edge = edges_[l / 2];
       fragment.edges.push_back({node_numbers[edge.lo], node_numbers[edge.hi]});
-      graph_.visit_path(edge.top, [&](Index a) { fragment.path_arcs.push_back(arc_numbers[a]); });
+      graph_.visit_path(edge.top, [&](Index a) {
+        for (std::uint32_t i = arcs_of[a].first; i < arcs_of[a].end; ++i) fragment.path_arcs.push_back(FragmentArc(i));
+      });
       fragment.path_begin.push_back(static_cast<std::uint32_t>(fragment.path_arcs.size()));
     }
   }
+}
+
+std::size_t Glue::copy_bytes() const {
+  return graph_.node_count() * (sizeof(Fragment::Node) + sizeof(Point)) +
+         graph_.arc_count() * (sizeof(Fragment::Arc) + 4) + graph_.bucket_count() * sizeof(BucketSum) +
+         edge_of_.size() * (sizeof(Fragment::SharedEdge) + 4) + 4 * graph_.path_arc_count() +
+         graph_.node_slots() * sizeof(FragmentNode) + graph_.arc_slots() * sizeof(FragmentArcs);
 }
 
 // ---- kept edges
@@ -276,7 +311,8 @@ void Glue::restore(StateReader& in) {
 
 void Glue::restore_nodes() {
   node_of_.clear();
-  if (!graph_.has_nodes(first_link_.size())) throw DamagedState();
+  if (first_link_.size() > graph_.node_slots()) throw DamagedState();
+  grow_first_link(graph_.node_slots());
   for (Index n = 0; n < first_link_.size(); ++n)
     if (graph_.is_incomplete(n) && node_of_.find_or_insert(graph_.key(n).vertex.value(), n) != n) throw DamagedState();
 }

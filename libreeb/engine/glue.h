@@ -58,6 +58,8 @@ class Glue {
   // marked kUsedLater, shared edges are those between them; there are no steps and no options.
   // REQUIRES: no log is kept, and the fragments were no boxes.
   void copy_live(Fragment& fragment) const;
+  // What that takes. O(live graph).
+  std::size_t copy_bytes() const;
   // Says that no further fragment has this vertex. Does nothing if it is complete, or unknown.
   void complete(VertexId vertex);
 
@@ -93,6 +95,7 @@ class Glue {
 
   Index node(FragmentNode n) const { return nodes_[n.value()]; }
   void add_nodes(const Fragment& fragment);
+  void grow_first_link(std::size_t nodes);
   void add_arcs(const Fragment& fragment);
   void add_paths(const Fragment& fragment);
   void add_closed_edges(const Fragment& fragment);
@@ -119,7 +122,7 @@ class Glue {
   GrowingArray<Edge> edges_;
   GrowingArray<Link> links_;
   Index first_free_edge_ = kNone;
-  GrowingArray<Index> first_link_;  // by node: its list of kept edges
+  GrowingArray<Index> first_link_;  // by node: its list of kept edges; without nodes that the graph made later
 
   std::vector<Index> nodes_, arcs_;  // of the current fragment
   struct Pending {

@@ -14,7 +14,12 @@ void LiveGraph::set_options(const SweepOptions& options) {
   if (!options.bucket_exponent) return;
   embeds_ = true;
   grow_arc_buckets();
-  buckets_.raise_exponent(*options.bucket_exponent, arc_buckets_);
+  buckets_.raise_exponent(*options.bucket_exponent, [this](const auto& visit) {
+    for (Index a = 0; a < arcs_.size(); ++a) {
+      visit(arc_buckets_[a]);
+      if (!arcs_[a].is_free()) beads_.visit(arcs_[a].beads, [&](Index bead) { visit(beads_.buckets(bead)); });
+    }
+  });
 }
 
 void LiveGraph::grow_arc_buckets() {
@@ -48,6 +53,7 @@ LiveGraph::Index LiveGraph::add_arc(Index lo, Index hi) {
   if (embeds_) grow_arc_buckets();
   arcs_[a].first_reference = kNone;
   arcs_[a].references = 0;
+  arcs_[a].beads = {};
   attach(a, kDown, lo);
   attach(a, kUp, hi);
   if (log_ != nullptr) log_->add(a);
@@ -127,7 +133,8 @@ void LiveGraph::lost_references(Index a) {
     --nodes_[n].referenced_arcs;
     queue(n);
   }
-  if (can_leave(a)) write_out(a);
+  if (can_leave(a)) return write_out(a);
+  if (!arcs_[a].beads.empty()) unreferenced_.push_back(a);
 }
 
 LiveGraph::Index LiveGraph::add_reference(Index arc, Index below) {
@@ -193,9 +200,60 @@ void LiveGraph::merge_parallel(Index keep, Index gone) {
   queue(arcs_[gone].hi());
   if (log_ != nullptr) log_->merge(gone, keep);
   detach(gone);
+  zip_beads(keep, gone, arcs_[keep].hi(), arcs_[keep].lo());
   notice_noise(keep);
   free_arc(gone);
-  if (embeds_) buckets_.merge(arc_buckets_[keep], arc_buckets_[gone]);
+}
+
+// Both arcs start at `top`, and `into` ends at `bottom`, where `from` ends or passes. Moves the beads and the buckets
+// of `from` above `bottom` to `into`. So the merged beads divide the buckets of both.
+void LiveGraph::zip_beads(Index into, Index from, Index top, Index bottom) {
+  const SweepKey& end = nodes_[bottom].key;
+  const BeadChains::Chain kept = arcs_[into].beads, moved = arcs_[from].beads;
+  Index next_kept = beads_.highest(kept), next_moved = beads_.highest(moved);
+  const auto moves = [&] { return next_moved != kNone && end < beads_.key(next_moved); };
+  if (!embeds_ && !moves()) return;
+
+  // From `reached` down to the next bead of each.
+  BucketLists::List kept_buckets, moved_buckets;
+  if (embeds_) {
+    kept_buckets = arc_buckets_[into];
+    moved_buckets = arc_buckets_[from];
+  }
+  double reached = nodes_[top].key.value;
+  BeadChains::Chain merged;
+  const auto store = [&](BucketLists::List buckets) {
+    (merged.empty() ? arc_buckets_[into] : beads_.buckets(merged.lowest)) = buckets;
+  };
+  const auto value_at = [&](Index bead, Index last) {
+    return bead != kNone ? beads_.key(bead).value : nodes_[last].key.value;
+  };
+  while (moves() || (next_kept != kNone && !moved_buckets.empty())) {
+    const bool of_kept = next_kept != kNone && !(moves() && beads_.key(next_kept) < beads_.key(next_moved));
+    const Index bead = of_kept ? next_kept : next_moved;
+    if (embeds_) {
+      BucketLists::List& ending = of_kept ? kept_buckets : moved_buckets;
+      BucketLists::List& passing = of_kept ? moved_buckets : kept_buckets;
+      const double low = of_kept ? value_at(next_moved, arcs_[from].lo()) : value_at(next_kept, bottom);
+      const double value = beads_.key(bead).value;
+      buckets_.move_above(passing, low, value, reached, ending);
+      store(ending);
+      ending = beads_.buckets(bead);
+      reached = value;
+    }
+    (of_kept ? next_kept : next_moved) = beads_.below(of_kept ? kept : moved, bead);
+    beads_.append(merged, bead);
+  }
+  if (embeds_) {
+    if (next_moved == kNone && arcs_[from].lo() == bottom)
+      buckets_.merge(kept_buckets, moved_buckets);
+    else if (!moved_buckets.empty())
+      buckets_.move_above(moved_buckets, value_at(next_moved, arcs_[from].lo()), end.value, reached, kept_buckets);
+    store(kept_buckets);
+    arc_buckets_[from] = moved_buckets;
+  }
+  arcs_[into].beads = beads_.joined(merged, beads_.from(kept, next_kept));
+  arcs_[from].beads = beads_.from(moved, next_moved);
 }
 
 // `longer` and `shorter` have the same upper end. The upper part of `longer` is merged into `shorter`; the rest of
@@ -217,13 +275,9 @@ void LiveGraph::cut(Index longer, Index shorter) {
   }
   attach(longer, kUp, bottom);
   if (log_ != nullptr) log_->cut(longer, shorter, nodes_[bottom].key, kUp);
+  zip_beads(shorter, longer, top, bottom);
   notice_noise(longer);
   notice_noise_at(top);
-  if (embeds_) {
-    const auto value = [&](Index n) { return nodes_[n].key.value; };
-    buckets_.move_above(arc_buckets_[longer], value(arcs_[longer].lo()), value(bottom), value(top),
-                        arc_buckets_[shorter]);
-  }
 }
 
 // ---- completing, contracting, settling
@@ -241,7 +295,13 @@ void LiveGraph::complete(Index n) {
 }
 
 void LiveGraph::tidy() {
-  while (!changed_.empty()) {
+  while (!changed_.empty() || !unreferenced_.empty()) {
+    if (changed_.empty()) {
+      const Index a = unreferenced_.back();
+      unreferenced_.pop_back();
+      if (!arcs_[a].is_free() && arcs_[a].references == 0) release_beads(a);
+      continue;
+    }
     const Index n = changed_.back();
     changed_.pop_back();
     Node& node = nodes_[n];
@@ -255,9 +315,10 @@ void LiveGraph::tidy() {
       settle(n);
     // A settled node is written out after its last arc; without arcs, at once.
     if (node.used && node.state == State::kSettled && node.degree() == 0) {
-      settled_.add_node({node.key, track_positions_ ? positions_[n] : Point{}});
+      settled_.add_node({node.key, position(n)});
       free_node(n);
     }
+    if (node.used && is_bead(node)) make_bead(n);
   }
   flush_if_many();
 }
@@ -280,36 +341,90 @@ bool LiveGraph::can_leave(Index a) const {
          nodes_[arcs_[a].hi()].state == State::kSettled;
 }
 
-// The two arcs of a (1, 1) node become one. Every path on the upper arc continues on the lower one, since no path ends
-// at a complete vertex.
-void LiveGraph::contract(Index n) {
+// Paths pass it, so that its arcs cannot leave yet, and nothing can change it.
+bool LiveGraph::is_bead(const Node& n) const {
+  return n.state == State::kSettled && !n.intact && n.degree(kUp) == 1 && n.degree(kDown) == 1 &&
+         n.referenced_arcs == 2 && log_ == nullptr;
+}
+
+// From the last bead of the arc, or its upper end, to its lower end.
+BucketLists::List& LiveGraph::lowest_buckets(Index a) {
+  return arcs_[a].beads.empty() ? arc_buckets_[a] : beads_.buckets(arcs_[a].beads.lowest);
+}
+
+// The two arcs of a node become one, which is returned, with these beads between them; the node is freed. Every path on
+// the upper arc continues on the lower one, since no path ends at a complete vertex.
+LiveGraph::Index LiveGraph::join_arcs(Index n, BeadChains::Chain between) {
   const Index upper = nodes_[n].first(kUp), lower = nodes_[n].first(kDown);
-  prefetch_buckets(lower, upper);
-  if (embeds_ && track_positions_) reeb::prefetch(&positions_[n]);
   for (Index r = arcs_[upper].first_reference; r != kNone; r = references_[r].next) {
     const Index skipped = references_[r].down;
     references_[r].down = references_[skipped].down;
     references_.free(skipped);
   }
-  if (log_ != nullptr) log_->join(lower, upper, nodes_[n].key, kDown);
-  const Index lo = arcs_[lower].lo(), hi = arcs_[upper].hi();
+  arcs_[upper].beads = beads_.joined(arcs_[upper].beads, beads_.joined(between, arcs_[lower].beads));
+  const Index lo = arcs_[lower].lo();
   detach(lower);
   free_arc(lower);
   detach(upper, kDown);
   attach(upper, kDown, lo);
+  free_node(n);
+  return upper;
+}
+
+void LiveGraph::make_bead(Index n) {
+  BucketLists::List below;
+  if (embeds_) below = std::exchange(arc_buckets_[nodes_[n].first(kDown)], {});
+  join_arcs(n, beads_.make(nodes_[n].key, position(n), below));
+}
+
+// The bead is a node again. The arc keeps the beads above it; the new arc below it, which is returned, has the others.
+LiveGraph::Index LiveGraph::make_node(Index a, Index bead, BeadChains::Chain above, BeadChains::Chain below) {
+  const Index n = add_node(beads_.key(bead), beads_.position(bead), State::kSettled), lo = arcs_[a].lo();
+  nodes_[n].intact = false;
+  detach(a, kDown);
+  attach(a, kDown, n);
+  const Index lower = add_arc(lo, n);
+  arcs_[a].beads = above;
+  arcs_[lower].beads = below;
+  if (embeds_) arc_buckets_[lower] = std::exchange(beads_.buckets(bead), {});
+  beads_.free(bead);
+  return lower;
+}
+
+// No path passes the arc any more. So what is between two of its beads leaves; so does the rest beyond its highest and
+// its lowest bead, unless the end there is not settled yet.
+void LiveGraph::release_beads(Index a) {
+  if (BeadChains::Chain beads = arcs_[a].beads; !beads.empty() && nodes_[arcs_[a].hi()].state != State::kSettled) {
+    const Index highest = beads_.highest(beads);
+    a = make_node(a, highest, {}, beads_.from(beads, beads_.below(beads, highest)));
+  }
+  if (BeadChains::Chain beads = arcs_[a].beads; !beads.empty() && nodes_[arcs_[a].lo()].state != State::kSettled)
+    make_node(a, beads.lowest, beads_.without_lowest(beads), {});
+  if (can_leave(a)) write_out(a);
+}
+
+void LiveGraph::contract(Index n) {
+  const Index above = nodes_[n].first(kUp), lower = nodes_[n].first(kDown);
+  prefetch_buckets(lower, above);
+  if (embeds_ && track_positions_) reeb::prefetch(&positions_[n]);
+  if (log_ != nullptr) log_->join(lower, above, nodes_[n].key, kDown);
+  BucketLists::List* const above_buckets = embeds_ ? &lowest_buckets(above) : nullptr;
+  const double value = nodes_[n].key.value;
+  const Index upper = join_arcs(n, {});
+  const Index lo = arcs_[upper].lo(), hi = arcs_[upper].hi();
   if (embeds_) {
     auto& below = arc_buckets_[lower];
-    buckets_.concatenate(below, nodes_[n].key.value, track_positions_ ? positions_[n] : Point{}, arc_buckets_[upper]);
-    std::swap(below, arc_buckets_[upper]);
+    buckets_.concatenate(below, value, position(n), *above_buckets);
+    std::swap(below, *above_buckets);
   }
-  free_node(n);
   notice_noise(upper);
   if (is_noise(upper)) {  // if an end is a leaf, its saddle has changed
     for (const Index end : {lo, hi})
       if (is_leaf(nodes_[end])) try_leaf(end);
     if (!nodes_[lo].used || !nodes_[hi].used) return;
   }
-  if (can_leave(upper)) write_out(upper);
+  if (can_leave(upper)) return write_out(upper);
+  if (arcs_[upper].references == 0 && !arcs_[upper].beads.empty()) unreferenced_.push_back(upper);
 }
 
 void LiveGraph::settle(Index n) {
@@ -324,17 +439,29 @@ void LiveGraph::settle(Index n) {
 
 void LiveGraph::write_out(Index a) {
   const Index lo = arcs_[a].lo(), hi = arcs_[a].hi();
-  settled_.add_arc({nodes_[lo].key, nodes_[hi].key});
   if (log_ != nullptr) log_->settle(a);
-  if (embeds_)
-    settled_.add_buckets([&](const auto& add) {
-      buckets_.drain(arc_buckets_[a], [&](const BucketSum& bucket) { add(bucket.mean()); });
-    });
+  SweepKey above = nodes_[hi].key;
+  BucketLists::List buckets;  // from there down
+  if (embeds_) buckets = std::exchange(arc_buckets_[a], {});
+  const auto add_arc_from = [&](const SweepKey& below) {
+    settled_.add_arc({below, std::exchange(above, below)});
+    if (!embeds_) return;
+    settled_.add_buckets(
+        [&](const auto& add) { buckets_.drain(buckets, [&](const BucketSum& bucket) { add(bucket.mean()); }); });
+  };
+  beads_.visit(std::exchange(arcs_[a].beads, {}), [&](Index bead) {
+    add_arc_from(beads_.key(bead));
+    settled_.add_node({beads_.key(bead), beads_.position(bead)});
+    buckets = std::exchange(beads_.buckets(bead), {});
+    beads_.free(bead);
+    flush_if_many();
+  });
+  add_arc_from(nodes_[lo].key);
   detach(a);
   free_arc(a);
   for (const Index n : {lo, hi}) {
     nodes_[n].intact = false;
-    if (nodes_[n].degree() == 0) queue(n);
+    if (nodes_[n].degree() == 0 || is_bead(nodes_[n])) queue(n);
   }
   flush_if_many();  // a vertex can have any number of arcs that settle with it
 }
@@ -355,25 +482,45 @@ void LiveGraph::snapshot(std::vector<ArcKeys>& arcs, std::vector<SweepKey>& isol
     const Node& node = nodes_[n];
     if (!node.used || !stays(node)) continue;
     if (node.degree() == 0 && node.intact) isolated.push_back(node.key);
-    for (Index a = node.first(kUp); a != kNone; a = arcs_[a].next(kUp)) {
-      Index end = arcs_[a].hi();
-      while (!stays(nodes_[end])) end = arcs_[nodes_[end].first(kUp)].hi();
-      arcs.push_back({node.key, nodes_[end].key});
+    for (Index a = node.first(kDown); a != kNone; a = arcs_[a].next(kDown)) {
+      SweepKey above = node.key;
+      const auto add_arc_from = [&](const SweepKey& below) { arcs.push_back({below, std::exchange(above, below)}); };
+      Index part = a;
+      while (true) {
+        beads_.visit(arcs_[part].beads, [&](Index bead) { add_arc_from(beads_.key(bead)); });
+        const Node& end = nodes_[arcs_[part].lo()];
+        if (stays(end)) break;
+        part = end.first(kDown);
+      }
+      add_arc_from(nodes_[arcs_[part].lo()].key);
     }
   }
 }
 
 std::uint64_t LiveGraph::vertex_bound() const {
   std::uint64_t bound = 0;
+  const auto include = [&](const SweepKey& key) { bound = std::max(bound, key.vertex.value() + 1); };
   for (const Node& node : nodes_.all())
-    if (node.used) bound = std::max(bound, node.key.vertex.value() + 1);
+    if (node.used) include(node.key);
+  for (const Arc& arc : arcs_.all())
+    if (!arc.is_free()) beads_.visit(arc.beads, [&](Index bead) { include(beads_.key(bead)); });
   return bound;
 }
 
+std::size_t LiveGraph::path_arc_count() const {
+  std::size_t count = 0;
+  for (const Arc& arc : arcs_.all()) {
+    if (arc.is_free()) continue;
+    count += arc.references;
+    beads_.visit(arc.beads, [&](Index) { count += arc.references; });
+  }
+  return count;
+}
+
 std::size_t LiveGraph::memory_bytes() const {
-  return nodes_.memory_bytes() + positions_.memory_bytes() + arcs_.memory_bytes() + references_.memory_bytes() +
-         changed_.capacity() * sizeof(Index) + settled_.memory_bytes() + buckets_.memory_bytes() +
-         arc_buckets_.memory_bytes();
+  return nodes_.memory_bytes() + positions_.memory_bytes() + arcs_.memory_bytes() + beads_.memory_bytes() +
+         references_.memory_bytes() + (changed_.capacity() + unreferenced_.capacity()) * sizeof(Index) +
+         settled_.memory_bytes() + buckets_.memory_bytes() + arc_buckets_.memory_bytes();
 }
 
 std::size_t LiveGraph::growth_bytes(std::size_t nodes, std::size_t arcs, std::size_t references,
@@ -383,7 +530,8 @@ std::size_t LiveGraph::growth_bytes(std::size_t nodes, std::size_t arcs, std::si
   };
   const std::size_t list = embeds_ ? sizeof(BucketLists::List) : 0, place = track_positions_ ? sizeof(Point) : 0;
   return beyond_free(nodes, nodes_) * (sizeof(Node) + place) + beyond_free(arcs, arcs_) * (sizeof(Arc) + list) +
-         beyond_free(references, references_) * sizeof(Reference) + buckets_.growth_bytes(buckets);
+         beads_.growth_bytes(nodes) + beyond_free(references, references_) * sizeof(Reference) +
+         buckets_.growth_bytes(buckets);
 }
 
 void LiveGraph::validate() const {
@@ -391,7 +539,7 @@ void LiveGraph::validate() const {
     throw std::logic_error("LiveGraph: " + what + " " + std::to_string(id));
   };
   std::vector<std::uint32_t> up(nodes_.size()), down(nodes_.size()), referenced(nodes_.size());
-  std::size_t on_arcs = 0;
+  std::size_t on_arcs = 0, on_chains = 0;
   for (Index a = 0; a < arcs_.size(); ++a) {
     const Arc& arc = arcs_[a];
     if (arc.is_free()) continue;
@@ -406,8 +554,14 @@ void LiveGraph::validate() const {
       if (below != kNone && arcs_[references_[below].arc].hi() != arc.lo()) fail("path broken below reference", r);
     }
     if (references != arc.references) fail("wrong number of references on arc", a);
-    if (can_leave(a)) fail("not handed over: arc", a);
+    if (can_leave(a) || (references == 0 && !arc.beads.empty())) fail("not handed over: arc", a);
     const Node &lo = nodes_[arc.lo()], &hi = nodes_[arc.hi()];
+    const SweepKey* above = &hi.key;
+    beads_.visit(arc.beads, [&](Index bead) {
+      if (!(beads_.key(bead) < *above && lo.key < beads_.key(bead))) fail("beads out of order on arc", a);
+      above = &beads_.key(bead);
+      ++on_chains;
+    });
     if (is_noise(a) && (is_leaf(lo) || is_leaf(hi)) && !(lo.near_noise && hi.near_noise))
       fail("no node notices leaf", a);
     on_arcs += references;
@@ -416,13 +570,15 @@ void LiveGraph::validate() const {
       ++referenced[arc.hi()];
     }
   }
+  if (on_chains != beads_.used()) fail("beads astray:", beads_.used() - on_chains);
   if (on_arcs != reference_count()) fail("references astray:", reference_count() - on_arcs);
   for (Index n = 0; n < nodes_.size(); ++n) {
     const Node& node = nodes_[n];
     if (!node.used) continue;
     if (node.degree(kUp) != up[n] || node.degree(kDown) != down[n]) fail("wrong degree of node", n);
     if (node.referenced_arcs != referenced[n]) fail("wrong count of referenced arcs at node", n);
-    if (node.state == State::kComplete && (is_pass_through(node) || stays_for_good(node))) fail("not tidied: node", n);
+    const bool is_tidy = node.state != State::kComplete || !(is_pass_through(node) || stays_for_good(node));
+    if (!is_tidy || is_bead(node)) fail("not tidied: node", n);
   }
 }
 
@@ -439,6 +595,7 @@ void LiveGraph::save(StateWriter& out) const {
   nodes_.save(out);
   positions_.save(out);
   arcs_.save(out);
+  beads_.save(out);
   references_.save(out);
   nodes_.save_first_free(out);
   arcs_.save_first_free(out);
@@ -459,6 +616,7 @@ void LiveGraph::restore(StateReader& in) {
   nodes_.restore(in);
   positions_.restore(in);
   arcs_.restore(in);
+  beads_.restore(in);
   references_.restore(in);
   nodes_.restore_first_free(in);
   arcs_.restore_first_free(in);
@@ -486,6 +644,8 @@ void LiveGraph::check_restored() {
               !node.queued);
   }
   std::array<std::size_t, 2> arcs_in_lists{};
+  BeadChains::RestoredCheck beads(beads_);
+  std::vector<BucketLists::List> bucket_lists(arc_buckets_.all().begin(), arc_buckets_.all().end());
   for (Index a = 0; a < arcs_.size(); ++a) {
     const Arc& arc = arcs_[a];
     require(arc.is_free() == free_arcs[a]);
@@ -495,6 +655,8 @@ void LiveGraph::check_restored() {
     }
     require(arc.lo() < nodes_.size() && nodes_[arc.lo()].used && arc.hi() < nodes_.size() && nodes_[arc.hi()].used);
     require(nodes_[arc.lo()].key < nodes_[arc.hi()].key);
+    beads.check(arc.beads, nodes_[arc.lo()].key, nodes_[arc.hi()].key);
+    beads_.visit(arc.beads, [&](Index bead) { bucket_lists.push_back(beads_.buckets(bead)); });
     std::size_t references = 0;
     for (Index r = arc.first_reference, before = kNone; r != kNone; before = r, r = references_[r].next) {
       require(r < references_.size() && !seen[r] && references_[r].arc == a && references_[r].prev == before);
@@ -503,6 +665,7 @@ void LiveGraph::check_restored() {
     }
     require(references == arc.references);
   }
+  beads.end();
   require(std::find(seen.begin(), seen.end(), false) == seen.end());
   for (Index n = 0; n < nodes_.size(); ++n)
     for (const Direction side : {kDown, kUp}) {
@@ -527,7 +690,7 @@ void LiveGraph::check_restored() {
     require(arcs_[references_[below].arc].hi() == arcs_[references_[r].arc].lo());
     path_tops_[below] = false;
   }
-  buckets_.check_restored(arc_buckets_.all());
+  buckets_.check_restored(bucket_lists);
   try {
     validate();
   } catch (const std::logic_error&) {

@@ -24,8 +24,9 @@
 #include "libreeb/base/recycling_array.h"
 #include "libreeb/base/state_stream.h"
 #include "libreeb/base/sweep_key.h"
-#include "libreeb/engine/bucket_sums.h"
+#include "libreeb/engine/bead_chains.h"
 #include "libreeb/engine/sweep_options.h"
+#include "libreeb/graph/bucket_sums.h"
 #include "libreeb/graph/direction.h"
 #include "libreeb/graph/reeb_graph.h"
 #include "libreeb/port/arc_log.h"
@@ -44,16 +45,18 @@ class LiveGraph {
   enum class State : std::uint8_t { kIncomplete, kComplete, kSettled };
 
   // Settled nodes and arcs go to `sink` when flush() is called, or before if they are many.
-  LiveGraph(GraphSink& sink, bool track_positions) : sink_(&sink), track_positions_(track_positions) {}
+  LiveGraph(GraphSink& sink, bool track_positions)
+      : sink_(&sink), track_positions_(track_positions), beads_(track_positions) {}
   // A copy of the graph alone: without positions, buckets and noise removal. REQUIRES: as save().
   LiveGraph(const LiveGraph& other, GraphSink& sink)
       : sink_(&sink),
         track_positions_(false),
         nodes_(other.nodes_),
         arcs_(other.arcs_),
+        beads_(other.beads_, BeadChains::WithoutPositions{}),
         references_(other.references_) {}
 
-  // As Glue::set_log().
+  // As Glue::set_log(). Then there are no beads, since each arc has a number of its own in the log.
   void set_log(ArcLog& log) { log_ = &log; }
   // Sets the noise threshold and the width of buckets, for what follows.
   void set_options(const SweepOptions& options);
@@ -65,7 +68,8 @@ class LiveGraph {
   // The embedding of an arc that was just added. REQUIRES: buckets of the exponent in the options.
   void add_buckets(Index arc, std::span<const BucketSum> buckets);
   const SweepKey& key(Index node) const { return nodes_[node].key; }
-  bool has_nodes(std::size_t count) const { return nodes_.size() == count; }  // free ones included
+  std::size_t node_slots() const { return nodes_.size(); }  // more than the index of any node
+  std::size_t arc_slots() const { return arcs_.size(); }
   bool is_incomplete(Index node) const { return nodes_[node].used && nodes_[node].state == State::kIncomplete; }
 
   // Puts a reference on `arc` above the path that starts with `below` (kNone: nothing), and returns it. A path is named
@@ -112,10 +116,15 @@ class LiveGraph {
   void visit_path(Index top, const Visit& visit) const {
     for (; top != kNone; top = references_[top].down) visit(references_[top].arc);
   }
-  // Calls visit(bucket) for the buckets of an arc, ascending.
-  template <class Visit>
-  void visit_buckets(Index arc, const Visit& visit) const {
-    if (embeds_) buckets_.visit(arc_buckets_[arc], visit);
+  // An arc with beads is a chain of arcs. Calls visit_bead(key, position) for each bead, from above, and before that
+  // visit_bucket(bucket) for the buckets of the arc above it, ascending; in the end for those of the lowest arc.
+  template <class VisitBead, class VisitBucket>
+  void visit_chain(Index arc, const VisitBead& visit_bead, const VisitBucket& visit_bucket) const {
+    if (embeds_) buckets_.visit(arc_buckets_[arc], visit_bucket);
+    beads_.visit(arcs_[arc].beads, [&](Index bead) {
+      visit_bead(beads_.key(bead), beads_.position(bead));
+      if (embeds_) buckets_.visit(beads_.buckets(bead), visit_bucket);
+    });
   }
   State state(Index node) const { return nodes_[node].state; }
   Point position(Index node) const { return track_positions_ ? positions_[node] : Point{}; }
@@ -125,12 +134,14 @@ class LiveGraph {
 
   // More than the id of any node's vertex.
   std::uint64_t vertex_bound() const;
-  std::size_t node_count() const { return nodes_.used(); }
-  std::size_t arc_count() const { return arcs_.used(); }
+  std::size_t node_count() const { return nodes_.used() + beads_.used(); }
+  std::size_t arc_count() const { return arcs_.used() + beads_.used(); }
   std::size_t reference_count() const { return references_.used(); }
+  std::size_t bucket_count() const { return buckets_.used(); }
+  std::size_t path_arc_count() const;                             // of all paths, with beads. O(live).
   std::uint64_t removed_pairs() const { return removed_pairs_; }  // leaves, so far
   std::uint64_t zips() const { return zips_; }                    // so far
-  std::uint64_t zip_steps() const { return zip_steps_; }          // arcs that zips went over
+  std::uint64_t zip_steps() const { return zip_steps_; }          // arcs that zips went over, whatever their beads
   std::size_t memory_bytes() const;
   // What it takes in addition for this many more of each.
   std::size_t growth_bytes(std::size_t nodes, std::size_t arcs, std::size_t references, std::size_t buckets) const;
@@ -167,6 +178,7 @@ class LiveGraph {
     std::array<Links, 2> links;  // by side: among the arcs that have the same end there
     Index first_reference;
     std::uint32_t references;
+    BeadChains::Chain beads;
 
     Index lo() const { return end[kDown]; }
     Index hi() const { return end[kUp]; }
@@ -197,6 +209,7 @@ class LiveGraph {
   void link(Index r, Index arc);
   void unlink(Index r);
   void merge_parallel(Index keep, Index gone);
+  void zip_beads(Index into, Index from, Index top, Index bottom);
   void cut(Index longer, Index shorter);
   void gained_reference(Index arc);
   void lost_references(Index arc);
@@ -206,7 +219,8 @@ class LiveGraph {
   bool can_leave(Index arc) const;
   void set_noise(double below);
   double length(Index arc) const { return nodes_[arcs_[arc].hi()].key.value - nodes_[arcs_[arc].lo()].key.value; }
-  bool is_noise(Index arc) const { return length(arc) < noise_below_; }
+  // An arc with beads does not end at a saddle that could lose it: arcs of its next node were written out.
+  bool is_noise(Index arc) const { return length(arc) < noise_below_ && arcs_[arc].beads.empty(); }
   static bool has_one_arc(const Node& n) { return n.degree() == 1; }
   void notice_noise(Index arc);
   void notice_noise_at(Index node);
@@ -214,8 +228,15 @@ class LiveGraph {
   void remove_noise_at(Index node);
   void try_leaf(Index leaf);
   bool find_path_beyond(Index from, Index leaf, Direction d);
+  void add_path_buckets(Index arc, Direction d);
   void move_buckets(Index arc, Index leaf, Direction d);
+  bool is_bead(const Node& n) const;
+  BucketLists::List& lowest_buckets(Index arc);
+  Index join_arcs(Index node, BeadChains::Chain between);
   void contract(Index node);
+  void make_bead(Index node);
+  Index make_node(Index arc, Index bead, BeadChains::Chain above, BeadChains::Chain below);
+  void release_beads(Index arc);
   void settle(Index node);
   void write_out(Index arc);
   void flush_if_many();
@@ -226,17 +247,20 @@ class LiveGraph {
   RecyclingArray<Node> nodes_;
   GrowingArray<Point> positions_;  // one per node, if tracked
   RecyclingArray<Arc> arcs_;
+  BeadChains beads_;
   RecyclingArray<Reference> references_;
   double noise_below_ = 0;
   double noticed_below_ = 0;  // at both ends of a leaf's arc that is shorter, near_noise is set
   bool embeds_ = false;
   BucketLists buckets_;
-  GrowingArray<BucketLists::List> arc_buckets_;  // one per arc, if there is an embedding
-  std::vector<Index> path_;                      // arcs, from the saddle of a leaf
+  // One per arc, if there is an embedding: of the arc, or from its upper end to its first bead.
+  GrowingArray<BucketLists::List> arc_buckets_;
+  std::vector<Index> path_;  // arcs, from the saddle of a leaf
   std::vector<PathBuckets> path_buckets_;
   std::uint64_t removed_pairs_ = 0, zips_ = 0, zip_steps_ = 0;
-  std::vector<bool> path_tops_;  // by reference: a top whose path was not checked yet; while the state is restored
-  std::vector<Index> changed_;   // complete nodes that tidy() has to examine
+  std::vector<bool> path_tops_;      // by reference: a top whose path was not checked yet; while the state is restored
+  std::vector<Index> changed_;       // complete nodes that tidy() has to examine
+  std::vector<Index> unreferenced_;  // arcs whose beads it has to release
   SettledBatch settled_;
 };
 

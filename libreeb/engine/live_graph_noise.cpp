@@ -1,6 +1,8 @@
 // Noise removal in the live graph.
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <utility>
 
 #include "libreeb/engine/live_graph.h"
 
@@ -20,7 +22,7 @@ void LiveGraph::set_noise(double below) {
 // To be called for an arc that is new, has another end, or is now the only one at one of its ends. An arc that leads to
 // no leaf yet might do so later, when what is beyond it was removed.
 void LiveGraph::notice_noise(Index a) {
-  if (noticed_below_ == 0) return;
+  if (noticed_below_ == 0 || !arcs_[a].beads.empty()) return;
   Node &lo = nodes_[arcs_[a].lo()], &hi = nodes_[arcs_[a].hi()];
   const double below = has_one_arc(lo) || has_one_arc(hi) ? noticed_below_ : noise_below_;
   if (length(a) < below) lo.near_noise = hi.near_noise = true;
@@ -99,11 +101,27 @@ bool LiveGraph::find_path_beyond(Index from, Index leaf, Direction d) {
   return false;
 }
 
+// Adds the arcs that the beads make of an arc, in direction d.
+void LiveGraph::add_path_buckets(Index a, Direction d) {
+  const std::size_t first = path_buckets_.size();
+  BucketLists::List* buckets = &arc_buckets_[a];
+  double above = nodes_[arcs_[a].hi()].key.value;
+  const auto add_arc_from = [&](double below) {
+    path_buckets_.push_back({buckets, d == kDown ? below : std::exchange(above, below)});
+  };
+  beads_.visit(arcs_[a].beads, [&](Index bead) {
+    add_arc_from(beads_.key(bead).value);
+    buckets = &beads_.buckets(bead);
+  });
+  add_arc_from(nodes_[arcs_[a].lo()].key.value);
+  if (d == kUp) std::reverse(path_buckets_.begin() + static_cast<std::ptrdiff_t>(first), path_buckets_.end());
+}
+
 // Moves the vertices of the arc, and the leaf, to the path.
 void LiveGraph::move_buckets(Index arc, Index leaf, Direction d) {
   const auto value = [&](Index n) { return nodes_[n].key.value; };
   path_buckets_.clear();
-  for (const Index a : path_) path_buckets_.push_back({&arc_buckets_[a], value(arcs_[a].end[d])});
+  for (const Index a : path_) add_path_buckets(a, d);
   buckets_.add_vertex(arc_buckets_[arc], value(leaf), track_positions_ ? positions_[leaf] : Point{});
   lay_on_path(buckets_, arc_buckets_[arc], d, value(arcs_[arc].end[opposite(d)]), value(leaf), path_buckets_);
 }

@@ -10,9 +10,9 @@
 
 #include "libreeb/base/id_vector.h"
 #include "libreeb/base/sweep_key.h"
-#include "libreeb/engine/bucket_sums.h"
 #include "libreeb/engine/chunk.h"
 #include "libreeb/engine/chunk_stars.h"
+#include "libreeb/graph/bucket_sums.h"
 #include "libreeb/graph/direction.h"
 
 namespace reeb {

@@ -29,9 +29,9 @@ PartInfo info_of(const WholeMesh& mesh, const VertexFunction& function, std::uin
   return info;
 }
 
-// The live graph is held as well while it is copied. The copy has no links, and so takes half of it or less.
+// The live graph is held as well while it is copied.
 void copy_open(RunContext& run, const Glue& glue, const IndexedMesh& mesh, PartUses& uses, FinishedPart& finished) {
-  finished.memory = run.budget.reserve("open part", glue.memory_bytes() / 2);
+  finished.memory = run.budget.reserve("open part", glue.copy_bytes());
   OpenPart& open = finished.open;
   glue.copy_live(open.live);
   std::vector<VertexId> ids;

@@ -1,4 +1,4 @@
-#include "libreeb/engine/bucket_sums.h"
+#include "libreeb/graph/bucket_sums.h"
 
 #include <algorithm>
 #include <cmath>

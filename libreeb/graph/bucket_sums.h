@@ -15,7 +15,7 @@
 #include "libreeb/base/state_stream.h"
 #include "libreeb/graph/bucket.h"
 #include "libreeb/graph/direction.h"
-#include "libreeb/port/graph_sink.h"
+#include "libreeb/graph/settled_node.h"
 
 namespace reeb {
 
@@ -109,14 +109,15 @@ class BucketLists {
   // Forgets all lists; keeps the memory.
   void start(int exponent);
   int exponent() const { return indexer_.exponent(); }
-  // Sets the exponent, and coarsens `lists` to it. O(buckets) if it changes.
-  // REQUIRES: `lists` are all lists; the exponent is not less than before, unless all lists are empty.
-  template <class Lists>
-  void raise_exponent(int exponent, Lists& lists) {
+  // Sets the exponent, and coarsens the lists to it: visit_lists(visit) calls visit(list) for each. O(buckets) if it
+  // changes.
+  // REQUIRES: these are all lists; the exponent is not less than before, unless all lists are empty.
+  template <class VisitLists>
+  void raise_exponent(int exponent, const VisitLists& visit_lists) {
     const int levels = exponent - indexer_.exponent();
     if (levels == 0) return;
     indexer_ = BucketIndexer(exponent);
-    for (std::size_t i = 0; i < lists.size(); ++i) coarsen(lists[i], levels);
+    visit_lists([&](List& list) { coarsen(list, levels); });
   }
 
   // For a sweep: all vertices up to the next call are in buckets of this index.
@@ -186,6 +187,7 @@ class BucketLists {
     prefetch_sum(list.last);
   }
 
+  std::size_t used() const { return sums_.size() - free_count_; }  // buckets
   // What they take in addition for this many more buckets.
   std::size_t growth_bytes(std::size_t buckets) const {
     return (buckets - std::min(buckets, free_count_)) * (sizeof(BucketSum) + sizeof(Link) + sizeof(Index));

@@ -1,6 +1,6 @@
 // Bucket sums against plain sums: they are exact, so that the order of additions does not show. Lists of buckets
 // against maps (docs/SEMANTICS.md, Buckets).
-#include "libreeb/engine/bucket_sums.h"
+#include "libreeb/graph/bucket_sums.h"
 
 #include <gtest/gtest.h>
 
@@ -174,7 +174,7 @@ class ManyLists {
         return models_[i].add_all(models_[j]);
       case 2:
         if (random_.chance(80)) return;
-        pool_.raise_exponent(++exponent_, lists_);
+        pool_.raise_exponent(++exponent_, [&](const auto& visit) { std::ranges::for_each(lists_, visit); });
         for (Model& model : models_) model.coarsen(1);
         return;
       case 3:

@@ -1,0 +1,182 @@
+// Chains of beads against lists of keys; and what they are for: many bumps along a border.
+#include "libreeb/engine/bead_chains.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include "libreeb/engine/chunk_sweep.h"
+#include "libreeb/engine/glue.h"
+#include "tests/libreeb/engine/streamed_mesh.h"
+#include "tests/support/random.h"
+
+namespace reeb::test {
+namespace {
+
+// Chains beside lists of the same keys, both from above.
+class Chains {
+ public:
+  explicit Chains(std::uint64_t seed) : random_(seed) {}
+
+  void step() {
+    switch (random_.below(5)) {
+      case 0:
+        add_one();
+        break;
+      case 1:
+        join_two();
+        break;
+      case 2:
+        move_some();
+        break;
+      case 3:
+        drop_lowest();
+        break;
+      default:
+        drop_all();
+    }
+  }
+
+  void compare() {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < chains_.size(); ++i) {
+      std::vector<SweepKey> keys;
+      beads_.visit(chains_[i], [&](BeadChains::Index bead) {
+        keys.push_back(beads_.key(bead));
+        EXPECT_EQ(beads_.position(bead)[0], beads_.key(bead).value);
+      });
+      EXPECT_EQ(keys, lists_[i]);
+      EXPECT_EQ(chains_[i].empty(), keys.empty());
+      if (!keys.empty()) {
+        EXPECT_EQ(beads_.key(chains_[i].lowest), keys.back());
+      }
+      count += keys.size();
+    }
+    EXPECT_EQ(beads_.used(), count);
+  }
+
+ private:
+  // Below all beads so far.
+  void add_one() {
+    const SweepKey key{next_--, VertexId(3)};
+    const BeadChains::Chain bead = beads_.make(key, {key.value, 0, 0}, {});
+    if (chains_.empty() || random_.chance(30)) {
+      chains_.push_back(bead);
+      lists_.push_back({key});
+      return;
+    }
+    const std::size_t i = any();
+    chains_[i] = beads_.joined(chains_[i], bead);
+    lists_[i].push_back(key);
+  }
+  // A chain is joined to what comes below it.
+  void join_two() {
+    if (chains_.size() < 2) return;
+    const std::size_t a = any(), b = any();
+    if (a == b) return;
+    chains_[a] = beads_.joined(chains_[a], chains_[b]);
+    lists_[a].insert(lists_[a].end(), lists_[b].begin(), lists_[b].end());
+    remove(b);
+  }
+  // The highest beads of one chain are moved to the end of another, one by one.
+  void move_some() {
+    if (chains_.size() < 2) return;
+    const std::size_t a = any(), b = any();
+    if (a == b) return;
+    BeadChains::Index next = beads_.highest(chains_[b]);
+    for (std::uint64_t count = random_.below(4); count > 0 && next != BeadChains::kNone; --count) {
+      const BeadChains::Index bead = next;
+      next = beads_.below(chains_[b], bead);
+      beads_.append(chains_[a], bead);
+      lists_[a].push_back(lists_[b].front());
+      lists_[b].erase(lists_[b].begin());
+    }
+    chains_[b] = beads_.from(chains_[b], next);
+  }
+  void drop_lowest() {
+    if (chains_.empty()) return;
+    const std::size_t i = any();
+    if (chains_[i].empty()) return;
+    const BeadChains::Index lowest = chains_[i].lowest;
+    chains_[i] = beads_.without_lowest(chains_[i]);
+    beads_.free(lowest);
+    lists_[i].pop_back();
+  }
+  void drop_all() {
+    if (chains_.size() < 5) return;
+    const std::size_t i = any();
+    beads_.visit(chains_[i], [&](BeadChains::Index bead) { beads_.free(bead); });
+    remove(i);
+  }
+
+  std::size_t any() { return random_.below(chains_.size()); }
+  void remove(std::size_t i) {
+    chains_.erase(chains_.begin() + static_cast<std::ptrdiff_t>(i));
+    lists_.erase(lists_.begin() + static_cast<std::ptrdiff_t>(i));
+  }
+
+  Random random_;
+  double next_ = 0;
+  BeadChains beads_{true};
+  std::vector<BeadChains::Chain> chains_;
+  std::vector<std::vector<SweepKey>> lists_;
+};
+
+TEST(BeadChains, AreListsOfKeys) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    Chains chains(seed);
+    for (int step = 0; step < 2000; ++step) {
+      chains.step();
+      if (step % 10 == 0) chains.compare();
+      if (testing::Test::HasFailure()) return;
+    }
+  }
+}
+
+// A slope of `width` by `length` cells, whose value grows along a row, with a bump in every fourth cell. It comes row
+// by row. So when half of it is there, every bump of it is a fork on the way from the low end of the border to the high
+// one, and later rows can still tell nothing about the rest of the slope.
+Mesh slope_with_bumps(std::size_t width, std::size_t length) {
+  Mesh mesh;
+  Random random(1);
+  for (std::size_t y = 0; y <= length; ++y)
+    for (std::size_t x = 0; x <= width; ++x) {
+      const bool is_bump = x % 2 == 1 && y % 2 == 1;
+      mesh.values.push_back(static_cast<double>(x) + (is_bump ? 3 : 0) + 0.1 * random.unit());
+      mesh.positions.push_back({static_cast<double>(x), static_cast<double>(y), 0});
+    }
+  for (std::size_t y = 0; y < length; ++y)
+    for (std::size_t x = 0; x < width; ++x) {
+      const VertexId a(y * (width + 1) + x), b(a.value() + 1), c(a.value() + width + 1), d(c.value() + 1);
+      mesh.corners.insert(mesh.corners.end(), {a, b, d, a, d, c});
+    }
+  mesh.last_use.assign(mesh.values.size(), 0);
+  for (std::size_t i = 0; i < mesh.corners.size(); ++i) mesh.last_use[mesh.corners[i].value()] = i;
+  return mesh;
+}
+
+TEST(BeadChains, BumpsAlongABorderTakeLittleMemory) {
+  constexpr std::size_t kWidth = 60, kLength = 400;
+  const Mesh mesh = slope_with_bumps(kWidth, kLength);
+  KeepingSink whole, cut;
+  const auto no_options = [](double, double) { return SweepOptions{}; };
+  stream(mesh, mesh.corners.size(), whole, no_options);
+  EXPECT_GE(whole.graph().arc_count(), 2 * (kWidth / 2 - 2) * (kLength / 2));
+  std::size_t most_arcs = 0, most_references = 0, most_bytes = 0;
+  stream(mesh, 500, cut, no_options, [&](const Glue& glue) {
+    most_arcs = std::max(most_arcs, glue.graph().arc_count());
+    most_references = std::max(most_references, glue.graph().reference_count());
+    most_bytes = std::max(most_bytes, glue.memory_bytes());
+  });
+  EXPECT_EQ(cut.graph(), whole.graph());
+  const std::size_t bumps = (kWidth / 2 - 2) * (kLength / 2);
+  EXPECT_GE(most_arcs, bumps) << "they stay, for later rows could have an arc between two of them";
+  EXPECT_LE(most_references, 10 * kWidth) << "few nodes can still change";
+  EXPECT_LE(most_bytes, 60 * bumps + 6000 * kWidth);
+  std::printf("%zu bumps: %zu arcs, %zu references, %zu bytes\n", bumps, most_arcs, most_references, most_bytes);
+}
+
+}  // namespace
+}  // namespace reeb::test
