@@ -1,6 +1,5 @@
 // The program `reeb`: finds the subcommand, and turns every error into one line, a hint and an exit code (docs/CLI.md).
 #include <fmt/format.h>
-#include <malloc.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -19,6 +18,7 @@
 #include "tools/arguments/arguments.h"
 #include "tools/arguments/nearest_name.h"
 #include "tools/commands/commands.h"
+#include "tools/process_memory.h"
 #include "tools/program/signals.h"
 #include "tools/program/standard_streams.h"
 #include "tools/runs/fragment_commands.h"
@@ -113,11 +113,7 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   reeb::tools::protect_standard_streams();
-  // Large blocks return to the system as soon as they are freed. So resident memory is what the budget counts, not what
-  // was needed at some earlier time.
-  mallopt(M_MMAP_THRESHOLD, 128 * 1024);
-  mallopt(M_TRIM_THRESHOLD, 256 * 1024);
-  mallopt(M_ARENA_MAX, 2);
+  reeb::tools::set_up_process_memory();
   reeb::ooc::own_process();
   reeb::tools::handle_signals();
   try {

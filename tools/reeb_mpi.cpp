@@ -1,6 +1,5 @@
 // The program `reeb-mpi`: `reeb compute` by many processes (docs/DISTRIBUTED.md).
 #include <fmt/core.h>
-#include <malloc.h>
 #include <mpi.h>
 
 #include <algorithm>
@@ -24,6 +23,7 @@
 #include "tools/library/run_files.h"
 #include "tools/mpi/distributed_run.h"
 #include "tools/mpi/world.h"
+#include "tools/process_memory.h"
 #include "tools/program/compute_report.h"
 #include "tools/program/output.h"
 #include "tools/program/signals.h"
@@ -198,9 +198,7 @@ void run(reeb::tools::World& world, int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  mallopt(M_MMAP_THRESHOLD, 128 * 1024);  // as in reeb.cpp
-  mallopt(M_TRIM_THRESHOLD, 256 * 1024);
-  mallopt(M_ARENA_MAX, 2);
+  reeb::tools::set_up_process_memory();
   int provided = 0;
   MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);
   reeb::tools::handle_signals(false);  // mpirun ends all ranks after one failed, whose text is the one to read

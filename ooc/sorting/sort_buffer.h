@@ -12,7 +12,8 @@
 namespace reeb::ooc {
 
 // A batch that grows within an allowance and the budget. While it grows, the old and the new memory both exist, and
-// both are reserved.
+// both are reserved. It grows by a quarter at least: an allowance may rise a little after every run, and each growth
+// copies the buffer to pages that are new to the process.
 template <class Record>
 struct SortBuffer {
   RecordBatch<Record> batch;
@@ -41,7 +42,7 @@ struct SortBuffer {
     const std::size_t before = records.capacity();
     const std::uint64_t left = most_bytes - std::min<std::uint64_t>(most_bytes, pool.capacity());
     const std::size_t after = std::min(static_cast<std::size_t>(left / sizeof(Record)), std::max(least, 2 * before));
-    if (after <= before || !charge.try_resize(bytes(before + after, pool.capacity()))) return false;
+    if (!is_worth_it(before, after) || !charge.try_resize(bytes(before + after, pool.capacity()))) return false;
     records.reserve(after);
     charge.resize(bytes(records.capacity(), pool.capacity()));
     return true;
@@ -56,7 +57,7 @@ struct SortBuffer {
     const std::uint64_t left = most_bytes - std::min(most_bytes, held);
     const auto after =
         static_cast<std::size_t>(std::min<std::uint64_t>(left, std::max<std::uint64_t>(needed, 2 * before)));
-    if (after < needed || !charge.try_resize(held + before + after)) return false;
+    if (after < needed || !is_worth_it(before, after) || !charge.try_resize(held + before + after)) return false;
     pool.reserve(after);
     charge.resize(held + pool.capacity());
     return true;
@@ -71,6 +72,7 @@ struct SortBuffer {
   }
 
  private:
+  static bool is_worth_it(std::size_t before, std::size_t after) { return after > before + before / 4; }
   static std::uint64_t bytes(std::size_t records, std::size_t pool) { return records * sizeof(Record) + pool; }
 };
 
