@@ -18,7 +18,7 @@
 #include "tools/arguments/arguments.h"
 #include "tools/arguments/nearest_name.h"
 #include "tools/commands/commands.h"
-#include "tools/process_memory.h"
+#include "tools/program/process_memory.h"
 #include "tools/program/signals.h"
 #include "tools/program/standard_streams.h"
 #include "tools/runs/fragment_commands.h"

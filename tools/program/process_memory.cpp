@@ -1,4 +1,4 @@
-#include "tools/process_memory.h"
+#include "tools/program/process_memory.h"
 
 #include <cstddef>
 #include <cstdint>
