@@ -1,8 +1,9 @@
 // Chains of beads on the arcs of the live graph, each from the top down, in one pool.
 //
 // A bead is a settled node on the way of a long arc: one arc leads to it from above, one goes on below, and the others
-// were written out. Every path passes it, and nothing can change it any more. So it needs no links of its own: 24 bytes
-// instead of some 140 for a node, an arc and its references. Noise along a border is mostly such nodes.
+// were written out. Every path passes it, and nothing can change it any more. So it needs no links of its own: 24
+// bytes, and its position, instead of some 140 for a node, an arc and its references. Noise along a border is mostly
+// such nodes.
 #pragma once
 
 #include <cstddef>
@@ -35,7 +36,7 @@ class BeadChains {
 
   // A chain of one bead. `buckets` are those of the arc below it.
   Chain make(const SweepKey& key, const Point& position, BucketLists::List buckets);
-  // REQUIRES: the bead is in no chain that is used further, and its list of buckets is empty.
+  // REQUIRES: the bead is in no chain that is used further, and nothing is in its list of buckets any more.
   void free(Index bead) { beads_.free(bead); }
 
   const SweepKey& key(Index bead) const { return beads_[bead].key; }

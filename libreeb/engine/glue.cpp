@@ -1,6 +1,7 @@
 #include "libreeb/engine/glue.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "libreeb/base/error.h"
@@ -177,6 +178,10 @@ void Glue::complete(VertexId vertex) {
 
 void Glue::copy_live(Fragment& fragment) const {
   using State = LiveGraph::State;
+  const std::size_t path_arcs = graph_.path_arc_count();
+  if (path_arcs > std::numeric_limits<std::uint32_t>::max())
+    throw Error(ErrorKind::kResource, "the edges at the border have paths of more than 2^32 arcs together",
+                "divide the mesh into more parts, or remove noise with --denoise");
   fragment.clear();
   std::vector<FragmentNode> node_numbers(graph_.node_slots());
   std::vector<FragmentArcs> arcs_of(graph_.arc_slots());
@@ -187,7 +192,7 @@ void Glue::copy_live(Fragment& fragment) const {
   fragment.buckets.reserve(graph_.bucket_count());
   fragment.edges.reserve(edge_of_.size());
   fragment.path_begin.reserve(edge_of_.size() + 1);
-  fragment.path_arcs.reserve(graph_.path_arc_count());
+  fragment.path_arcs.reserve(path_arcs);
   fragment.bucket_begin.push_back(0);
   const auto add_node = [&](const Fragment::Node& node, const Point& position) {
     fragment.nodes.push_back(node);

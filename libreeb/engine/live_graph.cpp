@@ -221,6 +221,7 @@ void LiveGraph::zip_beads(Index into, Index from, Index top, Index bottom) {
     moved_buckets = arc_buckets_[from];
   }
   double reached = nodes_[top].key.value;
+  const bool all_move = !moved.empty() && end < beads_.key(moved.lowest);
   BeadChains::Chain merged;
   const auto store = [&](BucketLists::List buckets) {
     (merged.empty() ? arc_buckets_[into] : beads_.buckets(merged.lowest)) = buckets;
@@ -229,6 +230,16 @@ void LiveGraph::zip_beads(Index into, Index from, Index top, Index bottom) {
     return bead != kNone ? beads_.key(bead).value : nodes_[last].key.value;
   };
   while (moves() || (next_kept != kNone && !moved_buckets.empty())) {
+    // Where `into` has nothing more, the rest of the chain comes as it is.
+    if (all_move && next_kept == kNone && kept_buckets.empty()) {
+      if (embeds_) store(moved_buckets);
+      merged = beads_.joined(merged, beads_.from(moved, next_moved));
+      next_moved = kNone;
+      if (embeds_) moved_buckets = beads_.buckets(merged.lowest);
+      reached = beads_.key(merged.lowest).value;
+      break;
+    }
+    ++bead_steps_;
     const bool of_kept = next_kept != kNone && !(moves() && beads_.key(next_kept) < beads_.key(next_moved));
     const Index bead = of_kept ? next_kept : next_moved;
     if (embeds_) {
@@ -520,7 +531,8 @@ std::size_t LiveGraph::path_arc_count() const {
 std::size_t LiveGraph::memory_bytes() const {
   return nodes_.memory_bytes() + positions_.memory_bytes() + arcs_.memory_bytes() + beads_.memory_bytes() +
          references_.memory_bytes() + (changed_.capacity() + unreferenced_.capacity()) * sizeof(Index) +
-         settled_.memory_bytes() + buckets_.memory_bytes() + arc_buckets_.memory_bytes();
+         settled_.memory_bytes() + buckets_.memory_bytes() + arc_buckets_.memory_bytes() +
+         path_buckets_.capacity() * sizeof(PathBuckets);
 }
 
 std::size_t LiveGraph::growth_bytes(std::size_t nodes, std::size_t arcs, std::size_t references,

@@ -136,12 +136,14 @@ class LiveGraph {
   std::uint64_t vertex_bound() const;
   std::size_t node_count() const { return nodes_.used() + beads_.used(); }
   std::size_t arc_count() const { return arcs_.used() + beads_.used(); }
+  std::size_t bead_count() const { return beads_.used(); }
   std::size_t reference_count() const { return references_.used(); }
   std::size_t bucket_count() const { return buckets_.used(); }
   std::size_t path_arc_count() const;                             // of all paths, with beads. O(live).
   std::uint64_t removed_pairs() const { return removed_pairs_; }  // leaves, so far
   std::uint64_t zips() const { return zips_; }                    // so far
   std::uint64_t zip_steps() const { return zip_steps_; }          // arcs that zips went over, whatever their beads
+  std::uint64_t bead_steps() const { return bead_steps_; }        // beads that zips went over, one by one
   std::size_t memory_bytes() const;
   // What it takes in addition for this many more of each.
   std::size_t growth_bytes(std::size_t nodes, std::size_t arcs, std::size_t references, std::size_t buckets) const;
@@ -228,7 +230,7 @@ class LiveGraph {
   void remove_noise_at(Index node);
   void try_leaf(Index leaf);
   bool find_path_beyond(Index from, Index leaf, Direction d);
-  void add_path_buckets(Index arc, Direction d);
+  void add_path_buckets(Index arc, Direction d, double leaf);
   void move_buckets(Index arc, Index leaf, Direction d);
   bool is_bead(const Node& n) const;
   BucketLists::List& lowest_buckets(Index arc);
@@ -257,7 +259,7 @@ class LiveGraph {
   GrowingArray<BucketLists::List> arc_buckets_;
   std::vector<Index> path_;  // arcs, from the saddle of a leaf
   std::vector<PathBuckets> path_buckets_;
-  std::uint64_t removed_pairs_ = 0, zips_ = 0, zip_steps_ = 0;
+  std::uint64_t removed_pairs_ = 0, zips_ = 0, zip_steps_ = 0, bead_steps_ = 0;
   std::vector<bool> path_tops_;      // by reference: a top whose path was not checked yet; while the state is restored
   std::vector<Index> changed_;       // complete nodes that tidy() has to examine
   std::vector<Index> unreferenced_;  // arcs whose beads it has to release

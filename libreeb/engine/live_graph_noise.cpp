@@ -101,19 +101,21 @@ bool LiveGraph::find_path_beyond(Index from, Index leaf, Direction d) {
   return false;
 }
 
-// Adds the arcs that the beads make of an arc, in direction d.
-void LiveGraph::add_path_buckets(Index a, Direction d) {
+// Adds the arcs that the beads make of an arc, in direction d. Those beyond the leaf get nothing, and are left out.
+void LiveGraph::add_path_buckets(Index a, Direction d, double leaf) {
+  const BeadChains::Chain chain = arcs_[a].beads;
   const std::size_t first = path_buckets_.size();
   BucketLists::List* buckets = &arc_buckets_[a];
   double above = nodes_[arcs_[a].hi()].key.value;
-  const auto add_arc_from = [&](double below) {
-    path_buckets_.push_back({buckets, d == kDown ? below : std::exchange(above, below)});
-  };
-  beads_.visit(arcs_[a].beads, [&](Index bead) {
-    add_arc_from(beads_.key(bead).value);
+  for (Index bead = beads_.highest(chain); bead != kNone; bead = beads_.below(chain, bead)) {
+    const double below = beads_.key(bead).value;
+    if (d == kDown) path_buckets_.push_back({buckets, below});
+    if (d == kDown && below <= leaf) return;
+    if (d == kUp && below < leaf) path_buckets_.push_back({buckets, above});
+    above = below;
     buckets = &beads_.buckets(bead);
-  });
-  add_arc_from(nodes_[arcs_[a].lo()].key.value);
+  }
+  path_buckets_.push_back({buckets, d == kDown ? nodes_[arcs_[a].lo()].key.value : above});
   if (d == kUp) std::reverse(path_buckets_.begin() + static_cast<std::ptrdiff_t>(first), path_buckets_.end());
 }
 
@@ -121,7 +123,7 @@ void LiveGraph::add_path_buckets(Index a, Direction d) {
 void LiveGraph::move_buckets(Index arc, Index leaf, Direction d) {
   const auto value = [&](Index n) { return nodes_[n].key.value; };
   path_buckets_.clear();
-  for (const Index a : path_) add_path_buckets(a, d);
+  for (const Index a : path_) add_path_buckets(a, d, value(leaf));
   buckets_.add_vertex(arc_buckets_[arc], value(leaf), track_positions_ ? positions_[leaf] : Point{});
   lay_on_path(buckets_, arc_buckets_[arc], d, value(arcs_[arc].end[opposite(d)]), value(leaf), path_buckets_);
 }

@@ -108,6 +108,8 @@ void PartGlue::copy_open(OpenPart& part) const {
       part.spans[n] = open_[open_of_.find(part.live.nodes[n].key.vertex.value())].span;
 }
 
+std::size_t PartGlue::copy_bytes() const { return glue_.copy_bytes() + glue_.graph().node_count() * sizeof(PartSpan); }
+
 std::size_t PartGlue::memory_bytes() const {
   return glue_.memory_bytes() + open_of_.memory_bytes() + open_.capacity() * sizeof(OpenVertex) +
          4 * (edge_order_.capacity() + last_place_.capacity());

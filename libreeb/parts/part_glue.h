@@ -31,7 +31,10 @@ class PartGlue {
 
   const PartSet& parts() const { return have_; }
   // Replaces `part` by what other shares can still change. Empty if all are in.
+  // THROWS: Error{kResource} if it is too large for a fragment.
   void copy_open(OpenPart& part) const;
+  // What that takes. O(live graph)
+  std::size_t copy_bytes() const;
   std::uint64_t removed_pairs() const { return glue_.removed_pairs(); }  // as noise, in the shares and here
   const Glue& glue() const { return glue_; }
   std::size_t memory_bytes() const;

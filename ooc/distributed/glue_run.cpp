@@ -73,7 +73,7 @@ GlueResult glue_in(RunContext& run, const std::vector<NamedPart>& parts, PartInf
     glued.open_vertices = glue.glue().live_vertices();
     if (as_fragment) {
       OpenPart open;
-      live.resize(live.bytes() + glue.glue().copy_bytes());
+      live.resize(live.bytes() + glue.copy_bytes());
       glue.copy_open(open);
       if (!sweep.bucket_exponent) open.live.bucket_begin.clear();
       SegmentStore& store = *run.stores[0];

@@ -31,7 +31,8 @@ PartInfo info_of(const WholeMesh& mesh, const VertexFunction& function, std::uin
 
 // The live graph is held as well while it is copied.
 void copy_open(RunContext& run, const Glue& glue, const IndexedMesh& mesh, PartUses& uses, FinishedPart& finished) {
-  finished.memory = run.budget.reserve("open part", glue.copy_bytes());
+  const std::size_t span_bytes = glue.graph().node_count() * sizeof(PartSpan);
+  finished.memory = run.budget.reserve("open part", glue.copy_bytes() + span_bytes);
   OpenPart& open = finished.open;
   glue.copy_live(open.live);
   std::vector<VertexId> ids;

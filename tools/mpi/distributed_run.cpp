@@ -97,6 +97,8 @@ Glued glue_in_tree(World& world, ooc::RunContext& run, ooc::FinishedPart part, c
     }
     other = {};
     passing.resize(0);
+    open = {};
+    memory.resize(glue.memory_bytes() + glue.copy_bytes());
     glue.copy_open(open);
     if (!info.sweep().bucket_exponent) open.live.bucket_begin.clear();
     info.removed_pairs = glue.removed_pairs();

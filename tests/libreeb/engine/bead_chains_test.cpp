@@ -135,15 +135,15 @@ TEST(BeadChains, AreListsOfKeys) {
   }
 }
 
-// A slope of `width` by `length` cells, whose value grows along a row, with a bump in every fourth cell. It comes row
-// by row. So when half of it is there, every bump of it is a fork on the way from the low end of the border to the high
-// one, and later rows can still tell nothing about the rest of the slope.
-Mesh slope_with_bumps(std::size_t width, std::size_t length) {
+// A slope of `width` by `length` cells, whose value grows along a row, with a bump in every fourth cell of the first
+// `bumpy` rows. It comes row by row. So when half of it is there, every bump of it is a fork on the way from the low
+// end of the border to the high one, and later rows can still tell nothing about the rest of the slope.
+Mesh slope_with_bumps(std::size_t width, std::size_t length, std::size_t bumpy) {
   Mesh mesh;
   Random random(1);
   for (std::size_t y = 0; y <= length; ++y)
     for (std::size_t x = 0; x <= width; ++x) {
-      const bool is_bump = x % 2 == 1 && y % 2 == 1;
+      const bool is_bump = x % 2 == 1 && y % 2 == 1 && y < bumpy;
       mesh.values.push_back(static_cast<double>(x) + (is_bump ? 3 : 0) + 0.1 * random.unit());
       mesh.positions.push_back({static_cast<double>(x), static_cast<double>(y), 0});
     }
@@ -159,7 +159,7 @@ Mesh slope_with_bumps(std::size_t width, std::size_t length) {
 
 TEST(BeadChains, BumpsAlongABorderTakeLittleMemory) {
   constexpr std::size_t kWidth = 60, kLength = 400;
-  const Mesh mesh = slope_with_bumps(kWidth, kLength);
+  const Mesh mesh = slope_with_bumps(kWidth, kLength, kLength);
   KeepingSink whole, cut;
   const auto no_options = [](double, double) { return SweepOptions{}; };
   stream(mesh, mesh.corners.size(), whole, no_options);
@@ -175,7 +175,34 @@ TEST(BeadChains, BumpsAlongABorderTakeLittleMemory) {
   EXPECT_GE(most_arcs, bumps) << "they stay, for later rows could have an arc between two of them";
   EXPECT_LE(most_references, 10 * kWidth) << "few nodes can still change";
   EXPECT_LE(most_bytes, 60 * bumps + 6000 * kWidth);
-  std::printf("%zu bumps: %zu arcs, %zu references, %zu bytes\n", bumps, most_arcs, most_references, most_bytes);
+}
+
+// Smooth rows after many with bumps. Where an arc without beads takes those of another one, the zip hands the chain
+// over; only a chain that is cut, or meets another one, is gone over bead by bead.
+TEST(BeadChains, AreHandedOverWhole) {
+  constexpr std::size_t kWidth = 8, kLength = 1500, kBumpy = 1000;
+  const Mesh mesh = slope_with_bumps(kWidth, kLength, kBumpy);
+  for (const bool embeds : {false, true}) {
+    SCOPED_TRACE(embeds ? "with buckets" : "without buckets");
+    SweepOptions options;
+    if (embeds) options.bucket_exponent = -1;
+    const auto same_options = [&](double, double) { return options; };
+    KeepingSink whole, cut;
+    stream(mesh, mesh.corners.size(), whole, same_options);
+    std::size_t triangles = 0, most_beads = 0;
+    std::uint64_t bumpy_steps = 0, steps = 0, zips = 0, bumpy_zips = 0;
+    stream(mesh, 30, cut, same_options, [&](const Glue& glue) {
+      triangles += 30;
+      const bool in_bumpy = triangles < 2 * kWidth * (kBumpy + 4);
+      most_beads = std::max(most_beads, glue.graph().bead_count());
+      (in_bumpy ? bumpy_steps : steps) = glue.graph().bead_steps();
+      (in_bumpy ? bumpy_zips : zips) = glue.graph().zips();
+    });
+    EXPECT_EQ(cut.graph(), whole.graph());
+    EXPECT_GE(most_beads, kBumpy / 2) << "what is to be shown needs long chains";
+    EXPECT_GE(zips - bumpy_zips, kLength - kBumpy);
+    EXPECT_LE(12 * (steps - bumpy_steps), most_beads * (zips - bumpy_zips)) << most_beads << " beads";
+  }
 }
 
 }  // namespace
