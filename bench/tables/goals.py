@@ -7,11 +7,11 @@ WHY = {
     "huge": "the last pass of noise removal holds the noise that was left, when the live graph is gone",
     "random function": "more than half of the vertices are nodes, so paths are long and most of the graph is written out",
     "tiles": "pieces that come in no order are sorted on disk, or glued with long borders",
-    "noise": "exit code 3: the noise at the borders of tiles, 52 MB of it, stays in memory until the tiles beside them "
-             "come",
+    "noise": "the noise at the borders of tiles stays in memory until the tiles beside them come",
     "random order": "sorting the mesh on disk by position takes half of the time",
     "buckets": "each vertex enters a bucket, and each arc has at least one: a third more is sorted, packed and written",
-    "hierarchy": "each cancellation touches nodes and arcs all over memory",
+    "hierarchy": "each cancellation touches nodes, arcs and lists of buckets all over memory, and each arc that changes "
+                 "is stored with its whole list",
     "wide": "a quarter of the time is gluing of long borders, and little else can go on while a stretch is read",
 }
 

@@ -240,7 +240,8 @@ std::size_t Glue::copy_bytes() const {
   return graph_.node_count() * (sizeof(Fragment::Node) + sizeof(Point)) +
          graph_.arc_count() * (sizeof(Fragment::Arc) + 4) + graph_.bucket_count() * sizeof(BucketSum) +
          edge_of_.size() * (sizeof(Fragment::SharedEdge) + 4) + 4 * graph_.path_arc_count() +
-         graph_.node_slots() * sizeof(FragmentNode) + graph_.arc_slots() * sizeof(FragmentArcs);
+         graph_.node_slots() * sizeof(FragmentNode) + graph_.arc_slots() * sizeof(FragmentArcs) +
+         2 * 4;  // path_begin and bucket_begin have an entry more than edges and arcs
 }
 
 // ---- kept edges

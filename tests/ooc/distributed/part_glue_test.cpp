@@ -75,6 +75,7 @@ Group glue(std::vector<Group>& groups, std::uint32_t parts, Collected& settled) 
   }
   OpenPart open;
   glue.copy_open(open);
+  EXPECT_GE(glue.copy_bytes(), open.live.memory_bytes() + open.spans.capacity() * sizeof(PartSpan));
   open.live.bucket_begin.clear();
   StateBytes bytes;
   ooc::write_open_part(bytes, open);
