@@ -57,6 +57,7 @@ class Glue {
   // Replaces `fragment` by all that is live: it can be added to another Glue, on its own terms. Incomplete vertices are
   // marked kUsedLater, shared edges are those between them; there are no steps and no options.
   // REQUIRES: no log is kept, and the fragments were no boxes.
+  // THROWS: Error{kResource} if the paths have more than 2^32 arcs together, which a fragment cannot number.
   void copy_live(Fragment& fragment) const;
   // What that takes. O(live graph).
   std::size_t copy_bytes() const;

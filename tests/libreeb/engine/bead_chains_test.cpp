@@ -201,6 +201,7 @@ TEST(BeadChains, AreHandedOverWhole) {
     EXPECT_EQ(cut.graph(), whole.graph());
     EXPECT_GE(most_beads, kBumpy / 2) << "what is to be shown needs long chains";
     EXPECT_GE(zips - bumpy_zips, kLength - kBumpy);
+    // If each bead were gone over, it would be an eighth of them in each zip.
     EXPECT_LE(12 * (steps - bumpy_steps), most_beads * (zips - bumpy_zips)) << most_beads << " beads";
   }
 }
