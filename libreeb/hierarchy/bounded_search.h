@@ -71,7 +71,7 @@ class BoundedSearch {
 
   void begin(NodeId node) {
     if (++search_ == 0) {
-      for (NodeId other; other < graph_.end_node(); ++other) reached_[other] = 0;
+      reached_.assign(reached_.size(), 0);
       search_ = 1;
     }
     queue_.clear();

@@ -97,7 +97,7 @@ void PathFollower<Graph>::keep_followed(NodeId exit, Direction d) {
   if (!followed_.empty() && followed_.back() == exit) followed_.pop_back();
   if (followed_.size() >= kMinNodes) {
     if (exits_.size() > graph_.end_node().value() / kMinNodes) {
-      for (NodeId node; node < graph_.end_node(); ++node) section_of_[node] = {kNoSection, kNoSection};
+      section_of_.assign(section_of_.size(), {kNoSection, kNoSection});
       exits_.resize(1);
     }
     for (const NodeId node : followed_) section_of_[node][d] = static_cast<std::uint32_t>(exits_.size());

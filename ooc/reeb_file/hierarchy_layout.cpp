@@ -85,19 +85,20 @@ class FrameCutter {
  public:
   FrameCutter(std::uint32_t steps, std::vector<FrameCut>& cuts) : complete_(steps + 1), cuts_(cuts) {}
 
-  void add_isolated() {
+  // Both return the frame of what was added.
+  std::uint32_t add_isolated() {
     settle(complete_);
     ++isolated_;
-    add(kNodeCost);
+    return add(kNodeCost);
   }
-  void add_record(std::uint32_t died, std::uint64_t new_nodes, std::uint64_t buckets) {
+  std::uint32_t add_record(std::uint32_t died, std::uint64_t new_nodes, std::uint64_t buckets) {
     // The records that follow die with this version or a finer one: all coarser versions are complete.
     settle(std::min(complete_, died));
     ++records_;
     std::uint64_t cost = kArcCost + kNodeCost * new_nodes + kBucketCost * buckets;
     if (died < last_died_ && last_died_ != kNeverDies) cost += kVersionCost * (last_died_ - died);
     last_died_ = died;
-    add(cost);
+    return add(cost);
   }
   void finish() {
     if (!is_cut_) cuts_.push_back({isolated_, records_, 0});
@@ -105,11 +106,14 @@ class FrameCutter {
   }
 
  private:
-  void add(std::uint64_t cost) {
-    if ((cost_ += cost) < kFrameTargetBytes) return;
-    cuts_.push_back({isolated_, records_, 0});
-    is_cut_ = true;
-    cost_ = 0;
+  std::uint32_t add(std::uint64_t cost) {
+    const auto frame = static_cast<std::uint32_t>(cuts_.size());
+    if ((cost_ += cost) >= kFrameTargetBytes) {
+      cuts_.push_back({isolated_, records_, 0});
+      is_cut_ = true;
+      cost_ = 0;
+    }
+    return frame;
   }
   // The record after a cut determines which versions the cut completes.
   void settle(std::uint32_t complete) {
@@ -204,7 +208,7 @@ HierarchyLayout lay_out(HierarchySource& hierarchy, RecordSource& records, bool 
       if (isolated[i].value() >= node_count || (i > 0 && !(isolated[i - 1] < isolated[i])))
         fail("isolated node", i, "is not above the one before it");
       counter.add_isolated(isolated[i]);
-      cutter.add_isolated();
+      hierarchy.introduce(isolated[i], cutter.add_isolated());
     }
     struct Record {
       ArcVersion arc;
@@ -230,9 +234,11 @@ HierarchyLayout lay_out(HierarchySource& hierarchy, RecordSource& records, bool 
       for (std::size_t i = 0; i < some.size(); ++i) {
         if (i + kAhead < some.size()) counter.prefetch_next(some[i + kAhead].arc);
         const auto& [arc, buckets] = some[i];
-        const std::uint64_t new_nodes = (counter.was_named(arc.lo) ? 0u : 1u) + (counter.was_named(arc.hi) ? 0u : 1u);
+        const bool is_new_lo = !counter.was_named(arc.lo), is_new_hi = !counter.was_named(arc.hi);
         counter.add(arc, buckets);
-        cutter.add_record(arc.died, new_nodes, buckets);
+        const std::uint32_t frame = cutter.add_record(arc.died, (is_new_lo ? 1u : 0u) + (is_new_hi ? 1u : 0u), buckets);
+        if (is_new_lo) hierarchy.introduce(arc.lo, frame);
+        if (is_new_hi) hierarchy.introduce(arc.hi, frame);
       }
       layout.records += some.size();
     };

@@ -24,7 +24,9 @@ struct HierarchyLayout {
   std::vector<LevelLine> levels;        // without file_bytes
 };
 
-// Reads all records and pairs, once. With `background`, one thread reads the records and another counts.
+// Reads all records and pairs, once, and tells `hierarchy` which frame introduces each node. With `background`, one
+// thread reads the records and another counts.
+//
 // MEMORY: 32 bytes per version; until it returns, 4 per node.
 // THROWS: std::logic_error that names the first impossible record, pair or step.
 HierarchyLayout lay_out(HierarchySource& hierarchy, RecordSource& records, bool background);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 
 #include "libreeb/base/prefetch.h"
@@ -22,7 +23,10 @@ class HierarchySource {
   virtual std::size_t node_count() const = 0;
   virtual bool has_positions() const = 0;
   virtual SweepKey key(NodeId id) = 0;
-  // The node of this rank; without positions, zeros.
+  // To be called for each node once, frame by frame: the frame that introduces it.
+  virtual void introduce(NodeId /*id*/, std::uint32_t /*frame*/) {}
+  // The node of this rank; without positions, zeros. REQUIRES: called once for each node, after introduce() was called
+  // for all: frame by frame, those of a frame in the order of ranks.
   virtual SettledNode node(NodeId id) = 0;
   // To be called some time before node().
   virtual void prefetch(NodeId /*id*/) const {}

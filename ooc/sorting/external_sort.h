@@ -154,6 +154,14 @@ class ExternalSort {
   void rewind() {
     at_ = 0;
     merger_.reset();
+    merge_charge_.resize(std::max(merge_charge_.bytes(), std::exchange(merge_bytes_, 0)));
+  }
+  // Gives the memory for merging back until rewind() reserves it again. REQUIRES: finish() was called; until then,
+  // nothing is read, but scans may be called.
+  void set_aside() {
+    merger_.reset();
+    merge_bytes_ = std::max(merge_bytes_, merge_charge_.bytes());
+    merge_charge_.resize(0);
   }
 
   // Replaces `out` by the next records in order: at most `limit`, fewer if their payloads exceed `payload_limit` bytes.
@@ -376,7 +384,8 @@ class ExternalSort {
   std::uint64_t most_bytes_;  // of a buffer
   Buffer filling_, writing_;
   Reservation merge_charge_;
-  std::exception_ptr failure_;  // of the writer; every later call throws it
+  std::uint64_t merge_bytes_ = 0;  // that set_aside() gave back
+  std::exception_ptr failure_;     // of the writer; every later call throws it
   std::optional<SortedRunFile> file_;
   std::vector<RunPlace> runs_;
   std::unique_ptr<Merger> merger_;

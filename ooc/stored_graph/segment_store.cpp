@@ -240,6 +240,11 @@ void SegmentStore::rewind_nodes() {
   if (change_) change_->rewind_nodes();
 }
 
+void SegmentStore::set_aside() {
+  nodes_.set_aside();
+  arcs_.set_aside();
+}
+
 void SegmentStore::rewind_arcs() {
   arcs_.rewind();
   batch_.clear();

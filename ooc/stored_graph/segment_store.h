@@ -100,6 +100,9 @@ class SegmentStore : public GraphSink {
   // REQUIRES, for everything below: finish() was called.
   void rewind_nodes();
   void rewind_arcs();
+  // Gives the memory for merging back until rewind_nodes() and rewind_arcs() reserve it again. REQUIRES: nothing is
+  // read until then.
+  void set_aside();
   // Replaces `nodes` by the next nodes in order, at most `limit`. False at the end.
   bool read_nodes(std::vector<SettledNode>& nodes, std::size_t limit);
   // Replaces `piece` by the next arcs in order: at most `limit`, fewer if they have many buckets. False at the end.

@@ -14,51 +14,46 @@ namespace {
 constexpr std::size_t kAtOnce = 4096;  // records that are read
 
 // Per node and per arc in the tables of a Canceller, and per arc in StoredLists.
-constexpr std::uint64_t kNodeBytes = 16 + 8 + 4 + 4, kArcBytes = 32 + 4, kListBytes = 16;
-// While nodes are paired; and after that, for the canceller's bits and exits.
-constexpr std::uint64_t kPairingBytes = 16, kCancellingBytes = 2;
-constexpr std::uint64_t kLeastSort = 512 << 10, kLeastTable = PageCache::kRequiredFrames * PageCache::kPageBytes;
-constexpr std::uint64_t kTables = 9;  // with those of nodes
+constexpr std::size_t kNodeBytes = 16 + 8 + 4 + 4, kArcBytes = 32 + 4, kListBytes = 16;
+// Per node: for the ids that are kept; while nodes are paired; and after that, for the canceller's bits and exits.
+constexpr std::uint64_t kIdBytes = 1, kPairingBytes = 16, kCancellingBytes = 1;
+constexpr std::uint64_t kLeastSort = 512 << 10, kSlack = 512 << 10;
+
+// Rows are dropped when this part of them is not needed: one in so many.
+constexpr std::uint64_t kDropShare = 5;
 
 // The nodes as buckets know them.
 class PagedNodes {
  public:
-  PagedNodes(PagedTable<SweepKey>& keys, PagedTable<Point>& positions) : keys_(&keys), positions_(&positions) {}
-  double value(NodeId node) const { return keys_->get(node.value()).value; }
-  Point position(NodeId node) const { return positions_->get(node.value()); }
+  explicit PagedNodes(StoredNodes& nodes) : nodes_(&nodes) {}
+  double value(NodeId node) const { return nodes_->key(node).value; }
+  Point position(NodeId node) const { return nodes_->position(node); }
   void prefetch(NodeId /*node*/) const {}
 
  private:
-  PagedTable<SweepKey>* keys_;
-  PagedTable<Point>* positions_;
+  StoredNodes* nodes_;
 };
 
 }  // namespace
 
 std::uint64_t StoredHierarchy::least_bytes(std::uint64_t nodes) {
-  return 4 * kLeastSort + kTables * kLeastTable + (kPairingBytes + kCancellingBytes) * nodes;
+  return 4 * kLeastSort + 3 * PagedRows::kLeastBytes + kSlack + (kIdBytes + kPairingBytes) * nodes;
 }
 
-StoredHierarchy::Shares StoredHierarchy::share_out(std::uint64_t free, std::uint64_t nodes, std::uint64_t arcs,
-                                                   bool embeds) {
+StoredHierarchy::Shares StoredHierarchy::share_out(std::uint64_t free, std::uint64_t nodes, bool embeds) {
   Shares shares;
   shares.sort = std::clamp<std::uint64_t>(free / 16, kLeastSort, 8 << 20);
-  shares.positions = std::max(free / (embeds ? 16 : 64), kLeastTable);
-  shares.keys = std::max(free / (embeds ? 8 : 32), kLeastTable);
-  shares.all_tables = kNodeBytes * nodes + (kArcBytes + (embeds ? kListBytes : 0)) * arcs;
-  const std::uint64_t fixed =
-      2 * shares.sort + shares.keys + shares.positions + kTables * kLeastTable + kCancellingBytes * nodes;
-  const auto room = [&](std::uint64_t taken) { return free - std::min(free, taken); };
-  // Two thirds of the tables are filled while nodes are paired, or a little more.
-  shares.tables = std::min(room(fixed), room(fixed + kPairingBytes * nodes) / 2 * 3);
+  shares.nodes = std::max(free / (embeds ? 6 : 24), PagedRows::kLeastBytes);
+  // More is allowed when nodes are paired.
+  const std::uint64_t taken = 2 * shares.sort + shares.nodes + (kIdBytes + kPairingBytes) * nodes + kSlack;
+  shares.tables = free - std::min(free, taken);
   return shares;
 }
 
 StoredHierarchy::StoredHierarchy(SegmentStore& store, const io::TempDir& temp, MemoryBudget& budget,
                                  const Options& options)
-    : StoredHierarchy(
-          store, temp, budget, options,
-          share_out(budget.free_bytes(), store.node_count(), store.arc_count(), options.bucket_exponent.has_value())) {}
+    : StoredHierarchy(store, temp, budget, options,
+                      share_out(budget.free_bytes(), store.node_count(), options.bucket_exponent.has_value())) {}
 
 StoredHierarchy::StoredHierarchy(SegmentStore& store, const io::TempDir& temp, MemoryBudget& budget,
                                  const Options& options, const Shares& shares)
@@ -69,35 +64,33 @@ StoredHierarchy::StoredHierarchy(SegmentStore& store, const io::TempDir& temp, M
       shares_(shares),
       nodes_(static_cast<std::uint32_t>(store.node_count())),
       arcs_(static_cast<std::uint32_t>(store.arc_count())),
-      tables_(temp, budget, shares.tables, shares.all_tables),
-      keys_("keys of nodes", temp, budget, shares.keys, SweepKey{}),
-      positions_("positions of nodes", temp, budget, shares.positions, Point{}),
-      pairs_("pairs", temp, budget, {.allowance_bytes = shares.sort, .background = options.background}) {}
+      tables_(std::in_place, temp, budget, shares.tables, PagedTables::Size{nodes_, kNodeBytes},
+              PagedTables::Size{arcs_, kArcBytes + (options.bucket_exponent ? kListBytes : 0)}),
+      node_data_(temp, budget, nodes_, shares.nodes),
+      pairs_("pairs", temp, budget, sort_options()) {}
 
 void StoredHierarchy::pair_nodes(const Poll& poll) {
   read_nodes();
-  SortedByUpperEnd arcs("arcs", temp_, budget_, {.allowance_bytes = shares_.sort, .background = options_.background});
-  graph_.emplace(nodes_, arcs_, tables_);
-  if (options_.bucket_exponent) lists_.emplace(temp_, tables_, arcs_);
+  SortedByUpperEnd arcs("arcs", temp_, budget_, sort_options());
+  graph_.emplace(nodes_, arcs_, *tables_);
+  if (options_.bucket_exponent) lists_.emplace(temp_, *tables_, arcs_);
   sort_arcs(arcs, part_of(poll, 0, 0.5));
   pair_arcs(arcs, part_of(poll, 0.5, 1));
   spilled_ += arcs.spilled_bytes();
   pairs_.finish();
   kept_.resize(pairs_.size());
-  // What pairing took goes to the tables, but for what cancelling takes.
+  store_.set_aside();
+  // What pairing and the store took goes to the tables, but for what cancelling takes.
   const std::uint64_t free = budget_.free_bytes();
-  const std::uint64_t taken = sizeof(double) * pairs_.size() + kCancellingBytes * nodes_ + (kTables + 1) * kLeastTable;
-  tables_.allow(tables_.resident_bytes() + free - std::min(free, taken));
+  const std::uint64_t taken = sizeof(double) * pairs_.size() + kCancellingBytes * nodes_ + kSlack;
+  tables_->allow(tables_->resident_bytes() + free - std::min(free, taken));
 }
 
 void StoredHierarchy::read_nodes() {
   store_.rewind_nodes();
-  std::uint64_t rank = 0;
+  std::uint32_t rank = 0;
   for (std::vector<SettledNode> some; store_.read_nodes(some, kAtOnce);)
-    for (const SettledNode& node : some) {
-      keys_.set(rank, node.key);
-      positions_.set(rank++, node.position);
-    }
+    for (const SettledNode& node : some) node_data_.set(NodeId(rank++), node);
 }
 
 // Arcs come by lower end, as their numbers are. So the ranks of these ends are found in passing.
@@ -107,8 +100,8 @@ void StoredHierarchy::sort_arcs(SortedByUpperEnd& arcs, const Poll& poll) {
   for (PackedArcPiece piece; store_.read_arcs(piece, kAtOnce, options_.bucket_exponent);) {
     if (poll) poll(static_cast<double>(arc) / arcs_);
     for (const StoredArc& stored : piece.records) {
-      while (lo < nodes_ && keys_.get(lo) < stored.keys.lo) ++lo;
-      if (lo == nodes_ || keys_.get(lo) != stored.keys.lo)
+      while (lo < nodes_ && key(NodeId(lo)) < stored.keys.lo) ++lo;
+      if (lo == nodes_ || key(NodeId(lo)) != stored.keys.lo)
         throw std::logic_error("an arc begins in vertex " + std::to_string(stored.keys.lo.vertex.value()) +
                                ", which is no node");
       arcs.add({stored.keys.hi, lo, arc});
@@ -128,8 +121,8 @@ void StoredHierarchy::pair_arcs(SortedByUpperEnd& arcs, const Poll& poll) {
   for (std::vector<ArcToSort> some; arcs.read(some, kAtOnce);) {
     if (poll) poll(static_cast<double>(done) / arcs_ * 0.8);
     for (const ArcToSort& arc : some) {
-      while (hi < nodes_ && keys_.get(hi) < arc.hi) ++hi;
-      if (hi == nodes_ || keys_.get(hi) != arc.hi)
+      while (hi < nodes_ && key(NodeId(hi)) < arc.hi) ++hi;
+      if (hi == nodes_ || key(NodeId(hi)) != arc.hi)
         throw std::logic_error("an arc ends in vertex " + std::to_string(arc.hi.vertex.value()) + ", which is no node");
       graph_->put(ArcId(arc.arc), NodeId(arc.lo), NodeId(hi));
       up.add(arc.lo, hi, take);
@@ -147,7 +140,7 @@ void StoredHierarchy::pair_arcs(SortedByUpperEnd& arcs, const Poll& poll) {
 }
 
 void StoredHierarchy::add_pair(const PersistencePair& pair) {
-  pairs_.add({keys_.get(pair.hi.value()).value - keys_.get(pair.lo.value()).value, pair});
+  pairs_.add({key(pair.hi).value - key(pair.lo).value, pair});
 }
 
 void StoredHierarchy::rewind_pairs() {
@@ -177,17 +170,22 @@ bool StoredHierarchy::next_pair(PersistencePair& pair) {
 bool StoredHierarchy::cancel(RecordSink& records, const Poll& poll) {
   steps_charge_ = budget_.reserve("steps", sizeof(double) * pairs_.size());
   persistence_.reserve(pairs_.size());
-  if (!lists_) {
+  bool done = false;
+  if (lists_) {
+    BucketVersions content(PagedNodes(node_data_), std::move(*lists_), *options_.bucket_exponent, records);
+    Canceller canceller(std::move(*graph_), records, std::move(content));
+    done = cancel_all(canceller, poll);
+    spilled_ += canceller.content().lists().packed().spilled_bytes();
+  } else {
     Canceller canceller(std::move(*graph_), records, IgnoreContent());
-    graph_.reset();
-    return cancel_all(canceller, poll);
+    done = cancel_all(canceller, poll);
   }
-  BucketVersions content(PagedNodes(keys_, positions_), std::move(*lists_), *options_.bucket_exponent, records);
-  Canceller canceller(std::move(*graph_), records, std::move(content));
-  graph_.reset();
+  refetches_ = tables_->refetches();
+  spilled_ += tables_->spilled_bytes();
   lists_.reset();
-  const bool done = cancel_all(canceller, poll);
-  spilled_ += canceller.content().lists().packed().spilled_bytes();
+  graph_.reset();
+  tables_.reset();
+  introduced_.emplace(temp_, budget_, sort_options());
   return done;
 }
 
@@ -195,25 +193,43 @@ template <class Canceller>
 bool StoredHierarchy::cancel_all(Canceller& canceller, const Poll& poll) {
   constexpr std::uint64_t kPairsBetweenPolls = 1024;
   rewind_pairs();
+  std::uint64_t next_drop = steps_between_drops();
   for (RankedPair ranked{}; next_ranked(ranked);) {
     if (ranked.pair.type == PairType::kExt0) break;
     if (pair_ % kPairsBetweenPolls == 0) {
       if (poll) poll(static_cast<double>(pair_) / static_cast<double>(pairs_.size()));
-      refetches_ = tables_.refetches();
+      refetches_ = tables_->refetches();
       if (refetches_ > options_.most_pages * (pair_ + kPairsBetweenPolls)) return false;
     }
     const bool done = canceller.cancel(ranked.pair);
     kept_[pair_ - 1] = !done;
     if (done) persistence_.push_back(ranked.persistence);
+    if (persistence_.size() == next_drop) next_drop += drop_rows(canceller.graph());
   }
   canceller.finish();
-  refetches_ = tables_.refetches();
-  spilled_ += tables_.spilled_bytes();
   return true;
 }
 
+// A step takes two nodes and at least two arcs away.
+std::uint64_t StoredHierarchy::steps_between_drops() const {
+  return std::max<std::uint64_t>(tables_->nodes().count() / 2 / kDropShare, 1);
+}
+
+// Drops the rows of what is no longer in the graph, if memory does not hold all rows. Returns the number of steps until
+// the next time.
+template <class Graph>
+std::uint64_t StoredHierarchy::drop_rows(const Graph& graph) {
+  if (tables_->nodes().fits_in_memory() && tables_->arcs().fits_in_memory()) return pairs_.size();
+  tables_->nodes().keep_if([&](std::uint32_t id) {
+    return graph.nearest(NodeId(id), kDown) != ArcId::none() || graph.nearest(NodeId(id), kUp) != ArcId::none();
+  });
+  tables_->arcs().keep_if([&](std::uint32_t id) { return graph.alive(ArcId(id)); });
+  return steps_between_drops();
+}
+
 std::uint64_t StoredHierarchy::spilled_bytes() const {
-  return spilled_ + pairs_.spilled_bytes() + keys_.pages().spilled_bytes() + positions_.pages().spilled_bytes();
+  return spilled_ + pairs_.spilled_bytes() + node_data_.spilled_bytes() +
+         (introduced_ ? introduced_->spilled_bytes() : 0);
 }
 
 }  // namespace reeb::ooc

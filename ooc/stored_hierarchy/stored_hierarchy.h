@@ -15,8 +15,10 @@
 #include "ooc/reeb_file/hierarchy_source.h"
 #include "ooc/sorting/external_sort.h"
 #include "ooc/stored_graph/segment_store.h"
+#include "ooc/stored_hierarchy/introduced_nodes.h"
 #include "ooc/stored_hierarchy/paged_tables.h"
 #include "ooc/stored_hierarchy/stored_lists.h"
+#include "ooc/stored_hierarchy/stored_nodes.h"
 
 namespace reeb::ooc {
 
@@ -37,7 +39,7 @@ class StoredHierarchy : public HierarchySource {
   struct Options {
     std::optional<int> bucket_exponent = {};  // without one there is no embedding
     bool background = true;                   // sort in separate threads
-    std::uint64_t most_pages = 32;            // that a pair may read again, on average; scans take two to six
+    std::uint64_t most_pages = 32;            // that a pair may read again, on average; scans take one
   };
 
   // The memory that it needs at least. With several times as much, it is faster.
@@ -52,17 +54,20 @@ class StoredHierarchy : public HierarchySource {
   // no hierarchy to write. REQUIRES: pair_nodes() was called.
   bool cancel(RecordSink& records, const Poll& poll);
 
+  // The memory that writing takes here, at most.
+  std::uint64_t writing_bytes() const { return 2 * shares_.sort; }
   // The memory of the tables, which cancel() gives back.
-  std::uint64_t table_bytes() const { return tables_.resident_bytes(); }
+  std::uint64_t table_bytes() const { return tables_ ? tables_->resident_bytes() : 0; }
   std::uint64_t pair_count() const { return pairs_.size(); }
   // How often cancel() read a page of a table again.
   std::uint64_t refetches() const { return refetches_; }
   std::uint64_t spilled_bytes() const;
 
   std::size_t node_count() const override { return nodes_; }
-  SweepKey key(NodeId id) override { return keys_.get(id.value()); }
+  SweepKey key(NodeId id) override { return node_data_.key(id); }
   bool has_positions() const override { return nodes_ != 0; }
-  SettledNode node(NodeId id) override { return {keys_.get(id.value()), positions_.get(id.value())}; }
+  void introduce(NodeId id, std::uint32_t frame) override { introduced_->add(id, frame); }
+  SettledNode node(NodeId id) override { return introduced_->next(id, node_data_); }
   void rewind_pairs() override;
   bool next_pair(PersistencePair& pair) override;
   std::span<const double> persistence() const override { return persistence_; }
@@ -71,9 +76,9 @@ class StoredHierarchy : public HierarchySource {
  private:
   // Where the memory goes.
   struct Shares {
-    std::uint64_t sort = 0, keys = 0, positions = 0, tables = 0, all_tables = 0;
+    std::uint64_t sort = 0, nodes = 0, tables = 0;
   };
-  static Shares share_out(std::uint64_t free, std::uint64_t nodes, std::uint64_t arcs, bool embeds);
+  static Shares share_out(std::uint64_t free, std::uint64_t nodes, bool embeds);
 
   // An arc on its way to the order of upper ends.
   struct ArcToSort {
@@ -87,12 +92,16 @@ class StoredHierarchy : public HierarchySource {
 
   StoredHierarchy(SegmentStore& store, const io::TempDir& temp, MemoryBudget& budget, const Options& options,
                   const Shares& shares);
+  SortOptions sort_options() const { return {.allowance_bytes = shares_.sort, .background = options_.background}; }
   void read_nodes();
   void sort_arcs(SortedByUpperEnd& arcs, const Poll& poll);
   void pair_arcs(SortedByUpperEnd& arcs, const Poll& poll);
   void add_pair(const PersistencePair& pair);
   template <class Canceller>
   bool cancel_all(Canceller& canceller, const Poll& poll);
+  template <class Graph>
+  std::uint64_t drop_rows(const Graph& graph);
+  std::uint64_t steps_between_drops() const;
   bool next_ranked(RankedPair& ranked);
 
   SegmentStore& store_;
@@ -101,11 +110,11 @@ class StoredHierarchy : public HierarchySource {
   const Options options_;
   const Shares shares_;
   const std::uint32_t nodes_, arcs_;
-  PagedTables tables_;
-  PagedTable<SweepKey> keys_;    // by rank
-  PagedTable<Point> positions_;  // by rank
+  std::optional<PagedTables> tables_;  // until all is cancelled
+  StoredNodes node_data_;
   std::optional<BasicWorkingGraph<PagedTables>> graph_;
   std::optional<StoredLists> lists_;
+  std::optional<IntroducedNodes> introduced_;  // when all is cancelled
   SortedPairs pairs_;
   std::vector<RankedPair> batch_;  // of pairs_, the next of which is at_
   std::size_t at_ = 0;

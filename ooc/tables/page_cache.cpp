@@ -2,17 +2,18 @@
 
 #include <algorithm>
 #include <cstring>
+#include <stdexcept>
 #include <utility>
 
 namespace reeb::ooc {
 namespace {
 
-void fill_page(std::byte* bytes, std::span<const std::byte> pattern) {
-  std::size_t filled = std::min(pattern.size(), PageCache::kPageBytes);
-  std::memcpy(bytes, pattern.data(), filled);
-  while (filled < PageCache::kPageBytes) {  // doubling keeps the pattern in step
-    const std::size_t more = std::min(filled, PageCache::kPageBytes - filled);
-    std::memcpy(bytes + filled, bytes, more);
+void fill_page(std::span<std::byte> page, std::span<const std::byte> pattern) {
+  std::size_t filled = std::min(pattern.size(), page.size());
+  std::memcpy(page.data(), pattern.data(), filled);
+  while (filled < page.size()) {  // doubling keeps the pattern in step
+    const std::size_t more = std::min(filled, page.size() - filled);
+    std::memcpy(page.data() + filled, page.data(), more);
     filled += more;
   }
 }
@@ -38,13 +39,29 @@ std::byte* PageCache::fault(std::size_t page, bool writing) {
     file_.read_at(page * kPageBytes, {frame.bytes, kPageBytes});
     ++refetches_;
   } else {
-    fill_page(frame.bytes, usual ? usual_ : fill_);
+    fill_page({frame.bytes, kPageBytes}, usual ? usual_ : fill_);
   }
   frame.page = page;
   // A page of the second pattern is nowhere else, so it counts as changed.
   frame.marks = kTouched | (stored ? kStored : 0) | (writing || usual ? kDirty : 0);
   places_[page] = number;
   return frame.bytes;
+}
+
+void PageCache::set_fill(std::span<const std::byte> fill) {
+  if (!places_.empty()) throw std::logic_error("PageCache: a new fill pattern after the first page");
+  fill_.assign(fill.begin(), fill.end());
+}
+
+void PageCache::drop_from(std::size_t page) {
+  for (std::size_t at = page; at < places_.size(); ++at) {
+    const std::uint32_t place = places_[at];
+    if (place >= kUsual) continue;
+    frames_[place].page = kNoPage;
+    frames_[place].marks = 0;
+    free_.push_back(place);
+  }
+  if (page < places_.size()) places_.resize(page);
 }
 
 void PageCache::grow_directory(std::size_t pages) {
@@ -58,6 +75,11 @@ void PageCache::grow_directory(std::size_t pages) {
 
 // A frame without a page: in new memory if the cache may grow, else taken from another page.
 std::uint32_t PageCache::take_frame() {
+  if (!free_.empty()) {
+    const std::uint32_t frame = free_.back();
+    free_.pop_back();
+    return frame;
+  }
   const auto next = static_cast<std::uint32_t>(frames_.size());
   if (frames_.size() == blocks_.size() * kBlockFrames) {
     if (!may_grow()) return evict_one();

@@ -55,6 +55,12 @@ class PageCache {
   // True only if the page is repetitions of the second pattern; false for every page that is in memory.
   bool is_usual(std::size_t page) const { return page < places_.size() && places_[page] == kUsual; }
 
+  // Changes the fill pattern. REQUIRES: no page was named yet.
+  void set_fill(std::span<const std::byte> fill);
+
+  // Forgets the pages from this one on: they are as if never named. Their memory goes to other pages.
+  void drop_from(std::size_t page);
+
   // Raises the allowance to this, if it is less.
   void allow(std::uint64_t bytes) { allowance_ = std::max(allowance_, bytes); }
 
@@ -93,6 +99,7 @@ class PageCache {
   Reservation pages_charge_, directory_charge_;
   std::vector<std::uint32_t> places_;                 // by page
   std::vector<Frame> frames_;                         // in the order of the clock
+  std::vector<std::uint32_t> free_;                   // frames of pages that were forgotten
   std::vector<std::unique_ptr<std::byte[]>> blocks_;  // memory of the frames
   std::size_t hand_ = 0;                              // into frames_
   io::File file_;

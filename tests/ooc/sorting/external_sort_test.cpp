@@ -56,6 +56,11 @@ void compare(std::size_t count, SortOptions options, std::uint64_t limit_bytes, 
     EXPECT_TRUE(test::same(read_all(sort, 1000), expected));
     sort.rewind();
     EXPECT_TRUE(test::same(read_all(sort, 7), expected));
+    sort.set_aside();
+    EXPECT_TRUE(!must_spill || budget.used_bytes() == 0);
+    sort.rewind();
+    EXPECT_TRUE(!must_spill || budget.used_bytes() > 0);
+    EXPECT_TRUE(test::same(read_all(sort, 900), expected));
     EXPECT_LE(budget.peak_bytes(), limit_bytes);
   }
   EXPECT_EQ(budget.used_bytes(), 0u);
