@@ -345,6 +345,13 @@ def peers(bench):
         bench.cell(f"peers/vtk/{size}", measure, bench.runs if int(size) <= 20000 else 1)
 
 
+def beyond_memory(bench, name, mesh, memory):
+    """The hierarchy of a graph with all its noise, in memory, and within too little of it."""
+    for kind, limit in (("free", []), (memory, ["--memory", memory])):
+        bench.checked(f"targets/{name}/all-noise/{kind}", mesh, "--buckets", "0", *limit, genus=bench.genus(mesh),
+                      runs=1)
+
+
 def targets(bench):
     # 12 million triangles, as the targets say; a tenth of them where that would take too long.
     mesh = bench.scan("12000000")
@@ -371,8 +378,10 @@ def targets(bench):
             # It may well fail, or take too long: then it is not the best.
             bench.checked(f"targets/tiles/{order}/{memory}/no-reorder", tiled, *options, "--no-reorder",
                           genus=bench.genus(tiled), runs=1, limit=60, may_fail=True)
+    beyond_memory(bench, "48M", bench.scan("48000000"), "40M")
     if bench.mode != "huge":
         return
+    beyond_memory(bench, "372M", bench.scan("372M"), "128M")
     wide = bench.scan("372M", "rows", "--width", "9990")
     bench.checked("targets/372M/rows", wide, "--denoise", "0.1%", "--memory", "96M", genus=bench.genus(wide), runs=1)
     tiled = bench.scan("372M", "random-tiles:32")

@@ -12,6 +12,7 @@ WHY = {
     "buckets": "each vertex enters a bucket, and each arc has at least one: a third more is sorted, packed and written",
     "hierarchy": "each cancellation touches nodes, arcs and lists of buckets all over memory, and each arc that changes "
                  "is stored with its whole list",
+    "beyond memory": "pages of the graph are written and read again, 2 µs each",
     "wide": "a quarter of the time is gluing of long borders, and little else can go on while a stretch is read",
 }
 
@@ -87,6 +88,15 @@ def goals(figures):
         yield Goal(f"hierarchy {what}, random function, 12M triangles", f"at most {most:g} µs an arc",
                    ratio(get(name, "hierarchy"), get(name, "arcs")), lambda f: f"{1e6 * f:.2f} µs",
                    lambda f, most=most: f <= 1e-6 * most, WHY["hierarchy"])
+    for size, memory in (("48M", 40), ("372M", 128)):
+        name = f"targets/{size}/all-noise/"
+        limited = f"{name}{memory}M"
+        yield Goal(f"hierarchy of {size} triangles with all their noise, `--buckets 0`, `--memory {memory}M`, against "
+                   "the run without a limit",
+                   f"at most 2 times and {memory} MiB",
+                   both(ratio(get(limited), get(name + "free")), get(limited, "peak_bytes")),
+                   lambda f: f"{f[0]:.2f} times, {f[1] / 2**20:.1f} MiB",
+                   lambda f, memory=memory: f[0] <= 2 and f[1] <= memory * 2**20, WHY["beyond memory"])
     yield Goal("growth from 7.2M triangles to the largest mesh: ns a triangle", "within 15 %", growth(figures),
                lambda f: f"{100 * (f - 1):+.0f} %", lambda f: abs(f - 1) <= 0.15, WHY["speed"])
     yield Goal("temporary files on disk against in memory, z, largest mesh", "no difference (within 5 %)",

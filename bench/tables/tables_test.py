@@ -162,6 +162,13 @@ class Goals(unittest.TestCase):
         self.assertEqual(rows["growth from 7.2M triangles to the largest mesh: ns a triangle"][2:4], ["+20 %", "no"])
         self.assertEqual(rows["the same with a random function"][2:4], ["–", "not measured"])
 
+    def test_memory_and_time_of_a_hierarchy_beyond_memory(self):
+        stored = {"targets/48M/all-noise/free": self.cell(2.0), "targets/372M/all-noise/free": self.cell(2.0),
+                  "targets/48M/all-noise/40M": self.cell(4.0, peak_bytes=40.0 * 2**20),
+                  "targets/372M/all-noise/128M": self.cell(3.0, peak_bytes=129.0 * 2**20)}
+        rows = [row for what, row in self.rows(stored).items() if "all their noise" in what]
+        self.assertEqual([row[2:4] for row in rows], [["2.00 times, 40.0 MiB", "yes"], ["1.50 times, 129.0 MiB", "no"]])
+
     def test_the_better_option_decides(self):
         stored = {"targets/tiles/rows/free": self.cell(3.0), "targets/tiles/rows/free/no-reorder": self.cell(2.0),
                   "targets/tiles/rows/64M": self.cell(3.0), "targets/tiles/rows/64M/no-reorder": {"unsuited": "late"}}
