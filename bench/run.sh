@@ -4,7 +4,7 @@
 #   bench/run.sh [--quick | --full | --huge] [OPTION...]
 #
 #   --quick            meshes up to 12 million triangles, less than 3 minutes on a quiet machine (default)
-#   --full             also 28 and 56 million, less than 30 minutes; 4 GB of disk
+#   --full             also 28 and 56 million, less than 30 minutes; 5 GB of disk
 #   --huge             also 372 million; 30 GB of disk
 #   --only TABLE,...   these tables: sizes orders extras manifold peers targets
 #   --folder DIR       where meshes and figures are kept (default: build/bench)

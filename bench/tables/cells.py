@@ -346,7 +346,7 @@ def peers(bench):
 
 
 def beyond_memory(bench, name, mesh, memory):
-    """The hierarchy of a graph with all its noise, in memory, and within too little of it."""
+    """The hierarchy of a graph with all its noise: without a limit, and within less memory than the graph takes."""
     for kind, limit in (("free", []), (memory, ["--memory", memory])):
         bench.checked(f"targets/{name}/all-noise/{kind}", mesh, "--buckets", "0", *limit, genus=bench.genus(mesh),
                       runs=1)

@@ -23,10 +23,10 @@ class HierarchySource {
   virtual std::size_t node_count() const = 0;
   virtual bool has_positions() const = 0;
   virtual SweepKey key(NodeId id) = 0;
-  // To be called for each node once, frame by frame: the frame that introduces it.
+  // Says which frame introduces a node. To be called once for each node, frame by frame.
   virtual void introduce(NodeId /*id*/, std::uint32_t /*frame*/) {}
-  // The node of this rank; without positions, zeros. REQUIRES: called once for each node, after introduce() was called
-  // for all: frame by frame, those of a frame in the order of ranks.
+  // The node of this rank; without positions, zeros. REQUIRES: introduce() was called for all nodes. This is called
+  // once for each, frame by frame, and for the nodes of a frame in the order of ranks.
   virtual SettledNode node(NodeId id) = 0;
   // To be called some time before node().
   virtual void prefetch(NodeId /*id*/) const {}

@@ -189,9 +189,10 @@ std::optional<std::uint64_t> make_on_disk(RunContext& run, const StoredGraph& st
   const double paired = (kLoaded + kBuilt) / 2;
   hierarchy.pair_nodes(part_of(poll, 0, paired));
   const std::uint64_t writing = hierarchy_file_bytes(store.node_count(), hierarchy.pair_count());
-  const std::uint64_t steps = sizeof(double) * hierarchy.pair_count() + hierarchy.writing_bytes();
-  if (writing + steps > run.budget.free_bytes() + hierarchy.table_bytes())
-    return std::min(least + writing + steps, bytes_in_memory(stored));
+  const std::uint64_t steps = sizeof(double) * hierarchy.pair_count();
+  const std::uint64_t needed = writing + steps + hierarchy.writing_bytes();
+  if (needed > run.budget.free_bytes() + hierarchy.table_bytes())
+    return std::min(least + needed, bytes_in_memory(stored));
   if (!hierarchy.cancel(records, part_of(poll, paired, kBuilt))) return bytes_in_memory(stored);
   const Reservation memory = run.budget.reserve("layout of the file", writing);
   write_file(run, stored, hierarchy, records, written);

@@ -154,13 +154,12 @@ class ExternalSort {
   void rewind() {
     at_ = 0;
     merger_.reset();
-    merge_charge_.resize(std::max(merge_charge_.bytes(), std::exchange(merge_bytes_, 0)));
+    merge_charge_.resize(merge_bytes_);
   }
-  // Gives the memory for merging back until rewind() reserves it again. REQUIRES: finish() was called; until then,
-  // nothing is read, but scans may be called.
+  // Gives the memory for merging back; rewind() reserves it again. REQUIRES: finish() was called, and nothing is read
+  // until rewind() is. Scans are allowed.
   void set_aside() {
     merger_.reset();
-    merge_bytes_ = std::max(merge_bytes_, merge_charge_.bytes());
     merge_charge_.resize(0);
   }
 
@@ -362,7 +361,8 @@ class ExternalSort {
                                                      std::max<std::uint64_t>(runs_.size(), 2));
     while (fan_in > 2 && !merge_charge_.try_resize(fan_in * cursor + rest))
       fan_in = std::max<std::uint64_t>(2, fan_in / 2);
-    merge_charge_.resize(fan_in * cursor + rest);
+    merge_bytes_ = fan_in * cursor + rest;
+    merge_charge_.resize(merge_bytes_);
     return static_cast<std::size_t>(fan_in);
   }
 
@@ -384,7 +384,7 @@ class ExternalSort {
   std::uint64_t most_bytes_;  // of a buffer
   Buffer filling_, writing_;
   Reservation merge_charge_;
-  std::uint64_t merge_bytes_ = 0;  // that set_aside() gave back
+  std::uint64_t merge_bytes_ = 0;  // that merging takes
   std::exception_ptr failure_;     // of the writer; every later call throws it
   std::optional<SortedRunFile> file_;
   std::vector<RunPlace> runs_;

@@ -100,8 +100,8 @@ class SegmentStore : public GraphSink {
   // REQUIRES, for everything below: finish() was called.
   void rewind_nodes();
   void rewind_arcs();
-  // Gives the memory for merging back until rewind_nodes() and rewind_arcs() reserve it again. REQUIRES: nothing is
-  // read until then.
+  // Gives the memory for merging back; rewind_nodes() and rewind_arcs() reserve it again. REQUIRES: nodes and arcs are
+  // rewound before they are read.
   void set_aside();
   // Replaces `nodes` by the next nodes in order, at most `limit`. False at the end.
   bool read_nodes(std::vector<SettledNode>& nodes, std::size_t limit);

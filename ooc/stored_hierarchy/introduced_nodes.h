@@ -1,22 +1,22 @@
 // Nodes in the order in which a file introduces them: by frame, then by rank.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <vector>
+#include <utility>
 
 #include "io/file/temp_dir.h"
 #include "libreeb/base/ids.h"
 #include "libreeb/base/memory_budget.h"
 #include "libreeb/graph/settled_node.h"
 #include "ooc/sorting/external_sort.h"
+#include "ooc/sorting/record_cursor.h"
 #include "ooc/stored_hierarchy/stored_nodes.h"
 
 namespace reeb::ooc {
 
-// The nodes of a frame are anywhere in the total order, and reading each of them where it is would read a page for
-// each. So frames are sorted by node, meet the nodes in their order, and both are sorted by frame.
+// The nodes of a frame are anywhere in the total order. To look up each of them would read a page for each. So the
+// frames are sorted by node first, then all nodes are read in their own order, and both together are sorted by frame.
 //
 // THROWS: Error{kResource} of the budget or the disk.
 // MEMORY: twice the allowance of a sort, at most.   THREADS: one at a time.
@@ -24,15 +24,17 @@ class IntroducedNodes {
  public:
   // REQUIRES: `temp` and `budget` outlive this.
   IntroducedNodes(const io::TempDir& temp, MemoryBudget& budget, const SortOptions& sorting)
-      : temp_(temp), budget_(budget), sorting_(sorting) {
-    frames_.emplace("frames of nodes", temp, budget, sorting);
-  }
+      : temp_(temp),
+        budget_(budget),
+        sorting_(sorting),
+        frames_(std::in_place, "frames of nodes", temp, budget, sorting) {}
 
   // To be called for each node once, in any order.
   void add(NodeId node, std::uint32_t frame) { frames_->add(Introduction{node, frame}); }
 
-  // The next node in order, which is this one. The first call reads all `nodes`.
-  // THROWS: std::logic_error if another one is next.
+  // The data of this node. The first call reads all `nodes`. REQUIRES: nodes are asked for in the order above, after
+  // all were added.
+  // THROWS: std::logic_error if another node is next.
   SettledNode next(NodeId node, StoredNodes& nodes);
 
   std::uint64_t spilled_bytes() const {
@@ -40,7 +42,6 @@ class IntroducedNodes {
   }
 
  private:
-  static constexpr std::size_t kAtOnce = 4096;  // records that are read
   struct Introduction {
     NodeId node;
     std::uint32_t frame = 0;
@@ -61,8 +62,7 @@ class IntroducedNodes {
   const SortOptions sorting_;
   std::optional<ExternalSort<Introduction>> frames_;  // until sort()
   std::optional<ExternalSort<Node>> sorted_;
-  std::vector<Node> batch_;  // of sorted_, the next of which is at_
-  std::size_t at_ = 0;
+  RecordCursor<Node> cursor_;  // in sorted_
   std::uint64_t spilled_ = 0;
 };
 

@@ -29,8 +29,8 @@ class KeptIds {
     return word.before + static_cast<std::uint32_t>(std::popcount(word.kept & low_bits(id % kBits)));
   }
 
-  // Calls stays(id) for each id that is kept, ascending; those for which it is false are no longer kept. Until it has
-  // returned for the next id that is kept, rank(id) is what it was before.
+  // Calls stays(id) for each id that is kept, ascending. Those for which it returns false are no longer kept. During
+  // such a call, rank(id) is still the rank from before.
   template <class Stays>
   void keep_if(const Stays& stays) {
     std::uint32_t before = 0;

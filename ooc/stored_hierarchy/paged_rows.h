@@ -1,4 +1,4 @@
-// A row of entries for each of many ids, in pages, of which those that are no longer needed can be dropped.
+// A row of entries for each of many ids, in pages. Rows that are no longer needed can be dropped.
 #pragma once
 
 #include <algorithm>
@@ -18,25 +18,25 @@
 
 namespace reeb::ooc {
 
-// All that is known of an id is in one page, column by column, so that whoever needs several entries of it waits for
-// one page. Rows are in the order of ids. When rows are dropped, those that are left move together, so that fewer
-// pages hold them.
+// All entries of an id are in one page, so whoever needs several of them waits for one page. Within a page, entries are
+// stored column by column. Rows are in the order of ids. When rows are dropped, the others move together into fewer
+// pages.
 //
 // THROWS: Error{kResource} if the disk is full, or the budget lacks the smallest working set.
 // MEMORY: as PageCache and KeptIds.   THREADS: one at a time.
 class PagedRows {
  public:
-  // The memory without which it cannot be.
+  // It needs at least this much memory.
   static constexpr std::uint64_t kLeastBytes = PageCache::kRequiredFrames * PageCache::kPageBytes;
 
   static constexpr std::size_t kMostRowBytes = 64;
 
-  // A column is an entry of each row.
+  // One entry of each row.
   template <class T>
   struct Column {
     static_assert(std::is_trivially_copyable_v<T> && alignof(T) <= 16);
     std::size_t begin;  // of the entries in a page
-    T fill;             // an entry that was never set, and that of an id without a row
+    T fill;             // value of an entry that was never set, and of an id without a row
   };
 
   // `row_bytes` is that of all columns together, at most kMostRowBytes.

@@ -15,11 +15,12 @@ constexpr std::size_t kAtOnce = 4096;  // records that are read
 
 // Per node and per arc in the tables of a Canceller, and per arc in StoredLists.
 constexpr std::size_t kNodeBytes = 16 + 8 + 4 + 4, kArcBytes = 32 + 4, kListBytes = 16;
-// Per node: for the ids that are kept; while nodes are paired; and after that, for the canceller's bits and exits.
+// Bytes per node for KeptIds of nodes and arcs; while nodes are paired; and after that, for the canceller's bits and
+// exits.
 constexpr std::uint64_t kIdBytes = 1, kPairingBytes = 16, kCancellingBytes = 1;
 constexpr std::uint64_t kLeastSort = 512 << 10, kSlack = 512 << 10;
 
-// Rows are dropped when this part of them is not needed: one in so many.
+// Rows are dropped when one in so many is no longer needed.
 constexpr std::uint64_t kDropShare = 5;
 
 // The nodes as buckets know them.
@@ -44,7 +45,7 @@ StoredHierarchy::Shares StoredHierarchy::share_out(std::uint64_t free, std::uint
   Shares shares;
   shares.sort = std::clamp<std::uint64_t>(free / 16, kLeastSort, 8 << 20);
   shares.nodes = std::max(free / (embeds ? 6 : 24), PagedRows::kLeastBytes);
-  // More is allowed when nodes are paired.
+  // More is allowed after pairing.
   const std::uint64_t taken = 2 * shares.sort + shares.nodes + (kIdBytes + kPairingBytes) * nodes + kSlack;
   shares.tables = free - std::min(free, taken);
   return shares;
@@ -144,18 +145,12 @@ void StoredHierarchy::add_pair(const PersistencePair& pair) {
 }
 
 void StoredHierarchy::rewind_pairs() {
-  pairs_.rewind();
-  batch_.clear();
-  at_ = 0;
+  cursor_.rewind(pairs_);
   pair_ = 0;
 }
 
 bool StoredHierarchy::next_ranked(RankedPair& ranked) {
-  if (at_ == batch_.size()) {
-    at_ = 0;
-    if (!pairs_.read(batch_, kAtOnce)) return false;
-  }
-  ranked = batch_[at_++];
+  if (!cursor_.next(pairs_, ranked)) return false;
   ranked.pair.kept = kept_[pair_++];
   return true;
 }
@@ -215,8 +210,8 @@ std::uint64_t StoredHierarchy::steps_between_drops() const {
   return std::max<std::uint64_t>(tables_->nodes().count() / 2 / kDropShare, 1);
 }
 
-// Drops the rows of what is no longer in the graph, if memory does not hold all rows. Returns the number of steps until
-// the next time.
+// Drops the rows of what is no longer in the graph, unless memory holds all rows. Returns the number of steps until it
+// is to be called again.
 template <class Graph>
 std::uint64_t StoredHierarchy::drop_rows(const Graph& graph) {
   if (tables_->nodes().fits_in_memory() && tables_->arcs().fits_in_memory()) return pairs_.size();

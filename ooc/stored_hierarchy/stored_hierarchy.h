@@ -14,6 +14,7 @@
 #include "libreeb/port/record_sink.h"
 #include "ooc/reeb_file/hierarchy_source.h"
 #include "ooc/sorting/external_sort.h"
+#include "ooc/sorting/record_cursor.h"
 #include "ooc/stored_graph/segment_store.h"
 #include "ooc/stored_hierarchy/introduced_nodes.h"
 #include "ooc/stored_hierarchy/paged_tables.h"
@@ -28,8 +29,8 @@ struct CancelledBefore {
 using SortedPairs = ExternalSort<RankedPair, PlainCodec<RankedPair>, CancelledBefore>;
 
 // The same steps in the same order as build_hierarchy(), on the same numbers of nodes and arcs, so pairs and records
-// are the same. But the tables of the canceller are in pages, pairs are sorted on disk, and keys, positions and lists
-// of buckets are read where they are needed. Noise is local: the nodes of a pair of small persistence are near each
+// are the same. But the tables of the canceller and the nodes are in pages, pairs are sorted on disk, and lists of
+// buckets are read where they are needed. Noise is local: the nodes of a pair of small persistence are near each
 // other in the total order, and so are their arcs. So a step finds nearly all it needs in few pages. Where that is not
 // so, as with a random function, a step would wait for dozens of pages; then it gives up.
 //
@@ -39,7 +40,7 @@ class StoredHierarchy : public HierarchySource {
   struct Options {
     std::optional<int> bucket_exponent = {};  // without one there is no embedding
     bool background = true;                   // sort in separate threads
-    std::uint64_t most_pages = 32;            // that a pair may read again, on average; scans take one
+    std::uint64_t most_pages = 32;            // that a pair may read again, on average; scans take about one
   };
 
   // The memory that it needs at least. With several times as much, it is faster.
@@ -48,13 +49,13 @@ class StoredHierarchy : public HierarchySource {
   // REQUIRES: all of them outlive this; free_bytes() of the budget is at least least_bytes(). `store` is finished.
   StoredHierarchy(SegmentStore& store, const io::TempDir& temp, MemoryBudget& budget, const Options& options);
 
-  // Reads the graph and pairs its nodes. The store is not needed afterwards.
+  // Reads the graph and pairs its nodes. The store is not needed afterwards, and is set aside.
   void pair_nodes(const Poll& poll);
   // Cancels all pairs but Ext0. False if it gave up because pages of the tables are asked for at random; then there is
   // no hierarchy to write. REQUIRES: pair_nodes() was called.
   bool cancel(RecordSink& records, const Poll& poll);
 
-  // The memory that writing takes here, at most.
+  // The most memory that it reserves while the file is written.
   std::uint64_t writing_bytes() const { return 2 * shares_.sort; }
   // The memory of the tables, which cancel() gives back.
   std::uint64_t table_bytes() const { return tables_ ? tables_->resident_bytes() : 0; }
@@ -99,9 +100,9 @@ class StoredHierarchy : public HierarchySource {
   void add_pair(const PersistencePair& pair);
   template <class Canceller>
   bool cancel_all(Canceller& canceller, const Poll& poll);
+  std::uint64_t steps_between_drops() const;
   template <class Graph>
   std::uint64_t drop_rows(const Graph& graph);
-  std::uint64_t steps_between_drops() const;
   bool next_ranked(RankedPair& ranked);
 
   SegmentStore& store_;
@@ -116,10 +117,9 @@ class StoredHierarchy : public HierarchySource {
   std::optional<StoredLists> lists_;
   std::optional<IntroducedNodes> introduced_;  // when all is cancelled
   SortedPairs pairs_;
-  std::vector<RankedPair> batch_;  // of pairs_, the next of which is at_
-  std::size_t at_ = 0;
-  std::uint64_t pair_ = 0;  // number of the next pair
-  std::vector<bool> kept_;  // by pair
+  RecordCursor<RankedPair> cursor_;  // in pairs_
+  std::uint64_t pair_ = 0;           // number of the next pair
+  std::vector<bool> kept_;           // by pair
   Reservation steps_charge_;
   std::vector<double> persistence_;
   std::vector<NodeId> isolated_;

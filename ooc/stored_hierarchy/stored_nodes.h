@@ -7,7 +7,7 @@
 #include "libreeb/base/ids.h"
 #include "libreeb/base/memory_budget.h"
 #include "libreeb/base/sweep_key.h"
-#include "ooc/stored_graph/segment_store.h"
+#include "libreeb/graph/settled_node.h"
 #include "ooc/stored_hierarchy/paged_rows.h"
 
 namespace reeb::ooc {
@@ -28,9 +28,6 @@ class StoredNodes {
     rows_.change(positions_, node.value()) = to.position;
   }
 
-  // Raises the allowance to this, if it is less.
-  void allow(std::uint64_t bytes) { rows_.pages().allow(bytes); }
-  std::uint64_t resident_bytes() const { return rows_.pages().resident_bytes(); }
   std::uint64_t spilled_bytes() const { return rows_.pages().spilled_bytes(); }
 
  private:

@@ -8,12 +8,12 @@
 namespace reeb::ooc {
 namespace {
 
-void fill_page(std::span<std::byte> page, std::span<const std::byte> pattern) {
-  std::size_t filled = std::min(pattern.size(), page.size());
-  std::memcpy(page.data(), pattern.data(), filled);
-  while (filled < page.size()) {  // doubling keeps the pattern in step
-    const std::size_t more = std::min(filled, page.size() - filled);
-    std::memcpy(page.data() + filled, page.data(), more);
+void fill_page(std::byte* bytes, std::span<const std::byte> pattern) {
+  std::size_t filled = std::min(pattern.size(), PageCache::kPageBytes);
+  std::memcpy(bytes, pattern.data(), filled);
+  while (filled < PageCache::kPageBytes) {  // doubling keeps the pattern in step
+    const std::size_t more = std::min(filled, PageCache::kPageBytes - filled);
+    std::memcpy(bytes + filled, bytes, more);
     filled += more;
   }
 }
@@ -39,7 +39,7 @@ std::byte* PageCache::fault(std::size_t page, bool writing) {
     file_.read_at(page * kPageBytes, {frame.bytes, kPageBytes});
     ++refetches_;
   } else {
-    fill_page({frame.bytes, kPageBytes}, usual ? usual_ : fill_);
+    fill_page(frame.bytes, usual ? usual_ : fill_);
   }
   frame.page = page;
   // A page of the second pattern is nowhere else, so it counts as changed.
