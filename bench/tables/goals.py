@@ -3,7 +3,7 @@
 # Why a target is not reached where it is not; what profiles and runs have shown.
 WHY = {
     "threads": "reading and numbering are in one thread, gluing in another; only the sweep is divided",
-    "speed": "a run spends about 65 ns of processor time a triangle, in many places",
+    "speed": "the processor time of a run is spread over many parts, of which none is large",
     "huge": "the last pass of noise removal holds the noise that was left, when the live graph is gone",
     "random function": "more than half of the vertices are nodes, so paths are long and most of the graph is written out",
     "tiles": "pieces that come in no order are sorted on disk, or glued with long borders",
