@@ -44,7 +44,7 @@ bool has_huge_pages() {
 
 TEST(ProcessMemory, LargeBlocksAskForHugePages) {
   set_up_process_memory();
-  constexpr std::size_t kSmall = 4 << 20, kLarge = 64 << 20;
+  constexpr std::size_t kSmall = 3 << 20, kLarge = 4 << 20;
   const auto small = std::make_unique_for_overwrite<std::byte[]>(kSmall);
   const auto large = std::make_unique_for_overwrite<std::byte[]>(kLarge);
   EXPECT_EQ(wants_huge_pages(large.get(), kLarge), has_huge_pages());

@@ -29,7 +29,7 @@ namespace {
 
 constexpr std::size_t kHugePage = std::size_t{2} << 20;
 // In smaller blocks, the last huge page would be a large part of what is not used yet.
-constexpr std::size_t kLargeBlock = 8 * kHugePage;
+constexpr std::size_t kLargeBlock = 2 * kHugePage;
 
 void ask_for_huge_pages(void* block, std::size_t size) {
   const auto address = reinterpret_cast<std::uintptr_t>(block);
