@@ -3,7 +3,7 @@
 # Why a target is not reached where it is not; what profiles and runs have shown.
 WHY = {
     "threads": "reading and numbering are in one thread, gluing in another; only the sweep is divided",
-    "speed": "the processor time of a run is spread over many parts, of which none is large",
+    "speed": "no function takes a tenth of the processor time, and the system takes a fifth",
     "huge": "the last pass of noise removal holds the noise that was left, when the live graph is gone",
     "random function": "more than half of the vertices are nodes, so paths are long and most of the graph is written out",
     "tiles": "pieces that come in no order are sorted on disk, or glued with long borders",
@@ -13,6 +13,7 @@ WHY = {
     "hierarchy": "each cancellation touches nodes, arcs and lists of buckets all over memory, and each arc that changes "
                  "is stored with its whole list",
     "beyond memory": "pages of the graph are written and read again, 2 µs each",
+    "start": "loading the program and its libraries takes half of it",
     "wide": "a quarter of the time is gluing of long borders, and little else can go on while a stretch is read",
 }
 
@@ -102,7 +103,7 @@ def goals(figures):
     yield Goal("temporary files on disk against in memory, z, largest mesh", "no difference (within 5 %)",
                out_of_core(figures), lambda f: f"{100 * (f - 1):+.1f} %", lambda f: f <= 1.05, "")
     yield Goal("the first 1,000 nodes of a file, whole process", "at most 20 ms", get("extras/level/1000"),
-               lambda f: f"{1e3 * f:.1f} ms", lambda f: f <= 0.02, "")
+               lambda f: f"{1e3 * f:.1f} ms", lambda f: f <= 0.02, WHY["start"])
     yield Goal("reading OBJ and ASCII PLY, in a second of processor time", "at least 475 and 425 MB",
                both(get("extras/readers", "obj"), get("extras/readers", "ascii_ply")),
                lambda f: f"{f[0] / 1e6:.0f} and {f[1] / 1e6:.0f} MB", lambda f: f[0] >= 475e6 and f[1] >= 425e6,

@@ -28,7 +28,7 @@ void set_up_process_memory() {
 namespace {
 
 constexpr std::size_t kHugePage = std::size_t{2} << 20;
-// In smaller blocks, the last huge page would be a large part of what is not used yet.
+// The least that has a whole huge page wherever it begins.
 constexpr std::size_t kLargeBlock = 2 * kHugePage;
 
 void ask_for_huge_pages(void* block, std::size_t size) {
