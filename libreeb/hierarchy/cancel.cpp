@@ -157,7 +157,7 @@ Hierarchy build_hierarchy(ReebGraph& graph, PackedLists buckets, int exponent, R
   const Poll pairing = part_of(poll, 0, kPairing), cancelling = part_of(poll, kPairing, 1);
   Hierarchy hierarchy;
   // The sweeps and the working graph together would hold more than cancelling does; sorting holds less.
-  UnsortedPairs pairs = unsorted_pairs(graph, pairing, both);
+  SweptPairs pairs = swept_pairs(graph, pairing, both);
   std::optional<WorkingGraph> working;
   const auto sort = [&] {
     hierarchy.pairs = sorted_pairs(graph, std::move(pairs));

@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <tuple>
 
 #include "libreeb/base/union_find.h"
 #include "libreeb/graph/bottleneck_forest.h"
 #include "libreeb/hierarchy/hierarchy.h"
+#include "libreeb/hierarchy/pairing.h"
 
 namespace reeb {
 
@@ -84,22 +84,16 @@ void pair_components(std::uint32_t nodes, const UpSweep& up, DownSweep& down, co
     if (up.is_minimum(x)) pair(PersistencePair{NodeId(x), NodeId(down.maximum(x)), PairType::kExt0});
 }
 
-struct RankedPair {
-  double persistence;
-  PersistencePair pair;
-};
-
 // The order of cancelling, Ext0 last.
 inline bool is_cancelled_before(const RankedPair& a, const RankedPair& b) {
   const auto rank_of = [](PairType type) {
     constexpr int kRanks[] = {3, 0, 1, 2};  // of Ext0, Ext1, Ord0, Rel1
     return kRanks[static_cast<std::size_t>(type)];
   };
-  const auto key = [](const RankedPair& k) {
-    return std::tuple(k.pair.type == PairType::kExt0, k.persistence, k.pair.hi);
-  };
-  const auto ka = key(a), kb = key(b);
-  if (ka != kb) return ka < kb;
+  const bool is_a_last = a.pair.type == PairType::kExt0, is_b_last = b.pair.type == PairType::kExt0;
+  if (is_a_last != is_b_last) return is_b_last;
+  if (a.persistence != b.persistence) return a.persistence < b.persistence;
+  if (a.pair.hi != b.pair.hi) return a.pair.hi < b.pair.hi;
   if (a.pair.lo != b.pair.lo) return b.pair.lo < a.pair.lo;
   return rank_of(a.pair.type) < rank_of(b.pair.type);
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "libreeb/base/prefetch.h"
 #include "libreeb/hierarchy/pair_sweeps.h"
 
 namespace reeb {
@@ -53,41 +54,60 @@ DownSweep sweep_down(const ReebGraph& graph, std::vector<PersistencePair>& pairs
   return sweep;
 }
 
+// In the order of cancelling.
+std::vector<RankedPair> ranked(const ReebGraph& graph, const std::vector<PersistencePair>& pairs) {
+  constexpr std::size_t kPairsAhead = 16;
+  std::vector<RankedPair> result;
+  result.reserve(pairs.size());
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    if (i + kPairsAhead < pairs.size())
+      for (const NodeId node : {pairs[i + kPairsAhead].lo, pairs[i + kPairsAhead].hi})
+        prefetch(&graph.nodes[node.value()]);
+    result.push_back({persistence_of(graph, pairs[i]), pairs[i]});
+  }
+  std::sort(result.begin(), result.end(), is_cancelled_before);
+  return result;
+}
+
 }  // namespace
 
 void sort_for_cancelling(const ReebGraph& graph, std::vector<PersistencePair>& pairs) {
-  std::vector<RankedPair> ranked;
-  ranked.reserve(pairs.size());
-  for (const PersistencePair& pair : pairs) ranked.push_back({persistence_of(graph, pair), pair});
-  std::sort(ranked.begin(), ranked.end(), is_cancelled_before);
-  std::transform(ranked.begin(), ranked.end(), pairs.begin(), [](const RankedPair& k) { return k.pair; });
+  const std::vector<RankedPair> sorted = ranked(graph, pairs);
+  std::ranges::transform(sorted, pairs.begin(), &RankedPair::pair);
 }
 
-UnsortedPairs unsorted_pairs(const ReebGraph& graph, const Poll& poll, const DoBoth& both) {
-  UnsortedPairs pairs;
+SweptPairs swept_pairs(const ReebGraph& graph, const Poll& poll, const DoBoth& both) {
+  SweptPairs pairs;
   const auto nodes = static_cast<std::uint32_t>(graph.node_count());
   UpSweep up(0);
   DownSweep down(0);
   const auto sweep_upwards = [&] { up = sweep_up(graph, pairs.rising, poll); };
-  const auto sweep_downwards = [&] { down = sweep_down(graph, pairs.falling); };
+  const auto sweep_downwards = [&] {
+    std::vector<PersistencePair> falling;
+    down = sweep_down(graph, falling);
+    pairs.falling = ranked(graph, falling);
+  };
   do_both(both, sweep_upwards, sweep_downwards);
   pair_components(nodes, up, down, [&](const PersistencePair& pair) { pairs.components.push_back(pair); });
   return pairs;
 }
 
-std::vector<PersistencePair> sorted_pairs(const ReebGraph& graph, UnsortedPairs pairs) {
-  std::vector<PersistencePair> all = std::move(pairs.rising);
-  all.reserve(all.size() + pairs.falling.size() + pairs.components.size());
-  for (std::vector<PersistencePair>* some : {&pairs.falling, &pairs.components}) {
-    all.insert(all.end(), some->begin(), some->end());
-    *some = std::vector<PersistencePair>();
+std::vector<PersistencePair> sorted_pairs(const ReebGraph& graph, SweptPairs pairs) {
+  const std::vector<RankedPair> rising = ranked(graph, pairs.rising);
+  pairs.rising = {};
+  std::vector<PersistencePair> all;
+  all.reserve(rising.size() + pairs.falling.size() + pairs.components.size());
+  for (auto a = rising.begin(), b = pairs.falling.cbegin(); a != rising.end() || b != pairs.falling.end();) {
+    const bool takes_a = b == pairs.falling.end() || (a != rising.end() && is_cancelled_before(*a, *b));
+    all.push_back((takes_a ? a++ : b++)->pair);
   }
-  sort_for_cancelling(graph, all);
+  sort_for_cancelling(graph, pairs.components);
+  all.insert(all.end(), pairs.components.begin(), pairs.components.end());
   return all;
 }
 
 std::vector<PersistencePair> persistence_pairs(const ReebGraph& graph, const Poll& poll) {
-  return sorted_pairs(graph, unsorted_pairs(graph, poll, {}));
+  return sorted_pairs(graph, swept_pairs(graph, poll, {}));
 }
 
 }  // namespace reeb

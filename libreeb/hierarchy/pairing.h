@@ -22,15 +22,23 @@ inline double persistence_of(const ReebGraph& graph, const PersistencePair& pair
 // MEMORY: 4 bytes per arc, 20 bytes per node and 36 bytes per pair (12 of them the result).
 std::vector<PersistencePair> persistence_pairs(const ReebGraph& graph, const Poll& poll = {});
 
-// The same in two parts. All pairs, those of one type after the other.
-//
-// MEMORY: without the result, 4 bytes per arc and 20 bytes per node.   THREADS: `poll` is called in this one.
-struct UnsortedPairs {
-  std::vector<PersistencePair> rising, falling, components;  // Ord0 and Ext1, Rel1, Ext0
+// A pair with what it is sorted by first.
+struct RankedPair {
+  double persistence;
+  PersistencePair pair;
 };
-UnsortedPairs unsorted_pairs(const ReebGraph& graph, const Poll& poll, const DoBoth& both);
+
+// The same in two parts. The upward sweep takes longer than the downward one, whose thread then sorts what it found.
+//
+// MEMORY: without the result, 4 bytes per arc and 20 bytes per node; with it, up to 36 bytes per pair.
+// THREADS: `poll` is called in this one.
+struct SweptPairs {
+  std::vector<PersistencePair> rising, components;  // Ord0 and Ext1, Ext0
+  std::vector<RankedPair> falling;                  // Rel1, in the order of cancelling
+};
+SweptPairs swept_pairs(const ReebGraph& graph, const Poll& poll, const DoBoth& both);
 // MEMORY: 36 bytes per pair, 12 of them the result.
-std::vector<PersistencePair> sorted_pairs(const ReebGraph& graph, UnsortedPairs pairs);
+std::vector<PersistencePair> sorted_pairs(const ReebGraph& graph, SweptPairs pairs);
 
 // Sorts pairs into the order of cancelling: Ext0 after all others; then persistence ascending, hi
 // ascending, lo descending, Ext1 before Ord0 before Rel1. So a pair inside another's interval always comes before it.
