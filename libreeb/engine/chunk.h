@@ -73,4 +73,13 @@ struct Chunk {
   }
 };
 
+// Empties a buffer that is filled anew for each chunk, and makes room for n elements. New room is an eighth more, so
+// that a chunk that is a little larger than all before needs no new memory: pages that are new to the process can take
+// longer than what is done with them.
+template <class Buffer>
+void clear_with_room(Buffer& buffer, std::size_t n) {
+  buffer.clear();
+  if (buffer.capacity() < n) buffer.reserve(n + n / 8);
+}
+
 }  // namespace reeb

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "libreeb/engine/chunk.h"
+
 namespace reeb {
 namespace {
 
@@ -51,6 +53,7 @@ void VertexRanks::sort(std::span<const double> values, std::span<const VertexId>
   order_.resize(n);
   if (n == 0) return;
   const Buckets bucket(values, n);
+  clear_with_room(bucket_end_, n);
   bucket_end_.assign(n, 0);
   for (const double value : values) ++bucket_end_[bucket(value)];
   std::uint32_t sum = 0;

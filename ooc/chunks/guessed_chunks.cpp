@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "libreeb/base/error.h"
+#include "libreeb/engine/chunk.h"
 #include "ooc/chunks/coherence.h"
 #include "ooc/threads/parallel.h"
 
@@ -60,10 +61,12 @@ bool GuessedChunks::read_triangles(Chunk& chunk, const LookUp& look_up) {
   const std::size_t most = 3 * size_.size();
   std::size_t count = 0;
   numbers_.start(chunk.ids, size_.size() / 2);  // of a surface, whose triangles have half a vertex each
-  chunk.corners.resize(most);
+  if (chunk.corners.capacity() < most) clear_with_room(chunk.corners, most);
   while (count < most && chunk.vertex_count() <= options_.chunk.most_vertices) {
     const auto corners = reading_.next(std::min(kTrianglesInCache, (most - count) / 3));
     if (corners.empty()) break;
+    // Of a small mesh, not all of the room is used.
+    if (chunk.corners.size() < count + corners.size()) chunk.corners.resize(count + corners.size());
     numbers_.number(corners, std::span(chunk.corners).subspan(count, corners.size()));
     count += corners.size();
   }

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "libreeb/engine/chunk.h"
 #include "libreeb/port/indexed_mesh.h"
 #include "ooc/chunks/chunk_source.h"
 #include "ooc/chunks/function_values.h"
@@ -21,13 +22,9 @@ class VertexLookup {
   void look_up(IndexedMesh& mesh, WorkItem& item) {
     constexpr std::size_t kVerticesAtOnce = 1024;  // so that columns of them stay in the first-level cache
     const std::size_t n = item.chunk.vertex_count();
-    item.chunk.positions.clear();
-    item.chunk.positions.reserve(n);
+    clear_with_room(item.chunk.positions, n);
     item.values.resize(functions_.function_count());
-    for (auto& values : item.values) {
-      values.clear();
-      values.reserve(n);
-    }
+    for (auto& values : item.values) clear_with_room(values, n);
     for (std::size_t first = 0; first < n; first += kVerticesAtOnce)
       look_up(mesh, std::span(item.chunk.ids).subspan(first, std::min(kVerticesAtOnce, n - first)), item);
   }

@@ -40,6 +40,8 @@ GraphFileWriter::GraphFileWriter(const std::string& path, FileMeta meta, const O
       announced_nodes_(options.nodes),
       background_(options.background),
       components_(options.nodes, options.temp, options.budget) {
+  // Else they would grow step by step, each time into pages that are new to the process.
+  for (GraphFrame* frame : {&frame_, &writing_}) frame->arcs.reserve(kFrameTargetBytes / kArcCost + 1);
   if (options.ends == ArcEnds::kKeys) keys_.emplace(*options.temp);
   if (options.ends == ArcEnds::kKeysInMemory)
     rank_of_.assign(static_cast<std::size_t>(std::max(options.vertex_bound, header_.mesh_vertices)), kNoNode);

@@ -17,7 +17,7 @@ Poll stage_poll(const RunContext& run) {
 }
 
 WrittenGraph write_graph(RunContext& run, const StoredGraph& graph, const FileMeta& meta) {
-  constexpr std::size_t kNodesAtOnce = 16384, kBytesPerArc = 1000, kVerticesPerNodeForTable = 16;
+  constexpr std::size_t kNodesAtOnce = 4096, kBytesPerArc = 1000, kVerticesPerNodeForTable = 16;
   SegmentStore& store = *graph.store;
   GraphFileWriter::Options writing{.nodes = store.node_count(),
                                    .has_embedding = run.embeds(),

@@ -72,8 +72,8 @@ class ExternalSort {
     size_ += records.size();
     while (!records.empty()) {
       auto& buffer = filling_.batch.records;
-      if (buffer.size() == buffer.capacity() && !grow_records()) flush();
-      const std::size_t count = std::min(records.size(), buffer.capacity() - buffer.size());
+      if (buffer.size() == filling_.room && !grow_records()) flush();
+      const std::size_t count = std::min(records.size(), filling_.room - buffer.size());
       buffer.insert(buffer.end(), records.begin(), records.begin() + static_cast<std::ptrdiff_t>(count));
       records = records.subspan(count);
     }
@@ -83,8 +83,8 @@ class ExternalSort {
   void add(const Record& record, std::span<const std::byte> payload) requires CarriesPayload<Record> {
     largest_payload_ = std::max<std::uint64_t>(largest_payload_, payload.size());
     ++size_;
-    auto& buffer = filling_.batch.records;
-    if ((buffer.size() == buffer.capacity() && !grow_records()) || !filling_.grow_pool(payload.size(), most_bytes_)) {
+    if ((filling_.batch.records.size() == filling_.room && !grow_records()) ||
+        !filling_.grow_pool(payload.size(), most_bytes_)) {
       flush();
       if (!filling_.grow_pool(payload.size(), most_bytes_)) filling_.replace_pool(payload.size());
     }
@@ -273,7 +273,7 @@ class ExternalSort {
   }
 
   bool grow_records() {
-    if (filling_.batch.records.capacity() != 0) return filling_.grow_records(kBlockRecords, most_bytes_);
+    if (filling_.room != 0) return filling_.grow_records(kBlockRecords, most_bytes_);
     filling_.start(kBlockRecords);
     return true;
   }
@@ -291,7 +291,7 @@ class ExternalSort {
       std::swap(filling_, writing_);
     }
     // If the budget is too small for a second buffer, wait for the first.
-    if (filling_.batch.records.capacity() == 0 && !filling_.try_start(kBlockRecords)) {
+    if (filling_.room == 0 && !filling_.try_start(kBlockRecords)) {
       wait_for_writer();
       std::swap(filling_, writing_);
     }
