@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <iterator>
 #include <new>
 #include <string>
 #include <system_error>
@@ -52,9 +53,31 @@ constexpr const char* kExamples = R"(Examples:
 
 Every command has --help.)";
 
+struct NamedCommand {
+  const char* name;
+  void (*add)(reeb::tools::Program& program);
+};
+
+// In the order of the help.
+constexpr NamedCommand kCommands[] = {
+    {"compute", reeb::tools::add_compute},   {"info", reeb::tools::add_info},
+    {"extract", reeb::tools::add_extract},   {"pairs", reeb::tools::add_pairs},
+    {"plot", reeb::tools::add_plot},         {"verify", reeb::tools::add_verify},
+    {"generate", reeb::tools::add_generate}, {"convert", reeb::tools::add_convert},
+    {"defects", reeb::tools::add_defects},   {"repair", reeb::tools::add_repair},
+    {"function", reeb::tools::add_function}, {"segment", reeb::tools::add_segment},
+    {"report", reeb::tools::add_report},     {"view", reeb::tools::add_view},
+    {"fragment", reeb::tools::add_fragment}, {"glue", reeb::tools::add_glue},
+};
+
+bool is_command(const std::string& word) {
+  return std::ranges::find(kCommands, word, &NamedCommand::name) != std::end(kCommands);
+}
+
 // For a first word that is neither a command nor a file.
-reeb::Error no_such_command(const reeb::tools::Program& program, const std::string& word) {
-  const std::vector<std::string> names = program.command_names();
+reeb::Error no_such_command(const std::string& word) {
+  std::vector<std::string> names;
+  for (const NamedCommand& command : kCommands) names.emplace_back(command.name);
   const std::string near = reeb::tools::nearest(word, names);
   return {reeb::ErrorKind::kUsage,
           "there is no command '" + word + "', and no file of that name" +
@@ -64,18 +87,17 @@ reeb::Error no_such_command(const reeb::tools::Program& program, const std::stri
 
 // `reeb scan.ply` means `reeb compute scan.ply`: a first word that is not a command is the name of a mesh.
 // THROWS: Error{kUsage} if it is neither.
-std::vector<std::string> with_default_command(const reeb::tools::Program& program, std::vector<std::string> words) {
+std::vector<std::string> with_default_command(std::vector<std::string> words) {
   const std::string& first = words[0];
   if (first == "-h" || first == "--help" || first == "--version") return words;
   if (first == "help") {
     if (words.size() == 1) return {"--help"};
-    if (!program.has_command(words[1])) throw no_such_command(program, words[1]);
+    if (!is_command(words[1])) throw no_such_command(words[1]);
     return {words[1], "--help"};
   }
-  if (program.has_command(first)) return words;
+  if (is_command(first)) return words;
   const bool is_name = first.starts_with('-') || first.find_first_of("./") != std::string::npos;
-  if (std::error_code ignored; !is_name && !std::filesystem::exists(first, ignored))
-    throw no_such_command(program, first);
+  if (std::error_code ignored; !is_name && !std::filesystem::exists(first, ignored)) throw no_such_command(first);
   words.insert(words.begin(), "compute");
   return words;
 }
@@ -84,27 +106,16 @@ int run(int argc, char** argv) {
   reeb::tools::Program program("reeb", "Exact Reeb graphs of meshes of any size");
   program.set_version("reeb " REEB_VERSION);
   program.footer(kExamples);
-  reeb::tools::add_compute(program);
-  reeb::tools::add_info(program);
-  reeb::tools::add_extract(program);
-  reeb::tools::add_pairs(program);
-  reeb::tools::add_plot(program);
-  reeb::tools::add_verify(program);
-  reeb::tools::add_generate(program);
-  reeb::tools::add_convert(program);
-  reeb::tools::add_defects(program);
-  reeb::tools::add_repair(program);
-  reeb::tools::add_function(program);
-  reeb::tools::add_segment(program);
-  reeb::tools::add_report(program);
-  reeb::tools::add_view(program);
-  reeb::tools::add_fragment(program);
-  reeb::tools::add_glue(program);
-  if (argc == 1) {
+  const std::vector<std::string> words =
+      argc == 1 ? std::vector<std::string>() : with_default_command(std::vector<std::string>(argv + 1, argv + argc));
+  // The others' options would only take time.
+  const bool knows_command = !words.empty() && is_command(words[0]);
+  for (const NamedCommand& command : kCommands)
+    if (!knows_command || command.name == words[0]) command.add(program);
+  if (words.empty()) {
     fmt::print("{}", program.help());
     return 0;
   }
-  const std::vector<std::string> words = with_default_command(program, std::vector<std::string>(argv + 1, argv + argc));
   if (const auto text = program.run(words)) fmt::print("{}", *text);
   return 0;
 }

@@ -19,6 +19,7 @@
 #include "libreeb/base/memory_budget.h"
 #include "libreeb/base/printable.h"
 #include "ooc/run/explained_error.h"
+#include "ooc/threads/machine_threads.h"
 #include "tools/arguments/arguments.h"
 #include "tools/library/run_files.h"
 #include "tools/mpi/distributed_run.h"
@@ -127,7 +128,7 @@ void compute(reeb::tools::World& world, Arguments arguments) {
   using reeb::tools::print_line;
   if (arguments.functions.empty()) arguments.functions.emplace_back();
   if (arguments.options.threads == 0)
-    arguments.options.threads = std::max(1u, std::thread::hardware_concurrency() / world.ranks_here());
+    arguments.options.threads = std::max(1u, reeb::ooc::machine_threads() / world.ranks_here());
   const std::vector<std::string> outputs = output_names(arguments);
   reeb::tools::take_denoise(arguments);
   if (world.is_root()) check_files(arguments, outputs);
@@ -135,7 +136,6 @@ void compute(reeb::tools::World& world, Arguments arguments) {
   const bool speaks = world.is_root() && !arguments.quiet;
   RunFacts facts;
   facts.path = arguments.mesh;
-  facts.threads = arguments.options.threads;
   arguments.options.opened = [&](const reeb::MeshInfo& info) {
     facts.format = info.format;
     facts.input_bytes = info.file_bytes;
@@ -155,7 +155,6 @@ void compute(reeb::tools::World& world, Arguments arguments) {
 
 void run(reeb::tools::World& world, int argc, char** argv) {
   Arguments arguments;
-  arguments.options.threads = 0;  // the cores of a machine are divided
   reeb::tools::Program program("reeb-mpi", "Exact Reeb graphs of meshes of any size, by many processes");
   program.set_version("reeb-mpi " REEB_VERSION);
   reeb::tools::Command command = program.add_command("compute", "Compute the Reeb graph of a mesh");

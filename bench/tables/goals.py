@@ -111,7 +111,7 @@ def goals(figures):
     yield Goal("start-up on 1,000 triangles", "at most 20 ms and 12 MB",
                both(get("extras/start-up"), get("extras/start-up", "peak_bytes")),
                lambda f: f"{1e3 * f[0]:.1f} ms, {f[1] / 1e6:.1f} MB", lambda f: f[0] <= 0.02 and f[1] <= 12e6,
-               "the libraries and the buffers of the reader are most of it")
+               WHY["start"])
     image = next((side for side in (256, 128) if get(f"extras/image/{side}") is not None), 0)
     yield Goal("images", "at least 2 M voxels/s", ratio(image**3, get(f"extras/image/{image}")), million,
                lambda f: f >= 2e6, "")

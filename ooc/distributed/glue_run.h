@@ -19,7 +19,7 @@ namespace reeb::ooc {
 
 struct GlueOptions {
   std::uint64_t memory_bytes = MemoryBudget::kUnlimited;
-  unsigned threads = 1;
+  unsigned threads = 1;  // 0: all of the machine
   std::string temp_dir;
   bool replace = true;
   bool graph_only = false;               // also if the fragments do not say so

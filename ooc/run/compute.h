@@ -16,6 +16,13 @@
 
 namespace reeb::ooc {
 
+// How large a mesh is, as far as a run goes another way.
+enum class MeshSize : std::uint8_t {
+  kTiny,   // a run takes little more memory than the program by itself
+  kSmall,  // a second thread saves less than it takes to start, and would cost 4 MB
+  kAny,
+};
+
 // A mesh in one of two forms. An indexed mesh is read twice, or once if it seems to be closed and guesses of what is
 // complete hold. A reader is read once: as a stream if it finalizes its vertices; else finalization is guessed, and a
 // copy of the mesh is kept on disk, from which it is run again if a guess was wrong. If too many vertices of a stream
@@ -30,12 +37,13 @@ struct MeshInput {
   // Throws InputChanged if what was read so far does not fit together; empty: nothing can change.
   std::function<void()> check_unchanged = {};
   std::uint64_t reading = 0;  // digest of the options by which it is read
-  bool may_resume = true;     // a later process can read the file at `path` in the same batches
+  MeshSize size = MeshSize::kAny;
+  bool may_resume = true;  // a later process can read the file at `path` in the same batches
 };
 
 struct ComputeOptions {
   std::uint64_t memory_bytes = MemoryBudget::kUnlimited;
-  unsigned threads = 1;
+  unsigned threads = 1;             // 0: all of the machine, but one for a small mesh
   std::size_t chunk_triangles = 0;  // 0: adaptive
   // With a chosen size of chunks: they are cut from stretches that grow up to this many triangles.
   std::size_t stretch_triangles = 0;

@@ -209,7 +209,7 @@ class Ordering {
     auto sorted = reorder(*mesh_, run_.temp, run_.budget,
                           {.allowance_bytes = std::min<std::uint64_t>(run_.budget.free_bytes() / 2, kSortBytesLimit),
                            .coordinates = std::min(input_.dimension, 3u),
-                           .threads = run_.options.threads,
+                           .threads = run_.threads,
                            .in_slabs = origin_ == ChunkOrigin::kSortedInSlabs,
                            .progress = [this](double done) { tell_sorting(kSorted * done); }});
     notes_.push_back("neighbouring triangles lie far apart in this file, so they were sorted on disk first");

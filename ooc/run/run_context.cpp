@@ -1,13 +1,20 @@
 #include "ooc/run/run_context.h"
 
 #include "libreeb/graph/bucket.h"
+#include "ooc/threads/machine_threads.h"
 
 namespace reeb::ooc {
 namespace {
 
-MemoryRequest memory_request(const MeshInput& input, std::size_t functions, const ComputeOptions& options) {
+unsigned threads_for(const MeshInput& input, const ComputeOptions& options) {
+  if (options.threads != 0) return options.threads;
+  return input.size == MeshSize::kAny ? machine_threads() : 1;
+}
+
+MemoryRequest memory_request(const MeshInput& input, unsigned threads, std::size_t functions,
+                             const ComputeOptions& options) {
   return {.limit_bytes = options.memory_bytes,
-          .threads = options.threads,
+          .threads = threads,
           .functions = functions,
           .chunk_triangles = options.chunk_triangles,
           .stretch_triangles = options.stretch_triangles,
@@ -35,7 +42,9 @@ RunContext::RunContext(const MeshInput& input, std::span<VertexFunction* const> 
     : functions(run_functions),
       outputs(run_outputs),
       options(run_options),
-      plan(plan_memory(memory_request(input, functions.size(), options))),
+      size(input.size),
+      threads(threads_for(input, options)),
+      plan(plan_memory(memory_request(input, threads, functions.size(), options))),
       budget(plan.budget_bytes, plan.set_aside_bytes),
       temp(options.temp_dir.empty() ? io::TempDir::default_folder(outputs[0]) : options.temp_dir),
       values(functions, input.dimension),

@@ -54,7 +54,9 @@ struct RunContext {
   const std::span<VertexFunction* const> functions;
   const std::span<const std::string> outputs;
   const ComputeOptions& options;
-  const MemoryPlan plan;  // the plan while the front is not known
+  const MeshSize size;     // of the mesh
+  const unsigned threads;  // at most; a small budget has fewer: plan.threads
+  const MemoryPlan plan;   // the plan while the front is not known
   MemoryBudget budget;
   const io::TempDir temp;
   FunctionValues values;

@@ -258,6 +258,7 @@ ComputeResult result_of(const RunContext& run, const FirstStageResult& first, st
   result.guessed_vertices = first.guessed_vertices;
   result.revoked_guesses = first.revoked_guesses;
   result.spilled_bytes = first.spilled_bytes;
+  result.threads = run.threads;
   result.live = first.live;
   result.seconds = first.seconds;
   result.notes = first.notes;

@@ -3,16 +3,14 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
-#include <algorithm>
-#include <thread>
-
 #include "ooc/threads/kept_arena.h"
+#include "ooc/threads/machine_threads.h"
 #include "ooc/threads/pipeline_order.h"
 
 namespace reeb::ooc {
 
 void in_parallel(unsigned threads, std::size_t count, const std::function<void(std::size_t)>& work) {
-  if (threads == 0) threads = std::max(1u, std::thread::hardware_concurrency());
+  if (threads == 0) threads = machine_threads();
   if (threads == 1) {
     for (std::size_t i = 0; i < count; ++i) work(i);
     return;

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <compare>
-#include <thread>
 #include <utility>
 
 #include "libreeb/base/error.h"
 #include "libreeb/base/sweep_key.h"
 #include "ooc/sorting/external_sort.h"
 #include "ooc/tables/triangle_log.h"
+#include "ooc/threads/machine_threads.h"
 #include "ooc/whole_mesh/fiedler.h"
 #include "ooc/whole_mesh/reorder.h"
 #include "ooc/whole_mesh/triangle_stretches.h"
@@ -153,7 +153,7 @@ std::unique_ptr<IndexedMesh> sorted_along_hilbert(std::unique_ptr<IndexedMesh> m
   ReorderOptions options;
   options.allowance_bytes = 2 * space.share();
   options.coordinates = dimension;
-  options.threads = std::max(1u, std::thread::hardware_concurrency());
+  options.threads = machine_threads();
   options.progress = progress;
   return reorder(*mesh, space.temp, space.budget, options);
 }

@@ -8,12 +8,14 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "libreeb/base/error.h"
 #include "ooc/reeb_file/reeb_file.h"
 #include "tests/support/files.h"
 #include "tests/support/scratch.h"
+#include "tools/library/run_input.h"
 
 namespace reeb::test {
 namespace {
@@ -70,6 +72,35 @@ TEST(Compute, SeveralFunctionsAreWhatTheyAreAlone) {
     compute(mesh, functions[i], folder / "alone.reeb", {.threads = 1, .replace = true});
     EXPECT_EQ(read_file(folder / "alone.reeb"), read_file(outputs[i]));
   }
+}
+
+TEST(Compute, ASmallMeshHasOneThreadUnlessToldOtherwise) {
+  const Folder folder;
+  const std::string mesh = pyramid(folder);
+  EXPECT_EQ(compute(mesh, "z", folder / "one.reeb").threads, 1u);
+  EXPECT_EQ(compute(mesh, "z", folder / "two.reeb", {.threads = 2}).threads, 2u);
+  EXPECT_EQ(read_file(folder / "one.reeb"), read_file(folder / "two.reeb"));
+}
+
+TEST(Compute, TheSizeOfAMeshIsThatOfItsCellsOrElseOfItsBytes) {
+  using enum ooc::MeshSize;
+  MeshInfo mesh;
+  EXPECT_EQ(size_of(mesh), kAny);  // a pipe, of any length
+  mesh.file_bytes = 4'000'039;
+  EXPECT_EQ(size_of(mesh), kSmall);
+  ++mesh.file_bytes;
+  EXPECT_EQ(size_of(mesh), kAny);
+  for (const auto& [cells, size] :
+       {std::pair(0u, kTiny), {10'000u, kTiny}, {10'001u, kSmall}, {100'000u, kSmall}, {100'001u, kAny}}) {
+    mesh.simplex_count = cells;
+    EXPECT_EQ(size_of(mesh), size) << cells;
+  }
+  mesh.grid.emplace().size = {9, 9, 9};
+  EXPECT_EQ(size_of(mesh), kTiny);
+  mesh.grid->size = {20, 20, 20};
+  EXPECT_EQ(size_of(mesh), kSmall);
+  mesh.grid->size[0] = 21;
+  EXPECT_EQ(size_of(mesh), kAny);
 }
 
 TEST(Compute, AnOutputIsReplacedOnlyIfThatIsAllowed) {

@@ -154,12 +154,6 @@ void Program::before_commands(const std::function<void()>& call) {
 
 bool Program::has_command(const std::string& name) const { return find_command(*program_, name) != nullptr; }
 
-std::vector<std::string> Program::command_names() const {
-  std::vector<std::string> names;
-  for (const CLI::App* command : program_->get_subcommands({})) names.push_back(command->get_name());
-  return names;
-}
-
 std::string Program::help() const { return program_->help(); }
 
 std::optional<std::string> Program::run(const std::vector<std::string>& words) {

@@ -72,7 +72,6 @@ class Program {
   void before_commands(const std::function<void()>& call);
 
   bool has_command(const std::string& name) const;
-  std::vector<std::string> command_names() const;
   std::string help() const;
 
   // Sets the targets and calls the callback of the command in `words`. Returns what to print instead where --help or

@@ -70,7 +70,6 @@ void run_compute(ComputeArguments arguments) {
   check_files(arguments, outputs);
   RunFacts facts;
   facts.path = arguments.mesh;
-  facts.threads = options.threads;
   if (options.memory_bytes != MemoryBudget::kUnlimited) facts.memory_budget_bytes = options.memory_bytes;
   take_denoise(arguments);
 

@@ -20,7 +20,7 @@ using ooc::ComputeResult;
 
 struct ComputeOptions {
   std::uint64_t memory_bytes = ~std::uint64_t{0};  // what the run may use; default: no limit
-  unsigned threads = 0;                            // 0: all that the machine has
+  unsigned threads = 0;                            // 0: all that the machine has, but one for a small mesh
   bool replace = false;                            // outputs that exist, and an interrupted run; else an Error
   bool graph_only = false;                         // no pairs and levels
   // Minima and maxima of less persistence are removed; `denoise` is a share of the function's range (0.001

@@ -22,6 +22,21 @@ std::uint64_t reading_digest(const MeshInfo& info, const io::ImageOptions& image
 
 }  // namespace
 
+ooc::MeshSize size_of(const MeshInfo& info) {
+  constexpr std::uint64_t kTiny = 10'000, kSmall = 100'000, kTrianglesOfVoxel = 12, kBytesOfTriangle = 40;
+  std::uint64_t triangles = 0;  // about
+  if (info.grid)
+    triangles = info.grid->vertex_count() * kTrianglesOfVoxel;
+  else if (info.simplex_count)
+    triangles = *info.simplex_count;
+  else if (info.file_bytes != 0)
+    triangles = info.file_bytes / kBytesOfTriangle;
+  else
+    return ooc::MeshSize::kAny;  // a pipe
+  if (triangles > kSmall) return ooc::MeshSize::kAny;
+  return triangles > kTiny ? ooc::MeshSize::kSmall : ooc::MeshSize::kTiny;
+}
+
 InputOptions input_options(const ComputeOptions& options, const std::string& output) {
   return {.format = options.format,
           .image = options.image,
@@ -68,6 +83,7 @@ void RunInput::open(std::span<const std::string> functions, std::unique_ptr<io::
   if (reading_.properties.empty()) reading_.properties = io::needed_properties(specs);
   mesh_.reading = reading_digest(info_, options_.image);
   mesh_.dimension = info_.dimension;
+  mesh_.size = size_of(info_);
 
   io::OpenMesh open_again;
   if (can_read_again()) open_again = [this] { return read_again({}); };

@@ -26,6 +26,9 @@ struct InputOptions {
   std::size_t batch_events = 8192;  // a few hundred KiB, beside chunks on their way
 };
 
+// By the number of cells, or else of bytes.
+ooc::MeshSize size_of(const MeshInfo& info);
+
 // Temporary files go to `temp_dir` of the options; if that is empty, to the default folder for `output`.
 InputOptions input_options(const ComputeOptions& options, const std::string& output);
 

@@ -1,16 +1,14 @@
 #include "tools/library/run_options.h"
 
-#include <algorithm>
 #include <memory>
 #include <mutex>
-#include <thread>
 
 namespace reeb {
 
 ooc::ComputeOptions run_options(const ComputeOptions& options) {
   ooc::ComputeOptions run;
   run.memory_bytes = options.memory_bytes;
-  run.threads = options.threads != 0 ? options.threads : std::max(1u, std::thread::hardware_concurrency());
+  run.threads = options.threads;
   run.chunk_triangles = options.chunk_triangles;
   run.temp_dir = options.temp_dir;
   run.replace = options.replace;

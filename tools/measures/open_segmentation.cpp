@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <string>
-#include <thread>
 
 #include "libreeb/base/error.h"
 #include "tools/program/signals.h"
@@ -39,7 +38,7 @@ std::uint64_t vertex_bound(const ooc::ReebFile& file, const MeshInfo& info) {
 
 ooc::ComputeOptions segmentation_run(unsigned threads, const std::string& temp_folder) {
   ooc::ComputeOptions run;
-  run.threads = threads != 0 ? threads : std::max(1u, std::thread::hardware_concurrency());
+  run.threads = threads;
   run.temp_dir = temp_folder;
   run.interrupted = watch_signals();
   return run;

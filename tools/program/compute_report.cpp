@@ -139,7 +139,7 @@ nlohmann::ordered_json to_json(const RunFacts& facts, const ooc::ComputeResult& 
       {"spilled_bytes", r.spilled_bytes},
       {"live_max",
        {{"vertices", r.live.vertices}, {"edges", r.live.edges}, {"arcs", r.live.arcs}, {"bytes", r.live.bytes}}},
-      {"threads", facts.threads},
+      {"threads", r.threads},
       {"reordered", r.reordered},
       {"guessed_vertices", r.guessed_vertices},
       {"revoked_guesses", r.revoked_guesses},

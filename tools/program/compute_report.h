@@ -14,7 +14,6 @@ struct RunFacts {
   bool is_mesh = true;  // at `path`, which other commands can read unless it is "-"
   std::uint64_t input_bytes = 0;
   std::uint64_t memory_budget_bytes = 0;  // 0: no limit was given
-  unsigned threads = 1;
 };
 
 void print_summary(const RunFacts& facts, const std::vector<ooc::ComputeResult>& results);

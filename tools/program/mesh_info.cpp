@@ -7,7 +7,6 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "io/file/content_source.h"
@@ -19,7 +18,9 @@
 #include "libreeb/base/printable.h"
 #include "libreeb/base/value_range.h"
 #include "ooc/census/mesh_census.h"
+#include "ooc/threads/machine_threads.h"
 #include "ooc/whole_mesh/workspace.h"
+#include "tools/library/run_input.h"
 #include "tools/program/census_text.h"
 #include "tools/program/progress.h"
 #include "tools/program/simplex_text.h"
@@ -46,7 +47,7 @@ class MeshSurvey {
     bounds_.resize(reader_->info().dimension);
     ProgressBar bar(false);
     ooc::CensusOptions options;
-    options.background = std::thread::hardware_concurrency() > 1;
+    options.background = size_of(reader_->info()) == ooc::MeshSize::kAny && ooc::machine_threads() > 1;
     options.progress = [&](const ooc::CensusProgress& at) {
       bar.update(pass_of(at.phase), at.done, at.total, at.simplices);
     };

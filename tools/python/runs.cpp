@@ -10,7 +10,6 @@
 #include <span>
 #include <sstream>
 #include <string>
-#include <thread>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -214,7 +213,7 @@ py::tuple segment(const Mesh& mesh, const std::shared_ptr<ooc::ReebFile>& file, 
       input.emplace(std::get<const HeldMesh*>(mesh)->open, functions, reading);
     ooc::ComputeOptions follow;
     follow.memory_bytes = options.memory_bytes;
-    follow.threads = options.threads != 0 ? options.threads : std::max(1u, std::thread::hardware_concurrency());
+    follow.threads = options.threads;
     follow.temp_dir = folder.path();
     follow.interrupted = options.interrupted;
     follow.progress = options.progress;

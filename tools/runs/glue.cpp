@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <memory>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "io/file/file.h"
@@ -64,7 +63,6 @@ void run_glue(GlueArguments arguments) {
   facts.path = arguments.fragments[0];
   facts.format = "fragments";
   facts.is_mesh = false;
-  facts.threads = options.threads;
   if (options.memory_bytes != MemoryBudget::kUnlimited) facts.memory_budget_bytes = options.memory_bytes;
   if (!arguments.quiet && glued.result) print_summary(facts, {*glued.result});
   if (!arguments.quiet && !glued.result) {
@@ -84,7 +82,7 @@ void run_glue(GlueArguments arguments) {
 void add_glue(Program& program) {
   auto arguments = std::make_shared<GlueArguments>();
   ooc::GlueOptions& options = arguments->options;
-  options.threads = std::max(1u, std::thread::hardware_concurrency());
+  options.threads = 0;
   options.replace = false;
   Command command = program.add_command("glue", "Join fragments of a mesh to its graph");
   command.add_option("FRAGMENT", arguments->fragments, "Files that `reeb fragment` or `reeb glue` wrote, in any order")

@@ -1,9 +1,7 @@
 #include "tools/runs/run_options.h"
 
-#include <algorithm>
 #include <array>
 #include <cstdlib>
-#include <thread>
 
 #include "libreeb/base/count_text.h"
 #include "tools/arguments/image_options.h"
@@ -13,7 +11,6 @@
 namespace reeb::tools {
 
 RunArguments::RunArguments() {
-  options.threads = std::max(1u, std::thread::hardware_concurrency());
   // For tests: short runs otherwise end before their first checkpoint.
   if (const char* seconds = std::getenv("REEB_CHECKPOINT_SECONDS")) options.checkpoint_seconds = std::atof(seconds);
 }

@@ -23,7 +23,7 @@ struct RunArguments {
 // What the help says of --memory and --threads.
 struct RunTexts {
   const char* memory = "Memory that the run may use: 64M, 1.5GiB (default: no limit)";
-  const char* threads = "Number of threads, 1 to 1024 (default: all)";
+  const char* threads = "Number of threads, 1 to 1024 (default: all, or 1 for a small mesh)";
 };
 
 // `arguments` must outlive the parsing.

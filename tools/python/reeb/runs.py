@@ -69,7 +69,7 @@ def compute(
         memory: what the run may use: bytes, or "64M", "1.5GiB". Arrays of the caller and Python are not counted.
         denoise: minima and maxima of less persistence are removed: 0.01 in units of the function, or "0.1%" of its
             range.
-        threads: how many; default: all.
+        threads: how many; default: all, or 1 for a small mesh.
         graph_only: the graph alone, without pairs and levels.
         buckets: of the embedding of arcs, in function values; 0: none.
         format: of the file, where its content does not tell: "cx", "raw", ...

@@ -1,0 +1,11 @@
+#pragma once
+
+#include <algorithm>
+#include <thread>
+
+namespace reeb::ooc {
+
+// As many threads as the machine runs at a time; 1 if that is not known.
+inline unsigned machine_threads() { return std::max(1u, std::thread::hardware_concurrency()); }
+
+}  // namespace reeb::ooc
