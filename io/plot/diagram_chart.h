@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "io/plot/svg_text.h"
+#include "io/drawing/svg_text.h"
 #include "libreeb/base/value_range.h"
 #include "libreeb/hierarchy/hierarchy.h"
 

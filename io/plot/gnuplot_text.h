@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "io/plot/svg_text.h"
+#include "io/drawing/svg_text.h"
 
 namespace reeb::io {
 

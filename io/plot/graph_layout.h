@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "io/plot/svg_text.h"
+#include "io/drawing/svg_text.h"
 #include "libreeb/graph/reeb_graph.h"
 
 namespace reeb::io {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "io/plot/canvas.h"
+#include "io/drawing/canvas.h"
 #include "io/plot/node_marks.h"
 #include "io/plot/value_axis.h"
 

@@ -3,8 +3,8 @@
 
 #include <string>
 
+#include "io/drawing/svg_text.h"
 #include "io/plot/graph_layout.h"
-#include "io/plot/svg_text.h"
 #include "libreeb/graph/reeb_graph.h"
 
 namespace reeb::io {

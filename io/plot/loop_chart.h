@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "io/plot/svg_text.h"
+#include "io/drawing/svg_text.h"
 
 namespace reeb::io {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "io/drawing/canvas.h"
 #include "io/export/line_points.h"
-#include "io/plot/canvas.h"
 #include "io/plot/graph_layout.h"
 #include "io/plot/node_marks.h"
 #include "io/plot/value_axis.h"

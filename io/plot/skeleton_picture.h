@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "io/drawing/surface_raster.h"
+#include "io/drawing/svg_text.h"
 #include "io/export/graph_export.h"
-#include "io/plot/surface_raster.h"
-#include "io/plot/svg_text.h"
 #include "io/plot/view.h"
 
 namespace reeb::io {

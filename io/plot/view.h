@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-#include "io/plot/svg_text.h"
+#include "io/drawing/svg_text.h"
 #include "libreeb/graph/settled_node.h"
 
 namespace reeb::io {

@@ -6,8 +6,8 @@
 #include <functional>
 
 #include "libreeb/engine/glue.h"
+#include "ooc/checkpoints/checkpoint.h"
 #include "ooc/chunks/chunk_source.h"
-#include "ooc/run/checkpoint.h"
 #include "ooc/run/first_stage.h"
 #include "ooc/run/memory_plan.h"
 #include "ooc/run/run_context.h"

@@ -12,8 +12,8 @@
 
 #include "libreeb/base/memory_budget.h"
 #include "libreeb/port/indexed_mesh.h"
+#include "ooc/checkpoints/checkpoint.h"
 #include "ooc/chunks/last_use.h"
-#include "ooc/run/checkpoint.h"
 #include "ooc/run/memory_plan.h"
 #include "ooc/run/run_context.h"
 

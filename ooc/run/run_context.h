@@ -11,11 +11,11 @@
 #include "libreeb/base/state_stream.h"
 #include "libreeb/engine/sweep_options.h"
 #include "libreeb/port/vertex_function.h"
+#include "ooc/checkpoints/resumable_run.h"
 #include "ooc/chunks/function_values.h"
 #include "ooc/reeb_file/frame_writer.h"
 #include "ooc/run/compute.h"
 #include "ooc/run/memory_plan.h"
-#include "ooc/run/resumable_run.h"
 #include "ooc/segmentation/arc_follower.h"
 #include "ooc/stored_graph/segment_store.h"
 

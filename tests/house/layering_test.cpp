@@ -52,7 +52,8 @@ const Rooms kRooms = {
     {"io/fields", {"libreeb"}},
     {"io/functions", {"libreeb", "io/file", "io/text", "io/mesh", "io/images", "io/formats", "io/fields"}},
     {"io/export", {"libreeb", "io/file", "io/text"}},
-    {"io/plot", {"libreeb", "io/text", "io/export"}},
+    {"io/drawing", {"libreeb"}},
+    {"io/plot", {"libreeb", "io/text", "io/export", "io/drawing"}},
     {"io/generate", {"libreeb"}},
 
     {"ooc/threads", {"libreeb"}},
@@ -68,6 +69,7 @@ const Rooms kRooms = {
      {"libreeb", "io/file", "ooc/threads", "ooc/sorting", "ooc/tables", "ooc/stored_graph", "ooc/reeb_file"}},
     {"ooc/patches", {"libreeb", "io/file", "ooc/threads", "ooc/sorting", "ooc/tables", "ooc/whole_mesh"}},
     {"ooc/segmentation", {"libreeb", "io/file", "ooc/sorting", "ooc/tables", "ooc/stored_graph"}},
+    {"ooc/checkpoints", {"libreeb", "io/file", "ooc/chunks"}},
     {"ooc/run", {"libreeb", "io/file", "ooc"}},
     {"ooc/distributed", {"libreeb", "io/file", "ooc"}},
 

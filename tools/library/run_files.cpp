@@ -13,9 +13,9 @@
 
 #include "io/file/file.h"
 #include "libreeb/base/error.h"
+#include "ooc/checkpoints/partial_folder.h"
 #include "ooc/chunks/last_use_sidecar.h"
 #include "ooc/reeb_file/reeb_file.h"
-#include "ooc/run/partial_folder.h"
 
 namespace reeb {
 namespace {

@@ -8,7 +8,7 @@
 #include "io/file/atomic_file.h"
 #include "io/file/file.h"
 #include "libreeb/base/error.h"
-#include "ooc/run/partial_folder.h"
+#include "ooc/checkpoints/partial_folder.h"
 
 namespace reeb::tools {
 namespace {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "io/plot/svg_text.h"
+#include "io/drawing/svg_text.h"
 #include "ooc/reeb_file/reeb_file.h"
 
 namespace reeb::tools {

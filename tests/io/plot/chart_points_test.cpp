@@ -5,10 +5,10 @@
 #include <cmath>
 #include <random>
 
+#include "io/drawing/svg_text.h"
 #include "io/plot/diagram_chart.h"
 #include "io/plot/gnuplot_text.h"
 #include "io/plot/loop_chart.h"
-#include "io/plot/svg_text.h"
 #include "io/plot/value_axis.h"
 
 namespace reeb::io {

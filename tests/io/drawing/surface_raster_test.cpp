@@ -1,5 +1,5 @@
 // Views, projections and the z-buffer, against the definition.
-#include "io/plot/surface_raster.h"
+#include "io/drawing/surface_raster.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // PNG and base64 against a decoder written from the specification (for zlib's part, zlib itself).
-#include "io/plot/png_image.h"
+#include "io/drawing/png_image.h"
 
 #include <gtest/gtest.h>
 #include <zlib.h>

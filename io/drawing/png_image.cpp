@@ -1,4 +1,4 @@
-#include "io/plot/png_image.h"
+#include "io/drawing/png_image.h"
 
 #include <zlib.h>
 

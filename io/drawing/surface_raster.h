@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "io/plot/png_image.h"
-#include "io/plot/svg_text.h"
+#include "io/drawing/png_image.h"
+#include "io/drawing/svg_text.h"
 
 namespace reeb::io {
 

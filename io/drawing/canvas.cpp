@@ -1,4 +1,4 @@
-#include "io/plot/canvas.h"
+#include "io/drawing/canvas.h"
 
 #include <algorithm>
 #include <cmath>

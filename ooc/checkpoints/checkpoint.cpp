@@ -1,4 +1,4 @@
-#include "ooc/run/checkpoint.h"
+#include "ooc/checkpoints/checkpoint.h"
 
 #include <unistd.h>
 

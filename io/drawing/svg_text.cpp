@@ -1,4 +1,4 @@
-#include "io/plot/svg_text.h"
+#include "io/drawing/svg_text.h"
 
 #include <charconv>
 #include <cmath>

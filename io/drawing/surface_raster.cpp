@@ -1,4 +1,4 @@
-#include "io/plot/surface_raster.h"
+#include "io/drawing/surface_raster.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "ooc/run/partial_folder.h"
+#include "ooc/checkpoints/partial_folder.h"
 
 #include <fcntl.h>
 #include <sys/file.h>

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "io/plot/colors.h"
-#include "io/plot/svg_text.h"
+#include "io/drawing/colors.h"
+#include "io/drawing/svg_text.h"
 
 namespace reeb::io {
 

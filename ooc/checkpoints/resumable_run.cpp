@@ -1,4 +1,4 @@
-#include "ooc/run/resumable_run.h"
+#include "ooc/checkpoints/resumable_run.h"
 
 #include <algorithm>
 

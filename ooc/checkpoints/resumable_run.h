@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "libreeb/base/error.h"
-#include "ooc/run/checkpoint.h"
-#include "ooc/run/partial_folder.h"
+#include "ooc/checkpoints/checkpoint.h"
+#include "ooc/checkpoints/partial_folder.h"
 
 namespace reeb::ooc {
 

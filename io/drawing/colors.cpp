@@ -1,4 +1,4 @@
-#include "io/plot/colors.h"
+#include "io/drawing/colors.h"
 
 #include <algorithm>
 #include <array>

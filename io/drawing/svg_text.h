@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "io/plot/colors.h"
+#include "io/drawing/colors.h"
 
 namespace reeb::io {
 
