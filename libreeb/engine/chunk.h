@@ -73,9 +73,9 @@ struct Chunk {
   }
 };
 
-// Empties a buffer that is filled anew for each chunk, and makes room for n elements. New room is an eighth more, so
-// that a chunk that is a little larger than all before needs no new memory: pages that are new to the process can take
-// longer than what is done with them.
+// Empties a buffer that each chunk fills anew, and makes room for n elements. Where that takes new memory, it takes an
+// eighth more. So the next chunk that is a little larger needs none. First use of new memory is slow: each page is a
+// fault.
 template <class Buffer>
 void clear_with_room(Buffer& buffer, std::size_t n) {
   buffer.clear();

@@ -16,7 +16,7 @@
 
 namespace reeb::ooc {
 
-// How large a mesh is, as far as a run goes another way.
+// Sizes of meshes that a run treats differently.
 enum class MeshSize : std::uint8_t {
   kTiny,   // a run takes little more memory than the program by itself
   kSmall,  // a second thread saves less than it takes to start, and would cost 4 MB

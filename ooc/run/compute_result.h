@@ -59,7 +59,7 @@ struct ComputeResult {
   std::uint64_t likely_defects = 0;
   double likely_defects_up_to = 0;
   std::uint64_t spilled_bytes = 0;
-  unsigned threads = 1;  // that the run might use
+  unsigned threads = 1;  // the most that the run could use
   LiveMaximum live;
   PhaseSeconds seconds;
   std::vector<std::string> notes;  // one line each about something odd but harmless

@@ -1,3 +1,4 @@
+// How many threads the machine runs at a time.
 #pragma once
 
 #include <algorithm>
@@ -5,7 +6,7 @@
 
 namespace reeb::ooc {
 
-// As many threads as the machine runs at a time; 1 if that is not known.
+// 1 if that is not known.
 inline unsigned machine_threads() { return std::max(1u, std::thread::hardware_concurrency()); }
 
 }  // namespace reeb::ooc

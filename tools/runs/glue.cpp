@@ -1,7 +1,6 @@
 // `reeb glue FRAGMENT...`: from the fragments of parts to the graph of the mesh, or to a fragment of more parts.
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <string>
