@@ -82,4 +82,11 @@ void clear_with_room(Buffer& buffer, std::size_t n) {
   if (buffer.capacity() < n) buffer.reserve(n + n / 8);
 }
 
+// The same, and fills it with n times this value.
+template <class Buffer, class T>
+void fill_with_room(Buffer& buffer, std::size_t n, const T& value) {
+  clear_with_room(buffer, n);
+  buffer.assign(n, value);
+}
+
 }  // namespace reeb

@@ -38,8 +38,7 @@ void ChunkStars::build(const Chunk& chunk, std::span<const std::uint32_t> order)
 
 // Sets ends_[v + 1] to where the triangles and lists of v begin; fill() then advances it to where they end.
 void ChunkStars::count(const Chunk& chunk) {
-  clear_with_room(ends_, chunk.vertex_count() + 1);
-  ends_.assign(chunk.vertex_count() + 1, {0, 0, 0});
+  fill_with_room(ends_, chunk.vertex_count() + 1, Ends{0, 0, 0});
   Ends* const counts = ends_.data() + 1;
   const std::uint32_t* const rank = rank_.data();
   const std::uint32_t* corners = chunk.corners.data();

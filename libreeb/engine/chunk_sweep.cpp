@@ -54,8 +54,7 @@ class Crossings {
 class UpwardEdges {
  public:
   void reset(std::size_t vertices) {
-    clear_with_room(edge_of_, vertices);
-    edge_of_.assign(vertices, 0);
+    fill_with_room(edge_of_, vertices, 0u);
     first_ = 1;
     count_ = linked_ = 0;
   }

@@ -11,8 +11,7 @@ void FragmentBuilder::start(std::size_t vertices, const SweepOptions& options) {
   graph_.clear();
   if (options.bucket_exponent) {
     graph_.buckets.start(*options.bucket_exponent);
-    clear_with_room(bucket_of_, vertices);
-    bucket_of_.assign(vertices, BucketLists::kNowhere);
+    fill_with_room(bucket_of_, vertices, BucketLists::kNowhere);
   }
   node_of_.resize(vertices);
   followed_.clear();

@@ -78,8 +78,7 @@ void FragmentDivision::divide_arcs(SweepGraph& graph, bool embeds, Fragment& fra
 // Open nodes, arcs and edges are numbered in stream order, not in the order of the sweep. So what is glued together is
 // near each other in memory. Those of boxes stay in the order of the sweep.
 void FragmentDivision::add_nodes(SweepGraph& graph, const SweptChunk& swept, Fragment& fragment) {
-  clear_with_room(node_at_, swept.order.size());
-  node_at_.assign(swept.order.size(), SweepNode::none());
+  fill_with_room(node_at_, swept.order.size(), SweepNode::none());
   for (SweepNode n; n < graph.nodes.end_id(); ++n) {
     const SweepGraph::Node& node = graph.nodes[n];
     if (node.gone) continue;

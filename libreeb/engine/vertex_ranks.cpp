@@ -53,8 +53,7 @@ void VertexRanks::sort(std::span<const double> values, std::span<const VertexId>
   order_.resize(n);
   if (n == 0) return;
   const Buckets bucket(values, n);
-  clear_with_room(bucket_end_, n);
-  bucket_end_.assign(n, 0);
+  fill_with_room(bucket_end_, n, 0u);
   for (const double value : values) ++bucket_end_[bucket(value)];
   std::uint32_t sum = 0;
   for (std::uint32_t& end : bucket_end_) sum += std::exchange(end, sum);
