@@ -13,7 +13,8 @@ namespace reeb {
 // Arcs are taken in the order in which they are found (breadth first). That leaves time to prefetch an arc and its node
 // before they are read.
 //
-// MEMORY: 4 bytes per node of the graph, kept between searches, and up to 16 bytes per arc in the queue.
+// MEMORY: 4 bytes per node of the graph, kept between searches, and up to 16 bytes per arc in the queue or beyond the
+//         limit.
 template <class Graph = WorkingGraph>
 class BoundedSearch {
  public:
@@ -37,6 +38,14 @@ class BoundedSearch {
     begin(node);
   }
 
+  // Moves the limit farther, in the one direction that the search follows.
+  void extend(NodeId limit) {
+    limit_[follows_[kUp] ? kUp : kDown] = limit;
+    queue_.insert(queue_.end(), beyond_.begin(), beyond_.end());
+    for (const Visit& visit : beyond_) graph_.prefetch_arc(visit.arc);
+    beyond_.clear();
+  }
+
   // Takes the next arc, and continues from its far end if `enter(far end)` is true. Returns the arc, or kNone if the
   // search is over.
   template <class Enter>
@@ -44,7 +53,10 @@ class BoundedSearch {
     while (first_ < queue_.size()) {
       prefetch_ahead();
       const auto [arc, d] = queue_[first_++];
-      if (along(d, graph_.end(arc, d)) > along(d, limit_[d])) continue;  // arcs below it in the heap go farther still
+      if (along(d, graph_.end(arc, d)) > along(d, limit_[d])) {
+        beyond_.push_back({arc, d});  // arcs below it in the heap go farther still
+        continue;
+      }
       for (const ArcId child : graph_.below_in_heap(arc, d)) push(child, d);
       const NodeId node = graph_.end(arc, d);
       if (!reached(node) && enter(node)) reach(node);
@@ -75,6 +87,7 @@ class BoundedSearch {
       search_ = 1;
     }
     queue_.clear();
+    beyond_.clear();
     first_ = 0;
     reach(node);
   }
@@ -107,7 +120,8 @@ class BoundedSearch {
   std::array<NodeId, 2> limit_{};
   std::array<bool, 2> follows_{};
   std::vector<Visit> queue_;
-  std::size_t first_ = 0;  // in the queue
+  std::size_t first_ = 0;      // in the queue
+  std::vector<Visit> beyond_;  // arcs that go beyond the limit
 };
 
 }  // namespace reeb

@@ -9,7 +9,9 @@
 // Only at a fork with a kept loop is a whole component searched.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cstdint>
 #include <stdexcept>
 #include <vector>
 
@@ -150,21 +152,36 @@ bool PathSearch<Graph>::find_path_beside(ArcId arc, std::vector<ArcId>& path) {
   return true;
 }
 
-// Makes leads() true for the arcs that can be reached from v and from which a monotone path reaches y. Searches down
-// from y and up from v in turn, until one of the two searches is complete.
+// Makes leads() true for the arcs that can be reached from v and from which a monotone path reaches y.
+//
+// What can be reached grows fast with the distance. So two searches go up from v and down from y, a band of levels at a
+// time, and take their steps in turn until they meet. Below that, the second search goes on among the nodes that the
+// first has reached.
 template <class Graph>
 void PathSearch<Graph>::search_between(NodeId v, NodeId y) {
+  constexpr std::uint32_t kBands = 16;
   // Arcs from v to y are left out, since n of them would take n searches of n arcs.
-  const NodeId bottom(v.value() + 1), top(y.value() - 1);
-  back_.start(y, kDown, bottom);
-  ahead_.start(v, kUp, top);
-  while (back_.step() != kNone)
+  const std::uint32_t bottom = v.value() + 1, top = y.value() - 1, band = (top - v.value()) / kBands + 1;
+  std::uint32_t low = v.value(), high = y.value();  // the levels up to which, and down to which, a search is complete
+  const auto band_up = [&] { return NodeId(low + std::min(band, top - low)); };
+  const auto band_down = [&] { return NodeId(high - std::min(band, high - bottom)); };
+  NodeId up_to = band_up(), down_to = band_down();
+  ahead_.start(v, kUp, up_to);
+  back_.start(y, kDown, down_to);
+  while (low + 1 < high) {
     if (ahead_.step() == kNone) {
-      back_.start(y, kDown, bottom);
-      while (back_.step([&](NodeId node) { return ahead_.reached(node); }) != kNone) {
-      }
-      return;
+      low = up_to.value();
+      up_to = band_up();
+      ahead_.extend(up_to);
+    } else if (back_.step() == kNone) {
+      high = down_to.value();
+      down_to = band_down();
+      back_.extend(down_to);
     }
+  }
+  back_.extend(NodeId(bottom));
+  while (back_.step([&](NodeId node) { return ahead_.reached(node); }) != kNone) {
+  }
 }
 
 // The nearest arc of v that leads to y in another component of the open interlevel set (v, y) than
