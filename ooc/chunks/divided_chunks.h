@@ -17,7 +17,7 @@
 
 namespace reeb::ooc {
 
-// MEMORY: reserved: the stretch and 9 bytes per triangle of it; nothing if chunks are small enough.
+// MEMORY: reserved: the stretch and about 8 bytes per triangle of it; nothing if chunks are small enough.
 class DividedChunks : public ChunkSource {
  public:
   // `stretches` must outlive this. Chunks of at most about size.first triangles and size.first_vertices vertices pass
