@@ -18,8 +18,8 @@
 
 #include "io/generate/generator.h"
 #include "libreeb/base/hash.h"
-#include "libreeb/engine/chunk_sweep.h"
 #include "libreeb/engine/glue.h"
+#include "libreeb/sweep/chunk_sweep.h"
 
 namespace {
 

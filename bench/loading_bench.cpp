@@ -13,7 +13,7 @@
 #include "libreeb/hierarchy/cancel.h"
 #include "libreeb/hierarchy/levels.h"
 #include "ooc/reeb_file/reeb_file.h"
-#include "ooc/reeb_file/reeb_file_writer.h"
+#include "ooc/reeb_writer/reeb_file_writer.h"
 #include "tests/support/held_memory.h"
 #include "tests/support/made_graph.h"
 

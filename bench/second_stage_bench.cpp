@@ -10,9 +10,9 @@
 
 #include "libreeb/graph/packed_buckets.h"
 #include "libreeb/hierarchy/cancel.h"
-#include "ooc/reeb_file/record_log.h"
 #include "ooc/reeb_file/reeb_file.h"
-#include "ooc/reeb_file/reeb_file_writer.h"
+#include "ooc/reeb_writer/record_log.h"
+#include "ooc/reeb_writer/reeb_file_writer.h"
 #include "tests/support/held_memory.h"
 #include "tests/support/made_graph.h"
 #include "tests/support/random_function_graph.h"

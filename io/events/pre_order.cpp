@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "libreeb/base/flat_map.h"
+#include "libreeb/containers/flat_map.h"
 
 namespace reeb::io {
 namespace {

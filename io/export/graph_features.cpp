@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "libreeb/base/union_find.h"
+#include "libreeb/containers/union_find.h"
 #include "libreeb/graph/loop_ranges.h"
 #include "libreeb/hierarchy/pairing.h"
 

@@ -11,7 +11,7 @@
 #include "io/smc/smc_state.h"
 #include "io/text/output_buffer.h"
 #include "libreeb/base/count_text.h"
-#include "libreeb/base/flat_map.h"
+#include "libreeb/containers/flat_map.h"
 
 namespace reeb::io {
 namespace {

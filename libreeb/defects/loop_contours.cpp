@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "libreeb/base/sweep_key.h"
-#include "libreeb/base/union_find.h"
+#include "libreeb/containers/union_find.h"
 
 namespace reeb {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "libreeb/base/union_find.h"
+#include "libreeb/containers/union_find.h"
 #include "libreeb/defects/curve_length.h"
 
 namespace reeb {

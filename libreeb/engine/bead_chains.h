@@ -10,10 +10,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "libreeb/base/growing_array.h"
-#include "libreeb/base/recycling_array.h"
 #include "libreeb/base/state_stream.h"
 #include "libreeb/base/sweep_key.h"
+#include "libreeb/containers/growing_array.h"
+#include "libreeb/containers/recycling_array.h"
 #include "libreeb/graph/bucket_sums.h"
 #include "libreeb/graph/reeb_graph.h"
 

@@ -15,13 +15,13 @@
 #include <vector>
 
 #include "libreeb/base/error.h"
-#include "libreeb/base/flat_map.h"
-#include "libreeb/base/growing_array.h"
 #include "libreeb/base/state_stream.h"
-#include "libreeb/engine/chunk.h"
-#include "libreeb/engine/fragment.h"
+#include "libreeb/containers/flat_map.h"
+#include "libreeb/containers/growing_array.h"
 #include "libreeb/engine/live_graph.h"
 #include "libreeb/port/arc_log.h"
+#include "libreeb/sweep/chunk.h"
+#include "libreeb/sweep/fragment.h"
 
 namespace reeb {
 

@@ -19,19 +19,19 @@
 #include <cstdint>
 #include <vector>
 
-#include "libreeb/base/growing_array.h"
 #include "libreeb/base/prefetch.h"
-#include "libreeb/base/recycling_array.h"
 #include "libreeb/base/state_stream.h"
 #include "libreeb/base/sweep_key.h"
+#include "libreeb/containers/growing_array.h"
+#include "libreeb/containers/recycling_array.h"
 #include "libreeb/engine/bead_chains.h"
-#include "libreeb/engine/sweep_options.h"
 #include "libreeb/graph/bucket_sums.h"
 #include "libreeb/graph/direction.h"
 #include "libreeb/graph/reeb_graph.h"
 #include "libreeb/port/arc_log.h"
 #include "libreeb/port/graph_sink.h"
 #include "libreeb/port/settled_batch.h"
+#include "libreeb/sweep/sweep_options.h"
 
 namespace reeb {
 

@@ -7,10 +7,10 @@
 
 #include "libreeb/base/error.h"
 #include "libreeb/base/value_range.h"
-#include "libreeb/engine/chunk_sweep.h"
 #include "libreeb/engine/glue.h"
 #include "libreeb/engine/stream_chunker.h"
 #include "libreeb/graph/bucket.h"
+#include "libreeb/sweep/chunk_sweep.h"
 
 namespace reeb {
 namespace {

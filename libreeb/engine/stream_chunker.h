@@ -9,10 +9,10 @@
 #include <span>
 #include <vector>
 
-#include "libreeb/base/flat_map.h"
 #include "libreeb/base/ids.h"
-#include "libreeb/engine/chunk.h"
+#include "libreeb/containers/flat_map.h"
 #include "libreeb/port/deciding_triangles.h"
+#include "libreeb/sweep/chunk.h"
 
 namespace reeb {
 

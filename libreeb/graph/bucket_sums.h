@@ -10,9 +10,9 @@
 #include <cstdint>
 #include <span>
 
-#include "libreeb/base/growing_array.h"
 #include "libreeb/base/prefetch.h"
 #include "libreeb/base/state_stream.h"
+#include "libreeb/containers/growing_array.h"
 #include "libreeb/graph/bucket.h"
 #include "libreeb/graph/direction.h"
 #include "libreeb/graph/settled_node.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "libreeb/base/union_find.h"
+#include "libreeb/containers/union_find.h"
 
 namespace reeb {
 namespace {

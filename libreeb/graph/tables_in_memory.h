@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
-#include "libreeb/base/id_vector.h"
 #include "libreeb/base/prefetch.h"
+#include "libreeb/containers/id_vector.h"
 
 namespace reeb {
 

@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "libreeb/base/union_find.h"
+#include "libreeb/containers/union_find.h"
 
 namespace reeb {
 namespace {

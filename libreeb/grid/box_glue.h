@@ -12,11 +12,11 @@
 #include <cstdint>
 #include <vector>
 
-#include "libreeb/base/flat_map.h"
 #include "libreeb/base/state_stream.h"
-#include "libreeb/engine/fragment.h"
+#include "libreeb/containers/flat_map.h"
 #include "libreeb/grid/box_union.h"
 #include "libreeb/port/graph_sink.h"
+#include "libreeb/sweep/fragment.h"
 
 namespace reeb {
 

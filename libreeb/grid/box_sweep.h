@@ -9,11 +9,11 @@
 #include <span>
 #include <vector>
 
-#include "libreeb/engine/chunk.h"
-#include "libreeb/engine/fragment.h"
-#include "libreeb/engine/vertex_ranks.h"
 #include "libreeb/grid/contour_tree.h"
 #include "libreeb/grid/tree_sweep.h"
+#include "libreeb/sweep/chunk.h"
+#include "libreeb/sweep/fragment.h"
+#include "libreeb/sweep/vertex_ranks.h"
 
 namespace reeb {
 

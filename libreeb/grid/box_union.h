@@ -15,10 +15,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "libreeb/engine/chunk.h"
-#include "libreeb/engine/fragment.h"
 #include "libreeb/grid/contour_tree.h"
 #include "libreeb/grid/tree_sweep.h"
+#include "libreeb/sweep/chunk.h"
+#include "libreeb/sweep/fragment.h"
 
 namespace reeb {
 

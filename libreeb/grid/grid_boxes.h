@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "libreeb/engine/chunk.h"
+#include "libreeb/sweep/chunk.h"
 
 namespace reeb {
 

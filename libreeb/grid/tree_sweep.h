@@ -7,10 +7,10 @@
 #include <utility>
 #include <vector>
 
-#include "libreeb/engine/chunk.h"
-#include "libreeb/engine/fragment.h"
-#include "libreeb/engine/fragment_builder.h"
 #include "libreeb/grid/contour_tree.h"
+#include "libreeb/sweep/chunk.h"
+#include "libreeb/sweep/fragment.h"
+#include "libreeb/sweep/fragment_builder.h"
 
 namespace reeb {
 

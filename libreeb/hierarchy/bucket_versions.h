@@ -10,10 +10,10 @@
 #include <utility>
 
 #include "libreeb/base/prefetch.h"
+#include "libreeb/graph/bucket_lists.h"
 #include "libreeb/graph/reeb_graph.h"
 #include "libreeb/graph/tables_in_memory.h"
 #include "libreeb/hierarchy/arc_changes.h"
-#include "libreeb/hierarchy/bucket_lists.h"
 
 namespace reeb {
 

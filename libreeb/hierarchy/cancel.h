@@ -5,10 +5,10 @@
 #include <optional>
 
 #include "libreeb/graph/arc_buckets.h"
+#include "libreeb/graph/packed_lists.h"
 #include "libreeb/graph/reeb_graph.h"
 #include "libreeb/hierarchy/deferred_changes.h"
 #include "libreeb/hierarchy/hierarchy.h"
-#include "libreeb/hierarchy/packed_lists.h"
 #include "libreeb/port/record_sink.h"
 
 namespace reeb {

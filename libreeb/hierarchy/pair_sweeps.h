@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "libreeb/base/union_find.h"
+#include "libreeb/containers/union_find.h"
 #include "libreeb/graph/bottleneck_forest.h"
 #include "libreeb/hierarchy/hierarchy.h"
 #include "libreeb/hierarchy/pairing.h"

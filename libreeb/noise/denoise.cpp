@@ -5,8 +5,8 @@
 #include <tuple>
 #include <utility>
 
+#include "libreeb/graph/bucket_lists.h"
 #include "libreeb/graph/packed_buckets.h"
-#include "libreeb/hierarchy/bucket_lists.h"
 #include "libreeb/hierarchy/pairing.h"
 #include "libreeb/hierarchy/subgraph.h"
 #include "libreeb/hierarchy/working_graph.h"

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "libreeb/graph/arc_buckets.h"
+#include "libreeb/graph/packed_lists.h"
 #include "libreeb/graph/reeb_graph.h"
 #include "libreeb/hierarchy/hierarchy.h"
-#include "libreeb/hierarchy/packed_lists.h"
 #include "libreeb/port/arc_log.h"
 
 namespace reeb {

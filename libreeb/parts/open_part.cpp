@@ -4,8 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include "libreeb/base/flat_map.h"
 #include "libreeb/base/state_stream.h"
+#include "libreeb/containers/flat_map.h"
 
 namespace reeb {
 namespace {

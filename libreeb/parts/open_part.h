@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "libreeb/engine/fragment.h"
 #include "libreeb/parts/part_set.h"
+#include "libreeb/sweep/fragment.h"
 
 namespace reeb {
 

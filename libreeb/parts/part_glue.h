@@ -11,7 +11,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "libreeb/base/flat_map.h"
+#include "libreeb/containers/flat_map.h"
 #include "libreeb/engine/glue.h"
 #include "libreeb/parts/open_part.h"
 

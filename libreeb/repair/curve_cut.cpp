@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "libreeb/base/flat_map.h"
+#include "libreeb/containers/flat_map.h"
 #include "libreeb/defects/surface_patch.h"
 #include "libreeb/repair/rim_filling.h"
 #include "libreeb/repair/tight_curve.h"

@@ -6,7 +6,7 @@
 #include <tuple>
 #include <utility>
 
-#include "libreeb/base/union_find.h"
+#include "libreeb/containers/union_find.h"
 #include "libreeb/defects/surface_patch.h"
 
 namespace reeb {

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "libreeb/base/flat_map.h"
+#include "libreeb/containers/flat_map.h"
 #include "libreeb/graph/settled_node.h"
 
 namespace reeb {

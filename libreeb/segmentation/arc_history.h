@@ -12,8 +12,8 @@
 #include <cstdint>
 #include <utility>
 
-#include "libreeb/base/growing_array.h"
 #include "libreeb/base/sweep_key.h"
+#include "libreeb/containers/growing_array.h"
 #include "libreeb/port/arc_log.h"
 
 namespace reeb {

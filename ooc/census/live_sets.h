@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "libreeb/base/recycling_array.h"
+#include "libreeb/containers/recycling_array.h"
 
 namespace reeb::ooc {
 

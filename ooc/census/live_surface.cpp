@@ -8,7 +8,7 @@
 
 #include "libreeb/base/count_text.h"
 #include "libreeb/base/error.h"
-#include "libreeb/base/union_find.h"
+#include "libreeb/containers/union_find.h"
 #include "libreeb/defects/surface_patch.h"
 
 namespace reeb::ooc {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "libreeb/base/ids.h"
-#include "libreeb/base/recycling_array.h"
+#include "libreeb/containers/recycling_array.h"
 #include "ooc/census/first_places.h"
 #include "ooc/census/live_sets.h"
 #include "ooc/census/mesh_census.h"

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "libreeb/base/error.h"
-#include "libreeb/base/flat_map.h"
+#include "libreeb/containers/flat_map.h"
 #include "ooc/census/first_places.h"
 #include "ooc/census/live_surface.h"
 #include "ooc/chunks/chunk_source.h"

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <optional>
 
-#include "libreeb/engine/chunk.h"
+#include "libreeb/sweep/chunk.h"
 #include "ooc/chunks/chunk_source.h"
 
 namespace reeb::ooc {

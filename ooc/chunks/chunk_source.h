@@ -8,11 +8,11 @@
 #include <span>
 #include <vector>
 
-#include "libreeb/engine/chunk.h"
-#include "libreeb/engine/fragment.h"
 #include "libreeb/engine/stream_chunker.h"
 #include "libreeb/port/indexed_mesh.h"
 #include "libreeb/port/mesh_reader.h"
+#include "libreeb/sweep/chunk.h"
+#include "libreeb/sweep/fragment.h"
 #include "ooc/chunks/function_values.h"
 #include "ooc/chunks/last_use.h"
 

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "libreeb/engine/chunk.h"
+#include "libreeb/sweep/chunk.h"
 
 namespace reeb::ooc {
 

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "libreeb/engine/chunk.h"
 #include "libreeb/port/indexed_mesh.h"
+#include "libreeb/sweep/chunk.h"
 #include "ooc/chunks/chunk_source.h"
 #include "ooc/chunks/function_values.h"
 

@@ -9,7 +9,7 @@
 #include "io/file/file.h"
 #include "libreeb/parts/open_part.h"
 #include "ooc/distributed/part_info.h"
-#include "ooc/reeb_file/frame_writer.h"
+#include "ooc/reeb_writer/frame_writer.h"
 #include "ooc/stored_graph/segment_store.h"
 
 namespace reeb::ooc {

@@ -9,7 +9,7 @@
 
 #include "ooc/distributed/part_info.h"
 #include "ooc/distributed/whole_mesh.h"
-#include "ooc/reeb_file/frame_writer.h"
+#include "ooc/reeb_writer/frame_writer.h"
 #include "ooc/run/run_context.h"
 
 namespace reeb::ooc {

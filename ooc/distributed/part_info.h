@@ -8,9 +8,9 @@
 
 #include "libreeb/base/state_stream.h"
 #include "libreeb/base/value_range.h"
-#include "libreeb/engine/sweep_options.h"
 #include "libreeb/parts/part_set.h"
 #include "libreeb/port/simplex_counts.h"
+#include "libreeb/sweep/sweep_options.h"
 #include "ooc/distributed/mesh_share.h"
 #include "ooc/run/compute.h"
 

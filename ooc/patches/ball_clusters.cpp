@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-#include "libreeb/base/union_find.h"
+#include "libreeb/containers/union_find.h"
 #include "ooc/patches/near_balls.h"
 
 namespace reeb::ooc {

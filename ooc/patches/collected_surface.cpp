@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "libreeb/base/flat_map.h"
+#include "libreeb/containers/flat_map.h"
 
 namespace reeb::ooc {
 namespace {

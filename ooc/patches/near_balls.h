@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "libreeb/base/flat_map.h"
+#include "libreeb/containers/flat_map.h"
 #include "ooc/patches/ball_grid.h"
 
 namespace reeb::ooc {

@@ -7,10 +7,10 @@
 
 #include "io/file/atomic_file.h"
 #include "libreeb/base/error.h"
-#include "ooc/chunks/guessed_chunks.h"
 #include "ooc/chunks/last_use_sidecar.h"
 #include "ooc/chunks/spooled_mesh.h"
 #include "ooc/grids/grid_chunks.h"
+#include "ooc/guesses/guessed_chunks.h"
 #include "ooc/run/glued_chunks.h"
 #include "ooc/run/mesh_order.h"
 #include "ooc/run/stopwatch.h"

@@ -6,9 +6,9 @@
 #include <string>
 
 #include "libreeb/base/error.h"
-#include "libreeb/engine/sweep_options.h"
 #include "libreeb/hierarchy/hierarchy.h"
-#include "ooc/reeb_file/reeb_file_writer.h"
+#include "libreeb/sweep/sweep_options.h"
+#include "ooc/reeb_writer/reeb_file_writer.h"
 #include "ooc/run/run_context.h"
 #include "ooc/stored_graph/segment_store.h"
 

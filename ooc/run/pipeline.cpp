@@ -9,10 +9,10 @@
 #include <type_traits>
 #include <vector>
 
-#include "libreeb/engine/chunk_sweep.h"
 #include "libreeb/engine/glue.h"
 #include "libreeb/grid/box_glue.h"
 #include "libreeb/grid/box_sweep.h"
+#include "libreeb/sweep/chunk_sweep.h"
 #include "ooc/threads/kept_arena.h"
 #include "ooc/threads/pipeline_order.h"
 

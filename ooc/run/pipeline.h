@@ -14,9 +14,9 @@
 #include "libreeb/base/memory_budget.h"
 #include "libreeb/base/state_stream.h"
 #include "libreeb/engine/glue.h"
-#include "libreeb/engine/sweep_options.h"
 #include "libreeb/port/arc_log.h"
 #include "libreeb/port/graph_sink.h"
+#include "libreeb/sweep/sweep_options.h"
 #include "ooc/chunks/chunk_source.h"
 #include "ooc/run/compute_result.h"
 

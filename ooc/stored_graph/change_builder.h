@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "io/file/temp_dir.h"
-#include "libreeb/hierarchy/packed_lists.h"
+#include "libreeb/graph/packed_lists.h"
 #include "libreeb/noise/denoise.h"
 #include "ooc/stored_graph/graph_change.h"
 #include "ooc/stored_graph/last_noise_pass.h"

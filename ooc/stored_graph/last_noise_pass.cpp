@@ -5,7 +5,7 @@
 #include <span>
 #include <utility>
 
-#include "libreeb/hierarchy/packed_lists.h"
+#include "libreeb/graph/packed_lists.h"
 #include "libreeb/noise/denoise.h"
 #include "ooc/stored_graph/arc_payload.h"
 #include "ooc/stored_graph/change_builder.h"

@@ -5,9 +5,9 @@
 #include <optional>
 
 #include "libreeb/base/memory_budget.h"
+#include "libreeb/graph/packed_lists.h"
 #include "libreeb/graph/reeb_graph.h"
 #include "libreeb/hierarchy/hierarchy.h"
-#include "libreeb/hierarchy/packed_lists.h"
 #include "ooc/stored_graph/segment_store.h"
 
 namespace reeb::ooc {

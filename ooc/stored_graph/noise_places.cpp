@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "libreeb/base/union_find.h"
+#include "libreeb/containers/union_find.h"
 #include "libreeb/graph/packed_buckets.h"
 #include "libreeb/graph/reeb_graph.h"
 #include "libreeb/noise/noise_scope.h"

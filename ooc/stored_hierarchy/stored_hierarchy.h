@@ -12,7 +12,7 @@
 #include "libreeb/hierarchy/pair_sweeps.h"
 #include "libreeb/hierarchy/working_graph.h"
 #include "libreeb/port/record_sink.h"
-#include "ooc/reeb_file/hierarchy_source.h"
+#include "ooc/reeb_writer/hierarchy_source.h"
 #include "ooc/sorting/external_sort.h"
 #include "ooc/sorting/record_cursor.h"
 #include "ooc/stored_graph/segment_store.h"

@@ -7,7 +7,7 @@
 
 #include "io/file/temp_dir.h"
 #include "libreeb/base/memory_budget.h"
-#include "libreeb/base/union_find.h"
+#include "libreeb/containers/union_find.h"
 #include "ooc/tables/partition_logs.h"
 
 namespace reeb::ooc {

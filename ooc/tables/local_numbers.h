@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "libreeb/base/flat_map.h"
 #include "libreeb/base/ids.h"
+#include "libreeb/containers/flat_map.h"
 
 namespace reeb::ooc {
 

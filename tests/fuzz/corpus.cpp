@@ -15,7 +15,7 @@
 #include "io/formats/create_mesh.h"
 #include "io/streaming/create_stream.h"
 #include "libreeb/format/reeb_format.h"
-#include "ooc/reeb_file/reeb_file_writer.h"
+#include "ooc/reeb_writer/reeb_file_writer.h"
 #include "tests/io/streaming/samples.h"
 #include "tests/ooc/reeb_file/made_up_hierarchy.h"
 #include "tests/support/complex_mesh.h"

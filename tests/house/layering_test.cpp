@@ -22,16 +22,20 @@ using Rooms = std::vector<std::pair<std::string, std::set<std::string>>>;
 // A name without a slash stands for all rooms of that layer.
 const Rooms kRooms = {
     {"libreeb/base", {}},
-    {"libreeb/graph", {"libreeb/base"}},
+    {"libreeb/containers", {"libreeb/base"}},
+    {"libreeb/graph", {"libreeb/base", "libreeb/containers"}},
     {"libreeb/port", {"libreeb/base", "libreeb/graph"}},
-    {"libreeb/engine", {"libreeb/base", "libreeb/graph", "libreeb/port"}},
-    {"libreeb/parts", {"libreeb/base", "libreeb/graph", "libreeb/port", "libreeb/engine"}},
-    {"libreeb/grid", {"libreeb/base", "libreeb/graph", "libreeb/port", "libreeb/engine"}},
-    {"libreeb/hierarchy", {"libreeb/base", "libreeb/graph", "libreeb/port"}},
-    {"libreeb/noise", {"libreeb/base", "libreeb/graph", "libreeb/port", "libreeb/hierarchy"}},
-    {"libreeb/defects", {"libreeb/base", "libreeb/graph"}},
-    {"libreeb/repair", {"libreeb/base", "libreeb/graph", "libreeb/defects"}},
-    {"libreeb/segmentation", {"libreeb/base", "libreeb/graph", "libreeb/port", "libreeb/hierarchy"}},
+    {"libreeb/sweep", {"libreeb/base", "libreeb/containers", "libreeb/graph", "libreeb/port"}},
+    {"libreeb/engine", {"libreeb/base", "libreeb/containers", "libreeb/graph", "libreeb/port", "libreeb/sweep"}},
+    {"libreeb/parts",
+     {"libreeb/base", "libreeb/containers", "libreeb/graph", "libreeb/port", "libreeb/sweep", "libreeb/engine"}},
+    {"libreeb/grid", {"libreeb/base", "libreeb/containers", "libreeb/graph", "libreeb/port", "libreeb/sweep"}},
+    {"libreeb/hierarchy", {"libreeb/base", "libreeb/containers", "libreeb/graph", "libreeb/port"}},
+    {"libreeb/noise", {"libreeb/base", "libreeb/containers", "libreeb/graph", "libreeb/port", "libreeb/hierarchy"}},
+    {"libreeb/defects", {"libreeb/base", "libreeb/containers", "libreeb/graph"}},
+    {"libreeb/repair", {"libreeb/base", "libreeb/containers", "libreeb/graph", "libreeb/defects"}},
+    {"libreeb/segmentation",
+     {"libreeb/base", "libreeb/containers", "libreeb/graph", "libreeb/port", "libreeb/hierarchy"}},
     {"libreeb/format", {"libreeb/base", "libreeb/graph", "libreeb/port", "libreeb/hierarchy"}},
 
     {"io/file", {"libreeb/base"}},
@@ -60,13 +64,15 @@ const Rooms kRooms = {
     {"ooc/sorting", {"libreeb", "io/file", "ooc/threads"}},
     {"ooc/tables", {"libreeb", "io/file", "ooc/threads", "ooc/sorting"}},
     {"ooc/chunks", {"libreeb", "io/file", "ooc/threads", "ooc/sorting", "ooc/tables"}},
+    {"ooc/guesses", {"libreeb", "io/file", "ooc/threads", "ooc/tables", "ooc/chunks"}},
     {"ooc/grids", {"libreeb", "io/file", "ooc/chunks"}},
     {"ooc/whole_mesh", {"libreeb", "io/file", "ooc/threads", "ooc/sorting", "ooc/tables", "ooc/chunks"}},
     {"ooc/census", {"libreeb", "io/file", "ooc/threads", "ooc/chunks", "ooc/whole_mesh"}},
     {"ooc/stored_graph", {"libreeb", "io/file", "ooc/threads", "ooc/sorting", "ooc/tables"}},
-    {"ooc/reeb_file", {"libreeb", "io/file", "ooc/threads", "ooc/sorting", "ooc/tables"}},
+    {"ooc/reeb_file", {"libreeb", "io/file"}},
+    {"ooc/reeb_writer", {"libreeb", "io/file", "ooc/threads", "ooc/sorting", "ooc/tables"}},
     {"ooc/stored_hierarchy",
-     {"libreeb", "io/file", "ooc/threads", "ooc/sorting", "ooc/tables", "ooc/stored_graph", "ooc/reeb_file"}},
+     {"libreeb", "io/file", "ooc/threads", "ooc/sorting", "ooc/tables", "ooc/stored_graph", "ooc/reeb_writer"}},
     {"ooc/patches", {"libreeb", "io/file", "ooc/threads", "ooc/sorting", "ooc/tables", "ooc/whole_mesh"}},
     {"ooc/segmentation", {"libreeb", "io/file", "ooc/sorting", "ooc/tables", "ooc/stored_graph"}},
     {"ooc/checkpoints", {"libreeb", "io/file", "ooc/chunks"}},
@@ -180,7 +186,7 @@ TEST(Layering, TheTableHasNoCycle) {
 
 // A part is a header with its source file.
 TEST(Layering, RoomsAreSmall) {
-  constexpr std::size_t kMaxParts = 17, kMaxLooseFiles = 5;
+  constexpr std::size_t kMaxParts = 15, kMaxLooseFiles = 5;
   const fs::path root = REEB_SOURCE_DIR;
   for (const char* layer : {"libreeb", "io", "ooc", "tools"}) {
     std::map<std::string, std::set<std::string>> parts;

@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include "libreeb/base/union_find.h"
+#include "libreeb/containers/union_find.h"
 #include "ooc/reeb_file/reeb_file.h"
 
 namespace reeb::test {

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "libreeb/base/union_find.h"
+#include "libreeb/containers/union_find.h"
 #include "libreeb/graph/arc_buckets.h"
 #include "libreeb/graph/bucket.h"
 #include "libreeb/graph/reeb_graph.h"

@@ -8,7 +8,7 @@
 #include <sstream>
 #include <utility>
 
-#include "libreeb/base/union_find.h"
+#include "libreeb/containers/union_find.h"
 #include "tests/support/random.h"
 
 namespace reeb::test {

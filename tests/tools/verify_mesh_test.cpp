@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "ooc/reeb_file/reeb_file.h"
-#include "ooc/reeb_file/reeb_file_writer.h"
+#include "ooc/reeb_writer/reeb_file_writer.h"
 #include "tests/tools/program.h"
 
 namespace reeb::test {

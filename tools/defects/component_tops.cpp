@@ -5,8 +5,8 @@
 #include <span>
 
 #include "libreeb/base/error.h"
-#include "libreeb/base/flat_map.h"
-#include "libreeb/base/union_find.h"
+#include "libreeb/containers/flat_map.h"
+#include "libreeb/containers/union_find.h"
 
 namespace reeb::tools {
 

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "libreeb/base/error.h"
-#include "libreeb/base/flat_map.h"
+#include "libreeb/containers/flat_map.h"
 #include "ooc/patches/divided_surface.h"
 #include "ooc/patches/space_order.h"
 #include "ooc/threads/parallel.h"

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "libreeb/base/error.h"
-#include "libreeb/base/union_find.h"
+#include "libreeb/containers/union_find.h"
 #include "libreeb/hierarchy/pairing.h"
 #include "ooc/reeb_file/reeb_file.h"
 

@@ -6,7 +6,7 @@
 
 #include "libreeb/base/value_range.h"
 #include "libreeb/engine/online_reeb.h"
-#include "ooc/reeb_file/reeb_file_writer.h"
+#include "ooc/reeb_writer/reeb_file_writer.h"
 #include "tools/library/run_files.h"
 
 namespace reeb {

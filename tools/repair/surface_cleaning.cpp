@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "libreeb/base/error.h"
-#include "libreeb/base/union_find.h"
+#include "libreeb/containers/union_find.h"
 #include "ooc/sorting/external_sort.h"
 
 namespace reeb::tools {

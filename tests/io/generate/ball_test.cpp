@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "libreeb/base/error.h"
-#include "libreeb/base/union_find.h"
+#include "libreeb/containers/union_find.h"
 #include "libreeb/graph/reeb_graph.h"
 #include "tests/model/reference_reeb.h"
 

@@ -15,7 +15,7 @@
 #include "io/generate/patched_grid.h"
 #include "io/generate/permutation.h"
 #include "libreeb/base/error.h"
-#include "libreeb/base/union_find.h"
+#include "libreeb/containers/union_find.h"
 
 namespace reeb::io {
 namespace {

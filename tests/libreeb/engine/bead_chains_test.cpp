@@ -7,8 +7,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "libreeb/engine/chunk_sweep.h"
 #include "libreeb/engine/glue.h"
+#include "libreeb/sweep/chunk_sweep.h"
 #include "tests/libreeb/engine/streamed_mesh.h"
 #include "tests/support/random.h"
 

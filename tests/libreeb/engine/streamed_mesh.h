@@ -12,9 +12,9 @@
 
 #include "io/generate/generator.h"
 #include "libreeb/base/hash.h"
-#include "libreeb/engine/chunk_sweep.h"
 #include "libreeb/engine/glue.h"
 #include "libreeb/engine/stream_chunker.h"
+#include "libreeb/sweep/chunk_sweep.h"
 
 namespace reeb::test {
 

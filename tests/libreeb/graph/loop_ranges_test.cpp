@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "libreeb/base/union_find.h"
+#include "libreeb/containers/union_find.h"
 #include "libreeb/hierarchy/pairing.h"
 #include "tests/support/random_graph.h"
 

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "ooc/reeb_file/reeb_file.h"
-#include "ooc/reeb_file/reeb_file_writer.h"
+#include "ooc/reeb_writer/reeb_file_writer.h"
 
 namespace reeb::ooc {
 namespace {

@@ -10,7 +10,7 @@
 #include "libreeb/base/error.h"
 #include "ooc/reeb_file/largest_pairs.h"
 #include "ooc/reeb_file/reeb_file.h"
-#include "ooc/reeb_file/reeb_file_writer.h"
+#include "ooc/reeb_writer/reeb_file_writer.h"
 #include "tests/ooc/reeb_file/made_up_hierarchy.h"
 #include "tests/support/scratch.h"
 

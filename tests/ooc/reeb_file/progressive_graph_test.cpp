@@ -9,7 +9,7 @@
 #include <map>
 #include <set>
 
-#include "ooc/reeb_file/reeb_file_writer.h"
+#include "ooc/reeb_writer/reeb_file_writer.h"
 #include "tests/ooc/reeb_file/made_up_hierarchy.h"
 #include "tests/support/scratch.h"
 

@@ -12,7 +12,7 @@
 #include <tuple>
 
 #include "libreeb/base/error.h"
-#include "ooc/reeb_file/reeb_file_writer.h"
+#include "ooc/reeb_writer/reeb_file_writer.h"
 #include "tests/ooc/reeb_file/made_up_hierarchy.h"
 #include "tests/support/files.h"
 

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "libreeb/base/union_find.h"
+#include "libreeb/containers/union_find.h"
 #include "tests/libreeb/hierarchy/random_buckets.h"
 #include "tests/support/seed.h"
 

@@ -1,0 +1,155 @@
+#include "libreeb/graph/packed_lists.h"
+
+#include <algorithm>
+#include <cstring>
+#include <stdexcept>
+#include <utility>
+
+#include "libreeb/graph/packed_buckets.h"
+
+namespace reeb {
+namespace {
+
+// A list comes after its arc, in four bytes, and its size, seven bits per byte.
+constexpr std::size_t kArcBytes = 4, kMaxSizeBytes = 5;
+
+}  // namespace
+
+void PackedLists::add(std::span<const Bucket> buckets) {
+  packed_.clear();
+  pack_buckets(buckets, packed_);
+  add_packed(packed_);
+}
+
+void PackedLists::add_packed(std::span<const std::byte> packed) {
+  places_.push_back(kNowhere);
+  replace(places_.size() - 1, packed);
+}
+
+std::uint64_t PackedLists::memory_bytes() const {
+  return places_.capacity() * sizeof(std::uint64_t) + chunks_.capacity() * sizeof(Chunk) + chunk_bytes_ +
+         (spare_ != nullptr ? kChunkBytes : 0);
+}
+
+std::uint64_t PackedLists::most_bytes(std::uint64_t arcs, std::uint64_t buckets) {
+  constexpr std::uint64_t kListBytes = kArcBytes + 2 + 3;  // arc, size in bytes, length
+  const std::uint64_t bytes = kPackedBucketBytes * buckets + kListBytes * std::min(arcs, buckets);
+  return sizeof(std::uint64_t) * arcs + bytes + bytes / (kListsPerChunk - 1) + 2 * kChunkBytes;
+}
+
+std::span<const std::byte> PackedLists::of(std::size_t arc) const {
+  const std::uint64_t place = places_[arc];
+  if (place == kNowhere) return {};
+  return block_at(chunks_[place >> 32], static_cast<std::uint32_t>(place)).list;
+}
+
+void PackedLists::replace(std::size_t arc, std::span<const std::byte> packed) {
+  if (places_[arc] != kNowhere) forget(places_[arc]);
+  places_[arc] = packed.empty() ? kNowhere : store(static_cast<std::uint32_t>(arc), packed);
+}
+
+PackedLists::Block PackedLists::block_at(const Chunk& chunk, std::uint32_t offset) {
+  const std::byte* at = chunk.bytes.get() + offset;
+  std::uint32_t arc = 0, size = 0;
+  std::memcpy(&arc, at, kArcBytes);
+  at += kArcBytes;
+  for (unsigned shift = 0;; shift += 7) {
+    const auto byte = std::to_integer<std::uint32_t>(*at++);
+    size |= (byte & 0x7f) << shift;
+    if ((byte & 0x80) == 0) break;
+  }
+  return {arc, {at, size}, static_cast<std::uint32_t>(at - chunk.bytes.get()) + size};
+}
+
+std::uint64_t PackedLists::store(std::uint32_t arc, std::span<const std::byte> list) {
+  const std::size_t most = kArcBytes + kMaxSizeBytes + list.size();
+  if (most > ~std::uint32_t{0}) throw std::length_error("PackedLists: a list of 4 GiB");
+  const std::uint32_t index = chunk_with_room(most);
+  Chunk& chunk = chunks_[index];
+  const std::uint32_t offset = chunk.used;
+  std::byte* to = chunk.bytes.get() + offset;
+  std::memcpy(to, &arc, kArcBytes);
+  to += kArcBytes;
+  std::size_t size = list.size();
+  for (; size >= 0x80; size >>= 7) *to++ = static_cast<std::byte>(size | 0x80);
+  *to++ = static_cast<std::byte>(size);
+  std::memcpy(to, list.data(), list.size());
+  chunk.used = static_cast<std::uint32_t>(to + list.size() - chunk.bytes.get());
+  chunk.live += chunk.used - offset;
+  return place(index, offset);
+}
+
+// A large list has a chunk of its own, so that little room is lost at the ends of chunks.
+std::uint32_t PackedLists::chunk_with_room(std::size_t bytes) {
+  if (bytes > kChunkBytes / kListsPerChunk) return new_chunk(bytes);
+  if (open_ != kNoChunk && chunks_[open_].room - chunks_[open_].used >= bytes) return open_;
+  const std::uint32_t full = std::exchange(open_, new_chunk(kChunkBytes));
+  if (full != kNoChunk) note_if_due(full);  // a chunk is not noted while it is being filled
+  return open_;
+}
+
+std::uint32_t PackedLists::new_chunk(std::size_t room) {
+  if (free_.empty()) {
+    free_.push_back(static_cast<std::uint32_t>(chunks_.size()));
+    chunks_.emplace_back();
+  }
+  const std::uint32_t index = free_.back();
+  free_.pop_back();
+  const bool has_spare = spare_ != nullptr && room == kChunkBytes;
+  chunks_[index] = {has_spare ? std::move(spare_) : std::make_unique_for_overwrite<std::byte[]>(room),
+                    static_cast<std::uint32_t>(room)};
+  chunk_bytes_ += room;
+  return index;
+}
+
+void PackedLists::forget(std::uint64_t place) {
+  const auto index = static_cast<std::uint32_t>(place >> 32), offset = static_cast<std::uint32_t>(place);
+  chunks_[index].live -= block_at(chunks_[index], offset).end - offset;
+  if (index != open_) note_if_due(index);
+}
+
+void PackedLists::note_if_due(std::uint32_t index) {
+  Chunk& chunk = chunks_[index];
+  if (chunk.is_due || chunk.live >= kMinLiveShare * chunk.used) return;
+  chunk.is_due = true;
+  due_.push_back(index);
+}
+
+void PackedLists::collect() {
+  // Lists that are moved might fill the open chunk, which then might be due itself.
+  while (!due_.empty()) {
+    const std::uint32_t chunk = due_.back();
+    due_.pop_back();
+    abandon(chunk);
+  }
+}
+
+void PackedLists::abandon(std::uint32_t index) {
+  // Their arcs can be anywhere in places_.
+  for (std::uint32_t offset = 0; offset < chunks_[index].used;) {
+    const Block block = block_at(chunks_[index], offset);
+    prefetch_place(block.arc);
+    offset = block.end;
+  }
+  for (std::uint32_t offset = 0; chunks_[index].live != 0 && offset < chunks_[index].used;) {
+    const Block block = block_at(chunks_[index], offset);
+    if (places_[block.arc] == place(index, offset)) {
+      chunks_[index].live -= block.end - offset;
+      places_[block.arc] = store(block.arc, block.list);
+    }
+    offset = block.end;
+  }
+  Chunk& chunk = chunks_[index];
+  chunk_bytes_ -= chunk.room;
+  if (chunk.room == kChunkBytes && spare_ == nullptr) spare_ = std::move(chunk.bytes);
+  chunk = {};
+  free_.push_back(index);
+}
+
+PackedLists pack_lists(const ArcBucketsView& buckets) {
+  PackedLists lists;
+  for (std::size_t arc = 0; arc + 1 < buckets.offsets.size(); ++arc) lists.add(buckets.of(arc));
+  return lists;
+}
+
+}  // namespace reeb

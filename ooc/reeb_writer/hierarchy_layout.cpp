@@ -1,0 +1,255 @@
+#include "ooc/reeb_writer/hierarchy_layout.h"
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "libreeb/base/prefetch.h"
+#include "libreeb/graph/packed_buckets.h"
+#include "ooc/reeb_writer/frame_size.h"
+#include "ooc/threads/read_ahead.h"
+
+namespace reeb::ooc {
+namespace {
+
+[[noreturn]] void fail(const char* what, std::uint64_t i, const char* why) {
+  throw std::logic_error(std::string("Hierarchy: ") + what + " " + std::to_string(i) + " " + why);
+}
+
+// Counts nodes, arcs and buckets of every version from records that come by `died` descending.
+class VersionCounter {
+ public:
+  VersionCounter(std::size_t node_count, std::size_t versions) : present_from_(node_count, kNever), change_(versions) {}
+
+  bool was_named(NodeId node) const { return present_from_[node.value()] != kNever; }
+
+  // Prefetch what add() accesses: nodes and versions; when these have arrived, the versions that the nodes name.
+  void prefetch(const ArcVersion& arc) const {
+    reeb::prefetch(&change_[arc.born]);
+    for (const NodeId end : {arc.lo, arc.hi}) reeb::prefetch(&present_from_[end.value()]);
+  }
+  void prefetch_next(const ArcVersion& arc) const {
+    for (const NodeId end : {arc.lo, arc.hi})
+      if (const std::uint32_t from = present_from_[end.value()]; arc.born < from && from < change_.size())
+        reeb::prefetch(&change_[from]);
+  }
+
+  void add(const ArcVersion& arc, std::uint64_t buckets) {
+    arrives(arc.born, arc.died, {.arcs = 1, .buckets = buckets});
+    for (const NodeId end : {arc.lo, arc.hi}) add_node(end, arc.born, arc.died);
+  }
+  void add_isolated(NodeId node) { add_node(node, 0, kNeverDies); }
+
+  std::vector<VersionCounts> take(std::span<const double> persistence) {
+    for (std::size_t version = 1; version < change_.size(); ++version) {
+      const VersionCounts& before = change_[version - 1];
+      change_[version].persistence = persistence[version - 1];
+      change_[version].nodes += before.nodes;
+      change_[version].arcs += before.arcs;
+      change_[version].buckets += before.buckets;
+    }
+    return std::move(change_);
+  }
+
+ private:
+  static constexpr std::uint32_t kNever = ~std::uint32_t{0};
+
+  // Unsigned numbers wrap around, so adding and subtracting cancel out.
+  void arrives(std::uint32_t born, std::uint32_t died, const VersionCounts& what) {
+    change_[born].nodes += what.nodes;
+    change_[born].arcs += what.arcs;
+    change_[born].buckets += what.buckets;
+    if (died >= change_.size()) return;
+    change_[died].nodes -= what.nodes;
+    change_[died].arcs -= what.arcs;
+    change_[died].buckets -= what.buckets;
+  }
+
+  // A node exists while any of its arcs does. Among the versions before `died`, it is known to exist from present_from_
+  // on, if that is not later than `died`.
+  void add_node(NodeId node, std::uint32_t born, std::uint32_t died) {
+    std::uint32_t& from = present_from_[node.value()];
+    if (born >= from) return;
+    arrives(born, std::min(died, from), {.nodes = 1});
+    from = born;
+  }
+
+  std::vector<std::uint32_t> present_from_;  // by node
+  std::vector<VersionCounts> change_;        // by version: the change from the version before
+};
+
+// Cuts the sequence "isolated nodes, then records" where a frame is full.
+class FrameCutter {
+ public:
+  FrameCutter(std::uint32_t steps, std::vector<FrameCut>& cuts) : complete_(steps + 1), cuts_(cuts) {}
+
+  // Both return the frame of what was added.
+  std::uint32_t add_isolated() {
+    settle(complete_);
+    ++isolated_;
+    return add(kNodeCost);
+  }
+  std::uint32_t add_record(std::uint32_t died, std::uint64_t new_nodes, std::uint64_t buckets) {
+    // The records that follow die with this version or a finer one: all coarser versions are complete.
+    settle(std::min(complete_, died));
+    ++records_;
+    std::uint64_t cost = kArcCost + kNodeCost * new_nodes + kBucketCost * buckets;
+    if (died < last_died_ && last_died_ != kNeverDies) cost += kVersionCost * (last_died_ - died);
+    last_died_ = died;
+    return add(cost);
+  }
+  void finish() {
+    if (!is_cut_) cuts_.push_back({isolated_, records_, 0});
+    settle(0);
+  }
+
+ private:
+  std::uint32_t add(std::uint64_t cost) {
+    const auto frame = static_cast<std::uint32_t>(cuts_.size());
+    if ((cost_ += cost) >= kFrameTargetBytes) {
+      cuts_.push_back({isolated_, records_, 0});
+      is_cut_ = true;
+      cost_ = 0;
+    }
+    return frame;
+  }
+  // The record after a cut determines which versions the cut completes.
+  void settle(std::uint32_t complete) {
+    if (!std::exchange(is_cut_, false)) return;
+    cuts_.back().finest = complete_ = complete;
+  }
+
+  std::uint32_t complete_;
+  std::uint32_t last_died_ = kNeverDies;
+  std::uint64_t cost_ = 0, records_ = 0;
+  std::size_t isolated_ = 0;
+  bool is_cut_ = false;  // the last cut is at the end of what was added so far
+  std::vector<FrameCut>& cuts_;
+};
+
+// Whether a threshold yields exactly this version: the next cancellation has another persistence.
+bool has_threshold(const std::vector<VersionCounts>& versions, std::size_t version) {
+  return version == 0 || version + 1 == versions.size() ||
+         versions[version + 1].persistence > versions[version].persistence;
+}
+
+// The versions that get a line: at the ends of frames, and wherever the number of nodes has about doubled. Each is
+// moved to the next coarser one that a threshold yields.
+std::vector<std::uint32_t> table_versions(const HierarchyLayout& layout, std::uint32_t steps) {
+  const auto& versions = layout.versions;
+  std::vector<std::uint32_t> result{0, steps};
+  for (const FrameCut& cut : layout.cuts)
+    if (cut.finest <= steps) result.push_back(cut.finest);
+  std::uint64_t nodes = std::max<std::uint64_t>(1, versions[steps].nodes);
+  for (std::uint32_t version = steps; version > 0; --version) {
+    if (versions[version - 1].nodes < 2 * nodes) continue;
+    result.push_back(version);
+    nodes = versions[version - 1].nodes;
+  }
+  for (std::uint32_t& version : result)
+    while (!has_threshold(versions, version)) ++version;
+  std::sort(result.begin(), result.end(), std::greater<>());
+  result.erase(std::unique(result.begin(), result.end()), result.end());
+  return result;
+}
+
+std::vector<LevelLine> level_table(const HierarchyLayout& layout, std::uint32_t steps) {
+  std::vector<LevelLine> levels;
+  std::uint32_t frame = 0;
+  for (const std::uint32_t version : table_versions(layout, steps)) {
+    while (layout.cuts[frame].finest > version) ++frame;
+    const VersionCounts& counts = layout.versions[version];
+    levels.push_back({.version = version,
+                      .frames = frame + 1,
+                      .threshold = level_threshold(version, counts.persistence),
+                      .nodes = counts.nodes,
+                      .arcs = counts.arcs,
+                      .buckets = counts.buckets,
+                      .file_bytes = 0,
+                      .memory_bytes = level_memory(counts.nodes, counts.arcs, counts.buckets)});
+  }
+  return levels;
+}
+
+void check_steps(std::span<const double> persistence) {
+  if (persistence.size() >= kNeverDies - 1) fail("step", persistence.size(), "is one too many");
+  for (std::size_t i = 0; i < persistence.size(); ++i)
+    if (!(persistence[i] >= (i == 0 ? 0.0 : persistence[i - 1])))
+      fail("step", i + 1, "has a smaller persistence than the one before");
+}
+
+void check_record(const ArcVersion& arc, std::uint64_t i, std::size_t nodes, std::size_t steps) {
+  if (!(arc.lo < arc.hi) || arc.hi.value() >= nodes) fail("arc", i, "does not go up to a node");
+  if (arc.born >= arc.died || (arc.died > steps && arc.died != kNeverDies))
+    fail("arc", i, "does not live between two versions");
+}
+
+void check_pairs(HierarchySource& hierarchy) {
+  hierarchy.rewind_pairs();
+  PersistencePair pair;
+  for (std::uint64_t i = 0; hierarchy.next_pair(pair); ++i)
+    if (pair.hi < pair.lo || pair.hi.value() >= hierarchy.node_count()) fail("pair", i, "does not go up to a node");
+}
+
+}  // namespace
+
+HierarchyLayout lay_out(HierarchySource& hierarchy, RecordSource& records, bool background) {
+  const std::size_t node_count = hierarchy.node_count(), steps = hierarchy.persistence().size();
+  check_steps(hierarchy.persistence());
+  check_pairs(hierarchy);
+  HierarchyLayout layout;
+  {
+    VersionCounter counter(node_count, steps + 1);
+    FrameCutter cutter(static_cast<std::uint32_t>(steps), layout.cuts);
+    const std::span<const NodeId> isolated = hierarchy.isolated();
+    for (std::size_t i = 0; i < isolated.size(); ++i) {
+      if (isolated[i].value() >= node_count || (i > 0 && !(isolated[i - 1] < isolated[i])))
+        fail("isolated node", i, "is not above the one before it");
+      counter.add_isolated(isolated[i]);
+      hierarchy.introduce(isolated[i], cutter.add_isolated());
+    }
+    struct Record {
+      ArcVersion arc;
+      std::uint64_t buckets;
+    };
+    constexpr std::size_t kRecordsAtOnce = 512, kAhead = 8;
+    records.rewind();
+    ArcVersion before;
+    std::uint64_t read = 0;
+    const auto read_some = [&](std::vector<Record>& some) {
+      some.clear();
+      ArcVersion arc;
+      for (std::span<const std::byte> packed; some.size() < kRecordsAtOnce && records.next(arc, packed); ++read) {
+        check_record(arc, read, node_count, steps);
+        if (arc.died > std::exchange(before, arc).died) fail("arc", read, "lives longer than the one before");
+        some.push_back({arc, packed_count(packed)});
+      }
+      return !some.empty();
+    };
+    // The nodes of records can be anywhere in memory.
+    const auto count_some = [&](const std::vector<Record>& some) {
+      for (const Record& record : some) counter.prefetch(record.arc);
+      for (std::size_t i = 0; i < some.size(); ++i) {
+        if (i + kAhead < some.size()) counter.prefetch_next(some[i + kAhead].arc);
+        const auto& [arc, buckets] = some[i];
+        const bool is_new_lo = !counter.was_named(arc.lo), is_new_hi = !counter.was_named(arc.hi);
+        counter.add(arc, buckets);
+        const std::uint32_t frame = cutter.add_record(arc.died, (is_new_lo ? 1u : 0u) + (is_new_hi ? 1u : 0u), buckets);
+        if (is_new_lo) hierarchy.introduce(arc.lo, frame);
+        if (is_new_hi) hierarchy.introduce(arc.hi, frame);
+      }
+      layout.records += some.size();
+    };
+    read_ahead<std::vector<Record>>(background, read_some, count_some);
+    for (std::uint32_t node = 0; node < node_count; ++node)
+      if (!counter.was_named(NodeId(node))) fail("node", node, "is neither isolated nor named by an arc");
+    cutter.finish();
+    layout.versions = counter.take(hierarchy.persistence());
+  }
+  layout.levels = level_table(layout, static_cast<std::uint32_t>(steps));
+  return layout;
+}
+
+}  // namespace reeb::ooc
