@@ -71,6 +71,20 @@ plain() { cmake -S "$source" -B plain -DCMAKE_CXX_COMPILER="$cxx" | tee plain.lo
 unset CMAKE_BUILD_TYPE
 check "a plain configuration is a Release and says so" plain
 
+# The compiler of an MPI without its headers, as packages of other programs bring it, is no MPI.
+mkdir half
+cat >half/mpicxx <<'END'
+#!/bin/sh
+case "$*" in *-show*) echo "-I/nonexistent/mpi/include" ;; *) exit 1 ;; esac
+END
+chmod +x half/mpicxx
+cp half/mpicxx half/mpic++
+half_an_mpi() {
+  PATH="$work/half:$PATH" cmake -S "$source" -B half/build -DCMAKE_CXX_COMPILER="$cxx" | tee half.log &&
+    grep -q 'has no mpi.h, so there is no reeb-mpi' half.log
+}
+check "an MPI without headers" half_an_mpi
+
 # A header that is public includes a private one: that is seen.
 mkdir -p broken/libreeb/base
 cat >broken/CMakeLists.txt <<END
@@ -84,7 +98,7 @@ END
 accepted() { printf '// A header.\n#pragma once\n\n#include %s\n' "$1" >broken/libreeb/base/error.h; cmake -S broken -B broken/build; }
 refused() { accepted "$1" >broken.log 2>&1 && return 1; tr -s ' \n' ' ' <broken.log | grep -q 'neither public'; }
 check "a public header may use the standard library" accepted "<vector>"
-for include in '"libreeb/engine/chunk.h"' '<tbb/tbb.h>' '<zstd.h>' '<unistd.h>'; do
+for include in '"libreeb/sweep/chunk.h"' '<tbb/tbb.h>' '<zstd.h>' '<unistd.h>'; do
   check "a public header may not include $include" refused "$include"
 done
 
