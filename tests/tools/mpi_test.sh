@@ -4,7 +4,7 @@
 # Usage: mpi_test.sh REEB REEB_MPI SOURCE_DIR
 set -eu
 reeb=$1 reeb_mpi=${2:-} meshes=${REEB_DATA:-${3:-}/../shared/data}/meshes
-if [ ! -x "$reeb_mpi" ] || ! command -v mpirun > /dev/null; then
+if [ ! -f "$reeb_mpi" ] || ! command -v mpirun > /dev/null; then
   echo "skipped: no data: there is no MPI"
   exit 0
 fi
