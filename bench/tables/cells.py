@@ -58,9 +58,9 @@ class Bench:
         return os.path.join(self.folder, name)
 
     def mesh(self, name, *options, need=0):
-        """The generated mesh of this name, which is made unless it is there."""
+        """The generated mesh of this name, which is made unless it is there with its topology."""
         path = self.path(name)
-        if not os.path.exists(path):
+        if not (os.path.exists(path) and os.path.exists(path + ".topology")):
             if shutil.disk_usage(self.folder).free < need + (1 << 30):
                 raise Failed(f"no room on disk for {name}")
             self.say(f"  making {name}")
