@@ -9,6 +9,7 @@ WHY = {
     "tiles": "pieces that come in no order are sorted on disk, or glued with long borders",
     "noise": "the noise at the borders of tiles stays in memory until the tiles beside them come",
     "random order": "sorting the mesh on disk by position takes half of the time",
+    "sums": "adding each vertex to the exact sums of its bucket takes 6 % of a run, and dividing buckets the rest",
     "buckets": "each vertex enters a bucket, and each arc has at least one: a third more is sorted, packed and written",
     "hierarchy": "each cancellation touches nodes, arcs and lists of buckets all over memory, and each arc that changes "
                  "is stored with its whole list",
@@ -80,7 +81,7 @@ def goals(figures):
                lambda f: f <= 3.5, WHY["random order"])
     yield Goal("embedding and noise removal, z, processor time", "at most 5 % more",
                get("targets/12M/z/embedding-and-noise", "processor_ratio"), lambda f: f"{100 * (f - 1):+.1f} %",
-               lambda f: f <= 1.05, WHY["speed"])
+               lambda f: f <= 1.05, WHY["sums"])
     yield Goal("embedding and noise removal, random function, processor time", "at most 10 ns a triangle more",
                added(figures, "targets/12M/random:1/embedding-and-noise"), lambda f: f"{f:+.1f} ns",
                lambda f: f <= 10, WHY["buckets"])
