@@ -1,7 +1,6 @@
 // Divides the triangles of a chunk into patches of triangles that are near each other in space.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -34,9 +33,7 @@ class PatchPartition {
   std::size_t memory_bytes() const;
 
  private:
-  // Where a triangle is: the position of its first corner, and its index in the stream.
-  using Place = std::array<double, 4>;
-  static constexpr std::size_t kStream = 3;
+  static constexpr std::size_t kStream = 3;  // a fourth axis: the index in the stream
   struct Cut {
     std::size_t axis = 0;
     double at = 0;
@@ -44,20 +41,23 @@ class PatchPartition {
   };
   static constexpr std::uint32_t kIsPatch = 1u << 31;
 
-  std::uint32_t cut(std::span<Place> sample, std::size_t most);
-  static std::size_t divide_sample(std::span<Place> sample, Cut& cut);
-  std::uint16_t patch_at(const Place& place, std::uint32_t root) const;
+  static double place(const Chunk& chunk, std::uint32_t triangle, std::size_t axis) {
+    return axis == kStream ? triangle : chunk.positions[chunk.corners[3 * std::size_t{triangle}]][axis];
+  }
+  std::uint32_t cut(const Chunk& chunk, std::span<std::uint32_t> sample, std::size_t most);
+  std::size_t divide_sample(const Chunk& chunk, std::span<std::uint32_t> sample, Cut& cut) const;
+  template <class PlaceOn>
+  std::uint16_t patch_at(const PlaceOn& place_on, std::uint32_t root) const;
   void find_patches(const Chunk& chunk, std::uint32_t root);
   void collect(const Chunk& chunk);
 
   unsigned threads_;
-  std::vector<Place> sample_;
   std::vector<Cut> cuts_;
   std::uint32_t patches_ = 0;
   bool cuts_stream_ = false;
   std::vector<std::uint16_t> patch_of_;  // by first corner; by triangle if the stream is cut
   std::vector<std::uint32_t> begin_{0};
-  std::vector<std::uint32_t> triangles_;
+  std::vector<std::uint32_t> triangles_;  // first the sample
 };
 
 }  // namespace reeb::ooc
