@@ -250,8 +250,8 @@ def page(result, cells, figures, has_picture):
              paragraph(f"*This page*: `--{result['mode']}`; {machine_text(result)}"),
              paragraph(busy) if busy else "",
              paragraph("Times are wall times of whole processes, medians, with the file in the page cache and as many "
-                       "threads as cores. The start of GNU time, which starts the programs to measure their memory, does "
-                       "not count. Memory is the peak resident memory of the process; MB are millions of bytes. "
+                       "threads as cores. GNU time starts the programs, to measure their memory; its own start does not "
+                       "count. Memory is the peak resident memory of the process; MB are millions of bytes. "
                        "The meshes are surfaces of `reeb generate scan`, with noise and handles. Before a time is taken, "
                        "the graph must have one component, and no more loops than the surface has handles; for z exactly "
                        "as many. A dash is what was not measured."),

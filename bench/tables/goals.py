@@ -9,7 +9,8 @@ WHY = {
     "tiles": "pieces that come in no order are sorted on disk, or glued with long borders",
     "noise": "the noise at the borders of tiles stays in memory until the tiles beside them come",
     "random order": "sorting the mesh on disk by position takes half of the time",
-    "sums": "adding each vertex to the exact sums of its bucket takes 6 % of a run, and dividing buckets the rest",
+    "sums": "adding each vertex to the exact sums of its bucket takes 6 % of a run; dividing buckets and removing noise "
+            "take the rest",
     "buckets": "each vertex enters a bucket, and each arc has at least one: a third more is sorted, packed and written",
     "hierarchy": "each cancellation touches nodes, arcs and lists of buckets all over memory, and each arc that changes "
                  "is stored with its whole list",

@@ -37,8 +37,7 @@ def _io_of(pid):
 
 
 def run_once(command, seconds_limit=3600, environment=None):
-    """Runs it once. Returns its wall and processor seconds, peak memory, and bytes read and written; and what it printed.
-    """
+    """Runs it once. Returns its wall and processor seconds, peak memory, and bytes moved; and what it printed."""
     fields, text = _run_timed(command, seconds_limit, environment)
     fields["wall"] = max(0, fields["wall"] - _seconds_of_measuring())
     return fields, text
