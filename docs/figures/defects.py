@@ -5,7 +5,7 @@
     docs/figures/defects.py rows.json patches docs/defects-NAME.png
 
 Blue-grey is the outer side of a triangle, sand the inner side. The shorter curve is red, the other one green; what is
-hidden is dotted. The bar is as many median edges long as it says. Needs numpy.
+hidden is dotted; a key below says so. The bar is as many median edges long as it says. Needs numpy.
 """
 import json
 import math
@@ -15,7 +15,8 @@ import zlib
 
 import numpy as np
 
-CELL, CAPTION, GAP, FIRST_ROWS, VIEWS = 250, 16, 6, 5, 40
+CELL, CAPTION, GAP, FIRST_ROWS, VIEWS = 250, 24, 6, 5, 40
+TEXT = 2  # pixels for each dot of a letter
 SHADES = 48  # of each side
 WHITE, BLACK, RED, GREEN = 0, 1, 2, 3
 FIRST_OUTER, FIRST_INNER = 4, 4 + SHADES
@@ -179,8 +180,21 @@ def write_text(pixels, x, y, text):
         for dy, row in enumerate(rows):
             for dx in range(5):
                 if row >> (4 - dx) & 1:
-                    pixels[y + dy, x + dx] = BLACK
-        x += 6
+                    top, left = y + dy * TEXT, x + dx * TEXT
+                    pixels[top:top + TEXT, left:left + TEXT] = BLACK
+        x += 6 * TEXT
+    return x
+
+
+def write_key(pixels, x, y):
+    """What the lines are."""
+    for name, colour, dotted in (("shorter curve", RED, False), ("other curve", GREEN, False), ("hidden", RED, True)):
+        for i in range(36):
+            if not dotted:
+                pixels[y + 6:y + 9, x + i] = colour
+            elif i % 6 < 2:
+                pixels[y + 7, x + i] = colour
+        x = write_text(pixels, x + 44, y, name) + 28
 
 
 def save(path, pixels):
@@ -219,8 +233,11 @@ def draw_row(row, folder):
         picture.draw_curves(curve_points, edges)
         cells.append(picture.pixels)
     count = max(1, round(radius / 2 / edge))
-    cells[0][CELL - 10:CELL - 7, 8:8 + int(count * edge * cells[0].shape[0] / (2 * radius))] = BLACK
-    write_text(cells[0], 8, CELL - 20, f"{count} edge" + ("s" if count != 1 else ""))
+    label = f"{count} edge" + ("s" if count != 1 else "")
+    end = 8 + int(count * edge * cells[0].shape[0] / (2 * radius))
+    cells[0][CELL - 32:, :max(end, 8 + 6 * TEXT * len(label)) + 6] = WHITE
+    cells[0][CELL - 10:CELL - 7, 8:end] = BLACK
+    write_text(cells[0], 8, CELL - 28, label)
     caption = f"rank {row['rank']} {row['kind']} {shorter(row):.4g} = {shorter(row) / edge:.2g} edges"
     if shorter(row) / edge < 0.1:
         caption = f"rank {row['rank']} {row['kind']} {shorter(row):.4g} = {shorter(row) / edge:.4f} edges"
@@ -234,7 +251,9 @@ def main():
     first = rows[:FIRST_ROWS]
     chosen = first + [max(rows[FIRST_ROWS:], key=shorter)] if len(rows) > FIRST_ROWS else first
     height = CELL + CAPTION + GAP
-    sheet = np.full(((len(chosen) + 1) // 2 * height, 2 * (2 * CELL + 3 * GAP)), WHITE, np.uint8)
+    rows_height = (len(chosen) + 1) // 2 * height
+    sheet = np.full((rows_height + CAPTION, 2 * (2 * CELL + 3 * GAP)), WHITE, np.uint8)
+    write_key(sheet, GAP + 2, rows_height + 3)
     for k, row in enumerate(chosen):
         caption, cells = draw_row(row, folder)
         x, y = k % 2 * (2 * CELL + 3 * GAP) + GAP, k // 2 * height

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "io/plot/specks.h"
+
 namespace reeb::io {
 namespace {
 
@@ -82,7 +84,8 @@ struct Outline {
 
 class BranchPlaces {
  public:
-  BranchPlaces(const Forest& forest, std::span<const double> height) : forest_(forest), height_(height) {
+  BranchPlaces(const Forest& forest, std::span<const double> height, std::span<const std::uint32_t> specks)
+      : forest_(forest), height_(height) {
     const std::size_t count = forest.order.size();
     reach_.assign(height.begin(), height.end());
     next_.assign(count, kNone);
@@ -106,8 +109,8 @@ class BranchPlaces {
       if (parent != node) branches[first_of(parent)].push_back(node);
     }
     bool any = false;
-    for (const std::uint32_t root : forest.order) {
-      if (forest.parent[root] != root) continue;
+    for (const std::uint32_t root : roots_by_size()) {
+      if (specks[root] != kNoSpeck) continue;
       shift_[root] = any ? all.shift_to_the_right(outlines[root]) : 0;
       all.take(outlines[root], shift_[root]);
       any = true;
@@ -128,6 +131,20 @@ class BranchPlaces {
   static constexpr double kOutlineRows = 160;
 
   static std::size_t outline_row(double height) { return static_cast<std::size_t>(height * kOutlineRows); }
+
+  // Of the largest component first.
+  std::vector<std::uint32_t> roots_by_size() const {
+    std::vector<std::uint32_t> roots, size(forest_.order.size(), 0);
+    for (std::size_t i = forest_.order.size(); i-- > 0;) {
+      const std::uint32_t node = forest_.order[i], parent = forest_.parent[node];
+      ++size[node];
+      if (parent != node) size[parent] += size[node];
+    }
+    for (const std::uint32_t node : forest_.order)
+      if (forest_.parent[node] == node) roots.push_back(node);
+    std::stable_sort(roots.begin(), roots.end(), [&](std::uint32_t a, std::uint32_t b) { return size[a] > size[b]; });
+    return roots;
+  }
 
   // The first node of the branch of `node`.
   std::uint32_t first_of(std::uint32_t node) {
@@ -196,9 +213,10 @@ Neighbors neighbors_of(const ReebGraph& graph) {
   return result;
 }
 
-std::vector<double> branch_places(const ReebGraph& graph, std::span<const double> height) {
+std::vector<double> branch_places(const ReebGraph& graph, std::span<const double> height,
+                                  std::span<const std::uint32_t> specks) {
   const Forest forest = spanning_forest(graph, neighbors_of(graph));
-  return BranchPlaces(forest, height).places();
+  return BranchPlaces(forest, height, specks).places();
 }
 
 }  // namespace reeb::io

@@ -19,7 +19,9 @@ Neighbors neighbors_of(const ReebGraph& graph);
 
 // The place of each node, where branches are at least 1 apart; `height` is from 0 to 1. A branch is a path away from
 // the root, on which each node is followed by the child from which one gets highest or lowest. Branches are as near to
-// the one they begin at as their outlines allow. TIME: O((nodes + arcs) log(nodes)).
-std::vector<double> branch_places(const ReebGraph& graph, std::span<const double> height);
+// the one they begin at as their outlines allow. Components are beside each other, the largest first; specks
+// (io/plot/specks.h) take no room. TIME: O((nodes + arcs) log(nodes)).
+std::vector<double> branch_places(const ReebGraph& graph, std::span<const double> height,
+                                  std::span<const std::uint32_t> specks);
 
 }  // namespace reeb::io

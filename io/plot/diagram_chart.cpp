@@ -74,8 +74,8 @@ void DiagramPoints::finish() {
     }
 }
 
-std::string diagram_chart(const Heading& heading, const std::string& function, const DiagramPoints& points) {
-  std::string text = begin_chart(heading, 800, 640);
+std::string diagram_chart(const std::string& function, const DiagramPoints& points) {
+  std::string text = begin_chart(840, 640);
   // Values of any size: gnuplot fails where the range is nothing, or more than a number.
   const double low = std::max(points.low(), -1e300), high = std::min(points.high(), 1e300);
   const double margin = high > low ? (high - low) * 0.03 : std::max(1.0, std::abs(low)) * 0.5;
@@ -89,8 +89,8 @@ std::string diagram_chart(const Heading& heading, const std::string& function, c
   text += "set xlabel " + gnuplot_quoted("f = " + function + " where the feature begins") + "\nset ylabel " +
           gnuplot_quoted("f = " + function + " where it ends") +
           "\nset size square\n"
-          "set key at screen 0.98, screen 0.80 right top vertical Left reverse\n"
-          "set rmargin at screen 0.70\nset lmargin at screen 0.11\nset bmargin at screen 0.11\n"
+          "set key at screen 0.69, screen 0.86 left top vertical Left reverse samplen 1\n"  // beside the square
+          "set rmargin at screen 0.67\nset lmargin at screen 0.11\nset bmargin at screen 0.11\n"
           "set format '%g'\n";
   std::size_t drawn = 0;
   for (const TypeStyle& style : kStyles) drawn += points.of(style.type).size();

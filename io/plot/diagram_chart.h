@@ -11,7 +11,6 @@
 #include <string>
 #include <vector>
 
-#include "io/drawing/svg_text.h"
 #include "libreeb/base/value_range.h"
 #include "libreeb/hierarchy/hierarchy.h"
 
@@ -53,6 +52,6 @@ class DiagramPoints {
 };
 
 // Commands for gnuplot. `function` is its name.
-std::string diagram_chart(const Heading& heading, const std::string& function, const DiagramPoints& points);
+std::string diagram_chart(const std::string& function, const DiagramPoints& points);
 
 }  // namespace reeb::io

@@ -11,7 +11,7 @@ namespace reeb::io {
 
 // The input of dot. Nodes with nearly the same value come into one row.
 std::string dot_text(const ReebGraph& graph);
-// From what `dot -Tplain` writes for it; nothing if that is no layout of this graph.
-std::optional<GraphLayout> read_dot_layout(const ReebGraph& graph, std::string_view plain);
+// From what `dot -Tplain` wrote for it; nothing if that is no layout of this graph.
+std::optional<GraphLayout> read_dot_layout(const ReebGraph& graph, std::string_view written);
 
 }  // namespace reeb::io

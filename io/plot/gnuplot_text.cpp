@@ -13,18 +13,22 @@ std::string gnuplot_quoted(std::string_view text) {
   return quoted + '\'';
 }
 
-std::string begin_chart(const Heading& heading, unsigned width, unsigned height) {
+std::string begin_chart(unsigned width, unsigned height) {
   return "set terminal svg size " + std::to_string(width) + ',' + std::to_string(height) +
          " font 'DejaVu Sans,13' noenhanced linewidth 1 background rgb 'white'\n"
          "set encoding utf8\n"
-         "set label 1 " +
-         gnuplot_quoted(heading.title) + " at screen 0.02, screen 0.955 left font 'DejaVu Sans,16' textcolor " +
-         gnuplot_color(kInk) + "\nset label 2 " + gnuplot_quoted(heading.subtitle) +
-         " at screen 0.02, screen 0.915 left font 'DejaVu Sans,12' textcolor " + gnuplot_color(kGreyInk) +
-         "\nset tmargin at screen 0.87\n"
+         "set tmargin at screen 0.87\n"
          "set border 3 linecolor rgb '#5f5f5f'\n"
          "set tics nomirror out\n"
          "set grid linecolor rgb '#d8d8d8' linewidth 0.6\n";
+}
+
+std::string with_heading(std::string chart, const Heading& heading) {
+  std::string text = "<g font-family=\"DejaVu Sans, Helvetica, Arial, sans-serif\">\n";
+  append_heading(text, heading);
+  text += "</g>\n";
+  const std::size_t end = chart.rfind("</svg>");
+  return end == std::string::npos ? chart : chart.insert(end, text);
 }
 
 std::string gnuplot_color(Rgb color) { return "rgb '" + hex(color) + '\''; }

@@ -12,7 +12,10 @@ namespace reeb::io {
 std::string gnuplot_quoted(std::string_view text);
 
 // The first commands of a chart of this size, which is written to standard output as SVG.
-std::string begin_chart(const Heading& heading, unsigned width, unsigned height);
+std::string begin_chart(unsigned width, unsigned height);
+
+// What gnuplot made of it, with the heading that all pictures have: gnuplot has no bold text without a markup.
+std::string with_heading(std::string chart, const Heading& heading);
 
 // "rgb '#0072b2'".
 std::string gnuplot_color(Rgb color);

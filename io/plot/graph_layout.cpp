@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "io/plot/branch_places.h"
+#include "io/plot/specks.h"
 
 namespace reeb::io {
 
@@ -22,12 +23,17 @@ std::vector<PicturePoint> upright_curve(PicturePoint lo, PicturePoint hi, double
 
 GraphLayout layered_layout(const ReebGraph& graph) {
   const std::vector<double> height = heights(graph);
-  const std::vector<double> place = branch_places(graph, height);
+  const std::vector<std::uint32_t> specks = specks_of(graph);
+  const std::vector<double> place = branch_places(graph, height, specks);
   GraphLayout layout;
-  if (place.empty()) return layout;
-  const auto [left, right] = std::minmax_element(place.begin(), place.end());
+  double left = 1e300, right = -1e300;
+  for (std::size_t i = 0; i < place.size(); ++i) {
+    if (specks[i] != kNoSpeck) continue;
+    left = std::min(left, place[i]);
+    right = std::max(right, place[i]);
+  }
   for (std::size_t i = 0; i < height.size(); ++i)
-    layout.nodes.push_back({*right > *left ? (place[i] - *left) / (*right - *left) : 0.5, height[i]});
+    layout.nodes.push_back({right > left ? (place[i] - left) / (right - left) : 0.5, height[i]});
   layout.arcs.reserve(graph.arc_count());
   for (std::size_t arc = 0; arc < graph.arc_count(); ++arc) {
     const bool is_parallel = arc > 0 && graph.lo[arc - 1] == graph.lo[arc] && graph.hi[arc - 1] == graph.hi[arc];
@@ -37,6 +43,7 @@ GraphLayout layered_layout(const ReebGraph& graph) {
     layout.arcs.push_back(
         upright_curve(layout.nodes[graph.lo[arc].value()], layout.nodes[graph.hi[arc].value()], bend));
   }
+  place_specks(graph, specks, layout);
   return layout;
 }
 

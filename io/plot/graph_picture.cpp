@@ -6,6 +6,7 @@
 #include "io/drawing/canvas.h"
 #include "io/plot/node_marks.h"
 #include "io/plot/value_axis.h"
+#include "libreeb/base/count_text.h"
 
 namespace reeb::io {
 namespace {
@@ -40,14 +41,20 @@ void append_axis(std::string& svg, const ReebGraph& graph, const std::string& fu
   svg += "</g>\n";
 }
 
-void append_lines(std::string& svg, const GraphLayout& layout, std::span<const NodeKind> kinds) {
+using Part = GraphLayout::Part;
+
+void append_lines(std::string& svg, const ReebGraph& graph, const GraphLayout& layout,
+                  std::span<const NodeKind> kinds) {
   const double crowd = static_cast<double>(kinds.size());
   const double width = crowd > 2000 ? 0.5 : (crowd > 300 ? 0.9 : 1.5);
   const double radius = crowd > 2000 ? 1.3 : (crowd > 300 ? 2.4 : 4.2);
+  const double speck_radius = std::min(radius, 0.3 * (place({layout.speck_distance, 0}).x - place({0, 0}).x));
   svg += "<g fill=\"none\" stroke=\"#5a6b7b\" stroke-width=\"";
   append_coordinate(svg, width);
   svg += "\">\n";
-  for (const auto& curve : layout.arcs) {
+  for (std::size_t arc = 0; arc < layout.arcs.size(); ++arc) {
+    const auto& curve = layout.arcs[arc];
+    if (layout.parts[graph.lo[arc].value()] == Part::kLeftOut) continue;
     svg += "<path class=\"arc\" d=\"M";
     append_point(svg, place(curve.front()));
     for (std::size_t i = 1; i < curve.size(); ++i) {
@@ -59,7 +66,9 @@ void append_lines(std::string& svg, const GraphLayout& layout, std::span<const N
   svg += "</g>\n<g stroke=\"#222\" stroke-width=\"";
   append_coordinate(svg, std::min(1.0, radius / 3), 2);
   svg += "\">\n";
-  for (std::size_t i = 0; i < kinds.size(); ++i) append_node(svg, place(layout.nodes[i]), kinds[i], radius);
+  for (std::size_t i = 0; i < kinds.size(); ++i)
+    if (layout.parts[i] != Part::kLeftOut)
+      append_node(svg, place(layout.nodes[i]), kinds[i], layout.parts[i] == Part::kSpeck ? speck_radius : radius);
   svg += "</g>\n";
 }
 
@@ -69,7 +78,8 @@ PicturePoint on_curve(std::span<const PicturePoint> controls, double t) {
           a * controls[0].y + b * controls[1].y + c * controls[2].y + d * controls[3].y};
 }
 
-void append_raster(std::string& svg, const GraphLayout& layout, std::span<const NodeKind> kinds) {
+void append_raster(std::string& svg, const ReebGraph& graph, const GraphLayout& layout,
+                   std::span<const NodeKind> kinds) {
   constexpr double kScale = 2;
   const PicturePoint corner{kLeft, kTop - 8};
   const double width = kWidth - kLeft - kRight, height = kHeight - kTop - kBottom + 16;
@@ -78,7 +88,9 @@ void append_raster(std::string& svg, const GraphLayout& layout, std::span<const 
     const PicturePoint at = place(point);
     return PicturePoint{at.x - corner.x, at.y - corner.y};
   };
-  for (const auto& curve : layout.arcs)
+  for (std::size_t arc = 0; arc < layout.arcs.size(); ++arc) {
+    const auto& curve = layout.arcs[arc];
+    if (layout.parts[graph.lo[arc].value()] == Part::kLeftOut) continue;
     for (std::size_t i = 0; i + 3 < curve.size(); i += 3) {
       constexpr int kPieces = 12;
       const auto controls = std::span(curve).subspan(i, 4);
@@ -89,8 +101,10 @@ void append_raster(std::string& svg, const GraphLayout& layout, std::span<const 
         last = next;
       }
     }
+  }
   for (std::size_t i = 0; i < kinds.size(); ++i)
-    if (kinds[i] != NodeKind::kFork) canvas.disc(inside(layout.nodes[i]), 0.7, node_color(kinds[i]));
+    if (kinds[i] != NodeKind::kFork && layout.parts[i] != Part::kLeftOut)
+      canvas.disc(inside(layout.nodes[i]), 0.7, node_color(kinds[i]));
   append_image(svg, canvas.image(), corner, width, height);
 }
 
@@ -100,13 +114,16 @@ std::string graph_picture(const ReebGraph& graph, const GraphLayout& layout, con
                           const Heading& heading) {
   const std::vector<NodeKind> kinds = node_kinds(graph);
   std::string svg = begin_svg(kWidth, kHeight);
-  append_heading(svg, heading);
+  Heading complete = heading;
+  if (layout.left_out > 0)
+    complete.subtitle += "; " + with_commas(layout.left_out) + " of the components of one node or arc are not drawn";
+  append_heading(svg, complete);
   std::string axis;
   append_axis(axis, graph, function);
   const bool as_lines = graph.arc_count() <= kMostArcsAsLines && graph.node_count() <= 2 * kMostArcsAsLines;
-  if (!as_lines) append_raster(svg, layout, kinds);  // it covers the grid
+  if (!as_lines) append_raster(svg, graph, layout, kinds);  // it covers the grid
   svg += axis;
-  if (as_lines) append_lines(svg, layout, kinds);
+  if (as_lines) append_lines(svg, graph, layout, kinds);
   append_legend(svg, {kLeft + 14, kHeight - 16}, kinds);
   return svg + "</svg>\n";
 }

@@ -10,7 +10,6 @@
 namespace reeb::io {
 namespace {
 
-constexpr std::size_t kMostMarks = 200;
 constexpr double kFloor = 0.7;  // the lower end of the axis; zero has no place on it
 
 std::string block_name(const char* kind, std::size_t i) { return std::string("$") + kind + std::to_string(i); }
@@ -45,7 +44,7 @@ std::vector<std::pair<double, std::size_t>> loop_steps(std::span<const double> p
   return steps;
 }
 
-std::string loop_chart(const Heading& heading, std::span<const LoopSeries> series) {
+std::string loop_chart(std::span<const LoopSeries> series) {
   double least = 100, most = 0;
   std::size_t loops = 0;
   for (const LoopSeries& one : series) {
@@ -59,7 +58,7 @@ std::string loop_chart(const Heading& heading, std::span<const LoopSeries> serie
   // Under the axis, names of series in two columns.
   const auto key_rows = static_cast<unsigned>(series.size() > 1 ? (series.size() + 1) / 2 : 0);
   const unsigned height = 540 + (key_rows == 0 ? 0 : 20 + 22 * key_rows);
-  std::string text = begin_chart(heading, 800, height);
+  std::string text = begin_chart(800, height);
   text += "set bmargin at screen ";
   append_double(text, (height - 474.0) / height);
   text += '\n';
@@ -94,13 +93,6 @@ std::string loop_chart(const Heading& heading, std::span<const LoopSeries> serie
     text += "END\n";
     plot += (i == 0 ? "" : ", ") + block_name("steps", i) + " using 1:2 with fsteps linewidth 2 dashtype " + dashes +
             " linecolor " + color + " title " + gnuplot_quoted(one.name);
-    if (one.percents.empty() || one.percents.size() > kMostMarks) continue;
-    text += block_name("marks", i) + " << END\n";
-    for (const auto& [percent, count] : loop_steps(one.percents))
-      text += point_line(percent, static_cast<double>(count));
-    text += "END\n";
-    plot += ", " + block_name("marks", i) + " using 1:2 with points pointtype 7 pointsize 0.45 linecolor " + color +
-            " notitle";
   }
   return text + plot + '\n';
 }

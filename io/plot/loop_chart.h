@@ -6,8 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include "io/drawing/svg_text.h"
-
 namespace reeb::io {
 
 struct LoopSeries {
@@ -20,7 +18,7 @@ struct LoopSeries {
 inline constexpr std::size_t kMostCorners = 1000;
 std::vector<std::pair<double, std::size_t>> loop_steps(std::span<const double> percents);
 
-// Commands for gnuplot. Loops have marks where a series has at most 200. REQUIRES: a loop in any of the series.
-std::string loop_chart(const Heading& heading, std::span<const LoopSeries> series);
+// Commands for gnuplot. REQUIRES: a loop in any of the series.
+std::string loop_chart(std::span<const LoopSeries> series);
 
 }  // namespace reeb::io

@@ -8,6 +8,7 @@
 #include "io/export/line_points.h"
 #include "io/plot/graph_layout.h"
 #include "io/plot/node_marks.h"
+#include "io/plot/specks.h"
 #include "io/plot/value_axis.h"
 
 namespace reeb::io {
@@ -103,17 +104,6 @@ double length_of(std::span<const DrawnStop> stops) {
   return length;
 }
 
-// Whether each node belongs to a component of one arc: a speck, often one of many.
-std::vector<bool> ends_of_lone_arcs(const ReebGraph& graph) {
-  const Degrees degree = degrees(graph);
-  std::vector<bool> lone(graph.node_count(), false);
-  for (std::size_t arc = 0; arc < graph.arc_count(); ++arc) {
-    const std::size_t lo = graph.lo[arc].value(), hi = graph.hi[arc].value();
-    if (degree.down[lo] + degree.up[lo] == 1 && degree.down[hi] + degree.up[hi] == 1) lone[lo] = lone[hi] = true;
-  }
-  return lone;
-}
-
 void append_path(std::string& svg, std::span<const DrawnStop> stops) {
   svg += "<path d=\"M";
   for (std::size_t i = 0; i < stops.size(); ++i) {
@@ -187,7 +177,8 @@ void append_scale(std::string& svg, PicturePoint at, double pixels_per_unit) {
   svg += "v8m0,-4H";
   append_coordinate(svg, at.x);
   svg += "m0,-4v8\"/>\n";
-  append_text(svg, {at.x, at.y + 23}, short_number(length, 4) + " units of length", {.size = 11, .anchor = "end"});
+  append_text(svg, {at.x, at.y + 23}, short_number(length, 4) + (length == 1 ? " unit of length" : " units of length"),
+              {.size = 11, .anchor = "end"});
 }
 
 }  // namespace
@@ -249,11 +240,11 @@ std::string skeleton_picture(const GraphView& view, const SkeletonLines& lines, 
   const double bottom = kSkeletonCorner.y + scene.projection.height() + 16;
   const std::vector<NodeKind> kinds = node_kinds(view.graph);
   const SkeletonDrawing drawing(lines, scene);
-  std::string svg = begin_svg(kSkeletonWidth, bottom + 62);
+  std::string svg = begin_svg(kSkeletonWidth, bottom + 66);
   append_heading(svg, heading);
 
-  std::vector<double> longest(kinds.size(), 0);  // arc of each node, in pixels
-  const std::vector<bool> is_lone = ends_of_lone_arcs(view.graph);
+  std::vector<double> longest(kinds.size(), 0);                   // arc of each node, in pixels
+  const std::vector<std::uint32_t> lone = specks_of(view.graph);  // often many
   constexpr double kLoneShort = 40;
   std::string arcs;
   const bool as_lines = lines.arcs.size() <= kMostSkeletonArcs && kinds.size() <= 2 * kMostSkeletonArcs;
@@ -269,7 +260,7 @@ std::string skeleton_picture(const GraphView& view, const SkeletonLines& lines, 
   for (const std::size_t arc : drawing.order()) {
     std::vector<DrawnStop> stops = drawing.drawn(arc);
     const double length = length_of(stops);
-    if (lines.arcs.size() > 20 && length < kLoneShort && is_lone[view.graph.lo[arc].value()])
+    if (lines.arcs.size() > 20 && length < kLoneShort && lone[view.graph.lo[arc].value()] != kNoSpeck)
       for (DrawnStop& stop : stops) stop.width = 1;
     for (const NodeId node : {view.graph.lo[arc], view.graph.hi[arc]})
       longest[node.value()] = std::max(longest[node.value()], length);
@@ -290,7 +281,7 @@ std::string skeleton_picture(const GraphView& view, const SkeletonLines& lines, 
     constexpr double kShort = 8;
     std::string marks, specks;
     for (std::size_t i = 0; i < kinds.size(); ++i) {
-      const bool is_speck = kinds.size() > 20 && longest[i] < (is_lone[i] ? kLoneShort : kShort);
+      const bool is_speck = kinds.size() > 20 && longest[i] < (lone[i] != kNoSpeck ? kLoneShort : kShort);
       append_node(is_speck ? specks : marks, scene.projection.place(lines.nodes[i]), kinds[i], is_speck ? 1.7 : 4.2);
     }
     svg += "<g stroke=\"#222\" stroke-width=\"0.3\">\n" + specks + "</g>\n<g stroke=\"#222\">\n" + marks + "</g>\n";
@@ -300,6 +291,12 @@ std::string skeleton_picture(const GraphView& view, const SkeletonLines& lines, 
   if (has_colors) append_color_bar(svg, {20, bottom + 12}, view, scene);
   if (canvas.empty()) append_legend(svg, {has_colors ? 252.0 : 26.0, bottom + 22}, kinds);
   append_scale(svg, {kSkeletonWidth - 24, bottom + 10}, scene.projection.pixels_per_unit());
+  // A line that turns back to its fork looks as if it ended.
+  if (!lines.arcs.empty())
+    append_text(svg, {20, bottom + 56},
+                std::string("Lines join ") + (view.on_surface ? "points" : "the centres") +
+                    " of contours; a bend without a mark is no node.",
+                {.size = 11, .color = kGreyInk});
   return svg + "</svg>\n";
 }
 

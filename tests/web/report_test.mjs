@@ -1,7 +1,7 @@
 // What the page of `reeb report` does in a browser: no complaints, tables that sort, a slider that draws the arcs that
 // `reeb extract` writes, pictures that are not empty.
 //
-//   node report_test.mjs REEB FOLDER     FOLDER has scan.reeb and scan.html, empty.html, point.html, bare.html
+//   node report_test.mjs REEB FOLDER     FOLDER has scan.reeb and the pages scan, terrain, empty, point and bare.html
 import { execFileSync } from 'node:child_process'
 import { join } from 'node:path'
 import { Browser, kColors, pause } from './browser.mjs'
@@ -121,6 +121,27 @@ async function structure(browser, what) {
   same(`${what}: everything has a name`, seen.unnamed, 0)
 }
 
+// As in docs/SEMANTICS.md: minima and components lie above the diagonal, maxima and loops below.
+async function diagram(browser) {
+  const seen = await browser.evaluate(`(() => {
+    const points = document.querySelector('#plot-diagram .diagonal').getAttribute('d').match(/[\\d.]+/g).map(Number)
+    const [left, bottom, right, top] = points
+    const of = (type) => [...document.querySelectorAll('#plot-diagram .plot path.' + type)].map((mark) => {
+      const [x, y] = mark.getAttribute('transform').match(/[\\d.]+/g).map(Number)
+      return (bottom - y) / (bottom - top) - (x - left) / (right - left)
+    })
+    return { above: [...of('Ord0'), ...of('Ext0')], below: [...of('Rel1'), ...of('Ext1')] }
+  })()`)
+  check('minima and components are above the diagonal', seen.above.length > 1 && seen.above.every((d) => d > -0.01) && seen.above.some((d) => d > 0.1), seen)
+  check('maxima and loops are below it', seen.below.length > 1 && seen.below.every((d) => d < 0.01) && seen.below.some((d) => d < -0.1), seen)
+}
+
+// The curve of loops ends on the axis, which begins below 1.
+async function lastDrop(browser) {
+  const [first, second] = await browser.evaluate(`document.querySelector('#plot-loops .curve').getAttribute('d').match(/M[^ ]+ ([\\d.]+)H[\\d.]+V([\\d.]+)/).slice(1).map(Number)`)
+  check('the curve of loops has its last drop', first - second > 5, [first, second])
+}
+
 // Moves the pointer to a place that is drawn, near the middle of the skeleton, until something is said of it. The page
 // may still be scrolling, and a frame may take long where a processor draws it: the place is sought each time.
 async function hover(browser) {
@@ -159,6 +180,8 @@ async function withWebgl() {
   const colors = await browser.evaluate(`(${kColors})(document.querySelector('#canvas-place canvas'))`)
   check('the skeleton is drawn', colors > 20, colors)
   await structure(browser, 'wide')
+  await diagram(browser)
+  await lastDrop(browser)
   await slider(browser)
   await tables(browser)
   await browser.evaluate(`document.querySelector('[data-pair="1"]').click()`)
@@ -176,6 +199,11 @@ async function withWebgl() {
   await browser.send('Emulation.setEmulatedMedia', { media: '' })
   check('it prints', (await browser.pdf()).length > 20000)
   unasked(browser, 'scan.html')
+
+  await browser.open(url('scan.html'), { width: 1200 })
+  same('tables fit into 1,200 pixels', await browser.evaluate(`[...document.querySelectorAll('section > .scroll')].filter((e) => e.scrollWidth > e.clientWidth).length`), 0)
+  await browser.open(url('terrain.html'), { width: 1200 })
+  check('one plot alone is not larger', (await browser.evaluate(`document.querySelector('.plot').clientWidth`)) <= 640)
 
   await browser.open(url('scan.html'), { width: 360, dark: true })
   await structure(browser, 'narrow and dark')

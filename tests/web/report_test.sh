@@ -22,6 +22,9 @@ for name in empty point; do
   "$reeb" "$name.off" --quiet
   "$reeb" report "$name.reeb" --mesh "$name.off" -o "$name.html" --quiet
 done
+"$reeb" generate terrain --triangles 20k -o terrain.ply
+"$reeb" terrain.ply --quiet
+"$reeb" report terrain.reeb --mesh terrain.ply -o terrain.html --quiet
 "$reeb" scan.ply --graph-only --buckets 0 -o bare.reeb --quiet
 "$reeb" report bare.reeb -o bare.html --nodes 100k
 

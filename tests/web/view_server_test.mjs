@@ -67,6 +67,8 @@ for (const [range, status, begin, end] of [
   ['bytes=0-9', 206, 0, 10],
   ['bytes=100-', 206, 100, bytes.length],
   ['bytes=-5', 206, bytes.length - 5, bytes.length],
+  ['bytes=-99999999999999999999', 206, 0, bytes.length],
+  ['bytes=7-99999999999999999999', 206, 7, bytes.length],
   [`bytes=${bytes.length - 1}-99999999999`, 206, bytes.length - 1, bytes.length],
   ['bytes=5-2', 200, 0, bytes.length],
   ['bytes=0-1,4-5', 200, 0, bytes.length],
@@ -77,7 +79,8 @@ for (const [range, status, begin, end] of [
   const says = status === 200 || seen.head.includes(`Content-Range: bytes ${begin}-${end - 1}/${bytes.length}`)
   check(`range ${range}`, seen.status === status && seen.body.equals(part) && says, seen.head)
 }
-check('a range after the end', (await get(port, file, [host, `Range: bytes=${bytes.length}-`])).status === 416)
+for (const begin of [bytes.length, '99999999999999999999'])
+  check(`a range after the end, from ${begin}`, (await get(port, file, [host, `Range: bytes=${begin}-`])).status === 416)
 const head = await get(port, file, [host], 'HEAD')
 check('HEAD has no body', head.status === 200 && head.body.length === 0 && head.head.includes(`Content-Length: ${bytes.length}`), head.head)
 for (const method of ['POST', 'PUT', 'DELETE', 'OPTIONS']) check(`${method} is refused`, (await get(port, file, [host], method)).status === 405)

@@ -64,7 +64,7 @@ async function refused(what, address, text) {
   check(`${what}: what is said`, text.test(seen), seen)
 }
 
-const { levels, graph } = JSON.parse(execFileSync(reeb, ['info', join(work, 'scan.reeb'), '--json'], { encoding: 'utf8' }))
+const { levels, graph, pairs } = JSON.parse(execFileSync(reeb, ['info', join(work, 'scan.reeb'), '--json'], { encoding: 'utf8' }))
 await visit('/good/scan.reeb')
 check('a picture comes', await until(kIdle), await message())
 const colors = (id) => `(${kColors})(document.querySelector('#${id} canvas'))`
@@ -75,6 +75,11 @@ check('the first picture comes early', first > 0 && first < 3000, first)
 console.log(`first picture ${Math.round(first)} ms after its bytes`)
 check('not all is loaded for it', Number((await drawn()).records) < 7000, await drawn())
 check('the finest legible level is shown', Number((await drawn()).nodes) === levels.filter(({ nodes }) => nodes <= 200).pop().nodes, await drawn())
+const labels = await browser.evaluate(`[...document.querySelectorAll('#axis span')].map((label) => [Number(label.textContent), parseFloat(label.style.top)])`)
+check('the graph has an axis of values', labels.length > 1 && labels.every(([value, top], i) => i === 0 || (value > labels[i - 1][0] && top < labels[i - 1][1])), labels)
+await until(`document.querySelectorAll('[data-mark]').length > 0`)
+const plots = await browser.evaluate(`[document.getElementById('plots-message').textContent, document.querySelector('#plot-diagram figcaption').textContent, document.querySelectorAll('[data-mark]').length]`)
+check('one text says how many pairs are plotted', plots[0].startsWith(`Of ${pairs.toLocaleString('en')} pairs, `) && (plots[2] === 1000 || !/drawn, of/.test(plots[1])), plots)
 for (const [i, level] of levels.entries()) {
   await browser.evaluate(`document.querySelector('[data-level="${i}"]').click()`)
   await until(`${kIdle} && document.getElementById('drawn').dataset.version === '${level.version}'`, 5000)

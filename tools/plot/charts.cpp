@@ -5,6 +5,7 @@
 
 #include "io/plot/diagram_chart.h"
 #include "io/plot/dot_layout.h"
+#include "io/plot/gnuplot_text.h"
 #include "io/plot/graph_picture.h"
 #include "io/plot/loop_chart.h"
 #include "libreeb/base/count_text.h"
@@ -14,8 +15,8 @@
 namespace reeb::tools {
 namespace {
 
-std::string run_gnuplot(const std::string& commands, const std::string& temp_folder) {
-  return run_program(kGnuplot, {"-d", "-"}, commands, temp_folder);
+std::string run_gnuplot(const io::Heading& heading, const std::string& commands, const std::string& temp_folder) {
+  return io::with_heading(run_program(kGnuplot, {"-d", "-"}, commands, temp_folder), heading);
 }
 
 struct LoopsOfFile {
@@ -70,7 +71,7 @@ std::string draw_loops(std::span<const ooc::ReebFile> files, const LevelChoice& 
                                     : loops == 0                                      ? "There are no loops."
                                                  : "All loops have the persistence 0.");
   if (shown != loops) heading.subtitle += "; without " + count_of(loops - shown, "loop") + " of persistence 0";
-  return run_gnuplot(loop_chart(heading, series), temp_folder);
+  return run_gnuplot(heading, io::loop_chart(series), temp_folder);
 }
 
 std::string draw_diagram(const ooc::ReebFile& file, const LevelChoice& choice, const std::string& temp_folder) {
@@ -88,7 +89,7 @@ std::string draw_diagram(const ooc::ReebFile& file, const LevelChoice& choice, c
                       level.text + ", " + count_of(pairs, "pair")};
   if (points.is_thinned()) heading.subtitle += "; of points that lie together one is drawn";
   if (pairs == 0) return message_picture(heading, "The graph is empty.");
-  return run_gnuplot(diagram_chart(heading, header.function, points), temp_folder);
+  return run_gnuplot(heading, io::diagram_chart(header.function, points), temp_folder);
 }
 
 std::string draw_graph(const ooc::ReebFile& file, const LevelChoice& choice, const std::string& temp_folder) {

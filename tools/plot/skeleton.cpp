@@ -110,6 +110,45 @@ class SurfaceDrawing {
   std::vector<io::SurfacePoint> placed_;
 };
 
+// Some vertices of the mesh, which is read a first time. THROWS: Error if the file is not of this mesh.
+std::vector<Point> measure_mesh(const ValuedMesh& mesh, const ooc::ReebFile& file, const SkeletonOptions& options) {
+  const FileHeader& header = file.header();
+  VertexSample sample;
+  std::uint64_t triangles = 0;
+  mesh.read([&](const MeshBatch& batch, auto, std::uint64_t done, std::uint64_t total) {
+    sample.add(batch);
+    triangles += batch.triangle_count();
+    if (options.progress) options.progress("measuring", done, total);
+  });
+  require_same_mesh(file.path(), {header.mesh_vertices, header.mesh_triangles}, {sample.vertices(), triangles});
+  return sample.points();
+}
+
+// Where the picture has the points of lines, to be compared with the surface.
+std::vector<io::Probe> probes_at(std::span<const Point> stops, const io::Projection& projection) {
+  std::vector<io::Probe> probes;
+  for (const Point& stop : stops) {
+    const io::PicturePoint at = projection.place(stop);
+    // A line that touches the surface is not behind it.
+    constexpr double kTolerance = 0.5;
+    probes.push_back({static_cast<float>(at.x - io::kSkeletonCorner.x),
+                      static_cast<float>(at.y - io::kSkeletonCorner.y),
+                      static_cast<float>(projection.depth(stop) + kTolerance)});
+  }
+  return probes;
+}
+
+// Reads the mesh a second time.
+void draw_surface(const ValuedMesh& mesh, const SkeletonOptions& options, const FileHeader& header,
+                  const io::Projection& projection, io::SurfaceRaster& raster) {
+  SurfaceDrawing drawing(options, header, projection, raster);
+  mesh.read([&](const MeshBatch& batch, std::span<const std::vector<double>> values, std::uint64_t done,
+                std::uint64_t total) {
+    drawing.add(batch, values);
+    if (options.progress) options.progress("drawing", done, total);
+  });
+}
+
 }  // namespace
 
 void require_surface_points(const ooc::ReebFile& file) {
@@ -143,24 +182,17 @@ std::string draw_skeleton(const ooc::ReebFile& file, const SkeletonOptions& opti
   const io::SkeletonLines lines = io::skeleton_lines(view);
   const std::vector<Point> stops = io::all_points(lines);
 
-  std::optional<ValuedMesh> mesh;
-  VertexSample sample;
   const MeshSource source{options.mesh, options.format, options.temp_folder, MemoryBudget::kUnlimited, options.image};
+  std::optional<ValuedMesh> mesh;
+  std::vector<Point> all;
   if (!options.mesh.empty()) {
     std::vector<std::string> functions;
     if (options.surface == io::SurfaceStyle::kValue) functions.push_back(header.function);
     mesh.emplace(source, functions);
-    std::uint64_t triangles = 0;
-    mesh->read([&](const MeshBatch& batch, auto, std::uint64_t done, std::uint64_t total) {
-      sample.add(batch);
-      triangles += batch.triangle_count();
-      if (options.progress) options.progress("measuring", done, total);
-    });
-    require_same_mesh(file.path(), {header.mesh_vertices, header.mesh_triangles}, {sample.vertices(), triangles});
+    all = measure_mesh(*mesh, file, options);
   }
   if (is_empty) return message_picture(heading, "The graph is empty.");
 
-  std::vector<Point> all = sample.points();
   const Point upright = upright_of(header.function);
   const io::View eye = options.view ? io::view_from(*options.view, upright) : io::best_view(all, stops, upright);
   all.insert(all.end(), stops.begin(), stops.end());
@@ -173,25 +205,10 @@ std::string draw_skeleton(const ooc::ReebFile& file, const SkeletonOptions& opti
     return skeleton_picture(view, lines, scene, heading);
   }
 
-  std::vector<io::Probe> probes;
-  for (const Point& stop : stops) {
-    const io::PicturePoint at = projection.place(stop);
-    // A line that touches the surface is not behind it.
-    constexpr double kTolerance = 0.5;
-    probes.push_back({static_cast<float>(at.x - io::kSkeletonCorner.x),
-                      static_cast<float>(at.y - io::kSkeletonCorner.y),
-                      static_cast<float>(projection.depth(stop) + kTolerance)});
-  }
   constexpr double kScale = 1.6;
-  io::SurfaceRaster raster(io::kSkeletonBoxWidth, projection.height(), kScale, options.surface, probes);
-  {
-    SurfaceDrawing drawing(options, header, projection, raster);
-    mesh->read([&](const MeshBatch& batch, std::span<const std::vector<double>> values, std::uint64_t done,
-                   std::uint64_t total) {
-      drawing.add(batch, values);
-      if (options.progress) options.progress("drawing", done, total);
-    });
-  }
+  io::SurfaceRaster raster(io::kSkeletonBoxWidth, projection.height(), kScale, options.surface,
+                           probes_at(stops, projection));
+  draw_surface(*mesh, options, header, projection, raster);
   const io::Raster image = raster.image();
   scene.surface = &image;
   scene.layers = raster.layers();

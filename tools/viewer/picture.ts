@@ -5,7 +5,7 @@ import {
   Points, Scene, ShaderMaterial, Vector2, WebGLRenderer,
 } from 'three'
 import type { Camera } from '../web/camera.js'
-import { css, kindColors, valueColors } from '../web/colors.js'
+import { channels, kindColors, valueStops } from '../web/colors.js'
 import { makeShape } from './shapes'
 import type { Shape } from './shapes'
 
@@ -28,7 +28,7 @@ const kLineVertex = `
   uniform vec2 size;
   uniform float width;
   uniform int coloring;
-  uniform vec3 stops[3];
+  uniform vec3 stops[4];
   uniform vec3 kinds[5];
   uniform vec3 mark;
   varying vec3 tint;
@@ -48,8 +48,10 @@ const kLineVertex = `
     at.xy += (vec2(-along.y, along.x) * corner.y + along * (corner.x - 0.5)) * wide / size;
     if (arc == chosen) at.z -= 0.001;
     gl_Position = at;
-    float p = clamp(mix(part.x, part.y, corner.x), 0.0, 1.0) * 2.0;
-    tint = p < 1.0 ? mix(stops[0], stops[1], p) : mix(stops[1], stops[2], p - 1.0);
+    float p = clamp(mix(part.x, part.y, corner.x), 0.0, 1.0) * 3.0;
+    tint = mix(stops[0], stops[1], min(p, 1.0));
+    if (p > 1.0) tint = mix(stops[1], stops[2], min(p - 1.0, 1.0));
+    if (p > 2.0) tint = mix(stops[2], stops[3], p - 2.0);
     if (coloring == 1) tint = ofArc(arc);
     if (coloring == 2) tint = kinds[int(type)];
     if (arc == chosen) tint = mark;
@@ -68,16 +70,18 @@ const kPointVertex = `
     tint = kinds[int(kind + 0.5)];
   }`
 const kPointFragment = `
+  uniform vec3 rim;
   varying vec3 tint;
   varying float shape;
+  float triangle(vec2 p) { return min(0.9 * ((0.9 - p.y) * 0.5 - abs(p.x)), p.y + 0.7); }
   void main() {
     vec2 p = gl_PointCoord * 2.0 - 1.0;
-    bool inside = shape < 1.5 ? abs(p.x) < (0.9 - p.y) * 0.5 && p.y > -0.7
-      : shape < 2.5 ? abs(p.x) < (0.9 + p.y) * 0.5 && p.y < 0.7
-      : shape < 3.5 ? dot(p, p) < 0.55 : shape < 4.5 ? max(abs(p.x), abs(p.y)) < 0.7
-      : dot(p, p) < 1.0 && dot(p, p) > 0.6;
-    if (!inside) discard;
-    gl_FragColor = vec4(tint, 1.0);
+    // How far inside of the mark.
+    float inside = shape < 1.5 ? triangle(p) : shape < 2.5 ? triangle(vec2(p.x, -p.y))
+      : shape < 3.5 ? 0.74 - length(p) : shape < 4.5 ? 0.7 - max(abs(p.x), abs(p.y))
+      : min(1.0 - length(p), length(p) - 0.77);
+    if (inside < 0.0) discard;
+    gl_FragColor = vec4(inside < 0.18 && shape < 4.5 ? rim : tint, 1.0);
   }`
 // As if by X-rays: a surface is denser where it is seen from the side.
 const kBackdropVertex = `
@@ -125,24 +129,23 @@ export class Picture {
     this.renderer = new WebGLRenderer({ antialias: true, alpha: true, preserveDrawingBuffer: true })
     this.renderer.setPixelRatio(Math.min(2, devicePixelRatio))
     this.camera.matrixAutoUpdate = false
-    const kinds = { value: kKinds.map(() => new Color()) }
+    const colors = (count: number) => ({ value: Array.from({ length: count }, () => new Color()) })
     this.lineMaterial = new ShaderMaterial({
       vertexShader: kLineVertex,
       fragmentShader: 'varying vec3 tint; void main() { gl_FragColor = vec4(tint, 1.0); }',
       uniforms: {
         version: { value: 0 }, chosen: { value: kNoArc }, size: { value: new Vector2(1, 1) }, width: { value: 2.2 },
-        coloring: { value: 0 }, stops: { value: [new Color(), new Color(), new Color()] }, kinds,
-        mark: { value: new Color() },
+        coloring: { value: 0 }, stops: colors(4), kinds: colors(kKinds.length), mark: { value: new Color() },
       },
       side: 2,
     })
-    const points = (width: number, colors: object, depthTest: boolean) =>
+    const points = (width: number, kinds: object, depthTest: boolean) =>
       new ShaderMaterial({
         vertexShader: kPointVertex, fragmentShader: kPointFragment, depthTest,
-        uniforms: { kinds: colors, width: { value: width * this.renderer.getPixelRatio() } } as never,
+        uniforms: { kinds, rim: { value: new Color() }, width: { value: width * this.renderer.getPixelRatio() } } as never,
       })
-    this.pointMaterial = points(11, kinds, true)
-    this.ringMaterial = points(30, { value: [...kKinds, 'ring'].map(() => new Color()) }, false)
+    this.pointMaterial = points(12, colors(kKinds.length), true)
+    this.ringMaterial = points(30, colors(kKinds.length + 1), false)
     this.ringMaterial.vertexShader = kPointVertex.replace('kinds[5]', 'kinds[6]')
     this.backdropMaterial = new ShaderMaterial({
       vertexShader: kBackdropVertex, fragmentShader: kBackdropFragment, uniforms: { tint: { value: new Color() } },
@@ -160,11 +163,14 @@ export class Picture {
 
   recolor() {
     const { uniforms } = this.lineMaterial
-    const color = valueColors()
-    uniforms.stops.value.forEach((stop: Color, i: number) => stop.fromArray(color(i / 2)))
+    valueStops().forEach((stop, i) => uniforms.stops.value[i].fromArray(stop))
     const kinds: Record<string, number[]> = kindColors()
-    kKinds.forEach((kind, i) => kind !== 'none' && uniforms.kinds.value[i].fromArray(kinds[kind]))
-    const channels = (name: string) => [1, 3, 5].map((i) => parseInt(css(name).slice(i, i + 2), 16) / 255)
+    const points = this.pointMaterial.uniforms
+    kKinds.forEach((kind, i) => kind !== 'none' && points.kinds.value[i].fromArray(kinds[kind]))
+    points.rim.value.fromArray(channels('--rim'))
+    // A line has no rim, so one between forks cannot be white.
+    const ofLines: Record<string, number[]> = { ...kinds, saddle: channels('--quiet') }
+    kKinds.forEach((kind, i) => kind !== 'none' && uniforms.kinds.value[i].fromArray(ofLines[kind]))
     uniforms.mark.value.fromArray(channels('--accent'))
     this.ringMaterial.uniforms.kinds.value[kRing].fromArray(channels('--accent'))
     this.backdropMaterial.uniforms.tint.value.fromArray(channels('--quiet'))

@@ -2,7 +2,7 @@
 import { Camera, control } from '../web/camera.js'
 import { onThemeChange } from '../web/colors.js'
 import { count, shortNumber } from '../web/data.js'
-import { loopsPlot, persistenceDiagram } from '../web/plots.js'
+import { loopsPlot, niceTicks, persistenceDiagram } from '../web/plots.js'
 import { makeTable } from '../web/table.js'
 import { backdropBytes, placed, readBackdrop } from './backdrop'
 import type { Backdrop } from './backdrop'
@@ -441,10 +441,30 @@ function redraw() {
       const [width, height] = [Math.max(1, place.clientWidth), Math.max(1, place.clientHeight)]
       if (camera instanceof FlatCamera) camera.side = Math.min(width, height)
       picture.draw(camera, width, height)
+      if (camera instanceof FlatCamera) showAxis(camera, width, height)
     }
     drawn.dataset.frame = (performance.now() - begin).toFixed(2)
     saveState()
   })
+}
+
+// The values at the left edge of the graph.
+function showAxis(camera: Camera, width: number, height: number) {
+  if (!session) return
+  const { min, max } = session.reader.header
+  const project = camera.projector(width, height)
+  const ticks = max > min ? niceTicks(min, max) : [{ at: 0.5, text: shortNumber(min) }]
+  const axis = element('axis')
+  axis.replaceChildren(
+    ...ticks.flatMap(({ at, text }) => {
+      const y = project([-1, 2 * at - 1, 0])[1]
+      if (y < 8 || y > height - 8) return []
+      const label = document.createElement('span')
+      label.style.top = `${y}px`
+      label.textContent = text
+      return [label]
+    }),
+  )
 }
 
 // Features.
@@ -553,18 +573,27 @@ function showPlots() {
   const steps: [number, number][] = []
   let loops = 0
   for (const pair of all) if (pair.mark[0] === 'Ext1' && size(pair) > 0) steps.push([size(pair), ++loops])
-  marks = all.filter((pair) => size(pair) > 0).slice(0, kMostMarks)
+  const lasting = all.filter((pair) => size(pair) > 0)
+  marks = lasting.slice(0, kMostMarks)
   const made = [
     steps.length > 0 ? loopsPlot(steps, range()) : null,
-    persistenceDiagram(marks.map(({ mark }) => mark), header.min, header.max, header.pairs),
+    persistenceDiagram(marks.map(({ mark }) => mark), header.min, header.max, lasting.length),
   ].filter((figure) => figure !== null)
   figures.append(...made)
   // Marks are drawn from small to large persistence.
   const shapes = [...figures.querySelectorAll<SVGElement>('#plot-diagram path:has(> title)')].reverse()
   shapes.forEach((shape, i) => (shape.dataset.mark = String(i)))
-  message.textContent = made.length === 0
-    ? 'There are no pairs of positive persistence to plot.'
-    : reader.isComplete ? '' : `These are the most persistent ${all.length.toLocaleString('en')} of ${count(header.pairs, 'pair')}: those of what was read.`
+  const texts = []
+  if (made.length === 0) texts.push('There are no pairs of positive persistence to plot.')
+  if (all.length < header.pairs)
+    texts.push(
+      `Of ${count(header.pairs, 'pair')}, the plots have the ${all.length.toLocaleString('en')} most persistent ones, ` +
+        'whose nodes are loaded; lower the threshold to load more.',
+    )
+  const zeros = all.length - lasting.length
+  if (made.length > 0 && zeros > 0)
+    texts.push(`${count(zeros, 'pair')} of persistence 0 ${zeros === 1 ? 'is' : 'are'} not drawn.`)
+  message.textContent = texts.join(' ')
   if (content) showContent()
   setChoice(choice)
 }

@@ -79,7 +79,7 @@ function paint(canvas, patch, camera) {
     context.fill()
     context.stroke()
   }
-  const styles = [{ color: css('--max'), dash: [] }, { color: css('--saddle'), dash: [6, 4] }]
+  const styles = [{ color: css('--max'), dash: [] }, { color: css('--loop'), dash: [6, 4] }]
   patch.curves.forEach((curve, i) => {
     if (curve.length === 0) return
     context.beginPath()
@@ -138,7 +138,7 @@ export function makeCloseups(place, list) {
   const hint = document.createElement('p')
   hint.className = 'hint'
   hint.textContent =
-    'Close-ups: solid, the shorter curve of the loop; dashed, the other one. Blue to orange: the value. Drag to rotate.'
+    'Close-ups: solid, the shorter curve of the loop; dashed, the other one. Indigo to orange: the value. Drag to rotate.'
   if (items.length > 0) place.before(hint)
   const draw = () => items.forEach((item) => item.draw())
   draw()

@@ -1,5 +1,5 @@
 // The skeleton as SVG: for the printer, and where there is no WebGL.
-import { kindColors, rgb, valueColors } from './colors.js'
+import { css, kindColors, rgb, valueColors } from './colors.js'
 
 const kShapes = { min: 'M-5-4H5L0 5Z', max: 'M-5 4H5L0-5Z', isolated: 'M-4-4H4V4H-4Z', saddle: 'M-4 0a4 4 0 1 0 8 0a4 4 0 1 0-8 0Z' }
 
@@ -52,7 +52,7 @@ export class SvgPicture {
     const marks = this.content.nodes.map((node, i) => {
       const [x, y] = project(this.skeleton.place(node))
       const kind = this.content.kinds[i]
-      return `<path d="${kShapes[kind]}" fill="${rgb(this.kinds[kind])}" transform="translate(${number(x)} ${number(y)})"/>`
+      return `<path d="${kShapes[kind]}" fill="${rgb(this.kinds[kind])}" stroke="${css('--rim')}" transform="translate(${number(x)} ${number(y)})"/>`
     })
     const rings = this.chosen.map((place) => {
       const [x, y] = project(place)

@@ -37,11 +37,12 @@ function axes(title, x, y) {
   return parts.join('')
 }
 
-function figure(name, content, caption, description) {
+function figure(name, content, legend, caption, description) {
   const made = document.createElement('figure')
   made.id = name
   made.innerHTML =
     `<svg class="plot" viewBox="0 0 ${kWidth} ${kHeight}" role="img" aria-label="${safe(description)}">${content}</svg>` +
+    legend +
     element('figcaption', {}, safe(caption))
   return made
 }
@@ -50,50 +51,57 @@ function powerText(exponent) {
   return exponent >= -3 && exponent <= 4 ? String(Number(`1e${exponent}`)) : `10<tspan dy="-5" font-size="9">${exponent}</tspan>`
 }
 
-function logScale(least, most) {
-  let low = Math.floor(Math.log10(least) + 1e-9)
+// From a power of ten, or from `floor` below it.
+function logScale(least, most, floor = least) {
+  const low = Math.floor(Math.log10(least) + 1e-9)
   let high = Math.ceil(Math.log10(most) - 1e-9)
   if (high <= low) high = low + 1
+  const begin = Math.min(low, Math.log10(floor))
+  const place = (exponent) => (exponent - begin) / (high - begin)
   const step = Math.ceil((high - low) / 8)
   const ticks = []
-  for (let e = low; e <= high; e += step) ticks.push({ at: (e - low) / (high - low), text: powerText(e) })
+  for (let e = low; e <= high; e += step) ticks.push({ at: place(e), text: powerText(e) })
   // Few powers leave room for more.
   if (high - low <= 2)
     for (let e = low; e < high; ++e)
-      for (const digit of [2, 5])
-        ticks.push({ at: (e + Math.log10(digit) - low) / (high - low), text: String(Number(`${digit}e${e}`)) })
-  return { ticks, at: (value) => (Math.log10(value) - low) / (high - low) }
+      for (const digit of [2, 5]) ticks.push({ at: place(e + Math.log10(digit)), text: String(Number(`${digit}e${e}`)) })
+  return { ticks, at: (value) => place(Math.log10(value)) }
 }
+
+const kLeastLoops = 0.7 // the lower end of the axis, as in `reeb plot`; zero has no place on it
 
 // `steps`: [persistence, number of loops of at least this persistence], the largest persistence first.
 export function loopsPlot(steps, range) {
   const shown = steps.filter(([persistence]) => persistence > 0).map(([p, n]) => [(100 * p) / range, n])
   if (shown.length === 0) return null
   const x = logScale(Math.min(shown[shown.length - 1][0], 99), 100)
-  const y = logScale(1, shown[shown.length - 1][1])
+  const y = logScale(1, shown[shown.length - 1][1] * 1.2, kLeastLoops)
   let path = `M${xAt(x.at(shown[0][0]))} ${yAt(0)}`
   for (const [percent, number] of shown) path += `H${xAt(x.at(percent)).toFixed(1)}V${yAt(y.at(number)).toFixed(1)}`
   path += `H${xAt(0)}`
-  const dots = shown
+  // They show nothing; they say what is under the pointer.
+  const spots = shown
     .slice(0, 60)
     .map(([percent, number]) =>
-      element('circle', { cx: xAt(x.at(percent)).toFixed(1), cy: yAt(y.at(number)).toFixed(1), r: 3, fill: 'var(--accent)' },
+      element('circle', { cx: xAt(x.at(percent)).toFixed(1), cy: yAt(y.at(number)).toFixed(1), r: 4, fill: 'transparent' },
         element('title', {}, `${count(number, 'loop')} of at least ${shortNumber(percent)} %`)),
     )
   const content =
     axes('Loops above a persistence', { title: 'persistence, % of the range', ticks: x.ticks }, { title: 'number of loops', ticks: y.ticks }) +
     element('path', { class: 'curve', d: path }) +
-    dots.join('')
+    spots.join('')
   const last = shown[shown.length - 1]
   return figure(
     'plot-loops',
     content,
-    'How many loops are at least as persistent as the value on the axis below; both axes are logarithmic. A flat part is a gap: the loops left of it are noise or defects, those right of it are features.',
+    '',
+    'How many loops are at least as persistent as the value on the axis below; both axes are logarithmic. A flat part is a gap: the loops left of it are noise or defects, those right of it are more likely features.',
     `Loops above a persistence, both axes logarithmic: from 1 loop at ${shortNumber(shown[0][0])} per cent of the range to ${count(last[1], 'loop')} at ${shortNumber(last[0])} per cent.`,
   )
 }
 
-function niceTicks(least, most) {
+// `at` goes from 0 to 1.
+export function niceTicks(least, most) {
   const step = (() => {
     const raw = (most - least) / 5
     const power = 10 ** Math.floor(Math.log10(raw))
@@ -112,30 +120,31 @@ const kTypes = [
   ['Ext0', 'components', 'M-4-4H4V4H-4Z'],
 ]
 
-// `pairs`: [type, lower value, upper value, ...]. A loop and a maximum are born at their upper value in extended
-// persistence; here all pairs are above the diagonal, and their marks tell what they are.
+// `pairs`: [type, lower value, upper value, ...], of `total` pairs those of largest persistence. The first coordinate is
+// where a feature begins, as in docs/SEMANTICS.md: the lower value of a minimum or a component, the upper value of a
+// maximum or a loop, so these are below the diagonal.
 export function persistenceDiagram(pairs, min, max, total) {
   if (pairs.length === 0 || !(max > min)) return null
   const ticks = niceTicks(min, max).map(({ at, text }) => ({ at: 0.02 + 0.96 * at, text }))
   const part = (value) => 0.02 + (0.96 * (value - min)) / (max - min)
-  const legend = kTypes.map(([type, name, shape], i) =>
-    `<g transform="translate(${xAt(0.66)} ${yAt(0.25) + 18 * i})"><path class="${type}" d="${shape}"/>` +
-    `<text x="10" y="4">${name} (${type})</text></g>`)
+  const legend = kTypes.map(([type, name, shape]) =>
+    `<span><svg viewBox="-6 -6 12 12" aria-hidden="true"><path class="${type}" d="${shape}"/></svg> ${name} (${type})</span>`)
   const marks = [...pairs].reverse().map(([type, low, high, lowVertex, highVertex]) => {
     const shape = kTypes.find(([name]) => name === type)[2]
+    const [begin, end] = type === 'Ord0' || type === 'Ext0' ? [low, high] : [high, low]
     const title = `${type}: vertex ${lowVertex} (${shortNumber(low)}) to ${highVertex} (${shortNumber(high)}), persistence ${shortNumber(high - low)}`
-    return `<path class="${type}" d="${shape}" transform="translate(${xAt(part(low)).toFixed(1)} ${yAt(part(high)).toFixed(1)})"><title>${title}</title></path>`
+    return `<path class="${type}" d="${shape}" transform="translate(${xAt(part(begin)).toFixed(1)} ${yAt(part(end)).toFixed(1)})"><title>${title}</title></path>`
   })
   const content =
-    axes('Persistence diagram', { title: 'lower value of the pair', ticks }, { title: 'upper value of the pair', ticks }) +
+    axes('Persistence diagram', { title: 'value where the feature begins', ticks }, { title: 'value where it ends', ticks }) +
     element('path', { class: 'diagonal', d: `M${xAt(0)} ${yAt(0)}L${xAt(1)} ${yAt(1)}` }) +
-    marks.join('') +
-    legend.join('')
+    marks.join('')
   const some = pairs.length < total ? ` The ${count(pairs.length, 'pair')} of largest persistence are drawn, of ${total.toLocaleString('en')}.` : ''
   return figure(
     'plot-diagram',
     content,
-    `Each mark is a pair of nodes: what is born at one and ends at the other. The further from the dashed diagonal, the larger the feature.${some}`,
+    `<div class="legend">${legend.join('')}</div>`,
+    `Each mark is a pair of nodes: what begins at one and ends at the other; minima and components above the dashed diagonal, maxima and loops below. The further from it, the larger the feature.${some}`,
     `Persistence diagram of ${count(pairs.length, 'pair')}; the list of features has the same values.`,
   )
 }

@@ -7,13 +7,14 @@ import {
   OrthographicCamera,
   Points,
   PointsMaterial,
+  SRGBColorSpace,
   Scene,
   WebGLRenderer,
 } from 'three'
 import { LineMaterial } from 'three/examples/jsm/lines/LineMaterial.js'
 import { LineSegments2 } from 'three/examples/jsm/lines/LineSegments2.js'
 import { LineSegmentsGeometry } from 'three/examples/jsm/lines/LineSegmentsGeometry.js'
-import { kindColors, valueColors } from './colors.js'
+import { css, kindColors, rgb, valueColors } from './colors.js'
 
 const kShapes = {
   min: [[4, 10], [60, 10], [32, 58]],
@@ -24,16 +25,23 @@ const kShapes = {
 
 const kWidths = [2, 3, 4, 5, 6] // of lines, in pixels
 
-function markerTexture(shape) {
+function markerTexture(shape, fill, rim) {
   const canvas = document.createElement('canvas')
   canvas.width = canvas.height = 64
   const context = canvas.getContext('2d')
-  context.fillStyle = '#fff'
   context.beginPath()
   if (shape) shape.forEach(([x, y], i) => (i === 0 ? context.moveTo(x, y) : context.lineTo(x, y)))
   else context.arc(32, 32, 24, 0, 2 * Math.PI)
+  context.closePath()
+  context.fillStyle = rgb(fill)
   context.fill()
-  return new CanvasTexture(canvas)
+  context.strokeStyle = rim
+  context.lineWidth = 7
+  context.lineJoin = 'round'
+  context.stroke()
+  const texture = new CanvasTexture(canvas)
+  texture.colorSpace = SRGBColorSpace
+  return texture
 }
 
 function ringTexture() {
@@ -64,7 +72,7 @@ export class WebglPicture {
     this.lines = []
     this.markers = {}
     for (const kind of Object.keys(kShapes)) {
-      const material = new PointsMaterial({ size: 10, sizeAttenuation: false, map: markerTexture(kShapes[kind]) })
+      const material = new PointsMaterial({ size: 12, sizeAttenuation: false })
       material.alphaTest = 0.5
       this.markers[kind] = new Points(new BufferGeometry(), material)
       this.markers[kind].renderOrder = 1
@@ -83,7 +91,11 @@ export class WebglPicture {
   recolor() {
     this.color = valueColors()
     const kinds = kindColors()
-    for (const [kind, marker] of Object.entries(this.markers)) marker.material.color.setRGB(...kinds[kind], 'srgb')
+    for (const [kind, { material }] of Object.entries(this.markers)) {
+      material.map?.dispose()
+      material.map = markerTexture(kShapes[kind], kinds[kind], css('--rim'))
+      material.needsUpdate = true
+    }
     this.chosen.material.color.setRGB(...kinds.max, 'srgb')
   }
 

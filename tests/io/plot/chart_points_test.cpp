@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <span>
 
 #include "io/drawing/svg_text.h"
 #include "io/plot/diagram_chart.h"
@@ -41,6 +42,14 @@ TEST(LoopSteps, OfManyLoopsKeepTheCurve) {
 }
 
 TEST(LoopSteps, OfEqualLoopsAreFew) { EXPECT_EQ(loop_steps(std::vector<double>(5000, 7.0)).size(), 2u); }
+
+// All curves look alike, however many loops there are.
+TEST(LoopChart, HasNoMarks) {
+  for (const std::size_t count : {1u, 20u, 900u}) {
+    const LoopSeries series{"a", std::vector<double>(count, 5.0)};
+    EXPECT_EQ(loop_chart(std::span(&series, 1)).find("points"), std::string::npos) << count;
+  }
+}
 
 TEST(DiagramPoints, PutMinimaAboveAndMaximaBelowTheDiagonal) {
   DiagramPoints points(4, 0, 10);
@@ -84,6 +93,13 @@ TEST(DiagramPoints, OfManyPairsAreThinnedEvenly) {
 TEST(ChartText, QuotesWhatGnuplotWouldRead) {
   EXPECT_EQ(gnuplot_quoted("it's `rm` \"x\" \\n $1 @y"), "'it''s `rm` \"x\" \\n $1 @y'");
   EXPECT_EQ(gnuplot_quoted("a\nb"), "'a\\x0ab'");
+}
+
+TEST(ChartText, HasTheHeadingInBold) {
+  const std::string chart = with_heading("<svg>\n<path/>\n</svg>\n\n", {"a < b", "c"});
+  EXPECT_TRUE(chart.starts_with("<svg>\n<path/>\n"));
+  EXPECT_NE(chart.find("font-weight=\"bold\" fill=\"#222222\">a &lt; b</text>"), std::string::npos);
+  EXPECT_TRUE(chart.ends_with("</g>\n</svg>\n\n"));
 }
 
 TEST(ChartText, EscapesXml) {

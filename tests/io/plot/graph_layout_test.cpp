@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <random>
 #include <set>
 
@@ -83,6 +86,76 @@ TEST(GraphLayout, PutsLeavesApart) {
   EXPECT_EQ(places.size(), 20u);
 }
 
+// A fork with `leaves` leaves, `points` isolated nodes and `lone` components of one arc, all in the same few heights.
+ReebGraph graph_with_specks(std::uint32_t leaves, std::uint32_t points, std::uint32_t lone) {
+  std::vector<ArcKeys> arcs;
+  std::vector<SweepKey> nodes;
+  std::uint32_t next = 0;
+  const SweepKey root{0, VertexId(next++)};
+  for (std::uint32_t i = 0; i < leaves; ++i) arcs.push_back({root, {100, VertexId(next++)}});
+  for (std::uint32_t i = 0; i < points; ++i) nodes.push_back({static_cast<double>(i % 90), VertexId(next++)});
+  for (std::uint32_t i = 0; i < lone; ++i) {
+    const SweepKey lo{static_cast<double>(i % 50), VertexId(next++)}, hi{lo.value + 1 + i % 40, VertexId(next++)};
+    arcs.push_back({lo, hi});
+  }
+  return make_graph(arcs, nodes);
+}
+
+// What is drawn of components of one node or one arc is to the right of all else, and apart.
+void check_specks(const ReebGraph& graph, const GraphLayout& layout) {
+  constexpr double kAspect = 752.0 / 578;  // of the picture's inside
+  const Degrees degree = degrees(graph);
+  double edge = 0, first = 1;
+  std::vector<std::array<double, 3>> drawn;  // across, from, to
+  std::size_t left_out = 0;
+  const auto add = [&](std::size_t lo, std::size_t hi) {
+    EXPECT_EQ(layout.parts[lo], layout.parts[hi]);
+    if (layout.parts[lo] == GraphLayout::Part::kLeftOut) return void(++left_out);
+    EXPECT_EQ(layout.parts[lo], GraphLayout::Part::kSpeck);
+    EXPECT_EQ(layout.nodes[lo].x, layout.nodes[hi].x);
+    first = std::min(first, layout.nodes[lo].x);
+    drawn.push_back({layout.nodes[lo].x, layout.nodes[lo].y, layout.nodes[hi].y});
+  };
+  const auto all = [&](NodeId node) { return degree.down[node.value()] + degree.up[node.value()]; };
+  for (std::uint32_t i = 0; i < graph.node_count(); ++i)
+    if (all(NodeId(i)) == 0) add(i, i);
+  for (std::size_t arc = 0; arc < graph.arc_count(); ++arc) {
+    if (all(graph.lo[arc]) == 1 && all(graph.hi[arc]) == 1)
+      add(graph.lo[arc].value(), graph.hi[arc].value());
+    else
+      for (const PicturePoint& point : layout.arcs[arc]) edge = std::max(edge, point.x);
+  }
+  EXPECT_EQ(left_out, layout.left_out);
+  EXPECT_LT(edge, first);
+  for (std::size_t i = 0; i < drawn.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      const double across = std::abs(drawn[i][0] - drawn[j][0]);
+      const double upwards = std::max(drawn[i][1] - drawn[j][2], drawn[j][1] - drawn[i][2]) / kAspect;
+      EXPECT_GT(std::max(across, upwards), 0.7 * layout.speck_distance);
+    }
+}
+
+TEST(GraphLayout, PutsSmallComponentsToTheRight) {
+  for (const auto& [points, lone] : {std::pair(1u, 0u), {0u, 1u}, {40u, 10u}, {200u, 20u}}) {
+    const ReebGraph graph = graph_with_specks(30, points, lone);
+    const GraphLayout layout = layered_layout(graph);
+    check(graph, layout);
+    check_specks(graph, layout);
+    EXPECT_EQ(layout.left_out, 0u);
+  }
+}
+
+TEST(GraphLayout, LeavesOutTheSmallestOfTooManyComponents) {
+  const ReebGraph graph = graph_with_specks(30, 5000, 20);
+  const GraphLayout layout = layered_layout(graph);
+  check(graph, layout);
+  check_specks(graph, layout);
+  EXPECT_GT(layout.left_out, 1000u);
+  EXPECT_LT(layout.left_out, 4700u);
+  for (std::size_t arc = 0; arc < graph.arc_count(); ++arc)
+    EXPECT_NE(layout.parts[graph.lo[arc].value()], GraphLayout::Part::kLeftOut);
+}
+
 // Values at the ends of double's range have a height between 0 and 1.
 TEST(GraphLayout, HasHeightsOfHugeValues) {
   const ReebGraph graph = make_graph({}, {{-1.7e308, VertexId(0)}, {0, VertexId(1)}, {1.7e308, VertexId(2)}});
@@ -105,6 +178,7 @@ TEST(DotLayout, ReadsWhatDotWrites) {
   ASSERT_TRUE(layout);
   check(graph, *layout);
   EXPECT_LT(layout->arcs[0][1].x, layout->arcs[1][1].x);
+  check_specks(graph, *layout);
 }
 
 // Both ends of a nearly level arc are in one row, and dot lists the points of its curve from either end.
