@@ -69,7 +69,7 @@ class CellReader final : public BatchReader {
     const std::uint64_t dropped = selection_ ? selection_->node_count() - selection_->kept_count() : 0;
     if (dropped != 0)
       lines.push_back(count_of(dropped, "node") + " of higher-order cells, which " +
-                      (dropped == 1 ? "is no corner, was" : "are no corners, were") + " left out");
+                      (dropped == 1 ? "is not a corner, was" : "are not corners, were") + " left out");
     return lines;
   }
 

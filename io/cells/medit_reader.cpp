@@ -99,10 +99,7 @@ MeditIndex read_index(const ContentSource& content) {
       MeditSection section;
       section.count = read_count(text);
       const std::uint64_t numbers = keyword == "Vertices" ? index.info.dimension : cells->nodes;
-      const auto size = text.source().size();
-      if (size && section.count > (*size - std::min(*size, text.bytes().offset()) + 1) / (2 * numbers))
-        text.fail("the file announces " + count_of(section.count, "record") + " here, more than it has room for",
-                  "the file is cut or damaged; get a whole copy");
+      text.require_room(section.count, numbers);
       section.offset = text.bytes().offset();
       section.line = text.line();
       if (keyword == "Vertices") {
@@ -156,7 +153,7 @@ class MeditInput final : public CellInput {
     const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(limit, left_));
     for (std::size_t i = 0; i < count; ++i) {
       for (auto* column : columns) {
-        require_more();
+        text_->require_more("coordinate");
         column->push_back(index_->info.float32 ? static_cast<double>(text_->finite_number<float>("coordinate"))
                                                : text_->finite_number<double>("coordinate"));
       }
@@ -167,7 +164,7 @@ class MeditInput final : public CellInput {
   }
 
   VertexId read_node() override {
-    require_more();
+    text_->require_more("vertex number");
     const std::int64_t node = text_->integer("vertex number");
     if (node < 1 || static_cast<std::uint64_t>(node) > *index_->info.vertex_count) [[unlikely]]
       text_->fail("a cell names vertex " + std::to_string(node) + ", but there are only " +
@@ -184,23 +181,13 @@ class MeditInput final : public CellInput {
     left_ = section.count;
     // Packed content moves forward only.
     if (!text_ || section.offset < text_->bytes().offset()) text_.emplace(content_->reopen(), kStyle);
-    Cursor& bytes = text_->bytes();
-    if (!content_->can_seek())
-      while (bytes.offset() < section.offset && bytes.ensure(1))
-        bytes.advance(
-            static_cast<std::size_t>(std::min<std::uint64_t>(bytes.available(), section.offset - bytes.offset())));
     text_->move_to_line(section.offset, section.line);
   }
 
-  void require_more() {
-    if (text_->more()) return;
-    text_->mark();
-    text_->fail("the file ends before its last record", "the file is cut; get a whole copy");
-  }
   // The number after each record that groups them.
   void skip_reference() {
     in_cell_ = false;
-    require_more();
+    text_->require_more("reference");
     (void)text_->integer("reference");
   }
 

@@ -89,15 +89,9 @@ const char* MshItems::take(std::size_t bytes, const char* what) {
   return data;
 }
 
-void MshItems::require_more(const char* what) {
-  if (text_.more()) return;
-  text_.mark();
-  text_.fail(std::string("the file ends where a ") + what + " should be", kCutHint);
-}
-
 std::int64_t MshItems::integer(const char* what) {
   if (format_.binary) return load_scalar<std::int32_t>(take(4, what), format_.big_endian);
-  require_more(what);
+  text_.require_more(what);
   return text_.integer(what);
 }
 
@@ -116,7 +110,7 @@ std::uint64_t MshItems::size(const char* what) {
 
 double MshItems::real(const char* what) {
   if (!format_.binary) {
-    require_more(what);
+    text_.require_more(what);
     return text_.finite_number<double>(what);
   }
   const auto value = load_scalar<double>(take(8, what), format_.big_endian);
@@ -125,7 +119,7 @@ double MshItems::real(const char* what) {
 }
 
 std::uint64_t MshItems::text_number(const char* what) {
-  require_more(what);
+  text_.require_more(what);
   offset_ = text_.bytes().offset();
   const std::int64_t value = text_.integer(what);
   if (value < 0) fail(std::string("a ") + what + " is negative");
@@ -134,7 +128,7 @@ std::uint64_t MshItems::text_number(const char* what) {
 }
 
 std::string MshItems::quoted_line() {
-  require_more("name");
+  text_.require_more("name");
   offset_ = text_.bytes().offset();
   Cursor& bytes = text_.bytes();
   bytes.ensure(TextCursor::kTokenBytes);
@@ -149,13 +143,7 @@ std::string MshItems::quoted_line() {
 
 std::uint64_t MshItems::here() { return text_.bytes().offset(); }
 
-void MshItems::move_to(std::uint64_t offset, std::uint64_t line) {
-  Cursor& bytes = text_.bytes();
-  if (!bytes.source().can_seek())
-    while (bytes.offset() < offset && bytes.ensure(1))
-      bytes.advance(static_cast<std::size_t>(std::min<std::uint64_t>(bytes.available(), offset - bytes.offset())));
-  text_.move_to_line(offset, line);
-}
+void MshItems::move_to(std::uint64_t offset, std::uint64_t line) { text_.move_to_line(offset, line); }
 
 void MshItems::fail(const std::string& what, const std::string& hint) const {
   if (!format_.binary) text_.fail(what, hint);

@@ -39,8 +39,8 @@ class MshItems {
   std::uint64_t text_number(const char* what);
   std::string quoted_line();
 
-  // Where the next item is, and a return to there. REQUIRES for the latter: no item beyond it was read.
-  std::uint64_t offset() const { return offset_; }
+  // Where the next item is, and a move to one. REQUIRES for the latter: the content can seek, or the item is not before
+  // the next one.
   std::uint64_t here();
   void move_to(std::uint64_t offset, std::uint64_t line);
   std::uint64_t line() const { return text_.line(); }
@@ -50,7 +50,6 @@ class MshItems {
 
  private:
   const char* take(std::size_t bytes, const char* what);
-  void require_more(const char* what);
   void read_format();
 
   TextCursor text_;

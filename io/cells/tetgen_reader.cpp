@@ -20,24 +20,11 @@ constexpr TextStyle kStyle = {.comments = true};
 constexpr const char* kDamagedHint = "the file may be cut or damaged here";
 constexpr std::uint64_t kMostAttributes = 65536;
 
-void require_more(TextCursor& text, const char* what) {
-  if (text.more()) return;
-  text.mark();
-  text.fail(std::string("the file ends where a ") + what + " should be", "the file is cut; get a whole copy");
-}
-
 std::uint64_t read_count(TextCursor& text, const char* what) {
-  require_more(text, what);
+  text.require_more(what);
   const std::int64_t count = text.integer(what);
   if (count < 0) text.fail(std::string("a ") + what + " is negative", kDamagedHint);
   return static_cast<std::uint64_t>(count);
-}
-
-void check_room(const TextCursor& text, std::uint64_t records, std::uint64_t numbers) {
-  const auto size = text.source().size();
-  if (size && records > (*size + 1) / (2 * numbers))
-    text.fail("the file announces " + count_of(records, "record") + ", more than it has room for",
-              "the file is cut or damaged; get a whole copy");
 }
 
 // The first line of X.node.
@@ -52,7 +39,7 @@ NodeHead read_node_head(TextCursor& text) {
     text.fail("the vertices are of dimension " + std::to_string(head.dimension), "2 and 3 are read");
   if (text.more_on_line()) head.attributes = read_count(text, "number of attributes");
   if (head.attributes > kMostAttributes) text.fail("vertices have too many attributes", kDamagedHint);
-  check_room(text, head.nodes, 1 + head.dimension + head.attributes);
+  text.require_room(head.nodes, 1 + head.dimension + head.attributes);
   text.skip_line();
   return head;
 }
@@ -73,7 +60,7 @@ CellsHead read_cells_head(TextCursor& text, bool faces) {
     text.fail("cells of " + count_of(nodes, "node") + " are not read", "tetrahedra have 4 or 10, triangles 3 or 6");
   const std::uint64_t corners = triangle ? 3 : 4;
   head.each = {triangle ? CellShape::kTriangle : CellShape::kTetrahedron, corners, nodes - corners};
-  check_room(text, head.cells, 1 + nodes);
+  text.require_room(head.cells, 1 + nodes);
   text.skip_line();
   return head;
 }
@@ -115,7 +102,7 @@ class TetgenInput final : public CellInput {
       const std::uint64_t number = read_count(nodes_, "number of a vertex");
       if (nodes_read_ == 0) first_ = number;
       if (first_ > 1 || number != first_ + nodes_read_)
-        nodes_.fail("vertex " + std::to_string(number) + " does not stand in its place",
+        nodes_.fail("vertex " + std::to_string(number) + " is out of order",
                     "vertices are numbered from 0 or 1, in their order");
       for (std::size_t k = 0; k < node_head_.dimension; ++k) columns[k]->push_back(real("coordinate"));
       attributes_.clear();
@@ -129,7 +116,7 @@ class TetgenInput final : public CellInput {
   }
 
   VertexId read_node() override {
-    require_more(cells_, "vertex number");
+    cells_.require_more("vertex number");
     const std::int64_t number = cells_.integer("vertex number"), first = static_cast<std::int64_t>(first_);
     if (number < first || static_cast<std::uint64_t>(number - first) >= node_head_.nodes) [[unlikely]]
       cells_.fail("a cell names vertex " + std::to_string(number) + ", but there are only " +
@@ -142,7 +129,7 @@ class TetgenInput final : public CellInput {
 
  private:
   double real(const char* what) {
-    require_more(nodes_, what);
+    nodes_.require_more(what);
     return nodes_.finite_number<double>(what);
   }
 

@@ -107,7 +107,7 @@ class PackedData final : public HeadedData {
     const std::uint64_t last_bytes = head_word();
     if (blocks > kMostBlocks || block_bytes_ > kMostBlockBytes || last_bytes > block_bytes_)
       fail("the array has " + count_of(blocks, "block") + " of " + count_of(block_bytes_, "byte") +
-           ", which is no sound head");
+           ", which is not a valid header");
     last_bytes_ = last_bytes == 0 ? block_bytes_ : last_bytes;
     size_ = blocks == 0 ? 0 : (blocks - 1) * block_bytes_ + last_bytes_;
     check_size(size_);

@@ -6,7 +6,7 @@ namespace reeb::io {
 
 void require_cell_kind(EventKind kind, bool volume) {
   if (kind == EventKind::kTriangle && volume)
-    fail_format("a volume mesh cannot hold triangles", "write SMA, SMB or SMC instead");
+    fail_format("a volume mesh cannot hold triangles", "write SMA, SMB or CX instead");
   if (kind == EventKind::kTetrahedron && !volume)
     fail_format("this format cannot hold tetrahedra", "write SVA or SVB instead");
 }

@@ -48,7 +48,7 @@ void IndexRules::fail_index(IndexVerdict verdict, std::int32_t number, const std
     case IndexVerdict::kZero:
       fail(Fault::kBadIndex, who + " is 0; vertices are numbered from 1", position);
     case IndexVerdict::kBeforeFirst:
-      fail(Fault::kBadIndex, who + " (" + std::to_string(number) + ") lies before the first vertex, " + arrived,
+      fail(Fault::kBadIndex, who + " (" + std::to_string(number) + ") is before the first vertex, " + arrived,
            position);
     case IndexVerdict::kNotArrived:
       fail(Fault::kBadIndex, who + " names vertex " + std::to_string(std::int64_t{number} - 1) + ", only " + arrived,

@@ -225,12 +225,12 @@ class PeekedInput final : public RawInput {
   std::size_t filled_ = 0, given_ = 0;
 };
 
-std::unique_ptr<ContentSource> stream_source(const std::string& name, std::unique_ptr<RawInput> raw,
+std::unique_ptr<ContentSource> stream_source(const std::string& name, std::unique_ptr<RawInput> raw, Empty empty,
                                              std::shared_ptr<const InputFile> file = nullptr) {
   auto peeked = std::make_unique<PeekedInput>(std::move(raw));
   const auto compression = detect_compression(peeked->head());
   auto source = std::make_unique<StreamSource>(name, decompress(name, std::move(peeked), compression), std::move(file));
-  if (source->view(0, 1).empty()) throw_empty(name);
+  if (source->view(0, 1).empty() && empty == Empty::kRefused) throw_empty(name);
   return source;
 }
 
@@ -246,7 +246,7 @@ std::unique_ptr<RawInput> open_pipe(const std::string& path) {
 std::unique_ptr<ContentSource> open_content(std::shared_ptr<const InputFile> file) {
   auto plain = std::make_unique<FileSource>(file);
   if (detect_compression(plain->view(0)) == Compression::kNone) return plain;
-  return stream_source(file->path(), std::make_unique<FileInput>(file), file);
+  return stream_source(file->path(), std::make_unique<FileInput>(file), file->empty(), file);
 }
 
 std::unique_ptr<ContentSource> make_reopenable(std::unique_ptr<ContentSource> source, const std::string& temp_folder) {
@@ -266,7 +266,10 @@ std::unique_ptr<ContentSource> open_for_seeking(std::shared_ptr<const InputFile>
 std::unique_ptr<ContentSource> open_content(const std::string& path) { return Input(path).open(); }
 
 Input::Input(std::string path, const std::vector<std::string>& beside)
-    : path_(std::move(path)), file_(open_if_regular(path_)) {
+    : Input(std::move(path), beside, Empty::kRefused) {}
+
+Input::Input(std::string path, const std::vector<std::string>& beside, Empty empty)
+    : path_(std::move(path)), empty_(empty), file_(open_if_regular(path_, empty)) {
   for (const std::string& other : beside)
     if (auto file = open_if_regular(other)) beside_.push_back(std::move(file));
 }
@@ -274,7 +277,7 @@ Input::Input(std::string path, const std::vector<std::string>& beside)
 std::unique_ptr<ContentSource> Input::open() const {
   if (file_) return open_content(file_);
   const std::string name = path_ == "-" ? kStandardInputShown : path_;
-  return stream_source(name, open_pipe(path_));
+  return stream_source(name, open_pipe(path_), empty_);
 }
 
 void Input::check_unchanged(const char* content) const {

@@ -16,6 +16,7 @@
 namespace reeb::io {
 
 class InputFile;
+enum class Empty;
 
 class ContentSource {
  public:
@@ -79,6 +80,7 @@ class Input {
   // `beside`: other files that are read with it, and must not change either.
   // THROWS: as open_content().
   explicit Input(std::string path, const std::vector<std::string>& beside = {});
+  Input(std::string path, const std::vector<std::string>& beside, Empty empty);
 
   const std::string& path() const { return path_; }
   // Its content from the start. A pipe has it once.
@@ -104,6 +106,7 @@ class Input {
 
  private:
   std::string path_;
+  Empty empty_;
   std::shared_ptr<const InputFile> file_;  // null if it is a pipe
   std::vector<std::shared_ptr<const InputFile>> beside_;
 };

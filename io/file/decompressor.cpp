@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "io/file/file_name.h"
 #include "libreeb/base/error.h"
 
 namespace reeb::io {
@@ -20,6 +21,7 @@ namespace {
 namespace bio = boost::iostreams;
 
 constexpr std::streamsize kChunkBytes = 65536;
+constexpr const char* kCutFrame = "ends inside a zstd frame";
 
 // The raw bytes as a Boost.Iostreams device.
 class RawDevice {
@@ -71,7 +73,7 @@ class ZstdFilter {
       if (given_.pos == given_.size && !flushing_) {
         const std::streamsize got = bio::read(source, chunk_.data(), kChunkBytes);
         if (got <= 0) {
-          if (inside_frame_) throw Error(ErrorKind::kBadInput, "ends inside a zstd frame", "");
+          if (inside_frame_) throw Error(ErrorKind::kBadInput, kCutFrame, "");
           return -1;
         }
         given_ = {chunk_.data(), static_cast<std::size_t>(got), 0};
@@ -111,12 +113,15 @@ class DecompressedInput final : public RawInput {
       return got < 0 ? 0 : static_cast<std::size_t>(got);
     } catch (const Error& failure) {
       if (!failure.file().empty()) throw;
-      if (failure.hint().empty()) throw_damaged(failure.message());
+      if (failure.hint().empty()) throw_damaged(failure.message(), failure.message() == kCutFrame);
       throw Error(failure.kind(), failure.message(), failure.hint()).at(name_);
     } catch (const std::bad_alloc&) {
       throw;
+    } catch (const bio::gzip_error& failure) {
+      const bool is_cut = failure.error() == bio::gzip::bad_footer || failure.zlib_error_code() == bio::zlib::buf_error;
+      throw_damaged("is not a whole gzip stream", is_cut);
     } catch (const std::exception&) {
-      throw_damaged("is not a whole gzip stream");
+      throw_damaged("is not a whole gzip stream", false);
     }
   }
 
@@ -124,8 +129,10 @@ class DecompressedInput final : public RawInput {
   std::uint64_t memory_bytes() const override { return zstd_ ? ZSTD_sizeof_DStream(zstd_.get()) : 0; }
 
  private:
-  [[noreturn]] void throw_damaged(const std::string& reason) const {
-    throw Error(ErrorKind::kBadInput, "the compressed data are damaged or cut: " + reason,
+  // Errors of streaming meshes have a class.
+  [[noreturn]] void throw_damaged(const std::string& reason, bool is_cut) const {
+    const std::string fault = !is_streaming_name(name_) ? "" : is_cut ? "TRUNCATED: " : "UNSUPPORTED: ";
+    throw Error(ErrorKind::kBadInput, fault + "the compressed data are damaged or cut: " + reason,
                 "fetch or compress the file again; gzip -t and zstd -t check one")
         .at(name_, std::to_string(raw_->consumed()));
   }

@@ -47,13 +47,14 @@ FileState state_of(const File& file) {
   return to_state(status);
 }
 
-InputFile::InputFile(const std::string& path) {
+InputFile::InputFile(const std::string& path, Empty empty) : empty_(empty) {
   check_input_file(path);
   if (!is_regular_file(path))
     throw Error(ErrorKind::kBadInput, "is not a regular file", "copy it to a regular file first").at(path);
   file_ = File::open_for_reading(path);
   state_ = state_of(file_);
-  if (size() == 0) throw_empty(path);
+  const bool is_packed = content_name(path) != path;
+  if (size() == 0 && (empty == Empty::kRefused || is_packed)) throw_empty(path);
 }
 
 InputFile::InputFile(File file) : file_(std::move(file)), state_(state_of(file_)) {}
@@ -70,10 +71,10 @@ void InputFile::check_unchanged(const char* content) const {
   if (written || replaced) throw InputChanged(std::string(content) + " changed while it was read").at(path());
 }
 
-std::shared_ptr<const InputFile> open_if_regular(const std::string& path) {
+std::shared_ptr<const InputFile> open_if_regular(const std::string& path, Empty empty) {
   if (path == "-") return nullptr;
   check_input_file(path);
-  return is_regular_file(path) ? std::make_shared<const InputFile>(path) : nullptr;
+  return is_regular_file(path) ? std::make_shared<const InputFile>(path, empty) : nullptr;
 }
 
 void throw_empty(const std::string& path) {

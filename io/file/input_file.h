@@ -16,6 +16,9 @@ void check_input_file(const std::string& path);
 
 [[noreturn]] void throw_empty(const std::string& path);
 
+// Whether content without a byte is a legal one.
+enum class Empty { kRefused, kAllowed };
+
 // What changes when a file is written to, or replaced: its size, the times of its last changes (of the content; of
 // anything), and which file it is.
 struct FileState {
@@ -31,13 +34,15 @@ FileState state_of(const File& file);
 // THREADS: any.
 class InputFile {
  public:
-  // THROWS: Error{kBadInput} if it is missing, a directory or another special file, unreadable, or empty.
-  explicit InputFile(const std::string& path);
+  // THROWS: Error{kBadInput} if it is missing, a directory or another special file, unreadable, or empty. A file that
+  // is packed by its name is never allowed to be empty.
+  explicit InputFile(const std::string& path, Empty empty = Empty::kRefused);
   // A file that is open, such as one without a name.
   explicit InputFile(File file);
 
   const std::string& path() const { return file_.path(); }
   std::uint64_t size() const { return state_.bytes; }
+  Empty empty() const { return empty_; }  // what it may be, also when it is unpacked
   void read_at(std::uint64_t offset, std::span<std::byte> bytes) const { file_.read_at(offset, bytes); }
 
   // What was read fits together only if this does not throw afterwards. `content` is for the message.
@@ -45,12 +50,13 @@ class InputFile {
   void check_unchanged(const char* content) const;
 
  private:
+  Empty empty_ = Empty::kRefused;
   File file_;
   FileState state_;
 };
 
 // The file `path`, if it is a regular one; else null ("-", a pipe).
 // THROWS: as InputFile.
-std::shared_ptr<const InputFile> open_if_regular(const std::string& path);
+std::shared_ptr<const InputFile> open_if_regular(const std::string& path, Empty empty = Empty::kRefused);
 
 }  // namespace reeb::io

@@ -19,7 +19,8 @@ void ZstdCompressor::compress(std::span<const std::byte> bytes, int level, std::
   const std::size_t size =
       ZSTD_compressCCtx(context_.get(), frame_.get(), capacity_, bytes.data(), bytes.size(), level);
   if (ZSTD_isError(size) != 0)
-    throw Error(ErrorKind::kResource, std::string("zstd: ") + ZSTD_getErrorName(size), "allow more with --memory");
+    throw Error(ErrorKind::kResource, std::string("zstd: ") + ZSTD_getErrorName(size),
+                "close other programs, or allow less with --memory SIZE");
   out.insert(out.end(), frame_.get(), frame_.get() + size);
 }
 

@@ -1,5 +1,6 @@
 #include "io/formats/create_mesh.h"
 
+#include "io/file/file.h"
 #include "io/file/file_name.h"
 #include "io/formats/cx_writer.h"
 #include "io/formats/obj_writer.h"
@@ -15,6 +16,9 @@ void check_mesh_name(const std::string& path) {
   if (stream_format(path) != StreamFormat::kNone || suffix == ".ply" || suffix == ".obj" || suffix == ".off" ||
       suffix == ".cx")
     return;
+  if (path == kStandardOutput)
+    throw Error(ErrorKind::kUsage, "a mesh is not written to standard output",
+                "name a file, which ends in .ply .obj .off .cx .sma .smb .smc .sva .svb or .events.txt");
   throw Error(ErrorKind::kUsage, "cannot tell the mesh format to write from this name",
               "end the name of the output in .ply .obj .off .cx .sma .smb .smc .sva .svb or .events.txt")
       .at(path);

@@ -22,7 +22,7 @@ CxReader::CxReader(std::unique_ptr<ContentSource> source, ReadOptions options)
   info_.file_bytes = text_.source().file_bytes();
   if (!text_.more()) return;
   if (const std::string_view keyword = text_.token(); keyword != "v")
-    text_.fail(keyword == "s" ? "a simplex stands before all vertices" : "the first item is not a vertex", kItemHint);
+    text_.fail(keyword == "s" ? "a simplex comes before all vertices" : "the first item is not a vertex", kItemHint);
   read_numbers();
   info_.dimension = static_cast<unsigned>(numbers_.size());
   first_waits_ = true;
@@ -82,9 +82,10 @@ VertexId CxReader::read_corner() {
   if (corners_.size() > kMaxSimplexDimension)
     text_.fail("a simplex of more than 9 vertices", "a simplex has 1 to 9 vertices");
   std::uint64_t number = 0;
-  const bool digits = text_.digits(number);
-  if (const char next = text_.peek(); !digits || (next != '\n' && next != '#' && !is_blank(next)))
-    text_.fail("a vertex index should be here", "a vertex is named by its index, from 0");
+  constexpr const char* kIndexHint = "a vertex is named by its index, from 0";
+  if (!text_.digits(number)) text_.fail_digits("vertex index", kIndexHint);
+  if (const char next = text_.peek(); next != '\n' && next != '#' && !is_blank(next))
+    text_.fail("a vertex index should be here", kIndexHint);
   if (number >= vertices_read())
     text_.fail("a simplex names vertex " + std::to_string(number) + ", but only " +
                    count_of(vertices_read(), "vertex") + " came before it",

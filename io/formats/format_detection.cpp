@@ -224,6 +224,15 @@ MeshFormat detect_format(ContentSource& source, const std::string& path) {
   return too_short_for_stl && starts_like_stream(head) ? MeshFormat::kStreaming : MeshFormat::kUnknown;
 }
 
+std::optional<std::size_t> bare_return(ContentSource& source, MeshFormat format) {
+  std::string_view head = source.view(0, 1);
+  if (format == MeshFormat::kPly) head = head.substr(0, head.find("end_header"));  // its body can be binary
+  const std::size_t first = head.find('\r');
+  const bool is_bare = first != std::string_view::npos && head.find('\n') == std::string_view::npos && is_text(head) &&
+                       !first_word(head.substr(first)).empty();
+  return is_bare ? std::optional(first) : std::nullopt;
+}
+
 bool is_text_stl(ContentSource& source) {
   const std::string_view head = source.view(0);
   return !has_binary_stl_size(head, source.size()) && starts_with_solid(head) && is_text(head);

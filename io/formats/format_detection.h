@@ -1,6 +1,8 @@
 // Detects the format of an input from its first bytes.
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -33,6 +35,9 @@ std::string_view format_name(MeshFormat format);
 // these is read as OBJ, which gives the same mesh. CX is told by its name alone. On a pipe it waits only for the bytes
 // that it needs: most streaming meshes are recognized by their first 80 bytes.
 MeshFormat detect_format(ContentSource& source, const std::string& path);
+
+// Where the first line ends, if this is text whose lines end with CR alone. `format` is that of the content.
+std::optional<std::size_t> bare_return(ContentSource& source, MeshFormat format);
 
 // Whether content that is STL is text.
 bool is_text_stl(ContentSource& source);

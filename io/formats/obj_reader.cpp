@@ -87,7 +87,7 @@ VertexId ObjReader::corner() {
   const bool negative = text_.peek() == '-';
   if (negative) text_.advance();
   std::uint64_t number = 0;
-  if (!text_.digits(number)) text_.fail("a vertex number should be here", std::string(kTruncatedHint));
+  if (!text_.digits(number)) text_.fail_digits("vertex number", std::string(kTruncatedHint));
   if (text_.peek() == '/') skip_texture_and_normal();
   const char next = text_.peek();
   if (next != '\n' && next != '\\' && next != '#' && !is_blank(next))

@@ -140,7 +140,7 @@ class AsciiOffReader final : public OffReader {
 
  private:
   std::int64_t header_integer() {
-    require_more("the file ends in its header");
+    text_.require_more("count");
     return text_.integer("count");
   }
   std::uint64_t count() {
@@ -148,15 +148,10 @@ class AsciiOffReader final : public OffReader {
     if (value < 0) text_.fail("a count is negative", kHeaderHint);
     return static_cast<std::uint64_t>(value);
   }
-  void require_more(const char* otherwise) {
-    if (text_.more_on_line() || text_.more()) return;
-    text_.mark();
-    text_.fail(otherwise, kCutHint);
-  }
 
   void read_vertex(MeshBatch& batch) override {
     for (auto& column : batch.coordinates) {
-      require_more("the file ends before its last vertex");
+      text_.require_more("coordinate");
       column.push_back(text_.finite_number<double>("coordinate"));
     }
     while (text_.more_on_line()) odd_values_ += spells_non_finite(text_.token()) ? 1u : 0u;
@@ -169,7 +164,7 @@ class AsciiOffReader final : public OffReader {
   void fail(const std::string& what, const std::string& hint) const override { text_.fail(what, hint); }
 
   std::int64_t number(const char* what) {
-    require_more("the file ends before its last face");
+    text_.require_more(what);
     text_.mark();
     std::uint64_t value = 0;
     if (!text_.digits(value)) return text_.integer(what);
@@ -275,7 +270,7 @@ std::unique_ptr<MeshReader> open_off(std::unique_ptr<ContentSource> source, cons
   header.kind = *kind;
   header.dimension = dimension_of(header.kind, 3);
   if (text.more_on_line() && text.peek() == 'B') {
-    if (text.token() != "BINARY") text.fail("only the word BINARY may stand here", kHeaderHint);
+    if (text.token() != "BINARY") text.fail("only the word BINARY may be here", kHeaderHint);
     header.kind.binary = true;
     text.skip_line();
     return std::make_unique<BinaryOffReader>(std::move(text.bytes()), header, options);

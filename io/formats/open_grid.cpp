@@ -49,10 +49,11 @@ std::string data_path(const std::string& header, const std::string& data_file) {
   if (name.is_absolute() || std::ranges::find(name, fs::path("..")) != name.end())
     throw Error(ErrorKind::kBadInput, "the data file \"" + data_file + "\" is not in the folder of the header",
                 "put both into one folder, and name the data file without its folder in the header");
-  std::string path = (fs::path(header).parent_path() / name).string();
-  const std::string packed = path + ".gz";
+  const std::string path = (fs::path(header).parent_path() / name).string();
   std::error_code error;  // of a name that cannot be one; reading the file says so
-  if (!fs::exists(path, error) && fs::exists(packed, error)) path = packed;
+  if (fs::exists(path, error)) return path;
+  for (const char* suffix : {".gz", ".zst"})
+    if (fs::exists(path + suffix, error)) return path + suffix;
   return path;
 }
 
@@ -72,7 +73,7 @@ std::unique_ptr<GridReader> open_grid(const Input& input, std::unique_ptr<Conten
   try {
     const auto format = options.format ? options.format : detect_image(*source, input.path());
     if (!format)
-      throw Error(ErrorKind::kBadInput, "this is no image of a known format",
+      throw Error(ErrorKind::kBadInput, "this is not an image of a known format",
                   "NRRD, NIfTI-1, MetaImage, VTI, NumPy, ESRI ASCII and raw images are read")
           .at(name, "0");
     Image image = parse(*format, *source, options);

@@ -15,8 +15,8 @@
 
 namespace reeb::io {
 
-// What the content is, or, where that is no mesh either, what `path` says; nothing if it is none of these. On a pipe it
-// waits for the first 64 KB.
+// What the content is, or, where that is not a mesh either, what `path` says; nothing if it is none of these. On a pipe
+// it waits for the first 64 KB.
 std::optional<ImageFormat> detect_image(ContentSource& source, const std::string& path);
 
 struct GridOptions {

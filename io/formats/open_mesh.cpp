@@ -5,6 +5,7 @@
 #include "io/cells/tetgen_reader.h"
 #include "io/file/content_source.h"
 #include "io/file/file_name.h"
+#include "io/file/input_file.h"
 #include "io/formats/cx_reader.h"
 #include "io/formats/foreign_format.h"
 #include "io/formats/format_detection.h"
@@ -33,11 +34,17 @@ constexpr const char* kFormatsRead =
 Input mesh_input(const std::string& path, const std::string& format) {
   const bool tetgen = format == "tetgen" || (format.empty() && is_tetgen_name(path));
   const std::string nodes = tetgen ? tetgen_nodes(path) : std::string();
-  return Input(path, nodes.empty() ? std::vector<std::string>{} : std::vector{nodes});
+  // CX and OBJ have no header: a mesh without vertices can be a file without bytes. Streaming meshes have their own
+  // error.
+  const std::string name = name_for_streams(path, format);
+  const std::string suffix = content_suffix(name);
+  const bool may_be_empty = suffix == ".cx" || suffix == ".obj" || is_streaming_name(name);
+  return {path, nodes.empty() ? std::vector<std::string>{} : std::vector{nodes},
+          may_be_empty ? Empty::kAllowed : Empty::kRefused};
 }
 
 std::unique_ptr<MeshReader> open_mesh(const std::string& path, const ReadOptions& options, const std::string& format) {
-  const Input input(path);
+  const Input input = mesh_input(path, format);
   return open_mesh(input, input.open(), options, {}, format);
 }
 
@@ -73,7 +80,15 @@ std::unique_ptr<MeshReader> open_mesh(const Input& input, std::unique_ptr<Conten
 std::unique_ptr<MeshReader> open_mesh(std::unique_ptr<ContentSource> source, const std::string& path,
                                       const ReadOptions& options, const std::string& format) {
   const std::string name = source->name();
-  switch (format.empty() ? detect_format(*source, path) : chosen_format(format, *source)) {
+  const MeshFormat kind = format.empty() ? detect_format(*source, path) : chosen_format(format, *source);
+  const auto cr = kind == MeshFormat::kUnknown ? std::nullopt : bare_return(*source, kind);
+  if (cr)
+    throw Error(ErrorKind::kBadInput,
+                (kind == MeshFormat::kStreaming ? "UNSUPPORTED: " : "") +
+                    std::string("its lines end with CR alone, as on old Macs"),
+                "end them with LF or CR LF; for a file that is all text: tr '\\r' '\\n' <OLD >NEW")
+        .at(name, "1:" + std::to_string(*cr + 1));
+  switch (kind) {
     case MeshFormat::kPly:
       return open_ply(std::move(source), options);
     case MeshFormat::kOff:

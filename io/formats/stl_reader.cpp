@@ -5,17 +5,11 @@
 #include <utility>
 
 #include "io/mesh/scalar_bytes.h"
+#include "io/text/words.h"
 #include "libreeb/base/count_text.h"
 
 namespace reeb::io {
 namespace {
-
-std::string lower_case(std::string_view word) {
-  std::string lower(word.substr(0, 16));
-  for (char& c : lower)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return lower;
-}
 
 constexpr const char* kDamagedHint = "the file may be cut or damaged here";
 
@@ -76,7 +70,7 @@ bool AsciiStlReader::advance(MeshBatch& batch) {
   } else if (keyword == "endfacet" && in_facet_) {
     in_facet_ = false;
   } else if (keyword != "outer" || !in_facet_) {
-    text_.fail("\"" + keyword + "\" does not belong here in an STL file", kDamagedHint);
+    text_.fail(quoted(keyword) + " does not belong here in an STL file", kDamagedHint);
   }
   text_.skip_line();
   return true;

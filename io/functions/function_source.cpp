@@ -29,7 +29,7 @@ FunctionSource::FunctionSource(const FunctionSpec& spec, const MeshInfo& info, s
           .at(mesh_name_);
     columns_ = {static_cast<unsigned>(spec.number)};
   } else if (spec.kind == Kind::kValue && !info.grid) {
-    throw Error(ErrorKind::kBadInput, "the mesh is no image, so it has no " + spec.text,
+    throw Error(ErrorKind::kBadInput, "the mesh is not an image, so it has no " + spec.text,
                 "choose a coordinate, property:NAME or file:PATH")
         .at(mesh_name_);
   } else if (spec.kind == Kind::kProperty || spec.kind == Kind::kValue) {

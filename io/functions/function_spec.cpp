@@ -110,6 +110,15 @@ FunctionSpec parse_function(std::string_view text) {
   if (text == "laplacian:0")
     throw Error(ErrorKind::kUsage, "\"laplacian:0\" is not a function: K of laplacian:K is at least 1",
                 "laplacian:1, or spectral, is the first eigenvector that is not constant");
+  constexpr struct {
+    std::string_view name, needs, example;
+  } kNeeds[] = {{"geodesic", "a vertex", "geodesic:0"},         {"distance", "a vertex or a point", "distance:0"},
+                {"laplacian", "a number", "laplacian:1"},       {"random", "a seed", "random:1"},
+                {"property", "a name", "property:temperature"}, {"file", "a path", "file:values.f64"}};
+  for (const auto& [name, needs, example] : kNeeds)
+    if (text == name)
+      throw Error(ErrorKind::kUsage, std::string(name) + " needs " + std::string(needs),
+                  "for instance " + std::string(example));
   throw Error(ErrorKind::kUsage, "\"" + std::string(text) + "\" is not a function",
               "functions are x, y, z, cK (a coordinate, from 0), index, random:SEED, property:NAME, file:PATH, "
               "value or value:K (of an image), distance:VERTEX, distance:X,Y,Z, geodesic:VERTEX[,VERTEX...], "

@@ -72,12 +72,12 @@ class NumpyValueFile final : public ValueFile {
     std::string head(static_cast<std::size_t>(std::min<std::uint64_t>(windows_.size(), ContentSource::kLookahead)), 0);
     windows_.file()->read_at(0, std::as_writable_bytes(std::span(head)));
     if (!is_numpy(head))
-      throw Error(ErrorKind::kBadInput, "this is no NumPy array", "write it with numpy.save").at(path, "0");
+      throw Error(ErrorKind::kBadInput, "this is not a NumPy array", "write it with numpy.save").at(path, "0");
     header_ = parse_numpy_header(head, path);
     bytes_ = byte_size(header_.type);
     for (const std::uint64_t size : header_.shape) {
       if (count_ > 1 && size > 1)
-        throw Error(ErrorKind::kBadInput, "an array of several axes is no list of values",
+        throw Error(ErrorKind::kBadInput, "an array of several axes is not a list of values",
                     "save one column of it, an array of shape (n,)")
             .at(path, "0");
       count_ *= size;

@@ -19,7 +19,8 @@ class ValueFile {
 
   // The values of vertices 0, 1, 2, ... in turn.
   virtual double next() = 0;
-  // next() continues with this vertex. Values that are passed are not looked at. REQUIRES: it is none before.
+  // next() continues with this vertex. Values that are passed are not looked at. REQUIRES: it is not before the next
+  // one.
   virtual void skip_to(std::uint64_t vertex) = 0;
   virtual double at(std::uint64_t vertex) = 0;
   virtual void check_count(std::uint64_t vertex_count) = 0;

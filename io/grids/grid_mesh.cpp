@@ -72,7 +72,7 @@ class GridMesh : public MeshReader {
   const MeshInfo& info() const override { return info_; }
   std::uint64_t bytes_read() const override { return grid_->bytes_read(); }
   std::uint64_t memory_bytes() const override {
-    std::uint64_t bytes = grid_->memory_bytes();
+    std::uint64_t bytes = grid_->memory_bytes() + values_.capacity() * sizeof(double);
     for (const auto& slice : numbers_) bytes += slice.capacity() * sizeof(std::uint64_t);
     return bytes;
   }
@@ -238,8 +238,9 @@ bool GridMesh::add_vertices(MeshBatch& batch) {
 }
 
 bool GridMesh::read_values() {
-  constexpr std::size_t kVerticesAtOnce = 8192;
-  values_.resize(kVerticesAtOnce * grid_->info().components);
+  constexpr std::size_t kVerticesAtOnce = 8192, kValuesAtOnce = 65536;
+  const std::size_t components = grid_->info().components;
+  values_.resize(std::clamp<std::size_t>(kValuesAtOnce / components, 1, kVerticesAtOnce) * components);
   taken_ = 0;
   read_ = grid_->read(values_);
   return read_ != 0;

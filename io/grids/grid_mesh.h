@@ -21,7 +21,7 @@ struct GridMeshOptions {
 // one is there. Where nothing is skipped, only simplices of the highest dimension are delivered; else also those that
 // are in no larger one.
 //
-// MEMORY: two slices of numbers if vertices are skipped; else nothing that grows with the grid.
+// MEMORY: three slices of numbers if vertices are skipped; else nothing that grows with the grid.
 // THROWS: Error{kBadInput}: a property that the grid does not have. From read(): a requested value that is not finite,
 //         with its place in the file, unless it is skipped.
 std::unique_ptr<MeshReader> make_grid_mesh(std::unique_ptr<GridReader> grid, ReadOptions options,

@@ -15,23 +15,10 @@ constexpr const char* kHint = "fix the header, or write the file again";
 
 }  // namespace
 
-std::string quoted(std::string_view word) {
-  std::string text = "\"";
-  text.append(word.substr(0, 40));
-  return text.append("\"");
-}
-
 std::string_view without_blanks(std::string_view text) {
   while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
   while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
   return text;
-}
-
-std::string lower_case(std::string_view text) {
-  std::string lower(text);
-  for (char& c : lower)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return lower;
 }
 
 std::vector<std::string_view> split_words(std::string_view text) {

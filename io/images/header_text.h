@@ -1,4 +1,4 @@
-// The lines and words of a text header, which lies in the first view of the content.
+// The lines and words of a text header, which is in the first view of the content.
 #pragma once
 
 #include <cstdint>
@@ -8,13 +8,11 @@
 #include <vector>
 
 #include "io/file/content_source.h"
+#include "io/text/words.h"
 
 namespace reeb::io {
 
 std::string_view without_blanks(std::string_view text);
-// The word as messages show it: its first characters, in quotes.
-std::string quoted(std::string_view word);
-std::string lower_case(std::string_view text);
 std::vector<std::string_view> split_words(std::string_view text);
 
 class HeaderText {

@@ -36,13 +36,13 @@ struct Image {
 
   // The file of the data, as the header names it; empty: the data follow the header.
   std::string data_file;
-  // Where the data are: after `offset` bytes of the content and then `skip_lines` lines, of which, unpacked,
-  // `skip_bytes` are skipped; or at the end of the content.
+  // Where the data are: after `offset` bytes of the content, then `skip_lines` lines, then `skip_bytes` bytes, which
+  // count after unpacking; or at the end of the content.
   std::uint64_t offset = 0;
   std::uint64_t skip_lines = 0, skip_bytes = 0;
   bool ends_content = false;
-  std::uint64_t text_line = 1;  // the number of the line at `offset`
-  bool must_end = false;        // bytes after the last value are an error
+  std::uint64_t text_line = 1, text_column = 1;  // the place of the data in a text
+  bool must_end = false;                         // bytes after the last value are an error
 
   // kOwn: from the content to the bytes of the values, and the least number of bytes that the content needs for them.
   std::function<std::unique_ptr<ByteInput>(std::unique_ptr<ContentSource>)> open_bytes;
@@ -53,6 +53,8 @@ struct Image {
 
   std::vector<std::string> warnings;
 };
+
+inline constexpr std::uint64_t kMostGridValues = std::uint64_t{1} << 56;
 
 // Sets axes and sizes. THROWS: Error{kBadInput} without a place: not 2 or 3 axes, a size of 0, more than 2^56 values.
 // REQUIRES: info.components is set.

@@ -96,7 +96,10 @@ class ImageReader final : public GridReader {
   // Makes `offset` the place of the data.
   void locate(ContentSource& source) {
     for (; image_.skip_lines != 0; --image_.skip_lines) skip_line(source);
-    if (image_.packing == Packing::kPlain) image_.offset += std::exchange(image_.skip_bytes, 0);
+    if (image_.packing == Packing::kText)
+      skip_text(source);
+    else if (image_.packing != Packing::kZlib)
+      image_.offset += std::exchange(image_.skip_bytes, 0);
     if (!image_.ends_content) return;
     const auto size = source.size();
     if (!size || image_.packing != Packing::kPlain)
@@ -108,12 +111,29 @@ class ImageReader final : public GridReader {
     image_.offset = *size - bytes;
   }
 
+  // Skips bytes and counts their lines.
+  void skip_text(ContentSource& source) {
+    while (image_.skip_bytes != 0) {
+      const std::string_view bytes = view_before_data(source).substr(0, image_.skip_bytes);
+      image_.text_line += static_cast<std::uint64_t>(std::ranges::count(bytes, '\n'));
+      const std::size_t line_end = bytes.rfind('\n');
+      image_.text_column =
+          line_end == std::string_view::npos ? image_.text_column + bytes.size() : bytes.size() - line_end;
+      image_.offset += bytes.size();
+      image_.skip_bytes -= bytes.size();
+    }
+  }
+
+  std::string_view view_before_data(ContentSource& source) const {
+    const std::string_view bytes = source.view(image_.offset, 1);
+    if (!bytes.empty()) return bytes;
+    throw Error(ErrorKind::kBadInput, "the file ends before its data", kCutHint)
+        .at(name_, std::to_string(image_.offset));
+  }
+
   void skip_line(ContentSource& source) {
     for (;;) {
-      const std::string_view bytes = source.view(image_.offset, 1);
-      if (bytes.empty())
-        throw Error(ErrorKind::kBadInput, "the file ends before its data", kCutHint)
-            .at(name_, std::to_string(image_.offset));
+      const std::string_view bytes = view_before_data(source);
       const std::size_t end = bytes.find('\n');
       image_.offset += end == std::string_view::npos ? bytes.size() : end + 1;
       if (end == std::string_view::npos) continue;
@@ -172,11 +192,11 @@ class ImageReader final : public GridReader {
   std::unique_ptr<ValueStream> open(std::unique_ptr<ContentSource> source) const {
     if (image_.packing == Packing::kOwn) {
       auto bytes = image_.open_bytes(std::move(source));
-      if (image_.own_text) return text_values(std::move(bytes), image_.text_line, 1);
+      if (image_.own_text) return text_values(std::move(bytes), image_.text_line, image_.text_column);
       return binary_values(std::move(bytes), image_.type, image_.big_endian);
     }
     std::unique_ptr<ByteInput> bytes = std::make_unique<ContentBytes>(std::move(source), image_.offset);
-    if (image_.packing == Packing::kText) return text_values(std::move(bytes), image_.text_line, 1);
+    if (image_.packing == Packing::kText) return text_values(std::move(bytes), image_.text_line, image_.text_column);
     if (image_.packing == Packing::kZlib) bytes = inflate(std::move(bytes));
     if (image_.packing == Packing::kHex) bytes = from_hex(std::move(bytes));
     char skipped[4096];

@@ -57,11 +57,11 @@ class Header {
 
   void field() {
     const std::size_t equal = text_.line().find('=');
-    if (equal == std::string_view::npos) text_.fail("this line is no field (\"Name = value\")", kHint);
+    if (equal == std::string_view::npos) text_.fail("this line is not a field (\"Name = value\")", kHint);
     const std::string name = lower_case(without_blanks(text_.line().substr(0, equal)));
     const std::string_view value = without_blanks(text_.line().substr(equal + 1));
     if (name == "objecttype") {
-      if (lower_case(value) != "image") text_.fail(value, "this is no image, but " + quoted(value), "name an image");
+      if (lower_case(value) != "image") text_.fail(value, "this is not an image but " + quoted(value), "name an image");
     } else if (name == "ndims") {
       dimensions_ = text_.count(value, "number of dimensions");
       if (dimensions_ != 2 && dimensions_ != 3)

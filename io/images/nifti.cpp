@@ -112,8 +112,7 @@ class Header {
     else
       fail(kVoxOffset, "the data cannot begin where the header says");
     if (!pair) return;
-    std::filesystem::path file = std::filesystem::path(name_).filename();
-    if (name_suffix(file.string()) == ".gz") file.replace_extension();
+    std::filesystem::path file = std::filesystem::path(content_name(name_)).filename();
     image.data_file = file.replace_extension(".img").string();
   }
 

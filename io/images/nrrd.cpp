@@ -19,7 +19,7 @@ using Vector = std::vector<double>;
 constexpr std::uint64_t kMaxAxes = 16;  // of the format
 constexpr const char* kHint = "fix the header, or write the file again";
 
-// Kinds of axes along which the samples lie; any other is one of components.
+// Kinds of axes of the grid; any other is one of components.
 constexpr std::array<std::string_view, 6> kDomains = {"domain", "space", "time", "???", "none", ""};
 constexpr std::array<std::string_view, 6> kTimeSpaces = {"rast",
                                                          "last",
@@ -105,7 +105,7 @@ class Header {
     }
     const std::size_t end = colon == std::string_view::npos ? line.find(':') : colon;
     if (end == std::string_view::npos)
-      text_.fail("this line is no field (\"name: value\")", "an empty line must end the header");
+      text_.fail("this line is not a field (\"name: value\")", "an empty line must end the header");
     set_field(lower_case(without_blanks(line.substr(0, end))), without_blanks(line.substr(end + 1)));
   }
 

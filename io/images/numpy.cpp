@@ -82,7 +82,7 @@ class Header {
   void take_shape(NumpyHeader& header) const {
     const std::string_view rest = value("shape");
     const std::size_t end = rest.find(')');
-    if (!rest.starts_with('(') || end == std::string_view::npos) fail(rest, "the shape is no list", kHint);
+    if (!rest.starts_with('(') || end == std::string_view::npos) fail(rest, "the shape is not a list", kHint);
     for (std::string_view left = rest.substr(1, end - 1); !without_blanks(left).empty();) {
       const std::size_t comma = std::min(left.find(','), left.size());
       std::string_view word = without_blanks(left.substr(0, comma));
@@ -91,7 +91,7 @@ class Header {
       std::uint64_t size = 0;
       const auto parsed = std::from_chars(word.data(), word.data() + word.size(), size);
       if (parsed.ec != std::errc{} || parsed.ptr != word.data() + word.size())
-        fail(word, "the shape has " + quoted(word) + ", which is no size", kHint);
+        fail(word, "the shape has " + quoted(word) + ", which is not a size", kHint);
       header.shape.push_back(size);
     }
     const std::string_view order = value("fortran_order");

@@ -54,6 +54,12 @@ std::vector<std::uint64_t> parse_grid_size(const std::string& grid) {
   }
   if (size.size() != 2 && size.size() != 3)
     refuse("--grid \"" + grid + "\" is not the size of a grid", "for example --grid 512x512 or --grid 256x256x100");
+  std::uint64_t room = kMostGridValues;
+  for (const std::uint64_t count : size) {
+    if (count > room)
+      refuse("--grid " + grid + " has more than 2^56 vertices", "give the number of vertices along each axis");
+    room /= count;
+  }
   return size;
 }
 

@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "io/images/header_text.h"
 #include "io/text/text_cursor.h"
+#include "io/text/words.h"
 #include "libreeb/base/error.h"
 
 namespace reeb::io {

@@ -22,7 +22,7 @@ namespace {
 
 constexpr const char* kHint = "write the file again";
 
-struct PointArray {
+struct PointDataArray {
   std::string name, type, format, offset, components;
   std::uint64_t line = 1;
 };
@@ -82,7 +82,7 @@ class Header final : public XmlParser::Handler {
   std::array<double, 9> direction_{1, 0, 0, 0, 1, 0, 0, 0, 1};
   bool has_image_ = false, has_piece_ = false, has_cells_ = false;
   std::string active_;
-  std::vector<PointArray> arrays_;
+  std::vector<PointDataArray> arrays_;
   std::optional<std::uint64_t> appended_;  // the offset after the tag
   bool appended_base64_ = false;
   std::uint64_t viewed_ = 0;  // where the last view of the content began
@@ -144,7 +144,7 @@ Image Header::parse() {
     xml_.fail(has_cells_ ? "the image has values of cells only, but those of points are read"
                          : "the image has no values of points",
               "write the values as point data; ParaView has a filter \"Cell Data to Point Data\"");
-  auto chosen = std::ranges::find(arrays_, active_, &PointArray::name);
+  auto chosen = std::ranges::find(arrays_, active_, &PointDataArray::name);
   if (active_.empty() || chosen == arrays_.end()) chosen = arrays_.begin();
   Image image;
   const auto number = static_cast<std::size_t>(chosen - arrays_.begin());
@@ -160,7 +160,7 @@ Image Header::parse() {
   take_storage(image, number);
   image.from_start = viewed_ != 0 && !source_.can_seek();
   std::string others;
-  for (const PointArray& other : arrays_)
+  for (const PointDataArray& other : arrays_)
     if (&other != &*chosen) others += (others.empty() ? "" : ", ") + other.name;
   if (!others.empty())
     image.warnings.push_back("of the arrays of points, " + chosen->name + " is read; these are not: " + others);
@@ -194,7 +194,7 @@ bool Header::start(const std::string& name, const XmlAttributes& attributes) {
 
 void Header::take_file(const XmlAttributes& attributes) {
   if (attribute_of(attributes, "type") != "ImageData")
-    xml_.fail("this is no image, but " + quoted(attribute_of(attributes, "type")), "name a file of type ImageData");
+    xml_.fail("this is not an image but " + quoted(attribute_of(attributes, "type")), "name a file of type ImageData");
   kind_ = read_vtk_xml_kind(attributes, xml_);
 }
 
@@ -208,12 +208,12 @@ void Header::take_image(const XmlAttributes& attributes) {
 }
 
 bool Header::take_array(const XmlAttributes& attributes) {
-  PointArray array{attribute_of(attributes, "Name"),
-                   attribute_of(attributes, "type"),
-                   attribute_of(attributes, "format"),
-                   attribute_of(attributes, "offset"),
-                   attribute_of(attributes, "NumberOfComponents"),
-                   xml_.line()};
+  PointDataArray array{attribute_of(attributes, "Name"),
+                       attribute_of(attributes, "type"),
+                       attribute_of(attributes, "format"),
+                       attribute_of(attributes, "offset"),
+                       attribute_of(attributes, "NumberOfComponents"),
+                       xml_.line()};
   const bool in_document = array.format != "appended";
   const bool wanted = active_.empty() ? arrays_.empty() : array.name == active_;
   arrays_.push_back(std::move(array));
@@ -254,7 +254,7 @@ std::array<std::int64_t, 6> Header::extent(const std::string& text) const {
 }
 
 void Header::take_storage(Image& image, std::size_t number) {
-  const PointArray& array = arrays_[number];
+  const PointDataArray& array = arrays_[number];
   const auto type = vtk_scalar_type(array.type);
   const auto refuse = [&](const std::string& what) {
     throw Error(ErrorKind::kBadInput, what, kHint).at(source_.name(), std::to_string(array.line) + ":1");
@@ -300,7 +300,7 @@ void Header::take_storage(Image& image, std::size_t number) {
   const char* const offset_end = array.offset.data() + array.offset.size();
   const auto place = std::from_chars(array.offset.data(), offset_end, offset);
   if (place.ec != std::errc{} || place.ptr != offset_end || offset >> 60 != 0)
-    refuse("the array has no sound offset in the appended data");
+    refuse("the array has no valid offset in the appended data");
   if (!appended_) refuse("the file has no appended data");
   const AppendedData data = find_appended_data(source_, xml_, *appended_);
   viewed_ = data.view_offset;

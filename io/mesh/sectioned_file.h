@@ -22,6 +22,7 @@ class SectionedFile {
   // Returns the writer for the records of `count` more faces.
   BufferedWriter& faces(std::uint64_t count);
 
+  const std::string& path() const { return file_.path(); }
   std::uint64_t vertex_count() const { return vertices_; }
   std::uint64_t face_count() const { return faces_; }
 

@@ -39,13 +39,13 @@ class AsciiPlyDecoder {
   bool has_more() { return text_.more(); }
 
   double finite_value(ScalarType type, const char* what) {
-    move_to_value(what);
+    text_.require_more(what);
     if (type == ScalarType::kFloat32) return static_cast<double>(text_.finite_number<float>(what));
     if (type == ScalarType::kFloat64) return text_.finite_number<double>(what);
     return static_cast<double>(checked_integer(type, what));
   }
   std::int64_t integer(ScalarType type, const char* what) {
-    move_to_value(what);
+    text_.require_more(what);
     text_.mark();
     std::uint64_t value = 0;
     const char first = text_.peek();
@@ -56,7 +56,7 @@ class AsciiPlyDecoder {
   }
   // Returns true if the skipped value is not finite.
   bool skip(ScalarType, const char* what) {
-    move_to_value(what);
+    text_.require_more(what);
     return spells_non_finite(text_.token());
   }
   void move_to_body() { text_.move_to_line(body_, body_line_); }
@@ -67,12 +67,6 @@ class AsciiPlyDecoder {
   Cursor& bytes() { return text_.bytes(); }
 
  private:
-  void move_to_value(const char* what) {
-    if (text_.more_on_line() || text_.more()) return;
-    text_.mark();
-    text_.fail(std::string("the file ends where a ") + what + " should be", "the file is cut; get a whole copy");
-  }
-
   std::int64_t checked_integer(ScalarType type, const char* what) { return within(type, text_.integer(what), what); }
 
   std::int64_t within(ScalarType type, std::int64_t value, const char* what) const {

@@ -1,5 +1,4 @@
 #include "io/ply/ply_header.h"
-#include "libreeb/base/count_text.h"
 
 #include <algorithm>
 #include <array>
@@ -7,6 +6,9 @@
 #include <unordered_map>
 #include <unordered_set>
 #include <utility>
+
+#include "io/text/words.h"
+#include "libreeb/base/count_text.h"
 
 namespace reeb::io {
 namespace {
@@ -86,7 +88,7 @@ class HeaderParser {
     const bool is_text = std::ranges::none_of(
         keyword, [](char c) { return static_cast<unsigned char>(c) < 32 || static_cast<unsigned char>(c) == 127; });
     if (!is_text || encoding || second == "list" || (whole && !third.empty() && (type || number)) || !saw_format_)
-      throw Error(ErrorKind::kBadInput, '"' + keyword.substr(0, 40) + "\" is not a PLY header line", kHeaderHint)
+      throw Error(ErrorKind::kBadInput, quoted(keyword) + " is not a PLY header line", kHeaderHint)
           .at(text_.source().name(), position);
     ++header_.unknown_lines;
   }
@@ -101,8 +103,7 @@ class HeaderParser {
     else if (encoding == "binary_big_endian")
       header_.encoding = PlyEncoding::kBigEndian;
     else
-      text_.fail("unknown PLY encoding \"" + std::string(encoding.substr(0, 40)) + "\"",
-                 "PLY is ascii, binary_little_endian or binary_big_endian");
+      text_.fail("unknown PLY encoding " + quoted(encoding), "PLY is ascii, binary_little_endian or binary_big_endian");
   }
 
   void parse_element() {
@@ -136,7 +137,7 @@ class HeaderParser {
   ScalarType type_named(std::string_view name) {
     const auto found = std::ranges::find(kTypeNames, name, &TypeName::name);
     if (found == kTypeNames.end())
-      text_.fail("unknown PLY type \"" + std::string(name.substr(0, 40)) + "\"",
+      text_.fail("unknown PLY type " + quoted(name),
                  "the types are char uchar short ushort int uint float double, or int8 ... float64");
     return found->type;
   }

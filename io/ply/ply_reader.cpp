@@ -98,7 +98,7 @@ class PlyReader final : public PlyBodyReader {
     choose_columns();
     if (this->options().signed_zeros) decoder_.keep_signed_zeros();
     if (std::ranges::any_of(steps_, &Step::from_body) && !decoder_.source().can_seek())
-      throw Error(ErrorKind::kBadInput, "the faces stand before their vertices, and the input can be read only once",
+      throw Error(ErrorKind::kBadInput, "the faces come before their vertices, and the input can be read only once",
                   "unpack it to a file, or write the element vertex before the element face")
           .at(decoder_.source().name());
   }
@@ -223,7 +223,9 @@ class PlyReader final : public PlyBodyReader {
 
   void pass_fixed_records(const PlyElement& element) {
     const std::size_t stride = element.fixed_bytes();
-    if (stride > ContentSource::kLookahead) decoder_.fail("a record is too long", "check the header");
+    if (stride > ContentSource::kLookahead)
+      decoder_.fail("a record of the element " + element.name + " has more than 65,536 bytes",
+                    "check the lines \"property\" of this element in the header");
     for (; record_ != element.count; ++record_) decoder_.take(stride);
   }
 

@@ -86,7 +86,8 @@ class PlyWriter : public MeshWriter {
     BufferedWriter& out = file_.vertices(batch.vertex_count);
     if (file_.vertex_count() > kMaxVertices)
       throw Error(ErrorKind::kBadInput, "PLY indices cannot name more than 4294967296 vertices",
-                  "write a mesh of fewer vertices, or OBJ");
+                  "write a mesh of fewer vertices, or OBJ")
+          .at(file_.path());
     std::vector<const double*> columns;
     for (unsigned k = 0; k < std::max(3u, dimension_); ++k)
       columns.push_back(k < dimension_ ? batch.coordinates[k].data() : nullptr);
@@ -128,17 +129,17 @@ class PlyWriter : public MeshWriter {
   }
 
   template <class To = Number>
-  static To narrow(double value) {
+  To narrow(double value) const {
     const auto number = static_cast<To>(value);
     if constexpr (std::is_floating_point_v<To>)
       if (std::isfinite(value) && !std::isfinite(number)) throw_out_of_range(value);
     return number;
   }
 
-  [[noreturn]] static void throw_out_of_range(double value) {
+  [[noreturn]] void throw_out_of_range(double value) const {
     std::string text = "the number ";
     append_double(text, value);
-    throw Error(ErrorKind::kBadInput, text + " does not fit a float", "write double numbers, or OBJ");
+    throw Error(ErrorKind::kBadInput, text + " does not fit a float", "write double numbers, or OBJ").at(file_.path());
   }
 
   void write_faces(const MeshBatch& batch, std::uint64_t count) {

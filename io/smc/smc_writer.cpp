@@ -55,7 +55,7 @@ class SmcWriter : public StreamWriter {
       encoder_.code(models_.old_corners, kEndOfStream);
     }
     encoder_.finish();
-    out_.finish();
+    out_.flush();
     isolated_ += slots_.size() - state_.active_count();
   }
 
@@ -91,7 +91,7 @@ class SmcWriter : public StreamWriter {
     if (c[0] == c[1] || c[1] == c[2] || c[2] == c[0])
       fail_format("SMC cannot hold a triangle with a repeated corner (vertex " +
                       std::to_string(c[0] == c[1] ? c[0] : c[2]) + ")",
-                  "drop degenerate triangles, or write SMB instead");
+                  "write SMA or SMB, which hold degenerate triangles, edges and points; or drop them");
     for (std::size_t k = 0; k < 3; ++k)
       if (slots_.find(c[k]) == FlatMap::kNone)
         fail_format("vertex " + std::to_string(c[k]) + " is not active where a triangle names it",

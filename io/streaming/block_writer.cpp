@@ -24,7 +24,7 @@ class BlockWriter : public HeldCellWriter {
     write_block();
     out_.flush();
     patch_counts();
-    out_.finish();
+    out_.flush();
   }
 
   std::vector<std::string> warnings() const override {

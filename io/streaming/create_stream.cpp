@@ -27,7 +27,7 @@ class EventListWriter : public StreamWriter {
     append_event(out_.text(), event, header_);
     out_.flush_if_full();
   }
-  void close() override { out_.finish(); }
+  void close() override { out_.flush(); }
 
  private:
   OutputBuffer out_;
@@ -53,18 +53,33 @@ std::unique_ptr<StreamWriter> make_writer(StreamFormat format, std::ostream& out
 class StreamFile : public StreamWriter {
  public:
   StreamFile(const std::string& path, const StreamHeader& header, Existing existing)
-      : file_(path, {.existing = existing, .overwrites = stream_format(path) == StreamFormat::kBlocks}),
+      : path_(path),
+        file_(path, {.existing = existing, .overwrites = stream_format(path) == StreamFormat::kBlocks}),
         out_(file_.out()),
         writer_(make_writer(stream_format(path), out_, header)) {}
 
-  void write(const StreamEvent& event) override { writer_->write(event); }
+  void write(const StreamEvent& event) override {
+    naming_file([&] { writer_->write(event); });
+  }
   void close() override {
-    writer_->close();
+    naming_file([this] { writer_->close(); });
     file_.commit();
   }
   std::vector<std::string> warnings() const override { return writer_->warnings(); }
 
  private:
+  // What a format cannot hold is an error of its writer, which does not know the file.
+  template <class Work>
+  void naming_file(const Work& work) const {
+    try {
+      work();
+    } catch (Error& error) {
+      error.at(path_);
+      throw;
+    }
+  }
+
+  std::string path_;
   AtomicFile file_;
   FileOstream out_;
   std::unique_ptr<StreamWriter> writer_;
@@ -73,7 +88,8 @@ class StreamFile : public StreamWriter {
 class StreamMeshWriter : public MeshWriter {
  public:
   StreamMeshWriter(const std::string& path, const MeshWriterOptions& options)
-      : header_(header_of(path, options)),
+      : path_(path),
+        header_(header_of(path, options)),
         most_corners_(header_.volume || stream_format(path) == StreamFormat::kEvents ? 4 : 3),
         writer_(create_stream(path, header_, options.existing)) {}
 
@@ -124,19 +140,21 @@ class StreamMeshWriter : public MeshWriter {
   void write_vertex(const MeshBatch& batch, std::size_t i) {
     event_.kind = EventKind::kVertex;
     const std::uint64_t index = batch.first_vertex.value() + i;
-    if (index >= kMaxStreamVertices)
-      fail_format("streaming meshes hold at most 2147483647 vertices", "write PLY or OBJ");
+    if (index >= kMaxStreamVertices) fail("streaming meshes hold at most 2147483647 vertices");
     event_.vertex = static_cast<std::uint32_t>(index);
     bool exact = true;
     for (std::size_t k = 0; k < header_.vertex_floats; ++k) {
       const double value = value_of(batch, i, k);
       event_.floats[k] = static_cast<float>(value);
       exact &= static_cast<double>(event_.floats[k]) == value;
-      if (!std::isfinite(event_.floats[k]))
-        fail_format("a value of vertex " + std::to_string(index) + " is beyond float32", "write PLY or OBJ");
+      if (!std::isfinite(event_.floats[k])) fail("a value of vertex " + std::to_string(index) + " is beyond float32");
     }
     rounded_ += exact ? 0 : 1;
     writer_->write(event_);
+  }
+
+  [[noreturn]] void fail(const std::string& what) const {
+    throw Error(ErrorKind::kBadInput, what, "write PLY or OBJ").at(path_);
   }
 
   static double value_of(const MeshBatch& batch, std::size_t i, std::size_t k) {
@@ -150,6 +168,7 @@ class StreamMeshWriter : public MeshWriter {
     writer_->write(event_);
   }
 
+  std::string path_;
   StreamHeader header_;
   std::size_t most_corners_;  // of a cell that is written whole
   std::unique_ptr<StreamWriter> writer_;

@@ -32,7 +32,7 @@ class TextWriter : public HeldCellWriter {
 
   void close() override {
     write_held();
-    out_.finish();
+    out_.flush();
   }
 
  private:

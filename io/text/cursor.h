@@ -41,7 +41,7 @@ class Cursor {
 
   // REQUIRES: source().can_seek(), or `offset` is not before the current one and within view.
   void move_to(std::uint64_t offset) { view_at(offset, 1); }
-  // To an offset that is not before the cursor, or to the end; on content that cannot seek, through all before it.
+  // As move_to(); on content that cannot seek, also beyond the view, or to the end.
   void move_forward(std::uint64_t offset) {
     if (source_->can_seek()) return move_to(offset);
     while (this->offset() < offset && ensure(1))

@@ -11,7 +11,6 @@
 #include <string_view>
 
 #include "io/text/number_text.h"
-#include "libreeb/base/error.h"
 
 namespace reeb::io {
 
@@ -22,6 +21,7 @@ struct Shortest {
 
 class OutputBuffer {
  public:
+  // REQUIRES: `out` throws if it cannot write, as FileOstream does.
   explicit OutputBuffer(std::ostream& out) : out_(out) { text_.reserve(kFlushBytes + 4096); }
   OutputBuffer(const OutputBuffer&) = delete;
   OutputBuffer& operator=(const OutputBuffer&) = delete;
@@ -60,13 +60,6 @@ class OutputBuffer {
   void flush() {
     out_.write(text_.data(), static_cast<std::streamsize>(text_.size()));
     text_.clear();
-  }
-  // Flushes the stream too. THROWS: Error{kResource} if anything could not be written.
-  void finish() {
-    flush();
-    out_.flush();
-    if (!out_)
-      throw Error(ErrorKind::kResource, "cannot write the mesh", "check that the disk has room and can be written");
   }
   std::ostream& stream() { return out_; }
 

@@ -8,18 +8,10 @@
 #include <cstring>
 #include <system_error>
 
+#include "io/text/words.h"
+#include "libreeb/base/count_text.h"
+
 namespace reeb::io {
-namespace {
-
-std::string quoted(std::string_view token) {
-  static constexpr std::size_t kShown = 40;
-  std::string text = "\"";
-  text.append(token.substr(0, kShown));
-  text.append(token.size() > kShown ? "...\"" : "\"");
-  return text;
-}
-
-}  // namespace
 
 template <class Float>
 ParsedNumber<Float> parse_number(std::string_view token) {
@@ -32,6 +24,12 @@ ParsedNumber<Float> parse_number(std::string_view token) {
 }
 template ParsedNumber<float> parse_number<float>(std::string_view);
 template ParsedNumber<double> parse_number<double>(std::string_view);
+
+std::uint64_t most_numbers(const ContentSource& content, std::uint64_t offset) {
+  const auto size = content.size();
+  if (!size) return ~std::uint64_t{0};
+  return (*size - std::min(*size, offset) + 1) / 2;  // the last separator may be missing
+}
 
 bool spells_non_finite(std::string_view token) {
   if (!token.empty() && (token[0] == '-' || token[0] == '+')) token.remove_prefix(1);
@@ -65,6 +63,17 @@ bool TextCursor::more() {
     skip_line();
   }
   return true;
+}
+
+void TextCursor::fail_at_end(const char* what) {
+  mark();
+  fail(std::string("the file ends where a ") + what + " should be", "the file is cut; get a whole copy");
+}
+
+void TextCursor::require_room(std::uint64_t records, std::uint64_t numbers) const {
+  if (records > most_numbers(source(), cursor_.offset()) / numbers)
+    fail("the file announces " + count_of(records, "record") + " here, more than it has room for",
+         "the file is cut or damaged; get a whole copy");
 }
 
 void TextCursor::skip_line() {
@@ -139,6 +148,11 @@ std::int64_t TextCursor::integer(const char* what) {
   const auto parsed = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   if (parsed.ec != std::errc{} || parsed.ptr != digits.data() + digits.size()) fail_number(word, what);
   return value;
+}
+
+void TextCursor::fail_digits(const char* what, const std::string& hint) {
+  if (const char next = peek(); next < '0' || next > '9') fail(std::string("a ") + what + " should be here", hint);
+  fail(std::string("a ") + what + " of more than 18 digits is too large", "fix this number in the file");
 }
 
 void TextCursor::fail_number(std::string_view token, const char* what) const {

@@ -33,6 +33,9 @@ inline bool is_blank_or_line_end(char c) { return c == '\n' || is_blank(c); }
 // Whether the token spells NaN or an infinity ("nan", "-inf", "Infinity", ...).
 bool spells_non_finite(std::string_view token);
 
+// How many numbers the content can have from `offset` on: each needs a digit and a separator.
+std::uint64_t most_numbers(const ContentSource& content, std::uint64_t offset);
+
 // What a format allows in addition to plain lines of words.
 struct TextStyle {
   bool comments = false;      // a word that begins with # ends the line
@@ -57,6 +60,13 @@ class TextCursor {
   }
   // Moves to the next token, across line ends. False at the end of the input.
   bool more();
+  // The same. THROWS: Error{kBadInput} at the end of the input; `what` names what should be there ("coordinate").
+  void require_more(const char* what) {
+    if (!more_on_line() && !more()) fail_at_end(what);
+  }
+  // THROWS: Error{kBadInput} at position() if the rest of the input is too short for this many records of this many
+  // numbers each. REQUIRES: numbers > 0.
+  void require_room(std::uint64_t records, std::uint64_t numbers) const;
   // Moves past the end of this line and its continuations.
   void skip_line();
   bool at_end() { return cursor_.at_end(); }
@@ -77,6 +87,9 @@ class TextCursor {
   // false and does not move.
   bool digits(std::uint64_t& value);
 
+  // The error where digits() failed: there is no number, or one that is too large. `what` names it ("vertex index").
+  [[noreturn]] void fail_digits(const char* what, const std::string& hint);
+
   char peek() { return cursor_.ensure(1) ? *cursor_.data() : '\n'; }
   void advance() { cursor_.advance(1); }
 
@@ -91,9 +104,9 @@ class TextCursor {
   }
 
   std::uint64_t line() const { return line_; }
-  // Moves back to the beginning of a line. REQUIRES: source().can_seek().
+  // Moves to the beginning of a line. REQUIRES: source().can_seek(), or the line is not before the cursor.
   void move_to_line(std::uint64_t offset, std::uint64_t line) {
-    cursor_.move_to(offset);
+    cursor_.move_forward(offset);
     line_ = line;
     line_begin_ = offset;
   }
@@ -112,6 +125,7 @@ class TextCursor {
   }
   template <class Float>
   Float slow_number(const char* what);
+  [[noreturn]] void fail_at_end(const char* what);
   [[noreturn]] void fail_number(std::string_view token, const char* what) const;
 
   Cursor cursor_;

@@ -91,7 +91,7 @@ bool XmlParser::advance() {
   if (state.ended) return false;
   if (status != XML_STATUS_OK) {
     if (XML_GetErrorCode(state.parser) == XML_ERROR_NO_MEMORY) throw std::bad_alloc();
-    fail(std::string("this is no sound XML: ") + XML_ErrorString(XML_GetErrorCode(state.parser)),
+    fail(std::string("this is not valid XML: ") + XML_ErrorString(XML_GetErrorCode(state.parser)),
          "the file is cut or damaged; get a whole copy");
   }
   const auto done = static_cast<std::uint64_t>(std::max<XML_Index>(XML_GetCurrentByteIndex(state.parser), 0));

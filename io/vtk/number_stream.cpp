@@ -8,6 +8,7 @@
 #include "io/decoding/vtk_data.h"
 #include "io/text/text_cursor.h"
 #include "io/text/text_position.h"
+#include "io/text/words.h"
 #include "libreeb/base/count_text.h"
 #include "libreeb/base/error.h"
 
@@ -42,10 +43,10 @@ NumberStream::NumberStream(const ContentSource& content, const NumberPlace& plac
 void NumberStream::check_room(std::uint64_t count) const {
   const auto size = content_.size();
   if (!size || count == 0) return;
-  const std::uint64_t left = *size - std::min(place_.offset, *size) + 1;
-  std::uint64_t most = left / 2;  // a digit and a blank
-  if (place_.coding == NumberCoding::kRaw) most = (left - 1) / item_bytes_;
-  if (place_.coding == NumberCoding::kBase64) most = left / 4 * 3 / item_bytes_ + 1;
+  const std::uint64_t left = *size - std::min(place_.offset, *size);
+  std::uint64_t most = most_numbers(content_, place_.offset);
+  if (place_.coding == NumberCoding::kRaw) most = left / item_bytes_;
+  if (place_.coding == NumberCoding::kBase64) most = (left + 1) / 4 * 3 / item_bytes_ + 1;
   if (place_.packing != BlockPacking::kNone || count <= most) return;
   fail("the file announces an array of " + count_of(count, "number") + ", more than it has room for", kCutHint);
 }
@@ -116,8 +117,7 @@ void NumberStream::skip(std::uint64_t count) {
 
 void NumberStream::fail_token(std::string_view token) const {
   if (token.empty()) fail(std::string("an array ends where a ") + what_ + " should be", kCutHint);
-  fail(std::string("a ") + what_ + " cannot be \"" + std::string(token.substr(0, 40)) + "\"",
-       "the file may be damaged here");
+  fail(std::string("a ") + what_ + " cannot be " + quoted(token), "the file may be damaged here");
 }
 
 void NumberStream::fail(const std::string& what, const std::string& hint) const {

@@ -25,7 +25,7 @@ class NumberStream {
   NumberStream(const ContentSource& content, const NumberPlace& place, std::uint64_t count, const char* what);
 
   // The next number, as the type of the array holds it; perhaps not finite. -0.0 becomes 0.0.
-  // THROWS: Error{kBadInput} at the end, or where the text is no number.
+  // THROWS: Error{kBadInput} at the end, or where the text is not a number.
   double real();
   // The next number of an array of integers. THROWS: as real().
   std::int64_t integer();

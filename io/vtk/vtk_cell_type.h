@@ -2,8 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
-#include <string>
 
 #include "io/cells/cell_input.h"
 
@@ -13,7 +11,7 @@ namespace reeb::io {
 // THROWS: Error{kBadInput} without a place: a type that is not read, or one that cannot have so few nodes.
 CellHead vtk_cell(std::int64_t type, std::uint64_t nodes);
 
-// Whether cells of this type have nodes that are no corners.
+// Whether cells of this type have nodes that are not corners.
 bool has_inner_nodes(std::int64_t vtk_type);
 
 }  // namespace reeb::io

@@ -151,7 +151,7 @@ class VtkMeshWriter : public MeshWriter {
 std::unique_ptr<MeshWriter> create_vtk_mesh(const std::string& path, const MeshWriterOptions& options) {
   const std::string suffix = name_suffix(path);
   if (suffix != ".vtu" && suffix != ".vtp")
-    throw Error(ErrorKind::kUsage, '"' + suffix + "\" is no suffix of a VTK mesh", "end the name in .vtu or .vtp")
+    throw Error(ErrorKind::kUsage, '"' + suffix + "\" is not a suffix of a VTK mesh", "end the name in .vtu or .vtp")
         .at(path);
   return std::make_unique<VtkMeshWriter>(path, options, suffix == ".vtu");
 }

@@ -11,6 +11,7 @@
 
 #include "io/decoding/vtk_xml.h"
 #include "io/text/text_cursor.h"
+#include "io/text/words.h"
 #include "io/text/xml_parser.h"
 
 namespace reeb::io {
@@ -99,7 +100,7 @@ class XmlIndexer final : private XmlParser::Handler {
     return true;
   }
 
-  // Elements can stand before the numbers of an array, and after them.
+  // Elements can come before the numbers of an array, and after them.
   bool text(std::string_view text) override {
     if (nested_ == 0 && !std::ranges::all_of(text, is_blank_or_line_end)) open_array_ = nullptr;
     return true;
@@ -130,7 +131,7 @@ class XmlIndexer final : private XmlParser::Handler {
     std::uint64_t value = 0;
     const auto parsed = std::from_chars(text.data(), text.data() + text.size(), value);
     if (parsed.ec != std::errc{} || parsed.ptr != text.data() + text.size() || value >> 56 != 0)
-      xml_.fail(std::string(name) + " is no count, but \"" + text.substr(0, 40) + '"', kHint);
+      xml_.fail(std::string(name) + " is not a count but " + quoted(text), kHint);
     return value;
   }
   std::uint64_t needed_count(const XmlAttributes& attributes, const char* name) const {

@@ -13,6 +13,7 @@ std::string count_of(std::uint64_t count, std::string_view noun) {
   if (count == 1) return text.append(noun);
   if (noun.ends_with("ex")) return text.append(noun.substr(0, noun.size() - 2)).append("ices");
   if (noun.ends_with("is")) return text.append(noun.substr(0, noun.size() - 2)).append("es");
+  if (noun.ends_with("ry")) return text.append(noun.substr(0, noun.size() - 1)).append("ies");
   return text.append(noun).append("s");
 }
 

@@ -11,7 +11,7 @@ namespace reeb {
 std::string with_commas(std::uint64_t count);
 
 // "1 loop", "2 loops", "1,234 vertices": the noun follows the count. Nouns that end in "ex" get "ices", in "is" "es",
-// others an s.
+// in "ry" "ries", others an s.
 std::string count_of(std::uint64_t count, std::string_view noun);
 
 }  // namespace reeb

@@ -2,7 +2,7 @@
 //
 // An id is its number and nothing else: trivially copyable, ordered by number, hashed by value().
 // Converting between two kinds is always a named function of the table that knows the mapping.
-// Ids that only the engine uses are in engine/chunk.h.
+// Ids that only the engine uses are in libreeb/sweep/chunk.h.
 #pragma once
 
 #include <compare>

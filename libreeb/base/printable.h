@@ -1,4 +1,4 @@
-// Text of other people, made safe to show: names of files, and what stands in them.
+// Text of other people, made safe to show: names of files, and what they contain.
 #pragma once
 
 #include <string>

@@ -21,7 +21,7 @@ namespace reeb {
 class BoxSweep {
  public:
   // Replaces `fragment` by that of `chunk`, where local vertex i has the value values[i].
-  // REQUIRES: chunk.is_box().
+  // REQUIRES: chunk.box[0] != 0.
   void run(const Chunk& chunk, std::span<const double> values, Fragment& fragment, const SweepOptions& options = {});
   std::size_t memory_bytes() const;
   // About this much is needed for a box.

@@ -27,7 +27,4 @@ class MeshWriter {
   virtual std::vector<std::string> warnings() const { return {}; }
 };
 
-// Writes everything that `reader` delivers to `writer`, and closes it.
-void copy_mesh(MeshReader& reader, MeshWriter& writer);
-
 }  // namespace reeb

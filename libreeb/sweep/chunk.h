@@ -62,7 +62,6 @@ struct Chunk {
 
   std::size_t vertex_count() const { return ids.size(); }
   std::size_t triangle_count() const { return corners.size() / 3; }
-  bool is_box() const { return box[0] != 0; }
   void clear() {
     ids.clear();
     uses.clear();

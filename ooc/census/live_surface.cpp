@@ -40,6 +40,14 @@ std::string why_no_genus(const MeshCensus& census, bool has_triangles) {
   return census.orientable.value_or(true) ? "" : "it is not orientable";
 }
 
+// Squares can be beyond double where the length is not.
+double length_between(const Point& a, const Point& b) {
+  const double length = distance(a, b);
+  if (std::isfinite(length)) return length;
+  const Point step = a - b;
+  return std::hypot(std::hypot(step[0], step[1]), step[2]);  // of three, NaN for an infinite one
+}
+
 }  // namespace
 
 void LiveSurface::Component::join(const Component& other) {
@@ -50,6 +58,7 @@ void LiveSurface::Component::join(const Component& other) {
 
 LiveSurface::Length LiveSurface::Length::of(double length) {
   constexpr int kBits = 22;
+  if (!std::isfinite(length)) return {length, 0};
   int exponent = 0;
   std::frexp(length, &exponent);
   const double coarse = std::ldexp(std::floor(std::ldexp(length, kBits - exponent)), exponent - kBits);
@@ -323,7 +332,7 @@ void LiveSurface::examine_faces(Slot v) {
 void LiveSurface::count_boundary_edge(Slot v, Slot w) {
   Vertex &a = vertices_[v], &b = vertices_[w];
   Boundary edge{.edges = 1, .length = {}, .min = {}, .max = {}, .lowest = a.id, .position = a.position};
-  edge.length = Length::of(distance(a.position, b.position));
+  edge.length = Length::of(length_between(a.position, b.position));
   for (std::size_t k = 0; k < 3; ++k) {
     edge.min[k] = std::min(a.position[k], b.position[k]);
     edge.max[k] = std::max(a.position[k], b.position[k]);

@@ -31,7 +31,7 @@ class LiveSurface {
   void add_triangle(Slot a, Slot b, Slot c);
   void add_edge(Slot a, Slot b);
   void add_point(Slot a) { vertices_[a].used = true; }
-  // From now on only components are counted: with a cell the mesh is no surface.
+  // From now on only components are counted: with a cell the mesh is not a surface.
   void count_components_only() { surface_ = false; }
   void add_cell(std::span<const Slot> corners) {
     for (const Slot corner : corners) connect(corners[0], corner);

@@ -91,7 +91,8 @@ struct CensusOptions {
 // vertices is first read for their last uses (ooc/chunks/last_use.h); a reader's, which cannot be looked up, is spooled
 // for that. A mesh of which that is too much is sorted on disk before (ooc/whole_mesh/reorder.h).
 //
-// A reader that is an image, or that lists a cell, is no surface. A mesh that is read from `mesh` has triangles only.
+// A reader that is an image, or that lists a cell, is not a surface. A mesh that is read from `mesh` has triangles
+// only.
 //
 // MEMORY: some 400 bytes for each vertex in use at once, and the tables of the steps before, all reserved.
 // TIME: two or three readings of the mesh; O(n log n) where it is sorted.

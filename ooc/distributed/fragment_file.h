@@ -23,7 +23,7 @@ void write_fragment(const std::string& path, const OutputOptions& output, const 
 bool is_fragment(const std::string& path);
 
 // A fragment to read. Nothing in it is trusted: every byte is under a checksum that is verified before it is used.
-// THROWS, from every call: Error{kBadInput} that names the file if it is no fragment, was cut off or is damaged.
+// THROWS, from every call: Error{kBadInput} that names the file if it is not a fragment, was cut off or is damaged.
 class FragmentFile {
  public:
   explicit FragmentFile(const std::string& path);

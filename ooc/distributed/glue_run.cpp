@@ -1,13 +1,13 @@
 #include "ooc/distributed/glue_run.h"
 
 #include <algorithm>
-#include <new>
 #include <utility>
 
 #include "io/file/atomic_file.h"
 #include "libreeb/base/error.h"
 #include "libreeb/parts/part_glue.h"
 #include "ooc/distributed/fragment_file.h"
+#include "ooc/run/explained_error.h"
 #include "ooc/run/freed_memory.h"
 #include "ooc/run/glued_chunks.h"
 #include "ooc/run/second_stage.h"
@@ -141,8 +141,8 @@ GlueResult glue_fragments(std::span<const std::string> fragments, const std::str
   RunContext run(none, functions, std::span(&output, 1), run_options);
   try {
     return glue_in(run, parts, std::move(united), as_fragment);
-  } catch (const std::bad_alloc&) {
-    throw Error(ErrorKind::kResource, "out of memory", "close other programs, or allow less with --memory SIZE");
+  } catch (...) {
+    throw_explained(run);
   }
 }
 

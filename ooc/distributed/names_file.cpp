@@ -56,7 +56,7 @@ Header header_of(const WholeMeshInfo& mesh, std::uint32_t part) {
 
 Header read_header(const io::File& file, const WholeMeshInfo& mesh) {
   Header header{};
-  if (file.size() < sizeof(header)) fail(file, "this file of names was cut off, or is none", file.size());
+  if (file.size() < sizeof(header)) fail(file, "this file of names was cut off, or is not one", file.size());
   file.read_at(0, std::as_writable_bytes(std::span(&header, 1)));
   if (header.magic != kMagic) fail(file, "this is not a file of names", 0);
   if (header.version != kVersion) fail(file, "this file of names is of another version of this program", 0);

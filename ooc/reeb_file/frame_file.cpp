@@ -30,6 +30,13 @@ FrameFile::FrameFile(const std::string& path) : file_(io::File::open_for_reading
   }
 }
 
+void FrameFile::require_version(std::uint32_t version) const {
+  if (version <= header_.steps) return;
+  throw Error(ErrorKind::kBadInput, "there is no version " + std::to_string(version),
+              "the coarsest is " + std::to_string(header_.steps))
+      .at(path());
+}
+
 void FrameFile::read_header() {
   std::vector<std::byte> region(std::min<std::uint64_t>(file_.size(), kFixedHeaderBytes));
   file_.read_at(0, region);

@@ -25,6 +25,8 @@ class FrameFile {
   const FileHeader& header() const { return header_; }
   const std::string& path() const { return file_.path(); }
   std::uint64_t file_bytes() const { return file_.size(); }
+  // THROWS: Error{kBadInput} if the file has no such version.
+  void require_version(std::uint32_t version) const;
 
   // Null for a whole file; else what is wrong after the header, and where.
   const Error* damage() const { return damage_ ? &*damage_ : nullptr; }

@@ -6,6 +6,7 @@
 #include <unordered_map>
 
 #include "ooc/reeb_file/frame_file.h"
+#include "ooc/reeb_file/pair_reading.h"
 
 namespace reeb::ooc {
 namespace {
@@ -21,44 +22,22 @@ bool larger(const Candidate& a, const Candidate& b) {
   return std::tie(b.persistence, a.number) < std::tie(a.persistence, b.number);
 }
 
-std::vector<double> read_values(const FrameFile& file) {
-  std::vector<double> values;
-  GraphFrame frame;
-  FrameFile::Buffers buffers;
-  for (FrameCursor cursor(file); cursor.frames_read() < file.header().graph_frames;) {
-    cursor.next(file, frame, buffers);
-    for (const SettledNode& node : frame.nodes) values.push_back(node.key.value);
-  }
-  return values;
-}
-
 // Fills loops and counts. Returns the candidates of the rows.
-std::vector<Candidate> scan_pairs(const FrameFile& file, const std::vector<double>& values, std::size_t most,
-                                  LargestPairs& result) {
+std::vector<Candidate> scan_pairs(const FrameFile& file, std::size_t most, LargestPairs& result) {
   std::vector<Candidate> heap;
-  std::vector<FilePair> pairs;
-  FrameFile::Buffers buffers;
   std::uint64_t number = 0;
-  const std::size_t first = file.header().graph_frames;
-  for (std::size_t i = first; i < first + file.header().pair_frames; ++i) {
-    FrameHeader header;
-    const auto payload = file.read_frame(i, header, buffers);
-    const char* why = decode_pairs_frame(payload, header, pairs);
-    if (why != nullptr) file.fail(file.frame_offset(i), why);
-    for (const FilePair& pair : pairs) {
-      if (pair.lo >= values.size() || pair.hi >= values.size() || values[pair.hi] < values[pair.lo])
-        file.fail(file.frame_offset(i), "a pair does not go up to a node");
-      const double persistence = values[pair.hi] - values[pair.lo];
-      ++result.counts[static_cast<std::size_t>(pair.type)];
-      if (pair.type == PairType::kExt1) result.loops.push_back(persistence);
-      heap.push_back({persistence, number++, pair});
-      std::push_heap(heap.begin(), heap.end(), larger);
-      if (heap.size() <= most) continue;
-      std::pop_heap(heap.begin(), heap.end(), larger);
-      heap.pop_back();
-    }
-  }
-  if (number != file.header().pairs) file.fail(0, "there are not as many pairs as the header says");
+  read_pairs(
+      file, [](const SettledNode& node) { return node.key.value; },
+      [&](double lo, double hi, const FilePair& pair) {
+        const double persistence = hi - lo;
+        ++result.counts[static_cast<std::size_t>(pair.type)];
+        if (pair.type == PairType::kExt1) result.loops.push_back(persistence);
+        heap.push_back({persistence, number++, pair});
+        std::push_heap(heap.begin(), heap.end(), larger);
+        if (heap.size() <= most) return;
+        std::pop_heap(heap.begin(), heap.end(), larger);
+        heap.pop_back();
+      });
   return heap;
 }
 
@@ -91,7 +70,7 @@ LargestPairs read_largest_pairs(const std::string& path, std::size_t most) {
     throw Error(ErrorKind::kBadInput, "the file has the graph only, no pairs", "compute it again without --graph-only")
         .at(path);
   LargestPairs result;
-  const std::vector<Candidate> candidates = scan_pairs(file, read_values(file), most, result);
+  const std::vector<Candidate> candidates = scan_pairs(file, most, result);
   std::ranges::sort(result.loops, std::greater<>());
   const auto nodes = read_nodes(file, candidates);
   for (const auto& [persistence, number, pair] : candidates)

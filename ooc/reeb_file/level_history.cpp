@@ -8,6 +8,7 @@ namespace reeb::ooc {
 
 LevelHistory read_history(const std::string& path, std::uint32_t finest, const VisitRecord& visit) {
   const FrameFile file(path);
+  file.require_version(finest);
   LevelHistory history;
   std::vector<bool> named;
   GraphFrame frame;

@@ -23,7 +23,7 @@ struct LevelHistory {
 // e >= finest has the arcs with born <= e < died, and the nodes that these name.
 // TIME:   O(frames that the version needs).
 // MEMORY: what it returns, and two frames during it.
-// THROWS: as ReebFile.
+// THROWS: as ReebFile; if there is no version `finest`.
 using VisitRecord = std::function<void(const FileArc& arc, const SettledNode& lo, const SettledNode& hi,
                                        std::span<const Bucket> buckets)>;
 LevelHistory read_history(const std::string& path, std::uint32_t finest, const VisitRecord& visit);

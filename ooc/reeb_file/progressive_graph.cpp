@@ -75,10 +75,7 @@ ReebGraph ProgressiveGraph::graph() const { return impl_->graph(); }
 
 void ProgressiveGraph::Impl::go_to_version(std::uint32_t version) {
   if (loaded_ && version == version_) return;
-  if (const std::uint32_t steps = file_.header().steps; version > steps)
-    throw Error(ErrorKind::kBadInput, "there is no version " + std::to_string(version),
-                "the coarsest is " + std::to_string(steps))
-        .at(file_.path());
+  file_.require_version(version);
   apply(gather(version), version);
 }
 

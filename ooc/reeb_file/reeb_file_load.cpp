@@ -5,6 +5,7 @@
 
 #include "libreeb/base/error.h"
 #include "ooc/reeb_file/frame_file.h"
+#include "ooc/reeb_file/pair_reading.h"
 #include "ooc/reeb_file/reeb_file.h"
 
 namespace reeb::ooc {
@@ -119,10 +120,7 @@ Level ReebFile::load(std::uint32_t version) const { return load(version, true); 
 ReebGraph ReebFile::load_graph(std::uint32_t version) const { return load(version, false).graph; }
 
 Level ReebFile::load(std::uint32_t version, bool embedded) const {
-  if (version > header().steps)
-    throw Error(ErrorKind::kBadInput, "there is no version " + std::to_string(version),
-                "the coarsest is " + std::to_string(header().steps))
-        .at(path());
+  frames_->require_version(version);
   LiveRecords live;
   GraphFrame frame;
   FrameFile::Buffers buffers;
@@ -147,41 +145,6 @@ Level ReebFile::load(std::uint32_t version, bool embedded) const {
     frames_->fail(end, "version " + std::to_string(version) + " has other counts than the file says");
   return level;
 }
-
-namespace {
-
-const SweepKey& key_of(const SettledNode& node) { return node.key; }
-const SweepKey& key_of(const SweepKey& node) { return node; }
-
-// Calls visit(lo, hi, pair) for each pair; make(node) is what is held of a node.
-template <class Make, class Visit>
-void read_pairs(const FrameFile& file, const Make& make, const Visit& visit) {
-  const FileHeader& header = file.header();
-  std::vector<decltype(make(SettledNode{}))> nodes;
-  GraphFrame frame;
-  FrameFile::Buffers buffers;
-  for (FrameCursor cursor(file); cursor.frames_read() < header.graph_frames;) {
-    cursor.next(file, frame, buffers);
-    for (const SettledNode& node : frame.nodes) nodes.push_back(make(node));
-  }
-  std::uint64_t count = 0;
-  std::vector<FilePair> pairs;
-  for (std::size_t i = header.graph_frames; i < std::size_t{header.graph_frames} + header.pair_frames; ++i) {
-    FrameHeader frame_header;
-    const auto payload = file.read_frame(i, frame_header, buffers);
-    const std::uint64_t offset = file.frame_offset(i);
-    if (const char* why = decode_pairs_frame(payload, frame_header, pairs)) file.fail(offset, why);
-    for (const FilePair& pair : pairs) {
-      if (pair.lo >= nodes.size() || pair.hi >= nodes.size() || key_of(nodes[pair.hi]) < key_of(nodes[pair.lo]))
-        file.fail(offset, "a pair does not go up to a node");
-      visit(nodes[pair.lo], nodes[pair.hi], pair);
-    }
-    count += pairs.size();
-  }
-  if (count != header.pairs) file.fail(0, "there are not as many pairs as the header says");
-}
-
-}  // namespace
 
 std::vector<PairRow> ReebFile::pairs() const {
   require_hierarchy("pairs");

@@ -32,7 +32,7 @@ class SortedRunFile {
  public:
   explicit SortedRunFile(io::File file) : file_(std::move(file)) {}
 
-  // Continues a file of an earlier process. Discards the bytes after those of the manifest.
+  // Continues a file of an earlier process. Bytes after those of the manifest are ignored.
   // THROWS: DamagedState if the bytes are not those that the manifest describes.   TIME: O(bytes).
   SortedRunFile(io::File file, const RunManifest& manifest);
 

@@ -15,7 +15,7 @@ constexpr std::size_t kRecordsAtOnce = 4096;
 NodeId node_of(const SweepKey& key, const NodeTable& table) {
   const std::uint32_t node = table.find(key);
   if (node == NodeTable::kNone)
-    throw std::logic_error("an arc ends in vertex " + std::to_string(key.vertex.value()) + ", which is no node");
+    throw std::logic_error("an arc ends in vertex " + std::to_string(key.vertex.value()) + ", which is not a node");
   return NodeId(node);
 }
 

@@ -221,7 +221,7 @@ namespace {
 
 [[noreturn]] void refuse_payload(const ArcKeys& arc, int bucket_exponent) {
   throw std::logic_error("the buckets of an arc from vertex " + std::to_string(arc.lo.vertex.value()) +
-                         " are no buckets of exponent " + std::to_string(bucket_exponent));
+                         " are not buckets of exponent " + std::to_string(bucket_exponent));
 }
 
 }  // namespace

@@ -399,6 +399,11 @@ TEST(Errors, HavePositionAndHint) {
   const std::size_t body = ply_header("binary_little_endian").size();
   expect_bad(write_file("b1.ply", binary.substr(0, binary.size() - 1)), std::to_string(binary.size() - 1),
              "ends before");
+  std::string wide = "ply\nformat binary_little_endian 1.0\nelement wide 1\n";
+  for (int k = 0; k < 8193; ++k) wide += "property double p" + std::to_string(k) + "\n";
+  wide += binary.substr(binary.find("element vertex"))
+              .insert(binary.find("end_header") + 11 - binary.find("element vertex"), std::string(8193 * 8, '\0'));
+  expect_bad(write_file("b4.ply", wide), std::nullopt, "a record of the element wide has more than 65,536 bytes");
   std::string odd = binary;
   odd.replace(body + 16, 4, scalar_bytes(std::numeric_limits<float>::quiet_NaN()));
   expect_bad(write_file("b2.ply", odd), std::to_string(body + 16), "of vertex 1 is not finite");
@@ -412,7 +417,7 @@ TEST(Errors, HavePositionAndHint) {
   expect_bad(write_file("o5.obj", "v 0 0 0 0 0\n"), "1:11", "5 numbers");
   expect_bad(write_file("o6.obj", "v 0 0 -inf\n"), "1:7", "-inf");
   expect_bad(write_file("f1.off", "OFF\n9999999 1 0\n0 0 0\n"), "2:9", "announces");
-  expect_bad(write_file("f2.off", off("OFF 4 5 0\n")), "10:1", "before its last face");
+  expect_bad(write_file("f2.off", off("OFF 4 5 0\n")), "10:1", "ends where a number of corners");
   expect_bad(write_file("s1.stl", binary_stl(5)), "80", "announces 5 facets");
   expect_bad(write_file("s2.stl", "solid\nfacet normal 0 0 0\nouter loop\nvertex 0 0 inf\n"), "4:12", "inf");
   expect_bad(write_file("q.ply", binary), "", "no vertex property \"q\"", {{"q"}, 65536});

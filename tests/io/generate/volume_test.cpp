@@ -6,7 +6,7 @@
 #include "libreeb/base/error.h"
 #include "libreeb/graph/reeb_graph.h"
 #include "tests/model/reference_reeb.h"
-#include "tests/support/grid_complex.h"
+#include "tests/support/inputs/grid_complex.h"
 
 namespace reeb::test {
 namespace {

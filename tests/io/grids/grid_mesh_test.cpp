@@ -8,7 +8,7 @@
 #include <set>
 
 #include "libreeb/base/error.h"
-#include "tests/support/memory_grid.h"
+#include "tests/support/inputs/memory_grid.h"
 #include "tests/support/seed.h"
 
 namespace reeb::test {
@@ -129,6 +129,23 @@ TEST(GridMesh, CountsTheValueForNoDataAsANumberUnlessItIsSkipped) {
   EXPECT_EQ(reader->warnings(),
             std::vector<std::string>{
                 "2 vertices have the value that stands for no data; it counts as a number without --nodata skip"});
+}
+
+TEST(GridMesh, CountsTheValuesThatItHolds) {
+  constexpr unsigned kComponents = 4096;
+  constexpr std::size_t kVertices = 200;
+  std::vector<double> values(kVertices * kComponents);
+  for (std::size_t v = 0; v < kVertices; ++v) values[v * kComponents + 7] = static_cast<double>(v);
+  ReadOptions options;
+  options.properties = {"value:7"};
+  const auto reader =
+      io::make_grid_mesh(std::make_unique<MemoryGrid>(GridShape{20, 10, 1}, values, kComponents), options);
+  std::size_t vertices = 0;
+  for (MeshBatch batch; reader->read(batch);)
+    for (const double value : batch.properties[0]) EXPECT_EQ(value, static_cast<double>(vertices++));
+  EXPECT_EQ(vertices, kVertices);
+  EXPECT_GE(reader->memory_bytes(), kComponents * sizeof(double));
+  EXPECT_LE(reader->memory_bytes(), std::uint64_t{1} << 20);
 }
 
 TEST(GridMesh, LeavesOutSimplicesWhereNoVertexIsSkipped) {

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "io/file/zstd_codec.h"
 #include "io/formats/open_grid.h"
 #include "libreeb/base/error.h"
 #include "tests/io/formats/mesh_files.h"
@@ -88,5 +89,10 @@ inline std::string deflated(const std::string& bytes, int window_bits) {
 }
 inline std::string zlib_packed(const std::string& bytes) { return deflated(bytes, 15); }
 inline std::string gzip_packed(const std::string& bytes) { return deflated(bytes, 31); }
+inline std::string zstd_packed(const std::string& bytes) {
+  std::vector<std::byte> packed;
+  zstd_compress(std::as_bytes(std::span(bytes)), 3, packed);
+  return {reinterpret_cast<const char*>(packed.data()), packed.size()};
+}
 
 }  // namespace reeb::io::testing

@@ -90,7 +90,7 @@ TEST(MetaImage, BadFilesAreRefused) {
                 ": the header announces 6 values (6 bytes), but the file holds 5 bytes of data");
   EXPECT_EQ(error("NDims = 3\nDimSize = 3 2\n"), "bad.mhd:2:11: 2 values for 3 axes");
   EXPECT_EQ(error("NDims = 4\n"), "bad.mhd:1:9: the image has 4 axes");
-  EXPECT_EQ(error("ObjectType = Tube\n"), "bad.mhd:1:14: this is no image, but \"Tube\"");
+  EXPECT_EQ(error("ObjectType = Tube\n"), "bad.mhd:1:14: this is not an image but \"Tube\"");
   EXPECT_EQ(error("NDims = 3\nDimSize = 3 2 1\n"),
             "bad.mhd:2:1: the header has no ElementDataFile, which must be its last line");
   EXPECT_EQ(error("NDims = 3\nElementDataFile = LOCAL\n"), "bad.mhd:2:1: the header has no ElementType");

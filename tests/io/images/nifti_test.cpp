@@ -102,6 +102,11 @@ TEST(Nifti, HeaderAndDataInTwoFiles) {
   std::filesystem::remove(scratch_folder() / "pair.img");
   write_file("pair.img.gz", gzip_packed("\1\2\3\4"));
   EXPECT_EQ(read_grid(write_file("pair.hdr.gz", gzip_packed(nifti(head, "")))).values, (Values{1, 2, 3, 4}));
+  std::filesystem::remove(scratch_folder() / "pair.img.gz");
+  write_file("pair.img.zst", zstd_packed("\1\2\3\4"));
+  EXPECT_EQ(read_grid(write_file("pair.hdr.zst", zstd_packed(nifti(head, "")))).values, (Values{1, 2, 3, 4}));
+  write_file("pair.img", "\5\6\7\10");
+  EXPECT_EQ(read_grid(write_file("pair.hdr.zst", zstd_packed(nifti(head, "")))).values, (Values{5, 6, 7, 8}));
   EXPECT_EQ(error_of(write_file("alone.hdr", nifti(head, ""))).substr(0, 10), "alone.img:");
 }
 

@@ -74,6 +74,16 @@ TEST(Nrrd, SkipsLinesAndBytes) {
   // In packed data, bytes are skipped after unpacking.
   EXPECT_EQ(read_nrrd(sized("uint8", "gzip", "lineskip: 1\nbyteskip: 3\n"), "one\n" + gzip_packed("xyz" + bytes)),
             kSix);
+  // In text and in hexadecimal digits, they are characters.
+  EXPECT_EQ(read_nrrd(sized("uint8", "ascii", "line skip: 1\nbyte skip: 4\n"), "one\n9 9 0 1 2 3 4 5\n"), kSix);
+  EXPECT_EQ(read_nrrd(sized("uint8", "hex", "byte skip: 3\n"), "ff\n000102030405\n"), kSix);
+  EXPECT_EQ(error_of(write_file("a.nrrd", nrrd(sized("uint8", "ascii", "byte skip: 6\n"), "9\n9 9 0 1 2 x 4 5\n"))),
+            "a.nrrd:10:11: \"x\" is not a number (a value should be here)");
+  EXPECT_EQ(error_of(write_file("a.nrrd", nrrd(sized("uint8", "ascii", "byte skip: 4\n"), "9 9 0 1 x 3 4 5\n"))),
+            "a.nrrd:9:9: \"x\" is not a number (a value should be here)");
+  EXPECT_EQ(
+      error_of(write_file("a.nrrd", nrrd(sized("uint8", "ascii", "byte skip: 90\n"), "0 1 2 3 4 5\n"))).substr(0, 6),
+      "a.nrrd");
 }
 
 TEST(Nrrd, DataInAnotherFile) {

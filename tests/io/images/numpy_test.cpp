@@ -71,7 +71,7 @@ TEST(NumPy, BadFilesAreRefused) {
   EXPECT_EQ(described(dictionary("|u1", "(24,)")), "bad.npy: the image has 1 axis");
   EXPECT_EQ(described(dictionary("|u1", "()")), "bad.npy: the image has 0 axes");
   EXPECT_EQ(described(dictionary("|u1", "(1, 2, 3, 4)")), "bad.npy: the image has 4 axes");
-  EXPECT_EQ(described(dictionary("|u1", "(2, -2)")), "bad.npy:64: the shape has \"-2\", which is no size");
+  EXPECT_EQ(described(dictionary("|u1", "(2, -2)")), "bad.npy:64: the shape has \"-2\", which is not a size");
   EXPECT_EQ(described(dictionary("|u1", "(99999999999999999999, 2)")).substr(0, 32),
             "bad.npy:61: the shape has \"99999");
   EXPECT_EQ(described("{'descr': '|u1', 'shape': (2, 2)}"), "bad.npy:10: the header has no fortran_order");

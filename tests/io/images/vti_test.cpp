@@ -148,20 +148,20 @@ TEST(Vti, BadFilesAreRefused) {
   EXPECT_EQ(changed("Float32\" Name=\"a", "String\" Name=\"a"), "bad.vti:7:1: values of type \"String\" are not read");
   EXPECT_EQ(changed("Components=\"1", "Components=\"0"),
             "bad.vti:7:1: the array has \"0\" components; 1 to 4,096 are read");
-  EXPECT_EQ(changed("offset=\"0", "offset=\"-1"), "bad.vti:7:1: the array has no sound offset in the appended data");
+  EXPECT_EQ(changed("offset=\"0", "offset=\"-1"), "bad.vti:7:1: the array has no valid offset in the appended data");
   EXPECT_EQ(changed("offset=\"0", "offset=\"999").substr(0, 30),
             "bad.vti:" + std::to_string(data + 999 + 2) + ": the header annou");
   EXPECT_EQ(changed("   _", "   x"),
             "bad.vti:" + std::to_string(data - 5) + ": the appended data do not begin with an underscore");
-  EXPECT_EQ(changed("type=\"ImageData", "type=\"PolyData"), "bad.vti:0: this is no image of a known format");
-  EXPECT_EQ(changed("<CellData/>", "</CellData>"), "bad.vti:9:3: this is no sound XML: mismatched tag");
+  EXPECT_EQ(changed("type=\"ImageData", "type=\"PolyData"), "bad.vti:0: this is not an image of a known format");
+  EXPECT_EQ(changed("<CellData/>", "</CellData>"), "bad.vti:9:3: this is not valid XML: mismatched tag");
   EXPECT_EQ(changed("Origin=\"0 0 0", "Origin=\"0 0"), "bad.vti:3:15: Origin is not 3 numbers");
   EXPECT_EQ(changed("<?xml version=\"1.0\"?>", "<!DOCTYPE a [<!ENTITY b \"c\">]>"),
             "bad.vti:1:13: a document type is not read");
   EXPECT_EQ(changed("</Piece>", "</Piece><Piece Extent=\"0 2 0 1 0 0\"/>"),
             "bad.vti:10:9: the image is in several pieces");
   EXPECT_EQ(changed("<PointData>", "<CellData>", {.format = "ascii"}),
-            "bad.vti:10:3: this is no sound XML: mismatched tag");
+            "bad.vti:10:3: this is not valid XML: mismatched tag");
   std::string cells = vti_file(kImage, {array});
   for (const char* tag : {"<PointData>", "</PointData>"}) {
     const std::string other = std::string(tag[1] == '/' ? "</" : "<") + "CellData>";
@@ -184,13 +184,13 @@ TEST(Vti, DamagedDataAreRefused) {
   damaged[file.find("   _") + 4] = 100;
   EXPECT_EQ(error(damaged), "the array has 696 bytes, but 24 are needed");
   damaged[file.find("   _") + 4 + 3] = 100;
-  EXPECT_EQ(error(damaged), "the array has 1,677,721,700 blocks of 7 bytes, which is no sound head");
+  EXPECT_EQ(error(damaged), "the array has 1,677,721,700 blocks of 7 bytes, which is not a valid header");
   file = vti_file(kImage, {array}, {.packing = "LZ4"});
   file.resize(file.find("   _") + 4 + 40);
   EXPECT_EQ(error(file), "the data of the array end too early");
   file = vti_file(kImage, {array}, {.format = "binary"});
   file[file.find("\n  ", file.find("Name=\"a")) + 4] = '!';
-  EXPECT_EQ(error(file), "this is no base64 text");
+  EXPECT_EQ(error(file), "this is not base64 text");
   file = vti_file(kImage, {array_of("a", {0, 1, 2, 3, 4})});
   EXPECT_EQ(error(file), "the array has 20 bytes, but 24 are needed");
   file = vti_file(kImage, {array_of("a", {0, 1, 2, 3, 4})}, {.format = "ascii"});

@@ -140,7 +140,7 @@ TEST(VtkReader, InnerNodesThatAreCornersElsewhereStay) {
     while (reader->read(batch)) {
     }
     ASSERT_EQ(reader->warnings().size(), 1u);
-    EXPECT_EQ(reader->warnings()[0], "2 nodes of higher-order cells, which are no corners, were left out");
+    EXPECT_EQ(reader->warnings()[0], "2 nodes of higher-order cells, which are not corners, were left out");
   }
 }
 
@@ -285,14 +285,14 @@ TEST(VtkReader, BadXmlFiles) {
   bad("NumberOfPoints=\"5\"", "NumberOfPoints=\"500000000\"", "more than it has room for");
   bad("NumberOfPoints=\"5\"", "NumberOfPoints=\"6\"", "array ends where a coordinate");
   bad("NumberOfPoints=\"5\"", "NumberOfPoints=\"4\"", "names point 4");
-  bad("NumberOfPoints=\"5\"", "NumberOfPoints=\"x\"", "NumberOfPoints is no count");
+  bad("NumberOfPoints=\"5\"", "NumberOfPoints=\"x\"", "NumberOfPoints is not a count");
   bad("NumberOfCells=\"5\"", "NumberOfCells=\"6\"", "array ends where a cell type");
   bad("byte_order=\"LittleEndian\"", "byte_order=\"Odd\"", "which is not read");
   bad(">\n<UnstructuredGrid>", " compressor=\"vtkLZMADataCompressor\">\n<UnstructuredGrid>", "packed by vtkLZMA");
   bad("Name=\"types\"", "Name=\"kinds\"", "not all arrays");
-  bad("Name=\"types\"", "Name=types", "no sound XML");
+  bad("Name=\"types\"", "Name=types", "not valid XML");
   bad("format=\"ascii\">", "format=\"appended\" offset=\"0\">", "no element AppendedData");
-  bad("</VTKFile>", "", "no sound XML: no element found");
+  bad("</VTKFile>", "", "not valid XML: no element found");
   bad("4\n8\n11\n13\n14", "4\n3\n11\n13\n14", "before the cell before it");
   bad("4\n8\n11\n13\n14", "4\n8\n11\n13\n15", "cannot have 2 nodes");
   bad("0\n1\n2\n0\n4\n2\n", "0\n1\n2\n0\n4\n", "array ends where a point number");
