@@ -127,7 +127,6 @@ struct CountingSink : GraphSink {
 
 struct Result {
   std::uint64_t nodes = 0, arcs = 0, check = 0, vertices = 0, removed = 0;
-  std::uint64_t zips = 0, zip_steps = 0;
   std::clock_t sweep = 0, glue = 0;
   std::size_t sweep_bytes = 0, live_bytes = 0;
 };
@@ -159,8 +158,6 @@ Result run(const std::vector<Input>& inputs, std::int64_t extras = 0) {
   result.removed = glue.removed_pairs();
   result.arcs = sink.arcs;
   result.check = sink.check;
-  result.zips = glue.graph().zips();
-  result.zip_steps = glue.graph().zip_steps();
   result.sweep_bytes = sweep.memory_bytes();
   return result;
 }
@@ -202,9 +199,6 @@ void BM_Engine(benchmark::State& state) {
   const double ns = 1e9 / CLOCKS_PER_SEC / triangles;
   state.counters["sweep_ns"] = static_cast<double>(best.sweep) * ns;
   state.counters["glue_ns"] = static_cast<double>(best.glue) * ns;
-  state.counters["steps_a_zip"] =
-      static_cast<double>(best.zip_steps) / static_cast<double>(std::max<std::uint64_t>(best.zips, 1));
-  state.counters["zips_1000"] = 1000 * static_cast<double>(best.zips) / triangles;
   state.counters["sweep_MB"] = static_cast<double>(best.sweep_bytes) / 1e6;
   state.counters["removed"] = static_cast<double>(best.removed);
   state.counters["live_MB"] = static_cast<double>(best.live_bytes) / 1e6;

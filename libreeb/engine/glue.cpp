@@ -305,14 +305,14 @@ void Glue::save(StateWriter& out) const {
 }
 
 void Glue::restore(StateReader& in) {
-  graph_.restore(in);
+  LiveGraph::PathTops tops = graph_.restore(in);
   in.get(removed_in_fragments_);
   first_link_.restore(in);
   edges_.restore(in);
   links_.restore(in);
   in.get(first_free_edge_);
   restore_nodes();
-  restore_edges();
+  restore_edges(std::move(tops));
 }
 
 void Glue::restore_nodes() {
@@ -324,7 +324,7 @@ void Glue::restore_nodes() {
 }
 
 // Every link is in one list, and every path belongs to one edge between incomplete nodes.
-void Glue::restore_edges() {
+void Glue::restore_edges(LiveGraph::PathTops tops) {
   const auto require = [](bool sound) {
     if (!sound) throw DamagedState();
   };
@@ -347,10 +347,12 @@ void Glue::restore_edges() {
     if (is_free[e]) continue;
     const Edge& edge = edges_[e];
     require(edge_of_.find_or_insert(edge_key(edge.lo, edge.hi), e) == e);
-    if (edge.top != kNone) graph_.check_restored_path(edge.top, edge.lo, edge.hi);
+    if (edge.top == kNone) continue;
+    require(edge.top < tops.size() && tops[edge.top] && graph_.has_ends(edge.top, edge.lo, edge.hi));
+    tops[edge.top] = false;
   }
   require(links == 2 * edge_of_.size());
-  graph_.check_restored_paths_end();
+  require(std::find(tops.begin(), tops.end(), true) == tops.end());
 }
 
 }  // namespace reeb

@@ -110,7 +110,7 @@ class Glue {
   void link(Index link, Index node);
   void unlink(Index link, Index node);
   void restore_nodes();
-  void restore_edges();
+  void restore_edges(LiveGraph::PathTops tops);
   void complete_node(Index node);
   static std::uint64_t edge_key(Index lo, Index hi) { return std::uint64_t{hi} << 32 | lo; }
 

@@ -97,11 +97,12 @@ class LiveGraph {
 
   // The whole state, from which another process can continue. REQUIRES: the last calls were tidy() and flush().
   void save(StateWriter& out) const;
-  // THROWS: DamagedState, as the next two, unless the state can be continued from. Then this object must not be used.
-  void restore(StateReader& in);
-  // To be called after restore() for each path that its owner keeps; then once more, when no path may be left.
-  void check_restored_path(Index top, Index lo, Index hi);
-  void check_restored_paths_end();
+  // By reference: whether it is the top of a path.
+  using PathTops = std::vector<bool>;
+  // Returns the tops of all paths, for the owner of the paths to check.
+  // THROWS: DamagedState unless the state can be continued from. Then this object must not be used.
+  PathTops restore(StateReader& in);
+  bool has_ends(Index top, Index lo, Index hi) const;  // whether the path leads from `hi` down to `lo`
 
   // Calls visit_node(node) for each node, and then visit_arc(arc, lo, hi) for each arc. REQUIRES: as save().
   template <class VisitNode, class VisitArc>
@@ -141,8 +142,6 @@ class LiveGraph {
   std::size_t bucket_count() const { return buckets_.used(); }
   std::size_t path_arc_count() const;                             // of all paths, with beads. O(live).
   std::uint64_t removed_pairs() const { return removed_pairs_; }  // leaves, so far
-  std::uint64_t zips() const { return zips_; }                    // so far
-  std::uint64_t zip_steps() const { return zip_steps_; }          // arcs that zips went over, whatever their beads
   std::uint64_t bead_steps() const { return bead_steps_; }        // beads that zips went over, one by one
   std::size_t memory_bytes() const;
   // What it takes in addition for this many more of each.
@@ -197,7 +196,7 @@ class LiveGraph {
     Index& next_free() { return next; }
   };
 
-  void check_restored();
+  PathTops check_restored();
   void attach(Index arc, Direction side, Index node);
   void detach(Index arc, Direction side);
   void detach(Index arc) {
@@ -259,8 +258,7 @@ class LiveGraph {
   GrowingArray<BucketLists::List> arc_buckets_;
   std::vector<Index> path_;  // arcs, from the saddle of a leaf
   std::vector<PathBuckets> path_buckets_;
-  std::uint64_t removed_pairs_ = 0, zips_ = 0, zip_steps_ = 0, bead_steps_ = 0;
-  std::vector<bool> path_tops_;      // by reference: a top whose path was not checked yet; while the state is restored
+  std::uint64_t removed_pairs_ = 0, bead_steps_ = 0;
   std::vector<Index> changed_;       // complete nodes that tidy() has to examine
   std::vector<Index> unreferenced_;  // arcs whose beads it has to release
   SettledBatch settled_;

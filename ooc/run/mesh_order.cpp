@@ -40,18 +40,30 @@ std::uint64_t value_bytes(const RunContext& run, std::uint64_t vertices) {
   return bytes;
 }
 
+// The mesh in pieces, in another order.
+struct Tried {
+  std::unique_ptr<PiecewiseMesh> mesh;
+  std::size_t pieces;
+  LastUse uses;
+};
+
 class Ordering {
  public:
   Ordering(RunContext& run, const MeshInput& input, std::unique_ptr<IndexedMesh> mesh, const Checkpoint* start,
            bool use_sidecar)
-      : run_(run), input_(input), mesh_(std::move(mesh)), start_(start), use_sidecar_(use_sidecar) {}
+      : run_(run),
+        input_(input),
+        start_(start),
+        use_sidecar_(use_sidecar),
+        vertices_(mesh->vertex_count()),
+        mesh_(std::move(mesh)) {}
 
   OrderedMesh run() {
     if (start_ != nullptr)
       order_as_before();
     else
       choose();
-    const MemoryPlan plan = plan_for(needs(uses_->summary()));
+    const MemoryPlan plan = plan_for(needs(uses_->summary(), order_bytes_));
     return {.mesh = std::move(mesh_),
             .origin = origin_,
             .uses = std::move(*uses_),
@@ -65,7 +77,8 @@ class Ordering {
  private:
   void order_as_before() {
     origin_ = start_->origin;
-    if (origin_ == ChunkOrigin::kPieces) visit_pieces(~std::uint64_t{0});
+    if (origin_ == ChunkOrigin::kPieces)
+      if (auto tried = try_pieces(~std::uint64_t{0})) adopt(std::move(*tried));
     if (is_sorted()) sort_on_disk();
     if (!uses_) find_last_uses(false);
   }
@@ -73,15 +86,14 @@ class Ordering {
   void choose() {
     find_last_uses(true);
     if (uses_ && suits(uses_->summary())) return;
-    std::optional<LastUse> as_it_comes = std::exchange(uses_, std::nullopt);
-    const std::uint64_t front = as_it_comes ? as_it_comes->summary().max_live_vertices : kUnknown;
-    if (visit_pieces(run_.budget.free_bytes() / kPiecesShare / kPieceBytes)) {
-      const UseSummary& summary = uses_->summary();
-      const bool suffices = !run_.options.may_reorder || suits(summary) || is_quick(summary);
-      if (summary.max_live_vertices < front && suffices) return;
-      leave_pieces();
+    const std::uint64_t front = uses_ ? uses_->summary().max_live_vertices : kUnknown;
+    if (auto tried = try_pieces(run_.budget.free_bytes() / kPiecesShare / kPieceBytes)) {
+      const UseSummary& summary = tried->uses.summary();
+      const std::uint64_t bytes = tried->mesh->memory_bytes();
+      const bool suffices = !run_.options.may_reorder || suits(summary, bytes) || is_quick(summary, bytes);
+      if (summary.max_live_vertices < front && suffices) return adopt(std::move(*tried));
+      mesh_ = tried->mesh->release();
     }
-    uses_ = std::move(as_it_comes);
     if (uses_ && (is_quick(uses_->summary()) || !sorting_helps(front))) return;
     if (!run_.options.may_reorder) {
       if (!uses_) find_last_uses(false);
@@ -105,7 +117,7 @@ class Ordering {
   // Takes the last uses from the sidecar if there is one that fits, and if it may be used; else from scan().
   std::optional<LastUse> known_or_scanned(bool may_give_up) {
     const std::string sidecar = sidecar_path(run_, input_);
-    if (sidecar.empty()) return scan(may_give_up);
+    if (sidecar.empty()) return scan(*mesh_, may_give_up);
     const MeshIdentity identity = identify_mesh(input_.path);
     SidecarLoad known;
     if (use_sidecar_)
@@ -114,7 +126,7 @@ class Ordering {
     if (of_sidecar_) return std::move(known.uses);
     if (!known.note.empty()) notes_.push_back(known.note);
     known.uses.reset();
-    std::optional<LastUse> uses = scan(may_give_up && !run_.options.keep_sidecar);
+    std::optional<LastUse> uses = scan(*mesh_, may_give_up && !run_.options.keep_sidecar);
     if (uses && run_.options.keep_sidecar) {
       if (input_.check_unchanged) input_.check_unchanged();
       save_sidecar(sidecar, identity, *uses);
@@ -129,7 +141,7 @@ class Ordering {
     return triangles == summary.triangle_count || triangles % summary.block_triangles == 0;
   }
 
-  std::optional<LastUse> scan(bool may_give_up) {
+  std::optional<LastUse> scan(IndexedMesh& mesh, bool may_give_up) {
     LastUseOptions options;
     options.allowance_bytes = run_.plan.table_bytes;
     if (may_give_up) {
@@ -140,37 +152,45 @@ class Ordering {
     options.block_triangles = std::min<std::uint64_t>(options.block_triangles, run_.plan.chunk.first);
     if (start_ != nullptr) options.block_triangles = start_->block_triangles;
     options.threads = run_.plan.threads;
-    options.progress = [this](std::uint64_t bytes_read) {
-      if (!is_sorted()) return tell(bytes_read);
-      const auto total = static_cast<double>(std::max<std::uint64_t>(mesh_->bytes_total(), 1));
+    options.progress = [this, &mesh](std::uint64_t bytes_read) {
+      if (!is_sorted()) return tell(bytes_read, mesh.bytes_total());
+      const auto total = static_cast<double>(std::max<std::uint64_t>(mesh.bytes_total(), 1));
       tell_sorting(kSorted + (1 - kSorted) * static_cast<double>(bytes_read) / total);
     };
-    std::optional<LastUse> uses = scan_last_use(*mesh_, run_.temp, run_.budget, options);
+    std::optional<LastUse> uses = scan_last_use(mesh, run_.temp, run_.budget, options);
     if (start_ != nullptr && uses && !has_usual_blocks(uses->summary())) throw DamagedState();
     return uses;
   }
 
   // ---- pieces in another order
 
-  bool visit_pieces(std::uint64_t most_pieces) {
+  // Takes the mesh, unless it returns nothing.
+  std::optional<Tried> try_pieces(std::uint64_t most_pieces) {
     const Stopwatch watch;
     PieceOptions options;
     options.coordinates = input_.dimension;
     options.most_pieces = most_pieces;
-    options.progress = [this](std::uint64_t bytes_read) { tell(bytes_read); };
-    std::optional<MeshPieces> pieces = cut_into_pieces(*mesh_, run_.budget, options);
-    if (pieces) {
+    options.progress = [this](std::uint64_t bytes_read) { tell(bytes_read, mesh_->bytes_total()); };
+    std::optional<Tried> tried;
+    if (std::optional<MeshPieces> pieces = cut_into_pieces(*mesh_, run_.budget, options)) {
       order_pieces(*pieces);
       count_simplices();
-      notes_.push_back("the mesh consists of " + count_of(pieces->pieces.size(), "piece") + ", read in another order");
-      order_bytes_ = pieces->memory.bytes();
-      mesh_ = std::make_unique<PiecewiseMesh>(std::move(mesh_), std::move(*pieces));
-      origin_ = ChunkOrigin::kPieces;
-      uses_ = scan(false);
-      spilled_bytes_ += uses_->spilled_bytes();
+      const std::size_t count = pieces->pieces.size();
+      auto mesh = std::make_unique<PiecewiseMesh>(std::move(mesh_), std::move(*pieces));
+      LastUse uses = std::move(*scan(*mesh, false));
+      spilled_bytes_ += uses.spilled_bytes();
+      tried = Tried{std::move(mesh), count, std::move(uses)};
     }
     seconds_.finalization += watch.seconds();
-    return pieces.has_value();
+    return tried;
+  }
+
+  void adopt(Tried tried) {
+    notes_.push_back("the mesh consists of " + count_of(tried.pieces, "piece") + ", read in another order");
+    order_bytes_ = tried.mesh->memory_bytes();
+    mesh_ = std::move(tried.mesh);
+    uses_ = std::move(tried.uses);
+    origin_ = ChunkOrigin::kPieces;
   }
 
   // Only a mesh that was read from the first simplex to the last knows how many it has. It was not if its last uses
@@ -179,15 +199,8 @@ class Ordering {
     constexpr std::size_t kTrianglesAtOnce = 16384;
     if (mesh_->simplex_counts() != SimplexCounts{}) return;
     mesh_->rewind();
-    for (std::vector<VertexId> corners; mesh_->read(corners, kTrianglesAtOnce);) tell(mesh_->bytes_read());
-  }
-
-  void leave_pieces() {
-    mesh_ = static_cast<PiecewiseMesh&>(*mesh_).release();
-    origin_ = ChunkOrigin::kLookedUp;
-    order_bytes_ = 0;
-    notes_.pop_back();
-    uses_.reset();
+    for (std::vector<VertexId> corners; mesh_->read(corners, kTrianglesAtOnce);)
+      tell(mesh_->bytes_read(), mesh_->bytes_total());
   }
 
   // ---- sorted on disk
@@ -197,7 +210,7 @@ class Ordering {
   // A long sort must not be in vain.
   // THROWS: Error{kResource} if the live graphs cannot fit afterwards.
   void choose_sorting() {
-    FrontNeeds front = needs(mesh_->vertex_count(), sorted_front(kSortedFront));
+    FrontNeeds front = needs(vertices_, sorted_front(kSortedFront));
     plan_for(front);
     front.live_vertices = sorted_front(kHilbertFront);
     origin_ = run_.plan.fits(front) ? ChunkOrigin::kSorted : ChunkOrigin::kSortedInSlabs;
@@ -216,29 +229,30 @@ class Ordering {
     spilled_bytes_ += sorted->spilled_bytes();
     for (const std::string& warning : mesh_->warnings()) notes_.push_back(warning);
     mesh_ = std::move(sorted);
-    uses_ = scan(false);
+    uses_ = scan(*mesh_, false);
     spilled_bytes_ += uses_->spilled_bytes();
     seconds_.reorder += watch.seconds();
   }
 
   // ---- fronts and memory
 
-  FrontNeeds needs(std::uint64_t vertices, std::uint64_t live_vertices) const {
+  FrontNeeds needs(std::uint64_t vertices, std::uint64_t live_vertices, std::uint64_t order_bytes = 0) const {
     return {.vertices = vertices,
             .live_vertices = live_vertices,
             .function_bytes = value_bytes(run_, vertices),
-            .order_bytes = order_bytes_};
+            .order_bytes = order_bytes};
   }
-  FrontNeeds needs(const UseSummary& summary) const { return needs(summary.vertex_count, summary.max_live_vertices); }
+  FrontNeeds needs(const UseSummary& summary, std::uint64_t order_bytes = 0) const {
+    return needs(summary.vertex_count, summary.max_live_vertices, order_bytes);
+  }
 
   std::uint64_t sorted_front(double square_roots) const {
-    return static_cast<std::uint64_t>(square_roots * std::sqrt(static_cast<double>(mesh_->vertex_count())));
+    return static_cast<std::uint64_t>(square_roots * std::sqrt(static_cast<double>(vertices_)));
   }
 
   // A front that is glued as quickly as pieces are found.
   std::uint64_t quick_front(std::uint64_t most_triangles) const {
-    const std::uint64_t vertices = mesh_->vertex_count();
-    return std::max(std::min(vertices / kQuickerShare, kMostOfShare), usual_front(vertices, most_triangles));
+    return std::max(std::min(vertices_ / kQuickerShare, kMostOfShare), usual_front(vertices_, most_triangles));
   }
 
   // No larger front than this suits.
@@ -248,8 +262,8 @@ class Ordering {
   }
 
   // Whether another order could hardly be better.
-  bool suits(const UseSummary& summary) const {
-    const FrontNeeds front = needs(summary);
+  bool suits(const UseSummary& summary, std::uint64_t order_bytes = 0) const {
+    const FrontNeeds front = needs(summary, order_bytes);
     if (!run_.plan.fits(front)) return !sorting_helps(front.live_vertices);
     MemoryPlan plan = run_.plan;
     plan.share_out(front);
@@ -257,8 +271,9 @@ class Ordering {
   }
 
   // Whether the mesh can be glued in less time than sorting it takes.
-  bool is_quick(const UseSummary& summary) const {
-    return run_.plan.fits(needs(summary)) && summary.max_live_vertices <= summary.vertex_count / kQuickShare;
+  bool is_quick(const UseSummary& summary, std::uint64_t order_bytes = 0) const {
+    return run_.plan.fits(needs(summary, order_bytes)) &&
+           summary.max_live_vertices <= summary.vertex_count / kQuickShare;
   }
 
   bool sorting_helps(std::uint64_t front) const { return front > sorted_front(kSortedFront); }
@@ -279,7 +294,9 @@ class Ordering {
     return plan;
   }
 
-  void tell(std::uint64_t bytes_read) const { run_.tell({Phase::kFinalization, bytes_read, mesh_->bytes_total()}); }
+  void tell(std::uint64_t bytes_read, std::uint64_t total) const {
+    run_.tell({Phase::kFinalization, bytes_read, total});
+  }
   void tell_sorting(double done) const {
     constexpr std::uint64_t kSteps = 10000;
     run_.tell({Phase::kReorder, static_cast<std::uint64_t>(done * kSteps), kSteps});
@@ -287,9 +304,10 @@ class Ordering {
 
   RunContext& run_;
   const MeshInput& input_;
-  std::unique_ptr<IndexedMesh> mesh_;
   const Checkpoint* start_;
   bool use_sidecar_, of_sidecar_ = false;
+  std::uint64_t vertices_;
+  std::unique_ptr<IndexedMesh> mesh_;  // null while it is in pieces that are tried
   ChunkOrigin origin_ = ChunkOrigin::kLookedUp;
   std::optional<LastUse> uses_;
   std::uint64_t order_bytes_ = 0;

@@ -43,11 +43,11 @@ struct PipelineOptions {
   // Called after that if the run can be resumed after this chunk: with the place after the chunk, and a function that
   // saves what was glued up to there.
   std::function<void(const ChunkPlace&, const SaveEngine&)> between_chunks = {};
-  // Of a run with one function, whose chunks are no boxes: gets the history of arcs. Null: none.
+  // Of a run with one function, whose chunks are not boxes: gets the history of arcs. Null: none.
   ArcLog* log = nullptr;
   // The state that an earlier process saved; the source starts at its place.
   StateReader* saved_engine = nullptr;
-  // Of a run whose chunks are no boxes: called at the end for each function, with all that was glued.
+  // Of a run whose chunks are not boxes: called at the end for each function, with all that was glued.
   std::function<void(std::size_t function, const Glue&)> at_end = {};
 };
 

@@ -11,7 +11,7 @@
 #include "tests/libreeb/engine/player.h"
 #include "tests/libreeb/engine/streamed_mesh.h"
 #include "tests/model/reference_reeb.h"
-#include "tests/support/random_complex.h"
+#include "tests/support/inputs/random_complex.h"
 #include "tests/support/seed.h"
 
 namespace reeb::test {

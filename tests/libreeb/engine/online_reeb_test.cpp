@@ -12,10 +12,10 @@
 #include "libreeb/base/error.h"
 #include "tests/libreeb/engine/player.h"
 #include "tests/model/reference_reeb.h"
+#include "tests/support/inputs/random_complex.h"
+#include "tests/support/inputs/shapes.h"
 #include "tests/support/random.h"
-#include "tests/support/random_complex.h"
 #include "tests/support/seed.h"
-#include "tests/support/shapes.h"
 
 namespace reeb::test {
 namespace {

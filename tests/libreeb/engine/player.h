@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "libreeb/engine/online_reeb.h"
-#include "tests/support/complex.h"
+#include "tests/support/inputs/complex.h"
 #include "tests/support/random.h"
 
 namespace reeb::test {
