@@ -65,17 +65,16 @@ SuggestedLength suggest_length(std::span<const double> lengths, double edge, dou
   std::string why = part_of(best, sorted.size()) + " " + text(low) + " long (" + text(low / edge) + " edges)";
   if (best < finite) {
     why += ", the others at least " + text(high);
-  } else if (best < sorted.size() && !looked_well) {
-    confidence = std::min(confidence, kMostUnsure);
-    const std::size_t others = sorted.size() - best;
-    why += "; for the " + (others == 1 ? "other" : std::to_string(others) + " others") + " no curve was found" +
-           kOtherFunctions;
   } else if (best < sorted.size()) {
-    why += ", the others longer than any that were found";
+    const std::size_t others = sorted.size() - best;
+    why += "; no curve was found for the other" + (others == 1 ? "" : " " + std::to_string(others));
+    if (!looked_well) {
+      confidence = std::min(confidence, kMostUnsure);
+      why += kOtherFunctions;
+    }
   } else {
-    // Nothing shows where features begin.
     confidence = std::min(confidence, kMostUnsure);
-    why += ", and there is no longer one to compare with";
+    why += "; none is longer, so nothing shows where features begin";
   }
   return {length, confidence, why};
 }

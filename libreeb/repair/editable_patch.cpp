@@ -19,6 +19,12 @@ void EditablePatch::add_triangle(const Corners& corners, std::uint64_t id) {
   append({corners, id, true});
 }
 
+bool EditablePatch::lies_bare(const Line& line) const {
+  return !has_edge(line.a, line.b) && std::ranges::any_of(at_[line.a], [&](std::uint32_t t) {
+    return triangles_[t].id != kAdded && has_corner(t, line.b);
+  });
+}
+
 std::uint32_t EditablePatch::add_new(const Corners& corners) { return append({corners, kAdded, true}); }
 
 std::uint32_t EditablePatch::append(const Triangle& triangle) {

@@ -26,7 +26,7 @@ class EditablePatch {
     VertexId id;  // of the mesh; none() if it was added
     Point position{};
     bool whole = false;                    // all triangles of the mesh at this vertex are in the patch
-    bool used_elsewhere = false;           // by something that is no triangle with three corners
+    bool used_elsewhere = false;           // by something that stays whatever is done to triangles
     Corners parents{kNone, kNone, kNone};  // of an added vertex: it has the mean of their values
   };
   struct Triangle {
@@ -35,9 +35,16 @@ class EditablePatch {
     bool there = true;
   };
 
+  // Two vertices that are joined apart from the triangles: by one that repeats a corner, or by an edge of the mesh.
+  struct Line {
+    std::uint32_t a = 0, b = 0;
+    std::uint64_t id = kAdded;  // the place of the triangle; kAdded for an edge
+  };
+
   std::uint32_t add_vertex(const Vertex& vertex);
   // Three different corners. A repetition is kept with the first one: both are there, or none.
   void add_triangle(const Corners& corners, std::uint64_t id);
+  void add_line(const Line& line) { lines_.push_back(line); }
   // A triangle that is not in the patch, but that nothing new may cross. Corners outside the patch have numbers from
   // kOutside on.
   static constexpr std::uint32_t kOutside = kNone - 3;
@@ -64,6 +71,10 @@ class EditablePatch {
   const Triangle& triangle(std::uint32_t t) const { return triangles_[t]; }
   // Repetitions: a triangle, and the place of another one with the same corners.
   const std::vector<std::pair<std::uint32_t, std::uint64_t>>& repetitions() const { return repetitions_; }
+
+  const std::vector<Line>& lines() const { return lines_; }
+  // Whether it was along an edge of triangles of the mesh, and none is left there.
+  bool lies_bare(const Line& line) const;
 
   // Those at a vertex, also the ones that are not there.
   std::span<const std::uint32_t> all_at(std::uint32_t v) const { return at_[v]; }
@@ -100,6 +111,7 @@ class EditablePatch {
   std::vector<Triangle> triangles_;
   std::vector<std::vector<std::uint32_t>> at_;
   std::vector<std::pair<std::uint32_t, std::uint64_t>> repetitions_;
+  std::vector<Line> lines_;
   std::vector<PlacedTriangle> obstacles_;
   TriangleCells cells_;  // of the first triangles
 };

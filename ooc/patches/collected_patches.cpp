@@ -47,13 +47,15 @@ void CollectedPatches::add(const MeshBatch& batch) {
 }
 
 void CollectedPatches::add_use(std::span<const VertexId> corners) {
-  Triangle triangle{{VertexSet::kNone, VertexSet::kNone, VertexSet::kNone}, 1, mesh_triangles_};
+  Triangle triangle{{VertexSet::kNone, VertexSet::kNone, VertexSet::kNone}, Triangle::kPointOrEdge, mesh_triangles_};
   for (std::size_t k = 0; k < corners.size(); ++k) triangle.corners[k] = set_.find(corners[k]);
   const auto& [x, y, z] = triangle.corners;
   // Most triangles of a large mesh are in no ball.
   if ((x & y & z) == VertexSet::kNone) return;
-  if (corners.size() == 3 && corners[0] != corners[1] && corners[1] != corners[2] && corners[0] != corners[2])
-    triangle.is_other = 0;
+  if (corners.size() == 3)
+    triangle.kind = corners[0] != corners[1] && corners[1] != corners[2] && corners[0] != corners[2]
+                        ? Triangle::kPlain
+                        : Triangle::kDegenerate;
   for (std::size_t k = 0; k < 3; ++k) {
     if (triangle.corners[k] == VertexSet::kNone) continue;
     const std::uint16_t group = group_of_[triangle.corners[k]];
@@ -82,7 +84,7 @@ PatchGroup CollectedPatches::group(std::size_t number) {
                                                     triangle_count * (sizeof(PatchGroup::Triangle) + 4));
   group.vertices_.reserve(vertex_count);
   group.triangles_.reserve(triangle_count);
-  std::vector<std::uint32_t> patch_of, triangle_patch;
+  std::vector<std::uint32_t> patch_of, triangle_patch, line_patch;
   VertexSet numbers;  // of all groups
   vertices_.rewind(number);
   for (std::size_t i = 0; i < vertex_count; ++i) {
@@ -94,52 +96,69 @@ PatchGroup CollectedPatches::group(std::size_t number) {
   triangles_.rewind(number);
   for (std::size_t i = 0; i < triangle_count; ++i) {
     Triangle triangle = triangles_.next(number);
-    bool inside = triangle.is_other == 0;
-    for (std::uint32_t& v : triangle.corners) {
+    for (std::uint32_t& v : triangle.corners)
       if (v != VertexSet::kNone) v = numbers.find(VertexId(v));
-      inside = inside && v != VertexSet::kNone && patch_of[v] == patch_of[triangle.corners[0]];
-    }
-    if (inside) {
-      group.triangles_.push_back({triangle.corners, triangle.id});
-      triangle_patch.push_back(patch_of[triangle.corners[0]]);
+    const auto& [a, b, c] = triangle.corners;
+    const auto in_one_patch = [&](std::uint32_t v, std::uint32_t w) {
+      return v != VertexSet::kNone && w != VertexSet::kNone && patch_of[v] == patch_of[w];
+    };
+    if (triangle.kind == Triangle::kPlain) {
+      if (in_one_patch(a, b) && in_one_patch(a, c)) {
+        group.triangles_.push_back({triangle.corners, triangle.id});
+        triangle_patch.push_back(patch_of[a]);
+        continue;
+      }
+      for (const std::uint32_t v : triangle.corners)
+        if (v != VertexSet::kNone) group.vertices_[v].whole = false;
       continue;
     }
-    for (const std::uint32_t v : triangle.corners) {
-      if (v == VertexSet::kNone) continue;
-      if (triangle.is_other != 0)
-        group.vertices_[v].used_elsewhere = true;
-      else
-        group.vertices_[v].whole = false;
+    const bool is_degenerate = triangle.kind == Triangle::kDegenerate;
+    const std::uint32_t other = is_degenerate && a == b ? c : b;
+    const bool is_line = a != other && in_one_patch(a, other);
+    if (is_line) {
+      group.lines_.push_back({{a, other}, is_degenerate ? triangle.id : EditablePatch::kAdded});
+      line_patch.push_back(patch_of[a]);
     }
+    if (is_line && is_degenerate) continue;  // it can be removed
+    for (const std::uint32_t v : triangle.corners)
+      if (v != VertexSet::kNone) group.vertices_[v].used_elsewhere = true;
   }
-  const auto sort = [&](const std::vector<std::uint32_t>& of, std::vector<std::uint32_t>& begins,
-                        std::vector<std::uint32_t>& order) {
-    begins.assign(patches + 1, 0);
-    for (const std::uint32_t patch : of) ++begins[patch + 1];
-    for (std::size_t p = 0; p < patches; ++p) begins[p + 1] += begins[p];
-    order.resize(of.size());
-    std::vector<std::uint32_t> next(begins.begin(), begins.end() - 1);
-    for (std::uint32_t i = 0; i < of.size(); ++i) order[next[of[i]]++] = i;
+  const auto by_patch = [&](const std::vector<std::uint32_t>& of) {
+    PatchGroup::ByPatch sorted;
+    sorted.first.assign(patches + 1, 0);
+    for (const std::uint32_t patch : of) ++sorted.first[patch + 1];
+    for (std::size_t p = 0; p < patches; ++p) sorted.first[p + 1] += sorted.first[p];
+    sorted.order.resize(of.size());
+    std::vector<std::uint32_t> next(sorted.first.begin(), sorted.first.end() - 1);
+    for (std::uint32_t i = 0; i < of.size(); ++i) sorted.order[next[of[i]]++] = i;
+    return sorted;
   };
-  sort(patch_of, group.vertex_first_, group.vertex_order_);
-  sort(triangle_patch, group.triangle_first_, group.triangle_order_);
+  group.vertices_of_ = by_patch(patch_of);
+  group.triangles_of_ = by_patch(triangle_patch);
+  group.lines_of_ = by_patch(line_patch);
   return group;
 }
 
 EditablePatch PatchGroup::patch(std::size_t number) const {
+  const auto members = [number](const ByPatch& of) {
+    return std::span(of.order).subspan(of.first[number], of.first[number + 1] - of.first[number]);
+  };
+  const std::span<const std::uint32_t> vertices = members(vertices_of_);
+  const auto local = [&](std::uint32_t vertex) {
+    return static_cast<std::uint32_t>(std::ranges::lower_bound(vertices, vertex) - vertices.begin());
+  };
   EditablePatch patch;
-  const auto first = vertex_order_.begin() + vertex_first_[number],
-             end = vertex_order_.begin() + vertex_first_[number + 1];
-  for (auto it = first; it != end; ++it) {
-    const Vertex& vertex = vertices_[*it];
+  for (const std::uint32_t v : vertices) {
+    const Vertex& vertex = vertices_[v];
     patch.add_vertex({vertex.id, vertex.position, vertex.whole, vertex.used_elsewhere, {}});
   }
-  for (std::uint32_t i = triangle_first_[number]; i < triangle_first_[number + 1]; ++i) {
-    const Triangle& triangle = triangles_[triangle_order_[i]];
-    EditablePatch::Corners local{};
-    for (std::size_t k = 0; k < 3; ++k)
-      local[k] = static_cast<std::uint32_t>(std::lower_bound(first, end, triangle.corners[k]) - first);
-    patch.add_triangle(local, triangle.id);
+  for (const std::uint32_t t : members(triangles_of_)) {
+    const auto& [a, b, c] = triangles_[t].corners;
+    patch.add_triangle({local(a), local(b), local(c)}, triangles_[t].id);
+  }
+  for (const std::uint32_t l : members(lines_of_)) {
+    const auto& [a, b] = lines_[l].ends;
+    patch.add_line({local(a), local(b), lines_[l].id});
   }
   return patch;
 }

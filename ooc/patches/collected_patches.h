@@ -36,10 +36,19 @@ class PatchGroup {
     std::array<std::uint32_t, 3> corners;
     std::uint64_t id;
   };
+  struct Line {
+    std::array<std::uint32_t, 2> ends;
+    std::uint64_t id;  // as EditablePatch::Line
+  };
+  // Those of patch p are at the places order[first[p]], ..., order[first[p + 1] - 1].
+  struct ByPatch {
+    std::vector<std::uint32_t> first, order;
+  };
 
   std::vector<Vertex> vertices_;
   std::vector<Triangle> triangles_;
-  std::vector<std::uint32_t> vertex_first_, vertex_order_, triangle_first_, triangle_order_;  // by patch
+  std::vector<Line> lines_;
+  ByPatch vertices_of_, triangles_of_, lines_of_;
   Reservation memory_;
 };
 
@@ -74,7 +83,7 @@ class CollectedPatches {
   };
   struct Triangle {
     std::array<std::uint32_t, 3> corners;  // numbers; kNone: in no ball
-    std::uint32_t is_other;  // 1: a point, an edge or a triangle with equal corners, which only uses these vertices
+    enum Kind : std::uint32_t { kPlain, kDegenerate, kPointOrEdge } kind;
     std::uint64_t id;
   };
 

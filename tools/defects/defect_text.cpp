@@ -52,9 +52,10 @@ std::string defect_table(const Defects& defects, std::span<const RankedRow> rows
   std::string text;
   const SuggestedLength& suggestion = defects.table.suggestion;
   const std::size_t all = defects.table.rows.size();
-  text += count_of(all, "loop");
+  text += count_of(all, "loop") + " of f = " + printable(defects.functions[0]);
   if (rows.size() < all) text += fmt::format(", {} of them listed", rows.size());
   text += '\n';
+  if (all == 0) return text;
   if (!rows.empty())
     text += fmt::format("{:>5}  {:<7} {:>10} {:>10} {:>10} {:>10}  {:<34} {}\n", "rank", "kind", "contour", "cycle",
                         "persist.", "of range", "center", "f");
@@ -67,7 +68,7 @@ std::string defect_table(const Defects& defects, std::span<const RankedRow> rows
                     printable(defects.functions[row.function]));
   }
   if (suggestion.length)
-    text += fmt::format("likely defects: --longest {:.4g} (confidence {:.0f} %): {}\n", *suggestion.length,
+    text += fmt::format("likely defects by length: --longest {:.4g} (confidence {:.0f} %): {}\n", *suggestion.length,
                         100 * suggestion.confidence, suggestion.why);
   else
     text += fmt::format("no length divides defects from features (confidence {:.0f} %): {}\n",

@@ -1,6 +1,7 @@
 #include "tools/defects/find_defects.h"
 
 #include <algorithm>
+#include <array>
 #include <optional>
 
 #include "io/file/temp_dir.h"
@@ -21,9 +22,10 @@ std::vector<std::string> coordinates(unsigned dimension) {
 // Loops do not depend on noise removal, which leaves nearly nothing else of a rough graph.
 std::vector<std::string> compute_graphs(const FindDefectsOptions& options, const TempFolder& folder) {
   const ValuedMesh mesh(options.mesh, {});
-  const std::vector<std::string> functions = coordinates(mesh.info().dimension);
+  const std::vector<std::string> functions =
+      options.functions.empty() ? coordinates(mesh.info().dimension) : options.functions;
   std::vector<std::string> files;
-  for (const std::string& function : functions) files.push_back(folder.path() + "/" + function + ".reeb");
+  for (std::size_t k = 0; k < functions.size(); ++k) files.push_back(folder.path() + "/" + std::to_string(k) + ".reeb");
   ComputeOptions run;
   run.memory_bytes = options.mesh.memory_bytes;
   run.threads = options.threads;
@@ -36,21 +38,29 @@ std::vector<std::string> compute_graphs(const FindDefectsOptions& options, const
   run.denoise_is_share = true;
   run.checkpoint_seconds = 1e9;
   run.progress = options.computing;
-  run.interrupted = options.interrupted;
+  run.interrupted = options.mesh.interrupted;
   const std::vector<ComputeResult> results = compute(options.mesh.path, functions, files, run);
   const std::span<const std::uint64_t> cells = std::span(results[0].simplices).subspan(3);
-  if (std::ranges::any_of(cells, [](std::uint64_t count) { return count != 0; })) refuse_cells(options.mesh.path);
+  if (std::ranges::any_of(cells, [](std::uint64_t count) { return count != 0; }))
+    refuse_cells(options.mesh.path, mesh.info().grid.has_value());
   return files;
 }
 
-// Graphs of another mesh would give other places, and their loops no curves.
-void check_graphs(const FindDefectsOptions& options, const LoopFunction& graph, const SearchOptions& search) {
+// Graphs of another mesh would give other places, and their loops no curves. Enlarges `box`, that of the nodes, to that
+// of the mesh: the nodes of one function can lie on a line.
+void look_at_mesh(const FindDefectsOptions& options, const LoopFunction& graph, const SearchOptions& search,
+                  std::array<Point, 2>& box) {
   const ValuedMesh mesh(options.mesh, {});
   MeshCounts counts;
   mesh.read([&](const MeshBatch& batch, std::span<const std::vector<double>>, std::uint64_t done, std::uint64_t total) {
-    if (batch.has_cells()) refuse_cells(options.mesh.path);
+    if (batch.has_cells()) refuse_cells(options.mesh.path, mesh.info().grid.has_value());
     counts.vertices += batch.vertex_count;
     counts.triangles += batch.triangle_count();
+    for (std::size_t k = 0; k < std::min<std::size_t>(batch.coordinates.size(), 3) && batch.vertex_count != 0; ++k) {
+      const auto [least, greatest] = std::ranges::minmax(batch.coordinates[k]);
+      box[0][k] = std::min(box[0][k], least);
+      box[1][k] = std::max(box[1][k], greatest);
+    }
     search.progress(done, total, counts.triangles);
   });
   require_same_mesh(graph.file, graph.mesh, counts);
@@ -79,11 +89,10 @@ Defects find_defects(const FindDefectsOptions& options) {
   search.budget = &budget;
   search.patch_bytes = std::min(search.patch_bytes, options.mesh.memory_bytes / 8);
   search.progress = [&](std::uint64_t done, std::uint64_t total, std::uint64_t triangles) {
-    if (options.interrupted && options.interrupted())
-      throw Error(ErrorKind::kInterrupted, "interrupted", "run the same command again");
+    options.mesh.check_interruption();
     if (options.searching) options.searching(done, total, triangles);
   };
-  if (!options.files.empty()) check_graphs(options, list.functions[0], search);
+  if (!options.files.empty()) look_at_mesh(options, list.functions[0], search, list.box);
   Defects defects;
   for (const LoopFunction& function : list.functions) defects.functions.push_back(function.name);
   const ValuedMesh mesh(options.mesh, defects.functions);

@@ -12,11 +12,11 @@ namespace reeb::tools {
 
 struct FindDefectsOptions {
   MeshSource mesh;
-  std::vector<std::string> files;  // graphs of the mesh; none: those of its coordinates are computed
+  std::vector<std::string> files;      // graphs of the mesh; none: those of these functions are computed
+  std::vector<std::string> functions;  // none: its coordinates
   unsigned threads = 0;
   std::function<void(const ComputeProgress&)> computing{};
   std::function<void(std::uint64_t done, std::uint64_t total, std::uint64_t triangles)> searching{};
-  std::function<bool()> interrupted{};
 };
 
 struct Defects {

@@ -7,17 +7,14 @@
 
 namespace reeb::tools {
 
-ooc::MeshCensus census_of(const MeshSource& source, const std::function<bool()>& interrupted) {
-  const io::Input input(source.path);
+ooc::MeshCensus census_of(const MeshSource& source) {
+  const io::Input input = io::mesh_input(source.path, source.format);
   return input.read([&] {
     ooc::Workspace space(source.temp_folder, source.memory_bytes);
     const auto open = [&] { return io::open_mesh(input, input.open(), {}, source.image, source.format); };
     const auto reader = open();
     ooc::CensusOptions census;
-    census.progress = [&](const ooc::CensusProgress&) {
-      if (interrupted && interrupted())
-        throw Error(ErrorKind::kInterrupted, "interrupted", "run the same command again");
-    };
+    census.progress = [&](const ooc::CensusProgress&) { source.check_interruption(); };
     if (const auto mesh = reader->indexed()) return ooc::take_census(*mesh, reader->info().dimension, space, census);
     census.read_again = open;
     return ooc::take_census(*reader, space, census);

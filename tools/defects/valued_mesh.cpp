@@ -6,8 +6,12 @@
 
 namespace reeb::tools {
 
+void MeshSource::check_interruption() const {
+  if (interrupted && interrupted()) throw Error(ErrorKind::kInterrupted, "interrupted", "run the same command again");
+}
+
 ValuedMesh::ValuedMesh(const MeshSource& source, std::span<const std::string> functions)
-    : source_(source), input_(source.path) {
+    : source_(source), input_(io::mesh_input(source.path, source.format)) {
   for (const std::string& function : functions) specs_.push_back(io::parse_function(function));
   properties_ = io::needed_properties(specs_);
   info_ = open()->info();
@@ -32,6 +36,7 @@ void ValuedMesh::read(const Observe& observe) const {
     std::vector<std::vector<double>> values(specs_.size());
     MeshBatch batch;
     while (reader->read(batch)) {
+      source_.check_interruption();
       for (std::size_t k = 0; k < specs_.size(); ++k) {
         values[k].resize(batch.vertex_count);
         functions[k]->evaluate(batch, values[k]);
@@ -52,9 +57,10 @@ void ValuedMesh::look_up(ooc::Workspace& space, const std::function<void(Indexed
   });
 }
 
-void refuse_cells(const std::string& mesh) {
+void refuse_cells(const std::string& mesh, bool is_image) {
   throw Error(ErrorKind::kBadInput, "the mesh has cells, so it is no surface",
-              "extract its boundary with another program first")
+              is_image ? "make an isosurface of the image with another program first"
+                       : "extract its boundary with another program first")
       .at(mesh);
 }
 

@@ -20,6 +20,10 @@ struct MeshSource {
   std::string path, format, temp_folder;
   std::uint64_t memory_bytes = ~std::uint64_t{0};
   io::ImageOptions image = {};
+  std::function<bool()> interrupted{};  // asked while the mesh is read; true ends the run
+
+  // THROWS: Error{kInterrupted}.
+  void check_interruption() const;
 };
 
 class ValuedMesh {
@@ -32,7 +36,8 @@ class ValuedMesh {
   std::uint64_t memory_bytes() const { return source_.memory_bytes; }
   const std::string& temp_folder() const { return source_.temp_folder; }
 
-  // Reads all of it. `values[k]` are those of function k at the vertices of the batch; `done` of `total` bytes.
+  // Reads all of it, and asks whether it is interrupted. `values[k]` are those of function k at the vertices of the
+  // batch; `done` of `total` bytes.
   using Observe = std::function<void(const MeshBatch& batch, std::span<const std::vector<double>> values,
                                      std::uint64_t done, std::uint64_t total)>;
   void read(const Observe& observe) const;
@@ -51,6 +56,6 @@ class ValuedMesh {
 };
 
 // THROWS: Error{kBadInput}.
-[[noreturn]] void refuse_cells(const std::string& mesh);
+[[noreturn]] void refuse_cells(const std::string& mesh, bool is_image = false);
 
 }  // namespace reeb::tools

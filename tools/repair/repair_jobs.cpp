@@ -47,9 +47,33 @@ std::optional<std::vector<std::uint32_t>> numbers_in(const EditablePatch& patch,
   return numbers;
 }
 
+// The places of triangles that go with others: repetitions of removed ones, and those that repeat a corner along an
+// edge that no triangle has any more.
+std::vector<std::uint64_t> gone_with_others(const EditablePatch& patch) {
+  std::vector<std::uint64_t> gone;
+  for (const auto& [t, id] : patch.repetitions())
+    if (!patch.triangle(t).there) gone.push_back(id);
+  for (const EditablePatch::Line& line : patch.lines())
+    if (line.id != EditablePatch::kAdded && patch.lies_bare(line)) gone.push_back(line.id);
+  return gone;
+}
+
+// Whether an edge of the mesh would be left where triangles were. It cannot be removed.
+bool leaves_bare_edge(const EditablePatch& patch) {
+  return std::ranges::any_of(patch.lines(), [&](const EditablePatch::Line& line) {
+    return line.id == EditablePatch::kAdded && patch.lies_bare(line);
+  });
+}
+
 // What is different in the patch. `number[v]` becomes what each vertex is in the edits.
 MeshEdits edits_of(const EditablePatch& patch, std::vector<VertexRef>& number) {
   MeshEdits edits;
+  edits.removed = gone_with_others(patch);
+  std::vector<std::uint32_t> of_lines;  // vertices
+  for (const EditablePatch::Line& line : patch.lines())
+    if (!patch.lies_bare(line)) of_lines.insert(of_lines.end(), {line.a, line.b});
+  std::ranges::sort(of_lines);
+  const auto keeps_line = [&](std::uint32_t v) { return std::ranges::binary_search(of_lines, v); };
   number.clear();
   for (std::uint32_t v = 0; v < patch.vertex_count(); ++v) {
     const EditablePatch::Vertex& vertex = patch.vertex(v);
@@ -66,7 +90,7 @@ MeshEdits edits_of(const EditablePatch& patch, std::vector<VertexRef>& number) {
       edits.vertices.push_back(added);
       continue;
     }
-    if (vertex.whole && !vertex.used_elsewhere && !patch.all_at(v).empty() && !patch.is_used(v))
+    if (vertex.whole && !vertex.used_elsewhere && !patch.all_at(v).empty() && !patch.is_used(v) && !keeps_line(v))
       edits.dropped.push_back(vertex.id.value());
   }
   for (std::uint32_t t = 0; t < patch.triangle_count(); ++t) {
@@ -78,8 +102,6 @@ MeshEdits edits_of(const EditablePatch& patch, std::vector<VertexRef>& number) {
       edits.triangles.push_back({number[c[0]], number[c[1]], number[c[2]]});
     }
   }
-  for (const auto& [t, id] : patch.repetitions())
-    if (!patch.triangle(t).there) edits.removed.push_back(id);
   return edits;
 }
 
@@ -231,7 +253,12 @@ class Jobs {
       std::vector<std::uint32_t> first, second;
     };
     std::vector<Open> open;
+    const bool has_edges = std::ranges::any_of(
+        patch.lines(), [](const EditablePatch::Line& line) { return line.id == EditablePatch::kAdded; });
+    std::optional<EditablePatch> before;
+    std::size_t gone = 0;
     for (const std::uint32_t j : cluster.jobs) {
+      if (has_edges) before = patch;
       JobResult& result = done_.results[j];
       const auto curve = numbers_in(patch, vertices, jobs_[j].curve);
       Cut cut;
@@ -245,10 +272,16 @@ class Jobs {
         cut = cut_along(patch, with_detours(patch, *curve), {options_.float32});
       if (curve && !jobs_[j].is_boundary && !cut.done && !cut.too_small)
         cut_nearby(patch, *curve, jobs_[j].length, cut);
+      if (has_edges && cut.done && leaves_bare_edge(patch)) {
+        patch = *before;
+        cut = {};
+        cut.why = "an edge of the file would be left across the cut";
+      }
       // Where edges seem to be missing, the patch may end.
       const bool whole = curve && std::ranges::all_of(*curve, [&](std::uint32_t v) { return patch.vertex(v).whole; });
       too_small_[j] = !cut.done && (cut.too_small || !whole) ? 1 : 0;
-      result = {cut.done, std::move(cut.why), cut.removed, cut.added, cut.volume};
+      const std::size_t gone_before = std::exchange(gone, gone_with_others(patch).size());
+      result = {cut.done, std::move(cut.why), cut.removed + gone - gone_before, cut.added, cut.volume};
       if (cut.done && !cut.connected) open.push_back({j, std::move(cut.first_side), std::move(cut.second_side)});
     }
     std::vector<VertexRef> number;

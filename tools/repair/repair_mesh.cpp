@@ -1,11 +1,14 @@
 #include "tools/repair/repair_mesh.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <numeric>
 
 #include "io/file/content_source.h"
+#include "io/formats/open_mesh.h"
 #include "libreeb/base/count_text.h"
 #include "libreeb/base/error.h"
 #include "tools/repair/mesh_output.h"
@@ -17,23 +20,23 @@ namespace {
 class Plan {
  public:
   explicit Plan(const RepairOptions& options) : options_(options) {
-    const io::Input input(options.mesh.path);
+    const io::Input input = io::mesh_input(options.mesh.path, options.mesh.format);
     const MeshInfo info = open_for_copy(input, options.mesh, options.output)->info();
     jobs_.float32 = has_float32_positions(input, info);
     jobs_.threads = options.threads;
     if (options.mesh.memory_bytes != MemoryBudget::kUnlimited)
       jobs_.patch_bytes = std::min(jobs_.patch_bytes, options.mesh.memory_bytes / 8);
     jobs_.progress = [this](std::uint64_t done, std::uint64_t total) {
-      if (options_.interrupted && options_.interrupted())
-        throw Error(ErrorKind::kInterrupted, "interrupted", "run the same command again");
+      options_.mesh.check_interruption();
       if (options_.progress) options_.progress("repairing", done, total, 0);
     };
     repair_.warnings = lost_properties(input, info, options.output);
   }
 
   Repair run() {
-    const Defects defects = find();
+    const Defects defects = find(needed_functions());
     const std::vector<ChosenRow> rows = choose_rows(defects, options_.filter);
+    if (options_.filter.is_none()) repair_.suggestion = defects.table.suggestion;
     for (const ChosenRow& row : rows)
       repair_.rows.push_back({row.rank, row.row->kind, row.row->length(), false, row.why_not, 0, 0, 0});
     const ValuedMesh mesh(options_.mesh, {});
@@ -89,11 +92,20 @@ class Plan {
   }
 
  private:
-  Defects find() {
+  // Those of the rows that are to be repaired; none if the coordinates have them.
+  std::vector<std::string> needed_functions() const {
+    if (options_.filter.loops.empty()) return {};
+    std::vector<std::string> functions = functions_of_rows(options_.filter.loops);
+    const auto is_coordinate = [](const std::string& name) { return name == "x" || name == "y" || name == "z"; };
+    if (std::ranges::all_of(functions, is_coordinate)) return {};
+    return functions;
+  }
+
+  Defects find(std::vector<std::string> functions) {
     FindDefectsOptions find;
+    find.functions = std::move(functions);
     find.mesh = options_.mesh;
     find.threads = options_.threads;
-    find.interrupted = options_.interrupted;
     find.computing = [&](const ComputeProgress& p) {
       if (options_.progress) options_.progress("Reeb graphs", p.done, p.total, p.triangles);
     };
@@ -167,6 +179,16 @@ Repair plan_repair(const RepairOptions& options) { return Plan(options).run(); }
 std::vector<std::string> summary_of(const Repair& repair) {
   std::vector<std::string> lines = {with_commas(repair.repaired) + " of " + count_of(repair.rows.size(), "loop") +
                                     " repaired"};
+  // A length of which it is not certain that it divides defects from features.
+  constexpr double kUncertain = 0.6;
+  if (repair.suggestion && repair.suggestion->length) {
+    lines.push_back(fmt::format("as suggested, those with a curve of at most {:.4g} (confidence {:.0f} %)",
+                                *repair.suggestion->length, 100 * repair.suggestion->confidence));
+    if (repair.suggestion->confidence < kUncertain && repair.repaired != 0)
+      lines.emplace_back(
+          "note: some may be features: look at them with reeb defects, and choose with --longest or "
+          "--loops");
+  }
   std::map<std::string, std::size_t> reasons;
   for (const RepairedRow& row : repair.rows)
     if (!row.done) ++reasons[row.why];

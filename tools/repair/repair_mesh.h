@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,7 +23,6 @@ struct RepairOptions {
   CleaningOptions cleaning;
   std::size_t limit = std::numeric_limits<std::size_t>::max();
   unsigned threads = 0;
-  std::function<bool()> interrupted{};
   std::function<void(const char* pass, std::uint64_t done, std::uint64_t total, std::uint64_t triangles)> progress{};
 };
 
@@ -41,6 +41,7 @@ struct Repair {
   MeshEdits edits;
   std::vector<RepairedRow> rows;                                                          // by rank
   std::size_t repaired = 0;                                                               // of them
+  std::optional<SuggestedLength> suggestion;                                              // if it decided
   CleaningOptions cleaning;                                                               // as asked for
   std::uint64_t degenerate = 0, duplicates = 0, components = 0, component_triangles = 0;  // that are dropped
   std::size_t boundaries_filled = 0;

@@ -11,6 +11,7 @@
 #include <tuple>
 
 #include "io/file/content_source.h"
+#include "io/functions/function_spec.h"
 #include "io/text/text_cursor.h"
 #include "libreeb/base/error.h"
 
@@ -85,26 +86,38 @@ std::map<LoopName, std::size_t> read_names(const std::string& path) {
   return names;
 }
 
-std::string why_filtered(const DefectRow& row, const Defects& defects, const RowFilter& filter) {
-  if (filter.longest && !(row.length() <= *filter.longest))
-    return fmt::format("curve longer than --longest {:.6g}", *filter.longest);
-  if (filter.below && !((filter.below_is_percent ? row.percent : row.persistence) < *filter.below))
-    return fmt::format("persistence not below {:.6g}{}", *filter.below, filter.below_is_percent ? "%" : "");
-  if (filter.all || filter.longest || filter.below || !filter.loops.empty()) return {};
-  const auto& suggested = defects.table.suggestion.length;
-  if (!suggested) return "no length is suggested that divides defects from features";
-  if (!(row.length() <= *suggested)) return fmt::format("curve longer than the suggested {:.6g}", *suggested);
-  return {};
-}
-
 std::string why_not(const DefectRow& row, const Defects& defects, const RowFilter& filter) {
-  if (std::string why = why_filtered(row, defects, filter); !why.empty()) return why;
+  const RowLimits& limits = filter.limits;
+  if (!limits.has_persistence(row))
+    return fmt::format("persistence not below {:.6g}{}", *limits.below, limits.below_is_percent ? "%" : "");
   if (row.curve.path.empty()) return "no closed curve along edges was found near it";
+  if (!limits.has_length(row)) return fmt::format("curve longer than --longest {:.6g}", *limits.longest);
+  if (filter.is_none()) {
+    const auto& suggested = defects.table.suggestion.length;
+    if (!suggested) return "no length is suggested that divides defects from features";
+    if (!(row.length() <= *suggested)) return fmt::format("curve longer than the suggested {:.6g}", *suggested);
+  }
   if (row.kind == DefectKind::kUnclear) return "kind unclear: a boundary, or no oriented manifold";
   return {};
 }
 
 }  // namespace
+
+std::vector<std::string> functions_of_rows(const std::string& loops) {
+  std::vector<std::string> functions;
+  for (const auto& [name, line] : read_names(loops)) {
+    const std::string& function = std::get<2>(name);
+    if (std::ranges::find(functions, function) != functions.end()) continue;
+    try {
+      io::parse_function(function);
+    } catch (const Error& error) {
+      throw Error(ErrorKind::kBadInput, error.message(), "write rows as reeb defects does")
+          .at(loops, std::to_string(line));
+    }
+    functions.push_back(function);
+  }
+  return functions;
+}
 
 std::vector<ChosenRow> choose_rows(const Defects& defects, const RowFilter& filter) {
   std::map<LoopName, std::size_t> names;
@@ -117,8 +130,7 @@ std::vector<ChosenRow> choose_rows(const Defects& defects, const RowFilter& filt
     chosen.push_back({i + 1, &row, why_not(row, defects, filter)});
   }
   if (!names.empty())
-    throw Error(ErrorKind::kBadInput, "this row is no defect of the mesh",
-                "run reeb defects on this mesh again; functions must be x, y and z")
+    throw Error(ErrorKind::kBadInput, "this row is no defect of the mesh", "run reeb defects on this mesh again")
         .at(filter.loops, std::to_string(names.begin()->second));
   return chosen;
 }

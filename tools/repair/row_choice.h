@@ -8,15 +8,17 @@
 #include <vector>
 
 #include "tools/defects/find_defects.h"
+#include "tools/defects/row_limits.h"
 
 namespace reeb::tools {
 
 struct RowFilter {
-  std::optional<double> below;  // of the persistence
-  bool below_is_percent = false;
-  std::optional<double> longest;
+  RowLimits limits;
   std::string loops;  // a CSV file of rows; only these
   bool all = false;
+
+  // Whether the suggested length decides.
+  bool is_none() const { return !all && !limits.longest && !limits.below && loops.empty(); }
 };
 
 struct ChosenRow {
@@ -24,6 +26,10 @@ struct ChosenRow {
   const DefectRow* row = nullptr;
   std::string why_not;  // empty: it is to be repaired
 };
+
+// The functions of the rows of a CSV file, each once.
+// THROWS: Error{kBadInput} for a file that is no table of defects.
+std::vector<std::string> functions_of_rows(const std::string& loops);
 
 // By rank. Without a filter: the rows up to the suggested length.
 // THROWS: Error{kBadInput} for a file that is no table of defects, or has a row that is not one of this mesh.

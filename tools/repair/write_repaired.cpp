@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "io/file/content_source.h"
+#include "io/formats/open_mesh.h"
 #include "libreeb/base/error.h"
 #include "tools/repair/mesh_output.h"
 
@@ -30,7 +31,7 @@ class RepairedCopy {
         edits_(edits),
         mesh_vertices_(mesh_vertices),
         options_(options),
-        input_(source.path),
+        input_(io::mesh_input(source.path, source.format)),
         renumbering_(edits.dropped) {
     for (const NewVertex& vertex : edits.vertices)
       for (const VertexRef& parent : vertex.parents)
@@ -49,7 +50,7 @@ class RepairedCopy {
     input_.read([&] {
       MeshBatch batch;
       while (reader->read(batch)) {
-        if (batch.has_cells()) refuse_cells(source_.path);
+        if (batch.has_cells()) refuse_cells(source_.path, reader->info().grid.has_value());
         copy(batch);
         if (vertex_ == mesh_vertices_ && !new_written_) write_new_vertices(reader->info().dimension);
         if (options_.progress) options_.progress(reader->bytes_read(), reader->info().file_bytes, triangle_);
@@ -278,7 +279,7 @@ Written write_repaired(const MeshSource& source, const MeshEdits& edits, std::ui
 }
 
 Written write_undone(const MeshSource& source, const UndoRecord& undo, const WriteOptions& options) {
-  const io::Input input(source.path);
+  const io::Input input = io::mesh_input(source.path, source.format);
   const auto reader = open_for_copy(input, source, options.output);
   const unsigned dimension = reader->info().dimension;
   const auto writer =
@@ -292,7 +293,7 @@ Written write_undone(const MeshSource& source, const UndoRecord& undo, const Wri
     while (true) {
       const bool more = reader->read(batch);
       if (more) {
-        if (batch.has_cells()) refuse_cells(source.path);
+        if (batch.has_cells()) refuse_cells(source.path, reader->info().grid.has_value());
         digest.add(batch);
       }
       const std::size_t properties = batch.properties.size();

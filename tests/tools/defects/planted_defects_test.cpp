@@ -6,12 +6,14 @@
 #include <cstdio>
 #include <cstdlib>
 #include <mutex>
+#include <numbers>
+#include <random>
 #include <sstream>
 #include <string>
 #include <thread>
 #include <vector>
 
-#include "tests/support/planted_mesh.h"
+#include "tests/support/inputs/planted_mesh.h"
 #include "tests/support/scratch.h"
 #include "tests/tools/program.h"
 #include "tools/defects/find_defects.h"
@@ -268,6 +270,66 @@ TEST_F(PlantedDefects, AreUnclearWhereTheSurfaceIsNoManifold) {
   for (const DefectRow& row : defects.table.rows) EXPECT_NE(row.kind, DefectKind::kHandle);
 }
 
+// A torus of radii 3 and 0.6 about the axis z, then turned by the seed.
+PlantedMesh small_torus(std::uint32_t around, std::uint32_t across, std::uint64_t seed, bool inwards) {
+  PlantedMesh mesh;
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<double> angle(0, 2 * std::numbers::pi);
+  std::array<double, 3> turn{};
+  if (seed != 0)
+    for (double& t : turn) t = angle(random);
+  for (std::uint32_t i = 0; i < around; ++i)
+    for (std::uint32_t j = 0; j < across; ++j) {
+      const double a = 2 * std::numbers::pi * i / around, b = 2 * std::numbers::pi * j / across,
+                   r = 3 + 0.6 * std::cos(b);
+      Vector p = {r * std::cos(a), r * std::sin(a), 0.6 * std::sin(b)};
+      for (std::size_t k = 0; k < 3; ++k) {
+        double &x = p[k], &y = p[(k + 1) % 3];
+        const double c = std::cos(turn[k]), s = std::sin(turn[k]), turned = c * x - s * y;
+        y = s * x + c * y;
+        x = turned;
+      }
+      mesh.vertices.push_back(p);
+      const std::uint32_t next = (i + 1) % around * across, here = i * across, up = (j + 1) % across;
+      mesh.triangles.push_back({here + j, next + j, next + up});
+      mesh.triangles.push_back({here + j, next + up, here + up});
+    }
+  if (inwards)
+    for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
+  return mesh;
+}
+
+// A patch holds all of it, so no rim shows where its inside is.
+TEST_F(PlantedDefects, SmallToriAreHandlesHoweverTheyAreTurned) {
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    const auto around = static_cast<std::uint32_t>(9 + seed % 8), across = static_cast<std::uint32_t>(4 + seed % 5);
+    const Defects defects = defects_of(small_torus(around, across, seed, seed % 2 == 1), folder());
+    ASSERT_EQ(defects.table.rows.size(), 1u) << seed;
+    EXPECT_EQ(defects.table.rows[0].kind, DefectKind::kHandle) << seed;
+  }
+}
+
+// The highest vertices are a ring, and have no triangles of their own.
+TEST_F(PlantedDefects, ATorusWithALevelTopHasItsOrientation) {
+  for (const bool inwards : {false, true}) {
+    const Defects defects = defects_of(small_torus(24, 12, 0, inwards), folder(), {"z", "x"});
+    ASSERT_FALSE(defects.table.rows.empty());
+    for (const DefectRow& row : defects.table.rows) EXPECT_EQ(row.kind, DefectKind::kHandle) << inwards;
+  }
+}
+
+// The four nodes of the graph are nearly on a line, which says nothing about the lengths of edges.
+TEST_F(PlantedDefects, AreFoundWithTheGraphOfOneCoordinate) {
+  for (const std::string function : {"x", "y", "z"}) {
+    const Defects defects = defects_of(small_torus(24, 12, 0, false), folder(), {function});
+    ASSERT_FALSE(defects.table.rows.empty()) << function;
+    const bool any = std::ranges::any_of(defects.table.rows, [](const DefectRow& row) {
+      return row.kind == DefectKind::kHandle && std::abs(row.length() - 2 * std::numbers::pi * 0.6) < 0.2;
+    });
+    EXPECT_TRUE(any) << function;
+  }
+}
+
 TEST_F(PlantedDefects, FoldersOfPatchesAreCheckedFirst) {
   expect_success(reeb({"generate", "torus", "--triangles", "2000", "-o", "t.ply"}));
   expect_error(reeb({"defects", "t.ply", "--patches", "no/near", "--quiet"}), 3);
@@ -335,7 +397,11 @@ TEST_F(PlantedDefects, OfCellsAreRefused) {
   expect_error(reeb({"defects", "b.svb"}), 1, "b.svb: the mesh has cells, so it is no surface");
   expect_error(reeb({"defects", "b.svb", "b.reeb"}), 1, "b.svb: the mesh has cells, so it is no surface");
   expect_success(reeb({"generate", "volume", "--grid", "9x9x9", "--handles", "1", "-o", "v.nrrd"}));
-  expect_error(reeb({"defects", "v.nrrd"}), 1, "v.nrrd: the mesh has cells, so it is no surface");
+  const Outcome image = reeb({"defects", "v.nrrd"});
+  expect_error(image, 1, "v.nrrd: the mesh has cells, so it is no surface");
+  EXPECT_NE(image.error.find("hint: make an isosurface of the image"), std::string::npos) << image.error;
+  write("one.off", kSmallOff);
+  EXPECT_EQ(reeb({"defects", "one.off", "--quiet"}).output, "0 loops of f = x\n");
 }
 
 // On a mesh that is looked up, and on one that is read as a stream.
@@ -343,14 +409,16 @@ TEST_F(PlantedDefects, TheirCensusIsInterruptedAtAnyTime) {
   expect_success(reeb({"generate", "torus", "--triangles", "200k", "-o", "t.ply"}));
   expect_success(reeb({"convert", "t.ply", "t.obj", "--quiet"}));
   for (const char* name : {"t.ply", "t.obj"}) {
-    const tools::MeshSource mesh{.path = in_folder(name), .format = "", .temp_folder = folder()};
+    tools::MeshSource mesh{.path = in_folder(name), .format = "", .temp_folder = folder()};
     int asked = 0;
-    EXPECT_EQ(tools::census_of(mesh, [&] { return ++asked < 0; }).components, 1u);
+    mesh.interrupted = [&] { return ++asked < 0; };
+    EXPECT_EQ(tools::census_of(mesh).components, 1u);
     EXPECT_GT(asked, 4) << name;
     for (const int when : {1, asked / 2, asked}) {
       int at = 0;
       try {
-        tools::census_of(mesh, [&] { return ++at == when; });
+        mesh.interrupted = [&] { return ++at == when; };
+        tools::census_of(mesh);
         ADD_FAILURE() << name << ' ' << when;
       } catch (const Error& error) {
         EXPECT_EQ(error.kind(), ErrorKind::kInterrupted);

@@ -4,14 +4,15 @@
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
+#include <set>
 #include <sstream>
 #include <string>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
-#include "tests/support/plain_surface.h"
-#include "tests/support/planted_mesh.h"
+#include "tests/support/inputs/plain_surface.h"
+#include "tests/support/inputs/planted_mesh.h"
 #include "tests/tools/program.h"
 
 namespace reeb::test {
@@ -208,6 +209,75 @@ TEST_F(RepairTest, DropsAndFillsWhatIsAskedFor) {
   EXPECT_TRUE(std::equal(good.triangles.begin(), good.triangles.end(), now.triangles.begin()));
   now = run({"--drop-duplicates", "--fill-boundaries", "0.001"});
   EXPECT_EQ(json("log.json")["boundaries_filled"], 0);
+}
+
+TEST_F(RepairTest, TakesRowsOfAnyFunction) {
+  expect_success(reeb({"generate", "torus", "--triangles", "2000", "-o", "t.ply"}));
+  expect_success(reeb({"compute", "t.ply", "-f", "distance:3,2,1", "-o", "d.reeb", "--quiet"}));
+  expect_success(reeb({"defects", "t.ply", "d.reeb", "-o", "d.csv", "--quiet"}));
+  ASSERT_NE(file("d.csv").find("distance:3,2,1"), std::string::npos);
+  expect_success(reeb({"repair", "t.ply", "-o", "o.ply", "--loops", "d.csv", "--quiet"}));
+  EXPECT_EQ(recount(ply("o.ply")).genus(), 0);
+  std::string other = file("d.csv");
+  other.replace(other.find("\"distance:3,2,1\""), 16, "height");
+  write("other.csv", other);
+  expect_error(reeb({"repair", "t.ply", "-o", "p.ply", "--loops", "other.csv", "--quiet"}), 1, "other.csv:2");
+}
+
+// Triangles that repeat a corner along edges, and repetitions: what is along the cut goes with it, or would join its
+// two sides.
+TEST_F(RepairTest, LeavesNothingAcrossACut) {
+  expect_success(reeb({"generate", "torus", "--triangles", "2000", "-o", "t.ply"}));
+  PlainSurface torus = read_plain_ply(file("t.ply"));
+  const std::size_t plain = torus.triangles.size();
+  for (std::size_t i = 0; i < plain; ++i) {
+    const auto [a, b, c] = torus.triangles[i];
+    torus.triangles.push_back(i % 3 == 0 ? std::array{a, b, b} : std::array{a, a, b});
+    torus.triangles.push_back({b, c, b});
+    torus.triangles.push_back({b, c, a});
+  }
+  write("d.off", to_off(torus));
+  expect_success(reeb({"repair", "d.off", "-o", "o.off", "--all", "--quiet", "--log", "log.json", "--undo", "u"}));
+  const nlohmann::json log = json("log.json");
+  EXPECT_EQ(log["repaired"], 1);
+  const PlainSurface result = read_plain_off(file("o.off"));
+  EXPECT_EQ(result.triangles.size() - static_cast<std::size_t>(log["loops"][0]["triangles_added"]) +
+                static_cast<std::size_t>(log["loops"][0]["triangles_removed"]),
+            torus.triangles.size());
+  std::set<std::uint32_t> used;
+  PlainSurface cleaned = result;
+  std::erase_if(cleaned.triangles, [&](const auto& t) {
+    used.insert(t.begin(), t.end());
+    return t[0] == t[1] || t[1] == t[2] || t[0] == t[2];
+  });
+  EXPECT_EQ(used.size(), result.vertices.size());
+  std::set<std::set<std::uint32_t>> edges;
+  for (const auto& [a, b, c] : cleaned.triangles) edges.insert({{a, b}, {b, c}, {a, c}});
+  for (const auto& [a, b, c] : result.triangles)
+    if (a == b || b == c || a == c) {
+      EXPECT_EQ(edges.count({a, b, c}), 1u) << a << ' ' << b << ' ' << c;
+    }
+  expect_success(reeb({"compute", "o.off", "-o", "o.reeb", "--quiet", "--report", "report.json"}));
+  EXPECT_EQ(json("report.json")["graph"]["loops"], 0);
+  expect_success(reeb({"repair", "o.off", "--apply-undo", "u", "-o", "back.off", "--quiet"}));
+  EXPECT_TRUE(read_plain_off(file("back.off")).triangles == read_plain_off(file("d.off")).triangles);
+}
+
+// An edge of the file cannot be removed, so the loop stays.
+TEST_F(RepairTest, LeavesALoopThatAnEdgeOfTheFileCrosses) {
+  expect_success(reeb({"generate", "torus", "--triangles", "2000", "-o", "t.ply"}));
+  const PlainSurface torus = read_plain_ply(file("t.ply"));
+  std::ostringstream text;
+  for (const auto& p : torus.vertices) text << "v " << p[0] << ' ' << p[1] << ' ' << p[2] << '\n';
+  for (const auto& t : torus.triangles) text << "f " << t[0] + 1 << ' ' << t[1] + 1 << ' ' << t[2] + 1 << '\n';
+  for (const auto& t : torus.triangles)
+    for (std::size_t k = 0; k < 3; ++k) text << "l " << t[k] + 1 << ' ' << t[(k + 1) % 3] + 1 << '\n';
+  write("l.obj", text.str());
+  expect_success(reeb({"repair", "l.obj", "-o", "o.obj", "--all", "--quiet", "--log", "log.json"}));
+  EXPECT_EQ(json("log.json")["repaired"], 0);
+  EXPECT_EQ(json("log.json")["left"][0]["why"], "an edge of the file would be left across the cut");
+  expect_success(reeb({"compute", "o.obj", "-o", "o.reeb", "--quiet", "--report", "report.json"}));
+  EXPECT_EQ(json("report.json")["graph"]["loops"], 1);
 }
 
 // Every property of vertices keeps its type and its values; new vertices lie between others.
