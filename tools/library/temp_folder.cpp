@@ -1,27 +1,77 @@
 #include "tools/library/temp_folder.h"
 
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <string_view>
 #include <system_error>
 
+#include "io/file/file.h"
 #include "io/file/temp_dir.h"
 #include "libreeb/base/error.h"
 
 namespace reeb {
+namespace {
 
-TempFolder::TempFolder(const std::string& parent)
-    : path_((parent.empty() ? io::TempDir::default_folder("") : parent) + "/reeb-again-XXXXXX") {
-  if (::mkdtemp(path_.data()) == nullptr)
-    throw Error(ErrorKind::kResource, std::string("cannot be created: ") + std::strerror(errno),
-                "choose a folder that exists and is writable with --temp-dir DIR")
-        .at(path_);
+constexpr std::string_view kPrefix = "reeb-again-", kPattern = "XXXXXX";
+
+void remove_folder(const std::string& path) {
+  std::error_code ignored;
+  std::filesystem::remove_all(path, ignored);
+}
+
+// A descriptor of this user's folder with a lock on it; -1 if that fails.
+int lock_folder(const std::string& path, int how) {
+  const int folder = ::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+  if (folder < 0) return -1;
+  struct stat status {};
+  if (::fstat(folder, &status) == 0 && status.st_uid == ::geteuid() && ::flock(folder, how) == 0) return folder;
+  ::close(folder);
+  return -1;
+}
+
+void remove_abandoned_folders(const std::string& parent) {
+  io::for_each_name(parent, [&](std::string_view name) {
+    if (!name.starts_with(kPrefix) || name.size() != kPrefix.size() + kPattern.size()) return;
+    const std::string path = parent + "/" + std::string(name);
+    const int folder = lock_folder(path, LOCK_EX | LOCK_NB);
+    if (folder < 0) return;
+    remove_folder(path);
+    ::close(folder);
+  });
+}
+
+}  // namespace
+
+TempFolder::TempFolder(const std::string& parent) {
+  const std::string place = parent.empty() ? io::TempDir::default_folder("") : parent;
+  remove_abandoned_folders(place);
+  // Another process may take the folder for an abandoned one before it is locked. Then another one is created.
+  constexpr int kAttempts = 100;
+  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+    path_ = place + "/" + std::string(kPrefix) + std::string(kPattern);
+    if (::mkdtemp(path_.data()) == nullptr)
+      throw Error(ErrorKind::kResource, std::string("cannot be created: ") + std::strerror(errno),
+                  "choose a folder that exists and is writable with --temp-dir DIR")
+          .at(path_);
+    lock_ = lock_folder(path_, LOCK_EX);
+    struct stat status {};
+    if (::stat(path_.c_str(), &status) == 0) return;  // also where there are no locks
+    if (lock_ >= 0) ::close(lock_);
+  }
+  throw Error(ErrorKind::kResource, "is removed as soon as it is created", "choose another folder with --temp-dir DIR")
+      .at(path_);
 }
 
 TempFolder::~TempFolder() {
-  std::error_code ignored;
-  std::filesystem::remove_all(path_, ignored);
+  remove_folder(path_);
+  if (lock_ >= 0) ::close(lock_);
 }
 
 }  // namespace reeb

@@ -5,7 +5,8 @@
 
 namespace reeb {
 
-// It is removed at the end with all that is in it.
+// It is removed at the end with all that is in it. If the process was killed before, the next folder of the same
+// parent removes it: a living owner holds a lock on its folder.
 class TempFolder {
  public:
   // `parent`: "" is where temporary files are by default. THROWS: Error{kResource} if it cannot be created.
@@ -17,6 +18,7 @@ class TempFolder {
 
  private:
   std::string path_;
+  int lock_ = -1;  // the descriptor of the folder
 };
 
 }  // namespace reeb

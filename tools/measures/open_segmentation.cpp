@@ -4,7 +4,7 @@
 #include <string>
 
 #include "libreeb/base/error.h"
-#include "tools/program/signals.h"
+#include "tools/program/input_kind.h"
 
 namespace reeb::tools {
 namespace {
@@ -14,7 +14,7 @@ io::FunctionSpec function_of(const ooc::ReebFile& file) {
   try {
     return io::parse_function(file.header().function);
   } catch (const Error& error) {
-    throw Error(ErrorKind::kBadInput, "its function is none: " + error.message(), "compute the file again")
+    throw Error(ErrorKind::kBadInput, "its function is unknown: " + error.message(), "compute the file again")
         .at(file.path());
   }
 }
@@ -22,9 +22,7 @@ io::FunctionSpec function_of(const ooc::ReebFile& file) {
 }  // namespace
 
 void add_segmentation_inputs(const std::string& mesh, const ooc::ReebFile& file, RunFiles& files) {
-  if (mesh != "-" && ooc::is_reeb_file(mesh))
-    throw Error(ErrorKind::kBadInput, "this is a Reeb graph, not a mesh", "name the mesh that it was computed from")
-        .at(mesh);
+  require_mesh_file(mesh, "name the mesh that it was computed from");
   files.add_input(mesh, "the mesh");
   files.add_input(file.path(), "the .reeb file");
   const io::FunctionSpec function = function_of(file);
@@ -40,7 +38,6 @@ ooc::ComputeOptions segmentation_run(unsigned threads, const std::string& temp_f
   ooc::ComputeOptions run;
   run.threads = threads;
   run.temp_dir = temp_folder;
-  run.interrupted = watch_signals();
   return run;
 }
 

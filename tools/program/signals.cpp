@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <csignal>
+#include <memory>
 #include <string_view>
 
 #include "io/file/temporary_name.h"
@@ -53,9 +54,18 @@ void handle_signals(bool speaks) {
 }
 
 std::function<bool()> watch_signals() {
-  return [] {
+  struct Watch {
+    std::atomic<bool> is_answered = false;
+    ~Watch() {
+      watched = false;
+      if (interrupted && !is_answered) end_now();
+    }
+  };
+  return [watch = std::make_shared<Watch>()] {
     watched = true;
-    return interrupted.load();
+    if (!interrupted) return false;
+    watch->is_answered = true;
+    return true;
   };
 }
 
