@@ -12,7 +12,7 @@
 #include "libreeb/hierarchy/pairing.h"
 #include "libreeb/noise/denoise.h"
 #include "tests/support/held_memory.h"
-#include "tests/support/made_graph.h"
+#include "tests/support/inputs/made_graph.h"
 
 namespace {
 

@@ -15,7 +15,7 @@
 #include "ooc/reeb_file/reeb_file.h"
 #include "ooc/reeb_writer/reeb_file_writer.h"
 #include "tests/support/held_memory.h"
-#include "tests/support/made_graph.h"
+#include "tests/support/inputs/made_graph.h"
 
 namespace {
 

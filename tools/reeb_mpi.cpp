@@ -14,14 +14,12 @@
 #include <thread>
 #include <vector>
 
-#include "io/functions/function_source.h"
 #include "libreeb/base/error.h"
 #include "libreeb/base/memory_budget.h"
 #include "libreeb/base/printable.h"
 #include "ooc/run/explained_error.h"
 #include "ooc/threads/machine_threads.h"
 #include "tools/arguments/arguments.h"
-#include "tools/library/run_files.h"
 #include "tools/mpi/distributed_run.h"
 #include "tools/mpi/world.h"
 #include "tools/program/compute_report.h"
@@ -43,29 +41,6 @@ using reeb::tools::RunFacts;
 struct Arguments : reeb::tools::RunArguments {
   std::string output, report;
 };
-
-std::vector<std::string> output_names(const Arguments& arguments) {
-  fs::path output = arguments.output;
-  if (arguments.functions.size() == 1) return {output.string()};
-  if (output.extension() == ".reeb") output.replace_extension();
-  std::vector<std::string> names;
-  for (const std::string& function : arguments.functions)
-    names.push_back(output.string() + "-" + reeb::io::file_name_part(reeb::io::parse_function(function)) + ".reeb");
-  return names;
-}
-
-void check_files(const Arguments& arguments, const std::vector<std::string>& outputs) {
-  if (arguments.mesh == "-" || arguments.output == "-")
-    throw Error(ErrorKind::kUsage, "many processes cannot share standard input or standard output",
-                "name files for the mesh and the output");
-  std::vector<reeb::io::FunctionSpec> functions;
-  for (const std::string& function : arguments.functions)
-    if (!function.empty()) functions.push_back(reeb::io::parse_function(function));
-  reeb::RunFiles files = reeb::files_of_run(arguments.mesh, functions, outputs, arguments.options);
-  if (!arguments.report.empty())
-    files.add_output(arguments.report, "the report", reeb::tools::existing_outputs(arguments.options.replace));
-  files.check();
-}
 
 std::uint64_t sum(const std::vector<RankFigures>& ranks, std::uint64_t RankFigures::*figure) {
   return std::accumulate(ranks.begin(), ranks.end(), std::uint64_t{0},
@@ -129,9 +104,14 @@ void compute(reeb::tools::World& world, Arguments arguments) {
   if (arguments.functions.empty()) arguments.functions.emplace_back();
   if (arguments.options.threads == 0)
     arguments.options.threads = std::max(1u, reeb::ooc::machine_threads() / world.ranks_here());
-  const std::vector<std::string> outputs = output_names(arguments);
+  const std::vector<std::string> outputs = reeb::tools::output_names(arguments.output, arguments.functions);
   reeb::tools::take_denoise(arguments);
-  if (world.is_root()) check_files(arguments, outputs);
+  if (world.is_root()) {
+    if (arguments.mesh == "-" || arguments.output == "-")
+      throw Error(ErrorKind::kUsage, "many processes cannot share standard input or standard output",
+                  "name files for the mesh and the output");
+    reeb::tools::check_files(arguments, outputs, arguments.report);
+  }
   world.wait_for_all();  // the root says what is wrong with files
   const bool speaks = world.is_root() && !arguments.quiet;
   RunFacts facts;
@@ -169,6 +149,7 @@ void run(reeb::tools::World& world, int argc, char** argv) {
       {.memory = "Memory that each rank may use: 64M, 1.5GiB (default: no limit)",
        .threads = "Number of threads of each rank, 1 to 1024 (default: the cores of a machine, divided by the ranks on "
                   "it)"});
+  reeb::tools::refuse_whole_mesh_options(command);
   command.add_option("--report", arguments.report, "Write figures of the run as JSON").type_name("FILE");
   command.callback([&] { compute(world, std::move(arguments)); });
   const std::vector<std::string> words(argv + 1, argv + argc);

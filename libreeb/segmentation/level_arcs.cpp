@@ -89,9 +89,9 @@ ReebGraph cancel_to_version(const ReebGraph& graph, std::uint32_t version, ArcLo
   const std::vector<PersistencePair> pairs = persistence_pairs(graph, poll);
   NoRecords records;
   Canceller canceller(WorkingGraph(graph), records, LoggedArcs(graph, log));
-  for (std::size_t i = 0, done = 0; done < version; ++i) {
+  for (std::size_t i = 0, done = 0; done < version && i < pairs.size(); ++i) {
     if (poll && i % kPairsBetweenPolls == 0) poll(static_cast<double>(done) / version);
-    if (canceller.cancel(pairs.at(i))) ++done;
+    if (canceller.cancel(pairs[i])) ++done;
   }
   return settle_all(graph, canceller.graph(), isolated_nodes(graph), log);
 }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <limits>
-#include <new>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -16,6 +15,7 @@
 #include "libreeb/segmentation/arc_history.h"
 #include "libreeb/segmentation/level_arcs.h"
 #include "libreeb/segmentation/parallel_arcs.h"
+#include "ooc/run/explained_error.h"
 #include "ooc/run/first_stage.h"
 #include "ooc/run/freed_memory.h"
 #include "ooc/run/run_context.h"
@@ -91,8 +91,8 @@ class Segmentation::Impl {
       follow(std::move(input));
       take_steps();
       order_parallel_arcs();
-    } catch (const std::bad_alloc&) {
-      throw Error(ErrorKind::kResource, "out of memory", "close other programs, or allow less with --memory SIZE");
+    } catch (...) {
+      throw_explained(run_);
     }
     rewind();
   }
@@ -174,7 +174,7 @@ class Segmentation::Impl {
     }
     full_ = run_.follower->finish();
     level_ = std::move(full_.graph);
-    if (run_.follower->places().size() != first.vertices) throw std::logic_error("not every vertex lies somewhere");
+    if (run_.follower->places().size() != first.vertices) throw std::logic_error("some vertices are on no arc");
   }
 
   // From the graph of the mesh to that of the level.
@@ -184,7 +184,11 @@ class Segmentation::Impl {
       take_step([&](const ReebGraph& graph, ArcLog& log) {
         return reeb::denoise(graph, header.denoise_threshold, log).graph;
       });
-    require_level(run_.budget, file_, 0, level_);
+    // A file that was cut has no full graph, but what it holds of coarser levels is compared.
+    if (version_ == 0 || file_.damage() == nullptr)
+      require_level(run_.budget, file_, 0, level_);
+    else if (level_.node_count() != header.nodes || level_.arc_count() != header.arcs)
+      refuse(file_, "it is not the graph of this mesh: the numbers of nodes or arcs differ");
     if (version_ == 0) return;
     take_step([&](const ReebGraph& graph, ArcLog& log) {
       return cancel_to_version(graph, version_, log, [&](double) { run_.resumable.check_interruption(); });
@@ -257,6 +261,7 @@ class Segmentation::Impl {
   }
 
   void fetch() {
+    run_.resumable.check_interruption();
     places_ = run_.follower->places().read();
     next_ = 0;
   }

@@ -18,9 +18,9 @@
 #include "ooc/reeb_writer/reeb_file_writer.h"
 #include "tests/io/streaming/samples.h"
 #include "tests/ooc/reeb_file/made_up_hierarchy.h"
-#include "tests/support/complex_mesh.h"
 #include "tests/support/files.h"
-#include "tests/support/shapes.h"
+#include "tests/support/inputs/complex_mesh.h"
+#include "tests/support/inputs/shapes.h"
 
 namespace reeb::test {
 namespace {

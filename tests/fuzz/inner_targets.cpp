@@ -25,8 +25,8 @@
 #include "tests/libreeb/engine/player.h"
 #include "tests/model/reference_reeb.h"
 #include "tests/ooc/chunks/model_mesh.h"
-#include "tests/support/complex_mesh.h"
 #include "tests/support/files.h"
+#include "tests/support/inputs/complex_mesh.h"
 #include "tests/support/random.h"
 #include "tests/support/scratch.h"
 

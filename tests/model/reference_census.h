@@ -9,7 +9,7 @@
 #include <set>
 #include <vector>
 
-#include "tests/support/complex.h"
+#include "tests/support/inputs/complex.h"
 
 namespace reeb::test {
 

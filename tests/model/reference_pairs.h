@@ -6,7 +6,7 @@
 
 #include "libreeb/graph/reeb_graph.h"
 #include "libreeb/hierarchy/hierarchy.h"
-#include "tests/support/complex.h"
+#include "tests/support/inputs/complex.h"
 
 namespace reeb::test {
 

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <tuple>
 
-#include "tests/support/partition.h"
+#include "tests/support/inputs/partition.h"
 
 namespace reeb::test {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "libreeb/graph/reeb_graph.h"
-#include "tests/support/complex.h"
+#include "tests/support/inputs/complex.h"
 
 namespace reeb::test {
 

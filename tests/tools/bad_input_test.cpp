@@ -255,6 +255,70 @@ TEST_F(BadInput, Empty) {
   write("empty.ply.gz", gzipped("empty.ply"));
   expect_refused("empty.ply.gz", false);
   expect_error(reeb({"compute", "-"}), 1);
+  write("empty.dat", "");
+  expect_refused("empty.dat", false);
+}
+
+// CX and OBJ have no header.
+TEST_F(BadInput, AFileWithoutBytesCanBeAMeshWithoutVertices) {
+  write("e.dat", "");
+  for (const std::string format : {"cx", "obj"}) {
+    const std::string name = "e." + format;
+    write(name, "");
+    write(name + ".gz", gzipped("e.dat"));
+    for (const std::vector<std::string>& mesh :
+         std::vector<std::vector<std::string>>{{name}, {name + ".gz"}, {"-", "--format", format}}) {
+      std::vector<std::string> words{"compute", "-o", "e.reeb", "--force"};
+      words.insert(words.end(), mesh.begin(), mesh.end());
+      expect_success(reeb(words));
+      EXPECT_EQ(lines_after("n ", reeb({"extract", "e.reeb"}).output).size(), 0u);
+    }
+    expect_success(reeb({"compute", "e.dat", "--format", format, "-o", "e.reeb", "--force"}));
+    expect_success(reeb({"info", name}));
+    expect_success(reeb({"defects", name}));
+    expect_success(reeb({"repair", name, "--all", "-o", "repaired-" + format + ".ply"}));
+    expect_success(reeb({"convert", name, format + ".ply"}));
+    write(name + ".gz", "");  // not even packed
+    expect_error(reeb({"compute", name + ".gz", "-o", "z.reeb"}), 1, name + ".gz:0: the file is empty");
+  }
+  expect_error(reeb({"compute", "e.dat", "--format", "ply", "-o", "z.reeb"}), 1, "e.dat:0: the file is empty");
+  expect_error(reeb({"compute", "-", "--format", "sma", "-o", "z.reeb"}), 1, "standard input:0: TRUNCATED: ");
+}
+
+TEST_F(BadInput, ANumberBeyond64BitsIsTooLarge) {
+  write("m.obj", "v 0 0 0\nv 1 0 0\nf 1 2 99999999999999999999\n");
+  expect_error(reeb({"compute", "m.obj", "--quiet"}), 1,
+               "m.obj:3:7: a vertex number of more than 18 digits is too large");
+  write("m.cx", "v 0\nv 1\ns 0 99999999999999999999\n");
+  expect_error(reeb({"compute", "m.cx", "--quiet"}), 1, "m.cx:3:5: a vertex index of more than 18 digits is too large");
+}
+
+TEST_F(BadInput, LinesThatEndWithCarriageReturnsAlone) {
+  const std::string obj = "# c\rv 0 0 0\rv 1 0 0\rv 0 1 1\rf 1 2 3\r", ply = ply_header({}, "ascii") + "0 0 0\n";
+  std::string old_ply = ply;
+  std::ranges::replace(old_ply, '\n', '\r');
+  write("m.obj", obj);
+  write("m.ply", old_ply);
+  write("m.off", "OFF\r3 1 0\r0 0 0\r1 0 0\r0 1 1\r3 0 1 2\r");
+  write("m.sma", "# nverts 3\rv 0 0 0\rv 1 0 0\rv 0 1 1\rf 1 2 3\r");
+  expect_error(reeb({"compute", "m.obj"}), 1, "m.obj:1:4: its lines end with CR alone");
+  expect_error(reeb({"compute", "m.ply"}), 1, "m.ply:1:4: its lines end with CR alone");
+  expect_error(reeb({"compute", "m.off"}), 1, "m.off:1:4: its lines end with CR alone");
+  expect_error(reeb({"compute", "m.sma"}), 1, "m.sma:1:11: UNSUPPORTED: its lines end with CR alone");
+  write("one.cx", "v 0 0 0\r");  // one line without its end
+  expect_success(reeb({"compute", "one.cx"}));
+}
+
+// The classes of errors of streaming meshes.
+TEST_F(BadInput, DamagedCompressionOfAStream) {
+  std::string whole = "# nverts 3\nv 0 0 0\nv 1 0 0\nv 0 1 1\nf -1 -2 -3\n";
+  write("m.sma", whole);
+  whole = gzipped("m.sma");
+  write("cut.sma.gz", whole.substr(0, whole.size() - 12));
+  expect_error(reeb({"compute", "cut.sma.gz"}), 1,
+               "cut.sma.gz:" + std::to_string(whole.size() - 12) + ": TRUNCATED: the compressed data");
+  write("bad.sma.gz", whole.substr(0, 10) + std::string(14, '\0'));
+  expect_error(reeb({"compute", "bad.sma.gz"}), 1, "bad.sma.gz:24: UNSUPPORTED: the compressed data");
 }
 
 TEST_F(BadInput, Directory) {

@@ -116,6 +116,30 @@ TEST_F(CommandLine, WhatItDoesNotKnowIsExitCode2) {
   }
 }
 
+TEST_F(CommandLine, UnexpectedWordsAreNamedInOrder) {
+  write("-dash.off", kSmallOff);
+  expect_success(reeb({"compute", "-o", "dash.reeb", "--", "-dash.off"}));
+  expect_error(reeb({"--", "-dash.off", "-o"}), 2, "unexpected argument: -o");
+  expect_error(reeb({"--", "-dash.off", "-o", "q.reeb"}), 2, "unexpected arguments: -o q.reeb");
+  expect_error(reeb({"verify", "mesh.reeb", "one", "two"}), 2, "unexpected arguments: one two");
+}
+
+TEST_F(CommandLine, ASidecarThatIsNotKeptIsSaid) {
+  write("mesh.sma", "v 0 0 0\nv 1 0 0\nv 0 1 1\nf -1 -2 -3\n");
+  const auto notes_of = [this](const std::string& mesh) {
+    Command command;
+    command.input = in_folder("mesh.off");
+    const Outcome outcome = reeb({mesh, "--sidecar", "-o", "s.reeb", "--force"}, command);
+    expect_success(outcome);
+    return lines_after("note: no sidecar was kept: ", outcome.error).size();
+  };
+  EXPECT_EQ(notes_of("-"), 1u);
+  EXPECT_EQ(notes_of("mesh.sma"), 1u);
+  EXPECT_EQ(notes_of("mesh.off"), 0u);
+  EXPECT_EQ(notes_of("mesh.off"), 0u) << "it is there";
+  EXPECT_TRUE(std::filesystem::exists(in_folder("mesh.off.final")));
+}
+
 TEST_F(CommandLine, AWordThatIsNoCommandNamesAMesh) {
   expect_success(reeb({"mesh.off"}));
   EXPECT_TRUE(std::filesystem::exists(in_folder("mesh.reeb")));
@@ -163,6 +187,8 @@ TEST_F(CommandLine, UnknownOptionsAreNamedWithTheNearest) {
   expect_error(reeb({"mesh.off", "--memry=64M"}), 2, "unknown option --memry (did you mean --memory?)");
   expect_error(reeb({"--versions"}), 2, "unknown option --versions (did you mean --version?)");
   expect_error(reeb({"-v"}), 2, "unknown option -v");
+  expect_error(reeb({"mesh.off", "b"}), 2, "unexpected argument: b");
+  EXPECT_NE(reeb({"-v"}).error.find("hint: see `reeb --help` and `reeb compute --help`"), std::string::npos);
   expect_error(reeb({"-dash.off"}), 2, "unknown option -dash.off");
   expect_error(reeb({"extract", "mesh.reeb", "--node", "3"}), 2, "unknown option --node (did you mean --nodes?)");
   const Outcome outcome = reeb({"extract", "mesh.reeb", "--frist"});
@@ -226,6 +252,20 @@ TEST_F(CommandLine, TheSuffixOfAGraphMayBeInCapitals) {
   expect_error(reeb({"extract", "mesh.reeb", "-o", "out.pdf"}), 2, "out.pdf: cannot tell the format of the graph");
 }
 
+TEST_F(CommandLine, PairsHaveTheFormatOfTheirSuffix) {
+  expect_success(reeb({"mesh.off"}));
+  const std::string csv = reeb({"pairs", "mesh.reeb"}).output;
+  for (const char* name : {"p.csv", "p.CSV", "p"}) {
+    expect_success(reeb({"pairs", "mesh.reeb", "-o", name}));
+    EXPECT_EQ(file(name), csv) << name;
+  }
+  expect_success(reeb({"pairs", "mesh.reeb", "-o", "p.json"}));
+  EXPECT_EQ(file("p.json"), reeb({"pairs", "mesh.reeb", "--format", "json"}).output);
+  expect_error(reeb({"pairs", "mesh.reeb", "-o", "p.gudhi"}), 2, "p.gudhi: cannot tell the format of the pairs");
+  expect_success(reeb({"pairs", "mesh.reeb", "-o", "p.gudhi", "--format", "gudhi"}));
+  EXPECT_EQ(file("p.gudhi"), reeb({"pairs", "mesh.reeb", "--format", "gudhi"}).output);
+}
+
 TEST_F(CommandLine, TheSummaryListsLoopsAndExtremaAndFitsEightyColumns) {
   expect_success(reeb({"generate", "scan", "--triangles", "20k", "-o", "scan.ply"}));
   const Outcome outcome = reeb({"scan.ply"});
@@ -244,13 +284,34 @@ TEST_F(CommandLine, TheSummaryListsLoopsAndExtremaAndFitsEightyColumns) {
   EXPECT_EQ(lines_after("  wrote to standard output", reeb({"scan.ply", "-o", "-"}).error).size(), 1u);
 }
 
+TEST_F(CommandLine, TheSummarySaysHowManyFeaturesAreAboveZero) {
+  // A path that goes up to 2, down to 1, up to 3, and on a plateau down and up only by index.
+  write("path.cx", "v 0\nv 2\nv 1\nv 3\nv 4\nv 3\nv 3\ns 0 1\ns 1 2\ns 2 3\ns 3 6\ns 6 5\ns 5 4\n");
+  const Outcome outcome = reeb({"path.cx"});
+  expect_success(outcome);
+  std::size_t all = 0, above = 0;
+  for (const char* type : {"Ord0,", "Rel1,"})
+    for (const std::string& row : lines_after(type, reeb({"pairs", "path.reeb"}).output)) {
+      ++all;
+      above += row.find(",3,3,0,") == std::string::npos;
+    }
+  EXPECT_LT(above, all);
+  EXPECT_EQ(lines_after("  largest minima and maxima (" + std::to_string(above) + " above zero, " +
+                            std::to_string(all) + " in all):",
+                        outcome.error)
+                .size(),
+            1u)
+      << outcome.error;
+  EXPECT_EQ(lines_after("    m", outcome.error).size(), above);
+}
+
 TEST_F(CommandLine, TheSummaryNamesLikelyDefects) {
   const auto generated = reeb({"generate", "scan", "--triangles", "40k", "-o", "scan.ply"});
   EXPECT_NE(generated.error.find("genus 36"), std::string::npos) << generated.error;
   const Outcome scan = reeb({"compute", "scan.ply", "-f", "x", "-o", "scan.reeb"});
-  const auto lines = lines_after("  likely defects: 36 loops of at most ", scan.error);
+  const auto lines = lines_after("  likely defects by persistence: 36 loops of at most ", scan.error);
   ASSERT_EQ(lines.size(), 1u) << scan.error;
-  EXPECT_NE(scan.error.find("reeb defects scan.ply"), std::string::npos);
+  EXPECT_NE(scan.error.find("`reeb defects scan.ply`"), std::string::npos);
   expect_success(reeb({"generate", "torus", "--triangles", "1k", "-o", "torus.ply"}));
   EXPECT_EQ(reeb({"torus.ply"}).error.find("likely"), std::string::npos) << "its one loop is as long as it is";
 }

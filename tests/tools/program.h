@@ -33,8 +33,9 @@ class ProgramTest : public testing::Test {
   // compute (run_limits.h).
   Outcome reeb(std::vector<std::string> words, Command command = {}) {
     if (!words.empty() && words[0] == "compute") {
-      if (const auto bytes = memory_limit()) words.insert(words.end(), {"--memory", std::to_string(*bytes)});
-      if (const auto triangles = chunk_limit()) words.insert(words.end(), {"--chunk", std::to_string(*triangles)});
+      if (const auto bytes = memory_limit()) words.insert(words.begin() + 1, {"--memory", std::to_string(*bytes)});
+      if (const auto triangles = chunk_limit())
+        words.insert(words.begin() + 1, {"--chunk", std::to_string(*triangles)});
     }
     command.arguments.assign(1, REEB_PROGRAM);
     command.arguments.insert(command.arguments.end(), words.begin(), words.end());

@@ -15,10 +15,10 @@
 #include <vector>
 
 #include "io/file/fault.h"
-#include "tests/support/complex.h"
 #include "tests/support/files.h"
+#include "tests/support/inputs/complex.h"
+#include "tests/support/inputs/random_complex.h"
 #include "tests/support/random.h"
-#include "tests/support/random_complex.h"
 #include "tests/support/scratch.h"
 #include "tests/support/seed.h"
 #include "tests/tools/commands_in_process.h"

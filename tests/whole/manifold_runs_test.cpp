@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "libreeb/base/error.h"
+#include "tests/support/inputs/random_complex.h"
 #include "tests/support/random.h"
-#include "tests/support/random_complex.h"
 #include "tests/support/seed.h"
 #include "tests/support/whole_run.h"
 

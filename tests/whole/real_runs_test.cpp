@@ -17,7 +17,7 @@
 #include "tests/model/naive_denoise.h"
 #include "tests/model/reference_reeb.h"
 #include "tests/support/data.h"
-#include "tests/support/embedding_places.h"
+#include "tests/support/inputs/embedding_places.h"
 #include "tests/support/whole_run.h"
 
 namespace reeb::test {

@@ -5,9 +5,9 @@
 
 #include <string>
 
-#include "tests/support/embedding_places.h"
+#include "tests/support/inputs/embedding_places.h"
+#include "tests/support/inputs/random_complex.h"
 #include "tests/support/random.h"
-#include "tests/support/random_complex.h"
 #include "tests/support/seed.h"
 #include "tests/support/whole_run.h"
 

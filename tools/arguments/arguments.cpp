@@ -125,6 +125,11 @@ Option Command::add_flag(const std::string& names, std::function<void()> set, co
   return Option(*command_->add_flag_callback(names, std::move(set), description));
 }
 
+void Command::refuse_option(const std::string& name, const std::string& why, const std::string& hint) {
+  const auto refuse = [=](const std::string&) { throw Error(ErrorKind::kUsage, name + ": " + why, hint); };
+  command_->add_option_function<std::string>(name, refuse)->expected(0, 1)->group("");
+}
+
 void Command::footer(const std::string& text) { command_->footer(text); }
 
 void Command::callback(std::function<void()> run) { command_->callback(std::move(run)); }

@@ -50,6 +50,8 @@ class Command {
   Option add_option(const std::string& names, std::function<void(const std::string&)> take,
                     const std::string& description);
 
+  // An option of other commands, which this one does not have, with or without a value. Help does not show it.
+  void refuse_option(const std::string& name, const std::string& why, const std::string& hint);
   void footer(const std::string& text);
   // What the command does, called once all options are set.
   void callback(std::function<void()> run);

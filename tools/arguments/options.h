@@ -32,6 +32,28 @@ Option add_size(Command command, const std::string& name, Target& target, const 
       .type_name("SIZE");
 }
 
+template <class Target>
+Option add_memory(Command command, Target& target,
+                  const std::string& description = "Memory that the run may use: 64M, 1.5GiB (default: no limit)") {
+  return add_size(command, "--memory", target, description);
+}
+
+template <class Target>
+Option add_threads(Command command, Target& target,
+                   const std::string& description = "Number of threads, 1 to 1024 (default: all)") {
+  return add_count(command, "--threads", target, description, {.least = 1, .most = 1024});
+}
+
+inline Option add_temp_dir(
+    Command command, std::string& target,
+    const std::string& description = "Folder for temporary files (default: $TMPDIR, or the folder of the output)") {
+  return command.add_option("--temp-dir", target, description).type_name("DIR");
+}
+
+inline Option add_force(Command command, bool& target, const std::string& description = "Replace an existing output") {
+  return command.add_flag("--force", target, description);
+}
+
 // `--format NAME`, for commands that read a mesh.
 inline Option add_format(Command command, std::string& target) {
   return command

@@ -1,5 +1,6 @@
 #include "tools/arguments/usage_error.h"
 
+#include <algorithm>
 #include <cctype>
 #include <optional>
 
@@ -65,11 +66,18 @@ std::string in_plain_words(const CLI::ParseError& refusal) {
   }
   if (dynamic_cast<const CLI::ArgumentMismatch*>(&refusal) != nullptr && text.find(": ") != std::string::npos)
     return without(text, ": ") + " needs one value";
-  if (dynamic_cast<const CLI::ExtrasError*>(&refusal) != nullptr && text.find(": ") != std::string::npos)
-    return "more words than expected: " + text.substr(text.find(": ") + 2);
   const auto colon = text.find(": ");
   if (dynamic_cast<const CLI::ValidationError*>(&refusal) != nullptr && colon != std::string::npos)
     return text.substr(0, colon) + text.substr(colon + 1);
+  return text;
+}
+
+// The text of CLI11 has them from the last to the first, with the -- before words that are not options.
+std::string unexpected_arguments(const CLI::App& command) {
+  std::vector<std::string> extras = command.remaining();
+  if (const auto dashes = std::ranges::find(extras, "--"); dashes != extras.end()) extras.erase(dashes);
+  std::string text = extras.size() == 1 ? "unexpected argument:" : "unexpected arguments:";
+  for (const std::string& word : extras) text += " " + word;
   return text;
 }
 
@@ -84,15 +92,18 @@ Error usage_error(const CLI::App& program, const std::vector<std::string>& words
   const CLI::App* command = words.empty() ? nullptr : find_command(program, words[0]);
   if (command == nullptr)
     return {ErrorKind::kUsage, in_plain_words(refusal), "see `" + program.get_name() + " --help`"};
-  const std::string hint = "see `" + program.get_name() + " " + words[0] + " --help`";
+  const std::string help = "`" + program.get_name() + " " + words[0] + " --help`";
   if (const auto option = unknown_option(*command, words)) {
     std::vector<std::string> names = long_names(*command);
     for (const std::string& name : long_names(program)) names.push_back(name);
     const std::string near = nearest(*option, names);
+    // An option alone need not be meant for the default command.
+    const std::string also = words.size() == 2 ? "`" + program.get_name() + " --help` and " : "";
     return {ErrorKind::kUsage, "unknown option " + *option + (near.empty() ? "" : " (did you mean " + near + "?)"),
-            hint};
+            "see " + also + help};
   }
-  return {ErrorKind::kUsage, in_plain_words(refusal), hint};
+  const bool has_extras = dynamic_cast<const CLI::ExtrasError*>(&refusal) != nullptr;
+  return {ErrorKind::kUsage, has_extras ? unexpected_arguments(*command) : in_plain_words(refusal), "see " + help};
 }
 
 }  // namespace reeb::tools

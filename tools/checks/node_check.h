@@ -30,6 +30,8 @@ class NodeCheck {
 
   // Why values are not compared; empty if they are. Known after start().
   const std::string& unchecked() const { return unchecked_; }
+  // The file of values, if it is gone; else empty.
+  std::string missing_file() const;
   // The properties that the reader must deliver.
   const std::vector<std::string>& properties() const { return properties_; }
   // `open_again` opens the mesh another time, for functions that depend on a vertex; empty: that is not possible.
@@ -43,7 +45,6 @@ class NodeCheck {
   std::optional<ValueRange> finish();
 
  private:
-  std::string missing_file() const;
   void fail(std::size_t node, const char* why);
 
   const ReebGraph& graph_;

@@ -1,24 +1,15 @@
 // `reeb compute MESH`, the default command: from a mesh to its `.reeb` file.
-#include <algorithm>
-#include <array>
-#include <cstdlib>
-#include <filesystem>
 #include <memory>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "io/file/file.h"
-#include "io/functions/function_source.h"
-#include "libreeb/base/count_text.h"
 #include "libreeb/base/error.h"
 #include "libreeb/base/memory_budget.h"
 #include "libreeb/base/printable.h"
-#include "tools/arguments/image_options.h"
 #include "tools/arguments/options.h"
 #include "tools/commands/commands.h"
 #include "tools/library/compute.h"
-#include "tools/library/run_files.h"
 #include "tools/program/compute_report.h"
 #include "tools/program/input_kind.h"
 #include "tools/program/output.h"
@@ -31,43 +22,25 @@
 namespace reeb::tools {
 namespace {
 
-namespace fs = std::filesystem;
-
 struct ComputeArguments : RunArguments {
   std::string output, report;
 };
 
-std::vector<std::string> output_names(const ComputeArguments& arguments) {
+std::vector<std::string> outputs_of(const ComputeArguments& arguments) {
   if (arguments.output == io::kStandardOutput) {
     if (arguments.functions.size() != 1 || arguments.options.snapshot_every != 0)
       throw Error(ErrorKind::kUsage, "several outputs cannot go to standard output", "name a file with -o");
     return {arguments.output};
   }
-  fs::path output = arguments.output.empty() ? stem_of(arguments.mesh) + ".reeb" : arguments.output;
-  if (arguments.functions.size() == 1) return {output.string()};
-  if (output.extension() == ".reeb") output.replace_extension();
-  std::vector<std::string> names;
-  for (const std::string& function : arguments.functions)
-    names.push_back(output.string() + "-" + io::file_name_part(io::parse_function(function)) + ".reeb");
-  return names;
-}
-
-// With the report, which compute() does not know.
-void check_files(const ComputeArguments& arguments, const std::vector<std::string>& outputs) {
-  std::vector<io::FunctionSpec> functions;
-  for (const std::string& function : arguments.functions)
-    if (!function.empty()) functions.push_back(io::parse_function(function));
-  RunFiles files = files_of_run(arguments.mesh, functions, outputs, arguments.options);
-  if (!arguments.report.empty())
-    files.add_output(arguments.report, "the report", existing_outputs(arguments.options.replace));
-  files.check();
+  return output_names(arguments.output.empty() ? stem_of(arguments.mesh) + ".reeb" : arguments.output,
+                      arguments.functions);
 }
 
 void run_compute(ComputeArguments arguments) {
   ComputeOptions& options = arguments.options;
   if (arguments.functions.empty()) arguments.functions.emplace_back();
-  const std::vector<std::string> outputs = output_names(arguments);
-  check_files(arguments, outputs);
+  const std::vector<std::string> outputs = outputs_of(arguments);
+  check_files(arguments, outputs, arguments.report);
   RunFacts facts;
   facts.path = arguments.mesh;
   if (options.memory_bytes != MemoryBudget::kUnlimited) facts.memory_budget_bytes = options.memory_bytes;
@@ -76,6 +49,7 @@ void run_compute(ComputeArguments arguments) {
   options.opened = [&](const MeshInfo& info) {
     facts.format = info.format;
     facts.input_bytes = info.file_bytes;
+    facts.is_image = info.grid.has_value();
     if (!arguments.quiet) print_line(printable(arguments.mesh + ": " + describe(info)));
   };
   ProgressBar bar(arguments.quiet);

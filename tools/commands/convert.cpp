@@ -69,12 +69,9 @@ void add_convert(Program& program) {
   command.add_flag("--finalize", options.finalize,
                    "Put each vertex before its first triangle, and finalize it after its last");
   add_image_options(command, arguments->options.image);
-  add_size(command, "--memory", options.memory_bytes, "Memory that the run may use: 64M, 1.5GiB (default: no limit)");
-  command
-      .add_option("--temp-dir", options.temp_folder,
-                  "Folder for temporary files (default: $TMPDIR, or the folder of the output)")
-      .type_name("DIR");
-  command.add_flag("--force", arguments->force, "Replace an existing output");
+  add_memory(command, options.memory_bytes);
+  add_temp_dir(command, options.temp_folder);
+  add_force(command, arguments->force);
   command.add_flag("--quiet", arguments->quiet, "Print no progress and no notes");
   command.footer("Example:\n  reeb convert scan.ply scan.smc --order spectral --memory 256M");
   command.callback([arguments] { run_convert(*arguments); });

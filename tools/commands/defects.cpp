@@ -11,16 +11,15 @@
 #include "io/file/file_name.h"
 #include "io/file/temp_dir.h"
 #include "libreeb/base/count_text.h"
-#include "libreeb/base/error.h"
 #include "libreeb/base/memory_budget.h"
 #include "libreeb/base/printable.h"
-#include "ooc/reeb_file/reeb_file.h"
 #include "tools/arguments/image_options.h"
 #include "tools/arguments/options.h"
 #include "tools/commands/commands.h"
 #include "tools/defects/defect_text.h"
 #include "tools/defects/find_defects.h"
 #include "tools/defects/patch_files.h"
+#include "tools/defects/row_limits.h"
 #include "tools/defects/surface_census.h"
 #include "tools/library/run_files.h"
 #include "tools/program/input_kind.h"
@@ -46,13 +45,7 @@ bool is_json(const std::string& output) { return io::name_suffix(output) == ".js
 
 void check_files(const DefectsOptions& options) {
   const std::string& mesh = options.find.mesh.path;
-  if (mesh == "-")
-    throw Error(ErrorKind::kUsage, "the mesh is read several times, so it cannot come from standard input",
-                "write it to a file first");
-  if (ooc::is_reeb_file(mesh))
-    throw Error(ErrorKind::kBadInput, "this is a Reeb graph, not a mesh",
-                "name the mesh first: reeb defects MESH FILE.reeb")
-        .at(mesh);
+  require_mesh_to_reread(mesh, "name the mesh first: reeb defects MESH FILE.reeb");
   RunFiles files;
   files.add_input(mesh, "the mesh");
   for (const std::string& file : options.find.files) {
@@ -64,32 +57,13 @@ void check_files(const DefectsOptions& options) {
   if (!options.patches.empty()) check_patch_folder(options.patches, existing_outputs(options.force));
 }
 
-// Whether a row is in the list: --below compares persistences, --longest lengths.
-class Filter {
- public:
-  explicit Filter(const DefectsOptions& options) {
-    if (!options.below.empty()) {
-      below_ = parse_threshold("--below", options.below, {0, 100});
-      below_percent_ = options.below.ends_with('%');
-    }
-    if (!options.longest.empty()) longest_ = parse_length("--longest", options.longest);
-  }
-  bool lists(const DefectRow& row) const {
-    return (below_percent_ ? row.percent : row.persistence) < below_ && row.length() <= longest_;
-  }
-
- private:
-  double below_ = std::numeric_limits<double>::infinity(), longest_ = std::numeric_limits<double>::infinity();
-  bool below_percent_ = false;
-};
-
 void run_defects(DefectsOptions options) {
-  const Filter filter(options);
+  const RowLimits limits = parse_row_limits(options.below, options.longest);
   check_files(options);
   if (options.find.mesh.temp_folder.empty())
     options.find.mesh.temp_folder = io::TempDir::default_folder(options.output == "-" ? "" : options.output);
   ProgressBar bar(options.quiet);
-  options.find.interrupted = watch_signals();
+  options.find.mesh.interrupted = watch_signals();
   options.find.computing = [&](const ComputeProgress& p) {
     bar.update({"Reeb graphs", 1}, p.done, p.total, p.triangles);
   };
@@ -97,10 +71,12 @@ void run_defects(DefectsOptions options) {
     bar.update({"curves"}, done, total, triangles);
   };
   const Defects defects = find_defects(options.find);
+  options.find.mesh.interrupted = {};  // from now on, a signal leaves nothing behind
   bar.clear();
   std::vector<RankedRow> rows;
   for (std::size_t i = 0; i < defects.table.rows.size() && rows.size() < options.limit; ++i)
-    if (filter.lists(defects.table.rows[i])) rows.push_back({i + 1, &defects.table.rows[i]});
+    if (const DefectRow& row = defects.table.rows[i]; limits.has_persistence(row) && limits.has_length(row))
+      rows.push_back({i + 1, &row});
   if (options.output != "-") fmt::print("{}", defect_table(defects, rows));
   if (!options.patches.empty()) {
     const std::size_t most = options.limit == kNoLimit ? kMostPatches : rows.size();
@@ -114,7 +90,7 @@ void run_defects(DefectsOptions options) {
   if (options.output.empty()) return;
   write_output(options.output, options.force, [&](std::ostream& out) {
     if (is_json(options.output))
-      write_defect_json(defects, rows, census_of(options.find.mesh, options.find.interrupted), out);
+      write_defect_json(defects, rows, census_of(options.find.mesh), out);
     else
       write_defect_csv(defects, rows, out);
   });
@@ -147,15 +123,10 @@ void add_defects(Program& program) {
   add_count(command, "--limit", options->limit, "At most N rows", {.least = 1});
   add_format(command, options->find.mesh.format);
   add_image_options(command, options->find.mesh.image);
-  add_size(command, "--memory", options->find.mesh.memory_bytes,
-           "Memory that the run may use: 64M, 1.5GiB (default: no limit)");
-  add_count(command, "--threads", options->find.threads, "Number of threads, 1 to 1024 (default: all)",
-            {.least = 1, .most = 1024});
-  command
-      .add_option("--temp-dir", options->find.mesh.temp_folder,
-                  "Folder for temporary files (default: $TMPDIR, or the folder of the output)")
-      .type_name("DIR");
-  command.add_flag("--force", options->force, "Replace an existing output");
+  add_memory(command, options->find.mesh.memory_bytes);
+  add_threads(command, options->find.threads);
+  add_temp_dir(command, options->find.mesh.temp_folder);
+  add_force(command, options->force);
   command.add_flag("--quiet", options->quiet, "Print no progress");
   command.footer("Example:\n  reeb defects scan.ply --limit 20 -o scan-defects.csv");
   command.callback([options] { run_defects(*options); });

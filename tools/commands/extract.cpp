@@ -20,6 +20,7 @@
 #include "tools/library/run_files.h"
 #include "tools/measures/measured_level.h"
 #include "tools/measures/open_segmentation.h"
+#include "tools/plot/chosen_level.h"
 #include "tools/plot/skeleton.h"
 #include "tools/program/input_kind.h"
 #include "tools/program/output.h"
@@ -52,12 +53,8 @@ io::GraphFormat choose_format(const ExtractOptions& options) {
 }
 
 std::uint32_t choose_version(const ooc::ReebFile& file, const ExtractOptions& options) {
-  if (!options.threshold.empty()) {
-    const ValueRange range{file.header().function_min, file.header().function_max};
-    return file.version_at(parse_threshold("--threshold", options.threshold, range));
-  }
   if (options.memory_bytes) return file.finest_with_memory(*options.memory_bytes);
-  return options.nodes ? file.finest_with_nodes(*options.nodes) : 0;
+  return choose_level(file, {options.threshold, options.nodes}).version;
 }
 
 // THROWS: Error{kUsage} for a format that has no room for the measures.
@@ -166,8 +163,8 @@ void add_extract(Program& app) {
                          .option_text("T");
   Option nodes =
       add_count(command, "--nodes", options->nodes, "The finest level with at most N nodes").option_text("N");
-  Option memory = add_size(command, "--memory", options->memory_bytes, "The finest level that fits in this memory: 64M")
-                      .option_text("SIZE");
+  Option memory =
+      add_memory(command, options->memory_bytes, "The finest level that fits in this memory: 64M").option_text("SIZE");
   threshold.excludes(memory).excludes(nodes);
   memory.excludes(nodes);
   Option mesh = command
@@ -175,18 +172,14 @@ void add_extract(Program& app) {
                                 "The mesh that the file was computed from. Measures the part of it on each arc: "
                                 "vertices, mean of the function, area, shortest contour (json, vtp, vtu)")
                     .type_name("MESH");
-  add_count(command, "--threads", options->threads, "With --mesh: number of threads, 1 to 1024 (default: all)",
-            {.least = 1, .most = 1024})
-      .needs(mesh);
-  command
-      .add_option("--temp-dir", options->temp_folder,
-                  "With --mesh: folder for temporary files (default: $TMPDIR, or the folder of the output)")
-      .type_name("DIR")
+  add_threads(command, options->threads, "With --mesh: number of threads, 1 to 1024 (default: all)").needs(mesh);
+  add_temp_dir(command, options->temp_folder,
+               "With --mesh: folder for temporary files (default: $TMPDIR, or the folder of the output)")
       .needs(mesh);
   command.add_flag("--quiet", options->quiet, "With --mesh: print no progress and no notes").needs(mesh);
   command.add_flag("--on-surface", options->on_surface,
                    "Lines pass through vertices of the mesh, not through the centres of contours");
-  command.add_flag("--force", options->force, "Replace an existing output");
+  add_force(command, options->force);
   command.footer("Example:\n  reeb extract scan.reeb --threshold 0.1% -o coarse.json");
   command.callback([options] { extract(*options); });
 }

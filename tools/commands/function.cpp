@@ -17,6 +17,7 @@
 #include "io/formats/open_mesh.h"
 #include "io/functions/function_source.h"
 #include "io/functions/mesh_field.h"
+#include "io/mesh/property_columns.h"
 #include "io/text/output_buffer.h"
 #include "libreeb/base/count_text.h"
 #include "libreeb/base/error.h"
@@ -129,10 +130,7 @@ class Values {
     const auto writer = io::create_mesh(options_.output, writing);
     while (read()) {
       renumber();
-      // A property of the same name is replaced.
-      for (std::size_t k = info.property_names.size(); k-- > 0;)
-        if (info.property_names[k] == spec_.text)
-          batch_.properties.erase(batch_.properties.begin() + static_cast<std::ptrdiff_t>(k));
+      io::erase_property(batch_.properties, info.property_names, spec_.text);
       if (adds_property) batch_.properties.push_back(values_);
       writer->write(batch_);
     }
@@ -228,12 +226,9 @@ void add_function(Program& program) {
       .type_name("FILE");
   add_format(command, options->format);
   add_image_options(command, options->image);
-  add_size(command, "--memory", options->memory_bytes, "Memory that the run may use: 64M, 1.5GiB (default: no limit)");
-  command
-      .add_option("--temp-dir", options->temp_folder,
-                  "Folder for temporary files (default: $TMPDIR, or the folder of the output)")
-      .type_name("DIR");
-  command.add_flag("--force", options->force, "Replace an existing output");
+  add_memory(command, options->memory_bytes);
+  add_temp_dir(command, options->temp_folder);
+  add_force(command, options->force);
   command.add_flag("--quiet", options->quiet, "Print no progress and no notes");
   command.footer("Example:\n  reeb function scan.ply -f geodesic:0 -o scan-distance.ply");
   command.callback([options] { run_function(*options); });

@@ -50,7 +50,7 @@ void print_summary(const GenerateArguments& arguments, const io::ExpectedTopolog
                   count_of(t.vertices, "vertex"), count_simplices(simplices),
                   whole && arguments.mesh.dimension > 2 ? "of the 2-skeleton " : "", t.euler_characteristic);
   if (t.genus) text += fmt::format(", genus {}", *t.genus);
-  if (t.boundary_loops) text += ", " + count_of(*t.boundary_loops, "boundary loop");
+  if (t.boundary_loops) text += ", " + count_of(*t.boundary_loops, "boundary");
   if (!t.genus) text += ", first Betti number " + with_commas(t.first_betti);
   print_line(text);
   if (more > asked / 10)
@@ -189,7 +189,7 @@ void add_generate(Program& program) {
   command.add_option("--grid", arguments->grid, "Vertices of a volume along each axis: 256x256x100")
       .type_name("NXxNY[xNZ]");
   add_count(command, "--handles", arguments->handles, "Tunnels through a ball or a volume (default: 1)");
-  command.add_flag("--force", arguments->force, "Replace an existing output");
+  add_force(command, arguments->force);
   command.footer("Example:\n  reeb generate scan --triangles 12M --order patches --seed 7 -o scan.ply");
   command.callback([arguments] { run_generate(*arguments); });
 }

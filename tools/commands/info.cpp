@@ -31,11 +31,8 @@ void add_info(Program& app) {
   add_format(command, options->format);
   add_image_options(command, options->image);
   command.add_flag("--json", options->json, "Print JSON");
-  add_size(command, "--memory", options->memory_bytes, "Memory for the tables of a mesh: 64M (default: no limit)");
-  command
-      .add_option("--temp-dir", options->temp_folder,
-                  "Folder for temporary files (default: $TMPDIR, or the current folder)")
-      .type_name("DIR");
+  add_memory(command, options->memory_bytes, "Memory for the tables of a mesh: 64M (default: no limit)");
+  add_temp_dir(command, options->temp_folder, "Folder for temporary files (default: $TMPDIR, or the current folder)");
   command.footer("Example:\n  reeb info scan.reeb");
   command.callback([options] {
     if (options->file != "-" && options->format.empty() && ooc::is_reeb_file(options->file))

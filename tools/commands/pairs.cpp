@@ -13,6 +13,7 @@
 #include "io/text/output_buffer.h"
 #include "libreeb/base/error.h"
 #include "ooc/reeb_file/reeb_file.h"
+#include "tools/arguments/options.h"
 #include "tools/commands/commands.h"
 #include "tools/library/run_files.h"
 #include "tools/program/input_kind.h"
@@ -101,22 +102,29 @@ struct Format {
 };
 constexpr std::array kFormats = {Format{"csv", write_csv}, Format{"json", write_json}, Format{"gudhi", write_gudhi}};
 
-// By --format, or else by the suffix of the output: CSV unless that is .json.
+// By --format, or else by the suffix of the output, with none CSV.
 const Format& choose_format(const PairsOptions& options) {
   std::string name = options.format;
-  if (name.empty()) name = io::name_suffix(options.output) == ".json" ? "json" : "csv";
+  if (name.empty()) {
+    const std::string suffix = io::name_suffix(options.output);
+    if (!suffix.empty() && suffix != ".csv" && suffix != ".json")
+      throw Error(ErrorKind::kUsage, "cannot tell the format of the pairs from this name",
+                  "end the name in .csv or .json, or use --format with one of: csv json gudhi")
+          .at(options.output);
+    name = suffix == ".json" ? "json" : "csv";
+  }
   for (const Format& format : kFormats)
     if (format.name == name) return format;
   throw Error(ErrorKind::kUsage, "--format: \"" + name + "\" is not a format for pairs", "use one of: csv json gudhi");
 }
 
 void list_pairs(const PairsOptions& options) {
-  const Format& format = choose_format(options);
-  require_reeb_file(options.file, "pairs");
   RunFiles files;
   files.add_input(options.file, "the .reeb file");
   if (!options.output.empty()) files.add_output(options.output, "the output", existing_outputs(options.force));
   files.check();
+  const Format& format = choose_format(options);
+  require_reeb_file(options.file, "pairs");
   const ooc::ReebFile file(options.file);
   Rows rows = file.pairs();
   sort_rows(rows);
@@ -136,12 +144,11 @@ void add_pairs(Program& app) {
   command.add_option("-o,--output", options->output, "File to write (default, and -: standard output)")
       .type_name("FILE");
   command
-      .add_option(
-          "--format", options->format,
-          "One of csv json gudhi (lists as GUDHI's extended persistence has them, in JSON); default: json if the "
-          "output ends in .json, else csv")
+      .add_option("--format", options->format,
+                  "One of csv json gudhi (lists as GUDHI's extended persistence has them, in JSON); default: by the "
+                  "suffix of the output, .csv or .json; csv without one")
       .type_name("NAME");
-  command.add_flag("--force", options->force, "Replace an existing output");
+  add_force(command, options->force);
   command.footer("Example:\n  reeb pairs scan.reeb -o scan-pairs.csv");
   command.callback([options] { list_pairs(*options); });
 }

@@ -107,9 +107,7 @@ void plot(PlotOptions options) {
   }
   if (!options.skeleton.mesh.empty()) {
     names.add_input(options.skeleton.mesh, "the mesh");
-    if (ooc::is_reeb_file(options.skeleton.mesh))
-      throw Error(ErrorKind::kBadInput, "this is a Reeb graph, not a mesh", "name its mesh with --mesh")
-          .at(options.skeleton.mesh);
+    require_mesh_file(options.skeleton.mesh, "name its mesh with --mesh");
   }
   names.add_output(options.output, "the picture", existing_outputs(options.force));
   names.check();
@@ -166,7 +164,7 @@ void add_plot(Program& program) {
       .type_name("BY");
   command.add_flag("--on-surface", options->skeleton.on_surface,
                    "For a skeleton: lines pass through vertices of the mesh");
-  command.add_flag("--force", options->force, "Replace an existing output");
+  add_force(command, options->force);
   command.add_flag("--quiet", options->quiet, "Print no progress and no notes");
   command.footer("Example:\n  reeb plot scan.reeb --kind skeleton --mesh scan.ply --threshold 1% -o scan.png");
   command.callback([options] { plot(*options); });

@@ -14,11 +14,11 @@
 #include "libreeb/base/count_text.h"
 #include "libreeb/base/error.h"
 #include "libreeb/base/printable.h"
-#include "ooc/reeb_file/reeb_file.h"
 #include "tools/arguments/image_options.h"
 #include "tools/arguments/options.h"
 #include "tools/commands/commands.h"
 #include "tools/library/run_files.h"
+#include "tools/program/input_kind.h"
 #include "tools/program/output.h"
 #include "tools/program/progress.h"
 #include "tools/program/signals.h"
@@ -36,12 +36,7 @@ struct RepairArguments {
 };
 
 void parse(RepairArguments& arguments) {
-  RowFilter& filter = arguments.options.filter;
-  if (!arguments.below.empty()) {
-    filter.below = parse_threshold("--below", arguments.below, {0, 100});
-    filter.below_is_percent = arguments.below.ends_with('%');
-  }
-  if (!arguments.longest.empty()) filter.longest = parse_length("--longest", arguments.longest);
+  arguments.options.filter.limits = parse_row_limits(arguments.below, arguments.longest);
   CleaningOptions& cleaning = arguments.options.cleaning;
   if (!arguments.fill_boundaries.empty())
     cleaning.boundary_length = parse_length("--fill-boundaries", arguments.fill_boundaries);
@@ -54,11 +49,7 @@ void parse(RepairArguments& arguments) {
 
 void check_files(const RepairArguments& arguments) {
   const RepairOptions& options = arguments.options;
-  if (options.mesh.path == "-")
-    throw Error(ErrorKind::kUsage, "the mesh is read several times, so it cannot come from standard input",
-                "write it to a file first");
-  if (ooc::is_reeb_file(options.mesh.path))
-    throw Error(ErrorKind::kBadInput, "this is a Reeb graph, not a mesh", "name the mesh").at(options.mesh.path);
+  require_mesh_to_reread(options.mesh.path, "name the mesh");
   const std::string suffix = io::name_suffix(options.output);
   // Other formats number vertices in another way, or hold float32 only.
   if (suffix != ".ply" && suffix != ".obj" && suffix != ".off")
@@ -127,15 +118,15 @@ void run_repair(RepairArguments arguments) {
   if (options.mesh.temp_folder.empty()) options.mesh.temp_folder = io::TempDir::default_folder(options.output);
   if (!arguments.apply_undo.empty()) return apply_undo(arguments);
   ProgressBar bar(arguments.quiet);
-  options.interrupted = watch_signals();
+  options.mesh.interrupted = watch_signals();
   options.progress = [&](const char* pass, std::uint64_t done, std::uint64_t total, std::uint64_t triangles) {
     bar.update({pass}, done, total, triangles);
   };
   const Repair repair = plan_repair(options);
+  options.mesh.interrupted = {};  // from now on, a signal leaves nothing behind
   WriteOptions write{options.output, late_outputs(arguments.force), !arguments.undo.empty(), {}};
   write.progress = [&](std::uint64_t done, std::uint64_t total, std::uint64_t triangles) {
     bar.update({"writing"}, done, total, triangles);
-    if (options.interrupted()) throw Error(ErrorKind::kInterrupted, "interrupted", "run the same command again");
   };
   // The output is the last to appear: whoever has it has what belongs to it.
   const Written written = write_repaired(
@@ -190,15 +181,10 @@ void add_repair(Program& program) {
   for (const Option& choice : choices) undo.excludes(choice);
   add_format(command, options.mesh.format);
   add_image_options(command, options.mesh.image);
-  add_size(command, "--memory", options.mesh.memory_bytes,
-           "Memory that the run may use: 64M, 1.5GiB (default: no limit)");
-  add_count(command, "--threads", options.threads, "Number of threads, 1 to 1024 (default: all)",
-            {.least = 1, .most = 1024});
-  command
-      .add_option("--temp-dir", options.mesh.temp_folder,
-                  "Folder for temporary files (default: $TMPDIR, or the folder of the output)")
-      .type_name("DIR");
-  command.add_flag("--force", arguments->force, "Replace an existing output");
+  add_memory(command, options.mesh.memory_bytes);
+  add_threads(command, options.threads);
+  add_temp_dir(command, options.mesh.temp_folder);
+  add_force(command, arguments->force);
   command.add_flag("--quiet", arguments->quiet, "Print no progress and no summary");
   command.footer("Example:\n  reeb repair scan.ply -o clean.ply --log clean.json --undo clean.undo");
   command.callback([arguments] { run_repair(*arguments); });

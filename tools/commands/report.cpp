@@ -3,9 +3,7 @@
 #include <string>
 
 #include "io/file/temp_dir.h"
-#include "libreeb/base/error.h"
 #include "libreeb/base/printable.h"
-#include "ooc/reeb_file/reeb_file.h"
 #include "tools/arguments/image_options.h"
 #include "tools/arguments/options.h"
 #include "tools/commands/commands.h"
@@ -13,7 +11,6 @@
 #include "tools/program/input_kind.h"
 #include "tools/program/output.h"
 #include "tools/program/progress.h"
-#include "tools/program/signals.h"
 #include "tools/program/wrapping.h"
 #include "tools/report/report.h"
 
@@ -32,13 +29,7 @@ void check_files(const PageOptions& options) {
   RunFiles files;
   files.add_input(options.report.file, "the .reeb file");
   if (!mesh.empty()) {
-    if (mesh == "-")
-      throw Error(ErrorKind::kUsage, "the mesh is read several times, so it cannot come from standard input",
-                  "write it to a file first");
-    if (ooc::is_reeb_file(mesh))
-      throw Error(ErrorKind::kBadInput, "this is a Reeb graph, not a mesh",
-                  "name the mesh: reeb report FILE.reeb --mesh MESH -o OUT.html")
-          .at(mesh);
+    require_mesh_to_reread(mesh, "name the mesh: reeb report FILE.reeb --mesh MESH -o OUT.html");
     files.add_input(mesh, "the mesh");
   }
   files.add_output(options.output, "the output", existing_outputs(options.force));
@@ -53,7 +44,6 @@ void run_report(PageOptions options) {
   if (defects.mesh.temp_folder.empty())
     defects.mesh.temp_folder = io::TempDir::default_folder(options.output == "-" ? "" : options.output);
   ProgressBar bar(options.quiet);
-  defects.interrupted = watch_signals();
   defects.searching = [&](std::uint64_t done, std::uint64_t total, std::uint64_t triangles) {
     bar.update({"curves"}, done, total, triangles);
   };
@@ -82,15 +72,11 @@ void add_report(Program& program) {
             {.least = 1, .most = 100'000});
   add_format(command, defects.mesh.format);
   add_image_options(command, defects.mesh.image);
-  add_size(command, "--memory", defects.mesh.memory_bytes,
-           "Memory that reading the mesh may use: 64M, 1.5GiB (default: no limit)");
-  add_count(command, "--threads", defects.threads, "Number of threads, 1 to 1024 (default: all)",
-            {.least = 1, .most = 1024});
-  command
-      .add_option("--temp-dir", defects.mesh.temp_folder,
-                  "Folder for temporary files (default: $TMPDIR, or the folder of the output)")
-      .type_name("DIR");
-  command.add_flag("--force", options->force, "Replace an existing output");
+  add_memory(command, defects.mesh.memory_bytes,
+             "Memory that reading the mesh may use: 64M, 1.5GiB (default: no limit)");
+  add_threads(command, defects.threads);
+  add_temp_dir(command, defects.mesh.temp_folder);
+  add_force(command, options->force);
   command.add_flag("--quiet", options->quiet, "Print no progress and no summary");
   command.footer("Example:\n  reeb report scan.reeb --mesh scan.ply -o scan.html");
   command.callback([options] { run_report(*options); });

@@ -14,6 +14,7 @@
 #include "io/file/file_name.h"
 #include "io/file/temp_dir.h"
 #include "io/formats/create_mesh.h"
+#include "io/mesh/property_columns.h"
 #include "io/vtk/vtk_mesh_writer.h"
 #include "libreeb/base/count_text.h"
 #include "libreeb/base/error.h"
@@ -26,6 +27,7 @@
 #include "tools/library/run_files.h"
 #include "tools/library/run_input.h"
 #include "tools/measures/open_segmentation.h"
+#include "tools/plot/chosen_level.h"
 #include "tools/program/input_kind.h"
 #include "tools/program/output.h"
 #include "tools/program/progress.h"
@@ -45,14 +47,6 @@ struct SegmentOptions {
   io::ImageOptions image;
   bool force = false, quiet = false;
 };
-
-std::uint32_t choose_version(const ooc::ReebFile& file, const SegmentOptions& options) {
-  if (!options.threshold.empty()) {
-    const ValueRange range{file.header().function_min, file.header().function_max};
-    return file.version_at(parse_threshold("--threshold", options.threshold, range));
-  }
-  return options.nodes ? file.finest_with_nodes(*options.nodes) : 0;
-}
 
 // The labels and values of vertices in the order of a reader, which leaves out the vertices of a grid without data.
 class LabelStream {
@@ -122,14 +116,10 @@ void write_mesh(const RunInput& input, ooc::Segmentation& segmentation, const Se
   while (reader->read(batch)) {
     stream.read(labels, values, batch.vertex_count,
                 is_ply ? std::numeric_limits<std::int32_t>::min() : ooc::kDroppedVertex);
-    if (is_ply) {
-      // A property of the same name is replaced.
-      for (std::size_t k = info.property_names.size(); k-- > 0;)
-        if (info.property_names[k] == "arc")
-          batch.properties.erase(batch.properties.begin() + static_cast<std::ptrdiff_t>(k));
-    } else {
+    if (is_ply)
+      io::erase_property(batch.properties, info.property_names, "arc");
+    else
       batch.properties.assign(1, values);
-    }
     batch.properties.push_back(labels);
     writer->write(batch);
   }
@@ -166,7 +156,8 @@ void segment(SegmentOptions options) {
   add_segmentation_inputs(options.mesh, file, files);
   files.add_output(options.output, "the output", existing_outputs(options.force));
   files.check();
-  const std::uint32_t version = choose_version(file, options);
+  if (const Error* damage = file.damage()) fmt::print(stderr, "reeb: warning: {}\n", damage->what());
+  const std::uint32_t version = choose_level(file, {options.threshold, options.nodes}).version;
   const bool writes_mesh = suffix != ".i64";
 
   RunInput input(options.mesh, std::span(&file.header().function, 1),
@@ -227,14 +218,10 @@ void add_segment(Program& program) {
   threshold.excludes(nodes);
   add_format(command, options->format);
   add_image_options(command, options->image);
-  add_size(command, "--memory", options->memory_bytes, "Memory that the run may use: 64M, 1.5GiB (default: no limit)");
-  add_count(command, "--threads", options->threads, "Number of threads, 1 to 1024 (default: all)",
-            {.least = 1, .most = 1024});
-  command
-      .add_option("--temp-dir", options->temp_folder,
-                  "Folder for temporary files (default: $TMPDIR, or the folder of the output)")
-      .type_name("DIR");
-  command.add_flag("--force", options->force, "Replace an existing output");
+  add_memory(command, options->memory_bytes);
+  add_threads(command, options->threads);
+  add_temp_dir(command, options->temp_folder);
+  add_force(command, options->force);
   command.add_flag("--quiet", options->quiet, "Print no progress and no notes");
   command.footer("Example:\n  reeb segment scan.ply scan.reeb --threshold 1% -o scan.i64");
   command.callback([options] { segment(*options); });

@@ -1,6 +1,7 @@
 // `reeb verify`: whether a .reeb file is whole and contradicts neither itself nor its mesh.
 #include <fmt/core.h>
 
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -56,6 +57,10 @@ std::string compare_with_mesh(const ooc::ReebFile& file, const VerifyOptions& op
   const FileHeader& header = file.header();
   const ReebGraph graph = file.load(0).graph;
   NodeCheck nodes(options.file, options.mesh, header.function, graph);
+  if (const std::string missing = nodes.missing_file(); options.full && !missing.empty())
+    throw Error(ErrorKind::kBadInput, "there is no such file, and --full needs the values of the function",
+                "bring the file of values back, or leave out --full")
+        .at(missing);
   const io::Input input = io::mesh_input(options.mesh, options.format);
   bool has_cells = false;
   ProgressBar bar(false);
@@ -111,13 +116,12 @@ void compute_again(const ooc::ReebFile& file, const VerifyOptions& options) {
 }
 
 void verify(const VerifyOptions& options) {
-  if (options.full && (options.mesh.empty() || options.mesh == "-"))
+  const bool is_pipe =
+      options.mesh == "-" || (std::filesystem::exists(options.mesh) && !io::is_regular_file(options.mesh));
+  if (options.full && (options.mesh.empty() || is_pipe))
     throw Error(ErrorKind::kUsage, "--full needs a mesh in a file", "name it with --mesh MESH");
   require_reeb_file(options.file, "verify");
-  if (options.mesh != "-" && ooc::is_reeb_file(options.mesh))
-    throw Error(ErrorKind::kBadInput, "this is a Reeb graph, not a mesh",
-                "name the mesh that the file was computed from")
-        .at(options.mesh);
+  require_mesh_file(options.mesh, "name the mesh that the file was computed from");
   const ooc::ReebFile file(options.file);
   file.verify();
   const FileHeader& header = file.header();
@@ -141,14 +145,10 @@ void add_verify(Program& app) {
   add_format(command, options->format);
   command.add_flag("--full", options->full, "Compute the graph again from the mesh; compare nodes, arcs and pairs");
   add_image_options(command, options->image);
-  add_size(command, "--memory", options->memory_bytes,
-           "Memory for the tables of the mesh and for --full: 64M (default: no limit)");
-  add_count(command, "--threads", options->threads, "Number of threads for --full, 1 to 1024 (default: all)",
-            {.least = 1, .most = 1024});
-  command
-      .add_option("--temp-dir", options->temp_folder,
-                  "Folder for temporary files (default: $TMPDIR, or the current folder)")
-      .type_name("DIR");
+  add_memory(command, options->memory_bytes,
+             "Memory for the tables of the mesh and for --full: 64M (default: no limit)");
+  add_threads(command, options->threads, "Number of threads for --full, 1 to 1024 (default: all)");
+  add_temp_dir(command, options->temp_folder, "Folder for temporary files (default: $TMPDIR, or the current folder)");
   command.footer("Example:\n  reeb verify scan.reeb --mesh scan.ply");
   command.callback([options] { verify(*options); });
 }

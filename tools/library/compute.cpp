@@ -5,6 +5,7 @@
 
 #include "io/file/atomic_file.h"
 #include "libreeb/base/error.h"
+#include "ooc/chunks/last_use_sidecar.h"
 #include "ooc/run/compute.h"
 #include "tools/library/run_files.h"
 #include "tools/library/run_input.h"
@@ -14,12 +15,14 @@
 namespace reeb {
 namespace {
 
-void require_an_output_each(std::span<const std::string> functions, std::span<const std::string> outputs) {
-  if (functions.empty() || functions.size() != outputs.size())
-    throw Error(ErrorKind::kUsage,
-                "there are " + std::to_string(functions.size()) + " functions and " + std::to_string(outputs.size()) +
-                    " outputs",
-                "name one output for each function, and at least one function");
+// Why a run keeps no sidecar; empty if it does.
+std::string no_sidecar(const std::string& path, const MeshInfo& info, const ComputeOptions& options) {
+  if (!options.keep_sidecar || ooc::is_sidecar(path + ".final")) return {};
+  const std::string what = "no sidecar was kept: ";
+  if (path == "-") return what + "there is no file beside which it would lie";
+  if (info.finalizes) return what + "this stream finalizes its vertices itself";
+  if (info.grid) return what + "an image needs none";
+  return what + "this run did not look for the last uses of vertices";
 }
 
 // `mesh_source` is the path, or opens a mesh that the caller holds; `path` is "-" then.
@@ -53,6 +56,8 @@ std::vector<ComputeResult> compute_all(const Mesh& mesh_source, const std::strin
   auto results = ooc::compute(std::move(mesh), pointers, outputs, run_options(options));
   for (std::size_t i = 0; i < results.size(); ++i)
     results[i].notes.insert(results[i].notes.end(), input.notes(i).begin(), input.notes(i).end());
+  if (const std::string note = no_sidecar(path, input.info(), options); !note.empty())
+    results.front().notes.push_back(note);
   return results;
 }
 

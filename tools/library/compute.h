@@ -52,7 +52,7 @@ struct ComputeOptions {
 // are told by content. Threads do not change the bytes of the result; with buckets = 0, memory and chunks do not
 // either.
 //
-// THROWS:  Error: kUsage for a function that is none; kBadInput with file and position for a bad mesh, or an
+// THROWS:  Error: kUsage for an unknown function; kBadInput with file and position for a bad mesh, or an
 //          output that exists, is an input or is another output; kResource if memory or disk do not suffice, or an
 //          output cannot be created; kInterrupted. All of outputs is checked before any work. No output is ever written
 //          in part, but those of earlier functions may be there, and the graph alone if its levels did not fit the

@@ -25,6 +25,7 @@ void check_files(const std::string& path, std::span<const std::string> functions
 std::vector<ooc::FragmentResult> compute_fragments(const std::string& path, std::span<const std::string> functions,
                                                    std::span<const std::string> outputs, const ComputeOptions& options,
                                                    const ooc::PartChoice& choice) {
+  require_an_output_each(functions, outputs);
   check_files(path, functions, outputs, options, choice);
   RunInput input(path, functions, input_options(options, outputs.front()));
   if (options.opened) options.opened(input.info());

@@ -135,6 +135,14 @@ void RunFiles::check_snapshot_names() const {
   }
 }
 
+void require_an_output_each(std::span<const std::string> functions, std::span<const std::string> outputs) {
+  if (functions.empty() || functions.size() != outputs.size())
+    throw Error(ErrorKind::kUsage,
+                "there are " + std::to_string(functions.size()) + " functions and " + std::to_string(outputs.size()) +
+                    " outputs",
+                "name one output for each function, and at least one function");
+}
+
 RunFiles files_of_run(const std::string& mesh, std::span<const io::FunctionSpec> functions,
                       std::span<const std::string> outputs, const ComputeOptions& options) {
   // Said first: the default output of a .reeb file is the file itself.

@@ -38,6 +38,9 @@ class RunFiles {
   std::vector<File> inputs_, outputs_, snapshots_;  // of the last: stems
 };
 
+// THROWS: Error{kUsage} unless there is at least one function, and an output for each.
+void require_an_output_each(std::span<const std::string> functions, std::span<const std::string> outputs);
+
 // The files of a run of compute(), without a report. THROWS: Error{kBadInput} if the mesh is a Reeb graph.
 RunFiles files_of_run(const std::string& mesh, std::span<const io::FunctionSpec> functions,
                       std::span<const std::string> outputs, const ComputeOptions& options);

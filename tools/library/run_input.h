@@ -33,7 +33,7 @@ ooc::MeshSize size_of(const MeshInfo& info);
 InputOptions input_options(const ComputeOptions& options, const std::string& output);
 
 // Functions as users name them; "" is the default of the mesh.
-// THROWS: Error{kUsage} for a function that is none.
+// THROWS: Error{kUsage} for an unknown function.
 std::vector<io::FunctionSpec> parse_functions(std::span<const std::string> functions);
 
 // Must outlive the run.

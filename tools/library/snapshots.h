@@ -1,4 +1,4 @@
-// Exact graphs of a stream while it goes on (`ComputeOptions::snapshot_every`).
+// Exact graphs of a stream while it is read (`ComputeOptions::snapshot_every`).
 #pragma once
 
 #include <cstdint>

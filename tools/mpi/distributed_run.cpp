@@ -6,6 +6,7 @@
 #include <array>
 #include <bit>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "io/file/atomic_file.h"
@@ -49,66 +50,71 @@ std::uint64_t message_bytes(const ooc::PartInfo& info, const OpenPart& open) {
          open.live.nodes.size() * sizeof(PartSpan);
 }
 
-struct Glued {
+// What a rank has of the tree.
+struct Live {
   ooc::PartInfo info;
-  std::uint64_t sent_bytes = 0;
+  OpenPart open;
 };
 
-// All levels of the tree in which this rank takes part. The widths of buckets are known at each level only.
-Glued glue_in_tree(World& world, ooc::RunContext& run, ooc::FinishedPart part, const std::string& file) {
-  const std::uint32_t parts = part.info.mesh.shares.parts;
-  Glued glued{part.info, 0};
-  OpenPart open = std::move(part.open);
+void send_up(World& world, std::uint32_t to, const Live& live, Reservation& passing) {
+  StateBytes message;
+  passing.resize(message_bytes(live.info, live.open));
+  message.reserve(static_cast<std::size_t>(passing.bytes()));
+  ooc::write_info(message, live.info);
+  ooc::write_open_part(message, live.open);
+  world.send(to, message.bytes());
+}
+
+Live receive(World& world, std::uint32_t from, std::uint32_t parts, Reservation& passing) {
+  Live live;
+  StateBytes message(world.receive(from, passing));
+  live.info = ooc::read_info(message);
+  passing.resize(2 * message.bytes().size());
+  ooc::read_open_part(message, parts, live.open);
+  return live;
+}
+
+// Glues what is here, and what came from another rank, if anything did. The width of buckets is that of both.
+void glue(Live& here, std::optional<Live> there, ooc::SegmentStore& settled, Reservation& memory,
+          Reservation& passing) {
+  ooc::PartInfo info = there ? united(here.info, there->info) : here.info;
+  here.open.live.removed_pairs = static_cast<std::size_t>(here.info.removed_pairs);
+  PartGlue glue(settled, here.info.mesh.shares.parts, info.sweep());
+  memory.resize(glue.memory_bytes_with(here.open));
+  glue.add(here.open, here.info.runs);
+  if (there) {
+    there->open.live.removed_pairs = static_cast<std::size_t>(there->info.removed_pairs);
+    memory.resize(std::max<std::uint64_t>(memory.bytes(), glue.memory_bytes_with(there->open)));
+    glue.add(there->open, there->info.runs);
+    there.reset();
+  }
+  passing.resize(0);
+  here.open = {};
+  memory.resize(glue.memory_bytes() + glue.copy_bytes());
+  glue.copy_open(here.open);
+  if (!info.sweep().bucket_exponent) here.open.live.bucket_begin.clear();
+  info.removed_pairs = glue.removed_pairs();
+  here.info = std::move(info);
+}
+
+// All levels of the tree in which this rank takes part. What settles goes to `file`. Returns what is known of the parts
+// that it glued: of all parts at the root.
+ooc::PartInfo glue_in_tree(World& world, ooc::RunContext& run, ooc::FinishedPart part, const std::string& file) {
+  const std::uint32_t parts = part.info.mesh.shares.parts, rank = world.rank();
+  Live live{std::move(part.info), std::move(part.open)};
   Reservation memory = run.budget.reserve("live graph", 0), passing = run.budget.reserve("messages", 0);
   ooc::SegmentStore settled(run.temp, run.budget,
                             {.allowance_bytes = run.plan.segment_bytes, .most_bytes = run.plan.most_segment_bytes});
-  const std::uint64_t before = world.sent_bytes();
-  for (std::uint32_t step = 1;; step *= 2) {
-    const bool is_last = step >= world.size();
-    if (!is_last && world.rank() % (2 * step) == 0 && world.rank() + step >= world.size()) continue;
-    if (!is_last && world.rank() % (2 * step) != 0) {
-      StateBytes message;
-      passing.resize(message_bytes(glued.info, open));
-      message.reserve(static_cast<std::size_t>(passing.bytes()));
-      ooc::write_info(message, glued.info);
-      ooc::write_open_part(message, open);
-      world.send(world.rank() - step, message.bytes());
-      break;
-    }
-    ooc::PartInfo info = glued.info;
-    OpenPart other;
-    std::vector<PartSpan> other_runs;
-    if (!is_last) {
-      StateBytes message(world.receive(world.rank() + step, passing));
-      const ooc::PartInfo there = ooc::read_info(message);
-      passing.resize(2 * message.bytes().size());
-      ooc::read_open_part(message, parts, other);
-      other.live.removed_pairs = static_cast<std::size_t>(there.removed_pairs);
-      other_runs = there.runs;
-      info = united(glued.info, there);
-    }
-    open.live.removed_pairs = static_cast<std::size_t>(glued.info.removed_pairs);
-    PartGlue glue(settled, parts, info.sweep());
-    memory.resize(glue.memory_bytes_with(open));
-    glue.add(open, glued.info.runs);
-    if (!is_last) {
-      memory.resize(std::max<std::uint64_t>(memory.bytes(), glue.memory_bytes_with(other)));
-      glue.add(other, other_runs);
-    }
-    other = {};
-    passing.resize(0);
-    open = {};
-    memory.resize(glue.memory_bytes() + glue.copy_bytes());
-    glue.copy_open(open);
-    if (!info.sweep().bucket_exponent) open.live.bucket_begin.clear();
-    info.removed_pairs = glue.removed_pairs();
-    glued.info = std::move(info);
-    if (is_last) break;
-  }
-  glued.sent_bytes = world.sent_bytes() - before;
+  std::uint32_t step = 1;
+  for (; step < world.size() && rank % (2 * step) == 0; step *= 2)
+    if (rank + step < world.size()) glue(live, receive(world, rank + step, parts, passing), settled, memory, passing);
+  if (world.is_root())
+    glue(live, std::nullopt, settled, memory, passing);
+  else
+    send_up(world, rank - step, live, passing);
   settled.finish();
-  write_settled(file, glued.info, settled, run.temp.folder());
-  return glued;
+  write_settled(file, live.info, settled, run.temp.folder());
+  return std::move(live.info);
 }
 
 // Of this process, as the system counts it.
@@ -134,6 +140,39 @@ std::vector<RankFigures> gather(World& world, const RankFigures& own) {
   return ranks;
 }
 
+// Computes the share of this rank, and glues it in the tree. Returns, by function, what is known of the parts that this
+// rank glued: of all parts at the root.
+std::vector<ooc::PartInfo> glue_shares(World& world, RunInput& source, std::span<const std::string> outputs,
+                                       const ooc::ComputeOptions& wanted, const ooc::Stopwatch& watch,
+                                       RankFigures& figures) {
+  std::vector<std::string> rank_outputs;
+  for (const std::string& output : outputs) rank_outputs.push_back(rank_file(output, world.rank(), RankFile::kShare));
+  ooc::MeshInput input = source.take_mesh();
+  const ooc::ComputeOptions of_share = ooc::options_of_share(wanted);
+  ooc::RunContext run(input, source.functions(), rank_outputs, of_share);
+  ooc::WholeMesh mesh = ooc::open_whole_mesh(run, input, world.size());
+  const std::uint64_t before = world.sent_bytes();
+  ooc::PartUses uses = exchange_names(world, run, mesh);
+  figures.names_bytes = world.sent_bytes() - before;
+  ooc::PartResult done = ooc::run_part(run, input, mesh, uses, world.rank(), wanted);
+  const ooc::Shares& shares = mesh.info.shares;
+  figures.triangles = shares.end(world.rank()) - shares.begin(world.rank());
+  figures.live_vertices = done.parts[0].info.live.vertices;
+  figures.share_ms = static_cast<std::uint64_t>(1000 * watch.seconds());
+  std::vector<ooc::PartInfo> infos;
+  for (std::size_t f = 0; f < outputs.size(); ++f) {
+    write_settled(rank_outputs[f], done.parts[f].info, *run.stores[f], run.temp.folder());
+    run.stores[f].reset();
+    const std::uint64_t sent = world.sent_bytes();
+    infos.push_back(
+        glue_in_tree(world, run, std::move(done.parts[f]), rank_file(outputs[f], world.rank(), RankFile::kTree)));
+    figures.tree_bytes += world.sent_bytes() - sent;
+  }
+  world.wait_for_all();
+  run.resumable.done();
+  return infos;
+}
+
 // The second stage, at the root.
 ComputeResult finish_at_root(std::uint32_t ranks, const ooc::PartInfo& info, const std::string& output,
                              const ooc::ComputeOptions& options) {
@@ -154,12 +193,9 @@ ComputeResult finish_at_root(std::uint32_t ranks, const ooc::PartInfo& info, con
 DistributedResult compute_distributed(World& world, const std::string& path, std::span<const std::string> functions,
                                       std::span<const std::string> outputs, const ComputeOptions& options) {
   const ooc::ComputeOptions wanted = run_options(options);
-  const ooc::ComputeOptions of_share = ooc::options_of_share(wanted);
+  require_an_output_each(functions, outputs);
   RunInput source(path, functions, input_options(options, outputs[0]));
   if (options.opened && world.is_root()) options.opened(source.info());
-  ooc::MeshInput input = source.take_mesh();
-  std::vector<std::string> rank_outputs;
-  for (const std::string& output : outputs) rank_outputs.push_back(rank_file(output, world.rank(), RankFile::kShare));
 
   if (world.is_root())
     for (const std::string& output : outputs) remove_rank_files(output, false);
@@ -167,30 +203,8 @@ DistributedResult compute_distributed(World& world, const std::string& path, std
 
   DistributedResult result;
   RankFigures figures;
-  std::vector<ooc::PartInfo> infos;
   const ooc::Stopwatch watch;
-  {
-    ooc::RunContext run(input, source.functions(), rank_outputs, of_share);
-    ooc::WholeMesh mesh = ooc::open_whole_mesh(run, input, world.size());
-    const std::uint64_t before = world.sent_bytes();
-    ooc::PartUses uses = exchange_names(world, run, mesh);
-    figures.names_bytes = world.sent_bytes() - before;
-    ooc::PartResult done = ooc::run_part(run, input, mesh, uses, world.rank(), wanted);
-    const ooc::Shares& shares = mesh.info.shares;
-    figures.triangles = shares.end(world.rank()) - shares.begin(world.rank());
-    figures.live_vertices = done.parts[0].info.live.vertices;
-    figures.share_ms = static_cast<std::uint64_t>(1000 * watch.seconds());
-    for (std::size_t f = 0; f < outputs.size(); ++f) {
-      write_settled(rank_outputs[f], done.parts[f].info, *run.stores[f], run.temp.folder());
-      run.stores[f].reset();
-      Glued glued =
-          glue_in_tree(world, run, std::move(done.parts[f]), rank_file(outputs[f], world.rank(), RankFile::kTree));
-      figures.tree_bytes += glued.sent_bytes;
-      infos.push_back(std::move(glued.info));
-    }
-    world.wait_for_all();
-    run.resumable.done();
-  }
+  const std::vector<ooc::PartInfo> infos = glue_shares(world, source, outputs, wanted, watch, figures);
   figures.tree_ms = static_cast<std::uint64_t>(1000 * watch.seconds()) - figures.share_ms;
   for (std::size_t f = 0; f < outputs.size(); ++f) {
     if (world.is_root()) {

@@ -101,11 +101,12 @@ void print_census(const ooc::MeshCensus& census) {
     return;
   }
   print_field("boundaries", describe_boundaries(census));
-  const auto non_manifold = [](const ooc::CensusCount& found, std::string_view noun, const char* none) {
-    print_field("non-manifold", found.count == 0 ? none : describe(found, noun));
+  const auto non_manifold = [](const ooc::CensusCount& found, std::string_view noun) {
+    if (found.count != 0) print_field("non-manifold", describe(found, noun));
   };
-  non_manifold(census.nonmanifold_edges, "edge", "no edges");
-  non_manifold(census.nonmanifold_vertices, "vertex", "no vertices");
+  non_manifold(census.nonmanifold_edges, "edge");
+  non_manifold(census.nonmanifold_vertices, "vertex");
+  if (census.nonmanifold_edges.count + census.nonmanifold_vertices.count == 0) print_field("non-manifold", "none");
   print_field("degenerate", describe(census.degenerate, "triangle"));
   print_field("duplicates", describe(census.duplicates, "triangle"));
   print_field("folded", describe(census.folded, "edge"));

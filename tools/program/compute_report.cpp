@@ -33,11 +33,16 @@ const char* feature_name(PairType type) {
   return "component";
 }
 
-void print_features(const ooc::ComputeResult& r, const std::string& title, bool loops) {
-  bool first = true;
+void print_features(const ooc::ComputeResult& r, const char* title, std::uint64_t all, bool loops) {
+  constexpr std::ptrdiff_t kMost = 5;
+  const auto is_wanted = [&](const ooc::Feature& f) { return (f.type == PairType::kExt1) == loops; };
+  const std::ptrdiff_t listed = std::ranges::count_if(r.largest, is_wanted);
+  if (listed == 0) return;
+  const bool some_are_zero = listed < kMost && static_cast<std::uint64_t>(listed) < all;
+  print_line(fmt::format("  {} ({}{} in all):", title, some_are_zero ? fmt::format("{} above zero, ", listed) : "",
+                         with_commas(all)));
   for (const ooc::Feature& f : r.largest) {
-    if ((f.type == PairType::kExt1) != loops) continue;
-    if (std::exchange(first, false)) print_line("  " + title);
+    if (!is_wanted(f)) continue;
     const double persistence = f.hi.value - f.lo.value;
     print_line(fmt::format("    {:<7} {:>11.6g} {:>7.2f} %  vertex {} ({:.6g}) to {} ({:.6g})", feature_name(f.type),
                            persistence, percent_of(r.range, f.lo.value, f.hi.value), f.lo.vertex.value(), f.lo.value,
@@ -50,16 +55,21 @@ bool has_cells(const ooc::ComputeResult& r) {
   return std::any_of(r.simplices.begin() + 3, r.simplices.end(), [](std::uint64_t count) { return count != 0; });
 }
 
-// Prints the text, and a command that says more of the mesh if that can be read again.
-void print_with_command(const RunFacts& facts, const std::string& text, const std::string& command) {
-  const bool can_read = facts.is_mesh && facts.path != "-";
-  print_line(can_read ? text + "; " + command + " " + printable(facts.path) : text);
+// Prints the text, and what another command says of the mesh if that can be read again. To be copied, the command is
+// on one line.
+void print_with_command(const RunFacts& facts, const std::string& text, const std::string& command,
+                        const std::string& says) {
+  if (facts.fragments != 0 || facts.path == "-") return print_line(text);
+  const std::string more = fmt::format("`{} {}` {}", command, printable(facts.path), says);
+  if (text.size() + 2 + more.size() <= kTextColumns) return print_line(text + "; " + more);
+  print_line(text + ";");
+  print_line("    " + more);
 }
 
-// The run counts no edges, which all of these need. They are those of a surface.
-void print_not_counted(const RunFacts& facts, const ooc::ComputeResult& r) {
-  if (has_cells(r)) return;
-  print_with_command(facts, "  boundaries, non-manifold places, genus: not counted", "reeb info");
+// The run counts no edges, which these need.
+void print_not_checked(const RunFacts& facts, const ooc::ComputeResult& r) {
+  if (has_cells(r) || facts.is_image) return;
+  print_with_command(facts, "  surface not checked", "reeb info", "gives boundaries and genus");
 }
 
 // Many programs write each triangle with vertices of its own. Isolated vertices have no arcs.
@@ -76,9 +86,9 @@ void print_if_apart(const ooc::ComputeResult& r) {
 void print_likely_defects(const RunFacts& facts, const ooc::ComputeResult& r) {
   if (r.likely_defects == 0 || has_cells(r)) return;
   const std::string text =
-      fmt::format("  likely defects: {} of at most {:.2g} % of the range", count_of(r.likely_defects, "loop"),
-                  percent_of(r.range, 0, r.likely_defects_up_to));
-  print_with_command(facts, text, "reeb defects");
+      fmt::format("  likely defects by persistence: {} of at most {:.2g} % of the range",
+                  count_of(r.likely_defects, "loop"), percent_of(r.range, 0, r.likely_defects_up_to));
+  print_with_command(facts, text, "reeb defects", "measures them");
 }
 
 // Of the triangles; of all simplices, if there are others.
@@ -89,19 +99,20 @@ std::string rate(const ooc::ComputeResult& r) {
 }
 
 void print_result(const RunFacts& facts, const ooc::ComputeResult& r) {
-  print_line(fmt::format("Reeb graph of {} for f = {} (from {:.6g} to {:.6g})", printable(facts.path),
-                         printable(r.function), r.vertices == 0 ? 0 : r.range.min, r.vertices == 0 ? 0 : r.range.max));
+  const std::string what = facts.fragments == 0 ? printable(facts.path) : count_of(facts.fragments, "fragment");
+  print_line(fmt::format("Reeb graph of {} for f = {} (from {:.6g} to {:.6g})", what, printable(r.function),
+                         r.vertices == 0 ? 0 : r.range.min, r.vertices == 0 ? 0 : r.range.max));
   print_line(fmt::format("  mesh: {}, {}", count_of(r.vertices, "vertex"), count_simplices(r.simplices)));
-  print_not_counted(facts, r);
+  print_not_checked(facts, r);
   print_line(fmt::format("  graph: {}, {}, {}, {}", count_of(r.nodes, "node"), count_of(r.arcs, "arc"),
                          count_of(r.betti.components, "component"), count_of(r.betti.loops, "loop")));
   print_if_apart(r);
   if (r.denoised_pairs != 0) print_line("  removed as noise: " + count_of(r.denoised_pairs, "pair"));
   const auto pairs = [&](PairType type) { return r.pairs[static_cast<std::size_t>(type)]; };
   const std::uint64_t loops = pairs(PairType::kExt1), others = pairs(PairType::kOrd0) + pairs(PairType::kRel1);
-  print_features(r, fmt::format("largest loops ({} in all):", with_commas(loops)), true);
+  print_features(r, "largest loops", loops, true);
   print_likely_defects(facts, r);
-  print_features(r, fmt::format("largest minima and maxima ({} in all):", with_commas(others)), false);
+  print_features(r, "largest minima and maxima", others, false);
   if (r.kept_loops != 0)
     print_line(fmt::format("  {} of the loops cannot be cancelled exactly; {} in every simplified level",
                            with_commas(r.kept_loops), r.kept_loops == 1 ? "it stays" : "they stay"));

@@ -11,7 +11,8 @@ namespace reeb::tools {
 
 struct RunFacts {
   std::string path, format;
-  bool is_mesh = true;  // at `path`, which other commands can read unless it is "-"
+  std::size_t fragments = 0;  // that were glued, the first at `path`; 0: a mesh is there
+  bool is_image = false;
   std::uint64_t input_bytes = 0;
   std::uint64_t memory_budget_bytes = 0;  // 0: no limit was given
 };

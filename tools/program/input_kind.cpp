@@ -44,4 +44,16 @@ void require_reeb_file(const std::string& path, const std::string& command) {
       .at(path);
 }
 
+void require_mesh_file(const std::string& path, const std::string& hint) {
+  if (path != "-" && ooc::is_reeb_file(path))
+    throw Error(ErrorKind::kBadInput, "this is a Reeb graph, not a mesh", hint).at(path);
+}
+
+void require_mesh_to_reread(const std::string& path, const std::string& hint) {
+  if (path == "-")
+    throw Error(ErrorKind::kUsage, "the mesh is read several times, so it cannot come from standard input",
+                "write it to a file first");
+  require_mesh_file(path, hint);
+}
+
 }  // namespace reeb::tools

@@ -12,4 +12,9 @@ std::string stem_of(const std::string& mesh);
 // THROWS: Error{kBadInput} that says what the file is instead, and what to do.
 void require_reeb_file(const std::string& path, const std::string& command);
 
+// For a file that must be a mesh. THROWS: Error{kBadInput} with this hint if it is a Reeb graph.
+void require_mesh_file(const std::string& path, const std::string& hint);
+// In addition, THROWS: Error{kUsage} for standard input.
+void require_mesh_to_reread(const std::string& path, const std::string& hint);
+
 }  // namespace reeb::tools

@@ -267,11 +267,11 @@ std::string defects(const std::string& mesh, const std::vector<std::string>& fil
     find.searching = [&run](std::uint64_t done, std::uint64_t total, std::uint64_t triangles) {
       run.tell("curves", done, total, triangles);
     };
-    find.interrupted = options.interrupted;
+    find.mesh.interrupted = options.interrupted;
     const tools::Defects found = tools::find_defects(find);
     std::vector<tools::RankedRow> rows;
     for (std::size_t i = 0; i < found.table.rows.size(); ++i) rows.push_back({i + 1, &found.table.rows[i]});
-    tools::write_defect_json(found, rows, tools::census_of(find.mesh, find.interrupted), text);
+    tools::write_defect_json(found, rows, tools::census_of(find.mesh), text);
   });
   return text.str();
 }

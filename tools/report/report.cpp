@@ -96,7 +96,7 @@ void note_census(const ooc::MeshCensus& census, Findings& findings) {
   const auto note = [&](std::uint64_t count, const char* noun) {
     if (count > 0) notes.push_back(fmt::format("The mesh has {}.", count_of(count, noun)));
   };
-  note(census.boundaries, "boundary loop");
+  note(census.boundaries, "boundary");
   note(census.nonmanifold_edges.count, "non-manifold edge");
   note(census.nonmanifold_vertices.count, "non-manifold vertex");
   note(census.degenerate.count, "degenerate triangle");
@@ -111,7 +111,7 @@ void note_census(const ooc::MeshCensus& census, Findings& findings) {
 
 void search_mesh(const ReportOptions& options, Findings& findings) {
   if (options.counting) options.counting();
-  findings.census = census_of(options.defects.mesh, options.defects.interrupted);
+  findings.census = census_of(options.defects.mesh);
   note_census(*findings.census, findings);
   if (!findings.census->not_a_surface.empty()) return;  // curves are on surfaces
   findings.defects = find_defects(options.defects);
@@ -138,7 +138,10 @@ Findings find(const ooc::ReebFile& file, const ReportOptions& options) {
     findings.finest = finest_level(file, options.nodes, findings);
     if (findings.finest) findings.skeleton = skeleton_json(file, *findings.finest);
   });
-  if (!options.defects.mesh.path.empty()) search_mesh(options, findings);
+  if (!options.defects.mesh.path.empty())
+    search_mesh(options, findings);
+  else
+    findings.notes.emplace_back("The mesh was not checked (give it with --mesh).");
   return findings;
 }
 
@@ -149,12 +152,13 @@ std::vector<NamedText> summary_rows(const ooc::ReebFile& file, const Findings& f
       {"function", header.function},
       {"range", fmt::format("{:.9g} to {:.9g}", header.function_min, header.function_max)},
       {"mesh vertices", with_commas(header.mesh_vertices)},
-      {"mesh triangles", with_commas(header.mesh_triangles)},
-      {"nodes", with_commas(header.nodes)},
-      {"arcs", with_commas(header.arcs)},
-      {"components", with_commas(header.components)},
-      {"loops", with_commas(header.loops)},
   };
+  // Of images and tetrahedra, the file has no count.
+  if (header.mesh_triangles != 0) rows.emplace_back("mesh triangles", with_commas(header.mesh_triangles));
+  rows.insert(rows.end(), {{"nodes", with_commas(header.nodes)},
+                           {"arcs", with_commas(header.arcs)},
+                           {"components", with_commas(header.components)},
+                           {"loops", with_commas(header.loops)}});
   if (findings.pairs) {
     const auto& counts = findings.pairs->counts;
     const auto count = [&](PairType type) { return with_commas(counts[static_cast<std::size_t>(type)]); };
@@ -173,7 +177,7 @@ std::vector<NamedText> census_rows(const std::string& mesh, const ooc::MeshCensu
   std::vector<NamedText> rows{{"mesh", base_name(mesh)}, {"connected components", with_commas(census.components)}};
   if (!census.not_a_surface.empty()) return rows;
   rows.insert(rows.end(),
-              {{"boundary loops", with_commas(census.boundaries)},
+              {{"boundaries", with_commas(census.boundaries)},
                {"non-manifold edges", with_commas(census.nonmanifold_edges.count)},
                {"non-manifold vertices", with_commas(census.nonmanifold_vertices.count)},
                {"degenerate triangles", with_commas(census.degenerate.count)},
@@ -186,7 +190,7 @@ std::vector<NamedText> census_rows(const std::string& mesh, const ooc::MeshCensu
 }
 
 std::string notes_list(const std::vector<std::string>& notes) {
-  if (notes.empty()) return "<p class=\"fine\">Nothing is odd.</p>\n";
+  if (notes.empty()) return "<p class=\"fine\">Nothing unusual was found.</p>\n";
   std::string out = "<ul class=\"notes\">\n";
   for (const std::string& note : notes) out += "<li>" + html_text(note) + "</li>\n";
   return out + "</ul>\n";
@@ -210,8 +214,7 @@ std::string features_section(const Findings& findings, const ValueRange& range) 
 std::string defects_section(const Findings& findings) {
   if (!findings.census)
     return "<p>Defects are placed and measured on the mesh: <code>reeb report FILE.reeb --mesh MESH -o "
-           "OUT.html</code>. Without it, the loops of least persistence in the list of features are the likely "
-           "ones.</p>\n";
+           "OUT.html</code>.</p>\n";
   if (!findings.defects) return "<p>The mesh is no surface, so it has no handles and tunnels to measure.</p>\n";
   const DefectTable& table = findings.defects->table;
   if (table.rows.empty()) return "<p>The surface has no loops, so it has no small handles or tunnels.</p>\n";

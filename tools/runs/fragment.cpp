@@ -2,13 +2,11 @@
 #include <fmt/core.h>
 
 #include <charconv>
-#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "io/file/file.h"
-#include "io/functions/function_source.h"
 #include "libreeb/base/count_text.h"
 #include "libreeb/base/error.h"
 #include "libreeb/base/printable.h"
@@ -22,8 +20,6 @@
 
 namespace reeb::tools {
 namespace {
-
-namespace fs = std::filesystem;
 
 struct FragmentArguments : RunArguments {
   std::string part, output;
@@ -48,20 +44,16 @@ ooc::PartChoice parse_part(const std::string& text) {
   return {.part = part - 1, .parts = parts, .shared = {}};
 }
 
-std::vector<std::string> output_names(const FragmentArguments& arguments, const ooc::PartChoice& choice) {
+std::vector<std::string> outputs_of(const FragmentArguments& arguments, const ooc::PartChoice& choice) {
   const std::string suffix = arguments.scan ? ".names" : ".fragment";
-  fs::path output = arguments.output;
+  std::string output = arguments.output;
   if (output.empty())
     output = stem_of(arguments.mesh) + "-" + std::to_string(choice.part + 1) + "-of-" + std::to_string(choice.parts) +
              suffix;
-  if (arguments.scan || arguments.functions.size() == 1) return {output.string()};
-  if (arguments.output == io::kStandardOutput)
+  if (arguments.scan) return {output};
+  if (arguments.functions.size() != 1 && output == io::kStandardOutput)
     throw Error(ErrorKind::kUsage, "several outputs cannot go to standard output", "name a file with -o");
-  if (output.extension() == suffix) output.replace_extension();
-  std::vector<std::string> names;
-  for (const std::string& function : arguments.functions)
-    names.push_back(output.string() + "-" + io::file_name_part(io::parse_function(function)) + suffix);
-  return names;
+  return output_names(output, arguments.functions, suffix);
 }
 
 void print_fragment(const ooc::FragmentResult& r, const ooc::PartChoice& choice) {
@@ -83,7 +75,7 @@ void run_fragment(FragmentArguments arguments) {
   if (arguments.scan && !choice.shared.empty())
     throw Error(ErrorKind::kUsage, "--scan and --shared exclude each other",
                 "make the names of all parts with --scan, then each fragment with --shared");
-  const std::vector<std::string> outputs = output_names(arguments, choice);
+  const std::vector<std::string> outputs = outputs_of(arguments, choice);
   take_denoise(arguments);
   options.opened = [&](const MeshInfo& info) {
     if (!arguments.quiet) print_line(printable(arguments.mesh + ": " + describe(info)));
@@ -127,6 +119,9 @@ void add_fragment(Program& program) {
                   "Files that --scan wrote, of all parts, so that the whole mesh need not be read")
       .type_name("FILE");
   add_run_options(command, *arguments);
+  refuse_whole_mesh_options(command);
+  command.refuse_option("--report", "there is no report of a fragment",
+                        "`reeb info` describes fragments, and `reeb glue --report` the graph");
   command.footer("Example:\n  reeb fragment scan.ply --part 1/2 -o p1.fragment");
   command.callback([arguments] { run_fragment(*arguments); });
 }

@@ -61,7 +61,7 @@ void run_glue(GlueArguments arguments) {
   RunFacts facts;
   facts.path = arguments.fragments[0];
   facts.format = "fragments";
-  facts.is_mesh = false;
+  facts.fragments = arguments.fragments.size();
   if (options.memory_bytes != MemoryBudget::kUnlimited) facts.memory_budget_bytes = options.memory_bytes;
   if (!arguments.quiet && glued.result) print_summary(facts, {*glued.result});
   if (!arguments.quiet && !glued.result) {
@@ -97,17 +97,13 @@ void add_glue(Program& program) {
                    "Stop after the graph: no pairs, no levels (default: as in the fragments)");
   add_count(command, "--buckets", options.buckets,
             "0: leave the embedding out; else as in the fragments (default: as in the fragments)", {.most = 1u << 20});
-  add_size(command, "--memory", options.memory_bytes, "Memory that the run may use: 64M, 1.5GiB (default: no limit)");
-  add_count(command, "--threads", options.threads, "Number of threads, 1 to 1024 (default: all)",
-            {.least = 1, .most = 1024});
-  command
-      .add_option("--temp-dir", options.temp_dir,
-                  "Folder for temporary files (default: $TMPDIR, or the folder of the output)")
-      .type_name("DIR");
+  add_memory(command, options.memory_bytes);
+  add_threads(command, options.threads);
+  add_temp_dir(command, options.temp_dir);
   command.add_option("--report", arguments->report, "Write figures of the run as JSON; - is standard output")
       .type_name("FILE");
   command.add_flag("--quiet", arguments->quiet, "Print no progress and no summary");
-  command.add_flag("--force", options.replace, "Replace an existing output");
+  add_force(command, options.replace);
   command.footer("Example:\n  reeb glue p1.fragment p2.fragment -o scan.reeb");
   command.callback([arguments] { run_glue(*arguments); });
 }

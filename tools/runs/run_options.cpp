@@ -1,11 +1,15 @@
 #include "tools/runs/run_options.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdlib>
 
+#include "io/functions/function_source.h"
 #include "libreeb/base/count_text.h"
 #include "tools/arguments/image_options.h"
 #include "tools/arguments/options.h"
+#include "tools/library/run_files.h"
+#include "tools/program/output.h"
 #include "tools/program/quantity.h"
 
 namespace reeb::tools {
@@ -27,7 +31,7 @@ void add_run_options(Command command, RunArguments& arguments, const RunTexts& t
       .option_text("FUNC");
   command.add_flag("--graph-only", options.graph_only, "Stop after the graph: no pairs, no levels");
   add_format(command, options.format);
-  add_size(command, "--memory", options.memory_bytes, texts.memory);
+  add_memory(command, options.memory_bytes, texts.memory);
   command
       .add_option("--denoise", arguments.denoise,
                   "Remove minima and maxima of less persistence: 0.01 (function units), or 0.1% (of the range)")
@@ -35,23 +39,49 @@ void add_run_options(Command command, RunArguments& arguments, const RunTexts& t
   add_count(command, "--buckets", options.buckets,
             "Embed arcs in at least N buckets of value (default: 64; 0: no embedding)", {.most = 1u << 20});
   add_image_options(command, arguments.options.image);
-  add_count(command, "--threads", options.threads, texts.threads, {.least = 1, .most = 1024});
+  add_threads(command, options.threads, texts.threads);
   add_count(command, "--chunk", options.chunk_triangles, "Triangles per chunk (default: adaptive)", {.least = 1});
-  command
-      .add_option("--temp-dir", options.temp_dir,
-                  "Folder for temporary files (default: $TMPDIR, or the folder of the output)")
-      .type_name("DIR");
+  add_temp_dir(command, options.temp_dir);
   command.add_flag(
       "--no-reorder", [&options] { options.may_reorder = false; }, "Do not sort incoherent meshes on disk first");
   command.add_flag("--resume", options.resume, "Continue an interrupted run from its folder OUT.partial");
   command.add_flag("--quiet", arguments.quiet, "Print no progress and no summary");
-  command.add_flag("--force", options.replace, "Replace existing outputs, and discard an interrupted run");
+  add_force(command, options.replace, "Replace existing outputs, and discard an interrupted run");
+}
+
+void refuse_whole_mesh_options(Command command) {
+  command.refuse_option("--manifold", "a part does not see the triangles that others have at its edges",
+                        "leave it out; the graph is the same");
+  command.refuse_option("--sidecar", "a run on parts keeps no sidecar",
+                        "leave it out, or make one with `reeb compute --sidecar`; a sidecar that is there is used");
+  command.refuse_option("--snapshot-every", "parts have no graph of the mesh so far",
+                        "use `reeb compute` for snapshots");
 }
 
 void take_denoise(RunArguments& arguments) {
   if (arguments.denoise.empty()) return;
   arguments.options.denoise_is_share = arguments.denoise.ends_with('%');
   arguments.options.denoise = parse_threshold("--denoise", arguments.denoise, {0, 1});
+}
+
+std::vector<std::string> output_names(std::filesystem::path output, const std::vector<std::string>& functions,
+                                      std::string_view suffix) {
+  if (functions.size() == 1) return {output.string()};
+  if (output.extension() == suffix) output.replace_extension();
+  std::vector<std::string> names;
+  names.reserve(functions.size());
+  for (const std::string& function : functions)
+    names.push_back(output.string() + "-" + io::file_name_part(io::parse_function(function)) + std::string(suffix));
+  return names;
+}
+
+void check_files(const RunArguments& arguments, const std::vector<std::string>& outputs, const std::string& report) {
+  std::vector<io::FunctionSpec> functions;
+  for (const std::string& function : arguments.functions)
+    if (!function.empty()) functions.push_back(io::parse_function(function));
+  RunFiles files = files_of_run(arguments.mesh, functions, outputs, arguments.options);
+  if (!report.empty()) files.add_output(report, "the report", existing_outputs(arguments.options.replace));
+  files.check();
 }
 
 std::string describe(const MeshInfo& info) {

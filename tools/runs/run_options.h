@@ -1,7 +1,9 @@
 // What the commands share that run a mesh: options, and what they print meanwhile.
 #pragma once
 
+#include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "libreeb/port/mesh_reader.h"
@@ -28,8 +30,17 @@ struct RunTexts {
 
 // `arguments` must outlive the parsing.
 void add_run_options(Command command, RunArguments& arguments, const RunTexts& texts = {});
+// Says of the options that only a run on a whole mesh has why a run on parts has not.
+void refuse_whole_mesh_options(Command command);
 // Turns the text of --denoise into options. THROWS: Error{kUsage}.
 void take_denoise(RunArguments& arguments);
+
+// The output itself; of several functions, an output of each: OUT-FUNC, with the suffix.
+std::vector<std::string> output_names(std::filesystem::path output, const std::vector<std::string>& functions,
+                                      std::string_view suffix = ".reeb");
+// Checks the files of a run before it begins, with its report (empty: none), which compute() does not know.
+// THROWS: as RunFiles::check().
+void check_files(const RunArguments& arguments, const std::vector<std::string>& outputs, const std::string& report);
 
 // "PLY binary little endian, 5 vertices, 6 faces"
 std::string describe(const MeshInfo& info);

@@ -39,16 +39,15 @@ std::string random_word() {
   return word;
 }
 
+Error unusable_port(std::uint16_t port, int error) {
+  const std::string why = error == EADDRINUSE ? "is in use" : fmt::format("cannot be used: {}", std::strerror(error));
+  return {ErrorKind::kResource, fmt::format("port {} {}", port, why),
+          "choose another --port, or leave it out for a free one"};
+}
+
 int listen_on(std::uint16_t port) {
-  const auto fail = [&](int error) -> int {
-    if (error == EADDRINUSE)
-      throw Error(ErrorKind::kResource, fmt::format("port {} is in use", port),
-                  "choose another --port, or leave it out for a free one");
-    throw Error(ErrorKind::kResource, fmt::format("port {} cannot be used: {}", port, std::strerror(error)),
-                "choose another --port, or leave it out for a free one");
-  };
   const int listener = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
-  if (listener < 0) return fail(errno);
+  if (listener < 0) throw unusable_port(port, errno);
   // A port that was used a moment ago can be used again.
   const int yes = 1;
   ::setsockopt(listener, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
@@ -60,7 +59,7 @@ int listen_on(std::uint16_t port) {
       ::listen(listener, SOMAXCONN) != 0) {
     const int error = errno;
     ::close(listener);
-    return fail(error);
+    throw unusable_port(port, error);
   }
   return listener;
 }

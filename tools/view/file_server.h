@@ -1,4 +1,7 @@
 // A web server for one page and one file, for programs of this computer only.
+//
+// It is written by hand, since a library costs every run of the program: cpp-httplib, as Debian packages it, loads
+// OpenSSL and Brotli, which keep 4 MiB resident.
 #pragma once
 
 #include <cstdint>

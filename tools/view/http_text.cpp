@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <limits>
 
 namespace reeb::tools {
 namespace {
@@ -43,12 +44,12 @@ bool is_name(std::string_view text, std::string_view lower_case) {
                             [](char a, char b) { return (a >= 'A' && a <= 'Z' ? a - 'A' + 'a' : a) == b; });
 }
 
-// A number without sign that has nothing after it.
+// A number without sign that has nothing after it. One beyond 64 bits is as good as the largest.
 std::optional<std::uint64_t> number(std::string_view text) {
   std::uint64_t value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (text.empty() || error != std::errc{} || end != text.data() + text.size()) return {};
-  return value;
+  if (text.empty() || error == std::errc::invalid_argument || end != text.data() + text.size()) return {};
+  return error == std::errc::result_out_of_range ? std::numeric_limits<std::uint64_t>::max() : value;
 }
 
 }  // namespace

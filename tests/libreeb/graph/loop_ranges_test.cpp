@@ -7,7 +7,7 @@
 
 #include "libreeb/containers/union_find.h"
 #include "libreeb/hierarchy/pairing.h"
-#include "tests/support/random_graph.h"
+#include "tests/support/inputs/random_graph.h"
 
 namespace reeb {
 namespace {

@@ -13,7 +13,7 @@
 #include "libreeb/grid/box_sweep.h"
 #include "libreeb/grid/grid_boxes.h"
 #include "libreeb/port/graph_sink.h"
-#include "tests/support/grid_complex.h"
+#include "tests/support/inputs/grid_complex.h"
 
 namespace reeb::test {
 

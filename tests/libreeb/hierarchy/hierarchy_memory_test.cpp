@@ -4,8 +4,8 @@
 #include "libreeb/hierarchy/cancel.h"
 #include "tests/libreeb/hierarchy/elsewhere_first.h"
 #include "tests/support/held_memory.h"
-#include "tests/support/made_graph.h"
-#include "tests/support/random_function_graph.h"
+#include "tests/support/inputs/made_graph.h"
+#include "tests/support/inputs/random_function_graph.h"
 
 namespace reeb {
 namespace {

@@ -8,8 +8,8 @@
 #include "tests/model/naive_hierarchy.h"
 #include "tests/model/reference_pairs.h"
 #include "tests/model/reference_reeb.h"
+#include "tests/support/inputs/random_graph.h"
 #include "tests/support/random.h"
-#include "tests/support/random_graph.h"
 #include "tests/support/seed.h"
 
 namespace reeb::test {

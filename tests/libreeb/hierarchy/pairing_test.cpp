@@ -7,7 +7,7 @@
 #include "tests/libreeb/hierarchy/random_graphs.h"
 #include "tests/model/reference_pairs.h"
 #include "tests/model/reference_reeb.h"
-#include "tests/support/random_complex.h"
+#include "tests/support/inputs/random_complex.h"
 #include "tests/support/seed.h"
 
 namespace reeb {

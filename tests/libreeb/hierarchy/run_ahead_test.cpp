@@ -8,7 +8,7 @@
 #include "ooc/threads/worker.h"
 #include "tests/libreeb/hierarchy/elsewhere_first.h"
 #include "tests/libreeb/hierarchy/random_buckets.h"
-#include "tests/support/made_graph.h"
+#include "tests/support/inputs/made_graph.h"
 #include "tests/support/seed.h"
 
 namespace reeb {

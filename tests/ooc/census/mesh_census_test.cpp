@@ -9,8 +9,8 @@
 
 #include "libreeb/base/error.h"
 #include "tests/model/reference_census.h"
-#include "tests/support/complex_mesh.h"
-#include "tests/support/damaged_surface.h"
+#include "tests/support/inputs/complex_mesh.h"
+#include "tests/support/inputs/damaged_surface.h"
 #include "tests/support/random.h"
 #include "tests/support/scratch.h"
 #include "tests/support/seed.h"

@@ -7,7 +7,7 @@
 
 #include "libreeb/base/memory_budget.h"
 #include "ooc/chunks/chunk_source.h"
-#include "tests/support/complex_mesh.h"
+#include "tests/support/inputs/complex_mesh.h"
 #include "tests/support/random.h"
 
 namespace reeb::test {

@@ -12,9 +12,9 @@
 #include "ooc/distributed/open_part_state.h"
 #include "ooc/distributed/part_run.h"
 #include "tests/model/reference_reeb.h"
-#include "tests/support/complex_mesh.h"
+#include "tests/support/inputs/complex_mesh.h"
+#include "tests/support/inputs/random_complex.h"
 #include "tests/support/random.h"
-#include "tests/support/random_complex.h"
 #include "tests/support/scratch.h"
 #include "tests/support/seed.h"
 #include "tests/support/whole_run.h"  // scratch folders in memory

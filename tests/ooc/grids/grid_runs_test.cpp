@@ -9,8 +9,8 @@
 #include "io/functions/function_source.h"
 #include "io/grids/grid_mesh.h"
 #include "tests/model/reference_reeb.h"
-#include "tests/support/embedding_places.h"
-#include "tests/support/memory_grid.h"
+#include "tests/support/inputs/embedding_places.h"
+#include "tests/support/inputs/memory_grid.h"
 #include "tests/support/seed.h"
 #include "tests/support/whole_run.h"
 

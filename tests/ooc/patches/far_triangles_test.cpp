@@ -11,7 +11,7 @@
 
 #include "libreeb/defects/surface_patch.h"
 #include "ooc/patches/ball_clusters.h"
-#include "tests/support/complex_mesh.h"
+#include "tests/support/inputs/complex_mesh.h"
 
 namespace reeb::test {
 namespace {

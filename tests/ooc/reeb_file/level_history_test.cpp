@@ -72,6 +72,24 @@ TEST(LevelHistory, HasEveryVersionFromTheFinestOn) {
   }
 }
 
+TEST(LevelHistory, RefusesAVersionThatTheFileDoesNotHave) {
+  const Scratch folder;
+  const MadeUp made = MadeUpMaker(5).make(20, 40, 20);
+  const std::string path = write(folder, made, true);
+  const auto steps = static_cast<std::uint32_t>(made.hierarchy.persistence.size());
+  const auto visit = [](const FileArc&, const SettledNode&, const SettledNode&, std::span<const Bucket>) {};
+  for (const std::uint32_t finest : {steps + 1, steps + 2, ~0u}) {
+    try {
+      read_history(path, finest, visit);
+      FAIL();
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::kBadInput);
+      EXPECT_EQ(error.file(), path);
+      EXPECT_EQ(error.message(), "there is no version " + std::to_string(finest));
+    }
+  }
+}
+
 // Of a file of many frames, only those that the version needs are read.
 TEST(LevelHistory, ReadsManyFrames) {
   const Scratch folder;

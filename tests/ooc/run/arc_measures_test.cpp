@@ -14,10 +14,10 @@
 #include "libreeb/segmentation/chain_measures.h"
 #include "ooc/run/segment.h"
 #include "tests/model/reference_reeb.h"
+#include "tests/support/inputs/random_complex.h"
+#include "tests/support/inputs/shapes.h"
 #include "tests/support/random.h"
-#include "tests/support/random_complex.h"
 #include "tests/support/seed.h"
-#include "tests/support/shapes.h"
 #include "tests/support/whole_run.h"
 
 namespace reeb::test {

@@ -24,7 +24,7 @@
 #include "ooc/run/compute.h"
 #include "tests/ooc/chunks/model_mesh.h"
 #include "tests/support/files.h"
-#include "tests/support/random_complex.h"
+#include "tests/support/inputs/random_complex.h"
 #include "tests/support/scratch.h"
 
 namespace reeb::ooc {

@@ -12,10 +12,10 @@
 #include "tests/model/naive_hierarchy.h"
 #include "tests/model/reference_pairs.h"
 #include "tests/model/reference_reeb.h"
+#include "tests/support/inputs/random_complex.h"
+#include "tests/support/inputs/shapes.h"
 #include "tests/support/random.h"
-#include "tests/support/random_complex.h"
 #include "tests/support/seed.h"
-#include "tests/support/shapes.h"
 #include "tests/support/whole_run.h"
 
 namespace reeb::test {

@@ -14,8 +14,8 @@
 #include "ooc/reeb_writer/record_log.h"
 #include "ooc/reeb_writer/reeb_file_writer.h"
 #include "tests/support/files.h"
-#include "tests/support/made_graph.h"
-#include "tests/support/random_graph.h"
+#include "tests/support/inputs/made_graph.h"
+#include "tests/support/inputs/random_graph.h"
 #include "tests/support/scratch.h"
 #include "tests/support/seed.h"
 

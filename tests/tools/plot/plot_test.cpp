@@ -75,15 +75,14 @@ TEST_F(Plot, SkeletonIsSeenFromWhereOneSays) {
   EXPECT_EQ(picture("0,0,1"), picture("0,0,2.5"));
 }
 
-TEST_F(Plot, LoopsHaveAMarkForEachLoop) {
+TEST_F(Plot, LoopsAreACurve) {
   REEB_NEEDS("gnuplot");
   expect_success(reeb({"plot", "scan.reeb"}));
   expect_valid("scan.svg");
   const std::string pairs = reeb({"pairs", "scan.reeb"}).output;
   const std::size_t loops = count_of("\nExt1,", pairs);
   ASSERT_GT(loops, 3u);
-  ASSERT_LE(loops, 200u);
-  EXPECT_EQ(count_of("<use xlink:href='#gpPt6'", file("scan.svg")), loops);
+  EXPECT_EQ(count_of("<use xlink:href='#gpPt6'", file("scan.svg")), 0u);
   EXPECT_NE(file("scan.svg").find(std::to_string(loops) + " loops"), std::string::npos);
 }
 
@@ -276,6 +275,22 @@ TEST_F(Plot, OfManyNodesIsAnImage) {
   if (!is_installed("gnuplot")) return;
   expect_success(reeb({"plot", "random.reeb", "--kind", "diagram", "-o", "d.svg"}));
   expect_valid("d.svg");
+}
+
+// Of very many components of one node some are drawn, and the picture says how many are not.
+TEST_F(Plot, OfManyIsolatedNodesDrawsSome) {
+  std::string points = "OFF\n2000 0 0\n";
+  for (int i = 0; i < 2000; ++i) points += "0 0 " + std::to_string(i % 10) + "\n";
+  write("points.off", points);
+  expect_success(reeb({"compute", "points.off", "-f", "z"}));
+  expect_success(reeb({"plot", "points.reeb", "--kind", "graph"}));
+  const std::string picture = file("points.svg");
+  const std::size_t drawn = count_of("class=\"node\"", picture), missing = 2000 - drawn;
+  EXPECT_GT(drawn, 100u);
+  ASSERT_GT(missing, 1000u);
+  const std::string number = "1," + std::to_string(missing).substr(1);
+  EXPECT_EQ(count_of("; " + number + " of the components of one node or arc are not drawn", picture), 1u);
+  EXPECT_EQ(count_of("2,000 isolated nodes", picture), 1u);
 }
 
 // A zigzag of edges, in which every vertex is a node. An end is cancelled with the fork next to it, which stays as

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "tests/support/complex.h"
+#include "tests/support/inputs/complex.h"
 #include "tests/support/random.h"
 
 namespace reeb::test {

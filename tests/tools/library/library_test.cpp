@@ -15,6 +15,7 @@
 #include "ooc/reeb_file/reeb_file.h"
 #include "tests/support/files.h"
 #include "tests/support/scratch.h"
+#include "tools/library/fragment.h"
 #include "tools/library/run_input.h"
 
 namespace reeb::test {
@@ -120,6 +121,9 @@ TEST(Compute, RefusesWhatItCannotDo) {
   const std::vector<std::string> two = {"x", "y"}, one = {output}, none;
   EXPECT_EQ(kind_of_failure([&] { compute(mesh, two, one); }), ErrorKind::kUsage);
   EXPECT_EQ(kind_of_failure([&] { compute(mesh, none, none); }), ErrorKind::kUsage);
+  const ooc::PartChoice half{.part = 0, .parts = 2, .shared = {}};
+  EXPECT_EQ(kind_of_failure([&] { compute_fragments(mesh, two, one, {}, half); }), ErrorKind::kUsage);
+  EXPECT_EQ(kind_of_failure([&] { compute_fragments(mesh, none, none, {}, half); }), ErrorKind::kUsage);
   EXPECT_EQ(kind_of_failure([&] { compute(mesh, "height", output); }), ErrorKind::kUsage);
   EXPECT_EQ(kind_of_failure([&] { compute(folder / "missing.ply", "z", output); }), ErrorKind::kBadInput);
   EXPECT_EQ(kind_of_failure([&] { compute(mesh, "z", output, {.interrupted = [] { return true; }}); }),

@@ -1,4 +1,4 @@
-#include "tests/support/damaged_surface.h"
+#include "tests/support/inputs/damaged_surface.h"
 
 #include <algorithm>
 #include <cmath>

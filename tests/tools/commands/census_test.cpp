@@ -127,8 +127,8 @@ TEST_F(Census, OfRealMeshes) {
 TEST_F(Census, InTextASurfaceHasALineForEachKindOfDefect) {
   write("good.off", kSmallOff);
   EXPECT_NE(reeb({"info", "good.off"})
-                .output.find("  components    1\n  boundaries    none\n  non-manifold  no edges\n"
-                             "  non-manifold  no vertices\n  degenerate    none\n  duplicates    none\n"
+                .output.find("  components    1\n  boundaries    none\n  non-manifold  none\n"
+                             "  degenerate    none\n  duplicates    none\n"
                              "  folded        none\n  orientation   consistent\n  genus         0\n"),
             std::string::npos);
   write("bad.off",
@@ -159,6 +159,18 @@ TEST_F(Census, OfAnImageOnlyComponentsAreCounted) {
   EXPECT_NE(
       reeb({"info", "i.raw", "--grid", "4x3", "--type", "f32le"}).output.find("  surface       no: it is an image"),
       std::string::npos);
+}
+
+TEST_F(Census, LengthsNearTheEndOfTheDoublesAreNumbers) {
+  const auto triangle = [](const std::string& x) {
+    return "OFF\n3 1 0\n-" + x + " 0 0\n" + x + " 0 0\n0 0 0\n3 0 1 2\n";
+  };
+  write("large.off", triangle("1e200"));
+  EXPECT_NEAR(info({"large.off"})["boundaries"]["places"][0]["length"].get<double>() / 4e200, 1, 1e-12);
+  write("huge.off", triangle("1.7e308"));
+  EXPECT_TRUE(info({"huge.off"})["boundaries"]["places"][0]["length"].is_null());
+  const Outcome text = reeb({"info", "huge.off"});
+  EXPECT_NE(text.output.find("of 3 edges and length inf at"), std::string::npos) << text.output;
 }
 
 // However a mesh is read, what is counted is the same.

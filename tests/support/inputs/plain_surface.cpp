@@ -1,4 +1,4 @@
-#include "tests/support/plain_surface.h"
+#include "tests/support/inputs/plain_surface.h"
 
 #include <algorithm>
 #include <cstring>

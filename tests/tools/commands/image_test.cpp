@@ -175,6 +175,14 @@ TEST_F(ImageWithGaps, HasNoVertexWithoutData) {
                "v.nrrd: distance:3 names a vertex that does not exist");
 }
 
+TEST_F(Image, OfTwoDimensionsHasNoSurfaceToCheck) {
+  write("v.nrrd", "NRRD0005\ntype: int\ndimension: 2\nsizes: 2 2\nencoding: ascii\n\n1 2 3 4\n");
+  const Outcome outcome = reeb({"compute", "v.nrrd"});
+  expect_success(outcome);
+  EXPECT_NE(outcome.error.find("mesh: 4 vertices, 2 triangles"), std::string::npos) << outcome.error;
+  EXPECT_EQ(outcome.error.find("surface"), std::string::npos) << outcome.error;
+}
+
 TEST_F(Image, MustHaveFiniteValuesWhereTheyAreUsed) {
   std::vector<float> values(7 * 6 * 5, 1);
   values[17] = std::numeric_limits<float>::quiet_NaN();
@@ -197,6 +205,8 @@ TEST_F(Image, IsDescribedByItsOptions) {
   expect_error(reeb({"compute", "v.raw"}), 2, "v.raw: a raw file does not say what it holds");
   expect_error(reeb({"compute", "v.raw", "--grid", "7x6x5"}), 2, "--type is missing");
   expect_error(reeb({"compute", "v.raw", "--spacing", "1,1,2"}), 2, "--grid is missing");
+  expect_error(reeb({"compute", "v.raw", "--grid", "99999999999x99999999999", "--type", "u8"}), 2,
+               "--grid 99999999999x99999999999 has more than 2^56 vertices");
   expect_error(reeb({"compute", "v.raw", "--grid", "7x6x5", "--type", "f32"}), 2);
   expect_error(reeb({"compute", "v.raw", "--grid", "7x6x5", "--type", "f32le", "--nodata", "keep"}), 2);
   write("mesh.off", kSmallOff);
@@ -224,7 +234,7 @@ TEST_F(Image, AloneHasAValue) {
   write("mesh.ply",
         "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
         "property float value\nend_header\n0 0 0 1\n");
-  expect_error(reeb({"compute", "mesh.ply", "-f", "value"}), 1, "mesh.ply: the mesh is no image");
+  expect_error(reeb({"compute", "mesh.ply", "-f", "value"}), 1, "mesh.ply: the mesh is not an image");
   expect_success(reeb({"compute", "mesh.ply", "-f", "property:value"}));
 }
 

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "tests/support/complex.h"
+#include "tests/support/inputs/complex.h"
 
 namespace reeb::test {
 

@@ -1,4 +1,4 @@
-#include "tests/support/planted_mesh.h"
+#include "tests/support/inputs/planted_mesh.h"
 
 #include <algorithm>
 #include <cmath>

@@ -10,7 +10,7 @@
 #include "libreeb/port/indexed_mesh.h"
 #include "libreeb/port/mesh_reader.h"
 #include "libreeb/port/vertex_function.h"
-#include "tests/support/complex.h"
+#include "tests/support/inputs/complex.h"
 #include "tests/support/random.h"
 
 namespace reeb::test {

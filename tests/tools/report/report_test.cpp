@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "libreeb/base/count_text.h"
-#include "tests/support/planted_mesh.h"
+#include "tests/support/inputs/planted_mesh.h"
 #include "tests/tools/program.h"
 
 namespace reeb::test {
@@ -72,6 +72,14 @@ TEST_F(Report, SummaryIsThatOfTheFile) {
   EXPECT_EQ(cell(page, "pairs of loops \\(Ext1\\)"), info["graph"]["loops"].dump());
   EXPECT_NE(cell(page, "loops"), "0");
   EXPECT_NE(page.find("mesh triangles</th><td>" + with_commas(info["input"]["triangles"])), std::string::npos);
+}
+
+TEST_F(Report, SaysWhetherTheMeshWasChecked) {
+  const std::string unchecked = report(kSmallOff), checked = report(kSmallOff, {}, {"--mesh", "mesh.off"});
+  EXPECT_NE(unchecked.find("The mesh was not checked (give it with --mesh)."), std::string::npos);
+  EXPECT_EQ(unchecked.find("Nothing unusual"), std::string::npos);
+  EXPECT_NE(checked.find("Nothing unusual was found."), std::string::npos);
+  EXPECT_EQ(checked.find("not checked"), std::string::npos);
 }
 
 // At every threshold the records give as many nodes and arcs as `extract`.
@@ -170,7 +178,7 @@ TEST_F(Report, DefectsAreThoseOfTheMesh) {
   const Json defects = Json::parse(file("d.json"));
   const std::size_t rows = defects["loops"].size();
   ASSERT_GT(rows, 0u);
-  EXPECT_EQ(cell(page, "boundary loops"), "0");
+  EXPECT_EQ(cell(page, "boundaries"), "0");
   const Json closeups = data(page)["closeups"];
   ASSERT_EQ(closeups.size(), std::min<std::size_t>(rows, 12));
   for (std::size_t i = 0; i < closeups.size(); ++i) {
@@ -246,6 +254,7 @@ TEST_F(Report, DescribesVolumes) {
   expect_success(reeb({"compute", "v.nrrd", "--quiet"}));
   expect_success(reeb({"report", "v.reeb", "--mesh", "v.nrrd", "-o", "v.html", "--quiet"}));
   EXPECT_NE(file("v.html").find("no surface"), std::string::npos);
+  EXPECT_EQ(cell(file("v.html"), "mesh triangles"), "none");
   EXPECT_EQ(cell(file("v.html"), "nodes"),
             Json::parse(reeb({"info", "v.reeb", "--json"}).output)["graph"]["nodes"].dump());
 }

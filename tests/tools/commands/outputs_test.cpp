@@ -205,7 +205,7 @@ TEST_F(Outputs, DashIsStandardOutput) {
   EXPECT_EQ(file("out"), "first\n" + file("g.reeb"));
   expect_error(reeb({"compute", "mesh.off", "-o", "-", "-f", "x", "-f", "y"}), 2);
   expect_error(reeb({"compute", "mesh.off", "-o", "-", "--snapshot-every", "1"}), 2);
-  expect_error(reeb({"convert", "mesh.off", "-"}), 2);
+  expect_error(reeb({"convert", "mesh.off", "-"}), 2, "a mesh is not written to standard output");
   // From standard input the default name is mesh.reeb.
   expect_success(reeb({"compute", "-"}, {.arguments = {}, .input = in_folder("mesh.off")}));
   EXPECT_EQ(file("mesh.reeb"), file("g.reeb"));
@@ -370,6 +370,19 @@ TEST_F(Signals, LeaveNothingBehind) {
   // A pipe that nobody reads holds up the writers.
   ASSERT_EQ(::mkfifo(in_folder("pipe").c_str(), 0600), 0);
   expect_interrupted({"extract", "g.reeb", "-o", "pipe", "--format", "json"}, "INT");
+}
+
+// All is computed, and the output is a pipe that nobody reads.
+TEST_F(Signals, EndCommandsThatHaveStoppedToWatchThem) {
+  expect_success(reeb({"generate", "torus", "--triangles", "1k", "-o", "m.ply"}));
+  expect_success(reeb({"compute", "m.ply", "-o", "g.reeb", "--quiet"}));
+  for (const char* pipe : {"pipe.i64", "pipe.ply", "pipe.csv", "pipe.html"})
+    ASSERT_EQ(::mkfifo(in_folder(pipe).c_str(), 0600), 0);
+  expect_interrupted({"segment", "m.ply", "g.reeb", "-o", "pipe.i64"}, "INT");
+  expect_interrupted({"segment", "m.ply", "g.reeb", "-o", "pipe.ply"}, "INT");
+  expect_interrupted({"defects", "m.ply", "-o", "pipe.csv"}, "INT");
+  expect_interrupted({"repair", "m.ply", "-o", "pipe.ply"}, "INT");
+  expect_interrupted({"report", "g.reeb", "--mesh", "m.ply", "-o", "pipe.html"}, "TERM");
 }
 
 TEST_F(Signals, AreNoticedWhileNoFaceComes) {

@@ -1,11 +1,11 @@
-#include "tests/support/shapes.h"
+#include "tests/support/inputs/shapes.h"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <numbers>
 
-#include "tests/support/partition.h"
+#include "tests/support/inputs/partition.h"
 
 namespace reeb::test {
 namespace {

@@ -125,17 +125,23 @@ TEST_F(Function, BadOnesAreToldApart) {
   expect_error(run("s.off", "geodesic:2,99"), 1, "s.off: geodesic:2,99 names vertex 99");
   expect_error(run("s.off", "laplacian:8"), 1, "s.off: the largest component has 8 vertices");
   expect_error(run("far.off", "geodesic:0"), 1, "far.off: geodesic:0 does not reach vertex 8");
+  write("huge.off", "OFF\n3 1 0\n-1.7e308 0 0\n1.7e308 0 0\n0 1.7e308 1.7e308\n3 0 1 2\n");
+  expect_error(run("huge.off", "geodesic:0"), 1,
+               "huge.off: geodesic:0 needs squares of distances, which are beyond the range of double");
   expect_error(run("flat.off", "distance:1,2,3"), 1, "flat.off: distance:1,2,3 is a point with three coordinates");
   for (const char* function : {"distance:", "distance:1,2", "distance:-1", "distance:1,2,x", "distance:1,2,3,4",
                                "geodesic:", "geodesic:1,", "geodesic:x", "laplacian:", "laplacian:x", "laplacian:-1"})
     expect_error(run("s.off", function), 2, std::string("\"") + function + "\" is not a function");
+  expect_error(run("s.off", "geodesic"), 2, "geodesic needs a vertex");
+  EXPECT_NE(run("s.off", "geodesic").error.find("hint: for instance geodesic:0\n"), std::string::npos);
+  expect_error(run("s.off", "file"), 2, "file needs a path");
   expect_error(run("s.off", "laplacian:0"), 2, "\"laplacian:0\" is not a function: K of laplacian:K is at least 1");
   expect_error(
       reeb({"compute", "-", "-f", "geodesic:0", "-o", "o.reeb"}, {.arguments = {}, .input = in_folder("s.off")}), 1,
       "standard input: geodesic:0 reads the mesh before the run does");
   expect_error(reeb({"function", "s.off", "-f", "x", "-o", "o.csv"}), 2, "values are not written as \".csv\"");
   expect_error(reeb({"function", "s.off", "-f", "x", "-o", "s.off"}), 2);
-  EXPECT_EQ(files(), (std::vector<std::string>{"far.off", "flat.off", "s.off"}));
+  EXPECT_EQ(files(), (std::vector<std::string>{"far.off", "flat.off", "huge.off", "s.off"}));
 }
 
 TEST_F(Function, OtherComponentsAreCountedOnce) {

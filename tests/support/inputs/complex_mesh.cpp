@@ -1,4 +1,4 @@
-#include "tests/support/complex_mesh.h"
+#include "tests/support/inputs/complex_mesh.h"
 
 #include <algorithm>
 

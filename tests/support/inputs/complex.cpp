@@ -1,11 +1,11 @@
-#include "tests/support/complex.h"
+#include "tests/support/inputs/complex.h"
 
 #include <algorithm>
 #include <numeric>
 #include <set>
 #include <sstream>
 
-#include "tests/support/partition.h"
+#include "tests/support/inputs/partition.h"
 #include "tests/support/random.h"
 
 namespace reeb::test {

@@ -111,7 +111,10 @@ TEST_F(VerifyMesh, AFileOfValuesThatIsGoneIsSaid) {
   write("values.txt", "0\n1\n2\n4\n");
   EXPECT_EQ(reeb({"verify", "mesh.reeb", "--mesh", "mesh.off"}).exit_code, 1);
   std::filesystem::remove(in_folder("values.txt"));
-  const Outcome without = reeb({"verify", "mesh.reeb", "--mesh", "mesh.off", "--full"});
+  const Outcome full = reeb({"verify", "mesh.reeb", "--mesh", "mesh.off", "--full"});
+  EXPECT_EQ(full.exit_code, 1);
+  EXPECT_TRUE(full.error.starts_with("reeb: error: values.txt: there is no such file, and --full needs")) << full.error;
+  const Outcome without = reeb({"verify", "mesh.reeb", "--mesh", "mesh.off"});
   expect_success(without);
   EXPECT_NE(without.output.find("values.txt is gone, so the values were not checked"), std::string::npos)
       << without.output;

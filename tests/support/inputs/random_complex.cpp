@@ -1,10 +1,10 @@
-#include "tests/support/random_complex.h"
+#include "tests/support/inputs/random_complex.h"
 
 #include <algorithm>
 #include <limits>
 
+#include "tests/support/inputs/shapes.h"
 #include "tests/support/random.h"
-#include "tests/support/shapes.h"
 
 namespace reeb::test {
 namespace {

@@ -1,6 +1,11 @@
 // The texts of the program: counts, sizes, progress bars and lines of 80 columns.
 #include <gtest/gtest.h>
 
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
 #include "libreeb/base/count_text.h"
 #include "libreeb/base/error.h"
 #include "tools/arguments/nearest_name.h"
@@ -17,7 +22,8 @@ TEST(CountText, OneIsSingularAndThousandsAreSeparated) {
   EXPECT_EQ(count_of(1, "loop"), "1 loop");
   EXPECT_EQ(count_of(1, "vertex"), "1 vertex");
   EXPECT_EQ(count_of(2, "vertex"), "2 vertices");
-  EXPECT_EQ(count_of(1000, "boundary loop"), "1,000 boundary loops");
+  EXPECT_EQ(count_of(2, "boundary"), "2 boundaries");
+  EXPECT_EQ(count_of(1000, "non-manifold edge"), "1,000 non-manifold edges");
   EXPECT_EQ(with_commas(999), "999");
   EXPECT_EQ(with_commas(372001196), "372,001,196");
   EXPECT_EQ(with_commas(18446744073709551615u), "18,446,744,073,709,551,615");
@@ -31,6 +37,38 @@ TEST(RepairSummary, CountsHaveCommas) {
   repair.repaired = 6000;
   EXPECT_EQ(summary_of(repair),
             (std::vector<std::string>{"6,000 of 7,216 loops repaired", "1,216 left: it is too long"}));
+}
+
+TEST(RepairSummary, SaysWhichLengthWasSuggestedAndIfItIsUncertain) {
+  Repair repair;
+  repair.rows.resize(3);
+  for (RepairedRow& row : repair.rows) row.done = true;
+  repair.repaired = 3;
+  repair.suggestion = SuggestedLength{.length = 0.25, .confidence = 0.9, .why = ""};
+  EXPECT_EQ(summary_of(repair),
+            (std::vector<std::string>{"3 of 3 loops repaired",
+                                      "as suggested, those with a curve of at most 0.25 (confidence 90 %)"}));
+  repair.suggestion->confidence = 0.5;
+  ASSERT_EQ(summary_of(repair).size(), 3u);
+  EXPECT_NE(summary_of(repair)[2].find("--longest"), std::string::npos);
+  repair.suggestion->length = std::nullopt;
+  EXPECT_EQ(summary_of(repair).size(), 1u);
+}
+
+TEST(RowChoice, ALoopWithoutACurveIsNotCalledTooLong) {
+  Defects defects;
+  defects.functions = {"x"};
+  DefectRow row{};
+  row.length_contour = row.length_cycle = std::numeric_limits<double>::infinity();
+  defects.table.rows = {row};
+  RowFilter up_to_100, all;
+  up_to_100.limits.longest = 100;
+  all.all = true;
+  for (const RowFilter& filter : {RowFilter(), up_to_100, all}) {
+    const std::vector<ChosenRow> chosen = choose_rows(defects, filter);
+    ASSERT_EQ(chosen.size(), 1u);
+    EXPECT_EQ(chosen[0].why_not, "no closed curve along edges was found near it");
+  }
 }
 
 TEST(Quantity, CountsTakeUnitsFractionsAndExponents) {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "libreeb/port/grid_reader.h"
-#include "tests/support/grid_complex.h"
+#include "tests/support/inputs/grid_complex.h"
 
 namespace reeb::test {
 

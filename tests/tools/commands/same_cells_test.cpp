@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "tests/io/vtk/vtk_files.h"
-#include "tests/support/grid_complex.h"
+#include "tests/support/inputs/grid_complex.h"
 #include "tests/support/random.h"
 #include "tests/tools/program.h"
 

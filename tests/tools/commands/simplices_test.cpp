@@ -236,7 +236,7 @@ TEST_F(Simplices, WrongDistancesAreRefused) {
 
 TEST_F(Simplices, DamagedCxFilesNameTheirPlace) {
   const std::vector<std::pair<std::string, std::string>> cases = {
-      {"s 0\n", "1:1: a simplex stands before all vertices"},
+      {"s 0\n", "1:1: a simplex comes before all vertices"},
       {"x 0\n", "1:1: the first item is not a vertex"},
       {"v 0 0\nv 1\n", "2:3: a vertex of 1 coordinate, but the first has 2"},
       {"v 0 0\nv 1 1 1\n", "2:7: a vertex of 3 coordinates"},
@@ -256,6 +256,23 @@ TEST_F(Simplices, DamagedCxFilesNameTheirPlace) {
   }
   write("empty.cx", "# nothing\n");
   EXPECT_EQ(info_of({"empty.cx"})["vertices"], 0);
+}
+
+TEST_F(Simplices, AFormatThatCannotHoldAnEdgeIsNamedWithOneThatCan) {
+  write("edge.cx", "v 0 0 0\nv 0 0 1\ns 0 1\n");
+  for (const std::string out : {"edge.sma", "edge.smb"}) {
+    expect_success(reeb({"convert", "edge.cx", out}));
+    EXPECT_EQ(report_of({out, "-f", "z"})["graph"]["arcs"], 1) << out;
+  }
+  const Outcome smc = reeb({"convert", "edge.cx", "edge.smc"});
+  expect_error(smc, 1, "edge.smc: SMC cannot hold a triangle with a repeated corner");
+  EXPECT_NE(smc.error.find("hint: write SMA or SMB"), std::string::npos) << smc.error;
+  for (const std::string out : {"edge.sva", "edge.svb"})
+    expect_error(reeb({"convert", "edge.cx", out}), 1, out + ": a volume mesh cannot hold triangles");
+  write("flat.off", "OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 0 1 1\n");
+  expect_error(reeb({"convert", "flat.off", "flat.smc"}), 1, "flat.smc: SMC cannot hold");
+  write("far.off", "OFF\n1 0 0\n1e300 0 0\n");
+  expect_error(reeb({"convert", "far.off", "far.sma"}), 1, "far.sma: a value of vertex 0 is beyond float32");
 }
 
 }  // namespace

@@ -60,6 +60,21 @@ TEST_F(SegmentProgram, WritesTheSameLabelsInEveryFormat) {
   EXPECT_EQ(file("v.f64"), file("z.f64"));
 }
 
+TEST_F(SegmentProgram, ACutFileHasTheLevelsOfItsWholeFrames) {
+  expect_success(reeb({"generate", "scan", "--triangles", "400k", "--seed", "3", "-o", "s.ply"}));
+  expect_success(reeb({"compute", "s.ply", "--quiet"}));
+  const std::string whole = file("s.reeb");
+  write("cut.reeb", whole.substr(0, whole.size() * 6 / 10));
+  const auto expected = labels("s.ply", "s.reeb", {"--nodes", "100"});
+  EXPECT_EQ(labels("s.ply", "cut.reeb", {"--nodes", "100"}), expected);
+  const Outcome outcome = reeb({"segment", "s.ply", "cut.reeb", "-o", "f.i64"});
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_NE(outcome.error.find("frames are whole"), std::string::npos) << outcome.error;
+  // Another mesh of the same size, whose graph differs.
+  expect_success(reeb({"generate", "scan", "--triangles", "400k", "--seed", "4", "-o", "other.ply"}));
+  EXPECT_EQ(reeb({"segment", "other.ply", "cut.reeb", "-o", "f.i64", "--nodes", "100"}).exit_code, 1);
+}
+
 TEST_F(SegmentProgram, ReadsImagesInBoxesAsTheirDivision) {
   expect_success(reeb({"generate", "volume", "--grid", "40x36x35", "--handles", "3", "-o", "v.nrrd"}));
   expect_success(reeb({"function", "v.nrrd", "-o", "v.ply", "--quiet"}));
