@@ -119,11 +119,13 @@ void compute(reeb::tools::World& world, Arguments arguments) {
   arguments.options.opened = [&](const reeb::MeshInfo& info) {
     facts.format = info.format;
     facts.input_bytes = info.file_bytes;
+    facts.is_image = info.grid.has_value();
     if (speaks) print_line(reeb::printable(arguments.mesh + ": " + reeb::tools::describe(info)));
   };
   arguments.options.interrupted = reeb::tools::watch_signals();
   const auto done =
       reeb::tools::compute_distributed(world, arguments.mesh, arguments.functions, outputs, arguments.options);
+  arguments.options.interrupted = {};
   if (speaks) {
     reeb::tools::print_summary(facts, done.results);
     print_ranks(done.ranks);

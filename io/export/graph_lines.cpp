@@ -214,6 +214,7 @@ void write_obj_lines(const GraphView& view, OutputBuffer& out) {
   });
   for_each_line(
       view, [&](std::uint64_t) { out << 'l'; }, [&](std::uint64_t i) { out << ' ' << i + 1; }, [&] { out << '\n'; });
+  for (const std::size_t node : isolated_nodes(find_features(view.graph))) out << "p " << node + 1 << '\n';
 }
 
 }  // namespace reeb::io

@@ -9,6 +9,7 @@
 #include <boost/iostreams/read.hpp>
 #include <exception>
 #include <new>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -21,7 +22,11 @@ namespace {
 namespace bio = boost::iostreams;
 
 constexpr std::streamsize kChunkBytes = 65536;
-constexpr const char* kCutFrame = "ends inside a zstd frame";
+
+struct DamagedZstd {
+  std::string what;
+  bool is_cut = false;
+};
 
 // The raw bytes as a Boost.Iostreams device.
 class RawDevice {
@@ -47,7 +52,7 @@ std::shared_ptr<ZSTD_DStream> make_zstd_stream() {
   return stream;
 }
 
-// THROWS: an Error without a file, and without a hint if the data are damaged; or std::bad_alloc.
+// THROWS: DamagedZstd; an Error without a file; or std::bad_alloc.
 void check_zstd(std::size_t result) {
   if (ZSTD_isError(result) == 0) return;
   const ZSTD_ErrorCode code = ZSTD_getErrorCode(result);
@@ -55,7 +60,7 @@ void check_zstd(std::size_t result) {
   if (code == ZSTD_error_frameParameter_windowTooLarge)
     throw Error(ErrorKind::kBadInput, "unpacking it takes a larger window than zstd allows",
                 "unpack it first, with zstd -d and its option for long windows");
-  throw Error(ErrorKind::kBadInput, ZSTD_getErrorName(result), "");
+  throw DamagedZstd{ZSTD_getErrorName(result)};
 }
 
 // bio::zstd_decompressor accepts a truncated stream as complete, so this filter follows the frames itself.
@@ -73,7 +78,7 @@ class ZstdFilter {
       if (given_.pos == given_.size && !flushing_) {
         const std::streamsize got = bio::read(source, chunk_.data(), kChunkBytes);
         if (got <= 0) {
-          if (inside_frame_) throw Error(ErrorKind::kBadInput, kCutFrame, "");
+          if (inside_frame_) throw DamagedZstd{"ends inside a zstd frame", true};
           return -1;
         }
         given_ = {chunk_.data(), static_cast<std::size_t>(got), 0};
@@ -113,8 +118,9 @@ class DecompressedInput final : public RawInput {
       return got < 0 ? 0 : static_cast<std::size_t>(got);
     } catch (const Error& failure) {
       if (!failure.file().empty()) throw;
-      if (failure.hint().empty()) throw_damaged(failure.message(), failure.message() == kCutFrame);
       throw Error(failure.kind(), failure.message(), failure.hint()).at(name_);
+    } catch (const DamagedZstd& damage) {
+      throw_damaged(damage.what, damage.is_cut);
     } catch (const std::bad_alloc&) {
       throw;
     } catch (const bio::gzip_error& failure) {

@@ -225,6 +225,7 @@ MeshFormat detect_format(ContentSource& source, const std::string& path) {
 }
 
 std::optional<std::size_t> bare_return(ContentSource& source, MeshFormat format) {
+  if (format == MeshFormat::kVtkXml || format == MeshFormat::kMedit) return {};  // CR is a blank there
   std::string_view head = source.view(0, 1);
   if (format == MeshFormat::kPly) head = head.substr(0, head.find("end_header"));  // its body can be binary
   const std::size_t first = head.find('\r');

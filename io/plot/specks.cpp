@@ -1,9 +1,7 @@
 #include "io/plot/specks.h"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
-#include <utility>
 
 namespace reeb::io {
 namespace {

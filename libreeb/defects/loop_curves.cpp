@@ -107,42 +107,22 @@ LoopCurves loop_curves(const SurfacePatch& patch, std::span<const double> values
 
 DefectKind kind_of(const SurfacePatch& patch, const LoopCurve& curve, bool inwards) {
   if (curve.crossings.empty()) return DefectKind::kUnclear;
-  Point center{}, axis{};
+  Point center{};
   const auto& vertices = curve.path.vertices;
   for (const std::uint32_t x : vertices)
     for (std::size_t k = 0; k < 3; ++k) center[k] += patch.position(x)[k] / static_cast<double>(vertices.size());
-  for (std::size_t i = 0; i < vertices.size(); ++i) {
-    const Point a = patch.position(vertices[i]) - center,
-                b = patch.position(vertices[(i + 1) % vertices.size()]) - center;
-    for (std::size_t k = 0; k < 3; ++k) axis[k] += a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
-  }
-  // Only what points across the axis of the curve tells: at the rim of a tunnel the surface turns away along it.
-  const double area = dot(axis, axis);
-  const auto across = [&](Point p) {
-    const double along = area > 0 ? dot(p, axis) / area : 0;
-    for (std::size_t k = 0; k < 3; ++k) p[k] -= along * axis[k];
-    return p;
-  };
   double sum = 0;
-  std::vector<std::uint32_t> around;
   for (const std::uint32_t x : vertices) {
-    around.clear();
-    // Two rings, so that noise cancels out.
-    for (const std::uint32_t e : patch.edges_at(x))
-      for (const std::uint32_t end : {patch.edge(e).a, patch.edge(e).b})
-        for (const std::uint32_t beside : patch.edges_at(end)) {
-          const auto at = patch.triangles_at_edge(beside);
-          around.insert(around.end(), at.begin(), at.end());
-        }
-    std::sort(around.begin(), around.end());
-    around.erase(std::unique(around.begin(), around.end()), around.end());
+    // Of the triangles at the vertex alone: on a thin wall, those around them are on its other side. Each is at two of
+    // the edges.
     Point normal{};
-    for (const std::uint32_t t : around) {
-      const Point n = patch.normal(t);
-      for (std::size_t k = 0; k < 3; ++k) normal[k] += n[k];
-    }
+    for (const std::uint32_t e : patch.edges_at(x))
+      for (const std::uint32_t t : patch.triangles_at_edge(e)) {
+        const Point n = patch.normal(t);
+        for (std::size_t k = 0; k < 3; ++k) normal[k] += n[k];
+      }
     const double size = std::sqrt(dot(normal, normal));
-    if (size > 0) sum += dot(across(normal), across(center - patch.position(x))) / size;
+    if (size > 0) sum += dot(normal, center - patch.position(x)) / size;
   }
   if (inwards) sum = -sum;
   return sum > 0 ? DefectKind::kTunnel : sum < 0 ? DefectKind::kHandle : DefectKind::kUnclear;

@@ -45,7 +45,8 @@ struct LoopCurves {
 LoopCurves loop_curves(const SurfacePatch& patch, std::span<const double> values, const LoopNodes& nodes,
                        double longest = std::numeric_limits<double>::infinity());
 
-// A tunnel if the disc of the curve lies outside the solid, a handle if it lies inside. `inwards`: the oriented
+// A tunnel if the disc of the curve lies outside the solid, a handle if it lies inside: by the sign of the sum of
+// n·(m − p) over the vertices p of the curve, with their outward normals n and their mean m. `inwards`: the oriented
 // triangles of the patch have their normals inside.
 DefectKind kind_of(const SurfacePatch& patch, const LoopCurve& curve, bool inwards);
 

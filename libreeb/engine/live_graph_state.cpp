@@ -169,7 +169,7 @@ void LiveGraph::validate() const {
     }
   }
   if (on_chains != beads_.used()) fail("beads on no arc:", beads_.used() - on_chains);
-  if (on_arcs != reference_count()) fail("references too many:", reference_count() - on_arcs);
+  if (on_arcs != reference_count()) fail("references on no arc:", reference_count() - on_arcs);
   for (Index n = 0; n < nodes_.size(); ++n) {
     const Node& node = nodes_[n];
     if (!node.used) continue;

@@ -44,6 +44,17 @@ void EditablePatch::take_back(std::size_t vertices, std::size_t triangles) {
   cells_.take_back(triangles);
 }
 
+EditablePatch::State EditablePatch::state() const {
+  State now{vertices_.size(), std::vector<bool>(triangles_.size())};
+  for (std::size_t t = 0; t < triangles_.size(); ++t) now.there[t] = triangles_[t].there;
+  return now;
+}
+
+void EditablePatch::go_back(const State& before) {
+  take_back(before.vertices, before.there.size());
+  for (std::size_t t = 0; t < triangles_.size(); ++t) triangles_[t].there = before.there[t];
+}
+
 const TriangleCells& EditablePatch::cells() {
   constexpr double kTrianglesWide = 2;
   if (cells_.size() == 0 && !triangles_.empty()) {

@@ -61,6 +61,14 @@ class EditablePatch {
     const Corners& c = triangles_[t].corners;
     return {c, {position(c[0]), position(c[1]), position(c[2])}};
   }
+  // Which triangles there are, to go back to.
+  struct State {
+    std::size_t vertices = 0;
+    std::vector<bool> there;
+  };
+  State state() const;
+  void go_back(const State& before);
+
   // Where all triangles are, with those that were removed. TIME: proportional to those added since the last call.
   const TriangleCells& cells();
 

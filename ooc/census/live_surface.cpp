@@ -45,7 +45,7 @@ double length_between(const Point& a, const Point& b) {
   const double length = distance(a, b);
   if (std::isfinite(length)) return length;
   const Point step = a - b;
-  return std::hypot(std::hypot(step[0], step[1]), step[2]);  // of three, NaN for an infinite one
+  return std::hypot(std::hypot(step[0], step[1]), step[2]);  // std::hypot of three gives NaN if one is infinite
 }
 
 }  // namespace

@@ -178,7 +178,7 @@ MeshCensus count_indexed(IndexedMesh& mesh, unsigned dimension, bool cells, Work
 
 // ---- a mesh that is read once
 
-// The degenerate triangles of a mesh that is spooled. There, edges and points have the same form.
+// The degenerate triangles of a mesh. Where it is spooled or indexed, edges and points have the same form.
 class DegenerateTriangles {
  public:
   void add(const MeshBatch& batch) {
@@ -348,7 +348,20 @@ MeshCensus count_read(MeshReader& reader, Workspace& space, const CensusOptions&
 }  // namespace
 
 MeshCensus take_census(IndexedMesh& mesh, unsigned dimension, Workspace& space, const CensusOptions& options) {
-  return count_indexed(mesh, dimension, false, space, options);
+  MeshCensus census = count_indexed(mesh, dimension, false, space, options);
+  const std::uint64_t others = census.simplices[0] + census.simplices[1];
+  if (others == 0) return census;
+  // Points and edges came in the form of degenerate triangles.
+  if (!options.read_again) {
+    census.degenerate.count -= others;
+    census.degenerate.places.clear();
+    return census;
+  }
+  DegenerateTriangles degenerate;
+  const auto reader = options.read_again();
+  for (MeshBatch batch; reader->read(batch);) degenerate.add(batch);
+  census.degenerate = degenerate.result(mesh, dimension);
+  return census;
 }
 
 MeshCensus take_census(MeshReader& reader, Workspace& space, const CensusOptions& options) {

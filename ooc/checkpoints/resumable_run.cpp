@@ -133,7 +133,7 @@ Error ResumableRun::explain(const Error& error) {
     const std::string go_on = "the same command with --resume continues the run";
     hint = kind == ErrorKind::kInterrupted ? go_on : hint + "; then " + go_on;
   } else if (kind == ErrorKind::kInterrupted) {
-    hint = "run it again; it ended too early to be resumed";
+    hint = "run it again, with --force if an output was written; it ended too early to be resumed";
   }
   Error explained(kind, error.message(), hint);
   explained.at(error.file(), error.position());

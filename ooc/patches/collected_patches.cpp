@@ -19,6 +19,7 @@ CollectedPatches::CollectedPatches(std::span<const Ball> balls, std::span<const 
       first_of_group_(std::move(first_of_group)),
       vertices_(kPatchOwner, temp, budget, first_of_group_.size() - 1),
       triangles_(kPatchOwner, temp, budget, first_of_group_.size() - 1),
+      others_(first_of_group_.size() - 1, 0),
       memory_(budget.reserve(kPatchOwner, 100 * balls.size())) {
   for (std::size_t g = 0; g + 1 < first_of_group_.size(); ++g)
     group_of_patch_.resize(first_of_group_[g + 1], static_cast<std::uint16_t>(g));
@@ -62,7 +63,9 @@ void CollectedPatches::add_use(std::span<const VertexId> corners) {
     bool has_it = false;
     for (std::size_t j = 0; j < k; ++j)
       has_it = has_it || (triangle.corners[j] != VertexSet::kNone && group_of_[triangle.corners[j]] == group);
-    if (!has_it) triangles_.append(group, triangle);
+    if (has_it) continue;
+    triangles_.append(group, triangle);
+    others_[group] += triangle.kind == Triangle::kPlain ? 0u : 1u;
   }
 }
 
@@ -77,13 +80,16 @@ void CollectedPatches::finish() {
 
 PatchGroup CollectedPatches::group(std::size_t number) {
   const auto vertex_count = static_cast<std::size_t>(vertices_.count(number)),
-             triangle_count = static_cast<std::size_t>(triangles_.count(number));
+             all_count = static_cast<std::size_t>(triangles_.count(number)), other_count = others_[number],
+             triangle_count = all_count - other_count;
   const std::uint32_t first = first_of_group_[number], patches = first_of_group_[number + 1] - first;
   PatchGroup group;
   group.memory_ = budget_->reserve(kPatchOwner, vertex_count * (sizeof(PatchGroup::Vertex) + 12) +
-                                                    triangle_count * (sizeof(PatchGroup::Triangle) + 4));
+                                                    triangle_count * (sizeof(PatchGroup::Triangle) + 4) +
+                                                    other_count * (sizeof(PatchGroup::Line) + 4));
   group.vertices_.reserve(vertex_count);
   group.triangles_.reserve(triangle_count);
+  group.lines_.reserve(other_count);
   std::vector<std::uint32_t> patch_of, triangle_patch, line_patch;
   VertexSet numbers;  // of all groups
   vertices_.rewind(number);
@@ -94,7 +100,7 @@ PatchGroup CollectedPatches::group(std::size_t number) {
     patch_of.push_back(vertex.patch - first);
   }
   triangles_.rewind(number);
-  for (std::size_t i = 0; i < triangle_count; ++i) {
+  for (std::size_t i = 0; i < all_count; ++i) {
     Triangle triangle = triangles_.next(number);
     for (std::uint32_t& v : triangle.corners)
       if (v != VertexSet::kNone) v = numbers.find(VertexId(v));

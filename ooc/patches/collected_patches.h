@@ -97,6 +97,7 @@ class CollectedPatches {
   std::vector<std::uint16_t> group_of_;  // by number of the vertex
   PartitionLogs<Vertex> vertices_;
   PartitionLogs<Triangle> triangles_;
+  std::vector<std::size_t> others_;  // by group: those of triangles_ that are not plain
   std::uint64_t mesh_vertices_ = 0, mesh_triangles_ = 0;
   Reservation memory_;
 };

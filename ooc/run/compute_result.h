@@ -31,7 +31,8 @@ struct PhaseSeconds {
   double wall = 0, finalization = 0, reorder = 0, reeb = 0, hierarchy = 0;
 };
 
-// A pair for people to read.
+// A pair for people to read. So many of each kind are kept.
+inline constexpr std::size_t kMostFeatures = 5;
 struct Feature {
   PairType type;
   SweepKey lo, hi;

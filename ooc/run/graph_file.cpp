@@ -79,7 +79,8 @@ Error no_memory_for(const RunContext& run, const std::string& what, const std::s
   Error error(ErrorKind::kResource,
               what + " of " + count_of(arcs, "arc") + " needs up to " + format_bytes(needed) + " of memory, but only " +
                   format_bytes(run.budget.free_bytes()) + " is left; the graph itself was written",
-              "allow --memory " + std::to_string(enough / (1 << 20) + 1) + "M, or " + otherwise);
+              "with --force, since the graph is there: allow --memory " + std::to_string(enough / (1 << 20) + 1) +
+                  "M, or " + otherwise);
   error.at(output);
   return error;
 }

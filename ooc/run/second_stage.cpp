@@ -91,9 +91,8 @@ struct WrittenHierarchy {
 };
 
 // What is reported of the pairs: their numbers, and the largest loops, and the largest minima and maxima, of each at
-// most kLargest.
+// most kMostFeatures.
 void look_at_pairs(HierarchySource& hierarchy, double range, WrittenHierarchy& written) {
-  constexpr std::size_t kLargest = 5;
   struct Last {
     std::uint64_t number;
     PersistencePair pair;
@@ -112,7 +111,7 @@ void look_at_pairs(HierarchySource& hierarchy, double range, WrittenHierarchy& w
     if (pair.type == PairType::kExt0) continue;
     std::deque<Last>& largest = last[pair.type == PairType::kExt1 ? 0 : 1];
     largest.push_back({number, pair});
-    if (largest.size() > kLargest) largest.pop_front();
+    if (largest.size() > kMostFeatures) largest.pop_front();
   }
   written.likely_defects = defects.found();
   std::vector<Last> largest(last[0].begin(), last[0].end());

@@ -307,6 +307,17 @@ TEST_F(BadInput, LinesThatEndWithCarriageReturnsAlone) {
   expect_error(reeb({"compute", "m.sma"}), 1, "m.sma:1:11: UNSUPPORTED: its lines end with CR alone");
   write("one.cx", "v 0 0 0\r");  // one line without its end
   expect_success(reeb({"compute", "one.cx"}));
+  // In these formats it is a blank.
+  write("m.mesh",
+        "MeshVersionFormatted 2\rDimension 3\rVertices 3\r0 0 0 0\r1 0 0 0\r0 1 0 0\rTriangles 1\r1 2 3 0\rEnd\r");
+  expect_success(reeb({"compute", "m.mesh"}));
+  write("m.vtp",
+        "<?xml version=\"1.0\"?>\r<VTKFile type=\"PolyData\" version=\"0.1\">\r<PolyData>\r<Piece "
+        "NumberOfPoints=\"3\" NumberOfPolys=\"1\">\r<Points>\r<DataArray type=\"Float32\" NumberOfComponents=\"3\" "
+        "format=\"ascii\">\r0 0 0\r1 0 0\r0 1 0\r</DataArray>\r</Points>\r<Polys>\r<DataArray type=\"Int32\" "
+        "Name=\"connectivity\" format=\"ascii\">\r0 1 2\r</DataArray>\r<DataArray type=\"Int32\" Name=\"offsets\" "
+        "format=\"ascii\">\r3\r</DataArray>\r</Polys>\r</Piece>\r</PolyData>\r</VTKFile>\r");
+  expect_success(reeb({"compute", "m.vtp", "-o", "vtp.reeb"}));
 }
 
 // The classes of errors of streaming meshes.

@@ -12,8 +12,10 @@ namespace {
 // Short names are not near to anything.
 std::vector<std::string> long_names(const CLI::App& command) {
   std::vector<std::string> names;
-  for (const CLI::Option* option : command.get_options({}))
+  for (const CLI::Option* option : command.get_options({})) {
+    if (option->get_group().empty()) continue;  // it is refused
     for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  }
   return names;
 }
 
@@ -98,7 +100,7 @@ Error usage_error(const CLI::App& program, const std::vector<std::string>& words
     for (const std::string& name : long_names(program)) names.push_back(name);
     const std::string near = nearest(*option, names);
     // An option alone need not be meant for the default command.
-    const std::string also = words.size() == 2 ? "`" + program.get_name() + " --help` and " : "";
+    const std::string also = words.size() == 2 && words[0] == "compute" ? "`" + program.get_name() + " --help` and " : "";
     return {ErrorKind::kUsage, "unknown option " + *option + (near.empty() ? "" : " (did you mean " + near + "?)"),
             "see " + also + help};
   }

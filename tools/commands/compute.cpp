@@ -57,6 +57,7 @@ void run_compute(ComputeArguments arguments) {
   // Only a run on a file can be saved and resumed.
   if (io::is_regular_file(arguments.mesh)) options.interrupted = watch_signals();
   const auto results = compute(arguments.mesh, arguments.functions, outputs, options);
+  options.interrupted = {};
   bar.clear();
   if (!arguments.quiet) print_summary(facts, results);
   if (!arguments.report.empty())

@@ -71,6 +71,7 @@ void run_defects(DefectsOptions options) {
     bar.update({"curves"}, done, total, triangles);
   };
   const Defects defects = find_defects(options.find);
+  options.find.mesh.check_interruption();
   options.find.mesh.interrupted = {};  // from now on, a signal leaves nothing behind
   bar.clear();
   std::vector<RankedRow> rows;

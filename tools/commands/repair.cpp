@@ -2,10 +2,8 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -123,6 +121,7 @@ void run_repair(RepairArguments arguments) {
     bar.update({pass}, done, total, triangles);
   };
   const Repair repair = plan_repair(options);
+  options.mesh.check_interruption();
   options.mesh.interrupted = {};  // from now on, a signal leaves nothing behind
   WriteOptions write{options.output, late_outputs(arguments.force), !arguments.undo.empty(), {}};
   write.progress = [&](std::uint64_t done, std::uint64_t total, std::uint64_t triangles) {

@@ -116,9 +116,11 @@ void compute_again(const ooc::ReebFile& file, const VerifyOptions& options) {
 }
 
 void verify(const VerifyOptions& options) {
-  const bool is_pipe =
-      options.mesh == "-" || (std::filesystem::exists(options.mesh) && !io::is_regular_file(options.mesh));
-  if (options.full && (options.mesh.empty() || is_pipe))
+  std::error_code ignored;
+  const auto is_pipe = [&](const std::string& mesh) {
+    return mesh == "-" || (std::filesystem::exists(mesh, ignored) && !io::is_regular_file(mesh));
+  };
+  if (options.full && (options.mesh.empty() || is_pipe(options.mesh)))
     throw Error(ErrorKind::kUsage, "--full needs a mesh in a file", "name it with --mesh MESH");
   require_reeb_file(options.file, "verify");
   require_mesh_file(options.mesh, "name the mesh that the file was computed from");

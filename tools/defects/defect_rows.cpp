@@ -248,10 +248,26 @@ DefectRow row_of(const LoopList& list, std::uint32_t number, const FoundCurves* 
   return row;
 }
 
+// With the shortest curve of each.
+void add_named(const LoopList& list, const std::vector<Candidate>& sorted, const std::set<LoopName>& named,
+               DefectTable& table) {
+  if (named.empty()) return;
+  std::set<LoopName> listed;
+  for (const DefectRow& row : table.rows)
+    listed.insert(name_of(list, {.function = row.function, .lo = row.lo, .hi = row.hi}));
+  for (std::uint32_t i = 0; i < list.loops.size(); ++i) {
+    const LoopName name = name_of(list, list.loops[i]);
+    if (!named.contains(name) || listed.contains(name)) continue;
+    const auto shortest = std::ranges::find(sorted, i, &Candidate::loop);
+    table.rows.push_back(shortest == sorted.end() ? row_of(list, i, nullptr, nullptr)
+                                                  : row_of(list, i, shortest->both, shortest->curve));
+  }
+}
+
 }  // namespace
 
 DefectTable make_rows(const ValuedMesh& mesh, const LoopList& list, const LoopCurvesFound& search,
-                      const SearchOptions& options) {
+                      const SearchOptions& options, const std::set<LoopName>& named) {
   const auto& [found, scale, memory] = search;
   std::vector<Candidate> all = candidates(list, scale, found);
   choose(mesh, scale, all, options);
@@ -291,6 +307,7 @@ DefectTable make_rows(const ValuedMesh& mesh, const LoopList& list, const LoopCu
     return std::tuple(group, row.length(), row.percent, row.function, row.lo.key.vertex, row.hi.key.vertex);
   };
   std::sort(table.rows.begin(), table.rows.end(), [&](const auto& a, const auto& b) { return key(a) < key(b); });
+  add_named(list, all, named, table);
   return table;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -30,8 +31,8 @@ struct DefectTable {
 
 // Takes curves by length, each if it crosses none of those taken before an odd number of times, and bounds no part of
 // the surface together with them. Reads the mesh once more, if loops are near each other; or as often as the memory
-// requires.
+// requires. Loops of these names that have no row get one at the end.
 DefectTable make_rows(const ValuedMesh& mesh, const LoopList& list, const LoopCurvesFound& found,
-                      const SearchOptions& options);
+                      const SearchOptions& options, const std::set<LoopName>& named = {});
 
 }  // namespace reeb::tools

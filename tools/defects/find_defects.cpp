@@ -92,13 +92,14 @@ Defects find_defects(const FindDefectsOptions& options) {
     options.mesh.check_interruption();
     if (options.searching) options.searching(done, total, triangles);
   };
-  if (!options.files.empty()) look_at_mesh(options, list.functions[0], search, list.box);
+  // The nodes of all coordinates show how large the mesh is.
+  if (!options.files.empty() || !options.functions.empty()) look_at_mesh(options, list.functions[0], search, list.box);
   Defects defects;
   for (const LoopFunction& function : list.functions) defects.functions.push_back(function.name);
   const ValuedMesh mesh(options.mesh, defects.functions);
   const LoopCurvesFound found = find_curves(mesh, list, scale_of(list), search);
   defects.scale = found.scale;
-  defects.table = make_rows(mesh, list, found, search);
+  defects.table = make_rows(mesh, list, found, search, options.named);
   return defects;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,7 @@ struct FindDefectsOptions {
   MeshSource mesh;
   std::vector<std::string> files;      // graphs of the mesh; none: those of these functions are computed
   std::vector<std::string> functions;  // none: its coordinates
+  std::set<LoopName> named;            // loops that have a row in any case
   unsigned threads = 0;
   std::function<void(const ComputeProgress&)> computing{};
   std::function<void(std::uint64_t done, std::uint64_t total, std::uint64_t triangles)> searching{};

@@ -10,6 +10,10 @@
 
 namespace reeb::tools {
 
+LoopName name_of(const LoopList& list, const Loop& loop) {
+  return {loop.lo.key.vertex.value(), loop.hi.key.vertex.value(), list.functions[loop.function].name};
+}
+
 LoopList read_loops(std::span<const std::string> files) {
   LoopList list;
   constexpr double kFar = std::numeric_limits<double>::infinity();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -22,6 +23,13 @@ struct Loop {
   bool lo_divides = false, hi_joins = false;  // exactly two arcs lead up from lo, and down from hi
 };
 
+// A loop by its nodes and its function.
+struct LoopName {
+  std::uint64_t lo = 0, hi = 0;
+  std::string function;
+  auto operator<=>(const LoopName&) const = default;
+};
+
 struct LoopFunction {
   std::string file, name;
   ValueRange range;
@@ -34,6 +42,8 @@ struct LoopList {
   std::vector<Loop> loops;     // by function
   std::array<Point, 2> box{};  // of all nodes
 };
+
+LoopName name_of(const LoopList& list, const Loop& loop);
 
 // From `.reeb` files of one mesh, also without levels.
 // THROWS: Error{kBadInput} of a file, and if they are of different meshes.

@@ -15,8 +15,8 @@ ooc::MeshCensus census_of(const MeshSource& source) {
     const auto reader = open();
     ooc::CensusOptions census;
     census.progress = [&](const ooc::CensusProgress&) { source.check_interruption(); };
-    if (const auto mesh = reader->indexed()) return ooc::take_census(*mesh, reader->info().dimension, space, census);
     census.read_again = open;
+    if (const auto mesh = reader->indexed()) return ooc::take_census(*mesh, reader->info().dimension, space, census);
     return ooc::take_census(*reader, space, census);
   });
 }

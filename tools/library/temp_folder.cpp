@@ -20,6 +20,8 @@ namespace reeb {
 namespace {
 
 constexpr std::string_view kPrefix = "reeb-again-", kPattern = "XXXXXX";
+// A file in the folder: other folders with such a name belong to the user. It is there once the folder is locked.
+constexpr const char* kMark = "/.reeb-temporary";
 
 void remove_folder(const std::string& path) {
   std::error_code ignored;
@@ -40,6 +42,7 @@ void remove_abandoned_folders(const std::string& parent) {
   io::for_each_name(parent, [&](std::string_view name) {
     if (!name.starts_with(kPrefix) || name.size() != kPrefix.size() + kPattern.size()) return;
     const std::string path = parent + "/" + std::string(name);
+    if (::access((path + kMark).c_str(), F_OK) != 0) return;
     const int folder = lock_folder(path, LOCK_EX | LOCK_NB);
     if (folder < 0) return;
     remove_folder(path);
@@ -52,21 +55,14 @@ void remove_abandoned_folders(const std::string& parent) {
 TempFolder::TempFolder(const std::string& parent) {
   const std::string place = parent.empty() ? io::TempDir::default_folder("") : parent;
   remove_abandoned_folders(place);
-  // Another process may take the folder for an abandoned one before it is locked. Then another one is created.
-  constexpr int kAttempts = 100;
-  for (int attempt = 0; attempt < kAttempts; ++attempt) {
-    path_ = place + "/" + std::string(kPrefix) + std::string(kPattern);
-    if (::mkdtemp(path_.data()) == nullptr)
-      throw Error(ErrorKind::kResource, std::string("cannot be created: ") + std::strerror(errno),
-                  "choose a folder that exists and is writable with --temp-dir DIR")
-          .at(path_);
-    lock_ = lock_folder(path_, LOCK_EX);
-    struct stat status {};
-    if (::stat(path_.c_str(), &status) == 0) return;  // also where there are no locks
-    if (lock_ >= 0) ::close(lock_);
-  }
-  throw Error(ErrorKind::kResource, "is removed as soon as it is created", "choose another folder with --temp-dir DIR")
-      .at(path_);
+  path_ = place + "/" + std::string(kPrefix) + std::string(kPattern);
+  if (::mkdtemp(path_.data()) == nullptr)
+    throw Error(ErrorKind::kResource, std::string("cannot be created: ") + std::strerror(errno),
+                "choose a folder that exists and is writable with --temp-dir DIR")
+        .at(path_);
+  lock_ = lock_folder(path_, LOCK_EX);
+  if (lock_ < 0) return;  // where there are no locks, nobody removes it
+  if (const int mark = ::open((path_ + kMark).c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600); mark >= 0) ::close(mark);
 }
 
 TempFolder::~TempFolder() {

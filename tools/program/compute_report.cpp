@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <numeric>
-#include <utility>
 
 #include "io/file/file.h"
 #include "libreeb/base/count_text.h"
@@ -34,11 +33,10 @@ const char* feature_name(PairType type) {
 }
 
 void print_features(const ooc::ComputeResult& r, const char* title, std::uint64_t all, bool loops) {
-  constexpr std::ptrdiff_t kMost = 5;
   const auto is_wanted = [&](const ooc::Feature& f) { return (f.type == PairType::kExt1) == loops; };
-  const std::ptrdiff_t listed = std::ranges::count_if(r.largest, is_wanted);
+  const auto listed = static_cast<std::size_t>(std::ranges::count_if(r.largest, is_wanted));
   if (listed == 0) return;
-  const bool some_are_zero = listed < kMost && static_cast<std::uint64_t>(listed) < all;
+  const bool some_are_zero = listed < ooc::kMostFeatures && listed < all;
   print_line(fmt::format("  {} ({}{} in all):", title, some_are_zero ? fmt::format("{} above zero, ", listed) : "",
                          with_commas(all)));
   for (const ooc::Feature& f : r.largest) {

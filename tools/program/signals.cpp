@@ -55,17 +55,11 @@ void handle_signals(bool speaks) {
 
 std::function<bool()> watch_signals() {
   struct Watch {
-    std::atomic<bool> is_answered = false;
-    ~Watch() {
-      watched = false;
-      if (interrupted && !is_answered) end_now();
-    }
+    ~Watch() { watched = interrupted = false; }
   };
   return [watch = std::make_shared<Watch>()] {
     watched = true;
-    if (!interrupted) return false;
-    watch->is_answered = true;
-    return true;
+    return interrupted.load();
   };
 }
 

@@ -13,8 +13,8 @@ namespace reeb::tools {
 void handle_signals(bool speaks = true);
 
 // From the first call of the returned function on, and as long as it or a copy of it exists, the first of these signals
-// only makes it return true, so that the run can be saved. The second ends the process at once. A signal that came too
-// late to be asked for ends the process when the function no longer exists.
+// only makes it return true, so that the run can be saved. The second ends the process at once. A signal that nobody
+// asked for any more is forgotten.
 std::function<bool()> watch_signals();
 
 // A process that such a signal ends, too; 0: none.

@@ -255,10 +255,10 @@ class Jobs {
     std::vector<Open> open;
     const bool has_edges = std::ranges::any_of(
         patch.lines(), [](const EditablePatch::Line& line) { return line.id == EditablePatch::kAdded; });
-    std::optional<EditablePatch> before;
+    EditablePatch::State before;
     std::size_t gone = 0;
     for (const std::uint32_t j : cluster.jobs) {
-      if (has_edges) before = patch;
+      if (has_edges) before = patch.state();
       JobResult& result = done_.results[j];
       const auto curve = numbers_in(patch, vertices, jobs_[j].curve);
       Cut cut;
@@ -273,7 +273,7 @@ class Jobs {
       if (curve && !jobs_[j].is_boundary && !cut.done && !cut.too_small)
         cut_nearby(patch, *curve, jobs_[j].length, cut);
       if (has_edges && cut.done && leaves_bare_edge(patch)) {
-        patch = *before;
+        patch.go_back(before);
         cut = {};
         cut.why = "an edge of the file would be left across the cut";
       }

@@ -34,7 +34,7 @@ class Plan {
   }
 
   Repair run() {
-    const Defects defects = find(needed_functions());
+    const Defects defects = find();
     const std::vector<ChosenRow> rows = choose_rows(defects, options_.filter);
     if (options_.filter.is_none()) repair_.suggestion = defects.table.suggestion;
     for (const ChosenRow& row : rows)
@@ -92,18 +92,15 @@ class Plan {
   }
 
  private:
-  // Those of the rows that are to be repaired; none if the coordinates have them.
-  std::vector<std::string> needed_functions() const {
-    if (options_.filter.loops.empty()) return {};
-    std::vector<std::string> functions = functions_of_rows(options_.filter.loops);
-    const auto is_coordinate = [](const std::string& name) { return name == "x" || name == "y" || name == "z"; };
-    if (std::ranges::all_of(functions, is_coordinate)) return {};
-    return functions;
-  }
-
-  Defects find(std::vector<std::string> functions) {
+  // All that are named in a file have a row.
+  Defects find() {
     FindDefectsOptions find;
-    find.functions = std::move(functions);
+    if (!options_.filter.loops.empty()) {
+      NamedRows rows = read_named_rows(options_.filter.loops);
+      const auto is_coordinate = [](const std::string& name) { return name == "x" || name == "y" || name == "z"; };
+      if (!std::ranges::all_of(rows.functions, is_coordinate)) find.functions = std::move(rows.functions);
+      find.named = std::move(rows.names);
+    }
     find.mesh = options_.mesh;
     find.threads = options_.threads;
     find.computing = [&](const ComputeProgress& p) {

@@ -6,9 +6,9 @@
 #include <charconv>
 #include <cstdint>
 #include <map>
+#include <set>
 #include <string_view>
 #include <system_error>
-#include <tuple>
 
 #include "io/file/content_source.h"
 #include "io/functions/function_spec.h"
@@ -17,9 +17,6 @@
 
 namespace reeb::tools {
 namespace {
-
-// A loop by its nodes and its function.
-using LoopName = std::tuple<std::uint64_t, std::uint64_t, std::string>;
 
 // The fields of a line of CSV.
 std::vector<std::string> fields_of(const std::string& line) {
@@ -77,11 +74,11 @@ std::map<LoopName, std::size_t> read_names(const std::string& path) {
       const std::string_view field = k < fields.size() ? std::string_view(fields[k]) : std::string_view();
       const char* const end = field.data() + field.size();
       if (const auto [stop, error] = std::from_chars(field.data(), end, value); error != std::errc() || stop != end)
-        throw Error(ErrorKind::kBadInput, "this is no row of a table of defects", "write rows as reeb defects does")
+        throw Error(ErrorKind::kBadInput, "this is not a row of a table of defects", "write rows as reeb defects does")
             .at(path, std::to_string(i + 1));
       return value;
     };
-    names.emplace(LoopName(number(lo), number(hi), function < fields.size() ? fields[function] : ""), i + 1);
+    names.emplace(LoopName{number(lo), number(hi), function < fields.size() ? fields[function] : ""}, i + 1);
   }
   return names;
 }
@@ -103,20 +100,24 @@ std::string why_not(const DefectRow& row, const Defects& defects, const RowFilte
 
 }  // namespace
 
-std::vector<std::string> functions_of_rows(const std::string& loops) {
-  std::vector<std::string> functions;
+NamedRows read_named_rows(const std::string& loops) {
+  NamedRows rows;
+  std::map<std::size_t, std::string> function_of;  // by line
   for (const auto& [name, line] : read_names(loops)) {
-    const std::string& function = std::get<2>(name);
-    if (std::ranges::find(functions, function) != functions.end()) continue;
+    rows.names.insert(name);
+    function_of.emplace(line, name.function);
+  }
+  for (const auto& [line, function] : function_of) {
+    if (std::ranges::find(rows.functions, function) != rows.functions.end()) continue;
     try {
       io::parse_function(function);
     } catch (const Error& error) {
       throw Error(ErrorKind::kBadInput, error.message(), "write rows as reeb defects does")
           .at(loops, std::to_string(line));
     }
-    functions.push_back(function);
+    rows.functions.push_back(function);
   }
-  return functions;
+  return rows;
 }
 
 std::vector<ChosenRow> choose_rows(const Defects& defects, const RowFilter& filter) {
@@ -125,12 +126,12 @@ std::vector<ChosenRow> choose_rows(const Defects& defects, const RowFilter& filt
   std::vector<ChosenRow> chosen;
   for (std::size_t i = 0; i < defects.table.rows.size(); ++i) {
     const DefectRow& row = defects.table.rows[i];
-    const LoopName name(row.lo.key.vertex.value(), row.hi.key.vertex.value(), defects.functions[row.function]);
-    if (!filter.loops.empty() && names.erase(name) == 0) continue;
-    chosen.push_back({i + 1, &row, why_not(row, defects, filter)});
+    const LoopName name{row.lo.key.vertex.value(), row.hi.key.vertex.value(), defects.functions[row.function]};
+    const bool is_named = filter.loops.empty() || names.erase(name) != 0;
+    chosen.push_back({i + 1, &row, is_named ? why_not(row, defects, filter) : "not in the file of --loops"});
   }
   if (!names.empty())
-    throw Error(ErrorKind::kBadInput, "this row is no defect of the mesh", "run reeb defects on this mesh again")
+    throw Error(ErrorKind::kBadInput, "this row is not a loop of the mesh", "run reeb defects on this mesh again")
         .at(filter.loops, std::to_string(names.begin()->second));
   return chosen;
 }

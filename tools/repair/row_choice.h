@@ -2,8 +2,7 @@
 #pragma once
 
 #include <cstddef>
-#include <limits>
-#include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -27,12 +26,16 @@ struct ChosenRow {
   std::string why_not;  // empty: it is to be repaired
 };
 
-// The functions of the rows of a CSV file, each once.
-// THROWS: Error{kBadInput} for a file that is no table of defects.
-std::vector<std::string> functions_of_rows(const std::string& loops);
+// The loops in the rows of a CSV file, and their functions in the order of the rows.
+struct NamedRows {
+  std::set<LoopName> names;
+  std::vector<std::string> functions;
+};
+// THROWS: Error{kBadInput} for a file that is not a table of defects.
+NamedRows read_named_rows(const std::string& loops);
 
 // By rank. Without a filter: the rows up to the suggested length.
-// THROWS: Error{kBadInput} for a file that is no table of defects, or has a row that is not one of this mesh.
+// THROWS: Error{kBadInput} for a file that is not a table of defects, or has a row that is not one of this mesh.
 std::vector<ChosenRow> choose_rows(const Defects& defects, const RowFilter& filter);
 
 }  // namespace reeb::tools

@@ -57,6 +57,7 @@ void run_glue(GlueArguments arguments) {
   options.progress = [&](const ComputeProgress& p) { bar.update(pass_of(p.phase), p.done, p.total, p.triangles); };
   options.interrupted = watch_signals();
   const ooc::GlueResult glued = ooc::glue_fragments(arguments.fragments, arguments.output, as_fragment, options);
+  options.interrupted = {};
   bar.clear();
   RunFacts facts;
   facts.path = arguments.fragments[0];

@@ -37,7 +37,7 @@ void add_run_options(Command command, RunArguments& arguments, const RunTexts& t
                   "Remove minima and maxima of less persistence: 0.01 (function units), or 0.1% (of the range)")
       .type_name("T");
   add_count(command, "--buckets", options.buckets,
-            "Embed arcs in at least N buckets of value (default: 64; 0: no embedding)", {.most = 1u << 20});
+            "Embed arcs in at least N buckets of value (default: 64; 0: no embedding)", {.most = kMostBuckets});
   add_image_options(command, arguments.options.image);
   add_threads(command, options.threads, texts.threads);
   add_count(command, "--chunk", options.chunk_triangles, "Triangles per chunk (default: adaptive)", {.least = 1});

@@ -30,7 +30,7 @@ struct RunTexts {
 
 // `arguments` must outlive the parsing.
 void add_run_options(Command command, RunArguments& arguments, const RunTexts& texts = {});
-// Says of the options that only a run on a whole mesh has why a run on parts has not.
+// Refuses the options that need a whole mesh, and says why.
 void refuse_whole_mesh_options(Command command);
 // Turns the text of --denoise into options. THROWS: Error{kUsage}.
 void take_denoise(RunArguments& arguments);

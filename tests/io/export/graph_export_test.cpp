@@ -71,7 +71,7 @@ TEST(GraphExport, DotAndObjAndPly) {
             "  9 [label=\"0.1\", shape=invtriangle, tooltip=\"vertex 9\"];\n"
             "  3 [label=\"1.5\", shape=triangle, tooltip=\"vertex 3\"];\n"
             "  7 -- 3 [minlen=2];\n  7 -- 3 [minlen=2];\n  7 -- 9 [minlen=1, style=invis];\n}\n");
-  EXPECT_EQ(Circle().text("obj"), "v 0 0 0\nv 4 4 4\nv 0 0 1.5\nv 1 0.5 0\nl 1 4 3\nl 1 3\n");
+  EXPECT_EQ(Circle().text("obj"), "v 0 0 0\nv 4 4 4\nv 0 0 1.5\nv 1 0.5 0\nl 1 4 3\nl 1 3\np 2\n");
   EXPECT_EQ(Circle().text("ply"),
             "ply\nformat ascii 1.0\nelement vertex 4\nproperty double x\nproperty double y\nproperty double z\n"
             "element edge 3\nproperty int vertex1\nproperty int vertex2\nend_header\n"

@@ -172,10 +172,10 @@ TEST(DefectLengths, AreDividedAtTheGap) {
   const auto unsure = suggest_length(unknown, 1, 1000, false);
   ASSERT_TRUE(unsure.length);
   EXPECT_LE(unsure.confidence, 0.5);
-  EXPECT_EQ(
-      unsure.why,
-      "2 of 4 loops are at most 4 long (4 edges); no curve was found for the other 2; graphs of other functions may "
-      "have one");
+  EXPECT_EQ(unsure.why,
+            "2 of 4 loops are at most 4 long (4 edges); for the other 2, no curve shorter than the mesh was found; "
+            "graphs of other functions may "
+            "have one");
   EXPECT_LE(suggest_length(std::vector{kInfinity}, 1, 1000, false).confidence, 0.5);
 }
 

@@ -2,6 +2,7 @@
 // counted (MANIFEST.tsv in the same folder) and against the definitions; and its text.
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -53,6 +54,26 @@ class Census : public ProgramTest {
     return outcome.exit_code == 0 ? json::parse(outcome.output) : json();
   }
 };
+
+// A triangle, an edge and a triangle that repeats a corner, in a binary PLY file, which is looked up.
+TEST_F(Census, AFaceOfTwoCornersIsNoTriangle) {
+  std::string ply =
+      "ply\nformat binary_little_endian 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+      "element face 3\nproperty list uchar int vertex_indices\nend_header\n";
+  const auto put = [&ply](const auto& value) { ply.append(reinterpret_cast<const char*>(&value), sizeof(value)); };
+  for (const float x : {0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 0.f, 1.f, 0.f, 5.f, 5.f, 5.f}) put(x);
+  for (const std::vector<std::int32_t>& face : {std::vector<std::int32_t>{2, 3}, {0, 1, 2}, {0, 1, 1}}) {
+    put(static_cast<std::uint8_t>(face.size()));
+    for (const std::int32_t corner : face) put(corner);
+  }
+  write("m.ply", ply);
+  const json surface = info({"m.ply"});
+  EXPECT_EQ(surface["degenerate"]["count"], 1);
+  EXPECT_EQ(surface["degenerate"]["places"][0]["vertices"], json({0, 1}));
+  EXPECT_EQ(surface["loose_edges"], 1);
+  expect_success(reeb({"defects", "m.ply", "-o", "d.json", "--quiet"}));
+  EXPECT_EQ(json::parse(file("d.json"))["degenerate"]["count"], 1);
+}
 
 Complex read_complex(const std::string& path) {
   Complex complex;

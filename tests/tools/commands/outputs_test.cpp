@@ -379,6 +379,14 @@ TEST_F(Signals, EndCommandsThatHaveStoppedToWatchThem) {
   for (const char* pipe : {"pipe.i64", "pipe.ply", "pipe.csv", "pipe.html"})
     ASSERT_EQ(::mkfifo(in_folder(pipe).c_str(), 0600), 0);
   expect_interrupted({"segment", "m.ply", "g.reeb", "-o", "pipe.i64"}, "INT");
+  const auto with_report = [&](const std::string& output, std::vector<std::string> words) {
+    words.insert(words.end(), {"-o", output, "--report", "pipe.csv", "--quiet"});
+    EXPECT_EQ(interrupt(words, "INT").exit_code, 130) << last_command();
+    EXPECT_TRUE(fs::remove(in_folder(output))) << last_command();  // it is whole
+  };
+  with_report("h.reeb", {"compute", "m.ply"});
+  expect_success(reeb({"fragment", "m.ply", "--part", "1/1", "-o", "p.fragment", "--quiet"}));
+  with_report("h.reeb", {"glue", "p.fragment"});
   expect_interrupted({"segment", "m.ply", "g.reeb", "-o", "pipe.ply"}, "INT");
   expect_interrupted({"defects", "m.ply", "-o", "pipe.csv"}, "INT");
   expect_interrupted({"repair", "m.ply", "-o", "pipe.ply"}, "INT");

@@ -224,6 +224,32 @@ TEST_F(RepairTest, TakesRowsOfAnyFunction) {
   expect_error(reeb({"repair", "t.ply", "-o", "p.ply", "--loops", "other.csv", "--quiet"}), 1, "other.csv:2");
 }
 
+// Every row that reeb defects wrote is known to reeb repair, whatever graphs it was given.
+TEST_F(RepairTest, KnowsAllRowsOfTheTable) {
+  expect_success(reeb({"generate", "scan", "--triangles", "6000", "-o", "s.ply"}));
+  for (const std::vector<std::string>& functions :
+       {std::vector<std::string>{"c0", "c1"}, {"random:1", "y"}, {"z"}, {"y", "x"}}) {
+    std::vector<std::string> defects = {"defects", "-o", "d.csv", "--quiet", "--force", "s.ply"};
+    for (std::size_t i = 0; i < functions.size(); ++i) {
+      defects.push_back(std::to_string(i) + ".reeb");
+      expect_success(reeb({"compute", "s.ply", "-f", functions[i], "-o", defects.back(), "--quiet", "--force"}));
+    }
+    expect_success(reeb(defects));
+    const std::string table = file("d.csv");
+    const auto rows = std::ranges::count(table, '\n') - 1;
+    ASSERT_GT(rows, 2);
+    expect_success(
+        reeb({"repair", "s.ply", "-o", "o.ply", "--loops", "d.csv", "--log", "log.json", "--quiet", "--force"}));
+    const nlohmann::json log = json("log.json");
+    const auto others = std::ranges::count(log["left"], "not in the file of --loops",
+                                           [](const nlohmann::json& row) { return row["why"]; });
+    EXPECT_EQ(log["loops"].size() + log["left"].size() - static_cast<std::size_t>(others),
+              static_cast<std::size_t>(rows))
+        << functions[0];
+    EXPECT_GT(log["repaired"], 0) << functions[0];
+  }
+}
+
 // Triangles that repeat a corner along edges, and repetitions: what is along the cut goes with it, or would join its
 // two sides.
 TEST_F(RepairTest, LeavesNothingAcrossACut) {
@@ -525,7 +551,7 @@ TEST_F(RepairTest, RefusesWhatItCannotDo) {
   EXPECT_EQ(reeb({"repair", "t.ply", "-o", "p.ply", "--loops", "rows.csv"}).exit_code, 1);
   write("rows.csv", "rank,lo,hi,function\n1,0,99999999999999999999,x\n");
   const Outcome too_large = reeb({"repair", "t.ply", "-o", "p.ply", "--loops", "rows.csv"});
-  EXPECT_NE(too_large.error.find("rows.csv:2: this is no row of a table of defects"), std::string::npos)
+  EXPECT_NE(too_large.error.find("rows.csv:2: this is not a row of a table of defects"), std::string::npos)
       << too_large.error;
   write("rows.csv", "rank,lo,hi\n");
   EXPECT_EQ(reeb({"repair", "t.ply", "-o", "p.ply", "--loops", "rows.csv"}).exit_code, 1);

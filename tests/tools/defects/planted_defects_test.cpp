@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <map>
 #include <mutex>
 #include <numbers>
 #include <random>
@@ -306,6 +307,54 @@ TEST_F(PlantedDefects, SmallToriAreHandlesHoweverTheyAreTurned) {
     const Defects defects = defects_of(small_torus(around, across, seed, seed % 2 == 1), folder());
     ASSERT_EQ(defects.table.rows.size(), 1u) << seed;
     EXPECT_EQ(defects.table.rows[0].kind, DefectKind::kHandle) << seed;
+  }
+}
+
+// The surface of 3 × 3 cubes, two high, without those in the middle.
+PlantedMesh frame_of_cubes() {
+  PlantedMesh mesh;
+  std::map<std::array<int, 3>, std::uint32_t> number;
+  const auto is_full = [](const std::array<int, 3>& c) {
+    return c[0] >= 0 && c[0] < 3 && c[1] >= 0 && c[1] < 3 && c[2] >= 0 && c[2] < 2 && (c[0] != 1 || c[1] != 1);
+  };
+  const auto vertex = [&](const std::array<int, 3>& p) {
+    const auto [it, is_new] = number.emplace(p, static_cast<std::uint32_t>(mesh.vertices.size()));
+    if (is_new) mesh.vertices.push_back({p[0] + 0.01 * p[1], p[1] - 0.02 * p[2], p[2] + 0.03 * p[0]});
+    return it->second;
+  };
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
+      for (int k = 0; k < 2; ++k)
+        for (std::size_t axis = 0; axis < 3; ++axis)
+          for (const int side : {0, 1}) {
+            std::array<int, 3> cube{i, j, k}, beside = cube;
+            beside[axis] += 2 * side - 1;
+            if (!is_full(cube) || is_full(beside)) continue;
+            std::array<std::uint32_t, 4> corners{};
+            for (std::size_t c = 0; c < 4; ++c) {
+              std::array<int, 3> p = cube;
+              p[axis] += side;
+              p[(axis + 1) % 3] += c == 1 || c == 2 ? 1 : 0;
+              p[(axis + 2) % 3] += c >= 2 ? 1 : 0;
+              corners[c] = vertex(p);
+            }
+            if (side == 0) std::swap(corners[1], corners[3]);
+            mesh.triangles.push_back({corners[0], corners[1], corners[2]});
+            mesh.triangles.push_back({corners[0], corners[2], corners[3]});
+          }
+  return mesh;
+}
+
+// Its wall is an edge wide, so the triangles next to those at the hole are outside.
+TEST_F(PlantedDefects, AHoleThroughAThinWallIsATunnel) {
+  PlantedMesh mesh = frame_of_cubes();
+  for (const bool inwards : {false, true}) {
+    if (inwards)
+      for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
+    const Defects defects = defects_of(mesh, folder());
+    ASSERT_EQ(defects.table.rows.size(), 1u);
+    EXPECT_NEAR(defects.table.rows[0].length(), 4, 0.2);
+    EXPECT_EQ(defects.table.rows[0].kind, DefectKind::kTunnel) << inwards;
   }
 }
 

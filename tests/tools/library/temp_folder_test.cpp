@@ -45,13 +45,17 @@ TEST(TempFolder, RemovesThatOfAProcessThatWasKilled) {
 TEST(TempFolder, LeavesAllOthers) {
   const ooc::Scratch parent;
   const TempFolder living(parent.path());
-  const std::string other_name = parent.path() + "/reeb-again-results", file = parent.path() + "/reeb-again-abcdef";
+  const std::string other_name = parent.path() + "/reeb-again-results", file = parent.path() + "/reeb-again-abcdef",
+                    of_the_user = parent.path() + "/reeb-again-backup";
   fs::create_directory(other_name);
+  fs::create_directory(of_the_user);
+  write_file(of_the_user + "/thesis.txt", "much work");
   write_file(file, "no folder");
   fs::create_directory_symlink(other_name, parent.path() + "/reeb-again-ghijkl");
   { const TempFolder folder(parent.path()); }
   EXPECT_TRUE(fs::is_directory(living.path()));
   EXPECT_TRUE(fs::is_directory(other_name));
+  EXPECT_TRUE(fs::is_regular_file(of_the_user + "/thesis.txt"));
   EXPECT_TRUE(fs::is_regular_file(file));
   EXPECT_TRUE(fs::is_symlink(parent.path() + "/reeb-again-ghijkl"));
 }
