@@ -83,4 +83,25 @@ bool bounds_with(const SurfacePatch& patch, std::span<const std::uint32_t> curve
   return has_solution(std::move(equations), curves + patch.triangle_count() + 1);
 }
 
+std::vector<std::uint32_t> edges_of(const SurfacePatch& patch, const ClosedPath& path) {
+  std::vector<std::uint32_t> edges;
+  for (std::size_t i = 0; i < path.vertices.size(); ++i)
+    edges.push_back(patch.edge_between(path.vertices[i], path.vertices[(i + 1) % path.vertices.size()]));
+  return edges;
+}
+
+bool depends_on(const SurfacePatch& patch, const ClosedPath& path, std::span<const ClosedPath> others) {
+  const std::vector<std::uint32_t> edges = edges_of(patch, path);
+  std::vector<std::vector<std::uint32_t>> around;
+  for (const ClosedPath& other : others) {
+    if (const auto left = left_of(patch, other)) {
+      std::size_t crossings = 0;
+      for (const std::uint32_t e : edges) crossings += (*left)[e];
+      if (crossings % 2 != 0) return true;
+    }
+    around.push_back(edges_of(patch, other));
+  }
+  return bounds_with(patch, edges, around);
+}
+
 }  // namespace reeb

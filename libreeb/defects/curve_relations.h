@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "libreeb/defects/odd_cycle.h"
 #include "libreeb/defects/surface_patch.h"
 
 namespace reeb {
@@ -15,5 +16,13 @@ namespace reeb {
 // TIME: O(n) for n triangles, and elimination on the parts into which the curves cut the patch.
 bool bounds_with(const SurfacePatch& patch, std::span<const std::uint32_t> curve,
                  std::span<const std::vector<std::uint32_t>> others);
+
+// The edges of a closed path, in its order.
+std::vector<std::uint32_t> edges_of(const SurfacePatch& patch, const ClosedPath& path);
+
+// Whether the path crosses one of the others an odd number of times, or bounds something together with them. If so, the
+// surface cannot be cut along all of them without dividing it.
+// REQUIRES: the paths are simple, and their vertices are whole.
+bool depends_on(const SurfacePatch& patch, const ClosedPath& path, std::span<const ClosedPath> others);
 
 }  // namespace reeb

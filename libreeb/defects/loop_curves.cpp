@@ -45,6 +45,8 @@ bool cuts_off(const SurfacePatch& patch, const ClosedPath& path) {
   });
 }
 
+}  // namespace
+
 LoopCurve curve_along(const SurfacePatch& patch, ClosedPath path) {
   LoopCurve curve;
   if (auto left = left_of(patch, path); left && !cuts_off(patch, path)) curve.crossings = std::move(*left);
@@ -53,8 +55,6 @@ LoopCurve curve_along(const SurfacePatch& patch, ClosedPath path) {
   curve.path = std::move(path);
   return curve;
 }
-
-}  // namespace
 
 const char* name_of(DefectKind kind) {
   constexpr const char* kNames[] = {"handle", "tunnel", "unclear"};

@@ -17,6 +17,11 @@ namespace reeb {
 
 enum class DefectKind : std::uint8_t { kHandle, kTunnel, kUnclear };
 const char* name_of(DefectKind kind);
+// What it is if the surface is turned inside out.
+inline DefectKind opposite(DefectKind kind) {
+  if (kind == DefectKind::kUnclear) return kind;
+  return kind == DefectKind::kHandle ? DefectKind::kTunnel : DefectKind::kHandle;
+}
 
 struct LoopCurve {
   ClosedPath path;      // the shortest closed path along edges; none if it leaves the patch
@@ -44,6 +49,9 @@ struct LoopCurves {
 //       its path would be longer than the best so far.
 LoopCurves loop_curves(const SurfacePatch& patch, std::span<const double> values, const LoopNodes& nodes,
                        double longest = std::numeric_limits<double>::infinity());
+
+// REQUIRES: the path is simple, and its vertices are whole.
+LoopCurve curve_along(const SurfacePatch& patch, ClosedPath path);
 
 // A tunnel if the disc of the curve lies outside the solid, a handle if it lies inside: by the sign of the sum of
 // n·(m − p) over the vertices p of the curve, with their outward normals n and their mean m. `inwards`: the oriented

@@ -100,7 +100,8 @@ Error usage_error(const CLI::App& program, const std::vector<std::string>& words
     for (const std::string& name : long_names(program)) names.push_back(name);
     const std::string near = nearest(*option, names);
     // An option alone need not be meant for the default command.
-    const std::string also = words.size() == 2 && words[0] == "compute" ? "`" + program.get_name() + " --help` and " : "";
+    const std::string also =
+        words.size() == 2 && words[0] == "compute" ? "`" + program.get_name() + " --help` and " : "";
     return {ErrorKind::kUsage, "unknown option " + *option + (near.empty() ? "" : " (did you mean " + near + "?)"),
             "see " + also + help};
   }

@@ -22,29 +22,6 @@ constexpr double kFirstEdges = 6;  // the radius of the first patches, in edges
 constexpr int kMostReadings = 14;
 constexpr std::uint64_t kSearchBytesPerVertex = 700;  // of a patch, with what a search in it needs
 
-FoundCurve in_mesh(const SurfacePatch& patch, const LoopCurve& curve) {
-  FoundCurve found;
-  found.length = curve.length;
-  found.triangles = curve.triangles;
-  found.closed = !curve.crossings.empty();
-  found.kind = kind_of(patch, curve, false);
-  if (!curve.path.exists()) return found;
-  found.path.reserve(curve.path.vertices.size());
-  found.box = {patch.position(curve.path.vertices[0]), patch.position(curve.path.vertices[0])};
-  for (const std::uint32_t v : curve.path.vertices) {
-    found.path.push_back(patch.vertex(v));
-    for (std::size_t k = 0; k < 3; ++k) {
-      const double x = patch.position(v)[k];
-      found.box[0][k] = std::min(found.box[0][k], x);
-      found.box[1][k] = std::max(found.box[1][k], x);
-      found.center[k] += x / static_cast<double>(curve.path.vertices.size());
-    }
-  }
-  // Rounding must not move the centre out of a flat box.
-  for (std::size_t k = 0; k < 3; ++k) found.center[k] = std::clamp(found.center[k], found.box[0][k], found.box[1][k]);
-  return found;
-}
-
 bool same(const FoundCurve& a, const FoundCurve& b) { return a.found() && b.found() && a.path == b.path; }
 
 // Whether the oriented triangles near the vertex, the highest of its component along a coordinate, have their normals
@@ -158,9 +135,7 @@ class CurveSearch {
       const Loop& loop = list_.loops[i];
       if (inwards_[loop.function][loop.component] == 0) continue;
       for (FoundCurves& curves : found_[i])
-        for (FoundCurve* curve : {&curves.contour, &curves.cycle})
-          if (curve->kind != DefectKind::kUnclear)
-            curve->kind = curve->kind == DefectKind::kHandle ? DefectKind::kTunnel : DefectKind::kHandle;
+        for (FoundCurve* curve : {&curves.contour, &curves.cycle}) curve->kind = opposite(curve->kind);
     }
     return {std::move(found_), scale_, std::move(memory_)};
   }
@@ -360,6 +335,34 @@ PatchScale scale_of(const LoopList& list) {
   const auto triangles = static_cast<double>(std::max<std::uint64_t>(1, list.functions[0].mesh.triangles));
   scale.edge = std::max(std::sqrt(2.3 * area / triangles), 1e-6 * scale.size);
   return scale;
+}
+
+void turn(FoundCurve& curve) {
+  curve.kind = opposite(curve.kind);
+  curve.inwards = !curve.inwards;
+}
+
+FoundCurve in_mesh(const SurfacePatch& patch, const LoopCurve& curve) {
+  FoundCurve found;
+  found.length = curve.length;
+  found.triangles = curve.triangles;
+  found.closed = !curve.crossings.empty();
+  found.kind = kind_of(patch, curve, false);
+  if (!curve.path.exists()) return found;
+  found.path.reserve(curve.path.vertices.size());
+  found.box = {patch.position(curve.path.vertices[0]), patch.position(curve.path.vertices[0])};
+  for (const std::uint32_t v : curve.path.vertices) {
+    found.path.push_back(patch.vertex(v));
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double x = patch.position(v)[k];
+      found.box[0][k] = std::min(found.box[0][k], x);
+      found.box[1][k] = std::max(found.box[1][k], x);
+      found.center[k] += x / static_cast<double>(curve.path.vertices.size());
+    }
+  }
+  // Rounding must not move the centre out of a flat box.
+  for (std::size_t k = 0; k < 3; ++k) found.center[k] = std::clamp(found.center[k], found.box[0][k], found.box[1][k]);
+  return found;
 }
 
 LoopCurvesFound find_curves(const ValuedMesh& mesh, const LoopList& list, const PatchScale& scale,

@@ -27,6 +27,7 @@ struct FoundCurve {
   std::uint32_t triangles = 0;
   bool closed = false;  // on an oriented manifold, away from boundaries
   DefectKind kind = DefectKind::kUnclear;
+  bool inwards = false;  // the oriented triangles of its component have their normals inside
   bool found() const { return length < std::numeric_limits<double>::infinity(); }
 };
 
@@ -68,6 +69,11 @@ struct LoopCurvesFound {
   PatchScale scale;    // with edges as measured near the loops
   Reservation memory;  // of the curves
 };
+
+// The curve by the vertices of the mesh; its kind as if normals were outside.
+FoundCurve in_mesh(const SurfacePatch& patch, const LoopCurve& curve);
+// For a component whose normals are inside.
+void turn(FoundCurve& curve);
 
 // Reads the mesh about as often as a small patch must be doubled until it holds the curves of the largest loop whose
 // patch is not too large. Each reading collects the patches of all loops that need one, in a temporary file; loops near

@@ -1,12 +1,14 @@
 #include "tools/defects/defect_rows.h"
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <set>
 #include <tuple>
 #include <utility>
 
 #include "libreeb/defects/curve_relations.h"
+#include "libreeb/defects/further_loops.h"
 #include "ooc/patches/ball_clusters.h"
 #include "ooc/patches/divided_surface.h"
 #include "ooc/patches/near_balls.h"
@@ -74,32 +76,16 @@ ClosedPath in_patch(const SurfacePatch& patch, const FoundCurve& curve) {
   return path;
 }
 
-std::vector<std::uint32_t> edges_of(const SurfacePatch& patch, const ClosedPath& path) {
-  std::vector<std::uint32_t> edges;
-  for (std::size_t i = 0; i < path.vertices.size(); ++i)
-    edges.push_back(patch.edge_between(path.vertices[i], path.vertices[(i + 1) % path.vertices.size()]));
-  return edges;
-}
-
 // Whether the candidate crosses one of those taken an odd number of times, or bounds something together with them, in
 // the patch. Nothing if the patch does not have all of it.
 std::optional<bool> is_known(const SurfacePatch& patch, const Candidate& candidate,
                              std::span<const Candidate* const> taken) {
   const ClosedPath path = in_patch(patch, *candidate.curve);
   if (!path.exists()) return std::nullopt;
-  const std::vector<std::uint32_t> edges = edges_of(patch, path);
-  std::vector<std::vector<std::uint32_t>> others;
-  for (const Candidate* other : taken) {
-    const ClosedPath there = in_patch(patch, *other->curve);
-    if (!there.exists()) continue;
-    if (const auto left = left_of(patch, there)) {
-      std::size_t crossings = 0;
-      for (const std::uint32_t e : edges) crossings += (*left)[e];
-      if (crossings % 2 != 0) return true;
-    }
-    others.push_back(edges_of(patch, there));
-  }
-  return bounds_with(patch, edges, others);
+  std::vector<ClosedPath> others;
+  for (const Candidate* other : taken)
+    if (ClosedPath there = in_patch(patch, *other->curve); there.exists()) others.push_back(std::move(there));
+  return depends_on(patch, path, others);
 }
 
 bool same_path(const Candidate& a, const Candidate& b) {
@@ -248,6 +234,63 @@ DefectRow row_of(const LoopList& list, std::uint32_t number, const FoundCurves* 
   return row;
 }
 
+// Six times the volume inside a closed surface with its normals outside; negative if they are inside.
+double volume_of(const SurfacePatch& patch) {
+  double volume = 0;
+  const Point& origin = patch.position(0);
+  for (std::uint32_t t = 0; t < patch.triangle_count(); ++t) {
+    const auto [a, b, c] = patch.oriented(t);
+    volume += dot(patch.position(a) - origin, cross(patch.position(b) - origin, patch.position(c) - origin));
+  }
+  return volume;
+}
+
+// The curves of several loops can be the same: then only one of them has a row with it. In a small mesh, the other
+// loops of a closed component get further curves, each the row of the loop that is nearest to it. `used`: loops with a
+// row.
+void add_further(const ValuedMesh& mesh, const LoopList& list, const PatchScale& scale,
+                 std::span<const Candidate* const> taken, const SearchOptions& options, std::vector<std::uint8_t>& used,
+                 DefectTable& table) {
+  constexpr std::uint64_t kMostLoops = 512, kMostRoots = 64;
+  if (list.functions[0].mesh.vertices > PatchScale::kMostVertices) return;
+  std::vector<std::vector<std::uint32_t>> left(list.functions[0].tops.size());  // loops of each component
+  for (std::uint32_t i = 0; i < list.loops.size(); ++i)
+    if (list.loops[i].function == 0 && used[i] == 0) left[list.loops[i].component].push_back(i);
+  if (std::ranges::all_of(left, &std::vector<std::uint32_t>::empty)) return;
+  const ooc::Ball all_of_it{list.box[0], 2 * scale.size};
+  ooc::DividedSurface surfaces(std::vector{ooc::GroupedBall{all_of_it, 0}}, 1, 0, *options.temp, *options.budget);
+  mesh.read([&](const MeshBatch& batch, std::span<const std::vector<double>>, std::uint64_t, std::uint64_t) {
+    surfaces.add(batch, {});
+  });
+  surfaces.finish();
+  const ooc::CollectedSurface surface = surfaces.surface(0);
+  for (std::vector<std::uint32_t>& loops : left) {
+    if (loops.empty()) continue;
+    const std::array seeds = {list.loops[loops[0]].lo.key.vertex};
+    const SurfacePatch patch = surface.cut(seeds, std::span(&all_of_it, 1), PatchScale::kMostVertices).surface;
+    if (!is_closed_surface(patch)) continue;
+    std::vector<ClosedPath> known;
+    for (const Candidate* candidate : taken)
+      if (ClosedPath path = in_patch(patch, *candidate->curve); path.exists()) known.push_back(std::move(path));
+    const auto roots = static_cast<std::uint32_t>(
+        std::clamp<std::uint64_t>(kMostLoops / (known.size() + loops.size()), 4, kMostRoots));
+    const bool inwards = volume_of(patch) < 0;
+    for (const ClosedPath& path : further_loops(patch, known, loops.size(), roots)) {
+      FoundCurves found;
+      found.cycle = in_mesh(patch, curve_along(patch, path));
+      if (found.cycle.length > scale.longest()) break;
+      if (inwards) turn(found.cycle);
+      const auto nearest = std::ranges::min_element(loops, {}, [&](std::uint32_t i) {
+        return distance(list.loops[i].lo.position, found.cycle.center) +
+               distance(list.loops[i].hi.position, found.cycle.center);
+      });
+      used[*nearest] = 1;
+      table.rows.push_back(row_of(list, *nearest, &found, &found.cycle));
+      loops.erase(nearest);
+    }
+  }
+}
+
 // With the shortest curve of each.
 void add_named(const LoopList& list, const std::vector<Candidate>& sorted, const std::set<LoopName>& named,
                DefectTable& table) {
@@ -288,6 +331,7 @@ DefectTable make_rows(const ValuedMesh& mesh, const LoopList& list, const LoopCu
     used[candidate->loop] = 1;
     table.rows.push_back(row_of(list, candidate->loop, candidate->both, candidate->curve));
   }
+  if (table.rows.size() < wanted) add_further(mesh, list, scale, taken, options, used, table);
   // The other loops of the first function: first those whose curves left their patches. Curves of the rest stand for
   // defects that are listed already.
   for (const bool with_curves : {false, true})

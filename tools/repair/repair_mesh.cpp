@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <numeric>
 
@@ -38,7 +37,8 @@ class Plan {
     const std::vector<ChosenRow> rows = choose_rows(defects, options_.filter);
     if (options_.filter.is_none()) repair_.suggestion = defects.table.suggestion;
     for (const ChosenRow& row : rows)
-      repair_.rows.push_back({row.rank, row.row->kind, row.row->length(), false, row.why_not, 0, 0, 0});
+      repair_.rows.push_back(
+          {row.rank, row.row->kind, row.row->length(), row.row->curve.inwards, false, row.why_not, 0, 0, 0});
     const ValuedMesh mesh(options_.mesh, {});
     ooc::Workspace space(options_.mesh.temp_folder, options_.mesh.memory_bytes);
     const Cleaning cleaning = plan_cleaning(mesh, options_.cleaning, space, jobs_.progress);
@@ -150,8 +150,7 @@ class Plan {
     row.why = result.why;
     row.removed = result.removed;
     row.added = result.added;
-    // A filled tunnel adds to the solid, a cut handle takes away, however the triangles are turned.
-    row.volume = row.kind == DefectKind::kTunnel ? std::abs(result.volume) : -std::abs(result.volume);
+    row.volume = row.inwards ? -result.volume : result.volume;
   }
 
   // Nothing is to be repaired, so the mesh was not read yet.

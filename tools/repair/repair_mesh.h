@@ -30,10 +30,11 @@ struct RepairedRow {
   std::size_t rank = 0;
   DefectKind kind = DefectKind::kUnclear;
   double length = 0;
+  bool inwards = false;  // the normals of its component are inside
   bool done = false;
   std::string why;  // it was not
   std::uint64_t removed = 0, added = 0;
-  double volume = 0;  // that the solid gained: positive at a tunnel
+  double volume = 0;  // that the solid gained: positive where a tunnel was filled
 };
 
 struct Repair {

@@ -310,12 +310,13 @@ TEST_F(PlantedDefects, SmallToriAreHandlesHoweverTheyAreTurned) {
   }
 }
 
-// The surface of 3 × 3 cubes, two high, without those in the middle.
-PlantedMesh frame_of_cubes() {
+// The surface of those of 3 × 3 × 3 cubes for which is_full(place) is true.
+template <class IsFull>
+PlantedMesh surface_of_cubes(const IsFull& is_in) {
   PlantedMesh mesh;
   std::map<std::array<int, 3>, std::uint32_t> number;
-  const auto is_full = [](const std::array<int, 3>& c) {
-    return c[0] >= 0 && c[0] < 3 && c[1] >= 0 && c[1] < 3 && c[2] >= 0 && c[2] < 2 && (c[0] != 1 || c[1] != 1);
+  const auto is_full = [&](const std::array<int, 3>& c) {
+    return std::ranges::all_of(c, [](int x) { return x >= 0 && x < 3; }) && is_in(c);
   };
   const auto vertex = [&](const std::array<int, 3>& p) {
     const auto [it, is_new] = number.emplace(p, static_cast<std::uint32_t>(mesh.vertices.size()));
@@ -324,7 +325,7 @@ PlantedMesh frame_of_cubes() {
   };
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j)
-      for (int k = 0; k < 2; ++k)
+      for (int k = 0; k < 3; ++k)
         for (std::size_t axis = 0; axis < 3; ++axis)
           for (const int side : {0, 1}) {
             std::array<int, 3> cube{i, j, k}, beside = cube;
@@ -347,7 +348,7 @@ PlantedMesh frame_of_cubes() {
 
 // Its wall is an edge wide, so the triangles next to those at the hole are outside.
 TEST_F(PlantedDefects, AHoleThroughAThinWallIsATunnel) {
-  PlantedMesh mesh = frame_of_cubes();
+  PlantedMesh mesh = surface_of_cubes([](const auto& c) { return c[2] < 2 && (c[0] != 1 || c[1] != 1); });
   for (const bool inwards : {false, true}) {
     if (inwards)
       for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
@@ -356,6 +357,23 @@ TEST_F(PlantedDefects, AHoleThroughAThinWallIsATunnel) {
     EXPECT_NEAR(defects.table.rows[0].length(), 4, 0.2);
     EXPECT_EQ(defects.table.rows[0].kind, DefectKind::kTunnel) << inwards;
   }
+}
+
+// Several loops of a coordinate have the same shortest curve. Each of the five has one of its own.
+TEST_F(PlantedDefects, EachLoopOfTheEdgesOfACubeHasACurve) {
+  const PlantedMesh mesh = surface_of_cubes([](const auto& c) { return std::ranges::count(c, 1) < 2; });
+  ASSERT_EQ(genus(mesh), 5u);
+  for (const std::vector<std::string>& functions : {std::vector<std::string>{}, {"x"}, {"distance:1,7,2"}}) {
+    const Defects defects = defects_of(mesh, folder(), functions);
+    ASSERT_EQ(defects.table.rows.size(), 5u);
+    for (const DefectRow& row : defects.table.rows) {
+      EXPECT_LE(row.length(), 8.5);
+      EXPECT_FALSE(row.curve.path.empty());
+      EXPECT_NE(row.kind, DefectKind::kUnclear);
+    }
+  }
+  expect_success(reeb({"repair", "m.ply", "-o", "o.ply", "--all", "--quiet", "--log", "log.json"}));
+  EXPECT_NE(file("log.json").find("\"repaired\": 5"), std::string::npos) << file("log.json");
 }
 
 // The highest vertices are a ring, and have no triangles of their own.
