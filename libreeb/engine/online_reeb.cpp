@@ -1,6 +1,7 @@
 #include "libreeb/engine/online_reeb.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -152,7 +153,10 @@ OnlineReeb::OnlineReeb(OnlineReeb&&) noexcept = default;
 OnlineReeb& OnlineReeb::operator=(OnlineReeb&&) noexcept = default;
 
 VertexId OnlineReeb::add_vertex(double value, const Point& position) {
-  const VertexId v = impl_->chunker().add_vertex({&value, 1}, position);
+  StreamChunker& chunker = impl_->chunker();
+  if (!std::ranges::all_of(position, [](double coordinate) { return std::isfinite(coordinate); }))
+    throw Error(ErrorKind::kBadInput, "the position of the vertex is not finite", "give every vertex finite numbers");
+  const VertexId v = chunker.add_vertex({&value, 1}, position);
   impl_->advance();
   return v;
 }

@@ -51,7 +51,7 @@ class OnlineReeb {
   OnlineReeb& operator=(OnlineReeb&&) noexcept;
 
   // Adds the next vertex and returns its index: 0, 1, 2, ...
-  // THROWS: Error{kBadInput} if the value is not finite, or after finish().
+  // THROWS: Error{kBadInput} if the value or the position is not finite, or after finish().
   VertexId add_vertex(double value, const Point& position = {});
   // Says that no vertex has an index below `next`, except those that were added: the next one has this index.
   void skip_to(VertexId next);

@@ -32,6 +32,7 @@ std::vector<ComputeResult> compute_all(const Mesh& mesh_source, const std::strin
                                        const ComputeOptions& options) {
   const std::vector<io::FunctionSpec> specs = parse_functions(functions);
   require_an_output_each(functions, outputs);
+  check_limits(options);
   files_of_run(path, specs, outputs, options).check();
 
   const bool snapshots = options.snapshot_every != 0;

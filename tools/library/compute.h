@@ -18,18 +18,21 @@ namespace reeb {
 using ooc::ComputeProgress;
 using ooc::ComputeResult;
 
+inline constexpr std::uint32_t kMostBuckets = 1u << 20;
+
 struct ComputeOptions {
   std::uint64_t memory_bytes = ~std::uint64_t{0};  // what the run may use; default: no limit
   unsigned threads = 0;                            // 0: all that the machine has, but one for a small mesh
   bool replace = false;                            // outputs that exist, and an interrupted run; else an Error
   bool graph_only = false;                         // no pairs and levels
   // Minima and maxima of less persistence are removed; `denoise` is a share of the function's range (0.001
-  // is 0.1%), or in units of the function. 0: all stay.
+  // is 0.1%), or in units of the function. 0: all stay. A finite number from 0 on.
   double denoise = 0;
   bool denoise_is_share = false;
   // Promises that no edge has more than two triangles, which saves work; a third one is an Error{kBadInput}.
   bool manifold = false;
-  std::uint32_t buckets = 64;        // buckets of value over the range, at least; at most twice that; 0: none
+  // Buckets of value over the range, at least; at most twice that. 0: none. Up to kMostBuckets.
+  std::uint32_t buckets = 64;
   std::string format{};              // of the mesh, where its content does not tell: "cx", ...; empty: detected
   io::ImageOptions image{};          // how an image is read
   std::string temp_dir{};            // for temporary files; empty: $TMPDIR, or the folder of the first output
@@ -52,11 +55,11 @@ struct ComputeOptions {
 // are told by content. Threads do not change the bytes of the result; with buckets = 0, memory and chunks do not
 // either.
 //
-// THROWS:  Error: kUsage for an unknown function; kBadInput with file and position for a bad mesh, or an
-//          output that exists, is an input or is another output; kResource if memory or disk do not suffice, or an
-//          output cannot be created; kInterrupted. All of outputs is checked before any work. No output is ever written
-//          in part, but those of earlier functions may be there, and the graph alone if its levels did not fit the
-//          memory. Of the last two kinds the hint says whether options.resume can continue.
+// THROWS:  Error: kUsage for an unknown function or an option out of its limits; kBadInput with file and position for a
+//          bad mesh, or an output that exists, is an input or is another output; kResource if memory or disk do not
+//          suffice, or an output cannot be created; kInterrupted. All of outputs is checked before any work. No output
+//          is ever written in part, but those of earlier functions may be there, and the graph alone if its levels did
+//          not fit the memory. Of the last two kinds the hint says whether options.resume can continue.
 // TIME:    about 60 ns a triangle where the order of the mesh is coherent; one or two readings of the file.
 // MEMORY:  tens of MiB for the chunks, and the front of the sweep; with levels also the graph, 95 to 164 bytes an arc.
 //          options.memory_bytes bounds it.

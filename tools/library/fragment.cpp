@@ -12,6 +12,7 @@ namespace {
 
 void check_files(const std::string& path, std::span<const std::string> functions, std::span<const std::string> outputs,
                  const ComputeOptions& options, const ooc::PartChoice& choice) {
+  check_limits(options);
   if (path == "-")
     throw Error(ErrorKind::kUsage, "a part of standard input cannot be computed, since other parts need the mesh, too",
                 "name the file of the mesh");

@@ -1,9 +1,20 @@
 #include "tools/library/run_options.h"
 
+#include <cmath>
 #include <memory>
 #include <mutex>
+#include <string>
+
+#include "libreeb/base/error.h"
 
 namespace reeb {
+
+void check_limits(const ComputeOptions& options) {
+  if (!(options.denoise >= 0) || !std::isfinite(options.denoise))
+    throw Error(ErrorKind::kUsage, "the threshold of denoise is not a number from 0 on", "0.001 is 0.1% as a share");
+  if (options.buckets > kMostBuckets)
+    throw Error(ErrorKind::kUsage, "there can be at most " + std::to_string(kMostBuckets) + " buckets", "64 are usual");
+}
 
 ooc::ComputeOptions run_options(const ComputeOptions& options) {
   ooc::ComputeOptions run;

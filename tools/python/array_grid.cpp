@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <string>
 
+#include "tools/python/strided_array.h"
+
 namespace reeb::python {
 namespace {
 
@@ -34,7 +36,7 @@ class Reader final : public GridReader {
     const auto [i, j, k] = indices(vertex);
     std::string position = std::to_string(j) + ", " + std::to_string(i);
     if (grid_.info.axes == 3) position = std::to_string(k) + ", " + position;
-    return {"image", position};
+    return {kNoFile, place_in("image", position)};
   }
   std::uint64_t bytes_read() const override { return next_ * io::byte_size(grid_.type); }
 

@@ -52,7 +52,7 @@ void copy_column(const Column& column, std::size_t count, double* values, const 
   const bool is_row = column.array.size[1] > 1 || column.name == "vertices";
   throw Error(ErrorKind::kBadInput, is_row ? "a coordinate is not finite" : "a value is not finite",
               "give every vertex finite numbers")
-      .at(column.name, std::to_string(vertex) + (is_row ? ", " + std::to_string(column.index) : ""));
+      .at(kNoFile, place_in(column.name, std::to_string(vertex) + (is_row ? ", " + std::to_string(column.index) : "")));
 }
 
 // Goes through the rows of all arrays of simplices.
@@ -122,7 +122,8 @@ class SimplexRows {
                                  : std::to_string(static_cast<std::int64_t>(bad->value()));
     throw Error(ErrorKind::kBadInput, "names vertex " + name + ", but there are " + count_of(vertices, "vertex"),
                 "vertices are numbered from 0")
-        .at(array().name, std::to_string(row_ + index / width) + ", " + std::to_string(index % width));
+        .at(kNoFile,
+            place_in(array().name, std::to_string(row_ + index / width) + ", " + std::to_string(index % width)));
   }
 
   const ArrayMesh& mesh_;
@@ -154,19 +155,24 @@ class IndexedArrays final : public IndexedMesh {
   void rewind() override {
     rows_.move_to({});
     deciding_ = DecidingTriangles();
+    forget_waiting();
   }
   bool read(std::vector<VertexId>& corners, std::size_t limit) override {
     corners.clear();
-    while (corners.empty() && !rows_.at_end()) {
+    while (corners.empty() && (has_waiting() || !rows_.at_end())) {
+      if (has_waiting()) {
+        take_waiting(limit, corners);
+        continue;
+      }
       const auto width = static_cast<std::size_t>(rows_.array().corners.size[1]);
       if (width == 3) {
         rows_.take(limit, corners);
-      } else {
-        taken_.clear();
-        // A simplex has at most 28 deciding triangles.
-        rows_.take(width < 3 ? limit : std::max<std::size_t>(limit / 28, 1), taken_);
-        add_triangles(width, corners);
+        continue;
       }
+      taken_.clear();
+      rows_.take(std::min(limit, kRowsAtOnce), taken_);
+      forget_waiting();
+      add_triangles(width, waiting_);
     }
     return !corners.empty();
   }
@@ -178,7 +184,10 @@ class IndexedArrays final : public IndexedMesh {
   }
   // Which triangles cells share depends on the cells before.
   std::optional<MeshPlace> place() const override { return has_cells_ ? std::nullopt : std::optional(rows_.place()); }
-  void seek(const MeshPlace& place) override { rows_.move_to(place); }
+  void seek(const MeshPlace& place) override {
+    rows_.move_to(place);
+    forget_waiting();
+  }
   std::uint64_t bytes_read() const override { return rows_.bytes_read(); }
   std::uint64_t bytes_total() const override { return total_bytes(*mesh_); }
 
@@ -195,11 +204,28 @@ class IndexedArrays final : public IndexedMesh {
     }
   }
 
+  // A row has up to 28 deciding triangles, and a call may return fewer.
+  bool has_waiting() const { return read_ != waiting_.size(); }
+  void take_waiting(std::size_t limit, std::vector<VertexId>& corners) {
+    const std::size_t count = std::min(3 * limit, waiting_.size() - read_);
+    corners.assign(waiting_.begin() + static_cast<std::ptrdiff_t>(read_),
+                   waiting_.begin() + static_cast<std::ptrdiff_t>(read_ + count));
+    read_ += count;
+  }
+  void forget_waiting() {
+    waiting_.clear();
+    read_ = 0;
+  }
+
+  static constexpr std::size_t kRowsAtOnce = 1024;
+
   std::shared_ptr<const ArrayMesh> mesh_;
   std::vector<Column> columns_;
   SimplexRows rows_;
   DecidingTriangles deciding_;
   std::vector<VertexId> taken_;
+  std::vector<VertexId> waiting_;  // triangles of rows that were taken, and how many corners of them were read
+  std::size_t read_ = 0;
   bool has_cells_ = false;
 };
 

@@ -2,7 +2,9 @@
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -10,6 +12,7 @@
 #include "libreeb/engine/online_reeb.h"
 #include "tools/python/graph_arrays.h"
 #include "tools/python/module.h"
+#include "tools/python/strided_array.h"
 
 namespace reeb::python {
 
@@ -26,7 +29,7 @@ void at_item(const char* array, std::size_t item, const Work& work) {
   try {
     work();
   } catch (Error& error) {
-    error.at(array, std::to_string(item));
+    error.at(kNoFile, place_in(array, std::to_string(item)));
     throw;
   }
 }
@@ -40,11 +43,11 @@ void add_vertices(OnlineReeb& graph, const Numbers& values, const Numbers& posit
   const auto count = static_cast<std::size_t>(values.size());
   const double* const value = values.data();
   const double* const position = positions.size() == 0 ? nullptr : positions.data();
-  for (std::size_t i = 0; i < count; ++i)
-    at_item("values", i, [&] {
-      graph.add_vertex(
-          value[i], position == nullptr ? Point{} : Point{position[3 * i], position[3 * i + 1], position[3 * i + 2]});
-    });
+  for (std::size_t i = 0; i < count; ++i) {
+    Point place{};
+    if (position != nullptr) std::copy_n(position + 3 * i, 3, place.begin());
+    at_item(std::isfinite(value[i]) ? "positions" : "values", i, [&] { graph.add_vertex(value[i], place); });
+  }
 }
 
 void add_simplices(OnlineReeb& graph, const Ids& simplices) {

@@ -228,13 +228,17 @@ py::tuple segment(const Mesh& mesh, const std::shared_ptr<ooc::ReebFile>& file, 
   return py::make_tuple(to_array<ooc::ArcLabel>(labels), to_array<double>(values));
 }
 
-// The simplices of cells of one shape, as corners of one simplex after the other.
+// The simplices of cells of one shape, a row each, as corners of one simplex after the other.
+// THROWS: Error{kBadInput}: rows that are not as long as the cells have corners.
 py::array divide(const std::string& shape, const py::array_t<std::int64_t, py::array::c_style>& cells) {
   const io::CellShape chosen = shape == "quad"         ? io::CellShape::kQuadrilateral
                                : shape == "hexahedron" ? io::CellShape::kHexahedron
                                : shape == "wedge"      ? io::CellShape::kPrism
                                                        : io::CellShape::kPyramid;
   const std::size_t width = io::corner_count(chosen);
+  if (cells.ndim() != 2 || cells.shape(1) != static_cast<py::ssize_t>(width))
+    throw Error(ErrorKind::kBadInput, "cells of the shape " + shape + " have " + std::to_string(width) + " corners",
+                "an array of shape (m, " + std::to_string(width) + ")");
   std::vector<VertexId> cell(width);
   std::vector<std::int64_t> simplices;
   const std::int64_t* corner = cells.data();

@@ -4,10 +4,18 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 
 #include "io/mesh/scalar_bytes.h"
 
 namespace reeb::python {
+
+// Instead of a file, errors about arrays have this and a place like "faces[3, 1]" (reeb/errors.py). No name of an array
+// does: it could be that of a file.
+inline constexpr const char* kNoFile = "-";
+inline std::string place_in(const std::string& array, const std::string& indices) {
+  return array + '[' + indices + ']';
+}
 
 // Of two axes; an array of one axis has one column. Refers to memory of the caller, in the byte order of the machine.
 struct StridedArray {

@@ -97,7 +97,8 @@ void add_glue(Program& program) {
   command.add_flag("--graph-only", options.graph_only,
                    "Stop after the graph: no pairs, no levels (default: as in the fragments)");
   add_count(command, "--buckets", options.buckets,
-            "0: leave the embedding out; else as in the fragments (default: as in the fragments)", {.most = 1u << 20});
+            "0: leave the embedding out; else as in the fragments (default: as in the fragments)",
+            {.most = kMostBuckets});
   add_memory(command, options.memory_bytes);
   add_threads(command, options.threads);
   add_temp_dir(command, options.temp_dir);

@@ -238,7 +238,8 @@ TEST(OnlineReebMisuse, IsRefusedAndLeavesTheGraphAlone) {
 
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     for (const double value : {std::numeric_limits<double>::quiet_NaN(), kInfinity, -kInfinity})
-      expect_bad_input([&] { engine.add_vertex(value); });
+      for (const Point& position : {Point{}, Point{0, value, 0}})
+        expect_bad_input([&] { engine.add_vertex(position == Point{} ? value : 4, position); });
     expect_bad_input([&] { engine.add_simplex(std::vector{VertexId(2), VertexId(4)}); });
     expect_bad_input([&] { engine.add_simplex(std::vector{VertexId(~std::uint64_t{0})}); });
     expect_bad_input([&] { engine.add_simplex(std::vector{VertexId(2), VertexId(3), VertexId(1)}); });

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -113,6 +114,26 @@ TEST(Compute, AnOutputIsReplacedOnlyIfThatIsAllowed) {
   EXPECT_EQ(read_file(output), before);
   compute(mesh, "x", output, {.replace = true});
   EXPECT_EQ(ooc::ReebFile(output).header().function, "x");
+}
+
+TEST(Compute, RefusesNumbersOutOfTheirLimits) {
+  const Folder folder;
+  const std::string mesh = pyramid(folder), output = folder / "z.reeb";
+  const std::vector<std::string> functions = {"z"}, outputs = {output};
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const std::vector<ComputeOptions> bad = {{.denoise = std::numeric_limits<double>::quiet_NaN()},
+                                           {.denoise = kInfinity},
+                                           {.denoise = -1, .denoise_is_share = true},
+                                           {.buckets = kMostBuckets + 1},
+                                           {.buckets = ~0u}};
+  for (const ComputeOptions& options : bad) {
+    EXPECT_EQ(kind_of_failure([&] { compute(mesh, "z", output, options); }), ErrorKind::kUsage);
+    EXPECT_EQ(kind_of_failure(
+                  [&] { compute_fragments(mesh, functions, outputs, options, {.part = 0, .parts = 2, .shared = {}}); }),
+              ErrorKind::kUsage);
+    EXPECT_FALSE(std::filesystem::exists(output));
+  }
+  compute(mesh, "z", output, {.denoise = 0.5, .buckets = kMostBuckets});
 }
 
 TEST(Compute, RefusesWhatItCannotDo) {

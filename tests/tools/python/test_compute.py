@@ -57,6 +57,20 @@ def test_random_complexes_are_those_of_the_definition(width):
         assert (types_.count("Ext0"), types_.count("Ext1")) == (graph.components, graph.loop_count)
 
 
+@pytest.mark.parametrize("width", [2, 4, 5, 7, 9])
+def test_many_simplices_are_those_of_a_file(width, tmp_path):
+    # A row has up to 28 triangles, more than are asked for at the end of a chunk.
+    random_ = np.random.default_rng(width)
+    vertices = random_.normal(size=(300, 3))
+    rows = random_.permuted(np.tile(np.arange(300), (1500, 1)), axis=1)[:, :width]
+    lines = ["v " + " ".join(f"{x:.17g}" for x in vertex) for vertex in vertices]
+    lines += ["s " + " ".join(map(str, row)) for row in rows]
+    (tmp_path / "m.cx").write_text("\n".join(lines) + "\n")
+    expected = rg_of(reeb.compute(tmp_path / "m.cx", f="z"))
+    for options in ({}, {"threads": 1}, {"chunk": 1}, {"chunk": 7}, {"chunk": 100}, {"memory": "256M"}):
+        assert rg_of(reeb.compute(vertices, rows, f="z", **options)) == expected, options
+
+
 @pytest.mark.parametrize("type_", ["i1", "u1", "i2", "u2", "i4", "u4", "i8", "u8", ">i4", "f8"])
 def test_faces_of_all_types_and_layouts(type_):
     vertices, faces = torus(10, 8)
@@ -140,7 +154,10 @@ def test_values_by_name_and_by_file(tmp_path):
     expected = reeb.compute(vertices, faces, values)
     assert expected.nodes["value"].tolist() == values[expected.nodes["vertex"]].tolist()
     assert reeb.compute(vertices, faces, f=values) == expected
-    assert reeb.compute(vertices, faces, values={"a": values, "b": vertices[:, 0]}, f="property:a") == expected
+    named = {"a": values, "b": vertices[:, 0]}
+    for mapping in (named, types.MappingProxyType(named)):
+        assert reeb.compute(vertices, faces, values=mapping, f="property:a") == expected
+    assert reeb.compute(vertices, types.MappingProxyType({"triangle": faces}), values) == expected
     mesh = write_ply(tmp_path / "t.ply", vertices, faces, values)
     assert reeb.compute(mesh, f="property:w") == expected
     np.save(tmp_path / "values.npy", values)
@@ -197,6 +214,7 @@ def test_images(tmp_path, shape):
         assert reeb.compute(array) == expected
     assert expected.nodes["value"].tolist() == image.ravel()[expected.nodes["vertex"]].tolist()
     spaced = reeb.compute(image, spacing=(2, 3, 4)[: len(shape)], origin=(1, 1, 1)[: len(shape)])
+    assert reeb.compute(image, spacing="2,3,4"[: 2 * len(shape) - 1], origin=(1, 1, 1)[: len(shape)]) == spaced
     vertex = expected.nodes["vertex"]
     place = np.stack(np.unravel_index(vertex, shape)[::-1], 1)
     scaled = 1 + place * np.array((2, 3, 4))[: len(shape)]
@@ -212,6 +230,8 @@ def test_images_without_data():
     assert caught.value.position == "image[2, 3]"
     graph = reeb.compute(image, nodata="skip")
     assert 2 * 7 + 3 not in graph.nodes["vertex"] and graph.components == 1
+    labels, values = reeb.segment(graph, image, nodata="skip")
+    assert np.flatnonzero(labels == reeb.Segmentation.DROPPED).tolist() == [2 * 7 + 3] and np.isnan(values[2 * 7 + 3])
     image[2, 3] = -9
     assert reeb.compute(image, nodata=-9) == graph
 

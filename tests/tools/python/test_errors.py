@@ -25,6 +25,7 @@ def error_of(*arguments, **options):
 
 
 VERTICES, FACES = torus(8, 6)
+IMAGE = np.random.default_rng(1).random((4, 5))
 NAN = VERTICES.copy()
 NAN[5, 1] = np.nan
 
@@ -90,14 +91,69 @@ NAN[5, 1] = np.nan
         ((VERTICES, FACES), {"denoise": [1]}, "is no threshold", None, "usage"),
         ((VERTICES, FACES), {"memory": 10**30}, "out of range", None, "usage"),
         ((VERTICES, FACES), {"chunk": 10**30}, "out of range", None, "usage"),
+        ((VERTICES, FACES), {"denoise": 10**400}, "is no threshold", None, "usage"),
+        ((VERTICES, FACES % 2 == 0), {}, "true and false", None, "input"),
+        ((VERTICES, FACES, {"height": NAN[:, 1]}), {"f": "property:height"}, "not finite", "height[5]", "input"),
+        ((VERTICES, FACES, {"a/b": NAN[:, 1]}), {"f": "property:a/b"}, "not finite", "a/b[5]", "input"),
+        ((IMAGE,), {"spacing": (1, np.nan)}, "nan is no finite number", None, "usage"),
+        ((IMAGE,), {"spacing": "1;2"}, "no list of numbers", None, "usage"),
+        ((IMAGE,), {"origin": 3}, "no list of numbers", None, "usage"),
+        ((IMAGE,), {"nodata": "foo"}, "nodata='foo' is no number", None, "usage"),
+        ((IMAGE,), {"progress": 5}, "progress=5 is no callable", None, "usage"),
+        ((IMAGE,), {"progress": "a"}, "progress='a' is no callable", None, "usage"),
+        (("x.raw",), {"grid": ("a", 2), "type": "u8"}, "grid[0]='a'", None, "usage"),
+        (("x.raw",), {"grid": 3, "type": "u8"}, "grid=3 is no list", None, "usage"),
+        (("x.raw",), {"grid": (2, 2, 2), "spacing": ("a", 2, 3)}, "no list of numbers", None, "usage"),
+        (("x.raw",), {"grid": (2, 2, 2), "spacing": (1, 2, np.nan)}, "nan is no finite number", None, "usage"),
+        (("x.raw",), {"nodata": np.zeros(2)}, "not possible with a file", None, "usage"),
     ],
 )
 def test_bad_arguments_say_what_and_where(arguments, options, words, position, kind):
     error = error_of(*arguments, **options)
     assert words in str(error)
     assert (error.position, error.kind) == (position, kind)
-    assert error.hint or "whole number" in words
+    assert error.hint and error.path is None
     assert "--" not in str(error)
+
+
+WIDTHS = {"triangle": 3, "tetra": 4, "quad": 4, "pixel": 4, "pyramid": 5, "wedge": 6, "hexahedron": 8, "voxel": 8}
+
+
+def cells_of(width):
+    return np.arange(2 * width).reshape(2, width)
+
+
+@pytest.mark.parametrize("kind, width", [*WIDTHS.items(), ("line", 2), (9, 4)])
+def test_cells_are_as_wide_as_their_names_say(kind, width):
+    name = "quad" if kind == 9 else kind
+    for compute in (reeb.compute, reeb.defects):
+        for columns in (width - 1, width + 1):
+            with pytest.raises(reeb.Error, match=f"{name} has {columns} columns, not {width}") as caught:
+                compute(VERTICES, {kind: cells_of(columns)})
+            assert caught.value.kind == "input" and f"(m, {width})" in caught.value.hint
+        with pytest.raises(reeb.Error, match=f"{name} has 1 axes"):
+            compute(VERTICES, {kind: cells_of(width).ravel()})
+
+
+@pytest.mark.filterwarnings("error")
+def test_cells_are_refused_by_their_own_place():
+    for bad, words in ((48, "names vertex 48"), (-1, "names vertex -1"), (2.5, "2.5 is no index"), (np.nan, "nan is")):
+        for kind, width in WIDTHS.items():
+            cells = cells_of(width).astype(type(bad))
+            cells[1, 2] = bad
+            with pytest.raises(reeb.Error, match=words) as caught:
+                reeb.compute(VERTICES, {kind: cells})
+            assert (caught.value.path, caught.value.position) == (None, f"{kind}[1, 2]") and caught.value.hint
+    for rows, words in (
+        ([list("abcd")], "not numbers"),
+        ([[0, 1, 2, 3], [0]], "no array"),
+        ([[True] * 4], "true and false"),
+    ):
+        with pytest.raises(reeb.Error, match=f"quad .*{words}") as caught:
+            reeb.compute(VERTICES, {"quad": rows})
+        assert caught.value.hint
+    with pytest.raises(reeb.Error, match="4 corners"):
+        reeb._reeb.divide("quad", np.zeros((1, 3), int))
 
 
 def test_defects_of_lines_and_triangles_are_refused():
@@ -136,6 +192,19 @@ def test_defects_of_a_bad_vertex_name_the_array():
     with pytest.raises(reeb.Error) as caught:
         reeb.defects(NAN, FACES)
     assert (caught.value.path, caught.value.position) == (None, "vertices[5, 1]")
+    for faces, place in ((FACES + 1, "faces[40, 2]"), ({"triangle": FACES - 1}, "triangle[0, 0]")):
+        with pytest.raises(reeb.Error, match="names vertex") as caught:
+            reeb.defects(VERTICES, faces)
+        assert (caught.value.path, caught.value.position) == (None, place)
+
+
+def test_graphs_of_defects_are_paths():
+    graph = reeb.compute(VERTICES, FACES)
+    for graphs in ([graph], graph, 3):
+        with pytest.raises(reeb.Error, match="is no path") as caught:
+            reeb.defects(VERTICES, FACES, graphs=graphs)
+        assert caught.value.kind == "usage" and "graph.save" in caught.value.hint
+    assert len(reeb.defects(VERTICES, FACES, graphs=None).loops) == len(reeb.defects(VERTICES, FACES).loops)
 
 
 def test_arguments_of_a_graph_are_checked(tmp_path):
@@ -144,6 +213,19 @@ def test_arguments_of_a_graph_are_checked(tmp_path):
         (lambda: graph.level([1]), "is no threshold"),
         (lambda: graph.plot(kind="skeleton", view=(1, 2)), "2 numbers"),
         (lambda: graph.plot(kind="skeleton", mesh=VERTICES), "in a file only"),
+        (lambda: graph.plot(kind="skeleton", view=(0, 0, 0)), "no direction"),
+        (lambda: graph.plot(kind="skeleton", view=(1, np.nan, 0)), "nan is no finite number"),
+        (lambda: graph.plot(kind="skeleton", view=(-np.inf, 1, 0)), "-inf is no finite number"),
+        (lambda: graph.plot(kind="skeleton", view=5), "no list of numbers"),
+        (lambda: graph.plot(view=(1, 1, 1)), "view is for a skeleton"),
+        (lambda: graph.plot(kind="loops", mesh="x.ply"), "mesh is for a skeleton"),
+        (lambda: graph.plot(kind=3), "no picture of kind 3"),
+        (lambda: graph.plot(3, kind="skeleton"), "output=3 is no path"),
+        (lambda: graph.save(3), "output=3 is no path"),
+        (lambda: graph.level(nodes=2**70), "out of range"),
+        (lambda: graph.level(memory=2**70), "out of range"),
+        (lambda: graph.level(10**400), "is no threshold"),
+        (lambda: reeb.open(3), "is no path"),
         (lambda: reeb.segment(3, VERTICES, FACES), "is no graph"),
     ):
         with pytest.raises(reeb.Error, match=words) as caught:
@@ -156,8 +238,37 @@ def test_arguments_of_a_graph_are_checked(tmp_path):
     assert list(tmp_path.iterdir()) == []
 
 
+def test_no_file_is_named_that_is_gone_or_never_was(tmp_path):
+    graph = reeb.compute(VERTICES, FACES, graph_only=True)
+    with pytest.raises(reeb.Error, match="the graph only") as caught:
+        graph.plot(kind="diagram")
+    assert caught.value.path is None and "graph.reeb" not in str(caught.value)
+    graph = reeb.compute(VERTICES, FACES, output=tmp_path / "g.reeb")
+    (tmp_path / "g.reeb").unlink()
+    for action in (lambda: graph.save(tmp_path / "h.reeb"), lambda: pickle.dumps(graph)):
+        with pytest.raises(FileNotFoundError) as caught:
+            action()
+        assert isinstance(caught.value, reeb.Error) and caught.value.path == str(tmp_path / "g.reeb")
+        assert caught.value.hint
+    missing = error_of(VERTICES, FACES, temp_dir=tmp_path / "no")
+    assert isinstance(missing, OSError) and (missing.kind, missing.path) == ("resource", str(tmp_path / "no"))
+
+
+def test_positions_of_a_stream_are_finite():
+    online = reeb.Online()
+    for bad in (np.nan, np.inf):
+        first = online.add_vertices([0.0]).item()
+        with pytest.raises(reeb.Error, match="not finite") as caught:
+            online.add_vertices([1, 2, 3], [[0, 0, 0], [0, bad, 0], [0, 0, 0]])
+        assert caught.value.position == "positions[1]"
+        assert online.add_vertices([4.0]).tolist() == [first + 2]  # those before it were added
+    with pytest.raises(reeb.Error, match="true and false"):
+        online.finalize([True])
+
+
 def test_files_say_what_and_where(tmp_path):
     assert isinstance(error_of(tmp_path / "none.ply"), FileNotFoundError)
+    assert isinstance(error_of(""), FileNotFoundError)
     (tmp_path / "cut.ply").write_bytes(write_ply(tmp_path / "t.ply", VERTICES, FACES).read_bytes()[:-5])
     cut = error_of(tmp_path / "cut.ply")
     assert cut.path == str(tmp_path / "cut.ply") and int(cut.position) > 0 and cut.hint

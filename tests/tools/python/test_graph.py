@@ -230,6 +230,10 @@ def test_segments_are_those_of_the_program(noisy, tmp_path):
     values = vertices[:, 1].copy()
     own = reeb.compute(vertices, faces, values)
     assert np.array_equal(reeb.segment(own, vertices, faces, values).values, values)
+    named = {"a": vertices[:, 0], "b": values}
+    own = reeb.compute(vertices, faces, named, f="property:b")
+    for given in (named, {"b": values}):
+        assert np.array_equal(reeb.segment(own, vertices, faces, given).values, values)
     image = np.random.default_rng(8).random((6, 7))
     assert len(reeb.segment(reeb.compute(image), image).labels) == 42
     with pytest.raises(reeb.Error):

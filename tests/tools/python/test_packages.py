@@ -1,7 +1,9 @@
 """Other packages: present, absent, and what they hold."""
 
+import ast
 import sys
 import types
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -44,6 +46,16 @@ def test_missing_programs_are_named(graph, monkeypatch, tmp_path):
     assert list(tmp_path.iterdir()) == []
 
 
+def test_stubs_have_the_fields_of_tuples():
+    stub = ast.parse((Path(reeb.__file__).parent / "__init__.pyi").read_text())
+    classes = [node for node in stub.body if isinstance(node, ast.ClassDef)]
+    tuples = [node for node in classes if any(getattr(base, "id", "") == "NamedTuple" for base in node.bases)]
+    assert len(tuples) == 3
+    for node in tuples:
+        fields = tuple(item.target.id for item in node.body if isinstance(item, ast.AnnAssign))
+        assert fields == getattr(reeb, node.name.lstrip("_"))._fields
+
+
 def test_nothing_else_is_needed(graph):
     assert [len(part) for part in graph.to_gudhi()] == [0, 0, 1, 1]
     assert [part.shape for part in graph.to_persim()] == [(1, 2), (1, 2)]
@@ -79,6 +91,10 @@ def test_networks():
             nodes = list(zip(vertex.tolist(), graph.nodes["down"].tolist(), graph.nodes["up"].tolist()))
             assert (nodes, [(int(vertex[lo]), int(vertex[hi])) for lo, hi in graph.arcs]) == expected
         assert graph.loop_count == len(networkx.cycle_basis(network))
+    networkx.set_node_attributes(network, {3: np.nan}, "height")
+    with pytest.raises(reeb.Error, match="not finite") as caught:
+        reeb.compute(network, f="property:height")
+    assert (caught.value.path, caught.value.position) == (None, "height[3]")
 
 
 def test_places_of_networks(graph):

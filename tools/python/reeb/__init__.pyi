@@ -1,5 +1,5 @@
 from os import PathLike
-from typing import Any, Callable, Literal, Mapping, NamedTuple, Sequence, TypedDict, overload
+from typing import Any, Callable, ClassVar, Literal, Mapping, NamedTuple, Sequence, TypedDict, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -42,10 +42,12 @@ class Skeleton(NamedTuple):
     radius: NDArray[np.float64]
     arc: NDArray[np.int64]
 
-class Segmentation(NamedTuple):
+class _Segmentation(NamedTuple):
     labels: NDArray[np.int64]
     values: NDArray[np.float64]
-    DROPPED: int
+
+class Segmentation(_Segmentation):
+    DROPPED: ClassVar[int]
 
 class Defects(NamedTuple):
     loops: NDArray[np.void]
@@ -170,7 +172,7 @@ def defects(
     mesh: Any,
     faces: Any = ...,
     *,
-    graphs: _Path | Sequence[_Path] = ...,
+    graphs: _Path | Sequence[_Path] | None = ...,
     memory: int | str | None = ...,
     threads: int | None = ...,
     format: str | None = ...,

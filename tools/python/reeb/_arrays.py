@@ -1,8 +1,11 @@
 """Arrays and meshes of other packages, as the compiled part takes them."""
 
+from collections.abc import Mapping
+
 import numpy as np
 
 from . import _reeb
+from ._arguments import is_number, vector
 from ._networks import is_network, parts_of_network, values_of_network
 from .errors import Error
 
@@ -10,7 +13,7 @@ _MOST_COLUMNS = 9
 
 # Of meshio and of VTK: what is a simplex, and what is divided. VTK counts a few cells in another order.
 _SIMPLICES = {"vertex": 1, "line": 2, "triangle": 3, "tetra": 4}
-_DIVIDED = {"quad": 4, "hexahedron": 8, "wedge": 6, "pyramid": 5}
+_DIVIDED = {"quad": 4, "hexahedron": 8, "wedge": 6, "pyramid": 5, "pixel": 4, "voxel": 8}
 _VTK_NAMES = {
     1: "vertex",
     3: "line",
@@ -26,22 +29,24 @@ _VTK_NAMES = {
 _BINARY = {"pixel": ("quad", [0, 1, 3, 2]), "voxel": ("hexahedron", [0, 1, 3, 2, 4, 5, 7, 6])}
 
 
-def numbers(name, array, axes):
-    """An array of numbers, copied only if the compiled part has no such type."""
+def numbers(name, array, axes, shape, *, of_indices=False):
+    """An array of numbers, copied only if the compiled part has no such type. `shape` is a hint."""
     if np.ma.is_masked(array):
-        hint = "array.filled(numpy.nan) of floats, with nodata=\"skip\"" if name == "image" else "leave them out"
+        hint = 'array.filled(numpy.nan) of floats, with nodata="skip"' if shape == _OF_IMAGE else "leave them out"
         raise Error(f"{name} has masked items", hint)
     try:
         array = np.asarray(array)
     except ValueError as error:  # rows of different lengths
         raise Error(f"{name} is no array: {error}", "give all rows the same length") from error
     if array.ndim not in axes:
-        shapes = " or ".join(f"{n}" for n in axes)
-        raise Error(f"{name} has {array.ndim} axes, not {shapes}", _shape_hint(name))
+        raise Error(f"{name} has {array.ndim} axes, not {' or '.join(map(str, axes))}", shape)
     if array.dtype.kind == "b":
+        if of_indices:
+            raise Error(f"{name} has true and false, not indices of vertices", _INDICES)
         array = array.view(np.uint8)
     if array.dtype.kind not in "iuf":
-        raise Error(f"{name} has items of type {array.dtype}, not numbers", f"convert it: array.astype({'int' if _is_of_simplices(name) else 'float'})")
+        type_ = "int" if of_indices else "float"
+        raise Error(f"{name} has items of type {array.dtype}, not numbers", f"convert it: array.astype({type_})")
     if array.dtype.kind == "f" and array.dtype.itemsize not in (4, 8):
         array = array.astype(np.float32 if array.dtype.itemsize == 2 else np.float64)
     if not array.dtype.isnative:
@@ -49,29 +54,22 @@ def numbers(name, array, axes):
     return array
 
 
-def _is_of_simplices(name):
-    return name.startswith(("faces", "simplices"))
-
-
-def _shape_hint(name):
-    if name == "vertices":
-        return "one row for each vertex: an array of shape (n, 3)"
-    if _is_of_simplices(name):
-        return "one row of corners for each simplex: an array of shape (m, 3)"
-    if name == "image":
-        return "a 2-D or 3-D array of values, or pass faces as well"
-    return "one value for each vertex: an array of shape (n,)"
+OF_VERTICES = "one row for each vertex: an array of shape (n, 3)"
+OF_VALUES = "one value for each vertex: an array of shape (n,)"
+_OF_SIMPLICES = "one row of corners for each simplex: an array of shape (m, 3)"
+_OF_IMAGE = "a 2-D or 3-D array of values, or pass faces as well"
+_INDICES = "a row has the indices of vertices, whole numbers from 0"
 
 
 def vertex_array(vertices):
-    array = np.empty((0, 3)) if _is_empty_list(vertices) else numbers("vertices", vertices, (2,))
+    array = np.empty((0, 3)) if _is_empty_list(vertices) else numbers("vertices", vertices, (2,), OF_VERTICES)
     if not 1 <= array.shape[1] <= _MOST_COLUMNS:
         raise Error(f"vertices have {array.shape[1]} coordinates", "1 to 9 are possible; an array of shape (n, 3)")
     return array
 
 
-def simplex_array(name, simplices):
-    array = np.asarray(simplices) if _is_empty(simplices) else numbers(name, simplices, (2,))
+def simplex_array(name, simplices, shape=_OF_SIMPLICES):
+    array = np.asarray(simplices) if _is_empty(simplices) else numbers(name, simplices, (2,), shape, of_indices=True)
     if array.size == 0:
         width = array.shape[1] if array.ndim == 2 and 1 <= array.shape[1] <= _MOST_COLUMNS else 3
         return np.empty((0, width), np.int64)
@@ -85,7 +83,7 @@ def simplex_array(name, simplices):
             row, column = np.argwhere(bad)[0]
             raise Error(
                 f"{array[row, column]} is no index of a vertex",
-                "a row has the indices of vertices, whole numbers from 0",
+                _INDICES,
                 position=f"{name}[{row}, {column}]",
             )
         array = array.astype(np.int64)
@@ -104,69 +102,86 @@ def _is_empty(array):
 
 
 def value_array(name, values, vertices):
-    array = numbers(name, values, (1, 2))
+    array = numbers(name, values, (1, 2), OF_VALUES)
     if array.ndim == 2 and array.shape[1] != 1:
-        raise Error(f"{name} has {array.shape[1]} columns", _shape_hint(name))
+        raise Error(f"{name} has {array.shape[1]} columns", OF_VALUES)
     array = array.reshape(len(array)) if array.ndim == 2 else array
     if len(array) != vertices:
-        raise Error(f"{name} has {len(array)} values, but there are {vertices} vertices", _shape_hint(name))
+        raise Error(f"{name} has {len(array)} values, but there are {vertices} vertices", OF_VALUES)
     return array
 
 
 def mesh_of_arrays(vertices, faces, values):
-    """`faces`: an array, or a list of (name, array); `values`: a dict of arrays, by name."""
+    """`faces`: an array, or arrays by the names of cells; `values`: a dict of arrays, by name."""
     vertices = vertex_array(vertices)
-    if isinstance(faces, dict):
-        faces = _simplices_of_cells(faces)
-    elif not (isinstance(faces, list) and faces and isinstance(faces[0], tuple) and isinstance(faces[0][0], str)):
-        faces = [("faces", faces)]
-    simplices = [(name, simplex_array(name, array)) for name, array in faces]
+    if isinstance(faces, Mapping):
+        simplices = simplices_of_cells(faces, len(vertices))
+    else:
+        simplices = [("faces", simplex_array("faces", faces))]
     columns = [(name, value_array(name, array, len(vertices))) for name, array in values.items()]
     return _reeb.HeldMesh.of_arrays(vertices, columns, simplices)
 
 
-def _simplices_of_cells(cells):
+def simplices_of_cells(cells, vertices):
+    """A list of (name, array): what is in the dict, or what it is divided into."""
     simplices = []
     for kind, array in cells.items():
-        name = _VTK_NAMES.get(int(kind), f"VTK type {int(kind)}") if not isinstance(kind, str) else kind
-        array = np.asarray(array)
-        if array.size == 0:
+        if _is_empty(array):
             continue
-        if name in _BINARY:
-            name, order = _BINARY[name]
-            array = array[:, order]
-        if name in _SIMPLICES:
-            simplices.append((f"faces of type {name}", array))
-        elif name in _DIVIDED:
-            simplices.append((f"faces of type {name}", _divided(name, array)))
-        else:
+        name = _name_of_cells(kind)
+        width = _SIMPLICES.get(name) or _DIVIDED.get(name)
+        if width is None:
             raise Error(
                 f"cells of type {name} are not taken from memory",
                 "write the mesh to a file, as .vtu, and compute from that; or divide the cells into simplices",
             )
+        shape = f"one row of corners for each cell: an array of shape (m, {width})"
+        array = simplex_array(name, array, shape)
+        if array.shape[1] != width:
+            raise Error(f"{name} has {array.shape[1]} columns, not {width}", shape)
+        simplices.append((name, array if name in _SIMPLICES else _divided(name, array, vertices)))
     return simplices
 
 
-def _divided(name, cells):
-    width = {"quad": 3}.get(name, 4)
-    return _reeb.divide(name, np.ascontiguousarray(cells, np.int64)).reshape(-1, width)
+def _name_of_cells(kind):
+    if isinstance(kind, (int, np.integer)):
+        return _VTK_NAMES.get(int(kind), f"VTK type {kind}")
+    return str(kind)
+
+
+def _divided(name, cells, vertices):
+    check_indices(name, cells, vertices)  # later they are those of simplices
+    if name in _BINARY:
+        name, order = _BINARY[name]
+        cells = cells[:, order]
+    return _reeb.divide(name, np.ascontiguousarray(cells, np.int64)).reshape(-1, 3 if name == "quad" else 4)
+
+
+def check_indices(name, array, vertices):
+    bad = (array < 0) | (array >= vertices)
+    if bad.any():
+        row, column = np.argwhere(bad)[0]
+        raise Error(
+            f"names vertex {array[row, column]}, but there are {vertices} vertices",
+            "vertices are numbered from 0",
+            position=f"{name}[{row}, {column}]",
+        )
 
 
 def image_of_array(image, spacing, origin, nodata):
-    image = numbers("image", image, (2, 3))
+    image = numbers("image", image, (2, 3), _OF_IMAGE)
     if image.size == 0:
-        raise Error("image has no values", _shape_hint("image"))
+        raise Error("image has no values", _OF_IMAGE)
 
-    def vector(name, given, default):
-        values = [default] * image.ndim if given is None else [float(x) for x in np.ravel(given)]
-        if len(values) != image.ndim or not np.all(np.isfinite(values)):
-            axes = "x, y" if image.ndim == 2 else "x, y, z"
-            raise Error(f"{name} has {len(values)} numbers", f"one finite number for each of {axes}", kind="usage")
-        return values
-
-    skip = nodata is not None
-    value = None if not skip or nodata == "skip" else float(nodata)
-    return _reeb.HeldMesh.of_image(image, vector("origin", origin, 0.0), vector("spacing", spacing, 1.0), skip, value)
+    hint = f"one finite number for each of {'x, y' if image.ndim == 2 else 'x, y, z'}"
+    origin = vector("origin", [0] * image.ndim if origin is None else origin, (image.ndim,), hint)
+    spacing = vector("spacing", [1] * image.ndim if spacing is None else spacing, (image.ndim,), hint)
+    value = None
+    if nodata is not None and not (isinstance(nodata, str) and nodata == "skip"):
+        if not is_number(nodata):
+            raise Error(f"nodata={nodata!r} is no number", 'a number, or "skip"', kind="usage")
+        value = float(nodata)
+    return _reeb.HeldMesh.of_image(image, origin, spacing, nodata is not None, value)
 
 
 def is_mesh_object(thing):

@@ -4,11 +4,18 @@ import io
 import os
 import tempfile
 
-from .errors import OutputExists, SystemFailure
+from ._arguments import is_path
+from .errors import Error, OutputExists, SystemFailure
+
+
+def check_output(path):
+    if not is_path(path):
+        raise Error(f"output={path!r} is no path", "the name of a file to write", kind="usage")
 
 
 def write_whole(path, content, force):
     """Writes the bytes to a file, under another name until all of them are there."""
+    check_output(path)
     path = os.fspath(path)
     if not force and os.path.lexists(path):
         raise OutputExists("the output exists already", "choose another name, or force=True", path=path)

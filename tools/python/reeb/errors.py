@@ -1,6 +1,5 @@
 """What this package raises."""
 
-import os
 import re
 
 _KINDS = {1: "input", 2: "usage", 3: "resource", 130: "interrupted"}
@@ -11,7 +10,8 @@ class Error(Exception):
 
     Attributes:
         path: the file, or None.
-        position: where in it: a byte offset or "line:column"; for arrays "faces[3, 1]"; or None.
+        position: where in it: a byte offset or "line:column"; for arrays "faces[3, 1]", or "height[2]" of named
+            values; or None.
         hint: what to do about it, or an empty text.
         kind: "input" (a file or an array is bad), "usage" (an argument is wrong), "resource" (memory or disk ran
             out), "interrupted".
@@ -61,9 +61,6 @@ def _again(type_, message, hint, state):
     return type_(message, hint, **state)
 
 
-_ARRAYS = ("vertices", "values", "faces", "simplices", "image", "ids", "positions")
-
-
 def _make(kind, path, position, message, hint):
     """The exception for an error of the compiled part."""
     name = _KINDS[kind]
@@ -72,11 +69,9 @@ def _make(kind, path, position, message, hint):
         type_ = OutOfMemory if "memory" in message else SystemFailure
     elif path and name == "input" and message.startswith("the output exists"):
         type_ = OutputExists
-    elif path and name == "input" and (message == "there is no such file" or "No such file" in message):
+    elif name == "input" and (message == "there is no such file" or "No such file" in message):
         type_ = MissingFile
-    if position and "/" not in path and not os.path.lexists(path) and _is_array(path):
-        path, position = "", f"{path}[{position}]"
-    if path.startswith("/proc/self/fd/"):  # a graph without a file on disk
+    if path == "-" or path.startswith("/proc/self/fd/"):  # arrays, or a graph without a file on disk
         path = ""
     for word, here in _NAMES:
         hint = word.sub(here, hint)
@@ -85,8 +80,9 @@ def _make(kind, path, position, message, hint):
     return type_(message, hint, path=path or None, position=position or None, kind=name)
 
 
-def _is_array(name):
-    return name.split(" ")[0] in _ARRAYS
+def without_path(error):
+    """The same of a file that the caller does not know."""
+    return type(error)(error.message, error.hint, position=error.position, kind=error.kind)
 
 
 # What the program's messages call otherwise.

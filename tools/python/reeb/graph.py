@@ -9,8 +9,9 @@ from typing import NamedTuple
 import numpy as np
 
 from . import _reeb
+from ._arguments import is_number, is_path, vector, whole
 from ._files import write_whole
-from .errors import Error, MissingPackage
+from .errors import Error, MissingFile, MissingPackage, SystemFailure, without_path
 
 _TYPES = np.array(["Ext0", "Ext1", "Ord0", "Rel1"])
 _PAIR_COLUMNS = [
@@ -28,6 +29,10 @@ _PAIR_COLUMNS = [
     ("hi_z", "f8"),
     ("kept", "i1"),
 ]
+
+
+_PICTURES = ("graph", "skeleton", "diagram", "loops")
+_AGAIN = "put it back, or compute the graph again"
 
 
 class Skeleton(NamedTuple):
@@ -71,13 +76,24 @@ class _Store:
             path = os.path.join(folder, "graph.reeb")
             with io.open(path, "wb") as file:
                 file.write(self.content)
-            yield _reeb.File(os.fsencode(path))
+            try:
+                yield _reeb.File(os.fsencode(path))
+            except Error as error:
+                if error.path != path:
+                    raise
+                raise without_path(error) from None
 
     def bytes(self):
         if self.content is not None:
             return self.content
-        with io.open(self.path, "rb") as file:
-            return file.read()
+        try:
+            with io.open(self.path, "rb") as file:
+                return file.read()
+        except FileNotFoundError as error:
+            raise MissingFile("the file of the graph is no longer there", _AGAIN, path=self.path) from error
+        except OSError as error:
+            what = f"the file of the graph cannot be read: {error.strerror}"
+            raise SystemFailure(what, _AGAIN, path=self.path, kind="resource") from error
 
 
 class Graph:
@@ -335,12 +351,18 @@ class Graph:
         from .pictures import Picture
 
         self._need_file()
-        if mesh is not None and not isinstance(mesh, (str, os.PathLike)):
+        if not isinstance(kind, str) or kind not in _PICTURES:
+            raise Error(f"there is no picture of kind {kind!r}", f"one of: {' '.join(_PICTURES)}", kind="usage")
+        for name, value in (("mesh", mesh), ("view", view)):
+            if value is not None and kind != "skeleton":
+                raise Error(f"{name} is for a skeleton", f'kind="skeleton", or leave out {name}', kind="usage")
+        if mesh is not None and not is_path(mesh):
             raise Error("a skeleton is drawn into a mesh in a file only", "mesh=PATH", kind="usage")
         if view is not None:
-            view = [float(x) for x in np.ravel(view)]
-            if len(view) != 3:
-                raise Error(f"view has {len(view)} numbers", "(x, y, z), towards the eye", kind="usage")
+            hint = "(x, y, z), towards the eye"
+            view = vector("view", view, (3,), hint)
+            if not any(view):
+                raise Error("view=(0, 0, 0) is no direction", hint, kind="usage")
         with self._store.named() as file:
             path = "" if mesh is None else os.fsencode(mesh)
             text = _reeb.plot(file, self._version, self._asked, kind, path, view)
@@ -437,15 +459,15 @@ class Graph:
             raise Error(f"{what} given", "give one of threshold, nodes, memory", kind="usage")
         file = self._need_file()[0]
         if nodes is not None:
-            return file.finest_with_nodes(_whole("nodes", nodes))
+            return file.finest_with_nodes(whole("nodes", nodes, 0))
         if memory is not None:
             return file.finest_with_memory(
-                _reeb.parse_size(memory) if isinstance(memory, str) else _whole("memory", memory)
+                _reeb.parse_size(memory) if isinstance(memory, str) else whole("memory", memory, 0)
             )
         if isinstance(threshold, str):
             least, greatest = self.range
             return file.version_at(_reeb.parse_threshold("threshold", threshold, least, greatest))
-        if not isinstance(threshold, (int, float, np.number)) or not threshold >= 0:
+        if not is_number(threshold) or not threshold >= 0:
             raise Error(f"threshold={threshold!r} is no threshold", 'as 0.01, or "0.1%"', kind="usage")
         return file.version_at(float(threshold))
 
@@ -481,6 +503,8 @@ def open(path, *, threshold=None, nodes=None, memory=None, listener=None):
     Raises:
         reeb.Error: the file is damaged, or none (also a FileNotFoundError if there is no file).
     """
+    if not is_path(path):
+        raise Error(f"{path!r} is no path", "the name of a .reeb file", kind="usage")
     path = os.path.abspath(os.fspath(path))
     graph = Graph._make(_Store(path, None), listener=listener)
     version = 0
@@ -514,12 +538,6 @@ def _missing(method, packages, of_debian):
 def _threshold_text(threshold):
     """As titles say it, and as the compiled part reads it."""
     return "" if threshold is None else threshold if isinstance(threshold, str) else repr(float(threshold))
-
-
-def _whole(name, value):
-    from .runs import _integer
-
-    return _integer(name, value, 0)
 
 
 def _positions(nodes):

@@ -34,17 +34,19 @@ class Online:
             (n,) int64: their indices, which count from 0.
 
         Raises:
-            reeb.Error: a value is not finite; the vertices before it were added.
+            reeb.Error: a value or a position is not finite; the vertices before it were added.
         """
-        values = np.ascontiguousarray(_arrays.numbers("values", values, (1,)), float)
+        values = np.ascontiguousarray(_arrays.numbers("values", values, (1,), _arrays.OF_VALUES), float)
         if positions is None:
             positions = np.empty(0)
         else:
-            positions = np.ascontiguousarray(_arrays.numbers("positions", positions, (2,)), float)
+            positions = np.ascontiguousarray(_arrays.numbers("positions", positions, (2,), _arrays.OF_VERTICES), float)
             if positions.shape != (len(values), 3):
                 raise Error(f"positions have the shape {positions.shape}", f"({len(values)}, 3)")
         first = self._count
         finite = np.isfinite(values)
+        if positions.size:
+            finite &= np.isfinite(positions).all(axis=1)
         added = len(values) if finite.all() else int(np.argmin(finite))
         self._count += added
         self._graph.add_vertices(values, positions)
@@ -71,7 +73,7 @@ class Online:
         array = np.atleast_1d(np.asarray(ids))
         if array.size == 0:
             return
-        array = _arrays.numbers("ids", array, (1,))
+        array = _arrays.numbers("ids", array, (1,), "the indices of vertices", of_indices=True)
         if array.dtype.kind == "f":
             raise Error("ids has numbers that are no integers", "the indices of vertices")
         self._graph.finalize(np.ascontiguousarray(array, np.int64))

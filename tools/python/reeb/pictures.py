@@ -3,7 +3,7 @@
 import os
 
 from . import _reeb
-from ._files import write_whole
+from ._files import check_output, write_whole
 
 
 class Picture:
@@ -25,4 +25,5 @@ class Picture:
         Raises:
             reeb.Error: the file exists, and `force` is not given; it cannot be written; a program is not installed.
         """
+        check_output(output)
         write_whole(output, _reeb.picture(self.svg, os.fsencode(output)), force)

@@ -5,16 +5,17 @@ import os
 import shutil
 import sys
 import tempfile
+from collections.abc import Iterable, Mapping
 from typing import NamedTuple
 
 import numpy as np
 
 from . import _arrays, _reeb
-from .errors import Error
+from ._arguments import is_number, is_path, vector, whole
+from .errors import Error, SystemFailure, without_path
 from .graph import Graph, _open_result
 
 _VALUES = "values"
-_MOST = (1 << 63) - 1
 _WITHOUT_PLACES = ("property:", "file:", "index", "random:", _VALUES)
 
 
@@ -59,8 +60,8 @@ def compute(
             - an image or volume, an array (ny, nx) or (nz, ny, nx), without `faces`. Its vertices are numbered as
               numpy.ravel does. An image 2 or 3 wide needs f="value": else it is taken for vertices without faces.
         faces: simplices, an array (m, k), k from 1 to 9: triangles (m, 3), tetrahedra (m, 4), edges (m, 2). Any type
-            of integer, any layout; nothing is copied. A dict of such arrays by meshio's names of cells is possible.
-        values: the function, an array (n,); or a dict of arrays, of which f="property:NAME" chooses one.
+            of integer, any layout; nothing is copied. A mapping of such arrays by meshio's names of cells is possible.
+        values: the function, an array (n,); or a mapping of arrays, of which f="property:NAME" chooses one.
         f: the function: "x", "y", "z", "cK", "index", "random:SEED", "property:NAME", "file:PATH" (.npy, .f64 or
             text), "distance:VERTEX", "distance:X,Y,Z", "geodesic:VERTEX", "laplacian:K", "spectral", "value" (of an
             image). Or an array (n,). Default: "z", or the last coordinate if there are fewer than three; of an image
@@ -95,7 +96,7 @@ def compute(
     functions, several = _functions(f)
     options = {
         "graph_only": bool(graph_only),
-        "buckets": _integer("buckets", buckets, 0, 1 << 20),
+        "buckets": whole("buckets", buckets, 0, 1 << 20),
         "reorder": bool(reorder),
         "sidecar": bool(sidecar),
         "resume": bool(resume),
@@ -104,9 +105,9 @@ def compute(
     _add_common(options, memory, threads, format, temp_dir)
     _add_denoise(options, denoise)
     if chunk is not None:
-        options["chunk"] = _integer("chunk", chunk, 1, _MOST)
+        options["chunk"] = whole("chunk", chunk, 1)
     if snapshot_every is not None:
-        options["snapshot_every"] = _integer("snapshot_every", snapshot_every, 1, _MOST)
+        options["snapshot_every"] = whole("snapshot_every", snapshot_every, 1)
     _check_uses(options, output, is_path(mesh))
     if is_path(mesh):
         arrays = [g for g in functions if not isinstance(g, (str, type_none))]
@@ -148,10 +149,6 @@ def _refuse_of_files(**options):
             raise Error(f"{name} is of a file, not of arrays", f"leave out {name}, or pass a path", kind="usage")
 
 
-def is_path(mesh):
-    return isinstance(mesh, (str, os.PathLike))
-
-
 def _run(held, names, outputs, options, report):
     if outputs is not None:
         results = _reeb.compute(held, names, [os.fsencode(path) for path in outputs], options, report)
@@ -171,8 +168,8 @@ def _run(held, names, outputs, options, report):
     except Error as error:
         if error.path is None or not error.path.startswith(folder):
             raise
-        message = error.message.removesuffix("; the graph itself was written")
-        raise type(error)(message, error.hint, position=error.position, kind=error.kind) from None
+        error.message = error.message.removesuffix("; the graph itself was written")
+        raise without_path(error) from None
     finally:
         shutil.rmtree(folder, ignore_errors=True)
 
@@ -210,7 +207,7 @@ def _held(mesh, faces, values, functions, spacing, origin, nodata):
     for name, value in (("spacing", spacing), ("origin", origin), ("nodata", nodata)):
         if value is not None:
             raise Error(f"{name} is of an image, not of a mesh", f"leave out {name}", kind="usage")
-    if isinstance(values, dict):
+    if isinstance(values, Mapping):
         data = {**data, **{str(name): array for name, array in values.items()}}
         if len(values) == 1 and functions == [None]:
             functions = [f"property:{next(iter(data if len(data) == 1 else values))}"]
@@ -258,10 +255,10 @@ def _outputs(output, count, several):
 def _add_common(options, memory, threads, format, temp_dir):
     if memory is not None:
         options["memory"] = (
-            _reeb.parse_size(memory) if isinstance(memory, str) else _integer("memory", memory, 0, _MOST)
+            _reeb.parse_size(memory) if isinstance(memory, str) else whole("memory", memory, 0)
         )
     if threads is not None:
-        options["threads"] = _integer("threads", threads, 1, 1024)
+        options["threads"] = whole("threads", threads, 1, 1024)
     if format is not None:
         options["format"] = str(format)
     if temp_dir is not None:
@@ -269,24 +266,33 @@ def _add_common(options, memory, threads, format, temp_dir):
             raise Error(f"temp_dir={temp_dir!r} is no path", "the name of a folder", kind="usage")
         options["temp_dir"] = os.fspath(temp_dir)
         if not os.path.isdir(options["temp_dir"]):
-            raise Error("the folder for temporary files does not exist", "create it", path=options["temp_dir"])
+            raise SystemFailure(
+                "the folder for temporary files does not exist", "create it", path=options["temp_dir"], kind="resource"
+            )
 
 
 def _add_image(options, spacing, origin, nodata, grid, type_, skip):
     if origin is not None:
         raise Error("origin is of an image in memory", "a file says its own", kind="usage")
     if spacing is not None:
-        options["spacing"] = spacing if isinstance(spacing, str) else ",".join(repr(float(x)) for x in spacing)
+        steps = vector("spacing", spacing, (2, 3), "one finite number for each axis, in the order x, y, z")
+        options["spacing"] = ",".join(map(repr, steps))
     if grid is not None:
-        options["grid"] = grid if isinstance(grid, str) else "x".join(str(int(n)) for n in grid)
+        options["grid"] = grid if isinstance(grid, str) else _grid(grid)
     if type_ is not None:
         options["type"] = str(type_)
     if skip is not None:
-        options["skip"] = _integer("skip", skip, 0, _MOST)
+        options["skip"] = whole("skip", skip, 0)
     if nodata is not None:
-        if nodata != "skip":
+        if not (isinstance(nodata, str) and nodata == "skip"):
             raise Error(f"nodata={nodata!r} is not possible with a file", 'nodata="skip"', kind="usage")
         options["skip_nodata"] = True
+
+
+def _grid(sizes):
+    if not isinstance(sizes, Iterable):
+        raise Error(f"grid={sizes!r} is no list of numbers", 'as (256, 256, 100), or "256x256x100"', kind="usage")
+    return "x".join(str(whole(f"grid[{i}]", size, 1)) for i, size in enumerate(sizes))
 
 
 def _add_denoise(options, denoise):
@@ -295,29 +301,19 @@ def _add_denoise(options, denoise):
     if isinstance(denoise, str):
         options["denoise_is_share"] = denoise.strip().endswith("%")
         options["denoise"] = _reeb.parse_threshold("denoise", denoise, 0, 1)
-    elif isinstance(denoise, (int, float, np.number)):
+    elif is_number(denoise):
         options["denoise"] = _reeb.parse_threshold("denoise", repr(float(denoise)), 0, 1)
     else:
         raise Error(f"denoise={denoise!r} is no threshold", 'as 0.01, or "0.1%"', kind="usage")
-
-
-def _integer(name, value, least, most=None):
-    try:
-        number = int(value)
-        if number != value:
-            raise ValueError
-    except (TypeError, ValueError):
-        raise Error(f"{name}={value!r} is no whole number", "", kind="usage") from None
-    if number < least or (most is not None and number > most):
-        upper = f" to {most}" if most is not None else " or more"
-        raise Error(f"{name}={value!r} is out of range", f"{least}{upper}", kind="usage")
-    return number
 
 
 class _Bar:
     """The callback of a progress bar, if one is wanted."""
 
     def __init__(self, progress):
+        if not (progress is None or isinstance(progress, (bool, np.bool_)) or callable(progress)):
+            hint = "True, or a function (phase, done, total, triangles)"
+            raise Error(f"progress={progress!r} is no callable", hint, kind="usage")
         self._bar = None
         self._callback = progress if callable(progress) else self._show if progress else None
 
@@ -384,8 +380,8 @@ class Segmentation(NamedTuple):
 
     Attributes:
         labels: (n,) int64. Of a vertex on an arc the position of the arc in `graph.arcs`; of a node -1 - its position
-            in `graph.nodes`; DROPPED for a vertex of an arc that was dropped. Parallel arcs have an order of their
-            own.
+            in `graph.nodes`; DROPPED for a vertex of an arc that was dropped, and of an image for one that is left
+            out. Parallel arcs have an order of their own.
         values: (n,) float64, the function. NaN for a vertex of an image that is left out.
     """
 
@@ -436,7 +432,8 @@ def segment(
         _add_image(options, spacing, origin, nodata, grid, type, skip)
     else:
         _refuse_of_files(format=format, grid=grid, type=type, skip=skip)
-        functions = [None if values is not None else graph.function]
+        is_of_values = values is not None and not isinstance(values, Mapping)
+        functions = [None if is_of_values else graph.function]
         held, _ = _held(mesh, faces, values, functions, spacing, origin, nodata)
     file, version = graph._need_file()
     with _Bar(progress) as report:
@@ -491,7 +488,7 @@ def defects(
     """
     options = {}
     _add_common(options, memory, threads, format, temp_dir)
-    files = [os.fsencode(path) for path in ([graphs] if is_path(graphs) else graphs)]
+    files = _files(graphs)
     with _Bar(progress) as report, tempfile.TemporaryDirectory(prefix="reeb-", dir=temp_dir) as folder:
         if is_path(mesh):
             _refuse_arrays('name its graphs: graphs=["scan.reeb"]', faces)
@@ -502,7 +499,12 @@ def defects(
                 mesh, faces, _ = _arrays.parts_of_object(mesh)
             path = os.path.join(folder, "mesh.ply")
             _write_ply(path, mesh, faces)
-        found = json.loads(_reeb.defects(path, files, options, report))
+        try:
+            found = json.loads(_reeb.defects(path, files, options, report))
+        except Error as error:
+            if error.path is None or not error.path.startswith(folder):
+                raise
+            raise without_path(error) from None
     rows = found.pop("loops")
     threshold = found.pop("suggested_threshold")
     found.pop("schema")
@@ -512,6 +514,17 @@ def defects(
     for i, row in enumerate(rows):
         loops[i] = tuple(_defect_cell(row, column[0]) for column in columns)
     return Defects(loops, threshold, found)
+
+
+def _files(graphs):
+    if graphs is None:
+        return []
+    paths = [graphs] if is_path(graphs) or not isinstance(graphs, Iterable) else list(graphs)
+    for path in paths:
+        if not is_path(path):
+            hint = 'graphs=["scan.reeb"]; a graph is written with graph.save("scan.reeb")'
+            raise Error(f"graphs: {path!r} is no path", hint, kind="usage")
+    return [os.fsencode(path) for path in paths]
 
 
 def _defect_cell(row, name):
@@ -526,16 +539,15 @@ def _no_surface():
 
 def _write_ply(path, vertices, faces):
     vertices = _arrays.vertex_array(vertices)
-    if isinstance(faces, dict):
-        parts = _arrays._simplices_of_cells(faces)
-        if any(np.ndim(array) != 2 or array.shape[1] != 3 for _, array in parts):
-            raise _no_surface()
-        faces = np.concatenate([array for _, array in parts]) if parts else np.empty((0, 3), int)
-    faces = _arrays.simplex_array("faces", faces)
-    if vertices.shape[1] != 3 or faces.shape[1] != 3:
+    if isinstance(faces, Mapping):
+        parts = _arrays.simplices_of_cells(faces, len(vertices))
+    else:
+        parts = [("faces", _arrays.simplex_array("faces", faces))]
+    if vertices.shape[1] != 3 or any(array.shape[1] != 3 for _, array in parts):
         raise _no_surface()
-    if faces.size and (faces.min() < 0 or faces.max() >= len(vertices)):
-        raise Error("faces name vertices that are not there", "vertices are numbered from 0")
+    for name, array in parts:
+        _arrays.check_indices(name, array, len(vertices))
+    faces = np.concatenate([np.empty((0, 3), np.int64), *(array.astype(np.int64, copy=False) for _, array in parts)])
     if not np.isfinite(vertices).all():
         row, column = np.argwhere(~np.isfinite(vertices))[0]
         raise Error(
