@@ -12,8 +12,6 @@
 namespace reeb {
 namespace {
 
-constexpr std::uint32_t kNone = SurfacePatch::kNone;
-
 struct PathTree {
   std::vector<double> distance;
   std::vector<std::uint32_t> edge;  // towards the root
@@ -22,7 +20,7 @@ struct PathTree {
 PathTree shortest_paths(const SurfacePatch& patch, std::uint32_t root) {
   constexpr double kFar = std::numeric_limits<double>::infinity();
   PathTree tree{std::vector<double>(patch.vertex_count(), kFar),
-                std::vector<std::uint32_t>(patch.vertex_count(), kNone)};
+                std::vector<std::uint32_t>(patch.vertex_count(), SurfacePatch::kNone)};
   using Entry = std::pair<double, std::uint32_t>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> nearest;
   tree.distance[root] = 0;
@@ -46,7 +44,7 @@ PathTree shortest_paths(const SurfacePatch& patch, std::uint32_t root) {
 // The vertices from this one to the root.
 std::vector<std::uint32_t> way_to_root(const SurfacePatch& patch, const PathTree& tree, std::uint32_t v) {
   std::vector<std::uint32_t> way = {v};
-  while (tree.edge[v] != kNone) {
+  while (tree.edge[v] != SurfacePatch::kNone) {
     const SurfacePatch::Edge& edge = patch.edge(tree.edge[v]);
     v = edge.a == v ? edge.b : edge.a;
     way.push_back(v);
@@ -81,7 +79,7 @@ std::vector<ClosedPath> loop_system(const SurfacePatch& patch, std::uint32_t roo
   const PathTree tree = shortest_paths(patch, root);
   std::vector<std::uint8_t> in_tree(patch.edge_count(), 0);
   for (const std::uint32_t e : tree.edge)
-    if (e != kNone) in_tree[e] = 1;
+    if (e != SurfacePatch::kNone) in_tree[e] = 1;
   std::vector<std::pair<double, std::uint32_t>> others;
   for (std::uint32_t e = 0; e < patch.edge_count(); ++e) {
     const SurfacePatch::Edge& edge = patch.edge(e);
