@@ -76,7 +76,7 @@ std::optional<std::vector<PicturePoint>> read_curve(PlainText& text) {
   return curve;
 }
 
-// Nothing if that is no layout of so many nodes.
+// Nothing if the text is not a layout with this number of nodes.
 std::optional<Plain> parse_plain(std::string_view written, std::size_t nodes) {
   Plain plain;
   plain.nodes.resize(nodes);

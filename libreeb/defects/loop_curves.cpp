@@ -6,6 +6,7 @@
 
 #include "libreeb/containers/union_find.h"
 #include "libreeb/defects/curve_length.h"
+#include "libreeb/defects/curve_relations.h"
 
 namespace reeb {
 namespace {
@@ -13,8 +14,7 @@ namespace {
 std::uint32_t triangles_passed(const SurfacePatch& patch, const ClosedPath& path, const Crossings& crossings) {
   if (!crossings.empty()) return static_cast<std::uint32_t>(std::count(crossings.begin(), crossings.end(), 1));
   std::vector<std::uint32_t> triangles;
-  for (std::size_t i = 0; i < path.vertices.size(); ++i) {
-    const std::uint32_t e = patch.edge_between(path.vertices[i], path.vertices[(i + 1) % path.vertices.size()]);
+  for (const std::uint32_t e : edges_of(patch, path)) {
     const auto at = patch.triangles_at_edge(e);
     triangles.insert(triangles.end(), at.begin(), at.end());
   }
@@ -25,11 +25,8 @@ std::uint32_t triangles_passed(const SurfacePatch& patch, const ClosedPath& path
 // Whether the curve cuts off a part that stays in the patch, with boundaries of the mesh: a curve around a hole.
 bool cuts_off(const SurfacePatch& patch, const ClosedPath& path) {
   std::vector<std::uint8_t> on_path(patch.edge_count(), 0);
-  std::vector<std::uint32_t> edges;
-  for (std::size_t i = 0; i < path.vertices.size(); ++i) {
-    edges.push_back(patch.edge_between(path.vertices[i], path.vertices[(i + 1) % path.vertices.size()]));
-    on_path[edges.back()] = 1;
-  }
+  const std::vector<std::uint32_t> edges = edges_of(patch, path);
+  for (const std::uint32_t e : edges) on_path[e] = 1;
   const std::uint32_t outside = patch.triangle_count();
   UnionFind part(outside + 1);
   for (std::uint32_t e = 0; e < patch.edge_count(); ++e) {

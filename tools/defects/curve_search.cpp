@@ -135,7 +135,7 @@ class CurveSearch {
       const Loop& loop = list_.loops[i];
       if (inwards_[loop.function][loop.component] == 0) continue;
       for (FoundCurves& curves : found_[i])
-        for (FoundCurve* curve : {&curves.contour, &curves.cycle}) curve->kind = opposite(curve->kind);
+        for (FoundCurve* curve : {&curves.contour, &curves.cycle}) turn(*curve);
     }
     return {std::move(found_), scale_, std::move(memory_)};
   }

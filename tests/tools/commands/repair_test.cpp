@@ -1,5 +1,6 @@
 // `reeb repair` on meshes with planted tunnels and bridges; counted again by plain code.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -222,6 +223,22 @@ TEST_F(RepairTest, TakesRowsOfAnyFunction) {
   other.replace(other.find("\"distance:3,2,1\""), 16, "height");
   write("other.csv", other);
   expect_error(reeb({"repair", "t.ply", "-o", "p.ply", "--loops", "other.csv", "--quiet"}), 1, "other.csv:2");
+}
+
+// A torus that is cut loses volume, also if its triangles are turned.
+TEST_F(RepairTest, TheVolumeIsThatOfTheSolid) {
+  expect_success(reeb({"generate", "torus", "--triangles", "2000", "-o", "t.ply"}));
+  PlainSurface torus = read_plain_ply(file("t.ply"));
+  std::array<double, 2> gained{};
+  for (const std::size_t turned : {0u, 1u}) {
+    if (turned == 1)
+      for (auto& t : torus.triangles) std::swap(t[1], t[2]);
+    write("t.off", to_off(torus));
+    expect_success(reeb({"repair", "t.off", "-o", "o.off", "--all", "--log", "log.json", "--quiet", "--force"}));
+    gained[turned] = json("log.json")["loops"][0]["volume"];
+    EXPECT_LT(gained[turned], 0) << turned;
+  }
+  EXPECT_NEAR(gained[0], gained[1], 0.05 * std::abs(gained[0]));
 }
 
 // Every row that reeb defects wrote is known to reeb repair, whatever graphs it was given.
