@@ -24,47 +24,6 @@ constexpr std::uint64_t kSearchBytesPerVertex = 700;  // of a patch, with what a
 
 bool same(const FoundCurve& a, const FoundCurve& b) { return a.found() && b.found() && a.path == b.path; }
 
-// Whether the oriented triangles near the vertex, the highest of its component along a coordinate, have their normals
-// inside. What is cut off by a level below the top is closed but for a flat disc, so its normals add up to that of the
-// disc. The cap is as large as the patch allows: noise can fold the triangles right at the top. If it is all of a
-// closed component, its normals add up to nothing, and the sign of its volume tells.
-std::optional<bool> is_inwards(const SurfacePatch& patch, std::uint32_t top, std::size_t axis) {
-  constexpr double kRounding = 1e-9;
-  std::vector<std::uint8_t> seen(patch.vertex_count(), 0), in_cap(patch.vertex_count(), 0);
-  std::priority_queue<std::pair<double, std::uint32_t>> highest;
-  const auto reach = [&](std::uint32_t v) {
-    if (seen[v] == 0) highest.emplace(patch.position(v)[axis], v);
-    seen[v] = 1;
-  };
-  reach(top);
-  for (; !highest.empty() && patch.whole(highest.top().second);) {
-    const std::uint32_t v = highest.top().second;
-    highest.pop();
-    in_cap[v] = 1;
-    for (const std::uint32_t e : patch.edges_at(v)) reach(patch.edge(e).a == v ? patch.edge(e).b : patch.edge(e).a);
-  }
-  std::vector<std::uint32_t> cap;
-  for (std::uint32_t t = 0; t < patch.triangle_count(); ++t)
-    if (std::ranges::all_of(patch.triangle(t), [&](std::uint32_t v) { return in_cap[v] != 0; })) cap.push_back(t);
-  const auto is_inner = [&](std::uint32_t e) { return patch.triangles_at_edge(e).size() == 2; };
-  const bool is_closed = highest.empty() && std::ranges::all_of(cap, [&](std::uint32_t t) {
-                           return std::ranges::all_of(patch.edges_of(t), is_inner);
-                         });
-  double outwards = 0, size = 0;
-  for (const std::uint32_t t : cap) {
-    double part = patch.normal(t)[axis];
-    if (is_closed) {
-      const auto [a, b, c] = patch.oriented(t);
-      const Point& origin = patch.position(top);
-      part = dot(patch.position(a) - origin, cross(patch.position(b) - origin, patch.position(c) - origin));
-    }
-    outwards += part;
-    size += std::abs(part);
-  }
-  if (!(std::abs(outwards) > kRounding * size)) return std::nullopt;
-  return outwards < 0;
-}
-
 std::optional<std::size_t> axis_of(const std::string& function) {
   const io::FunctionSpec spec = io::parse_function(function);
   if (spec.kind != io::FunctionSpec::Kind::kCoordinate || spec.number > 2) return std::nullopt;
@@ -335,6 +294,43 @@ PatchScale scale_of(const LoopList& list) {
   const auto triangles = static_cast<double>(std::max<std::uint64_t>(1, list.functions[0].mesh.triangles));
   scale.edge = std::max(std::sqrt(2.3 * area / triangles), 1e-6 * scale.size);
   return scale;
+}
+
+std::optional<bool> is_inwards(const SurfacePatch& patch, std::uint32_t top, std::size_t axis) {
+  constexpr double kRounding = 1e-9;
+  std::vector<std::uint8_t> seen(patch.vertex_count(), 0), in_cap(patch.vertex_count(), 0);
+  std::priority_queue<std::pair<double, std::uint32_t>> highest;
+  const auto reach = [&](std::uint32_t v) {
+    if (seen[v] == 0) highest.emplace(patch.position(v)[axis], v);
+    seen[v] = 1;
+  };
+  reach(top);
+  for (; !highest.empty() && patch.whole(highest.top().second);) {
+    const std::uint32_t v = highest.top().second;
+    highest.pop();
+    in_cap[v] = 1;
+    for (const std::uint32_t e : patch.edges_at(v)) reach(patch.edge(e).a == v ? patch.edge(e).b : patch.edge(e).a);
+  }
+  std::vector<std::uint32_t> cap;
+  for (std::uint32_t t = 0; t < patch.triangle_count(); ++t)
+    if (std::ranges::all_of(patch.triangle(t), [&](std::uint32_t v) { return in_cap[v] != 0; })) cap.push_back(t);
+  const auto is_inner = [&](std::uint32_t e) { return patch.triangles_at_edge(e).size() == 2; };
+  const bool is_closed = highest.empty() && std::ranges::all_of(cap, [&](std::uint32_t t) {
+                           return std::ranges::all_of(patch.edges_of(t), is_inner);
+                         });
+  double outwards = 0, size = 0;
+  for (const std::uint32_t t : cap) {
+    double part = patch.normal(t)[axis];
+    if (is_closed) {
+      const auto [a, b, c] = patch.oriented(t);
+      const Point& origin = patch.position(top);
+      part = dot(patch.position(a) - origin, cross(patch.position(b) - origin, patch.position(c) - origin));
+    }
+    outwards += part;
+    size += std::abs(part);
+  }
+  if (!(std::abs(outwards) > kRounding * size)) return std::nullopt;
+  return outwards < 0;
 }
 
 void turn(FoundCurve& curve) {

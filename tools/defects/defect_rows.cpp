@@ -234,17 +234,6 @@ DefectRow row_of(const LoopList& list, std::uint32_t number, const FoundCurves* 
   return row;
 }
 
-// Six times the volume inside a closed surface with its normals outside; negative if they are inside.
-double volume_of(const SurfacePatch& patch) {
-  double volume = 0;
-  const Point& origin = patch.position(0);
-  for (std::uint32_t t = 0; t < patch.triangle_count(); ++t) {
-    const auto [a, b, c] = patch.oriented(t);
-    volume += dot(patch.position(a) - origin, cross(patch.position(b) - origin, patch.position(c) - origin));
-  }
-  return volume;
-}
-
 // The curves of several loops can be the same: then only one of them has a row with it. In a small mesh, the other
 // loops of a closed component get further curves, each the row of the loop that is nearest to it. `used`: loops with a
 // row.
@@ -274,7 +263,7 @@ void add_further(const ValuedMesh& mesh, const LoopList& list, const PatchScale&
       if (ClosedPath path = in_patch(patch, *candidate->curve); path.exists()) known.push_back(std::move(path));
     const auto roots = static_cast<std::uint32_t>(
         std::clamp<std::uint64_t>(kMostLoops / (known.size() + loops.size()), 4, kMostRoots));
-    const bool inwards = volume_of(patch) < 0;
+    const bool inwards = is_inwards(patch, 0, 0).value_or(false);
     for (const ClosedPath& path : further_loops(patch, known, loops.size(), roots)) {
       FoundCurves found;
       found.cycle = in_mesh(patch, curve_along(patch, path));

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
+#include <optional>
 
 #include "io/file/content_source.h"
 #include "io/formats/open_mesh.h"
@@ -33,8 +34,10 @@ class Plan {
   }
 
   Repair run() {
-    const Defects defects = find();
-    const std::vector<ChosenRow> rows = choose_rows(defects, options_.filter);
+    std::optional<NamedRows> named;
+    if (!options_.filter.loops.empty()) named = read_named_rows(options_.filter.loops);
+    const Defects defects = find(named);
+    const std::vector<ChosenRow> rows = choose_rows(defects, options_.filter, named);
     if (options_.filter.is_none()) repair_.suggestion = defects.table.suggestion;
     for (const ChosenRow& row : rows)
       repair_.rows.push_back(
@@ -93,13 +96,12 @@ class Plan {
 
  private:
   // All that are named in a file have a row.
-  Defects find() {
+  Defects find(const std::optional<NamedRows>& named) {
     FindDefectsOptions find;
-    if (!options_.filter.loops.empty()) {
-      NamedRows rows = read_named_rows(options_.filter.loops);
+    if (named) {
       const auto is_coordinate = [](const std::string& name) { return name == "x" || name == "y" || name == "z"; };
-      if (!std::ranges::all_of(rows.functions, is_coordinate)) find.functions = std::move(rows.functions);
-      find.named = std::move(rows.names);
+      if (!std::ranges::all_of(named->functions, is_coordinate)) find.functions = named->functions;
+      for (const auto& [name, line] : named->lines) find.named.insert(name);
     }
     find.mesh = options_.mesh;
     find.threads = options_.threads;

@@ -6,7 +6,6 @@
 #include <charconv>
 #include <cstdint>
 #include <map>
-#include <set>
 #include <string_view>
 #include <system_error>
 
@@ -101,12 +100,9 @@ std::string why_not(const DefectRow& row, const Defects& defects, const RowFilte
 }  // namespace
 
 NamedRows read_named_rows(const std::string& loops) {
-  NamedRows rows;
-  std::map<std::size_t, std::string> function_of;  // by line
-  for (const auto& [name, line] : read_names(loops)) {
-    rows.names.insert(name);
-    function_of.emplace(line, name.function);
-  }
+  NamedRows rows{loops, read_names(loops), {}};
+  std::map<std::size_t, std::string> function_of;
+  for (const auto& [name, line] : rows.lines) function_of.emplace(line, name.function);
   for (const auto& [line, function] : function_of) {
     if (std::ranges::find(rows.functions, function) != rows.functions.end()) continue;
     try {
@@ -120,19 +116,20 @@ NamedRows read_named_rows(const std::string& loops) {
   return rows;
 }
 
-std::vector<ChosenRow> choose_rows(const Defects& defects, const RowFilter& filter) {
-  std::map<LoopName, std::size_t> names;
-  if (!filter.loops.empty()) names = read_names(filter.loops);
+std::vector<ChosenRow> choose_rows(const Defects& defects, const RowFilter& filter,
+                                   const std::optional<NamedRows>& named) {
+  std::map<LoopName, std::size_t> left;
+  if (named) left = named->lines;
   std::vector<ChosenRow> chosen;
   for (std::size_t i = 0; i < defects.table.rows.size(); ++i) {
     const DefectRow& row = defects.table.rows[i];
     const LoopName name{row.lo.key.vertex.value(), row.hi.key.vertex.value(), defects.functions[row.function]};
-    const bool is_named = filter.loops.empty() || names.erase(name) != 0;
-    chosen.push_back({i + 1, &row, is_named ? why_not(row, defects, filter) : "not in the file of --loops"});
+    const bool is_wanted = !named || left.erase(name) != 0;
+    chosen.push_back({i + 1, &row, is_wanted ? why_not(row, defects, filter) : "not in the file of --loops"});
   }
-  if (!names.empty())
+  if (!left.empty())
     throw Error(ErrorKind::kBadInput, "this row is not a loop of the mesh", "run reeb defects on this mesh again")
-        .at(filter.loops, std::to_string(names.begin()->second));
+        .at(named->file, std::to_string(left.begin()->second));
   return chosen;
 }
 

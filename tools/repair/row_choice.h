@@ -2,7 +2,8 @@
 #pragma once
 
 #include <cstddef>
-#include <set>
+#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,16 +27,18 @@ struct ChosenRow {
   std::string why_not;  // empty: it is to be repaired
 };
 
-// The loops in the rows of a CSV file, and their functions in the order of the rows.
+// The loops in the rows of a CSV file, with their lines, and their functions in the order of the rows.
 struct NamedRows {
-  std::set<LoopName> names;
+  std::string file;
+  std::map<LoopName, std::size_t> lines;
   std::vector<std::string> functions;
 };
 // THROWS: Error{kBadInput} for a file that is not a table of defects.
 NamedRows read_named_rows(const std::string& loops);
 
-// By rank. Without a filter: the rows up to the suggested length.
-// THROWS: Error{kBadInput} for a file that is not a table of defects, or has a row that is not one of this mesh.
-std::vector<ChosenRow> choose_rows(const Defects& defects, const RowFilter& filter);
+// By rank. Without a filter: the rows up to the suggested length. `named`: only these, if there is a file of rows.
+// THROWS: Error{kBadInput} if one of them is not a loop of this mesh.
+std::vector<ChosenRow> choose_rows(const Defects& defects, const RowFilter& filter,
+                                   const std::optional<NamedRows>& named = {});
 
 }  // namespace reeb::tools
