@@ -10,6 +10,13 @@ BucketSpan values_in_bucket(const Bucket& bucket, double lo, double hi, int expo
   return {std::max(lo, std::ldexp(index, exponent)), std::min(hi, std::ldexp(index + 1, exponent))};
 }
 
+double first_value_of(const Bucket& bucket, Direction d, double lo, double hi, int exponent) {
+  const auto [bottom, top] = values_in_bucket(bucket, lo, hi, exponent);
+  if (!(bottom < top)) return bottom;
+  const double half_a_vertex = 0.5 / static_cast<double>(bucket.count) * (top - bottom);
+  return d == kUp ? bottom + half_a_vertex : top - half_a_vertex;
+}
+
 std::uint64_t vertices_below(const Bucket& bucket, const CutValues& values, int exponent) {
   const auto [bottom, top] = values_in_bucket(bucket, values.lo, values.hi, exponent);
   if (!(bottom < top)) return bucket.count;

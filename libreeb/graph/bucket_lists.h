@@ -29,6 +29,10 @@ struct BucketSpan {
 };
 BucketSpan values_in_bucket(const Bucket& bucket, double lo, double hi, int exponent);
 
+// The first value, in direction d, at which a cut finds vertices of the bucket before it. The arc spans the values from
+// `lo` to `hi`.
+double first_value_of(const Bucket& bucket, Direction d, double lo, double hi, int exponent);
+
 // How many of the bucket's vertices count as below the cut.
 std::uint64_t vertices_below(const Bucket& bucket, const CutValues& values, int exponent);
 
@@ -79,6 +83,12 @@ class BasicArcBucketLists {
   // The list of the arc at the last close(), packed.
   std::span<const std::byte> closed(ArcId arc) const { return packed_.of(arc.value()); }
 
+  // Between these, one thread may change lists while another one reads closed() of other arcs. REQUIRES: at most this
+  // many lists are opened in between.
+  void hold(std::size_t opened) { packed_.hold(opened_.size() + opened); }
+  void release() { packed_.release(); }
+
+  int exponent() const { return exponent_; }
   const Lists& packed() const { return packed_; }
 
  private:
@@ -226,11 +236,7 @@ std::uint32_t BasicArcBucketLists<Lists>::last_below(ArcId arc, const CutValues&
 
 template <class Lists>
 double BasicArcBucketLists<Lists>::first_value(Direction d, ArcId arc, double lo, double hi) {
-  const Bucket& bucket = first_bucket(d, arc);
-  const auto [bottom, top] = values_in_bucket(bucket, lo, hi, exponent_);
-  if (!(bottom < top)) return bottom;
-  const double half_a_vertex = 0.5 / static_cast<double>(bucket.count) * (top - bottom);
-  return d == kUp ? bottom + half_a_vertex : top - half_a_vertex;
+  return first_value_of(first_bucket(d, arc), d, lo, hi, exponent_);
 }
 
 // The first bucket in direction d. Valid until the next call.

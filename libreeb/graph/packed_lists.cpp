@@ -104,7 +104,9 @@ std::uint32_t PackedLists::new_chunk(std::size_t room) {
 
 void PackedLists::forget(std::uint64_t place) {
   const auto index = static_cast<std::uint32_t>(place >> 32), offset = static_cast<std::uint32_t>(place);
-  chunks_[index].live -= block_at(chunks_[index], offset).end - offset;
+  const std::uint32_t size = block_at(chunks_[index], offset).end - offset;
+  chunks_[index].live -= size;
+  held_bytes_ += size;
   if (index != open_) note_if_due(index);
 }
 
@@ -115,7 +117,23 @@ void PackedLists::note_if_due(std::uint32_t index) {
   due_.push_back(index);
 }
 
+// A list takes one new chunk at most, so chunks_ is not resized in the meantime.
+void PackedLists::hold(std::size_t replaced) {
+  while (free_.size() < replaced) {
+    free_.push_back(static_cast<std::uint32_t>(chunks_.size()));
+    chunks_.emplace_back();
+  }
+  held_bytes_ = 0;
+  is_held_ = true;
+}
+
+void PackedLists::release() {
+  is_held_ = false;
+  collect();
+}
+
 void PackedLists::collect() {
+  if (is_held_) return;
   // Lists that are moved might fill the open chunk, which then might be due itself.
   while (!due_.empty()) {
     const std::uint32_t chunk = due_.back();

@@ -19,6 +19,9 @@ namespace reeb {
 // until collect(). That abandons each chunk of which less than kMinLiveShare is in use, and moves the lists that are
 // still in use to another chunk. Lists that change all the time soon fill chunks of their own, so they cost no moves.
 //
+// THREADS: between hold() and release(), one thread may replace lists while another one reads lists that are not
+// replaced in this time, with of().
+//
 // MEMORY: 8 bytes per arc; for each list its bytes and 6 more, and up to half as much again for holes; two chunks.
 class PackedLists {
  public:
@@ -48,6 +51,14 @@ class PackedLists {
 
   void replace(std::size_t arc, std::span<const std::byte> packed);
   void collect();
+
+  // From now on collect() does nothing. REQUIRES: at most this many lists are replaced before release(), which
+  // collects. MEMORY: kHeldBytes for each; they stay until the next time.
+  static constexpr std::size_t kHeldBytes = 28;
+  void hold(std::size_t replaced);
+  void release();
+  // Whether so much could be collected that it is time for release(): about a 128th of the memory.
+  bool holds_much() const { return held_bytes_ > kChunkBytes + chunk_bytes_ / 128; }
 
  private:
   static constexpr std::size_t kChunkBytes = 64 << 10;
@@ -83,7 +94,9 @@ class PackedLists {
   std::unique_ptr<std::byte[]> spare_;  // memory of an abandoned chunk
   std::uint32_t open_ = kNoChunk;       // the chunk that is being filled
   std::uint64_t chunk_bytes_ = 0;       // of all chunks
-  std::vector<std::byte> packed_;       // of add()
+  std::uint64_t held_bytes_ = 0;        // of the lists that were replaced since hold()
+  bool is_held_ = false;
+  std::vector<std::byte> packed_;  // of add()
 };
 
 // The lists of all arcs; without an embedding, no lists.

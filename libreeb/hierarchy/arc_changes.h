@@ -78,6 +78,7 @@ class ArcChanges {
   // REQUIRES: `graph` and `sink` outlive this.
   ArcChanges(const Graph& graph, RecordSink& sink, Content content) : log_(graph, sink), content_(std::move(content)) {}
 
+  Content& content() { return content_; }
   const Content& content() const { return content_; }
 
   // To be called before an arc is moved or removed.

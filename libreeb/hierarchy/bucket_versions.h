@@ -12,6 +12,7 @@
 #include "libreeb/base/prefetch.h"
 #include "libreeb/graph/bucket_lists.h"
 #include "libreeb/graph/reeb_graph.h"
+#include "libreeb/graph/remaining_buckets.h"
 #include "libreeb/graph/tables_in_memory.h"
 #include "libreeb/hierarchy/arc_changes.h"
 
@@ -56,6 +57,14 @@ class BucketVersions {
     if (first == kNever || first == -kNever) return false;  // without a look at the node
     return d == kUp ? value(node) >= first : value(node) <= first;
   }
+  // The same without lists that are changed: of a copy of the content before this step, and, for each part of the arc
+  // that is left by a cut, of what that leaves of the copy.
+  struct Rest {
+    RemainingBuckets buckets;
+    NodeId start;
+  };
+  void start_rest(const ArcPart& part, Rest& rest) const;
+  double first_value(const ArcPart& part, Rest& rest) const;
   bool merge(ArcId from, ArcId into) { return lists_.merge(from, into); }
   void join(ArcId upper, ArcId lower, NodeId node);
   void lay(ArcId arc, ArcId other, NodeId extremum, Direction /*direction*/) { join(arc, other, extremum); }
@@ -67,9 +76,14 @@ class BucketVersions {
   void prefetch(ArcId arc) const { lists_.prefetch(arc); }
 
   const BasicArcBucketLists<Lists>& lists() const { return lists_; }
+  // As PackedLists: hold for this many changes, at most two lists each.
+  void hold(std::size_t changes) { lists_.hold(2 * changes); }
+  void release() { lists_.release(); }
+  bool holds_much() const { return lists_.packed().holds_much(); }
 
  private:
   static constexpr double kNever = std::numeric_limits<double>::infinity();
+  static double never(Direction d) { return d == kUp ? kNever : -kNever; }
 
   double value(NodeId node) const { return nodes_.value(node); }
 
@@ -88,9 +102,22 @@ bool BucketVersions<Nodes, Lists>::cut(const ArcCut& arc) {
 
 template <class Nodes, class Lists>
 double BucketVersions<Nodes, Lists>::first_value(const ArcPart& part) {
-  if (lists_.empty(part.arc)) return part.direction == kUp ? kNever : -kNever;
+  if (lists_.empty(part.arc)) return never(part.direction);
   const auto [lo, hi] = std::minmax(part.start, part.end);
   return lists_.first_value(part.direction, part.arc, value(lo), value(hi));
+}
+
+template <class Nodes, class Lists>
+void BucketVersions<Nodes, Lists>::start_rest(const ArcPart& part, Rest& rest) const {
+  rest.start = part.start;
+  rest.buckets.start(part.direction, value(part.start), value(part.end), before_step(part.arc), lists_.exponent());
+}
+
+template <class Nodes, class Lists>
+double BucketVersions<Nodes, Lists>::first_value(const ArcPart& part, Rest& rest) const {
+  if (rest.start != part.start) rest.buckets.cut(value(part.start));
+  rest.start = part.start;
+  return rest.buckets.empty() ? never(part.direction) : rest.buckets.first_value();
 }
 
 template <class Nodes, class Lists>

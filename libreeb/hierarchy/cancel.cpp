@@ -80,27 +80,36 @@ void cancel_ahead(const ReebGraph& graph, Canceller& canceller, Hierarchy& hiera
                   const DoBoth& both, const RunAhead& limits) {
   auto& changes = canceller.changes();
   Cancelling pairs(graph, canceller, hierarchy);
-  changes.set_limits(limits);
-  std::vector<ArcNote> notes;
-  notes.reserve(limits.most_notes());
-  const auto apply = [&] { changes.apply(notes); };
+  changes.set_limits(limits, canceller.graph().end_arc().value());
+  const auto apply = [&] { changes.apply(); };
+  const auto apply_all = [&](const std::function<void()>& meanwhile) {
+    do {
+      changes.hold();
+      both(apply, meanwhile);
+      changes.release();
+    } while (!changes.all_applied());
+  };
   const auto run_ahead = [&] {
+    if (canceller.is_paused()) canceller.resume(pairs.last());
     while (!pairs.is_over() && !canceller.is_paused() && !changes.is_full()) pairs.cancel_next();
   };
+  const auto nothing = [] {};
   changes.set_defers(true);
-  while (!pairs.is_over()) {
+  while (!pairs.is_over() || canceller.is_paused()) {
     if (poll) poll(pairs.done());
-    both(apply, run_ahead);
-    changes.take_notes(notes);
+    apply_all(run_ahead);
+    const bool can_note = changes.has_notes();
+    changes.hand_over();
     if (!canceller.is_paused()) continue;
-    apply();
-    notes.clear();
+    // What it waits for.
+    apply_all(nothing);
+    changes.hand_over();
+    if (can_note) continue;
     changes.set_defers(false);
     canceller.resume(pairs.last());
-    for (std::size_t i = 0; i < limits.pairs_in_turn && !pairs.is_over(); ++i) pairs.cancel_next();
     changes.set_defers(true);
   }
-  apply();
+  apply_all(nothing);
   changes.set_defers(false);
   canceller.finish();
 }
@@ -147,8 +156,9 @@ std::uint64_t hierarchy_bytes(std::uint64_t nodes, std::uint64_t arcs, std::opti
   if (!lists) return bytes;
   // Lists that change leave holes, and a node that is contracted might get a bucket of its own.
   constexpr std::uint64_t kNewBucketBytes = 32;
-  return bytes + *lists + *lists / 2 + kNewBucketBytes * nodes +
-         2 * sizeof(ArcNote) * RunAhead::for_arcs(arcs).most_notes();
+  constexpr std::uint64_t kDeferredArcBytes = sizeof(std::uint16_t);
+  return bytes + *lists + *lists / 2 + kNewBucketBytes * nodes + kDeferredArcBytes * arcs +
+         2 * (sizeof(ArcNote) + PackedLists::kHeldBytes) * RunAhead::for_arcs(arcs).most_notes();
 }
 
 Hierarchy build_hierarchy(ReebGraph& graph, PackedLists buckets, int exponent, RecordSink& sink, const Poll& poll,

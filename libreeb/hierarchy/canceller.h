@@ -44,13 +44,14 @@ class Canceller {
   }
 
   bool is_paused() const { return pause_ != Pause::kNone; }
-  // Does the rest for the pair that paused. REQUIRES: what was deferred is done, and nothing is deferred now.
+  // Continues with the pair that paused, which might pause again. It does not if nothing is deferred.
+  // REQUIRES: what was deferred is done.
   void resume(const PersistencePair& pair) {
     const Pause pause = std::exchange(pause_, Pause::kNone);
     if (pause == Pause::kAtPath)
       zip_onto(paused_.direction, paused_.arc, paused_.other, paused_.start, paused_.extremum);
-    if (pause == Pause::kAtLoop) zip(kUp);
-    end_pair(pair);
+    if (pause == Pause::kAtLoop) zip_loop();
+    if (pause_ == Pause::kNone) end_pair(pair);
   }
 
   // Prefetch what cancelling a pair reads: its nodes; their nearest arcs with their far ends; the arcs at these, and
@@ -217,50 +218,67 @@ void Canceller<Content, Graph, ChangesKind>::zip_onto(Direction d, ArcId arc, Ar
 }
 
 // Follows the second path from `start` until its arc `other` reaches `end` or beyond, and moves the content of `arc` to
-// the arcs that are passed. False if there are more than `most` of them, or too many to be noted.
+// the arcs that are passed. False, with `other` and `start` as they were, if there are more than `most` of them, or if
+// changes are deferred and this has to wait.
 template <class Content, class Graph, template <class, class> class ChangesKind>
 bool Canceller<Content, Graph, ChangesKind>::follow_in_parallel(Direction d, ArcId arc, ArcId& other, NodeId& start,
                                                                 NodeId end, std::uint32_t most) {
-  if constexpr (Changes::kCanDefer)
-    if (changes_.defers()) return note_in_parallel(d, arc, other, start, end, most);
   ArcPart left{d, arc, start, end};  // the part whose content was not moved yet
+  if constexpr (Changes::kCanDefer)
+    if (changes_.defers()) {
+      if (most != kAny) return note_in_parallel(d, arc, other, start, end, most);
+      if (!changes_.has_room()) return false;
+      if (note_in_parallel(d, arc, other, start, end, most)) return true;
+      if (!changes_.begin_long_path(left)) return false;
+    }
+  ArcId passed = other;
+  NodeId from = start;
   double first = changes_.first_value(left);
-  for (NodeId node = graph_.end(other, d); along(d, node) < along(d, end); node = graph_.next(start, d)) {
+  for (NodeId node = graph_.end(passed, d); along(d, node) < along(d, end); node = graph_.next(from, d)) {
     if (most != kAny && most-- == 0) return false;
     if (changes_.is_reached(first, d, node)) {
-      changes_.cut({d, arc, other, left.start, node, end}, ends(other));
+      changes_.cut({d, arc, passed, left.start, node, end}, ends(passed));
+      if constexpr (Changes::kCanDefer)
+        if (changes_.defers() && !changes_.has_room()) {
+          changes_.forget_path();
+          return false;
+        }
       left.start = node;
       first = changes_.first_value(left);
     }
-    start = most != kAny ? node : ways_.follow(node, d, [&](NodeId next) {
+    from = most != kAny ? node : ways_.follow(node, d, [&](NodeId next) {
       return along(d, next) < along(d, end) && !changes_.is_reached(first, d, next);
     });
-    other = graph_.nearest(start, d);
+    passed = graph_.nearest(from, d);
   }
+  other = passed;
+  start = from;
   return true;
 }
 
-// Notes the path instead, for changes that are deferred. If any number of arcs may be passed and there are too many to
-// be noted, it notes none, and returns false with `other` and `start` as they were.
+// Notes the path arc by arc, for changes that are deferred, unless there are more than `most` of them or it is long.
 template <class Content, class Graph, template <class, class> class ChangesKind>
 bool Canceller<Content, Graph, ChangesKind>::note_in_parallel(Direction d, ArcId arc, ArcId& other, NodeId& start,
                                                               NodeId end, std::uint32_t most) {
-  if (most == kAny && changes_.is_full()) return false;
   changes_.begin_path({d, arc, start, end});
   ArcId passed = other;
   NodeId from = start;
   std::uint32_t arcs = 0;
   for (NodeId node = graph_.end(passed, d); along(d, node) < along(d, end); node = graph_.next(from, d)) {
-    if (++arcs > most) return false;
+    ++arcs;
     if (most == kAny && changes_.is_long_path(arcs)) {
       changes_.forget_path();
+      return false;
+    }
+    if (arcs > most) {
+      changes_.end_path();
       return false;
     }
     changes_.pass(d, passed, d == kUp ? ArcEnds{from, node} : ArcEnds{node, from});
     from = node;
     passed = graph_.nearest(from, d);
   }
-  if (arcs == 0) changes_.forget_path();
+  changes_.end_path();
   other = passed;
   start = from;
   return true;
@@ -295,7 +313,7 @@ void Canceller<Content, Graph, ChangesKind>::take_away(ArcId arc) {
 template <class Content, class Graph, template <class, class> class ChangesKind>
 void Canceller<Content, Graph, ChangesKind>::zip_loop() {
   if constexpr (Changes::kCanDefer)
-    if (changes_.defers() && changes_.is_long_loop(paths_.first.size() + paths_.second.size())) {
+    if (changes_.defers() && !changes_.has_room_for_loop(paths_.first.size() + paths_.second.size())) {
       pause_ = Pause::kAtLoop;
       return;
     }

@@ -2,7 +2,8 @@
 //
 // WHY. With an embedding, about half of the time of cancelling goes into lists of buckets and into records. The rules
 // do not need them, but for one thing: how far a long path next to an arc can be followed at once depends on the
-// content of the arc. So a short path is noted arc by arc, and a long one waits for what was noted before.
+// content of the arc. So a short path is noted arc by arc. For a long one the content is read at once, which is
+// possible unless something that was noted changes it.
 #pragma once
 
 #include <algorithm>
@@ -12,26 +13,27 @@
 #include <utility>
 #include <vector>
 
+#include "libreeb/base/prefetch.h"
 #include "libreeb/hierarchy/arc_changes.h"
 
 namespace reeb {
 
 // How far the rules run ahead. The results do not depend on it. REQUIRES: notes > 0.
 struct RunAhead {
-  std::size_t notes = 8192;        // in a list, about; a loop with more than a quarter as many arcs waits
-  std::size_t arcs_of_path = 256;  // a longer path waits
-  // After a pair that waited, so many are cancelled without running ahead, since they would often wait, too.
-  std::size_t pairs_in_turn = 64;
+  std::size_t notes = 2048;       // in a list, about
+  std::size_t arcs_of_path = 24;  // a longer path is long
 
   // The lists of a small graph are small.
   static RunAhead for_arcs(std::uint64_t arcs) {
     RunAhead ahead;
-    ahead.notes = std::min<std::size_t>(ahead.notes, 64 + arcs / 64);
+    ahead.notes = std::min<std::size_t>(ahead.notes, 16 + arcs / 256);
     return ahead;
   }
 
-  // No list gets longer than this.
-  std::size_t most_notes() const { return 2 * notes + arcs_of_path + 32; }
+  // No list gets longer than this. What needs more notes is not noted.
+  std::size_t most_notes() const { return 8 * notes + arcs_of_path + 2 * kNotesBetween; }
+  // More than are noted from one path or loop to the next.
+  static constexpr std::size_t kNotesBetween = 32;
 };
 
 // What was done to an arc: a function of ArcChanges and its arguments, or a part of a path.
@@ -49,8 +51,8 @@ struct ArcNote {
 
 // While it defers, its functions only note what they were called for.
 //
-// MEMORY: ArcChanges, and a list of notes.
-// THREADS: while it defers, one thread may call apply() and another one note changes.
+// MEMORY: ArcChanges, a list of notes, and 2 bytes per arc.
+// THREADS: while it defers, and between hold() and release(), one thread may call apply() and another one note changes.
 template <class ContentKind, class Graph>
 class DeferredChanges {
  public:
@@ -65,21 +67,29 @@ class DeferredChanges {
   bool defers() const { return defers_; }
   // REQUIRES: all notes were applied.
   void set_defers(bool defers) { defers_ = defers; }
-  void set_limits(const RunAhead& limits) {
+  void set_limits(const RunAhead& limits, std::size_t arcs) {
     limits_ = limits;
     notes_.reserve(limits.most_notes());
+    applied_.reserve(limits.most_notes());
+    noted_in_.assign(arcs, 0);
   }
-  // Whether the rules should stop for now; and whether a path or a loop of this many arcs waits.
+  // Whether the next pair should wait.
   bool is_full() const { return notes_.size() >= limits_.notes; }
-  bool is_long_path(std::size_t arcs) const { return arcs > limits_.arcs_of_path; }
-  bool is_long_loop(std::size_t arcs) const { return arcs > limits_.notes / 4; }
-  // Takes the notes since the last call, in exchange for a list that becomes empty.
-  void take_notes(std::vector<ArcNote>& notes) {
-    notes.clear();
-    std::swap(notes, notes_);
+  bool has_notes() const { return !notes_.empty(); }
+
+  // Takes the notes since the last call as those that are to be applied. REQUIRES: all_applied().
+  void hand_over() {
+    applied_.clear();
+    next_ = 0;
+    std::swap(applied_, notes_);
+    ++list_;
   }
-  // Does what these notes say. REQUIRES: all notes before them were applied.
-  void apply(const std::vector<ArcNote>& notes);
+  bool all_applied() const { return next_ == applied_.size(); }
+  // Does what the notes say that were handed over, or a part of it. While it is held, lists can be read; their memory
+  // is not used again.
+  void apply();
+  void hold() { now_.content().hold(applied_.size() - next_); }
+  void release() { now_.content().release(); }
 
   // As in ArcChanges.
   void touch(ArcId arc, const ArcEnds& ends) {
@@ -88,46 +98,76 @@ class DeferredChanges {
   }
   void cut(const ArcCut& cut, const ArcEnds& ends_of_into) {
     if (!defers_) return now_.cut(cut, ends_of_into);
+    note_content(cut.from, cut.into);
     const std::array nodes{cut.start, cut.node, cut.end};
     notes_.push_back({Kind::kCut, cut.direction, cut.from, cut.into, nodes, ends_of_into});
   }
   void merge(ArcId from, ArcId into, const ArcEnds& ends_of_into) {
     if (!defers_) return now_.merge(from, into, ends_of_into);
+    note_content(from, into);
     notes_.push_back({.kind = Kind::kMerge, .arc = from, .other = into, .ends = ends_of_into});
   }
   void join(ArcId upper, ArcId lower, NodeId node) {
     if (!defers_) return now_.join(upper, lower, node);
+    note_content(upper, lower);
     notes_.push_back({.kind = Kind::kJoin, .arc = upper, .other = lower, .nodes = {node, kNoNode, kNoNode}});
   }
   void lay(ArcId arc, ArcId other, NodeId extremum, Direction d, const ArcEnds& ends_of_other) {
     if (!defers_) return now_.lay(arc, other, extremum, d, ends_of_other);
+    note_content(arc, other);
     notes_.push_back({Kind::kLay, d, arc, other, {extremum, kNoNode, kNoNode}, ends_of_other});
   }
   void drop(ArcId arc, std::uint32_t nodes) {
     if (!defers_) return now_.drop(arc, nodes);
+    note_content(arc, arc);
     notes_.push_back({.kind = Kind::kDrop, .arc = arc, .count = nodes});
   }
   void commit() {
     if (!defers_) return now_.commit();
     notes_.push_back({.kind = Kind::kCommit});
   }
-  // REQUIRES, for these three: it does not defer.
-  double first_value(const ArcPart& part) { return now_.first_value(part); }
+  // REQUIRES: if it defers, begin_long_path() for this arc.
+  double first_value(const ArcPart& part) {
+    return defers_ ? now_.content().first_value(part, rest_) : now_.first_value(part);
+  }
   bool is_reached(double value, Direction d, NodeId node) const { return now_.is_reached(value, d, node); }
+  // REQUIRES: it does not defer.
   void finish() { now_.finish(); }
 
+  // REQUIRES, for all that follows: it defers.
+
+  // Whether a path can be noted, or a long one continued; and whether a loop of this many arcs can be noted.
+  bool has_room() const { return has_room_for(limits_.arcs_of_path); }
+  bool has_room_for_loop(std::size_t arcs) const { return has_room_for(kNotesPerArc * arcs); }
+
   // Notes a path next to a part of an arc: first the part, and then each arc that is passed. Each of these takes what
-  // it can of the content of the part. REQUIRES, as the next two: it defers.
+  // it can of the content of the part.
   void begin_path(const ArcPart& part) {
     path_ = notes_.size();
     notes_.push_back(
         {.kind = Kind::kPath, .direction = part.direction, .arc = part.arc, .nodes = {part.start, part.end, kNoNode}});
   }
+  bool is_long_path(std::size_t arcs) const { return arcs > limits_.arcs_of_path; }
   void pass(Direction d, ArcId arc, const ArcEnds& ends) {
     const NodeId end = d == kUp ? ends.hi : ends.lo;
     notes_.push_back(
         {.kind = Kind::kPass, .direction = d, .other = arc, .nodes = {end, kNoNode, kNoNode}, .ends = ends});
   }
+  void end_path() {
+    if (notes_.size() == path_ + 1) return forget_path();
+    note_content(notes_[path_].arc, notes_[path_].arc);
+    for (std::size_t i = path_ + 1; i < notes_.size(); ++i) note_content(notes_[i].other, notes_[i].other);
+  }
+
+  // Reads the content of the arc, for first_value(): then the cuts of a long path are noted one by one. False if the
+  // content depends on what might not be applied yet. REQUIRES: this step did not change it.
+  bool begin_long_path(const ArcPart& part) {
+    path_ = notes_.size();
+    if (static_cast<std::uint16_t>(list_ - noted_in_[part.arc.value()]) < 2) return false;
+    now_.content().start_rest(part, rest_);
+    return true;
+  }
+
   // Forgets the path that was begun last.
   void forget_path() { notes_.resize(path_); }
 
@@ -136,7 +176,8 @@ class DeferredChanges {
     if (!defers_) now_.prefetch_node(node);
   }
   void prefetch_place(ArcId arc) const {
-    if (!defers_) now_.prefetch_place(arc);
+    if (defers_) return reeb::prefetch(&noted_in_[arc.value()]);
+    now_.prefetch_place(arc);
   }
   void prefetch_content(ArcId arc) const {
     if (!defers_) now_.prefetch_content(arc);
@@ -146,22 +187,34 @@ class DeferredChanges {
   using Kind = ArcNote::Kind;
   static constexpr NodeId kNoNode = ArcNote::kNoNode;
 
-  void prefetch(const std::vector<ArcNote>& notes, std::size_t at) const;
+  static constexpr std::size_t kNotesPerArc = 2;  // of a loop
+
+  bool has_room_for(std::size_t notes) const {
+    return notes_.size() + notes + RunAhead::kNotesBetween <= limits_.most_notes();
+  }
+  void note_content(ArcId a, ArcId b) { noted_in_[a.value()] = noted_in_[b.value()] = list_; }
+  void prefetch(std::size_t at) const;
 
   ArcChanges<Content, Graph> now_;
+  std::vector<ArcNote> applied_;  // handed over
+  std::size_t next_ = 0;          // in applied_
+  ArcPart part_{};                // of the path that is applied
+  double first_ = 0;
   alignas(64) std::vector<ArcNote> notes_;  // not next to what the other thread changes
   std::size_t path_ = 0;                    // the first note of the last path
+  // Lists of notes are numbered, modulo 2^16. What the last two say might not be applied yet.
+  std::vector<std::uint16_t> noted_in_;  // by arc: the last list with a change of its content
+  std::uint16_t list_ = 2;
+  typename Content::Rest rest_;  // of a long path
   RunAhead limits_;
   bool defers_ = false;
 };
 
 template <class Content, class Graph>
-void DeferredChanges<Content, Graph>::apply(const std::vector<ArcNote>& notes) {
-  ArcPart part{};
-  double first = 0;
-  for (std::size_t i = 0; i < notes.size(); ++i) {
-    prefetch(notes, i);
-    const ArcNote& note = notes[i];
+void DeferredChanges<Content, Graph>::apply() {
+  while (next_ < applied_.size()) {
+    prefetch(next_);
+    const ArcNote& note = applied_[next_++];
     const Direction d = note.direction;
     const auto [a, b, c] = note.nodes;
     switch (note.kind) {
@@ -185,33 +238,34 @@ void DeferredChanges<Content, Graph>::apply(const std::vector<ArcNote>& notes) {
         break;
       case Kind::kCommit:
         now_.commit();
+        if (now_.content().holds_much()) return;
         break;
       case Kind::kPath:
-        part = {d, note.arc, a, b};
-        first = now_.first_value(part);
+        part_ = {d, note.arc, a, b};
+        first_ = now_.first_value(part_);
         break;
       case Kind::kPass:
-        if (!now_.is_reached(first, d, a)) break;
-        now_.cut({d, part.arc, note.other, part.start, a, part.end}, note.ends);
-        part.start = a;
-        first = now_.first_value(part);
+        if (!now_.is_reached(first_, d, a)) break;
+        now_.cut({d, part_.arc, note.other, part_.start, a, part_.end}, note.ends);
+        part_.start = a;
+        first_ = now_.first_value(part_);
         break;
     }
   }
 }
 
 template <class Content, class Graph>
-void DeferredChanges<Content, Graph>::prefetch(const std::vector<ArcNote>& notes, std::size_t at) const {
+void DeferredChanges<Content, Graph>::prefetch(std::size_t at) const {
   constexpr std::size_t kPlace = 40, kContent = 16;  // notes ahead
-  if (at + kPlace < notes.size()) {
-    const ArcNote& note = notes[at + kPlace];
+  if (at + kPlace < applied_.size()) {
+    const ArcNote& note = applied_[at + kPlace];
     for (const ArcId arc : {note.arc, note.other})
       if (arc != ArcId::none()) now_.prefetch_place(arc);
     for (const NodeId node : note.nodes)
       if (node != NodeId::none()) now_.prefetch_node(node);
   }
-  if (at + kContent < notes.size()) {
-    const ArcNote& note = notes[at + kContent];
+  if (at + kContent < applied_.size()) {
+    const ArcNote& note = applied_[at + kContent];
     for (const ArcId arc : {note.arc, note.other})
       if (arc != ArcId::none()) now_.prefetch_content(arc);
   }

@@ -111,6 +111,38 @@ TEST(PackedLists, ListsStayWhatTheyAreWhileOthersAreReplaced) {
   }
 }
 
+// So that another thread can read them: neither a list that is replaced moves, nor one that stays.
+TEST(PackedLists, NothingMovesWhileListsAreHeld) {
+  test::Random random(5);
+  std::vector<std::vector<Bucket>> plain;
+  PackedLists lists;
+  for (std::uint32_t arc = 0; arc < 3000; ++arc) lists.add(plain.emplace_back(random_list(random, 40)));
+  std::vector<std::byte> packed;
+  for (int turn = 0; turn < 20; ++turn) {
+    std::vector<std::span<const std::byte>> before;
+    for (std::uint32_t arc = 0; arc < 3000; ++arc) before.push_back(lists.of(arc));
+    const std::vector<std::vector<Bucket>> expected = plain;
+    constexpr std::uint32_t kReplaced = 1000;
+    lists.hold(kReplaced);
+    EXPECT_FALSE(lists.holds_much());
+    for (std::uint32_t i = 0; i < kReplaced; ++i) {
+      const std::uint32_t arc = 1000 + test::below(random, 2000);
+      plain[arc] = random_list(random, 400);
+      packed.clear();
+      pack_buckets(plain[arc], packed);
+      lists.replace(arc, packed);
+      lists.collect();
+    }
+    EXPECT_TRUE(lists.holds_much());
+    for (std::uint32_t arc = 0; arc < 1000; ++arc) ASSERT_EQ(lists.of(arc).data(), before[arc].data()) << arc;
+    for (std::uint32_t arc = 0; arc < 3000; ++arc) ASSERT_EQ(unpacked(before[arc]), expected[arc]) << arc;
+    const std::uint64_t held = lists.memory_bytes();
+    lists.release();
+    EXPECT_LT(lists.memory_bytes(), held);
+    for (std::uint32_t arc = 0; arc < 3000; ++arc) ASSERT_EQ(unpacked(lists.of(arc)), plain[arc]) << arc;
+  }
+}
+
 TEST(PackedLists, TheMostThatItHoldsIsTrue) {
   test::Random random(1);
   for (const std::uint32_t most : {1u, 8u, 700u, 3000u}) {

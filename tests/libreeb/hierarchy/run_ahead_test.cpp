@@ -58,10 +58,10 @@ void rules_last(const std::function<void()>& here, const std::function<void()>& 
 }
 
 // From "each pair waits" to "no pair waits".
-const RunAhead kAhead[] = {{.notes = 1, .arcs_of_path = 0, .pairs_in_turn = 0},
-                           {.notes = 6, .arcs_of_path = 1, .pairs_in_turn = 1},
-                           {.notes = 40, .arcs_of_path = 2, .pairs_in_turn = 3},
-                           {.notes = 8192, .arcs_of_path = 3, .pairs_in_turn = 0},
+const RunAhead kAhead[] = {{.notes = 1, .arcs_of_path = 0},
+                           {.notes = 6, .arcs_of_path = 1},
+                           {.notes = 40, .arcs_of_path = 2},
+                           {.notes = 8192, .arcs_of_path = 3},
                            {}};
 
 class RunsAhead : public testing::TestWithParam<std::uint32_t> {};
