@@ -22,6 +22,7 @@ class CMakeBuild(build_ext):
             *(["-GNinja"] if shutil.which("ninja") else []),
             "-DCMAKE_BUILD_TYPE=Release",
             "-DREEB_PYTHON=ON",
+            "-DREEB_JOIN_SOURCES=ON",
             f"-DPython3_EXECUTABLE={sys.executable}",
             *(f"-DREEB_{part}=OFF" for part in ("WEB", "TESTS", "BENCH", "INSTALL")),
             *shlex.split(os.environ.get("CMAKE_ARGS", "")),

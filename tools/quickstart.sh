@@ -15,7 +15,7 @@ set -euo pipefail
 
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 out=$here/build/quickstart
-reeb=$out/cmake/tools/reeb
+reeb=$here/build/install/tools/reeb
 
 case ${1:-} in
   -h | --help) sed -n '2,15s/^# \{0,1\}//p' "$0"; exit 0 ;;
@@ -39,11 +39,11 @@ timed() {  # timed WHAT COMMAND...: runs it and says how long it took
     $(((end - start) / 10000000 % 100))
 }
 
-build_program() {
-  cmake -S "$here" -B "$out/cmake" -G Ninja -DCMAKE_BUILD_TYPE=Release -DREEB_TESTS=OFF \
-    -DREEB_BENCH=OFF >"$out/configure-log.txt" 2>&1 || { cat "$out/configure-log.txt"; return 1; }
-  cmake --build "$out/cmake" --target reeb_program
-}
+build_program() (
+  cd "$here"
+  cmake --preset install >"$out/configure-log.txt" 2>&1 || { cat "$out/configure-log.txt"; return 1; }
+  cmake --build --preset install --target reeb_program
+)
 
 # The package is 36 MB and would install hundreds: take only the file that is needed.
 fetch_motorbike() {
