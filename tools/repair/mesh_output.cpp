@@ -67,6 +67,9 @@ std::vector<std::string> lost_properties(const io::Input& input, const MeshInfo&
   std::vector<std::string> lines;
   if (!vertices.empty()) lines.push_back("properties of vertices are dropped: " + vertices);
   if (!faces.empty()) lines.push_back("properties of faces are dropped: " + faces);
+  if (info.format == "OBJ")
+    lines.push_back(
+        "of an OBJ file, vertices and faces are written: no normals, texture coordinates, colours or groups");
   return lines;
 }
 

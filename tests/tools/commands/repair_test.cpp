@@ -479,6 +479,14 @@ TEST_F(RepairTest, KeepsTheSignOfZeros) {
   EXPECT_EQ(count(ply("e.ply")), 0u);
 }
 
+TEST_F(RepairTest, SaysWhatAnObjFileLoses) {
+  write("a.obj", "v 0 0 0 1 0 0\nv 1 0 0 1 0 0\nv 0 1 0 1 0 0\nvn 0 0 1\nf 1//1 2//1 3//1\n");
+  const Outcome outcome = reeb({"repair", "a.obj", "-o", "b.obj", "--drop-degenerate"});
+  expect_success(outcome);
+  EXPECT_NE(outcome.error.find("no normals, texture"), std::string::npos) << outcome.error;
+  EXPECT_EQ(file("b.obj").find("vn"), std::string::npos);
+}
+
 TEST_F(RepairTest, LeavesNothingHalfWrittenWhenItIsKilled) {
   expect_success(reeb({"generate", "scan", "--triangles", "30k", "-o", "s.ply"}));
   const std::vector<std::string> words = {"repair", "s.ply",  "-o",     "r.ply",   "--all",  "--log",
