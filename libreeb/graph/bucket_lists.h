@@ -83,8 +83,8 @@ class BasicArcBucketLists {
   // The list of the arc at the last close(), packed.
   std::span<const std::byte> closed(ArcId arc) const { return packed_.of(arc.value()); }
 
-  // Between these, one thread may change lists while another one reads closed() of other arcs. REQUIRES: at most this
-  // many lists are opened in between.
+  // Between hold() and release(), one thread may change lists while another one reads closed() of other arcs. REQUIRES:
+  // at most this many lists are opened in between.
   void hold(std::size_t opened) { packed_.hold(opened_.size() + opened); }
   void release() { packed_.release(); }
 

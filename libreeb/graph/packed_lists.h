@@ -53,12 +53,12 @@ class PackedLists {
   void collect();
 
   // From now on collect() does nothing. REQUIRES: at most this many lists are replaced before release(), which
-  // collects. MEMORY: kHeldBytes for each; they stay until the next time.
+  // collects. MEMORY: kHeldBytes for each, about. This memory is kept for the next hold().
   static constexpr std::size_t kHeldBytes = 28;
   void hold(std::size_t replaced);
   void release();
-  // Whether so much could be collected that it is time for release(): about a 128th of the memory.
-  bool holds_much() const { return held_bytes_ > kChunkBytes + chunk_bytes_ / 128; }
+  // Whether replaced lists take so much memory, 64 KiB and a 32nd of all, that it is time for release().
+  bool holds_much() const { return is_held_ && held_bytes_ > kChunkBytes + chunk_bytes_ / 32; }
 
  private:
   static constexpr std::size_t kChunkBytes = 64 << 10;
@@ -71,6 +71,7 @@ class PackedLists {
     std::uint32_t room = 0, used = 0, live = 0;
     bool is_due = false;  // to be abandoned
   };
+  static_assert(kHeldBytes == sizeof(Chunk) + sizeof(std::uint32_t));  // an entry of chunks_ and of free_
   // A list and the number of its arc, as stored in a chunk.
   struct Block {
     std::uint32_t arc;

@@ -15,11 +15,11 @@ namespace reeb {
 // TIME: start() reads the list; each bucket is passed once.
 class RemainingBuckets {
  public:
-  // Of a packed list of this exponent, whose arc spans the values from `start` in direction d to `end`.
+  // Copies a packed list of this exponent, whose arc spans the values from `start` in direction d to `end`.
   void start(Direction d, double start, double end, std::span<const std::byte> packed, int exponent);
   bool empty() const { return buckets_.empty(); }
 
-  // Removes what BasicArcBucketLists::cut() would move from the arc at this value, where the arc starts then.
+  // Removes what BasicArcBucketLists::cut() would move from the arc at this value. The arc starts there afterwards.
   void cut(double at);
   // As BasicArcBucketLists::first_value(). REQUIRES: !empty().
   double first_value() const;

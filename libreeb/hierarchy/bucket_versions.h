@@ -57,8 +57,8 @@ class BucketVersions {
     if (first == kNever || first == -kNever) return false;  // without a look at the node
     return d == kUp ? value(node) >= first : value(node) <= first;
   }
-  // The same without lists that are changed: of a copy of the content before this step, and, for each part of the arc
-  // that is left by a cut, of what that leaves of the copy.
+  // first_value() for the thread of the rules, which must not look at open lists. start_rest() copies the content
+  // before this step. A later call first cuts the copy at the start of the part.
   struct Rest {
     RemainingBuckets buckets;
     NodeId start;

@@ -82,34 +82,29 @@ void cancel_ahead(const ReebGraph& graph, Canceller& canceller, Hierarchy& hiera
   Cancelling pairs(graph, canceller, hierarchy);
   changes.set_limits(limits, canceller.graph().end_arc().value());
   const auto apply = [&] { changes.apply(); };
-  const auto apply_all = [&](const std::function<void()>& meanwhile) {
-    do {
-      changes.hold();
-      both(apply, meanwhile);
-      changes.release();
-    } while (!changes.all_applied());
-  };
   const auto run_ahead = [&] {
     if (canceller.is_paused()) canceller.resume(pairs.last());
     while (!pairs.is_over() && !canceller.is_paused() && !changes.is_full()) pairs.cancel_next();
   };
-  const auto nothing = [] {};
   changes.set_defers(true);
   while (!pairs.is_over() || canceller.is_paused()) {
     if (poll) poll(pairs.done());
-    apply_all(run_ahead);
+    changes.hold();
+    both(apply, run_ahead);
+    changes.release();
+    changes.apply();  // what is left, if it stopped early
     const bool can_note = changes.has_notes();
     changes.hand_over();
     if (!canceller.is_paused()) continue;
     // What it waits for.
-    apply_all(nothing);
+    changes.apply();
     changes.hand_over();
     if (can_note) continue;
     changes.set_defers(false);
     canceller.resume(pairs.last());
     changes.set_defers(true);
   }
-  apply_all(nothing);
+  changes.apply();
   changes.set_defers(false);
   canceller.finish();
 }

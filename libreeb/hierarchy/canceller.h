@@ -44,7 +44,7 @@ class Canceller {
   }
 
   bool is_paused() const { return pause_ != Pause::kNone; }
-  // Continues with the pair that paused, which might pause again. It does not if nothing is deferred.
+  // Continues with the pair that paused, which might pause again. It cannot pause while changes are not deferred.
   // REQUIRES: what was deferred is done.
   void resume(const PersistencePair& pair) {
     const Pause pause = std::exchange(pause_, Pause::kNone);

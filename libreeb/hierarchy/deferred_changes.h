@@ -2,8 +2,8 @@
 //
 // WHY. With an embedding, about half of the time of cancelling goes into lists of buckets and into records. The rules
 // do not need them, but for one thing: how far a long path next to an arc can be followed at once depends on the
-// content of the arc. So a short path is noted arc by arc. For a long one the content is read at once, which is
-// possible unless something that was noted changes it.
+// content of the arc. So a short path is noted arc by arc. For a long one the rules read the content themselves. They
+// wait if a change of it was noted that might not be made yet.
 #pragma once
 
 #include <algorithm>
@@ -21,7 +21,7 @@ namespace reeb {
 // How far the rules run ahead. The results do not depend on it. REQUIRES: notes > 0.
 struct RunAhead {
   std::size_t notes = 2048;       // in a list, about
-  std::size_t arcs_of_path = 24;  // a longer path is long
+  std::size_t arcs_of_path = 24;  // a path of more arcs is long
 
   // The lists of a small graph are small.
   static RunAhead for_arcs(std::uint64_t arcs) {
@@ -30,9 +30,9 @@ struct RunAhead {
     return ahead;
   }
 
-  // No list gets longer than this. What needs more notes is not noted.
+  // No list gets longer than this. A path or loop that needs more waits, and then is not deferred.
   std::size_t most_notes() const { return 8 * notes + arcs_of_path + 2 * kNotesBetween; }
-  // More than are noted from one path or loop to the next.
+  // Between two paths or loops there are fewer notes than this.
   static constexpr std::size_t kNotesBetween = 32;
 };
 
@@ -51,8 +51,9 @@ struct ArcNote {
 
 // While it defers, its functions only note what they were called for.
 //
-// MEMORY: ArcChanges, a list of notes, and 2 bytes per arc.
-// THREADS: while it defers, and between hold() and release(), one thread may call apply() and another one note changes.
+// MEMORY: ArcChanges, with what is held; two lists of notes, and 8 bytes per note of a step; 2 bytes per arc.
+// THREADS: while it defers, and between hold() and release(), one thread may call apply() and another one note changes
+//          and read the content of an arc for a long path.
 template <class ContentKind, class Graph>
 class DeferredChanges {
  public:
@@ -77,16 +78,14 @@ class DeferredChanges {
   bool is_full() const { return notes_.size() >= limits_.notes; }
   bool has_notes() const { return !notes_.empty(); }
 
-  // Takes the notes since the last call as those that are to be applied. REQUIRES: all_applied().
+  // Takes the notes since the last call as those that are to be applied. REQUIRES: those before were applied.
   void hand_over() {
     applied_.clear();
     next_ = 0;
     std::swap(applied_, notes_);
     ++list_;
   }
-  bool all_applied() const { return next_ == applied_.size(); }
-  // Does what the notes say that were handed over, or a part of it. While it is held, lists can be read; their memory
-  // is not used again.
+  // Does what the notes say that were handed over. While it is held, it stops early if much is held.
   void apply();
   void hold() { now_.content().hold(applied_.size() - next_); }
   void release() { now_.content().release(); }
@@ -98,31 +97,37 @@ class DeferredChanges {
   }
   void cut(const ArcCut& cut, const ArcEnds& ends_of_into) {
     if (!defers_) return now_.cut(cut, ends_of_into);
-    note_content(cut.from, cut.into);
+    note_content(cut.from);
+    note_content(cut.into);
     const std::array nodes{cut.start, cut.node, cut.end};
     notes_.push_back({Kind::kCut, cut.direction, cut.from, cut.into, nodes, ends_of_into});
   }
   void merge(ArcId from, ArcId into, const ArcEnds& ends_of_into) {
     if (!defers_) return now_.merge(from, into, ends_of_into);
-    note_content(from, into);
+    note_content(from);
+    note_content(into);
     notes_.push_back({.kind = Kind::kMerge, .arc = from, .other = into, .ends = ends_of_into});
   }
   void join(ArcId upper, ArcId lower, NodeId node) {
     if (!defers_) return now_.join(upper, lower, node);
-    note_content(upper, lower);
+    note_content(upper);
+    note_content(lower);
     notes_.push_back({.kind = Kind::kJoin, .arc = upper, .other = lower, .nodes = {node, kNoNode, kNoNode}});
   }
   void lay(ArcId arc, ArcId other, NodeId extremum, Direction d, const ArcEnds& ends_of_other) {
     if (!defers_) return now_.lay(arc, other, extremum, d, ends_of_other);
-    note_content(arc, other);
+    note_content(arc);
+    note_content(other);
     notes_.push_back({Kind::kLay, d, arc, other, {extremum, kNoNode, kNoNode}, ends_of_other});
   }
   void drop(ArcId arc, std::uint32_t nodes) {
     if (!defers_) return now_.drop(arc, nodes);
-    note_content(arc, arc);
+    note_content(arc);
     notes_.push_back({.kind = Kind::kDrop, .arc = arc, .count = nodes});
   }
   void commit() {
+    for (const ArcId arc : changed_) noted_in_[arc.value()] = list_;
+    changed_.clear();
     if (!defers_) return now_.commit();
     notes_.push_back({.kind = Kind::kCommit});
   }
@@ -143,7 +148,7 @@ class DeferredChanges {
   // Notes a path next to a part of an arc: first the part, and then each arc that is passed. Each of these takes what
   // it can of the content of the part.
   void begin_path(const ArcPart& part) {
-    path_ = notes_.size();
+    start_path();
     notes_.push_back(
         {.kind = Kind::kPath, .direction = part.direction, .arc = part.arc, .nodes = {part.start, part.end, kNoNode}});
   }
@@ -153,23 +158,27 @@ class DeferredChanges {
     notes_.push_back(
         {.kind = Kind::kPass, .direction = d, .other = arc, .nodes = {end, kNoNode, kNoNode}, .ends = ends});
   }
+  // To be called unless it is forgotten.
   void end_path() {
     if (notes_.size() == path_ + 1) return forget_path();
-    note_content(notes_[path_].arc, notes_[path_].arc);
-    for (std::size_t i = path_ + 1; i < notes_.size(); ++i) note_content(notes_[i].other, notes_[i].other);
+    note_content(notes_[path_].arc);
+    for (std::size_t i = path_ + 1; i < notes_.size(); ++i) note_content(notes_[i].other);
   }
 
   // Reads the content of the arc, for first_value(): then the cuts of a long path are noted one by one. False if the
   // content depends on what might not be applied yet. REQUIRES: this step did not change it.
   bool begin_long_path(const ArcPart& part) {
-    path_ = notes_.size();
+    start_path();
     if (static_cast<std::uint16_t>(list_ - noted_in_[part.arc.value()]) < 2) return false;
     now_.content().start_rest(part, rest_);
     return true;
   }
 
   // Forgets the path that was begun last.
-  void forget_path() { notes_.resize(path_); }
+  void forget_path() {
+    notes_.resize(path_);
+    changed_.resize(changed_before_path_);
+  }
 
   // For the thread of the rules. While it defers, apply() prefetches what it needs itself.
   void prefetch_node(NodeId node) const {
@@ -192,7 +201,11 @@ class DeferredChanges {
   bool has_room_for(std::size_t notes) const {
     return notes_.size() + notes + RunAhead::kNotesBetween <= limits_.most_notes();
   }
-  void note_content(ArcId a, ArcId b) { noted_in_[a.value()] = noted_in_[b.value()] = list_; }
+  void start_path() {
+    path_ = notes_.size();
+    changed_before_path_ = changed_.size();
+  }
+  void note_content(ArcId arc) { changed_.push_back(arc); }
   void prefetch(std::size_t at) const;
 
   ArcChanges<Content, Graph> now_;
@@ -200,10 +213,12 @@ class DeferredChanges {
   std::size_t next_ = 0;          // in applied_
   ArcPart part_{};                // of the path that is applied
   double first_ = 0;
-  alignas(64) std::vector<ArcNote> notes_;  // not next to what the other thread changes
-  std::size_t path_ = 0;                    // the first note of the last path
-  // Lists of notes are numbered, modulo 2^16. What the last two say might not be applied yet.
-  std::vector<std::uint16_t> noted_in_;  // by arc: the last list with a change of its content
+  alignas(64) std::vector<ArcNote> notes_;          // not next to what the other thread changes
+  std::size_t path_ = 0, changed_before_path_ = 0;  // the first note of the last path; changed_ before it
+  // Lists of notes are numbered, modulo 2^16. What the last two say might not be applied yet. The content of an arc is
+  // replaced when the step ends that changes it, whose notes may be in several lists.
+  std::vector<ArcId> changed_;           // by this step; some more than once
+  std::vector<std::uint16_t> noted_in_;  // by arc: the list with the end of the last step that changed its content
   std::uint16_t list_ = 2;
   typename Content::Rest rest_;  // of a long path
   RunAhead limits_;
