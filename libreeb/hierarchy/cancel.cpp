@@ -93,13 +93,13 @@ void cancel_ahead(const ReebGraph& graph, Canceller& canceller, Hierarchy& hiera
     both(apply, run_ahead);
     changes.release();
     changes.apply();  // what is left, if it stopped early
-    const bool can_note = changes.has_notes();
+    const bool noted_any = changes.has_notes();
     changes.hand_over();
     if (!canceller.is_paused()) continue;
-    // What it waits for.
+    // What it waits for. If nothing was noted before it paused, then noting cannot help.
     changes.apply();
     changes.hand_over();
-    if (can_note) continue;
+    if (noted_any) continue;
     changes.set_defers(false);
     canceller.resume(pairs.last());
     changes.set_defers(true);
