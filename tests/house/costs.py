@@ -1,11 +1,11 @@
-"""Counts the instructions of fixed small runs with one thread (callgrind), the most that they allocate at a time (massif)
-and their peak memory, and compares them with those recorded in costs.json.
+"""Counts the instructions of fixed small runs with one thread (callgrind), the most that they allocate at a time
+(massif) and their peak memory, and compares them with those recorded in costs.json.
 
     costs.py REEB [--compiler C++] [--record]
 
-More than 5 % above the record, and for peak memory half a MiB in addition, is a failure, if the record was made with the
-same compiler and libraries. With others the figures are only reported. --record writes the present figures; do that in
-the commit that changes them, and say in its message why they grew."""
+More than 5 % above the record, and for peak memory half a MiB in addition, is a failure, if the record was made with
+the same compiler and libraries. With others the figures are only reported. --record writes the present figures; do that
+in the commit that changes them, and say in its message why they grew."""
 import argparse
 import json
 import os
