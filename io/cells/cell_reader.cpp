@@ -65,7 +65,7 @@ class CellReader final : public BatchReader {
     return input_->memory_bytes() + (selection_ ? selection_->memory_bytes() : 0);
   }
   std::vector<std::string> warnings() const override {
-    auto lines = input_->warnings();
+    std::vector<std::string> lines;
     const std::uint64_t dropped = selection_ ? selection_->node_count() - selection_->kept_count() : 0;
     if (dropped != 0)
       lines.push_back(count_of(dropped, "node") + " of higher-order cells, which " +

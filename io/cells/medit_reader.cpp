@@ -91,9 +91,10 @@ MeditIndex read_index(const ContentSource& content) {
     if (keyword == "MeshVersionFormatted") {
       read_version(text, index.info);
     } else if (keyword == "Dimension") {
-      index.info.dimension = static_cast<unsigned>(read_count(text));
-      if (index.info.dimension != 2 && index.info.dimension != 3)
-        text.fail("the file is of dimension " + std::to_string(index.info.dimension), "2 and 3 are read");
+      const std::uint64_t given = read_count(text);
+      if (dimension) text.fail("the file has two dimensions", kDamagedHint);
+      if (given != 2 && given != 3) text.fail("the file is of dimension " + std::to_string(given), "2 and 3 are read");
+      index.info.dimension = static_cast<unsigned>(given);
       dimension = true;
     } else if (keyword == "Vertices" || cells != std::end(kCells)) {
       MeditSection section;

@@ -1,8 +1,8 @@
 #include "io/cells/point_array.h"
 
 #include <algorithm>
-#include <charconv>
 
+#include "io/text/words.h"
 #include "libreeb/base/error.h"
 
 namespace reeb::io {
@@ -27,12 +27,9 @@ PointColumn find_point_column(std::span<const PointArray> arrays, const std::str
   for (std::size_t i = 0; i < arrays.size(); ++i)
     if (arrays[i].name == property && arrays[i].components == 1) return {i, 0};
   if (const std::size_t colon = property.rfind(':'); colon != std::string::npos) {
-    std::uint64_t component = 0;
-    const char* const end = property.data() + property.size();
-    const auto parsed = std::from_chars(property.data() + colon + 1, end, component);
-    const bool number = parsed.ec == std::errc{} && parsed.ptr == end;
-    for (std::size_t i = 0; number && i < arrays.size(); ++i)
-      if (arrays[i].name == property.substr(0, colon) && component < arrays[i].components) return {i, component};
+    const auto component = whole_number<std::uint64_t>(std::string_view(property).substr(colon + 1));
+    for (std::size_t i = 0; component && i < arrays.size(); ++i)
+      if (arrays[i].name == property.substr(0, colon) && *component < arrays[i].components) return {i, *component};
   }
   std::string hint = "choose a property that the mesh has, a coordinate, or file:PATH";
   for (const PointArray& array : arrays)

@@ -1,25 +1,18 @@
 #include "io/functions/function_spec.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <optional>
 #include <utility>
 
 #include "io/text/text_cursor.h"
+#include "io/text/words.h"
 #include "libreeb/base/error.h"
 
 namespace reeb::io {
 namespace {
 
 using Kind = FunctionSpec::Kind;
-
-std::optional<std::uint64_t> whole_number(std::string_view text) {
-  std::uint64_t value = 0;
-  const auto parsed = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (parsed.ec != std::errc{} || parsed.ptr != text.data() + text.size()) return std::nullopt;
-  return value;
-}
 
 // "1,2,3": `read` reads each part. Nothing if one is not as it should be.
 template <class T, class Read>
@@ -42,7 +35,7 @@ std::optional<double> finite_number(std::string_view text) {
 }
 
 std::optional<FunctionSpec> parse_distance(std::string_view argument, FunctionSpec spec) {
-  if (const auto vertex = whole_number(argument)) {
+  if (const auto vertex = whole_number<std::uint64_t>(argument)) {
     spec.kind = Kind::kDistanceToVertex;
     spec.number = *vertex;
     return spec;
@@ -72,7 +65,7 @@ std::optional<FunctionSpec> try_parse(std::string_view text) {
   if (text == "index") return numbered(Kind::kIndex, 0);
   if (text == "spectral") return numbered(Kind::kLaplacian, 1);
   if (text.starts_with('c')) {
-    const auto coordinate = whole_number(text.substr(1));
+    const auto coordinate = whole_number<std::uint64_t>(text.substr(1));
     return coordinate ? std::optional(numbered(Kind::kCoordinate, *coordinate)) : std::nullopt;
   }
   const std::size_t colon = text.find(':');
@@ -86,13 +79,13 @@ std::optional<FunctionSpec> try_parse(std::string_view text) {
   }
   if (name == "distance") return parse_distance(argument, std::move(spec));
   if (name == "geodesic") {
-    const auto vertices = list_of<std::uint64_t>(argument, whole_number);
+    const auto vertices = list_of<std::uint64_t>(argument, whole_number<std::uint64_t>);
     if (!vertices) return std::nullopt;
     spec.kind = Kind::kGeodesic;
     spec.vertices = *vertices;
     return spec;
   }
-  const auto number = whole_number(argument);
+  const auto number = whole_number<std::uint64_t>(argument);
   if (!number) return std::nullopt;
   if (name == "value") {
     spec.argument = *number == 0 ? "value" : text;

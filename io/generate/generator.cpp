@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <utility>
 
 #include "io/generate/ball.h"
@@ -10,6 +9,7 @@
 #include "io/generate/shape.h"
 #include "io/generate/sierpinski.h"
 #include "io/generate/surfaces.h"
+#include "io/text/words.h"
 #include "libreeb/base/error.h"
 
 namespace reeb::io {
@@ -49,10 +49,9 @@ template <class Table>
 
 // Sets `count` if the text is a number from 1 on.
 bool read_count(std::string_view text, std::uint64_t& count) {
-  std::uint64_t value = 0;
-  const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (problem != std::errc() || end != text.data() + text.size() || value == 0) return false;
-  count = value;
+  const auto value = whole_number<std::uint64_t>(text);
+  if (!value || *value == 0) return false;
+  count = *value;
   return true;
 }
 

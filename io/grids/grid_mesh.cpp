@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <span>
 #include <string>
 #include <utility>
@@ -104,6 +105,7 @@ class GridMesh : public MeshReader {
   bool add_vertices(MeshBatch& batch);
   bool read_values();
   void advance(std::size_t vertices);
+  std::span<std::uint64_t> next_numbers(std::size_t count);
   std::uint64_t slice_of_vertex() const { return vertex_ / slices_.vertices(); }
   bool is_skipped(std::size_t at) const;
   void add_columns(MeshBatch& batch, std::size_t count);
@@ -169,7 +171,6 @@ void GridMesh::choose_simplices() {
   simplices_ = grid_simplices(axes, skips_ ? 2 : std::max<std::size_t>(corners, 2));
   if (!skips_) return;
   for (const GridSimplex& simplex : simplices_) cofaces_.push_back(steps_to_cofaces(simplex, axes));
-  for (auto& slice : numbers_) slice.assign(slices_.vertices(), kSkipped);
 }
 
 std::vector<std::string> GridMesh::warnings() const {
@@ -217,7 +218,7 @@ bool GridMesh::add_vertices(MeshBatch& batch) {
   }
   if (skips_ && is_skipped(taken_)) {
     if (batch.vertex_count != 0 && !renumbers_) return false;
-    numbers_[slice_of_vertex() % 3][in_slice_] = kSkipped;
+    next_numbers(1)[0] = kSkipped;
     ++skipped_;
     advance(1);
     if (!renumbers_) next_number_ = vertex_;
@@ -228,8 +229,10 @@ bool GridMesh::add_vertices(MeshBatch& batch) {
   if (!vertices_only_) most = std::min(most, slices_.vertices() - in_slice_);
   std::size_t count = 1;
   while (count < most && !(skips_ && is_skipped(taken_ + count))) ++count;
-  if (skips_)
-    for (std::size_t i = 0; i < count; ++i) numbers_[slice_of_vertex() % 3][in_slice_ + i] = next_number_ + i;
+  if (skips_) {
+    const std::span<std::uint64_t> numbers = next_numbers(count);
+    std::iota(numbers.begin(), numbers.end(), next_number_);
+  }
   add_columns(batch, count);
   batch.vertex_count += count;
   next_number_ += count;
@@ -250,6 +253,16 @@ void GridMesh::advance(std::size_t vertices) {
   taken_ += vertices;
   vertex_ += vertices;
   in_slice_ += vertices;
+}
+
+// Of the next vertices. The slice grows as values arrive, since a header can announce a slice of any size.
+std::span<std::uint64_t> GridMesh::next_numbers(std::size_t count) {
+  std::vector<std::uint64_t>& slice = numbers_[slice_of_vertex() % 3];
+  const std::uint64_t end = in_slice_ + count;
+  if (slice.capacity() < end)
+    slice.reserve(std::min(std::max<std::uint64_t>(2 * slice.capacity(), end), slices_.vertices()));
+  if (slice.size() < end) slice.resize(end);
+  return std::span(slice).subspan(in_slice_, count);
 }
 
 bool GridMesh::is_skipped(std::size_t at) const {

@@ -63,10 +63,13 @@ class Header {
     if (name == "objecttype") {
       if (lower_case(value) != "image") text_.fail(value, "this is not an image but " + quoted(value), "name an image");
     } else if (name == "ndims") {
+      // The lists of numbers are as long as the first one says.
+      if (dimensions_ != 0) text_.fail(value, "NDims is given twice", kHint);
       dimensions_ = text_.count(value, "number of dimensions");
       if (dimensions_ != 2 && dimensions_ != 3)
         text_.fail(value, "the image has " + count_of(dimensions_, "axis"), "images with 2 and 3 axes are read");
     } else if (name == "dimsize") {
+      if (!sizes_.empty()) text_.fail(value, "DimSize is given twice", kHint);
       for (const std::string_view word : words(value, 1)) sizes_.push_back(text_.count(word, "size"));
     } else if (name == "elementtype") {
       take_type(value);

@@ -1,11 +1,10 @@
 #include "io/images/numpy.h"
 
 #include <algorithm>
-#include <charconv>
-#include <system_error>
 
 #include "io/images/header_text.h"
 #include "io/mesh/scalar_bytes.h"
+#include "io/text/words.h"
 #include "libreeb/base/error.h"
 
 namespace reeb::io {
@@ -88,11 +87,9 @@ class Header {
       std::string_view word = without_blanks(left.substr(0, comma));
       left.remove_prefix(std::min(comma + 1, left.size()));
       if (word.ends_with('L')) word.remove_suffix(1);  // of Python 2
-      std::uint64_t size = 0;
-      const auto parsed = std::from_chars(word.data(), word.data() + word.size(), size);
-      if (parsed.ec != std::errc{} || parsed.ptr != word.data() + word.size())
-        fail(word, "the shape has " + quoted(word) + ", which is not a size", kHint);
-      header.shape.push_back(size);
+      const auto size = whole_number<std::uint64_t>(word);
+      if (!size) fail(word, "the shape has " + quoted(word) + ", which is not a size", kHint);
+      header.shape.push_back(*size);
     }
     const std::string_view order = value("fortran_order");
     if (!order.starts_with("True") && !order.starts_with("False")) fail(order, "neither True nor False", kHint);

@@ -1,10 +1,9 @@
 #include "io/images/raw_grid.h"
 
-#include <charconv>
 #include <cmath>
-#include <system_error>
 
 #include "io/text/text_cursor.h"
+#include "io/text/words.h"
 #include "libreeb/base/error.h"
 
 namespace reeb::io {
@@ -42,18 +41,20 @@ void parse_type(const std::string& text, RawGrid& raw) {
   raw.type = *type;
 }
 
+[[noreturn]] void refuse_size(const std::string& grid) {
+  refuse("--grid \"" + grid + "\" is not the size of a grid", "for example --grid 512x512 or --grid 256x256x100");
+}
+
 }  // namespace
 
 std::vector<std::uint64_t> parse_grid_size(const std::string& grid) {
   std::vector<std::uint64_t> size;
   for (const std::string_view word : split(grid, 'x')) {
-    std::uint64_t count = 0;
-    const auto parsed = std::from_chars(word.data(), word.data() + word.size(), count);
-    if (parsed.ec != std::errc{} || parsed.ptr != word.data() + word.size() || count == 0) size.resize(4);
-    size.push_back(count);
+    const auto count = whole_number<std::uint64_t>(word);
+    if (!count || *count == 0) refuse_size(grid);
+    size.push_back(*count);
   }
-  if (size.size() != 2 && size.size() != 3)
-    refuse("--grid \"" + grid + "\" is not the size of a grid", "for example --grid 512x512 or --grid 256x256x100");
+  if (size.size() != 2 && size.size() != 3) refuse_size(grid);
   std::uint64_t room = kMostGridValues;
   for (const std::uint64_t count : size) {
     if (count > room)

@@ -2,17 +2,16 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <optional>
-#include <system_error>
 
 #include "io/decoding/base64_input.h"
 #include "io/decoding/vtk_data.h"
 #include "io/decoding/vtk_xml.h"
 #include "io/images/header_text.h"
 #include "io/text/text_cursor.h"
+#include "io/text/words.h"
 #include "io/text/xml_parser.h"
 #include "libreeb/base/count_text.h"
 #include "libreeb/base/error.h"
@@ -242,10 +241,10 @@ std::array<std::int64_t, 6> Header::extent(const std::string& text) const {
   std::array<std::int64_t, 6> result{};
   bool good = words.size() == 6;
   for (std::size_t i = 0; good && i < 6; ++i) {
-    const char* const end = words[i].data() + words[i].size();
-    const auto parsed = std::from_chars(words[i].data(), end, result[i]);
     constexpr std::int64_t kLargest = std::int64_t{1} << 60;
-    good = parsed.ec == std::errc{} && parsed.ptr == end && -kLargest < result[i] && result[i] < kLargest;
+    const auto number = whole_number<std::int64_t>(words[i]);
+    good = number && -kLargest < *number && *number < kLargest;
+    result[i] = number.value_or(0);
   }
   if (!good) xml_.fail("an extent is not 6 integers", kHint);
   for (std::size_t k = 0; k < 6; k += 2)
@@ -260,11 +259,8 @@ void Header::take_storage(Image& image, std::size_t number) {
     throw Error(ErrorKind::kBadInput, what, kHint).at(source_.name(), std::to_string(array.line) + ":1");
   };
   if (!type) refuse("values of type " + quoted(array.type) + " are not read");
-  unsigned components = 1;
-  const char* const end = array.components.data() + array.components.size();
-  const auto parsed = std::from_chars(array.components.data(), end, components);
-  if (!array.components.empty() && (parsed.ec != std::errc{} || parsed.ptr != end || components - 1 > 4095))
-    refuse("the array has " + quoted(array.components) + " components; 1 to 4,096 are read");
+  const unsigned components = array.components.empty() ? 1 : whole_number<unsigned>(array.components).value_or(0);
+  if (components - 1 > 4095) refuse("the array has " + quoted(array.components) + " components; 1 to 4,096 are read");
   image.info.components = components;
   std::array<std::uint64_t, 3> sizes{};
   for (std::size_t k = 0; k < 3; ++k) sizes[k] = static_cast<std::uint64_t>(extent_[2 * k + 1] - extent_[2 * k]) + 1;
@@ -296,15 +292,12 @@ void Header::take_storage(Image& image, std::size_t number) {
     };
     return;
   }
-  std::uint64_t offset = 0;
-  const char* const offset_end = array.offset.data() + array.offset.size();
-  const auto place = std::from_chars(array.offset.data(), offset_end, offset);
-  if (place.ec != std::errc{} || place.ptr != offset_end || offset >> 60 != 0)
-    refuse("the array has no valid offset in the appended data");
+  const auto offset = whole_number<std::uint64_t>(array.offset);
+  if (!offset || *offset >> 60 != 0) refuse("the array has no valid offset in the appended data");
   if (!appended_) refuse("the file has no appended data");
   const AppendedData data = find_appended_data(source_, xml_, *appended_);
   viewed_ = data.view_offset;
-  image.offset = data.offset + offset;
+  image.offset = data.offset + *offset;
   if (!base64 && kind.packing == BlockPacking::kNone) image.first_value = image.offset + (kind.wide_head ? 8 : 4);
   image.open_bytes = [begin = image.offset, base64, kind](std::unique_ptr<ContentSource> source) {
     std::unique_ptr<ByteInput> bytes = std::make_unique<ContentBytes>(std::move(source), begin);

@@ -1,8 +1,11 @@
 // Words of a text, as readers compare and show them.
 #pragma once
 
+#include <charconv>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <system_error>
 
 namespace reeb::io {
 
@@ -11,5 +14,15 @@ std::string quoted(std::string_view word);
 // Of the letters A to Z alone; other characters stay.
 std::string lower_case(std::string_view text);
 std::string upper_case(std::string_view text);
+
+// The integer that the whole word is, in decimal digits, with '-' for a signed type. Nothing if it does not fit.
+template <class Integer>
+std::optional<Integer> whole_number(std::string_view word) {
+  Integer value = 0;
+  const char* const end = word.data() + word.size();
+  const auto parsed = std::from_chars(word.data(), end, value);
+  if (parsed.ec != std::errc{} || parsed.ptr != end) return std::nullopt;
+  return value;
+}
 
 }  // namespace reeb::io

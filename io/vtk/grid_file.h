@@ -45,7 +45,6 @@ struct GridFile {
   std::string format;  // as MeshInfo
   std::vector<GridPiece> pieces;
   bool has_inner_nodes = false;  // there are higher-order cells
-  std::vector<std::string> warnings;
 };
 
 }  // namespace reeb::io

@@ -119,7 +119,6 @@ class GridInput final : public CellInput {
     for (const auto* numbers : {&nodes_, &offsets_, &types_}) bytes += *numbers ? (*numbers)->memory_bytes() : 0;
     return bytes;
   }
-  std::vector<std::string> warnings() const override { return file_->warnings; }
 
  private:
   const GridPiece& piece() const { return file_->pieces[piece_]; }

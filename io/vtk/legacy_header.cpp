@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <charconv>
 #include <optional>
+#include <set>
+#include <string>
 #include <utility>
 
 #include "io/text/text_cursor.h"
@@ -79,6 +81,8 @@ class LegacyIndexer {
 
  private:
   void read_section(const std::string& keyword) {
+    for (const char* once : {"DATASET", "POINTS", "CELLS", "CELL_TYPES"})
+      if (keyword == once && !seen_.insert(keyword).second) text_.fail("the file has " + keyword + " twice");
     if (keyword == "DATASET") return read_dataset();
     if (keyword == "METADATA") return skip_metadata();
     if (keyword == "FIELD") return read_field();
@@ -281,6 +285,7 @@ class LegacyIndexer {
   LegacyText text_;
   std::string dataset_;
   bool unstructured_ = false;
+  std::set<std::string> seen_;  // sections that a file has once
   bool at_points_ = false;
   std::uint64_t tuples_ = 0;
   std::optional<CellList> cells_;

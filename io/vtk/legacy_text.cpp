@@ -1,9 +1,7 @@
 #include "io/vtk/legacy_text.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cstring>
-#include <system_error>
 
 #include "io/text/text_cursor.h"
 #include "io/text/text_position.h"
@@ -35,11 +33,9 @@ std::string LegacyText::word() {
 
 std::uint64_t LegacyText::number(const char* what) {
   const std::string text = word();
-  std::uint64_t value = 0;
-  const auto parsed = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (parsed.ec != std::errc{} || parsed.ptr != text.data() + text.size() || value > kMostNumbers)
-    fail(std::string("a ") + what + " cannot be " + quoted(text));
-  return value;
+  const auto value = whole_number<std::uint64_t>(text);
+  if (!value || *value > kMostNumbers) fail(std::string("a ") + what + " cannot be " + quoted(text));
+  return *value;
 }
 
 std::string LegacyText::peek_word() {

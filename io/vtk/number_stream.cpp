@@ -1,8 +1,6 @@
 #include "io/vtk/number_stream.h"
 
 #include <algorithm>
-#include <charconv>
-#include <system_error>
 
 #include "io/decoding/base64_input.h"
 #include "io/decoding/vtk_data.h"
@@ -99,10 +97,9 @@ double NumberStream::real() {
 std::int64_t NumberStream::integer() {
   if (!text_) return load_integer(place_.type, item(), place_.big_endian);
   const std::string_view word = token();
-  std::int64_t value = 0;
-  const auto parsed = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (parsed.ec != std::errc{} || parsed.ptr != word.data() + word.size()) fail_token(word);
-  return value;
+  const auto value = whole_number<std::int64_t>(word);
+  if (!value) fail_token(word);
+  return *value;
 }
 
 void NumberStream::skip(std::uint64_t count) {

@@ -16,7 +16,8 @@
 
 namespace reeb::io {
 
-// Ends at the end of the array, or, in text, at the next '<' or word.
+// Where an array has no size of its own, its user must not read more numbers than it has: what follows may be numbers,
+// too. Text ends at the next '<' or word.
 class NumberStream {
  public:
   // Reads `content` independently of others. `what` names a number in messages ("coordinate").

@@ -2,11 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <iterator>
 #include <memory>
 #include <optional>
-#include <system_error>
 #include <utility>
 
 #include "io/decoding/vtk_xml.h"
@@ -128,10 +126,8 @@ class XmlIndexer final : private XmlParser::Handler {
   std::optional<std::uint64_t> count(const XmlAttributes& attributes, std::string_view name) const {
     const std::string text = attribute_of(attributes, name);
     if (text.empty()) return std::nullopt;
-    std::uint64_t value = 0;
-    const auto parsed = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (parsed.ec != std::errc{} || parsed.ptr != text.data() + text.size() || value >> 56 != 0)
-      xml_.fail(std::string(name) + " is not a count but " + quoted(text), kHint);
+    const auto value = whole_number<std::uint64_t>(text);
+    if (!value || *value >> 56 != 0) xml_.fail(std::string(name) + " is not a count but " + quoted(text), kHint);
     return value;
   }
   std::uint64_t needed_count(const XmlAttributes& attributes, const char* name) const {

@@ -9,6 +9,7 @@
 #include "libreeb/hierarchy/bucket_versions.h"
 #include "libreeb/hierarchy/canceller.h"
 #include "libreeb/hierarchy/deferred_changes.h"
+#include "libreeb/hierarchy/pair_sweeps.h"
 #include "libreeb/hierarchy/pairing.h"
 #include "libreeb/hierarchy/subgraph.h"
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "libreeb/base/work.h"
 #include "libreeb/graph/arc_buckets.h"
 #include "libreeb/graph/packed_lists.h"
 #include "libreeb/graph/reeb_graph.h"

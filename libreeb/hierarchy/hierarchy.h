@@ -49,30 +49,13 @@ struct Hierarchy {
 // Called from time to time with the part of the work that is done, from 0 to 1. It may throw to stop the work.
 using Poll = std::function<void(double done)>;
 
-// For a part of the work of `poll`, which goes from `from` to `to`. `poll` must outlive the result.
-inline Poll part_of(const Poll& poll, double from, double to) {
-  if (!poll) return {};
-  return [&poll, from, to](double done) { poll(from + done * (to - from)); };
-}
-
-// Calls both functions and returns when both have returned: the first in this thread, the second in another one. It
-// throws what they throw. Empty if there is no other thread.
-using DoBoth = std::function<void(const std::function<void()>& here, const std::function<void()>& elsewhere)>;
-
-// In two threads if there are two, else one after the other.
-inline void do_both(const DoBoth& both, const std::function<void()>& here, const std::function<void()>& elsewhere) {
-  if (both) return both(here, elsewhere);
-  here();
-  elsewhere();
-}
-
 // Pairs the nodes, and cancels all pairs but Ext0 in the order of cancelling.
 //
 // TIME:    O(m log m) for the pairs; a cancellation costs its two paths and a search that stays within the
 //          pair's interval.
-// MEMORY:  hierarchy_bytes() (cancel.h): 142 bytes per arc where there are as many nodes; for the result, 16 per
-// record. THREADS: any number of calls at the same time. REQUIRES: no node is of degree (1, 1). (Graphs from OnlineReeb
-// and ReebFile have none.)
+// MEMORY:  142 bytes per arc where there are as many nodes; for the result, 16 per record.
+// THREADS: any number of calls at the same time.
+// REQUIRES: no node is of degree (1, 1). (Graphs from OnlineReeb and ReebFile have none.)
 Hierarchy build_hierarchy(ReebGraph graph, const Poll& poll = {});
 
 // The same with an embedding, of this exponent: `buckets` becomes that of Hierarchy::arcs, sizeof(Bucket) bytes per

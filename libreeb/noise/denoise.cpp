@@ -7,6 +7,7 @@
 
 #include "libreeb/graph/bucket_lists.h"
 #include "libreeb/graph/packed_buckets.h"
+#include "libreeb/hierarchy/pair_sweeps.h"
 #include "libreeb/hierarchy/pairing.h"
 #include "libreeb/hierarchy/subgraph.h"
 #include "libreeb/hierarchy/working_graph.h"

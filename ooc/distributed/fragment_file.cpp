@@ -195,7 +195,7 @@ void FragmentFile::check_keys(const SweepKey& key) const {
   if (!std::isfinite(key.value) || key.vertex.value() >= info_.mesh.numbers) throw DamagedState();
 }
 
-void FragmentFile::read_block(std::uint64_t kind, std::uint64_t& count, std::vector<std::byte>& packed) {
+void FragmentFile::read_block(std::uint64_t kind, Block& block) {
   constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 32;
   BlockHeader header{};
   if (file_.size() - at_ < sizeof(header)) fail("was cut off", file_.size());
@@ -203,41 +203,42 @@ void FragmentFile::read_block(std::uint64_t kind, std::uint64_t& count, std::vec
   if (header.kind != kind || header.count == 0 || header.count > kRecordsPerBlock || header.bytes > kMostBytes)
     fail("is damaged", at_);
   if (header.bytes > file_.size() - at_ - sizeof(header)) fail("was cut off", file_.size());
-  packed.resize(static_cast<std::size_t>(header.bytes));
-  file_.read_at(at_ + sizeof(header), packed);
-  if (io::checksum(packed, io::header_checksum(header)) != header.checksum) fail("is damaged", at_);
+  block.memory.resize(std::max(block.memory.bytes(), header.bytes));
+  block.packed.resize(static_cast<std::size_t>(header.bytes));
+  file_.read_at(at_ + sizeof(header), block.packed);
+  if (io::checksum(block.packed, io::header_checksum(header)) != header.checksum) fail("is damaged", at_);
   at_ += sizeof(header) + header.bytes;
-  count = header.count;
+  block.count = header.count;
 }
 
 void FragmentFile::copy_nodes(SegmentStore& store) {
-  std::vector<std::byte> packed;
+  Block block{.packed = {}, .count = 0, .memory = store.budget().reserve("fragment", 0)};
   std::vector<SettledNode> nodes;
-  for (std::uint64_t left = info_.settled_nodes, count = 0; left != 0; left -= count) {
-    const std::uint64_t block = at_;
-    read_block(kNodes, count, packed);
-    nodes.resize(static_cast<std::size_t>(count));
-    if (count > left || !NodeCodec::decode(packed, nodes)) fail("is damaged", block);
+  for (std::uint64_t left = info_.settled_nodes; left != 0; left -= block.count) {
+    const std::uint64_t begin = at_;
+    read_block(kNodes, block);
+    nodes.resize(static_cast<std::size_t>(block.count));
+    if (block.count > left || !NodeCodec::decode(block.packed, nodes)) fail("is damaged", begin);
     for (const SettledNode& node : nodes) check_keys(node.key);
     store.add_nodes(nodes);
   }
 }
 
 void FragmentFile::copy_arcs(SegmentStore& store, bool with_buckets) {
-  std::vector<std::byte> packed;
+  Block block{.packed = {}, .count = 0, .memory = store.budget().reserve("fragment", 0)};
   std::vector<Bucket> buckets;
   PackedArcPiece piece;
   const std::optional<int> exponent = with_buckets ? info_.sweep().bucket_exponent : std::nullopt;
-  for (std::uint64_t left = info_.settled_arcs, count = 0; left != 0; left -= count) {
-    const std::uint64_t block = at_;
-    read_block(kArcs, count, packed);
-    piece.records.resize(static_cast<std::size_t>(count));
-    if (count > left || !ArcCodec::decode(packed, piece.records, piece.pool)) fail("is damaged", block);
+  for (std::uint64_t left = info_.settled_arcs; left != 0; left -= block.count) {
+    const std::uint64_t begin = at_;
+    read_block(kArcs, block);
+    piece.records.resize(static_cast<std::size_t>(block.count));
+    if (block.count > left || !ArcCodec::decode(block.packed, piece.records, piece.pool)) fail("is damaged", begin);
     for (const StoredArc& arc : piece.records) {
       check_keys(arc.keys.lo);
       check_keys(arc.keys.hi);
       buckets.clear();
-      if (!(arc.keys.lo < arc.keys.hi) || !unpack_buckets(piece.payload(arc), buckets)) fail("is damaged", block);
+      if (!(arc.keys.lo < arc.keys.hi) || !unpack_buckets(piece.payload(arc), buckets)) fail("is damaged", begin);
     }
     if (exponent) {
       store.add_arcs(piece, exponent);

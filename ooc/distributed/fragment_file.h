@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "io/file/file.h"
+#include "libreeb/base/memory_budget.h"
 #include "libreeb/parts/open_part.h"
 #include "ooc/distributed/part_info.h"
 #include "ooc/reeb_writer/frame_writer.h"
@@ -34,12 +35,18 @@ class FragmentFile {
   // The bytes that read_open() needs in memory, at most.
   std::uint64_t open_bytes() const { return state_bytes_; }
   OpenPart read_open();
-  // Adds what settled to `store`, whose arcs get buckets if these are wanted.
+  // Adds what settled to `store`, whose arcs get buckets if these are wanted. MEMORY: a block, from the store's budget.
+  // That a node comes once, and that the ends of arcs are nodes, shows when the store is read.
   void copy_settled(SegmentStore& store, bool with_buckets);
 
  private:
   [[noreturn]] void fail(const std::string& why, std::uint64_t offset) const;
-  void read_block(std::uint64_t kind, std::uint64_t& count, std::vector<std::byte>& packed);
+  struct Block {
+    std::vector<std::byte> packed;
+    std::uint64_t count = 0;  // of records
+    Reservation memory;
+  };
+  void read_block(std::uint64_t kind, Block& block);
   void copy_nodes(SegmentStore& store);
   void copy_arcs(SegmentStore& store, bool with_buckets);
   void check_keys(const SweepKey& key) const;

@@ -1,6 +1,7 @@
 #include "ooc/distributed/glue_run.h"
 
 #include <algorithm>
+#include <stdexcept>
 #include <utility>
 
 #include "io/file/atomic_file.h"
@@ -141,6 +142,11 @@ GlueResult glue_fragments(std::span<const std::string> fragments, const std::str
   RunContext run(none, functions, std::span(&output, 1), run_options);
   try {
     return glue_in(run, parts, std::move(united), as_fragment);
+  } catch (const std::logic_error& error) {
+    // What the program found impossible was in what the fragments say has settled.
+    throw Error(ErrorKind::kBadInput,
+                std::string("the fragments are damaged, or do not belong together: ") + error.what(),
+                "make the parts again with `reeb fragment`");
   } catch (...) {
     throw_explained(run);
   }

@@ -1,14 +1,13 @@
 // Balls in space, and which of them contain a point.
 #pragma once
 
-#include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "libreeb/graph/settled_node.h"
+#include "ooc/patches/space_cells.h"
 
 namespace reeb::ooc {
 
@@ -41,7 +40,7 @@ class BallGrid {
   template <class Look>
   void visit(const Point& point, const Look& look) const {
     for (const Grid& grid : grids_) {
-      const std::size_t slot = slot_of(grid, cell_at(grid, point));
+      const std::size_t slot = slot_of(grid, cell_at(point, grid.cells_per_unit));
       for (std::uint32_t i = first_[slot]; i < first_[slot + 1]; ++i)
         if (balls_[entries_[i]].contains(point) && !look(entries_[i])) return;
     }
@@ -51,27 +50,18 @@ class BallGrid {
   }
 
  private:
-  using Cell = std::array<std::int64_t, 3>;
   struct Grid {
     int exponent;
     double cells_per_unit;
   };
 
-  static std::int64_t cell_of(const Grid& grid, double coordinate) {
-    const double place = std::min(std::max(-0x1p60, coordinate * grid.cells_per_unit), 0x1p60);
-    const auto cell = static_cast<std::int64_t>(place);
-    return cell - (static_cast<double>(cell) > place ? 1 : 0);
-  }
-  static Cell cell_at(const Grid& grid, const Point& point) {
-    return {cell_of(grid, point[0]), cell_of(grid, point[1]), cell_of(grid, point[2])};
-  }
-  std::size_t slot_of(const Grid& grid, const Cell& cell) const {
+  std::size_t slot_of(const Grid& grid, const SpaceCell& cell) const {
     auto key = static_cast<std::uint64_t>(grid.exponent);
     for (const std::int64_t c : cell) key = (key ^ static_cast<std::uint64_t>(c)) * 0x9e3779b97f4a7c15u;
     return static_cast<std::size_t>((key ^ key >> 32) & mask_);
   }
   template <class Visit>
-  void for_each_cell(const Ball& ball, const Visit& visit) const;
+  void for_each_slot(const Ball& ball, const Visit& visit) const;
 
   std::vector<Ball> balls_;
   std::vector<Grid> grids_;

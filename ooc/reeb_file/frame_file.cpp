@@ -152,7 +152,7 @@ void FrameCursor::check(const FrameFile& file, const FrameHeader& header, const 
   nodes_ += frame.nodes.size();
   if (nodes_ > std::numeric_limits<std::uint32_t>::max()) file.fail(offset, "there are more nodes than can be loaded");
   for (const FileArc& arc : frame.arcs) {
-    if (arc.lo >= nodes_ || arc.hi >= nodes_ || arc.lo == arc.hi)
+    if (arc.lo >= nodes_ || arc.hi >= nodes_)
       file.fail(offset, "an arc ends at a node that was not introduced");
     if (arc.died != kNeverDies && arc.died > steps) file.fail(offset, "an arc dies after the last version");
     if (arc.died > last_died_ || arc.born > steps) file.fail(offset, "the arcs are not sorted by their end");
@@ -166,6 +166,13 @@ void FrameCursor::check(const FrameFile& file, const FrameHeader& header, const 
     if (counts.persistence > last_persistence_) file.fail(offset, "the persistences are not descending");
     last_persistence_ = counts.persistence;
   }
+}
+
+void require_counts(const FrameFile& file, const FrameCursor& cursor, std::uint32_t version, const VersionCounts& said,
+                    std::uint64_t nodes, std::uint64_t arcs) {
+  if (nodes != said.nodes || arcs != said.arcs)
+    file.fail(file.end_of(cursor.frames_read()),
+              "version " + std::to_string(version) + " has other counts than the file says");
 }
 
 }  // namespace reeb::ooc

@@ -79,4 +79,16 @@ class FrameCursor {
   double last_persistence_ = std::numeric_limits<double>::infinity();
 };
 
+// That each record of the frame that was read last goes up. `key_of` gives the key of a node by its number in the file.
+template <class KeyOf>
+void require_rising(const FrameFile& file, const FrameCursor& cursor, const GraphFrame& frame, const KeyOf& key_of) {
+  for (const FileArc& arc : frame.arcs)
+    if (!(key_of(arc.lo) < key_of(arc.hi)))
+      file.fail(file.frame_offset(cursor.frames_read() - 1), "an arc does not go up");
+}
+
+// That a version has as many nodes and arcs as the frame says that was read last.
+void require_counts(const FrameFile& file, const FrameCursor& cursor, std::uint32_t version, const VersionCounts& said,
+                    std::uint64_t nodes, std::uint64_t arcs);
+
 }  // namespace reeb::ooc

@@ -5,9 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "ooc/reeb_file/frame_file.h"
-
 #include "libreeb/base/error.h"
+#include "ooc/reeb_file/frame_file.h"
 
 namespace reeb::ooc {
 
@@ -42,6 +41,8 @@ class ProgressiveGraph::Impl {
   };
   // Reads the frames whose records `version` needs, starting at a bookmark.
   Change gather(std::uint32_t version) const;
+  // How many nodes the level will have.
+  std::uint64_t nodes_after(const Change& change, std::uint32_t version) const;
   void apply(Change change, std::uint32_t version);
   void add_reference(std::uint32_t node);
   void drop_reference(std::uint32_t node);
@@ -90,13 +91,20 @@ ProgressiveGraph::Impl::Change ProgressiveGraph::Impl::gather(std::uint32_t vers
   std::uint64_t record = change.last_record;
   GraphFrame frame;
   FrameFile::Buffers buffers;
+  VersionCounts counts;
+  const auto key_of = [&](std::uint64_t node) -> const SweepKey& {
+    return (node < nodes_.size() ? nodes_[node] : change.nodes[node - nodes_.size()]).place.key;
+  };
   while (!cursor.covers(version)) {
+    const std::uint32_t coarser = cursor.finest_complete();
     change.last_frame = cursor;
     change.last_record = record;
     const std::uint64_t first_node = cursor.nodes_read();
     cursor.next(file_, frame, buffers);
     for (std::size_t i = 0; i < frame.nodes.size(); ++i)
       if (first_node + i >= nodes_.size()) change.nodes.push_back({frame.nodes[i], 0});
+    require_rising(file_, cursor, frame, key_of);
+    if (cursor.covers(version)) counts = frame.versions[coarser - 1 - version];
     std::vector<bool> named(file_.header().flags.graph_only ? 0 : frame.nodes.size());
     for (const FileArc& arc : frame.arcs) {
       const auto here = [&](std::uint32_t at) { return arc.born <= at && at < arc.died; };
@@ -112,7 +120,25 @@ ProgressiveGraph::Impl::Change ProgressiveGraph::Impl::gather(std::uint32_t vers
       if (!named[i] && first_node + i >= nodes_.size()) change.nodes[first_node + i - nodes_.size()].degree = 1;
   }
   change.nodes_total = cursor.nodes_read();
+  const auto lives = [&](const Arc& arc) { return arc.born <= version && version < arc.died; };
+  const auto stay = static_cast<std::uint64_t>(std::ranges::count_if(arcs_, lives));
+  require_counts(file_, cursor, version, counts, nodes_after(change, version), stay + change.arcs.size());
   return change;
+}
+
+std::uint64_t ProgressiveGraph::Impl::nodes_after(const Change& change, std::uint32_t version) const {
+  std::vector<bool> before(nodes_.size()), after(std::max(nodes_.size(), change.nodes_total));
+  for (const Arc& arc : arcs_) {
+    before[arc.lo] = before[arc.hi] = true;
+    if (arc.born <= version && version < arc.died) after[arc.lo] = after[arc.hi] = true;
+  }
+  for (const Arc& arc : change.arcs) after[arc.lo] = after[arc.hi] = true;
+  for (std::size_t i = 0; i < change.nodes_total; ++i) {
+    const bool is_isolated =
+        i < nodes_.size() ? nodes_[i].degree != 0 && !before[i] : change.nodes[i - nodes_.size()].degree != 0;
+    if (is_isolated) after[i] = true;
+  }
+  return static_cast<std::uint64_t>(std::ranges::count(after, true));
 }
 
 void ProgressiveGraph::Impl::apply(Change change, std::uint32_t version) {

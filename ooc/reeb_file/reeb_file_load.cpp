@@ -130,19 +130,19 @@ Level ReebFile::load(std::uint32_t version, bool embedded) const {
     const std::uint32_t coarser = cursor.finest_complete();
     cursor.next(*frames_, frame, buffers);
     add_frame(frame, version, header().flags.graph_only, embedded, live);
+    require_rising(*frames_, cursor, frame,
+                   [&](std::uint64_t node) -> const SweepKey& { return live.nodes[node].key; });
     if (cursor.covers(version)) counts = frame.versions[coarser - 1 - version];
   }
   Level level;
   level.version = version;
   level.threshold = level_threshold(version, counts.persistence);
   level.graph = nodes_by_rank(live, embedded && header().flags.has_positions);
-  const std::uint64_t end = frames_->end_of(cursor.frames_read());
-  for (const FileArc& arc : live.arcs)
-    if (arc.lo >= arc.hi) frames_->fail(end, "an arc does not go up");
   arcs_by_rank(live, level.graph, level.buckets);
-  if (level.graph.node_count() != counts.nodes || level.graph.arc_count() != counts.arcs ||
-      (embedded && level.buckets.buckets.size() != counts.buckets))
-    frames_->fail(end, "version " + std::to_string(version) + " has other counts than the file says");
+  require_counts(*frames_, cursor, version, counts, level.graph.node_count(), level.graph.arc_count());
+  if (embedded && level.buckets.buckets.size() != counts.buckets)
+    frames_->fail(frames_->end_of(cursor.frames_read()),
+                  "version " + std::to_string(version) + " has another number of buckets than the file says");
   return level;
 }
 

@@ -52,6 +52,7 @@ Content gather(const FrameFile& file) {
   for (FrameCursor cursor(file); cursor.frames_read() < file.header().graph_frames;) {
     cursor.next(file, frame, buffers);
     for (const SettledNode& node : frame.nodes) content.nodes.push_back(node.key);
+    require_rising(file, cursor, frame, [&](std::uint64_t node) -> const SweepKey& { return content.nodes[node]; });
     for (const FileArc& arc : frame.arcs)
       content.arcs.push_back(
           {NodeId(static_cast<std::uint32_t>(arc.lo)), NodeId(static_cast<std::uint32_t>(arc.hi)), arc.born, arc.died});

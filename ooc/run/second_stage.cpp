@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "libreeb/base/error.h"
+#include "libreeb/base/work.h"
 #include "libreeb/defects/small_loops.h"
 #include "libreeb/hierarchy/cancel.h"
 #include "ooc/reeb_writer/record_log.h"

@@ -237,6 +237,7 @@ std::uint64_t SegmentStore::reserved_bytes() const {
 
 void SegmentStore::rewind_nodes() {
   nodes_.rewind();
+  last_node_.reset();
   if (change_) change_->rewind_nodes();
 }
 
@@ -255,6 +256,11 @@ void SegmentStore::rewind_arcs() {
 
 bool SegmentStore::read_nodes(std::vector<SettledNode>& nodes, std::size_t limit) {
   while (nodes_.read(nodes, limit)) {
+    for (const SettledNode& node : nodes) {
+      if (last_node_ && !(*last_node_ < node.key))
+        throw std::logic_error("vertex " + std::to_string(node.key.vertex.value()) + " is a node twice");
+      last_node_ = node.key;
+    }
     if (change_) std::erase_if(nodes, [&](const SettledNode& node) { return change_->drops(node.key); });
     if (!nodes.empty()) return true;
   }

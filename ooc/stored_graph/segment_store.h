@@ -104,6 +104,7 @@ class SegmentStore : public GraphSink {
   // rewound before they are read.
   void set_aside();
   // Replaces `nodes` by the next nodes in order, at most `limit`. False at the end.
+  // THROWS: std::logic_error if a node was added twice.
   bool read_nodes(std::vector<SettledNode>& nodes, std::size_t limit);
   // Replaces `piece` by the next arcs in order: at most `limit`, fewer if they have many buckets. False at the end.
   // Buckets are delivered if an exponent is given. REQUIRES: it is not below any exponent that was added.
@@ -146,6 +147,7 @@ class SegmentStore : public GraphSink {
   bool background_;
   std::function<void()> poll_;
   SortedNodes nodes_;
+  std::optional<SweepKey> last_node_;  // that was read
   SortedArcs arcs_;
   std::uint64_t bucket_count_ = 0, payload_bytes_ = 0;
   std::uint64_t restored_vertex_bound_ = 0;

@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "libreeb/base/work.h"
 #include "libreeb/hierarchy/bucket_versions.h"
 #include "libreeb/hierarchy/canceller.h"
 

@@ -163,8 +163,9 @@ constexpr std::string_view kNrrdWords[] = {
     "sizes: 9 9",     "kinds: vector domain", "encoding: ",   "gzip", "byte skip: ", "line skip: 1",
     "centers: ",      "space: RAST",          "dimension: 2", "none", "(1,2,3)",     "data file: a",
     "endian: little", "type: double",         "nan",          "uchar"};
-constexpr std::string_view kMetaWords[] = {"NDims = 2",  "HeaderSize = ", "ElementNumberOfChannels = ", "True",
-                                           "MET_DOUBLE", "LIST",          "ElementDataFile = ",         "LOCAL"};
+constexpr std::string_view kMetaWords[] = {
+    "NDims = 2",  "HeaderSize = ", "ElementNumberOfChannels = ", "True", "\nNDims = 3\n", "\nElementSpacing = 1 1\n",
+    "MET_DOUBLE", "LIST",          "ElementDataFile = ",         "LOCAL"};
 constexpr std::string_view kNumpyWords[] = {"'descr': ", "'shape': ", "'fortran_order': ", "True", "False", "(", ")",
                                             "<f8",       "|u1"};
 constexpr std::string_view kVtiWords[] = {"WholeExtent=\"",

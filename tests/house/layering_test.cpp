@@ -58,7 +58,7 @@ const Rooms kRooms = {
     {"io/export", {"libreeb", "io/file", "io/text"}},
     {"io/drawing", {"libreeb"}},
     {"io/plot", {"libreeb", "io/text", "io/export", "io/drawing"}},
-    {"io/generate", {"libreeb"}},
+    {"io/generate", {"libreeb", "io/text"}},
 
     {"ooc/threads", {"libreeb"}},
     {"ooc/sorting", {"libreeb", "io/file", "ooc/threads"}},
@@ -83,7 +83,7 @@ const Rooms kRooms = {
     {"tools/program", {"libreeb", "io", "ooc", "tools/library"}},
     {"tools/arguments", {"libreeb", "io", "tools/program"}},
     {"tools/checks", {"libreeb", "io", "ooc", "tools/library"}},
-    {"tools/defects", {"libreeb", "io", "ooc", "tools/library", "tools/program"}},
+    {"tools/defects", {"libreeb", "io", "ooc", "tools/library", "tools/program", "tools/checks"}},
     {"tools/plot", {"libreeb", "io", "ooc", "tools/library", "tools/program", "tools/defects"}},
     {"tools/report", {"libreeb", "io", "ooc", "tools/library", "tools/program", "tools/defects"}},
     {"tools/repair", {"libreeb", "io", "ooc", "tools/library", "tools/program", "tools/defects"}},

@@ -55,8 +55,7 @@ void NodeCheck::add(const MeshBatch& batch) {
     values_.resize(batch.vertex_count);
     source_->evaluate(batch, values_);
     for (const double value : values_) {
-      range_.min = std::min(range_.min, value);
-      range_.max = std::max(range_.max, value);
+      range_.add(value);
     }
   }
   const std::uint64_t first = batch.first_vertex.value(), end = first + batch.vertex_count;
@@ -83,11 +82,13 @@ std::optional<ValueRange> NodeCheck::finish() {
 }
 
 void NodeCheck::fail(std::size_t node, const char* why) {
-  if (failure_) return;
-  failure_ =
-      Error(ErrorKind::kBadInput, fmt::format("the node of vertex {} {}", graph_.nodes[node].vertex.value(), why),
-            "name the mesh that the file was computed from")
-          .at(mesh_);
+  if (!failure_) failure_ = wrong_mesh(mesh_, graph_.nodes[node].vertex, why);
+}
+
+Error wrong_mesh(const std::string& mesh, VertexId vertex, const char* why) {
+  return Error(ErrorKind::kBadInput, fmt::format("the node of vertex {} {}", vertex.value(), why),
+               "name the mesh that the file was computed from")
+      .at(mesh);
 }
 
 }  // namespace reeb::tools

@@ -10,14 +10,15 @@
 #include "io/functions/function_source.h"
 #include "io/functions/mesh_field.h"
 #include "libreeb/base/error.h"
+#include "libreeb/base/ids.h"
+#include "libreeb/base/value_range.h"
 #include "libreeb/graph/reeb_graph.h"
 #include "libreeb/port/mesh_reader.h"
 
 namespace reeb::tools {
 
-struct ValueRange {
-  double min = 0, max = 0;
-};
+// That the vertex of a node is another one in this mesh: `why` is "has another value in the mesh" or the like.
+Error wrong_mesh(const std::string& mesh, VertexId vertex, const char* why);
 
 // Compares each node with its vertex while the mesh is read: the position (if the graph has positions) and the value of
 // the function. Values are not compared if the file that they came from is gone, or if they depend on a vertex of a

@@ -9,10 +9,13 @@
 #include <utility>
 
 #include "libreeb/base/error.h"
+#include "libreeb/base/hash.h"
 #include "libreeb/containers/flat_map.h"
 #include "ooc/patches/divided_surface.h"
+#include "ooc/patches/space_cells.h"
 #include "ooc/patches/space_order.h"
 #include "ooc/threads/parallel.h"
+#include "tools/checks/node_check.h"
 #include "tools/defects/component_tops.h"
 
 namespace reeb::tools {
@@ -152,9 +155,9 @@ class CurveSearch {
   double new_vertices(const Search& search, FlatMap& seen) const {
     double sum = 0;
     for (const SettledNode* node : {&lo(search), &hi(search)}) {
-      auto key = static_cast<std::uint64_t>(std::ilogb(search.radius) + 2000);
-      for (const double x : node->position)
-        key = key * 0x9e3779b97f4a7c15u + static_cast<std::uint64_t>(static_cast<std::int64_t>(x / search.radius));
+      auto key = static_cast<std::uint64_t>(std::ilogb(search.radius));
+      for (const std::int64_t c : ooc::cell_at(node->position, 1 / search.radius))
+        key = mix(key ^ static_cast<std::uint64_t>(c));
       const auto entry = static_cast<std::uint32_t>(seen.size());
       if (seen.find_or_insert(key, entry) == entry) sum += scale_.vertices(search.radius);
     }
@@ -221,10 +224,11 @@ class CurveSearch {
     const Reservation own =
         options_.budget->reserve("patches of loops", kSearchBytesPerVertex * patch.surface.vertex_count());
     const std::uint32_t v = patch.surface.find(low.key.vertex), y = patch.surface.find(high.key.vertex);
-    if (v == SurfacePatch::kNone || y == SurfacePatch::kNone || patch.values[search.function][v] != low.key.value ||
-        patch.values[search.function][y] != high.key.value)
-      throw Error(ErrorKind::kBadInput, "a node of the graph is another vertex in the mesh",
-                  "name the mesh that the graph was computed from");
+    for (const auto& [at, node] : {std::pair(v, &low), std::pair(y, &high)}) {
+      if (at == SurfacePatch::kNone) throw wrong_mesh(mesh_.path(), node->key.vertex, "is elsewhere in the mesh");
+      if (patch.values[search.function][at] != node->key.value)
+        throw wrong_mesh(mesh_.path(), node->key.vertex, "has another value in the mesh");
+    }
     ++search.tried;
     if (patch.surface.whole(v) && patch.surface.whole(y)) {
       search.done = search.is_top ? orient(patch.surface, search, v) : measure(patch, search, v, y);

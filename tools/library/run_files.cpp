@@ -4,14 +4,13 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <charconv>
 #include <filesystem>
 #include <optional>
 #include <string_view>
-#include <system_error>
 #include <utility>
 
 #include "io/file/file.h"
+#include "io/text/words.h"
 #include "libreeb/base/error.h"
 #include "ooc/checkpoints/partial_folder.h"
 #include "ooc/chunks/last_use_sidecar.h"
@@ -69,10 +68,7 @@ std::optional<std::uint64_t> snapshot_number(std::string_view name, std::string_
   const std::string_view digits = name.substr(stem.size() + 1, name.size() - stem.size() - 1 - kSuffix.size());
   if (name[stem.size()] != '-' || digits.size() < kLeastDigits) return {};
   if (digits.size() > kLeastDigits && digits[0] == '0') return {};
-  std::uint64_t number = 0;
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
-  if (error != std::errc() || end != digits.data() + digits.size()) return {};
-  return number;
+  return io::whole_number<std::uint64_t>(digits);
 }
 
 }  // namespace

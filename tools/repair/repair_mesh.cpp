@@ -89,6 +89,9 @@ class Plan {
       repair_.repaired += row.done ? 1u : 0u;
       if (!row.done && row.why.empty()) row.why = "beyond --limit";
     }
+    for (std::size_t i = 0; i < rows.size() && repair_.repaired != 0; ++i)
+      if (rows[i].row->curve.path.empty() || (failed[i] != 0 && !is_dropped(cleaning, *rows[i].row)))
+        repair_.second_may_help = true;
     if (repair_.mesh_triangles == 0) count(mesh);
     add_drops(cleaning, mesh);
     return std::move(repair_);
@@ -191,6 +194,8 @@ std::vector<std::string> summary_of(const Repair& repair) {
   for (const RepairedRow& row : repair.rows)
     if (!row.done) ++reasons[row.why];
   for (const auto& [why, count] : reasons) lines.push_back(with_commas(count) + " left: " + why);
+  if (repair.second_may_help)
+    lines.emplace_back("note: a second repair, of the output, may find curves of loops that are left");
   if (repair.cleaning.degenerate) lines.push_back(count_of(repair.degenerate, "degenerate triangle") + " dropped");
   if (repair.cleaning.duplicates) lines.push_back(count_of(repair.duplicates, "repeated triangle") + " dropped");
   if (repair.cleaning.components_percent)

@@ -40,8 +40,10 @@ struct RepairedRow {
 struct Repair {
   std::uint64_t mesh_vertices = 0, mesh_triangles = 0;
   MeshEdits edits;
-  std::vector<RepairedRow> rows;                                                          // by rank
-  std::size_t repaired = 0;                                                               // of them
+  std::vector<RepairedRow> rows;  // by rank
+  std::size_t repaired = 0;       // of them
+  bool second_may_help =
+      false;  // loops without a curve, or whose curve could not be cut, are left beside repaired ones
   std::optional<SuggestedLength> suggestion;                                              // if it decided
   CleaningOptions cleaning;                                                               // as asked for
   std::uint64_t degenerate = 0, duplicates = 0, components = 0, component_triangles = 0;  // that are dropped

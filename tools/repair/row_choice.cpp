@@ -3,15 +3,14 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cstdint>
 #include <map>
 #include <string_view>
-#include <system_error>
 
 #include "io/file/content_source.h"
 #include "io/functions/function_spec.h"
 #include "io/text/text_cursor.h"
+#include "io/text/words.h"
 #include "libreeb/base/error.h"
 
 namespace reeb::tools {
@@ -69,13 +68,10 @@ std::map<LoopName, std::size_t> read_names(const std::string& path) {
     if (lines[i].find_first_not_of(" \t\r") == std::string::npos) continue;
     const std::vector<std::string> fields = fields_of(lines[i]);
     const auto number = [&](std::size_t k) {
-      std::uint64_t value = 0;
-      const std::string_view field = k < fields.size() ? std::string_view(fields[k]) : std::string_view();
-      const char* const end = field.data() + field.size();
-      if (const auto [stop, error] = std::from_chars(field.data(), end, value); error != std::errc() || stop != end)
-        throw Error(ErrorKind::kBadInput, "this is not a row of a table of defects", "write rows as reeb defects does")
-            .at(path, std::to_string(i + 1));
-      return value;
+      if (const auto value = io::whole_number<std::uint64_t>(k < fields.size() ? fields[k] : std::string()))
+        return *value;
+      throw Error(ErrorKind::kBadInput, "this is not a row of a table of defects", "write rows as reeb defects does")
+          .at(path, std::to_string(i + 1));
     };
     names.emplace(LoopName{number(lo), number(hi), function < fields.size() ? fields[function] : ""}, i + 1);
   }

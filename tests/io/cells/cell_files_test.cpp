@@ -143,6 +143,8 @@ TEST(CellFiles, BadMedit) {
   expect_bad(write_file("none.mesh", "MeshVersionFormatted 2\nDimension 3\nEnd\n"), "3:4", "no section of vertices");
   bad("Formatted 2", "Formatted 9", 10, "Medit version 9");
   bad("Dimension\n3", "Dimension\n4", 10, "of dimension 4");
+  bad("Dimension\n3", "Dimension\n4294967299", 10, "of dimension 4294967299");
+  bad("Dimension\n3", "Dimension\n3\nDimension\n2", 22, "two dimensions");
 }
 
 TEST(CellFiles, TetGen) {

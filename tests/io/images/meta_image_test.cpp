@@ -89,6 +89,8 @@ TEST(MetaImage, BadFilesAreRefused) {
             "bad.mhd:" + std::to_string(meta("MET_UCHAR").size()) +
                 ": the header announces 6 values (6 bytes), but the file holds 5 bytes of data");
   EXPECT_EQ(error("NDims = 3\nDimSize = 3 2\n"), "bad.mhd:2:11: 2 values for 3 axes");
+  EXPECT_EQ(error("NDims = 2\nElementSpacing = 1 1\nNDims = 3\n"), "bad.mhd:3:9: NDims is given twice");
+  EXPECT_EQ(error("NDims = 2\nDimSize = 1 2\nDimSize = 1 2\n"), "bad.mhd:3:11: DimSize is given twice");
   EXPECT_EQ(error("NDims = 4\n"), "bad.mhd:1:9: the image has 4 axes");
   EXPECT_EQ(error("ObjectType = Tube\n"), "bad.mhd:1:14: this is not an image but \"Tube\"");
   EXPECT_EQ(error("NDims = 3\nDimSize = 3 2 1\n"),

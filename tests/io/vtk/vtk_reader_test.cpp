@@ -259,6 +259,8 @@ TEST(VtkReader, BadLegacyFiles) {
     expect_bad(write_file("bad.vtk", with(good, before, after)), position, words);
   };
   bad("0 0 0 1", "0 nan 0 1", "6:3", "not finite");
+  bad("CELLS 1", "POINTS 1 float\n0 0 0\nCELLS 1", "7:1", "POINTS twice");
+  bad("CELL_TYPES 1", "CELLS 1 4\n3 0 1 2\nCELL_TYPES 1", "9:1", "CELLS twice");
   bad("0 0 0 1", "0 x 0 1", "6:3", "cannot be \"x\"");
   bad("3 0 1 2", "3 0 1 3", "8:7", "names point 3");
   bad("3 0 1 2", "3 0 1 -1", "8:7", "names point -1");

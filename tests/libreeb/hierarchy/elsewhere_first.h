@@ -5,7 +5,7 @@
 
 namespace reeb::test {
 
-// A DoBoth (libreeb/hierarchy/hierarchy.h).
+// A DoBoth (libreeb/base/work.h).
 inline void elsewhere_first(const std::function<void()>& here, const std::function<void()>& elsewhere) {
   elsewhere();
   here();

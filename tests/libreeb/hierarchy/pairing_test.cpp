@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "libreeb/hierarchy/pair_sweeps.h"
 #include "tests/libreeb/hierarchy/elsewhere_first.h"
 #include "tests/libreeb/hierarchy/random_graphs.h"
 #include "tests/model/reference_pairs.h"

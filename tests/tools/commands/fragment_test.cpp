@@ -6,9 +6,11 @@
 #include <cstring>
 #include <filesystem>
 #include <set>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "io/file/checksum.h"
 #include "tests/support/data.h"
 #include "tests/support/same.h"
 #include "tests/tools/program.h"
@@ -153,6 +155,57 @@ TEST_F(FragmentTest, CountsWhatOnlyHasTheSizeOfTriangles) {
     expect_error(fragment, 1);
     EXPECT_EQ(lines_after("reeb: error: ", fragment.error), lines_after("reeb: error: ", computed.error));
   }
+}
+
+std::uint64_t number_at(const std::string& bytes, std::size_t at) {
+  std::uint64_t number = 0;
+  std::memcpy(&number, bytes.data() + at, sizeof number);
+  return number;
+}
+
+void set_number(std::string& bytes, std::size_t at, std::uint64_t number) {
+  std::memcpy(bytes.data() + at, &number, sizeof number);
+}
+
+std::uint64_t checksum_of(const std::string& bytes, std::size_t begin, std::size_t count) {
+  return io::checksum(std::as_bytes(std::span(bytes).subspan(begin, count)));
+}
+
+// A fragment whose first block of nodes is there so many times. All checksums are right (docs/FORMAT.md).
+std::string with_nodes(std::string bytes, int times) {
+  constexpr std::size_t kHeader = 40, kFixed = 16 * 8;
+  const std::size_t state = number_at(bytes, 16), blocks = kHeader + state;
+  std::size_t at = kHeader + kFixed;
+  at += 16 + number_at(bytes, at) + 5 * 8;      // the name of the function, and what follows it
+  at += 16 + 8 * number_at(bytes, at) + 2 * 8;  // the runs and the range
+  const std::size_t nodes = at + 3 * 8;         // the number of settled nodes
+  const std::size_t size = 32 + number_at(bytes, blocks + 16);
+  EXPECT_EQ(number_at(bytes, blocks), 1u) << "a block of nodes";
+  const std::string block = bytes.substr(blocks, size);
+  const auto more = static_cast<std::uint64_t>(times - 1) * number_at(block, 8);
+  set_number(bytes, nodes, number_at(bytes, nodes) + more);
+  bytes.erase(blocks, size);
+  for (int i = 0; i < times; ++i) bytes.insert(blocks, block);
+  set_number(bytes, 24, checksum_of(bytes, kHeader, state));
+  set_number(bytes, 32, checksum_of(bytes, 0, 32));
+  return bytes;
+}
+
+TEST_F(FragmentTest, WhatSettledIsNotTrusted) {
+  make_scan("scan.ply", "20k");
+  const Words names = fragments("scan.ply", 2);
+  const std::string good = file(names[0]);
+  const Words glue = with({"glue", "-o", "all.reeb", "--quiet", "--force"}, names);
+  write(names[0], with_nodes(good, 1));
+  expect_success(reeb(glue));
+  for (const auto& [times, why] : {std::pair(0, "which is not a node"), std::pair(2, "is a node twice")})
+    for (const Words& options : {Words{}, Words{"--graph-only"}, Words{"--memory", "64M"}}) {
+      write(names[0], with_nodes(good, times));
+      const Outcome outcome = reeb(with(glue, options));
+      expect_error(outcome, 1, "the fragments are damaged, or do not belong together: ");
+      const bool says_why = outcome.error.find(why) != std::string::npos;
+      EXPECT_TRUE(says_why || options == Words{"--graph-only"}) << outcome.error;
+    }
 }
 
 TEST_F(FragmentTest, IsNamedByOtherCommands) {

@@ -520,6 +520,7 @@ TEST_F(RepairTest, SaysWhyLoopsAreLeft) {
   const Outcome limited = reeb({"repair", "p.ply", "-o", "a.ply", "--all", "--limit", "1"});
   expect_success(limited);
   EXPECT_NE(limited.error.find(" left: beyond --limit\n"), std::string::npos) << limited.error;
+  EXPECT_EQ(limited.error.find("second repair"), std::string::npos) << "nothing was in the way of the others";
   const Outcome none = reeb({"repair", "p.ply", "-o", "b.ply", "--below", "0%"});
   expect_success(none);
   EXPECT_NE(none.error.find(" left: persistence not below 0%\n"), std::string::npos) << none.error;

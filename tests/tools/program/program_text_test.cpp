@@ -55,6 +55,18 @@ TEST(RepairSummary, SaysWhichLengthWasSuggestedAndIfItIsUncertain) {
   EXPECT_EQ(summary_of(repair).size(), 1u);
 }
 
+TEST(RepairSummary, SaysWhenASecondRepairMayHelp) {
+  Repair repair;
+  repair.rows.resize(2);
+  repair.rows[0].done = true;
+  repair.rows[1].why = "cutting along it would divide the surface";
+  repair.repaired = 1;
+  EXPECT_EQ(summary_of(repair).size(), 2u);
+  repair.second_may_help = true;
+  ASSERT_EQ(summary_of(repair).size(), 3u);
+  EXPECT_NE(summary_of(repair)[2].find("a second repair, of the output"), std::string::npos);
+}
+
 TEST(RowChoice, ALoopWithoutACurveIsNotCalledTooLong) {
   Defects defects;
   defects.functions = {"x"};
