@@ -36,37 +36,86 @@ struct Crossing {
   double to_first = 0, to_second = 0, between = 0;  // lengths
 };
 
-// At an obtuse corner a front may come first, before both ends of the edge opposite to it. So the triangle beyond that
-// edge is unfolded into the plane, and its far vertex divides the angle in two (R. Kimmel, J. Sethian: Computing
-// geodesic paths on manifolds, PNAS 1998).
+// At an obtuse corner a front may come first, before both ends of the edge opposite to it. So the triangles beyond that
+// edge are unfolded into the plane, one after the other, until a vertex of them divides the angle into two acute ones
+// (R. Kimmel, J. Sethian: Computing geodesic paths on manifolds, PNAS 1998).
 struct Unfolded {
   std::vector<Crossing> crossings;
   std::vector<std::array<std::uint32_t, 2>> ends;  // of the edge that is crossed
 };
 
-// Calls found(crossing, end, far vertex) for both ends of the edge from a to b, if the corner c opposite to it is
-// obtuse.
+struct PlanePoint {
+  double x = 0, y = 0;
+};
+double dot(const PlanePoint& p, const PlanePoint& q) { return p.x * q.x + p.y * q.y; }
+double cross(const PlanePoint& p, const PlanePoint& q) { return p.x * q.y - p.y * q.x; }
+double length(const PlanePoint& p, const PlanePoint& q = {}) { return std::hypot(p.x - q.x, p.y - q.y); }
+
+// A vertex of a triangle that was unfolded.
+struct PlaneVertex {
+  std::uint32_t vertex = 0;
+  PlanePoint at;
+};
+
+// The third vertex of a triangle over the edge from `left` to `right`, on its right side.
+PlanePoint beyond(const PlanePoint& left, const PlanePoint& right, double to_left, double to_right) {
+  const double edge = length(left, right);
+  if (!(edge > 0)) return left;
+  const double along = (to_left * to_left + edge * edge - to_right * to_right) / (2 * edge);
+  const double away = std::sqrt(std::max(0.0, to_left * to_left - along * along));
+  const PlanePoint u{(right.x - left.x) / edge, (right.y - left.y) / edge};
+  return {left.x + u.x * along + u.y * away, left.y + u.y * along - u.x * away};
+}
+
+constexpr std::uint32_t kNoVertex = ~std::uint32_t{0};
+
+// The third vertex of the other triangle at an edge; kNoVertex if there is none, or more than one.
+std::uint32_t far_vertex(const WholeComplex& complex, const Incidence& triangles, std::uint32_t a, std::uint32_t b,
+                         std::uint32_t near) {
+  std::uint32_t far = kNoVertex;
+  for (const std::uint32_t t : triangles.of(a)) {
+    const auto& corners = complex.triangles[t];
+    if (corners[0] != b && corners[1] != b && corners[2] != b) continue;
+    const std::uint32_t third = corners[0] ^ corners[1] ^ corners[2] ^ a ^ b;
+    if (third == near) continue;
+    if (far != kNoVertex) return kNoVertex;
+    far = third;
+  }
+  return far;
+}
+
+// Calls found(crossing, end, far vertex) for a and for b with each vertex that is seen from the corner c, which is
+// opposite to the edge from a to b, if c is obtuse.
 template <class Found>
 void unfold(const WholeComplex& complex, const Incidence& triangles, std::uint32_t c, std::uint32_t a, std::uint32_t b,
             const Found& found) {
+  constexpr int kMostTriangles = 32;
   const double ab = complex.length(a, b), ac = complex.length(a, c), bc = complex.length(b, c);
-  if (ac * ac + bc * bc >= ab * ab) return;
-  const double corner_x = (ac * ac + ab * ab - bc * bc) / (2 * ab);
-  const double corner_y = std::sqrt(std::max(0.0, ac * ac - corner_x * corner_x));
-  for (const std::uint32_t t : triangles.of(a)) {
-    const auto& other = complex.triangles[t];
-    const bool has_b = other[0] == b || other[1] == b || other[2] == b;
-    const std::uint32_t far = other[0] ^ other[1] ^ other[2] ^ a ^ b;
-    if (!has_b || far == c) continue;
-    const double to_a = complex.length(far, a), to_b = complex.length(far, b);
-    const double far_x = (to_a * to_a + ab * ab - to_b * to_b) / (2 * ab);
-    const double far_y = std::sqrt(std::max(0.0, to_a * to_a - far_x * far_x));
-    if (!(far_y + corner_y > 0)) continue;
-    const double crossing = far_x + (corner_x - far_x) * (far_y / (far_y + corner_y));
-    if (crossing < 0 || crossing > ab) continue;
-    const double across_edge = std::hypot(corner_x - far_x, corner_y + far_y);
-    found(Crossing{c, ac, across_edge, to_a}, a, far);
-    found(Crossing{c, bc, across_edge, to_b}, b, far);
+  if (!(ac * ac + bc * bc < ab * ab) || !(ac > 0) || !(bc > 0)) return;
+  // c at the origin, a on the axis, b to the left of it.
+  const PlanePoint to_a{ac, 0};
+  const double b_x = (ac * ac + bc * bc - ab * ab) / (2 * ac);
+  const PlanePoint to_b{b_x, std::sqrt(std::max(0.0, bc * bc - b_x * b_x))};
+  PlaneVertex left{a, to_a}, right{b, to_b};
+  PlanePoint first = to_a, last = to_b;  // what is seen through all edges lies between these
+  std::uint32_t near = c;
+  for (int i = 0; i < kMostTriangles; ++i) {
+    const std::uint32_t far = far_vertex(complex, triangles, left.vertex, right.vertex, near);
+    if (far == kNoVertex) return;
+    const PlanePoint at =
+        beyond(left.at, right.at, complex.length(far, left.vertex), complex.length(far, right.vertex));
+    const bool before = cross(first, at) < 0, after = cross(at, last) < 0;
+    const bool near_b = dot(to_a, at) <= 0, near_a = dot(to_b, at) <= 0;
+    if (!before && !after) {
+      found(Crossing{c, ac, length(at), length(at, to_a)}, a, far);
+      found(Crossing{c, bc, length(at), length(at, to_b)}, b, far);
+      if (!near_a && !near_b) return;
+      (near_b ? last : first) = at;
+    }
+    // The next edge is the one through which the directions are seen that make acute angles with both sides.
+    PlaneVertex& moved = before || (!after && !near_b) ? left : right;
+    near = moved.vertex;
+    moved = {far, at};
   }
 }
 

@@ -78,7 +78,8 @@ class GridMesh : public MeshReader {
     return bytes;
   }
   std::vector<std::string> warnings() const override;
-  bool leave_out_simplices() override { return !skips_ && (vertices_only_ = true); }
+  // Of numbers that are not places in the grid, nothing would follow.
+  bool leave_out_simplices() override { return !renumbers_ && (vertices_only_ = true); }
 
   // Vertices of slice k + 1, then the simplices whose lowest vertex is in slice k, then the finalization of slice k.
   bool read(MeshBatch& batch) override {
@@ -218,7 +219,7 @@ bool GridMesh::add_vertices(MeshBatch& batch) {
   }
   if (skips_ && is_skipped(taken_)) {
     if (batch.vertex_count != 0 && !renumbers_) return false;
-    next_numbers(1)[0] = kSkipped;
+    if (!vertices_only_) next_numbers(1)[0] = kSkipped;
     ++skipped_;
     advance(1);
     if (!renumbers_) next_number_ = vertex_;
@@ -229,7 +230,7 @@ bool GridMesh::add_vertices(MeshBatch& batch) {
   if (!vertices_only_) most = std::min(most, slices_.vertices() - in_slice_);
   std::size_t count = 1;
   while (count < most && !(skips_ && is_skipped(taken_ + count))) ++count;
-  if (skips_) {
+  if (skips_ && !vertices_only_) {
     const std::span<std::uint64_t> numbers = next_numbers(count);
     std::iota(numbers.begin(), numbers.end(), next_number_);
   }

@@ -34,7 +34,8 @@ struct MeshBatch {
   std::size_t vertex_count = 0;  // vertices are numbered first_vertex, first_vertex + 1, ...
   // coordinates[k][i] is the k-th coordinate of the i-th vertex; MeshInfo::dimension columns.
   std::vector<std::vector<double>> coordinates;
-  // properties[k][i] is the k-th requested property (ReadOptions) of the i-th vertex.
+  // properties[k][i] is the k-th requested property (ReadOptions) of the i-th vertex. One that is delivered only since
+  // all are (all_properties) need not be finite.
   std::vector<std::vector<double>> properties;
 
   // Column k, numbered as in IndexedMesh::gather: coordinates first, then properties.
@@ -125,8 +126,8 @@ class MeshReader {
   // itself; else null. The two are read independently of each other.
   virtual std::unique_ptr<IndexedMesh> indexed() const { return nullptr; }
 
-  // Leaves simplices and finalizations out of all batches, if the mesh is a grid of which no vertex is skipped: then
-  // they follow from its size. Returns whether it does. REQUIRES: nothing was read yet.
+  // Leaves simplices and finalizations out of all batches, if the mesh is a grid: then they follow from its size, and
+  // from the vertices that are skipped. Returns whether it does. REQUIRES: nothing was read yet.
   virtual bool leave_out_simplices() { return false; }
 
   // How much of the input was read so far, in bytes of the file as stored on disk.

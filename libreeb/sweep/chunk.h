@@ -37,6 +37,9 @@ enum VertexUse : std::uint8_t {
   kUsedHereOnly = 0,
   kUsedEarlier = 1,
   kUsedLater = 2,
+  // A regular vertex that other chunks have, too, each as if it were the only one. It is in no bucket of this chunk,
+  // since one of the others has it there. No other bit may be set.
+  kCountedElsewhere = 128,
 };
 
 // Faces of a box of grid vertices, as a set of bits: 2 * k for the low end of axis k, 2 * k + 1 for its high end.

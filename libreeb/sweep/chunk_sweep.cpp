@@ -356,10 +356,10 @@ void ChunkSweep::Scratch::visit(std::uint32_t v) {
   if (manifold) check_edges(v);
   const bool walks = up.groups() > 1 && !below.empty();
   const bool joined = up.groups() == 1 || (walks && walk(v) == 1);
-  const bool shared = uses[v] != kUsedHereOnly;
+  const bool shared = (uses[v] & ~unsigned{kCountedElsewhere}) != 0;
   if (joined && below.size() == 1 && !shared) {  // a regular vertex
     label_lows(v, below[0]);
-    if (notes_regular) note_regular(v, labels.arc(below[0]));
+    if (notes_regular && uses[v] == kUsedHereOnly) note_regular(v, labels.arc(below[0]));
     return;
   }
   const SweepNode node = builder.add_node(VertexRank(v));

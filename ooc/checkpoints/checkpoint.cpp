@@ -148,7 +148,7 @@ CheckpointLoad load_checkpoint(const std::string& path, const RunIdentity& run) 
     if (header.changed != run.changed)
       throw InputChanged("the mesh has changed since the interrupted run",
                          "start again with --force and without --resume");
-    if (header.origin > static_cast<std::uint64_t>(ChunkOrigin::kGrid)) return useless("is damaged");
+    if (header.origin > static_cast<std::uint64_t>(ChunkOrigin::kMaskedGrid)) return useless("is damaged");
     Checkpoint checkpoint{
         .place = {.triangles = header.triangles,
                   .next_vertex = header.next_vertex,

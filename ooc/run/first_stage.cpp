@@ -99,11 +99,20 @@ bool needs_lookup(const RunContext& run) {
                      [](const VertexFunction* function) { return function->needs_lookup(); });
 }
 
-// ---- a grid without gaps
+// ---- a grid
 
+bool is_of_grid(const Checkpoint& start) {
+  return start.origin == ChunkOrigin::kGrid || start.origin == ChunkOrigin::kMaskedGrid;
+}
+
+// Boxes without triangles are faster, but their vertices cannot be followed, and all of them must be there.
 FirstStageResult run_grid(RunContext& run, const MeshInput& input, const Checkpoint* start, FirstStageResult result) {
-  const auto source = chunks_of_grid(*input.reader, run.values, run.budget, run.plan.chunk.first, place_of(start));
-  result = glue_chunks(run, *source, run.plan, {.origin = ChunkOrigin::kGrid}, std::move(result));
+  const bool has_triangles = run.follower != nullptr || !input.reader->info().vertex_count;
+  const auto chunks = has_triangles ? chunks_of_masked_grid : chunks_of_grid;
+  const ChunkOrigin origin = has_triangles ? ChunkOrigin::kMaskedGrid : ChunkOrigin::kGrid;
+  if (start != nullptr && start->origin != origin) throw DamagedState();
+  const auto source = chunks(*input.reader, run.values, run.budget, run.plan.chunk.first, place_of(start));
+  result = glue_chunks(run, *source, run.plan, {.origin = origin}, std::move(result));
   for (VertexFunction* function : run.functions) function->check_count(result.vertex_bound);
   append(result.notes, input.reader->warnings());
   return result;
@@ -276,10 +285,9 @@ FirstStageResult run_first_stage(RunContext& run, MeshInput input) {
   if (input.indexed) return run_in_place(run, input, start, std::move(result));
 
   input.reader = std::make_unique<PolledReader>(std::move(input.reader), run.resumable);
-  // Vertices and edges of boxes cannot be followed, those of their tetrahedra can.
-  const bool may_take_boxes = !needs_lookup(run) && !run.follower && !run.options.manifold;
-  if ((start == nullptr || start->origin == ChunkOrigin::kGrid) && may_take_boxes &&
-      input.reader->leave_out_simplices())
+  // Not all edges of boxes are seen.
+  const bool may_take_boxes = !needs_lookup(run) && !run.options.manifold;
+  if ((start == nullptr || is_of_grid(*start)) && may_take_boxes && input.reader->leave_out_simplices())
     return run_grid(run, input, start, std::move(result));
   const bool may_stream = input.reader->info().finalizes && !needs_lookup(run);
   if (may_stream && (start == nullptr || start->origin == ChunkOrigin::kStream)) {

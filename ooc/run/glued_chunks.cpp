@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <optional>
 #include <utility>
 
 #include "ooc/chunks/divided_chunks.h"
@@ -20,7 +21,11 @@ constexpr std::uint64_t kChunksOfStart = 64;
 FirstStageResult glue_chunks(RunContext& run, ChunkSource& stretches, const MemoryPlan& plan, Checkpoint here,
                              FirstStageResult result, const std::function<void(std::size_t, const Glue&)>& at_end) {
   const Stopwatch watch;
-  DividedChunks source(stretches, plan.chunk, run.budget, plan.threads);
+  // The boxes of a grid are small.
+  const bool is_of_grid = here.origin == ChunkOrigin::kGrid || here.origin == ChunkOrigin::kMaskedGrid;
+  std::optional<DividedChunks> divided;
+  if (!is_of_grid) divided.emplace(stretches, plan.chunk, run.budget, plan.threads);
+  ChunkSource& source = is_of_grid ? stretches : *divided;
   std::vector<GraphSink*> sinks;
   for (const auto& store : run.stores) sinks.push_back(store.get());
   if (run.follower) sinks.assign(1, run.follower.get());
@@ -41,7 +46,7 @@ FirstStageResult glue_chunks(RunContext& run, ChunkSource& stretches, const Memo
     }
     run.tell({ComputeProgress::Phase::kReeb, at.bytes_read, at.bytes_total, at.triangles_read});
     // A layer of a grid has many chunks, and a run can be saved after the last of them only.
-    if (options.are_boxes && !run.resumable.can_be_saved()) run.resumable.check_interruption();
+    if (is_of_grid && !run.resumable.can_be_saved()) run.resumable.check_interruption();
   };
   options.between_chunks = [&](const ChunkPlace& place, const SaveEngine& save_engine) {
     here.place = place;

@@ -90,6 +90,28 @@ TEST(Geodesic, InARegularPlaneIsExact) {
   for (std::uint32_t v = 0; v < plane.vertex_count(); ++v) EXPECT_NEAR(d[v], plane.length(0, v), 1e-9) << v;
 }
 
+// Corners of up to 170 degrees: a grid of squares that is sheared, with either diagonal.
+TEST(Geodesic, ObtuseCornersInAPlane) {
+  constexpr std::uint32_t kSide = 30;
+  for (const double shear : {-6.0, -3.0, -1.5, 0.0, 1.0, 1.5, 2.0, 3.0, 6.0}) {
+    WholeComplex plane;
+    for (std::uint32_t y = 0; y < kSide; ++y)
+      for (std::uint32_t x = 0; x < kSide; ++x) {
+        plane.coordinates.insert(plane.coordinates.end(), {x + shear * y, 1.0 * y, 0});
+        if (x == 0 || y == 0) continue;
+        const std::uint32_t d = y * kSide + x, c = d - 1, b = d - kSide, a = b - 1;
+        plane.triangles.insert(plane.triangles.end(), {{a, b, d}, {a, d, c}});
+      }
+    const std::uint32_t source = kSide * kSide / 2 + kSide / 2;
+    const auto errors = errors_of(distance(plane, {source}), [&](std::uint32_t v) { return plane.length(source, v); });
+    SCOPED_TRACE(::testing::Message() << "shear " << shear << ": " << errors.least << " " << errors.mean << " "
+                                      << errors.most);
+    EXPECT_GT(errors.least, -1e-6);
+    EXPECT_LT(errors.most, 0.02);
+    EXPECT_LT(errors.mean, 0.0005);
+  }
+}
+
 TEST(Geodesic, OfSeveralSourcesInAPlane) {
   const WholeComplex plane = testing::random_plane(16, 3);
   const auto errors = errors_of(distance(plane, {0, 288}),

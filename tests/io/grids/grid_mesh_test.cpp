@@ -148,7 +148,7 @@ TEST(GridMesh, CountsTheValuesThatItHolds) {
   EXPECT_LE(reader->memory_bytes(), std::uint64_t{1} << 20);
 }
 
-TEST(GridMesh, LeavesOutSimplicesWhereNoVertexIsSkipped) {
+TEST(GridMesh, LeavesOutSimplices) {
   const auto reader = io::make_grid_mesh(std::make_unique<MemoryGrid>(GridShape{3, 3, 3}, std::vector<double>(27)), {});
   ASSERT_TRUE(reader->leave_out_simplices());
   std::size_t vertices = 0;
@@ -158,8 +158,21 @@ TEST(GridMesh, LeavesOutSimplicesWhereNoVertexIsSkipped) {
     EXPECT_TRUE(batch.finalized.empty());
   }
   EXPECT_EQ(vertices, 27u);
+  std::vector<double> values(27);
+  values[4] = values[26] = kNan;
+  const auto skipping =
+      io::make_grid_mesh(std::make_unique<MemoryGrid>(GridShape{3, 3, 3}, values), {}, {.skip_nodata = true});
+  ASSERT_TRUE(skipping->leave_out_simplices());
+  std::vector<std::uint64_t> numbers;
+  for (MeshBatch batch; skipping->read(batch);) {
+    for (std::size_t i = 0; i < batch.vertex_count; ++i) numbers.push_back(batch.first_vertex.value() + i);
+    EXPECT_EQ(batch.simplex_count(), 0u);
+  }
+  ASSERT_EQ(numbers.size(), 25u);
+  for (std::size_t i = 0; i < numbers.size(); ++i) EXPECT_EQ(numbers[i], i < 4 ? i : i + 1);
+  // Numbers without gaps say nothing of places.
   EXPECT_FALSE(io::make_grid_mesh(std::make_unique<MemoryGrid>(GridShape{2, 2, 2}, std::vector<double>(8)), {},
-                                  {.skip_nodata = true})
+                                  {.skip_nodata = true, .renumber = true})
                    ->leave_out_simplices());
 }
 

@@ -43,6 +43,19 @@ std::string run_grid(const GridShape& shape, const std::vector<double>& values, 
   return output;
 }
 
+// Takes the values of some vertices away: of each with the same chance, or of all but a ball.
+void make_gaps(const GridShape& shape, Random& random, std::vector<double>& values) {
+  const bool is_ball = random.chance(30);
+  const auto missing = static_cast<unsigned>(random.below(50));
+  const Point center = position_in(shape, random.below(values.size()));
+  for (std::size_t v = 0; v < values.size(); ++v) {
+    const Point at = position_in(shape, v);
+    const double x = at[0] - center[0], y = at[1] - center[1], z = at[2] - center[2];
+    if (is_ball ? x * x + y * y + z * z > 30 : random.chance(missing))
+      values[v] = std::numeric_limits<double>::quiet_NaN();
+  }
+}
+
 GridRun random_run(Random& random) {
   GridRun run;
   const std::size_t sizes[] = {1, 8, 27, 100, 0};
@@ -109,7 +122,12 @@ TEST(GridRuns, SkipVerticesWithoutDataWithTheirSimplices) {
     run.function = random.chance(50) ? "value" : "x";
     for (const std::uint64_t v : index)
       left.values.push_back(run.function == "x" ? position_in(shape, v)[0] : values[v]);
-    const std::string output = run_grid(shape, values, run, folder);
+    ooc::ComputeResult result;
+    const std::string output = run_grid(shape, values, run, folder, &result);
+    SimplexCounts counts{};
+    for (const auto& simplex : left.simplices) ++counts[simplex.size() - 1];
+    EXPECT_EQ(result.simplices, counts);
+    EXPECT_EQ(result.vertices, index.size());
     {
       const ooc::ReebFile file(output);
       ReebGraph expected = without_positions(reference_reeb(left));
@@ -132,9 +150,11 @@ TEST(GridRuns, AreResumedAsIfNothingHadHappened) {
   for (std::uint64_t i = 0; i < case_count(40); ++i) {
     Random random(seed + i);
     const GridShape shape{random.between(3, 7), random.between(3, 7), random.between(3, 9)};
-    const std::vector<double> values = random_grid_values(shape, random);
+    std::vector<double> values = random_grid_values(shape, random);
     GridRun run;
     run.path = mesh;
+    run.skips = i % 2 == 1;
+    if (run.skips) make_gaps(shape, random, values);
     run.options.chunk_triangles = 8;
     const std::string whole = take_bytes(run_grid(shape, values, run, folder));
     run.options.checkpoint_seconds = 0;
@@ -168,6 +188,8 @@ TEST(GridRuns, EmbedWithinABucketFromBoxesToBoxes) {
     const double slope = random.chance(50) ? 0 : random.unit();
     for (std::size_t v = 0; v < values.size(); ++v) values[v] = slope * position_in(shape, v)[1] + random.unit();
     GridRun run;
+    run.skips = i % 3 == 1;
+    if (run.skips) make_gaps(shape, random, values);
     run.options.graph_only = true;
     run.options.buckets = static_cast<std::uint32_t>(1 + random.below(i % 2 == 0 ? 100 : 4));
     const ooc::ComputeOptions whole_options = run.options;
@@ -188,6 +210,33 @@ TEST(GridRuns, EmbedWithinABucketFromBoxesToBoxes) {
     }
     SCOPED_TRACE(testing::Message() << "seed " << seed + i);
     ASSERT_NO_FATAL_FAILURE(expect_same_places(expected, found, exponent, 100));
+  }
+}
+
+// Noise that is removed does not depend on where boxes end.
+TEST(GridRuns, RemoveTheSameNoiseBesideGaps) {
+  const std::uint64_t seed = base_seed();
+  const ooc::Scratch folder;
+  for (std::uint64_t i = 0; i < case_count(100); ++i) {
+    Random random(seed + i);
+    const GridShape shape{random.between(2, 12), random.between(2, 12), random.between(1, 12)};
+    std::vector<double> values = random_grid_values(shape, random);
+    make_gaps(shape, random, values);
+    GridRun run;
+    run.skips = true;
+    run.options.denoise = 0.05 * static_cast<double>(random.between(1, 8));
+    run.options.denoise_is_share = true;
+    std::string expected;
+    for (const std::size_t size : {1'000'000u, 12u, 100u, 400u}) {
+      run.options.chunk_triangles = size;
+      const std::string output = run_grid(shape, values, run, folder);
+      const ooc::ReebFile file(output);
+      const std::string found =
+          describe(without_positions(file.load().graph)) + std::to_string(file.header().denoised_pairs);
+      if (expected.empty()) expected = found;
+      ASSERT_EQ(found, expected) << "seed " << seed + i << ", boxes of " << size;
+      std::filesystem::remove(output);
+    }
   }
 }
 

@@ -1,0 +1,126 @@
+#include "ooc/grids/grid_layers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "libreeb/base/error.h"
+
+namespace reeb::ooc {
+
+std::array<std::uint32_t, 3> box_cells(const GridSize& grid, std::size_t box_vertices, std::uint64_t layer_bytes,
+                                       std::size_t functions) {
+  const GridAxes axes(grid);
+  const double side = std::pow(static_cast<double>(box_vertices), 1.0 / std::max(axes.count, 1u));
+  const auto cells = static_cast<std::uint32_t>(std::max(1.0, std::floor(side + 1e-9)));
+  std::array<std::uint32_t, 3> box{cells, cells, cells};
+  std::uint64_t slice = 1;
+  for (std::size_t k = 0; k < axes.last; ++k) slice *= grid[k];
+  const std::uint64_t slices = layer_bytes / (slice * sizeof(double) * functions);
+  box[axes.last] = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(slices, 2, std::uint64_t{cells} + 1) - 1);
+  return box;
+}
+
+GridLayers::GridLayers(MeshReader& reader, FunctionValues& functions, MemoryBudget& budget, std::size_t box_vertices)
+    : reader_(reader),
+      functions_(functions),
+      grid_(reader.info().grid->size),
+      axis_(GridAxes(grid_).last),
+      boxes_(grid_, box_cells(grid_, box_vertices, budget.free_bytes() / 4, functions.function_count())),
+      reservation_(budget.reserve("layer of the image", 0)),
+      values_(functions.function_count()),
+      batch_values_(functions.function_count()) {
+  for (std::size_t k = 0; k < axis_; ++k) slice_ *= grid_[k];
+  reservation_.resize(functions.function_count() * sizeof(double) * slice_ * boxes_.size(axis_, 0));
+}
+
+bool GridLayers::read() {
+  if (is_last()) return false;
+  const std::uint64_t size = slice_ * boxes_.size(axis_, layers_);
+  for (auto& values : values_) {
+    if (layers_ != 0) values.erase(values.begin(), values.end() - static_cast<std::ptrdiff_t>(slice_));
+    values.reserve(size);
+  }
+  const std::uint64_t first = slice_ * boxes_.first(axis_, layers_), known = values_[0].size();
+  for (auto& values : values_) values.resize(size, std::numeric_limits<double>::quiet_NaN());
+  ++layers_;
+  read_vertices(first + known, first + size);
+  return true;
+}
+
+// The vertices from `next` to `end` of the grid, but for those that the reader leaves out.
+void GridLayers::read_vertices(std::uint64_t next, std::uint64_t end) {
+  const std::uint64_t first = slice_ * slices_before();
+  const bool has_all = reader_.info().vertex_count.has_value();
+  while (next < end) {
+    if (taken_ == batch_.vertex_count && !read_batch()) {
+      if (has_all) throw InputChanged();
+      return;
+    }
+    const std::uint64_t id = batch_.first_vertex.value() + taken_;
+    if (id < next || (has_all && id != next)) throw InputChanged();
+    if (id >= end) return;
+    const auto piece = static_cast<std::size_t>(std::min<std::uint64_t>(end - id, batch_.vertex_count - taken_));
+    for (std::size_t f = 0; f < values_.size(); ++f)
+      std::copy_n(batch_values_[f].begin() + static_cast<std::ptrdiff_t>(taken_), piece,
+                  values_[f].begin() + static_cast<std::ptrdiff_t>(id - first));
+    taken_ += piece;
+    vertices_ += piece;
+    next = id + piece;
+  }
+}
+
+bool GridLayers::read_batch() {
+  taken_ = 0;
+  batch_.vertex_count = 0;
+  if (ended_ || !reader_.read(batch_)) {
+    ended_ = true;
+    batch_.vertex_count = 0;
+    return false;
+  }
+  const std::size_t n = batch_.vertex_count;
+  ids_.resize(n);
+  for (std::size_t i = 0; i < n; ++i) ids_[i] = VertexId(batch_.first_vertex.value() + i);
+  data_.clear();
+  for (const unsigned column : functions_.columns()) data_.emplace_back(batch_.column(column));
+  positions_.clear();
+  for (auto& values : batch_values_) values.clear();
+  functions_.evaluate(ids_, data_, positions_, batch_values_);
+  digest_.add(io::object_bytes(batch_.first_vertex.value()));
+  for (const auto& values : batch_values_) digest_.add(std::as_bytes(std::span(values)));
+  return true;
+}
+
+ChunkPlace GridLayers::end(std::uint64_t triangles) const {
+  return {.triangles = triangles,
+          .next_vertex = vertices_,
+          .batches = layers_,
+          .digest = digest_.value(),
+          .ranges = functions_.ranges()};
+}
+
+bool GridLayers::is_at(const ChunkPlace& place) const {
+  return layers_ == place.batches && vertices_ == place.next_vertex &&
+         (layers_ == 0 || digest_.value() == place.digest);
+}
+
+// Positions follow from the grid.
+void GridLayers::copy(std::span<const std::uint64_t> from, WorkItem& item) const {
+  const GridInfo& grid = *reader_.info().grid;
+  item.values.resize(values_.size());
+  for (std::size_t f = 0; f < values_.size(); ++f) {
+    item.values[f].clear();
+    for (const std::uint64_t v : from) item.values[f].push_back(values_[f][v]);
+  }
+  item.chunk.positions.clear();
+  const std::uint64_t before = slice_ * slices_before();
+  for (const std::uint64_t v : from) {
+    const std::uint64_t id = before + v;
+    const std::array<std::uint64_t, 3> at{id % grid_[0], id / grid_[0] % grid_[1], id / grid_[0] / grid_[1]};
+    Point position{};
+    for (std::size_t axis = 0; axis < grid.axes; ++axis) position[axis] = grid.coordinate(axis, at);
+    item.chunk.positions.push_back(position);
+  }
+}
+
+}  // namespace reeb::ooc
