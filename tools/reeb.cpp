@@ -13,11 +13,11 @@
 
 #include "io/file/file.h"
 #include "libreeb/base/error.h"
+#include "libreeb/base/nearest_name.h"
 #include "libreeb/base/printable.h"
 #include "ooc/run/explained_error.h"
 #include "ooc/run/freed_memory.h"
 #include "tools/arguments/arguments.h"
-#include "tools/arguments/nearest_name.h"
 #include "tools/commands/commands.h"
 #include "tools/program/process_memory.h"
 #include "tools/program/signals.h"
@@ -78,7 +78,7 @@ bool is_command(const std::string& word) {
 reeb::Error no_such_command(const std::string& word) {
   std::vector<std::string> names;
   for (const NamedCommand& command : kCommands) names.emplace_back(command.name);
-  const std::string near = reeb::tools::nearest(word, names);
+  const std::string near = reeb::nearest(word, names);
   return {reeb::ErrorKind::kUsage,
           "there is no command '" + word + "', and no file of that name" +
               (near.empty() ? "" : " (did you mean " + near + "?)"),

@@ -14,6 +14,7 @@
 #include <thread>
 #include <vector>
 
+#include "io/file/file.h"
 #include "libreeb/base/error.h"
 #include "libreeb/base/memory_budget.h"
 #include "libreeb/base/printable.h"
@@ -107,8 +108,8 @@ void compute(reeb::tools::World& world, Arguments arguments) {
   const std::vector<std::string> outputs = reeb::tools::output_names(arguments.output, arguments.functions);
   reeb::tools::take_denoise(arguments);
   if (world.is_root()) {
-    if (arguments.mesh == "-" || arguments.output == "-")
-      throw Error(ErrorKind::kUsage, "many processes cannot share standard input or standard output",
+    if (arguments.mesh == "-" || reeb::io::is_device(arguments.output))
+      throw Error(ErrorKind::kUsage, "many processes cannot share standard input, standard output or a device",
                   "name files for the mesh and the output");
     reeb::tools::check_files(arguments, outputs, arguments.report);
   }

@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
+#include <span>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -44,19 +46,28 @@ void write_xml_text(std::string_view text, OutputBuffer& out) {
   }
 }
 
-// The ranks of nodes in a drawing, from below: nodes share one if they have one value, and no arc between them.
-std::vector<std::uint64_t> drawing_ranks(const ReebGraph& graph) {
+// The ranks of nodes in a drawing, from below: nodes share one if they have one value, and no arc between them. Each
+// group of nodes (`group[i]` is that of node i) has ranks of its own.
+std::vector<std::uint64_t> drawing_ranks(const ReebGraph& graph, std::span<const std::uint32_t> group) {
   std::vector<std::size_t> after_lower(graph.node_count(), 0);  // 1 + the highest node below
   for (std::size_t arc = 0; arc < graph.arc_count(); ++arc) {
     std::size_t& after = after_lower[graph.hi[arc].value()];
     after = std::max<std::size_t>(after, graph.lo[arc].value() + 1);
   }
   std::vector<std::uint64_t> ranks(graph.node_count());
-  std::size_t first = 0;  // of the rank
-  for (std::size_t i = 1; i < graph.node_count(); ++i) {
-    const bool shares = graph.nodes[i].value == graph.nodes[i - 1].value && after_lower[i] <= first;
-    if (!shares) first = i;
-    ranks[i] = ranks[i - 1] + (shares ? 0 : 1);
+  struct LastRank {
+    std::size_t first, last;  // nodes
+  };
+  std::vector<std::optional<LastRank>> of_group(graph.node_count());
+  for (std::size_t i = 0; i < graph.node_count(); ++i) {
+    auto& below = of_group[group[i]];
+    if (!below) {
+      below = {i, i};
+      continue;
+    }
+    const bool shares = graph.nodes[i].value == graph.nodes[below->last].value && after_lower[i] <= below->first;
+    ranks[i] = ranks[below->last] + (shares ? 0 : 1);
+    below = {shares ? below->first : i, i};
   }
   return ranks;
 }
@@ -162,12 +173,17 @@ void write_arc_table(const GraphView& view, OutputBuffer& out) {
 }
 
 // The height of a node in the drawing is the rank of its value, since each line has just the length that it needs. An
-// invisible line holds each component but the first at its height.
+// invisible line holds each component but the first at its height. With many components dot would take minutes, so then
+// each has ranks and a place of its own.
 void write_dot(const GraphView& view, OutputBuffer& out) {
   constexpr std::array kShapes = {"invtriangle", "house", "invhouse", "triangle", "diamond", "ellipse"};
   const ReebGraph& graph = view.graph;
   const GraphFeatures features = find_features(graph);
-  const std::vector<std::uint64_t> ranks = drawing_ranks(graph);
+  constexpr std::uint32_t kMostHeld = 20;
+  const auto last_component = std::ranges::max_element(features.component);
+  const bool holds = last_component == features.component.end() || *last_component < kMostHeld;
+  const std::vector<std::uint64_t> ranks =
+      drawing_ranks(graph, holds ? std::vector<std::uint32_t>(graph.node_count(), 0) : features.component);
   out << "graph reeb {\n  rankdir=BT;\n  ranksep=0.2;\n  node [fontsize=10, height=0.2, margin=\"0.02,0.02\"];\n";
   for (std::size_t i = 0; i < graph.node_count(); ++i) {
     const std::uint64_t vertex = graph.nodes[i].vertex.value();
@@ -182,7 +198,7 @@ void write_dot(const GraphView& view, OutputBuffer& out) {
   };
   for (std::size_t i = 0; i < graph.arc_count(); ++i) draw_line(graph.lo[i].value(), graph.hi[i].value(), "");
   std::uint32_t components = 1;
-  for (std::size_t i = 0; i < graph.node_count(); ++i)
+  for (std::size_t i = 0; holds && i < graph.node_count(); ++i)
     if (features.component[i] == components) {
       draw_line(0, i, ", style=invis");
       ++components;

@@ -61,7 +61,7 @@ std::string follow_links(const std::string& path) {
     const fs::path target = fs::read_symlink(place, ignored);
     place = target.is_absolute() ? target : place.parent_path() / target;
   }
-  throw Error(ErrorKind::kBadInput, "the output is a symbolic link that leads to itself", "name a file").at(path);
+  throw Error(ErrorKind::kBadInput, "this is a symbolic link that leads to itself", "name a file").at(path);
 }
 
 void check_output_name(const std::string& path, Existing existing) {

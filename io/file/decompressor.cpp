@@ -1,10 +1,10 @@
 #include "io/file/decompressor.h"
 
+#include <zlib.h>
 #include <zstd.h>
 #include <zstd_errors.h>
 
 #include <boost/iostreams/categories.hpp>
-#include <boost/iostreams/filter/gzip.hpp>
 #include <boost/iostreams/filtering_streambuf.hpp>
 #include <boost/iostreams/read.hpp>
 #include <exception>
@@ -23,7 +23,7 @@ namespace bio = boost::iostreams;
 
 constexpr std::streamsize kChunkBytes = 65536;
 
-struct DamagedZstd {
+struct Damaged {
   std::string what;
   bool is_cut = false;
 };
@@ -46,13 +46,86 @@ class RawDevice {
 };
 
 // THROWS: std::bad_alloc.
+std::shared_ptr<z_stream> make_gzip_stream() {
+  auto stream = std::make_unique<z_stream>();
+  constexpr int kGzip = 16;  // added to the bits of the window: as zlib has it
+  if (inflateInit2(stream.get(), MAX_WBITS + kGzip) != Z_OK) throw std::bad_alloc();
+  return {stream.release(), [](z_stream* open) {
+            inflateEnd(open);
+            delete open;
+          }};
+}
+
+// bio::gzip_decompressor refuses zeros after the last member, with which tapes fill a block.
+class GzipFilter {
+ public:
+  using char_type = char;
+  struct category : bio::multichar_input_filter_tag {};
+
+  explicit GzipFilter(std::shared_ptr<z_stream> stream) : stream_(std::move(stream)), chunk_(kChunkBytes) {}
+
+  template <class Source>
+  std::streamsize read(Source& source, char* out, std::streamsize limit) {
+    stream_->next_out = reinterpret_cast<Bytef*>(out);
+    stream_->avail_out = static_cast<uInt>(limit);
+    while (stream_->avail_out == static_cast<uInt>(limit)) {
+      if (stream_->avail_in == 0 && !fill(source)) {
+        if (place_ == Place::kInMember) throw Damaged{"is not a whole gzip stream", true};
+        return -1;
+      }
+      if (place_ == Place::kInMember)
+        inflate_more();
+      else
+        pass_end();
+    }
+    return limit - static_cast<std::streamsize>(stream_->avail_out);
+  }
+
+ private:
+  enum class Place { kInMember, kAfterMember, kInPadding };
+
+  template <class Source>
+  bool fill(Source& source) {
+    const std::streamsize got = bio::read(source, chunk_.data(), kChunkBytes);
+    stream_->next_in = reinterpret_cast<Bytef*>(chunk_.data());
+    stream_->avail_in = got > 0 ? static_cast<uInt>(got) : 0;
+    return got > 0;
+  }
+
+  void inflate_more() {
+    const int result = inflate(stream_.get(), Z_NO_FLUSH);
+    if (result == Z_MEM_ERROR) throw std::bad_alloc();
+    if (result == Z_STREAM_END) place_ = Place::kAfterMember;
+    if (result != Z_OK && result != Z_STREAM_END && result != Z_BUF_ERROR)
+      throw Damaged{"is not a whole gzip stream", false};
+  }
+
+  // At a byte after a member: it begins another one, or all that follows is zero.
+  void pass_end() {
+    constexpr Bytef kFirstOfMember = 0x1F;
+    if (place_ == Place::kAfterMember && *stream_->next_in == kFirstOfMember) {
+      inflateReset(stream_.get());
+      place_ = Place::kInMember;
+      return;
+    }
+    place_ = Place::kInPadding;
+    for (; stream_->avail_in != 0; ++stream_->next_in, --stream_->avail_in)
+      if (*stream_->next_in != 0) throw Damaged{"there are bytes after the last member of a gzip stream", false};
+  }
+
+  std::shared_ptr<z_stream> stream_;  // Boost copies its filters
+  std::vector<char> chunk_;
+  Place place_ = Place::kInMember;
+};
+
+// THROWS: std::bad_alloc.
 std::shared_ptr<ZSTD_DStream> make_zstd_stream() {
   std::shared_ptr<ZSTD_DStream> stream(ZSTD_createDStream(), &ZSTD_freeDStream);
   if (!stream) throw std::bad_alloc();
   return stream;
 }
 
-// THROWS: DamagedZstd; an Error without a file; or std::bad_alloc.
+// THROWS: Damaged; an Error without a file; or std::bad_alloc.
 void check_zstd(std::size_t result) {
   if (ZSTD_isError(result) == 0) return;
   const ZSTD_ErrorCode code = ZSTD_getErrorCode(result);
@@ -60,7 +133,7 @@ void check_zstd(std::size_t result) {
   if (code == ZSTD_error_frameParameter_windowTooLarge)
     throw Error(ErrorKind::kBadInput, "unpacking it takes a larger window than zstd allows",
                 "unpack it first, with zstd -d and its option for long windows");
-  throw DamagedZstd{ZSTD_getErrorName(result)};
+  throw Damaged{ZSTD_getErrorName(result)};
 }
 
 // bio::zstd_decompressor accepts a truncated stream as complete, so this filter follows the frames itself.
@@ -78,7 +151,7 @@ class ZstdFilter {
       if (given_.pos == given_.size && !flushing_) {
         const std::streamsize got = bio::read(source, chunk_.data(), kChunkBytes);
         if (got <= 0) {
-          if (inside_frame_) throw DamagedZstd{"ends inside a zstd frame", true};
+          if (inside_frame_) throw Damaged{"ends inside a zstd frame", true};
           return -1;
         }
         given_ = {chunk_.data(), static_cast<std::size_t>(got), 0};
@@ -104,7 +177,7 @@ class DecompressedInput final : public RawInput {
   DecompressedInput(std::string name, std::unique_ptr<RawInput> raw, Compression compression)
       : name_(std::move(name)), raw_(std::move(raw)) {
     if (compression == Compression::kGzip) {
-      chain_.push(bio::gzip_decompressor(bio::zlib::default_window_bits, kChunkBytes), kChunkBytes);
+      chain_.push(GzipFilter(make_gzip_stream()), kChunkBytes);
     } else {
       zstd_ = make_zstd_stream();
       chain_.push(ZstdFilter(zstd_), kChunkBytes);
@@ -119,15 +192,8 @@ class DecompressedInput final : public RawInput {
     } catch (const Error& failure) {
       if (!failure.file().empty()) throw;
       throw Error(failure.kind(), failure.message(), failure.hint()).at(name_);
-    } catch (const DamagedZstd& damage) {
+    } catch (const Damaged& damage) {
       throw_damaged(damage.what, damage.is_cut);
-    } catch (const std::bad_alloc&) {
-      throw;
-    } catch (const bio::gzip_error& failure) {
-      const bool is_cut = failure.error() == bio::gzip::bad_footer || failure.zlib_error_code() == bio::zlib::buf_error;
-      throw_damaged("is not a whole gzip stream", is_cut);
-    } catch (const std::exception&) {
-      throw_damaged("is not a whole gzip stream", false);
     }
   }
 

@@ -19,7 +19,7 @@
 namespace reeb::io {
 namespace {
 
-bool is_full(int error) { return error == ENOSPC || error == EDQUOT || error == EFBIG; }
+bool is_full(int error) { return error == ENOSPC || error == EDQUOT; }
 
 [[noreturn]] void throw_unreadable(const std::string& why, const std::string& path) {
   throw Error(ErrorKind::kBadInput, "cannot be read: " + why, "name a file that exists and may be read").at(path);
@@ -178,6 +178,7 @@ void File::fail(const char* doing, int error, std::uint64_t offset, std::size_t 
 std::string hint_for(int error, const std::string& otherwise) {
   if (error == EMFILE || error == ENFILE) return "allow more open files (ulimit -n), or close other programs";
   if (is_limit(error)) return "allow more memory (ulimit -v), or close other programs";
+  if (error == EFBIG) return "a limit of the system, ulimit -f, or of the file system stops larger files: raise it";
   return is_full(error) ? "make room on the disk, or write to another folder" : otherwise;
 }
 

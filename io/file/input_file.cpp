@@ -14,10 +14,14 @@
 namespace reeb::io {
 
 void check_input_file(const std::string& path) {
+  if (path.empty())
+    throw Error(ErrorKind::kBadInput, "the name of an input is empty", "name a file; perhaps a variable is not set");
   std::error_code failure;
   const auto status = std::filesystem::status(path, failure);
   if (status.type() == std::filesystem::file_type::not_found)
     throw Error(ErrorKind::kBadInput, "there is no such file", "check the path").at(path);
+  if (failure == std::errc::too_many_symbolic_link_levels)
+    throw Error(ErrorKind::kBadInput, "this is a symbolic link that leads to itself", "name a file").at(path);
   if (std::filesystem::is_directory(status))
     throw Error(ErrorKind::kBadInput, "is a directory, not a file", "name a file in it").at(path);
   if (::access(path.c_str(), R_OK) != 0)

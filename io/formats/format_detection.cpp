@@ -191,7 +191,26 @@ bool starts_streaming(std::string_view head) {
   return is_streaming_binary(head) || has_streaming_comment(whole_lines(head)) || has_streaming_line(whole_lines(head));
 }
 
+std::string_view without_byte_order_mark(std::string_view head) {
+  if (head.starts_with("\xEF\xBB\xBF")) head.remove_prefix(3);
+  return head;
+}
+
 }  // namespace
+
+std::optional<MarkedContent> marked_content(ContentSource& source, std::size_t min_bytes) {
+  const std::string_view head = without_byte_order_mark(source.view(0, min_bytes));
+  const auto mesh = [](MeshFormat format) { return MarkedContent{format, format_name(format)}; };
+  if (head.starts_with("ply") && (head.size() == 3 || is_blank_or_line_end(head[3]))) return mesh(MeshFormat::kPly);
+  if (has_binary_stl_size(head, source.size())) return mesh(MeshFormat::kBinaryStl);
+  if (const auto image = image_format_of(head)) return MarkedContent{MeshFormat::kUnknown, image_name(*image)};
+  if (head.starts_with("# vtk DataFile")) return mesh(MeshFormat::kVtkLegacy);
+  if (is_vtk_xml_mesh(head)) return mesh(MeshFormat::kVtkXml);
+  if (head.starts_with("$MeshFormat")) return mesh(MeshFormat::kMsh);
+  if (is_medit(head)) return mesh(MeshFormat::kMedit);
+  const ForeignFormat foreign = foreign_format(head);
+  return foreign.name.empty() ? std::nullopt : std::optional(MarkedContent{MeshFormat::kUnknown, foreign.name});
+}
 
 MeshFormat detect_format(ContentSource& source, const std::string& path) {
   if (is_cx_name(path)) return MeshFormat::kCx;
@@ -201,16 +220,8 @@ MeshFormat detect_format(ContentSource& source, const std::string& path) {
       if (may_be_big_endian_nifti(head)) break;
       if (starts_streaming(head)) return MeshFormat::kStreaming;
     }
-  std::string_view head = source.view(0);
-  if (head.starts_with("\xEF\xBB\xBF")) head.remove_prefix(3);
-  if (head.starts_with("ply") && (head.size() == 3 || is_blank_or_line_end(head[3]))) return MeshFormat::kPly;
-  if (has_binary_stl_size(head, source.size())) return MeshFormat::kBinaryStl;
-  if (image_format_of(head)) return MeshFormat::kUnknown;
-  if (head.starts_with("# vtk DataFile")) return MeshFormat::kVtkLegacy;
-  if (is_vtk_xml_mesh(head)) return MeshFormat::kVtkXml;
-  if (head.starts_with("$MeshFormat")) return MeshFormat::kMsh;
-  if (is_medit(head)) return MeshFormat::kMedit;
-  if (!foreign_format(head).name.empty()) return MeshFormat::kUnknown;
+  if (const auto marked = marked_content(source)) return marked->format;
+  const std::string_view head = without_byte_order_mark(source.view(0));
   if (parse_off_keyword(first_word(skip_comments(head)))) return MeshFormat::kOff;
   if (is_streaming_binary(head) || has_streaming_comment(head)) return MeshFormat::kStreaming;
   const bool text = is_text(head);

@@ -29,6 +29,15 @@ enum class MeshFormat {
 // "PLY", "streaming mesh"; "unknown" for kUnknown.
 std::string_view format_name(MeshFormat format);
 
+// A content whose first bytes say for sure what it is.
+struct MarkedContent {
+  MeshFormat format = MeshFormat::kUnknown;  // also of images, and of what is not read
+  std::string_view name;                     // "PLY", "an NRRD image", "a Reeb graph"
+};
+// Nothing if the content has no mark. It looks at the first bytes only, at least `min_bytes` of them
+// (content_source.h).
+std::optional<MarkedContent> marked_content(ContentSource& source, std::size_t min_bytes = ContentSource::kLookahead);
+
 // `path` decides only where the content cannot: TetGen, whose files are numbers; between OBJ and the text form of
 // streaming meshes, which share their lines v and f, and for damaged streaming meshes and binary STL files. A text
 // stream is recognized by its head, by post-order, by tetrahedra or by explicit finalizations. A stream with none of

@@ -45,6 +45,13 @@ void check_format_name(const std::string& name) {
 
 MeshFormat chosen_format(const std::string& name, ContentSource& source) {
   const MeshFormat format = format_of(name);
+  // A stream may come slowly, so little of it is waited for.
+  constexpr std::size_t kMarkBytes = 16;
+  const auto marked = marked_content(source, format == MeshFormat::kStreaming ? kMarkBytes : ContentSource::kLookahead);
+  if (marked && marked->format != format)
+    throw Error(ErrorKind::kBadInput, "its content is " + std::string(marked->name) + ", but --format says " + name,
+                "--format is the format of the mesh that is read; leave it out")
+        .at(source.name());
   return format == MeshFormat::kBinaryStl && is_text_stl(source) ? MeshFormat::kAsciiStl : format;
 }
 

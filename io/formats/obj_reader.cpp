@@ -1,9 +1,11 @@
 #include "io/formats/obj_reader.h"
-#include "libreeb/base/count_text.h"
 
 #include <algorithm>
 #include <array>
 #include <utility>
+
+#include "libreeb/base/count_text.h"
+#include "libreeb/base/error.h"
 
 namespace reeb::io {
 namespace {
@@ -41,8 +43,16 @@ void ObjReader::fill(MeshBatch& batch) {
     else if (text_.more())
       begin_line(batch);
     else
-      return;
+      return check_lines();
   }
+}
+
+// At the end. A file of comments is a mesh without vertices.
+void ObjReader::check_lines() const {
+  if (has_obj_line_ || unknown_lines_ == 0) return;
+  throw Error(ErrorKind::kBadInput, "none of its lines is OBJ",
+              "it may be of another format: leave --format out, or give the right one")
+      .at(text_.source().name(), std::to_string(first_unknown_line_) + ":1");
 }
 
 void ObjReader::begin_line(MeshBatch& batch) {
@@ -50,10 +60,14 @@ void ObjReader::begin_line(MeshBatch& batch) {
   if (keyword == "v") {
     read_vertex(batch);
   } else if (keyword == "f" || keyword == "l" || keyword == "fo" || keyword == "p") {
+    has_obj_line_ = true;
     face_.begin(keyword == "l" ? FaceShape::kPolyline : keyword == "p" ? FaceShape::kPoints : FaceShape::kPolygon);
     in_face_ = true;
   } else {
-    if (!is_skipped(keyword) && unknown_lines_++ == 0) first_unknown_line_ = text_.line();
+    if (is_skipped(keyword))
+      has_obj_line_ = true;
+    else if (unknown_lines_++ == 0)
+      first_unknown_line_ = text_.line();
     text_.skip_line();
   }
 }
@@ -68,6 +82,7 @@ void ObjReader::read_vertex(MeshBatch& batch) {
     text_.fail("a vertex of " + std::to_string(numbers) + " numbers",
                "a vertex has 3 coordinates, and perhaps a weight or a colour of 3 numbers");
   text_.skip_line();
+  has_obj_line_ = true;
   for (std::size_t k = 0; k < 3; ++k) batch.coordinates[k].push_back(point[k]);
   count_vertices(batch, 1);
 }

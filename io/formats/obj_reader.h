@@ -27,13 +27,14 @@ class ObjReader final : public BatchReader {
   void begin_line(MeshBatch& batch);
   void read_vertex(MeshBatch& batch);
   void read_corner(MeshBatch& batch);
+  void check_lines() const;
   VertexId corner();
   void skip_texture_and_normal();
   [[noreturn]] void fail_corner(bool negative, std::uint64_t number) const;
 
   TextCursor text_;
   SimplexAssembler face_;
-  bool in_face_ = false;
+  bool in_face_ = false, has_obj_line_ = false;
   std::uint64_t unknown_lines_ = 0, first_unknown_line_ = 0, odd_extras_ = 0;
 };
 

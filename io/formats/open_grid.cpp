@@ -1,6 +1,7 @@
 #include "io/formats/open_grid.h"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <utility>
 
@@ -43,9 +44,6 @@ Image parse(ImageFormat format, ContentSource& source, const GridOptions& option
 // A header of a stranger must not make the program read files elsewhere.
 std::string data_path(const std::string& header, const std::string& data_file) {
   const fs::path name(data_file);
-  if (header == "-")
-    throw Error(ErrorKind::kBadInput, "the data are in another file, which standard input does not have",
-                "name the file of the header");
   if (name.is_absolute() || std::ranges::find(name, fs::path("..")) != name.end())
     throw Error(ErrorKind::kBadInput, "the data file \"" + data_file + "\" is not in the folder of the header",
                 "put both into one folder, and name the data file without its folder in the header");
@@ -67,6 +65,19 @@ std::optional<ImageFormat> detect_image(ContentSource& source, const std::string
   return suffix == ".raw" ? ImageFormat::kRaw : ImageFormat::kEsriGrid;
 }
 
+std::string grid_data_file(ContentSource& source, const std::string& path, std::optional<ImageFormat> format) {
+  if (!format) format = detect_image(source, path);
+  constexpr std::array kWithDataFiles = {ImageFormat::kNrrd, ImageFormat::kNifti, ImageFormat::kMetaImage};
+  if (!format || std::ranges::find(kWithDataFiles, *format) == kWithDataFiles.end()) return {};
+  try {
+    const Image image = parse(*format, source, {});
+    return image.data_file.empty() ? std::string() : data_path(path, image.data_file);
+  } catch (Error& error) {
+    error.at(source.name());
+    throw;
+  }
+}
+
 std::unique_ptr<GridReader> open_grid(const Input& input, std::unique_ptr<ContentSource> source,
                                       const GridOptions& options) {
   const std::string name = source->name();
@@ -85,6 +96,10 @@ std::unique_ptr<GridReader> open_grid(const Input& input, std::unique_ptr<Conten
       source = input.open();
     }
     if (image.data_file.empty()) return read_image(std::move(image), input, std::move(source));
+    // Which files a run reads is known before any work only if its header can be read twice.
+    if (!input.can_reopen())
+      throw Error(ErrorKind::kBadInput, "the data are in another file, which a pipe does not have",
+                  "name the file of the header");
     Input data(data_path(input.path(), image.data_file));
     if (!data.can_reopen())
       throw Error(ErrorKind::kBadInput, "the data file of a header is not a regular file", "copy the data into a file")

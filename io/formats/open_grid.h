@@ -19,6 +19,11 @@ namespace reeb::io {
 // it waits for the first 64 KB.
 std::optional<ImageFormat> detect_image(ContentSource& source, const std::string& path);
 
+// The file of the data that the header in `source` names, as its reader finds it; empty if the data follow the header,
+// or if this is no image. `format`: as in GridOptions. The file of the header, `path`, is a regular one.
+// THROWS: as open_grid(), for the header.
+std::string grid_data_file(ContentSource& source, const std::string& path, std::optional<ImageFormat> format);
+
 struct GridOptions {
   std::optional<ImageFormat> format;  // nothing: detect it
   RawGrid raw;                        // what a raw file holds

@@ -1,5 +1,8 @@
 #include "io/formats/open_mesh.h"
 
+#include <optional>
+#include <utility>
+
 #include "io/cells/medit_reader.h"
 #include "io/cells/msh_reader.h"
 #include "io/cells/tetgen_reader.h"
@@ -29,11 +32,22 @@ constexpr const char* kFormatsRead =
     "(SMA, SMB, SMC, SVA, SVB) and images (NRRD, NIfTI-1, MetaImage, VTI, NPY, ESRI ASCII as NAME.asc) are read, plain "
     "or packed with gzip or zstd";
 
+// The vertices of a TetGen mesh; empty for other meshes.
+std::string node_file(const std::string& path, const std::string& format) {
+  const bool tetgen = format == "tetgen" || (format.empty() && is_tetgen_name(path));
+  return tetgen ? tetgen_nodes(path) : std::string();
+}
+
+// The format of an image that is told by other than its content.
+std::optional<ImageFormat> told_format(const std::string& path, const std::string& format, const ImageOptions& image) {
+  if (image.is_raw() || (format.empty() && content_suffix(path) == ".raw")) return ImageFormat::kRaw;
+  return image_format_named(format);
+}
+
 }  // namespace
 
 Input mesh_input(const std::string& path, const std::string& format) {
-  const bool tetgen = format == "tetgen" || (format.empty() && is_tetgen_name(path));
-  const std::string nodes = tetgen ? tetgen_nodes(path) : std::string();
+  const std::string nodes = node_file(path, format);
   // CX and OBJ have no header: a mesh without vertices can be a file without bytes. Streaming meshes have their own
   // error.
   const std::string name = name_for_streams(path, format);
@@ -41,6 +55,16 @@ Input mesh_input(const std::string& path, const std::string& format) {
   const bool may_be_empty = suffix == ".cx" || suffix == ".obj" || is_streaming_name(name);
   return {path, nodes.empty() ? std::vector<std::string>{} : std::vector{nodes},
           may_be_empty ? Empty::kAllowed : Empty::kRefused};
+}
+
+std::vector<std::string> files_beside(const std::string& path, const std::string& format, const ImageOptions& image) {
+  if (std::string nodes = node_file(path, format); !nodes.empty()) return {std::move(nodes)};
+  const auto told = told_format(path, format, image);
+  if (told == ImageFormat::kRaw || (!told && !format.empty())) return {};
+  const Input input = mesh_input(path, format);
+  if (!input.can_reopen()) return {};
+  std::string data = grid_data_file(*input.open(), path, told);
+  return data.empty() ? std::vector<std::string>() : std::vector{std::move(data)};
 }
 
 std::unique_ptr<MeshReader> open_mesh(const std::string& path, const ReadOptions& options, const std::string& format) {
@@ -53,12 +77,9 @@ std::unique_ptr<MeshReader> open_mesh(const Input& input, std::unique_ptr<Conten
                                       const ReadOptions& options, const ImageOptions& image,
                                       const std::string& format) {
   GridOptions grid;
-  grid.format = image_format_named(format);
-  if (format.empty() && content_suffix(input.path()) == ".raw") grid.format = ImageFormat::kRaw;
-  if (image.is_raw() || grid.format == ImageFormat::kRaw) {
-    if (image.is_raw()) grid.raw = parse_raw_grid(image.grid, image.type, image.spacing, image.skip_bytes);
-    grid.format = ImageFormat::kRaw;
-  } else if (!grid.format) {
+  grid.format = told_format(input.path(), format, image);
+  if (image.is_raw()) grid.raw = parse_raw_grid(image.grid, image.type, image.spacing, image.skip_bytes);
+  if (!grid.format) {
     const bool may_be_image =
         format.empty() && (input.can_reopen() || detect_format(*source, input.path()) == MeshFormat::kUnknown);
     if (!may_be_image || !detect_image(*source, input.path())) {

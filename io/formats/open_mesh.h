@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "libreeb/port/mesh_reader.h"
 
@@ -36,6 +37,11 @@ std::unique_ptr<MeshReader> open_mesh(const std::string& path, const ReadOptions
 // The file `path`, and what belongs to its mesh: of TetGen, the file of vertices beside it.
 // THROWS: as open_content().
 Input mesh_input(const std::string& path, const std::string& format = {});
+
+// The other files that are read with the mesh or image `path`: the vertices of TetGen, and the data file that the
+// header of an image names. None of a pipe, which is refused if it would need one.
+// THROWS: as open_mesh(), for a file that cannot be opened and for the header of an image.
+std::vector<std::string> files_beside(const std::string& path, const std::string& format, const ImageOptions& image);
 
 // The same as the first for the content of `input`, which is open already, and with images as meshes of their division.
 // THROWS: also Error{kUsage} for options of a raw file that are missing or wrong.

@@ -30,7 +30,8 @@ FunctionSource::FunctionSource(const FunctionSpec& spec, const MeshInfo& info, s
     columns_ = {static_cast<unsigned>(spec.number)};
   } else if (spec.kind == Kind::kValue && !info.grid) {
     throw Error(ErrorKind::kBadInput, "the mesh is not an image, so it has no " + spec.text,
-                "choose a coordinate, property:NAME or file:PATH")
+                spec.text + " is the function of an image; " + mesh_name_ +
+                    " is a mesh: choose a coordinate, property:NAME or file:PATH")
         .at(mesh_name_);
   } else if (spec.kind == Kind::kProperty || spec.kind == Kind::kValue) {
     const auto found = std::ranges::find(properties, spec.argument);

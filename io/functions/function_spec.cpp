@@ -1,13 +1,16 @@
 #include "io/functions/function_spec.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <optional>
+#include <ranges>
 #include <utility>
 
 #include "io/text/text_cursor.h"
 #include "io/text/words.h"
 #include "libreeb/base/error.h"
+#include "libreeb/base/nearest_name.h"
 
 namespace reeb::io {
 namespace {
@@ -96,6 +99,43 @@ std::optional<FunctionSpec> try_parse(std::string_view text) {
   return std::nullopt;
 }
 
+constexpr struct {
+  std::string_view name, needs, example;
+} kNeeds[] = {{"geodesic", "a vertex", "geodesic:0"},         {"distance", "a vertex or a point", "distance:0"},
+              {"laplacian", "a number", "laplacian:1"},       {"random", "a seed", "random:1"},
+              {"property", "a name", "property:temperature"}, {"file", "a path", "file:values.f64"}};
+
+// What a user may have meant by a text that is not a function; empty if nothing is near.
+std::string meant_function(std::string_view text) {
+  std::string small(text);
+  std::ranges::transform(small, small.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (small != text && try_parse(small)) return small;
+  constexpr std::size_t kFewLetters = 3;  // near to anything
+  if (small.size() < kFewLetters) return {};
+  const std::size_t colon = std::min(small.find(':'), small.size());
+  const std::string name = small.substr(0, colon);
+  std::vector<std::string> names{"index", "spectral", "value", "height", "elevation"};
+  for (const auto& need : kNeeds) names.emplace_back(need.name);
+  const std::string near = nearest(name, names);
+  if (near == "height" || near == "elevation") return "z";
+  if (near == name) return {};  // its argument is wrong
+  const std::string meant = near + std::string(text.substr(colon));
+  if (try_parse(meant)) return meant;
+  const auto need = std::ranges::find(kNeeds, near, [](const auto& one) { return one.name; });
+  return need == std::end(kNeeds) ? std::string() : std::string(need->example);
+}
+
+// "-f x -f y" for "x,y"; empty if the text is no list of functions.
+std::string repeated_options(std::string_view text) {
+  std::string options;
+  for (const auto part : text | std::views::split(',')) {
+    const std::string function(part.begin(), part.end());
+    if (!try_parse(function)) return {};
+    options.append(options.empty() ? "-f " : " -f ").append(function);
+  }
+  return options;
+}
+
 }  // namespace
 
 FunctionSpec parse_function(std::string_view text) {
@@ -103,16 +143,15 @@ FunctionSpec parse_function(std::string_view text) {
   if (text == "laplacian:0")
     throw Error(ErrorKind::kUsage, "\"laplacian:0\" is not a function: K of laplacian:K is at least 1",
                 "laplacian:1, or spectral, is the first eigenvector that is not constant");
-  constexpr struct {
-    std::string_view name, needs, example;
-  } kNeeds[] = {{"geodesic", "a vertex", "geodesic:0"},         {"distance", "a vertex or a point", "distance:0"},
-                {"laplacian", "a number", "laplacian:1"},       {"random", "a seed", "random:1"},
-                {"property", "a name", "property:temperature"}, {"file", "a path", "file:values.f64"}};
   for (const auto& [name, needs, example] : kNeeds)
     if (text == name)
       throw Error(ErrorKind::kUsage, std::string(name) + " needs " + std::string(needs),
                   "for instance " + std::string(example));
-  throw Error(ErrorKind::kUsage, "\"" + std::string(text) + "\" is not a function",
+  const std::string what = std::string("\"").append(text).append("\" is not a function");
+  if (const std::string options = repeated_options(text); !options.empty())
+    throw Error(ErrorKind::kUsage, what, "for several functions repeat -f: " + options);
+  const std::string meant = meant_function(text);
+  throw Error(ErrorKind::kUsage, what + (meant.empty() ? meant : " (did you mean " + meant + "?)"),
               "functions are x, y, z, cK (a coordinate, from 0), index, random:SEED, property:NAME, file:PATH, "
               "value or value:K (of an image), distance:VERTEX, distance:X,Y,Z, geodesic:VERTEX[,VERTEX...], "
               "laplacian:K, spectral");

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "libreeb/port/mesh_reader.h"
 
@@ -30,7 +32,13 @@ class BatchReader : public MeshReader {
 
   // Call it when info_ is known, if the format has properties.
   void name_all_properties() {
-    if (options_.all_properties) options_.properties = info_.property_names;
+    if (!options_.all_properties) return;
+    requested_ = std::move(options_.properties);
+    options_.properties = info_.property_names;
+  }
+  // Whether nobody named this property, so that it is delivered for a copy of the mesh only.
+  bool is_carried(const std::string& property) const {
+    return options_.all_properties && std::ranges::find(requested_, property) == requested_.end();
   }
 
   // Adds events in the order of the file while room() is left. Adds none only at the end.
@@ -58,6 +66,7 @@ class BatchReader : public MeshReader {
 
  private:
   ReadOptions options_;
+  std::vector<std::string> requested_;  // properties, if all are delivered
   std::uint64_t vertices_read_ = 0;
 };
 

@@ -2,8 +2,11 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
+
+#include "libreeb/base/count_text.h"
 
 namespace reeb::io {
 
@@ -13,6 +16,11 @@ inline void erase_property(std::vector<std::vector<double>>& columns, const std:
                            const std::string& name) {
   for (std::size_t k = names.size(); k-- > 0;)
     if (names[k] == name) columns.erase(columns.begin() + static_cast<std::ptrdiff_t>(k));
+}
+
+// The note on that many NaN and infinities, which do not matter.
+inline std::string note_on_odd_values(std::uint64_t count) {
+  return count_of(count, "value") + " of properties that are not used " + (count == 1 ? "is" : "are") + " not finite";
 }
 
 }  // namespace reeb::io

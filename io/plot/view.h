@@ -4,6 +4,7 @@
 #include <array>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "io/drawing/svg_text.h"
 #include "libreeb/graph/settled_node.h"
@@ -17,6 +18,9 @@ struct View {
 
 // Seen from this direction, upright as far as possible. REQUIRES: neither is zero.
 View view_from(const Point& direction, const Point& upright);
+
+// The views of which best_view() takes one: around `upright`, level and from above, and along the axes.
+std::vector<View> views_around(const Point& upright);
 
 // Of several views around `upright`, level and from above, that in which most of the picture is used: by these points
 // of a surface (which may be missing) and of lines. TIME: O(points).
@@ -33,11 +37,12 @@ class Projection {
   double depth(const Point& point) const;
   double height() const { return height_; }  // of the box
   // 0 if all points are one.
-  double pixels_per_unit() const { return has_extent_ ? scale_ : 0; }
+  double pixels_per_unit() const { return has_extent_ ? scale_ * unit_ : 0; }
 
  private:
   View view_;
   PicturePoint corner_;
+  double unit_;  // by which points are multiplied first
   double scale_ = 1, left_ = 0, top_ = 0, height_ = 0;
   bool has_extent_ = false;
 };

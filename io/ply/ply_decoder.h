@@ -44,6 +44,13 @@ class AsciiPlyDecoder {
     if (type == ScalarType::kFloat64) return text_.finite_number<double>(what);
     return static_cast<double>(checked_integer(type, what));
   }
+  // Perhaps not finite.
+  double any_value(ScalarType type, const char* what) {
+    if (!is_float(type)) return finite_value(type, what);
+    text_.require_more(what);
+    return type == ScalarType::kFloat32 ? static_cast<double>(text_.any_number<float>(what))
+                                        : text_.any_number<double>(what);
+  }
   std::int64_t integer(ScalarType type, const char* what) {
     text_.require_more(what);
     text_.mark();
@@ -102,10 +109,11 @@ class BinaryPlyDecoder {
   std::uint64_t surplus_values() const { return 0; }
   bool has_more() { return !cursor_.at_end(); }
   double finite_value(ScalarType type, const char* what) {
-    const double value = load_double(type, take(byte_size(type)), swap_, zero_);
+    const double value = any_value(type, what);
     if (!std::isfinite(value)) fail(std::string("a ") + what + " is not finite", "fix this value in the file");
     return value;
   }
+  double any_value(ScalarType type, const char*) { return load_double(type, take(byte_size(type)), swap_, zero_); }
   std::int64_t integer(ScalarType type, const char*) { return load_integer(type, take(byte_size(type)), swap_); }
   bool skip(ScalarType type, const char*) {
     const char* const bytes = take(byte_size(type));

@@ -21,9 +21,11 @@ constexpr WindowOptions kVertexWindows = {.window_bits = 16, .window_count = 16,
 struct Column {
   ScalarType type = ScalarType::kFloat32;
   std::size_t offset = 0;  // in the record
+  bool carried = false;    // it may have any values
 };
 
-std::vector<Column> find_columns(const PlyHeader& header, const ReadOptions& options, const std::string& file) {
+std::vector<Column> find_columns(const PlyHeader& header, const ReadOptions& options, const std::vector<bool>& carried,
+                                 const std::string& file) {
   std::vector<Column> all;
   std::size_t offset = 0;
   for (const PlyProperty& property : header.vertices().properties) {
@@ -33,15 +35,17 @@ std::vector<Column> find_columns(const PlyHeader& header, const ReadOptions& opt
   std::vector<Column> columns;
   for (const std::size_t p : header.coordinate_properties()) columns.push_back(all[p]);
   for (const std::size_t p : header.find_properties(options.properties, file)) columns.push_back(all[p]);
+  for (std::size_t k = 0; k < columns.size(); ++k) columns[k].carried = carried[k];
   return columns;
 }
 
 class IndexedPly final : public IndexedMesh {
  public:
-  IndexedPly(std::shared_ptr<const InputFile> file, const PlyHeader& header, const ReadOptions& options)
+  IndexedPly(std::shared_ptr<const InputFile> file, const PlyHeader& header, const ReadOptions& options,
+             const std::vector<bool>& carried)
       : path_(file->path()),
         header_(header),
-        columns_(find_columns(header_, options, path_)),
+        columns_(find_columns(header_, options, carried, path_)),
         swap_(header_.encoding == PlyEncoding::kBigEndian),
         stride_(header_.vertices().fixed_bytes()),
         vertices_begin_(header_.body_offset),
@@ -65,7 +69,7 @@ class IndexedPly final : public IndexedMesh {
       gather_floats<4>(ids, columns, values);
     else
       gather_any(ids, columns, values);
-    if (!all_finite(values)) fail_not_finite(ids, columns, values);
+    if (!all_finite(values)) check_finite(ids, columns, values);
   }
 
   void rewind() override {
@@ -136,12 +140,14 @@ class IndexedPly final : public IndexedMesh {
     }
   }
 
-  [[noreturn]] void fail_not_finite(std::span<const VertexId> ids, std::span<const unsigned> columns,
-                                    std::span<const double> values) const {
-    const auto odd = std::ranges::find_if(values, [](double value) { return !std::isfinite(value); });
-    const auto index = static_cast<std::size_t>(odd - values.begin());
-    const VertexId id = ids[index % ids.size()];
-    const unsigned column = columns[index / ids.size()];
+  void check_finite(std::span<const VertexId> ids, std::span<const unsigned> columns,
+                    std::span<const double> values) const {
+    for (std::size_t k = 0; k < columns.size(); ++k)
+      for (std::size_t i = 0; i < ids.size() && !columns_[columns[k]].carried; ++i)
+        if (!std::isfinite(values[k * ids.size() + i])) fail_not_finite(ids[i], columns[k]);
+  }
+
+  [[noreturn]] void fail_not_finite(VertexId id, unsigned column) const {
     throw Error(ErrorKind::kBadInput,
                 std::string("a ") + (column < header_.dimension ? "coordinate" : "vertex property") + " of vertex " +
                     std::to_string(id.value()) + " is not finite",
@@ -177,8 +183,8 @@ bool has_indexed_vertices(const PlyHeader& header) {
 }
 
 std::unique_ptr<IndexedMesh> index_ply(std::shared_ptr<const InputFile> file, const PlyHeader& header,
-                                       const ReadOptions& options) {
-  return std::make_unique<IndexedPly>(std::move(file), header, options);
+                                       const ReadOptions& options, const std::vector<bool>& carried) {
+  return std::make_unique<IndexedPly>(std::move(file), header, options, carried);
 }
 
 }  // namespace reeb::io

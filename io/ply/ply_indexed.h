@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "io/file/input_file.h"
 #include "io/ply/ply_header.h"
@@ -14,8 +15,9 @@ namespace reeb::io {
 // have a fixed size.
 bool has_indexed_vertices(const PlyHeader& header);
 
+// `carried`: of each column, whether it may have any values.
 // REQUIRES: has_indexed_vertices(header), and `file` has this header.
 std::unique_ptr<IndexedMesh> index_ply(std::shared_ptr<const InputFile> file, const PlyHeader& header,
-                                       const ReadOptions& options);
+                                       const ReadOptions& options, const std::vector<bool>& carried);
 
 }  // namespace reeb::io

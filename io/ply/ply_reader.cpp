@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "io/mesh/property_columns.h"
 #include "io/mesh/simplex_assembler.h"
 #include "io/ply/ply_decoder.h"
 #include "io/ply/ply_indexed.h"
@@ -70,6 +71,10 @@ bool append_column(ScalarType type, bool swap, const char* bytes, std::size_t st
       out[i] = static_cast<double>(load_scalar<decltype(none)>(bytes + i * stride, swap)) + zero;
   });
   return all_finite({out, count});
+}
+
+std::uint64_t count_odd(std::span<const double> values) {
+  return static_cast<std::uint64_t>(std::ranges::count_if(values, [](double value) { return !std::isfinite(value); }));
 }
 
 // The part of a place after the offset of its record, in 64 bits.
@@ -147,16 +152,15 @@ class PlyReader final : public PlyBodyReader {
 
   std::unique_ptr<IndexedMesh> indexed() const override {
     auto file = decoder_.source().file();
-    return file != nullptr && has_indexed_vertices(header_) ? index_ply(std::move(file), header_, options()) : nullptr;
+    if (file == nullptr || !has_indexed_vertices(header_)) return nullptr;
+    return index_ply(std::move(file), header_, options(), carried_);
   }
 
   std::uint64_t bytes_read() const override { return decoder_.bytes_read(); }
 
   std::vector<std::string> warnings() const override {
     std::vector<std::string> lines;
-    if (odd_values_ != 0)
-      lines.push_back(count_of(odd_values_, "value") + " of properties that are not used " +
-                      (odd_values_ == 1 ? "is" : "are") + " not finite");
+    if (odd_values_ != 0) lines.push_back(note_on_odd_values(odd_values_));
     if (header_.unknown_lines != 0)
       lines.push_back(count_of(header_.unknown_lines, "line") + " of the header " +
                       (header_.unknown_lines == 1 ? "is" : "are") + " not PLY and " +
@@ -183,6 +187,8 @@ class PlyReader final : public PlyBodyReader {
     for (const std::size_t property : header_.coordinate_properties()) take(property);
     for (const std::size_t property : header_.find_properties(options().properties, decoder_.source().name()))
       take(property);
+    carried_.resize(info_.dimension, false);
+    for (const std::string& name : options().properties) carried_.push_back(is_carried(name));
   }
 
   void fill(MeshBatch& batch) override {
@@ -257,7 +263,7 @@ class PlyReader final : public PlyBodyReader {
     for (std::size_t p = 0; p < element.properties.size(); ++p) {
       const PlyProperty& property = element.properties[p];
       if (column_of_[p] != kNoColumn)
-        columns_[column_of_[p]]->push_back(decoder_.finite_value(property.type, what_is(p)));
+        columns_[column_of_[p]]->push_back(read_value(property.type, p));
       else if (property.list_count)
         pass_property(property);
       else
@@ -266,6 +272,13 @@ class PlyReader final : public PlyBodyReader {
     decoder_.end_record(element);
     for (const auto& [to, from] : copies_) columns_[to]->push_back(columns_[from]->back());
     count_vertices(batch, 1);
+  }
+
+  double read_value(ScalarType type, std::size_t property) {
+    if (!carried_[column_of_[property]]) return decoder_.finite_value(type, what_is(property));
+    const double value = decoder_.any_value(type, what_is(property));
+    odd_values_ += std::isfinite(value) ? 0u : 1u;
+    return value;
   }
 
   const char* what_is(std::size_t property) const {
@@ -286,7 +299,7 @@ class PlyReader final : public PlyBodyReader {
       if (column_of_[p] == kNoColumn)
         count_odd_values(type, first, stride, count);
       else if (!append_column(type, decoder_.swaps(), first, stride, count, zero(), *columns_[column_of_[p]]))
-        fail_not_finite(p, place, stride, count);
+        meet_odd_values(p, place, stride, count);
       place += byte_size(type);
     }
     for (const auto& [to, from] : copies_)
@@ -300,9 +313,14 @@ class PlyReader final : public PlyBodyReader {
   void count_odd_values(ScalarType type, const char* first, std::size_t stride, std::size_t count) {
     if (!is_float(type)) return;
     scratch_.clear();
-    if (append_column(type, decoder_.swaps(), first, stride, count, zero(), scratch_)) return;
-    odd_values_ +=
-        static_cast<std::uint64_t>(std::ranges::count_if(scratch_, [](double value) { return !std::isfinite(value); }));
+    if (!append_column(type, decoder_.swaps(), first, stride, count, zero(), scratch_))
+      odd_values_ += count_odd(scratch_);
+  }
+
+  // The last `count` values of the column of `property` are not all finite.
+  void meet_odd_values(std::size_t property, std::size_t place, std::size_t stride, std::size_t count) {
+    if (!carried_[column_of_[property]]) fail_not_finite(property, place, stride, count);
+    odd_values_ += count_odd(std::span(*columns_[column_of_[property]]).last(count));
   }
 
   [[noreturn]] void fail_not_finite(std::size_t property, std::size_t place, std::size_t stride, std::size_t count) {
@@ -447,6 +465,7 @@ class PlyReader final : public PlyBodyReader {
   std::uint64_t vertex_limit_;
 
   std::vector<std::size_t> column_of_;                       // of each vertex property
+  std::vector<bool> carried_;                                // of each column: it may have any values
   std::vector<std::vector<double>*> columns_;                // coordinates, then properties, of the batch
   std::vector<std::pair<std::size_t, std::size_t>> copies_;  // columns that were requested twice: to, from
   std::vector<double> scratch_;

@@ -147,7 +147,9 @@ class StreamMeshWriter : public MeshWriter {
       const double value = value_of(batch, i, k);
       event_.floats[k] = static_cast<float>(value);
       exact &= static_cast<double>(event_.floats[k]) == value;
-      if (!std::isfinite(event_.floats[k])) fail("a value of vertex " + std::to_string(index) + " is beyond float32");
+      if (!std::isfinite(event_.floats[k]))
+        fail("a value of vertex " + std::to_string(index) +
+             (std::isfinite(value) ? " is beyond float32" : " is not finite"));
     }
     rounded_ += exact ? 0 : 1;
     writer_->write(event_);

@@ -131,6 +131,20 @@ Float TextCursor::finite_number(const char* what) {
 template float TextCursor::finite_number<float>(const char*);
 template double TextCursor::finite_number<double>(const char*);
 
+template <class Float>
+Float TextCursor::any_number(const char* what) {
+  skip_blanks();
+  cursor_.ensure(2);  // a sign and a letter
+  if (!spells_non_finite({cursor_.data(), std::min<std::size_t>(cursor_.available(), 2)}))
+    return finite_number<Float>(what);
+  const std::string_view word = token();
+  const auto parsed = parse_number<Float>(word);
+  if (!parsed.ok) fail_number(word, what);
+  return parsed.value;
+}
+template float TextCursor::any_number<float>(const char*);
+template double TextCursor::any_number<double>(const char*);
+
 // The rare cases: a plus sign, a number that ends in a continuation, and everything invalid.
 template <class Float>
 Float TextCursor::slow_number(const char* what) {

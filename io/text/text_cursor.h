@@ -79,6 +79,9 @@ class TextCursor {
   // THROWS: Error{kBadInput} with its position if it is missing or not a finite number; `what` names it ("coordinate").
   template <class Float>
   Float finite_number(const char* what);
+  // The same for a number that may also be "nan" or "inf".
+  template <class Float>
+  Float any_number(const char* what);
   // From now on, -0 is delivered as -0.0; else as 0.0.
   void keep_signed_zeros() { zero_ = -0.0; }
   // The same for an integer. The whole token must be one.

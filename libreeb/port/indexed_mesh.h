@@ -38,7 +38,8 @@ class IndexedMesh {
   // values[k * ids.size() + i] = column columns[k] of vertex ids[i]; -0.0 is delivered as 0.0.
   // Fast where ids are near each other; any order is legal.
   // REQUIRES: ids are below vertex_count(), columns below column_count().
-  // THROWS: Error{kBadInput} with the location of a value that is not finite.
+  // THROWS: Error{kBadInput} with the location of a value that is not finite, unless it is of a property that is
+  // delivered only since all are (ReadOptions::all_properties).
   virtual void gather(std::span<const VertexId> ids, std::span<const unsigned> columns, std::span<double> values) = 0;
 
   // Replaces vertices by their indices in the input, if this mesh was renumbered.

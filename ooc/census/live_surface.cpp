@@ -264,7 +264,7 @@ void LiveSurface::examine_any(Slot v) {
   examine_faces(v);
 }
 
-// The distinct triangles. Copies are counted.
+// The distinct triangles. Copies are counted; two that pass their corners in opposite directions do not agree.
 void LiveSurface::list_faces(Slot v) {
   std::ranges::sort(wings_, {},
                     [](const Wing& w) { return std::tuple(std::min(w.x, w.y), std::max(w.x, w.y), w.triangle); });
@@ -273,11 +273,11 @@ void LiveSurface::list_faces(Slot v) {
     const auto [lo, hi] = std::minmax(wing.x, wing.y);
     const bool forward = wing.x == lo;
     if (faces_.empty() || faces_.back().lo != lo || faces_.back().hi != hi) {
-      faces_.push_back({lo, hi, wing.triangle, forward, false});
+      faces_.push_back({lo, hi, wing.triangle, forward});
       distinct_triangles_ += lo != hi && !vertices_[lo].finished && !vertices_[hi].finished ? 1u : 0u;
       continue;
     }
-    faces_.back().both_ways = faces_.back().both_ways || faces_.back().forward != forward;
+    oriented_ = oriented_ && faces_.back().forward == forward;
     if (lo == hi || vertices_[lo].finished || vertices_[hi].finished) continue;
     // The last digit of a mean depends on the order of the corners, and slots depend on how the mesh is read.
     std::array<Slot, 3> corners{v, lo, hi};
@@ -315,7 +315,7 @@ void LiveSurface::examine_faces(Slot v) {
     } else if (triangles == 2) {
       const Face &a = faces_[sides_of_faces_[i].second], &b = faces_[sides_of_faces_[i + 1].second];
       const bool agree = (a.forward == (a.lo == w)) != (b.forward == (b.lo == w));
-      oriented_ = oriented_ && agree && !a.both_ways && !b.both_ways;
+      oriented_ = oriented_ && agree;
       join_sides(a.triangle, b.triangle, !agree);
       count_inner_edge(v, w, a.lo == w ? a.hi : a.lo, b.lo == w ? b.hi : b.lo);
     } else {

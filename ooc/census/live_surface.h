@@ -113,7 +113,6 @@ class LiveSurface {
     Slot lo, hi;
     std::uint32_t triangle;  // of its copies, the one with the lowest number: the same at each corner
     bool forward;            // whether this is (v, lo, hi)
-    bool both_ways;          // another copy is turned otherwise
   };
 
   void connect(Slot a, Slot b);

@@ -17,6 +17,8 @@ ResumableRun::ResumableRun(const std::string& output, const std::string& mesh,
                            std::span<VertexFunction* const> functions, const RunSettings& settings,
                            const ResumeOptions& options)
     : options_(options) {
+  // From here on an interruption ends the run in order: it leaves no folder without a checkpoint.
+  check_interruption();
   if (!io::is_regular_file(mesh) || io::is_device(output)) return;
   identity_ = identify_run(mesh, functions, settings);
   folder_.emplace(output);

@@ -29,8 +29,9 @@ class ResumableRun {
   using Save = std::function<void(StateWriter&)>;
 
   // Pass "" as `mesh` if the mesh is not, or only partly, in files.
-  // THROWS: Error{kResource} of the folder; Error{kBadInput} if a file cannot be opened, or if there is a checkpoint
-  //         that may not be discarded, and that is of another run or is not to be resumed. It stays.
+  // THROWS: Error{kInterrupted} if the run is to end already; Error{kResource} of the folder; Error{kBadInput} if a
+  //         file cannot be opened, or if there is a checkpoint that may not be discarded, and that is of another run or
+  //         is not to be resumed. It stays.
   ResumableRun(const std::string& output, const std::string& mesh, std::span<VertexFunction* const> functions,
                const RunSettings& settings, const ResumeOptions& options);
 

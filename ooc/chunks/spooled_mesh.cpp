@@ -8,6 +8,20 @@
 #include "libreeb/base/error.h"
 
 namespace reeb::ooc {
+namespace {
+
+// Readers of files have checked them; others may not.
+void check_coordinates(const MeshBatch& batch) {
+  for (const auto& column : batch.coordinates) {
+    const auto odd = std::ranges::find_if(column, [](double value) { return !std::isfinite(value); });
+    if (odd == column.end()) continue;
+    const auto vertex = batch.first_vertex.value() + static_cast<std::uint64_t>(odd - column.begin());
+    throw Error(ErrorKind::kBadInput, "a coordinate is not finite", "fix this vertex, or remove it")
+        .at("", "vertex " + std::to_string(vertex));
+  }
+}
+
+}  // namespace
 
 SpooledMesh::SpooledMesh(unsigned columns, const io::TempDir& temp, MemoryBudget& budget, std::uint64_t allowance_bytes,
                          CellTriangles cells)
@@ -43,6 +57,7 @@ void SpooledMesh::from_original(std::span<VertexId> ids) const {
 }
 
 void SpooledMesh::append(MeshBatch& batch) {
+  check_coordinates(batch);
   number(batch);
   std::vector<std::span<const double>> values;
   for (const auto& column : batch.coordinates) values.emplace_back(column);
@@ -62,14 +77,8 @@ std::uint64_t SpooledMesh::vertex_count() const { return columns_.empty() ? 0 : 
 void SpooledMesh::gather(std::span<const VertexId> ids, std::span<const unsigned> columns, std::span<double> values) {
   for (std::size_t k = 0; k < columns.size(); ++k) {
     VertexColumn& column = columns_[columns[k]];
-    for (std::size_t i = 0; i < ids.size(); ++i) {
-      const double value = column.get(ids[i].value());
-      if (!std::isfinite(value)) [[unlikely]]
-        throw Error(ErrorKind::kBadInput, "column " + std::to_string(columns[k]) + " is not a finite number",
-                    "fix this value, or choose another function")
-            .at("", "vertex " + std::to_string(ids[i].value()));
-      values[k * ids.size() + i] = value + 0.0;  // -0.0 becomes 0.0
-    }
+    for (std::size_t i = 0; i < ids.size(); ++i)
+      values[k * ids.size() + i] = column.get(ids[i].value()) + 0.0;  // -0.0 becomes 0.0
   }
 }
 

@@ -39,8 +39,9 @@ class SpooledMesh : public IndexedMesh {
   SpooledMesh(unsigned columns, const io::TempDir& temp, MemoryBudget& budget, std::uint64_t allowance_bytes,
               CellTriangles cells = CellTriangles::kDeciding);
 
-  // Takes over the vertices and simplices of a batch. What read() is to deliver of its simplices is then
-  // batch.triangles(), and the batch has no others. REQUIRES: no triangle was read yet.
+  // Takes over the vertices and simplices of a batch; properties may have any values. What read() is to deliver of its
+  // simplices is then batch.triangles(), and the batch has no others. REQUIRES: no triangle was read yet.
+  // THROWS: Error{kBadInput} that names a vertex, if a coordinate is not finite.
   void append(MeshBatch& batch);
   // Appends vertices: values[k] is column k, all of one length.
   void append_vertices(std::span<const std::span<const double>> values);

@@ -152,8 +152,7 @@ void FrameCursor::check(const FrameFile& file, const FrameHeader& header, const 
   nodes_ += frame.nodes.size();
   if (nodes_ > std::numeric_limits<std::uint32_t>::max()) file.fail(offset, "there are more nodes than can be loaded");
   for (const FileArc& arc : frame.arcs) {
-    if (arc.lo >= nodes_ || arc.hi >= nodes_)
-      file.fail(offset, "an arc ends at a node that was not introduced");
+    if (arc.lo >= nodes_ || arc.hi >= nodes_) file.fail(offset, "an arc ends at a node that was not introduced");
     if (arc.died != kNeverDies && arc.died > steps) file.fail(offset, "an arc dies after the last version");
     if (arc.died > last_died_ || arc.born > steps) file.fail(offset, "the arcs are not sorted by their end");
     // A version announced as complete gets no further arcs.

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "io/file/atomic_file.h"
-#include "libreeb/base/error.h"
 #include "ooc/run/explained_error.h"
 #include "ooc/run/first_stage.h"
 #include "ooc/run/freed_memory.h"
@@ -35,8 +34,6 @@ std::vector<ComputeResult> run_stages(RunContext& run, MeshInput input) {
 std::vector<ComputeResult> compute(MeshInput input, std::span<VertexFunction* const> functions,
                                    std::span<const std::string> outputs, const ComputeOptions& options) {
   for (const std::string& output : outputs) io::require_output_folder(output);
-  // From here on an interruption ends the run in order.
-  if (options.interrupted && options.interrupted()) throw Error(ErrorKind::kInterrupted, "interrupted", "run it again");
   RunContext run(input, functions, outputs, options);
   try {
     return run_stages(run, std::move(input));

@@ -29,6 +29,9 @@ namespace {
       .at(file.path());
 }
 
+// Empty where it has none.
+std::string name_of(const MeshInput& input) { return input.path == "-" ? std::string() : input.path; }
+
 constexpr std::size_t kEventsAtOnce = 8192;
 constexpr std::uint64_t kVerticesAtOnce = 8192;
 
@@ -83,6 +86,7 @@ class Segmentation::Impl {
     run_.follower =
         std::make_unique<ArcFollower>(run_.temp, run_.budget,
                                       FollowOptions{.vertex_bound = vertex_bound,
+                                                    .names = {name_of(input), file.path()},
                                                     .allowance_bytes = run_.plan.segment_bytes,
                                                     .most_bytes = run_.plan.most_segment_bytes,
                                                     .background = run_.background(),

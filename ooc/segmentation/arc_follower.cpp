@@ -28,7 +28,7 @@ NodeId node_at(const std::vector<SweepKey>& nodes, std::size_t from, const Sweep
 }  // namespace
 
 ArcFollower::State::State(const io::TempDir& temp, MemoryBudget& budget, const FollowOptions& options)
-    : placed(temp, budget, options.vertex_bound),
+    : placed(temp, budget, options.vertex_bound, options.names),
       log(temp, budget, &placed),
       nodes("settled nodes", temp, budget, half_of(options)),
       arcs("settled arcs", temp, budget, half_of(options)) {}

@@ -19,6 +19,7 @@ namespace reeb::ooc {
 
 struct FollowOptions {
   std::uint64_t vertex_bound = 0;           // all vertices of the mesh are below
+  PlacedNames names = {};                   // of a vertex that is not
   std::uint64_t allowance_bytes = 1 << 20;  // for sorting settled nodes and arcs
   std::uint64_t most_bytes = 0;             // limit to which it grows if there are many
   bool background = true;                   // sort in separate threads

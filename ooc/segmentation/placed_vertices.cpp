@@ -3,14 +3,16 @@
 #include <algorithm>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "libreeb/base/count_text.h"
 #include "libreeb/base/error.h"
 
 namespace reeb::ooc {
 
-PlacedVertices::PlacedVertices(const io::TempDir& temp, MemoryBudget& budget, std::uint64_t bound)
-    : bound_(bound),
+PlacedVertices::PlacedVertices(const io::TempDir& temp, MemoryBudget& budget, std::uint64_t bound, PlacedNames names)
+    : names_(std::move(names)),
+      bound_(bound),
       range_(std::max(kLeastRange, (bound + kMostRanges - 1) / kMostRanges)),
       charge_(budget.reserve("vertices on arcs", 0)) {
   logs_.emplace("vertices on arcs", temp, budget, static_cast<std::size_t>((bound + range_ - 1) / range_));
@@ -20,8 +22,10 @@ void PlacedVertices::add(const SweepKey& vertex, std::uint32_t number, std::uint
   const std::uint64_t index = vertex.vertex.value();
   if (index >= bound_)
     throw Error(ErrorKind::kBadInput,
-                "it has a vertex " + std::to_string(index) + ", but the graph is that of " + count_of(bound_, "vertex"),
-                "name the mesh that the graph was computed from");
+                "the mesh has a vertex " + std::to_string(index) + ", but " + names_.graph + " is the graph of " +
+                    count_of(bound_, "vertex"),
+                "name the mesh that the graph was computed from")
+        .at(names_.mesh);
   logs_->append(static_cast<std::size_t>(index / range_),
                 {vertex.value, static_cast<std::uint32_t>(index % range_) | bit, number});
   ++size_;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "io/file/temp_dir.h"
@@ -22,6 +23,11 @@ struct VertexPlace {
   Kind kind = Kind::kNone;
 };
 
+// What errors name.
+struct PlacedNames {
+  std::string mesh, graph;  // files; the mesh may have none
+};
+
 // Records of 16 bytes, divided by ranges of indices and kept on disk.
 //
 // THROWS: Error{kResource} of the budget or the disk.
@@ -31,7 +37,7 @@ class PlacedVertices {
   static constexpr std::uint64_t kLeastRange = 1 << 16, kMostRanges = 1024;
 
   // All indices are below `bound`.
-  PlacedVertices(const io::TempDir& temp, MemoryBudget& budget, std::uint64_t bound);
+  PlacedVertices(const io::TempDir& temp, MemoryBudget& budget, std::uint64_t bound, PlacedNames names);
 
   // THROWS: Error{kBadInput} if the vertex is not below the bound: it is one of another mesh.
   void add_on_arc(const SweepKey& vertex, std::uint32_t arc) { add(vertex, arc, 0); }
@@ -55,6 +61,7 @@ class PlacedVertices {
 
   void add(const SweepKey& vertex, std::uint32_t number, std::uint32_t bit);
 
+  PlacedNames names_;
   std::uint64_t bound_, range_;
   std::uint64_t size_ = 0;
   Reservation charge_;

@@ -185,7 +185,16 @@ class Census {
     return corners[(lo + 1) % 3] == edge[1];
   }
 
+  // The same of a triangle as a whole: whether its corners are in the order of its sorted corners, or of a rotation.
+  static bool is_even(const std::vector<std::uint64_t>& corners, const VertexSet& triangle) {
+    const auto first = std::find(corners.begin(), corners.end(), triangle[0]) - corners.begin();
+    return corners[(static_cast<std::size_t>(first) + 1) % 3] == triangle[1];
+  }
+
   bool is_oriented() const {
+    for (const auto& [triangle, copies] : triangles_)
+      for (const auto& copy : copies)
+        if (is_even(copy, triangle) != is_even(copies[0], triangle)) return false;
     for (const auto& [edge, around] : edges_) {
       if (around.size() != 2) continue;
       const bool first = passes_upward(triangles_.at(around[0])[0], edge);

@@ -462,6 +462,23 @@ TEST_F(BadInput, NotAReebFile) {
   }
 }
 
+TEST_F(BadInput, AReebFileIsNotReadFromAPipe) {
+  write("mesh.off", kSmallOff);
+  expect_success(reeb({"mesh.off"}));
+  for (const std::string command : {"extract", "pairs", "verify", "plot"}) {
+    const Outcome outcome =
+        reeb({command, "/dev/stdin"}, {.arguments = {}, .wrapper = {"sh", "-c", "cat mesh.reeb | \"$@\"", "sh"}});
+    expect_error(outcome, 2, "/dev/stdin: a Reeb graph cannot be read from a pipe");
+    EXPECT_EQ(lines_after("hint: ", outcome.error).at(0), "name a .reeb file");
+  }
+}
+
+TEST_F(BadInput, LinksThatLeadNowhereAndEmptyNamesAreSaid) {
+  std::filesystem::create_symlink("loop", in_folder("loop"));
+  expect_error(reeb({"compute", "loop"}), 1, "loop: this is a symbolic link that leads to itself");
+  expect_error(reeb({"compute", ""}), 1, "the name of an input is empty");
+}
+
 TEST_F(BadInput, AReebFileIsNoMesh) {
   write("mesh.off", kSmallOff);
   expect_success(reeb({"mesh.off"}));

@@ -230,6 +230,11 @@ TEST_F(CommandLine, CountsTakeUnitsEverywhere) {
 TEST_F(CommandLine, OptionsThatAKindOfMeshDoesNotHaveAreRefused) {
   expect_error(reeb({"generate", "torus", "--dimension", "4", "-o", "t.ply"}), 2, "a torus has no --dimension");
   expect_error(reeb({"generate", "sierpinski", "--width", "9", "-o", "t.ply"}), 2, "a sierpinski has no --width");
+  for (const std::string option : {"--triangles", "--tetrahedra", "--width", "--dimension"})
+    expect_error(reeb({"generate", "volume", "--grid", "5x5x5", option, "5", "-o", "v.nrrd"}), 2,
+                 "a volume has no " + option);
+  expect_error(reeb({"generate", "volume", "--grid", "5x5x5", "--order", "rows", "-o", "v.nrrd"}), 2,
+               "a volume has no --order");
   const Outcome seeded = reeb({"generate", "torus", "--triangles", "1k", "--seed", "7", "-o", "t.ply"});
   expect_success(seeded);
   EXPECT_EQ(lines_after("note: ", seeded.error).size(), 1u) << seeded.error;
@@ -250,6 +255,45 @@ TEST_F(CommandLine, TheSuffixOfAGraphMayBeInCapitals) {
   EXPECT_EQ(file("graph.JSON"), file("graph"));
   expect_error(reeb({"extract", "mesh.reeb", "-o", "out"}), 2, "out: cannot tell the format of the graph");
   expect_error(reeb({"extract", "mesh.reeb", "-o", "out.pdf"}), 2, "out.pdf: cannot tell the format of the graph");
+}
+
+TEST_F(CommandLine, OutputsAreNamedWhenTheyAreWritten) {
+  expect_success(reeb({"mesh.off"}));
+  EXPECT_EQ(reeb({"extract", "mesh.reeb", "-o", "g.csv"}).error, "wrote g.nodes.csv and g.arcs.csv\n");
+  EXPECT_EQ(reeb({"extract", "mesh.reeb", "-o", "g.json"}).error, "wrote g.json\n");
+  EXPECT_EQ(reeb({"pairs", "mesh.reeb", "-o", "p.json"}).error, "wrote p.json\n");
+  for (const std::vector<std::string>& words :
+       std::vector<std::vector<std::string>>{{"extract", "mesh.reeb", "-o", "q.json", "--quiet"},
+                                             {"pairs", "mesh.reeb", "-o", "q.csv", "--quiet"},
+                                             {"extract", "mesh.reeb", "-o", "-"},
+                                             {"pairs", "mesh.reeb"}})
+    EXPECT_EQ(reeb(words).error, "") << last_command();
+  const Outcome other = reeb({"mesh.off", "-o", "mesh.json"});
+  EXPECT_EQ(lines_after("note: mesh.json is a .reeb file", other.error).size(), 1u) << other.error;
+}
+
+TEST_F(CommandLine, OptionsOfOtherCommandsHaveAHint) {
+  const auto hint_of = [this](const std::vector<std::string>& words) {
+    const Outcome outcome = reeb(words);
+    expect_error(outcome, 2);
+    const auto hints = lines_after("hint: ", outcome.error);
+    return hints.empty() ? std::string() : hints[0];
+  };
+  expect_success(reeb({"mesh.off"}));
+  const std::string levels = "levels are chosen afterwards: `reeb extract FILE.reeb --threshold 1%`";
+  EXPECT_EQ(hint_of({"mesh.off", "--threshold", "1%", "--force"}), levels);
+  EXPECT_EQ(hint_of({"pairs", "mesh.reeb", "--threshold=1%"}), levels);
+  EXPECT_EQ(hint_of({"convert", "mesh.off", "-o", "z.obj"}), "the output is the second argument: reeb convert IN OUT");
+}
+
+TEST_F(CommandLine, ALargeThresholdMayBeMeantInPerCent) {
+  EXPECT_EQ(lines_after("note: the threshold 4 is more than the range 1 of z; did you mean 4%?",
+                        reeb({"mesh.off", "--denoise", "4"}).error)
+                .size(),
+            1u);
+  EXPECT_EQ(reeb({"extract", "mesh.reeb", "--threshold", "4"}).error,
+            "note: the threshold 4 is more than the range 1 of z; did you mean 4%?\n");
+  EXPECT_EQ(reeb({"extract", "mesh.reeb", "--threshold", "4%"}).error, "");
 }
 
 TEST_F(CommandLine, PairsHaveTheFormatOfTheirSuffix) {

@@ -1,7 +1,7 @@
 // What the page of `reeb report` does in a browser: no complaints, tables that sort, a slider that draws the arcs that
 // `reeb extract` writes, pictures that are not empty.
 //
-//   node report_test.mjs REEB FOLDER     FOLDER has scan.reeb and the pages scan, terrain, empty, point and bare.html
+//   node report_test.mjs REEB FOLDER     FOLDER has scan.reeb and the pages scan, terrain, empty, point, bare and parts.html
 import { execFileSync } from 'node:child_process'
 import { join } from 'node:path'
 import { Browser, kColors, pause } from './browser.mjs'
@@ -215,6 +215,8 @@ async function withWebgl() {
     check(`${page}: says what there is`, message === '' ? seen === '' : seen.startsWith(message), seen)
     unasked(browser, page)
   }
+  await browser.open(url('parts.html'))
+  same('many components leave the first level its features', (await browser.evaluate(kDrawn)).nodes, 361)
   same('a point is one node', await (async () => {
     await browser.open(url('point.html'))
     return (await browser.evaluate(kDrawn)).nodes

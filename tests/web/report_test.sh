@@ -28,6 +28,11 @@ done
 "$reeb" scan.ply --graph-only --buckets 0 -o bare.reeb --quiet
 "$reeb" report bare.reeb -o bare.html --nodes 100k
 
+# A path of 61 nodes, and 150 components of two nodes.
+awk -f "$source/tests/web/parts.awk" >parts.obj
+"$reeb" parts.obj --quiet
+"$reeb" report parts.reeb -o parts.html --quiet
+
 failures=0
 for page in *.html; do
   if tidy -quiet -errors "$page"; then echo "ok: tidy finds nothing in $page"; else failures=1; fi

@@ -12,6 +12,9 @@ trap 'rm -rf "$work"' EXIT
 "$reeb" "$work/scan.ply" --quiet -o "$work/scan.reeb"
 "$reeb" generate torus --triangles 230k -o "$work/many.ply" >/dev/null
 "$reeb" "$work/many.ply" -f random:1 --quiet -o "$work/many.reeb"
+# A path of 61 nodes, and 150 components of two nodes.
+awk -f "$source/tests/web/parts.awk" >"$work/parts.obj"
+"$reeb" "$work/parts.obj" --quiet -o "$work/parts.reeb"
 cp "$packages/viewer.html" "$work"
 
 # The reader's test has a folder of its own, and runs beside the others.

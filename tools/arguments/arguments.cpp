@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <sstream>
+#include <string_view>
 #include <utility>
 
 #include "libreeb/base/error.h"
@@ -31,6 +32,17 @@ class HelpFormatter : public CLI::Formatter {
     return text.substr(0, std::min(text.find(" Needs:"), text.find(" Excludes:")));
   }
 };
+
+// Files do not know which command uses them. One without --temp-dir takes the folder from TMPDIR.
+std::string hint_without_temp_dir(std::string hint) {
+  constexpr std::pair<std::string_view, std::string_view> kChanges[] = {
+      {"choose a folder that exists and is writable with --temp-dir DIR",
+       "set TMPDIR to a folder that exists and is writable"},
+      {"choose another with --temp-dir DIR", "set TMPDIR to a folder of another"}};
+  for (const auto& [from, to] : kChanges)
+    if (const auto at = hint.find(from); at != std::string::npos) hint.replace(at, from.size(), to);
+  return hint;
+}
 
 // An unset variable of a shell is an empty value: taken for no value, it would change what a command does.
 CLI::Option* refuse_empty(CLI::Option* option) {
@@ -132,7 +144,17 @@ void Command::refuse_option(const std::string& name, const std::string& why, con
 
 void Command::footer(const std::string& text) { command_->footer(text); }
 
-void Command::callback(std::function<void()> run) { command_->callback(std::move(run)); }
+void Command::callback(std::function<void()> run) {
+  command_->callback([command = command_, run = std::move(run)] {
+    try {
+      run();
+    } catch (const Error& error) {
+      const std::string hint = hint_without_temp_dir(error.hint());
+      if (hint == error.hint() || command->get_option_no_throw("--temp-dir") != nullptr) throw;
+      throw Error(error.kind(), error.message(), hint).at(error.file(), error.position());
+    }
+  });
+}
 
 Program::Program(const std::string& name, const std::string& description)
     : program_(std::make_unique<CLI::App>(description, name)) {

@@ -54,8 +54,8 @@ inline Option add_force(Command command, bool& target, const std::string& descri
   return command.add_flag("--force", target, description);
 }
 
-// `--format NAME`, for commands that read a mesh.
-inline Option add_format(Command command, std::string& target) {
+// `--format NAME`, for commands that read a mesh. `what` begins the help.
+inline Option add_format(Command command, std::string& target, const std::string& what = "Format") {
   return command
       .add_option(
           "--format",
@@ -63,8 +63,9 @@ inline Option add_format(Command command, std::string& target) {
             io::check_format_name(name);
             target = name;
           },
-          "Format, where content and name do not tell: ply obj off stl sma smb smc sva svb cx vtk vtu vtp msh medit "
-          "tetgen nrrd nifti mha vti npy asc raw")
+          what +
+              ", where content and name do not tell: ply obj off stl sma smb smc sva svb cx vtk vtu vtp msh "
+              "medit tetgen nrrd nifti mha vti npy asc raw")
       .type_name("NAME");
 }
 

@@ -4,7 +4,7 @@
 #include <cctype>
 #include <optional>
 
-#include "tools/arguments/nearest_name.h"
+#include "libreeb/base/nearest_name.h"
 
 namespace reeb::tools {
 namespace {

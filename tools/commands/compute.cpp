@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "io/file/file.h"
-#include "libreeb/base/error.h"
 #include "libreeb/base/memory_budget.h"
 #include "libreeb/base/printable.h"
 #include "tools/arguments/options.h"
@@ -22,18 +21,21 @@
 namespace reeb::tools {
 namespace {
 
+constexpr const char* kLevelsHint = "levels are chosen afterwards: `reeb extract FILE.reeb --threshold 1%`";
+
 struct ComputeArguments : RunArguments {
   std::string output, report;
 };
 
 std::vector<std::string> outputs_of(const ComputeArguments& arguments) {
-  if (arguments.output == io::kStandardOutput) {
-    if (arguments.functions.size() != 1 || arguments.options.snapshot_every != 0)
-      throw Error(ErrorKind::kUsage, "several outputs cannot go to standard output", "name a file with -o");
-    return {arguments.output};
-  }
   return output_names(arguments.output.empty() ? stem_of(arguments.mesh) + ".reeb" : arguments.output,
                       arguments.functions);
+}
+
+void note_large_denoise(const std::string& threshold, const ooc::ComputeResult& result) {
+  if (threshold.empty()) return;
+  const std::string note = large_threshold(threshold, result.range, result.function);
+  if (!note.empty()) print_line("note: " + printable(note));
 }
 
 void run_compute(ComputeArguments arguments) {
@@ -59,7 +61,11 @@ void run_compute(ComputeArguments arguments) {
   const auto results = compute(arguments.mesh, arguments.functions, outputs, options);
   options.interrupted = {};
   bar.clear();
-  if (!arguments.quiet) print_summary(facts, results);
+  if (!arguments.quiet) {
+    for (const ooc::ComputeResult& result : results) note_large_denoise(arguments.denoise, result);
+    print_summary(facts, results);
+    for (const std::string& output : outputs) note_other_suffix(output, {".reeb"}, "a .reeb file");
+  }
   if (!arguments.report.empty())
     write_output(arguments.report, options.replace, [&](std::ostream& out) { out << report_json(facts, results); });
 }
@@ -87,6 +93,7 @@ void add_compute(Program& program) {
             "Write the graph so far every N triangles, as OUT-000001.reeb, OUT-000002.reeb, ...", {.least = 1});
   command.add_option("--report", arguments->report, "Write figures of the run as JSON; - is standard output")
       .type_name("FILE");
+  command.refuse_option("--threshold", "the file has all levels", kLevelsHint);
   command.footer("Example:\n  reeb compute scan.ply -f z --memory 64M --report report.json");
   command.callback([arguments] { run_compute(*arguments); });
 }

@@ -33,9 +33,8 @@ void run_convert(ConvertArguments arguments) {
   io::check_mesh_name(options.output);
   options.existing = late_outputs(arguments.force);
   RunFiles files;
-  files.add_input(options.input, "the mesh");
-  if (options.order.function && options.order.function->kind == io::FunctionSpec::Kind::kFile)
-    files.add_input(options.order.function->argument, "the file of values");
+  files.add_mesh(options.input, options.format, options.image);
+  if (options.order.function) files.add_values_of(*options.order.function);
   files.add_output(options.output, "the output", existing_outputs(arguments.force));
   files.check();
   ProgressBar bar(arguments.quiet);
@@ -61,7 +60,10 @@ void add_convert(Program& program) {
           "Mesh to write: .ply .obj .off .cx .sma .smb .smc .sva .svb; .events.txt lists the events; not IN itself")
       .required()
       .type_name("");
-  add_format(command, options.format);
+  for (const char* name : {"-o", "--output"})
+    command.refuse_option(name, "reeb convert has no such option",
+                          "the output is the second argument: reeb convert IN OUT");
+  add_format(command, options.format, "Format of IN");
   command
       .add_option("--order", arguments->order,
                   "Order of the triangles: keep, hilbert, spectral or sweep:FUNC (default: keep)")

@@ -13,6 +13,7 @@
 #include "libreeb/base/count_text.h"
 #include "libreeb/base/memory_budget.h"
 #include "libreeb/base/printable.h"
+#include "ooc/reeb_file/reeb_file.h"
 #include "tools/arguments/image_options.h"
 #include "tools/arguments/options.h"
 #include "tools/commands/commands.h"
@@ -22,6 +23,7 @@
 #include "tools/defects/row_limits.h"
 #include "tools/defects/surface_census.h"
 #include "tools/library/run_files.h"
+#include "tools/measures/open_segmentation.h"
 #include "tools/program/input_kind.h"
 #include "tools/program/output.h"
 #include "tools/program/progress.h"
@@ -47,12 +49,15 @@ void check_files(const DefectsOptions& options) {
   const std::string& mesh = options.find.mesh.path;
   require_mesh_to_reread(mesh, "name the mesh first: reeb defects MESH FILE.reeb");
   RunFiles files;
-  files.add_input(mesh, "the mesh");
+  files.add_mesh(mesh, options.find.mesh.format, options.find.mesh.image);
   for (const std::string& file : options.find.files) {
-    require_reeb_file(file, "defects");
+    require_reeb_file(file, "defects " + mesh);
     files.add_input(file, "a .reeb file");
+    add_values_of(ooc::ReebFile(file), files);
   }
+  if (options.output != "-") files.add_standard_output("the table");
   if (!options.output.empty()) files.add_output(options.output, "the output", existing_outputs(options.force));
+  if (!options.patches.empty()) add_patches(options.patches, existing_outputs(options.force), files);
   files.check();
   if (!options.patches.empty()) check_patch_folder(options.patches, existing_outputs(options.force));
 }
@@ -95,7 +100,9 @@ void run_defects(DefectsOptions options) {
     else
       write_defect_csv(defects, rows, out);
   });
-  if (!options.quiet && options.output != "-") print_line("wrote " + printable(options.output));
+  if (options.quiet || options.output == "-") return;
+  note_other_suffix(options.output, {".csv", ".json"}, "a table in CSV");
+  print_line("wrote " + printable(options.output));
 }
 
 }  // namespace

@@ -10,10 +10,12 @@
 
 #include "io/export/graph_export.h"
 #include "io/file/atomic_file.h"
+#include "io/file/file.h"
 #include "io/file/file_name.h"
 #include "io/file/file_ostream.h"
 #include "io/file/temp_dir.h"
 #include "libreeb/base/error.h"
+#include "libreeb/base/printable.h"
 #include "ooc/reeb_file/reeb_file.h"
 #include "tools/arguments/options.h"
 #include "tools/commands/commands.h"
@@ -25,12 +27,14 @@
 #include "tools/program/input_kind.h"
 #include "tools/program/output.h"
 #include "tools/program/quantity.h"
+#include "tools/program/whole_levels.h"
+#include "tools/program/wrapping.h"
 
 namespace reeb::tools {
 namespace {
 
 struct ExtractOptions {
-  std::string file, output, format, threshold, mesh, temp_folder;
+  std::string file, output = io::kStandardOutput, format, threshold, mesh, temp_folder;
   std::optional<std::uint64_t> nodes, memory_bytes;
   unsigned threads = 0;
   bool on_surface = false, force = false, quiet = false;
@@ -39,7 +43,7 @@ struct ExtractOptions {
 // Chooses by --format, or else by the ending of the output's name; rg on standard output.
 io::GraphFormat choose_format(const ExtractOptions& options) {
   std::string name = options.format;
-  if (name.empty() && (options.output.empty() || options.output == "-")) name = "rg";
+  if (name.empty() && options.output == io::kStandardOutput) name = "rg";
   if (!name.empty()) {
     if (const auto format = io::graph_format(name)) return *format;
     throw Error(ErrorKind::kUsage, "--format: \"" + name + "\" is not a format for graphs",
@@ -67,7 +71,6 @@ void require_measured_format(io::GraphFormat format) {
 
 // Standard output and devices get the tables of CSV one after the other, a file g.csv becomes two files.
 std::vector<std::string> output_files(io::GraphFormat format, const std::string& output) {
-  if (output.empty()) return {};
   std::error_code ignored;
   const auto kind = std::filesystem::status(output, ignored).type();
   using Type = std::filesystem::file_type;
@@ -109,7 +112,7 @@ void extract(const ExtractOptions& options) {
   if (options.mesh.empty())
     files.add_input(options.file, "the .reeb file");
   else
-    add_segmentation_inputs(options.mesh, file, files);
+    add_segmentation_inputs(options.mesh, {}, {}, file, files);
   const std::vector<std::string> outputs = output_files(format, options.output);
   for (const std::string& output : outputs)
     files.add_output(output, outputs.size() > 1 ? "an output" : "the output", existing_outputs(options.force));
@@ -122,13 +125,15 @@ void extract(const ExtractOptions& options) {
                "reeb: warning: {}: this file was written by an earlier version, which did not record radii, so "
                "they are 0; compute the graph of the mesh again\n",
                options.file);
-  const ooc::Level level = file.load(choose_version(file, options));
+  if (!options.quiet) note_large_threshold(file, options.threshold);
+  ooc::Level level = read_part(file, FilePart::kLevel, [&] { return file.load(choose_version(file, options)); });
   ooc::MeasuredArcs measured;
+  const std::string beside = options.output == io::kStandardOutput ? "" : options.output;
   if (!options.mesh.empty())
     measured = measure_level(
         file, level,
         {.mesh = options.mesh,
-         .temp_folder = options.temp_folder.empty() ? io::TempDir::default_folder(options.output) : options.temp_folder,
+         .temp_folder = options.temp_folder.empty() ? io::TempDir::default_folder(beside) : options.temp_folder,
          .threads = options.threads,
          .quiet = options.quiet});
   const io::GraphView view{
@@ -138,6 +143,8 @@ void extract(const ExtractOptions& options) {
     write_tables(view, outputs[0], outputs[1], options.force);
   else
     write_output(options.output, options.force, [&](std::ostream& out) { io::write_graph(format, view, out); });
+  if (options.quiet || options.output.empty() || options.output == io::kStandardOutput) return;
+  print_line("wrote " + printable(outputs[0]) + (outputs.size() == 2 ? " and " + printable(outputs[1]) : ""));
 }
 
 }  // namespace
@@ -176,7 +183,7 @@ void add_extract(Program& app) {
   add_temp_dir(command, options->temp_folder,
                "With --mesh: folder for temporary files (default: $TMPDIR, or the folder of the output)")
       .needs(mesh);
-  command.add_flag("--quiet", options->quiet, "With --mesh: print no progress and no notes").needs(mesh);
+  command.add_flag("--quiet", options->quiet, "Print no progress and no notes");
   command.add_flag("--on-surface", options->on_surface,
                    "Lines pass through vertices of the mesh, not through the centres of contours");
   add_force(command, options->force);

@@ -28,6 +28,7 @@
 #include "tools/arguments/options.h"
 #include "tools/commands/commands.h"
 #include "tools/library/run_files.h"
+#include "tools/library/run_input.h"
 #include "tools/program/output.h"
 #include "tools/program/progress.h"
 #include "tools/program/wrapping.h"
@@ -39,6 +40,7 @@ static_assert(std::endian::native == std::endian::little, "values are written as
 
 struct FunctionOptions {
   std::string mesh, format, function, output, temp_folder;
+  std::vector<std::string> functions;  // as they were given
   std::uint64_t memory_bytes = MemoryBudget::kUnlimited;
   io::ImageOptions image;
   bool force = false, quiet = false;
@@ -77,6 +79,7 @@ class Values {
 
  private:
   void open() {
+    refuse_value_of_mesh(input_, std::span(&spec_, 1), options_.format, options_.image);
     ReadOptions read_options;
     read_options.all_properties = io::name_suffix(options_.output) == ".ply";
     read_options.properties = io::needed_properties(std::span(&spec_, 1));
@@ -199,11 +202,17 @@ void run_function(FunctionOptions options) {
                 suffix.empty() ? "the output has no suffix, so there is no format for the values"
                                : "values are not written as \"" + suffix + '"',
                 "name an output that ends in .f64, .txt or .ply");
+  if (options.functions.size() > 1)
+    throw Error(ErrorKind::kUsage,
+                fmt::format("reeb function takes one function; -f was given {}",
+                            options.functions.size() == 2 ? "twice" : "several times"),
+                "run it once for each function");
+  if (!options.functions.empty()) options.function = options.functions.front();
   const io::FunctionSpec spec = parse(options.function);
   if (options.temp_folder.empty()) options.temp_folder = io::TempDir::default_folder(options.output);
   RunFiles files;
-  files.add_input(options.mesh, "the mesh");
-  if (spec.kind == io::FunctionSpec::Kind::kFile) files.add_input(spec.argument, "the file of values");
+  files.add_mesh(options.mesh, options.format, options.image);
+  files.add_values_of(spec);
   files.add_output(options.output, "the output", existing_outputs(options.force));
   files.check();
   Values(options).write();
@@ -217,7 +226,9 @@ void add_function(Program& program) {
   command.add_option("MESH", options->mesh, "Mesh of any format, also as .gz and .zst; - reads standard input")
       .required()
       .type_name("");
-  command.add_option("-f,--function", options->function, "The function, as for `reeb compute`").type_name("FUNC");
+  command.add_option("-f,--function", options->functions, "The function, as for `reeb compute`")
+      .one_value_each_time()
+      .option_text("FUNC");
   command
       .add_option("-o,--output", options->output,
                   "File to write: .f64 (raw float64, little endian), .txt (a number a line), or .ply (the mesh, with "

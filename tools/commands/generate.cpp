@@ -28,8 +28,10 @@
 namespace reeb::tools {
 namespace {
 
+constexpr const char* kUsualOrder = "patches";
+
 struct GenerateArguments {
-  std::string kind, order = "patches", output;
+  std::string kind, order = kUsualOrder, output;
   io::GeneratorOptions mesh;
   std::optional<std::uint64_t> seed, dimension, handles, triangles, tetrahedra;
   std::string grid;  // of a volume
@@ -58,13 +60,15 @@ void print_summary(const GenerateArguments& arguments, const io::ExpectedTopolog
                            arguments.kind, with_commas(got)));
 }
 
+[[noreturn]] void refuse_option(const GenerateArguments& arguments, const char* option, const std::string& hint) {
+  throw Error(ErrorKind::kUsage, fmt::format("a {} has no {}", arguments.kind, option), hint);
+}
+
 // An option that would be ignored is refused; a seed that changes nothing is harmless.
 void check_options(const GenerateArguments& arguments) {
   const io::MeshKind kind = arguments.mesh.kind;
   const bool sierpinski = kind == io::MeshKind::kSierpinski, ball = kind == io::MeshKind::kBall;
-  const auto refuse = [&](const char* option, const std::string& hint) {
-    throw Error(ErrorKind::kUsage, fmt::format("a {} has no {}", arguments.kind, option), hint);
-  };
+  const auto refuse = [&](const char* option, const std::string& hint) { refuse_option(arguments, option, hint); };
   if (arguments.mesh.width && sierpinski)
     refuse("--width", "leave it out; --triangles and --dimension say how large it is");
   if (arguments.mesh.width && ball) refuse("--width", "leave it out; --tetrahedra says how large it is");
@@ -77,6 +81,15 @@ void check_options(const GenerateArguments& arguments) {
                          arguments.mesh.order == io::MeshOrder::kRandomTiles;
   if (arguments.seed && !is_random)
     print_line(fmt::format("note: nothing is random in a {} in this order, so --seed changes nothing", arguments.kind));
+}
+
+void check_volume_options(const GenerateArguments& arguments) {
+  const std::string hint = "leave it out; --grid says how large it is";
+  if (arguments.triangles) refuse_option(arguments, "--triangles", hint);
+  if (arguments.tetrahedra) refuse_option(arguments, "--tetrahedra", hint);
+  if (arguments.mesh.width) refuse_option(arguments, "--width", hint);
+  if (arguments.dimension) refuse_option(arguments, "--dimension", "leave it out; only a sierpinski has one");
+  if (arguments.order != kUsualOrder) refuse_option(arguments, "--order", "leave it out; only meshes have one");
 }
 
 io::VolumeOptions volume_options(const GenerateArguments& arguments) {
@@ -92,6 +105,7 @@ io::VolumeOptions volume_options(const GenerateArguments& arguments) {
 }
 
 void generate_volume(const GenerateArguments& arguments) {
+  check_volume_options(arguments);
   if (io::name_suffix(arguments.output) != ".nrrd")
     throw Error(ErrorKind::kUsage, "a volume is written as NRRD", "choose an output that ends in .nrrd");
   const io::VolumeOptions options = volume_options(arguments);

@@ -8,20 +8,45 @@
 #include "tools/arguments/image_options.h"
 #include "tools/arguments/options.h"
 #include "tools/commands/commands.h"
+#include "tools/library/run_files.h"
 #include "tools/program/mesh_info.h"
-#include "tools/program/reeb_info.h"
 #include "tools/runs/fragment_info.h"
+#include "tools/runs/reeb_info.h"
 
 namespace reeb::tools {
+namespace {
+
+struct InfoOptions {
+  std::string file, format, temp_folder;
+  std::uint64_t memory_bytes = MemoryBudget::kUnlimited;
+  io::ImageOptions image;
+  bool json = false;
+};
+
+void info(const InfoOptions& options) {
+  const bool may_be_graph = options.file != "-" && options.format.empty();
+  const bool is_graph = may_be_graph && ooc::is_reeb_file(options.file);
+  const bool is_fragment = may_be_graph && !is_graph && ooc::is_fragment(options.file);
+  RunFiles files;
+  if (is_graph || is_fragment)
+    files.add_input(options.file, is_graph ? "the .reeb file" : "the fragment");
+  else
+    files.add_mesh(options.file, options.format, options.image);
+  files.add_standard_output();
+  files.check();
+  if (is_graph)
+    print_reeb_info(options.file, options.json);
+  else if (is_fragment)
+    print_fragment_info(options.file, options.json);
+  else
+    print_mesh_info(options.file, options.format, options.memory_bytes, options.temp_folder, options.json,
+                    options.image);
+}
+
+}  // namespace
 
 void add_info(Program& app) {
-  struct Options {
-    std::string file, format, temp_folder;
-    std::uint64_t memory_bytes = MemoryBudget::kUnlimited;
-    io::ImageOptions image;
-    bool json = false;
-  };
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<InfoOptions>();
   Command command = app.add_command("info", "Describe a mesh, a .reeb file or a fragment");
   command
       .add_option("FILE", options->file,
@@ -34,15 +59,7 @@ void add_info(Program& app) {
   add_memory(command, options->memory_bytes, "Memory for the tables of a mesh: 64M (default: no limit)");
   add_temp_dir(command, options->temp_folder, "Folder for temporary files (default: $TMPDIR, or the current folder)");
   command.footer("Example:\n  reeb info scan.reeb");
-  command.callback([options] {
-    if (options->file != "-" && options->format.empty() && ooc::is_reeb_file(options->file))
-      print_reeb_info(options->file, options->json);
-    else if (options->file != "-" && options->format.empty() && ooc::is_fragment(options->file))
-      print_fragment_info(options->file, options->json);
-    else
-      print_mesh_info(options->file, options->format, options->memory_bytes, options->temp_folder, options->json,
-                      options->image);
-  });
+  command.callback([options] { info(*options); });
 }
 
 }  // namespace reeb::tools

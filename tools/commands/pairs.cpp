@@ -8,23 +8,27 @@
 #include <utility>
 #include <vector>
 
+#include "io/file/file.h"
 #include "io/file/file_name.h"
 #include "io/text/json_text.h"
 #include "io/text/output_buffer.h"
 #include "libreeb/base/error.h"
+#include "libreeb/base/printable.h"
 #include "ooc/reeb_file/reeb_file.h"
 #include "tools/arguments/options.h"
 #include "tools/commands/commands.h"
 #include "tools/library/run_files.h"
 #include "tools/program/input_kind.h"
 #include "tools/program/output.h"
+#include "tools/program/whole_levels.h"
+#include "tools/program/wrapping.h"
 
 namespace reeb::tools {
 namespace {
 
 struct PairsOptions {
-  std::string file, output, format;
-  bool force = false;
+  std::string file, output = io::kStandardOutput, format;
+  bool force = false, quiet = false;
 };
 
 using Rows = std::vector<ooc::PairRow>;
@@ -121,18 +125,20 @@ const Format& choose_format(const PairsOptions& options) {
 void list_pairs(const PairsOptions& options) {
   RunFiles files;
   files.add_input(options.file, "the .reeb file");
-  if (!options.output.empty()) files.add_output(options.output, "the output", existing_outputs(options.force));
+  files.add_output(options.output, "the output", existing_outputs(options.force));
   files.check();
   const Format& format = choose_format(options);
   require_reeb_file(options.file, "pairs");
   const ooc::ReebFile file(options.file);
-  Rows rows = file.pairs();
+  Rows rows = read_part(file, FilePart::kPairs, [&] { return file.pairs(); });
   sort_rows(rows);
   write_output(options.output, options.force, [&](std::ostream& stream) {
     io::OutputBuffer out(stream);
     format.write(file, rows, out);
     out.flush();
   });
+  if (!options.quiet && !options.output.empty() && options.output != "-")
+    print_line("wrote " + printable(options.output));
 }
 
 }  // namespace
@@ -148,7 +154,10 @@ void add_pairs(Program& app) {
                   "One of csv json gudhi (lists as GUDHI's extended persistence has them, in JSON); default: by the "
                   "suffix of the output, .csv or .json; csv without one")
       .type_name("NAME");
+  command.refuse_option("--threshold", "all pairs are listed",
+                        "levels are chosen afterwards: `reeb extract FILE.reeb --threshold 1%`");
   add_force(command, options->force);
+  command.add_flag("--quiet", options->quiet, "Do not say what was written");
   command.footer("Example:\n  reeb pairs scan.reeb -o scan-pairs.csv");
   command.callback([options] { list_pairs(*options); });
 }

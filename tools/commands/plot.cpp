@@ -16,6 +16,7 @@
 #include "tools/arguments/options.h"
 #include "tools/commands/commands.h"
 #include "tools/library/run_files.h"
+#include "tools/measures/open_segmentation.h"
 #include "tools/plot/charts.h"
 #include "tools/plot/picture_file.h"
 #include "tools/plot/skeleton.h"
@@ -23,6 +24,7 @@
 #include "tools/program/output.h"
 #include "tools/program/progress.h"
 #include "tools/program/quantity.h"
+#include "tools/program/whole_levels.h"
 #include "tools/program/wrapping.h"
 
 namespace reeb::tools {
@@ -31,7 +33,7 @@ namespace {
 struct PlotOptions {
   std::vector<std::string> files;
   std::string output, kind = "loops";
-  std::string view, surface = "solid", color = "value";
+  std::string view, surface, color = "value";  // no surface: solid, if there is a mesh
   SkeletonOptions skeleton;
   bool force = false, quiet = false;
 };
@@ -58,10 +60,14 @@ Point parse_view(const std::string& text) {
 void check_kind(const PlotOptions& options) {
   if (options.files.size() > 1 && options.kind != "loops")
     throw Error(ErrorKind::kUsage, "--kind " + options.kind + " draws one file", "name one file, or use --kind loops");
-  if (options.kind == "skeleton") return;
+  if (options.kind == "skeleton") {
+    if (!options.surface.empty() && options.skeleton.mesh.empty())
+      throw Error(ErrorKind::kUsage, "--surface needs --mesh MESH", "name the mesh, or leave --surface out");
+    return;
+  }
   for (const auto& [name, is_given] :
        {std::pair("--mesh", !options.skeleton.mesh.empty()), std::pair("--view", !options.view.empty()),
-        std::pair("--surface", options.surface != "solid"), std::pair("--color", options.color != "value"),
+        std::pair("--surface", !options.surface.empty()), std::pair("--color", options.color != "value"),
         std::pair("--on-surface", options.skeleton.on_surface)})
     if (is_given) throw Error(ErrorKind::kUsage, std::string(name) + " is for --kind skeleton", "add --kind skeleton");
 }
@@ -90,6 +96,20 @@ std::string draw(const PlotOptions& options, std::span<const ooc::ReebFile> file
   return draw_skeleton(files[0], skeleton_options(options, temp_folder, bar));
 }
 
+// Says of files that were cut what can be drawn.
+std::string draw_whole(const PlotOptions& options, std::span<const ooc::ReebFile> files,
+                       const std::string& temp_folder) {
+  const bool draws_pairs = options.kind == "loops" || options.kind == "diagram";
+  try {
+    return draw(options, files, temp_folder);
+  } catch (const Error& error) {
+    for (const ooc::ReebFile& file : files)
+      if (meets_missing_part(file, error))
+        throw with_whole_level(file, error, draws_pairs ? FilePart::kPairs : FilePart::kLevel);
+    throw;
+  }
+}
+
 void plot(PlotOptions options) {
   if (options.output.empty()) options.output = std::filesystem::path(options.files[0]).stem().string() + ".svg";
   const PictureFormat format = picture_format(options.output);
@@ -106,8 +126,9 @@ void plot(PlotOptions options) {
     names.add_input(file, "the .reeb file");
   }
   if (!options.skeleton.mesh.empty()) {
-    names.add_input(options.skeleton.mesh, "the mesh");
     require_mesh_file(options.skeleton.mesh, "name its mesh with --mesh");
+    names.add_mesh(options.skeleton.mesh, options.skeleton.format, options.skeleton.image);
+    if (options.surface == "value") add_values_of(ooc::ReebFile(options.files[0]), names);
   }
   names.add_output(options.output, "the picture", existing_outputs(options.force));
   names.check();
@@ -116,9 +137,10 @@ void plot(PlotOptions options) {
   for (const std::string& file : options.files) {
     files.emplace_back(file);
     if (const Error* damage = files.back().damage()) fmt::print(stderr, "reeb: warning: {}\n", damage->what());
+    if (!options.quiet) note_large_threshold(files.back(), options.skeleton.level.threshold);
   }
   const std::string temp_folder = io::TempDir::default_folder(options.output);
-  const std::string bytes = picture_bytes(draw(options, files, temp_folder), format, temp_folder);
+  const std::string bytes = picture_bytes(draw_whole(options, files, temp_folder), format, temp_folder);
   write_output(options.output, options.force, [&](std::ostream& out) { out << bytes; });
   if (!options.quiet && options.output != "-") print_line("wrote " + printable(options.output));
 }
@@ -154,7 +176,7 @@ void add_plot(Program& program) {
       .option_text("X,Y,Z");
   command
       .add_option("--surface", options->surface,
-                  "For a skeleton: solid, glass, value (coloured by the function) or none (default: solid)")
+                  "With --mesh: solid, glass, value (coloured by the function) or none (default: solid)")
       .one_of({"solid", "glass", "value", "none"})
       .type_name("STYLE");
   command

@@ -9,6 +9,7 @@
 
 #include "io/file/file_name.h"
 #include "io/file/temp_dir.h"
+#include "io/functions/function_spec.h"
 #include "libreeb/base/count_text.h"
 #include "libreeb/base/error.h"
 #include "libreeb/base/printable.h"
@@ -29,7 +30,7 @@ namespace {
 
 struct RepairArguments {
   RepairOptions options;
-  std::string below, longest, log, undo, apply_undo, drop_components, fill_boundaries;
+  std::string loops, below, longest, log, undo, apply_undo, drop_components, fill_boundaries;
   bool force = false, quiet = false;
 };
 
@@ -45,8 +46,9 @@ void parse(RepairArguments& arguments) {
                 "give it as 1%, of the triangles of the largest component");
 }
 
-void check_files(const RepairArguments& arguments) {
-  const RepairOptions& options = arguments.options;
+// The rows of --loops are read here, since they say which values the run reads.
+void take_files(RepairArguments& arguments) {
+  RepairOptions& options = arguments.options;
   require_mesh_to_reread(options.mesh.path, "name the mesh");
   const std::string suffix = io::name_suffix(options.output);
   // Other formats number vertices in another way, or hold float32 only.
@@ -55,8 +57,13 @@ void check_files(const RepairArguments& arguments) {
                 "end the name of the output in .ply, .obj or .off")
         .at(options.output);
   RunFiles files;
-  files.add_input(options.mesh.path, "the mesh");
-  if (!options.filter.loops.empty()) files.add_input(options.filter.loops, "the table of loops");
+  files.add_mesh(options.mesh.path, options.mesh.format, options.mesh.image);
+  if (!arguments.loops.empty()) {
+    files.add_input(arguments.loops, "the table of loops");
+    options.filter.named = read_named_rows(arguments.loops);
+    for (const std::string& function : options.filter.named->functions)
+      files.add_values_of(io::parse_function(function));
+  }
   if (!arguments.apply_undo.empty()) files.add_input(arguments.apply_undo, "the undo file");
   const io::Existing existing = existing_outputs(arguments.force);
   files.add_output(options.output, "the output", existing);
@@ -112,7 +119,7 @@ void apply_undo(const RepairArguments& arguments) {
 void run_repair(RepairArguments arguments) {
   RepairOptions& options = arguments.options;
   parse(arguments);
-  check_files(arguments);
+  take_files(arguments);
   if (options.mesh.temp_folder.empty()) options.mesh.temp_folder = io::TempDir::default_folder(options.output);
   if (!arguments.apply_undo.empty()) return apply_undo(arguments);
   ProgressBar bar(arguments.quiet);
@@ -139,7 +146,8 @@ void run_repair(RepairArguments arguments) {
   bar.clear();
   if (arguments.quiet) return;
   for (const std::string& warning : repair.warnings) print_line("note: " + printable(warning));
-  for (const std::string& warning : written.warnings) print_line("note: " + printable(warning));
+  for (const std::string& warning : written.warnings)
+    if (std::ranges::find(repair.warnings, warning) == repair.warnings.end()) print_line("note: " + printable(warning));
   for (const std::string& line : summary_of(repair)) print_line(printable(line));
   fmt::print(stderr, "wrote {}\n", printable(options.output));
 }
@@ -156,9 +164,11 @@ void add_repair(Program& program) {
       command
           .add_option("--below", arguments->below, "Loops of less persistence: 0.01, or 0.1% of the function's range")
           .type_name("T"),
-      command.add_option("--longest", arguments->longest, "Loops with a curve of at most this length")
+      command
+          .add_option("--longest", arguments->longest,
+                      "Loops with a curve of at most this length (default: what reeb defects suggests)")
           .type_name("LENGTH"),
-      command.add_option("--loops", options.filter.loops, "Only loops in a table of reeb defects, or in rows of it")
+      command.add_option("--loops", arguments->loops, "Only loops in a table of reeb defects, or in rows of it")
           .type_name("FILE.csv"),
       command.add_flag("--all", options.filter.all, "All loops that can be repaired, however long"),
       add_count(command, "--limit", options.limit, "The first N loops that can be repaired", {.least = 1}),

@@ -4,10 +4,12 @@
 
 #include "io/file/temp_dir.h"
 #include "libreeb/base/printable.h"
+#include "ooc/reeb_file/reeb_file.h"
 #include "tools/arguments/image_options.h"
 #include "tools/arguments/options.h"
 #include "tools/commands/commands.h"
 #include "tools/library/run_files.h"
+#include "tools/measures/open_segmentation.h"
 #include "tools/program/input_kind.h"
 #include "tools/program/output.h"
 #include "tools/program/progress.h"
@@ -30,7 +32,8 @@ void check_files(const PageOptions& options) {
   files.add_input(options.report.file, "the .reeb file");
   if (!mesh.empty()) {
     require_mesh_to_reread(mesh, "name the mesh: reeb report FILE.reeb --mesh MESH -o OUT.html");
-    files.add_input(mesh, "the mesh");
+    files.add_mesh(mesh, options.report.defects.mesh.format, options.report.defects.mesh.image);
+    add_values_of(ooc::ReebFile(options.report.file), files);
   }
   files.add_output(options.output, "the output", existing_outputs(options.force));
   files.check();
@@ -51,7 +54,9 @@ void run_report(PageOptions options) {
   const std::string page = make_report(options.report);
   bar.clear();
   write_output(options.output, options.force, [&](std::ostream& out) { out << page; });
-  if (!options.quiet && options.output != "-") print_line("wrote " + printable(options.output));
+  if (options.quiet || options.output == "-") return;
+  note_other_suffix(options.output, {".html", ".htm", ".xhtml"}, "an HTML page");
+  print_line("wrote " + printable(options.output));
 }
 
 }  // namespace

@@ -32,6 +32,7 @@
 #include "tools/program/output.h"
 #include "tools/program/progress.h"
 #include "tools/program/quantity.h"
+#include "tools/program/whole_levels.h"
 #include "tools/program/wrapping.h"
 
 namespace reeb::tools {
@@ -83,8 +84,10 @@ class LabelStream {
   std::uint64_t read_ = 0;
 };
 
-// The mesh with its labels: .ply with the property `arc`, .vtu and .vtp with `SegmentationId` and `Value`.
-void write_mesh(const RunInput& input, ooc::Segmentation& segmentation, const SegmentOptions& options) {
+// The mesh with its labels: .ply with the property `arc`, .vtu and .vtp with `SegmentationId` and `Value`. Returns what
+// was odd in the mesh, one line each.
+std::vector<std::string> write_mesh(const RunInput& input, ooc::Segmentation& segmentation,
+                                    const SegmentOptions& options) {
   const bool is_ply = io::name_suffix(options.output) == ".ply";
   constexpr std::uint64_t kMostOfPly = std::uint64_t{1} << 31;
   if (is_ply && std::max(segmentation.arcs(), segmentation.nodes()) >= kMostOfPly)
@@ -125,6 +128,7 @@ void write_mesh(const RunInput& input, ooc::Segmentation& segmentation, const Se
   }
   input.input().check_unchanged();
   writer->close();
+  return reader->warnings();
 }
 
 void write_labels(ooc::Segmentation& segmentation, const SegmentOptions& options) {
@@ -149,15 +153,19 @@ void segment(SegmentOptions options) {
                                : "labels are not written as \"" + suffix + '"',
                 "name an output that ends in .i64, .ply, .vtu or .vtp");
   if (!options.threshold.empty()) parse_threshold("--threshold", options.threshold, {0, 1});
-  require_reeb_file(options.file, "segment");
+  require_mesh_file(options.mesh, "name the mesh first: reeb segment MESH FILE.reeb -o OUT");
+  require_reeb_file(options.file, "segment " + options.mesh);
   if (options.temp_folder.empty()) options.temp_folder = io::TempDir::default_folder(options.output);
   const ooc::ReebFile file(options.file);
   RunFiles files;
-  add_segmentation_inputs(options.mesh, file, files);
+  add_segmentation_inputs(options.mesh, options.format, options.image, file, files);
   files.add_output(options.output, "the output", existing_outputs(options.force));
   files.check();
   if (const Error* damage = file.damage()) fmt::print(stderr, "reeb: warning: {}\n", damage->what());
-  const std::uint32_t version = choose_level(file, {options.threshold, options.nodes}).version;
+  if (!options.quiet) note_large_threshold(file, options.threshold);
+  const std::uint32_t version = read_part(file, FilePart::kLevel, [&] {
+    return choose_level(file, {options.threshold, options.nodes}).version;
+  });
   const bool writes_mesh = suffix != ".i64";
 
   RunInput input(options.mesh, std::span(&file.header().function, 1),
@@ -177,14 +185,18 @@ void segment(SegmentOptions options) {
     bar.update({"following vertices"}, at.done, at.total, at.triangles);
   };
   const std::uint64_t bound = vertex_bound(file, input.info());
-  ooc::Segmentation segmentation(input.take_mesh(), *input.functions().front(), bound, file, version, options.output,
-                                 std::move(run));
+  auto segmentation = read_part(file, FilePart::kLevel, [&] {
+    return ooc::Segmentation(input.take_mesh(), *input.functions().front(), bound, file, version, options.output,
+                             std::move(run));
+  });
   bar.clear();
+  std::vector<std::string> notes;
   if (writes_mesh)
-    write_mesh(input, segmentation, options);
+    notes = write_mesh(input, segmentation, options);
   else
     write_labels(segmentation, options);
   if (options.quiet) return;
+  for (const std::string& note : notes) print_line("note: " + printable(note));
   const ooc::SegmentCounts& counts = segmentation.counts();
   print_line(fmt::format("wrote {}: {} on {}, {} at nodes", printable(options.output),
                          count_of(counts.on_arcs, "vertex"), count_of(segmentation.arcs(), "arc"),

@@ -22,6 +22,8 @@
 #include "tools/checks/full_check.h"
 #include "tools/checks/node_check.h"
 #include "tools/commands/commands.h"
+#include "tools/library/run_files.h"
+#include "tools/measures/open_segmentation.h"
 #include "tools/program/input_kind.h"
 #include "tools/program/progress.h"
 #include "tools/program/signals.h"
@@ -115,6 +117,17 @@ void compute_again(const ooc::ReebFile& file, const VerifyOptions& options) {
              count_of(header.nodes, "node"), count_of(header.arcs, "arc"), count_of(header.pairs, "pair"));
 }
 
+// What is printed may be appended to a file.
+void check_files(const ooc::ReebFile& file, const VerifyOptions& options) {
+  RunFiles files;
+  if (options.mesh.empty())
+    files.add_input(options.file, "the .reeb file");
+  else
+    add_segmentation_inputs(options.mesh, options.format, options.image, file, files);
+  files.add_standard_output();
+  files.check();
+}
+
 void verify(const VerifyOptions& options) {
   std::error_code ignored;
   const auto is_pipe = [&](const std::string& mesh) {
@@ -125,6 +138,7 @@ void verify(const VerifyOptions& options) {
   require_reeb_file(options.file, "verify");
   require_mesh_file(options.mesh, "name the mesh that the file was computed from");
   const ooc::ReebFile file(options.file);
+  check_files(file, options);
   file.verify();
   const FileHeader& header = file.header();
   fmt::print("{}: OK: {}, {}, {}, {}, {}, {}\n", printable(options.file), count_of(header.nodes, "node"),

@@ -1,15 +1,16 @@
 // `reeb view`: a .reeb file in a web page, served to this computer only.
 #include <fmt/core.h>
 
-#include <cstdio>
 #include <memory>
 #include <string>
 
 #include "libreeb/base/error.h"
 #include "tools/arguments/options.h"
 #include "tools/commands/commands.h"
+#include "tools/library/run_files.h"
 #include "tools/program/input_kind.h"
 #include "tools/program/signals.h"
+#include "tools/program/standard_streams.h"
 #include "tools/report/report.h"
 #include "tools/view/file_server.h"
 #include "tools/view/open_browser.h"
@@ -26,9 +27,13 @@ struct ViewOptions {
 void view(const ViewOptions& options) {
   require_pages();
   require_reeb_file(options.file, "view");
+  RunFiles files;
+  files.add_input(options.file, "the .reeb file");
+  files.add_standard_output("the address");
+  files.check();
   FileServer server(viewer_page(), options.file, options.port);
   fmt::print("{}\n", server.address());
-  std::fflush(stdout);
+  finish_standard_output();  // nobody finds a server without its address
   fmt::print(stderr, "Only programs of this computer can open this address. Ctrl-C ends the server.\n");
   const auto stop = watch_signals();
   stop();

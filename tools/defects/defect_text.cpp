@@ -46,16 +46,26 @@ nlohmann::ordered_json row_json(const Defects& defects, const RankedRow& ranked)
   return json;
 }
 
+// " of f = x", or " (those of x; shorter curves also from y and z)".
+std::string loops_of(const std::string& first, std::span<const std::string> others) {
+  if (others.empty()) return " of f = " + first;
+  std::string list;
+  for (std::size_t i = 0; i < others.size(); ++i)
+    list += (i == 0 ? "" : i + 1 < others.size() ? ", " : " and ") + printable(others[i]);
+  return " (those of " + first + "; shorter curves also from " + list + ")";
+}
+
 }  // namespace
 
 std::string defect_table(const Defects& defects, std::span<const RankedRow> rows) {
   std::string text;
   const SuggestedLength& suggestion = defects.table.suggestion;
   const std::size_t all = defects.table.rows.size();
-  text += count_of(all, "loop") + " of f = " + printable(defects.functions[0]);
+  const std::string first = printable(defects.functions[0]);
+  if (all == 0) return "no loops in the graph of " + first + ": nothing to list\n";
+  text += count_of(all, "loop") + loops_of(first, std::span(defects.functions).subspan(1));
   if (rows.size() < all) text += fmt::format(", {} of them listed", rows.size());
   text += '\n';
-  if (all == 0) return text;
   if (!rows.empty())
     text += fmt::format("{:>5}  {:<7} {:>10} {:>10} {:>10} {:>10}  {:<34} {}\n", "rank", "kind", "contour", "cycle",
                         "persist.", "of range", "center", "f");

@@ -5,12 +5,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
+#include <string_view>
 #include <system_error>
 
 #include "io/file/file.h"
 #include "io/file/file_ostream.h"
 #include "io/text/output_buffer.h"
+#include "io/text/words.h"
 #include "libreeb/base/error.h"
 #include "tools/defects/cut_patches.h"
 
@@ -21,6 +24,15 @@ constexpr std::size_t kMostVertices = 200'000;
 
 std::string name(const std::string& folder, std::size_t rank, const char* ending) {
   return fmt::format("{}/defect-{}{}.ply", folder, rank, ending);
+}
+
+// Whether a row of some rank has a file of this name.
+bool is_patch_name(std::string_view name) {
+  constexpr std::string_view kBegin = "defect-", kEnd = ".ply", kCurves = "-curves";
+  if (!name.starts_with(kBegin) || !name.ends_with(kEnd) || name.size() < kBegin.size() + kEnd.size()) return false;
+  std::string_view rank = name.substr(kBegin.size(), name.size() - kBegin.size() - kEnd.size());
+  if (rank.ends_with(kCurves)) rank.remove_suffix(kCurves.size());
+  return !rank.starts_with('0') && io::whole_number<std::uint64_t>(rank).has_value();
 }
 
 // From blue by white to red.
@@ -84,6 +96,12 @@ std::string curves_text(const SurfacePatch& patch, const DefectRow& row) {
 
 }  // namespace
 
+void add_patches(const std::string& folder, io::Existing existing, RunFiles& files) {
+  std::error_code failure;
+  if (!std::filesystem::exists(folder, failure)) files.add_output(folder, "the folder of patches", existing);
+  files.add_series({folder, "a patch", is_patch_name, existing});
+}
+
 void check_patch_folder(const std::string& folder, io::Existing existing) {
   namespace fs = std::filesystem;
   std::error_code failure;
@@ -96,7 +114,7 @@ void check_patch_folder(const std::string& folder, io::Existing existing) {
   io::require_output_folder(name(folder, 1, ""));
   std::vector<std::string> patches;
   io::for_each_name(folder, [&](const std::string& file) {
-    if (file.starts_with("defect-") && file.ends_with(".ply")) patches.push_back(folder + "/" + file);
+    if (is_patch_name(file)) patches.push_back(folder + "/" + file);
   });
   std::sort(patches.begin(), patches.end());
   for (const std::string& path : patches) io::check_output_name(path, existing);

@@ -8,8 +8,12 @@
 #include "io/file/atomic_file.h"
 #include "tools/defects/defect_text.h"
 #include "tools/defects/valued_mesh.h"
+#include "tools/library/run_files.h"
 
 namespace reeb::tools {
+
+// The patches as outputs: none is a file that is read, or another output. A folder that is missing is an output, too.
+void add_patches(const std::string& folder, io::Existing existing, RunFiles& files);
 
 // Checks before any work that patches can be written: the folder is there and can be written, or can be created; no
 // patch is in it, unless it may be replaced.

@@ -75,20 +75,45 @@ std::optional<std::uint64_t> snapshot_number(std::string_view name, std::string_
 
 void RunFiles::add_input(std::string path, std::string what) { inputs_.push_back({std::move(path), std::move(what)}); }
 
+void RunFiles::add_mesh(const std::string& path, const std::string& format, const io::ImageOptions& image) {
+  add_input(path, "the mesh");
+  for (std::string& other : io::files_beside(path, format, image)) add_input(std::move(other), "a file of the mesh");
+}
+
+void RunFiles::add_values_of(const io::FunctionSpec& function) {
+  if (function.kind == io::FunctionSpec::Kind::kFile) add_input(function.argument, "the file of values");
+}
+
 void RunFiles::add_output(std::string path, std::string what, io::Existing existing) {
   outputs_.push_back({std::move(path), std::move(what), existing});
 }
 
-void RunFiles::add_snapshots(std::string stem, io::Existing existing) {
-  snapshots_.push_back({std::move(stem), "a snapshot", existing});
+void RunFiles::add_standard_output(std::string what) {
+  add_output(io::kStandardOutput, std::move(what), io::Existing::kReplace);
 }
 
-// With the snapshots that exist.
+void RunFiles::add_snapshots(const std::string& stem, io::Existing existing) {
+  const auto is_snapshot = [name = fs::path(stem).filename().string()](std::string_view found) {
+    return snapshot_number(found, name).has_value();
+  };
+  add_series({io::folder_of(stem), "a snapshot", is_snapshot, existing});
+  first_snapshots_.push_back(snapshot_name(stem, 1));
+}
+
+void RunFiles::add_series(Series series) { series_.push_back(std::move(series)); }
+
+// With the files of series that exist.
 std::vector<RunFiles::File> RunFiles::outputs() const {
   std::vector<File> all = outputs_;
-  for (const File& stem : snapshots_)
-    for (const std::uint64_t number : existing_snapshots(stem.path))
-      all.push_back({snapshot_name(stem.path, number), stem.what, stem.existing});
+  for (const Series& series : series_) {
+    std::vector<std::string> names;
+    io::for_each_name(series.folder, [&](const char* name) {
+      if (series.has_name(name)) names.emplace_back(name);
+    });
+    std::ranges::sort(names);
+    for (const std::string& name : names)
+      all.push_back({series.folder == "." ? name : series.folder + "/" + name, series.what, series.existing});
+  }
   return all;
 }
 
@@ -100,7 +125,9 @@ void RunFiles::check() const {
     const Place& place = places.back();
     for (const File& input : inputs_)
       if (is_same(place, place_of(input.path, false)))
-        throw Error(ErrorKind::kBadInput, output.what + " is " + input.what + " itself", "choose another name for it")
+        throw Error(
+            ErrorKind::kBadInput, output.what + " is " + input.what + " itself",
+            output.path == io::kStandardOutput ? "lead standard output to another file" : "choose another name for it")
             .at(output.path);
     for (std::size_t i = 0; i + 1 < places.size(); ++i)
       if (is_same(place, places[i]) || (output.path == io::kStandardOutput && all[i].path == output.path))
@@ -108,24 +135,24 @@ void RunFiles::check() const {
                     "choose different names")
             .at(output.path);
   }
-  check_snapshot_names();
+  check_names_of_series();
   for (const File& output : all) io::check_output_name(output.path, output.existing);
   for (const File& output : all) io::require_output_folder(output.path);
-  for (const File& stem : snapshots_) io::require_output_folder(snapshot_name(stem.path, 1));
+  for (const std::string& name : first_snapshots_) io::require_output_folder(name);
 }
 
-// Snapshots that do not exist yet.
-void RunFiles::check_snapshot_names() const {
-  for (const File& stem : snapshots_) {
-    const std::string name = fs::path(stem.path).filename().string();
+// Files of series that do not exist yet.
+void RunFiles::check_names_of_series() const {
+  for (const Series& series : series_) {
     struct stat status {};
-    if (::stat(io::folder_of(stem.path).c_str(), &status) != 0) continue;
+    if (::stat(series.folder.c_str(), &status) != 0) continue;
     for (const std::vector<File>* files : {&inputs_, &outputs_})
       for (const File& file : *files) {
+        const std::string target = io::follow_links(file.path);
         struct stat other {};
-        if (!snapshot_number(fs::path(file.path).filename().string(), name)) continue;
-        if (::stat(io::folder_of(file.path).c_str(), &other) != 0 || identity(other) != identity(status)) continue;
-        throw Error(ErrorKind::kBadInput, file.what + " has the name of a snapshot", "choose another name for it")
+        if (!series.has_name(fs::path(target).filename().string())) continue;
+        if (::stat(io::folder_of(target).c_str(), &other) != 0 || identity(other) != identity(status)) continue;
+        throw Error(ErrorKind::kBadInput, file.what + " has the name of " + series.what, "choose another name for it")
             .at(file.path);
       }
   }
@@ -150,14 +177,16 @@ RunFiles files_of_run(const std::string& mesh, std::span<const io::FunctionSpec>
   const bool replace = options.replace || (options.resume && ooc::PartialFolder::has_checkpoint(outputs[0]));
   const io::Existing existing = replace ? io::Existing::kReplace : io::Existing::kRefuse;
   RunFiles files;
-  files.add_input(mesh, "the mesh");
-  for (const io::FunctionSpec& function : functions)
-    if (function.kind == io::FunctionSpec::Kind::kFile) files.add_input(function.argument, "the file of values");
+  files.add_mesh(mesh, options.format, options.image);
+  for (const io::FunctionSpec& function : functions) files.add_values_of(function);
   if (!io::is_device(outputs[0])) files.add_input(ooc::PartialFolder::path_for(outputs[0]), "the folder of the run");
   for (std::size_t i = 0; i < outputs.size(); ++i)
     files.add_output(outputs[i], outputs.size() == 1 ? "the output" : "the output of " + functions[i].text, existing);
   if (options.snapshot_every != 0)
-    for (const std::string& output : outputs) files.add_snapshots(snapshot_stem(output), existing);
+    for (const std::string& output : outputs) {
+      require_room_for_several(output);
+      files.add_snapshots(snapshot_stem(output), existing);
+    }
   if (mesh != "-") {
     const std::string sidecar = mesh + ".final";
     const bool is_sidecar = ooc::is_sidecar(sidecar);
@@ -168,6 +197,12 @@ RunFiles files_of_run(const std::string& mesh, std::span<const io::FunctionSpec>
       files.add_input(sidecar, "the sidecar of the mesh");
   }
   return files;
+}
+
+void require_room_for_several(const std::string& output) {
+  if (!io::is_device(output)) return;
+  const std::string device = output == io::kStandardOutput ? "standard output" : output + ", which is not a file";
+  throw Error(ErrorKind::kUsage, "several outputs cannot go to " + device, "name a file with -o");
 }
 
 std::string snapshot_stem(const std::string& output) {

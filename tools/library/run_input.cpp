@@ -3,7 +3,11 @@
 #include <algorithm>
 
 #include "io/file/checksum.h"
+#include "io/file/file_name.h"
 #include "io/file/temp_dir.h"
+#include "io/formats/format_detection.h"
+#include "io/formats/open_grid.h"
+#include "libreeb/base/error.h"
 
 namespace reeb {
 namespace {
@@ -51,6 +55,19 @@ std::vector<io::FunctionSpec> parse_functions(std::span<const std::string> funct
   return specs;
 }
 
+void refuse_value_of_mesh(const io::Input& input, std::span<const io::FunctionSpec> specs, const std::string& format,
+                          const io::ImageOptions& image) {
+  const auto value = std::ranges::find(specs, io::FunctionSpec::Kind::kValue, &io::FunctionSpec::kind);
+  const bool may_be_raw = image.is_raw() || io::content_suffix(input.path()) == ".raw";
+  if (value == specs.end() || may_be_raw || !format.empty() || !input.can_reopen()) return;
+  if (io::detect_image(*input.open(), input.path())) return;
+  if (io::detect_format(*input.open(), input.path()) == io::MeshFormat::kUnknown) return;
+  throw Error(ErrorKind::kBadInput, "the mesh is not an image, so it has no " + value->text,
+              value->text + " is the function of an image; " + input.path() +
+                  " is a mesh: choose a coordinate, property:NAME or file:PATH")
+      .at(input.path());
+}
+
 RunInput::RunInput(const std::string& path, std::span<const std::string> functions, const InputOptions& options)
     : options_(options), file_(io::mesh_input(path, options.format)) {
   mesh_.path = path;
@@ -71,6 +88,7 @@ RunInput::RunInput(MeshOpener open_held, std::span<const std::string> functions,
 
 void RunInput::open(std::span<const std::string> functions, std::unique_ptr<io::ContentSource> content) {
   std::vector<io::FunctionSpec> specs = parse_functions(functions);
+  if (!held_) refuse_value_of_mesh(*file_, specs, options_.format, options_.image);
   reading_.batch_events = options_.batch_events;
   reading_.properties = io::needed_properties(specs);
   reading_.temp_folder = options_.temp_dir;

@@ -36,6 +36,10 @@ InputOptions input_options(const ComputeOptions& options, const std::string& out
 // THROWS: Error{kUsage} for an unknown function.
 std::vector<io::FunctionSpec> parse_functions(std::span<const std::string> functions);
 
+// THROWS: Error{kBadInput} if a function is the value of an image and the file is a mesh, as far as its content tells.
+void refuse_value_of_mesh(const io::Input& input, std::span<const io::FunctionSpec> specs, const std::string& format,
+                          const io::ImageOptions& image);
+
 // Must outlive the run.
 class RunInput {
  public:

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -17,10 +18,10 @@
 namespace reeb::tools {
 namespace {
 
-std::array<double, 3> center_of(std::span<const Bucket> buckets) {
+Bucket sum_of(std::span<const Bucket> buckets) {
   Bucket all;
   for (const Bucket& bucket : buckets) merge_into(all, {all.index, bucket.count, bucket.mean});
-  return all.mean;
+  return all;
 }
 
 double squared_distance(const std::array<double, 3>& a, const std::array<double, 3>& b) {
@@ -29,31 +30,48 @@ double squared_distance(const std::array<double, 3>& a, const std::array<double,
   return sum;
 }
 
-// A segmentation has an order of parallel arcs of its own. Where the vertices of the buckets lie says which is which.
-void order_as_in(const ooc::Level& level, ooc::MeasuredArcs& measured) {
+// By arc as measured: the same arc of the level. Parallel arcs of a level are in the order of the file, those of a
+// segmentation in the order of their vertices. How many vertices the buckets have, and where, says which is which.
+std::vector<std::size_t> arcs_as_measured(const ooc::Level& level, const ooc::MeasuredArcs& measured) {
   const ReebGraph& graph = level.graph;
-  if (level.buckets.view().empty()) return;
+  std::vector<std::size_t> same(graph.arc_count());
+  std::iota(same.begin(), same.end(), std::size_t{0});
   for (std::size_t begin = 0, end = 0; begin < graph.arc_count(); begin = end) {
     while (end < graph.arc_count() && graph.lo[end] == graph.lo[begin] && graph.hi[end] == graph.hi[begin]) ++end;
-    std::vector<std::tuple<double, std::size_t, std::size_t>> matches;  // distance, place in the level, place measured
-    for (std::size_t a = begin; a < end && end - begin > 1; ++a)
+    // Whether the counts differ, the distance, the place in the level, the place as measured.
+    std::vector<std::tuple<bool, double, std::size_t, std::size_t>> matches;
+    for (std::size_t a = begin; a < end && end - begin > 1; ++a) {
+      const Bucket all = sum_of(level.buckets.view().of(a));
       for (std::size_t b = begin; b < end; ++b)
-        matches.emplace_back(squared_distance(center_of(level.buckets.view().of(a)), measured.centers[b]), a, b);
+        matches.emplace_back(all.count != measured.arcs[b].vertices, squared_distance(all.mean, measured.centers[b]), a,
+                             b);
+    }
     std::sort(matches.begin(), matches.end());
-    const std::vector<ArcMeasures> before(measured.arcs.begin() + static_cast<std::ptrdiff_t>(begin),
-                                          measured.arcs.begin() + static_cast<std::ptrdiff_t>(end));
     std::vector<bool> has(end - begin), used(end - begin);
-    for (const auto& [distance, a, b] : matches) {
-      if (has[a - begin] || used[b - begin]) continue;
-      has[a - begin] = used[b - begin] = true;
-      measured.arcs[a] = before[b - begin];
+    for (const auto& [differs, distance, a, b] : matches) {
+      if (used[a - begin] || has[b - begin]) continue;
+      used[a - begin] = has[b - begin] = true;
+      same[b] = a;
     }
   }
+  return same;
+}
+
+// The buckets of arc i become those of arc order[i].
+ArcBuckets in_order(const ArcBuckets& buckets, std::span<const std::size_t> order) {
+  ArcBuckets result{.offsets = {0}, .buckets = {}};
+  result.buckets.reserve(buckets.buckets.size());
+  for (const std::size_t arc : order) {
+    const auto list = buckets.view().of(arc);
+    result.buckets.insert(result.buckets.end(), list.begin(), list.end());
+    result.offsets.push_back(result.buckets.size());
+  }
+  return result;
 }
 
 }  // namespace
 
-ooc::MeasuredArcs measure_level(const ooc::ReebFile& file, const ooc::Level& level, const MeasureRequest& request) {
+ooc::MeasuredArcs measure_level(const ooc::ReebFile& file, ooc::Level& level, const MeasureRequest& request) {
   InputOptions opening;
   opening.temp_dir = request.temp_folder;
   RunInput input(request.mesh, std::span(&file.header().function, 1), opening);
@@ -75,7 +93,7 @@ ooc::MeasuredArcs measure_level(const ooc::ReebFile& file, const ooc::Level& lev
   const auto reader = input.read_again(reading);
   ooc::MeasuredArcs measured = segmentation.measure(*reader);
   input.input().check_unchanged();
-  order_as_in(level, measured);
+  if (!level.buckets.offsets.empty()) level.buckets = in_order(level.buckets, arcs_as_measured(level, measured));
   if (!request.quiet && measured.doubtful_area + measured.dropped_area > 0)
     print_line(
         fmt::format("note: {:.2g} % of the area is on no arc: {:.2g} % where an edge of the mesh is as high as a loop, "

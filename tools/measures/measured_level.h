@@ -18,8 +18,9 @@ struct MeasureRequest {
   bool quiet = false;
 };
 
-// The measures are in the order of the level's arcs.
+// The measures are in the order of the level's arcs. Parallel arcs of the level are put into the order in which
+// `reeb segment` numbers them (docs/SEMANTICS.md, Segmentation).
 // THROWS: as ooc::Segmentation and its measure(); Error{kBadInput} if the mesh cannot be read twice.
-ooc::MeasuredArcs measure_level(const ooc::ReebFile& file, const ooc::Level& level, const MeasureRequest& request);
+ooc::MeasuredArcs measure_level(const ooc::ReebFile& file, ooc::Level& level, const MeasureRequest& request);
 
 }  // namespace reeb::tools

@@ -21,12 +21,14 @@ io::FunctionSpec function_of(const ooc::ReebFile& file) {
 
 }  // namespace
 
-void add_segmentation_inputs(const std::string& mesh, const ooc::ReebFile& file, RunFiles& files) {
+void add_values_of(const ooc::ReebFile& file, RunFiles& files) { files.add_values_of(function_of(file)); }
+
+void add_segmentation_inputs(const std::string& mesh, const std::string& format, const io::ImageOptions& image,
+                             const ooc::ReebFile& file, RunFiles& files) {
   require_mesh_file(mesh, "name the mesh that it was computed from");
-  files.add_input(mesh, "the mesh");
+  files.add_mesh(mesh, format, image);
   files.add_input(file.path(), "the .reeb file");
-  const io::FunctionSpec function = function_of(file);
-  if (function.kind == io::FunctionSpec::Kind::kFile) files.add_input(function.argument, "the file of values");
+  add_values_of(file, files);
 }
 
 std::uint64_t vertex_bound(const ooc::ReebFile& file, const MeshInfo& info) {

@@ -12,9 +12,14 @@
 
 namespace reeb::tools {
 
+// The file of values as an input, if the function of the graph has one.
+// THROWS: Error{kBadInput} if the file names no function.
+void add_values_of(const ooc::ReebFile& file, RunFiles& files);
+
 // The mesh and the .reeb file as inputs, and the file of values if the function has one.
-// THROWS: Error{kBadInput} if the mesh is a Reeb graph, or the file names no function.
-void add_segmentation_inputs(const std::string& mesh, const ooc::ReebFile& file, RunFiles& files);
+// THROWS: Error{kBadInput} if the mesh is a Reeb graph; as add_values_of() and RunFiles::add_mesh().
+void add_segmentation_inputs(const std::string& mesh, const std::string& format, const io::ImageOptions& image,
+                             const ooc::ReebFile& file, RunFiles& files);
 
 // More than the index of any vertex: vertices of a grid that are left out have indices, too.
 std::uint64_t vertex_bound(const ooc::ReebFile& file, const MeshInfo& info);

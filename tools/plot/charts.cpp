@@ -38,7 +38,23 @@ LoopsOfFile loops_of(const ooc::ReebFile& file, const LevelChoice& choice) {
   });
   std::sort(result.series.percents.begin(), result.series.percents.end());
   result.series.name = graph_name(file) + ", f = " + file.header().function + ": " + count_of(result.loops, "loop");
+  if (const std::uint64_t flat = result.loops - result.series.percents.size(); flat != 0)
+    result.series.name += ", " + with_commas(flat) + " of persistence 0 not drawn";
   return result;
+}
+
+// Why a picture of loops has no curve, if its level has this many loops.
+std::string why_no_loops(std::span<const ooc::ReebFile> files, std::uint64_t loops, const LevelChoice& choice) {
+  std::uint64_t nodes = 0, all = 0;
+  for (const ooc::ReebFile& file : files) {
+    nodes += file.header().nodes;
+    all += file.header().loops;
+  }
+  if (nodes == 0) return "The graph is empty.";
+  if (loops != 0) return "All loops have the persistence 0.";
+  if (all == 0) return "There are no loops.";
+  const std::string which = all == 1 ? "The only loop is" : "All " + count_of(all, "loop") + " are";
+  return which + (choice.threshold.empty() ? " in finer levels." : " below the threshold.");
 }
 
 }  // namespace
@@ -66,10 +82,7 @@ std::string draw_loops(std::span<const ooc::ReebFile> files, const LevelChoice& 
                       ? "Loops above a persistence"
                       : graph_name(files[0]) + ", f = " + files[0].header().function + ": loops above a persistence";
   if (files.size() > 1) heading.subtitle = count_of(files.size(), "graph") + ", " + heading.subtitle + " of each";
-  if (shown == 0)
-    return message_picture(heading, files.size() == 1 && files[0].header().nodes == 0 ? "The graph is empty."
-                                    : loops == 0                                      ? "There are no loops."
-                                                 : "All loops have the persistence 0.");
+  if (shown == 0) return message_picture(heading, why_no_loops(files, loops, choice));
   if (shown != loops) heading.subtitle += "; without " + count_of(loops - shown, "loop") + " of persistence 0";
   return run_gnuplot(heading, io::loop_chart(series), temp_folder);
 }

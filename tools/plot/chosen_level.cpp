@@ -4,7 +4,9 @@
 
 #include "io/plot/value_axis.h"
 #include "libreeb/base/count_text.h"
+#include "libreeb/base/printable.h"
 #include "tools/program/quantity.h"
+#include "tools/program/wrapping.h"
 
 namespace reeb::tools {
 
@@ -19,6 +21,13 @@ ChosenLevel choose_level(const ooc::ReebFile& file, const LevelChoice& choice) {
     if (level.version != 0) level.text = "finest level of at most " + count_of(*choice.nodes, "node");
   }
   return level;
+}
+
+void note_large_threshold(const ooc::ReebFile& file, const std::string& threshold) {
+  if (threshold.empty()) return;
+  const FileHeader& header = file.header();
+  const std::string note = large_threshold(threshold, {header.function_min, header.function_max}, header.function);
+  if (!note.empty()) print_line("note: " + printable(note));
 }
 
 void for_each_pair_of(const ooc::ReebFile& file, std::uint32_t version,

@@ -22,6 +22,9 @@ struct ChosenLevel {
 };
 ChosenLevel choose_level(const ooc::ReebFile& file, const LevelChoice& choice);
 
+// Prints a note if a threshold (empty: none) is so large that it may be meant in per cent. REQUIRES: it is well-formed.
+void note_large_threshold(const ooc::ReebFile& file, const std::string& threshold);
+
 // Calls visit(pair) for each pair that the level still has, in the order of cancelling.
 void for_each_pair_of(const ooc::ReebFile& file, std::uint32_t version,
                       const std::function<void(const ooc::PairKeys&)>& visit);

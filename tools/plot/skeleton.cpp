@@ -1,8 +1,10 @@
 #include "tools/plot/skeleton.h"
 
 #include <algorithm>
-#include <array>
+#include <cmath>
+#include <limits>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "io/file/temp_dir.h"
@@ -24,16 +26,34 @@ Point position_of(const MeshBatch& batch, std::size_t vertex) {
   return position;
 }
 
-// Some vertices of a mesh, evenly by their indices, and the corners that reach farthest along the axes.
+double along(const Point& direction, const Point& position) {
+  return direction[0] * position[0] + direction[1] * position[1] + direction[2] * position[2];
+}
+
+// The directions across and upwards of these views, those that are parallel to others left out.
+std::vector<Point> sides_of(std::span<const io::View> views) {
+  std::vector<Point> sides;
+  for (const io::View& view : views)
+    for (const Point& side : {view.right, view.up}) {
+      const auto is_parallel = [&](const Point& other) { return std::abs(along(side, other)) > 1 - 1e-12; };
+      if (std::ranges::none_of(sides, is_parallel)) sides.push_back(side);
+    }
+  return sides;
+}
+
+// Some vertices of a mesh, evenly by their indices, and those that reach farthest to the sides of some views: a picture
+// with any of these views that has room for them has room for all.
 class VertexSample {
  public:
+  explicit VertexSample(std::span<const io::View> views) : sides_(sides_of(views)), farthest_(2 * sides_.size()) {}
+
   void add(const MeshBatch& batch) {
     for (std::size_t i = 0; i < batch.vertex_count; ++i) {
       const Point position = position_of(batch, i);
-      if (count_ == 0) extremes_.fill(position);
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        if (position[axis] < extremes_[axis][axis]) extremes_[axis] = position;
-        if (position[axis] > extremes_[axis + 3][axis]) extremes_[axis + 3] = position;
+      for (std::size_t k = 0; k < sides_.size(); ++k) {
+        const double reach = along(sides_[k], position);
+        farthest_[2 * k].take(-reach, position);
+        farthest_[2 * k + 1].take(reach, position);
       }
       if (count_++ % step_ != 0) continue;
       points_.push_back(position);
@@ -46,15 +66,27 @@ class VertexSample {
   std::uint64_t vertices() const { return count_; }
   std::vector<Point> points() const {
     std::vector<Point> all = points_;
-    if (count_ != 0) all.insert(all.end(), extremes_.begin(), extremes_.end());
+    if (count_ != 0)
+      for (const Farthest& one : farthest_) all.push_back(one.position);
     return all;
   }
 
  private:
   static constexpr std::size_t kEnough = 20000;
 
-  std::vector<Point> points_;
-  std::array<Point, 6> extremes_{};
+  struct Farthest {
+    double reach = -std::numeric_limits<double>::infinity();
+    Point position{};
+
+    void take(double other_reach, const Point& other) {
+      if (other_reach <= reach) return;
+      reach = other_reach;
+      position = other;
+    }
+  };
+
+  std::vector<Point> sides_, points_;
+  std::vector<Farthest> farthest_;  // of each side, the way back and the way there
   std::uint64_t count_ = 0, step_ = 1;
 };
 
@@ -110,10 +142,12 @@ class SurfaceDrawing {
   std::vector<io::SurfacePoint> placed_;
 };
 
-// Some vertices of the mesh, which is read a first time. THROWS: Error if the file is not of this mesh.
-std::vector<Point> measure_mesh(const ValuedMesh& mesh, const ooc::ReebFile& file, const SkeletonOptions& options) {
+// Some vertices of the mesh, which is read a first time, and all that bound it in these views. THROWS: Error if the
+// file is not of this mesh.
+std::vector<Point> measure_mesh(const ValuedMesh& mesh, const ooc::ReebFile& file, std::span<const io::View> views,
+                                const SkeletonOptions& options) {
   const FileHeader& header = file.header();
-  VertexSample sample;
+  VertexSample sample(views);
   std::uint64_t triangles = 0;
   mesh.read([&](const MeshBatch& batch, auto, std::uint64_t done, std::uint64_t total) {
     sample.add(batch);
@@ -184,17 +218,22 @@ std::string draw_skeleton(const ooc::ReebFile& file, const SkeletonOptions& opti
 
   const MeshSource source{options.mesh, options.format, options.temp_folder, MemoryBudget::kUnlimited, options.image};
   std::optional<ValuedMesh> mesh;
+  const Point upright = upright_of(header.function);
+  std::vector<io::View> views;
+  if (options.view)
+    views.push_back(io::view_from(*options.view, upright));
+  else
+    views = io::views_around(upright);
   std::vector<Point> all;
   if (!options.mesh.empty()) {
     std::vector<std::string> functions;
     if (options.surface == io::SurfaceStyle::kValue) functions.push_back(header.function);
     mesh.emplace(source, functions);
-    all = measure_mesh(*mesh, file, options);
+    all = measure_mesh(*mesh, file, views, options);
   }
   if (is_empty) return message_picture(heading, "The graph is empty.");
 
-  const Point upright = upright_of(header.function);
-  const io::View eye = options.view ? io::view_from(*options.view, upright) : io::best_view(all, stops, upright);
+  const io::View eye = options.view ? views.front() : io::best_view(all, stops, upright);
   all.insert(all.end(), stops.begin(), stops.end());
   all.insert(all.end(), lines.nodes.begin(), lines.nodes.end());
   const io::Projection projection(eye, all, io::kSkeletonCorner, io::kSkeletonBoxWidth, io::kSkeletonMostHeight);

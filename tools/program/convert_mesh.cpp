@@ -1,5 +1,7 @@
 #include "tools/program/convert_mesh.h"
 
+#include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <utility>
 
@@ -15,6 +17,8 @@
 #include "io/functions/function_source.h"
 #include "io/functions/mesh_field.h"
 #include "io/images/image_format.h"
+#include "io/mesh/property_columns.h"
+#include "io/mesh/scalar_bytes.h"
 #include "io/streaming/create_stream.h"
 #include "io/streaming/open_stream.h"
 #include "io/streaming/stream_mesh_reader.h"
@@ -68,7 +72,12 @@ class WatchedMesh : public IndexedMesh {
   unsigned column_count() const override { return mesh_.column_count(); }
   void gather(std::span<const VertexId> ids, std::span<const unsigned> columns, std::span<double> values) override {
     mesh_.gather(ids, columns, values);
+    if (!io::all_finite(values))
+      odd_values_ +=
+          static_cast<std::uint64_t>(std::ranges::count_if(values, [](double x) { return !std::isfinite(x); }));
   }
+  // How many of these values were NaN or infinities.
+  std::uint64_t odd_values() const { return odd_values_; }
   void to_original(std::span<VertexId> ids) override { mesh_.to_original(ids); }
   std::uint64_t number_count() const override { return mesh_.number_count(); }
   void from_original(std::span<VertexId> ids) const override { mesh_.from_original(ids); }
@@ -86,6 +95,7 @@ class WatchedMesh : public IndexedMesh {
   IndexedMesh& mesh_;
   const ProgressBar::Pass pass_;
   ProgressBar& bar_;
+  std::uint64_t odd_values_ = 0;
 };
 
 class Conversion {
@@ -210,7 +220,7 @@ class Conversion {
 
   bool sorts_order() const { return options_.order.kind != TriangleOrder::Kind::kKeep; }
   Lines write_sorted();
-  std::unique_ptr<IndexedMesh> index(ooc::Workspace& space, Lines& notes);
+  std::unique_ptr<IndexedMesh> spool(ooc::Workspace& space, Lines& notes);
   std::unique_ptr<IndexedMesh> sorted(std::unique_ptr<IndexedMesh> mesh, ooc::Workspace& space) const;
 
   const ConvertOptions& options_;
@@ -227,19 +237,22 @@ Lines Conversion::write_sorted() {
                 "leave --finalize and --order out, or write a triangle mesh");
   ooc::Workspace space(options_.temp_folder, options_.memory_bytes);
   Lines notes;
-  auto mesh = sorted(index(space, notes), space);
+  // The file itself was not read from its beginning to its end, so nobody counted its odd values.
+  auto indexed = reader_->indexed();
+  const bool in_place = indexed != nullptr;
+  auto mesh = sorted(in_place ? std::move(indexed) : spool(space, notes), space);
   WatchedMesh watched(*mesh, {"writing"}, bar_);
   const bool exact = format_ != io::StreamFormat::kNone;
   const auto writer = create_writer(mesh->vertex_count());
   ooc::write_compact(watched, reader_->info().dimension, exact, *writer, space);
   input_.check_unchanged();
   writer->close();
+  if (in_place && watched.odd_values() != 0) notes.push_back(io::note_on_odd_values(watched.odd_values()));
   append(notes, writer->warnings());
   return notes;
 }
 
-std::unique_ptr<IndexedMesh> Conversion::index(ooc::Workspace& space, Lines& notes) {
-  if (auto mesh = reader_->indexed()) return mesh;
+std::unique_ptr<IndexedMesh> Conversion::spool(ooc::Workspace& space, Lines& notes) {
   ooc::SpoolOptions options;
   options.allowance_bytes = 2 * space.share();
   options.cells = CellTriangles::kAll;

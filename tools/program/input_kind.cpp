@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "io/file/content_source.h"
+#include "io/file/file.h"
 #include "io/formats/foreign_format.h"
 #include "io/formats/format_detection.h"
 #include "io/formats/open_grid.h"
@@ -22,6 +23,8 @@ std::string stem_of(const std::string& mesh) {
 void require_reeb_file(const std::string& path, const std::string& command) {
   if (path == "-")
     throw Error(ErrorKind::kUsage, "a Reeb graph cannot be read from standard input", "name a .reeb file");
+  if (io::is_device(path))
+    throw Error(ErrorKind::kUsage, "a Reeb graph cannot be read from a pipe or a device", "name a .reeb file").at(path);
   if (ooc::is_reeb_file(path)) return;
   if (ooc::is_fragment(path))
     throw Error(ErrorKind::kBadInput, "this is a fragment, not a Reeb graph",

@@ -104,7 +104,9 @@ void MeshSurvey::print_text() const {
                  bounds_[k].min, bounds_[k].max);
   fmt::print("  properties    {}\n",
              info.property_names.empty() ? "none" : printable(fmt::format("{}", fmt::join(info.property_names, ", "))));
-  fmt::print("  finalization  {}\n", finalized_ == 0 ? "none" : fmt::format("of {}", count_of(finalized_, "vertex")));
+  fmt::print("  finalization  {}\n",
+             finalized_ == 0 ? "none"
+                             : fmt::format("{} of {}", with_commas(finalized_), count_of(census_.vertices, "vertex")));
   if (census_.live_front)
     fmt::print("  live front    {} at once: {}\n", count_of(*census_.live_front, "vertex"),
                info.finalizes ? "measured" : "what a single pass would hold");

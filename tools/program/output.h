@@ -2,8 +2,10 @@
 #pragma once
 
 #include <functional>
+#include <initializer_list>
 #include <ostream>
 #include <string>
+#include <string_view>
 
 #include "io/file/atomic_file.h"
 
@@ -16,5 +18,9 @@ inline io::Existing late_outputs(bool force) { return force ? io::Existing::kRep
 // Calls `write` with the stream of `path`, or of standard output for "" and "-".
 // THROWS: as AtomicFile.
 void write_output(const std::string& path, bool force, const std::function<void(std::ostream&)>& write);
+
+// Prints what a written output is, as "an HTML page", if its name ends in another suffix than these; a name without
+// one, and standard output, may be anything.
+void note_other_suffix(const std::string& path, std::initializer_list<std::string_view> suffixes, const char* what);
 
 }  // namespace reeb::tools

@@ -1,5 +1,7 @@
 #include "tools/program/quantity.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
 #include <charconv>
@@ -81,6 +83,14 @@ double parse_threshold(const std::string& option, const std::string& text, const
   if (value < 0 || (!rest.empty() && rest != "%"))
     refuse(option, text, "a threshold", "give a number from 0 on, like 0.01, or a share of the range, like 0.1%");
   return rest.empty() ? value : range.part(value / 100);
+}
+
+std::string large_threshold(const std::string& text, const ValueRange& range, const std::string& function) {
+  const double threshold = parse_threshold("threshold", text, range), width = range.max - range.min;
+  constexpr double kTypedBack = 1.001;  // the range itself, rounded
+  if (text.ends_with('%') || !(width > 0) || threshold <= kTypedBack * width) return {};
+  return fmt::format("the threshold {} is more than the range {:.6g} of {}{}", text, width, function,
+                     threshold <= 100 ? "; did you mean " + text + "%?" : std::string());
 }
 
 double percent_of(const ValueRange& range, double lo, double hi) {

@@ -7,8 +7,11 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <cstring>
+#include <string>
 
 #include "io/file/file.h"
+#include "libreeb/base/error.h"
 
 namespace reeb::tools {
 namespace {
@@ -43,7 +46,11 @@ void finish_standard_output() {
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return;
   const int error = errno;
   end_if_nobody_reads();
-  io::throw_output_error(error, io::kStandardOutputShown);
+  // Not all commands that print could write to a file instead.
+  throw Error(ErrorKind::kResource,
+              std::string("cannot be written") + (error == 0 ? "" : std::string(": ") + std::strerror(error)),
+              io::hint_for(error, "check what standard output leads to"))
+      .at(io::kStandardOutputShown);
 }
 
 void end_if_nobody_reads() {

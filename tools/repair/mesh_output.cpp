@@ -1,6 +1,7 @@
 #include "tools/repair/mesh_output.h"
 
 #include <algorithm>
+#include <array>
 #include <span>
 #include <utility>
 
@@ -68,8 +69,7 @@ std::vector<std::string> lost_properties(const io::Input& input, const MeshInfo&
   if (!vertices.empty()) lines.push_back("properties of vertices are dropped: " + vertices);
   if (!faces.empty()) lines.push_back("properties of faces are dropped: " + faces);
   if (info.format == "OBJ")
-    lines.push_back(
-        "of an OBJ file, vertices and faces are written: no normals, texture coordinates, colours or groups");
+    lines.emplace_back("not kept from the OBJ file: normals, texture coordinates, colours, groups");
   return lines;
 }
 
@@ -91,8 +91,15 @@ std::unique_ptr<MeshWriter> create_like(const io::Input& input, const MeshReader
 }
 
 void MeshDigest::add(const MeshBatch& batch) {
-  for (std::size_t k = 0; k < std::min<std::size_t>(3, batch.coordinates.size()); ++k)
-    parts_[k].add(std::as_bytes(std::span(batch.coordinates[k]).first(batch.vertex_count)));
+  static constexpr std::array<double, 1024> kZeros{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (k < batch.coordinates.size()) {
+      parts_[k].add(std::as_bytes(std::span(batch.coordinates[k]).first(batch.vertex_count)));
+      continue;
+    }
+    for (std::size_t left = batch.vertex_count; left != 0; left -= std::min(left, kZeros.size()))
+      parts_[k].add(std::as_bytes(std::span(kZeros).first(std::min(left, kZeros.size()))));
+  }
   parts_[3].add(std::as_bytes(std::span(batch.triangles())));
 }
 

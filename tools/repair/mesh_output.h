@@ -29,7 +29,8 @@ std::vector<std::string> lost_properties(const io::Input& input, const MeshInfo&
 std::unique_ptr<MeshWriter> create_like(const io::Input& input, const MeshReader& reader, const std::string& output,
                                         std::uint64_t vertices, const std::string& temp_folder, io::Existing existing);
 
-// A digest of the coordinates and triangles of a mesh, which does not depend on how they are divided into batches.
+// A digest of the coordinates and triangles of a mesh, which does not depend on how they are divided into batches. A
+// coordinate that the mesh does not have counts as 0, since formats such as PLY write it.
 class MeshDigest {
  public:
   void add(const MeshBatch& batch);

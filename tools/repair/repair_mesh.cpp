@@ -34,10 +34,8 @@ class Plan {
   }
 
   Repair run() {
-    std::optional<NamedRows> named;
-    if (!options_.filter.loops.empty()) named = read_named_rows(options_.filter.loops);
-    const Defects defects = find(named);
-    const std::vector<ChosenRow> rows = choose_rows(defects, options_.filter, named);
+    const Defects defects = find(options_.filter.named);
+    const std::vector<ChosenRow> rows = choose_rows(defects, options_.filter);
     if (options_.filter.is_none()) repair_.suggestion = defects.table.suggestion;
     for (const ChosenRow& row : rows)
       repair_.rows.push_back(
@@ -194,6 +192,12 @@ std::vector<std::string> summary_of(const Repair& repair) {
   for (const RepairedRow& row : repair.rows)
     if (!row.done) ++reasons[row.why];
   for (const auto& [why, count] : reasons) lines.push_back(with_commas(count) + " left: " + why);
+  const auto unclear = static_cast<std::size_t>(std::ranges::count_if(
+      repair.rows, [](const RepairedRow& row) { return !row.done && row.kind == DefectKind::kUnclear; }));
+  if (unclear != 0 && !(repair.cleaning.duplicates && repair.cleaning.boundary_length))
+    lines.push_back("note: the kind of " + with_commas(unclear) +
+                    " is unclear; if the mesh has duplicate triangles or boundaries (see reeb info), "
+                    "--drop-duplicates, --fill-boundaries LENGTH and a second repair can help");
   if (repair.second_may_help)
     lines.emplace_back("note: a second repair, of the output, may find curves of loops that are left");
   if (repair.cleaning.degenerate) lines.push_back(count_of(repair.degenerate, "degenerate triangle") + " dropped");

@@ -112,8 +112,8 @@ NamedRows read_named_rows(const std::string& loops) {
   return rows;
 }
 
-std::vector<ChosenRow> choose_rows(const Defects& defects, const RowFilter& filter,
-                                   const std::optional<NamedRows>& named) {
+std::vector<ChosenRow> choose_rows(const Defects& defects, const RowFilter& filter) {
+  const std::optional<NamedRows>& named = filter.named;
   std::map<LoopName, std::size_t> left;
   if (named) left = named->lines;
   std::vector<ChosenRow> chosen;

@@ -12,21 +12,6 @@
 
 namespace reeb::tools {
 
-struct RowFilter {
-  RowLimits limits;
-  std::string loops;  // a CSV file of rows; only these
-  bool all = false;
-
-  // Whether the suggested length decides.
-  bool is_none() const { return !all && !limits.longest && !limits.below && loops.empty(); }
-};
-
-struct ChosenRow {
-  std::size_t rank = 0;
-  const DefectRow* row = nullptr;
-  std::string why_not;  // empty: it is to be repaired
-};
-
 // The loops in the rows of a CSV file, with their lines, and their functions in the order of the rows.
 struct NamedRows {
   std::string file;
@@ -36,9 +21,23 @@ struct NamedRows {
 // THROWS: Error{kBadInput} for a file that is not a table of defects.
 NamedRows read_named_rows(const std::string& loops);
 
-// By rank. Without a filter: the rows up to the suggested length. `named`: only these, if there is a file of rows.
-// THROWS: Error{kBadInput} if one of them is not a loop of this mesh.
-std::vector<ChosenRow> choose_rows(const Defects& defects, const RowFilter& filter,
-                                   const std::optional<NamedRows>& named = {});
+struct RowFilter {
+  RowLimits limits;
+  std::optional<NamedRows> named;  // only these
+  bool all = false;
+
+  // Whether the suggested length decides.
+  bool is_none() const { return !all && !limits.longest && !limits.below && !named; }
+};
+
+struct ChosenRow {
+  std::size_t rank = 0;
+  const DefectRow* row = nullptr;
+  std::string why_not;  // empty: it is to be repaired
+};
+
+// By rank. Without a filter: the rows up to the suggested length.
+// THROWS: Error{kBadInput} if one of the named rows is not a loop of this mesh.
+std::vector<ChosenRow> choose_rows(const Defects& defects, const RowFilter& filter);
 
 }  // namespace reeb::tools

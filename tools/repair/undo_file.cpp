@@ -17,14 +17,26 @@ namespace reeb::tools {
 namespace {
 
 constexpr std::string_view kMagic = "reebundo";
-constexpr std::uint32_t kVersion = 1;
+// Version 1 does not count the third coordinate that an output has and its mesh has not.
+constexpr std::uint32_t kVersion = 2;
 
 bool ascends(const std::vector<std::uint64_t>& list) {
   return std::ranges::adjacent_find(list, std::greater_equal<>()) == list.end();
 }
 
-[[noreturn]] void refuse(const std::string& path, const char* what) {
+[[noreturn]] void refuse(const std::string& path, const std::string& what) {
   throw Error(ErrorKind::kBadInput, what, "name a file that reeb repair --undo wrote").at(path);
+}
+
+[[noreturn]] void refuse_version(const std::string& path, std::uint32_t version) {
+  throw Error(ErrorKind::kBadInput, "this undo file has version " + std::to_string(version) + " of the format",
+              "use the version of the program that wrote it, or repair the mesh again")
+      .at(path);
+}
+
+// Both versions are the same for meshes with three coordinates or more.
+bool lacks_coordinate(const UndoRecord& undo) {
+  return undo.vertices != 0 && undo.digest[2] == io::RunningDigest().value();
 }
 
 }  // namespace
@@ -57,7 +69,8 @@ UndoRecord read_undo(const std::string& path) {
   std::array<char, kMagic.size()> magic{};
   in.get(magic);
   if (std::string_view(magic.data(), magic.size()) != kMagic) refuse(path, "this is no undo file");
-  if (in.get<std::uint32_t>() != kVersion) refuse(path, "this undo file is of another version of the program");
+  const auto version = in.get<std::uint32_t>();
+  if (version == 0 || version > kVersion) refuse_version(path, version);
   std::uint64_t sum = 0;
   const auto content = std::span(in.bytes()).first(in.bytes().size() - sizeof sum);
   std::memcpy(&sum, content.data() + content.size(), sizeof sum);
@@ -85,6 +98,7 @@ UndoRecord read_undo(const std::string& path) {
       !ascends(undo.dropped) || !ascends(undo.removed) || !below(undo.dropped, vertices) ||
       !below(undo.removed, triangles) || !below(undo.corners, vertices))
     refuse(path, "the file is damaged");
+  if (version == 1 && lacks_coordinate(undo)) refuse_version(path, version);
   return undo;
 }
 

@@ -16,7 +16,7 @@ struct UndoRecord {
   std::uint64_t new_vertices = 0, new_triangles = 0;  // its last ones
   std::array<std::uint64_t, 4> digest{};
   // What it lacks, by places in the mesh before; ascending.
-  std::uint32_t columns = 0;           // coordinates and properties
+  std::uint32_t columns = 0;           // at least three coordinates, and properties
   std::vector<std::uint64_t> dropped;  // vertices
   std::vector<double> values;          // of each of them
   std::vector<std::uint64_t> removed;  // triangles

@@ -14,6 +14,9 @@
 namespace reeb::tools {
 namespace {
 
+// How many coordinates of a vertex an undo file has. Formats such as PLY write a third one, 0, for a mesh of two.
+std::size_t undo_coordinates(std::size_t dimension) { return std::max<std::size_t>(dimension, 3); }
+
 void clear(MeshBatch& batch, std::size_t coordinates, std::size_t properties) {
   batch.clear();
   batch.vertex_count = 0;
@@ -45,7 +48,7 @@ class RepairedCopy {
     properties_ = options_.output.empty() ? 0 : count_properties(*reader);
     writer_ = create_like(input_, *reader, options_.output, kept_vertices() + edits_.vertices.size(),
                           source_.temp_folder, options_.existing);
-    written_.undo.columns = reader->info().dimension + static_cast<std::uint32_t>(properties_);
+    count_columns(reader->info().dimension);
     parent_values_.resize(parents_.size() * properties_);
     input_.read([&] {
       MeshBatch batch;
@@ -73,11 +76,15 @@ class RepairedCopy {
 
   static std::size_t count_properties(const MeshReader& reader) { return reader.info().property_names.size(); }
 
+  void count_columns(std::size_t dimension) {
+    written_.undo.columns = static_cast<std::uint32_t>(undo_coordinates(dimension) + properties_);
+  }
+
   void copy(MeshBatch& batch) {
     // Only PLY has columns for them.
     properties_ = batch.properties.size();
     parent_values_.resize(parents_.size() * properties_);
-    written_.undo.columns = static_cast<std::uint32_t>(batch.coordinates.size() + properties_);
+    count_columns(batch.coordinates.size());
     drop_vertices(batch);
     remove_triangles(batch);
     batch.finalized.clear();
@@ -93,9 +100,7 @@ class RepairedCopy {
     std::size_t end = dropped_;
     while (end < edits_.dropped.size() && edits_.dropped[end] < first + batch.vertex_count) ++end;
     if (options_.keep_undo)
-      for (std::size_t i = dropped_; i < end; ++i)
-        for (std::size_t k = 0; k < columns; ++k)
-          written_.undo.values.push_back(batch.column(k)[edits_.dropped[i] - first]);
+      for (std::size_t i = dropped_; i < end; ++i) keep_values(batch, edits_.dropped[i] - first);
     if (end > dropped_) {
       for (std::size_t k = 0; k < columns; ++k) {
         std::vector<double>& column = batch.column(k);
@@ -113,6 +118,13 @@ class RepairedCopy {
     batch.first_vertex = VertexId(first - dropped_);
     batch.vertex_count -= end - dropped_;
     dropped_ = end;
+  }
+
+  void keep_values(const MeshBatch& batch, std::size_t vertex) {
+    std::vector<double>& values = written_.undo.values;
+    for (const auto& column : batch.coordinates) values.push_back(column[vertex]);
+    values.insert(values.end(), undo_coordinates(batch.coordinates.size()) - batch.coordinates.size(), 0.0);
+    for (const auto& column : batch.properties) values.push_back(column[vertex]);
   }
 
   void remove_triangles(MeshBatch& batch) {
@@ -248,8 +260,10 @@ class Restoration {
     const std::size_t columns = dimension_ + out.properties.size();
     for (; dropped_ < undo_.dropped.size() && undo_.dropped[dropped_] == written.vertices + out.vertex_count;
          ++dropped_, ++out.vertex_count)
-      for (std::size_t k = 0; k < columns; ++k)
-        out.column(k).push_back(k < undo_.columns ? undo_.values[dropped_ * undo_.columns + k] : 0);
+      for (std::size_t k = 0; k < columns; ++k) {
+        const std::size_t kept = k < dimension_ ? k : undo_coordinates(dimension_) + k - dimension_;
+        out.column(k).push_back(kept < undo_.columns ? undo_.values[dropped_ * undo_.columns + kept] : 0);
+      }
   }
   void add_removed(const Written& written, MeshBatch& out) {
     for (; removed_ < undo_.removed.size() && undo_.removed[removed_] == written.triangles + out.triangles().size() / 3;

@@ -35,8 +35,8 @@ Json closeup_json(const SurfacePatch& patch, const std::vector<double>& values, 
   std::vector<std::uint16_t> places, triangles;
   const auto [lowest, highest] = std::minmax_element(values.begin(), values.end());
   for (std::uint32_t v = 0; v < patch.vertex_count(); ++v) {
-    for (std::size_t k = 0; k < 3; ++k) places.push_back(in_65535ths(patch.position(v)[k], min[k], size));
-    places.push_back(in_65535ths(values[v], *lowest, *highest - *lowest));
+    for (std::size_t k = 0; k < 3; ++k) places.push_back(in_65535ths(patch.position(v)[k], min[k], size / 2));
+    places.push_back(in_65535ths(values[v], *lowest, *highest / 2 - *lowest / 2));
   }
   for (std::uint32_t t = 0; t < patch.triangle_count(); ++t)
     for (const std::uint32_t corner : patch.oriented(t)) triangles.push_back(static_cast<std::uint16_t>(corner));

@@ -47,8 +47,9 @@ std::string script_json(const nlohmann::ordered_json& json) {
   return out;
 }
 
-std::uint16_t in_65535ths(double value, double min, double size) {
-  return size > 0 ? static_cast<std::uint16_t>(std::lround(65535 * std::clamp((value - min) / size, 0.0, 1.0))) : 0;
+std::uint16_t in_65535ths(double value, double min, double half_size) {
+  if (!(half_size > 0)) return 0;
+  return static_cast<std::uint16_t>(std::lround(65535 * std::clamp((value / 2 - min / 2) / half_size, 0.0, 1.0)));
 }
 
 std::string base64(std::span<const std::uint16_t> numbers) {

@@ -16,8 +16,9 @@ std::string html_text(std::string_view text);
 // For the inside of a <script>, whatever the strings in it are.
 std::string script_json(const nlohmann::ordered_json& json);
 
-// The place of the value between `min` and `min + size`, rounded; 0 where the size is.
-std::uint16_t in_65535ths(double value, double min, double size);
+// The place of the value between `min` and `min + 2 * half_size`, rounded; 0 where the size is. Sizes can be beyond the
+// doubles, their halves cannot.
+std::uint16_t in_65535ths(double value, double min, double half_size);
 
 // Numbers as base64, low bytes first.
 std::string base64(std::span<const std::uint16_t> numbers);

@@ -16,6 +16,7 @@
 #include "ooc/reeb_file/largest_pairs.h"
 #include "ooc/reeb_file/reeb_file.h"
 #include "tools/defects/surface_census.h"
+#include "tools/program/whole_levels.h"
 #include "tools/report/closeups.h"
 #include "tools/report/page_template.h"
 #include "tools/report/page_text.h"
@@ -34,8 +35,9 @@ constexpr std::size_t kMostSteps = 1000;  // of the curve of loops
 // What was found before anything is written.
 struct Findings {
   std::optional<ooc::LargestPairs> pairs;
-  std::optional<std::uint32_t> finest;  // the finest level in the page
-  Json skeleton;                        // null if there is none
+  const char* no_pairs = "The file has no pairs";  // why, without pairs
+  std::optional<std::uint32_t> finest;             // the finest level in the page
+  Json skeleton;                                   // null if there is none
   std::optional<ooc::MeshCensus> census;
   std::optional<Defects> defects;
   Json closeups = Json::array();
@@ -44,9 +46,27 @@ struct Findings {
 
 std::string base_name(const std::string& path) { return std::filesystem::path(path).filename().string(); }
 
+// The finest such level that a cut file has.
+std::optional<std::uint32_t> finest_level_of_cut(const ooc::ReebFile& file, std::size_t nodes, Findings& findings) {
+  const LevelLine* finest = nullptr;
+  for (const LevelLine& level : file.levels())
+    if (is_whole(file, level) && level.nodes <= nodes) finest = &level;
+  if (finest == nullptr) {
+    findings.notes.push_back(
+        fmt::format("There is no skeleton in this page: no level of at most {} is whole.", count_of(nodes, "node")));
+    return std::nullopt;
+  }
+  findings.notes.push_back(fmt::format(
+      "Finer levels are missing or have more than {}. The skeleton in this page shows those with at most {}.",
+      count_of(nodes, "node"), with_commas(finest->nodes)));
+  return finest->version;
+}
+
 // The finest level with few enough nodes; none if even the coarsest has more.
 std::optional<std::uint32_t> finest_level(const ooc::ReebFile& file, std::size_t nodes, Findings& findings) {
   const FileHeader& header = file.header();
+  const bool is_cut = !header.levels.empty() && !is_whole(file, header.levels.back());
+  if (is_cut) return finest_level_of_cut(file, nodes, findings);
   if (header.nodes <= nodes) return 0;
   if (!header.flags.graph_only && header.levels.front().nodes <= nodes) {
     const std::uint32_t finest = file.finest_with_nodes(nodes);
@@ -132,8 +152,10 @@ Findings find(const ooc::ReebFile& file, const ReportOptions& options) {
       findings.notes.push_back(fmt::format("{} cannot be read: {}.", what, error.what()));
     }
   };
-  if (!header.flags.graph_only)
+  if (!header.flags.graph_only) {
+    findings.no_pairs = "The pairs cannot be read";
     as_far_as_readable("The pairs", [&] { findings.pairs = ooc::read_largest_pairs(file.path(), kMostPairs); });
+  }
   as_far_as_readable("The skeleton", [&] {
     findings.finest = finest_level(file, options.nodes, findings);
     if (findings.finest) findings.skeleton = skeleton_json(file, *findings.finest);
@@ -197,7 +219,7 @@ std::string notes_list(const std::vector<std::string>& notes) {
 }
 
 std::string features_section(const Findings& findings, const ValueRange& range) {
-  if (!findings.pairs) return "<p>The file has no pairs, so there is no list of features.</p>\n";
+  if (!findings.pairs) return "<p>" + std::string(findings.no_pairs) + ", so there is no list of features.</p>\n";
   const auto& pairs = *findings.pairs;
   std::uint64_t all = 0;
   for (const std::uint64_t count : pairs.counts) all += count;
@@ -256,6 +278,8 @@ Json page_data(const ooc::ReebFile& file, Findings findings) {
                        row.hi.key.vertex.value(), row.lo.position, row.hi.position});
     data["loops"] = loop_steps(findings.pairs->loops);
     data["pair_count"] = header.pairs;
+  } else {
+    data["no_pairs"] = findings.no_pairs;
   }
   data["pairs"] = std::move(pairs);
   data["skeleton"] = std::move(findings.skeleton);

@@ -124,9 +124,12 @@ std::vector<SettledNode> needed_nodes(const std::vector<SettledNode>& all, std::
   return nodes;
 }
 
+// JSON has no infinity.
+double doubled(double half) { return std::min(2 * half, std::numeric_limits<double>::max()); }
+
 struct Box {
   Point min{}, max{};
-  double size = 0;  // of its largest side
+  double half_size = 0;  // of its largest side, which can be beyond the doubles
 };
 
 Box box_of(const std::vector<SettledNode>& nodes, const std::vector<Record>& records, bool positions) {
@@ -142,7 +145,7 @@ Box box_of(const std::vector<SettledNode>& nodes, const std::vector<Record>& rec
   for (const Record& record : records)
     for (const Stop& stop : record.line) add(stop.position);
   if (nodes.empty()) return {};
-  for (std::size_t k = 0; k < 3; ++k) box.size = std::max(box.size, box.max[k] - box.min[k]);
+  for (std::size_t k = 0; k < 3; ++k) box.half_size = std::max(box.half_size, box.max[k] / 2 - box.min[k] / 2);
   return box;
 }
 
@@ -177,12 +180,12 @@ Json nodes_json(const std::vector<SettledNode>& nodes, const Box& box, bool posi
     vertices.push_back(node.key.vertex.value());
     values.push_back(node.key.value);
     const Point place = place_of(node, positions);
-    for (std::size_t k = 0; k < 3; ++k) places.push_back(in_65535ths(place[k], box.min[k], box.size));
+    for (std::size_t k = 0; k < 3; ++k) places.push_back(in_65535ths(place[k], box.min[k], box.half_size));
   }
   return {{"vertex", std::move(vertices)}, {"value", std::move(values)}, {"place", base64(places)}};
 }
 
-Json arcs_json(const std::vector<Record>& records, const Box& box, double least, double range) {
+Json arcs_json(const std::vector<Record>& records, const Box& box, double least, double half_range) {
   Json lo = Json::array(), hi = Json::array(), born = Json::array(), died = Json::array(), points = Json::array();
   std::vector<std::uint16_t> line, widths;
   const double widest = widest_radius(records);
@@ -193,10 +196,10 @@ Json arcs_json(const std::vector<Record>& records, const Box& box, double least,
     died.push_back(arc.died == kNeverDies ? Json() : Json(arc.died));
     points.push_back(stops.size() - 2);
     for (std::size_t i = 1; i + 1 < stops.size(); ++i) {
-      for (std::size_t k = 0; k < 3; ++k) line.push_back(in_65535ths(stops[i].position[k], box.min[k], box.size));
-      line.push_back(in_65535ths(stops[i].value, least, range));
+      for (std::size_t k = 0; k < 3; ++k) line.push_back(in_65535ths(stops[i].position[k], box.min[k], box.half_size));
+      line.push_back(in_65535ths(stops[i].value, least, half_range));
     }
-    for (const Stop& stop : stops) widths.push_back(in_65535ths(stop.radius, 0, widest));
+    for (const Stop& stop : stops) widths.push_back(in_65535ths(stop.radius, 0, widest / 2));
   }
   return {{"lo", std::move(lo)},         {"hi", std::move(hi)},  {"born", std::move(born)}, {"died", std::move(died)},
           {"points", std::move(points)}, {"line", base64(line)}, {"width", base64(widths)}};
@@ -234,14 +237,14 @@ Json skeleton_json(const ooc::ReebFile& file, std::uint32_t finest) {
   std::vector<std::uint32_t> isolated = history.isolated;
   const std::vector<SettledNode> nodes = needed_nodes(history.nodes, records, isolated);
   const Box box = box_of(nodes, records, positions);
-  simplify_all(records, box.size);
+  simplify_all(records, doubled(box.half_size));
 
-  const double range = header.function_max - header.function_min;
+  const double half_range = header.function_max / 2 - header.function_min / 2;
   return {{"positions", positions},
-          {"box", {{"min", box.min}, {"size", box.size}}},
-          {"values", {{"min", header.function_min}, {"size", range}}},
+          {"box", {{"min", box.min}, {"size", doubled(box.half_size)}}},
+          {"values", {{"min", header.function_min}, {"size", doubled(half_range)}}},
           {"nodes", nodes_json(nodes, box, positions)},
-          {"arcs", arcs_json(records, box, header.function_min, range)},
+          {"arcs", arcs_json(records, box, header.function_min, half_range)},
           {"levels", levels_json(history.versions, finest)},
           {"isolated", isolated}};
 }

@@ -51,8 +51,6 @@ std::vector<std::string> outputs_of(const FragmentArguments& arguments, const oo
     output = stem_of(arguments.mesh) + "-" + std::to_string(choice.part + 1) + "-of-" + std::to_string(choice.parts) +
              suffix;
   if (arguments.scan) return {output};
-  if (arguments.functions.size() != 1 && output == io::kStandardOutput)
-    throw Error(ErrorKind::kUsage, "several outputs cannot go to standard output", "name a file with -o");
   return output_names(output, arguments.functions, suffix);
 }
 

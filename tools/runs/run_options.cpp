@@ -6,6 +6,7 @@
 
 #include "io/functions/function_source.h"
 #include "libreeb/base/count_text.h"
+#include "libreeb/base/error.h"
 #include "tools/arguments/image_options.h"
 #include "tools/arguments/options.h"
 #include "tools/library/run_files.h"
@@ -67,6 +68,7 @@ void take_denoise(RunArguments& arguments) {
 std::vector<std::string> output_names(std::filesystem::path output, const std::vector<std::string>& functions,
                                       std::string_view suffix) {
   if (functions.size() == 1) return {output.string()};
+  require_room_for_several(output.string());
   if (output.extension() == suffix) output.replace_extension();
   std::vector<std::string> names;
   names.reserve(functions.size());
@@ -77,8 +79,12 @@ std::vector<std::string> output_names(std::filesystem::path output, const std::v
 
 void check_files(const RunArguments& arguments, const std::vector<std::string>& outputs, const std::string& report) {
   std::vector<io::FunctionSpec> functions;
-  for (const std::string& function : arguments.functions)
-    if (!function.empty()) functions.push_back(io::parse_function(function));
+  for (const std::string& function : arguments.functions) {
+    if (function.empty()) continue;
+    functions.push_back(io::parse_function(function));
+    if (std::ranges::count(arguments.functions, function) > 1)
+      throw Error(ErrorKind::kBadInput, "-f " + function + " is given twice", "name each function once");
+  }
   RunFiles files = files_of_run(arguments.mesh, functions, outputs, arguments.options);
   if (!report.empty()) files.add_output(report, "the report", existing_outputs(arguments.options.replace));
   files.check();

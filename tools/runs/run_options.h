@@ -36,6 +36,7 @@ void refuse_whole_mesh_options(Command command);
 void take_denoise(RunArguments& arguments);
 
 // The output itself; of several functions, an output of each: OUT-FUNC, with the suffix.
+// THROWS: Error{kUsage} if several would go to standard output or a device.
 std::vector<std::string> output_names(std::filesystem::path output, const std::vector<std::string>& functions,
                                       std::string_view suffix = ".reeb");
 // Checks the files of a run before it begins, with its report (empty: none), which compute() does not know.

@@ -20,7 +20,7 @@ import type { Source } from './source'
 import { readState, writeState } from './url_state'
 
 const kDefaultBudget = 200_000
-const kLegibleNodes = 200 // of the level that is shown first
+const kLegibleNodes = 200 // of the level that is shown first, beside those of the coarsest level
 const kMostMarks = 1000
 const kLayoutMilliseconds = 200 // after the last move of the slider
 const kCountMilliseconds = 100 // between two texts about what was read
@@ -126,7 +126,8 @@ async function open(source: Source) {
     element('scale-min').textContent = shortNumber(header.min)
     element('scale-max').textContent = shortNumber(header.max)
     element<HTMLDetailsElement>('open').open = false
-    const legible = header.levels.filter(({ nodes }, i) => i === 0 || nodes <= kLegibleNodes).pop()!
+    const coarsest = header.levels[0]! // its nodes are in all levels
+    const legible = header.levels.filter(({ nodes }) => nodes <= coarsest.nodes + kLegibleNodes).pop()!
     // First what one frame has, whatever it is.
     made.wanted = Infinity
     await made.want(Infinity, () => {})

@@ -45,7 +45,7 @@ function showPlots() {
   message.hidden = figures.length > 0
   message.textContent = data.loops
     ? 'There are no pairs of positive persistence to plot.'
-    : 'The file has no pairs, so there is nothing to plot.'
+    : `${data.no_pairs}, so there is nothing to plot.`
 }
 
 function showCloseups() {

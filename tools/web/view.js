@@ -7,7 +7,7 @@ import { WebglPicture } from './scene.js'
 import { makeTable } from './table.js'
 
 const kMostRows = 300 // of the table of arcs
-const kLegibleNodes = 200 // of the level that is shown first
+const kLegibleNodes = 200 // of the level that is shown first, beside those of the coarsest level
 const kReach = 9 // pixels from the pointer
 
 export class SkeletonView {
@@ -66,10 +66,11 @@ export class SkeletonView {
     document.getElementById('scale-max').textContent = shortNumber(this.skeleton.values.min + this.skeleton.values.size)
   }
 
-  // The finest one that is not too crowded to read.
+  // The finest one that is not too crowded to read. What no level loses, as two nodes of each component, does not count.
   firstLevel() {
-    const level = this.skeleton.levels.nodes.findIndex((nodes) => nodes <= kLegibleNodes)
-    return level < 0 ? this.skeleton.levelCount - 1 : level
+    const { nodes } = this.skeleton.levels
+    const always = nodes[this.skeleton.levelCount - 1]
+    return nodes.findIndex((count) => count <= always + kLegibleNodes)
   }
 
   // A number, or a share of the range with %.

@@ -87,6 +87,20 @@ TEST(GraphExport, DotHasARankForEachValue) {
     EXPECT_NE(out.str().find(line), std::string::npos) << line;
 }
 
+// dot takes minutes for a hundred components that are held at their heights.
+TEST(GraphExport, DotLeavesManyComponentsApart) {
+  for (const std::uint64_t components : {20u, 21u}) {
+    std::vector<ArcKeys> arcs;
+    for (std::uint64_t i = 0; i < components; ++i)
+      arcs.push_back({{static_cast<double>(i), VertexId(i)}, {static_cast<double>(100 + i), VertexId(100 + i)}});
+    std::ostringstream out;
+    write_graph(GraphFormat::kDot, {make_graph(arcs, {}), "z", 0, {}, 0}, out);
+    const bool held = components == 20;
+    EXPECT_EQ(out.str().find("invis") != std::string::npos, held);
+    EXPECT_EQ(out.str().find("3 -- 103 [minlen=1];") == std::string::npos, held) << out.str();
+  }
+}
+
 TEST(GraphExport, XmlFormatsHaveTheirLines) {
   EXPECT_NE(Circle().text("graphml").find("<edge id=\"1\" source=\"7\" target=\"3\">"), std::string::npos);
   EXPECT_NE(Circle().text("graphml").find("a &quot;b&quot;"), std::string::npos);

@@ -1,11 +1,13 @@
 // The readers against files written by hand, and against each other.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <sstream>
 
 #include "tests/io/formats/mesh_files.h"
@@ -154,6 +156,68 @@ TEST(Readers, PackedFilesOfSeveralPartsAndUnderAnyName) {
       for (std::size_t cut = 1; cut < 30; ++cut) {
         const std::string path = write_file("cut", packed.substr(0, packed.size() - cut));
         EXPECT_THROW(read_all(*open_mesh(path)), Error) << tool << " cut by " << cut;
+      }
+    }
+  }
+}
+
+// Tapes fill their blocks with zeros.
+TEST(Readers, ZerosAfterTheLastMemberOfGzipAreIgnored) {
+  const std::string packed = test::read_file(run_on("gzip", write_file("plain", ascii_ply()), ".gz"));
+  for (const std::size_t zeros : {1u, 512u, 200'000u})
+    EXPECT_EQ(read_mesh(write_file("padded.gz", packed + std::string(zeros, '\0'))), kTetrahedron) << zeros;
+  for (const std::string& rest : {std::string("x"), std::string("\0\0x", 3), '\0' + packed})
+    expect_bad(write_file("rest.gz", packed + rest), std::nullopt, "bytes after the last member");
+}
+
+// Scans have NaN in normals and confidences. `q` and `r` of three vertices.
+std::string ply_with_odd_values(const std::string& encoding) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN(), kInfinity = std::numeric_limits<double>::infinity();
+  const std::array<std::array<double, 4>, 3> rows = {{{0, 0, kNan, 1}, {1, 0, 7, -kInfinity}, {0, 1, 8, kInfinity}}};
+  const bool ascii = encoding == "ascii", big = encoding == "binary_big_endian";
+  std::ostringstream text;
+  text << "ply\nformat " << encoding
+       << " 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float q\nproperty double r\n"
+          "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
+  for (const auto& row : rows) {
+    if (ascii)
+      text << row[0] << ' ' << row[1] << ' ' << row[2] << ' ' << row[3] << '\n';
+    else
+      for (std::size_t k = 0; k < 4; ++k)
+        text << (k < 3 ? scalar_bytes(static_cast<float>(row[k]), big) : scalar_bytes(row[k], big));
+  }
+  if (ascii) return text.str() + "3 0 1 2\n";
+  text << '\3';
+  for (const std::int32_t corner : {0, 1, 2}) text << scalar_bytes(corner, big);
+  return text.str();
+}
+
+TEST(Readers, PropertiesThatAreOnlyCarriedAlongNeedNotBeFinite) {
+  for (const std::string encoding : {"ascii", "binary_little_endian", "binary_big_endian"}) {
+    SCOPED_TRACE(encoding);
+    const std::string path = write_file("odd.ply", ply_with_odd_values(encoding));
+    ReadOptions all;
+    all.all_properties = true;
+    const auto reader = open_mesh(path, all);
+    const Mesh mesh = read_all(*reader);
+    ASSERT_EQ(mesh.vertices.size(), 3u);
+    EXPECT_TRUE(std::isnan(mesh.vertices[0][2]));
+    EXPECT_EQ(mesh.vertices[1], (std::vector<double>{1, 0, 7, -std::numeric_limits<double>::infinity()}));
+    EXPECT_EQ(mesh.vertices[2], (std::vector<double>{0, 1, 8, std::numeric_limits<double>::infinity()}));
+    EXPECT_EQ(reader->warnings(), std::vector<std::string>{"3 values of properties that are not used are not finite"});
+    if (encoding != "ascii") {
+      const Mesh looked_up = read_indexed(*open_mesh(path, all)->indexed());
+      EXPECT_TRUE(std::isnan(looked_up.vertices[0][2]));
+      EXPECT_EQ(looked_up.vertices[2], mesh.vertices[2]);
+    }
+    // What is asked for must be finite, also if all others are delivered.
+    for (const bool others : {false, true}) {
+      ReadOptions named;
+      named.properties = {"q"};
+      named.all_properties = others;
+      EXPECT_THROW(read_all(*open_mesh(path, named)), Error);
+      if (encoding != "ascii") {
+        EXPECT_THROW(read_indexed(*open_mesh(path, named)->indexed()), Error);
       }
     }
   }

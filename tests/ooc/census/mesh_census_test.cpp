@@ -173,6 +173,26 @@ TEST(MeshCensus, DamagedSurfacesAreCountedAsTheDefinitionsSay) {
   EXPECT_GT(twisted, cases / 50);
 }
 
+TEST(MeshCensus, CopiesThatDisagreeAreNotOriented) {
+  // Alone, and with a neighbour across an edge.
+  const std::vector<std::vector<VertexSet>> surfaces = {{{0, 1, 2}, {0, 2, 1}},
+                                                        {{0, 1, 2}, {1, 2, 0}},
+                                                        {{0, 1, 2}, {0, 2, 1}, {1, 3, 2}},
+                                                        {{0, 1, 2}, {1, 2, 0}, {1, 3, 2}}};
+  for (std::size_t i = 0; i < surfaces.size(); ++i) {
+    SCOPED_TRACE(i);
+    Complex complex;
+    complex.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}};
+    complex.simplices = surfaces[i];
+    complex.values.assign(complex.vertex_count(), 0);
+    const ReferenceCensus expected = test::reference_census(complex);
+    EXPECT_EQ(expected.oriented, i % 2 == 1);
+    const test::ComplexMesh mesh(complex);
+    for (const Form form : {Form::kIndexed, Form::kStream, Form::kSpooled})
+      expect_same(census_of(mesh, form, 1, MemoryBudget::kUnlimited, {}), expected, complex);
+  }
+}
+
 // A grid with some damage, in random order: nearly all of its vertices are in use at once.
 Complex large_surface() {
   constexpr std::uint64_t kSide = 120;

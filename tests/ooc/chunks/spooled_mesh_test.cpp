@@ -171,7 +171,7 @@ TEST(SpooledMesh, SignedZerosAndOddValues) {
   const io::TempDir temp(scratch.path());
   MemoryBudget budget;
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  const ModelMesh model{{{-0.0, 1e300, 5e-324}, {1, 2, 3}, {0, nan, 1}}, {}};
+  const ModelMesh model{{{-0.0, 1e300, 5e-324}, {1, 2, 3}, {0, 0, 1}}, {}};
   ModelReader reader(model);
   const auto mesh = spool(reader, temp, budget);
   const std::vector<VertexId> ids = {VertexId(0), VertexId(1), VertexId(2)};
@@ -180,9 +180,11 @@ TEST(SpooledMesh, SignedZerosAndOddValues) {
   EXPECT_FALSE(std::signbit(values[0]));
   EXPECT_EQ(values[1], 1e300);
   EXPECT_EQ(values[2], 5e-324);
+  const ModelMesh odd{{{0, 1, 2}, {1, 2, 3}, {0, nan, 1}}, {}};
+  ModelReader odd_reader(odd);
   try {
-    mesh->gather(ids, std::vector<unsigned>{2}, values);
-    FAIL() << "a value that is not a number passed";
+    spool(odd_reader, temp, budget);
+    FAIL() << "a coordinate that is not a number passed";
   } catch (const Error& e) {
     EXPECT_EQ(e.kind(), ErrorKind::kBadInput);
     EXPECT_EQ(e.position(), "vertex 1");

@@ -3,6 +3,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <fstream>
@@ -53,6 +54,40 @@ TEST_F(Function, WritesValuesInTheOrderOfVertices) {
   for (std::size_t v = 0; v < far.size(); ++v)
     EXPECT_NEAR(far[v], std::hypot(static_cast<double>(v / 2), static_cast<double>(v % 2)), 1e-12) << v;
   EXPECT_EQ(values("s.off", "geodesic:0,6")[7], 1);
+}
+
+// Scans have NaN in confidences and normals.
+TEST_F(Function, PropertiesThatAreNotUsedNeedNotBeFinite) {
+  write("a.ply",
+        "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+        "property float q\nproperty float p\nelement face 2\nproperty list uchar int vertex_index\n"
+        "end_header\n"
+        "0 0 0 nan 1\n1 0 1 inf 2\n0 1 2 5 3\n1 1 3 6 4\n3 0 1 2\n3 2 1 3\n");
+  const std::string note = "2 values of properties that are not used are not finite";
+  const Outcome converted = reeb({"convert", "a.ply", "b.ply"});
+  expect_success(converted);
+  EXPECT_EQ(lines_after("note: ", converted.error), std::vector<std::string>{note});
+  expect_success(reeb({"compute", "a.ply", "-o", "g.reeb", "--quiet"}));
+  const std::vector<std::vector<std::string>> commands = {{"convert", "MESH", "o.ply"},
+                                                          {"convert", "MESH", "o.ply", "--order", "hilbert"},
+                                                          {"convert", "MESH", "o.ply", "--order", "sweep:property:p"},
+                                                          {"repair", "MESH", "-o", "o.ply", "--drop-duplicates"},
+                                                          {"function", "MESH", "-f", "z", "-o", "o.ply"},
+                                                          {"segment", "MESH", "g.reeb", "-o", "o.ply"}};
+  for (const std::string mesh : {"a.ply", "b.ply"})
+    for (std::vector<std::string> words : commands) {
+      words[1] = mesh;
+      words.push_back("--force");
+      const Outcome outcome = reeb(words);
+      SCOPED_TRACE(last_command() + '\n' + outcome.error);
+      expect_success(outcome);
+      EXPECT_EQ(lines_after("note: ", outcome.error), std::vector<std::string>{note});
+      auto kept = values("o.ply", "property:p");
+      std::ranges::sort(kept);
+      EXPECT_EQ(kept, (std::vector<double>{1, 2, 3, 4}));
+      EXPECT_EQ(reeb({"function", "o.ply", "-f", "property:q", "-o", "q.ply", "--force"}).exit_code, 1);
+    }
+  EXPECT_EQ(reeb({"convert", "b.ply", "o.ply", "--order", "sweep:property:q", "--force"}).exit_code, 1);
 }
 
 TEST_F(Function, APropertyOfThePlyGivesTheSameGraph) {
@@ -132,6 +167,20 @@ TEST_F(Function, BadOnesAreToldApart) {
   for (const char* function : {"distance:", "distance:1,2", "distance:-1", "distance:1,2,x", "distance:1,2,3,4",
                                "geodesic:", "geodesic:1,", "geodesic:x", "laplacian:", "laplacian:x", "laplacian:-1"})
     expect_error(run("s.off", function), 2, std::string("\"") + function + "\" is not a function");
+  const std::pair<const char*, const char*> meant[] = {
+      {"X", "x"},        {"hight", "z"}, {"height", "z"}, {"geodesc:1", "geodesic:1"}, {"laplacien", "laplacian:1"},
+      {"Index", "index"}};
+  for (const auto& [function, name] : meant)
+    expect_error(run("s.off", function), 2,
+                 std::string("\"") + function + "\" is not a function (did you mean " + name + "?)");
+  for (const char* function : {"q", "c", "quux", "distance:1,2"})
+    EXPECT_EQ(run("s.off", function).error.find("did you mean"), std::string::npos) << function;
+  EXPECT_EQ(lines_after("hint: ", run("s.off", "x,y").error),
+            std::vector<std::string>{"for several functions repeat -f: -f x -f y"});
+  EXPECT_EQ(lines_after("hint: value is the function of an image; s.off is a mesh", run("s.off", "value").error).size(),
+            1u);
+  expect_error(reeb({"function", "s.off", "-f", "x", "-f", "y", "-o", "o.f64"}), 2,
+               "reeb function takes one function; -f was given twice");
   expect_error(run("s.off", "geodesic"), 2, "geodesic needs a vertex");
   EXPECT_NE(run("s.off", "geodesic").error.find("hint: for instance geodesic:0\n"), std::string::npos);
   expect_error(run("s.off", "file"), 2, "file needs a path");

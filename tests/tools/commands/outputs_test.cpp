@@ -76,10 +76,90 @@ TEST_F(Outputs, AFileOfValuesIsNeverAnOutput) {
                  "values.ply: the output is the file of values itself");
 }
 
+// Of the functions of graphs and of tables of loops, which are not on the command line.
+TEST_F(Outputs, AFileOfValuesOfAGraphIsNeverAnOutput) {
+  write("values.txt", "1\n2\n3\n4\n");
+  fs::create_symlink("values.txt", in_folder("link.svg"));
+  write("o.csv", "lo,hi,function\n0,3,file:values.txt\n");
+  expect_success(reeb({"compute", "mesh.off", "-f", "file:values.txt", "-o", "g.reeb", "--quiet"}));
+  const std::string output = "values.txt: the output is the file of values itself";
+  expect_refused({"defects", "mesh.off", "g.reeb", "-o", "values.txt"}, output);
+  if (REEB_WEB) expect_refused({"report", "g.reeb", "--mesh", "mesh.off", "-o", "values.txt"}, output);
+  expect_refused({"plot", "g.reeb", "--kind", "skeleton", "--surface", "value", "--mesh", "mesh.off", "-o", "link.svg"},
+                 "link.svg: the picture is the file of values itself");
+  expect_refused({"repair", "mesh.off", "--loops", "o.csv", "-o", "r.ply", "--log", "values.txt"},
+                 "values.txt: the log is the file of values itself");
+}
+
+// The vertices of TetGen, and the data of an image whose header is in a file of its own.
+TEST_F(Outputs, AnotherFileOfAMeshIsNeverAnOutput) {
+  write("t.ele", "1 4 0\n1 1 2 3 4\n");
+  write("t.node", "4 3 0 0\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n");
+  write("v.nhdr", "NRRD0004\ntype: uint8\ndimension: 2\nsizes: 3 3\nencoding: raw\ndata file: d.ply\n\n");
+  write("v.mhd", "NDims = 2\nDimSize = 3 3\nElementType = MET_UCHAR\nElementDataFile = d.ply\n");
+  write("d.ply", "123456789");
+  std::string nifti(348, '\0');
+  for (const auto& [at, byte] :
+       {std::pair(0, 348 & 255), std::pair(1, 348 >> 8), std::pair(40, 2), std::pair(42, 3), std::pair(44, 3),
+        std::pair(70, 2), std::pair(344, int{'n'}), std::pair(345, int{'i'}), std::pair(346, int{'1'})})
+    nifti[static_cast<std::size_t>(at)] = static_cast<char>(byte);
+  write("n.hdr", nifti);
+  write("n.img", "123456789");
+  for (const auto& [mesh, other] : {std::pair("t.ele", "t.node"), std::pair("v.nhdr", "d.ply"),
+                                    std::pair("v.mhd", "d.ply"), std::pair("n.hdr", "n.img")}) {
+    const std::string name = other;
+    expect_refused({"compute", mesh, "-o", other}, name + ": the output is a file of the mesh itself");
+    expect_refused({"compute", mesh, "-o", "new.reeb", "--report", other}, name + ": the report is a file of the mesh");
+    expect_success(reeb({"compute", mesh, "-o", "g.reeb", "--quiet", "--force"}));
+  }
+  expect_success(reeb({"compute", "v.nhdr", "-o", "g.reeb", "--quiet", "--force"}));
+  fs::create_symlink("d.ply", in_folder("link.svg"));
+  const std::string output = "d.ply: the output is a file of the mesh itself";
+  expect_refused({"fragment", "v.nhdr", "--part", "1/2", "-o", "d.ply"}, output);
+  expect_refused({"function", "v.nhdr", "-o", "d.ply"}, output);
+  expect_refused({"convert", "v.nhdr", "d.ply"}, output);
+  expect_refused({"segment", "v.nhdr", "g.reeb", "-o", "d.ply"}, output);
+  expect_refused({"extract", "g.reeb", "--mesh", "v.nhdr", "--format", "json", "-o", "d.ply"}, output);
+  expect_refused({"defects", "v.nhdr", "g.reeb", "-o", "d.ply"}, output);
+  expect_refused({"repair", "v.nhdr", "-o", "d.ply"}, output);
+  if (REEB_WEB) expect_refused({"report", "g.reeb", "--mesh", "v.nhdr", "-o", "d.ply"}, output);
+  expect_refused({"plot", "g.reeb", "--kind", "skeleton", "--mesh", "v.nhdr", "-o", "link.svg"},
+                 "link.svg: the picture is a file of the mesh itself");
+  expect_error(in_shell("\"$@\" >>d.ply", {"info", "v.nhdr"}), 1, "-: the output is a file of the mesh itself");
+  EXPECT_EQ(file("d.ply"), "123456789");
+  // The header of a pipe cannot be looked at before.
+  ASSERT_EQ(::mkfifo(in_folder("pipe").c_str(), 0600), 0);
+  expect_error(in_shell("cat v.nhdr >pipe & \"$@\"", {"compute", "pipe", "-o", "d.ply", "--force"}), 1,
+               "pipe: the data are in another file, which a pipe does not have");
+  // As raw values, the header is read alone.
+  const std::string bytes = std::to_string(file("v.nhdr").size()) + "x1";
+  expect_success(reeb({"compute", "v.nhdr", "--grid", bytes, "--type", "u8", "-o", "d.ply", "--force", "--quiet"}));
+}
+
 TEST_F(Outputs, AGraphThatIsReadIsNeverAnOutput) {
   make_graph();
   expect_refused({"extract", "g.reeb", "-o", "g.reeb", "--format", "json"}, "g.reeb: the output is the .reeb file");
   expect_refused({"pairs", "g.reeb", "-o", "./g.reeb"}, "./g.reeb: the output is the .reeb file itself");
+}
+
+// The shell appends to it what is printed.
+TEST_F(Outputs, WhatIsReadIsNeverStandardOutput) {
+  make_graph();
+  const auto before = contents();
+  const auto expect_refusal = [&](const Words& words, const std::string& name, const std::string& error) {
+    expect_error(in_shell("timeout 20 \"$@\" >>" + name, words), 1, error);
+    EXPECT_EQ(contents(), before) << last_command();
+  };
+  const std::string graph = "-: the output is the .reeb file itself", mesh = "-: the output is the mesh itself";
+  for (const Words& words : {Words{"pairs", "g.reeb"}, Words{"extract", "g.reeb"}, Words{"info", "g.reeb"},
+                             Words{"verify", "g.reeb"}, Words{"verify", "g.reeb", "--mesh", "mesh.off"}})
+    expect_refusal(words, "g.reeb", graph);
+  expect_refusal({"info", "mesh.off"}, "mesh.off", mesh);
+  expect_refusal({"verify", "g.reeb", "--mesh", "mesh.off"}, "mesh.off", mesh);
+  expect_refusal({"extract", "g.reeb", "--mesh", "mesh.off", "--format", "json"}, "mesh.off", mesh);
+  expect_refusal({"defects", "mesh.off", "g.reeb"}, "mesh.off", "-: the table is the mesh itself");
+  expect_refusal({"defects", "mesh.off", "g.reeb", "-o", "o.csv"}, "g.reeb", "-: the table is a .reeb file itself");
+  if (REEB_WEB) expect_refusal({"view", "g.reeb"}, "g.reeb", "-: the address is the .reeb file itself");
 }
 
 TEST_F(Outputs, TablesAppearBothOrNot) {
@@ -98,8 +178,7 @@ TEST_F(Outputs, TablesAppearBothOrNot) {
 TEST_F(Outputs, NoTwoOutputsAreOneFile) {
   expect_refused({"compute", "mesh.off", "-o", "x.out", "--report", "./x.out"},
                  "./x.out: the report and the output are the same file");
-  expect_refused({"compute", "mesh.off", "-f", "x", "-f", "x", "-o", "m.reeb"},
-                 "m-x.reeb: the output of x and the output of x are the same file");
+  expect_refused({"compute", "mesh.off", "-f", "x", "-f", "x", "-o", "m.reeb"}, "-f x is given twice");
   expect_refused({"compute", "mesh.off", "-o", "-", "--report", "-"}, "-: the report and the output");
   expect_refused({"compute", "mesh.off", "-o", "o.reeb", "--snapshot-every", "1", "--report", "o-000007.reeb"},
                  "o-000007.reeb: the report has the name of a snapshot");
@@ -107,6 +186,37 @@ TEST_F(Outputs, NoTwoOutputsAreOneFile) {
                  "mesh.off.final: the sidecar and the output are the same file");
   expect_refused({"compute", "mesh.off", "-o", "o.reeb", "--report", "o.reeb.partial"},
                  "o.reeb.partial: the report is the folder of the run itself");
+}
+
+// Whatever its rank: of which rows there are patches is known after the work only.
+TEST_F(Outputs, APatchIsNoInputAndNoOtherOutput) {
+  make_graph();
+  fs::create_directory(in_folder("near"));
+  write("near/defect-3.ply", kSmallOff);
+  expect_refused({"defects", "near/defect-3.ply", "--patches", "near"},
+                 "near/defect-3.ply: a patch is the mesh itself");
+  EXPECT_EQ(file("near/defect-3.ply"), kSmallOff);
+  fs::create_symlink("../g.reeb", in_folder("near/defect-12-curves.ply"));
+  expect_refused({"defects", "mesh.off", "g.reeb", "--patches", "./near/"},
+                 "./near//defect-12-curves.ply: a patch is a .reeb file itself");
+  expect_refused({"defects", "mesh.off", "-o", "defect-1.ply", "--patches", "."},
+                 "defect-1.ply: the output has the name of a patch");
+  fs::create_symlink("defect-20-curves.ply", in_folder("o.csv"));
+  expect_refused({"defects", "mesh.off", "-o", "o.csv", "--patches", "."}, "o.csv: the output has the name of a patch");
+  expect_refused({"defects", "mesh.off", "-o", "new", "--patches", "new"},
+                 "new: the folder of patches and the output are the same file");
+  for (const char* name : {"defect-1.csv", "defect-01.ply", "defect-a.ply", "defect-.ply"})
+    expect_success(reeb({"defects", "mesh.off", "-o", name, "--patches", "."}));
+}
+
+TEST_F(Outputs, SeveralOutputsNeedAFile) {
+  const std::string error = "several outputs cannot go to /dev/null";
+  expect_error(reeb({"compute", "mesh.off", "-o", "/dev/null", "-f", "x", "-f", "y"}), 2, error);
+  expect_error(reeb({"compute", "mesh.off", "-o", "/dev/null", "--snapshot-every", "1"}), 2, error);
+  expect_error(reeb({"fragment", "mesh.off", "--part", "1/2", "-o", "/dev/null", "-f", "x", "-f", "y"}), 2, error);
+  expect_success(reeb({"compute", "mesh.off", "-o", "/dev/null", "-f", "x"}));
+  for (const char* name : {"/dev/null-x.reeb", "/dev/null-000001.reeb", "/dev/null-x.fragment"})
+    EXPECT_FALSE(fs::exists(name)) << name;
 }
 
 TEST_F(Outputs, ASnapshotReplacesAFileOnlyByForce) {
@@ -273,6 +383,16 @@ TEST_F(Outputs, AFullStandardOutputIsExitCode3) {
     }
 }
 
+TEST_F(Outputs, AServerWhoseAddressCannotBePrintedEnds) {
+  if (!REEB_WEB) GTEST_SKIP() << "no data: built with REEB_WEB=OFF";
+  make_graph();
+  for (const char* line : {"timeout 20 \"$@\" >/dev/full", "timeout 20 \"$@\" >&-"}) {
+    const Outcome outcome = in_shell(line, {"view", "g.reeb"});
+    expect_error(outcome, 3, "standard output: cannot be written");
+    EXPECT_EQ(outcome.error.find("-o"), std::string::npos) << outcome.error;
+  }
+}
+
 TEST_F(Outputs, AClosedPipeEndsTheProgramQuietly) {
   make_graph();
   for (const Words& words : kPrinters) {
@@ -321,6 +441,13 @@ TEST_F(Outputs, LimitsOfTheSystemAreExplained) {
     EXPECT_NE(outcome.error.find("ulimit -n"), std::string::npos) << outcome.error;
     EXPECT_FALSE(fs::exists(in_folder("t.reeb.partial")));
   }
+}
+
+TEST_F(Outputs, ALimitOfTheSizeOfFilesIsNoFullDisk) {
+  expect_success(reeb({"generate", "torus", "--triangles", "10k", "-o", "t.ply"}));
+  const Outcome outcome = in_shell("ulimit -f 20; exec \"$@\"", {"convert", "t.ply", "o.ply"});
+  expect_error(outcome, 3);
+  EXPECT_NE(lines_after("hint: ", outcome.error).at(0).find("ulimit -f"), std::string::npos) << outcome.error;
 }
 
 TEST_F(Outputs, FinishedOutputsHaveTheUsualMode) {

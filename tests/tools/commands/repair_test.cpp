@@ -483,7 +483,7 @@ TEST_F(RepairTest, SaysWhatAnObjFileLoses) {
   write("a.obj", "v 0 0 0 1 0 0\nv 1 0 0 1 0 0\nv 0 1 0 1 0 0\nvn 0 0 1\nf 1//1 2//1 3//1\n");
   const Outcome outcome = reeb({"repair", "a.obj", "-o", "b.obj", "--drop-degenerate"});
   expect_success(outcome);
-  EXPECT_NE(outcome.error.find("no normals, texture"), std::string::npos) << outcome.error;
+  EXPECT_NE(outcome.error.find("not kept from the OBJ file: normals, texture"), std::string::npos) << outcome.error;
   EXPECT_EQ(file("b.obj").find("vn"), std::string::npos);
 }
 
@@ -537,6 +537,28 @@ TEST_F(RepairTest, BoundariesAreChargedToTheMemory) {
                          vertices.str() + triangles.str());
   expect_error(reeb({"repair", "apart.off", "-o", "o.ply", "--fill-boundaries", "0.001", "--memory", "32M", "--quiet"}),
                3, "paths of boundaries needs ");
+}
+
+// The output has a third coordinate, which the mesh has not.
+TEST_F(RepairTest, UndoesAMeshWithTwoCoordinates) {
+  const std::string points = "0 0 1\n7 7 2\n1 0 3\n0 1 4\n";
+  write("m.mesh", "MeshVersionFormatted 2\nDimension 2\nVertices\n4\n" + points +
+                      "Triangles\n3\n1 3 4 1\n1 3 4 1\n2 2 2 1\nEnd\n");
+  write("m.ply",
+        "ply\nformat ascii 1.0\nelement vertex 4\nproperty double x\nproperty double y\nproperty float q\n"
+        "element face 3\nproperty list uchar int vertex_index\nend_header\n" +
+            points + "3 0 2 3\n3 0 2 3\n3 1 1 1\n");
+  write("m.cx", "v 0 0\nv 7 7\nv 1 0\nv 0 1\ns 0 2 3\ns 0 2 3\ns 1 1 1\n");
+  for (const std::string mesh : {"m.mesh", "m.ply", "m.cx"})
+    for (const std::string suffix : {".ply", ".obj", ".off"}) {
+      SCOPED_TRACE(mesh + " to " + suffix);
+      expect_success(reeb({"repair", mesh, "-o", "r" + suffix, "--drop-duplicates", "--drop-degenerate", "--undo", "u",
+                           "--force", "--quiet"}));
+      expect_success(reeb({"repair", "r" + suffix, "--apply-undo", "u", "-o", "b" + suffix, "--force", "--quiet"}));
+      expect_success(reeb({"convert", "b" + suffix, "c.obj", "--force", "--quiet"}));
+      expect_success(reeb({"convert", mesh, "d.obj", "--force", "--quiet"}));
+      EXPECT_EQ(file("c.obj"), file("d.obj"));
+    }
 }
 
 TEST_F(RepairTest, RefusesWhatItCannotDo) {

@@ -60,6 +60,16 @@ TEST_F(SegmentProgram, WritesTheSameLabelsInEveryFormat) {
   EXPECT_EQ(file("v.f64"), file("z.f64"));
 }
 
+TEST_F(SegmentProgram, SaysInWhichOrderTheFilesAre) {
+  write("s.off", kSmallOff);
+  expect_success(reeb({"compute", "s.off", "--quiet"}));
+  const Outcome swapped = reeb({"segment", "s.reeb", "s.off", "-o", "l.i64"});
+  expect_error(swapped, 1, "s.reeb: this is a Reeb graph, not a mesh");
+  EXPECT_EQ(lines_after("hint: ", swapped.error).at(0), "name the mesh first: reeb segment MESH FILE.reeb -o OUT");
+  EXPECT_EQ(lines_after("hint: ", reeb({"segment", "s.off", "s.off", "-o", "l.i64"}).error).at(0),
+            "first `reeb s.off`, then `reeb segment s.off s.reeb`");
+}
+
 TEST_F(SegmentProgram, ACutFileHasTheLevelsOfItsWholeFrames) {
   expect_success(reeb({"generate", "scan", "--triangles", "400k", "--seed", "3", "-o", "s.ply"}));
   expect_success(reeb({"compute", "s.ply", "--quiet"}));
@@ -70,6 +80,11 @@ TEST_F(SegmentProgram, ACutFileHasTheLevelsOfItsWholeFrames) {
   const Outcome outcome = reeb({"segment", "s.ply", "cut.reeb", "-o", "f.i64"});
   EXPECT_EQ(outcome.exit_code, 1);
   EXPECT_NE(outcome.error.find("frames are whole"), std::string::npos) << outcome.error;
+  const std::string hint = lines_after("hint: ", outcome.error).at(0);
+  ASSERT_TRUE(hint.starts_with("--")) << hint;
+  const std::size_t value = hint.find(' ') + 1;
+  const std::vector<std::string> level{hint.substr(0, value - 1), hint.substr(value, hint.find(' ', value) - value)};
+  EXPECT_EQ(labels("s.ply", "cut.reeb", level), labels("s.ply", "s.reeb", level));
   // Another mesh of the same size, whose graph differs.
   expect_success(reeb({"generate", "scan", "--triangles", "400k", "--seed", "4", "-o", "other.ply"}));
   EXPECT_EQ(reeb({"segment", "other.ply", "cut.reeb", "-o", "f.i64", "--nodes", "100"}).exit_code, 1);
@@ -97,6 +112,15 @@ TEST_F(SegmentProgram, LeavesOutVerticesWithoutData) {
   std::vector<std::int64_t> present = expected;
   std::erase(present, none);
   EXPECT_EQ(property("g.vtu", "SegmentationId"), present);
+}
+
+TEST_F(SegmentProgram, NamesTheMeshAndTheGraphOfAnotherOne) {
+  expect_success(reeb({"generate", "scan", "--triangles", "3k", "-o", "small.ply"}));
+  expect_success(reeb({"generate", "scan", "--triangles", "30k", "-o", "big.ply"}));
+  expect_success(reeb({"compute", "small.ply", "--quiet"}));
+  const Outcome outcome = reeb({"segment", "big.ply", "small.reeb", "-o", "l.i64", "--quiet"});
+  expect_error(outcome, 1, "big.ply: the mesh has a vertex ");
+  EXPECT_NE(outcome.error.find(", but small.reeb is the graph of "), std::string::npos) << outcome.error;
 }
 
 TEST_F(SegmentProgram, RefusesWhatItCannotLabel) {
@@ -130,6 +154,32 @@ TEST_F(SegmentProgram, ReadsTheValuesOfAFileAgain) {
   expect_error(reeb({"segment", "t.ply", "f.reeb", "-o", "a.i64"}), 1);
   std::filesystem::remove(folder() + "/v.f64");
   expect_error(reeb({"segment", "t.ply", "f.reeb", "-o", "a.i64"}), 1);
+}
+
+// Circles of two parallel arcs, with one vertex on one of them and two on the other. The means of their positions are
+// equal.
+TEST_F(SegmentProgram, ExtractNumbersParallelArcsAsSegmentDoes) {
+  const std::vector<std::vector<std::uint64_t>> orders = {{2, 3, 4}, {3, 2, 4}, {4, 2, 3}, {4, 3, 2}};
+  for (const auto& order : orders) {  // the vertices at 2, 1 and 3
+    const auto number = [&](std::size_t i) { return std::to_string(order[i]); };
+    std::vector<std::string> height(5);
+    height[0] = "0", height[1] = "4";
+    for (std::size_t i = 0; i < 3; ++i) height[order[i]] = std::to_string(i == 0 ? 2 : i == 1 ? 1 : 3);
+    std::string mesh;
+    for (const std::string& z : height) mesh += "v 0 0 " + z + "\n";
+    mesh += "s 0 " + number(0) + "\ns " + number(0) + " 1\ns 0 " + number(1) + "\ns " + number(1) + " " + number(2) +
+            "\ns " + number(2) + " 1\n";
+    write("c.cx", mesh);
+    expect_success(reeb({"compute", "c.cx", "-o", "c.reeb", "--quiet", "--force"}));
+    const std::vector<std::int64_t> expected = labels("c.cx", "c.reeb");
+    expect_success(reeb({"extract", "c.reeb", "--mesh", "c.cx", "-o", "c.json", "--force"}));
+    const auto graph = nlohmann::json::parse(file("c.json"));
+    ASSERT_EQ(graph["arcs"].size(), 2u);
+    for (std::size_t a = 0; a < 2; ++a) {
+      EXPECT_EQ(graph["arcs"][a]["segment_vertices"], std::ranges::count(expected, static_cast<std::int64_t>(a)));
+      EXPECT_EQ(graph["arcs"][a]["segment_vertices"], graph["arcs"][a]["vertices"]);
+    }
+  }
 }
 
 // A torus of radii 1 and 0.5 that stands on its side. Its contours at the level 0 are circles of radius 0.5.

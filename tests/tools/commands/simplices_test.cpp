@@ -112,7 +112,8 @@ TEST_F(Simplices, MessagesOfAVolumeAreTrue) {
   const Outcome computed = reeb({"t.cx"});
   expect_success(computed);
   EXPECT_EQ(computed.error.find("genus"), std::string::npos) << computed.error;
-  EXPECT_NE(reeb({"info", "t.reeb"}).output.find("4 vertices, none of its simplices are triangles"), std::string::npos);
+  EXPECT_NE(reeb({"info", "t.reeb"}).output.find("4 vertices, no triangles; the file has no count of"),
+            std::string::npos);
   const Outcome verified = reeb({"verify", "t.reeb", "--mesh", "t.cx"});
   EXPECT_NE(verified.output.find("Euler characteristic of the 2-skeleton 2"), std::string::npos) << verified.output;
 }
@@ -198,6 +199,12 @@ TEST_F(Simplices, FormatsAreChosenByName) {
   write("b", kSmallOff);
   for (const std::string word : {"compute", "info"}) expect_error(reeb({word, "b", "--format", "ply"}), 1, "b:1:1: ");
   expect_error(reeb({"info", "a", "--format", "tga"}), 2, "'tga' is not a format of meshes");
+  expect_success(reeb({"convert", "a", "a.ply"}));
+  for (const std::string format : {"obj", "off", "sma", "vtk"})
+    expect_error(reeb({"convert", "a.ply", "no.obj", "--format", format}), 1,
+                 "a.ply: its content is PLY, but --format says " + format);
+  expect_success(reeb({"convert", "a.ply", "again.off", "--format", "ply"}));
+  expect_error(reeb({"convert", "b", "no.obj", "--format", "obj"}), 1, "b:1:1: none of its lines is OBJ");
   expect_success(reeb({"convert", "a", "a.off", "--format", "obj"}));
   report_of({"a", "--format", "obj"});
   expect_success(reeb({"verify", "out.reeb", "--mesh", "a", "--format", "obj", "--full"}));

@@ -136,6 +136,28 @@ TEST(Compute, RefusesNumbersOutOfTheirLimits) {
   compute(mesh, "z", output, {.denoise = 0.5, .buckets = kMostBuckets});
 }
 
+// From then on an interruption leaves no folder without a checkpoint.
+TEST(Compute, AsksForAnInterruptionBeforeItMakesItsFolder) {
+  const Folder folder;
+  const std::string mesh = pyramid(folder);
+  const std::vector<std::string> functions = {"z"}, outputs = {folder / "z.fragment"};
+  const auto asks_before_folder = [](const std::string& output, const auto& run) {
+    std::vector<bool> had_folder;
+    ComputeOptions options;
+    options.interrupted = [&] {
+      had_folder.push_back(std::filesystem::exists(output + ".partial"));
+      return false;
+    };
+    run(options);
+    return had_folder.size() > 1 && !had_folder.front() && had_folder.back();
+  };
+  EXPECT_TRUE(asks_before_folder(
+      folder / "z.reeb", [&](const ComputeOptions& options) { compute(mesh, "z", folder / "z.reeb", options); }));
+  EXPECT_TRUE(asks_before_folder(outputs[0], [&](const ComputeOptions& options) {
+    compute_fragments(mesh, functions, outputs, options, {.part = 0, .parts = 2, .shared = {}});
+  }));
+}
+
 TEST(Compute, RefusesWhatItCannotDo) {
   const Folder folder;
   const std::string mesh = pyramid(folder), output = folder / "z.reeb";

@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
+#include <regex>
 #include <utility>
 
 #include "tests/tools/program.h"
@@ -48,6 +50,30 @@ TEST_F(Plot, GraphHasTheNodesAndArcsOfItsLevel) {
     expect_valid(name);
     EXPECT_EQ(count_of("class=\"node\"", file(name)), lines("n ", threshold));
     EXPECT_EQ(count_of("class=\"arc\"", file(name)), lines("a ", threshold));
+  }
+}
+
+// It has no option for that.
+TEST_F(Plot, NamesTheVariableOfAFolderForTemporaryFiles) {
+  REEB_NEEDS("dot");
+  const Outcome outcome = reeb({"plot", "scan.reeb", "--kind", "graph", "-o", "g.svg"},
+                               {.arguments = {}, .wrapper = {"env", "TMPDIR=/nonexistent"}});
+  expect_error(outcome, 3, "/nonexistent: ");
+  EXPECT_EQ(lines_after("hint: ", outcome.error).at(0), "set TMPDIR to a folder that exists and is writable");
+}
+
+TEST_F(Plot, SkeletonsOfAnySizeFillTheirPicture) {
+  for (const std::string scale : {"", "e308", "e300", "e-300"}) {
+    SCOPED_TRACE(scale);
+    write("big.obj", "v 0 0 -1.7" + scale + "\nv 1" + scale + " 0 1.7" + scale + "\nv 0 1" + scale + " 0.3" + scale +
+                         "\nf 1 2 3\n");
+    expect_success(reeb({"compute", "big.obj", "-o", "big.reeb", "--force", "--quiet"}));
+    expect_success(reeb({"plot", "big.reeb", "--kind", "skeleton", "-o", "big.svg", "--force", "--quiet"}));
+    expect_valid("big.svg");
+    // The arc leads from the lower side of the box to the upper one.
+    const std::string text = file("big.svg"), arc = text.substr(text.find("<g class=\"arc\">"), 80);
+    EXPECT_NE(arc.find(",708L"), std::string::npos) << arc;
+    EXPECT_NE(arc.find(",68\" stroke"), std::string::npos) << arc;
   }
 }
 
@@ -224,6 +250,30 @@ TEST_F(Plot, EndsItsProgramWhenInterrupted) {
   EXPECT_EQ(files().size() + 1, before.size());
 }
 
+// The corners of a box are few among its vertices, but the picture has room for them: the scale says how large it is.
+TEST_F(Plot, SkeletonHasRoomForAllOfItsMesh) {
+  expect_success(reeb({"generate", "volume", "--grid", "64x64x32", "--handles", "3", "-o", "v.nrrd"}));
+  expect_success(reeb({"compute", "v.nrrd", "--quiet"}));
+  expect_success(reeb({"plot", "v.reeb", "--kind", "skeleton", "--mesh", "v.nrrd", "--view", "1,1,1", "-o", "v.svg"}));
+  const std::string picture = file("v.svg");
+  std::smatch bar, length;
+  ASSERT_TRUE(std::regex_search(picture, bar, std::regex("d=\"M([0-9.]+),[0-9.]+v8m0,-4H([0-9.]+)")));
+  ASSERT_TRUE(std::regex_search(picture, length, std::regex(">([0-9.]+) units of length<")));
+  const double pixels_per_unit = (std::stod(bar[2]) - std::stod(bar[1])) / std::stod(length[1]);
+  // From there, the box is (63 + 63 + 2 * 31) / sqrt(6) high, and the picture has 640 pixels for it.
+  EXPECT_NEAR(pixels_per_unit, 640 * std::sqrt(6) / 188, 0.02);
+}
+
+TEST_F(Plot, SaysThatAllLoopsAreBelowTheThreshold) {
+  REEB_NEEDS("gnuplot");
+  const Outcome outcome = reeb({"plot", "scan.reeb", "--threshold", "90", "-o", "none.svg"});
+  expect_success(outcome);
+  EXPECT_EQ(count_of(" loops are below the threshold.", file("none.svg")), 1u);
+  EXPECT_NE(outcome.error.find("note: the threshold 90 is more than the range "), std::string::npos) << outcome.error;
+  EXPECT_NE(outcome.error.find("did you mean 90%?"), std::string::npos) << outcome.error;
+  EXPECT_EQ(reeb({"plot", "scan.reeb", "--threshold", "90%", "-o", "some.svg"}).error, "wrote some.svg\n");
+}
+
 TEST_F(Plot, RefusesBeforeAnyWork) {
   write("there.svg", "old");
   expect_error(reeb({"plot", "scan.reeb", "-o", "there.svg"}), 1, "there.svg: ");
@@ -233,6 +283,8 @@ TEST_F(Plot, RefusesBeforeAnyWork) {
   expect_error(reeb({"plot", "scan.reeb", "--threshold", "x"}), 2);
   expect_error(reeb({"plot", "scan.reeb", "--threshold", "1", "--nodes", "4"}), 2);
   expect_error(reeb({"plot", "scan.reeb", "--mesh", "scan.ply"}), 2, "--mesh is for --kind skeleton");
+  expect_error(reeb({"plot", "scan.reeb", "--kind", "skeleton", "--surface", "glass"}), 2,
+               "--surface needs --mesh MESH");
   for (const std::string view : {"0,0,0", "1,2", "1,2,3,4", "a,b,c", "1,2,inf", ""})
     expect_error(reeb({"plot", "scan.reeb", "--kind", "skeleton", "--view=" + view}), 2);
   expect_error(reeb({"plot", "scan.ply"}), 1, "scan.ply: this is a mesh");

@@ -8,7 +8,7 @@
 
 #include "libreeb/base/count_text.h"
 #include "libreeb/base/error.h"
-#include "tools/arguments/nearest_name.h"
+#include "libreeb/base/nearest_name.h"
 #include "tools/program/bar_line.h"
 #include "tools/program/quantity.h"
 #include "tools/program/wrapping.h"
@@ -29,10 +29,21 @@ TEST(CountText, OneIsSingularAndThousandsAreSeparated) {
   EXPECT_EQ(with_commas(18446744073709551615u), "18,446,744,073,709,551,615");
 }
 
+TEST(LargeThreshold, MayBeMeantInPerCent) {
+  const ValueRange range{0.5, 0.644443};
+  EXPECT_EQ(large_threshold("4", range, "y"), "the threshold 4 is more than the range 0.144443 of y; did you mean 4%?");
+  EXPECT_EQ(large_threshold("400", range, "y"), "the threshold 400 is more than the range 0.144443 of y");
+  for (const char* text : {"0.1", "0.144444", "4%", "400%"}) EXPECT_EQ(large_threshold(text, range, "y"), "") << text;
+  EXPECT_EQ(large_threshold("4", {1, 1}, "y"), "") << "any is more";
+}
+
 TEST(RepairSummary, CountsHaveCommas) {
   Repair repair;
   repair.rows.resize(7216);
-  for (RepairedRow& row : repair.rows) row.why = "it is too long";
+  for (RepairedRow& row : repair.rows) {
+    row.kind = DefectKind::kHandle;
+    row.why = "it is too long";
+  }
   for (std::size_t i = 0; i < 6000; ++i) repair.rows[i].done = true;
   repair.repaired = 6000;
   EXPECT_EQ(summary_of(repair),
@@ -59,12 +70,25 @@ TEST(RepairSummary, SaysWhenASecondRepairMayHelp) {
   Repair repair;
   repair.rows.resize(2);
   repair.rows[0].done = true;
+  repair.rows[1].kind = DefectKind::kTunnel;
   repair.rows[1].why = "cutting along it would divide the surface";
   repair.repaired = 1;
   EXPECT_EQ(summary_of(repair).size(), 2u);
   repair.second_may_help = true;
   ASSERT_EQ(summary_of(repair).size(), 3u);
   EXPECT_NE(summary_of(repair)[2].find("a second repair, of the output"), std::string::npos);
+}
+
+TEST(RepairSummary, SaysWhatMayHelpWithUnclearRows) {
+  Repair repair;
+  repair.rows.resize(1);
+  repair.rows[0].kind = DefectKind::kUnclear;
+  repair.rows[0].why = "no curve was found";
+  ASSERT_EQ(summary_of(repair).size(), 3u);
+  EXPECT_NE(summary_of(repair)[2].find("--drop-duplicates, --fill-boundaries LENGTH"), std::string::npos);
+  repair.cleaning.duplicates = true;
+  repair.cleaning.boundary_length = 1;
+  for (const std::string& line : summary_of(repair)) EXPECT_EQ(line.find("unclear"), std::string::npos) << line;
 }
 
 TEST(RowChoice, ALoopWithoutACurveIsNotCalledTooLong) {

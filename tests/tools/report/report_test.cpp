@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 #include <regex>
+#include <sstream>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -265,6 +266,46 @@ TEST_F(Report, DescribesWhatIsLeftOfADamagedFile) {
   write("cut.reeb", bytes.substr(0, bytes.size() - 40));
   expect_success(reeb({"report", "cut.reeb", "-o", "cut.html"}));
   EXPECT_NE(file("cut.html").find("The file is damaged"), std::string::npos);
+}
+
+TEST_F(Report, ShowsTheLevelsThatACutFileHas) {
+  expect_success(reeb({"generate", "scan", "--triangles", "400k", "-o", "scan.ply"}));
+  expect_success(reeb({"compute", "scan.ply", "--quiet"}));
+  const std::string bytes = file("scan.reeb");
+  write("cut.reeb", bytes.substr(0, bytes.size() * 6 / 10));
+  const Json levels = Json::parse(reeb({"info", "cut.reeb", "--json"}).output)["levels"];
+  Json finest;
+  for (const Json& level : levels)
+    if (level["whole"] == true) finest = level;
+  ASSERT_FALSE(finest.is_null());
+  ASSERT_FALSE(levels.back()["whole"].get<bool>());
+  EXPECT_NE(reeb({"info", "cut.reeb"}).output.find("  missing\n"), std::string::npos);
+  expect_success(reeb({"report", "cut.reeb", "--nodes", "100k", "-o", "cut.html"}));
+  const std::string page = file("cut.html");
+  EXPECT_EQ(data(page)["skeleton"]["levels"]["nodes"][0], finest["nodes"]);
+  EXPECT_NE(page.find("<p>The pairs cannot be read, so there is no list of features.</p>"), std::string::npos);
+  EXPECT_EQ(page.find("The file has no pairs, "), std::string::npos);
+  // Other commands say which level works, and it does.
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"extract", "cut.reeb", "-o", "g.json"},
+                                                {"plot", "cut.reeb", "--kind", "skeleton", "-o", "g.svg"}}) {
+    const Outcome outcome = reeb(words);
+    EXPECT_EQ(outcome.exit_code, 1);
+    std::istringstream hint(lines_after("hint: ", outcome.error).at(0));
+    std::string option, value;
+    hint >> option >> value;
+    EXPECT_TRUE(option == "--nodes" || option == "--threshold") << outcome.error;
+    std::vector<std::string> level = words;
+    level.insert(level.end(), {option, value});
+    expect_success(reeb(level));
+  }
+  EXPECT_EQ(Json::parse(file("g.json"))["nodes"].size(), finest["nodes"]);
+  const Outcome pairs = reeb({"pairs", "cut.reeb"});
+  EXPECT_EQ(lines_after("hint: pairs are at the end of a file", pairs.error).size(), 1u) << pairs.error;
+}
+
+TEST_F(Report, SaysWhatAnOutputOfAnotherSuffixIs) {
+  report(planted());
+  EXPECT_EQ(reeb({"report", "g.reeb", "-o", "t.pdf"}).error, "note: t.pdf is an HTML page\nwrote t.pdf\n");
 }
 
 class ReportWithoutPages : public ProgramTest {};

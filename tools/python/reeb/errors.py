@@ -69,7 +69,7 @@ def _make(kind, path, position, message, hint):
         type_ = OutOfMemory if "memory" in message else SystemFailure
     elif path and name == "input" and message.startswith("the output exists"):
         type_ = OutputExists
-    elif name == "input" and (message == "there is no such file" or "No such file" in message):
+    elif name == "input" and (message in _MISSING or "No such file" in message):
         type_ = MissingFile
     if path == "-" or path.startswith("/proc/self/fd/"):  # arrays, or a graph without a file on disk
         path = ""
@@ -78,6 +78,10 @@ def _make(kind, path, position, message, hint):
         if name == "usage":
             message = word.sub(here, message)
     return type_(message, hint, path=path or None, position=position or None, kind=name)
+
+
+# As of open(), for a name of a file that does not exist, and for none.
+_MISSING = ("there is no such file", "the name of an input is empty")
 
 
 def without_path(error):

@@ -1,9 +1,9 @@
-#include "tools/arguments/nearest_name.h"
+#include "libreeb/base/nearest_name.h"
 
 #include <algorithm>
 #include <numeric>
 
-namespace reeb::tools {
+namespace reeb {
 namespace {
 
 // Of insertions, deletions and changes of a letter.
@@ -33,4 +33,4 @@ std::string nearest(const std::string& word, const std::vector<std::string>& nam
   return 2 * edit_distance(word, *best) <= letters + 1 ? *best : std::string();
 }
 
-}  // namespace reeb::tools
+}  // namespace reeb

@@ -1,4 +1,4 @@
-#include "tools/program/reeb_info.h"
+#include "tools/runs/reeb_info.h"
 
 #include <fmt/core.h>
 
@@ -12,6 +12,7 @@
 #include "libreeb/base/printable.h"
 #include "ooc/reeb_file/reeb_file.h"
 #include "tools/program/quantity.h"
+#include "tools/program/whole_levels.h"
 
 namespace reeb::tools {
 namespace {
@@ -31,7 +32,8 @@ nlohmann::ordered_json to_json(const ooc::ReebFile& file) {
                       {"arcs", line.arcs},
                       {"buckets", line.buckets},
                       {"file_bytes", line.file_bytes},
-                      {"memory_bytes", line.memory_bytes}});
+                      {"memory_bytes", line.memory_bytes},
+                      {"whole", is_whole(file, line)}});
   nlohmann::ordered_json json = {
       {"schema", "reeb.info.v1"},
       {"path", file.path()},
@@ -68,10 +70,9 @@ void print_text(const ooc::ReebFile& file) {
   fmt::print("{}: Reeb graph, {}\n", printable(file.path()), format_bytes(file.file_bytes()));
   fmt::print("  function   {} from {:.9g} to {:.9g}\n", printable(header.function), header.function_min,
              header.function_max);
-  // The file counts triangles only.
-  fmt::print(
-      "  mesh       {}, {}\n", count_of(header.mesh_vertices, "vertex"),
-      header.mesh_triangles == 0 ? "none of its simplices are triangles" : count_of(header.mesh_triangles, "triangle"));
+  fmt::print("  mesh       {}, {}\n", count_of(header.mesh_vertices, "vertex"),
+             header.mesh_triangles == 0 ? "no triangles; the file has no count of other simplices"
+                                        : count_of(header.mesh_triangles, "triangle"));
   fmt::print("  graph      {}, {}, {}, {}\n", count_of(header.nodes, "node"), count_of(header.arcs, "arc"),
              count_of(header.components, "component"), count_of(header.loops, "loop"));
   if (header.flags.has_embedding)
@@ -89,10 +90,10 @@ void print_text(const ooc::ReebFile& file) {
   fmt::print("\n  {:>12} {:>9} {:>12} {:>12} {:>11} {:>11}\n", "threshold", "of range", "nodes", "arcs", "bytes read",
              "memory");
   for (const LevelLine& line : file.levels())
-    fmt::print("  {:>12} {:>9} {:>12} {:>12} {:>11} {:>11}\n", short_threshold(line.threshold),
+    fmt::print("  {:>12} {:>9} {:>12} {:>12} {:>11} {:>11}{}\n", short_threshold(line.threshold),
                range.max > range.min ? fmt::format("{:.3g} %", percent_of(range, 0, line.threshold)) : "",
                with_commas(line.nodes), with_commas(line.arcs), format_bytes(line.file_bytes),
-               format_bytes(line.memory_bytes));
+               format_bytes(line.memory_bytes), is_whole(file, line) ? "" : "  missing");
 }
 
 }  // namespace

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-namespace reeb::tools {
+namespace reeb {
 
 // The one of `names` that differs least from `word`; empty if none is near.
 std::string nearest(const std::string& word, const std::vector<std::string>& names);
 
-}  // namespace reeb::tools
+}  // namespace reeb
