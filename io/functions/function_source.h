@@ -36,7 +36,7 @@ class FunctionSource final : public VertexFunction {
   std::string name() const override { return spec_.text; }
   std::string source_file() const override;
   std::span<const unsigned> columns() const override;
-  bool needs_lookup() const override { return spec_.kind == FunctionSpec::Kind::kDistanceToVertex; }
+  bool needs_lookup() const override { return spec_.kind == FunctionSpec::Kind::kDistanceToVertex && center_.empty(); }
   void look_up(IndexedMesh& mesh) override;
   // The same by reading the mesh from its beginning, as far as needed.
   void look_up(MeshReader& reader);
@@ -57,7 +57,9 @@ class FunctionSource final : public VertexFunction {
   [[noreturn]] void fail_no_vertex(std::uint64_t vertex_count) const;
   // What a file of values has: also for vertices that are left out.
   std::uint64_t value_count(std::uint64_t vertex_count) const { return number_count_.value_or(vertex_count); }
-  bool is_distance() const { return needs_lookup() || spec_.kind == FunctionSpec::Kind::kDistanceToPoint; }
+  bool is_distance() const {
+    return spec_.kind == FunctionSpec::Kind::kDistanceToVertex || spec_.kind == FunctionSpec::Kind::kDistanceToPoint;
+  }
   // `column(k)` is coordinate k, of as many vertices as there are values.
   template <class Column>
   void measure_distances(const Column& column, std::span<double> values) const;

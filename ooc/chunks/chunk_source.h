@@ -23,7 +23,8 @@ struct ChunkPlace {
   std::uint64_t triangles = 0;     // read so far
   std::uint64_t next_vertex = 0;   // the search for loose vertices continues here; of a stream: vertices read so far
   std::uint64_t batches = 0;       // of a stream, read so far; its end counts as one
-  std::uint64_t chunk_blocks = 0;  // size of the next chunk, in the source's unit, where it adapts; 0: the first size
+  std::uint64_t chunk_blocks = 0;  // size of the next chunk, in the source's unit, where it adapts; 0: the first size.
+                                   // Of a grid: the cells of a box along each axis
   std::uint64_t digest = 0;        // of what was read so far, as far as it is read again up to this place
   std::uint64_t completed = 0;     // vertices of an indexed mesh that chunks so far used last
   std::vector<FunctionRange> ranges;  // of the values so far

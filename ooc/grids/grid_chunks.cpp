@@ -17,7 +17,7 @@ class GridChunks : public ChunkSource {
       : reader_(reader),
         functions_(functions),
         grid_(reader.info().grid->size),
-        layers_(reader, functions, budget, box_vertices) {
+        layers_(reader, functions, budget, box_vertices, start) {
     pass_over(start);
   }
 

@@ -5,8 +5,29 @@
 #include <limits>
 
 #include "libreeb/base/error.h"
+#include "libreeb/base/state_stream.h"
 
 namespace reeb::ooc {
+namespace {
+
+// The cells of a box in one number.
+constexpr unsigned kCellBits = 21;
+
+std::uint64_t pack(const std::array<std::uint32_t, 3>& cells) {
+  return cells[0] | std::uint64_t{cells[1]} << kCellBits | std::uint64_t{cells[2]} << (2 * kCellBits);
+}
+
+std::array<std::uint32_t, 3> unpack(std::uint64_t packed) {
+  std::array<std::uint32_t, 3> cells{};
+  for (std::uint32_t& n : cells) {
+    n = static_cast<std::uint32_t>(packed & ((1u << kCellBits) - 1));
+    packed >>= kCellBits;
+    if (n == 0) throw DamagedState();
+  }
+  return cells;
+}
+
+}  // namespace
 
 std::array<std::uint32_t, 3> box_cells(const GridSize& grid, std::size_t box_vertices, std::uint64_t layer_bytes,
                                        std::size_t functions) {
@@ -21,12 +42,16 @@ std::array<std::uint32_t, 3> box_cells(const GridSize& grid, std::size_t box_ver
   return box;
 }
 
-GridLayers::GridLayers(MeshReader& reader, FunctionValues& functions, MemoryBudget& budget, std::size_t box_vertices)
+GridLayers::GridLayers(MeshReader& reader, FunctionValues& functions, MemoryBudget& budget, std::size_t box_vertices,
+                       const ChunkPlace& start)
     : reader_(reader),
       functions_(functions),
       grid_(reader.info().grid->size),
       axis_(GridAxes(grid_).last),
-      boxes_(grid_, box_cells(grid_, box_vertices, budget.free_bytes() / 4, functions.function_count())),
+      cells_(start.chunk_blocks != 0
+                 ? unpack(start.chunk_blocks)
+                 : box_cells(grid_, box_vertices, budget.free_bytes() / 4, functions.function_count())),
+      boxes_(grid_, cells_),
       reservation_(budget.reserve("layer of the image", 0)),
       values_(functions.function_count()),
       batch_values_(functions.function_count()) {
@@ -95,6 +120,7 @@ ChunkPlace GridLayers::end(std::uint64_t triangles) const {
   return {.triangles = triangles,
           .next_vertex = vertices_,
           .batches = layers_,
+          .chunk_blocks = pack(cells_),
           .digest = digest_.value(),
           .ranges = functions_.ranges()};
 }

@@ -37,8 +37,10 @@ std::array<std::uint32_t, 3> box_cells(const GridSize& grid, std::size_t box_ver
 // MEMORY: reserved: the values of a layer, at least two slices.
 class GridLayers {
  public:
-  // REQUIRES: the reader leaves out simplices. THROWS: Error{kResource} of the budget.
-  GridLayers(MeshReader& reader, FunctionValues& functions, MemoryBudget& budget, std::size_t box_vertices);
+  // A run that is resumed at `start` has the boxes that it began with.
+  // REQUIRES: the reader leaves out simplices. THROWS: Error{kResource} of the budget; DamagedState.
+  GridLayers(MeshReader& reader, FunctionValues& functions, MemoryBudget& budget, std::size_t box_vertices,
+             const ChunkPlace& start);
 
   // The next layer; false at the end. The last slice of a layer is the first one of the next.
   // THROWS: InputChanged if the grid ends early.
@@ -69,6 +71,7 @@ class GridLayers {
   FunctionValues& functions_;
   GridSize grid_;
   std::size_t axis_;
+  std::array<std::uint32_t, 3> cells_;  // of a box
   GridBoxes boxes_;
   Reservation reservation_;
   std::uint64_t slice_ = 1, layers_ = 0, vertices_ = 0;

@@ -84,7 +84,8 @@ class MaskedChunks : public ChunkSource {
         functions_(functions),
         grid_(reader.info().grid->size),
         boxes_(grid_),
-        layers_(reader, functions, budget, std::max<std::size_t>(8, box_triangles / boxes_.triangles_per_vertex())),
+        layers_(reader, functions, budget, std::max<std::size_t>(8, box_triangles / boxes_.triangles_per_vertex()),
+                start),
         listed_(grid_),
         reservation_(budget.reserve("marks of a layer", 0)) {
     reservation_.resize(layers_.slice() * (layers_.boxes().size(layers_.axis(), 0) + 4));

@@ -110,6 +110,8 @@ void RunInput::open(std::span<const std::string> functions, std::unique_ptr<io::
   for (std::size_t i = 0; i < specs.size(); ++i) {
     sources_.push_back(std::make_unique<io::FunctionSource>(specs[i], info_, reading_.properties, name, &fields_[i]));
     functions_.push_back(sources_.back().get());
+    // Of an image, the place of a vertex is read at once. A run would need all of it as a mesh to look it up.
+    if (info_.grid && open_again && sources_.back()->needs_lookup()) sources_.back()->look_up(*open_again());
   }
 }
 

@@ -8,6 +8,7 @@
 
 #include "io/functions/function_source.h"
 #include "io/grids/grid_mesh.h"
+#include "ooc/checkpoints/partial_folder.h"
 #include "tests/model/reference_reeb.h"
 #include "tests/support/inputs/embedding_places.h"
 #include "tests/support/inputs/memory_grid.h"
@@ -171,6 +172,9 @@ TEST(GridRuns, AreResumedAsIfNothingHadHappened) {
     }
     run.options.interrupted = {};
     run.options.resume = interrupted;
+    // A checkpoint says which boxes the run began with.
+    if (ooc::PartialFolder::has_checkpoint(folder.path() + "/grid.reeb") && random.chance(50))
+      run.options.chunk_triangles = 200;
     if (interrupted) run_grid(shape, values, run, folder);
     ASSERT_EQ(take_bytes(folder.path() + "/grid.reeb"), whole) << "seed " << seed + i << ", " << interrupted;
   }
