@@ -2,13 +2,19 @@
 
 namespace reeb {
 
+BoxFaces GridBoxes::shared_faces(const std::array<std::uint64_t, 3>& box) const {
+  unsigned faces = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (box[axis] != 0) faces |= low_face(axis);
+    if (box[axis] + 1 != count(axis)) faces |= high_face(axis);
+  }
+  return static_cast<BoxFaces>(faces);
+}
+
 void GridBoxes::fill(const std::array<std::uint64_t, 3>& box, Chunk& chunk) const {
   chunk.clear();
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    chunk.box[axis] = size(axis, box[axis]);
-    if (box[axis] != 0) chunk.shared_faces |= low_face(axis);
-    if (box[axis] + 1 != count(axis)) chunk.shared_faces |= high_face(axis);
-  }
+  for (std::size_t axis = 0; axis < 3; ++axis) chunk.box[axis] = size(axis, box[axis]);
+  chunk.shared_faces = shared_faces(box);
   const auto& [ni, nj, nk] = chunk.box;
   const auto faces = [&](std::size_t axis, std::uint32_t i) {
     const unsigned ends = (i == 0 ? low_face(axis) : 0u) | (i + 1 == chunk.box[axis] ? high_face(axis) : 0u);

@@ -25,6 +25,8 @@ class GridBoxes {
     const std::uint64_t first_vertex = first(axis, box), rest = grid_[axis] - first_vertex;
     return rest <= cells_[axis] ? static_cast<std::uint32_t>(rest) : cells_[axis] + 1;
   }
+  // The faces of a box that other boxes have, too.
+  BoxFaces shared_faces(const std::array<std::uint64_t, 3>& box) const;
   // Replaces `chunk` by a box, without positions.
   void fill(const std::array<std::uint64_t, 3>& box, Chunk& chunk) const;
 

@@ -121,12 +121,6 @@ void mark_paths(const MaskedLayer& layer, const LayerFunction& function, const C
   });
 }
 
-// A set of axes as a step.
-std::array<int, 3> step_along(unsigned axes, int sign) {
-  return {sign * static_cast<int>(axes & 1), sign * static_cast<int>(axes >> 1 & 1),
-          sign * static_cast<int>(axes >> 2 & 1)};
-}
-
 }  // namespace
 
 // The common face of two boxes is the high face of the one that comes first. It has the same vertices in both.

@@ -9,12 +9,15 @@ namespace reeb {
 
 inline constexpr unsigned kNeighbours = 14;
 
-// Neighbour n < 7 is up the subset n + 1 of the axes, neighbour 7 + n is down it.
-constexpr std::array<int, 3> step_to(unsigned neighbour) {
-  const unsigned axes = neighbour % 7 + 1;
-  const int sign = neighbour < 7 ? 1 : -1;
+// A step along each axis of a set: up with sign 1, down with -1.
+constexpr std::array<int, 3> step_along(unsigned axes, int sign) {
   return {sign * static_cast<int>(axes & 1), sign * static_cast<int>(axes >> 1 & 1),
           sign * static_cast<int>(axes >> 2)};
+}
+
+// Neighbour n < 7 is up the subset n + 1 of the axes, neighbour 7 + n is down it.
+constexpr std::array<int, 3> step_to(unsigned neighbour) {
+  return step_along(neighbour % 7 + 1, neighbour < 7 ? 1 : -1);
 }
 
 using NeighbourSet = std::uint16_t;

@@ -42,7 +42,7 @@ enum class ChunkOrigin : std::uint64_t {
   kPieces = 4,         // with known last uses, its pieces in another order
   kSortedInSlabs = 5,  // as kSorted, in an order with a shorter front
   kGrid = 6,           // boxes of a grid
-  kMaskedGrid = 7,     // boxes of a grid of which vertices are left out
+  kMaskedGrid = 7,     // the same with triangles, since vertices can be left out
 };
 
 // The state of a run apart from its stores and engine.

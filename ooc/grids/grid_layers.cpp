@@ -66,11 +66,17 @@ bool GridLayers::read() {
     if (layers_ != 0) values.erase(values.begin(), values.end() - static_cast<std::ptrdiff_t>(slice_));
     values.reserve(size);
   }
-  const std::uint64_t first = slice_ * boxes_.first(axis_, layers_), known = values_[0].size();
-  for (auto& values : values_) values.resize(size, std::numeric_limits<double>::quiet_NaN());
+  const std::uint64_t first = slice_ * boxes_.first(axis_, layers_);
   ++layers_;
-  read_vertices(first + known, first + size);
+  read_vertices(first + values_[0].size(), first + size);
+  leave_out_until(size);
   return true;
+}
+
+// The vertices before this place in the layer that did not come. A layer grows as values arrive: until then, the memory
+// for what a header announces is not touched.
+void GridLayers::leave_out_until(std::uint64_t place) {
+  for (auto& values : values_) values.resize(place, std::numeric_limits<double>::quiet_NaN());
 }
 
 // The vertices from `next` to `end` of the grid, but for those that the reader leaves out.
@@ -86,9 +92,11 @@ void GridLayers::read_vertices(std::uint64_t next, std::uint64_t end) {
     if (id < next || (has_all && id != next)) throw InputChanged();
     if (id >= end) return;
     const auto piece = static_cast<std::size_t>(std::min<std::uint64_t>(end - id, batch_.vertex_count - taken_));
-    for (std::size_t f = 0; f < values_.size(); ++f)
-      std::copy_n(batch_values_[f].begin() + static_cast<std::ptrdiff_t>(taken_), piece,
-                  values_[f].begin() + static_cast<std::ptrdiff_t>(id - first));
+    leave_out_until(id - first);
+    for (std::size_t f = 0; f < values_.size(); ++f) {
+      const auto from = batch_values_[f].begin() + static_cast<std::ptrdiff_t>(taken_);
+      values_[f].insert(values_[f].end(), from, from + static_cast<std::ptrdiff_t>(piece));
+    }
     taken_ += piece;
     vertices_ += piece;
     next = id + piece;

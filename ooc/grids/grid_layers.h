@@ -64,7 +64,8 @@ class GridLayers {
   void copy(std::span<const std::uint64_t> from, WorkItem& item) const;
 
  private:
-  void read_vertices(std::uint64_t first, std::uint64_t end);
+  void read_vertices(std::uint64_t next, std::uint64_t end);
+  void leave_out_until(std::uint64_t place);
   bool read_batch();
 
   MeshReader& reader_;

@@ -158,20 +158,17 @@ void MaskedChunks::list_boxes() {
   const GridBoxes& boxes = layers_.boxes();
   boxes_of_layer_.clear();
   next_ = 0;
-  std::array<std::uint64_t, 3> count{boxes.count(0), boxes.count(1), boxes.count(2)}, at{};
-  const std::uint64_t number = layers_.count() - 1;
-  std::array<std::uint64_t, 3> end = count, begin{};
-  begin[layers_.axis()] = number;
-  end[layers_.axis()] = number + 1;
+  std::array<std::uint64_t, 3> end{boxes.count(0), boxes.count(1), boxes.count(2)}, begin{}, at{};
+  begin[layers_.axis()] = layers_.count() - 1;
+  end[layers_.axis()] = layers_.count();
   for (at[2] = begin[2]; at[2] < end[2]; ++at[2])
     for (at[1] = begin[1]; at[1] < end[1]; ++at[1])
       for (at[0] = begin[0]; at[0] < end[0]; ++at[0]) {
         LayerBox box;
+        box.shared = boxes.shared_faces(at);
         for (std::size_t k = 0; k < 3; ++k) {
           box.first[k] = k == layers_.axis() ? 0 : boxes.first(k, at[k]);
           box.size[k] = boxes.size(k, at[k]);
-          if (at[k] != 0) box.shared |= low_face(k);
-          if (at[k] + 1 != count[k]) box.shared |= high_face(k);
         }
         boxes_of_layer_.push_back(box);
       }

@@ -249,6 +249,21 @@ INSTANTIATE_TEST_SUITE_P(Formats, BadMesh, testing::ValuesIn(kFormats), format_n
 INSTANTIATE_TEST_SUITE_P(Formats, BadIndex, testing::ValuesIn(formats_with(&Format::has_indices)), format_name);
 INSTANTIATE_TEST_SUITE_P(Formats, BadCount, testing::ValuesIn(formats_with(&Format::has_triangle_count)), format_name);
 
+// The size of a packed file says nothing.
+TEST_F(BadInput, MemoryOfAnImageGrowsAsItsValuesCome) {
+  write("v.nrrd", "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 8192 8192 16\nencoding: raw\n\n123456");
+  write("v.nrrd.gz", gzipped("v.nrrd"));
+  for (const std::vector<std::string>& more : {std::vector<std::string>{}, {"--nodata", "skip"}}) {
+    std::vector<std::string> words{"compute", "v.nrrd.gz", "-o", "v.reeb"};
+    words.insert(words.end(), more.begin(), more.end());
+    const Outcome outcome = reeb(words);
+    expect_error(outcome, 1, "v.nrrd.gz:");
+    if (!kSanitized) {
+      EXPECT_LT(outcome.peak_rss_bytes, kMaxPeakBytes) << last_command();
+    }
+  }
+}
+
 TEST_F(BadInput, Empty) {
   write("empty.ply", "");
   expect_refused("empty.ply", false);

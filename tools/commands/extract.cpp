@@ -143,7 +143,7 @@ void extract(const ExtractOptions& options) {
     write_tables(view, outputs[0], outputs[1], options.force);
   else
     write_output(options.output, options.force, [&](std::ostream& out) { io::write_graph(format, view, out); });
-  if (options.quiet || options.output.empty() || options.output == io::kStandardOutput) return;
+  if (options.quiet || options.output == io::kStandardOutput) return;
   print_line("wrote " + printable(outputs[0]) + (outputs.size() == 2 ? " and " + printable(outputs[1]) : ""));
 }
 

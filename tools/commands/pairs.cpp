@@ -137,8 +137,7 @@ void list_pairs(const PairsOptions& options) {
     format.write(file, rows, out);
     out.flush();
   });
-  if (!options.quiet && !options.output.empty() && options.output != "-")
-    print_line("wrote " + printable(options.output));
+  if (!options.quiet && options.output != io::kStandardOutput) print_line("wrote " + printable(options.output));
 }
 
 }  // namespace
