@@ -178,7 +178,7 @@ void File::fail(const char* doing, int error, std::uint64_t offset, std::size_t 
 std::string hint_for(int error, const std::string& otherwise) {
   if (error == EMFILE || error == ENFILE) return "allow more open files (ulimit -n), or close other programs";
   if (is_limit(error)) return "allow more memory (ulimit -v), or close other programs";
-  if (error == EFBIG) return "a limit of the system, ulimit -f, or of the file system stops larger files: raise it";
+  if (error == EFBIG) return "allow larger files (ulimit -f), or write to another file system";
   return is_full(error) ? "make room on the disk, or write to another folder" : otherwise;
 }
 
