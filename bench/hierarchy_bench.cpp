@@ -39,7 +39,7 @@ void BM_Pairing(benchmark::State& state) {
   const ReebGraph graph = make(state);
   const BettiNumbers betti = betti_numbers(graph);
   std::vector<PersistencePair> pairs;
-  const std::size_t peak = peak_of([&] { pairs = persistence_pairs(graph); });
+  const std::size_t peak = test::peak_of([&] { pairs = persistence_pairs(graph); });
   std::uint64_t components = 0, loops = 0;
   for (const auto& pair : pairs) {
     components += pair.type == PairType::kExt0;
@@ -54,7 +54,7 @@ void BM_Pairing(benchmark::State& state) {
 void BM_Hierarchy(benchmark::State& state) {
   const ReebGraph graph = make(state);
   Hierarchy hierarchy;
-  const std::size_t peak = peak_of([&] { hierarchy = build_hierarchy(graph); });
+  const std::size_t peak = test::peak_of([&] { hierarchy = build_hierarchy(graph); });
   if (graph_at(hierarchy, graph, 0) != graph) return state.SkipWithError("wrong finest level");
   const auto sizes = level_sizes(hierarchy);
   const ReebGraph coarsest = graph_at(hierarchy, graph, last_version(hierarchy));
@@ -72,7 +72,7 @@ void BM_Denoise(benchmark::State& state) {
   const ReebGraph graph = make(state);
   const double threshold = 20;
   Denoised result;
-  const std::size_t peak = peak_of([&] { result = denoise(graph, threshold); });
+  const std::size_t peak = test::peak_of([&] { result = denoise(graph, threshold); });
   if (persistence_pairs(result.graph).size() + result.removed.size() != persistence_pairs(graph).size())
     return state.SkipWithError("wrong count of pairs");
   for (auto _ : state) benchmark::DoNotOptimize(denoise(graph, threshold));

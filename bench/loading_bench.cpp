@@ -66,9 +66,9 @@ void BM_Load(benchmark::State& state) {
   const Sample& made = sample(state.range(0) != 0);
   const auto nodes = static_cast<std::uint64_t>(state.range(1));
   ooc::Level level;
-  const std::size_t before = held_bytes;
-  const std::size_t peak = peak_of([&] { level = load(made.path(), nodes); });
-  const std::size_t held = held_bytes - before;
+  const std::size_t before = test::held_bytes;
+  const std::size_t peak = test::peak_of([&] { level = load(made.path(), nodes); });
+  const std::size_t held = test::held_bytes - before;
   if (!made.is_right(level)) return state.SkipWithError("a wrong level");
   for (auto _ : state) benchmark::DoNotOptimize(load(made.path(), nodes));
   state.counters["nodes"] = static_cast<double>(level.graph.node_count());

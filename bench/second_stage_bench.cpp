@@ -90,7 +90,7 @@ void BM_SecondStage(benchmark::State& state) {
   const Given given = make(state);
   const std::string path = temp().folder() + "/second_stage_bench.reeb";
   Done done;
-  const std::size_t peak = peak_of([&] { done = run(given, path); });
+  const std::size_t peak = test::peak_of([&] { done = run(given, path); });
   const ooc::ReebFile file(path);
   file.verify();
   if (file.load(0).graph != given.graph) return state.SkipWithError("wrong finest level");

@@ -3,7 +3,7 @@
 
 # A library that is not needed by the compiler of a user is private.
 set(reeb_pc_private "-lreeb_io -lreeb_ooc -lreeb_file -lreeb")
-set(reeb_pc_requires "libzstd liblz4 zlib expat tbb")
+set(reeb_pc_requires "libzstd liblz4 zlib libpng expat tbb")
 file(RELATIVE_PATH reeb_pc_prefix "${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig" "${CMAKE_INSTALL_PREFIX}")
 string(REGEX REPLACE "/$" "" reeb_pc_prefix "${reeb_pc_prefix}")
 configure_file(packaging/reeb.pc.in reeb.pc @ONLY)

@@ -20,7 +20,7 @@ function(reeb_web_pages)
       DEPENDS "${source}/package.json" "${source}/package-lock.json"
         "${PROJECT_SOURCE_DIR}/cmake/install_web_packages.cmake"
       COMMENT "Installing the npm packages of tools/web" VERBATIM)
-    file(GLOB parts CONFIGURE_DEPENDS "${source}/*.js" "${source}/*.mjs" "${source}/*.html" "${source}/*.css"
+    file(GLOB_RECURSE parts CONFIGURE_DEPENDS "${source}/*.js" "${source}/*.mjs" "${source}/*.html" "${source}/*.css"
       "${PROJECT_SOURCE_DIR}/tools/viewer/*")
     add_custom_command(OUTPUT "${pages}" BYPRODUCTS "${folder}/viewer.html"
       COMMAND "${REEB_NODE}" "${source}/build.mjs" "${folder}" "${pages}"

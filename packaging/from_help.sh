@@ -44,7 +44,8 @@ page() {  # page COMMAND: the man page; an empty COMMAND is the program
   name=reeb${command:+-$command} title=$(head -1 <<<"$help")
   printf '.TH %s 1 "" "reeb %s" "User Commands"\n.SH NAME\n%s \\- %s\n' "${name^^}" "$version" "$(roff <<<"$name")" \
     "$(roff <<<"$title")"
-  printf '.SH SYNOPSIS\n.B %s\n' "$(sed -n 's/^Usage: //p' <<<"$help" | roff)"
+  printf '.SH SYNOPSIS\n'
+  sed -n 's/^Usage: //p; s/^       \(reeb [^ ]* \[OPTIONS\]\).*/.br\n\1/p' <<<"$help" | roff | sed 's/^\\&//; /^\.br/!s/^/.B /'
   local section
   for section in Arguments Options Commands; do
     if grep -q "^$section:" <<<"$help"; then

@@ -8,8 +8,8 @@
 # Needs apt-get, and root or sudo only if something is missing. Never asks a question.
 set -euo pipefail
 
-packages=(cmake ninja-build g++ pkg-config libtbb-dev libzstd-dev liblz4-dev zlib1g-dev libexpat1-dev
-          libboost-iostreams-dev libcli11-dev libfmt-dev nlohmann-json3-dev libfast-float-dev libxxhash-dev
+packages=(cmake ninja-build g++ pkg-config libtbb-dev libzstd-dev liblz4-dev zlib1g-dev libpng-dev
+          libexpat1-dev libboost-iostreams-dev libcli11-dev libfmt-dev nlohmann-json3-dev libfast-float-dev libxxhash-dev
           libeigen3-dev libspectra-dev)
 # Node.js often comes from elsewhere; then packages of Debian would be in its way.
 command -v node >/dev/null || command -v nodejs >/dev/null || packages+=(nodejs)

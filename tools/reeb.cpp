@@ -74,13 +74,13 @@ bool is_command(const std::string& word) {
   return std::ranges::find(kCommands, word, &NamedCommand::name) != std::end(kCommands);
 }
 
-// For a first word that is neither a command nor a file.
-reeb::Error no_such_command(const std::string& word) {
+// For a word that is no command; `else_a_file`: nor a file, which it could be as well.
+reeb::Error no_such_command(const std::string& word, bool else_a_file) {
   std::vector<std::string> names;
   for (const NamedCommand& command : kCommands) names.emplace_back(command.name);
   const std::string near = reeb::nearest(word, names);
   return {reeb::ErrorKind::kUsage,
-          "there is no command '" + word + "', and no file of that name" +
+          "there is no command '" + word + "'" + (else_a_file ? ", and no file of that name" : "") +
               (near.empty() ? "" : " (did you mean " + near + "?)"),
           fmt::format("the commands are {}", fmt::join(names, ", "))};
 }
@@ -92,12 +92,12 @@ std::vector<std::string> with_default_command(std::vector<std::string> words) {
   if (first == "-h" || first == "--help" || first == "--version") return words;
   if (first == "help") {
     if (words.size() == 1) return {"--help"};
-    if (!is_command(words[1])) throw no_such_command(words[1]);
+    if (!is_command(words[1])) throw no_such_command(words[1], false);
     return {words[1], "--help"};
   }
   if (is_command(first)) return words;
   const bool is_name = first.starts_with('-') || first.find_first_of("./") != std::string::npos;
-  if (std::error_code ignored; !is_name && !std::filesystem::exists(first, ignored)) throw no_such_command(first);
+  if (std::error_code ignored; !is_name && !std::filesystem::exists(first, ignored)) throw no_such_command(first, true);
   words.insert(words.begin(), "compute");
   return words;
 }
@@ -105,6 +105,7 @@ std::vector<std::string> with_default_command(std::vector<std::string> words) {
 int run(int argc, char** argv) {
   reeb::tools::Program program("reeb", "Exact Reeb graphs of meshes of any size");
   program.set_version("reeb " REEB_VERSION);
+  program.set_usage("reeb COMMAND [OPTIONS]\n       reeb MESH [OPTIONS]      the same as reeb compute MESH");
   program.footer(kExamples);
   const std::vector<std::string> words =
       argc == 1 ? std::vector<std::string>() : with_default_command(std::vector<std::string>(argv + 1, argv + argc));

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "io/file/file.h"
+#include "libreeb/base/count_text.h"
 #include "libreeb/base/error.h"
 #include "libreeb/base/memory_budget.h"
 #include "libreeb/base/printable.h"
@@ -56,9 +57,9 @@ std::string seconds(std::uint64_t ms) { return fmt::format("{:.2f} s", static_ca
 
 void print_ranks(const std::vector<RankFigures>& ranks) {
   reeb::tools::print_line(
-      fmt::format("  {} ranks: shares {}, tree {}; sent {} of names and {} up the tree; a rank took at most {}",
-                  ranks.size(), seconds(greatest(ranks, &RankFigures::share_ms)), seconds(ranks[0].tree_ms),
-                  reeb::format_bytes(sum(ranks, &RankFigures::names_bytes)),
+      fmt::format("  {}: shares {}, tree {}; sent {} of names and {} up the tree; a rank took at most {}",
+                  reeb::count_of(ranks.size(), "rank"), seconds(greatest(ranks, &RankFigures::share_ms)),
+                  seconds(ranks[0].tree_ms), reeb::format_bytes(sum(ranks, &RankFigures::names_bytes)),
                   reeb::format_bytes(sum(ranks, &RankFigures::tree_bytes)),
                   reeb::format_bytes(greatest(ranks, &RankFigures::peak_bytes))));
 }
@@ -154,6 +155,7 @@ void run(reeb::tools::World& world, int argc, char** argv) {
                   "it)"});
   reeb::tools::refuse_whole_mesh_options(command);
   command.add_option("--report", arguments.report, "Write figures of the run as JSON").type_name("FILE");
+  command.footer("Example:\n  mpirun -n 8 reeb-mpi compute scan.ply -o scan.reeb");
   command.callback([&] { compute(world, std::move(arguments)); });
   const std::vector<std::string> words(argv + 1, argv + argc);
   if (!words.empty() && !words[0].starts_with('-') && !program.has_command(words[0]))

@@ -21,7 +21,7 @@ struct CellHead {
 
 class CellInput {
  public:
-  enum class Step { kVertices, kCell, kEnd };
+  enum class Step { kVertices, kCell, kWait, kEnd };
 
   CellInput() = default;
   CellInput(const CellInput&) = delete;
@@ -33,7 +33,8 @@ class CellInput {
   // Whether there may be cells with inner nodes.
   virtual bool has_inner_nodes() const = 0;
 
-  // After kVertices, read_vertices() is called; after kCell, read_node() for each of its nodes.
+  // After kVertices, read_vertices() is called; after kCell, read_node() for each of its nodes. kWait: there is more,
+  // but first the caller can look at memory_bytes().
   // REQUIRES: what the step before announced was read.
   virtual Step next(CellHead& cell) = 0;
   // Appends the next vertices, at least one and at most `limit`, to the columns, and returns their number.

@@ -26,7 +26,7 @@ NodeSelection select_nodes(CellInput& input) {
     if (step == CellInput::Step::kVertices) {
       nodes.add_nodes(input.read_vertices(columns, kScanVertices));
       for (auto& column : scratch) column.clear();
-    } else {
+    } else if (step == CellInput::Step::kCell) {
       for (std::uint64_t i = 0; i < cell.corners; ++i) nodes.mark_corner(input.read_node());
       for (std::uint64_t i = 0; i < cell.inner_nodes; ++i) nodes.mark_inner(input.read_node());
     }
@@ -86,10 +86,14 @@ class CellReader final : public BatchReader {
       } else {
         const CellInput::Step step = input_->next(cell_);
         if (step == CellInput::Step::kEnd) return;
-        if (step == CellInput::Step::kVertices)
+        if (step == CellInput::Step::kVertices) {
           read_vertices(batch);
-        else
+        } else if (step == CellInput::Step::kCell) {
           begin_cell();
+        } else if (options().batch_events != 1) {
+          pause();
+          return;
+        }
       }
     }
   }

@@ -7,6 +7,8 @@
 
 #include "io/cells/cell_reader.h"
 #include "io/mesh/batch_reader.h"
+#include "io/text/entry_limit.h"
+#include "io/text/hints.h"
 #include "io/text/text_cursor.h"
 #include "libreeb/base/count_text.h"
 #include "libreeb/base/error.h"
@@ -15,7 +17,6 @@ namespace reeb::io {
 namespace {
 
 constexpr TextStyle kStyle = {.comments = true};
-constexpr const char* kDamagedHint = "the file may be cut or damaged here";
 
 struct MeditCells {
   std::string_view keyword;
@@ -57,10 +58,10 @@ bool begins_word(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z
 std::uint64_t read_count(TextCursor& text) {
   if (!text.more()) {
     text.mark();
-    text.fail("the file ends where a count should be", kDamagedHint);
+    text.fail("the file ends where a count should be", kCutOrDamagedHereHint);
   }
   const std::int64_t count = text.integer("count");
-  if (count < 0) text.fail("a count is negative", kDamagedHint);
+  if (count < 0) text.fail("a count is negative", kCutOrDamagedHereHint);
   return static_cast<std::uint64_t>(count);
 }
 
@@ -83,6 +84,7 @@ MeditIndex read_index(const ContentSource& content) {
   index.info.vertex_count = index.info.simplex_count = 0;
   index.info.file_bytes = content.file_bytes();
   TextCursor text(content.reopen(), kStyle);
+  EntryLimit limit("sections of cells");
   bool vertices = false, dimension = false;
   while (text.more()) {
     const std::string keyword(text.token());
@@ -92,7 +94,7 @@ MeditIndex read_index(const ContentSource& content) {
       read_version(text, index.info);
     } else if (keyword == "Dimension") {
       const std::uint64_t given = read_count(text);
-      if (dimension) text.fail("the file has two dimensions", kDamagedHint);
+      if (dimension) text.fail("the file has two dimensions", kCutOrDamagedHereHint);
       if (given != 2 && given != 3) text.fail("the file is of dimension " + std::to_string(given), "2 and 3 are read");
       index.info.dimension = static_cast<unsigned>(given);
       dimension = true;
@@ -104,12 +106,13 @@ MeditIndex read_index(const ContentSource& content) {
       section.offset = text.bytes().offset();
       section.line = text.line();
       if (keyword == "Vertices") {
-        if (vertices) text.fail("the file has two sections of vertices", kDamagedHint);
-        if (!dimension) text.fail("the vertices come before the dimension", kDamagedHint);
+        if (vertices) text.fail("the file has two sections of vertices", kCutOrDamagedHereHint);
+        if (!dimension) text.fail("the vertices come before the dimension", kCutOrDamagedHereHint);
         vertices = true;
         *index.info.vertex_count = section.count;
         index.sections.insert(index.sections.begin(), section);
       } else {
+        limit.add(1, 0, text);
         section.cells = cells;
         *index.info.simplex_count += section.count;
         index.has_inner_nodes |= cells->nodes != corner_count(cells->shape) && section.count != 0;
@@ -120,7 +123,7 @@ MeditIndex read_index(const ContentSource& content) {
   }
   if (!vertices) {
     text.mark();
-    text.fail("the file has no section of vertices", kDamagedHint);
+    text.fail("the file has no section of vertices", kCutOrDamagedHereHint);
   }
   return index;
 }

@@ -6,14 +6,11 @@
 #include <utility>
 
 #include "io/mesh/scalar_bytes.h"
+#include "io/text/hints.h"
 #include "libreeb/base/error.h"
 
 namespace reeb::io {
-namespace {
-
-constexpr const char* kCutHint = "the file is cut; get a whole copy";
-
-}  // namespace
+namespace {}  // namespace
 
 MshItems::MshItems(std::unique_ptr<ContentSource> source) : text_(std::move(source)) { read_format(); }
 

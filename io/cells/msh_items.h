@@ -6,6 +6,7 @@
 #include <string>
 
 #include "io/file/content_source.h"
+#include "io/text/hints.h"
 #include "io/text/text_cursor.h"
 
 namespace reeb::io {
@@ -46,7 +47,7 @@ class MshItems {
   std::uint64_t line() const { return text_.line(); }
 
   // The error at the item that was read last.
-  [[noreturn]] void fail(const std::string& what, const std::string& hint = "the file may be damaged here") const;
+  [[noreturn]] void fail(const std::string& what, const std::string& hint = kDamagedHereHint) const;
 
  private:
   const char* take(std::size_t bytes, const char* what);

@@ -9,6 +9,7 @@
 #include "io/cells/msh_items.h"
 #include "io/cells/point_array.h"
 #include "io/cells/tag_map.h"
+#include "io/text/entry_limit.h"
 #include "libreeb/base/count_text.h"
 #include "libreeb/base/error.h"
 
@@ -115,7 +116,7 @@ class MshColumn {
 
 class MshInput final : public CellInput {
  public:
-  // `index` is null in the pass that makes it.
+  // `index` is null in the pass that makes it; then tags and nodes are passed over.
   MshInput(const ContentSource& content, std::shared_ptr<const MshIndex> index, const ReadOptions& options)
       : items_(content.reopen()), index_(std::move(index)) {
     if (index_ == nullptr) return;
@@ -134,6 +135,12 @@ class MshInput final : public CellInput {
   Step next(CellHead& cell) override {
     while (true) {
       if (nodes_left_ != 0) return Step::kVertices;
+      if (tags_left_ != 0) {
+        read_tags();
+        if (tags_left_ != 0) return Step::kWait;
+        nodes_left_ = block_nodes_;
+        continue;
+      }
       if (cells_left_ != 0) {
         --cells_left_;
         cell = read_head();
@@ -159,7 +166,7 @@ class MshInput final : public CellInput {
   std::size_t read_vertices(std::span<std::vector<double>* const> columns, std::size_t limit) override {
     const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(limit, nodes_left_));
     for (std::size_t i = 0; i < count; ++i) {
-      if (!items_.format().version4) tags_.add(items_.size("node tag"));
+      if (!items_.format().version4) read_tag();
       for (std::size_t k = 0; k < 3; ++k) columns[k]->push_back(items_.real("coordinate"));
       for (std::uint64_t k = 0; k < parameters_; ++k) (void)items_.real("parameter");
       if (columns_.empty()) continue;
@@ -172,6 +179,7 @@ class MshInput final : public CellInput {
 
   VertexId read_node() override {
     const std::uint64_t tag = items_.size("node tag");
+    if (index_ == nullptr) return VertexId(0);
     const auto node = tags_.find(tag);
     if (!node) [[unlikely]]
       items_.fail("an element names node " + std::to_string(tag) + ", which is not among the " +
@@ -222,10 +230,22 @@ class MshInput final : public CellInput {
     const std::int64_t dimension = items_.integer("dimension");
     (void)items_.integer("entity tag");
     const std::int64_t parametric = items_.integer("parametric");
-    nodes_left_ = items_.size("number of nodes");
+    tags_left_ = block_nodes_ = items_.size("number of nodes");
     if (dimension < 0 || dimension > 3) items_.fail("a block of nodes is of dimension " + std::to_string(dimension));
     parameters_ = parametric == 0 ? 0 : static_cast<std::uint64_t>(dimension);
-    for (std::uint64_t i = 0; i < nodes_left_; ++i) tags_.add(items_.size("node tag"));
+  }
+
+  // A few at a time, since they take memory.
+  void read_tags() {
+    constexpr std::uint64_t kAtOnce = 65536;
+    const std::uint64_t count = std::min(tags_left_, kAtOnce);
+    for (std::uint64_t i = 0; i < count; ++i) read_tag();
+    tags_left_ -= count;
+  }
+  // The pass that makes the index keeps no tags: what it holds is not part of any account.
+  void read_tag() {
+    const std::uint64_t tag = items_.size("node tag");
+    if (index_ != nullptr) tags_.add(tag);
   }
 
   // Of version 4, and of version 2 in binary.
@@ -284,18 +304,22 @@ class MshInput final : public CellInput {
     }
     array.offset = items_.here();
     array.line = items_.line();
-    if (index_ == nullptr && array.components > 0 && array.components < 65536) arrays_.push_back(std::move(array));
+    if (index_ != nullptr || array.components == 0 || array.components >= 65536) return;
+    count_properties(array, property_limit_, items_);
+    arrays_.push_back(std::move(array));
   }
 
   MshItems items_;
   std::shared_ptr<const MshIndex> index_;
   std::vector<std::unique_ptr<MshColumn>> columns_;
   std::vector<MshArray> arrays_;
+  EntryLimit property_limit_{"properties"};
   TagMap tags_;
   TagMap::Walk walk_;
   std::string section_;
   std::uint64_t blocks_left_ = 0, nodes_left_ = 0, cells_left_ = 0;
-  std::uint64_t elements_left_ = 0;  // of version 2 in binary: beyond the current block
+  std::uint64_t tags_left_ = 0, block_nodes_ = 0;  // of version 4: of the current block, before its nodes
+  std::uint64_t elements_left_ = 0;                // of version 2 in binary: beyond the current block
   std::uint64_t parameters_ = 0, element_tags_ = 0;
   const MshType* type_ = nullptr;
 };
@@ -318,6 +342,7 @@ MshIndex read_index(const ContentSource& content) {
       for (auto& column : scratch) column.clear();
       continue;
     }
+    if (step == CellInput::Step::kWait) continue;
     ++*index.info.simplex_count;
     index.has_inner_nodes |= cell.inner_nodes != 0;
     for (std::uint64_t i = 0; i < cell.corners + cell.inner_nodes; ++i) (void)input.read_node();

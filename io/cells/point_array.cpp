@@ -6,17 +6,11 @@
 #include "libreeb/base/error.h"
 
 namespace reeb::io {
-namespace {
-
-constexpr std::uint64_t kMostNamed = 64;
-
-}  // namespace
-
 std::vector<std::string> property_names(std::span<const PointArray> arrays) {
   std::vector<std::string> names;
   for (const PointArray& array : arrays) {
     if (array.components == 1) names.push_back(array.name);
-    for (std::uint64_t k = 0; array.components > 1 && k < std::min(array.components, kMostNamed); ++k)
+    for (std::uint64_t k = 0; array.components > 1 && k < std::min(array.components, kMostNamedComponents); ++k)
       names.push_back(array.name + ":" + std::to_string(k));
   }
   return names;

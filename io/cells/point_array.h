@@ -1,11 +1,14 @@
 // Values at vertices, one or several per vertex, by the names that a user gives them.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
+
+#include "io/text/entry_limit.h"
 
 namespace reeb::io {
 
@@ -14,8 +17,16 @@ struct PointArray {
   std::uint64_t components = 1;
 };
 
-// "NAME" for one component, else "NAME:0", "NAME:1", ... Of many components, as none that a user wants has, the first.
+inline constexpr std::uint64_t kMostNamedComponents = 64;
+
+// "NAME" for one component, else "NAME:0", "NAME:1", ... At most the first kMostNamedComponents are named.
 std::vector<std::string> property_names(std::span<const PointArray> arrays);
+
+// Counts the properties that have names. THROWS: as EntryLimit::add().
+template <class Place>
+void count_properties(const PointArray& array, EntryLimit& limit, const Place& place) {
+  limit.add(std::min(array.components, kMostNamedComponents), array.name.size(), place);
+}
 
 // One component of an array.
 struct PointColumn {

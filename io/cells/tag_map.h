@@ -7,7 +7,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <vector>
+#include <span>
+
+#include "libreeb/containers/growing_array.h"
 
 namespace reeb::io {
 
@@ -15,11 +17,13 @@ class TagMap {
  public:
   // The tag of the next node.
   void add(std::uint64_t tag) {
-    if (!runs_.empty() && tag == runs_.back().tag + runs_.back().count && tag != 0) {
-      ++runs_.back().count;
+    Run* const last = runs_.size() == 0 ? nullptr : &runs_[runs_.size() - 1];
+    if (last != nullptr && tag == last->tag + last->count && tag != 0) {
+      ++last->count;
     } else {
-      ascending_ = ascending_ && (runs_.empty() || tag > runs_.back().tag);
-      runs_.push_back({tag, size_, 1});
+      ascending_ = ascending_ && (last == nullptr || tag > last->tag);
+      runs_.grow_by(1);
+      runs_[runs_.size() - 1] = {tag, size_, 1};
     }
     ++size_;
     by_tag_.clear();
@@ -28,11 +32,11 @@ class TagMap {
 
   // Nothing for an unknown tag; of nodes with equal tags one.
   std::optional<std::uint64_t> find(std::uint64_t tag) {
-    if (!ascending_ && by_tag_.empty()) {
+    if (!ascending_ && by_tag_.size() == 0) {
       by_tag_ = runs_;
-      std::ranges::sort(by_tag_, {}, &Run::tag);
+      std::ranges::sort(std::span(&by_tag_[0], by_tag_.size()), {}, &Run::tag);
     }
-    const std::vector<Run>& runs = ascending_ ? runs_ : by_tag_;
+    const std::span<const Run> runs = sorted_runs();
     if (last_ >= runs.size() || tag - runs[last_].tag >= runs[last_].count) {
       const auto next = std::ranges::upper_bound(runs, tag, {}, &Run::tag);
       if (next == runs.begin()) return std::nullopt;
@@ -47,7 +51,7 @@ class TagMap {
   bool has_repetition() {
     if (size_ == 0) return false;
     (void)find(0);
-    const std::vector<Run>& runs = ascending_ ? runs_ : by_tag_;
+    const std::span<const Run> runs = sorted_runs();
     return std::ranges::adjacent_find(runs, [](const Run& a, const Run& b) { return a.tag + a.count > b.tag; }) !=
            runs.end();
   }
@@ -68,15 +72,18 @@ class TagMap {
     std::uint64_t place_ = 0;
   };
 
-  std::uint64_t memory_bytes() const { return sizeof(Run) * (runs_.capacity() + by_tag_.capacity()); }
+  // With what find() will take.
+  std::uint64_t memory_bytes() const { return std::uint64_t{runs_.memory_bytes()} * (ascending_ ? 1 : 2); }
 
  private:
   struct Run {
     std::uint64_t tag = 0, index = 0, count = 0;
   };
 
-  std::vector<Run> runs_;    // by index
-  std::vector<Run> by_tag_;  // the same, if runs_ is not sorted by tag and was searched
+  std::span<const Run> sorted_runs() const { return ascending_ ? runs_.all() : by_tag_.all(); }
+
+  GrowingArray<Run> runs_;    // by index
+  GrowingArray<Run> by_tag_;  // the same, if runs_ is not sorted by tag and was searched
   bool ascending_ = true;
   std::uint64_t size_ = 0;
   std::size_t last_ = 0;  // the run that was found last

@@ -9,6 +9,7 @@
 #include "io/file/content_source.h"
 #include "io/file/file.h"
 #include "io/file/file_name.h"
+#include "io/text/hints.h"
 #include "io/text/text_cursor.h"
 #include "libreeb/base/count_text.h"
 #include "libreeb/base/error.h"
@@ -17,13 +18,12 @@ namespace reeb::io {
 namespace {
 
 constexpr TextStyle kStyle = {.comments = true};
-constexpr const char* kDamagedHint = "the file may be cut or damaged here";
 constexpr std::uint64_t kMostAttributes = 65536;
 
 std::uint64_t read_count(TextCursor& text, const char* what) {
   text.require_more(what);
   const std::int64_t count = text.integer(what);
-  if (count < 0) text.fail(std::string("a ") + what + " is negative", kDamagedHint);
+  if (count < 0) text.fail(std::string("a ") + what + " is negative", kCutOrDamagedHereHint);
   return static_cast<std::uint64_t>(count);
 }
 
@@ -38,7 +38,7 @@ NodeHead read_node_head(TextCursor& text) {
   if (head.dimension != 2 && head.dimension != 3)
     text.fail("the vertices are of dimension " + std::to_string(head.dimension), "2 and 3 are read");
   if (text.more_on_line()) head.attributes = read_count(text, "number of attributes");
-  if (head.attributes > kMostAttributes) text.fail("vertices have too many attributes", kDamagedHint);
+  if (head.attributes > kMostAttributes) text.fail("vertices have too many attributes", kCutOrDamagedHereHint);
   text.require_room(head.nodes, 1 + head.dimension + head.attributes);
   text.skip_line();
   return head;

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "io/text/hints.h"
 #include "io/text/text_cursor.h"
 #include "libreeb/base/error.h"
 
@@ -51,7 +52,7 @@ class Base64Input final : public ByteFilter {
       else if (pad)
         bits <<= 6, ++pads;
       else if (!is_blank_or_line_end(c))
-        throw Error(ErrorKind::kBadInput, "this is not base64 text", "the file may be cut or damaged here")
+        throw Error(ErrorKind::kBadInput, "this is not base64 text", kCutOrDamagedHereHint)
             .at(name(), std::to_string(offset()));
       ++next_;
       if (digit >= 0 || pad) ++symbols;

@@ -3,17 +3,13 @@
 #include <utility>
 #include <vector>
 
+#include "io/text/hints.h"
 #include "io/text/text_cursor.h"
+#include "io/text/words.h"
 #include "libreeb/base/error.h"
 
 namespace reeb::io {
 namespace {
-
-int digit_of(char c) {
-  if (c >= '0' && c <= '9') return c - '0';
-  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-  return c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1;
-}
 
 class HexInput final : public ByteFilter {
  public:
@@ -41,9 +37,9 @@ class HexInput final : public ByteFilter {
         if (filled_ == 0) return -1;
       }
       const char c = buffer_[next_];
-      const int digit = digit_of(c);
+      const int digit = hex_digit(c);
       if (digit < 0 && !is_blank_or_line_end(c))
-        throw Error(ErrorKind::kBadInput, "not a hexadecimal digit", "the file may be cut or damaged here")
+        throw Error(ErrorKind::kBadInput, "not a hexadecimal digit", kCutOrDamagedHereHint)
             .at(name(), std::to_string(offset()));
       ++next_;
       if (digit >= 0) return digit;

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "io/text/hints.h"
 #include "libreeb/base/error.h"
 
 namespace reeb::io {
@@ -58,8 +59,7 @@ class InflateInput final : public ByteFilter {
   }
 
   [[noreturn]] void fail(const std::string& what) const {
-    throw Error(ErrorKind::kBadInput, what, "the file is cut or damaged; get a whole copy")
-        .at(name(), std::to_string(offset()));
+    throw Error(ErrorKind::kBadInput, what, kCutOrDamagedHint).at(name(), std::to_string(offset()));
   }
 
   z_stream stream_{};

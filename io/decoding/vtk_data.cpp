@@ -10,6 +10,7 @@
 
 #include "io/decoding/inflate_input.h"
 #include "io/mesh/scalar_bytes.h"
+#include "io/text/hints.h"
 #include "libreeb/base/count_text.h"
 #include "libreeb/base/error.h"
 
@@ -48,8 +49,7 @@ class HeadedData : public VtkData {
   }
 
   [[noreturn]] void fail(const std::string& what) const {
-    throw Error(ErrorKind::kBadInput, what, "the file is cut or damaged; get a whole copy")
-        .at(name(), std::to_string(offset()));
+    throw Error(ErrorKind::kBadInput, what, kCutOrDamagedHint).at(name(), std::to_string(offset()));
   }
 
   VtkDataKind kind_;

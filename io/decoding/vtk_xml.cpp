@@ -1,18 +1,14 @@
 #include "io/decoding/vtk_xml.h"
 
 #include <algorithm>
-#include <iterator>
 
+#include "io/text/hints.h"
 #include "io/text/text_cursor.h"
 #include "libreeb/base/error.h"
 
 namespace reeb::io {
 namespace {
 
-struct TypeName {
-  std::string_view name;
-  ScalarType type;
-};
 constexpr TypeName kTypes[] = {{"Int8", ScalarType::kInt8},       {"UInt8", ScalarType::kUint8},
                                {"Int16", ScalarType::kInt16},     {"UInt16", ScalarType::kUint16},
                                {"Int32", ScalarType::kInt32},     {"UInt32", ScalarType::kUint32},
@@ -21,10 +17,7 @@ constexpr TypeName kTypes[] = {{"Int8", ScalarType::kInt8},       {"UInt8", Scal
 
 }  // namespace
 
-std::optional<ScalarType> vtk_scalar_type(std::string_view name) {
-  const auto* const found = std::ranges::find(kTypes, name, &TypeName::name);
-  return found == std::end(kTypes) ? std::nullopt : std::optional(found->type);
-}
+std::optional<ScalarType> vtk_scalar_type(std::string_view name) { return find_type(kTypes, name); }
 
 void refuse_attribute(const XmlParser& xml, const std::string& element, const std::string& attribute,
                       const std::string& value) {
@@ -61,8 +54,7 @@ AppendedData find_appended_data(ContentSource& source, const XmlParser& xml, std
     if (*mark != '_') break;
     return {tag_end + static_cast<std::uint64_t>(mark - rest.begin()) + 1, from};
   }
-  throw Error(ErrorKind::kBadInput, "the appended data do not begin with an underscore",
-              "the file is cut or damaged; get a whole copy")
+  throw Error(ErrorKind::kBadInput, "the appended data do not begin with an underscore", kCutOrDamagedHint)
       .at(source.name(), std::to_string(tag_end));
 }
 

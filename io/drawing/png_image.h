@@ -15,7 +15,7 @@ struct Raster {
   std::vector<Rgb> pixels;  // rows from above
 };
 
-// The bytes of a PNG file. MEMORY: three bytes a pixel, and the result.
+// The bytes of a PNG file. MEMORY: three bytes a pixel, and the result. THROWS: Error{kResource} if it is not enough.
 std::string encode_png(const Raster& image);
 
 // An <image> from `at`, with this width and height in the picture, which holds the PNG itself. The image is made

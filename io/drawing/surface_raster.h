@@ -32,8 +32,8 @@ class SurfaceRaster {
   // An image of `scale` pixels for each pixel of the picture.
   SurfaceRaster(double width, double height, double scale, SurfaceStyle style, const std::vector<Probe>& probes);
 
-  // A side of a cell that is inside a volume never hides its surface, so it may be drawn; `is_surface` is false of
-  // sides of cells, which are no layers.
+  // Faces of cells inside a volume never hide its surface, so they are drawn, with is_surface = false: they do not
+  // count as layers.
   void triangle(const std::array<SurfacePoint, 3>& corners, bool is_surface);
 
   // Of each probe, once all triangles are drawn.

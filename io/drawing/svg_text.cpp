@@ -3,26 +3,9 @@
 #include <charconv>
 #include <cmath>
 
-#include "libreeb/base/printable.h"
+#include "io/text/xml_text.h"
 
 namespace reeb::io {
-
-std::string xml_escaped(std::string_view text) {
-  std::string escaped;
-  for (const char c : printable(text)) {
-    if (c == '&')
-      escaped += "&amp;";
-    else if (c == '<')
-      escaped += "&lt;";
-    else if (c == '>')
-      escaped += "&gt;";
-    else if (c == '"')
-      escaped += "&quot;";
-    else
-      escaped += c;
-  }
-  return escaped;
-}
 
 void append_coordinate(std::string& svg, double value, int decimals) {
   char digits[64];
@@ -42,7 +25,9 @@ void append_point(std::string& svg, PicturePoint point) {
   append_coordinate(svg, point.y);
 }
 
-std::string begin_svg(double width, double height) {
+std::string svg_title(const Heading& heading) { return "<title>" + xml_escaped(heading.title) + "</title>\n"; }
+
+std::string begin_svg(double width, double height, const Heading& heading) {
   std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" xmlns:xlink=\"http://www.w3.org/1999/xlink\" width=\"";
   append_coordinate(svg, width);
   svg += "\" height=\"";
@@ -51,9 +36,11 @@ std::string begin_svg(double width, double height) {
   append_coordinate(svg, width);
   svg += ' ';
   append_coordinate(svg, height);
-  svg +=
-      "\" font-family=\"DejaVu Sans, Helvetica, Arial, sans-serif\">\n"
-      "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n";
+  svg += '"';
+  svg += kSvgRole;
+  svg += " font-family=\"DejaVu Sans, Helvetica, Arial, sans-serif\">\n" + svg_title(heading) +
+         "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n";
+  append_heading(svg, heading);
   return svg;
 }
 
@@ -77,8 +64,7 @@ void append_heading(std::string& svg, const Heading& heading) {
 
 std::string message_picture(const Heading& heading, std::string_view message) {
   constexpr double kWidth = 800, kHeight = 300;
-  std::string svg = begin_svg(kWidth, kHeight);
-  append_heading(svg, heading);
+  std::string svg = begin_svg(kWidth, kHeight, heading);
   append_text(svg, {kWidth / 2, kHeight / 2 + 20}, message, {.size = 20, .anchor = "middle"});
   return svg + "</svg>\n";
 }

@@ -13,16 +13,24 @@ struct PicturePoint {
   double x = 0, y = 0;
 };
 
-// `text` as XML text or as the value of an attribute. It is made safe to show first (libreeb/base/printable.h).
-std::string xml_escaped(std::string_view text);
-
 // Appends a coordinate with at most `decimals` digits after the point.
 void append_coordinate(std::string& svg, double value, int decimals = 1);
 // Appends "X,Y".
 void append_point(std::string& svg, PicturePoint point);
 
-// The first lines of a picture on white. It ends with "</svg>\n".
-std::string begin_svg(double width, double height);
+// The two lines above a picture.
+struct Heading {
+  std::string title, subtitle;
+};
+inline constexpr double kHeadingHeight = 56;  // pixels
+void append_heading(std::string& svg, const Heading& heading);
+
+// What programs that read a picture aloud say of it.
+inline constexpr const char* kSvgRole = " role=\"img\"";
+std::string svg_title(const Heading& heading);
+
+// The first lines of a picture on white, with its heading. It ends with "</svg>\n".
+std::string begin_svg(double width, double height, const Heading& heading);
 
 struct LabelStyle {
   double size = 13;
@@ -31,13 +39,6 @@ struct LabelStyle {
   Rgb color = kInk;
 };
 void append_text(std::string& svg, PicturePoint at, std::string_view text, const LabelStyle& style = {});
-
-// The two lines above a picture.
-struct Heading {
-  std::string title, subtitle;
-};
-inline constexpr double kHeadingHeight = 56;  // pixels
-void append_heading(std::string& svg, const Heading& heading);
 
 // A picture that only says something.
 std::string message_picture(const Heading& heading, std::string_view message);

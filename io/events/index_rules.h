@@ -24,6 +24,10 @@ class FinalSet {
     ++size_;
   }
   std::uint32_t size() const { return size_; }
+  std::uint64_t memory_bytes() const {
+    return words_.capacity() * sizeof(std::uint64_t) +
+           (pages_.capacity() + counts_.capacity() + free_.capacity()) * sizeof(std::uint32_t);
+  }
   // REQUIRES: vertex < size().
   bool contains(std::uint32_t vertex) const {
     const std::uint32_t page = pages_[vertex / kPageVertices];
@@ -61,6 +65,7 @@ class IndexRules {
   void set_post_order(bool post_order) { post_order_ = post_order; }
   bool post_order() const { return post_order_; }
   std::uint32_t vertex_count() const { return final_.size(); }
+  std::uint64_t memory_bytes() const { return final_.memory_bytes(); }
 
   // A vertex arrives; in post-order it is final at once. REQUIRES: vertex_count() < kMaxVertices.
   void add_vertex() {

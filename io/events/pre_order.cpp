@@ -8,6 +8,7 @@ namespace reeb::io {
 namespace {
 
 constexpr std::uint32_t kNoCell = ~0u;
+constexpr std::size_t kEventsBetweenPauses = 65536;
 
 class PreOrderReader : public EventReader {
  public:
@@ -20,6 +21,11 @@ class PreOrderReader : public EventReader {
 
   std::vector<std::string> warnings() const override { return reader_->warnings(); }
   std::uint64_t bytes_read() const override { return reader_->bytes_read(); }
+  std::uint64_t memory_bytes() const override {
+    return EventReader::memory_bytes() + reader_->memory_bytes() + index_of_.memory_bytes() +
+           named_.capacity() * sizeof(Named) + cells_.capacity() * sizeof(WaitingCell) +
+           (free_named_.capacity() + free_cells_.capacity() + complete_.capacity()) * sizeof(std::uint32_t);
+  }
 
  private:
   // A vertex that a waiting cell names.
@@ -34,7 +40,8 @@ class PreOrderReader : public EventReader {
   };
 
   void fill() override {
-    while (queued() == 0) {
+    for (std::size_t n = 0; queued() == 0; ++n) {
+      if (n == kEventsBetweenPauses) return pause();
       const StreamEvent* event = reader_->next();
       if (event == nullptr) return;
       if (event->kind == EventKind::kVertex) arrive(*event);

@@ -4,9 +4,11 @@
 
 namespace reeb::io {
 
-bool EventReader::refill() {
+bool EventReader::prepare() {
+  if (at_ < count_) return true;
   if (fault_) std::rethrow_exception(fault_);
   at_ = count_ = 0;
+  paused_ = false;
   try {
     fill();
   } catch (Error& error) {
@@ -14,6 +16,11 @@ bool EventReader::refill() {
     fault_ = std::current_exception();
     if (count_ == 0) throw;
   }
+  return !paused_;
+}
+
+bool EventReader::refill() {
+  while (!prepare()) continue;
   return count_ != 0;
 }
 

@@ -61,6 +61,9 @@ class EventReader {
   // THROWS: Error{kBadInput} whose message starts with the class of the fault ("BAD_INDEX: ...");
   //         all events before the fault are delivered first.
   const StreamEvent* next() { return at_ < count_ || refill() ? &queue_[at_++] : nullptr; }
+  // Reads on for next(), but not longer than some events take. False if it takes longer, since many events are held
+  // back (pre_order.h): then memory_bytes() has grown, and it can be called again. THROWS: as next().
+  bool prepare();
 
   const std::string& name() const { return name_; }
   // Sets the name of the input in later error messages.
@@ -70,10 +73,13 @@ class EventReader {
   virtual std::vector<std::string> warnings() const { return warnings_; }
   // Bytes of the input consumed so far, as stored on disk (before decompression).
   virtual std::uint64_t bytes_read() const = 0;
+  // The memory that it holds so far and that grows with the stream.
+  virtual std::uint64_t memory_bytes() const { return queue_.capacity() * sizeof(StreamEvent); }
 
  protected:
-  // Appends the next events by push(), at least one unless the stream ends.
+  // Appends the next events by push(), at least one unless the stream ends or pause() is called.
   virtual void fill() = 0;
+  void pause() { paused_ = true; }
 
   StreamEvent& push(EventKind kind) {
     if (count_ == queue_.size()) queue_.resize(count_ == 0 ? 256 : 2 * count_);
@@ -92,6 +98,7 @@ class EventReader {
   std::string name_;
   std::vector<StreamEvent> queue_;  // reused; only the first count_ entries are events
   std::size_t at_ = 0, count_ = 0;
+  bool paused_ = false;
   std::exception_ptr fault_;  // thrown after the queued events
   std::vector<std::string> warnings_;
 };

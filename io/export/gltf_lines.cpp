@@ -1,11 +1,13 @@
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <limits>
+#include <string_view>
 
-#include "io/export/base64_output.h"
 #include "io/export/graph_lines.h"
 #include "io/export/line_points.h"
+#include "io/text/base64_encoder.h"
 #include "io/text/json_text.h"
 
 namespace reeb::io {
@@ -47,6 +49,7 @@ void write_float_point(const std::array<float, 3>& point, OutputBuffer& out) {
 // Two primitives of one mesh: all lines by index, and the nodes as points.
 void write_gltf_lines(const GraphView& view, OutputBuffer& out) {
   const std::uint64_t nodes = view.graph.node_count(), points = all_points(view);
+  require_few_points(points, kMostGltfPoints, "glTF");
   out << "{\"asset\": {\"version\": \"2.0\", \"generator\": \"reeb\"}, \"scene\": 0, \"scenes\": [{";
   if (nodes == 0) {
     out << "}]}\n";
@@ -82,13 +85,16 @@ void write_gltf_lines(const GraphView& view, OutputBuffer& out) {
         << ", \"target\": 34963}";
   out << "],\n\"buffers\": [{\"byteLength\": " << point_bytes + segment_bytes
       << ", \"uri\": \"data:application/octet-stream;base64,";
-  Base64Output data(out);
+  Base64Encoder data([&](std::string_view digits) { out << digits; });
+  const auto put = [&](std::uint32_t word) {  // little endian
+    for (unsigned shift = 0; shift < 32; shift += 8) data.put(static_cast<std::uint8_t>(word >> shift));
+  };
   for_each_point(view, [&](const auto& point) {
-    for (const float coordinate : relative(point, origin)) data.put(coordinate);
+    for (const float coordinate : relative(point, origin)) put(std::bit_cast<std::uint32_t>(coordinate));
   });
   for_each_segment(view, [&](std::uint64_t a, std::uint64_t b) {
-    data.put(static_cast<std::uint32_t>(a));
-    data.put(static_cast<std::uint32_t>(b));
+    put(static_cast<std::uint32_t>(a));
+    put(static_cast<std::uint32_t>(b));
   });
   data.finish();
   out << "\"}]}\n";

@@ -6,10 +6,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "io/export/graph_features.h"
 #include "io/export/line_points.h"
+#include "libreeb/base/error.h"
 #include "libreeb/graph/loop_ranges.h"
 
 namespace reeb::io {
@@ -197,10 +199,20 @@ void write_vtk_lines(const GraphView& view, VtkKind kind, OutputBuffer& out) {
   out << "</Piece>\n</" << type << ">\n</VTKFile>\n";
 }
 
+void require_few_points(std::uint64_t points, std::uint64_t most, const char* format) {
+  if (points > most)
+    throw Error(ErrorKind::kBadInput,
+                std::string("the graph has ") + std::to_string(points) + " points, but " + format +
+                    " numbers at most " + std::to_string(most),
+                "write it as vtp, or choose a coarser level");
+}
+
 void write_ply_lines(const GraphView& view, OutputBuffer& out) {
+  const std::uint64_t points = all_points(view);
+  require_few_points(points, kMostPlyPoints, "PLY");
   std::uint64_t edges = 0;
   for_each_segment(view, [&](std::uint64_t, std::uint64_t) { ++edges; });
-  out << "ply\nformat ascii 1.0\nelement vertex " << all_points(view)
+  out << "ply\nformat ascii 1.0\nelement vertex " << points
       << "\nproperty double x\nproperty double y\nproperty double z\nelement edge " << edges
       << "\nproperty int vertex1\nproperty int vertex2\nend_header\n";
   for_each_point(view, [&](const auto& point) { write_point(point, out); });

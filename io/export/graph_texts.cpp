@@ -15,6 +15,7 @@
 #include "io/export/graph_features.h"
 #include "io/text/json_text.h"
 #include "io/text/number_text.h"
+#include "io/text/xml_text.h"
 #include "libreeb/graph/loop_ranges.h"
 
 namespace reeb::io {
@@ -30,21 +31,6 @@ std::uint64_t vertices_of(const GraphView& view, std::size_t arc) {
 }
 
 int number_of(CriticalType type) { return static_cast<int>(type); }
-
-void write_xml_text(std::string_view text, OutputBuffer& out) {
-  for (const char c : text) {
-    if (c == '&')
-      out << "&amp;";
-    else if (c == '<')
-      out << "&lt;";
-    else if (c == '>')
-      out << "&gt;";
-    else if (c == '"')
-      out << "&quot;";
-    else
-      out << c;
-  }
-}
 
 // The ranks of nodes in a drawing, from below: nodes share one if they have one value, and no arc between them. Each
 // group of nodes (`group[i]` is that of node i) has ranks of its own.
@@ -223,8 +209,7 @@ void write_graphml(const GraphView& view, OutputBuffer& out) {
     out << "<data key=\"" << name << "\">" << value << "</data>";
   };
   out << "<graph edgedefault=\"directed\">\n<data key=\"function\">";
-  write_xml_text(view.function, out);
-  out << "</data>\n";
+  out << xml_escaped(view.function) << "</data>\n";
   for (std::size_t i = 0; i < graph.node_count(); ++i) {
     out << "<node id=\"" << graph.nodes[i].vertex.value() << "\">";
     write("value", Shortest{graph.nodes[i].value});

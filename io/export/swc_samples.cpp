@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "io/export/line_points.h"
+#include "libreeb/base/printable.h"
 
 namespace reeb::io {
 namespace {
@@ -116,9 +117,7 @@ class SwcWriter {
 }  // namespace
 
 void write_swc(const GraphView& view, OutputBuffer& out) {
-  out << "# the Reeb graph of ";
-  for (const char c : view.function) out << (c == '\n' || c == '\r' ? ' ' : c);
-  out << "\n# id type x y z radius parent\n";
+  out << "# the Reeb graph of " << printable(view.function) << "\n# id type x y z radius parent\n";
   SwcWriter(view, out).write();
 }
 

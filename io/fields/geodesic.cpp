@@ -14,7 +14,7 @@ namespace {
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 // The distance of corner c of a triangle to the virtual source that has the distances da and db from the corners a and
-// b; infinite if the way would not cross the edge ab. `ab`, `ac` and `bc` are lengths.
+// b; infinite if the path would not cross the edge ab. `ab`, `ac` and `bc` are lengths.
 double across(double da, double db, double ab, double ac, double bc) {
   if (!(ab > 0)) return kInfinite;
   // a at the origin, b on the axis, c above it, the source below.
@@ -72,6 +72,8 @@ constexpr std::uint32_t kNoVertex = ~std::uint32_t{0};
 // The third vertex of the other triangle at an edge; kNoVertex if there is none, or more than one.
 std::uint32_t far_vertex(const WholeComplex& complex, const Incidence& triangles, std::uint32_t a, std::uint32_t b,
                          std::uint32_t near) {
+  // A vertex in the middle of a fan has far more triangles than the ones around it.
+  if (triangles.of(b).size() < triangles.of(a).size()) std::swap(a, b);
   std::uint32_t far = kNoVertex;
   for (const std::uint32_t t : triangles.of(a)) {
     const auto& corners = complex.triangles[t];
@@ -137,6 +139,7 @@ std::vector<double> geodesic_distance(const WholeComplex& complex, std::span<con
   // They are counted first, so that their memory is reserved before it is taken.
   std::size_t crossing_count = 0;
   for_each_unfolded([&](const Crossing&, std::uint32_t, std::uint32_t) { ++crossing_count; });
+  require_numbers(crossing_count, "obtuse corners");
   memory.resize(memory.bytes() + 56 * crossing_count);
   Unfolded unfolded;
   unfolded.crossings.reserve(crossing_count);

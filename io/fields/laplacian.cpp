@@ -194,6 +194,9 @@ Pairs polished(const Factors& factors, const Pairs& pairs, double shift) {
 Pairs least_pairs(const Matrix& shifted, double shift, Index wanted, MemoryBudget& budget) {
   const Index size = shifted.rows();
   if (size < std::max(kDense, 2 * wanted + 30)) {
+    // The matrix and its eigenvectors, and the columns that are transformed at a time.
+    const Reservation memory = budget.reserve(
+        "dense Laplacian", 8 * static_cast<std::uint64_t>(size) * static_cast<std::uint64_t>(2 * size + 64));
     const Eigen::SelfAdjointEigenSolver<Vectors> solver{Vectors(shifted)};
     return {solver.eigenvectors().leftCols(wanted), solver.eigenvalues().head(wanted).array() + shift};
   }

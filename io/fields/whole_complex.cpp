@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <string>
 #include <utility>
 
 #include "libreeb/base/count_text.h"
@@ -36,7 +37,7 @@ class Growth {
 std::uint32_t index_of(const VertexNumbering& numbers, VertexId v) {
   if (!numbers.has_gaps()) return static_cast<std::uint32_t>(v.value());
   const auto index = numbers.index_of(v.value());
-  if (!index) throw InputChanged();
+  if (!index) throw input_changed();
   return static_cast<std::uint32_t>(*index);
 }
 
@@ -89,6 +90,13 @@ double WholeComplex::length(std::uint32_t a, std::uint32_t b) const {
   return std::sqrt(sum);
 }
 
+void require_numbers(std::uint64_t count, const char* items) {
+  if (count < std::numeric_limits<std::uint32_t>::max()) return;
+  throw Error(ErrorKind::kResource,
+              std::string("the mesh has too many ") + items + " for a function that needs all of it",
+              "choose a function of single vertices, or give the values with file:PATH");
+}
+
 WholeComplex read_whole(MeshReader& reader, MemoryBudget& budget) {
   WholeComplex complex;
   complex.dimension = reader.info().dimension;
@@ -97,9 +105,9 @@ WholeComplex read_whole(MeshReader& reader, MemoryBudget& budget) {
   MeshBatch batch;
   while (reader.read(batch)) {
     append(batch, complex, growth);
-    if (complex.coordinates.size() / complex.dimension >= std::numeric_limits<std::uint32_t>::max())
-      throw Error(ErrorKind::kResource, "the mesh has too many vertices for a function that needs all of it",
-                  "choose a function of single vertices, or give the values with file:PATH");
+    require_numbers(complex.coordinates.size() / complex.dimension, "vertices");
+    require_numbers(complex.triangles.size(), "triangles");
+    require_numbers(complex.edges.size(), "edges");
   }
   complex.number_count = reader.info().number_count.value_or(complex.vertex_count());
   return complex;

@@ -28,9 +28,11 @@ struct WholeComplex {
 };
 
 // Reads all of the mesh. MEMORY: 8 bytes a coordinate, 12 a triangle, 8 an edge; reserved before it is held.
-// THROWS: Error{kBadInput} of the reader; Error{kResource} if the budget does not allow it, or if there are 2^32 - 1 or
-//         more vertices.
+// THROWS: Error{kBadInput} of the reader; Error{kResource} if the budget does not allow it, or as require_numbers().
 WholeComplex read_whole(MeshReader& reader, MemoryBudget& budget);
+
+// THROWS: Error{kResource} if there are 2^32 - 1 or more of these items.
+void require_numbers(std::uint64_t count, const char* items);
 
 // For each vertex, items that have it: of vertex v those at items[begin[v]] up to items[begin[v + 1]].
 struct Incidence {

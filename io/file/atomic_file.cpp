@@ -31,7 +31,8 @@ constexpr std::string_view kSuffix = ".partial-";
 [[noreturn]] void throw_name_is_taken(const std::string& path) {
   throw Error(ErrorKind::kBadInput, "the output exists already",
               "choose another name, or allow replacing it with --force")
-      .at(path);
+      .at(path)
+      .because(ErrorCause::kExists);
 }
 
 // 0666 minus the umask. umask() returns the mask only by setting it, which other threads could notice, so /proc is read
@@ -72,11 +73,12 @@ void check_output_name(const std::string& path, Existing existing) {
   if (path.empty() || fs::is_directory(status))
     throw Error(existing == Existing::kReplace ? ErrorKind::kResource : ErrorKind::kBadInput, "the output is a folder",
                 "name a file")
-        .at(path);
+        .at(path)
+        .because(path.empty() ? ErrorCause::kNone : ErrorCause::kExists);
   if (fs::is_regular_file(status) && existing == Existing::kRefuse) throw_name_is_taken(path);
 }
 
-void require_output_folder(const std::string& path) {
+void require_output_folder(const std::string& path, const char* option) {
   if (is_device(path)) {
     if (path != kStandardOutput && ::access(path.c_str(), W_OK) != 0) throw_output_error(errno, path);
     return;
@@ -85,12 +87,16 @@ void require_output_folder(const std::string& path) {
   // The temporary file has a longer name.
   constexpr std::size_t kMaxName = 255, kSuffixBytes = sizeof(".partial-4194304-9") - 1;
   if (fs::path(target).filename().string().size() + kSuffixBytes > kMaxName)
-    throw Error(ErrorKind::kResource, "the name of the output is too long", "choose a shorter name").at(path);
+    throw Error(ErrorKind::kResource,
+                "the name of the output is too long: until it is whole, it has a suffix of " +
+                    std::to_string(kSuffixBytes) + " bytes",
+                "choose a name of at most " + std::to_string(kMaxName - kSuffixBytes) + " bytes")
+        .at(path);
   const int probe = system::open_unnamed(folder);
   if (probe < 0)
     throw Error(ErrorKind::kResource,
                 std::string("the output cannot be written to this folder: ") + std::strerror(errno),
-                hint_for(errno, "choose a folder that exists and is writable with -o FILE"))
+                hint_for(errno, std::string("choose a folder that exists and is writable with ") + option))
         .at(folder);
   ::close(probe);
 }

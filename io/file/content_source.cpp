@@ -24,8 +24,8 @@ namespace {
 
 class FileSource final : public ContentSource {
  public:
-  explicit FileSource(std::shared_ptr<const InputFile> file)
-      : ContentSource(file->path()), windows_(std::move(file), {.window_count = 2, .overlap_bytes = kLookahead}) {}
+  FileSource(const std::string& name, std::shared_ptr<const InputFile> file)
+      : ContentSource(name), windows_(std::move(file), {.window_count = 2, .overlap_bytes = kLookahead}) {}
   using ContentSource::view;
 
   std::string_view view(std::uint64_t offset, std::size_t /*min_bytes*/) override {
@@ -37,7 +37,9 @@ class FileSource final : public ContentSource {
   std::uint64_t file_bytes_read() const override { return read_; }
   std::uint64_t file_bytes() const override { return windows_.size(); }
   std::shared_ptr<const InputFile> file() const override { return windows_.file(); }
-  std::unique_ptr<ContentSource> reopen() const override { return std::make_unique<FileSource>(windows_.file()); }
+  std::unique_ptr<ContentSource> reopen() const override {
+    return std::make_unique<FileSource>(name(), windows_.file());
+  }
 
  private:
   FileWindows windows_;
@@ -89,38 +91,6 @@ class FileInput final : public RawInput {
  private:
   FileWindows windows_;
   std::uint64_t offset_ = 0;
-};
-
-// Content that was copied to a temporary file.
-class CopiedSource final : public ContentSource {
- public:
-  CopiedSource(const std::string& name, std::shared_ptr<const File> file)
-      : ContentSource(name), file_(std::move(file)), size_(file_->size()), buffer_(4 * kLookahead) {}
-  using ContentSource::view;
-
-  std::string_view view(std::uint64_t offset, std::size_t min_bytes) override {
-    const bool held = offset >= begin_ && offset <= begin_ + filled_;
-    const bool to_end = held && begin_ + filled_ == size_;
-    if (!to_end && !(held && begin_ + filled_ - offset >= min_bytes)) {
-      begin_ = std::min(offset, size_);
-      filled_ = static_cast<std::size_t>(std::min<std::uint64_t>(buffer_.size(), size_ - begin_));
-      if (filled_ != 0) file_->read_at(begin_, std::as_writable_bytes(std::span(buffer_).first(filled_)));
-    }
-    const auto skip = static_cast<std::size_t>(std::min(offset, begin_ + filled_) - begin_);
-    return {buffer_.data() + skip, filled_ - skip};
-  }
-  bool can_seek() const override { return true; }
-  std::optional<std::uint64_t> size() const override { return size_; }
-  std::uint64_t file_bytes_read() const override { return begin_ + filled_; }
-  std::uint64_t file_bytes() const override { return size_; }
-  std::unique_ptr<ContentSource> reopen() const override { return std::make_unique<CopiedSource>(name(), file_); }
-
- private:
-  std::shared_ptr<const File> file_;
-  std::uint64_t size_;
-  std::vector<char> buffer_;
-  std::uint64_t begin_ = 0;  // content offset of the buffer
-  std::size_t filled_ = 0;
 };
 
 class PipeInput final : public RawInput {
@@ -244,19 +214,19 @@ std::unique_ptr<RawInput> open_pipe(const std::string& path) {
 }  // namespace
 
 std::unique_ptr<ContentSource> open_content(std::shared_ptr<const InputFile> file) {
-  auto plain = std::make_unique<FileSource>(file);
+  auto plain = std::make_unique<FileSource>(file->path(), file);
   if (detect_compression(plain->view(0)) == Compression::kNone) return plain;
   return stream_source(file->path(), std::make_unique<FileInput>(file), file->empty(), file);
 }
 
 std::unique_ptr<ContentSource> make_reopenable(std::unique_ptr<ContentSource> source, const std::string& temp_folder) {
   if (source->reopen() != nullptr) return source;
-  auto copy = std::make_shared<File>(TempDir(temp_folder).create_unnamed("input"));
+  File copy = TempDir(temp_folder).create_unnamed("input");
   std::uint64_t offset = 0;
   for (std::string_view bytes; !(bytes = source->view(offset, ContentSource::kLookahead)).empty();
        offset += bytes.size())
-    copy->write_at(offset, std::as_bytes(std::span(bytes)));
-  return std::make_unique<CopiedSource>(source->name(), std::move(copy));
+    copy.write_at(offset, std::as_bytes(std::span(bytes)));
+  return std::make_unique<FileSource>(source->name(), std::make_shared<const InputFile>(std::move(copy)));
 }
 
 std::unique_ptr<ContentSource> open_for_seeking(std::shared_ptr<const InputFile> file) {

@@ -11,6 +11,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 namespace reeb::io {
@@ -90,14 +91,19 @@ class Input {
   // As InputFile; a pipe cannot change.
   void check_unchanged(const char* content = "the mesh") const;
 
-  // Returns what work() returns. Whatever goes wrong with an input that changes is due to the change.
-  // THROWS: InputChanged if it changed, whether work() threw or not; else what work() throws.
+  // Returns what work() returns, if anything. Whatever goes wrong with an input that changes is due to the change.
+  // THROWS: Error{kChanged} if it changed, whether work() threw or not; else what work() throws.
   template <class Work>
   auto read(const Work& work) const {
     try {
-      auto result = work();
-      check_unchanged();
-      return result;
+      if constexpr (std::is_void_v<decltype(work())>) {
+        work();
+        check_unchanged();
+      } else {
+        auto result = work();
+        check_unchanged();
+        return result;
+      }
     } catch (const std::exception&) {
       check_unchanged();
       throw;

@@ -48,7 +48,7 @@ class RawDevice {
 // THROWS: std::bad_alloc.
 std::shared_ptr<z_stream> make_gzip_stream() {
   auto stream = std::make_unique<z_stream>();
-  constexpr int kGzip = 16;  // added to the bits of the window: as zlib has it
+  constexpr int kGzip = 16;  // zlib: 16 + window bits means a gzip header
   if (inflateInit2(stream.get(), MAX_WBITS + kGzip) != Z_OK) throw std::bad_alloc();
   return {stream.release(), [](z_stream* open) {
             inflateEnd(open);
@@ -189,9 +189,9 @@ class DecompressedInput final : public RawInput {
     try {
       const std::streamsize got = bio::read(chain_, out, static_cast<std::streamsize>(limit));
       return got < 0 ? 0 : static_cast<std::size_t>(got);
-    } catch (const Error& failure) {
-      if (!failure.file().empty()) throw;
-      throw Error(failure.kind(), failure.message(), failure.hint()).at(name_);
+    } catch (Error& failure) {
+      if (failure.file().empty()) failure.at(name_);
+      throw;
     } catch (const Damaged& damage) {
       throw_damaged(damage.what, damage.is_cut);
     }

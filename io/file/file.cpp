@@ -21,8 +21,12 @@ namespace {
 
 bool is_full(int error) { return error == ENOSPC || error == EDQUOT; }
 
-[[noreturn]] void throw_unreadable(const std::string& why, const std::string& path) {
-  throw Error(ErrorKind::kBadInput, "cannot be read: " + why, "name a file that exists and may be read").at(path);
+ErrorCause cause_of(int error) { return error == ENOMEM ? ErrorCause::kMemory : ErrorCause::kNone; }
+
+[[noreturn]] void throw_unreadable(const std::string& why, const std::string& path, ErrorCause cause) {
+  throw Error(ErrorKind::kBadInput, "cannot be read: " + why, "name a file that exists and may be read")
+      .at(path)
+      .because(cause);
 }
 
 bool is_limit(int error) { return error == EMFILE || error == ENFILE || error == ENOMEM || error == EAGAIN; }
@@ -101,7 +105,7 @@ File File::open_for_reading(const std::string& path) {
   // Checked first: opening a FIFO would wait for its writer.
   struct stat status {};
   if (::stat(path.c_str(), &status) != 0) throw_input_error(errno, path);
-  if (!S_ISREG(status.st_mode)) throw_unreadable("not a regular file", path);
+  if (!S_ISREG(status.st_mode)) throw_unreadable("not a regular file", path, ErrorCause::kNone);
   const int descriptor = system::open(path, O_RDONLY);
   if (descriptor < 0) throw_input_error(errno, path);
   return {descriptor, path, Use::kInput};
@@ -118,10 +122,13 @@ File File::create(const std::string& path) {
   struct stat status {};
   if (::lstat(path.c_str(), &status) == 0 && S_ISREG(status.st_mode)) ::unlink(path.c_str());
   const int descriptor = system::open(path, O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW, 0600);
-  if (descriptor < 0)
-    throw Error(ErrorKind::kResource, std::string("cannot be created: ") + std::strerror(errno),
-                hint_for(errno, "choose a folder that exists and can be written"))
-        .at(path);
+  if (descriptor < 0) {
+    const int error = errno;
+    throw Error(ErrorKind::kResource, std::string("cannot be created: ") + std::strerror(error),
+                hint_for(error, "choose a folder that exists and can be written"))
+        .at(path)
+        .because(cause_of(error));
+  }
   return {descriptor, path, Use::kTemporary};
 }
 
@@ -148,10 +155,13 @@ void File::write_next(std::uint64_t offset, std::span<const std::byte> bytes) co
 
 Mapping File::map(std::uint64_t offset, std::size_t bytes) const {
   void* const begin = system::map(descriptor_, offset, bytes);
-  if (begin == nullptr)
-    throw Error(ErrorKind::kResource, std::string("cannot be mapped: ") + std::strerror(errno),
-                hint_for(errno, "check that the file is still there"))
-        .at(path_, std::to_string(offset));
+  if (begin == nullptr) {
+    const int error = errno;
+    throw Error(ErrorKind::kResource, std::string("cannot be mapped: ") + std::strerror(error),
+                hint_for(error, "check that the file is still there"))
+        .at(path_, std::to_string(offset))
+        .because(cause_of(error));
+  }
   Mapping mapping;
   mapping.bytes_ = {static_cast<const std::byte*>(begin), bytes};
   return mapping;
@@ -169,8 +179,8 @@ void File::fail(const char* doing, int error, std::uint64_t offset, std::size_t 
         .at(path_, std::to_string(offset));
   std::string what = std::string("cannot ") + doing + " " + format_bytes(bytes) + ": ";
   what += error == 0 ? "the file ends before" : std::strerror(error);
-  const std::string hint = is_full(error) ? "free at least " + format_bytes(offset + bytes) +
-                                                " more on this volume, or choose another with --temp-dir DIR"
+  const std::string room = bytes == 0 ? "make room" : "free at least " + format_bytes(bytes) + ", better more,";
+  const std::string hint = is_full(error) ? room + " on this volume, or choose another with --temp-dir DIR"
                                           : hint_for(error, "check the disk, or choose another with --temp-dir DIR");
   throw Error(ErrorKind::kResource, what, hint).at(path_, std::to_string(offset));
 }
@@ -183,9 +193,11 @@ std::string hint_for(int error, const std::string& otherwise) {
 }
 
 void throw_input_error(int error, const std::string& path) {
-  if (!is_limit(error)) throw_unreadable(std::strerror(error), path);
+  if (!is_limit(error))
+    throw_unreadable(std::strerror(error), path, error == ENOENT ? ErrorCause::kMissing : ErrorCause::kNone);
   throw Error(ErrorKind::kResource, std::string("cannot be read: ") + std::strerror(error), hint_for(error, {}))
-      .at(path);
+      .at(path)
+      .because(cause_of(error));
 }
 
 void throw_output_error(int error, const std::string& path, const std::string& position) {
@@ -194,7 +206,8 @@ void throw_output_error(int error, const std::string& path, const std::string& p
               std::string("cannot be written") + (error == 0 ? "" : std::string(": ") + std::strerror(error)),
               hint_for(error, standard ? "check what standard output leads to, or name a file with -o"
                                        : "choose a folder that exists and is writable"))
-      .at(path, standard ? "" : position);
+      .at(path, standard ? "" : position)
+      .because(cause_of(error));
 }
 
 }  // namespace reeb::io

@@ -15,11 +15,12 @@ namespace reeb::io {
 
 void check_input_file(const std::string& path) {
   if (path.empty())
-    throw Error(ErrorKind::kBadInput, "the name of an input is empty", "name a file; perhaps a variable is not set");
+    throw Error(ErrorKind::kBadInput, "the name of an input is empty", "name a file; perhaps a variable is not set")
+        .because(ErrorCause::kMissing);
   std::error_code failure;
   const auto status = std::filesystem::status(path, failure);
   if (status.type() == std::filesystem::file_type::not_found)
-    throw Error(ErrorKind::kBadInput, "there is no such file", "check the path").at(path);
+    throw Error(ErrorKind::kBadInput, "there is no such file", "check the path").at(path).because(ErrorCause::kMissing);
   if (failure == std::errc::too_many_symbolic_link_levels)
     throw Error(ErrorKind::kBadInput, "this is a symbolic link that leads to itself", "name a file").at(path);
   if (std::filesystem::is_directory(status))
@@ -72,7 +73,7 @@ void InputFile::check_unchanged(const char* content) const {
   struct stat status {};
   const bool replaced =
       ::stat(path().c_str(), &status) == 0 && (status.st_dev != state_.device || status.st_ino != state_.inode);
-  if (written || replaced) throw InputChanged(std::string(content) + " changed while it was read").at(path());
+  if (written || replaced) throw input_changed(std::string(content) + " changed while it was read").at(path());
 }
 
 std::shared_ptr<const InputFile> open_if_regular(const std::string& path, Empty empty) {

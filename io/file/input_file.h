@@ -46,7 +46,7 @@ class InputFile {
   void read_at(std::uint64_t offset, std::span<std::byte> bytes) const { file_.read_at(offset, bytes); }
 
   // What was read fits together only if this does not throw afterwards. `content` is for the message.
-  // THROWS: InputChanged if the file was written to since it was opened, or its name is that of another file now.
+  // THROWS: Error{kChanged} if the file was written to since it was opened, or its name is that of another file now.
   void check_unchanged(const char* content) const;
 
  private:

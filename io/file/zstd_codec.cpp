@@ -20,7 +20,8 @@ void ZstdCompressor::compress(std::span<const std::byte> bytes, int level, std::
       ZSTD_compressCCtx(context_.get(), frame_.get(), capacity_, bytes.data(), bytes.size(), level);
   if (ZSTD_isError(size) != 0)
     throw Error(ErrorKind::kResource, std::string("zstd: ") + ZSTD_getErrorName(size),
-                "close other programs, or allow less with --memory SIZE");
+                "close other programs, or allow less with --memory SIZE")
+        .because(ErrorCause::kMemory);
   out.insert(out.end(), frame_.get(), frame_.get() + size);
 }
 

@@ -20,6 +20,8 @@ struct Mark {
 
 constexpr ForeignFormat other(std::string_view name, std::string_view advice = {}) { return {name, false, advice}; }
 
+constexpr const char* kAsImage = "convert it to NPY or NRRD";
+
 constexpr ForeignFormat kUtf16 = other("text in UTF-16", "save it as UTF-8 or ASCII text first");
 
 constexpr Mark kMarks[] = {
@@ -36,15 +38,16 @@ constexpr Mark kMarks[] = {
      other("a Git LFS pointer, without the content of the file", "fetch the content with `git lfs pull`")},
     {"\xFF\xFE"sv, kUtf16},
     {"\xFE\xFF"sv, kUtf16},
-    {"\x89PNG\r\n"sv, other("a PNG picture")},
-    {"\xFF\xD8\xFF"sv, other("a JPEG picture")},
-    {"II*\0"sv, other("a TIFF picture")},
-    {"MM\0*"sv, other("a TIFF picture")},
+    {"\x89PNG\r\n"sv, other("a PNG picture", kAsImage)},
+    {"\xFF\xD8\xFF"sv, other("a JPEG picture", kAsImage)},
+    {"II*\0"sv, other("a TIFF picture", kAsImage)},
+    {"MM\0*"sv, other("a TIFF picture", kAsImage)},
     {"%PDF-"sv, other("a PDF document")},
     {"PK\3\4"sv, other("a ZIP archive", "unpack it first")},
     {"7z\xBC\xAF\x27\x1C"sv, other("a 7-Zip archive", "unpack it first")},
     {"\xFD\x37zXZ"sv, other("packed with xz", "unpack it first")},
     {"BZh"sv, other("packed with bzip2", "unpack it first")},
+    {"DICM"sv, other("a DICOM slice", "convert the series to NRRD or NIfTI"), 128},
     {"ustar"sv, other("a tar archive", "unpack it first"), 257},
 };
 

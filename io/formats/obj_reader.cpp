@@ -4,13 +4,12 @@
 #include <array>
 #include <utility>
 
+#include "io/text/hints.h"
 #include "libreeb/base/count_text.h"
 #include "libreeb/base/error.h"
 
 namespace reeb::io {
 namespace {
-
-constexpr std::string_view kTruncatedHint = "the file may be cut or damaged here";
 
 // Sorted. Lines without simplices: free-form geometry, groups, materials and rendering state.
 constexpr auto kSkippedKeywords = std::to_array<std::string_view>(
@@ -61,15 +60,28 @@ void ObjReader::begin_line(MeshBatch& batch) {
     read_vertex(batch);
   } else if (keyword == "f" || keyword == "l" || keyword == "fo" || keyword == "p") {
     has_obj_line_ = true;
+    if (!text_.more_on_line()) text_.fail("\"" + std::string(keyword) + "\" without a vertex", kCutOrDamagedHereHint);
     face_.begin(keyword == "l" ? FaceShape::kPolyline : keyword == "p" ? FaceShape::kPoints : FaceShape::kPolygon);
     in_face_ = true;
   } else {
     if (is_skipped(keyword))
-      has_obj_line_ = true;
+      note_skipped(keyword);
     else if (unknown_lines_++ == 0)
       first_unknown_line_ = text_.line();
     text_.skip_line();
   }
+}
+
+void ObjReader::note_skipped(std::string_view keyword) {
+  has_obj_line_ = true;
+  if (keyword == "vn")
+    skipped_.normals = true;
+  else if (keyword == "vt")
+    skipped_.texture = true;
+  else if (keyword == "g" || keyword == "o" || keyword == "s" || keyword == "mg")
+    skipped_.groups = true;
+  else if (keyword == "usemtl" || keyword == "mtllib")
+    skipped_.materials = true;
 }
 
 void ObjReader::read_vertex(MeshBatch& batch) {
@@ -77,12 +89,13 @@ void ObjReader::read_vertex(MeshBatch& batch) {
   for (double& coordinate : point) coordinate = text_.finite_number<double>("coordinate");
   unsigned numbers = 3;
   for (; text_.more_on_line(); ++numbers)
-    if (spells_non_finite(text_.token())) ++odd_extras_;
+    if (spells_non_finite(text_.token())) ++non_finite_extras_;
   if (numbers == 5 || numbers > 6)
     text_.fail("a vertex of " + std::to_string(numbers) + " numbers",
                "a vertex has 3 coordinates, and perhaps a weight or a colour of 3 numbers");
   text_.skip_line();
   has_obj_line_ = true;
+  if (numbers == 6) skipped_.colors = true;
   for (std::size_t k = 0; k < 3; ++k) batch.coordinates[k].push_back(point[k]);
   count_vertices(batch, 1);
 }
@@ -102,11 +115,11 @@ VertexId ObjReader::corner() {
   const bool negative = text_.peek() == '-';
   if (negative) text_.advance();
   std::uint64_t number = 0;
-  if (!text_.digits(number)) text_.fail_digits("vertex number", std::string(kTruncatedHint));
+  if (!text_.digits(number)) text_.fail_digits("vertex number", kCutOrDamagedHereHint);
   if (text_.peek() == '/') skip_texture_and_normal();
   const char next = text_.peek();
   if (next != '\n' && next != '\\' && next != '#' && !is_blank(next))
-    text_.fail("a face corner is not of the form a, a/t, a//n or a/t/n", std::string(kTruncatedHint));
+    text_.fail("a face corner is not of the form a, a/t, a//n or a/t/n", kCutOrDamagedHereHint);
   if (number == 0 || number > vertices_read()) fail_corner(negative, number);
   return VertexId(negative ? vertices_read() - number : number - 1);
 }
@@ -124,13 +137,22 @@ void ObjReader::fail_corner(bool negative, std::uint64_t number) const {
 
 std::vector<std::string> ObjReader::warnings() const {
   std::vector<std::string> lines;
+  if (options().names_losses) {
+    std::string names;
+    for (const auto& [is_there, name] :
+         {std::pair(skipped_.normals, "normals"), std::pair(skipped_.texture, "texture coordinates"),
+          std::pair(skipped_.colors, "colours"), std::pair(skipped_.groups, "groups"),
+          std::pair(skipped_.materials, "materials")})
+      if (is_there) names.append(names.empty() ? "" : ", ").append(name);
+    if (!names.empty()) lines.push_back("not kept from the OBJ file: " + names);
+  }
   if (unknown_lines_ != 0)
     lines.push_back(count_of(unknown_lines_, "unknown line") +
                     (unknown_lines_ == 1 ? " was skipped: line " : " were skipped, the first is line ") +
                     std::to_string(first_unknown_line_));
-  if (odd_extras_ != 0)
-    lines.push_back(count_of(odd_extras_, "number") + " for weights or colours, which are not used, " +
-                    (odd_extras_ == 1 ? "is" : "are") + " not finite");
+  if (non_finite_extras_ != 0)
+    lines.push_back(count_of(non_finite_extras_, "number") + " for weights or colours, which are not used, " +
+                    (non_finite_extras_ == 1 ? "is" : "are") + " not finite");
   return lines;
 }
 

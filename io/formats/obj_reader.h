@@ -28,6 +28,7 @@ class ObjReader final : public BatchReader {
   void read_vertex(MeshBatch& batch);
   void read_corner(MeshBatch& batch);
   void check_lines() const;
+  void note_skipped(std::string_view keyword);
   VertexId corner();
   void skip_texture_and_normal();
   [[noreturn]] void fail_corner(bool negative, std::uint64_t number) const;
@@ -35,7 +36,10 @@ class ObjReader final : public BatchReader {
   TextCursor text_;
   SimplexAssembler face_;
   bool in_face_ = false, has_obj_line_ = false;
-  std::uint64_t unknown_lines_ = 0, first_unknown_line_ = 0, odd_extras_ = 0;
+  struct {
+    bool normals = false, texture = false, colors = false, groups = false, materials = false;
+  } skipped_;
+  std::uint64_t unknown_lines_ = 0, first_unknown_line_ = 0, non_finite_extras_ = 0;
 };
 
 }  // namespace reeb::io

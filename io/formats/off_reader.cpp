@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "io/mesh/scalar_bytes.h"
+#include "io/text/hints.h"
 #include "libreeb/base/count_text.h"
 
 namespace reeb::io {
@@ -13,8 +14,7 @@ namespace {
 
 // More coordinates than any mesh has: a header that announces more is damaged.
 constexpr std::int64_t kMaxDimension = 1024;
-constexpr const char* kHeaderHint = "the OFF header is damaged; write the file again";
-constexpr const char* kCutHint = "the file is cut; get a whole copy";
+constexpr const char* kOffHeaderHint = "the OFF header is damaged; write the file again";
 
 struct OffHeader {
   OffKind kind;
@@ -38,7 +38,7 @@ void check_counts(const OffHeader& header, const ContentSource& source, std::uin
   throw Error(ErrorKind::kBadInput,
               "the header announces " + count_of(header.vertices, "vertex") + " and " + count_of(header.faces, "face") +
                   ", more than the file has room for",
-              "the file is cut, or its header is damaged; get a whole copy")
+              kCutOrHeaderHint)
       .at(source.name(), position);
 }
 
@@ -83,7 +83,7 @@ class OffReader : public BatchReader {
   void advance_face(MeshBatch& batch) {
     if (!std::exchange(in_face_, true)) {
       corners_left_ = begin_face();
-      if (corners_left_ < 0) fail("a face has a negative number of corners", kHeaderHint);
+      if (corners_left_ < 0) fail("a face has a negative number of corners", kOffHeaderHint);
       face_.begin(FaceShape::kPolygon);
     }
     if (corners_left_ != 0) {
@@ -117,7 +117,7 @@ class AsciiOffReader final : public OffReader {
     if (header.kind.any_dimension) {
       const std::int64_t declared = header_integer();
       if (declared < 1 || declared > kMaxDimension)
-        text_.fail("a mesh of dimension " + std::to_string(declared), kHeaderHint);
+        text_.fail("a mesh of dimension " + std::to_string(declared), kOffHeaderHint);
       header.dimension = dimension_of(header.kind, declared);
     }
     header.vertices = count();
@@ -132,9 +132,9 @@ class AsciiOffReader final : public OffReader {
   std::uint64_t bytes_read() const override { return text_.bytes_read(); }
   std::vector<std::string> warnings() const override {
     std::vector<std::string> lines = OffReader::warnings();
-    if (odd_values_ != 0)
-      lines.push_back(count_of(odd_values_, "value") + " of normals or colours " + (odd_values_ == 1 ? "is" : "are") +
-                      " not finite (they are not used)");
+    if (non_finite_values_ != 0)
+      lines.push_back(count_of(non_finite_values_, "value") + " of normals or colours " +
+                      (non_finite_values_ == 1 ? "is" : "are") + " not finite (they are not used)");
     return lines;
   }
 
@@ -145,7 +145,7 @@ class AsciiOffReader final : public OffReader {
   }
   std::uint64_t count() {
     const std::int64_t value = header_integer();
-    if (value < 0) text_.fail("a count is negative", kHeaderHint);
+    if (value < 0) text_.fail("a count is negative", kOffHeaderHint);
     return static_cast<std::uint64_t>(value);
   }
 
@@ -154,7 +154,7 @@ class AsciiOffReader final : public OffReader {
       text_.require_more("coordinate");
       column.push_back(text_.finite_number<double>("coordinate"));
     }
-    while (text_.more_on_line()) odd_values_ += spells_non_finite(text_.token()) ? 1u : 0u;
+    while (text_.more_on_line()) non_finite_values_ += spells_non_finite(text_.token()) ? 1u : 0u;
     text_.skip_line();
   }
   std::int64_t begin_face() override { return number("number of corners"); }
@@ -169,12 +169,12 @@ class AsciiOffReader final : public OffReader {
     std::uint64_t value = 0;
     if (!text_.digits(value)) return text_.integer(what);
     if (const char next = text_.peek(); next != '\n' && next != '#' && !is_blank(next))
-      text_.fail(std::string("a ") + what + " is not an integer", "the file may be damaged here");
+      text_.fail(std::string("a ") + what + " is not an integer", kDamagedHereHint);
     return static_cast<std::int64_t>(value);
   }
 
   TextCursor text_;
-  std::uint64_t odd_values_ = 0;
+  std::uint64_t non_finite_values_ = 0;
 };
 
 class BinaryOffReader final : public OffReader {
@@ -184,7 +184,7 @@ class BinaryOffReader final : public OffReader {
     if (header.kind.any_dimension) {
       const std::int64_t declared = integer();
       if (declared < 1 || declared > kMaxDimension)
-        fail("a mesh of dimension " + std::to_string(declared), kHeaderHint);
+        fail("a mesh of dimension " + std::to_string(declared), kOffHeaderHint);
       header.dimension = dimension_of(header.kind, declared);
     }
     header.vertices = count();
@@ -212,7 +212,7 @@ class BinaryOffReader final : public OffReader {
   std::int64_t integer() { return load_scalar<std::int32_t>(take(4), true); }
   std::uint64_t count() {
     const std::int64_t value = integer();
-    if (value < 0) fail("a count is negative", kHeaderHint);
+    if (value < 0) fail("a count is negative", kOffHeaderHint);
     return static_cast<std::uint64_t>(value);
   }
 
@@ -266,11 +266,11 @@ std::unique_ptr<MeshReader> open_off(std::unique_ptr<ContentSource> source, cons
   text.more();
   header.keyword = text.token();
   const auto kind = parse_off_keyword(header.keyword);
-  if (!kind) text.fail("an OFF file begins with the word OFF", kHeaderHint);
+  if (!kind) text.fail("an OFF file begins with the word OFF", kOffHeaderHint);
   header.kind = *kind;
   header.dimension = dimension_of(header.kind, 3);
   if (text.more_on_line() && text.peek() == 'B') {
-    if (text.token() != "BINARY") text.fail("only the word BINARY may be here", kHeaderHint);
+    if (text.token() != "BINARY") text.fail("only the word BINARY may be here", kOffHeaderHint);
     header.kind.binary = true;
     text.skip_line();
     return std::make_unique<BinaryOffReader>(std::move(text.bytes()), header, options);

@@ -44,6 +44,29 @@ std::optional<ImageFormat> told_format(const std::string& path, const std::strin
   return image_format_named(format);
 }
 
+// Options of raw files without --grid, which only a raw file needs: the content can be another one.
+// THROWS: Error{kUsage} if it is.
+void refuse_raw_options(ContentSource& source, const std::string& path, const std::string& format,
+                        const ImageOptions& image) {
+  if (!image.is_raw() || !image.grid.empty()) return;
+  const bool of_spacing = !image.spacing.empty();
+  const std::string option = of_spacing ? "--spacing" : !image.type.empty() ? "--type" : "--skip";
+  const auto known = format.empty() ? image_format_of(source.view(0)) : image_format_named(format);
+  if (known == ImageFormat::kNumpy && of_spacing)
+    throw Error(ErrorKind::kUsage, "--spacing is for raw images; the vertices of a NumPy array are 1 apart",
+                "leave it out; an NRRD or NIfTI image can have another spacing")
+        .at(path);
+  if (known && *known != ImageFormat::kRaw)
+    throw Error(ErrorKind::kUsage,
+                option + " is for raw images; " + std::string(image_name(*known)) + " says this in its header",
+                "leave it out, or change the header")
+        .at(path);
+  if (content_suffix(path) == ".raw" || known) return;
+  const MeshFormat kind = format.empty() ? detect_format(source, path) : chosen_format(format, source);
+  if (kind != MeshFormat::kUnknown)
+    throw Error(ErrorKind::kUsage, option + " is for raw images, and this is a mesh", "leave it out").at(path);
+}
+
 }  // namespace
 
 Input mesh_input(const std::string& path, const std::string& format) {
@@ -78,6 +101,7 @@ std::unique_ptr<MeshReader> open_mesh(const Input& input, std::unique_ptr<Conten
                                       const std::string& format) {
   GridOptions grid;
   grid.format = told_format(input.path(), format, image);
+  refuse_raw_options(*source, input.path(), format, image);
   if (image.is_raw()) grid.raw = parse_raw_grid(image.grid, image.type, image.spacing, image.skip_bytes);
   if (!grid.format) {
     const bool may_be_image =
@@ -140,7 +164,7 @@ std::unique_ptr<MeshReader> open_mesh(std::unique_ptr<ContentSource> source, con
       break;
   }
   if (const auto image = detect_image(*source, path))
-    throw Error(ErrorKind::kBadInput, "this is " + std::string(image_name(*image)) + ", a grid of values and no mesh",
+    throw Error(ErrorKind::kBadInput, "this is " + std::string(image_name(*image)) + ", a grid of values, not a mesh",
                 kFormatsRead)
         .at(name, "0");
   const ForeignFormat known = foreign_format(source->view(0));

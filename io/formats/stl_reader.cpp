@@ -5,15 +5,12 @@
 #include <utility>
 
 #include "io/mesh/scalar_bytes.h"
+#include "io/text/hints.h"
 #include "io/text/words.h"
 #include "libreeb/base/count_text.h"
 
 namespace reeb::io {
-namespace {
-
-constexpr const char* kDamagedHint = "the file may be cut or damaged here";
-
-}  // namespace
+namespace {}  // namespace
 
 StlReader::StlReader(const ContentSource& source, ReadOptions options, std::string format)
     : BatchReader(std::move(options)) {
@@ -48,7 +45,7 @@ AsciiStlReader::AsciiStlReader(std::unique_ptr<ContentSource> source, ReadOption
 bool AsciiStlReader::advance(MeshBatch& batch) {
   if (!text_.more()) {
     text_.mark();
-    if (in_solid_) text_.fail("the file ends inside a solid", "the file is cut; get a whole copy");
+    if (in_solid_) text_.fail("the file ends inside a solid", kCutHint);
     return false;
   }
   const std::string keyword = lower_case(text_.token());
@@ -56,29 +53,33 @@ bool AsciiStlReader::advance(MeshBatch& batch) {
     VertexWeld::Coordinates point{};
     for (double& coordinate : point) coordinate = text_.finite_number<double>("coordinate");
     add_corner(point, batch);
-    ++facet_corners_;
+    ++loop_corners_;
+    loop_ended_ = false;
   } else if (keyword == "endloop" && in_facet_) {
-    end_facet(batch);
+    end_loop(batch);
   } else if (keyword == "facet" && in_solid_ && !in_facet_) {
     in_facet_ = true;
-    facet_corners_ = 0;
+    loop_ended_ = false;
     facet_.begin(FaceShape::kPolygon);
   } else if (keyword == "solid" && !in_solid_) {
     in_solid_ = true;
   } else if (keyword == "endsolid" && in_solid_ && !in_facet_) {
     in_solid_ = false;
   } else if (keyword == "endfacet" && in_facet_) {
+    if (!loop_ended_) end_loop(batch);
     in_facet_ = false;
   } else if (keyword != "outer" || !in_facet_) {
-    text_.fail(quoted(keyword) + " does not belong here in an STL file", kDamagedHint);
+    text_.fail(quoted(keyword) + " does not belong here in an STL file", kCutOrDamagedHereHint);
   }
   text_.skip_line();
   return true;
 }
 
-void AsciiStlReader::end_facet(MeshBatch& batch) {
-  if (facet_corners_ < 3) text_.fail("a facet of " + std::to_string(facet_corners_) + " corners", kDamagedHint);
+void AsciiStlReader::end_loop(MeshBatch& batch) {
+  if (loop_corners_ < 3) text_.fail("a facet of " + std::to_string(loop_corners_) + " corners", kCutOrDamagedHereHint);
   facet_.end(batch);
+  loop_corners_ = 0;
+  loop_ended_ = true;
 }
 
 BinaryStlReader::BinaryStlReader(std::unique_ptr<ContentSource> source, ReadOptions options)
@@ -92,14 +93,14 @@ BinaryStlReader::BinaryStlReader(std::unique_ptr<ContentSource> source, ReadOpti
     throw Error(ErrorKind::kBadInput,
                 "the header announces " + count_of(facets_left_, "facet") + ", but the file holds " +
                     with_commas((*size - kHeaderBytes) / kFacetBytes),
-                "the file is cut, or its header is damaged; get a whole copy")
+                kCutOrHeaderHint)
         .at(cursor_.source().name(), "80");
   cursor_.advance(kHeaderBytes);
 }
 
 void BinaryStlReader::require(std::size_t bytes) {
   if (cursor_.ensure(bytes)) return;
-  throw Error(ErrorKind::kBadInput, "the file ends before its last facet", "the file is cut; get a whole copy")
+  throw Error(ErrorKind::kBadInput, "the file ends before its last facet", kCutHint)
       .at(cursor_.source().name(), std::to_string(cursor_.offset() + cursor_.available()));
 }
 

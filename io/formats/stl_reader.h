@@ -45,11 +45,11 @@ class AsciiStlReader final : public StlReader {
 
  private:
   bool advance(MeshBatch& batch) override;
-  void end_facet(MeshBatch& batch);
+  void end_loop(MeshBatch& batch);
 
   TextCursor text_;
-  bool in_solid_ = false, in_facet_ = false;
-  unsigned facet_corners_ = 0;
+  bool in_solid_ = false, in_facet_ = false, loop_ended_ = false;
+  std::uint64_t loop_corners_ = 0;
 };
 
 class BinaryStlReader final : public StlReader {

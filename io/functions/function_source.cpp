@@ -166,8 +166,8 @@ void FunctionSource::check_finite(std::span<const double> values, std::span<cons
                                   std::uint64_t first) const {
   if (all_finite(values)) [[likely]]
     return;
-  const auto odd = std::ranges::find_if(values, [](double value) { return !std::isfinite(value); });
-  const auto index = static_cast<std::size_t>(odd - values.begin());
+  const auto non_finite = std::ranges::find_if(values, [](double value) { return !std::isfinite(value); });
+  const auto index = static_cast<std::size_t>(non_finite - values.begin());
   const std::uint64_t vertex = ids.empty() ? first + index : ids[index].value();
   throw Error(ErrorKind::kBadInput, spec_.text + " of vertex " + std::to_string(vertex) + " is not finite",
               "fix this vertex, or choose another function")

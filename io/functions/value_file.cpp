@@ -10,6 +10,7 @@
 #include "io/file/file_windows.h"
 #include "io/images/numpy.h"
 #include "io/mesh/scalar_bytes.h"
+#include "io/text/hints.h"
 #include "io/text/text_cursor.h"
 #include "libreeb/base/count_text.h"
 #include "libreeb/base/error.h"
@@ -17,11 +18,12 @@
 namespace reeb::io {
 namespace {
 
+// `vertices`: nothing if only known to be more.
 [[noreturn]] void throw_wrong_count(const std::string& path, const std::string& position, std::uint64_t values,
-                                    bool or_more, std::uint64_t vertices) {
+                                    bool or_more, std::optional<std::uint64_t> vertices) {
   throw Error(ErrorKind::kBadInput,
               "has " + count_of(values, "value") + (or_more ? " or more" : "") + ", but the mesh has " +
-                  count_of(vertices, "vertex"),
+                  (vertices ? count_of(*vertices, "vertex") : "more vertices"),
               "the file must have one value per vertex")
       .at(path, position);
 }
@@ -45,7 +47,7 @@ class RawValueFile final : public ValueFile {
   void skip_to(std::uint64_t vertex) override { next_ = vertex; }
   double at(std::uint64_t vertex) override {
     if (vertex >= windows_.size() / 8)
-      throw_wrong_count(path_, std::to_string(windows_.size()), windows_.size() / 8, false, vertex + 1);
+      throw_wrong_count(path_, std::to_string(windows_.size()), windows_.size() / 8, false, {});
     const double value = load_scalar<double>(windows_.at(8 * vertex), false);
     if (std::isfinite(value)) [[likely]]
       return value + 0.0;
@@ -87,13 +89,13 @@ class NumpyValueFile final : public ValueFile {
       throw Error(
           ErrorKind::kBadInput,
           "has room for " + count_of(body / bytes_, "value") + ", but its header announces " + with_commas(count_),
-          "the file is cut or damaged; get a whole copy")
+          kCutOrDamagedHint)
           .at(path, std::to_string(windows_.size()));
   }
   double next() override { return at(next_++); }
   void skip_to(std::uint64_t vertex) override { next_ = vertex; }
   double at(std::uint64_t vertex) override {
-    if (vertex >= count_) throw_wrong_count(path_, std::to_string(place(count_)), count_, false, vertex + 1);
+    if (vertex >= count_) throw_wrong_count(path_, std::to_string(place(count_)), count_, false, {});
     const double value = load_double(header_.type, windows_.at(place(vertex)), header_.big_endian);
     if (std::isfinite(value)) [[likely]]
       return value;
@@ -161,7 +163,7 @@ class TextValueFile final : public ValueFile {
   void require_more() {
     if (text_->more()) return;
     text_->mark();
-    throw_wrong_count(path_, text_->position(), read_, false, read_ + 1);
+    throw_wrong_count(path_, text_->position(), read_, false, {});
   }
   void end_line() {
     if (text_->more_on_line()) {

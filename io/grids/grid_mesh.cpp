@@ -20,6 +20,11 @@ std::string component_name(unsigned component) {
   return component == 0 ? "value" : "value:" + std::to_string(component);
 }
 
+// Whether the axis that varies fastest may be the channels of a colour image. Volumes are seldom that thin.
+bool looks_like_channels(const std::array<std::uint64_t, 3>& size) {
+  return (size[0] == 3 || size[0] == 4) && size[1] > 8 && size[2] > 8;
+}
+
 // A grid in which the axes of one vertex are left out, and slices are along the last of the others: of an image of two
 // axes, a slice is a row.
 class Slices {
@@ -78,8 +83,12 @@ class GridMesh : public MeshReader {
     return bytes;
   }
   std::vector<std::string> warnings() const override;
-  // Of numbers that are not places in the grid, nothing would follow.
-  bool leave_out_simplices() override { return !renumbers_ && (vertices_only_ = true); }
+  // After renumbering, numbers are no grid indices, so boxes cannot be used.
+  bool leave_out_simplices() override {
+    if (renumbers_) return false;
+    vertices_only_ = true;
+    return true;
+  }
 
   // Vertices of slice k + 1, then the simplices whose lowest vertex is in slice k, then the finalization of slice k.
   bool read(MeshBatch& batch) override {
@@ -110,7 +119,7 @@ class GridMesh : public MeshReader {
   std::uint64_t slice_of_vertex() const { return vertex_ / slices_.vertices(); }
   bool is_skipped(std::size_t at) const;
   void add_columns(MeshBatch& batch, std::size_t count);
-  void note_odd_values(std::span<const double> values);
+  void note_non_finite_values(std::span<const double> values);
   void end_vertices();
   void add_simplices(MeshBatch& batch);
   bool is_present(const GridSimplex& simplex) const;
@@ -138,7 +147,7 @@ class GridMesh : public MeshReader {
   std::size_t next_simplex_ = 0;  // at that vertex
   // If vertices are skipped: the numbers of those of a slice, or kSkipped; slice k is numbers_[k % 3].
   std::array<std::vector<std::uint64_t>, 3> numbers_;
-  std::uint64_t nodata_values_ = 0, skipped_ = 0, odd_values_ = 0;
+  std::uint64_t nodata_values_ = 0, skipped_ = 0, non_finite_values_ = 0;
 };
 
 void GridMesh::describe() {
@@ -183,7 +192,15 @@ std::vector<std::string> GridMesh::warnings() const {
   add(nodata_values_, "vertex",
       std::string(nodata_values_ == 1 ? " has" : " have") +
           " the value that stands for no data; it counts as a number without --nodata skip");
-  add(odd_values_, "value", " of the image " + std::string(odd_values_ == 1 ? "is" : "are") + " not finite");
+  const GridInfo& grid = *info_.grid;
+  if (grid.components > 1 && columns_ == std::vector<unsigned>{0})
+    lines.push_back("each vertex has " + count_of(grid.components, "value") +
+                    "; value is the first, value:1 the second");
+  if (grid.components == 1 && !columns_.empty() && looks_like_channels(grid.size))
+    lines.push_back("an axis is " + std::to_string(grid.size[0]) +
+                    " long; if this is a colour image, use one of its channels");
+  add(non_finite_values_, "value",
+      " of the image " + std::string(non_finite_values_ == 1 ? "is" : "are") + " not finite");
   return lines;
 }
 
@@ -293,15 +310,15 @@ void GridMesh::add_columns(MeshBatch& batch, std::size_t count) {
       const auto of_vertex = values.subspan(i * grid.components, grid.components);
       nodata_values_ += std::ranges::find(of_vertex, *grid.nodata) != of_vertex.end();
     }
-  if (!std::ranges::all_of(values, [](double value) { return std::isfinite(value); })) note_odd_values(values);
+  if (!std::ranges::all_of(values, [](double value) { return std::isfinite(value); })) note_non_finite_values(values);
 }
 
 // A value that is used must be finite.
-void GridMesh::note_odd_values(std::span<const double> values) {
+void GridMesh::note_non_finite_values(std::span<const double> values) {
   const unsigned components = grid_->info().components;
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (std::isfinite(values[i])) continue;
-    ++odd_values_;
+    ++non_finite_values_;
     const auto component = static_cast<unsigned>(i % components);
     if (options_.all_properties || std::ranges::find(columns_, component) == columns_.end()) continue;
     const std::uint64_t vertex = vertex_ + i / components;

@@ -4,13 +4,12 @@
 #include <optional>
 
 #include "io/images/header_text.h"
+#include "io/text/hints.h"
 #include "io/text/text_cursor.h"
 #include "libreeb/base/error.h"
 
 namespace reeb::io {
 namespace {
-
-constexpr const char* kHint = "fix the header, or write the file again";
 
 // The lower left end of the grid along an axis: the border of a cell, or its centre.
 struct LowEnd {
@@ -50,12 +49,12 @@ class Header {
 
  private:
   [[noreturn]] void fail_whole(const std::string& what) const {
-    throw Error(ErrorKind::kBadInput, what, kHint).at(name_, std::to_string(text_.line_number()) + ":1");
+    throw Error(ErrorKind::kBadInput, what, kHeaderHint).at(name_, std::to_string(text_.line_number()) + ":1");
   }
 
   void field(const std::vector<std::string_view>& words, GridInfo& info) {
     const std::string name = lower_case(words[0]);
-    if (words.size() != 2) text_.fail("this line is neither a name and a number nor a row of heights", kHint);
+    if (words.size() != 2) text_.fail("this line is neither a name and a number nor a row of heights", kHeaderHint);
     const std::string_view value = words[1];
     if (name == "ncols") {
       columns_ = text_.count(value, "number of columns");
@@ -73,16 +72,16 @@ class Header {
       dy_ = cell(value);
     } else if (name == "nodata_value") {
       const auto parsed = parse_number<double>(value);
-      if (!parsed.ok) text_.fail(value, quoted(value) + " is not a number (NODATA_value)", kHint);
+      if (!parsed.ok) text_.fail(value, quoted(value) + " is not a number (NODATA_value)", kHeaderHint);
       info.nodata = parsed.value + 0.0;
     } else {
-      text_.fail("a header has no field " + quoted(words[0]), kHint);
+      text_.fail("a header has no field " + quoted(words[0]), kHeaderHint);
     }
   }
 
   double cell(std::string_view value) const {
     const double size = text_.number(value, "size of a cell");
-    if (size <= 0) text_.fail(value, "the size of a cell is not positive", kHint);
+    if (size <= 0) text_.fail(value, "the size of a cell is not positive", kHeaderHint);
     return size;
   }
 

@@ -5,15 +5,11 @@
 #include <cmath>
 #include <system_error>
 
+#include "io/text/hints.h"
 #include "io/text/text_cursor.h"
 #include "libreeb/base/error.h"
 
 namespace reeb::io {
-namespace {
-
-constexpr const char* kHint = "fix the header, or write the file again";
-
-}  // namespace
 
 std::string_view without_blanks(std::string_view text) {
   while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
@@ -44,22 +40,22 @@ bool HeaderText::next_line() {
 double HeaderText::number(std::string_view word, const char* what) const {
   const auto parsed = parse_number<double>(word);
   if (!parsed.ok || !std::isfinite(parsed.value))
-    fail(word, quoted(word) + " is not a finite number (" + what + ")", kHint);
+    fail(word, quoted(word) + " is not a finite number (" + what + ")", kHeaderHint);
   return parsed.value + 0.0;
 }
 
 std::int64_t HeaderText::integer(std::string_view word, const char* what) const {
   std::int64_t value = 0;
   const auto parsed = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (parsed.ec == std::errc::result_out_of_range) fail(word, std::string("too large: ") + what, kHint);
+  if (parsed.ec == std::errc::result_out_of_range) fail(word, std::string("too large: ") + what, kHeaderHint);
   if (parsed.ec != std::errc{} || parsed.ptr != word.data() + word.size())
-    fail(word, quoted(word) + " is not an integer (" + what + ")", kHint);
+    fail(word, quoted(word) + " is not an integer (" + what + ")", kHeaderHint);
   return value;
 }
 
 std::uint64_t HeaderText::count(std::string_view word, const char* what) const {
   const std::int64_t value = integer(word, what);
-  if (value < 0) fail(word, std::string("negative: ") + what, kHint);
+  if (value < 0) fail(word, std::string("negative: ") + what, kHeaderHint);
   return static_cast<std::uint64_t>(value);
 }
 

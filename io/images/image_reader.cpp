@@ -7,19 +7,19 @@
 #include "io/decoding/hex_input.h"
 #include "io/decoding/inflate_input.h"
 #include "io/images/value_stream.h"
+#include "io/text/hints.h"
 #include "libreeb/base/count_text.h"
 #include "libreeb/base/error.h"
 
 namespace reeb::io {
 namespace {
 
-constexpr const char* kCutHint = "the file is cut, or its header is damaged; get a whole copy";
-
 class ImageReader final : public GridReader {
  public:
   ImageReader(Image image, Input data, std::unique_ptr<ContentSource> source)
       : image_(std::move(image)), data_(std::move(data)), name_(source->name()) {
     image_.info.file_bytes = source->file_bytes();
+    image_.info.value_type = type_name(image_.type);
     values_ = image_.info.vertex_count() * image_.info.components;
     check_position();
     locate(*source);
@@ -89,7 +89,7 @@ class ImageReader final : public GridReader {
     }
     if (!finite || !std::isfinite(image_.slope) || !std::isfinite(image_.intercept))
       throw Error(ErrorKind::kBadInput, "the header has an origin, a spacing or a scale that is not finite",
-                  "fix the header, or write the file again")
+                  kHeaderHint)
           .at(name_);
   }
 
@@ -127,7 +127,7 @@ class ImageReader final : public GridReader {
   std::string_view view_before_data(ContentSource& source) const {
     const std::string_view bytes = source.view(image_.offset, 1);
     if (!bytes.empty()) return bytes;
-    throw Error(ErrorKind::kBadInput, "the file ends before its data", kCutHint)
+    throw Error(ErrorKind::kBadInput, "the file ends before its data", kCutOrHeaderHint)
         .at(name_, std::to_string(image_.offset));
   }
 
@@ -179,13 +179,13 @@ class ImageReader final : public GridReader {
                 (image_.must_end ? "the grid has " : "the header announces ") + count_of(values_, "value") + " (" +
                     (exact ? "" : "at least ") + count_of(least, "byte") + "), but the file holds " +
                     count_of(left, "byte") + " of data",
-                image_.must_end ? "check the size and the type of the grid" : kCutHint)
+                image_.must_end ? "check the size and the type of the grid" : kCutOrHeaderHint)
         .at(name_, std::to_string(image_.offset));
   }
 
   [[noreturn]] void fail_cut() const {
     throw Error(ErrorKind::kBadInput, "the file ends after " + with_commas(read_) + " of " + count_of(values_, "value"),
-                image_.must_end ? "check the size and the type of the grid" : kCutHint)
+                image_.must_end ? "check the size and the type of the grid" : kCutOrHeaderHint)
         .at(name_, stream_->position());
   }
 

@@ -4,18 +4,13 @@
 #include <optional>
 
 #include "io/images/header_text.h"
+#include "io/text/hints.h"
 #include "libreeb/base/count_text.h"
 #include "libreeb/base/error.h"
 
 namespace reeb::io {
 namespace {
 
-constexpr const char* kHint = "fix the header, or write the file again";
-
-struct TypeName {
-  std::string_view name;
-  ScalarType type;
-};
 // MET_LONG has 4 bytes wherever it was written.
 constexpr TypeName kTypes[] = {
     {"met_char", ScalarType::kInt8},         {"met_uchar", ScalarType::kUint8},   {"met_short", ScalarType::kInt16},
@@ -52,24 +47,24 @@ class Header {
 
  private:
   [[noreturn]] void fail_whole(const std::string& what) const {
-    throw Error(ErrorKind::kBadInput, what, kHint).at(name_, std::to_string(text_.line_number()) + ":1");
+    throw Error(ErrorKind::kBadInput, what, kHeaderHint).at(name_, std::to_string(text_.line_number()) + ":1");
   }
 
   void field() {
     const std::size_t equal = text_.line().find('=');
-    if (equal == std::string_view::npos) text_.fail("this line is not a field (\"Name = value\")", kHint);
+    if (equal == std::string_view::npos) text_.fail("this line is not a field (\"Name = value\")", kHeaderHint);
     const std::string name = lower_case(without_blanks(text_.line().substr(0, equal)));
     const std::string_view value = without_blanks(text_.line().substr(equal + 1));
     if (name == "objecttype") {
       if (lower_case(value) != "image") text_.fail(value, "this is not an image but " + quoted(value), "name an image");
     } else if (name == "ndims") {
       // The lists of numbers are as long as the first one says.
-      if (dimensions_ != 0) text_.fail(value, "NDims is given twice", kHint);
+      if (dimensions_ != 0) text_.fail(value, "NDims is given twice", kHeaderHint);
       dimensions_ = text_.count(value, "number of dimensions");
       if (dimensions_ != 2 && dimensions_ != 3)
         text_.fail(value, "the image has " + count_of(dimensions_, "axis"), "images with 2 and 3 axes are read");
     } else if (name == "dimsize") {
-      if (!sizes_.empty()) text_.fail(value, "DimSize is given twice", kHint);
+      if (!sizes_.empty()) text_.fail(value, "DimSize is given twice", kHeaderHint);
       for (const std::string_view word : words(value, 1)) sizes_.push_back(text_.count(word, "size"));
     } else if (name == "elementtype") {
       take_type(value);
@@ -91,7 +86,7 @@ class Header {
       compressed_ = flag(value);
     } else if (name == "headersize") {
       header_size_ = text_.integer(value, "size of the header of the data file");
-      if (header_size_ < -1) text_.fail(value, "a header size is not below -1", kHint);
+      if (header_size_ < -1) text_.fail(value, "a header size is not below -1", kHeaderHint);
     } else if (name == "elementdatafile") {
       take_data_file(value);
     }
@@ -100,16 +95,15 @@ class Header {
   void take_type(std::string_view value) {
     std::string name = lower_case(value);
     if (name.ends_with("_array")) name.resize(name.size() - 6);
-    const auto* const found = std::ranges::find(kTypes, name, &TypeName::name);
-    if (found == std::end(kTypes))
+    type_ = find_type(kTypes, name);
+    if (!type_)
       text_.fail(value, "values of type " + quoted(value) + " are not read",
                  "integers of 1, 2, 4 and 8 bytes, MET_FLOAT and MET_DOUBLE are read");
-    type_ = found->type;
   }
 
   void take_data_file(std::string_view value) {
     const std::string lower = lower_case(value);
-    if (value.empty()) text_.fail(value, "the data file has no name", kHint);
+    if (value.empty()) text_.fail(value, "the data file has no name", kHeaderHint);
     if (lower.starts_with("list") || value.find('%') != std::string_view::npos)
       text_.fail(value, "the data are spread over several files, which is not read", "write them into one file first");
     if (lower != "local") image_.data_file = std::string(value);
@@ -118,10 +112,10 @@ class Header {
 
   // As many words as the image has dimensions, `times` over.
   std::vector<std::string_view> words(std::string_view value, std::uint64_t times) const {
-    if (dimensions_ == 0) text_.fail("NDims must come before this", kHint);
+    if (dimensions_ == 0) text_.fail("NDims must come before this", kHeaderHint);
     auto all = split_words(value);
     if (all.size() != dimensions_ * times)
-      text_.fail(value, count_of(all.size(), "value") + " for " + count_of(dimensions_, "axis"), kHint);
+      text_.fail(value, count_of(all.size(), "value") + " for " + count_of(dimensions_, "axis"), kHeaderHint);
     return all;
   }
 
@@ -134,13 +128,14 @@ class Header {
   bool flag(std::string_view value) const {
     const std::string lower = lower_case(value);
     if (lower == "true" || lower == "1") return true;
-    if (lower != "false" && lower != "0") text_.fail(value, quoted(value) + " is neither True nor False", kHint);
+    if (lower != "false" && lower != "0") text_.fail(value, quoted(value) + " is neither True nor False", kHeaderHint);
     return false;
   }
 
   void take_position() {
     GridInfo& info = image_.info;
     const auto& spacing = spacing_.empty() ? element_size_ : spacing_;
+    info.has_spacing = !spacing.empty();
     for (std::size_t k = 0; k < dimensions_; ++k) {
       const double length = spacing.empty() ? 1 : spacing[k];
       if (!origin_.empty()) info.origin[k] = origin_[k];

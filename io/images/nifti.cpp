@@ -7,6 +7,7 @@
 
 #include "io/file/file_name.h"
 #include "io/mesh/scalar_bytes.h"
+#include "io/text/hints.h"
 #include "libreeb/base/count_text.h"
 #include "libreeb/base/error.h"
 
@@ -59,7 +60,7 @@ class Header {
   double real(std::size_t offset) const { return static_cast<double>(get<float>(offset)); }
 
   [[noreturn]] void fail(std::size_t offset, const std::string& what,
-                         const std::string& hint = "the file is cut or damaged; get a whole copy") const {
+                         const std::string& hint = kCutOrDamagedHint) const {
     throw Error(ErrorKind::kBadInput, what, hint).at(name_, std::to_string(offset));
   }
 

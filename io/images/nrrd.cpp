@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "io/images/header_text.h"
+#include "io/text/hints.h"
 #include "io/text/text_cursor.h"
 #include "libreeb/base/count_text.h"
 #include "libreeb/base/error.h"
@@ -17,8 +18,6 @@ namespace {
 using Vector = std::vector<double>;
 
 constexpr std::uint64_t kMaxAxes = 16;  // of the format
-constexpr const char* kHint = "fix the header, or write the file again";
-
 // Kinds of axes of the grid; any other is one of components.
 constexpr std::array<std::string_view, 6> kDomains = {"domain", "space", "time", "???", "none", ""};
 constexpr std::array<std::string_view, 6> kTimeSpaces = {"rast",
@@ -28,10 +27,6 @@ constexpr std::array<std::string_view, 6> kTimeSpaces = {"rast",
                                                          "left-anterior-superior-time",
                                                          "left-posterior-superior-time"};
 
-struct TypeName {
-  std::string_view name;
-  ScalarType type;
-};
 constexpr TypeName kTypes[] = {{"signed char", ScalarType::kInt8},    {"char", ScalarType::kInt8},
                                {"unsigned char", ScalarType::kUint8}, {"uchar", ScalarType::kUint8},
                                {"short", ScalarType::kInt16},         {"unsigned short", ScalarType::kUint16},
@@ -50,9 +45,7 @@ std::optional<ScalarType> nrrd_type(std::string_view text) {
   if (name.ends_with("_t")) name.resize(name.size() - 2);
   if (name.starts_with("signed ") && name != "signed char") name.erase(0, 7);
   if (name.ends_with(" int")) name.resize(name.size() - 4);
-  for (const TypeName& type : kTypes)
-    if (name == type.name) return type.type;
-  return std::nullopt;
+  return find_type(kTypes, name);
 }
 
 class Header {
@@ -91,7 +84,7 @@ class Header {
   };
 
   [[noreturn]] void fail_whole(const std::string& what) const {
-    throw Error(ErrorKind::kBadInput, what, kHint).at(name_, std::to_string(text_.line_number()) + ":1");
+    throw Error(ErrorKind::kBadInput, what, kHeaderHint).at(name_, std::to_string(text_.line_number()) + ":1");
   }
 
   void field(std::string_view line) {
@@ -112,7 +105,7 @@ class Header {
   void set_field(const std::string& name, std::string_view value) {
     if (name == "dimension") {
       dimension_ = text_.count(value, "dimension");
-      if (dimension_ == 0 || dimension_ > kMaxAxes) text_.fail(value, "an image has 1 to 16 axes", kHint);
+      if (dimension_ == 0 || dimension_ > kMaxAxes) text_.fail(value, "an image has 1 to 16 axes", kHeaderHint);
       axes_.resize(dimension_);
     } else if (name == "type") {
       type_ = nrrd_type(value);
@@ -121,7 +114,8 @@ class Header {
       encoding_ = lower_case(value);
     } else if (name == "endian") {
       big_endian_ = lower_case(value) == "big";
-      if (!*big_endian_ && lower_case(value) != "little") text_.fail(value, "endian is neither little nor big", kHint);
+      if (!*big_endian_ && lower_case(value) != "little")
+        text_.fail(value, "endian is neither little nor big", kHeaderHint);
     } else if (name == "sizes") {
       sizes_ = std::string(value);
       per_axis(value, [&](Axis& axis, std::string_view word) { axis.size = text_.count(word, "size"); });
@@ -149,13 +143,13 @@ class Header {
       line_skip_ = text_.count(value, "line skip");
     } else if (name == "byte skip" || name == "byteskip") {
       byte_skip_ = text_.integer(value, "byte skip");
-      if (byte_skip_ < -1) text_.fail(value, "a byte skip is not below -1", kHint);
+      if (byte_skip_ < -1) text_.fail(value, "a byte skip is not below -1", kHeaderHint);
     } else if (name == "data file" || name == "datafile") {
       data_file_ = std::string(value);
       if (value.starts_with("LIST") || value.find('%') != std::string_view::npos)
         text_.fail(value, "the data are spread over several files, which is not read",
                    "write them into one file first");
-      if (value.empty()) text_.fail(value, "the data file has no name", kHint);
+      if (value.empty()) text_.fail(value, "the data file has no name", kHeaderHint);
     }
   }
 
@@ -164,12 +158,12 @@ class Header {
     require_dimension();
     const auto words = split_words(value);
     if (words.size() != axes_.size())
-      text_.fail(value, count_of(words.size(), "value") + " for " + count_of(axes_.size(), "axis"), kHint);
+      text_.fail(value, count_of(words.size(), "value") + " for " + count_of(axes_.size(), "axis"), kHeaderHint);
     for (std::size_t k = 0; k < words.size(); ++k) use(axes_[k], words[k]);
   }
 
   void require_dimension() const {
-    if (dimension_ == 0) text_.fail("the dimension must come before this", kHint);
+    if (dimension_ == 0) text_.fail("the dimension must come before this", kHeaderHint);
   }
 
   double number_or_nan(std::string_view word) const {
@@ -180,7 +174,8 @@ class Header {
   // "(1,2,3)", which is removed from `rest`.
   Vector vector(std::string_view& rest) const {
     const std::size_t end = rest.find(')');
-    if (!rest.starts_with('(') || end == std::string_view::npos) text_.fail(rest, "not a vector \"(x,y,z)\"", kHint);
+    if (!rest.starts_with('(') || end == std::string_view::npos)
+      text_.fail(rest, "not a vector \"(x,y,z)\"", kHeaderHint);
     std::string_view inside = rest.substr(1, end - 1);
     rest.remove_prefix(end + 1);
     Vector numbers;
@@ -203,7 +198,7 @@ class Header {
       else
         axis.direction = vector(rest);
     }
-    if (!without_blanks(rest).empty()) text_.fail(rest, "more directions than axes", kHint);
+    if (!without_blanks(rest).empty()) text_.fail(rest, "more directions than axes", kHeaderHint);
     has_directions_ = true;
   }
 
@@ -248,6 +243,8 @@ class Header {
     if (space < axes.size() || space > 3)
       fail_whole("a space of dimension " + std::to_string(space) + " for " + count_of(axes.size(), "axis"));
     info.axes = static_cast<unsigned>(space);
+    info.has_spacing =
+        has_directions_ || std::ranges::any_of(axes, [](const Axis& a) { return !std::isnan(a.spacing); });
     if (origin_.size() > space) fail_whole("the space origin has more numbers than the space has dimensions");
     std::ranges::copy(origin_, info.origin.begin());
     for (std::size_t k = 0; k < axes.size(); ++k) {
@@ -262,6 +259,8 @@ class Header {
   }
 
   static void take_spacings(GridInfo& info, const std::vector<Axis>& axes) {
+    info.has_spacing =
+        std::ranges::any_of(axes, [](const Axis& axis) { return !std::isnan(axis.spacing) || !std::isnan(axis.max); });
     for (std::size_t k = 0; k < axes.size(); ++k) {
       const Axis& axis = axes[k];
       const std::uint64_t intervals = axis.cell ? axis.size : axis.size - 1;

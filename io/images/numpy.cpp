@@ -4,6 +4,7 @@
 
 #include "io/images/header_text.h"
 #include "io/mesh/scalar_bytes.h"
+#include "io/text/hints.h"
 #include "io/text/words.h"
 #include "libreeb/base/error.h"
 
@@ -37,7 +38,7 @@ class Header {
 
  private:
   [[noreturn]] void fail(std::uint64_t offset, const std::string& what,
-                         const std::string& hint = "the file is cut or damaged; get a whole copy") const {
+                         const std::string& hint = kCutOrDamagedHint) const {
     throw Error(ErrorKind::kBadInput, what, hint).at(name_, std::to_string(offset));
   }
   [[noreturn]] void fail(std::string_view part, const std::string& what, const std::string& hint) const {
@@ -105,6 +106,15 @@ class Header {
 
 }  // namespace
 
+std::string numpy_header(std::uint64_t count) {
+  constexpr std::size_t kBytes = 128, kDictionary = kBytes - 10;  // NumPy aligns the values to 64 bytes
+  std::string header(kMagic);
+  for (const unsigned byte : {1u, 0u, static_cast<unsigned>(kDictionary), 0u}) header += static_cast<char>(byte);
+  header += "{'descr': '<f8', 'fortran_order': False, 'shape': (" + std::to_string(count) + ",), }";
+  header.resize(kBytes - 1, ' ');
+  return header + '\n';
+}
+
 bool is_numpy(std::string_view head) { return head.starts_with(kMagic); }
 
 NumpyHeader parse_numpy_header(std::string_view head, const std::string& name) { return Header(head, name).parse(); }
@@ -113,6 +123,7 @@ Image parse_numpy(ContentSource& source) {
   NumpyHeader header = parse_numpy_header(source.view(0), source.name());
   Image image;
   image.info.format = "NumPy array";
+  image.info.has_spacing = false;
   image.type = header.type;
   image.big_endian = header.big_endian;
   image.offset = header.body_offset;

@@ -23,6 +23,9 @@ struct NumpyHeader {
 // THROWS: Error{kBadInput} with the byte offset in the file `name`.
 NumpyHeader parse_numpy_header(std::string_view head, const std::string& name);
 
+// What comes before `count` little-endian float64 in a file of version 1: 128 bytes, whatever the count.
+std::string numpy_header(std::uint64_t count);
+
 bool is_numpy(std::string_view head);
 
 // THROWS: Error{kBadInput} with the byte offset.

@@ -78,6 +78,9 @@ RawGrid parse_raw_grid(const std::string& grid, const std::string& type, const s
     const auto number = parse_number<double>(word);
     if (!number.ok || !std::isfinite(number.value))
       refuse("--spacing \"" + spacing + "\" is not a list of numbers", "for example --spacing 0.5,0.5,2");
+    if (number.value == 0)
+      refuse("--spacing \"" + spacing + "\" has a zero, which gives all vertices of an axis the same place",
+             "for example --spacing 0.5,0.5,2");
     raw.spacing.push_back(number.value);
   }
   if (raw.spacing.size() != raw.size.size())
@@ -94,6 +97,7 @@ Image raw_image(const RawGrid& grid) {
   image.info.format = "raw " + type_text(grid);
   set_size(image.info, grid.size);
   for (std::size_t k = 0; k < grid.spacing.size(); ++k) image.info.step[k][k] = grid.spacing[k];
+  image.info.has_spacing = !grid.spacing.empty();
   image.type = grid.type;
   image.big_endian = grid.big_endian;
   image.skip_bytes = grid.skip_bytes;

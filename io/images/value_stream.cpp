@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "io/text/hints.h"
 #include "io/text/text_cursor.h"
 #include "io/text/words.h"
 #include "libreeb/base/error.h"
@@ -118,7 +119,7 @@ class TextValues final : public ValueStream {
   }
 
   [[noreturn]] void fail(const std::string& what) const {
-    throw Error(ErrorKind::kBadInput, what, "the file may be cut or damaged here").at(text_->name(), position());
+    throw Error(ErrorKind::kBadInput, what, kCutOrDamagedHereHint).at(text_->name(), position());
   }
 
   std::unique_ptr<ByteInput> text_;

@@ -10,6 +10,7 @@
 #include "io/decoding/vtk_data.h"
 #include "io/decoding/vtk_xml.h"
 #include "io/images/header_text.h"
+#include "io/text/entry_limit.h"
 #include "io/text/text_cursor.h"
 #include "io/text/words.h"
 #include "io/text/xml_parser.h"
@@ -79,9 +80,10 @@ class Header final : public XmlParser::Handler {
   std::array<std::int64_t, 6> extent_{};
   std::array<double, 3> origin_{}, spacing_{1, 1, 1};
   std::array<double, 9> direction_{1, 0, 0, 0, 1, 0, 0, 0, 1};
-  bool has_image_ = false, has_piece_ = false, has_cells_ = false;
+  bool has_image_ = false, has_piece_ = false, has_cells_ = false, has_spacing_ = false;
   std::string active_;
   std::vector<PointDataArray> arrays_;
+  EntryLimit array_limit_{"arrays"};
   std::optional<std::uint64_t> appended_;  // the offset after the tag
   bool appended_base64_ = false;
   std::uint64_t viewed_ = 0;  // where the last view of the content began
@@ -146,6 +148,7 @@ Image Header::parse() {
   auto chosen = std::ranges::find(arrays_, active_, &PointDataArray::name);
   if (active_.empty() || chosen == arrays_.end()) chosen = arrays_.begin();
   Image image;
+  image.info.has_spacing = has_spacing_;
   const auto number = static_cast<std::size_t>(chosen - arrays_.begin());
   for (unsigned k = 0; k < 3; ++k) {
     for (unsigned c = 0; c < 3; ++c) image.info.step[k][c] = direction_[3 * c + k] * spacing_[k];
@@ -203,6 +206,7 @@ void Header::take_image(const XmlAttributes& attributes) {
   extent_ = extent(attribute_of(attributes, "WholeExtent"));
   origin_ = numbers<3>(attributes, "Origin", origin_);
   spacing_ = numbers<3>(attributes, "Spacing", spacing_);
+  has_spacing_ = !attribute_of(attributes, "Spacing").empty();
   direction_ = numbers<9>(attributes, "Direction", direction_);
 }
 
@@ -215,6 +219,9 @@ bool Header::take_array(const XmlAttributes& attributes) {
                        xml_.line()};
   const bool in_document = array.format != "appended";
   const bool wanted = active_.empty() ? arrays_.empty() : array.name == active_;
+  array_limit_.add(
+      1, array.name.size() + array.type.size() + array.format.size() + array.offset.size() + array.components.size(),
+      xml_);
   arrays_.push_back(std::move(array));
   return !(wanted && in_document);
 }

@@ -23,8 +23,9 @@ class BatchReader : public MeshReader {
     batch.first_vertex = VertexId(vertices_read_);
     batch.coordinates.resize(info_.dimension);
     batch.properties.resize(options_.properties.size());
+    paused_ = false;
     fill(batch);
-    return !batch.empty();
+    return paused_ || !batch.empty();
   }
 
  protected:
@@ -41,7 +42,7 @@ class BatchReader : public MeshReader {
     return options_.all_properties && std::ranges::find(requested_, property) == requested_.end();
   }
 
-  // Adds events in the order of the file while room() is left. Adds none only at the end.
+  // Adds events in the order of the file while room() is left. Adds none only at the end, or after pause().
   virtual void fill(MeshBatch& batch) = 0;
 
   // For a reader that adds simplices up to dimension kMost.
@@ -50,6 +51,9 @@ class BatchReader : public MeshReader {
     const std::size_t used = batch.vertex_count + batch.simplex_count<kMost>();
     return options_.batch_events - std::min(used, options_.batch_events);
   }
+
+  // The batch may be empty, but the mesh goes on.
+  void pause() { paused_ = true; }
 
   // Counts vertices after their columns were filled.
   void count_vertices(MeshBatch& batch, std::size_t count) {
@@ -68,6 +72,7 @@ class BatchReader : public MeshReader {
   ReadOptions options_;
   std::vector<std::string> requested_;  // properties, if all are delivered
   std::uint64_t vertices_read_ = 0;
+  bool paused_ = false;
 };
 
 // For formats whose vertices have nothing but coordinates.

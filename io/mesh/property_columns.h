@@ -19,7 +19,7 @@ inline void erase_property(std::vector<std::vector<double>>& columns, const std:
 }
 
 // The note on that many NaN and infinities, which do not matter.
-inline std::string note_on_odd_values(std::uint64_t count) {
+inline std::string note_on_non_finite_values(std::uint64_t count) {
   return count_of(count, "value") + " of properties that are not used " + (count == 1 ? "is" : "are") + " not finite";
 }
 

@@ -1,11 +1,14 @@
 // Scalars in binary files: any type, either byte order.
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <optional>
 #include <span>
+#include <string_view>
 #include <utility>
 
 namespace reeb::io {
@@ -26,6 +29,17 @@ T load_scalar(const char* bytes, bool swap) {
   for (std::size_t i = 0; i < sizeof(T); ++i) turned[i] = bytes[sizeof(T) - 1 - i];
   std::memcpy(&value, turned, sizeof value);
   return value;
+}
+
+// What a format calls a type.
+struct TypeName {
+  std::string_view name;
+  ScalarType type;
+};
+
+inline std::optional<ScalarType> find_type(std::span<const TypeName> types, std::string_view name) {
+  const auto found = std::ranges::find(types, name, &TypeName::name);
+  return found == types.end() ? std::nullopt : std::optional(found->type);
 }
 
 // Calls `use` with a zero of the C++ type, so that a loop over values is compiled once for each type.
@@ -69,9 +83,10 @@ inline double load_double(ScalarType type, const char* bytes, bool swap, double 
 // Tests the exponents without branches, since this runs over every value that is read.
 inline bool all_finite(std::span<const double> values) {
   constexpr std::uint64_t kExponent = 0x7ff0'0000'0000'0000u;
-  std::uint64_t odd = 0;
-  for (const double value : values) odd |= (std::bit_cast<std::uint64_t>(value) & kExponent) == kExponent ? 1u : 0u;
-  return odd == 0;
+  std::uint64_t non_finite = 0;
+  for (const double value : values)
+    non_finite |= (std::bit_cast<std::uint64_t>(value) & kExponent) == kExponent ? 1u : 0u;
+  return non_finite == 0;
 }
 
 // REQUIRES: an integer type.

@@ -1,5 +1,7 @@
 #include "io/plot/gnuplot_text.h"
 
+#include <algorithm>
+
 #include "libreeb/base/printable.h"
 
 namespace reeb::io {
@@ -28,7 +30,17 @@ std::string with_heading(std::string chart, const Heading& heading) {
   append_heading(text, heading);
   text += "</g>\n";
   const std::size_t end = chart.rfind("</svg>");
-  return end == std::string::npos ? chart : chart.insert(end, text);
+  if (end == std::string::npos) return chart;
+  chart.insert(end, text);
+  // Instead of a title that only says "Gnuplot", with a description of it.
+  constexpr std::string_view kDescriptionEnd = "</desc>\n";
+  const std::size_t title = chart.find("<title>Gnuplot</title>"), description = chart.find(kDescriptionEnd);
+  if (title != std::string::npos && description != std::string::npos && title < description)
+    chart.erase(title, description + kDescriptionEnd.size() - title);
+  const std::size_t svg = chart.find("<svg"), svg_end = std::min(chart.find('>', svg), chart.size() - 1);
+  chart.insert(svg_end + 1, svg_title(heading));
+  chart.insert(svg_end + 1, 1, '\n');
+  return chart.insert(svg + std::string_view("<svg").size(), kSvgRole);
 }
 
 std::string gnuplot_color(Rgb color) { return "rgb '" + hex(color) + '\''; }

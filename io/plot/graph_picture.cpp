@@ -113,11 +113,10 @@ void append_raster(std::string& svg, const ReebGraph& graph, const GraphLayout& 
 std::string graph_picture(const ReebGraph& graph, const GraphLayout& layout, const std::string& function,
                           const Heading& heading) {
   const std::vector<NodeKind> kinds = node_kinds(graph);
-  std::string svg = begin_svg(kWidth, kHeight);
   Heading complete = heading;
   if (layout.left_out > 0)
     complete.subtitle += "; " + with_commas(layout.left_out) + " of the components of one node or arc are not drawn";
-  append_heading(svg, complete);
+  std::string svg = begin_svg(kWidth, kHeight, complete);
   std::string axis;
   append_axis(axis, graph, function);
   const bool as_lines = graph.arc_count() <= kMostArcsAsLines && graph.node_count() <= 2 * kMostArcsAsLines;

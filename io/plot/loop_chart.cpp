@@ -11,6 +11,7 @@ namespace reeb::io {
 namespace {
 
 constexpr double kFloor = 0.7;  // the lower end of the axis; zero has no place on it
+constexpr std::size_t kColumnLetters = 33;
 
 std::string block_name(const char* kind, std::size_t i) { return std::string("$") + kind + std::to_string(i); }
 
@@ -55,8 +56,10 @@ std::string loop_chart(std::span<const LoopSeries> series) {
   }
   const double left = std::pow(10, std::floor(std::log10(std::min(least * 0.9, 10.0))));
   const double top = std::pow(10, std::ceil(std::log10(static_cast<double>(loops) * 1.2)));
-  // Under the axis, names of series in two columns.
-  const auto key_rows = static_cast<unsigned>(series.size() > 1 ? (series.size() + 1) / 2 : 0);
+  // Under the axis, names of series in two columns; in one, if that is too narrow for a name.
+  const unsigned key_columns =
+      std::ranges::any_of(series, [](const LoopSeries& one) { return one.name.size() > kColumnLetters; }) ? 1 : 2;
+  const auto key_rows = static_cast<unsigned>(series.size() > 1 ? (series.size() + key_columns - 1) / key_columns : 0);
   const unsigned height = 540 + (key_rows == 0 ? 0 : 20 + 22 * key_rows);
   std::string text = begin_chart(800, height);
   text += "set bmargin at screen ";
@@ -72,10 +75,9 @@ std::string loop_chart(std::span<const LoopSeries> series) {
       "]\nset xlabel 'persistence, per cent of the range of the function'\n"
       "set ylabel 'loops of at least this persistence'\n"
       "set format '%g'\n";
-  text += series.size() > 1
-              ? "set key at screen 0.08, screen 0.02 left bottom Left reverse vertical maxcols 2 maxrows " +
-                    std::to_string(key_rows) + '\n'
-              : "unset key\n";
+  text += series.size() > 1 ? "set key at screen 0.08, screen 0.02 left bottom Left reverse vertical maxcols " +
+                                  std::to_string(key_columns) + " maxrows " + std::to_string(key_rows) + '\n'
+                            : "unset key\n";
   std::string plot = "plot ";
   for (std::size_t i = 0; i < series.size(); ++i) {
     const LoopSeries& one = series[i];

@@ -181,6 +181,66 @@ void append_scale(std::string& svg, PicturePoint at, double pixels_per_unit) {
               {.size = 11, .anchor = "end"});
 }
 
+// Lines, and marks at the nodes.
+void append_skeleton(std::string& svg, const GraphView& view, const SkeletonLines& lines, const SkeletonScene& scene,
+                     std::span<const NodeKind> kinds) {
+  const SkeletonDrawing drawing(lines, scene);
+  std::vector<double> longest(kinds.size(), 0);                   // arc of each node, in pixels
+  const std::vector<std::uint32_t> lone = specks_of(view.graph);  // often many
+  constexpr double kLoneShort = 40;
+  svg += "<g fill=\"none\" stroke-linecap=\"round\" stroke-linejoin=\"round\">\n";
+  for (const std::size_t arc : drawing.order()) {
+    std::vector<DrawnStop> stops = drawing.drawn(arc);
+    const double length = length_of(stops);
+    if (lines.arcs.size() > 20 && length < kLoneShort && lone[view.graph.lo[arc].value()] != kNoSpeck)
+      for (DrawnStop& stop : stops) stop.width = 1;
+    for (const NodeId node : {view.graph.lo[arc], view.graph.hi[arc]})
+      longest[node.value()] = std::max(longest[node.value()], length);
+    append_arc(svg, stops);
+  }
+  svg += "</g>\n";
+  // Where there are many nodes, those at short arcs are points.
+  constexpr double kShort = 8;
+  std::string marks, specks;
+  for (std::size_t i = 0; i < kinds.size(); ++i) {
+    const bool is_speck = kinds.size() > 20 && longest[i] < (lone[i] != kNoSpeck ? kLoneShort : kShort);
+    append_node(is_speck ? specks : marks, scene.projection.place(lines.nodes[i]), kinds[i], is_speck ? 1.7 : 4.2);
+  }
+  svg += "<g stroke=\"#222\" stroke-width=\"0.3\">\n" + specks + "</g>\n<g stroke=\"#222\">\n" + marks + "</g>\n";
+}
+
+// The surface, if there is one, with the lines as a part of the image.
+Raster lines_as_image(const SkeletonLines& lines, const SkeletonScene& scene) {
+  const SkeletonDrawing drawing(lines, scene);
+  constexpr double kScale = 1.5;
+  Canvas canvas = scene.surface == nullptr
+                      ? Canvas(kSkeletonBoxWidth, scene.projection.height(), kScale)
+                      : Canvas(*scene.surface, static_cast<double>(scene.surface->width) / kSkeletonBoxWidth);
+  const auto inside = [](PicturePoint at) { return PicturePoint{at.x - kSkeletonCorner.x, at.y - kSkeletonCorner.y}; };
+  for (const std::size_t arc : drawing.order()) {
+    const std::vector<DrawnStop> stops = drawing.drawn(arc);
+    for (std::size_t i = 1; i < stops.size(); ++i)
+      canvas.line(inside(stops[i - 1].at), inside(stops[i].at), 0.8, stops[i].color);
+  }
+  return canvas.image();
+}
+
+// What is below the skeleton, from `top` on. `kinds`: of the nodes that have marks.
+void append_legends(std::string& svg, double top, const GraphView& view, const SkeletonLines& lines,
+                    const SkeletonScene& scene, std::span<const NodeKind> kinds) {
+  const bool has_colors =
+      !lines.arcs.empty() && (scene.colors == LineColors::kValue || scene.style == SurfaceStyle::kValue);
+  if (has_colors) append_color_bar(svg, {20, top + 12}, view, scene);
+  if (!kinds.empty()) append_legend(svg, {has_colors ? 252.0 : 26.0, top + 22}, kinds);
+  append_scale(svg, {kSkeletonWidth - 24, top + 10}, scene.projection.pixels_per_unit());
+  // A line that turns back to its fork looks as if it ended.
+  if (!lines.arcs.empty())
+    append_text(svg, {20, top + 56},
+                std::string("Lines join ") + (view.on_surface ? "points" : "the centres") +
+                    " of contours; a bend without a mark is not a node.",
+                {.size = 11, .color = kGreyInk});
+}
+
 }  // namespace
 
 SkeletonLines skeleton_lines(const GraphView& view) {
@@ -239,64 +299,18 @@ std::string skeleton_picture(const GraphView& view, const SkeletonLines& lines, 
                              const Heading& heading) {
   const double bottom = kSkeletonCorner.y + scene.projection.height() + 16;
   const std::vector<NodeKind> kinds = node_kinds(view.graph);
-  const SkeletonDrawing drawing(lines, scene);
-  std::string svg = begin_svg(kSkeletonWidth, bottom + 66);
-  append_heading(svg, heading);
-
-  std::vector<double> longest(kinds.size(), 0);                   // arc of each node, in pixels
-  const std::vector<std::uint32_t> lone = specks_of(view.graph);  // often many
-  constexpr double kLoneShort = 40;
-  std::string arcs;
-  const bool as_lines = lines.arcs.size() <= kMostSkeletonArcs && kinds.size() <= 2 * kMostSkeletonArcs;
-  const double scale = scene.surface == nullptr ? 1.5 : static_cast<double>(scene.surface->width) / kSkeletonBoxWidth;
-  std::vector<Canvas> canvas;  // one, if lines become part of the image
-  if (!as_lines) {
-    if (scene.surface == nullptr)
-      canvas.emplace_back(kSkeletonBoxWidth, scene.projection.height(), scale);
-    else
-      canvas.emplace_back(*scene.surface, scale);
-  }
-  const auto inside = [](PicturePoint at) { return PicturePoint{at.x - kSkeletonCorner.x, at.y - kSkeletonCorner.y}; };
-  for (const std::size_t arc : drawing.order()) {
-    std::vector<DrawnStop> stops = drawing.drawn(arc);
-    const double length = length_of(stops);
-    if (lines.arcs.size() > 20 && length < kLoneShort && lone[view.graph.lo[arc].value()] != kNoSpeck)
-      for (DrawnStop& stop : stops) stop.width = 1;
-    for (const NodeId node : {view.graph.lo[arc], view.graph.hi[arc]})
-      longest[node.value()] = std::max(longest[node.value()], length);
-    if (as_lines)
-      append_arc(arcs, stops);
-    else
-      for (std::size_t i = 1; i < stops.size(); ++i)
-        canvas[0].line(inside(stops[i - 1].at), inside(stops[i].at), 0.8, stops[i].color);
-  }
-  if (!canvas.empty()) {
-    const Raster image = canvas[0].image();
+  std::string svg = begin_svg(kSkeletonWidth, bottom + 66, heading);
+  const auto append = [&](const Raster& image) {
     append_image(svg, image, kSkeletonCorner, kSkeletonBoxWidth, scene.projection.height());
+  };
+  const bool as_lines = lines.arcs.size() <= kMostSkeletonArcs && kinds.size() <= 2 * kMostSkeletonArcs;
+  if (as_lines) {
+    if (scene.surface != nullptr) append(*scene.surface);
+    append_skeleton(svg, view, lines, scene, kinds);
   } else {
-    if (scene.surface != nullptr)
-      append_image(svg, *scene.surface, kSkeletonCorner, kSkeletonBoxWidth, scene.projection.height());
-    svg += "<g fill=\"none\" stroke-linecap=\"round\" stroke-linejoin=\"round\">\n" + arcs + "</g>\n";
-    // Where there are many nodes, those at short arcs are points.
-    constexpr double kShort = 8;
-    std::string marks, specks;
-    for (std::size_t i = 0; i < kinds.size(); ++i) {
-      const bool is_speck = kinds.size() > 20 && longest[i] < (lone[i] != kNoSpeck ? kLoneShort : kShort);
-      append_node(is_speck ? specks : marks, scene.projection.place(lines.nodes[i]), kinds[i], is_speck ? 1.7 : 4.2);
-    }
-    svg += "<g stroke=\"#222\" stroke-width=\"0.3\">\n" + specks + "</g>\n<g stroke=\"#222\">\n" + marks + "</g>\n";
+    append(lines_as_image(lines, scene));
   }
-  const bool has_colors =
-      !lines.arcs.empty() && (scene.colors == LineColors::kValue || scene.style == SurfaceStyle::kValue);
-  if (has_colors) append_color_bar(svg, {20, bottom + 12}, view, scene);
-  if (canvas.empty()) append_legend(svg, {has_colors ? 252.0 : 26.0, bottom + 22}, kinds);
-  append_scale(svg, {kSkeletonWidth - 24, bottom + 10}, scene.projection.pixels_per_unit());
-  // A line that turns back to its fork looks as if it ended.
-  if (!lines.arcs.empty())
-    append_text(svg, {20, bottom + 56},
-                std::string("Lines join ") + (view.on_surface ? "points" : "the centres") +
-                    " of contours; a bend without a mark is no node.",
-                {.size = 11, .color = kGreyInk});
+  append_legends(svg, bottom, view, lines, scene, as_lines ? kinds : std::vector<NodeKind>{});
   return svg + "</svg>\n";
 }
 

@@ -10,6 +10,7 @@
 
 #include "io/mesh/scalar_bytes.h"
 #include "io/ply/ply_header.h"
+#include "io/text/hints.h"
 #include "io/text/text_cursor.h"
 
 namespace reeb::io {
@@ -28,7 +29,7 @@ class AsciiPlyDecoder {
   void begin_record(const PlyElement& element) {
     if (text_.more()) return;
     text_.mark();
-    text_.fail("the file ends inside the element " + element.name, "the file is cut; get a whole copy");
+    text_.fail("the file ends inside the element " + element.name, kCutHint);
   }
   void end_record(const PlyElement&) {
     for (; text_.more_on_line(); ++surplus_values_) text_.token();
@@ -58,7 +59,7 @@ class AsciiPlyDecoder {
     const char first = text_.peek();
     if (first < '0' || first > '9' || !text_.digits(value)) return checked_integer(type, what);
     if (const char next = text_.peek(); next != '\n' && !is_blank(next))
-      text_.fail(std::string("a ") + what + " is not an integer", "the file may be damaged here");
+      text_.fail(std::string("a ") + what + " is not an integer", kDamagedHereHint);
     return within(type, static_cast<std::int64_t>(value), what);
   }
   // Returns true if the skipped value is not finite.
@@ -83,7 +84,7 @@ class AsciiPlyDecoder {
     const std::int64_t most = (std::int64_t{1} << (is_signed ? bits - 1 : bits)) - 1;
     if (value < least || value > most)
       text_.fail("the " + std::string(what) + " " + std::to_string(value) + " does not fit its declared type",
-                 "the file may be damaged here");
+                 kDamagedHereHint);
     return value;
   }
 
@@ -137,8 +138,7 @@ class BinaryPlyDecoder {
   const char* take(std::size_t size) {
     taken_ = cursor_.offset();
     if (!cursor_.ensure(size)) [[unlikely]]
-      fail_at(cursor_.offset() + cursor_.available(), "the file ends before its last element",
-              "the file is cut; get a whole copy");
+      fail_at(cursor_.offset() + cursor_.available(), "the file ends before its last element", kCutHint);
     const char* const bytes = cursor_.data();
     cursor_.advance(size);
     return bytes;

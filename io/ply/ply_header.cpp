@@ -7,6 +7,8 @@
 #include <unordered_set>
 #include <utility>
 
+#include "io/text/entry_limit.h"
+#include "io/text/hints.h"
 #include "io/text/words.h"
 #include "libreeb/base/count_text.h"
 
@@ -15,10 +17,6 @@ namespace {
 
 constexpr std::array<const char*, 3> kCoordinateNames = {"x", "y", "z"};
 
-struct TypeName {
-  std::string_view name;
-  ScalarType type;
-};
 constexpr std::array<TypeName, 16> kTypeNames = {{{"char", ScalarType::kInt8},
                                                   {"int8", ScalarType::kInt8},
                                                   {"uchar", ScalarType::kUint8},
@@ -36,7 +34,7 @@ constexpr std::array<TypeName, 16> kTypeNames = {{{"char", ScalarType::kInt8},
                                                   {"double", ScalarType::kFloat64},
                                                   {"float64", ScalarType::kFloat64}}};
 
-constexpr const char* kHeaderHint = "the PLY header is damaged; write the file again";
+constexpr const char* kPlyHeaderHint = "the PLY header is damaged; write the file again";
 
 std::optional<std::size_t> find(const std::vector<PlyProperty>& properties, std::string_view name) {
   const auto found = std::ranges::find(properties, name, &PlyProperty::name);
@@ -49,10 +47,10 @@ class HeaderParser {
   explicit HeaderParser(TextCursor& text) : text_(text) {}
 
   PlyHeader parse() {
-    if (text_.token() != "ply") text_.fail("a PLY file begins with the line \"ply\"", kHeaderHint);
+    if (text_.token() != "ply") text_.fail("a PLY file begins with the line \"ply\"", kPlyHeaderHint);
     text_.skip_line();
     while (parse_line()) text_.skip_line();
-    if (!saw_format_) text_.fail("the PLY header has no format line", kHeaderHint);
+    if (!saw_format_) text_.fail("the PLY header has no format line", kPlyHeaderHint);
     text_.skip_line();
     header_.body_offset = text_.bytes().offset();
     finish_elements();
@@ -63,7 +61,7 @@ class HeaderParser {
  private:
   // False at end_header.
   bool parse_line() {
-    if (!text_.more()) text_.fail("the file ends in its header", "the file is cut; get a whole copy");
+    if (!text_.more()) text_.fail("the file ends in its header", kCutHint);
     const std::string keyword(text_.token());
     if (keyword == "end_header") return false;
     if (keyword == "format")
@@ -82,13 +80,13 @@ class HeaderParser {
     const std::string position = text_.position();
     const std::string second(text_.token()), third(text_.token());
     const bool whole = !second.empty() && !text_.more_on_line();
-    const bool type = std::ranges::find(kTypeNames, second, &TypeName::name) != kTypeNames.end();
+    const bool type = find_type(kTypeNames, second).has_value();
     const bool number = !third.empty() && third.find_first_not_of("0123456789") == std::string::npos;
     const bool encoding = second == "ascii" || second.starts_with("binary_");
     const bool is_text = std::ranges::none_of(
         keyword, [](char c) { return static_cast<unsigned char>(c) < 32 || static_cast<unsigned char>(c) == 127; });
     if (!is_text || encoding || second == "list" || (whole && !third.empty() && (type || number)) || !saw_format_)
-      throw Error(ErrorKind::kBadInput, quoted(keyword) + " is not a PLY header line", kHeaderHint)
+      throw Error(ErrorKind::kBadInput, quoted(keyword) + " is not a PLY header line", kPlyHeaderHint)
           .at(text_.source().name(), position);
     ++header_.unknown_lines;
   }
@@ -109,37 +107,39 @@ class HeaderParser {
   void parse_element() {
     PlyElement element;
     element.name = text_.token();
-    if (element.name.empty()) text_.fail("an element without a name", kHeaderHint);
+    if (element.name.empty()) text_.fail("an element without a name", kPlyHeaderHint);
     const std::int64_t count = text_.integer("count");
-    if (count < 0) text_.fail("an element count is negative", kHeaderHint);
+    if (count < 0) text_.fail("an element count is negative", kPlyHeaderHint);
+    element_limit_.add(1, element.name.size(), text_);
     element.count = static_cast<std::uint64_t>(count);
     header_.elements.push_back(std::move(element));
     names_.clear();
   }
 
   void parse_property() {
-    if (header_.elements.empty()) text_.fail("a property before the first element", kHeaderHint);
+    if (header_.elements.empty()) text_.fail("a property before the first element", kPlyHeaderHint);
     PlyProperty property;
     std::string word(text_.token());
     if (word == "list") {
       property.list_count = type_named(text_.token());
-      if (is_float(*property.list_count)) text_.fail("a list length must be of an integer type", kHeaderHint);
+      if (is_float(*property.list_count)) text_.fail("a list length must be of an integer type", kPlyHeaderHint);
       word = text_.token();
     }
     property.type = type_named(word);
     property.name = text_.token();
-    if (property.name.empty()) text_.fail("a property without a name", kHeaderHint);
+    if (property.name.empty()) text_.fail("a property without a name", kPlyHeaderHint);
+    property_limit_.add(1, property.name.size(), text_);
     if (!names_.insert(property.name).second)
-      text_.fail("the property \"" + property.name + "\" is declared twice", kHeaderHint);
+      text_.fail("the property \"" + property.name + "\" is declared twice", kPlyHeaderHint);
     header_.elements.back().properties.push_back(std::move(property));
   }
 
   ScalarType type_named(std::string_view name) {
-    const auto found = std::ranges::find(kTypeNames, name, &TypeName::name);
-    if (found == kTypeNames.end())
+    const auto type = find_type(kTypeNames, name);
+    if (!type)
       text_.fail("unknown PLY type " + quoted(name),
                  "the types are char uchar short ushort int uint float double, or int8 ... float64");
-    return found->type;
+    return *type;
   }
 
   void finish_elements() {
@@ -148,7 +148,7 @@ class HeaderParser {
     for (std::size_t i = 0; i < header_.elements.size(); ++i) {
       PlyElement& element = header_.elements[i];
       if (element.name == "vertex") {
-        if (std::exchange(has_vertices, true)) text_.fail("the element vertex is declared twice", kHeaderHint);
+        if (std::exchange(has_vertices, true)) text_.fail("the element vertex is declared twice", kPlyHeaderHint);
         element.role = PlyRole::kVertices;
         header_.vertex_element = i;
       } else if (element.name == "face" || element.name == "tristrips") {
@@ -197,7 +197,7 @@ class HeaderParser {
         throw Error(ErrorKind::kBadInput,
                     "the header announces " + count_of(element.count, element.name) + ", but the file has room for " +
                         with_commas(left / each) + " at most",
-                    "the file is cut, or its header is damaged; get a whole copy")
+                    kCutOrHeaderHint)
             .at(text_.source().name(),
                 header_.encoding == PlyEncoding::kAscii ? text_.position() : std::to_string(header_.body_offset));
       left -= element.count * each;
@@ -207,6 +207,7 @@ class HeaderParser {
   TextCursor& text_;
   PlyHeader header_;
   std::unordered_set<std::string> names_;  // of the properties of the last element
+  EntryLimit element_limit_{"elements"}, property_limit_{"properties"};
   bool saw_format_ = false;
 };
 

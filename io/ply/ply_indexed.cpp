@@ -3,12 +3,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
+#include <optional>
 #include <utility>
 
 #include "io/file/content_source.h"
 #include "io/file/file_windows.h"
+#include "io/mesh/property_columns.h"
 #include "io/mesh/scalar_bytes.h"
 #include "io/ply/ply_reader.h"
+#include "io/text/cursor.h"
 #include "libreeb/base/error.h"
 
 namespace reeb::io {
@@ -24,14 +28,20 @@ struct Column {
   bool carried = false;    // it may have any values
 };
 
-std::vector<Column> find_columns(const PlyHeader& header, const ReadOptions& options, const std::vector<bool>& carried,
-                                 const std::string& file) {
+// Of all properties.
+std::vector<Column> all_columns(const PlyHeader& header) {
   std::vector<Column> all;
   std::size_t offset = 0;
   for (const PlyProperty& property : header.vertices().properties) {
     all.push_back({property.type, offset});
     offset += byte_size(property.type);
   }
+  return all;
+}
+
+std::vector<Column> find_columns(const PlyHeader& header, const ReadOptions& options, const std::vector<bool>& carried,
+                                 const std::string& file) {
+  const std::vector<Column> all = all_columns(header);
   std::vector<Column> columns;
   for (const std::size_t p : header.coordinate_properties()) columns.push_back(all[p]);
   for (const std::size_t p : header.find_properties(options.properties, file)) columns.push_back(all[p]);
@@ -99,7 +109,14 @@ class IndexedPly final : public IndexedMesh {
 
   std::uint64_t bytes_read() const override { return reading_->bytes_read(); }
   std::uint64_t bytes_total() const override { return windows_.size(); }
-  std::vector<std::string> warnings() const override { return reading_->warnings(); }
+  std::vector<std::string> warnings() const override {
+    if (!non_finite_values_) non_finite_values_ = count_non_finite_values();
+    std::vector<std::string> lines;
+    if (*non_finite_values_ != 0) lines.push_back(note_on_non_finite_values(*non_finite_values_));
+    std::vector<std::string> others = reading_->warnings();
+    std::ranges::move(others, std::back_inserter(lines));
+    return lines;
+  }
 
  private:
   PlyBodyReader& pieces() {
@@ -113,6 +130,32 @@ class IndexedPly final : public IndexedMesh {
     if (!at_end) return;
     const auto [points, edges] = faces_->points_and_edges();
     counts_ = {points, edges, triangles_read_ - points - edges};
+  }
+
+  // Of the properties that may have any values. Vertices are looked up without these, so this is a pass of its own.
+  std::uint64_t count_non_finite_values() const {
+    std::vector<Column> unused = all_columns(header_);
+    std::erase_if(unused, [this](const Column& column) {
+      return !is_float(column.type) || std::ranges::any_of(columns_, [&column](const Column& used) {
+        return !used.carried && used.offset == column.offset;
+      });
+    });
+    std::uint64_t left = unused.empty() ? 0 : vertex_count(), non_finite = 0;
+    if (left == 0) return 0;
+    Cursor records(open_content(windows_.file()));
+    records.move_to(vertices_begin_);
+    while (left != 0 && records.ensure(stride_)) {
+      const std::uint64_t count = std::min<std::uint64_t>(left, records.available() / stride_);
+      for (const Column& column : unused)
+        with_type(column.type, [&](auto zero) {
+          const char* bytes = records.data() + column.offset;
+          for (std::uint64_t i = 0; i < count; ++i, bytes += stride_)
+            non_finite += std::isfinite(static_cast<double>(load_scalar<decltype(zero)>(bytes, swap_))) ? 0u : 1u;
+        });
+      records.advance(static_cast<std::size_t>(count * stride_));
+      left -= count;
+    }
+    return non_finite;
   }
 
   const char* record(VertexId id) { return windows_.at(vertices_begin_ + id.value() * stride_); }
@@ -169,6 +212,7 @@ class IndexedPly final : public IndexedMesh {
   MeshBatch batch_;
   std::uint64_t triangles_read_ = 0;  // of `faces_`
   SimplexCounts counts_{};
+  mutable std::optional<std::uint64_t> non_finite_values_;  // once they were counted
 };
 
 }  // namespace

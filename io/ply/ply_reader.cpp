@@ -11,6 +11,7 @@
 #include "io/mesh/simplex_assembler.h"
 #include "io/ply/ply_decoder.h"
 #include "io/ply/ply_indexed.h"
+#include "io/text/hints.h"
 #include "libreeb/base/count_text.h"
 
 namespace reeb::io {
@@ -59,21 +60,27 @@ MeshInfo describe(const PlyHeader& header, const ContentSource& source) {
   return info;
 }
 
-// Appends one column of `count` records of fixed size to `column`; its first value is at `bytes`. `zero` is added to
-// each. Returns whether all values are finite.
-bool append_column(ScalarType type, bool swap, const char* bytes, std::size_t stride, std::size_t count, double zero,
-                   std::vector<double>& column) {
+// One column of records of fixed size; its first value is at `bytes`.
+struct ColumnBytes {
+  ScalarType type;
+  bool swap;
+  const char* bytes;
+  std::size_t stride;
+};
+
+// Appends `count` values to `column`. `zero` is added to each. Returns whether all are finite.
+bool append_column(const ColumnBytes& from, std::size_t count, double zero, std::vector<double>& column) {
   const std::size_t before = column.size();
   column.resize(before + count);
   double* const out = column.data() + before;
-  with_type(type, [&](auto none) {
+  with_type(from.type, [&](auto none) {
     for (std::size_t i = 0; i < count; ++i)
-      out[i] = static_cast<double>(load_scalar<decltype(none)>(bytes + i * stride, swap)) + zero;
+      out[i] = static_cast<double>(load_scalar<decltype(none)>(from.bytes + i * from.stride, from.swap)) + zero;
   });
   return all_finite({out, count});
 }
 
-std::uint64_t count_odd(std::span<const double> values) {
+std::uint64_t count_non_finite(std::span<const double> values) {
   return static_cast<std::uint64_t>(std::ranges::count_if(values, [](double value) { return !std::isfinite(value); }));
 }
 
@@ -116,7 +123,7 @@ class PlyReader final : public PlyBodyReader {
     for (step_ = 0; step_ <= header_.vertex_element; ++step_)
       offset += header_.elements[step_].count * header_.elements[step_].fixed_bytes();
     decoder_.bytes().move_to(offset);
-    record_ = odd_values_ = 0;
+    record_ = non_finite_values_ = 0;
     in_record_ = trailing_ = false;
   }
 
@@ -160,7 +167,7 @@ class PlyReader final : public PlyBodyReader {
 
   std::vector<std::string> warnings() const override {
     std::vector<std::string> lines;
-    if (odd_values_ != 0) lines.push_back(note_on_odd_values(odd_values_));
+    if (non_finite_values_ != 0) lines.push_back(note_on_non_finite_values(non_finite_values_));
     if (header_.unknown_lines != 0)
       lines.push_back(count_of(header_.unknown_lines, "line") + " of the header " +
                       (header_.unknown_lines == 1 ? "is" : "are") + " not PLY and " +
@@ -242,7 +249,7 @@ class PlyReader final : public PlyBodyReader {
 
   std::uint64_t list_length(const PlyProperty& property) {
     const std::int64_t length = decoder_.integer(*property.list_count, "list length");
-    if (length < 0) decoder_.fail("a list has a negative length", "the file may be damaged here");
+    if (length < 0) decoder_.fail("a list has a negative length", kDamagedHereHint);
     return static_cast<std::uint64_t>(length);
   }
 
@@ -267,7 +274,7 @@ class PlyReader final : public PlyBodyReader {
       else if (property.list_count)
         pass_property(property);
       else
-        odd_values_ += decoder_.skip(property.type, "value") ? 1u : 0u;
+        non_finite_values_ += decoder_.skip(property.type, "value") ? 1u : 0u;
     }
     decoder_.end_record(element);
     for (const auto& [to, from] : copies_) columns_[to]->push_back(columns_[from]->back());
@@ -277,7 +284,7 @@ class PlyReader final : public PlyBodyReader {
   double read_value(ScalarType type, std::size_t property) {
     if (!carried_[column_of_[property]]) return decoder_.finite_value(type, what_is(property));
     const double value = decoder_.any_value(type, what_is(property));
-    odd_values_ += std::isfinite(value) ? 0u : 1u;
+    non_finite_values_ += std::isfinite(value) ? 0u : 1u;
     return value;
   }
 
@@ -297,9 +304,9 @@ class PlyReader final : public PlyBodyReader {
       const ScalarType type = element.properties[p].type;
       const char* const first = bytes.data() + place;
       if (column_of_[p] == kNoColumn)
-        count_odd_values(type, first, stride, count);
-      else if (!append_column(type, decoder_.swaps(), first, stride, count, zero(), *columns_[column_of_[p]]))
-        meet_odd_values(p, place, stride, count);
+        count_non_finite_values(type, first, stride, count);
+      else if (!append_column({type, decoder_.swaps(), first, stride}, count, zero(), *columns_[column_of_[p]]))
+        meet_non_finite_values(p, place, stride, count);
       place += byte_size(type);
     }
     for (const auto& [to, from] : copies_)
@@ -310,24 +317,24 @@ class PlyReader final : public PlyBodyReader {
     count_vertices(batch, count);
   }
 
-  void count_odd_values(ScalarType type, const char* first, std::size_t stride, std::size_t count) {
+  void count_non_finite_values(ScalarType type, const char* first, std::size_t stride, std::size_t count) {
     if (!is_float(type)) return;
     scratch_.clear();
-    if (!append_column(type, decoder_.swaps(), first, stride, count, zero(), scratch_))
-      odd_values_ += count_odd(scratch_);
+    if (!append_column({type, decoder_.swaps(), first, stride}, count, zero(), scratch_))
+      non_finite_values_ += count_non_finite(scratch_);
   }
 
   // The last `count` values of the column of `property` are not all finite.
-  void meet_odd_values(std::size_t property, std::size_t place, std::size_t stride, std::size_t count) {
+  void meet_non_finite_values(std::size_t property, std::size_t place, std::size_t stride, std::size_t count) {
     if (!carried_[column_of_[property]]) fail_not_finite(property, place, stride, count);
-    odd_values_ += count_odd(std::span(*columns_[column_of_[property]]).last(count));
+    non_finite_values_ += count_non_finite(std::span(*columns_[column_of_[property]]).last(count));
   }
 
   [[noreturn]] void fail_not_finite(std::size_t property, std::size_t place, std::size_t stride, std::size_t count) {
     const auto& column = *columns_[column_of_[property]];
-    const auto odd = std::find_if(column.end() - static_cast<std::ptrdiff_t>(count), column.end(),
-                                  [](double value) { return !std::isfinite(value); });
-    const auto index = count - static_cast<std::size_t>(column.end() - odd);
+    const auto non_finite = std::find_if(column.end() - static_cast<std::ptrdiff_t>(count), column.end(),
+                                         [](double value) { return !std::isfinite(value); });
+    const auto index = count - static_cast<std::size_t>(column.end() - non_finite);
     decoder_.fail_at(
         decoder_.bytes().offset() + index * stride + place,
         std::string("a ") + what_is(property) + " of vertex " + std::to_string(record_ + index) + " is not finite",
@@ -373,7 +380,7 @@ class PlyReader final : public PlyBodyReader {
     const bool strip = element.role == PlyRole::kStrips;
     if (!std::exchange(in_list_, true)) {
       corners_left_ = list_length(list);
-      if (expects_triangles_ && corners_left_ != 3) throw InputChanged();
+      if (expects_triangles_ && corners_left_ != 3) throw input_changed();
       face_.begin(strip ? FaceShape::kStrip : FaceShape::kPolygon);
     }
     for (; corners_left_ != 0 && room(batch) != 0; --corners_left_) {
@@ -481,7 +488,7 @@ class PlyReader final : public PlyBodyReader {
   std::uint64_t record_begin_ = 0;
   std::size_t of_record_ = 0;
   SimplexAssembler face_;
-  std::uint64_t odd_values_ = 0;
+  std::uint64_t non_finite_values_ = 0;
   bool trailing_ = false;
   bool triangles_only_ = false, expects_triangles_ = false;
   std::array<std::uint64_t, 2> turned_{};  // points and edges that became triangles

@@ -31,7 +31,7 @@ class PlyBodyReader : public BatchReader {
   // many corners, since a face is read again up to the place.
   virtual std::optional<MeshPlace> place() const = 0;
   virtual void seek(const MeshPlace& place) = 0;
-  // Goes on at a face of a file of triangles, and throws InputChanged at a face that is not a triangle.
+  // Goes on at a face of a file of triangles, and throws Error{kChanged} at a face that is not a triangle.
   virtual void seek_triangle(const PlyTriangles& triangles, std::uint64_t number) = 0;
 
  protected:

@@ -208,10 +208,10 @@ float Grid::position(std::size_t axis, std::int32_t place) const {
 
 PositionCoder::PositionCoder(std::uint32_t precision, const std::optional<StreamBox>& box) {
   const bool quantized = precision > 0 && box;
-  if (quantized) grid_.emplace_back(*box, precision);
+  if (quantized) grid_.emplace(*box, precision);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (quantized)
-      grid_axes_.emplace_back(precision, grid_[0].top[axis] + 1);
+      grid_axes_.emplace_back(precision, grid_->top[axis] + 1);
     else
       float_axes_.emplace_back(precision);
   }
@@ -220,14 +220,14 @@ PositionCoder::PositionCoder(std::uint32_t precision, const std::optional<Stream
 CodedPosition PositionCoder::to_coded(const std::array<float, 3>& position) const {
   CodedPosition coded{};
   for (std::size_t k = 0; k < 3; ++k)
-    coded[k] = grid_.empty() ? std::bit_cast<std::int32_t>(position[k]) : grid_[0].place(k, position[k]);
+    coded[k] = grid_ ? grid_->place(k, position[k]) : std::bit_cast<std::int32_t>(position[k]);
   return coded;
 }
 
 std::array<float, 3> PositionCoder::to_position(const CodedPosition& coded) const {
   std::array<float, 3> position{};
   for (std::size_t k = 0; k < 3; ++k)
-    position[k] = grid_.empty() ? std::bit_cast<float>(coded[k]) : grid_[0].position(k, coded[k]);
+    position[k] = grid_ ? grid_->position(k, coded[k]) : std::bit_cast<float>(coded[k]);
   return position;
 }
 
@@ -256,8 +256,7 @@ template <class Coder>
 CodedPosition PositionCoder::code(Coder& coder, const PredictionInput& from, const CodedPosition& value) {
   CodedPosition result{};
   for (std::size_t axis = 0; axis < 3; ++axis)
-    result[axis] =
-        grid_.empty() ? code_float(coder, axis, from, value[axis]) : code_place(coder, axis, from, value[axis]);
+    result[axis] = grid_ ? code_place(coder, axis, from, value[axis]) : code_float(coder, axis, from, value[axis]);
   return result;
 }
 

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "io/events/stream_event.h"
@@ -137,7 +138,7 @@ class PositionCoder {
   template <class Coder>
   std::int32_t code_place(Coder& coder, std::size_t axis, const PredictionInput& from, std::int32_t value);
 
-  std::vector<Grid> grid_;  // one element; empty for floats
+  std::optional<Grid> grid_;  // none for floats
   std::vector<FloatAxis> float_axes_;
   std::vector<GridAxis> grid_axes_;
 };

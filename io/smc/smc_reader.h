@@ -19,6 +19,7 @@ class SmcEventReader : public EventReader {
   explicit SmcEventReader(Cursor cursor);
 
   std::uint64_t bytes_read() const override { return cursor_.bytes_read(); }
+  std::uint64_t memory_bytes() const override { return EventReader::memory_bytes() + state_.memory_bytes(); }
 
  private:
   void fill() override;

@@ -168,4 +168,15 @@ std::uint32_t SmcState::find_edge_to(std::uint32_t slot, std::uint32_t end) cons
   return kNone;
 }
 
+std::uint64_t NumberLists::memory_bytes() const {
+  std::uint64_t count = numbers_.capacity();
+  for (const auto& lists : free_) count += lists.capacity();
+  return count * sizeof(std::uint32_t);
+}
+
+std::uint64_t SmcState::memory_bytes() const {
+  return lists_.memory_bytes() + vertices_.capacity() * sizeof(SmcVertex) + edges_.capacity() * sizeof(SmcEdge) +
+         (free_vertices_.capacity() + free_edges_.capacity() + active_.capacity()) * sizeof(std::uint32_t);
+}
+
 }  // namespace reeb::io

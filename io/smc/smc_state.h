@@ -65,6 +65,7 @@ class NumberLists {
     numbers_[list.begin + i] = numbers_[list.begin + --list.size];
   }
   void release(List& list);
+  std::uint64_t memory_bytes() const;
 
  private:
   static constexpr std::uint32_t kFirstLog = 3;
@@ -147,6 +148,8 @@ class SmcState {
 
   // Makes this the last triangle: counts its uses, closes and opens edges.
   void apply(const Triangle& triangle, SmcOperation operation);
+
+  std::uint64_t memory_bytes() const;
 
  private:
   void open_edge(std::uint32_t origin, std::uint32_t target, const CodedPosition& apex);

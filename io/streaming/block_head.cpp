@@ -5,12 +5,13 @@
 #include <limits>
 
 #include "io/events/stream_fault.h"
+#include "io/mesh/scalar_bytes.h"
 
 namespace reeb::io {
 namespace {
 
 constexpr std::int32_t kMaxComments = 65535, kMaxCommentBytes = 1 << 20;
-constexpr std::size_t kMaxHeadBytes = 64u << 20;
+constexpr std::size_t kMaxHeadBytes = 4u << 20;
 constexpr std::size_t kJudgedBlocks = 64;
 // Both readings look at this many bytes in one view.
 static_assert(256 + kJudgedBlocks * (4 + kBlockElements * 16) <= ContentSource::kLookahead);
@@ -18,7 +19,7 @@ constexpr std::uint64_t kImplausible = std::numeric_limits<std::uint64_t>::max()
 
 // A head, read in one byte order. `fault` is the first thing found wrong.
 struct HeadReading {
-  WordOrder order;
+  bool swap = false;
   StreamHeader header;
   std::uint64_t end = 0;  // offset of what follows the head, or of the fault
   bool truncated = false;
@@ -42,7 +43,7 @@ std::int32_t read_comment_count(Cursor& cursor, HeadReading& reading) {
     reading.refuse_truncated();
     return 0;
   }
-  const std::int32_t count = reading.order.integer(cursor.data());
+  const std::int32_t count = load_scalar<std::int32_t>(cursor.data(), reading.swap);
   reading.end += 4;
   if (count < 0 || count > kMaxComments) reading.refuse("comment count " + std::to_string(count) + " is not plausible");
   return reading.is_plausible() ? count : 0;
@@ -50,13 +51,13 @@ std::int32_t read_comment_count(Cursor& cursor, HeadReading& reading) {
 
 bool read_comment(Cursor& cursor, HeadReading& reading) {
   if (!cursor.ensure(4)) return reading.refuse_truncated();
-  const std::int32_t length = reading.order.integer(cursor.data());
+  const std::int32_t length = load_scalar<std::int32_t>(cursor.data(), reading.swap);
   cursor.advance(4);
   reading.end = cursor.offset();
   if (length < 0 || length > kMaxCommentBytes)
     return reading.refuse("comment length " + std::to_string(length) + " is not plausible");
   auto left = static_cast<std::size_t>(length);
-  if (reading.end + left > kMaxHeadBytes) return reading.refuse("more than 64 MiB of comments");
+  if (reading.end + left > kMaxHeadBytes) return reading.refuse("more than 4 MiB of comments");
   std::string& comment = reading.header.comments.emplace_back();
   while (left != 0) {
     if (cursor.at_end()) return reading.refuse_truncated();
@@ -95,7 +96,7 @@ class HeadParser {
   bool have(std::size_t count) { return cursor_.ensure(at_ + count) || reading_.refuse_truncated(); }
   bool read_integer(std::int32_t& value) {
     if (!have(4)) return false;
-    value = reading_.order.integer(cursor_.data() + at_);
+    value = load_scalar<std::int32_t>(cursor_.data() + at_, reading_.swap);
     at_ += 4;
     return true;
   }
@@ -129,8 +130,8 @@ class HeadParser {
     if (!floats) return true;
     StreamBox box{};
     for (std::size_t k = 0; k < 3; ++k) {
-      box.min[k] = reading_.order.real(data + 4 * k);
-      box.max[k] = reading_.order.real(data + 4 * (width + k));
+      box.min[k] = load_scalar<float>(data + 4 * k, reading_.swap);
+      box.max[k] = load_scalar<float>(data + 4 * (width + k), reading_.swap);
       if (!std::isfinite(box.min[k]) || !std::isfinite(box.max[k]) || box.min[k] > box.max[k])
         return refuse("the bounding box is not plausible");
     }
@@ -178,7 +179,7 @@ class Judge {
       bad += count && most_elements_ && *count > *most_elements_;
     auto at = static_cast<std::size_t>(reading_.end - cursor_.offset());
     for (std::size_t block = 0; block < kJudgedBlocks && cursor_.ensure(at + 4); ++block) {
-      const std::uint32_t descriptor = reading_.order.word(cursor_.data() + at);
+      const std::uint32_t descriptor = load_scalar<std::uint32_t>(cursor_.data() + at, reading_.swap);
       at += 4;
       if (block == 0) post_order_ = (descriptor & 1) == 0;
       for (std::size_t j = 0; j < kBlockElements && cursor_.ensure(at + 4 * words_); ++j) {
@@ -194,7 +195,7 @@ class Judge {
   bool odd_vertex(const char* element) {
     ++vertices_;
     bool odd = false;
-    for (std::size_t k = 0; k < 3; ++k) odd = odd || odd_coordinate(reading_.order.real(element + 4 * k));
+    for (std::size_t k = 0; k < 3; ++k) odd = odd || odd_coordinate(load_scalar<float>(element + 4 * k, reading_.swap));
     return odd;
   }
   bool odd_cell(const char* element) const {
@@ -205,7 +206,7 @@ class Judge {
     const std::int64_t least = post_order_ ? 0 : -vertices_;
     bool odd = false;
     for (std::size_t k = 0; k < words_; ++k) {
-      const std::int64_t n = reading_.order.integer(element + 4 * k);
+      const std::int64_t n = load_scalar<std::int32_t>(element + 4 * k, reading_.swap);
       odd = odd || n == 0 || n > limit || n < least;
     }
     return odd;
@@ -220,9 +221,9 @@ class Judge {
 };
 
 // The cursor is after the head.
-bool judge_post_order(Cursor& cursor, const StreamHeader& header, WordOrder order) {
+bool judge_post_order(Cursor& cursor, const StreamHeader& header, bool swap) {
   const std::size_t element = header.volume ? 16 : 12;
-  return cursor.ensure(4 + element) && (order.word(cursor.data()) & 1) == 0;
+  return cursor.ensure(4 + element) && (load_scalar<std::uint32_t>(cursor.data(), swap) & 1) == 0;
 }
 
 }  // namespace
@@ -236,8 +237,8 @@ BlockHead read_block_head(Cursor& cursor, bool volume) {
       fail(Fault::kUnsupported, "compression " + std::to_string(byte(i)) + " is not known", std::to_string(i));
 
   HeadReading first, second;
-  first.order = WordOrder::big_endian(byte(1) == 1);
-  second.order = {!first.order.swapped};
+  first.swap = byte(1) == 1;
+  second.swap = !first.swap;
   for (HeadReading* reading : {&first, &second}) {
     reading->header.volume = volume;
     reading->header.format = volume ? "SVB" : "SMB";
@@ -254,10 +255,9 @@ BlockHead read_block_head(Cursor& cursor, bool volume) {
   const bool overruled = first_bad > second_bad;
   HeadReading& chosen = overruled ? second : first;
   cursor.advance(static_cast<std::size_t>(chosen.end - cursor.offset()));
-  chosen.header.post_order = judge_post_order(cursor, chosen.header, chosen.order);
-  chosen.header.format +=
-      WordOrder::big_endian(true).swapped == chosen.order.swapped ? " big endian" : " little endian";
-  return {std::move(chosen.header), chosen.order, overruled};
+  chosen.header.post_order = judge_post_order(cursor, chosen.header, chosen.swap);
+  chosen.header.format += chosen.swap ? " big endian" : " little endian";
+  return {std::move(chosen.header), chosen.swap, overruled};
 }
 
 }  // namespace reeb::io

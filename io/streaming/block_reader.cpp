@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "io/events/stream_fault.h"
+#include "io/mesh/scalar_bytes.h"
 
 namespace reeb::io {
 
@@ -11,7 +12,7 @@ template <std::size_t kWords>
 BlockEventReader<kWords>::BlockEventReader(Cursor cursor) : cursor_(std::move(cursor)) {
   BlockHead head = read_block_head(cursor_, kWords == 4);
   header_ = std::move(head.header);
-  order_ = head.order;
+  swap_ = head.swap;
   rules_.set_post_order(header_.post_order);
   if (head.overruled) warn("ORDER: the byte order mark contradicts the data; they are read as " + header_.format);
 }
@@ -24,7 +25,7 @@ void BlockEventReader<kWords>::fill() {
     if (cursor_.available() < 4)
       fail(Fault::kTruncated, "ends inside a block descriptor", std::to_string(cursor_.offset()));
   }
-  const std::uint32_t descriptor = order_.word(cursor_.data());
+  const std::uint32_t descriptor = load_scalar<std::uint32_t>(cursor_.data(), swap_);
   const std::size_t rest = cursor_.available() - 4;
   const std::size_t count = std::min(kBlockElements, rest / kElementBytes);
   const char* elements = cursor_.data() + 4;
@@ -43,10 +44,11 @@ void BlockEventReader<kWords>::fill() {
 
 template <std::size_t kWords>
 void BlockEventReader<kWords>::read_vertex(const char* element, std::uint64_t position) {
-  const std::array<float, 3> xyz = {order_.real(element), order_.real(element + 4), order_.real(element + 8)};
+  const std::array<float, 3> xyz = {load_scalar<float>(element, swap_), load_scalar<float>(element + 4, swap_),
+                                    load_scalar<float>(element + 8, swap_)};
   // SVB only: a fourth float, or an integer, or nothing.
   const char* more = element + kElementBytes - 4;
-  const float fourth = header_.vertex_floats == 4 ? order_.real(more) : 0;
+  const float fourth = header_.vertex_floats == 4 ? load_scalar<float>(more, swap_) : 0;
   if (!std::isfinite(xyz[0]) || !std::isfinite(xyz[1]) || !std::isfinite(xyz[2]) || !std::isfinite(fourth))
     fail(Fault::kBadNumber, "a value of vertex " + std::to_string(rules_.vertex_count()) + " is not finite",
          std::to_string(position));
@@ -59,7 +61,7 @@ void BlockEventReader<kWords>::read_vertex(const char* element, std::uint64_t po
   std::copy(xyz.begin(), xyz.end(), event.floats.begin());
   if constexpr (kWords == 4) {
     event.floats[3] = fourth;
-    event.ints[0] = order_.integer(more);
+    event.ints[0] = load_scalar<std::int32_t>(more, swap_);
   }
   rules_.add_vertex();
   if (rules_.post_order()) push_finalized(vertex);
@@ -70,7 +72,7 @@ void BlockEventReader<kWords>::read_cell(const char* element, std::uint64_t posi
   std::array<std::int32_t, kWords> numbers;
   std::array<std::uint32_t, kWords> vertices{};
   for (std::size_t k = 0; k < kWords; ++k) {
-    numbers[k] = order_.integer(element + 4 * k);
+    numbers[k] = load_scalar<std::int32_t>(element + 4 * k, swap_);
     IndexVerdict verdict = rules_.corner(numbers[k], vertices[k]);
     for (std::size_t i = 0; i < k; ++i)
       if (numbers[k] < 0 && numbers[i] == numbers[k]) verdict = IndexVerdict::kFinal;

@@ -18,6 +18,7 @@ class BlockEventReader : public EventReader {
   explicit BlockEventReader(Cursor cursor);
 
   std::uint64_t bytes_read() const override { return cursor_.bytes_read(); }
+  std::uint64_t memory_bytes() const override { return EventReader::memory_bytes() + rules_.memory_bytes(); }
 
  private:
   static constexpr std::size_t kElementBytes = 4 * kWords;
@@ -28,7 +29,7 @@ class BlockEventReader : public EventReader {
   void finish();
 
   Cursor cursor_;
-  WordOrder order_;
+  bool swap_ = false;
   IndexRules rules_;
   std::uint64_t cells_ = 0;
   bool done_ = false;

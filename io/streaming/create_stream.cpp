@@ -49,6 +49,30 @@ std::unique_ptr<StreamWriter> make_writer(StreamFormat format, std::ostream& out
   return std::make_unique<EventListWriter>(out, header);
 }
 
+// The events of batches.
+class EventListMeshWriter : public MeshWriter {
+ public:
+  EventListMeshWriter(const std::string& path, const MeshWriterOptions& options)
+      : file_(path, {.existing = options.existing}),
+        stream_(file_.out()),
+        out_(stream_),
+        properties_(options.property_names.size()),
+        float64_(options.float64) {}
+
+  void write(const MeshBatch& batch) override { write_events(out_, batch, properties_, float64_); }
+  void close() override {
+    out_.flush();
+    file_.commit();
+  }
+
+ private:
+  AtomicFile file_;
+  FileOstream stream_;
+  OutputBuffer out_;
+  std::size_t properties_;
+  bool float64_;
+};
+
 // A stream writer that owns its file.
 class StreamFile : public StreamWriter {
  public:
@@ -90,7 +114,7 @@ class StreamMeshWriter : public MeshWriter {
   StreamMeshWriter(const std::string& path, const MeshWriterOptions& options)
       : path_(path),
         header_(header_of(path, options)),
-        most_corners_(header_.volume || stream_format(path) == StreamFormat::kEvents ? 4 : 3),
+        most_corners_(header_.volume ? 4 : 3),
         writer_(create_stream(path, header_, options.existing)) {}
 
   void write(const MeshBatch& batch) override {
@@ -128,8 +152,7 @@ class StreamMeshWriter : public MeshWriter {
       header.vertex_count = static_cast<std::uint32_t>(*options.vertex_count);
     if (options.simplex_count && *options.simplex_count <= kMaxStreamVertices)
       header.cell_count = static_cast<std::uint32_t>(*options.simplex_count);
-    const bool values = header.volume || stream_format(path) == StreamFormat::kEvents;
-    if (values) header.vertex_floats = 3 + static_cast<unsigned>(options.property_names.size());
+    if (header.volume) header.vertex_floats = 3 + static_cast<unsigned>(options.property_names.size());
     if (header.vertex_floats > kMaxFloats)
       throw Error(ErrorKind::kBadInput, "streaming meshes hold at most 5 values per vertex besides its position",
                   "write PLY instead")
@@ -198,6 +221,7 @@ std::unique_ptr<StreamWriter> create_stream(const std::string& path, const Strea
 }
 
 std::unique_ptr<MeshWriter> create_stream_mesh(const std::string& path, const MeshWriterOptions& options) {
+  if (stream_format(path) == StreamFormat::kEvents) return std::make_unique<EventListMeshWriter>(path, options);
   return std::make_unique<StreamMeshWriter>(path, options);
 }
 

@@ -22,8 +22,8 @@ bool is_volume_name(const std::string& path);  // .sva .svb
 std::unique_ptr<StreamWriter> create_stream(const std::string& path, const StreamHeader& header, Existing existing);
 
 // The same for batches. A triangle format gets the triangles of cells; volume formats and lists of events get
-// tetrahedra, and keep properties. An edge or a point is a degenerate triangle in all of them. Numbers become float32
-// in all of them.
+// tetrahedra, and keep properties. An edge or a point is a degenerate triangle in all of them. Numbers become float32,
+// but for lists of events.
 std::unique_ptr<MeshWriter> create_stream_mesh(const std::string& path, const MeshWriterOptions& options);
 
 }  // namespace reeb::io

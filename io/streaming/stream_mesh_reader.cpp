@@ -40,6 +40,7 @@ class StreamMeshReader : public MeshReader {
 
   const MeshInfo& info() const override { return info_; }
   std::uint64_t bytes_read() const override { return reader_->bytes_read(); }
+  std::uint64_t memory_bytes() const override { return reader_->memory_bytes(); }
 
   bool read(MeshBatch& batch) override {
     batch.clear();
@@ -49,6 +50,8 @@ class StreamMeshReader : public MeshReader {
     std::size_t count = 0;
     // Finalizations do not count towards the size of a batch, unless a batch has a single event.
     while (count < batch_events_) {
+      // A batch that ends here may be empty, but lets the caller look at memory_bytes().
+      if (batch_events_ != 1 && !ended_ && !reader_->prepare()) return true;
       const StreamEvent* event = next();
       if (event == nullptr) break;
       append(*event, batch);

@@ -24,9 +24,13 @@ void TextHead::read_line(std::string_view line, std::uint64_t number) {
   LineCursor cursor(line, 1);
   const std::string_view word = cursor.word();
   if (read_keyword(line, word, cursor.column() - 1 + word.size())) return;
-  header_.comments.emplace_back(trimmed(line.substr(1)));
-  comment_bytes_ += header_.comments.back().size() + 1;
-  if (comment_bytes_ > kMaxCommentBytes) fail_here("more than 16 MiB of comments", 1);
+  const std::string_view comment = trimmed(line.substr(1));
+  struct Place {
+    const TextHead& head;
+    void fail(const std::string& what, const std::string&) const { head.fail_here(what, 1); }
+  };
+  comment_limit_.add(1, comment.size(), Place{*this});
+  header_.comments.emplace_back(comment);
 }
 
 bool TextHead::read_keyword(std::string_view line, std::string_view word, std::size_t after) {

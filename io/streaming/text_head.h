@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "io/events/stream_event.h"
+#include "io/text/entry_limit.h"
 
 namespace reeb::io {
 
@@ -20,8 +21,6 @@ class TextHead {
   void finish();
 
  private:
-  static constexpr std::size_t kMaxCommentBytes = 16u << 20;
-
   bool read_keyword(std::string_view line, std::string_view word, std::size_t after);
   void read_count(std::size_t after, std::optional<std::uint32_t>& count);
   void read_width(std::size_t after, unsigned& width, std::int32_t least);
@@ -33,7 +32,7 @@ class TextHead {
   std::uint64_t number_ = 0;
   StreamBox box_{};
   bool has_min_ = false, has_max_ = false;
-  std::size_t comment_bytes_ = 0;
+  EntryLimit comment_limit_{"comments"};
 };
 
 }  // namespace reeb::io

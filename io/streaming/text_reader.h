@@ -21,6 +21,7 @@ class TextEventReader : public EventReader {
 
   std::vector<std::string> warnings() const override;
   std::uint64_t bytes_read() const override { return cursor_.bytes_read(); }
+  std::uint64_t memory_bytes() const override { return EventReader::memory_bytes() + rules_.memory_bytes(); }
 
  private:
   enum class Line { kEmpty, kHash, kVertex, kCell, kFinal, kUnknown };

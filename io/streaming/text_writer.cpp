@@ -1,30 +1,11 @@
 // SMA and SVA.
-#include <array>
-#include <charconv>
-
 #include "io/events/held_cell_writer.h"
+#include "io/text/number_text.h"
 
 namespace reeb::io {
 namespace {
 
 constexpr std::size_t kMaxComment = 240;  // old readers split longer lines
-
-void append_number(std::string& out, std::int64_t value) {
-  std::array<char, 24> text;
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
-  out.push_back(' ');
-  out.append(text.data(), end);
-}
-
-// Nine digits restore every float32.
-void append_number(std::string& out, float value) {
-  std::array<char, 32> text;
-  const auto end =
-      std::to_chars(text.data(), text.data() + text.size(), static_cast<double>(value), std::chars_format::general, 9)
-          .ptr;
-  out.push_back(' ');
-  out.append(text.data(), end);
-}
 
 class TextWriter : public HeldCellWriter {
  public:
@@ -61,7 +42,7 @@ class TextWriter : public HeldCellWriter {
   void write_count(const char* keyword, const std::optional<std::uint32_t>& count) {
     if (!count) return;
     out_.text().append("# ").append(keyword);
-    append_number(out_.text(), std::int64_t{*count});
+    append_field(out_.text(), *count);
     out_.text() += '\n';
   }
   void write_width(const char* keyword, unsigned width, unsigned usual) {
@@ -69,7 +50,7 @@ class TextWriter : public HeldCellWriter {
   }
   void write_corner(const char* keyword, const std::array<float, 3>& corner) {
     out_.text().append("# ").append(keyword);
-    for (const float x : corner) append_number(out_.text(), x);
+    for (const float x : corner) append_field(out_.text(), x);
     out_.text() += '\n';
   }
 
@@ -81,7 +62,7 @@ class TextWriter : public HeldCellWriter {
 
   void write_cell(const StreamEvent& cell, std::span<const std::int32_t> corners) override {
     out_.text() += header_.volume ? 'c' : 'f';
-    for (const std::int32_t corner : corners) append_number(out_.text(), std::int64_t{corner});
+    for (const std::int32_t corner : corners) append_field(out_.text(), corner);
     append_values(cell, header_.cell_floats, header_.cell_ints);
     end_line();
   }
@@ -89,7 +70,7 @@ class TextWriter : public HeldCellWriter {
   void write_finalized(std::uint32_t vertex) override {
     write_held();
     out_.text() += 'x';
-    append_number(out_.text(), std::int64_t{vertex} + 1);
+    append_field(out_.text(), std::int64_t{vertex} + 1);
     end_line();
   }
 
@@ -99,8 +80,8 @@ class TextWriter : public HeldCellWriter {
   }
 
   void append_values(const StreamEvent& event, unsigned floats, unsigned ints) {
-    for (unsigned i = 0; i < floats; ++i) append_number(out_.text(), event.floats[i]);
-    for (unsigned i = 0; i < ints; ++i) append_number(out_.text(), std::int64_t{event.ints[i]});
+    for (unsigned i = 0; i < floats; ++i) append_field(out_.text(), event.floats[i]);
+    for (unsigned i = 0; i < ints; ++i) append_field(out_.text(), event.ints[i]);
   }
 };
 

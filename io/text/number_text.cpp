@@ -1,8 +1,5 @@
 #include "io/text/number_text.h"
 
-#include <array>
-#include <charconv>
-
 namespace reeb::io {
 
 void append_double(std::string& out, double value) { append_rounded(out, value, 17); }
@@ -17,6 +14,21 @@ void append_rounded(std::string& out, double value, int digits) {
 void append_shortest(std::string& out, double value) {
   std::array<char, 40> text;
   const auto result = std::to_chars(text.data(), text.data() + text.size(), value + 0.0);
+  out.append(text.data(), result.ptr);
+}
+
+void append_field(std::string& out, float value) {
+  std::array<char, 40> text;
+  text[0] = ' ';
+  const auto result = std::to_chars(text.data() + 1, text.data() + text.size(), static_cast<double>(value),
+                                    std::chars_format::general, 9);
+  out.append(text.data(), result.ptr);
+}
+
+void append_field(std::string& out, double value) {
+  std::array<char, 40> text;
+  text[0] = ' ';
+  const auto result = std::to_chars(text.data() + 1, text.data() + text.size(), value);
   out.append(text.data(), result.ptr);
 }
 

@@ -1,6 +1,9 @@
 // Numbers as the text formats print them (docs/CLI.md, `reeb extract FILE`).
 #pragma once
 
+#include <array>
+#include <charconv>
+#include <concepts>
 #include <string>
 
 namespace reeb::io {
@@ -11,5 +14,16 @@ void append_double(std::string& out, double value);
 void append_shortest(std::string& out, double value);
 // This many significant digits at most, -0 as 0.
 void append_rounded(std::string& out, double value, int digits);
+
+// A blank and a number, as in the lines of streaming meshes; -0 stays. A float as `%.9g`, which restores it; a double
+// in the shortest form that restores it.
+void append_field(std::string& out, float value);
+void append_field(std::string& out, double value);
+template <std::integral Integer>
+void append_field(std::string& out, Integer value) {
+  std::array<char, 24> text;
+  text[0] = ' ';
+  out.append(text.data(), std::to_chars(text.data() + 1, text.data() + text.size(), value).ptr);
+}
 
 }  // namespace reeb::io

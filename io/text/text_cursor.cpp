@@ -8,6 +8,7 @@
 #include <cstring>
 #include <system_error>
 
+#include "io/text/hints.h"
 #include "io/text/words.h"
 #include "libreeb/base/count_text.h"
 
@@ -67,13 +68,12 @@ bool TextCursor::more() {
 
 void TextCursor::fail_at_end(const char* what) {
   mark();
-  fail(std::string("the file ends where a ") + what + " should be", "the file is cut; get a whole copy");
+  fail(std::string("the file ends where a ") + what + " should be", kCutHint);
 }
 
 void TextCursor::require_room(std::uint64_t records, std::uint64_t numbers) const {
   if (records > most_numbers(source(), cursor_.offset()) / numbers)
-    fail("the file announces " + count_of(records, "record") + " here, more than it has room for",
-         "the file is cut or damaged; get a whole copy");
+    fail("the file announces " + count_of(records, "record") + " here, more than it has room for", kCutOrDamagedHint);
 }
 
 void TextCursor::skip_line() {
@@ -170,11 +170,10 @@ void TextCursor::fail_digits(const char* what, const std::string& hint) {
 }
 
 void TextCursor::fail_number(std::string_view token, const char* what) const {
-  if (token.empty())
-    fail(std::string("the line ends where a ") + what + " should be", "the file may be cut or damaged here");
+  if (token.empty()) fail(std::string("the line ends where a ") + what + " should be", kCutOrDamagedHereHint);
   if (parse_number<double>(token).ok)
     fail(std::string("a ") + what + " cannot be " + quoted(token), "fix this value in the file");
-  fail(quoted(token) + " is not a number (a " + what + " should be here)", "the file may be cut or damaged here");
+  fail(quoted(token) + " is not a number (a " + what + " should be here)", kCutOrDamagedHereHint);
 }
 
 std::string TextCursor::position() const { return std::to_string(marked_line_) + ":" + std::to_string(marked_column_); }

@@ -11,6 +11,15 @@ namespace reeb::io {
 
 // The word as messages show it: its first 40 characters, in quotes.
 std::string quoted(std::string_view word);
+// The value of a hexadecimal digit, or -1.
+int hex_digit(char c);
+// The text with each %XX as the byte that these hexadecimal digits are.
+struct PercentDecoded {
+  std::string text;
+  bool is_valid = true;  // else a '%' without digits stayed as it was
+};
+PercentDecoded percent_decoded(std::string_view text);
+
 // Of the letters A to Z alone; other characters stay.
 std::string lower_case(std::string_view text);
 std::string upper_case(std::string_view text);

@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <exception>
 #include <new>
+#include <unordered_set>
 
+#include "io/text/entry_limit.h"
+#include "io/text/hints.h"
 #include "libreeb/base/error.h"
 
 namespace reeb::io {
@@ -28,6 +31,21 @@ struct XmlParser::State {
   bool ended = false;
   std::exception_ptr failure;  // Expat is in C, so an exception must not pass through it
   bool has_document_type = false;
+  // Expat holds the tags around it, and every name that it has met.
+  EntryLimit open_tags{"tags inside each other", 100}, names{"different names of tags and attributes"};
+  std::unordered_set<std::string> known_names;
+
+  [[noreturn]] void fail(const std::string& what, const std::string& hint) const {
+    throw Error(ErrorKind::kBadInput, what, hint)
+        .at(source->name(), std::to_string(XML_GetCurrentLineNumber(parser)) + ":" +
+                                std::to_string(XML_GetCurrentColumnNumber(parser) + 1));
+  }
+
+  void meet_name(const std::string& name) {
+    if (known_names.contains(name)) return;
+    names.add(1, name.size(), *this);
+    known_names.insert(name);
+  }
 
   template <class Call>
   void guarded(const Call& call) {
@@ -45,13 +63,23 @@ struct XmlParser::State {
     auto* const state = static_cast<State*>(user);
     state->guarded([&] {
       XmlAttributes attributes;
-      for (; *list != nullptr; list += 2) attributes.emplace_back(list[0], list[1]);
-      return state->handler->start(name, attributes);
+      for (; *list != nullptr; list += 2) {
+        attributes.emplace_back(list[0], list[1]);
+        state->meet_name(attributes.back().first);
+      }
+      const std::string tag(name);
+      state->open_tags.add(1, tag.size(), *state);
+      state->meet_name(tag);
+      return state->handler->start(tag, attributes);
     });
   }
   static void on_end(void* user, const char* name) {
     auto* const state = static_cast<State*>(user);
-    state->guarded([&] { return state->handler->end(name); });
+    state->guarded([&] {
+      const std::string tag(name);
+      state->open_tags.remove(tag.size());
+      return state->handler->end(tag);
+    });
   }
   static void on_text(void* user, const char* text, int length) {
     auto* const state = static_cast<State*>(user);
@@ -91,12 +119,11 @@ bool XmlParser::advance() {
   if (state.ended) return false;
   if (status != XML_STATUS_OK) {
     if (XML_GetErrorCode(state.parser) == XML_ERROR_NO_MEMORY) throw std::bad_alloc();
-    fail(std::string("this is not valid XML: ") + XML_ErrorString(XML_GetErrorCode(state.parser)),
-         "the file is cut or damaged; get a whole copy");
+    fail(std::string("this is not valid XML: ") + XML_ErrorString(XML_GetErrorCode(state.parser)), kCutOrDamagedHint);
   }
   const auto done = static_cast<std::uint64_t>(std::max<XML_Index>(XML_GetCurrentByteIndex(state.parser), 0));
   if (state.offset - std::min(done, state.offset) > State::kMostHeld + State::kStepBytes)
-    fail("a tag or a comment of more than 1 MB", "the file may be damaged here");
+    fail("a tag or a comment of more than 1 MB", kDamagedHereHint);
   state.ended = is_last;
   return !is_last;
 }
@@ -109,10 +136,6 @@ std::uint64_t XmlParser::part_end() const {
          static_cast<std::uint64_t>(XML_GetCurrentByteCount(state_->parser));
 }
 
-void XmlParser::fail(const std::string& what, const std::string& hint) const {
-  throw Error(ErrorKind::kBadInput, what, hint)
-      .at(state_->source->name(), std::to_string(XML_GetCurrentLineNumber(state_->parser)) + ":" +
-                                      std::to_string(XML_GetCurrentColumnNumber(state_->parser) + 1));
-}
+void XmlParser::fail(const std::string& what, const std::string& hint) const { state_->fail(what, hint); }
 
 }  // namespace reeb::io

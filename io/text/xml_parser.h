@@ -35,8 +35,8 @@ class XmlParser {
   ~XmlParser();
 
   // Reads the next window. False if that was the last one, or the handler wants no more.
-  // THROWS: Error{kBadInput} with line and column: no XML, a document type, a tag of more than 1 MB; what the handler
-  //         throws.
+  // THROWS: Error{kBadInput} with line and column: no XML, a document type, a tag of more than 1 MB, too many tags
+  //         inside each other, too many different names; what the handler throws.
   bool advance();
 
   // How much of the content has been given to the parser, and where the view began that it was given from.

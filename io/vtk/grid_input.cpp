@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "io/text/hints.h"
 #include "io/vtk/number_stream.h"
 #include "io/vtk/vtk_cell_type.h"
 #include "libreeb/base/count_text.h"
@@ -12,8 +13,6 @@
 
 namespace reeb::io {
 namespace {
-
-constexpr const char* kDamagedHint = "the file may be damaged here";
 
 MeshInfo describe(const ContentSource& content, const GridFile& file) {
   MeshInfo info;
@@ -158,14 +157,14 @@ class GridInput final : public CellInput {
                        "cell offset");
     if (next.has_types) types_.emplace(*content_, next.types, next.count, "cell type");
     if (next.layout == CellLayout::kOffsetsFromZero && offsets_->integer() != 0)
-      offsets_->fail("the offsets of the cells do not begin with 0", kDamagedHint);
+      offsets_->fail("the offsets of the cells do not begin with 0", kDamagedHereHint);
   }
 
   void next_list() {
     if (list().count != 0 && list().layout == CellLayout::kCounted && nodes_read_ != list().node_numbers)
       nodes_->fail("the list of cells announces " + count_of(list().node_numbers, "number") + ", but its cells have " +
                        with_commas(nodes_read_),
-                   kDamagedHint);
+                   kDamagedHereHint);
     if (nodes_) bytes_read_ = std::max(bytes_read_, nodes_->bytes_read());
     nodes_.reset();
     offsets_.reset();
@@ -194,7 +193,7 @@ class GridInput final : public CellInput {
     if (count < 0 || static_cast<std::uint64_t>(count) > left)
       nodes_->fail(
           "a cell has " + std::to_string(count) + " nodes, but its list only has " + count_of(left, "number") + " left",
-          kDamagedHint);
+          kDamagedHereHint);
     nodes_read_ += 1 + static_cast<std::uint64_t>(count);
     return static_cast<std::uint64_t>(count);
   }
@@ -207,7 +206,7 @@ class GridInput final : public CellInput {
       offsets_->fail("a cell ends at " + std::to_string(end) +
                          (beyond ? ", but the list has only " + count_of(list().node_numbers, "node")
                                  : ", before the cell before it, which ends at " + std::to_string(nodes_read_)),
-                     kDamagedHint);
+                     kDamagedHereHint);
     return static_cast<std::uint64_t>(end) - std::exchange(nodes_read_, static_cast<std::uint64_t>(end));
   }
 

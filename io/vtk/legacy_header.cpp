@@ -1,12 +1,12 @@
 #include "io/vtk/legacy_header.h"
 
 #include <algorithm>
-#include <charconv>
 #include <optional>
 #include <set>
 #include <string>
 #include <utility>
 
+#include "io/text/entry_limit.h"
 #include "io/text/text_cursor.h"
 #include "io/text/words.h"
 #include "io/vtk/legacy_text.h"
@@ -15,24 +15,6 @@
 namespace reeb::io {
 namespace {
 
-// Names have blanks and other special characters as %20.
-std::string without_escapes(std::string_view text) {
-  std::string plain;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    unsigned code = 0;
-    const char* const digits = text.data() + i + 1;
-    const bool escape =
-        text[i] == '%' && i + 2 < text.size() && std::from_chars(digits, digits + 2, code, 16).ptr == digits + 2;
-    plain += escape ? static_cast<char>(code) : text[i];
-    if (escape) i += 2;
-  }
-  return plain;
-}
-
-struct TypeName {
-  std::string_view name;
-  ScalarType type;
-};
 // A vtkIdType is an int in these files; a long has 64 bits, as on the machines that write them today.
 constexpr TypeName kTypeNames[] = {
     {"CHAR", ScalarType::kInt8},
@@ -159,6 +141,7 @@ class LegacyIndexer {
                                                                         {"TRIANGLE_STRIPS", CellShape::kStrip}};
     for (const auto& [name, shape] : kLists) {
       if (keyword != name) continue;
+      section_limit_.add(1, 0, text_);
       piece_.cells.push_back(read_cells());
       piece_.cells.back().shape = shape;
       return true;
@@ -178,7 +161,7 @@ class LegacyIndexer {
     const auto* const known = std::ranges::find(kAttributes, keyword, &Attribute::keyword);
     const bool scalars = keyword == "SCALARS", colours = keyword == "COLOR_SCALARS";
     if (!scalars && !colours && known == std::end(kAttributes)) return false;
-    const std::string name = without_escapes(text_.word());
+    const std::string name = percent_decoded(text_.word()).text;  // blanks are written as %20
     if (colours) {
       const std::uint64_t components = text_.number("number of components");
       read_values(name, text_.is_binary() ? ScalarType::kUint8 : ScalarType::kFloat32, false, components, tuples_);
@@ -214,7 +197,7 @@ class LegacyIndexer {
       const std::uint64_t components = text_.number("number of components"), tuples = text_.number("number of tuples");
       const std::string type = upper_case(text_.word());
       text_.end_line();
-      read_typed_values(without_escapes(name), type, components, tuples);
+      read_typed_values(percent_decoded(name).text, type, components, tuples);
     }
   }
 
@@ -243,6 +226,7 @@ class LegacyIndexer {
     array.name = name;
     array.components = components;
     array.place = place;
+    count_properties(array, property_limit_, text_);
     piece_.arrays.push_back(std::move(array));
   }
 
@@ -271,11 +255,7 @@ class LegacyIndexer {
     return place;
   }
 
-  std::optional<ScalarType> scalar_type(const std::string& name) {
-    const auto* const found = std::ranges::find(kTypeNames, upper_case(name), &TypeName::name);
-    if (found == std::end(kTypeNames)) return std::nullopt;
-    return found->type;
-  }
+  std::optional<ScalarType> scalar_type(const std::string& name) { return find_type(kTypeNames, upper_case(name)); }
   ScalarType integer_type() {
     const auto type = scalar_type(text_.word());
     if (!type || is_float(*type)) text_.fail("this is not a type of integers");
@@ -293,6 +273,7 @@ class LegacyIndexer {
   NumberPlace types_;
   GridPiece piece_;
   GridFile file_;
+  EntryLimit section_limit_{"lists of cells"}, property_limit_{"properties"};
 };
 
 }  // namespace

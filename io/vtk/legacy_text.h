@@ -5,6 +5,7 @@
 #include <string>
 
 #include "io/text/cursor.h"
+#include "io/text/hints.h"
 
 namespace reeb::io {
 
@@ -40,8 +41,7 @@ class LegacyText {
   // a * b. THROWS: if no file has so many numbers.
   std::uint64_t product(std::uint64_t a, std::uint64_t b) const;
 
-  [[noreturn]] void fail(const std::string& what,
-                         const std::string& hint = "the file may be cut or damaged here") const;
+  [[noreturn]] void fail(const std::string& what, const std::string& hint = kCutOrDamagedHereHint) const;
 
  private:
   [[noreturn]] void fail_end();

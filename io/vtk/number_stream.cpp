@@ -1,9 +1,12 @@
 #include "io/vtk/number_stream.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "io/decoding/base64_input.h"
 #include "io/decoding/vtk_data.h"
+#include "io/file/input_file.h"
+#include "io/text/hints.h"
 #include "io/text/text_cursor.h"
 #include "io/text/text_position.h"
 #include "io/text/words.h"
@@ -15,7 +18,13 @@ namespace {
 
 constexpr std::size_t kBufferBytes = 16384;
 constexpr std::size_t kTokenBytes = 512;
-constexpr const char* kCutHint = "the file is cut or damaged; get a whole copy";
+
+// A file can have thousands of small arrays, and a window for each costs more than its numbers. An unnamed copy of a
+// pipe is read through windows: in messages it has the name of the pipe.
+std::unique_ptr<ContentSource> open_numbers(const ContentSource& content) {
+  auto file = content.file();
+  return file != nullptr && file->path() == content.name() ? open_for_seeking(std::move(file)) : content.reopen();
+}
 
 }  // namespace
 
@@ -24,18 +33,19 @@ NumberStream::NumberStream(const ContentSource& content, const NumberPlace& plac
     : content_(content), place_(place), what_(what), item_bytes_(byte_size(place.type)), item_offset_(place.offset) {
   check_room(count);
   if (place_.coding == NumberCoding::kText) {
-    text_.emplace(content.reopen());
+    text_.emplace(open_numbers(content));
     text_->move_forward(place_.offset);
     return;
   }
-  bytes_ = std::make_unique<ContentBytes>(content.reopen(), place_.offset);
+  bytes_ = std::make_unique<ContentBytes>(open_numbers(content), place_.offset);
   if (place_.coding == NumberCoding::kBase64) bytes_ = from_base64(std::move(bytes_));
   if (!place_.has_header) return;
   auto data = vtk_data(std::move(bytes_), {place_.packing, place_.wide_header, place_.big_endian});
   const std::uint64_t numbers = data->size() / item_bytes_;
   bytes_ = std::move(data);
   if (numbers < count)
-    fail("an array has only " + count_of(numbers, "number") + ", but " + with_commas(count) + " are needed", kCutHint);
+    fail("an array has only " + count_of(numbers, "number") + ", but " + with_commas(count) + " are needed",
+         kCutOrDamagedHint);
 }
 
 void NumberStream::check_room(std::uint64_t count) const {
@@ -46,7 +56,8 @@ void NumberStream::check_room(std::uint64_t count) const {
   if (place_.coding == NumberCoding::kRaw) most = left / item_bytes_;
   if (place_.coding == NumberCoding::kBase64) most = (left + 1) / 4 * 3 / item_bytes_ + 1;
   if (place_.packing != BlockPacking::kNone || count <= most) return;
-  fail("the file announces an array of " + count_of(count, "number") + ", more than it has room for", kCutHint);
+  fail("the file announces an array of " + count_of(count, "number") + ", more than it has room for",
+       kCutOrDamagedHint);
 }
 
 std::string_view NumberStream::token() {
@@ -72,7 +83,7 @@ const char* NumberStream::item() {
       buffer_.resize(before + got);
       if (got == 0) {
         item_offset_ = bytes_->offset();
-        fail(std::string("an array ends where a ") + what_ + " should be", kCutHint);
+        fail(std::string("an array ends where a ") + what_ + " should be", kCutOrDamagedHint);
       }
     }
   }
@@ -113,8 +124,8 @@ void NumberStream::skip(std::uint64_t count) {
 }
 
 void NumberStream::fail_token(std::string_view token) const {
-  if (token.empty()) fail(std::string("an array ends where a ") + what_ + " should be", kCutHint);
-  fail(std::string("a ") + what_ + " cannot be " + quoted(token), "the file may be damaged here");
+  if (token.empty()) fail(std::string("an array ends where a ") + what_ + " should be", kCutOrDamagedHint);
+  fail(std::string("a ") + what_ + " cannot be " + quoted(token), kDamagedHereHint);
 }
 
 void NumberStream::fail(const std::string& what, const std::string& hint) const {

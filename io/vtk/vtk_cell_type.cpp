@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "io/text/hints.h"
 #include "libreeb/base/count_text.h"
 #include "libreeb/base/error.h"
 
@@ -80,7 +81,7 @@ bool has_inner_nodes(std::int64_t vtk_type) {
 CellHead vtk_cell(std::int64_t number, std::uint64_t nodes) {
   if (number == 0) {  // an empty cell
     if (nodes == 0) return {CellShape::kPoints, 0, 0};
-    throw Error(ErrorKind::kBadInput, "an empty cell has " + count_of(nodes, "node"), "the file may be damaged here");
+    throw Error(ErrorKind::kBadInput, "an empty cell has " + count_of(nodes, "node"), kDamagedHereHint);
   }
   const VtkType* const type = find_type(number);
   if (type == nullptr)
@@ -94,7 +95,7 @@ CellHead vtk_cell(std::int64_t number, std::uint64_t nodes) {
   if (!fits || odd_polygon)
     throw Error(ErrorKind::kBadInput,
                 "a cell of VTK's type " + std::to_string(number) + " cannot have " + count_of(nodes, "node"),
-                "the file may be damaged here");
+                kDamagedHereHint);
   if (fixed == 0) {
     const std::uint64_t corners = type->higher_order ? nodes / 2 : nodes;
     return {type->shape, corners, nodes - corners};

@@ -8,6 +8,8 @@
 #include <utility>
 
 #include "io/decoding/vtk_xml.h"
+#include "io/text/entry_limit.h"
+#include "io/text/hints.h"
 #include "io/text/text_cursor.h"
 #include "io/text/words.h"
 #include "io/text/xml_parser.h"
@@ -16,6 +18,8 @@ namespace reeb::io {
 namespace {
 
 constexpr std::uint64_t kMostComponents = 65536;
+// Of all pieces: simulations write a piece for each of thousands of processes.
+constexpr std::uint64_t kMostArrays = 10 * EntryLimit::kUsual;
 
 // Which arrays of a list of cells were found.
 struct FoundArrays {
@@ -46,11 +50,11 @@ class XmlIndexer final : private XmlParser::Handler {
   GridFile read() {
     while (xml_.advance()) {
     }
-    if (!has_file_) xml_.fail("the file has no element VTKFile", kHint);
+    if (!has_file_) xml_.fail("the file has no element VTKFile", kCutOrDamagedHint);
     if (!appended_) {
       for_each_place(file_, [&](const NumberPlace& place) {
         if (place.coding == NumberCoding::kAppended)
-          xml_.fail("an array is appended, but the file has no element AppendedData", kHint);
+          xml_.fail("an array is appended, but the file has no element AppendedData", kCutOrDamagedHint);
       });
       return std::move(file_);
     }
@@ -64,8 +68,6 @@ class XmlIndexer final : private XmlParser::Handler {
   }
 
  private:
-  static constexpr const char* kHint = "the file is cut or damaged; get a whole copy";
-
   bool start(const std::string& name, const XmlAttributes& attributes) override {
     if (open_array_ != nullptr) {
       ++nested_;
@@ -127,20 +129,22 @@ class XmlIndexer final : private XmlParser::Handler {
     const std::string text = attribute_of(attributes, name);
     if (text.empty()) return std::nullopt;
     const auto value = whole_number<std::uint64_t>(text);
-    if (!value || *value >> 56 != 0) xml_.fail(std::string(name) + " is not a count but " + quoted(text), kHint);
+    if (!value || *value >> 56 != 0)
+      xml_.fail(std::string(name) + " is not a count but " + quoted(text), kCutOrDamagedHint);
     return value;
   }
   std::uint64_t needed_count(const XmlAttributes& attributes, const char* name) const {
     const auto value = count(attributes, name);
-    if (!value) xml_.fail(std::string("an element has no attribute ") + name, kHint);
+    if (!value) xml_.fail(std::string("an element has no attribute ") + name, kCutOrDamagedHint);
     return *value;
   }
 
   void begin_piece(const XmlAttributes& attributes) {
-    if (in_piece_) xml_.fail("a piece begins in a piece", kHint);
+    if (in_piece_) xml_.fail("a piece begins in a piece", kCutOrDamagedHint);
     in_piece_ = true;
     section_.clear();
     has_coordinates_ = false;
+    piece_limit_.add(1, 0, xml_);
     GridPiece& piece = file_.pieces.emplace_back();
     piece.points = needed_count(attributes, "NumberOfPoints");
     found_ = {};
@@ -205,7 +209,7 @@ class XmlIndexer final : private XmlParser::Handler {
     GridPiece& piece = file_.pieces.back();
     NumberPlace* here = nullptr;
     if (points) {
-      if (components != 3) xml_.fail("points have other than three coordinates", kHint);
+      if (components != 3) xml_.fail("points have other than three coordinates", kCutOrDamagedHint);
       here = &piece.coordinates;
       has_coordinates_ = true;
     } else if (values) {
@@ -213,11 +217,13 @@ class XmlIndexer final : private XmlParser::Handler {
       piece.arrays.emplace_back();
       piece.arrays.back().name = name;
       piece.arrays.back().components = components;
+      array_limit_.add(1, name.size(), xml_);
+      if (file_.pieces.size() == 1) count_properties(piece.arrays.back(), property_limit_, xml_);
       here = &piece.arrays.back().place;
     } else {
       here = cell_array(name, piece.cells[*list], found_[*list]);
       if (here == nullptr) return;
-      if (is_float(place->type)) xml_.fail("the array " + name + " of cells has no integers", kHint);
+      if (is_float(place->type)) xml_.fail("the array " + name + " of cells has no integers", kCutOrDamagedHint);
     }
     *here = *place;
     if (place->coding == NumberCoding::kAppended) return;
@@ -238,13 +244,13 @@ class XmlIndexer final : private XmlParser::Handler {
 
   void end_piece() {
     GridPiece& piece = file_.pieces.back();
-    if (piece.points != 0 && !has_coordinates_) xml_.fail("a piece has no array of points", kHint);
+    if (piece.points != 0 && !has_coordinates_) xml_.fail("a piece has no array of points", kCutOrDamagedHint);
     for (std::size_t i = 0; i < piece.cells.size(); ++i) {
       CellList& list = piece.cells[i];
       list.layout = CellLayout::kOffsets;
       list.has_types = unstructured_;
       if (list.count != 0 && !(found_[i].nodes && found_[i].offsets && (found_[i].types || !unstructured_)))
-        xml_.fail("a piece has cells, but not all arrays that describe them", kHint);
+        xml_.fail("a piece has cells, but not all arrays that describe them", kCutOrDamagedHint);
     }
     in_piece_ = false;
   }
@@ -256,6 +262,7 @@ class XmlIndexer final : private XmlParser::Handler {
   GridFile file_;
   std::optional<std::uint64_t> appended_;  // the offset after the tag
   NumberCoding appended_coding_ = NumberCoding::kRaw;
+  EntryLimit piece_limit_{"pieces"}, array_limit_{"arrays", kMostArrays}, property_limit_{"properties"};
   // Of the piece that is read:
   bool in_piece_ = false, has_coordinates_ = false;
   std::string section_;                // the element around arrays

@@ -19,6 +19,17 @@ Error& Error::at(const std::string& file, const std::string& position) {
   return *this;
 }
 
+Error& Error::because(ErrorCause cause) {
+  cause_ = cause;
+  return *this;
+}
+
+Error Error::with_hint(std::string hint) const {
+  Error other = *this;
+  other.hint_ = std::move(hint);
+  return other;
+}
+
 void Error::compose() {
   text_ = file_;
   if (!position_.empty()) text_ += (text_.empty() ? "" : ":") + position_;
@@ -26,13 +37,16 @@ void Error::compose() {
   text_ = printable(text_ + message_);
 }
 
-InputChanged::InputChanged(const std::string& what, const std::string& hint)
-    : Error(ErrorKind::kBadInput, what, hint) {}
+Error input_changed(const std::string& what, const std::string& hint) {
+  return Error(ErrorKind::kBadInput, what, hint).because(ErrorCause::kChanged);
+}
 
-NotManifold::NotManifold(std::uint64_t a, std::uint64_t b)
-    : Error(ErrorKind::kBadInput,
-            "the edge between vertices " + std::to_string(std::min(a, b)) + " and " + std::to_string(std::max(a, b)) +
-                " has a third triangle",
-            "leave --manifold out; reeb info counts the edges that are not manifold") {}
+Error not_manifold(std::uint64_t a, std::uint64_t b) {
+  return Error(ErrorKind::kBadInput,
+               "the edge between vertices " + std::to_string(std::min(a, b)) + " and " +
+                   std::to_string(std::max(a, b)) + " has a third triangle",
+               "leave --manifold out; reeb info counts the edges that are not manifold")
+      .because(ErrorCause::kNotManifold);
+}
 
 }  // namespace reeb

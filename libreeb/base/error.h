@@ -18,6 +18,16 @@ enum class ErrorKind : int {
   kInterrupted = 130  // by a signal
 };
 
+// What a caller may tell apart within a kind, whatever the message says.
+enum class ErrorCause : std::uint8_t {
+  kNone,         // none of these
+  kMemory,       // memory, or the part of it that may be used, does not suffice
+  kExists,       // an output exists, and may not be replaced
+  kMissing,      // an input does not exist
+  kChanged,      // what was read of an input does not fit together: it changed while it was read
+  kNotManifold,  // a surface that was said to be a manifold is none
+};
+
 // A plain value, like any exception.
 class Error : public std::exception {
  public:
@@ -26,8 +36,12 @@ class Error : public std::exception {
   // Sets the file, and the byte offset ("12") or "line:column" in it. Either may be empty.
   // A layer that knows them calls this while the error passes through; what was set before stays.
   Error& at(const std::string& file, const std::string& position = {});
+  Error& because(ErrorCause cause);
+  // The same error with another hint.
+  Error with_hint(std::string hint) const;
 
   ErrorKind kind() const { return kind_; }
+  ErrorCause cause() const { return cause_; }
   const std::string& file() const { return file_; }
   const std::string& position() const { return position_; }
   const std::string& message() const { return message_; }
@@ -40,20 +54,15 @@ class Error : public std::exception {
   void compose();
 
   ErrorKind kind_;
+  ErrorCause cause_ = ErrorCause::kNone;
   std::string file_, position_, message_, hint_, text_;
 };
 
-// What was read of an input does not fit together: it changed while it was read.
-class InputChanged : public Error {
- public:
-  explicit InputChanged(const std::string& what = "the mesh changed while it was read",
-                        const std::string& hint = "run it again while no other program writes to the file");
-};
+// Error{kBadInput} of the cause kChanged.
+Error input_changed(const std::string& what = "the mesh changed while it was read",
+                    const std::string& hint = "run it again while no other program writes to the file");
 
-// A surface that was said to be a manifold has a third triangle at the edge between two vertices.
-class NotManifold : public Error {
- public:
-  NotManifold(std::uint64_t a, std::uint64_t b);
-};
+// Error{kBadInput} of the cause kNotManifold: there is a third triangle at the edge between two vertices.
+Error not_manifold(std::uint64_t a, std::uint64_t b);
 
 }  // namespace reeb

@@ -107,14 +107,17 @@ void MemoryBudget::refuse(const char* owner, std::uint64_t from, std::uint64_t t
   std::string in_use;
   const std::lock_guard lock(mutex_);
   ++refusals_;
+  // What grew until now will likely grow further.
+  const std::uint64_t limit = set_aside_ + limit_;
+  const std::uint64_t enough = std::max(2 * limit, limit + 2 * (to - from));
   for (const auto& [name, bytes] : owners_)
     if (bytes != 0) in_use += (in_use.empty() ? "" : ", ") + name + " " + format_bytes(bytes);
-  throw Error(
-      ErrorKind::kResource,
-      std::string(owner) + " needs " + format_bytes(to - from) + " more memory, but " +
-          format_bytes(limit_ - std::min(used_, limit_)) + " of " + format_bytes(limit_) +
-          " is free (in use: " + (in_use.empty() ? "nothing" : in_use) + ")",
-      "allow more, for instance --memory " + std::to_string(((set_aside_ + limit_ + 2 * (to - from)) >> 20) + 2) + "M");
+  throw Error(ErrorKind::kResource,
+              std::string(owner) + " needs " + format_bytes(to - from) + " more memory, but " +
+                  format_bytes(limit_ - std::min(used_, limit_)) + " of " + format_bytes(limit_) +
+                  " is free (in use: " + (in_use.empty() ? "nothing" : in_use) + ")",
+              "allow more, for instance --memory " + std::to_string((enough >> 20) + 1) + "M")
+      .because(ErrorCause::kMemory);
 }
 
 std::string format_bytes(std::uint64_t bytes) {

@@ -4,6 +4,7 @@
 // allocation when it grows. Iteration order is not defined, and nothing may depend on it.
 #pragma once
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -18,6 +19,12 @@ class FlatMap {
 
   std::size_t size() const { return size_; }
   std::size_t memory_bytes() const { return keys_.capacity() * 8 + values_.capacity() * 4; }
+
+  // The most that inserting so many keys takes in addition: the arrays are copied when they grow.
+  std::size_t growth_bytes(std::size_t keys) const {
+    const std::size_t most = 2 * (size_ + keys);
+    return most <= values_.size() ? 0 : std::bit_ceil(most) * (8 + 4);
+  }
 
   // To be called some time before another function with this key, so that its entry arrives in the cache meanwhile.
   void prefetch(std::uint64_t key) const {

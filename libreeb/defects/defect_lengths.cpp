@@ -67,9 +67,7 @@ SuggestedLength suggest_length(std::span<const double> lengths, double edge, dou
     why += ", the others at least " + text(high);
   } else if (best < sorted.size()) {
     const std::size_t others = sorted.size() - best;
-    why += "; for the other";
-    if (others != 1) why.append(" ").append(std::to_string(others));
-    why += ", no curve shorter than the mesh was found";
+    why += "; of the other " + (others == 1 ? "one" : std::to_string(others)) + " no short curve was found";
     if (!looked_well) {
       confidence = std::min(confidence, kMostUnsure);
       why += kOtherFunctions;

@@ -18,7 +18,7 @@ struct FragmentArcs {
 
 }  // namespace
 
-void Glue::add(const Fragment& fragment) {
+void Glue::add(const Fragment& fragment, const std::function<void(std::size_t)>& grown) {
   graph_.set_options(fragment.options);
   removed_in_fragments_ += fragment.removed_pairs;
   if (!fragment.settled_nodes.empty()) sink_->add_nodes(fragment.settled_nodes);
@@ -31,7 +31,7 @@ void Glue::add(const Fragment& fragment) {
   add_paths(fragment);
   add_closed_edges(fragment);
   for (const Index a : arcs_) graph_.release(a);
-  run_steps(fragment);
+  run_steps(fragment, grown);
   graph_.tidy();
   graph_.flush();
 }
@@ -43,7 +43,7 @@ void Glue::add_nodes(const Fragment& fragment) {
     if (i + kLookAhead < fragment.nodes.size()) node_of_.prefetch(fragment.nodes[i + kLookAhead].key.vertex.value());
     const std::uint64_t vertex = node.key.vertex.value();
     Index n = (node.uses & kUsedEarlier) != 0 ? node_of_.find(vertex) : kNone;
-    if (n != kNone && graph_.key(n).value != node.key.value) throw InputChanged();
+    if (n != kNone && graph_.key(n).value != node.key.value) throw input_changed();
     if (n == kNone) {
       const auto state = node.settled                 ? LiveGraph::State::kSettled
                          : node.uses == kUsedHereOnly ? LiveGraph::State::kComplete
@@ -107,8 +107,8 @@ void Glue::add_closed_edges(const Fragment& fragment) {
   }
 }
 
-NotManifold Glue::third_triangle(Index lo, Index hi) const {
-  return {graph_.key(lo).vertex.value(), graph_.key(hi).vertex.value()};
+Error Glue::third_triangle(Index lo, Index hi) const {
+  return not_manifold(graph_.key(lo).vertex.value(), graph_.key(hi).vertex.value());
 }
 
 LiveGraph::Index Glue::add_path(const Fragment& fragment, std::size_t edge) {
@@ -119,11 +119,13 @@ LiveGraph::Index Glue::add_path(const Fragment& fragment, std::size_t edge) {
 }
 
 // Vertices are completed between zips, in stream order. That keeps short the paths that are still to be zipped.
-void Glue::run_steps(const Fragment& fragment) {
+void Glue::run_steps(const Fragment& fragment, const std::function<void(std::size_t)>& grown) {
   constexpr std::size_t kStepsAtOnce = 64;
   for (std::size_t i = 0; i < fragment.steps.size(); ++i) {
-    if (i % kStepsAtOnce == 0)
+    if (i % kStepsAtOnce == 0) {
       prefetch(std::span(fragment.steps).subspan(i, std::min(kStepsAtOnce, fragment.steps.size() - i)));
+      if (grown) grown(memory_bytes());
+    }
     const Fragment::Step& step = fragment.steps[i];
     if (step.completes) {
       complete_node(nodes_[step.index]);
@@ -289,8 +291,10 @@ std::size_t Glue::memory_bytes() const {
 }
 
 std::size_t Glue::memory_bytes_with(const Fragment& fragment) const {
-  return memory_bytes() + graph_.growth_bytes(fragment.nodes.size(), fragment.arcs.size(), fragment.path_arcs.size(),
-                                              fragment.buckets.size());
+  return memory_bytes() +
+         graph_.growth_bytes(fragment.nodes.size(), fragment.arcs.size(), fragment.path_arcs.size(),
+                             fragment.buckets.size()) +
+         node_of_.growth_bytes(fragment.nodes.size()) + edge_of_.growth_bytes(fragment.edges.size());
 }
 
 // ---- saving and restoring, between two fragments; the two maps are rebuilt from the arrays

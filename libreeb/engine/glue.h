@@ -11,6 +11,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -50,9 +51,11 @@ class Glue {
   // Adds the next fragment of the stream.
   // REQUIRES: a vertex that it marks kUsedEarlier was marked kUsedLater in an earlier fragment, unless it is also
   // marked kUsedLater, or the fragment completes it; its options are not less than those of earlier fragments.
-  // THROWS: InputChanged if a vertex has another value than in an earlier fragment. Paths are monotone only if values
-  //         stay the same. NotManifold, if it was said to be one.
-  void add(const Fragment& fragment);
+  // `grown` is told every few zips how many bytes are in use: paths can become far longer than memory_bytes_with()
+  // says. THROWS: Error{kChanged} if a vertex has another value than in an earlier fragment. Paths are monotone only if
+  //         values stay the same. Error{kNotManifold}, if it was said to be one. What `grown` throws; then the object
+  //         must not be used any more.
+  void add(const Fragment& fragment, const std::function<void(std::size_t bytes)>& grown = {});
 
   // Replaces `fragment` by all that is live: it can be added to another Glue, on its own terms. Incomplete vertices are
   // marked kUsedLater, shared edges are those between them; there are no steps and no options.
@@ -77,7 +80,7 @@ class Glue {
   std::size_t live_arcs() const { return graph_.arc_count(); }
   std::uint64_t vertex_bound() const { return graph_.vertex_bound(); }  // more than the id of any node's vertex
   std::size_t memory_bytes() const;
-  // The most that adding this fragment can make of it, apart from arrays that are far smaller.
+  // The most that adding this fragment can make of it, apart from paths that zips make longer.
   std::size_t memory_bytes_with(const Fragment& fragment) const;
 
  private:
@@ -101,8 +104,8 @@ class Glue {
   void add_paths(const Fragment& fragment);
   void add_closed_edges(const Fragment& fragment);
   Index add_path(const Fragment& fragment, std::size_t edge);
-  NotManifold third_triangle(Index lo, Index hi) const;
-  void run_steps(const Fragment& fragment);
+  Error third_triangle(Index lo, Index hi) const;
+  void run_steps(const Fragment& fragment, const std::function<void(std::size_t)>& grown);
   void prefetch(std::span<const Fragment::Step> steps);
   void place_regular(const Fragment& fragment);
   void add_edge(Index lo, Index hi, Index top);

@@ -324,6 +324,7 @@ void LiveGraph::tidy() {
     if (node.used && node.state == State::kSettled && node.degree() == 0) {
       settled_.add_node({node.key, position(n)});
       free_node(n);
+      flush_if_many();
     }
     if (node.used && is_bead(node)) make_bead(n);
   }

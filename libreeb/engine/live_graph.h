@@ -197,6 +197,10 @@ class LiveGraph {
   };
 
   PathTops check_restored();
+  void check_restored_nodes();
+  void check_restored_arcs();
+  void check_restored_lists() const;
+  PathTops check_restored_paths();
   void attach(Index arc, Direction side, Index node);
   void detach(Index arc, Direction side);
   void detach(Index arc) {

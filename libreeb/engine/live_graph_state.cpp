@@ -54,74 +54,100 @@ LiveGraph::PathTops LiveGraph::restore(StateReader& in) {
   return check_restored();
 }
 
+namespace {
+
+void require_state(bool sound) {
+  if (!sound) throw DamagedState();
+}
+
+}  // namespace
+
 // Nothing that was restored is used before it is known to be in range; then lists, then what they mean.
 LiveGraph::PathTops LiveGraph::check_restored() {
-  const auto require = [](bool sound) {
-    if (!sound) throw DamagedState();
-  };
-  require(positions_.size() == (track_positions_ ? nodes_.size() : 0));
-  require(arc_buckets_.size() == (embeds_ ? arcs_.size() : 0));
-  const std::vector<bool> free_nodes = nodes_.restored_free(), free_arcs = arcs_.restored_free();
-  std::vector<bool> seen = references_.restored_free();
+  require_state(positions_.size() == (track_positions_ ? nodes_.size() : 0));
+  require_state(arc_buckets_.size() == (embeds_ ? arcs_.size() : 0));
+  check_restored_nodes();
+  check_restored_arcs();
+  check_restored_lists();
+  PathTops tops = check_restored_paths();
+  try {
+    validate();
+  } catch (const std::logic_error&) {
+    throw DamagedState();
+  }
+  return tops;
+}
+
+void LiveGraph::check_restored_nodes() {
+  const std::vector<bool> free = nodes_.restored_free();
   for (Index n = 0; n < nodes_.size(); ++n) {
     const Node& node = nodes_[n];
-    require(node.used != free_nodes[n]);
+    require_state(node.used != free[n]);
     if (node.used)
-      require(std::isfinite(node.key.value) && node.key.vertex.value() + 1 != 0 && node.state <= State::kSettled &&
-              !node.queued);
+      require_state(std::isfinite(node.key.value) && node.key.vertex.value() + 1 != 0 &&
+                    node.state <= State::kSettled && !node.queued);
   }
-  std::array<std::size_t, 2> arcs_in_lists{};
+}
+
+// Their ends, with what is on them: beads, buckets, references.
+void LiveGraph::check_restored_arcs() {
+  const std::vector<bool> free = arcs_.restored_free();
+  std::vector<bool> seen = references_.restored_free();
   BeadChains::RestoredCheck beads(beads_);
   std::vector<BucketLists::List> bucket_lists(arc_buckets_.all().begin(), arc_buckets_.all().end());
   for (Index a = 0; a < arcs_.size(); ++a) {
     const Arc& arc = arcs_[a];
-    require(arc.is_free() == free_arcs[a]);
+    require_state(arc.is_free() == free[a]);
     if (arc.is_free()) {
-      require(!embeds_ || arc_buckets_[a].empty());
+      require_state(!embeds_ || arc_buckets_[a].empty());
       continue;
     }
-    require(arc.lo() < nodes_.size() && nodes_[arc.lo()].used && arc.hi() < nodes_.size() && nodes_[arc.hi()].used);
-    require(nodes_[arc.lo()].key < nodes_[arc.hi()].key);
+    require_state(arc.lo() < nodes_.size() && nodes_[arc.lo()].used);
+    require_state(arc.hi() < nodes_.size() && nodes_[arc.hi()].used);
+    require_state(nodes_[arc.lo()].key < nodes_[arc.hi()].key);
     beads.check(arc.beads, nodes_[arc.lo()].key, nodes_[arc.hi()].key);
     beads_.visit(arc.beads, [&](Index bead) { bucket_lists.push_back(beads_.buckets(bead)); });
     std::size_t references = 0;
     for (Index r = arc.first_reference, before = kNone; r != kNone; before = r, r = references_[r].next) {
-      require(r < references_.size() && !seen[r] && references_[r].arc == a && references_[r].prev == before);
+      require_state(r < references_.size() && !seen[r] && references_[r].arc == a && references_[r].prev == before);
       seen[r] = true;
       ++references;
     }
-    require(references == arc.references);
+    require_state(references == arc.references);
   }
   beads.end();
-  require(std::find(seen.begin(), seen.end(), false) == seen.end());
+  require_state(std::find(seen.begin(), seen.end(), false) == seen.end());
+  buckets_.check_restored(bucket_lists);
+}
+
+// The arcs at each node.
+void LiveGraph::check_restored_lists() const {
+  std::array<std::size_t, 2> arcs_in_lists{};
   for (Index n = 0; n < nodes_.size(); ++n)
     for (const Direction side : {kDown, kUp}) {
       if (!nodes_[n].used) continue;
       std::size_t degree = 0;
       for (Index a = nodes_[n].first_at[side], before = kNone; a != kNone;
            before = a, a = arcs_[a].links[side].next, ++degree)
-        require(a < arcs_.size() && !arcs_[a].is_free() && arcs_[a].end[side] == n &&
-                arcs_[a].links[side].prev == before && degree < arcs_.size());
-      require(degree == nodes_[n].degree_at[side]);
+        require_state(a < arcs_.size() && !arcs_[a].is_free() && arcs_[a].end[side] == n &&
+                      arcs_[a].links[side].prev == before && degree < arcs_.size());
+      require_state(degree == nodes_[n].degree_at[side]);
       arcs_in_lists[side] += degree;
     }
-  require(arcs_in_lists[kDown] == arcs_.used() && arcs_in_lists[kUp] == arcs_.used());
-  // Each reference is below at most one other, on an arc that begins where the arc of the other ends.
+  require_state(arcs_in_lists[kDown] == arcs_.used() && arcs_in_lists[kUp] == arcs_.used());
+}
+
+// Each reference is below at most one other, on an arc that begins where the arc of the other ends.
+LiveGraph::PathTops LiveGraph::check_restored_paths() {
   PathTops tops(references_.size(), true);
-  const std::vector<bool> free_references = references_.restored_free();
+  const std::vector<bool> free = references_.restored_free();
   for (Index r = 0; r < references_.size(); ++r) {
-    if (free_references[r]) tops[r] = false;
-    const Index below = free_references[r] ? kNone : references_[r].down;
+    if (free[r]) tops[r] = false;
+    const Index below = free[r] ? kNone : references_[r].down;
     if (below == kNone) continue;
-    require(below < references_.size() && !free_references[below] && tops[below]);
-    require(arcs_[references_[below].arc].hi() == arcs_[references_[r].arc].lo());
+    require_state(below < references_.size() && !free[below] && tops[below]);
+    require_state(arcs_[references_[below].arc].hi() == arcs_[references_[r].arc].lo());
     tops[below] = false;
-  }
-  buckets_.check_restored(bucket_lists);
-  try {
-    validate();
-  } catch (const std::logic_error&) {
-    throw DamagedState();
   }
   return tops;
 }

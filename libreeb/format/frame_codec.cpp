@@ -293,7 +293,7 @@ const char* decode_pairs_frame(std::span<const std::byte> payload, const FrameHe
     if (bits > 7) return "a pair has an unknown type";
     pair.type = static_cast<PairType>(bits & 3);
     pair.kept = (bits & 4) != 0;
-    if (pair.kept && pair.type != PairType::kExt1) return "a pair that is no loop is marked as kept";
+    if (pair.kept && pair.type != PairType::kExt1) return "a pair that is not a loop is marked as kept";
   }
   std::uint64_t lo = 0;
   for (FilePair& pair : pairs) pair.lo = lo = in.delta(lo);

@@ -10,6 +10,7 @@ namespace reeb {
 namespace {
 
 using Single = std::array<float, 3>;
+static_assert(kLeastPackedBucketBytes == 2 + sizeof(Single));
 
 constexpr std::size_t kMaxVarintBytes = 10, kMaxBucketBytes = 2 * kMaxVarintBytes + sizeof(Bucket::mean) +
                                                               sizeof(Bucket::spread) + sizeof(Bucket::rim);
@@ -63,7 +64,7 @@ bool unpack_buckets(std::span<const std::byte> packed, std::vector<Bucket>& buck
   if (packed.empty()) return true;
   ByteReader in(packed);
   const std::uint64_t count = in.varint();
-  if (!in.may_hold(count, 2 + sizeof(Single))) return false;
+  if (!in.may_hold(count, kLeastPackedBucketBytes)) return false;
   std::uint64_t index = 0;
   for (std::uint64_t i = 0; i < count; ++i) {
     // In place, since copying a bucket whose parts were just stored waits for these stores.

@@ -16,6 +16,7 @@
 namespace reeb {
 
 inline constexpr std::uint64_t kPackedBucketBytes = 44;
+inline constexpr std::uint64_t kLeastPackedBucketBytes = 14;
 
 // Appends the list, without loss: unpack_buckets() yields equal buckets.
 void pack_buckets(std::span<const Bucket> buckets, std::vector<std::byte>& packed);

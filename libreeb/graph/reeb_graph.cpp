@@ -38,7 +38,7 @@ ReebGraph make_graph(std::vector<ArcKeys> arcs, std::vector<SweepKey> isolated) 
 }
 
 void ReebGraph::validate() const {
-  const auto fail = [](const std::string& what) { throw std::logic_error("ReebGraph: " + what); };
+  const auto fail = [](const std::string& what) { throw BrokenGraph("ReebGraph: " + what); };
   for (std::size_t i = 1; i < nodes.size(); ++i)
     if (!(nodes[i - 1] < nodes[i])) fail("node " + std::to_string(i) + " is not above the one before it");
   if (!positions.empty() && positions.size() != nodes.size()) fail("positions do not match nodes");

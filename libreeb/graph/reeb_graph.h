@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,13 @@
 #include "libreeb/base/sweep_key.h"
 
 namespace reeb {
+
+// Nodes and arcs that are no graph: an arc ends in no node, or a node is there twice. Unless they come from a file,
+// this is a fault of the program.
+class BrokenGraph : public std::logic_error {
+ public:
+  using std::logic_error::logic_error;
+};
 
 // A plain value. Any number of threads may read one at the same time. It takes 16 bytes per node (40 with positions)
 // and 8 per arc.
@@ -29,7 +37,7 @@ struct ReebGraph {
 
   friend bool operator==(const ReebGraph&, const ReebGraph&) = default;
 
-  // THROWS: std::logic_error that names the first node or arc that breaks a rule above.
+  // THROWS: BrokenGraph that names the first node or arc that breaks a rule above.
   void validate() const;
 };
 

@@ -157,10 +157,11 @@ std::uint64_t hierarchy_bytes(std::uint64_t nodes, std::uint64_t arcs, std::opti
          2 * (sizeof(ArcNote) + PackedLists::kHeldBytes) * RunAhead::for_arcs(arcs).most_notes();
 }
 
-Hierarchy build_hierarchy(ReebGraph& graph, PackedLists buckets, int exponent, RecordSink& sink, const Poll& poll,
-                          const DoBoth& both, const std::optional<RunAhead>& ahead) {
+Hierarchy build_hierarchy(ReebGraph& graph, PackedLists buckets, int exponent, RecordSink& sink,
+                          const HierarchyWork& work) {
   constexpr double kPairing = 0.3;  // of the time, about
-  const Poll pairing = part_of(poll, 0, kPairing), cancelling = part_of(poll, kPairing, 1);
+  const Poll pairing = part_of(work.poll, 0, kPairing), cancelling = part_of(work.poll, kPairing, 1);
+  const DoBoth& both = work.both;
   Hierarchy hierarchy;
   // The sweeps and the working graph together would hold more than cancelling does; sorting holds less.
   SweptPairs pairs = swept_pairs(graph, pairing, both);
@@ -171,7 +172,7 @@ Hierarchy build_hierarchy(ReebGraph& graph, PackedLists buckets, int exponent, R
   };
   const auto make_working_graph = [&] { working.emplace(graph); };
   do_both(both, sort, make_working_graph);
-  const RunAhead limits = ahead.value_or(RunAhead::for_arcs(graph.arc_count()));
+  const RunAhead limits = work.ahead.value_or(RunAhead::for_arcs(graph.arc_count()));
   release_arcs(graph);
   if (buckets.size() == 0) {
     Canceller<> canceller(std::move(*working), sink);
@@ -191,14 +192,14 @@ Hierarchy build_hierarchy(ReebGraph& graph, PackedLists buckets, int exponent, R
 
 Hierarchy build_hierarchy(ReebGraph graph, const Poll& poll) {
   RecordsInMemory records;
-  Hierarchy hierarchy = build_hierarchy(graph, {}, 0, records, poll);
+  Hierarchy hierarchy = build_hierarchy(graph, {}, 0, records, {.poll = poll});
   records.move_to(hierarchy);
   return hierarchy;
 }
 
 Hierarchy build_hierarchy(ReebGraph graph, ArcBuckets& buckets, int exponent, const Poll& poll) {
   RecordsInMemory records;
-  Hierarchy hierarchy = build_hierarchy(graph, pack_lists(buckets.view()), exponent, records, poll);
+  Hierarchy hierarchy = build_hierarchy(graph, pack_lists(buckets.view()), exponent, records, {.poll = poll});
   records.move_to(hierarchy);
   if (!buckets.offsets.empty()) buckets = records.buckets();
   return hierarchy;

@@ -18,6 +18,13 @@ namespace reeb {
 // PackedLists::memory_bytes(). Only buckets that are cut over and over could exceed it.
 std::uint64_t hierarchy_bytes(std::uint64_t nodes, std::uint64_t arcs, std::optional<std::uint64_t> lists);
 
+// How build_hierarchy() works; the result does not depend on it.
+struct HierarchyWork {
+  Poll poll = {};
+  DoBoth both = {};
+  std::optional<RunAhead> ahead = {};  // nothing: RunAhead::for_arcs()
+};
+
 // Pairs the nodes, and cancels all pairs but Ext0 in the order of cancelling. The arc records, with the versions in
 // which each lives, go to `sink`; Hierarchy::arcs and dropped stay empty. The ends of a record never change, and an arc
 // that a step does not change keeps its record. Afterwards `graph` has only its nodes and positions.
@@ -32,11 +39,11 @@ std::uint64_t hierarchy_bytes(std::uint64_t nodes, std::uint64_t arcs, std::opti
 // TIME:   O(m log m) for the pairs. A cancellation costs its two paths and a search. The search costs no more than the
 //         smaller of two parts of the graph within the pair's interval: that above the lower node, and that below the
 //         upper node.
-// MEMORY: hierarchy_bytes(), unless `ahead` is more than the default, RunAhead::for_arcs().
+// MEMORY: hierarchy_bytes(), unless `ahead` is more than the default.
 // THREADS: `poll` and `sink` are called in this thread. The other one, if there is one, does a sweep, makes the working
 //          graph, and follows the rules of cancelling, which run `ahead` of the buckets and records.
 // REQUIRES: no node is of degree (1, 1).
-Hierarchy build_hierarchy(ReebGraph& graph, PackedLists buckets, int exponent, RecordSink& sink, const Poll& poll = {},
-                          const DoBoth& both = {}, const std::optional<RunAhead>& ahead = {});
+Hierarchy build_hierarchy(ReebGraph& graph, PackedLists buckets, int exponent, RecordSink& sink,
+                          const HierarchyWork& work = {});
 
 }  // namespace reeb

@@ -34,7 +34,7 @@ void PartGlue::merge_spans(OpenPart& part) const {
     if (known == FlatMap::kNone) continue;
     PartSpan& span = part.spans[n];
     span = {std::max(span.first, open_[known].span.first), std::min(span.last, open_[known].span.last)};
-    if (span.first > span.last) throw InputChanged();
+    if (span.first > span.last) throw input_changed();
   }
 }
 

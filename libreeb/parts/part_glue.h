@@ -26,7 +26,7 @@ class PartGlue {
 
   // Adds the shares in `runs`, which together left `part`. It is changed.
   // REQUIRES: none of them was added before; check_open_part() holds.
-  // THROWS: InputChanged if a vertex has another value, or is said to be named elsewhere, than in the shares so far.
+  // THROWS: Error{kChanged} if a vertex has another value, or is said to be named elsewhere, than in the shares so far.
   void add(OpenPart& part, const std::vector<PartSpan>& runs);
 
   const PartSet& parts() const { return have_; }

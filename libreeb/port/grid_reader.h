@@ -23,6 +23,8 @@ struct GridInfo {
   // Vertex (i, j, k) is at origin + i * step[0] + j * step[1] + k * step[2]; all are finite.
   std::array<double, 3> origin{};
   std::array<std::array<double, 3>, 3> step{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  bool has_spacing = true;       // the file says the steps, or their lengths
+  std::string value_type;        // "u8", "f32", ...; empty: not known
   unsigned components = 1;       // values of a vertex
   std::optional<double> nodata;  // as the header declares it: the value of a vertex that has none
   std::uint64_t file_bytes = 0;  // of the data, as stored; 0: unknown (a pipe)

@@ -70,7 +70,7 @@ class IndexedMesh {
   // The number of triangles, judged by size: the bytes of all records, divided by those of a triangle. It is a guess
   // until read() has gone through all records after seek_triangle(0).
   virtual std::optional<std::uint64_t> triangles_by_size() const { return std::nullopt; }
-  // read() goes on at the triangle with this number, and throws InputChanged at a record that is no triangle.
+  // read() goes on at the triangle with this number, and throws Error{kChanged} at a record that is no triangle.
   // REQUIRES: it is at most triangles_by_size().
   virtual void seek_triangle([[maybe_unused]] std::uint64_t number) {}
 

@@ -104,6 +104,7 @@ struct ReadOptions {
   std::string temp_folder{};
   bool value_of_image = false;  // if the mesh is an image, and no property is named: deliver "value"
   bool signed_zeros = false;    // PLY, OBJ, OFF: deliver -0.0 where the file has it; else it becomes 0.0
+  bool names_losses = false;    // OBJ: warnings() name what the file has beside vertices and simplices
 };
 
 // THREADS: one at a time; different readers share nothing.
@@ -118,7 +119,8 @@ class MeshReader {
   // Known as soon as the reader exists.
   virtual const MeshInfo& info() const = 0;
 
-  // Replaces `batch` by the next events. False, and an empty batch, at the end of the mesh.
+  // Replaces `batch` by the next events. False, and an empty batch, at the end of the mesh. A reader that holds many
+  // events back delivers fewer of them, or none, so that the caller can look at memory_bytes().
   // THROWS: Error{kBadInput} with file and position. All events delivered before that are valid.
   virtual bool read(MeshBatch& batch) = 0;
 

@@ -38,7 +38,7 @@ class VertexFunction {
   // THROWS: Error{kBadInput} if there are values for more or fewer vertices.
   virtual void check_count(std::uint64_t /*vertices*/) {}
   // Call this after the last evaluate().
-  // THROWS: InputChanged if the file that it reads its values from changed meanwhile.
+  // THROWS: Error{kChanged} if the file that it reads its values from changed meanwhile.
   virtual void check_unchanged() const {}
   // The memory that looking up the values of this number of vertices holds.
   virtual std::uint64_t lookup_bytes(std::uint64_t /*vertices*/) const { return 0; }

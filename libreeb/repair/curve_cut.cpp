@@ -508,7 +508,7 @@ Cut try_cut(EditablePatch& patch, std::span<const std::uint32_t> curve, const Cu
     return not_done("its curve has more than " + std::to_string(kMostRimVertices) + " edges");
   const auto sides = sides_of(patch, curve);
   if (!sides) {
-    Cut cut = not_done("the surface is no oriented manifold at its curve");
+    Cut cut = not_done("the surface is not an oriented manifold at its curve");
     cut.too_small = !std::ranges::all_of(curve, [&](std::uint32_t v) { return patch.vertex(v).whole; });
     return cut;
   }

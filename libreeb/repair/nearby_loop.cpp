@@ -1,75 +1,28 @@
 #include "libreeb/repair/nearby_loop.h"
 
 #include <algorithm>
-#include <limits>
-#include <queue>
 #include <tuple>
 #include <utility>
 
 #include "libreeb/containers/union_find.h"
 #include "libreeb/defects/surface_patch.h"
+#include "libreeb/repair/shortest_paths.h"
 
 namespace reeb {
 namespace {
 
 using Vertices = std::vector<std::uint32_t>;
 
-// The shortest ways from one vertex, up to a length, over vertices whose triangles are all in the patch.
-class Ways {
- public:
-  Ways(const EditablePatch& patch, std::uint32_t from, double most)
-      : patch_(patch), length_(patch.vertex_count(), kFar), before_(patch.vertex_count(), EditablePatch::kNone) {
-    using Entry = std::pair<double, std::uint32_t>;
-    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
-    length_[from] = 0;
-    queue.emplace(0, from);
-    while (!queue.empty()) {
-      const auto [so_far, v] = queue.top();
-      queue.pop();
-      if (so_far > length_[v]) continue;
-      reached_.push_back(v);
-      patch.for_each_at(v, [&, at = v, done = so_far](std::uint32_t t) {
-        for (const std::uint32_t w : patch.triangle(t).corners) {
-          const double next = done + distance(patch.position(at), patch.position(w));
-          if (w == at || !patch.vertex(w).whole || next > most || next >= length_[w]) continue;
-          length_[w] = next;
-          before_[w] = at;
-          queue.emplace(next, w);
-        }
-      });
-    }
-  }
-
-  bool reaches(std::uint32_t v) const { return length_[v] < kFar; }
-  double length(std::uint32_t v) const { return length_[v]; }
-  const Vertices& reached() const { return reached_; }
-  bool uses(std::uint32_t a, std::uint32_t b) const { return before_[a] == b || before_[b] == a; }
-
-  // The way to a, and back from b; empty if they share more than their beginning.
-  Vertices around(std::uint32_t a, std::uint32_t b) const {
-    Vertices there = way_to(a), back = way_to(b);
-    Vertices sorted = there;
-    std::sort(sorted.begin(), sorted.end());
-    for (std::size_t i = 1; i < back.size(); ++i)
-      if (std::ranges::binary_search(sorted, back[i])) return {};
-    there.insert(there.end(), back.rbegin(), back.rend() - 1);
-    return there;
-  }
-
- private:
-  static constexpr double kFar = std::numeric_limits<double>::infinity();
-
-  Vertices way_to(std::uint32_t v) const {
-    Vertices way;
-    for (; v != EditablePatch::kNone; v = before_[v]) way.push_back(v);
-    std::reverse(way.begin(), way.end());
-    return way;
-  }
-
-  const EditablePatch& patch_;
-  std::vector<double> length_;
-  Vertices before_, reached_;
-};
+// The way to a, and back from b; empty if they share more than their beginning.
+Vertices around(const ShortestPaths& paths, std::uint32_t a, std::uint32_t b) {
+  Vertices there = paths.path_to(a), back = paths.path_to(b);
+  Vertices sorted = there;
+  std::sort(sorted.begin(), sorted.end());
+  for (std::size_t i = 1; i < back.size(); ++i)
+    if (std::ranges::binary_search(sorted, back[i])) return {};
+  there.insert(there.end(), back.rbegin(), back.rend() - 1);
+  return there;
+}
 
 bool divides(const EditablePatch& patch, const Vertices& curve) {
   std::vector<std::uint32_t> place(patch.vertex_count(), EditablePatch::kNone);
@@ -102,22 +55,23 @@ bool divides(const EditablePatch& patch, const Vertices& curve) {
   return true;
 }
 
-// The shortest loops through one vertex that bound no disc: a tree of ways, and a tree of triangles that crosses the
+// The shortest loops through one vertex that bound no disc: a tree of paths, and a tree of triangles that crosses the
 // other edges, those of long loops first, leave few edges (Erickson and Whittlesey 2005).
 Vertices loop_through(const EditablePatch& patch, std::uint32_t from, double& most) {
-  const Ways ways(patch, from, most / 2);
+  // Over vertices whose triangles are all in the patch.
+  const ShortestPaths paths(patch, from, most / 2, [&](std::uint32_t v) { return patch.vertex(v).whole; });
   struct Candidate {
     double length;
     std::uint32_t a, b, t, u;
   };
   std::vector<Candidate> candidates;
-  for (const std::uint32_t a : ways.reached())
+  for (const std::uint32_t a : paths.reached())
     patch.for_each_at(a, [&](std::uint32_t t) {
       for (const std::uint32_t b : patch.triangle(t).corners) {
-        if (b <= a || !ways.reaches(b) || ways.uses(a, b)) continue;
+        if (b <= a || !paths.reaches(b) || paths.uses(a, b)) continue;
         const std::uint32_t u = patch.across(t, a, b);
         if (u == EditablePatch::kNone || u < t) continue;
-        const double length = ways.length(a) + ways.length(b) + distance(patch.position(a), patch.position(b));
+        const double length = paths.length(a) + paths.length(b) + distance(patch.position(a), patch.position(b));
         candidates.push_back({length, a, b, t, u});
       }
     });
@@ -127,16 +81,16 @@ Vertices loop_through(const EditablePatch& patch, std::uint32_t from, double& mo
   // What is farther away counts as one piece; where it is several, a few more edges are left.
   const auto far = static_cast<std::uint32_t>(patch.triangle_count());
   UnionFind joined(far + 1);
-  for (const std::uint32_t v : ways.reached())
+  for (const std::uint32_t v : paths.reached())
     patch.for_each_at(v, [&](std::uint32_t t) {
-      if (!std::ranges::all_of(patch.triangle(t).corners, [&](std::uint32_t w) { return ways.reaches(w); }))
+      if (!std::ranges::all_of(patch.triangle(t).corners, [&](std::uint32_t w) { return paths.reaches(w); }))
         joined.unite(t, far);
     });
   std::vector<Candidate> left;
   for (const Candidate& candidate : candidates)
     if (!joined.unite(candidate.t, candidate.u)) left.push_back(candidate);
   for (auto it = left.rbegin(); it != left.rend() && it->length < most; ++it) {
-    Vertices loop = ways.around(it->a, it->b);
+    Vertices loop = around(paths, it->a, it->b);
     if (loop.size() < 3 || divides(patch, loop)) continue;
     most = it->length;
     return loop;

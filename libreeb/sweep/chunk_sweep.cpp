@@ -508,7 +508,7 @@ void ChunkSweep::Scratch::check_edges(std::uint32_t v) const {
   for (std::uint32_t e = 0; e < up.count(); ++e) {
     const std::uint32_t head = up.head(e);
     if (crossings.next(crossings.next(head)) != head)
-      throw NotManifold(swept->key(VertexRank(v)).vertex.value(), swept->key(VertexRank(up.hi(e))).vertex.value());
+      throw not_manifold(swept->key(VertexRank(v)).vertex.value(), swept->key(VertexRank(up.hi(e))).vertex.value());
   }
 }
 

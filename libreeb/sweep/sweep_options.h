@@ -15,8 +15,8 @@ struct SweepOptions {
   std::optional<int> bucket_exponent = {};
   // The fragment lists its regular vertices, each with its arc. REQUIRES: no noise is removed.
   bool follows_vertices = false;
-  // The path of an edge is dropped after its second triangle; a third one is an error, NotManifold. A listed edge and a
-  // degenerate triangle count as triangles at their edge.
+  // The path of an edge is dropped after its second triangle; a third one is an Error{kNotManifold}. A listed edge and
+  // a degenerate triangle count as triangles at their edge.
   bool manifold = false;
 };
 

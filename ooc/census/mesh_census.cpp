@@ -37,6 +37,12 @@ bool has_cells(const SimplexCounts& counts) {
 
 // ---- a mesh that can be looked up
 
+struct CountedMesh {
+  IndexedMesh& mesh;
+  unsigned dimension;
+  bool has_cells;
+};
+
 // How much of the budget the unfinished part may take before another order of the mesh is tried.
 std::uint64_t most_live_bytes(const MemoryBudget& budget) {
   constexpr std::uint64_t kWithoutLimit = 256u << 20;
@@ -126,12 +132,12 @@ class ChunkFeed {
 };
 
 // Nothing if there is too little memory and it may give up.
-std::optional<MeshCensus> count_chunks(IndexedMesh& mesh, unsigned dimension, LastUse& uses, bool cells,
-                                       Workspace& space, const CensusOptions& options, bool may_give_up) {
-  FunctionValues positions({}, dimension);
-  const auto source = chunks_of(mesh, uses, positions, chunk_size(space.budget, options));
+std::optional<MeshCensus> count_chunks(const CountedMesh& counted, LastUse& uses, Workspace& space,
+                                       const CensusOptions& options, bool may_give_up) {
+  FunctionValues positions({}, counted.dimension);
+  const auto source = chunks_of(counted.mesh, uses, positions, chunk_size(space.budget, options));
   LiveSurface surface;
-  if (cells) surface.count_components_only();
+  if (counted.has_cells) surface.count_components_only();
   ChunkFeed feed(surface, space.budget);
   std::atomic<bool> fits = true;  // the thread that reads asks for it
   struct Piece {
@@ -153,23 +159,23 @@ std::optional<MeshCensus> count_chunks(IndexedMesh& mesh, unsigned dimension, La
   return surface.result();
 }
 
-MeshCensus count_indexed(IndexedMesh& mesh, unsigned dimension, bool cells, Workspace& space,
-                         const CensusOptions& options) {
+MeshCensus count_indexed(const CountedMesh& counted, Workspace& space, const CensusOptions& options) {
+  IndexedMesh& mesh = counted.mesh;
   std::optional<LastUse> uses = find_last_uses(mesh, space, options, true);
   std::optional<std::uint64_t> front;
   std::optional<MeshCensus> census;
   if (uses) {
     front = uses->summary().max_live_vertices;
     if (!should_sort(*front, mesh.vertex_count(), space.budget))
-      census = count_chunks(mesh, dimension, *uses, cells, space, options, *front > usual_front(mesh.vertex_count()));
+      census = count_chunks(counted, *uses, space, options, *front > usual_front(mesh.vertex_count()));
   }
   SimplexCounts simplices = mesh.simplex_counts();
   if (!census) {
     uses.reset();
-    const auto other = sorted(mesh, dimension, space, options);
+    const auto other = sorted(mesh, counted.dimension, space, options);
     simplices = mesh.simplex_counts();
     uses = find_last_uses(*other, space, options, false);
-    census = count_chunks(*other, dimension, *uses, cells, space, options, false);
+    census = count_chunks({*other, counted.dimension, counted.has_cells}, *uses, space, options, false);
   }
   census->simplices = simplices;
   census->live_front = front;
@@ -225,7 +231,7 @@ MeshCensus count_spooled(MeshReader& reader, Workspace& space, const CensusOptio
     tell(options, {Phase::kSpool, reader.bytes_read(), reader.info().file_bytes, simplices});
   }
   const bool cells = has_cells(mesh.simplex_counts());
-  MeshCensus census = count_indexed(mesh, dimension, cells, space, options);
+  MeshCensus census = count_indexed({mesh, dimension, cells}, space, options);
   if (!cells) census.degenerate = degenerate.result(mesh, dimension);
   return census;
 }
@@ -315,6 +321,7 @@ StreamCensus count_stream(MeshReader& reader, Workspace& space, const CensusOpti
   std::uint64_t live = 0, unchecked = 0, simplices = 0;
   for (MeshBatch batch; reader.read(batch);) {
     if (options.observe) options.observe(batch);
+    reader_memory.update(reader);
     live += batch.vertex_count;
     result.front = std::max(result.front, live);
     live -= batch.finalized.size();
@@ -324,7 +331,6 @@ StreamCensus count_stream(MeshReader& reader, Workspace& space, const CensusOpti
     unchecked += batch.vertex_count + batch.simplex_count();
     if (unchecked < kVerticesBetweenChecks) continue;
     unchecked = 0;
-    reader_memory.update(reader);
     if (feed && may_give_up && (feed->memory_bytes() > most_bytes || !feed->try_reserve())) feed.reset();
     if (feed) feed->reserve();
     tell(options, {Phase::kCount, reader.bytes_read(), reader.info().file_bytes, simplices});
@@ -348,7 +354,7 @@ MeshCensus count_read(MeshReader& reader, Workspace& space, const CensusOptions&
 }  // namespace
 
 MeshCensus take_census(IndexedMesh& mesh, unsigned dimension, Workspace& space, const CensusOptions& options) {
-  MeshCensus census = count_indexed(mesh, dimension, false, space, options);
+  MeshCensus census = count_indexed({mesh, dimension, false}, space, options);
   const std::uint64_t others = census.simplices[0] + census.simplices[1];
   if (others == 0) return census;
   // Points and edges came in the form of degenerate triangles.

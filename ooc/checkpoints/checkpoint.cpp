@@ -12,6 +12,7 @@
 #include "io/file/input_file.h"
 #include "libreeb/base/error.h"
 #include "ooc/chunks/last_use_sidecar.h"
+#include "ooc/states/state_file.h"
 
 namespace reeb::ooc {
 namespace {
@@ -40,44 +41,25 @@ std::uint64_t digest_of(const T& object, std::uint64_t seed) {
   return io::checksum(io::object_bytes(object), seed);
 }
 
-std::uint64_t digest_of_file(const std::string& path, std::uint64_t seed) {
-  const MeshIdentity identity = identify_mesh(path);
-  return digest_of(std::array{identity.bytes, static_cast<std::uint64_t>(identity.changed_ns), identity.digest}, seed);
+// Adds the file to the digests: what it is, and when anything about it changed last.
+void add_file(const std::string& path, std::uint64_t& content, std::uint64_t& changed) {
+  const io::File file = io::File::open_for_reading(path);
+  const MeshIdentity identity = identify_mesh(file);
+  content =
+      digest_of(std::array{identity.bytes, static_cast<std::uint64_t>(identity.changed_ns), identity.digest}, content);
+  changed = digest_of(io::state_of(file).changed_ns, changed);
 }
 
-std::uint64_t digest_of_change(const std::string& path, std::uint64_t seed) {
-  return digest_of(io::state_of(io::File::open_for_reading(path)).changed_ns, seed);
-}
-
-class Writer : public StateWriter {
- public:
-  explicit Writer(const std::string& path)
-      : file_(path, {.existing = io::Existing::kReplace, .buffer_bytes = kBufferBytes}) {}
-  void write(std::span<const std::byte> bytes) override {
-    file_.out().append(bytes);
-    checksum_.add(bytes);
-  }
-  void commit() {
-    put(checksum_.value());
-    file_.commit();
-  }
-
- private:
-  io::AtomicFile file_;
-  io::RunningChecksum checksum_;
-};
-
+// A checkpoint that is open. The checksum of all before it is at the end.
 class Reader : public StateReader {
  public:
   explicit Reader(const std::string& path)
-      : file_(io::File::open_for_reading(path)), end_(std::max<std::uint64_t>(file_.size(), 8) - 8) {}
+      : file_(io::File::open_for_reading(path)),
+        end_(std::max<std::uint64_t>(file_.size(), sizeof(std::uint64_t)) - sizeof(std::uint64_t)),
+        in_(file_, 0, end_) {}
 
-  void read(std::span<std::byte> bytes) override {
-    if (bytes.size() > left()) throw DamagedState();
-    file_.read_at(at_, bytes);
-    at_ += bytes.size();
-  }
-  std::uint64_t left() const override { return end_ - at_; }
+  void read(std::span<std::byte> bytes) override { in_.read(bytes); }
+  std::uint64_t left() const override { return in_.left(); }
 
   bool is_whole() const {
     std::uint64_t expected = 0;
@@ -88,7 +70,8 @@ class Reader : public StateReader {
 
  private:
   io::File file_;
-  std::uint64_t end_, at_ = 0;  // the checksum is at the end
+  std::uint64_t end_;
+  StateFileReader in_;
 };
 
 }  // namespace
@@ -97,16 +80,12 @@ RunIdentity identify_run(const std::string& mesh, std::span<VertexFunction* cons
                          const RunSettings& settings) {
   RunIdentity run;
   run.settings = digest_of(settings, 0);
-  run.mesh = digest_of_file(mesh, 0);
-  run.changed = digest_of_change(mesh, 0);
+  add_file(mesh, run.mesh, run.changed);
   for (const VertexFunction* function : functions) {
     const std::string name = function->name();
     run.functions = digest_of(std::uint64_t{name.size()}, run.functions);
     run.functions = io::checksum(std::as_bytes(std::span(name)), run.functions);
-    if (const std::string file = function->source_file(); !file.empty()) {
-      run.functions = digest_of_file(file, run.functions);
-      run.changed = digest_of_change(file, run.changed);
-    }
+    if (const std::string file = function->source_file(); !file.empty()) add_file(file, run.functions, run.changed);
   }
   return run;
 }
@@ -114,7 +93,8 @@ RunIdentity identify_run(const std::string& mesh, std::span<VertexFunction* cons
 void write_checkpoint(const std::string& path, const RunIdentity& run, const Checkpoint& checkpoint,
                       const std::function<void(StateWriter&)>& save) {
   const ChunkPlace& place = checkpoint.place;
-  Writer out(path);
+  io::AtomicFile file(path, {.existing = io::Existing::kReplace, .buffer_bytes = kBufferBytes});
+  StateFileWriter out(file.out());
   out.put(Header{kMagic, kVersion, run.mesh, run.functions, run.settings, run.changed, checkpoint.block_triangles,
                  static_cast<std::uint64_t>(checkpoint.origin), checkpoint.chunk.first, checkpoint.chunk.most,
                  checkpoint.chunk.most_vertices, place.triangles, place.next_vertex, place.batches, place.chunk_blocks,
@@ -122,7 +102,8 @@ void write_checkpoint(const std::string& path, const RunIdentity& run, const Che
   out.put_array(place.ranges);
   save(out);
   io::sync_folder(io::folder_of(path));  // the names of the files that `save` has made
-  out.commit();
+  out.put(out.checksum());
+  file.commit();
 }
 
 CheckpointLoad load_checkpoint(const std::string& path, const RunIdentity& run) {
@@ -146,8 +127,8 @@ CheckpointLoad load_checkpoint(const std::string& path, const RunIdentity& run) 
     if (header.functions != run.functions) return of_another("is of other functions");
     if (header.settings != run.settings) return of_another("is of other options");
     if (header.changed != run.changed)
-      throw InputChanged("the mesh has changed since the interrupted run",
-                         "start again with --force and without --resume");
+      throw input_changed("the mesh has changed since the interrupted run",
+                          "start again with --force and without --resume");
     if (header.origin > static_cast<std::uint64_t>(ChunkOrigin::kMaskedGrid)) return useless("is damaged");
     Checkpoint checkpoint{
         .place = {.triangles = header.triangles,
@@ -164,9 +145,8 @@ CheckpointLoad load_checkpoint(const std::string& path, const RunIdentity& run) 
     return {std::move(checkpoint), std::move(in), {}};
   } catch (const DamagedState&) {
     return useless("is damaged");
-  } catch (const InputChanged&) {
-    throw;
   } catch (const Error& error) {
+    if (error.cause() == ErrorCause::kChanged) throw;
     if (error.kind() == ErrorKind::kResource) throw;  // it may be readable the next time
     return useless("cannot be read");
   }

@@ -68,7 +68,7 @@ struct CheckpointLoad {
 };
 
 // Reads a checkpoint after verifying its checksum. A missing or damaged one, or one of another run, is not an error.
-// THROWS: InputChanged if the mesh looks the same but was changed: its time of modification was set back.
+// THROWS: Error{kChanged} if the mesh looks the same but was changed: its time of modification was set back.
 CheckpointLoad load_checkpoint(const std::string& path, const RunIdentity& run);
 
 }  // namespace reeb::ooc

@@ -30,8 +30,8 @@ void ResumableRun::refuse_to_discard(const std::string& mesh) {
   CheckpointLoad load;
   try {
     load = load_checkpoint(folder_->checkpoint(), identity_);
-  } catch (InputChanged& changed) {
-    changed.at(mesh);
+  } catch (Error& error) {
+    if (error.cause() == ErrorCause::kChanged) error.at(mesh);
     throw;
   }
   if (load.checkpoint && !options_.resume)
@@ -129,17 +129,16 @@ Error ResumableRun::explain(const Error& error) {
   }
   if (kind == ErrorKind::kBadInput) {
     // The mesh can be brought back. Otherwise running again would fail in the same way.
-    const bool keeps = is_of_earlier_run_ && dynamic_cast<const InputChanged*>(&error) != nullptr;
+    const bool keeps = is_of_earlier_run_ && error.cause() == ErrorCause::kChanged;
     if (!keeps) folder_->clear();
   } else if (folder_->has_checkpoint()) {
     const std::string go_on = "the same command with --resume continues the run";
     hint = kind == ErrorKind::kInterrupted ? go_on : hint + "; then " + go_on;
   } else if (kind == ErrorKind::kInterrupted) {
-    hint = "run it again, with --force if an output was written; it ended too early to be resumed";
+    hint = "run it again, with --force if an output was written; nothing was kept to resume it";
   }
   Error explained(kind, error.message(), hint);
-  explained.at(error.file(), error.position());
-  return explained;
+  return explained.at(error.file(), error.position()).because(error.cause());
 }
 
 void ResumableRun::done() {

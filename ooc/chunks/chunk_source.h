@@ -83,7 +83,7 @@ class ChunkSource {
 // Every use of a vertex is checked against the table, and the triangles against its digest: chunks are right, or
 // next() throws.
 // REQUIRES: start.triangles is at a block's end.
-// THROWS: InputChanged, also from next(), if the table or `start` is of another mesh.
+// THROWS: Error{kChanged}, also from next(), if the table or `start` is of another mesh.
 std::unique_ptr<ChunkSource> chunks_of(IndexedMesh& mesh, LastUse& last_use, FunctionValues& functions, ChunkSize size,
                                        const ChunkPlace& start = {});
 
@@ -91,8 +91,8 @@ std::unique_ptr<ChunkSource> chunks_of(IndexedMesh& mesh, LastUse& last_use, Fun
 // before `start` is read and skipped. If `most_active_vertices` is given, the source gives up as soon as more vertices
 // than that are active (not finalized yet), or a large part of the vertices of a large mesh, or nearly all vertices
 // that simplices used so far, if these are more than two layers of a volume, or more than fit the budget. What the
-// reader holds is reserved from the budget, and so are the active vertices. THROWS, at once: InputChanged if the stream
-// does not match `start`.
+// reader holds is reserved from the budget, and so are the active vertices. THROWS, at once: Error{kChanged} if the
+// stream does not match `start`.
 std::unique_ptr<ChunkSource> chunks_of(MeshReader& reader, FunctionValues& functions, MemoryBudget& budget,
                                        ChunkSize size, const ChunkPlace& start = {},
                                        std::optional<std::uint64_t> most_active_vertices = {});

@@ -10,6 +10,7 @@
 #include "libreeb/base/ids.h"
 #include "libreeb/base/value_range.h"
 #include "libreeb/port/graph_sink.h"
+#include "libreeb/port/mesh_reader.h"
 #include "libreeb/port/vertex_function.h"
 
 namespace reeb::ooc {
@@ -59,12 +60,25 @@ class FunctionValues {
     }
   }
 
+  // The same for the vertices of a batch. Positions and values are replaced.
+  void evaluate(const MeshBatch& batch, std::vector<Point>& positions, std::vector<std::vector<double>>& values) {
+    ids_.resize(batch.vertex_count);
+    for (std::size_t i = 0; i < ids_.size(); ++i) ids_[i] = VertexId(batch.first_vertex.value() + i);
+    data_.clear();
+    for (const unsigned column : columns_) data_.emplace_back(batch.column(column));
+    positions.clear();
+    for (auto& some : values) some.clear();
+    evaluate(ids_, data_, positions, values);
+  }
+
  private:
   std::vector<VertexFunction*> functions_;
   std::vector<FunctionRange> ranges_;
   unsigned position_columns_;
   std::vector<unsigned> columns_;
   std::vector<std::span<const double>> own_;
+  std::vector<VertexId> ids_;  // of a batch
+  std::vector<std::span<const double>> data_;
 };
 
 }  // namespace reeb::ooc

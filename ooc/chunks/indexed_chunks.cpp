@@ -81,7 +81,7 @@ void IndexedChunks::pass_over(const ChunkPlace& start) {
   while (triangles_read_ < start.triangles &&
          read_some(static_cast<std::size_t>(std::min(kTrianglesAtOnce, start.triangles - triangles_read_))))
     triangles_read_ += corners_.size() / 3;
-  if (start.triangles != 0 && digest_.value() != start.digest) throw InputChanged();
+  if (start.triangles != 0 && digest_.value() != start.digest) throw input_changed();
   completed_ = start.completed;
   first_block_ = triangles_read_ / block_triangles_;
   next_vertex_ = start.next_vertex;
@@ -144,7 +144,7 @@ void IndexedChunks::set_uses(Chunk& chunk, std::size_t blocks) {
     fits = fits && last >= first_block_ && (last <= last_block + span || span == UseEntry::kSaturatedSpan);
     fits = fits && !entry.unused();
   }
-  if (!fits) throw InputChanged();
+  if (!fits) throw input_changed();
   completed_ += completed;
 }
 
@@ -153,7 +153,7 @@ void IndexedChunks::check_end() {
   const UseSummary& uses = last_use_.summary();
   if (triangles_read_ != uses.triangle_count || mesh_.read(corners_, 1) || completed_ != uses.vertex_count ||
       digest_.value() != uses.digest)
-    throw InputChanged();
+    throw input_changed();
 }
 
 bool IndexedChunks::read_loose_vertices(Chunk& chunk) {

@@ -1,21 +1,21 @@
 #include "ooc/chunks/last_use_sidecar.h"
 
-#include <fcntl.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cerrno>
-#include <cstring>
-#include <stdexcept>
+#include <numeric>
 #include <vector>
 
 #include "io/file/atomic_file.h"
 #include "io/file/checksum.h"
+#include "io/file/input_file.h"
 #include "io/file/zstd_codec.h"
+#include "libreeb/base/byte_planes.h"
 #include "libreeb/base/error.h"
+#include "libreeb/base/state_stream.h"
+#include "ooc/states/state_file.h"
 
 // Bytes, all little-endian:
 //   Header, then Header::samples 64-bit numbers (the live profile), then XXH64 of both;
@@ -57,25 +57,18 @@ struct BlockHeader {
   std::uint64_t checksum;  // XXH64 of the packed bytes
 };
 
-void to_planes(std::span<const std::uint32_t> entries, std::vector<std::byte>& planes) {
-  const std::size_t count = entries.size();
-  planes.resize(4 * count);
-  std::uint32_t before = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::uint32_t difference = entries[i] - before;
-    before = entries[i];
-    for (std::size_t b = 0; b < 4; ++b) planes[b * count + i] = static_cast<std::byte>(difference >> (8 * b));
-  }
+// Entries become differences.
+void to_planes(std::span<std::uint32_t> entries, std::vector<std::byte>& planes) {
+  std::adjacent_difference(entries.begin(), entries.end(), entries.begin());
+  planes.resize(entries.size_bytes());
+  split_planes(entries, planes.data());
 }
 
 void from_planes(std::span<const std::byte> planes, std::span<std::uint32_t> entries) {
-  const std::size_t count = entries.size();
-  std::uint32_t value = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    std::uint32_t difference = 0;
-    for (std::size_t b = 0; b < 4; ++b) difference |= std::to_integer<std::uint32_t>(planes[b * count + i]) << (8 * b);
-    entries[i] = value += difference;
-  }
+  std::array<const std::byte*, sizeof(std::uint32_t)> places;
+  for (std::size_t p = 0; p < places.size(); ++p) places[p] = planes.data() + p * entries.size();
+  join_planes(places, entries);
+  std::partial_sum(entries.begin(), entries.end(), entries.begin());
 }
 
 void write_sidecar(io::BufferedWriter& out, const MeshIdentity& mesh, LastUse& uses) {
@@ -111,41 +104,17 @@ void write_sidecar(io::BufferedWriter& out, const MeshIdentity& mesh, LastUse& u
   }
 }
 
-struct Damaged {};
-
-// Reads from the start of the file. Throws Damaged where the file ends too early.
-class Reader {
- public:
-  explicit Reader(const std::string& path) : file_(io::File::open_for_reading(path)), size_(file_.size()) {}
-  void take(std::span<std::byte> bytes) {
-    if (bytes.size() > size_ - at_) throw Damaged();
-    file_.read_at(at_, bytes);
-    at_ += bytes.size();
-  }
-  template <class T>
-  T take() {
-    T object;
-    take(std::as_writable_bytes(std::span(&object, 1)));
-    return object;
-  }
-  std::uint64_t left() const { return size_ - at_; }
-
- private:
-  io::File file_;
-  std::uint64_t size_, at_ = 0;
-};
-
-UseSummary read_summary(Reader& in, const Header& header) {
+UseSummary read_summary(StateReader& in, const Header& header) {
   const std::uint64_t triangles = header.triangle_count, block = header.block_triangles;
   if (header.samples > kSamplesLimit || header.block_count > UseEntry::kMostBlocks || block == 0 ||
       header.block_count != triangles / block + (triangles % block == 0 ? 0 : 1) ||
       header.max_live_vertices > header.vertex_count || header.degenerate_triangles > triangles)
-    throw Damaged();
+    throw DamagedState();
   UseSummary s;
   s.live_profile.resize(static_cast<std::size_t>(header.samples));
   const auto profile = std::as_writable_bytes(std::span(s.live_profile));
-  in.take(profile);
-  if (in.take<std::uint64_t>() != io::checksum(profile, io::checksum(io::object_bytes(header)))) throw Damaged();
+  in.read(profile);
+  if (in.get<std::uint64_t>() != io::checksum(profile, io::checksum(io::object_bytes(header)))) throw DamagedState();
   s.vertex_count = header.vertex_count;
   s.unused_vertices = header.unused_vertices;
   s.triangle_count = header.triangle_count;
@@ -154,42 +123,41 @@ UseSummary read_summary(Reader& in, const Header& header) {
   s.block_count = header.block_count;
   s.max_live_vertices = header.max_live_vertices;
   s.digest = header.triangles_digest;
-  if (!has_usual_blocks(s)) throw Damaged();
+  if (!has_usual_blocks(s)) throw DamagedState();
   return s;
 }
 
-void read_table(Reader& in, const UseSummary& summary, PagedTable<std::uint32_t>& table) {
+void read_table(StateReader& in, const UseSummary& summary, PagedTable<std::uint32_t>& table) {
   std::vector<std::uint32_t> entries;
   std::vector<std::byte> planes, packed;
   std::uint64_t unused = 0;
   for (std::uint64_t first = 0; first < summary.vertex_count; first += kBlockEntries) {
     entries.resize(static_cast<std::size_t>(std::min<std::uint64_t>(kBlockEntries, summary.vertex_count - first)));
-    const auto header = in.take<BlockHeader>();
-    if (header.packed_bytes > 8 * kBlockEntries) throw Damaged();
+    const auto header = in.get<BlockHeader>();
+    if (header.packed_bytes > 8 * kBlockEntries) throw DamagedState();
     packed.resize(static_cast<std::size_t>(header.packed_bytes));
-    in.take(packed);
+    in.read(packed);
     planes.resize(4 * entries.size());
-    if (io::checksum(packed) != header.checksum || !io::zstd_decompress(packed, planes)) throw Damaged();
+    if (io::checksum(packed) != header.checksum || !io::zstd_decompress(packed, planes)) throw DamagedState();
     from_planes(planes, entries);
     for (const std::uint32_t entry : entries) {
       unused += UseEntry(entry).unused() ? 1u : 0u;
-      if (!UseEntry(entry).unused() && UseEntry(entry).last_block() >= summary.block_count) throw Damaged();
+      if (!UseEntry(entry).unused() && UseEntry(entry).last_block() >= summary.block_count) throw DamagedState();
     }
     table.write(first, entries);
   }
-  if (in.left() != 0 || unused != summary.unused_vertices) throw Damaged();
+  if (in.left() != 0 || unused != summary.unused_vertices) throw DamagedState();
 }
 
 }  // namespace
 
-MeshIdentity identify_mesh(const std::string& path) {
-  struct stat status {};
-  const io::File file = io::File::open_for_reading(path);
-  if (::stat(path.c_str(), &status) != 0)
-    throw Error(ErrorKind::kBadInput, std::strerror(errno), "check the name").at(path);
+MeshIdentity identify_mesh(const std::string& path) { return identify_mesh(io::File::open_for_reading(path)); }
+
+MeshIdentity identify_mesh(const io::File& file) {
+  const io::FileState state = io::state_of(file);
   MeshIdentity identity;
-  identity.bytes = file.size();
-  identity.changed_ns = std::int64_t{status.st_mtim.tv_sec} * 1'000'000'000 + status.st_mtim.tv_nsec;
+  identity.bytes = state.bytes;
+  identity.changed_ns = state.modified_ns;
   std::vector<std::byte> probe(static_cast<std::size_t>(std::min<std::uint64_t>(kProbeBytes, identity.bytes)));
   for (std::uint64_t k = 0; k < kProbes; ++k) {
     const std::uint64_t room = identity.bytes - probe.size();
@@ -219,8 +187,7 @@ void save_sidecar(const std::string& path, const MeshIdentity& mesh, LastUse& us
     write_sidecar(file.out(), mesh, uses);
     file.commit();
   } catch (const Error& e) {
-    throw Error(e.kind(), e.message(), "make room in the folder of the mesh, or leave out --sidecar")
-        .at(e.file(), e.position());
+    throw e.with_hint("make room in the folder of the mesh, or leave out --sidecar");
   }
 }
 
@@ -229,8 +196,9 @@ SidecarLoad load_sidecar(const std::string& path, const MeshIdentity& mesh, std:
   if (::access(path.c_str(), F_OK) != 0) return {};
   const auto ignored = [&](const std::string& why) { return SidecarLoad{{}, ignored_sidecar(path, why)}; };
   try {
-    Reader in(path);
-    const auto header = in.take<Header>();
+    const io::File file = io::File::open_for_reading(path);
+    StateFileReader in(file, 0, file.size());
+    const auto header = in.get<Header>();
     if (header.magic != kMagic) return ignored("it is not a finalization file");
     if (header.version != kVersion)
       return ignored("it is of version " + std::to_string(header.version) + ", which this program does not know");
@@ -241,7 +209,7 @@ SidecarLoad load_sidecar(const std::string& path, const MeshIdentity& mesh, std:
     PagedTable<std::uint32_t> table("last uses", temp, budget, allowance_bytes, UseEntry::kUnused);
     read_table(in, summary, table);
     return {LastUse(std::move(summary), std::move(table)), {}};
-  } catch (const Damaged&) {
+  } catch (const DamagedState&) {
     return ignored("it is damaged");
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::kBadInput) throw;

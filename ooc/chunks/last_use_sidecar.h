@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "io/file/file.h"
 #include "ooc/chunks/last_use.h"
 
 namespace reeb::ooc {
@@ -20,6 +21,8 @@ struct MeshIdentity {
 
 // THROWS: Error{kBadInput} if the file cannot be opened.
 MeshIdentity identify_mesh(const std::string& path);
+// The same of a file that is open, whatever has its name now.
+MeshIdentity identify_mesh(const io::File& file);
 
 // Whether the file `path` was made by save_sidecar(), of any version and for any mesh.
 bool is_sidecar(const std::string& path);

@@ -22,7 +22,7 @@ class ReaderMemory {
     } catch (const Error& error) {
       const std::string hint = reader.memory_hint();
       if (hint.empty()) throw;
-      throw Error(error.kind(), error.message(), hint);
+      throw error.with_hint(hint);
     }
   }
 

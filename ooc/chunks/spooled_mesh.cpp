@@ -13,9 +13,9 @@ namespace {
 // Readers of files have checked them; others may not.
 void check_coordinates(const MeshBatch& batch) {
   for (const auto& column : batch.coordinates) {
-    const auto odd = std::ranges::find_if(column, [](double value) { return !std::isfinite(value); });
-    if (odd == column.end()) continue;
-    const auto vertex = batch.first_vertex.value() + static_cast<std::uint64_t>(odd - column.begin());
+    const auto non_finite = std::ranges::find_if(column, [](double value) { return !std::isfinite(value); });
+    if (non_finite == column.end()) continue;
+    const auto vertex = batch.first_vertex.value() + static_cast<std::uint64_t>(non_finite - column.begin());
     throw Error(ErrorKind::kBadInput, "a coordinate is not finite", "fix this vertex, or remove it")
         .at("", "vertex " + std::to_string(vertex));
   }
@@ -39,7 +39,7 @@ void SpooledMesh::number(MeshBatch& batch) {
   gap_memory_.resize(numbers_.memory_bytes());
   for (auto& corners : batch.simplices) {
     from_original(corners);
-    if (std::ranges::find(corners, VertexId::none()) != corners.end()) throw InputChanged();
+    if (std::ranges::find(corners, VertexId::none()) != corners.end()) throw input_changed();
   }
 }
 

@@ -53,8 +53,6 @@ class StreamChunks : public ChunkSource {
   bool ended_ = false, given_up_ = false;
 
   MeshBatch batch_;
-  std::vector<VertexId> ids_;
-  std::vector<std::span<const double>> data_;
   std::vector<Point> positions_;
   std::vector<std::vector<double>> values_;
   std::vector<double> row_;
@@ -104,7 +102,7 @@ void StreamChunks::pass_over(const ChunkPlace& start) {
   }
   if (batches_ != start.batches || simplices_read_ != start.triangles || chunker_.vertex_bound() != start.next_vertex ||
       (batches_ != 0 && digest_.value() != start.digest))
-    throw InputChanged();
+    throw input_changed();
   if (start.chunk_blocks != 0) size_.set_size(static_cast<std::size_t>(start.chunk_blocks));
   if (!start.ranges.empty()) functions_.set_ranges(start.ranges);
 }
@@ -142,13 +140,7 @@ void StreamChunks::add_vertices() {
   if (n == 0) return;
   vertices_ += n;
   chunker_.skip_to(batch_.first_vertex);
-  ids_.resize(n);
-  for (std::size_t i = 0; i < n; ++i) ids_[i] = VertexId(batch_.first_vertex.value() + i);
-  data_.clear();
-  for (const unsigned column : functions_.columns()) data_.emplace_back(batch_.column(column));
-  positions_.clear();
-  for (auto& values : values_) values.clear();
-  functions_.evaluate(ids_, data_, positions_, values_);
+  functions_.evaluate(batch_, positions_, values_);
   row_.resize(values_.size());
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t f = 0; f < values_.size(); ++f) row_[f] = values_[f][i];

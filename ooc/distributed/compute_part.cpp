@@ -28,13 +28,16 @@ auto with_explained_errors(RunContext& run, const std::string& mesh, const std::
     for (const VertexFunction* function : run.functions) function->check_unchanged();
   };
   try {
-    auto result = work();
-    check();
-    return result;
-  } catch (InputChanged& changed) {
-    check();
-    changed.at(mesh);
-    throw run.resumable.explain(changed);
+    try {
+      auto result = work();
+      check();
+      return result;
+    } catch (Error& error) {
+      if (error.cause() != ErrorCause::kChanged) throw;
+      check();
+      error.at(mesh);
+      throw;
+    }
   } catch (...) {
     throw_explained(run);
   }

@@ -12,6 +12,7 @@
 #include "libreeb/base/error.h"
 #include "libreeb/graph/packed_buckets.h"
 #include "ooc/distributed/open_part_state.h"
+#include "ooc/states/state_file.h"
 
 namespace reeb::ooc {
 namespace {
@@ -36,58 +37,6 @@ struct BlockHeader {
 };
 static_assert(sizeof(BlockHeader) == 32);
 
-class Writer : public StateWriter {
- public:
-  explicit Writer(io::BufferedWriter& out) : out_(out) {}
-  void write(std::span<const std::byte> bytes) override {
-    out_.append(bytes);
-    checksum_.add(bytes);
-    bytes_ += bytes.size();
-  }
-  std::uint64_t bytes() const { return bytes_; }
-  std::uint64_t checksum() const { return checksum_.value(); }
-
- private:
-  io::BufferedWriter& out_;
-  io::RunningChecksum checksum_;
-  std::uint64_t bytes_ = 0;
-};
-
-class Reader : public StateReader {
- public:
-  Reader(const io::File& file, std::uint64_t begin, std::uint64_t end) : file_(file), at_(begin), end_(end) {}
-  void read(std::span<std::byte> bytes) override {
-    if (bytes.size() > left()) throw DamagedState();
-    // Fields are small, arrays are not.
-    while (!bytes.empty()) {
-      if (window_.size() == used_) {
-        if (bytes.size() >= kWindowBytes) {
-          file_.read_at(at_, bytes);
-          at_ += bytes.size();
-          return;
-        }
-        window_.resize(static_cast<std::size_t>(std::min<std::uint64_t>(kWindowBytes, end_ - at_)));
-        file_.read_at(at_, window_);
-        at_ += window_.size();
-        used_ = 0;
-      }
-      const std::size_t count = std::min(bytes.size(), window_.size() - used_);
-      std::copy_n(window_.begin() + static_cast<std::ptrdiff_t>(used_), count, bytes.begin());
-      used_ += count;
-      bytes = bytes.subspan(count);
-    }
-  }
-  std::uint64_t left() const override { return end_ - at_ + (window_.size() - used_); }
-
- private:
-  static constexpr std::size_t kWindowBytes = 64 << 10;
-
-  const io::File& file_;
-  std::uint64_t at_, end_;
-  std::vector<std::byte> window_;
-  std::size_t used_ = 0;
-};
-
 void add_block(io::BufferedWriter& out, std::uint64_t kind, std::size_t count, std::span<const std::byte> packed) {
   BlockHeader header{kind, count, packed.size(), 0};
   header.checksum = io::checksum(packed, io::header_checksum(header));
@@ -111,6 +60,26 @@ void add_settled(io::BufferedWriter& out, const PartInfo& info, SegmentStore& st
   }
 }
 
+// Whether they ascend and are within the values of the arc's ends. REQUIRES: as bucket_index().
+template <class AnyBucket>
+bool are_along(const SweepKey& lo, const SweepKey& hi, std::span<const AnyBucket> buckets, int exponent) {
+  if (buckets.empty()) return true;
+  if (buckets.front().index < bucket_index(lo.value, exponent)) return false;
+  if (buckets.back().index > bucket_index(hi.value, exponent)) return false;
+  const auto falls = [](const AnyBucket& a, const AnyBucket& b) { return a.index >= b.index; };
+  return std::ranges::adjacent_find(buckets, falls) == buckets.end();
+}
+
+// Checks what readers of .reeb files rely on.
+bool are_buckets_of(const ArcKeys& arc, std::span<const Bucket> buckets, int exponent) {
+  if (!are_along(arc.lo, arc.hi, buckets, exponent)) return false;
+  const auto is_finite = [](auto x) { return std::isfinite(x); };
+  return std::ranges::all_of(buckets, [&](const Bucket& bucket) {
+    return bucket.count != 0 && bucket.spread >= 0 && is_finite(bucket.spread) &&
+           std::ranges::all_of(bucket.mean, is_finite) && std::ranges::all_of(bucket.rim, is_finite);
+  });
+}
+
 io::File open_input(const std::string& path) {
   io::check_input_file(path);
   return io::File::open_for_reading(path);
@@ -123,7 +92,7 @@ void write_fragment(const std::string& path, const OutputOptions& output, const 
   io::AtomicFile file(path, {.existing = output.existing, .overwrites = true, .temp_folder = output.temp_folder});
   Header header{kMagic, kVersion, 0, 0, 0};
   file.out().append(io::object_bytes(header));
-  Writer state(file.out());
+  StateFileWriter state(file.out());
   write_info(state, info);
   write_open_part(state, open);
   header.state_bytes = state.bytes();
@@ -169,7 +138,7 @@ FragmentFile::FragmentFile(const std::string& path) : file_(open_input(path)) {
   if (io::checksum_of(file_, state_begin_, state_bytes_) != header.state_checksum) fail("is damaged", state_begin_);
   at_ = state_begin_ + state_bytes_;
   try {
-    Reader in(file_, state_begin_, at_);
+    StateFileReader in(file_, state_begin_, at_);
     info_ = read_info(in);
     info_bytes_ = state_bytes_ - in.left();
   } catch (const DamagedState&) {
@@ -180,10 +149,19 @@ FragmentFile::FragmentFile(const std::string& path) : file_(open_input(path)) {
 OpenPart FragmentFile::read_open() {
   OpenPart open;
   try {
-    Reader in(file_, state_begin_ + info_bytes_, state_begin_ + state_bytes_);
+    StateFileReader in(file_, state_begin_ + info_bytes_, state_begin_ + state_bytes_);
     read_open_part(in, info_.mesh.shares.parts, open);
     if (in.left() != 0 || open.live.options.bucket_exponent != info_.sweep().bucket_exponent) throw DamagedState();
     for (const Fragment::Node& node : open.live.nodes) check_keys(node.key);
+    for (std::size_t a = 0; a + 1 < open.live.bucket_begin.size(); ++a) {
+      const auto& [lo, hi] = open.live.arcs[a];
+      const auto buckets =
+          std::span<const BucketSum>(open.live.buckets)
+              .subspan(open.live.bucket_begin[a], open.live.bucket_begin[a + 1] - open.live.bucket_begin[a]);
+      if (!are_along(open.live.nodes[lo.value()].key, open.live.nodes[hi.value()].key, buckets,
+                     open.live.options.bucket_exponent.value()))
+        throw DamagedState();
+    }
   } catch (const DamagedState&) {
     fail("is damaged", state_begin_ + info_bytes_);
   }
@@ -192,7 +170,8 @@ OpenPart FragmentFile::read_open() {
 }
 
 void FragmentFile::check_keys(const SweepKey& key) const {
-  if (!std::isfinite(key.value) || key.vertex.value() >= info_.mesh.numbers) throw DamagedState();
+  if (!(info_.range.min <= key.value && key.value <= info_.range.max)) throw DamagedState();
+  if (key.vertex.value() >= info_.mesh.numbers) throw DamagedState();
 }
 
 void FragmentFile::read_block(std::uint64_t kind, Block& block) {
@@ -203,7 +182,9 @@ void FragmentFile::read_block(std::uint64_t kind, Block& block) {
   if (header.kind != kind || header.count == 0 || header.count > kRecordsPerBlock || header.bytes > kMostBytes)
     fail("is damaged", at_);
   if (header.bytes > file_.size() - at_ - sizeof(header)) fail("was cut off", file_.size());
-  block.memory.resize(std::max(block.memory.bytes(), header.bytes));
+  // Packed, and then the payloads of arcs once more.
+  block.memory.resize(std::max(block.memory.bytes(), 2 * header.bytes));
+  block.packed.clear();  // so that it does not grow beyond that
   block.packed.resize(static_cast<std::size_t>(header.bytes));
   file_.read_at(at_ + sizeof(header), block.packed);
   if (io::checksum(block.packed, io::header_checksum(header)) != header.checksum) fail("is damaged", at_);
@@ -226,6 +207,7 @@ void FragmentFile::copy_nodes(SegmentStore& store) {
 
 void FragmentFile::copy_arcs(SegmentStore& store, bool with_buckets) {
   Block block{.packed = {}, .count = 0, .memory = store.budget().reserve("fragment", 0)};
+  Reservation list_memory = store.budget().reserve("fragment", 0);
   std::vector<Bucket> buckets;
   PackedArcPiece piece;
   const std::optional<int> exponent = with_buckets ? info_.sweep().bucket_exponent : std::nullopt;
@@ -238,7 +220,12 @@ void FragmentFile::copy_arcs(SegmentStore& store, bool with_buckets) {
       check_keys(arc.keys.lo);
       check_keys(arc.keys.hi);
       buckets.clear();
+      if (const std::size_t most = arc.payload.size / kLeastPackedBucketBytes; most > buckets.capacity()) {
+        list_memory.resize(most * sizeof(Bucket));
+        buckets.reserve(most);
+      }
       if (!(arc.keys.lo < arc.keys.hi) || !unpack_buckets(piece.payload(arc), buckets)) fail("is damaged", begin);
+      if (exponent && !are_buckets_of(arc.keys, buckets, *exponent)) fail("is damaged", begin);
     }
     if (exponent) {
       store.add_arcs(piece, exponent);

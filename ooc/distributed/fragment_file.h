@@ -35,8 +35,8 @@ class FragmentFile {
   // The bytes that read_open() needs in memory, at most.
   std::uint64_t open_bytes() const { return state_bytes_; }
   OpenPart read_open();
-  // Adds what settled to `store`, whose arcs get buckets if these are wanted. MEMORY: a block, from the store's budget.
-  // That a node comes once, and that the ends of arcs are nodes, shows when the store is read.
+  // Adds what settled to `store`, whose arcs get buckets if these are wanted. MEMORY: a block, packed and unpacked,
+  // from the store's budget. That a node comes once, and that the ends of arcs are nodes, shows when the store is read.
   void copy_settled(SegmentStore& store, bool with_buckets);
 
  private:

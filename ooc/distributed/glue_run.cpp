@@ -1,11 +1,11 @@
 #include "ooc/distributed/glue_run.h"
 
 #include <algorithm>
-#include <stdexcept>
 #include <utility>
 
 #include "io/file/atomic_file.h"
 #include "libreeb/base/error.h"
+#include "libreeb/graph/reeb_graph.h"
 #include "libreeb/parts/part_glue.h"
 #include "ooc/distributed/fragment_file.h"
 #include "ooc/run/explained_error.h"
@@ -40,13 +40,14 @@ void sort_parts(std::vector<NamedPart>& parts) {
 void add_fragment(RunContext& run, const NamedPart& part, PartGlue& glue, Reservation& live) {
   FragmentFile file(part.path);
   if (const std::string why = difference(file.info(), part.info); !why.empty() || file.info().runs != part.info.runs)
-    throw InputChanged("this fragment changed while it was read").at(part.path);
+    throw input_changed("this fragment changed while it was read").at(part.path);
   const Reservation reading = run.budget.reserve("fragment", file.open_bytes());
   OpenPart open = file.read_open();
   live.resize(std::max<std::uint64_t>(live.bytes(), glue.memory_bytes_with(open)));
   try {
     glue.add(open, part.info.runs);
-  } catch (const InputChanged&) {
+  } catch (const Error& error) {
+    if (error.cause() != ErrorCause::kChanged) throw;
     throw Error(ErrorKind::kBadInput, "this fragment has other values at the vertices that it shares",
                 "make all fragments of the same mesh, and their parts again")
         .at(part.path);
@@ -127,6 +128,7 @@ FirstStageResult first_stage_of(const PartInfo& united) {
 
 GlueResult glue_fragments(std::span<const std::string> fragments, const std::string& output, bool as_fragment,
                           const GlueOptions& options) {
+  if (fragments.empty()) throw Error(ErrorKind::kUsage, "there are no fragments to glue", "name at least one");
   io::require_output_folder(output);
   std::vector<NamedPart> parts = read_infos(fragments);
   check_buckets(parts[0], options);
@@ -142,8 +144,8 @@ GlueResult glue_fragments(std::span<const std::string> fragments, const std::str
   RunContext run(none, functions, std::span(&output, 1), run_options);
   try {
     return glue_in(run, parts, std::move(united), as_fragment);
-  } catch (const std::logic_error& error) {
-    // What the program found impossible was in what the fragments say has settled.
+  } catch (const BrokenGraph& error) {
+    // It is in what the fragments say has settled: only together it shows.
     throw Error(ErrorKind::kBadInput,
                 std::string("the fragments are damaged, or do not belong together: ") + error.what(),
                 "make the parts again with `reeb fragment`");

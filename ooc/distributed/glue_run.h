@@ -36,8 +36,7 @@ struct GlueResult {
 
 // Glues the fragments to `output`: a fragment if `as_fragment`, else the Reeb graph of all parts.
 // THROWS: Error: kBadInput that names a fragment that does not fit or is damaged, or the part that is missing;
-//         kResource; kInterrupted.
-// REQUIRES: at least one fragment.
+//         kUsage if there is none; kResource; kInterrupted.
 GlueResult glue_fragments(std::span<const std::string> fragments, const std::string& output, bool as_fragment,
                           const GlueOptions& options);
 

@@ -45,7 +45,7 @@ class MeshShare : public IndexedMesh {
   void to_original(std::span<VertexId> ids) override { mesh_.to_original(ids); }
   std::uint64_t number_count() const override { return mesh_.number_count(); }
   void from_original(std::span<VertexId> ids) const override { mesh_.from_original(ids); }
-  // THROWS: InputChanged if the mesh has fewer triangles.
+  // THROWS: Error{kChanged} if the mesh has fewer triangles.
   void rewind() override;
   bool read(std::vector<VertexId>& corners, std::size_t limit) override;
   SimplexCounts simplex_counts() const override {

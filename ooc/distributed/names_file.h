@@ -18,6 +18,9 @@ namespace reeb::ooc {
 void visit_names(RunContext& run, WholeMesh& mesh, std::uint32_t part,
                  const std::function<void(std::uint64_t first, std::uint64_t count)>& visit);
 
+// Whether the file begins as one of names.
+bool is_names_file(const std::string& path);
+
 // Writes the names of a share, and returns how many there are. THROWS: as AtomicFile, and the mesh.
 std::uint64_t write_names(const std::string& path, const OutputOptions& output, RunContext& run, WholeMesh& mesh,
                           std::uint32_t part);

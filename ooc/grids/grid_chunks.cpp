@@ -55,7 +55,7 @@ bool GridChunks::next(WorkItem& item) {
 // Values of vertices beyond the layers before `start` count as read, as they did in the earlier run.
 void GridChunks::pass_over(const ChunkPlace& start) {
   while (layers_.count() < start.batches && layers_.read()) continue;
-  if (!layers_.is_at(start)) throw InputChanged();
+  if (!layers_.is_at(start)) throw input_changed();
   if (!start.ranges.empty()) functions_.set_ranges(start.ranges);
 }
 

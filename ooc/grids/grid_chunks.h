@@ -15,7 +15,7 @@ namespace reeb::ooc {
 // no simplices. The layers before `start` are read and skipped. A run can be resumed after a layer.
 // MEMORY: reserved: the values of a layer, at least two slices.
 // REQUIRES: the reader leaves out simplices, and no vertices.
-// THROWS, at once: InputChanged if the grid does not match `start`; Error{kResource} of the budget.
+// THROWS, at once: Error{kChanged} if the grid does not match `start`; Error{kResource} of the budget.
 std::unique_ptr<ChunkSource> chunks_of_grid(MeshReader& reader, FunctionValues& functions, MemoryBudget& budget,
                                             std::size_t box_vertices, const ChunkPlace& start = {});
 

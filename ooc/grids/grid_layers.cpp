@@ -12,6 +12,7 @@ namespace {
 
 // The cells of a box in one number.
 constexpr unsigned kCellBits = 21;
+constexpr double kMostCells = (1u << kCellBits) - 1;
 
 std::uint64_t pack(const std::array<std::uint32_t, 3>& cells) {
   return cells[0] | std::uint64_t{cells[1]} << kCellBits | std::uint64_t{cells[2]} << (2 * kCellBits);
@@ -33,7 +34,7 @@ std::array<std::uint32_t, 3> box_cells(const GridSize& grid, std::size_t box_ver
                                        std::size_t functions) {
   const GridAxes axes(grid);
   const double side = std::pow(static_cast<double>(box_vertices), 1.0 / std::max(axes.count, 1u));
-  const auto cells = static_cast<std::uint32_t>(std::max(1.0, std::floor(side + 1e-9)));
+  const auto cells = static_cast<std::uint32_t>(std::clamp(std::floor(side + 1e-9), 1.0, kMostCells));
   std::array<std::uint32_t, 3> box{cells, cells, cells};
   std::uint64_t slice = 1;
   for (std::size_t k = 0; k < axes.last; ++k) slice *= grid[k];
@@ -85,11 +86,11 @@ void GridLayers::read_vertices(std::uint64_t next, std::uint64_t end) {
   const bool has_all = reader_.info().vertex_count.has_value();
   while (next < end) {
     if (taken_ == batch_.vertex_count && !read_batch()) {
-      if (has_all) throw InputChanged();
+      if (has_all) throw input_changed();
       return;
     }
     const std::uint64_t id = batch_.first_vertex.value() + taken_;
-    if (id < next || (has_all && id != next)) throw InputChanged();
+    if (id < next || (has_all && id != next)) throw input_changed();
     if (id >= end) return;
     const auto piece = static_cast<std::size_t>(std::min<std::uint64_t>(end - id, batch_.vertex_count - taken_));
     leave_out_until(id - first);
@@ -111,14 +112,7 @@ bool GridLayers::read_batch() {
     batch_.vertex_count = 0;
     return false;
   }
-  const std::size_t n = batch_.vertex_count;
-  ids_.resize(n);
-  for (std::size_t i = 0; i < n; ++i) ids_[i] = VertexId(batch_.first_vertex.value() + i);
-  data_.clear();
-  for (const unsigned column : functions_.columns()) data_.emplace_back(batch_.column(column));
-  positions_.clear();
-  for (auto& values : batch_values_) values.clear();
-  functions_.evaluate(ids_, data_, positions_, batch_values_);
+  functions_.evaluate(batch_, positions_, batch_values_);
   digest_.add(io::object_bytes(batch_.first_vertex.value()));
   for (const auto& values : batch_values_) digest_.add(std::as_bytes(std::span(values)));
   return true;

@@ -43,7 +43,7 @@ class GridLayers {
              const ChunkPlace& start);
 
   // The next layer; false at the end. The last slice of a layer is the first one of the next.
-  // THROWS: InputChanged if the grid ends early.
+  // THROWS: Error{kChanged} if the grid ends early.
   bool read();
   // The values in the layer, by function; NaN where a vertex is left out.
   const std::vector<std::vector<double>>& values() const { return values_; }
@@ -82,8 +82,6 @@ class GridLayers {
   MeshBatch batch_;
   std::size_t taken_ = 0;  // vertices of the batch that are in a layer
   bool ended_ = false;     // the reader has no more
-  std::vector<VertexId> ids_;
-  std::vector<std::span<const double>> data_;
   std::vector<Point> positions_;
   std::vector<std::vector<double>> batch_values_;
 };

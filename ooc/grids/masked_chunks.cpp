@@ -90,7 +90,7 @@ class MaskedChunks : public ChunkSource {
         reservation_(budget.reserve("marks of a layer", 0)) {
     reservation_.resize(layers_.slice() * (layers_.boxes().size(layers_.axis(), 0) + 4));
     while (layers_.count() < start.batches && read_layer()) continue;
-    if (!layers_.is_at(start)) throw InputChanged();
+    if (!layers_.is_at(start)) throw input_changed();
     next_ = boxes_of_layer_.size();
     if (!start.ranges.empty()) functions_.set_ranges(start.ranges);
   }

@@ -39,7 +39,7 @@ void GuessedChunks::pass_over(const ChunkPlace& start) {
   passing_over_ = false;
   if (triangles_read_ != start.triangles || next_vertex_ != start.next_vertex ||
       (triangles_read_ + next_vertex_ != 0 && reading_.digest() != start.digest))
-    throw InputChanged();
+    throw input_changed();
   if (!start.ranges.empty()) functions_.set_ranges(start.ranges);
 }
 
@@ -58,15 +58,20 @@ bool GuessedChunks::read_chunk(Chunk& chunk, const LookUp& look_up) {
 // A small batch at a time, so that corners are numbered while they are in the first-level cache.
 bool GuessedChunks::read_triangles(Chunk& chunk, const LookUp& look_up) {
   constexpr std::size_t kTrianglesInCache = 1024;
-  const std::size_t most = 3 * size_.size();
+  // The mesh can have far fewer triangles than a chunk that a user chose.
+  constexpr std::size_t kUsualCorners = 3 * ChunkSize{}.most, kMostNumbers = std::size_t{1} << 22;
+  const std::size_t most = 3 * size_.size(), room = std::min(most, kUsualCorners);
   std::size_t count = 0;
-  numbers_.start(chunk.ids, size_.size() / 2);  // of a surface, whose triangles have half a vertex each
-  if (chunk.corners.capacity() < most) clear_with_room(chunk.corners, most);
+  // Triangles of a surface have half a vertex each.
+  numbers_.start(chunk.ids, std::min(size_.size() / 2, kMostNumbers));
+  if (chunk.corners.capacity() < room) clear_with_room(chunk.corners, room);
   while (count < most && chunk.vertex_count() <= options_.chunk.most_vertices) {
     const auto corners = reading_.next(std::min(kTrianglesInCache, (most - count) / 3));
     if (corners.empty()) break;
     // Of a small mesh, not all of the room is used.
-    if (chunk.corners.size() < count + corners.size()) chunk.corners.resize(count + corners.size());
+    const std::size_t needed = count + corners.size();
+    if (chunk.corners.capacity() < needed) chunk.corners.reserve(std::min(most, 2 * chunk.corners.capacity()));
+    if (chunk.corners.size() < needed) chunk.corners.resize(needed);
     numbers_.number(corners, std::span(chunk.corners).subspan(count, corners.size()));
     count += corners.size();
   }

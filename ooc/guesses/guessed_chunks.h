@@ -31,7 +31,7 @@ class GuessedChunks : public ChunkSource {
  public:
   // All must outlive this. The chunks before `start` are skipped: read, but not looked up.
   // REQUIRES: nothing was read yet; `start` was made with the same options.
-  // THROWS: InputChanged if the mesh is not the one that `start` was made of.
+  // THROWS: Error{kChanged} if the mesh is not the one that `start` was made of.
   GuessedChunks(FirstReading& reading, FunctionValues& functions, const io::TempDir& temp, MemoryBudget& budget,
                 const GuessOptions& options, const ChunkPlace& start = {});
 

@@ -78,46 +78,42 @@ void CollectedPatches::finish() {
   memory_.resize(0);
 }
 
-PatchGroup CollectedPatches::group(std::size_t number) {
-  const auto vertex_count = static_cast<std::size_t>(vertices_.count(number)),
-             all_count = static_cast<std::size_t>(triangles_.count(number)), other_count = others_[number],
-             triangle_count = all_count - other_count;
-  const std::uint32_t first = first_of_group_[number], patches = first_of_group_[number + 1] - first;
+// A group while it is put together.
+struct CollectedPatches::Filling {
   PatchGroup group;
-  group.memory_ = budget_->reserve(kPatchOwner, vertex_count * (sizeof(PatchGroup::Vertex) + 12) +
-                                                    triangle_count * (sizeof(PatchGroup::Triangle) + 4) +
-                                                    other_count * (sizeof(PatchGroup::Line) + 4));
-  group.vertices_.reserve(vertex_count);
-  group.triangles_.reserve(triangle_count);
-  group.lines_.reserve(other_count);
-  std::vector<std::uint32_t> patch_of, triangle_patch, line_patch;
-  VertexSet numbers;  // of all groups
-  vertices_.rewind(number);
-  for (std::size_t i = 0; i < vertex_count; ++i) {
-    const Vertex& vertex = vertices_.next(number);
+  std::uint32_t first;  // patch of the group
+  VertexSet numbers{};  // its vertices, by their numbers of all groups
+  std::vector<std::uint32_t> patch_of{}, triangle_patch{}, line_patch{};  // in the group
+
+  void add(const CollectedPatches::Vertex& vertex) {
     numbers.add(VertexId(vertex.number));
     group.vertices_.push_back({VertexId(vertex.id), vertex.position});
     patch_of.push_back(vertex.patch - first);
   }
-  triangles_.rewind(number);
-  for (std::size_t i = 0; i < all_count; ++i) {
-    Triangle triangle = triangles_.next(number);
+
+  void add(CollectedPatches::Triangle triangle) {
     for (std::uint32_t& v : triangle.corners)
       if (v != VertexSet::kNone) v = numbers.find(VertexId(v));
+    if (triangle.kind == Triangle::kPlain)
+      add_plain(triangle);
+    else
+      add_other(triangle);
+  }
+
+  void add_plain(const CollectedPatches::Triangle& triangle) {
     const auto& [a, b, c] = triangle.corners;
-    const auto in_one_patch = [&](std::uint32_t v, std::uint32_t w) {
-      return v != VertexSet::kNone && w != VertexSet::kNone && patch_of[v] == patch_of[w];
-    };
-    if (triangle.kind == Triangle::kPlain) {
-      if (in_one_patch(a, b) && in_one_patch(a, c)) {
-        group.triangles_.push_back({triangle.corners, triangle.id});
-        triangle_patch.push_back(patch_of[a]);
-        continue;
-      }
-      for (const std::uint32_t v : triangle.corners)
-        if (v != VertexSet::kNone) group.vertices_[v].whole = false;
-      continue;
+    if (in_one_patch(a, b) && in_one_patch(a, c)) {
+      group.triangles_.push_back({triangle.corners, triangle.id});
+      triangle_patch.push_back(patch_of[a]);
+      return;
     }
+    for (const std::uint32_t v : triangle.corners)
+      if (v != VertexSet::kNone) group.vertices_[v].whole = false;
+  }
+
+  // Degenerate triangles, edges and points.
+  void add_other(const CollectedPatches::Triangle& triangle) {
+    const auto& [a, b, c] = triangle.corners;
     const bool is_degenerate = triangle.kind == Triangle::kDegenerate;
     const std::uint32_t other = is_degenerate && a == b ? c : b;
     const bool is_line = a != other && in_one_patch(a, other);
@@ -125,11 +121,22 @@ PatchGroup CollectedPatches::group(std::size_t number) {
       group.lines_.push_back({{a, other}, is_degenerate ? triangle.id : EditablePatch::kAdded});
       line_patch.push_back(patch_of[a]);
     }
-    if (is_line && is_degenerate) continue;  // it can be removed
+    if (is_line && is_degenerate) return;  // it can be removed
     for (const std::uint32_t v : triangle.corners)
       if (v != VertexSet::kNone) group.vertices_[v].used_elsewhere = true;
   }
-  const auto by_patch = [&](const std::vector<std::uint32_t>& of) {
+
+  bool in_one_patch(std::uint32_t v, std::uint32_t w) const {
+    return v != VertexSet::kNone && w != VertexSet::kNone && patch_of[v] == patch_of[w];
+  }
+
+  void sort_by_patch(std::uint32_t patches) {
+    group.vertices_of_ = by_patch(patches, patch_of);
+    group.triangles_of_ = by_patch(patches, triangle_patch);
+    group.lines_of_ = by_patch(patches, line_patch);
+  }
+
+  static PatchGroup::ByPatch by_patch(std::uint32_t patches, const std::vector<std::uint32_t>& of) {
     PatchGroup::ByPatch sorted;
     sorted.first.assign(patches + 1, 0);
     for (const std::uint32_t patch : of) ++sorted.first[patch + 1];
@@ -138,11 +145,27 @@ PatchGroup CollectedPatches::group(std::size_t number) {
     std::vector<std::uint32_t> next(sorted.first.begin(), sorted.first.end() - 1);
     for (std::uint32_t i = 0; i < of.size(); ++i) sorted.order[next[of[i]]++] = i;
     return sorted;
-  };
-  group.vertices_of_ = by_patch(patch_of);
-  group.triangles_of_ = by_patch(triangle_patch);
-  group.lines_of_ = by_patch(line_patch);
-  return group;
+  }
+};
+
+PatchGroup CollectedPatches::group(std::size_t number) {
+  const auto vertex_count = static_cast<std::size_t>(vertices_.count(number)),
+             all_count = static_cast<std::size_t>(triangles_.count(number)), other_count = others_[number],
+             triangle_count = all_count - other_count;
+  Filling filling{.group = {}, .first = first_of_group_[number]};
+  PatchGroup& group = filling.group;
+  group.memory_ = budget_->reserve(kPatchOwner, vertex_count * (sizeof(PatchGroup::Vertex) + 12) +
+                                                    triangle_count * (sizeof(PatchGroup::Triangle) + 4) +
+                                                    other_count * (sizeof(PatchGroup::Line) + 4));
+  group.vertices_.reserve(vertex_count);
+  group.triangles_.reserve(triangle_count);
+  group.lines_.reserve(other_count);
+  vertices_.rewind(number);
+  for (std::size_t i = 0; i < vertex_count; ++i) filling.add(vertices_.next(number));
+  triangles_.rewind(number);
+  for (std::size_t i = 0; i < all_count; ++i) filling.add(triangles_.next(number));
+  filling.sort_by_patch(first_of_group_[number + 1] - filling.first);
+  return std::move(group);
 }
 
 EditablePatch PatchGroup::patch(std::size_t number) const {

@@ -61,8 +61,11 @@ class PatchGroup {
 // THREADS: one at a time.
 class CollectedPatches {
  public:
+  // Groups have 16-bit numbers.
+  static constexpr std::size_t kMostGroups = 0xffff;
+
   // `patch_of[i]` is the patch of ball i. Those of group g begin with first_of_group[g], and the last entry is the
-  // number of all patches. REQUIRES: balls of different patches do not meet; fewer than 65536 groups.
+  // number of all patches. REQUIRES: balls of different patches do not meet; at most kMostGroups groups.
   CollectedPatches(std::span<const Ball> balls, std::span<const std::uint32_t> patch_of,
                    std::vector<std::uint32_t> first_of_group, const io::TempDir& temp, MemoryBudget& budget);
 
@@ -86,6 +89,8 @@ class CollectedPatches {
     enum Kind : std::uint32_t { kPlain, kDegenerate, kPointOrEdge } kind;
     std::uint64_t id;
   };
+
+  struct Filling;
 
   void add_use(std::span<const VertexId> corners);
 

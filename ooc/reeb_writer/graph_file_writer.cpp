@@ -8,6 +8,7 @@
 
 #include "libreeb/base/prefetch.h"
 #include "libreeb/base/sweep_key.h"
+#include "libreeb/graph/reeb_graph.h"
 #include "ooc/reeb_writer/file_header.h"
 #include "ooc/reeb_writer/frame_size.h"
 #include "ooc/reeb_writer/reeb_file_writer.h"
@@ -51,7 +52,7 @@ void GraphFileWriter::add_nodes(std::span<const SettledNode> nodes) {
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     const SettledNode& node = nodes[i];
     if (i + kAhead < nodes.size()) prefetch_rank(nodes[i + kAhead].key);
-    if (last_node_ && !(*last_node_ < node.key)) throw std::logic_error("GraphFileWriter: nodes are not ascending");
+    if (last_node_ && !(*last_node_ < node.key)) throw BrokenGraph("GraphFileWriter: nodes are not ascending");
     last_node_ = node.key;
     if (keys_) keys_->append(node.key);
     if (!rank_of_.empty()) rank_of_.at(node.key.vertex.value()) = static_cast<std::uint32_t>(header_.nodes);
@@ -84,7 +85,7 @@ void GraphFileWriter::rank_by_vertex(std::span<const ArcKeys> arcs, std::vector<
   const auto rank = [&](const SweepKey& key) {
     const std::uint64_t vertex = key.vertex.value();
     if (vertex >= rank_of_.size() || rank_of_[vertex] == kNoNode)
-      throw std::logic_error("GraphFileWriter: no node is vertex " + std::to_string(vertex));
+      throw BrokenGraph("GraphFileWriter: no node is vertex " + std::to_string(vertex));
     return rank_of_[vertex];
   };
   for (std::size_t i = 0; i < arcs.size(); ++i) {

@@ -34,7 +34,7 @@ struct MeshInput {
   unsigned dimension = 3;
   std::uint64_t reader_bytes = 0;  // what the reader holds to unpack the input
   std::string path;                // for the sidecar, checkpoints and messages; "-": none
-  // Throws InputChanged if what was read so far does not fit together; empty: nothing can change.
+  // Throws Error{kChanged} if what was read so far does not fit together; empty: nothing can change.
   std::function<void()> check_unchanged = {};
   std::uint64_t reading = 0;  // digest of the options by which it is read
   MeshSize size = MeshSize::kAny;
@@ -56,7 +56,7 @@ struct ComputeOptions {
   bool may_reorder = true;        // may sort a mesh on disk that has no coherent pieces
   bool may_guess = true;          // may guess complete vertices of a reader without finalization
   std::uint32_t buckets = 64;     // K: K to 2K buckets span the range of a function; 0: no embedding
-  bool manifold = false;          // no edge has more than two triangles; else NotManifold
+  bool manifold = false;          // no edge has more than two triangles; else Error{kNotManifold}
   double denoise = 0;             // remove noise below this persistence; 0: keep all
   bool denoise_is_share = false;  // `denoise` is a share of the function's range
   std::function<void(const ComputeProgress&)> progress = {};
@@ -71,10 +71,10 @@ struct ComputeOptions {
 // Computes the graph of functions[i] and writes it to outputs[i]. All functions share the pass over the mesh in which
 // it is glued. If last uses must be found or the mesh must be sorted first, the mesh is also read before that pass.
 //
-// THROWS: Error; InputChanged if the mesh or a file of values changes meanwhile. No output is ever partly written, but
-//         some outputs may exist: those of earlier functions; and the graph alone, if kResource says that memory did
-//         not suffice for a function's hierarchy or the end of its noise removal. For kResource and kInterrupted the
-//         hint says whether a later run can resume this one.
+// THROWS: Error; Error{kChanged} if the mesh or a file of values changes meanwhile. No output is ever partly written,
+//         but some outputs may exist: those of earlier functions; and the graph alone, if kResource says that memory
+//         did not suffice for a function's hierarchy or the end of its noise removal. For kResource and kInterrupted
+//         the hint says whether a later run can resume this one.
 std::vector<ComputeResult> compute(MeshInput input, std::span<VertexFunction* const> functions,
                                    std::span<const std::string> outputs, const ComputeOptions& options);
 

@@ -20,7 +20,8 @@ void throw_explained(RunContext& run) {
     throw run.resumable.explain(error);
   } catch (const std::bad_alloc&) {
     throw run.resumable.explain(
-        Error(ErrorKind::kResource, "out of memory", "close other programs, or allow less with --memory SIZE"));
+        Error(ErrorKind::kResource, "out of memory", "close other programs, or allow less with --memory SIZE")
+            .because(ErrorCause::kMemory));
   } catch (const std::exception& error) {
     if (const auto limit = error_of_limit(error)) throw run.resumable.explain(*limit);
     // What the program found impossible was in the state that it was given.

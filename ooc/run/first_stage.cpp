@@ -35,8 +35,8 @@ void check_ranges(const std::vector<FunctionRange>& ranges, std::size_t function
 
 ChunkPlace place_of(const Checkpoint* start) { return start != nullptr ? start->place : ChunkPlace{}; }
 
-// Ends an interrupted run while no triangle comes. Else that is left to the end of a chunk, where the run can be saved;
-// chunks that are on their way get the time for it.
+// Ends an interrupted run while no triangle comes. Otherwise the run ends after the current chunk, where it can be
+// saved; chunks in flight get kSecondsForChunks.
 class PolledReader : public MeshReader {
  public:
   PolledReader(std::unique_ptr<MeshReader> reader, const ResumableRun& run) : reader_(std::move(reader)), run_(run) {}
@@ -141,7 +141,8 @@ struct GuessedRun {
 GuessedRun run_guessing(RunContext& run, FirstReading& reading, const MemoryPlan& plan, const Checkpoint* start,
                         FirstStageResult result) {
   const ChunkSize chunk = start != nullptr ? start->chunk : plan.chunk;
-  const std::uint64_t most = std::max<std::uint64_t>(plan.chunk.most, reading.bytes_total());
+  const std::uint64_t most =
+      std::max({std::uint64_t{plan.chunk.most}, std::uint64_t{run.options.chunk_triangles}, reading.bytes_total()});
   if (chunk.first == 0 || chunk.first > chunk.most || chunk.most > most) throw DamagedState();
   GuessedChunks source(reading, run.values, run.temp, run.budget,
                        {.chunk = chunk,
@@ -212,8 +213,8 @@ FirstStageResult run_once(RunContext& run, const MeshInput& input, std::unique_p
     const auto source = chunks_of(*ordered.mesh, ordered.uses, run.values, ordered.plan.chunk, place_of(start));
     result = glue_chunks(run, *source, ordered.plan, here, std::move(result));
     result.degenerate_triangles = listed_as_degenerate(summary.degenerate_triangles, result.simplices);
-  } catch (const InputChanged&) {
-    if (!ordered.of_sidecar) throw;
+  } catch (const Error& error) {
+    if (error.cause() != ErrorCause::kChanged || !ordered.of_sidecar) throw;
     mesh = std::move(ordered.mesh);
     throw WrongSidecar();
   }
@@ -331,17 +332,14 @@ FirstStageResult read_mesh(RunContext& run, MeshInput input) {
     FirstStageResult first = run_first_stage(run, std::move(input));
     check_unchanged(check_mesh, run.functions);
     return first;
-  } catch (InputChanged& changed) {
+  } catch (Error& error) {
     check_unchanged(check_mesh, run.functions);
-    changed.at(mesh);
-    if (run.resumable.checkpoint() == nullptr) throw;
-    throw InputChanged("the mesh has changed since the interrupted run",
-                       "start again with --force and without --resume")
+    const bool changed = error.cause() == ErrorCause::kChanged;
+    if (changed || error.cause() == ErrorCause::kNotManifold) error.at(mesh);
+    if (!changed || run.resumable.checkpoint() == nullptr) throw;
+    throw input_changed("the mesh has changed since the interrupted run",
+                        "start again with --force and without --resume")
         .at(mesh);
-  } catch (NotManifold& third) {
-    check_unchanged(check_mesh, run.functions);
-    third.at(mesh);
-    throw;
   } catch (const std::exception&) {
     check_unchanged(check_mesh, run.functions);
     throw;

@@ -32,8 +32,8 @@ struct FirstStageResult {
 const Checkpoint* start_run(RunContext& run, std::vector<std::string>& notes);
 
 // Fills the stores of the run and the ranges of its values.
-// THROWS: Error, of the input, the budget or the disk, or because the run was interrupted; InputChanged if the mesh or
-//         a file of values changes meanwhile.
+// THROWS: Error, of the input, the budget or the disk, or because the run was interrupted; Error{kChanged} if the mesh
+//         or a file of values changes meanwhile.
 FirstStageResult read_mesh(RunContext& run, MeshInput input);
 
 }  // namespace reeb::ooc

@@ -81,8 +81,7 @@ Error no_memory_for(const RunContext& run, const std::string& what, const std::s
                   format_bytes(run.budget.free_bytes()) + " is left; the graph itself was written",
               "with --force, since the graph is there: allow --memory " + std::to_string(enough / (1 << 20) + 1) +
                   "M, or " + otherwise);
-  error.at(output);
-  return error;
+  return error.at(output).because(ErrorCause::kMemory);
 }
 
 }  // namespace reeb::ooc

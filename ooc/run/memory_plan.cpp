@@ -39,6 +39,8 @@ constexpr std::uint64_t kSweepVertexBytes = 170, kFlightVertexBytes = 125, kSour
 // More memory than this for chunks makes a run hardly faster.
 constexpr std::uint64_t kUsefulChunkBytes = 64 * kMiB;
 constexpr std::size_t kSmallestChunk = 512;
+// A chunk that a user chose takes at least this much per triangle, so a larger one than fits the budget is not tried.
+constexpr std::uint64_t kLeastTriangleBytes = 40;
 // One thread with a budget below this: chunks of a useful size matter more than parallel ones.
 constexpr std::uint64_t kEnoughForThreads = 12 * kMiB;
 // Chunks are sized for this many threads, however many there are: an embedding shows where chunks were cut.
@@ -72,13 +74,15 @@ MemoryPlan plan_memory(const MemoryRequest& request) {
     throw Error(
         ErrorKind::kResource,
         "a run needs at least " + format_bytes(kSmallestBudget) + " of memory, but may use only " + format_bytes(limit),
-        "allow more, for instance --memory 32M");
+        "allow more, for instance --memory 32M")
+        .because(ErrorCause::kMemory);
   if (limit < kSmallestBudget + request.reader_bytes) {
     const std::string megabytes = std::to_string(((kSmallestBudget + request.reader_bytes) >> 20) + 1) + "M";
     throw Error(ErrorKind::kResource,
                 "unpacking the input takes " + format_bytes(request.reader_bytes) + ", and the run at least " +
                     format_bytes(kSmallestBudget) + ", but they may use only " + format_bytes(limit),
-                "allow --memory " + megabytes + ", or unpack the input first");
+                "allow --memory " + megabytes + ", or unpack the input first")
+        .because(ErrorCause::kMemory);
   }
   MemoryPlan plan;
   plan.request_ = request;
@@ -164,8 +168,10 @@ void MemoryPlan::size_chunks(std::uint64_t bytes, std::size_t most_triangles) {
   const std::uint64_t parallel = std::max(bytes, budget_bytes / 4);
   while (threads > kPlannedThreads && chunk_bytes(threads, request_.functions) * chunk.first > parallel) --threads;
   if (request_.chunk_triangles != 0) {
-    chunk.first = chunk.patch = request_.chunk_triangles;
-    chunk.most = std::max(request_.chunk_triangles, request_.stretch_triangles);
+    const std::uint64_t fitting_triangles = std::max<std::uint64_t>(kSmallestChunk, budget_bytes / kLeastTriangleBytes);
+    chunk.first = chunk.patch =
+        static_cast<std::size_t>(std::min<std::uint64_t>(request_.chunk_triangles, fitting_triangles));
+    chunk.most = std::max(chunk.first, request_.stretch_triangles);
   }
 }
 

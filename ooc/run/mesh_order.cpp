@@ -29,7 +29,7 @@ constexpr double kHilbertFront = 14;
 constexpr std::uint64_t kQuickShare = 8;
 // Of this share, less than finding pieces; up to this front, whose graph takes some 90 MB where memory is free.
 constexpr std::uint64_t kQuickerShare = 64, kMostOfShare = 131072;
-// Sorting a mesh, and scanning it afterwards, are one pass for who waits.
+// The progress bar shows sorting and the scan after it as one pass; sorting is this share of it.
 constexpr double kSorted = 0.9;
 // Of a budget that is free, for the list of pieces.
 constexpr std::uint64_t kPiecesShare = 4, kPieceBytes = 48;
@@ -288,7 +288,8 @@ class Ordering {
                   count_of(front.live_vertices, "vertex") + " are live at once, and their graph will not fit " +
                       format_bytes(plan.set_aside_bytes + plan.budget_bytes) + " of memory",
                   "allow --memory " + megabytes +
-                      (run_.options.may_reorder ? "" : ", or let the triangles be sorted (without --no-reorder)"));
+                      (run_.options.may_reorder ? "" : ", or let the triangles be sorted (without --no-reorder)"))
+          .because(ErrorCause::kMemory);
     }
     plan.share_out(front);
     return plan;

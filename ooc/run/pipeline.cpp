@@ -146,18 +146,26 @@ class Pipeline {
     return options_.choose_sweep ? options_.choose_sweep(function, item.end.ranges[function]) : SweepOptions{};
   }
 
+  static void add(Glue& glue, const Fragment& fragment, const std::function<void(std::size_t)>& grown) {
+    glue.add(fragment, grown);
+  }
+  // Has no paths that grow.
+  static void add(BoxGlue& glue, const Fragment& fragment, const std::function<void(std::size_t)>& /*grown*/) {
+    glue.add(fragment);
+  }
+
   void glue(Slot& slot) {
-    std::size_t most = 0;
-    for (std::size_t f = 0; f < glues_.size(); ++f) most += glues_[f]->memory_bytes_with(slot.item.fragments[f]);
-    reserve_at_least(live_, most);
-    LiveMaximum now;
     std::size_t bytes = 0;
+    for (std::size_t f = 0; f < glues_.size(); ++f) bytes += glues_[f]->memory_bytes_with(slot.item.fragments[f]);
+    reserve_at_least(live_, bytes);
+    LiveMaximum now;
     for (std::size_t f = 0; f < glues_.size(); ++f) {
-      glues_[f]->add(slot.item.fragments[f]);
+      const std::size_t others = bytes - glues_[f]->memory_bytes_with(slot.item.fragments[f]);
+      add(*glues_[f], slot.item.fragments[f], [&](std::size_t own) { reserve_at_least(live_, others + own); });
       now.vertices += glues_[f]->live_vertices();
       now.edges += glues_[f]->live_edges();
       now.arcs += glues_[f]->live_arcs();
-      bytes += glues_[f]->memory_bytes();
+      bytes = others + glues_[f]->memory_bytes();
     }
     live_.resize(bytes);
     maximum_.vertices = std::max(maximum_.vertices, now.vertices);

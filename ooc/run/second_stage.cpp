@@ -231,8 +231,9 @@ WrittenHierarchy write_hierarchy(RunContext& run, StoredGraph stored) {
   ReebGraph& graph = in_memory.loaded.graph;
   WrittenHierarchy written;
   const Poll poll = stage_poll(run);
-  const Hierarchy hierarchy = build_hierarchy(graph, std::move(in_memory.loaded.buckets), stored.meta.bucket_exponent,
-                                              records, part_of(poll, kLoaded, kBuilt), in_two_threads(run));
+  const Hierarchy hierarchy =
+      build_hierarchy(graph, std::move(in_memory.loaded.buckets), stored.meta.bucket_exponent, records,
+                      {.poll = part_of(poll, kLoaded, kBuilt), .both = in_two_threads(run)});
   HierarchyInMemory source(graph, hierarchy);
   write_file(run, stored, source, records, written);
   return written;

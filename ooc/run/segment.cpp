@@ -71,22 +71,20 @@ struct Step {
   bool has(std::size_t node) const { return rank[node] != NodeId::none(); }
 };
 
-}  // namespace
-
-class Segmentation::Impl {
+class FollowedSegmentation : public Segmentation {
  public:
-  Impl(MeshInput input, VertexFunction& function, std::uint64_t vertex_bound, const ReebFile& file,
-       std::uint32_t version, const std::string& output, ComputeOptions options)
-      : file_(file),
-        version_(version),
-        options_(run_options(std::move(options))),
-        output_(output),
+  // REQUIRES: the input may not be resumed.
+  FollowedSegmentation(MeshInput input, VertexFunction& function, const SegmentRequest& request)
+      : file_(request.file),
+        version_(request.version),
+        options_(run_options(request.options)),
+        output_(request.output),
         functions_{&function},
-        run_((input.may_resume = false, input), functions_, std::span(&output_, 1), options_) {
+        run_(input, functions_, std::span(&output_, 1), options_) {
     run_.follower =
         std::make_unique<ArcFollower>(run_.temp, run_.budget,
-                                      FollowOptions{.vertex_bound = vertex_bound,
-                                                    .names = {name_of(input), file.path()},
+                                      FollowOptions{.vertex_bound = request.vertex_bound,
+                                                    .names = {name_of(input), file_.path()},
                                                     .allowance_bytes = run_.plan.segment_bytes,
                                                     .most_bytes = run_.plan.most_segment_bytes,
                                                     .background = run_.background(),
@@ -101,11 +99,11 @@ class Segmentation::Impl {
     rewind();
   }
 
-  std::uint64_t vertex_bound() const { return run_.follower->places().bound(); }
-  const SegmentCounts& counts() const { return counts_; }
-  const ReebGraph& level() const { return level_; }
+  std::uint64_t vertex_bound() const override { return run_.follower->places().bound(); }
+  const SegmentCounts& counts() const override { return counts_; }
+  const ReebGraph& level() const override { return level_; }
 
-  void read(std::span<ArcLabel> labels, std::span<double> values) {
+  void read(std::span<ArcLabel> labels, std::span<double> values) override {
     for (std::size_t i = 0; i < labels.size(); ++i) {
       if (next_ == places_.size()) fetch();
       const VertexPlace& place = places_[next_++];
@@ -114,7 +112,7 @@ class Segmentation::Impl {
     }
   }
 
-  MeasuredArcs measure(MeshReader& mesh) {
+  MeasuredArcs measure(MeshReader& mesh) override {
     constexpr std::uint64_t kMostTableBytes = 256 << 20, kMostSortBytes = 16 << 20;
     const std::uint64_t free = run_.budget.free_bytes();
     SurfaceMeasures measures(level_, run_.temp, run_.budget,
@@ -130,7 +128,7 @@ class Segmentation::Impl {
       run_.resumable.check_interruption();
       if (batch.vertex_count != 0) {
         const std::uint64_t first = batch.first_vertex.value(), bound = vertex_bound();
-        if (first < vertex_ || first > bound || batch.vertex_count > bound - first) throw InputChanged();
+        if (first < vertex_ || first > bound || batch.vertex_count > bound - first) throw input_changed();
         for (std::uint64_t skipped = first - vertex_; skipped != 0; skipped -= labels.size()) {
           labels.resize(static_cast<std::size_t>(std::min<std::uint64_t>(skipped, kVerticesAtOnce)));
           values.resize(labels.size());
@@ -152,6 +150,7 @@ class Segmentation::Impl {
     return measured;
   }
 
+ private:
   void rewind() {
     run_.follower->places().rewind();
     places_ = {};
@@ -159,7 +158,6 @@ class Segmentation::Impl {
     vertex_ = 0;
   }
 
- private:
   void follow(MeshInput input) {
     const FileHeader& header = file_.header();
     // A run without the memory for the last pass of noise removal leaves what the first stage has not removed.
@@ -209,13 +207,14 @@ class Segmentation::Impl {
     ReebGraph after = change(level_, log);
     Step step;
     const auto& nodes = level_.nodes;
+    const std::uint64_t node_bytes = (sizeof(std::uint32_t) + sizeof(NodeId)) * nodes.size();
+    step.memory = run_.budget.reserve("lists of arcs", node_bytes);
     step.arc_of_node.assign(nodes.size(), ArcHistory::kDropped);
-    step.memory = run_.budget.reserve("lists of arcs", 0);
     std::size_t events = 0;
     log.read_backwards([&](const ArcEvent& event) {
       const std::uint32_t arc = step.history.undo(event);
       if (events++ % kEventsAtOnce == 0) {
-        step.memory.resize(step.history.memory_bytes());
+        step.memory.resize(node_bytes + step.history.memory_bytes());
         run_.resumable.check_interruption();
       }
       if (event.kind != ArcEvent::Kind::kJoin && event.kind != ArcEvent::Kind::kLay) return;
@@ -225,7 +224,7 @@ class Segmentation::Impl {
     step.rank.assign(nodes.size(), NodeId::none());
     for (std::size_t n = 0, kept = 0; n < nodes.size() && kept < after.nodes.size(); ++n)
       if (nodes[n] == after.nodes[kept]) step.rank[n] = NodeId(static_cast<std::uint32_t>(kept++));
-    step.memory.resize(step.history.memory_bytes() + 8 * nodes.size());
+    step.memory.resize(node_bytes + step.history.memory_bytes());
     steps_.push_back(std::move(step));
     level_ = std::move(after);
   }
@@ -310,19 +309,11 @@ class Segmentation::Impl {
   std::uint64_t vertex_ = 0;
 };
 
-Segmentation::Segmentation(MeshInput input, VertexFunction& function, std::uint64_t vertex_bound, const ReebFile& file,
-                           std::uint32_t version, const std::string& output, ComputeOptions options)
-    : impl_(std::make_unique<Impl>(std::move(input), function, vertex_bound, file, version, output,
-                                   std::move(options))) {}
-Segmentation::~Segmentation() = default;
+}  // namespace
 
-std::uint64_t Segmentation::vertex_bound() const { return impl_->vertex_bound(); }
-const SegmentCounts& Segmentation::counts() const { return impl_->counts(); }
-std::uint64_t Segmentation::nodes() const { return impl_->level().node_count(); }
-std::uint64_t Segmentation::arcs() const { return impl_->level().arc_count(); }
-void Segmentation::read(std::span<ArcLabel> labels, std::span<double> values) { impl_->read(labels, values); }
-void Segmentation::rewind() { impl_->rewind(); }
-MeasuredArcs Segmentation::measure(MeshReader& mesh) { return impl_->measure(mesh); }
-const ReebGraph& Segmentation::level() const { return impl_->level(); }
+std::unique_ptr<Segmentation> segment_mesh(MeshInput input, VertexFunction& function, const SegmentRequest& request) {
+  input.may_resume = false;
+  return std::make_unique<FollowedSegmentation>(std::move(input), function, request);
+}
 
 }  // namespace reeb::ooc

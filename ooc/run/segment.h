@@ -24,39 +24,41 @@ struct SegmentCounts {
   std::uint64_t absent = 0;  // vertices of a grid that are left out
 };
 
-// Computes the graph of the mesh again, follows every vertex to its arc, and delivers the labels by index.
+struct SegmentRequest {
+  const ReebFile& file;
+  std::uint32_t version = 0;       // of the level
+  std::uint64_t vertex_bound = 0;  // more than the index of any vertex
+  std::string output = {};         // gives the folder for temporary files, and is not written
+  // Those of the result (embedding, noise, levels, checkpoints) have no effect.
+  ComputeOptions options = {};
+};
+
+// The labels of all vertices, by index.
 class Segmentation {
  public:
-  // The function is that of the file. `output` gives the folder for temporary files, and is not written. Of the
-  // options, those of the result (embedding, noise, levels, checkpoints) have no effect.
-  // `vertex_bound`: more than the index of any vertex.
-  // THROWS: as compute(); Error{kBadInput} if the file is damaged, or is not that of this mesh, function and order.
-  Segmentation(MeshInput input, VertexFunction& function, std::uint64_t vertex_bound, const ReebFile& file,
-               std::uint32_t version, const std::string& output, ComputeOptions options);
-  ~Segmentation();
+  Segmentation() = default;
   Segmentation(const Segmentation&) = delete;
   Segmentation& operator=(const Segmentation&) = delete;
+  virtual ~Segmentation() = default;
 
-  std::uint64_t vertex_bound() const;
-  const SegmentCounts& counts() const;
-  std::uint64_t nodes() const;  // of the level
-  std::uint64_t arcs() const;
+  virtual std::uint64_t vertex_bound() const = 0;
+  virtual const SegmentCounts& counts() const = 0;
+  virtual const ReebGraph& level() const = 0;
 
-  // The labels and values of the next vertices, as many as the spans have. rewind() starts over.
+  // The labels and values of the next vertices, as many as the spans have.
   // A vertex of a grid that is left out has kDroppedVertex and NaN.
   // REQUIRES: not beyond vertex_bound().
-  void read(std::span<ArcLabel> labels, std::span<double> values);
-  void rewind();
+  virtual void read(std::span<ArcLabel> labels, std::span<double> values) = 0;
 
   // Measures the parts of the surface on the arcs. `mesh` delivers the mesh again, from its beginning. If it has cells,
-  // areas and lengths are NaN.
-  // THROWS: Error of the mesh, the budget or the disk; InputChanged if the mesh has other vertices.
-  MeasuredArcs measure(MeshReader& mesh);
-  const ReebGraph& level() const;
-
- private:
-  class Impl;
-  std::unique_ptr<Impl> impl_;
+  // areas and lengths are NaN. REQUIRES: read() is not called afterwards.
+  // THROWS: Error of the mesh, the budget or the disk; Error{kChanged} if the mesh has other vertices.
+  virtual MeasuredArcs measure(MeshReader& mesh) = 0;
 };
+
+// Computes the graph of the mesh again, and follows every vertex to its arc. The function is that of the file. It and
+// the file must outlive the result.
+// THROWS: as compute(); Error{kBadInput} if the file is damaged, or is not that of this mesh, function and order.
+std::unique_ptr<Segmentation> segment_mesh(MeshInput input, VertexFunction& function, const SegmentRequest& request);
 
 }  // namespace reeb::ooc

@@ -22,7 +22,7 @@ void PlacedVertices::add(const SweepKey& vertex, std::uint32_t number, std::uint
   const std::uint64_t index = vertex.vertex.value();
   if (index >= bound_)
     throw Error(ErrorKind::kBadInput,
-                "the mesh has a vertex " + std::to_string(index) + ", but " + names_.graph + " is the graph of " +
+                "the mesh has a vertex " + std::to_string(index) + ", but the mesh of " + names_.graph + " has " +
                     count_of(bound_, "vertex"),
                 "name the mesh that the graph was computed from")
         .at(names_.mesh);

@@ -9,7 +9,6 @@
 #include <exception>
 #include <functional>
 #include <memory>
-#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -21,10 +20,9 @@
 #include "ooc/sorting/rank_sort.h"
 #include "ooc/sorting/record_batch.h"
 #include "ooc/sorting/sort_buffer.h"
-#include "ooc/sorting/sorted_run_file.h"
 #include "ooc/sorting/sorted_run_merger.h"
+#include "ooc/sorting/sorted_runs.h"
 #include "ooc/threads/kept_arena.h"
-#include "ooc/threads/read_ahead.h"
 #include "ooc/threads/worker.h"
 
 namespace reeb::ooc {
@@ -96,9 +94,7 @@ class ExternalSort {
   // REQUIRES: a named file; finish() was not called.
   void save(StateWriter& out) {
     wait_for_writer();
-    if (file_) file_->sync();
-    out.put_array(runs_);
-    out.put(file_ ? file_->manifest() : RunManifest{});
+    runs_.save(out);
     out.put(largest_payload_);
     out.put_array(filling_.batch.records);
     out.put_array(filling_.batch.pool);
@@ -108,11 +104,7 @@ class ExternalSort {
   //         for a record that was in memory.
   template <class Sound>
   void restore(StateReader& in, const Sound& is_sound) {
-    in.get_array(runs_);
-    const auto manifest = in.get<RunManifest>();
-    if (!runs_.empty()) file_.emplace(io::File::open_for_update(options_.file), manifest);
-    if (file_ ? !file_->consists_of(runs_) : manifest != RunManifest{}) throw DamagedState();
-    size_ = manifest.records;
+    size_ = runs_.restore(in, options_.file);
     in.get(largest_payload_);
     if (largest_payload_ > ~std::uint32_t{0}) throw DamagedState();
     Batch rest;
@@ -141,7 +133,9 @@ class ExternalSort {
       wait_for_writer();
       filling_.free();
       writing_.free();
-      reduce_runs(merge_bytes == 0 ? options_.allowance_bytes : merge_bytes, poll);
+      const std::size_t fan_in = reserve_fan_in(merge_bytes == 0 ? options_.allowance_bytes : merge_bytes);
+      runs_.reduce(
+          fan_in, [this] { return temp_->create_unnamed(owner_); }, poll);
     }
     rewind();
   }
@@ -173,7 +167,7 @@ class ExternalSort {
       for (; !is_full() && at_ < size_; ++at_) out.add(all.records[at_], all.payload(all.records[at_]));
     } else if (at_ < size_) {
       // Blocks are in memory only from the first record to the last.
-      if (!merger_) merger_ = std::make_unique<Merger>(*file_, runs_);
+      if (!merger_) merger_ = runs_.merger();
       for (; !is_full() && !merger_->empty(); ++at_) merger_->take(out);
       if (merger_->empty()) merger_.reset();
     }
@@ -194,7 +188,7 @@ class ExternalSort {
   // Calls visit(record) for all records. Only the sort key of a record is filled in.
   template <class Visit>
   void scan_keys(const Visit& visit) const {
-    scan_blocks([](std::span<const Record>) { return Wanted::kKeys; },
+    scan_blocks([](std::span<const Record>) { return Unpack::kKeys; },
                 [&](const Batch& block) { std::ranges::for_each(block.records, visit); });
   }
   // Calls visit(record, batch) for records for which wanted(record) is true. `batch` holds the record's payload.
@@ -204,7 +198,7 @@ class ExternalSort {
   void scan(const Predicate& wanted, const Visit& visit) const {
     scan_blocks(
         [&](std::span<const Record> records) {
-          return std::ranges::any_of(records, wanted) ? Wanted::kAll : Wanted::kNothing;
+          return std::ranges::any_of(records, wanted) ? Unpack::kAll : Unpack::kNothing;
         },
         [&](const Batch& block) {
           for (const Record& record : block.records)
@@ -226,50 +220,17 @@ class ExternalSort {
 
   std::uint64_t size() const { return size_; }
   // Bytes written so far, including merging passes.
-  std::uint64_t spilled_bytes() const { return spilled_ + (file_ ? file_->size() : 0); }
+  std::uint64_t spilled_bytes() const { return runs_.written_bytes(); }
 
  private:
-  using Merger = SortedRunMerger<Record, Codec, Less>;
+  using Runs = SortedRuns<Record, Codec, Less>;
   using Buffer = SortBuffer<Record>;
 
-  // How much of a block a scan unpacks.
-  enum class Wanted { kNothing, kKeys, kAll };
-
-  // Calls look(records) for all blocks, in several threads; and visit(batch), one at a time, for the blocks for which
-  // look() returned more than kNothing.
+  // As SortedRuns::scan(); records in memory are one block.
   template <class Look, class Visit>
   void scan_blocks(const Look& look, const Visit& visit) const {
-    if (runs_.empty()) {
-      if (look(std::span(filling_.batch.records)) != Wanted::kNothing) visit(filling_.batch);
-      return;
-    }
-    struct Block {
-      std::uint64_t offset = 0;
-      std::vector<std::byte> packed;
-      Batch batch;
-      Wanted wanted = Wanted::kNothing;
-    };
-    auto run = runs_.begin();
-    RunPlace place = *run;
-    const auto read_next = [&](Block& block) {
-      if (place.blocks == 0 && ++run == runs_.end()) return false;
-      if (place.blocks == 0) place = *run;
-      block.offset = place.offset;
-      block.batch.records.resize(file_->read(place, block.packed));
-      return true;
-    };
-    const auto unpack = [&](Block& block) {
-      auto& [records, pool] = block.batch;
-      pool.clear();
-      bool is_block = Codec::decode_keys(block.packed, records);
-      block.wanted = is_block ? look(std::span(std::as_const(records))) : Wanted::kNothing;
-      if (block.wanted == Wanted::kAll) is_block = decode_block<Record, Codec>(block.packed, block.batch);
-      if (!is_block) file_->refuse(block.offset);
-    };
-    read_ahead<Block>(options_.background, read_next, unpack, [&](const Block& block) {
-      if (options_.poll) options_.poll();
-      if (block.wanted != Wanted::kNothing) visit(block.batch);
-    });
+    if (!runs_.empty()) return runs_.scan(options_.background, look, visit, options_.poll);
+    if (look(std::span(filling_.batch.records)) != Unpack::kNothing) visit(filling_.batch);
   }
 
   bool grow_records() {
@@ -281,7 +242,8 @@ class ExternalSort {
   void flush() {
     wait_for_writer();
     if (filling_.batch.empty()) return;
-    if (!file_) file_.emplace(options_.file.empty() ? temp_->create_unnamed(owner_) : io::File::create(options_.file));
+    if (!runs_.has_file())
+      runs_.set_file(options_.file.empty() ? temp_->create_unnamed(owner_) : io::File::create(options_.file));
     grow_allowance();  // while no writer changes the size of the file
     std::swap(filling_, writing_);
     if (options_.background) {
@@ -332,50 +294,21 @@ class ExternalSort {
 
   void write_run(Batch& batch) {
     sort(batch.records);
-    RunPlace run{file_->size(), 0};
-    run.blocks = append_blocks<Record, Codec>(batch.records, batch.pool, *file_);
+    runs_.append(batch);
     batch.clear();
-    runs_.push_back(run);
   }
 
-  // Merges in passes until the remaining runs can be merged at once.
-  void reduce_runs(std::uint64_t merge_bytes, const std::function<void()>& poll) {
-    const std::size_t fan_in = reserve_fan_in(merge_bytes);
-    while (runs_.size() > fan_in) {
-      SortedRunFile merged(temp_->create_unnamed(owner_));
-      std::vector<RunPlace> longer;
-      for (std::size_t first = 0; first < runs_.size(); first += fan_in) {
-        const std::size_t count = std::min(fan_in, runs_.size() - first);
-        longer.push_back(merge(std::span<const RunPlace>(runs_).subspan(first, count), merged, poll));
-      }
-      spilled_ += file_->size();
-      file_.emplace(std::move(merged));
-      runs_ = std::move(longer);
-    }
-  }
-
-  // A run that is being merged holds one block; packing and unpacking take the same again.
+  // How many runs are merged at once. A run that is being merged holds one block; packing and unpacking take the same
+  // again.
   std::size_t reserve_fan_in(std::uint64_t merge_bytes) {
     const std::uint64_t cursor = kRunBlockBytes + largest_payload_, rest = 4 * cursor;
     std::uint64_t fan_in = std::clamp<std::uint64_t>((merge_bytes - std::min(merge_bytes, rest)) / cursor, 2,
-                                                     std::max<std::uint64_t>(runs_.size(), 2));
+                                                     std::max<std::uint64_t>(runs_.count(), 2));
     while (fan_in > 2 && !merge_charge_.try_resize(fan_in * cursor + rest))
       fan_in = std::max<std::uint64_t>(2, fan_in / 2);
     merge_bytes_ = fan_in * cursor + rest;
     merge_charge_.resize(merge_bytes_);
     return static_cast<std::size_t>(fan_in);
-  }
-
-  RunPlace merge(std::span<const RunPlace> runs, SortedRunFile& out, const std::function<void()>& poll) const {
-    Merger merger(*file_, runs);
-    RunPlace place{out.size(), 0};
-    for (Batch block; !merger.empty();) {
-      if (poll) poll();
-      block.clear();
-      while (!merger.empty() && block.bytes() + sizeof(Record) <= kRunBlockBytes) merger.take(block);
-      place.blocks += append_blocks<Record, Codec>(block.records, block.pool, out);
-    }
-    return place;
   }
 
   const char* owner_;
@@ -386,12 +319,10 @@ class ExternalSort {
   Reservation merge_charge_;
   std::uint64_t merge_bytes_ = 0;  // that merging takes
   std::exception_ptr failure_;     // of the writer; every later call throws it
-  std::optional<SortedRunFile> file_;
-  std::vector<RunPlace> runs_;
-  std::unique_ptr<Merger> merger_;
+  Runs runs_;
+  std::unique_ptr<typename Runs::Merger> merger_;
   std::uint64_t at_ = 0;  // records read so far
-  std::uint64_t size_ = 0, spilled_ = 0;
-  std::uint64_t largest_payload_ = 0;
+  std::uint64_t size_ = 0, largest_payload_ = 0;
   Worker writer_;  // sorts and writes writing_; the last member, so that it is destroyed first
 };
 

@@ -1,6 +1,5 @@
 #include "ooc/stored_graph/load_graph.h"
 
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -15,7 +14,7 @@ constexpr std::size_t kRecordsAtOnce = 4096;
 NodeId node_of(const SweepKey& key, const NodeTable& table) {
   const std::uint32_t node = table.find(key);
   if (node == NodeTable::kNone)
-    throw std::logic_error("an arc ends in vertex " + std::to_string(key.vertex.value()) + ", which is not a node");
+    throw BrokenGraph("an arc ends in vertex " + std::to_string(key.vertex.value()) + ", which is not a node");
   return NodeId(node);
 }
 

@@ -30,7 +30,7 @@ std::uint64_t loading_bytes(const SegmentStore& store, const LoadOptions& option
 // Reads all of a finished store, for a second stage in memory.
 //
 // THROWS: Error{kResource} if the graph does not fit the budget, before anything is read;
-//         std::logic_error if an arc ends in no node.
+//         BrokenGraph if an arc ends in no node.
 LoadedGraph read_graph(SegmentStore& store, const LoadOptions& options = {}, const Poll& poll = {});
 
 }  // namespace reeb::ooc

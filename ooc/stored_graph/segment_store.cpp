@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <stdexcept>
 #include <string>
 
 #include "libreeb/base/byte_coding.h"
@@ -220,8 +219,8 @@ void SegmentStore::finish() {
 namespace {
 
 [[noreturn]] void refuse_payload(const ArcKeys& arc, int bucket_exponent) {
-  throw std::logic_error("the buckets of an arc from vertex " + std::to_string(arc.lo.vertex.value()) +
-                         " are not buckets of exponent " + std::to_string(bucket_exponent));
+  throw BrokenGraph("the buckets of an arc from vertex " + std::to_string(arc.lo.vertex.value()) +
+                    " are not buckets of exponent " + std::to_string(bucket_exponent));
 }
 
 }  // namespace
@@ -258,7 +257,7 @@ bool SegmentStore::read_nodes(std::vector<SettledNode>& nodes, std::size_t limit
   while (nodes_.read(nodes, limit)) {
     for (const SettledNode& node : nodes) {
       if (last_node_ && !(*last_node_ < node.key))
-        throw std::logic_error("vertex " + std::to_string(node.key.vertex.value()) + " is a node twice");
+        throw BrokenGraph("vertex " + std::to_string(node.key.vertex.value()) + " is a node twice");
       last_node_ = node.key;
     }
     if (change_) std::erase_if(nodes, [&](const SettledNode& node) { return change_->drops(node.key); });

@@ -53,7 +53,7 @@ struct ArcLess {
 using SortedNodes = ExternalSort<SettledNode, NodeCodec, NodeLess>;
 using SortedArcs = ExternalSort<StoredArc, ArcCodec, ArcLess>;
 
-// Appends the buckets of an arc, coarsened. THROWS: std::logic_error if they are coarser, or not a payload.
+// Appends the buckets of an arc, coarsened. THROWS: BrokenGraph if they are coarser, or not a payload.
 void decode_buckets_of(const ArcKeys& arc, std::span<const std::byte> payload, int bucket_exponent,
                        std::vector<Bucket>& buckets);
 
@@ -104,7 +104,7 @@ class SegmentStore : public GraphSink {
   // rewound before they are read.
   void set_aside();
   // Replaces `nodes` by the next nodes in order, at most `limit`. False at the end.
-  // THROWS: std::logic_error if a node was added twice.
+  // THROWS: BrokenGraph if a node was added twice.
   bool read_nodes(std::vector<SettledNode>& nodes, std::size_t limit);
   // Replaces `piece` by the next arcs in order: at most `limit`, fewer if they have many buckets. False at the end.
   // Buckets are delivered if an exponent is given. REQUIRES: it is not below any exponent that was added.

@@ -1,11 +1,11 @@
 #include "ooc/stored_hierarchy/stored_hierarchy.h"
 
 #include <algorithm>
-#include <stdexcept>
 #include <string>
 #include <utility>
 
 #include "libreeb/base/work.h"
+#include "libreeb/graph/reeb_graph.h"
 #include "libreeb/hierarchy/bucket_versions.h"
 #include "libreeb/hierarchy/canceller.h"
 
@@ -104,8 +104,8 @@ void StoredHierarchy::sort_arcs(SortedByUpperEnd& arcs, const Poll& poll) {
     for (const StoredArc& stored : piece.records) {
       while (lo < nodes_ && key(NodeId(lo)) < stored.keys.lo) ++lo;
       if (lo == nodes_ || key(NodeId(lo)) != stored.keys.lo)
-        throw std::logic_error("an arc begins in vertex " + std::to_string(stored.keys.lo.vertex.value()) +
-                               ", which is not a node");
+        throw BrokenGraph("an arc begins in vertex " + std::to_string(stored.keys.lo.vertex.value()) +
+                          ", which is not a node");
       arcs.add({stored.keys.hi, lo, arc});
       if (lists_) lists_->replace(arc, piece.payload(stored));
       ++arc;
@@ -125,8 +125,7 @@ void StoredHierarchy::pair_arcs(SortedByUpperEnd& arcs, const Poll& poll) {
     for (const ArcToSort& arc : some) {
       while (hi < nodes_ && key(NodeId(hi)) < arc.hi) ++hi;
       if (hi == nodes_ || key(NodeId(hi)) != arc.hi)
-        throw std::logic_error("an arc ends in vertex " + std::to_string(arc.hi.vertex.value()) +
-                               ", which is not a node");
+        throw BrokenGraph("an arc ends in vertex " + std::to_string(arc.hi.vertex.value()) + ", which is not a node");
       graph_->put(ArcId(arc.arc), NodeId(arc.lo), NodeId(hi));
       up.add(arc.lo, hi, take);
       ++done;

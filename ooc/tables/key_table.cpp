@@ -1,8 +1,9 @@
 #include "ooc/tables/key_table.h"
 
 #include <algorithm>
-#include <stdexcept>
 #include <string>
+
+#include "libreeb/graph/reeb_graph.h"
 
 namespace reeb::ooc {
 namespace {
@@ -44,7 +45,7 @@ std::uint64_t KeyTable::rank(const SweepKey& key, std::uint64_t from) const {
   const std::uint64_t last = std::min(count_, from + step + 1);
   const SweepKey* const found = std::lower_bound(keys_ + from, keys_ + std::max(from, last), key);
   if (found == keys_ + count_ || !(*found == key))
-    throw std::logic_error("KeyTable: no node is vertex " + std::to_string(key.vertex.value()));
+    throw BrokenGraph("KeyTable: no node is vertex " + std::to_string(key.vertex.value()));
   return static_cast<std::uint64_t>(found - keys_);
 }
 

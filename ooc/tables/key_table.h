@@ -24,7 +24,7 @@ class KeyTable {
   void seal();
 
   // The rank of `key`. Faster if it is near `from`. REQUIRES: the rank is not below `from`.
-  // THROWS: std::logic_error if the key is not in the table.
+  // THROWS: BrokenGraph if the key is not in the table.
   std::uint64_t rank(const SweepKey& key, std::uint64_t from) const;
   // Returns the pages that were read to the system.
   void release_pages() const { mapping_.release_pages(); }

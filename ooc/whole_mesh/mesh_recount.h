@@ -17,8 +17,9 @@ struct MeshRecount {
   std::int64_t euler = 0;        // vertices - edges + triangles, of distinct ones with distinct corners
 
   // Set if the mesh is a surface (with isolated points): at most two triangles at each edge, one fan at each vertex.
-  // Then any Reeb graph of it has at most this many loops: its genus if it is closed, else its first Betti number. It
-  // can have fewer: a vertex at which a contour splits and meets itself again hides a loop.
+  // Then any Reeb graph of it has at most this many loops: half its first Betti number if it is closed, which is the
+  // genus of one that can be oriented; else its first Betti number. It can have fewer: a vertex at which a contour
+  // splits and meets itself again hides a loop.
   std::optional<std::uint64_t> most_loops;
   bool closed = false;
 };

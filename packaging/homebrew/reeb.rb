@@ -13,6 +13,7 @@ class Reeb < Formula
   depends_on "spectra" => :build
   depends_on "boost"
   depends_on "fmt"
+  depends_on "libpng"
   depends_on "lz4"
   depends_on "tbb"
   depends_on "xxhash"

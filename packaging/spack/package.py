@@ -18,6 +18,7 @@ class Reeb(CMakePackage):
     depends_on("fast-float", type="build")
     depends_on("fmt")
     depends_on("intel-oneapi-tbb")
+    depends_on("libpng")
     depends_on("lz4")
     depends_on("nlohmann-json", type="build")
     depends_on("spectra", type="build")

@@ -9,7 +9,7 @@
 #include <cstdlib>
 #include <new>
 
-namespace reeb::bench {
+namespace reeb::test {
 
 inline std::atomic<std::size_t> held_bytes{0}, peak_bytes{0};
 
@@ -22,14 +22,14 @@ std::size_t peak_of(Work work) {
   return peak_bytes - before;
 }
 
-}  // namespace reeb::bench
+}  // namespace reeb::test
 
 // Not inlined: GCC 12 takes the malloc inside for a mismatch of new and delete.
 [[gnu::noinline]] void* operator new(std::size_t size) {
   void* memory = std::malloc(size);
   if (memory == nullptr) throw std::bad_alloc();
-  const std::size_t held = reeb::bench::held_bytes += malloc_usable_size(memory);
-  if (held > reeb::bench::peak_bytes) reeb::bench::peak_bytes = held;
+  const std::size_t held = reeb::test::held_bytes += malloc_usable_size(memory);
+  if (held > reeb::test::peak_bytes) reeb::test::peak_bytes = held;
   return memory;
 }
 // As std::stable_sort asks. A sanitizer's own would not match the operator delete below.
@@ -41,7 +41,7 @@ std::size_t peak_of(Work work) {
   }
 }
 [[gnu::noinline]] void operator delete(void* memory) noexcept {
-  if (memory != nullptr) reeb::bench::held_bytes -= malloc_usable_size(memory);
+  if (memory != nullptr) reeb::test::held_bytes -= malloc_usable_size(memory);
   std::free(memory);
 }
 void operator delete(void* memory, std::size_t) noexcept { operator delete(memory); }

@@ -378,6 +378,8 @@ TEST_F(BadInput, FilesOfOtherKindsAreNamed) {
       {std::string("\1\0\0\0\2\0\0\0\3\0\0\0", 12) + std::string(400, '\x22'), "a binary Medit mesh"},
       {"version https://git-lfs.github.com/spec/v1\noid sha256:00\nsize 9\n", "a Git LFS pointer"},
       {std::string("\xFF\xFEp\0l\0y\0", 8), "text in UTF-16"},
+      {std::string(128, '\0') + "DICM" + std::string(2000, '\x02'), "a DICOM slice"},
+      {std::string("II*\0", 4) + std::string(2000, '\x07'), "a TIFF picture"},
       {"\x89PNG\r\n\x1a\n" + std::string(2000, '\x07'), "a PNG picture"}};
   for (const auto& [bytes, name] : kinds) {
     write("file.ply", bytes);
@@ -386,6 +388,17 @@ TEST_F(BadInput, FilesOfOtherKindsAreNamed) {
     expect_error(reeb({"compute", "file.ply.gz"}), 1, "file.ply.gz:0: this is " + name);
     expect_error(reeb({"pairs", "file.ply"}), 1, "file.ply: this is not a Reeb graph, but " + name);
   }
+}
+
+TEST_F(BadInput, PicturesAreToBeConverted) {
+  write("slice.dcm", std::string(128, '\0') + "DICM" + std::string(2000, '\x02'));
+  const Outcome slice = reeb({"compute", "slice.dcm"});
+  expect_error(slice, 1, "slice.dcm:0: this is a DICOM slice, not a mesh");
+  EXPECT_NE(slice.error.find("hint: convert the series to NRRD or NIfTI\n"), std::string::npos) << slice.error;
+  write("a.png", "\x89PNG\r\n\x1a\n" + std::string(2000, '\x07'));
+  const Outcome picture = reeb({"compute", "a.png"});
+  expect_error(picture, 1, "a.png:0: this is a PNG picture, not a mesh");
+  EXPECT_NE(picture.error.find("hint: convert it to NPY or NRRD\n"), std::string::npos) << picture.error;
 }
 
 // Whatever random bytes are taken for, it is nothing that a few bytes decide.

@@ -79,6 +79,7 @@ std::vector<Command> make_commands() {
       {"ConvertSpectral", {"convert", "scan.ply", "made.ply", "--order", "spectral"}, {"made.ply"}},
       {"ConvertSweep", {"convert", "scan.obj", "made.obj", "--order", "sweep:x", "--finalize"}, {"made.obj"}},
       {"ConvertKeep", {"convert", "scan.smb", "made.off"}, {"made.off"}},
+      {"ConvertEvents", {"convert", "scan.obj", "made.events.txt"}, {"made.events.txt"}},
       {"ConvertCompressed", {"convert", "scan.ply.zst", "made.smb", "--finalize"}, {"made.smb"}},
   };
   for (const char* suffix : {"ply", "obj", "off", "sma", "smb", "smc", "events.txt"}) {

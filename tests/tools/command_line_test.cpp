@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <set>
+#include <sstream>
 
 #include "tests/tools/program.h"
 
@@ -163,6 +164,9 @@ TEST_F(CommandLine, HelpIsACommandToo) {
   EXPECT_EQ(reeb({"help"}).output, reeb({}).output);
   EXPECT_EQ(reeb({"help", "pairs"}).output, reeb({"pairs", "--help"}).output);
   EXPECT_EQ(reeb({"help", "pairs"}).exit_code, 0);
+  EXPECT_NE(reeb({"help"}).output.find("\n       reeb MESH [OPTIONS]"), std::string::npos);
+  expect_error(reeb({"help", "nothing"}), 2, "there is no command 'nothing'");
+  EXPECT_EQ(reeb({"help", "nothing"}).error.find("no file"), std::string::npos);
 }
 
 TEST_F(CommandLine, HelpsFitEightyColumnsAndAreOfOneStyle) {
@@ -170,6 +174,7 @@ TEST_F(CommandLine, HelpsFitEightyColumnsAndAreOfOneStyle) {
   for (const std::string& name : subcommands()) helps.push_back(reeb({name, "--help"}).output);
   for (const std::string& help : helps) {
     for (const std::string& line : lines_after("", help)) EXPECT_LE(line.size(), 80u) << line;
+    EXPECT_EQ(help.find("\n\n\n"), std::string::npos) << help;
     for (const char* of_the_library : {"REQUIRED", "UINT", "TEXT", "{false}", "Excludes", "Needs:", ":{", "INT in"})
       EXPECT_EQ(help.find(of_the_library), std::string::npos) << help;
     // Descriptions begin with a capital letter.
@@ -199,6 +204,8 @@ TEST_F(CommandLine, UnknownOptionsAreNamedWithTheNearest) {
   expect_error(tree, 2, "unknown kind of mesh 'tree'");
   EXPECT_TRUE(lines_after("hint: ", tree.error).at(0).ends_with(", ball, volume")) << tree.error;
   expect_error(reeb({"mesh.off", "-o"}), 2, "--output needs one value");
+  expect_error(reeb({"mesh.off", "--report", "-o", "zz.reeb"}), 2, "--report needs one value");
+  expect_error(reeb({"mesh.off", "--report", "--force"}), 2, "--report needs one value");
   expect_error(reeb({"extract", "mesh.reeb", "--nodes", "3", "--threshold", "1"}), 2);
   expect_error(reeb({"plot", "mesh.reeb", "--kind", "foo"}), 2,
                "--kind takes loops, diagram, graph or skeleton, not 'foo'");
@@ -296,6 +303,23 @@ TEST_F(CommandLine, ALargeThresholdMayBeMeantInPerCent) {
   EXPECT_EQ(reeb({"extract", "mesh.reeb", "--threshold", "4%"}).error, "");
 }
 
+TEST_F(CommandLine, ThresholdsOfLevelsCanBeTyped) {
+  expect_success(reeb({"generate", "scan", "--triangles", "40k", "-o", "scan.ply"}));
+  expect_success(reeb({"compute", "scan.ply", "-f", "x", "-o", "scan.reeb"}));
+  const auto levels = nlohmann::json::parse(reeb({"info", "scan.reeb", "--json"}).output).at("levels");
+  const std::string text = reeb({"info", "scan.reeb"}).output;
+  std::istringstream lines(text.substr(text.find('\n', text.find("of range"))));
+  ASSERT_GT(levels.size(), 3u);
+  for (const auto& level : levels) {
+    std::string threshold, rest;
+    lines >> threshold;
+    std::getline(lines, rest);
+    EXPECT_LE(threshold.size(), 12u) << "no more digits than it takes";
+    expect_success(reeb({"extract", "scan.reeb", "--threshold", threshold, "-o", "level.json", "--force"}));
+    EXPECT_EQ(nlohmann::json::parse(file("level.json")).at("threshold"), level.at("threshold")) << threshold;
+  }
+}
+
 TEST_F(CommandLine, PairsHaveTheFormatOfTheirSuffix) {
   expect_success(reeb({"mesh.off"}));
   const std::string csv = reeb({"pairs", "mesh.reeb"}).output;
@@ -355,7 +379,7 @@ TEST_F(CommandLine, TheSummaryNamesLikelyDefects) {
   const Outcome scan = reeb({"compute", "scan.ply", "-f", "x", "-o", "scan.reeb"});
   const auto lines = lines_after("  likely defects by persistence: 36 loops of at most ", scan.error);
   ASSERT_EQ(lines.size(), 1u) << scan.error;
-  EXPECT_NE(scan.error.find("`reeb defects scan.ply`"), std::string::npos);
+  EXPECT_NE(scan.error.find("`reeb defects scan.ply scan.reeb`"), std::string::npos);
   expect_success(reeb({"generate", "torus", "--triangles", "1k", "-o", "torus.ply"}));
   EXPECT_EQ(reeb({"torus.ply"}).error.find("likely"), std::string::npos) << "its one loop is as long as it is";
 }
@@ -405,6 +429,17 @@ TEST_F(CommandLine, AnExistingOutputIsRefusedBeforeAnyWork) {
   expect_error(reeb({"compute", "mesh.off", "-o", "new.reeb", "--report", "mesh.reeb"}), 1, "mesh.reeb:");
   EXPECT_EQ(file("mesh.reeb"), "precious");
   EXPECT_EQ(files(), (std::vector<std::string>{"bad.off", "mesh.off", "mesh.reeb"}));
+  // The command line comes first.
+  expect_error(reeb({"compute", "mesh.off", "--denoise", "1mm"}), 2, "--denoise: ");
+  const Outcome many = reeb({"compute", "mesh.off"}, {.arguments = {}, .wrapper = {"env", "OMPI_COMM_WORLD_SIZE=2"}});
+  expect_error(many, 1, "mesh.reeb:");
+  EXPECT_NE(many.error.find("hint: under mpirun, use reeb-mpi"), std::string::npos) << many.error;
+  // As after an interruption between the outputs of two functions.
+  const Outcome resumed = reeb({"compute", "mesh.off", "--resume"});
+  expect_error(resumed, 1, "mesh.reeb:");
+  EXPECT_NE(resumed.error.find("there is nothing to resume"), std::string::npos) << resumed.error;
+  EXPECT_NE(resumed.error.find("--force"), std::string::npos) << resumed.error;
+  EXPECT_EQ(file("mesh.reeb"), "precious");
   expect_success(reeb({"compute", "mesh.off", "--force"}));
   EXPECT_NE(file("mesh.reeb"), "precious");
   write("graph.rg", "precious");
@@ -417,6 +452,9 @@ TEST_F(CommandLine, AnUnwritableFolderIsExitCode3) {
   for (const std::string folder : {"missing", "file"}) {
     expect_error(reeb({"compute", "mesh.off", "-o", folder + "/mesh.reeb"}), 3);
     expect_error(reeb({"compute", "mesh.off", "--temp-dir", folder}), 3);
+    const Outcome report = reeb({"compute", "mesh.off", "-o", "new.reeb", "--report", folder + "/r.json"});
+    expect_error(report, 3);
+    EXPECT_NE(report.error.find("--report FILE"), std::string::npos) << report.error;
     expect_success(reeb({"compute", "mesh.off", "-o", "good.reeb", "--force"}));
     expect_error(reeb({"extract", "good.reeb", "-o", folder + "/graph.rg"}), 3);
     expect_error(reeb({"generate", "torus", "--triangles", "100", "-o", folder + "/torus.ply"}), 3);

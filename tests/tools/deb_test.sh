@@ -41,9 +41,9 @@ check "files of reeb" has reeb bin/reeb share/man/man1/reeb.1.gz share/man/man1/
   $(docs reeb)
 check "files of libreeb-dev" has libreeb-dev include/reeb/reeb.h 'lib/.*libreeb\.a' 'lib/.*libreeb_compute\.a' \
   'lib/.*pkgconfig/reeb\.pc' 'lib/.*cmake/reeb/reebConfig\.cmake' $(docs libreeb-dev)
-check "what reeb depends on" depends reeb libc6 libzstd1 zlib1g libexpat1 'libtbb[0-9]+'
-check "what libreeb-dev depends on" depends libreeb-dev libzstd-dev liblz4-dev zlib1g-dev libexpat1-dev libtbb-dev \
-  libboost-iostreams-dev
+check "what reeb depends on" depends reeb libc6 libzstd1 zlib1g libpng16-16 libexpat1 'libtbb[0-9]+'
+check "what libreeb-dev depends on" depends libreeb-dev libzstd-dev liblz4-dev zlib1g-dev libpng-dev libexpat1-dev \
+  libtbb-dev libboost-iostreams-dev
 if [[ $expected == *python3* ]]; then
   check "files of python3-reeb" has python3-reeb 'lib/python3/dist-packages/reeb/_reeb.*\.so' \
     lib/python3/dist-packages/reeb/__init__.py lib/python3/dist-packages/reeb/py.typed $(docs python3-reeb)

@@ -23,6 +23,17 @@ class HelpFormatter : public CLI::Formatter {
     label("SUBCOMMAND", "COMMAND");
     column_width(27);
   }
+  void set_usage(const std::string& text) { usage_ = text; }
+  // Refused options are in a group without a name, for which CLI11 leaves an empty line.
+  std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override {
+    std::string text = CLI::Formatter::make_help(app, std::move(name), mode);
+    for (std::size_t at; (at = text.find("\n\n\n")) != std::string::npos;) text.erase(at, 1);
+    return text;
+  }
+  std::string make_usage(const CLI::App* app, std::string name) const override {
+    if (app->get_parent() != nullptr || usage_.empty()) return CLI::Formatter::make_usage(app, std::move(name));
+    return "Usage: " + usage_ + "\n";
+  }
   std::string make_option_desc(const CLI::Option* option) const override {
     return wrapped(option->get_description(), 0, kTextColumns - get_column_width());
   }
@@ -31,6 +42,9 @@ class HelpFormatter : public CLI::Formatter {
     const std::string text = CLI::Formatter::make_option_opts(option);
     return text.substr(0, std::min(text.find(" Needs:"), text.find(" Excludes:")));
   }
+
+ private:
+  std::string usage_;  // of the program, if it is not that of CLI11
 };
 
 // Files do not know which command uses them. One without --temp-dir takes the folder from TMPDIR.
@@ -151,7 +165,7 @@ void Command::callback(std::function<void()> run) {
     } catch (const Error& error) {
       const std::string hint = hint_without_temp_dir(error.hint());
       if (hint == error.hint() || command->get_option_no_throw("--temp-dir") != nullptr) throw;
-      throw Error(error.kind(), error.message(), hint).at(error.file(), error.position());
+      throw error.with_hint(hint);
     }
   });
 }
@@ -173,6 +187,12 @@ void Program::set_version(const std::string& text) {
   program_->set_version_flag("--version", text, "Print the version");
 }
 
+void Program::set_usage(const std::string& text) {
+  const auto formatter = std::make_shared<HelpFormatter>();
+  formatter->set_usage(text);
+  program_->formatter(formatter);
+}
+
 void Program::footer(const std::string& text) { program_->footer(text); }
 
 void Program::before_commands(const std::function<void()>& call) {
@@ -184,6 +204,7 @@ bool Program::has_command(const std::string& name) const { return find_command(*
 std::string Program::help() const { return program_->help(); }
 
 std::optional<std::string> Program::run(const std::vector<std::string>& words) {
+  if (const auto error = missing_value(*program_, words)) throw *error;
   try {
     std::vector<std::string> all = with_empty_values(*program_, words);
     std::ranges::reverse(all);  // as CLI11 takes them

@@ -69,6 +69,8 @@ class Program {
 
   Command add_command(const std::string& name, const std::string& description);
   void set_version(const std::string& text);
+  // What the help says after "Usage: ".
+  void set_usage(const std::string& text);
   void footer(const std::string& text);
   // Called when the options of a command are set, before its callback.
   void before_commands(const std::function<void()>& call);

@@ -14,7 +14,7 @@ void add_image_options(Command command, io::ImageOptions& image) {
       .add_option("--type", image.type,
                   "Values of a raw image: u8, i8, or u16, i16, u32, i32, u64, i64, f32 or f64 followed by le or be")
       .type_name("TYPE");
-  command.add_option("--spacing", image.spacing, "Distances of vertices of a raw image: 1,1,2.5 (default: 1)")
+  command.add_option("--spacing", image.spacing, "Spacing of a raw image along each axis: 1,1,2.5 (default: 1)")
       .type_name("A,B[,C]");
   add_count(command, "--skip", image.skip_bytes, "Bytes before the values of a raw image (default: 0)");
   command

@@ -55,7 +55,7 @@ inline Option add_force(Command command, bool& target, const std::string& descri
 }
 
 // `--format NAME`, for commands that read a mesh. `what` begins the help.
-inline Option add_format(Command command, std::string& target, const std::string& what = "Format") {
+inline Option add_format(Command command, std::string& target, const std::string& what = "Input format") {
   return command
       .add_option(
           "--format",
@@ -64,7 +64,7 @@ inline Option add_format(Command command, std::string& target, const std::string
             target = name;
           },
           what +
-              ", where content and name do not tell: ply obj off stl sma smb smc sva svb cx vtk vtu vtp msh "
+              ", if content and name do not show it: ply obj off stl sma smb smc sva svb cx vtk vtu vtp msh "
               "medit tetgen nrrd nifti mha vti npy asc raw")
       .type_name("NAME");
 }

@@ -83,7 +83,31 @@ std::string unexpected_arguments(const CLI::App& command) {
   return text;
 }
 
+// What the user may have meant as the output that is missing.
+std::string meant_output(const std::vector<std::string>& words, const std::string& error) {
+  const std::string& last = words.back();
+  const bool is_output = words.size() > 2 && words[0] == "glue" && !looks_like_option(last) && last.ends_with(".reeb");
+  return is_output && error == "--output is missing" ? " (did you mean -o " + last + "?)" : "";
+}
+
 }  // namespace
+
+std::optional<Error> missing_value(const CLI::App& program, const std::vector<std::string>& words) {
+  const CLI::App* command = words.empty() ? nullptr : find_command(program, words[0]);
+  if (command == nullptr) return {};
+  for (std::size_t i = 1; i + 1 < words.size(); ++i) {
+    if (words[i] == "--") return {};
+    if (!looks_like_option(words[i])) continue;
+    const Word word = option_word(*command, words[i]);
+    if (!word.known || word.values == 0) continue;
+    const std::string& value = words[i + 1];
+    if (looks_like_option(value) && command->get_option_no_throw(value.substr(0, value.find('='))) != nullptr)
+      return Error(ErrorKind::kUsage, command->get_option_no_throw(word.text)->get_name() + " needs one value",
+                   "see `" + program.get_name() + " " + words[0] + " --help`");
+    ++i;
+  }
+  return {};
+}
 
 const CLI::App* find_command(const CLI::App& program, const std::string& name) {
   const auto found = program.get_subcommands([&](const CLI::App* command) { return command->get_name() == name; });
@@ -106,7 +130,9 @@ Error usage_error(const CLI::App& program, const std::vector<std::string>& words
             "see " + also + help};
   }
   const bool has_extras = dynamic_cast<const CLI::ExtrasError*>(&refusal) != nullptr;
-  return {ErrorKind::kUsage, has_extras ? unexpected_arguments(*command) : in_plain_words(refusal), "see " + help};
+  std::string text = has_extras ? unexpected_arguments(*command) : in_plain_words(refusal);
+  text += meant_output(words, text);
+  return {ErrorKind::kUsage, text, "see " + help};
 }
 
 }  // namespace reeb::tools

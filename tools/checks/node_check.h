@@ -42,7 +42,7 @@ class NodeCheck {
   void add(const MeshBatch& batch);
   // The range of the function over the mesh; null if it could not be evaluated.
   // THROWS: Error{kBadInput} for the first node that is not in the mesh as it is in the graph, after the whole mesh is
-  // read: it may be another one, which its counts tell better; InputChanged if the file of values changed meanwhile.
+  // read: it may be another one, which its counts tell better; Error{kChanged} if the file of values changed meanwhile.
   std::optional<ValueRange> finish();
 
  private:

@@ -1,9 +1,11 @@
 // `reeb compute MESH`, the default command: from a mesh to its `.reeb` file.
+#include <cstdlib>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "io/file/file.h"
+#include "libreeb/base/error.h"
 #include "libreeb/base/memory_budget.h"
 #include "libreeb/base/printable.h"
 #include "tools/arguments/options.h"
@@ -38,15 +40,29 @@ void note_large_denoise(const std::string& threshold, const ooc::ComputeResult& 
   if (!note.empty()) print_line("note: " + printable(note));
 }
 
+// Whether mpirun started several of these.
+bool is_one_of_many() {
+  for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"})
+    if (const char* size = std::getenv(name); size != nullptr && std::atoi(size) > 1) return true;
+  return false;
+}
+
+// Of the processes that mpirun starts, one writes the output, and the others cannot.
+Error with_hint_of_mpi(const Error& error) {
+  const bool is_taken = error.cause() == ErrorCause::kExists || error.file().ends_with(".partial");
+  return is_taken && is_one_of_many() ? error.with_hint("under mpirun, use reeb-mpi: reeb-mpi compute MESH -o OUT.reeb")
+                                      : error;
+}
+
 void run_compute(ComputeArguments arguments) {
   ComputeOptions& options = arguments.options;
   if (arguments.functions.empty()) arguments.functions.emplace_back();
   const std::vector<std::string> outputs = outputs_of(arguments);
+  take_denoise(arguments);
   check_files(arguments, outputs, arguments.report);
   RunFacts facts;
   facts.path = arguments.mesh;
   if (options.memory_bytes != MemoryBudget::kUnlimited) facts.memory_budget_bytes = options.memory_bytes;
-  take_denoise(arguments);
 
   options.opened = [&](const MeshInfo& info) {
     facts.format = info.format;
@@ -87,7 +103,8 @@ void add_compute(Program& program) {
           "mesh.reeb for standard input)")
       .type_name("FILE");
   add_run_options(command, *arguments);
-  command.add_flag("--manifold", options.manifold, "Drop each edge after two triangles; a third one is an error");
+  command.add_flag("--manifold", options.manifold,
+                   "Expect at most two triangles per edge (saves memory); a third is an error");
   command.add_flag("--sidecar", options.keep_sidecar, "Keep what the first pass finds in MESH.final, for later runs");
   add_count(command, "--snapshot-every", options.snapshot_every,
             "Write the graph so far every N triangles, as OUT-000001.reeb, OUT-000002.reeb, ...", {.least = 1});
@@ -95,7 +112,13 @@ void add_compute(Program& program) {
       .type_name("FILE");
   command.refuse_option("--threshold", "the file has all levels", kLevelsHint);
   command.footer("Example:\n  reeb compute scan.ply -f z --memory 64M --report report.json");
-  command.callback([arguments] { run_compute(*arguments); });
+  command.callback([arguments] {
+    try {
+      run_compute(*arguments);
+    } catch (const Error& error) {
+      throw with_hint_of_mpi(error);
+    }
+  });
 }
 
 }  // namespace reeb::tools

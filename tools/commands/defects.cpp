@@ -126,7 +126,7 @@ void add_defects(Program& program) {
       .type_name("LENGTH");
   command
       .add_option("--patches", options->patches,
-                  "Folder for the surface around the rows (without --limit: the first 20) and their curves, as PLY")
+                  "Write each row's surface and curves to DIR as PLY (first 20 rows, unless --limit)")
       .type_name("DIR");
   add_count(command, "--limit", options->limit, "At most N rows", {.least = 1});
   add_format(command, options->find.mesh.format);

@@ -34,8 +34,9 @@ namespace reeb::tools {
 namespace {
 
 struct ExtractOptions {
-  std::string file, output = io::kStandardOutput, format, threshold, mesh, temp_folder;
-  std::optional<std::uint64_t> nodes, memory_bytes;
+  std::string file, output = io::kStandardOutput, format, mesh, temp_folder;
+  LevelChoice level;
+  std::optional<std::uint64_t> memory_bytes;
   unsigned threads = 0;
   bool on_surface = false, force = false, quiet = false;
 };
@@ -58,7 +59,7 @@ io::GraphFormat choose_format(const ExtractOptions& options) {
 
 std::uint32_t choose_version(const ooc::ReebFile& file, const ExtractOptions& options) {
   if (options.memory_bytes) return file.finest_with_memory(*options.memory_bytes);
-  return choose_level(file, {options.threshold, options.nodes}).version;
+  return choose_level(file, options.level).version;
 }
 
 // THROWS: Error{kUsage} for a format that has no room for the measures.
@@ -105,7 +106,7 @@ void extract(const ExtractOptions& options) {
   if (options.on_surface && !io::has_lines(format))
     throw Error(ErrorKind::kUsage, "--on-surface is for formats with lines in space",
                 "choose one of: vtp vtu ply obj swc gltf");
-  if (!options.threshold.empty()) parse_threshold("--threshold", options.threshold, {0, 1});
+  check_threshold(options.level);
   require_reeb_file(options.file, "extract");
   RunFiles files;
   const ooc::ReebFile file(options.file);
@@ -117,7 +118,7 @@ void extract(const ExtractOptions& options) {
   for (const std::string& output : outputs)
     files.add_output(output, outputs.size() > 1 ? "an output" : "the output", existing_outputs(options.force));
   files.check();
-  if (const Error* damage = file.damage()) fmt::print(stderr, "reeb: warning: {}\n", damage->what());
+  warn_of_damage(file);
   const FileFlags& flags = file.header().flags;
   if (options.on_surface) require_surface_points(file);
   if (flags.has_embedding && !flags.has_spreads && format == io::GraphFormat::kSwc)
@@ -125,7 +126,7 @@ void extract(const ExtractOptions& options) {
                "reeb: warning: {}: this file was written by an earlier version, which did not record radii, so "
                "they are 0; compute the graph of the mesh again\n",
                options.file);
-  if (!options.quiet) note_large_threshold(file, options.threshold);
+  if (!options.quiet) note_large_threshold(file, options.level.threshold);
   ooc::Level level = read_part(file, FilePart::kLevel, [&] { return file.load(choose_version(file, options)); });
   ooc::MeasuredArcs measured;
   const std::string beside = options.output == io::kStandardOutput ? "" : options.output;
@@ -163,17 +164,10 @@ void add_extract(Program& app) {
           "--format", options->format,
           "One of " + io::graph_format_names() + " (default: by the suffix of the output; rg on standard output)")
       .type_name("NAME");
-  Option threshold = command
-                         .add_option("--threshold", options->threshold,
-                                     "Without features of less persistence: 0.01 (function units), or 0.1% (of the "
-                                     "range)")
-                         .option_text("T");
-  Option nodes =
-      add_count(command, "--nodes", options->nodes, "The finest level with at most N nodes").option_text("N");
+  const LevelOptions level = add_level_options(command, options->level);
   Option memory =
       add_memory(command, options->memory_bytes, "The finest level that fits in this memory: 64M").option_text("SIZE");
-  threshold.excludes(memory).excludes(nodes);
-  memory.excludes(nodes);
+  memory.excludes(level.threshold).excludes(level.nodes);
   Option mesh = command
                     .add_option("--mesh", options->mesh,
                                 "The mesh that the file was computed from. Measures the part of it on each arc: "

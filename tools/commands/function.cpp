@@ -17,6 +17,7 @@
 #include "io/formats/open_mesh.h"
 #include "io/functions/function_source.h"
 #include "io/functions/mesh_field.h"
+#include "io/images/numpy.h"
 #include "io/mesh/property_columns.h"
 #include "io/text/output_buffer.h"
 #include "libreeb/base/count_text.h"
@@ -66,8 +67,7 @@ class Values {
       if (io::name_suffix(options_.output) == ".ply")
         write_mesh();
       else
-        write_values(io::name_suffix(options_.output) == ".f64");
-      return 0;
+        write_values(io::name_suffix(options_.output));
     });
     bar_.clear();
     if (options_.quiet) return;
@@ -151,14 +151,21 @@ class Values {
   }
 
   // A value for each number; NaN for a vertex that is left out.
-  void write_values(bool raw) {
-    io::AtomicFile file(options_.output, {.existing = late_outputs(options_.force)});
-    if (raw) {
-      write_values([&](std::span<const double> values) { file.out().append(std::as_bytes(values)); });
+  void write_values(const std::string& suffix) {
+    const bool numpy = suffix == ".npy";
+    io::AtomicOptions writing;
+    writing.existing = late_outputs(options_.force);
+    writing.overwrites = numpy;
+    writing.temp_folder = options_.temp_folder;
+    io::AtomicFile file(options_.output, writing);
+    if (numpy) file.out().append(io::numpy_header(0));
+    if (numpy || suffix == ".f64") {
+      const auto count = put_values([&](std::span<const double> values) { file.out().append(std::as_bytes(values)); });
+      if (numpy) file.out().overwrite(0, io::numpy_header(count));
     } else {
       io::FileOstream stream(file.out());
       io::OutputBuffer out(stream);
-      write_values([&](std::span<const double> values) {
+      put_values([&](std::span<const double> values) {
         for (const double value : values) out << value << '\n';
       });
       out.flush();
@@ -167,8 +174,9 @@ class Values {
     file.commit();
   }
 
+  // Returns how many.
   template <class Put>
-  void write_values(const Put& put) {
+  std::uint64_t put_values(const Put& put) {
     const double none = std::numeric_limits<double>::quiet_NaN();
     std::uint64_t written = 0;
     const auto fill_to = [&](std::uint64_t number) {
@@ -181,6 +189,7 @@ class Values {
       written += values_.size();
     }
     fill_to(reader_->info().number_count.value_or(written));
+    return written;
   }
 
   const FunctionOptions& options_;
@@ -197,11 +206,11 @@ class Values {
 
 void run_function(FunctionOptions options) {
   const std::string suffix = io::name_suffix(options.output);
-  if (suffix != ".f64" && suffix != ".txt" && suffix != ".ply")
+  if (suffix != ".f64" && suffix != ".npy" && suffix != ".txt" && suffix != ".ply")
     throw Error(ErrorKind::kUsage,
                 suffix.empty() ? "the output has no suffix, so there is no format for the values"
                                : "values are not written as \"" + suffix + '"',
-                "name an output that ends in .f64, .txt or .ply");
+                "name an output that ends in .f64, .npy, .txt or .ply");
   if (options.functions.size() > 1)
     throw Error(ErrorKind::kUsage,
                 fmt::format("reeb function takes one function; -f was given {}",
@@ -231,8 +240,8 @@ void add_function(Program& program) {
       .option_text("FUNC");
   command
       .add_option("-o,--output", options->output,
-                  "File to write: .f64 (raw float64, little endian), .txt (a number a line), or .ply (the mesh, with "
-                  "the function as a property of this name)")
+                  "File to write: .f64 (raw float64, little endian), .npy (a NumPy array), .txt (one number per line), "
+                  "or .ply (the mesh, with the function as a property of this name)")
       .required()
       .type_name("FILE");
   add_format(command, options->format);

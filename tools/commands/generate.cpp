@@ -188,7 +188,8 @@ void add_generate(Program& program) {
       .type_name("FILE");
   add_count(command, "--triangles", arguments->triangles, "About how many triangles: 10000, 12M, 372M (default: 1M)",
             {.least = 1});
-  add_count(command, "--tetrahedra", arguments->tetrahedra, "The same of a ball (default: 1M)", {.least = 1});
+  add_count(command, "--tetrahedra", arguments->tetrahedra, "About how many tetrahedra, for a ball (default: 1M)",
+            {.least = 1});
   command
       .add_option("--order", arguments->order,
                   "Order of the triangles: rows, patches, random, tiles:N, random-tiles:N or seams-last:N, with N "

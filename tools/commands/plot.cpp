@@ -115,8 +115,7 @@ void plot(PlotOptions options) {
   const PictureFormat format = picture_format(options.output);
   check_kind(options);
   if (!options.view.empty()) parse_view(options.view);
-  if (!options.skeleton.level.threshold.empty())
-    parse_threshold("--threshold", options.skeleton.level.threshold, {0, 1});
+  check_threshold(options.skeleton.level);
   if (options.skeleton.mesh == "-")
     throw Error(ErrorKind::kUsage, "the mesh must be read twice, and standard input can be read once",
                 "name a file with --mesh");
@@ -136,7 +135,7 @@ void plot(PlotOptions options) {
   std::vector<ooc::ReebFile> files;
   for (const std::string& file : options.files) {
     files.emplace_back(file);
-    if (const Error* damage = files.back().damage()) fmt::print(stderr, "reeb: warning: {}\n", damage->what());
+    warn_of_damage(files.back());
     if (!options.quiet) note_large_threshold(files.back(), options.skeleton.level.threshold);
   }
   const std::string temp_folder = io::TempDir::default_folder(options.output);
@@ -159,14 +158,7 @@ void add_plot(Program& program) {
   command.add_option("--kind", options->kind, "What to draw: loops, diagram, graph or skeleton (default: loops)")
       .one_of({"loops", "diagram", "graph", "skeleton"})
       .type_name("KIND");
-  Option threshold = command
-                         .add_option("--threshold", options->skeleton.level.threshold,
-                                     "The level without features of less persistence: 0.01 (function units), or 0.1% "
-                                     "(of the range)")
-                         .option_text("T");
-  Option nodes = add_count(command, "--nodes", options->skeleton.level.nodes, "The finest level with at most N nodes")
-                     .option_text("N");
-  threshold.excludes(nodes);
+  add_level_options(command, options->skeleton.level);
   command.add_option("--mesh", options->skeleton.mesh, "For a skeleton: its mesh, drawn behind it").type_name("MESH");
   add_format(command, options->skeleton.format);
   add_image_options(command, options->skeleton.image);

@@ -12,6 +12,7 @@
 #include "io/functions/function_spec.h"
 #include "libreeb/base/count_text.h"
 #include "libreeb/base/error.h"
+#include "libreeb/base/memory_budget.h"
 #include "libreeb/base/printable.h"
 #include "tools/arguments/image_options.h"
 #include "tools/arguments/options.h"
@@ -20,6 +21,7 @@
 #include "tools/program/input_kind.h"
 #include "tools/program/output.h"
 #include "tools/program/progress.h"
+#include "tools/program/quantity.h"
 #include "tools/program/signals.h"
 #include "tools/program/wrapping.h"
 #include "tools/repair/repair_mesh.h"
@@ -40,10 +42,8 @@ void parse(RepairArguments& arguments) {
   if (!arguments.fill_boundaries.empty())
     cleaning.boundary_length = parse_length("--fill-boundaries", arguments.fill_boundaries);
   if (arguments.drop_components.empty()) return;
-  cleaning.components_percent = parse_threshold("--drop-components", arguments.drop_components, {0, 100});
-  if (!arguments.drop_components.ends_with('%') || !(*cleaning.components_percent <= 100))
-    throw Error(ErrorKind::kUsage, "--drop-components: \"" + arguments.drop_components + "\" is not a share",
-                "give it as 1%, of the triangles of the largest component");
+  cleaning.components_percent = parse_share("--drop-components", arguments.drop_components,
+                                            "give it as 1%, of the triangles of the largest component");
 }
 
 // The rows of --loops are read here, since they say which values the run reads.
@@ -67,8 +67,8 @@ void take_files(RepairArguments& arguments) {
   if (!arguments.apply_undo.empty()) files.add_input(arguments.apply_undo, "the undo file");
   const io::Existing existing = existing_outputs(arguments.force);
   files.add_output(options.output, "the output", existing);
-  if (!arguments.log.empty()) files.add_output(arguments.log, "the log", existing);
-  if (!arguments.undo.empty()) files.add_output(arguments.undo, "the undo file", existing);
+  if (!arguments.log.empty()) files.add_output(arguments.log, "the log", existing, "--log FILE");
+  if (!arguments.undo.empty()) files.add_output(arguments.undo, "the undo file", existing, "--undo FILE");
   files.check();
 }
 
@@ -101,7 +101,8 @@ nlohmann::ordered_json log_of(const Repair& repair) {
 
 void apply_undo(const RepairArguments& arguments) {
   const RepairOptions& options = arguments.options;
-  const UndoRecord undo = read_undo(arguments.apply_undo);
+  MemoryBudget budget(options.mesh.memory_bytes);
+  const UndoRecord undo = read_undo(arguments.apply_undo, budget);
   ProgressBar bar(arguments.quiet);
   WriteOptions write{options.output, late_outputs(arguments.force), false, {}};
   write.progress = [&](std::uint64_t done, std::uint64_t total, std::uint64_t triangles) {
@@ -180,12 +181,10 @@ void add_repair(Program& program) {
           .type_name("LENGTH"),
       command.add_flag("--drop-degenerate", options.cleaning.degenerate, "Drop triangles that repeat a corner"),
       command.add_flag("--drop-duplicates", options.cleaning.duplicates, "Drop repetitions of triangles"),
-      command.add_option("--log", arguments->log, "File for what was done, and what was left and why, as JSON")
+      command.add_option("--log", arguments->log, "Log of what was repaired, and of what was left and why, as JSON")
           .type_name("FILE"),
-      command.add_option("--undo", arguments->undo, "File to write with what is needed to go back").type_name("FILE")};
-  Option undo = command
-                    .add_option("--apply-undo", arguments->apply_undo,
-                                "Undo file of a repair whose output is MESH: writes the mesh before it")
+      command.add_option("--undo", arguments->undo, "Write what --apply-undo needs").type_name("FILE")};
+  Option undo = command.add_option("--apply-undo", arguments->apply_undo, "Undo a repair: write MESH as it was before")
                     .type_name("FILE");
   for (const Option& choice : choices) undo.excludes(choice);
   add_format(command, options.mesh.format);

@@ -1,6 +1,7 @@
 // `reeb report`: one page about a .reeb file, for people.
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "io/file/temp_dir.h"
 #include "libreeb/base/printable.h"
@@ -50,11 +51,15 @@ void run_report(PageOptions options) {
   defects.searching = [&](std::uint64_t done, std::uint64_t total, std::uint64_t triangles) {
     bar.update({"curves"}, done, total, triangles);
   };
+  std::vector<std::string> notes;
+  options.report.note = [&](const std::string& note) { notes.push_back(note); };
   options.report.counting = [&] { bar.update({"counting", 1}, 0, 0); };
   const std::string page = make_report(options.report);
   bar.clear();
   write_output(options.output, options.force, [&](std::ostream& out) { out << page; });
-  if (options.quiet || options.output == "-") return;
+  if (options.quiet) return;
+  for (const std::string& note : notes) print_line("note: " + note);
+  if (options.output == "-") return;
   note_other_suffix(options.output, {".html", ".htm", ".xhtml"}, "an HTML page");
   print_line("wrote " + printable(options.output));
 }
@@ -73,8 +78,9 @@ void add_report(Program& program) {
       .add_option("--mesh", defects.mesh.path,
                   "The mesh of the graph: adds what is wrong with it, and its defects with close-ups")
       .type_name("MESH");
-  add_count(command, "--nodes", options->report.nodes, "The skeleton has levels with at most N nodes (default: 2000)",
-            {.least = 1, .most = 100'000});
+  add_count(command, "--nodes", options->report.nodes,
+            "The skeleton has levels with at most N nodes (default: 2000, or what the coarsest needs)",
+            {.least = 1, .most = kMostReportNodes});
   add_format(command, defects.mesh.format);
   add_image_options(command, defects.mesh.image);
   add_memory(command, defects.mesh.memory_bytes,

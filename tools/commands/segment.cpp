@@ -41,8 +41,8 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "labels are written as they are in memory");
 
 struct SegmentOptions {
-  std::string mesh, file, output, format, threshold, temp_folder;
-  std::optional<std::uint64_t> nodes;
+  std::string mesh, file, output, format, temp_folder;
+  LevelChoice level;
   std::uint64_t memory_bytes = MemoryBudget::kUnlimited;
   unsigned threads = 0;
   io::ImageOptions image;
@@ -70,7 +70,7 @@ class LabelStream {
   void fetch() {
     constexpr std::uint64_t kAtOnce = 8192;
     labels_.resize(static_cast<std::size_t>(std::min(segmentation_.vertex_bound() - read_, kAtOnce)));
-    if (labels_.empty()) throw InputChanged();
+    if (labels_.empty()) throw input_changed();
     values_.resize(labels_.size());
     segmentation_.read(labels_, values_);
     read_ += labels_.size();
@@ -90,7 +90,7 @@ std::vector<std::string> write_mesh(const RunInput& input, ooc::Segmentation& se
                                     const SegmentOptions& options) {
   const bool is_ply = io::name_suffix(options.output) == ".ply";
   constexpr std::uint64_t kMostOfPly = std::uint64_t{1} << 31;
-  if (is_ply && std::max(segmentation.arcs(), segmentation.nodes()) >= kMostOfPly)
+  if (is_ply && std::max(segmentation.level().arc_count(), segmentation.level().node_count()) >= kMostOfPly)
     throw Error(ErrorKind::kBadInput, "PLY has no room for the numbers of so many arcs", "write .vtu or .i64")
         .at(options.output);
   ReadOptions reading;
@@ -152,7 +152,7 @@ void segment(SegmentOptions options) {
                 suffix.empty() ? "the output has no suffix, so there is no format for the labels"
                                : "labels are not written as \"" + suffix + '"',
                 "name an output that ends in .i64, .ply, .vtu or .vtp");
-  if (!options.threshold.empty()) parse_threshold("--threshold", options.threshold, {0, 1});
+  check_threshold(options.level);
   require_mesh_file(options.mesh, "name the mesh first: reeb segment MESH FILE.reeb -o OUT");
   require_reeb_file(options.file, "segment " + options.mesh);
   if (options.temp_folder.empty()) options.temp_folder = io::TempDir::default_folder(options.output);
@@ -161,11 +161,10 @@ void segment(SegmentOptions options) {
   add_segmentation_inputs(options.mesh, options.format, options.image, file, files);
   files.add_output(options.output, "the output", existing_outputs(options.force));
   files.check();
-  if (const Error* damage = file.damage()) fmt::print(stderr, "reeb: warning: {}\n", damage->what());
-  if (!options.quiet) note_large_threshold(file, options.threshold);
-  const std::uint32_t version = read_part(file, FilePart::kLevel, [&] {
-    return choose_level(file, {options.threshold, options.nodes}).version;
-  });
+  warn_of_damage(file);
+  if (!options.quiet) note_large_threshold(file, options.level.threshold);
+  const std::uint32_t version =
+      read_part(file, FilePart::kLevel, [&] { return choose_level(file, options.level).version; });
   const bool writes_mesh = suffix != ".i64";
 
   RunInput input(options.mesh, std::span(&file.header().function, 1),
@@ -185,21 +184,22 @@ void segment(SegmentOptions options) {
     bar.update({"following vertices"}, at.done, at.total, at.triangles);
   };
   const std::uint64_t bound = vertex_bound(file, input.info());
-  auto segmentation = read_part(file, FilePart::kLevel, [&] {
-    return ooc::Segmentation(input.take_mesh(), *input.functions().front(), bound, file, version, options.output,
-                             std::move(run));
+  const auto segmentation = read_part(file, FilePart::kLevel, [&] {
+    return ooc::segment_mesh(
+        input.take_mesh(), *input.functions().front(),
+        {.file = file, .version = version, .vertex_bound = bound, .output = options.output, .options = std::move(run)});
   });
   bar.clear();
   std::vector<std::string> notes;
   if (writes_mesh)
-    notes = write_mesh(input, segmentation, options);
+    notes = write_mesh(input, *segmentation, options);
   else
-    write_labels(segmentation, options);
+    write_labels(*segmentation, options);
   if (options.quiet) return;
   for (const std::string& note : notes) print_line("note: " + printable(note));
-  const ooc::SegmentCounts& counts = segmentation.counts();
+  const ooc::SegmentCounts& counts = segmentation->counts();
   print_line(fmt::format("wrote {}: {} on {}, {} at nodes", printable(options.output),
-                         count_of(counts.on_arcs, "vertex"), count_of(segmentation.arcs(), "arc"),
+                         count_of(counts.on_arcs, "vertex"), count_of(segmentation->level().arc_count(), "arc"),
                          with_commas(counts.nodes)) +
              (counts.dropped != 0 ? ", " + with_commas(counts.dropped) + " dropped" : ""));
 }
@@ -220,14 +220,7 @@ void add_segment(Program& program) {
                   "numbers)")
       .required()
       .type_name("FILE");
-  Option threshold = command
-                         .add_option("--threshold", options->threshold,
-                                     "On the graph without features of less persistence: 0.01 (function units), or "
-                                     "0.1% (of the range)")
-                         .option_text("T");
-  Option nodes =
-      add_count(command, "--nodes", options->nodes, "On the finest level with at most N nodes").option_text("N");
-  threshold.excludes(nodes);
+  add_level_options(command, options->level);
   add_format(command, options->format);
   add_image_options(command, options->image);
   add_memory(command, options->memory_bytes);

@@ -49,8 +49,8 @@ void compare(const std::string& path, const char* what, Count in_file, Count in_
 
 std::string describe_surface(const ooc::MeshRecount& mesh) {
   if (!mesh.most_loops) return "not a 2-manifold, so the genus is undefined and the loops are not bounded";
-  if (!mesh.closed) return fmt::format("a surface with boundary: at most {}", count_of(*mesh.most_loops, "loop"));
-  return "a closed surface of genus " + with_commas(*mesh.most_loops);
+  return fmt::format("a {}: at most {}", mesh.closed ? "closed surface" : "surface with boundary",
+                     count_of(*mesh.most_loops, "loop"));
 }
 
 // Returns what cannot be checked with this mesh; else empty.

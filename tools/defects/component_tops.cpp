@@ -12,14 +12,14 @@ namespace reeb::tools {
 
 std::vector<SettledNode> component_tops(const ValuedMesh& mesh, const LoopFunction& function, std::size_t number,
                                         MemoryBudget& budget) {
-  const bool several = function.tops.size() > 1;
+  const bool several = function.components > 1;
   // Vertices of an image may be left out, so indices are not below their number.
   const std::uint64_t bound = mesh.info().grid ? mesh.info().grid->vertex_count() : function.mesh.vertices;
   const Reservation memory = budget.reserve("components of the mesh", several ? 4 * bound : 0);
   UnionFind component(several ? static_cast<std::uint32_t>(bound) : 0);
   if (several)
     mesh.read([&](const MeshBatch& batch, std::span<const std::vector<double>>, std::uint64_t, std::uint64_t) {
-      if (batch.first_vertex.value() + batch.vertex_count > bound) throw InputChanged();
+      if (batch.first_vertex.value() + batch.vertex_count > bound) throw input_changed();
       for (std::size_t k = 1; k < batch.simplices.size(); ++k)
         for (std::size_t i = 0; i < batch.simplices[k].size(); ++i)
           if (i % (k + 1) != 0)

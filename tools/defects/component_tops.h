@@ -10,9 +10,9 @@
 
 namespace reeb::tools {
 
-// Of each component of function number `number`, in the order of its tops. Reads the mesh twice; once if it has one
-// component. MEMORY: 4 bytes a vertex of the mesh from the budget, if it has several components.
-// THROWS: Error{kResource} if they do not fit.
+// Of each component of function number `number` that has loops, in the order of its tops. Reads the mesh twice; once if
+// it has one component. MEMORY: 4 bytes a vertex of the mesh from the budget, if it has several components. THROWS:
+// Error{kResource} if they do not fit.
 std::vector<SettledNode> component_tops(const ValuedMesh& mesh, const LoopFunction& function, std::size_t number,
                                         MemoryBudget& budget);
 

@@ -57,25 +57,25 @@ class CurveSearch {
         search_memory_(
             options.budget->reserve("curves of loops", list.loops.size() * (sizeof(Search) + sizeof(found_[0])))),
         found_(list.loops.size()) {
-    std::vector<std::vector<std::uint8_t>> with_loops;
+    std::size_t tops = 0;
+    for (const LoopFunction& function : list.functions) tops += function.tops.size();
+    search_memory_.resize(search_memory_.bytes() +
+                          tops * (sizeof(Search) + sizeof(SettledNode) + sizeof(inwards_[0][0])));
     for (const LoopFunction& function : list.functions) {
-      with_loops.emplace_back(function.tops.size(), 0);
       inwards_.emplace_back(function.tops.size(), 0);
       tops_.push_back(function.tops);
     }
-    searches_.reserve(list.loops.size());
+    searches_.reserve(list.loops.size() + tops);
     for (std::uint32_t i = 0; i < list.loops.size(); ++i) {
       const Loop& loop = list.loops[i];
       const double apart = distance(loop.lo.position, loop.hi.position);
       add({static_cast<std::uint32_t>(loop.function), i, false, false, 0,
            std::max(kFirstEdges * scale.edge, 0.6 * apart)});
-      with_loops[loop.function][loop.component] = 1;
     }
     for (std::uint32_t f = 0; f < list.functions.size(); ++f) {
-      if (std::ranges::count(with_loops[f], 1) == 0) continue;
+      if (tops_[f].empty()) continue;
       if (!axis_of(list.functions[f].name)) tops_[f] = component_tops(mesh, list.functions[f], f, *options.budget);
-      for (std::uint32_t c = 0; c < with_loops[f].size(); ++c)
-        if (with_loops[f][c] != 0) add({f, c, true, false, 0, kFirstEdges * scale.edge});
+      for (std::uint32_t c = 0; c < tops_[f].size(); ++c) add({f, c, true, false, 0, kFirstEdges * scale.edge});
     }
   }
 
@@ -302,6 +302,7 @@ PatchScale scale_of(const LoopList& list) {
 
 std::optional<bool> is_inwards(const SurfacePatch& patch, std::uint32_t top, std::size_t axis) {
   constexpr double kRounding = 1e-9;
+  constexpr double kMostOpen = 0.25;  // the size of a hole's flat filling, of the area
   std::vector<std::uint8_t> seen(patch.vertex_count(), 0), in_cap(patch.vertex_count(), 0);
   std::priority_queue<std::pair<double, std::uint32_t>> highest;
   const auto reach = [&](std::uint32_t v) {
@@ -318,16 +319,27 @@ std::optional<bool> is_inwards(const SurfacePatch& patch, std::uint32_t top, std
   std::vector<std::uint32_t> cap;
   for (std::uint32_t t = 0; t < patch.triangle_count(); ++t)
     if (std::ranges::all_of(patch.triangle(t), [&](std::uint32_t v) { return in_cap[v] != 0; })) cap.push_back(t);
-  const auto is_inner = [&](std::uint32_t e) { return patch.triangles_at_edge(e).size() == 2; };
-  const bool is_closed = highest.empty() && std::ranges::all_of(cap, [&](std::uint32_t t) {
-                           return std::ranges::all_of(patch.edges_of(t), is_inner);
-                         });
+  Point normals = {}, origin = patch.position(top);
+  double area = 0, rim = 0;
+  for (const std::uint32_t t : cap) {
+    const Point normal = patch.normal(t);
+    for (std::size_t k = 0; k < 3; ++k) normals[k] += normal[k];
+    area += distance(normal, {});
+    for (const std::uint32_t e : patch.edges_of(t)) {
+      if (patch.triangles_at_edge(e).size() == 2) continue;
+      // The origin moves to the middle of the rims, so that what fills them adds little to the volume.
+      const SurfacePatch::Edge& edge = patch.edge(e);
+      rim += edge.length;
+      const Point offset = patch.position(edge.a) - origin;
+      for (std::size_t k = 0; k < 3 && rim > 0; ++k) origin[k] += offset[k] * edge.length / rim;
+    }
+  }
+  const bool has_volume = highest.empty() && distance(normals, {}) <= kMostOpen * area;
   double outwards = 0, size = 0;
   for (const std::uint32_t t : cap) {
     double part = patch.normal(t)[axis];
-    if (is_closed) {
+    if (has_volume) {
       const auto [a, b, c] = patch.oriented(t);
-      const Point& origin = patch.position(top);
       part = dot(patch.position(a) - origin, cross(patch.position(b) - origin, patch.position(c) - origin));
     }
     outwards += part;

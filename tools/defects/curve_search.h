@@ -74,7 +74,8 @@ struct LoopCurvesFound {
 // Whether the oriented triangles near the vertex, the highest of its component along a coordinate, have their normals
 // inside. What is cut off by a level below the top is closed but for a flat disc, so its normals add up to that of the
 // disc. The cap is as large as the patch allows: noise can fold the triangles right at the top. If it is all of a
-// closed component, its normals add up to nothing, and the sign of its volume tells; then `top` can be any vertex.
+// component that is closed or has small holes, its normals add up to little, and the sign of its volume tells; then
+// `top` can be any vertex.
 // Nothing if the patch is too small to tell.
 std::optional<bool> is_inwards(const SurfacePatch& patch, std::uint32_t top, std::size_t axis);
 // The curve by the vertices of the mesh; its kind as if normals were outside.

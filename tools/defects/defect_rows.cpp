@@ -234,17 +234,22 @@ DefectRow row_of(const LoopList& list, std::uint32_t number, const FoundCurves* 
   return row;
 }
 
+// What is listed so far.
+struct Listing {
+  std::vector<const Candidate*> taken;  // curves with a row
+  std::vector<std::uint8_t> used;       // of each loop, whether it has a row
+  DefectTable table;
+};
+
 // The curves of several loops can be the same: then only one of them has a row with it. In a small mesh, the other
-// loops of a closed component get further curves, each the row of the loop that is nearest to it. `used`: loops with a
-// row.
-void add_further(const ValuedMesh& mesh, const LoopList& list, const PatchScale& scale,
-                 std::span<const Candidate* const> taken, const SearchOptions& options, std::vector<std::uint8_t>& used,
-                 DefectTable& table) {
+// loops of a closed component get further curves, each the row of the loop that is nearest to it.
+void add_further(const ValuedMesh& mesh, const LoopList& list, const PatchScale& scale, const SearchOptions& options,
+                 Listing& listing) {
   constexpr std::uint64_t kMostLoops = 512, kMostRoots = 64;
   if (list.functions[0].mesh.vertices > PatchScale::kMostVertices) return;
-  std::vector<std::vector<std::uint32_t>> left(list.functions[0].tops.size());  // loops of each component
+  std::vector<std::vector<std::uint32_t>> left(list.functions[0].tops.size());  // loops of each component that has any
   for (std::uint32_t i = 0; i < list.loops.size(); ++i)
-    if (list.loops[i].function == 0 && used[i] == 0) left[list.loops[i].component].push_back(i);
+    if (list.loops[i].function == 0 && listing.used[i] == 0) left[list.loops[i].component].push_back(i);
   if (std::ranges::all_of(left, &std::vector<std::uint32_t>::empty)) return;
   const ooc::Ball all_of_it{list.box[0], 2 * scale.size};
   ooc::DividedSurface surfaces(std::vector{ooc::GroupedBall{all_of_it, 0}}, 1, 0, *options.temp, *options.budget);
@@ -259,7 +264,7 @@ void add_further(const ValuedMesh& mesh, const LoopList& list, const PatchScale&
     const SurfacePatch patch = surface.cut(seeds, std::span(&all_of_it, 1), PatchScale::kMostVertices).surface;
     if (!is_closed_surface(patch)) continue;
     std::vector<ClosedPath> known;
-    for (const Candidate* candidate : taken)
+    for (const Candidate* candidate : listing.taken)
       if (ClosedPath path = in_patch(patch, *candidate->curve); path.exists()) known.push_back(std::move(path));
     const auto roots = static_cast<std::uint32_t>(
         std::clamp<std::uint64_t>(kMostLoops / (known.size() + loops.size()), 4, kMostRoots));
@@ -273,8 +278,8 @@ void add_further(const ValuedMesh& mesh, const LoopList& list, const PatchScale&
         return distance(list.loops[i].lo.position, found.cycle.center) +
                distance(list.loops[i].hi.position, found.cycle.center);
       });
-      used[*nearest] = 1;
-      table.rows.push_back(row_of(list, *nearest, &found, &found.cycle));
+      listing.used[*nearest] = 1;
+      listing.table.rows.push_back(row_of(list, *nearest, &found, &found.cycle));
       loops.erase(nearest);
     }
   }
@@ -306,21 +311,22 @@ DefectTable make_rows(const ValuedMesh& mesh, const LoopList& list, const LoopCu
 
   const auto wanted =
       static_cast<std::size_t>(std::ranges::count_if(list.loops, [](const Loop& loop) { return loop.function == 0; }));
-  std::vector<const Candidate*> taken;
+  Listing listing;
+  auto& [taken, used, table] = listing;
   for (const Candidate& candidate : all)
     if (candidate.taken) taken.push_back(&candidate);
   // No more than there are loops of the first function; the longest of other functions are left out.
   for (std::size_t i = taken.size(); i-- > 0 && taken.size() > wanted;)
     if (!taken[i]->first_function) taken.erase(taken.begin() + static_cast<std::ptrdiff_t>(i));
 
-  DefectTable table;
-  std::vector<std::uint8_t> used(list.loops.size(), 0), had_curves(list.loops.size(), 0);
+  used.resize(list.loops.size(), 0);
+  std::vector<std::uint8_t> had_curves(list.loops.size(), 0);
   for (const Candidate& candidate : all) had_curves[candidate.loop] = 1;
   for (const Candidate* candidate : taken) {
     used[candidate->loop] = 1;
     table.rows.push_back(row_of(list, candidate->loop, candidate->both, candidate->curve));
   }
-  if (table.rows.size() < wanted) add_further(mesh, list, scale, taken, options, used, table);
+  if (table.rows.size() < wanted) add_further(mesh, list, scale, options, listing);
   // The other loops of the first function: first those whose curves left their patches. Curves of the rest stand for
   // defects that are listed already.
   for (const bool with_curves : {false, true})
@@ -341,7 +347,7 @@ DefectTable make_rows(const ValuedMesh& mesh, const LoopList& list, const LoopCu
   };
   std::sort(table.rows.begin(), table.rows.end(), [&](const auto& a, const auto& b) { return key(a) < key(b); });
   add_named(list, all, named, table);
-  return table;
+  return std::move(table);
 }
 
 }  // namespace reeb::tools

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -77,6 +78,8 @@ std::string defect_table(const Defects& defects, std::span<const RankedRow> rows
                     fmt::format("{:.6g} {:.6g} {:.6g}", row.curve.center[0], row.curve.center[1], row.curve.center[2]),
                     printable(defects.functions[row.function]));
   }
+  if (std::ranges::any_of(rows, [](const RankedRow& ranked) { return ranked.row->kind == DefectKind::kUnclear; }))
+    text += "unclear: at a boundary, where the surface is not an oriented manifold, or no curve was found\n";
   if (suggestion.length)
     text += fmt::format("likely defects by length: --longest {:.4g} (confidence {:.0f} %): {}\n", *suggestion.length,
                         100 * suggestion.confidence, suggestion.why);

@@ -69,6 +69,7 @@ void look_at_mesh(const FindDefectsOptions& options, const LoopFunction& graph, 
 }  // namespace
 
 Defects find_defects(const FindDefectsOptions& options) {
+  MemoryBudget budget(options.mesh.memory_bytes);
   LoopList list;
   {
     std::optional<TempFolder> folder;
@@ -77,13 +78,11 @@ Defects find_defects(const FindDefectsOptions& options) {
       folder.emplace(options.mesh.temp_folder);
       files = compute_graphs(options, *folder);
     }
-    list = read_loops(files);
+    list = read_loops(files, budget);
   }
   ooc::return_freed_memory();
   SearchOptions search;
   search.threads = options.threads;
-  MemoryBudget budget(options.mesh.memory_bytes);
-  const Reservation loops = budget.reserve("loops", list.loops.capacity() * sizeof(Loop));
   const io::TempDir temp(options.mesh.temp_folder);
   search.temp = &temp;
   search.budget = &budget;

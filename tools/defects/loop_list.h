@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "libreeb/base/memory_budget.h"
 #include "libreeb/base/sweep_key.h"
 #include "libreeb/base/value_range.h"
 #include "libreeb/format/mesh_match.h"
@@ -19,7 +20,7 @@ namespace reeb::tools {
 struct Loop {
   std::size_t function = 0;
   SettledNode lo, hi;
-  std::uint32_t component = 0;                // of its function
+  std::uint32_t component = 0;                // of those of its function that have loops
   bool lo_divides = false, hi_joins = false;  // exactly two arcs lead up from lo, and down from hi
 };
 
@@ -34,20 +35,23 @@ struct LoopFunction {
   std::string file, name;
   ValueRange range;
   MeshCounts mesh;
-  std::vector<SettledNode> tops;  // the highest node of each component
+  std::uint64_t components = 0;   // also those without loops
+  std::vector<SettledNode> tops;  // the highest node of each component that has loops
 };
 
 struct LoopList {
   std::vector<LoopFunction> functions;
   std::vector<Loop> loops;     // by function
   std::array<Point, 2> box{};  // of all nodes
+  Reservation memory;          // of loops and tops
 };
 
 LoopName name_of(const LoopList& list, const Loop& loop);
 
 // From `.reeb` files of one mesh, also without levels.
 // THROWS: Error{kBadInput} of a file, and if they are of different meshes.
-// MEMORY: that of one graph, and of its pairs.
-LoopList read_loops(std::span<const std::string> files);
+//         Error{kResource} of the budget, which must outlive the list.
+// MEMORY: that of one graph, and of its pairs; reserved.
+LoopList read_loops(std::span<const std::string> files, MemoryBudget& budget);
 
 }  // namespace reeb::tools

@@ -94,11 +94,28 @@ std::string curves_text(const SurfacePatch& patch, const DefectRow& row) {
          vertices + edges;
 }
 
+// As io::require_output_folder(), in the words of the option.
+void require_place(const std::string& path) {
+  try {
+    io::require_output_folder(path);
+  } catch (const Error& error) {
+    std::error_code failure;
+    const bool is_there = std::filesystem::exists(error.file(), failure);
+    throw Error(error.kind(), is_there ? error.message() : "this folder does not exist",
+                is_there ? "name a folder that can be written with --patches DIR"
+                         : "create it, or name another folder with --patches DIR")
+        .at(error.file());
+  }
+}
+
 }  // namespace
 
 void add_patches(const std::string& folder, io::Existing existing, RunFiles& files) {
   std::error_code failure;
-  if (!std::filesystem::exists(folder, failure)) files.add_output(folder, "the folder of patches", existing);
+  if (!std::filesystem::exists(folder, failure)) {
+    require_place(folder);
+    files.add_output(folder, "the folder of patches", existing);
+  }
   files.add_series({folder, "a patch", is_patch_name, existing});
 }
 
@@ -106,12 +123,12 @@ void check_patch_folder(const std::string& folder, io::Existing existing) {
   namespace fs = std::filesystem;
   std::error_code failure;
   if (!fs::exists(folder, failure)) {
-    io::require_output_folder(folder);
+    require_place(folder);
     return;
   }
   if (!fs::is_directory(folder, failure))
-    throw Error(ErrorKind::kResource, "it is no folder", "name a folder for the patches").at(folder);
-  io::require_output_folder(name(folder, 1, ""));
+    throw Error(ErrorKind::kResource, "it is not a folder", "name a folder for the patches").at(folder);
+  require_place(name(folder, 1, ""));
   std::vector<std::string> patches;
   io::for_each_name(folder, [&](const std::string& file) {
     if (is_patch_name(file)) patches.push_back(folder + "/" + file);

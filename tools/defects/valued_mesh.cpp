@@ -43,7 +43,6 @@ void ValuedMesh::read(const Observe& observe) const {
       }
       observe(batch, values, reader->bytes_read(), reader->info().file_bytes);
     }
-    return 0;
   });
 }
 
@@ -53,12 +52,11 @@ void ValuedMesh::look_up(ooc::Workspace& space, const std::function<void(Indexed
     auto mesh = reader->indexed();
     if (!mesh) mesh = ooc::spool(*reader, space.temp, space.budget);
     use(*mesh);
-    return 0;
   });
 }
 
 void refuse_cells(const std::string& mesh, bool is_image) {
-  throw Error(ErrorKind::kBadInput, "the mesh has cells, so it is no surface",
+  throw Error(ErrorKind::kBadInput, "the mesh has cells, so it is not a surface",
               is_image ? "make an isosurface of the image with another program first"
                        : "extract its boundary with another program first")
       .at(mesh);

@@ -84,8 +84,8 @@ void RunFiles::add_values_of(const io::FunctionSpec& function) {
   if (function.kind == io::FunctionSpec::Kind::kFile) add_input(function.argument, "the file of values");
 }
 
-void RunFiles::add_output(std::string path, std::string what, io::Existing existing) {
-  outputs_.push_back({std::move(path), std::move(what), existing});
+void RunFiles::add_output(std::string path, std::string what, io::Existing existing, const char* option) {
+  outputs_.push_back({std::move(path), std::move(what), existing, option});
 }
 
 void RunFiles::add_standard_output(std::string what) {
@@ -112,7 +112,8 @@ std::vector<RunFiles::File> RunFiles::outputs() const {
     });
     std::ranges::sort(names);
     for (const std::string& name : names)
-      all.push_back({series.folder == "." ? name : series.folder + "/" + name, series.what, series.existing});
+      all.push_back(
+          {series.folder == "." ? name : series.folder + "/" + name, series.what, series.existing, "-o FILE"});
   }
   return all;
 }
@@ -136,8 +137,13 @@ void RunFiles::check() const {
             .at(output.path);
   }
   check_names_of_series();
-  for (const File& output : all) io::check_output_name(output.path, output.existing);
-  for (const File& output : all) io::require_output_folder(output.path);
+  try {
+    for (const File& output : all) io::check_output_name(output.path, output.existing);
+  } catch (const Error& error) {
+    if (error.cause() != ErrorCause::kExists || why_existing_.empty()) throw;
+    throw error.with_hint(why_existing_ + "; " + error.hint());
+  }
+  for (const File& output : all) io::require_output_folder(output.path, output.option);
   for (const std::string& name : first_snapshots_) io::require_output_folder(name);
 }
 
@@ -174,9 +180,11 @@ RunFiles files_of_run(const std::string& mesh, std::span<const io::FunctionSpec>
                 "look at it with `reeb info " + mesh + "`, or write a level of it with `reeb extract " + mesh + "`")
         .at(mesh);
   // A run that is resumed may have written some of its outputs before.
-  const bool replace = options.replace || (options.resume && ooc::PartialFolder::has_checkpoint(outputs[0]));
+  const bool continues = options.resume && ooc::PartialFolder::has_checkpoint(outputs[0]);
+  const bool replace = options.replace || continues;
   const io::Existing existing = replace ? io::Existing::kReplace : io::Existing::kRefuse;
   RunFiles files;
+  if (options.resume && !continues) files.explain_existing("there is nothing to resume");
   files.add_mesh(mesh, options.format, options.image);
   for (const io::FunctionSpec& function : functions) files.add_values_of(function);
   if (!io::is_device(outputs[0])) files.add_input(ooc::PartialFolder::path_for(outputs[0]), "the folder of the run");

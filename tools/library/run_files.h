@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "io/file/atomic_file.h"
@@ -26,7 +27,8 @@ class RunFiles {
   void add_mesh(const std::string& path, const std::string& format, const io::ImageOptions& image);
   // The file of values of this function, if it has one.
   void add_values_of(const io::FunctionSpec& function);
-  void add_output(std::string path, std::string what, io::Existing existing);
+  // `option` names it, for hints.
+  void add_output(std::string path, std::string what, io::Existing existing, const char* option = "-o FILE");
   // What is printed: nothing is overwritten by it, but a file that standard output is appended to grows.
   void add_standard_output(std::string what = "the output");
   // Files STEM-000001.reeb, STEM-000002.reeb and so on, of any number.
@@ -39,6 +41,8 @@ class RunFiles {
     io::Existing existing = io::Existing::kReplace;
   };
   void add_series(Series series);
+  // Why an output is not replaced, for its hint.
+  void explain_existing(std::string why) { why_existing_ = std::move(why); }
 
   // THROWS: Error{kBadInput} for an output that is an input or another output, whatever may be replaced, and for one
   //         that exists and may not be replaced; Error{kResource} for one that cannot be written.
@@ -47,7 +51,9 @@ class RunFiles {
  private:
   struct File {
     std::string path, what;
-    io::Existing existing = io::Existing::kReplace;  // of an output
+    // Of an output:
+    io::Existing existing = io::Existing::kReplace;
+    const char* option = "-o FILE";
   };
 
   std::vector<File> outputs() const;
@@ -56,6 +62,7 @@ class RunFiles {
   std::vector<File> inputs_, outputs_;
   std::vector<Series> series_;
   std::vector<std::string> first_snapshots_;
+  std::string why_existing_;
 };
 
 // THROWS: Error{kUsage} unless there is at least one function, and an output for each.

@@ -85,13 +85,17 @@ ooc::MeasuredArcs measure_level(const ooc::ReebFile& file, ooc::Level& level, co
     bar.update({"following vertices"}, at.done, at.total, at.triangles);
   };
   const std::uint64_t bound = vertex_bound(file, input.info());
-  ooc::Segmentation segmentation(input.take_mesh(), *input.functions().front(), bound, file, level.version,
-                                 request.temp_folder + "/arcs", std::move(run));
+  const auto segmentation = ooc::segment_mesh(input.take_mesh(), *input.functions().front(),
+                                              {.file = file,
+                                               .version = level.version,
+                                               .vertex_bound = bound,
+                                               .output = request.temp_folder + "/arcs",
+                                               .options = std::move(run)});
   bar.clear();
   ReadOptions reading;
   reading.temp_folder = request.temp_folder;
   const auto reader = input.read_again(reading);
-  ooc::MeasuredArcs measured = segmentation.measure(*reader);
+  ooc::MeasuredArcs measured = segmentation->measure(*reader);
   input.input().check_unchanged();
   if (!level.buckets.offsets.empty()) level.buckets = in_order(level.buckets, arcs_as_measured(level, measured));
   if (!request.quiet && measured.doubtful_area + measured.dropped_area > 0)

@@ -25,6 +25,10 @@ struct LoopsOfFile {
   std::string level;
 };
 
+std::string name_and_function(const ooc::ReebFile& file) {
+  return graph_name(file) + ", f = " + file.header().function;
+}
+
 LoopsOfFile loops_of(const ooc::ReebFile& file, const LevelChoice& choice) {
   LoopsOfFile result;
   const ChosenLevel level = choose_level(file, choice);
@@ -37,9 +41,6 @@ LoopsOfFile loops_of(const ooc::ReebFile& file, const LevelChoice& choice) {
     if (persistence > 0 && range > 0) result.series.percents.push_back(std::min(100 * (persistence / range), 100.0));
   });
   std::sort(result.series.percents.begin(), result.series.percents.end());
-  result.series.name = graph_name(file) + ", f = " + file.header().function + ": " + count_of(result.loops, "loop");
-  if (const std::uint64_t flat = result.loops - result.series.percents.size(); flat != 0)
-    result.series.name += ", " + with_commas(flat) + " of persistence 0 not drawn";
   return result;
 }
 
@@ -76,6 +77,10 @@ std::string draw_loops(std::span<const ooc::ReebFile> files, const LevelChoice& 
     loops += one.loops;
     shown += one.series.percents.size();
     heading.subtitle = one.level + (files.size() > 1 ? "" : ", " + count_of(one.loops, "loop"));
+    // Files of the same name are in different folders.
+    const bool is_known = std::ranges::count(files, name_and_function(file), name_and_function) == 1;
+    one.series.name = (is_known ? name_and_function(file) : file.path() + ", f = " + file.header().function) + ": " +
+                      count_of(one.loops, "loop");
     series.push_back(std::move(one.series));
   }
   heading.title = files.size() > 1

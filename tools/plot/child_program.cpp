@@ -1,11 +1,9 @@
 #include "tools/plot/child_program.h"
 
-#include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <cerrno>
-#include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <span>
@@ -15,8 +13,6 @@
 #include "libreeb/base/error.h"
 #include "libreeb/base/printable.h"
 #include "tools/program/signals.h"
-
-extern char** environ;
 
 namespace reeb::tools {
 namespace {
@@ -42,45 +38,16 @@ std::string first_complaint(const std::string& text) {
 // THROWS: Error{kResource}. Returns what waitpid says.
 int run_to_its_end(const std::string& path, const std::vector<std::string>& arguments, const io::File& input,
                    const io::File& output, const io::File& complaints) {
-  std::vector<std::string> words = arguments;
-  words.insert(words.begin(), path);
-  std::vector<char*> pointers;
-  for (std::string& word : words) pointers.push_back(word.data());
-  pointers.push_back(nullptr);
-
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_adddup2(&actions, input.descriptor(), STDIN_FILENO);
-  posix_spawn_file_actions_adddup2(&actions, output.descriptor(), STDOUT_FILENO);
-  posix_spawn_file_actions_adddup2(&actions, complaints.descriptor(), STDERR_FILENO);
-  // This process ignores some signals, which a child would inherit.
-  posix_spawnattr_t attributes;
-  posix_spawnattr_init(&attributes);
-  sigset_t usual;
-  sigemptyset(&usual);
-  for (const int signal : {SIGPIPE, SIGXFSZ}) sigaddset(&usual, signal);
-  posix_spawnattr_setsigdefault(&attributes, &usual);
-  // A signal between the start and end_together_with() would leave the child alone.
-  sigset_t ending, before;
-  sigemptyset(&ending);
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&ending, signal);
-  ::pthread_sigmask(SIG_BLOCK, &ending, &before);
-  posix_spawnattr_setsigmask(&attributes, &before);
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETSIGMASK);
-  pid_t child = 0;
-  const int error = ::posix_spawn(&child, path.c_str(), &actions, &attributes, pointers.data(), environ);
-  posix_spawnattr_destroy(&attributes);
-  posix_spawn_file_actions_destroy(&actions);
-  if (error == 0) end_together_with(child);
-  ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
-  if (error != 0)
-    throw Error(ErrorKind::kResource, "cannot be started: " + std::generic_category().message(error),
+  const StartedChild child =
+      start_child({path, arguments, {input.descriptor(), output.descriptor(), complaints.descriptor()}});
+  if (child.error != 0)
+    throw Error(ErrorKind::kResource, "cannot be started: " + std::generic_category().message(child.error),
                 "check that this file can be run, and that memory and processes are left")
         .at(path);
   int status = 0;
-  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  while (::waitpid(child.process, &status, 0) < 0 && errno == EINTR) {
   }
-  end_together_with(0);
+  forget_child();
   return status;
 }
 

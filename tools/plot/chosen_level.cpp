@@ -5,10 +5,26 @@
 #include "io/plot/value_axis.h"
 #include "libreeb/base/count_text.h"
 #include "libreeb/base/printable.h"
+#include "tools/arguments/options.h"
 #include "tools/program/quantity.h"
 #include "tools/program/wrapping.h"
 
 namespace reeb::tools {
+
+LevelOptions add_level_options(Command command, LevelChoice& choice) {
+  const Option threshold = command
+                               .add_option("--threshold", choice.threshold,
+                                           "The level without features of less persistence: 0.01 (function units), "
+                                           "or 0.1% (of the range)")
+                               .option_text("T");
+  Option nodes = add_count(command, "--nodes", choice.nodes, "The finest level with at most N nodes").option_text("N");
+  nodes.excludes(threshold);
+  return {threshold, nodes};
+}
+
+void check_threshold(const LevelChoice& choice) {
+  if (!choice.threshold.empty()) parse_threshold("--threshold", choice.threshold, {0, 1});
+}
 
 ChosenLevel choose_level(const ooc::ReebFile& file, const LevelChoice& choice) {
   ChosenLevel level{0, "full graph"};

@@ -7,6 +7,7 @@
 
 #include "io/drawing/svg_text.h"
 #include "ooc/reeb_file/reeb_file.h"
+#include "tools/arguments/arguments.h"
 
 namespace reeb::tools {
 
@@ -15,6 +16,14 @@ struct LevelChoice {
   std::string threshold;
   std::optional<std::uint64_t> nodes;
 };
+
+struct LevelOptions {
+  Option threshold, nodes;
+};
+// Of these at most one may be given. `choice` must outlive the parsing.
+LevelOptions add_level_options(Command command, LevelChoice& choice);
+// THROWS: Error{kUsage} for a threshold that is none.
+void check_threshold(const LevelChoice& choice);
 
 struct ChosenLevel {
   std::uint32_t version = 0;

@@ -113,6 +113,7 @@ void print_census(const ooc::MeshCensus& census) {
   if (census.loose_edges != 0) print_field("loose edges", with_commas(census.loose_edges));
   print_field("orientation", describe_orientation(census));
   print_field("genus", census.genus ? with_commas(*census.genus) : "not defined: " + census.why_no_genus);
+  if (!census.genus) print_field("Euler number", std::to_string(census.euler));
 }
 
 void add_defects(Json& json, const ooc::MeshCensus& census) {

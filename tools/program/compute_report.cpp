@@ -53,12 +53,13 @@ bool has_cells(const ooc::ComputeResult& r) {
   return std::any_of(r.simplices.begin() + 3, r.simplices.end(), [](std::uint64_t count) { return count != 0; });
 }
 
-// Prints the text, and what another command says of the mesh if that can be read again. To be copied, the command is
-// on one line.
+// Prints the text, and what another command says of the mesh (with its `graph`) if that can be read again. To be
+// copied, the command is on one line.
 void print_with_command(const RunFacts& facts, const std::string& text, const std::string& command,
-                        const std::string& says) {
-  if (facts.fragments != 0 || facts.path == "-") return print_line(text);
-  const std::string more = fmt::format("`{} {}` {}", command, printable(facts.path), says);
+                        const std::string& says, const std::string& graph = {}) {
+  if (facts.fragments != 0 || facts.path == "-" || io::is_device(graph)) return print_line(text);
+  const std::string more =
+      fmt::format("`{} {}{}` {}", command, printable(facts.path), graph.empty() ? graph : " " + printable(graph), says);
   if (text.size() + 2 + more.size() <= kTextColumns) return print_line(text + "; " + more);
   print_line(text + ";");
   print_line("    " + more);
@@ -66,7 +67,7 @@ void print_with_command(const RunFacts& facts, const std::string& text, const st
 
 // The run counts no edges, which these need.
 void print_not_checked(const RunFacts& facts, const ooc::ComputeResult& r) {
-  if (has_cells(r) || facts.is_image) return;
+  if (has_cells(r) || facts.is_image || r.triangles() == 0) return;
   print_with_command(facts, "  surface not checked", "reeb info", "gives boundaries and genus");
 }
 
@@ -86,7 +87,7 @@ void print_likely_defects(const RunFacts& facts, const ooc::ComputeResult& r) {
   const std::string text =
       fmt::format("  likely defects by persistence: {} of at most {:.2g} % of the range",
                   count_of(r.likely_defects, "loop"), percent_of(r.range, 0, r.likely_defects_up_to));
-  print_with_command(facts, text, "reeb defects", "measures them");
+  print_with_command(facts, text, "reeb defects", "measures them", r.output);
 }
 
 // Of the triangles; of all simplices, if there are others.

@@ -5,11 +5,9 @@
 #include <iterator>
 #include <utility>
 
-#include "io/events/event_text.h"
 #include "io/events/pre_order.h"
 #include "io/file/content_source.h"
 #include "io/file/file_name.h"
-#include "io/file/file_ostream.h"
 #include "io/formats/create_mesh.h"
 #include "io/formats/format_detection.h"
 #include "io/formats/format_names.h"
@@ -73,11 +71,11 @@ class WatchedMesh : public IndexedMesh {
   void gather(std::span<const VertexId> ids, std::span<const unsigned> columns, std::span<double> values) override {
     mesh_.gather(ids, columns, values);
     if (!io::all_finite(values))
-      odd_values_ +=
+      non_finite_values_ +=
           static_cast<std::uint64_t>(std::ranges::count_if(values, [](double x) { return !std::isfinite(x); }));
   }
   // How many of these values were NaN or infinities.
-  std::uint64_t odd_values() const { return odd_values_; }
+  std::uint64_t non_finite_values() const { return non_finite_values_; }
   void to_original(std::span<VertexId> ids) override { mesh_.to_original(ids); }
   std::uint64_t number_count() const override { return mesh_.number_count(); }
   void from_original(std::span<VertexId> ids) const override { mesh_.from_original(ids); }
@@ -95,7 +93,7 @@ class WatchedMesh : public IndexedMesh {
   IndexedMesh& mesh_;
   const ProgressBar::Pass pass_;
   ProgressBar& bar_;
-  std::uint64_t odd_values_ = 0;
+  std::uint64_t non_finite_values_ = 0;
 };
 
 class Conversion {
@@ -133,8 +131,10 @@ class Conversion {
     }
     // Without finalization all vertices of the mesh would stay active in the writer.
     sorts_ |= format_ == io::StreamFormat::kCompressed && !reader_->info().finalizes;
-    if (sorts_) return write_sorted();
-    return format_ == io::StreamFormat::kEvents ? list_events() : copy_batches();
+    Lines notes = sorts_ ? write_sorted() : copy_batches();
+    if (has_volume_image() && (sorts_ || !io::has_tetrahedra(options_.output)))
+      notes.emplace_back("all faces of the tetrahedra are written, not an isosurface");
+    return notes;
   }
 
   bool can_copy_events(const io::StreamHeader& header) const {
@@ -155,6 +155,11 @@ class Conversion {
     Lines notes = events->warnings();
     append(notes, writer->warnings());
     return notes;
+  }
+
+  bool has_volume_image() const {
+    const auto& grid = reader_->info().grid;
+    return grid && std::ranges::all_of(grid->size, [](std::uint64_t size) { return size > 1; });
   }
 
   // Other values of vertices are kept if the output can hold them.
@@ -195,16 +200,6 @@ class Conversion {
     return io::create_mesh(options_.output, options);
   }
 
-  Lines list_events() {
-    io::AtomicFile file(options_.output, {.existing = options_.existing});
-    io::FileOstream out(file.out());
-    WatchedReader watched(*reader_, {"converting"}, bar_);
-    io::write_events(watched, out);
-    input_.check_unchanged();
-    file.commit();
-    return reader_->warnings();
-  }
-
   Lines copy_batches() {
     const MeshInfo& info = reader_->info();
     // The counts that a stream's header announces can be wrong.
@@ -237,7 +232,7 @@ Lines Conversion::write_sorted() {
                 "leave --finalize and --order out, or write a triangle mesh");
   ooc::Workspace space(options_.temp_folder, options_.memory_bytes);
   Lines notes;
-  // The file itself was not read from its beginning to its end, so nobody counted its odd values.
+  // The file itself was not read from its beginning to its end, so nobody counted its values that are not finite.
   auto indexed = reader_->indexed();
   const bool in_place = indexed != nullptr;
   auto mesh = sorted(in_place ? std::move(indexed) : spool(space, notes), space);
@@ -247,7 +242,8 @@ Lines Conversion::write_sorted() {
   ooc::write_compact(watched, reader_->info().dimension, exact, *writer, space);
   input_.check_unchanged();
   writer->close();
-  if (in_place && watched.odd_values() != 0) notes.push_back(io::note_on_odd_values(watched.odd_values()));
+  if (in_place && watched.non_finite_values() != 0)
+    notes.push_back(io::note_on_non_finite_values(watched.non_finite_values()));
   append(notes, writer->warnings());
   return notes;
 }

@@ -3,9 +3,11 @@
 #include <fmt/core.h>
 #include <fmt/ranges.h>
 
+#include <cmath>
 #include <cstddef>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -38,6 +40,27 @@ std::unique_ptr<MeshReader> open(const io::Input& input, const std::string& form
   }
   image.renumber = true;
   return io::open_mesh(input, std::move(source), options, image, format);
+}
+
+// The lengths of the steps along the axes of the image.
+std::vector<double> spacing_of(const GridInfo& grid) {
+  std::vector<double> lengths;
+  for (std::size_t k = 0; k < grid.axes; ++k) {
+    const auto& step = grid.step[k];
+    lengths.push_back(std::hypot(step[0], step[1], step[2]));
+  }
+  return lengths;
+}
+
+std::string describe_grid(const GridInfo& grid) {
+  const std::vector<double> spacing = spacing_of(grid);
+  std::string size, lengths;
+  for (std::size_t k = 0; k < spacing.size(); ++k) {
+    size += (k == 0 ? "" : " x ") + with_commas(grid.size[k]);
+    lengths += fmt::format("{}{:.6g}", k == 0 ? "" : " x ", spacing[k]);
+  }
+  return fmt::format("{}{}{}, spacing {}{}", size, grid.value_type.empty() ? "" : ", ", grid.value_type, lengths,
+                     grid.has_spacing ? "" : " (not in the file)");
 }
 
 class MeshSurvey {
@@ -97,6 +120,7 @@ void MeshSurvey::print_text() const {
     if (census_.simplices[k] != 0 || k == 2)
       fmt::print("  {:<13} {}\n", simplices_of_dimension(k), with_commas(census_.simplices[k]));
   print_census(census_);
+  if (info.grid) fmt::print("  grid          {}\n", describe_grid(*info.grid));
   fmt::print("  coordinates   {}\n", info.dimension);
   if (census_.vertices != 0)
     for (std::size_t k = 0; k < bounds_.size(); ++k)
@@ -104,9 +128,10 @@ void MeshSurvey::print_text() const {
                  bounds_[k].min, bounds_[k].max);
   fmt::print("  properties    {}\n",
              info.property_names.empty() ? "none" : printable(fmt::format("{}", fmt::join(info.property_names, ", "))));
-  fmt::print("  finalization  {}\n",
-             finalized_ == 0 ? "none"
-                             : fmt::format("{} of {}", with_commas(finalized_), count_of(census_.vertices, "vertex")));
+  if (!info.grid)
+    fmt::print("  finalization  {}\n", finalized_ == 0 ? "none"
+                                                       : fmt::format("{} of {}", with_commas(finalized_),
+                                                                     count_of(census_.vertices, "vertex")));
   if (census_.live_front)
     fmt::print("  live front    {} at once: {}\n", count_of(*census_.live_front, "vertex"),
                info.finalizes ? "measured" : "what a single pass would hold");
@@ -134,6 +159,13 @@ void MeshSurvey::print_json() const {
                                  {"properties", info.property_names},
                                  {"finalization", info.finalizes && finalized_ != 0},
                                  {"finalized_vertices", finalized_}};
+  if (info.grid) {
+    const auto size = std::span(info.grid->size).first(spacing_of(*info.grid).size());
+    json["grid"] = {{"size", std::vector(size.begin(), size.end())},
+                    {"type", info.grid->value_type},
+                    {"spacing", spacing_of(*info.grid)},
+                    {"spacing_in_file", info.grid->has_spacing}};
+  }
   json["live_front"] = census_.live_front ? nlohmann::ordered_json(*census_.live_front) : nlohmann::ordered_json();
   add_defects(json, census_);
   add_topology(json, census_);

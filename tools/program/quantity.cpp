@@ -9,6 +9,7 @@
 #include <optional>
 #include <string_view>
 
+#include "io/text/words.h"
 #include "libreeb/base/count_text.h"
 #include "libreeb/base/error.h"
 
@@ -40,10 +41,8 @@ int take_unit(std::string_view& text) {
 }
 
 // Doubles are exact up to 2^53 only, so numbers of digits alone are read as they are.
-std::optional<std::uint64_t> whole_number(std::string_view text) {
-  std::uint64_t value = 0;
-  const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (result.ec == std::errc() && result.ptr == text.data() + text.size()) return value;
+std::optional<std::uint64_t> count_with_unit(std::string_view text) {
+  if (const auto value = io::whole_number<std::uint64_t>(text)) return value;
   const double number = take_number(text);
   const double scaled = number * std::pow(1000.0, take_unit(text));
   if (number < 0 || !text.empty() || scaled != std::floor(scaled) || scaled >= 0x1p63) return {};
@@ -66,7 +65,7 @@ std::uint64_t parse_size(const std::string& option, const std::string& text) {
 }
 
 std::uint64_t parse_count(const std::string& option, const std::string& text, CountLimits limits) {
-  const auto count = whole_number(text);
+  const auto count = count_with_unit(text);
   if (!count)
     refuse(option, text, "a whole number",
            "give a number from " + std::to_string(limits.least) + " on, like 50000, 50k, 1.5M or 1e6");
@@ -88,7 +87,8 @@ double parse_threshold(const std::string& option, const std::string& text, const
 std::string large_threshold(const std::string& text, const ValueRange& range, const std::string& function) {
   const double threshold = parse_threshold("threshold", text, range), width = range.max - range.min;
   constexpr double kTypedBack = 1.001;  // the range itself, rounded
-  if (text.ends_with('%') || !(width > 0) || threshold <= kTypedBack * width) return {};
+  if (!(width > 0) || threshold <= kTypedBack * width) return {};
+  if (text.ends_with('%')) return fmt::format("the threshold {} is more than the range of {}", text, function);
   return fmt::format("the threshold {} is more than the range {:.6g} of {}{}", text, width, function,
                      threshold <= 100 ? "; did you mean " + text + "%?" : std::string());
 }
@@ -96,6 +96,13 @@ std::string large_threshold(const std::string& text, const ValueRange& range, co
 double percent_of(const ValueRange& range, double lo, double hi) {
   const double width = range.max - range.min;
   return 100 * (std::isfinite(width) ? (hi - lo) / width : (hi / 2 - lo / 2) / (range.max / 2 - range.min / 2));
+}
+
+double parse_share(const std::string& option, const std::string& text, const std::string& hint) {
+  std::string_view rest = text;
+  const double percent = take_number(rest);
+  if (!(percent >= 0 && percent <= 100) || rest != "%") refuse(option, text, "a share", hint);
+  return percent;
 }
 
 double parse_length(const std::string& option, const std::string& text) {

@@ -1,14 +1,18 @@
 #include "tools/program/signals.h"
 
+#include <spawn.h>
 #include <unistd.h>
 
 #include <atomic>
 #include <csignal>
+#include <cstddef>
 #include <memory>
 #include <string_view>
 
 #include "io/file/temporary_name.h"
 #include "libreeb/base/error.h"
+
+extern char** environ;
 
 namespace reeb::tools {
 namespace {
@@ -63,6 +67,43 @@ std::function<bool()> watch_signals() {
   };
 }
 
-void end_together_with(pid_t child) { companion = child; }
+StartedChild start_child(const Child& child) {
+  std::vector<std::string> words = child.arguments;
+  words.insert(words.begin(), child.program);
+  std::vector<char*> pointers;
+  for (std::string& word : words) pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  for (int stream = 0; stream < 3; ++stream)
+    posix_spawn_file_actions_adddup2(&actions, child.streams[static_cast<std::size_t>(stream)], stream);
+  // This process ignores some signals, which a child would inherit.
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  sigset_t usual;
+  sigemptyset(&usual);
+  for (const int signal : {SIGPIPE, SIGXFSZ, SIGCHLD}) sigaddset(&usual, signal);
+  posix_spawnattr_setsigdefault(&attributes, &usual);
+  // A signal between the start and the end of this function would leave the child alone.
+  sigset_t ends, before;
+  sigemptyset(&ends);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&ends, signal);
+  ::pthread_sigmask(SIG_BLOCK, &ends, &before);
+  posix_spawnattr_setsigmask(&attributes, &before);
+  posix_spawnattr_setpgroup(&attributes, 0);
+  const int flags = POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETSIGMASK | (child.is_apart ? POSIX_SPAWN_SETPGROUP : 0);
+  posix_spawnattr_setflags(&attributes, static_cast<short>(flags));
+  StartedChild started;
+  started.error =
+      ::posix_spawnp(&started.process, child.program.c_str(), &actions, &attributes, pointers.data(), environ);
+  if (started.error == 0 && !child.is_apart) companion = started.process;
+  ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  posix_spawnattr_destroy(&attributes);
+  posix_spawn_file_actions_destroy(&actions);
+  return started;
+}
+
+void forget_child() { companion = 0; }
 
 }  // namespace reeb::tools

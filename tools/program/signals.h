@@ -3,7 +3,10 @@
 
 #include <sys/types.h>
 
+#include <array>
 #include <functional>
+#include <string>
+#include <vector>
 
 namespace reeb::tools {
 
@@ -17,7 +20,19 @@ void handle_signals(bool speaks = true);
 // asked for any more is forgotten.
 std::function<bool()> watch_signals();
 
-// A process that such a signal ends, too; 0: none.
-void end_together_with(pid_t child);
+struct Child {
+  std::string program;  // its path, or a name in PATH
+  std::vector<std::string> arguments;
+  std::array<int, 3> streams;  // descriptors for its standard input, output and error
+  bool is_apart = false;       // in a group of its own: Ctrl-C here does not end it
+};
+struct StartedChild {
+  int error = 0;  // of the system, if it could not be started
+  pid_t process = 0;
+};
+// Starts a program, with the usual handling of signals. One of the signals above ends a child that is not apart, too,
+// until forget_child() is called.
+StartedChild start_child(const Child& child);
+void forget_child();
 
 }  // namespace reeb::tools

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <cmath>
 #include <cstdint>
 #include <ranges>
 #include <string>
@@ -25,10 +26,41 @@ std::string choice_of(const ooc::ReebFile& file, const LevelLine& level) {
     if (file.finest_with_nodes(level.nodes) == level.version) return "--nodes " + std::to_string(level.nodes);
   } catch (const Error&) {  // the threshold works
   }
-  return fmt::format("--threshold {}", level.threshold);
+  return "--threshold " + threshold_text(file, level);
+}
+
+double number_of(const std::string& text) {
+  double value = 0;
+  std::from_chars(text.data(), text.data() + text.size(), value);
+  return value;
+}
+
+// The number of this text, which has `digits` digits, is at least `value`.
+std::string rounded_up(double value, int digits) {
+  const std::string nearest = fmt::format("{:.{}g}", value, digits);
+  if (number_of(nearest) >= value) return nearest;
+  const double last_place = std::pow(10, std::floor(std::log10(value)) - digits + 1);
+  return fmt::format("{:.{}g}", value + last_place / 2, digits);
 }
 
 }  // namespace
+
+std::string threshold_text(const ooc::ReebFile& file, const LevelLine& level) {
+  constexpr int kLeastDigits = 6, kMostDigits = 16;
+  std::string exact = fmt::format("{}", level.threshold);
+  if (!std::isnormal(level.threshold)) return exact;
+  try {
+    for (int digits = kLeastDigits; digits <= kMostDigits; ++digits) {
+      std::string text = rounded_up(level.threshold, digits);
+      if (text.size() >= exact.size()) break;
+      const double typed = number_of(text);
+      if (typed >= level.threshold && file.version_at(typed) == level.version) return text;
+    }
+  } catch (const Error& error) {  // which threshold gives a finer level can be in the part that is missing
+    if (!meets_missing_part(file, error)) throw;
+  }
+  return exact;
+}
 
 bool is_whole(const ooc::ReebFile& file, const LevelLine& level) {
   const Error* damage = file.damage();
@@ -39,6 +71,10 @@ const LevelLine* finest_whole_level(const ooc::ReebFile& file) {
   for (const LevelLine& level : file.levels() | std::views::reverse)
     if (is_whole(file, level)) return &level;
   return nullptr;
+}
+
+void warn_of_damage(const ooc::ReebFile& file) {
+  if (const Error* damage = file.damage()) fmt::print(stderr, "reeb: warning: {}\n", damage->what());
 }
 
 bool meets_missing_part(const ooc::ReebFile& file, const Error& error) {
@@ -55,7 +91,7 @@ Error with_whole_level(const ooc::ReebFile& file, const Error& error, FilePart w
            (choice.empty() ? choice : "; `reeb extract` with " + choice + " still works");
   else if (!choice.empty())
     hint = choice + " still works; for finer levels compute the file again";
-  return Error(error.kind(), error.message(), hint).at(error.file(), error.position());
+  return error.with_hint(hint);
 }
 
 }  // namespace reeb::tools

@@ -1,16 +1,25 @@
-// What can be read of a `.reeb` file that was cut.
+// Levels of a `.reeb` file: how their thresholds are typed, and what can be read of a file that was cut.
 #pragma once
+
+#include <string>
 
 #include "libreeb/base/error.h"
 #include "ooc/reeb_file/reeb_file.h"
 
 namespace reeb::tools {
 
+// The threshold of a line of the level table, such that it gives the level when it is typed: six digits, or as many as
+// that takes. It is rounded upwards, since a level's threshold is the least.
+std::string threshold_text(const ooc::ReebFile& file, const LevelLine& level);
+
 // Whether the file has all that a line of its level table needs, as far as the file knows (ReebFile::damage()).
 bool is_whole(const ooc::ReebFile& file, const LevelLine& level);
 
 // The finest level of the table that is whole; null if none is.
 const LevelLine* finest_whole_level(const ooc::ReebFile& file);
+
+// Prints a warning if the file is damaged.
+void warn_of_damage(const ooc::ReebFile& file);
 
 // Which part of a file was wanted: a level, or the pairs, which are at its end.
 enum class FilePart { kLevel, kPairs };

@@ -42,6 +42,7 @@ std::unique_ptr<MeshReader> open_for_copy(const io::Input& input, const MeshSour
   ReadOptions options;
   options.all_properties = keeps_properties(output);
   options.signed_zeros = true;
+  options.names_losses = true;
   options.temp_folder = source.temp_folder;
   return io::open_mesh(input, input.open(), options, source.image, source.format);
 }
@@ -68,8 +69,6 @@ std::vector<std::string> lost_properties(const io::Input& input, const MeshInfo&
   std::vector<std::string> lines;
   if (!vertices.empty()) lines.push_back("properties of vertices are dropped: " + vertices);
   if (!faces.empty()) lines.push_back("properties of faces are dropped: " + faces);
-  if (info.format == "OBJ")
-    lines.emplace_back("not kept from the OBJ file: normals, texture coordinates, colours, groups");
   return lines;
 }
 

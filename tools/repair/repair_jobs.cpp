@@ -215,7 +215,7 @@ class Jobs {
     for (Cluster& cluster : clusters_) {
       if (cluster.done) continue;
       const auto patch = static_cast<std::uint32_t>(now.size());
-      if (sum >= most) {
+      if (sum >= most && first_of_group.size() < ooc::CollectedPatches::kMostGroups) {
         first_of_group.push_back(patch);
         sum = 0;
       }

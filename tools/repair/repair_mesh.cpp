@@ -6,11 +6,13 @@
 #include <map>
 #include <numeric>
 #include <optional>
+#include <span>
 
 #include "io/file/content_source.h"
 #include "io/formats/open_mesh.h"
 #include "libreeb/base/count_text.h"
 #include "libreeb/base/error.h"
+#include "tools/defects/surface_census.h"
 #include "tools/repair/mesh_output.h"
 #include "tools/repair/repair_jobs.h"
 
@@ -34,68 +36,91 @@ class Plan {
   }
 
   Repair run() {
-    const Defects defects = find(options_.filter.named);
-    const std::vector<ChosenRow> rows = choose_rows(defects, options_.filter);
-    if (options_.filter.is_none()) repair_.suggestion = defects.table.suggestion;
-    for (const ChosenRow& row : rows)
-      repair_.rows.push_back(
-          {row.rank, row.row->kind, row.row->length(), row.row->curve.inwards, false, row.why_not, 0, 0, 0});
+    defects_ = find(options_.filter.named);
+    prepare_rows();
     const ValuedMesh mesh(options_.mesh, {});
     ooc::Workspace space(options_.mesh.temp_folder, options_.mesh.memory_bytes);
-    const Cleaning cleaning = plan_cleaning(mesh, options_.cleaning, space, jobs_.progress);
-    // Rows that cannot be repaired make room for later ones, so the choice may have to be made again.
-    std::vector<std::uint8_t> failed(rows.size(), 0);
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      if (!rows[i].why_not.empty() || !is_dropped(cleaning, *rows[i].row)) continue;
-      failed[i] = 1;
-      repair_.rows[i].why = "component dropped";
+    cleaning_ = plan_cleaning(mesh, options_.cleaning, space, jobs_.progress);
+    mark_dropped();
+    while (run_round(mesh, space)) {
     }
-    for (bool again = true; again;) {
-      again = false;
-      std::vector<std::size_t> chosen;
-      for (std::size_t i = 0; i < rows.size() && chosen.size() < options_.limit; ++i)
-        if (rows[i].why_not.empty() && failed[i] == 0) chosen.push_back(i);
-      const std::size_t chosen_count = chosen.size();
-      for (std::size_t i = 0; i < cleaning.boundaries.size(); ++i) chosen.push_back(rows.size() + i);
-      const auto length = [&](std::size_t i) {
-        return i < rows.size() ? rows[i].row->length() : cleaning.boundaries[i - rows.size()].length;
-      };
-      std::stable_sort(chosen.begin(), chosen.end(),
-                       [&](std::size_t a, std::size_t b) { return length(a) < length(b); });
-      const JobsDone done = run_jobs(mesh, jobs_of(rows, cleaning.boundaries, chosen), defects.scale, space, jobs_);
-      for (RepairedRow& row : repair_.rows) row.done = false;
-      repair_.boundaries_filled = 0;
-      repair_.boundaries_left.assign(cleaning.pinched_boundaries, "it is not one simple path");
-      for (std::size_t k = 0; k < chosen.size(); ++k) {
-        const JobResult& result = done.results[k];
-        if (chosen[k] >= rows.size()) {
-          repair_.boundaries_filled += result.done ? 1u : 0u;
-          if (!result.done) repair_.boundaries_left.push_back(result.why);
-          continue;
-        }
-        note(repair_.rows[chosen[k]], result);
-        if (result.done) continue;
-        failed[chosen[k]] = 1;
-        again = again || chosen_count == options_.limit;
-      }
-      repair_.edits = done.edits;
-      repair_.mesh_vertices = done.mesh_vertices;
-      repair_.mesh_triangles = done.mesh_triangles;
-    }
-    for (std::size_t i = 0; i < repair_.rows.size(); ++i) {
-      RepairedRow& row = repair_.rows[i];
-      repair_.repaired += row.done ? 1u : 0u;
-      if (!row.done && row.why.empty()) row.why = "beyond --limit";
-    }
-    for (std::size_t i = 0; i < rows.size() && repair_.repaired != 0; ++i)
-      if (rows[i].row->curve.path.empty() || (failed[i] != 0 && !is_dropped(cleaning, *rows[i].row)))
-        repair_.second_may_help = true;
+    finish_rows();
     if (repair_.mesh_triangles == 0) count(mesh);
-    add_drops(cleaning, mesh);
+    add_drops(mesh);
     return std::move(repair_);
   }
 
  private:
+  void prepare_rows() {
+    rows_ = choose_rows(defects_, options_.filter);
+    failed_.assign(rows_.size(), 0);
+    if (options_.filter.is_none()) repair_.suggestion = defects_.table.suggestion;
+    for (const ChosenRow& row : rows_)
+      repair_.rows.push_back(
+          {row.rank, row.row->kind, row.row->length(), row.row->curve.inwards, false, row.why_not, 0, 0, 0});
+  }
+
+  void mark_dropped() {
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      if (!rows_[i].why_not.empty() || !is_dropped(*rows_[i].row)) continue;
+      failed_[i] = 1;
+      repair_.rows[i].why = "component dropped";
+    }
+  }
+
+  // Rows by their places, as many as --limit allows.
+  std::vector<std::size_t> choose() const {
+    std::vector<std::size_t> chosen;
+    for (std::size_t i = 0; i < rows_.size() && chosen.size() < options_.limit; ++i)
+      if (rows_[i].why_not.empty() && failed_[i] == 0) chosen.push_back(i);
+    return chosen;
+  }
+
+  // Repairs the chosen rows, and fills all boundaries. Returns whether to do it again: rows that cannot be repaired
+  // make room for later ones.
+  bool run_round(const ValuedMesh& mesh, ooc::Workspace& space) {
+    std::vector<std::size_t> chosen = choose();
+    const bool is_full = chosen.size() == options_.limit;
+    for (std::size_t i = 0; i < cleaning_.boundaries.size(); ++i) chosen.push_back(rows_.size() + i);
+    std::ranges::stable_sort(chosen, {}, [&](std::size_t i) {
+      return i < rows_.size() ? rows_[i].row->length() : cleaning_.boundaries[i - rows_.size()].length;
+    });
+    const JobsDone done = run_jobs(mesh, jobs_of(chosen), defects_.scale, space, jobs_);
+    for (RepairedRow& row : repair_.rows) row.done = false;
+    repair_.boundaries_filled = 0;
+    repair_.boundaries_left.assign(cleaning_.pinched_boundaries, "it is not one simple path");
+    repair_.boundaries_left.insert(repair_.boundaries_left.end(), cleaning_.long_boundaries,
+                                   "it is longer than --fill-boundaries LENGTH");
+    bool has_failed = false;
+    for (std::size_t k = 0; k < chosen.size(); ++k) {
+      const JobResult& result = done.results[k];
+      if (chosen[k] >= rows_.size()) {
+        repair_.boundaries_filled += result.done ? 1u : 0u;
+        if (!result.done) repair_.boundaries_left.push_back(result.why);
+        continue;
+      }
+      note(repair_.rows[chosen[k]], result);
+      if (result.done) continue;
+      failed_[chosen[k]] = 1;
+      has_failed = true;
+    }
+    repair_.edits = done.edits;
+    repair_.mesh_vertices = done.mesh_vertices;
+    repair_.mesh_triangles = done.mesh_triangles;
+    return has_failed && is_full;
+  }
+
+  void finish_rows() {
+    for (RepairedRow& row : repair_.rows) {
+      repair_.repaired += row.done ? 1u : 0u;
+      if (!row.done && row.why.empty()) row.why = "beyond --limit";
+    }
+    if (repair_.repaired == 0) return;
+    for (std::size_t i = 0; i < rows_.size(); ++i)
+      if (rows_[i].row->curve.path.empty() || (failed_[i] != 0 && !is_dropped(*rows_[i].row)))
+        repair_.second_may_help = true;
+  }
+
   // All that are named in a file have a row.
   Defects find(const std::optional<NamedRows>& named) {
     FindDefectsOptions find;
@@ -112,37 +137,43 @@ class Plan {
     find.searching = [&](std::uint64_t done, std::uint64_t total, std::uint64_t triangles) {
       if (options_.progress) options_.progress("curves", done, total, triangles);
     };
-    return find_defects(find);
+    Defects defects = find_defects(find);
+    const auto& longest = options_.filter.limits.longest;
+    if (longest && *longest > defects.scale.size && !defects.table.rows.empty())
+      repair_.warnings.push_back(
+          fmt::format("--longest {:.6g} is more than the whole mesh ({:.4g})", *longest, defects.scale.size));
+    return defects;
   }
 
-  static bool is_dropped(const Cleaning& cleaning, const DefectRow& row) {
+  bool is_dropped(const DefectRow& row) const {
     const std::uint64_t v = row.lo.key.vertex.value();
-    return v < cleaning.in_dropped.size() && cleaning.in_dropped[v];
+    return v < cleaning_.in_dropped.size() && cleaning_.in_dropped[v];
   }
 
-  void add_drops(const Cleaning& cleaning, const ValuedMesh& mesh) {
+  void add_drops(const ValuedMesh& mesh) {
     repair_.cleaning = options_.cleaning;
-    repair_.degenerate = cleaning.degenerate;
-    repair_.duplicates = cleaning.duplicates;
-    repair_.components = cleaning.components;
-    repair_.component_triangles = cleaning.component_triangles;
-    if (cleaning.removed.empty()) return;
+    repair_.degenerate = cleaning_.degenerate;
+    repair_.duplicates = cleaning_.duplicates;
+    repair_.components = cleaning_.components;
+    repair_.component_triangles = cleaning_.component_triangles;
+    repair_.isolated_vertices = cleaning_.isolated;
+    repair_.seam_vertices = cleaning_.seam_vertices;
+    if (cleaning_.removed.empty()) return;
     MeshEdits& edits = repair_.edits;
-    edits.removed.insert(edits.removed.end(), cleaning.removed.begin(), cleaning.removed.end());
+    edits.removed.insert(edits.removed.end(), cleaning_.removed.begin(), cleaning_.removed.end());
     edits.sort();
     edits.dropped = unused_after(mesh, edits, jobs_.progress);
   }
 
   // Rows by their places, then boundaries.
-  static std::vector<RepairJob> jobs_of(const std::vector<ChosenRow>& rows, const std::vector<RepairJob>& boundaries,
-                                        const std::vector<std::size_t>& chosen) {
+  std::vector<RepairJob> jobs_of(std::span<const std::size_t> chosen) const {
     std::vector<RepairJob> jobs;
     for (const std::size_t i : chosen) {
-      if (i >= rows.size()) {
-        jobs.push_back(boundaries[i - rows.size()]);
+      if (i >= rows_.size()) {
+        jobs.push_back(cleaning_.boundaries[i - rows_.size()]);
         continue;
       }
-      const DefectRow& row = *rows[i].row;
+      const DefectRow& row = *rows_[i].row;
       jobs.push_back({row.curve.path, row.length(), row.curve.box, false});
     }
     return jobs;
@@ -168,43 +199,83 @@ class Plan {
 
   const RepairOptions& options_;
   JobOptions jobs_;
+  Defects defects_;
+  std::vector<ChosenRow> rows_;       // of these defects
+  std::vector<std::uint8_t> failed_;  // of each row, whether it cannot be repaired
+  Cleaning cleaning_;
   Repair repair_;
 };
 
+std::size_t unclear_rows(const Repair& repair) {
+  return static_cast<std::size_t>(std::ranges::count_if(
+      repair.rows, [](const RepairedRow& row) { return !row.done && row.kind == DefectKind::kUnclear; }));
+}
+
+// What helps with rows of an unclear kind; empty: nothing does.
+std::string note_on_unclear(const Repair& repair) {
+  const std::size_t unclear = unclear_rows(repair);
+  if (unclear == 0) return {};
+  const std::string note =
+      "note: the kind of " + (unclear == 1 ? "one loop" : count_of(unclear, "loop")) + " is unclear; ";
+  const bool fill = repair.mesh_boundaries != 0 && !repair.cleaning.boundary_length;
+  const bool drop = repair.mesh_duplicates != 0 && !repair.cleaning.duplicates;
+  const std::string boundaries = count_of(repair.mesh_boundaries, "boundary"),
+                    duplicates = count_of(repair.mesh_duplicates, "duplicate triangle");
+  const std::string then = ", and a second repair, of the output, can help";
+  if (fill && drop)
+    return note + "the mesh has " + boundaries + " and " + duplicates +
+           ": --fill-boundaries LENGTH, --drop-duplicates" + then;
+  if (fill) return note + "the mesh has " + boundaries + ": --fill-boundaries LENGTH" + then;
+  if (drop) return note + "the mesh has " + duplicates + ": --drop-duplicates" + then;
+  return repair.boundaries_filled + repair.duplicates != 0 ? note + "repair the output again" : std::string();
+}
+
 }  // namespace
 
-Repair plan_repair(const RepairOptions& options) { return Plan(options).run(); }
+Repair plan_repair(const RepairOptions& options) {
+  Repair repair = Plan(options).run();
+  if (repair.repaired >= options.limit) repair.second_may_help = false;  // so would a greater limit
+  if (unclear_rows(repair) != 0 && !(options.cleaning.duplicates && options.cleaning.boundary_length)) {
+    const ooc::MeshCensus census = census_of(options.mesh);
+    repair.mesh_boundaries = census.boundaries;
+    repair.mesh_duplicates = census.duplicates.count;
+  }
+  return repair;
+}
 
 std::vector<std::string> summary_of(const Repair& repair) {
-  std::vector<std::string> lines = {with_commas(repair.repaired) + " of " + count_of(repair.rows.size(), "loop") +
-                                    " repaired"};
+  std::vector<std::string> lines;
+  if (repair.mesh_triangles == 0 && repair.rows.empty())
+    lines.emplace_back("note: the mesh has no triangles");
+  else
+    lines.push_back(with_commas(repair.repaired) + " of " + count_of(repair.rows.size(), "loop") + " repaired");
   // A length of which it is not certain that it divides defects from features.
   constexpr double kUncertain = 0.6;
-  if (repair.suggestion && repair.suggestion->length) {
+  if (repair.suggestion && repair.suggestion->length && repair.repaired != 0) {
     lines.push_back(fmt::format("as suggested, those with a curve of at most {:.4g} (confidence {:.0f} %)",
                                 *repair.suggestion->length, 100 * repair.suggestion->confidence));
-    if (repair.suggestion->confidence < kUncertain && repair.repaired != 0)
+    if (repair.suggestion->confidence < kUncertain)
       lines.emplace_back(
-          "note: some may be features: look at them with reeb defects, and choose with --longest or "
-          "--loops");
+          "note: it is not clear where defects end and features begin; look at `reeb defects MESH`, and keep features "
+          "with --longest LENGTH or --loops FILE.csv");
   }
   std::map<std::string, std::size_t> reasons;
   for (const RepairedRow& row : repair.rows)
     if (!row.done) ++reasons[row.why];
   for (const auto& [why, count] : reasons) lines.push_back(with_commas(count) + " left: " + why);
-  const auto unclear = static_cast<std::size_t>(std::ranges::count_if(
-      repair.rows, [](const RepairedRow& row) { return !row.done && row.kind == DefectKind::kUnclear; }));
-  if (unclear != 0 && !(repair.cleaning.duplicates && repair.cleaning.boundary_length))
-    lines.push_back("note: the kind of " + with_commas(unclear) +
-                    " is unclear; if the mesh has duplicate triangles or boundaries (see reeb info), "
-                    "--drop-duplicates, --fill-boundaries LENGTH and a second repair can help");
-  if (repair.second_may_help)
+  if (const std::string note = note_on_unclear(repair); !note.empty())
+    lines.push_back(note);
+  else if (repair.second_may_help)
     lines.emplace_back("note: a second repair, of the output, may find curves of loops that are left");
   if (repair.cleaning.degenerate) lines.push_back(count_of(repair.degenerate, "degenerate triangle") + " dropped");
   if (repair.cleaning.duplicates) lines.push_back(count_of(repair.duplicates, "repeated triangle") + " dropped");
   if (repair.cleaning.components_percent)
-    lines.push_back(count_of(repair.components, "component") + " of " +
-                    count_of(repair.component_triangles, "triangle") + " dropped");
+    lines.push_back((repair.components == 0 ? "no component dropped"
+                                            : count_of(repair.components, "component") + " of " +
+                                                  count_of(repair.component_triangles, "triangle") + " dropped") +
+                    (repair.isolated_vertices == 0 ? ""
+                                                   : "; " + count_of(repair.isolated_vertices, "isolated vertex") +
+                                                         (repair.isolated_vertices == 1 ? " stays" : " stay")));
   if (!repair.cleaning.boundary_length) return lines;
   lines.push_back(
       (repair.boundaries_filled == 1 ? "1 boundary" : with_commas(repair.boundaries_filled) + " boundaries") +
@@ -212,6 +283,10 @@ std::vector<std::string> summary_of(const Repair& repair) {
   reasons.clear();
   for (const std::string& why : repair.boundaries_left) ++reasons[why];
   for (const auto& [why, count] : reasons) lines.push_back(with_commas(count) + " not filled: " + why);
+  if (!repair.boundaries_left.empty() && repair.seam_vertices != 0)
+    lines.push_back(
+        "note: " + count_of(repair.seam_vertices, "vertex") +
+        " of boundaries are in the place of another one, but not joined with it; docs/REPAIR.md has how to");
   return lines;
 }
 

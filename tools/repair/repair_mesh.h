@@ -48,7 +48,10 @@ struct Repair {
   CleaningOptions cleaning;                                                               // as asked for
   std::uint64_t degenerate = 0, duplicates = 0, components = 0, component_triangles = 0;  // that are dropped
   std::size_t boundaries_filled = 0;
-  std::vector<std::string> boundaries_left;  // why
+  std::vector<std::string> boundaries_left;                // why
+  std::uint64_t seam_vertices = 0, isolated_vertices = 0;  // as in Cleaning
+  // Of the mesh, where loops of an unclear kind are left, which these can cause.
+  std::uint64_t mesh_boundaries = 0, mesh_duplicates = 0;
   std::vector<std::string> warnings;
 };
 

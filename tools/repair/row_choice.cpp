@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <string_view>
 
 #include "io/file/content_source.h"
+#include "io/file/file.h"
 #include "io/functions/function_spec.h"
 #include "io/text/text_cursor.h"
 #include "io/text/words.h"
@@ -33,48 +35,66 @@ std::vector<std::string> fields_of(const std::string& line) {
   return fields;
 }
 
-std::vector<std::string> lines_of(const std::string& path) {
+// Calls visit(line, number) for each line; numbers begin at 1.
+void for_each_line(const std::string& path,
+                   const std::function<void(const std::string& line, std::size_t number)>& visit) {
+  constexpr std::size_t kMostLineBytes = 65535;  // as in lists of events
+  io::File::open_for_reading(path);              // refuses what is not a regular file
   const auto source = io::open_content(path);
-  std::vector<std::string> lines(1);
+  std::string line;
+  std::size_t number = 1;
   for (std::uint64_t at = 0;;) {
     const std::string_view view = source->view(at);
     if (view.empty()) break;
     for (const char c : view) {
-      if (c == '\n')
-        lines.emplace_back();
-      else
-        lines.back() += c;
+      if (c == '\n') {
+        visit(line, number++);
+        line.clear();
+      } else if (line.size() < kMostLineBytes) {
+        line += c;
+      } else {
+        throw Error(ErrorKind::kBadInput,
+                    "this line is longer than " + std::to_string(kMostLineBytes) +
+                        " characters, so it is not of a "
+                        "table of defects",
+                    "name a table that reeb defects -o FILE.csv wrote")
+            .at(path, std::to_string(number));
+      }
     }
     at += view.size();
   }
-  return lines;
+  visit(line, number);
 }
 
 // The rows of the file, with the line of each.
 std::map<LoopName, std::size_t> read_names(const std::string& path) {
-  const std::vector<std::string> lines = lines_of(path);
-  const std::vector<std::string> header = fields_of(lines[0]);
-  const auto column = [&](const char* name) {
-    const auto it = std::ranges::find(header, name);
-    if (it == header.end())
-      throw Error(ErrorKind::kBadInput, std::string("it has no column ") + name,
-                  "name a table that reeb defects -o FILE.csv wrote, or rows of it below its first line")
-          .at(path, "1");
-    return static_cast<std::size_t>(it - header.begin());
+  std::size_t lo = 0, hi = 0, function = 0;
+  const auto read_header = [&](const std::vector<std::string>& header) {
+    const auto column = [&](const char* name) {
+      const auto it = std::ranges::find(header, name);
+      if (it == header.end())
+        throw Error(ErrorKind::kBadInput, std::string("it has no column ") + name,
+                    "name a table that reeb defects -o FILE.csv wrote, or rows of it below its first line")
+            .at(path, "1");
+      return static_cast<std::size_t>(it - header.begin());
+    };
+    lo = column("lo");
+    hi = column("hi");
+    function = column("function");
   };
-  const std::size_t lo = column("lo"), hi = column("hi"), function = column("function");
   std::map<LoopName, std::size_t> names;
-  for (std::size_t i = 1; i < lines.size(); ++i) {
-    if (lines[i].find_first_not_of(" \t\r") == std::string::npos) continue;
-    const std::vector<std::string> fields = fields_of(lines[i]);
+  for_each_line(path, [&](const std::string& line, std::size_t line_number) {
+    const std::vector<std::string> fields = fields_of(line);
+    if (line_number == 1) return read_header(fields);
+    if (line.find_first_not_of(" \t\r") == std::string::npos) return;
     const auto number = [&](std::size_t k) {
       if (const auto value = io::whole_number<std::uint64_t>(k < fields.size() ? fields[k] : std::string()))
         return *value;
       throw Error(ErrorKind::kBadInput, "this is not a row of a table of defects", "write rows as reeb defects does")
-          .at(path, std::to_string(i + 1));
+          .at(path, std::to_string(line_number));
     };
-    names.emplace(LoopName{number(lo), number(hi), function < fields.size() ? fields[function] : ""}, i + 1);
-  }
+    names.emplace(LoopName{number(lo), number(hi), function < fields.size() ? fields[function] : ""}, line_number);
+  });
   return names;
 }
 
@@ -82,7 +102,7 @@ std::string why_not(const DefectRow& row, const Defects& defects, const RowFilte
   const RowLimits& limits = filter.limits;
   if (!limits.has_persistence(row))
     return fmt::format("persistence not below {:.6g}{}", *limits.below, limits.below_is_percent ? "%" : "");
-  if (row.curve.path.empty()) return "no closed curve along edges was found near it";
+  if (row.curve.path.empty()) return "no short curve was found";
   if (!limits.has_length(row)) return fmt::format("curve longer than --longest {:.6g}", *limits.longest);
   if (filter.is_none()) {
     const auto& suggested = defects.table.suggestion.length;

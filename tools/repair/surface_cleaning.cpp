@@ -142,6 +142,7 @@ class Cleaner {
     const double least = *options_.components_percent / 100 * static_cast<double>(largest);
     const auto is_small = [&](std::uint32_t root) { return static_cast<double>(sizes.at(root)) < least; };
     for (const auto& [root, size] : sizes) result_.components += is_small(root) ? 1u : 0u;
+    count_isolated(sizes);
     if (result_.components == 0) return;
     for_each_triangle([&](const std::array<std::uint64_t, 3>& c, std::uint64_t place) {
       if (!is_small(part_.find(static_cast<std::uint32_t>(c[0])))) return;
@@ -152,6 +153,15 @@ class Cleaner {
     for (std::uint32_t v = 0; v < part_.size(); ++v)
       if (const std::uint32_t root = part_.find(v); sizes.contains(root) && is_small(root))
         result_.in_dropped[v] = true;
+  }
+
+  void count_isolated(const std::map<std::uint32_t, std::uint64_t>& sizes) {
+    std::vector<bool> has_others(part_.size(), false);
+    for (std::uint32_t v = 0; v < part_.size(); ++v)
+      if (const std::uint32_t root = part_.find(v); root != v) has_others[root] = true;
+    result_.isolated = vertices_ - std::min<std::uint64_t>(vertices_, part_.size());
+    for (std::uint32_t v = 0; v < part_.size(); ++v)
+      result_.isolated += part_.find(v) == v && !has_others[v] && !sizes.contains(v) ? 1u : 0u;
   }
 
   bool is_dropped(std::uint64_t v) const { return v < result_.in_dropped.size() && result_.in_dropped[v]; }
@@ -210,6 +220,17 @@ class Cleaner {
             }
             progress_(done, total);
           });
+    count_seams();
+  }
+
+  void count_seams() {
+    std::ranges::sort(ends_, {}, &End::position);
+    for (std::size_t i = 0; i < ends_.size(); ++i) {
+      const Point& here = ends_[i].position;
+      if ((i > 0 && here == ends_[i - 1].position) || (i + 1 < ends_.size() && here == ends_[i + 1].position))
+        ++result_.seam_vertices;
+    }
+    std::ranges::sort(ends_, {}, &End::vertex);
   }
 
   const Point& position(std::uint64_t v) const {
@@ -242,7 +263,10 @@ class Cleaner {
         }
         simple = simple && count == 2;
       }
-      if (!(sum <= *options_.boundary_length)) continue;
+      if (!(sum <= *options_.boundary_length)) {
+        ++result_.long_boundaries;
+        continue;
+      }
       if (!simple || members.size() < 3) {
         ++result_.pinched_boundaries;
         continue;

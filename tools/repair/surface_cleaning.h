@@ -27,6 +27,9 @@ struct Cleaning {
   std::uint64_t degenerate = 0, duplicates = 0, components = 0, component_triangles = 0;
   std::vector<RepairJob> boundaries;   // to be closed
   std::size_t pinched_boundaries = 0;  // that are short enough, but no simple paths
+  std::size_t long_boundaries = 0;     // the others, which are longer
+  std::uint64_t seam_vertices = 0;     // of boundaries, where another one of them has the same position
+  std::uint64_t isolated = 0;          // vertices that nothing uses, counted with components
   // Of a component that is dropped; empty: none is.
   std::vector<bool> in_dropped;
 };

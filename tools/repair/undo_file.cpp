@@ -39,6 +39,22 @@ bool lacks_coordinate(const UndoRecord& undo) {
   return undo.vertices != 0 && undo.digest[2] == io::RunningDigest().value();
 }
 
+// Whether the four arrays and the checksum end where the file ends.
+bool is_filled_by_arrays(const io::File& file) {
+  constexpr std::uint64_t kHeadBytes = kMagic.size() + 2 * sizeof(std::uint32_t) + 8 * sizeof(std::uint64_t);
+  const std::uint64_t end = file.size();
+  std::uint64_t at = kHeadBytes;
+  for (int k = 0; k < 4; ++k) {
+    std::array<std::uint64_t, 2> array{};  // how many elements, and the size of one
+    if (end < at + sizeof array) return false;
+    file.read_at(at, std::as_writable_bytes(std::span(array)));
+    at += sizeof array;
+    if (array[1] != sizeof(std::uint64_t) || array[0] > (end - at) / sizeof(std::uint64_t)) return false;
+    at += array[0] * sizeof(std::uint64_t);
+  }
+  return at + sizeof(std::uint64_t) == end;
+}
+
 }  // namespace
 
 void write_undo(const UndoRecord& undo, const std::string& path, io::Existing existing) {
@@ -60,22 +76,28 @@ void write_undo(const UndoRecord& undo, const std::string& path, io::Existing ex
   file.commit();
 }
 
-UndoRecord read_undo(const std::string& path) {
+UndoRecord read_undo(const std::string& path, MemoryBudget& budget) {
   const io::File file = io::File::open_for_reading(path);
-  if (file.size() < kMagic.size() + sizeof kVersion + 8) refuse(path, "this is no undo file");
+  std::array<char, kMagic.size()> magic{};
+  std::uint32_t version = 0;
+  if (file.size() < magic.size() + sizeof version + 8) refuse(path, "this is not an undo file");
+  file.read_at(0, std::as_writable_bytes(std::span(magic)));
+  if (std::string_view(magic.data(), magic.size()) != kMagic) refuse(path, "this is not an undo file");
+  file.read_at(magic.size(), std::as_writable_bytes(std::span(&version, 1)));
+  if (version == 0 || version > kVersion) refuse_version(path, version);
+  if (!is_filled_by_arrays(file)) refuse(path, "the file is damaged");
+  Reservation memory = budget.reserve("undo file", 2 * file.size());
   std::vector<std::byte> bytes(file.size());
   file.read_at(0, bytes);
   StateBytes in(std::move(bytes));
-  std::array<char, kMagic.size()> magic{};
   in.get(magic);
-  if (std::string_view(magic.data(), magic.size()) != kMagic) refuse(path, "this is no undo file");
-  const auto version = in.get<std::uint32_t>();
-  if (version == 0 || version > kVersion) refuse_version(path, version);
+  in.get(version);
   std::uint64_t sum = 0;
   const auto content = std::span(in.bytes()).first(in.bytes().size() - sizeof sum);
   std::memcpy(&sum, content.data() + content.size(), sizeof sum);
   if (io::checksum(content) != sum) refuse(path, "the file is damaged");
   UndoRecord undo;
+  undo.memory = std::move(memory);
   try {
     in.get(undo.columns);
     for (std::uint64_t* count : {&undo.vertices, &undo.triangles, &undo.new_vertices, &undo.new_triangles})

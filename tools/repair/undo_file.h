@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "io/file/atomic_file.h"
+#include "libreeb/base/memory_budget.h"
 
 namespace reeb::tools {
 
@@ -21,12 +22,16 @@ struct UndoRecord {
   std::vector<double> values;          // of each of them
   std::vector<std::uint64_t> removed;  // triangles
   std::vector<std::uint64_t> corners;  // three of each, numbered as before
+  Reservation memory;                  // of a record that was read
 };
 
 // THROWS: as AtomicFile.
 void write_undo(const UndoRecord& undo, const std::string& path, io::Existing existing);
 
-// THROWS: Error{kBadInput}: no such file, not an undo file, of another version, damaged.
-UndoRecord read_undo(const std::string& path);
+// THROWS: Error{kBadInput}: no such file, not an undo file, of another version, damaged. Error{kResource} of the
+// budget,
+//         which must outlive the record.
+// MEMORY: twice the size of the file, reserved once its parts are known to fill it.
+UndoRecord read_undo(const std::string& path, MemoryBudget& budget);
 
 }  // namespace reeb::tools

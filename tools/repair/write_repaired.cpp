@@ -58,9 +58,8 @@ class RepairedCopy {
         if (vertex_ == mesh_vertices_ && !new_written_) write_new_vertices(reader->info().dimension);
         if (options_.progress) options_.progress(reader->bytes_read(), reader->info().file_bytes, triangle_);
       }
-      if (vertex_ != mesh_vertices_ || triangle_ != mesh_triangles) throw InputChanged();
+      if (vertex_ != mesh_vertices_ || triangle_ != mesh_triangles) throw input_changed();
       if (!new_written_) write_new_vertices(reader->info().dimension);
-      return 0;
     });
     write_new_triangles(reader->info().dimension);
     written_.warnings = reader->warnings();
@@ -319,7 +318,7 @@ Written write_undone(const MeshSource& source, const UndoRecord& undo, const Wri
       written.triangles += out.triangle_count();
       if (!out.empty()) writer->write(out);
       if (options.progress) options.progress(reader->bytes_read(), reader->info().file_bytes, written.triangles);
-      if (!more) return 0;
+      if (!more) return;
     }
   });
   if (!restoration.is_complete() || digest.value() != undo.digest) refuse_other_mesh(source.path);

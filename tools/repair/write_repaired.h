@@ -29,7 +29,8 @@ struct Written {
 
 // Vertices and triangles that stay keep their order and their values; new ones are the last. `before_commit` is called
 // when all was written, just before the output appears.
-// THROWS: as the readers and writers; InputChanged if the mesh does not have these numbers of vertices and triangles.
+// THROWS: as the readers and writers; Error{kChanged} if the mesh does not have these numbers of vertices and
+//         triangles.
 Written write_repaired(const MeshSource& source, const MeshEdits& edits, std::uint64_t mesh_vertices,
                        std::uint64_t mesh_triangles, const WriteOptions& options,
                        const std::function<void(const Written&)>& before_commit);

@@ -39,7 +39,7 @@ ooc::PartChoice parse_part(const std::string& text) {
     is_part = bad_parts == std::errc() && rest == end;
   }
   if (!is_part || part < 1 || part > parts || parts > kMostParts)
-    throw Error(ErrorKind::kUsage, "--part " + text + " is no part of a whole",
+    throw Error(ErrorKind::kUsage, "--part " + text + ": --part needs K/N with 1 <= K <= N",
                 "for instance --part 2/3, the second of three; there can be up to 1000000 parts");
   return {.part = part - 1, .parts = parts, .shared = {}};
 }

@@ -15,6 +15,7 @@
 #include "tools/arguments/options.h"
 #include "tools/library/run_files.h"
 #include "tools/program/compute_report.h"
+#include "tools/program/input_kind.h"
 #include "tools/program/output.h"
 #include "tools/program/progress.h"
 #include "tools/program/signals.h"
@@ -50,8 +51,10 @@ void run_glue(GlueArguments arguments) {
   RunFiles files;
   for (const std::string& fragment : arguments.fragments) files.add_input(fragment, "a fragment");
   files.add_output(arguments.output, "the output", existing_outputs(options.replace));
-  if (!arguments.report.empty()) files.add_output(arguments.report, "the report", existing_outputs(options.replace));
+  if (!arguments.report.empty())
+    files.add_output(arguments.report, "the report", existing_outputs(options.replace), "--report FILE");
   files.check();
+  for (const std::string& fragment : arguments.fragments) require_fragment(fragment);
 
   ProgressBar bar(arguments.quiet);
   options.progress = [&](const ComputeProgress& p) { bar.update(pass_of(p.phase), p.done, p.total, p.triangles); };
@@ -96,8 +99,7 @@ void add_glue(Program& program) {
       .type_name("FILE");
   command.add_flag("--graph-only", options.graph_only,
                    "Stop after the graph: no pairs, no levels (default: as in the fragments)");
-  add_count(command, "--buckets", options.buckets,
-            "0: leave the embedding out; else as in the fragments (default: as in the fragments)",
+  add_count(command, "--buckets", options.buckets, "0: no embedding (default: as in the fragments)",
             {.most = kMostBuckets});
   add_memory(command, options.memory_bytes);
   add_threads(command, options.threads);

@@ -2,9 +2,10 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
-#include <limits>
 #include <nlohmann/json.hpp>
+#include <vector>
 
 #include "libreeb/base/count_text.h"
 #include "libreeb/base/error.h"
@@ -59,11 +60,6 @@ nlohmann::ordered_json to_json(const ooc::ReebFile& file) {
   return json;
 }
 
-// Enough for people; --json has thresholds that yield exactly their level when typed back.
-std::string short_threshold(double threshold) {
-  return threshold == std::numeric_limits<double>::denorm_min() ? "> 0" : fmt::format("{:.6g}", threshold);
-}
-
 void print_text(const ooc::ReebFile& file) {
   const FileHeader& header = file.header();
   const ValueRange range{header.function_min, header.function_max};
@@ -87,10 +83,17 @@ void print_text(const ooc::ReebFile& file) {
   else
     fmt::print("  hierarchy  {}, {}, {} that cannot be cancelled\n", count_of(header.pairs, "pair"),
                count_of(header.steps, "cancellation"), count_of(header.kept_loops, "loop"));
-  fmt::print("\n  {:>12} {:>9} {:>12} {:>12} {:>11} {:>11}\n", "threshold", "of range", "nodes", "arcs", "bytes read",
-             "memory");
+  std::vector<std::string> thresholds;
+  std::size_t columns = 12;
+  for (const LevelLine& line : file.levels()) {
+    thresholds.push_back(threshold_text(file, line));
+    columns = std::max(columns, thresholds.back().size());
+  }
+  fmt::print("\n  {:>{}} {:>9} {:>12} {:>12} {:>11} {:>11}\n", "threshold", columns, "of range", "nodes", "arcs",
+             "bytes read", "memory");
+  auto threshold = thresholds.begin();
   for (const LevelLine& line : file.levels())
-    fmt::print("  {:>12} {:>9} {:>12} {:>12} {:>11} {:>11}{}\n", short_threshold(line.threshold),
+    fmt::print("  {:>{}} {:>9} {:>12} {:>12} {:>11} {:>11}{}\n", *threshold++, columns,
                range.max > range.min ? fmt::format("{:.3g} %", percent_of(range, 0, line.threshold)) : "",
                with_commas(line.nodes), with_commas(line.arcs), format_bytes(line.file_bytes),
                format_bytes(line.memory_bytes), is_whole(file, line) ? "" : "  missing");
@@ -100,7 +103,7 @@ void print_text(const ooc::ReebFile& file) {
 
 void print_reeb_info(const std::string& path, bool json) {
   const ooc::ReebFile file(path);
-  if (const Error* damage = file.damage()) fmt::print(stderr, "reeb: warning: {}\n", damage->what());
+  warn_of_damage(file);
   if (!json) return print_text(file);
   // Names can contain any bytes. Bytes that are not UTF-8 become replacement characters.
   fmt::print("{}\n", to_json(file).dump(2, ' ', false, nlohmann::json::error_handler_t::replace));

@@ -86,7 +86,8 @@ void check_files(const RunArguments& arguments, const std::vector<std::string>& 
       throw Error(ErrorKind::kBadInput, "-f " + function + " is given twice", "name each function once");
   }
   RunFiles files = files_of_run(arguments.mesh, functions, outputs, arguments.options);
-  if (!report.empty()) files.add_output(report, "the report", existing_outputs(arguments.options.replace));
+  if (!report.empty())
+    files.add_output(report, "the report", existing_outputs(arguments.options.replace), "--report FILE");
   files.check();
 }
 

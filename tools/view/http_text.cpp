@@ -3,35 +3,15 @@
 #include <algorithm>
 #include <charconv>
 #include <limits>
+#include <utility>
+
+#include "io/text/words.h"
 
 namespace reeb::tools {
 namespace {
 
 constexpr std::string_view kLineEnd = "\r\n";
 constexpr std::string_view kSpaces = " \t";
-
-std::optional<int> hex_digit(char c) {
-  if (c >= '0' && c <= '9') return c - '0';
-  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-  if (c >= 'A' && c <= 'F') return c - 'A' + 10;
-  return {};
-}
-
-std::optional<std::string> decoded(std::string_view text) {
-  std::string out;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    if (text[i] != '%') {
-      out += text[i];
-      continue;
-    }
-    if (i + 2 >= text.size()) return {};
-    const auto high = hex_digit(text[i + 1]), low = hex_digit(text[i + 2]);
-    if (!high || !low) return {};
-    out += static_cast<char>(16 * *high + *low);
-    i += 2;
-  }
-  return out;
-}
 
 std::string_view trimmed(std::string_view text) {
   const std::size_t first = text.find_first_not_of(kSpaces);
@@ -63,9 +43,9 @@ std::optional<HttpRequest> parse_request(std::string_view text) {
   const std::string_view target = line.substr(first + 1, last - first - 1);
   HttpRequest request;
   request.method = line.substr(0, first);
-  auto path = decoded(target.substr(0, target.find('?')));
-  if (!path) return {};
-  request.path = std::move(*path);
+  io::PercentDecoded path = io::percent_decoded(target.substr(0, target.find('?')));
+  if (!path.is_valid) return {};
+  request.path = std::move(path.text);
   std::size_t hosts = 0;
   std::string_view rest = text.substr(line.size());
   while (rest.starts_with(kLineEnd)) {

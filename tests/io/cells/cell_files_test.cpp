@@ -147,6 +147,45 @@ TEST(CellFiles, BadMedit) {
   bad("Dimension\n3", "Dimension\n3\nDimension\n2", 22, "two dimensions");
 }
 
+// A packed file of some kilobytes can list millions of entries.
+TEST(CellFiles, WhatAFileListsHasALimit) {
+  std::string sections, arrays;
+  for (int i = 0; i < 10000; ++i) sections += "Edges 1\n1 1 0\n";
+  const std::string medit_head = "MeshVersionFormatted 2\nDimension 3\nVertices 1\n0 0 0 0\n";
+  EXPECT_EQ(read_all(*open_mesh(write_file("most.mesh", medit_head + sections + "End\n"))).edges.size(), 10000u);
+  expect_bad(write_file("many.mesh", medit_head + sections + "Edges 1\n1 1 0\nEnd\n"), std::nullopt,
+             "more than 10,000 sections of cells");
+  for (int i = 0; i < 10000; ++i) arrays += "$NodeData\n1\n\"a\"\n0\n3\n0\n1\n0\n$EndNodeData\n";
+  const std::string msh_head = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n1\n1 0 0 0\n$EndNodes\n";
+  EXPECT_EQ(open_mesh(write_file("most.msh", msh_head + arrays))->info().property_names.size(), 10000u);
+  expect_bad(write_file("many.msh", msh_head + arrays + "$NodeData\n1\n\"a\"\n0\n3\n0\n1\n0\n$EndNodeData\n"),
+             std::nullopt, "more than 10,000 properties");
+}
+
+// The caller can look at the memory of tags before all of a block were read.
+TEST(CellFiles, TagsOfNodesCountAsMemory) {
+  constexpr std::size_t kNodes = 300000;
+  std::string tags, points;
+  for (std::size_t i = 0; i < kNodes; ++i) {
+    tags += std::to_string(2 * (kNodes - i)) + "\n";
+    points += "0 0 0\n";
+  }
+  const std::string count = std::to_string(kNodes);
+  const auto reader =
+      open_mesh(write_file("tags.msh", "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 " + count +
+                                           " 1 600000\n2 1 0 " + count + "\n" + tags + points + "$EndNodes\n"));
+  EXPECT_LT(reader->memory_bytes(), 1000u);
+  MeshBatch batch;
+  ASSERT_TRUE(reader->read(batch));
+  EXPECT_TRUE(batch.empty());
+  EXPECT_GT(reader->memory_bytes(), 1000000u);
+  EXPECT_LT(reader->memory_bytes(), 24 * kNodes);
+  std::size_t vertices = 0;
+  while (reader->read(batch)) vertices += batch.vertex_count;
+  EXPECT_EQ(vertices, kNodes);
+  EXPECT_GE(reader->memory_bytes(), 24 * kNodes);
+}
+
 TEST(CellFiles, TetGen) {
   for (const std::uint64_t first : {0u, 1u}) {
     Mesh mesh = expected(false);

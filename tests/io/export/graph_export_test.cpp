@@ -3,7 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <sstream>
+#include <utility>
+
+#include "io/export/graph_lines.h"
+#include "libreeb/base/error.h"
 
 namespace reeb::io {
 namespace {
@@ -120,6 +125,28 @@ TEST(GraphExport, SwcHasATreeForEachComponent) {
   EXPECT_EQ(Circle().text("swc"),
             "# the Reeb graph of a \"b\"\n# id type x y z radius parent\n"
             "1 0 0 0 0 0 -1\n2 0 1 0.5 0 0 1\n3 0 0 0 1.5 0 2\n4 0 0 0 1.5 0 1\n5 0 4 4 4 0 -1\n");
+}
+
+// A function is named by its user, or by a property of a file: any bytes may be in the name.
+TEST(GraphExport, AnyNameOfAFunctionIsWritten) {
+  const auto text = [](const char* format) {
+    std::ostringstream out;
+    write_graph(*graph_format(format), {ReebGraph{}, "a\x01\n<\\\xc3\xa9\xff", 0, {}, 0}, out);
+    return out.str();
+  };
+  EXPECT_NE(text("graphml").find("<data key=\"function\">a\\x01\\x0a&lt;\\\xc3\xa9\\xff</data>"), std::string::npos);
+  EXPECT_NE(text("json").find("\"function\": \"a\\u0001\\u000a<\\\\\xc3\xa9\\\\xff\","), std::string::npos);
+  EXPECT_TRUE(text("swc").starts_with("# the Reeb graph of a\\x01\\x0a<\\\xc3\xa9\\xff\n# id"));
+  for (const char* format : {"rg", "csv", "dot", "vtp", "vtu", "ply", "obj", "gltf"})
+    EXPECT_EQ(text(format).find('\xff'), std::string::npos) << format << " does not name the function";
+}
+
+TEST(GraphExport, MorePointsThanAFormatNumbersAreRefused) {
+  // glTF: an index of 2^32 - 1 restarts a line, so it is that of no point. PLY: the last index of an int is 2^31 - 1.
+  for (const auto& [most, points] : {std::pair(kMostGltfPoints, 0xffff'ffffu), {kMostPlyPoints, 0x8000'0000u}}) {
+    EXPECT_NO_THROW(require_few_points(points, most, "glTF"));
+    EXPECT_THROW(require_few_points(std::uint64_t{points} + 1, most, "glTF"), Error);
+  }
 }
 
 TEST(GraphExport, EmptyGraphAndUnknownFormat) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <random>
 
 #include "libreeb/base/error.h"
@@ -112,6 +113,20 @@ TEST(Geodesic, ObtuseCornersInAPlane) {
   }
 }
 
+// A polygon with corners on a circle: a fan, in which one vertex has all triangles.
+TEST(Geodesic, OfAPolygonWithManyCornersTakesSeconds) {
+  constexpr std::uint32_t kCorners = 200000;
+  WholeComplex fan;
+  for (std::uint32_t i = 0; i < kCorners; ++i) {
+    const double angle = 2 * std::numbers::pi * i / kCorners;
+    fan.coordinates.insert(fan.coordinates.end(), {std::cos(angle), std::sin(angle), 0});
+    if (i >= 2) fan.triangles.push_back({0, i - 1, i});
+  }
+  const auto d = distance(fan, {0});
+  for (std::uint32_t v = 0; v < kCorners; ++v)
+    ASSERT_NEAR(d[v], 2 * std::sin(std::numbers::pi * v / kCorners), 1e-6) << v;
+}
+
 TEST(Geodesic, OfSeveralSourcesInAPlane) {
   const WholeComplex plane = testing::random_plane(16, 3);
   const auto errors = errors_of(distance(plane, {0, 288}),
@@ -166,6 +181,19 @@ TEST(Geodesic, IsNeverLongerThanAlongEdges) {
     const auto f = distance(complex, {source}), g = along_edges(complex, source);
     for (std::uint32_t v = 0; v < vertices; ++v)
       ASSERT_TRUE(f[v] == g[v] || std::abs(f[v] - g[v]) <= 1e-9 * (1 + g[v]));
+  }
+}
+
+TEST(WholeComplex, ItemsHaveNumbersOf32Bits) {
+  EXPECT_NO_THROW(require_numbers(0xFFFFFFFE, "triangles"));
+  for (const std::uint64_t count : {std::uint64_t{0xFFFFFFFF}, std::uint64_t{1} << 32}) {
+    try {
+      require_numbers(count, "triangles");
+      ADD_FAILURE() << count;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::kResource);
+      EXPECT_NE(error.message().find("triangles"), std::string::npos);
+    }
   }
 }
 

@@ -117,5 +117,19 @@ TEST(Laplacian, RefusesWhatIsNotThere) {
   }
 }
 
+// Half of the eigenvectors: the method holds two matrices of 441 rows and columns.
+TEST(Laplacian, TheMemoryOfTheDenseMethodIsReserved) {
+  const WholeComplex plane = testing::random_plane(20, 1);
+  MemoryBudget small(2 << 20), enough(5 << 20);
+  try {
+    laplacian_eigenvector(plane, 220, small);
+    ADD_FAILURE() << "fits";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::kResource);
+  }
+  EXPECT_NO_THROW(laplacian_eigenvector(plane, 220, enough));
+  EXPECT_GE(enough.peak_bytes(), 16u * 441 * 441);
+}
+
 }  // namespace
 }  // namespace reeb::io

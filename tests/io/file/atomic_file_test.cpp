@@ -91,6 +91,7 @@ TEST(AtomicFile, AnExistingFileIsReplacedOnlyOnRequest) {
     file.commit();
   });
   EXPECT_EQ(early->message(), "the output exists already");
+  EXPECT_EQ(early->cause(), ErrorCause::kExists);
   EXPECT_EQ(late->kind(), ErrorKind::kBadInput);
   EXPECT_NE(late->message().find(path + ".2"), std::string::npos) << late->message();
   EXPECT_EQ(content(path), "old");

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "io/file/input_file.h"
 #include "libreeb/base/error.h"
 #include "tests/support/scratch.h"
 
@@ -73,6 +74,8 @@ TEST(File, ReportsAFullDiskWithPlaceAndNeed) {
     EXPECT_NE(e.file().find("arcs"), std::string::npos);
     EXPECT_NE(e.message().find("5 bytes"), std::string::npos);
     EXPECT_NE(e.hint().find("--temp-dir"), std::string::npos);
+    // Not the size of the file: what it holds so far needs no more.
+    EXPECT_NE(e.hint().find("at least 5 bytes"), std::string::npos) << e.hint();
   }
 }
 
@@ -100,7 +103,18 @@ TEST(File, RefusesToReadPastTheEnd) {
   file.write_at(0, text_bytes("abc"));
   std::array<std::byte, 8> bytes{};
   EXPECT_THROW(file.read_at(0, bytes), Error);
-  EXPECT_THROW(io::File::open_for_reading(scratch.path() + "/none"), Error);
+  for (const std::string& missing : {scratch.path() + "/none", std::string()}) try {
+      io::InputFile{missing};
+      ADD_FAILURE() << "opened " << missing;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.cause(), ErrorCause::kMissing);
+    }
+  try {
+    io::File::open_for_reading(scratch.path() + "/none");
+    FAIL() << "opened";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.cause(), ErrorCause::kMissing);
+  }
 }
 
 }  // namespace

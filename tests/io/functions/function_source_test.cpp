@@ -135,6 +135,10 @@ TEST(FunctionErrors, SayWhere) {
   EXPECT_EQ(odd.file(), "mesh");
   EXPECT_NE(odd.message().find("vertex 11"), std::string::npos);
   EXPECT_EQ(error_of([] { values_of(source("file:" + write_file("s", "1\n"))); }).position(), "2:1");
+  // How many vertices the mesh has is not known yet.
+  const char* const few = "has 1 value, but the mesh has more vertices";
+  EXPECT_EQ(error_of([] { values_of(source("file:" + write_file("s", "1\n"))); }).message(), few);
+  EXPECT_EQ(error_of([] { values_of(source("file:" + write_file("s.f64", std::string(8, '\0')))); }).message(), few);
   EXPECT_EQ(error_of([] { values_of(source("file:" + write_file("n", "1\n2 3\n"))); }).position(), "2:3");
   EXPECT_EQ(error_of([] { values_of(source("file:" + write_file("n", "1\nnan\n"))); }).position(), "2:1");
   const std::string nan = write_file("n.f64", scalar_bytes(1.0) + scalar_bytes(kInfinity));

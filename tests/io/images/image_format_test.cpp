@@ -58,7 +58,7 @@ TEST(ImageFormat, AnImageIsNoMesh) {
     open_mesh(open_content(path), path);
     FAIL();
   } catch (const Error& error) {
-    EXPECT_EQ(error.message(), "this is an NRRD image, a grid of values and no mesh");
+    EXPECT_EQ(error.message(), "this is an NRRD image, a grid of values, not a mesh");
   }
 }
 

@@ -83,6 +83,10 @@ TEST(RawGrid, WhatAUserWritesIsChecked) {
   EXPECT_EQ(error("5x5", ""), "--type is missing: --grid is for raw images");
   EXPECT_EQ(error("5x5", "u8", "1,x"), "--spacing \"1,x\" is not a list of numbers");
   EXPECT_EQ(error("5x5", "u8", "1,nan"), "--spacing \"1,nan\" is not a list of numbers");
+  for (const std::string zero : {"0,1", "1,-0", "1,0.0"})
+    EXPECT_EQ(error("5x5", "u8", zero),
+              "--spacing \"" + zero + "\" has a zero, which gives all vertices of an axis the same place");
+  EXPECT_EQ(error("5x5", "u8", "1,inf"), "--spacing \"1,inf\" is not a list of numbers");
   EXPECT_EQ(error("5x5", "u8", "1,1,1"), "--spacing \"1,1,1\" does not have one number for each axis of --grid 5x5");
 }
 

@@ -170,6 +170,21 @@ TEST(Vti, BadFilesAreRefused) {
   EXPECT_TRUE(error(cells).ends_with(": the image has values of cells only, but those of points are read"));
 }
 
+TEST(Vti, WhatAFileListsHasALimit) {
+  const VtiArray array = array_of("a", {0, 1, 2, 3, 4, 5});
+  const std::string file = vti_file(kImage, {array});
+  const auto error = [&file](const std::string& before, const std::string& more) {
+    std::string longer = file;
+    longer.insert(longer.find(before), more);
+    return error_of(write_file("bad.vti", longer));
+  };
+  std::string tags, arrays;
+  for (int i = 0; i < 100; ++i) tags += "<a>";
+  EXPECT_NE(error("<Piece", tags).find("the file has more than 100 tags inside each other"), std::string::npos);
+  for (int i = 0; i < 10000; ++i) arrays += "<DataArray type=\"Int8\" format=\"appended\" offset=\"0\"/>\n";
+  EXPECT_NE(error("</PointData>", arrays).find("the file has more than 10,000 arrays"), std::string::npos);
+}
+
 TEST(Vti, DamagedDataAreRefused) {
   const VtiArray array = array_of("a", {0, 1, 2, 3, 4, 5});
   const auto error = [](const std::string& file) {

@@ -48,6 +48,15 @@ inline std::unique_ptr<EventReader> open_bytes(const std::string& bytes, const s
 }
 std::unique_ptr<EventReader> open_bytes(std::string&& bytes, const std::string& name = {}) = delete;
 
+// Writes all events of a stream as text. Those before an error are written, too.
+inline void write_all_events(EventReader& reader, std::ostream& out) {
+  while (const StreamEvent* event = reader.next()) {
+    std::string line;
+    append_event(line, *event, reader.header());
+    out << line;
+  }
+}
+
 // All events as text, and the error that ended them, if any.
 struct Outcome {
   std::string events, error;
@@ -60,7 +69,7 @@ inline Outcome read_all(const std::string& bytes, const std::string& name = {}) 
   try {
     const auto reader = open_bytes(bytes, name);
     try {
-      write_events(*reader, out);
+      write_all_events(*reader, out);
     } catch (...) {
       outcome.events = out.str();
       throw;

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "io/events/pre_order.h"
+#include "io/events/stream_writer.h"
 #include "tests/io/streaming/samples.h"
 #include "tests/support/same.h"
 
@@ -68,6 +69,14 @@ std::multiset<Cell> golden_cells(const std::string& file) {
   return cells;
 }
 
+std::string events_of(MeshReader& reader) {
+  std::ostringstream text;
+  OutputBuffer out(text);
+  for (MeshBatch batch; reader.read(batch);) write_events(out, batch, batch.properties.size(), false);
+  out.flush();
+  return text.str();
+}
+
 TEST(StreamMeshReader, EverySampleIsALegalStreamWithAllItsCells) {
   for (const Sample& sample : all_samples()) {
     if (!sample.good()) continue;
@@ -103,17 +112,14 @@ TEST(StreamMeshReader, EventsOfPreOrderFilesAreThoseOfTheFile) {
     const std::string bytes = sample_bytes(sample.file);
     const auto raw = open_bytes(bytes, sample.file);
     if (raw->header().post_order || raw->header().volume) continue;
-    std::ostringstream out;
-    write_events(*open_mesh_bytes(sample, bytes, 1), out);
-    EXPECT_TRUE(test::same(out.str(), golden_events(sample.file))) << sample.file;
+    EXPECT_TRUE(test::same(events_of(*open_mesh_bytes(sample, bytes, 1)), golden_events(sample.file))) << sample.file;
   }
 }
 
 TEST(StreamMeshReader, APostOrderCellComesWithItsLastVertexAndThenTheFinalizations) {
   const std::string bytes = "f 1 3 2\nf 3 2 2\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 5 5 5\n";
-  std::ostringstream out;
-  write_events(*make_stream_mesh_reader(open_bytes(bytes), {.properties = {}, .batch_events = 1}), out);
-  EXPECT_EQ(out.str(), "v 0 0 0 0\nv 1 1 0 0\nv 2 0 1 0\nt 0 2 1\nf 0\nt 2 1 1\nf 2\nf 1\nv 3 5 5 5\nf 3\n");
+  const auto reader = make_stream_mesh_reader(open_bytes(bytes), {.properties = {}, .batch_events = 1});
+  EXPECT_EQ(events_of(*reader), "v 0 0 0 0\nv 1 1 0 0\nv 2 0 1 0\nt 0 2 1\nf 0\nt 2 1 1\nf 2\nf 1\nv 3 5 5 5\nf 3\n");
 }
 
 TEST(StreamMeshReader, ScalarsAreProperties) {
@@ -132,6 +138,46 @@ TEST(StreamMeshReader, ScalarsAreProperties) {
   EXPECT_EQ(batch.finalized.size(), 4u);
   options.properties = {"pressure"};
   EXPECT_THROW(make_stream_mesh_reader(open_bytes(bytes), options), Error);
+}
+
+// Three corners of 4 bytes each is the least that a waiting cell takes.
+TEST(StreamMeshReader, TellsWhatItHoldsBackWhileItDoes) {
+  constexpr std::uint64_t kCells = 200000, kBytes = 12;
+  std::string bytes;
+  for (std::uint64_t i = 0; i < kCells; ++i) bytes += "f 1 2 3\n";
+  bytes += "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+  const auto reader = make_stream_mesh_reader(open_bytes(bytes));
+  std::vector<std::uint64_t> held;
+  std::uint64_t triangles = 0;
+  for (MeshBatch batch; reader->read(batch);) {
+    held.push_back(reader->memory_bytes());
+    triangles += batch.triangle_count();
+  }
+  EXPECT_EQ(triangles, kCells);
+  ASSERT_GE(held.size(), 3u);
+  EXPECT_LT(2 * held[0], held[2]);
+  EXPECT_GE(held.back(), kCells * kBytes);
+}
+
+// A square grid that is never finalized: all vertices and the edges of its rim stay open.
+TEST(StreamMeshReader, TellsTheFrontOfACompressedStream) {
+  std::string text;
+  constexpr std::uint32_t kSide = 100;
+  for (std::uint32_t y = 0; y < kSide; ++y)
+    for (std::uint32_t x = 0; x < kSide; ++x) text += "v " + std::to_string(x) + " " + std::to_string(y) + " 0\n";
+  for (std::uint32_t a = 1; a + kSide < kSide * kSide; ++a)
+    if (a % kSide != 0)
+      text += "f " + std::to_string(a) + " " + std::to_string(a + 1) + " " + std::to_string(a + kSide) + "\n";
+  const auto source = open_bytes(text);
+  std::ostringstream packed;
+  const auto writer = make_smc_writer(packed, source->header());
+  while (const StreamEvent* event = source->next()) writer->write(*event);
+  writer->close();
+  const std::string bytes = packed.str();
+  const auto reader = make_stream_mesh_reader(open_bytes(bytes));
+  for (MeshBatch batch; reader->read(batch);) continue;
+  // An index and a position each.
+  EXPECT_GE(reader->memory_bytes(), std::uint64_t{kSide} * (kSide - 1) * 16);
 }
 
 }  // namespace

@@ -60,9 +60,19 @@ TEST(StreamRobustness, LongCommentsAreReadWhole) {
       EXPECT_EQ(reader->header().comments[i], std::string(50000, static_cast<char>('a' + i)));
     EXPECT_EQ(reader->header().comments.back(), "the end...");
     std::ostringstream out;
-    write_events(*reader, out);
+    write_all_events(*reader, out);
     EXPECT_EQ(out.str(), "v 0 0 0 0\nv 1 1 0 0\nv 2 0 1 0\nt 0 1 2\n");
   }
+}
+
+TEST(StreamRobustness, CommentsHaveALimit) {
+  std::string lines, text;
+  for (int i = 0; i < 10000; ++i) lines += "# c\n";
+  for (int i = 0; i < 20; ++i) text += "# " + std::string(50001, 'c') + "\n";
+  EXPECT_EQ(read_all(lines + "v 0 0 0\n").error, "");
+  EXPECT_EQ(read_all(lines + "# c\nv 0 0 0\n").error, "BAD_HEADER: the file has more than 10,000 comments");
+  EXPECT_EQ(read_all(text + "v 0 0 0\n").error,
+            "BAD_HEADER: the comments of the file have more than 1,000,000 characters in all");
 }
 
 TEST(StreamRobustness, AFaultAfterLongCommentsHasItsPlace) {

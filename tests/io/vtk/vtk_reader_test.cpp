@@ -303,6 +303,46 @@ TEST(VtkReader, BadXmlFiles) {
   bad("Name=\"velocity\"", "Name=\"velocity\"", "no vertex property \"velocity\"", {"velocity"});
 }
 
+// A packed file of some kilobytes can list millions of entries.
+TEST(VtkReader, WhatAFileListsHasALimit) {
+  const std::string head = "# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\nPOINTS 1 float\n0 0 0\n";
+  std::string sections, arrays;
+  for (int i = 0; i < 10000; ++i) sections += "VERTICES 1 2\n1 0\n";
+  EXPECT_EQ(read_all(*open_mesh(write_file("most.vtk", head + sections))).points.size(), 10000u);
+  expect_bad(write_file("many.vtk", head + sections + "VERTICES 1 2\n1 0\n"), "20007:1",
+             "more than 10,000 lists of cells");
+  // Of 65 components, 64 are properties with names.
+  std::string values;
+  for (int i = 0; i < 65; ++i) values += "0 ";
+  for (int i = 0; i < 157; ++i) arrays += "a" + std::to_string(i) + " 65 1 float\n" + values + "\n";
+  expect_bad(write_file("arrays.vtk", head + "POINT_DATA 1\nFIELD f 157\n" + arrays), std::nullopt,
+             "more than 10,000 properties");
+
+  const std::string piece = "<Piece NumberOfPoints=\"0\"/>\n";
+  const auto poly = [](const std::string& inside) {
+    return "<VTKFile type=\"PolyData\" byte_order=\"LittleEndian\">\n<PolyData>\n" + inside +
+           "</PolyData>\n</VTKFile>\n";
+  };
+  std::string pieces;
+  for (int i = 0; i < 10000; ++i) pieces += piece;
+  EXPECT_EQ(read_mesh(write_file("most.vtp", poly(pieces))), Mesh());
+  expect_bad(write_file("pieces.vtp", poly(pieces + piece)), "10003:1", "more than 10,000 pieces");
+
+  const auto nested = [&](std::size_t depth) {
+    std::string tags;
+    for (std::size_t i = 0; i < depth; ++i) tags += "<a>";
+    for (std::size_t i = 0; i < depth; ++i) tags += "</a>";
+    return poly(tags + piece);
+  };
+  EXPECT_EQ(read_mesh(write_file("nested.vtp", nested(98))), Mesh());
+  expect_bad(write_file("nested.vtp", nested(99)), "3:295", "more than 100 tags inside each other");
+
+  std::string names;
+  for (int i = 0; i < 10000; ++i) names += "<t" + std::to_string(i) + "/>\n";
+  expect_bad(write_file("names.vtp", poly(names + piece)), std::nullopt,
+             "more than 10,000 different names of tags and attributes");
+}
+
 TEST(VtkReader, DamagedPackedArrays) {
   for (const XmlStyle& style : xml_styles()) {
     if (style.compressor.empty() || style.coding != XmlStyle::Coding::kAppendedRaw) continue;

@@ -11,28 +11,35 @@
 namespace reeb {
 namespace {
 
-std::vector<std::byte> shifted(const std::vector<std::uint64_t>& numbers) {
+template <class Word>
+std::vector<std::byte> shifted(const std::vector<Word>& numbers) {
   std::vector<std::byte> planes;
-  for (unsigned p = 0; p < kBytePlanes; ++p)
-    for (const std::uint64_t number : numbers) planes.push_back(static_cast<std::byte>(number >> 8 * p));
+  for (unsigned p = 0; p < sizeof(Word); ++p)
+    for (const Word number : numbers) planes.push_back(static_cast<std::byte>(number >> 8 * p));
   return planes;
 }
 
-TEST(BytePlanes, AreTheBytesOfNumbersInBothDirections) {
+template <class Word>
+void expect_both_directions() {
   test::Random random(test::base_seed());
   for (std::size_t count = 0; count < 200; ++count) {
-    std::vector<std::uint64_t> numbers(count), back(count);
-    for (std::uint64_t& number : numbers) number = random.next();
-    std::vector<std::byte> planes(kBytePlanes * count + 1, std::byte{7});
+    std::vector<Word> numbers(count), back(count);
+    for (Word& number : numbers) number = static_cast<Word>(random.next());
+    std::vector<std::byte> planes(sizeof(Word) * count + 1, std::byte{7});
     split_planes(numbers, planes.data());
     EXPECT_EQ(planes.back(), std::byte{7});
     planes.pop_back();
     EXPECT_EQ(planes, shifted(numbers));
-    std::array<const std::byte*, kBytePlanes> places;
-    for (std::size_t p = 0; p < kBytePlanes; ++p) places[p] = planes.data() + p * count;
+    std::array<const std::byte*, sizeof(Word)> places;
+    for (std::size_t p = 0; p < places.size(); ++p) places[p] = planes.data() + p * count;
     join_planes(places, back);
     EXPECT_EQ(back, numbers);
   }
+}
+
+TEST(BytePlanes, AreTheBytesOfNumbersInBothDirections) {
+  expect_both_directions<std::uint64_t>();
+  expect_both_directions<std::uint32_t>();
 }
 
 TEST(BytePlanes, MayBeTheSame) {

@@ -33,6 +33,33 @@ TEST(Error, KeepsItsParts) {
   EXPECT_EQ(error.hint(), "fix it");
 }
 
+TEST(Error, KeepsItsCauseWithAnotherHint) {
+  EXPECT_EQ(broken().cause(), ErrorCause::kNone);
+  const Error error = broken().at("a.ply", "12").because(ErrorCause::kMissing).with_hint("make it");
+  EXPECT_EQ(error.cause(), ErrorCause::kMissing);
+  EXPECT_EQ(error.hint(), "make it");
+  EXPECT_STREQ(error.what(), "a.ply:12: it is broken");
+}
+
+// A class of its own for each cause would be lost where a place is added.
+TEST(Error, KeepsItsCauseWithAPlace) {
+  const auto caught = [](const auto& work) {
+    try {
+      work();
+    } catch (const Error& error) {
+      return error;
+    }
+    return broken();
+  };
+  const Error changed = caught([] { throw input_changed("it changed").at("a.ply", "12"); });
+  EXPECT_EQ(changed.cause(), ErrorCause::kChanged);
+  EXPECT_EQ(changed.kind(), ErrorKind::kBadInput);
+  EXPECT_STREQ(changed.what(), "a.ply:12: it changed");
+  const Error third = caught([] { throw not_manifold(9, 4).at("a.ply"); });
+  EXPECT_EQ(third.cause(), ErrorCause::kNotManifold);
+  EXPECT_STREQ(third.what(), "a.ply: the edge between vertices 4 and 9 has a third triangle");
+}
+
 TEST(Error, CanBeGivenAPlaceOnItsWayOut) {
   try {
     try {

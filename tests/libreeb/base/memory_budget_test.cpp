@@ -52,11 +52,29 @@ TEST(MemoryBudget, NamesTheOwnersWhenItRefuses) {
     FAIL() << "granted";
   } catch (const Error& e) {
     EXPECT_EQ(e.kind(), ErrorKind::kResource);
+    EXPECT_EQ(e.cause(), ErrorCause::kMemory);
     EXPECT_EQ(e.message(),
               "live graph needs 200 bytes more memory, but 100 bytes of 1000 bytes is free "
               "(in use: chunks 900 bytes)");
     EXPECT_NE(e.hint().find("--memory"), std::string::npos);
   }
+}
+
+// What grows in small steps would be refused again soon after the least that helps now.
+TEST(MemoryBudget, HintsAtTwiceTheLimitOrMore) {
+  constexpr std::uint64_t kMiB = 1 << 20;
+  const auto hint = [](std::uint64_t bytes) -> std::string {
+    MemoryBudget budget(24 * kMiB, 8 * kMiB);
+    const Reservation held = budget.reserve("live graph", 24 * kMiB);
+    try {
+      budget.reserve("live graph", bytes);
+      return "granted";
+    } catch (const Error& e) {
+      return e.hint();
+    }
+  };
+  EXPECT_EQ(hint(1), "allow more, for instance --memory 65M");
+  EXPECT_EQ(hint(100 * kMiB), "allow more, for instance --memory 233M");
 }
 
 }  // namespace

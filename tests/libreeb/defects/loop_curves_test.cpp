@@ -173,7 +173,7 @@ TEST(DefectLengths, AreDividedAtTheGap) {
   ASSERT_TRUE(unsure.length);
   EXPECT_LE(unsure.confidence, 0.5);
   EXPECT_EQ(unsure.why,
-            "2 of 4 loops are at most 4 long (4 edges); for the other 2, no curve shorter than the mesh was found; "
+            "2 of 4 loops are at most 4 long (4 edges); of the other 2 no short curve was found; "
             "graphs of other functions may "
             "have one");
   EXPECT_LE(suggest_length(std::vector{kInfinity}, 1, 1000, false).confidence, 0.5);

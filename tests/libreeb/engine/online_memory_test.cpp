@@ -46,7 +46,7 @@ TEST(OnlineMemory, WithoutFinalizationIsLinearInAnyOrder) {
         SCOPED_TRACE(testing::Message() << "random function " << is_random_function << ", shuffled " << is_shuffled
                                         << ", " << triangles << " triangles");
         std::uint64_t said = 0;
-        const std::size_t peak = bench::peak_of([&] {
+        const std::size_t peak = peak_of([&] {
           OnlineReeb engine;
           for (const double value : mesh.values) engine.add_vertex(value);
           for (const auto& triangle : mesh.triangles) engine.add_simplex(triangle);

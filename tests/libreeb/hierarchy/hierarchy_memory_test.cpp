@@ -27,15 +27,15 @@ template <class Make>
 void expect_within_promise(Make make, int exponent, const DoBoth& both) {
   std::uint64_t promised = 0, records = 0;
   std::size_t arcs = 0;
-  const std::size_t peak = bench::peak_of([&] {
+  const std::size_t peak = test::peak_of([&] {
     auto [graph, buckets] = make();
     arcs = graph.arc_count();
     std::optional<std::uint64_t> lists;
     if (buckets.size() != 0) lists = buckets.memory_bytes();
     promised = hierarchy_bytes(graph.node_count(), arcs, lists);
     Nowhere nowhere;
-    bench::peak_bytes = bench::held_bytes.load();  // memory for making the graph does not count
-    const Hierarchy hierarchy = build_hierarchy(graph, std::move(buckets), exponent, nowhere, {}, both);
+    test::peak_bytes = test::held_bytes.load();  // memory for making the graph does not count
+    const Hierarchy hierarchy = build_hierarchy(graph, std::move(buckets), exponent, nowhere, {.both = both});
     records = nowhere.records();
     ASSERT_GT(hierarchy.persistence.size(), arcs / 50);
   });

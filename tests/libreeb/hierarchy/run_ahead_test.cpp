@@ -40,7 +40,8 @@ Result build(const test::EmbeddedGraph& made, const DoBoth& both, const RunAhead
   ReebGraph graph = made.graph;
   Result result;
   Recorder recorder(result);
-  result.hierarchy = build_hierarchy(graph, pack_lists(made.buckets.view()), made.exponent, recorder, {}, both, ahead);
+  result.hierarchy =
+      build_hierarchy(graph, pack_lists(made.buckets.view()), made.exponent, recorder, {.both = both, .ahead = ahead});
   return result;
 }
 
@@ -130,7 +131,7 @@ TEST(RunAhead, AnErrorEndsBothThreads) {
   const test::EmbeddedGraph made = large_graph(bench::kPlate, 20000);
   ReebGraph graph = made.graph;
   Full sink;
-  EXPECT_THROW(build_hierarchy(graph, pack_lists(made.buckets.view()), made.exponent, sink, {}, both),
+  EXPECT_THROW(build_hierarchy(graph, pack_lists(made.buckets.view()), made.exponent, sink, {.both = both}),
                std::length_error);
   EXPECT_EQ(sink.records, 5000);
 }

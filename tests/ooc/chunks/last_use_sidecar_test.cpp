@@ -124,5 +124,19 @@ TEST(MeshIdentity, SeesSizeTimeAndContent) {
   EXPECT_THROW(identify_mesh(scratch.path() + "/none"), Error);
 }
 
+TEST(MeshIdentity, IsThatOfOneFileIfAnotherGetsItsName) {
+  const Scratch scratch;
+  const std::string path = scratch.path() + "/mesh", other = scratch.path() + "/other";
+  put(path, "the first");
+  put(other, "the second one");
+  const auto time = fs::last_write_time(path);
+  fs::last_write_time(other, time - std::chrono::hours(1));
+  const MeshIdentity first = identify_mesh(path), second = identify_mesh(other);
+  const io::File opened = io::File::open_for_reading(path);
+  fs::rename(other, path);
+  EXPECT_EQ(identify_mesh(opened), first);
+  EXPECT_EQ(identify_mesh(path), second);
+}
+
 }  // namespace
 }  // namespace reeb::ooc

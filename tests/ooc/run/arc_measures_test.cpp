@@ -124,10 +124,15 @@ ooc::MeasuredArcs measure(const ComplexMesh& mesh, const std::string& file, std:
   ooc::MeshInput input;
   input.indexed = std::make_unique<IndexedComplex>(mesh);
   ColumnFunction function(3);
-  ooc::Segmentation segmentation(std::move(input), function, mesh.vertex_count(), ooc::ReebFile(file), version,
-                                 temp.path() + "/out", std::move(options));
+  const ooc::ReebFile stored(file);
+  const auto segmentation = ooc::segment_mesh(std::move(input), function,
+                                              {.file = stored,
+                                               .version = version,
+                                               .vertex_bound = mesh.vertex_count(),
+                                               .output = temp.path() + "/out",
+                                               .options = std::move(options)});
   UnfinalizedComplex again(mesh, seed);
-  return segmentation.measure(again);
+  return segmentation->measure(again);
 }
 
 constexpr double kTolerance = 1e-9;

@@ -130,6 +130,17 @@ TEST(MemoryPlan, AUsersChunksAreKept) {
   EXPECT_EQ(p.chunk.most, 140u);
 }
 
+// Corners alone take 12 bytes a triangle.
+TEST(MemoryPlan, AUsersChunksAreNotLargerThanMemory) {
+  for (const std::size_t triangles : {std::size_t{100'000'000}, ~std::size_t{0}}) {
+    const MemoryPlan p = plan({.chunk_triangles = triangles}, kSmallestLimit);
+    EXPECT_LE(p.chunk.first * 12, kSmallestLimit / 2);
+    EXPECT_GE(p.chunk.first, 100'000u);
+    EXPECT_EQ(p.chunk.most, p.chunk.first);
+    EXPECT_EQ(p.chunk.patch, p.chunk.first);
+  }
+}
+
 TEST(MemoryPlan, LessThanTheLeastIsRefused) {
   EXPECT_NO_THROW(plan({}, kSmallestLimit));
   for (const std::uint64_t limit : {std::uint64_t{0}, kSmallestLimit - 1}) try {

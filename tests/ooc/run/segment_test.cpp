@@ -54,13 +54,17 @@ Segmented segment(const ComplexMesh& mesh, const RunShape& shape, const ooc::Ree
   options.temp_dir = temp.path();
   if (seed % 3 == 0) options.memory_bytes = 24 << 20;
   ColumnFunction function(3);
-  ooc::Segmentation segmentation(input_of(mesh, shape.form, seed), function, mesh.vertex_count(), file, version,
-                                 temp.path() + "/out", std::move(options));
+  const auto segmentation = ooc::segment_mesh(input_of(mesh, shape.form, seed), function,
+                                              {.file = file,
+                                               .version = version,
+                                               .vertex_bound = mesh.vertex_count(),
+                                               .output = temp.path() + "/out",
+                                               .options = std::move(options)});
   Segmented result;
-  result.labels.resize(segmentation.vertex_bound());
-  result.values.resize(segmentation.vertex_bound());
-  segmentation.read(result.labels, result.values);
-  result.counts = segmentation.counts();
+  result.labels.resize(segmentation->vertex_bound());
+  result.values.resize(segmentation->vertex_bound());
+  segmentation->read(result.labels, result.values);
+  result.counts = segmentation->counts();
   EXPECT_TRUE(temp.empty());
   return result;
 }

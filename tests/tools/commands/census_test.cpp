@@ -167,6 +167,8 @@ TEST_F(Census, InTextASurfaceHasALineForEachKindOfDefect) {
            "  loose edges   1\n",
            "  orientation   not defined: it has 1 non-manifold edge\n",
            "  genus         not defined: it has 1 non-manifold edge\n",
+           // 8 vertices, 13 edges (six of 0 to 3, five of 4 to 7, {0, 4} and {0, 5}) and 5 different triangles
+           "  Euler number  0\n",
        })
     EXPECT_NE(text.find(line), std::string::npos) << line << text;
 }

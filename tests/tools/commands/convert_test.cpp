@@ -238,6 +238,44 @@ TEST_F(Convert, EveryOrderIsACompactStreamOfTheSameTriangles) {
   EXPECT_LE(width["spectral"], width["hilbert"]);
 }
 
+TEST_F(Convert, ListsOfEventsRestoreEveryNumber) {
+  write("double.obj", "v 0.123456789 1e-300 -0.1\nv 16777217 0.3333333333333333 0\nv 0 1 0.5\nf 1 2 3\n");
+  const std::string vertices = "v 0 0.123456789 1e-300 -0.1\nv 1 16777217 0.3333333333333333 0\nv 2 0 1 0.5\n";
+  expect_success("convert double.obj plain.events.txt");
+  EXPECT_EQ(text("plain.events.txt"), vertices + "t 0 1 2\n");
+  expect_success("convert double.obj compact.events.txt --finalize");
+  EXPECT_EQ(text("compact.events.txt"), vertices + "t 0 1 2\nf 0\nf 1\nf 2\n");
+  // Nine digits restore a float32.
+  write("single.ply",
+        "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
+        "property float z\nend_header\n0.123456789 0.5 -2\n");
+  for (const std::string option : {"", " --finalize"}) {
+    expect_success("convert single.ply single.events.txt --force" + option);
+    EXPECT_TRUE(text("single.events.txt").starts_with("v 0 0.123456791 0.5 -2\n")) << option;
+  }
+}
+
+TEST_F(Convert, AListOfEventsThatCannotBeWrittenIsAnError) {
+  std::filesystem::create_symlink("/dev/full", path("full.events.txt"));
+  write("one.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const Outcome outcome = reeb("convert one.obj full.events.txt --force");
+  EXPECT_EQ(outcome.exit_code, 3) << outcome.error;
+  EXPECT_NE(outcome.error.find("full.events.txt"), std::string::npos) << outcome.error;
+}
+
+// All cells wait for their vertices, 12 bytes each at least.
+TEST_F(Convert, APostOrderStreamThatDoesNotFitIntoMemoryIsAnError) {
+  std::string stream;
+  for (int i = 0; i < 400000; ++i) stream += "f 1 2 3\n";
+  write("late.sma", stream + "v 0 0 0\nv 1 0 0\nv 0 1 0\n");
+  for (const std::string command : {"compute late.sma -o late.reeb --quiet", "info late.sma"}) {
+    const Outcome outcome = reeb(command + " --memory 16M");
+    EXPECT_EQ(outcome.exit_code, 3) << command << outcome.error;
+    EXPECT_NE(outcome.error.find("mesh reader"), std::string::npos) << outcome.error;
+    EXPECT_NE(outcome.error.find("--memory"), std::string::npos) << outcome.error;
+  }
+}
+
 TEST_F(Convert, IsolatedVerticesAndDegenerateTrianglesSurviveFinalization) {
   write("odd.obj", "v 9 9 9\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 5 5 5\nf 2 3 4\nf 2 3\nf 4 3 4\n");
   expect_success("convert odd.obj odd.events.txt --finalize");

@@ -355,12 +355,22 @@ TEST_F(FragmentTest, RefusesEveryCutAndEveryFlippedBit) {
   write("p2.fragment", "hello");
   expect_error(reeb({"glue", "p1.fragment", "p2.fragment", "-o", "all.reeb"}), 1,
                "p2.fragment: this is not a fragment");
+  write("small.off", kSmallOff);
+  expect_error(reeb({"glue", "p1.fragment", "small.off", "-o", "all.reeb"}), 1,
+               "small.off: this is a mesh (OFF), not a fragment");
+  expect_success(reeb({"small.off"}));
+  expect_error(reeb({"glue", "p1.fragment", "small.reeb", "-o", "all.reeb"}), 1,
+               "small.reeb: this is a Reeb graph, not a fragment");
+  expect_success(reeb({"fragment", "small.off", "--scan", "--part", "1/1", "-o", "p1.names"}));
+  expect_error(reeb({"glue", "p1.fragment", "p1.names", "-o", "all.reeb"}), 1,
+               "p1.names: this is a file of names, not a fragment");
 }
 
 TEST_F(FragmentTest, RefusesWhatIsNoPartOfAWhole) {
   write("small.off", kSmallOff);
   for (const char* part : {"0/3", "4/3", "1", "1/", "/2", "a/b", "-1/2", "1/2/3"})
-    expect_error(reeb({"fragment", "small.off", "--part", part}), 2, std::string{"--part "}.append(part));
+    expect_error(reeb({"fragment", "small.off", "--part", part}), 2,
+                 std::string{"--part "}.append(part) + ": --part needs K/N");
   expect_error(reeb({"fragment", "-", "--part", "1/2"}), 2, "a part of standard input cannot be computed");
   for (const std::vector<std::string>& option : std::vector<std::vector<std::string>>{
            {"--manifold"}, {"--sidecar"}, {"--snapshot-every", "5"}, {"--report", "-"}}) {
@@ -369,6 +379,7 @@ TEST_F(FragmentTest, RefusesWhatIsNoPartOfAWhole) {
     expect_error(reeb(words), 2, option[0] + ": ");
   }
   fragments("small.off", 1);
+  expect_error(reeb({"glue", "p1.fragment", "all.reeb"}), 2, "--output is missing (did you mean -o all.reeb?)");
   expect_error(reeb({"glue", "p1.fragment", "-o", "all.ply"}), 2, "all.ply: the name of the output must end in");
 }
 

@@ -40,6 +40,11 @@ class Function : public ProgramTest {
     const std::string raw = file("v.f64");
     EXPECT_EQ(raw.size(), 8 * result.size());
     EXPECT_EQ(std::memcmp(raw.data(), result.data(), std::min(raw.size(), 8 * result.size())), 0) << function;
+    expect_success(reeb({"function", mesh, "-f", function, "-o", "v.npy", "--force", "--quiet"}));
+    std::string dictionary =
+        "{'descr': '<f8', 'fortran_order': False, 'shape': (" + std::to_string(result.size()) + ",), }";
+    dictionary.resize(117, ' ');
+    EXPECT_EQ(file("v.npy"), "\x93NUMPY\x01" + std::string("\0\x76\0", 3) + dictionary + "\n" + raw) << function;
     return result;
   }
 };
@@ -96,14 +101,17 @@ TEST_F(Function, APropertyOfThePlyGivesTheSameGraph) {
     SCOPED_TRACE(function);
     expect_success(reeb({"function", "s.off", "-f", function, "-o", "p.ply", "--force", "--quiet"}));
     expect_success(reeb({"function", "s.off", "-f", function, "-o", "p.f64", "--force", "--quiet"}));
+    expect_success(reeb({"function", "s.off", "-f", function, "-o", "p.npy", "--force", "--quiet"}));
     for (const auto& [mesh, name, out] : {std::tuple{std::string("s.off"), function, "a.reeb"},
                                           {"p.ply", "property:" + function, "b.reeb"},
-                                          {"s.off", "file:p.f64", "c.reeb"}})
+                                          {"s.off", "file:p.f64", "c.reeb"},
+                                          {"s.off", "file:p.npy", "d.reeb"}})
       expect_success(reeb({"compute", mesh, "-f", name, "-o", out, "--quiet", "--force"}));
-    for (const char* out : {"a.reeb", "b.reeb", "c.reeb"})
+    for (const char* out : {"a.reeb", "b.reeb", "c.reeb", "d.reeb"})
       expect_success(reeb({"pairs", out, "-o", std::string(out) + ".csv", "--force"}));
     EXPECT_EQ(file("a.reeb.csv"), file("b.reeb.csv"));
     EXPECT_EQ(file("a.reeb.csv"), file("c.reeb.csv"));
+    EXPECT_EQ(file("a.reeb.csv"), file("d.reeb.csv"));
     expect_success(reeb({"verify", "a.reeb", "--mesh", "s.off"}));
   }
 }

@@ -230,6 +230,63 @@ TEST_F(Image, IsDescribedByItsOptions) {
   EXPECT_EQ(plane["dimension"], 2);
 }
 
+TEST_F(Image, WithAHeaderTakesNoOptionsOfRawOnes) {
+  const std::string header = "NRRD0005\ntype: uchar\ndimension: 2\nsizes: 2 2\nencoding: ascii\n\n";
+  write("v.nrrd", header + "1 2 3 4\n");
+  const Outcome spacing = reeb({"compute", "v.nrrd", "--spacing", "1,2"});
+  expect_error(spacing, 2, "v.nrrd: --spacing is for raw images; an NRRD image says this in its header");
+  expect_error(reeb({"info", "v.nrrd", "--type", "u8"}), 2, "v.nrrd: --type is for raw images; an NRRD image");
+  write("v.npy", "\x93NUMPY\x01" + std::string("\0\x3a\0", 3) +
+                     "{'descr': '|u1', 'fortran_order': False, 'shape': (2, 2)} " + "1234");
+  expect_success(reeb({"info", "v.npy"}));
+  expect_error(reeb({"compute", "v.npy", "--spacing", "1,2"}), 2,
+               "v.npy: --spacing is for raw images; the vertices of a NumPy array are 1 apart");
+  write("mesh.off", kSmallOff);
+  expect_error(reeb({"compute", "mesh.off", "--spacing", "1,1,2"}), 2,
+               "mesh.off: --spacing is for raw images, and this is a mesh");
+}
+
+TEST_F(Image, SaysItsGridItsTypeAndItsSpacing) {
+  const std::string begin = "NRRD0005\ntype: short\ndimension: 3\nsizes: 3 2 2\nencoding: ascii\n";
+  const std::string end = "\n1 2 3 4 5 6 7 8 9 10 11 12\n";
+  write("a.nrrd", begin + end);
+  write("b.nrrd", begin + "spacings: 0.5 1 2.5\n" + end);
+  const std::string a = reeb({"info", "a.nrrd"}).output, b = reeb({"info", "b.nrrd"}).output;
+  EXPECT_NE(a.find("  grid          3 x 2 x 2, i16, spacing 1 x 1 x 1 (not in the file)\n"), std::string::npos) << a;
+  EXPECT_NE(b.find("  grid          3 x 2 x 2, i16, spacing 0.5 x 1 x 2.5\n"), std::string::npos) << b;
+  EXPECT_EQ(a.find("finalization"), std::string::npos) << a;
+  const auto json = nlohmann::json::parse(reeb({"info", "b.nrrd", "--json"}).output)["grid"];
+  EXPECT_EQ(json["size"], nlohmann::json({3, 2, 2}));
+  EXPECT_EQ(json["type"], "i16");
+  EXPECT_EQ(json["spacing"], nlohmann::json({0.5, 1, 2.5}));
+  EXPECT_EQ(json["spacing_in_file"], true);
+  const Outcome converted = reeb({"convert", "a.nrrd", "a.ply"});
+  expect_success(converted);
+  const std::string note = "note: all faces of the tetrahedra are written, not an isosurface\n";
+  EXPECT_NE(converted.error.find(note), std::string::npos) << converted.error;
+  EXPECT_EQ(reeb({"convert", "a.nrrd", "a.sva"}).error.find(note), std::string::npos);
+}
+
+TEST_F(Image, OfSeveralChannelsSaysWhichOneIsUsed) {
+  std::string values;
+  for (int v = 0; v < 3 * 9 * 9; ++v) values += std::to_string(v * v % 17) + "\n";
+  const std::string begin = "NRRD0005\ntype: uchar\ndimension: 3\nsizes: 3 9 9\nencoding: ascii\n";
+  write("volume.nrrd", begin + "\n" + values);
+  write("colors.nrrd", begin + "kinds: RGB-color domain domain\n\n" + values);
+  const auto error_of = [&](const std::string& mesh, const std::string& function) {
+    const Outcome outcome = reeb({"compute", mesh, "-f", function, "-o", "o.reeb", "--force"});
+    expect_success(outcome);
+    return outcome.error;
+  };
+  const std::string axis = "note: an axis is 3 long; if this is a colour image, use one of its channels\n";
+  EXPECT_NE(error_of("volume.nrrd", "value").find(axis), std::string::npos);
+  EXPECT_EQ(error_of("volume.nrrd", "x").find(axis), std::string::npos);
+  const std::string channels = "note: each vertex has 3 values; value is the first, value:1 the second\n";
+  EXPECT_NE(error_of("colors.nrrd", "value").find(channels), std::string::npos);
+  EXPECT_EQ(error_of("colors.nrrd", "value:1").find(channels), std::string::npos);
+  EXPECT_EQ(error_of("colors.nrrd", "value").find(axis), std::string::npos);
+}
+
 TEST_F(Image, AloneHasAValue) {
   write("mesh.off", kSmallOff);
   expect_error(reeb({"compute", "mesh.off", "-f", "value"}), 1);

@@ -283,6 +283,10 @@ TEST_F(Outputs, WhatCannotBeWrittenIsSaidBeforeAnyWork) {
     expect_error(reeb({"convert", "bad.off", name + ".ply"}), 3);
     expect_error(reeb({"generate", "torus", "-o", name + ".ply"}), 3);
   }
+  // 255 bytes are allowed, but a temporary file has 18 more.
+  const Outcome too_long = reeb({"compute", "bad.off", "-o", std::string(238, 'x')});
+  expect_error(too_long, 3);
+  EXPECT_NE(too_long.error.find("choose a name of at most 237 bytes"), std::string::npos) << too_long.error;
   // A folder is an output that exists, and one that nothing can write.
   for (const auto& [option, code] : {std::pair("--quiet", 1), std::pair("--force", 3)}) {
     expect_error(reeb({"compute", "bad.off", "-o", "folder", option}), code, "folder: the output is a folder");

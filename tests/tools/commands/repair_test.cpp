@@ -210,6 +210,9 @@ TEST_F(RepairTest, DropsAndFillsWhatIsAskedFor) {
   EXPECT_TRUE(std::equal(good.triangles.begin(), good.triangles.end(), now.triangles.begin()));
   now = run({"--drop-duplicates", "--fill-boundaries", "0.001"});
   EXPECT_EQ(json("log.json")["boundaries_filled"], 0);
+  const auto left = json("log.json")["boundaries_left"];
+  ASSERT_FALSE(left.empty());
+  for (const auto& why : left) EXPECT_EQ(why, "it is longer than --fill-boundaries LENGTH");
 }
 
 TEST_F(RepairTest, TakesRowsOfAnyFunction) {
@@ -479,12 +482,36 @@ TEST_F(RepairTest, KeepsTheSignOfZeros) {
   EXPECT_EQ(count(ply("e.ply")), 0u);
 }
 
+TEST_F(RepairTest, SaysWhatIsOdd) {
+  const auto says = [&](const std::vector<std::string>& options, const std::string& text) {
+    std::vector<std::string> words = {"repair", "a.off", "-o", "b.ply", "--force"};
+    words.insert(words.end(), options.begin(), options.end());
+    const Outcome outcome = reeb(words);
+    expect_success(outcome);
+    EXPECT_NE(outcome.error.find(text), std::string::npos) << outcome.error;
+  };
+  write("a.off", "OFF\n2 0 0\n0 0 0\n1 0 0\n");
+  says({}, "note: the mesh has no triangles\n");
+  EXPECT_EQ(reeb({"compute", "a.off"}).error.find("genus"), std::string::npos);
+  write("a.off", "OFF\n5 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 3 3\n3 0 1 2\n3 0 3 1\n3 0 2 3\n3 1 3 2\n");
+  says({"--drop-components", "1%"}, "no component dropped; 1 isolated vertex stays\n");
+  // Two squares with a seam between them. Any filling would lie on them.
+  write("a.off",
+        "OFF\n8 4 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n1 0 0\n2 0 0\n2 1 0\n1 1 0\n3 0 1 2\n3 0 2 3\n3 4 5 6\n3 4 6 7\n");
+  says({"--fill-boundaries", "100"}, "note: 4 vertices of boundaries are in the place of another one");
+  expect_success(reeb({"generate", "torus", "--triangles", "1k", "-o", "a.off", "--force"}));
+  says({"--longest", "100"}, "note: --longest 100 is more than the whole mesh (");
+}
+
 TEST_F(RepairTest, SaysWhatAnObjFileLoses) {
   write("a.obj", "v 0 0 0 1 0 0\nv 1 0 0 1 0 0\nv 0 1 0 1 0 0\nvn 0 0 1\nf 1//1 2//1 3//1\n");
   const Outcome outcome = reeb({"repair", "a.obj", "-o", "b.obj", "--drop-degenerate"});
   expect_success(outcome);
-  EXPECT_NE(outcome.error.find("not kept from the OBJ file: normals, texture"), std::string::npos) << outcome.error;
+  EXPECT_NE(outcome.error.find("not kept from the OBJ file: normals, colours\n"), std::string::npos) << outcome.error;
   EXPECT_EQ(file("b.obj").find("vn"), std::string::npos);
+  const Outcome again = reeb({"repair", "b.obj", "-o", "c.obj", "--drop-degenerate"});
+  expect_success(again);
+  EXPECT_EQ(again.error.find("not kept"), std::string::npos) << again.error;
 }
 
 TEST_F(RepairTest, LeavesNothingHalfWrittenWhenItIsKilled) {
@@ -568,7 +595,9 @@ TEST_F(RepairTest, RefusesWhatItCannotDo) {
   EXPECT_EQ(reeb({"repair", "t.ply", "-o", "o.ply"}).exit_code, 1);
   EXPECT_EQ(reeb({"repair", "t.ply", "-o", "t.ply", "--force"}).exit_code, 1);
   EXPECT_EQ(reeb({"repair", "t.ply", "-o", "p.xyz"}).exit_code, 2);
-  EXPECT_EQ(reeb({"repair", "t.ply", "-o", "p.ply", "--drop-components", "5"}).exit_code, 2);
+  for (const std::string share : {"5", "0.5%x", "101%"})
+    expect_error(reeb({"repair", "t.ply", "-o", "p.ply", "--drop-components", share}), 2,
+                 "--drop-components: \"" + share + "\" is not a share");
   EXPECT_EQ(reeb({"repair", "t.ply", "-o", "p.ply", "--fill-boundaries", "x"}).exit_code, 2);
   EXPECT_EQ(reeb({"repair", "t.ply", "-o", "p.ply", "--longest", "1%"}).exit_code, 2);
   for (const char* length : {"-1", "x", "3%"}) {
@@ -595,12 +624,25 @@ TEST_F(RepairTest, RefusesWhatItCannotDo) {
   }
   write("bad.undo", bytes.substr(0, bytes.size() / 2));
   EXPECT_EQ(reeb({"repair", "o.ply", "--apply-undo", "bad.undo", "-o", "p.ply"}).exit_code, 1);
+  // What is no undo file, or has more bytes than its arrays, is not read to its end.
+  for (const std::string& begin : {std::string(), bytes}) {
+    write("bad.undo", begin);
+    std::filesystem::resize_file(in_folder("bad.undo"), std::uint64_t{1} << 31);
+    const Outcome outcome = reeb({"repair", "o.ply", "--apply-undo", "bad.undo", "-o", "p.ply"});
+    expect_error(outcome, 1, "bad.undo: ");
+    if (!kSanitized) {
+      EXPECT_LT(outcome.peak_rss_bytes, std::uint64_t{64} << 20);
+    }
+  }
   write("rows.csv", "rank,lo,hi,function\n1,0,1,x\n");
   EXPECT_EQ(reeb({"repair", "t.ply", "-o", "p.ply", "--loops", "rows.csv"}).exit_code, 1);
   write("rows.csv", "rank,lo,hi,function\n1,0,99999999999999999999,x\n");
   const Outcome too_large = reeb({"repair", "t.ply", "-o", "p.ply", "--loops", "rows.csv"});
   EXPECT_NE(too_large.error.find("rows.csv:2: this is not a row of a table of defects"), std::string::npos)
       << too_large.error;
+  write("rows.csv", "rank,lo,hi,function\n" + std::string(65'536, '1') + "\n");
+  expect_error(reeb({"repair", "t.ply", "-o", "p.ply", "--loops", "rows.csv"}), 1, "rows.csv:2: this line is longer");
+  expect_error(reeb({"repair", "t.ply", "-o", "p.ply", "--loops", "/dev/zero"}), 1, "/dev/zero: ");
   write("rows.csv", "rank,lo,hi\n");
   EXPECT_EQ(reeb({"repair", "t.ply", "-o", "p.ply", "--loops", "rows.csv"}).exit_code, 1);
   EXPECT_FALSE(std::filesystem::exists(in_folder("p.ply")));

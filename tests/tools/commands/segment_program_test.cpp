@@ -120,7 +120,7 @@ TEST_F(SegmentProgram, NamesTheMeshAndTheGraphOfAnotherOne) {
   expect_success(reeb({"compute", "small.ply", "--quiet"}));
   const Outcome outcome = reeb({"segment", "big.ply", "small.reeb", "-o", "l.i64", "--quiet"});
   expect_error(outcome, 1, "big.ply: the mesh has a vertex ");
-  EXPECT_NE(outcome.error.find(", but small.reeb is the graph of "), std::string::npos) << outcome.error;
+  EXPECT_NE(outcome.error.find(", but the mesh of small.reeb has "), std::string::npos) << outcome.error;
 }
 
 TEST_F(SegmentProgram, RefusesWhatItCannotLabel) {

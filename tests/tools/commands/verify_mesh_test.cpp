@@ -23,7 +23,7 @@ class VerifyMesh : public ProgramTest {
   }
 };
 
-constexpr const char* kTetrahedron = "1 component, Euler characteristic 2, a closed surface of genus 0\n";
+constexpr const char* kTetrahedron = "1 component, Euler characteristic 2, a closed surface: at most 0 loops\n";
 
 TEST_F(VerifyMesh, CountsWhatTheMeshIs) {
   write("closed.off", kSmallOff);
@@ -48,10 +48,35 @@ TEST_F(VerifyMesh, CountsWhatTheMeshIs) {
             "bounded\n");
 }
 
-TEST_F(VerifyMesh, ATorusHasGenusOneForEveryFunction) {
+TEST_F(VerifyMesh, ATorusHasAtMostOneLoopForEveryFunction) {
   expect_success(reeb({"generate", "torus", "--triangles", "2000", "-o", "torus.ply"}));
   for (const char* function : {"x", "z", "index", "random:3"})
-    EXPECT_EQ(said_of("torus.ply", function), "1 component, Euler characteristic 0, a closed surface of genus 1\n");
+    EXPECT_EQ(said_of("torus.ply", function),
+              "1 component, Euler characteristic 0, a closed surface: at most 1 loop\n");
+}
+
+// A grid of squares, whose sides are joined: two as those of a torus, the other two reversed.
+TEST_F(VerifyMesh, AKleinBottleHasNoGenusOfAnOrientedSurface) {
+  constexpr int kSize = 6;
+  std::string text = "OFF\n" + std::to_string(kSize * kSize) + " " + std::to_string(2 * kSize * kSize) + " 0\n";
+  const auto number = [](int i, int j) {
+    return std::to_string(i % kSize * kSize + (i < kSize ? j : 2 * kSize - j) % kSize);
+  };
+  for (int i = 0; i < kSize; ++i)
+    for (int j = 0; j < kSize; ++j)
+      text += std::to_string(i) + " " + std::to_string(j) + " " + std::to_string(i * j % 5) + "\n";
+  for (int i = 0; i < kSize; ++i) {
+    for (int j = 0; j < kSize; ++j) {
+      const std::string corner = number(i, j), opposite = number(i + 1, j + 1);
+      text += "3 " + corner + " " + number(i + 1, j) + " " + opposite + "\n";
+      text += "3 " + corner + " " + opposite + " " + number(i, j + 1) + "\n";
+    }
+  }
+  write("klein.off", text);
+  EXPECT_EQ(said_of("klein.off"), "1 component, Euler characteristic 0, a closed surface: at most 1 loop\n");
+  const Outcome info = reeb({"info", "klein.off"});
+  expect_success(info);
+  EXPECT_NE(info.output.find("it is not orientable"), std::string::npos) << info.output;
 }
 
 TEST_F(VerifyMesh, AnotherMeshIsNoticed) {

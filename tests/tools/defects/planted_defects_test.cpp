@@ -310,6 +310,18 @@ TEST_F(PlantedDefects, SmallToriAreHandlesHoweverTheyAreTurned) {
   }
 }
 
+// The patch holds all of the surface, which is closed but for one triangle.
+TEST_F(PlantedDefects, ASmallTorusWithAHoleIsAHandle) {
+  for (const bool inwards : {false, true})
+    for (std::size_t hole = 0; hole < 160; hole += 7) {
+      PlantedMesh mesh = small_torus(10, 8, 0, inwards);
+      mesh.triangles.erase(mesh.triangles.begin() + static_cast<std::ptrdiff_t>(hole));
+      const Defects defects = defects_of(mesh, folder());
+      ASSERT_FALSE(defects.table.rows.empty()) << hole;
+      for (const DefectRow& row : defects.table.rows) EXPECT_NE(row.kind, DefectKind::kTunnel) << inwards << hole;
+    }
+}
+
 // The surface of those of 3 × 3 × 3 cubes for which is_full(place) is true.
 template <class IsFull>
 PlantedMesh surface_of_cubes(const IsFull& is_in) {
@@ -399,7 +411,9 @@ TEST_F(PlantedDefects, AreFoundWithTheGraphOfOneCoordinate) {
 
 TEST_F(PlantedDefects, FoldersOfPatchesAreCheckedFirst) {
   expect_success(reeb({"generate", "torus", "--triangles", "2000", "-o", "t.ply"}));
-  expect_error(reeb({"defects", "t.ply", "--patches", "no/near", "--quiet"}), 3);
+  const Outcome missing = reeb({"defects", "t.ply", "--patches", "no/near", "--quiet"});
+  expect_error(missing, 3, "no: this folder does not exist");
+  EXPECT_NE(missing.error.find("--patches DIR"), std::string::npos) << missing.error;
   EXPECT_EQ(files(), std::vector<std::string>{"t.ply"});
   write("file", "");
   expect_error(reeb({"defects", "t.ply", "--patches", "file", "--quiet"}), 3);
@@ -461,11 +475,11 @@ TEST_F(PlantedDefects, FilesOfAnotherMeshAreRefused) {
 TEST_F(PlantedDefects, OfCellsAreRefused) {
   expect_success(reeb({"generate", "ball", "--tetrahedra", "300", "-o", "b.svb"}));
   expect_success(reeb({"compute", "b.svb", "--quiet"}));
-  expect_error(reeb({"defects", "b.svb"}), 1, "b.svb: the mesh has cells, so it is no surface");
-  expect_error(reeb({"defects", "b.svb", "b.reeb"}), 1, "b.svb: the mesh has cells, so it is no surface");
+  expect_error(reeb({"defects", "b.svb"}), 1, "b.svb: the mesh has cells, so it is not a surface");
+  expect_error(reeb({"defects", "b.svb", "b.reeb"}), 1, "b.svb: the mesh has cells, so it is not a surface");
   expect_success(reeb({"generate", "volume", "--grid", "9x9x9", "--handles", "1", "-o", "v.nrrd"}));
   const Outcome image = reeb({"defects", "v.nrrd"});
-  expect_error(image, 1, "v.nrrd: the mesh has cells, so it is no surface");
+  expect_error(image, 1, "v.nrrd: the mesh has cells, so it is not a surface");
   EXPECT_NE(image.error.find("hint: make an isosurface of the image"), std::string::npos) << image.error;
   write("one.off", kSmallOff);
   EXPECT_EQ(reeb({"defects", "one.off", "--quiet"}).output, "no loops in the graph of x: nothing to list\n");

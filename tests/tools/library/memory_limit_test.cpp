@@ -5,6 +5,7 @@
 #include <cstring>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -187,6 +188,85 @@ TEST_F(MemoryLimit, HoldsForValuesOfATextFile) {
   expect_within(outcome, 40);
   EXPECT_EQ(guessed(), 0u);
   expect_error(compute("mesh.ply", 20, "2", more), 3);  // the values need 11.4 MiB
+}
+
+// A chunk is not larger than its mesh, whatever was chosen.
+TEST_F(MemoryLimit, HoldsForAnyChosenChunk) {
+  expect_success(reeb({"generate", "torus", "--triangles", "2000", "-o", "mesh.ply"}));
+  expect_success(reeb({"compute", "mesh.ply", "-o", "out.reeb", "--quiet", "--chunk", "2000"}));
+  const std::string bytes = file("out.reeb");
+  for (const std::string& form : forms())
+    for (const char* triangles : {"100000000", "18446744073709551615"}) {
+      const Outcome outcome = compute(form, 32, "2", {"--chunk", triangles});
+      expect_success(outcome);
+      expect_within(outcome, 32);
+      if (form == "mesh.ply") {
+        EXPECT_TRUE(bytes == file("out.reeb")) << last_command();
+      }
+    }
+}
+
+// The clusters of triangles in no order are nearly all joined, so that their matrix is dense.
+TEST_F(MemoryLimit, HoldsForTheSpectralOrderOfTrianglesInNoOrder) {
+  constexpr std::uint32_t kVertices = 60'000;
+  {
+    PlyFile ply(in_folder("mesh.ply"), kVertices, kVertices);
+    for (std::uint32_t v = 0; v < kVertices; ++v) ply.vertex(value_of(v), value_of(3 * v + 1), value_of(7 * v + 2));
+    const auto corner = [](std::uint32_t n) { return (n * 2654435761u >> 4) % kVertices; };
+    for (std::uint32_t t = 0; t < kVertices; ++t) ply.triangle(corner(3 * t), corner(3 * t + 1), corner(3 * t + 2));
+  }
+  const Outcome outcome = reeb({"convert", "mesh.ply", "out.smb", "--order", "spectral", "--memory", "32M", "--quiet"});
+  expect_success(outcome);
+  expect_within(outcome, 32);
+}
+
+// All triangles share an edge: beside the weight of its ends, a usual shift of the matrix is lost in rounding.
+TEST_F(MemoryLimit, HoldsForTheSpectralOrderOfTrianglesAtOneEdge) {
+  constexpr std::uint32_t kTriangles = 1'000'000;
+  {
+    PlyFile ply(in_folder("mesh.ply"), kTriangles + 2, kTriangles);
+    for (std::uint32_t v = 0; v < kTriangles + 2; ++v)
+      ply.vertex(value_of(v), value_of(3 * v + 1), value_of(7 * v + 2));
+    for (std::uint32_t t = 0; t < kTriangles; ++t) ply.triangle(0, 1, t + 2);
+  }
+  const Outcome outcome = reeb({"convert", "mesh.ply", "out.smb", "--order", "spectral", "--memory", "64M", "--quiet"});
+  expect_success(outcome);
+  expect_within(outcome, 64);
+}
+
+// Each isolated vertex is a component without loops: the table of tops has none of them, and the graph is charged.
+TEST_F(MemoryLimit, HoldsForTheRepairOfIsolatedVertices) {
+  constexpr std::uint32_t kVertices = 300'000;
+  {
+    PlyFile ply(in_folder("mesh.ply"), kVertices, 0);
+    for (std::uint32_t v = 0; v < kVertices; ++v) ply.vertex(static_cast<float>(v), 0, value_of(v));
+  }
+  const auto repair = [&](const std::string& memory) {
+    return reeb({"repair", "mesh.ply", "-o", "o.ply", "--memory", memory, "--quiet"});
+  };
+  const Outcome refused = repair("32M");
+  expect_error(refused, 3, "graph of the loops needs ");
+  expect_within(refused, 32);
+  const Outcome done = repair("64M");
+  expect_success(done);
+  expect_within(done, 64);
+}
+
+// The paths of the edges between all pairs of few vertices become long while chunks are glued, and edges are many.
+TEST_F(MemoryLimit, HoldsForTrianglesBetweenFewVertices) {
+  constexpr std::uint32_t kVertices = 1200, kTriangles = 700'000;
+  {
+    PlyFile ply(in_folder("mesh.ply"), kVertices, kTriangles);
+    for (std::uint32_t v = 0; v < kVertices; ++v) ply.vertex(value_of(v + 7), value_of(v + 13), value_of(v));
+    std::mt19937 random(1);
+    for (std::uint32_t t = 0; t < kTriangles; ++t) {
+      const auto corner = [&] { return static_cast<std::uint32_t>(random() % kVertices); };
+      const std::uint32_t a = corner(), b = corner();
+      ply.triangle(a, b, corner());
+    }
+  }
+  for (const std::uint64_t megabytes : {64u, 96u, 128u, 192u})
+    for (const char* threads : {"1", "2"}) expect_within(compute("mesh.ply", megabytes, threads, {}), megabytes);
 }
 
 }  // namespace

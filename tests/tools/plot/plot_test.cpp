@@ -187,7 +187,24 @@ TEST_F(Plot, DrawsSeveralFilesInOneChart) {
   expect_success(outcome);
   EXPECT_NE(outcome.output.find("scan, f = z"), std::string::npos);
   EXPECT_NE(outcome.output.find("x, f = x"), std::string::npos);
+  std::filesystem::create_directory(in_folder("other"));
+  std::filesystem::copy_file(in_folder("scan.reeb"), in_folder("other/scan.reeb"));
+  const Outcome equal = reeb({"plot", "scan.reeb", "other/scan.reeb", "x.reeb", "-o", "-"});
+  expect_success(equal);
+  for (const char* name : {">scan.reeb, f = z: ", ">other/scan.reeb, f = z: ", ">x, f = x: "})
+    EXPECT_EQ(count_of(name, equal.output), 1u) << name;
   expect_error(reeb({"plot", "scan.reeb", "x.reeb", "--kind", "diagram"}), 2, "--kind diagram draws one file");
+}
+
+TEST_F(Plot, HasATitleForReaders) {
+  REEB_NEEDS("gnuplot");
+  REEB_NEEDS("dot");
+  for (const std::string kind : {"loops", "diagram", "graph", "skeleton"}) {
+    const std::string picture = reeb({"plot", "scan.reeb", "--kind", kind, "-o", "-"}).output;
+    EXPECT_EQ(count_of("<title>scan, f = z: ", picture), 1u) << kind;
+    EXPECT_EQ(count_of(" role=\"img\"", picture), 1u) << kind;
+    EXPECT_EQ(count_of("Gnuplot", picture), 0u) << kind;
+  }
 }
 
 TEST_F(Plot, WritesPngAndPdf) {

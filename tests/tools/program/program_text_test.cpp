@@ -33,7 +33,9 @@ TEST(LargeThreshold, MayBeMeantInPerCent) {
   const ValueRange range{0.5, 0.644443};
   EXPECT_EQ(large_threshold("4", range, "y"), "the threshold 4 is more than the range 0.144443 of y; did you mean 4%?");
   EXPECT_EQ(large_threshold("400", range, "y"), "the threshold 400 is more than the range 0.144443 of y");
-  for (const char* text : {"0.1", "0.144444", "4%", "400%"}) EXPECT_EQ(large_threshold(text, range, "y"), "") << text;
+  EXPECT_EQ(large_threshold("200%", range, "y"), "the threshold 200% is more than the range of y");
+  EXPECT_EQ(large_threshold("200%", {1, 1}, "y"), "");
+  for (const char* text : {"0.1", "0.144444", "4%", "100%"}) EXPECT_EQ(large_threshold(text, range, "y"), "") << text;
   EXPECT_EQ(large_threshold("4", {1, 1}, "y"), "") << "any is more";
 }
 
@@ -84,11 +86,39 @@ TEST(RepairSummary, SaysWhatMayHelpWithUnclearRows) {
   repair.rows.resize(1);
   repair.rows[0].kind = DefectKind::kUnclear;
   repair.rows[0].why = "no curve was found";
-  ASSERT_EQ(summary_of(repair).size(), 3u);
-  EXPECT_NE(summary_of(repair)[2].find("--drop-duplicates, --fill-boundaries LENGTH"), std::string::npos);
-  repair.cleaning.duplicates = true;
+  const auto note = [&] {
+    std::string found;
+    for (const std::string& line : summary_of(repair))
+      if (line.find("unclear") != std::string::npos) found += line;
+    return found;
+  };
+  EXPECT_EQ(note(), "") << "the mesh has neither boundaries nor duplicates";
+  repair.mesh_boundaries = 407;
+  EXPECT_EQ(
+      note(),
+      "note: the kind of one loop is unclear; the mesh has 407 boundaries: --fill-boundaries LENGTH, and a second "
+      "repair, of the output, can help");
+  repair.mesh_duplicates = 1;
+  EXPECT_NE(note().find("--fill-boundaries LENGTH, --drop-duplicates"), std::string::npos);
+  repair.rows.push_back(repair.rows[0]);
   repair.cleaning.boundary_length = 1;
-  for (const std::string& line : summary_of(repair)) EXPECT_EQ(line.find("unclear"), std::string::npos) << line;
+  EXPECT_EQ(note(),
+            "note: the kind of 2 loops is unclear; the mesh has 1 duplicate triangle: --drop-duplicates, and a second "
+            "repair, of the output, can help");
+  repair.cleaning.duplicates = true;
+  EXPECT_EQ(note(), "");
+  repair.boundaries_filled = 3;
+  EXPECT_EQ(note(), "note: the kind of 2 loops is unclear; repair the output again");
+}
+
+TEST(RepairSummary, SaysThatNothingWasDropped) {
+  Repair repair;
+  repair.mesh_triangles = 5;
+  repair.cleaning.components_percent = 1;
+  repair.isolated_vertices = 1113;
+  EXPECT_EQ(summary_of(repair).back(), "no component dropped; 1,113 isolated vertices stay");
+  repair.suggestion = SuggestedLength{.length = 0.1122, .confidence = 0.9, .why = ""};
+  for (const std::string& line : summary_of(repair)) EXPECT_EQ(line.find("suggested"), std::string::npos) << line;
 }
 
 TEST(RowChoice, ALoopWithoutACurveIsNotCalledTooLong) {
@@ -103,7 +133,7 @@ TEST(RowChoice, ALoopWithoutACurveIsNotCalledTooLong) {
   for (const RowFilter& filter : {RowFilter(), up_to_100, all}) {
     const std::vector<ChosenRow> chosen = choose_rows(defects, filter);
     ASSERT_EQ(chosen.size(), 1u);
-    EXPECT_EQ(chosen[0].why_not, "no closed curve along edges was found near it");
+    EXPECT_EQ(chosen[0].why_not, "no short curve was found");
   }
 }
 
