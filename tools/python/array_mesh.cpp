@@ -47,8 +47,8 @@ void copy_column(const Column& column, std::size_t count, double* values, const 
                   0.0;
   });
   if (io::all_finite(std::span(values, count))) return;
-  const auto odd = std::find_if(values, values + count, [](double value) { return !std::isfinite(value); });
-  const std::uint64_t vertex = id(static_cast<std::size_t>(odd - values));
+  const auto non_finite = std::find_if(values, values + count, [](double value) { return !std::isfinite(value); });
+  const std::uint64_t vertex = id(static_cast<std::size_t>(non_finite - values));
   const bool is_row = column.array.size[1] > 1 || column.name == "vertices";
   throw Error(ErrorKind::kBadInput, is_row ? "a coordinate is not finite" : "a value is not finite",
               "give every vertex finite numbers")

@@ -4,19 +4,25 @@
 #include <sys/mman.h>
 
 #include <array>
+#include <cerrno>
 #include <limits>
 #include <memory>
+#include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "io/export/graph_export.h"
 #include "io/export/line_points.h"
+#include "io/file/atomic_file.h"
 #include "io/file/file.h"
 #include "ooc/reeb_file/progressive_graph.h"
 #include "ooc/reeb_file/reeb_file.h"
+#include "tools/program/input_kind.h"
 #include "tools/python/graph_arrays.h"
 #include "tools/python/module.h"
+#include "tools/python/without_gil.h"
 
 namespace reeb::python {
 
@@ -27,24 +33,32 @@ namespace {
 using FilePtr = std::shared_ptr<const ooc::ReebFile>;
 
 FilePtr open_file(const std::string& path) {
-  const py::gil_scoped_release released;
+  const WithoutGil released;
+  if (!io::is_device(path))
+    tools::require_graph_file(path, "reeb.compute(\"" + path + "\") computes its graph",
+                              "reeb.compute(mesh, output=\"scan.reeb\") writes a .reeb file");
   return std::make_shared<const ooc::ReebFile>(path);
 }
 
 // A file that is in memory only, and closed with the object.
 FilePtr open_bytes(const py::bytes& content) {
   const std::string_view bytes = content;
-  const py::gil_scoped_release released;
+  const WithoutGil released;
   const int descriptor = ::memfd_create("reeb", MFD_CLOEXEC);
   const std::string path = "/proc/self/fd/" + std::to_string(descriptor);
   if (descriptor < 0) io::throw_output_error(errno, path);
-  const std::unique_ptr<const int, void (*)(const int*)> closer(&descriptor, [](const int* file) { ::close(*file); });
-  for (std::size_t at = 0; at < bytes.size();) {
-    const auto written = ::write(descriptor, bytes.data() + at, bytes.size() - at);
-    if (written <= 0) io::throw_output_error(errno, path);
-    at += static_cast<std::size_t>(written);
-  }
+  const io::File file(descriptor, path, io::File::Use::kOutput);
+  file.write_at(0, std::as_bytes(std::span(bytes)));
   return std::make_shared<const ooc::ReebFile>(path);
+}
+
+// An output, which appears only when it is whole.
+void write_file(const std::string& path, const py::bytes& content, bool force) {
+  const std::string_view bytes = content;
+  const WithoutGil released;
+  io::AtomicFile file(path, {.existing = force ? io::Existing::kReplace : io::Existing::kRefuse});
+  file.out().append(bytes);
+  file.commit();
 }
 
 py::dict header_of(const ooc::ReebFile& file) {
@@ -100,7 +114,7 @@ py::dict load(const ooc::ReebFile& file, std::uint32_t version) {
   std::vector<std::array<double, 3>> points, line;
   std::vector<double> radii;
   {
-    const py::gil_scoped_release released;
+    const WithoutGil released;
     level = file.load(version);
     const FileHeader& header = file.header();
     const io::GraphView view{.graph = level.graph,
@@ -132,7 +146,7 @@ py::dict load(const ooc::ReebFile& file, std::uint32_t version) {
 py::dict pairs_of(const ooc::ReebFile& file) {
   std::vector<ooc::PairRow> rows;
   {
-    const py::gil_scoped_release released;
+    const WithoutGil released;
     rows = file.pairs();
   }
   const auto column = [&]<class T>(T zero, const auto& get) {
@@ -204,6 +218,7 @@ void add_files(py::module_& module) {
       .def("finest_with_memory", &ooc::ReebFile::finest_with_memory)
       .def("load", &load)
       .def("pairs", &pairs_of);
+  module.def("write_file", &write_file);
   py::class_<Progressive>(module, "Progressive")
       .def(py::init([](const std::shared_ptr<ooc::ReebFile>& file) { return new Progressive(file); }))
       .def("go_to_version", &Progressive::go_to_version);

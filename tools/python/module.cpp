@@ -4,6 +4,7 @@
 #include <pybind11/stl.h>
 
 #include "tools/python/module.h"
+#include "tools/python/without_gil.h"
 
 namespace reeb::python {
 
@@ -22,8 +23,8 @@ void translate(std::exception_ptr thrown) {
     const py::object path = py::reinterpret_steal<py::object>(
         PyUnicode_DecodeFSDefaultAndSize(error.file().data(), static_cast<py::ssize_t>(error.file().size())));
     const py::object made = py::module_::import("reeb.errors")
-                                .attr("_make")(static_cast<int>(error.kind()), path, text(error.position()),
-                                               text(error.message()), text(error.hint()));
+                                .attr("_make")(static_cast<int>(error.kind()), static_cast<int>(error.cause()), path,
+                                               text(error.position()), text(error.message()), text(error.hint()));
     PyErr_SetObject(reinterpret_cast<PyObject*>(Py_TYPE(made.ptr())), made.ptr());
   };
   try {
@@ -31,7 +32,8 @@ void translate(std::exception_ptr thrown) {
   } catch (const Error& error) {
     raise(error);
   } catch (const std::bad_alloc&) {
-    raise(Error(ErrorKind::kResource, "out of memory", "close other programs, or allow less: memory=\"64M\""));
+    raise(Error(ErrorKind::kResource, "out of memory", "close other programs, or allow less: memory=\"64M\"")
+              .because(ErrorCause::kMemory));
   }
 }
 
@@ -42,6 +44,7 @@ PYBIND11_MODULE(_reeb, module) {
   module.doc() = "The compiled part of reeb.";
   module.attr("version") = REEB_VERSION;
   pybind11::register_exception_translator(reeb::python::translate);
+  reeb::python::wait_at_exit();
   reeb::python::add_runs(module);
   reeb::python::add_files(module);
   reeb::python::add_plots(module);

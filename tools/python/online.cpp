@@ -34,8 +34,10 @@ void at_item(const char* array, std::size_t item, const Work& work) {
   }
 }
 
-VertexId vertex_of(std::int64_t id) {
-  if (id < 0) throw Error(ErrorKind::kBadInput, "names vertex " + std::to_string(id), "vertices are numbered from 0");
+// Indices of unsigned types beyond those of std::int64_t are negative here.
+VertexId vertex_of(std::int64_t id, bool is_unsigned) {
+  if (id < 0 && !is_unsigned)
+    throw Error(ErrorKind::kBadInput, "names vertex " + std::to_string(id), "vertices are numbered from 0");
   return VertexId(static_cast<std::uint64_t>(id));
 }
 
@@ -50,22 +52,22 @@ void add_vertices(OnlineReeb& graph, const Numbers& values, const Numbers& posit
   }
 }
 
-void add_simplices(OnlineReeb& graph, const Ids& simplices) {
+void add_simplices(OnlineReeb& graph, const Ids& simplices, bool is_unsigned) {
   const auto rows = static_cast<std::size_t>(simplices.shape(0)), width = static_cast<std::size_t>(simplices.shape(1));
   const std::int64_t* corner = simplices.data();
   std::vector<VertexId> corners(width);
   for (std::size_t i = 0; i < rows; ++i) {
     at_item("simplices", i, [&] {
-      for (VertexId& id : corners) id = vertex_of(*corner++);
+      for (VertexId& id : corners) id = vertex_of(*corner++, is_unsigned);
       graph.add_simplex(corners);
     });
   }
 }
 
-void finalize(OnlineReeb& graph, const Ids& ids) {
+void finalize(OnlineReeb& graph, const Ids& ids, bool is_unsigned) {
   const std::int64_t* const id = ids.data();
   for (std::size_t i = 0; i < static_cast<std::size_t>(ids.size()); ++i)
-    at_item("ids", i, [&] { graph.finalize(vertex_of(id[i])); });
+    at_item("ids", i, [&] { graph.finalize(vertex_of(id[i], is_unsigned)); });
 }
 
 }  // namespace

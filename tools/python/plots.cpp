@@ -13,6 +13,7 @@
 #include "tools/plot/picture_file.h"
 #include "tools/plot/skeleton.h"
 #include "tools/python/module.h"
+#include "tools/python/without_gil.h"
 
 namespace reeb::python {
 
@@ -23,7 +24,7 @@ namespace {
 // The level is named by the threshold that was asked for, or else by its number of nodes.
 std::string plot(const std::shared_ptr<ooc::ReebFile>& file, std::uint32_t version, const std::string& threshold,
                  const std::string& kind, const std::string& mesh, const std::optional<std::array<double, 3>>& view) {
-  const py::gil_scoped_release released;
+  const WithoutGil released;
   const TempFolder folder("");
   tools::LevelChoice level;
   level.threshold = threshold;
@@ -45,7 +46,7 @@ std::string plot(const std::shared_ptr<ooc::ReebFile>& file, std::uint32_t versi
 py::bytes picture(const std::string& svg, const std::string& output) {
   std::string bytes;
   {
-    const py::gil_scoped_release released;
+    const WithoutGil released;
     const tools::PictureFormat format = tools::picture_format(output);
     tools::require_programs(format);
     const TempFolder folder("");

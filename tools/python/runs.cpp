@@ -219,11 +219,15 @@ py::tuple segment(const Mesh& mesh, const std::shared_ptr<ooc::ReebFile>& file, 
     follow.progress = options.progress;
     const auto& grid = input->info().grid;
     const std::uint64_t bound = std::max(file->header().mesh_vertices, grid ? grid->vertex_count() : 0);
-    ooc::Segmentation segmentation(input->take_mesh(), *input->functions().front(), bound, *file, version,
-                                   folder.path() + "/arcs", follow);
-    labels.resize(static_cast<std::size_t>(segmentation.vertex_bound()));
+    const auto segmentation = ooc::segment_mesh(input->take_mesh(), *input->functions().front(),
+                                                {.file = *file,
+                                                 .version = version,
+                                                 .vertex_bound = bound,
+                                                 .output = folder.path() + "/arcs",
+                                                 .options = follow});
+    labels.resize(static_cast<std::size_t>(segmentation->vertex_bound()));
     values.resize(labels.size());
-    segmentation.read(labels, values);
+    segmentation->read(labels, values);
   });
   return py::make_tuple(to_array<ooc::ArcLabel>(labels), to_array<double>(values));
 }

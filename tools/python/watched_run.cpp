@@ -5,6 +5,8 @@
 #include <thread>
 #include <utility>
 
+#include "tools/python/without_gil.h"
+
 namespace reeb::python {
 namespace {
 
@@ -52,7 +54,7 @@ void WatchedRun::pass_on() {
 void WatchedRun::run(const std::function<void()>& work) {
   std::exception_ptr failure, raised;
   {
-    const pybind11::gil_scoped_release released;
+    const WithoutGil released;
     std::thread worker([&] {
       try {
         work();
@@ -68,7 +70,8 @@ void WatchedRun::run(const std::function<void()>& work) {
       return over_.wait_for(lock, kBetweenLooks, [this] { return ended_; });
     };
     while (!wait()) {
-      if (raised) continue;
+      if (WithoutGil::is_awaited()) stop_.store(true, std::memory_order_relaxed);
+      if (interrupted()) continue;
       const pybind11::gil_scoped_acquire held;
       try {
         pass_on();

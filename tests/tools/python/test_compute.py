@@ -277,3 +277,9 @@ def test_pickles_and_equality():
     assert again.level(nodes=2) == graph.level(nodes=2) != graph
     assert pickle.loads(pickle.dumps(graph.level(nodes=2))) == graph.level(nodes=2)
     assert graph != reeb.compute(vertices, faces, f="y") and graph != 3
+
+
+def test_a_colour_image_gives_a_note():
+    image = np.random.default_rng(4).random((9, 10, 3))
+    assert any("colour image" in note for note in reeb.compute(image).result["notes"])
+    assert reeb.compute(image[..., 0]).result["notes"] == []

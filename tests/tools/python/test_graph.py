@@ -177,6 +177,7 @@ def test_pictures(noisy, tmp_path):
     for kind in ("graph", "diagram", "loops", "skeleton"):
         picture = graph.level("10%").plot(tmp_path / f"{kind}.svg", kind=kind)
         assert "level at threshold 10%" in picture.svg
+        assert repr(picture) == '<reeb picture; .save("picture.svg") writes it>'
         assert picture.svg.startswith("<") and (tmp_path / f"{kind}.svg").read_text() == picture.svg
     assert graph.plot(kind="skeleton", mesh=mesh, view=(1, 1, 1)).svg != picture.svg
     with pytest.raises(FileExistsError):
@@ -251,6 +252,14 @@ def test_defects_are_those_of_the_program(noisy, tmp_path):
             assert [str(row["rank"]), str(row["lo"]), str(row["hi"]), row["kind"]] == [*cells[:3], cells[14]]
             assert float(cells[15]) == row["length_contour"] and float(cells[5]) == row["center"][0]
         assert found.others["components"]["count"] == 1 and "length" in found.suggested_threshold
+
+
+def test_defects_are_shown_in_a_line():
+    found = {"length": 0.0258, "confidence": 1.0, "why": ""}
+    assert repr(reeb.Defects(np.zeros(55), found, {})) == "<reeb.Defects: 55 loops, suggested 0.0258 (100 %)>"
+    found["length"] = None
+    assert repr(reeb.Defects(np.zeros(1), found, {})) == "<reeb.Defects: 1 loop>"
+    assert repr(reeb.Defects(np.zeros(0), found, {})) == "<reeb.Defects: no loops>"
 
 
 def test_online_is_exact_at_any_moment():

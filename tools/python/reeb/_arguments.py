@@ -2,6 +2,7 @@
 
 import math
 import os
+import warnings
 
 import numpy as np
 
@@ -12,6 +13,36 @@ MOST = (1 << 63) - 1
 
 def is_path(thing):
     return isinstance(thing, (str, os.PathLike))
+
+
+def path_bytes(path):
+    """The name of a file, as the compiled part takes it."""
+    try:
+        name = os.fsencode(path)
+    except UnicodeEncodeError:
+        name = b"\0"
+    if b"\0" in name:
+        raise Error(f"{path!r} cannot be the name of a file", "choose another name", kind="usage")
+    return name
+
+
+def check_output(path):
+    if not is_path(path) or os.fspath(path) == "-":
+        raise Error(f"output={path!r} is not a path", "the name of a file to write", kind="usage")
+    path_bytes(path)
+
+
+def warn_of_suffix(path):
+    """Of a graph that is written under the name of another format. To be called by what users call."""
+    suffix = os.path.splitext(os.fsdecode(path))[1]
+    if suffix and suffix.lower() != ".reeb":
+        warnings.warn(f"{os.fsdecode(path)} is a .reeb file", stacklevel=3)
+
+
+def described(thing):
+    """As messages name it: "None", "a dict", "an int"."""
+    name = type(thing).__name__
+    return "None" if thing is None else f"a{'n' if name[0].lower() in 'aeiou' else ''} {name}"
 
 
 def is_number(thing):
@@ -29,7 +60,7 @@ def whole(name, value, least, most=MOST):
         if number != value:
             raise ValueError
     except (TypeError, ValueError, OverflowError):
-        raise Error(f"{name}={value!r} is no whole number", f"a number from {least} on", kind="usage") from None
+        raise Error(f"{name}={value!r} is not a whole number", f"a number from {least} on", kind="usage") from None
     if not least <= number <= most:
         raise Error(f"{name}={value!r} is out of range", f"{least} to {most}", kind="usage")
     return number
@@ -40,10 +71,10 @@ def vector(name, given, counts, hint):
     try:
         values = [float(x) for x in (given.split(",") if isinstance(given, str) else given)]
     except (TypeError, ValueError, OverflowError):
-        raise Error(f"{name}={given!r} is no list of numbers", hint, kind="usage") from None
+        raise Error(f"{name}={given!r} is not a list of numbers", hint, kind="usage") from None
     if len(values) not in counts:
         raise Error(f"{name} has {len(values)} numbers, not {' or '.join(map(str, counts))}", hint, kind="usage")
     for value in values:
         if not math.isfinite(value):
-            raise Error(f"{name}: {value} is no finite number", hint, kind="usage")
+            raise Error(f"{name}: {value} is not a finite number", hint, kind="usage")
     return values

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from . import _reeb
-from ._arguments import is_number, vector
+from ._arguments import described, is_number, vector
 from ._networks import is_network, parts_of_network, values_of_network
 from .errors import Error
 
@@ -37,7 +37,9 @@ def numbers(name, array, axes, shape, *, of_indices=False):
     try:
         array = np.asarray(array)
     except ValueError as error:  # rows of different lengths
-        raise Error(f"{name} is no array: {error}", "give all rows the same length") from error
+        raise Error(f"{name} is not an array", "give all rows the same length") from error
+    if array.ndim == 0 and array.dtype.kind not in "iufb":
+        raise Error(f"{name} is {described(array.item())}, not an array", shape)
     if array.ndim not in axes:
         raise Error(f"{name} has {array.ndim} axes, not {' or '.join(map(str, axes))}", shape)
     if array.dtype.kind == "b":
@@ -82,7 +84,7 @@ def simplex_array(name, simplices, shape=_OF_SIMPLICES):
         if bad.any():
             row, column = np.argwhere(bad)[0]
             raise Error(
-                f"{array[row, column]} is no index of a vertex",
+                f"{array[row, column]} is not the index of a vertex",
                 _INDICES,
                 position=f"{name}[{row}, {column}]",
             )
@@ -179,9 +181,31 @@ def image_of_array(image, spacing, origin, nodata):
     value = None
     if nodata is not None and not (isinstance(nodata, str) and nodata == "skip"):
         if not is_number(nodata):
-            raise Error(f"nodata={nodata!r} is no number", 'a number, or "skip"', kind="usage")
+            raise Error(f"nodata={nodata!r} is not a number", 'a number, or "skip"', kind="usage")
         value = float(nodata)
     return _reeb.HeldMesh.of_image(image, origin, spacing, nodata is not None, value)
+
+
+def check_mesh(thing):
+    """Refuses what is neither the vertices of a mesh nor an image."""
+    if thing is None:
+        raise Error("mesh is None", _MESHES, kind="usage")
+    if not hasattr(thing, "__array__") and not hasattr(thing, "__len__") or isinstance(thing, Mapping):
+        raise Error(f"{described(thing)} is not a mesh", _MESHES, kind="usage")
+    if isinstance(thing, (list, tuple)) and _are_parts(thing):
+        hint = "pass its parts, as reeb.compute(vertices, faces) and reeb.segment(graph, vertices, faces)"
+        raise Error(f"mesh is {described(thing)} of two arrays", hint, kind="usage")
+
+
+_MESHES = "a path, an array, or an object with vertices and faces"
+
+
+# Vertices and faces, not two slices of a volume.
+def _are_parts(things):
+    if len(things) != 2 or not any(getattr(part, "ndim", 0) == 2 for part in things):
+        return False
+    shapes = {getattr(part, "shape", None) for part in things}
+    return isinstance(things, tuple) or len(shapes) == 2
 
 
 def is_mesh_object(thing):

@@ -3,6 +3,8 @@
 import re
 
 _KINDS = {1: "input", 2: "usage", 3: "resource", 130: "interrupted"}
+# Of libreeb/base/error.h.
+_MEMORY, _EXISTS, _MISSING = 1, 2, 3
 
 
 class Error(Exception):
@@ -61,27 +63,20 @@ def _again(type_, message, hint, state):
     return type_(message, hint, **state)
 
 
-def _make(kind, path, position, message, hint):
+def _make(kind, cause, path, position, message, hint):
     """The exception for an error of the compiled part."""
     name = _KINDS[kind]
-    type_ = Error
-    if name == "resource":
-        type_ = OutOfMemory if "memory" in message else SystemFailure
-    elif path and name == "input" and message.startswith("the output exists"):
-        type_ = OutputExists
-    elif name == "input" and (message in _MISSING or "No such file" in message):
-        type_ = MissingFile
+    type_ = {_MEMORY: OutOfMemory, _EXISTS: OutputExists, _MISSING: MissingFile}.get(cause, Error)
+    if name == "resource" and type_ is not OutOfMemory:
+        type_ = SystemFailure
     if path == "-" or path.startswith("/proc/self/fd/"):  # arrays, or a graph without a file on disk
         path = ""
+    message = re.sub(r"/proc/self/fd/\d+", "the graph", message)
     for word, here in _NAMES:
         hint = word.sub(here, hint)
         if name == "usage":
             message = word.sub(here, message)
     return type_(message, hint, path=path or None, position=position or None, kind=name)
-
-
-# As of open(), for a name of a file that does not exist, and for none.
-_MISSING = ("there is no such file", "the name of an input is empty")
 
 
 def without_path(error):
@@ -91,6 +86,10 @@ def without_path(error):
 
 # What the program's messages call otherwise.
 _NAMES = (
+    (re.compile(r"--grid (\d[\dx]*) --type (\w+)"), r'grid="\1", type="\2"'),
+    (re.compile(r"--grid (\d[\dx]*)"), r'grid="\1"'),
+    (re.compile(r"--spacing (\d[\d.]*),(\d[\d.]*),(\d[\d.]*)"), r"spacing=(\1, \2, \3)"),
+    (re.compile(r'--(grid|type|spacing) (?=")'), r"\1="),
     (re.compile(r"--memory (\d\w*)"), r'memory="\1"'),
     (re.compile(r"--memory SIZE"), 'memory="64M"'),
     (re.compile(r"with --sidecar|--sidecar"), "with sidecar=True"),

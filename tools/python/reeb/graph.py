@@ -9,8 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from . import _reeb
-from ._arguments import is_number, is_path, vector, whole
-from ._files import write_whole
+from ._arguments import check_output, is_number, is_path, path_bytes, vector, warn_of_suffix, whole
 from .errors import Error, MissingFile, MissingPackage, SystemFailure, without_path
 
 _TYPES = np.array(["Ext0", "Ext1", "Ord0", "Rel1"])
@@ -63,7 +62,7 @@ class _Store:
         if self.content is not None:
             return _reeb.File.from_bytes(self.content)
         if self._file is None:
-            self._file = _reeb.File(os.fsencode(self.path))
+            self._file = _reeb.File(path_bytes(self.path))
         return self._file
 
     @contextlib.contextmanager
@@ -77,7 +76,7 @@ class _Store:
             with io.open(path, "wb") as file:
                 file.write(self.content)
             try:
-                yield _reeb.File(os.fsencode(path))
+                yield _reeb.File(path_bytes(path))
             except Error as error:
                 if error.path != path:
                     raise
@@ -193,7 +192,9 @@ class Graph:
         """
         if self._store is None:
             self._need_file()
-        write_whole(path, self._store.bytes(), force)
+        check_output(path)
+        warn_of_suffix(path)
+        _reeb.write_file(path_bytes(path), self._store.bytes(), force)
 
     # -- levels
 
@@ -362,9 +363,9 @@ class Graph:
             hint = "(x, y, z), towards the eye"
             view = vector("view", view, (3,), hint)
             if not any(view):
-                raise Error("view=(0, 0, 0) is no direction", hint, kind="usage")
+                raise Error("view=(0, 0, 0) is not a direction", hint, kind="usage")
         with self._store.named() as file:
-            path = "" if mesh is None else os.fsencode(mesh)
+            path = "" if mesh is None else path_bytes(mesh)
             text = _reeb.plot(file, self._version, self._asked, kind, path, view)
         picture = Picture(text)
         if output is not None:
@@ -455,8 +456,8 @@ class Graph:
         choices = {"threshold": threshold, "nodes": nodes, "memory": memory}
         given = [name for name, choice in choices.items() if choice is not None]
         if len(given) != 1:
-            what = " and ".join(given) if given else "nothing"
-            raise Error(f"{what} given", "give one of threshold, nodes, memory", kind="usage")
+            what = f"{' and '.join(given)} given" if given else "level() needs one of threshold, nodes, memory"
+            raise Error(what, 'one of these, as level("1%") or level(nodes=100)', kind="usage")
         file = self._need_file()[0]
         if nodes is not None:
             return file.finest_with_nodes(whole("nodes", nodes, 0))
@@ -468,7 +469,7 @@ class Graph:
             least, greatest = self.range
             return file.version_at(_reeb.parse_threshold("threshold", threshold, least, greatest))
         if not is_number(threshold) or not threshold >= 0:
-            raise Error(f"threshold={threshold!r} is no threshold", 'as 0.01, or "0.1%"', kind="usage")
+            raise Error(f"threshold={threshold!r} is not a threshold", 'as 0.01, or "0.1%"', kind="usage")
         return file.version_at(float(threshold))
 
     def _go_to(self, version):
@@ -504,7 +505,8 @@ def open(path, *, threshold=None, nodes=None, memory=None, listener=None):
         reeb.Error: the file is damaged, or none (also a FileNotFoundError if there is no file).
     """
     if not is_path(path):
-        raise Error(f"{path!r} is no path", "the name of a .reeb file", kind="usage")
+        raise Error(f"{path!r} is not a path", "the name of a .reeb file", kind="usage")
+    path_bytes(path)
     path = os.path.abspath(os.fspath(path))
     graph = Graph._make(_Store(path, None), listener=listener)
     version = 0

@@ -62,7 +62,7 @@ class Online:
             reeb.Error: a vertex was not added, or is finalized; the simplices before it were added.
         """
         array = _arrays.simplex_array("simplices", simplices)
-        self._graph.add_simplices(np.ascontiguousarray(array, np.int64))
+        self._graph.add_simplices(np.ascontiguousarray(array, np.int64), array.dtype.kind == "u")
 
     def finalize(self, ids):
         """Says that no later simplex names these vertices.
@@ -75,8 +75,8 @@ class Online:
             return
         array = _arrays.numbers("ids", array, (1,), "the indices of vertices", of_indices=True)
         if array.dtype.kind == "f":
-            raise Error("ids has numbers that are no integers", "the indices of vertices")
-        self._graph.finalize(np.ascontiguousarray(array, np.int64))
+            raise Error("ids has numbers that are not integers", "the indices of vertices")
+        self._graph.finalize(np.ascontiguousarray(array, np.int64), array.dtype.kind == "u")
 
     def snapshot(self):
         """The exact Reeb graph of everything added so far: a Graph of nodes and arcs, without pairs and levels."""

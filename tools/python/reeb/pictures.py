@@ -1,9 +1,7 @@
 """Pictures of graphs."""
 
-import os
-
 from . import _reeb
-from ._files import check_output, write_whole
+from ._arguments import check_output, path_bytes
 
 
 class Picture:
@@ -16,6 +14,9 @@ class Picture:
     def __init__(self, svg):
         self.svg = svg
 
+    def __repr__(self):
+        return '<reeb picture; .save("picture.svg") writes it>'
+
     def _repr_svg_(self):
         return self.svg
 
@@ -26,4 +27,5 @@ class Picture:
             reeb.Error: the file exists, and `force` is not given; it cannot be written; a program is not installed.
         """
         check_output(output)
-        write_whole(output, _reeb.picture(self.svg, os.fsencode(output)), force)
+        path = path_bytes(output)
+        _reeb.write_file(path, _reeb.picture(self.svg, path), force)

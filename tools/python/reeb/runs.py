@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from . import _arrays, _reeb
-from ._arguments import is_number, is_path, vector, whole
+from ._arguments import described, is_number, is_path, path_bytes, vector, warn_of_suffix, whole
 from .errors import Error, SystemFailure, without_path
 from .graph import Graph, _open_result
 
@@ -112,13 +112,15 @@ def compute(
     if is_path(mesh):
         arrays = [g for g in functions if not isinstance(g, (str, type_none))]
         _refuse_arrays('name a file of values: f="file:PATH.npy"', faces, values, *arrays)
-        held = os.fsencode(mesh)
+        held = path_bytes(mesh)
         _add_image(options, spacing, origin, nodata, grid, type, skip)
     else:
         _refuse_of_files(format=format, grid=grid, type=type, skip=skip)
         held, functions = _held(mesh, faces, values, functions, spacing, origin, nodata)
-    names = ["" if g is None else g for g in functions]
+    names = ["" if g is None else path_bytes(g) if g.startswith("file:") else g for g in functions]
     outputs = _outputs(output, len(names), several)
+    for path in outputs or ():
+        warn_of_suffix(path)
     with _Bar(progress) as report:
         graphs = _run(held, names, outputs, options, report)
     return graphs if several else graphs[0]
@@ -151,7 +153,7 @@ def _refuse_of_files(**options):
 
 def _run(held, names, outputs, options, report):
     if outputs is not None:
-        results = _reeb.compute(held, names, [os.fsencode(path) for path in outputs], options, report)
+        results = _reeb.compute(held, names, [path_bytes(path) for path in outputs], options, report)
         paths = [os.path.abspath(path) for path in outputs]
         return [_open_result({**result, "output": path}, path, None) for result, path in zip(results, paths)]
     folder = tempfile.mkdtemp(prefix="reeb-", dir=options.get("temp_dir"))
@@ -177,7 +179,7 @@ def _run(held, names, outputs, options, report):
 def _functions(f):
     names = f if isinstance(f, (list, tuple)) else [f]
     if any(isinstance(g, str) and not g for g in names) or callable(f):
-        raise Error("f names no function", 'as f="x"; or an array (n,) of values', kind="usage")
+        raise Error("f must be a name or an array", 'as f="x"; or an array (n,) of values', kind="usage")
     if isinstance(f, (list, tuple)) and f and all(g is None or isinstance(g, str) for g in f):
         return list(f), True
     if isinstance(f, (list, tuple)) and any(isinstance(g, str) for g in f):
@@ -197,6 +199,7 @@ def _held(mesh, faces, values, functions, spacing, origin, nodata):
             raise Error("both values and f are arrays", "pass one of them", kind="usage")
         values, functions = f, [None]
     if faces is None:
+        _arrays.check_mesh(mesh)
         if values is not None:
             raise Error(
                 "an image takes no other values", "pass the values as the image, or faces for a mesh", kind="usage"
@@ -246,7 +249,8 @@ def _outputs(output, count, several):
     outputs = [output] if is_path(output) or not isinstance(output, (list, tuple)) else list(output)
     for path in outputs:
         if not is_path(path) or os.fspath(path) == "-":
-            raise Error(f"output={path!r} is no path", "the name of a .reeb file to write", kind="usage")
+            raise Error(f"output={path!r} is not a path", "the name of a .reeb file to write", kind="usage")
+        path_bytes(path)
     if len(outputs) != count:
         raise Error(f"there are {count} functions and {len(outputs)} outputs", "one output for each", kind="usage")
     return [os.fspath(path) for path in outputs]
@@ -263,7 +267,8 @@ def _add_common(options, memory, threads, format, temp_dir):
         options["format"] = str(format)
     if temp_dir is not None:
         if not is_path(temp_dir):
-            raise Error(f"temp_dir={temp_dir!r} is no path", "the name of a folder", kind="usage")
+            raise Error(f"temp_dir={temp_dir!r} is not a path", "the name of a folder", kind="usage")
+        path_bytes(temp_dir)
         options["temp_dir"] = os.fspath(temp_dir)
         if not os.path.isdir(options["temp_dir"]):
             raise SystemFailure(
@@ -291,7 +296,7 @@ def _add_image(options, spacing, origin, nodata, grid, type_, skip):
 
 def _grid(sizes):
     if not isinstance(sizes, Iterable):
-        raise Error(f"grid={sizes!r} is no list of numbers", 'as (256, 256, 100), or "256x256x100"', kind="usage")
+        raise Error(f"grid={sizes!r} is not a list of numbers", 'as (256, 256, 100), or "256x256x100"', kind="usage")
     return "x".join(str(whole(f"grid[{i}]", size, 1)) for i, size in enumerate(sizes))
 
 
@@ -304,7 +309,7 @@ def _add_denoise(options, denoise):
     elif is_number(denoise):
         options["denoise"] = _reeb.parse_threshold("denoise", repr(float(denoise)), 0, 1)
     else:
-        raise Error(f"denoise={denoise!r} is no threshold", 'as 0.01, or "0.1%"', kind="usage")
+        raise Error(f"denoise={denoise!r} is not a threshold", 'as 0.01, or "0.1%"', kind="usage")
 
 
 class _Bar:
@@ -313,7 +318,7 @@ class _Bar:
     def __init__(self, progress):
         if not (progress is None or isinstance(progress, (bool, np.bool_)) or callable(progress)):
             hint = "True, or a function (phase, done, total, triangles)"
-            raise Error(f"progress={progress!r} is no callable", hint, kind="usage")
+            raise Error(f"progress={progress!r} is not a function", hint, kind="usage")
         self._bar = None
         self._callback = progress if callable(progress) else self._show if progress else None
 
@@ -423,12 +428,12 @@ def segment(
         reeb.Error: the graph is that of another mesh, or as reeb.compute.
     """
     if not isinstance(graph, Graph):
-        raise Error(f"{graph!r} is no graph", "reeb.segment(graph, mesh)", kind="usage")
+        raise Error(f"{described(graph)} is not a graph", "reeb.segment(graph, mesh)", kind="usage")
     options = {}
     _add_common(options, memory, threads, format, temp_dir)
     if is_path(mesh):
         _refuse_arrays("leave them out; the graph says its function", faces, values)
-        held = os.fsencode(mesh)
+        held = path_bytes(mesh)
         _add_image(options, spacing, origin, nodata, grid, type, skip)
     else:
         _refuse_of_files(format=format, grid=grid, type=type, skip=skip)
@@ -470,6 +475,14 @@ class Defects(NamedTuple):
     suggested_threshold: dict
     others: dict
 
+    def __repr__(self):
+        count = len(self.loops)
+        text = f"{count or 'no'} loop{'s' * (count != 1)}"
+        length = self.suggested_threshold["length"]
+        if length is not None:
+            text += f", suggested {length:.3g} ({100 * self.suggested_threshold['confidence']:.0f} %)"
+        return f"<reeb.Defects: {text}>"
+
 
 def defects(
     mesh, faces=None, *, graphs=(), memory=None, threads=None, format=None, temp_dir=None, progress=None
@@ -492,11 +505,14 @@ def defects(
     with _Bar(progress) as report, tempfile.TemporaryDirectory(prefix="reeb-", dir=temp_dir) as folder:
         if is_path(mesh):
             _refuse_arrays('name its graphs: graphs=["scan.reeb"]', faces)
-            path = os.fsencode(mesh)
+            path = path_bytes(mesh)
         else:
             _refuse_of_files(format=format)
             if _arrays.is_mesh_object(mesh) and faces is None:
                 mesh, faces, _ = _arrays.parts_of_object(mesh)
+            if faces is None:
+                _arrays.check_mesh(mesh)
+                raise Error("faces are missing", "reeb.defects(vertices, faces)", kind="usage")
             path = os.path.join(folder, "mesh.ply")
             _write_ply(path, mesh, faces)
         try:
@@ -523,8 +539,8 @@ def _files(graphs):
     for path in paths:
         if not is_path(path):
             hint = 'graphs=["scan.reeb"]; a graph is written with graph.save("scan.reeb")'
-            raise Error(f"graphs: {path!r} is no path", hint, kind="usage")
-    return [os.fsencode(path) for path in paths]
+            raise Error(f"graphs: {path!r} is not a path", hint, kind="usage")
+    return [path_bytes(path) for path in paths]
 
 
 def _defect_cell(row, name):
@@ -537,6 +553,10 @@ def _no_surface():
     return Error("only surfaces have such defects", "vertices of shape (n, 3) and triangles of shape (m, 3)")
 
 
+# Their numbers are int32 in the file.
+_MOST_PLY_VERTICES = 1 << 31
+
+
 def _write_ply(path, vertices, faces):
     vertices = _arrays.vertex_array(vertices)
     if isinstance(faces, Mapping):
@@ -545,6 +565,10 @@ def _write_ply(path, vertices, faces):
         parts = [("faces", _arrays.simplex_array("faces", faces))]
     if vertices.shape[1] != 3 or any(array.shape[1] != 3 for _, array in parts):
         raise _no_surface()
+    if len(vertices) > _MOST_PLY_VERTICES:
+        raise Error(
+            f"{len(vertices)} vertices in arrays are too many", "write the mesh to a file, and give its name"
+        )
     for name, array in parts:
         _arrays.check_indices(name, array, len(vertices))
     faces = np.concatenate([np.empty((0, 3), np.int64), *(array.astype(np.int64, copy=False) for _, array in parts)])
