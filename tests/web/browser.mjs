@@ -47,9 +47,13 @@ export class Browser {
     return new Promise((resolve, reject) => this.waiting.set(id, { resolve, reject }))
   }
 
-  async open(url, { width = 1280, height = 900, dark = false } = {}) {
+  resize({ width, height, scale }) {
+    return this.send('Emulation.setDeviceMetricsOverride', { width, height, deviceScaleFactor: scale, mobile: false })
+  }
+
+  async open(url, { width = 1280, height = 900, scale = 1, dark = false } = {}) {
     this.events = []
-    await this.send('Emulation.setDeviceMetricsOverride', { width, height, deviceScaleFactor: 1, mobile: false })
+    await this.resize({ width, height, scale })
     const features = [{ name: 'prefers-color-scheme', value: dark ? 'dark' : 'light' }]
     await this.send('Emulation.setEmulatedMedia', { features })
     await this.send('Page.navigate', { url })
@@ -67,7 +71,7 @@ export class Browser {
   }
 
   async press(key) {
-    for (const type of ['keyDown', 'keyUp']) await this.send('Input.dispatchKeyEvent', { type, key, code: key, windowsVirtualKeyCode: { ArrowLeft: 37, ArrowRight: 39, Enter: 13, Tab: 9 }[key] ?? 0, ...(key === 'Enter' && type === 'keyDown' ? { text: '\r' } : {}) })
+    for (const type of ['keyDown', 'keyUp']) await this.send('Input.dispatchKeyEvent', { type, key, code: key, windowsVirtualKeyCode: { ArrowLeft: 37, ArrowRight: 39, Enter: 13, Tab: 9, Escape: 27 }[key] ?? 0, ...(key === 'Enter' && type === 'keyDown' ? { text: '\r' } : {}) })
   }
 
   // Errors and warnings of the page, and what it asked of the network.

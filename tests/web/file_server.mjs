@@ -8,17 +8,22 @@
 //   /hidden/NAME      ranges, for pages of other origins, but Content-Range stays hidden
 //   /open/NAME        ranges, for pages of other origins
 //   /key/NAME         ranges, only with the header `Authorization: key`
+//   /busy/NAME        answers the first request for each range with HTTP 429
+//   /flaky/NAME       ranges, or as /gone/ while `isDown` is set
 import { readFileSync } from 'node:fs'
 import { createServer } from 'node:http'
 import { basename, join } from 'node:path'
 
 export async function serve(folder) {
   const asked = []
+  const state = { isDown: false }
   const server = createServer(async (request, response) => {
     const [, kind, name] = new URL(request.url, 'http://server').pathname.split('/')
     const range = /^bytes=(\d+)-(\d+)$/.exec(request.headers.range ?? '')
+    const isFirst = !asked.some((before) => before.kind === kind && before.range === request.headers.range)
     asked.push({ kind, name, range: request.headers.range, method: request.method })
-    if (kind === 'gone') return request.socket.destroy()
+    if (kind === 'gone' || (kind === 'flaky' && state.isDown)) return request.socket.destroy()
+    if (kind === 'busy' && isFirst) return response.writeHead(429).end()
     if (kind === 'key' && request.headers.authorization !== 'key') return response.writeHead(401).end()
     let bytes
     try {
@@ -46,6 +51,7 @@ export async function serve(folder) {
   await new Promise((done) => server.listen(0, '127.0.0.1', done))
   return {
     asked,
+    state,
     url: (path) => `http://127.0.0.1:${server.address().port}/${path}`,
     stop: () => {
       server.closeAllConnections()

@@ -7,9 +7,10 @@ import { createRequire } from 'node:module'
 import { readFileSync, writeFileSync } from 'node:fs'
 import { join } from 'node:path'
 import { bundled } from './bundled.mjs'
+import { example } from './example.mjs'
 
 const [source, reeb, packages, work] = process.argv.slice(2)
-const { BlobSource, FormatError, Reader } = await bundled(source, 'library', packages, work)
+const { BlobSource, FormatError, Reader } = await bundled(source, 'reading/library', packages, work)
 let failures = 0
 
 function check(what, good, seen = '') {
@@ -154,14 +155,6 @@ async function compareRims(file) {
   check(`${file}: rims`, missing === 0, `${missing} of ${graph.buckets} are not in the output of extract`)
 }
 
-// The example at the end of docs/FORMAT.md.
-function example() {
-  const text = readFileSync(join(source, 'docs/FORMAT.md'), 'utf8')
-  const hex = /```hex\n([^]*?)```/.exec(text)[1]
-  const bytes = hex.split('\n').flatMap((line) => line.slice(4).replace(/#.*/, '').trim().split(/\s+/).filter(Boolean))
-  return Uint8Array.from(bytes, (byte) => parseInt(byte, 16))
-}
-
 async function refusal(bytes) {
   try {
     const reader = await open(bytes)
@@ -185,7 +178,7 @@ async function damaged(name, bytes, places) {
   }
 }
 
-const whole = example()
+const whole = example(source)
 const file = join(work, 'example.reeb')
 writeFileSync(file, whole)
 await comparePairs(file, await compare(file, () => [0, 1, 2]))
@@ -255,7 +248,7 @@ await refused('a damaged frame', (bytes) => (bytes[0x170] ^= 1), /frame is damag
   await broken('reserved bytes are not 0', [[0xa0, 1]])
   await broken('the sizes in the header do not add up', [[0x9c, 2]])
   await broken('a level is out of range', [[0xb1, 2]])
-  await broken('a threshold is no number', [[0xbf, 0xf8, 0x7f]])
+  await broken('a threshold is not a number', [[0xbf, 0xf8, 0x7f]])
   await broken('the levels are out of order', [[0xf8, 0x40]])
   await broken('the last level is not the full graph', [[0xb5, 0], [0xed, 0]])
   await broken('the last level has other counts than the graph', [[0xf9, 5]])
@@ -289,6 +282,24 @@ await refused('a damaged frame', (bytes) => (bytes[0x170] ^= 1), /frame is damag
   await broken('the file was cut or is damaged: its end is missing', [[0x1d7, 0]])
 }
 
+// A path of 21 nodes whose arcs are 80 long, and a component of one arc that is as long.
+async function marks() {
+  const { roomsOf } = await bundled(source, 'drawing/shapes', packages, work)
+  const lo = [...Array(20).keys(), 21]
+  const ends = (list) => Uint32Array.from({ length: 23 }, (_, node) => list.filter((end) => end === node).length)
+  const hi = lo.map((node) => node + 1)
+  const content = { version: 0, nodes: 23, up: ends(lo), down: ends(hi) }
+  const small = (scale, nodes = 23) => {
+    const rooms = roomsOf({ lo, hi, isIn: () => true }, { ...content, nodes }, { length: new Float32Array(21).fill(80) })
+    return [...rooms].map((room) => (room * scale < 1 ? 1 : 0)).join('')
+  }
+  check('arcs of 80 pixels have large marks', small(1) === '0'.repeat(23), small(1))
+  check('a component of 39 pixels has small ones', small(39 / 80) === '0'.repeat(21) + '11', small(39 / 80))
+  check('so have arcs of 7 pixels', small(7 / 80) === '1'.repeat(23), small(7 / 80))
+  check('but not where there are few nodes', small(7 / 80, 20) === '0'.repeat(23), small(7 / 80, 20))
+}
+
+await marks()
 const files = await generated()
 console.log(failures === 0 ? `ok: ${files} generated files, the example and a scan` : `${failures} failures`)
 process.exit(failures > 0 ? 1 : 0)

@@ -1,10 +1,11 @@
 // What the page of `reeb report` does in a browser: no complaints, tables that sort, a slider that draws the arcs that
 // `reeb extract` writes, pictures that are not empty.
 //
-//   node report_test.mjs REEB FOLDER     FOLDER has scan.reeb and the pages scan, terrain, empty, point, bare and parts.html
+//   node report_test.mjs REEB FOLDER     FOLDER has scan.reeb and the pages scan, terrain, empty, point, flat, bare and parts.html
 import { execFileSync } from 'node:child_process'
+import { readFileSync, writeFileSync } from 'node:fs'
 import { join } from 'node:path'
-import { Browser, kColors, pause } from './browser.mjs'
+import { Browser, kColors, kPixels, pause } from './browser.mjs'
 
 const [reeb, folder] = process.argv.slice(2)
 let failures = 0
@@ -34,6 +35,13 @@ function unasked(browser, page) {
   same(`${page}: nothing asked of the network`, browser.requests(), [])
 }
 
+// Its text, what is said of it, and whether that can be seen.
+const thresholdBox = (browser) => browser.evaluate(`(() => {
+  const input = document.getElementById('threshold')
+  const note = document.getElementById(input.getAttribute('aria-describedby'))
+  return [input.value, note.textContent, note.getBoundingClientRect().height > 10 && note.getBoundingClientRect().width > 10]
+})()`)
+
 async function slider(browser) {
   const last = await browser.evaluate(`Number(document.getElementById('level').max)`)
   check('there are levels', last > 20, last)
@@ -56,6 +64,19 @@ async function slider(browser) {
     })()`)
     const { nodes, arcs } = extracted(threshold)
     same(`threshold ${threshold} has the nodes and arcs of extract`, [drawn.nodes, drawn.arcs], [nodes, arcs])
+    const [text, note] = await thresholdBox(browser)
+    same(`threshold ${threshold} stays as it was typed`, text, threshold)
+    const level = /^level (.+)$/.exec(note)?.[1] ?? threshold
+    check('the level is said beside', Math.abs(Number(level) - drawn.threshold) <= 1e-5 * drawn.threshold, [note, drawn])
+  }
+  for (const wrong of ['abc', '-3', '']) {
+    await browser.evaluate(`(() => {
+      const input = document.getElementById('threshold')
+      input.value = '${wrong}'
+      input.dispatchEvent(new Event('change'))
+    })()`)
+    const [text, note, isSeen] = await thresholdBox(browser)
+    check(`"${wrong}" is refused where it was typed`, text === wrong && /^This is not a threshold/.test(note) && isSeen, [text, note, isSeen])
   }
   await browser.evaluate(`(() => { const level = document.getElementById('level'); level.value = 0; level.focus() })()`)
   await browser.press('ArrowRight')
@@ -121,6 +142,74 @@ async function structure(browser, what) {
   same(`${what}: everything has a name`, seen.unnamed, 0)
 }
 
+// Captions have the numbers of `reeb defects`.
+async function closeups(browser) {
+  const output = join(folder, 'defects.json')
+  execFileSync(reeb, ['defects', join(folder, 'scan.ply'), join(folder, 'scan.reeb'), '-o', output, '--quiet', '--force'])
+  const { loops } = JSON.parse(readFileSync(output, 'utf8'))
+  const captions = await browser.evaluate(`[...document.querySelectorAll('.closeup figcaption .quiet')].map((text) => text.textContent)`)
+  check('there are close-ups', captions.length === Math.min(12, loops.length), captions)
+  captions.forEach((caption, i) => {
+    const loop = loops[i]
+    const wanted = [Math.min(...[loop.length_contour, loop.length_cycle].filter((x) => x !== 'inf')), loop.center_x, loop.center_y, loop.center_z]
+    const seen = /^curve (\S+) long at (\S+), (\S+), (\S+); picture \S+ wide/.exec(caption)?.slice(1).map(Number) ?? []
+    check(`the caption of close-up ${i} has length and place`, wanted.every((x, k) => Math.abs(seen[k] - x) <= 0.005 * Math.abs(x)), [caption, wanted])
+  })
+}
+
+// A curve that is a 500th as large: a dot, which stays where it is while the picture rotates and grows, until the curve
+// itself is seen.
+async function tinyCurve(browser) {
+  const page = readFileSync(join(folder, 'scan.html'), 'utf8')
+  const [, json] = /id="data">([^]*?)<\/script>/.exec(page)
+  const data = JSON.parse(json)
+  const [closeup] = data.closeups
+  const places = Buffer.from(closeup.places, 'base64')
+  for (const v of closeup.curve)
+    for (let k = 0; k < 3; ++k) {
+      const center = ((closeup.center[k] - closeup.min[k]) / closeup.size) * 65535
+      const at = 8 * v + 2 * k
+      places.writeUInt16LE(Math.round(center + (places.readUInt16LE(at) - center) / 500), at)
+    }
+  closeup.places = places.toString('base64')
+  closeup.other = []
+  writeFileSync(join(folder, 'tiny.html'), page.replace(json, () => JSON.stringify(data).replaceAll('<', '\\u003c')))
+  await browser.open(`file://${join(folder, 'tiny.html')}`)
+  const press = (key, times) => browser.evaluate(`new Promise((done) => {
+    const canvas = document.querySelector('#closeup-0 canvas')
+    for (let i = 0; i < ${times}; ++i) canvas.dispatchEvent(new KeyboardEvent('keydown', { key: '${key}' }))
+    requestAnimationFrame(() => requestAnimationFrame(() => done()))
+  })`)
+  const middle = () => browser.evaluate(`(({ width, height }, pixels) => {
+    const at = 4 * (Math.floor(height / 2) * width + Math.floor(width / 2))
+    return [...pixels.slice(at, at + 3)].join()
+  })(document.querySelector('#closeup-0 canvas'), (${kPixels})(document.querySelector('#closeup-0 canvas')))`)
+  const kDot = '213,94,0' // --max
+  same('a curve that is too small to see is a dot', await middle(), kDot)
+  await press('ArrowLeft', 5)
+  await press('ArrowUp', 3)
+  await press('+', 8)
+  same('which stays when the picture rotates and grows', await middle(), kDot)
+  await press('+', 40)
+  check('the curve is seen in the end', (await middle()) !== kDot, await middle())
+}
+
+// The browser's dark colours are not for paper.
+async function paper(browser) {
+  await browser.open(`file://${join(folder, 'scan.html')}`, { dark: true })
+  const seen = await browser.evaluate(`new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => {
+    const closeup = () => document.querySelector('.closeup canvas').toDataURL()
+    const dark = closeup()
+    dispatchEvent(new Event('beforeprint'))
+    const rims = [...new Set([...document.querySelectorAll('#canvas-place svg path[transform]')].map((mark) => mark.getAttribute('stroke')))]
+    const printed = closeup()
+    dispatchEvent(new Event('afterprint'))
+    done({ rims, light: printed !== dark, again: closeup() === dark, paper: getComputedStyle(document.body).backgroundColor })
+  })))`)
+  same('a dark page is printed in light colours', [seen.rims, seen.light], [['#222222'], true])
+  same('and is dark again', [seen.again, seen.paper], [true, 'rgb(20, 23, 27)'])
+}
+
 // As in docs/SEMANTICS.md: minima and components lie above the diagonal, maxima and loops below.
 async function diagram(browser) {
   const seen = await browser.evaluate(`(() => {
@@ -182,6 +271,7 @@ async function withWebgl() {
   await structure(browser, 'wide')
   await diagram(browser)
   await lastDrop(browser)
+  await closeups(browser)
   await slider(browser)
   await tables(browser)
   await browser.evaluate(`document.querySelector('[data-pair="1"]').click()`)
@@ -205,16 +295,31 @@ async function withWebgl() {
   await browser.open(url('terrain.html'), { width: 1200 })
   check('one plot alone is not larger', (await browser.evaluate(`document.querySelector('.plot').clientWidth`)) <= 640)
 
+  await browser.open(url('scan.html'), { width: 1200, scale: 2 })
+  await browser.resize({ width: 900, height: 900, scale: 1 })
+  const sharp = `(({ width, clientWidth }) => width === clientWidth)(document.querySelector('#canvas-place canvas'))`
+  let isSharp = false
+  for (let i = 0; i < 40 && !isSharp; ++i) {
+    await pause(50)
+    isSharp = await browser.evaluate(sharp)
+  }
+  check('a page that is zoomed has pictures of its pixels', isSharp)
   await browser.open(url('scan.html'), { width: 360, dark: true })
   await structure(browser, 'narrow and dark')
   same('dark paper', await browser.evaluate(`getComputedStyle(document.body).backgroundColor`), 'rgb(20, 23, 27)')
   unasked(browser, 'narrow')
-  for (const [page, message] of [['empty.html', 'The graph is empty'], ['point.html', ''], ['bare.html', '']]) {
+  for (const [page, message] of [['empty.html', 'The graph is empty'], ['point.html', ''], ['bare.html', ''], ['flat.html', '']]) {
     await browser.open(url(page))
     const seen = await browser.evaluate(`(({ hidden, textContent }) => (hidden ? '' : textContent))(document.getElementById('skeleton-message'))`)
     check(`${page}: says what there is`, message === '' ? seen === '' : seen.startsWith(message), seen)
     unasked(browser, page)
   }
+  await tinyCurve(browser)
+  unasked(browser, 'tiny.html')
+  await paper(browser)
+  await browser.open(url('flat.html'))
+  const ticks = await browser.evaluate(`[...document.querySelectorAll('#plot-diagram text[text-anchor=end]')].map((text) => text.textContent)`)
+  check('ticks of values that hardly differ are told apart', ticks.length > 1 && new Set(ticks).size === ticks.length, ticks)
   await browser.open(url('parts.html'))
   same('many components leave the first level its features', (await browser.evaluate(kDrawn)).nodes, 361)
   same('a point is one node', await (async () => {
@@ -234,6 +339,10 @@ async function withoutWebgl() {
   check('without WebGL: a message', seen.message.startsWith('This browser has no WebGL'), seen.message)
   check('without WebGL: lines', seen.lines > 50, seen.lines)
   await sliderWithoutWebgl(browser)
+  await browser.open(`file://${join(folder, 'parts.html')}`)
+  const marks = await browser.evaluate(`[...document.querySelectorAll('#canvas-place svg path[transform]')].map((mark) => /scale\\(0/.test(mark.getAttribute('transform')))`)
+  const small = marks.filter(Boolean).length
+  check('marks of tiny components are small, those of long arcs are not', marks.length === 361 && small >= 300 && small < 330, [marks.length, small])
   await browser.stop()
 }
 

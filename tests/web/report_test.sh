@@ -18,7 +18,8 @@ cd "$work"
 "$reeb" report scan.reeb --mesh scan.ply -o scan.html --quiet
 printf 'OFF\n0 0 0\n' >empty.off
 printf 'OFF\n1 0 0\n1 2 3\n' >point.off
-for name in empty point; do
+awk -f "$source/tests/web/flat.awk" >flat.off
+for name in empty point flat; do
   "$reeb" "$name.off" --quiet
   "$reeb" report "$name.reeb" --mesh "$name.off" -o "$name.html" --quiet
 done

@@ -41,6 +41,9 @@ Json closeup_json(const SurfacePatch& patch, const std::vector<double>& values, 
   for (std::uint32_t t = 0; t < patch.triangle_count(); ++t)
     for (const std::uint32_t corner : patch.oriented(t)) triangles.push_back(static_cast<std::uint16_t>(corner));
   return {{"size", size},
+          {"min", patch.vertex_count() == 0 ? Point{} : min},
+          {"length", row.curve.found() ? Json(row.curve.length) : Json()},
+          {"center", row.curve.center},
           {"places", base64(places)},
           {"triangles", base64(triangles)},
           {"curve", curve_json(patch, row.curve.path)},

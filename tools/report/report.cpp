@@ -62,9 +62,17 @@ std::optional<std::uint32_t> finest_level_of_cut(const ooc::ReebFile& file, std:
   return finest->version;
 }
 
+// Without --nodes. A page with the most nodes has some 2 MB.
+std::size_t usual_nodes(const FileHeader& header) {
+  constexpr std::size_t kUsual = 2000, kMostOfCoarsest = 10'000;
+  const std::size_t coarsest = header.levels.empty() ? 0 : header.levels.front().nodes;
+  return coarsest > kUsual && coarsest <= kMostOfCoarsest ? coarsest + kUsual : kUsual;
+}
+
 // The finest level with few enough nodes; none if even the coarsest has more.
-std::optional<std::uint32_t> finest_level(const ooc::ReebFile& file, std::size_t nodes, Findings& findings) {
+std::optional<std::uint32_t> finest_level(const ooc::ReebFile& file, const ReportOptions& options, Findings& findings) {
   const FileHeader& header = file.header();
+  const std::size_t nodes = options.nodes.value_or(usual_nodes(header));
   const bool is_cut = !header.levels.empty() && !is_whole(file, header.levels.back());
   if (is_cut) return finest_level_of_cut(file, nodes, findings);
   if (header.nodes <= nodes) return 0;
@@ -76,10 +84,15 @@ std::optional<std::uint32_t> finest_level(const ooc::ReebFile& file, std::size_t
         count_of(header.nodes, "node"), with_commas(nodes)));
     return finest;
   }
-  findings.notes.push_back(fmt::format(
-      "There is no skeleton in this page: {} has {}, more than {}. --nodes N sets another limit.",
-      header.flags.graph_only ? "the graph" : "even the coarsest level",
-      count_of(header.flags.graph_only ? header.nodes : header.levels.front().nodes, "node"), with_commas(nodes)));
+  const bool is_graph = header.flags.graph_only;
+  const std::uint64_t least = is_graph ? header.nodes : header.levels.front().nodes;
+  findings.notes.push_back(
+      fmt::format("There is no skeleton in this page: {} has {}, more than {}. --nodes N sets another limit.",
+                  is_graph ? "the graph" : "even the coarsest level", count_of(least, "node"), with_commas(nodes)));
+  if (options.note)
+    options.note(
+        fmt::format("no skeleton: the {} has {}", is_graph ? "graph" : "coarsest level", count_of(least, "node")) +
+        (least <= kMostReportNodes ? fmt::format("; --nodes {} includes it", least) : ""));
   return std::nullopt;
 }
 
@@ -110,7 +123,7 @@ void note_file(const ooc::ReebFile& file, Findings& findings) {
 void note_census(const ooc::MeshCensus& census, Findings& findings) {
   auto& notes = findings.notes;
   if (!census.not_a_surface.empty()) {
-    notes.push_back("The mesh is no surface, so only its components were counted: " + census.not_a_surface + ".");
+    notes.push_back("The mesh is not a surface, so only its components were counted: " + census.not_a_surface + ".");
     return;
   }
   const auto note = [&](std::uint64_t count, const char* noun) {
@@ -157,7 +170,7 @@ Findings find(const ooc::ReebFile& file, const ReportOptions& options) {
     as_far_as_readable("The pairs", [&] { findings.pairs = ooc::read_largest_pairs(file.path(), kMostPairs); });
   }
   as_far_as_readable("The skeleton", [&] {
-    findings.finest = finest_level(file, options.nodes, findings);
+    findings.finest = finest_level(file, options, findings);
     if (findings.finest) findings.skeleton = skeleton_json(file, *findings.finest);
   });
   if (!options.defects.mesh.path.empty())
@@ -184,10 +197,10 @@ std::vector<NamedText> summary_rows(const ooc::ReebFile& file, const Findings& f
   if (findings.pairs) {
     const auto& counts = findings.pairs->counts;
     const auto count = [&](PairType type) { return with_commas(counts[static_cast<std::size_t>(type)]); };
-    rows.insert(rows.end(), {{"pairs of minima (Ord0)", count(PairType::kOrd0)},
-                             {"pairs of maxima (Rel1)", count(PairType::kRel1)},
-                             {"pairs of components (Ext0)", count(PairType::kExt0)},
-                             {"pairs of loops (Ext1)", count(PairType::kExt1)},
+    rows.insert(rows.end(), {{"minima (Ord0 pairs)", count(PairType::kOrd0)},
+                             {"maxima (Rel1 pairs)", count(PairType::kRel1)},
+                             {"components (Ext0 pairs)", count(PairType::kExt0)},
+                             {"loops (Ext1 pairs)", count(PairType::kExt1)},
                              {"loops that stay at all levels", with_commas(header.kept_loops)}});
   }
   rows.emplace_back("pairs removed as noise", with_commas(header.denoised_pairs));
@@ -207,7 +220,7 @@ std::vector<NamedText> census_rows(const std::string& mesh, const ooc::MeshCensu
                {"folded edges", with_commas(census.folded.count)},
                {"Euler characteristic", fmt::format("{}{}", census.euler < 0 ? "-" : "",
                                                     with_commas(static_cast<std::uint64_t>(std::abs(census.euler))))},
-               {"genus", census.genus ? with_commas(*census.genus) : "none: " + census.why_no_genus}});
+               {"genus", census.genus ? with_commas(*census.genus) : "not defined: " + census.why_no_genus}});
   return rows;
 }
 
@@ -237,7 +250,7 @@ std::string defects_section(const Findings& findings) {
   if (!findings.census)
     return "<p>Defects are placed and measured on the mesh: <code>reeb report FILE.reeb --mesh MESH -o "
            "OUT.html</code>.</p>\n";
-  if (!findings.defects) return "<p>The mesh is no surface, so it has no handles and tunnels to measure.</p>\n";
+  if (!findings.defects) return "<p>The mesh is not a surface, so it has no handles and tunnels to measure.</p>\n";
   const DefectTable& table = findings.defects->table;
   if (table.rows.empty()) return "<p>The surface has no loops, so it has no small handles or tunnels.</p>\n";
   const SuggestedLength& suggestion = table.suggestion;
@@ -333,7 +346,7 @@ std::string make_report(const ReportOptions& options) {
       {"levels", header.flags.graph_only ? "<p>The file has no levels.</p>\n"
                                          : "<div class=\"scroll\" role=\"region\" aria-label=\"Levels\" "
                                            "tabindex=\"0\">\n" +
-                                               levels_table(header) + "</div>\n"},
+                                               levels_table(file) + "</div>\n"},
   };
   parts.emplace_back("data", script_json(page_data(file, std::move(findings))));
   return fill(report_template(), parts);

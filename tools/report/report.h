@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <ostream>
 #include <string>
 
@@ -13,9 +14,12 @@ namespace reeb::tools {
 struct ReportOptions {
   std::string file;
   FindDefectsOptions defects;  // its mesh has no path: without a mesh
-  std::size_t nodes = 2000;    // at most, of the finest level in the skeleton
+  // At most, of the finest level in the skeleton. Nothing: 2000, and more if the coarsest level has some more.
+  std::optional<std::size_t> nodes;
   std::function<void()> counting{};
+  std::function<void(const std::string&)> note{};  // what the page lacks
 };
+inline constexpr std::size_t kMostReportNodes = 100'000;
 
 // THROWS: Error{kResource} in a program that was built without pages; else nothing.
 void require_pages();

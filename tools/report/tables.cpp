@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
-#include <limits>
 
 #include "libreeb/base/count_text.h"
 #include "tools/program/quantity.h"
+#include "tools/program/whole_levels.h"
 #include "tools/report/page_text.h"
 
 namespace reeb::tools {
@@ -133,17 +133,14 @@ std::string defects_table(const Defects& defects, std::size_t most, std::size_t 
   return out + kEnd;
 }
 
-std::string levels_table(const FileHeader& header) {
+std::string levels_table(const ooc::ReebFile& file) {
+  const FileHeader& header = file.header();
   const ValueRange range{header.function_min, header.function_max};
   std::string out = head("Levels of detail, from coarse to fine", nullptr,
                          {{"threshold"}, {"% of range"}, {"nodes"}, {"arcs"}, {"bytes read"}, {"bytes of memory"}});
   for (const LevelLine& line : header.levels)
-    out += "<tr>" +
-           (line.threshold == std::numeric_limits<double>::denorm_min()
-                ? "<td class=\"number\" data-value=\"5e-324\">&gt; 0</td>"
-                : number(line.threshold)) +
-           percent(range, 0, line.threshold) + count(line.nodes) + count(line.arcs) + count(line.file_bytes) +
-           count(line.memory_bytes) + "</tr>\n";
+    out += "<tr>" + number(threshold_text(file, line)) + percent(range, 0, line.threshold) + count(line.nodes) +
+           count(line.arcs) + count(line.file_bytes) + count(line.memory_bytes) + "</tr>\n";
   return out + kEnd;
 }
 

@@ -23,6 +23,6 @@ std::string pairs_table(std::span<const ooc::PairRow> rows, const ValueRange& ra
 // The first `closeups` rows have a button that shows the surface there.
 std::string defects_table(const Defects& defects, std::size_t most, std::size_t closeups);
 
-std::string levels_table(const FileHeader& header);
+std::string levels_table(const ooc::ReebFile& file);
 
 }  // namespace reeb::tools

@@ -54,6 +54,7 @@ function makePage(name, scriptName, packages) {
   const script = bundle(scriptName)
   if (/<\/script|<!--/i.test(script)) throw new Error('the script would end early inside of a page')
   let page = readFileSync(join(source, `${name}.html`), 'utf8')
+  page = page.replaceAll(/<!--part:(\w+\.html)-->\n/g, (_, part) => readFileSync(join(source, 'parts', part), 'utf8'))
   page = insert(page, '/*reeb-style*/', bundle(`${name}.css`))
   page = insert(page, '/*reeb-script*/', script)
   return insert(page, 'reeb-notice', notice(packages).replaceAll('&', '&amp;').replaceAll('<', '&lt;'))

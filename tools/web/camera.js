@@ -3,6 +3,7 @@
 export class Camera {
   // `up`: the axis that points upwards, 0 to 2.
   constructor(up = 2) {
+    this.mostZoom = 60
     this.setUp(up)
     this.reset()
   }
@@ -45,6 +46,20 @@ export class Camera {
     this.zoomBy(Math.min((width - spare) / Math.max(1, right - left), (height - spare) / Math.max(1, bottom - top)))
   }
 
+  // As large as the picture allows with this point in its middle.
+  fitAround(target, points, width, height) {
+    this.lookAt(target, 1)
+    const project = this.projector(width, height)
+    let [across, down] = [1, 1]
+    for (const point of points) {
+      const [x, y] = project(point)
+      across = Math.max(across, Math.abs(x - width / 2))
+      down = Math.max(down, Math.abs(y - height / 2))
+    }
+    const spare = 6 // pixels
+    this.zoomBy(Math.min((width / 2 - spare) / across, (height / 2 - spare) / down))
+  }
+
   // Unit vectors to the right, up and towards the eye.
   axes() {
     const [ct, st, ci, si] = [Math.cos(this.turn), Math.sin(this.turn), Math.cos(this.tilt), Math.sin(this.tilt)]
@@ -58,7 +73,7 @@ export class Camera {
   }
 
   zoomBy(factor) {
-    this.zoom = Math.min(60, Math.max(0.3, this.zoom * factor))
+    this.zoom = Math.min(this.mostZoom, Math.max(0.3, this.zoom * factor))
   }
 
   // By parts of the height of the picture.
@@ -72,10 +87,15 @@ export class Camera {
     this.zoom = zoom
   }
 
+  // Pixels of a picture of this size for one unit of length.
+  scale(width, height) {
+    return (Math.min(width, height) / 2.4) * this.zoom
+  }
+
   // A point in pixels of a picture of this size, and how near it is.
   projector(width, height) {
     const { right, up, back } = this.axes()
-    const scale = (Math.min(width, height) / 2.4) * this.zoom
+    const scale = this.scale(width, height)
     return (point) => {
       const d = point.map((p, k) => p - this.target[k])
       const along = (axis) => d[0] * axis[0] + d[1] * axis[1] + d[2] * axis[2]
@@ -105,6 +125,9 @@ export function control(element, camera, { changed, hovered = (_place) => {}, re
       const distance = Math.hypot(a.clientX - b.clientX, a.clientY - b.clientY)
       if (spread > 0 && distance > 0) camera.zoomBy(distance / spread)
       spread = distance
+      // Each finger moves the middle by half of its way.
+      const side = 2 * Math.min(box.width, box.height)
+      camera.move(dx / side, -dy / side)
     } else if (event.buttons & 2 || event.shiftKey) {
       const side = Math.min(box.width, box.height)
       camera.move(dx / side, -dy / side)

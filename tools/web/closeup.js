@@ -21,6 +21,15 @@ class Patch {
     }
     const radius = Math.max(1e-6, Math.hypot(...most))
     this.points = this.points.map((point) => point.map((x, k) => ((x - most[k] / 2) * 2) / radius))
+    const center = json.center.map((x, k) => (json.size > 0 ? (x - json.min[k]) / json.size : 0))
+    this.center = center.map((x, k) => ((x - most[k] / 2) * 2) / radius)
+    this.hasCurve = json.length !== null
+  }
+
+  // The largest distance of the shorter curve from its centre; 0 if it is not in the patch.
+  reach() {
+    const distances = this.curves[0].map((v) => Math.hypot(...this.points[v].map((x, k) => x - this.center[k])))
+    return Math.max(0, ...distances)
   }
 
   // Looks along the axis of the curve, a bit from the side: so a handle or tunnel is seen as a hole.
@@ -37,6 +46,8 @@ class Patch {
     return Math.hypot(...sum) > 1e-9 ? sum : null
   }
 }
+
+const kSeenPixels = 8 // that a curve is large, at least, to be seen
 
 function paint(canvas, patch, camera) {
   const ratio = Math.min(2, window.devicePixelRatio)
@@ -80,8 +91,24 @@ function paint(canvas, patch, camera) {
     context.stroke()
   }
   const styles = [{ color: css('--max'), dash: [] }, { color: css('--loop'), dash: [6, 4] }]
-  patch.curves.forEach((curve, i) => {
-    if (curve.length === 0) return
+  const dot = ([x, y], color) => {
+    context.beginPath()
+    context.arc(x, y, 5, 0, 2 * Math.PI)
+    context.fillStyle = color
+    context.fill()
+    context.strokeStyle = css('--paper')
+    context.lineWidth = 2
+    context.stroke()
+  }
+  // The longer one first, since the shorter one is what the picture is about.
+  for (const i of [1, 0]) {
+    const curve = patch.curves[i]
+    const extent = curve.length > 0 ? extentOf(curve.map((v) => seen[v])) : null
+    if (extent ? extent.size < kSeenPixels : i === 0 && patch.hasCurve) {
+      dot(extent ? extent.middle : project(patch.center), styles[i].color)
+      continue
+    }
+    if (!extent) continue
     context.beginPath()
     curve.forEach((v, k) => (k === 0 ? context.moveTo(seen[v][0], seen[v][1]) : context.lineTo(seen[v][0], seen[v][1])))
     context.closePath()
@@ -94,17 +121,37 @@ function paint(canvas, patch, camera) {
     context.lineWidth = 2.5
     context.stroke()
     context.setLineDash([])
-  })
+  }
+}
+
+function extentOf(places) {
+  const [left, right, top, bottom] = [
+    Math.min(...places.map(([x]) => x)), Math.max(...places.map(([x]) => x)),
+    Math.min(...places.map(([, y]) => y)), Math.max(...places.map(([, y]) => y)),
+  ]
+  return { size: Math.max(right - left, bottom - top), middle: [(left + right) / 2, (top + bottom) / 2] }
+}
+
+// What the picture shows, as a caption.
+function describe(json, patch) {
+  const digits = (x, n) => shortNumber(Number(x.toPrecision(n)))
+  const place = json.center.map((x) => digits(x, 5)).join(', ')
+  const isDrawn = patch.curves[0].length > 0
+  const curve = patch.hasCurve
+    ? `curve ${digits(json.length, 3)} long at ${place}${isDrawn ? '' : ' (the dot is its centre)'}`
+    : `at ${place}, between its nodes, as no curve was found near them`
+  return `${curve}; picture ${digits(json.size, 3)} wide${json.limited ? '; only the nearest part' : ''}`
 }
 
 function makeFigure(json, index) {
   const patch = new Patch(json)
   const camera = new Camera()
+  camera.mostZoom = Math.max(camera.mostZoom, 1 / Math.max(patch.reach(), 1e-5)) // till it fills the picture
   const axis = patch.axis()
   const reset = () => {
     camera.reset()
     if (axis) camera.lookAlong(axis)
-    camera.fit(patch.points, 240, 180)
+    camera.fitAround(patch.center, patch.points, 240, 180)
   }
   reset()
   const figure = document.createElement('figure')
@@ -115,15 +162,14 @@ function makeFigure(json, index) {
   canvas.setAttribute('role', 'img')
   canvas.setAttribute(
     'aria-label',
-    `Close-up of defect ${index + 1}, ${json.kind}: ${patch.triangles.length / 3} triangles, ${shortNumber(json.size)} wide. Arrow keys rotate.`,
+    `Close-up of defect ${index + 1}, ${json.kind}: ${describe(json, patch)}. Arrow keys rotate, + and − zoom, 0 resets.`,
   )
   const caption = document.createElement('figcaption')
   const title = document.createElement('strong')
   title.textContent = `Defect ${index + 1}: ${json.kind}`
   const detail = document.createElement('span')
   detail.className = 'quiet'
-  const curves = patch.curves.some((curve) => curve.length > 0) ? '' : '; both nodes, as no curve was found near them'
-  detail.textContent = `${shortNumber(json.size)} wide${json.limited ? '; only the nearest part' : ''}${curves}`
+  detail.textContent = describe(json, patch)
   caption.append(title, detail)
   figure.append(canvas, caption)
   const draw = () => paint(canvas, patch, camera)
@@ -138,7 +184,8 @@ export function makeCloseups(place, list) {
   const hint = document.createElement('p')
   hint.className = 'hint'
   hint.textContent =
-    'Close-ups: solid, the shorter curve of the loop; dashed, the other one. Indigo to orange: the value. Drag to rotate.'
+    'Close-ups: solid, the shorter curve of the loop, in the middle; dashed, the other one; a dot, where a curve is too small to see. ' +
+    'Indigo to orange: the value. Drag to rotate; click, then wheel, or + and −, to zoom; 0 resets.'
   if (items.length > 0) place.before(hint)
   const draw = () => items.forEach((item) => item.draw())
   draw()

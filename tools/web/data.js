@@ -12,12 +12,23 @@ export function numbers16(base64) {
   return numbers
 }
 
-// Six digits are enough for people.
-export function shortNumber(value) {
+const kDigits = 6 // are enough for people
+const kAllDigits = 17
+
+export function shortNumber(value, digits = kDigits) {
   if (value === 0) return '0'
   const size = Math.abs(value)
-  if (size < 1e-4 || size >= 1e6) return value.toExponential(4).replace(/\.?0+e/, 'e')
-  return String(Number(value.toPrecision(6)))
+  if (size < 1e-4 || size >= 1e6) return value.toExponential(digits - 2).replace(/\.?0+e/, 'e')
+  return String(Number(value.toPrecision(digits)))
+}
+
+// Texts of different numbers, with as many digits as tell them apart.
+export function distinctNumbers(values) {
+  const different = new Set(values).size
+  for (let digits = kDigits; ; ++digits) {
+    const texts = values.map((value) => shortNumber(value, digits))
+    if (new Set(texts).size === different || digits > kAllDigits) return texts
+  }
 }
 
 export function count(number, noun) {

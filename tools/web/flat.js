@@ -1,5 +1,6 @@
 // The skeleton as SVG: for the printer, and where there is no WebGL.
 import { css, kindColors, rgb, valueColors } from './colors.js'
+import { isSmall, kSmallMark } from './marks.js'
 
 const kShapes = { min: 'M-5-4H5L0 5Z', max: 'M-5 4H5L0-5Z', isolated: 'M-4-4H4V4H-4Z', saddle: 'M-4 0a4 4 0 1 0 8 0a4 4 0 1 0-8 0Z' }
 
@@ -28,6 +29,7 @@ export class SvgPicture {
 
   draw(camera, width, height) {
     const project = camera.projector(width, height)
+    const scale = camera.scale(width, height)
     const number = (x) => x.toFixed(1)
     // Neighbours of nearly equal colour are one path, and what is far is drawn first.
     const paths = []
@@ -52,7 +54,7 @@ export class SvgPicture {
     const marks = this.content.nodes.map((node, i) => {
       const [x, y] = project(this.skeleton.place(node))
       const kind = this.content.kinds[i]
-      return `<path d="${kShapes[kind]}" fill="${rgb(this.kinds[kind])}" stroke="${css('--rim')}" transform="translate(${number(x)} ${number(y)})"/>`
+      return `<path d="${kShapes[kind]}" fill="${rgb(this.kinds[kind])}" stroke="${css('--rim')}" transform="translate(${number(x)} ${number(y)})${isSmall(this.content.rooms[i], scale) ? ` scale(${kSmallMark})` : ''}"/>`
     })
     const rings = this.chosen.map((place) => {
       const [x, y] = project(place)

@@ -1,5 +1,5 @@
 // Plots as SVG: how many loops there are above a persistence, and the persistence diagram.
-import { count, shortNumber } from './data.js'
+import { count, distinctNumbers, shortNumber } from './data.js'
 
 const kWidth = 560
 const kHeight = 400
@@ -70,15 +70,31 @@ function logScale(least, most, floor = least) {
 
 const kLeastLoops = 0.7 // the lower end of the axis, as in `reeb plot`; zero has no place on it
 
-// `steps`: [persistence, number of loops of at least this persistence], the largest persistence first.
-export function loopsPlot(steps, range) {
-  const shown = steps.filter(([persistence]) => persistence > 0).map(([p, n]) => [(100 * p) / range, n])
+// `steps`: [persistence, number of loops of at least this persistence], the largest persistence first. `known`: loops of
+// more persistence are all among them, so the curve ends there.
+export function loopsPlot(steps, range, known = 0) {
+  const shown = steps.filter(([persistence]) => persistence > known).map(([p, n]) => [(100 * p) / range, n])
   if (shown.length === 0) return null
-  const x = logScale(Math.min(shown[shown.length - 1][0], 99), 100)
+  const isPart = known > 0
+  const least = isPart ? (100 * known) / range : shown[shown.length - 1][0]
+  const x = logScale(Math.min(least, 99), 100)
+  const end = xAt(isPart ? x.at(least) : 0)
   const y = logScale(1, shown[shown.length - 1][1] * 1.2, kLeastLoops)
   let path = `M${xAt(x.at(shown[0][0]))} ${yAt(0)}`
-  for (const [percent, number] of shown) path += `H${xAt(x.at(percent)).toFixed(1)}V${yAt(y.at(number)).toFixed(1)}`
-  path += `H${xAt(0)}`
+  let before = ''
+  for (const [percent, number] of shown) {
+    const step = `H${xAt(x.at(percent)).toFixed(1)}V${yAt(y.at(number)).toFixed(1)}`
+    if (step !== before) path += step // of a million loops most are at the same place
+    before = step
+  }
+  path += `H${end.toFixed(1)}`
+  // Left of the end of the curve: paper of another colour, with a text where there is room.
+  const middle = (xAt(0) + end) / 2
+  const unknown = isPart
+    ? element('path', { class: 'unknown', d: `M${xAt(0)} ${yAt(0)}V${yAt(1)}H${end.toFixed(1)}V${yAt(0)}Z` }) +
+      element('text', { class: 'quiet', transform: `translate(${(middle + 4).toFixed(1)} ${yAt(0.5)}) rotate(-90)`, 'text-anchor': 'middle' },
+        end - xAt(0) > 16 ? 'not loaded' : '')
+    : ''
   // They show nothing; they say what is under the pointer.
   const spots = shown
     .slice(0, 60)
@@ -88,14 +104,18 @@ export function loopsPlot(steps, range) {
     )
   const content =
     axes('Loops above a persistence', { title: 'persistence, % of the range', ticks: x.ticks }, { title: 'number of loops', ticks: y.ticks }) +
+    unknown +
     element('path', { class: 'curve', d: path }) +
     spots.join('')
   const last = shown[shown.length - 1]
+  const noise = isPart
+    ? `Loops below ${shortNumber(Number(least.toPrecision(3)))} % of the range are not loaded, so the curve ends there; lower the threshold to load more.`
+    : 'A flat part is a gap: the loops left of it are noise or defects, those right of it are more likely features.'
   return figure(
     'plot-loops',
     content,
     '',
-    'How many loops are at least as persistent as the value on the axis below; both axes are logarithmic. A flat part is a gap: the loops left of it are noise or defects, those right of it are more likely features.',
+    `How many loops are at least as persistent as the value on the axis below; both axes are logarithmic. ${noise}`,
     `Loops above a persistence, both axes logarithmic: from 1 loop at ${shortNumber(shown[0][0])} per cent of the range to ${count(last[1], 'loop')} at ${shortNumber(last[0])} per cent.`,
   )
 }
@@ -107,11 +127,19 @@ export function niceTicks(least, most) {
     const power = 10 ** Math.floor(Math.log10(raw))
     return power * [1, 2, 5, 10].find((factor) => factor * power >= raw * (1 - 1e-9))
   })()
-  const ticks = []
-  for (let i = Math.ceil(least / step - 1e-9); i * step <= most + 1e-9 * step; ++i)
-    ticks.push({ at: (i * step - least) / (most - least), text: shortNumber(Number((i * step).toPrecision(12))) })
-  return ticks
+  const values = []
+  const first = Math.ceil(least / step - 1e-9)
+  // Where the range is a few units in the last place, a step changes nothing: then there are fewer ticks, not endless ones.
+  for (let k = 0, before = NaN; k <= 10 && (first + k) * step <= most + 1e-9 * step; ++k) {
+    const value = (first + k) * step
+    if (value !== before && value >= least - 1e-9 * step) values.push(value)
+    before = value
+  }
+  const texts = distinctNumbers(values)
+  return values.map((value, i) => ({ at: (value - least) / (most - least), value, text: texts[i] }))
 }
+
+const kMostTickLetters = 9
 
 const kTypes = [
   ['Ord0', 'minima', 'M-4-3H4L0 4Z'],
@@ -125,7 +153,13 @@ const kTypes = [
 // maximum or a loop, so these are below the diagonal.
 export function persistenceDiagram(pairs, min, max, total) {
   if (pairs.length === 0 || !(max > min)) return null
-  const ticks = niceTicks(min, max).map(({ at, text }) => ({ at: 0.02 + 0.96 * at, text }))
+  const nice = niceTicks(min, max)
+  // Where the range is small beside the values, differences fit beside the axis.
+  const isLong = nice.length > 1 && nice.some(({ text }) => text.length > kMostTickLetters)
+  const unit = isLong ? 10 ** Math.floor(Math.log10(nice[1].value - nice[0].value)) : 1
+  const difference = (value) => String(Number(((value - nice[0].value) / unit).toPrecision(3)))
+  const ticks = nice.map(({ at, value, text }) => ({ at: 0.02 + 0.96 * at, text: isLong ? difference(value) : text }))
+  const less = isLong ? `, less ${nice[0].text}, in ${unit.toPrecision(1)}` : ''
   const part = (value) => 0.02 + (0.96 * (value - min)) / (max - min)
   const legend = kTypes.map(([type, name, shape]) =>
     `<span><svg viewBox="-6 -6 12 12" aria-hidden="true"><path class="${type}" d="${shape}"/></svg> ${name} (${type})</span>`)
@@ -136,7 +170,7 @@ export function persistenceDiagram(pairs, min, max, total) {
     return `<path class="${type}" d="${shape}" transform="translate(${xAt(part(begin)).toFixed(1)} ${yAt(part(end)).toFixed(1)})"><title>${title}</title></path>`
   })
   const content =
-    axes('Persistence diagram', { title: 'value where the feature begins', ticks }, { title: 'value where it ends', ticks }) +
+    axes('Persistence diagram', { title: `value where the feature begins${less}`, ticks }, { title: `value where it ends${less}`, ticks }) +
     element('path', { class: 'diagonal', d: `M${xAt(0)} ${yAt(0)}L${xAt(1)} ${yAt(1)}` }) +
     marks.join('')
   const some = pairs.length < total ? ` The ${count(pairs.length, 'pair')} of largest persistence are drawn, of ${total.toLocaleString('en')}.` : ''

@@ -18,11 +18,11 @@ function showSkeleton() {
   const message = document.getElementById('skeleton-message')
   if (!data.skeleton) {
     message.textContent = 'There is no skeleton in this page; the notes say why.'
-    return null
+    return
   }
   if (data.skeleton.nodes.vertex.length === 0) {
     message.textContent = 'The graph is empty, so there is nothing to draw.'
-    return null
+    return
   }
   // A height points upwards.
   const up = ['x', 'y', 'z'].indexOf(data.function)
@@ -31,7 +31,6 @@ function showSkeleton() {
     button.addEventListener('click', () => view.showPair(data.pairs[Number(button.dataset.pair)]))
   addEventListener('beforeprint', () => view.print())
   addEventListener('afterprint', () => view.endPrint())
-  return view
 }
 
 function showPlots() {
@@ -55,8 +54,12 @@ function showCloseups() {
   for (const button of document.querySelectorAll('[data-closeup]'))
     button.addEventListener('click', () => closeups.show(Number(button.dataset.closeup)))
   onThemeChange(closeups.draw)
-  addEventListener('resize', closeups.draw)
+  for (const change of ['resize', 'beforeprint', 'afterprint']) addEventListener(change, closeups.draw)
 }
+
+// Paper is light. What is drawn for it is drawn after this.
+addEventListener('beforeprint', () => document.documentElement.classList.add('paper'))
+addEventListener('afterprint', () => document.documentElement.classList.remove('paper'))
 
 showPlots()
 showCloseups()

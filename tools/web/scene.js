@@ -15,6 +15,7 @@ import { LineMaterial } from 'three/examples/jsm/lines/LineMaterial.js'
 import { LineSegments2 } from 'three/examples/jsm/lines/LineSegments2.js'
 import { LineSegmentsGeometry } from 'three/examples/jsm/lines/LineSegmentsGeometry.js'
 import { css, kindColors, rgb, valueColors } from './colors.js'
+import { isSmall, kSmallMark } from './marks.js'
 
 const kShapes = {
   min: [[4, 10], [60, 10], [32, 58]],
@@ -23,6 +24,7 @@ const kShapes = {
   saddle: null, // a disc
 }
 
+const kMarkPixels = 12
 const kWidths = [2, 3, 4, 5, 6] // of lines, in pixels
 
 function markerTexture(shape, fill, rim) {
@@ -62,7 +64,6 @@ export class WebglPicture {
     this.skeleton = skeleton
     // What was drawn stays readable, also for the printer.
     this.renderer = new WebGLRenderer({ antialias: true, alpha: true, preserveDrawingBuffer: true })
-    this.renderer.setPixelRatio(Math.min(2, window.devicePixelRatio))
     this.camera = new OrthographicCamera(-1, 1, 1, -1, -100, 100)
     this.camera.matrixAutoUpdate = false
     this.scene = new Scene()
@@ -71,18 +72,20 @@ export class WebglPicture {
     this.lineMaterials = kWidths.map((linewidth) => new LineMaterial({ linewidth, vertexColors: true }))
     this.lines = []
     this.markers = {}
-    for (const kind of Object.keys(kShapes)) {
-      const material = new PointsMaterial({ size: 12, sizeAttenuation: false })
-      material.alphaTest = 0.5
-      this.markers[kind] = new Points(new BufferGeometry(), material)
-      this.markers[kind].renderOrder = 1
-    }
+    for (const kind of Object.keys(kShapes))
+      this.markers[kind] = [kMarkPixels, kMarkPixels * kSmallMark].map((size) => {
+        const material = new PointsMaterial({ size, sizeAttenuation: false })
+        material.alphaTest = 0.5
+        const points = new Points(new BufferGeometry(), material)
+        points.renderOrder = 1
+        return points
+      })
     const ring = new PointsMaterial({ size: 26, sizeAttenuation: false, map: ringTexture(), depthTest: false })
     ring.alphaTest = 0.4
     this.chosen = new Points(new BufferGeometry(), ring)
     this.chosen.renderOrder = 2
     this.chosen.visible = false
-    this.group.add(...Object.values(this.markers), this.chosen)
+    this.group.add(...Object.values(this.markers).flat(), this.chosen)
     this.element = this.renderer.domElement
     place.append(this.element)
     this.recolor()
@@ -91,15 +94,17 @@ export class WebglPicture {
   recolor() {
     this.color = valueColors()
     const kinds = kindColors()
-    for (const [kind, { material }] of Object.entries(this.markers)) {
-      material.map?.dispose()
-      material.map = markerTexture(kShapes[kind], kinds[kind], css('--rim'))
-      material.needsUpdate = true
+    for (const [kind, points] of Object.entries(this.markers)) {
+      const texture = markerTexture(kShapes[kind], kinds[kind], css('--rim'))
+      points[0].material.map?.dispose()
+      for (const { material } of points) Object.assign(material, { map: texture, needsUpdate: true })
     }
     this.chosen.material.color.setRGB(...kinds.max, 'srgb')
   }
 
   show(content) {
+    this.content = content
+    this.marked = 0
     const parts = kWidths.map(() => ({ positions: [], colors: [] }))
     for (const arc of content.arcs) {
       const line = this.skeleton.line(arc)
@@ -124,10 +129,16 @@ export class WebglPicture {
       this.group.add(lines)
       return [lines]
     })
-    for (const [kind, marker] of Object.entries(this.markers)) {
-      const places = content.nodes.flatMap((node, i) => (content.kinds[i] === kind ? this.skeleton.place(node) : []))
-      setPoints(marker, places)
-    }
+  }
+
+  // At a zoom of this scale.
+  setMarks(scale) {
+    if (!this.content || scale === this.marked) return
+    this.marked = scale
+    const { nodes, kinds, rooms } = this.content
+    for (const [kind, points] of Object.entries(this.markers))
+      for (const [i, marks] of points.entries())
+        setPoints(marks, nodes.flatMap((node, k) => (kinds[k] === kind && isSmall(rooms[k], scale) === (i === 1) ? this.skeleton.place(node) : [])))
   }
 
   choose(places) {
@@ -135,11 +146,14 @@ export class WebglPicture {
   }
 
   draw(camera, width, height) {
-    if (width !== this.width || height !== this.height) {
+    const ratio = Math.min(2, window.devicePixelRatio) // changes when the page is zoomed
+    if (width !== this.width || height !== this.height || ratio !== this.ratio) {
+      this.renderer.setPixelRatio(ratio)
       this.renderer.setSize(width, height, false)
-      ;[this.width, this.height] = [width, height]
+      ;[this.width, this.height, this.ratio] = [width, height, ratio]
     }
-    const scale = (Math.min(width, height) / 2.4) * camera.zoom
+    const scale = camera.scale(width, height)
+    this.setMarks(scale)
     Object.assign(this.camera, {
       left: -width / 2 / scale,
       right: width / 2 / scale,

@@ -3,6 +3,7 @@
 // An arc is a record that the versions from `born` to before `died` have. Cancelling a feature joins arcs, so a coarser
 // level has other records, not only fewer.
 import { numbers16 } from './data.js'
+import { kFewNodes, roomOf } from './marks.js'
 
 export class Skeleton {
   constructor(json) {
@@ -22,6 +23,7 @@ export class Skeleton {
       if (i % 4 < 3) most[i % 4] = Math.max(most[i % 4], this.arcs.line[i])
     this.middle = most.map((side) => side / 2)
     this.radius = Math.max(1e-6, Math.hypot(...this.middle) * 2)
+    this.lengths = Float32Array.from(this.arcs.points, (_, arc) => lengthOf(this.line(arc))) // of arcs, in the scene
   }
 
   // All points of all levels, to see how large they look.
@@ -62,7 +64,20 @@ export class Skeleton {
       if (below + above === 0) return 'isolated'
       return below === 0 ? 'min' : above === 0 ? 'max' : 'saddle'
     }
-    return { level, arcs, nodes, kinds: nodes.map(kind), down, up }
+    return { level, arcs, nodes, kinds: nodes.map(kind), rooms: this.rooms(arcs, nodes, down, up), down, up }
+  }
+
+  // Of each node (marks.js).
+  rooms(arcs, nodes, down, up) {
+    if (nodes.length <= kFewNodes) return nodes.map(() => Infinity)
+    const { lo, hi } = this.arcs
+    const room = new Map(nodes.map((node) => [node, 0]))
+    for (const arc of arcs) {
+      const isLone = !down.get(lo[arc]) && up.get(lo[arc]) === 1 && !up.get(hi[arc]) && down.get(hi[arc]) === 1
+      const here = roomOf(this.lengths[arc], isLone)
+      for (const node of [lo[arc], hi[arc]]) room.set(node, Math.max(room.get(node), here))
+    }
+    return nodes.map((node) => room.get(node))
   }
 
   // The place of a node in the scene.
@@ -102,6 +117,12 @@ export class Skeleton {
     const level = this.levels.version.findIndex((version) => version >= died)
     return level < 0 ? null : this.levels.threshold[level]
   }
+}
+
+function lengthOf(line) {
+  let length = 0
+  for (let i = 1; i < line.length; ++i) length += Math.hypot(...line[i].at.map((x, k) => x - line[i - 1].at[k]))
+  return length
 }
 
 function unit(numbers) {

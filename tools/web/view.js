@@ -1,8 +1,9 @@
 // The interactive skeleton: slider, threshold, picture, hovering, and its table.
 import { Camera, control } from './camera.js'
 import { onThemeChange } from './colors.js'
-import { count, shortNumber } from './data.js'
+import { count, distinctNumbers, shortNumber } from './data.js'
 import { SvgPicture } from './flat.js'
+import { kNoThreshold, refuse, take } from './note.js'
 import { WebglPicture } from './scene.js'
 import { makeTable } from './table.js'
 
@@ -62,8 +63,10 @@ export class SkeletonView {
       this.picture.show(this.content)
       this.redraw()
     })
-    document.getElementById('scale-min').textContent = shortNumber(this.skeleton.values.min)
-    document.getElementById('scale-max').textContent = shortNumber(this.skeleton.values.min + this.skeleton.values.size)
+    const { min, size } = this.skeleton.values
+    const [least, most] = distinctNumbers([min, min + size])
+    document.getElementById('scale-min').textContent = least
+    document.getElementById('scale-max').textContent = most
   }
 
   // The finest one that is not too crowded to read. What no level loses, as two nodes of each component, does not count.
@@ -77,21 +80,21 @@ export class SkeletonView {
   setThreshold(text) {
     const trimmed = text.trim()
     const number = Number(trimmed.replace(/%$/, ''))
-    const valid = trimmed !== '' && Number.isFinite(number) && number >= 0
-    this.input.toggleAttribute('aria-invalid', !valid)
-    if (!valid) {
-      this.input.setAttribute('aria-invalid', 'true')
-      return this.announce('This is no threshold: give a number from 0 on, or a share of the range like 1%.')
+    if (trimmed === '' || !Number.isFinite(number) || number < 0) {
+      refuse(this.input, kNoThreshold)
+      return this.announce(kNoThreshold)
     }
-    this.setLevel(this.skeleton.levelAt(trimmed.endsWith('%') ? (number / 100) * this.skeleton.values.size : number))
+    this.setLevel(this.skeleton.levelAt(trimmed.endsWith('%') ? (number / 100) * this.skeleton.values.size : number), trimmed)
   }
 
-  setLevel(level) {
+  // `typed`: the threshold that was asked for, if it was.
+  setLevel(level, typed = null) {
     const { threshold } = this.skeleton.levels
     this.content = this.skeleton.at(level)
     this.slider.value = level
-    this.input.removeAttribute('aria-invalid')
-    this.input.value = threshold[level] > 0 && threshold[level] < 1e-300 ? 'above 0' : shortNumber(threshold[level])
+    const text = threshold[level] > 0 && threshold[level] < 1e-300 ? 'above 0' : shortNumber(threshold[level])
+    this.input.value = typed ?? text
+    take(this.input, this.input.value === text ? '' : `level ${text}`)
     const percent = this.skeleton.values.size > 0 ? (100 * threshold[level]) / this.skeleton.values.size : 0
     const loops = this.content.arcs.length - this.content.nodes.length + this.components()
     const counts = [
@@ -229,7 +232,7 @@ export class SkeletonView {
 
   // Paper gets lines that stay sharp.
   print() {
-    if (this.picture instanceof SvgPicture) return
+    if (this.picture instanceof SvgPicture) return this.drawAgain()
     const picture = new SvgPicture(this.place, this.skeleton)
     picture.show(this.content)
     picture.draw(this.camera, Math.max(1, this.place.clientWidth), Math.max(1, this.place.clientHeight))
@@ -238,9 +241,16 @@ export class SkeletonView {
   }
 
   endPrint() {
+    if (this.picture instanceof SvgPicture) this.drawAgain()
     this.printed?.element.remove()
     this.printed = null
     this.place.classList.remove('printed')
+  }
+
+  // At once, in the colours of now.
+  drawAgain() {
+    this.picture.recolor()
+    this.picture.draw(this.camera, Math.max(1, this.place.clientWidth), Math.max(1, this.place.clientHeight))
   }
 }
 

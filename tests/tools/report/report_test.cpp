@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <regex>
 #include <sstream>
 #include <string>
@@ -70,7 +71,7 @@ TEST_F(Report, SummaryIsThatOfTheFile) {
     EXPECT_EQ(cell(page, name), info["graph"][name].dump()) << name;
   EXPECT_EQ(cell(page, "function"), "z");
   EXPECT_EQ(cell(page, "mesh triangles"), info["input"]["triangles"].dump());
-  EXPECT_EQ(cell(page, "pairs of loops \\(Ext1\\)"), info["graph"]["loops"].dump());
+  EXPECT_EQ(cell(page, "loops \\(Ext1 pairs\\)"), info["graph"]["loops"].dump());
   EXPECT_NE(cell(page, "loops"), "0");
   EXPECT_NE(page.find("mesh triangles</th><td>" + with_commas(info["input"]["triangles"])), std::string::npos);
 }
@@ -163,6 +164,19 @@ TEST_F(Report, FewNodesMeanCoarserLevels) {
   EXPECT_LE(skeleton["levels"]["nodes"][0], 10);
   EXPECT_NE(page.find("--nodes N sets another limit"), std::string::npos);
   EXPECT_TRUE(data(report(planted(), {}, {"--nodes", "1"}))["skeleton"].is_null());
+  // 1,500 triangles apart: the coarsest level has two nodes of each.
+  std::string apart = "OFF\n4500 1500 0\n";
+  for (int i = 0; i < 1500; ++i)
+    for (const char* yz : {" 0 0\n", " 1 0\n", " 0 1\n"}) apart += std::to_string(2 * i) + yz;
+  for (int i = 0; i < 4500; i += 3)
+    apart += "3 " + std::to_string(i) + ' ' + std::to_string(i + 1) + ' ' + std::to_string(i + 2) + '\n';
+  write("apart.off", apart);
+  expect_success(reeb({"apart.off"}));
+  expect_success(reeb({"report", "apart.reeb", "-o", "apart.html"}));
+  EXPECT_EQ(data(file("apart.html"))["skeleton"]["levels"]["nodes"][0], 3000);
+  const Outcome few = reeb({"report", "apart.reeb", "--nodes", "2000", "-o", "few.html"});
+  EXPECT_TRUE(few.error.starts_with("note: no skeleton: the coarsest level has 3,000 nodes; --nodes 3000"))
+      << few.error;
 }
 
 TEST_F(Report, FiveMegabytesAreEnoughForAThousandNodes) {
@@ -186,6 +200,17 @@ TEST_F(Report, DefectsAreThoseOfTheMesh) {
     EXPECT_EQ(closeups[i]["kind"], defects["loops"][i]["kind"]);
     EXPECT_GT(closeups[i]["triangles"].get<std::string>().size(), 100u);
     EXPECT_TRUE(closeups[i]["kind"] == "unclear" || closeups[i]["curve"].size() > 2) << i;
+    const Json& loop = defects["loops"][i];
+    double length = std::numeric_limits<double>::infinity();
+    for (const char* name : {"length_contour", "length_cycle"})
+      if (loop[name] != "inf") length = std::min(length, loop[name].get<double>());
+    EXPECT_EQ(closeups[i]["length"], std::isfinite(length) ? Json(length) : Json()) << i;
+    EXPECT_EQ(closeups[i]["center"], Json({loop["center_x"], loop["center_y"], loop["center_z"]})) << i;
+    // The centre of the curve is in the box of the patch.
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double inside = loop[std::string("center_") + "xyz"[k]].get<double>() - closeups[i]["min"][k].get<double>();
+      EXPECT_TRUE(inside >= 0 && inside <= closeups[i]["size"].get<double>()) << i;
+    }
   }
 }
 
@@ -254,7 +279,7 @@ TEST_F(Report, DescribesVolumes) {
   expect_success(reeb({"generate", "volume", "--grid", "12x12x12", "--handles", "1", "-o", "v.nrrd"}));
   expect_success(reeb({"compute", "v.nrrd", "--quiet"}));
   expect_success(reeb({"report", "v.reeb", "--mesh", "v.nrrd", "-o", "v.html", "--quiet"}));
-  EXPECT_NE(file("v.html").find("no surface"), std::string::npos);
+  EXPECT_NE(file("v.html").find("not a surface"), std::string::npos);
   EXPECT_EQ(cell(file("v.html"), "mesh triangles"), "none");
   EXPECT_EQ(cell(file("v.html"), "nodes"),
             Json::parse(reeb({"info", "v.reeb", "--json"}).output)["graph"]["nodes"].dump());

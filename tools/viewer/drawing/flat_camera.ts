@@ -1,5 +1,5 @@
 // A camera that looks at the x-y plane: dragging moves instead of rotating.
-import { Camera } from '../web/camera.js'
+import { Camera } from '../../web/camera.js'
 
 export class FlatCamera extends Camera {
   side = 1 // pixels of the smaller side of the picture

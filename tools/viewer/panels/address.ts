@@ -1,4 +1,9 @@
 // What is shown, in the address of the page after #: so an address can be kept or passed on.
+import { element } from './page'
+import { kDefaultBudget } from './state'
+import type { Viewer } from './state'
+
+const kSaveMilliseconds = 300 // after the last change
 
 export interface State {
   threshold?: number
@@ -12,6 +17,9 @@ const numbers = (text: string | null, size: number): number[] | undefined => {
   const list = text?.split(',').map(Number)
   return list && list.length === size && list.every(Number.isFinite) ? list : undefined
 }
+
+// Whether the part after # is about what is shown, and not a place in the page.
+export const hasState = () => /^#$|[#&](t|colour|arcs|view|at)=/.test(location.hash)
 
 // What is not valid is left out.
 export function readState(): State {
@@ -38,4 +46,41 @@ export function writeState({ threshold, coloring, budget, camera, chosen }: Stat
   if (camera) words.set('view', [camera.turn, camera.tilt, camera.zoom, ...camera.target].map((x) => Number(x.toFixed(4))).join())
   if (chosen && chosen.length > 0) words.set('at', chosen.join())
   history.replaceState(null, '', `#${words.toString().replaceAll('%2C', ',')}`)
+}
+
+export const fileOfAddress = () => new URLSearchParams(location.search).get('file')
+
+// Null: a file that no address names.
+export function nameFile(address: string | null) {
+  if (address === fileOfAddress()) return
+  const words = new URLSearchParams(location.search)
+  if (address === null) words.delete('file')
+  else words.set('file', address)
+  const text = words.toString()
+  history.replaceState(null, '', `${location.pathname}${text && `?${text}`}${location.hash}`)
+}
+
+function stateOf({ file, space }: Viewer): State | null {
+  if (!file) return null
+  const { session, choice, graph } = file
+  const camera = space?.camera
+  return {
+    threshold: session.wanted,
+    coloring: element<HTMLSelectElement>('coloring').value,
+    budget: session.budget === kDefaultBudget ? undefined : session.budget,
+    camera: camera && { turn: camera.turn ?? 0, tilt: camera.tilt ?? 0, zoom: camera.zoom, target: camera.target },
+    chosen: choice?.nodes.map((node) => graph.vertex[node]),
+  }
+}
+
+export function saveNow(viewer: Viewer) {
+  clearTimeout(viewer.saving)
+  const state = stateOf(viewer)
+  if (state) writeState(state)
+}
+
+// Soon: browsers limit how often an address may change.
+export function saveState(viewer: Viewer) {
+  clearTimeout(viewer.saving)
+  viewer.saving = window.setTimeout(() => saveNow(viewer), kSaveMilliseconds)
 }

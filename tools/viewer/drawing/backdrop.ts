@@ -1,8 +1,11 @@
 // A mesh behind the skeleton: a PLY file, small enough to be read whole.
 import { BufferAttribute, BufferGeometry } from 'three'
 import { PLYLoader } from 'three/examples/jsm/loaders/PLYLoader.js'
+import { boxOf } from './shapes'
+import type { Box } from './shapes'
 
 const kMostMegabytes = 64
+const kTolerance = 0.05 // of the size
 
 // Triangles at the positions that the file has.
 export interface Backdrop {
@@ -33,6 +36,17 @@ export async function readBackdrop(file: File): Promise<Backdrop> {
   if (!corners.every(Number.isFinite)) throw wrong('a coordinate is not finite')
   if (!triangles.every((vertex) => vertex < position.count)) throw wrong('a triangle names a vertex that is not there')
   return { name: file.name, corners, triangles }
+}
+
+// Whether the mesh can be that of a skeleton, whose nodes are at its vertices: then its box contains theirs, but for what
+// vertices move when a mesh is reduced. `height`: the axis of a height function, or -1; its range is that of the mesh.
+export function fits({ corners }: Backdrop, box: Box, height: number, { min, max }: { min: number; max: number }): boolean {
+  const mesh = boxOf([corners])
+  const spare = kTolerance * Math.hypot(...box.most.map((x, k) => x - box.least[k]))
+  const contains = [0, 1, 2].every((k) => box.least[k] >= mesh.least[k] - spare && box.most[k] <= mesh.most[k] + spare)
+  if (height < 0) return contains
+  const spareHeight = kTolerance * (max - min)
+  return contains && mesh.least[height] >= min - spareHeight && mesh.most[height] <= max + spareHeight
 }
 
 // In the cube in which the skeleton is drawn.

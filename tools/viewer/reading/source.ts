@@ -46,20 +46,23 @@ export class HttpSource implements Source {
   size = NaN
   loaded = 0
   readonly name: string
-  private readonly url: URL
+  readonly url: URL
   private readonly abort = new AbortController()
   private tag: string | null = null
   private most = Infinity // bytes of a request: fewer where connections are cut
 
-  // `progress` is called while bytes come in, `retrying` before each further try.
+  // `address`: may be relative to that of the page. `progress` is called while bytes come in, `retrying` before each
+  // further try. THROWS if it is no address.
   constructor(
-    url: string,
+    readonly address: string,
     private readonly headers: [string, string][],
     private readonly report: { progress?: () => void; retrying?: (what: string) => void } = {},
     private readonly waitMilliseconds = 500,
   ) {
-    this.url = new URL(url, globalThis.location?.href)
-    this.name = decoded(this.url.pathname.split('/').pop() ?? '') || url
+    this.url = new URL(address, globalThis.location?.href)
+    if (address === '' || !/^https?:$/.test(this.url.protocol))
+      throw new SourceError(`"${address}" is not the address of a file on a server.`, 'Drop a file of this computer onto this page.')
+    this.name = decoded(this.url.pathname.split('/').pop() ?? '') || address
   }
 
   async read(begin: number, end: number): Promise<Uint8Array> {
@@ -77,7 +80,7 @@ export class HttpSource implements Source {
         if (at >= Math.min(end, this.size)) break
       } catch (error) {
         if (!(error instanceof Interrupted)) throw error
-        this.most = Math.max(kLeastBytes, Math.min(this.most, end - at) / 2) | 0
+        if (error.isCut) this.most = Math.max(kLeastBytes, Math.min(this.most, end - at) / 2) | 0
         if (tries >= kTries) throw new SourceError(`${error.message} ${kTries} tries failed.`, 'Check the network, and try again.')
         this.report.retrying?.(error.message)
         await new Promise((done) => setTimeout(done, this.waitMilliseconds * 2 ** (tries - 1)))
@@ -112,9 +115,9 @@ export class HttpSource implements Source {
       for (let left = room; left > 0; ) {
         const { done, value } = await reader.read().catch((error) => {
           if (this.abort.signal.aborted) throw error
-          throw new Interrupted('The connection was cut.')
+          throw new Interrupted('The connection was cut.', true)
         })
-        if (done) throw new Interrupted('The connection ended early.')
+        if (done) throw new Interrupted('The connection ended early.', true)
         take(value.subarray(0, left))
         left -= value.length
       }
@@ -184,5 +187,9 @@ function decoded(name: string): string {
   }
 }
 
-// A failure after which another try can help.
-class Interrupted extends Error {}
+// A failure after which another try can help: in smaller parts, if the connection was cut.
+class Interrupted extends Error {
+  constructor(what: string, readonly isCut = false) {
+    super(what)
+  }
+}

@@ -1,7 +1,9 @@
 // Where nodes and arcs are drawn: in the shape of the mesh, and laid out by value. Both fill the cube from -1 to 1.
 // Shapes take long where there are many arcs, so they are made step by step.
-import type { LoadedGraph, VersionContent } from './loaded_graph'
+import { kFewNodes, roomOf } from '../../web/marks.js'
+import type { LoadedGraph, VersionContent } from '../reading/loaded_graph'
 
+export const kLargeRoom = 1e9 // of nodes whose marks are never small
 const kStep = 2048 // nodes or arcs
 
 // Segments of all arcs that were read; which of them are drawn depends on the version.
@@ -12,6 +14,7 @@ export interface Shape {
   part: Float32Array // value at start and end, from 0 to 1 of the range
   life: Uint32Array // born, died
   arc: Uint32Array
+  length: Float32Array // of each arc record
 }
 
 export function shapeBytes(shape: Shape): number {
@@ -24,14 +27,28 @@ export interface Frame {
   scale: number
 }
 
-export function frameOf(graph: LoadedGraph): Frame {
+export interface Box {
+  least: number[]
+  most: number[]
+}
+
+// Of lists of coordinates. Empty: from Infinity to -Infinity.
+export function boxOf(lists: (Float32Array | Float64Array)[]): Box {
   const least = [Infinity, Infinity, Infinity]
   const most = [-Infinity, -Infinity, -Infinity]
-  for (const [list, size] of [[graph.position, 3 * graph.nodes], [graph.bucketMean, 3 * graph.buckets]] as const)
-    for (let i = 0; i < size; ++i) {
+  for (const list of lists)
+    for (let i = 0; i < list.length; ++i) {
       least[i % 3] = Math.min(least[i % 3], list[i])
       most[i % 3] = Math.max(most[i % 3], list[i])
     }
+  return { least, most }
+}
+
+export const boxOfGraph = (graph: LoadedGraph) =>
+  boxOf([graph.position.subarray(0, 3 * graph.nodes), graph.bucketMean.subarray(0, 3 * graph.buckets)])
+
+export function frameOf(graph: LoadedGraph): Frame {
+  const { least, most } = boxOfGraph(graph)
   if (!least.every(Number.isFinite) || !most.every(Number.isFinite)) return { middle: [0, 0, 0], scale: 1 }
   const size = Math.hypot(...most.map((x, k) => x - least[k]))
   return { middle: most.map((x, k) => x / 2 + least[k] / 2), scale: size > 0 ? 2 / size : 1 }
@@ -43,7 +60,7 @@ function partOf(graph: LoadedGraph): (value: number) => number {
 }
 
 // All zeros.
-export function makeShape(nodes: Float32Array, segments: number): Shape {
+export function makeShape(nodes: Float32Array, segments: number, arcs: number): Shape {
   return {
     nodes,
     start: new Float32Array(3 * segments),
@@ -51,6 +68,7 @@ export function makeShape(nodes: Float32Array, segments: number): Shape {
     part: new Float32Array(2 * segments),
     life: new Uint32Array(2 * segments),
     arc: new Uint32Array(segments),
+    length: new Float32Array(arcs),
   }
 }
 
@@ -61,7 +79,7 @@ export function* skeletonShape(graph: LoadedGraph, { middle, scale }: Frame): Ge
   const { lo, hi, value, firstBucket, bucketMean, bucketIndex, born, died } = graph
   const part = partOf(graph)
   const width = 2 ** graph.header.bucketExponent
-  const shape = makeShape(nodes, graph.records + graph.buckets)
+  const shape = makeShape(nodes, graph.records + graph.buckets, graph.records)
   const records = graph.records // more may be read meanwhile
   let at = 0
   const point = [0, 0, 0, 0]
@@ -93,6 +111,22 @@ function put(shape: Shape, at: number, from: number[], to: number[], arc: number
   shape.life[2 * at] = born
   shape.life[2 * at + 1] = died
   shape.arc[at] = arc
+  shape.length[arc] += Math.hypot(to[0] - from[0], to[1] - from[1], to[2] - from[2])
+}
+
+// The rooms of the nodes of a version (marks.js).
+export function roomsOf(graph: LoadedGraph, { version, nodes, up, down }: VersionContent, { length }: Shape): Float32Array {
+  const rooms = new Float32Array(up.length)
+  if (nodes <= kFewNodes) return rooms.fill(kLargeRoom)
+  const { lo, hi } = graph
+  for (let i = 0; i < length.length; ++i) {
+    if (!graph.isIn(i, version)) continue
+    const [a, b] = [lo[i], hi[i]]
+    const room = roomOf(length[i], down[a] === 0 && up[a] === 1 && up[b] === 0 && down[b] === 1)
+    if (room > rooms[a]) rooms[a] = room
+    if (room > rooms[b]) rooms[b] = room
+  }
+  return rooms
 }
 
 // A place from 0 to 1 across for each node of a version, NaN for others: the ends of a spanning tree one after the
@@ -183,7 +217,7 @@ export function* flatShape(graph: LoadedGraph, content: VersionContent, finest: 
     nodes[3 * i + 1] = 2 * part(value[i]) - 1
   }
   // Arcs between the same nodes bend, so that each is seen.
-  const shape = makeShape(nodes, 2 * records)
+  const shape = makeShape(nodes, 2 * records, records)
   const same = new Map<number, number>()
   for (let arc = 0; arc < records; ++arc) {
     if (arc % kStep === 0) yield

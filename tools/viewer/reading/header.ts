@@ -4,6 +4,7 @@ import type { Digest } from './digest'
 
 export const kFixedBytes = 176
 const kMagic = [0x89, 0x52, 0x45, 0x45, 0x42, 0x0d, 0x0a, 0x1a]
+const kFragment = [...'REEBFRG\n'].map((letter) => letter.charCodeAt(0))
 const kLevelBytes = 56
 const kMostNameBytes = 4096
 
@@ -48,6 +49,8 @@ export interface Header {
 // How large the region is, from its first bytes. THROWS: FormatError.
 export function headerBytes(fixed: Uint8Array, fileBytes: number): number {
   const cursor = new Cursor(fixed, 0)
+  if (kFragment.every((byte, i) => fixed[i] === byte))
+    throw new FormatError('this is a fragment, a part of a run, and not a Reeb graph: `reeb glue` makes a Reeb graph of the fragments of all parts', 0)
   if (fixed.length < 8 || kMagic.some((byte, i) => fixed[i] !== byte))
     throw new FormatError('this is not a .reeb file: it starts with other bytes', 0)
   cursor.take(8)
@@ -128,7 +131,7 @@ export function readHeader(bytes: Uint8Array, digest: Digest): Header {
     }
     const before = header.levels[i - 1]
     rule(line.version <= header.steps && line.frames <= header.graphFrames, 'a level is out of range', offset)
-    rule(line.threshold >= 0, 'a threshold is no number', offset + 8)
+    rule(line.threshold >= 0, 'a threshold is not a number', offset + 8)
     rule(
       !before || (line.version < before.version && line.threshold <= before.threshold && line.frames >= before.frames),
       'the levels are out of order',

@@ -4,9 +4,11 @@ import {
   BufferAttribute, BufferGeometry, Color, DoubleSide, InstancedBufferAttribute, InstancedBufferGeometry, Mesh, OrthographicCamera,
   Points, Scene, ShaderMaterial, Vector2, WebGLRenderer,
 } from 'three'
-import type { Camera } from '../web/camera.js'
-import { channels, kindColors, valueStops } from '../web/colors.js'
-import { makeShape } from './shapes'
+import type { Camera } from '../../web/camera.js'
+import { channels, kindColors, valueStops } from '../../web/colors.js'
+import { kSmallMark } from '../../web/marks.js'
+import type { LoadedGraph, VersionContent } from '../reading/loaded_graph'
+import { kLargeRoom, makeShape, roomsOf } from './shapes'
 import type { Shape } from './shapes'
 
 export type Coloring = 'value' | 'arc' | 'type'
@@ -58,14 +60,15 @@ const kLineVertex = `
   }`
 const kPointVertex = `
   attribute float kind;
+  attribute float room;
   uniform vec3 kinds[5];
-  uniform float width;
+  uniform float width, scale;
   varying vec3 tint;
   varying float shape;
   void main() {
     gl_Position = kind < 0.5 ? vec4(2.0, 2.0, 2.0, 1.0) : projectionMatrix * modelViewMatrix * vec4(position, 1.0);
     gl_Position.z -= 0.0005;
-    gl_PointSize = width;
+    gl_PointSize = room * scale < 1.0 ? ${kSmallMark} * width : width;
     shape = kind;
     tint = kinds[int(kind + 0.5)];
   }`
@@ -100,6 +103,8 @@ const kBackdropFragment = `
     gl_FragColor = vec4(tint, mix(0.5, 0.07, facing));
   }`
 const kRing = 5
+const kPointPixels = 12
+const kRingPixels = 30
 
 export interface Found {
   node?: number
@@ -122,12 +127,14 @@ export class Picture {
   private backdrop: Mesh | null = null
   private shape: Shape | null = null
   private kinds = new Uint8Array(0)
+  private rooms = new Float32Array(0)
   private version = 0
   private size = [0, 0]
+  private ratio = 0
 
-  constructor(place: HTMLElement) {
+  // `restored` is called when the graphics card has lost everything and is there again.
+  constructor(place: HTMLElement, restored: () => void) {
     this.renderer = new WebGLRenderer({ antialias: true, alpha: true, preserveDrawingBuffer: true })
-    this.renderer.setPixelRatio(Math.min(2, devicePixelRatio))
     this.camera.matrixAutoUpdate = false
     const colors = (count: number) => ({ value: Array.from({ length: count }, () => new Color()) })
     this.lineMaterial = new ShaderMaterial({
@@ -139,13 +146,13 @@ export class Picture {
       },
       side: 2,
     })
-    const points = (width: number, kinds: object, depthTest: boolean) =>
+    const points = (kinds: object, depthTest: boolean) =>
       new ShaderMaterial({
         vertexShader: kPointVertex, fragmentShader: kPointFragment, depthTest,
-        uniforms: { kinds, rim: { value: new Color() }, width: { value: width * this.renderer.getPixelRatio() } } as never,
+        uniforms: { kinds, rim: { value: new Color() }, width: { value: 0 }, scale: { value: 1 } } as never,
       })
-    this.pointMaterial = points(12, colors(kKinds.length), true)
-    this.ringMaterial = points(30, colors(kKinds.length + 1), false)
+    this.pointMaterial = points(colors(kKinds.length), true)
+    this.ringMaterial = points(colors(kKinds.length + 1), false)
     this.ringMaterial.vertexShader = kPointVertex.replace('kinds[5]', 'kinds[6]')
     this.backdropMaterial = new ShaderMaterial({
       vertexShader: kBackdropVertex, fragmentShader: kBackdropFragment, uniforms: { tint: { value: new Color() } },
@@ -153,9 +160,10 @@ export class Picture {
     })
     this.element = this.renderer.domElement
     place.append(this.element)
+    this.element.addEventListener('webglcontextrestored', restored)
     this.recolor()
     // Shaders are compiled now, while the first bytes of a file are on their way.
-    this.setShape(makeShape(new Float32Array(3), 1))
+    this.setShape(makeShape(new Float32Array(3), 1, 1))
     this.choose(0, [0])
     this.renderer.compile(this.scene, this.camera)
     this.choose(kNoArc, [])
@@ -191,9 +199,11 @@ export class Picture {
     this.lines = new Mesh(geometry, this.lineMaterial)
     this.lines.frustumCulled = false
     this.kinds = new Uint8Array(shape.nodes.length / 3)
+    this.rooms = new Float32Array(this.kinds.length)
     const nodes = new BufferGeometry()
     nodes.setAttribute('position', new BufferAttribute(shape.nodes, 3))
     nodes.setAttribute('kind', new BufferAttribute(this.kinds, 1))
+    nodes.setAttribute('room', new BufferAttribute(this.rooms, 1))
     this.points = new Points(nodes, this.pointMaterial)
     this.points.frustumCulled = false
     this.points.renderOrder = 1
@@ -201,12 +211,14 @@ export class Picture {
   }
 
   // `kinds`: of each node, as in kKinds. `types`: of each arc, in the same numbers; null where they are not shown.
-  show(version: number, kinds: Uint8Array, types: Uint8Array | null) {
+  show(graph: LoadedGraph, content: VersionContent, kinds: Uint8Array, types: Uint8Array | null) {
+    const { version } = content
     this.version = version
     this.lineMaterial.uniforms.version.value = version
     if (!this.shape || !this.points || !this.lines) return
     this.kinds.set(kinds.subarray(0, this.kinds.length)) // more nodes can have been read than the shape has
-    this.points.geometry.attributes.kind.needsUpdate = true
+    this.rooms.set(roomsOf(graph, content, this.shape).subarray(0, this.rooms.length))
+    for (const name of ['kind', 'room']) this.points.geometry.attributes[name].needsUpdate = true
     if (!types) return
     const attribute = this.lines.geometry.attributes.type
     for (let i = 0; i < this.shape.arc.length; ++i) attribute.array[i] = types[this.shape.arc[i]]
@@ -233,6 +245,7 @@ export class Picture {
     const places = nodes.flatMap((node) => [...this.shape!.nodes.subarray(3 * node, 3 * node + 3)])
     geometry.setAttribute('position', new BufferAttribute(new Float32Array(places), 3))
     geometry.setAttribute('kind', new BufferAttribute(new Uint8Array(nodes.length).fill(kRing), 1))
+    geometry.setAttribute('room', new BufferAttribute(new Float32Array(nodes.length).fill(kLargeRoom), 1))
     this.rings = new Points(geometry, this.ringMaterial)
     this.rings.frustumCulled = false
     this.rings.renderOrder = 2
@@ -240,11 +253,17 @@ export class Picture {
   }
 
   draw(camera: Camera, width: number, height: number) {
-    if (width !== this.size[0] || height !== this.size[1]) {
+    const ratio = Math.min(2, devicePixelRatio) // changes when the page is zoomed
+    if (width !== this.size[0] || height !== this.size[1] || ratio !== this.ratio) {
+      this.renderer.setPixelRatio(ratio)
       this.renderer.setSize(width, height, false)
+      this.pointMaterial.uniforms.width.value = kPointPixels * ratio
+      this.ringMaterial.uniforms.width.value = kRingPixels * ratio
       this.size = [width, height]
+      this.ratio = ratio
     }
-    const scale = (Math.min(width, height) / 2.4) * camera.zoom
+    const scale = camera.scale(width, height)
+    this.pointMaterial.uniforms.scale.value = scale
     Object.assign(this.camera, {
       left: -width / 2 / scale, right: width / 2 / scale, top: height / 2 / scale, bottom: -height / 2 / scale,
     })
@@ -262,7 +281,7 @@ export class Picture {
     const { shape } = this
     if (!shape) return {}
     const [width, height] = this.size
-    const scale = (Math.min(width, height) / 2.4) * camera.zoom
+    const scale = camera.scale(width, height)
     const { right, up } = camera.axes()
     const [rx, ry, rz] = right.map((x) => x * scale)
     const [ux, uy, uz] = up.map((x) => -x * scale)

@@ -1,5 +1,4 @@
 // One open file: what was read of it, and what was asked for.
-import type { Pairs } from './frame'
 import type { End } from './reader'
 import { Reader } from './reader'
 import type { Source } from './source'
@@ -9,8 +8,8 @@ const kSliceMilliseconds = 8
 export class Session {
   wanted = Infinity // threshold
   end: End | null = null // why reading stopped, null while it goes on or if no more is wanted
-  pairs: Pairs | null = null
   private reading: Promise<void> | null = null
+  private paused = false
   private stopped = false
 
   private constructor(readonly source: Source, readonly reader: Reader, public budget: number) {}
@@ -26,14 +25,14 @@ export class Session {
   // Reads until the version that the threshold yields is complete. `changed` is called after each frame.
   want(threshold: number, changed: () => void): Promise<void> {
     this.wanted = threshold
+    this.paused = false
     this.reading ??= this.readOn(changed).finally(() => (this.reading = null))
     return this.reading
   }
 
-  // What was read stays.
+  // What was read stays, and what was wanted.
   pause() {
-    this.end = 'wanted'
-    this.wanted = Infinity
+    this.paused = true
   }
 
   close() {
@@ -53,7 +52,7 @@ export class Session {
   private async readOn(changed: () => void) {
     this.end = null
     let pauseAt = 0
-    while (!this.stopped && this.needsMore()) {
+    while (!this.stopped && !this.paused && this.needsMore()) {
       const { header, graph } = this.reader
       // The first version is shown whatever the budget.
       this.end = await this.reader.readFrame(graph.finest > header.steps ? Infinity : this.budget)
