@@ -60,8 +60,9 @@ void ObjReader::begin_line(MeshBatch& batch) {
     read_vertex(batch);
   } else if (keyword == "f" || keyword == "l" || keyword == "fo" || keyword == "p") {
     has_obj_line_ = true;
-    if (!text_.more_on_line()) text_.fail("\"" + std::string(keyword) + "\" without a vertex", kCutOrDamagedHereHint);
-    face_.begin(keyword == "l" ? FaceShape::kPolyline : keyword == "p" ? FaceShape::kPoints : FaceShape::kPolygon);
+    const std::string name(keyword);  // more_on_line() may move the text
+    if (!text_.more_on_line()) text_.fail('"' + name + "\" without a vertex", kCutOrDamagedHereHint);
+    face_.begin(name == "l" ? FaceShape::kPolyline : name == "p" ? FaceShape::kPoints : FaceShape::kPolygon);
     in_face_ = true;
   } else {
     if (is_skipped(keyword))
