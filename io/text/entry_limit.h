@@ -17,7 +17,7 @@ class EntryLimit {
   // `what` names the entries in messages ("properties").
   explicit EntryLimit(const char* what, std::uint64_t most = kUsual) : what_(what), most_(most) {}
 
-  // Counts this many more entries, each with so many bytes of text.
+  // Counts `entries` more, each with `bytes_each` bytes of text.
   // THROWS: what place.fail(what, hint) throws, if they are too many.
   template <class Place>
   void add(std::uint64_t entries, std::uint64_t bytes_each, const Place& place) {
