@@ -103,14 +103,7 @@ void write_fragment(const std::string& path, const OutputOptions& output, const 
   file.commit();
 }
 
-bool is_fragment(const std::string& path) {
-  if (!io::is_regular_file(path)) return false;
-  const io::File file = io::File::open_for_reading(path);
-  std::array<char, 8> magic{};
-  if (file.size() < magic.size()) return false;
-  file.read_at(0, std::as_writable_bytes(std::span(magic)));
-  return magic == kMagic;
-}
+bool is_fragment(const std::string& path) { return begins_with(path, kMagic); }
 
 void FragmentFile::fail(const std::string& why, std::uint64_t offset) const {
   throw Error(ErrorKind::kBadInput, "this fragment " + why, "make its part again with `reeb fragment`")

@@ -11,6 +11,7 @@
 #include "io/file/file.h"
 #include "io/file/input_file.h"
 #include "libreeb/base/error.h"
+#include "ooc/states/state_file.h"
 
 namespace reeb::ooc {
 namespace {
@@ -101,14 +102,7 @@ void merge_names(const io::File& file, const Header& header, PagedTable<std::uin
 
 }  // namespace
 
-bool is_names_file(const std::string& path) {
-  if (!io::is_regular_file(path)) return false;
-  const io::File file = io::File::open_for_reading(path);
-  std::array<char, 8> magic{};
-  if (file.size() < magic.size()) return false;
-  file.read_at(0, std::as_writable_bytes(std::span(magic)));
-  return magic == kMagic;
-}
+bool is_names_file(const std::string& path) { return begins_with(path, kMagic); }
 
 void visit_names(RunContext& run, WholeMesh& mesh, std::uint32_t part,
                  const std::function<void(std::uint64_t first, std::uint64_t count)>& visit) {

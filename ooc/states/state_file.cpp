@@ -4,6 +4,15 @@
 
 namespace reeb::ooc {
 
+bool begins_with(const std::string& path, const std::array<char, 8>& magic) {
+  if (!io::is_regular_file(path)) return false;
+  const io::File file = io::File::open_for_reading(path);
+  std::array<char, 8> first{};
+  if (file.size() < first.size()) return false;
+  file.read_at(0, std::as_writable_bytes(std::span(first)));
+  return first == magic;
+}
+
 void StateFileWriter::write(std::span<const std::byte> bytes) {
   out_.append(bytes);
   checksum_.add(bytes);

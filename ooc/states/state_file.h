@@ -1,9 +1,11 @@
 // States (libreeb/base/state_stream.h) in files.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "io/file/buffered_writer.h"
@@ -12,6 +14,9 @@
 #include "libreeb/base/state_stream.h"
 
 namespace reeb::ooc {
+
+// Whether `path` is a regular file that begins with `magic`. THROWS: as io::File.
+bool begins_with(const std::string& path, const std::array<char, 8>& magic);
 
 // Appends to `out`, which must outlive it, and adds up what it appends. THROWS: as `out`.
 class StateFileWriter : public StateWriter {
