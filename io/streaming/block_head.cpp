@@ -11,7 +11,7 @@ namespace reeb::io {
 namespace {
 
 constexpr std::int32_t kMaxComments = 65535, kMaxCommentBytes = 1 << 20;
-constexpr std::size_t kMaxHeadBytes = 4u << 20;
+constexpr std::size_t kMaxHeadBytes = 64u << 20;
 constexpr std::size_t kJudgedBlocks = 64;
 // Both readings look at this many bytes in one view.
 static_assert(256 + kJudgedBlocks * (4 + kBlockElements * 16) <= ContentSource::kLookahead);
@@ -57,7 +57,7 @@ bool read_comment(Cursor& cursor, HeadReading& reading) {
   if (length < 0 || length > kMaxCommentBytes)
     return reading.refuse("comment length " + std::to_string(length) + " is not plausible");
   auto left = static_cast<std::size_t>(length);
-  if (reading.end + left > kMaxHeadBytes) return reading.refuse("more than 4 MiB of comments");
+  if (reading.end + left > kMaxHeadBytes) return reading.refuse("more than 64 MiB of comments");
   std::string& comment = reading.header.comments.emplace_back();
   while (left != 0) {
     if (cursor.at_end()) return reading.refuse_truncated();

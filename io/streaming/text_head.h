@@ -32,7 +32,7 @@ class TextHead {
   std::uint64_t number_ = 0;
   StreamBox box_{};
   bool has_min_ = false, has_max_ = false;
-  EntryLimit comment_limit_{"comments"};
+  EntryLimit comment_limit_{"comments", 160'000};  // 16 MB of text
 };
 
 }  // namespace reeb::io

@@ -67,12 +67,12 @@ TEST(StreamRobustness, LongCommentsAreReadWhole) {
 
 TEST(StreamRobustness, CommentsHaveALimit) {
   std::string lines, text;
-  for (int i = 0; i < 10000; ++i) lines += "# c\n";
-  for (int i = 0; i < 20; ++i) text += "# " + std::string(50001, 'c') + "\n";
+  for (int i = 0; i < 160'000; ++i) lines += "# c\n";
+  for (int i = 0; i < 320; ++i) text += "# " + std::string(50001, 'c') + "\n";
   EXPECT_EQ(read_all(lines + "v 0 0 0\n").error, "");
-  EXPECT_EQ(read_all(lines + "# c\nv 0 0 0\n").error, "BAD_HEADER: the file has more than 10,000 comments");
+  EXPECT_EQ(read_all(lines + "# c\nv 0 0 0\n").error, "BAD_HEADER: the file has more than 160,000 comments");
   EXPECT_EQ(read_all(text + "v 0 0 0\n").error,
-            "BAD_HEADER: the comments of the file have more than 1,000,000 characters in all");
+            "BAD_HEADER: the comments of the file have more than 16,000,000 characters in all");
 }
 
 TEST(StreamRobustness, AFaultAfterLongCommentsHasItsPlace) {
