@@ -20,7 +20,7 @@ class FlatMap {
   std::size_t size() const { return size_; }
   std::size_t memory_bytes() const { return keys_.capacity() * 8 + values_.capacity() * 4; }
 
-  // The most that inserting so many keys takes in addition: the arrays are copied when they grow.
+  // The most bytes that inserting `keys` more keys takes in addition: arrays that grow are copied.
   std::size_t growth_bytes(std::size_t keys) const {
     const std::size_t most = 2 * (size_ + keys);
     return most <= values_.size() ? 0 : std::bit_ceil(most) * (8 + 4);

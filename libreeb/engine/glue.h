@@ -51,10 +51,12 @@ class Glue {
   // Adds the next fragment of the stream.
   // REQUIRES: a vertex that it marks kUsedEarlier was marked kUsedLater in an earlier fragment, unless it is also
   // marked kUsedLater, or the fragment completes it; its options are not less than those of earlier fragments.
-  // `grown` is told every few zips how many bytes are in use: paths can become far longer than memory_bytes_with()
-  // says. THROWS: Error{kChanged} if a vertex has another value than in an earlier fragment. Paths are monotone only if
-  //         values stay the same. Error{kNotManifold}, if it was said to be one. What `grown` throws; then the object
-  //         must not be used any more.
+  // `grown` is told every few zips how many bytes are in use, since zips can make paths far longer than
+  // memory_bytes_with() says.
+  // THROWS: Error{kChanged} if a vertex has another value than in an earlier fragment: paths are monotone only if
+  //         values stay the same.
+  //         Error{kNotManifold} if the mesh was said to be a manifold, and is not.
+  //         What `grown` throws; then the object must not be used any more.
   void add(const Fragment& fragment, const std::function<void(std::size_t bytes)>& grown = {});
 
   // Replaces `fragment` by all that is live: it can be added to another Glue, on its own terms. Incomplete vertices are
