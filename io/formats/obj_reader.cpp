@@ -39,6 +39,8 @@ void ObjReader::fill(MeshBatch& batch) {
   while (room(batch) != 0) {
     if (in_face_)
       read_corner(batch);
+    else if (read_plain_vertex(batch) || read_plain_face(batch))
+      continue;
     else if (text_.more())
       begin_line(batch);
     else
@@ -52,6 +54,38 @@ void ObjReader::check_lines() const {
   throw Error(ErrorKind::kBadInput, "none of its lines is OBJ",
               "it may be of another format: leave --format out, or give the right one")
       .at(text_.source().name(), std::to_string(first_unknown_line_) + ":1");
+}
+
+// Reads a vertex of three coordinates. Returns false if the line is something else, or has another form.
+bool ObjReader::read_plain_vertex(MeshBatch& batch) {
+  std::array<double, 3> point{};
+  const auto read = [&point](PlainLine& line) {
+    return line.letter('v') && line.number(point[0]) && line.number(point[1]) && line.number(point[2]);
+  };
+  if (!text_.plain_line(read)) return false;
+  for (double& coordinate : point) coordinate += text_.zero();
+  add_vertex(point, batch);
+  return true;
+}
+
+// The same for a face of three or four vertices that have come before.
+bool ObjReader::read_plain_face(MeshBatch& batch) {
+  std::array<std::uint64_t, 4> corners{};
+  std::size_t count = 0;
+  const auto read = [&](PlainLine& line) {
+    if (!line.letter('f')) return false;
+    for (; line.more(); ++count) {
+      if (count == corners.size() || !line.corner(corners[count])) return false;
+      if (corners[count] == 0 || corners[count] > vertices_read()) return false;
+    }
+    return count >= 3 && room(batch) >= count - 2;
+  };
+  if (!text_.plain_line(read)) return false;
+  has_obj_line_ = true;
+  for (std::size_t k = 2; k < count; ++k)
+    for (const std::uint64_t corner : {corners[0], corners[k - 1], corners[k]})
+      batch.triangles().push_back(VertexId(corner - 1));
+  return true;
 }
 
 void ObjReader::begin_line(MeshBatch& batch) {
@@ -95,8 +129,12 @@ void ObjReader::read_vertex(MeshBatch& batch) {
     text_.fail("a vertex of " + std::to_string(numbers) + " numbers",
                "a vertex has 3 coordinates, and perhaps a weight or a colour of 3 numbers");
   text_.skip_line();
-  has_obj_line_ = true;
   if (numbers == 6) skipped_.colors = true;
+  add_vertex(point, batch);
+}
+
+void ObjReader::add_vertex(const std::array<double, 3>& point, MeshBatch& batch) {
+  has_obj_line_ = true;
   for (std::size_t k = 0; k < 3; ++k) batch.coordinates[k].push_back(point[k]);
   count_vertices(batch, 1);
 }

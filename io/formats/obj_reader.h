@@ -1,6 +1,7 @@
 // Wavefront OBJ: v, f, l and p; everything else is skipped. Numbers are float64.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -24,8 +25,11 @@ class ObjReader final : public BatchReader {
 
  private:
   void fill(MeshBatch& batch) override;
+  bool read_plain_vertex(MeshBatch& batch);
+  bool read_plain_face(MeshBatch& batch);
   void begin_line(MeshBatch& batch);
   void read_vertex(MeshBatch& batch);
+  void add_vertex(const std::array<double, 3>& point, MeshBatch& batch);
   void read_corner(MeshBatch& batch);
   void check_lines() const;
   void note_skipped(std::string_view keyword);

@@ -1,6 +1,7 @@
 #include "io/formats/off_reader.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -61,7 +62,11 @@ class OffReader : public BatchReader {
       read_vertex(batch);
       count_vertices(batch, 1);
     }
-    while (room(batch) != 0 && faces_read_ != header_.faces) advance_face(batch);
+    while (room(batch) != 0 && faces_read_ != header_.faces)
+      if (!in_face_ && read_plain_triangle(header_.vertices, batch))
+        ++faces_read_;
+      else
+        advance_face(batch);
     if (vertices_read() == header_.vertices && faces_read_ == header_.faces) trailing_ = has_more();
   }
 
@@ -71,6 +76,8 @@ class OffReader : public BatchReader {
   }
 
   virtual void read_vertex(MeshBatch& batch) = 0;
+  // Reads a triangle with corners below `limit` at once. Returns false if the face has another form or is wrong.
+  virtual bool read_plain_triangle(std::uint64_t, MeshBatch&) { return false; }
   virtual std::int64_t begin_face() = 0;  // returns the number of corners
   virtual std::int64_t read_corner() = 0;
   virtual void end_face() = 0;
@@ -150,12 +157,29 @@ class AsciiOffReader final : public OffReader {
   }
 
   void read_vertex(MeshBatch& batch) override {
+    if (header_.dimension == 3 && read_plain_point(batch)) return;
     for (auto& column : batch.coordinates) {
       text_.require_more("coordinate");
       column.push_back(text_.finite_number<double>("coordinate"));
     }
     while (text_.more_on_line()) non_finite_values_ += spells_non_finite(text_.token()) ? 1u : 0u;
     text_.skip_line();
+  }
+  // Returns false if the line is not only three numbers.
+  bool read_plain_point(MeshBatch& batch) {
+    std::array<double, 3> point{};
+    const auto read = [&point](PlainLine& line) {
+      return line.number(point[0]) && line.number(point[1]) && line.number(point[2]);
+    };
+    if (!text_.plain_line(read)) return false;
+    for (std::size_t k = 0; k < 3; ++k) batch.coordinates[k].push_back(point[k] + text_.zero());
+    return true;
+  }
+  bool read_plain_triangle(std::uint64_t limit, MeshBatch& batch) override {
+    std::array<std::uint64_t, 3> corners;
+    if (!text_.plain_line([&](PlainLine& line) { return line.triangle(limit, corners); })) return false;
+    for (const std::uint64_t corner : corners) batch.triangles().push_back(VertexId(corner));
+    return true;
   }
   std::int64_t begin_face() override { return number("number of corners"); }
   std::int64_t read_corner() override { return number("vertex index"); }

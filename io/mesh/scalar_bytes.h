@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -72,6 +73,12 @@ decltype(auto) with_type(ScalarType type, Use&& use) {
 
 inline std::size_t byte_size(ScalarType type) {
   return with_type(type, [](auto zero) { return sizeof zero; });
+}
+
+// The largest value of an integer type.
+inline std::uint64_t largest_value(ScalarType type) {
+  return with_type(type,
+                   [](auto zero) { return static_cast<std::uint64_t>(std::numeric_limits<decltype(zero)>::max()); });
 }
 
 // `zero` is added: 0.0 makes 0.0 of -0.0, and -0.0 changes nothing.

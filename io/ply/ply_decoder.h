@@ -3,8 +3,10 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -38,6 +40,20 @@ class AsciiPlyDecoder {
   // Values after the end of a record.
   std::uint64_t surplus_values() const { return surplus_values_; }
   bool has_more() { return text_.more(); }
+
+  // Reads a triangle that is alone on its line ("3 0 1 2"), with corners below `limit`. If the line has another form or
+  // is wrong, returns false and does not move.
+  bool plain_triangle(std::uint64_t limit, std::array<std::uint64_t, 3>& corners) {
+    return text_.plain_line([&](PlainLine& line) { return line.triangle(limit, corners); });
+  }
+  // The same for a record of finite values, one a property. REQUIRES: the element has no lists.
+  bool plain_values(const PlyElement& element, std::span<double> values) {
+    return text_.plain_line([&](PlainLine& line) {
+      for (std::size_t p = 0; p < values.size(); ++p)
+        if (!plain_value(line, element.properties[p].type, values[p])) return false;
+      return true;
+    });
+  }
 
   double finite_value(ScalarType type, const char* what) {
     text_.require_more(what);
@@ -77,11 +93,27 @@ class AsciiPlyDecoder {
  private:
   std::int64_t checked_integer(ScalarType type, const char* what) { return within(type, text_.integer(what), what); }
 
+  // False if it is not plain; also for an integer that does not fit its type.
+  bool plain_value(PlainLine& line, ScalarType type, double& value) const {
+    if (type == ScalarType::kFloat64) {
+      if (!line.number(value)) return false;
+      value += text_.zero();
+    } else if (type == ScalarType::kFloat32) {
+      float single = 0;
+      if (!line.number(single)) return false;
+      value = static_cast<double>(single) + text_.zero();
+    } else {
+      std::uint64_t integer = 0;
+      if (!line.integer(integer) || integer > largest_value(type)) return false;
+      value = static_cast<double>(integer);
+    }
+    return true;
+  }
+
   std::int64_t within(ScalarType type, std::int64_t value, const char* what) const {
-    const unsigned bits = static_cast<unsigned>(8 * byte_size(type));
     const bool is_signed = type == ScalarType::kInt8 || type == ScalarType::kInt16 || type == ScalarType::kInt32;
-    const std::int64_t least = is_signed ? -(std::int64_t{1} << (bits - 1)) : 0;
-    const std::int64_t most = (std::int64_t{1} << (is_signed ? bits - 1 : bits)) - 1;
+    const auto most = static_cast<std::int64_t>(largest_value(type));
+    const std::int64_t least = is_signed ? -most - 1 : 0;
     if (value < least || value > most)
       text_.fail("the " + std::string(what) + " " + std::to_string(value) + " does not fit its declared type",
                  kDamagedHereHint);

@@ -261,8 +261,32 @@ class PlyReader final : public PlyBodyReader {
         while (room(batch) != 0 && record_ != element.count) read_vertex_run(element, batch);
         return;
       }
+    } else {
+      if (!element.has_lists()) {
+        for (; room(batch) != 0 && record_ != element.count; ++record_)
+          if (!read_plain_vertex(element, batch)) read_vertex(element, batch);
+        return;
+      }
     }
     for (; room(batch) != 0 && record_ != element.count; ++record_) read_vertex(element, batch);
+  }
+
+  // Returns false if the next line of text is not only finite numbers: read_vertex() then finds out why.
+  bool read_plain_vertex(const PlyElement& element, MeshBatch& batch) {
+    scratch_.resize(element.properties.size());
+    if (!decoder_.plain_values(element, scratch_)) return false;
+    for (std::size_t p = 0; p < scratch_.size(); ++p)
+      if (column_of_[p] != kNoColumn) columns_[column_of_[p]]->push_back(scratch_[p]);
+    copy_columns(1);
+    count_vertices(batch, 1);
+    return true;
+  }
+
+  // The last `count` values of columns that were requested twice.
+  void copy_columns(std::size_t count) {
+    for (const auto& [to, from] : copies_)
+      columns_[to]->insert(columns_[to]->end(), columns_[from]->end() - static_cast<std::ptrdiff_t>(count),
+                           columns_[from]->end());
   }
 
   void read_vertex(const PlyElement& element, MeshBatch& batch) {
@@ -277,7 +301,7 @@ class PlyReader final : public PlyBodyReader {
         non_finite_values_ += decoder_.skip(property.type, "value") ? 1u : 0u;
     }
     decoder_.end_record(element);
-    for (const auto& [to, from] : copies_) columns_[to]->push_back(columns_[from]->back());
+    copy_columns(1);
     count_vertices(batch, 1);
   }
 
@@ -309,9 +333,7 @@ class PlyReader final : public PlyBodyReader {
         meet_non_finite_values(p, place, stride, count);
       place += byte_size(type);
     }
-    for (const auto& [to, from] : copies_)
-      columns_[to]->insert(columns_[to]->end(), columns_[from]->end() - static_cast<std::ptrdiff_t>(count),
-                           columns_[from]->end());
+    copy_columns(count);
     bytes.advance(count * stride);
     record_ += count;
     count_vertices(batch, count);
@@ -344,10 +366,9 @@ class PlyReader final : public PlyBodyReader {
   // --- faces and strips
 
   void read_faces(const PlyElement& element, MeshBatch& batch) {
+    const bool plain = is_plain(element);
     while (room(batch) != 0 && record_ != element.count) {
-      if constexpr (Decoder::kBinary) {
-        if (!in_record_ && is_plain(element) && read_triangle_run(element, batch)) continue;
-      }
+      if (plain && !in_record_ && read_triangle_run(element, batch)) continue;
       advance_face(element, batch);
     }
   }
@@ -420,30 +441,44 @@ class PlyReader final : public PlyBodyReader {
                   "vertices are numbered from 0; the file may be damaged here");
   }
 
-  // Whether the element is only the usual list: a byte for the length, then 32-bit corners.
+  // Whether the element is only a list of corners; in binary, the usual one: a byte for the length, then 32-bit
+  // corners.
   static bool is_plain(const PlyElement& element) {
     if (element.role != PlyRole::kFaces || element.properties.size() != 1) return false;
     const PlyProperty& list = element.properties.front();
-    return byte_size(*list.list_count) == 1 && byte_size(list.type) == 4;
+    return !Decoder::kBinary || (byte_size(*list.list_count) == 1 && byte_size(list.type) == 4);
   }
 
   // Reads consecutive triangles, at most kRunRecords. Returns false if the next record is not a complete, valid
   // triangle: advance_face() then finds out why.
   bool read_triangle_run(const PlyElement& element, MeshBatch& batch) {
-    static constexpr std::size_t kRecordBytes = 13;
-    Cursor& bytes = decoder_.bytes();
-    if (!bytes.ensure(kRecordBytes)) return false;
     const auto left = static_cast<std::size_t>(std::min<std::uint64_t>(element.count - record_, room(batch)));
-    const std::size_t most = std::min({left, bytes.available() / kRecordBytes, kRunRecords});
-    const bool is_signed = element.properties.front().type == ScalarType::kInt32;
-    const std::uint64_t limit = std::min(vertex_limit_, std::uint64_t{1} << (is_signed ? 31 : 32));
-    const std::size_t count = decoder_.swaps() ? copy_triangles<true>(bytes.data(), most, limit, run_.data())
-                                               : copy_triangles<false>(bytes.data(), most, limit, run_.data());
+    const std::uint64_t limit = std::min(vertex_limit_, 1 + largest_value(element.properties.front().type));
+    const std::size_t count = read_triangles(std::min(left, kRunRecords), limit);
     batch.triangles().insert(batch.triangles().end(), run_.begin(),
                              run_.begin() + static_cast<std::ptrdiff_t>(3 * count));
-    bytes.advance(count * kRecordBytes);
     record_ += count;
     return count != 0;
+  }
+
+  // Reads at most `most` triangles with corners below `limit` to the start of run_. Returns their number.
+  std::size_t read_triangles(std::size_t most, std::uint64_t limit) {
+    if constexpr (Decoder::kBinary) {
+      static constexpr std::size_t kRecordBytes = 13;
+      Cursor& bytes = decoder_.bytes();
+      if (!bytes.ensure(kRecordBytes)) return 0;
+      most = std::min(most, bytes.available() / kRecordBytes);
+      const std::size_t count = decoder_.swaps() ? copy_triangles<true>(bytes.data(), most, limit, run_.data())
+                                                 : copy_triangles<false>(bytes.data(), most, limit, run_.data());
+      bytes.advance(count * kRecordBytes);
+      return count;
+    } else {
+      std::array<std::uint64_t, 3> corners;
+      std::size_t count = 0;
+      for (; count != most && decoder_.plain_triangle(limit, corners); ++count)
+        for (std::size_t k = 0; k < 3; ++k) run_[3 * count + k] = VertexId(corners[k]);
+      return count;
+    }
   }
 
   // Copies triangles up to the first face that is not a triangle or has a corner not below `limit`. Returns their

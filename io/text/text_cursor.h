@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "io/text/cursor.h"
+#include "io/text/plain_line.h"
 
 namespace reeb::io {
 
@@ -69,6 +70,18 @@ class TextCursor {
   void require_room(std::uint64_t records, std::uint64_t numbers) const;
   // Moves past the end of this line and its continuations.
   void skip_line();
+  // Reads a line of numbers at once: true if `read(PlainLine&)` returns true and nothing is left on the line. Else does
+  // not move, and the caller reads the line word by word.
+  template <class Read>
+  bool plain_line(Read&& read) {
+    cursor_.ensure(kTokenBytes);
+    PlainLine line(cursor_.data(), cursor_.data() + cursor_.available());
+    if (!read(line) || !line.end()) return false;
+    cursor_.advance(static_cast<std::size_t>(line.next() - cursor_.data()));
+    ++line_;
+    line_begin_ = cursor_.offset();
+    return true;
+  }
   bool at_end() { return cursor_.at_end(); }
 
   // Returns the token at the cursor and moves past it; empty at the end of the line. Valid until the next call. THROWS:
@@ -84,6 +97,8 @@ class TextCursor {
   Float any_number(const char* what);
   // From now on, -0 is delivered as -0.0; else as 0.0.
   void keep_signed_zeros() { zero_ = -0.0; }
+  // What is added to each number, so that this holds.
+  double zero() const { return zero_; }
   // The same for an integer. The whole token must be one.
   std::int64_t integer(const char* what);
   // Reads the digits at the cursor, without a sign; blanks are not skipped. If there are none or more than 18, returns
@@ -133,7 +148,7 @@ class TextCursor {
 
   Cursor cursor_;
   TextStyle style_;
-  double zero_ = 0.0;  // is added to each number
+  double zero_ = 0.0;
   std::uint64_t line_ = 1, line_begin_ = 0;
   std::uint64_t marked_line_ = 1, marked_column_ = 1;
 };
