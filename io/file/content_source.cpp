@@ -22,28 +22,48 @@
 namespace reeb::io {
 namespace {
 
+// A file through one window, which moves to where it is needed. Of a file that is read from its beginning to its end,
+// each byte is copied from the system once.
 class FileSource final : public ContentSource {
  public:
   FileSource(const std::string& name, std::shared_ptr<const InputFile> file)
-      : ContentSource(name), windows_(std::move(file), {.window_count = 2, .overlap_bytes = kLookahead}) {}
+      : ContentSource(name),
+        file_(std::move(file)),
+        window_(static_cast<std::size_t>(std::min<std::uint64_t>(kWindowBytes, file_->size()))) {}
   using ContentSource::view;
 
-  std::string_view view(std::uint64_t offset, std::size_t /*min_bytes*/) override {
-    read_ = std::min(offset, windows_.size());
-    return offset < windows_.size() ? windows_.view(offset) : std::string_view{};
+  std::string_view view(std::uint64_t offset, std::size_t min_bytes) override {
+    offset = read_ = std::min(offset, file_->size());
+    const std::uint64_t wanted = std::min<std::uint64_t>(min_bytes, file_->size() - offset);
+    if (offset < begin_ || offset + wanted > begin_ + filled_) move_to(offset);
+    const auto skip = static_cast<std::size_t>(offset - begin_);
+    return {window_.data() + skip, filled_ - skip};
   }
   bool can_seek() const override { return true; }
-  std::optional<std::uint64_t> size() const override { return windows_.size(); }
+  std::optional<std::uint64_t> size() const override { return file_->size(); }
   std::uint64_t file_bytes_read() const override { return read_; }
-  std::uint64_t file_bytes() const override { return windows_.size(); }
-  std::shared_ptr<const InputFile> file() const override { return windows_.file(); }
-  std::unique_ptr<ContentSource> reopen() const override {
-    return std::make_unique<FileSource>(name(), windows_.file());
-  }
+  std::uint64_t file_bytes() const override { return file_->size(); }
+  std::shared_ptr<const InputFile> file() const override { return file_; }
+  std::unique_ptr<ContentSource> reopen() const override { return std::make_unique<FileSource>(name(), file_); }
 
  private:
-  FileWindows windows_;
-  std::uint64_t read_ = 0;
+  static constexpr std::size_t kWindowBytes = 256 << 10;
+
+  void move_to(std::uint64_t offset) {
+    const bool goes_on = offset >= begin_ && offset < begin_ + filled_;
+    const auto kept = goes_on ? static_cast<std::size_t>(begin_ + filled_ - offset) : 0;
+    std::memmove(window_.data(), window_.data() + filled_ - kept, kept);
+    const auto bytes = static_cast<std::size_t>(std::min<std::uint64_t>(window_.size(), file_->size() - offset));
+    filled_ = 0;  // if it cannot be read
+    file_->read_at(offset + kept, std::as_writable_bytes(std::span(window_).first(bytes).subspan(kept)));
+    begin_ = offset;
+    filled_ = bytes;
+  }
+
+  std::shared_ptr<const InputFile> file_;
+  std::vector<char> window_;
+  std::uint64_t begin_ = 0, read_ = 0;
+  std::size_t filled_ = 0;
 };
 
 // A plain file that is read in small pieces here and there.

@@ -20,7 +20,9 @@ namespace {
 
 constexpr std::size_t kMaxRecordBytes = 4096;
 // Many small windows, since the vertices of a chunk are in several places of the file.
-constexpr WindowOptions kVertexWindows = {.window_bits = 16, .window_count = 16, .overlap_bytes = kMaxRecordBytes};
+constexpr WindowOptions windows_of(std::size_t record_bytes) {
+  return {.window_bits = 16, .window_count = 16, .overlap_bytes = record_bytes};
+}
 
 struct Column {
   ScalarType type = ScalarType::kFloat32;
@@ -59,7 +61,7 @@ class IndexedPly final : public IndexedMesh {
         swap_(header_.encoding == PlyEncoding::kBigEndian),
         stride_(header_.vertices().fixed_bytes()),
         vertices_begin_(header_.body_offset),
-        windows_(file, kVertexWindows),
+        windows_(file, windows_of(stride_)),
         faces_(open_ply_faces(open_content(std::move(file)), header_)) {
     for (std::size_t i = 0; i < header_.vertex_element; ++i)
       vertices_begin_ += header_.elements[i].count * header_.elements[i].fixed_bytes();

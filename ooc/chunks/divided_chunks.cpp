@@ -1,15 +1,9 @@
 #include "ooc/chunks/divided_chunks.h"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 namespace reeb::ooc {
-namespace {
-
-constexpr std::uint16_t kNoPatch = std::numeric_limits<std::uint16_t>::max();
-
-}  // namespace
 
 bool DividedChunks::next(WorkItem& item) {
   if (next_patch_ == patches_.patch_count()) {
@@ -55,18 +49,8 @@ void DividedChunks::divide() {
   reservation_.resize(std::max<std::uint64_t>(reservation_.bytes(), stretch_.memory_bytes()));
   patches_.divide(stretch_.chunk, patch_size());
   next_patch_ = 0;
-  find_last_patches();
   local_.resize(stretch_.chunk.vertex_count());
-  reservation_.resize(stretch_.memory_bytes() + patches_.memory_bytes() + 2 * last_patch_.capacity() +
-                      4 * (local_.capacity() + taken_.capacity()));
-}
-
-void DividedChunks::find_last_patches() {
-  last_patch_.assign(stretch_.chunk.vertex_count(), kNoPatch);
-  for (std::size_t p = 0; p < patches_.patch_count(); ++p)
-    for (const std::uint32_t triangle : patches_.patch(p))
-      for (std::size_t k = 0; k < 3; ++k)
-        last_patch_[stretch_.chunk.corners[3 * std::size_t{triangle} + k]] = static_cast<std::uint16_t>(p);
+  reservation_.resize(stretch_.memory_bytes() + patches_.memory_bytes() + 4 * (local_.capacity() + taken_.capacity()));
 }
 
 void DividedChunks::take_patch(WorkItem& item) {
@@ -97,8 +81,9 @@ void DividedChunks::number_corners(std::span<const std::uint32_t> triangles, std
 
 // Vertices of the stretch that no triangle uses.
 void DividedChunks::add_loose_vertices() {
-  for (std::uint32_t vertex = 0; vertex < last_patch_.size(); ++vertex)
-    if (last_patch_[vertex] == kNoPatch) taken_.push_back(vertex);
+  const std::span<const std::uint16_t> last = patches_.last_patches();
+  for (std::uint32_t vertex = 0; vertex < last.size(); ++vertex)
+    if (last[vertex] == PatchPartition::kNoPatch) taken_.push_back(vertex);
 }
 
 // One array after the other, so that the processor can fetch far ahead.
@@ -117,8 +102,8 @@ void DividedChunks::take_vertices(WorkItem& item) {
 
   gather(stretch_.chunk.uses, item.chunk.uses);
   for (std::size_t i = 0; i < taken_.size(); ++i) {
-    const std::uint16_t last = last_patch_[taken_[i]];
-    if (last == next_patch_ || last == kNoPatch) continue;
+    const std::uint16_t last = patches_.last_patches()[taken_[i]];
+    if (last == next_patch_ || last == PatchPartition::kNoPatch) continue;
     item.chunk.uses[i] |= kUsedLater;
     stretch_.chunk.uses[taken_[i]] |= kUsedEarlier;  // for the patches that follow
   }

@@ -40,7 +40,6 @@ class DividedChunks : public ChunkSource {
   std::size_t patch_size() const;
   void take_whole(WorkItem& item);
   void divide();
-  void find_last_patches();
   void take_patch(WorkItem& item);
   void number_corners(std::span<const std::uint32_t> triangles, std::vector<std::uint32_t>& corners);
   void add_loose_vertices();
@@ -53,7 +52,6 @@ class DividedChunks : public ChunkSource {
   PatchPartition patches_;
   std::size_t next_patch_ = 0;
   // By vertex of the stretch.
-  std::vector<std::uint16_t> last_patch_;
   std::vector<std::uint32_t> local_;  // its number in the current patch, if taken_ has it at that number
   std::vector<std::uint32_t> taken_;  // vertices of the current patch
 };

@@ -90,22 +90,37 @@ std::size_t PatchPartition::divide_sample(const Chunk& chunk, std::span<std::uin
   return cut_at_median(kStream);
 }
 
+// In the order of the stream, so that what is read and written is near what came before.
 void PatchPartition::collect(const Chunk& chunk) {
   const std::size_t n = chunk.triangle_count();
   const auto patch_of = [&](std::size_t i) { return patch_of_[cuts_stream_ ? i : chunk.corners[3 * i]]; };
-  begin_.assign(patches_ + 1, 0);
-  for (std::size_t i = 0; i < n; ++i) ++begin_[patch_of(i) + 1];
-  for (std::size_t p = 0; p < patches_; ++p) begin_[p + 1] += begin_[p];
+  std::vector<std::uint32_t> next(patches_);  // by patch: the place of its next triangle
+  for (std::size_t i = 0; i < n; ++i) ++next[patch_of(i)];
+  // A patch without triangles has no number.
+  std::vector<std::uint16_t> number(patches_);
+  begin_.assign(1, 0);
+  for (std::uint32_t p = 0; p < patches_; ++p) {
+    number[p] = static_cast<std::uint16_t>(begin_.size() - 1);
+    const std::uint32_t begin = begin_.back();
+    if (next[p] != 0) begin_.push_back(begin + next[p]);
+    next[p] = begin;
+  }
   triangles_.resize(n);
-  for (std::size_t i = 0; i < n; ++i) triangles_[begin_[patch_of(i)]++] = static_cast<std::uint32_t>(i);
-  // Now each entry has moved to where the next patch begins.
-  begin_.insert(begin_.begin(), 0);
-  begin_.pop_back();
-  begin_.erase(std::unique(begin_.begin(), begin_.end()), begin_.end());
+  last_patch_.assign(chunk.vertex_count(), 0);
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::uint16_t patch = patch_of(i);
+    triangles_[next[patch]++] = static_cast<std::uint32_t>(i);
+    for (std::size_t k = 0; k < 3; ++k) {
+      std::uint16_t& last = last_patch_[chunk.corners[3 * i + k]];
+      last = std::max(last, static_cast<std::uint16_t>(number[patch] + 1));
+    }
+  }
+  for (std::uint16_t& last : last_patch_) --last;  // 0 becomes kNoPatch
 }
 
 std::size_t PatchPartition::memory_bytes() const {
-  return cuts_.capacity() * sizeof(Cut) + patch_of_.capacity() * 2 + (begin_.capacity() + triangles_.capacity()) * 4;
+  return cuts_.capacity() * sizeof(Cut) + (patch_of_.capacity() + last_patch_.capacity()) * 2 +
+         (begin_.capacity() + triangles_.capacity()) * 4;
 }
 
 }  // namespace reeb::ooc

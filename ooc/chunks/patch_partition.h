@@ -15,13 +15,13 @@ namespace reeb::ooc {
 // of the stream. The position of a triangle is that of its first corner.
 //
 // TIME: O(n log(n / most)), about 5 ns per triangle, half of which `threads` threads share.
-// MEMORY: 4 bytes per triangle and 2 per vertex, or 6 per triangle if the stream is cut.
+// MEMORY: 4 bytes per triangle and 4 per vertex, or 6 per triangle and 2 per vertex if the stream is cut.
 class PatchPartition {
  public:
   explicit PatchPartition(unsigned threads) : threads_(threads) {}
 
   // Cuts patches of at most about `most` triangles, none of them empty. The limit is exact if `most` is less than 256.
-  // REQUIRES: most >= 1; the chunk has triangles, at most 65,536 times `most`.
+  // REQUIRES: most >= 1; the chunk has triangles, at most 65,535 times `most`.
   void divide(const Chunk& chunk, std::size_t most);
 
   // 0 before the first division.
@@ -30,6 +30,9 @@ class PatchPartition {
   std::span<const std::uint32_t> patch(std::size_t index) const {
     return std::span(triangles_).subspan(begin_[index], begin_[index + 1] - begin_[index]);
   }
+  // Of each vertex the last patch with a triangle that uses it; kNoPatch if there is none.
+  static constexpr std::uint16_t kNoPatch = 0xffff;
+  std::span<const std::uint16_t> last_patches() const { return last_patch_; }
   std::size_t memory_bytes() const;
 
  private:
@@ -55,7 +58,8 @@ class PatchPartition {
   std::vector<Cut> cuts_;
   std::uint32_t patches_ = 0;
   bool cuts_stream_ = false;
-  std::vector<std::uint16_t> patch_of_;  // by first corner; by triangle if the stream is cut
+  std::vector<std::uint16_t> patch_of_;    // by first corner; by triangle if the stream is cut
+  std::vector<std::uint16_t> last_patch_;  // by vertex
   std::vector<std::uint32_t> begin_{0};
   std::vector<std::uint32_t> triangles_;  // first the sample
 };
