@@ -28,7 +28,7 @@ inline constexpr std::size_t kChecksumBytes = 8;
 inline constexpr std::size_t kFrameHeaderBytes = 40;  // its checksum included
 inline constexpr std::size_t kTailBytes = 24;
 inline constexpr std::uint32_t kMaxNameBytes = 4096;
-inline constexpr std::uint32_t kMaxFrameBytes = 16u << 20;  // uncompressed
+inline constexpr std::uint32_t kMaxFrameBytes = 128u << 20;  // uncompressed; an arc may have two million buckets
 
 // The header region without its checksum.
 void encode_header(const FileHeader& header, std::vector<std::byte>& out);

@@ -7,8 +7,11 @@
 namespace reeb::ooc {
 
 void PatchPartition::divide(const Chunk& chunk, std::size_t most) {
-  constexpr std::size_t kSamplesAPatch = 256;
-  const std::size_t n = chunk.triangle_count(), stride = std::max<std::size_t>(1, most / kSamplesAPatch);
+  // A cut leaves at least a quarter on each side, so there are fewer than 2^16 patches.
+  constexpr std::size_t kSamplesAPatch = 256, kUsualPatches = 16000;
+  const std::size_t n = chunk.triangle_count();
+  most = std::max(most, n / kUsualPatches + 1);
+  const std::size_t stride = std::max<std::size_t>(1, most / kSamplesAPatch);
   cuts_.clear();
   patches_ = 0;
   triangles_.clear();

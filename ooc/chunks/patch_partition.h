@@ -20,8 +20,8 @@ class PatchPartition {
  public:
   explicit PatchPartition(unsigned threads) : threads_(threads) {}
 
-  // Cuts patches of at most about `most` triangles, none of them empty. The limit is exact if `most` is less than 256.
-  // REQUIRES: most >= 1; the chunk has triangles, at most 65,535 times `most`.
+  // Cuts patches of at most about `most` triangles, none of them empty; of more where there would be more than some
+  // 16,000 patches. The limit is exact if it is less than 256. REQUIRES: most >= 1; the chunk has triangles.
   void divide(const Chunk& chunk, std::size_t most);
 
   // 0 before the first division.

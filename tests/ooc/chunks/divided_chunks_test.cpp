@@ -147,6 +147,18 @@ TEST(DividedChunks, HaveWhatTheStretchHas) {
   }
 }
 
+// Patches have numbers of 16 bits. So there are fewer than asked for, and larger ones.
+TEST(DividedChunks, HaveWhatTheStretchHasWhereManyPatchesAreAskedFor) {
+  const WorkItem stretch = strip(256, 128);
+  ASSERT_EQ(stretch.chunk.triangle_count(), 65'536u);
+  Made made({stretch});
+  MemoryBudget budget;
+  DividedChunks source(made, {.first = 1, .patch = 1}, budget, 2);
+  const std::vector<WorkItem> chunks = all_of(source);
+  EXPECT_GT(chunks.size(), 10'000u);
+  expect_whole(stretch, chunks);
+}
+
 // The border of a strip's patches is like that of a sixteenth of the strip, not like that of its rows.
 TEST(DividedChunks, HaveShortBorders) {
   Made made({strip(4000, 25)});

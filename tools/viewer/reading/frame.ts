@@ -6,7 +6,7 @@ import type { Header } from './header'
 
 export const kFrameHeaderBytes = 40
 export const kNever = 2 ** 32 - 1
-const kMostRawBytes = 2 ** 24
+const kMostRawBytes = 2 ** 27
 
 export interface FrameHeader {
   kind: 'graph' | 'pairs'
