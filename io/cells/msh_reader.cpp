@@ -87,31 +87,39 @@ struct MshIndex {
   std::vector<MshArray> arrays;
 };
 
-// One component of values at nodes, read in step with the nodes.
-class MshColumn {
+// The values of one array at nodes, read in step with the nodes.
+class MshValues {
  public:
-  MshColumn(const ContentSource& content, const MshArray& array, std::uint64_t component)
-      : items_(content.reopen()), array_(array), component_(component) {
+  MshValues(const ContentSource& content, const MshArray& array) : items_(reopen_for_seeking(content)), array_(array) {
     items_.move_to(array.offset, array.line);
   }
 
-  double next(std::uint64_t tag) {
+  void read(std::uint64_t tag) {
     const bool more = read_++ < array_.count;
     if (!more || static_cast<std::uint64_t>(items_.integer("node tag")) != tag)
       items_.fail("the values of " + array_.name + " do not list node " + std::to_string(tag) + " here",
                   "write a value for every node, in the order of the nodes");
-    double value = 0;
-    for (std::uint64_t k = 0; k < array_.components; ++k) {
-      const double read = items_.real("vertex property");
-      if (k == component_) value = read;
-    }
-    return value;
+    values_.clear();
+    for (std::uint64_t k = 0; k < array_.components; ++k) values_.push_back(items_.real("vertex property"));
+  }
+  // Of the node that was read last.
+  double component(std::uint64_t k) const { return values_[static_cast<std::size_t>(k)]; }
+
+  std::uint64_t memory_bytes() const {
+    return ContentSource::kLookahead + items_.source().memory_bytes() + values_.capacity() * sizeof(double);
   }
 
  private:
   MshItems items_;
   MshArray array_;
-  std::uint64_t component_, read_ = 0;
+  std::vector<double> values_;
+  std::uint64_t read_ = 0;
+};
+
+// One component of such an array.
+struct MshColumn {
+  std::size_t values = 0;  // their place
+  std::uint64_t component = 0;
 };
 
 class MshInput final : public CellInput {
@@ -121,9 +129,15 @@ class MshInput final : public CellInput {
       : items_(content.reopen()), index_(std::move(index)) {
     if (index_ == nullptr) return;
     const std::vector<PointArray> arrays(index_->arrays.begin(), index_->arrays.end());
+    std::vector<std::size_t> opened;  // the array of each of values_
     for (const std::string& property : options.properties) {
       const auto [array, component] = find_point_column(arrays, property, content.name());
-      columns_.push_back(std::make_unique<MshColumn>(content, index_->arrays[array], component));
+      const auto place = static_cast<std::size_t>(std::ranges::find(opened, array) - opened.begin());
+      if (place == opened.size()) {
+        opened.push_back(array);
+        values_.push_back(std::make_unique<MshValues>(content, index_->arrays[array]));
+      }
+      columns_.push_back({place, component});
     }
   }
 
@@ -154,10 +168,11 @@ class MshInput final : public CellInput {
           begin_element_block();
       } else if (!section_.empty()) {
         items_.end_section(section_);
-        if (section_ == "Nodes" && tags_.has_repetition())
-          items_.fail("two nodes have the same tag", "give every node a tag of its own");
+        // A file can have any number of sections of nodes, and each check looks at all tags.
+        if (section_ == "Nodes" && tags_.size() >= 2 * checked_tags_) check_tags();
         section_.clear();
       } else if (!begin_section()) {
+        if (tags_.size() != checked_tags_) check_tags();
         return Step::kEnd;
       }
     }
@@ -171,7 +186,9 @@ class MshInput final : public CellInput {
       for (std::uint64_t k = 0; k < parameters_; ++k) (void)items_.real("parameter");
       if (columns_.empty()) continue;
       const std::uint64_t tag = walk_.next(tags_);
-      for (std::size_t k = 0; k < columns_.size(); ++k) columns[3 + k]->push_back(columns_[k]->next(tag));
+      for (const auto& values : values_) values->read(tag);
+      for (std::size_t k = 0; k < columns_.size(); ++k)
+        columns[3 + k]->push_back(values_[columns_[k].values]->component(columns_[k].component));
     }
     nodes_left_ -= count;
     return count;
@@ -188,7 +205,11 @@ class MshInput final : public CellInput {
   }
 
   std::uint64_t bytes_read() const override { return items_.bytes_read(); }
-  std::uint64_t memory_bytes() const override { return tags_.memory_bytes(); }
+  std::uint64_t memory_bytes() const override {
+    std::uint64_t bytes = tags_.memory_bytes();
+    for (const auto& values : values_) bytes += values->memory_bytes();
+    return bytes;
+  }
 
  private:
   // Sections of geometry and of other values are passed over.
@@ -241,6 +262,10 @@ class MshInput final : public CellInput {
     const std::uint64_t count = std::min(tags_left_, kAtOnce);
     for (std::uint64_t i = 0; i < count; ++i) read_tag();
     tags_left_ -= count;
+  }
+  void check_tags() {
+    if (tags_.has_repetition()) items_.fail("two nodes have the same tag", "give every node a tag of its own");
+    checked_tags_ = tags_.size();
   }
   // The pass that makes the index keeps no tags: what it holds is not part of any account.
   void read_tag() {
@@ -311,10 +336,12 @@ class MshInput final : public CellInput {
 
   MshItems items_;
   std::shared_ptr<const MshIndex> index_;
-  std::vector<std::unique_ptr<MshColumn>> columns_;
+  std::vector<std::unique_ptr<MshValues>> values_;
+  std::vector<MshColumn> columns_;  // of values_, in the order of the properties
   std::vector<MshArray> arrays_;
   EntryLimit property_limit_{"properties"};
   TagMap tags_;
+  std::uint64_t checked_tags_ = 0;  // the first of them are known to differ
   TagMap::Walk walk_;
   std::string section_;
   std::uint64_t blocks_left_ = 0, nodes_left_ = 0, cells_left_ = 0;

@@ -9,6 +9,7 @@
 #include "io/file/content_source.h"
 #include "io/file/file.h"
 #include "io/file/file_name.h"
+#include "io/text/entry_limit.h"
 #include "io/text/hints.h"
 #include "io/text/text_cursor.h"
 #include "libreeb/base/count_text.h"
@@ -18,7 +19,6 @@ namespace reeb::io {
 namespace {
 
 constexpr TextStyle kStyle = {.comments = true};
-constexpr std::uint64_t kMostAttributes = 65536;
 
 std::uint64_t read_count(TextCursor& text, const char* what) {
   text.require_more(what);
@@ -38,7 +38,7 @@ NodeHead read_node_head(TextCursor& text) {
   if (head.dimension != 2 && head.dimension != 3)
     text.fail("the vertices are of dimension " + std::to_string(head.dimension), "2 and 3 are read");
   if (text.more_on_line()) head.attributes = read_count(text, "number of attributes");
-  if (head.attributes > kMostAttributes) text.fail("vertices have too many attributes", kCutOrDamagedHereHint);
+  EntryLimit("properties").add(head.attributes, 0, text);
   text.require_room(head.nodes, 1 + head.dimension + head.attributes);
   text.skip_line();
   return head;

@@ -2,12 +2,15 @@
 
 #include <algorithm>
 
+#include "libreeb/base/count_text.h"
+#include "libreeb/base/error.h"
 #include "libreeb/containers/flat_map.h"
 
 namespace reeb::io {
 namespace {
 
 constexpr std::uint32_t kNoCell = ~0u;
+constexpr std::uint32_t kMostCells = kNoCell / 4;  // so that 4 * cell + corner is less than kNoCell
 constexpr std::size_t kEventsBetweenPauses = 65536;
 
 class PreOrderReader : public EventReader {
@@ -54,6 +57,10 @@ class PreOrderReader : public EventReader {
   void wait(const StreamEvent& event) {
     std::uint32_t cell = static_cast<std::uint32_t>(cells_.size());
     if (free_cells_.empty()) {
+      if (cell == kMostCells)
+        throw Error(ErrorKind::kResource,
+                    "more than " + count_of(kMostCells, "cell") + " wait for a vertex, which is the limit",
+                    "write vertices before the cells that use them");
       cells_.emplace_back();
     } else {
       cell = free_cells_.back();

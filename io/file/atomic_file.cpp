@@ -195,6 +195,7 @@ void AtomicFile::give_name() {
   if (error == EEXIST && !may_replace) give_other_name();
   if (error != 0) throw_output_error(error, path_);
   temporary_.release();
+  name_ = target_;
   if (const int failed = system::sync_folder(folder_of(target_)); failed != 0) throw_output_error(failed, path_);
 }
 
@@ -203,10 +204,12 @@ void AtomicFile::give_other_name() {
   constexpr int kMost = 1000;
   for (int number = 2; number < kMost; ++number) {
     const std::string ending = std::string(".").append(std::to_string(number));
-    const int error = system::rename_to_new(temporary_.path(), target_ + ending);
+    std::string name = target_ + ending;
+    const int error = system::rename_to_new(temporary_.path(), name);
     if (error == EEXIST) continue;
     if (error != 0) throw_output_error(error, path_);
     temporary_.release();
+    name_ = std::move(name);
     throw Error(ErrorKind::kBadInput,
                 "another program made this file in the meantime, so the output is " + path_ + ending,
                 "rename one of the two, or allow replacing with --force")

@@ -71,6 +71,9 @@ class AtomicFile {
   // REQUIRES: commit() was not called.
   BufferedWriter& out() { return *out_; }
   const std::string& path() const { return path_; }
+  // That of the file, as soon as it has one: at the end of the chain of links, or the other name that commit() gave it.
+  // Also after commit() threw. Empty before, and for a device.
+  const std::string& name() const { return name_; }
 
   // Calls fsync, rename, and fsync of the folder: after a power loss there is either the old file or the new one.
   // THROWS: also Error{kBadInput} if there is a file of this name now that may not be replaced. Then the new file is
@@ -86,6 +89,7 @@ class AtomicFile {
 
   std::string path_;               // as the user wrote it
   std::string target_;             // where links lead to
+  std::string name_;               // empty until commit()
   TemporaryName temporary_;        // empty for devices, and after it got its name
   std::optional<File> collected_;  // the device that gets out_ at the end
   AtomicOptions options_;

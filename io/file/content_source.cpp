@@ -69,29 +69,41 @@ class FileSource final : public ContentSource {
 // A plain file that is read in small pieces here and there.
 class ReadSource final : public ContentSource {
  public:
-  explicit ReadSource(std::shared_ptr<const InputFile> file)
-      : ContentSource(file->path()), file_(std::move(file)), buffer_(kLookahead) {}
+  ReadSource(const std::string& name, std::shared_ptr<const InputFile> file)
+      : ContentSource(name), file_(std::move(file)), buffer_(kLookahead) {}
   using ContentSource::view;
 
   std::string_view view(std::uint64_t offset, std::size_t min_bytes) override {
-    constexpr std::size_t kBytesAtFirst = 16384;  // few, since a piece may be small
-    const bool goes_on = offset >= offset_ && offset <= offset_ + size_;
-    offset_ = std::min(offset, file_->size());
-    const std::size_t wanted = goes_on ? kLookahead : std::max(min_bytes, kBytesAtFirst);
-    const auto bytes = size_ = static_cast<std::size_t>(std::min<std::uint64_t>(wanted, file_->size() - offset_));
-    if (bytes != 0) file_->read_at(offset_, std::as_writable_bytes(std::span(buffer_).first(bytes)));
-    return {buffer_.data(), bytes};
+    offset = read_ = std::min(offset, file_->size());
+    const std::uint64_t needed = std::min<std::uint64_t>(min_bytes, file_->size() - offset);
+    if (offset < begin_ || offset + needed > begin_ + filled_) move_to(offset, min_bytes);
+    const auto skip = static_cast<std::size_t>(offset - begin_);
+    return {buffer_.data() + skip, filled_ - skip};
   }
   bool can_seek() const override { return true; }
   std::optional<std::uint64_t> size() const override { return file_->size(); }
-  std::uint64_t file_bytes_read() const override { return offset_; }
+  std::uint64_t file_bytes_read() const override { return read_; }
   std::uint64_t file_bytes() const override { return file_->size(); }
 
  private:
+  void move_to(std::uint64_t offset, std::size_t min_bytes) {
+    constexpr std::size_t kBytesAtFirst = 16384;  // few, since a piece may be small
+    const bool goes_on = offset >= begin_ && offset <= begin_ + filled_;
+    const auto kept = goes_on ? static_cast<std::size_t>(begin_ + filled_ - offset) : 0;
+    std::memmove(buffer_.data(), buffer_.data() + filled_ - kept, kept);
+    const std::size_t wanted = goes_on ? kLookahead : std::max(min_bytes, kBytesAtFirst);
+    const auto bytes = static_cast<std::size_t>(std::min<std::uint64_t>(wanted, file_->size() - offset));
+    filled_ = 0;  // if it cannot be read
+    if (bytes > kept)
+      file_->read_at(offset + kept, std::as_writable_bytes(std::span(buffer_).first(bytes).subspan(kept)));
+    begin_ = offset;
+    filled_ = bytes;
+  }
+
   std::shared_ptr<const InputFile> file_;
   std::vector<char> buffer_;
-  std::uint64_t offset_ = 0;  // of the last view, and its length
-  std::size_t size_ = 0;
+  std::uint64_t begin_ = 0, read_ = 0;
+  std::size_t filled_ = 0;
 };
 
 // A file as the sequential input of a decompressor.
@@ -240,17 +252,27 @@ std::unique_ptr<ContentSource> open_content(std::shared_ptr<const InputFile> fil
 }
 
 std::unique_ptr<ContentSource> make_reopenable(std::unique_ptr<ContentSource> source, const std::string& temp_folder) {
-  if (source->reopen() != nullptr) return source;
+  return source->reopen() != nullptr ? std::move(source) : copy_content(*source, temp_folder);
+}
+
+std::unique_ptr<ContentSource> copy_content(ContentSource& source, const std::string& temp_folder) {
   File copy = TempDir(temp_folder).create_unnamed("input");
   std::uint64_t offset = 0;
-  for (std::string_view bytes; !(bytes = source->view(offset, ContentSource::kLookahead)).empty();
+  for (std::string_view bytes; !(bytes = source.view(offset, ContentSource::kLookahead)).empty();
        offset += bytes.size())
     copy.write_at(offset, std::as_bytes(std::span(bytes)));
-  return std::make_unique<FileSource>(source->name(), std::make_shared<const InputFile>(std::move(copy)));
+  return std::make_unique<FileSource>(source.name(), std::make_shared<const InputFile>(std::move(copy)));
 }
 
 std::unique_ptr<ContentSource> open_for_seeking(std::shared_ptr<const InputFile> file) {
-  return std::make_unique<ReadSource>(std::move(file));
+  const std::string& name = file->path();
+  return std::make_unique<ReadSource>(name, std::move(file));
+}
+
+std::unique_ptr<ContentSource> reopen_for_seeking(const ContentSource& content) {
+  auto file = content.file();
+  if (file == nullptr) return content.reopen();
+  return std::make_unique<ReadSource>(content.name(), std::move(file));
 }
 
 std::unique_ptr<ContentSource> open_content(const std::string& path) { return Input(path).open(); }

@@ -70,9 +70,14 @@ std::unique_ptr<ContentSource> open_content(const std::string& path);
 std::unique_ptr<ContentSource> open_content(std::shared_ptr<const InputFile> file);
 // An uncompressed file that is read in small pieces here and there: reading some bytes costs less than a window.
 std::unique_ptr<ContentSource> open_for_seeking(std::shared_ptr<const InputFile> file);
+// As content.reopen(), but what is not packed is opened for seeking: where many places are read at a time, a window for
+// each costs more than what is read there.
+std::unique_ptr<ContentSource> reopen_for_seeking(const ContentSource& content);
 
-// The source itself if it can be reopened. Else a source of the same content, from its beginning, which was copied to a
-// temporary file without a name in `temp_folder` (temp_dir.h); views of at most kLookahead bytes may have been taken.
+// A source of the same content, from its beginning, which was copied to a temporary file without a name in
+// `temp_folder` (temp_dir.h); views of at most kLookahead bytes may have been taken.
+std::unique_ptr<ContentSource> copy_content(ContentSource& source, const std::string& temp_folder);
+// The source itself if it can be reopened, else such a copy.
 std::unique_ptr<ContentSource> make_reopenable(std::unique_ptr<ContentSource> source, const std::string& temp_folder);
 
 // An input that can be opened repeatedly, the same file each time, even if its name is removed or replaced.

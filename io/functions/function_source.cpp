@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -13,6 +14,14 @@
 #include "libreeb/base/hash.h"
 
 namespace reeb::io {
+namespace {
+
+// Where squares underflow or overflow, the differences are scaled: by powers of two, which does not round them.
+constexpr double kLeastDistance = 1e-145, kMostDistance = std::numeric_limits<double>::max();
+constexpr double kDistanceScale = 0x1p600;
+
+}  // namespace
+
 double random_value(std::uint64_t seed, std::uint64_t vertex) noexcept {
   return static_cast<double>(mix(mix(seed) + vertex) >> 11) * 0x1p-53;
 }
@@ -103,6 +112,20 @@ void FunctionSource::measure_distances(const Column& column, std::span<double> v
     }
   }
   for (double& value : values) value = std::sqrt(value);
+  const auto scaled_distance = [&](std::size_t i, double scale) {
+    double sum = 0;
+    for (std::size_t k = 0; k < center_.size(); ++k) {
+      const double difference = (column(k)[i] - center_[k]) * scale;
+      sum += difference * difference;
+    }
+    return std::sqrt(sum) / scale;
+  };
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (values[i] < kLeastDistance) [[unlikely]]
+      values[i] = scaled_distance(i, kDistanceScale);
+    else if (values[i] > kMostDistance) [[unlikely]]
+      values[i] = scaled_distance(i, 1 / kDistanceScale);
+  }
 }
 
 void FunctionSource::look_up(IndexedMesh& mesh) {

@@ -118,10 +118,12 @@ Float TextCursor::finite_number(const char* what) {
   skip_blanks();
   cursor_.ensure(kTokenBytes);
   const char* const begin = cursor_.data();
-  const char* const end = begin + std::min(cursor_.available(), kTokenBytes);
+  const std::size_t limit = std::min(cursor_.available(), kTokenBytes);
+  const char* const end = begin + limit;
   Float value = 0;
   const auto parsed = fast_float::from_chars(begin, end, value);
-  const bool whole = parsed.ec == std::errc{} && (parsed.ptr == end || is_blank_or_line_end(*parsed.ptr));
+  const bool ends = parsed.ptr == end ? limit < kTokenBytes : is_blank_or_line_end(*parsed.ptr);
+  const bool whole = parsed.ec == std::errc{} && ends;
   if (!whole || !std::isfinite(value)) [[unlikely]]
     return slow_number<Float>(what);
   mark();
@@ -145,7 +147,7 @@ Float TextCursor::any_number(const char* what) {
 template float TextCursor::any_number<float>(const char*);
 template double TextCursor::any_number<double>(const char*);
 
-// The rare cases: a plus sign, a number that ends in a continuation, and everything invalid.
+// The rare cases: a plus sign, a number that ends in a continuation, one that is too long, and everything invalid.
 template <class Float>
 Float TextCursor::slow_number(const char* what) {
   const std::string_view word = token();

@@ -70,12 +70,13 @@ class TextCursor {
   void require_room(std::uint64_t records, std::uint64_t numbers) const;
   // Moves past the end of this line and its continuations.
   void skip_line();
-  // Reads a line of numbers at once: true if `read(PlainLine&)` returns true and nothing is left on the line. Else does
-  // not move, and the caller reads the line word by word.
+  // Reads a line of numbers at once: true if `read(PlainLine&)` returns true and nothing is left on the line. Else, or
+  // if the line is longer than a token may be, does not move, and the caller reads the line word by word.
   template <class Read>
   bool plain_line(Read&& read) {
     cursor_.ensure(kTokenBytes);
-    PlainLine line(cursor_.data(), cursor_.data() + cursor_.available());
+    const std::size_t limit = cursor_.available() < kTokenBytes ? cursor_.available() : kTokenBytes;
+    PlainLine line(cursor_.data(), cursor_.data() + limit);
     if (!read(line) || !line.end()) return false;
     cursor_.advance(static_cast<std::size_t>(line.next() - cursor_.data()));
     ++line_;

@@ -44,7 +44,8 @@ struct GridPiece {
 struct GridFile {
   std::string format;  // as MeshInfo
   std::vector<GridPiece> pieces;
-  bool has_inner_nodes = false;  // there are higher-order cells
+  bool has_inner_nodes = false;    // there are higher-order cells
+  std::uint64_t packed_bytes = 0;  // of the file, if its content was unpacked to another one; else 0
 };
 
 }  // namespace reeb::io

@@ -29,7 +29,7 @@ MeshInfo describe(const ContentSource& content, const GridFile& file) {
     const auto& arrays = file.pieces.front().arrays;
     info.property_names = property_names(std::vector<PointArray>(arrays.begin(), arrays.end()));
   }
-  info.file_bytes = content.file_bytes();
+  info.file_bytes = file.packed_bytes != 0 ? file.packed_bytes : content.file_bytes();
   return info;
 }
 
@@ -110,7 +110,10 @@ class GridInput final : public CellInput {
   }
 
   std::uint64_t bytes_read() const override {
-    return std::max(bytes_read_, nodes_ ? nodes_->bytes_read() : std::uint64_t{0});
+    const std::uint64_t bytes = std::max(bytes_read_, nodes_ ? nodes_->bytes_read() : std::uint64_t{0});
+    if (file_->packed_bytes == 0) return bytes;
+    const double share = static_cast<double>(bytes) / static_cast<double>(content_->file_bytes());
+    return static_cast<std::uint64_t>(share * static_cast<double>(file_->packed_bytes));
   }
   std::uint64_t memory_bytes() const override {
     std::uint64_t bytes = coordinates_ ? coordinates_->memory_bytes() : 0;

@@ -93,6 +93,7 @@ class LegacyIndexer {
   }
 
   void read_points() {
+    if (!piece_.arrays.empty()) text_.fail("POINT_DATA cannot come before POINTS");
     piece_.points = text_.number("number of points");
     const auto type = scalar_type(text_.word());
     if (!type) text_.fail("this is not a type of coordinates");

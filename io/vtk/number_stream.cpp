@@ -5,7 +5,6 @@
 
 #include "io/decoding/base64_input.h"
 #include "io/decoding/vtk_data.h"
-#include "io/file/input_file.h"
 #include "io/text/hints.h"
 #include "io/text/text_cursor.h"
 #include "io/text/text_position.h"
@@ -17,14 +16,6 @@ namespace reeb::io {
 namespace {
 
 constexpr std::size_t kBufferBytes = 16384;
-constexpr std::size_t kTokenBytes = 512;
-
-// A file can have thousands of small arrays, and a window for each costs more than its numbers. An unnamed copy of a
-// pipe is read through windows: in messages it has the name of the pipe.
-std::unique_ptr<ContentSource> open_numbers(const ContentSource& content) {
-  auto file = content.file();
-  return file != nullptr && file->path() == content.name() ? open_for_seeking(std::move(file)) : content.reopen();
-}
 
 }  // namespace
 
@@ -33,11 +24,11 @@ NumberStream::NumberStream(const ContentSource& content, const NumberPlace& plac
     : content_(content), place_(place), what_(what), item_bytes_(byte_size(place.type)), item_offset_(place.offset) {
   check_room(count);
   if (place_.coding == NumberCoding::kText) {
-    text_.emplace(open_numbers(content));
+    text_.emplace(reopen_for_seeking(content));
     text_->move_forward(place_.offset);
     return;
   }
-  bytes_ = std::make_unique<ContentBytes>(open_numbers(content), place_.offset);
+  bytes_ = std::make_unique<ContentBytes>(reopen_for_seeking(content), place_.offset);
   if (place_.coding == NumberCoding::kBase64) bytes_ = from_base64(std::move(bytes_));
   if (!place_.has_header) return;
   auto data = vtk_data(std::move(bytes_), {place_.packing, place_.wide_header, place_.big_endian});
@@ -63,11 +54,12 @@ void NumberStream::check_room(std::uint64_t count) const {
 std::string_view NumberStream::token() {
   while (text_->ensure(1) && is_blank_or_line_end(*text_->data())) text_->advance(1);
   item_offset_ = text_->offset();
-  text_->ensure(kTokenBytes);
+  text_->ensure(TextCursor::kTokenBytes);
   const char* const begin = text_->data();
-  const std::size_t limit = std::min(text_->available(), kTokenBytes);
+  const std::size_t limit = std::min(text_->available(), TextCursor::kTokenBytes);
   std::size_t length = 0;
   while (length < limit && !is_blank_or_line_end(begin[length]) && begin[length] != '<') ++length;
+  if (length == TextCursor::kTokenBytes) fail("a word of more than 4096 characters", kDamagedHereHint);
   if (length != 0) text_->advance(length);
   return {begin, length};
 }

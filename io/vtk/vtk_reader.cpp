@@ -1,5 +1,6 @@
 #include "io/vtk/vtk_reader.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "io/cells/cell_reader.h"
@@ -10,8 +11,27 @@
 namespace reeb::io {
 namespace {
 
-std::unique_ptr<MeshReader> open_grid_file(const std::shared_ptr<const ContentSource>& content, GridFile file,
+// How many arrays are read; types of cells are read twice.
+std::uint64_t arrays_read(const GridFile& file, const ReadOptions& options) {
+  std::uint64_t arrays = 0;
+  for (const GridPiece& piece : file.pieces) {
+    if (piece.points != 0) arrays += 1 + options.properties.size();
+    for (const PlacedPointArray& array : piece.arrays)
+      if (options.all_properties) arrays += std::min(array.components, kMostNamedComponents);
+    for (const CellList& list : piece.cells)
+      if (list.count != 0) arrays += 1u + (list.layout == CellLayout::kCounted ? 0u : 1u) + (list.has_types ? 2u : 0u);
+  }
+  return arrays;
+}
+
+std::unique_ptr<MeshReader> open_grid_file(std::shared_ptr<const ContentSource> content, GridFile file,
                                            const ReadOptions& options) {
+  // For each array, a packed file is unpacked from its beginning: a few times cost less than a copy.
+  constexpr std::uint64_t kMostUnpacked = 32;
+  if (!content->can_seek() && arrays_read(file, options) > kMostUnpacked) {
+    file.packed_bytes = content->file_bytes();
+    content = copy_content(*content->reopen(), options.temp_folder);
+  }
   file.has_inner_nodes = has_higher_order_cells(*content, file);
   auto shared = std::make_shared<const GridFile>(std::move(file));
   return read_cells(

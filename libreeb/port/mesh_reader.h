@@ -100,7 +100,8 @@ struct ReadOptions {
   std::vector<std::string> properties;  // vertex properties to deliver, by name
   std::size_t batch_events = 65536;     // vertices or simplices per batch, roughly
   bool all_properties = false;          // deliver those of MeshInfo::property_names instead
-  // Where a pipe is copied to, if its format cannot be read in one go; empty: where temporary files are by default.
+  // Where a pipe is copied to, if its format cannot be read in one go, and a packed file of many arrays; empty: where
+  // temporary files are by default.
   std::string temp_folder{};
   bool value_of_image = false;  // if the mesh is an image, and no property is named: deliver "value"
   bool signed_zeros = false;    // PLY, OBJ, OFF: deliver -0.0 where the file has it; else it becomes 0.0

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <ctime>
 #include <filesystem>
 
 #include "io/file/content_source.h"
@@ -160,6 +161,52 @@ TEST(CellFiles, WhatAFileListsHasALimit) {
   EXPECT_EQ(open_mesh(write_file("most.msh", msh_head + arrays))->info().property_names.size(), 10000u);
   expect_bad(write_file("many.msh", msh_head + arrays + "$NodeData\n1\n\"a\"\n0\n3\n0\n1\n0\n$EndNodeData\n"),
              std::nullopt, "more than 10,000 properties");
+  write_file("most.node", "0 3 10000 0\n");
+  EXPECT_EQ(open_mesh(write_file("most.ele", "0 4 0\n"))->info().property_names.size(), 10000u);
+  const std::string nodes = write_file("many.node", "0 3 10001 0\n"), cells = write_file("many.ele", "0 4 0\n");
+  try {
+    open_mesh(cells);
+    ADD_FAILURE() << "was read";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.file(), nodes);
+    EXPECT_EQ(error.position(), "1:5");
+    EXPECT_NE(error.message().find("more than 10,000 properties"), std::string::npos) << error.what();
+  }
+}
+
+// Tags are not compared after each section.
+TEST(CellFiles, ManySectionsOfNodesTakeLittleTime) {
+  constexpr std::size_t kSections = 30000;
+  const std::string head = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n";
+  const auto section = [](std::size_t tag) { return "$Nodes\n1\n" + std::to_string(tag) + " 0 0 0\n$EndNodes\n"; };
+  std::string sections;
+  for (std::size_t i = 0; i < kSections; ++i) sections += section(2 * (kSections - i));
+  const std::string path = write_file("sections.msh", head + sections);
+  const std::clock_t start = std::clock();
+  EXPECT_EQ(read_all(*open_mesh(path)).vertices.size(), kSections);
+  EXPECT_LT(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC, 5);
+  for (const std::size_t nodes : {1u, 2u, 3u, 5u, 6u, 7u, 12u}) {
+    std::string repeated = head;
+    for (std::size_t i = 0; i < nodes; ++i) repeated += section(i + 1);
+    EXPECT_EQ(read_all(*open_mesh(write_file("differ.msh", repeated))).vertices.size(), nodes);
+    expect_bad(write_file("repeat.msh", repeated + section(1)), std::nullopt, "same tag");
+  }
+}
+
+// All components come from one reading of the array, whose memory counts.
+TEST(CellFiles, ComponentsOfAnArrayOfMshShareItsReading) {
+  const std::string path = write_file("share.msh", msh4(false));
+  const auto memory = [&](const std::vector<std::string>& properties) {
+    const auto reader = open_mesh(path, {.properties = properties});
+    Mesh mesh = read_all(*reader);
+    EXPECT_EQ(mesh.vertices.size(), kPoints.size());
+    for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
+      for (std::size_t k = 0; k < properties.size(); ++k)
+        EXPECT_EQ(mesh.vertices[i].at(3 + k), properties[k] == "a name:0" ? 5 : 12 + 2 * static_cast<double>(i));
+    return reader->memory_bytes();
+  };
+  EXPECT_GT(memory({"a name:0"}), memory({}));
+  EXPECT_EQ(memory({"a name:1", "a name:0"}), memory({"a name:0"}));
 }
 
 // The caller can look at the memory of tags before all of a block were read.

@@ -84,11 +84,18 @@ TEST(AtomicFile, AnExistingFileIsReplacedOnlyOnRequest) {
   EXPECT_EQ(early->kind(), ErrorKind::kBadInput);
   // A file that is created while the output is written.
   fs::remove(path);
+  std::string late_name;
   const auto late = error_of([&] {
     AtomicFile file(path);
     file.out().append("new");
     put(path, "old");
-    file.commit();
+    EXPECT_EQ(file.name(), "");
+    try {
+      file.commit();
+    } catch (...) {
+      late_name = file.name();
+      throw;
+    }
   });
   EXPECT_EQ(early->message(), "the output exists already");
   EXPECT_EQ(early->cause(), ErrorCause::kExists);
@@ -96,6 +103,7 @@ TEST(AtomicFile, AnExistingFileIsReplacedOnlyOnRequest) {
   EXPECT_NE(late->message().find(path + ".2"), std::string::npos) << late->message();
   EXPECT_EQ(content(path), "old");
   EXPECT_EQ(content(path + ".2"), "new") << "the result is kept";
+  EXPECT_EQ(late_name, path + ".2");
   EXPECT_THROW(write(path, "newer", {.existing = Existing::kKeep}), Error);
   EXPECT_EQ(content(path), "old");
   EXPECT_EQ(content(path + ".3"), "newer");

@@ -159,7 +159,7 @@ void expect_read_or_refused(const fs::path& folder, const std::map<std::string, 
 
 TEST(InstalledMeshes, OfAssimp) {
   const fs::path folder = "/usr/share/assimp/models";
-  if (!fs::exists(folder)) GTEST_SKIP() << "no data: the package assimp-testmodels is not installed";
+  if (!fs::exists(folder)) GTEST_SKIP() << "not here: the package assimp-testmodels is not installed";
   expect_read_or_refused(folder, {{"invalid.off", "names vertex 20"},
                                   {"empty.off", "is empty"},
                                   {"empty.ply", "is empty"},
@@ -174,7 +174,7 @@ TEST(InstalledMeshes, OfAssimp) {
 
 TEST(InstalledMeshes, OfCgal) {
   const fs::path archive = "/usr/share/doc/libcgal-dev/data.tar.gz";
-  if (!fs::exists(archive)) GTEST_SKIP() << "no data: the package libcgal-demo is not installed";
+  if (!fs::exists(archive)) GTEST_SKIP() << "not here: the package libcgal-demo is not installed";
   const fs::path folder = scratch_folder() / "cgal";
   fs::create_directories(folder);
   ASSERT_EQ(std::system(("tar -C '" + folder.string() + "' -xzf '" + archive.string() + "'").c_str()), 0);

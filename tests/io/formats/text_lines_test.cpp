@@ -189,5 +189,23 @@ TEST(TextLines, WhatIsWrongInAnObjLineHasItsPosition) {
                  {"f 1 2 1234567890123456789\n", "4:7", "too large"}});
 }
 
+// However the line is read: a comment keeps it from being read at once.
+TEST(TextLines, ANumberThatIsTooLongIsRefused) {
+  const std::string longest = "0." + std::string(4093, '1'), longer = longest + std::string(1000, '1');
+  for (const std::string ending : {"", " # a comment"}) {
+    SCOPED_TRACE(ending);
+    const auto obj = [&](const std::string& y) { return "v 0 " + y + " 0" + ending + "\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"; };
+    const auto off = [&](const std::string& y) {
+      return "OFF\n3 1 0\n0 " + y + " 0" + ending + "\n1 0 0\n0 1 0\n3 0 1 2\n";
+    };
+    EXPECT_NEAR(read_mesh(write_file("long.obj", obj(longest))).vertices.at(0).at(1), 1.0 / 9, 1e-7);
+    EXPECT_NEAR(read_mesh(write_file("long.off", off(longest))).vertices.at(0).at(1), 1.0 / 9, 1e-7);
+    for (const std::string& y : {longest + "1", longer}) {
+      expect_bad(write_file("longer.obj", obj(y)), "1:5", "more than 4096 characters");
+      expect_bad(write_file("longer.off", off(y)), "3:3", "more than 4096 characters");
+    }
+  }
+}
+
 }  // namespace
 }  // namespace reeb::io::testing

@@ -95,6 +95,26 @@ TEST(FunctionValues, OfEveryKind) {
   EXPECT_EQ(random_value(0, 0 - 0xe220a8397b1dcdafu), static_cast<double>(0xe220a8397b1dcdafu >> 11) * 0x1p-53);
 }
 
+// Their squares underflow and overflow; 3, 4 and 5 are the sides of a right triangle.
+TEST(FunctionValues, DistancesOfAnySize) {
+  MeshBatch batch;
+  batch.first_vertex = VertexId(0);
+  batch.vertex_count = 6;
+  batch.coordinates = {
+      {3e-200, 3e-160, 3e160, 3e300, 0, 3}, {4e-200, -4e-160, 4e160, -4e300, 0, 4}, {0, 0, 0, 0, 0, 0}};
+  const std::vector<double> expected = {5e-200, 5e-160, 5e160, 5e300, 0, 5};
+  std::vector<double> values(6), same(6);
+  source("distance:0,0,0").evaluate(batch, values);
+  for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_DOUBLE_EQ(values[i], expected[i]);
+  const std::vector<VertexId> ids = {VertexId(0), VertexId(1), VertexId(2), VertexId(3), VertexId(4), VertexId(5)};
+  const std::vector<std::span<const double>> columns(batch.coordinates.begin(), batch.coordinates.end());
+  source("distance:0,0,0").evaluate(ids, columns, same);
+  EXPECT_EQ(same, values);
+  batch.coordinates[0][3] = batch.coordinates[1][3] = 1.7e308;  // further than a number can be
+  EXPECT_NE(error_of([&] { source("distance:0,0,0").evaluate(batch, values); }).message().find("vertex 3"),
+            std::string::npos);
+}
+
 TEST(FunctionValues, ByIndexAreTheSame) {
   const std::vector<VertexId> ids = {VertexId(1), VertexId(0), VertexId(1)};
   std::vector<double> values(3);

@@ -123,7 +123,7 @@ pair = nibabel.Nifti1Pair(a.astype('f4'), affine)
 nibabel.save(pair, sys.argv[1] + '/pair.hdr')
 )",
                   folder))
-    GTEST_SKIP() << "no data: python3-nibabel is not installed";
+    GTEST_SKIP() << "not here: python3-nibabel is not installed";
   EXPECT_EQ(for_each_file(folder, [](const std::string& path) { expect_volume(read_grid(path)); }), 6 * 2 * 2 * 2 + 1);
 }
 
@@ -170,7 +170,7 @@ writer.EncodeAppendedDataOn()
 write('base64')
 )",
                   folder))
-    GTEST_SKIP() << "no data: python3-vtk9 is not installed";
+    GTEST_SKIP() << "not here: python3-vtk9 is not installed";
   EXPECT_EQ(for_each_file(folder, [](const std::string& path) { expect_volume(read_grid(path)); }), 4 * 2 * 2 * 3);
 }
 

@@ -3,6 +3,10 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <ctime>
+#include <filesystem>
+#include <fstream>
+#include <optional>
 #include <set>
 
 #include "tests/io/vtk/vtk_files.h"
@@ -243,6 +247,67 @@ TEST(VtkReader, OddPartsOfLegacyFiles) {
   expect_bad(path, "27:11", "not finite", {.properties = {"my name:1"}});
 }
 
+TEST(VtkReader, ANumberThatIsTooLongIsRefused) {
+  const std::string head = "# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\nPOINTS 1 double\n0 ";
+  const std::string longest = "0." + std::string(4093, '1');
+  EXPECT_NEAR(read_mesh(write_file("long.vtk", head + longest + " 0\n")).vertices.at(0).at(1), 1.0 / 9, 1e-15);
+  expect_bad(write_file("longer.vtk", head + longest + "1 0\n"), "6:3", "more than 4096 characters");
+  expect_bad(write_file("longer.vtk", head + longest + longest + " 0\n"), "6:3", "more than 4096 characters");
+}
+
+// Values for no point would be those of the points that follow.
+TEST(VtkReader, ValuesBeforeThePointsAreRefused) {
+  const std::string head = "# vtk DataFile Version 3.0\nt\nASCII\nDATASET POLYDATA\nPOINT_DATA 0\n";
+  for (const std::string values : {"SCALARS s double\nLOOKUP_TABLE default\n", "FIELD f 1\ns 1 0 double\n"})
+    expect_bad(write_file("before.vtk", head + values + "POINTS 1 double\n0 0 0\n"), "8:1",
+               "POINT_DATA cannot come before POINTS");
+}
+
+// A packed file is not unpacked from its beginning again for each array of each piece.
+TEST(VtkReader, ManyPiecesOfAPackedFileTakeLittleTime) {
+  constexpr std::size_t kPieces = 3000;
+  XmlWriter writer({});
+  std::string pieces;
+  for (std::size_t i = 0; i < kPieces; ++i)
+    pieces += "<Piece NumberOfPoints=\"3\" NumberOfCells=\"1\"><Points>" +
+              writer.array("Float64", "Points", {static_cast<double>(i), 0, 0, 1, 0, 0, 0, 1, 0}, 3) +
+              "</Points><Cells>" + writer.array("Int32", "connectivity", {0, 1, 2}) +
+              writer.array("Int32", "offsets", {3}) + writer.array("UInt8", "types", {5}) + "</Cells></Piece>\n";
+  const std::string path = write_file("many_pieces.vtu", writer.file("UnstructuredGrid", pieces));
+  ASSERT_EQ(std::system(("gzip -c '" + path + "' > '" + path + ".gz'").c_str()), 0);
+  const auto seconds_to_read = [&](const std::string& file) {
+    const std::clock_t start = std::clock();
+    const auto reader = open_mesh(file, {.properties = {}, .temp_folder = scratch_folder().string()});
+    EXPECT_EQ(reader->info().file_bytes, std::filesystem::file_size(file));
+    const Mesh mesh = read_all(*reader);
+    EXPECT_EQ(mesh.triangles.size(), kPieces);
+    EXPECT_EQ(mesh.vertices.at(3 * (kPieces - 1)).at(0), static_cast<double>(kPieces - 1));
+    EXPECT_LE(reader->bytes_read(), std::filesystem::file_size(file));
+    return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+  };
+  const double plain = seconds_to_read(path);
+  EXPECT_LT(seconds_to_read(path + ".gz"), 3 * plain + 1);
+}
+
+// Bytes that this process got from the system so far; nothing if the system does not count them.
+std::optional<std::uint64_t> bytes_from_system() {
+  std::ifstream counts("/proc/self/io");
+  std::string name;
+  std::uint64_t bytes = 0;
+  if (!(counts >> name >> bytes) || name != "rchar:") return std::nullopt;
+  return bytes;
+}
+
+TEST(VtkReader, BytesOfAnArrayAreReadOnce) {
+  VtkGrid grid;
+  grid.points.assign(300000, {1, 2, 3});
+  const std::string path = write_file("once.vtk", legacy_file(grid, {.binary = true}));
+  const auto before = bytes_from_system();
+  if (!before) GTEST_SKIP() << "no /proc/self/io";
+  EXPECT_EQ(read_all(*open_mesh(path)).vertices.size(), 300000u);
+  EXPECT_LT(*bytes_from_system() - *before, 2 * std::filesystem::file_size(path));
+}
+
 std::string with(std::string text, const std::string& old_part, const std::string& new_part) {
   const std::size_t at = text.find(old_part);
   EXPECT_NE(at, std::string::npos) << old_part;
@@ -344,22 +409,34 @@ TEST(VtkReader, WhatAFileListsHasALimit) {
 }
 
 TEST(VtkReader, DamagedPackedArrays) {
+  Mesh undamaged = expected(false);
+  for (std::size_t i = 0; i < undamaged.vertices.size(); ++i)
+    undamaged.vertices[i].push_back(kTwoTetrahedra.temperature[i]);
   for (const XmlStyle& style : xml_styles()) {
     if (style.compressor.empty() || style.coding != XmlStyle::Coding::kAppendedRaw) continue;
     const std::string good = xml_file(kTwoTetrahedra, style);
-    const std::size_t begin = good.find(" _") + 2;
-    // Each byte of the header of the first array that is read, T, and of its first block.
+    const std::size_t offset = good.find("offset=\"", good.find("Name=\"T\"")) + 8;
+    const std::size_t begin = good.find(" _") + 2 + std::stoul(good.substr(offset));
+    const bool has_checksum = style.compressor == "ZLib";
+    std::size_t refused = 0;
+    // Each byte of the header of the array T, and of its first block.
     for (std::size_t at = begin; at < begin + 40; ++at) {
       std::string bytes = good;
       bytes[at] = static_cast<char>(bytes[at] ^ 0x55);
       try {
-        (void)read_all(*open_mesh(write_file("damaged.vtu", bytes), {.properties = {"T"}}));
+        const Mesh mesh = read_all(*open_mesh(write_file("damaged.vtu", bytes), {.properties = {"T"}}));
+        if (has_checksum) {
+          EXPECT_EQ(mesh, undamaged) << "byte " << at - begin;
+        }
       } catch (const Error& error) {
+        ++refused;
         EXPECT_EQ(error.kind(), ErrorKind::kBadInput);
         EXPECT_FALSE(error.hint().empty());
         EXPECT_FALSE(error.position().empty());
       }
     }
+    // Without a checksum, values in the block can change unseen.
+    EXPECT_GT(refused, has_checksum ? 20u : 8u) << style.compressor;
   }
 }
 
