@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "libreeb/base/error.h"
+
 namespace reeb {
 
 // A NaN counts as the least coordinate, as in fixed_point().
@@ -20,7 +22,13 @@ void BucketSum::add_large(const Point& position) {
   raise_rim(near_rim_of(clamped));
 }
 
+void BucketSum::refuse_vertices() {
+  throw Error(ErrorKind::kResource, "more than 2^32 - 1 vertices of an arc are in one bucket",
+              "use more buckets (--buckets N), or leave out the embedding (--buckets 0)");
+}
+
 void BucketSum::keep(std::uint64_t kept, BucketSum& other) {
+  other.check_room(count - static_cast<std::uint32_t>(kept));
   const double share = static_cast<double>(kept) / static_cast<double>(count);
   for (std::size_t k = 0; k < 3; ++k) {
     const Int128 part = cut_off(to_double(sum[k]) * share);
@@ -83,7 +91,7 @@ void BucketLists::append(List& list, const BucketSum& bucket) {
 
 void BucketLists::add_vertex(List& list, double value, const Point& position) {
   const std::int64_t index = indexer_(value);
-  if (!list.empty() && links_[list.last].index == index) return sums_[list.last].add(position);
+  if (!list.empty() && links_[list.last].index == index) return add_checked(list.last, position);
   List vertex;
   link_last(vertex, new_bucket({.index = index}));
   sums_[vertex.last].add(position);
@@ -123,7 +131,7 @@ void BucketLists::concatenate(List& lower, List& upper) {
 void BucketLists::concatenate(List& lower, double value, const Point& position, List& upper) {
   const std::int64_t index = indexer_(value);
   if (Index first; lower.empty() && !upper.empty() && links_[first = links_[upper.last].next].index == index)
-    sums_[first].add(position);
+    add_checked(first, position);
   else
     add_vertex(lower, value, position);
   concatenate(lower, upper);

@@ -54,6 +54,7 @@ struct BucketSum {
 
   static constexpr RimPoint kNoRim = {-HUGE_VALF, -HUGE_VALF, -HUGE_VALF};
 
+  // REQUIRES: there are fewer than 2^32 - 1 vertices. A sweep adds those of a chunk only; elsewhere check_room() tells.
   void add(const Point& position) {
     ++count;
     const auto& [x, y, z] = position;
@@ -65,11 +66,18 @@ struct BucketSum {
       add_large(position);
     }
   }
+  // THROWS: as check_room().
   void add(const BucketSum& other) {
+    check_room(other.count);
     count += other.count;
     for (std::size_t k = 0; k < 3; ++k) sum[k] += other.sum[k];
     moment += other.moment;
     raise_rim(other.rim);
+  }
+  // THROWS: Error{kResource} if the bucket cannot count so many more vertices.
+  void check_room(std::uint32_t more) const {
+    if (more > ~count) [[unlikely]]
+      refuse_vertices();
   }
   // Without branches: which vertex is next cannot be predicted.
   void raise_rim(const RimPoint& other) {
@@ -78,8 +86,9 @@ struct BucketSum {
     for (std::size_t k = 0; k < 3; ++k) rim[k] = is_higher ? other[k] : rim[k];
   }
   void add_large(const Point& position);
+  [[noreturn]] static void refuse_vertices();
   // Keeps this number of the vertices, with their share of the sum (rounded), and adds the rest to `other`. The totals
-  // of both stay exact. Both get the rim.
+  // of both stay exact. Both get the rim. THROWS: as check_room().
   void keep(std::uint64_t kept, BucketSum& other);
   Bucket mean() const {  // REQUIRES: count != 0
     Bucket bucket{index, count, {}};
@@ -135,6 +144,8 @@ class BucketLists {
   }
   void add_to_bucket(Index bucket, const Point& position) { sums_[bucket].add(position); }
 
+  // Like all that add up buckets, these throw what BucketSum::check_room() does.
+  //
   // Adds a vertex. O(1) at the list's ends.
   void add_vertex(List& list, double value, const Point& position);
   // Adds vertices of one bucket. O(1) at the list's ends.
@@ -211,6 +222,10 @@ class BucketLists {
   void link_or_add(List& list, Index b);
   void remove_first(List& list);
   void coarsen(List& list, int levels);
+  void add_checked(Index bucket, const Point& position) {
+    sums_[bucket].check_room(1);
+    sums_[bucket].add(position);
+  }
   List split_after(List& list, Index last_below);
   std::uint64_t count_above(Index bucket, double lo, double at, double hi) const;
 

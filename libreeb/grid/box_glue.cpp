@@ -36,7 +36,6 @@ bool is_sound(const Fragment& tree) {
 bool has_sound_buckets(const Fragment& tree) {
   constexpr int kMostExponent = 2048;  // more than that of any double
   constexpr std::int64_t kMostIndex = std::int64_t{1} << 62;
-  constexpr std::uint64_t kMostVertices = ~std::uint32_t{0};
   constexpr Int128 kMostPerVertex = Int128{1} << 94;
   const auto& begin = tree.bucket_begin;
   if (!tree.options.bucket_exponent) return begin.empty() && tree.buckets.empty();
@@ -44,12 +43,10 @@ bool has_sound_buckets(const Fragment& tree) {
   if (exponent > kMostExponent || exponent < -kMostExponent) return false;
   if (begin.size() != tree.arcs.size() + 1 || begin.front() != 0 || begin.back() != tree.buckets.size()) return false;
   if (!std::is_sorted(begin.begin(), begin.end())) return false;
-  std::uint64_t vertices = 0;
   for (const BucketSum& bucket : tree.buckets) {
-    if (bucket.count == 0 || bucket.count > kMostVertices - vertices) return false;
+    if (bucket.count == 0) return false;
     if (!(bucket.moment >= 0 && bucket.moment < HUGE_VAL)) return false;
     if (bucket.index > kMostIndex || bucket.index < -kMostIndex) return false;
-    vertices += bucket.count;
     const Int128 most = kMostPerVertex * static_cast<Int128>(bucket.count);
     for (const Int128 sum : bucket.sum)
       if (sum > most || sum < -most) return false;

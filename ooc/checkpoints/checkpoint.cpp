@@ -1,7 +1,5 @@
 #include "ooc/checkpoints/checkpoint.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <vector>
@@ -107,7 +105,6 @@ void write_checkpoint(const std::string& path, const RunIdentity& run, const Che
 }
 
 CheckpointLoad load_checkpoint(const std::string& path, const RunIdentity& run) {
-  if (::access(path.c_str(), F_OK) != 0) return {};
   const auto useless = [](const char* why) {
     CheckpointLoad none;
     none.note = std::string("the checkpoint ") + why + ", so the run starts from the beginning";
@@ -146,9 +143,8 @@ CheckpointLoad load_checkpoint(const std::string& path, const RunIdentity& run) 
   } catch (const DamagedState&) {
     return useless("is damaged");
   } catch (const Error& error) {
-    if (error.cause() == ErrorCause::kChanged) throw;
-    if (error.kind() == ErrorKind::kResource) throw;  // it may be readable the next time
-    return useless("cannot be read");
+    if (error.cause() == ErrorCause::kMissing) return {};
+    throw;  // it may be readable the next time
   }
 }
 

@@ -68,7 +68,8 @@ struct CheckpointLoad {
 };
 
 // Reads a checkpoint after verifying its checksum. A missing or damaged one, or one of another run, is not an error.
-// THROWS: Error{kChanged} if the mesh looks the same but was changed: its time of modification was set back.
+// THROWS: Error{kChanged} if the mesh looks the same but was changed: its time of modification was set back;
+//         as io::File if the checkpoint cannot be opened or read.
 CheckpointLoad load_checkpoint(const std::string& path, const RunIdentity& run);
 
 }  // namespace reeb::ooc

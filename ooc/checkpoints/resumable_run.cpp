@@ -1,6 +1,7 @@
 #include "ooc/checkpoints/resumable_run.h"
 
 #include <algorithm>
+#include <string_view>
 
 #include "io/file/file.h"
 #include "libreeb/base/count_text.h"
@@ -31,8 +32,8 @@ void ResumableRun::refuse_to_discard(const std::string& mesh) {
   try {
     load = load_checkpoint(folder_->checkpoint(), identity_);
   } catch (Error& error) {
-    if (error.cause() == ErrorCause::kChanged) error.at(mesh);
-    throw;
+    if (error.cause() != ErrorCause::kChanged) throw explain(error);
+    throw error.at(mesh);
   }
   if (load.checkpoint && !options_.resume)
     throw Error(ErrorKind::kBadInput, "an interrupted run left what is needed to resume it",
@@ -72,13 +73,14 @@ const Checkpoint* ResumableRun::start(const std::function<void(StateReader&)>& r
   return nullptr;
 }
 
+// A file that is there but cannot be opened or read is no damage: it may be readable the next time.
 bool ResumableRun::restores(const std::function<void(StateReader&)>& restore) {
   try {
     restore(*load_.state);
     return true;
   } catch (const DamagedState&) {
   } catch (const Error& error) {
-    if (!error.file().starts_with(folder_->path())) throw;
+    if (error.cause() != ErrorCause::kMissing || !error.file().starts_with(folder_->path())) throw;
   }
   load_ = {};
   load_.note = "the files of the checkpoint are damaged or missing, so the run starts from the beginning";
@@ -123,8 +125,10 @@ Error ResumableRun::explain(const Error& error) {
   std::string hint = error.hint();
   // The files that grow in this folder are not in the temporary folder. None of them is an input.
   if (error.file().starts_with(folder_->path())) {
-    hint = kind == ErrorKind::kBadInput ? "check the disk, or choose another output with -o"
-                                        : "make room in this folder, or choose another output with -o";
+    constexpr std::string_view kElsewhere = "choose another with --temp-dir DIR",
+                               kOutput = "choose another output with -o";
+    if (kind == ErrorKind::kBadInput) hint = "check the disk, or " + std::string(kOutput);
+    if (const auto at = hint.find(kElsewhere); at != hint.npos) hint.replace(at, kElsewhere.size(), kOutput);
     kind = ErrorKind::kResource;
   }
   if (kind == ErrorKind::kBadInput) {

@@ -41,6 +41,7 @@ class ResumableRun {
   // Returns the checkpoint to resume from if a resume was requested and a checkpoint fits; else removes everything that
   // an earlier run left. `restore` reads the state; if the state is damaged, there is no checkpoint. The reason is
   // added to `notes`.
+  // THROWS: as io::File if a file of the checkpoint cannot be opened or read. The checkpoint stays.
   const Checkpoint* start(const std::function<void(StateReader&)>& restore, std::vector<std::string>& notes);
   // The same, until start_over().
   const Checkpoint* checkpoint() const { return load_.checkpoint ? &*load_.checkpoint : nullptr; }

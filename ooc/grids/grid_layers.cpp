@@ -28,6 +28,12 @@ std::array<std::uint32_t, 3> unpack(std::uint64_t packed) {
   return cells;
 }
 
+// What a header announces can be more bytes than 64 bits count. The most that they count is refused, too.
+std::uint64_t saturating_times(std::uint64_t a, std::uint64_t b) {
+  constexpr std::uint64_t kMost = ~std::uint64_t{0};
+  return b != 0 && a > kMost / b ? kMost : a * b;
+}
+
 }  // namespace
 
 std::array<std::uint32_t, 3> box_cells(const GridSize& grid, std::size_t box_vertices, std::uint64_t layer_bytes,
@@ -38,7 +44,7 @@ std::array<std::uint32_t, 3> box_cells(const GridSize& grid, std::size_t box_ver
   std::array<std::uint32_t, 3> box{cells, cells, cells};
   std::uint64_t slice = 1;
   for (std::size_t k = 0; k < axes.last; ++k) slice *= grid[k];
-  const std::uint64_t slices = layer_bytes / (slice * sizeof(double) * functions);
+  const std::uint64_t slices = layer_bytes / saturating_times(slice, sizeof(double) * functions);
   box[axes.last] = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(slices, 2, std::uint64_t{cells} + 1) - 1);
   return box;
 }
@@ -57,7 +63,8 @@ GridLayers::GridLayers(MeshReader& reader, FunctionValues& functions, MemoryBudg
       values_(functions.function_count()),
       batch_values_(functions.function_count()) {
   for (std::size_t k = 0; k < axis_; ++k) slice_ *= grid_[k];
-  reservation_.resize(functions.function_count() * sizeof(double) * slice_ * boxes_.size(axis_, 0));
+  const std::uint64_t slice_bytes = saturating_times(slice_, sizeof(double) * functions.function_count());
+  reservation_.resize(saturating_times(slice_bytes, boxes_.size(axis_, 0)));
 }
 
 bool GridLayers::read() {

@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "libreeb/base/count_text.h"
+#include "libreeb/base/error.h"
 #include "ooc/tables/node_table.h"
 #include "ooc/threads/read_ahead.h"
 
@@ -45,6 +47,15 @@ std::uint64_t graph_bytes(const SegmentStore& store, const LoadOptions& options)
 }
 
 }  // namespace
+
+void require_numbers(std::uint64_t nodes, std::uint64_t arcs) {
+  constexpr std::uint64_t kMost = ~std::uint32_t{0};
+  if (nodes <= kMost && arcs <= kMost) return;
+  throw Error(ErrorKind::kResource,
+              "the graph has " + count_of(nodes, "node") + " and " + count_of(arcs, "arc") +
+                  ", but at most 2^32 - 1 of each can be numbered",
+              "remove noise with --denoise, or more of it");
+}
 
 std::uint64_t loading_bytes(const SegmentStore& store, const LoadOptions& options) {
   return graph_bytes(store, options) + NodeTable::bytes(store.node_count());

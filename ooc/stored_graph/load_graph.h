@@ -24,6 +24,10 @@ struct LoadOptions {
   std::optional<int> bucket_exponent = {};  // set: read buckets, coarsened to this
 };
 
+// Nodes and arcs are numbered in 32 bits, and one number stands for none.
+// THROWS: Error{kResource} if there are more.
+void require_numbers(std::uint64_t nodes, std::uint64_t arcs);
+
 // The most that read_graph() reserves.
 std::uint64_t loading_bytes(const SegmentStore& store, const LoadOptions& options);
 

@@ -21,7 +21,7 @@ inline std::string mesh_folder() {
 
 inline bool has_meshes() { return std::filesystem::is_directory(mesh_folder()); }
 
-// tests/run.sh --no-skips allows a skip only if its reason begins with "no data:".
+// tests/run.sh --no-skips allows a skip only if its reason begins with "no data:" or "not here:".
 inline std::string no_meshes() {
   return std::getenv("REEB_DATA") == nullptr ? "no data: there is no " + mesh_folder() + ", and REEB_DATA is not set"
                                              : "REEB_DATA is set, but there is no " + mesh_folder();

@@ -135,7 +135,9 @@ class Runner {
     EXPECT_TRUE(temp_.empty()) << "temporary files were left";
     for (const std::string& output : outputs) {
       SCOPED_TRACE(testing::Message() << "conservation: " << shape);
-      expect_vertices_conserved(ooc::ReebFile(output));
+      const ooc::ReebFile file(output);
+      EXPECT_EQ(file.header().flags.has_embedding, options.buckets != 0);
+      expect_vertices_conserved(file);
     }
     return outputs;
   }

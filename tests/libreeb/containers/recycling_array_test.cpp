@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <vector>
 
 #include "tests/support/random.h"
@@ -50,6 +51,7 @@ void play(std::uint64_t seed, std::uint64_t most) {
       RecyclingArray<Element> copy = array;
       const std::vector<bool> is_free = copy.restored_free();
       for (const std::uint32_t index : model.free) ASSERT_TRUE(is_free[index]);
+      ASSERT_EQ(static_cast<std::size_t>(std::count(is_free.begin(), is_free.end(), true)), model.free.size());
       array = copy;
     }
   }

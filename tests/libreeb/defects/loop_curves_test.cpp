@@ -42,6 +42,13 @@ std::vector<double> heights(const PatchContent& content) {
   return values;
 }
 
+// The short circle of the torus at this ring.
+ClosedPath circle_at(std::uint32_t ring) {
+  ClosedPath path;
+  for (std::uint32_t j = 0; j < kSides; ++j) path.vertices.push_back(ring * kSides + j);
+  return path;
+}
+
 // The two nodes of the loop: on the inner circle, lowest and highest.
 std::pair<std::uint32_t, std::uint32_t> loop_of(const PatchContent& content, const std::vector<double>& values) {
   std::uint32_t v = 0, y = 0;
@@ -88,9 +95,11 @@ TEST(LoopCurves, AtABoundaryAreUnclear) {
   const auto [v, y] = loop_of(content, values);
   const SurfacePatch patch(content);
   const LoopCurves curves = loop_curves(patch, values, {v, y, true, true});
-  if (curves.shorter().path.exists()) {
-    EXPECT_EQ(kind_of(patch, curves.shorter(), false), DefectKind::kUnclear);
-  }
+  EXPECT_EQ(kind_of(patch, curves.shorter(), false), DefectKind::kUnclear);
+  EXPECT_EQ(kind_of(patch, curve_along(patch, circle_at(15)), false), DefectKind::kUnclear);
+  // The same circle, if nothing is missing.
+  const SurfacePatch closed(torus());
+  EXPECT_EQ(kind_of(closed, curve_along(closed, circle_at(15)), false), DefectKind::kHandle);
 }
 
 TEST(LoopCurves, BoundTogetherIfOneIsBesideTheOther) {
@@ -100,11 +109,7 @@ TEST(LoopCurves, BoundTogetherIfOneIsBesideTheOther) {
   for (const std::uint32_t ring : {7u, 8u})
     for (std::uint32_t j = 0; j < kSides; ++j) content.whole[ring * kSides + j] = 0;
   const SurfacePatch patch(content);
-  const auto left_of_ring = [&](std::uint32_t ring) {
-    ClosedPath path;
-    for (std::uint32_t j = 0; j < kSides; ++j) path.vertices.push_back(ring * kSides + j);
-    return left_of(patch, path).value();
-  };
+  const auto left_of_ring = [&](std::uint32_t ring) { return left_of(patch, circle_at(ring)).value(); };
   EXPECT_TRUE(bound_together(patch, left_of_ring(15), left_of_ring(30)));
   EXPECT_FALSE(bound_together(patch, left_of_ring(15), Crossings(patch.edge_count(), 0)));
 }

@@ -7,11 +7,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <map>
 #include <utility>
 #include <vector>
 
+#include "libreeb/base/error.h"
 #include "tests/support/random.h"
 #include "tests/support/seed.h"
 
@@ -93,6 +95,42 @@ TEST(BucketSum, HoldsAsManyOfTheGreatestAsThereAreVertices) {
   }
   EXPECT_EQ(sum.count, ~std::uint32_t{0});
   EXPECT_EQ(sum.mean().mean, (std::array<double, 3>{0x1p50, -0x1p50, 0}));
+}
+
+BucketSum many(std::int64_t index, std::uint32_t count) { return {.index = index, .count = count}; }
+
+void expect_full(const std::function<void()>& add) {
+  try {
+    add();
+    ADD_FAILURE() << "a count was wrong";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::kResource);
+    EXPECT_NE(error.hint().find("--buckets"), std::string::npos) << error.hint();
+  }
+}
+
+TEST(BucketSum, RefusesMoreVerticesThanItCanCount) {
+  constexpr std::uint32_t kMost = ~std::uint32_t{0};
+  BucketSum sum = many(0, 3'000'000'000u);
+  expect_full([&] { sum.add(many(0, 3'000'000'000u)); });
+  EXPECT_EQ(sum.count, 3'000'000'000u);
+  sum.add(many(0, kMost - 3'000'000'000u));
+  EXPECT_EQ(sum.count, kMost);
+  BucketSum divided = many(0, 10);
+  expect_full([&] { divided.keep(9, sum); });
+}
+
+TEST(BucketLists, RefuseMoreVerticesThanABucketCanCount) {
+  constexpr std::uint32_t kMost = ~std::uint32_t{0};
+  BucketLists pool;
+  pool.start(0);
+  BucketLists::List list, upper;
+  pool.add(list, many(0, kMost - 1));
+  pool.add_vertex(list, 0.5, {});
+  expect_full([&] { pool.add_vertex(list, 0.5, {}); });
+  expect_full([&] { pool.add(list, many(0, 1)); });
+  std::swap(list, upper);
+  expect_full([&] { pool.concatenate(list, 0.5, {}, upper); });
 }
 
 // The expected content of a list: buckets of the pool's exponent, by index.

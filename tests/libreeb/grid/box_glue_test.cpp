@@ -7,7 +7,10 @@
 #include <cstring>
 #include <memory>
 #include <random>
+#include <span>
+#include <vector>
 
+#include "libreeb/base/error.h"
 #include "tests/libreeb/grid/glued_boxes.h"
 #include "tests/model/naive_denoise.h"
 #include "tests/model/reference_reeb.h"
@@ -155,6 +158,43 @@ TEST(BoxGlue, ContinuesFromASavedState) {
   }
 }
 
+// Also says where what was written last begins.
+struct NotedBytes : StateBytes {
+  std::size_t last = 0;
+
+  void write(std::span<const std::byte> more) override {
+    last = bytes().size();
+    StateBytes::write(more);
+  }
+};
+
+// An image can have more vertices than a bucket can count.
+TEST(BoxGlue, ContinuesFromBucketsOfMoreThan2To32Vertices) {
+  NoiseCase noise = noise_case(base_seed() + 1, 40);
+  noise.cut.cells = {8, 8, 8};
+  const std::vector<Fragment> fragments = fragments_of_boxes(noise.shape, noise.values, noise.cut);
+  GluedBoxesSink sink;
+  NotedBytes saved;
+  {
+    BoxGlue glue(sink);
+    for (std::size_t i = 0; i < boxes_of_a_layer(noise); ++i) glue.add(fragments[i]);
+    glue.save(saved);
+  }
+  std::vector<std::byte> bytes = saved.bytes();
+  ASSERT_GE(bytes.size() - saved.last, 2 * sizeof(BucketSum));
+  for (std::size_t at = saved.last; at < bytes.size(); at += sizeof(BucketSum)) {
+    BucketSum bucket;
+    std::memcpy(&bucket, bytes.data() + at, sizeof(bucket));
+    bucket.count = 3'000'000'000u;
+    std::memcpy(bytes.data() + at, &bucket, sizeof(bucket));
+  }
+  StateBytes state(bytes), again;
+  BoxGlue glue(sink);
+  glue.restore(state);
+  glue.save(again);
+  EXPECT_EQ(again.bytes(), bytes);
+}
+
 // With other bytes, the boxes that follow make a graph of it, or it is found to be damaged.
 TEST(BoxGlue, NeverCrashesOnAForgedState) {
   const std::uint64_t seed = base_seed();
@@ -188,6 +228,8 @@ TEST(BoxGlue, NeverCrashesOnAForgedState) {
       for (std::size_t i = done; i < fragments.size(); ++i) glue.add(fragments[i]);
     } catch (const DamagedState&) {
       ++damaged;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::kResource) << error.what();  // a bucket has more vertices than it can count
     }
     sink.result = {};
   }

@@ -9,6 +9,8 @@
 #include "io/functions/function_source.h"
 #include "io/grids/grid_mesh.h"
 #include "ooc/checkpoints/partial_folder.h"
+#include "ooc/chunks/function_values.h"
+#include "ooc/grids/grid_layers.h"
 #include "tests/model/reference_reeb.h"
 #include "tests/support/inputs/embedding_places.h"
 #include "tests/support/inputs/memory_grid.h"
@@ -143,12 +145,35 @@ TEST(GridRuns, SkipVerticesWithoutDataWithTheirSimplices) {
 }
 
 // An interrupted run is resumed after a layer, not between the boxes of one.
+// The bytes of a slice, of all functions, are 2^63 and 2^64.
+TEST(GridLayers, OfAHugeHeaderAreRefused) {
+  const GridShape shape = {std::uint64_t{1} << 55, 2, 1};
+  const io::FunctionSpec spec = io::parse_function("value");
+  ReadOptions reading;
+  reading.properties = io::needed_properties({&spec, 1});
+  const auto reader = io::make_grid_mesh(std::make_unique<MemoryGrid>(shape, std::vector<double>(8)), reading, {});
+  io::FunctionSource function(spec, reader->info(), reading.properties);
+  for (const std::size_t count : {32u, 64u}) {
+    const std::vector<VertexFunction*> functions(count, &function);
+    ooc::FunctionValues values(functions, reader->info().dimension);
+    MemoryBudget budget(std::uint64_t{1} << 30);
+    try {
+      ooc::GridLayers(*reader, values, budget, 64, {});
+      ADD_FAILURE() << count << " functions";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::kResource) << error.what();
+    }
+  }
+}
+
 TEST(GridRuns, AreResumedAsIfNothingHadHappened) {
   const std::uint64_t seed = base_seed();
   const ooc::Scratch folder;
   const std::string mesh = folder.path() + "/grid.raw";
   write_file(mesh, "not read");
-  for (std::uint64_t i = 0; i < case_count(40); ++i) {
+  const std::uint64_t cases = case_count(40);
+  std::uint64_t interruptions = 0;
+  for (std::uint64_t i = 0; i < cases; ++i) {
     Random random(seed + i);
     const GridShape shape{random.between(3, 7), random.between(3, 7), random.between(3, 9)};
     std::vector<double> values = random_grid_values(shape, random);
@@ -168,6 +193,7 @@ TEST(GridRuns, AreResumedAsIfNothingHadHappened) {
       run_grid(shape, values, run, folder);
     } catch (const Error& error) {
       interrupted = true;
+      ++interruptions;
       ASSERT_EQ(error.kind(), ErrorKind::kInterrupted) << error.what();
     }
     run.options.interrupted = {};
@@ -178,6 +204,7 @@ TEST(GridRuns, AreResumedAsIfNothingHadHappened) {
     if (interrupted) run_grid(shape, values, run, folder);
     ASSERT_EQ(take_bytes(folder.path() + "/grid.reeb"), whole) << "seed " << seed + i << ", " << interrupted;
   }
+  EXPECT_GE(interruptions, cases / 10);
 }
 
 // Noise in many boxes, so that most arcs are cut when boxes are joined.

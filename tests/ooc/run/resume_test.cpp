@@ -9,6 +9,7 @@
 #include <fstream>
 #include <functional>
 #include <random>
+#include <set>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -193,6 +194,7 @@ class Runs {
 };
 
 TEST(Resume, GoesOnFromEveryChunkOfRandomComplexes) {
+  std::size_t interruptions = 0;
   for (std::uint64_t seed = 0; seed < 45; ++seed) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
     Runs runs(mesh_of(test::random_complex(seed)), kForms[seed % 3]);
@@ -200,22 +202,27 @@ TEST(Resume, GoesOnFromEveryChunkOfRandomComplexes) {
     runs.options.chunk_triangles = 1 + seed % 5;
     runs.options.threads = static_cast<unsigned>(1 + seed % 3);
     const std::string expected = runs.finish(false);
-    for (std::uint64_t n = 1; runs.stop_after(n, false); n += 1 + n / 4)
+    for (std::uint64_t n = 1; runs.stop_after(n, false); n += 1 + n / 4) {
+      ++interruptions;
       ASSERT_EQ(runs.finish(true), expected) << "after chunk " << n;
+    }
     fs::remove(runs.output());
   }
+  EXPECT_GE(interruptions, 20u);
 }
 
 TEST(Resume, GoesOnAsOftenAsItIsInterrupted) {
+  std::size_t interruptions = 0;
   for (std::uint64_t seed = 100; seed < 115; ++seed) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
     Runs runs(mesh_of(test::random_complex(seed)), kForms[seed % 3]);
     runs.reading.batch_events = 3;
     runs.options.chunk_triangles = 7;
     const std::string expected = runs.finish(false);
-    for (bool resume = false; runs.stop_after(1, resume); resume = true) continue;
+    for (bool resume = false; runs.stop_after(1, resume); resume = true) ++interruptions;
     EXPECT_EQ(read_file(runs.output()), expected);
   }
+  EXPECT_GE(interruptions, 10u);
 }
 
 // Enough nodes for segments on disk. The run is resumed in another way than it began.
@@ -572,6 +579,64 @@ TEST(Resume, KeepsTheCheckpointWhereNoMoreFilesCanBeOpened) {
     if (fault.count() < n) break;
     ASSERT_EQ(read_file(runs.partial() + "/checkpoint"), checkpoint) << "after a fault in call " << n;
   }
+}
+
+TEST(Resume, KeepsTheCheckpointWhoseFilesCannotBeRead) {
+  Runs runs(grid_mesh(250, 250), Form::kBinary, "random:1");
+  runs.options.graph_only = true;  // the least budget has no room for the second stage
+  runs.options.memory_bytes = 16 << 20;
+  runs.options.chunk_triangles = 4096;
+  runs.options.threads = 1;
+  const std::string expected = runs.finish(false);
+  ASSERT_TRUE(runs.stop_after(24, false));
+  const fs::path kept = runs.partial() + ".kept";
+  fs::rename(runs.partial(), kept);
+  const std::string checkpoint = read_file(kept / "checkpoint");
+  const std::set<std::string> all = {"checkpoint", "function-0.nodes", "function-0.arcs"};
+  const auto keep_again = [&] {
+    fs::remove_all(runs.partial());
+    fs::copy(kept, runs.partial());
+  };
+  // Unless the output may be replaced, the checkpoint is read once more before: to see whether it may be discarded.
+  struct Fault {
+    io::FileCall call;
+    int error;
+    bool replace;
+  };
+  for (const auto& [call, error_number, replace] :
+       {Fault{io::FileCall::kOpen, EMFILE, true}, Fault{io::FileCall::kOpen, EIO, false},
+        Fault{io::FileCall::kRead, EIO, true}, Fault{io::FileCall::kRead, EIO, false}}) {
+    runs.options.replace = replace;
+    std::set<std::string> failed;
+    for (std::uint64_t n = 1; n < 1000 && failed != all; ++n) {
+      SCOPED_TRACE(testing::Message() << "error " << error_number << " in call " << n);
+      keep_again();
+      const FaultAtCall fault(call, n, {.error = error_number}, FaultAtCall::Which::kOne);
+      try {
+        const io::ScopedFileFaults faults(fault);
+        runs.finish(true);
+        if (fault.count() < n) break;
+        continue;
+      } catch (const Error& error) {
+        const fs::path file = error.file();
+        if (file.parent_path() != runs.partial()) continue;
+        if (!failed.insert(file.filename().string()).second) continue;
+        EXPECT_EQ(error.kind(), ErrorKind::kResource) << error.what();
+        EXPECT_NE(error.hint().find("--resume"), std::string::npos) << error.hint();
+      }
+      ASSERT_EQ(read_file(runs.partial() + "/checkpoint"), checkpoint);
+      Notes notes;
+      ASSERT_EQ(runs.finish(true, notes), expected);
+      EXPECT_NE(notes.at(0).find("continues from there"), std::string::npos) << notes[0];
+    }
+    EXPECT_EQ(failed, all);
+  }
+  // One that is missing will not come back.
+  keep_again();
+  fs::remove(runs.partial() + "/function-0.arcs");
+  Notes notes;
+  EXPECT_EQ(runs.finish(true, notes), expected);
+  EXPECT_NE(notes.at(0).find("damaged or missing"), std::string::npos) << notes[0];
 }
 
 TEST(Resume, SaysThatThereIsNothingToResume) {

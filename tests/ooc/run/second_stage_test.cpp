@@ -13,6 +13,7 @@
 
 #include "libreeb/base/error.h"
 #include "libreeb/base/memory_budget.h"
+#include "ooc/stored_graph/load_graph.h"
 #include "tests/support/files.h"
 #include "tests/support/whole_run.h"
 
@@ -47,6 +48,20 @@ class RefusedRequest {
   std::atomic<bool> began_ = false;
   std::atomic<std::uint64_t> count_ = 0;
 };
+
+TEST(SecondStage, RefusesMoreNodesOrArcsThanItCanNumber) {
+  constexpr std::uint64_t kMost = (std::uint64_t{1} << 32) - 1;
+  EXPECT_NO_THROW(ooc::require_numbers(kMost, kMost));
+  for (const auto& [nodes, arcs] : {std::pair(kMost + 1, kMost), std::pair(kMost, kMost + 1)}) {
+    try {
+      ooc::require_numbers(nodes, arcs);
+      ADD_FAILURE() << nodes << " nodes, " << arcs << " arcs";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::kResource);
+      EXPECT_NE(error.hint().find("--denoise"), std::string::npos) << error.hint();
+    }
+  }
+}
 
 TEST(SecondStage, KeepsTheGraphIfMemoryRunsOutInTheMiddle) {
   constexpr std::uint32_t kTriangles = 60'000;
