@@ -82,21 +82,32 @@ std::vector<std::string> output_files(io::GraphFormat format, const std::string&
   return {stem + ".nodes.csv", stem + ".arcs.csv"};
 }
 
-// Neither file gets its name before both are whole.
+// Neither file gets its name before both are whole. Both stay, or neither. If another program took a name meanwhile,
+// that table stays under another one.
 void write_tables(const io::GraphView& view, const std::string& nodes, const std::string& arcs, bool force) {
   io::AtomicFile node_file(nodes, {.existing = late_outputs(force)});
   io::AtomicFile arc_file(arcs, {.existing = late_outputs(force)});
   io::FileOstream node_table(node_file.out()), arc_table(arc_file.out());
   io::write_csv_tables(view, node_table, arc_table);
-  const bool is_new = !std::filesystem::exists(nodes);
-  node_file.commit();
+  const bool replaces = force && std::filesystem::exists(nodes);
+  std::optional<Error> node_error;  // of a table that is there all the same
+  try {
+    node_file.commit();
+  } catch (const Error& error) {
+    if (node_file.name().empty()) throw;
+    node_error = error;
+  }
   try {
     arc_file.commit();
   } catch (...) {
     std::error_code ignored;
-    if (is_new) std::filesystem::remove(nodes, ignored);
-    throw;
+    if (arc_file.name().empty() && !replaces) std::filesystem::remove(node_file.name(), ignored);
+    if (arc_file.name().empty() || !node_error) throw;
+    node_error =
+        Error(node_error->kind(), node_error->message() + ", and the arcs are " + arc_file.name(), node_error->hint())
+            .at(node_error->file());
   }
+  if (node_error) throw *node_error;
 }
 
 void extract(const ExtractOptions& options) {

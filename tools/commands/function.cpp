@@ -25,6 +25,7 @@
 #include "libreeb/base/memory_budget.h"
 #include "libreeb/base/printable.h"
 #include "libreeb/port/vertex_numbering.h"
+#include "ooc/chunks/reader_memory.h"
 #include "tools/arguments/image_options.h"
 #include "tools/arguments/options.h"
 #include "tools/commands/commands.h"
@@ -59,7 +60,9 @@ class Values {
       : options_(options),
         spec_(parse(options.function)),
         input_(io::mesh_input(options.mesh, options.format)),
-        bar_(options.quiet) {}
+        bar_(options.quiet),
+        budget_(options.memory_bytes),
+        reader_memory_(budget_) {}
 
   void write() {
     input_.read([this] {
@@ -110,6 +113,7 @@ class Values {
       source_->check_unchanged();
       return false;
     }
+    reader_memory_.update(*reader_);
     values_.resize(batch_.vertex_count);
     source_->evaluate(batch_, values_);
     numbers_.append(batch_.first_vertex.value(), batch_.vertex_count);
@@ -196,6 +200,8 @@ class Values {
   io::FunctionSpec spec_;
   io::Input input_;
   ProgressBar bar_;
+  MemoryBudget budget_;
+  ooc::ReaderMemory reader_memory_;
   std::unique_ptr<MeshReader> reader_;
   io::MeshField field_;
   std::unique_ptr<io::FunctionSource> source_;

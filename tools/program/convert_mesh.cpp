@@ -21,6 +21,8 @@
 #include "io/streaming/open_stream.h"
 #include "io/streaming/stream_mesh_reader.h"
 #include "libreeb/base/error.h"
+#include "libreeb/base/memory_budget.h"
+#include "ooc/chunks/reader_memory.h"
 #include "ooc/chunks/spooled_mesh.h"
 #include "ooc/whole_mesh/compact_stream.h"
 #include "ooc/whole_mesh/triangle_order.h"
@@ -146,9 +148,16 @@ class Conversion {
     constexpr std::uint64_t kEventsBetweenUpdates = 4096;
     if (format_ == io::StreamFormat::kCompressed) events = io::in_pre_order(std::move(events));
     const auto writer = io::create_stream(options_.output, events->header(), options_.existing);
-    for (std::uint64_t n = 0; const io::StreamEvent* event = events->next(); ++n) {
+    MemoryBudget budget(options_.memory_bytes);
+    Reservation reader_memory = budget.reserve("mesh reader", 0);
+    for (std::uint64_t n = 0;; ++n) {
+      while (!events->prepare()) reader_memory.resize(events->memory_bytes());
+      const io::StreamEvent* event = events->next();
+      if (event == nullptr) break;
       writer->write(*event);
-      if (n % kEventsBetweenUpdates == 0) bar_.update({"converting"}, events->bytes_read(), bytes);
+      if (n % kEventsBetweenUpdates != 0) continue;
+      reader_memory.resize(events->memory_bytes());
+      bar_.update({"converting"}, events->bytes_read(), bytes);
     }
     input_.check_unchanged();
     writer->close();
@@ -205,7 +214,12 @@ class Conversion {
     // The counts that a stream's header announces can be wrong.
     const auto writer = create_writer(info.finalizes ? std::nullopt : info.vertex_count);
     WatchedReader watched(*reader_, {"converting"}, bar_);
-    for (MeshBatch batch; watched.read(batch);) writer->write(batch);
+    MemoryBudget budget(options_.memory_bytes);
+    ooc::ReaderMemory reader_memory(budget);
+    for (MeshBatch batch; watched.read(batch);) {
+      reader_memory.update(watched);
+      writer->write(batch);
+    }
     input_.check_unchanged();
     writer->close();
     Lines notes = reader_->warnings();

@@ -29,7 +29,6 @@ namespace reeb::tools {
 namespace {
 
 constexpr int kMillisecondsBetweenStops = 100;
-constexpr time_t kPatienceSeconds = 20;  // with a client that neither sends nor takes
 constexpr std::size_t kMostConnections = 32, kMostRequestBytes = 16 * 1024, kPieceBytes = 64 * 1024;
 
 std::string random_word() {
@@ -82,11 +81,22 @@ bool send_all(int socket, std::string_view bytes) {
   return true;
 }
 
-// Empty if no whole request comes.
-std::string receive_request(int socket) {
+void limit_waiting(int socket, int option, std::chrono::microseconds limit) {
+  constexpr std::int64_t kSecond = 1'000'000;
+  const timeval time{.tv_sec = limit.count() / kSecond, .tv_usec = limit.count() % kSecond};
+  ::setsockopt(socket, SOL_SOCKET, option, &time, sizeof time);
+}
+
+// Empty if no whole request comes in this time.
+std::string receive_request(int socket, std::chrono::milliseconds patience) {
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point end = Clock::now() + patience;
   std::string text;
   std::array<char, 4096> piece{};
   while (text.find("\r\n\r\n") == std::string::npos) {
+    const auto left = std::chrono::duration_cast<std::chrono::microseconds>(end - Clock::now());
+    if (left.count() <= 0) return {};
+    limit_waiting(socket, SO_RCVTIMEO, left);
     const ssize_t size = ::recv(socket, piece.data(), piece.size(), 0);
     if (size < 0 && errno == EINTR) continue;
     if (size <= 0 || text.size() > kMostRequestBytes) return {};
@@ -124,7 +134,7 @@ std::string page_of_file(std::string_view page, const std::string& name) {
 // Each has its thread. All end with the destructor.
 class FileServer::Connections {
  public:
-  explicit Connections(const FileServer& server) : server_(server) {}
+  Connections(const FileServer& server, std::chrono::milliseconds patience) : server_(server), patience_(patience) {}
   Connections(const Connections&) = delete;
   Connections& operator=(const Connections&) = delete;
   ~Connections() {
@@ -141,7 +151,7 @@ class FileServer::Connections {
     Connection& connection = open_.emplace_back(socket);
     try {
       connection.thread = std::jthread([this, &connection] {
-        server_.answer(connection.socket);
+        server_.answer(connection.socket, patience_);
         // The client sees the end at once; the socket is closed when no thread knows it any more.
         ::shutdown(connection.socket, SHUT_RDWR);
         connection.is_done = true;
@@ -166,6 +176,7 @@ class FileServer::Connections {
   };
 
   const FileServer& server_;
+  const std::chrono::milliseconds patience_;
   std::list<Connection> open_;
 };
 
@@ -182,8 +193,8 @@ FileServer::FileServer(std::string_view page, const std::string& file, std::uint
 
 FileServer::~FileServer() { ::close(socket_); }
 
-void FileServer::serve(const std::function<bool()>& stop) {
-  Connections connections(*this);
+void FileServer::serve(const std::function<bool()>& stop, std::chrono::milliseconds patience) {
+  Connections connections(*this, patience);
   while (!stop()) {
     pollfd waiting{.fd = connections.has_room() ? socket_ : -1, .events = POLLIN, .revents = 0};
     if (::poll(&waiting, 1, kMillisecondsBetweenStops) <= 0) continue;
@@ -193,15 +204,13 @@ void FileServer::serve(const std::function<bool()>& stop) {
       std::this_thread::sleep_for(std::chrono::milliseconds(kMillisecondsBetweenStops));
       continue;
     }
-    const timeval patience{.tv_sec = kPatienceSeconds, .tv_usec = 0};
-    ::setsockopt(client, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
-    ::setsockopt(client, SOL_SOCKET, SO_SNDTIMEO, &patience, sizeof patience);
+    limit_waiting(client, SO_SNDTIMEO, patience);
     connections.add(client);
   }
 }
 
-void FileServer::answer(int socket) const {
-  const std::string text = receive_request(socket);
+void FileServer::answer(int socket, std::chrono::milliseconds patience) const {
+  const std::string text = receive_request(socket, patience);
   if (text.empty()) return;
   const auto request = parse_request(text);
   if (!request) return send_text(socket, "400 Bad Request", true);

@@ -4,6 +4,7 @@
 // OpenSSL and Brotli, which keep 4 MiB resident.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -28,13 +29,14 @@ class FileServer {
   // Of the page, which opens the file.
   const std::string& address() const { return address_; }
 
-  // Answers requests, several at a time, until `stop` returns true; it is asked a few times a second.
-  void serve(const std::function<bool()>& stop);
+  // Answers requests, several at a time, until `stop` returns true; it is asked a few times a second. A client whose
+  // request takes longer than `patience` gets no answer, nor does one that takes nothing of it for so long.
+  void serve(const std::function<bool()>& stop, std::chrono::milliseconds patience = std::chrono::seconds(20));
 
  private:
   class Connections;
 
-  void answer(int socket) const;
+  void answer(int socket, std::chrono::milliseconds patience) const;
   void send_file(int socket, std::uint64_t begin, std::uint64_t end) const;
 
   io::File file_;
