@@ -117,7 +117,7 @@ def main():
     too_much = compare(costs, recorded["costs"], same)
     if not same:
         differing = [name for name in environment if environment[name] != recorded["environment"].get(name)]
-        print(f"recorded with another environment ({', '.join(differing)}): reported only")
+        print(f"skipped: not here: the costs were recorded with another environment ({', '.join(differing)})")
         return 0
     if too_much:
         print(f"Figures more than {ALLOWED:.0%} above what was recorded: {too_much}. If that is worth it, record them "

@@ -373,7 +373,27 @@ TEST_F(BadInput, UnknownFormat) {
 }
 
 TEST_F(BadInput, FilesOfOtherKindsAreNamed) {
+  const std::string rest(2000, '\x07');
   const std::vector<std::pair<std::string, std::string>> kinds = {
+      {std::string("\x1c\2\0\0n+2\0", 8) + rest, "a NIfTI-2 image"},
+      {std::string("\x1c\2\0\0ni2\0", 8) + rest, "a NIfTI-2 header"},
+      {std::string("glTF\2\0\0\0", 8) + rest, "a binary glTF scene"},
+      {"Kaydara FBX Binary  " + rest, "an FBX scene"},
+      {"\x89HDF\r\n\x1a\n" + rest, "an HDF5 file"},
+      {"REEBNAM\n" + rest, "a file of names of `reeb fragment --scan`"},
+      {std::string("\xFE\xFF\0p\0l\0y", 8), "text in UTF-16"},
+      {"\xFF\xD8\xFF" + rest, "a JPEG picture"},
+      {std::string("MM\0*", 4) + rest, "a TIFF picture"},
+      {"%PDF-1.7\n" + rest, "a PDF document"},
+      {"PK\3\4" + rest, "a ZIP archive"},
+      {"7z\xBC\xAF\x27\x1C" + rest, "a 7-Zip archive"},
+      {std::string("\xFD\x37zXZ\0", 6) + rest, "packed with xz"},
+      {"BZh91AY&SY" + rest, "packed with bzip2"},
+      {std::string(257, '\0') + "ustar" + rest, "a tar archive"},
+      {"<?xml version=\"1.0\"?>\n<COLLADA>\n", "a COLLADA scene"},
+      {"\n<!DOCTYPE html>\n", "a web page"},
+      {"<html>\n", "a web page"},
+      {"<?xml version=\"1.0\"?>\n<a/>\n", "an XML file"},
       {"<?xml version=\"1.0\"?>\n<VTKFile type=\"RectilinearGrid\">\n", "a VTK XML file of another kind"},
       {std::string("\1\0\0\0\2\0\0\0\3\0\0\0", 12) + std::string(400, '\x22'), "a binary Medit mesh"},
       {"version https://git-lfs.github.com/spec/v1\noid sha256:00\nsize 9\n", "a Git LFS pointer"},

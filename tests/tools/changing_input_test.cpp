@@ -307,13 +307,21 @@ TEST_F(ProgramTest, AnEmptyFileOfValuesIsThatOfAMeshWithoutVertices) {
 
 TEST_F(ProgramTest, TooFewFilesThatMayBeOpenAreNotBlamedOnTheInput) {
   write("mesh.off", kSmallOff);
+  int refused = 0;
   for (int files = 3; files < 8; ++files) {
     Command command;
     command.wrapper = {"bash", "-c", "ulimit -n " + std::to_string(files) + "; exec \"$@\"", "-"};
-    const Outcome outcome = reeb({"info", "mesh.off"}, command);
-    EXPECT_EQ(outcome.error.find("name a file that exists"), std::string::npos) << files << ": " << outcome.error;
-    EXPECT_EQ(outcome.error.find("choose a folder"), std::string::npos) << files << ": " << outcome.error;
+    for (const std::vector<std::string>& words :
+         {std::vector<std::string>{"info", "mesh.off"}, {"compute", "mesh.off", "-o", "out.reeb", "--force"}}) {
+      const Outcome outcome = reeb(words, command);
+      EXPECT_EQ(outcome.error.find("name a file that exists"), std::string::npos) << files << ": " << outcome.error;
+      EXPECT_EQ(outcome.error.find("choose a folder"), std::string::npos) << files << ": " << outcome.error;
+      if (kSanitized || outcome.exit_code == 0 || outcome.exit_code == 127) continue;  // 127: libraries are files, too
+      expect_error(outcome, 3);
+      ++refused;
+    }
   }
+  EXPECT_TRUE(kSanitized || refused > 0);
 }
 
 TEST_F(ProgramTest, InfoNeedsNoFolderThatCanBeWritten) {

@@ -32,6 +32,13 @@ std::string section(const std::string& document, const std::string& heading) {
   return std::regex_search(rest, found, next) ? rest.substr(0, static_cast<std::size_t>(found.position())) : rest;
 }
 
+// What the text calls the schema of its JSON, in a table or in an example.
+Names schemas(const std::string& text) {
+  Names names = matches(text, "\n\\| `schema` \\| `([^`]+)`");
+  names.merge(matches(text, "\"schema\": \"([^\"]+)\""));
+  return names;
+}
+
 // The code spans in the first column of all tables.
 Names first_column(const std::string& text) {
   Names names;
@@ -125,13 +132,48 @@ TEST_F(CliDocument, HasEveryFieldOfInfo) {
   write("bad.off",
         "OFF\n8 8 0\n0 0 0\n1 0 0\n0 1 0\n0 1 0.01\n5 0 0\n6 0 0\n5 1 0\n5 0 1\n3 0 1 2\n3 1 0 3\n3 0 1 1\n"
         "3 4 5 6\n3 4 5 7\n3 4 5 0\n3 4 5 0\n3 2 2 3\n");
+  expect_success(reeb({"fragment", "mesh.off", "--part", "1/2", "-o", "p.fragment"}));
   const std::map<std::string, std::string> tables = {{"mesh.reeb", "### Fields for a `.reeb` file"},
+                                                     {"p.fragment", "### Fields for a fragment"},
                                                      {"bad.off", "### Fields for a mesh"}};
   for (const auto& [file, heading] : tables) {
     const Outcome outcome = reeb({"info", file, "--json"});
     expect_success(outcome);
     EXPECT_EQ(first_column(documented(heading)), fields(outcome.output)) << heading;
+    EXPECT_EQ(schemas(documented(heading)),
+              Names{nlohmann::json::parse(outcome.output).at("schema").get<std::string>()})
+        << heading;
   }
+}
+
+TEST_F(CliDocument, HasEveryFieldOfAnImage) {
+  write("v.nrrd", "NRRD0005\ntype: int\ndimension: 3\nsizes: 2 2 2\nencoding: ascii\n\n0\n1\n2\n3\n4\n5\n6\n7\n");
+  const Outcome outcome = reeb({"info", "v.nrrd", "--json"});
+  expect_success(outcome);
+  Names expected;
+  for (const std::string& field : fields(outcome.output))
+    if (field.starts_with("grid.")) expected.insert(field.substr(5));
+  // They are in prose.
+  const std::string text = documented("### Fields for a mesh"), begin = "`grid`, with ";
+  const std::size_t at = text.find(begin);
+  ASSERT_NE(at, std::string::npos);
+  EXPECT_EQ(matches(text.substr(at + begin.size()), "`([a-z_]+)`"), expected);
+}
+
+TEST_F(CliDocument, HasTheSchemasOfAllOutputs) {
+  expect_success(reeb({"compute", "mesh.off", "--report", "report.json"}));
+  expect_success(reeb({"extract", "mesh.reeb", "-o", "graph.json"}));
+  expect_success(reeb({"pairs", "mesh.reeb", "-o", "pairs.json"}));
+  expect_success(reeb({"defects", "mesh.off", "-o", "defects.json"}));
+  expect_success(reeb({"repair", "mesh.off", "--all", "-o", "o.off", "--log", "log.json"}));
+  const std::map<std::string, std::string> sections = {{"report.json", "### Fields of the report"},
+                                                       {"graph.json", "## `reeb extract"},
+                                                       {"pairs.json", "## `reeb pairs"},
+                                                       {"defects.json", "## `reeb defects"},
+                                                       {"log.json", "## `reeb repair"}};
+  for (const auto& [name, heading] : sections)
+    EXPECT_EQ(schemas(documented(heading)), Names{nlohmann::json::parse(file(name)).at("schema").get<std::string>()})
+        << heading;
 }
 
 }  // namespace

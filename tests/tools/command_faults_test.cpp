@@ -1,16 +1,19 @@
-// Every command on a tiny mesh, with a fault in the n-th call of each kind: the files cannot be opened, read, written,
-// mapped, synced or renamed, the disk is full, or memory is out. Each ends with an error that says what to do, leaves
-// nothing behind, and a second run gives the right bytes. Ordinary runs skip more and more n; REEB_TEST_ALL=1 skips
-// few.
+// Every command but `view` on a tiny mesh, with a fault in the n-th call of each kind: the files cannot be opened,
+// read, written, mapped, synced or renamed, the disk is full, or memory is out. Each ends with an error that says what
+// to do, leaves nothing behind, and a second run gives the right bytes. Ordinary runs skip more and more n;
+// REEB_TEST_ALL=1 skips few.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <cstdlib>
 #include <filesystem>
 #include <iterator>
 #include <map>
+#include <regex>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -19,8 +22,10 @@
 #include "io/file/zstd_codec.h"
 #include "tests/support/allocation_faults.h"
 #include "tests/support/files.h"
+#include "tests/support/process.h"
 #include "tests/support/scratch.h"
 #include "tests/tools/commands_in_process.h"
+#include "tools/report/report.h"
 
 namespace reeb::test {
 namespace {
@@ -32,24 +37,44 @@ using Which = FaultAtCall::Which;
 using Files = std::map<std::string, std::string>;  // content by name
 using Words = std::vector<std::string>;
 
-struct Command {
+struct TestedRun {
   std::string name;
   Words words;
   Words outputs = {};
   std::string input = "/dev/null";
   bool is_resumed = false;  // an interrupted run is there
 
-  bool is_compute() const { return words[0] == "compute"; }
+  bool can_resume() const { return words[0] == "compute" || (words[0] == "fragment" && !names("--scan")); }
+  bool names(const std::string& file) const { return std::ranges::find(words, file) != words.end(); }
+
+  // It computes graphs of its own.
+  bool makes_graphs() const { return words[0] == "repair" && !names("--apply-undo"); }
+  // A graph of its own that cannot be read is blamed as an input would be. Of a .reeb file that cannot be read the
+  // report is a page that says so.
+  bool ends_otherwise_if_unreadable() const { return makes_graphs() || words[0] == "report"; }
+  // The JSON library allocates while it releases memory, and so does the folder of graphs; the process ends if they
+  // cannot.
+  bool allocates_at_release() const { return names("--json") || words[0] == "report" || makes_graphs(); }
 };
 
-std::vector<Command> make_commands() {
+// Whether the program has pages (REEB_WEB).
+bool has_pages() {
+  try {
+    tools::require_pages();
+    return true;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+std::vector<TestedRun> make_commands() {
   // Without threads, the calls of a run are always the same.
   const auto compute = [](Words more, bool threads = false) {
     Words words = {"compute", "-o", "out.reeb", "--quiet", "--chunk", "9", "--threads", threads ? "2" : "1"};
     words.insert(words.end(), more.begin(), more.end());
     return words;
   };
-  std::vector<Command> commands = {
+  std::vector<TestedRun> commands = {
       {"ComputeOne", compute({"scan.ply"}), {"out.reeb"}},
       {"ComputeTwo",
        compute({"scan.ply", "-f", "z", "-f", "x", "--denoise", "5%"}, true),
@@ -81,7 +106,30 @@ std::vector<Command> make_commands() {
       {"ConvertKeep", {"convert", "scan.smb", "made.off"}, {"made.off"}},
       {"ConvertEvents", {"convert", "scan.obj", "made.events.txt"}, {"made.events.txt"}},
       {"ConvertCompressed", {"convert", "scan.ply.zst", "made.smb", "--finalize"}, {"made.smb"}},
+      {"Function", {"function", "scan.ply", "-f", "x", "-o", "values.npy"}, {"values.npy"}},
+      {"FunctionToMesh", {"function", "scan.ply", "-f", "geodesic:0", "-o", "made.ply"}, {"made.ply"}},
+      {"Segment", {"segment", "scan.ply", "scan.reeb", "-o", "labels.i64", "--threads", "1"}, {"labels.i64"}},
+      {"SegmentToMesh",
+       {"segment", "scan.ply", "scan.reeb", "--nodes", "9", "-o", "labels.vtu", "--threads", "1"},
+       {"labels.vtu"}},
+      {"Defects", {"defects", "ring.ply", "ring.reeb", "-o", "defects.csv", "--threads", "1"}, {"defects.csv"}},
+      {"Repair",
+       {"repair", "ring.ply", "--all", "-o", "made.ply", "--log", "log.json", "--undo", "undo", "--threads", "1"},
+       {"made.ply", "log.json", "undo"}},
+      {"RepairUndone", {"repair", "clean.ply", "--apply-undo", "clean.undo", "-o", "made.ply"}, {"made.ply"}},
+      {"Fragment",
+       {"fragment", "scan.ply", "--part", "1/2", "-o", "p.fragment", "--chunk", "9", "--threads", "1", "--quiet"},
+       {"p.fragment"}},
+      {"FragmentNames",
+       {"fragment", "scan.ply", "--scan", "--part", "2/2", "-o", "p.names", "--threads", "1"},
+       {"p.names"}},
+      {"Glue", {"glue", "1.fragment", "2.fragment", "-o", "glued.reeb", "--threads", "1", "--quiet"}, {"glued.reeb"}},
+      {"GlueToFragment", {"glue", "1.fragment", "-o", "half.fragment", "--threads", "1"}, {"half.fragment"}},
   };
+  if (has_pages())
+    commands.push_back({"Report",
+                        {"report", "ring.reeb", "--mesh", "ring.ply", "-o", "report.html", "--threads", "1"},
+                        {"report.html"}});
   for (const char* suffix : {"ply", "obj", "off", "sma", "smb", "smc", "events.txt"}) {
     const std::string made = std::string("made.") + suffix;
     commands.push_back({std::string("ConvertHilbert_") + std::string(suffix).substr(0, 3),
@@ -105,9 +153,16 @@ std::vector<Command> make_commands() {
   return commands;
 }
 
-const std::vector<Command>& all_commands() {
-  static const auto* const commands = new std::vector<Command>(make_commands());
+const std::vector<TestedRun>& all_commands() {
+  static const auto* const commands = new std::vector<TestedRun>(make_commands());
   return *commands;
+}
+
+std::vector<std::size_t> numbers_of_commands(bool with_allocations_at_release) {
+  std::vector<std::size_t> numbers;
+  for (std::size_t i = 0; i < all_commands().size(); ++i)
+    if (with_allocations_at_release || !all_commands()[i].allocates_at_release()) numbers.push_back(i);
+  return numbers;
 }
 
 struct FaultKind {
@@ -134,7 +189,7 @@ std::size_t open_descriptors() {
 // A folder of inputs, and one for temporary files.
 class CommandFaults : public testing::TestWithParam<std::size_t> {
  protected:
-  const Command& command() const { return all_commands()[GetParam()]; }
+  const TestedRun& command() const { return all_commands()[GetParam()]; }
 
   void SetUp() override {
     before_ = fs::current_path();
@@ -185,7 +240,7 @@ class CommandFaults : public testing::TestWithParam<std::size_t> {
   }
 
   // What a run without faults writes, standard output included; then the folder is as before.
-  Files succeed(const Command& c, Words more = {}) {
+  Files succeed(const TestedRun& c, Words more = {}) {
     Words words = c.words;
     words.insert(words.end(), more.begin(), more.end());
     const CommandOutcome outcome = run_command(words, c.input);
@@ -217,6 +272,15 @@ class CommandFaults : public testing::TestWithParam<std::size_t> {
     io::zstd_compress(std::as_bytes(std::span(mesh)), 1, packed);
     write_file("scan.ply.zst", {reinterpret_cast<const char*>(packed.data()), packed.size()});
     ASSERT_EQ(std::system("gzip -k scan.ply"), 0);
+    if (command().names("1.fragment")) {
+      make({"fragment", "scan.ply", "--part", "1/2", "-o", "1.fragment", "--quiet"});
+      make({"fragment", "scan.ply", "--part", "2/2", "-o", "2.fragment", "--quiet"});
+    }
+    if (command().names("ring.ply") || command().names("clean.ply"))
+      make({"generate", "torus", "--triangles", "100", "-o", "ring.ply"});
+    if (command().names("ring.reeb")) make({"compute", "ring.ply", "-o", "ring.reeb", "--quiet"});
+    if (command().names("clean.ply"))
+      make({"repair", "ring.ply", "--all", "-o", "clean.ply", "--undo", "clean.undo", "--quiet"});
     std::string text, raw;
     const std::string json = run_command({"info", "scan.ply", "--json"}).output;
     const auto at = json.find("\"vertices\": ");
@@ -301,7 +365,7 @@ class CommandFaults : public testing::TestWithParam<std::size_t> {
       // What was finished stays.
       EXPECT_TRUE(expected_.contains(name) && expected_.at(name) == content) << name << " was left";
     }
-    if (command().is_compute()) {
+    if (command().can_resume()) {
       for (const std::string& output : command().outputs) fs::remove(output);
       expect_same(succeed(command(), {"--resume"}));
     } else {
@@ -318,14 +382,16 @@ class CommandFaults : public testing::TestWithParam<std::size_t> {
 const bool kAll = std::getenv("REEB_TEST_ALL") != nullptr;
 
 TEST_P(CommandFaults, EachFileFaultIsReportedAndLeavesNothing) {
-  for (const FaultKind& kind : kFileFaults)
+  for (const FaultKind& kind : kFileFaults) {
+    if (kind.call == FileCall::kRead && command().ends_otherwise_if_unreadable()) continue;
     for (std::uint64_t n = 1; try_file_fault(kind, n) && !HasFailure(); n += kAll ? 1 : 1 + n / 16) {
     }
+  }
 }
 
-TEST_P(CommandFaults, EachAllocationFaultIsReportedAndLeavesNothing) {
-  // The JSON library allocates while it releases memory, and ends the process if it cannot.
-  if (command().words.back() == "--json") return;
+class CommandAllocationFaults : public CommandFaults {};
+
+TEST_P(CommandAllocationFaults, EachIsReportedAndLeavesNothing) {
   for (std::uint64_t n = 1; try_allocation_fault(n) && !HasFailure(); n += 1 + n / (kAll ? 256 : 16)) {
   }
 }
@@ -348,8 +414,57 @@ TEST_P(CommandFaults, ShortTransfersAreContinued) {
   });
 }
 
-INSTANTIATE_TEST_SUITE_P(Commands, CommandFaults, testing::Range(std::size_t{0}, all_commands().size()),
+INSTANTIATE_TEST_SUITE_P(Commands, CommandFaults, testing::ValuesIn(numbers_of_commands(true)),
                          [](const auto& one) { return all_commands()[one.param].name; });
+INSTANTIATE_TEST_SUITE_P(Commands, CommandAllocationFaults, testing::ValuesIn(numbers_of_commands(false)),
+                         [](const auto& one) { return all_commands()[one.param].name; });
+
+// `view` serves until a signal ends it.
+TEST(TestedCommands, AreThoseOfTheHelpButView) {
+  const std::string help = run_process({.arguments = {REEB_PROGRAM}}).output;
+  std::set<std::string> expected, tested;
+  const std::regex command("\n  ([a-z]+) +[A-Z]");
+  for (std::sregex_iterator it(help.begin(), help.end(), command), end; it != end; ++it) expected.insert((*it)[1]);
+  EXPECT_EQ(expected.erase("view"), 1u) << help;
+  if (!has_pages()) expected.erase("report");
+  for (const TestedRun& run : all_commands()) tested.insert(run.words[0]);
+  EXPECT_EQ(tested, expected);
+}
+
+// Another program makes one of the tables, or both, just before the first of ours gets its name.
+TEST(TakenNames, BothTablesAreKept) {
+  const ooc::Scratch folder;
+  const auto path = [&](const std::string& name) { return folder.path() + "/" + name; };
+  ASSERT_EQ(run_command({"generate", "torus", "--triangles", "200", "-o", path("t.ply")}).exit_code, 0);
+  ASSERT_EQ(run_command({"compute", path("t.ply"), "-o", path("g.reeb"), "--quiet"}).exit_code, 0);
+  ASSERT_EQ(run_command({"extract", path("g.reeb"), "-o", path("good.csv")}).exit_code, 0);
+  const Words all = {"nodes", "arcs"};
+  for (const Words& taken : {Words{"nodes"}, Words{"arcs"}, all}) {
+    const auto is_taken = [&](const std::string& table) { return std::ranges::count(taken, table) != 0; };
+    SCOPED_TRACE(taken.size() == 2 ? "both" : taken[0]);
+    const CommandOutcome outcome =
+        run_command({"extract", path("g.reeb"), "-o", path("g.csv")}, "/dev/null", [&](const auto& work) {
+          const io::ScopedFileFaults faults([&](FileCall call) {
+            if (call == FileCall::kRename)
+              for (const std::string& table : taken) write_file(path("g." + table + ".csv"), "precious");
+            return io::FileFault{};
+          });
+          work();
+        });
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_EQ(outcome.file, path("g." + taken[0] + ".csv"));
+    for (const std::string& table : all) {
+      const std::string name = path("g." + table + ".csv"), ours = is_taken(table) ? name + ".2" : name;
+      EXPECT_EQ(read_file(ours), read_file(path("good." + table + ".csv")));
+      EXPECT_EQ(outcome.message.find(ours) != std::string::npos, is_taken(table)) << outcome.message;
+      if (is_taken(table)) {
+        EXPECT_EQ(read_file(name), "precious");
+        fs::remove(name);
+      }
+      fs::remove(ours);
+    }
+  }
+}
 
 // The outputs are synced to disk, which takes most of the time of such small runs elsewhere.
 const bool kScratchIsInMemory = ::access("/dev/shm", W_OK) == 0 && ::setenv("TMPDIR", "/dev/shm", 1) == 0;

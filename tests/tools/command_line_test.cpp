@@ -2,11 +2,15 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <set>
 #include <sstream>
+#include <string>
+#include <tuple>
+#include <vector>
 
 #include "tests/tools/program.h"
 
@@ -332,6 +336,35 @@ TEST_F(CommandLine, PairsHaveTheFormatOfTheirSuffix) {
   expect_error(reeb({"pairs", "mesh.reeb", "-o", "p.gudhi"}), 2, "p.gudhi: cannot tell the format of the pairs");
   expect_success(reeb({"pairs", "mesh.reeb", "-o", "p.gudhi", "--format", "gudhi"}));
   EXPECT_EQ(file("p.gudhi"), reeb({"pairs", "mesh.reeb", "--format", "gudhi"}).output);
+}
+
+// Many pairs have the same persistence: values are 0 to 4.
+TEST_F(CommandLine, PairsAreSortedByPersistenceTypeAndVertices) {
+  constexpr int kVertices = 120;
+  std::string mesh;
+  for (int v = 0; v < kVertices; ++v) mesh += "v " + std::to_string(v * v % 7 % 5) + "\n";
+  for (int v = 0; v < kVertices; ++v)
+    for (const int step : {1, 12})
+      if (v + step < kVertices) mesh += "s " + std::to_string(v) + " " + std::to_string(v + step) + "\n";
+  write("ties.cx", mesh + "v 0\nv 1\nv 4\n");  // more components
+  expect_success(reeb({"compute", "ties.cx", "-f", "x", "-o", "ties.reeb", "--quiet"}));
+  // The names of the types are in the order of the alphabet.
+  std::vector<std::tuple<double, std::string, int, int>> rows;
+  for (const std::string& line : lines_after("", reeb({"pairs", "ties.reeb"}).output)) {
+    std::vector<std::string> words;
+    std::istringstream text(line);
+    for (std::string word; std::getline(text, word, ',');) words.push_back(word);
+    ASSERT_EQ(words.size(), 13u) << line;
+    if (words[0] != "type") rows.emplace_back(-std::stod(words[5]), words[0], std::stoi(words[1]), std::stoi(words[2]));
+  }
+  EXPECT_TRUE(std::is_sorted(rows.begin(), rows.end()));
+  std::size_t same_persistence = 0, same_type = 0;
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    if (std::get<0>(rows[i]) != std::get<0>(rows[i - 1])) continue;
+    ++(std::get<1>(rows[i]) == std::get<1>(rows[i - 1]) ? same_type : same_persistence);
+  }
+  EXPECT_GT(same_persistence, 3u);
+  EXPECT_GT(same_type, 10u);
 }
 
 TEST_F(CommandLine, TheSummaryListsLoopsAndExtremaAndFitsEightyColumns) {

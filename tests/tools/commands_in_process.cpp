@@ -14,15 +14,19 @@
 #include "libreeb/base/error.h"
 #include "tests/support/allocation_pause.h"
 #include "tools/commands/commands.h"
+#include "tools/runs/fragment_commands.h"
 
 namespace reeb::test {
 namespace {
 
 using AddCommand = void (*)(tools::Program&);
+// All but `view`, which serves until a signal ends the process.
 const std::map<std::string, AddCommand> kCommands = {
     {"compute", tools::add_compute}, {"info", tools::add_info},         {"extract", tools::add_extract},
     {"pairs", tools::add_pairs},     {"verify", tools::add_verify},     {"generate", tools::add_generate},
     {"convert", tools::add_convert}, {"function", tools::add_function}, {"plot", tools::add_plot},
+    {"defects", tools::add_defects}, {"repair", tools::add_repair},     {"segment", tools::add_segment},
+    {"report", tools::add_report},   {"fragment", tools::add_fragment}, {"glue", tools::add_glue},
 };
 
 int checked(int result, const char* what) {

@@ -5,7 +5,7 @@
 set -euo pipefail
 reeb=$1 compiler=$2
 if [[ ! -e /usr/include/CGAL/Surface_mesh.h ]]; then
-  echo "skipped: no data: libcgal-dev is not installed"
+  echo "skipped: not here: libcgal-dev is not installed"
   exit 0
 fi
 folder=$(mktemp -d)

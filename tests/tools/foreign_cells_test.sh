@@ -7,12 +7,12 @@ python=/usr/bin/python3 libraries=()
 if "$python" -c 'import vtkmodules.vtkIOXML' 2>/dev/null; then
   libraries+=(vtk)
 else
-  echo "skipped: no data: python3-vtk9 is not installed"
+  echo "skipped: not here: python3-vtk9 is not installed"
 fi
 if "$python" -c 'import meshio' 2>/dev/null; then
   libraries+=(meshio)
 else
-  echo "skipped: no data: python3-meshio is not installed"
+  echo "skipped: not here: python3-meshio is not installed"
 fi
 [[ ${#libraries[@]} -gt 0 ]] || exit 0
 folder=$(mktemp -d)

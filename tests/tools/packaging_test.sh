@@ -5,7 +5,7 @@
 set -uo pipefail
 source=$1 reeb=$2
 source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
-have() { command -v "$1" >/dev/null || { echo "skipped: no data: $1 is not installed"; false; }; }
+have() { command -v "$1" >/dev/null || { echo "skipped: not here: $1 is not installed"; false; }; }
 
 bash "$source/packaging/from_help.sh" "$reeb" 1.2.3 "$work/help" || exit 1
 commands=$("$reeb" --help | awk '/^Commands:/ { on = 1; next } /^[^ ]/ { on = 0 } on && NF { print $1 }')
@@ -16,15 +16,17 @@ if have man; then
 fi
 # Every option of --help is in the page, and in each completion.
 everything() {
-  local command option
+  local command option options=0
   for command in $commands; do
     for option in $("$reeb" "$command" --help | grep -oE '^  (-[a-z],)?--[a-z-]+' | grep -oE -- '--[a-z-]+'); do
       grep -qF -- "${option//-/\\-}" "help/man/reeb-$command.1" || { echo "page of $command: $option"; return 1; }
       grep -qE -- " $command\) .*[ ']$option " help/reeb.bash || { echo "bash: $command $option"; return 1; }
       grep -qE -- "from $command'.* -l ${option#--} " help/reeb.fish || { echo "fish: $command $option"; return 1; }
       grep -qF -- "'*$option[" help/_reeb || { echo "zsh: $option"; return 1; }
+      options=$((options + 1))
     done
   done
+  test "$options" -ge 100 || { echo "only $options options were found"; return 1; }
 }
 check "every option" everything
 
@@ -97,5 +99,5 @@ version=$(sed -n 's/^project(reeb VERSION \([0-9.]*\).*/\1/p' "$source/CMakeList
 for file in vcpkg/vcpkg.json conda/meta.yaml homebrew/reeb.rb spack/package.py; do
   check "$file has the version" grep -qF "\"$version\"" "$packaging/$file"
 done
-if command -v ruby >/dev/null; then check "reeb.rb" ruby -c "$packaging/homebrew/reeb.rb"; fi
+if have ruby; then check "reeb.rb" ruby -c "$packaging/homebrew/reeb.rb"; fi
 exit $((failures > 0))

@@ -5,7 +5,7 @@
 #   pip_test.sh SOURCE_FOLDER REEB PYTHON
 set -uo pipefail
 source=$1 reeb=$2 python=$3
-"$python" -c 'import numpy, setuptools, wheel, venv, ensurepip' 2>/dev/null || { echo "skipped: no data: python3-venv or python3-setuptools is not installed"; exit 0; }
+"$python" -c 'import numpy, setuptools, wheel, venv, ensurepip' 2>/dev/null || { echo "skipped: not here: python3-venv or python3-setuptools is not installed"; exit 0; }
 source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
 unset PYTHONPATH
 export PIP_NO_INDEX=1 PIP_DISABLE_PIP_VERSION_CHECK=1

@@ -5,7 +5,7 @@
 set -euo pipefail
 source=$1 reeb=$2
 if ! "$source/tools/install_packages.sh" chromium tidy >/dev/null; then
-  echo "skipped: no data: chromium and tidy cannot be installed"
+  echo "skipped: not here: chromium and tidy cannot be installed"
   exit 0
 fi
 node=$(command -v node || command -v nodejs)

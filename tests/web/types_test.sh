@@ -11,7 +11,7 @@ lock=$source/tools/web/package-lock.json
 if ! cmp --silent "$lock" "$folder/installed.json"; then
   cp "$source/tools/web/package.json" "$lock" "$folder"
   if ! (cd "$folder" && npm ci --ignore-scripts --no-audit --no-fund --prefer-offline --loglevel=error) >/dev/null; then
-    echo "skipped: no data: the npm packages for development cannot be installed"
+    echo "skipped: not here: the npm packages for development cannot be installed"
     exit 0
   fi
   cp "$lock" "$folder/installed.json"

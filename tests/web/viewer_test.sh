@@ -31,7 +31,7 @@ if "$source/tools/install_packages.sh" chromium tidy >/dev/null; then
   if tidy -quiet -errors "$work/viewer.html"; then echo "ok: tidy finds nothing in viewer.html"; else failures=1; fi
   "$node" "$source/tests/web/viewer_test.mjs" "$source" "$reeb" "$work" || failures=1
 else
-  echo "skipped: no data: chromium and tidy cannot be installed"
+  echo "skipped: not here: chromium and tidy cannot be installed"
 fi
 wait $reader || failures=1
 exit $failures

@@ -3,7 +3,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cstdint>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -98,7 +100,7 @@ TEST_F(Convert, EveryVariantOfAStreamHasTheSameGraph) {
     const std::string graph = graph_of(sample(name + ".pre.sma"));
     for (const char* variant : {".post.sma", ".le.smb", ".be-mislabelled.smb", ".post.be.smb", ".v1.smc", ".v3.smc"}) {
       const std::string file = sample(name + variant);
-      if (!std::filesystem::exists(file)) continue;
+      ASSERT_TRUE(std::filesystem::exists(file)) << file;
       EXPECT_EQ(graph_of(file), graph) << file;
       EXPECT_EQ(graph_of("- < " + file), graph) << "standard input, " << file;
     }
@@ -268,11 +270,36 @@ TEST_F(Convert, APostOrderStreamThatDoesNotFitIntoMemoryIsAnError) {
   std::string stream;
   for (int i = 0; i < 400000; ++i) stream += "f 1 2 3\n";
   write("late.sma", stream + "v 0 0 0\nv 1 0 0\nv 0 1 0\n");
-  for (const std::string command : {"compute late.sma -o late.reeb --quiet", "info late.sma"}) {
+  for (const std::string command :
+       {"compute late.sma -o late.reeb --quiet", "info late.sma", "convert late.sma late.smc --quiet",
+        "convert late.sma late.ply --quiet", "function late.sma -f z -o late.f64 --quiet"}) {
     const Outcome outcome = reeb(command + " --memory 16M");
     EXPECT_EQ(outcome.exit_code, 3) << command << outcome.error;
     EXPECT_NE(outcome.error.find("mesh reader"), std::string::npos) << outcome.error;
     EXPECT_NE(outcome.error.find("--memory"), std::string::npos) << outcome.error;
+  }
+}
+
+// A reader of STL keeps all vertices: 24 bytes for each, and at least 16 to find it.
+TEST_F(Convert, AnStlFileWhoseVerticesDoNotFitIntoMemoryIsAnError) {
+  constexpr std::uint32_t kFacets = 150'000;
+  std::string stl(84, '\0');
+  std::memcpy(stl.data() + 80, &kFacets, sizeof(kFacets));
+  for (std::uint32_t i = 0; i < kFacets; ++i) {
+    const float at = static_cast<float>(i);
+    const float facet[12] = {0, 0, 0, at, 0, 0, at, 1, 0, at, 0, 1};  // the normal, and three corners of its own
+    stl.append(reinterpret_cast<const char*>(facet), sizeof(facet)).append(2, '\0');
+  }
+  write("large.stl", stl);
+  for (const std::string output : {"out.ply", "out.smb", "out.f64"}) {
+    const bool is_mesh = output != "out.f64";
+    const std::string command = (is_mesh ? "convert large.stl " : "function large.stl -f z -o ") + output + " --quiet";
+    const Outcome outcome = reeb(command + " --memory 16M");
+    EXPECT_EQ(outcome.exit_code, 3) << command << outcome.error;
+    EXPECT_NE(outcome.error.find("mesh reader"), std::string::npos) << outcome.error;
+    EXPECT_NE(outcome.error.find("hint: allow more, for instance --memory "), std::string::npos) << outcome.error;
+    EXPECT_FALSE(std::filesystem::exists(path(output)));
+    expect_success(command + " --memory 64M");
   }
 }
 

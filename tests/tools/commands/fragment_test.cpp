@@ -108,12 +108,15 @@ TEST_F(FragmentTest, TakesRealMeshes) {
   REEB_REQUIRE_MESHES();
   const bool all = std::getenv("REEB_TEST_ALL") != nullptr;
   const std::set<std::string> some{"cow.obj", "post_tets.vtk"}, beside{".md", ".tsv"};
+  std::size_t meshes = 0;
   for (const auto& entry : std::filesystem::directory_iterator(mesh_folder())) {
     if (!all && !some.contains(entry.path().filename().string())) continue;
     if (beside.contains(entry.path().extension().string())) continue;
+    ++meshes;
     for (const unsigned parts : {1u, 2u, 3u, 5u, 8u})
       if (all || parts == 3) expect_same(entry.path().string(), {"--buckets", "0"}, parts);
   }
+  EXPECT_GE(meshes, all ? 20u : some.size()) << "in " << mesh_folder();
 }
 
 // Fronts of thousands of vertices: long rows, and no order at all.
@@ -123,6 +126,17 @@ TEST_F(FragmentTest, TakesWideFronts) {
   for (const char* mesh : {"rows.ply", "random.ply"})
     for (const unsigned parts : {2u, 5u}) expect_same(mesh, {"--buckets", "0", "--graph-only"}, parts);
   expect_same("rows.ply", {"--buckets", "0", "--graph-only", "-f", "random:2"}, 3);
+}
+
+TEST_F(FragmentTest, OutputsAreNamedAfterTheMeshAndThePart) {
+  std::filesystem::create_directory(in_folder("meshes"));
+  write("meshes/small.off", kSmallOff);
+  expect_success(reeb({"fragment", "meshes/small.off", "--part", "2/3", "--quiet"}));
+  expect_success(reeb({"fragment", "meshes/small.off", "--part", "2/3", "--scan", "--quiet"}));
+  EXPECT_EQ(files(), (Words{"meshes", "small-2-of-3.fragment", "small-2-of-3.names"}));
+  expect_success(reeb({"fragment", "meshes/small.off", "--part", "2/3", "-f", "x", "-f", "z", "--quiet"}));
+  EXPECT_EQ(files(), (Words{"meshes", "small-2-of-3-x.fragment", "small-2-of-3-z.fragment", "small-2-of-3.fragment",
+                            "small-2-of-3.names"}));
 }
 
 // Where a file has the size of one of triangles, a part goes to its share without reading what is before. An edge and

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <map>
 #include <mutex>
 #include <numbers>
@@ -253,10 +254,11 @@ TEST_F(PlantedDefects, AreUnclearWhereCurvesMeetABoundary) {
     return std::ranges::all_of(t, [](std::uint32_t v) { return v % 24 == 5 || v % 24 == 6; });
   });
   const Defects defects = defects_of(mesh, folder());
+  ASSERT_FALSE(defects.table.rows.empty());
   for (const DefectRow& row : defects.table.rows) EXPECT_EQ(row.kind, DefectKind::kUnclear);
 }
 
-TEST_F(PlantedDefects, AreUnclearWhereTheSurfaceIsNoManifold) {
+TEST_F(PlantedDefects, AreNoHandlesWhereTheSurfaceIsNoManifold) {
   // A fin all the way round, outside: every circle around the tube meets it. The circle around the middle does not.
   PlantedMesh mesh = plain_torus();
   for (std::uint32_t i = 0; i < 60; ++i) {
@@ -310,8 +312,10 @@ TEST_F(PlantedDefects, SmallToriAreHandlesHoweverTheyAreTurned) {
   }
 }
 
-// The patch holds all of the surface, which is closed but for one triangle.
+// The patch holds all of the surface, which is closed but for one triangle. Where a curve meets the hole, it is
+// unclear.
 TEST_F(PlantedDefects, ASmallTorusWithAHoleIsAHandle) {
+  int meshes = 0, handles = 0;
   for (const bool inwards : {false, true})
     for (std::size_t hole = 0; hole < 160; hole += 7) {
       PlantedMesh mesh = small_torus(10, 8, 0, inwards);
@@ -319,7 +323,10 @@ TEST_F(PlantedDefects, ASmallTorusWithAHoleIsAHandle) {
       const Defects defects = defects_of(mesh, folder());
       ASSERT_FALSE(defects.table.rows.empty()) << hole;
       for (const DefectRow& row : defects.table.rows) EXPECT_NE(row.kind, DefectKind::kTunnel) << inwards << hole;
+      ++meshes;
+      handles += std::ranges::count(defects.table.rows, DefectKind::kHandle, &DefectRow::kind) != 0 ? 1 : 0;
     }
+  EXPECT_GT(2 * handles, meshes);
 }
 
 // The surface of those of 3 × 3 × 3 cubes for which is_full(place) is true.
@@ -444,6 +451,20 @@ TEST_F(PlantedDefects, OptionsChooseRowsAndWritePatches) {
     words.insert(words.end(), filter.begin(), filter.end());
     EXPECT_EQ(reeb(words).output, header) << filter[0] << ' ' << filter[1];
   }
+}
+
+TEST_F(PlantedDefects, ALimitKeepsTheFirstRows) {
+  expect_success(reeb({"generate", "plate", "--triangles", "2000", "-o", "p.ply"}));
+  const Outcome all = reeb({"defects", "p.ply", "-o", "-", "--quiet"});
+  expect_success(all);
+  std::vector<std::string> rows = lines_after("", all.output);  // with the header
+  ASSERT_GT(rows.size(), 4u);
+  rows.resize(4);
+  const Outcome limited = reeb({"defects", "p.ply", "-o", "-", "--quiet", "--limit", "3", "--patches", "near"});
+  expect_success(limited);
+  EXPECT_EQ(lines_after("", limited.output), rows);
+  for (const int rank : {1, 2, 3, 4})
+    EXPECT_EQ(std::filesystem::exists(in_folder("near/defect-" + std::to_string(rank) + ".ply")), rank <= 3) << rank;
 }
 
 // Squares of such lengths are beyond the doubles.

@@ -148,7 +148,9 @@ TEST_F(Skeleton, IsFiniteForAllFiniteCoordinates) {
       const double around = 2 * std::numbers::pi * row / 24, radius = 0.75 + 0.25 * std::cos(angle);
       return Point{scale * radius * std::cos(around), std::sin(angle), height * radius * std::sin(around)};
     });
-    for (const Sample& sample : samples()) {
+    const std::vector<Sample> found = samples();
+    EXPECT_FALSE(found.empty()) << scale;
+    for (const Sample& sample : found) {
       for (const double x : sample.place) EXPECT_TRUE(std::isfinite(x)) << scale;
       EXPECT_TRUE(std::isfinite(sample.radius)) << scale;
     }

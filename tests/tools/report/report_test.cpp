@@ -31,7 +31,7 @@ std::string exact(double value) {
 class Report : public ProgramTest {
  protected:
   void SetUp() override {
-    if (!built_with_pages()) GTEST_SKIP() << "no data: built with REEB_WEB=OFF";
+    if (!built_with_pages()) GTEST_SKIP() << "not here: built with REEB_WEB=OFF";
   }
   // Writes mesh.off, and the page about its graph.
   std::string report(const std::string& mesh, std::vector<std::string> compute = {},
@@ -336,7 +336,7 @@ TEST_F(Report, SaysWhatAnOutputOfAnotherSuffixIs) {
 class ReportWithoutPages : public ProgramTest {};
 
 TEST_F(ReportWithoutPages, SaysSo) {
-  if (built_with_pages()) GTEST_SKIP() << "no data: built with pages";
+  if (built_with_pages()) GTEST_SKIP() << "not here: built with pages";
   expect_error(reeb({"report", "g.reeb", "-o", "g.html"}), 3, "this program was built without pages");
 }
 
