@@ -47,14 +47,10 @@ struct TestedRun {
   bool can_resume() const { return words[0] == "compute" || (words[0] == "fragment" && !names("--scan")); }
   bool names(const std::string& file) const { return std::ranges::find(words, file) != words.end(); }
 
-  // It computes graphs of its own.
-  bool makes_graphs() const { return words[0] == "repair" && !names("--apply-undo"); }
-  // A graph of its own that cannot be read is blamed as an input would be. Of a .reeb file that cannot be read the
-  // report is a page that says so.
-  bool ends_otherwise_if_unreadable() const { return makes_graphs() || words[0] == "report"; }
-  // The JSON library allocates while it releases memory, and so does the folder of graphs; the process ends if they
-  // cannot.
-  bool allocates_at_release() const { return names("--json") || words[0] == "report" || makes_graphs(); }
+  // Of a .reeb file that cannot be read the report is a page that says so.
+  bool ends_otherwise_if_unreadable() const { return words[0] == "report"; }
+  // The JSON library allocates while it releases memory; the process ends if it cannot.
+  bool allocates_at_release() const { return names("--json") || names("--log") || words[0] == "report"; }
 };
 
 // Whether the program has pages (REEB_WEB).

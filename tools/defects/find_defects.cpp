@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <optional>
 
 #include "io/file/temp_dir.h"
 #include "libreeb/base/error.h"
@@ -46,6 +45,19 @@ std::vector<std::string> compute_graphs(const FindDefectsOptions& options, const
   return files;
 }
 
+// Graphs that are made for this are no inputs: if one cannot be read, the disk is to blame.
+LoopList loops_of_mesh(const FindDefectsOptions& options, MemoryBudget& budget) {
+  const TempFolder folder(options.mesh.temp_folder);
+  const std::vector<std::string> files = compute_graphs(options, folder);
+  try {
+    return read_loops(files, budget);
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::kBadInput) throw;
+    throw Error(ErrorKind::kResource, error.message(), "check the disk, or choose another folder with --temp-dir")
+        .at(error.file(), error.position());
+  }
+}
+
 // Graphs of another mesh would give other places, and their loops no curves. Enlarges `box`, that of the nodes, to that
 // of the mesh: the nodes of one function can lie on a line.
 void look_at_mesh(const FindDefectsOptions& options, const LoopFunction& graph, const SearchOptions& search,
@@ -70,16 +82,7 @@ void look_at_mesh(const FindDefectsOptions& options, const LoopFunction& graph, 
 
 Defects find_defects(const FindDefectsOptions& options) {
   MemoryBudget budget(options.mesh.memory_bytes);
-  LoopList list;
-  {
-    std::optional<TempFolder> folder;
-    std::vector<std::string> files = options.files;
-    if (files.empty()) {
-      folder.emplace(options.mesh.temp_folder);
-      files = compute_graphs(options, *folder);
-    }
-    list = read_loops(files, budget);
-  }
+  LoopList list = options.files.empty() ? loops_of_mesh(options, budget) : read_loops(options.files, budget);
   ooc::return_freed_memory();
   SearchOptions search;
   search.threads = options.threads;

@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <exception>
 #include <filesystem>
 #include <string_view>
 #include <system_error>
@@ -23,9 +24,13 @@ constexpr std::string_view kPrefix = "reeb-again-", kPattern = "XXXXXX";
 // A file in the folder: other folders with such a name belong to the user. It is there once the folder is locked.
 constexpr const char* kMark = "/.reeb-temporary";
 
-void remove_folder(const std::string& path) {
-  std::error_code ignored;
-  std::filesystem::remove_all(path, ignored);
+// As far as that is possible: a later run removes the rest.
+void remove_folder(const std::string& path) noexcept {
+  try {
+    std::error_code ignored;
+    std::filesystem::remove_all(path, ignored);
+  } catch (const std::exception&) {  // no memory for the names in it
+  }
 }
 
 // A descriptor of this user's folder with a lock on it; -1 if that fails.
