@@ -27,7 +27,7 @@ class ChunkGrowth {
   // Call this with each chunk once its uses are known. `size` is its size if it ended early, because of its vertices.
   void adapt(const Chunk& chunk, std::optional<std::size_t> size = {}) {
     // Of the vertices. A strip of twice the height has half the share, so its size settles between the two.
-    constexpr double kShareToGrow = 0.09, kShareToShrink = 0.03;
+    constexpr double kShareToGrow = 0.12, kShareToShrink = 0.05;
     const auto shared = static_cast<double>(
         std::count_if(chunk.uses.begin(), chunk.uses.end(), [](std::uint8_t u) { return u != kUsedHereOnly; }));
     const auto all = static_cast<double>(chunk.vertex_count());
