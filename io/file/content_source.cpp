@@ -22,20 +22,27 @@
 namespace reeb::io {
 namespace {
 
+// How much of a file is read at a time; and of what does not follow the last piece, since it may be all that is needed.
+struct PieceBytes {
+  std::size_t following, first;
+};
+constexpr PieceBytes kInOrder = {256 << 10, 256 << 10}, kHereAndThere = {ContentSource::kLookahead, 16384};
+
 // A file through one window, which moves to where it is needed. Of a file that is read from its beginning to its end,
 // each byte is copied from the system once.
 class FileSource final : public ContentSource {
  public:
-  FileSource(const std::string& name, std::shared_ptr<const InputFile> file)
+  FileSource(const std::string& name, std::shared_ptr<const InputFile> file, const PieceBytes& pieces)
       : ContentSource(name),
         file_(std::move(file)),
-        window_(static_cast<std::size_t>(std::min<std::uint64_t>(kWindowBytes, file_->size()))) {}
+        pieces_(pieces),
+        window_(static_cast<std::size_t>(std::min<std::uint64_t>(pieces.following, file_->size()))) {}
   using ContentSource::view;
 
   std::string_view view(std::uint64_t offset, std::size_t min_bytes) override {
     offset = read_ = std::min(offset, file_->size());
-    const std::uint64_t wanted = std::min<std::uint64_t>(min_bytes, file_->size() - offset);
-    if (offset < begin_ || offset + wanted > begin_ + filled_) move_to(offset);
+    const std::uint64_t needed = std::min<std::uint64_t>(min_bytes, file_->size() - offset);
+    if (offset < begin_ || offset + needed > begin_ + filled_) move_to(offset, min_bytes);
     const auto skip = static_cast<std::size_t>(offset - begin_);
     return {window_.data() + skip, filled_ - skip};
   }
@@ -44,16 +51,17 @@ class FileSource final : public ContentSource {
   std::uint64_t file_bytes_read() const override { return read_; }
   std::uint64_t file_bytes() const override { return file_->size(); }
   std::shared_ptr<const InputFile> file() const override { return file_; }
-  std::unique_ptr<ContentSource> reopen() const override { return std::make_unique<FileSource>(name(), file_); }
+  std::unique_ptr<ContentSource> reopen() const override {
+    return std::make_unique<FileSource>(name(), file_, pieces_);
+  }
 
  private:
-  static constexpr std::size_t kWindowBytes = 256 << 10;
-
-  void move_to(std::uint64_t offset) {
-    const bool goes_on = offset >= begin_ && offset < begin_ + filled_;
-    const auto kept = goes_on ? static_cast<std::size_t>(begin_ + filled_ - offset) : 0;
+  void move_to(std::uint64_t offset, std::size_t min_bytes) {
+    const bool follows = offset >= begin_ && offset <= begin_ + filled_;
+    const auto kept = follows ? static_cast<std::size_t>(begin_ + filled_ - offset) : 0;
     std::memmove(window_.data(), window_.data() + filled_ - kept, kept);
-    const auto bytes = static_cast<std::size_t>(std::min<std::uint64_t>(window_.size(), file_->size() - offset));
+    const std::size_t wanted = follows ? pieces_.following : std::max(min_bytes, pieces_.first);
+    const auto bytes = static_cast<std::size_t>(std::min<std::uint64_t>(wanted, file_->size() - offset));
     filled_ = 0;  // if it cannot be read
     file_->read_at(offset + kept, std::as_writable_bytes(std::span(window_).first(bytes).subspan(kept)));
     begin_ = offset;
@@ -61,47 +69,8 @@ class FileSource final : public ContentSource {
   }
 
   std::shared_ptr<const InputFile> file_;
+  const PieceBytes pieces_;
   std::vector<char> window_;
-  std::uint64_t begin_ = 0, read_ = 0;
-  std::size_t filled_ = 0;
-};
-
-// A plain file that is read in small pieces here and there.
-class ReadSource final : public ContentSource {
- public:
-  ReadSource(const std::string& name, std::shared_ptr<const InputFile> file)
-      : ContentSource(name), file_(std::move(file)), buffer_(kLookahead) {}
-  using ContentSource::view;
-
-  std::string_view view(std::uint64_t offset, std::size_t min_bytes) override {
-    offset = read_ = std::min(offset, file_->size());
-    const std::uint64_t needed = std::min<std::uint64_t>(min_bytes, file_->size() - offset);
-    if (offset < begin_ || offset + needed > begin_ + filled_) move_to(offset, min_bytes);
-    const auto skip = static_cast<std::size_t>(offset - begin_);
-    return {buffer_.data() + skip, filled_ - skip};
-  }
-  bool can_seek() const override { return true; }
-  std::optional<std::uint64_t> size() const override { return file_->size(); }
-  std::uint64_t file_bytes_read() const override { return read_; }
-  std::uint64_t file_bytes() const override { return file_->size(); }
-
- private:
-  void move_to(std::uint64_t offset, std::size_t min_bytes) {
-    constexpr std::size_t kBytesAtFirst = 16384;  // few, since a piece may be small
-    const bool goes_on = offset >= begin_ && offset <= begin_ + filled_;
-    const auto kept = goes_on ? static_cast<std::size_t>(begin_ + filled_ - offset) : 0;
-    std::memmove(buffer_.data(), buffer_.data() + filled_ - kept, kept);
-    const std::size_t wanted = goes_on ? kLookahead : std::max(min_bytes, kBytesAtFirst);
-    const auto bytes = static_cast<std::size_t>(std::min<std::uint64_t>(wanted, file_->size() - offset));
-    filled_ = 0;  // if it cannot be read
-    if (bytes > kept)
-      file_->read_at(offset + kept, std::as_writable_bytes(std::span(buffer_).first(bytes).subspan(kept)));
-    begin_ = offset;
-    filled_ = bytes;
-  }
-
-  std::shared_ptr<const InputFile> file_;
-  std::vector<char> buffer_;
   std::uint64_t begin_ = 0, read_ = 0;
   std::size_t filled_ = 0;
 };
@@ -246,7 +215,7 @@ std::unique_ptr<RawInput> open_pipe(const std::string& path) {
 }  // namespace
 
 std::unique_ptr<ContentSource> open_content(std::shared_ptr<const InputFile> file) {
-  auto plain = std::make_unique<FileSource>(file->path(), file);
+  auto plain = std::make_unique<FileSource>(file->path(), file, kInOrder);
   if (detect_compression(plain->view(0)) == Compression::kNone) return plain;
   return stream_source(file->path(), std::make_unique<FileInput>(file), file->empty(), file);
 }
@@ -261,18 +230,18 @@ std::unique_ptr<ContentSource> copy_content(ContentSource& source, const std::st
   for (std::string_view bytes; !(bytes = source.view(offset, ContentSource::kLookahead)).empty();
        offset += bytes.size())
     copy.write_at(offset, std::as_bytes(std::span(bytes)));
-  return std::make_unique<FileSource>(source.name(), std::make_shared<const InputFile>(std::move(copy)));
+  return std::make_unique<FileSource>(source.name(), std::make_shared<const InputFile>(std::move(copy)), kInOrder);
 }
 
 std::unique_ptr<ContentSource> open_for_seeking(std::shared_ptr<const InputFile> file) {
   const std::string& name = file->path();
-  return std::make_unique<ReadSource>(name, std::move(file));
+  return std::make_unique<FileSource>(name, std::move(file), kHereAndThere);
 }
 
 std::unique_ptr<ContentSource> reopen_for_seeking(const ContentSource& content) {
   auto file = content.file();
   if (file == nullptr) return content.reopen();
-  return std::make_unique<ReadSource>(content.name(), std::move(file));
+  return std::make_unique<FileSource>(content.name(), std::move(file), kHereAndThere);
 }
 
 std::unique_ptr<ContentSource> open_content(const std::string& path) { return Input(path).open(); }

@@ -180,8 +180,8 @@ void File::fail(const char* doing, int error, std::uint64_t offset, std::size_t 
   std::string what = std::string("cannot ") + doing + " " + format_bytes(bytes) + ": ";
   what += error == 0 ? "the file ends before" : std::strerror(error);
   const std::string room = bytes == 0 ? "make room" : "free at least " + format_bytes(bytes) + ", better more,";
-  const std::string hint = is_full(error) ? room + " on this volume, or choose another with --temp-dir DIR"
-                                          : hint_for(error, "check the disk, or choose another with --temp-dir DIR");
+  const std::string hint = is_full(error) ? room + " on this volume, or " + kOtherTempFolderHint
+                                          : hint_for(error, std::string("check the disk, or ") + kOtherTempFolderHint);
   throw Error(ErrorKind::kResource, what, hint).at(path_, std::to_string(offset));
 }
 

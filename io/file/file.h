@@ -51,6 +51,9 @@ class Mapping {
   std::span<const std::byte> bytes_;
 };
 
+// How the hint ends of an error at a temporary file. Whoever has no such option, or another file, replaces these words.
+inline constexpr const char* kOtherTempFolderHint = "choose another with --temp-dir DIR";
+
 // Move-only owner of an open file, which the destructor closes. Reads and writes name their offset. They transfer
 // everything or throw, and continue after signals.
 //

@@ -59,11 +59,7 @@ void ObjReader::check_lines() const {
 // Reads a vertex of three coordinates. Returns false if the line is something else, or has another form.
 bool ObjReader::read_plain_vertex(MeshBatch& batch) {
   std::array<double, 3> point{};
-  const auto read = [&point](PlainLine& line) {
-    return line.letter('v') && line.number(point[0]) && line.number(point[1]) && line.number(point[2]);
-  };
-  if (!text_.plain_line(read)) return false;
-  for (double& coordinate : point) coordinate += text_.zero();
+  if (!text_.plain_line([&](PlainLine& line) { return line.letter('v') && line.point(point); })) return false;
   add_vertex(point, batch);
   return true;
 }

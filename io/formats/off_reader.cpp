@@ -168,11 +168,8 @@ class AsciiOffReader final : public OffReader {
   // Returns false if the line is not only three numbers.
   bool read_plain_point(MeshBatch& batch) {
     std::array<double, 3> point{};
-    const auto read = [&point](PlainLine& line) {
-      return line.number(point[0]) && line.number(point[1]) && line.number(point[2]);
-    };
-    if (!text_.plain_line(read)) return false;
-    for (std::size_t k = 0; k < 3; ++k) batch.coordinates[k].push_back(point[k] + text_.zero());
+    if (!text_.plain_line([&](PlainLine& line) { return line.point(point); })) return false;
+    for (std::size_t k = 0; k < 3; ++k) batch.coordinates[k].push_back(point[k]);
     return true;
   }
   bool read_plain_triangle(std::uint64_t limit, MeshBatch& batch) override {

@@ -94,19 +94,17 @@ class AsciiPlyDecoder {
   std::int64_t checked_integer(ScalarType type, const char* what) { return within(type, text_.integer(what), what); }
 
   // False if it is not plain; also for an integer that does not fit its type.
-  bool plain_value(PlainLine& line, ScalarType type, double& value) const {
-    if (type == ScalarType::kFloat64) {
-      if (!line.number(value)) return false;
-      value += text_.zero();
-    } else if (type == ScalarType::kFloat32) {
+  static bool plain_value(PlainLine& line, ScalarType type, double& value) {
+    if (type == ScalarType::kFloat64) return line.number(value);
+    if (type == ScalarType::kFloat32) {
       float single = 0;
       if (!line.number(single)) return false;
-      value = static_cast<double>(single) + text_.zero();
-    } else {
-      std::uint64_t integer = 0;
-      if (!line.integer(integer) || integer > largest_value(type)) return false;
-      value = static_cast<double>(integer);
+      value = static_cast<double>(single);
+      return true;
     }
+    std::uint64_t integer = 0;
+    if (!line.integer(integer) || integer > largest_value(type)) return false;
+    value = static_cast<double>(integer);
     return true;
   }
 

@@ -256,37 +256,38 @@ class PlyReader final : public PlyBodyReader {
   // --- vertices
 
   void read_vertices(const PlyElement& element, MeshBatch& batch) {
-    if constexpr (Decoder::kBinary) {
-      if (!element.has_lists() && element.fixed_bytes() <= ContentSource::kLookahead) {
-        while (room(batch) != 0 && record_ != element.count) read_vertex_run(element, batch);
-        return;
-      }
-    } else {
-      if (!element.has_lists()) {
-        for (; room(batch) != 0 && record_ != element.count; ++record_)
-          if (!read_plain_vertex(element, batch)) read_vertex(element, batch);
-        return;
-      }
-    }
-    for (; room(batch) != 0 && record_ != element.count; ++record_) read_vertex(element, batch);
+    const bool plain =
+        !element.has_lists() && (!Decoder::kBinary || element.fixed_bytes() <= ContentSource::kLookahead);
+    while (room(batch) != 0 && record_ != element.count)
+      if (!plain || !read_plain_vertices(element, batch)) read_vertex(element, batch);
   }
 
-  // Returns false if the next line of text is not only finite numbers: read_vertex() then finds out why.
+  // Returns false if the next line of text is not plain: read_vertex() then finds out why.
+  bool read_plain_vertices(const PlyElement& element, MeshBatch& batch) {
+    if constexpr (Decoder::kBinary) {
+      read_vertex_run(element, batch);
+      return true;
+    } else {
+      return read_plain_vertex(element, batch);
+    }
+  }
+
   bool read_plain_vertex(const PlyElement& element, MeshBatch& batch) {
     scratch_.resize(element.properties.size());
     if (!decoder_.plain_values(element, scratch_)) return false;
     for (std::size_t p = 0; p < scratch_.size(); ++p)
       if (column_of_[p] != kNoColumn) columns_[column_of_[p]]->push_back(scratch_[p]);
-    copy_columns(1);
-    count_vertices(batch, 1);
+    end_vertices(batch, 1);
     return true;
   }
 
-  // The last `count` values of columns that were requested twice.
-  void copy_columns(std::size_t count) {
+  // After the columns of so many vertices were filled, but for those that were requested twice.
+  void end_vertices(MeshBatch& batch, std::size_t count) {
     for (const auto& [to, from] : copies_)
       columns_[to]->insert(columns_[to]->end(), columns_[from]->end() - static_cast<std::ptrdiff_t>(count),
                            columns_[from]->end());
+    record_ += count;
+    count_vertices(batch, count);
   }
 
   void read_vertex(const PlyElement& element, MeshBatch& batch) {
@@ -301,8 +302,7 @@ class PlyReader final : public PlyBodyReader {
         non_finite_values_ += decoder_.skip(property.type, "value") ? 1u : 0u;
     }
     decoder_.end_record(element);
-    copy_columns(1);
-    count_vertices(batch, 1);
+    end_vertices(batch, 1);
   }
 
   double read_value(ScalarType type, std::size_t property) {
@@ -333,10 +333,8 @@ class PlyReader final : public PlyBodyReader {
         meet_non_finite_values(p, place, stride, count);
       place += byte_size(type);
     }
-    copy_columns(count);
     bytes.advance(count * stride);
-    record_ += count;
-    count_vertices(batch, count);
+    end_vertices(batch, count);
   }
 
   void count_non_finite_values(ScalarType type, const char* first, std::size_t stride, std::size_t count) {

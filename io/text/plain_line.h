@@ -16,7 +16,8 @@ namespace reeb::io {
 
 class PlainLine {
  public:
-  PlainLine(const char* begin, const char* end) : next_(begin), end_(end) {}
+  // `zero` is added to each number: 0.0 makes 0.0 of -0.0, and -0.0 changes nothing.
+  PlainLine(const char* begin, const char* end, double zero) : next_(begin), end_(end), zero_(zero) {}
 
   // A word of this one letter.
   bool letter(char letter) {
@@ -42,8 +43,11 @@ class PlainLine {
     skip_blanks();
     const auto parsed = fast_float::from_chars(next_, end_, value);
     next_ = parsed.ptr;
+    value += static_cast<Float>(zero_);
     return parsed.ec == std::errc{} && at_separator() && std::isfinite(value);
   }
+
+  bool point(std::array<double, 3>& point) { return number(point[0]) && number(point[1]) && number(point[2]); }
 
   // A triangle with corners below `limit`, as "3 0 1 2".
   bool triangle(std::uint64_t limit, std::array<std::uint64_t, 3>& corners) {
@@ -94,6 +98,7 @@ class PlainLine {
 
   const char* next_;
   const char* end_;
+  double zero_;
 };
 
 }  // namespace reeb::io

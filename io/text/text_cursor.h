@@ -76,7 +76,7 @@ class TextCursor {
   bool plain_line(Read&& read) {
     cursor_.ensure(kTokenBytes);
     const std::size_t limit = cursor_.available() < kTokenBytes ? cursor_.available() : kTokenBytes;
-    PlainLine line(cursor_.data(), cursor_.data() + limit);
+    PlainLine line(cursor_.data(), cursor_.data() + limit, zero_);
     if (!read(line) || !line.end()) return false;
     cursor_.advance(static_cast<std::size_t>(line.next() - cursor_.data()));
     ++line_;
@@ -98,8 +98,6 @@ class TextCursor {
   Float any_number(const char* what);
   // From now on, -0 is delivered as -0.0; else as 0.0.
   void keep_signed_zeros() { zero_ = -0.0; }
-  // What is added to each number, so that this holds.
-  double zero() const { return zero_; }
   // The same for an integer. The whole token must be one.
   std::int64_t integer(const char* what);
   // Reads the digits at the cursor, without a sign; blanks are not skipped. If there are none or more than 18, returns
@@ -149,7 +147,7 @@ class TextCursor {
 
   Cursor cursor_;
   TextStyle style_;
-  double zero_ = 0.0;
+  double zero_ = 0.0;  // is added to each number
   std::uint64_t line_ = 1, line_begin_ = 0;
   std::uint64_t marked_line_ = 1, marked_column_ = 1;
 };

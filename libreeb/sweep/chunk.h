@@ -76,12 +76,12 @@ struct Chunk {
 };
 
 // Empties a buffer that each chunk fills anew, and makes room for n elements. Where that takes new memory, it takes an
-// eighth more. So the next chunk that is a little larger needs none. First use of new memory is slow: each page is a
-// fault.
+// eighth more, but no more than any chunk needs (`most`). So the next chunk that is a little larger needs none. First
+// use of new memory is slow: each page is a fault. REQUIRES: n <= most.
 template <class Buffer>
-void clear_with_room(Buffer& buffer, std::size_t n) {
+void clear_with_room(Buffer& buffer, std::size_t n, std::size_t most = ~std::size_t{0}) {
   buffer.clear();
-  if (buffer.capacity() < n) buffer.reserve(n + n / 8);
+  if (buffer.capacity() < n) buffer.reserve(n / 8 < most - n ? n + n / 8 : most);
 }
 
 // The same, and fills it with n times this value.

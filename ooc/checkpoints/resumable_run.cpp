@@ -125,8 +125,7 @@ Error ResumableRun::explain(const Error& error) {
   std::string hint = error.hint();
   // The files that grow in this folder are not in the temporary folder. None of them is an input.
   if (error.file().starts_with(folder_->path())) {
-    constexpr std::string_view kElsewhere = "choose another with --temp-dir DIR",
-                               kOutput = "choose another output with -o";
+    constexpr std::string_view kElsewhere = io::kOtherTempFolderHint, kOutput = "choose another output with -o";
     if (kind == ErrorKind::kBadInput) hint = "check the disk, or " + std::string(kOutput);
     if (const auto at = hint.find(kElsewhere); at != hint.npos) hint.replace(at, kElsewhere.size(), kOutput);
     kind = ErrorKind::kResource;

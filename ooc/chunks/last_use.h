@@ -19,8 +19,8 @@
 
 namespace reeb::ooc {
 
-// The blocks of consecutive triangles that use a vertex: the last block in the high 20 bits, its difference to the
-// first one in the low 12.
+// The blocks of consecutive triangles that use a vertex: the last block in the high 20 bits; by how many blocks the
+// first one comes before it, in the low 12.
 class UseEntry {
  public:
   static constexpr std::uint32_t kUnused = ~std::uint32_t{0};

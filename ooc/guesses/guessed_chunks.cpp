@@ -65,10 +65,7 @@ bool GuessedChunks::read_triangles(Chunk& chunk, const LookUp& look_up) {
   // Triangles of a surface have half a vertex each.
   clear_with_room(chunk.ids, room / 6);
   numbers_.start(chunk.ids, std::min(size_.size() / 2, kMostNumbers));
-  if (chunk.corners.capacity() < room) {
-    chunk.corners.clear();
-    chunk.corners.reserve(std::max(room, std::min(room + room / 8, 3 * options_.chunk.most)));  // none has more
-  }
+  if (chunk.corners.capacity() < room) clear_with_room(chunk.corners, room, std::max(room, 3 * options_.chunk.most));
   while (count < most && chunk.vertex_count() <= options_.chunk.most_vertices) {
     const auto corners = reading_.next(std::min(kTrianglesInCache, (most - count) / 3));
     if (corners.empty()) break;

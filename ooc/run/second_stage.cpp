@@ -290,11 +290,7 @@ ComputeResult run_second_stage(RunContext& run, const FirstStageResult& first, s
   const Stopwatch watch;
   graph.store->finish();
   result.spilled_bytes += graph.store->spilled_bytes();
-  try {
-    require_numbers(graph.store->node_count(), graph.store->arc_count());
-  } catch (Error& error) {
-    throw error.at(graph.output);
-  }
+  require_numbers(graph.store->node_count(), graph.store->arc_count(), graph.output);
   if (run.options.denoise > 0) {
     const LastNoise noise = remove_last_noise(run, graph);
     result.spilled_bytes += noise.spilled_bytes;

@@ -74,7 +74,7 @@ std::size_t SortedRunFile::read(RunPlace& run, std::vector<std::byte>& packed) c
 
 void SortedRunFile::refuse(std::uint64_t offset) const {
   throw Error(ErrorKind::kResource, "the disk returned other bytes than were written",
-              "check the disk, or choose another with --temp-dir DIR")
+              std::string("check the disk, or ") + io::kOtherTempFolderHint)
       .at(file_.path(), std::to_string(offset));
 }
 

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "io/file/file.h"
 #include "libreeb/base/error.h"
 #include "tools/arguments/usage_error.h"
 #include "tools/program/wrapping.h"
@@ -52,7 +53,7 @@ std::string hint_without_temp_dir(std::string hint) {
   constexpr std::pair<std::string_view, std::string_view> kChanges[] = {
       {"choose a folder that exists and is writable with --temp-dir DIR",
        "set TMPDIR to a folder that exists and is writable"},
-      {"choose another with --temp-dir DIR", "set TMPDIR to a folder of another"}};
+      {io::kOtherTempFolderHint, "set TMPDIR to a folder of another"}};
   for (const auto& [from, to] : kChanges)
     if (const auto at = hint.find(from); at != std::string::npos) hint.replace(at, from.size(), to);
   return hint;

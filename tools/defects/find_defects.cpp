@@ -45,7 +45,7 @@ std::vector<std::string> compute_graphs(const FindDefectsOptions& options, const
   return files;
 }
 
-// Graphs that are made for this are no inputs: if one cannot be read, the disk is to blame.
+// The user did not give these graphs. If one cannot be read, the disk is to blame.
 LoopList loops_of_mesh(const FindDefectsOptions& options, MemoryBudget& budget) {
   const TempFolder folder(options.mesh.temp_folder);
   const std::vector<std::string> files = compute_graphs(options, folder);

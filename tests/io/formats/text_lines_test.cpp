@@ -65,6 +65,16 @@ class Writer {
   std::ostringstream out_;
 };
 
+// `surplus` is what may follow a face on its line.
+void write_faces(const Mesh& mesh, const std::string& surplus, Writer& out) {
+  for (const auto& corners : mesh.triangles) {
+    out.integer(3);
+    for (const auto corner : corners) out.integer(corner);
+    if (out.odd()) out.word(surplus);
+    out.end_line();
+  }
+}
+
 std::string as_ply(const Mesh& mesh, Writer& out) {
   out.word("ply\nformat ascii 1.0\nelement vertex " + std::to_string(mesh.vertices.size()) +
            "\nproperty uchar red\nproperty float x\nproperty double y\nproperty float z\nelement face " +
@@ -78,12 +88,7 @@ std::string as_ply(const Mesh& mesh, Writer& out) {
     if (out.odd()) out.word(" 7 nan");
     out.end_line();
   }
-  for (const auto& corners : mesh.triangles) {
-    out.integer(3);
-    for (const auto corner : corners) out.integer(corner);
-    if (out.odd()) out.word(" 0.5");
-    out.end_line();
-  }
+  write_faces(mesh, " 0.5", out);
   return out.text();
 }
 
@@ -94,12 +99,7 @@ std::string as_off(const Mesh& mesh, Writer& out) {
     if (out.odd()) out.word(" # a comment");
     out.end_line();
   }
-  for (const auto& corners : mesh.triangles) {
-    out.integer(3);
-    for (const auto corner : corners) out.integer(corner);
-    if (out.odd()) out.word(" 255 0 0");
-    out.end_line();
-  }
+  write_faces(mesh, " 255 0 0", out);
   return out.text();
 }
 

@@ -51,10 +51,10 @@ class RefusedRequest {
 
 TEST(SecondStage, RefusesMoreNodesOrArcsThanItCanNumber) {
   constexpr std::uint64_t kMost = (std::uint64_t{1} << 32) - 1;
-  EXPECT_NO_THROW(ooc::require_numbers(kMost, kMost));
+  EXPECT_NO_THROW(ooc::require_numbers(kMost, kMost, "out.reeb"));
   for (const auto& [nodes, arcs] : {std::pair(kMost + 1, kMost), std::pair(kMost, kMost + 1)}) {
     try {
-      ooc::require_numbers(nodes, arcs);
+      ooc::require_numbers(nodes, arcs, "out.reeb");
       ADD_FAILURE() << nodes << " nodes, " << arcs << " arcs";
     } catch (const Error& error) {
       EXPECT_EQ(error.kind(), ErrorKind::kResource);
