@@ -28,7 +28,9 @@ constexpr std::uint64_t kBucketsSmooth = 85, kBucketsRemoved = 185, kBucketsKept
 // What live graphs and chunks take together where memory is free. Chunks of a wide front are smaller, down to
 // kUsefulTriangles, which costs a few per cent of the time.
 constexpr std::uint64_t kUsualForLiveAndChunks = 16 * kMiB;
-constexpr std::size_t kUsefulTriangles = 12288;
+constexpr std::size_t kUsefulTriangles = 16384;
+// Of a patch of a stretch: with more, a patch and what it is glued to leave the cache.
+constexpr std::size_t kPatchTriangles = 12288;
 
 // Measured bytes per triangle: scratch memory of a sweep; a chunk in flight with its fragment; what the source keeps;
 // and, for a stretch that is cut into chunks, its storage and what reading and cutting it takes.
@@ -154,7 +156,7 @@ void MemoryPlan::size_chunks(std::uint64_t bytes, std::size_t most_triangles) {
                       std::min(ChunkSize{}.first, most_triangles));
   };
   chunk.first = fitting(bytes);
-  chunk.patch = std::min(fitting(bytes / 4), kUsefulTriangles);
+  chunk.patch = std::min(fitting(bytes / 4), kPatchTriangles);
   const auto stretch =
       static_cast<std::size_t>(saturating_minus(bytes, chunk.patch * triangle_bytes()) / kStretchBytes);
   chunk.most = std::clamp(stretch, chunk.first, chunk.most);
