@@ -50,7 +50,6 @@ void BucketLists::start(int exponent) {
   free_count_ = 0;
   indexer_ = BucketIndexer(exponent);
   first_current_ = 0;
-  new_bucket({});  // kNowhere
 }
 
 BucketLists::Index BucketLists::new_bucket(const BucketSum& bucket) {

@@ -108,7 +108,6 @@ class BucketLists {
  public:
   using Index = std::uint32_t;
   static constexpr Index kNone = ~Index{0};
-  static constexpr Index kNowhere = 0;  // after start(): a bucket in no list, for vertices that are not to be kept
 
   struct List {
     Index last = kNone;  // its `next` is the first bucket

@@ -11,7 +11,8 @@ void FragmentBuilder::start(std::size_t vertices, const SweepOptions& options) {
   graph_.clear();
   if (options.bucket_exponent) {
     graph_.buckets.start(*options.bucket_exponent);
-    fill_with_room(bucket_of_, vertices, BucketLists::kNowhere);
+    regular_.clear();
+    regular_.reserve(vertices);
   }
   node_of_.resize(vertices);
   followed_.clear();
@@ -109,14 +110,18 @@ void FragmentBuilder::mark_arcs_between_used(const SweptChunk& swept) {
   }
 }
 
-// Adds the positions in the order of memory, which is faster than that of the sweep.
+// In the order of the sweep, since the buckets of one index stay in the cache meanwhile. The positions can be anywhere
+// in the chunk, so they are fetched ahead.
 void FragmentBuilder::add_positions(const Chunk& chunk) {
-  constexpr std::uint32_t kPrefetchDistance = 16;  // vertices
-  const bool has_positions = !chunk.positions.empty();
-  for (std::uint32_t i = 0; i < bucket_of_.size(); ++i) {
-    if (i + kPrefetchDistance < bucket_of_.size())
-      graph_.buckets.prefetch_sum(bucket_of_[LocalVertex(i + kPrefetchDistance)]);
-    graph_.buckets.add_to_bucket(bucket_of_[LocalVertex(i)], has_positions ? chunk.positions[i] : Point{});
+  constexpr std::size_t kAhead = 16;  // vertices
+  const std::span<const Regular> regular = regular_;
+  const std::span<const Point> positions = chunk.positions;
+  for (std::size_t i = 0; i < regular.size(); ++i) {
+    if (i + kAhead < regular.size()) {
+      if (!positions.empty()) prefetch(&positions[regular[i + kAhead].vertex.value()]);
+      graph_.buckets.prefetch_sum(regular[i + kAhead].bucket);
+    }
+    graph_.buckets.add_to_bucket(regular[i].bucket, positions.empty() ? Point{} : positions[regular[i].vertex.value()]);
   }
 }
 
@@ -160,7 +165,7 @@ void FragmentBuilder::add_steps(const SharedEdges& shared, Fragment& fragment) c
 std::size_t FragmentBuilder::memory_bytes() const {
   return graph_.memory_bytes() + leaf_removal_.memory_bytes() + division_.memory_bytes() + 8 * steps_.capacity() +
          8 * followed_.capacity() + 4 * settled_number_.capacity() +
-         4 * (node_of_.capacity() + bucket_of_.capacity() + path_arcs_.capacity() + degrees_.capacity() +
+         4 * (node_of_.capacity() + 2 * regular_.capacity() + path_arcs_.capacity() + degrees_.capacity() +
               arcs_xor_.capacity() + leaves_.capacity());
 }
 

@@ -28,7 +28,7 @@ class FragmentBuilder {
   void start_bucket(std::int64_t index) { graph_.buckets.start_bucket(index); }
   // Adds a regular vertex, which no other chunk uses, to the arc.
   void add_regular(SweepArc arc, LocalVertex v) {
-    bucket_of_[v] = graph_.buckets.current_bucket(graph_.arc_buckets[arc]);
+    regular_.push_back({v, graph_.buckets.current_bucket(graph_.arc_buckets[arc])});
   }
   // Says that a regular vertex, which no other chunk uses, lies on the arc.
   void follow(SweepArc arc, LocalVertex v) { followed_.push_back({arc, v}); }
@@ -82,11 +82,15 @@ class FragmentBuilder {
   SweepGraph graph_;
   ChunkLeafRemoval leaf_removal_;
   FragmentDivision division_;
-  IdVector<VertexRank, SweepNode> node_of_;              // set for nodes only
-  IdVector<LocalVertex, BucketLists::Index> bucket_of_;  // kNowhere for nodes
-  std::vector<PackedStep> steps_;                        // sorted
-  std::vector<SweepArc> path_arcs_;                      // as in the fragment
-  std::vector<std::uint32_t> degrees_, arcs_xor_;        // of a tree, by node
+  IdVector<VertexRank, SweepNode> node_of_;  // set for nodes only
+  struct Regular {
+    LocalVertex vertex;
+    BucketLists::Index bucket;
+  };
+  std::vector<Regular> regular_;                   // with an embedding, in the order of the sweep
+  std::vector<PackedStep> steps_;                  // sorted
+  std::vector<SweepArc> path_arcs_;                // as in the fragment
+  std::vector<std::uint32_t> degrees_, arcs_xor_;  // of a tree, by node
   std::vector<SweepNode> leaves_;
   struct Followed {
     SweepArc arc;
