@@ -34,7 +34,7 @@ class ChunkGrowth {
     const auto count = static_cast<double>(
         std::count_if(chunk.uses.begin(), chunk.uses.end(), [](std::uint8_t u) { return u != kUsedHereOnly; }));
     const double shared = count / std::max(1.0, static_cast<double>(chunk.vertex_count()));
-    // A strip of half the height has twice the share. One that shrinks must not grow again.
+    // A strip of half the height has twice the share, and must not grow again.
     const double too_few = size_ / 2 <= least_ ? 0.45 * most_shared_at_least_ : kShareToShrink;
     if (shared > (size_ == least_ ? most_shared_at_least_ : kShareToGrow))
       size_ = std::min(size_ + std::min(size_, std::max<std::size_t>(1, most_ / 4)), most_);

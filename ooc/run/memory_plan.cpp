@@ -29,7 +29,7 @@ constexpr std::uint64_t kBucketsSmooth = 85, kBucketsRemoved = 185, kBucketsKept
 // kUsefulTriangles, which costs a few per cent of the time.
 constexpr std::uint64_t kUsualForLiveAndChunks = 16 * kMiB;
 constexpr std::size_t kUsefulTriangles = 16384;
-// Of a patch of a stretch: with more, a patch and what it is glued to leave the cache.
+// Of a patch of a stretch. Larger ones take memory and save nothing.
 constexpr std::size_t kPatchTriangles = 12288;
 
 // Measured bytes per triangle: scratch memory of a sweep; a chunk in flight with its fragment; what the source keeps;
