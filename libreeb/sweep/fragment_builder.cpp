@@ -1,7 +1,9 @@
 #include "libreeb/sweep/fragment_builder.h"
 
 #include <algorithm>
+#include <span>
 
+#include "libreeb/base/prefetch.h"
 #include "libreeb/sweep/chunk.h"
 
 namespace reeb {
@@ -11,8 +13,7 @@ void FragmentBuilder::start(std::size_t vertices, const SweepOptions& options) {
   graph_.clear();
   if (options.bucket_exponent) {
     graph_.buckets.start(*options.bucket_exponent);
-    regular_.clear();
-    regular_.reserve(vertices);
+    clear_with_room(regular_, vertices);
   }
   node_of_.resize(vertices);
   followed_.clear();
