@@ -4,7 +4,7 @@
 WHY = {
     "threads": "reading and numbering are in one thread, gluing in another; only the sweep is divided",
     "speed": "no function takes a tenth of the processor time",
-    "huge": "no function takes a tenth of the processor time; the live graph of a wide front is not in the near cache",
+    "huge": "no function takes a tenth of the processor time; the live graph of a wide front does not fit in the L2 cache",
     "random function": "more than half of the vertices are nodes, so paths are long and most of the graph is written out",
     "tiles": "pieces that come in no order are sorted on disk, or glued with long borders",
     "noise": "the noise at the borders of tiles stays in memory until the tiles beside them come",
@@ -13,7 +13,7 @@ WHY = {
             "take the rest",
     "buckets": "each vertex enters a bucket, and each arc has at least one: a third more is sorted, packed and written",
     "hierarchy": "each cancellation touches nodes, arcs and lists of buckets all over memory, and each arc that changes "
-                 "is stored with its whole list; first use of memory takes an eighth of the time",
+                 "is stored with its whole list; without an embedding, first use of memory takes an eighth of the time",
     "beyond memory": "pages of the graph are written and read again, 2 µs each",
     "start": "loading the program and its libraries takes half of it",
     "wide": "a third of the processor time is gluing of long borders, and little else can go on while a stretch is read",

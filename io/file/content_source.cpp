@@ -22,7 +22,8 @@
 namespace reeb::io {
 namespace {
 
-// How much of a file is read at a time; and of what does not follow the last piece, since it may be all that is needed.
+// How much of a file is read at a time: `following` right after the last piece, and `first` elsewhere, where little may
+// be needed.
 struct PieceBytes {
   std::size_t following, first;
 };

@@ -281,7 +281,7 @@ class PlyReader final : public PlyBodyReader {
     return true;
   }
 
-  // After the columns of so many vertices were filled, but for those that were requested twice.
+  // Ends `count` vertices whose values are read: fills the columns that were requested twice, and counts the vertices.
   void end_vertices(MeshBatch& batch, std::size_t count) {
     for (const auto& [to, from] : copies_)
       columns_[to]->insert(columns_[to]->end(), columns_[from]->end() - static_cast<std::ptrdiff_t>(count),

@@ -49,8 +49,8 @@ void TreeSweep::finish(const SweptChunk& swept, Fragment& fragment) {
   builder_.finish_tree(swept, fragment);
   for (const auto& [local, arc] : passed_) {
     const std::size_t i = local.value();
-    fragment.passed.push_back({swept.chunk.ids[i], builder_.open_arc(arc), swept.values[i],
-                               swept.chunk.positions.empty() ? Point{} : swept.chunk.positions[i]});
+    fragment.passed.push_back(
+        {swept.chunk.ids[i], builder_.open_arc(arc), swept.values[i], swept.chunk.position(local)});
   }
 }
 

@@ -65,6 +65,7 @@ struct Chunk {
 
   std::size_t vertex_count() const { return ids.size(); }
   std::size_t triangle_count() const { return corners.size() / 3; }
+  Point position(LocalVertex v) const { return positions.empty() ? Point{} : positions[v.value()]; }
   void clear() {
     ids.clear();
     uses.clear();

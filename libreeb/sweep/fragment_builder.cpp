@@ -1,7 +1,6 @@
 #include "libreeb/sweep/fragment_builder.h"
 
 #include <algorithm>
-#include <span>
 
 #include "libreeb/base/prefetch.h"
 #include "libreeb/sweep/chunk.h"
@@ -115,14 +114,13 @@ void FragmentBuilder::mark_arcs_between_used(const SweptChunk& swept) {
 // in the chunk, so they are fetched ahead.
 void FragmentBuilder::add_positions(const Chunk& chunk) {
   constexpr std::size_t kAhead = 16;  // vertices
-  const std::span<const Regular> regular = regular_;
-  const std::span<const Point> positions = chunk.positions;
-  for (std::size_t i = 0; i < regular.size(); ++i) {
-    if (i + kAhead < regular.size()) {
-      if (!positions.empty()) prefetch(&positions[regular[i + kAhead].vertex.value()]);
-      graph_.buckets.prefetch_sum(regular[i + kAhead].bucket);
+  for (std::size_t i = 0; i < regular_.size(); ++i) {
+    if (i + kAhead < regular_.size()) {
+      const auto& [vertex, bucket] = regular_[i + kAhead];
+      if (!chunk.positions.empty()) prefetch(&chunk.positions[vertex.value()]);
+      graph_.buckets.prefetch_sum(bucket);
     }
-    graph_.buckets.add_to_bucket(regular[i].bucket, positions.empty() ? Point{} : positions[regular[i].vertex.value()]);
+    graph_.buckets.add_to_bucket(regular_[i].bucket, chunk.position(regular_[i].vertex));
   }
 }
 
@@ -165,9 +163,9 @@ void FragmentBuilder::add_steps(const SharedEdges& shared, Fragment& fragment) c
 
 std::size_t FragmentBuilder::memory_bytes() const {
   return graph_.memory_bytes() + leaf_removal_.memory_bytes() + division_.memory_bytes() + 8 * steps_.capacity() +
-         8 * followed_.capacity() + 4 * settled_number_.capacity() +
-         4 * (node_of_.capacity() + 2 * regular_.capacity() + path_arcs_.capacity() + degrees_.capacity() +
-              arcs_xor_.capacity() + leaves_.capacity());
+         8 * (followed_.capacity() + regular_.capacity()) + 4 * settled_number_.capacity() +
+         4 * (node_of_.capacity() + path_arcs_.capacity() + degrees_.capacity() + arcs_xor_.capacity() +
+              leaves_.capacity());
 }
 
 }  // namespace reeb

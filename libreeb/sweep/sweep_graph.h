@@ -94,7 +94,7 @@ struct SweptChunk {
   std::uint32_t last_place(VertexRank v) const { return stars->last_place(v.value()); }
   // The rank of the first vertex above v that is not in the bucket of this index.
   std::uint32_t end_of_bucket(std::uint32_t v, std::int64_t index, int exponent) const;
-  Point position(VertexRank v) const { return chunk.positions.empty() ? Point{} : chunk.positions[local(v).value()]; }
+  Point position(VertexRank v) const { return chunk.position(local(v)); }
 };
 
 }  // namespace reeb

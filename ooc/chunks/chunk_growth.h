@@ -44,11 +44,11 @@ class ChunkGrowth {
   }
 
  private:
-  // Of the vertices. A strip of twice the height has half the share, so its size settles between the two.
+  // Shares of the vertices. A strip of twice the height has half the share, so its size settles between the two.
   static constexpr double kShareToGrow = 0.12, kShareToShrink = 0.05;
 
-  // Patches of a scan share about twice as many vertices as a square does; this is four times as many. A strip is worth
-  // dividing from a quarter on.
+  // Patches of a scan share about twice as many vertices as a square of their size; this is four times as many. Where a
+  // quarter is shared, dividing pays.
   static double most_shared(std::size_t triangles) {
     const double of_square = 4 / std::sqrt(static_cast<double>(std::max<std::size_t>(1, triangles)) / 2);
     return std::clamp(4 * of_square, kShareToGrow, 0.25);

@@ -44,7 +44,7 @@ TEST(ChunkGrowth, StripsSettleWhereAQuarterOrLessIsShared) {
   }
 }
 
-// The share of a scan in patches, which is 0.09 of chunks of 16,384 triangles, and 0.15 of a few.
+// Chunks of 16,384 triangles of a scan in patches share 9 % of their vertices, and a few of them 13 %.
 TEST(ChunkGrowth, CompactChunksOfTheFirstSizeStayAsTheyAre) {
   constexpr ChunkSize kLarge{.first = 16384, .most = 524288};
   ChunkGrowth growth(kLarge);
