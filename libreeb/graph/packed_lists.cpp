@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <functional>
 #include <stdexcept>
 #include <utility>
 
@@ -45,7 +46,7 @@ std::span<const std::byte> PackedLists::of(std::size_t arc) const {
 
 void PackedLists::replace(std::size_t arc, std::span<const std::byte> packed) {
   if (places_[arc] != kNowhere) forget(places_[arc]);
-  places_[arc] = packed.empty() ? kNowhere : store(static_cast<std::uint32_t>(arc), packed);
+  places_[arc] = packed.empty() ? kNowhere : store(static_cast<std::uint32_t>(arc), packed, open_);
 }
 
 PackedLists::Block PackedLists::block_at(const Chunk& chunk, std::uint32_t offset) {
@@ -61,10 +62,10 @@ PackedLists::Block PackedLists::block_at(const Chunk& chunk, std::uint32_t offse
   return {arc, {at, size}, static_cast<std::uint32_t>(at - chunk.bytes.get()) + size};
 }
 
-std::uint64_t PackedLists::store(std::uint32_t arc, std::span<const std::byte> list) {
+std::uint64_t PackedLists::store(std::uint32_t arc, std::span<const std::byte> list, std::uint32_t& open) {
   const std::size_t most = kArcBytes + kMaxSizeBytes + list.size();
   if (most > ~std::uint32_t{0}) throw std::length_error("PackedLists: a list of 4 GiB");
-  const std::uint32_t index = chunk_with_room(most);
+  const std::uint32_t index = chunk_with_room(most, open);
   Chunk& chunk = chunks_[index];
   const std::uint32_t offset = chunk.used;
   std::byte* to = chunk.bytes.get() + offset;
@@ -75,17 +76,24 @@ std::uint64_t PackedLists::store(std::uint32_t arc, std::span<const std::byte> l
   *to++ = static_cast<std::byte>(size);
   std::memcpy(to, list.data(), list.size());
   chunk.used = static_cast<std::uint32_t>(to + list.size() - chunk.bytes.get());
-  chunk.live += chunk.used - offset;
+  const std::uint32_t stored = chunk.used - offset;
+  chunk.live += stored;
+  used_bytes_ += stored;
+  live_bytes_ += stored;
   return place(index, offset);
 }
 
 // A large list has a chunk of its own, so that little room is lost at the ends of chunks.
-std::uint32_t PackedLists::chunk_with_room(std::size_t bytes) {
+std::uint32_t PackedLists::chunk_with_room(std::size_t bytes, std::uint32_t& open) {
   if (bytes > kChunkBytes / kListsPerChunk) return new_chunk(bytes);
-  if (open_ != kNoChunk && chunks_[open_].room - chunks_[open_].used >= bytes) return open_;
-  const std::uint32_t full = std::exchange(open_, new_chunk(kChunkBytes));
-  if (full != kNoChunk) note_if_due(full);  // a chunk is not noted while it is being filled
-  return open_;
+  if (open != kNoChunk && chunks_[open].room - chunks_[open].used >= bytes) return open;
+  const std::uint32_t full = std::exchange(open, new_chunk(kChunkBytes));
+  chunks_[open].is_open = true;
+  if (full != kNoChunk) {
+    chunks_[full].is_open = false;
+    note_if_empty(full);
+  }
+  return open;
 }
 
 std::uint32_t PackedLists::new_chunk(std::size_t room) {
@@ -106,15 +114,14 @@ void PackedLists::forget(std::uint64_t place) {
   const auto index = static_cast<std::uint32_t>(place >> 32), offset = static_cast<std::uint32_t>(place);
   const std::uint32_t size = block_at(chunks_[index], offset).end - offset;
   chunks_[index].live -= size;
+  live_bytes_ -= size;
   held_bytes_ += size;
-  if (index != open_) note_if_due(index);
+  note_if_empty(index);
 }
 
-void PackedLists::note_if_due(std::uint32_t index) {
-  Chunk& chunk = chunks_[index];
-  if (chunk.is_due || chunk.live >= kMinLiveShare * chunk.used) return;
-  chunk.is_due = true;
-  due_.push_back(index);
+void PackedLists::note_if_empty(std::uint32_t index) {
+  const Chunk& chunk = chunks_[index];
+  if (chunk.live == 0 && !chunk.is_open) empty_.push_back(index);
 }
 
 // A list takes one new chunk at most, so chunks_ is not resized in the meantime.
@@ -134,15 +141,26 @@ void PackedLists::release() {
 
 void PackedLists::collect() {
   if (is_held_) return;
-  // Lists that are moved might fill the open chunk, which then might be due itself.
-  while (!due_.empty()) {
-    const std::uint32_t chunk = due_.back();
-    due_.pop_back();
-    abandon(chunk);
+  for (const std::uint32_t chunk : empty_) free(chunk);
+  empty_.clear();
+  if (holes() > most_holes()) compact();
+}
+
+// Moves the lists of the emptiest chunks, until there are few enough holes.
+void PackedLists::compact() {
+  std::vector<std::uint32_t> chunks;
+  for (std::uint32_t i = 0; i < chunks_.size(); ++i)
+    if (!chunks_[i].is_open && chunks_[i].live < chunks_[i].used) chunks.push_back(i);
+  const auto share = [this](std::uint32_t i) { return (std::uint64_t{chunks_[i].live} << 32) / chunks_[i].used; };
+  std::ranges::sort(chunks, std::less<>(), share);
+  for (const std::uint32_t chunk : chunks) {
+    if (holes() <= fewest_holes()) break;
+    move_lists(chunk);
+    free(chunk);
   }
 }
 
-void PackedLists::abandon(std::uint32_t index) {
+void PackedLists::move_lists(std::uint32_t index) {
   // Their arcs can be anywhere in places_.
   for (std::uint32_t offset = 0; offset < chunks_[index].used;) {
     const Block block = block_at(chunks_[index], offset);
@@ -151,14 +169,20 @@ void PackedLists::abandon(std::uint32_t index) {
   }
   for (std::uint32_t offset = 0; chunks_[index].live != 0 && offset < chunks_[index].used;) {
     const Block block = block_at(chunks_[index], offset);
+    const std::uint32_t size = block.end - offset;
     if (places_[block.arc] == place(index, offset)) {
-      chunks_[index].live -= block.end - offset;
-      places_[block.arc] = store(block.arc, block.list);
+      chunks_[index].live -= size;
+      live_bytes_ -= size;
+      places_[block.arc] = store(block.arc, block.list, open_for_moved_);
     }
     offset = block.end;
   }
+}
+
+void PackedLists::free(std::uint32_t index) {
   Chunk& chunk = chunks_[index];
   chunk_bytes_ -= chunk.room;
+  used_bytes_ -= chunk.used;
   if (chunk.room == kChunkBytes && spare_ == nullptr) spare_ = std::move(chunk.bytes);
   chunk = {};
   free_.push_back(index);

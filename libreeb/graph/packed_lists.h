@@ -16,13 +16,14 @@
 namespace reeb {
 
 // Lists are stored in memory chunks, each list after the number of its arc. A list that was replaced stays readable
-// until collect(). That abandons each chunk of which less than kMinLiveShare is in use, and moves the lists that are
-// still in use to another chunk. Lists that change all the time soon fill chunks of their own, so they cost no moves.
+// until collect(). That frees chunks without a list in use. When there are too many holes, it moves the lists of the
+// emptiest chunks to another one. Waiting until then pays: lists that change often are together, and few of a chunk are
+// left. So lists that were moved are kept apart from those that are new.
 //
 // THREADS: between hold() and release(), one thread may replace lists while another one reads lists that are not
 // replaced in this time, with of().
 //
-// MEMORY: 8 bytes per arc; for each list its bytes and 6 more, and up to half as much again for holes; two chunks.
+// MEMORY: 8 bytes per arc; for each list its bytes and 6 more, and up to 3/8 as much again for holes; four chunks.
 class PackedLists {
  public:
   void reserve(std::size_t arcs) { places_.reserve(arcs); }
@@ -63,13 +64,12 @@ class PackedLists {
  private:
   static constexpr std::size_t kChunkBytes = 64 << 10;
   static constexpr std::size_t kListsPerChunk = 8;  // at least
-  static constexpr double kMinLiveShare = 2.0 / 3;
   static constexpr std::uint64_t kNowhere = ~std::uint64_t{0};
   static constexpr std::uint32_t kNoChunk = ~std::uint32_t{0};
   struct Chunk {
     std::unique_ptr<std::byte[]> bytes;
     std::uint32_t room = 0, used = 0, live = 0;
-    bool is_due = false;  // to be abandoned
+    bool is_open = false;  // is being filled
   };
   static_assert(kHeldBytes == sizeof(Chunk) + sizeof(std::uint32_t));  // an entry of chunks_ and of free_
   // A list and the number of its arc, as stored in a chunk.
@@ -81,21 +81,29 @@ class PackedLists {
 
   static std::uint64_t place(std::uint32_t chunk, std::uint32_t offset) { return std::uint64_t{chunk} << 32 | offset; }
   static Block block_at(const Chunk& chunk, std::uint32_t offset);
-  std::uint64_t store(std::uint32_t arc, std::span<const std::byte> list);
-  std::uint32_t chunk_with_room(std::size_t bytes);
+  // `open` is the chunk that such lists fill.
+  std::uint64_t store(std::uint32_t arc, std::span<const std::byte> list, std::uint32_t& open);
+  std::uint32_t chunk_with_room(std::size_t bytes, std::uint32_t& open);
   std::uint32_t new_chunk(std::size_t room);
   void forget(std::uint64_t place);
-  void note_if_due(std::uint32_t chunk);
-  void abandon(std::uint32_t chunk);
+  void note_if_empty(std::uint32_t chunk);
+  void move_lists(std::uint32_t chunk);
+  void free(std::uint32_t chunk);
+  void compact();
+  std::uint64_t holes() const { return used_bytes_ - live_bytes_; }
+  // Before and after compact().
+  std::uint64_t most_holes() const { return 3 * live_bytes_ / 8 + kChunkBytes; }
+  std::uint64_t fewest_holes() const { return most_holes() - live_bytes_ / 16; }
 
   std::vector<std::uint64_t> places_;  // by arc: chunk and offset
   std::vector<Chunk> chunks_;
-  std::vector<std::uint32_t> free_;  // chunks without memory
-  std::vector<std::uint32_t> due_;
-  std::unique_ptr<std::byte[]> spare_;  // memory of an abandoned chunk
-  std::uint32_t open_ = kNoChunk;       // the chunk that is being filled
-  std::uint64_t chunk_bytes_ = 0;       // of all chunks
-  std::uint64_t held_bytes_ = 0;        // of the lists that were replaced since hold()
+  std::vector<std::uint32_t> free_;     // chunks without memory
+  std::vector<std::uint32_t> empty_;    // chunks without a list in use, to be freed
+  std::unique_ptr<std::byte[]> spare_;  // memory of a freed chunk
+  std::uint32_t open_ = kNoChunk, open_for_moved_ = kNoChunk;
+  std::uint64_t chunk_bytes_ = 0;                  // of all chunks
+  std::uint64_t used_bytes_ = 0, live_bytes_ = 0;  // of all lists in them, and of those in use
+  std::uint64_t held_bytes_ = 0;                   // of the lists that were replaced since hold()
   bool is_held_ = false;
   std::vector<std::byte> packed_;  // of add()
 };
