@@ -107,6 +107,7 @@ class ArcChanges {
 
   // A node; where an arc's record and content are stored; the content.
   void prefetch_node(NodeId node) const { content_.prefetch_node(node); }
+  void prefetch_value(NodeId node) const { content_.prefetch_value(node); }
   void prefetch_place(ArcId arc) const {
     log_.prefetch(arc);
     content_.prefetch_place(arc);

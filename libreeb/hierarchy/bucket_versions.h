@@ -27,8 +27,9 @@ class NodesInMemory {
   std::array<double, 3> position(NodeId node) const {
     return graph_.positions.empty() ? std::array<double, 3>{} : graph_.positions[node.value()];
   }
+  void prefetch_value(NodeId node) const { reeb::prefetch(&graph_.nodes[node.value()]); }
   void prefetch(NodeId node) const {
-    reeb::prefetch(&graph_.nodes[node.value()]);
+    prefetch_value(node);
     if (!graph_.positions.empty()) reeb::prefetch(&graph_.positions[node.value()]);
   }
 
@@ -72,6 +73,7 @@ class BucketVersions {
   std::span<const std::byte> before_step(ArcId arc) const { return lists_.closed(arc); }
   void commit();
   void prefetch_node(NodeId node) const { nodes_.prefetch(node); }
+  void prefetch_value(NodeId node) const { nodes_.prefetch_value(node); }
   void prefetch_place(ArcId arc) const { lists_.prefetch_place(arc); }
   void prefetch(ArcId arc) const { lists_.prefetch(arc); }
 

@@ -27,14 +27,16 @@ void release_arcs(ReebGraph& graph) {
 template <class Canceller>
 void prefetch(const ReebGraph& graph, const Canceller& canceller, const std::vector<PersistencePair>& pairs,
               std::size_t at) {
-  constexpr std::size_t kTurns = 4, kStages = 5;  // pairs from one stage to the next
+  constexpr std::size_t kTurns = 4, kStages = 9;  // pairs from one stage to the next
   if (at + kStages * kTurns >= pairs.size()) return;
   for (const NodeId node : {pairs[at + kTurns].lo, pairs[at + kTurns].hi}) reeb::prefetch(&graph.nodes[node.value()]);
-  canceller.prefetch_nodes(pairs[at + 5 * kTurns]);
-  canceller.prefetch_arcs(pairs[at + 4 * kTurns]);
-  canceller.prefetch_neighbours(pairs[at + 3 * kTurns]);
-  canceller.prefetch_next(pairs[at + 2 * kTurns]);
-  canceller.prefetch_beyond(pairs[at + kTurns]);
+  canceller.prefetch_nodes(pairs[at + 9 * kTurns]);
+  canceller.prefetch_arcs(pairs[at + 8 * kTurns]);
+  canceller.prefetch_neighbours(pairs[at + 7 * kTurns]);
+  canceller.prefetch_next(pairs[at + 6 * kTurns]);
+  canceller.prefetch_beyond(pairs[at + 5 * kTurns]);
+  for (int nodes = 1; nodes <= 4; ++nodes)
+    canceller.prefetch_path(pairs[at + static_cast<std::size_t>(5 - nodes) * kTurns], nodes);
 }
 
 // Cancels the pairs of a hierarchy one by one.

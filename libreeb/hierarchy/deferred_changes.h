@@ -20,7 +20,7 @@ namespace reeb {
 
 // How far the rules run ahead. The results do not depend on it. REQUIRES: notes > 0.
 struct RunAhead {
-  std::size_t notes = 2048;       // in a list, about
+  std::size_t notes = 4096;       // in a list, about
   std::size_t arcs_of_path = 24;  // a path of more arcs is long
 
   // The lists of a small graph are small.
@@ -276,8 +276,14 @@ void DeferredChanges<Content, Graph>::prefetch(std::size_t at) const {
     const ArcNote& note = applied_[at + kPlace];
     for (const ArcId arc : {note.arc, note.other})
       if (arc != ArcId::none()) now_.prefetch_place(arc);
-    for (const NodeId node : note.nodes)
-      if (node != NodeId::none()) now_.prefetch_node(node);
+    const bool reads_position = note.kind == Kind::kJoin || note.kind == Kind::kLay;
+    for (const NodeId node : note.nodes) {
+      if (node == NodeId::none()) continue;
+      if (reads_position)
+        now_.prefetch_node(node);
+      else
+        now_.prefetch_value(node);
+    }
   }
   if (at + kContent < applied_.size()) {
     const ArcNote& note = applied_[at + kContent];

@@ -18,7 +18,7 @@ RecordLog::RecordLog(const io::TempDir& temp, MemoryBudget& budget, std::size_t 
     : temp_(&temp),
       block_bytes_(block_bytes),
       background_(background),
-      charge_(budget.reserve("arc records", 2 * block_bytes)) {
+      charge_(budget.reserve("arc records", memory_bytes(block_bytes))) {
   open_.reserve(block_bytes);
 }
 

@@ -1,6 +1,7 @@
 // The arc records of a hierarchy on disk: written in the order in which they end, read from the last to the first.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -26,9 +27,14 @@ namespace reeb::ooc {
 class RecordLog : public RecordSink, public RecordSource {
  public:
   static constexpr std::size_t kBlockBytes = 64 << 10;
+  // Larger blocks for large graphs: whenever a block is full, two threads wait for each other.
+  static constexpr std::size_t block_bytes(std::uint64_t arcs) {
+    constexpr std::uint64_t kMostBytes = 8 * kBlockBytes;
+    return static_cast<std::size_t>(std::clamp<std::uint64_t>(arcs, kBlockBytes, kMostBytes));
+  }
 
   // The memory of one log.
-  static constexpr std::uint64_t memory_bytes() { return 2 * kBlockBytes; }
+  static constexpr std::uint64_t memory_bytes(std::size_t block_bytes = kBlockBytes) { return 2 * block_bytes; }
 
   // `temp` must outlive this. A block holds at least one record, however large. With `background`, a thread writes each
   // block while the next is filled.

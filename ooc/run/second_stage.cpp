@@ -135,12 +135,15 @@ struct GraphInMemory {
                       "remove noise with --denoise, or compute the graph alone with --graph-only");
 }
 
+// The log of a hierarchy in memory.
+std::uint64_t log_bytes(std::uint64_t arcs) { return RecordLog::memory_bytes(RecordLog::block_bytes(arcs)); }
+
 // The most memory that a hierarchy in memory takes.
 std::uint64_t bytes_in_memory(const StoredGraph& graph) {
   const std::uint64_t arcs = graph.store->arc_count();
   std::optional<std::uint64_t> lists;
   if (graph.sweep.bucket_exponent) lists = PackedLists::most_bytes(arcs, graph.store->bucket_count());
-  return hierarchy_bytes(graph.store->node_count(), arcs, lists) + RecordLog::memory_bytes();
+  return hierarchy_bytes(graph.store->node_count(), arcs, lists) + log_bytes(arcs);
 }
 
 // Pairing and cancelling hold the graph in memory, but not their results. Nothing if it does not fit.
@@ -156,7 +159,7 @@ std::optional<GraphInMemory> load_for_hierarchy(RunContext& run, const StoredGra
   const Poll poll = stage_poll(run);
   LoadedGraph loaded = read_graph(store, loading, part_of(poll, 0, kLoaded));
   if (run.embeds()) lists = loaded.buckets.memory_bytes();
-  const std::uint64_t needed = hierarchy_bytes(nodes, arcs, lists) + RecordLog::memory_bytes();
+  const std::uint64_t needed = hierarchy_bytes(nodes, arcs, lists) + log_bytes(arcs);
   const std::uint64_t more = needed - loaded.memory.bytes();
   if (more > run.budget.free_bytes() + store.reserved_bytes()) return {};
   return GraphInMemory{std::move(loaded), more};
@@ -225,10 +228,11 @@ WrittenHierarchy write_hierarchy(RunContext& run, StoredGraph stored) {
   if (!loaded) return write_stored_hierarchy(run, stored);
   GraphInMemory& in_memory = *loaded;
   stored.store.reset();
-  RecordLog records(run.temp, run.budget, RecordLog::kBlockBytes, run.background());
-  const Reservation memory = run.budget.reserve("hierarchy", in_memory.more_bytes - RecordLog::memory_bytes());
-
   ReebGraph& graph = in_memory.loaded.graph;
+  const std::uint64_t arcs = graph.arc_count();
+  RecordLog records(run.temp, run.budget, RecordLog::block_bytes(arcs), run.background());
+  const Reservation memory = run.budget.reserve("hierarchy", in_memory.more_bytes - log_bytes(arcs));
+
   WrittenHierarchy written;
   const Poll poll = stage_poll(run);
   const Hierarchy hierarchy =
