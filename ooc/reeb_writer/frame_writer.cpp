@@ -5,7 +5,9 @@
 namespace reeb::ooc {
 namespace {
 
-constexpr int kZstdLevel = 1;
+// Finds repetitions only. Level 1 also makes Huffman codes: frames are 3.5 % smaller, and compressing takes twice as
+// long.
+constexpr int kZstdLevel = -1;
 // Smaller frames are stored uncompressed: compression gains nothing, and a person can read small files.
 constexpr std::size_t kCompressFromBytes = 512;
 // Most frames are larger than this, and bypass the buffer.
