@@ -369,7 +369,7 @@ def targets(bench):
     bench.checked("targets/12M/random-order-64M", shuffled, "--memory", "64M", genus=genus)
     for buckets in ("0", "64"):
         bench.checked(f"targets/12M/hierarchy-buckets-{buckets}", mesh, "-f", "random:1", "--buckets", buckets,
-                      genus=genus, runs=1)
+                      genus=genus)
     for order in TILED:
         tiled = bench.scan("12000000", order)
         for memory in ("free", "64M"):
@@ -383,7 +383,7 @@ def targets(bench):
         return
     beyond_memory(bench, "372M", bench.scan("372M"), "128M")
     wide = bench.scan("372M", "rows", "--width", "9990")
-    bench.checked("targets/372M/rows", wide, "--denoise", "0.1%", "--memory", "96M", genus=bench.genus(wide), runs=1)
+    bench.checked("targets/372M/rows", wide, "--denoise", "0.1%", "--memory", "96M", genus=bench.genus(wide))
     tiled = bench.scan("372M", "random-tiles:32")
     bench.checked("targets/372M/random-tiles", tiled, *GRAPH, "--memory", "64M", genus=bench.genus(tiled), runs=1,
                   may_fail=True)
