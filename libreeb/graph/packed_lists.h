@@ -23,7 +23,7 @@ namespace reeb {
 // THREADS: between hold() and release(), one thread may replace lists while another one reads lists that are not
 // replaced in this time, with of().
 //
-// MEMORY: 8 bytes per arc; for each list its bytes and 6 more, and up to 3/8 as much again for holes; four chunks.
+// MEMORY: 8 bytes per arc; for each list its bytes and 6 more, and up to 3/8 as much again for holes; five chunks.
 class PackedLists {
  public:
   void reserve(std::size_t arcs) { places_.reserve(arcs); }
@@ -91,8 +91,8 @@ class PackedLists {
   void free(std::uint32_t chunk);
   void compact();
   std::uint64_t holes() const { return used_bytes_ - live_bytes_; }
-  // Before and after compact().
-  std::uint64_t most_holes() const { return 3 * live_bytes_ / 8 + kChunkBytes; }
+  // Before and after compact(). Those of the open chunks stay.
+  std::uint64_t most_holes() const { return 3 * live_bytes_ / 8 + 2 * kChunkBytes; }
   std::uint64_t fewest_holes() const { return most_holes() - live_bytes_ / 16; }
 
   std::vector<std::uint64_t> places_;  // by arc: chunk and offset
