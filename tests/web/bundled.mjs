@@ -4,9 +4,10 @@ import { join } from 'node:path'
 
 // `packages`: the folder of node_modules. `work`: where the bundle is written.
 export async function bundled(source, module, packages, work) {
-  const { buildSync } = createRequire(join(packages, 'package.json'))('esbuild')
+  const { build } = createRequire(join(packages, 'package.json'))('esbuild')
   const outfile = join(work, `${module}.mjs`)
-  buildSync({
+  // Not buildSync(): it waits for a thread of its own, and was once seen to wait for ever.
+  await build({
     entryPoints: [join(source, 'tools/viewer', `${module}.ts`)],
     bundle: true, format: 'esm', platform: 'node', outfile, nodePaths: [join(packages, 'node_modules')], logLevel: 'warning',
   })

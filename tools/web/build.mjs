@@ -8,10 +8,11 @@ import { fileURLToPath } from 'node:url'
 
 const [folder, output] = process.argv.slice(2)
 const source = dirname(fileURLToPath(import.meta.url))
-const { buildSync } = createRequire(join(folder, 'package.json'))('esbuild')
+const { build } = createRequire(join(folder, 'package.json'))('esbuild')
 
-function bundle(name) {
-  const result = buildSync({
+// Not with buildSync(): it waits for a thread of its own, and was once seen to wait for ever.
+async function bundle(name) {
+  const result = await build({
     entryPoints: [join(source, name)],
     bundle: true,
     minify: true,
@@ -50,12 +51,12 @@ function insert(page, place, text) {
 }
 
 // `name`: of the page, its style and its script, without endings.
-function makePage(name, scriptName, packages) {
-  const script = bundle(scriptName)
+async function makePage(name, scriptName, packages) {
+  const script = await bundle(scriptName)
   if (/<\/script|<!--/i.test(script)) throw new Error('the script would end early inside of a page')
   let page = readFileSync(join(source, `${name}.html`), 'utf8')
   page = page.replaceAll(/<!--part:(\w+\.html)-->\n/g, (_, part) => readFileSync(join(source, 'parts', part), 'utf8'))
-  page = insert(page, '/*reeb-style*/', bundle(`${name}.css`))
+  page = insert(page, '/*reeb-style*/', await bundle(`${name}.css`))
   page = insert(page, '/*reeb-script*/', script)
   return insert(page, 'reeb-notice', notice(packages).replaceAll('&', '&amp;').replaceAll('<', '&lt;'))
 }
@@ -70,8 +71,8 @@ function literal(page) {
     .join('\n')
 }
 
-const report = makePage('report', 'report.js', ['three'])
-const viewer = makePage('../viewer/viewer', '../viewer/viewer.ts', ['three', 'fzstd', 'xxhash-wasm'])
+const report = await makePage('report', 'report.js', ['three'])
+const viewer = await makePage('../viewer/viewer', '../viewer/viewer.ts', ['three', 'fzstd', 'xxhash-wasm'])
 writeFileSync(join(dirname(output), 'viewer.html'), viewer)
 writeFileSync(
   output,
