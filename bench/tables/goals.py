@@ -12,7 +12,7 @@ WHY = {
     "sums": "of 5 ns a triangle, 3 add vertices to the exact sums of their buckets, 1 notes the bucket of each, and the "
             "rest divides and joins buckets",
     "buckets": "a third of it looks for noise; the rest stores, sorts, packs and writes buckets, of which most arcs have "
-               "one; no function takes more than 4 ns, and compressing 7",
+               "one; compressing takes 7 ns, and no function more than 4",
     "hierarchy": "cancelling takes more than half of the time, and mostly waits for nodes, arcs and lists of buckets from "
                  "all over memory; the file takes a quarter, since each arc that changes is stored with its whole list",
     "beyond memory": "pages of the graph are written and read again, 2 µs each",

@@ -88,11 +88,7 @@ std::uint32_t PackedLists::chunk_with_room(std::size_t bytes, std::uint32_t& ope
   if (bytes > kChunkBytes / kListsPerChunk) return new_chunk(bytes);
   if (open != kNoChunk && chunks_[open].room - chunks_[open].used >= bytes) return open;
   const std::uint32_t full = std::exchange(open, new_chunk(kChunkBytes));
-  chunks_[open].is_open = true;
-  if (full != kNoChunk) {
-    chunks_[full].is_open = false;
-    note_if_empty(full);
-  }
+  if (full != kNoChunk) note_if_empty(full);
   return open;
 }
 
@@ -120,8 +116,7 @@ void PackedLists::forget(std::uint64_t place) {
 }
 
 void PackedLists::note_if_empty(std::uint32_t index) {
-  const Chunk& chunk = chunks_[index];
-  if (chunk.live == 0 && !chunk.is_open) empty_.push_back(index);
+  if (chunks_[index].live == 0 && !is_open(index)) empty_.push_back(index);
 }
 
 // A list takes one new chunk at most, so chunks_ is not resized in the meantime.
@@ -150,7 +145,7 @@ void PackedLists::collect() {
 void PackedLists::compact() {
   std::vector<std::uint32_t> chunks;
   for (std::uint32_t i = 0; i < chunks_.size(); ++i)
-    if (!chunks_[i].is_open && chunks_[i].live < chunks_[i].used) chunks.push_back(i);
+    if (!is_open(i) && chunks_[i].live < chunks_[i].used) chunks.push_back(i);
   const auto share = [this](std::uint32_t i) { return (std::uint64_t{chunks_[i].live} << 32) / chunks_[i].used; };
   std::ranges::sort(chunks, std::less<>(), share);
   for (const std::uint32_t chunk : chunks) {

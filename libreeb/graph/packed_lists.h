@@ -17,8 +17,8 @@ namespace reeb {
 
 // Lists are stored in memory chunks, each list after the number of its arc. A list that was replaced stays readable
 // until collect(). That frees chunks without a list in use. When there are too many holes, it moves the lists of the
-// emptiest chunks to another one. Waiting until then pays: lists that change often are together, and few of a chunk are
-// left. So lists that were moved are kept apart from those that are new.
+// emptiest chunks to another one. It pays to wait: lists that change often are stored together, so few of them are left
+// in their chunks by then. Lists that were moved change less often, so they have chunks of their own.
 //
 // THREADS: between hold() and release(), one thread may replace lists while another one reads lists that are not
 // replaced in this time, with of().
@@ -69,7 +69,6 @@ class PackedLists {
   struct Chunk {
     std::unique_ptr<std::byte[]> bytes;
     std::uint32_t room = 0, used = 0, live = 0;
-    bool is_open = false;  // is being filled
   };
   static_assert(kHeldBytes == sizeof(Chunk) + sizeof(std::uint32_t));  // an entry of chunks_ and of free_
   // A list and the number of its arc, as stored in a chunk.
@@ -85,6 +84,7 @@ class PackedLists {
   std::uint64_t store(std::uint32_t arc, std::span<const std::byte> list, std::uint32_t& open);
   std::uint32_t chunk_with_room(std::size_t bytes, std::uint32_t& open);
   std::uint32_t new_chunk(std::size_t room);
+  bool is_open(std::uint32_t chunk) const { return chunk == open_ || chunk == open_for_moved_; }
   void forget(std::uint64_t place);
   void note_if_empty(std::uint32_t chunk);
   void move_lists(std::uint32_t chunk);
@@ -97,13 +97,13 @@ class PackedLists {
 
   std::vector<std::uint64_t> places_;  // by arc: chunk and offset
   std::vector<Chunk> chunks_;
-  std::vector<std::uint32_t> free_;     // chunks without memory
-  std::vector<std::uint32_t> empty_;    // chunks without a list in use, to be freed
-  std::unique_ptr<std::byte[]> spare_;  // memory of a freed chunk
-  std::uint32_t open_ = kNoChunk, open_for_moved_ = kNoChunk;
-  std::uint64_t chunk_bytes_ = 0;                  // of all chunks
-  std::uint64_t used_bytes_ = 0, live_bytes_ = 0;  // of all lists in them, and of those in use
-  std::uint64_t held_bytes_ = 0;                   // of the lists that were replaced since hold()
+  std::vector<std::uint32_t> free_;                            // chunks without memory
+  std::vector<std::uint32_t> empty_;                           // chunks without a list in use, to be freed
+  std::unique_ptr<std::byte[]> spare_;                         // memory of a freed chunk
+  std::uint32_t open_ = kNoChunk, open_for_moved_ = kNoChunk;  // the chunks that are being filled
+  std::uint64_t chunk_bytes_ = 0;                              // of all chunks
+  std::uint64_t used_bytes_ = 0, live_bytes_ = 0;              // of all lists in them, and of those in use
+  std::uint64_t held_bytes_ = 0;                               // of the lists that were replaced since hold()
   bool is_held_ = false;
   std::vector<std::byte> packed_;  // of add()
 };

@@ -35,8 +35,7 @@ void prefetch(const ReebGraph& graph, const Canceller& canceller, const std::vec
   canceller.prefetch_neighbours(pairs[at + 7 * kTurns]);
   canceller.prefetch_next(pairs[at + 6 * kTurns]);
   canceller.prefetch_beyond(pairs[at + 5 * kTurns]);
-  for (int nodes = 1; nodes <= 4; ++nodes)
-    canceller.prefetch_path(pairs[at + static_cast<std::size_t>(5 - nodes) * kTurns], nodes);
+  for (std::size_t nodes = 1; nodes <= 4; ++nodes) canceller.prefetch_path(pairs[at + (5 - nodes) * kTurns], nodes);
 }
 
 // Cancels the pairs of a hierarchy one by one.

@@ -85,9 +85,9 @@ class Canceller {
   void prefetch_beyond(const PersistencePair& pair) const {
     for_next(pair, [&](ArcId arc, Direction d) { graph_.prefetch_arcs(graph_.end(arc, d)); });
   }
-  // The paths beside a pair of a fork and an extremum, along which content is moved: the node after this many others.
-  // To be called for 1, 2, 3 and so on, after the stages above.
-  void prefetch_path(const PersistencePair& pair, int nodes) const {
+  // Content is moved along the paths beside a pair of a fork and an extremum. Prefetches the node of such a path after
+  // this many others. To be called with 1, 2, 3 and so on, after the stages above.
+  void prefetch_path(const PersistencePair& pair, std::size_t nodes) const {
     if constexpr (!Content::kFollows) return;
     if (pair.type != PairType::kRel1 && pair.type != PairType::kOrd0) return;
     const Direction d = pair.type == PairType::kRel1 ? kUp : kDown;
@@ -98,7 +98,7 @@ class Canceller {
       if (arc == kNone) continue;
       const auto is_beside = [&](NodeId node) { return node != NodeId::none() && along(d, node) < along(d, extremum); };
       NodeId node = graph_.end(arc, d);
-      for (int i = 0; i < nodes && is_beside(node); ++i) node = graph_.next(node, d);
+      for (std::size_t i = 0; i < nodes && is_beside(node); ++i) node = graph_.next(node, d);
       if (is_beside(node)) graph_.prefetch_node(node);
     }
   }
