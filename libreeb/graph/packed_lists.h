@@ -88,6 +88,7 @@ class PackedLists {
   void forget(std::uint64_t place);
   void note_if_empty(std::uint32_t chunk);
   void move_lists(std::uint32_t chunk);
+  static void prefetch_bytes(const Chunk& chunk);
   void free(std::uint32_t chunk);
   void compact();
   std::uint64_t holes() const { return used_bytes_ - live_bytes_; }
