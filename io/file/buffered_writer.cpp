@@ -5,6 +5,12 @@
 #include <utility>
 
 namespace reeb::io {
+namespace {
+
+// An output goes to the device in parts of this size. So the device is busy before sync() waits for it.
+constexpr std::uint64_t kSyncBytes = std::uint64_t{16} << 20;
+
+}  // namespace
 
 BufferedWriter::BufferedWriter(File file, std::size_t buffer_bytes)
     : file_(std::move(file)),
@@ -44,6 +50,9 @@ void BufferedWriter::flush() { write_out(std::as_bytes(std::span(buffer_.get(), 
 void BufferedWriter::write_out(std::span<const std::byte> bytes) {
   file_.write_next(flushed_, bytes);
   flushed_ += bytes.size();
+  if (flushed_ - syncing_ < kSyncBytes) return;
+  file_.start_sync(syncing_, flushed_ - syncing_);
+  syncing_ = flushed_;
 }
 
 void BufferedWriter::sync() {

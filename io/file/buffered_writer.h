@@ -53,6 +53,7 @@ class BufferedWriter {
   std::unique_ptr<char[]> buffer_;
   std::size_t filled_ = 0;
   std::uint64_t flushed_ = 0;
+  std::uint64_t syncing_ = 0;  // up to here they are on their way to the device, if this is an output
 };
 
 }  // namespace reeb::io

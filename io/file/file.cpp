@@ -171,6 +171,10 @@ void File::sync() const {
   if (const int error = system::sync(descriptor_); error != 0) fail("flush", error, 0, 0);
 }
 
+void File::start_sync(std::uint64_t offset, std::uint64_t bytes) const noexcept {
+  if (use_ == Use::kOutput) system::start_sync(descriptor_, offset, bytes);
+}
+
 void File::fail(const char* doing, int error, std::uint64_t offset, std::size_t bytes) const {
   if (use_ == Use::kOutput) throw_output_error(error == 0 ? EIO : error, path_, std::to_string(offset));
   if (use_ == Use::kInput)

@@ -92,6 +92,8 @@ class File {
   Mapping map(std::uint64_t offset, std::size_t bytes) const;
   // Returns once the content is on the device.
   void sync() const;
+  // Starts to bring these bytes of an output there, so that sync() need not wait for them. For other files, nothing.
+  void start_sync(std::uint64_t offset, std::uint64_t bytes) const noexcept;
 
   // Throws the Error for the system's error number `error`, which occurred while `doing` ("write").
   [[noreturn]] void fail(const char* doing, int error, std::uint64_t offset, std::size_t bytes) const;

@@ -99,6 +99,11 @@ void* map(int descriptor, std::uint64_t offset, std::size_t bytes) noexcept {
   return result == 0 ? mapping : nullptr;
 }
 
+void start_sync(int descriptor, std::uint64_t offset, std::uint64_t bytes) noexcept {
+  // A failure of the device is reported by sync().
+  ::sync_file_range(descriptor, static_cast<off_t>(offset), static_cast<off_t>(bytes), SYNC_FILE_RANGE_WRITE);
+}
+
 int sync(int descriptor) noexcept {
   const int result = uninterrupted(FileCall::kSync, [&](std::size_t) { return ::fsync(descriptor); });
   return result == 0 || errno == EINVAL || errno == EROFS ? 0 : errno;

@@ -34,6 +34,9 @@ Transfer read_some(int descriptor, std::span<std::byte> bytes) noexcept;
 // Maps for reading. On failure null and errno.
 void* map(int descriptor, std::uint64_t offset, std::size_t bytes) noexcept;
 
+// Starts to bring these bytes of the file to the device, without waiting; or does nothing.
+void start_sync(int descriptor, std::uint64_t offset, std::uint64_t bytes) noexcept;
+
 // The rest return 0 or an errno.
 
 // Waits until the content is on the device. A pipe, or a file system that cannot wait, is not an error.
