@@ -43,7 +43,7 @@ std::uint64_t vertices_below(const Bucket& bucket, const CutValues& values, int 
 // lists until close() packs them again. Until then closed() still returns the former list.
 //
 // TIME:   an operation walks the lists of its arcs once; close() walks the open lists once.
-// MEMORY: PackedLists; 64 bytes per open bucket.
+// MEMORY: PackedLists; 60 bytes per bucket that was opened since close().
 template <class Lists = PackedLists>
 class BasicArcBucketLists {
  public:
@@ -93,11 +93,6 @@ class BasicArcBucketLists {
 
  private:
   static constexpr std::uint32_t kNone = ~std::uint32_t{0};
-  struct Item {
-    Bucket bucket;
-    std::uint32_t next = kNone;
-  };
-  static_assert(sizeof(Item) == 64);  // as promised above
   struct Opened {
     ArcId arc;
     std::uint32_t first;
@@ -105,15 +100,12 @@ class BasicArcBucketLists {
 
   bool is_open(ArcId arc) const { return open_.find(arc.value()) != kNone; }
   std::uint32_t& first(ArcId arc) { return opened_[open_.find(arc.value())].first; }
-  // The link from the item to the next one, or from the arc to its first item.
-  std::uint32_t& after(std::uint32_t item, ArcId arc) { return item == kNone ? first(arc) : items_[item].next; }
+  // The link from the bucket to the next one, or from the arc to its first bucket.
+  std::uint32_t& after(std::uint32_t bucket, ArcId arc) { return bucket == kNone ? first(arc) : next_[bucket]; }
   void open(ArcId arc);
-  void open(ArcId arc, std::span<const Bucket> own);
-  std::span<const Bucket> unpacked(ArcId arc);
-  const Bucket& first_bucket(Direction d, ArcId arc);
-  bool has_any_beyond(Direction d, std::span<const Bucket> own, const CutValues& values) const;
+  Bucket first_bucket(Direction d, ArcId arc);
+  bool is_any_beyond(Direction d, ArcId arc, const CutValues& values) const;
   std::uint32_t make(const Bucket& bucket, std::uint32_t next);
-  void free(std::uint32_t item);
   void insert(std::uint32_t chain, ArcId into);
   std::uint32_t last_below(ArcId arc, const CutValues& values);
 
@@ -121,9 +113,8 @@ class BasicArcBucketLists {
   Lists packed_;
   FlatMap open_;  // from arcs to their entries in opened_
   std::vector<Opened> opened_;
-  std::vector<Item> items_;     // of opened lists
-  std::uint32_t free_ = kNone;  // a list of unused items
-  std::vector<Bucket> buckets_;
+  std::vector<Bucket> buckets_;      // of opened lists
+  std::vector<std::uint32_t> next_;  // by bucket: the one after it in its list, or kNone
   std::vector<std::byte> bytes_;
 };
 
@@ -131,77 +122,57 @@ using ArcBucketLists = BasicArcBucketLists<>;
 
 template <class Lists>
 void BasicArcBucketLists<Lists>::open(ArcId arc) {
-  if (!is_open(arc)) open(arc, unpacked(arc));
-}
-
-// REQUIRES: the arc is not open, and this is its list.
-template <class Lists>
-void BasicArcBucketLists<Lists>::open(ArcId arc, std::span<const Bucket> own) {
-  open_.find_or_insert(arc.value(), static_cast<std::uint32_t>(opened_.size()));
-  opened_.push_back({arc, kNone});
-  for (auto bucket = own.rbegin(); bucket != own.rend(); ++bucket) first(arc) = make(*bucket, first(arc));
-}
-
-// Valid until the next call.
-template <class Lists>
-std::span<const Bucket> BasicArcBucketLists<Lists>::unpacked(ArcId arc) {
-  buckets_.clear();
+  const auto begin = static_cast<std::uint32_t>(buckets_.size());
+  if (open_.find_or_insert(arc.value(), static_cast<std::uint32_t>(opened_.size())) != opened_.size()) return;
   if (!unpack_buckets(packed_.of(arc.value()), buckets_))
     throw std::logic_error("ArcBucketLists: a list cannot be read");
-  return buckets_;
+  const auto end = static_cast<std::uint32_t>(buckets_.size());
+  for (std::uint32_t next = begin; next < end;) next_.push_back(++next);
+  if (begin < end) next_.back() = kNone;
+  opened_.push_back({arc, begin < end ? begin : kNone});
 }
 
 template <class Lists>
 void BasicArcBucketLists<Lists>::close() {
   for (const Opened& opened : opened_) {
-    buckets_.clear();
-    for (std::uint32_t item = opened.first; item != kNone; item = items_[item].next)
-      buckets_.push_back(items_[item].bucket);
     bytes_.clear();
-    pack_buckets(buckets_, bytes_);
+    std::uint64_t count = 0;
+    for (std::uint32_t bucket = opened.first; bucket != kNone; bucket = next_[bucket]) ++count;
+    BucketPacker packer(count, bytes_);
+    for (std::uint32_t bucket = opened.first; bucket != kNone; bucket = next_[bucket]) packer.add(buckets_[bucket]);
     packed_.replace(opened.arc.value(), bytes_);
     open_.erase(opened.arc.value());
   }
   opened_.clear();
-  items_.clear();
-  free_ = kNone;
+  buckets_.clear();
+  next_.clear();
   packed_.collect();
 }
 
 template <class Lists>
 std::uint32_t BasicArcBucketLists<Lists>::make(const Bucket& bucket, std::uint32_t next) {
-  if (free_ == kNone) {
-    items_.push_back({bucket, next});
-    return static_cast<std::uint32_t>(items_.size() - 1);
-  }
-  const std::uint32_t item = std::exchange(free_, items_[free_].next);
-  items_[item] = {bucket, next};
-  return item;
+  buckets_.push_back(bucket);
+  next_.push_back(next);
+  return static_cast<std::uint32_t>(buckets_.size() - 1);
 }
 
-template <class Lists>
-void BasicArcBucketLists<Lists>::free(std::uint32_t item) {
-  items_[item].next = std::exchange(free_, item);
-}
-
-// Inserts a chain of items into a list, in order.
+// Inserts a chain of buckets into a list, in order.
 template <class Lists>
 void BasicArcBucketLists<Lists>::insert(std::uint32_t chain, ArcId into) {
   std::uint32_t before = kNone;
   while (chain != kNone) {
-    const Bucket& bucket = items_[chain].bucket;
+    const std::int64_t index = buckets_[chain].index;
     std::uint32_t next = after(before, into);
-    while (next != kNone && items_[next].bucket.index < bucket.index) {
+    while (next != kNone && buckets_[next].index < index) {
       before = next;
-      next = items_[next].next;
+      next = next_[next];
     }
-    const std::uint32_t rest = items_[chain].next;
-    if (next != kNone && items_[next].bucket.index == bucket.index) {
-      merge_into(items_[next].bucket, bucket);
-      free(chain);
+    const std::uint32_t rest = next_[chain];
+    if (next != kNone && buckets_[next].index == index) {
+      merge_into(buckets_[next], buckets_[chain]);
     } else {
       after(before, into) = chain;
-      items_[chain].next = next;
+      next_[chain] = next;
     }
     chain = rest;
   }
@@ -213,25 +184,24 @@ void BasicArcBucketLists<Lists>::add(ArcId arc, double value, const std::array<d
   insert(make({bucket_index(value, exponent_), 1, position}, kNone), arc);
 }
 
-// Divides the bucket that contains the cut, and returns the last item below the cut.
+// Divides the bucket that contains the cut, and returns the last bucket below the cut.
 template <class Lists>
 std::uint32_t BasicArcBucketLists<Lists>::last_below(ArcId arc, const CutValues& values) {
   const std::int64_t middle = bucket_index(values.at, exponent_);
-  std::uint32_t before = kNone, item = first(arc);
-  while (item != kNone && items_[item].bucket.index < middle) {
-    before = item;
-    item = items_[item].next;
+  std::uint32_t before = kNone, bucket = first(arc);
+  while (bucket != kNone && buckets_[bucket].index < middle) {
+    before = bucket;
+    bucket = next_[bucket];
   }
-  if (item == kNone || items_[item].bucket.index != middle) return before;
+  if (bucket == kNone || buckets_[bucket].index != middle) return before;
 
-  const Bucket upper = items_[item].bucket;
-  const std::uint64_t below = vertices_below(upper, values, exponent_);
+  const Bucket whole = buckets_[bucket];
+  const std::uint64_t below = vertices_below(whole, values, exponent_);
   if (below == 0) return before;
-  if (below == upper.count) return item;
-  const std::uint32_t above = make(part_of(upper, upper.count - below), items_[item].next);
-  items_[item].bucket = part_of(upper, below);
-  items_[item].next = above;
-  return item;
+  if (below == whole.count) return bucket;
+  next_[bucket] = make(part_of(whole, whole.count - below), next_[bucket]);
+  buckets_[bucket] = part_of(whole, below);
+  return bucket;
 }
 
 template <class Lists>
@@ -239,25 +209,21 @@ double BasicArcBucketLists<Lists>::first_value(Direction d, ArcId arc, double lo
   return first_value_of(first_bucket(d, arc), d, lo, hi, exponent_);
 }
 
-// The first bucket in direction d. Valid until the next call.
+// The first bucket in direction d.
 template <class Lists>
-const Bucket& BasicArcBucketLists<Lists>::first_bucket(Direction d, ArcId arc) {
-  if (!is_open(arc)) {
-    const auto own = unpacked(arc);
-    return d == kUp ? own.front() : own.back();
-  }
-  std::uint32_t item = first(arc);
-  while (d == kDown && items_[item].next != kNone) item = items_[item].next;
-  return items_[item].bucket;
+Bucket BasicArcBucketLists<Lists>::first_bucket(Direction d, ArcId arc) {
+  if (!is_open(arc)) return packed_end(packed_.of(arc.value()), opposite(d));
+  std::uint32_t bucket = first(arc);
+  while (d == kDown && next_[bucket] != kNone) bucket = next_[bucket];
+  return buckets_[bucket];
 }
 
 template <class Lists>
 bool BasicArcBucketLists<Lists>::cut(Direction d, ArcId from, ArcId into, const CutValues& values) {
   // Half of all cuts move nothing. A list that is not opened need not be packed and stored again.
   if (!is_open(from)) {
-    const auto own = unpacked(from);
-    if (!has_any_beyond(d, own, values)) return false;
-    open(from, own);
+    if (!is_any_beyond(d, from, values)) return false;
+    open(from);
   }
   const std::uint32_t last = last_below(from, values);
   const std::uint32_t above = std::exchange(after(last, from), kNone);
@@ -270,12 +236,12 @@ bool BasicArcBucketLists<Lists>::cut(Direction d, ArcId from, ArcId into, const 
   return true;
 }
 
-// Whether a cut of this list finds vertices on side d.
+// Whether a cut of the arc finds vertices on side d. REQUIRES: it is not open.
 template <class Lists>
-bool BasicArcBucketLists<Lists>::has_any_beyond(Direction d, std::span<const Bucket> own,
-                                                const CutValues& values) const {
-  if (own.empty()) return false;
-  const Bucket& farthest = d == kUp ? own.back() : own.front();
+bool BasicArcBucketLists<Lists>::is_any_beyond(Direction d, ArcId arc, const CutValues& values) const {
+  const auto packed = packed_.of(arc.value());
+  if (packed.empty()) return false;
+  const Bucket farthest = packed_end(packed, d);
   const std::int64_t middle = bucket_index(values.at, exponent_);
   if (farthest.index != middle) return (farthest.index > middle) == (d == kUp);
   const std::uint64_t below = vertices_below(farthest, values, exponent_);
@@ -295,12 +261,8 @@ template <class Lists>
 std::uint64_t BasicArcBucketLists<Lists>::drop(ArcId arc) {
   open(arc);
   std::uint64_t count = 0;
-  for (std::uint32_t item = std::exchange(first(arc), kNone); item != kNone;) {
-    count += items_[item].bucket.count;
-    const std::uint32_t next = items_[item].next;
-    free(item);
-    item = next;
-  }
+  for (std::uint32_t bucket = std::exchange(first(arc), kNone); bucket != kNone; bucket = next_[bucket])
+    count += buckets_[bucket].count;
   return count;
 }
 

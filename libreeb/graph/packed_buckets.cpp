@@ -39,25 +39,46 @@ T get_raw(ByteReader& in) {
   return value;
 }
 
+// The next bucket, which is new. `last` is the index of the one before, and its own is returned.
+std::int64_t get_bucket(ByteReader& in, std::int64_t last, Bucket& bucket) {
+  bucket.index = static_cast<std::int64_t>(in.delta(static_cast<std::uint64_t>(last)));
+  const std::uint64_t count_and_form = in.varint();
+  bucket.count = count_and_form >> 1;
+  if ((count_and_form & 1) == 0)
+    bucket.mean = get_raw<std::array<double, 3>>(in);
+  else
+    std::ranges::copy(get_raw<Single>(in), bucket.mean.begin());
+  if (bucket.count > 1) {
+    bucket.spread = get_raw<float>(in);
+    bucket.rim = get_raw<RimPoint>(in);
+  }
+  return bucket.index;
+}
+
 }  // namespace
 
+BucketPacker::BucketPacker(std::uint64_t count, std::vector<std::byte>& packed) : packed_(packed) {
+  if (count == 0) return;
+  std::array<std::byte, kMaxVarintBytes> bytes;
+  packed_.insert(packed_.end(), bytes.data(), put_varint(bytes.data(), count));
+}
+
+void BucketPacker::add(const Bucket& bucket) {
+  std::array<std::byte, kMaxBucketBytes> bytes;
+  const bool single = is_single(bucket.mean);
+  std::byte* to = put_varint(bytes.data(), zigzag(static_cast<std::uint64_t>(bucket.index - last_)));
+  to = put_varint(to, bucket.count << 1 | (single ? 1 : 0));
+  const auto& [x, y, z] = bucket.mean;
+  to = single ? put_raw(to, Single{static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)})
+              : put_raw(to, bucket.mean);
+  if (bucket.count > 1) to = put_raw(put_raw(to, bucket.spread), bucket.rim);
+  packed_.insert(packed_.end(), bytes.data(), to);
+  last_ = bucket.index;
+}
+
 void pack_buckets(std::span<const Bucket> buckets, std::vector<std::byte>& packed) {
-  if (buckets.empty()) return;
-  std::array<std::byte, kMaxVarintBytes + kMaxBucketBytes> bytes;
-  std::byte* to = put_varint(bytes.data(), buckets.size());
-  std::int64_t last = 0;
-  for (const Bucket& bucket : buckets) {
-    const bool single = is_single(bucket.mean);
-    to = put_varint(to, zigzag(static_cast<std::uint64_t>(bucket.index - last)));
-    to = put_varint(to, bucket.count << 1 | (single ? 1 : 0));
-    const auto& [x, y, z] = bucket.mean;
-    to = single ? put_raw(to, Single{static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)})
-                : put_raw(to, bucket.mean);
-    if (bucket.count > 1) to = put_raw(put_raw(to, bucket.spread), bucket.rim);
-    packed.insert(packed.end(), bytes.data(), to);
-    to = bytes.data();
-    last = bucket.index;
-  }
+  BucketPacker packer(buckets.size(), packed);
+  for (const Bucket& bucket : buckets) packer.add(bucket);
 }
 
 bool unpack_buckets(std::span<const std::byte> packed, std::vector<Bucket>& buckets) {
@@ -65,28 +86,26 @@ bool unpack_buckets(std::span<const std::byte> packed, std::vector<Bucket>& buck
   ByteReader in(packed);
   const std::uint64_t count = in.varint();
   if (!in.may_hold(count, kLeastPackedBucketBytes)) return false;
-  std::uint64_t index = 0;
-  for (std::uint64_t i = 0; i < count; ++i) {
-    // In place, since copying a bucket whose parts were just stored waits for these stores.
-    Bucket& bucket = buckets.emplace_back();
-    index = in.delta(index);
-    bucket.index = static_cast<std::int64_t>(index);
-    const std::uint64_t count_and_form = in.varint();
-    bucket.count = count_and_form >> 1;
-    if ((count_and_form & 1) == 0)
-      bucket.mean = get_raw<std::array<double, 3>>(in);
-    else
-      std::ranges::copy(get_raw<Single>(in), bucket.mean.begin());
-    if (bucket.count > 1) {
-      bucket.spread = get_raw<float>(in);
-      bucket.rim = get_raw<RimPoint>(in);
-    }
-  }
+  std::int64_t index = 0;
+  // In place, since copying a bucket whose parts were just stored waits for these stores.
+  for (std::uint64_t i = 0; i < count; ++i) index = get_bucket(in, index, buckets.emplace_back());
   return in.done();
 }
 
 std::uint64_t packed_count(std::span<const std::byte> packed) {
   return packed.empty() ? 0 : ByteReader(packed).varint();
+}
+
+Bucket packed_end(std::span<const std::byte> packed, Direction d) {
+  ByteReader in(packed);
+  const std::uint64_t count = in.varint();
+  Bucket bucket;
+  std::int64_t index = get_bucket(in, 0, bucket);
+  for (std::uint64_t i = 1; d == kUp && i < count; ++i) {
+    bucket = {};
+    index = get_bucket(in, index, bucket);
+  }
+  return bucket;
 }
 
 }  // namespace reeb

@@ -12,19 +12,33 @@
 #include <vector>
 
 #include "libreeb/graph/bucket.h"
+#include "libreeb/graph/direction.h"
 
 namespace reeb {
 
 inline constexpr std::uint64_t kPackedBucketBytes = 44;
 inline constexpr std::uint64_t kLeastPackedBucketBytes = 14;
 
-// Appends the list, without loss: unpack_buckets() yields equal buckets.
+// Appends a list, without loss: unpack_buckets() yields equal buckets.
+class BucketPacker {
+ public:
+  // For a list of this length. REQUIRES: `packed` outlives this.
+  BucketPacker(std::uint64_t count, std::vector<std::byte>& packed);
+  // The next bucket.
+  void add(const Bucket& bucket);
+
+ private:
+  std::vector<std::byte>& packed_;
+  std::int64_t last_ = 0;  // index
+};
 void pack_buckets(std::span<const Bucket> buckets, std::vector<std::byte>& packed);
 
 // Appends the buckets of a list. False if the bytes are not a list; a length that they cannot hold allocates nothing.
 bool unpack_buckets(std::span<const std::byte> packed, std::vector<Bucket>& buckets);
 
-// The length of a list. REQUIRES: pack_buckets() wrote it. O(1).
+// For a list that BucketPacker wrote: its length, O(1); and, if it is not empty, its last bucket in direction d, O(1)
+// for kDown.
 std::uint64_t packed_count(std::span<const std::byte> packed);
+Bucket packed_end(std::span<const std::byte> packed, Direction d);
 
 }  // namespace reeb

@@ -45,6 +45,21 @@ TEST(PackedBuckets, ExtremeNumbersComeBack) {
   std::vector<std::byte> packed;
   pack_buckets(list, packed);
   EXPECT_EQ(unpacked(packed), list);
+  EXPECT_EQ(packed_end(packed, kDown), list.front());
+  EXPECT_EQ(packed_end(packed, kUp), list.back());
+}
+
+// A bucket of several vertices comes before one of a single vertex, and the other way round.
+TEST(PackedBuckets, TheEndsAreFoundInTheWholeList) {
+  for (std::uint64_t seed = 0; seed < 1000; ++seed) {
+    test::Random random(seed);
+    const std::vector<Bucket> list = random_list(random, 5);
+    if (list.empty()) continue;
+    std::vector<std::byte> packed;
+    pack_buckets(list, packed);
+    ASSERT_EQ(packed_end(packed, kDown), list.front()) << "seed " << seed;
+    ASSERT_EQ(packed_end(packed, kUp), list.back()) << "seed " << seed;
+  }
 }
 
 TEST(PackedBuckets, SingleVerticesInSinglePrecisionTakeFourteenBytes) {
