@@ -10,4 +10,10 @@ inline void prefetch(const void* address) {
   asm volatile("" ::);
 }
 
+// The same for memory that is about to be written to, which another core may have in its cache.
+inline void prefetch_to_write(void* address) {
+  __builtin_prefetch(address, 1);
+  asm volatile("" ::);
+}
+
 }  // namespace reeb

@@ -72,8 +72,8 @@ template <class ContentKind, class Graph>
 class ArcChanges {
  public:
   using Content = ContentKind;
-  // Whether it can be told to write later (deferred_changes.h).
-  static constexpr bool kCanDefer = false;
+  // Whether it only notes what is to be written later (deferred_changes.h).
+  static constexpr bool kDefers = false;
 
   // REQUIRES: `graph` and `sink` outlive this.
   ArcChanges(const Graph& graph, RecordSink& sink, Content content) : log_(graph, sink), content_(std::move(content)) {}

@@ -9,6 +9,7 @@
 #include "libreeb/hierarchy/bucket_versions.h"
 #include "libreeb/hierarchy/canceller.h"
 #include "libreeb/hierarchy/deferred_changes.h"
+#include "libreeb/hierarchy/note_queue.h"
 #include "libreeb/hierarchy/pair_sweeps.h"
 #include "libreeb/hierarchy/pairing.h"
 #include "libreeb/hierarchy/subgraph.h"
@@ -49,14 +50,12 @@ class Cancelling {
 
   bool is_over() const { return next_ == hierarchy_.pairs.size() || hierarchy_.pairs[next_].type == PairType::kExt0; }
   double done() const { return static_cast<double>(next_) / static_cast<double>(hierarchy_.pairs.size()); }
-  // The pair may pause (canceller.h).
   void cancel_next() {
     PersistencePair& pair = hierarchy_.pairs[next_];
     prefetch(graph_, canceller_, hierarchy_.pairs, next_++);
     pair.kept = !canceller_.cancel(pair);
     if (!pair.kept) hierarchy_.persistence.push_back(persistence_of(graph_, pair));
   }
-  const PersistencePair& last() const { return hierarchy_.pairs[next_ - 1]; }
 
  private:
   const ReebGraph& graph_;
@@ -80,34 +79,22 @@ void cancel_all(const ReebGraph& graph, Canceller& canceller, Hierarchy& hierarc
 template <class Canceller>
 void cancel_ahead(const ReebGraph& graph, Canceller& canceller, Hierarchy& hierarchy, const Poll& poll,
                   const DoBoth& both, const RunAhead& limits) {
-  auto& changes = canceller.changes();
-  Cancelling pairs(graph, canceller, hierarchy);
+  using Changes = typename Canceller::Changes;
+  Changes& changes = canceller.changes();
   changes.set_limits(limits, canceller.graph().end_arc().value());
-  const auto apply = [&] { changes.apply(); };
+  const auto apply = [&] { changes.apply(poll); };
   const auto run_ahead = [&] {
-    if (canceller.is_paused()) canceller.resume(pairs.last());
-    while (!pairs.is_over() && !canceller.is_paused() && !changes.is_full()) pairs.cancel_next();
+    struct CloseAtEnd {
+      Changes& changes;
+      ~CloseAtEnd() { changes.close(); }
+    } const close{changes};
+    try {
+      for (Cancelling pairs(graph, canceller, hierarchy); !pairs.is_over(); changes.set_done(pairs.done()))
+        pairs.cancel_next();
+    } catch (const typename Changes::Stopped&) {  // by an exception that apply() throws
+    }
   };
-  changes.set_defers(true);
-  while (!pairs.is_over() || canceller.is_paused()) {
-    if (poll) poll(pairs.done());
-    changes.hold();
-    both(apply, run_ahead);
-    changes.release();
-    changes.apply();  // what is left, if it stopped early
-    const bool noted_any = changes.has_notes();
-    changes.hand_over();
-    if (!canceller.is_paused()) continue;
-    // What it waits for. If nothing was noted before it paused, then noting cannot help.
-    changes.apply();
-    changes.hand_over();
-    if (noted_any) continue;
-    changes.set_defers(false);
-    canceller.resume(pairs.last());
-    changes.set_defers(true);
-  }
-  changes.apply();
-  changes.set_defers(false);
+  both(apply, run_ahead);
   canceller.finish();
 }
 
@@ -155,7 +142,7 @@ std::uint64_t hierarchy_bytes(std::uint64_t nodes, std::uint64_t arcs, std::opti
   constexpr std::uint64_t kNewBucketBytes = 32;
   constexpr std::uint64_t kDeferredArcBytes = sizeof(std::uint16_t);
   return bytes + *lists + *lists / 2 + kNewBucketBytes * nodes + kDeferredArcBytes * arcs +
-         2 * (sizeof(ArcNote) + PackedLists::kHeldBytes) * RunAhead::for_arcs(arcs).most_notes();
+         (NoteQueue::kLists * sizeof(ArcNote) + 2 * PackedLists::kHeldBytes) * RunAhead::for_arcs(arcs).most_notes();
 }
 
 Hierarchy build_hierarchy(ReebGraph& graph, PackedLists buckets, int exponent, RecordSink& sink,

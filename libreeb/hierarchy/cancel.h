@@ -21,7 +21,7 @@ std::uint64_t hierarchy_bytes(std::uint64_t nodes, std::uint64_t arcs, std::opti
 // How build_hierarchy() works; the result does not depend on it.
 struct HierarchyWork {
   Poll poll = {};
-  DoBoth both = {};
+  DoBoth both = {};                    // at the same time, since one of the two may wait for the other
   std::optional<RunAhead> ahead = {};  // nothing: RunAhead::for_arcs()
 };
 

@@ -29,7 +29,6 @@ class Canceller {
   Canceller& operator=(const Canceller&) = delete;
 
   // Cancels the pair, which makes a version. For a loop that no rule can cancel it changes nothing and returns false.
-  // If its changes are deferred, it might pause; then resume() comes next.
   // REQUIRES: called in the order of cancelling, for all pairs but Ext0.
   bool cancel(const PersistencePair& pair) {
     const NodeId lo = pair.lo, hi = pair.hi;
@@ -39,19 +38,11 @@ class Canceller {
       search_.note_kept(lo, hi);
       return false;
     }
-    if (pause_ == Pause::kNone) end_pair(pair);
+    contract(lo);
+    contract(hi);
+    ways_.apply_changes();
+    changes_.commit();
     return true;
-  }
-
-  bool is_paused() const { return pause_ != Pause::kNone; }
-  // Continues with the pair that paused, which might pause again. It cannot pause while changes are not deferred.
-  // REQUIRES: what was deferred is done.
-  void resume(const PersistencePair& pair) {
-    const Pause pause = std::exchange(pause_, Pause::kNone);
-    if (pause == Pause::kAtPath)
-      zip_onto(paused_.direction, paused_.arc, paused_.other, paused_.start, paused_.extremum);
-    if (pause == Pause::kAtLoop) zip_loop();
-    if (pause_ == Pause::kNone) end_pair(pair);
   }
 
   // Prefetch what cancelling a pair reads: its nodes; their nearest arcs with their far ends; the arcs at these, and
@@ -122,7 +113,6 @@ class Canceller {
   bool note_in_parallel(Direction d, ArcId arc, ArcId& other, NodeId& start, NodeId end, std::uint32_t most);
   bool follow_in_parallel(Direction d, ArcId arc, ArcId& other, NodeId& start, NodeId end, std::uint32_t most = kAny);
   bool cancel_loop(NodeId v, NodeId y);
-  void zip_loop();
   void take_away(ArcId arc);
 
   void prefetch_node(NodeId node) const {
@@ -177,27 +167,12 @@ class Canceller {
     remove(from);
   }
   void contract(NodeId node);
-  // What comes last for each pair.
-  void end_pair(const PersistencePair& pair) {
-    contract(pair.lo);
-    contract(pair.hi);
-    ways_.apply_changes();
-    changes_.commit();
-  }
 
   Graph graph_;
   PathSearch<Graph> search_;
   PathFollower<Graph> ways_;
   TwoPaths paths_;  // to be zipped
   Changes changes_;
-
-  enum class Pause { kNone, kAtPath, kAtLoop };
-  Pause pause_ = Pause::kNone;
-  struct {
-    Direction direction;
-    ArcId arc, other;
-    NodeId start, extremum;
-  } paused_{};  // the arguments of zip_onto(), if at a path
 };
 
 // ---- extrema
@@ -213,11 +188,7 @@ void Canceller<Content, Graph, ChangesKind>::zip_onto(Direction d, ArcId arc, Ar
     const NodeId end = graph_.end(arc, d);
     const ArcId next = graph_.nearest(end, d);
     if (end == extremum && graph_.has_one(extremum, opposite(d))) break;
-    if (!follow_in_parallel(d, arc, other, start, end)) {
-      pause_ = Pause::kAtPath;
-      paused_ = {d, arc, other, start, extremum};
-      return;
-    }
+    follow_in_parallel(d, arc, other, start, end);
     if (graph_.end(arc, opposite(d)) != start) move_start(d, arc, start);
     cut(d, other, arc, end);
     if (end == extremum) return;
@@ -235,19 +206,16 @@ void Canceller<Content, Graph, ChangesKind>::zip_onto(Direction d, ArcId arc, Ar
 }
 
 // Follows the second path from `start` until its arc `other` reaches `end` or beyond, and moves the content of `arc` to
-// the arcs that are passed. False, with `other` and `start` as they were, if there are more than `most` of them, or if
-// changes are deferred and this has to wait.
+// the arcs that are passed. False, with `other` and `start` as they were, if there are more than `most` of them.
 template <class Content, class Graph, template <class, class> class ChangesKind>
 bool Canceller<Content, Graph, ChangesKind>::follow_in_parallel(Direction d, ArcId arc, ArcId& other, NodeId& start,
                                                                 NodeId end, std::uint32_t most) {
   ArcPart left{d, arc, start, end};  // the part whose content was not moved yet
-  if constexpr (Changes::kCanDefer)
-    if (changes_.defers()) {
-      if (most != kAny) return note_in_parallel(d, arc, other, start, end, most);
-      if (!changes_.has_room()) return false;
-      if (note_in_parallel(d, arc, other, start, end, most)) return true;
-      if (!changes_.begin_long_path(left)) return false;
-    }
+  if constexpr (Changes::kDefers) {
+    if (note_in_parallel(d, arc, other, start, end, most)) return true;
+    if (most != kAny) return false;
+    changes_.begin_long_path(left);
+  }
   ArcId passed = other;
   NodeId from = start;
   double first = changes_.first_value(left);
@@ -255,11 +223,6 @@ bool Canceller<Content, Graph, ChangesKind>::follow_in_parallel(Direction d, Arc
     if (most != kAny && most-- == 0) return false;
     if (changes_.is_reached(first, d, node)) {
       changes_.cut({d, arc, passed, left.start, node, end}, ends(passed));
-      if constexpr (Changes::kCanDefer)
-        if (changes_.defers() && !changes_.has_room()) {
-          changes_.forget_path();
-          return false;
-        }
       left.start = node;
       first = changes_.first_value(left);
     }
@@ -273,7 +236,7 @@ bool Canceller<Content, Graph, ChangesKind>::follow_in_parallel(Direction d, Arc
   return true;
 }
 
-// Notes the path arc by arc, for changes that are deferred, unless there are more than `most` of them or it is long.
+// Notes the path arc by arc, for changes that are deferred. False if there are more than `most` of them, or it is long.
 template <class Content, class Graph, template <class, class> class ChangesKind>
 bool Canceller<Content, Graph, ChangesKind>::note_in_parallel(Direction d, ArcId arc, ArcId& other, NodeId& start,
                                                               NodeId end, std::uint32_t most) {
@@ -310,7 +273,7 @@ bool Canceller<Content, Graph, ChangesKind>::cancel_loop(NodeId v, NodeId y) {
     return true;
   }
   if (!search_.find_paths(v, y, paths_)) return false;
-  zip_loop();
+  zip(kUp);
   return true;
 }
 
@@ -319,22 +282,11 @@ void Canceller<Content, Graph, ChangesKind>::take_away(ArcId arc) {
   if constexpr (Content::kFollows) {
     if (search_.find_path_beside(arc, paths_.first)) {
       paths_.second.assign(1, arc);
-      return zip_loop();
+      return zip(kUp);
     }
     changes_.drop(arc, 0);
   }
   remove(arc);
-}
-
-// Zips the two paths that were found.
-template <class Content, class Graph, template <class, class> class ChangesKind>
-void Canceller<Content, Graph, ChangesKind>::zip_loop() {
-  if constexpr (Changes::kCanDefer)
-    if (changes_.defers() && !changes_.has_room_for_loop(paths_.first.size() + paths_.second.size())) {
-      pause_ = Pause::kAtLoop;
-      return;
-    }
-  zip(kUp);
 }
 
 // ---- moving arcs

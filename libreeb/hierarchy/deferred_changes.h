@@ -2,25 +2,27 @@
 //
 // WHY. With an embedding, about half of the time of cancelling goes into lists of buckets and into records. The rules
 // do not need them, but for one thing: how far a long path next to an arc can be followed at once depends on the
-// content of the arc. So a short path is noted arc by arc. For a long one the rules read the content themselves. They
-// wait if a change of it was noted that might not be made yet.
+// content of the arc. So a short path is noted arc by arc. For a long one the rules read the content themselves, once
+// what was noted of it is done.
 #pragma once
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <mutex>
 #include <utility>
 #include <vector>
 
 #include "libreeb/base/prefetch.h"
 #include "libreeb/hierarchy/arc_changes.h"
+#include "libreeb/hierarchy/note_queue.h"
 
 namespace reeb {
 
 // How far the rules run ahead. The results do not depend on it. REQUIRES: notes > 0.
 struct RunAhead {
-  std::size_t notes = 4096;       // in a list, about
+  std::size_t notes = 2048;       // in a list, about
   std::size_t arcs_of_path = 24;  // a path of more arcs is long
 
   // The lists of a small graph are small.
@@ -30,206 +32,193 @@ struct RunAhead {
     return ahead;
   }
 
-  // No list gets longer than this. A path or loop that needs more waits, and then is not deferred.
-  std::size_t most_notes() const { return 8 * notes + arcs_of_path + 2 * kNotesBetween; }
-  // Between two paths or loops there are fewer notes than this.
-  static constexpr std::size_t kNotesBetween = 32;
+  // Room in a list, where a short path is not divided.
+  std::size_t most_notes() const { return notes + arcs_of_path + 1; }
 };
 
-// What was done to an arc: a function of ArcChanges and its arguments, or a part of a path.
-struct ArcNote {
-  static constexpr NodeId kNoNode = NodeId::none();
-  enum class Kind : std::uint8_t { kTouch, kCut, kMerge, kJoin, kLay, kDrop, kPath, kPass, kCommit };
-
-  Kind kind = Kind::kCommit;
-  Direction direction = kUp;
-  ArcId arc = ArcId::none(), other = ArcId::none();
-  std::array<NodeId, 3> nodes{kNoNode, kNoNode, kNoNode};
-  ArcEnds ends{};
-  std::uint32_t count = 0;
-};
-
-// While it defers, its functions only note what they were called for.
+// Its functions only note what they were called for; apply() does it.
 //
-// MEMORY: ArcChanges, with what is held; two lists of notes, and 8 bytes per note of a step; 2 bytes per arc.
-// THREADS: while it defers, and between hold() and release(), one thread may call apply() and another one note changes
-//          and read the content of an arc for a long path.
+// MEMORY: ArcChanges, with what is held; NoteQueue, and 8 bytes per note of a step; 2 bytes per arc.
+// THREADS: one calls apply() while another one calls everything else; finish() comes after both.
 template <class ContentKind, class Graph>
 class DeferredChanges {
  public:
   using Content = ContentKind;
-  static constexpr bool kCanDefer = true;
+  static constexpr bool kDefers = true;
+  // The thread that applies the notes has failed, so there is no use in noting more.
+  struct Stopped {};
 
   // REQUIRES: `graph` and `sink` outlive this.
   DeferredChanges(const Graph& graph, RecordSink& sink, Content content) : now_(graph, sink, std::move(content)) {}
 
   const Content& content() const { return now_.content(); }
-
-  bool defers() const { return defers_; }
-  // REQUIRES: all notes were applied.
-  void set_defers(bool defers) { defers_ = defers; }
+  // To be called once, before all that follows.
   void set_limits(const RunAhead& limits, std::size_t arcs) {
     limits_ = limits;
-    notes_.reserve(limits.most_notes());
-    applied_.reserve(limits.most_notes());
+    queue_.reserve(limits.most_notes());
     noted_in_.assign(arcs, 0);
   }
-  // Whether the next pair should wait.
-  bool is_full() const { return notes_.size() >= limits_.notes; }
-  bool has_notes() const { return !notes_.empty(); }
 
-  // Takes the notes since the last call as those that are to be applied. REQUIRES: those before were applied.
-  void hand_over() {
-    applied_.clear();
-    next_ = 0;
-    std::swap(applied_, notes_);
-    ++list_;
-  }
-  // Does what the notes say that were handed over. While it is held, it stops early if much is held.
-  void apply();
-  void hold() { now_.content().hold(applied_.size() - next_); }
-  void release() { now_.content().release(); }
+  // Does what the notes say, until no more are noted. Calls poll() with the part of the work that is done. THROWS: what
+  // poll and the sink throw.
+  void apply(const Poll& poll);
+  // REQUIRES: apply() has returned.
+  void finish() { now_.finish(); }
 
-  // As in ArcChanges.
-  void touch(ArcId arc, const ArcEnds& ends) {
-    if (!defers_) return now_.touch(arc, ends);
-    notes_.push_back({.kind = Kind::kTouch, .arc = arc, .ends = ends});
-  }
+  // For the thread of the rules: the part of the work that was noted; and that nothing more is noted.
+  void set_done(double done) { done_ = done; }
+  void close() noexcept;
+
+  // As in ArcChanges. THROWS, all that note something: Stopped.
+  void touch(ArcId arc, const ArcEnds& ends) { note({.kind = Kind::kTouch, .arc = arc, .ends = ends}); }
   void cut(const ArcCut& cut, const ArcEnds& ends_of_into) {
-    if (!defers_) return now_.cut(cut, ends_of_into);
     note_content(cut.from);
     note_content(cut.into);
-    const std::array nodes{cut.start, cut.node, cut.end};
-    notes_.push_back({Kind::kCut, cut.direction, cut.from, cut.into, nodes, ends_of_into});
+    note({Kind::kCut, cut.direction, cut.from, cut.into, {cut.start, cut.node, cut.end}, ends_of_into});
   }
   void merge(ArcId from, ArcId into, const ArcEnds& ends_of_into) {
-    if (!defers_) return now_.merge(from, into, ends_of_into);
     note_content(from);
     note_content(into);
-    notes_.push_back({.kind = Kind::kMerge, .arc = from, .other = into, .ends = ends_of_into});
+    note({.kind = Kind::kMerge, .arc = from, .other = into, .ends = ends_of_into});
   }
   void join(ArcId upper, ArcId lower, NodeId node) {
-    if (!defers_) return now_.join(upper, lower, node);
     note_content(upper);
     note_content(lower);
-    notes_.push_back({.kind = Kind::kJoin, .arc = upper, .other = lower, .nodes = {node, kNoNode, kNoNode}});
+    note({.kind = Kind::kJoin, .arc = upper, .other = lower, .nodes = {node, kNoNode, kNoNode}});
   }
   void lay(ArcId arc, ArcId other, NodeId extremum, Direction d, const ArcEnds& ends_of_other) {
-    if (!defers_) return now_.lay(arc, other, extremum, d, ends_of_other);
     note_content(arc);
     note_content(other);
-    notes_.push_back({Kind::kLay, d, arc, other, {extremum, kNoNode, kNoNode}, ends_of_other});
+    note({Kind::kLay, d, arc, other, {extremum, kNoNode, kNoNode}, ends_of_other});
   }
   void drop(ArcId arc, std::uint32_t nodes) {
-    if (!defers_) return now_.drop(arc, nodes);
     note_content(arc);
-    notes_.push_back({.kind = Kind::kDrop, .arc = arc, .count = nodes});
+    note({.kind = Kind::kDrop, .arc = arc, .count = nodes});
   }
   void commit() {
     for (const ArcId arc : changed_) noted_in_[arc.value()] = list_;
     changed_.clear();
-    if (!defers_) return now_.commit();
-    notes_.push_back({.kind = Kind::kCommit});
-  }
-  // REQUIRES: if it defers, begin_long_path() for this arc.
-  double first_value(const ArcPart& part) {
-    return defers_ ? now_.content().first_value(part, rest_) : now_.first_value(part);
+    note({.kind = Kind::kCommit});
   }
   bool is_reached(double value, Direction d, NodeId node) const { return now_.is_reached(value, d, node); }
-  // REQUIRES: it does not defer.
-  void finish() { now_.finish(); }
-
-  // REQUIRES, for all that follows: it defers.
-
-  // Whether a path can be noted, or a long one continued; and whether a loop of this many arcs can be noted.
-  bool has_room() const { return has_room_for(limits_.arcs_of_path); }
-  bool has_room_for_loop(std::size_t arcs) const { return has_room_for(kNotesPerArc * arcs); }
 
   // Notes a path next to a part of an arc: first the part, and then each arc that is passed. Each of these takes what
-  // it can of the content of the part.
+  // it can of the content of the part. In the end, end_path() or forget_path() is called.
   void begin_path(const ArcPart& part) {
-    start_path();
-    notes_.push_back(
+    path_ = notes().size();
+    notes().push_back(
         {.kind = Kind::kPath, .direction = part.direction, .arc = part.arc, .nodes = {part.start, part.end, kNoNode}});
   }
   bool is_long_path(std::size_t arcs) const { return arcs > limits_.arcs_of_path; }
   void pass(Direction d, ArcId arc, const ArcEnds& ends) {
     const NodeId end = d == kUp ? ends.hi : ends.lo;
-    notes_.push_back(
+    notes().push_back(
         {.kind = Kind::kPass, .direction = d, .other = arc, .nodes = {end, kNoNode, kNoNode}, .ends = ends});
   }
-  // To be called unless it is forgotten.
   void end_path() {
-    if (notes_.size() == path_ + 1) return forget_path();
-    note_content(notes_[path_].arc);
-    for (std::size_t i = path_ + 1; i < notes_.size(); ++i) note_content(notes_[i].other);
+    if (notes().size() == path_ + 1) return forget_path();
+    note_content(notes()[path_].arc);
+    for (std::size_t i = path_ + 1; i < notes().size(); ++i) note_content(notes()[i].other);
+    pass_on_if_full();
   }
+  void forget_path() { notes().resize(path_); }
 
-  // Reads the content of the arc, for first_value(): then the cuts of a long path are noted one by one. False if the
-  // content depends on what might not be applied yet. REQUIRES: this step did not change it.
-  bool begin_long_path(const ArcPart& part) {
-    start_path();
-    if (static_cast<std::uint16_t>(list_ - noted_in_[part.arc.value()]) < 2) return false;
-    now_.content().start_rest(part, rest_);
-    return true;
-  }
+  // Reads the content of the arc, for first_value(): then the cuts of a long path are noted one by one.
+  // REQUIRES: this step did not change it.
+  void begin_long_path(const ArcPart& part);
+  double first_value(const ArcPart& part) { return now_.content().first_value(part, rest_); }
 
-  // Forgets the path that was begun last.
-  void forget_path() {
-    notes_.resize(path_);
-    changed_.resize(changed_before_path_);
-  }
-
-  // For the thread of the rules. While it defers, apply() prefetches what it needs itself.
-  void prefetch_node(NodeId node) const {
-    if (!defers_) now_.prefetch_node(node);
-  }
-  void prefetch_place(ArcId arc) const {
-    if (defers_) return reeb::prefetch(&noted_in_[arc.value()]);
-    now_.prefetch_place(arc);
-  }
-  void prefetch_content(ArcId arc) const {
-    if (!defers_) now_.prefetch_content(arc);
-  }
+  // For the thread of the rules; apply() prefetches what it needs itself.
+  void prefetch_node(NodeId /*node*/) const {}
+  void prefetch_place(ArcId arc) const { reeb::prefetch(&noted_in_[arc.value()]); }
+  void prefetch_content(ArcId /*arc*/) const {}
 
  private:
   using Kind = ArcNote::Kind;
   static constexpr NodeId kNoNode = ArcNote::kNoNode;
 
-  static constexpr std::size_t kNotesPerArc = 2;  // of a loop
-
-  bool has_room_for(std::size_t notes) const {
-    return notes_.size() + notes + RunAhead::kNotesBetween <= limits_.most_notes();
+  std::vector<ArcNote>& notes() { return queue_.open(); }
+  const std::vector<ArcNote>& notes() const { return queue_.open(); }
+  void note(const ArcNote& note) {
+    constexpr std::size_t kAhead = 12;  // the other thread has read this list before
+    reeb::prefetch_to_write(notes().data() + notes().size() + kAhead);
+    notes().push_back(note);
+    pass_on_if_full();
   }
-  void start_path() {
-    path_ = notes_.size();
-    changed_before_path_ = changed_.size();
+  void pass_on_if_full() {
+    if (notes().size() >= limits_.notes) pass_on();
+  }
+  void pass_on() {
+    ++list_;
+    if (!queue_.pass_on(done_)) throw Stopped();
   }
   void note_content(ArcId arc) { changed_.push_back(arc); }
-  void prefetch(std::size_t at) const;
+  std::size_t apply(const std::vector<ArcNote>& notes, std::size_t next);
+  void prefetch(const std::vector<ArcNote>& notes, std::size_t at) const;
 
   ArcChanges<Content, Graph> now_;
-  std::vector<ArcNote> applied_;  // handed over
-  std::size_t next_ = 0;          // in applied_
-  ArcPart part_{};                // of the path that is applied
+  ArcPart part_{};  // of the path that is applied
   double first_ = 0;
-  alignas(64) std::vector<ArcNote> notes_;          // not next to what the other thread changes
-  std::size_t path_ = 0, changed_before_path_ = 0;  // the first note of the last path; changed_ before it
-  // Lists of notes are numbered, modulo 2^16. What the last two say might not be applied yet. The content of an arc is
-  // replaced when the step ends that changes it, whose notes may be in several lists.
+  NoteQueue queue_;
+  // Held while content may be moved that does not change, and while it is read for a long path.
+  std::mutex moving_;
+
+  // What only the thread of the rules uses.
+  alignas(64) std::size_t path_ = 0;     // the first note of the last path
   std::vector<ArcId> changed_;           // by this step; some more than once
   std::vector<std::uint16_t> noted_in_;  // by arc: the list with the end of the last step that changed its content
-  std::uint16_t list_ = 2;
-  typename Content::Rest rest_;  // of a long path
+  std::uint16_t list_ = NoteQueue::kLists + 1;  // the number of the open list, modulo 2^16
+  typename Content::Rest rest_;                 // of a long path
+  double done_ = 0;
   RunAhead limits_;
-  bool defers_ = false;
 };
 
 template <class Content, class Graph>
-void DeferredChanges<Content, Graph>::apply() {
-  while (next_ < applied_.size()) {
-    prefetch(next_);
-    const ArcNote& note = applied_[next_++];
+void DeferredChanges<Content, Graph>::close() noexcept {
+  queue_.pass_on(done_);
+  queue_.close();
+}
+
+template <class Content, class Graph>
+void DeferredChanges<Content, Graph>::begin_long_path(const ArcPart& part) {
+  // A number that comes again after 2^16 lists only means waiting in vain.
+  auto lists = static_cast<std::uint16_t>(list_ - noted_in_[part.arc.value()]);
+  if (lists == 0) {
+    pass_on();
+    lists = 1;
+  }
+  if (!queue_.wait_until_done(lists - 1)) throw Stopped();
+  const std::lock_guard lock(moving_);
+  now_.content().start_rest(part, rest_);
+}
+
+template <class Content, class Graph>
+void DeferredChanges<Content, Graph>::apply(const Poll& poll) {
+  struct StopAtEnd {
+    NoteQueue& queue;
+    ~StopAtEnd() { queue.stop(); }
+  } const stop{queue_};
+  while (const NoteQueue::List* list = queue_.next()) {
+    if (poll) poll(list->done);
+    for (std::size_t next = 0; next < list->notes.size();) {
+      {
+        const std::lock_guard lock(moving_);
+        now_.content().hold(list->notes.size() - next);
+      }
+      next = apply(list->notes, next);
+      const std::lock_guard lock(moving_);
+      now_.content().release();
+    }
+    queue_.free();
+  }
+}
+
+// Applies the notes from `next` on, and returns where it stopped: early if the content holds much.
+template <class Content, class Graph>
+std::size_t DeferredChanges<Content, Graph>::apply(const std::vector<ArcNote>& notes, std::size_t next) {
+  while (next < notes.size()) {
+    prefetch(notes, next);
+    const ArcNote& note = notes[next++];
     const Direction d = note.direction;
     const auto [a, b, c] = note.nodes;
     switch (note.kind) {
@@ -253,7 +242,7 @@ void DeferredChanges<Content, Graph>::apply() {
         break;
       case Kind::kCommit:
         now_.commit();
-        if (now_.content().holds_much()) return;
+        if (now_.content().holds_much()) return next;
         break;
       case Kind::kPath:
         part_ = {d, note.arc, a, b};
@@ -267,13 +256,14 @@ void DeferredChanges<Content, Graph>::apply() {
         break;
     }
   }
+  return next;
 }
 
 template <class Content, class Graph>
-void DeferredChanges<Content, Graph>::prefetch(std::size_t at) const {
+void DeferredChanges<Content, Graph>::prefetch(const std::vector<ArcNote>& notes, std::size_t at) const {
   constexpr std::size_t kPlace = 40, kContent = 16;  // notes ahead
-  if (at + kPlace < applied_.size()) {
-    const ArcNote& note = applied_[at + kPlace];
+  if (at + kPlace < notes.size()) {
+    const ArcNote& note = notes[at + kPlace];
     for (const ArcId arc : {note.arc, note.other})
       if (arc != ArcId::none()) now_.prefetch_place(arc);
     const bool reads_position = note.kind == Kind::kJoin || note.kind == Kind::kLay;
@@ -285,8 +275,8 @@ void DeferredChanges<Content, Graph>::prefetch(std::size_t at) const {
         now_.prefetch_value(node);
     }
   }
-  if (at + kContent < applied_.size()) {
-    const ArcNote& note = applied_[at + kContent];
+  if (at + kContent < notes.size()) {
+    const ArcNote& note = notes[at + kContent];
     for (const ArcId arc : {note.arc, note.other})
       if (arc != ArcId::none()) now_.prefetch_content(arc);
   }

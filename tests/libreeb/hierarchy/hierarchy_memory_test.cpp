@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "libreeb/hierarchy/cancel.h"
-#include "tests/libreeb/hierarchy/elsewhere_first.h"
+#include "ooc/threads/worker.h"
 #include "tests/support/held_memory.h"
 #include "tests/support/inputs/made_graph.h"
 #include "tests/support/inputs/random_function_graph.h"
@@ -21,6 +21,12 @@ class Nowhere : public RecordSink {
  private:
   std::uint64_t records_ = 0;
 };
+
+DoBoth in_two_threads() {
+  return [worker = std::make_shared<ooc::Worker>()](const auto& here, const auto& elsewhere) {
+    worker->do_both(here, elsewhere);
+  };
+}
 
 // `make` returns a graph, with buckets of this exponent or without.
 template <class Make>
@@ -58,7 +64,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, MadeGraphs,
                                           testing::Bool(), testing::Bool()));
 
 TEST_P(MadeGraphs, HoldNoMoreThanPromised) {
-  const auto [kind, embeds, in_two_threads] = GetParam();
+  const auto [kind, embeds, has_two_threads] = GetParam();
   int exponent = 0;
   ReebGraph made = bench::GraphMaker(kind, kArcs).make();
   bench::place_nodes(made);
@@ -67,7 +73,7 @@ TEST_P(MadeGraphs, HoldNoMoreThanPromised) {
       [&] {
         return GraphAndLists{made, embeds ? pack_lists(bench::make_buckets(made, exponent).view()) : PackedLists{}};
       },
-      exponent, in_two_threads ? DoBoth(test::elsewhere_first) : DoBoth());
+      exponent, has_two_threads ? in_two_threads() : DoBoth());
 }
 
 TEST(RandomFunction, HoldsNoMoreThanPromised) {
@@ -79,7 +85,7 @@ TEST(RandomFunction, HoldsNoMoreThanPromised) {
         ooc::LoadedGraph loaded = bench::make_random_function_graph(kArcs, 64, exponent, temp, budget);
         return GraphAndLists{std::move(loaded.graph), std::move(loaded.buckets)};
       },
-      bucket_exponent(0, 1, 64), test::elsewhere_first);
+      bucket_exponent(0, 1, 64), in_two_threads());
 }
 
 }  // namespace

@@ -6,7 +6,6 @@
 
 #include "libreeb/hierarchy/cancel.h"
 #include "ooc/threads/worker.h"
-#include "tests/libreeb/hierarchy/elsewhere_first.h"
 #include "tests/libreeb/hierarchy/random_buckets.h"
 #include "tests/support/inputs/made_graph.h"
 #include "tests/support/seed.h"
@@ -24,8 +23,10 @@ struct Result {
 
 class Recorder : public RecordSink {
  public:
-  explicit Recorder(Result& result) : result_(result) {}
+  // A slow one lets the other thread run whenever it can.
+  Recorder(Result& result, bool slow) : result_(result), slow_(slow) {}
   void add(const ArcVersion& record, std::span<const std::byte> buckets) override {
+    if (slow_) std::this_thread::yield();
     result_.arcs.push_back(record);
     result_.packed.emplace_back(buckets.begin(), buckets.end());
     result_.threads.push_back(std::this_thread::get_id());
@@ -34,12 +35,13 @@ class Recorder : public RecordSink {
 
  private:
   Result& result_;
+  bool slow_;
 };
 
-Result build(const test::EmbeddedGraph& made, const DoBoth& both, const RunAhead& ahead) {
+Result build(const test::EmbeddedGraph& made, const DoBoth& both, const RunAhead& ahead, bool slow = false) {
   ReebGraph graph = made.graph;
   Result result;
-  Recorder recorder(result);
+  Recorder recorder(result, slow);
   result.hierarchy =
       build_hierarchy(graph, pack_lists(made.buckets.view()), made.exponent, recorder, {.both = both, .ahead = ahead});
   return result;
@@ -53,43 +55,39 @@ void expect_same(const Result& a, const Result& b) {
   ASSERT_EQ(a.dropped, b.dropped);
 }
 
-void rules_last(const std::function<void()>& here, const std::function<void()>& elsewhere) {
-  here();
-  elsewhere();
-}
-
-// From "each pair waits" to "no pair waits".
+// From lists of one note, and every path read, to a list for all notes, and no path read.
 const RunAhead kAhead[] = {{.notes = 1, .arcs_of_path = 0},    {.notes = 6, .arcs_of_path = 1},
                            {.notes = 40, .arcs_of_path = 2},   {.notes = 40, .arcs_of_path = 0},
                            {.notes = 8192, .arcs_of_path = 3}, {}};
+
+// In turns with a fast and a slow sink.
+void expect_same_in_two_threads(const test::EmbeddedGraph& made, ooc::Worker& worker, std::uint64_t seed) {
+  const DoBoth both = [&](const auto& here, const auto& elsewhere) { worker.do_both(here, elsewhere); };
+  const Result expected = build(made, {}, {});
+  bool slow = seed % 2 == 0;
+  for (const RunAhead& ahead : kAhead) {
+    SCOPED_TRACE(testing::Message() << "seed " << seed << ", notes " << ahead.notes);
+    expect_same(build(made, both, ahead, slow = !slow), expected);
+  }
+}
 
 class RunsAhead : public testing::TestWithParam<std::uint32_t> {};
 INSTANTIATE_TEST_SUITE_P(Nodes, RunsAhead, testing::Values(6, 12, 24));
 
 TEST_P(RunsAhead, WithTheSameRecords) {
-  for (std::uint64_t seed = 0; seed < test::case_count(240000 / GetParam()); ++seed) {
+  ooc::Worker worker;
+  for (std::uint64_t seed = 0; seed < test::case_count(20000 / GetParam()); ++seed) {
     test::Random random(seed);
-    const test::EmbeddedGraph made = test::random_embedded_graph(random, GetParam());
-    const Result expected = build(made, {}, {});
-    for (const RunAhead& ahead : kAhead)
-      for (const auto& both : {rules_last, test::elsewhere_first}) {
-        SCOPED_TRACE(testing::Message() << "seed " << seed << ", notes " << ahead.notes);
-        expect_same(build(made, both, ahead), expected);
-      }
+    expect_same_in_two_threads(test::random_embedded_graph(random, GetParam()), worker, seed);
   }
 }
 
-// Pairs whose notes are in two lists change arcs that the pairs after them read.
+// Pairs whose notes are in several lists change arcs that the pairs after them read.
 TEST(RunAhead, WithTheSameRecordsForLargerGraphs) {
-  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+  ooc::Worker worker;
+  for (std::uint64_t seed = 0; seed < 100; ++seed) {
     test::Random random(seed);
-    const test::EmbeddedGraph made = test::random_embedded_graph(random, 400);
-    const Result expected = build(made, {}, {});
-    for (const RunAhead& ahead : kAhead)
-      for (const auto& both : {rules_last, test::elsewhere_first}) {
-        SCOPED_TRACE(testing::Message() << "seed " << seed << ", notes " << ahead.notes);
-        expect_same(build(made, both, ahead), expected);
-      }
+    expect_same_in_two_threads(test::random_embedded_graph(random, 400), worker, seed);
   }
 }
 
@@ -118,22 +116,29 @@ TEST(RunAhead, LargeGraphsInTwoThreads) {
   }
 }
 
-// A sink that fails, as a full disk does, while the other thread is at work.
+// A sink that fails, as a full disk does, while the other thread is at work: while it notes, waits for an empty list,
+// waits to read an arc, or has ended.
 TEST(RunAhead, AnErrorEndsBothThreads) {
   struct Full : RecordSink {
     void add(const ArcVersion&, std::span<const std::byte>) override {
-      if (++records == 5000) throw std::length_error("full");
+      if (--left == 0) throw std::length_error("full");
     }
-    int records = 0;
+    std::uint64_t left = 0;
   };
   ooc::Worker worker;
   const DoBoth both = [&](const auto& here, const auto& elsewhere) { worker.do_both(here, elsewhere); };
-  const test::EmbeddedGraph made = large_graph(bench::kPlate, 20000);
-  ReebGraph graph = made.graph;
-  Full sink;
-  EXPECT_THROW(build_hierarchy(graph, pack_lists(made.buckets.view()), made.exponent, sink, {.both = both}),
-               std::length_error);
-  EXPECT_EQ(sink.records, 5000);
+  const test::EmbeddedGraph made = large_graph(bench::kPlate, 5000);
+  const std::uint64_t records = build(made, {}, {}).arcs.size();
+  for (const RunAhead& ahead : kAhead)
+    for (std::uint64_t after = 1; after <= records; after += 1 + records / 20) {
+      ReebGraph graph = made.graph;
+      Full sink;
+      sink.left = after;
+      EXPECT_THROW(
+          build_hierarchy(graph, pack_lists(made.buckets.view()), made.exponent, sink, {.both = both, .ahead = ahead}),
+          std::length_error);
+      EXPECT_EQ(sink.left, 0u) << "notes " << ahead.notes;
+    }
 }
 
 }  // namespace
