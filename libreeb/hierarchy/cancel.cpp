@@ -9,7 +9,6 @@
 #include "libreeb/hierarchy/bucket_versions.h"
 #include "libreeb/hierarchy/canceller.h"
 #include "libreeb/hierarchy/deferred_changes.h"
-#include "libreeb/hierarchy/note_queue.h"
 #include "libreeb/hierarchy/pair_sweeps.h"
 #include "libreeb/hierarchy/pairing.h"
 #include "libreeb/hierarchy/subgraph.h"
@@ -78,10 +77,10 @@ void cancel_all(const ReebGraph& graph, Canceller& canceller, Hierarchy& hierarc
 // The same in two threads: the rules run ahead in the other one.
 template <class Canceller>
 void cancel_ahead(const ReebGraph& graph, Canceller& canceller, Hierarchy& hierarchy, const Poll& poll,
-                  const DoBoth& both, const RunAhead& limits) {
+                  const DoBoth& both, RingTurns& turns, const RunAhead& limits) {
   using Changes = typename Canceller::Changes;
   Changes& changes = canceller.changes();
-  changes.set_limits(limits, canceller.graph().end_arc().value());
+  changes.start(turns, limits, canceller.graph().end_arc().value());
   const auto apply = [&] { changes.apply(poll); };
   const auto run_ahead = [&] {
     struct CloseAtEnd {
@@ -142,7 +141,7 @@ std::uint64_t hierarchy_bytes(std::uint64_t nodes, std::uint64_t arcs, std::opti
   constexpr std::uint64_t kNewBucketBytes = 32;
   constexpr std::uint64_t kDeferredArcBytes = sizeof(std::uint16_t);
   return bytes + *lists + *lists / 2 + kNewBucketBytes * nodes + kDeferredArcBytes * arcs +
-         (NoteQueue::kLists * sizeof(ArcNote) + 2 * PackedLists::kHeldBytes) * RunAhead::for_arcs(arcs).most_notes();
+         (RingTurns::kSlots * sizeof(ArcNote) + 2 * PackedLists::kHeldBytes) * RunAhead::for_arcs(arcs).most_notes();
 }
 
 Hierarchy build_hierarchy(ReebGraph& graph, PackedLists buckets, int exponent, RecordSink& sink,
@@ -168,13 +167,13 @@ Hierarchy build_hierarchy(ReebGraph& graph, PackedLists buckets, int exponent, R
     return hierarchy;
   }
   BucketVersions versions(NodesInMemory(graph), std::move(buckets), exponent, sink);
-  if (!both) {
+  if (!both || work.turns == nullptr) {
     Canceller canceller(std::move(*working), sink, std::move(versions));
     cancel_all(graph, canceller, hierarchy, cancelling);
     return hierarchy;
   }
   Canceller<BucketVersions<>, WorkingGraph, DeferredChanges> canceller(std::move(*working), sink, std::move(versions));
-  cancel_ahead(graph, canceller, hierarchy, cancelling, both, limits);
+  cancel_ahead(graph, canceller, hierarchy, cancelling, both, *work.turns, limits);
   return hierarchy;
 }
 

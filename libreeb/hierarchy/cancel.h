@@ -11,6 +11,7 @@
 #include "libreeb/hierarchy/deferred_changes.h"
 #include "libreeb/hierarchy/hierarchy.h"
 #include "libreeb/port/record_sink.h"
+#include "libreeb/port/ring_turns.h"
 
 namespace reeb {
 
@@ -21,7 +22,8 @@ std::uint64_t hierarchy_bytes(std::uint64_t nodes, std::uint64_t arcs, std::opti
 // How build_hierarchy() works; the result does not depend on it.
 struct HierarchyWork {
   Poll poll = {};
-  DoBoth both = {};                    // at the same time, since one of the two may wait for the other
+  DoBoth both = {};
+  RingTurns* turns = nullptr;          // of the two threads; without it, one thread cancels
   std::optional<RunAhead> ahead = {};  // nothing: RunAhead::for_arcs()
 };
 

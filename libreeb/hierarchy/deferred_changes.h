@@ -10,13 +10,12 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <mutex>
 #include <utility>
 #include <vector>
 
 #include "libreeb/base/prefetch.h"
 #include "libreeb/hierarchy/arc_changes.h"
-#include "libreeb/hierarchy/note_queue.h"
+#include "libreeb/port/ring_turns.h"
 
 namespace reeb {
 
@@ -36,9 +35,22 @@ struct RunAhead {
   std::size_t most_notes() const { return notes + arcs_of_path + 1; }
 };
 
-// Its functions only note what they were called for; apply() does it.
+// What was done to an arc: a function of ArcChanges and its arguments, or a part of a path.
+struct ArcNote {
+  static constexpr NodeId kNoNode = NodeId::none();
+  enum class Kind : std::uint8_t { kTouch, kCut, kMerge, kJoin, kLay, kDrop, kPath, kPass, kCommit };
+
+  Kind kind = Kind::kCommit;
+  Direction direction = kUp;
+  ArcId arc = ArcId::none(), other = ArcId::none();
+  std::array<NodeId, 3> nodes{kNoNode, kNoNode, kNoNode};
+  ArcEnds ends{};
+  std::uint32_t count = 0;
+};
+
+// Its functions only note what they were called for; apply() does it. Between the two is a ring of lists of notes.
 //
-// MEMORY: ArcChanges, with what is held; NoteQueue, and 8 bytes per note of a step; 2 bytes per arc.
+// MEMORY: ArcChanges, with what is held; the lists, and 8 bytes per note of a step; 2 bytes per arc.
 // THREADS: one calls apply() while another one calls everything else; finish() comes after both.
 template <class ContentKind, class Graph>
 class DeferredChanges {
@@ -52,10 +64,11 @@ class DeferredChanges {
   DeferredChanges(const Graph& graph, RecordSink& sink, Content content) : now_(graph, sink, std::move(content)) {}
 
   const Content& content() const { return now_.content(); }
-  // To be called once, before all that follows.
-  void set_limits(const RunAhead& limits, std::size_t arcs) {
+  // To be called once, before all that follows. REQUIRES: `turns` outlives this.
+  void start(RingTurns& turns, const RunAhead& limits, std::size_t arcs) {
+    turns_ = &turns;
     limits_ = limits;
-    queue_.reserve(limits.most_notes());
+    for (List& list : lists_) list.notes.reserve(limits.most_notes());
     noted_in_.assign(arcs, 0);
   }
 
@@ -137,8 +150,23 @@ class DeferredChanges {
   using Kind = ArcNote::Kind;
   static constexpr NodeId kNoNode = ArcNote::kNoNode;
 
-  std::vector<ArcNote>& notes() { return queue_.open(); }
-  const std::vector<ArcNote>& notes() const { return queue_.open(); }
+  struct List {
+    alignas(64) std::vector<ArcNote> notes;  // two threads change neighbouring lists
+    double done = 0;                         // the part of the work that is done when these notes are
+  };
+  // While this exists, the other thread neither reads content for a long path nor moves any.
+  class Alone {
+   public:
+    explicit Alone(RingTurns& turns) : turns_(turns) { turns_.lock(); }
+    Alone(const Alone&) = delete;
+    Alone& operator=(const Alone&) = delete;
+    ~Alone() { turns_.unlock(); }
+
+   private:
+    RingTurns& turns_;
+  };
+
+  std::vector<ArcNote>& notes() { return lists_[list_ % lists_.size()].notes; }
   void note(const ArcNote& note) {
     constexpr std::size_t kAhead = 12;  // the other thread has read this list before
     reeb::prefetch_to_write(notes().data() + notes().size() + kAhead);
@@ -149,8 +177,11 @@ class DeferredChanges {
     if (notes().size() >= limits_.notes) pass_on();
   }
   void pass_on() {
-    ++list_;
-    if (!queue_.pass_on(done_)) throw Stopped();
+    if (!is_passed_on()) throw Stopped();
+  }
+  bool is_passed_on() {
+    lists_[list_++ % lists_.size()].done = done_;
+    return turns_->filled();
   }
   void note_content(ArcId arc) { changed_.push_back(arc); }
   std::size_t apply(const std::vector<ArcNote>& notes, std::size_t next);
@@ -159,15 +190,14 @@ class DeferredChanges {
   ArcChanges<Content, Graph> now_;
   ArcPart part_{};  // of the path that is applied
   double first_ = 0;
-  NoteQueue queue_;
-  // Held while content may be moved that does not change, and while it is read for a long path.
-  std::mutex moving_;
+  std::array<List, RingTurns::kSlots> lists_;
+  RingTurns* turns_ = nullptr;
 
   // What only the thread of the rules uses.
   alignas(64) std::size_t path_ = 0;     // the first note of the last path
   std::vector<ArcId> changed_;           // by this step; some more than once
   std::vector<std::uint16_t> noted_in_;  // by arc: the list with the end of the last step that changed its content
-  std::uint16_t list_ = NoteQueue::kLists + 1;  // the number of the open list, modulo 2^16
+  std::uint16_t list_ = 2 * RingTurns::kSlots;  // the number of the open list, modulo 2^16
   typename Content::Rest rest_;                 // of a long path
   double done_ = 0;
   RunAhead limits_;
@@ -175,8 +205,8 @@ class DeferredChanges {
 
 template <class Content, class Graph>
 void DeferredChanges<Content, Graph>::close() noexcept {
-  queue_.pass_on(done_);
-  queue_.close();
+  is_passed_on();
+  turns_->close();
 }
 
 template <class Content, class Graph>
@@ -187,29 +217,31 @@ void DeferredChanges<Content, Graph>::begin_long_path(const ArcPart& part) {
     pass_on();
     lists = 1;
   }
-  if (!queue_.wait_until_done(lists - 1)) throw Stopped();
-  const std::lock_guard lock(moving_);
+  if (!turns_->wait_until_used(lists - 1)) throw Stopped();
+  const Alone alone(*turns_);
   now_.content().start_rest(part, rest_);
 }
 
 template <class Content, class Graph>
 void DeferredChanges<Content, Graph>::apply(const Poll& poll) {
   struct StopAtEnd {
-    NoteQueue& queue;
-    ~StopAtEnd() { queue.stop(); }
-  } const stop{queue_};
-  while (const NoteQueue::List* list = queue_.next()) {
-    if (poll) poll(list->done);
-    for (std::size_t next = 0; next < list->notes.size();) {
+    RingTurns& turns;
+    ~StopAtEnd() { turns.stop(); }
+  } const stop{*turns_};
+  for (std::size_t at = 0; turns_->next(); at = (at + 1) % lists_.size()) {
+    auto& [notes, done] = lists_[at];
+    if (poll) poll(done);
+    for (std::size_t next = 0; next < notes.size();) {
       {
-        const std::lock_guard lock(moving_);
-        now_.content().hold(list->notes.size() - next);
+        const Alone alone(*turns_);
+        now_.content().hold(notes.size() - next);
       }
-      next = apply(list->notes, next);
-      const std::lock_guard lock(moving_);
+      next = apply(notes, next);
+      const Alone alone(*turns_);
       now_.content().release();
     }
-    queue_.free();
+    notes.clear();
+    turns_->used();
   }
 }
 

@@ -22,6 +22,7 @@
 #include "ooc/stored_graph/load_graph.h"
 #include "ooc/stored_graph/segment_store.h"
 #include "ooc/stored_hierarchy/stored_hierarchy.h"
+#include "ooc/threads/thread_turns.h"
 #include "ooc/threads/worker.h"
 
 namespace reeb::ooc {
@@ -235,9 +236,10 @@ WrittenHierarchy write_hierarchy(RunContext& run, StoredGraph stored) {
 
   WrittenHierarchy written;
   const Poll poll = stage_poll(run);
+  ThreadTurns turns;
   const Hierarchy hierarchy =
       build_hierarchy(graph, std::move(in_memory.loaded.buckets), stored.meta.bucket_exponent, records,
-                      {.poll = part_of(poll, kLoaded, kBuilt), .both = in_two_threads(run)});
+                      {.poll = part_of(poll, kLoaded, kBuilt), .both = in_two_threads(run), .turns = &turns});
   HierarchyInMemory source(graph, hierarchy);
   write_file(run, stored, source, records, written);
   return written;

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "libreeb/hierarchy/cancel.h"
+#include "ooc/threads/thread_turns.h"
 #include "ooc/threads/worker.h"
 #include "tests/support/held_memory.h"
 #include "tests/support/inputs/made_graph.h"
@@ -40,8 +41,10 @@ void expect_within_promise(Make make, int exponent, const DoBoth& both) {
     if (buckets.size() != 0) lists = buckets.memory_bytes();
     promised = hierarchy_bytes(graph.node_count(), arcs, lists);
     Nowhere nowhere;
+    ooc::ThreadTurns turns;
     test::peak_bytes = test::held_bytes.load();  // memory for making the graph does not count
-    const Hierarchy hierarchy = build_hierarchy(graph, std::move(buckets), exponent, nowhere, {.both = both});
+    const Hierarchy hierarchy =
+        build_hierarchy(graph, std::move(buckets), exponent, nowhere, {.both = both, .turns = &turns});
     records = nowhere.records();
     ASSERT_GT(hierarchy.persistence.size(), arcs / 50);
   });

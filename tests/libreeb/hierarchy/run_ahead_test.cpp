@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "libreeb/hierarchy/cancel.h"
+#include "ooc/threads/thread_turns.h"
 #include "ooc/threads/worker.h"
 #include "tests/libreeb/hierarchy/random_buckets.h"
 #include "tests/support/inputs/made_graph.h"
@@ -42,8 +43,9 @@ Result build(const test::EmbeddedGraph& made, const DoBoth& both, const RunAhead
   ReebGraph graph = made.graph;
   Result result;
   Recorder recorder(result, slow);
-  result.hierarchy =
-      build_hierarchy(graph, pack_lists(made.buckets.view()), made.exponent, recorder, {.both = both, .ahead = ahead});
+  ooc::ThreadTurns turns;
+  result.hierarchy = build_hierarchy(graph, pack_lists(made.buckets.view()), made.exponent, recorder,
+                                     {.both = both, .turns = &turns, .ahead = ahead});
   return result;
 }
 
@@ -134,9 +136,10 @@ TEST(RunAhead, AnErrorEndsBothThreads) {
       ReebGraph graph = made.graph;
       Full sink;
       sink.left = after;
-      EXPECT_THROW(
-          build_hierarchy(graph, pack_lists(made.buckets.view()), made.exponent, sink, {.both = both, .ahead = ahead}),
-          std::length_error);
+      ooc::ThreadTurns turns;
+      EXPECT_THROW(build_hierarchy(graph, pack_lists(made.buckets.view()), made.exponent, sink,
+                                   {.both = both, .turns = &turns, .ahead = ahead}),
+                   std::length_error);
       EXPECT_EQ(sink.left, 0u) << "notes " << ahead.notes;
     }
 }
