@@ -16,8 +16,12 @@ ZstdCompressor::ZstdCompressor() : context_(ZSTD_createCCtx()) {
 void ZstdCompressor::compress(std::span<const std::byte> bytes, int level, std::vector<std::byte>& out) {
   const std::size_t bound = ZSTD_compressBound(bytes.size());
   if (capacity_ < bound) frame_ = std::make_unique_for_overwrite<std::byte[]>(capacity_ = bound);
-  const std::size_t size =
-      ZSTD_compressCCtx(context_.get(), frame_.get(), capacity_, bytes.data(), bytes.size(), level);
+  ZSTD_CCtx_setParameter(context_.get(), ZSTD_c_compressionLevel, level);
+  // Of the fast levels, which find fewer repetitions anyway, the table fits in the first cache with much room to spare:
+  // a fifth faster, and half a percent larger.
+  constexpr int kLevelsOwn = 0, kSmallTable = 10;
+  ZSTD_CCtx_setParameter(context_.get(), ZSTD_c_hashLog, level < 0 ? kSmallTable : kLevelsOwn);
+  const std::size_t size = ZSTD_compress2(context_.get(), frame_.get(), capacity_, bytes.data(), bytes.size());
   if (ZSTD_isError(size) != 0)
     throw Error(ErrorKind::kResource, std::string("zstd: ") + ZSTD_getErrorName(size),
                 "close other programs, or allow less with --memory SIZE")
