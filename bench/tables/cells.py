@@ -115,11 +115,12 @@ class Bench:
         return text
 
     def compute(self, mesh, *options, limit=3600):
-        """One run of compute to a new file: its fields, and facts of its report."""
+        """One run of compute to a new file: its fields, and facts of its report. A run that took too long left a state,
+        which --force ignores."""
         for old in (self.output, self.report):  # removing them would be part of the run
             if os.path.exists(old):
                 os.remove(old)
-        command = [self.program, "compute", mesh, "-o", self.output, "--quiet", "--report", self.report]
+        command = [self.program, "compute", mesh, "-o", self.output, "--force", "--quiet", "--report", self.report]
         if "--temp-dir" not in options:
             options = (*options, "--temp-dir", self.scratch)
         fields, _ = run_once([*command, *options], limit)
