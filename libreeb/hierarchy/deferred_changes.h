@@ -31,8 +31,9 @@ struct RunAhead {
     return ahead;
   }
 
-  // Room in a list, where a short path is not divided.
-  std::size_t most_notes() const { return notes + arcs_of_path + 1; }
+  // Room in a list. A short path is not divided, and so many notes are fetched before they are written.
+  std::size_t most_notes() const { return notes + arcs_of_path + kFetched; }
+  static constexpr std::size_t kFetched = 12;
 };
 
 // What was done to an arc: a function of ArcChanges and its arguments, or a part of a path.
@@ -168,8 +169,8 @@ class DeferredChanges {
 
   std::vector<ArcNote>& notes() { return lists_[list_ % lists_.size()].notes; }
   void note(const ArcNote& note) {
-    constexpr std::size_t kAhead = 12;  // the other thread has read this list before
-    reeb::prefetch_to_write(notes().data() + notes().size() + kAhead);
+    // The other thread has read this list before.
+    reeb::prefetch_to_write(notes().data() + notes().size() + RunAhead::kFetched);
     notes().push_back(note);
     pass_on_if_full();
   }
