@@ -31,7 +31,7 @@ struct RunAhead {
     return ahead;
   }
 
-  // Room in a list. A short path is not divided, and so many notes are fetched before they are written.
+  // Room in a list, which holds a short path as a whole. The place of a note is prefetched this many notes before.
   std::size_t most_notes() const { return notes + arcs_of_path + kFetched; }
   static constexpr std::size_t kFetched = 12;
 };

@@ -8,7 +8,7 @@ namespace reeb {
 // Each thread goes from slot to slot. It waits only where it must: the first one when all slots are full, the second
 // one when none is.
 //
-// THREADS: the two; it is used once.
+// THREADS: these two, once.
 class RingTurns {
  public:
   static constexpr std::size_t kSlots = 4;
