@@ -22,8 +22,10 @@ function(reeb_web_pages)
       COMMENT "Installing the npm packages of tools/web" VERBATIM)
     file(GLOB_RECURSE parts CONFIGURE_DEPENDS "${source}/*.js" "${source}/*.mjs" "${source}/*.html" "${source}/*.css"
       "${PROJECT_SOURCE_DIR}/tools/viewer/*")
+    # With threads in the background, Node.js can wait for ever where promises are awaited and nothing else is to do:
+    # https://github.com/nodejs/node/issues/54918
     add_custom_command(OUTPUT "${pages}" BYPRODUCTS "${folder}/viewer.html"
-      COMMAND "${REEB_NODE}" "${source}/build.mjs" "${folder}" "${pages}"
+      COMMAND "${REEB_NODE}" --single-threaded "${source}/build.mjs" "${folder}" "${pages}"
       DEPENDS "${folder}/packages.stamp" ${parts}
       COMMENT "Making the pages of tools/web" VERBATIM)
   else()

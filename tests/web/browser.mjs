@@ -4,6 +4,8 @@ import { mkdtempSync, rmSync } from 'node:fs'
 import { tmpdir } from 'node:os'
 import { join } from 'node:path'
 
+const kMostMilliseconds = 60_000 // of one answer, on a machine that is busy
+
 export class Browser {
   static async start({ program = 'chromium', switches = [] } = {}) {
     const browser = new Browser()
@@ -44,7 +46,11 @@ export class Browser {
   send(method, params = {}) {
     const id = this.next++
     this.process.stdio[3].write(JSON.stringify({ id, method, params, sessionId: this.session }) + '\0')
-    return new Promise((resolve, reject) => this.waiting.set(id, { resolve, reject }))
+    return new Promise((resolve, reject) => {
+      this.waiting.set(id, { resolve, reject })
+      const silent = () => reject(new Error(`the browser does not answer ${method} within ${kMostMilliseconds} ms`))
+      setTimeout(silent, kMostMilliseconds).unref()
+    })
   }
 
   resize({ width, height, scale }) {
@@ -57,7 +63,11 @@ export class Browser {
     const features = [{ name: 'prefers-color-scheme', value: dark ? 'dark' : 'light' }]
     await this.send('Emulation.setEmulatedMedia', { features })
     await this.send('Page.navigate', { url })
-    while (!this.events.some(({ method }) => method === 'Page.loadEventFired')) await pause(20)
+    const end = Date.now() + kMostMilliseconds
+    while (!this.events.some(({ method }) => method === 'Page.loadEventFired')) {
+      if (Date.now() > end) throw new Error(`${url} is not loaded within ${kMostMilliseconds} ms`)
+      await pause(20)
+    }
     await this.evaluate('new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))')
   }
 

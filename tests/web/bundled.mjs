@@ -6,7 +6,6 @@ import { join } from 'node:path'
 export async function bundled(source, module, packages, work) {
   const { build } = createRequire(join(packages, 'package.json'))('esbuild')
   const outfile = join(work, `${module}.mjs`)
-  // Not buildSync(): it waits for a thread of its own, and was once seen to wait for ever.
   await build({
     entryPoints: [join(source, 'tools/viewer', `${module}.ts`)],
     bundle: true, format: 'esm', platform: 'node', outfile, nodePaths: [join(packages, 'node_modules')], logLevel: 'warning',

@@ -8,7 +8,7 @@ if ! "$source/tools/install_packages.sh" chromium tidy >/dev/null; then
   echo "skipped: not here: chromium and tidy cannot be installed"
   exit 0
 fi
-node=$(command -v node || command -v nodejs)
+node=$source/tests/web/node.sh
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work"

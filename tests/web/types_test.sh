@@ -4,7 +4,7 @@
 #   types_test.sh SOURCE_FOLDER FOLDER     FOLDER keeps the npm packages, also those for development
 set -euo pipefail
 source=$1 folder=$2
-node=$(command -v node || command -v nodejs)
+node=$source/tests/web/node.sh
 
 mkdir -p "$folder"
 lock=$source/tools/web/package-lock.json

@@ -4,7 +4,7 @@
 #   viewer_test.sh SOURCE_FOLDER REEB PACKAGES     PACKAGES has node_modules and viewer.html
 set -euo pipefail
 source=$1 reeb=$2 packages=$3
-node=$(command -v node || command -v nodejs)
+node=$source/tests/web/node.sh
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 

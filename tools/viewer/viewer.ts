@@ -78,8 +78,9 @@ for (const name of ['dragenter', 'dragover', 'dragleave', 'drop'])
 addEventListener('drop', (event) => take(event.dataTransfer?.files[0]))
 
 // The address.
-addEventListener('hashchange', () =>
-  withFile((file) => (hasState() ? void applyState(viewer, file, readState()) : saveState(viewer))),
-)
+addEventListener('hashchange', () => {
+  const state = readState(viewer)
+  withFile((file) => (hasState() ? void applyState(viewer, file, state) : saveState(viewer)))
+})
 const asked = fileOfAddress()
 if (asked) openUrl(viewer, asked)

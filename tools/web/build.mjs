@@ -10,7 +10,6 @@ const [folder, output] = process.argv.slice(2)
 const source = dirname(fileURLToPath(import.meta.url))
 const { build } = createRequire(join(folder, 'package.json'))('esbuild')
 
-// Not with buildSync(): it waits for a thread of its own, and was once seen to wait for ever.
 async function bundle(name) {
   const result = await build({
     entryPoints: [join(source, name)],

@@ -22,7 +22,8 @@ const numbers = (text: string | null, size: number): number[] | undefined => {
 export const hasState = () => /^#$|[#&](t|colour|arcs|view|at)=/.test(location.hash)
 
 // What is not valid is left out.
-export function readState(): State {
+export function readState(viewer: Viewer): State {
+  viewer.hash = location.hash
   const words = new URLSearchParams(location.hash.slice(1))
   const [threshold] = numbers(words.get('t'), 1) ?? []
   const [budget] = numbers(words.get('arcs'), 1) ?? []
@@ -38,7 +39,7 @@ export function readState(): State {
   }
 }
 
-export function writeState({ threshold, coloring, budget, camera, chosen }: State) {
+export function writeState(viewer: Viewer, { threshold, coloring, budget, camera, chosen }: State) {
   const words = new URLSearchParams()
   if (threshold !== undefined) words.set('t', String(threshold))
   if (coloring && coloring !== 'value') words.set('colour', coloring)
@@ -46,6 +47,7 @@ export function writeState({ threshold, coloring, budget, camera, chosen }: Stat
   if (camera) words.set('view', [camera.turn, camera.tilt, camera.zoom, ...camera.target].map((x) => Number(x.toFixed(4))).join())
   if (chosen && chosen.length > 0) words.set('at', chosen.join())
   history.replaceState(null, '', `#${words.toString().replaceAll('%2C', ',')}`)
+  viewer.hash = location.hash
 }
 
 export const fileOfAddress = () => new URLSearchParams(location.search).get('file')
@@ -73,10 +75,11 @@ function stateOf({ file, space }: Viewer): State | null {
   }
 }
 
+// An address that was changed by hand stays until it is read: `hashchange` comes later than the change.
 export function saveNow(viewer: Viewer) {
   clearTimeout(viewer.saving)
   const state = stateOf(viewer)
-  if (state) writeState(state)
+  if (state && location.hash === viewer.hash) writeState(viewer, state)
 }
 
 // Soon: browsers limit how often an address may change.

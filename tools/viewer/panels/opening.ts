@@ -80,9 +80,9 @@ function stateFor(viewer: Viewer, source: Source): State {
     before === null || before === source ||
     (before instanceof HttpSource && source instanceof HttpSource && before.url.href === source.url.href)
   saveNow(viewer)
-  const { coloring, budget, ...others } = readState()
+  const { coloring, budget, ...others } = readState(viewer)
   if (isSame) return { coloring, budget, ...others }
-  writeState({ coloring, budget })
+  writeState(viewer, { coloring, budget })
   return { coloring, budget }
 }
 

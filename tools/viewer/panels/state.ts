@@ -74,9 +74,12 @@ export interface Viewer {
   // Numbers of timers and frames that wait.
   saving: number
   drawing: number
+  hash: string // of the address, as it was last read or written
 }
 
-export const makeViewer = (): Viewer => ({ source: null, file: null, space: null, flat: null, saving: 0, drawing: 0 })
+export const makeViewer = (): Viewer => ({
+  source: null, file: null, space: null, flat: null, saving: 0, drawing: 0, hash: location.hash,
+})
 
 export const viewsOf = ({ space, flat }: Viewer) => [space, flat].filter((view) => view !== null)
 
