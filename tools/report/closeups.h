@@ -11,7 +11,7 @@ namespace reeb::tools {
 
 inline constexpr std::size_t kMostCloseups = 12;
 
-// A list of what tools/web/closeup.js draws, for the first rows; reads the mesh once.
+// A list of what tools/web/report/closeup.js draws, for the first rows; reads the mesh once.
 //
 //   size, min  of the patch's box: its largest side and its least corner, in units of the mesh
 //   length, center   of the shorter curve; null, and of the two nodes, if none was found

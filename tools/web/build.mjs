@@ -70,7 +70,7 @@ function literal(page) {
     .join('\n')
 }
 
-const report = await makePage('report', 'report.js', ['three'])
+const report = await makePage('report/report', 'report/report.js', ['three'])
 const viewer = await makePage('../viewer/viewer', '../viewer/viewer.ts', ['three', 'fzstd', 'xxhash-wasm'])
 writeFileSync(join(dirname(output), 'viewer.html'), viewer)
 writeFileSync(

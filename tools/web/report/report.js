@@ -1,10 +1,10 @@
 // The page of `reeb report`: connects its parts.
 import { makeCloseups } from './closeup.js'
-import { onThemeChange } from './colors.js'
-import { readData } from './data.js'
-import { loopsPlot, persistenceDiagram } from './plots.js'
+import { onThemeChange } from '../colors.js'
+import { readData } from '../data.js'
+import { loopsPlot, persistenceDiagram } from '../plots.js'
 import { Skeleton } from './skeleton.js'
-import { groupDigits, makeSortable } from './table.js'
+import { groupDigits, makeSortable } from '../table.js'
 import { SkeletonView } from './view.js'
 
 const data = readData()

@@ -4,7 +4,7 @@
 #   python_test.sh REEB PACKAGE_FOLDER PYTHON
 set -euo pipefail
 export REEB_PROGRAM=$1 PYTHONPATH=$2 PYTHONDONTWRITEBYTECODE=1
-cd "$(dirname "$0")/python"
+cd "$(dirname "$0")"
 if ! "$3" -c 'import pytest, networkx' 2>/dev/null; then
   echo "skipped: python3-pytest or python3-networkx is not installed"
   exit 0

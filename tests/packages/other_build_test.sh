@@ -11,4 +11,4 @@ trap 'rm -rf "$build"' EXIT
 cd "$source"
 cmake -B "$build" -G Ninja -DCMAKE_CXX_COMPILER="$cxx" "$@" -DREEB_TESTS=OFF -DREEB_BENCH=OFF >/dev/null
 cmake --build "$build" >"$build/log" 2>&1 || { tail -50 "$build/log"; exit 1; }
-bash "$source/tests/tools/readme_test.sh" "$source/README.md" "$build"
+bash "$source/tests/packages/readme_test.sh" "$source/README.md" "$build"

@@ -1,8 +1,8 @@
 // Close-ups of defects: a patch of the surface with its curves, drawn from far to near on a plain canvas, which every
 // browser has.
-import { Camera, control } from './camera.js'
-import { css, rgb, valueColors } from './colors.js'
-import { numbers16, shortNumber } from './data.js'
+import { Camera, control } from '../camera.js'
+import { css, rgb, valueColors } from '../colors.js'
+import { numbers16, shortNumber } from '../data.js'
 
 class Patch {
   constructor(json) {

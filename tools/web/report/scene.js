@@ -14,8 +14,8 @@ import {
 import { LineMaterial } from 'three/examples/jsm/lines/LineMaterial.js'
 import { LineSegments2 } from 'three/examples/jsm/lines/LineSegments2.js'
 import { LineSegmentsGeometry } from 'three/examples/jsm/lines/LineSegmentsGeometry.js'
-import { css, kindColors, rgb, valueColors } from './colors.js'
-import { isSmall, kSmallMark } from './marks.js'
+import { css, kindColors, rgb, valueColors } from '../colors.js'
+import { isSmall, kSmallMark } from '../marks.js'
 
 const kShapes = {
   min: [[4, 10], [60, 10], [32, 58]],

@@ -1,11 +1,11 @@
 // The interactive skeleton: slider, threshold, picture, hovering, and its table.
-import { Camera, control } from './camera.js'
-import { onThemeChange } from './colors.js'
-import { count, distinctNumbers, shortNumber } from './data.js'
+import { Camera, control } from '../camera.js'
+import { onThemeChange } from '../colors.js'
+import { count, distinctNumbers, shortNumber } from '../data.js'
 import { SvgPicture } from './flat.js'
-import { kNoThreshold, refuse, take } from './note.js'
+import { kNoThreshold, refuse, take } from '../note.js'
 import { WebglPicture } from './scene.js'
-import { makeTable } from './table.js'
+import { makeTable } from '../table.js'
 
 const kMostRows = 300 // of the table of arcs
 const kLegibleNodes = 200 // of the level that is shown first, beside those of the coarsest level

@@ -2,8 +2,8 @@
 //
 // An arc is a record that the versions from `born` to before `died` have. Cancelling a feature joins arcs, so a coarser
 // level has other records, not only fewer.
-import { numbers16 } from './data.js'
-import { kFewNodes, roomOf } from './marks.js'
+import { numbers16 } from '../data.js'
+import { kFewNodes, roomOf } from '../marks.js'
 
 export class Skeleton {
   constructor(json) {

@@ -1,6 +1,6 @@
 // The skeleton as SVG: for the printer, and where there is no WebGL.
-import { css, kindColors, rgb, valueColors } from './colors.js'
-import { isSmall, kSmallMark } from './marks.js'
+import { css, kindColors, rgb, valueColors } from '../colors.js'
+import { isSmall, kSmallMark } from '../marks.js'
 
 const kShapes = { min: 'M-5-4H5L0 5Z', max: 'M-5 4H5L0-5Z', isolated: 'M-4-4H4V4H-4Z', saddle: 'M-4 0a4 4 0 1 0 8 0a4 4 0 1 0-8 0Z' }
 
