@@ -30,11 +30,14 @@ is_installed() {
   [[ $(dpkg-query -W -f='${db:Status-Status}' "$1" 2>/dev/null) == installed ]]
 }
 
-missing=()
-for package in "${packages[@]}"; do
-  is_installed "$package" || missing+=("$package")
-done
-[[ ${#missing[@]} -gt 0 ]] || exit 0
+find_missing() {
+  missing=()
+  for package in "${packages[@]}"; do
+    is_installed "$package" || missing+=("$package")
+  done
+  [[ ${#missing[@]} -gt 0 ]] || exit 0
+}
+find_missing
 
 if ! command -v apt-get >/dev/null; then
   echo "error: these Debian packages are missing, and there is no apt-get: ${missing[*]}" >&2
@@ -50,8 +53,15 @@ if [[ $(id -u) -ne 0 ]]; then
 fi
 
 apt() {
-  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -qq -o Dpkg::Use-Pty=0 "$@" </dev/null
+  # Programs that are not ours can hold the lock, too: such as a daily upgrade.
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -qq -o Dpkg::Use-Pty=0 -o DPkg::Lock::Timeout=300 "$@" \
+    </dev/null 9<&-
 }
+
+# Of two tests that ask at once, the second one waits, and finds what the first has installed.
+exec 9<"$0"
+if command -v flock >/dev/null; then flock 9; fi
+find_missing
 
 echo "installing Debian packages: ${missing[*]}"
 log=$(mktemp)
